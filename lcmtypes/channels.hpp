@@ -1,0 +1,70 @@
+#pragma once
+
+#include <tuple>
+
+#include "lcmtypes/channel.hpp"
+#include "priamos/camera_frame_t.hpp"
+#include "priamos/camera_trigger_t.hpp"
+#include "priamos/drive_status_t.hpp"
+#include "priamos/head_command_t.hpp"
+#include "priamos/head_state_t.hpp"
+#include "priamos/health_t.hpp"
+#include "priamos/landmark_fix_t.hpp"
+#include "priamos/landmark_model_t.hpp"
+#include "priamos/link_status_t.hpp"
+#include "priamos/look_request_t.hpp"
+#include "priamos/mission_command_t.hpp"
+#include "priamos/mission_status_t.hpp"
+#include "priamos/odometry_t.hpp"
+#include "priamos/path_t.hpp"
+#include "priamos/pose_correction_t.hpp"
+#include "priamos/pose_t.hpp"
+#include "priamos/sonar_ranges_t.hpp"
+#include "priamos/wheel_command_t.hpp"
+#include "priamos/wheel_state_t.hpp"
+#include "priamos/world_truth_t.hpp"
+
+/// Every channel of PRIAMOS. Device channels join drivers (or `world`) with `robot` and `head`; the others
+/// join processes wherever they run, across Ethernet or radio.
+namespace priamos::channels {
+
+using std::chrono::milliseconds;
+
+// Device channels, onboard only.
+inline constexpr Channel<wheel_command_t> kWheelCommand{"WHEEL_COMMAND", 50, milliseconds(200)};
+inline constexpr Channel<wheel_state_t> kWheelState{"WHEEL_STATE", 50, milliseconds(200)};
+inline constexpr Channel<sonar_ranges_t> kSonarRanges{"SONAR_RANGES", 10, milliseconds(500)};
+inline constexpr Channel<head_command_t> kHeadCommand{"HEAD_COMMAND", 0, milliseconds(0)};
+inline constexpr Channel<head_state_t> kHeadState{"HEAD_STATE", 50, milliseconds(200)};
+inline constexpr Channel<camera_trigger_t> kCameraTrigger{"CAMERA_TRIGGER", 0, milliseconds(0)};
+inline constexpr Channel<camera_frame_t> kCameraFrame{"CAMERA_FRAME", 0, milliseconds(0)};
+
+// Pose and driving.
+inline constexpr Channel<odometry_t> kOdometry{"ODOMETRY", 50, milliseconds(200)};
+inline constexpr Channel<pose_t> kPose{"POSE", 50, milliseconds(1000)};
+inline constexpr Channel<path_t> kPath{"PATH", 0, milliseconds(0)};
+inline constexpr Channel<drive_status_t> kDriveStatus{"DRIVE_STATUS", 10, milliseconds(2000)};
+inline constexpr Channel<pose_correction_t> kPoseCorrection{"POSE_CORRECTION", 0, milliseconds(0)};
+
+// Seeing.
+inline constexpr Channel<landmark_model_t> kLandmarkModel{"LANDMARK_MODEL", 0, milliseconds(0)};
+inline constexpr Channel<look_request_t> kLookRequest{"LOOK_REQUEST", 0, milliseconds(0)};
+inline constexpr Channel<landmark_fix_t> kLandmarkFix{"LANDMARK_FIX", 0, milliseconds(0)};
+
+// Missions, offboard.
+inline constexpr Channel<mission_command_t> kMissionCommand{"MISSION_COMMAND", 0, milliseconds(0)};
+inline constexpr Channel<mission_status_t> kMissionStatus{"MISSION_STATUS", 2, milliseconds(2000)};
+
+// Every process, every bus.
+inline constexpr Channel<health_t> kHealth{"HEALTH", 1, milliseconds(3000)};
+inline constexpr Channel<link_status_t> kLinkStatus{"LINK_STATUS", 1, milliseconds(3000)};
+
+/// For reports and tests; a test checks that no module subscribes to it.
+inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseconds(200)};
+
+inline constexpr std::tuple kAll{kWheelCommand,   kWheelState,     kSonarRanges,   kHeadCommand, kHeadState,
+                                 kCameraTrigger,  kCameraFrame,    kOdometry,      kPose,        kPath,
+                                 kDriveStatus,    kPoseCorrection, kLandmarkModel, kLookRequest, kLandmarkFix,
+                                 kMissionCommand, kMissionStatus,  kHealth,        kLinkStatus,  kWorldTruth};
+
+}  // namespace priamos::channels

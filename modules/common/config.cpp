@@ -1,0 +1,278 @@
+#include "common/config.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+#include <set>
+
+namespace priamos {
+namespace {
+
+std::string RangeText(const ValueSpec& spec) {
+  const bool low = spec.min > std::numeric_limits<double>::lowest();
+  const bool high = spec.max < std::numeric_limits<double>::max();
+  if (low && high) return fmt::format("{} to {}", spec.min, spec.max);
+  if (low) return fmt::format("at least {}", spec.min);
+  if (high) return fmt::format("at most {}", spec.max);
+  return "any";
+}
+
+std::string Shown(const toml::node& node) {
+  std::string text;
+  node.visit([&](const auto& n) {
+    if constexpr (toml::is_table<decltype(n)>) {
+      text = "a table";
+    } else if constexpr (toml::is_array<decltype(n)>) {
+      text = fmt::format("an array of {}", n.size());
+    } else if constexpr (toml::is_string<decltype(n)>) {
+      text = fmt::format("\"{}\"", n.get());
+    } else if constexpr (toml::is_number<decltype(n)>) {
+      text = fmt::format("{}", n.get());
+    } else if constexpr (toml::is_boolean<decltype(n)>) {
+      text = n.get() ? "true" : "false";
+    } else {
+      text = "a date or time";
+    }
+  });
+  return text;
+}
+
+}  // namespace
+
+/// Walks a parsed table; remembers which nodes were asked for.
+class ConfigFile::Reader : public Archive {
+ public:
+  Reader(std::string name, toml::table table) : name_(std::move(name)), table_(std::move(table)) {
+    levels_.push_back({"", &table_});
+  }
+
+  void Number(std::string_view key, double& value, const ValueSpec& spec) override {
+    if (const auto* node = Find(key)) value = NumberIn(*node, key, spec);
+  }
+
+  void Integer(std::string_view key, int& value, const ValueSpec& spec) override {
+    const auto* node = Find(key);
+    if (!node) return;
+    const auto number = node->value_exact<std::int64_t>();
+    const bool ok = number && *number >= spec.min && *number <= spec.max &&
+                    *number >= std::numeric_limits<int>::min() && *number <= std::numeric_limits<int>::max();
+    if (!ok) Fail(*node, key, fmt::format("a whole number, {} [{}]", RangeText(spec), spec.unit));
+    value = static_cast<int>(*number);
+  }
+
+  void Flag(std::string_view key, bool& value, std::string_view) override {
+    const auto* node = Find(key);
+    if (!node) return;
+    const auto flag = node->value_exact<bool>();
+    if (!flag) Fail(*node, key, "true or false");
+    value = *flag;
+  }
+
+  void Text(std::string_view key, std::string& value, std::string_view) override {
+    const auto* node = Find(key);
+    if (!node) return;
+    const auto text = node->value_exact<std::string>();
+    if (!text) Fail(*node, key, "a string");
+    value = *text;
+  }
+
+  void Choice(std::string_view key, std::string& value, const std::vector<std::string>& choices,
+              std::string_view) override {
+    const auto* node = Find(key);
+    if (!node) return;
+    const auto text = node->value_exact<std::string>();
+    if (!text || std::find(choices.begin(), choices.end(), *text) == choices.end())
+      Fail(*node, key, fmt::format("one of {}", fmt::join(choices, ", ")));
+    value = *text;
+  }
+
+  void Numbers(std::string_view key, std::vector<double>& values, const ValueSpec& spec) override {
+    const auto* node = Find(key);
+    if (!node) return;
+    const auto* array = node->as_array();
+    if (!array || (!values.empty() && array->size() != values.size()))
+      Fail(*node, key, values.empty() ? "an array of numbers" : fmt::format("{} numbers", values.size()));
+    values.clear();
+    for (const auto& item : *array) values.push_back(NumberIn(item, key, spec));
+  }
+
+  void Refuse(std::string_view key, std::string_view expected) override {
+    const auto* node = levels_.back().table ? levels_.back().table->get(key) : nullptr;
+    if (node) Fail(*node, key, std::string(expected));
+    throw ConfigError(fmt::format("{}: {}{}: expected {}", name_, Prefix(), key, expected));
+  }
+
+  void RefuseUnknownKeys() const { RefuseUnknown(table_, ""); }
+
+ protected:
+  bool Enter(std::string_view key, std::string_view) override {
+    const auto* node = Find(key);
+    if (node && !node->is_table()) Fail(*node, key, "a table");
+    levels_.push_back({Prefix() + std::string(key) + ".", node ? node->as_table() : nullptr});
+    return true;
+  }
+  void Leave() override { levels_.pop_back(); }
+
+  std::size_t BeginList(std::string_view key, std::size_t default_size, std::string_view) override {
+    const auto* node = Find(key);
+    if (!node) return default_size;
+    const auto* array = node->as_array();
+    if (!array || !std::all_of(array->begin(), array->end(), [](const auto& n) { return n.is_table(); }))
+      Fail(*node, key, fmt::format("tables, [[{}]]", key));
+    return array->size();
+  }
+  void EnterItem(std::string_view key, std::size_t index) override {
+    const auto* node = levels_.back().table ? levels_.back().table->get(key) : nullptr;
+    const auto* array = node ? node->as_array() : nullptr;
+    levels_.push_back({fmt::format("{}{}[{}].", Prefix(), key, index),
+                       array ? array->get_as<toml::table>(index) : nullptr});
+  }
+
+ private:
+  struct Level {
+    std::string prefix;
+    const toml::table* table;
+  };
+
+  const std::string& Prefix() const { return levels_.back().prefix; }
+
+  const toml::node* Find(std::string_view key) {
+    const auto* table = levels_.back().table;
+    const auto* node = table ? table->get(key) : nullptr;
+    if (node) asked_.insert(node);
+    return node;
+  }
+
+  double NumberIn(const toml::node& node, std::string_view key, const ValueSpec& spec) const {
+    const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+    // Written so that NaN fails.
+    if (!number || !(*number >= spec.min && *number <= spec.max))
+      Fail(node, key, fmt::format("a number, {} [{}]", RangeText(spec), spec.unit));
+    return *number;
+  }
+
+  [[noreturn]] void Fail(const toml::node& node, std::string_view key, const std::string& expected) const {
+    throw ConfigError(fmt::format("{}:{}:{}{}: expected {}, got {}", name_, node.source().begin.line,
+                                  Prefix(), key, expected, Shown(node)));
+  }
+
+  void RefuseUnknown(const toml::table& table, const std::string& prefix) const {
+    for (const auto& [key, node] : table) {
+      if (!asked_.contains(&node)) {
+        throw ConfigError(
+            fmt::format("{}:{}:{}{}: expected a known key (--print-config lists them), got this one", name_,
+                        node.source().begin.line, prefix, key.str()));
+      }
+      if (const auto* inner = node.as_table()) RefuseUnknown(*inner, fmt::format("{}{}.", prefix, key.str()));
+      if (const auto* array = node.as_array()) {
+        for (std::size_t i = 0; i < array->size(); ++i)
+          if (const auto* item = array->get_as<toml::table>(i))
+            RefuseUnknown(*item, fmt::format("{}{}[{}].", prefix, key.str(), i));
+      }
+    }
+  }
+
+  std::string name_;
+  toml::table table_;
+  std::vector<Level> levels_;
+  std::set<const toml::node*> asked_;
+};
+
+namespace {
+
+toml::table ParseOrThrow(const std::string& name, std::string_view text) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", name, error.source().begin.line,
+                                  std::string(error.description())));
+  }
+}
+
+toml::table ParseFileOrThrow(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw ConfigError(
+        fmt::format("{}: expected a configuration file, got none; give one with --config FILE", path));
+  try {
+    return toml::parse_file(path);
+  } catch (const toml::parse_error& error) {
+    throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", path, error.source().begin.line,
+                                  std::string(error.description())));
+  }
+}
+
+class Printer : public Archive {
+ public:
+  explicit Printer(std::ostream& out) : out_(out) {}
+
+  void Number(std::string_view key, double& value, const ValueSpec& spec) override {
+    Line(key, fmt::format("{}", value), fmt::format("[{}] {}; {}", spec.unit, spec.doc, RangeText(spec)));
+  }
+  void Integer(std::string_view key, int& value, const ValueSpec& spec) override {
+    Line(key, fmt::format("{}", value), fmt::format("[{}] {}; {}", spec.unit, spec.doc, RangeText(spec)));
+  }
+  void Flag(std::string_view key, bool& value, std::string_view doc) override {
+    Line(key, value ? "true" : "false", doc);
+  }
+  void Text(std::string_view key, std::string& value, std::string_view doc) override {
+    Line(key, fmt::format("\"{}\"", value), doc);
+  }
+  void Choice(std::string_view key, std::string& value, const std::vector<std::string>& choices,
+              std::string_view doc) override {
+    Line(key, fmt::format("\"{}\"", value), fmt::format("{}; one of {}", doc, fmt::join(choices, ", ")));
+  }
+  void Numbers(std::string_view key, std::vector<double>& values, const ValueSpec& spec) override {
+    Line(key, fmt::format("[{}]", fmt::join(values, ", ")),
+         fmt::format("[{}] {}; {}", spec.unit, spec.doc, RangeText(spec)));
+  }
+  void Refuse(std::string_view, std::string_view) override {}
+
+ protected:
+  bool Enter(std::string_view key, std::string_view doc) override {
+    prefixes_.push_back(prefixes_.back() + std::string(key));
+    out_ << "\n# " << doc << "\n[" << prefixes_.back() << "]\n";
+    prefixes_.back() += ".";
+    return true;
+  }
+  void Leave() override { prefixes_.pop_back(); }
+  std::size_t BeginList(std::string_view key, std::size_t default_size, std::string_view doc) override {
+    out_ << "\n# [[" << prefixes_.back() << key << "]]: " << doc << "\n";
+    return default_size;
+  }
+  void EnterItem(std::string_view key, std::size_t) override {
+    prefixes_.push_back(prefixes_.back() + std::string(key));
+    out_ << "[[" << prefixes_.back() << "]]\n";
+    prefixes_.back() += ".";
+  }
+
+ private:
+  void Line(std::string_view key, const std::string& value, std::string_view comment) {
+    out_ << fmt::format("{:<40} # {}\n", fmt::format("{} = {}", key, value), comment);
+  }
+
+  std::ostream& out_;
+  std::vector<std::string> prefixes_{""};
+};
+
+}  // namespace
+
+ConfigFile::ConfigFile(const std::string& path)
+    : reader_(std::make_unique<Reader>(path, ParseFileOrThrow(path))) {}
+ConfigFile::ConfigFile(const std::string& name, std::string_view text)
+    : reader_(std::make_unique<Reader>(name, ParseOrThrow(name, text))) {}
+ConfigFile::~ConfigFile() = default;
+Archive& ConfigFile::archive() {
+  return *reader_;
+}
+void ConfigFile::RefuseUnknownKeys() const {
+  reader_->RefuseUnknownKeys();
+}
+
+std::unique_ptr<Archive> MakeConfigPrinter(std::ostream& out) {
+  return std::make_unique<Printer>(out);
+}
+
+}  // namespace priamos
