@@ -146,6 +146,11 @@ class ConfigFile::Reader : public Archive {
     return node;
   }
 
+  /// An override has its own source.
+  const std::string& FileOf(const toml::node& node) const {
+    return node.source().path ? *node.source().path : name_;
+  }
+
   double NumberIn(const toml::node& node, std::string_view key, const ValueSpec& spec) const {
     const auto number = node.is_number() ? node.value<double>() : std::nullopt;
     // Written so that NaN fails.
@@ -155,7 +160,7 @@ class ConfigFile::Reader : public Archive {
   }
 
   [[noreturn]] void Fail(const toml::node& node, std::string_view key, const std::string& expected) const {
-    throw ConfigError(fmt::format("{}:{}:{}{}: expected {}, got {}", name_, node.source().begin.line,
+    throw ConfigError(fmt::format("{}:{}:{}{}: expected {}, got {}", FileOf(node), node.source().begin.line,
                                   Prefix(), key, expected, Shown(node)));
   }
 
@@ -202,6 +207,36 @@ toml::table ParseFileOrThrow(const std::string& path) {
     throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", path, error.source().begin.line,
                                   std::string(error.description())));
   }
+}
+
+void Merge(toml::table& into, toml::table&& from) {
+  for (auto&& [key, node] : from) {
+    auto* inner = into[key].as_table();
+    if (inner && node.is_table()) {
+      Merge(*inner, std::move(*node.as_table()));
+    } else {
+      into.insert_or_assign(key, std::move(node));
+    }
+  }
+}
+
+toml::table ParseOverride(const std::string& text) {
+  const std::string name = "command line";
+  try {
+    return toml::parse(text, std::string_view(name));
+  } catch (const toml::parse_error&) {
+    // `port=/dev/ttyS0` is what people type; TOML wants the quotes.
+    const auto equals = text.find('=');
+    if (equals == std::string::npos)
+      throw ConfigError(fmt::format("{}: expected key=value, got \"{}\"", name, text));
+    return ParseOrThrow(name, fmt::format("{} = '{}'", text.substr(0, equals), text.substr(equals + 1)));
+  }
+}
+
+toml::table ParseSource(const ConfigSource& source) {
+  toml::table table = source.path.empty() ? toml::table{} : ParseFileOrThrow(source.path);
+  for (const auto& text : source.overrides) Merge(table, ParseOverride(text));
+  return table;
 }
 
 class Printer : public Archive {
@@ -259,8 +294,9 @@ class Printer : public Archive {
 
 }  // namespace
 
-ConfigFile::ConfigFile(const std::string& path)
-    : reader_(std::make_unique<Reader>(path, ParseFileOrThrow(path))) {}
+ConfigFile::ConfigFile(const ConfigSource& source)
+    : reader_(std::make_unique<Reader>(source.path.empty() ? "command line" : source.path,
+                                       ParseSource(source))) {}
 ConfigFile::ConfigFile(const std::string& name, std::string_view text)
     : reader_(std::make_unique<Reader>(name, ParseOrThrow(name, text))) {}
 ConfigFile::~ConfigFile() = default;

@@ -73,11 +73,18 @@ class Archive {
   virtual void EnterItem(std::string_view key, std::size_t index) = 0;
 };
 
+/// Where a configuration comes from: a TOML file (none: the struct's defaults), then single keys on top.
+struct ConfigSource {
+  std::string path;
+  std::vector<std::string>
+      overrides;  ///< `key = value` as TOML, dotted keys for sections; a bare word is a string
+};
+
 /// A TOML file being read into a struct.
 class ConfigFile {
  public:
   /// Throws ConfigError when the file is missing, not readable or not TOML.
-  explicit ConfigFile(const std::string& path);
+  explicit ConfigFile(const ConfigSource& source);
   /// The same from a text; `name` stands for the file in messages.
   ConfigFile(const std::string& name, std::string_view text);
   ~ConfigFile();
@@ -91,14 +98,19 @@ class ConfigFile {
   std::unique_ptr<Reader> reader_;
 };
 
-/// Reads `path` into a T. Throws ConfigError.
+/// Reads `source` into a T. Throws ConfigError.
 template <class T>
-T LoadConfig(const std::string& path) {
+T LoadConfig(const ConfigSource& source) {
   T config;
-  ConfigFile file(path);
+  ConfigFile file(source);
   config.Describe(file.archive());
   file.RefuseUnknownKeys();
   return config;
+}
+
+template <class T>
+T LoadConfig(const std::string& path) {
+  return LoadConfig<T>(ConfigSource{path, {}});
 }
 
 /// The same from a text; `name` stands for the file in messages.
