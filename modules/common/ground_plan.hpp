@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+
+namespace priamos {
+
+/// A straight wall: a rectangle around its centre line.
+struct WallPlan {
+  std::string name;
+  std::vector<double> from_m{0, 0};  ///< map, one end of the centre line: x, y
+  std::vector<double> to_m{0, 0};    ///< map, the other end
+  double thickness_m = 0.14;
+
+  void Describe(Archive& a);
+  Eigen::Vector2d from() const { return {from_m[0], from_m[1]}; }
+  Eigen::Vector2d to() const { return {to_m[0], to_m[1]}; }
+};
+
+/// A door with a frame on the side it is approached from and, on the far side, a rebate for its leaf.
+///
+/// Its landmark frame stands on the floor in the middle of the opening, half way through the wall; x points
+/// through the opening in driving direction, y left, z up. Seen from above (driving direction to the right):
+///
+///       frame (architrave)       |<- wall_thickness_m ->|
+///          .--.  y = width/2 + frame_width_m
+///          |  |__________________________
+///          |  |           wall            |
+///          |  '---                ,-------'  <- rebate: the last rebate_depth_m are rebate_width_m wider
+///          '----------------------'  y = width/2 (inner face of the jamb)
+///          ^ front arris          ^ stop arris
+struct DoorPlan {
+  int id = 1;
+  std::string name;
+  double x_m = 0, y_m = 0;         ///< map, origin of the landmark frame
+  double yaw_deg = 0;              ///< map, its x axis
+  double opening_width_m = 0.90;   ///< clear, between the inner faces
+  double opening_height_m = 2.00;  ///< clear
+  double wall_thickness_m = 0.14;
+  double frame_width_m = 0.06;        ///< breadth of the frame's face beside and above the opening
+  double frame_protrusion_m = 0.015;  ///< how far that face stands before the wall
+  double rebate_depth_m = 0.04;       ///< how deep the leaf sits in the far side
+  double rebate_width_m = 0.015;      ///< how much wider the opening is there, on each side and above
+
+  void Describe(Archive& a);
+
+  Pose2 map_from_door() const { return {x_m, y_m, Radians(yaw_deg)}; }
+  /// x of the planes on which the edges lie, landmark frame.
+  double FrontX() const { return -wall_thickness_m / 2 - frame_protrusion_m; }
+  double StopX() const { return wall_thickness_m / 2 - rebate_depth_m; }
+  double BackX() const { return wall_thickness_m / 2; }
+};
+
+/// The plan of a building as far as driving needs it: config/<deployment>/maps/*.toml.
+struct GroundPlan {
+  std::vector<WallPlan> walls;
+  std::vector<DoorPlan> doors;
+
+  void Describe(Archive& a);
+  /// nullptr if there is none.
+  const DoorPlan* FindDoor(int id) const;
+};
+
+}  // namespace priamos
