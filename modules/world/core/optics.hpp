@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+
+namespace priamos::world {
+
+inline constexpr int kImageWidthPx = 768, kImageHeightPx = 576;
+inline constexpr int kCameras = 3;
+enum Camera : int { kLeftCamera = 0, kRightCamera = 1, kThirdCamera = 2 };
+
+/// Where the axes of KASTOR truly are, backlash and all; what the step counters say is not known here.
+/// Signs as in head_command_t: pan and vergence positive to the left, tilt positive looks down.
+struct HeadAxes {
+  double pan_rad = 0, tilt_rad = 0;
+  std::array<double, 2> vergence_rad{};          ///< left and right camera on the platform
+  std::array<double, 2> zoom_step{650, 650};     ///< 0 shortest focal length ... 2000 longest
+  std::array<double, 2> focus_step{1600, 1600};  ///< 0 nearest distance ... 2000 infinity
+};
+
+/// How one camera was really built, which nobody but the simulator knows.
+struct CameraBuild {
+  double x_m = 0, y_m = 0, z_m = 0;                 ///< camera axis (vergence axis) on the platform
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< of the camera on that axis; pitch positive looks down
+  double pupil_m = 0.02;                            ///< entrance pupil before the axis at focal_mid_px
+  double focal_min_px = 800, focal_max_px = 1600;   ///< at zoom step 0 and 2000, focused at infinity
+  double centre_u_px = 383.5, centre_v_px = 287.5;  ///< principal point at the middle of the zoom
+  double centre_walk_u_px = 0, centre_walk_v_px = 0;   ///< its walk from zoom step 0 to 2000
+  double k1_wide = -0.07, k1_tele = -0.02, k2 = 0.01;  ///< radial distortion at zoom step 0 and 2000
+  double breathing = 0.012;      ///< relative growth of the focal length at the nearest focus
+  double nearest_focus_m = 0.6;  ///< distance in focus at focus step 0
+
+  void Describe(Archive& a);
+};
+
+/// The mechanics of KASTOR with their manufacturing errors. Nominally pan and tilt axis meet at
+/// (0.25, 0, 1.20) of the base frame, the cameras sit at y = +-0.15 m and the third 0.12 m above them.
+struct HeadBuild {
+  double x_m = 0.25, y_m = 0, z_m = 1.20;                ///< pan axis in the base frame
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;       ///< of the pan axis
+  double tilt_axis_x_m = 0, tilt_axis_z_m = 0;           ///< tilt axis on the pan platform
+  double tilt_axis_roll_rad = 0, tilt_axis_yaw_rad = 0;  ///< its skew against the pan axis
+  std::array<CameraBuild, kCameras> cameras = NominalCameras();
+  double third_focal_px = 900;  ///< the third camera is passive: its lens is fixed
+
+  void Describe(Archive& a);
+  static std::array<CameraBuild, kCameras> NominalCameras();
+  /// The same head as another specimen: every dimension off by a few tenths of a millimetre and
+  /// milliradians, every lens off by a percent and some pixels.
+  static HeadBuild Specimen(std::uint64_t seed);
+};
+
+/// A camera exactly as it is: the truth that calibration tries to find.
+/// Image: u right, v down, (0,0) is the centre of the top left pixel. Camera frame: x right, y down, z
+/// forward.
+struct TrueCamera {
+  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+  double focal_px = 1000;
+  Eigen::Vector2d centre_px{383.5, 287.5};
+  /// distorted - centre = (undistorted - centre) (1 + k1 r^2 + k2 r^4), r = |undistorted - centre| / focal_px
+  double k1 = 0, k2 = 0;
+  double focus_dioptre = 0;  ///< inverse of the distance that is sharp [1/m]
+
+  /// The undistorted image point of a point in the camera frame; z must be positive.
+  Eigen::Vector2d ProjectPinhole(const Eigen::Vector3d& in_camera) const;
+  Eigen::Vector2d Distort(const Eigen::Vector2d& undistorted_px) const;
+  Eigen::Vector2d Undistort(const Eigen::Vector2d& distorted_px) const;
+  /// Exactly where a point of the base frame appears.
+  Eigen::Vector2d Project(const Eigen::Vector3d& in_base) const;
+  /// Homogeneous pinhole matrix (before distortion), third row a unit vector: image_from_base.
+  Eigen::Matrix<double, 3, 4> ImageFromBase() const;
+};
+
+/// Pose and intrinsics of one camera for a state of the axes.
+TrueCamera CameraAt(const HeadBuild& build, Camera camera, const HeadAxes& axes);
+
+/// map_from_base as a transform in space.
+Eigen::Isometry3d Lift(const Pose2& a_from_b);
+
+}  // namespace priamos::world
