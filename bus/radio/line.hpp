@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/random.hpp"
+#include "common/time.hpp"
+
+namespace priamos::bus::radio {
+
+/// The line is dead between these times after its start.
+struct LineCut {
+  double from_s = 0;
+  double to_s = 0;
+  void Describe(Archive& a);
+};
+
+/// What a radio modem does to the bytes given to it.
+struct LineConfig {
+  int baud = 9600;                   ///< 10 bits per byte: start, 8 data, stop
+  double latency_s = 0.005;          ///< from the end of a byte at the sender to its end at the receiver
+  double jitter_s = 0;               ///< uniform addition to the latency; bytes keep their order
+  double bit_error_rate = 0;         ///< probability per bit, all 10 of a byte
+  double burst_rate_hz = 0;          ///< error bursts per second, Poisson
+  double burst_length_s = 0.02;      ///< length of one burst
+  double burst_error_rate = 0.3;     ///< bit error rate inside a burst
+  double duplicate_probability = 0;  ///< probability that a byte arrives twice
+  std::vector<LineCut> cuts{};       ///< in order of time
+  void Describe(Archive& a);
+};
+
+/// One direction of a serial line in simulated time. Bytes leave one after the other at the baud rate,
+/// whenever they were written: what is written too early waits, as in a tty's buffer. A flipped start bit
+/// loses the byte, a flipped stop bit makes it 0 (what a Linux tty delivers for a framing error).
+class Line {
+ public:
+  Line(const LineConfig& config, Rng rng, Time start);
+
+  /// Calls come in the order of `now`.
+  void Write(std::span<const std::byte> bytes, Time now);
+  /// Everything that has arrived until `now`.
+  std::vector<std::byte> Read(Time now);
+  /// When the byte written last has left: the age of the backlog.
+  Time free_at() const { return Time(Duration(free_at_ns_ / 1000)); }
+  /// When the next byte can be read; Time::max() when none is under way.
+  Time next_arrival() const;
+  std::uint64_t bytes_written() const { return bytes_written_; }
+
+ private:
+  struct Arrival {
+    std::int64_t at_ns;
+    std::byte byte;
+  };
+  void Transmit(std::byte byte, std::int64_t end_ns);
+  bool Cut(std::int64_t at_ns);
+  double BitErrorRate(std::int64_t at_ns);
+  void Arrive(std::byte byte, std::int64_t end_ns);
+
+  LineConfig config_;
+  Rng rng_;
+  std::int64_t start_ns_;
+  std::int64_t byte_ns_;
+  std::int64_t free_at_ns_;
+  std::int64_t last_arrival_ns_;
+  std::int64_t burst_start_ns_ = std::numeric_limits<std::int64_t>::max();
+  std::size_t next_cut_ = 0;
+  std::uint64_t bytes_written_ = 0;
+  std::deque<Arrival> arrivals_;
+};
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,88 @@
+#include "common/serial_port.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <array>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace priamos {
+namespace {
+
+using testing::HasSubstr;
+
+std::string ErrorOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// The master side of a pseudo terminal: what a modem is to the port.
+class Pty {
+ public:
+  Pty() : fd_(posix_openpt(O_RDWR | O_NOCTTY)) {
+    grantpt(fd_);
+    unlockpt(fd_);
+    std::array<char, 64> name{};
+    ptsname_r(fd_, name.data(), name.size());
+    path_ = name.data();
+  }
+  Pty(const Pty&) = delete;
+  Pty& operator=(const Pty&) = delete;
+  ~Pty() { close(fd_); }
+  const std::string& path() const { return path_; }
+  int fd() const { return fd_; }
+
+ private:
+  int fd_;
+  std::string path_;
+};
+
+TEST(SerialPort, BytesPassUnchangedBothWays) {
+  const Pty modem;
+  const auto dut = OpenSerialPort(modem.path(), 9600);
+  // What a cooked tty would change or eat: end of line, flow control, interrupt, end of file, parity mark.
+  const std::array<std::byte, 7> sent{std::byte{0x0D}, std::byte{0x0A}, std::byte{0x11}, std::byte{0x13},
+                                      std::byte{0x03}, std::byte{0x04}, std::byte{0xFF}};
+  ASSERT_EQ(dut->Write(sent), sent.size());
+  std::array<std::byte, 7> got{};
+  ASSERT_EQ(read(modem.fd(), got.data(), got.size()), 7);
+  EXPECT_EQ(got, sent);
+
+  ASSERT_EQ(write(modem.fd(), sent.data(), sent.size()), 7);
+  got = {};
+  ASSERT_EQ(dut->Read(got), sent.size());
+  EXPECT_EQ(got, sent);
+}
+
+TEST(SerialPort, ReadingAnEmptyPortReturnsAtOnce) {
+  const Pty modem;
+  std::array<std::byte, 8> got{};
+  EXPECT_EQ(OpenSerialPort(modem.path(), 9600)->Read(got), 0U);
+}
+
+TEST(SerialPort, AbsentPortSaysWhatToDo) {
+  EXPECT_THAT(ErrorOf([] { OpenSerialPort("/dev/no_such_tty", 9600); }),
+              testing::AllOf(HasSubstr("/dev/no_such_tty"), HasSubstr("priamos link emulate")));
+}
+
+TEST(SerialPort, AFileIsNoTty) {
+  EXPECT_THAT(ErrorOf([] { OpenSerialPort("/dev/null", 9600); }), HasSubstr("is not a tty"));
+}
+
+TEST(SerialPort, UnknownBaudRateIsRefused) {
+  const Pty modem;
+  EXPECT_THAT(ErrorOf([&] { OpenSerialPort(modem.path(), 9601); }), HasSubstr("9600, 19200"));
+}
+
+}  // namespace
+}  // namespace priamos
