@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "bus/schema/model.hpp"
+
+namespace priamos::bus {
+
+/// All types known to a process: nested types resolved, LCM's fingerprints computed. The Structs it hands
+/// out live as long as the Schema (also when it is moved), so it must outlive what was built from them.
+class Schema {
+ public:
+  /// The text of one .lcm file and what to call it in messages.
+  struct Source {
+    std::string file;
+    std::string text;
+  };
+
+  /// Throws SchemaError for the first type that cannot be taken: unreadable, defined twice, or with a nested
+  /// type that nobody defines.
+  explicit Schema(const std::vector<Source>& sources);
+  /// The same, but takes what it can: every refused file or type leaves its sentence in `problems`.
+  Schema(const std::vector<Source>& sources, std::vector<std::string>& problems);
+
+  /// From anything with members `file` and `text`, such as priamos::EmbeddedTypes().
+  template <class Texts>
+  static Schema FromTexts(const Texts& texts) {
+    std::vector<Source> sources;
+    for (const auto& t : texts) sources.push_back({t.file, t.text});
+    return Schema(sources);
+  }
+
+  /// All *.lcm below `directory`, as sources in the order of their paths. Throws SchemaError when it cannot
+  /// be read or holds none.
+  static std::vector<Source> ReadDirectory(const std::filesystem::path& directory);
+
+  /// The type with this fingerprint; of several equal ones the first by name. nullptr when unknown.
+  const Struct* Find(std::uint64_t fingerprint) const;
+  /// The type of this full name, "package.name", or of this name without package when only one has it.
+  const Struct* Find(std::string_view name) const;
+  /// All types, ordered by full name.
+  std::vector<const Struct*> All() const;
+
+ private:
+  void Build(const std::vector<Source>& sources, std::vector<std::string>* problems);
+  void Insert(Struct type);
+  void Resolve(std::vector<std::string>* problems);
+  void ComputeFingerprints(std::vector<std::string>* problems);
+
+  std::map<std::string, std::unique_ptr<Struct>, std::less<>> types_;
+  std::unordered_map<std::uint64_t, const Struct*> by_fingerprint_;
+};
+
+/// Fingerprint of an encoded message, its first 8 bytes, big endian; 0 when there are fewer.
+std::uint64_t FingerprintOf(const void* data, std::size_t size);
+
+/// The largest encoding of `type` in bytes, fingerprint included, when every variable array and string keeps
+/// its @max (or the @range of its count): nullopt when one of them has none, or the type contains itself.
+std::optional<std::size_t> MaxEncodedSize(const Struct& type);
+
+/// Largest count of dimension `index` of `field`: the size of a constant one; for a variable one @max of the
+/// array or the upper end of the count's @range, the smaller one; nullopt when there is neither.
+std::optional<std::int64_t> MaxCount(const Struct& type, const Field& field, std::size_t index);
+
+/// Largest length of a string field in bytes, without LCM's terminating zero; nullopt without @max.
+std::optional<std::int64_t> MaxTextLength(const Field& field);
+
+}  // namespace priamos::bus
