@@ -22,18 +22,18 @@ struct WheelSample {
 /// What the odometry does not know. Random walks: variance grows with the way, so sigma with its root.
 struct OdometryNoise {
   double forward_m_per_sqrt_m = 0.006;
-  double sideways_m_per_sqrt_m = 0.012;  ///< along the roller direction, where Mecanum wheels slip most
-  double drift_m_per_sqrt_m = 0.003;     ///< across the driving direction
-  double yaw_rad_per_sqrt_m = 0.004;
-  double yaw_rad_per_sqrt_rad = 0.012;
-  double slip_floor_m_s = 0.02;          ///< residual of the fourth equation that encoder steps explain
+  double sideways_m_per_sqrt_m = 0.008;  ///< along y when driving sideways
+  double drift_m_per_sqrt_m = 0.006;     ///< across the driving direction
+  double yaw_rad_per_sqrt_m = 0.008;
+  double yaw_rad_per_sqrt_rad = 0.008;
+  double slip_floor_m_s = 0.03;          ///< residual of the fourth equation that encoders alone explain
   double slip_variance_m2_per_m = 0.02;  ///< added variance per metre that wheels slipped against each other
 
   void Describe(Archive& a);
 };
 
 struct OdometryConfig {
-  double ticks_per_turn = 4000;
+  double ticks_per_turn = 4096;
   double unknown_speed_m_s = 0.5;  ///< speed assumed as sigma for a time without credible encoders
   OdometryNoise noise;
 

@@ -29,7 +29,7 @@ class Wheels {
   WheelSample Sample() const {
     WheelSample sample{.time = now_};
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto ticks = static_cast<std::int64_t>(std::floor(turned_[i] / (2 * kPi) * 4000));
+      const auto ticks = static_cast<std::int64_t>(std::floor(turned_[i] / (2 * kPi) * 4096));
       sample.ticks[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(ticks + base_));
     }
     return sample;
