@@ -21,11 +21,11 @@ struct WheelSample {
 
 /// What the odometry does not know. Random walks: variance grows with the way, so sigma with its root.
 struct OdometryNoise {
-  double forward_m_per_sqrt_m = 0.006;
-  double sideways_m_per_sqrt_m = 0.008;  ///< along y when driving sideways
-  double drift_m_per_sqrt_m = 0.006;     ///< across the driving direction
-  double yaw_rad_per_sqrt_m = 0.008;
-  double yaw_rad_per_sqrt_rad = 0.008;
+  double forward_m_per_sqrt_m = 0.005;
+  double sideways_m_per_sqrt_m = 0.006;  ///< along y when driving sideways
+  double drift_m_per_sqrt_m = 0.005;     ///< across the driving direction
+  double yaw_rad_per_sqrt_m = 0.0075;
+  double yaw_rad_per_sqrt_rad = 0.0075;
   double slip_floor_m_s = 0.03;          ///< residual of the fourth equation that encoders alone explain
   double slip_variance_m2_per_m = 0.02;  ///< added variance per metre that wheels slipped against each other
 

@@ -12,11 +12,11 @@ namespace priamos::robot {
 /// during a run, so treating them as noise would claim too much after a long way and too little after a
 /// short one: they are estimated along with the pose. Values are standard deviations before the first fix.
 struct OdometryBias {
-  double forward = 0.004;        ///< scale of forward motion
-  double sideways = 0.015;       ///< scale of sideways motion
-  double yaw = 0.008;            ///< scale of turning
-  double yaw_rad_per_m = 0.004;  ///< turn per metre forward: left and right wheels differ
-  double drift_m_per_m = 0.003;  ///< sideways way per metre forward: front and rear wheels differ
+  double forward = 0.004;         ///< scale of forward motion
+  double sideways = 0.015;        ///< scale of sideways motion
+  double yaw = 0.008;             ///< scale of turning
+  double yaw_rad_per_m = 0.004;   ///< turn per metre forward: left and right wheels differ
+  double drift_m_per_m = 0.0025;  ///< sideways way per metre forward: front and rear wheels differ
 
   void Describe(Archive& a);
 };
