@@ -1,0 +1,72 @@
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/context.hpp"
+#include "common/config.hpp"
+#include "common/time.hpp"
+
+namespace priamos::bus {
+
+/// What a module's App offers. It runs unchanged in real time, in lockstep and from a log.
+template <class T>
+concept App = requires(T app, const typename T::Config& config, Context& context, Time now) {
+  { T::kName } -> std::convertible_to<std::string_view>;
+  { T::kSummary } -> std::convertible_to<std::string_view>;
+  T(config, context);
+  { app.TickPeriod() } -> std::same_as<Duration>;
+  app.Tick(now);
+};
+
+/// A command-line flag that sets one configuration key, e.g. `--port TTY` for `port`.
+struct OptionAlias {
+  std::string_view flag;   ///< "--port"
+  std::string_view key;    ///< "port", dotted for sections
+  std::string_view value;  ///< fixed TOML value for a flag without argument; empty when it takes one
+  std::string_view doc;
+};
+
+/// An App whose type is forgotten, so that processes and lockstep are compiled once.
+class AnyApp {
+ public:
+  virtual ~AnyApp() = default;
+  virtual Duration TickPeriod() const = 0;
+  virtual void Tick(Time now) = 0;
+};
+
+/// How to start one kind of App.
+struct AppFactory {
+  std::string name;
+  std::string summary;
+  std::vector<OptionAlias> aliases;
+  std::function<std::unique_ptr<AnyApp>(const ConfigSource&, Context&)> start;
+  std::function<void(std::ostream&, const ConfigSource&)> print_config;
+};
+
+template <App T>
+AppFactory FactoryOf() {
+  struct Erased : AnyApp {
+    Erased(const ConfigSource& source, Context& context)
+        : app(LoadConfig<typename T::Config>(source), context) {}
+    Duration TickPeriod() const override { return app.TickPeriod(); }
+    void Tick(Time now) override { app.Tick(now); }
+    T app;
+  };
+  AppFactory factory{std::string(T::kName), std::string(T::kSummary), {}, {}, {}};
+  if constexpr (requires { T::kOptions; })
+    factory.aliases.assign(std::begin(T::kOptions), std::end(T::kOptions));
+  factory.start = [](const ConfigSource& source, Context& context) {
+    return std::make_unique<Erased>(source, context);
+  };
+  factory.print_config = [](std::ostream& out, const ConfigSource& source) {
+    PrintConfig(out, LoadConfig<typename T::Config>(source));
+  };
+  return factory;
+}
+
+}  // namespace priamos::bus

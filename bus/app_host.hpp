@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "bus/app.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::bus {
+
+/// One App with its node and its schedule; the same in real time and in lockstep. It decides when a tick is
+/// due and publishes HEALTH once per second, also while the App itself has nothing to say.
+class AppHost {
+ public:
+  /// Starts the App; throws ConfigError, BusError or std::runtime_error with one sentence.
+  AppHost(const AppFactory& factory, const ConfigSource& source, LcmBus& bus, const Schema& schema,
+          const Clock& clock, Surroundings surroundings);
+
+  const std::string& name() const { return name_; }
+  Time next_tick() const { return next_tick_; }
+  /// Ticks when one is due at `now`. A tick that comes over a period late is counted, and not made up for.
+  void Step(Time now);
+  std::optional<int> exit_code() const { return context_.exit_code(); }
+  const Node& node() const { return node_; }
+
+ private:
+  void PublishHealth(Time now);
+
+  std::string name_;
+  Node node_;
+  Context context_;
+  Publisher<health_t> health_;
+  std::unique_ptr<AnyApp> app_;
+  Duration period_;
+  Time next_tick_;
+  Time next_health_;
+  std::int32_t overruns_ = 0;
+};
+
+}  // namespace priamos::bus

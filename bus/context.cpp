@@ -1,0 +1,22 @@
+#include "bus/context.hpp"
+
+#include <filesystem>
+
+#include "common/serial_port.hpp"
+
+namespace priamos::bus {
+
+std::string Context::ResolvePath(const std::string& name) const {
+  return (std::filesystem::path(around_.config_dir) / name).lexically_normal().string();
+}
+
+std::unique_ptr<ByteStream> Context::OpenSerial(const std::string& path, int baud) {
+  return around_.open_serial(path, baud);
+}
+
+void Context::SetHealth(Health health, std::string_view text) {
+  health_ = health;
+  health_text_ = text.substr(0, 100);
+}
+
+}  // namespace priamos::bus

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bus/node.hpp"
+
+namespace priamos {
+class ByteStream;
+}
+
+namespace priamos::bus {
+
+enum class Level { kInfo, kWarning, kError };
+enum class Health { kOk, kDegraded, kFailed };
+
+/// What the surroundings of an App must provide; real time and lockstep do it differently.
+struct Surroundings {
+  std::string instance;          ///< names this bus on this machine, e.g. for shared memory
+  std::string config_dir = ".";  ///< relative file names in a configuration start here
+  std::uint64_t seed = 0;        ///< for simulated hardware only
+  bool lockstep = false;         ///< simulated time: work inline, never in a thread
+  std::function<void(Level, std::string_view)> log;
+  /// Opens a serial port; throws std::runtime_error with one sentence.
+  std::function<std::unique_ptr<ByteStream>(const std::string& path, int baud)> open_serial;
+};
+
+/// Everything an App may ask of the process it lives in.
+class Context {
+ public:
+  Context(Node& node, Surroundings surroundings) : node_(node), around_(std::move(surroundings)) {}
+
+  Node& node() { return node_; }
+  const std::string& instance() const { return around_.instance; }
+  std::uint64_t seed() const { return around_.seed; }
+  bool lockstep() const { return around_.lockstep; }
+  /// `name` itself when absolute, else below the folder of the configuration file.
+  std::string ResolvePath(const std::string& name) const;
+
+  std::unique_ptr<ByteStream> OpenSerial(const std::string& path, int baud);
+  void Log(Level level, std::string_view text) { around_.log(level, text); }
+
+  /// Goes into the next HEALTH message; `text` says why not OK.
+  void SetHealth(Health health, std::string_view text = "");
+  Health health() const { return health_; }
+  const std::string& health_text() const { return health_text_; }
+
+  /// Ends the process after this tick.
+  void RequestStop(int exit_code = 0) { exit_code_ = exit_code; }
+  std::optional<int> exit_code() const { return exit_code_; }
+
+ private:
+  Node& node_;
+  Surroundings around_;
+  Health health_ = Health::kOk;
+  std::string health_text_;
+  std::optional<int> exit_code_;
+};
+
+}  // namespace priamos::bus

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/app_host.hpp"
+#include "bus/radio/line.hpp"
+
+namespace priamos::bus {
+
+/// Every App of every host in one process, on simulated time: bit-identical from run to run and much faster
+/// than real time. Each host has its own `memq://` bus; hosts meet only on simulated serial lines.
+///
+/// Apps tick in the order they were added; after every tick its bus is drained, so a message arrives at the
+/// simulated moment it was sent.
+class Lockstep {
+ public:
+  using Tap = std::function<void(std::string_view bus, Time now, std::string_view channel,
+                                 std::span<const std::byte>)>;
+
+  struct Options {
+    std::uint64_t seed = 0;
+    Time start = FromUtime(1'000'000'000);
+    std::function<void(Time, std::string_view process, Level, std::string_view text)> log;  ///< none: silent
+  };
+
+  Lockstep(const Schema& schema, Options options);
+  ~Lockstep();
+
+  /// A host's bus; `name` is for taps and for AddApp.
+  void AddBus(const std::string& name);
+  /// Two ends of a serial line; Apps open them by these names. One line per direction.
+  void AddSerialLine(const std::string& end_a, const std::string& end_b, const radio::LineConfig& config);
+  /// Throws what the App's start throws.
+  void AddApp(const AppFactory& factory, const std::string& bus, const ConfigSource& source);
+  /// Sees every message on every bus, in order.
+  void SetTap(Tap tap) { tap_ = std::move(tap); }
+  /// A node for the driver of the scenario, e.g. to publish an order.
+  Node& DriverNode(const std::string& bus);
+
+  Time now() const { return clock_.Now(); }
+  /// Runs until `until`, or until `done()` (asked after every step) says so. Returns whether it was done; an
+  /// App that asks to stop ends the run as well.
+  bool RunUntil(Time until, const std::function<bool()>& done = {});
+
+ private:
+  struct Host;
+  struct Wire;
+  class SerialEnd;
+
+  Host& HostOf(const std::string& bus);
+  Surroundings SurroundingsOf(const AppFactory& factory, const Host& host, const ConfigSource& source);
+  std::unique_ptr<ByteStream> OpenSerial(const std::string& name);
+  Time NextTick() const;
+  void StepAll();
+
+  const Schema& schema_;
+  Options options_;
+  SimulatedClock clock_;
+  Tap tap_;
+  std::vector<std::unique_ptr<Host>> hosts_;
+  std::vector<std::shared_ptr<Wire>> wires_;
+  struct Member {
+    std::unique_ptr<AppHost> app;
+    Host* host;
+  };
+  std::vector<Member> members_;
+};
+
+}  // namespace priamos::bus

@@ -1,0 +1,213 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bus/clock.hpp"
+#include "bus/lcm_bus.hpp"
+#include "common/time.hpp"
+#include "lcmtypes/channel.hpp"
+
+namespace priamos::bus {
+
+class Schema;
+
+/// What became of the messages of one channel in one process.
+struct ChannelCounters {
+  std::uint64_t received = 0;     ///< passed the schema walk and the decoder
+  std::uint64_t refused = 0;      ///< wrong type, damaged, or not decodable
+  std::uint64_t overwritten = 0;  ///< newest-wins channel: replaced by a newer one before being taken
+  std::uint64_t dropped = 0;      ///< every-message channel: the inbox was full
+  std::uint64_t exceptions = 0;   ///< handler threw
+  std::uint64_t published = 0;
+  std::uint64_t publish_failed = 0;  ///< too long, or the network refused
+};
+
+/// One line of a process's interface: what it reads or writes.
+struct Endpoint {
+  std::string channel;
+  std::string type;
+  double rate_hz = 0;
+};
+
+namespace detail {
+
+template <class T>
+struct LatestState {
+  T message{};
+  Time received{};
+  bool valid = false;
+  bool taken = true;
+};
+
+template <class T>
+struct InboxState {
+  std::deque<T> messages;
+};
+
+}  // namespace detail
+
+/// The newest message of a state channel. Handlers only store it; Tick(now) decides, so that silence is
+/// noticed. Before the first message get() is null and Age() is Duration::max().
+template <class T>
+class Latest {
+ public:
+  explicit Latest(std::shared_ptr<detail::LatestState<T>> state) : state_(std::move(state)) {}
+
+  const T* get() const { return state_->valid ? &state_->message : nullptr; }
+  /// The newest message if it has not been taken before.
+  std::optional<T> Take() {
+    if (!state_->valid || state_->taken) return std::nullopt;
+    state_->taken = true;
+    return state_->message;
+  }
+  /// Time since the arrival of the newest message, by the receiver's own clock.
+  Duration Age(Time now) const { return state_->valid ? now - state_->received : Duration::max(); }
+
+ private:
+  std::shared_ptr<detail::LatestState<T>> state_;
+};
+
+/// Every message of an event channel, oldest first.
+template <class T>
+class Inbox {
+ public:
+  explicit Inbox(std::shared_ptr<detail::InboxState<T>> state) : state_(std::move(state)) {}
+
+  std::vector<T> Drain() {
+    std::vector<T> all(std::make_move_iterator(state_->messages.begin()),
+                       std::make_move_iterator(state_->messages.end()));
+    state_->messages.clear();
+    return all;
+  }
+
+ private:
+  std::shared_ptr<detail::InboxState<T>> state_;
+};
+
+class Node;
+
+/// Right to publish on one channel.
+template <class T>
+class Publisher {
+ public:
+  Publisher(Node& node, std::string_view channel) : node_(&node), channel_(channel) {}
+  void Publish(const T& message);
+
+ private:
+  Node* node_;
+  std::string channel_;
+};
+
+/// A process's place on a bus. Every byte that arrives is walked against the schema before a generated
+/// decoder sees it; what does not pass is counted, never fatal. Newest wins (Subscribe) or all are kept
+/// (SubscribeAll). Handlers run while the bus is drained, between ticks.
+class Node {
+ public:
+  static constexpr std::size_t kInboxCapacity = 256;
+
+  /// `bus`, `schema` and `clock` must outlive the node.
+  Node(LcmBus& bus, const Schema& schema, const Clock& clock) : bus_(bus), schema_(schema), clock_(clock) {}
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  template <class T>
+  Latest<T> Subscribe(const Channel<T>& channel);
+  template <class T>
+  Inbox<T> SubscribeAll(const Channel<T>& channel);
+  template <class T>
+  Publisher<T> Advertise(const Channel<T>& channel);
+
+  /// For programs that carry types they were not compiled with. The bytes have passed the walk when their
+  /// type is known to the schema, and are refused when it is not.
+  void SubscribeRaw(std::string_view channel, std::function<void(std::span<const std::byte>, Time)> handler);
+  void AdvertiseRaw(std::string_view channel);
+  void PublishRaw(std::string_view channel, std::span<const std::byte> bytes);
+
+  const std::map<std::string, ChannelCounters, std::less<>>& counters() const { return counters_; }
+  ChannelCounters Totals() const;
+  const std::vector<Endpoint>& inputs() const { return inputs_; }
+  const std::vector<Endpoint>& outputs() const { return outputs_; }
+  const Schema& schema() const { return schema_; }
+
+ private:
+  /// Stores one message; throws when it cannot be decoded.
+  using Store = std::function<void(std::span<const std::byte>, ChannelCounters&)>;
+  void Listen(const Endpoint& endpoint, std::optional<std::uint64_t> fingerprint, Store store);
+  ChannelCounters& CountersOf(std::string_view channel);
+
+  LcmBus& bus_;
+  const Schema& schema_;
+  const Clock& clock_;
+  std::map<std::string, ChannelCounters, std::less<>> counters_;
+  std::vector<Endpoint> inputs_, outputs_;
+};
+
+/// Throws std::runtime_error when `bytes` is not a whole T.
+template <class T>
+T Decode(std::span<const std::byte> bytes) {
+  T message;
+  if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) != static_cast<int>(bytes.size()))
+    throw std::runtime_error("not decodable");
+  return message;
+}
+
+template <class T>
+std::vector<std::byte> Encode(const T& message) {
+  std::vector<std::byte> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+template <class T>
+Latest<T> Node::Subscribe(const Channel<T>& channel) {
+  auto state = std::make_shared<detail::LatestState<T>>();
+  Listen({std::string(channel.name), T::getTypeName(), channel.rate_hz},
+         static_cast<std::uint64_t>(T::getHash()),
+         [this, state](std::span<const std::byte> bytes, ChannelCounters& counters) {
+           state->message = Decode<T>(bytes);
+           state->received = clock_.Now();
+           if (!state->taken) ++counters.overwritten;
+           state->valid = true;
+           state->taken = false;
+         });
+  return Latest<T>(state);
+}
+
+template <class T>
+Inbox<T> Node::SubscribeAll(const Channel<T>& channel) {
+  auto state = std::make_shared<detail::InboxState<T>>();
+  Listen({std::string(channel.name), T::getTypeName(), channel.rate_hz},
+         static_cast<std::uint64_t>(T::getHash()),
+         [state](std::span<const std::byte> bytes, ChannelCounters& counters) {
+           T message = Decode<T>(bytes);
+           if (state->messages.size() < kInboxCapacity) {
+             state->messages.push_back(std::move(message));
+           } else {
+             ++counters.dropped;
+           }
+         });
+  return Inbox<T>(state);
+}
+
+template <class T>
+Publisher<T> Node::Advertise(const Channel<T>& channel) {
+  outputs_.push_back({std::string(channel.name), T::getTypeName(), channel.rate_hz});
+  return Publisher<T>(*this, channel.name);
+}
+
+template <class T>
+void Publisher<T>::Publish(const T& message) {
+  node_->PublishRaw(channel_, Encode(message));
+}
+
+}  // namespace priamos::bus

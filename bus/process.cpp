@@ -1,0 +1,138 @@
+#include "bus/process.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "bus/app_host.hpp"
+#include "bus/own_types.hpp"
+#include "bus/real_time_loop.hpp"
+#include "bus/schema/schema.hpp"
+#include "bus/socket_filter.hpp"
+#include "common/serial_port.hpp"
+
+namespace priamos::bus {
+namespace {
+
+constexpr int kFailedWhileRunning = 1;
+constexpr int kCannotStart = 2;
+
+struct Options {
+  ConfigSource config;
+  std::string bus = "udpm://239.255.76.67:7667?ttl=0";
+  std::uint64_t seed = 0;
+  bool print_config = false;
+  bool interface = false;
+};
+
+void AddAlias(CLI::App& cli, const OptionAlias& alias, ConfigSource& config) {
+  const std::string flag(alias.flag), key(alias.key), value(alias.value), doc(alias.doc);
+  if (value.empty()) {
+    cli.add_option_function<std::string>(
+        flag, [&config, key](const std::string& text) { config.overrides.push_back(key + "=" + text); }, doc);
+  } else {
+    cli.add_flag_callback(
+        flag, [&config, key, value] { config.overrides.push_back(key + " = " + value); }, doc);
+  }
+}
+
+/// Returns the exit code when the command line was answered or refused.
+std::optional<int> ParseCommandLine(const AppFactory& factory, int argc, char** argv, Options& options) {
+  CLI::App cli(factory.summary, "priamos-" + factory.name);
+  cli.add_option("--config", options.config.path, "TOML file; without it every key keeps its default");
+  cli.add_option("--set", options.config.overrides, "KEY=VALUE on top of the file");
+  cli.add_option("--bus", options.bus, "LCM bus")->capture_default_str();
+  cli.add_option("--seed", options.seed, "seed of simulated hardware")->capture_default_str();
+  cli.add_flag("--print-config", options.print_config,
+               "print every key with value, unit and meaning, and exit");
+  cli.add_flag("--interface", options.interface, "print the channels read and written, and exit");
+  for (const auto& alias : factory.aliases) AddAlias(cli, alias, options.config);
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return cli.exit(error) == 0 ? 0 : kCannotStart;
+  }
+  return std::nullopt;
+}
+
+std::function<void(Level, std::string_view)> MakeLog(const std::string& name) {
+  auto logger =
+      std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+  logger->set_pattern("%H:%M:%S.%e %n: %v");
+  return [logger](Level level, std::string_view text) {
+    constexpr spdlog::level::level_enum kLevels[] = {spdlog::level::info, spdlog::level::warn,
+                                                     spdlog::level::err};
+    logger->log(kLevels[static_cast<int>(level)], "{}", text);
+  };
+}
+
+/// Two buses on one machine differ in their port, or in the network namespace they live in.
+std::string InstanceOf(const std::string& bus) {
+  struct stat network {};
+  stat("/proc/self/ns/net", &network);
+  return fmt::format("{}-{}", PortOf(bus), network.st_ino);
+}
+
+Surroundings MakeSurroundings(const AppFactory& factory, const Options& options) {
+  Surroundings around;
+  around.instance = InstanceOf(options.bus);
+  if (!options.config.path.empty())
+    around.config_dir = std::filesystem::absolute(options.config.path).parent_path().string();
+  around.seed = options.seed;
+  around.log = MakeLog(factory.name);
+  around.open_serial = [](const std::string& path, int baud) { return OpenSerialPort(path, baud); };
+  return around;
+}
+
+/// --interface starts the App without its hardware.
+class UnconnectedPort : public ByteStream {
+ public:
+  std::size_t Read(std::span<std::byte>) override { return 0; }
+  std::size_t Write(std::span<const std::byte> bytes) override { return bytes.size(); }
+};
+
+int PrintInterface(const AppFactory& factory, const Options& options) {
+  const Schema schema = OwnTypes();
+  LcmBus bus("memq://");
+  const MonotonicClock clock;
+  auto around = MakeSurroundings(factory, options);
+  around.open_serial = [](const std::string&, int) { return std::make_unique<UnconnectedPort>(); };
+  around.instance = "interface";
+  const AppHost host(factory, options.config, bus, schema, clock, std::move(around));
+  for (const auto& e : host.node().inputs()) std::cout << fmt::format("in   {:<18} {}\n", e.channel, e.type);
+  for (const auto& e : host.node().outputs()) std::cout << fmt::format("out  {:<18} {}\n", e.channel, e.type);
+  return 0;
+}
+
+int Run(const AppFactory& factory, const Options& options, bool& running) {
+  if (options.print_config) return factory.print_config(std::cout, options.config), 0;
+  if (options.interface) return PrintInterface(factory, options);
+  const SignalWatch signals;
+  const Schema schema = OwnTypes();
+  const MonotonicClock clock;
+  LcmBus bus(options.bus);
+  AppHost host(factory, options.config, bus, schema, clock, MakeSurroundings(factory, options));
+  running = true;
+  return RunRealTime(host, bus, clock, signals);
+}
+
+}  // namespace
+
+int RunProcess(const AppFactory& factory, int argc, char** argv) {
+  Options options;
+  if (const auto code = ParseCommandLine(factory, argc, argv, options)) return *code;
+  bool running = false;
+  try {
+    return Run(factory, options, running);
+  } catch (const std::exception& error) {
+    std::cerr << "priamos-" << factory.name << ": " << error.what() << "\n";
+    return running ? kFailedWhileRunning : kCannotStart;
+  }
+}
+
+}  // namespace priamos::bus

@@ -1,0 +1,67 @@
+#include "bus/real_time_loop.hpp"
+
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <systemd/sd-daemon.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <system_error>
+
+namespace priamos::bus {
+namespace {
+
+timespec ToTimespec(Duration d) {
+  const auto us = std::max<Duration::rep>(0, d.count());
+  return {static_cast<time_t>(us / 1000000), static_cast<long>(us % 1000000 * 1000)};
+}
+
+/// The watchdog is told twice per period, not on each of 1000 ticks per second.
+class Notifier {
+ public:
+  void Beat(Time now) {
+    if (now < next_) return;
+    next_ = now + std::chrono::milliseconds(200);
+    sd_notify(0, first_ ? "READY=1\nWATCHDOG=1" : "WATCHDOG=1");
+    first_ = false;
+  }
+
+ private:
+  Time next_{};
+  bool first_ = true;
+};
+
+}  // namespace
+
+SignalWatch::SignalWatch() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  fd_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
+  if (fd_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
+}
+
+SignalWatch::~SignalWatch() {
+  close(fd_);
+}
+
+int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals) {
+  Notifier notifier;
+  while (!host.exit_code()) {
+    pollfd fds[] = {{bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
+    const timespec wait = ToTimespec(host.next_tick() - clock.Now());
+    ppoll(fds, std::size(fds), &wait, nullptr);
+    if (fds[1].revents != 0) return 0;
+    if (fds[0].revents != 0) bus.Drain();
+    const Time now = clock.Now();
+    if (now < host.next_tick()) continue;
+    host.Step(now);
+    notifier.Beat(now);
+  }
+  return *host.exit_code();
+}
+
+}  // namespace priamos::bus

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace priamos::cli {
+
+/// The verbs of `priamos`. Each function adds one verb with its help; the chosen verb leaves its exit code in
+/// `exit_code`: 0 for success, 1 for a run that did not succeed, 2 for something that cannot be used.
+void AddRunCommand(CLI::App& cli, int& exit_code);
+void AddLockstepCommand(CLI::App& cli, int& exit_code);
+
+}  // namespace priamos::cli

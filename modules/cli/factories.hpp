@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "bus/app.hpp"
+
+namespace priamos::cli {
+
+/// The App of a module by its folder's name. The command line is where modules come together; nothing else
+/// may know more than one. Throws std::invalid_argument for an unknown name.
+bus::AppFactory FactoryFor(const std::string& module);
+
+}  // namespace priamos::cli

@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "bus/own_types.hpp"
+#include "cli/commands.hpp"
+#include "cli/lockstep_run.hpp"
+#include "cli/report_files.hpp"
+
+namespace priamos::cli {
+namespace {
+
+struct LockstepOptions {
+  LockstepRequest request;
+  int runs = 1;
+  std::string json_file;
+  std::string log_root;
+  bool verbose = false;
+};
+
+LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options, std::uint64_t seed) {
+  LockstepRequest request = options.request;
+  request.seed = seed;
+  if (!options.log_root.empty())
+    request.log_folder = (std::filesystem::path(options.log_root) / fmt::format("seed-{}", seed)).string();
+  if (options.verbose)
+    request.progress = [](Time t, const std::string& text) {
+      std::cout << fmt::format("{:6.1f} s  {}", Seconds(t.time_since_epoch()), text) << std::endl;
+    };
+  if (request.log_folder) std::filesystem::create_directories(*request.log_folder);
+  auto result = RunLockstep(schema, request);
+  if (request.log_folder) {
+    const Scenario scenario = LoadScenario(request.deployment, request.scenario);
+    WriteReport(result.record, result.summary, request.deployment + "/" + scenario.map, *request.log_folder);
+  }
+  return result;
+}
+
+std::string Line(const LockstepResult& result) {
+  const Summary& s = result.summary;
+  return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  lateral {:+.3f} m  {:5.1f} s  {:4.1f}x  {}",
+                     s.seed, s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m,
+                     s.lateral_at_door_m.value_or(NAN), s.duration_s, s.realtime_factor,
+                     s.passed ? "" : result.reason);
+}
+
+void WriteJson(const std::string& file, const nlohmann::json& json) {
+  std::ofstream out(file);
+  out << json.dump(2) << "\n";
+  if (!out) throw std::runtime_error(file + ": cannot be written");
+}
+
+int Run(const LockstepOptions& options) {
+  const bus::Schema schema = bus::OwnTypes();
+  nlohmann::json all = nlohmann::json::array();
+  int passed = 0, contacts = 0;
+  for (int i = 0; i < options.runs; ++i) {
+    const auto result = RunOne(schema, options, options.request.seed + static_cast<std::uint64_t>(i));
+    passed += result.summary.passed;
+    contacts += result.summary.contacts;
+    all.push_back(ToJson(result.summary));
+    std::cout << Line(result) << std::endl;
+    if (options.runs == 1) PrintSummary(std::cout, result.summary);
+  }
+  if (!options.json_file.empty()) WriteJson(options.json_file, options.runs == 1 ? all[0] : all);
+  if (options.runs > 1)
+    std::cout << fmt::format("{} of {} passed, {} contacts\n", passed, options.runs, contacts);
+  return passed == options.runs && contacts == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void AddLockstepCommand(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<LockstepOptions>();
+  auto* verb = cli.add_subcommand(
+      "lockstep",
+      "Run a scenario in one process on simulated time: same seed, same bytes, faster than real time.");
+  verb->footer("Example: priamos lockstep --scenario door --seed 1 --runs 100 --json runs.json");
+  verb->add_option("--scenario", options->request.scenario, "a file of the deployment's scenarios/")
+      ->capture_default_str();
+  verb->add_option("--seed", options->request.seed, "first seed")->capture_default_str();
+  verb->add_option("--runs", options->runs, "number of runs, each with the next seed")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--json", options->json_file,
+                   "write the summary (an array of them for several runs) there");
+  verb->add_option("--logs", options->log_root,
+                   "write logs and report of each run into a folder per seed there");
+  verb->add_option("--deployment", options->request.deployment, "folder of configurations")
+      ->capture_default_str();
+  verb->add_flag("--verbose", options->verbose, "one line per phase");
+  verb->callback([options, &exit_code] { exit_code = Run(*options); });
+}
+
+}  // namespace priamos::cli

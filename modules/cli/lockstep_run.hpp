@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "bus/schema/schema.hpp"
+#include "cli/report_summary.hpp"
+#include "cli/run_recorder.hpp"
+#include "cli/scenario.hpp"
+
+namespace priamos::cli {
+
+struct LockstepRequest {
+  std::string deployment = "config/sim";
+  std::string scenario = "door";
+  std::uint64_t seed = 1;
+  std::optional<std::string> log_folder;                   ///< none: nothing is written
+  std::function<void(Time, const std::string&)> progress;  ///< simulated time since the start
+  std::function<void(std::string_view bus, Time, std::string_view channel, std::span<const std::byte>)> tap;
+};
+
+struct LockstepResult {
+  Summary summary;
+  RunRecord record;
+  std::string reason;  ///< the mission's last words
+};
+
+/// One scenario in lockstep. Throws ConfigError and what the Apps' start throws.
+LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& request);
+
+}  // namespace priamos::cli
