@@ -107,21 +107,29 @@ std::vector<std::vector<Pose2>> DoorPlanner::PassageCandidates(const DoorPlan& d
   return candidates;
 }
 
-DoorPath DoorPlanner::PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const {
+std::string DoorPlanner::RefuseDoor(const DoorPlan& door) const {
   if (door.opening_width_m < NeededWidth())
-    return Refused(fmt::format("door '{}' is too narrow: needs {:.2f} m, opening is {:.2f} m", door.name,
-                               NeededWidth(), door.opening_width_m));
+    return fmt::format("door '{}' is too narrow: needs {:.2f} m, opening is {:.2f} m", door.name,
+                       NeededWidth(), door.opening_width_m);
   if (door.opening_height_m < footprint_.height_m)
-    return Refused(fmt::format("door '{}' is too low: needs {:.2f} m, opening is {:.2f} m", door.name,
-                               footprint_.height_m, door.opening_height_m));
-  const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
-  if (door_from_start.x >= door.FrontX())
-    return Refused(fmt::format("the robot is {:.2f} m behind door '{}', not before it",
-                               door_from_start.x - door.FrontX(), door.name));
+    return fmt::format("door '{}' is too low: needs {:.2f} m, opening is {:.2f} m", door.name,
+                       footprint_.height_m, door.opening_height_m);
+  return "";
+}
+
+std::string DoorPlanner::RefuseStart(const DoorPlan& door, const Pose2& map_from_start) const {
+  const double beyond_m = (door.map_from_door().Inverse() * map_from_start).x - door.FrontX();
+  if (beyond_m >= 0)
+    return fmt::format("the robot is {:.2f} m behind door '{}', not before it", beyond_m, door.name);
   const auto nearest = obstacles_.NearestTo(footprint_.At(map_from_start));
-  if (nearest.distance_m <= 0) return Refused("the robot would already be in " + nearest.name);
+  return nearest.distance_m > 0 ? "" : "the robot would already be in " + nearest.name;
+}
+
+DoorPath DoorPlanner::PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const {
+  if (auto reason = RefuseDoor(door); !reason.empty()) return Refused(std::move(reason));
+  if (auto reason = RefuseStart(door, map_from_start); !reason.empty()) return Refused(std::move(reason));
   DoorPath first_refusal;
-  for (auto& candidate : PassageCandidates(door, door_from_start)) {
+  for (auto& candidate : PassageCandidates(door, door.map_from_door().Inverse() * map_from_start)) {
     DoorPath path = Check(map_from_start, std::move(candidate), 1);
     if (path.ok()) return path;
     if (first_refusal.ok()) first_refusal = std::move(path);
@@ -130,12 +138,8 @@ DoorPath DoorPlanner::PlanPassage(const DoorPlan& door, const Pose2& map_from_st
 }
 
 DoorPath DoorPlanner::PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const {
+  if (auto reason = RefuseStart(door, map_from_start); !reason.empty()) return Refused(std::move(reason));
   const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
-  if (door_from_start.x >= door.FrontX())
-    return Refused(fmt::format("the robot is {:.2f} m behind door '{}', not before it",
-                               door_from_start.x - door.FrontX(), door.name));
-  const auto nearest = obstacles_.NearestTo(footprint_.At(map_from_start));
-  if (nearest.distance_m <= 0) return Refused("the robot would already be in " + nearest.name);
   const double hold_x = HoldX(door), approach_x = std::min(-config_.approach_m, hold_x);
   std::vector<Pose2> points;
   if (approach_x - door_from_start.x >= kHereM)

@@ -41,6 +41,9 @@ class DoorPlanner {
  public:
   DoorPlanner(const DoorPlannerConfig& config, const Footprint& footprint, const GroundPlan& plan);
 
+  /// Why no path can lead through this door, wherever the robot stands; empty when it fits.
+  std::string RefuseDoor(const DoorPlan& door) const;
+
   /// From `start` through the door. Tried in this order: straight to a place on the axis before the door
   /// (the farther from it the better), a side-step, backing off first.
   DoorPath PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const;
@@ -57,6 +60,7 @@ class DoorPlanner {
   double NeededWidth() const { return footprint_.width_m + 2 * config_.door_margin_m; }
 
  private:
+  std::string RefuseStart(const DoorPlan& door, const Pose2& map_from_start) const;
   struct Sweep {
     double min_gap_m = 0;
     std::string obstacle;
