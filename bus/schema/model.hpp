@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -91,6 +92,8 @@ struct Constant {
   int line = 0;
 };
 
+struct WalkPlan;
+
 struct Struct {
   std::string package;    ///< "" when the file has none
   std::string name;       ///< without the package
@@ -100,7 +103,8 @@ struct Struct {
   int line = 0;
   std::vector<Constant> constants;
   std::vector<Field> fields;
-  std::uint64_t fingerprint = 0;  ///< LCM's hash of the type, set by Schema
+  std::uint64_t fingerprint = 0;              ///< LCM's hash of the type, set by Schema
+  std::shared_ptr<const WalkPlan> walk_plan;  ///< how Walk checks a message, set by Schema
 
   /// Begin of every error message about this struct: "file:line: type.field: ".
   std::string Where(const Field& field) const;

@@ -10,6 +10,7 @@
 
 #include "bus/schema/fingerprint.hpp"
 #include "bus/schema/lcm_parser.hpp"
+#include "bus/schema/walk_plan.hpp"
 
 namespace priamos::bus {
 
@@ -32,6 +33,7 @@ void Schema::Build(const std::vector<Source>& sources, std::vector<std::string>*
   }
   Resolve(problems);
   ComputeFingerprints(problems);
+  for (auto& [name, type] : types_) type->walk_plan = std::make_shared<const WalkPlan>(MakeWalkPlan(*type));
 }
 
 void Schema::Insert(Struct type) {
