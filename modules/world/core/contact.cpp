@@ -1,0 +1,47 @@
+#include "world/core/contact.hpp"
+
+#include <algorithm>
+
+namespace priamos::world {
+
+Clearance::Clearance(const Body& body, const std::vector<Solid>& solids) : body_(body) {
+  for (const auto& solid : solids)
+    if (Overlaps(solid, body.low_m, body.high_m)) obstacles_.push_back(GroundPlan(solid));
+}
+
+double Clearance::Gap(const Pose2& pose, double limit_m) const {
+  const Rectangle footprint(pose, body_.size_m);
+  const double radius = footprint.Radius();
+  double nearest = limit_m;
+  for (const auto& obstacle : obstacles_) {
+    // The circle around the footprint gives a lower bound that is cheaper than the distance.
+    if (Distance(obstacle, footprint.centre) - radius < nearest)
+      nearest = std::min(nearest, Distance(footprint, obstacle));
+  }
+  return nearest;
+}
+
+double Clearance::FreePart(const Pose2& from, const Pose2& to) const {
+  const auto free = [&](double part) {
+    const Pose2 pose{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
+                     from.yaw + part * WrapAngle(to.yaw - from.yaw)};
+    return Gap(pose, 1) > 0;
+  };
+  if (free(1)) return 1;
+  double low = 0, high = 1;
+  // 2^-10 of a step of millimetres is far below anything that is reported.
+  for (int i = 0; i < 10; ++i) (free((low + high) / 2) ? low : high) = (low + high) / 2;
+  return low;
+}
+
+void ContactCounter::Update(double gap_m) {
+  min_gap_m_ = std::min(min_gap_m_, gap_m);
+  if (!touching_ && gap_m < begin_m_) {
+    touching_ = true;
+    ++contacts_;
+  } else if (touching_ && gap_m > end_m_) {
+    touching_ = false;
+  }
+}
+
+}  // namespace priamos::world

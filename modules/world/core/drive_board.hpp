@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "common/config.hpp"
+#include "common/random.hpp"
+#include "common/time.hpp"
+
+namespace priamos::world {
+
+/// One value per wheel: front left, front right, rear left, rear right; positive drives forward.
+using PerWheel = std::array<double, 4>;
+
+/// The board with the four speed controllers, gears and encoders.
+struct DriveBoardConfig {
+  double max_speed_rad_s = 12;
+  double acceleration_rad_s2 = 15;
+  double braking_rad_s2 = 30;
+  double lag_s = 0.04;
+  double deadline_s = 0.2;
+  int ticks_per_turn = 4096;
+  double encoder_noise_ticks = 0.7;
+
+  void Describe(Archive& a);
+};
+
+/// What the encoders say.
+struct WheelReading {
+  std::array<std::int32_t, 4> position_ticks{};  ///< since power-on, wraps around
+  bool deadline_stopped = true;
+};
+
+/// Four wheel drives: the set value runs along a ramp, the wheel follows the ramp with a first-order lag.
+/// Before the first command, and when none came for the deadline, the set value is 0 and the ramp steeper:
+/// this is the board's own safety, independent of everything that sends commands.
+class DriveBoard {
+ public:
+  DriveBoard(const DriveBoardConfig& config, Rng rng) : config_(config), rng_(rng) {}
+
+  /// A command arrived. Speeds beyond the limit are clamped. A command that is not finite is refused as a
+  /// whole and does not feed the deadline; returns whether it was taken.
+  bool Command(Time arrival, const PerWheel& speed_rad_s);
+  /// Advances by one physics step that ends at `now`.
+  void Step(Time now, Duration step);
+
+  const PerWheel& speed_rad_s() const { return speed_rad_s_; }
+  /// Counts as an encoder read now would give them: whole ticks, with the jitter of the pulse edges.
+  WheelReading Read();
+
+ private:
+  bool Silent(Time now) const;
+
+  DriveBoardConfig config_;
+  Rng rng_;
+  std::optional<Time> last_command_;
+  PerWheel set_rad_s_{}, ramp_rad_s_{}, speed_rad_s_{}, turned_rad_{};
+  bool deadline_stopped_ = true;
+};
+
+}  // namespace priamos::world
