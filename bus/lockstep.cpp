@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 
 #include "common/serial_port.hpp"
@@ -97,7 +96,7 @@ Surroundings Lockstep::SurroundingsOf(const AppFactory& factory, const Host& hos
   Surroundings around;
   // Unique on this machine, so that runs side by side do not share a frame store.
   around.instance = fmt::format("lockstep-{}-{}-{}", getpid(), static_cast<const void*>(this), host.name);
-  around.config_dir = std::filesystem::absolute(source.path).parent_path().string();
+  around.config_dir = source.Folder();
   around.seed = options_.seed;
   around.lockstep = true;
   around.log = [this, name = factory.name](Level level, std::string_view text) {

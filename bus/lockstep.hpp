@@ -24,7 +24,8 @@ class Lockstep {
   struct Options {
     std::uint64_t seed = 0;
     Time start = FromUtime(1'000'000'000);
-    std::function<void(Time, std::string_view process, Level, std::string_view text)> log;  ///< none: silent
+    std::function<void(Time, std::string_view process, Level, std::string_view text)>
+        log{};  ///< none: silent
   };
 
   Lockstep(const Schema& schema, Options options);

@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 
 #include "bus/app_host.hpp"
@@ -81,8 +80,7 @@ std::string InstanceOf(const std::string& bus) {
 Surroundings MakeSurroundings(const AppFactory& factory, const Options& options) {
   Surroundings around;
   around.instance = InstanceOf(options.bus);
-  if (!options.config.path.empty())
-    around.config_dir = std::filesystem::absolute(options.config.path).parent_path().string();
+  around.config_dir = options.config.Folder();
   around.seed = options.seed;
   around.log = MakeLog(factory.name);
   around.open_serial = [](const std::string& path, int baud) { return OpenSerialPort(path, baud); };

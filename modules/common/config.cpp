@@ -294,6 +294,10 @@ class Printer : public Archive {
 
 }  // namespace
 
+std::string ConfigSource::Folder() const {
+  return path.empty() ? "." : std::filesystem::absolute(path).parent_path().string();
+}
+
 ConfigFile::ConfigFile(const ConfigSource& source)
     : reader_(std::make_unique<Reader>(source.path.empty() ? "command line" : source.path,
                                        ParseSource(source))) {}

@@ -78,6 +78,9 @@ struct ConfigSource {
   std::string path;
   std::vector<std::string>
       overrides;  ///< `key = value` as TOML, dotted keys for sections; a bare word is a string
+
+  /// Where relative file names in the configuration start; the working directory when there is no file.
+  std::string Folder() const;
 };
 
 /// A TOML file being read into a struct.
