@@ -155,7 +155,7 @@ class Node {
 /// Throws std::runtime_error when `bytes` is not a whole T.
 template <class T>
 T Decode(std::span<const std::byte> bytes) {
-  T message;
+  T message{};
   if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) != static_cast<int>(bytes.size()))
     throw std::runtime_error("not decodable");
   return message;
