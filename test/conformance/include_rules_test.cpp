@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <regex>
+#include <sstream>
+
+// Who may include whom: the rule that keeps the architecture readable from the folders (README.md).
+
+namespace priamos {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::vector<std::string> kModules{"robot", "head",   "planner", "radio",
+                                        "world", "teleop", "console", "cli"};
+
+bool IsModule(const std::string& name) {
+  return std::find(kModules.begin(), kModules.end(), name) != kModules.end();
+}
+
+/// The room a file or an include belongs to: "lcmtypes", "common", "bus", "robot/core", "robot" ...
+std::optional<std::string> RoomOf(const std::string& path) {
+  static const std::regex kModuleFile(R"((?:modules/)?([a-z]+)/(core/)?.*)");
+  if (path.starts_with("lcmtypes/") || path.starts_with("priamos/")) return "lcmtypes";
+  if (path.starts_with("bus/")) return "bus";
+  if (path.starts_with("common/") || path.starts_with("modules/common/")) return "common";
+  std::smatch m;
+  if (!std::regex_match(path, m, kModuleFile) || !IsModule(m[1])) return std::nullopt;
+  return m[2].matched ? m[1].str() + "/core" : m[1].str();
+}
+
+bool Allowed(const std::string& from, const std::string& to) {
+  if (from == to || to == "common") return from != "lcmtypes" || to == "lcmtypes";
+  if (from == "lcmtypes" || from == "common") return false;
+  if (from == "bus") return to == "lcmtypes";
+  if (from.ends_with("/core")) return false;
+  if (to == "bus" || to == "lcmtypes") return true;
+  if (to == from + "/core") return true;
+  // The command line is where modules come together: it may start any module's App, and nothing else of it.
+  return from == "cli" && !to.ends_with("/core");
+}
+
+/// Third-party headers a room must not see; everything in `only` may stand in the named rooms alone.
+bool LibraryAllowed(const std::string& from, const std::string& file, const std::string& header) {
+  const auto in = [&](std::initializer_list<const char*> rooms) {
+    return std::any_of(rooms.begin(), rooms.end(), [&](const char* r) { return from == r; });
+  };
+  if (header.starts_with("opencv2/")) return in({"head/core", "world/core", "head", "world", "cli"});
+  if (header.starts_with("mrpt/")) return from.ends_with("/core");
+  if (header.starts_with("ceres/")) return in({"head/core"});
+  if (header.starts_with("lcm/")) return file == "bus/lcm_bus.cpp";
+  if (header.starts_with("sodium")) return in({"bus", "cli"});
+  if (header.starts_with("toml++/")) return file == "modules/common/config.cpp";
+  return true;
+}
+
+std::vector<std::string> Violations(const std::string& file, const std::string& text) {
+  static const std::regex kInclude(R"re(#include\s+(["<])([^">]+)[">])re");
+  std::vector<std::string> found;
+  const auto from = RoomOf(file);
+  if (!from) return found;
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), kInclude); it != std::sregex_iterator();
+       ++it) {
+    const std::string header = (*it)[2];
+    const auto to = (*it)[1] == "\"" ? RoomOf(header) : std::nullopt;
+    if (to && !Allowed(*from, *to))
+      found.push_back(fmt::format("{}: {} must not include {}", file, *from, header));
+    if (!to && !LibraryAllowed(*from, file, header))
+      found.push_back(fmt::format("{}: {} must not use <{}>", file, *from, header));
+  }
+  return found;
+}
+
+std::string Read(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST(IncludeRules, HoldInEverySourceFile) {
+  const fs::path root = PRIAMOS_SOURCE_DIR;
+  std::vector<std::string> found;
+  int files = 0;
+  for (const char* folder : {"lcmtypes", "bus", "modules"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const auto extension = entry.path().extension();
+      if (extension != ".hpp" && extension != ".cpp") continue;
+      ++files;
+      const auto more = Violations(fs::relative(entry.path(), root).string(), Read(entry.path()));
+      found.insert(found.end(), more.begin(), more.end());
+    }
+  }
+  EXPECT_GT(files, 50);
+  EXPECT_THAT(found, IsEmpty());
+}
+
+TEST(IncludeRules, AModuleMayNotIncludeAnother) {
+  EXPECT_THAT(Violations("modules/robot/robot_app.cpp", "#include \"head/core/x.hpp\"\n"),
+              testing::ElementsAre(HasSubstr("must not include head/core/x.hpp")));
+}
+
+TEST(IncludeRules, ACoreMayNotIncludeTheBusOrMessages) {
+  EXPECT_EQ(Violations("modules/robot/core/x.hpp", "#include \"bus/node.hpp\"\n").size(), 1u);
+  EXPECT_EQ(Violations("modules/robot/core/x.hpp", "#include \"lcmtypes/channels.hpp\"\n").size(), 1u);
+  EXPECT_EQ(Violations("modules/robot/core/x.hpp", "#include \"priamos/pose_t.hpp\"\n").size(), 1u);
+}
+
+TEST(IncludeRules, TheBusKnowsNoRobot) {
+  EXPECT_EQ(Violations("bus/node.hpp", "#include \"robot/core/x.hpp\"\n").size(), 1u);
+}
+
+TEST(IncludeRules, OnlyOneFileCallsLiblcm) {
+  EXPECT_EQ(Violations("bus/node.cpp", "#include <lcm/lcm.h>\n").size(), 1u);
+  EXPECT_THAT(Violations("bus/lcm_bus.cpp", "#include <lcm/lcm.h>\n"), IsEmpty());
+}
+
+TEST(IncludeRules, ShellsMayUseTheirCoreTheBusAndMessages) {
+  EXPECT_THAT(
+      Violations(
+          "modules/robot/robot_app.hpp",
+          "#include \"bus/context.hpp\"\n#include \"robot/core/x.hpp\"\n#include \"lcmtypes/channels.hpp\"\n"
+          "#include \"common/time.hpp\"\n"),
+      IsEmpty());
+}
+
+}  // namespace
+}  // namespace priamos
