@@ -33,16 +33,17 @@ AcousticScene::AcousticScene(const std::vector<Solid>& solids, double height_m, 
     const auto known = std::find_if(materials_.begin(), materials_.end(),
                                     [&](const EchoMaterial& m) { return m.material == solid.material; });
     const auto index = known == materials_.end() ? 0 : static_cast<std::size_t>(known - materials_.begin());
-    obstacles_.push_back({GroundPlan(solid), index});
+    const Rectangle outline = OutlineOf(solid);
+    obstacles_.push_back({outline, RayTarget(outline), index});
   }
   FindEdges();
 }
 
 void AcousticScene::FindEdges() {
   for (const auto& obstacle : obstacles_) {
-    for (const auto& corner : obstacle.rectangle.Corners()) {
+    for (const auto& corner : obstacle.outline.Corners()) {
       const bool covered = std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& other) {
-        return &other != &obstacle && Distance(other.rectangle, corner) < kJointM;
+        return &other != &obstacle && Distance(other.outline, corner) < kJointM;
       });
       if (!covered) edges_.push_back({corner});
     }
@@ -55,7 +56,7 @@ std::optional<AcousticScene::Hit> AcousticScene::Nearest(const Eigen::Vector2d& 
   std::optional<Hit> nearest;
   for (const auto& obstacle : obstacles_) {
     const double limit = nearest ? nearest->distance_m : max_m;
-    const auto hit = CastRay(obstacle.rectangle, origin, direction, limit);
+    const auto hit = CastRay(obstacle.target, origin, direction, limit);
     if (hit)
       nearest = Hit{hit->distance_m, origin + direction * hit->distance_m, hit->normal,
                     &materials_[obstacle.material]};

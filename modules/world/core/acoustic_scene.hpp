@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/config.hpp"
-#include "world/core/rectangle.hpp"
+#include "world/core/outline.hpp"
 #include "world/core/solid.hpp"
 
 namespace priamos::world {
@@ -49,7 +49,8 @@ class AcousticScene {
 
  private:
   struct Obstacle {
-    Rectangle rectangle;
+    Rectangle outline;
+    RayTarget target;
     std::size_t material;
   };
   void FindEdges();

@@ -2,20 +2,22 @@
 
 #include <algorithm>
 
+#include "world/core/outline.hpp"
+
 namespace priamos::world {
 
 Clearance::Clearance(const Body& body, const std::vector<Solid>& solids) : body_(body) {
   for (const auto& solid : solids)
-    if (Overlaps(solid, body.low_m, body.high_m)) obstacles_.push_back(GroundPlan(solid));
+    if (Overlaps(solid, body.low_m, body.high_m)) obstacles_.push_back(OutlineOf(solid));
 }
 
 double Clearance::Gap(const Pose2& pose, double limit_m) const {
-  const Rectangle footprint(pose, body_.size_m);
-  const double radius = footprint.Radius();
+  const Rectangle footprint{pose, body_.size_m / 2};
+  const double radius = footprint.half_m.norm();
   double nearest = limit_m;
   for (const auto& obstacle : obstacles_) {
     // The circle around the footprint gives a lower bound that is cheaper than the distance.
-    if (Distance(obstacle, footprint.centre) - radius < nearest)
+    if (Distance(obstacle, pose.translation()) - radius < nearest)
       nearest = std::min(nearest, Distance(footprint, obstacle));
   }
   return nearest;

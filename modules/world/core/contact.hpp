@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/geometry.hpp"
-#include "world/core/rectangle.hpp"
+#include "common/rectangle.hpp"
 #include "world/core/solid.hpp"
 
 namespace priamos::world {

@@ -1,6 +1,9 @@
 #include "world/core/contact.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
 
 namespace priamos::world {
 namespace {
@@ -29,6 +32,37 @@ TEST(ClearanceTest, ThresholdAndLintelAreOutOfReach) {
 TEST(ClearanceTest, TableTopAtRobotHeightIsNot) {
   const Clearance dut(Body{}, {Box({0, 0, 0}, {0.2, 1}, 0.7, 0.75)});
   EXPECT_EQ(dut.Gap({0, 0, 0}, 10), 0);
+}
+
+/// Gap by walking over the outlines of footprint and solids in steps of `spacing`, which bounds its error.
+double BruteForceGap(const Pose2& pose, const Body& body, const std::vector<Solid>& solids, double spacing) {
+  double nearest = 10;
+  const Rectangle footprint{pose, body.size_m / 2};
+  for (const auto& solid : solids) {
+    const Rectangle other{solid.map_from_solid, solid.size_m / 2};
+    nearest = std::min({nearest, Distance(other, pose.translation()),
+                        Distance(footprint, solid.map_from_solid.translation())});
+    const auto corners = footprint.Corners();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector2d way = corners[(i + 1) % 4] - corners[i];
+      const int n = static_cast<int>(way.norm() / spacing) + 1;
+      for (int k = 0; k <= n; ++k) nearest = std::min(nearest, Distance(other, corners[i] + way * k / n));
+    }
+  }
+  return nearest;
+}
+
+RC_GTEST_PROP(ClearanceProperty, GapEqualsBruteForce, ()) {
+  const auto value = [](int low, int high) { return *rc::gen::inRange(low, high) / 100.0; };
+  std::vector<Solid> solids;
+  for (int i = 0; i < 5; ++i)
+    solids.push_back(
+        Box({value(-400, 400), value(-400, 400), value(-314, 314)}, {value(2, 200), value(2, 200)}));
+  const Pose2 pose{value(-200, 200), value(-200, 200), value(-314, 314)};
+  const double gap = Clearance(Body{}, solids).Gap(pose, 10);
+  const double expected = BruteForceGap(pose, Body{}, solids, 0.004);
+  RC_ASSERT(gap <= expected + 1e-9);
+  RC_ASSERT(gap >= expected - 0.004);
 }
 
 TEST(ClearanceTest, FreePartEndsAtTheObstacle) {

@@ -46,10 +46,10 @@ TEST(BaseFromSonarTest, FirstLooksAheadThenCounterClockwise) {
 }
 
 TEST(BaseFromSonarTest, EverySensorSitsOnTheOutline) {
-  const Rectangle footprint({0, 0, 0}, kFootprint);
+  const Rectangle footprint{{0, 0, 0}, kFootprint / 2};
   for (int i = 0; i < kSonars; ++i) {
     const Eigen::Vector2d at = BaseFromSonar(i, kFootprint).translation();
-    EXPECT_NEAR((footprint.ToLocal(at).cwiseAbs() - footprint.half).maxCoeff(), 0, 1e-12) << i;
+    EXPECT_NEAR((footprint.ToLocal(at).cwiseAbs() - footprint.half_m).maxCoeff(), 0, 1e-12) << i;
   }
 }
 
@@ -135,7 +135,7 @@ RC_GTEST_PROP(PingProperty, NoEchoIsNearerThanTheNearestSolid, ()) {
                          {metres(5, 200), metres(5, 200)}, i % 2 ? "fabric" : "plaster"));
   double nearest = 1e9;
   for (const auto& solid : solids)
-    nearest = std::min(nearest, Distance(GroundPlan(solid), Eigen::Vector2d(0, 0)));
+    nearest = std::min(nearest, Distance(OutlineOf(solid), Eigen::Vector2d(0, 0)));
   RC_PRE(nearest > 0.01);
   for (int i = 0; i < kSonars; ++i) {
     const auto range = Range(SceneOf(solids), {0, 0, 2 * kPi * i / kSonars});
