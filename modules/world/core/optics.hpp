@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
@@ -44,7 +45,6 @@ struct HeadBuild {
   double tilt_axis_x_m = 0, tilt_axis_z_m = 0;           ///< tilt axis on the pan platform
   double tilt_axis_roll_rad = 0, tilt_axis_yaw_rad = 0;  ///< its skew against the pan axis
   std::array<CameraBuild, kCameras> cameras = NominalCameras();
-  double third_focal_px = 900;  ///< the third camera is passive: its lens is fixed
 
   void Describe(Archive& a);
   static std::array<CameraBuild, kCameras> NominalCameras();

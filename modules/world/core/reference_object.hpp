@@ -10,30 +10,29 @@ namespace priamos::world {
 
 /// One retro-reflective disc of the calibration body.
 struct ReferenceDisc {
-  double x_m = 0, y_m = 0, z_m = 0;  ///< centre, in the frame of the object
-  double normal_x = 1, normal_y = 0, normal_z = 0;
-  double radius_m = 0.016;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< out of the visible side
+  double radius_m = 0.02;
 
   void Describe(Archive& a);
 };
 
-/// One dark block of its body.
+/// One black block of its body.
 struct ReferenceBlock {
-  double x_min_m = 0, y_min_m = 0, z_min_m = 0, x_max_m = 0.03, y_max_m = 0, z_max_m = 0;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d size_m = Eigen::Vector3d::Constant(0.1);
 
   void Describe(Archive& a);
 };
 
-/// The reference object of figures 3 and 4: a black body 60 cm wide, 50 cm high and 25 cm deep with 16
-/// retro-reflective discs at four depths. Frame: origin in the middle of its back, x out of the front towards
-/// the viewer, z up (so y is to the viewer's right).
+/// The reference object of figures 3 and 4 of the paper, as config/sim/reference_object.toml gives it: frame
+/// with x out of the front towards the viewer, z up.
 struct ReferenceObject {
-  std::vector<ReferenceDisc> discs = StandardDiscs();
-  std::vector<ReferenceBlock> blocks = StandardBlocks();
+  std::string name;
+  std::vector<ReferenceDisc> discs;
+  std::vector<ReferenceBlock> blocks;
 
   void Describe(Archive& a);
-  static std::vector<ReferenceDisc> StandardDiscs();
-  static std::vector<ReferenceBlock> StandardBlocks();
 };
 
 /// Where it stands.

@@ -9,17 +9,21 @@ namespace priamos::world {
 
 /// Room and light around the solids.
 struct SceneConfig {
-  double ceiling_m = 2.8;                                       ///< height of the ceiling
-  double x_min_m = -8, x_max_m = 8, y_min_m = -6, y_max_m = 6;  ///< extent of floor and ceiling in the map
-  std::string floor = "lino";                                   ///< material
-  double brightness = 1.0;                                      ///< of all lamps together
-  double ambient = 0.45;                              ///< share of the light that comes from everywhere
-  double lamp_x = 0.45, lamp_y = 0.3, lamp_z = 0.84;  ///< direction towards the main light
+  double x_min_m = -8, x_max_m = 8, y_min_m = -6, y_max_m = 6;  ///< floor and ceiling, map
+  double ceiling_m = 2.8;
+  std::string floor = "lino";
+  double brightness = 1.2;     ///< of all light together
+  double ambient = 0.35;       ///< share of the light that comes from everywhere
+  double window = 0.3;         ///< share that comes from the windows, the rest from ceiling lamps
+  double window_yaw_deg = 60;  ///< map direction towards the windows
+  double window_elevation_deg = 20;
+  double lamp_spacing_m = 2.4;  ///< grid of lamps under the ceiling
 
   void Describe(Archive& a);
 };
 
-/// Every material a Solid may have.
+/// Every material a Solid may have: how it looks. Front and back of a "poster", a "door_leaf" and a
+/// "cupboard" show one picture each; the others are covered evenly.
 const std::vector<std::string>& MaterialNames();
 
 }  // namespace priamos::world

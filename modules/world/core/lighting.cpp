@@ -1,0 +1,129 @@
+#include "world/core/lighting.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "common/geometry.hpp"
+
+namespace priamos::world {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSkin_m = 1e-3;         // a ray leaves its surface by this much before it can hit
+constexpr double kAmbientReach_m = 1.2;  // things farther away do not shade the ambient light
+constexpr int kAmbientRays = 16;
+constexpr double kLampReach_m = 6.0;
+constexpr double kLampPower = 12;  // makes a wall between two lamps about 1
+
+/// Directions about +z, denser around it as the cosine law weighs them.
+std::array<Vector3d, kAmbientRays> CosineDirections() {
+  std::array<Vector3d, kAmbientRays> directions;
+  for (int i = 0; i < kAmbientRays; ++i) {
+    const double sin2 = (i + 0.5) / kAmbientRays, azimuth = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(sin2);
+    directions[i] = {r * std::cos(azimuth), r * std::sin(azimuth), std::sqrt(1 - sin2)};
+  }
+  return directions;
+}
+
+/// Entry distance of a ray into the box |x_i| <= half_i; a ray that starts inside does not see the box.
+double Entry(const Vector3d& origin, const Vector3d& direction, const Vector3d& half) {
+  double near = -1e9, far = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(direction[i]) < 1e-12) {
+      if (std::abs(origin[i]) > half[i]) return -1;
+      continue;
+    }
+    const double inverse = 1 / direction[i];
+    const double a = (-half[i] - origin[i]) * inverse, b = (half[i] - origin[i]) * inverse;
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
+  }
+  return near <= far ? near : -1;
+}
+
+}  // namespace
+
+Lighting::Lighting(const SceneConfig& config, const std::vector<Solid>& solids) : config_(config) {
+  for (const Solid& s : solids) {
+    const double half_z = (s.z_max_m - s.z_min_m) / 2;
+    boxes_.push_back({std::cos(s.map_from_solid.yaw),
+                      std::sin(s.map_from_solid.yaw),
+                      {s.map_from_solid.x, s.map_from_solid.y, s.z_min_m + half_z},
+                      {s.size_m.x() / 2, s.size_m.y() / 2, half_z}});
+  }
+  const double step = config.lamp_spacing_m;
+  for (double x = config.x_min_m + step / 2; x < config.x_max_m; x += step) {
+    for (double y = config.y_min_m + step / 2; y < config.y_max_m; y += step) {
+      lamps_.emplace_back(x, y, config.ceiling_m - 0.1);
+    }
+  }
+  const double yaw = Radians(config.window_yaw_deg), up = Radians(config.window_elevation_deg);
+  window_ = {std::cos(up) * std::cos(yaw), std::cos(up) * std::sin(yaw), std::sin(up)};
+}
+
+double Lighting::Hit(const Vector3d& origin, const Vector3d& direction, double max_m) const {
+  double nearest = max_m;
+  for (const Box& box : boxes_) {
+    const Vector3d d = origin - box.centre;
+    // A cheap miss first: most boxes are not near the ray.
+    const double along = d.dot(direction), radius2 = box.half.squaredNorm();
+    if (d.squaredNorm() - along * along > radius2) continue;
+    const Vector3d local_origin(box.c * d.x() + box.s * d.y(), -box.s * d.x() + box.c * d.y(), d.z());
+    const Vector3d local_direction(box.c * direction.x() + box.s * direction.y(),
+                                   -box.s * direction.x() + box.c * direction.y(), direction.z());
+    const double t = Entry(local_origin, local_direction, box.half);
+    if (t > kSkin_m && t < nearest) nearest = t;
+  }
+  return nearest;
+}
+
+double Lighting::Distance(const Vector3d& origin, const Vector3d& direction, double max_m) const {
+  double nearest = Hit(origin, direction, max_m);
+  if (direction.z() < -1e-9) nearest = std::min(nearest, -origin.z() / direction.z());
+  if (direction.z() > 1e-9) nearest = std::min(nearest, (config_.ceiling_m - origin.z()) / direction.z());
+  return std::max(nearest, 0.0);
+}
+
+double Lighting::Ambient(const Vector3d& point, const Vector3d& normal) const {
+  static const std::array<Vector3d, kAmbientRays> kDirections = CosineDirections();
+  const Vector3d u =
+      (std::abs(normal.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX()).cross(normal).normalized();
+  const Vector3d v = normal.cross(u);
+  double open = 0;
+  for (const Vector3d& d : kDirections) {
+    const Vector3d direction = d.x() * u + d.y() * v + d.z() * normal;
+    open += std::min(Distance(point, direction, kAmbientReach_m) / kAmbientReach_m, 1.0);
+  }
+  return 0.25 + 0.75 * open / kAmbientRays;  // what hides the room still reflects some of its light
+}
+
+double Lighting::Lamps(const Vector3d& point, const Vector3d& normal) const {
+  double sum = 0;
+  for (const Vector3d& lamp : lamps_) {
+    const Vector3d to_lamp = lamp - point;
+    const double distance = to_lamp.norm();
+    if (distance > kLampReach_m || distance < 1e-6) continue;
+    const Vector3d direction = to_lamp / distance;
+    // A tube under a white ceiling shines sideways too; the offset softens the spot right above.
+    const double emitted =
+        (0.35 + 0.65 * direction.z()) * normal.dot(direction) / (distance * distance + 0.5);
+    if (emitted <= 0 || Hit(point, direction, distance) < distance) continue;
+    sum += emitted * (1 - distance / kLampReach_m);
+  }
+  return kLampPower * sum;
+}
+
+double Lighting::At(const Vector3d& point, const Vector3d& normal) const {
+  const double ambient = Ambient(point, normal);
+  const double window = ambient * 1.4 * std::pow(0.5 + 0.5 * normal.dot(window_), 2.0);
+  const double lamps = 1 - config_.ambient - config_.window;
+  return config_.brightness *
+         (config_.ambient * ambient + config_.window * window + lamps * std::min(Lamps(point, normal), 2.0));
+}
+
+}  // namespace priamos::world
