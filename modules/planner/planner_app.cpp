@@ -1,0 +1,73 @@
+#include "planner/planner_app.hpp"
+
+#include <fmt/format.h>
+
+#include "planner/planner_messages.hpp"
+
+namespace priamos::planner {
+
+PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context)
+    : config_(config),
+      context_(context),
+      mission_(config.mission, config.passage, config.footprint,
+               LoadConfig<GroundPlan>(context.ResolvePath(config.map))),
+      orders_(context.node().SubscribeAll(channels::kMissionCommand)),
+      poses_(context.node().Subscribe(channels::kPose)),
+      drive_(context.node().Subscribe(channels::kDriveStatus)),
+      fixes_(context.node().SubscribeAll(channels::kLandmarkFix)),
+      corrections_(context.node().SubscribeAll(channels::kPoseCorrection)),
+      link_(context.node().Subscribe(channels::kLinkStatus)),
+      model_(context.node().Advertise(channels::kLandmarkModel)),
+      look_(context.node().Advertise(channels::kLookRequest)),
+      path_(context.node().Advertise(channels::kPath)),
+      status_(context.node().Advertise(channels::kMissionStatus)) {}
+
+void PlannerApp::Tick(Time now) {
+  TakeReports(now);
+  TakeOrders(now);
+  Send(mission_.Tick(now), now);
+  SendStatus(now);
+}
+
+void PlannerApp::TakeOrders(Time now) {
+  for (const auto& order : orders_.Drain()) {
+    if (order.mission == mission_command_t::ABORT) {
+      mission_.Abort(now);
+    } else if (order.mission != mission_command_t::PASS_DOOR) {
+      context_.Log(bus::Level::kWarning, fmt::format("order refused: unknown mission {}", order.mission));
+    } else if (!mission_.Start(now, order.landmark_id)) {
+      context_.Log(bus::Level::kInfo, "order refused: a mission is being carried out");
+    }
+  }
+}
+
+void PlannerApp::TakeReports(Time now) {
+  const auto* link = link_.get();
+  mission_.OnLink(link && link->up && link_.Age(now) < channels::kLinkStatus.stale_after);
+  if (const auto pose = poses_.Take()) mission_.OnPose(FromMessage(*pose));
+  if (const auto drive = drive_.Take()) mission_.OnDrive(FromMessage(*drive), now);
+  for (const auto& fix : fixes_.Drain())
+    if (const auto failure = FromMessage(fix)) mission_.OnLook(*failure);
+  for (const auto& correction : corrections_.Drain()) {
+    mission_.OnLook(FromMessage(correction));
+    if (correction.verdict == pose_correction_t::APPLIED) mission_.OnCorrected(FromUtime(correction.utime));
+  }
+}
+
+void PlannerApp::Send(const MissionActions& actions, Time now) {
+  if (actions.model) model_.Publish(ToMessage(*actions.model));
+  if (actions.path) path_.Publish(ToMessage(*actions.path, now));
+  if (actions.look) look_.Publish(ToMessage(*actions.look, now));
+}
+
+void PlannerApp::SendStatus(Time now) {
+  const bool changed = !(mission_.state() == sent_state_);
+  const bool due = !status_sent_ || Seconds(now - *status_sent_) >= 1 / config_.status_rate_hz;
+  if (!changed && !due) return;
+  if (changed) context_.Log(bus::Level::kInfo, mission_.state().text);
+  status_.Publish(ToMessage(mission_.state(), now));
+  sent_state_ = mission_.state();
+  status_sent_ = now;
+}
+
+}  // namespace priamos::planner

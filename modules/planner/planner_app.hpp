@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "bus/context.hpp"
+#include "lcmtypes/channels.hpp"
+#include "planner/core/door_mission.hpp"
+#include "planner/planner_config.hpp"
+
+namespace priamos::planner {
+
+/// The workstation: carries out missions with what the radio brings. See README.md.
+class PlannerApp {
+ public:
+  static constexpr std::string_view kName = "planner";
+  static constexpr std::string_view kSummary =
+      "The robot's workstation: the building's map, and missions such as passing a door.";
+  using Config = PlannerConfig;
+
+  /// Throws ConfigError when the map cannot be used.
+  PlannerApp(const PlannerConfig& config, bus::Context& context);
+
+  Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
+  void Tick(Time now);
+
+ private:
+  void TakeOrders(Time now);
+  void TakeReports(Time now);
+  void Send(const MissionActions& actions, Time now);
+  void SendStatus(Time now);
+
+  PlannerConfig config_;
+  bus::Context& context_;
+  DoorMission mission_;
+
+  bus::Inbox<mission_command_t> orders_;
+  bus::Latest<pose_t> poses_;
+  bus::Latest<drive_status_t> drive_;
+  bus::Inbox<landmark_fix_t> fixes_;
+  bus::Inbox<pose_correction_t> corrections_;
+  bus::Latest<link_status_t> link_;
+  bus::Publisher<landmark_model_t> model_;
+  bus::Publisher<look_request_t> look_;
+  bus::Publisher<path_t> path_;
+  bus::Publisher<mission_status_t> status_;
+
+  MissionState sent_state_;
+  std::optional<Time> status_sent_;
+};
+
+}  // namespace priamos::planner

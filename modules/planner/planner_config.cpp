@@ -1,0 +1,14 @@
+#include "planner/planner_config.hpp"
+
+namespace priamos::planner {
+
+void PlannerConfig::Describe(Archive& a) {
+  a.Text("map", map, "ground plan, relative to the folder of this file");
+  a.Number("rate_hz", rate_hz, {"Hz", 1, 100, "decisions"});
+  a.Number("status_rate_hz", status_rate_hz, {"Hz", 0.2, 20, "MISSION_STATUS while nothing changes"});
+  a.Section("footprint", footprint, "the robot's body");
+  a.Section("passage", passage, "paths to a door and through it");
+  a.Section("mission", mission, "how the mission goes");
+}
+
+}  // namespace priamos::planner

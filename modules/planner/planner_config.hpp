@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "common/config.hpp"
+#include "planner/core/door_mission.hpp"
+#include "planner/core/door_planner.hpp"
+#include "planner/core/footprint.hpp"
+
+namespace priamos::planner {
+
+/// config/<deployment>/planner.toml
+struct PlannerConfig {
+  std::string map = "maps/door.toml";  ///< ground plan, relative to the folder of this file
+  double rate_hz = 20;                 ///< decisions
+  double status_rate_hz = 2;           ///< MISSION_STATUS while nothing changes
+  Footprint footprint;
+  DoorPlannerConfig passage;
+  DoorMissionConfig mission;
+
+  void Describe(Archive& a);
+};
+
+}  // namespace priamos::planner

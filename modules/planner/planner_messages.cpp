@@ -1,0 +1,190 @@
+#include "planner/planner_messages.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "common/covariance.hpp"
+
+namespace priamos::planner {
+namespace {
+
+constexpr std::size_t kMaxEdges = 24, kMaxPoints = 16, kMaxText = 100;
+
+DriveMode ModeOf(int mode) {
+  switch (mode) {
+    case drive_status_t::FOLLOWING:
+      return DriveMode::kFollowing;
+    case drive_status_t::ARRIVED:
+      return DriveMode::kArrived;
+    case drive_status_t::HOLDING:
+      return DriveMode::kHolding;
+    case drive_status_t::BLOCKED:
+      return DriveMode::kBlocked;
+    default:
+      return DriveMode::kIdle;
+  }
+}
+
+std::int8_t PhaseOf(Phase phase) {
+  switch (phase) {
+    case Phase::kWaiting:
+      return mission_status_t::WAITING;
+    case Phase::kApproaching:
+      return mission_status_t::APPROACHING;
+    case Phase::kLookingLeft:
+      return mission_status_t::LOOKING_LEFT;
+    case Phase::kLookingRight:
+      return mission_status_t::LOOKING_RIGHT;
+    case Phase::kPassing:
+      return mission_status_t::PASSING;
+    case Phase::kDone:
+      return mission_status_t::DONE;
+    case Phase::kFailed:
+      break;
+  }
+  return mission_status_t::FAILED;
+}
+
+landmark_edge_t ToMessage(const LandmarkEdge& edge) {
+  landmark_edge_t message{};
+  message.x1_m = edge.from.x();
+  message.y1_m = edge.from.y();
+  message.z1_m = edge.from.z();
+  message.x2_m = edge.to.x();
+  message.y2_m = edge.to.y();
+  message.z2_m = edge.to.z();
+  message.visible_from_rad = edge.visible_from_rad;
+  message.visible_to_rad = edge.visible_to_rad;
+  message.side = static_cast<std::int8_t>(edge.side);
+  return message;
+}
+
+}  // namespace
+
+RobotPose FromMessage(const pose_t& message) {
+  return {FromUtime(message.utime),
+          {message.x_m, message.y_m, message.yaw_rad},
+          {message.vx_m_s, message.vy_m_s, message.wz_rad_s},
+          ToCovariance({message.sigma_x_m, message.sigma_y_m, message.sigma_yaw_rad, message.rho_x_y,
+                        message.rho_x_yaw, message.rho_y_yaw})};
+}
+
+DriveReport FromMessage(const drive_status_t& message) {
+  return {ModeOf(message.mode), message.path_id, std::string(DriveLimitText(message.limit))};
+}
+
+std::optional<LookResult> FromMessage(const landmark_fix_t& message) {
+  if (message.verdict == landmark_fix_t::FOUND) return std::nullopt;
+  return LookResult{message.request_id, false, std::string(FixVerdictText(message.verdict))};
+}
+
+LookResult FromMessage(const pose_correction_t& message) {
+  const bool applied = message.verdict == pose_correction_t::APPLIED;
+  return {message.request_id, applied, applied ? "" : std::string(CorrectionVerdictText(message.verdict))};
+}
+
+landmark_model_t ToMessage(const Landmark& landmark) {
+  if (landmark.edges.size() > kMaxEdges) throw std::invalid_argument("a landmark has more than 24 edges");
+  landmark_model_t message{};
+  message.landmark_id = static_cast<std::int16_t>(landmark.id);
+  message.x_m = landmark.map_from_landmark.x;
+  message.y_m = landmark.map_from_landmark.y;
+  message.yaw_rad = landmark.map_from_landmark.yaw;
+  message.n_edges = static_cast<std::int8_t>(landmark.edges.size());
+  for (const LandmarkEdge& edge : landmark.edges) message.edges.push_back(ToMessage(edge));
+  return message;
+}
+
+path_t ToMessage(const PathOrder& path, Time now) {
+  if (path.points.size() > kMaxPoints) throw std::invalid_argument("a path has more than 16 points");
+  path_t message{};
+  message.utime = ToUtime(now);
+  message.path_id = path.path_id;
+  message.speed_m_s = path.speed_m_s;
+  message.n_points = static_cast<std::int8_t>(path.points.size());
+  for (const Pose2& point : path.points) {
+    path_point_t corner{};
+    corner.x_m = point.x;
+    corner.y_m = point.y;
+    corner.yaw_rad = point.yaw;
+    message.points.push_back(corner);
+  }
+  return message;
+}
+
+look_request_t ToMessage(const LookOrder& look, Time now) {
+  look_request_t message{};
+  message.utime = ToUtime(now);
+  message.request_id = look.request_id;
+  message.landmark_id = static_cast<std::int16_t>(look.landmark_id);
+  message.side = static_cast<std::int8_t>(look.side);
+  return message;
+}
+
+mission_status_t ToMessage(const MissionState& state, Time now) {
+  mission_status_t message{};
+  message.utime = ToUtime(now);
+  message.mission = mission_command_t::PASS_DOOR;
+  message.phase = PhaseOf(state.phase);
+  message.text = state.text.substr(0, kMaxText);
+  return message;
+}
+
+std::string_view FixVerdictText(int verdict) {
+  switch (verdict) {
+    case landmark_fix_t::FOUND:
+      return "found";
+    case landmark_fix_t::NO_MODEL:
+      return "the head has no model of it";
+    case landmark_fix_t::NO_POSE:
+      return "the head has no pose";
+    case landmark_fix_t::NO_IMAGE:
+      return "no image";
+    case landmark_fix_t::NOT_VISIBLE:
+      return "not visible from there";
+    case landmark_fix_t::TOO_FEW_EDGES:
+      return "too few edges";
+    case landmark_fix_t::AMBIGUOUS:
+      return "ambiguous";
+    case landmark_fix_t::RESIDUAL_TOO_LARGE:
+      return "the edges do not fit the model";
+    case landmark_fix_t::ELSEWHERE:
+      return "found elsewhere than it can be";
+    default:
+      return "unknown verdict";
+  }
+}
+
+std::string_view CorrectionVerdictText(int verdict) {
+  switch (verdict) {
+    case pose_correction_t::APPLIED:
+      return "applied";
+    case pose_correction_t::NOT_FOUND:
+      return "not found";
+    case pose_correction_t::TOO_OLD:
+      return "the fix came too late for the robot";
+    case pose_correction_t::IMPLAUSIBLE:
+      return "the robot found the fix implausible";
+    default:
+      return "unknown verdict";
+  }
+}
+
+std::string_view DriveLimitText(int limit) {
+  switch (limit) {
+    case drive_status_t::LIMIT_NONE:
+      return "";
+    case drive_status_t::LIMIT_SONAR:
+      return "an echo is too near";
+    case drive_status_t::LIMIT_POSE_STALE:
+      return "the pose is stale";
+    case drive_status_t::LIMIT_WHEELS_SILENT:
+      return "the wheels do not answer";
+    case drive_status_t::LIMIT_SONAR_SILENT:
+      return "the sonars are silent";
+    default:
+      return "unknown limit";
+  }
+}
+
+}  // namespace priamos::planner

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "lcmtypes/channels.hpp"
+#include "planner/core/mission_types.hpp"
+
+namespace priamos::planner {
+
+RobotPose FromMessage(const pose_t& message);
+DriveReport FromMessage(const drive_status_t& message);
+
+/// What a fix alone says about a look: nothing yet when the landmark was found, because only the robot knows
+/// whether the pose could be corrected with it; a failure otherwise.
+std::optional<LookResult> FromMessage(const landmark_fix_t& message);
+/// The outcome of a look as far as the pose is concerned.
+LookResult FromMessage(const pose_correction_t& message);
+
+/// At most 24 edges and 16 points fit a message; what the core makes is below that.
+landmark_model_t ToMessage(const Landmark& landmark);
+path_t ToMessage(const PathOrder& path, Time now);
+look_request_t ToMessage(const LookOrder& look, Time now);
+mission_status_t ToMessage(const MissionState& state, Time now);
+
+/// The words that a person reads for a verdict or limit.
+std::string_view FixVerdictText(int verdict);
+std::string_view CorrectionVerdictText(int verdict);
+std::string_view DriveLimitText(int limit);
+
+}  // namespace priamos::planner
