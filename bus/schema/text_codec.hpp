@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Bytes as text, for JSON.
+namespace priamos::bus {
+
+/// True for well-formed UTF-8 (RFC 3629: no overlong forms, no surrogates).
+bool IsUtf8(std::string_view text);
+
+/// RFC 4648 base64 with padding.
+std::string ToBase64(std::span<const std::byte> bytes);
+/// nullopt when the text is no padded base64.
+std::optional<std::vector<std::byte>> FromBase64(std::string_view text);
+
+}  // namespace priamos::bus
