@@ -6,9 +6,9 @@
 
 #include <Eigen/Dense>
 
-#include "../support/simulated_base.hpp"
 #include "common/random.hpp"
 #include "robot/core/pose_estimator.hpp"
+#include "test/robot/support/simulated_base.hpp"
 
 namespace priamos::robot {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulated_base.hpp"
+#include "test/robot/support/simulated_base.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+
+namespace priamos::robot {
+
+/// Poses for the base, map frame: straight lines between them, heading interpolated.
+struct Path {
+  int id = 0;
+  double speed_m_s = 0;
+  std::vector<Pose2> points{};  ///< from the next one to the goal; none: brake and hold
+};
+
+struct PathShapeConfig {
+  double corner_deviation_m = 0.05;   ///< how far a rounded corner may pass beside the point
+  double corner_deviation_deg = 3.0;  ///< the same for the heading
+  double corner_acceleration_m_s2 = 0.4;
+  double corner_turn_acceleration_rad_s2 = 0.6;
+  double max_speed_m_s = 0.6;
+  double max_turn_rad_s = 0.5;
+  double braking_m_s2 = 0.4;  ///< before corners and the last point
+
+  void Describe(Archive& a);
+};
+
+/// A path as a curve over its way s [m]: linear segments joined by parabolic blends (Taylor, "Planning and
+/// execution of straight line manipulator trajectories", IBM J. Res. Dev. 1979), so that at constant speed
+/// the acceleration in a corner is constant, too. A turn on the spot takes way as well: kTurnLever metres per
+/// radian. Between the points the curve leaves the straight lines only at corners, by the allowed deviation.
+class PathShape {
+ public:
+  static constexpr double kTurnLever = 0.6;  ///< [m/rad] about the reach of the base's corners
+
+  struct Point {
+    Pose2 pose;
+    Eigen::Vector2d direction{0, 0};  ///< d position / d s; shorter than 1 while turning or in a corner
+    double turn = 0;                  ///< d yaw / d s [rad/m]
+  };
+
+  /// From `start` through path.points.
+  PathShape(const PathShapeConfig& config, const Pose2& start, const Path& path);
+
+  double length() const { return length_; }
+  /// s is clamped to 0..length().
+  Point At(double s) const;
+  /// Fastest ds/dt at s from which every later limit, and the stop at the end, is still reached by braking.
+  double SpeedAt(double s) const;
+  /// Way of the base centre from s to the end [m], turns on the spot not counted.
+  double RemainingWay(double s) const;
+  /// The s near `guess` where the curve is closest to `pose`, position and heading together. Searches
+  /// downhill, so a path that crosses itself is not cut short.
+  double Project(const Pose2& pose, double guess) const;
+
+ private:
+  struct Segment {
+    double begin = 0, length = 0;  ///< [m] of s
+    Eigen::Vector2d from{0, 0}, direction{0, 0};
+    double yaw = 0, turn = 0;  ///< yaw at begin, not wrapped
+    double blend = 0;          ///< half length of the blend into the next segment [m of s]
+  };
+  struct SpeedLimit {
+    double begin = 0, end = 0, speed = 0;
+  };
+
+  void AddSegment(const Pose2& to);
+  void Blend(const PathShapeConfig& config);
+  void LimitSpeeds(const PathShapeConfig& config, double path_speed);
+  Point OnSegment(const Segment& segment, double s) const;
+  Point OnBlend(const Segment& before, const Segment& after, double s) const;
+  std::size_t SegmentAt(double s) const;
+
+  double braking_m_s2_;
+  Pose2 end_;  ///< last pose taken in, yaw not wrapped
+  std::vector<Segment> segments_;
+  std::vector<SpeedLimit> limits_;
+  double length_ = 0;
+};
+
+}  // namespace priamos::robot

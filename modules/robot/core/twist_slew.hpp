@@ -1,0 +1,33 @@
+#pragma once
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+
+namespace priamos::robot {
+
+struct AccelerationLimits {
+  double acceleration_m_s2 = 0.5;
+  double turn_acceleration_rad_s2 = 1.0;
+
+  void Describe(Archive& a);
+};
+
+/// Limits how fast the commanded velocity changes, so that a jump of the pose or a new path never jerks the
+/// base. Works on the floor, not in the turning base frame: driving straight while turning is no
+/// acceleration.
+class TwistSlew {
+ public:
+  explicit TwistSlew(const AccelerationLimits& limits) : limits_(limits) {}
+
+  /// The velocity to command now, at most one limited step from the last one towards `target`.
+  Twist2 Step(const Twist2& target, double dt_s);
+  /// What was commanded in fact, after later filters: the next step starts there.
+  void SetCommanded(const Twist2& twist) { commanded_ = twist; }
+  const Twist2& commanded() const { return commanded_; }
+
+ private:
+  AccelerationLimits limits_;
+  Twist2 commanded_;
+};
+
+}  // namespace priamos::robot
