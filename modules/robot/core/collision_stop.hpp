@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "robot/core/footprint.hpp"
+
+namespace priamos::robot {
+
+struct CollisionStopConfig {
+  double margin_m = 0.015;  ///< kept free on all sides of the footprint
+  double gap_m = 0.05;      ///< where to stand before an obstacle ahead
+  double braking_m_s2 = 1.0;
+  double latency_s = 0.12;  ///< age of an echo when the wheels obey it
+  double look_ahead_m = 5;
+
+  void Describe(Archive& a);
+};
+
+/// The last filter before the wheels: sweeps the true rectangle along the wanted motion, whatever its
+/// direction, and slows it down so that the base can stand `gap_m` before the first point that it would
+/// sweep over: v^2 / 2a of braking after the latency. It scales the whole motion, so the base keeps its path.
+/// Points beside the way do not matter, so both jambs of a door 6 cm beside the base do not stop it.
+class CollisionStop {
+ public:
+  struct Result {
+    Twist2 twist;
+    double scale = 1;              ///< of the wanted motion
+    std::optional<double> free_m;  ///< way until the footprint would meet a point; none within look_ahead_m
+  };
+
+  CollisionStop(const CollisionStopConfig& config, const Footprint& footprint);
+
+  /// `points` are obstacles in the base frame.
+  Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> points) const;
+
+ private:
+  double FreeWay(const Twist2& per_metre, const Eigen::Vector2d& point, double farthest) const;
+
+  CollisionStopConfig config_;
+  Footprint guarded_;  ///< footprint with margin
+};
+
+}  // namespace priamos::robot

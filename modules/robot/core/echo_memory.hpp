@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "robot/core/footprint.hpp"
+
+namespace priamos::robot {
+
+inline constexpr int kSonars = 24;
+
+/// One cycle of the ring.
+struct SonarCycle {
+  Time time{};
+  std::array<double, kSonars> range_m{};  ///< first echo of each sensor; anything outside 0..5 m is no echo
+};
+
+/// Sensor `index` (0 is S1) on the edge of the footprint: S1 looks straight ahead, the others follow every 15
+/// degrees counter-clockwise, each where the ray from the base centre leaves the rectangle.
+Pose2 BaseFromSonar(int index, const Footprint& footprint);
+
+struct EchoMemoryConfig {
+  double half_beam_deg = 7.5;  ///< an echo lies anywhere on this arc
+  double agreement_m = 0.3;    ///< two echoes nearer than this to each other confirm one another
+  double near_m = 0.25;        ///< an echo this near counts at once
+  double blind_m = 0.12;       ///< echoes up to here may come from nearer: sensors do not measure below 0.1 m
+  double blind_as_m = 0.05;    ///< where such an echo is taken to come from
+  double keep_s = 0.3;         ///< how long a cycle counts: three of them at 10 Hz
+
+  void Describe(Archive& a);
+};
+
+/// Which echoes are to be believed, and where that puts things around the base. A single echo may be
+/// another sensor's sound, and a real one may be lost on a smooth surface. So an echo counts when a second
+/// one in the last three cycles, or a neighbour in the same cycle, agrees with it, or when it is very near;
+/// and it counts until its sensor hears another one or its cycle is forgotten. Odometry moves remembered
+/// echoes along.
+class EchoMemory {
+ public:
+  EchoMemory(const EchoMemoryConfig& config, const Footprint& footprint);
+
+  /// `odom_from_base` at the end of the cycle.
+  void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
+  /// Forgets what is too old at `now`.
+  void Forget(Time now);
+  /// Time of the newest cycle.
+  std::optional<Time> newest() const;
+
+  /// Points on the arcs of all believed echoes, base frame of `odom_from_base`.
+  std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;
+
+ private:
+  struct Kept {
+    SonarCycle cycle;
+    Pose2 odom_from_base;
+  };
+  bool IsSuperseded(std::size_t index, int sensor) const;
+  bool Agrees(std::size_t index, int sensor) const;
+
+  EchoMemoryConfig config_;
+  std::array<Pose2, kSonars> base_from_sonar_;
+  std::deque<Kept> kept_;  ///< oldest first
+};
+
+}  // namespace priamos::robot

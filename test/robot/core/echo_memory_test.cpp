@@ -1,0 +1,136 @@
+#include "robot/core/echo_memory.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace priamos::robot {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr Time kStart = FromUtime(1'000'000'000);
+
+class EchoMemoryTest : public testing::Test {
+ protected:
+  /// A cycle in which only the given sensors hear something.
+  static SonarCycle Cycle(int index, const std::map<int, double>& echoes) {
+    SonarCycle cycle{.time = kStart + index * milliseconds(100)};
+    cycle.range_m.fill(-1);
+    for (const auto& [sensor, range] : echoes) cycle.range_m[static_cast<std::size_t>(sensor)] = range;
+    return cycle;
+  }
+  void Add(int index, const std::map<int, double>& echoes, const Pose2& at = {}) {
+    dut_.Add(Cycle(index, echoes), at);
+  }
+
+  EchoMemory dut_{EchoMemoryConfig{}, Footprint{}};
+};
+
+TEST(BaseFromSonar, TheFirstSensorLooksStraightAheadFromTheFront) {
+  const Pose2 pose = BaseFromSonar(0, {});
+  EXPECT_NEAR(pose.x, 0.475, 1e-9);
+  EXPECT_NEAR(pose.y, 0, 1e-9);
+  EXPECT_NEAR(pose.yaw, 0, 1e-9);
+}
+
+TEST(BaseFromSonar, TheSeventhLooksToTheLeftFromTheLeftSide) {
+  const Pose2 pose = BaseFromSonar(6, {});
+  EXPECT_NEAR(pose.x, 0, 1e-9);
+  EXPECT_NEAR(pose.y, 0.39, 1e-9);
+  EXPECT_NEAR(pose.yaw, kPi / 2, 1e-9);
+}
+
+TEST(BaseFromSonar, AllSitOnTheEdgeOfTheFootprint) {
+  for (int i = 0; i < kSonars; ++i) {
+    const Pose2 pose = BaseFromSonar(i, {});
+    EXPECT_NEAR(Footprint().Distance(pose.translation()), 0, 1e-9) << i;
+  }
+}
+
+TEST_F(EchoMemoryTest, KnowsNothingBeforeTheFirstCycle) {
+  EXPECT_FALSE(dut_.newest());
+  EXPECT_THAT(dut_.Points({}), IsEmpty());
+}
+
+TEST_F(EchoMemoryTest, ASingleEchoIsNotBelieved) {
+  Add(0, {{0, 1.0}});
+  EXPECT_THAT(dut_.Points({}), IsEmpty());
+}
+
+TEST_F(EchoMemoryTest, TwoOfThreeCyclesAreBelieved) {
+  Add(0, {{0, 1.0}});
+  Add(1, {});
+  Add(2, {{0, 0.9}});
+  EXPECT_THAT(dut_.Points({}), Not(IsEmpty()));
+}
+
+TEST_F(EchoMemoryTest, TwoEchoesThatDisagreeAreNotBelieved) {
+  Add(0, {{0, 1.0}});
+  Add(1, {{0, 2.5}});
+  EXPECT_THAT(dut_.Points({}), IsEmpty());
+}
+
+TEST_F(EchoMemoryTest, ANeighbourInTheSameCycleConfirms) {
+  Add(0, {{23, 1.0}, {0, 1.1}});
+  EXPECT_THAT(dut_.Points({}), Not(IsEmpty()));
+}
+
+TEST_F(EchoMemoryTest, AVeryNearEchoCountsAtOnce) {
+  Add(0, {{0, 0.2}});
+  EXPECT_THAT(dut_.Points({}), Not(IsEmpty()));
+}
+
+TEST_F(EchoMemoryTest, AnEchoLiesOnTheArcOfItsCone) {
+  Add(0, {{0, 1.0}});
+  Add(1, {{0, 1.0}});
+  const Eigen::Vector2d sensor(0.475, 0);
+  double widest = 0;
+  for (const Eigen::Vector2d& point : dut_.Points({})) {
+    EXPECT_NEAR((point - sensor).norm(), 1.0, 1e-9);
+    widest = std::max(widest, std::abs(point.y()));
+  }
+  EXPECT_NEAR(widest, std::sin(Radians(7.5)), 1e-9);
+}
+
+TEST_F(EchoMemoryTest, AnEchoAtTheLeastDistanceMayComeFromNearer) {
+  Add(0, {{0, 0.1}});
+  for (const Eigen::Vector2d& point : dut_.Points({})) EXPECT_LT(point.x(), 0.475 + 0.06);
+}
+
+TEST_F(EchoMemoryTest, ANewerEchoOfTheSameSensorReplacesTheOlder) {
+  Add(0, {{0, 1.0}});
+  Add(1, {{0, 1.0}});
+  Add(2, {{0, 1.2}});
+  for (const Eigen::Vector2d& point : dut_.Points({})) EXPECT_GT(point.x(), 0.475 + 1.15);
+}
+
+TEST_F(EchoMemoryTest, ARememberedEchoStaysWhereItWasWhenTheBaseMoves) {
+  Add(0, {{0, 1.0}});
+  Add(1, {{0, 1.0}});
+  double nearest = 9;
+  for (const Eigen::Vector2d& point : dut_.Points({0.2, 0, 0})) nearest = std::min(nearest, point.x());
+  EXPECT_NEAR(nearest, 0.475 + std::cos(Radians(7.5)) - 0.2, 1e-9);
+}
+
+TEST_F(EchoMemoryTest, EchoesAreForgottenWithTheirCycle) {
+  Add(0, {{0, 1.0}});
+  Add(1, {{0, 1.0}});
+  dut_.Forget(kStart + milliseconds(500));
+  EXPECT_THAT(dut_.Points({}), IsEmpty());
+  EXPECT_FALSE(dut_.newest());
+}
+
+TEST_F(EchoMemoryTest, NonsenseIsNoEcho) {
+  for (int i = 0; i < 3; ++i)
+    Add(i, {{0, std::numeric_limits<double>::quiet_NaN()}, {1, 7.0}, {2, -0.5}, {3, HUGE_VAL}});
+  EXPECT_THAT(dut_.Points({}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace priamos::robot

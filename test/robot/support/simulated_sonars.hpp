@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "common/random.hpp"
+#include "robot/core/echo_memory.hpp"
+
+namespace priamos::robot {
+
+/// A straight piece of surface, map frame.
+struct Surface {
+  Eigen::Vector2d from, to;
+};
+
+/// The four sides of an upright box.
+std::vector<Surface> BoxSides(double x_min, double y_min, double x_max, double y_max);
+
+/// The ring of 24 before a few surfaces: first echo within the cone, lost when it meets a smooth surface too
+/// obliquely unless an edge is in the cone, never below 0.1 m; now and then a false echo.
+class SimulatedSonars {
+ public:
+  SimulatedSonars(std::uint64_t seed, std::vector<Surface> surfaces)
+      : rng_(Rng::Stream(seed, "simulated sonars")), surfaces_(std::move(surfaces)) {}
+
+  void SetFalseEchoes(double chance_per_sensor) { false_echoes_ = chance_per_sensor; }
+  void Add(const std::vector<Surface>& surfaces) {
+    surfaces_.insert(surfaces_.end(), surfaces.begin(), surfaces.end());
+  }
+  SonarCycle Listen(Time time, const Pose2& map_from_base);
+
+  /// Distance from the true footprint to the nearest surface; negative when one is inside.
+  double Gap(const Pose2& map_from_base) const;
+
+ private:
+  double FirstEcho(const Pose2& map_from_sonar);
+
+  Rng rng_;
+  std::vector<Surface> surfaces_;
+  double false_echoes_ = 0;
+};
+
+}  // namespace priamos::robot
