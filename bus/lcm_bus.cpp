@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <lcm/lcm.h>
 
+#include "bus/multicast.hpp"
 #include "bus/socket_filter.hpp"
 
 namespace priamos::bus {
@@ -20,14 +21,20 @@ void LcmBus::Closer::operator()(_lcm_t* lcm) const {
   lcm_destroy(lcm);
 }
 
-LcmBus::LcmBus(const std::string& url) : url_(url), lcm_(lcm_create(url.c_str())) {
-  if (!lcm_) {
+namespace {
+
+lcm_t* Open(const std::string& url) {
+  if (url.starts_with("udpm://")) RequireMulticastRoute(url);
+  lcm_t* lcm = lcm_create(url.c_str());
+  if (!lcm)
     throw BusError(
-        fmt::format("bus {}: expected a bus LCM can open, got a refusal; `priamos doctor` names the missing "
-                    "route or flag",
-                    url));
-  }
+        fmt::format("bus {}: expected a URL LCM can open (udpm://, memq://, file://), got a refusal", url));
+  return lcm;
 }
+
+}  // namespace
+
+LcmBus::LcmBus(const std::string& url) : url_(url), lcm_(Open(url)) {}
 
 LcmBus::~LcmBus() = default;
 

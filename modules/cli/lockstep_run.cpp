@@ -25,6 +25,7 @@ ConfigSource SourceOf(const LockstepRequest& request, const ScenarioProcess& pro
 
 LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& request) {
   const Scenario scenario = LoadScenario(request.deployment, request.scenario);
+  const GroundPlan plan = LoadPlan(request.deployment, scenario);
   bus::Lockstep lockstep(schema, {.seed = request.seed});
   lockstep.AddBus("onboard");
   lockstep.AddBus("offboard");

@@ -23,6 +23,7 @@ struct LockstepRequest {
 struct LockstepResult {
   Summary summary;
   RunRecord record;
+  GroundPlan plan;
   std::string reason;  ///< the mission's last words
 };
 

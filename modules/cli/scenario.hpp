@@ -5,6 +5,7 @@
 
 #include "bus/radio/line.hpp"
 #include "common/config.hpp"
+#include "common/ground_plan.hpp"
 
 namespace priamos::cli {
 
@@ -49,5 +50,8 @@ inline constexpr std::string_view kOffboardTty = "tty-offboard";
 /// The scenario `name` of the deployment in `folder` (config/sim). Throws ConfigError; an unknown name is
 /// answered with the known ones.
 Scenario LoadScenario(const std::string& folder, const std::string& name);
+
+/// The ground plan of `scenario`, in which its door must stand. Throws ConfigError.
+GroundPlan LoadPlan(const std::string& folder, const Scenario& scenario);
 
 }  // namespace priamos::cli

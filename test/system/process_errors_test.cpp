@@ -1,0 +1,116 @@
+#include <gmock/gmock.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+// What a person gets for something that cannot be used: one sentence, exit code 2, nothing half started.
+
+namespace priamos {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Answer {
+  int exit_code = -1;
+  std::string text;
+};
+
+std::string Binary(const std::string& name) {
+  return std::string(PRIAMOS_BINARY_DIR) + "/bin/" + name;
+}
+std::string Config(const std::string& name) {
+  return std::string(PRIAMOS_SOURCE_DIR) + "/config/sim/" + name;
+}
+
+/// Runs a command in a network of its own, at most 10 s.
+Answer Run(const std::string& command,
+           const std::string& network = "ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo") {
+  const std::string line = "timeout 10 unshare -rn sh -c '" + network + "; " + command + "' 2>&1";
+  FILE* pipe = popen(line.c_str(), "r");
+  Answer answer;
+  std::array<char, 256> buffer;
+  while (fgets(buffer.data(), buffer.size(), pipe)) answer.text += buffer.data();
+  const int status = pclose(pipe);
+  answer.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return answer;
+}
+
+class ProcessErrors : public testing::TestWithParam<const char*> {
+ protected:
+  std::string name() const { return GetParam(); }
+  std::string process() const { return Binary("priamos-" + name()); }
+};
+
+void ExpectOneSentence(const Answer& answer) {
+  EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
+}
+
+TEST_P(ProcessErrors, MissingConfigurationFile) {
+  const auto answer = Run(process() + " --config /nowhere/x.toml");
+  ExpectOneSentence(answer);
+  EXPECT_THAT(answer.text, HasSubstr("/nowhere/x.toml: expected a configuration file, got none"));
+}
+
+TEST_P(ProcessErrors, UnknownKeyOnTheCommandLine) {
+  const auto answer = Run(process() + " --config " + Config(name() + ".toml") + " --set no_such_key=1");
+  ExpectOneSentence(answer);
+  EXPECT_THAT(answer.text, HasSubstr("no_such_key: expected a known key"));
+}
+
+TEST_P(ProcessErrors, UnknownKeyInAFile) {
+  const auto file = std::filesystem::path(testing::TempDir()) / ("unknown-" + name() + ".toml");
+  std::ofstream(file) << "\nno_such_key = 1\n";
+  const auto answer = Run(process() + " --config " + file.string());
+  ExpectOneSentence(answer);
+  EXPECT_THAT(answer.text, HasSubstr(file.string() + ":2:no_such_key"));
+  std::filesystem::remove(file);
+}
+
+TEST_P(ProcessErrors, BusWithoutMulticast) {
+  const auto answer = Run(process() + " --config " + Config(name() + ".toml"), "ip link set lo up");
+  ExpectOneSentence(answer);
+  EXPECT_THAT(answer.text,
+              AllOf(HasSubstr("expected a multicast route"), HasSubstr("ip route add 224.0.0.0/4 dev lo")));
+}
+
+TEST_P(ProcessErrors, PrintedConfigurationIsTheOneThatRuns) {
+  const auto answer = Run(process() + " --config " + Config(name() + ".toml") + " --print-config");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr("# ["));
+}
+
+TEST_P(ProcessErrors, NoModuleListensToTheTruth) {
+  const auto answer = Run(process() + " --config " + Config(name() + ".toml") + " --interface");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr("out  HEALTH"));
+  EXPECT_THAT(answer.text, Not(HasSubstr("in   WORLD_TRUTH")));
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryProcess, ProcessErrors,
+                         testing::Values("world", "robot", "head", "planner", "radio"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(RadioProcess, AbsentTtyNamesTheNextStep) {
+  const auto answer =
+      Run(Binary("priamos-radio") + " --config " + Config("radio.toml") + " --port /dev/no-such-tty");
+  ExpectOneSentence(answer);
+  EXPECT_THAT(answer.text, HasSubstr("/dev/no-such-tty"));
+}
+
+TEST(PriamosRun, UnknownScenarioIsAnsweredWithTheKnownOnes) {
+  const auto answer = Run(Binary("priamos") + " run --scenario nothing --deployment " + Config(""));
+  ExpectOneSentence(answer);
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("\"nothing\""), HasSubstr("door")));
+}
+
+}  // namespace
+}  // namespace priamos
