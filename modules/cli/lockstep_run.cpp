@@ -52,8 +52,8 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   recorder.Flush();
   const double factor = Seconds(lockstep.now() - start) / wall_s;
-  return {Summarise(recorder.record(), {request.scenario, request.seed, factor}), recorder.record(),
-          driver.Reason()};
+  const RunInfo info{request.scenario, request.seed, factor, *plan.FindDoor(scenario.landmark_id)};
+  return {Summarise(recorder.record(), info), recorder.record(), plan, driver.Reason()};
 }
 
 }  // namespace priamos::cli
