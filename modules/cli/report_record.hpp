@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "bus/schema/schema.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::cli {
+
+/// Which bus a message was recorded on.
+enum class Side { kOnboard, kOffboard };
+
+/// What one run said about itself: the decoded messages that a report is made of, each stream in the order of
+/// recording. It is fed message by message, from a live bus, from lockstep or from logs; what the report does
+/// not need is ignored, what is not a valid message is counted.
+class RunRecord {
+ public:
+  RunRecord();
+
+  /// `utime` is the time of recording [us].
+  void Add(Side side, std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes);
+
+  // Onboard.
+  std::vector<world_truth_t> truth;
+  std::vector<pose_t> poses;
+  std::vector<pose_correction_t> corrections;
+  std::vector<landmark_fix_t> fixes;
+  std::vector<drive_status_t> drive;
+  // Offboard: when the planner asked, and what it said.
+  std::vector<look_request_t> looks;
+  std::vector<mission_command_t> orders;
+  std::vector<mission_status_t> mission;
+  /// Age of each pose when it came to the workstation [s]: what the radio costs in time.
+  std::vector<double> pose_ages_s;
+  // Each end of the radio about itself.
+  std::vector<link_status_t> onboard_link, offboard_link;
+
+  /// Messages on these channels that were damaged, of the wrong type, or not numbers.
+  std::uint64_t refused = 0;
+
+ private:
+  template <class T>
+  void Append(std::vector<T>& stream, std::span<const std::byte> bytes);
+  void AddOnboard(std::string_view channel, std::span<const std::byte> bytes);
+  void AddOffboard(std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes);
+
+  std::shared_ptr<const bus::Schema> schema_;
+};
+
+}  // namespace priamos::cli
