@@ -78,6 +78,10 @@ bool IsRecursive(const Struct& type) {
   return Nested(type).contains(&type);
 }
 
+bool ReachesRecursion(const Struct& type) {
+  return CycleSearch().From(type);
+}
+
 std::uint64_t Fingerprints::Of(const Struct& type) {
   parents_.clear();
   terms_ = 0;
@@ -99,7 +103,7 @@ std::uint64_t Fingerprints::Sum(const Struct& type) {
   parents_.pop_back();
   hash = (hash << 1) + (hash >> 63);
   // Only a type that reaches no recursion has the same hash under every parent.
-  if (!CycleSearch().From(type)) known_.emplace(&type, hash);
+  if (!ReachesRecursion(type)) known_.emplace(&type, hash);
   return hash;
 }
 

@@ -26,5 +26,7 @@ class Fingerprints {
 
 /// True when the type can contain itself.
 bool IsRecursive(const Struct& type);
+/// True when the type, or one nested in it, can contain itself.
+bool ReachesRecursion(const Struct& type);
 
 }  // namespace priamos::bus
