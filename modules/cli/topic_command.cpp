@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "bus/lcm_bus.hpp"
+#include "bus/own_types.hpp"
+#include "bus/real_time_loop.hpp"
+#include "bus/schema/json.hpp"
+#include "cli/commands.hpp"
+#include "cli/topic_statistics.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr auto kWatchPeriod = std::chrono::milliseconds(500);
+
+struct TopicOptions {
+  std::string bus = "udpm://239.255.76.67:7667?ttl=0";
+  std::string types;  ///< folder of .lcm files; empty: our own
+  std::string channel;
+  std::string type;
+  std::string message;
+  double seconds = 2;
+  int count = 0;
+  bool json = false;
+  bool watch = false;
+};
+
+bus::Schema TypesOf(const TopicOptions& options) {
+  return options.types.empty() ? bus::OwnTypes() : bus::Schema(bus::Schema::ReadDirectory(options.types));
+}
+
+/// Handles messages until `until`, a signal, or `done`; calls `every` twice a second. False after a signal.
+bool Listen(bus::LcmBus& bus, const bus::Clock& clock, Time until, const std::function<bool()>& done,
+            const std::function<void()>& every) {
+  const bus::SignalWatch signals;
+  Time next = clock.Now() + kWatchPeriod;
+  while (clock.Now() < until && !done()) {
+    pollfd fds[] = {{bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
+    poll(fds, std::size(fds), 50);
+    if (fds[1].revents != 0) return false;
+    bus.Drain();
+    if (clock.Now() < next) continue;
+    next += kWatchPeriod;
+    every();
+  }
+  return true;
+}
+
+nlohmann::ordered_json ToJson(const TopicRow& row) {
+  return {{"channel", row.channel},
+          {"type", row.type},
+          {"messages", row.messages},
+          {"undecodable", row.undecodable},
+          {"rate_hz", row.rate_hz},
+          {"jitter_s", row.jitter_s},
+          {"bytes_per_s", row.bandwidth_bytes_s},
+          {"age_s", row.age_s},
+          {"largest_bytes", row.largest_bytes}};
+}
+
+void PrintTable(const std::vector<TopicRow>& rows) {
+  std::cout << fmt::format("{:<20} {:<28} {:>9} {:>9} {:>10} {:>8} {:>9} {:>11}\n", "channel", "type",
+                           "rate Hz", "jitter ms", "bytes/s", "age s", "messages", "undecodable");
+  for (const auto& r : rows) {
+    std::cout << fmt::format("{:<20} {:<28} {:>9.2f} {:>9.2f} {:>10.0f} {:>8.2f} {:>9} {:>11}\n", r.channel,
+                             r.type, r.rate_hz, r.jitter_s * 1e3, r.bandwidth_bytes_s, r.age_s, r.messages,
+                             r.undecodable);
+  }
+  std::cout << std::flush;
+}
+
+void PrintRows(const std::vector<TopicRow>& rows, bool json) {
+  if (!json) return PrintTable(rows);
+  auto all = nlohmann::ordered_json::array();
+  for (const auto& row : rows) all.push_back(ToJson(row));
+  std::cout << all.dump() << std::endl;
+}
+
+/// `list`, and with a channel `hz` and `bw`: the same table of all or of one.
+int List(const TopicOptions& options) {
+  const bus::Schema schema = TypesOf(options);
+  const bus::MonotonicClock clock;
+  bus::LcmBus bus(options.bus);
+  TopicStatistics statistics(schema, FromSeconds(std::max(2.0, options.seconds)));
+  const auto add = [&](std::string_view channel, std::span<const std::byte> bytes) {
+    statistics.Add(clock.Now(), channel, bytes);
+  };
+  options.channel.empty() ? bus.SubscribeEverything(add) : bus.Subscribe(options.channel, add);
+  const Time until = options.watch ? Time::max() : clock.Now() + FromSeconds(options.seconds);
+  Listen(
+      bus, clock, until, [] { return false; },
+      [&] {
+        if (!options.watch) return;
+        if (!options.json) std::cout << "\x1b[H\x1b[2J";
+        PrintRows(statistics.Rows(clock.Now()), options.json);
+      });
+  const auto rows = statistics.Rows(clock.Now());
+  if (!options.watch) PrintRows(rows, options.json);
+  if (!rows.empty()) return 0;
+  std::cerr << fmt::format(
+      "nothing heard on {} in {} s; is the port the right one, and does `ip route get 239.255.76.67` "
+      "lead to the same network?\n",
+      options.bus, options.seconds);
+  return 1;
+}
+
+int Echo(const TopicOptions& options) {
+  const bus::Schema schema = TypesOf(options);
+  const bus::MonotonicClock clock;
+  bus::LcmBus bus(options.bus);
+  int seen = 0;
+  bus.Subscribe(options.channel, [&](std::string_view channel, std::span<const std::byte> bytes) {
+    ++seen;
+    const auto* type = schema.Find(bus::FingerprintOf(bytes.data(), bytes.size()));
+    try {
+      if (!type)
+        throw bus::MessageError("no known type has this fingerprint; name its .lcm folder with --types");
+      std::cout << bus::ToJson(*type, bytes).dump(options.json ? -1 : 2) << std::endl;
+    } catch (const bus::MessageError& error) {
+      std::cerr << fmt::format("{}: {} bytes: {}\n", channel, bytes.size(), error.what());
+    }
+  });
+  Listen(
+      bus, clock, Time::max(), [&] { return options.count > 0 && seen >= options.count; }, [] {});
+  return 0;
+}
+
+int Pub(const TopicOptions& options) {
+  const bus::Schema schema = TypesOf(options);
+  const auto* type = schema.Find(options.type);
+  if (!type) throw bus::MessageError(fmt::format("expected a known type, got \"{}\"", options.type));
+  bus::LcmBus bus(options.bus);
+  const auto bytes = bus::FromJson(*type, bus::Json::parse(options.message));
+  if (!bus.Publish(options.channel, bytes))
+    throw bus::BusError(fmt::format("{}: {} bytes were not sent", options.bus, bytes.size()));
+  return 0;
+}
+
+CLI::App* AddVerb(CLI::App& topic, const char* name, const char* help, const char* example,
+                  TopicOptions& options) {
+  auto* verb = topic.add_subcommand(name, help);
+  verb->footer(std::string("Example: ") + example);
+  verb->add_option("--bus", options.bus, "LCM bus")->capture_default_str();
+  verb->add_option("--types", options.types, "folder of .lcm files; none: PRIAMOS's own types")
+      ->check(CLI::ExistingDirectory);
+  return verb;
+}
+
+void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_channel,
+                  const std::shared_ptr<TopicOptions>& options, int& exit_code) {
+  auto* verb = AddVerb(topic, name, help,
+                       one_channel ? "priamos topic hz POSE" : "priamos topic list --watch", *options);
+  if (one_channel) verb->add_option("channel", options->channel, "LCM channel")->required();
+  verb->add_option("--seconds", options->seconds, "how long to listen")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  verb->add_flag("--watch", options->watch, "a live table, until Ctrl-C");
+  verb->add_flag("--json", options->json, "machine-readable");
+  verb->callback([options, &exit_code] { exit_code = List(*options); });
+}
+
+}  // namespace
+
+void AddTopicCommand(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<TopicOptions>();
+  auto* topic =
+      cli.add_subcommand("topic", "See and send what is on a bus, of any type, without compiling it.");
+  topic->require_subcommand(1);
+  AddTableVerb(*topic, "list", "Every channel: type, rate, jitter, bandwidth, age.", false, options,
+               exit_code);
+  AddTableVerb(*topic, "hz", "Rate and jitter of one channel.", true, options, exit_code);
+  AddTableVerb(*topic, "bw", "Bandwidth of one channel.", true, options, exit_code);
+  auto* echo = AddVerb(*topic, "echo", "Print the messages of one channel as JSON.",
+                       "priamos topic echo POSE --count 1", *options);
+  echo->add_option("channel", options->channel, "LCM channel")->required();
+  echo->add_option("--count", options->count, "stop after so many messages; 0: at Ctrl-C")
+      ->capture_default_str();
+  echo->add_flag("--json", options->json, "one line per message");
+  echo->callback([options, &exit_code] { exit_code = Echo(*options); });
+  auto* pub = AddVerb(
+      *topic, "pub", "Send one message, given as JSON.",
+      "priamos topic pub MISSION_COMMAND mission_command_t '{\"utime\":0,\"mission\":1,\"landmark_id\":1}' "
+      "--bus 'udpm://239.255.76.68:7668?ttl=0'",
+      *options);
+  pub->add_option("channel", options->channel, "LCM channel")->required();
+  pub->add_option("type", options->type, "message type")->required();
+  pub->add_option("message", options->message, "the message as JSON")->required();
+  pub->callback([options, &exit_code] { exit_code = Pub(*options); });
+}
+
+}  // namespace priamos::cli
