@@ -1,0 +1,231 @@
+#include "bus/radio/bundle.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace priamos::bus::radio {
+namespace {
+
+enum ControlKind : std::uint8_t { kFrameAck = 0, kEventAck = 1, kFloor = 2, kListen = 3 };
+constexpr int kControlKindBits = 3;
+constexpr int kLengthBits = 8;
+constexpr std::uint64_t kAgeSteps = 63;
+constexpr int kFloorBits = 40;
+constexpr int kLossSteps = 15;
+
+/// mantissa << (shift * exponent) milliseconds, rounded to the nearest.
+template <int kExponentBits, int kMantissaBits, int kShift>
+std::uint16_t EncodeFloat(Duration d) {
+  const double ms = std::max(0.0, Seconds(d) * 1e3);
+  const std::uint32_t max_mantissa = (1U << kMantissaBits) - 1;
+  for (std::uint32_t e = 0; e < (1U << kExponentBits); ++e) {
+    const double mantissa = std::round(ms / static_cast<double>(std::uint64_t{1} << (kShift * e)));
+    if (mantissa <= max_mantissa)
+      return static_cast<std::uint16_t>(e << kMantissaBits | static_cast<std::uint32_t>(mantissa));
+  }
+  return static_cast<std::uint16_t>((1U << (kExponentBits + kMantissaBits)) - 1);
+}
+
+template <int kExponentBits, int kMantissaBits, int kShift>
+Duration DecodeFloat(std::uint16_t code) {
+  const std::uint64_t mantissa = code & ((1U << kMantissaBits) - 1);
+  const int exponent = (code >> kMantissaBits) & ((1 << kExponentBits) - 1);
+  return std::chrono::milliseconds(mantissa << (kShift * exponent));
+}
+
+/// Writes one kind of entry after its channel number.
+class EntryWriter {
+ public:
+  EntryWriter(const ChannelTable& table, BitWriter& out) : table_(table), out_(out) {}
+
+  void operator()(const StateEntry& e) {
+    Id(e.channel);
+    Body(e.channel, e.bits, e.packed);
+  }
+  void operator()(const CommandEntry& e) {
+    Id(e.channel);
+    const auto ttl = static_cast<std::uint64_t>(table_.at(e.channel).ttl.count());
+    const auto age = static_cast<std::uint64_t>(std::max<std::int64_t>(0, e.age.count()));
+    out_.Write(std::min((age * kAgeSteps + ttl - 1) / ttl, kAgeSteps), 6);
+    Body(e.channel, e.bits, e.packed);
+  }
+  void operator()(const EventEntry& e) {
+    Id(e.channel);
+    const EventSegment& s = e.segment;
+    out_.Write(s.number, 8);
+    out_.Write(s.base ? 1 : 0, 1);
+    out_.Write(s.first ? 1 : 0, 1);
+    out_.Write(s.last ? 1 : 0, 1);
+    if (s.first) out_.Write(EncodeDuration12(s.age), 12);
+    if (s.first && s.last && table_.at(e.channel).fixed_bits > 0) {
+      out_.Append(s.bytes, s.bits);
+    } else {
+      out_.Write(s.bytes.size(), kLengthBits);
+      out_.Append(s.bytes, s.bytes.size() * 8);
+    }
+  }
+  void operator()(const EventAckEntry& e) {
+    Control(kEventAck);
+    Id(e.channel);
+    out_.Write(e.ack.next, 8);
+    out_.Write(e.ack.held != 0 ? 1 : 0, 1);
+    if (e.ack.held != 0) out_.Write(e.ack.held, static_cast<int>(kEventWindow));
+  }
+  void operator()(const FrameAckEntry& e) {
+    Control(kFrameAck);
+    out_.Write(e.counter & 0xFFFU, 12);
+    out_.Write(EncodeDuration8(e.hold), 8);
+    out_.Write(static_cast<std::uint64_t>(std::lround(std::clamp(e.loss, 0.0, 1.0) * kLossSteps)), 4);
+  }
+  void operator()(const FloorEntry& e) {
+    Control(kFloor);
+    out_.Write(e.counter, kFloorBits);
+  }
+  void operator()(const ListenEntry& e) {
+    Control(kListen);
+    out_.Write(e.channels, static_cast<int>(table_.size()));
+  }
+
+ private:
+  void Id(std::size_t channel) { out_.Write(channel + 1, table_.id_bits()); }
+  void Control(ControlKind kind) {
+    out_.Write(table_.size() + 1, table_.id_bits());
+    out_.Write(kind, kControlKindBits);
+  }
+  void Body(std::size_t channel, std::size_t bits, std::span<const std::byte> packed) {
+    if (table_.at(channel).fixed_bits > 0) {
+      out_.Append(packed, bits);
+    } else {
+      out_.Write(packed.size(), kLengthBits);
+      out_.Append(packed, packed.size() * 8);
+    }
+  }
+  const ChannelTable& table_;
+  BitWriter& out_;
+};
+
+class BundleReader {
+ public:
+  BundleReader(const ChannelTable& table, Direction incoming, std::span<const std::byte> bundle)
+      : table_(table), incoming_(incoming), in_(bundle) {}
+
+  /// nullopt at the end or where reading cannot go on; ok() tells which.
+  std::optional<BundleEntry> Next() {
+    if (in_.left() < static_cast<std::size_t>(table_.id_bits())) return std::nullopt;
+    const std::uint64_t id = in_.Read(table_.id_bits());
+    if (id == 0) return std::nullopt;
+    const std::optional<BundleEntry> entry = id == table_.size() + 1 ? Control() : Message(id - 1);
+    ok_ = ok_ && entry && in_.ok();
+    return ok_ ? entry : std::nullopt;
+  }
+  bool ok() const { return ok_; }
+
+ private:
+  struct Packed {
+    std::size_t bits = 0;
+    std::vector<std::byte> bytes;
+  };
+  std::optional<BundleEntry> Message(std::size_t channel) {
+    if (channel >= table_.size() || table_.at(channel).direction != incoming_) return std::nullopt;
+    const LinkChannel& c = table_.at(channel);
+    switch (c.channel_class) {
+      case ChannelClass::kState: {
+        Packed body = Body(c);
+        return StateEntry{channel, body.bits, std::move(body.bytes)};
+      }
+      case ChannelClass::kCommand: {
+        const Duration age(in_.Read(6) * static_cast<std::uint64_t>(c.ttl.count()) / kAgeSteps);
+        Packed body = Body(c);
+        return CommandEntry{channel, age, body.bits, std::move(body.bytes)};
+      }
+      case ChannelClass::kEvent:
+        return EventEntry{channel, Segment(c)};
+    }
+    return std::nullopt;
+  }
+  Packed Body(const LinkChannel& c) {
+    const std::size_t bits = c.fixed_bits > 0 ? c.fixed_bits : in_.Read(kLengthBits) * 8;
+    return {bits, in_.Take(bits)};
+  }
+  EventSegment Segment(const LinkChannel& c) {
+    EventSegment s;
+    s.number = static_cast<std::uint8_t>(in_.Read(8));
+    s.base = in_.Read(1) != 0;
+    s.first = in_.Read(1) != 0;
+    s.last = in_.Read(1) != 0;
+    if (s.first) s.age = DecodeDuration12(static_cast<std::uint16_t>(in_.Read(12)));
+    s.bits = s.first && s.last && c.fixed_bits > 0 ? c.fixed_bits : in_.Read(kLengthBits) * 8;
+    s.bytes = in_.Take(s.bits);
+    return s;
+  }
+  std::optional<BundleEntry> Control() {
+    switch (in_.Read(kControlKindBits)) {
+      case kFrameAck: {
+        FrameAckEntry e;
+        e.counter = static_cast<std::uint16_t>(in_.Read(12));
+        e.hold = DecodeDuration8(static_cast<std::uint8_t>(in_.Read(8)));
+        e.loss = static_cast<double>(in_.Read(4)) / kLossSteps;
+        return e;
+      }
+      case kEventAck:
+        return Acknowledgement();
+      case kFloor:
+        return FloorEntry{in_.Read(kFloorBits)};
+      case kListen:
+        return ListenEntry{in_.Read(static_cast<int>(table_.size()))};
+      default:
+        return std::nullopt;
+    }
+  }
+  std::optional<BundleEntry> Acknowledgement() {
+    const std::uint64_t id = in_.Read(table_.id_bits());
+    if (id == 0 || id > table_.size()) return std::nullopt;
+    const LinkChannel& c = table_.at(id - 1);
+    if (c.direction == incoming_ || c.channel_class != ChannelClass::kEvent) return std::nullopt;
+    EventAckEntry e{id - 1, {}};
+    e.ack.next = static_cast<std::uint8_t>(in_.Read(8));
+    if (in_.Read(1) != 0) e.ack.held = static_cast<std::uint32_t>(in_.Read(static_cast<int>(kEventWindow)));
+    return e;
+  }
+
+  const ChannelTable& table_;
+  Direction incoming_;
+  BitReader in_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+std::uint16_t EncodeDuration12(Duration d) {
+  return EncodeFloat<3, 9, 2>(d);
+}
+Duration DecodeDuration12(std::uint16_t code) {
+  return DecodeFloat<3, 9, 2>(code);
+}
+std::uint8_t EncodeDuration8(Duration d) {
+  return static_cast<std::uint8_t>(EncodeFloat<4, 4, 1>(d));
+}
+Duration DecodeDuration8(std::uint8_t code) {
+  return DecodeFloat<4, 4, 1>(code);
+}
+
+std::size_t EntryBits(const ChannelTable& table, const BundleEntry& entry) {
+  BitWriter out;
+  WriteEntry(table, entry, out);
+  return out.bits();
+}
+
+void WriteEntry(const ChannelTable& table, const BundleEntry& entry, BitWriter& out) {
+  std::visit(EntryWriter(table, out), entry);
+}
+
+ParsedBundle ParseBundle(const ChannelTable& table, Direction incoming, std::span<const std::byte> bundle) {
+  BundleReader reader(table, incoming, bundle);
+  ParsedBundle parsed;
+  while (auto entry = reader.Next()) parsed.entries.push_back(std::move(*entry));
+  parsed.whole = reader.ok();
+  return parsed;
+}
+
+}  // namespace priamos::bus::radio

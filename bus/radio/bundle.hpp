@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "bus/radio/bit_stream.hpp"
+#include "bus/radio/channel_table.hpp"
+#include "bus/radio/event_stream.hpp"
+
+/// What a data frame carries: entries one after the other, bit by bit. Each begins with a channel number, 0
+/// ends the bundle (the zeros that fill the last byte are such an end).
+namespace priamos::bus::radio {
+
+/// A state message.
+struct StateEntry {
+  std::size_t channel = 0;
+  std::size_t bits = 0;
+  std::vector<std::byte> packed;
+};
+
+/// A command message. Its age is counted in 1/63 of the channel's time-to-live, rounded up.
+struct CommandEntry {
+  std::size_t channel = 0;
+  Duration age{};
+  std::size_t bits = 0;
+  std::vector<std::byte> packed;
+};
+
+struct EventEntry {
+  std::size_t channel = 0;
+  EventSegment segment;
+};
+
+struct EventAckEntry {
+  std::size_t channel = 0;
+  EventAck ack;
+};
+
+/// Which frame of the other end came last.
+struct FrameAckEntry {
+  std::uint16_t counter = 0;  ///< lowest 12 bits
+  Duration hold{};            ///< from the arrival of that frame to the begin of this one
+  double loss = 0;            ///< share of the other end's frames that did not arrive, lately
+};
+
+/// "Use only counters above this": sent by an end whose memory was reserved ahead when it restarted.
+struct FloorEntry {
+  std::uint64_t counter = 0;
+};
+
+/// Which on-request channels somebody listens to; bit i is channel i.
+struct ListenEntry {
+  std::uint64_t channels = 0;
+};
+
+using BundleEntry =
+    std::variant<StateEntry, CommandEntry, EventEntry, EventAckEntry, FrameAckEntry, FloorEntry, ListenEntry>;
+
+/// Durations as 3 bits exponent, 9 bits mantissa: 1 ms up to 0.5 s, then 4, 16, 64 ms ...; up to 2.3 hours.
+std::uint16_t EncodeDuration12(Duration d);
+Duration DecodeDuration12(std::uint16_t code);
+/// The same with 4 and 4 bits: 1 ms up to 15 ms, up to 8 minutes.
+std::uint8_t EncodeDuration8(Duration d);
+Duration DecodeDuration8(std::uint8_t code);
+
+/// Bits an entry takes in a bundle.
+std::size_t EntryBits(const ChannelTable& table, const BundleEntry& entry);
+
+void WriteEntry(const ChannelTable& table, const BundleEntry& entry, BitWriter& out);
+
+struct ParsedBundle {
+  std::vector<BundleEntry> entries;
+  bool whole = true;  ///< false: the rest could not be read
+};
+
+/// Reads a bundle from the other end: `incoming` channels only carry messages, acknowledgements are for
+/// channels of the other direction. Anything else ends the reading.
+ParsedBundle ParseBundle(const ChannelTable& table, Direction incoming, std::span<const std::byte> bundle);
+
+}  // namespace priamos::bus::radio

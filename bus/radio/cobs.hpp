@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace priamos::bus::radio {
+
+/// Consistent overhead byte stuffing (Cheshire, Baker: IEEE/ACM Transactions on Networking 7(2), 1999): the
+/// same content without zero bytes, 1 byte longer per begun 254 bytes. A zero then marks the end of a frame
+/// and nothing else, so that a receiver is in step again after the next one.
+std::vector<std::byte> CobsEncode(std::span<const std::byte> content);
+
+/// nullopt when `encoded` is nothing that CobsEncode makes: a zero inside, or a block cut short.
+std::optional<std::vector<std::byte>> CobsDecode(std::span<const std::byte> encoded);
+
+/// Cuts a stream of bytes into what lies between two delimiters. Memory is bounded: a frame longer than
+/// `max_bytes` is thrown away up to its delimiter and reported as oversize.
+class FrameSplitter {
+ public:
+  enum class Event { kNone, kFrame, kOversize };
+
+  explicit FrameSplitter(std::size_t max_bytes) : max_bytes_(max_bytes) {}
+
+  /// After kFrame, frame() holds the bytes before the delimiter until the next call.
+  Event Push(std::byte byte);
+  std::span<const std::byte> frame() const { return frame_; }
+
+ private:
+  std::size_t max_bytes_;
+  std::vector<std::byte> frame_;
+  bool complete_ = false;
+  bool overflow_ = false;
+};
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/time.hpp"
+
+/// Events of one channel: acknowledged, in order, exactly once. An event is cut into numbered segments that
+/// are sent until they are acknowledged; the receiver delivers an event when all of it and of those before it
+/// is there. Numbers are modulo 256 and never more than kEventWindow apart, so they are never ambiguous.
+namespace priamos::bus::radio {
+
+/// Bytes of a segment, except the last of an event. Part of the protocol: a restarted sender must cut as
+/// before.
+inline constexpr std::size_t kSegmentBytes = 52;
+/// Segments under way at most: one event of 1456 bytes.
+inline constexpr std::size_t kEventWindow = 28;
+
+/// Tells when an acknowledgement is overdue (Jacobson, Karels 1988; samples as in Karn, Partridge 1987).
+class RoundTrip {
+ public:
+  void Sample(Duration round_trip);
+  /// Smoothed; negative before the first sample.
+  Duration smoothed() const { return smoothed_; }
+  Duration timeout() const;
+
+ private:
+  Duration smoothed_{-1};
+  Duration deviation_{};
+};
+
+struct EventSegment {
+  std::uint8_t number = 0;
+  bool base = false;   ///< the oldest one not acknowledged
+  bool first = false;  ///< of its event
+  bool last = false;
+  Duration age{};  ///< first segment only: time since the event was packed
+  std::size_t bits = 0;
+  std::vector<std::byte> bytes;
+};
+
+/// What the receiver of a channel says about it.
+struct EventAck {
+  std::uint8_t next = 0;   ///< everything before it was delivered
+  std::uint32_t held = 0;  ///< bit i: segment next + i is there already
+};
+
+class EventSender {
+ public:
+  static constexpr std::size_t kCapacity = 64;
+
+  struct Event {
+    std::uint8_t first = 0;
+    Time packed_at{};
+    std::size_t bits = 0;
+    std::vector<std::byte> packed;
+  };
+
+  /// `next`: number of the first new segment.
+  explicit EventSender(std::uint8_t next = 0) : next_(next) {}
+
+  /// False when the queue is full or the event has more than kEventWindow segments.
+  bool Offer(std::vector<std::byte> packed, std::size_t bits, Time now);
+  /// Puts back an event from before a restart; its number follows the one put back before.
+  void Restore(Event event);
+
+  /// Whether a segment is to be sent now: new, or its acknowledgement overdue.
+  bool Ready(Time now) const;
+  /// The segment to be sent next, nullopt when there is none.
+  std::optional<EventSegment> Next(Time now) const;
+  /// Whether that segment begins an event of which nothing was sent before.
+  bool NextIsNew(Time now) const;
+  /// `at`: when its last byte will have left.
+  void MarkSent(std::uint8_t number, Time at);
+  /// The frame was aborted: as if never sent.
+  void MarkUnsent(std::uint8_t number);
+  /// Returns how many events were acknowledged for the first time.
+  std::size_t OnAck(const EventAck& ack, Time now, RoundTrip& round_trip);
+  /// The link is back: what is overdue or under way is sent again at once. `forgotten`: the receiver lost
+  /// what it held.
+  void ResendAll(bool forgotten);
+  void set_timeout(Duration timeout) { timeout_ = timeout; }
+
+  const std::deque<Event>& events() const { return events_; }
+  std::uint8_t next() const { return next_; }
+  /// When the oldest event was packed; nullopt when there is none.
+  std::optional<Time> oldest() const;
+  std::uint64_t resent() const { return resent_; }
+
+ private:
+  struct Segment {
+    std::uint8_t number = 0;
+    std::size_t event = 0;   ///< counted since construction
+    std::size_t offset = 0;  ///< into the packed event
+    bool held = false;
+    bool sent = false;
+    int times = 0;
+    Time sent_at{};
+  };
+  void Cut(const Event& event);
+  bool Due(const Segment& segment, Time now) const;
+  const Segment* NextDue(Time now) const;
+  Segment* Find(std::uint8_t number);
+
+  std::uint8_t next_;
+  std::deque<Event> events_;
+  std::deque<Segment> segments_;  ///< of all events_, in order
+  std::size_t first_event_ = 0;   ///< number of events acknowledged so far
+  Duration timeout_{600'000};
+  std::uint64_t resent_ = 0;
+};
+
+class EventReceiver {
+ public:
+  struct Event {
+    std::vector<std::byte> packed;
+    std::size_t bits = 0;
+    Time packed_at{};  ///< in the receiver's clock
+  };
+
+  EventReceiver() = default;
+  EventReceiver(std::uint8_t next, bool known) : next_(next), known_(known) {}
+
+  /// `sent_at`: when the segment was sent, in the receiver's clock. Returns the events that are complete now.
+  std::vector<Event> OnSegment(const EventSegment& segment, Time sent_at);
+  /// The sender's numbering began anew.
+  void Forget();
+
+  EventAck ack() const;
+  bool ack_due() const { return ack_due_; }
+  void set_ack_due(bool due) { ack_due_ = due; }
+  std::uint8_t next() const { return next_; }
+  bool known() const { return known_; }
+
+ private:
+  struct Held {
+    EventSegment segment;
+    Time packed_at{};
+  };
+  void Advance(std::size_t segments);
+  std::optional<Event> TakeComplete();
+
+  std::array<std::optional<Held>, kEventWindow> held_;
+  std::uint8_t next_ = 0;
+  bool known_ = false;
+  bool ack_due_ = false;
+};
+
+}  // namespace priamos::bus::radio

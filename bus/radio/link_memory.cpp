@@ -1,0 +1,103 @@
+#include "bus/radio/link_memory.hpp"
+
+#include <utility>
+
+namespace priamos::bus::radio {
+namespace {
+
+constexpr std::uint64_t kBlock = 256;
+/// A floor further ahead than this is not credible.
+constexpr std::uint64_t kFarthestSkip = std::uint64_t{1} << 24;
+
+}  // namespace
+
+LinkMemory::LinkMemory(StateStore& store, const ChannelTable& table, const NonceSource& nonces)
+    : store_(store), channels_(table.size()) {
+  if (const auto saved = store.Load())
+    if (auto state = ParseLinkState(*saved)) state_ = std::move(*state);
+  if (state_.table_hash != table.hash() || state_.send_event.size() != channels_ ||
+      state_.receive_event.size() != channels_ || state_.receive_known.size() != channels_) {
+    // Nothing to go on with: a new epoch is needed, and with it the other end learns of the new numbers.
+    state_ = LinkState{};
+    state_.table_hash = table.hash();
+    state_.stream = static_cast<std::uint32_t>(nonces());
+    state_.send_event.assign(channels_, 0);
+    state_.receive_event.assign(channels_, 0);
+    state_.receive_known.assign(channels_, 0);
+  }
+  next_counter_ = state_.send_next;
+}
+
+std::uint64_t LinkMemory::TakeCounter() {
+  if (next_counter_ >= state_.send_next) {
+    state_.send_next = next_counter_ + kBlock;
+    Save(true);
+  }
+  return next_counter_++;
+}
+
+void LinkMemory::SkipCounters(std::uint64_t floor) {
+  if (floor >= next_counter_ && floor - next_counter_ < kFarthestSkip) next_counter_ = floor + 1;
+}
+
+void LinkMemory::NoteAccepted(std::uint64_t highest) {
+  accepted_ = true;
+  if (highest <= state_.receive_floor) return;
+  state_.receive_floor = highest + kBlock;
+  state_.floor_exact = false;
+  Save(true);
+}
+
+bool LinkMemory::ChangeEpoch(std::uint64_t epoch, std::uint32_t peer_stream) {
+  const bool new_numbers = peer_stream != state_.peer_stream;
+  state_.epoch = epoch;
+  state_.peer_stream = peer_stream;
+  state_.send_next = 1;
+  state_.receive_floor = 0;
+  state_.floor_exact = true;
+  accepted_ = false;
+  next_counter_ = 1;
+  if (new_numbers) state_.receive_known.assign(channels_, 0);
+  Save(true);
+  return new_numbers;
+}
+
+void LinkMemory::RestoreEvents(SendQueue& queue, std::vector<EventReceiver>& receivers) const {
+  for (std::size_t i = 0; i < channels_; ++i) {
+    queue.events(i) = EventSender(state_.send_event[i]);
+    receivers[i] = EventReceiver(state_.receive_event[i], state_.receive_known[i] != 0);
+  }
+  for (const StoredEvent& e : state_.events)
+    if (e.channel < channels_)
+      queue.events(e.channel).Restore(
+          {.first = e.first, .packed_at = FromUtime(e.packed_utime), .bits = e.bits, .packed = e.packed});
+}
+
+void LinkMemory::StoreEvents(const SendQueue& queue, const std::vector<EventReceiver>& receivers) {
+  state_.events.clear();
+  for (std::size_t i = 0; i < channels_; ++i) {
+    const EventSender& sender = queue.events(i);
+    state_.send_event[i] = sender.next();
+    state_.receive_event[i] = receivers[i].next();
+    state_.receive_known[i] = receivers[i].known() ? 1 : 0;
+    for (const EventSender::Event& e : sender.events())
+      state_.events.push_back({.channel = static_cast<std::uint8_t>(i),
+                               .first = e.first,
+                               .packed_utime = ToUtime(e.packed_at),
+                               .bits = static_cast<std::uint32_t>(e.bits),
+                               .packed = e.packed});
+  }
+  // Not durable: after a loss of power an event may come twice or be lost with everything else on board.
+  Save(false);
+}
+
+void LinkMemory::Close(std::uint64_t highest_accepted) {
+  state_.send_next = next_counter_;
+  if (accepted_) {
+    state_.receive_floor = highest_accepted;
+    state_.floor_exact = true;
+  }
+  Save(true);
+}
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bus/radio/channel_table.hpp"
+#include "bus/radio/epoch.hpp"
+#include "bus/radio/event_stream.hpp"
+#include "bus/radio/link_state.hpp"
+#include "bus/radio/send_queue.hpp"
+
+namespace priamos::bus::radio {
+
+/// What an end must not forget, and when it writes it down. Counters are reserved in blocks: the block is on
+/// disk before its first counter is used, so that after a crash an end at worst skips some, and never sends
+/// one twice nor accepts one twice.
+class LinkMemory {
+ public:
+  /// Reads the store. A state that is missing, damaged or of another channel table loses what it held.
+  LinkMemory(StateStore& store, const ChannelTable& table, const NonceSource& nonces);
+
+  std::uint64_t epoch() const { return state_.epoch; }
+  std::uint32_t stream() const { return state_.stream; }
+  std::uint64_t receive_floor() const { return state_.receive_floor; }
+  bool floor_exact() const { return state_.floor_exact; }
+
+  /// The next counter to send with; it will never be given out again in this epoch.
+  std::uint64_t TakeCounter();
+  std::uint64_t last_counter() const { return next_counter_ - 1; }
+  /// The other end accepts only counters above `floor`.
+  void SkipCounters(std::uint64_t floor);
+  /// A frame with this counter was accepted, the highest so far; to be called before it is used.
+  void NoteAccepted(std::uint64_t highest);
+  /// Counters begin anew. Returns whether the other end's event numbers do so, too.
+  bool ChangeEpoch(std::uint64_t epoch, std::uint32_t peer_stream);
+
+  /// Puts back the events that were waiting, and the numbers expected.
+  void RestoreEvents(SendQueue& queue, std::vector<EventReceiver>& receivers) const;
+  void StoreEvents(const SendQueue& queue, const std::vector<EventReceiver>& receivers);
+  /// Orderly end: nothing is reserved ahead any more.
+  void Close(std::uint64_t highest_accepted);
+
+ private:
+  void Save(bool durable) { store_.Save(Serialise(state_), durable); }
+
+  StateStore& store_;
+  std::size_t channels_;
+  LinkState state_;
+  std::uint64_t next_counter_ = 1;
+  bool accepted_ = false;  ///< a frame above the floor, since the start or the last change of epoch
+};
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "common/time.hpp"
+
+namespace priamos::bus::radio {
+
+/// Share of frames that do not arrive, over about the last 32, and the bit error rate that explains it.
+class LossMeter {
+ public:
+  /// A frame arrived; `missed` counters before it never did.
+  void OnFrame(std::uint64_t missed, std::size_t wire_bytes);
+  double loss() const { return loss_; }
+  double BitErrorRate() const;
+
+ private:
+  double loss_ = 0;
+  double mean_bytes_ = 40;
+};
+
+/// Bounds how many codes are checked per second and notices frames that the other end cannot have sent.
+/// Noise damages frames of the other end, whose counters are missed later; refused frames beyond that were
+/// made by somebody else.
+class ForgeryGuard {
+ public:
+  /// `tries_per_s`: frames of the smallest size that the line can carry.
+  ForgeryGuard(double tries_per_s, Time start);
+
+  /// False: there were too many, do not look at this frame.
+  bool MayTry(Time now);
+  void OnBadCode(Time now) { Raise(1, now); }
+  void OnReplay(Time now) { Raise(kReplayWeight, now); }
+  void OnMissed(std::uint64_t frames);
+  bool alarm(Time now) const;
+
+ private:
+  static constexpr double kReplayWeight = 25;
+  void Raise(double weight, Time now);
+
+  double tries_per_s_;
+  double tries_;
+  Time tries_at_;
+  double level_ = 0;
+  Time level_at_;
+};
+
+/// Answers that somebody else can provoke: some at once, few on average.
+class AnswerLimit {
+ public:
+  explicit AnswerLimit(Time start) : refilled_at_(start) {}
+  bool Allows(Time now) const { return Level(now) >= 1; }
+  void Use(Time now) {
+    level_ = Level(now) - 1;
+    refilled_at_ = now;
+  }
+
+ private:
+  static constexpr double kBurst = 4;
+  static constexpr double kPerSecond = 2;
+  double Level(Time now) const {
+    const double level = level_ + Seconds(now - refilled_at_) * kPerSecond;
+    return level < kBurst ? level : kBurst;
+  }
+  double level_ = kBurst;
+  Time refilled_at_;
+};
+
+/// One-way delay of the line: half of the smallest round trip seen, without time on the wire and in the
+/// other end.
+class LatencyMeter {
+ public:
+  void Sample(Duration round_trip) {
+    if (!valid_ || round_trip < smallest_) smallest_ = round_trip;
+    valid_ = true;
+  }
+  Duration one_way() const { return smallest_ > Duration::zero() ? smallest_ / 2 : Duration::zero(); }
+
+ private:
+  bool valid_ = false;
+  Duration smallest_{};
+};
+
+}  // namespace priamos::bus::radio

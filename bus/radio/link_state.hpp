@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace priamos::bus::radio {
+
+/// Where an end of the link keeps what must outlive the process. A file on a robot, memory in a test.
+class StateStore {
+ public:
+  virtual ~StateStore() = default;
+  /// What was saved last; nullopt when there is nothing.
+  virtual std::optional<std::vector<std::byte>> Load() = 0;
+  /// Replaces the saved state as a whole. `durable`: it must also survive a loss of power.
+  virtual void Save(std::span<const std::byte> state, bool durable) = 0;
+};
+
+/// A store that lives as long as the process. After each start the ends agree on a new epoch.
+class MemoryStore : public StateStore {
+ public:
+  std::optional<std::vector<std::byte>> Load() override { return state_; }
+  void Save(std::span<const std::byte> state, bool /*durable*/) override {
+    state_.emplace(state.begin(), state.end());
+  }
+  void Lose() { state_.reset(); }
+
+ private:
+  std::optional<std::vector<std::byte>> state_;
+};
+
+/// An event accepted for sending and not yet acknowledged.
+struct StoredEvent {
+  std::uint8_t channel = 0;  ///< index in the channel table
+  std::uint8_t first = 0;    ///< number of its first segment
+  std::int64_t packed_utime = 0;
+  std::uint32_t bits = 0;
+  std::vector<std::byte> packed;
+  friend bool operator==(const StoredEvent&, const StoredEvent&) = default;
+};
+
+/// What one end remembers.
+struct LinkState {
+  std::uint32_t table_hash = 0;             ///< events and numbers below belong to this channel table
+  std::uint64_t epoch = 0;                  ///< 0: none agreed yet
+  std::uint64_t send_next = 1;              ///< no counter from here on was ever sent in this epoch
+  std::uint64_t receive_floor = 0;          ///< no counter above was ever accepted in this epoch
+  bool floor_exact = true;                  ///< false: receive_floor was reserved ahead
+  std::uint32_t stream = 0;                 ///< names this end's numbering of events
+  std::uint32_t peer_stream = 0;            ///< the other end's
+  std::vector<std::uint8_t> send_event;     ///< per channel: number of the next new segment
+  std::vector<std::uint8_t> receive_event;  ///< per channel: number of the next segment expected
+  std::vector<std::uint8_t> receive_known;  ///< per channel: 1 when receive_event is valid
+  std::vector<StoredEvent> events;          ///< per channel in order
+  friend bool operator==(const LinkState&, const LinkState&) = default;
+};
+
+std::vector<std::byte> Serialise(const LinkState& state);
+/// nullopt when damaged in any way: treated as lost, which is safe.
+std::optional<LinkState> ParseLinkState(std::span<const std::byte> bytes);
+
+}  // namespace priamos::bus::radio

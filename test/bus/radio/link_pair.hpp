@@ -1,0 +1,152 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/radio/line.hpp"
+#include "bus/radio/link.hpp"
+#include "bus/radio/link_state.hpp"
+
+namespace priamos::bus::radio {
+
+inline std::vector<std::byte> Text(const std::string& text) {
+  std::vector<std::byte> bytes;
+  for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
+  return bytes;
+}
+inline std::string ToText(std::span<const std::byte> bytes) {
+  std::string text;
+  for (const std::byte b : bytes) text += static_cast<char>(b);
+  return text;
+}
+
+/// Channels of the tests; the packed form of a message is the message.
+enum TestChannel : std::size_t { kPoseUp, kEventUp, kSlowUp, kDriveDown, kStopDown, kEventDown };
+
+inline std::vector<LinkChannel> TestChannels() {
+  const auto channel = [](std::string name, Direction direction, ChannelClass channel_class,
+                          std::uint32_t fixed_bytes, int priority, double rate_hz) {
+    LinkChannel c;
+    c.name = std::move(name);
+    c.direction = direction;
+    c.channel_class = channel_class;
+    c.fixed_bits = 8 * fixed_bytes;
+    c.max_bits = fixed_bytes > 0 ? c.fixed_bits : 8 * 1400;
+    c.priority = priority;
+    c.rate_hz = rate_hz;
+    return c;
+  };
+  std::vector<LinkChannel> channels{channel("POSE", Direction::kUp, ChannelClass::kState, 10, 2, 10),
+                                    channel("EVENT_UP", Direction::kUp, ChannelClass::kEvent, 0, 3, 0),
+                                    channel("SLOW", Direction::kUp, ChannelClass::kState, 100, 5, 1),
+                                    channel("DRIVE", Direction::kDown, ChannelClass::kCommand, 5, 1, 20),
+                                    channel("STOP", Direction::kDown, ChannelClass::kEvent, 1, 0, 0),
+                                    channel("EVENT_DOWN", Direction::kDown, ChannelClass::kEvent, 0, 3, 0)};
+  channels[kPoseUp].ttl = std::chrono::milliseconds(500);
+  channels[kDriveDown].ttl = std::chrono::milliseconds(250);
+  channels[kStopDown].urgent = true;
+  return channels;
+}
+
+/// Two endpoints on an emulated line in simulated time.
+class LinkPair {
+ public:
+  struct Received {
+    Time at;
+    Delivery delivery;
+  };
+
+  struct End {
+    explicit End(Direction direction) : outgoing(direction) {}
+    Direction outgoing;
+    MemoryStore store;
+    std::vector<LinkChannel> channels = TestChannels();
+    LinkKey key{1, 2, 3};
+    LinkOptions options;
+    std::unique_ptr<LinkEndpoint> link;
+    std::vector<Received> received;
+    std::vector<std::string> TextsOf(std::size_t channel) const {
+      std::vector<std::string> texts;
+      for (const Received& r : received)
+        if (r.delivery.channel == channel) texts.push_back(ToText(r.delivery.packed));
+      return texts;
+    }
+  };
+
+  explicit LinkPair(LineConfig line = {}, std::uint64_t seed = 1)
+      : onboard(Direction::kUp),
+        offboard(Direction::kDown),
+        line_up(line, Rng::Stream(seed, "up"), now),
+        line_down(line, Rng::Stream(seed, "down"), now),
+        rng(Rng::Stream(seed, "nonces")) {
+    Start(onboard);
+    Start(offboard);
+  }
+
+  /// Starts an end, as a new process would, from what its store holds.
+  void Start(End& end) {
+    end.link = std::make_unique<LinkEndpoint>(
+        ChannelTable(end.channels, encrypted), end.outgoing, end.key, end.options, end.store,
+        [](std::size_t, std::span<const std::byte> encoded, Time) {
+          return std::optional(Packed{{encoded.begin(), encoded.end()}, encoded.size() * 8});
+        },
+        [this] { return rng.engine()(); }, now);
+  }
+
+  void StepOnce() {
+    now += step;
+    Move(onboard, line_up, lose_up);
+    Move(offboard, line_down, lose_down);
+    Collect(onboard, line_down.Read(now));
+    Collect(offboard, line_up.Read(now));
+    if (each_step) each_step();
+  }
+  void Run(double seconds) {
+    const Time end = now + FromSeconds(seconds);
+    while (now < end) StepOnce();
+  }
+  bool RunUntil(double seconds, const std::function<bool()>& done) {
+    const Time end = now + FromSeconds(seconds);
+    while (now < end && !done()) StepOnce();
+    return done();
+  }
+
+  Time now = FromUtime(1'000'000'000);
+  Duration step{1000};
+  bool encrypted = false;
+  std::function<void()> each_step;
+  std::function<bool(std::span<const std::byte>)> lose_up, lose_down;  ///< true: the frame is lost
+  End onboard, offboard;
+  Line line_up, line_down;
+  Rng rng;
+  std::vector<std::byte> wire_up, wire_down;  ///< everything that was sent
+
+ private:
+  void Move(End& end, Line& line, const std::function<bool(std::span<const std::byte>)>& lose) {
+    if (!end.link) return;
+    auto& wire = &end == &onboard ? wire_up : wire_down;
+    auto& frame = &end == &onboard ? frame_up_ : frame_down_;
+    auto& lost = &end == &onboard ? lost_up_ : lost_down_;
+    for (const std::byte b : end.link->Step(now)) {
+      wire.push_back(b);
+      // A frame is lost or not when its first byte leaves.
+      if (frame.empty()) lost = lose && lose({});
+      frame.push_back(b);
+      if (!lost) line.Write(std::span(&b, 1), now);
+      if (b == kDelimiter) frame.clear();
+    }
+  }
+  void Collect(End& end, const std::vector<std::byte>& bytes) {
+    if (!end.link || bytes.empty()) return;
+    for (Delivery& d : end.link->Receive(bytes, now)) end.received.push_back({now, std::move(d)});
+  }
+  std::vector<std::byte> frame_up_, frame_down_;
+  bool lost_up_ = false, lost_down_ = false;
+};
+
+}  // namespace priamos::bus::radio
