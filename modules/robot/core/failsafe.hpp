@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/config.hpp"
+#include "common/time.hpp"
+
+namespace priamos::robot {
+
+/// What can be wrong. The order is that of precedence among equal actions.
+enum class Condition {
+  kEstop,
+  kLeaseLost,
+  kOperatorSilent,
+  kWheelsSilent,
+  kWheelsStuck,
+  kSonarSilent,
+  kPoseLost,
+  kHeadSilent,
+  kLinkLost,
+};
+inline constexpr std::size_t kConditions = 9;
+
+/// Who moves the base.
+enum class DriveSource { kNone, kPath, kOperator };
+
+/// In ascending order of precedence.
+enum class FailsafeAction {
+  kNone,
+  kHold,  ///< brake on a ramp, keep the path, go on when the condition has cleared
+  kHalt,  ///< wheel speeds 0 at once; path and command are forgotten: only a new one moves the base again
+};
+
+/// One line of the table: what is done about a condition.
+struct FailsafeRule {
+  Condition condition;
+  DriveSource source;  ///< kNone: whoever drives
+  FailsafeAction action;
+  double after_s;  ///< the condition must last this long
+  double clear_s;  ///< and be gone this long
+  std::string_view meaning;
+  std::string_view cleared_by;
+};
+
+/// When silence is too long. The defaults are those of the table in README.md.
+struct FailsafeConfig {
+  double wheels_silent_s = 0.2;
+  double wheels_stuck_s = 1.0;
+  double sonar_silent_s = 0.5;
+  double pose_lost_s = 0.2;
+  double head_silent_s = 3.0;
+  double link_lost_operator_s = 0.25;
+  double link_lost_path_s = 10;
+
+  void Describe(Archive& a);
+};
+
+inline constexpr std::size_t kFailsafeRules = 10;
+/// All rules, highest precedence first.
+std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& config);
+/// The rules as the table of README.md (Markdown).
+std::string FailsafeTable(const FailsafeConfig& config);
+
+struct FailsafeInputs {
+  /// For how long each condition has lasted; 0 when it is not present, Duration::max() when it has always
+  /// been.
+  std::array<Duration, kConditions> lasting{};
+  DriveSource source = DriveSource::kNone;
+
+  Duration& operator[](Condition condition) { return lasting[static_cast<std::size_t>(condition)]; }
+  Duration operator[](Condition condition) const { return lasting[static_cast<std::size_t>(condition)]; }
+};
+
+struct FailsafeDecision {
+  FailsafeAction action = FailsafeAction::kNone;
+  std::optional<Condition> cause;  ///< of the strongest action
+};
+
+/// Decides what is done about everything that is wrong at once: the strongest action wins. A condition that
+/// comes and goes does not grant a new period: it must be gone for the clearing time before its action is
+/// lifted. What kHalt has stopped stays stopped; that is the caller's memory, because only a new command
+/// moves the base again.
+class Failsafe {
+ public:
+  explicit Failsafe(const FailsafeConfig& config) : rules_(FailsafeRules(config)) {}
+
+  FailsafeDecision Update(const FailsafeInputs& inputs, Time now);
+
+ private:
+  struct RuleState {
+    bool active = false;
+    std::optional<Time> gone_since;
+  };
+  static void Update(const FailsafeRule& rule, Duration lasting, Time now, RuleState& state);
+
+  std::array<FailsafeRule, kFailsafeRules> rules_;
+  std::array<RuleState, kFailsafeRules> states_{};
+};
+
+}  // namespace priamos::robot
