@@ -1,0 +1,156 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <tuple>
+
+#include "lcm_rules.hpp"
+#include "lcmtypes/channels.hpp"
+#include "lcmtypes/embedded_types.hpp"
+
+namespace priamos::bus {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::vector<Schema::Source> Files() {
+  return Schema::ReadDirectory(PRIAMOS_SOURCE_DIR "/lcmtypes");
+}
+
+// ---- The rules themselves: each is shown to find what it is there for.
+
+std::vector<std::string> ViolationsIn(const std::string& field) {
+  return Violations(Schema({{"t.lcm", "// About it.\nstruct s {\n" + field + "\n}"}}));
+}
+
+TEST(LcmRules, AcceptADocumentedField) {
+  EXPECT_THAT(ViolationsIn("double x_m;  // [m] @frame map @range 0,1 @step 0.1: position of the base"),
+              IsEmpty());
+  EXPECT_THAT(ViolationsIn("int64_t utime_exposure;  // [us] @age 1000 @step 10: when"), IsEmpty());
+  EXPECT_THAT(ViolationsIn("boolean on;  // [-]: whether"), IsEmpty());
+  EXPECT_THAT(ViolationsIn("string text;  // [utf8] @max 10: why"), IsEmpty());
+}
+
+TEST(LcmRules, FindAFieldWithoutUnit) {
+  EXPECT_THAT(ViolationsIn("boolean on;  // whether"), ElementsAre("t.lcm:3: s.on: no unit in brackets"));
+}
+
+TEST(LcmRules, FindAnUnreadableAnnotation) {
+  EXPECT_THAT(
+      ViolationsIn("boolean on;  // [-] @rnge 0,1: whether"),
+      ElementsAre("t.lcm:3: s.on: the tag @rnge is not known", "t.lcm:3: s.on: the tag @rnge is not known"));
+}
+
+TEST(LcmRules, FindAFieldWithoutBound) {
+  for (const char* field : {"double v_m_s;  // [m/s]: speed", "double v_m_s;  // [m/s] @range 0,1: speed",
+                            "double v_m_s;  // [m/s] @step 1: speed", "int64_t utime;  // [us]: when",
+                            "string text;  // [utf8]: why"}) {
+    EXPECT_THAT(ViolationsIn(field), ::testing::Contains(::testing::HasSubstr("no bound:"))) << field;
+  }
+  EXPECT_THAT(ViolationsIn("int8_t n;  // [-] @range 0,3 @step 1: count\n boolean on[n];  // [-]: whether"),
+              ElementsAre("t.lcm:4: s.on: no bound: @range and @step, @age and @step, or @max"));
+}
+
+TEST(LcmRules, FindANameThatDoesNotTellTheUnit) {
+  for (const char* field :
+       {"double speed;  // [m/s] @range 0,1 @step 1: speed",
+        "double speed_m;  // [m/s] @range 0,1 @step 1: v", "double turn_rad_s;  // [s] @range 0,1 @step 1: v",
+        "double way_m;  // [-] @range 0,1 @step 1: v", "double heat_k;  // [K] @range 0,1 @step 1: v",
+        "int64_t time;  // [us] @age 10 @step 1: v", "string text;  // [-] @max 3: v"}) {
+    EXPECT_THAT(ViolationsIn(field), ElementsAre(::testing::HasSubstr("the name does not tell the unit")))
+        << field;
+  }
+}
+
+TEST(LcmRules, FindACoordinateWithoutFrame) {
+  for (const char* name : {"x_m", "y2_m", "yaw_rad"}) {
+    const std::string unit = std::string(name).ends_with("_m") ? "[m]" : "[rad]";
+    EXPECT_THAT(ViolationsIn("double " + std::string(name) + ";  // " + unit + " @range 0,1 @step 1: v"),
+                ElementsAre(::testing::EndsWith(": a coordinate needs @frame")));
+  }
+}
+
+TEST(LcmRules, FindAFieldOrTypeWithoutMeaning) {
+  EXPECT_THAT(ViolationsIn("boolean on;  // [-]:"), ElementsAre("t.lcm:3: s.on: no meaning after the colon"));
+  EXPECT_THAT(Violations(Schema({Schema::Source{"t.lcm", "struct s { }"}})),
+              ElementsAre("t.lcm:1: s: has no comment before it"));
+}
+
+TEST(LcmRules, FindATypeThatIsTooLarge) {
+  EXPECT_THAT(ViolationsIn("boolean on[1392];  // [-]: whether"), IsEmpty());
+  EXPECT_THAT(ViolationsIn("boolean on[1393];  // [-]: whether"),
+              ElementsAre("t.lcm:2: s: may have 1401 bytes, 1400 are allowed"));
+}
+
+TEST(LcmRules, FindATypeThatCannotBePacked) {
+  EXPECT_THAT(ViolationsIn("int8_t n;  // [-] @range 0,300 @step 1: count"),
+              ElementsAre("t.lcm:3: s.n: @range is beyond what int8_t can hold"));
+}
+
+// ---- lcmtypes/
+
+TEST(LcmTypes, KeepTheRules) {
+  EXPECT_THAT(Violations(Schema(Files())), IsEmpty());
+}
+
+TEST(LcmTypes, AreOnePackageWithOneTypePerFileOfItsName) {
+  const Schema schema(Files());
+  EXPECT_EQ(schema.All().size(), Files().size());
+  for (const Struct* type : schema.All()) {
+    EXPECT_EQ(type->package, "priamos") << type->file;
+    EXPECT_EQ(std::filesystem::path(type->file).stem(), type->name);
+  }
+}
+
+TEST(LcmTypes, EmbeddedTextsAreTheFiles) {
+  std::set<std::pair<std::string, std::string>> files;
+  for (const Schema::Source& source : Files()) {
+    files.emplace(std::filesystem::path(source.file).filename(), source.text);
+  }
+  std::set<std::pair<std::string, std::string>> embedded;
+  for (const TypeText& text : EmbeddedTypes())
+    embedded.emplace(std::filesystem::path(text.file).filename(), text.text);
+  EXPECT_EQ(embedded, files);
+}
+
+// ---- lcmtypes/channels.hpp
+
+template <class Function>
+void ForEachChannel(Function function) {
+  std::apply([&](const auto&... channel) { (function(channel), ...); }, channels::kAll);
+}
+
+TEST(Channels, NamesCannotBeTakenForRegularExpressions) {
+  std::set<std::string_view> names;
+  ForEachChannel([&](const auto& channel) {
+    EXPECT_FALSE(channel.name.empty());
+    EXPECT_EQ(channel.name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_"), std::string_view::npos)
+        << channel.name;
+    EXPECT_TRUE(names.insert(channel.name).second) << channel.name << " is there twice";
+  });
+}
+
+TEST(Channels, TypesAreKnownToTheSchema) {
+  const Schema schema = Schema::FromTexts(EmbeddedTypes());
+  ForEachChannel([&](const auto& channel) {
+    using Message = typename std::decay_t<decltype(channel)>::Message;
+    const Struct* type = schema.Find("priamos." + std::string(Message::getTypeName()));
+    ASSERT_NE(type, nullptr) << channel.name;
+    EXPECT_EQ(type->fingerprint, static_cast<std::uint64_t>(Message::getHash())) << channel.name;
+  });
+}
+
+TEST(Channels, WhatHasARateGetsStale) {
+  ForEachChannel([](const auto& channel) {
+    EXPECT_EQ(channel.rate_hz > 0, channel.stale_after.count() > 0) << channel.name;
+    if (channel.rate_hz > 0) {
+      EXPECT_GT(channel.stale_after.count() * channel.rate_hz, 1000)
+          << channel.name << " is stale between two messages";
+    }
+  });
+}
+
+}  // namespace
+}  // namespace priamos::bus
