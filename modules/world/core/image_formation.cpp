@@ -67,7 +67,7 @@ float Bilinear(const cv::Mat& image, double x, double y) {
 }
 
 std::uint8_t ToGrey(double level) {
-  return static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
+  return static_cast<std::uint8_t>(std::clamp(level + 0.5, 0.0, 255.0));
 }
 
 }  // namespace

@@ -12,8 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kCell_m = 0.35;      // grid on which light is computed
-constexpr int kMostCells = 60;        // along one side
+constexpr double kCell_m = 0.9;       // grid on which light is computed, in the middle of a face ...
+constexpr double kRim_m = 0.2;        // ... and near its rim, where corners are darker
+constexpr int kMostCells = 40;        // along one side
 constexpr double kBlackLight = 0.03;  // of the reference body
 constexpr int kDiscCorners = 96;
 
@@ -33,25 +34,32 @@ double LightAt(const Face& face, double a, double b, const Lighting& lighting) {
   return lighting.At(face.origin + inner_a * face.along + inner_b * face.up + 0.002 * normal, normal);
 }
 
-int Cells(double length_m) {
-  return std::clamp(static_cast<int>(std::ceil(length_m / kCell_m)), 1, kMostCells);
+/// Where along a side of this length light is computed, 0..1.
+std::vector<double> Grid(double length_m) {
+  if (length_m < 3 * kRim_m) return {0, 1};
+  const double rim = kRim_m / length_m;
+  const int cells =
+      std::clamp(static_cast<int>(std::ceil((1 - 2 * rim) * length_m / kCell_m)), 1, kMostCells);
+  std::vector<double> grid{0};
+  for (int i = 0; i <= cells; ++i) grid.push_back(rim + (1 - 2 * rim) * i / cells);
+  grid.push_back(1);
+  return grid;
 }
 
 void AppendFace(const Face& face, const Lighting& lighting, double most_light, Mesh& mesh) {
-  const int columns = Cells(face.along.norm()), rows = Cells(face.up.norm());
+  const std::vector<double> columns = Grid(face.along.norm()), rows = Grid(face.up.norm());
   std::vector<MeshVertex> grid;
-  for (int j = 0; j <= rows; ++j) {
-    for (int i = 0; i <= columns; ++i) {
-      const double a = double(i) / columns, b = double(j) / rows;
+  for (const double b : rows) {
+    for (const double a : columns) {
       const Vector3d p = face.origin + a * face.along + b * face.up;
       const double light = std::min(LightAt(face, a, b, lighting) / most_light, 1.0);
       grid.push_back({float(p.x()), float(p.y()), float(p.z()), float(face.u0 + a * (face.u1 - face.u0)),
                       float(face.v0 + b * (face.v1 - face.v0)), float(face.layer), float(light), 0});
     }
   }
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      const int k = j * (columns + 1) + i, above = k + columns + 1;
+  for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
+      const std::size_t k = j * columns.size() + i, above = k + columns.size();
       mesh.push_back({grid[k], grid[k + 1], grid[above + 1]});
       mesh.push_back({grid[k], grid[above + 1], grid[above]});
     }

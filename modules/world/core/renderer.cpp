@@ -1,7 +1,6 @@
 #include "world/core/renderer.hpp"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "world/core/lighting.hpp"
@@ -15,7 +14,7 @@ namespace {
 
 constexpr double kMostLight = 1.6;       // of Lighting: a surface right under a lamp
 constexpr double kFarthest_m = 20;       // for the distance to focus
-constexpr double kReferenceReach_m = 6;  // a calibration body nearer than this is what the eye looks at
+constexpr double kReferenceReach_m = 6;  // a calibration body nearer than this decides it
 
 Viewpoint Between(const Viewpoint& a, const Viewpoint& b, double t) {
   const auto mix = [t](double from, double to) { return from + t * (to - from); };
@@ -134,13 +133,12 @@ class Renderer::Impl {
   }
 
   void AddChannel(const cv::Mat& picture, int channel, double weight) {
-    cv::extractChannel(picture, channel_, channel);
-    cv::scaleAdd(ToFloat(channel_), weight, light_, light_);
-  }
-
-  const cv::Mat& ToFloat(const cv::Mat& bytes) {
-    bytes.convertTo(float_, CV_32F);
-    return float_;
+    const auto w = static_cast<float>(weight);
+    for (int y = 0; y < picture.rows; ++y) {
+      const std::uint8_t* from = picture.ptr<std::uint8_t>(y) + channel;
+      float* to = light_.ptr<float>(y);
+      for (int x = 0; x < picture.cols; ++x) to[x] += w * from[3 * x];
+    }
   }
 
   /// Inverse distance of what is in view: the lens has one blur for the whole picture.
@@ -169,7 +167,7 @@ class Renderer::Impl {
   std::unique_ptr<Lighting> lighting_;
   Mesh room_;
   std::vector<Mesh> parts_;  ///< of solids_
-  cv::Mat light_, channel_, float_;
+  cv::Mat light_;            ///< sum of the sub-exposures on the fine grid
 };
 
 Renderer::Renderer(const RendererConfig& config, const std::vector<Solid>& solids, std::uint64_t seed)
