@@ -56,9 +56,10 @@ TEST(LcmRules, FindAFieldWithoutBound) {
 TEST(LcmRules, FindANameThatDoesNotTellTheUnit) {
   for (const char* field :
        {"double speed;  // [m/s] @range 0,1 @step 1: speed",
-        "double speed_m;  // [m/s] @range 0,1 @step 1: v", "double turn_rad_s;  // [s] @range 0,1 @step 1: v",
-        "double way_m;  // [-] @range 0,1 @step 1: v", "double heat_k;  // [K] @range 0,1 @step 1: v",
-        "int64_t time;  // [us] @age 10 @step 1: v", "string text;  // [-] @max 3: v"}) {
+        "double speed_m;  // [m/s] @range 0,1 @step 1: value",
+        "double turn_rad_s;  // [s] @range 0,1 @step 1: value",
+        "double way_m;  // [-] @range 0,1 @step 1: value", "double heat_k;  // [K] @range 0,1 @step 1: value",
+        "int64_t time;  // [us] @age 10 @step 1: value", "string text;  // [-] @max 3: value"}) {
     EXPECT_THAT(ViolationsIn(field), ElementsAre(::testing::HasSubstr("the name does not tell the unit")))
         << field;
   }
@@ -67,7 +68,7 @@ TEST(LcmRules, FindANameThatDoesNotTellTheUnit) {
 TEST(LcmRules, FindACoordinateWithoutFrame) {
   for (const char* name : {"x_m", "y2_m", "yaw_rad"}) {
     const std::string unit = std::string(name).ends_with("_m") ? "[m]" : "[rad]";
-    EXPECT_THAT(ViolationsIn("double " + std::string(name) + ";  // " + unit + " @range 0,1 @step 1: v"),
+    EXPECT_THAT(ViolationsIn("double " + std::string(name) + ";  // " + unit + " @range 0,1 @step 1: value"),
                 ElementsAre(::testing::EndsWith(": a coordinate needs @frame")));
   }
 }
