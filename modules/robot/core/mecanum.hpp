@@ -14,7 +14,7 @@ using WheelSpeeds = std::array<double, 4>;
 /// front left and rear right wheel push to the right when driving forward.
 struct MecanumGeometry {
   double wheel_radius_m = 0.10;
-  double lever_m = 0.63;  ///< half wheelbase + half track: the lever of a wheel's rim speed about the centre
+  double lever_m = 0.62;  ///< half wheelbase + half track: the lever of a wheel's rim speed about the centre
   double max_wheel_rad_s = 12;
 
   void Describe(Archive& a);

@@ -4,6 +4,38 @@
 #include <cmath>
 
 namespace priamos::robot {
+namespace {
+
+// As far as the base drives while a path comes over the radio.
+constexpr double kPassedAtMost = 0.3;
+constexpr double kBeside = 0.3;
+
+struct Begin {
+  Pose2 start;
+  Path path;
+};
+
+/// A path that took a while to arrive may begin with a point that the base has just passed. Then it begins
+/// on its first line beside the base, so that the base need not go back and the line stays where it was.
+Begin WithoutPassedPoint(const Path& path, const Pose2& pose) {
+  if (path.points.size() < 2) return {pose, path};
+  const Pose2 &first = path.points[0], &second = path.points[1];
+  const Eigen::Vector2d line = second.translation() - first.translation();
+  const Eigen::Vector2d way = pose.translation() - first.translation();
+  const double length = line.norm();
+  if (length < kPassedAtMost) return {pose, path};
+  const double passed = line.dot(way) / length;
+  const double beside = (way - line * (passed / length)).norm();
+  if (passed <= 0 || passed > kPassedAtMost || beside > kBeside) return {pose, path};
+
+  const double part = passed / length;
+  const Eigen::Vector2d foot = first.translation() + line * part;
+  Begin begin{{foot.x(), foot.y(), WrapAngle(first.yaw + part * WrapAngle(second.yaw - first.yaw))}, path};
+  begin.path.points.erase(begin.path.points.begin());
+  return begin;
+}
+
+}  // namespace
 
 void PathFollowerConfig::Describe(Archive& a) {
   a.Section("shape", shape, "how the points of a path become a curve with speeds");
@@ -18,7 +50,8 @@ void PathFollowerConfig::Describe(Archive& a) {
 }
 
 void PathFollower::Follow(const Path& path, const Pose2& pose) {
-  shape_.emplace(config_.shape, pose, path);
+  const Begin begin = WithoutPassedPoint(path, pose);
+  shape_.emplace(config_.shape, begin.start, begin.path);
   s_ = 0;
   speed_ = 0;
   arrived_ = false;

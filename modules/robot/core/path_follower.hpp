@@ -37,7 +37,8 @@ class PathFollower {
 
   explicit PathFollower(const PathFollowerConfig& config) : config_(config) {}
 
-  /// Takes a path that begins at `pose`; replaces the one before.
+  /// Takes a path; replaces the one before. It begins at `pose`, or beside it on its own first line when the
+  /// first point has just been passed.
   void Follow(const Path& path, const Pose2& pose);
   /// No path any more; Step then wants to stand.
   void Drop();

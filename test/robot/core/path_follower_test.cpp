@@ -158,6 +158,23 @@ TEST_F(PathFollowerTest, ANewPathWhileDrivingCostsNoSpeed) {
   for (const Moment& moment : Drive(3)) EXPECT_GT(moment.speed(), 0.35);
 }
 
+TEST_F(PathFollowerTest, DoesNotGoBackToAFirstPointThatItHasJustPassed) {
+  dut_.Follow({.id = 1, .speed_m_s = 0.4, .points = {{4, 0, 0}}}, {0, 0, 0});
+  Drive(3);
+  const double x = base_.truth().x;
+  dut_.Follow({.id = 2, .speed_m_s = 0.4, .points = {{x - 0.1, 0.05, 0}, {4, 0.05, 0}}}, base_.truth());
+  for (const Moment& moment : Drive(2)) EXPECT_GT(moment.twist.vx, 0.3);
+  Drive(2);
+  EXPECT_NEAR(base_.truth().y, 0.05, 0.01) << "keeps to the line of the path";
+}
+
+TEST_F(PathFollowerTest, GoesBackWhenThePathSaysSo) {
+  dut_.Follow({.id = 1, .speed_m_s = 0.3, .points = {{-1, 0, 0}, {1, 0, 0}}}, {0, 0, 0});
+  double farthest = 0;
+  for (const Moment& moment : DriveToTheEnd()) farthest = std::min(farthest, moment.believed.x);
+  EXPECT_LT(farthest, -0.9);
+}
+
 TEST_F(PathFollowerTest, StaysArrivedWhateverCorrectionsCome) {
   dut_.Follow({.id = 1, .speed_m_s = 0.4, .points = {{1, 0, 0}}}, {0, 0, 0});
   DriveToTheEnd();

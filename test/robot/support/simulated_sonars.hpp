@@ -24,6 +24,7 @@ class SimulatedSonars {
   SimulatedSonars(std::uint64_t seed, std::vector<Surface> surfaces)
       : rng_(Rng::Stream(seed, "simulated sonars")), surfaces_(std::move(surfaces)) {}
 
+  void Clear() { surfaces_.clear(); }
   void SetFalseEchoes(double chance_per_sensor) { false_echoes_ = chance_per_sensor; }
   void Add(const std::vector<Surface>& surfaces) {
     surfaces_.insert(surfaces_.end(), surfaces.begin(), surfaces.end());

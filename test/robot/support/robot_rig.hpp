@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+
+#include "robot/core/drive_controller.hpp"
+#include "robot/core/localiser.hpp"
+#include "test/robot/support/simulated_base.hpp"
+#include "test/robot/support/simulated_sonars.hpp"
+
+namespace priamos::robot {
+
+/// The robot's thinking on a simulated base with simulated sonars, ticked at 50 Hz. Wheels, sonars and the
+/// controller's own commands can be cut.
+class RobotRig {
+ public:
+  RobotRig(std::uint64_t seed, const Pose2& truth, const LocaliserConfig& localiser = LocaliserConfig(),
+           const DriveConfig& drive = DriveConfig(), std::vector<Surface> surfaces = {})
+      : base_(seed, truth),
+        sonars_(seed, std::move(surfaces)),
+        localiser_(localiser, MecanumGeometry()),
+        drive_(drive, MecanumGeometry()) {}
+
+  bool wheels_answer = true, sonars_answer = true, wheels_turn = true;
+
+  SimulatedBase& base() { return base_; }
+  SimulatedSonars& sonars() { return sonars_; }
+  Localiser& localiser() { return localiser_; }
+  DriveController& drive() { return drive_; }
+  const DriveState& state() const { return drive_.state(); }
+  const std::optional<WheelSpeeds>& command() const { return command_; }
+  Time now() const { return base_.now(); }
+  double min_gap() const { return min_gap_; }
+
+  void Tick() {
+    base_.Advance(std::chrono::milliseconds(20));
+    const WheelSample sample = base_.Read();
+    if (wheels_answer && localiser_.AddWheels(sample, now())) heard_ = now();
+    if (sonars_answer && tick_ % 5 == 0)
+      drive_.AddSonar(sonars_.Listen(now(), base_.truth()), localiser_.odometry().pose());
+    answers_ = localiser_.Step(now());
+    command_ = drive_.Step({localiser_.estimate(), localiser_.odometry().pose(), heard_}, now());
+    if (command_ && wheels_turn) base_.Command(*command_, now());
+    if (++tick_ % 5 == 0) min_gap_ = std::min(min_gap_, sonars_.Gap(base_.truth()));
+  }
+  void Run(double seconds) {
+    for (int i = 0; i < seconds * 50; ++i) Tick();
+  }
+  const std::vector<Localiser::Answer>& answers() const { return answers_; }
+
+ private:
+  SimulatedBase base_;
+  SimulatedSonars sonars_;
+  Localiser localiser_;
+  DriveController drive_;
+  std::optional<Time> heard_;
+  std::optional<WheelSpeeds> command_;
+  std::vector<Localiser::Answer> answers_;
+  int tick_ = 0;
+  double min_gap_ = 9;
+};
+
+}  // namespace priamos::robot
