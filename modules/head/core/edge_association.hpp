@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "head/core/landmark.hpp"
+#include "head/core/pose_solver.hpp"
+#include "head/core/view_line.hpp"
+
+namespace priamos::head {
+
+/// An edge of the model found in one image.
+struct EdgeMatch {
+  int edge = 0, camera = 0;
+  std::vector<int> lines;   ///< CameraView::lines of one contrast sign that together make it
+  double covered = 0;       ///< share of the predicted length they cover, 0..1
+  double distance_px = 0;   ///< mean distance from the prediction, to the right of its direction positive
+  double predicted_px = 0;  ///< predicted length
+};
+
+/// What the images say about one supposed pose.
+struct Association {
+  std::vector<EdgeMatch> matches;
+  int n_predicted = 0;       ///< edges that should be seen, all images together
+  double log_odds = 0;       ///< logarithm of p(images | landmark there) / p(images | clutter only)
+  double best_log_odds = 0;  ///< what a perfect match would give
+};
+
+struct AssociationOptions {
+  double sigma_px = 0.5;  ///< expected distance of an image edge from the right prediction
+  double gate_px = 1.5;   ///< farther ones do not belong
+  double max_angle_rad = 0.05;
+  double detection = 0.85;  ///< chance that the operator finds an edge that is there
+  double clutter_window_px =
+      40;  ///< half width of the strip in which the density of similar edges is measured
+  double min_covered = 0.15;
+  double min_separation_px = 5;  ///< model edges seen nearer to each other are left out, both
+};
+
+/// Compares the model's edges at `base_from_landmark` with the edges of all images. `visible` lists the model
+/// edges to expect. The odds of an edge: how much better "there" explains an image edge of that length so
+/// near the prediction than the density of similar edges around it does; an edge that is not found counts
+/// against.
+Association Associate(const LandmarkModel& model, std::span<const int> visible,
+                      std::span<const CameraView> views, const Eigen::Isometry3d& base_from_landmark,
+                      const AssociationOptions& options);
+
+/// Observations for the solver: every point of the matched segments within the predicted edge, undistorted.
+/// With `coarse` only the two ends of each line, which is enough to approach.
+std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Association& association,
+                                          std::span<const CameraView> views,
+                                          const Eigen::Isometry3d& base_from_landmark, bool coarse);
+
+}  // namespace priamos::head

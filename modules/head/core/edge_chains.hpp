@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "head/core/gradient_map.hpp"
+
+namespace priamos::head {
+
+/// One pixel of an edge chain.
+struct ChainPixel {
+  std::int16_t x, y;
+};
+
+/// Chains of edge pixels, one after the other in one vector.
+struct EdgeChains {
+  std::vector<ChainPixel> pixels;
+  std::vector<int> begins;  ///< first pixel of each chain, and the end of the last one
+
+  int size() const { return begins.empty() ? 0 : static_cast<int>(begins.size()) - 1; }
+};
+
+/// Links pixels of strong gradient: from every local maximum on a coarse grid it walks along the edge, both
+/// ways, always to the strongest of the three pixels ahead (as in edge drawing; Topal and Akinlar 2012). The
+/// walk keeps the bright side on the same hand, so a chain never changes its contrast sign.
+class ChainTracer {
+ public:
+  struct Options {
+    double link_threshold = 12;  ///< magnitude to go on [Sobel sum]
+    double seed_threshold = 24;  ///< magnitude to begin
+    int min_pixels = 10;         ///< shorter chains are dropped
+  };
+  void Trace(const GradientMap& gradients, const Options& options, EdgeChains& chains);
+
+ private:
+  struct Walk;
+  void TraceFrom(const GradientMap& gradients, const Options& options, int x, int y, EdgeChains& chains);
+  void Follow(const GradientMap& gradients, int threshold, int x, int y, int hand);
+
+  int stride_ = 0;
+  std::vector<std::uint8_t> visited_;
+  std::vector<ChainPixel> walk_;
+};
+
+}  // namespace priamos::head

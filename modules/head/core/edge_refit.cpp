@@ -1,0 +1,275 @@
+#include "head/core/edge_refit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry.hpp"
+
+namespace priamos::head {
+namespace {
+
+constexpr double kMaxShiftPx = 1.5;     ///< an edge farther beside the line is another one
+constexpr double kTypicalSpread = 1.4;  ///< wide kernel and lens together [px]
+
+double Square(double x) {
+  return x * x;
+}
+
+AxisLine ToAxis(const RoughLine& rough, int& first, int& last) {
+  const double dx = rough.x2 - rough.x1, dy = rough.y2 - rough.y1;
+  AxisLine line;
+  line.steep = std::abs(dy) >= std::abs(dx);
+  line.sign = line.steep ? (dy < 0 ? 1 : -1) : (dx > 0 ? 1 : -1);
+  const double t1 = line.steep ? rough.y1 : rough.x1, t2 = line.steep ? rough.y2 : rough.x2;
+  const double s1 = line.steep ? rough.x1 : rough.y1, s2 = line.steep ? rough.x2 : rough.y2;
+  line.origin = (t1 + t2) / 2, line.offset = (s1 + s2) / 2;
+  line.slope = t1 == t2 ? 0 : (s2 - s1) / (t2 - t1);
+  first = static_cast<int>(std::lround(std::min(t1, t2)));
+  last = static_cast<int>(std::lround(std::max(t1, t2)));
+  return line;
+}
+
+/// Moves `line` to pass `step` beside itself at row `centroid`, turned by `turn`.
+void Move(AxisLine& line, double centroid, double step, double turn) {
+  line.offset = line.Across(centroid) + step;
+  line.origin = centroid;
+  line.slope += turn;
+}
+
+/// Weighted straight line through (tau, value).
+struct LineSums {
+  double w = 0, wt = 0, wtt = 0, wd = 0, wtd = 0;
+  void Add(double weight, double tau, double value) {
+    w += weight, wt += weight * tau, wtt += weight * tau * tau;
+    wd += weight * value, wtd += weight * tau * value;
+  }
+  /// Value at the mean tau, and slope; false if undetermined.
+  bool Solve(double& mean, double& value, double& slope) const {
+    if (w <= 0) return false;
+    mean = wt / w, value = wd / w;
+    const double spread = wtt - wt * mean;
+    if (spread <= 0) return false;
+    slope = (wtd - wd * mean) / spread;
+    return true;
+  }
+};
+
+}  // namespace
+
+void EdgeRefiner::SetImage(const cv::Mat& image, double noise_sigma) {
+  profile_.SetImage(image);
+  noise_sigma_ = std::max(noise_sigma, 0.3);  // rounding to whole grey values is noise, too
+}
+
+/// Pixel accuracy to about 0.2 px, from a few rows only.
+bool EdgeRefiner::Approach(AxisLine& line, int first, int last) const {
+  constexpr int kGroups = 6, kRowsEach = 4;
+  const int n = last - first + 1, step = std::max(1, n / (kGroups * kRowsEach));
+  for (int round = 0; round < 3; ++round) {
+    LineSums sums;
+    for (int g = 0; g < kGroups; ++g) {
+      const EdgeSums s = profile_.Sum(line, first + g * n / kGroups, first + (g + 1) * n / kGroups - 1, step);
+      if (s.strength <= 0) continue;
+      const double shift = s.imbalance[0] / s.strength * Square(kTypicalSpread);
+      sums.Add(s.strength, s.along - line.origin, std::clamp(shift, -kMaxShiftPx, kMaxShiftPx));
+    }
+    double mean = 0, step_offset = 0, turn = 0;
+    if (!sums.Solve(mean, step_offset, turn)) return false;
+    Move(line, line.origin + mean, step_offset, turn);
+    if (std::abs(step_offset) + std::abs(turn) * n / 2 < 0.3) break;
+  }
+  return std::abs(line.slope) < 1.3;
+}
+
+void EdgeRefiner::MeasureBlocks(const AxisLine& line, int first, int last) {
+  blocks_.clear();
+  total_ = EdgeSums{};
+  for (int t = first; t <= last; t += block_rows_) {
+    blocks_.push_back(profile_.Sum(line, t, std::min(t + block_rows_ - 1, last)));
+    total_ += blocks_.back();
+  }
+}
+
+bool EdgeRefiner::IsEdge(const EdgeSums& b) const {
+  return b.rows > 0 && b.strength > 0.5 * total_.strength / total_.rows * b.rows &&
+         std::abs(b.imbalance[0]) * total_.strength < kMaxShiftPx * total_.sharpness[0] * b.strength;
+}
+
+/// Follows the edge beyond the measured blocks as far as it goes.
+void EdgeRefiner::Extend(const AxisLine& line) {
+  const int extent = profile_.Extent(line);
+  const auto ahead = [&](const EdgeSums& last, int step) {
+    const int next = static_cast<int>(std::lround(last.along + step * (last.rows + 1) / 2.0));
+    const int far = next + step * (block_rows_ - 1);
+    return next < 0 || next >= extent ? EdgeSums{}
+                                      : profile_.Sum(line, std::min(next, far), std::max(next, far));
+  };
+  while (blocks_.back().rows > 0 && IsEdge(blocks_.back())) blocks_.push_back(ahead(blocks_.back(), 1));
+  front_.clear();
+  EdgeSums first = blocks_.front();
+  while (first.rows > 0 && IsEdge(first)) front_.push_back(first = ahead(first, -1));
+  blocks_.insert(blocks_.begin(), front_.rbegin(), front_.rend());
+}
+
+/// Drops blocks without the edge from both ends; the ends lie where half the strength is lost.
+void EdgeRefiner::Trim() {
+  const double mean = total_.strength / total_.rows;
+  const auto part = [&](const EdgeSums& b) {
+    return std::clamp(b.strength / mean, 0.0,
+                      1.0 * b.rows);  // rows of the edge inside a block beyond the end
+  };
+  double before = 0, after = 0;
+  while (!blocks_.empty() && !IsEdge(blocks_.back())) after = part(blocks_.back()), blocks_.pop_back();
+  std::size_t lost = 0;
+  while (lost < blocks_.size() && !IsEdge(blocks_[lost])) before = part(blocks_[lost++]);
+  blocks_.erase(blocks_.begin(), blocks_.begin() + lost);
+  total_ = EdgeSums{};
+  for (const EdgeSums& b : blocks_) total_ += b;
+  if (blocks_.empty()) return;
+  const auto whole = [&](const EdgeSums& b) {
+    return std::clamp(b.strength / mean, 0.5 * b.rows, 1.0 * b.rows);
+  };
+  const EdgeSums &front = blocks_.front(), &back = blocks_.back();
+  first_ = front.along + 0.5 * front.rows - whole(front) - before;
+  last_ = back.along - 0.5 * back.rows + whole(back) + after;
+}
+
+double EdgeRefiner::Shift(const EdgeSums& b, const Fit& fit) const {
+  return b.imbalance[int(fit.width)] / (fit.kappa * b.strength);
+}
+
+bool EdgeRefiner::Solve(const AxisLine& line, KernelWidth width, Fit& fit) {
+  fit = Fit{};
+  fit.width = width;
+  const double sharpness = total_.sharpness[int(width)];
+  if (blocks_.size() < 3 || sharpness <= 0 || total_.strength <= 0) return false;
+  fit.kappa = sharpness / total_.strength;
+  const std::size_t skip = blocks_.size() >= 8 ? 1 : 0;  // corners disturb the ends
+  const double noise = std::sqrt(KernelsFor(width, std::abs(line.slope)).second_gain) * noise_sigma_;
+  weights_.assign(blocks_.size(), 0);
+  double mean = 0, offset = 0, slope = 0;
+  for (int round = 0; round < 3; ++round) {
+    LineSums sums;
+    for (std::size_t i = skip; i + skip < blocks_.size(); ++i) {
+      const EdgeSums& b = blocks_[i];
+      if (b.strength < 0.25 * total_.strength / total_.rows * b.rows) continue;  // a gap
+      const double shift = std::clamp(Shift(b, fit), -kMaxShiftPx, kMaxShiftPx), tau = b.along - line.origin;
+      weights_[i] = b.strength;
+      if (round > 0) {
+        const double sigma = noise * std::sqrt(b.rows) / (fit.kappa * b.strength) + 0.03;
+        const double error = std::abs(shift - offset - slope * (tau - mean)) / sigma;
+        if (error > 2.5) weights_[i] *= 2.5 / error;
+      }
+      sums.Add(weights_[i], tau, shift);
+    }
+    if (!sums.Solve(mean, offset, slope)) return false;
+  }
+  fit.centroid = line.origin + mean, fit.step_offset = offset, fit.step_slope = slope;
+  AddVariance(line, fit);
+  return true;
+}
+
+/// From the pixel noise, enlarged where the blocks scatter more than that explains.
+void EdgeRefiner::AddVariance(const AxisLine& line, Fit& fit) const {
+  const double noise = Square(noise_sigma_) * KernelsFor(fit.width, std::abs(line.slope)).second_gain;
+  double w = 0, wtt = 0, v = 0, vtt = 0, chi2 = 0;
+  int n = 0;
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    if (weights_[i] <= 0) continue;
+    const EdgeSums& b = blocks_[i];
+    const double tau = b.along - fit.centroid;
+    const double variance = noise * b.rows * Square(weights_[i] / (fit.kappa * b.strength));
+    const double error = Shift(b, fit) - fit.step_offset - fit.step_slope * tau;
+    w += weights_[i], wtt += weights_[i] * tau * tau, v += variance, vtt += variance * tau * tau;
+    chi2 += Square(error * weights_[i]) / variance;
+    ++n;
+  }
+  const double inflation = n > 4 ? std::clamp(chi2 / (n - 2), 1.0, 25.0) : 1.0;
+  fit.variance_offset = inflation * v / Square(w);
+  fit.variance_slope = inflation * vtt / Square(wtt);
+}
+
+/// Blocks on [first, last], the line moved until they lie around the edge.
+bool EdgeRefiner::Settle(AxisLine& line, int first, int last) {
+  for (int round = 0; round < 3; ++round) {
+    MeasureBlocks(line, first, last);
+    Fit fit;
+    if (!Solve(line, KernelWidth::kWide, fit)) return false;
+    const double move = std::abs(fit.step_offset) + std::abs(fit.step_slope) * (last - first) / 2;
+    if (move < 0.2) return true;
+    if (move > 5) return false;
+    Move(line, fit.centroid, fit.step_offset, fit.step_slope);
+  }
+  return std::abs(line.slope) < 1.3;
+}
+
+bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeImage& out) {
+  int first = 0, last = 0;
+  AxisLine line = ToAxis(rough, first, last);
+  if (last - first < 5 || !Approach(line, first, last)) return false;
+  block_rows_ = last - first < 32 ? 2 : last - first < 160 ? 4 : 8;
+  if (!Settle(line, first, last)) return false;
+
+  const double strength = total_.strength / total_.rows;
+  const double noise =
+      std::sqrt(KernelsFor(KernelWidth::kWide, std::abs(line.slope)).first_gain) * noise_sigma_;
+  if (strength * line.Stretch() * kTypicalSpread * std::sqrt(2 * kPi) < options.min_contrast ||
+      strength * std::sqrt(total_.rows) < options.min_significance * noise ||
+      total_.sharpness[0] * Square(options.max_spread_px) < total_.strength) {
+    return false;
+  }
+  Extend(line);
+  Trim();
+  if (blocks_.empty() || (last_ - first_) * line.Stretch() < options.min_length_px) return false;
+
+  Fit fit, narrow;
+  if (Solve(line, KernelWidth::kNarrow, narrow) && Solve(line, KernelWidth::kWide, fit)) {
+    const double gap =
+        narrow.step_offset - fit.step_offset - fit.step_slope * (narrow.centroid - fit.centroid);
+    const double turn = narrow.step_slope - fit.step_slope;
+    if (std::abs(gap) > 0.01 + 3 * std::sqrt(narrow.variance_offset + fit.variance_offset) ||
+        std::abs(turn) >
+            3 * std::sqrt(narrow.variance_slope + fit.variance_slope) + 0.02 / (last_ - first_)) {
+      Solve(line, KernelWidth::kNarrow, fit);
+    }
+  } else if (!Solve(line, KernelWidth::kWide, fit)) {
+    return false;
+  }
+  Append(line, fit, options, out);
+  return true;
+}
+
+void EdgeRefiner::Append(const AxisLine& measured, const Fit& fit, const Options& options,
+                         EdgeImage& out) const {
+  AxisLine line = measured;
+  Move(line, fit.centroid, fit.step_offset, fit.step_slope);
+  const double cosine = 1 / line.Stretch();
+  const auto point = [&](double along, double across) -> Eigen::Vector2d {
+    return line.steep ? Eigen::Vector2d(across, along) : Eigen::Vector2d(along, across);
+  };
+  const bool ascending = line.steep ? line.sign < 0 : line.sign > 0;  // bright side on the right hand
+  const double begin = ascending ? first_ : last_, end = ascending ? last_ : first_;
+  EdgeSegment segment;
+  segment.begin = point(begin, line.Across(begin));
+  segment.end = point(end, line.Across(end));
+  segment.centre = point(fit.centroid, line.Across(fit.centroid));
+  segment.sigma_normal_px = std::hypot(std::sqrt(fit.variance_offset) * cosine, options.floor_px);
+  segment.sigma_angle_rad =
+      std::hypot(std::sqrt(fit.variance_slope) * Square(cosine), options.floor_px / segment.length_px());
+  segment.grey_left = (line.sign > 0 ? total_.low : total_.high) / total_.rows;
+  segment.grey_right = (line.sign > 0 ? total_.high : total_.low) / total_.rows;
+  segment.first_point = static_cast<int>(out.points.size());
+  const double noise = noise_sigma_ * std::sqrt(KernelsFor(fit.width, std::abs(line.slope)).second_gain);
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const EdgeSums& b = blocks_[i];
+    if (weights_[i] <= 0) continue;
+    const double shift = std::clamp(Shift(b, fit), -kMaxShiftPx, kMaxShiftPx);
+    const double sigma = noise * std::sqrt(b.rows) / (fit.kappa * b.strength);
+    out.points.push_back(
+        {point(b.along, measured.Across(b.along) + shift), std::hypot(sigma * cosine, options.floor_px)});
+  }
+  segment.n_points = static_cast<int>(out.points.size()) - segment.first_point;
+  out.segments.push_back(segment);
+}
+
+}  // namespace priamos::head

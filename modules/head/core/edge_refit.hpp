@@ -1,0 +1,63 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "head/core/edge_profile.hpp"
+#include "head/core/edge_segment.hpp"
+
+namespace priamos::head {
+
+/// Brings rough lines to sub-pixel accuracy on the raw image, and finds where they end.
+///
+/// Along every row that a steep line crosses (every column for a flat one) the grey values are weighted with
+/// derivatives of a Gaussian centred on the line. The edge is where the second derivative vanishes; summed
+/// over rows this is linear in the grey values, so noise averages out with the length, without the bias of
+/// peaks taken pixel by pixel. Two widths are measured: the wide one is less noisy, the narrow one less
+/// disturbed by neighbouring edges; where they contradict each other the narrow one is believed.
+class EdgeRefiner {
+ public:
+  struct Options {
+    double min_length_px = 12;
+    double min_contrast = 4;      ///< grey values; noise may demand more
+    double min_significance = 6;  ///< mean contrast over its standard deviation
+    double max_spread_px = 2.8;   ///< blur of kernel and edge together; softer ones are shadows
+    double floor_px = 0.005;      ///< systematic part of sigma_normal_px: sampling, shading
+  };
+
+  /// Refers to `image` (CV_8UC1) until the next call.
+  void SetImage(const cv::Mat& image, double noise_sigma);
+
+  /// Appends to `out` the segment near `rough` and its points; false if there is none.
+  bool Refine(const RoughLine& rough, const Options& options, EdgeImage& out);
+
+ private:
+  struct Fit {
+    KernelWidth width = KernelWidth::kWide;
+    double centroid = 0;                     ///< row of the weighted mean
+    double step_offset = 0, step_slope = 0;  ///< from the measured line to the edge; the offset holds there
+    double variance_offset = 0, variance_slope = 0;
+    double kappa = 1;  ///< imbalance per strength and pixel of shift
+  };
+
+  bool Approach(AxisLine& line, int first, int last) const;
+  bool Settle(AxisLine& line, int first, int last);
+  void MeasureBlocks(const AxisLine& line, int first, int last);
+  void Extend(const AxisLine& line);
+  void Trim();
+  bool IsEdge(const EdgeSums& block) const;
+  double Shift(const EdgeSums& block, const Fit& fit) const;
+  bool Solve(const AxisLine& line, KernelWidth width, Fit& fit);
+  void AddVariance(const AxisLine& line, Fit& fit) const;
+  void Append(const AxisLine& line, const Fit& fit, const Options& options, EdgeImage& out) const;
+
+  EdgeProfile profile_;
+  double noise_sigma_ = 0;
+  int block_rows_ = 4;
+  std::vector<EdgeSums> blocks_, front_;  ///< along the line, from its small end to its large end
+  std::vector<double> weights_;
+  EdgeSums total_;
+  double first_ = 0, last_ = 0;  ///< ends of the edge along the line
+};
+
+}  // namespace priamos::head

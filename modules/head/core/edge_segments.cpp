@@ -1,0 +1,84 @@
+#include "head/core/edge_segments.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace priamos::head {
+namespace {
+
+/// Sobel sum (of the smoothed image) that a step of one grey value gives.
+constexpr double kSobelPerGrey = 2.3;
+
+double Extent(const RoughLine& line) {
+  return std::max(std::abs(line.x2 - line.x1), std::abs(line.y2 - line.y1));
+}
+
+}  // namespace
+
+void EdgeOperator::Extract(const cv::Mat& image, EdgeImage& out) {
+  if (image.type() != CV_8UC1 || image.cols < 32 || image.rows < 32) {
+    throw std::invalid_argument("the edge operator needs a grey image of at least 32x32 pixels");
+  }
+  gradients_.Compute(image);
+  ChainTracer::Options trace;
+  trace.link_threshold =
+      std::max(options_.min_contrast * kSobelPerGrey, options_.noise_factor * gradients_.GradientNoise());
+  trace.seed_threshold = 1.5 * trace.link_threshold;
+  trace.min_pixels = options_.split.min_pixels;
+  tracer_.Trace(gradients_, trace, chains_);
+  splitter_.Split(chains_, options_.split, rough_);
+
+  out.width = image.cols, out.height = image.rows;
+  out.noise_sigma = gradients_.noise_sigma();
+  out.mean_grey = gradients_.mean_grey(), out.saturated_share = gradients_.saturated_share();
+  out.segments.clear(), out.points.clear();
+  refiner_.SetImage(image, gradients_.noise_sigma());
+  EdgeRefiner::Options refit = options_.refit;
+  refit.min_contrast = options_.min_contrast, refit.min_length_px = options_.min_length_px;
+  // The longest first: they run on over their own broken pieces, which need not be looked at any more.
+  std::stable_sort(rough_.begin(), rough_.end(),
+                   [](const RoughLine& a, const RoughLine& b) { return Extent(a) > Extent(b); });
+  owner_.create(image.size(), CV_16SC1);
+  owner_.setTo(0);
+  for (const RoughLine& line : rough_) {
+    if (IsOwned(line, out) || !refiner_.Refine(line, refit, out)) continue;
+    Own(out.segments.back(), static_cast<int>(out.segments.size()));
+  }
+}
+
+void EdgeOperator::Own(const EdgeSegment& segment, int id) {
+  const Eigen::Vector2d way = segment.end - segment.begin;
+  const bool steep = std::abs(way.y()) >= std::abs(way.x());
+  const int n = static_cast<int>(way.cwiseAbs().maxCoeff());
+  const Eigen::Vector2d step = way / std::max(n, 1);
+  for (int i = 0; i <= n; ++i) {
+    const Eigen::Vector2d at = segment.begin + i * step;
+    const int x = static_cast<int>(std::lround(at.x())), y = static_cast<int>(std::lround(at.y()));
+    for (int k = -1; k <= 1; ++k) {
+      const int u = steep ? x + k : x, v = steep ? y : y + k;
+      if (u >= 0 && v >= 0 && u < owner_.cols && v < owner_.rows)
+        owner_.at<short>(v, u) = static_cast<short>(id);
+    }
+  }
+}
+
+/// True if nearly all of `line` runs on one segment of the same contrast sign.
+bool EdgeOperator::IsOwned(const RoughLine& line, const EdgeImage& out) const {
+  constexpr int kSamples = 5;
+  int n_owned = 0, owner = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double f = (i + 0.5) / kSamples;
+    const int x = static_cast<int>(std::lround(line.x1 + f * (line.x2 - line.x1)));
+    const int y = static_cast<int>(std::lround(line.y1 + f * (line.y2 - line.y1)));
+    if (x < 0 || y < 0 || x >= owner_.cols || y >= owner_.rows) continue;
+    const int id = owner_.at<short>(y, x);
+    if (id == 0) continue;
+    n_owned += owner == 0 || owner == id;
+    owner = id;
+  }
+  if (n_owned < kSamples - 1) return false;
+  const Eigen::Vector2d way(line.x2 - line.x1, line.y2 - line.y1);
+  return out.segments[owner - 1].direction().dot(way) > 0.9 * way.norm();
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "head/core/chain_split.hpp"
+#include "head/core/edge_chains.hpp"
+#include "head/core/edge_refit.hpp"
+#include "head/core/edge_segment.hpp"
+#include "head/core/gradient_map.hpp"
+
+namespace priamos::head {
+
+/// The edge operator: Sobel gradients, linked pixels, straight pieces, sub-pixel refit. Keeps its buffers, so
+/// one object per thread and camera size is fast.
+class EdgeOperator {
+ public:
+  struct Options {
+    double min_contrast = 8;    ///< weakest edge of a quiet image [grey values]
+    double noise_factor = 3.0;  ///< a pixel is linked above so many standard deviations of the gradient
+    double min_length_px = 12;  ///< shortest segment
+    ChainSplitter::Options split;
+    EdgeRefiner::Options refit;
+  };
+
+  EdgeOperator() = default;
+  explicit EdgeOperator(const Options& options) : options_(options) {}
+
+  /// `image` is CV_8UC1, at least 32x32, else std::invalid_argument.
+  void Extract(const cv::Mat& image, EdgeImage& out);
+
+ private:
+  Options options_;
+  GradientMap gradients_;
+  ChainTracer tracer_;
+  ChainSplitter splitter_;
+  EdgeRefiner refiner_;
+  void Own(const EdgeSegment& segment, int id);
+  bool IsOwned(const RoughLine& line, const EdgeImage& out) const;
+
+  EdgeChains chains_;
+  std::vector<RoughLine> rough_;
+  cv::Mat owner_;  ///< pixel -> 1 + index of the segment that runs there
+};
+
+}  // namespace priamos::head

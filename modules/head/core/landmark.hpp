@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "common/geometry.hpp"
+
+namespace priamos::head {
+
+/// One straight edge of a landmark's skeleton, landmark frame [m]. Seen by viewers whose azimuth about the
+/// landmark's origin lies in the sector from `visible_from_rad` counter-clockwise to `visible_to_rad`.
+struct LandmarkEdge {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
+  double visible_from_rad = -kPi, visible_to_rad = kPi;
+  int side = 0;  ///< 0 both, 1 left, 2 right
+
+  bool IsVertical() const { return (to - from).head<2>().norm() < 0.01 * std::abs(to.z() - from.z()); }
+  /// Whether a viewer at `in_landmark` is in the sector widened by `margin_rad` at both ends.
+  bool IsSeenFrom(const Eigen::Vector2d& in_landmark, double margin_rad = 0) const;
+};
+
+/// A landmark as an edge skeleton (paper, section 6.1). Its frame stands on the floor, z up.
+struct LandmarkModel {
+  int id = 0;
+  Pose2 map_from_landmark;
+  std::vector<LandmarkEdge> edges;
+};
+
+/// A pose on the floor as a transform of space.
+inline Eigen::Isometry3d Lift(const Pose2& pose) {
+  Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
+  t.translation() << pose.x, pose.y, 0;
+  t.linear() = Eigen::AngleAxisd(pose.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return t;
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,184 @@
+#include "head/core/landmark_fix.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "head/core/prediction.hpp"
+
+namespace priamos::head {
+namespace {
+
+/// From a proposal to the result the prediction gets sharper, and with it the gate.
+constexpr AssociationOptions kProposed{2.0, 5.0, 0.06, 0.85, 40, 0.15};
+constexpr AssociationOptions kApproached{1.0, 3.0, 0.04, 0.85, 40, 0.15};
+constexpr AssociationOptions kRefined{0.5, 1.6, 0.03, 0.85, 40, 0.15};
+constexpr int kRefineBest = 8;
+
+std::vector<int> VisibleAt(const LandmarkModel& model, const Pose2& base_from_landmark,
+                           double margin_rad = 0) {
+  const Eigen::Vector2d viewer = base_from_landmark.Inverse().translation();
+  std::vector<int> visible;
+  for (std::size_t i = 0; i < model.edges.size(); ++i) {
+    if (model.edges[i].IsSeenFrom(viewer, margin_rad)) visible.push_back(static_cast<int>(i));
+  }
+  return visible;
+}
+
+Pose2 Flatten(const Eigen::Isometry3d& t) {
+  return {t.translation().x(), t.translation().y(), std::atan2(t.linear()(1, 0), t.linear()(0, 0))};
+}
+
+Eigen::Matrix3d OnFloor(const Eigen::Matrix<double, 6, 6>& covariance) {
+  constexpr std::array<int, 3> kAxes{0, 1, 5};
+  Eigen::Matrix3d floor;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) floor(r, c) = covariance(kAxes[r], kAxes[c]);
+  }
+  return floor;
+}
+
+bool IsDistinct(const Pose2& a, const Pose2& b, const LandmarkFixOptions& options) {
+  return (a.translation() - b.translation()).norm() > options.distinct_m ||
+         std::abs(WrapAngle(a.yaw - b.yaw)) > options.distinct_rad;
+}
+
+}  // namespace
+
+struct LandmarkFinder::Pose {
+  Pose2 base_from_landmark;
+  Association association;
+  PoseSolution solution;
+  double rival_log_odds = -1e9;
+};
+
+const char* Describe(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kFound:
+      return "found";
+    case Verdict::kNoModel:
+      return "no model of this landmark";
+    case Verdict::kNoPose:
+      return "the robot has no pose for the time of the picture";
+    case Verdict::kNoImage:
+      return "no usable image";
+    case Verdict::kNotVisible:
+      return "too few of its edges can be in the picture";
+    case Verdict::kTooFewEdges:
+      return "too few of its edges were found";
+    case Verdict::kAmbiguous:
+      return "two poses explain the picture equally well";
+    case Verdict::kResidualTooLarge:
+      return "the model does not fit";
+    case Verdict::kElsewhere:
+      return "it is not where it was expected";
+  }
+  return "unknown";
+}
+
+bool IsBlind(const EdgeImage& edges) {
+  return edges.width < 64 || edges.height < 64 || edges.saturated_share > 0.6 || edges.mean_grey < 4 ||
+         edges.segments.size() < 2;
+}
+
+LandmarkFinder::Pose LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraView> views,
+                                            const Pose2& start) const {
+  std::vector<const CameraModel*> cameras;
+  for (const CameraView& view : views) cameras.push_back(view.camera);
+  Pose pose;
+  pose.base_from_landmark = start;
+  for (const AssociationOptions* options : {&kProposed, &kApproached, &kRefined}) {
+    const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+    const auto visible = VisibleAt(model, pose.base_from_landmark);
+    pose.association = Associate(model, visible, views, at, *options);
+    const auto observations = Observations(model, pose.association, views, at, options != &kRefined);
+    pose.solution = SolvePose(model, cameras, observations, at, options_.solver);
+    if (!pose.solution.ok) return pose;
+    pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
+  }
+  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+  pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
+  return pose;
+}
+
+LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                                 const CameraModel& left, const CameraModel& right,
+                                 const EdgeImage& left_edges, const EdgeImage& right_edges) const {
+  LandmarkFix fix;
+  if (model.edges.empty()) return fix.verdict = Verdict::kNoModel, fix;
+  if (IsBlind(left_edges) || IsBlind(right_edges)) return fix;
+  Eigen::Matrix3d search = prediction.covariance;
+  for (int k = 0; k < 3; ++k)
+    search(k, k) += std::pow(k < 2 ? options_.min_sigma_m : options_.min_sigma_rad, 2);
+  const auto n_predicted =
+      PredictEdges(model, prediction.base_from_landmark, search, left, {left_edges.width, left_edges.height})
+          .size() +
+      PredictEdges(model, prediction.base_from_landmark, search, right,
+                   {right_edges.width, right_edges.height})
+          .size();
+  if (n_predicted < std::size_t(options_.min_predicted)) return fix.verdict = Verdict::kNotVisible, fix;
+
+  const std::array<CameraView, 2> views{MakeView(left, left_edges), MakeView(right, right_edges)};
+  const auto verticals = MatchVerticals(views[0], views[1], options_.stereo);
+  ProposalOptions proposal_options = options_.proposals;
+  proposal_options.gate = options_.gate_elsewhere;
+  const double margin = 3 * std::sqrt(search(2, 2)) + 0.1;
+  const Proposals proposals =
+      ProposePoses(model, VisibleAt(model, prediction.base_from_landmark, margin), verticals,
+                   prediction.base_from_landmark, search, proposal_options);
+
+  std::vector<std::pair<double, Pose2>> judged;
+  for (const PoseProposal& p : proposals.poses) {
+    const auto visible = VisibleAt(model, p.base_from_landmark);
+    const auto a = Associate(model, visible, views, Lift(p.base_from_landmark), kProposed);
+    judged.emplace_back(a.log_odds, p.base_from_landmark);
+  }
+  std::stable_sort(judged.begin(), judged.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (judged.size() > kRefineBest) judged.resize(kRefineBest);
+
+  std::vector<Pose> poses;
+  for (const auto& [odds, start] : judged) {
+    Pose pose = Refine(model, views, start);
+    if (pose.solution.ok) poses.push_back(std::move(pose));
+  }
+  fix.verdict = Verdict::kTooFewEdges;
+  if (poses.empty()) return fix;
+  const auto best = std::max_element(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) {
+    return a.association.log_odds < b.association.log_odds;
+  });
+  for (const Pose& p : poses) {
+    if (IsDistinct(p.base_from_landmark, best->base_from_landmark, options_)) {
+      best->rival_log_odds = std::max(best->rival_log_odds, p.association.log_odds);
+    }
+  }
+  Judge(prediction, search, static_cast<int>(proposals.poses.size()), *best, fix);
+  return fix;
+}
+
+void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
+                           const Pose& best, LandmarkFix& fix) const {
+  fix.base_from_landmark = best.base_from_landmark;
+  fix.covariance = OnFloor(best.solution.covariance);
+  fix.n_matched = static_cast<int>(best.association.matches.size());
+  fix.residual_px = best.solution.rms_px;
+  fix.matches = best.association.matches;
+  fix.log_odds = best.association.log_odds, fix.rival_log_odds = best.rival_log_odds;
+  const double chances = std::log(std::max(n_tested, 1));
+  if (fix.n_matched < options_.min_matched || fix.log_odds < options_.min_log_odds + chances ||
+      fix.log_odds < options_.min_share * best.association.best_log_odds) {
+    fix.verdict = Verdict::kTooFewEdges;
+  } else if (fix.rival_log_odds > fix.log_odds - options_.min_lead) {
+    fix.verdict = Verdict::kAmbiguous;
+  } else if (fix.residual_px > options_.max_residual_px) {
+    fix.verdict = Verdict::kResidualTooLarge;
+  } else if (SquaredDistance(fix.base_from_landmark, prediction.base_from_landmark, search) >
+             options_.gate * options_.gate) {
+    fix.verdict = Verdict::kElsewhere;
+  } else {
+    fix.verdict = Verdict::kFound;
+  }
+}
+
+}  // namespace priamos::head

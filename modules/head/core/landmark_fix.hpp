@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "head/core/camera_model.hpp"
+#include "head/core/edge_association.hpp"
+#include "head/core/edge_segment.hpp"
+#include "head/core/landmark.hpp"
+#include "head/core/pose_proposals.hpp"
+#include "head/core/pose_solver.hpp"
+#include "head/core/vertical_stereo.hpp"
+
+namespace priamos::head {
+
+/// Outcome of a look; the values are those of landmark_fix_t.
+enum class Verdict {
+  kFound = 0,
+  kNoModel = 1,
+  kNoPose = 2,
+  kNoImage = 3,           ///< none, or black, saturated, of the wrong size
+  kNotVisible = 4,        ///< the prediction has too few edges in the images
+  kTooFewEdges = 5,       ///< too few of them were found
+  kAmbiguous = 6,         ///< two different poses explain the images about equally well
+  kResidualTooLarge = 7,  ///< found, but the model does not fit well enough
+  kElsewhere = 8          ///< found where the prediction and its covariance exclude it
+};
+
+/// In words, for logs and operators.
+const char* Describe(Verdict verdict);
+
+/// Where the robot believes the landmark to be: the prior of the search, not of the result.
+struct LandmarkPrediction {
+  Pose2 base_from_landmark;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
+};
+
+/// The landmark as reconstructed from one stereo pair.
+struct LandmarkFix {
+  Verdict verdict = Verdict::kNoImage;
+  Pose2 base_from_landmark;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
+  int n_matched = 0;                                     ///< model edges found, all images together
+  double residual_px = 0;                                ///< RMS distance of the matched edges from the model
+  double log_odds = 0;                                   ///< landmark there against clutter only
+  double rival_log_odds = 0;                             ///< the same of the best different pose
+  std::vector<EdgeMatch> matches;
+};
+
+struct LandmarkFixOptions {
+  double min_sigma_m = 0.02, min_sigma_rad = 0.01;  ///< the search is never narrower than that
+  double gate = 4;            ///< Mahalanobis distance from the prediction, 3 degrees of freedom
+  double gate_elsewhere = 7;  ///< so far out it is still looked for, to be refused
+  int min_predicted = 4;      ///< edges that must be predicted, all images together
+  int min_matched = 6;        ///< edges that must be found, all images together
+  double min_log_odds = 14;   ///< beyond the logarithm of the number of chances
+  double min_share = 0.55;    ///< of the log odds that a complete landmark would give
+  double min_lead = 6;        ///< over the best different pose
+  double max_residual_px = 1.2;
+  double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
+  VerticalStereoOptions stereo;
+  ProposalOptions proposals;
+  PoseSolverOptions solver;
+};
+
+/// Finds the landmark in one stereo pair: vertical edges are reconstructed, pairs of them laid onto pairs of
+/// the model's edges wherever the prediction allows it, every pose proposed is judged by all edges in both
+/// images, and the best one refined over all their points. It answers FOUND only if the images speak for it
+/// far beyond chance and for no other pose; the estimate then depends on the images alone, not on the
+/// prediction.
+class LandmarkFinder {
+ public:
+  explicit LandmarkFinder(const LandmarkFixOptions& options) : options_(options) {}
+
+  /// `side` 0 uses all edges, 1 or 2 only needs that side to be in view.
+  LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction, const CameraModel& left,
+                   const CameraModel& right, const EdgeImage& left_edges, const EdgeImage& right_edges) const;
+
+ private:
+  struct Pose;
+  Pose Refine(const LandmarkModel& model, std::span<const CameraView> views, const Pose2& start) const;
+  void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
+             const Pose& best, LandmarkFix& fix) const;
+
+  LandmarkFixOptions options_;
+};
+
+/// True if nothing can be seen in the image: too small, black or white all over, without contrast.
+bool IsBlind(const EdgeImage& edges);
+
+}  // namespace priamos::head

@@ -1,0 +1,233 @@
+#include "head/core/pose_solver.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "head/core/prediction.hpp"
+
+namespace priamos::head {
+namespace {
+
+constexpr double kNearDepth = 0.1;
+constexpr int kPose = 6, kCamera = 2, kEdge = 2;
+using Vector10 = Eigen::Matrix<double, kPose + kCamera + kEdge, 1>;
+using Matrix10 = Eigen::Matrix<double, kPose + kCamera + kEdge, kPose + kCamera + kEdge>;
+
+/// The points of one model edge in one image.
+struct Group {
+  int edge = 0, camera = 0;
+  std::span<const EdgeObservation> points;
+  double weight = 1;
+  double mean_px = 0;
+};
+
+std::vector<Group> MakeGroups(std::span<const EdgeObservation> observations) {
+  std::vector<Group> groups;
+  for (std::size_t begin = 0; begin < observations.size();) {
+    std::size_t end = begin + 1;
+    while (end < observations.size() && observations[end].edge == observations[begin].edge &&
+           observations[end].camera == observations[begin].camera) {
+      ++end;
+    }
+    groups.push_back(
+        {observations[begin].edge, observations[begin].camera, observations.subspan(begin, end - begin)});
+    begin = end;
+  }
+  return groups;
+}
+
+/// The whole model edge in the image, uncut: points may lie a little beyond its ends.
+std::optional<PredictedEdge> Project(const CameraModel& camera, const Eigen::Vector3d& from,
+                                     const Eigen::Vector3d& to) {
+  PredictedEdge edge;
+  edge.in_base_p = from, edge.in_base_q = to;
+  edge.depth_p = camera.Depth(from), edge.depth_q = camera.Depth(to);
+  if (edge.depth_p < kNearDepth && edge.depth_q < kNearDepth) return std::nullopt;
+  if (edge.depth_p < kNearDepth || edge.depth_q < kNearDepth) {
+    const double cut = (kNearDepth - edge.depth_p) / (edge.depth_q - edge.depth_p);
+    (edge.depth_p < kNearDepth ? edge.in_base_p : edge.in_base_q) = from + cut * (to - from);
+    (edge.depth_p < kNearDepth ? edge.depth_p : edge.depth_q) = kNearDepth;
+  }
+  edge.p = camera.Project(edge.in_base_p), edge.q = camera.Project(edge.in_base_q);
+  if (edge.length_px() < 1) return std::nullopt;
+  return edge;
+}
+
+class Problem {
+ public:
+  Problem(const LandmarkModel& model, std::span<const CameraModel* const> cameras,
+          std::span<const EdgeObservation> observations, const Eigen::Isometry3d& initial,
+          const PoseSolverOptions& options)
+      : model_(model),
+        cameras_(cameras),
+        groups_(MakeGroups(observations)),
+        pose_(initial),
+        options_(options) {
+    slot_of_edge_.assign(model.edges.size(), -1);
+    for (const Group& g : groups_) {
+      if (slot_of_edge_[g.edge] < 0) slot_of_edge_[g.edge] = n_edges_++;
+    }
+    size_ = kPose + kCamera * static_cast<int>(cameras.size()) + kEdge * n_edges_;
+  }
+
+  PoseSolution Run() {
+    PoseSolution solution;
+    double previous_step = 1e9;
+    for (int i = 0; i < options_.max_iterations; ++i) {
+      Linearise();
+      if (!Reweight(i)) return solution;
+      Assemble();
+      const Eigen::LDLT<Eigen::MatrixXd> ldlt(normal_);
+      if (ldlt.info() != Eigen::Success || ldlt.rcond() < 1e-14) return solution;
+      const Eigen::VectorXd step = ldlt.solve(right_);
+      Apply(step);
+      const double size = step.head<3>().norm() + step.segment<3>(3).norm();
+      if (!std::isfinite(size) || size > 2) return solution;
+      if (size < 1e-6 || (i > 3 && size < 1e-5 && size > 0.5 * previous_step)) break;
+      previous_step = size;
+    }
+    Finish(solution);
+    return solution;
+  }
+
+ private:
+  struct Rows {
+    Matrix10 normal = Matrix10::Zero();
+    Vector10 right = Vector10::Zero();
+    double mean = 0;
+    bool ok = false;
+  };
+
+  void Linearise() {
+    rows_.assign(groups_.size(), Rows{});
+    for (std::size_t i = 0; i < groups_.size(); ++i) LineariseGroup(groups_[i], rows_[i]);
+  }
+
+  void LineariseGroup(Group& group, Rows& rows) const {
+    const LandmarkEdge& edge = model_.edges[group.edge];
+    const CameraModel& camera = *cameras_[group.camera];
+    const auto view = Project(camera, pose_ * edge.from, pose_ * edge.to);
+    if (!view) return;
+    // Two axes across the edge in which the model may be wrong.
+    const Eigen::Vector3d along = pose_.linear() * (edge.to - edge.from).normalized();
+    const Eigen::Vector3d axis1 = along.unitOrthogonal(), axis2 = along.cross(axis1);
+    const Eigen::Vector2d normal = view->normal();
+    double weight_sum = 0;
+    for (const EdgeObservation& o : group.points) {
+      const Eigen::Vector3d point = view->PointAt(o.at);
+      if (camera.Depth(point) < kNearDepth) continue;
+      const Eigen::RowVector3d in_space = normal.transpose() * ProjectionJacobian(camera, point);
+      Vector10 j;
+      j.head<6>() = (in_space * PoseJacobian(pose_, point)).transpose();
+      j.segment<2>(6) = normal;
+      j[8] = in_space.dot(axis1), j[9] = in_space.dot(axis2);
+      const double residual = normal.dot(o.at - view->p), weight = 1 / (o.sigma_px * o.sigma_px);
+      rows.normal.noalias() += weight * j * j.transpose();
+      rows.right += weight * residual * j;
+      rows.mean += weight * residual, weight_sum += weight;
+    }
+    if (weight_sum <= 0) return;
+    rows.mean /= weight_sum;
+    rows.ok = true;
+  }
+
+  bool Reweight(int iteration) {
+    int n = 0;
+    // The first steps come from afar: nobody is an outlier yet.
+    const double limit = options_.outlier_px * (iteration == 0 ? 4 : iteration == 1 ? 2 : 1);
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const double excess = std::abs(rows_[i].mean) / limit;
+      groups_[i].mean_px = rows_[i].mean;
+      groups_[i].weight = !rows_[i].ok ? 0 : excess > 1 ? 1 / (excess * excess) : 1;
+      n += rows_[i].ok;
+    }
+    return n >= (options_.on_floor ? 3 : 6);
+  }
+
+  void Assemble() {
+    normal_ = Eigen::MatrixXd::Zero(size_, size_);
+    right_ = Eigen::VectorXd::Zero(size_);
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      if (!rows_[i].ok) continue;
+      std::array<int, 10> at;
+      for (int k = 0; k < kPose; ++k) at[k] = k;
+      for (int k = 0; k < kCamera; ++k) at[kPose + k] = kPose + kCamera * groups_[i].camera + k;
+      for (int k = 0; k < kEdge; ++k) {
+        at[8 + k] = kPose + kCamera * int(cameras_.size()) + kEdge * slot_of_edge_[groups_[i].edge] + k;
+      }
+      for (int r = 0; r < 10; ++r) {
+        right_[at[r]] += groups_[i].weight * rows_[i].right[r];
+        for (int c = 0; c < 10; ++c) normal_(at[r], at[c]) += groups_[i].weight * rows_[i].normal(r, c);
+      }
+    }
+    AddPriors();
+  }
+
+  /// Model errors and camera shifts are linear and small, so they are not carried from step to step: each
+  /// step estimates them anew around zero.
+  void AddPriors() {
+    const int first_edge = kPose + kCamera * static_cast<int>(cameras_.size());
+    for (int k = kPose; k < size_; ++k) {
+      const double sigma = k < first_edge ? options_.camera_sigma_px : options_.model_sigma_m;
+      normal_(k, k) += 1 / (sigma * sigma);
+    }
+    if (!options_.on_floor) return;
+    for (int k = 2; k < 5; ++k) {
+      normal_.row(k).setZero(), normal_.col(k).setZero();
+      normal_(k, k) = 1, right_[k] = 0;
+    }
+  }
+
+  void Apply(const Eigen::VectorXd& step) {
+    const Eigen::Vector3d turn = step.segment<3>(3);
+    pose_.translation() += step.head<3>();
+    if (turn.norm() > 0) {
+      pose_.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * pose_.linear();
+    }
+  }
+
+  void Finish(PoseSolution& solution) {
+    Linearise();
+    if (!Reweight(options_.max_iterations)) return;
+    Assemble();
+    const Eigen::MatrixXd inverse = normal_.inverse();
+    if (!inverse.allFinite()) return;
+    solution.covariance = inverse.topLeftCorner<6, 6>();
+    if (options_.on_floor) {
+      for (int k = 2; k < 5; ++k) solution.covariance.row(k).setZero(), solution.covariance.col(k).setZero();
+    }
+    double sum = 0;
+    int n = 0;
+    for (const Group& g : groups_) {
+      if (g.weight <= 0) continue;
+      sum += g.mean_px * g.mean_px, ++n;
+      solution.worst_px = std::max(solution.worst_px, std::abs(g.mean_px));
+    }
+    solution.rms_px = std::sqrt(sum / std::max(n, 1));
+    solution.base_from_landmark = pose_;
+    solution.ok = true;
+  }
+
+  const LandmarkModel& model_;
+  std::span<const CameraModel* const> cameras_;
+  std::vector<Group> groups_;
+  Eigen::Isometry3d pose_;
+  PoseSolverOptions options_;
+  std::vector<int> slot_of_edge_;
+  int n_edges_ = 0, size_ = 0;
+  std::vector<Rows> rows_;
+  Eigen::MatrixXd normal_;
+  Eigen::VectorXd right_;
+};
+
+}  // namespace
+
+PoseSolution SolvePose(const LandmarkModel& model, std::span<const CameraModel* const> cameras,
+                       std::span<const EdgeObservation> observations, const Eigen::Isometry3d& initial,
+                       const PoseSolverOptions& options) {
+  return Problem(model, cameras, observations, initial, options).Run();
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "head/core/camera_model.hpp"
+#include "head/core/landmark.hpp"
+
+namespace priamos::head {
+
+/// A point of the image that lies on an edge of the model.
+struct EdgeObservation {
+  int edge = 0, camera = 0;
+  Eigen::Vector2d at;   ///< undistorted [px]
+  double sigma_px = 0;  ///< across the edge
+};
+
+struct PoseSolverOptions {
+  bool on_floor = true;           ///< 3 degrees of freedom (x, y, yaw), else all 6
+  double model_sigma_m = 0.0008;  ///< how well the model's edges are known, each axis
+  double camera_sigma_px = 0.1;   ///< how well a camera is calibrated: shift of a whole image, each axis
+  double outlier_px = 1.0;        ///< an edge seen farther beside the model loses weight
+  int max_iterations = 10;
+};
+
+struct PoseSolution {
+  bool ok = false;
+  Eigen::Isometry3d base_from_landmark = Eigen::Isometry3d::Identity();
+  /// Of (x, y, z, roll, pitch, yaw) as in PoseJacobian; zero where fixed.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double rms_px = 0;    ///< of the mean distances of the edges from the model, both images
+  double worst_px = 0;  ///< the largest of them
+};
+
+/// Least squares pose from points on edges, in any number of images, starting at `initial`, without any prior
+/// for the pose. The errors of the model's edges and the shifts of the cameras are estimated with it under
+/// their own priors, so the covariance does not shrink with the number of pixels below what model and
+/// calibration allow. Needs edges that determine the pose, else ok is false.
+PoseSolution SolvePose(const LandmarkModel& model, std::span<const CameraModel* const> cameras,
+                       std::span<const EdgeObservation> observations, const Eigen::Isometry3d& initial,
+                       const PoseSolverOptions& options);
+
+}  // namespace priamos::head
