@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 constexpr double kSkin_m = 1e-3;         // a ray leaves its surface by this much before it can hit
 constexpr double kAmbientReach_m = 1.2;  // things farther away do not shade the ambient light
 constexpr int kAmbientRays = 16;
-constexpr double kLampReach_m = 6.0;
-constexpr double kLampPower = 12;  // makes a wall between two lamps about 1
+constexpr double kLampReach_m = 6.0, kLampSize_m = 1.0;
+constexpr double kLampPower = 22;  // makes a wall between two lamps about 1
 
 /// Directions about +z, denser around it as the cosine law weighs them.
 std::array<Vector3d, kAmbientRays> CosineDirections() {
@@ -106,14 +106,13 @@ double Lighting::Lamps(const Vector3d& point, const Vector3d& normal) const {
   double sum = 0;
   for (const Vector3d& lamp : lamps_) {
     const Vector3d to_lamp = lamp - point;
-    const double distance = to_lamp.norm();
-    if (distance > kLampReach_m || distance < 1e-6) continue;
-    const Vector3d direction = to_lamp / distance;
-    // A tube under a white ceiling shines sideways too; the offset softens the spot right above.
-    const double emitted =
-        (0.35 + 0.65 * direction.z()) * normal.dot(direction) / (distance * distance + 0.5);
-    if (emitted <= 0 || Hit(point, direction, distance) < distance) continue;
-    sum += emitted * (1 - distance / kLampReach_m);
+    const double distance = to_lamp.norm(), facing = normal.dot(to_lamp);
+    if (distance > kLampReach_m || distance < 1e-6 || facing <= 0) continue;
+    if (Hit(point, to_lamp / distance, distance) < distance) continue;
+    // A tube under a white ceiling is no point: its size keeps the light even close by, and it shines
+    // sideways.
+    const double soft = std::hypot(distance, kLampSize_m);
+    sum += (0.35 + 0.65 * to_lamp.z() / soft) * facing / (soft * soft * soft) * (1 - distance / kLampReach_m);
   }
   return kLampPower * sum;
 }

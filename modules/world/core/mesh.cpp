@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/random.hpp"
-
 namespace priamos::world {
 
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kCell_m = 0.9;       // grid on which light is computed, in the middle of a face ...
-constexpr double kRim_m = 0.2;        // ... and near its rim, where corners are darker
-constexpr int kMostCells = 40;        // along one side
+constexpr double kCell_m = 0.6;  // grid on which light is computed, in the middle of a face ...
+constexpr double kRim_m = 0.2;   // ... and near its rim, where corners are darker
+constexpr double kInset_m = 0.08;
 constexpr double kBlackLight = 0.03;  // of the reference body
 constexpr int kDiscCorners = 96;
 
@@ -25,29 +23,40 @@ struct Face {
   int layer;
 };
 
+/// Coordinate of the face's beginning along one of its sides.
+double Start(const Vector3d& origin, const Vector3d& side) {
+  return origin.dot(side.normalized());
+}
+
 double LightAt(const Face& face, double a, double b, const Lighting& lighting) {
   const Vector3d normal = face.along.cross(face.up).normalized();
-  // A little off the surface and off its border, where neighbours touch.
-  const double inset_a = std::min(0.3, 0.02 / face.along.norm()),
-               inset_b = std::min(0.3, 0.02 / face.up.norm());
+  // Off the border, where a thin neighbour such as a skirting shades only the last centimetres.
+  const double inset_a = std::min(0.3, kInset_m / face.along.norm()),
+               inset_b = std::min(0.3, kInset_m / face.up.norm());
   const double inner_a = std::clamp(a, inset_a, 1 - inset_a), inner_b = std::clamp(b, inset_b, 1 - inset_b);
   return lighting.At(face.origin + inner_a * face.along + inner_b * face.up + 0.002 * normal, normal);
 }
 
-/// Where along a side of this length light is computed, 0..1.
-std::vector<double> Grid(double length_m) {
-  if (length_m < 3 * kRim_m) return {0, 1};
-  const double rim = kRim_m / length_m;
-  const int cells =
-      std::clamp(static_cast<int>(std::ceil((1 - 2 * rim) * length_m / kCell_m)), 1, kMostCells);
-  std::vector<double> grid{0};
-  for (int i = 0; i <= cells; ++i) grid.push_back(rim + (1 - 2 * rim) * i / cells);
-  grid.push_back(1);
-  return grid;
+/// Where along a side light is computed, 0..1: at its ends, near them, and at multiples of kCell_m of a
+/// coordinate that is `start` at its beginning, so that faces in one plane agree about the light where they
+/// meet.
+std::vector<double> Grid(double start, double length) {
+  std::vector<double> lines{0, length};
+  const auto add = [&](double line) {
+    const auto close = [line](double other) { return std::abs(line - other) < kRim_m / 2; };
+    if (line > 0 && line < length && std::none_of(lines.begin(), lines.end(), close)) lines.push_back(line);
+  };
+  if (length > 3 * kRim_m) add(kRim_m), add(length - kRim_m);
+  for (int i = static_cast<int>(std::ceil(start / kCell_m)); i * kCell_m < start + length; ++i)
+    add(i * kCell_m - start);
+  std::sort(lines.begin(), lines.end());
+  for (double& line : lines) line /= length;
+  return lines;
 }
 
 void AppendFace(const Face& face, const Lighting& lighting, double most_light, Mesh& mesh) {
-  const std::vector<double> columns = Grid(face.along.norm()), rows = Grid(face.up.norm());
+  const std::vector<double> columns = Grid(Start(face.origin, face.along), face.along.norm());
+  const std::vector<double> rows = Grid(Start(face.origin, face.up), face.up.norm());
   std::vector<MeshVertex> grid;
   for (const double b : rows) {
     for (const double a : columns) {
@@ -89,9 +98,12 @@ void Hang(Face& face, int layer, bool from_behind) {
   face.layer = layer;
 }
 
-void Cover(Face& face, const Surface& surface, double shift_u, double shift_v) {
-  face.u0 = shift_u, face.u1 = shift_u + face.along.norm() / surface.tile_m;
-  face.v0 = shift_v, face.v1 = shift_v + face.up.norm() / surface.tile_m;
+/// Coverings continue from solid to solid in one plane.
+void Cover(Face& face, const Surface& surface) {
+  face.u0 = Start(face.origin, face.along) / surface.tile_m;
+  face.v0 = Start(face.origin, face.up) / surface.tile_m;
+  face.u1 = face.u0 + face.along.norm() / surface.tile_m;
+  face.v1 = face.v0 + face.up.norm() / surface.tile_m;
   face.layer = surface.picture ? surface.edge_layer : surface.layer;
 }
 
@@ -104,15 +116,13 @@ void AppendSolid(const Solid& solid, const Surface& surface, const Lighting& lig
   const Vector3d half(solid.size_m.x() / 2, solid.size_m.y() / 2, 0);
   Sides sides =
       BoxFaces(map_from_box, -half + Vector3d(0, 0, solid.z_min_m), half + Vector3d(0, 0, solid.z_max_m));
-  // Two solids of one material do not show the same spot of the texture.
-  Rng rng = Rng::Stream(0, solid.name);
   const bool thin_in_x = solid.size_m.x() <= solid.size_m.y();
   for (std::size_t i = 0; i < sides.faces.size(); ++i) {
     const bool front = surface.picture && (thin_in_x ? i < 2 : i == 2 || i == 3);
     if (front)
       Hang(sides.faces[i], surface.layer, i % 2 == 1);
     else
-      Cover(sides.faces[i], surface, rng.Uniform(0, 1), rng.Uniform(0, 1));
+      Cover(sides.faces[i], surface);
     AppendFace(sides.faces[i], lighting, most_light, mesh);
   }
 }
@@ -122,10 +132,10 @@ void AppendRoom(const SceneConfig& config, const Textures& textures, const Light
   const Vector3d x(config.x_max_m - config.x_min_m, 0, 0), y(0, config.y_max_m - config.y_min_m, 0);
   const Vector3d corner(config.x_min_m, config.y_min_m, 0);
   Face floor{corner, x, y, 0, 0, 0, 0, 0};
-  Cover(floor, textures.Find(config.floor, "floor"), 0, 0);
+  Cover(floor, textures.Find(config.floor, "floor"));
   AppendFace(floor, lighting, most_light, mesh);
   Face ceiling{corner + y + Vector3d(0, 0, config.ceiling_m), x, -y, 0, 0, 0, 0, 0};
-  Cover(ceiling, textures.Find("ceiling", "ceiling"), 0, 0);
+  Cover(ceiling, textures.Find("ceiling", "ceiling"));
   AppendFace(ceiling, lighting, most_light, mesh);
 }
 
