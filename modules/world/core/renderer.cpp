@@ -198,4 +198,8 @@ const RendererConfig& Renderer::config() const {
   return impl_->config();
 }
 
+std::shared_ptr<void> Renderer::HoldGraphics() {
+  return world::HoldGraphics(FineGrid::kWidth, FineGrid::kHeight);
+}
+
 }  // namespace priamos::world

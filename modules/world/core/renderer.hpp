@@ -31,9 +31,8 @@ struct Viewpoint {
   HeadAxes head;
 };
 
-/// Draws the world as the three cameras see it. One per thread at a time: it owns the thread's OpenGL
-/// context, which costs more than a picture; SetScene() starts another world in the same context. Throws
-/// std::runtime_error when no off-screen OpenGL is to be had.
+/// Draws the world as the three cameras see it. To be used and destroyed in the thread that made it, whose
+/// OpenGL context it shares with its like. Throws std::runtime_error when no off-screen OpenGL is to be had.
 class Renderer {
  public:
   /// `seed` decides textures; materials must be among MaterialNames(), else std::invalid_argument.
@@ -55,6 +54,9 @@ class Renderer {
                    const Exposure& exposure, Rng& rng);
 
   const RendererConfig& config() const;
+
+  /// While this is held, Renderers made one after the other in this thread need not set OpenGL up again.
+  static std::shared_ptr<void> HoldGraphics();
 
  private:
   class Impl;

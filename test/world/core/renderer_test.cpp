@@ -169,6 +169,18 @@ TEST_F(RendererTest, ASecondContextAfterTheFirstDrawsTheSame) {
   EXPECT_EQ(first.pixels, Expose({}).pixels);
 }
 
+TEST_F(RendererTest, TwoWorldsLiveSideBySide) {
+  dut_->SetScene(Plain(), Board(), 1);
+  const GreyImage before = Expose({});
+  Rng rng(1);
+  {
+    Renderer other(RendererConfig{}, test::DoorScene(), 2);
+    EXPECT_NE(other.Expose(kLeftCamera, {}, {}, {}, rng).pixels, before.pixels);
+    EXPECT_EQ(Expose({}).pixels, before.pixels);
+  }
+  EXPECT_EQ(Expose({}).pixels, before.pixels);
+}
+
 TEST_F(RendererTest, MotionSmearsAroundTheMiddlePose) {
   dut_->SetScene(Plain(), Board(), 1);
   const Viewpoint still;
