@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -32,10 +34,8 @@ LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options,
     };
   if (request.log_folder) std::filesystem::create_directories(*request.log_folder);
   auto result = RunLockstep(schema, request);
-  if (request.log_folder) {
-    const Scenario scenario = LoadScenario(request.deployment, request.scenario);
-    WriteReport(result.record, result.summary, request.deployment + "/" + scenario.map, *request.log_folder);
-  }
+  if (request.log_folder)
+    WriteReport(result.record, result.summary, result.info, result.map_file, *request.log_folder);
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "bus/lockstep.hpp"
 #include "cli/factories.hpp"
+#include "cli/report_files.hpp"
 #include "cli/scenario_driver.hpp"
 
 namespace priamos::cli {
@@ -25,7 +26,8 @@ ConfigSource SourceOf(const LockstepRequest& request, const ScenarioProcess& pro
 
 LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& request) {
   const Scenario scenario = LoadScenario(request.deployment, request.scenario);
-  const GroundPlan plan = LoadPlan(request.deployment, scenario);
+  const std::string map_file = MapFile(request.deployment, scenario);
+  const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
   bus::Lockstep lockstep(schema, {.seed = request.seed});
   lockstep.AddBus("onboard");
   lockstep.AddBus("offboard");
@@ -52,8 +54,8 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   recorder.Flush();
   const double factor = Seconds(lockstep.now() - start) / wall_s;
-  const RunInfo info{request.scenario, request.seed, factor, *plan.FindDoor(scenario.landmark_id)};
-  return {Summarise(recorder.record(), info), recorder.record(), plan, driver.Reason()};
+  const RunInfo info{request.scenario, request.seed, factor, door};
+  return {Summarise(recorder.record(), info), recorder.record(), info, map_file, driver.Reason()};
 }
 
 }  // namespace priamos::cli

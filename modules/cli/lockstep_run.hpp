@@ -23,7 +23,8 @@ struct LockstepRequest {
 struct LockstepResult {
   Summary summary;
   RunRecord record;
-  GroundPlan plan;
+  RunInfo info;
+  std::string map_file;
   std::string reason;  ///< the mission's last words
 };
 

@@ -156,10 +156,13 @@ class RealTimeRun {
 
 int Run(const RunOptions& options) {
   const Scenario scenario = LoadScenario(options.deployment, options.scenario);
+  const std::string map_file = MapFile(options.deployment, scenario);
+  const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
   RealTimeRun run(options, scenario);
   const bool whole = run.Run();
-  const Summary summary = Summarise(run.recorder().record(), {options.scenario, options.seed, 1.0});
-  WriteReport(run.recorder().record(), summary, options.deployment + "/" + scenario.map, run.folder());
+  const RunInfo info{options.scenario, options.seed, 1.0, door};
+  const Summary summary = Summarise(run.recorder().record(), info);
+  WriteReport(run.recorder().record(), summary, info, map_file, run.folder());
   PrintSummary(std::cout, summary);
   if (!run.recorder().good()) std::cout << "a log is incomplete: the disk is full or cannot be written\n";
   if (!summary.passed) std::cout << "not passed: " << run.driver().Reason() << "\n";

@@ -29,13 +29,8 @@ Scenario LoadScenario(const std::string& folder, const std::string& name) {
   return LoadConfig<Scenario>((scenarios / (name + ".toml")).string());
 }
 
-GroundPlan LoadPlan(const std::string& folder, const Scenario& scenario) {
-  const auto file = (std::filesystem::path(folder) / scenario.map).string();
-  const auto plan = LoadConfig<GroundPlan>(file);
-  if (!plan.FindDoor(scenario.landmark_id))
-    throw ConfigError(fmt::format("{}: expected a door with id {} (landmark_id of the scenario), got none",
-                                  file, scenario.landmark_id));
-  return plan;
+std::string MapFile(const std::string& folder, const Scenario& scenario) {
+  return (std::filesystem::path(folder) / scenario.map).string();
 }
 
 }  // namespace priamos::cli

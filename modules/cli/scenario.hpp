@@ -5,7 +5,6 @@
 
 #include "bus/radio/line.hpp"
 #include "common/config.hpp"
-#include "common/ground_plan.hpp"
 
 namespace priamos::cli {
 
@@ -51,7 +50,7 @@ inline constexpr std::string_view kOffboardTty = "tty-offboard";
 /// answered with the known ones.
 Scenario LoadScenario(const std::string& folder, const std::string& name);
 
-/// The ground plan of `scenario`, in which its door must stand. Throws ConfigError.
-GroundPlan LoadPlan(const std::string& folder, const Scenario& scenario);
+/// The map file of `scenario`.
+std::string MapFile(const std::string& folder, const Scenario& scenario);
 
 }  // namespace priamos::cli
