@@ -33,6 +33,7 @@ struct LinkChannel {
   bool urgent = false;      ///< may abort the frame that is being sent
   bool on_request = false;  ///< only while somebody listens on the other side
   int max_keys = 1;         ///< state: newest wins per key, for so many keys
+  Duration deadline{};      ///< latest delivery after it was offered, for the budget; 0: any
 };
 
 /// All channels of a link. The index is the channel's name on the wire.

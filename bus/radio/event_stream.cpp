@@ -71,6 +71,11 @@ bool EventSender::NextIsNew(Time now) const {
   return s != nullptr && s->offset == 0 && s->times == 0;
 }
 
+Time EventSender::NextPackedAt(Time now) const {
+  const Segment* s = NextDue(now);
+  return s == nullptr ? now : events_[s->event - first_event_].packed_at;
+}
+
 std::optional<EventSegment> EventSender::Next(Time now) const {
   const Segment* s = NextDue(now);
   if (s == nullptr) return std::nullopt;

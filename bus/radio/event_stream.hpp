@@ -75,6 +75,8 @@ class EventSender {
   std::optional<EventSegment> Next(Time now) const;
   /// Whether that segment begins an event of which nothing was sent before.
   bool NextIsNew(Time now) const;
+  /// When the event of that segment was packed.
+  Time NextPackedAt(Time now) const;
   /// `at`: when its last byte will have left.
   void MarkSent(std::uint8_t number, Time at);
   /// The frame was aborted: as if never sent.

@@ -124,6 +124,7 @@ class LinkEndpoint {
   const DeliveryCounters& delivered(std::size_t channel) const { return deliveries_[channel]; }
   Duration OldestAge(std::size_t channel, Time now) const { return queue_.OldestAge(channel, now); }
   const ChannelTable& table() const { return table_; }
+  Direction outgoing() const { return outgoing_; }
 
  private:
   struct SentSegment {

@@ -179,7 +179,7 @@ void LinkEndpoint::AddNewest(const SendQueue::Candidate& candidate, Time now, Bi
   const std::size_t channel = candidate.channel;
   auto packed = pack_(channel, queue_.Peek(candidate), now);
   if (!packed) {
-    queue_.Take(candidate, now);
+    queue_.Take(candidate);
     queue_.CountRefused(channel);
     return;
   }
@@ -189,7 +189,7 @@ void LinkEndpoint::AddNewest(const SendQueue::Candidate& candidate, Time now, Bi
     entry = CommandEntry{channel, now - queue_.OfferedAt(candidate), bits, std::move(packed->bytes)};
   if (!AddEntry(entry, bundle, flight)) return;
   if (packed->saturated) ++queue_.counters(channel).saturated;
-  flight.messages.push_back({queue_.Take(candidate, now), bits});
+  flight.messages.push_back({queue_.Take(candidate), bits});
 }
 
 void LinkEndpoint::Abort(Time now, std::vector<std::byte>& out) {

@@ -11,10 +11,10 @@ RateLimit::RateLimit(double rate_hz, int burst)
     : period_(rate_hz > 0 ? FromSeconds(1 / rate_hz) : Duration::zero()),
       tolerance_(period_ * (std::max(burst, 1) - 1)) {}
 
-void RateLimit::Use(Time now) {
+void RateLimit::Use(Time since) {
   previous_ = theoretical_;
   previous_next_ = next_;
-  theoretical_ = std::max(theoretical_, now) + period_;
+  theoretical_ = std::max(theoretical_, since) + period_;
   next_ = theoretical_ - tolerance_;
 }
 
@@ -146,13 +146,14 @@ std::optional<EventSegment> SendQueue::PeekEvent(std::size_t channel, Time now) 
 
 void SendQueue::TakeEvent(std::size_t channel, std::uint8_t number, Time now, Time leaves_at) {
   Lane& lane = lanes_[channel];
-  if (lane.events.NextIsNew(now)) lane.event_rate.Use(now);
+  if (lane.events.NextIsNew(now))
+    lane.event_rate.Use(std::max(lane.events.NextPackedAt(now), lane.event_rate.next()));
   lane.events.MarkSent(number, leaves_at);
 }
 
-QueuedMessage SendQueue::Take(const Candidate& candidate, Time now) {
+QueuedMessage SendQueue::Take(const Candidate& candidate) {
   Slot& slot = lanes_[candidate.channel].slots[candidate.slot];
-  slot.rate.Use(now);
+  slot.rate.Use(candidate.since);
   QueuedMessage message{.channel = candidate.channel,
                         .key = slot.key,
                         .encoded = std::move(*slot.encoded),

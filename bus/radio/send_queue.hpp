@@ -32,7 +32,8 @@ class RateLimit {
   RateLimit(double rate_hz, int burst);
   Time next() const { return next_; }
   bool Allows(Time now) const { return now >= next_; }
-  void Use(Time now);
+  /// `since`: when the message could have been sent, so that waiting for the line does not slow it down.
+  void Use(Time since);
   /// Undoes the Use before: the message was not sent after all.
   void Undo() { theoretical_ = previous_, next_ = previous_next_; }
 
@@ -84,7 +85,7 @@ class SendQueue {
 
   const std::vector<std::byte>& Peek(const Candidate& candidate) const;
   Time OfferedAt(const Candidate& candidate) const;
-  QueuedMessage Take(const Candidate& candidate, Time now);
+  QueuedMessage Take(const Candidate& candidate);
   /// The segment an event channel would send next; the channel's rate only holds back new events.
   std::optional<EventSegment> PeekEvent(std::size_t channel, Time now) const;
   /// It is sent, its last byte leaves at `leaves_at`.

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/radio/channel_table.hpp"
+#include "bus/radio/link.hpp"
+
+/// What a link's configuration asks of the line, before anything is sent.
+namespace priamos::bus::radio {
+
+/// One channel at its configured rate.
+struct ChannelBudget {
+  std::size_t channel = 0;
+  std::size_t bits = 0;    ///< in a bundle, at most, with number and head (an event: all segments)
+  double rate_hz = 0;      ///< all keys together
+  double bytes_per_s = 0;  ///< on a busy line, with its share of full frames' overhead
+  double share = 0;        ///< of the line
+  /// From Offer() to the last byte at the receiver, without the line's own latency, on an error-free line
+  /// whose channels keep their rates; nullopt: not bounded within a minute.
+  std::optional<Duration> worst_latency;
+};
+
+struct DirectionBudget {
+  Direction direction = Direction::kUp;
+  std::vector<ChannelBudget> channels;
+  double control_bytes_per_s = 0;  ///< acknowledgements
+  double bytes_per_s = 0;          ///< everything
+  double utilisation = 0;
+};
+
+struct Budget {
+  DirectionBudget up, down;
+  std::vector<std::string> problems;  ///< sentences; empty when the configuration holds
+};
+
+/// Worst-case latencies by response-time analysis as for CAN (Davis, Burns, Bril, Lukkien, Real-Time Systems
+/// 35(3), 2007), adapted to frames that carry several messages: a frame is not interrupted except by an
+/// urgent channel; a frame that leaves a waiting message out is full of messages that go before it. Messages
+/// that overtake by ageing are counted among those.
+Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options);
+
+/// Throws ConfigError with the first problem.
+void RequireBudget(const ChannelTable& table, const LinkOptions& options);
+
+/// The table that `priamos link budget` shows.
+std::string FormatBudget(const ChannelTable& table, const LinkOptions& options, const Budget& budget);
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,133 @@
+#include "bus/radio/link_config.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bus/schema/packing.hpp"
+
+namespace priamos::bus::radio {
+namespace {
+
+/// Whether all messages of a type have the same packed size.
+bool HasFixedSize(const Struct& type) {
+  return std::all_of(type.fields.begin(), type.fields.end(), [](const Field& f) {
+    const bool variable =
+        std::any_of(f.dims.begin(), f.dims.end(), [](const Dimension& d) { return d.variable; });
+    return !variable && f.kind != Kind::kString && (f.type == nullptr || HasFixedSize(*f.type));
+  });
+}
+
+ChannelClass ClassOf(const std::string& name) {
+  if (name == "event") return ChannelClass::kEvent;
+  return name == "command" ? ChannelClass::kCommand : ChannelClass::kState;
+}
+
+void CheckKey(const LinkChannelConfig& c, const Struct& type) {
+  if (c.key.empty()) return;
+  const auto field =
+      std::find_if(type.fields.begin(), type.fields.end(), [&](const Field& f) { return f.name == c.key; });
+  if (field == type.fields.end() || field->kind != Kind::kString || !field->dims.empty())
+    throw ConfigError(fmt::format("radio channel {}: key: expected a text field of {}, got \"{}\"", c.name,
+                                  type.full_name, c.key));
+}
+
+LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
+  const Struct* type = schema.Find(c.type);
+  if (type == nullptr)
+    throw ConfigError(fmt::format(
+        "radio channel {}: type: expected the name of a known .lcm type, got \"{}\"", c.name, c.type));
+  CheckKey(c, *type);
+  LinkChannel channel;
+  channel.name = c.name;
+  channel.fingerprint = type->fingerprint;
+  channel.direction = c.direction == "up" ? Direction::kUp : Direction::kDown;
+  channel.channel_class = ClassOf(c.channel_class);
+  try {
+    channel.max_bits = static_cast<std::uint32_t>(PackedBits(*type));
+  } catch (const SchemaError& error) {
+    throw ConfigError(fmt::format("radio channel {} cannot be packed: {}", c.name, error.what()));
+  }
+  channel.fixed_bits = HasFixedSize(*type) ? channel.max_bits : 0;
+  channel.priority = c.priority;
+  channel.rate_hz = c.rate_hz;
+  channel.burst = c.burst;
+  channel.ttl = FromSeconds(c.ttl_s);
+  channel.deadline = FromSeconds(c.deadline_s);
+  channel.urgent = c.urgent;
+  channel.on_request = c.on_request;
+  channel.max_keys = c.key.empty() ? 1 : c.keys;
+  return channel;
+}
+
+}  // namespace
+
+void LinkChannelConfig::Describe(Archive& a) {
+  a.Text("name", name, "LCM channel");
+  a.Text("type", type, "its message type, with package when that is needed to tell it");
+  a.Choice("direction", direction, {"up", "down"}, "up: robot to workstation");
+  a.Choice("class", channel_class, {"state", "event", "command"},
+           "state: newest wins; event: acknowledged, in order, exactly once; command: newest wins, refused "
+           "when old");
+  a.Number("rate_hz", rate_hz, {"1/s", 0.001, 1000, "at most this often; of an event: so often in the mean"});
+  a.Integer("burst", burst, {"-", 1, 64, "so many may come at once"});
+  a.Integer("priority", priority, {"-", 0, 15, "0 goes first"});
+  a.Number("ttl_s", ttl_s, {"s", 0, 600, "not sent when older, a command not obeyed either; 0: no limit"});
+  a.Number("deadline_s", deadline_s, {"s", 0, 600, "latest arrival that the budget must guarantee; 0: any"});
+  a.Flag("urgent", urgent, "goes at once, also in the middle of another frame");
+  a.Flag("on_request", on_request, "is sent only while somebody listens on the other side");
+  a.Text("key", key, "text field of the type: newest wins per value of it; empty: newest of all");
+  a.Integer("keys", keys, {"-", 1, 64, "values of `key` at most"});
+  if (name.empty()) a.Refuse("name", "the name of an LCM channel");
+  if (channel_class == "command" && ttl_s <= 0)
+    a.Refuse("ttl_s", "a time-to-live above 0, as every command needs");
+  if (channel_class == "event" && ttl_s > 0) a.Refuse("ttl_s", "none: an event is delivered, however late");
+  if (channel_class != "state" && !key.empty()) a.Refuse("key", "none: keys are for channels of class state");
+}
+
+void LinkConfig::Describe(Archive& a) {
+  a.Integer("baud", baud, {"baud", 300, 1000000, "of the serial port, 10 bits per byte"});
+  a.Number("air_rate_bytes_s", air_rate_bytes_s,
+           {"byte/s", 0, 1e6, "what the radio itself carries when that is less; 0: as much as the port"});
+  a.Integer("ahead_bytes", ahead_bytes,
+            {"byte", 0, 16,
+             "written ahead of the line: more fills gaps of a busy computer, less lets urgent messages pass "
+             "sooner"});
+  a.Integer("max_bundle_bytes", max_bundle_bytes, {"byte", 60, 240, "messages sent together in one frame"});
+  a.Number("keep_alive_s", keep_alive_s, {"s", 0.05, 10, "longest silence of an end"});
+  a.Number("silence_s", silence_s, {"s", 0.1, 60, "the link is down when nothing came for so long"});
+  a.Number("ageing_s", ageing_s, {"s", 0.05, 600, "a waiting message gains one level of priority per this"});
+  a.Flag("encrypted", encrypted, "hides what is sent; it is authenticated in any case");
+  a.Text("key_file", key_file, "secret key of the link, made by `priamos link keygen`, mode 0600");
+  a.Flag("simulation_key", simulation_key, "use a key that everybody knows: only for emulated lines");
+  a.List("channel", channels,
+         "the channels that cross the link; their order is part of what both ends agree on");
+  if (silence_s <= keep_alive_s) a.Refuse("silence_s", "more than keep_alive_s");
+}
+
+double LinkConfig::BytesPerSecond() const {
+  const double port = baud / 10.0;
+  return air_rate_bytes_s > 0 ? std::min(air_rate_bytes_s, port) : port;
+}
+
+LinkOptions LinkConfig::Options() const {
+  return {.bytes_per_s = BytesPerSecond(),
+          .ahead_bytes = ahead_bytes,
+          .max_bundle_bytes = static_cast<std::size_t>(max_bundle_bytes),
+          .keep_alive = FromSeconds(keep_alive_s),
+          .silence = FromSeconds(silence_s),
+          .ageing = FromSeconds(ageing_s)};
+}
+
+ChannelTable LinkConfig::Table(const Schema& schema) const {
+  std::vector<LinkChannel> table;
+  for (const LinkChannelConfig& c : channels) table.push_back(ToChannel(c, schema));
+  try {
+    return {std::move(table), encrypted};
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(error.what());
+  }
+}
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,41 @@
+#include "bus/radio/message_codecs.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "bus/schema/json.hpp"
+
+namespace priamos::bus::radio {
+
+MessageCodecs::MessageCodecs(const LinkConfig& config, const Schema& schema) {
+  const ChannelTable table = config.Table(schema);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const Struct* type = schema.Find(config.channels[i].type);
+    codecs_.push_back({type, Packer(*type), config.channels[i].key, table.at(i).fixed_bits > 0});
+  }
+}
+
+std::optional<Packed> MessageCodecs::Pack(std::size_t channel, std::span<const std::byte> encoded,
+                                          Time now) const {
+  const Codec& codec = codecs_[channel];
+  auto result = codec.packer.Pack(encoded, ToUtime(now));
+  if (!result) return std::nullopt;
+  const std::size_t bits = codec.fixed ? codec.packer.MaxBits() : result->bytes.size() * 8;
+  return Packed{std::move(result->bytes), bits, !result->saturated.empty()};
+}
+
+std::optional<std::vector<std::byte>> MessageCodecs::Unpack(const Delivery& delivery) const {
+  return codecs_[delivery.channel].packer.Unpack(delivery.packed, ToUtime(delivery.packed_at));
+}
+
+std::string MessageCodecs::KeyOf(std::size_t channel, std::span<const std::byte> encoded) const {
+  const Codec& codec = codecs_[channel];
+  if (codec.key_field.empty()) return {};
+  try {
+    const Json message = ToJson(*codec.type, encoded);
+    return message.at(codec.key_field).dump();
+  } catch (const MessageError&) {
+    return {};  // no message of the type: refused when it is packed
+  }
+}
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bus/radio/link.hpp"
+#include "bus/radio/link_config.hpp"
+#include "bus/schema/packing.hpp"
+
+namespace priamos::bus::radio {
+
+/// LCM messages of a link's channels, small and back, for types known from .lcm texts only.
+class MessageCodecs {
+ public:
+  /// `schema` must outlive this and know the types of `config`, which LinkConfig::Table checks.
+  MessageCodecs(const LinkConfig& config, const Schema& schema);
+
+  /// See PackFunction.
+  std::optional<Packed> Pack(std::size_t channel, std::span<const std::byte> encoded, Time now) const;
+  /// The LCM message; nullopt when the other end sent something else.
+  std::optional<std::vector<std::byte>> Unpack(const Delivery& delivery) const;
+  /// What tells messages apart that do not replace each other; empty without a key field.
+  std::string KeyOf(std::size_t channel, std::span<const std::byte> encoded) const;
+
+ private:
+  struct Codec {
+    const Struct* type;
+    Packer packer;
+    std::string key_field;
+    bool fixed;
+  };
+  std::vector<Codec> codecs_;
+};
+
+}  // namespace priamos::bus::radio

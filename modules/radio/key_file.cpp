@@ -1,0 +1,102 @@
+#include "radio/key_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sodium.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+
+namespace priamos::radio {
+namespace {
+
+using bus::radio::LinkKey;
+
+constexpr std::size_t kHexDigits = 2 * sizeof(LinkKey);
+
+class File {
+ public:
+  File(const std::string& path, int flags, mode_t mode = 0)
+      : fd_(open(path.c_str(), flags | O_CLOEXEC, mode)) {}
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File() {
+    if (fd_ >= 0) close(fd_);
+  }
+  int fd() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+void RefuseOpenMode(const std::string& path, int fd) {
+  struct stat info {};
+  if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode))
+    throw std::runtime_error(fmt::format("{}: expected a key file, got something else", path));
+  if ((info.st_mode & 0077) != 0)
+    throw std::runtime_error(
+        fmt::format("{}: expected a key that only its owner can read, got mode {:o}: if nobody else has read "
+                    "it, `chmod 600 {}`",
+                    path, info.st_mode & 0777U, path));
+}
+
+}  // namespace
+
+LinkKey ReadKeyFile(const std::string& path) {
+  const File file(path, O_RDONLY);
+  if (file.fd() < 0)
+    throw std::runtime_error(fmt::format(
+        "{}: expected the key of the radio link, got none ({}): make one with `priamos link keygen "
+        "{}` and copy it to the other end",
+        path, std::strerror(errno), path));
+  RefuseOpenMode(path, file.fd());
+  std::array<char, kHexDigits + 2> text{};
+  const ssize_t n = read(file.fd(), text.data(), text.size());
+  LinkKey key{};
+  std::size_t bytes = 0;
+  const bool is_hex =
+      n >= static_cast<ssize_t>(kHexDigits) && n <= static_cast<ssize_t>(kHexDigits + 1) &&
+      (n == static_cast<ssize_t>(kHexDigits) || text[kHexDigits] == '\n') &&
+      sodium_hex2bin(key.data(), key.size(), text.data(), kHexDigits, nullptr, &bytes, nullptr) == 0;
+  sodium_memzero(text.data(), text.size());
+  if (!is_hex || bytes != key.size())
+    throw std::runtime_error(fmt::format(
+        "{}: expected 64 hexadecimal digits, got something else: copy it again from the other end", path));
+  return key;
+}
+
+void WriteNewKeyFile(const std::string& path) {
+  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be started");
+  const File file(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
+  if (file.fd() < 0)
+    throw std::runtime_error(
+        errno == EEXIST ? fmt::format("{}: exists and is kept: a link whose key changes must get the new "
+                                      "one at both ends; remove it first if that is meant",
+                                      path)
+                        : fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  LinkKey key{};
+  randombytes_buf(key.data(), key.size());
+  std::array<char, kHexDigits + 1> text{};
+  sodium_bin2hex(text.data(), text.size(), key.data(), key.size());
+  text[kHexDigits] = '\n';
+  const bool written = write(file.fd(), text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+                       fsync(file.fd()) == 0;
+  sodium_memzero(text.data(), text.size());
+  sodium_memzero(key.data(), key.size());
+  if (!written)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+}
+
+LinkKey SimulationKey() {
+  LinkKey key{};
+  constexpr std::string_view kText = "everybody knows this key";
+  std::memcpy(key.data(), kText.data(), kText.size());
+  return key;
+}
+
+}  // namespace priamos::radio

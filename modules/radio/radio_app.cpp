@@ -1,0 +1,168 @@
+#include "radio/radio_app.hpp"
+
+#include <fmt/format.h>
+#include <sodium.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "bus/radio/budget.hpp"
+#include "common/random.hpp"
+#include "radio/file_store.hpp"
+#include "radio/key_file.hpp"
+#include "radio/radio_messages.hpp"
+
+namespace priamos::radio {
+namespace {
+
+using bus::radio::Direction;
+
+constexpr Duration kReportPeriod{1'000'000};
+/// A port that takes nothing for so long is not fed any more: what it gets late is worth nothing.
+constexpr std::size_t kMostUnwritten = 64;
+
+bool IsPseudoTerminal(const std::string& port) {
+  std::error_code error;
+  const auto real = std::filesystem::weakly_canonical(port, error);
+  return !error && real.string().rfind("/dev/pts/", 0) == 0;
+}
+
+}  // namespace
+
+RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
+    : config_(config),
+      context_(context),
+      link_config_(LoadConfig<bus::radio::LinkConfig>(context.ResolvePath(config.link))),
+      outgoing_(config.side == "onboard" ? Direction::kUp : Direction::kDown),
+      codecs_(link_config_, context.node().schema()),
+      key_(LoadKey()),
+      status_(context.node().Advertise(channels::kLinkStatus)) {
+  bus::radio::RequireBudget(link_config_.Table(context.node().schema()), link_config_.Options());
+  port_ = context.OpenSerial(config.port, link_config_.baud);
+  if (config.state_file.empty()) {
+    store_ = std::make_unique<bus::radio::MemoryStore>();
+  } else {
+    store_ = std::make_unique<FileStore>(context.ResolvePath(config.state_file));
+  }
+  SubscribeAll();
+}
+
+RadioApp::~RadioApp() {
+  try {
+    if (link_) link_->Close();
+  } catch (const std::exception& error) {
+    context_.Log(bus::Level::kError, error.what());
+  }
+}
+
+bus::radio::LinkKey RadioApp::LoadKey() const {
+  if (!link_config_.simulation_key) return ReadKeyFile(context_.ResolvePath(link_config_.key_file));
+  if (!context_.lockstep() && std::filesystem::exists(config_.port) && !IsPseudoTerminal(config_.port))
+    throw ConfigError(
+        fmt::format("{}: simulation_key: expected false on the serial port {}, got true: make a key with "
+                    "`priamos link keygen`",
+                    context_.ResolvePath(config_.link), config_.port));
+  return SimulationKey();
+}
+
+bus::radio::NonceSource RadioApp::Nonces() const {
+  if (context_.lockstep())
+    return [rng = Rng::Stream(context_.seed(), "radio " + config_.side)]() mutable { return rng.engine()(); };
+  return [] {
+    std::uint64_t nonce = 0;
+    randombytes_buf(&nonce, sizeof nonce);
+    return nonce;
+  };
+}
+
+void RadioApp::SubscribeAll() {
+  const bus::radio::ChannelTable table = link_config_.Table(context_.node().schema());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (table.at(i).direction != outgoing_) {
+      context_.node().AdvertiseRaw(table.at(i).name);
+      continue;
+    }
+    context_.node().SubscribeRaw(table.at(i).name, [this, i](std::span<const std::byte> encoded, Time now) {
+      if (echo_.IsEcho(i, encoded, now)) return;
+      if (!link_) {
+        waiting_.push_back({i, {encoded.begin(), encoded.end()}});
+        return;
+      }
+      link_->Offer(i, encoded, now, codecs_.KeyOf(i, encoded));
+    });
+  }
+}
+
+void RadioApp::StartLink(Time now) {
+  link_ = std::make_unique<bus::radio::LinkEndpoint>(
+      link_config_.Table(context_.node().schema()), outgoing_, key_, link_config_.Options(), *store_,
+      [this](std::size_t channel, std::span<const std::byte> encoded, Time at) {
+        return codecs_.Pack(channel, encoded, at);
+      },
+      Nonces(), now);
+  for (const Waiting& w : waiting_)
+    link_->Offer(w.channel, w.encoded, now, codecs_.KeyOf(w.channel, w.encoded));
+  waiting_.clear();
+  last_report_ = now;
+  next_report_ = now + kReportPeriod;
+}
+
+void RadioApp::Tick(Time now) {
+  if (!link_) StartLink(now);
+  ReadLine(now);
+  FeedLine(now);
+  if (now >= *next_report_) Report(now);
+}
+
+void RadioApp::ReadLine(Time now) {
+  std::array<std::byte, 256> buffer;
+  for (;;) {
+    const std::size_t n = port_->Read(buffer);
+    if (n == 0) return;
+    for (const bus::radio::Delivery& d : link_->Receive(std::span(buffer).first(n), now)) Publish(d, now);
+  }
+}
+
+void RadioApp::FeedLine(Time now) {
+  const auto bytes = link_->Step(now);
+  unwritten_.insert(unwritten_.end(), bytes.begin(), bytes.end());
+  if (unwritten_.empty()) return;
+  const std::size_t n = port_->Write(unwritten_);
+  unwritten_.erase(unwritten_.begin(), unwritten_.begin() + static_cast<std::ptrdiff_t>(n));
+  if (unwritten_.size() > kMostUnwritten) unwritten_.clear();
+}
+
+void RadioApp::Publish(const bus::radio::Delivery& delivery, Time now) {
+  const auto message = codecs_.Unpack(delivery);
+  if (!message) {
+    ++undecodable_;
+    return;
+  }
+  echo_.Published(delivery.channel, *message, now);
+  context_.node().PublishRaw(link_->table().at(delivery.channel).name, *message);
+}
+
+void RadioApp::Report(Time now) {
+  const link_status_t message =
+      ToMessage(*link_, link_config_.BytesPerSecond(), bytes_reported_, now - last_report_, now);
+  status_.Publish(message);
+  bytes_reported_ = static_cast<std::uint64_t>(message.bytes_sent);
+  last_report_ = now;
+  next_report_ = now + kReportPeriod;
+  if (message.table_mismatch) {
+    context_.SetHealth(bus::Health::kFailed,
+                       "the other end has another channel table: compare link.toml and lcmtypes");
+  } else if (message.alarm) {
+    context_.SetHealth(bus::Health::kDegraded, "frames arrive that the other end did not send");
+  } else if (!message.up) {
+    context_.SetHealth(bus::Health::kDegraded, "nothing is heard from the other end");
+  } else {
+    context_.SetHealth(bus::Health::kOk);
+  }
+  if (was_up_ != static_cast<bool>(message.up)) {
+    was_up_ = message.up;
+    context_.Log(was_up_ ? bus::Level::kInfo : bus::Level::kWarning, was_up_ ? "link is up" : "link is down");
+  }
+}
+
+}  // namespace priamos::radio

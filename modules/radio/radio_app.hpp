@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "bus/app.hpp"
+#include "bus/context.hpp"
+#include "bus/radio/link.hpp"
+#include "bus/radio/link_config.hpp"
+#include "bus/radio/message_codecs.hpp"
+#include "common/serial_port.hpp"
+#include "lcmtypes/channels.hpp"
+#include "radio/echo_filter.hpp"
+#include "radio/radio_config.hpp"
+
+namespace priamos::radio {
+
+/// One end of the radio link on one LCM bus. Carries every channel of link.toml, also of types it was never
+/// compiled with. See README.md.
+class RadioApp {
+ public:
+  static constexpr std::string_view kName = "radio";
+  static constexpr std::string_view kSummary = "One end of the radio link between two LCM buses.";
+  static constexpr std::array<bus::OptionAlias, 3> kOptions{
+      {{"--port", "port", "", "serial port of the modem"},
+       {"--onboard", "side", "onboard", "this is the robot's end"},
+       {"--offboard", "side", "offboard", "this is the workstation's end"}}};
+  using Config = RadioConfig;
+
+  /// Throws ConfigError or std::runtime_error with one sentence.
+  RadioApp(const RadioConfig& config, bus::Context& context);
+  ~RadioApp();
+
+  Duration TickPeriod() const { return FromSeconds(config_.tick_s); }
+  void Tick(Time now);
+
+ private:
+  struct Waiting {
+    std::size_t channel;
+    std::vector<std::byte> encoded;
+  };
+  void SubscribeAll();
+  void StartLink(Time now);
+  void ReadLine(Time now);
+  void FeedLine(Time now);
+  void Publish(const bus::radio::Delivery& delivery, Time now);
+  void Report(Time now);
+  bus::radio::LinkKey LoadKey() const;
+  bus::radio::NonceSource Nonces() const;
+
+  RadioConfig config_;
+  bus::Context& context_;
+  bus::radio::LinkConfig link_config_;
+  bus::radio::Direction outgoing_;
+  bus::radio::MessageCodecs codecs_;
+  bus::radio::LinkKey key_;
+  std::unique_ptr<ByteStream> port_;
+  std::unique_ptr<bus::radio::StateStore> store_;
+  std::unique_ptr<bus::radio::LinkEndpoint> link_;  ///< since the first tick, which brings the time
+  EchoFilter echo_;
+  std::vector<Waiting> waiting_;      ///< came before the first tick
+  std::vector<std::byte> unwritten_;  ///< the port did not take them
+  bus::Publisher<link_status_t> status_;
+  std::optional<Time> next_report_;
+  Time last_report_{};
+  std::uint64_t bytes_reported_ = 0;
+  std::uint64_t undecodable_ = 0;
+  bool was_up_ = false;
+};
+
+}  // namespace priamos::radio

@@ -1,0 +1,70 @@
+#include "radio/key_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace priamos::radio {
+namespace {
+
+using testing::HasSubstr;
+
+struct KeyFileTest : testing::Test {
+  std::string path = (std::filesystem::path(testing::TempDir()) / "key_file_test.key").string();
+  void SetUp() override { std::filesystem::remove(path); }
+  void TearDown() override { std::filesystem::remove(path); }
+  std::string ErrorOfReading() const {
+    try {
+      ReadKeyFile(path);
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(KeyFileTest, WrittenKeyIsPrivateAndReadBack) {
+  WriteNewKeyFile(path);
+  struct stat info {};
+  ASSERT_EQ(stat(path.c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777U, 0600U);
+  EXPECT_EQ(ReadKeyFile(path), ReadKeyFile(path));
+}
+
+TEST_F(KeyFileTest, TwoKeysDiffer) {
+  WriteNewKeyFile(path);
+  const auto first = ReadKeyFile(path);
+  std::filesystem::remove(path);
+  WriteNewKeyFile(path);
+  EXPECT_NE(ReadKeyFile(path), first);
+}
+
+TEST_F(KeyFileTest, AnExistingKeyIsKept) {
+  WriteNewKeyFile(path);
+  EXPECT_THROW(WriteNewKeyFile(path), std::runtime_error);
+}
+
+TEST_F(KeyFileTest, AKeyThatOthersCanReadIsRefused) {
+  WriteNewKeyFile(path);
+  ASSERT_EQ(chmod(path.c_str(), 0640), 0);
+  EXPECT_THAT(ErrorOfReading(), HasSubstr("chmod 600"));
+}
+
+TEST_F(KeyFileTest, AMissingKeyNamesTheCommand) {
+  EXPECT_THAT(ErrorOfReading(), HasSubstr("priamos link keygen"));
+}
+
+TEST_F(KeyFileTest, SomethingElseIsRefused) {
+  for (const std::string text : {"", "abc", std::string(64, 'g').c_str(), std::string(80, '0').c_str()}) {
+    std::ofstream(path) << text;
+    chmod(path.c_str(), 0600);
+    EXPECT_THAT(ErrorOfReading(), HasSubstr("64 hexadecimal digits")) << text;
+  }
+}
+
+}  // namespace
+}  // namespace priamos::radio
