@@ -1,0 +1,347 @@
+#include "cli/report_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/report_canvas.hpp"
+#include "cli/report_table.hpp"
+#include "cli/report_timeline.hpp"
+#include "common/covariance.hpp"
+#include "common/rectangle.hpp"
+#include "common/time.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr Colour kPaper{0xffffff}, kFloor{0xf7f5f0}, kGrid{0xe7e3da}, kWall{0x3b4550}, kFrame{0xa9713c};
+constexpr Colour kInk{0x22282e}, kFaint{0x7b8590}, kTruth{0x1f62c4}, kBelief{0xe8741c}, kFix{0x12915a};
+constexpr Colour kBad{0xc0322b};
+
+constexpr int kWidth = 1600, kHeight = 1236, kMargin = 36, kHeader = 84, kPanelHeight = 300;
+constexpr int kPlanHeight = kHeight - kHeader - kPanelHeight - 3 * kMargin + 8;
+/// The robot of the paper; only drawn, never reckoned with.
+constexpr double kLength_m = 0.95, kWidth_m = 0.78;
+/// The belief moves at most 2 cm between two estimates; what is more is a fix.
+constexpr double kJump_m = 0.02;
+
+std::vector<Vector2d> Outline(const Rectangle& rectangle) {
+  const auto corners = rectangle.Corners();
+  return {corners.begin(), corners.end()};
+}
+
+std::vector<Vector2d> Footprint(const Pose2& pose) {
+  return Outline({pose, {kLength_m / 2, kWidth_m / 2}});
+}
+
+Vector2d PositionOf(const auto& message) {
+  return {message.x_m, message.y_m};
+}
+
+Eigen::Matrix2d CovarianceOf(const pose_t& pose) {
+  return ToCovariance({pose.sigma_x_m, pose.sigma_y_m, pose.sigma_yaw_rad, pose.rho_x_y, pose.rho_x_yaw,
+                       pose.rho_y_yaw})
+      .topLeftCorner<2, 2>();
+}
+
+struct Extent {
+  Vector2d low{0, 0}, high{10, 5};
+  Vector2d centre() const { return (low + high) / 2; }
+  Vector2d size() const { return high - low; }
+};
+
+Rectangle ShapeOf(const WallPlan& wall) {
+  const Vector2d along = wall.to() - wall.from(), middle = (wall.to() + wall.from()) / 2;
+  return {{middle.x(), middle.y(), std::atan2(along.y(), along.x())},
+          {along.norm() / 2, wall.thickness_m / 2}};
+}
+
+Extent ExtentOf(const GroundPlan& plan) {
+  if (plan.walls.empty()) return {};
+  Extent extent{plan.walls[0].from(), plan.walls[0].from()};
+  for (const WallPlan& wall : plan.walls) {
+    for (const Vector2d& corner : ShapeOf(wall).Corners()) {
+      extent.low = extent.low.cwiseMin(corner);
+      extent.high = extent.high.cwiseMax(corner);
+    }
+  }
+  return extent;
+}
+
+void DrawFloor(View& view, const Extent& extent) {
+  const Vector2d a = extent.low, b = extent.high;
+  view.Fill({a, {b.x(), a.y()}, b, {a.x(), b.y()}}, kFloor);
+  for (double x = std::ceil(a.x()); x <= b.x(); x += 1) view.Polyline({{x, a.y()}, {x, b.y()}}, kGrid, 1);
+  for (double y = std::ceil(a.y()); y <= b.y(); y += 1) view.Polyline({{a.x(), y}, {b.x(), y}}, kGrid, 1);
+}
+
+void DrawWalls(View& view, const GroundPlan& plan) {
+  for (const WallPlan& wall : plan.walls) view.Fill(Outline(ShapeOf(wall)), kWall);
+  for (const DoorPlan& door : plan.doors) {
+    const double half = door.opening_width_m / 2;
+    for (const double side : {1.0, -1.0}) {
+      // Architrave, jamb and rebate as one outline.
+      std::vector<Vector2d> profile{{door.FrontX(), half + door.frame_width_m},
+                                    {door.FrontX(), half},
+                                    {door.StopX(), half},
+                                    {door.StopX(), half + door.rebate_width_m},
+                                    {door.BackX(), half + door.rebate_width_m},
+                                    {door.BackX(), half + door.frame_width_m}};
+      for (Vector2d& point : profile) point = door.map_from_door() * Vector2d(point.x(), side * point.y());
+      view.Fill(profile, kFrame);
+    }
+  }
+}
+
+void DrawDoorName(View& view, const DoorPlan& door) {
+  view.Label(door.map_from_door() * Vector2d(door.BackX(), door.opening_width_m / 2 + door.frame_width_m), 12,
+             -6, fmt::format("{}, {:.2f} m", door.name, door.opening_width_m), 12, kFrame);
+}
+
+void DrawAxis(View& view, const DoorPlan& door) {
+  view.Dashed(door.map_from_door() * Vector2d(-2.5, 0), door.map_from_door() * Vector2d(2, 0), kFaint, 0.8);
+}
+
+std::vector<Vector2d> TruePath(const RunRecord& record) {
+  std::vector<Vector2d> path;
+  for (const auto& truth : record.truth) path.push_back(PositionOf(truth));
+  return path;
+}
+
+void DrawBelief(View& view, const RunRecord& record, double width) {
+  std::vector<Vector2d> stretch;
+  for (const pose_t& pose : record.poses) {
+    const Vector2d at = PositionOf(pose);
+    if (!stretch.empty() && (at - stretch.back()).norm() > kJump_m) {
+      view.Polyline(stretch, kBelief, width);
+      view.Arrow(stretch.back(), at, kFix, 2);
+      stretch.clear();
+    }
+    stretch.push_back(at);
+  }
+  view.Polyline(stretch, kBelief, width);
+}
+
+/// One every 40 cm, and on both sides of every jump.
+void DrawEllipses(View& view, const RunRecord& record) {
+  constexpr double kEvery_m = 0.4;
+  const auto draw = [&](const pose_t& pose) {
+    const auto outline = EllipseOutline(PositionOf(pose), CovarianceOf(pose), 2);
+    view.Fill(outline, kBelief, 0.16);
+    view.Polyline(outline, kBelief, 0.8, true);
+  };
+  const pose_t *last = nullptr, *drawn = nullptr;
+  for (const pose_t& pose : record.poses) {
+    const bool jump = last && (PositionOf(pose) - PositionOf(*last)).norm() > kJump_m;
+    if (jump && last != drawn) draw(*last);
+    if (jump || !drawn || (PositionOf(pose) - PositionOf(*drawn)).norm() > kEvery_m) {
+      draw(pose);
+      drawn = &pose;
+    }
+    last = &pose;
+  }
+}
+
+/// Where the robot stood when it looked, and what it looked at.
+void DrawLooks(View& view, const RunRecord& record, const DoorPlan& door) {
+  int number = 0;
+  for (const LookSpan& look : LooksOf(record)) {
+    const std::int64_t exposure = look.correction.utime_exposure;
+    const auto from = TruthAt(record, exposure != 0 ? exposure : look.begin_utime);
+    if (!from) continue;
+    const double half = door.opening_width_m / 2;
+    const double y = look.side == 1 ? half : look.side == 2 ? -half : 0;
+    view.Dashed(from->translation(), door.map_from_door() * Vector2d(door.FrontX(), y), kFix, 1.4);
+    view.Dot(from->translation(), 11, kFix);
+    view.Label(from->translation(), -5, 6, fmt::format("{}", ++number), 12, kPaper, true);
+  }
+}
+
+void DrawRobot(View& view, const Pose2& pose, Colour colour, double opacity) {
+  view.Fill(Footprint(pose), colour, opacity);
+  view.Polyline(Footprint(pose), colour, 1.6, true);
+  view.Arrow(pose * Vector2d(0.12, 0), pose * Vector2d(0.40, 0), colour, 1.6);
+}
+
+void DrawRobots(View& view, const RunRecord& record, const Pose2& map_from_door) {
+  if (!record.truth.empty()) {
+    if (const auto start = TruthAt(record, record.truth.front().utime)) DrawRobot(view, *start, kTruth, 0.10);
+    if (const auto end = TruthAt(record, record.truth.back().utime)) DrawRobot(view, *end, kTruth, 0.10);
+  }
+  if (!record.poses.empty()) {
+    const pose_t& pose = record.poses.front();
+    view.Polyline(Footprint({pose.x_m, pose.y_m, pose.yaw_rad}), kBelief, 1.2, true);
+  }
+  if (const auto crossing = CrossingOf(record, map_from_door))
+    if (const auto at = TruthAt(record, crossing->utime)) DrawRobot(view, *at, kTruth, 0.16);
+}
+
+void DrawScaleBar(Page& page, double right, double bottom, double px_per_m) {
+  const double x = right - px_per_m;
+  page.FillBox(x, bottom - 6, px_per_m / 2, 6, kInk);
+  page.FillBox(x + px_per_m / 2, bottom - 6, px_per_m / 2, 6, kFaint);
+  page.Text(x - 4, bottom - 14, "0", 11, kInk);
+  page.Text(x + px_per_m - 16, bottom - 14, "1 m", 11, kInk);
+}
+
+void DrawPlan(Page& page, const RunRecord& record, const RunInfo& info, const GroundPlan& plan) {
+  const Extent extent = ExtentOf(plan);
+  const cv::Rect window(kMargin, kHeader, kWidth - 2 * kMargin, kPlanHeight);
+  const double scale = std::min(window.width / extent.size().x(), window.height / extent.size().y());
+  View view(page, window, extent.centre(), scale);
+  DrawFloor(view, extent);
+  DrawAxis(view, info.door);
+  DrawWalls(view, plan);
+  DrawDoorName(view, info.door);
+  DrawRobots(view, record, info.door.map_from_door());
+  DrawEllipses(view, record);
+  view.Polyline(TruePath(record), kTruth, 3);
+  DrawBelief(view, record, 1.8);
+  DrawLooks(view, record, info.door);
+  const Vector2d corner = extent.high - extent.centre();
+  DrawScaleBar(page, kMargin + window.width / 2.0 + corner.x() * scale - 60,
+               kHeader + window.height / 2.0 + corner.y() * scale - 50, scale);
+}
+
+void DrawHeader(Page& page, const Summary& summary) {
+  const bool good = summary.passed && summary.contacts == 0;
+  const std::string verdict = Verdict(summary);
+  page.Text(kMargin, 54, fmt::format("{}, seed {}", summary.scenario, summary.seed), 21, kInk, true);
+  const double width = page.TextWidth(verdict, 15, true);
+  page.FillBox(kWidth - kMargin - width - 32, 24, width + 32, 42, good ? kFix : kBad);
+  page.Text(kWidth - kMargin - width - 16, 53, verdict, 15, kPaper, true);
+}
+
+/// Title of a panel; returns the window below it.
+cv::Rect BeginPanel(Page& page, int x, int width, const std::string& title) {
+  const int top = kHeight - kMargin - kPanelHeight;
+  page.Text(x, top + 14, title, 13, kInk, true);
+  page.Line(x, top + 26, x + width, top + 26, kGrid, 2);
+  return {x, top + 36, width, kPanelHeight - 36};
+}
+
+void DrawPassage(Page& page, const RunRecord& record, const Summary& summary, const RunInfo& info,
+                 const GroundPlan& plan) {
+  const cv::Rect window = BeginPanel(page, kMargin, 520, "in the door");
+  const Pose2 map_from_door = info.door.map_from_door();
+  View view(page, {window.x, window.y, window.width, window.height - 34}, map_from_door.translation(), 175);
+  DrawFloor(view,
+            {map_from_door.translation() - Vector2d(3, 3), map_from_door.translation() + Vector2d(3, 3)});
+  DrawWalls(view, plan);
+  DrawAxis(view, info.door);
+  constexpr double kEvery_m = 0.1;
+  Vector2d last(1e9, 1e9);
+  for (const auto& truth : record.truth) {
+    if ((PositionOf(truth) - last).norm() < kEvery_m) continue;
+    last = PositionOf(truth);
+    view.Fill(Footprint({truth.x_m, truth.y_m, truth.yaw_rad}), kTruth, 0.05);
+  }
+  if (const auto crossing = CrossingOf(record, map_from_door))
+    if (const auto at = TruthAt(record, crossing->utime)) DrawRobot(view, *at, kTruth, 0.12);
+  view.Polyline(TruePath(record), kTruth, 3);
+  DrawBelief(view, record, 1.8);
+  const std::string caption = summary.lateral_at_door_m
+                                  ? fmt::format("{:+.1f} cm lateral, {:+.2f} deg, smallest gap {:.1f} cm",
+                                                *summary.lateral_at_door_m * 100,
+                                                *summary.heading_at_door_deg, summary.min_gap_m * 100)
+                                  : "the door was not crossed";
+  page.Text(window.x, window.y + window.height - 8, caption, 12, kInk);
+}
+
+/// The estimate nearest to `utime` that lies before (or after) it by 40 ms, relative to the truth.
+struct Offset {
+  Vector2d error{0, 0};
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+};
+std::optional<Offset> OffsetAt(const RunRecord& record, std::int64_t utime, bool before) {
+  constexpr std::int64_t kAside_us = 40'000;
+  const pose_t* nearest = nullptr;
+  for (const pose_t& pose : record.poses) {
+    if (before && pose.utime <= utime - kAside_us) nearest = &pose;
+    if (!before && !nearest && pose.utime >= utime + kAside_us) nearest = &pose;
+  }
+  const auto truth = nearest ? TruthAt(record, nearest->utime) : std::nullopt;
+  if (!truth) return std::nullopt;
+  return Offset{PositionOf(*nearest) - truth->translation(), CovarianceOf(*nearest)};
+}
+
+void DrawRings(View& view, double largest_m) {
+  for (double r_m = 0.05; r_m <= largest_m; r_m += 0.05) {
+    const auto ring = EllipseOutline({0, 0}, Eigen::Matrix2d::Identity() * r_m * r_m, 1);
+    view.Polyline(ring, kGrid, 1.2, true);
+    if (std::lround(r_m * 100) % 10 == 0)
+      view.Label({0, r_m}, 4, -3, fmt::format("{:.0f} cm", r_m * 100), 9, kFaint);
+  }
+  view.Polyline({{-largest_m, 0}, {largest_m, 0}}, kGrid, 1);
+  view.Polyline({{0, -largest_m}, {0, largest_m}}, kGrid, 1);
+}
+
+void DrawFixErrors(Page& page, const RunRecord& record) {
+  const cv::Rect window = BeginPanel(page, 592, 400, "believed minus true position at the fixes");
+  View view(page, window, {0, 0}, 500);
+  DrawRings(view, 0.25);
+  const auto looks = LooksOf(record);
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const auto before = OffsetAt(record, looks[i].end_utime, true);
+    const auto after = OffsetAt(record, looks[i].end_utime, false);
+    if (!before || !after) continue;
+    view.Fill(EllipseOutline(after->error, after->covariance, 2), kBelief, 0.16);
+    view.Polyline(EllipseOutline(after->error, after->covariance, 2), kBelief, 1, true);
+    if (i == 0) view.Dot(before->error, 5, kBelief);
+    view.Arrow(before->error, after->error, kFix, 2);
+    view.Dot(after->error, 3.5, kFix);
+    view.Label((before->error + after->error) / 2, 8, 4, fmt::format("{}", i + 1), 12, kFix, true);
+  }
+  if (looks.empty()) view.Label({0, 0}, -88, 5, "no fix corrected the pose", 12, kInk);
+  view.Dot({0, 0}, 3.5, kTruth);
+}
+
+void DrawLegend(Page& page, const Summary& summary) {
+  const cv::Rect window = BeginPanel(page, 1028, kWidth - kMargin - 1028, "legend");
+  const auto row = [&](int i) { return window.y + 22.0 + i * 27; };
+  const double x = window.x, text_x = window.x + 58;
+  page.Line(x, row(0) - 5, x + 42, row(0) - 5, kTruth, 3);
+  page.Text(text_x, row(0), "true path of the base centre, and its footprint", 12, kInk);
+  page.Line(x, row(1) - 5, x + 42, row(1) - 5, kBelief, 1.8);
+  page.Text(text_x, row(1), "believed path, ellipses of 2 sigma", 12, kInk);
+  View symbols(page, {window.x, int(row(2)) - 20, 50, 28}, {0, 0}, 1);
+  symbols.Dot({-4, 0}, 11, kFix);
+  symbols.Label({-4, 0}, -5, 6, "1", 12, kPaper, true);
+  page.Text(text_x, row(2), "look: left, then right side of the door", 12, kInk);
+  View arrow(page, {window.x, int(row(3)) - 20, 50, 28}, {0, 0}, 1);
+  arrow.Arrow({-24, 0}, {18, 0}, kFix, 2);
+  page.Text(text_x, row(3), "correction of the pose by a fix", 12, kInk);
+
+  const double y = row(4) + 14;
+  for (std::size_t i = 0; i < summary.fixes.size() && i < 3; ++i) {
+    const FixSummary& fix = summary.fixes[i];
+    page.Text(x, y + 24.0 * double(i),
+              fmt::format("fix {}:  {:.1f} cm, {:.2f} deg  ->  {:.1f} cm, {:.2f} deg", i + 1,
+                          fix.error_before_m * 100, fix.error_before_deg, fix.error_after_m * 100,
+                          fix.error_after_deg),
+              12, kInk);
+  }
+  page.Text(x, y + 76,
+            fmt::format("{:.1f} s, {:.2f} m/s mean speed", summary.duration_s, summary.mean_speed_m_s), 12,
+            kInk);
+  page.Text(x, y + 100, fmt::format("radio: {} B down, {} B up", summary.down.bytes, summary.up.bytes), 12,
+            kInk);
+}
+
+}  // namespace
+
+cv::Mat DrawRun(const RunRecord& record, const Summary& summary, const RunInfo& info,
+                const GroundPlan& plan) {
+  Page page(kWidth, kHeight, kPaper);
+  DrawHeader(page, summary);
+  DrawPlan(page, record, info, plan);
+  DrawPassage(page, record, summary, info, plan);
+  DrawFixErrors(page, record);
+  DrawLegend(page, summary);
+  return page.Finish();
+}
+
+}  // namespace priamos::cli

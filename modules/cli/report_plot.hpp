@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace priamos::cli {
+
+/// One line of a plot: x is time [s], y in the plot's unit.
+struct PlotSeries {
+  std::string name;
+  std::string colour;  ///< as CSS writes it
+  std::vector<Eigen::Vector2d> points;
+  bool dashed = false;
+};
+
+/// A stretch of time worth a shade.
+struct PlotSpan {
+  double begin_s = 0, end_s = 0;
+  std::string label;
+};
+
+struct Plot {
+  std::string title;
+  std::string unit;
+  std::vector<PlotSeries> series;
+  std::vector<PlotSpan> spans;
+  double end_s = 0;  ///< of the time axis, which begins at 0
+};
+
+/// An inline SVG figure that scales with its place, with axes, legend and shades; no external resource.
+/// Points that are not numbers are left out.
+std::string ToSvg(const Plot& plot);
+
+/// Text fit for the inside of HTML and SVG.
+std::string EscapeHtml(const std::string& text);
+
+}  // namespace priamos::cli

@@ -1,0 +1,75 @@
+#include "cli/report_files.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "report_synthetic_run.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kMap = PRIAMOS_SOURCE_DIR "/config/sim/maps/door.toml";
+
+class ReportFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ("report-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(ReportFiles, WritesSummaryPictureAndPage) {
+  const RunRecord record = SyntheticRun{}.Record();
+  WriteReport(record, Summarise(record, TestInfo()), TestInfo(), kMap, folder_);
+  std::ifstream json(folder_ / "summary.json");
+  EXPECT_EQ(nlohmann::json::parse(json)["passed"], true);
+  EXPECT_EQ(cv::imread((folder_ / "run.png").string()).cols, 1600);
+  EXPECT_GT(std::filesystem::file_size(folder_ / "report.html"),
+            std::filesystem::file_size(folder_ / "run.png"));
+}
+
+TEST_F(ReportFiles, SameRecordGivesTheSameBytes) {
+  const auto read = [&](const char* name) {
+    std::ifstream in(folder_ / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const RunRecord record = SyntheticRun{}.Record();
+  WriteReport(record, Summarise(record, TestInfo()), TestInfo(), kMap, folder_);
+  const std::string page = read("report.html");
+  WriteReport(record, Summarise(record, TestInfo()), TestInfo(), kMap, folder_);
+  EXPECT_EQ(read("report.html"), page);
+}
+
+TEST_F(ReportFiles, FolderThatCannotBeWrittenIsNamed) {
+  try {
+    WriteReport(RunRecord{}, Summary{}, TestInfo(), kMap, folder_ / "missing");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("missing/summary.json: cannot be written"));
+  }
+}
+
+TEST(LoadDoor, FindsTheDoorOfTheShippedMap) {
+  EXPECT_DOUBLE_EQ(LoadDoor(kMap, 1).opening_width_m, 0.90);
+}
+
+TEST(LoadDoor, UnknownDoorIsASentence) {
+  try {
+    LoadDoor(kMap, 9);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("expected a door with id 9, got none"));
+  }
+}
+
+}  // namespace
+}  // namespace priamos::cli

@@ -1,0 +1,81 @@
+#include "cli/report_html.hpp"
+
+#include <gmock/gmock.h>
+
+#include <regex>
+#include <vector>
+
+#include "report_synthetic_run.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::uint8_t> Bytes(const std::string& text) {
+  return {text.begin(), text.end()};
+}
+
+TEST(Base64, VectorsOfRfc4648) {
+  EXPECT_EQ(Base64(Bytes("")), "");
+  EXPECT_EQ(Base64(Bytes("f")), "Zg==");
+  EXPECT_EQ(Base64(Bytes("fo")), "Zm8=");
+  EXPECT_EQ(Base64(Bytes("foo")), "Zm9v");
+  EXPECT_EQ(Base64(Bytes("foob")), "Zm9vYg==");
+  EXPECT_EQ(Base64(Bytes("fooba")), "Zm9vYmE=");
+  EXPECT_EQ(Base64(Bytes("foobar")), "Zm9vYmFy");
+  EXPECT_EQ(Base64(std::vector<std::uint8_t>{0xff, 0xfe, 0xfd}), "//79");
+}
+
+std::string Page(const RunRecord& record) {
+  return ReportPage(record, Summarise(record, TestInfo()), Bytes("foobar"));
+}
+
+TEST(ReportHtml, ShowsFiguresPictureAndPhases) {
+  const std::string dut = Page(SyntheticRun{}.Record());
+  EXPECT_THAT(dut, HasSubstr("passed, nothing touched"));
+  EXPECT_THAT(dut, HasSubstr("data:image/png;base64,Zm9vYmFy"));
+  EXPECT_THAT(dut, HasSubstr("<td>15.0 cm</td><td>4.00&deg;</td>"));
+  EXPECT_THAT(dut, HasSubstr("<td>0.1 s</td><td>approaching</td>"));
+  EXPECT_THAT(dut, HasSubstr("<td>POSE</td>"));
+}
+
+TEST(ReportHtml, NeedsNothingFromOutsideAndRunsNothing) {
+  const std::string dut = Page(SyntheticRun{}.Record());
+  EXPECT_THAT(dut, Not(HasSubstr("http")));
+  EXPECT_THAT(dut, Not(HasSubstr("<script")));
+  EXPECT_THAT(dut, Not(HasSubstr("@import")));
+}
+
+TEST(ReportHtml, EveryElementIsClosed) {
+  const std::string dut = Page(SyntheticRun{}.Record());
+  for (const std::string tag :
+       {"table", "tr", "td", "th", "div", "svg", "text", "main", "span", "h2", "header"}) {
+    const std::regex open("<" + tag + "[ >]"), close("</" + tag + ">");
+    const auto count = [&](const std::regex& pattern) {
+      return std::distance(std::sregex_iterator(dut.begin(), dut.end(), pattern), std::sregex_iterator());
+    };
+    EXPECT_EQ(count(open), count(close)) << tag;
+  }
+}
+
+TEST(ReportHtml, TextFromTheBusIsEscaped) {
+  RunRecord record = SyntheticRun{}.Record();
+  record.mission[0].text = "<img src=x>";
+  record.onboard_link.back().channels[0].channel = "<b>";
+  const std::string dut = Page(record);
+  EXPECT_THAT(dut, Not(HasSubstr("<img src=x>")));
+  EXPECT_THAT(dut, Not(HasSubstr("<b></td>")));
+  EXPECT_THAT(dut, HasSubstr("&lt;img src=x&gt;"));
+}
+
+TEST(ReportHtml, EmptyRecordGivesAPage) {
+  const std::string dut = Page(RunRecord{});
+  EXPECT_THAT(dut, HasSubstr("not passed"));
+  EXPECT_THAT(dut, HasSubstr("no fix corrected the pose"));
+  EXPECT_THAT(dut, Not(HasSubstr("nan")));
+}
+
+}  // namespace
+}  // namespace priamos::cli
