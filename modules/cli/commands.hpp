@@ -11,5 +11,6 @@ namespace priamos::cli {
 void AddRunCommand(CLI::App& cli, int& exit_code);
 void AddLockstepCommand(CLI::App& cli, int& exit_code);
 void AddTopicCommand(CLI::App& cli, int& exit_code);
+void AddLinkCommand(CLI::App& cli, int& exit_code);
 
 }  // namespace priamos::cli

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   priamos::cli::AddRunCommand(cli, exit_code);
   priamos::cli::AddLockstepCommand(cli, exit_code);
   priamos::cli::AddTopicCommand(cli, exit_code);
+  priamos::cli::AddLinkCommand(cli, exit_code);
   try {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,111 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "bus/own_types.hpp"
+#include "bus/radio/budget.hpp"
+#include "bus/radio/link_config.hpp"
+#include "bus/schema/packing.hpp"
+#include "cli/commands.hpp"
+#include "cli/link_emulate.hpp"
+#include "radio/key_file.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr int kDoesNotHold = 1;
+
+bus::Schema TypesOf(const std::string& folder) {
+  return folder.empty() ? bus::OwnTypes() : bus::Schema(bus::Schema::ReadDirectory(folder));
+}
+
+void AddEmulate(CLI::App& link, int& exit_code) {
+  auto options = std::make_shared<LinkEmulateOptions>();
+  auto* verb = link.add_subcommand("emulate", "A pair of radio modems: two ttys joined by an emulated line.");
+  verb->footer("Example: priamos link emulate --a /tmp/tty-robot --b /tmp/tty-desk --bit-error-rate 1e-4");
+  verb->add_option("--a", options->a, "name of the first tty")->capture_default_str();
+  verb->add_option("--b", options->b, "name of the second tty")->capture_default_str();
+  auto& line = options->line;
+  verb->add_option("--baud", line.baud, "10 bits per byte")
+      ->check(CLI::Range(300, 1000000))
+      ->capture_default_str();
+  verb->add_option("--latency", line.latency_s, "s")->check(CLI::Range(0.0, 10.0))->capture_default_str();
+  verb->add_option("--jitter", line.jitter_s, "s, on top of the latency")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  verb->add_option("--bit-error-rate", line.bit_error_rate, "probability of a flip per bit")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  verb->add_option("--burst-rate", line.burst_rate_hz, "error bursts per second")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  verb->add_option("--burst-length", line.burst_length_s, "s")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  verb->add_option("--duplicate", line.duplicate_probability, "probability that a byte arrives twice")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb->add_option("--blackouts", options->blackouts,
+                   "CSV file with from_s,to_s per line: no line in between");
+  verb->add_option("--seed", options->seed, "of the errors")->capture_default_str();
+  verb->callback([options, &exit_code] { exit_code = RunLinkEmulate(*options); });
+}
+
+void AddKeygen(CLI::App& link, int& exit_code) {
+  auto path = std::make_shared<std::string>();
+  auto* verb =
+      link.add_subcommand("keygen", "Make a secret key for a radio link; both ends need the same file.");
+  verb->footer("Example: priamos link keygen /etc/priamos/link.key");
+  verb->add_option("file", *path, "where to; an existing file is kept")->required();
+  verb->callback([path, &exit_code] {
+    radio::WriteNewKeyFile(*path);
+    std::cout << *path << ": new key; copy it to the other end by a safe way, mode 0600\n";
+    exit_code = 0;
+  });
+}
+
+void AddBits(CLI::App& link, int& exit_code) {
+  auto type = std::make_shared<std::string>(), types = std::make_shared<std::string>();
+  auto* verb = link.add_subcommand("bits", "How many bits a message takes on the radio, field by field.");
+  verb->footer("Example: priamos link bits pose_t");
+  verb->add_option("type", *type, "message type")->required();
+  verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  verb->callback([=, &exit_code] {
+    const bus::Schema schema = TypesOf(*types);
+    const bus::Struct* found = schema.Find(*type);
+    if (found == nullptr)
+      throw ConfigError("link bits: expected the name of a known .lcm type, got \"" + *type + "\"");
+    std::cout << bus::FormatBitTable(bus::Packer(*found));
+    exit_code = 0;
+  });
+}
+
+void AddBudget(CLI::App& link, int& exit_code) {
+  auto config = std::make_shared<std::string>(), types = std::make_shared<std::string>();
+  auto* verb = link.add_subcommand("budget",
+                                   "What a link.toml asks of the line: bytes, shares, worst-case latencies.");
+  verb->footer("Example: priamos link budget config/sim/link.toml");
+  verb->add_option("config", *config, "link.toml")->required();
+  verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  verb->callback([=, &exit_code] {
+    const auto link_config = LoadConfig<bus::radio::LinkConfig>(*config);
+    const bus::Schema schema = TypesOf(*types);
+    const auto table = link_config.Table(schema);
+    const auto budget = ComputeBudget(table, link_config.Options());
+    std::cout << FormatBudget(table, link_config.Options(), budget);
+    exit_code = budget.problems.empty() ? 0 : kDoesNotHold;
+  });
+}
+
+}  // namespace
+
+void AddLinkCommand(CLI::App& cli, int& exit_code) {
+  auto* link = cli.add_subcommand("link", "The radio link: emulate one, make keys, see what it costs.");
+  link->require_subcommand(1);
+  AddEmulate(*link, exit_code);
+  AddKeygen(*link, exit_code);
+  AddBits(*link, exit_code);
+  AddBudget(*link, exit_code);
+}
+
+}  // namespace priamos::cli
