@@ -26,8 +26,8 @@ class RadioApp {
   static constexpr std::string_view kSummary = "One end of the radio link between two LCM buses.";
   static constexpr std::array<bus::OptionAlias, 3> kOptions{
       {{"--port", "port", "", "serial port of the modem"},
-       {"--onboard", "side", "onboard", "this is the robot's end"},
-       {"--offboard", "side", "offboard", "this is the workstation's end"}}};
+       {"--onboard", "side", "\"onboard\"", "this is the robot's end"},
+       {"--offboard", "side", "\"offboard\"", "this is the workstation's end"}}};
   using Config = RadioConfig;
 
   /// Throws ConfigError or std::runtime_error with one sentence.
