@@ -19,13 +19,13 @@ namespace {
 constexpr const char* kVertexShader = R"(#version 330 core
 in vec3 position;
 in vec3 uv;
-in vec2 light_retro;
+in vec3 light_retro_laser;
 uniform mat4 pmv_matrix;
 out vec3 fragment_uv;
-out vec2 fragment_light_retro;
+out vec3 fragment_light;
 void main() {
   fragment_uv = uv;
-  fragment_light_retro = light_retro;
+  fragment_light = light_retro_laser;
   gl_Position = pmv_matrix * vec4(position, 1.0);
 }
 )";
@@ -33,11 +33,11 @@ void main() {
 constexpr const char* kFragmentShader = R"(#version 330 core
 uniform sampler2DArray albedo;
 in vec3 fragment_uv;
-in vec2 fragment_light_retro;
+in vec3 fragment_light;
 out vec4 color;
 void main() {
-  float lit = texture(albedo, fragment_uv).r * fragment_light_retro.x;
-  color = vec4(lit, fragment_light_retro.y, 0.0, 1.0);
+  float lit = texture(albedo, fragment_uv).r * fragment_light.x;
+  color = vec4(lit, fragment_light.yz, 1.0);
 }
 )";
 
@@ -58,7 +58,7 @@ mrpt::opengl::Program::Ptr GraphicsMesh::CompileProgram() {
   }
   program->declareUniform("pmv_matrix");
   program->declareUniform("albedo");
-  for (const char* attribute : {"position", "uv", "light_retro"}) program->declareAttribute(attribute);
+  for (const char* attribute : {"position", "uv", "light_retro_laser"}) program->declareAttribute(attribute);
   return program;
 }
 
@@ -136,7 +136,7 @@ void GraphicsMesh::render(const RenderContext& context) const {
   };
   attribute("position", 3, offsetof(MeshVertex, x));
   attribute("uv", 3, offsetof(MeshVertex, u));
-  attribute("light_retro", 2, offsetof(MeshVertex, light));
+  attribute("light_retro_laser", 3, offsetof(MeshVertex, light));
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
   glDisable(GL_BLEND);
   glEnable(GL_CULL_FACE);

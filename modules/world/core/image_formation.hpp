@@ -29,6 +29,7 @@ struct Exposure {
   double exposure_s = 0.010;
   double gain = 1;
   double camera_light = 0;  ///< lamp beside the lens; 1 makes retro-reflective discs white at 10 ms, gain 1
+  double laser = 0;         ///< the laser line; 1 makes it white at 10 ms, gain 1
 };
 
 /// The grid on which sub-exposures are drawn: finer than the image, with a margin that the lens distortion

@@ -17,7 +17,7 @@ constexpr double kSkin_m = 1e-3;         // a ray leaves its surface by this muc
 constexpr double kAmbientReach_m = 1.2;  // things farther away do not shade the ambient light
 constexpr int kAmbientRays = 16;
 constexpr double kLampReach_m = 6.0, kLampSize_m = 1.0;
-constexpr double kLampPower = 22;  // makes a wall between two lamps about 1
+constexpr double kLampPower = 18;  // makes a wall between two lamps about 1
 
 /// Directions about +z, denser around it as the cosine law weighs them.
 std::array<Vector3d, kAmbientRays> CosineDirections() {
@@ -30,8 +30,9 @@ std::array<Vector3d, kAmbientRays> CosineDirections() {
   return directions;
 }
 
-/// Entry distance of a ray into the box |x_i| <= half_i; a ray that starts inside does not see the box.
-double Entry(const Vector3d& origin, const Vector3d& direction, const Vector3d& half) {
+/// Entry distance of a ray into the box |x_i| <= half_i and the axis of the face; a ray that starts inside
+/// does not see the box.
+double Entry(const Vector3d& origin, const Vector3d& direction, const Vector3d& half, int& axis) {
   double near = -1e9, far = 1e9;
   for (int i = 0; i < 3; ++i) {
     if (std::abs(direction[i]) < 1e-12) {
@@ -40,7 +41,7 @@ double Entry(const Vector3d& origin, const Vector3d& direction, const Vector3d& 
     }
     const double inverse = 1 / direction[i];
     const double a = (-half[i] - origin[i]) * inverse, b = (half[i] - origin[i]) * inverse;
-    near = std::max(near, std::min(a, b));
+    if (std::min(a, b) > near) near = std::min(a, b), axis = i;
     far = std::min(far, std::max(a, b));
   }
   return near <= far ? near : -1;
@@ -66,17 +67,22 @@ Lighting::Lighting(const SceneConfig& config, const std::vector<Solid>& solids) 
   window_ = {std::cos(up) * std::cos(yaw), std::cos(up) * std::sin(yaw), std::sin(up)};
 }
 
+double Lighting::Enter(const Box& box, const Vector3d& origin, const Vector3d& direction, int& axis) const {
+  const Vector3d d = origin - box.centre;
+  // A cheap miss first: most boxes are not near the ray.
+  const double along = d.dot(direction), radius2 = box.half.squaredNorm();
+  if (d.squaredNorm() - along * along > radius2) return -1;
+  const auto turn = [&box](const Vector3d& v) {
+    return Vector3d(box.c * v.x() + box.s * v.y(), -box.s * v.x() + box.c * v.y(), v.z());
+  };
+  return Entry(turn(d), turn(direction), box.half, axis);
+}
+
 double Lighting::Hit(const Vector3d& origin, const Vector3d& direction, double max_m) const {
   double nearest = max_m;
+  int axis = 0;
   for (const Box& box : boxes_) {
-    const Vector3d d = origin - box.centre;
-    // A cheap miss first: most boxes are not near the ray.
-    const double along = d.dot(direction), radius2 = box.half.squaredNorm();
-    if (d.squaredNorm() - along * along > radius2) continue;
-    const Vector3d local_origin(box.c * d.x() + box.s * d.y(), -box.s * d.x() + box.c * d.y(), d.z());
-    const Vector3d local_direction(box.c * direction.x() + box.s * direction.y(),
-                                   -box.s * direction.x() + box.c * direction.y(), direction.z());
-    const double t = Entry(local_origin, local_direction, box.half);
+    const double t = Enter(box, origin, direction, axis);
     if (t > kSkin_m && t < nearest) nearest = t;
   }
   return nearest;
@@ -87,6 +93,23 @@ double Lighting::Distance(const Vector3d& origin, const Vector3d& direction, dou
   if (direction.z() < -1e-9) nearest = std::min(nearest, -origin.z() / direction.z());
   if (direction.z() > 1e-9) nearest = std::min(nearest, (config_.ceiling_m - origin.z()) / direction.z());
   return std::max(nearest, 0.0);
+}
+
+RayHit Lighting::Trace(const Vector3d& origin, const Vector3d& direction, double max_m) const {
+  RayHit hit{max_m, -direction, -3};
+  const auto take = [&](double t, const Vector3d& normal, int solid) {
+    if (t > kSkin_m && t < hit.distance_m) hit = {t, normal, solid};
+  };
+  if (direction.z() < -1e-9) take(-origin.z() / direction.z(), Vector3d::UnitZ(), -1);
+  if (direction.z() > 1e-9) take((config_.ceiling_m - origin.z()) / direction.z(), -Vector3d::UnitZ(), -2);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const Box& box = boxes_[i];
+    int axis = 0;
+    const double t = Enter(box, origin, direction, axis);
+    const Vector3d axes[] = {{box.c, box.s, 0}, {-box.s, box.c, 0}, {0, 0, 1}};
+    take(t, axes[axis].dot(direction) < 0 ? axes[axis] : Vector3d(-axes[axis]), static_cast<int>(i));
+  }
+  return hit;
 }
 
 double Lighting::Ambient(const Vector3d& point, const Vector3d& normal) const {

@@ -8,6 +8,13 @@
 
 namespace priamos::world {
 
+/// What a ray meets first.
+struct RayHit {
+  double distance_m = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface, towards the ray's origin
+  int solid = -1;                                     ///< index; -1 floor, -2 ceiling, -3 nothing
+};
+
 /// The solids and the light in them, for rays: how bright a surface is, how far the next thing is.
 class Lighting {
  public:
@@ -17,7 +24,8 @@ class Lighting {
   /// less of the ambient light; light is not reflected from surface to surface.
   double At(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
 
-  /// Distance to the first solid, floor or ceiling along a unit vector; `max_m` if there is none before.
+  /// The first solid, floor or ceiling along a unit vector; distance `max_m` if there is none before.
+  RayHit Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double max_m) const;
   double Distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double max_m) const;
 
  private:
@@ -27,6 +35,9 @@ class Lighting {
   };
   double Ambient(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
   double Lamps(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+  /// Entry distance into one box, with the axis (0, 1, 2) of the face; negative if the ray misses it.
+  double Enter(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+               int& axis) const;
   double Hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double max_m) const;
 
   SceneConfig config_;

@@ -13,7 +13,8 @@ using Eigen::Vector3d;
 constexpr double kCell_m = 0.6;  // grid on which light is computed, in the middle of a face ...
 constexpr double kRim_m = 0.2;   // ... and near its rim, where corners are darker
 constexpr double kInset_m = 0.08;
-constexpr double kBlackLight = 0.03;  // of the reference body
+constexpr float kBlackLight = 0.03F;  // of the reference body ...
+constexpr float kDiscLight = 0.08F;   // ... and its discs, but for the lamp beside the lens
 constexpr int kDiscCorners = 96;
 
 /// A rectangle in space: `origin` + a * `along` + b * `up`, a and b in 0..1; outside is along x up.
@@ -63,7 +64,7 @@ void AppendFace(const Face& face, const Lighting& lighting, double most_light, M
       const Vector3d p = face.origin + a * face.along + b * face.up;
       const double light = std::min(LightAt(face, a, b, lighting) / most_light, 1.0);
       grid.push_back({float(p.x()), float(p.y()), float(p.z()), float(face.u0 + a * (face.u1 - face.u0)),
-                      float(face.v0 + b * (face.v1 - face.v0)), float(face.layer), float(light), 0});
+                      float(face.v0 + b * (face.v1 - face.v0)), float(face.layer), float(light), 0, 0});
     }
   }
   for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
@@ -91,10 +92,9 @@ Sides BoxFaces(const Eigen::Isometry3d& map_from_box, const Vector3d& low, const
            Face{o + z, x, y, 0, 0, 0, 0, 0}}};
 }
 
-/// The picture's first row is at the top; seen from behind it is mirrored, so that a handle is on the same
-/// side.
-void Hang(Face& face, int layer, bool from_behind) {
-  face.u0 = from_behind ? 1 : 0, face.u1 = 1 - face.u0, face.v0 = 1, face.v1 = 0;
+/// The picture's first row is at the top.
+void Hang(Face& face, int layer, bool mirrored) {
+  face.u0 = mirrored ? 1 : 0, face.u1 = 1 - face.u0, face.v0 = 1, face.v1 = 0;
   face.layer = layer;
 }
 
@@ -120,7 +120,7 @@ void AppendSolid(const Solid& solid, const Surface& surface, const Lighting& lig
   for (std::size_t i = 0; i < sides.faces.size(); ++i) {
     const bool front = surface.picture && (thin_in_x ? i < 2 : i == 2 || i == 3);
     if (front)
-      Hang(sides.faces[i], surface.layer, i % 2 == 1);
+      Hang(sides.faces[i], surface.layer, surface.handed && i % 2 == 1);
     else
       Cover(sides.faces[i], surface);
     AppendFace(sides.faces[i], lighting, most_light, mesh);
@@ -141,7 +141,7 @@ void AppendRoom(const SceneConfig& config, const Textures& textures, const Light
 
 void AppendReference(const PlacedReference& reference, Mesh& mesh) {
   const auto vertex = [](const Vector3d& p, float light, float retro) {
-    return MeshVertex{float(p.x()), float(p.y()), float(p.z()), 0, 0, 0, light, retro};
+    return MeshVertex{float(p.x()), float(p.y()), float(p.z()), 0, 0, 0, light, retro, 0};
   };
   for (const ReferenceBlock& block : reference.object.blocks) {
     const Vector3d half = (block.size_m / 2 - Vector3d::Constant(kDiscThickness_m)).cwiseMax(1e-4);
@@ -163,9 +163,9 @@ void AppendReference(const PlacedReference& reference, Mesh& mesh) {
     const auto corner = [&](int i) {
       const Vector3d rim =
           disc.centre_m + disc.radius_m * grow * (std::cos(i * step) * a + std::sin(i * step) * b);
-      return vertex(reference.map_from_object * rim, 0.5F, 1);
+      return vertex(reference.map_from_object * rim, kDiscLight, 1);
     };
-    const MeshVertex centre = vertex(reference.map_from_object * disc.centre_m, 0.5F, 1);
+    const MeshVertex centre = vertex(reference.map_from_object * disc.centre_m, kDiscLight, 1);
     for (int i = 0; i < kDiscCorners; ++i) mesh.push_back({centre, corner(i), corner(i + 1)});
   }
 }

@@ -18,6 +18,7 @@ struct MeshVertex {
   float u, v, layer;  ///< place in the textures
   float light;        ///< on this point of the surface, 1 is the most
   float retro;        ///< share of the camera light that returns to the camera
+  float laser;        ///< light of the laser line
 };
 
 /// Triangles, three vertices each, counter-clockwise seen from outside.

@@ -29,8 +29,8 @@ class OffscreenScene {
   /// Draws near things first from here on, which saves half of the time.
   void SortFrom(const Eigen::Vector3d& map_eye);
 
-  /// Draws the picture: CV_8UC3, channel 2 is albedo times light, channel 1 the retro-reflected share. The
-  /// image is valid until the next call.
+  /// Draws the picture: CV_8UC3, channel 2 is albedo times light, channel 1 the retro-reflected share,
+  /// channel 0 the laser line. The image is valid until the next call.
   const cv::Mat& Render(const PinholeView& view);
 
  private:

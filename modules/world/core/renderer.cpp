@@ -46,6 +46,7 @@ void RendererConfig::Describe(Archive& a) {
   a.Section("scene", scene, "room and light");
   a.Section("imaging", imaging, "lens blur, sensor and noise");
   a.Section("head", head, "how KASTOR was really built");
+  a.Section("laser", laser, "the line laser for obstacles");
 }
 
 class Renderer::Impl {
@@ -111,10 +112,18 @@ class Renderer::Impl {
   }
 
   void Upload() {
-    Mesh mesh = room_;
-    for (const Mesh& part : parts_) mesh.insert(mesh.end(), part.begin(), part.end());
-    if (reference_) AppendReference(*reference_, mesh);
+    mesh_ = room_;
+    for (const Mesh& part : parts_) mesh_.insert(mesh_.end(), part.begin(), part.end());
+    if (reference_) AppendReference(*reference_, mesh_);
+    scene_.SetMesh(mesh_);
+  }
+
+  /// The line lies elsewhere for every pose of the robot.
+  void UploadWithLaser(const Pose2& map_from_base, const Eigen::Vector3d& eye) {
+    Mesh mesh = mesh_;
+    AppendLaser(config_.laser, map_from_base, *lighting_, mesh);
     scene_.SetMesh(mesh);
+    scene_.SortFrom(eye);
   }
 
   /// Sums the sub-exposures into light_.
@@ -125,11 +134,15 @@ class Renderer::Impl {
     for (int k = 0; k < n; ++k) {
       const Viewpoint at = Between(opening, closing, (k + 0.5) / n);
       const TrueCamera lens = CameraAt(config_.head, camera, at.head);
-      const cv::Mat& picture = scene_.Render(FineView(lens, at.map_from_base, SubSample(k, n)));
+      const PinholeView view = FineView(lens, at.map_from_base, SubSample(k, n));
+      if (exposure.laser > 0) UploadWithLaser(at.map_from_base, view.map_from_camera.translation());
+      const cv::Mat& picture = scene_.Render(view);
       AddChannel(picture, 2, kMostLight / (255.0 * n));
       if (reference_ && exposure.camera_light > 0)
         AddChannel(picture, 1, exposure.camera_light / (255.0 * n));
+      if (exposure.laser > 0) AddChannel(picture, 0, exposure.laser / (255.0 * n));
     }
+    if (exposure.laser > 0) scene_.SetMesh(mesh_);
   }
 
   void AddChannel(const cv::Mat& picture, int channel, double weight) {
@@ -167,6 +180,7 @@ class Renderer::Impl {
   std::unique_ptr<Lighting> lighting_;
   Mesh room_;
   std::vector<Mesh> parts_;  ///< of solids_
+  Mesh mesh_;                ///< all of them
   cv::Mat light_;            ///< sum of the sub-exposures on the fine grid
 };
 

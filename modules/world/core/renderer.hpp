@@ -9,6 +9,7 @@
 #include "common/frame_store.hpp"
 #include "common/random.hpp"
 #include "world/core/image_formation.hpp"
+#include "world/core/laser.hpp"
 #include "world/core/optics.hpp"
 #include "world/core/reference_object.hpp"
 #include "world/core/scene.hpp"
@@ -21,6 +22,7 @@ struct RendererConfig {
   SceneConfig scene;
   ImagingConfig imaging;
   HeadBuild head;
+  LaserBuild laser;
 
   void Describe(Archive& a);
 };

@@ -105,12 +105,12 @@ Surface Textures::Find(const std::string& material, const std::string& solid_nam
   };
   if (material == "poster") {
     const int choice = static_cast<int>(Rng::Stream(0, solid_name).Below(posters_));
-    return {first_poster_ + choice, 1, true, index("plaster")};
+    return {first_poster_ + choice, 1, true, index("plaster"), false};
   }
-  if (material == "door_leaf") return {layer, 1, true, index("furniture")};
-  if (material == "cupboard") return {layer, 1, true, index("furniture")};
+  if (material == "door_leaf") return {layer, 1, true, index("furniture"), true};
+  if (material == "cupboard") return {layer, 1, true, index("furniture"), false};
   const bool large = material == "tiles" || material == "ceiling" || material == "plaster";
-  return {layer, large ? 2.0 : 1.2, false, layer};
+  return {layer, large ? 2.0 : 1.2, false, layer, false};
 }
 
 }  // namespace priamos::world

@@ -13,6 +13,7 @@ struct Surface {
   double tile_m = 1;     ///< length of the texture's side on the surface ...
   bool picture = false;  ///< ... unless it shows one picture on front and back, filling each
   int edge_layer = 0;    ///< texture of the other faces of a picture
+  bool handed = false;   ///< the picture is mirrored on the back: a door handle is on one side of the door
 };
 
 /// Grey albedo textures of one world: squares of kSide that continue at their borders. White is 1.
