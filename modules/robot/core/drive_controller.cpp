@@ -39,6 +39,10 @@ Duration Lasting(const std::optional<Time>& since, Time now) {
 }  // namespace
 
 void DriveConfig::Describe(Archive& a) {
+  a.Number("lost_position_m", lost_position_m,
+           {"m", 0.05, 5, "no path is driven by a pose with a larger sigma"});
+  a.Number("lost_yaw_deg", lost_yaw_deg, {"deg", 1, 90, "the same for the heading"});
+  a.Number("blocked_s", blocked_s, {"s", 0, 60, "standing before an obstacle for this long is BLOCKED"});
   a.Section("footprint", footprint, "the body of the base");
   a.Section("follower", follower, "how a path is driven");
   a.Section("acceleration", acceleration, "limits while driving");
@@ -46,10 +50,6 @@ void DriveConfig::Describe(Archive& a) {
   a.Section("echoes", echoes, "which sonar echoes are believed");
   a.Section("collision", collision, "the last filter before the wheels");
   a.Section("failsafe", failsafe, "when silence is too long");
-  a.Number("lost_position_m", lost_position_m,
-           {"m", 0.05, 5, "no path is driven by a pose with a larger sigma"});
-  a.Number("lost_yaw_deg", lost_yaw_deg, {"deg", 1, 90, "the same for the heading"});
-  a.Number("blocked_s", blocked_s, {"s", 0, 60, "standing before an obstacle for this long is BLOCKED"});
 }
 
 DriveController::DriveController(const DriveConfig& config, const MecanumGeometry& geometry)

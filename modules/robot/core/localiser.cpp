@@ -9,9 +9,9 @@ constexpr std::size_t kMostWaiting = 16;
 }  // namespace
 
 void LocaliserConfig::Describe(Archive& a) {
+  a.Number("fix_wait_s", fix_wait_s, {"s", 0, 5, "how long a fix waits for odometry of its time"});
   a.Section("odometry", odometry, "dead reckoning of the four wheels");
   a.Section("estimator", estimator, "pose in the map");
-  a.Number("fix_wait_s", fix_wait_s, {"s", 0, 5, "how long a fix waits for odometry of its time"});
 }
 
 Localiser::Localiser(const LocaliserConfig& config, const MecanumGeometry& geometry)

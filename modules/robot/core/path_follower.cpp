@@ -38,7 +38,6 @@ Begin WithoutPassedPoint(const Path& path, const Pose2& pose) {
 }  // namespace
 
 void PathFollowerConfig::Describe(Archive& a) {
-  a.Section("shape", shape, "how the points of a path become a curve with speeds");
   a.Number("gain_per_s", gain_per_s, {"1/s", 0.1, 10, "velocity towards the path per distance from it"});
   a.Number("turn_gain_per_s", turn_gain_per_s, {"1/s", 0.1, 10, "turn rate per heading error"});
   a.Number("correction_speed_m_s", correction_speed_m_s,
@@ -47,6 +46,7 @@ void PathFollowerConfig::Describe(Archive& a) {
   a.Number("arrival_m", arrival_m, {"m", 0.001, 0.2, "arrived when this near to the last point"});
   a.Number("arrival_deg", arrival_deg, {"deg", 0.05, 10, "and the heading is this near"});
   a.Number("latency_s", latency_s, {"s", 0, 0.5, "from a pose to wheels that obey it"});
+  a.Section("shape", shape, "how the points of a path become a curve with speeds");
 }
 
 void PathFollower::Follow(const Path& path, const Pose2& pose) {

@@ -37,13 +37,13 @@ void InitialPose::Describe(Archive& a) {
 }
 
 void PoseEstimatorConfig::Describe(Archive& a) {
-  a.Section("initial", initial, "what the robot is told about its place; errors are bounds, not sigmas");
-  a.Section("bias", bias, "constant errors of the odometry, sigma before the first fix");
   a.Number("history_s", history_s, {"s", 0.5, 60, "oldest picture that can still correct the pose"});
   a.Number("gate_distance", gate_distance,
            {"-", 1, 20, "Mahalanobis distance beyond which a fix is refused"});
   a.Number("least_fix_sigma_m", least_fix_sigma_m, {"m", 1e-4, 0.5, "no fix is believed to be better"});
   a.Number("least_fix_sigma_deg", least_fix_sigma_deg, {"deg", 1e-3, 10, "no fix is believed to be better"});
+  a.Section("initial", initial, "what the robot is told about its place; errors are bounds, not sigmas");
+  a.Section("bias", bias, "constant errors of the odometry, sigma before the first fix");
 }
 
 double PoseEstimate::PositionSigma() const {

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "bus/context.hpp"
+#include "lcmtypes/channels.hpp"
+#include "robot/robot_config.hpp"
+#include "robot/robot_messages.hpp"
+
+namespace priamos::robot {
+
+/// The first of the robot's two computers: drive, odometry, sonars, pose. See README.md.
+class RobotApp {
+ public:
+  static constexpr std::string_view kName = "robot";
+  static constexpr std::string_view kSummary =
+      "The mobile base: follows paths on four Mecanum wheels, knows its pose, stops before obstacles.";
+  using Config = RobotConfig;
+
+  RobotApp(const RobotConfig& config, bus::Context& context);
+
+  Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
+  void Tick(Time now);
+
+ private:
+  void TakeWheels(Time now);
+  void TakeSonars();
+  void TakeFixes(Time now);
+  void TakePaths();
+  void AnswerFixes(Time now);
+  void Drive(Time now);
+  void SendStatus(Time now);
+  void Tell(const FailsafeDecision& decision);
+
+  RobotConfig config_;
+  bus::Context& context_;
+  Localiser localiser_;
+  DriveController drive_;
+
+  bus::Inbox<wheel_state_t> wheels_;
+  bus::Latest<sonar_ranges_t> sonars_;
+  bus::Inbox<path_t> paths_;
+  bus::Inbox<landmark_fix_t> fixes_;
+  bus::Publisher<wheel_command_t> wheel_command_;
+  bus::Publisher<odometry_t> odometry_;
+  bus::Publisher<pose_t> pose_;
+  bus::Publisher<drive_status_t> status_;
+  bus::Publisher<pose_correction_t> correction_;
+
+  std::optional<Time> wheels_heard_, status_sent_;
+  std::optional<Condition> told_;
+};
+
+}  // namespace priamos::robot

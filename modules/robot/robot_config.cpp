@@ -1,0 +1,13 @@
+#include "robot/robot_config.hpp"
+
+namespace priamos::robot {
+
+void RobotConfig::Describe(Archive& a) {
+  a.Number("rate_hz", rate_hz, {"Hz", 10, 200, "decisions and wheel commands"});
+  a.Number("status_rate_hz", status_rate_hz, {"Hz", 0.5, 50, "DRIVE_STATUS"});
+  a.Section("base", base, "the four Mecanum wheels");
+  a.Section("localiser", localiser, "where the base is");
+  a.Section("drive", drive, "how the base moves, and what stops it");
+}
+
+}  // namespace priamos::robot

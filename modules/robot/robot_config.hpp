@@ -1,0 +1,21 @@
+#pragma once
+
+#include "common/config.hpp"
+#include "robot/core/drive_controller.hpp"
+#include "robot/core/localiser.hpp"
+#include "robot/core/mecanum.hpp"
+
+namespace priamos::robot {
+
+/// config/<deployment>/robot.toml
+struct RobotConfig {
+  double rate_hz = 50;         ///< decisions and wheel commands
+  double status_rate_hz = 10;  ///< DRIVE_STATUS
+  MecanumGeometry base;
+  LocaliserConfig localiser;
+  DriveConfig drive;
+
+  void Describe(Archive& a);
+};
+
+}  // namespace priamos::robot

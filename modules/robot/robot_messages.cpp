@@ -1,0 +1,203 @@
+#include "robot/robot_messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/covariance.hpp"
+
+namespace priamos::robot {
+namespace {
+
+constexpr double kMapReach = 100;
+constexpr double kLeastSpeed = 0.01;
+
+bool IsOnMap(const path_point_t& point) {
+  return std::abs(point.x_m) <= kMapReach && std::abs(point.y_m) <= kMapReach && std::isfinite(point.yaw_rad);
+}
+
+Eigen::Matrix3d CovarianceOf(const landmark_fix_t& m) {
+  const auto is_sigma = [](double s) { return s >= 0 && std::isfinite(s); };
+  const auto is_rho = [](double r) { return std::abs(r) <= 1; };
+  const bool credible = is_sigma(m.sigma_x_m) && is_sigma(m.sigma_y_m) && is_sigma(m.sigma_yaw_rad) &&
+                        is_rho(m.rho_x_y) && is_rho(m.rho_x_yaw) && is_rho(m.rho_y_yaw);
+  if (!credible) return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  return ToCovariance({m.sigma_x_m, m.sigma_y_m, m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw});
+}
+
+std::int8_t ModeCode(DriveMode mode) {
+  switch (mode) {
+    case DriveMode::kIdle:
+      return drive_status_t::IDLE;
+    case DriveMode::kFollowing:
+      return drive_status_t::FOLLOWING;
+    case DriveMode::kArrived:
+      return drive_status_t::ARRIVED;
+    case DriveMode::kHolding:
+      return drive_status_t::HOLDING;
+    case DriveMode::kBlocked:
+      return drive_status_t::BLOCKED;
+  }
+  return drive_status_t::IDLE;
+}
+
+std::int8_t LimitCode(Condition condition) {
+  switch (condition) {
+    case Condition::kEstop:
+      return drive_status_t::LIMIT_ESTOP;
+    case Condition::kLeaseLost:
+      return drive_status_t::LIMIT_LEASE_LOST;
+    case Condition::kOperatorSilent:
+      return drive_status_t::LIMIT_OPERATOR_SILENT;
+    case Condition::kWheelsSilent:
+      return drive_status_t::LIMIT_WHEELS_SILENT;
+    case Condition::kWheelsStuck:
+      return drive_status_t::LIMIT_WHEELS_STUCK;
+    case Condition::kSonarSilent:
+      return drive_status_t::LIMIT_SONAR_SILENT;
+    case Condition::kPoseLost:
+      return drive_status_t::LIMIT_POSE_STALE;
+    case Condition::kHeadSilent:
+      return drive_status_t::LIMIT_HEAD_SILENT;
+    case Condition::kLinkLost:
+      return drive_status_t::LIMIT_LINK_LOST;
+  }
+  return drive_status_t::LIMIT_NONE;
+}
+
+std::int8_t VerdictCode(FixVerdict verdict) {
+  switch (verdict) {
+    case FixVerdict::kApplied:
+      return pose_correction_t::APPLIED;
+    case FixVerdict::kTooOld:
+    case FixVerdict::kTooNew:
+      return pose_correction_t::TOO_OLD;
+    case FixVerdict::kImplausible:
+    case FixVerdict::kDouble:
+      break;
+  }
+  return pose_correction_t::IMPLAUSIBLE;
+}
+
+}  // namespace
+
+WheelSample FromMessage(const wheel_state_t& message) {
+  WheelSample sample{.time = FromUtime(message.utime)};
+  std::copy(std::begin(message.position_ticks), std::end(message.position_ticks), sample.ticks.begin());
+  sample.deadline_stopped = message.deadline_stopped != 0;
+  return sample;
+}
+
+SonarCycle FromMessage(const sonar_ranges_t& message) {
+  SonarCycle cycle{.time = FromUtime(message.utime)};
+  std::copy(std::begin(message.range_m), std::end(message.range_m), cycle.range_m.begin());
+  return cycle;
+}
+
+std::optional<Path> FromMessage(const path_t& message) {
+  const bool drivable = message.n_points == 0 || message.speed_m_s >= kLeastSpeed;
+  if (!drivable || !std::isfinite(message.speed_m_s)) return std::nullopt;
+  Path path{.id = message.path_id, .speed_m_s = message.speed_m_s};
+  for (const path_point_t& point : message.points) {
+    if (!IsOnMap(point)) return std::nullopt;
+    path.points.push_back({point.x_m, point.y_m, WrapAngle(point.yaw_rad)});
+  }
+  return path;
+}
+
+std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message) {
+  if (message.verdict != landmark_fix_t::FOUND) return std::nullopt;
+  LandmarkFix fix;
+  fix.exposure = FromUtime(message.utime_exposure);
+  fix.request_id = message.request_id;
+  fix.base_from_landmark = {message.x_m, message.y_m, WrapAngle(message.yaw_rad)};
+  fix.covariance = CovarianceOf(message);
+  fix.map_from_landmark = {message.model_x_m, message.model_y_m, WrapAngle(message.model_yaw_rad)};
+  return fix;
+}
+
+wheel_command_t ToMessage(const WheelSpeeds& speeds, Time now) {
+  wheel_command_t message{};
+  message.utime = ToUtime(now);
+  std::copy(speeds.begin(), speeds.end(), std::begin(message.speed_rad_s));
+  return message;
+}
+
+odometry_t ToMessage(const Odometry& odometry) {
+  odometry_t message{};
+  message.utime = odometry.time() ? ToUtime(*odometry.time()) : 0;
+  message.x_m = odometry.pose().x;
+  message.y_m = odometry.pose().y;
+  message.yaw_rad = odometry.pose().yaw;
+  message.vx_m_s = odometry.twist().vx;
+  message.vy_m_s = odometry.twist().vy;
+  message.wz_rad_s = odometry.twist().wz;
+  message.slip_m_s = odometry.slip_m_s();
+  return message;
+}
+
+pose_t ToMessage(const PoseEstimate& estimate) {
+  const SigmaRho s = ToSigmaRho(estimate.covariance);
+  pose_t message{};
+  message.utime = ToUtime(estimate.time);
+  message.x_m = estimate.pose.x;
+  message.y_m = estimate.pose.y;
+  message.yaw_rad = estimate.pose.yaw;
+  message.vx_m_s = estimate.twist.vx;
+  message.vy_m_s = estimate.twist.vy;
+  message.wz_rad_s = estimate.twist.wz;
+  message.sigma_x_m = s.sigma_x;
+  message.sigma_y_m = s.sigma_y;
+  message.sigma_yaw_rad = s.sigma_yaw;
+  message.rho_x_y = s.rho_x_y;
+  message.rho_x_yaw = s.rho_x_yaw;
+  message.rho_y_yaw = s.rho_y_yaw;
+  return message;
+}
+
+drive_status_t ToMessage(const DriveState& state, double speed_m_s, Time now) {
+  drive_status_t message{};
+  message.utime = ToUtime(now);
+  message.mode = ModeCode(state.mode);
+  message.limit = state.slowed_by_sonar ? drive_status_t::LIMIT_SONAR : drive_status_t::LIMIT_NONE;
+  if (state.failsafe.cause) message.limit = LimitCode(*state.failsafe.cause);
+  message.path_id = state.path_id;
+  message.remaining_m = state.remaining_m;
+  message.cross_track_m = state.cross_track_m;
+  message.speed_m_s = speed_m_s;
+  message.nearest_m = state.nearest_m.value_or(-1);
+  return message;
+}
+
+pose_correction_t ToMessage(const Localiser::Answer& answer, Time now) {
+  const FixResult& result = answer.result;
+  pose_correction_t message{};
+  message.utime = ToUtime(now);
+  message.utime_exposure = ToUtime(answer.fix.exposure);
+  message.request_id = answer.fix.request_id;
+  message.verdict = VerdictCode(result.verdict);
+  message.dx_m = result.change.x;
+  message.dy_m = result.change.y;
+  message.dyaw_rad = result.change.yaw;
+  message.sigma_m = result.at_picture.PositionSigma();
+  message.sigma_yaw_rad = result.at_picture.YawSigma();
+  message.distance = result.distance;
+  return message;
+}
+
+pose_correction_t NotFound(const landmark_fix_t& fix, Time now) {
+  pose_correction_t message{};
+  message.utime = ToUtime(now);
+  message.utime_exposure = fix.utime_exposure;
+  message.request_id = fix.request_id;
+  message.verdict = pose_correction_t::NOT_FOUND;
+  return message;
+}
+
+std::string_view Text(Condition condition) {
+  for (const FailsafeRule& rule : FailsafeRules({}))
+    if (rule.condition == condition) return rule.meaning;
+  return "";
+}
+
+}  // namespace priamos::robot

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "lcmtypes/channels.hpp"
+#include "robot/core/drive_controller.hpp"
+#include "robot/core/localiser.hpp"
+
+namespace priamos::robot {
+
+WheelSample FromMessage(const wheel_state_t& message);
+SonarCycle FromMessage(const sonar_ranges_t& message);
+/// nullopt for a path that cannot be driven: points that are not finite or outside the map's 100 m, or a
+/// speed that is not above 0 while there are points.
+std::optional<Path> FromMessage(const path_t& message);
+/// nullopt unless the head found the landmark. Numbers that make no sense become a fix that the estimator
+/// refuses.
+std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message);
+
+wheel_command_t ToMessage(const WheelSpeeds& speeds, Time now);
+odometry_t ToMessage(const Odometry& odometry);
+pose_t ToMessage(const PoseEstimate& estimate);
+drive_status_t ToMessage(const DriveState& state, double speed_m_s, Time now);
+/// What the robot made of a fix that it used, or refused.
+pose_correction_t ToMessage(const Localiser::Answer& answer, Time now);
+/// What it made of one that the head could not give.
+pose_correction_t NotFound(const landmark_fix_t& message, Time now);
+
+/// A condition in words, for logs and HEALTH.
+std::string_view Text(Condition condition);
+
+}  // namespace priamos::robot

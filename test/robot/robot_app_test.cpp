@@ -1,0 +1,194 @@
+#include "robot/robot_app.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "bus/own_types.hpp"
+#include "test/robot/support/simulated_base.hpp"
+
+namespace priamos::robot {
+namespace {
+
+using testing::Contains;
+using testing::Each;
+using testing::HasSubstr;
+
+/// The robot on a bus of its own, with a simulated base as its drive board.
+struct Onboard {
+  Onboard() : dut({}, context) {}
+
+  void Step() {
+    base.Advance(std::chrono::milliseconds(20));
+    clock.Set(base.now());
+    if (wheels_answer) SendWheels();
+    if (++ticks % 5 == 0) SendSonars();
+    bus.Drain();
+    dut.Tick(clock.Now());
+    bus.Drain();
+    if (const auto message = command.Take()) {
+      last_command = *message;
+      base.Command({message->speed_rad_s[0], message->speed_rad_s[1], message->speed_rad_s[2],
+                    message->speed_rad_s[3]},
+                   clock.Now());
+    }
+    if (const auto message = status.Take()) {
+      last_status = *message;
+      ++statuses;
+    }
+  }
+  void Run(double seconds) {
+    for (int i = 0; i < seconds * 50; ++i) Step();
+  }
+  void SendWheels() {
+    const WheelSample sample = base.Read();
+    wheel_state_t message{};
+    message.utime = ToUtime(sample.time);
+    std::copy(sample.ticks.begin(), sample.ticks.end(), message.position_ticks);
+    wheels.Publish(message);
+  }
+  void SendSonars() {
+    sonar_ranges_t message{};
+    message.utime = ToUtime(clock.Now());
+    std::fill(std::begin(message.range_m), std::end(message.range_m), -1);
+    sonars.Publish(message);
+  }
+  void SendPath(int id, double x_m, double speed_m_s = 0.4) {
+    path_t message{};
+    message.path_id = id;
+    message.speed_m_s = speed_m_s;
+    message.points.resize(1);
+    message.points[0].x_m = x_m;
+    message.n_points = 1;
+    paths.Publish(message);
+  }
+  landmark_fix_t Fix(int id) {
+    const Pose2 seen = base.truth().Inverse() * Pose2{6, 0, 0};
+    landmark_fix_t message{};
+    message.utime_exposure = ToUtime(clock.Now());
+    message.request_id = id;
+    message.x_m = seen.x;
+    message.y_m = seen.y;
+    message.yaw_rad = seen.yaw;
+    message.sigma_x_m = message.sigma_y_m = 0.01;
+    message.sigma_yaw_rad = 0.005;
+    message.model_x_m = 6;
+    return message;
+  }
+
+  bool wheels_answer = true;
+  int ticks = 0, statuses = 0;
+  SimulatedBase base{1, {0.05, 0.1, 0.02}};
+  bus::Schema schema = bus::OwnTypes();
+  bus::SimulatedClock clock{base.now()};
+  bus::LcmBus bus{"memq://"};
+  bus::Node node{bus, schema, clock}, other{bus, schema, clock};
+  std::vector<std::string> log;
+  bus::Context context{node, [this] {
+                         bus::Surroundings around;
+                         around.log = [this](bus::Level, std::string_view text) { log.emplace_back(text); };
+                         return around;
+                       }()};
+  RobotApp dut;
+  bus::Publisher<wheel_state_t> wheels = other.Advertise(channels::kWheelState);
+  bus::Publisher<sonar_ranges_t> sonars = other.Advertise(channels::kSonarRanges);
+  bus::Publisher<path_t> paths = other.Advertise(channels::kPath);
+  bus::Publisher<landmark_fix_t> fixes = other.Advertise(channels::kLandmarkFix);
+  bus::Latest<wheel_command_t> command = other.Subscribe(channels::kWheelCommand);
+  bus::Latest<odometry_t> odometry = other.Subscribe(channels::kOdometry);
+  bus::Latest<pose_t> pose = other.Subscribe(channels::kPose);
+  bus::Latest<drive_status_t> status = other.Subscribe(channels::kDriveStatus);
+  bus::Inbox<pose_correction_t> corrections = other.SubscribeAll(channels::kPoseCorrection);
+  std::optional<wheel_command_t> last_command;
+  drive_status_t last_status{};
+};
+
+TEST(RobotApp, SaysWhereItIsBeforeItIsToldToMove) {
+  Onboard robot;
+  robot.Run(0.5);
+  ASSERT_TRUE(robot.pose.get());
+  ASSERT_TRUE(robot.odometry.get());
+  EXPECT_FALSE(robot.last_command);
+  EXPECT_EQ(robot.last_status.mode, drive_status_t::IDLE);
+  EXPECT_EQ(robot.last_status.limit, drive_status_t::LIMIT_NONE);
+}
+
+TEST(RobotApp, ReportsItsStatusTenTimesPerSecond) {
+  Onboard robot;
+  robot.Run(5);
+  EXPECT_NEAR(robot.statuses, 50, 1);
+}
+
+TEST(RobotApp, DrivesAPathAndReportsIt) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendPath(4, 3);
+  robot.Run(3);
+  EXPECT_EQ(robot.last_status.mode, drive_status_t::FOLLOWING);
+  EXPECT_EQ(robot.last_status.path_id, 4);
+  EXPECT_NEAR(robot.last_status.speed_m_s, 0.4, 0.05);
+  robot.Run(10);
+  EXPECT_EQ(robot.last_status.mode, drive_status_t::ARRIVED);
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+}
+
+TEST(RobotApp, AnswersAFixAndMovesItsPose) {
+  Onboard robot;
+  robot.Run(0.5);
+  robot.fixes.Publish(robot.Fix(11));
+  robot.Run(0.1);
+  const auto answers = robot.corrections.Drain();
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_EQ(answers[0].verdict, pose_correction_t::APPLIED);
+  EXPECT_EQ(answers[0].request_id, 11);
+  EXPECT_NEAR(answers[0].dy_m, 0.1, 0.01);
+  EXPECT_NEAR(robot.pose.get()->y_m, 0.1, 0.01);
+}
+
+TEST(RobotApp, AnswersAFixThatTheHeadCouldNotGive) {
+  Onboard robot;
+  robot.Run(0.5);
+  landmark_fix_t fix = robot.Fix(12);
+  fix.verdict = landmark_fix_t::NOT_VISIBLE;
+  robot.fixes.Publish(fix);
+  robot.Run(0.1);
+  EXPECT_EQ(robot.corrections.Drain().at(0).verdict, pose_correction_t::NOT_FOUND);
+}
+
+TEST(RobotApp, AnswersARepeatedFixOnce) {
+  Onboard robot;
+  robot.Run(0.5);
+  const landmark_fix_t fix = robot.Fix(13);
+  robot.fixes.Publish(fix);
+  robot.fixes.Publish(fix);
+  robot.Run(0.1);
+  EXPECT_EQ(robot.corrections.Drain().size(), 1u);
+}
+
+TEST(RobotApp, StopsAndSaysWhyWhenTheWheelsFallSilent) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendPath(4, 3);
+  robot.Run(3);
+  robot.wheels_answer = false;
+  robot.Run(1);
+  EXPECT_EQ(robot.last_status.limit, drive_status_t::LIMIT_WHEELS_SILENT);
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+  EXPECT_EQ(robot.context.health(), bus::Health::kDegraded);
+  EXPECT_THAT(robot.log, Contains(HasSubstr("no credible encoder sample")));
+  robot.wheels_answer = true;
+  robot.Run(1);
+  EXPECT_EQ(robot.context.health(), bus::Health::kOk);
+}
+
+TEST(RobotApp, RefusesAPathThatCannotBeDriven) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendPath(4, std::nan(""));
+  robot.Run(0.2);
+  EXPECT_FALSE(robot.last_command);
+  EXPECT_THAT(robot.log, Contains(HasSubstr("path 4 refused")));
+}
+
+}  // namespace
+}  // namespace priamos::robot

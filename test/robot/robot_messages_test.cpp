@@ -1,0 +1,198 @@
+#include "robot/robot_messages.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "common/covariance.hpp"
+
+namespace priamos::robot {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+const Time kNow = FromUtime(1'234'567);
+
+path_t SomePath() {
+  path_t message{};
+  message.path_id = 7;
+  message.speed_m_s = 0.3;
+  message.points.resize(2);
+  message.points[0].x_m = 1;
+  message.points[1] = message.points[0];
+  message.points[1].yaw_rad = 0.5;
+  message.n_points = 2;
+  return message;
+}
+
+landmark_fix_t SomeFix() {
+  landmark_fix_t message{};
+  message.utime_exposure = 1'000'000;
+  message.request_id = 5;
+  message.verdict = landmark_fix_t::FOUND;
+  message.x_m = 2.4;
+  message.y_m = 0.1;
+  message.yaw_rad = -0.05;
+  message.sigma_x_m = 0.02;
+  message.sigma_y_m = 0.01;
+  message.sigma_yaw_rad = 0.005;
+  message.rho_y_yaw = -0.5;
+  message.model_x_m = 6;
+  message.model_y_m = 2.4;
+  return message;
+}
+
+TEST(WheelMessages, StateKeepsOrderAndTime) {
+  wheel_state_t message{};
+  message.utime = 42;
+  for (int i = 0; i < 4; ++i) message.position_ticks[i] = 10 * i - 5;
+  message.deadline_stopped = 1;
+  const WheelSample dut = FromMessage(message);
+  EXPECT_EQ(ToUtime(dut.time), 42);
+  EXPECT_THAT(dut.ticks, testing::ElementsAre(-5, 5, 15, 25));
+  EXPECT_TRUE(dut.deadline_stopped);
+}
+
+TEST(WheelMessages, CommandKeepsOrderAndTime) {
+  const wheel_command_t message = ToMessage(WheelSpeeds{1, 2, 3, 4}, kNow);
+  EXPECT_EQ(message.utime, ToUtime(kNow));
+  EXPECT_THAT(message.speed_rad_s, testing::ElementsAre(1, 2, 3, 4));
+}
+
+TEST(SonarMessages, KeepNumberingAndMissingEchoes) {
+  sonar_ranges_t message{};
+  for (int i = 0; i < 24; ++i) message.range_m[i] = 0.1 * i;
+  message.range_m[3] = -1;
+  const SonarCycle dut = FromMessage(message);
+  EXPECT_DOUBLE_EQ(dut.range_m[23], 2.3);
+  EXPECT_EQ(dut.range_m[3], -1);
+}
+
+TEST(PathMessages, PointsAndSpeedAreKept) {
+  const auto dut = FromMessage(SomePath());
+  ASSERT_TRUE(dut);
+  EXPECT_EQ(dut->id, 7);
+  ASSERT_EQ(dut->points.size(), 2u);
+  EXPECT_EQ(dut->points[1].yaw, 0.5);
+}
+
+TEST(PathMessages, NoPointsIsAnOrderToHoldWhateverTheSpeed) {
+  path_t message{};
+  message.path_id = 8;
+  const auto dut = FromMessage(message);
+  ASSERT_TRUE(dut);
+  EXPECT_TRUE(dut->points.empty());
+}
+
+TEST(PathMessages, WhatCannotBeDrivenIsRefused) {
+  path_t slow = SomePath(), infinite = SomePath(), outside = SomePath(), odd = SomePath();
+  slow.speed_m_s = 0;
+  infinite.points[0].x_m = kNaN;
+  outside.points[1].y_m = 1e6;
+  odd.speed_m_s = kNaN;
+  for (const path_t& message : {slow, infinite, outside, odd}) EXPECT_FALSE(FromMessage(message));
+}
+
+TEST(FixMessages, FoundGivesSightModelAndCovariance) {
+  const auto dut = FromMessage(SomeFix());
+  ASSERT_TRUE(dut);
+  EXPECT_EQ(ToUtime(dut->exposure), 1'000'000);
+  EXPECT_EQ(dut->request_id, 5);
+  EXPECT_EQ(dut->base_from_landmark.x, 2.4);
+  EXPECT_EQ(dut->map_from_landmark.y, 2.4);
+  EXPECT_NEAR(dut->covariance(1, 2), -0.5 * 0.01 * 0.005, 1e-12);
+}
+
+TEST(FixMessages, NotFoundGivesNoFixButAnAnswer) {
+  landmark_fix_t message = SomeFix();
+  message.verdict = landmark_fix_t::AMBIGUOUS;
+  EXPECT_FALSE(FromMessage(message));
+  const pose_correction_t answer = NotFound(message, kNow);
+  EXPECT_EQ(answer.verdict, pose_correction_t::NOT_FOUND);
+  EXPECT_EQ(answer.request_id, 5);
+  EXPECT_EQ(answer.utime_exposure, 1'000'000);
+}
+
+TEST(FixMessages, NumbersThatMakeNoSenseBecomeAFixThatIsRefused) {
+  landmark_fix_t negative = SomeFix(), odd = SomeFix(), correlated = SomeFix();
+  negative.sigma_x_m = -1;
+  odd.sigma_yaw_rad = kNaN;
+  correlated.rho_x_y = 3;
+  Localiser localiser{LocaliserConfig{}, MecanumGeometry{}};
+  for (int i = 0; i < 5; ++i) {
+    const Time time = FromUtime(980'000 + i * 20'000);
+    localiser.AddWheels({.time = time}, time);
+  }
+  for (const landmark_fix_t& message : {negative, odd, correlated}) {
+    localiser.AddFix(*FromMessage(message), kNow);
+    EXPECT_EQ(localiser.Step(kNow).at(0).result.verdict, FixVerdict::kImplausible);
+  }
+}
+
+TEST(PoseMessages, CovarianceRoundTripsThroughSigmasAndCorrelations) {
+  PoseEstimate estimate{.time = kNow, .pose = {1, 2, 0.3}, .twist = {0.4, 0.1, -0.2}};
+  estimate.covariance << 4e-4, 1e-5, 2e-5, 1e-5, 1e-4, -3e-5, 2e-5, -3e-5, 9e-5;
+  const pose_t message = ToMessage(estimate);
+  EXPECT_EQ(message.utime, ToUtime(kNow));
+  EXPECT_EQ(message.y_m, 2);
+  EXPECT_EQ(message.wz_rad_s, -0.2);
+  const Eigen::Matrix3d back = ToCovariance({message.sigma_x_m, message.sigma_y_m, message.sigma_yaw_rad,
+                                             message.rho_x_y, message.rho_x_yaw, message.rho_y_yaw});
+  EXPECT_LT((back - estimate.covariance).norm(), 1e-12);
+}
+
+TEST(StatusMessages, EveryModeHasItsOwnCode) {
+  const auto code = [](DriveMode mode) {
+    DriveState state;
+    state.mode = mode;
+    return ToMessage(state, 0, kNow).mode;
+  };
+  EXPECT_EQ(code(DriveMode::kIdle), drive_status_t::IDLE);
+  EXPECT_EQ(code(DriveMode::kFollowing), drive_status_t::FOLLOWING);
+  EXPECT_EQ(code(DriveMode::kArrived), drive_status_t::ARRIVED);
+  EXPECT_EQ(code(DriveMode::kHolding), drive_status_t::HOLDING);
+  EXPECT_EQ(code(DriveMode::kBlocked), drive_status_t::BLOCKED);
+}
+
+TEST(StatusMessages, EveryConditionHasItsOwnLimitAndText) {
+  std::set<int> codes;
+  for (std::size_t i = 0; i < kConditions; ++i) {
+    DriveState state;
+    state.failsafe = {FailsafeAction::kHold, static_cast<Condition>(i)};
+    codes.insert(ToMessage(state, 0, kNow).limit);
+    EXPECT_FALSE(Text(static_cast<Condition>(i)).empty());
+  }
+  EXPECT_EQ(codes.size(), kConditions);
+  EXPECT_FALSE(codes.contains(drive_status_t::LIMIT_NONE));
+  EXPECT_FALSE(codes.contains(drive_status_t::LIMIT_SONAR));
+}
+
+TEST(StatusMessages, SonarIsTheLimitWhenNothingWorseIs) {
+  DriveState state;
+  state.slowed_by_sonar = true;
+  state.nearest_m = 0.4;
+  const drive_status_t message = ToMessage(state, 0.2, kNow);
+  EXPECT_EQ(message.limit, drive_status_t::LIMIT_SONAR);
+  EXPECT_EQ(message.nearest_m, 0.4);
+  EXPECT_EQ(ToMessage(DriveState{}, 0, kNow).nearest_m, -1);
+}
+
+TEST(CorrectionMessages, SayWhatWasChangedAndHowSureItIs) {
+  Localiser::Answer answer;
+  answer.fix.exposure = FromUtime(99);
+  answer.fix.request_id = 3;
+  answer.result.verdict = FixVerdict::kApplied;
+  answer.result.change = {0.1, -0.2, 0.03};
+  answer.result.distance = 1.5;
+  answer.result.at_picture.covariance = Eigen::Vector3d(1e-4, 4e-4, 1e-6).asDiagonal();
+  const pose_correction_t message = ToMessage(answer, kNow);
+  EXPECT_EQ(message.verdict, pose_correction_t::APPLIED);
+  EXPECT_EQ(message.utime_exposure, 99);
+  EXPECT_EQ(message.dy_m, -0.2);
+  EXPECT_NEAR(message.sigma_m, 0.02, 1e-9);
+  EXPECT_NEAR(message.sigma_yaw_rad, 1e-3, 1e-9);
+}
+
+}  // namespace
+}  // namespace priamos::robot
