@@ -127,6 +127,12 @@ void Lockstep::StepAll() {
   }
 }
 
+int Lockstep::exit_code() const {
+  for (const auto& m : members_)
+    if (m.app->exit_code()) return *m.app->exit_code();
+  return 0;
+}
+
 bool Lockstep::RunUntil(Time until, const std::function<bool()>& done) {
   for (;;) {
     const Time next = NextTick();

@@ -10,6 +10,7 @@ namespace priamos::cli {
 /// `exit_code`: 0 for success, 1 for a run that did not succeed, 2 for something that cannot be used.
 void AddRunCommand(CLI::App& cli, int& exit_code);
 void AddLockstepCommand(CLI::App& cli, int& exit_code);
+void AddCalibrateCommand(CLI::App& cli, int& exit_code);
 void AddTopicCommand(CLI::App& cli, int& exit_code);
 void AddLinkCommand(CLI::App& cli, int& exit_code);
 

@@ -47,7 +47,7 @@ std::string Line(const LockstepResult& result) {
                      s.passed ? "" : result.reason);
 }
 
-void WriteJson(const std::string& file, const nlohmann::json& json) {
+void WriteJson(const std::string& file, const nlohmann::ordered_json& json) {
   std::ofstream out(file);
   out << json.dump(2) << "\n";
   if (!out) throw std::runtime_error(file + ": cannot be written");
@@ -55,7 +55,7 @@ void WriteJson(const std::string& file, const nlohmann::json& json) {
 
 int Run(const LockstepOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
-  nlohmann::json all = nlohmann::json::array();
+  auto all = nlohmann::ordered_json::array();
   int passed = 0, contacts = 0;
   for (int i = 0; i < options.runs; ++i) {
     const auto result = RunOne(schema, options, options.request.seed + static_cast<std::uint64_t>(i));
@@ -65,7 +65,7 @@ int Run(const LockstepOptions& options) {
     std::cout << Line(result) << std::endl;
     if (options.runs == 1) PrintSummary(std::cout, result.summary);
   }
-  if (!options.json_file.empty()) WriteJson(options.json_file, options.runs == 1 ? all[0] : all);
+  if (!options.json_file.empty()) WriteJson(options.json_file, options.runs == 1 ? all.front() : all);
   if (options.runs > 1)
     std::cout << fmt::format("{} of {} passed, {} contacts\n", passed, options.runs, contacts);
   return passed == options.runs && contacts == 0 ? 0 : 1;

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   cli.require_subcommand(1);
   priamos::cli::AddRunCommand(cli, exit_code);
   priamos::cli::AddLockstepCommand(cli, exit_code);
+  priamos::cli::AddCalibrateCommand(cli, exit_code);
   priamos::cli::AddTopicCommand(cli, exit_code);
   priamos::cli::AddLinkCommand(cli, exit_code);
   try {
