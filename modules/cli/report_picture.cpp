@@ -4,180 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cli/report_canvas.hpp"
+#include "cli/report_plan_view.hpp"
 #include "cli/report_table.hpp"
 #include "cli/report_timeline.hpp"
-#include "common/covariance.hpp"
-#include "common/rectangle.hpp"
 #include "common/time.hpp"
 
 namespace priamos::cli {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr Colour kPaper{0xffffff}, kFloor{0xf7f5f0}, kGrid{0xe7e3da}, kWall{0x3b4550}, kFrame{0xa9713c};
-constexpr Colour kInk{0x22282e}, kFaint{0x7b8590}, kTruth{0x1f62c4}, kBelief{0xe8741c}, kFix{0x12915a};
-constexpr Colour kBad{0xc0322b};
+using namespace colours;
 
 constexpr int kWidth = 1600, kHeight = 1236, kMargin = 36, kHeader = 84, kPanelHeight = 300;
 constexpr int kPlanHeight = kHeight - kHeader - kPanelHeight - 3 * kMargin + 8;
-/// The robot of the paper; only drawn, never reckoned with.
-constexpr double kLength_m = 0.95, kWidth_m = 0.78;
-/// The belief moves at most 2 cm between two estimates; what is more is a fix.
-constexpr double kJump_m = 0.02;
-
-std::vector<Vector2d> Outline(const Rectangle& rectangle) {
-  const auto corners = rectangle.Corners();
-  return {corners.begin(), corners.end()};
-}
-
-std::vector<Vector2d> Footprint(const Pose2& pose) {
-  return Outline({pose, {kLength_m / 2, kWidth_m / 2}});
-}
-
-Vector2d PositionOf(const auto& message) {
-  return {message.x_m, message.y_m};
-}
-
-Eigen::Matrix2d CovarianceOf(const pose_t& pose) {
-  return ToCovariance({pose.sigma_x_m, pose.sigma_y_m, pose.sigma_yaw_rad, pose.rho_x_y, pose.rho_x_yaw,
-                       pose.rho_y_yaw})
-      .topLeftCorner<2, 2>();
-}
-
-struct Extent {
-  Vector2d low{0, 0}, high{10, 5};
-  Vector2d centre() const { return (low + high) / 2; }
-  Vector2d size() const { return high - low; }
-};
-
-Rectangle ShapeOf(const WallPlan& wall) {
-  const Vector2d along = wall.to() - wall.from(), middle = (wall.to() + wall.from()) / 2;
-  return {{middle.x(), middle.y(), std::atan2(along.y(), along.x())},
-          {along.norm() / 2, wall.thickness_m / 2}};
-}
-
-Extent ExtentOf(const GroundPlan& plan) {
-  if (plan.walls.empty()) return {};
-  Extent extent{plan.walls[0].from(), plan.walls[0].from()};
-  for (const WallPlan& wall : plan.walls) {
-    for (const Vector2d& corner : ShapeOf(wall).Corners()) {
-      extent.low = extent.low.cwiseMin(corner);
-      extent.high = extent.high.cwiseMax(corner);
-    }
-  }
-  return extent;
-}
-
-void DrawFloor(View& view, const Extent& extent) {
-  const Vector2d a = extent.low, b = extent.high;
-  view.Fill({a, {b.x(), a.y()}, b, {a.x(), b.y()}}, kFloor);
-  for (double x = std::ceil(a.x()); x <= b.x(); x += 1) view.Polyline({{x, a.y()}, {x, b.y()}}, kGrid, 1);
-  for (double y = std::ceil(a.y()); y <= b.y(); y += 1) view.Polyline({{a.x(), y}, {b.x(), y}}, kGrid, 1);
-}
-
-void DrawWalls(View& view, const GroundPlan& plan) {
-  for (const WallPlan& wall : plan.walls) view.Fill(Outline(ShapeOf(wall)), kWall);
-  for (const DoorPlan& door : plan.doors) {
-    const double half = door.opening_width_m / 2;
-    for (const double side : {1.0, -1.0}) {
-      // Architrave, jamb and rebate as one outline.
-      std::vector<Vector2d> profile{{door.FrontX(), half + door.frame_width_m},
-                                    {door.FrontX(), half},
-                                    {door.StopX(), half},
-                                    {door.StopX(), half + door.rebate_width_m},
-                                    {door.BackX(), half + door.rebate_width_m},
-                                    {door.BackX(), half + door.frame_width_m}};
-      for (Vector2d& point : profile) point = door.map_from_door() * Vector2d(point.x(), side * point.y());
-      view.Fill(profile, kFrame);
-    }
-  }
-}
-
-void DrawDoorName(View& view, const DoorPlan& door) {
-  view.Label(door.map_from_door() * Vector2d(door.BackX(), door.opening_width_m / 2 + door.frame_width_m), 12,
-             -6, fmt::format("{}, {:.2f} m", door.name, door.opening_width_m), 12, kFrame);
-}
-
-void DrawAxis(View& view, const DoorPlan& door) {
-  view.Dashed(door.map_from_door() * Vector2d(-2.5, 0), door.map_from_door() * Vector2d(2, 0), kFaint, 0.8);
-}
-
-std::vector<Vector2d> TruePath(const RunRecord& record) {
-  std::vector<Vector2d> path;
-  for (const auto& truth : record.truth) path.push_back(PositionOf(truth));
-  return path;
-}
-
-void DrawBelief(View& view, const RunRecord& record, double width) {
-  std::vector<Vector2d> stretch;
-  for (const pose_t& pose : record.poses) {
-    const Vector2d at = PositionOf(pose);
-    if (!stretch.empty() && (at - stretch.back()).norm() > kJump_m) {
-      view.Polyline(stretch, kBelief, width);
-      view.Arrow(stretch.back(), at, kFix, 2);
-      stretch.clear();
-    }
-    stretch.push_back(at);
-  }
-  view.Polyline(stretch, kBelief, width);
-}
-
-/// One every 40 cm, and on both sides of every jump.
-void DrawEllipses(View& view, const RunRecord& record) {
-  constexpr double kEvery_m = 0.4;
-  const auto draw = [&](const pose_t& pose) {
-    const auto outline = EllipseOutline(PositionOf(pose), CovarianceOf(pose), 2);
-    view.Fill(outline, kBelief, 0.16);
-    view.Polyline(outline, kBelief, 0.8, true);
-  };
-  const pose_t *last = nullptr, *drawn = nullptr;
-  for (const pose_t& pose : record.poses) {
-    const bool jump = last && (PositionOf(pose) - PositionOf(*last)).norm() > kJump_m;
-    if (jump && last != drawn) draw(*last);
-    if (jump || !drawn || (PositionOf(pose) - PositionOf(*drawn)).norm() > kEvery_m) {
-      draw(pose);
-      drawn = &pose;
-    }
-    last = &pose;
-  }
-}
-
-/// Where the robot stood when it looked, and what it looked at.
-void DrawLooks(View& view, const RunRecord& record, const DoorPlan& door) {
-  int number = 0;
-  for (const LookSpan& look : LooksOf(record)) {
-    const std::int64_t exposure = look.correction.utime_exposure;
-    const auto from = TruthAt(record, exposure != 0 ? exposure : look.begin_utime);
-    if (!from) continue;
-    const double half = door.opening_width_m / 2;
-    const double y = look.side == 1 ? half : look.side == 2 ? -half : 0;
-    view.Dashed(from->translation(), door.map_from_door() * Vector2d(door.FrontX(), y), kFix, 1.4);
-    view.Dot(from->translation(), 11, kFix);
-    view.Label(from->translation(), -5, 6, fmt::format("{}", ++number), 12, kPaper, true);
-  }
-}
-
-void DrawRobot(View& view, const Pose2& pose, Colour colour, double opacity) {
-  view.Fill(Footprint(pose), colour, opacity);
-  view.Polyline(Footprint(pose), colour, 1.6, true);
-  view.Arrow(pose * Vector2d(0.12, 0), pose * Vector2d(0.40, 0), colour, 1.6);
-}
-
-void DrawRobots(View& view, const RunRecord& record, const Pose2& map_from_door) {
-  if (!record.truth.empty()) {
-    if (const auto start = TruthAt(record, record.truth.front().utime)) DrawRobot(view, *start, kTruth, 0.10);
-    if (const auto end = TruthAt(record, record.truth.back().utime)) DrawRobot(view, *end, kTruth, 0.10);
-  }
-  if (!record.poses.empty()) {
-    const pose_t& pose = record.poses.front();
-    view.Polyline(Footprint({pose.x_m, pose.y_m, pose.yaw_rad}), kBelief, 1.2, true);
-  }
-  if (const auto crossing = CrossingOf(record, map_from_door))
-    if (const auto at = TruthAt(record, crossing->utime)) DrawRobot(view, *at, kTruth, 0.16);
-}
 
 void DrawScaleBar(Page& page, double right, double bottom, double px_per_m) {
   const double x = right - px_per_m;
@@ -198,7 +40,7 @@ void DrawPlan(Page& page, const RunRecord& record, const RunInfo& info, const Gr
   DrawDoorName(view, info.door);
   DrawRobots(view, record, info.door.map_from_door());
   DrawEllipses(view, record);
-  view.Polyline(TruePath(record), kTruth, 3);
+  DrawTruth(view, record);
   DrawBelief(view, record, 1.8);
   DrawLooks(view, record, info.door);
   const Vector2d corner = extent.high - extent.centre();
@@ -237,11 +79,11 @@ void DrawPassage(Page& page, const RunRecord& record, const Summary& summary, co
   for (const auto& truth : record.truth) {
     if ((PositionOf(truth) - last).norm() < kEvery_m) continue;
     last = PositionOf(truth);
-    view.Fill(Footprint({truth.x_m, truth.y_m, truth.yaw_rad}), kTruth, 0.05);
+    view.Fill(FootprintOutline({truth.x_m, truth.y_m, truth.yaw_rad}), kTruth, 0.05);
   }
   if (const auto crossing = CrossingOf(record, map_from_door))
     if (const auto at = TruthAt(record, crossing->utime)) DrawRobot(view, *at, kTruth, 0.12);
-  view.Polyline(TruePath(record), kTruth, 3);
+  DrawTruth(view, record);
   DrawBelief(view, record, 1.8);
   const std::string caption = summary.lateral_at_door_m
                                   ? fmt::format("{:+.1f} cm lateral, {:+.2f} deg, smallest gap {:.1f} cm",

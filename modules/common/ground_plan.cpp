@@ -1,6 +1,7 @@
 #include "common/ground_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace priamos {
@@ -13,6 +14,11 @@ void WallPlan::Describe(Archive& a) {
   if (from_m == to_m) a.Refuse("to_m", "an end that differs from from_m");
 }
 
+Rectangle WallPlan::Shape() const {
+  const Eigen::Vector2d along = to() - from(), middle = (to() + from()) / 2;
+  return {{middle.x(), middle.y(), std::atan2(along.y(), along.x())}, {along.norm() / 2, thickness_m / 2}};
+}
+
 void DoorPlan::Describe(Archive& a) {
   a.Integer("id", id, {"-", 1, 999, "number of the landmark"});
   a.Text("name", name, "for messages");
@@ -22,7 +28,8 @@ void DoorPlan::Describe(Archive& a) {
   a.Number("opening_width_m", opening_width_m, {"m", 0.3, 3, "clear width"});
   a.Number("opening_height_m", opening_height_m, {"m", 1, 3.5, "clear height"});
   a.Number("wall_thickness_m", wall_thickness_m, {"m", 0.05, 1, "thickness of the wall it is in"});
-  a.Number("frame_width_m", frame_width_m, {"m", 0.01, 0.3, "breadth of the frame's face on the approach side"});
+  a.Number("frame_width_m", frame_width_m,
+           {"m", 0.01, 0.3, "breadth of the frame's face on the approach side"});
   a.Number("frame_protrusion_m", frame_protrusion_m,
            {"m", 0, 0.1, "how far that face stands before the wall"});
   a.Number("rebate_depth_m", rebate_depth_m, {"m", 0, 0.2, "how deep the leaf sits in the far side"});

@@ -5,6 +5,7 @@
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
+#include "common/rectangle.hpp"
 
 namespace priamos {
 
@@ -18,6 +19,7 @@ struct WallPlan {
   void Describe(Archive& a);
   Eigen::Vector2d from() const { return {from_m[0], from_m[1]}; }
   Eigen::Vector2d to() const { return {to_m[0], to_m[1]}; }
+  Rectangle Shape() const;
 };
 
 /// A door with a frame on the side it is approached from and, on the far side, a rebate for its leaf.

@@ -1,20 +1,9 @@
 #include "planner/core/obstacle_map.hpp"
 
-#include <cmath>
-
 namespace priamos::planner {
-namespace {
-
-Rectangle ShapeOf(const WallPlan& wall) {
-  const Eigen::Vector2d along = wall.to() - wall.from(), middle = (wall.to() + wall.from()) / 2;
-  return {{middle.x(), middle.y(), std::atan2(along.y(), along.x())},
-          {along.norm() / 2, wall.thickness_m / 2}};
-}
-
-}  // namespace
 
 ObstacleMap::ObstacleMap(const GroundPlan& plan) {
-  for (const WallPlan& wall : plan.walls) obstacles_.push_back({"wall '" + wall.name + "'", ShapeOf(wall)});
+  for (const WallPlan& wall : plan.walls) obstacles_.push_back({"wall '" + wall.name + "'", wall.Shape()});
   for (const DoorPlan& door : plan.doors) AddFrame(door);
 }
 
