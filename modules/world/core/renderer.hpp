@@ -22,7 +22,7 @@ struct RendererConfig {
   SceneConfig scene;
   ImagingConfig imaging;
   HeadBuild head;
-  LaserBuild laser;
+  LaserBuild laser{};
 
   void Describe(Archive& a);
 };
