@@ -3,9 +3,6 @@
 #include <Eigen/Geometry>
 
 #include "common/config.hpp"
-#include "common/geometry.hpp"
-#include "world/core/lighting.hpp"
-#include "world/core/mesh.hpp"
 
 namespace priamos::world {
 
@@ -19,12 +16,10 @@ struct LaserBuild {
   double thickness_m = 0.004;              ///< of the sheet of light
 
   void Describe(Archive& a);
+  /// Frame of the fan: x along its middle, z across the plane of the light.
+  Eigen::Isometry3d BaseFromFan() const;
   /// The plane of the light in the base frame.
   Eigen::Hyperplane<double, 3> Plane() const;
 };
-
-/// Adds the line as thin strips on every surface that the light reaches; what stands in the light has a
-/// shadow.
-void AppendLaser(const LaserBuild& laser, const Pose2& map_from_base, const Lighting& surfaces, Mesh& mesh);
 
 }  // namespace priamos::world

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "world/core/image_formation.hpp"
+#include "world/core/laser_line.hpp"
 #include "world/core/lighting.hpp"
 #include "world/core/mesh.hpp"
 #include "world/core/offscreen_scene.hpp"

@@ -8,7 +8,7 @@
 
 #include "common/frame_store.hpp"
 #include "common/random.hpp"
-#include "world/core/image_formation.hpp"
+#include "world/core/imaging.hpp"
 #include "world/core/laser.hpp"
 #include "world/core/optics.hpp"
 #include "world/core/reference_object.hpp"

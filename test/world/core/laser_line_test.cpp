@@ -1,4 +1,4 @@
-#include "world/core/laser.hpp"
+#include "world/core/laser_line.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ Mesh Line(const std::vector<Solid>& solids, const Pose2& map_from_base = {}) {
   return mesh;
 }
 
-TEST(Laser, DrawsAStraightLineOnTheFloor) {
+TEST(LaserLine, DrawsAStraightLineOnTheFloor) {
   const LaserBuild build;
   const double expected_x = build.x_m + build.z_m / std::tan(build.pitch_rad);
   for (const auto& t : Line({})) {
@@ -30,7 +30,7 @@ TEST(Laser, DrawsAStraightLineOnTheFloor) {
   }
 }
 
-TEST(Laser, EveryPointLiesInThePlaneOfTheLight) {
+TEST(LaserLine, EveryPointLiesInThePlaneOfTheLight) {
   const std::vector<Solid> box = {{"box", {1.8, 0.1, 0.3}, {0.3, 0.4}, 0, 0.2, "cardboard"}};
   const Pose2 map_from_base{0.3, -0.2, 0.1};
   const Mesh mesh = Line(box, map_from_base);
@@ -44,7 +44,7 @@ TEST(Laser, EveryPointLiesInThePlaneOfTheLight) {
   }
 }
 
-TEST(Laser, AnObstacleLiftsTheLineAndShadesTheFloor) {
+TEST(LaserLine, AnObstacleLiftsTheLineAndShadesTheFloor) {
   const std::vector<Solid> box = {{"box", {1.8, 0, 0}, {0.2, 0.4}, 0, 0.2, "cardboard"}};
   int on_box = 0;
   for (const auto& t : Line(box)) {
@@ -57,7 +57,7 @@ TEST(Laser, AnObstacleLiftsTheLineAndShadesTheFloor) {
   EXPECT_GT(on_box, 50);
 }
 
-TEST(Laser, TrianglesFaceTheLight) {
+TEST(LaserLine, TrianglesFaceTheLight) {
   const std::vector<Solid> box = {{"box", {1.8, 0, 0}, {0.2, 0.4}, 0, 0.2, "cardboard"}};
   const Vector3d laser(LaserBuild{}.x_m, 0, LaserBuild{}.z_m);
   for (const auto& t : Line(box)) {
