@@ -19,7 +19,7 @@ constexpr double kNotBounded_s = 60;
 constexpr double kTick_s = 0.001;
 /// Acknowledgements of frames per second, at most.
 constexpr double kFrameAcks_hz = 4;
-constexpr int kFrameAckBits = 3 + 12 + 8 + 4;
+constexpr int kFrameAckBits = 3 + 12 + 12 + 4;
 constexpr int kEventAckBits = 3 + 8 + 1 + static_cast<int>(kEventWindow);
 
 /// One channel as a load on its direction.

@@ -14,26 +14,6 @@ constexpr std::uint64_t kAgeSteps = 63;
 constexpr int kFloorBits = 40;
 constexpr int kLossSteps = 15;
 
-/// mantissa << (shift * exponent) milliseconds, rounded to the nearest.
-template <int kExponentBits, int kMantissaBits, int kShift>
-std::uint16_t EncodeFloat(Duration d) {
-  const double ms = std::max(0.0, Seconds(d) * 1e3);
-  const std::uint32_t max_mantissa = (1U << kMantissaBits) - 1;
-  for (std::uint32_t e = 0; e < (1U << kExponentBits); ++e) {
-    const double mantissa = std::round(ms / static_cast<double>(std::uint64_t{1} << (kShift * e)));
-    if (mantissa <= max_mantissa)
-      return static_cast<std::uint16_t>(e << kMantissaBits | static_cast<std::uint32_t>(mantissa));
-  }
-  return static_cast<std::uint16_t>((1U << (kExponentBits + kMantissaBits)) - 1);
-}
-
-template <int kExponentBits, int kMantissaBits, int kShift>
-Duration DecodeFloat(std::uint16_t code) {
-  const std::uint64_t mantissa = code & ((1U << kMantissaBits) - 1);
-  const int exponent = (code >> kMantissaBits) & ((1 << kExponentBits) - 1);
-  return std::chrono::milliseconds(mantissa << (kShift * exponent));
-}
-
 /// Writes one kind of entry after its channel number.
 class EntryWriter {
  public:
@@ -75,7 +55,7 @@ class EntryWriter {
   void operator()(const FrameAckEntry& e) {
     Control(kFrameAck);
     out_.Write(e.counter & 0xFFFU, 12);
-    out_.Write(EncodeDuration8(e.hold), 8);
+    out_.Write(EncodeDuration12(e.hold), 12);
     out_.Write(static_cast<std::uint64_t>(std::lround(std::clamp(e.loss, 0.0, 1.0) * kLossSteps)), 4);
   }
   void operator()(const FloorEntry& e) {
@@ -164,7 +144,7 @@ class BundleReader {
       case kFrameAck: {
         FrameAckEntry e;
         e.counter = static_cast<std::uint16_t>(in_.Read(12));
-        e.hold = DecodeDuration8(static_cast<std::uint8_t>(in_.Read(8)));
+        e.hold = DecodeDuration12(static_cast<std::uint16_t>(in_.Read(12)));
         e.loss = static_cast<double>(in_.Read(4)) / kLossSteps;
         return e;
       }
@@ -198,16 +178,17 @@ class BundleReader {
 }  // namespace
 
 std::uint16_t EncodeDuration12(Duration d) {
-  return EncodeFloat<3, 9, 2>(d);
+  const double ms = std::max(0.0, Seconds(d) * 1e3);
+  for (unsigned exponent = 0; exponent < 8; ++exponent) {
+    const auto mantissa =
+        static_cast<std::uint64_t>(std::round(ms / static_cast<double>(1U << (2 * exponent))));
+    if (mantissa < 512) return static_cast<std::uint16_t>(exponent << 9 | mantissa);
+  }
+  return 0xFFF;
 }
+
 Duration DecodeDuration12(std::uint16_t code) {
-  return DecodeFloat<3, 9, 2>(code);
-}
-std::uint8_t EncodeDuration8(Duration d) {
-  return static_cast<std::uint8_t>(EncodeFloat<4, 4, 1>(d));
-}
-Duration DecodeDuration8(std::uint8_t code) {
-  return DecodeFloat<4, 4, 1>(code);
+  return std::chrono::milliseconds(static_cast<std::int64_t>(code & 0x1FF) << (2 * (code >> 9 & 7)));
 }
 
 std::size_t EntryBits(const ChannelTable& table, const BundleEntry& entry) {

@@ -63,9 +63,6 @@ using BundleEntry =
 /// Durations as 3 bits exponent, 9 bits mantissa: 1 ms up to 0.5 s, then 4, 16, 64 ms ...; up to 2.3 hours.
 std::uint16_t EncodeDuration12(Duration d);
 Duration DecodeDuration12(std::uint16_t code);
-/// The same with 4 and 4 bits: 1 ms up to 15 ms, up to 8 minutes.
-std::uint8_t EncodeDuration8(Duration d);
-Duration DecodeDuration8(std::uint8_t code);
 
 /// Bits an entry takes in a bundle.
 std::size_t EntryBits(const ChannelTable& table, const BundleEntry& entry);

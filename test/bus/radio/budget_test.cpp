@@ -1,0 +1,182 @@
+#include "bus/radio/budget.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+
+#include "common/config.hpp"
+#include "link_pair.hpp"
+
+namespace priamos::bus::radio {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Budget Of(const std::vector<LinkChannel>& channels, const LinkOptions& options = {}) {
+  return ComputeBudget(ChannelTable(channels, false), options);
+}
+
+TEST(Budget, CountsBytesWithTheirShareOfTheFrame) {
+  std::vector<LinkChannel> channels = TestChannels();
+  channels.resize(1);  // POSE: 80 bits and a number of 2, 10 Hz
+  const Budget budget = Of(channels);
+  EXPECT_EQ(budget.up.channels.at(0).bits, 82U);
+  EXPECT_NEAR(budget.up.channels.at(0).bytes_per_s, 82.0 / 8 * 10 * (112 + 7) / 112, 0.1);
+  EXPECT_THAT(budget.down.channels, IsEmpty());
+}
+
+TEST(Budget, RefusesMoreThanTheLine) {
+  std::vector<LinkChannel> channels = TestChannels();
+  channels[kPoseUp].rate_hz = 120;
+  const Budget budget = Of(channels);
+  EXPECT_GT(budget.up.utilisation, 1);
+  ASSERT_FALSE(budget.problems.empty());
+  EXPECT_THAT(budget.problems.front(), HasSubstr("POSE alone takes"));
+  EXPECT_THROW(RequireBudget(ChannelTable(channels, false), {}), ConfigError);
+}
+
+TEST(Budget, RefusesADeadlineThatCannotBeKept) {
+  std::vector<LinkChannel> channels = TestChannels();
+  for (LinkChannel& c : channels) c.rate_hz = 0.5;
+  channels[kEventUp].max_bits = 8 * 40;
+  channels[kSlowUp].deadline = Duration(400'000);
+  EXPECT_THAT(Of(channels).problems, IsEmpty());
+  channels[kSlowUp].deadline = Duration(100'000);
+  ASSERT_FALSE(Of(channels).problems.empty());
+  EXPECT_THAT(Of(channels).problems.front(),
+              HasSubstr("SLOW: expected delivery within its deadline_s of 0.100 s"));
+}
+
+TEST(Budget, UrgentWaitsForAFewBytes) {
+  std::vector<LinkChannel> channels = TestChannels();
+  for (LinkChannel& c : channels) c.rate_hz = 0.1;
+  const Budget budget = Of(channels);
+  for (const ChannelBudget& row : budget.down.channels)
+    if (row.channel == kStopDown) {
+      EXPECT_LT(*row.worst_latency, Duration(22000));
+    }
+}
+
+TEST(Budget, TableNamesEveryChannel) {
+  const ChannelTable table(TestChannels(), false);
+  const std::string text = FormatBudget(table, {}, ComputeBudget(table, {}));
+  for (const LinkChannel& c : table.channels()) EXPECT_THAT(text, HasSubstr(c.name));
+}
+
+// The bound against the link itself: random channels, random arrivals that keep their rates, both ends at
+// once. No message may ever take longer than what was computed before.
+
+std::vector<LinkChannel> RandomChannels(Rng& rng) {
+  std::vector<LinkChannel> channels;
+  const std::size_t n = 2 + rng.Below(8);
+  for (std::size_t i = 0; i < n; ++i) {
+    LinkChannel c;
+    c.name = "C" + std::to_string(i);
+    c.direction = rng.Chance(0.7) ? Direction::kUp : Direction::kDown;
+    c.channel_class = static_cast<ChannelClass>(rng.Below(3));
+    c.priority = static_cast<int>(rng.Below(6));
+    c.rate_hz = rng.Uniform(0.2, 8);
+    c.fixed_bits =
+        static_cast<std::uint32_t>(8 * (4 + rng.Below(c.channel_class == ChannelClass::kEvent ? 250 : 110)));
+    if (c.channel_class == ChannelClass::kCommand) c.ttl = Duration(60'000'000);
+    if (c.channel_class == ChannelClass::kEvent) c.burst = static_cast<int>(1 + rng.Below(3));
+    c.urgent = c.channel_class == ChannelClass::kEvent && c.fixed_bits < 100 && rng.Chance(0.5);
+    channels.push_back(c);
+  }
+  return channels;
+}
+
+/// Offers messages of one channel, never faster than its rate and burst allow, often exactly as fast.
+class Source {
+ public:
+  Source(const LinkChannel& channel, Rng rng, Time start)
+      : rate_(channel.rate_hz, channel.burst), bytes_(channel.fixed_bits / 8), rng_(rng), next_(start) {
+    next_ += FromSeconds(rng_.Uniform(0, 1 / channel.rate_hz));
+    lazy_ = rng_.Uniform(0, 1.5 / channel.rate_hz);
+  }
+  std::optional<std::vector<std::byte>> Offer(std::uint32_t number, Time now) {
+    if (now < next_ || !rate_.Allows(now)) return std::nullopt;
+    rate_.Use(now);
+    if (rng_.Chance(0.3)) next_ = now + FromSeconds(rng_.Uniform(0, lazy_));
+    std::vector<std::byte> message(bytes_);
+    std::memcpy(message.data(), &number, sizeof number);
+    return message;
+  }
+
+ private:
+  RateLimit rate_;
+  std::size_t bytes_;
+  Rng rng_;
+  Time next_;
+  double lazy_;
+};
+
+/// Largest latency per channel in a run; empty when the configuration is not to be used.
+struct Observed {
+  Budget budget;
+  std::vector<Duration> worst;
+};
+
+std::optional<Observed> Observe(std::uint64_t seed, double seconds) {
+  Rng rng = Rng::Stream(seed, "channels");
+  LinkPair pair(LineConfig{.latency_s = 0}, seed);
+  pair.onboard.channels = pair.offboard.channels = RandomChannels(rng);
+  const ChannelTable table(pair.onboard.channels, false);
+  Observed observed{ComputeBudget(table, pair.onboard.options), std::vector<Duration>(table.size())};
+  if (!observed.budget.problems.empty()) return std::nullopt;
+  pair.Start(pair.onboard);
+  pair.Start(pair.offboard);
+  pair.Run(1.5);  // agreed and confirmed
+
+  std::vector<Source> sources;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    sources.emplace_back(table.at(i), Rng::Stream(seed, table.at(i).name), pair.now);
+  std::map<std::uint32_t, Time> offered;
+  std::uint32_t number = 0;
+  pair.each_step = [&] {
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      while (auto message = sources[i].Offer(number, pair.now)) {
+        auto& end = table.at(i).direction == Direction::kUp ? pair.onboard : pair.offboard;
+        end.link->Offer(i, *message, pair.now);
+        offered[number++] = pair.now;
+      }
+    }
+    for (LinkPair::End* end : {&pair.onboard, &pair.offboard}) {
+      for (const LinkPair::Received& r : end->received) {
+        std::uint32_t id = 0;
+        std::memcpy(&id, r.delivery.packed.data(), sizeof id);
+        auto& worst = observed.worst[r.delivery.channel];
+        worst = std::max(worst, r.at - offered.at(id));
+      }
+      end->received.clear();
+    }
+  };
+  pair.Run(seconds);
+  return observed;
+}
+
+TEST(Budget, TheLinkNeverExceedsTheComputedBound) {
+  int runs = 0;
+  double tightest = 0;
+  for (std::uint64_t seed = 1; runs < 1000 && seed < 20000; ++seed) {
+    const auto observed = Observe(seed, 3);
+    if (!observed) continue;
+    ++runs;
+    for (const DirectionBudget* d : {&observed->budget.up, &observed->budget.down})
+      for (const ChannelBudget& row : d->channels) {
+        if (!row.worst_latency) continue;
+        const Duration worst = observed->worst[row.channel];
+        ASSERT_LE(worst, *row.worst_latency) << "seed " << seed << " channel " << row.channel;
+        tightest = std::max(tightest, Seconds(worst) / Seconds(*row.worst_latency));
+      }
+  }
+  RecordProperty("tightest", std::to_string(tightest));
+  EXPECT_EQ(runs, 1000);
+  EXPECT_GT(tightest, 0.7);  // a bound that is never approached would say nothing
+}
+
+}  // namespace
+}  // namespace priamos::bus::radio
