@@ -9,16 +9,19 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kFullLengthPx = 40;  ///< shorter predictions count less
-constexpr double kMinDensity = 0.01;  ///< similar edges per pixel: even a bare wall may hide one
-constexpr double kNearlyWhole = 0.6;  ///< covered share that counts as a whole edge
+constexpr double kFullLengthPx = 40;       ///< shorter predictions count less
+constexpr double kMinDensity = 0.01;       ///< similar edges per pixel: even a bare wall may hide one
+constexpr double kFreeOvershootPx = 6;     ///< ends are not found better than that
+constexpr double kOvershootPenalty = 0.2;  ///< log odds lost per pixel beyond
+constexpr double kNearlyWhole = 0.6;       ///< covered share that counts as a whole edge
 
 /// A line relative to a predicted edge.
 struct Candidate {
   int line;
-  double from, to;  ///< covered part of the prediction [px]
-  double distance;  ///< signed, at the middle of that part [px]
-  bool same_sign;   ///< bright side at the prediction's normal
+  double from, to;       ///< covered part of the prediction [px]
+  double before, after;  ///< how far it runs on beyond both ends of the prediction [px]
+  double distance;       ///< signed, at the middle of that part [px]
+  bool same_sign;        ///< bright side at the prediction's normal
 };
 
 std::optional<Candidate> Compare(const PredictedEdge& edge, const Eigen::Vector2d& direction,
@@ -36,7 +39,8 @@ std::optional<Candidate> Compare(const PredictedEdge& edge, const Eigen::Vector2
   const double start = direction.dot(line.p - edge.p);
   const double distance = a + slope * ((from + to) / 2 - start);
   if (std::abs(distance) > reach_px) return std::nullopt;
-  return Candidate{index, from, to, distance, normal.dot(line.normal) > 0};
+  return Candidate{
+      index, from, to, std::max(0.0, -s), std::max(0.0, t - length), distance, normal.dot(line.normal) > 0};
 }
 
 double Union(std::vector<std::pair<double, double>>& parts) {
@@ -50,8 +54,9 @@ double Union(std::vector<std::pair<double, double>>& parts) {
 }
 
 /// The candidates of one contrast sign within the gate, as one match.
-EdgeMatch Collect(const std::vector<Candidate>& candidates, bool sign, double length,
+EdgeMatch Collect(const std::vector<Candidate>& candidates, bool sign, const PredictedEdge& predicted,
                   const AssociationOptions& options) {
+  const double length = predicted.length_px();
   EdgeMatch match;
   // The nearest long one decides where the edge is; others must continue it, not lie beside it.
   const Candidate* best = nullptr;
@@ -64,14 +69,16 @@ EdgeMatch Collect(const std::vector<Candidate>& candidates, bool sign, double le
   }
   if (!best) return match;
   std::vector<std::pair<double, double>> parts;
-  double sum = 0, weight = 0;
+  double sum = 0, weight = 0, before = 0, after = 0;
   for (const Candidate& c : candidates) {
     if (c.same_sign != sign || std::abs(c.distance) > options.gate_px) continue;
     if (std::abs(c.distance - best->distance) > 2 * options.sigma_px) continue;
     match.lines.push_back(c.line);
     parts.emplace_back(c.from, c.to);
     sum += c.distance * (c.to - c.from), weight += c.to - c.from;
+    before = std::max(before, c.before), after = std::max(after, c.after);
   }
+  match.overshoot_px = (predicted.p_is_end ? before : 0) + (predicted.q_is_end ? after : 0);
   match.covered = std::min(1.0, Union(parts) / length);
   match.distance_px = sum / weight;
   match.predicted_px = length;
@@ -161,12 +168,15 @@ double Density(const Search& search, const std::vector<Search>& all, double wind
   return std::max(kMinDensity, n / (2 * window_px));
 }
 
-void Account(const Search& search, double density, int camera, const AssociationOptions& options,
+void Account(const Search& search, int side, double density, int camera, const AssociationOptions& options,
              Association& association) {
   const EdgeMatch& match = search.match;
   const double importance = std::min(1.0, search.predicted.length_px() / kFullLengthPx);
-  const Odds odds = EdgeOdds(match.distance_px, density, options);
+  Odds odds = EdgeOdds(match.distance_px, density, options);
+  odds.found = std::max(
+      odds.missed, odds.found - kOvershootPenalty * std::max(0.0, match.overshoot_px - kFreeOvershootPx));
   ++association.n_predicted;
+  association.side_predicted_px[side] += importance * kFullLengthPx;
   association.best_log_odds += importance * EdgeOdds(0, density, options).found;
   if (match.covered < options.min_covered) {
     association.log_odds += importance * odds.missed;
@@ -174,6 +184,7 @@ void Account(const Search& search, double density, int camera, const Association
   }
   const double part = std::min(1.0, match.covered / kNearlyWhole);
   association.log_odds += importance * (part * odds.found + (1 - part) * odds.missed);
+  association.side_found_px[side] += importance * kFullLengthPx * part * (odds.found > 0 ? 1 : 0);
   association.matches.push_back(match);
   association.matches.back().edge = search.predicted.edge;
   association.matches.back().camera = camera;
@@ -187,8 +198,8 @@ void Match(Search& search, const CameraView& view, const AssociationOptions& opt
                            options.clutter_window_px, options.max_angle_rad);
     if (c) search.candidates.push_back(*c);
   }
-  search.match = Collect(search.candidates, true, length, options);
-  EdgeMatch other = Collect(search.candidates, false, length, options);
+  search.match = Collect(search.candidates, true, search.predicted, options);
+  EdgeMatch other = Collect(search.candidates, false, search.predicted, options);
   const auto worth = [](const EdgeMatch& m) { return m.covered * std::exp(-std::abs(m.distance_px)); };
   if (worth(other) > worth(search.match)) search.match = std::move(other);
 }
@@ -206,7 +217,8 @@ Association Associate(const LandmarkModel& model, std::span<const int> visible,
     MakeExclusive(searches);
     for (const Search& search : searches) {
       const double density = Density(search, searches, options.clutter_window_px);
-      Account(search, density, static_cast<int>(c), options, association);
+      Account(search, std::clamp(model.edges[search.predicted.edge].side, 0, 2), density, static_cast<int>(c),
+              options, association);
     }
   }
   return association;

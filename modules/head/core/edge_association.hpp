@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct EdgeMatch {
   double covered = 0;       ///< share of the predicted length they cover, 0..1
   double distance_px = 0;   ///< mean distance from the prediction, to the right of its direction positive
   double predicted_px = 0;  ///< predicted length
+  double overshoot_px = 0;  ///< how far the image edge runs on where the model has an end
 };
 
 /// What the images say about one supposed pose.
@@ -25,6 +27,9 @@ struct Association {
   int n_predicted = 0;       ///< edges that should be seen, all images together
   double log_odds = 0;       ///< logarithm of p(images | landmark there) / p(images | clutter only)
   double best_log_odds = 0;  ///< what a perfect match would give
+  /// Evidence by side of the landmark (LandmarkEdge::side): lengths that should be seen and that were found,
+  /// each edge counted up to kFullLengthPx [px].
+  std::array<double, 3> side_predicted_px{}, side_found_px{};
 };
 
 struct AssociationOptions {

@@ -165,8 +165,15 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   fix.residual_px = best.solution.rms_px;
   fix.matches = best.association.matches;
   fix.log_odds = best.association.log_odds, fix.rival_log_odds = best.rival_log_odds;
-  const double chances = std::log(std::max(n_tested, 1));
-  if (fix.n_matched < options_.min_matched || fix.log_odds < options_.min_log_odds + chances ||
+  const double left = best.association.side_predicted_px[1], right = best.association.side_predicted_px[2];
+  const double found_left = best.association.side_found_px[1],
+               found_right = best.association.side_found_px[2];
+  const bool one_sided = (left == 0) != (right == 0);
+  const bool side_missing =
+      found_left < options_.min_side_share * left || found_right < options_.min_side_share * right;
+  const double wanted =
+      options_.min_log_odds + std::log(std::max(n_tested, 1)) + (one_sided ? options_.one_sided_log_odds : 0);
+  if (fix.n_matched < options_.min_matched || fix.log_odds < wanted || side_missing ||
       fix.log_odds < options_.min_share * best.association.best_log_odds) {
     fix.verdict = Verdict::kTooFewEdges;
   } else if (fix.rival_log_odds > fix.log_odds - options_.min_lead) {

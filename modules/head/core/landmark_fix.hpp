@@ -50,13 +50,16 @@ struct LandmarkFix {
 
 struct LandmarkFixOptions {
   double min_sigma_m = 0.02, min_sigma_rad = 0.01;  ///< the search is never narrower than that
-  double gate = 4;            ///< Mahalanobis distance from the prediction, 3 degrees of freedom
-  double gate_elsewhere = 7;  ///< so far out it is still looked for, to be refused
-  int min_predicted = 4;      ///< edges that must be predicted, all images together
-  int min_matched = 6;        ///< edges that must be found, all images together
-  double min_log_odds = 14;   ///< beyond the logarithm of the number of chances
-  double min_share = 0.55;    ///< of the log odds that a complete landmark would give
-  double min_lead = 6;        ///< over the best different pose
+  double gate = 4;              ///< Mahalanobis distance from the prediction, 3 degrees of freedom
+  double gate_elsewhere = 7;    ///< so far out it is still looked for, to be refused
+  int min_predicted = 4;        ///< edges that must be predicted, all images together
+  int min_matched = 6;          ///< edges that must be found, all images together
+  double min_log_odds = 7;      ///< beyond the logarithm of the number of chances
+  double min_share = 0.4;       ///< of the log odds that a complete landmark would give
+  double min_side_share = 0.4;  ///< of what either side of the landmark should show, found
+  double one_sided_log_odds =
+      5;                ///< wanted in addition if only one side is in view: it could be another landmark's
+  double min_lead = 6;  ///< over the best different pose
   double max_residual_px = 1.2;
   double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
   VerticalStereoOptions stereo;

@@ -16,10 +16,11 @@ struct ImageSize {
 
 /// A model edge as one camera should see it, undistorted pixels, cut to the image.
 struct PredictedEdge {
-  int edge = 0;                          ///< index in LandmarkModel::edges
-  Eigen::Vector2d p, q;                  ///< ends in the image
-  Eigen::Vector3d in_base_p, in_base_q;  ///< the points of space seen there [m]
-  double depth_p = 1, depth_q = 1;       ///< their third homogeneous coordinates
+  int edge = 0;                           ///< index in LandmarkModel::edges
+  Eigen::Vector2d p, q;                   ///< ends in the image
+  Eigen::Vector3d in_base_p, in_base_q;   ///< the points of space seen there [m]
+  double depth_p = 1, depth_q = 1;        ///< their third homogeneous coordinates
+  bool p_is_end = true, q_is_end = true;  ///< an end of the model edge, not the border of the image
   double search_px = 0;  ///< 1 sigma of the position across the edge, by the covariance of the pose
 
   double length_px() const { return (q - p).norm(); }
