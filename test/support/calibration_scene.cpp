@@ -94,6 +94,41 @@ bool Unhidden(const head::ReferenceObject& object, const head::ReferenceDisc& di
   return true;
 }
 
+Sightings Sight(const head::ReferenceObject& object, const head::CameraModel& camera, int hidden, int clutter,
+                Rng& rng) {
+  std::vector<std::pair<int, head::DetectedDisc>> all;
+  for (std::size_t i = 0; i < object.discs.size(); ++i) {
+    if (!Unhidden(object, object.discs[i], EyeOf(camera))) continue;
+    head::DetectedDisc d;
+    d.ellipse = *head::ProjectDisc(camera.image_from_base, object.discs[i]);
+    d.ellipse.centre_px = *head::ProjectDiscCentroid(camera, object.discs[i]) +
+                          Eigen::Vector2d(rng.Normal(0.02), rng.Normal(0.02));
+    d.ellipse.shape_px2 *= 1 + rng.Normal(0.01);
+    d.ellipse.shape_px2(0, 0) *= 1 + rng.Normal(0.01);
+    d.amplitude = 150;
+    all.emplace_back(static_cast<int>(i), d);
+  }
+  while (static_cast<int>(object.discs.size() - all.size()) < hidden) {
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(rng.Below(all.size())));
+  }
+  Sightings sightings;
+  sightings.visible = static_cast<int>(all.size());
+  for (int i = 0; i < clutter; ++i) {
+    head::DetectedDisc d;
+    const double radius = rng.Uniform(3, 25), ratio = rng.Uniform(0.6, 1);
+    d.ellipse.centre_px = {rng.Uniform(30, 730), rng.Uniform(30, 540)};
+    d.ellipse.shape_px2 = Eigen::Vector2d(radius * radius, radius * radius * ratio * ratio).asDiagonal();
+    d.amplitude = rng.Uniform(60, 200);
+    all.emplace_back(-1, d);
+  }
+  std::shuffle(all.begin(), all.end(), rng.engine());
+  for (const auto& [disc, detection] : all) {
+    sightings.truth.push_back(disc);
+    sightings.detections.push_back(detection);
+  }
+  return sightings;
+}
+
 Vector3d EyeOf(const head::CameraModel& camera) {
   return -camera.image_from_base.leftCols<3>().inverse() * camera.image_from_base.col(3);
 }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <string>
+#include <vector>
 
 #include "common/random.hpp"
-#include "head/core/calibration/disc_projection.hpp"
+#include "head/core/calibration/disc_fit.hpp"
 #include "head/core/calibration/reference_object.hpp"
 
 namespace priamos::support {
@@ -33,6 +33,17 @@ CameraView RandomView(Rng& rng);
 /// Whether the whole disc is visible past the blocks of the object.
 bool Unhidden(const head::ReferenceObject& object, const head::ReferenceDisc& disc,
               const Eigen::Vector3d& eye_m);
+
+/// What a detector would report of the visible discs, in any order: up to `hidden` discs are left out (those
+/// behind blocks count), `clutter` other bright ellipses are added, everything with the noise of a detector.
+/// `truth[i]` is the disc that detection i is, -1 for clutter.
+struct Sightings {
+  std::vector<head::DetectedDisc> detections;
+  std::vector<int> truth;
+  int visible = 0;
+};
+Sightings Sight(const head::ReferenceObject& object, const head::CameraModel& camera, int hidden, int clutter,
+                Rng& rng);
 
 /// The optical centre.
 Eigen::Vector3d EyeOf(const head::CameraModel& camera);

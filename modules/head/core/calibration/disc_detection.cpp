@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/geometry.hpp"
 #include "head/core/calibration/bright_regions.hpp"
@@ -10,6 +11,8 @@ namespace priamos::head {
 
 namespace {
 
+constexpr int kReach_px = 8;       // of the window around a spot
+constexpr double kFade_px = 1.5;   // where the rim of another spot has faded
 constexpr double kUsualNoise = 4;  // grey levels of camera noise that are no misfit
 
 bool Plausible(const BrightRegion& r, const DiscDetectorOptions& options) {
@@ -36,21 +39,43 @@ bool IsDisc(const DetectedDisc& disc, const DiscDetectorOptions& options) {
          disc.residual <= kUsualNoise + options.max_misfit * disc.amplitude;
 }
 
-std::optional<DetectedDisc> Measure(const GreyImage& image, const BrightRegion& region) {
+/// What the fit must not take for its own rim: the spots whose boxes are within reach of the region's.
+std::vector<Ellipse> Neighbours(const std::vector<BrightRegion>& regions, std::size_t self) {
+  std::vector<Ellipse> others;
+  const BrightRegion& r = regions[self];
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const BrightRegion& o = regions[i];
+    const int du = std::max(o.u_min - r.u_max, r.u_min - o.u_max);
+    const int dv = std::max(o.v_min - r.v_max, r.v_min - o.v_max);
+    // Boxes that overlap belong to something that winds around the region; an ellipse does not describe it.
+    const bool near = std::max(du, dv) > 0 && std::max(du, dv) <= kReach_px;
+    if (i == self || !near) continue;
+    Ellipse other = FirstGuess(o);
+    const Eigen::Vector2d half(o.width() / 2.0 + kFade_px, o.height() / 2.0 + kFade_px);
+    other.shape_px2 = half.cwiseAbs2().asDiagonal();
+    others.push_back(other);
+  }
+  return others;
+}
+
+std::optional<DetectedDisc> Measure(const GreyImage& image, const BrightRegion& region,
+                                    const std::vector<Ellipse>& others) {
   // The second pass has the window in the right place and of the right shape.
-  std::optional<DetectedDisc> moments = MeasureMoments(image, FirstGuess(region));
-  if (moments) moments = MeasureMoments(image, moments->ellipse);
+  std::optional<DetectedDisc> moments = MeasureMoments(image, FirstGuess(region), others);
+  if (moments) moments = MeasureMoments(image, moments->ellipse, others);
   if (!moments) return std::nullopt;
-  return FitDisc(image, *moments);
+  return FitDisc(image, *moments, others);
 }
 
 }  // namespace
 
 std::vector<DetectedDisc> DetectDiscs(const GreyImage& image, const DiscDetectorOptions& options) {
   std::vector<DetectedDisc> discs;
-  for (const BrightRegion& region : FindBrightRegions(image, options.min_contrast)) {
-    if (!Plausible(region, options)) continue;
-    const std::optional<DetectedDisc> disc = Measure(image, region);
+  // Only spots of a disc's size are measured, and only they can be told from a disc close by.
+  std::vector<BrightRegion> regions = FindBrightRegions(image, options.min_contrast);
+  std::erase_if(regions, [&](const BrightRegion& r) { return !Plausible(r, options); });
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const std::optional<DetectedDisc> disc = Measure(image, regions[i], Neighbours(regions, i));
     if (disc && IsDisc(*disc, options)) discs.push_back(*disc);
   }
   std::sort(discs.begin(), discs.end(),

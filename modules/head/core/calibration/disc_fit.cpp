@@ -20,6 +20,7 @@ constexpr double kRimReach_px = 2.5;   // beyond the half-level rim: where a sha
 constexpr double kRingWidth_px = 2.0;  // of the ring that gives the background
 constexpr double kPixelVariance = 1.0 / 12;
 constexpr int kFitSteps = 5;
+constexpr double kForeign = 0.1, kForeignLevels = 10;
 // What lamps and vignetting do at most, as a standard deviation. It keeps the slopes from being traded
 // against the centre where a disc is small or blurred.
 constexpr double kSlopePrior_per_px = 0.001;
@@ -46,16 +47,29 @@ std::optional<Box> BoundingBox(const GreyImage& image, const Ellipse& e) {
              static_cast<int>(std::ceil(c.y() - dv)), static_cast<int>(c.y() + dv)};
 }
 
-/// Calls visit(offset from the centre, q^2, grey value) for every pixel of the box.
+bool Within(const Ellipse& e, double u, double v) {
+  const Vector2d d = Vector2d(u, v) - e.centre_px;
+  const Matrix2d& m = e.shape_px2;
+  const double det = m.determinant();
+  return m(1, 1) * d.x() * d.x() - 2 * m(0, 1) * d.x() * d.y() + m(0, 0) * d.y() * d.y() < det;
+}
+
+/// Calls visit(offset from the centre, q^2, grey value) for every pixel within the ellipse (q^2 <= 1) that
+/// is not within one of the others.
 template <class Visit>
-void ForEachPixel(const GreyImage& image, const Box& box, const Ellipse& e, const Visit& visit) {
+void ForEachPixel(const GreyImage& image, const Box& box, const Ellipse& e, std::span<const Ellipse> others,
+                  const Visit& visit) {
   const Matrix2d k = e.shape_px2.inverse();
   for (int v = box.v0; v <= box.v1; ++v) {
     const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(v) * image.width;
     const double dy = v - e.centre_px.y();
     for (int u = box.u0; u <= box.u1; ++u) {
       const double dx = u - e.centre_px.x();
-      visit(dx, dy, k(0, 0) * dx * dx + 2 * k(0, 1) * dx * dy + k(1, 1) * dy * dy, row[u]);
+      const double q2 = k(0, 0) * dx * dx + 2 * k(0, 1) * dx * dy + k(1, 1) * dy * dy;
+      if (q2 > 1) continue;
+      const auto hides = [&](const Ellipse& other) { return Within(other, u, v); };
+      if (std::any_of(others.begin(), others.end(), hides)) continue;
+      visit(dx, dy, q2, row[u]);
     }
   }
 }
@@ -77,7 +91,8 @@ double Quantile(const std::array<int, 256>& histogram, double share) {
 }
 
 /// Medians of the ring around the disc and of its inner part.
-bool MeasureLevels(const GreyImage& image, const Ellipse& guess, DetectedDisc& disc) {
+bool MeasureLevels(const GreyImage& image, const Ellipse& guess, std::span<const Ellipse> others,
+                   DetectedDisc& disc) {
   const Ellipse inner_rim = Grown(guess, kRimReach_px),
                 outer_rim = Grown(guess, kRimReach_px + kRingWidth_px);
   const std::optional<Box> box = BoundingBox(image, outer_rim);
@@ -86,8 +101,8 @@ bool MeasureLevels(const GreyImage& image, const Ellipse& guess, DetectedDisc& d
   const double core = 0.36 * guess.shape_px2.determinant() / outer_rim.shape_px2.determinant();
   const double inner_q2 = std::sqrt(inner), core_q2 = std::sqrt(core);
   std::array<int, 256> ring{}, plateau{};
-  ForEachPixel(image, *box, outer_rim, [&](double, double, double q2, std::uint8_t grey) {
-    if (q2 <= 1 && q2 > inner_q2) ++ring[grey];
+  ForEachPixel(image, *box, outer_rim, others, [&](double, double, double q2, std::uint8_t grey) {
+    if (q2 > inner_q2) ++ring[grey];
     if (q2 < core_q2) ++plateau[grey];
   });
   const double top = Quantile(plateau, 0.5);
@@ -200,7 +215,8 @@ class Accumulator {
     if (q2 < inside_q2_) {
       inside_.Add(dx, dy, rest - shading);
     } else if (q2 > outside_q2_) {
-      outside_.Add(dx, dy, rest);
+      // The ground may end near the disc: what is far from its level belongs to something else.
+      if (std::abs(rest) < kForeign * m_.amplitude + kForeignLevels) outside_.Add(dx, dy, rest);
     } else {
       AddRim(dx, dy, kx, ky, q2, rest, shading);
     }
@@ -293,15 +309,15 @@ DetectedDisc Result(const Model& m, const NormalEquations& eq) {
 
 }  // namespace
 
-std::optional<DetectedDisc> MeasureMoments(const GreyImage& image, const Ellipse& guess) {
+std::optional<DetectedDisc> MeasureMoments(const GreyImage& image, const Ellipse& guess,
+                                           std::span<const Ellipse> others) {
   DetectedDisc disc;
-  if (!MeasureLevels(image, guess, disc)) return std::nullopt;
+  if (!MeasureLevels(image, guess, others, disc)) return std::nullopt;
   const Ellipse window = Grown(guess, kRimReach_px);
   const std::optional<Box> box = BoundingBox(image, window);
   if (!box) return std::nullopt;
   double sum = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  ForEachPixel(image, *box, window, [&](double dx, double dy, double q2, std::uint8_t grey) {
-    if (q2 > 1) return;
+  ForEachPixel(image, *box, window, others, [&](double dx, double dy, double, std::uint8_t grey) {
     const double weight = grey - disc.background;
     sum += weight;
     x += weight * dx;
@@ -323,7 +339,8 @@ std::optional<DetectedDisc> MeasureMoments(const GreyImage& image, const Ellipse
   return positive ? std::optional(disc) : std::nullopt;
 }
 
-std::optional<DetectedDisc> FitDisc(const GreyImage& image, const DetectedDisc& start) {
+std::optional<DetectedDisc> FitDisc(const GreyImage& image, const DetectedDisc& start,
+                                    std::span<const Ellipse> others) {
   const Matrix2d blur = 4 * start.blur_sigma_px * start.blur_sigma_px * Matrix2d::Identity();
   Matrix2d shape = start.ellipse.shape_px2 - blur;
   if (shape(0, 0) < 1 || shape.determinant() < 1) shape = start.ellipse.shape_px2;
@@ -337,8 +354,8 @@ std::optional<DetectedDisc> FitDisc(const GreyImage& image, const DetectedDisc& 
   for (int i = 0; i < kFitSteps; ++i) {
     Accumulator sums(model);
     const Vector2d shift = window.centre_px - model.centre;
-    ForEachPixel(image, *box, window, [&](double dx, double dy, double q2, std::uint8_t grey) {
-      if (q2 <= 1) sums.Add(dx + shift.x(), dy + shift.y(), grey);
+    ForEachPixel(image, *box, window, others, [&](double dx, double dy, double, std::uint8_t grey) {
+      sums.Add(dx + shift.x(), dy + shift.y(), grey);
     });
     eq = sums.Finish();
     if (eq.pixels < 15) return std::nullopt;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "common/frame_store.hpp"
 #include "head/core/calibration/disc_projection.hpp"
@@ -20,12 +21,16 @@ struct DetectedDisc {
 /// Grey-weighted first and second moments of the window around `guess`, the local background subtracted
 /// before weighting and the blurred rim included (section 3.1.2 of the paper). nullopt if the window leaves
 /// the image or nothing in it stands out.
-std::optional<DetectedDisc> MeasureMoments(const GreyImage& image, const Ellipse& guess);
+///
+/// Pixels within `others`, which are bright spots close by, do not count.
+std::optional<DetectedDisc> MeasureMoments(const GreyImage& image, const Ellipse& guess,
+                                           std::span<const Ellipse> others = {});
 
 /// Least squares fit of a blurred ellipse (centre, shape, rim width, brightness with slope inside,
 /// background) to the grey values. Its centre is about 1.4 times as precise as the centroid's, because the
 /// rim alone carries the information, and a slope of brightness does not shift it. nullopt if it does not
 /// converge near the start.
-std::optional<DetectedDisc> FitDisc(const GreyImage& image, const DetectedDisc& start);
+std::optional<DetectedDisc> FitDisc(const GreyImage& image, const DetectedDisc& start,
+                                    std::span<const Ellipse> others = {});
 
 }  // namespace priamos::head

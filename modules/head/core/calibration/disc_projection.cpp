@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 
 #include "common/geometry.hpp"
@@ -31,14 +32,24 @@ Eigen::Matrix3d ImageFromUnitCircle(const Eigen::Matrix<double, 3, 4>& image_fro
   return image_from_base * base_from_circle;
 }
 
+const std::array<Eigen::Vector2d, kRimPoints>& Directions() {
+  static const auto kDirections = [] {
+    std::array<Eigen::Vector2d, kRimPoints> directions;
+    for (int i = 0; i < kRimPoints; ++i) {
+      directions[i] = {std::cos(2 * kPi * i / kRimPoints), std::sin(2 * kPi * i / kRimPoints)};
+    }
+    return directions;
+  }();
+  return kDirections;
+}
+
 /// The centroid of the polygon of the ellipse's rim after distortion. The polygon of an undistorted ellipse
 /// has exactly its centre, so few points are enough for the small change that the lens makes.
 Eigen::Vector2d DistortedCentroid(const CameraModel& camera, const Ellipse& ellipse) {
   const Eigen::Matrix2d root = ellipse.shape_px2.llt().matrixL();
   const Eigen::Vector2d origin = camera.Distort(ellipse.centre_px);
   const auto rim = [&](int i) -> Eigen::Vector2d {
-    const double t = 2 * kPi * i / kRimPoints;
-    return camera.Distort(ellipse.centre_px + root * Eigen::Vector2d(std::cos(t), std::sin(t))) - origin;
+    return camera.Distort(ellipse.centre_px + root * Directions()[i]) - origin;
   };
   double twice_area = 0;
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();

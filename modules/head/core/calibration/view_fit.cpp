@@ -83,8 +83,8 @@ double Step(PinholeView& view, std::span<const PointPair> pairs, const LensPrior
     const double cauchy = 1 / (1 + error.squaredNorm() / (sigma_px * sigma_px));
     const double weight = cauchy / (sigma_px * sigma_px);
     const Jacobian j = Derivatives(view, in_camera, turned);
-    n.noalias() += weight * j.transpose() * j;
-    rhs.noalias() += weight * j.transpose() * error;
+    n += (weight * j.transpose()).lazyProduct(j);
+    rhs += weight * j.transpose().lazyProduct(error);
     squares += cauchy * error.squaredNorm();
     weights += cauchy;
   }
