@@ -19,8 +19,8 @@ RayTarget::RayTarget(const Rectangle& outline)
       axis_x(outline.map_from_centre.rotation().col(0)),
       half(outline.half_m) {}
 
-std::optional<RayHit> CastRay(const RayTarget& target, const Eigen::Vector2d& origin,
-                              const Eigen::Vector2d& direction, double max_m) {
+std::optional<OutlineHit> CastRay(const RayTarget& target, const Eigen::Vector2d& origin,
+                                  const Eigen::Vector2d& direction, double max_m) {
   const Eigen::Vector2d axis_y(-target.axis_x.y(), target.axis_x.x()), from_centre = origin - target.centre;
   const Eigen::Vector2d o(from_centre.dot(target.axis_x), from_centre.dot(axis_y));
   const Eigen::Vector2d d(direction.dot(target.axis_x), direction.dot(axis_y));
@@ -42,7 +42,7 @@ std::optional<RayHit> CastRay(const RayTarget& target, const Eigen::Vector2d& or
   }
   if (side < 0) return std::nullopt;
   const Eigen::Vector2d axis = side == 0 ? target.axis_x : axis_y;
-  return RayHit{enter, d(side) > 0 ? Eigen::Vector2d(-axis) : axis};
+  return OutlineHit{enter, d(side) > 0 ? Eigen::Vector2d(-axis) : axis};
 }
 
 }  // namespace priamos::world

@@ -24,14 +24,14 @@ struct RayTarget {
 };
 
 /// Where a ray meets an outline from outside.
-struct RayHit {
+struct OutlineHit {
   double distance_m = 0;
   Eigen::Vector2d normal{0, 0};  ///< outward unit normal of the side that was hit
 };
 
 /// First intersection within `max_m`; nothing when the ray starts inside or on the outline. `direction` is a
 /// unit vector.
-std::optional<RayHit> CastRay(const RayTarget& target, const Eigen::Vector2d& origin,
-                              const Eigen::Vector2d& direction, double max_m);
+std::optional<OutlineHit> CastRay(const RayTarget& target, const Eigen::Vector2d& origin,
+                                  const Eigen::Vector2d& direction, double max_m);
 
 }  // namespace priamos::world

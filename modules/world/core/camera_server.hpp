@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/frame_store.hpp"
+#include "common/time.hpp"
+#include "world/core/image_formation.hpp"
+#include "world/core/optics.hpp"
+#include "world/core/renderer.hpp"
+
+namespace priamos::world {
+
+/// The cameras' electronics.
+struct CameraConfig {
+  double trigger_delay_s = 0.004;
+  double exposure_s = 0.008;
+  double gain = 1;
+  double readout_s = 0.04;
+  int max_pending = 6;
+
+  void Describe(Archive& a);
+};
+
+/// One picture to be drawn.
+struct RenderJob {
+  std::int64_t number = 0;  ///< counts up
+  Camera camera = kLeftCamera;
+  Viewpoint opening, closing;  ///< at the beginning and the end of the exposure
+  Exposure exposure;
+  std::uint64_t noise_seed = 0;
+};
+
+/// Draws one picture; depends on nothing but the job.
+using RenderFunction = std::function<GreyImage(const RenderJob&)>;
+
+/// Draws pictures somewhere, now or later: they come back by their number. What a RenderFunction throws
+/// comes out of Submit() or Take().
+class RenderExecutor {
+ public:
+  virtual ~RenderExecutor() = default;
+  virtual void Submit(const RenderJob& job) = 0;
+  /// The picture of that job once it is drawn, only once.
+  virtual std::optional<GreyImage> Take(std::int64_t number) = 0;
+};
+
+/// Draws at once, in the caller's thread: for simulated time.
+class InlineRenderExecutor : public RenderExecutor {
+ public:
+  explicit InlineRenderExecutor(RenderFunction render) : render_(std::move(render)) {}
+  void Submit(const RenderJob& job) override { done_[job.number] = render_(job); }
+  std::optional<GreyImage> Take(std::int64_t number) override;
+
+ private:
+  RenderFunction render_;
+  std::map<std::int64_t, GreyImage> done_;
+};
+
+/// A picture that has been read out.
+struct Frame {
+  Time exposure_middle;
+  std::int32_t frame_id = 0;
+  Camera camera = kLeftCamera;
+  GreyImage image;
+};
+
+/// All cameras open and close at one moment, a little after the trigger; the pictures are there after the
+/// readout, in the order left, right, third, or as soon as they are drawn if that takes longer. It sees the
+/// world only through the viewpoints it is given at the moments it asks for.
+class CameraServer {
+ public:
+  /// `executor` must outlive it; `seed` decides the noise of every picture.
+  CameraServer(const CameraConfig& config, double camera_light, RenderExecutor& executor, std::uint64_t seed);
+
+  /// Bits of `cameras`: 1 left, 2 right, 4 third. Refused (false) while too many pictures are pending or when
+  /// no camera is asked for.
+  bool Trigger(Time now, std::int32_t frame_id, int cameras);
+
+  /// The next moment at which Sample() must be called; nullopt while nothing is being exposed.
+  std::optional<Time> NextSample() const;
+  /// Where the cameras are at the moment NextSample() named.
+  void Sample(const Viewpoint& viewpoint);
+
+  /// Frames whose readout is over at `now`, oldest first.
+  std::vector<Frame> Collect(Time now);
+
+ private:
+  struct Shot {
+    Time opening, closing;
+    std::int32_t frame_id;
+    int cameras;
+    std::optional<Viewpoint> opened;
+  };
+  struct Pending {
+    std::int64_t number;
+    Time ready;
+    Frame frame;
+  };
+  void Submit(const Shot& shot, const Viewpoint& closed);
+
+  CameraConfig config_;
+  double camera_light_;
+  RenderExecutor& executor_;
+  std::uint64_t seed_;
+  std::int64_t next_number_ = 0;
+  std::deque<Shot> shots_;  ///< in the order of their triggers; one exposure at a time
+  std::deque<Pending> pending_;
+};
+
+}  // namespace priamos::world

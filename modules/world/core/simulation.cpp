@@ -1,0 +1,119 @@
+#include "world/core/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace priamos::world {
+namespace {
+
+constexpr double kGapLimitM = 10;
+/// A touch begins below half a millimetre and ends beyond a centimetre.
+constexpr double kContactBeginM = 0.0005, kContactEndM = 0.01;
+/// What is lower is rolled over.
+constexpr double kFloorClearanceM = 0.02;
+constexpr double kSonarHalfBandM = 0.05;
+
+}  // namespace
+
+Body BodyOf(const RobotModel& model) {
+  return {{model.length_m, model.width_m}, kFloorClearanceM, model.height_m};
+}
+
+void RobotModel::Describe(Archive& a) {
+  a.Number("length_m", length_m, {"m", 0.1, 5, "footprint along x"});
+  a.Number("width_m", width_m, {"m", 0.1, 5, "footprint along y"});
+  a.Number("height_m", height_m, {"m", 0.1, 5, "top of the robot"});
+  a.Section("base", base, "Mecanum wheels");
+  a.Section("drive", drive, "drive board: speed control, encoders, dead-line");
+  a.Section("sonar", sonar, "ring of 24 ultrasonic sensors");
+  a.Section("head_motors", head_motors, "motors of KASTOR");
+  a.Section("camera", camera, "shutters and readout of the cameras");
+}
+
+Simulation::Simulation(const RobotModel& model, const std::vector<Solid>& solids, const Pose2& start,
+                       CameraServer& cameras, std::uint64_t seed)
+    : body_(BodyOf(model)),
+      drive_(model.drive, Rng::Stream(seed, "encoders")),
+      base_(model.base, Rng::Stream(seed, "wheels")),
+      ring_(model.sonar, body_.size_m,
+            AcousticScene(solids, model.sonar.height_m, kSonarHalfBandM, model.sonar.materials),
+            Rng::Stream(seed, "sonar")),
+      motors_(model.head_motors, Rng::Stream(seed, "head motors")),
+      cameras_(cameras),
+      clearance_(body_, solids),
+      contacts_(kContactBeginM, kContactEndM),
+      pose_(start) {
+  gap_m_ = clearance_.Gap(pose_, kGapLimitM);
+  if (gap_m_ <= 0) throw std::invalid_argument("the robot starts inside a solid");
+  contacts_.Update(gap_m_);
+}
+
+Duration Simulation::Advance(Time now) {
+  if (!now_) {
+    now_ = next_sample_ = next_ping_ = now;
+    SampleDevices();
+  }
+  Duration skipped{0};
+  if (now - *now_ > kMaxAdvance + kStep) {
+    skipped = (now - *now_ - kMaxAdvance) / kStep * kStep;
+    *now_ += skipped;
+    next_sample_ += skipped;
+    next_ping_ += skipped;
+  }
+  while (*now_ + kStep <= now) Step();
+  return skipped;
+}
+
+void Simulation::Step() {
+  const Pose2 from = pose_;
+  const Time end = *now_ + kStep;
+  drive_.Step(end, kStep);
+  Move(Seconds(kStep));
+  motors_.Step(kStep);
+  ExposeUntil(end, from);
+  now_ = end;
+  gap_m_ = clearance_.Gap(pose_, kGapLimitM);
+  contacts_.Update(gap_m_);
+  SampleDevices();
+}
+
+/// The wheels turn as they are driven; where a solid is in the way the base stays before it and they slip.
+void Simulation::Move(double dt_s) {
+  velocity_ = base_.Step(drive_.speed_rad_s(), dt_s);
+  const Pose2 wanted = Integrate(pose_, velocity_, dt_s);
+  // Nothing that is farther away than a step is long can be in the way.
+  const double reach_m = (std::hypot(velocity_.vx, velocity_.vy) + std::abs(velocity_.wz)) * dt_s;
+  const double part = gap_m_ > 2 * reach_m ? 1 : clearance_.FreePart(pose_, wanted);
+  if (part < 1) velocity_ = {part * velocity_.vx, part * velocity_.vy, part * velocity_.wz};
+  pose_ = part < 1 ? Integrate(pose_, velocity_, dt_s) : wanted;
+}
+
+/// Shutters open and close between steps, too.
+void Simulation::ExposeUntil(Time end, const Pose2& from) {
+  for (auto at = cameras_.NextSample(); at && *at <= end; at = cameras_.NextSample()) {
+    const double since_s = std::max(0.0, Seconds(*at - *now_));
+    cameras_.Sample({Integrate(from, velocity_, since_s), motors_.Truth()});
+  }
+}
+
+void Simulation::SampleDevices() {
+  if (*now_ >= next_sample_) {
+    wheels_ = WheelSample{*now_, drive_.Read()};
+    head_ = HeadSample{*now_, motors_.Counters(), motors_.moving()};
+    truth_ = CurrentTruth();
+    next_sample_ += kSamplePeriod;
+  }
+  if (*now_ >= next_ping_) {
+    ring_.Fire(next_group_, pose_);
+    next_ping_ += ring_.GroupPeriod();
+    next_group_ = (next_group_ + 1) % ring_.groups();
+    if (next_group_ == 0) sonars_ = SonarSample{*now_, ring_.ranges_m()};
+  }
+}
+
+Truth Simulation::CurrentTruth() const {
+  return {*now_, pose_, velocity_, gap_m_, contacts_.min_gap_m(), contacts_.contacts(), motors_.Truth()};
+}
+
+}  // namespace priamos::world

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/config.hpp"
+#include "world/core/camera_server.hpp"
+#include "world/core/contact.hpp"
+#include "world/core/drive_board.hpp"
+#include "world/core/head_motors.hpp"
+#include "world/core/mecanum_base.hpp"
+#include "world/core/solid.hpp"
+#include "world/core/sonar_ring.hpp"
+
+namespace priamos::world {
+
+/// The robot's body and devices.
+struct RobotModel {
+  double length_m = 0.95, width_m = 0.78, height_m = 1.35;
+  MecanumConfig base;
+  DriveBoardConfig drive;
+  SonarConfig sonar;
+  HeadMotorsConfig head_motors;
+  CameraConfig camera;
+
+  void Describe(Archive& a);
+};
+
+/// What of it can touch things.
+Body BodyOf(const RobotModel& model);
+
+struct WheelSample {
+  Time time;
+  WheelReading reading;
+};
+
+struct SonarSample {
+  Time time;
+  std::array<double, kSonars> ranges_m;
+};
+
+struct HeadSample {
+  Time time;
+  HeadSetting counters;
+  bool moving;
+};
+
+/// What really happens.
+struct Truth {
+  Time time;
+  Pose2 map_from_base;
+  Twist2 velocity;  ///< base frame
+  double gap_m = 0, min_gap_m = 0;
+  int contacts = 0;
+  HeadAxes axes;
+};
+
+/// The whole world in steps of fixed length: wheels turn, the base moves or is blocked, motors run, sonars
+/// fire, shutters open. Samples of the devices are taken at their own times; the newest of each kind waits
+/// to be taken.
+class Simulation {
+ public:
+  static constexpr Duration kStep{2500};
+  static constexpr Duration kSamplePeriod{20000};  ///< wheels, head, truth
+  /// More than this is not made up for when the caller comes late: then the world stood still.
+  static constexpr Duration kMaxAdvance{500000};
+
+  /// `cameras` must outlive it. Throws std::invalid_argument when the robot would start inside a solid.
+  Simulation(const RobotModel& model, const std::vector<Solid>& solids, const Pose2& start,
+             CameraServer& cameras, std::uint64_t seed);
+
+  bool CommandWheels(Time now, const PerWheel& speed_rad_s) { return drive_.Command(now, speed_rad_s); }
+  bool CommandHead(const HeadSetting& setting) { return motors_.Command(setting); }
+  bool Trigger(Time now, std::int32_t frame_id, int cameras) {
+    return cameras_.Trigger(now, frame_id, cameras);
+  }
+
+  /// Runs up to `now`; the first call sets the clock. Returns the time that was skipped, normally 0.
+  Duration Advance(Time now);
+
+  std::optional<WheelSample> TakeWheels() { return std::exchange(wheels_, {}); }
+  std::optional<SonarSample> TakeSonars() { return std::exchange(sonars_, {}); }
+  std::optional<HeadSample> TakeHead() { return std::exchange(head_, {}); }
+  std::optional<Truth> TakeTruth() { return std::exchange(truth_, {}); }
+
+ private:
+  void Step();
+  void Move(double dt_s);
+  void ExposeUntil(Time end, const Pose2& from);
+  void SampleDevices();
+  Truth CurrentTruth() const;
+
+  Body body_;
+  DriveBoard drive_;
+  MecanumBase base_;
+  SonarRing ring_;
+  HeadMotors motors_;
+  CameraServer& cameras_;
+  Clearance clearance_;
+  ContactCounter contacts_;
+
+  Pose2 pose_;
+  Twist2 velocity_;
+  double gap_m_ = 0;
+  std::optional<Time> now_;
+  Time next_sample_, next_ping_;
+  int next_group_ = 0;
+
+  std::optional<WheelSample> wheels_;
+  std::optional<SonarSample> sonars_;
+  std::optional<HeadSample> head_;
+  std::optional<Truth> truth_;
+};
+
+}  // namespace priamos::world

@@ -1,0 +1,93 @@
+#include "world/world_app.hpp"
+
+#include <fmt/format.h>
+
+#include "world/render_thread.hpp"
+#include "world/world_messages.hpp"
+
+namespace priamos::world {
+
+RenderFunction MakeRenderFunction(const LoadedWorld& world, const WorldConfig& config, std::uint64_t seed) {
+  RendererConfig look;
+  look.scene = world.light;
+  look.imaging = config.lens;
+  look.head = config.BuiltHead();
+  auto renderer = std::make_shared<Renderer>(look, world.solids, seed);
+  renderer->PlaceReference(world.reference);
+  return [renderer](const RenderJob& job) {
+    Rng noise(job.noise_seed);
+    return renderer->Expose(job.camera, job.opening, job.closing, job.exposure, noise);
+  };
+}
+
+WorldApp::WorldApp(const WorldConfig& config, bus::Context& context)
+    : context_(context),
+      world_(LoadWorld(
+          config.world, [&](const std::string& name) { return context.ResolvePath(name); },
+          BodyOf(config.robot), context.seed())),
+      store_(FrameStore::Create(context.instance() + "-camera")),
+      executor_(MakeExecutor(config)),
+      cameras_(config.robot.camera, world_.plan.camera_light, *executor_, context.seed()),
+      simulation_(config.robot, world_.solids, world_.start.truth, cameras_, context.seed()),
+      wheel_commands_(context.node().Subscribe(channels::kWheelCommand)),
+      head_commands_(context.node().SubscribeAll(channels::kHeadCommand)),
+      triggers_(context.node().SubscribeAll(channels::kCameraTrigger)),
+      wheels_(context.node().Advertise(channels::kWheelState)),
+      sonars_(context.node().Advertise(channels::kSonarRanges)),
+      head_(context.node().Advertise(channels::kHeadState)),
+      frames_(context.node().Advertise(channels::kCameraFrame)),
+      truth_(context.node().Advertise(channels::kWorldTruth)) {
+  const Pose2 start = world_.start.nominal, error = start.Inverse() * world_.start.truth;
+  context.Log(bus::Level::kInfo,
+              fmt::format("{}: nominal start {:.3f} m, {:.3f} m, {:.2f} deg; true start off by {:.3f} m, "
+                          "{:.2f} deg (seed {})",
+                          config.world, start.x, start.y, Degrees(start.yaw), error.translation().norm(),
+                          Degrees(error.yaw), context.seed()));
+}
+
+std::unique_ptr<RenderExecutor> WorldApp::MakeExecutor(const WorldConfig& config) const {
+  const auto make = [this, &config] { return MakeRenderFunction(world_, config, context_.seed()); };
+  if (context_.lockstep()) return std::make_unique<InlineRenderExecutor>(make());
+  return std::make_unique<RenderThread>(make);
+}
+
+void WorldApp::Tick(Time now) {
+  const Duration skipped = simulation_.Advance(now);
+  if (skipped > Duration(0))
+    context_.Log(
+        bus::Level::kWarning,
+        fmt::format("the world stood still for {:.2f} s: this process did not run", Seconds(skipped)));
+  PublishSamples();
+  PublishFrames(now);
+  // Last, so that a command acts from its arrival on and not before.
+  TakeCommands(now);
+}
+
+void WorldApp::PublishSamples() {
+  if (const auto wheels = simulation_.TakeWheels()) wheels_.Publish(ToMessage(*wheels));
+  if (const auto head = simulation_.TakeHead()) head_.Publish(ToMessage(*head));
+  if (const auto sonars = simulation_.TakeSonars()) sonars_.Publish(ToMessage(*sonars));
+  if (const auto truth = simulation_.TakeTruth()) truth_.Publish(ToMessage(*truth));
+}
+
+void WorldApp::PublishFrames(Time now) {
+  for (const auto& frame : cameras_.Collect(now))
+    frames_.Publish(ToMessage(frame, store_.Write(frame.frame_id, frame.image)));
+}
+
+void WorldApp::TakeCommands(Time now) {
+  const Duration age = wheel_commands_.Age(now);
+  if (const auto command = wheel_commands_.Take()) {
+    if (!simulation_.CommandWheels(now - age, FromMessage(*command)))
+      context_.Log(bus::Level::kWarning, "wheel command refused: not a number");
+  }
+  for (const auto& command : head_commands_.Drain())
+    if (!simulation_.CommandHead(FromMessage(command)))
+      context_.Log(bus::Level::kWarning, "head command refused: not a number");
+  for (const auto& trigger : triggers_.Drain())
+    if (!simulation_.Trigger(now, trigger.frame_id, trigger.cameras))
+      context_.Log(bus::Level::kWarning,
+                   fmt::format("camera trigger {} refused: cameras busy", trigger.frame_id));
+}
+
+}  // namespace priamos::world

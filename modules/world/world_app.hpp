@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "bus/app.hpp"
+#include "bus/context.hpp"
+#include "lcmtypes/channels.hpp"
+#include "world/core/simulation.hpp"
+#include "world/world_config.hpp"
+#include "world/world_loading.hpp"
+
+namespace priamos::world {
+
+/// Stands in for the hardware of PRIAMOS. See README.md.
+class WorldApp {
+ public:
+  static constexpr std::string_view kName = "world";
+  static constexpr std::string_view kSummary =
+      "Stands in for the hardware: wheels, sonars, KASTOR's motors and cameras, in a simulated building.";
+  static constexpr bus::OptionAlias kOptions[] = {{"--world", "world", "", "world file to simulate"}};
+  using Config = WorldConfig;
+
+  /// Throws ConfigError when the world cannot be used, std::runtime_error without off-screen OpenGL or shared
+  /// memory.
+  WorldApp(const WorldConfig& config, bus::Context& context);
+
+  Duration TickPeriod() const { return Duration(10000); }
+  void Tick(Time now);
+
+ private:
+  void PublishSamples();
+  void PublishFrames(Time now);
+  void TakeCommands(Time now);
+  std::unique_ptr<RenderExecutor> MakeExecutor(const WorldConfig& config) const;
+
+  bus::Context& context_;
+  LoadedWorld world_;
+  FrameStore store_;
+  std::unique_ptr<RenderExecutor> executor_;
+  CameraServer cameras_;
+  Simulation simulation_;
+
+  bus::Latest<wheel_command_t> wheel_commands_;
+  bus::Inbox<head_command_t> head_commands_;
+  bus::Inbox<camera_trigger_t> triggers_;
+  bus::Publisher<wheel_state_t> wheels_;
+  bus::Publisher<sonar_ranges_t> sonars_;
+  bus::Publisher<head_state_t> head_;
+  bus::Publisher<camera_frame_t> frames_;
+  bus::Publisher<world_truth_t> truth_;
+};
+
+/// What draws this world; it holds the renderer. To be called in the thread that will draw.
+RenderFunction MakeRenderFunction(const LoadedWorld& world, const WorldConfig& config, std::uint64_t seed);
+
+}  // namespace priamos::world

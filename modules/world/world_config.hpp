@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "common/config.hpp"
+#include "world/core/image_formation.hpp"
+#include "world/core/optics.hpp"
+#include "world/core/simulation.hpp"
+
+namespace priamos::world {
+
+/// config/<deployment>/world.toml: the simulated robot, and which world it is put into.
+struct WorldConfig {
+  std::string world = "worlds/door.toml";
+  RobotModel robot;
+  ImagingConfig lens;
+  int head_specimen = 1;
+  HeadBuild head;
+
+  void Describe(Archive& a);
+  /// The head as built: the specimen, or `head` when that is 0.
+  HeadBuild BuiltHead() const;
+};
+
+}  // namespace priamos::world

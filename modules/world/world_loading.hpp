@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "world/core/build_solids.hpp"
+#include "world/core/contact.hpp"
+#include "world/core/world_plan.hpp"
+
+namespace priamos::world {
+
+/// A world of one seed, ready to be simulated.
+struct LoadedWorld {
+  WorldPlan plan;
+  GroundPlan map;
+  std::vector<Solid> solids;
+  Start start;
+  SceneConfig light;
+  std::optional<PlacedReference> reference;
+};
+
+/// Reads the world file `name`, and the map and reference object it names; `resolve` finds files of the
+/// deployment. Throws ConfigError with a sentence, also for a material that nothing is known about and for a
+/// start inside a solid.
+LoadedWorld LoadWorld(const std::string& name, const std::function<std::string(const std::string&)>& resolve,
+                      const Body& body, std::uint64_t seed);
+
+}  // namespace priamos::world

@@ -1,0 +1,136 @@
+#include "world/world_loading.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "world/core/outline.hpp"
+
+namespace priamos::world {
+namespace {
+
+const std::string kFolder = std::string(PRIAMOS_SOURCE_DIR) + "/config/sim/";
+
+std::string InShipped(const std::string& name) {
+  return kFolder + name;
+}
+
+class ShippedWorldTest : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedWorldTest, LoadsForManySeeds) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const LoadedWorld dut = LoadWorld(GetParam(), InShipped, Body{}, seed);
+    EXPECT_GT(Clearance(Body{}, dut.solids).Gap(dut.start.truth, 1), 0.1) << seed;
+  }
+}
+
+/// Smallest gap of the footprint on its way from the nominal start along the door's axis to 1.5 m behind it.
+double GapOnTheWay(const LoadedWorld& world) {
+  const DoorPlan& door = world.map.doors.front();
+  const Clearance clearance(Body{}, world.solids);
+  double gap = 10;
+  const double begin = (door.map_from_door().Inverse() * world.start.nominal).x;
+  for (double x = begin; x < 1.5; x += 0.02)
+    gap = std::min(gap, clearance.Gap(door.map_from_door() * Pose2{x, 0, 0}, 10));
+  return gap;
+}
+
+/// Those in which somebody drives.
+class DoorWorldTest : public ShippedWorldTest {};
+
+TEST_P(DoorWorldTest, LeavesTheWayThroughTheDoorFreeUnlessItIsNamedBlocked) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const double gap = GapOnTheWay(LoadWorld(GetParam(), InShipped, Body{}, seed));
+    if (GetParam().find("blocked") != std::string::npos) {
+      EXPECT_EQ(gap, 0) << seed;
+    } else {
+      EXPECT_NEAR(gap, 0.06, 1e-9) << seed;  // (0.90 m - 0.78 m) / 2
+    }
+  }
+}
+
+TEST_P(DoorWorldTest, StartsThreeToFiveMetresBeforeTheDoor) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const LoadedWorld dut = LoadWorld(GetParam(), InShipped, Body{}, seed);
+    const Pose2 in_door = dut.map.doors.front().map_from_door().Inverse() * dut.start.truth;
+    EXPECT_GE(-in_door.x, 3);
+    EXPECT_LE(-in_door.x, 5);
+    EXPECT_LE((dut.start.nominal.translation() - dut.start.truth.translation()).norm(), 0.2);
+  }
+}
+
+std::vector<std::string> ShippedWorlds(const std::string& begin) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder + "worlds")) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with(begin)) names.push_back("worlds/" + name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string TestName(const ::testing::TestParamInfo<std::string>& info) {
+  std::string name = std::filesystem::path(info.param).stem();
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedWorldTest, ::testing::ValuesIn(ShippedWorlds("")), TestName);
+INSTANTIATE_TEST_SUITE_P(All, DoorWorldTest, ::testing::ValuesIn(ShippedWorlds("door")), TestName);
+
+TEST(LoadWorldTest, TheCalibrationBodyStandsBeforeTheCameras) {
+  const LoadedWorld dut = LoadWorld("worlds/calibration.toml", InShipped, Body{}, 1);
+  ASSERT_TRUE(dut.reference);
+  EXPECT_GE(dut.reference->object.discs.size(), 16u);
+  const Pose2 base = dut.start.truth;
+  const Eigen::Vector3d in_map = dut.reference->map_from_object.translation();
+  EXPECT_NEAR((base.Inverse() * Eigen::Vector2d(in_map.x(), in_map.y())).x(), 1.75, 0.005);
+  EXPECT_NEAR(in_map.z(), 1.2, 0.005);
+}
+
+class BadWorldTest : public ::testing::Test {
+ protected:
+  BadWorldTest() { std::filesystem::create_directories(folder_); }
+  ~BadWorldTest() override { std::filesystem::remove_all(folder_); }
+  std::string ErrorOf(const std::string& world) {
+    std::ofstream(folder_ / "map.toml") << "[[walls]]\nname = \"w\"\nfrom_m = [0, 3]\nto_m = [5, 3]\n";
+    std::ofstream(folder_ / "world.toml") << "map = \"map.toml\"\n" << world;
+    try {
+      LoadWorld(
+          "world.toml", [this](const std::string& name) { return (folder_ / name).string(); }, Body{}, 1);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("priamos-world-" + std::to_string(getpid()));
+};
+
+TEST_F(BadWorldTest, AGoodOneLoads) {
+  EXPECT_EQ(ErrorOf(""), "");
+}
+
+TEST_F(BadWorldTest, AnUnknownMaterialIsNamed) {
+  EXPECT_THAT(ErrorOf("[[boxes]]\nname = \"lump\"\nx_m = 9\nmaterial = \"jelly\"\n"),
+              ::testing::AllOf(::testing::HasSubstr("\"lump\""), ::testing::HasSubstr("got \"jelly\"")));
+}
+
+TEST_F(BadWorldTest, AStartInsideABoxIsRefused) {
+  EXPECT_THAT(ErrorOf("[[boxes]]\nx_m = 0\n"), ::testing::HasSubstr("expected a free place"));
+}
+
+TEST_F(BadWorldTest, AMissingMapIsNamed) {
+  EXPECT_THAT(ErrorOf("").empty() ? "" : "?", "");
+  std::ofstream(folder_ / "other.toml") << "map = \"nowhere.toml\"\n";
+  EXPECT_THROW(LoadWorld(
+                   "other.toml", [this](const std::string& n) { return (folder_ / n).string(); }, Body{}, 1),
+               ConfigError);
+}
+
+}  // namespace
+}  // namespace priamos::world
