@@ -182,6 +182,18 @@ std::string_view DriveLimitText(int limit) {
       return "the wheels do not answer";
     case drive_status_t::LIMIT_SONAR_SILENT:
       return "the sonars are silent";
+    case drive_status_t::LIMIT_WHEELS_STUCK:
+      return "the wheels are stuck";
+    case drive_status_t::LIMIT_HEAD_SILENT:
+      return "the head is silent";
+    case drive_status_t::LIMIT_LINK_LOST:
+      return "the radio link is lost";
+    case drive_status_t::LIMIT_OPERATOR_SILENT:
+      return "the operator is silent";
+    case drive_status_t::LIMIT_LEASE_LOST:
+      return "the lease is lost";
+    case drive_status_t::LIMIT_ESTOP:
+      return "the emergency stop is pressed";
     default:
       return "unknown limit";
   }

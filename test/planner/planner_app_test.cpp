@@ -92,14 +92,14 @@ TEST(PlannerApp, PassesTheDoorOnTheBus) {
   Workstation w;
   w.Order(mission_command_t::PASS_DOOR);
   w.SendLink(true);
-  w.SendPose(2.6);
+  w.SendPose(3.1);
   w.Run(2);
   ASSERT_EQ(w.phase(), mission_status_t::APPROACHING);
   EXPECT_EQ(w.models.Drain().size(), 1u);
   auto paths = w.paths.Drain();
   ASSERT_EQ(paths.size(), 1u);
 
-  w.SendPose(2.7, paths[0].speed_m_s);
+  w.SendPose(3.3, paths[0].speed_m_s);
   w.Run(2);
   auto looks = w.looks.Drain();
   ASSERT_EQ(looks.size(), 1u);
@@ -112,7 +112,7 @@ TEST(PlannerApp, PassesTheDoorOnTheBus) {
   w.SendCorrection(looks[0].request_id);
   w.Run(2);
   EXPECT_EQ(w.phase(), mission_status_t::LOOKING_RIGHT);
-  w.SendPose(2.9, 0.3);
+  w.SendPose(4.4, 0.3);
   w.Run(2);
   ASSERT_EQ(w.phase(), mission_status_t::PASSING);
   paths = w.paths.Drain();
@@ -141,9 +141,9 @@ TEST(PlannerApp, FixThatWasNotFoundIsAskedForAgain) {
   auto fix = w.other.Advertise(channels::kLandmarkFix);
   w.Order(mission_command_t::PASS_DOOR);
   w.SendLink(true);
-  w.SendPose(2.6);
+  w.SendPose(3.2);
   w.Run(2);
-  w.SendPose(2.7, 0.3);
+  w.SendPose(3.3, 0.3);
   w.Run(2);
   const auto first = w.looks.Drain();
   ASSERT_EQ(first.size(), 1u);

@@ -73,6 +73,8 @@ TEST(PlannerMessages, CorrectionDecidesTheLook) {
 TEST(PlannerMessages, VerdictsAndLimitsHaveDifferentWords) {
   for (int verdict = 0; verdict < 8; ++verdict)
     EXPECT_NE(FixVerdictText(verdict), FixVerdictText(verdict + 1)) << verdict;
+  for (int limit = 0; limit < drive_status_t::LIMIT_ESTOP; ++limit)
+    EXPECT_NE(DriveLimitText(limit), DriveLimitText(limit + 1)) << limit;
   EXPECT_EQ(FixVerdictText(99), "unknown verdict");
   EXPECT_EQ(CorrectionVerdictText(99), "unknown verdict");
   EXPECT_EQ(DriveLimitText(99), "unknown limit");

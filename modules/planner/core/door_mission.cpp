@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/core/passage_uncertainty.hpp"
-
 namespace priamos::planner {
 namespace {
 
@@ -38,13 +36,15 @@ void DoorMissionConfig::Describe(Archive& a) {
   a.Number("looks_take_s", looks_take_s, {"s", 0.5, 60, "both looks, starting and radio included"});
   a.Number("look_timeout_s", look_timeout_s, {"s", 0.5, 60, "silence that counts as a failed look"});
   a.Integer("tries", tries, {"-", 1, 20, "looks at one side before giving up"});
-  a.Integer("rounds", rounds, {"-", 1, 20, "times both sides are looked at when the pose stays uncertain"});
+  a.Integer("extra_looks", extra_looks,
+            {"-", 0, 50, "looks after the first two while the pose is uncertain"});
   a.Number("tracking_m", tracking_m, {"m", 0, 0.1, "what the path following may deviate in the door"});
   a.Number("command_delay_s", command_delay_s, {"s", 0, 2, "from a decision here to the wheels there"});
   a.Number("resend_path_s", resend_path_s, {"s", 1, 60, "a path not confirmed by then is sent again"});
   a.Number("blocked_s", blocked_s, {"s", 1, 600, "standing before an obstacle that ends the mission"});
   a.Number("silent_s", silent_s, {"s", 1, 600, "silence of the robot that ends the mission"});
   a.Number("limit_s", limit_s, {"s", 5, 3600, "time for the whole mission"});
+  a.Section("drift", drift, "what the wheels add on the way to the door");
 }
 
 DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner,
@@ -58,7 +58,7 @@ bool DoorMission::Start(Time now, int door_id) {
   blocked_since_.reset();
   corrected_.reset();
   aborted_ = both_sides_seen_ = false;
-  round_ = 0;
+  extra_looks_ = 0;
   // Numbers go on from the clock, so that an answer meant for an earlier planner process is not taken for
   // ours.
   if (last_id_ == 0) last_id_ = 1 + static_cast<int>(ToUtime(now) / 1'000'000 % kIds);
@@ -181,16 +181,13 @@ void DoorMission::BeginLook(Side side, Time now, MissionActions& actions) {
 }
 
 void DoorMission::LookAtDoor(Time now, MissionActions& actions) {
-  if (both_sides_seen_) return EvaluatePose(now, actions);
   if (!look_.result) {
     if (Seconds(now - look_.sent) > config_.look_timeout_s) Retry("no answer", now, actions);
     return;
   }
   if (!look_.result->ok) return Retry(look_.result->reason, now, actions);
-  if (look_.side == Side::kRight) {
-    both_sides_seen_ = true;
-    return EvaluatePose(now, actions);
-  }
+  if (look_.side == Side::kRight) both_sides_seen_ = true;
+  if (both_sides_seen_) return EvaluatePose(now, actions);
   look_.tries = 0;
   BeginLook(Side::kRight, now, actions);
 }
@@ -208,16 +205,17 @@ void DoorMission::Retry(const std::string& reason, Time now, MissionActions& act
 void DoorMission::EvaluatePose(Time now, MissionActions& actions) {
   const bool fresh = Seconds(now - pose_->stamp) <= kFreshPoseS;
   if (!fresh || (corrected_ && pose_->stamp < *corrected_ + kStampRounding)) return;
-  const auto uncertainty = AtDoor(*door_, pose_->map_from_base, pose_->covariance);
+  const auto uncertainty = AtDoor(*door_, pose_->map_from_base, pose_->covariance, config_.drift);
   const double gap_m = GapLeft(*door_, footprint_, uncertainty) - config_.tracking_m;
   const std::string figures =
       fmt::format("2 sigma at the door {:.3f} m and {:.1f} degrees", 2 * uncertainty.lateral_sigma_m,
                   Degrees(2 * uncertainty.heading_sigma_rad));
   if (gap_m < 0) {
-    if (++round_ >= config_.rounds) return Fail("the pose is too uncertain for the gap: " + figures, actions);
-    both_sides_seen_ = false;
+    if (extra_looks_ >= config_.extra_looks)
+      return Fail("the pose is too uncertain for the gap: " + figures, actions);
+    ++extra_looks_;
     look_.tries = 0;
-    return BeginLook(Side::kLeft, now, actions);
+    return BeginLook(look_.side == Side::kLeft ? Side::kRight : Side::kLeft, now, actions);
   }
   const DoorPath path = planner_.PlanPassage(*door_, PredictedPose(now));
   if (!path.ok()) return Fail(path.refusal, actions);

@@ -8,18 +8,20 @@
 #include "common/time.hpp"
 #include "planner/core/door_planner.hpp"
 #include "planner/core/mission_types.hpp"
+#include "planner/core/passage_uncertainty.hpp"
 
 namespace priamos::planner {
 
 struct DoorMissionConfig {
-  double speed_m_s = 0.30;       ///< on the approach and through the door
-  double slowest_m_s = 0.12;     ///< on a short approach
-  double look_from_m = 3.5;      ///< way to the door from which on the head may look
-  double look_to_m = 2.4;        ///< way at which both looks should be done ...
-  double looks_take_s = 3.5;     ///< ... and how long they take, starting and radio included
-  double look_timeout_s = 5;     ///< silence after a look request that counts as a failed try
-  int tries = 4;                 ///< looks at one side before giving up
-  int rounds = 3;                ///< times that both sides are looked at when the pose stays too uncertain
+  double speed_m_s = 0.30;    ///< on the approach and through the door
+  double slowest_m_s = 0.12;  ///< on a short approach
+  double look_from_m = 2.8;   ///< way to the door from which on the head may look
+  double look_to_m = 2.0;     ///< way at which both looks should be done ...
+  double looks_take_s = 3.5;  ///< ... and how long they take, starting and radio included
+  double look_timeout_s = 5;  ///< silence after a look request that counts as a failed try
+  int tries = 4;              ///< looks at one side before giving up
+  int extra_looks = 8;        ///< looks after the first two while the uncertainty does not fit the gap
+  DriftModel drift;
   double tracking_m = 0.01;      ///< what the path following may deviate in the door
   double command_delay_s = 0.2;  ///< from a decision here to the wheels there
   double resend_path_s = 4;      ///< time after which a path the robot does not confirm is sent again
@@ -101,7 +103,7 @@ class DoorMission {
   std::optional<Time> corrected_;
   Look look_;
   bool both_sides_seen_ = false;
-  int round_ = 0;
+  int extra_looks_ = 0;
   PathOrder path_;
   Time path_sent_{};
   int last_id_ = 0;

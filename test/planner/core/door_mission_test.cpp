@@ -50,7 +50,7 @@ TEST(DoorMission, LooksAtTheLeftSideFirstThenAtTheRightSide) {
   Story s;
   s.Start();
   s.robot.RunFor(60);
-  ASSERT_EQ(s.robot.looks.size(), 2u);
+  ASSERT_GE(s.robot.looks.size(), 2u);
   EXPECT_EQ(s.robot.looks[0].side, Side::kLeft);
   EXPECT_EQ(s.robot.looks[1].side, Side::kRight);
 }
@@ -63,8 +63,9 @@ RC_GTEST_PROP(DoorMission, LooksWhileDrivingAtAGoodDistanceFromAnyStart, (const 
   s.Start();
   s.robot.RunFor(90);
   RC_ASSERT(s.dut.state().phase == Phase::kDone);
-  RC_ASSERT(s.robot.look_way_m.size() == 2u);
-  for (const double way_m : s.robot.look_way_m) RC_ASSERT(way_m > 2.2 && way_m < 3.7);
+  RC_ASSERT(s.robot.look_way_m.size() >= 2u);
+  for (int i = 0; i < 2; ++i) RC_ASSERT(s.robot.look_way_m[i] > 1.7 && s.robot.look_way_m[i] < 3.0);
+  RC_ASSERT(s.robot.look_way_m.back() > 1.4);
   for (const double speed_m_s : s.robot.look_speed_m_s) RC_ASSERT(speed_m_s > 0.1);
   // Footprint front and the 20 cm that the pose may be wrong: never nearer than half a metre to the wall.
   RC_ASSERT(s.robot.nearest_before_fix_m > 0.475 + 0.085 + 0.4);
@@ -108,7 +109,7 @@ TEST(DoorMission, LooksAgainWhenASideWasNotFound) {
   s.Start();
   s.robot.RunFor(60);
   EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
-  ASSERT_EQ(s.robot.looks.size(), 3u);
+  ASSERT_GE(s.robot.looks.size(), 3u);
   EXPECT_EQ(s.robot.looks[1].side, Side::kLeft);
   EXPECT_NE(s.robot.looks[0].request_id, s.robot.looks[1].request_id);
   EXPECT_EQ(s.robot.models_received, 2);
@@ -153,8 +154,20 @@ TEST(DoorMission, UncertainPoseIsLookedAtAgainAndThenRefused) {
   s.robot.RunFor(60);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
   EXPECT_THAT(s.dut.state().text, HasSubstr("too uncertain for the gap"));
-  EXPECT_EQ(s.robot.looks.size(), 6u);
+  EXPECT_EQ(s.robot.looks.size(), 10u);
   EXPECT_LT(s.robot.truth().x, 6 - 1.1);
+}
+
+TEST(DoorMission, LooksAgainFromNearerInTurnUntilTheDriftOfTheRestFits) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  ASSERT_GT(s.robot.looks.size(), 2u);
+  for (std::size_t i = 1; i < s.robot.looks.size(); ++i) {
+    EXPECT_NE(s.robot.looks[i].side, s.robot.looks[i - 1].side);
+    EXPECT_LT(s.robot.look_way_m[i], s.robot.look_way_m[i - 1]);
+  }
+  EXPECT_GT(s.robot.speed_m_s(), 0.2);
 }
 
 TEST(DoorMission, DoesNotPlanWithAPoseFromBeforeTheCorrection) {
@@ -168,8 +181,9 @@ TEST(DoorMission, DoesNotPlanWithAPoseFromBeforeTheCorrection) {
   s.dut.OnLook({s.robot.looks.back().request_id + 1, true, ""});
   s.robot.RunFor(0.3);
   EXPECT_EQ(s.dut.state().phase, Phase::kLookingRight);
-  s.robot.RunUntil(Phase::kPassing, 2);
-  EXPECT_EQ(s.dut.state().phase, Phase::kPassing);
+  // Evaluated only then: too far away to go, so it looks again.
+  s.robot.RunUntil(Phase::kLookingLeft, 2);
+  EXPECT_EQ(s.dut.state().phase, Phase::kLookingLeft);
   EXPECT_GT(s.robot.now(), now + FromSeconds(0.4));
 }
 
@@ -267,7 +281,7 @@ TEST(DoorMission, ShortApproachIsSlowLongApproachIsNot) {
     s->Start();
     s->robot.RunFor(1);
   }
-  EXPECT_NEAR(near.robot.paths[0].speed_m_s, (3.0 - 2.4) / 3.5, 1e-9);
+  EXPECT_NEAR(near.robot.paths[0].speed_m_s, (3.0 - 2.0) / 3.5, 1e-9);
   EXPECT_NEAR(far.robot.paths[0].speed_m_s, 0.3, 1e-9);
 }
 

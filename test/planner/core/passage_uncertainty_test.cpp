@@ -10,10 +10,12 @@
 namespace priamos::planner {
 namespace {
 
+constexpr DriftModel kNoDrift{0, 0, 0};
+
 TEST(PassageUncertainty, IndependentErrorsAddInQuadrature) {
   const DoorPlan door = ShippedPlan().doors[0];
   const Eigen::Matrix3d covariance = Eigen::Vector3d(0.5 * 0.5, 0.03 * 0.03, 0.02 * 0.02).asDiagonal();
-  const auto dut = AtDoor(door, {4.0, 2.4, 0}, covariance);
+  const auto dut = AtDoor(door, {4.0, 2.4, 0}, covariance, kNoDrift);
   EXPECT_NEAR(dut.lateral_sigma_m, std::hypot(0.03, 2 * 0.02), 1e-12);
   EXPECT_NEAR(dut.heading_sigma_rad, 0.02, 1e-12);
 }
@@ -26,8 +28,9 @@ TEST(PassageUncertainty, IsTheSameForATurnedMap) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = turned.rotation();
   const Pose2 base{3.5, 2.5, 0.1};
-  const auto straight = AtDoor(plan.doors[0], base, covariance);
-  const auto dut = AtDoor(Moved(plan, turned).doors[0], turned * base, turn * covariance * turn.transpose());
+  const auto straight = AtDoor(plan.doors[0], base, covariance, {});
+  const auto dut =
+      AtDoor(Moved(plan, turned).doors[0], turned * base, turn * covariance * turn.transpose(), {});
   EXPECT_NEAR(dut.lateral_sigma_m, straight.lateral_sigma_m, 1e-9);
 }
 
@@ -48,7 +51,39 @@ TEST(PassageUncertainty, MatchesASampledRobotThatFollowsItsBelief) {
     const double lateral = (truth * Eigen::Vector2d(2.2, 0)).y() - 2.4;
     sum += lateral * lateral;
   }
-  EXPECT_NEAR(AtDoor(door, {3.8, 2.4, 0}, covariance).lateral_sigma_m, std::sqrt(sum / kRuns), 0.0004);
+  EXPECT_NEAR(AtDoor(door, {3.8, 2.4, 0}, covariance, kNoDrift).lateral_sigma_m, std::sqrt(sum / kRuns),
+              0.0004);
+}
+
+TEST(PassageUncertainty, DriftMatchesASampledDrive) {
+  const DoorPlan door = ShippedPlan().doors[0];
+  const DriftModel drift{0.0075, 0.005, 0.003};
+  Rng rng(8);
+  constexpr int kRuns = 4000, kSteps = 100;
+  constexpr double kWay_m = 2.0, kStep_m = kWay_m / kSteps;
+  double lateral_sum = 0, heading_sum = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    double y = 0, yaw = 0;
+    const double bias = rng.Normal(drift.yaw_bias_rad_per_m);
+    for (int i = 0; i < kSteps; ++i) {
+      yaw += rng.Normal(drift.yaw_rad_per_sqrt_m * std::sqrt(kStep_m)) + bias * kStep_m;
+      y += yaw * kStep_m + rng.Normal(drift.lateral_m_per_sqrt_m * std::sqrt(kStep_m));
+    }
+    lateral_sum += y * y;
+    heading_sum += yaw * yaw;
+  }
+  const auto dut = AtDoor(door, {4.0, 2.4, 0}, Eigen::Matrix3d::Zero(), drift);
+  EXPECT_NEAR(dut.lateral_sigma_m, std::sqrt(lateral_sum / kRuns), 0.05 * dut.lateral_sigma_m);
+  EXPECT_NEAR(dut.heading_sigma_rad, std::sqrt(heading_sum / kRuns), 0.05 * dut.heading_sigma_rad);
+}
+
+TEST(PassageUncertainty, PerfectFixFromAfarIsNotGoodEnoughFromNearItIs) {
+  const DoorPlan door = ShippedPlan().doors[0];
+  const auto gap = [&](double way_m) {
+    return GapLeft(door, Footprint{}, AtDoor(door, {6 - way_m, 2.4, 0}, Eigen::Matrix3d::Zero(), {}));
+  };
+  EXPECT_LT(gap(3.0), 0);
+  EXPECT_GT(gap(1.5), 0.02);
 }
 
 TEST(PassageUncertainty, CertainRobotHasSixCentimetres) {
