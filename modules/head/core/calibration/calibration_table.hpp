@@ -8,10 +8,11 @@
 
 namespace priamos::head {
 
-/// The calibrated setups as OpenCV FileStorage YAML, readable by people and by OpenCV alone.
+/// The calibration table as a text that a person can read (OpenCV FileStorage YAML). Reading it back gives
+/// the same numbers.
 std::string ToYaml(const std::vector<CalibratedSetup>& setups);
 
-/// The way back. Refuses text that is no such table, or holds numbers no camera can have.
-Outcome<std::vector<CalibratedSetup>> FromYaml(const std::string& text);
+/// Reads such a text. A damaged, truncated or foreign one is refused with one sentence; it never throws.
+Outcome<std::vector<CalibratedSetup>> FromYaml(const std::string& yaml);
 
 }  // namespace priamos::head

@@ -1,58 +1,95 @@
 #include "head/core/calibration/camera_calibration.hpp"
 
-#include <vector>
+#include <fmt/format.h>
 
 #include "head/core/calibration/disc_detection.hpp"
 #include "head/core/calibration/dlt.hpp"
 
 namespace priamos::head {
+
 namespace {
 
-constexpr int kPasses = 2;  // the bias needs a camera, the camera the unbiased points
-constexpr int kFitSteps = 20;
-constexpr double kCentreSigmaPx = 20, kK1Sigma = 0.1;  // what is known of a lens beforehand
+using Eigen::Vector2d;
 
-/// The measured centroids with the bias of the discs taken out, in the object's frame.
-std::vector<PointPair> UnbiasedPoints(const std::vector<DetectedDisc>& detections, const Labelling& labelling,
-                                      const ReferenceObject& object, const PinholeView& view) {
-  const CameraModel camera = view.Model();
+constexpr int kPasses = 3;  // the third changes thousandths of a pixel: the first two are those that count
+constexpr double kWorstError_px = 1;
+constexpr double kSigmaFloor_px = 0.005;  // models of light and lens are not better than that
+
+/// Pairs of points with the bias taken off and the model's distortion undone.
+std::vector<PointPair> StraightPairs(const std::vector<DiscObservation>& observations,
+                                     const std::vector<Vector2d>& bias, const CameraModel& model) {
   std::vector<PointPair> pairs;
-  for (const Label& label : labelling.labels) {
-    const ReferenceDisc& disc = object.discs[label.disc];
-    pairs.push_back(
-        {disc.centre_m, detections[label.detection].ellipse.centre_px - CentroidBias(camera, disc)});
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    pairs.push_back({observations[i].disc.centre_m, model.Undistort(observations[i].centroid_px - bias[i])});
   }
   return pairs;
 }
 
+std::vector<Vector2d> Biases(const std::vector<DiscObservation>& observations, const CameraModel& model) {
+  std::vector<Vector2d> biases;
+  for (const DiscObservation& o : observations) biases.push_back(CentroidBias(model, o.disc));
+  return biases;
+}
+
+void FillErrors(const std::vector<Vector2d>& bias, CameraCalibration& c) {
+  for (std::size_t i = 0; i < c.observations.size(); ++i) {
+    const DiscObservation& o = c.observations[i];
+    c.residuals_px.push_back(o.centroid_px - bias[i] - c.model.Distort(c.model.Project(o.disc.centre_m)));
+    c.mean_error_px += c.residuals_px.back().norm() / c.observations.size();
+  }
+}
+
 }  // namespace
+
+Outcome<CameraCalibration> CalibrateFromDiscs(const std::vector<DiscObservation>& observations,
+                                              const LensKnowledge& lens) {
+  CameraCalibration result;
+  result.observations = observations;
+  result.discs = static_cast<int>(observations.size());
+  std::vector<Vector2d> bias(observations.size(), Vector2d::Zero());
+  CameraModel lens_so_far;  // without distortion at first
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const std::vector<PointPair> pairs = StraightPairs(observations, bias, lens_so_far);
+    const auto dlt = SolveDlt(pairs);
+    if (!dlt) return Refusal{dlt.reason()};
+    if (pass == 0) result.dlt_error_px = MeanImageError(*dlt, pairs);
+    CameraModel start = lens_so_far;
+    start.image_from_base = *dlt;
+    const Outcome<CameraModel> refined = RefineCamera(observations, bias, start, lens);
+    if (!refined) return Refusal{refined.reason()};
+    result.model = lens_so_far = *refined;
+    if (pass + 1 < kPasses) bias = Biases(observations, *refined);
+  }
+  FillErrors(bias, result);
+  if (!(result.mean_error_px < kWorstError_px)) {
+    return Refusal{
+        fmt::format("the discs are {:.2f} px from where the best camera sees them: object or "
+                    "measurements are wrong",
+                    result.mean_error_px)};
+  }
+  return result;
+}
+
+std::vector<DiscObservation> ObserveDiscs(const std::vector<DetectedDisc>& detections,
+                                          const Labelling& labelling, const ReferenceObject& object,
+                                          const Eigen::Isometry3d& base_from_object) {
+  const ReferenceObject in_base = object.Moved(base_from_object);
+  std::vector<DiscObservation> observations;
+  for (const auto& [disc, detection] : labelling.labels) {
+    const DetectedDisc& d = detections[detection];
+    observations.push_back({in_base.discs[disc], d.ellipse.centre_px, std::max(kSigmaFloor_px, d.sigma_px)});
+  }
+  return observations;
+}
 
 Outcome<CameraCalibration> CalibrateCamera(const GreyImage& image, const ReferenceObject& object,
                                            const DiscLabeller& labeller,
-                                           const Eigen::Isometry3d& base_from_object) {
-  const auto detections = DetectDiscs(image);
-  const auto labelling = labeller.Label(detections);
+                                           const Eigen::Isometry3d& base_from_object,
+                                           const LensKnowledge& lens) {
+  const std::vector<DetectedDisc> detections = DetectDiscs(image);
+  const Outcome<Labelling> labelling = labeller.Label(detections);
   if (!labelling) return Refusal{labelling.reason()};
-  PinholeView view = labelling->view;
-  std::vector<PointPair> pairs;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    pairs = UnbiasedPoints(detections, *labelling, object, view);
-    LensPrior lens;
-    lens.focal_log_sigma = 1;
-    lens.centre_sigma_px = kCentreSigmaPx;
-    lens.k1_sigma = kK1Sigma;
-    FitView(view, pairs, lens, kFitSteps, 0.05);
-  }
-  CameraCalibration result{view.Model(), static_cast<int>(pairs.size()), 0};
-  for (PointPair& pair : pairs) {
-    pair.image_px = result.model.Undistort(pair.image_px);
-    pair.point_m = base_from_object * pair.point_m;
-  }
-  const auto matrix = SolveDlt(pairs);
-  if (!matrix) return Refusal{matrix.reason()};
-  result.model.image_from_base = *matrix;
-  result.mean_error_px = MeanImageError(*matrix, pairs);
-  return result;
+  return CalibrateFromDiscs(ObserveDiscs(detections, *labelling, object, base_from_object), lens);
 }
 
 }  // namespace priamos::head

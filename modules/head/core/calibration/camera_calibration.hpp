@@ -1,27 +1,38 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <vector>
 
-#include "common/frame_store.hpp"
+#include "head/core/calibration/camera_refinement.hpp"
 #include "head/core/calibration/correspondence.hpp"
-#include "head/core/calibration/outcome.hpp"
-#include "head/core/calibration/reference_object.hpp"
-#include "head/core/camera_model.hpp"
 
 namespace priamos::head {
 
-/// One camera as one picture of the reference object shows it.
+/// One camera calibrated from one image of the reference object.
 struct CameraCalibration {
-  CameraModel model;         ///< in the base frame
-  int discs = 0;             ///< found and labelled
-  double mean_error_px = 0;  ///< F of equation 7, on undistorted points without the discs' bias
+  CameraModel model;  ///< in the base frame
+  int discs = 0;
+  double mean_error_px = 0;  ///< F, equation 7 of the paper, of the refined model
+  double dlt_error_px = 0;   ///< F of the plain DLT matrix of equations 1-6, before distortion is modelled
+  std::vector<DiscObservation> observations;  ///< in the base frame
+  std::vector<Eigen::Vector2d> residuals_px;  ///< measured minus computed, for every observation
 };
 
-/// From a picture to a camera: finds and labels the discs, fits the lens, takes the distortion and the bias
-/// of the discs' centroids out of the measured points, and solves equations 1-6 for the DLT matrix. `object`
-/// is in its own frame, as the labeller's; `base_from_object` is where it stands.
+/// The procedure of section 3.1 of the paper on discs whose places are known: DLT matrix by least squares,
+/// refined with lens distortion; then once more with the bias of the centroids, which the first pass makes
+/// known, taken off. Refuses too few discs, degenerate arrangements, and a fit worse than 1 px.
+Outcome<CameraCalibration> CalibrateFromDiscs(const std::vector<DiscObservation>& observations,
+                                              const LensKnowledge& lens = {});
+
+/// The observations that a labelled image gives, in the base frame.
+std::vector<DiscObservation> ObserveDiscs(const std::vector<DetectedDisc>& detections,
+                                          const Labelling& labelling, const ReferenceObject& object,
+                                          const Eigen::Isometry3d& base_from_object);
+
+/// All of it from an image: discs found, recognised, and used.
 Outcome<CameraCalibration> CalibrateCamera(const GreyImage& image, const ReferenceObject& object,
                                            const DiscLabeller& labeller,
-                                           const Eigen::Isometry3d& base_from_object);
+                                           const Eigen::Isometry3d& base_from_object,
+                                           const LensKnowledge& lens = {});
 
 }  // namespace priamos::head

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/frame_store.hpp"
+#include "head/core/look_sequence.hpp"
+
+namespace priamos::head {
+
+/// Fetches pictures from the frame grabber's memory.
+class CameraReader {
+ public:
+  explicit CameraReader(std::string store_name) : store_name_(std::move(store_name)) {}
+
+  /// nullopt if the picture is not there (any more) or not what the notice says.
+  std::optional<GreyImage> Read(const FrameNotice& frame);
+
+ private:
+  std::string store_name_;
+  std::optional<FrameStore> store_;
+};
+
+}  // namespace priamos::head

@@ -1,0 +1,174 @@
+#include "head/head_app.hpp"
+
+#include <fmt/format.h>
+
+#include <opencv2/core.hpp>
+
+#include "head/calibration_file.hpp"
+
+namespace priamos::head {
+namespace {
+
+constexpr std::size_t kMaxOrders = 16;
+constexpr double kPanToleranceRad = Radians(0.5);
+
+LandmarkFixOptions FinderOptions(const VisionConfig& vision) {
+  LandmarkFixOptions options;
+  options.solver.model_sigma_m = vision.model_sigma_m;
+  options.solver.camera_sigma_px = vision.camera_sigma_px;
+  options.stereo.camera_sigma_px = vision.camera_sigma_px;
+  options.min_log_odds = vision.min_log_odds;
+  options.min_lead = vision.min_lead;
+  return options;
+}
+
+EdgeOperator::Options EdgeOptions(const VisionConfig& vision) {
+  EdgeOperator::Options options;
+  options.min_contrast = vision.min_contrast;
+  options.min_length_px = vision.min_edge_px;
+  return options;
+}
+
+LandmarkFix NotFound(Verdict verdict) {
+  LandmarkFix fix;
+  fix.verdict = verdict;
+  return fix;
+}
+
+}  // namespace
+
+HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
+    : config_(config),
+      context_(context),
+      setups_(config.mode == "calibrate" ? std::vector<CalibratedSetup>{}
+                                         : LoadSetups(context.ResolvePath(config.calibration))),
+      positioner_(config.motors),
+      look_(config.look),
+      finder_(FinderOptions(config.vision)),
+      edges_(EdgeOptions(config.vision)),
+      cameras_(context.instance() + "-camera"),
+      head_state_(context.node().Subscribe(channels::kHeadState)),
+      frames_(context.node().SubscribeAll(channels::kCameraFrame)),
+      pose_(context.node().SubscribeAll(channels::kPose)),
+      landmark_models_(context.node().SubscribeAll(channels::kLandmarkModel)),
+      look_requests_(context.node().SubscribeAll(channels::kLookRequest)),
+      head_command_(context.node().Advertise(channels::kHeadCommand)),
+      trigger_(context.node().Advertise(channels::kCameraTrigger)),
+      fix_(context.node().Advertise(channels::kLandmarkFix)) {
+  if (config.mode == "calibrate") {
+    calibration_.emplace(config, context);
+    return;
+  }
+  for (const int side : {0, 1, 2})
+    SetupFor(side);  // a table without them must be known before the first look
+}
+
+const CalibratedSetup& HeadApp::SetupFor(int side) const {
+  const double pan_deg = side == 1   ? config_.left_pan_deg
+                         : side == 2 ? config_.right_pan_deg
+                                     : config_.whole_pan_deg;
+  const CalibratedSetup* setup = FindSetup(setups_, Radians(pan_deg), kPanToleranceRad);
+  if (!setup) {
+    throw ConfigError(
+        fmt::format("{}: no head setup with pan {} degrees; calibrate it with `priamos-head --calibrate`",
+                    context_.ResolvePath(config_.calibration), pan_deg));
+  }
+  return *setup;
+}
+
+void HeadApp::Tick(Time now) {
+  if (calibration_) return calibration_->Tick(now);
+  TakeMessages(now);
+  StartNext(now);
+  MoveHead(now);
+  Look(now);
+}
+
+void HeadApp::TakeMessages(Time now) {
+  if (const auto state = head_state_.Take()) report_ = FromMessage(*state);
+  for (const pose_t& message : pose_.Drain()) {
+    if (const auto sample = FromMessage(message)) poses_.Add(*sample);
+  }
+  for (const landmark_model_t& message : landmark_models_.Drain()) {
+    if (auto model = FromMessage(message)) models_[model->id] = std::move(*model);
+  }
+  for (const camera_frame_t& message : frames_.Drain()) look_.Add(FromMessage(message));
+  for (const look_request_t& message : look_requests_.Drain()) {
+    orders_.push_back(FromMessage(message));
+    if (orders_.size() <= kMaxOrders) continue;
+    context_.Log(bus::Level::kWarning, "too many look requests at once: the oldest is refused");
+    look_.End();
+    Answer(NotFound(Verdict::kNoImage), now);
+  }
+}
+
+void HeadApp::StartNext(Time now) {
+  if (look_.active() || orders_.empty()) return;
+  positioner_.MoveTo(SetupFor(orders_.front().side).setting, now);
+  look_.Begin(now);
+}
+
+void HeadApp::MoveHead(Time now) {
+  if (const auto setting = positioner_.Step(report_ ? &*report_ : nullptr, now)) {
+    head_command_.Publish(ToMessage(*setting, now));
+  }
+}
+
+void HeadApp::Look(Time now) {
+  switch (look_.Step(positioner_.settled(), positioner_.failed(), now)) {
+    case LookSequence::Action::kWait:
+      return;
+    case LookSequence::Action::kTrigger:
+      trigger_.Publish(TriggerMessage(look_.frame_id(), now));
+      return;
+    case LookSequence::Action::kGiveUp:
+      context_.Log(bus::Level::kWarning, positioner_.failed() ? "the head did not reach its setting"
+                                                              : "no stereo pair arrived from the cameras");
+      look_.End();
+      Answer(NotFound(Verdict::kNoImage), now);
+      return;
+    case LookSequence::Action::kUsePair: {
+      Time exposure = now;
+      const LandmarkFix fix = Evaluate(look_.pair(), exposure);
+      look_.End();
+      Answer(fix, exposure);
+    }
+  }
+}
+
+LandmarkFix HeadApp::Evaluate(const FramePair& pair, Time& exposure) {
+  exposure = pair[0].exposure;
+  const auto model = models_.find(orders_.front().landmark_id);
+  if (model == models_.end()) return NotFound(Verdict::kNoModel);
+  const auto robot = poses_.At(exposure);
+  if (!robot) return NotFound(Verdict::kNoPose);
+  std::array<EdgeImage, 2> edges;
+  for (int i = 0; i < 2; ++i) {
+    auto image = cameras_.Read(pair[i]);
+    if (!image || image->width < 64 || image->height < 64) return NotFound(Verdict::kNoImage);
+    edges_.Extract(cv::Mat(image->height, image->width, CV_8UC1, image->pixels.data()), edges[i]);
+  }
+  const CalibratedSetup& setup = SetupFor(orders_.front().side);
+  return finder_.Find(model->second, Predict(*robot, model->second.map_from_landmark), setup.cameras[0],
+                      setup.cameras[1], edges[0], edges[1]);
+}
+
+void HeadApp::Answer(const LandmarkFix& fix, Time exposure) {
+  const LookOrder order = orders_.front();
+  orders_.pop_front();
+  const auto model = models_.find(order.landmark_id);
+  const Pose2 in_map = model == models_.end() ? Pose2{} : model->second.map_from_landmark;
+  fix_.Publish(ToMessage(LookAnswer{order, exposure, fix, in_map}));
+  if (fix.verdict != Verdict::kFound) {
+    context_.Log(bus::Level::kWarning, fmt::format("look {}: landmark {} not found: {}", order.request_id,
+                                                   order.landmark_id, Describe(fix.verdict)));
+    return;
+  }
+  context_.Log(
+      bus::Level::kInfo,
+      fmt::format("look {}: landmark {} at ({:.3f}, {:.3f}) m, {:.2f} deg; {} edges, {:.2f} px",
+                  order.request_id, order.landmark_id, fix.base_from_landmark.x, fix.base_from_landmark.y,
+                  Degrees(fix.base_from_landmark.yaw), fix.n_matched, fix.residual_px));
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "bus/app.hpp"
+#include "bus/context.hpp"
+#include "head/calibration_mode.hpp"
+#include "head/core/calibrated_setup.hpp"
+#include "head/core/edge_segments.hpp"
+#include "head/head_config.hpp"
+#include "head/head_messages.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::head {
+
+/// The second of the robot's two computers: the KASTOR head and its eyes. See README.md.
+class HeadApp {
+ public:
+  static constexpr std::string_view kName = "head";
+  static constexpr std::string_view kSummary =
+      "The stereo head: turns the cameras, sees edges, finds landmarks, answers LOOK_REQUEST with "
+      "LANDMARK_FIX.";
+  static constexpr bus::OptionAlias kOptions[] = {
+      {"--calibrate", "mode", "\"calibrate\"",
+       "observe the reference object, write the calibration table, end"}};
+  using Config = HeadConfig;
+
+  HeadApp(const HeadConfig& config, bus::Context& context);
+
+  Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
+  void Tick(Time now);
+
+ private:
+  void TakeMessages(Time now);
+  void StartNext(Time now);
+  void MoveHead(Time now);
+  void Look(Time now);
+  LandmarkFix Evaluate(const FramePair& pair, Time& exposure);
+  const CalibratedSetup& SetupFor(int side) const;
+  void Answer(const LandmarkFix& fix, Time exposure);
+
+  HeadConfig config_;
+  bus::Context& context_;
+  std::optional<CalibrationMode> calibration_;
+  std::vector<CalibratedSetup> setups_;
+  HeadPositioner positioner_;
+  LookSequence look_;
+  LandmarkFinder finder_;
+  EdgeOperator edges_;
+  PoseHistory poses_;
+  std::map<int, LandmarkModel> models_;
+  std::deque<LookOrder> orders_;
+  CameraReader cameras_;
+  std::optional<HeadReport> report_;
+
+  bus::Latest<head_state_t> head_state_;
+  bus::Inbox<camera_frame_t> frames_;
+  bus::Inbox<pose_t> pose_;
+  bus::Inbox<landmark_model_t> landmark_models_;
+  bus::Inbox<look_request_t> look_requests_;
+  bus::Publisher<head_command_t> head_command_;
+  bus::Publisher<camera_trigger_t> trigger_;
+  bus::Publisher<landmark_fix_t> fix_;
+};
+
+}  // namespace priamos::head

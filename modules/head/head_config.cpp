@@ -1,0 +1,58 @@
+#include "head/head_config.hpp"
+
+#include "common/geometry.hpp"
+
+namespace priamos::head {
+
+void VisionConfig::Describe(Archive& a) {
+  a.Number("min_contrast", min_contrast, {"-", 1, 100, "weakest edge that is used [grey values]"});
+  a.Number("min_edge_px", min_edge_px, {"px", 8, 200, "shortest edge that is used"});
+  a.Number("model_sigma_m", model_sigma_m,
+           {"m", 0.0001, 0.05, "how well landmark models are known, each edge and axis"});
+  a.Number("camera_sigma_px", camera_sigma_px, {"px", 0.01, 5, "how well the cameras are calibrated"});
+  a.Number("min_log_odds", min_log_odds,
+           {"-", 0, 100, "natural logarithm of the evidence that a fix needs beyond chance"});
+  a.Number("min_lead", min_lead, {"-", 0, 100, "and over the next best pose"});
+}
+
+void ReferencePose::Describe(Archive& a) {
+  a.Text("object", object, "its discs, relative to this file");
+  a.Number("x_m", x_m, {"m", -10, 10, "its origin in the base frame"});
+  a.Number("y_m", y_m, {"m", -10, 10, "its origin in the base frame"});
+  a.Number("z_m", z_m, {"m", -1, 5, "its origin in the base frame"});
+  a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "direction of its x axis, which points out of its front"});
+}
+
+void HeadConfig::Describe(Archive& a) {
+  a.Number("rate_hz", rate_hz, {"Hz", 10, 200, "decisions"});
+  a.Choice("mode", mode, {"look", "calibrate"},
+           "look answers LOOK_REQUEST; calibrate observes the reference object, writes the table and ends");
+  a.Text("calibration", calibration, "table of calibrated head setups, relative to this file");
+  a.Number("left_pan_deg", left_pan_deg, {"deg", -110, 110, "pan to look at the left side of a landmark"});
+  a.Number("right_pan_deg", right_pan_deg, {"deg", -110, 110, "pan to look at the right side"});
+  a.Number("whole_pan_deg", whole_pan_deg, {"deg", -110, 110, "pan to look at the whole"});
+  a.Number("tilt_deg", tilt_deg, {"deg", -45, 45, "tilt for all looks, positive looks down"});
+  a.Number("convergence_deg", convergence_deg,
+           {"deg", -20, 20, "each camera is turned so far towards the middle"});
+  a.Integer("zoom_step", zoom_step, {"step", 0, 2000, "zoom motors for all looks"});
+  a.Integer("focus_step", focus_step, {"step", 0, 2000, "focus motors for all looks"});
+  a.Section("reference", reference, "where the reference object stands during a calibration");
+  a.Section("motors", motors, "the KASTOR motors");
+  a.Section("look", look, "the course of one look");
+  a.Section("vision", vision, "edges and landmark fixes");
+}
+
+std::vector<HeadSetting> HeadConfig::Settings() const {
+  std::vector<HeadSetting> settings;
+  for (const double pan_deg : {left_pan_deg, whole_pan_deg, right_pan_deg}) {
+    const double turn = Radians(convergence_deg);
+    settings.push_back({Radians(pan_deg),
+                        Radians(tilt_deg),
+                        {-turn, turn},
+                        {zoom_step, zoom_step},
+                        {focus_step, focus_step}});
+  }
+  return settings;
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "head/core/head_positioner.hpp"
+#include "head/core/look_sequence.hpp"
+
+namespace priamos::head {
+
+/// How a landmark is searched and when a fix is believed; the rest of LandmarkFixOptions follows from
+/// geometry.
+struct VisionConfig {
+  double min_contrast = 8;        ///< weakest edge [grey values]
+  double min_edge_px = 12;        ///< shortest edge
+  double model_sigma_m = 0.001;   ///< how well landmark models are known, each edge and axis
+  double camera_sigma_px = 0.15;  ///< how well the cameras are calibrated
+  double min_log_odds = 7;        ///< evidence wanted beyond chance
+  double min_lead = 6;            ///< evidence wanted over the next best pose
+
+  void Describe(Archive& a);
+};
+
+/// Where the reference object stands during a calibration.
+struct ReferencePose {
+  std::string object = "reference_object.toml";  ///< its discs, beside the configuration file
+  double x_m = 1.75, y_m = 0, z_m = 1.20;        ///< its origin in the base frame
+  double yaw_deg = 180;                          ///< of its x axis, which points out of its front
+
+  void Describe(Archive& a);
+};
+
+/// config/<deployment>/head.toml
+struct HeadConfig {
+  double rate_hz = 50;                      ///< decisions
+  std::string mode = "look";                ///< look or calibrate
+  std::string calibration = "kastor.yaml";  ///< table of head setups, beside the configuration file
+  double left_pan_deg = 5;                  ///< pan to look at the left side of a landmark
+  double right_pan_deg = -5;                ///< and at the right side
+  double whole_pan_deg = 0;                 ///< and at the whole of it
+  double tilt_deg = 0;                      ///< for all looks
+  double convergence_deg = 1.15;            ///< each camera is turned so far towards the middle
+  int zoom_step = 650;
+  int focus_step = 1600;
+  ReferencePose reference;
+  PositionerConfig motors;
+  LookConfig look;
+  VisionConfig vision;
+
+  void Describe(Archive& a);
+  /// The settings to calibrate: left, whole, right.
+  std::vector<HeadSetting> Settings() const;
+};
+
+}  // namespace priamos::head

@@ -1,0 +1,115 @@
+#include "head/head_messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/covariance.hpp"
+
+namespace priamos::head {
+namespace {
+
+constexpr double kMinEdgeM = 0.02;
+
+bool AllFinite(std::initializer_list<double> values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+}  // namespace
+
+HeadReport FromMessage(const head_state_t& message) {
+  HeadReport report{FromUtime(message.utime), {}, message.moving != 0};
+  report.setting.pan_rad = message.pan_rad;
+  report.setting.tilt_rad = message.tilt_rad;
+  for (int i = 0; i < 2; ++i) {
+    report.setting.vergence_rad[i] = message.vergence_rad[i];
+    report.setting.zoom_step[i] = message.zoom_step[i];
+    report.setting.focus_step[i] = message.focus_step[i];
+  }
+  return report;
+}
+
+FrameNotice FromMessage(const camera_frame_t& message) {
+  return {FromUtime(message.utime_exposure),
+          message.frame_id,
+          message.camera,
+          message.slot,
+          message.width_px,
+          message.height_px};
+}
+
+LookOrder FromMessage(const look_request_t& message) {
+  return {message.request_id, message.landmark_id, std::clamp<int>(message.side, 0, 2)};
+}
+
+std::optional<PoseSample> FromMessage(const pose_t& m) {
+  if (!AllFinite({m.x_m, m.y_m, m.yaw_rad, m.vx_m_s, m.vy_m_s, m.wz_rad_s, m.sigma_x_m, m.sigma_y_m,
+                  m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw})) {
+    return std::nullopt;
+  }
+  return PoseSample{
+      FromUtime(m.utime),
+      {m.x_m, m.y_m, WrapAngle(m.yaw_rad)},
+      {m.vx_m_s, m.vy_m_s, m.wz_rad_s},
+      ToCovariance({m.sigma_x_m, m.sigma_y_m, m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw})};
+}
+
+std::optional<LandmarkModel> FromMessage(const landmark_model_t& message) {
+  if (!AllFinite({message.x_m, message.y_m, message.yaw_rad})) return std::nullopt;
+  LandmarkModel model{message.landmark_id, {message.x_m, message.y_m, WrapAngle(message.yaw_rad)}, {}};
+  for (const landmark_edge_t& e : message.edges) {
+    if (!AllFinite({e.x1_m, e.y1_m, e.z1_m, e.x2_m, e.y2_m, e.z2_m, e.visible_from_rad, e.visible_to_rad})) {
+      return std::nullopt;
+    }
+    LandmarkEdge edge{
+        {e.x1_m, e.y1_m, e.z1_m}, {e.x2_m, e.y2_m, e.z2_m}, e.visible_from_rad, e.visible_to_rad, e.side};
+    if ((edge.to - edge.from).norm() > kMinEdgeM) model.edges.push_back(edge);
+  }
+  return model;
+}
+
+head_command_t ToMessage(const HeadSetting& setting, Time now) {
+  head_command_t message{};
+  message.utime = ToUtime(now);
+  message.pan_rad = setting.pan_rad;
+  message.tilt_rad = setting.tilt_rad;
+  for (int i = 0; i < 2; ++i) {
+    message.vergence_rad[i] = setting.vergence_rad[i];
+    message.zoom_step[i] = static_cast<std::int16_t>(setting.zoom_step[i]);
+    message.focus_step[i] = static_cast<std::int16_t>(setting.focus_step[i]);
+  }
+  return message;
+}
+
+camera_trigger_t TriggerMessage(std::int32_t frame_id, Time now) {
+  camera_trigger_t message{};
+  message.utime = ToUtime(now);
+  message.frame_id = frame_id;
+  message.cameras = 3;
+  return message;
+}
+
+landmark_fix_t ToMessage(const LookAnswer& answer) {
+  landmark_fix_t message{};
+  message.utime_exposure = ToUtime(answer.exposure);
+  message.request_id = answer.order.request_id;
+  message.landmark_id = static_cast<std::int16_t>(answer.order.landmark_id);
+  message.side = static_cast<std::int8_t>(answer.order.side);
+  message.verdict = static_cast<std::int8_t>(answer.fix.verdict);
+  message.model_x_m = answer.map_from_landmark.x;
+  message.model_y_m = answer.map_from_landmark.y;
+  message.model_yaw_rad = answer.map_from_landmark.yaw;
+  message.n_matched = static_cast<std::int16_t>(std::min(answer.fix.n_matched, 255));
+  message.residual_px = std::min(answer.fix.residual_px, 20.0);
+  if (answer.fix.verdict != Verdict::kFound) return message;
+  message.x_m = answer.fix.base_from_landmark.x;
+  message.y_m = answer.fix.base_from_landmark.y;
+  message.yaw_rad = answer.fix.base_from_landmark.yaw;
+  const SigmaRho s = ToSigmaRho(answer.fix.covariance);
+  message.sigma_x_m = std::min(s.sigma_x, 1.0);
+  message.sigma_y_m = std::min(s.sigma_y, 1.0);
+  message.sigma_yaw_rad = std::min(s.sigma_yaw, 0.5);
+  message.rho_x_y = s.rho_x_y, message.rho_x_yaw = s.rho_x_yaw, message.rho_y_yaw = s.rho_y_yaw;
+  return message;
+}
+
+}  // namespace priamos::head

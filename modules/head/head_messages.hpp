@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include "head/core/head_positioner.hpp"
+#include "head/core/landmark.hpp"
+#include "head/core/landmark_fix.hpp"
+#include "head/core/look_sequence.hpp"
+#include "head/core/pose_history.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::head {
+
+/// What the planner wants to see.
+struct LookOrder {
+  std::int32_t request_id = 0;
+  int landmark_id = 0;
+  int side = 0;  ///< 0 whole, 1 left, 2 right
+
+  bool operator==(const LookOrder&) const = default;
+};
+
+/// A fix with what it answers.
+struct LookAnswer {
+  LookOrder order;
+  Time exposure;
+  LandmarkFix fix;
+  Pose2 map_from_landmark;  ///< by the model
+};
+
+HeadReport FromMessage(const head_state_t& message);
+FrameNotice FromMessage(const camera_frame_t& message);
+LookOrder FromMessage(const look_request_t& message);
+/// nullopt unless all numbers are finite.
+std::optional<PoseSample> FromMessage(const pose_t& message);
+/// nullopt unless all numbers are finite; edges without length are left out.
+std::optional<LandmarkModel> FromMessage(const landmark_model_t& message);
+
+head_command_t ToMessage(const HeadSetting& setting, Time now);
+/// Both cameras.
+camera_trigger_t TriggerMessage(std::int32_t frame_id, Time now);
+landmark_fix_t ToMessage(const LookAnswer& answer);
+
+}  // namespace priamos::head
