@@ -499,6 +499,7 @@ bool DiscLabeller::IsUnique() const {
 }
 
 Outcome<Labelling> DiscLabeller::Label(const std::vector<DetectedDisc>& detections) const {
+  if (detections.empty()) return Refusal{"no disc-like spots in the image"};
   return Search(*this, detections).Run();
 }
 
