@@ -75,12 +75,14 @@ DriveReport FromMessage(const drive_status_t& message) {
 
 std::optional<LookResult> FromMessage(const landmark_fix_t& message) {
   if (message.verdict == landmark_fix_t::FOUND) return std::nullopt;
-  return LookResult{message.request_id, false, std::string(FixVerdictText(message.verdict))};
+  return LookResult{message.request_id, false, std::string(FixVerdictText(message.verdict)),
+                    message.verdict == landmark_fix_t::NO_MODEL};
 }
 
 LookResult FromMessage(const pose_correction_t& message) {
   const bool applied = message.verdict == pose_correction_t::APPLIED;
-  return {message.request_id, applied, applied ? "" : std::string(CorrectionVerdictText(message.verdict))};
+  return {message.request_id, applied, applied ? "" : std::string(CorrectionVerdictText(message.verdict)),
+          false};
 }
 
 landmark_model_t ToMessage(const Landmark& landmark) {

@@ -151,7 +151,7 @@ TEST(PlannerApp, FixThatWasNotFoundIsAskedForAgain) {
   message.request_id = first[0].request_id;
   message.verdict = landmark_fix_t::TOO_FEW_EDGES;
   fix.Publish(message);
-  w.Run(2);
+  w.Run(10);
   const auto second = w.looks.Drain();
   ASSERT_EQ(second.size(), 1u);
   EXPECT_EQ(second[0].side, first[0].side);

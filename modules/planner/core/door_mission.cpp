@@ -17,6 +17,9 @@ constexpr Duration kStampRounding = std::chrono::milliseconds(30);
 constexpr double kAtSpeed = 0.8;
 /// Waiting longer for the speed than this would cost more way than it is worth.
 constexpr double kStartS = 3.0;
+/// Pause before a look is repeated: the view has changed by some centimetres then. A landmark model takes
+/// most of a second on the radio, and a look request would overtake it.
+constexpr double kRetryPauseS = 0.3, kModelPauseS = 1.2;
 /// Path and request numbers as the messages carry them.
 constexpr int kIds = 65535;
 
@@ -173,7 +176,7 @@ void DoorMission::Approach(Time now, MissionActions& actions) {
 
 void DoorMission::BeginLook(Side side, Time now, MissionActions& actions) {
   last_id_ = last_id_ % kIds + 1;
-  look_ = {side, last_id_, now, look_.tries + 1, std::nullopt};
+  look_ = {side, last_id_, now, look_.tries + 1, std::nullopt, std::nullopt};
   actions.look = LookOrder{look_.request_id, door_->id, side};
   Enter(side == Side::kLeft ? Phase::kLookingLeft : Phase::kLookingRight,
         fmt::format("looking at the {} side of the door, {:.1f} m away{}", Name(side), WayToDoor(),
@@ -181,25 +184,28 @@ void DoorMission::BeginLook(Side side, Time now, MissionActions& actions) {
 }
 
 void DoorMission::LookAtDoor(Time now, MissionActions& actions) {
-  if (!look_.result) {
-    if (Seconds(now - look_.sent) > config_.look_timeout_s) Retry("no answer", now, actions);
+  if (look_.retry_at) {
+    if (now >= *look_.retry_at) BeginLook(look_.side, now, actions);
     return;
   }
-  if (!look_.result->ok) return Retry(look_.result->reason, now, actions);
+  if (!look_.result && Seconds(now - look_.sent) > config_.look_timeout_s)
+    look_.result = LookResult{look_.request_id, false, "no answer", true};
+  if (!look_.result) return;
+  if (!look_.result->ok) return PlanRetry(*look_.result, now, actions);
   if (look_.side == Side::kRight) both_sides_seen_ = true;
   if (both_sides_seen_) return EvaluatePose(now, actions);
   look_.tries = 0;
   BeginLook(Side::kRight, now, actions);
 }
 
-void DoorMission::Retry(const std::string& reason, Time now, MissionActions& actions) {
+void DoorMission::PlanRetry(const LookResult& failure, Time now, MissionActions& actions) {
   if (look_.tries >= config_.tries)
     return Fail(fmt::format("the {} side of the door was not found in {} looks: {}", Name(look_.side),
-                            look_.tries, reason),
+                            look_.tries, failure.reason),
                 actions);
-  // Whatever went wrong, the head may have been restarted and lost its model; it costs 0.1 s to be sure.
-  actions.model = MakeDoorLandmark(*door_);
-  BeginLook(look_.side, now, actions);
+  if (failure.no_model) actions.model = MakeDoorLandmark(*door_);
+  look_.retry_at = now + FromSeconds(failure.no_model ? kModelPauseS : kRetryPauseS);
+  Enter(state_.phase, fmt::format("{} side of the door not found: {}", Name(look_.side), failure.reason));
 }
 
 void DoorMission::EvaluatePose(Time now, MissionActions& actions) {

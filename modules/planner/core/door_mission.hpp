@@ -69,6 +69,7 @@ class DoorMission {
     Time sent;
     int tries = 0;
     std::optional<LookResult> result;
+    std::optional<Time> retry_at;  ///< given up, to be repeated then
   };
 
   void Enter(Phase phase, std::string text);
@@ -80,7 +81,7 @@ class DoorMission {
   void EvaluatePose(Time now, MissionActions& actions);
   void Pass(Time now, MissionActions& actions);
   void BeginLook(Side side, Time now, MissionActions& actions);
-  void Retry(const std::string& reason, Time now, MissionActions& actions);
+  void PlanRetry(const LookResult& failure, Time now, MissionActions& actions);
   void SendPath(std::vector<Pose2> points, double speed_m_s, Time now, MissionActions& actions);
   void RepeatUnconfirmedPath(Time now, MissionActions& actions);
   Pose2 PredictedPose(Time now) const;

@@ -32,7 +32,8 @@ struct DriveReport {
 struct LookResult {
   int request_id = 0;
   bool ok = false;
-  std::string reason;  ///< in words when not ok
+  std::string reason;     ///< in words when not ok
+  bool no_model = false;  ///< the head does not know the landmark (it was restarted)
 };
 
 struct PathOrder {

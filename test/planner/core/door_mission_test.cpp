@@ -104,7 +104,7 @@ TEST(DoorMission, RadioThatDiesOnTheWayEndsTheMission) {
 TEST(DoorMission, LooksAgainWhenASideWasNotFound) {
   Story s;
   s.robot.answer = [](const LookOrder& look, int n) {
-    return LookResult{look.request_id, n != 0, n != 0 ? "" : "too few edges"};
+    return LookResult{look.request_id, n != 0, n != 0 ? "" : "too few edges", false};
   };
   s.Start();
   s.robot.RunFor(60);
@@ -112,13 +112,35 @@ TEST(DoorMission, LooksAgainWhenASideWasNotFound) {
   ASSERT_GE(s.robot.looks.size(), 3u);
   EXPECT_EQ(s.robot.looks[1].side, Side::kLeft);
   EXPECT_NE(s.robot.looks[0].request_id, s.robot.looks[1].request_id);
-  EXPECT_EQ(s.robot.models_received, 2);
+  EXPECT_EQ(s.robot.models_received, 1);
+}
+
+TEST(DoorMission, HeadThatLostTheModelGetsItAgainBeforeTheNextLook) {
+  Story s;
+  s.robot.answer = [&s](const LookOrder& look, int n) {
+    EXPECT_EQ(s.robot.models_received, n == 0 ? 1 : 2);
+    return LookResult{look.request_id, n != 0, "the head has no model of it", n == 0};
+  };
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
+TEST(DoorMission, SaysWhyItLooksAgain) {
+  Story s;
+  s.robot.answer = [](const LookOrder& look, int) {
+    return LookResult{look.request_id, false, "no image", false};
+  };
+  s.Start();
+  for (int i = 0; i < 1000 && s.dut.state().text.find("not found") == std::string::npos; ++i) s.robot.Step();
+  EXPECT_EQ(s.dut.state().text, "left side of the door not found: no image");
+  EXPECT_EQ(s.dut.state().phase, Phase::kLookingLeft);
 }
 
 TEST(DoorMission, GivesUpWithTheReasonAndBrakes) {
   Story s;
   s.robot.answer = [](const LookOrder& look, int) {
-    return LookResult{look.request_id, look.side == Side::kLeft, "ambiguous"};
+    return LookResult{look.request_id, look.side == Side::kLeft, "ambiguous", false};
   };
   s.Start();
   s.robot.RunFor(60);
@@ -133,7 +155,7 @@ TEST(DoorMission, AnswerToAnEarlierRequestIsNotTaken) {
   Story s;
   s.Start();
   s.robot.RunUntil(Phase::kLookingLeft);
-  s.dut.OnLook({1, true, ""});
+  s.dut.OnLook({1, true, "", false});
   s.robot.Step();
   EXPECT_EQ(s.dut.state().phase, Phase::kLookingLeft);
 }
@@ -178,7 +200,7 @@ TEST(DoorMission, DoesNotPlanWithAPoseFromBeforeTheCorrection) {
   s.robot.RunUntil(Phase::kLookingRight);
   const Time now = s.robot.now();
   s.dut.OnCorrected(now + FromSeconds(0.4));
-  s.dut.OnLook({s.robot.looks.back().request_id + 1, true, ""});
+  s.dut.OnLook({s.robot.looks.back().request_id + 1, true, "", false});
   s.robot.RunFor(0.3);
   EXPECT_EQ(s.dut.state().phase, Phase::kLookingRight);
   // Evaluated only then: too far away to go, so it looks again.

@@ -23,7 +23,7 @@ class FakeRobot {
   double sigma_after_m = 0.008, sigma_yaw_after_rad = Radians(0.15);
   /// The answer to the n-th look (from 0); all succeed by default.
   std::function<LookResult(const LookOrder&, int n)> answer = [](const LookOrder& look, int) {
-    return LookResult{look.request_id, true, ""};
+    return LookResult{look.request_id, true, "", false};
   };
   bool silent = false;   ///< nothing comes through in either direction
   bool blocked = false;  ///< stands before an obstacle
@@ -90,17 +90,27 @@ class FakeRobot {
   void Drive() {
     velocity_ = {};
     if (route_.empty() || blocked) return;
-    const Pose2 believed = Believed(), to = route_.front();
-    const double way_m = (to.translation() - believed.translation()).norm();
-    const double step_m = paths.back().speed_m_s * Seconds(kStep);
-    const double part = way_m <= step_m ? 1 : step_m / way_m;
-    const Pose2 next{believed.x + part * (to.x - believed.x), believed.y + part * (to.y - believed.y),
-                     believed.yaw + part * WrapAngle(to.yaw - believed.yaw)};
-    if (part == 1) route_.pop_front();
+    const Pose2 believed = Believed();
+    Pose2 next = believed;
+    for (double left_m = paths.back().speed_m_s * Seconds(kStep); left_m > 0 && !route_.empty();)
+      left_m = MoveTowards(route_.front(), left_m, next);
     velocity_ = believed.Inverse() * next;
     truth_ = truth_ * error * velocity_ * error.Inverse();
-    const bool fixed = good_looks_ >= 2;
-    if (!fixed) nearest_before_fix_m = std::min(nearest_before_fix_m, 6.0 - truth_.x);
+    if (good_looks_ < 2) nearest_before_fix_m = std::min(nearest_before_fix_m, 6.0 - truth_.x);
+  }
+
+  /// Returns what is left of the step when the point is reached before its end.
+  double MoveTowards(const Pose2& to, double step_m, Pose2& pose) {
+    const double way_m = (to.translation() - pose.translation()).norm();
+    if (way_m <= step_m) {
+      pose = to;
+      route_.pop_front();
+      return step_m - way_m;
+    }
+    const double part = step_m / way_m;
+    pose = {pose.x + part * (to.x - pose.x), pose.y + part * (to.y - pose.y),
+            pose.yaw + part * WrapAngle(to.yaw - pose.yaw)};
+    return 0;
   }
 
   void AnswerLooks() {
