@@ -20,7 +20,7 @@ constexpr double kTick_s = 0.001;
 /// Acknowledgements of frames per second, at most.
 constexpr double kFrameAcks_hz = 4;
 constexpr int kFrameAckBits = 3 + 12 + 12 + 4;
-constexpr int kEventAckBits = 3 + 8 + 1 + static_cast<int>(kEventWindow);
+constexpr int kEventAckBits = 3 + 8 + 6 + 1 + static_cast<int>(kAckWindow);
 
 /// One channel as a load on its direction.
 struct Load {
@@ -66,7 +66,9 @@ class DirectionAnalysis {
       const LinkChannel& c = table_.at(i);
       if (c.direction == direction || c.channel_class != ChannelClass::kEvent) continue;
       const Load incoming = LoadOf(i);
-      bits += incoming.entries / incoming.period_s * (2 * table_.id_bits() + kEventAckBits);
+      // One per frame that brings some of the event.
+      const double frames = std::ceil(incoming.bits / capacity_bits_);
+      bits += frames / incoming.period_s * (2 * table_.id_bits() + kEventAckBits);
     }
     return bits / 8 * overhead_;
   }
@@ -94,8 +96,8 @@ class DirectionAnalysis {
         load.entries = std::max(1.0, std::ceil(body_bytes / kSegmentBytes));
         const double head_bits = table_.id_bits() + 8 + 3;
         load.bits = load.entries == 1 ? head_bits + 12 + body_bits
-                                      : load.entries * (head_bits + 8) + 12 + 8 * body_bytes;
-        load.entry_bits = std::min(load.bits, head_bits + 12 + 8 + 8.0 * kSegmentBytes);
+                                      : load.entries * head_bits + 12 + 5 + 8 * body_bytes;
+        load.entry_bits = std::min(load.bits, head_bits + 12 + 5 + 8.0 * kSegmentBytes);
         break;
       }
     }
@@ -235,14 +237,15 @@ const char* NameOf(Direction d) {
 void CheckDirection(const ChannelTable& table, const LinkOptions& options, const DirectionBudget& budget,
                     std::vector<std::string>& problems) {
   if (budget.utilisation > 1) {
-    const auto largest =
-        std::max_element(budget.channels.begin(), budget.channels.end(),
-                         [](const ChannelBudget& a, const ChannelBudget& b) { return a.share < b.share; });
+    ChannelBudget largest;
+    for (const ChannelBudget& row : budget.channels)
+      if (row.share > largest.share) largest = row;
     problems.push_back(
         fmt::format("radio link {}: expected at most {:.0f} byte/s, got {:.0f} byte/s: lower a rate_hz, {} "
                     "alone takes {:.0f} byte/s",
                     NameOf(budget.direction), options.bytes_per_s, budget.bytes_per_s,
-                    table.at(largest->channel).name, largest->bytes_per_s));
+                    largest.share > 0 ? table.at(largest.channel).name : "acknowledging",
+                    largest.share > 0 ? largest.bytes_per_s : budget.control_bytes_per_s));
   }
   for (const ChannelBudget& row : budget.channels) {
     const LinkChannel& c = table.at(row.channel);

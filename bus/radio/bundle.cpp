@@ -10,6 +10,8 @@ namespace {
 enum ControlKind : std::uint8_t { kFrameAck = 0, kEventAck = 1, kFloor = 2, kListen = 3 };
 constexpr int kControlKindBits = 3;
 constexpr int kLengthBits = 8;
+constexpr int kSegmentLengthBits = 5;
+constexpr int kPrefixBits = 6;
 constexpr std::uint64_t kAgeSteps = 63;
 constexpr int kFloorBits = 40;
 constexpr int kLossSteps = 15;
@@ -40,17 +42,18 @@ class EntryWriter {
     if (s.first) out_.Write(EncodeDuration12(s.age), 12);
     if (s.first && s.last && table_.at(e.channel).fixed_bits > 0) {
       out_.Append(s.bytes, s.bits);
-    } else {
-      out_.Write(s.bytes.size(), kLengthBits);
-      out_.Append(s.bytes, s.bytes.size() * 8);
+      return;
     }
+    if (s.last) out_.Write(s.bytes.size(), kSegmentLengthBits);
+    out_.Append(s.bytes, s.bytes.size() * 8);
   }
   void operator()(const EventAckEntry& e) {
     Control(kEventAck);
     Id(e.channel);
     out_.Write(e.ack.next, 8);
+    out_.Write(e.ack.prefix, kPrefixBits);
     out_.Write(e.ack.held != 0 ? 1 : 0, 1);
-    if (e.ack.held != 0) out_.Write(e.ack.held, static_cast<int>(kEventWindow));
+    if (e.ack.held != 0) out_.Write(e.ack.held, static_cast<int>(kAckWindow));
   }
   void operator()(const FrameAckEntry& e) {
     Control(kFrameAck);
@@ -135,7 +138,11 @@ class BundleReader {
     s.first = in_.Read(1) != 0;
     s.last = in_.Read(1) != 0;
     if (s.first) s.age = DecodeDuration12(static_cast<std::uint16_t>(in_.Read(12)));
-    s.bits = s.first && s.last && c.fixed_bits > 0 ? c.fixed_bits : in_.Read(kLengthBits) * 8;
+    if (s.first && s.last && c.fixed_bits > 0) {
+      s.bits = c.fixed_bits;
+    } else {
+      s.bits = 8 * (s.last ? in_.Read(kSegmentLengthBits) : kSegmentBytes);
+    }
     s.bytes = in_.Take(s.bits);
     return s;
   }
@@ -165,7 +172,8 @@ class BundleReader {
     if (c.direction == incoming_ || c.channel_class != ChannelClass::kEvent) return std::nullopt;
     EventAckEntry e{id - 1, {}};
     e.ack.next = static_cast<std::uint8_t>(in_.Read(8));
-    if (in_.Read(1) != 0) e.ack.held = static_cast<std::uint32_t>(in_.Read(static_cast<int>(kEventWindow)));
+    e.ack.prefix = static_cast<std::uint8_t>(in_.Read(kPrefixBits));
+    if (in_.Read(1) != 0) e.ack.held = static_cast<std::uint16_t>(in_.Read(static_cast<int>(kAckWindow)));
     return e;
   }
 

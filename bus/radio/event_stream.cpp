@@ -120,10 +120,11 @@ std::size_t EventSender::OnAck(const EventAck& ack, Time now, RoundTrip& round_t
   // Outside of what is under way: an old acknowledgement.
   if (done > std::min(segments_.size(), kEventWindow)) return 0;
   Time newest_seen{Time::min()};
-  const std::size_t n = std::min(segments_.size(), kEventWindow);
+  const std::size_t missing = done + ack.prefix;
+  const std::size_t n = std::min({segments_.size(), kEventWindow, missing + 1 + kAckWindow});
   for (std::size_t i = 0; i < n; ++i) {
     Segment& s = segments_[i];
-    const bool there = i < done || (i - done < 32 && (ack.held >> (i - done) & 1U) != 0);
+    const bool there = i < missing || (i > missing && (ack.held >> (i - missing - 1) & 1U) != 0);
     if (there && s.sent) {
       newest_seen = std::max(newest_seen, s.sent_at);
       if (!s.held && s.times == 1) round_trip.Sample(now - s.sent_at);
@@ -207,9 +208,10 @@ void EventReceiver::Forget() {
 }
 
 EventAck EventReceiver::ack() const {
-  EventAck ack{.next = next_, .held = 0};
-  for (std::size_t i = 0; i < kEventWindow; ++i)
-    if (held_[i]) ack.held |= std::uint32_t{1} << i;
+  EventAck ack{.next = next_, .prefix = 0, .held = 0};
+  while (ack.prefix < kEventWindow && held_[ack.prefix]) ++ack.prefix;
+  for (std::size_t i = 0; i < kAckWindow && ack.prefix + 1 + i < kEventWindow; ++i)
+    if (held_[ack.prefix + 1 + i]) ack.held |= static_cast<std::uint16_t>(1U << i);
   return ack;
 }
 

@@ -15,11 +15,13 @@
 /// is there. Numbers are modulo 256 and never more than kEventWindow apart, so they are never ambiguous.
 namespace priamos::bus::radio {
 
-/// Bytes of a segment, except the last of an event. Part of the protocol: a restarted sender must cut as
-/// before.
-inline constexpr std::size_t kSegmentBytes = 52;
+/// Bytes of a segment, except the last of an event: small, so that they fill a frame whatever else is in it.
+/// Part of the protocol: a restarted sender must cut as before.
+inline constexpr std::size_t kSegmentBytes = 26;
 /// Segments under way at most: one event of 1456 bytes.
-inline constexpr std::size_t kEventWindow = 28;
+inline constexpr std::size_t kEventWindow = 56;
+/// Segments behind the first missing one that an acknowledgement tells of.
+inline constexpr std::size_t kAckWindow = 16;
 
 /// Tells when an acknowledgement is overdue (Jacobson, Karels 1988; samples as in Karn, Partridge 1987).
 class RoundTrip {
@@ -46,8 +48,9 @@ struct EventSegment {
 
 /// What the receiver of a channel says about it.
 struct EventAck {
-  std::uint8_t next = 0;   ///< everything before it was delivered
-  std::uint32_t held = 0;  ///< bit i: segment next + i is there already
+  std::uint8_t next = 0;    ///< everything before it was delivered
+  std::uint8_t prefix = 0;  ///< so many segments from `next` on are there, the one behind them is not
+  std::uint16_t held = 0;   ///< bit i: segment next + prefix + 1 + i is there, too
 };
 
 class EventSender {

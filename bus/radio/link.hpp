@@ -39,7 +39,7 @@ using PackFunction =
 struct LinkOptions {
   double bytes_per_s = 960;            ///< what the line carries, or the radio if that is slower
   int ahead_bytes = 2;                 ///< written ahead of the line, beside the byte being sent
-  std::size_t max_bundle_bytes = 112;  ///< a longer message goes alone
+  std::size_t max_bundle_bytes = 120;  ///< a longer message goes alone
   Duration keep_alive{250'000};        ///< silence is broken after this
   Duration silence{1'500'000};         ///< without a frame for so long the link is down
   Duration ageing{1'000'000};          ///< a waiting message gains one priority level per this
@@ -123,6 +123,8 @@ class LinkEndpoint {
   const QueueCounters& sent(std::size_t channel) const { return queue_.counters(channel); }
   const DeliveryCounters& delivered(std::size_t channel) const { return deliveries_[channel]; }
   Duration OldestAge(std::size_t channel, Time now) const { return queue_.OldestAge(channel, now); }
+  /// Events of a channel that are not acknowledged yet.
+  std::size_t waiting(std::size_t channel) const { return queue_.events(channel).events().size(); }
   const ChannelTable& table() const { return table_; }
   Direction outgoing() const { return outgoing_; }
 

@@ -33,7 +33,7 @@ struct LinkConfig {
   int baud = 9600;
   double air_rate_bytes_s = 0;
   int ahead_bytes = 2;
-  int max_bundle_bytes = 112;
+  int max_bundle_bytes = 120;
   double keep_alive_s = 0.25;
   double silence_s = 1.5;
   double ageing_s = 1;

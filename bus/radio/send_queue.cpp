@@ -25,6 +25,7 @@ SendQueue::SendQueue(const ChannelTable& table, Direction outgoing, Duration age
                       .slots = {},
                       .events = EventSender(),
                       .event_rate = RateLimit(c.rate_hz, c.burst),
+                      .event_served = Time::min(),
                       .wanted = !c.on_request,
                       .counters = {}});
 }
@@ -102,7 +103,7 @@ void SendQueue::AddReady(const Lane& lane, std::size_t index, Time now, std::vec
                      .since = since});
   };
   if (c.channel_class == ChannelClass::kEvent) {
-    if (EventReady(lane, now)) add(0, *lane.events.oldest());
+    if (EventReady(lane, now)) add(0, std::max(*lane.events.oldest(), lane.event_served));
     return;
   }
   for (std::size_t i = 0; i < lane.slots.size(); ++i) {
@@ -148,6 +149,7 @@ void SendQueue::TakeEvent(std::size_t channel, std::uint8_t number, Time now, Ti
   Lane& lane = lanes_[channel];
   if (lane.events.NextIsNew(now))
     lane.event_rate.Use(std::max(lane.events.NextPackedAt(now), lane.event_rate.next()));
+  lane.event_served = now;
   lane.events.MarkSent(number, leaves_at);
 }
 

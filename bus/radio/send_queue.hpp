@@ -55,7 +55,8 @@ struct QueuedMessage {
 
 /// Everything one end wants to send: per channel the newest message (per key), or the events in order, and
 /// who is next. Order: urgent channels, then priority; a message gains one level of priority per `ageing`
-/// that it waits, so that nothing starves; then the one that waits longest.
+/// that it waits, so that nothing starves; then the one that waits longest. Events that wait behind others of
+/// their channel gain nothing, or a long queue of them would keep out everybody else.
 class SendQueue {
  public:
   /// A channel (and key) with something that may be sent now.
@@ -115,6 +116,7 @@ class SendQueue {
     std::vector<Slot> slots;
     EventSender events;
     RateLimit event_rate;
+    Time event_served = Time::min();  ///< a segment was sent
     bool wanted = true;
     QueueCounters counters;
   };

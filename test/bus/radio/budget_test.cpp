@@ -24,7 +24,7 @@ TEST(Budget, CountsBytesWithTheirShareOfTheFrame) {
   channels.resize(1);  // POSE: 80 bits and a number of 2, 10 Hz
   const Budget budget = Of(channels);
   EXPECT_EQ(budget.up.channels.at(0).bits, 82U);
-  EXPECT_NEAR(budget.up.channels.at(0).bytes_per_s, 82.0 / 8 * 10 * (112 + 7) / 112, 0.1);
+  EXPECT_NEAR(budget.up.channels.at(0).bytes_per_s, 82.0 / 8 * 10 * (120 + 7) / 120, 0.1);
   EXPECT_THAT(budget.down.channels, IsEmpty());
 }
 
@@ -42,7 +42,7 @@ TEST(Budget, RefusesADeadlineThatCannotBeKept) {
   std::vector<LinkChannel> channels = TestChannels();
   for (LinkChannel& c : channels) c.rate_hz = 0.5;
   channels[kEventUp].max_bits = 8 * 40;
-  channels[kSlowUp].deadline = Duration(400'000);
+  channels[kSlowUp].deadline = Duration(450'000);
   EXPECT_THAT(Of(channels).problems, IsEmpty());
   channels[kSlowUp].deadline = Duration(100'000);
   ASSERT_FALSE(Of(channels).problems.empty());

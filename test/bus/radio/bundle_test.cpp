@@ -26,10 +26,10 @@ TEST_F(BundleTest, EverythingComesBack) {
                              .first = true,
                              .last = false,
                              .age = Duration(1'500'000),
-                             .bits = 8 * 52,
-                             .bytes = Text(std::string(52, 'e'))};
+                             .bits = 8 * kSegmentBytes,
+                             .bytes = Text(std::string(kSegmentBytes, 'e'))};
   const auto parsed = Parse({StateEntry{kPoseUp, 80, Text("0123456789")}, EventEntry{kEventUp, segment},
-                             EventAckEntry{kEventDown, {.next = 7, .held = 0x8000001}},
+                             EventAckEntry{kEventDown, {.next = 7, .prefix = 33, .held = 0x8001}},
                              FrameAckEntry{.counter = 0xABC, .hold = Duration(12'000), .loss = 0.4},
                              FloorEntry{0x123456789A}, ListenEntry{0x2A}});
   ASSERT_TRUE(parsed.whole);
@@ -40,7 +40,8 @@ TEST_F(BundleTest, EverythingComesBack) {
   EXPECT_TRUE(event.segment.base && event.segment.first && !event.segment.last);
   EXPECT_EQ(event.segment.age, Duration(1'500'000));
   EXPECT_EQ(event.segment.bytes, segment.bytes);
-  EXPECT_EQ(std::get<EventAckEntry>(parsed.entries[2]).ack.held, 0x8000001U);
+  EXPECT_EQ(std::get<EventAckEntry>(parsed.entries[2]).ack.held, 0x8001U);
+  EXPECT_EQ(std::get<EventAckEntry>(parsed.entries[2]).ack.prefix, 33);
   const auto& ack = std::get<FrameAckEntry>(parsed.entries[3]);
   EXPECT_EQ(ack.counter, 0xABC);
   EXPECT_EQ(ack.hold, Duration(12'000));

@@ -131,8 +131,8 @@ TEST(EventStream, OldAcknowledgementIsIgnored) {
   EventSender sender(10);
   RoundTrip round_trip;
   Offer(sender, "abc");
-  EXPECT_EQ(sender.OnAck({.next = 5}, kStart, round_trip), 0U);
-  EXPECT_EQ(sender.OnAck({.next = 12}, kStart, round_trip), 0U);
+  EXPECT_EQ(sender.OnAck({.next = 5, .prefix = 0, .held = 0}, kStart, round_trip), 0U);
+  EXPECT_EQ(sender.OnAck({.next = 12, .prefix = 0, .held = 0}, kStart, round_trip), 0U);
   EXPECT_EQ(sender.events().size(), 1U);
 }
 
