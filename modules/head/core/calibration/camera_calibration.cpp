@@ -32,6 +32,8 @@ std::vector<Vector2d> Biases(const std::vector<DiscObservation>& observations, c
 }
 
 void FillErrors(const std::vector<Vector2d>& bias, CameraCalibration& c) {
+  c.residuals_px.clear();
+  c.mean_error_px = 0;
   for (std::size_t i = 0; i < c.observations.size(); ++i) {
     const DiscObservation& o = c.observations[i];
     c.residuals_px.push_back(o.centroid_px - bias[i] - c.model.Distort(c.model.Project(o.disc.centre_m)));
@@ -90,6 +92,22 @@ Outcome<CameraCalibration> CalibrateCamera(const GreyImage& image, const Referen
   const Outcome<Labelling> labelling = labeller.Label(detections);
   if (!labelling) return Refusal{labelling.reason()};
   return CalibrateFromDiscs(ObserveDiscs(detections, *labelling, object, base_from_object), lens);
+}
+
+Outcome<std::vector<CameraCalibration>> ShareLens(std::vector<CameraCalibration> calibrations,
+                                                  const LensKnowledge& lens) {
+  std::vector<std::vector<Vector2d>> biases;
+  std::vector<RefinementView> views;
+  for (const CameraCalibration& c : calibrations) biases.push_back(Biases(c.observations, c.model));
+  for (std::size_t i = 0; i < calibrations.size(); ++i)
+    views.push_back({calibrations[i].observations, biases[i], calibrations[i].model});
+  const auto models = RefineViews(views, lens);
+  if (!models) return Refusal{models.reason()};
+  for (std::size_t i = 0; i < calibrations.size(); ++i) {
+    calibrations[i].model = (*models)[i];
+    FillErrors(biases[i], calibrations[i]);
+  }
+  return calibrations;
 }
 
 }  // namespace priamos::head

@@ -35,4 +35,9 @@ Outcome<CameraCalibration> CalibrateCamera(const GreyImage& image, const Referen
                                            const Eigen::Isometry3d& base_from_object,
                                            const LensKnowledge& lens = {});
 
+/// Calibrations of one camera at one zoom and focus, made better by each other: the lens is the same in all.
+/// Refuses what RefineViews refuses.
+Outcome<std::vector<CameraCalibration>> ShareLens(std::vector<CameraCalibration> views,
+                                                  const LensKnowledge& lens = {});
+
 }  // namespace priamos::head

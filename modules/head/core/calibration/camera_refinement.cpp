@@ -4,7 +4,8 @@
 #include <ceres/rotation.h>
 
 #include <array>
-#include <vector>
+#include <optional>
+#include <string>
 
 #include "head/core/calibration/camera_parameters.hpp"
 
@@ -12,28 +13,20 @@ namespace priamos::head {
 
 namespace {
 
-/// The unknowns: rotation (angle-axis) and translation camera_from_base, log of the focal length, image
-/// centre, aspect ratio, skew, k1, k2.
-enum Unknown {
-  kRotation = 0,
-  kTranslation = 3,
-  kLogFocal = 6,
-  kCentre = 7,
-  kAspect = 9,
-  kSkew = 10,
-  kK1,
-  kK2,
-  kUnknowns
-};
-using Unknowns = std::array<double, kUnknowns>;
+/// The unknowns of a view: rotation (angle-axis) and translation camera_from_base.
+enum ViewUnknown { kRotation = 0, kTranslation = 3, kViewUnknowns = 6 };
+/// The unknowns of the lens: log of the focal length, image centre, aspect ratio, skew, k1, k2.
+enum LensUnknown { kLogFocal = 0, kCentre = 1, kAspect = 3, kSkew, kK1, kK2, kLensUnknowns };
+using ViewUnknowns = std::array<double, kViewUnknowns>;
+using LensUnknowns = std::array<double, kLensUnknowns>;
 
 /// The distorted image of a point.
 template <class T>
-void ProjectPoint(const T* x, const Eigen::Vector3d& point_m, T* px) {
+void ProjectPoint(const T* view, const T* x, const Eigen::Vector3d& point_m, T* px) {
   const T in_base[3] = {T(point_m.x()), T(point_m.y()), T(point_m.z())};
   T p[3];
-  ceres::AngleAxisRotatePoint(x + kRotation, in_base, p);
-  for (int i = 0; i < 3; ++i) p[i] += x[kTranslation + i];
+  ceres::AngleAxisRotatePoint(view + kRotation, in_base, p);
+  for (int i = 0; i < 3; ++i) p[i] += view[kTranslation + i];
   const T focal = exp(x[kLogFocal]);
   const T a = p[0] / p[2], b = p[1] / p[2];
   // Image offsets in units of the focal length, as CameraModel's distortion takes them.
@@ -50,9 +43,9 @@ struct Reprojection {
   double sigma_px;
 
   template <class T>
-  bool operator()(const T* x, T* residual) const {
+  bool operator()(const T* view, const T* lens, T* residual) const {
     T px[2];
-    ProjectPoint(x, point_m, px);
+    ProjectPoint(view, lens, point_m, px);
     residual[0] = (px[0] - T(image_px.x())) / T(sigma_px);
     residual[1] = (px[1] - T(image_px.y())) / T(sigma_px);
     return true;
@@ -74,11 +67,16 @@ struct Knowledge {
   }
 };
 
-Unknowns ToUnknowns(const CameraParameters& p, const CameraModel& start) {
-  Unknowns x{};
+ViewUnknowns ToView(const CameraParameters& p) {
+  ViewUnknowns x{};
   Eigen::Map<Eigen::Vector3d>(x.data() + kTranslation) = -p.camera_from_base * p.centre_m;
   const Eigen::Matrix3d rotation = p.camera_from_base;
   ceres::RotationMatrixToAngleAxis(rotation.data(), x.data() + kRotation);  // both column-major
+  return x;
+}
+
+LensUnknowns ToLens(const CameraParameters& p, const CameraModel& start) {
+  LensUnknowns x{};
   x[kLogFocal] = std::log(p.focal_u_px);
   x[kCentre] = p.principal_px.x();
   x[kCentre + 1] = p.principal_px.y();
@@ -90,14 +88,14 @@ Unknowns ToUnknowns(const CameraParameters& p, const CameraModel& start) {
   return x;
 }
 
-CameraModel ToModel(const Unknowns& x) {
+CameraModel ToModel(const ViewUnknowns& view, const LensUnknowns& x) {
   CameraModel model;
   Eigen::Matrix3d rotation;
-  ceres::AngleAxisToRotationMatrix(x.data() + kRotation, rotation.data());
+  ceres::AngleAxisToRotationMatrix(view.data() + kRotation, rotation.data());
   const double focal = std::exp(x[kLogFocal]);
   Eigen::Matrix3d k;
   k << focal, focal * x[kSkew], x[kCentre], 0, focal * x[kAspect], x[kCentre + 1], 0, 0, 1;
-  model.image_from_base << k * rotation, k * Eigen::Map<const Eigen::Vector3d>(x.data() + kTranslation);
+  model.image_from_base << k * rotation, k * Eigen::Map<const Eigen::Vector3d>(view.data() + kTranslation);
   model.centre_px = {x[kCentre], x[kCentre + 1]};
   model.scale_px = focal;
   model.k1 = x[kK1];
@@ -112,24 +110,16 @@ CameraParameters Plausible(CameraParameters p, const LensKnowledge& lens) {
   return p;
 }
 
-}  // namespace
-
-Outcome<CameraModel> RefineCamera(std::span<const DiscObservation> observations,
-                                  std::span<const Eigen::Vector2d> bias, const CameraModel& start,
-                                  const LensKnowledge& lens) {
-  const Outcome<CameraParameters> parameters = ExtractParameters(start.image_from_base);
-  if (!parameters) return Refusal{parameters.reason()};
-  Unknowns x = ToUnknowns(Plausible(*parameters, lens), start);
-  ceres::Problem problem;
-  for (std::size_t i = 0; i < observations.size(); ++i) {
-    const DiscObservation& o = observations[i];
-    if (!(start.Depth(o.disc.centre_m) > 0)) return Refusal{"a disc would lie behind the camera"};
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Reprojection, 2, kUnknowns>(
-                                 new Reprojection{o.disc.centre_m, o.centroid_px - bias[i], o.sigma_px}),
-                             nullptr, x.data());
+void AddView(const RefinementView& view, double* pose, double* lens, ceres::Problem& problem) {
+  for (std::size_t i = 0; i < view.observations.size(); ++i) {
+    const DiscObservation& o = view.observations[i];
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Reprojection, 2, kViewUnknowns, kLensUnknowns>(
+                                 new Reprojection{o.disc.centre_m, o.centroid_px - view.bias[i], o.sigma_px}),
+                             nullptr, pose, lens);
   }
-  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Knowledge, 6, kUnknowns>(new Knowledge{lens}),
-                           nullptr, x.data());
+}
+
+std::optional<std::string> Solve(ceres::Problem& problem) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 60;
@@ -139,10 +129,48 @@ Outcome<CameraModel> RefineCamera(std::span<const DiscObservation> observations,
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return Refusal{"the refinement did not converge: " + summary.message};
-  const CameraModel model = ToModel(x);
-  if (!model.image_from_base.allFinite()) return Refusal{"the refinement ended in numbers that are none"};
-  return model;
+  if (!summary.IsSolutionUsable()) return "the refinement did not converge: " + summary.message;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Outcome<std::vector<CameraModel>> RefineViews(std::span<const RefinementView> views,
+                                              const LensKnowledge& lens) {
+  if (views.empty()) return Refusal{"there is no view to refine"};
+  std::vector<ViewUnknowns> poses(views.size());
+  LensUnknowns shared{};
+  ceres::Problem problem;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const CameraModel& start = views[i].start;
+    const Outcome<CameraParameters> parameters = ExtractParameters(start.image_from_base);
+    if (!parameters) return Refusal{parameters.reason()};
+    for (const DiscObservation& o : views[i].observations)
+      if (!(start.Depth(o.disc.centre_m) > 0)) return Refusal{"a disc would lie behind the camera"};
+    const CameraParameters plausible = Plausible(*parameters, lens);
+    poses[i] = ToView(plausible);
+    if (i == 0) shared = ToLens(plausible, start);
+    AddView(views[i], poses[i].data(), shared.data(), problem);
+  }
+  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Knowledge, 6, kLensUnknowns>(new Knowledge{lens}),
+                           nullptr, shared.data());
+  if (const auto problem_found = Solve(problem)) return Refusal{*problem_found};
+  std::vector<CameraModel> models;
+  for (const ViewUnknowns& pose : poses) {
+    models.push_back(ToModel(pose, shared));
+    if (!models.back().image_from_base.allFinite())
+      return Refusal{"the refinement ended in numbers that are none"};
+  }
+  return models;
+}
+
+Outcome<CameraModel> RefineCamera(std::span<const DiscObservation> observations,
+                                  std::span<const Eigen::Vector2d> bias, const CameraModel& start,
+                                  const LensKnowledge& lens) {
+  const RefinementView view{observations, bias, start};
+  const auto models = RefineViews({&view, 1}, lens);
+  if (!models) return Refusal{models.reason()};
+  return models->front();
 }
 
 }  // namespace priamos::head

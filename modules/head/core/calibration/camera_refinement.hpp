@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "head/core/calibration/disc_projection.hpp"
 #include "head/core/calibration/outcome.hpp"
@@ -24,9 +25,21 @@ struct LensKnowledge {
   double k1_sigma = 0.1, k2_sigma = 0.02;  ///< at one focal length from the centre
 };
 
-/// Minimises the reprojection error over the 11 parameters of the camera and two of radial distortion,
-/// starting from `start`. The observed centroids are compared with `bias` pixels added to the image of the
-/// centre. Refuses a start that shows a disc behind the camera, and numbers that are not finite.
+/// What one picture says about a camera.
+struct RefinementView {
+  std::span<const DiscObservation> observations;
+  std::span<const Eigen::Vector2d> bias;  ///< to be taken off the observed centroids [px]
+  CameraModel start;
+};
+
+/// Minimises the reprojection error of several pictures of one camera at one zoom and focus: 6 parameters of
+/// pose per picture, 5 of the lens and two of radial distortion for all together. One picture shows the discs
+/// only in the middle of the image; what the lens does at the rim takes more of them. Refuses no view, a
+/// start that shows a disc behind the camera, and numbers that are not finite.
+Outcome<std::vector<CameraModel>> RefineViews(std::span<const RefinementView> views,
+                                              const LensKnowledge& lens = {});
+
+/// The same for a single picture: all 11 parameters of the camera and two of radial distortion.
 Outcome<CameraModel> RefineCamera(std::span<const DiscObservation> observations,
                                   std::span<const Eigen::Vector2d> bias, const CameraModel& start,
                                   const LensKnowledge& lens = {});
