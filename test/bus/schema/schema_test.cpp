@@ -67,6 +67,15 @@ TEST(Schema, FingerprintOfForeignTypesEqualsLcmGens) {
   ExpectFingerprint<no_package_inner_t>(dut);
 }
 
+TEST(Schema, FingerprintOfMutualRecursionEqualsLcmGens) {
+  // lcm-gen's C++ for such types does not compile; the numbers are from its Python code (lcm-gen -p).
+  const Schema dut = FromText(
+      "package mutual; struct ping_t { int32_t n; pong_t pongs[n]; ping_t pings[n]; }"
+      "struct pong_t { string s; int8_t m; ping_t pings[m]; }");
+  EXPECT_EQ(dut.Find("ping_t")->fingerprint, 0xa878bee3f6e5bcd1u);
+  EXPECT_EQ(dut.Find("pong_t")->fingerprint, 0xe3d46515d7d47b2au);
+}
+
 TEST(Schema, FindsByFullNameAndByUniqueShortName) {
   const Schema dut =
       FromText("package a; struct x {} struct y { int8_t q; } package b; struct x { int8_t r; }");
