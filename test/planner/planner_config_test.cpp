@@ -26,12 +26,12 @@ TEST(PlannerConfig, ShippedFileLoadsAndKeepsThePaperFootprint) {
 
 TEST(PlannerConfig, PrintedConfigurationLoadsAgain) {
   PlannerConfig config;
-  config.mission.tries = 7;
+  config.mission.look.failures = 7;
   config.passage.hold_m = 0.7;
   std::ostringstream text;
   PrintConfig(text, config);
   const auto dut = ParseConfig<PlannerConfig>("printed", text.str());
-  EXPECT_EQ(dut.mission.tries, 7);
+  EXPECT_EQ(dut.mission.look.failures, 7);
   EXPECT_DOUBLE_EQ(dut.passage.hold_m, 0.7);
 }
 

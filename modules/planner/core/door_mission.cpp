@@ -17,15 +17,8 @@ constexpr Duration kStampRounding = std::chrono::milliseconds(30);
 constexpr double kAtSpeed = 0.8;
 /// Waiting longer for the speed than this would cost more way than it is worth.
 constexpr double kStartS = 3.0;
-/// Pause before a look is repeated: the view has changed by some centimetres then. A landmark model takes
-/// most of a second on the radio, and a look request would overtake it.
-constexpr double kRetryPauseS = 0.3, kModelPauseS = 1.2;
 /// Path and request numbers as the messages carry them.
 constexpr int kIds = 65535;
-
-const char* Name(Side side) {
-  return side == Side::kLeft ? "left" : side == Side::kRight ? "right" : "whole";
-}
 
 }  // namespace
 
@@ -37,22 +30,25 @@ void DoorMissionConfig::Describe(Archive& a) {
   a.Number("look_to_m", look_to_m, {"m", 1, 10, "way to the door at which both looks should be done"});
   if (look_to_m > look_from_m) a.Refuse("look_to_m", "at most look_from_m");
   a.Number("looks_take_s", looks_take_s, {"s", 0.5, 60, "both looks, starting and radio included"});
-  a.Number("look_timeout_s", look_timeout_s, {"s", 0.5, 60, "silence that counts as a failed look"});
-  a.Integer("tries", tries, {"-", 1, 20, "looks at one side before giving up"});
-  a.Integer("extra_looks", extra_looks,
-            {"-", 0, 50, "looks after the first two while the pose is uncertain"});
+  a.Number("confirm_to_m", confirm_to_m,
+           {"m", 0, 10, "way to the door down to which looks go on while passing"});
   a.Number("tracking_m", tracking_m, {"m", 0, 0.1, "what the path following may deviate in the door"});
   a.Number("command_delay_s", command_delay_s, {"s", 0, 2, "from a decision here to the wheels there"});
   a.Number("resend_path_s", resend_path_s, {"s", 1, 60, "a path not confirmed by then is sent again"});
   a.Number("blocked_s", blocked_s, {"s", 1, 600, "standing before an obstacle that ends the mission"});
   a.Number("silent_s", silent_s, {"s", 1, 600, "silence of the robot that ends the mission"});
   a.Number("limit_s", limit_s, {"s", 5, 3600, "time for the whole mission"});
+  a.Section("look", look, "looks at the sides of the door");
   a.Section("drift", drift, "what the wheels add on the way to the door");
 }
 
 DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner,
                          const Footprint& footprint, const GroundPlan& plan)
-    : config_(config), planner_(planner, footprint, plan), footprint_(footprint), plan_(plan) {}
+    : config_(config),
+      planner_(planner, footprint, plan),
+      footprint_(footprint),
+      plan_(plan),
+      looks_(config.look) {}
 
 bool DoorMission::Start(Time now, int door_id) {
   if (running()) return false;
@@ -60,8 +56,8 @@ bool DoorMission::Start(Time now, int door_id) {
   started_ = entered_ = now;
   blocked_since_.reset();
   corrected_.reset();
-  aborted_ = both_sides_seen_ = false;
-  extra_looks_ = 0;
+  aborted_ = judge_ = false;
+  looks_.Reset();
   // Numbers go on from the clock, so that an answer meant for an earlier planner process is not taken for
   // ours.
   if (last_id_ == 0) last_id_ = 1 + static_cast<int>(ToUtime(now) / 1'000'000 % kIds);
@@ -87,11 +83,6 @@ void DoorMission::OnDrive(const DriveReport& drive, Time now) {
   } else if (!blocked_since_) {
     blocked_since_ = now;
   }
-}
-
-void DoorMission::OnLook(const LookResult& result) {
-  // The head's "not found" is followed by the robot's "not applied": the first answer counts.
-  if (result.request_id == look_.request_id && !look_.result) look_.result = result;
 }
 
 void DoorMission::Enter(Phase phase, std::string text) {
@@ -170,58 +161,57 @@ void DoorMission::Approach(Time now, MissionActions& actions) {
   const double speed_m_s = std::hypot(pose_->velocity.vx, pose_->velocity.vy);
   const bool waited = Seconds(now - entered_) > kStartS;
   if (speed_m_s < kAtSpeed * path_.speed_m_s && !waited) return;
-  look_.tries = 0;
-  BeginLook(Side::kLeft, now, actions);
+  AskLook(now, actions);
 }
 
-void DoorMission::BeginLook(Side side, Time now, MissionActions& actions) {
+void DoorMission::AskLook(Time now, MissionActions& actions) {
+  const Side side = looks_.next();
   last_id_ = last_id_ % kIds + 1;
-  look_ = {side, last_id_, now, look_.tries + 1, std::nullopt, std::nullopt};
-  actions.look = LookOrder{look_.request_id, door_->id, side};
+  looks_.Asked(last_id_, now);
+  actions.look = LookOrder{last_id_, door_->id, side};
+  if (state_.phase == Phase::kPassing) return;
   Enter(side == Side::kLeft ? Phase::kLookingLeft : Phase::kLookingRight,
-        fmt::format("looking at the {} side of the door, {:.1f} m away{}", Name(side), WayToDoor(),
-                    look_.tries > 1 ? fmt::format(", try {}", look_.tries) : ""));
+        fmt::format("looking at the {} side of the door, {:.1f} m away", NameOf(side), WayToDoor()));
+}
+
+bool DoorMission::SettleLook(Time now, MissionActions& actions) {
+  const auto result = looks_.Settle(now);
+  if (!result) return false;
+  if (!result->ok && result->no_model) actions.model = MakeDoorLandmark(*door_);
+  return result->ok;
 }
 
 void DoorMission::LookAtDoor(Time now, MissionActions& actions) {
-  if (look_.retry_at) {
-    if (now >= *look_.retry_at) BeginLook(look_.side, now, actions);
-    return;
+  const int failures = looks_.failures();
+  if (SettleLook(now, actions)) judge_ = looks_.Enough();
+  if (looks_.failures() > failures) Enter(state_.phase, looks_.trouble());
+  if (judge_) {
+    if (!PoseIsCorrected(now)) return;
+    judge_ = false;
+    EvaluatePose(now, actions);
   }
-  if (!look_.result && Seconds(now - look_.sent) > config_.look_timeout_s)
-    look_.result = LookResult{look_.request_id, false, "no answer", true};
-  if (!look_.result) return;
-  if (!look_.result->ok) return PlanRetry(*look_.result, now, actions);
-  if (look_.side == Side::kRight) both_sides_seen_ = true;
-  if (both_sides_seen_) return EvaluatePose(now, actions);
-  look_.tries = 0;
-  BeginLook(Side::kRight, now, actions);
+  const bool looking = state_.phase == Phase::kLookingLeft || state_.phase == Phase::kLookingRight;
+  if (!looking || !looks_.Ready(now)) return;
+  if (looks_.Exhausted())
+    return Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()),
+                actions);
+  AskLook(now, actions);
 }
 
-void DoorMission::PlanRetry(const LookResult& failure, Time now, MissionActions& actions) {
-  if (look_.tries >= config_.tries)
-    return Fail(fmt::format("the {} side of the door was not found in {} looks: {}", Name(look_.side),
-                            look_.tries, failure.reason),
-                actions);
-  if (failure.no_model) actions.model = MakeDoorLandmark(*door_);
-  look_.retry_at = now + FromSeconds(failure.no_model ? kModelPauseS : kRetryPauseS);
-  Enter(state_.phase, fmt::format("{} side of the door not found: {}", Name(look_.side), failure.reason));
+bool DoorMission::PoseIsCorrected(Time now) const {
+  const bool fresh = Seconds(now - pose_->stamp) <= kFreshPoseS;
+  return fresh && (!corrected_ || pose_->stamp >= *corrected_ + kStampRounding);
 }
 
 void DoorMission::EvaluatePose(Time now, MissionActions& actions) {
-  const bool fresh = Seconds(now - pose_->stamp) <= kFreshPoseS;
-  if (!fresh || (corrected_ && pose_->stamp < *corrected_ + kStampRounding)) return;
   const auto uncertainty = AtDoor(*door_, pose_->map_from_base, pose_->covariance, config_.drift);
   const double gap_m = GapLeft(*door_, footprint_, uncertainty) - config_.tracking_m;
   const std::string figures =
       fmt::format("2 sigma at the door {:.3f} m and {:.1f} degrees", 2 * uncertainty.lateral_sigma_m,
                   Degrees(2 * uncertainty.heading_sigma_rad));
   if (gap_m < 0) {
-    if (extra_looks_ >= config_.extra_looks)
-      return Fail("the pose is too uncertain for the gap: " + figures, actions);
-    ++extra_looks_;
-    look_.tries = 0;
-    return BeginLook(look_.side == Side::kLeft ? Side::kRight : Side::kLeft, now, actions);
+    if (looks_.Exhausted()) Fail("the pose is too uncertain for the gap: " + figures, actions);
+    return;
   }
   const DoorPath path = planner_.PlanPassage(*door_, PredictedPose(now));
   if (!path.ok()) return Fail(path.refusal, actions);
@@ -230,6 +220,8 @@ void DoorMission::EvaluatePose(Time now, MissionActions& actions) {
 }
 
 void DoorMission::Pass(Time now, MissionActions& actions) {
+  SettleLook(now, actions);
+  if (WayToDoor() > config_.confirm_to_m && looks_.Ready(now) && !looks_.Exhausted()) AskLook(now, actions);
   const bool arrived = drive_ && drive_->path_id == path_.path_id && drive_->mode == DriveMode::kArrived;
   if (!arrived) return;
   if (-WayToDoor() >= planner_.PastX(*door_))
