@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bus/context.hpp"
 #include "head/camera_reader.hpp"
 #include "head/core/calibrated_setup.hpp"
-#include "head/core/calibration/correspondence.hpp"
+#include "head/core/calibration/camera_calibration.hpp"
 #include "head/core/head_positioner.hpp"
 #include "head/core/look_sequence.hpp"
 #include "head/head_config.hpp"
@@ -24,9 +26,16 @@ class CalibrationMode {
   void Tick(Time now);
 
  private:
+  /// What both cameras saw at one setting; nothing for a camera that did not see the object whole.
+  struct View {
+    HeadSetting setting;
+    std::array<std::optional<CameraCalibration>, 2> cameras;
+  };
+
   void TakeMessages();
   void Look(Time now);
   void Calibrate(const FramePair& pair);
+  std::optional<std::vector<CalibratedSetup>> Table();
   void Finish();
   void Fail(const std::string& reason);
 
@@ -35,8 +44,9 @@ class CalibrationMode {
   ReferenceObject object_;
   DiscLabeller labeller_;
   Eigen::Isometry3d base_from_object_;
-  std::vector<HeadSetting> settings_;
-  std::vector<CalibratedSetup> done_;
+  std::vector<HeadSetting> settings_;  ///< those of the table, then the sweep
+  std::size_t table_size_;
+  std::vector<View> done_;
   HeadPositioner positioner_;
   LookSequence look_;
   CameraReader cameras_;

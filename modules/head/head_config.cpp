@@ -21,6 +21,9 @@ void ReferencePose::Describe(Archive& a) {
   a.Number("y_m", y_m, {"m", -10, 10, "its origin in the base frame"});
   a.Number("z_m", z_m, {"m", -1, 5, "its origin in the base frame"});
   a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "direction of its x axis, which points out of its front"});
+  a.Number("sweep_pan_deg", sweep_pan_deg,
+           {"deg", 0, 60, "the head turns so far to see it at the rim of the image"});
+  a.Number("sweep_tilt_deg", sweep_tilt_deg, {"deg", 0, 40, "and tilts so far"});
 }
 
 void HeadConfig::Describe(Archive& a) {
@@ -42,15 +45,28 @@ void HeadConfig::Describe(Archive& a) {
   a.Section("vision", vision, "edges and landmark fixes");
 }
 
+HeadSetting HeadConfig::SettingAt(double pan_deg, double tilt_degrees) const {
+  const double turn = Radians(convergence_deg);
+  return {Radians(pan_deg),
+          Radians(tilt_degrees),
+          {-turn, turn},
+          {zoom_step, zoom_step},
+          {focus_step, focus_step}};
+}
+
 std::vector<HeadSetting> HeadConfig::Settings() const {
+  return {SettingAt(left_pan_deg, tilt_deg), SettingAt(whole_pan_deg, tilt_deg),
+          SettingAt(right_pan_deg, tilt_deg)};
+}
+
+std::vector<HeadSetting> HeadConfig::SweepSettings() const {
   std::vector<HeadSetting> settings;
-  for (const double pan_deg : {left_pan_deg, whole_pan_deg, right_pan_deg}) {
-    const double turn = Radians(convergence_deg);
-    settings.push_back({Radians(pan_deg),
-                        Radians(tilt_deg),
-                        {-turn, turn},
-                        {zoom_step, zoom_step},
-                        {focus_step, focus_step}});
+  for (const double tilt : {-1.0, 0.0, 1.0}) {
+    for (const double pan : {-1.0, 0.0, 1.0}) {
+      if (pan == 0 && tilt == 0) continue;
+      settings.push_back(
+          SettingAt(pan * reference.sweep_pan_deg, tilt_deg + tilt * reference.sweep_tilt_deg));
+    }
   }
   return settings;
 }

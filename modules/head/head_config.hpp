@@ -27,6 +27,7 @@ struct ReferencePose {
   std::string object = "reference_object.toml";  ///< its discs, beside the configuration file
   double x_m = 1.75, y_m = 0, z_m = 1.20;        ///< its origin in the base frame
   double yaw_deg = 180;                          ///< of its x axis, which points out of its front
+  double sweep_pan_deg = 9, sweep_tilt_deg = 6;  ///< how far the head turns to see it at the rim of the image
 
   void Describe(Archive& a);
 };
@@ -51,6 +52,11 @@ struct HeadConfig {
   void Describe(Archive& a);
   /// The settings to calibrate: left, whole, right.
   std::vector<HeadSetting> Settings() const;
+  /// Further settings of a calibration, which carry the reference object through the image.
+  std::vector<HeadSetting> SweepSettings() const;
+
+ private:
+  HeadSetting SettingAt(double pan_deg, double tilt_deg) const;
 };
 
 }  // namespace priamos::head
