@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/config.hpp"
-#include "world/core/image_formation.hpp"
+#include "world/core/imaging.hpp"
 #include "world/core/optics.hpp"
 #include "world/core/simulation.hpp"
 

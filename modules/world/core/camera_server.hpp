@@ -11,7 +11,7 @@
 #include "common/config.hpp"
 #include "common/frame_store.hpp"
 #include "common/time.hpp"
-#include "world/core/image_formation.hpp"
+#include "world/core/imaging.hpp"
 #include "world/core/optics.hpp"
 #include "world/core/renderer.hpp"
 

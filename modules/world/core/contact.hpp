@@ -29,8 +29,13 @@ class Clearance {
   double FreePart(const Pose2& from, const Pose2& to) const;
 
  private:
+  struct Obstacle {
+    Rectangle outline;
+    double radius_m;  ///< of the circle around it
+  };
+
   Body body_;
-  std::vector<Rectangle> obstacles_;
+  std::vector<Obstacle> obstacles_;
 };
 
 /// Counts touches: a touch begins when the gap falls below `begin_m` and ends when it rises above `end_m`,

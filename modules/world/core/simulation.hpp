@@ -88,6 +88,7 @@ class Simulation {
  private:
   void Step();
   void Move(double dt_s);
+  double Reach(double dt_s) const;
   void ExposeUntil(Time end, const Pose2& from);
   void SampleDevices();
   Truth CurrentTruth() const;

@@ -102,6 +102,22 @@ TEST_F(SimulationTest, GapAndItsMinimumAreTruth) {
   EXPECT_EQ(truth.contacts, 0);
 }
 
+TEST_F(SimulationTest, TheGapIsExactAllAlongACurvedDrive) {
+  model_ = RobotModel{};
+  solids_.push_back({"post", {2.0, 1.0, 0.4}, {0.1, 0.1}, 0, 2, "metal"});
+  solids_.push_back({"carton", {1.0, -1.2, 0.9}, {0.6, 0.3}, 0, 0.5, "cardboard"});
+  Start();
+  const Clearance exact(BodyOf(model_), solids_);
+  const PerWheel curve{2, 6, 3, 5};
+  double least = 10;
+  for (int i = 0; i < 150; ++i) {
+    const Truth truth = Run(0.04, &curve);
+    EXPECT_NEAR(truth.gap_m, exact.Gap(truth.map_from_base, 10), 1e-12);
+    least = std::min(least, truth.gap_m);
+    EXPECT_LE(truth.min_gap_m, least);
+  }
+}
+
 TEST_F(SimulationTest, EncodersAgreeWithTheWayWithoutSlip) {
   Start();
   const Truth truth = Run(4, &forward_);
