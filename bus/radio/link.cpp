@@ -10,6 +10,8 @@ namespace {
 constexpr std::size_t kMaxEncodedBytes = 1 + 1 + kWholeCounterBytes + kMaxBundleBytes + 4;
 /// So many unusable frames in a row are no accident.
 constexpr std::uint64_t kNeedyAfter = 3;
+/// Acknowledgements of frames come a few times per second, and get lost now and then.
+constexpr Duration kProofSlack{1'000'000};
 /// An end without an epoch asks at once; one with an epoch first gives its frames a chance.
 constexpr Duration kHelloPause{300'000};
 
@@ -119,8 +121,10 @@ void LinkEndpoint::OnData(const DataFrame& frame, std::uint64_t highest_before, 
   counters_.frames_missed += missed;
   guard_.OnMissed(missed);
   loss_.OnFrame(missed, wire_bytes);
-  if (Down(now))
+  if (Down(now)) {
     for (std::size_t i = 0; i < table_.size(); ++i) queue_.events(i).ResendAll(false);
+    last_frame_ack_.reset();  // the other end waits for it, to know that commands are fresh
+  }
   ++counters_.frames_received;
   ++frames_since_ack_;
   last_valid_ = now;
@@ -130,17 +134,20 @@ void LinkEndpoint::OnData(const DataFrame& frame, std::uint64_t highest_before, 
   table_mismatch_ = false;
   ParsedBundle bundle = ParseBundle(table_, Opposite(outgoing_), frame.bundle);
   if (!bundle.whole) ++counters_.bundles_damaged;
-  for (BundleEntry& entry : bundle.entries) OnEntry(std::move(entry), wire_bytes, now, out);
+  const bool newest = frame.counter > highest_before;
+  for (BundleEntry& entry : bundle.entries) OnEntry(std::move(entry), newest, wire_bytes, now, out);
 }
 
-void LinkEndpoint::OnEntry(BundleEntry entry, std::size_t wire_bytes, Time now, std::vector<Delivery>& out) {
+void LinkEndpoint::OnEntry(BundleEntry entry, bool newest, std::size_t wire_bytes, Time now,
+                           std::vector<Delivery>& out) {
   const Time sent_at = now - pacer_.WireTime(wire_bytes) - latency_.one_way();
   std::visit(Overloaded{[&](StateEntry& e) {
+                          if (!newest) return void(++deliveries_[e.channel].late);
                           ++deliveries_[e.channel].delivered;
                           deliveries_[e.channel].bits += e.bits;
                           out.push_back({e.channel, std::move(e.packed), sent_at});
                         },
-                        [&](CommandEntry& e) { OnCommand(std::move(e), sent_at, now, out); },
+                        [&](CommandEntry& e) { OnCommand(std::move(e), newest, sent_at, now, out); },
                         [&](EventEntry& e) { OnEvent(e, sent_at, out); },
                         [&](EventAckEntry& e) { OnEventAck(e, now); },
                         [&](FrameAckEntry& e) { OnFrameAck(e, wire_bytes, now); },
@@ -152,9 +159,14 @@ void LinkEndpoint::OnEntry(BundleEntry entry, std::size_t wire_bytes, Time now, 
              entry);
 }
 
-void LinkEndpoint::OnCommand(CommandEntry entry, Time sent_at, Time now, std::vector<Delivery>& out) {
-  const Time valid_until = sent_at - entry.age + table_.at(entry.channel).ttl;
-  if (valid_until < now) {
+void LinkEndpoint::OnCommand(CommandEntry entry, bool newest, Time sent_at, Time now,
+                             std::vector<Delivery>& out) {
+  const Duration ttl = table_.at(entry.channel).ttl;
+  const Time valid_until = sent_at - entry.age + ttl;
+  // A modem, or somebody, may have held the frame back. It is not older than the newest frame from here that
+  // the other end had heard when it was made.
+  const bool fresh = proven_ && now - *proven_ <= ttl + kProofSlack;
+  if (!newest || !fresh || valid_until < now) {
     ++deliveries_[entry.channel].late;
     return;
   }
@@ -190,6 +202,7 @@ void LinkEndpoint::OnFrameAck(const FrameAckEntry& ack, std::size_t wire_bytes, 
   for (const SentFrame& sent : sent_frames_) {
     if ((sent.counter & 0xFFFU) != ack.counter) continue;
     confirmed_ = std::max(confirmed_.value_or(0), sent.counter);
+    proven_ = std::max(proven_.value_or(sent.end), sent.end);
     latency_.Sample(now - sent.end - ack.hold - pacer_.WireTime(wire_bytes));
     return;
   }
@@ -218,6 +231,7 @@ void LinkEndpoint::ChangeEpoch(const EpochAgreement::Pair& pair, std::uint32_t p
   opener_.SetEpoch(epoch, 0);
   for (std::size_t i = 0; i < table_.size(); ++i) queue_.events(i).ResendAll(true);
   confirmed_ = 0;
+  proven_.reset();
   sent_frames_.clear();
   frames_since_ack_ = 0;
   switched_ = true;

@@ -73,7 +73,7 @@ struct LinkCounters {
 /// What arrived on one incoming channel.
 struct DeliveryCounters {
   std::uint64_t delivered = 0;
-  std::uint64_t late = 0;  ///< commands refused by their age
+  std::uint64_t late = 0;  ///< refused: a command that may be too old, a message overtaken by a newer one
   std::uint64_t bits = 0;
 };
 
@@ -178,13 +178,13 @@ class LinkEndpoint {
   void OnFrame(std::span<const std::byte> encoded, Time now, std::vector<Delivery>& out);
   void OnData(const DataFrame& frame, std::uint64_t highest_before, std::size_t wire_bytes, Time now,
               std::vector<Delivery>& out);
-  void OnEntry(BundleEntry entry, std::size_t wire_bytes, Time now, std::vector<Delivery>& out);
+  void OnEntry(BundleEntry entry, bool newest, std::size_t wire_bytes, Time now, std::vector<Delivery>& out);
   void OnHello(const Hello& hello, Time now);
   void OnReject(Reject reject, Time now);
   void OnFrameAck(const FrameAckEntry& ack, std::size_t wire_bytes, Time now);
   void OnEventAck(const EventAckEntry& entry, Time now);
   void OnEvent(const EventEntry& entry, Time sent_at, std::vector<Delivery>& out);
-  void OnCommand(CommandEntry entry, Time sent_at, Time now, std::vector<Delivery>& out);
+  void OnCommand(CommandEntry entry, bool newest, Time sent_at, Time now, std::vector<Delivery>& out);
   void OnListen(const ListenEntry& listen);
   void ChangeEpoch(const EpochAgreement::Pair& pair, std::uint32_t peer_stream);
   bool Down(Time now) const { return !last_valid_ || now - *last_valid_ > options_.silence; }
@@ -221,6 +221,7 @@ class LinkEndpoint {
 
   std::optional<Time> last_valid_;  ///< arrival of the last accepted data frame
   std::optional<Time> last_frame_ack_;
+  std::optional<Time> proven_;  ///< when the newest own frame was sent that the other end had heard
   std::uint64_t frames_since_ack_ = 0;
   std::uint64_t bad_since_valid_ = 0;
   RoundTrip round_trip_;

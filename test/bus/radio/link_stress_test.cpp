@@ -156,6 +156,7 @@ TEST(LinkStress, BlackoutsLoseNoEventAndReturnFresh) {
   std::size_t next_cut = 0;
   std::vector<double> freshness;
   std::optional<Time> returned;
+  int drives = 0;
   dut.each_step = [&] {
     const double s = Seconds(dut.now - start);
     if (ToUtime(dut.now) % 20'000 == 0) {
@@ -180,6 +181,7 @@ TEST(LinkStress, BlackoutsLoseNoEventAndReturnFresh) {
     for (const auto& r : dut.onboard.received) {
       if (r.delivery.channel != kDriveDown) continue;
       EXPECT_GE(*r.delivery.valid_until, r.at);
+      ++drives;
     }
     dut.onboard.received.clear();
   };
@@ -187,6 +189,7 @@ TEST(LinkStress, BlackoutsLoseNoEventAndReturnFresh) {
   EXPECT_EQ(dut.offboard.TextsOf(kEventUp), sent);
   EXPECT_THAT(freshness, Each(Le(0.3)));
   EXPECT_GT(freshness.size(), 30U);
+  EXPECT_GT(drives, 300);
 }
 
 TEST(LinkStress, EventsOnceAndInOrderThroughLossAndRestarts) {

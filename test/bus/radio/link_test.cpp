@@ -196,6 +196,27 @@ TEST(Link, CommandOlderThanItsTimeToLiveIsNotDelivered) {
   EXPECT_EQ(dut.onboard.link->delivered(kDriveDown).late, 1U);
 }
 
+TEST(Link, CommandHeldBackOnTheWayIsNotDelivered) {
+  LinkPair dut;
+  dut.Run(2);
+  std::vector<std::byte> held;
+  dut.wire_down.clear();
+  dut.lose_down = [](std::span<const std::byte>) { return true; };
+  dut.offboard.link->Offer(kDriveDown, Text("abcde"), dut.now);
+  dut.Run(0.1);
+  held = dut.wire_down;
+  for (const bool overtaken : {false, true}) {
+    if (overtaken) dut.lose_down = nullptr;
+    dut.Run(2);
+    dut.onboard.link->Receive(held, dut.now);
+    dut.Run(0.1);
+    EXPECT_TRUE(dut.onboard.TextsOf(kDriveDown).empty());
+  }
+  dut.offboard.link->Offer(kDriveDown, Text("fresh"), dut.now);
+  dut.Run(0.5);
+  EXPECT_THAT(dut.onboard.TextsOf(kDriveDown), ElementsAre("fresh"));
+}
+
 TEST(Link, CommandSaysHowLongItHolds) {
   LinkPair dut(LineConfig{.latency_s = 0.05});
   dut.Run(2);
