@@ -52,14 +52,9 @@ void RenderThread::DrawUntilStopped(const RenderFunction& render) {
     const RenderJob job = jobs_.front();
     jobs_.pop_front();
     lock.unlock();
-    Result result;
-    try {
-      result.image = render(job);
-    } catch (...) {
-      result.error = std::current_exception();
-    }
+    DrawnPicture picture = Draw(render, job);
     lock.lock();
-    results_[job.number] = std::move(result);
+    results_[job.number] = std::move(picture);
   }
 }
 
@@ -73,12 +68,7 @@ void RenderThread::Submit(const RenderJob& job) {
 
 std::optional<GreyImage> RenderThread::Take(std::int64_t number) {
   const std::lock_guard lock(mutex_);
-  const auto it = results_.find(number);
-  if (it == results_.end()) return std::nullopt;
-  const Result result = std::move(it->second);
-  results_.erase(it);
-  if (result.error) std::rethrow_exception(result.error);
-  return result.image;
+  return TakeFrom(results_, number);
 }
 
 }  // namespace priamos::world

@@ -24,21 +24,16 @@ class RenderThread : public RenderExecutor {
   RenderThread& operator=(const RenderThread&) = delete;
 
   void Submit(const RenderJob& job) override;
-  /// Throws what the drawing threw.
   std::optional<GreyImage> Take(std::int64_t number) override;
 
  private:
-  struct Result {
-    GreyImage image;
-    std::exception_ptr error;
-  };
   void Run(const std::function<RenderFunction()>& make, std::exception_ptr& failed, bool& started);
   void DrawUntilStopped(const RenderFunction& render);
 
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<RenderJob> jobs_;
-  std::map<std::int64_t, Result> results_;
+  std::map<std::int64_t, DrawnPicture> results_;
   bool stop_ = false;
   std::thread thread_;
 };

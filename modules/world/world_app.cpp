@@ -71,8 +71,14 @@ void WorldApp::PublishSamples() {
 }
 
 void WorldApp::PublishFrames(Time now) {
-  for (const auto& frame : cameras_.Collect(now))
-    frames_.Publish(ToMessage(frame, store_.Write(frame.frame_id, frame.image)));
+  try {
+    while (const auto frame = cameras_.Collect(now))
+      frames_.Publish(ToMessage(*frame, store_.Write(frame->frame_id, frame->image)));
+  } catch (const std::exception& error) {
+    // Blind, but wheels and sonars go on.
+    context_.SetHealth(bus::Health::kFailed, fmt::format("no pictures: {}", error.what()));
+    context_.Log(bus::Level::kError, fmt::format("a picture could not be drawn: {}", error.what()));
+  }
 }
 
 void WorldApp::TakeCommands(Time now) {

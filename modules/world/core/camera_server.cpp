@@ -18,12 +18,27 @@ void CameraConfig::Describe(Archive& a) {
   a.Integer("max_pending", max_pending, {"-", 3, 8, "pictures that may be on their way at once"});
 }
 
+DrawnPicture Draw(const RenderFunction& render, const RenderJob& job) {
+  try {
+    return {render(job), nullptr};
+  } catch (...) {
+    return {{}, std::current_exception()};
+  }
+}
+
+std::optional<GreyImage> TakeFrom(std::map<std::int64_t, DrawnPicture>& done, std::int64_t number) {
+  const auto node = done.extract(number);
+  if (node.empty()) return std::nullopt;
+  if (node.mapped().error) std::rethrow_exception(node.mapped().error);
+  return node.mapped().image;
+}
+
+void InlineRenderExecutor::Submit(const RenderJob& job) {
+  done_[job.number] = Draw(render_, job);
+}
+
 std::optional<GreyImage> InlineRenderExecutor::Take(std::int64_t number) {
-  const auto it = done_.find(number);
-  if (it == done_.end()) return std::nullopt;
-  std::optional<GreyImage> image = std::move(it->second);
-  done_.erase(it);
-  return image;
+  return TakeFrom(done_, number);
 }
 
 CameraServer::CameraServer(const CameraConfig& config, double camera_light, RenderExecutor& executor,
@@ -76,16 +91,20 @@ void CameraServer::Submit(const Shot& shot, const Viewpoint& closed) {
   }
 }
 
-std::vector<Frame> CameraServer::Collect(Time now) {
-  std::vector<Frame> frames;
-  while (!pending_.empty() && pending_.front().ready <= now) {
-    auto image = executor_.Take(pending_.front().number);
-    if (!image) break;
-    frames.push_back(std::move(pending_.front().frame));
-    frames.back().image = std::move(*image);
+std::optional<Frame> CameraServer::Collect(Time now) {
+  if (pending_.empty() || pending_.front().ready > now) return std::nullopt;
+  std::optional<GreyImage> image;
+  try {
+    image = executor_.Take(pending_.front().number);
+  } catch (...) {
     pending_.pop_front();
+    throw;
   }
-  return frames;
+  if (!image) return std::nullopt;
+  Frame frame = std::move(pending_.front().frame);
+  frame.image = std::move(*image);
+  pending_.pop_front();
+  return frame;
 }
 
 }  // namespace priamos::world

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -41,7 +42,7 @@ struct RenderJob {
 using RenderFunction = std::function<GreyImage(const RenderJob&)>;
 
 /// Draws pictures somewhere, now or later: they come back by their number. What a RenderFunction throws
-/// comes out of Submit() or Take().
+/// comes out of Take().
 class RenderExecutor {
  public:
   virtual ~RenderExecutor() = default;
@@ -50,16 +51,28 @@ class RenderExecutor {
   virtual std::optional<GreyImage> Take(std::int64_t number) = 0;
 };
 
+/// A picture, or why there is none.
+struct DrawnPicture {
+  GreyImage image;
+  std::exception_ptr error;
+};
+
+/// Draws; what `render` throws is kept.
+DrawnPicture Draw(const RenderFunction& render, const RenderJob& job);
+
+/// Takes a finished picture out of `done`; throws its error.
+std::optional<GreyImage> TakeFrom(std::map<std::int64_t, DrawnPicture>& done, std::int64_t number);
+
 /// Draws at once, in the caller's thread: for simulated time.
 class InlineRenderExecutor : public RenderExecutor {
  public:
   explicit InlineRenderExecutor(RenderFunction render) : render_(std::move(render)) {}
-  void Submit(const RenderJob& job) override { done_[job.number] = render_(job); }
+  void Submit(const RenderJob& job) override;
   std::optional<GreyImage> Take(std::int64_t number) override;
 
  private:
   RenderFunction render_;
-  std::map<std::int64_t, GreyImage> done_;
+  std::map<std::int64_t, DrawnPicture> done_;
 };
 
 /// A picture that has been read out.
@@ -87,8 +100,9 @@ class CameraServer {
   /// Where the cameras are at the moment NextSample() named.
   void Sample(const Viewpoint& viewpoint);
 
-  /// Frames whose readout is over at `now`, oldest first.
-  std::vector<Frame> Collect(Time now);
+  /// The oldest frame whose readout is over at `now`. Throws what drawing it threw; that frame is lost, the
+  /// next call goes on with the next one.
+  std::optional<Frame> Collect(Time now);
 
  private:
   struct Shot {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <stdexcept>
 
 namespace priamos::world {
 namespace {
@@ -33,6 +34,12 @@ class CameraServerTest : public ::testing::Test {
   /// Opens and closes the shutter at the moments the server asks for.
   void Expose(CameraServer& dut) {
     for (int i = 0; i < 2; ++i) dut.Sample(Viewpoint{{double(i), 0, 0}, {}});
+  }
+
+  static std::vector<Frame> CollectAll(CameraServer& dut, Time now) {
+    std::vector<Frame> frames;
+    while (auto frame = dut.Collect(now)) frames.push_back(std::move(*frame));
+    return frames;
   }
 
   CameraConfig config_;
@@ -72,13 +79,13 @@ TEST_F(CameraServerTest, FramesComeAfterTheReadoutWithTheMiddleOfTheExposure) {
   dut.Trigger(start_, 7, 2);
   Expose(dut);
   executor_.finished = {0};
-  EXPECT_TRUE(dut.Collect(start_ + Ms(51)).empty());
-  const auto frames = dut.Collect(start_ + Ms(52));
+  EXPECT_TRUE(CollectAll(dut, start_ + Ms(51)).empty());
+  const auto frames = CollectAll(dut, start_ + Ms(52));
   ASSERT_EQ(frames.size(), 1u);
   EXPECT_EQ(frames[0].exposure_middle, start_ + Ms(8));
   EXPECT_EQ(frames[0].frame_id, 7);
   EXPECT_EQ(frames[0].camera, kRightCamera);
-  EXPECT_TRUE(dut.Collect(start_ + Ms(60)).empty());
+  EXPECT_TRUE(CollectAll(dut, start_ + Ms(60)).empty());
 }
 
 TEST_F(CameraServerTest, ASlowPictureComesWhenItIsDrawnAndKeepsItsPlace) {
@@ -86,9 +93,9 @@ TEST_F(CameraServerTest, ASlowPictureComesWhenItIsDrawnAndKeepsItsPlace) {
   dut.Trigger(start_, 7, 3);
   Expose(dut);
   executor_.finished = {1};
-  EXPECT_TRUE(dut.Collect(start_ + Ms(400)).empty());
+  EXPECT_TRUE(CollectAll(dut, start_ + Ms(400)).empty());
   executor_.finished = {0, 1};
-  const auto frames = dut.Collect(start_ + Ms(410));
+  const auto frames = CollectAll(dut, start_ + Ms(410));
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[0].camera, kLeftCamera);
   EXPECT_EQ(frames[1].camera, kRightCamera);
@@ -103,7 +110,7 @@ TEST_F(CameraServerTest, ASecondTriggerDuringAnExposureWaitsForTheShutter) {
   EXPECT_GT(*dut.NextSample(), start_ + Ms(12));
   Expose(dut);
   executor_.finished = {0, 1};
-  const auto frames = dut.Collect(start_ + Ms(100));
+  const auto frames = CollectAll(dut, start_ + Ms(100));
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[1].frame_id, 2);
 }
@@ -118,7 +125,7 @@ TEST_F(CameraServerTest, TooManyPendingPicturesAndNoCameraAreRefused) {
   EXPECT_TRUE(dut.Trigger(start_, 3, 1));
   Expose(dut);
   executor_.finished = {0, 1};
-  EXPECT_EQ(dut.Collect(start_ + Ms(100)).size(), 2u);
+  EXPECT_EQ(CollectAll(dut, start_ + Ms(100)).size(), 2u);
   EXPECT_TRUE(dut.Trigger(start_ + Ms(100), 4, 3));
 }
 
@@ -135,6 +142,21 @@ TEST_F(CameraServerTest, EveryPictureHasItsOwnNoiseThatTheSeedDecides) {
   EXPECT_EQ(noise(1), noise(1));
   EXPECT_NE(noise(1), noise(2));
   EXPECT_NE(noise(1).first, noise(1).second);
+}
+
+TEST_F(CameraServerTest, APictureThatCannotBeDrawnIsLostAndTheNextComes) {
+  int drawn = 0;
+  InlineRenderExecutor executor([&](const RenderJob&) -> GreyImage {
+    if (drawn++ == 0) throw std::runtime_error("out of memory");
+    return {1, 1, {0}};
+  });
+  CameraServer dut(config_, 0, executor, 1);
+  dut.Trigger(start_, 7, 3);
+  Expose(dut);
+  EXPECT_THROW(dut.Collect(start_ + Ms(100)), std::runtime_error);
+  const auto frames = CollectAll(dut, start_ + Ms(100));
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].camera, kRightCamera);
 }
 
 TEST(InlineRenderExecutorTest, DrawsAtOnceAndGivesEachPictureOnce) {
