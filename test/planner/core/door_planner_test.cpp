@@ -100,7 +100,7 @@ TEST(DoorPlanner, ApproachLeadsOverTheAxisToTheHoldPoint) {
   ASSERT_TRUE(path.ok()) << path.refusal;
   ASSERT_EQ(path.points.size(), 2u);
   EXPECT_NEAR(path.points[0].x, 4.0, 1e-9);
-  EXPECT_NEAR(path.points[1].x, 6 - 0.085 - 0.6 - 0.475, 1e-9);
+  EXPECT_NEAR(path.points[1].x, 6 - 0.085 - 1.1 - 0.475, 1e-9);
   EXPECT_NEAR(path.points[1].y, 2.4, 1e-9);
 }
 
