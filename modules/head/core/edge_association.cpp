@@ -183,11 +183,13 @@ void Account(const Search& search, int side, double density, int camera, const A
     return;
   }
   const double part = std::min(1.0, match.covered / kNearlyWhole);
-  association.log_odds += importance * (part * odds.found + (1 - part) * odds.missed);
+  const double log_odds = importance * (part * odds.found + (1 - part) * odds.missed);
+  association.log_odds += log_odds;
   association.side_found_px[side] += importance * kFullLengthPx * part * (odds.found > 0 ? 1 : 0);
   association.matches.push_back(match);
   association.matches.back().edge = search.predicted.edge;
   association.matches.back().camera = camera;
+  association.matches.back().log_odds = log_odds;
 }
 
 void Match(Search& search, const CameraView& view, const AssociationOptions& options) {
@@ -210,6 +212,7 @@ Association Associate(const LandmarkModel& model, std::span<const int> visible,
                       std::span<const CameraView> views, const Eigen::Isometry3d& base_from_landmark,
                       const AssociationOptions& options) {
   Association association;
+  association.missed_log_odds = std::log(1 - options.detection);
   for (std::size_t c = 0; c < views.size(); ++c) {
     std::vector<Search> searches = Predict(model, visible, views[c], base_from_landmark);
     DropCrowded(searches, options.min_separation_px);
@@ -222,6 +225,18 @@ Association Associate(const LandmarkModel& model, std::span<const int> visible,
     }
   }
   return association;
+}
+
+void Association::Withdraw(const LandmarkModel& model, int edge) {
+  const int side = std::clamp(model.edges[edge].side, 0, 2);
+  for (const EdgeMatch& m : matches) {
+    if (m.edge != edge) continue;
+    const double importance = std::min(1.0, m.predicted_px / kFullLengthPx);
+    log_odds += importance * missed_log_odds - m.log_odds;
+    side_found_px[side] -= importance * kFullLengthPx * std::min(1.0, m.covered / kNearlyWhole);
+  }
+  side_found_px[side] = std::max(0.0, side_found_px[side]);
+  std::erase_if(matches, [edge](const EdgeMatch& m) { return m.edge == edge; });
 }
 
 std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Association& association,

@@ -18,11 +18,13 @@ struct EdgeMatch {
   double covered = 0;       ///< share of the predicted length they cover, 0..1
   double distance_px = 0;   ///< mean distance from the prediction, to the right of its direction positive
   double predicted_px = 0;  ///< predicted length
+  double log_odds = 0;      ///< what it contributes
   double overshoot_px = 0;  ///< how far the image edge runs on where the model has an end
 };
 
 /// What the images say about one supposed pose.
 struct Association {
+  double missed_log_odds = 0;  ///< of a whole edge that is not found
   std::vector<EdgeMatch> matches;
   int n_predicted = 0;       ///< edges that should be seen, all images together
   double log_odds = 0;       ///< logarithm of p(images | landmark there) / p(images | clutter only)
@@ -30,6 +32,9 @@ struct Association {
   /// Evidence by side of the landmark (LandmarkEdge::side): lengths that should be seen and that were found,
   /// each edge counted up to kFullLengthPx [px].
   std::array<double, 3> side_predicted_px{}, side_found_px{};
+
+  /// Takes the matches of one model edge back: it was found, but is not what was found.
+  void Withdraw(const LandmarkModel& model, int edge);
 };
 
 struct AssociationOptions {

@@ -2,11 +2,29 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <opencv2/core.hpp>
+#include <opencv2/core/hal/intrin.hpp>
 
 namespace priamos::head {
 namespace {
 
-constexpr int kGrid = 4;  ///< seeds lie on every 4th row or column: no straight edge of 8 px slips through
+constexpr int kGrid = 6;  ///< seeds lie on every 6th row or column: a straight edge of 9 px crosses one
+
+constexpr int kLanes = 8;
+
+/// True if all of kLanes magnitudes are below the threshold.
+bool IsBelow(const unsigned short* magnitude, const cv::v_uint16x8& threshold) {
+  return !v_check_any(cv::v_load(magnitude) >= threshold);
+}
+
+/// Strongest across the edge, on a grid line that crosses it.
+bool IsPeak(const GradientMap& gradients, int x, int y) {
+  const unsigned short* row = gradients.magnitude(y);
+  if (std::abs(gradients.gx(y)[x]) >= std::abs(gradients.gy(y)[x])) {
+    return y % kGrid == 0 && row[x] > row[x - 1] && row[x] >= row[x + 1];
+  }
+  return x % kGrid == 0 && row[x] > gradients.magnitude(y - 1)[x] && row[x] >= gradients.magnitude(y + 1)[x];
+}
 
 }  // namespace
 
@@ -16,18 +34,17 @@ void ChainTracer::Trace(const GradientMap& gradients, const Options& options, Ed
   chains.pixels.clear();
   chains.begins.assign(1, 0);
   const int threshold = static_cast<int>(options.seed_threshold);
+  const cv::v_uint16x8 limit = cv::v_setall_u16(static_cast<unsigned short>(threshold));
   for (int y = 2; y < gradients.height() - 2; ++y) {
-    const short *gx = gradients.gx(y), *gy = gradients.gy(y);
     const unsigned short* magnitude = gradients.magnitude(y);
-    const unsigned short *above = gradients.magnitude(y - 1), *below = gradients.magnitude(y + 1);
-    const bool grid_row = y % kGrid == 0;
-    for (int x = grid_row ? 2 : kGrid; x < gradients.width() - 2; x += grid_row ? 1 : kGrid) {
-      const int m = magnitude[x];
-      if (m < threshold) continue;
-      const bool steep = std::abs(gx[x]) >= std::abs(gy[x]);
-      const bool peak = steep ? grid_row && m > magnitude[x - 1] && m >= magnitude[x + 1]
-                              : x % kGrid == 0 && m > above[x] && m >= below[x];
-      if (peak && !visited_[std::size_t(y) * stride_ + x]) TraceFrom(gradients, options, x, y, chains);
+    for (int x = 0; x < gradients.width(); x += kLanes) {
+      const int end = std::min(x + kLanes, gradients.width() - 2);
+      if (end - x == kLanes && IsBelow(magnitude + x, limit)) continue;
+      const bool grid_row = y % kGrid == 0;
+      for (int u = std::max(x, grid_row ? 2 : kGrid); u < end; u += grid_row ? 1 : kGrid) {
+        if (magnitude[u] < threshold || visited_[std::size_t(y) * stride_ + u]) continue;
+        if (IsPeak(gradients, u, y)) TraceFrom(gradients, options, u, y, chains);
+      }
     }
   }
 }
@@ -47,38 +64,33 @@ void ChainTracer::TraceFrom(const GradientMap& gradients, const Options& options
 }
 
 void ChainTracer::Follow(const GradientMap& gradients, int threshold, int x, int y, int hand) {
+  const unsigned short* const magnitude = gradients.magnitude(0);
+  const short *const gx = gradients.gx(0), *const gy = gradients.gy(0);
+  const int right = gradients.width() - 2, bottom = gradients.height() - 2;
+  int at = y * stride_ + x;
   // The tangent (gy, -gx) has the bright side on the right; averaged over a few pixels, or noise would turn
   // the walk where the edge is diagonal.
-  int tx = 4 * hand * gradients.gy(y)[x], ty = -4 * hand * gradients.gx(y)[x];
-  const int right = gradients.width() - 2, bottom = gradients.height() - 2;
+  int tx = 4 * hand * gy[at], ty = -4 * hand * gx[at];
   while (true) {
-    int best = threshold, next_x = -1, next_y = -1;
-    if (std::abs(ty) >= std::abs(tx)) {
-      const int ahead = ty > 0 ? y + 1 : y - 1;
-      if (ahead < 1 || ahead > bottom) return;
-      const unsigned short* row = gradients.magnitude(ahead);
-      const int order[3] = {x, x - 1, x + 1};
-      for (const int u : order) {
-        if (row[u] > best) best = row[u], next_x = u, next_y = ahead;
-      }
+    const bool steep = std::abs(ty) >= std::abs(tx);
+    const int step = steep ? (ty > 0 ? stride_ : -stride_) : (tx > 0 ? 1 : -1), side = steep ? 1 : stride_;
+    int next = at + step, best = magnitude[next];
+    if (magnitude[at + step - side] > best) next = at + step - side, best = magnitude[next];
+    if (magnitude[at + step + side] > best) next = at + step + side, best = magnitude[next];
+    if (best <= threshold || visited_[next]) return;
+    const int ahead_x = hand * gy[next], ahead_y = -hand * gx[next];
+    if (std::int64_t(ahead_x) * tx + std::int64_t(ahead_y) * ty <= 0) return;  // an edge of other contrast
+    visited_[next] = 1;
+    const int across = next - at - step;  // 0 or one step sideways
+    if (steep) {
+      y += ty > 0 ? 1 : -1, x += across;
     } else {
-      const int ahead = tx > 0 ? x + 1 : x - 1;
-      if (ahead < 1 || ahead > right) return;
-      const int order[3] = {y, y - 1, y + 1};
-      for (const int v : order) {
-        const int m = gradients.magnitude(v)[ahead];
-        if (m > best) best = m, next_x = ahead, next_y = v;
-      }
+      x += tx > 0 ? 1 : -1, y += across == 0 ? 0 : across > 0 ? 1 : -1;
     }
-    if (next_x < 1 || next_y < 1 || next_x > right || next_y > bottom) return;
-    std::uint8_t& visited = visited_[std::size_t(next_y) * stride_ + next_x];
-    if (visited) return;
-    const int gx = hand * gradients.gy(next_y)[next_x], gy = -hand * gradients.gx(next_y)[next_x];
-    if (std::int64_t(gx) * tx + std::int64_t(gy) * ty <= 0) return;  // the edge ends at one of other contrast
-    visited = 1;
-    walk_.push_back({static_cast<std::int16_t>(next_x), static_cast<std::int16_t>(next_y)});
-    x = next_x, y = next_y;
-    tx += gx - tx / 4, ty += gy - ty / 4;
+    if (x < 1 || y < 1 || x > right || y > bottom) return;
+    walk_.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)});
+    at = next;
+    tx += ahead_x - tx / 4, ty += ahead_y - ty / 4;
   }
 }
 

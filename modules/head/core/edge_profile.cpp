@@ -10,7 +10,8 @@ namespace priamos::head {
 namespace {
 
 constexpr int kFraction = 16;  ///< bits after the point of a position in the row
-static_assert(EdgeKernelSet::kPhases == 64);
+constexpr int kPhaseShift = kFraction - 6;
+static_assert(EdgeKernelSet::kPhases == 1 << 6);
 
 struct Lanes {
   cv::v_int32x4 first = cv::v_setzero_s32(), second[2] = {first, first}, third[2] = {first, first};
@@ -37,42 +38,32 @@ void AddRow(const std::uint8_t* grey, const EdgeKernel& wide, const EdgeKernel& 
 
 }  // namespace
 
-EdgeSums& EdgeSums::operator+=(const EdgeSums& other) {
-  if (other.rows == 0) return *this;
-  along = (along * rows + other.along * other.rows) / (rows + other.rows);
-  rows += other.rows, strength += other.strength, low += other.low, high += other.high;
-  for (int i = 0; i < 2; ++i) imbalance[i] += other.imbalance[i], sharpness[i] += other.sharpness[i];
-  return *this;
-}
-
 void EdgeProfile::SetImage(const cv::Mat& image) {
   image_ = image;
   cv::transpose(image, transposed_);
 }
 
-EdgeSums EdgeProfile::Sum(const AxisLine& line, int first, int last, int step) const {
+EdgeSums EdgeProfile::Sum(const AxisLine& line, int first, int last) const {
   const cv::Mat& rows = line.steep ? image_ : transposed_;
-  const EdgeKernelSet& wide = KernelsFor(KernelWidth::kWide, std::abs(line.slope));
-  const EdgeKernelSet& narrow = KernelsFor(KernelWidth::kNarrow, std::abs(line.slope));
   first = std::max(first, 0), last = std::min(last, rows.rows - 1);
   EdgeSums sums;
   Lanes lanes;
-  int along = 0;
-  double remainder = 0;
-  for (int t = first; t <= last; t += step) {
+  int along = 0, remainder = 0;
+  for (int t = first; t <= last; ++t) {
     const int across = static_cast<int>(line.Across(t) * (1 << kFraction));
     const int pixel = across >> kFraction;
     if (pixel < EdgeKernel::kCentre || pixel + EdgeKernel::kTaps - EdgeKernel::kCentre > rows.cols) continue;
-    const int phase = (across >> (kFraction - 6)) & 63;
-    remainder += (across & ((1 << (kFraction - 6)) - 1)) - (1 << (kFraction - 7));
-    AddRow(rows.ptr(t) + pixel - EdgeKernel::kCentre, wide.phases[phase], narrow.phases[phase], lanes);
+    const int phase = (across >> kPhaseShift) & (EdgeKernelSet::kPhases - 1);
+    remainder += (across & ((1 << kPhaseShift) - 1)) - (1 << (kPhaseShift - 1));
+    AddRow(rows.ptr(t) + pixel - EdgeKernel::kCentre, line.wide->phases[phase], line.narrow->phases[phase],
+           lanes);
     along += t;
     ++sums.rows;
   }
   if (sums.rows == 0) return sums;
   const double scale = line.sign / EdgeKernel::kScale;
   // The kernels of the nearest phase were used; this brings the sums to the line itself.
-  const double offset = remainder / sums.rows / (1 << kFraction);
+  const double offset = double(remainder) / sums.rows / (1 << kFraction);
   sums.along = double(along) / sums.rows;
   sums.strength = scale * v_reduce_sum(lanes.first);
   for (int i = 0; i < 2; ++i) {
@@ -82,6 +73,32 @@ EdgeSums EdgeProfile::Sum(const AxisLine& line, int first, int last, int step) c
   std::uint16_t near[8], far[8];
   cv::v_store(near, lanes.near), cv::v_store(far, lanes.far);
   sums.low = (near[3] + near[4]) / 2.0, sums.high = (far[3] + far[4]) / 2.0;
+  return sums;
+}
+
+EdgeSums EdgeProfile::RoughSum(const AxisLine& line, int first, int last, int step) const {
+  const cv::Mat& rows = line.steep ? image_ : transposed_;
+  first = std::max(first, 0), last = std::min(last, rows.rows - 1);
+  EdgeSums sums;
+  cv::v_int32x4 strength = cv::v_setzero_s32(), imbalance = strength;
+  int along = 0;
+  for (int t = first; t <= last; t += step) {
+    const int across = static_cast<int>(line.Across(t) * (1 << kFraction));
+    const int pixel = across >> kFraction;
+    if (pixel < EdgeKernel::kCentre || pixel + EdgeKernel::kTaps - EdgeKernel::kCentre > rows.cols) continue;
+    const EdgeKernel& kernel = line.wide->phases[(across >> kPhaseShift) & (EdgeKernelSet::kPhases - 1)];
+    const std::uint8_t* grey = rows.ptr(t) + pixel - EdgeKernel::kCentre;
+    const cv::v_int16x8 a = v_reinterpret_as_s16(cv::v_load_expand(grey));
+    const cv::v_int16x8 b = v_reinterpret_as_s16(cv::v_load_expand(grey + 8));
+    strength = Add(strength, a, b, kernel.first);
+    imbalance = Add(imbalance, a, b, kernel.second);
+    along += t;
+    ++sums.rows;
+  }
+  if (sums.rows == 0) return sums;
+  sums.along = double(along) / sums.rows;
+  sums.strength = line.sign / EdgeKernel::kScale * v_reduce_sum(strength);
+  sums.imbalance[0] = line.sign / EdgeKernel::kScale * v_reduce_sum(imbalance);
   return sums;
 }
 

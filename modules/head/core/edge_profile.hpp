@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <opencv2/core/mat.hpp>
 
 #include "head/core/chain_split.hpp"
@@ -12,7 +13,15 @@ struct AxisLine {
   bool steep = true;
   int sign = 1;  ///< of the contrast in the direction of growing `across`
   double origin = 0, offset = 0, slope = 0;
+  const EdgeKernelSet *wide = nullptr, *narrow = nullptr;  ///< for this slope
 
+  void ChooseKernels() {
+    wide = &KernelsFor(KernelWidth::kWide, std::abs(slope));
+    narrow = &KernelsFor(KernelWidth::kNarrow, std::abs(slope));
+  }
+  const EdgeKernelSet& kernels(KernelWidth width) const {
+    return width == KernelWidth::kWide ? *wide : *narrow;
+  }
   double Across(double along) const { return offset + slope * (along - origin); }
   /// Length along the line per unit of `along`.
   double Stretch() const { return std::sqrt(1 + slope * slope); }
@@ -30,7 +39,11 @@ struct EdgeSums {
   double low = 0, high = 0;  ///< grey values on the sides of small and large `across`
 
   double shift(KernelWidth width) const { return imbalance[int(width)] / sharpness[int(width)]; }
-  EdgeSums& operator+=(const EdgeSums& other);
+  /// Adds all but the mean row.
+  void Add(const EdgeSums& other) {
+    rows += other.rows, strength += other.strength, low += other.low, high += other.high;
+    for (int i = 0; i < 2; ++i) imbalance[i] += other.imbalance[i], sharpness[i] += other.sharpness[i];
+  }
 };
 
 /// Measures a raw image across lines.
@@ -39,8 +52,10 @@ class EdgeProfile {
   /// Refers to `image` (CV_8UC1) until the next call.
   void SetImage(const cv::Mat& image);
 
-  /// Rows (or columns) first, first + step, ... up to `last`; those too near the border are left out.
-  EdgeSums Sum(const AxisLine& line, int first, int last, int step = 1) const;
+  /// Rows (or columns) from `first` to `last`; those too near the border are left out.
+  EdgeSums Sum(const AxisLine& line, int first, int last) const;
+  /// Strength and imbalance[0] only, on rows first, first + step, ...
+  EdgeSums RoughSum(const AxisLine& line, int first, int last, int step) const;
   /// Number of rows (or columns) of the image.
   int Extent(const AxisLine& line) const { return line.steep ? image_.rows : image_.cols; }
 

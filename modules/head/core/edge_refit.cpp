@@ -8,7 +8,11 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kMaxShiftPx = 1.5;     ///< an edge farther beside the line is another one
+constexpr double kMaxShiftPx = 1.5;  ///< an edge farther beside the line is another one
+/// Sharp edges that run along the pixel grid are sampled too coarsely for a narrow kernel: so much between
+/// the two widths means nothing.
+constexpr double kToleratedGapPx = 0.05;
+constexpr double kSettledPx = 0.15;     ///< so near the edge one linear step is exact
 constexpr double kTypicalSpread = 1.4;  ///< wide kernel and lens together [px]
 
 double Square(double x) {
@@ -61,14 +65,15 @@ void EdgeRefiner::SetImage(const cv::Mat& image, double noise_sigma) {
   noise_sigma_ = std::max(noise_sigma, 0.3);  // rounding to whole grey values is noise, too
 }
 
-/// Pixel accuracy to about 0.2 px, from a few rows only.
+/// Pixel accuracy to about 0.3 px, from a few rows only.
 bool EdgeRefiner::Approach(AxisLine& line, int first, int last) const {
-  constexpr int kGroups = 6, kRowsEach = 4;
+  constexpr int kGroups = 5, kRowsEach = 4;
   const int n = last - first + 1, step = std::max(1, n / (kGroups * kRowsEach));
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 2; ++round) {
     LineSums sums;
     for (int g = 0; g < kGroups; ++g) {
-      const EdgeSums s = profile_.Sum(line, first + g * n / kGroups, first + (g + 1) * n / kGroups - 1, step);
+      const EdgeSums s =
+          profile_.RoughSum(line, first + g * n / kGroups, first + (g + 1) * n / kGroups - 1, step);
       if (s.strength <= 0) continue;
       const double shift = s.imbalance[0] / s.strength * Square(kTypicalSpread);
       sums.Add(s.strength, s.along - line.origin, std::clamp(shift, -kMaxShiftPx, kMaxShiftPx));
@@ -76,8 +81,9 @@ bool EdgeRefiner::Approach(AxisLine& line, int first, int last) const {
     double mean = 0, step_offset = 0, turn = 0;
     if (!sums.Solve(mean, step_offset, turn)) return false;
     Move(line, line.origin + mean, step_offset, turn);
-    if (std::abs(step_offset) + std::abs(turn) * n / 2 < 0.3) break;
+    if (std::abs(step_offset) + std::abs(turn) * n / 2 < 0.5) break;
   }
+  line.ChooseKernels();
   return std::abs(line.slope) < 1.3;
 }
 
@@ -86,7 +92,7 @@ void EdgeRefiner::MeasureBlocks(const AxisLine& line, int first, int last) {
   total_ = EdgeSums{};
   for (int t = first; t <= last; t += block_rows_) {
     blocks_.push_back(profile_.Sum(line, t, std::min(t + block_rows_ - 1, last)));
-    total_ += blocks_.back();
+    total_.Add(blocks_.back());
   }
 }
 
@@ -124,7 +130,7 @@ void EdgeRefiner::Trim() {
   while (lost < blocks_.size() && !IsEdge(blocks_[lost])) before = part(blocks_[lost++]);
   blocks_.erase(blocks_.begin(), blocks_.begin() + lost);
   total_ = EdgeSums{};
-  for (const EdgeSums& b : blocks_) total_ += b;
+  for (const EdgeSums& b : blocks_) total_.Add(b);
   if (blocks_.empty()) return;
   const auto whole = [&](const EdgeSums& b) {
     return std::clamp(b.strength / mean, 0.5 * b.rows, 1.0 * b.rows);
@@ -134,44 +140,60 @@ void EdgeRefiner::Trim() {
   last_ = back.along - 0.5 * back.rows + whole(back) + after;
 }
 
-double EdgeRefiner::Shift(const EdgeSums& b, const Fit& fit) const {
-  return b.imbalance[int(fit.width)] / (fit.kappa * b.strength);
-}
-
-bool EdgeRefiner::Solve(const AxisLine& line, KernelWidth width, Fit& fit) {
+/// Weighted least squares over the blocks; with more than one round, blocks that disagree lose weight.
+bool EdgeRefiner::Solve(const AxisLine& line, KernelWidth width, int rounds, Fit& fit) {
   fit = Fit{};
   fit.width = width;
   const double sharpness = total_.sharpness[int(width)];
   if (blocks_.size() < 3 || sharpness <= 0 || total_.strength <= 0) return false;
+  // For a Gaussian edge this holds beside its centre, too.
   fit.kappa = sharpness / total_.strength;
+  if (width == KernelWidth::kWide) fit.kappa += Square(total_.imbalance[0] / total_.strength);
   const std::size_t skip = blocks_.size() >= 8 ? 1 : 0;  // corners disturb the ends
-  const double noise = std::sqrt(KernelsFor(width, std::abs(line.slope)).second_gain) * noise_sigma_;
+  const double gap = 0.25 * total_.strength / total_.rows;
   weights_.assign(blocks_.size(), 0);
-  double mean = 0, offset = 0, slope = 0;
-  for (int round = 0; round < 3; ++round) {
-    LineSums sums;
-    for (std::size_t i = skip; i + skip < blocks_.size(); ++i) {
-      const EdgeSums& b = blocks_[i];
-      if (b.strength < 0.25 * total_.strength / total_.rows * b.rows) continue;  // a gap
-      const double shift = std::clamp(Shift(b, fit), -kMaxShiftPx, kMaxShiftPx), tau = b.along - line.origin;
-      weights_[i] = b.strength;
-      if (round > 0) {
-        const double sigma = noise * std::sqrt(b.rows) / (fit.kappa * b.strength) + 0.03;
-        const double error = std::abs(shift - offset - slope * (tau - mean)) / sigma;
-        if (error > 2.5) weights_[i] *= 2.5 / error;
-      }
-      sums.Add(weights_[i], tau, shift);
-    }
-    if (!sums.Solve(mean, offset, slope)) return false;
+  shifts_.resize(blocks_.size());
+  for (std::size_t i = skip; i + skip < blocks_.size(); ++i) {
+    if (blocks_[i].strength <= gap * blocks_[i].rows) continue;
+    weights_[i] = blocks_[i].strength;
+    shifts_[i] = std::clamp(fit.Shift(blocks_[i]), -kMaxShiftPx, kMaxShiftPx);
   }
-  fit.centroid = line.origin + mean, fit.step_offset = offset, fit.step_slope = slope;
-  AddVariance(line, fit);
+  for (int round = 0; round < rounds; ++round) {
+    if (round > 0 && !Reweight(line, fit)) return true;
+    LineSums sums;
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      if (weights_[i] > 0) sums.Add(weights_[i], blocks_[i].along - line.origin, shifts_[i]);
+    }
+    double mean = 0;
+    if (!sums.Solve(mean, fit.step_offset, fit.step_slope)) return false;
+    fit.centroid = line.origin + mean;
+  }
   return true;
+}
+
+/// False if no block is far off.
+bool EdgeRefiner::Reweight(const AxisLine& line, const Fit& fit) {
+  constexpr double kLimit = 2.5, kFloorPx = 0.03;
+  const double noise = Square(noise_sigma_) * line.kernels(fit.width).second_gain;
+  bool changed = false;
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    if (weights_[i] <= 0) continue;
+    const EdgeSums& b = blocks_[i];
+    const double error = shifts_[i] - fit.step_offset - fit.step_slope * (b.along - fit.centroid);
+    const double slope2 = Square(fit.kappa * b.strength);
+    const double excess =
+        Square(error) * slope2 / (kLimit * kLimit * (noise * b.rows + Square(kFloorPx) * slope2));
+    weights_[i] = b.strength;
+    if (excess <= 1) continue;
+    weights_[i] /= std::sqrt(excess);
+    changed = true;
+  }
+  return changed;
 }
 
 /// From the pixel noise, enlarged where the blocks scatter more than that explains.
 void EdgeRefiner::AddVariance(const AxisLine& line, Fit& fit) const {
-  const double noise = Square(noise_sigma_) * KernelsFor(fit.width, std::abs(line.slope)).second_gain;
+  const double noise = Square(noise_sigma_) * line.kernels(fit.width).second_gain;
   double w = 0, wtt = 0, v = 0, vtt = 0, chi2 = 0;
   int n = 0;
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
@@ -179,7 +201,7 @@ void EdgeRefiner::AddVariance(const AxisLine& line, Fit& fit) const {
     const EdgeSums& b = blocks_[i];
     const double tau = b.along - fit.centroid;
     const double variance = noise * b.rows * Square(weights_[i] / (fit.kappa * b.strength));
-    const double error = Shift(b, fit) - fit.step_offset - fit.step_slope * tau;
+    const double error = fit.Shift(b) - fit.step_offset - fit.step_slope * tau;
     w += weights_[i], wtt += weights_[i] * tau * tau, v += variance, vtt += variance * tau * tau;
     chi2 += Square(error * weights_[i]) / variance;
     ++n;
@@ -194,46 +216,66 @@ bool EdgeRefiner::Settle(AxisLine& line, int first, int last) {
   for (int round = 0; round < 3; ++round) {
     MeasureBlocks(line, first, last);
     Fit fit;
-    if (!Solve(line, KernelWidth::kWide, fit)) return false;
+    if (!Solve(line, KernelWidth::kWide, 1, fit)) return false;
     const double move = std::abs(fit.step_offset) + std::abs(fit.step_slope) * (last - first) / 2;
-    if (move < 0.2) return true;
+    if (move < kSettledPx) return true;
     if (move > 5) return false;
     Move(line, fit.centroid, fit.step_offset, fit.step_slope);
+    line.ChooseKernels();
   }
   return std::abs(line.slope) < 1.3;
+}
+
+bool EdgeRefiner::IsClear(const AxisLine& line, const Options& options) const {
+  const double strength = total_.strength / total_.rows;
+  const double noise = std::sqrt(line.wide->first_gain) * noise_sigma_;
+  return strength * line.Stretch() * kTypicalSpread * std::sqrt(2 * kPi) >= options.min_contrast &&
+         strength * std::sqrt(total_.rows) >= options.min_significance * noise &&
+         total_.sharpness[0] * Square(options.max_spread_px) >= total_.strength;
+}
+
+/// The wide kernels' fit, or the narrow ones' if they contradict it.
+bool EdgeRefiner::Choose(const AxisLine& line, Fit& fit) {
+  Fit narrow;
+  const bool has_narrow = Solve(line, KernelWidth::kNarrow, 1, narrow);
+  if (!Solve(line, KernelWidth::kWide, 3, fit)) return false;
+  AddVariance(line, fit);
+  if (!has_narrow) return true;
+  const double gap = narrow.step_offset - fit.step_offset - fit.step_slope * (narrow.centroid - fit.centroid);
+  const double turn = narrow.step_slope - fit.step_slope;
+  // The same rows seen through narrower kernels are noisier in this proportion.
+  const double noisier =
+      1 + line.narrow->second_gain / line.wide->second_gain * Square(fit.kappa / narrow.kappa);
+  if (Square(std::max(0.0, std::abs(gap) - kToleratedGapPx)) > 9 * noisier * fit.variance_offset ||
+      Square(std::max(0.0, std::abs(turn) - 2 * kToleratedGapPx / (last_ - first_))) >
+          9 * noisier * fit.variance_slope) {
+    if (!Solve(line, KernelWidth::kNarrow, 3, fit)) return false;
+    AddVariance(line, fit);
+  }
+  return true;
 }
 
 bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeImage& out) {
   int first = 0, last = 0;
   AxisLine line = ToAxis(rough, first, last);
-  if (last - first < 5 || !Approach(line, first, last)) return false;
-  block_rows_ = last - first < 32 ? 2 : last - first < 160 ? 4 : 8;
-  if (!Settle(line, first, last)) return false;
-
-  const double strength = total_.strength / total_.rows;
-  const double noise =
-      std::sqrt(KernelsFor(KernelWidth::kWide, std::abs(line.slope)).first_gain) * noise_sigma_;
-  if (strength * line.Stretch() * kTypicalSpread * std::sqrt(2 * kPi) < options.min_contrast ||
-      strength * std::sqrt(total_.rows) < options.min_significance * noise ||
-      total_.sharpness[0] * Square(options.max_spread_px) < total_.strength) {
-    return false;
-  }
-  Extend(line);
-  Trim();
-  if (blocks_.empty() || (last_ - first_) * line.Stretch() < options.min_length_px) return false;
-
-  Fit fit, narrow;
-  if (Solve(line, KernelWidth::kNarrow, narrow) && Solve(line, KernelWidth::kWide, fit)) {
-    const double gap =
-        narrow.step_offset - fit.step_offset - fit.step_slope * (narrow.centroid - fit.centroid);
-    const double turn = narrow.step_slope - fit.step_slope;
-    if (std::abs(gap) > 0.01 + 3 * std::sqrt(narrow.variance_offset + fit.variance_offset) ||
-        std::abs(turn) >
-            3 * std::sqrt(narrow.variance_slope + fit.variance_slope) + 0.02 / (last_ - first_)) {
-      Solve(line, KernelWidth::kNarrow, fit);
-    }
-  } else if (!Solve(line, KernelWidth::kWide, fit)) {
-    return false;
+  line.ChooseKernels();
+  if (last - first < 5) return false;
+  block_rows_ = last - first < 24 ? 3 : last - first < 160 ? 4 : 8;
+  if (last - first > 40 && !Approach(line, first, last)) return false;
+  if (!Settle(line, first, last) || !IsClear(line, options)) return false;
+  Fit fit;
+  for (int round = 0;; ++round) {
+    Extend(line);
+    Trim();
+    if (blocks_.empty() || (last_ - first_) * line.Stretch() < options.min_length_px) return false;
+    if (!Choose(line, fit)) return false;
+    const double move = std::abs(fit.step_offset) + std::abs(fit.step_slope) * (last_ - first_) / 2;
+    if (move < kSettledPx) break;
+    if (round == 2) return false;
+    // The rough line led astray: its extension must be followed anew.
+    Move(line, fit.centroid, fit.step_offset, fit.step_slope);
+    line.ChooseKernels();
+    MeasureBlocks(line, static_cast<int>(std::ceil(first_)), static_cast<int>(last_));
   }
   Append(line, fit, options, out);
   return true;
@@ -259,14 +301,14 @@ void EdgeRefiner::Append(const AxisLine& measured, const Fit& fit, const Options
   segment.grey_left = (line.sign > 0 ? total_.low : total_.high) / total_.rows;
   segment.grey_right = (line.sign > 0 ? total_.high : total_.low) / total_.rows;
   segment.first_point = static_cast<int>(out.points.size());
-  const double noise = noise_sigma_ * std::sqrt(KernelsFor(fit.width, std::abs(line.slope)).second_gain);
+  const double noise = noise_sigma_ * std::sqrt(measured.kernels(fit.width).second_gain);
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const EdgeSums& b = blocks_[i];
     if (weights_[i] <= 0) continue;
-    const double shift = std::clamp(Shift(b, fit), -kMaxShiftPx, kMaxShiftPx);
+    const double shift = std::clamp(fit.Shift(b), -kMaxShiftPx, kMaxShiftPx);
     const double sigma = noise * std::sqrt(b.rows) / (fit.kappa * b.strength);
-    out.points.push_back(
-        {point(b.along, measured.Across(b.along) + shift), std::hypot(sigma * cosine, options.floor_px)});
+    out.points.push_back({point(b.along, measured.Across(b.along) + shift),
+                          std::sqrt(Square(sigma * cosine) + Square(options.floor_px))});
   }
   segment.n_points = static_cast<int>(out.points.size()) - segment.first_point;
   out.segments.push_back(segment);

@@ -38,24 +38,30 @@ class EdgeRefiner {
     double step_offset = 0, step_slope = 0;  ///< from the measured line to the edge; the offset holds there
     double variance_offset = 0, variance_slope = 0;
     double kappa = 1;  ///< imbalance per strength and pixel of shift
+
+    double Shift(const EdgeSums& block) const {
+      return block.imbalance[int(width)] / (kappa * block.strength);
+    }
   };
 
   bool Approach(AxisLine& line, int first, int last) const;
   bool Settle(AxisLine& line, int first, int last);
   void MeasureBlocks(const AxisLine& line, int first, int last);
+  bool IsClear(const AxisLine& line, const Options& options) const;
   void Extend(const AxisLine& line);
   void Trim();
   bool IsEdge(const EdgeSums& block) const;
-  double Shift(const EdgeSums& block, const Fit& fit) const;
-  bool Solve(const AxisLine& line, KernelWidth width, Fit& fit);
+  bool Solve(const AxisLine& line, KernelWidth width, int rounds, Fit& fit);
+  bool Reweight(const AxisLine& line, const Fit& fit);
   void AddVariance(const AxisLine& line, Fit& fit) const;
+  bool Choose(const AxisLine& line, Fit& fit);
   void Append(const AxisLine& line, const Fit& fit, const Options& options, EdgeImage& out) const;
 
   EdgeProfile profile_;
   double noise_sigma_ = 0;
   int block_rows_ = 4;
   std::vector<EdgeSums> blocks_, front_;  ///< along the line, from its small end to its large end
-  std::vector<double> weights_;
+  std::vector<double> weights_, shifts_;
   EdgeSums total_;
   double first_ = 0, last_ = 0;  ///< ends of the edge along the line
 };

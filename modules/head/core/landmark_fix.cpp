@@ -99,7 +99,25 @@ LandmarkFinder::Pose LandmarkFinder::Refine(const LandmarkModel& model, std::spa
   }
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
   pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
+  DropStrangers(model, views, cameras, pose);
   return pose;
+}
+
+/// An image edge beside the right one can lie within the gate; it shows when all others agree on the pose.
+void LandmarkFinder::DropStrangers(const LandmarkModel& model, std::span<const CameraView> views,
+                                   std::span<const CameraModel* const> cameras, Pose& pose) const {
+  for (int dropped = 0;; ++dropped) {
+    const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+    const auto observations = Observations(model, pose.association, views, at, false);
+    pose.solution = SolvePose(model, cameras, observations, at, options_.solver);
+    if (!pose.solution.ok) return;
+    pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
+    const auto& misfit = pose.solution.edge_misfit;
+    const auto worst = std::max_element(misfit.begin(), misfit.end());
+    if (*worst < options_.stranger_misfit || dropped == options_.max_strangers) return;
+    pose.association.Withdraw(model, static_cast<int>(worst - misfit.begin()));
+    if (pose.association.matches.size() < std::size_t(options_.min_matched)) return;
+  }
 }
 
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
@@ -163,6 +181,7 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   fix.covariance = OnFloor(best.solution.covariance);
   fix.n_matched = static_cast<int>(best.association.matches.size());
   fix.residual_px = best.solution.rms_px;
+  fix.misfit = best.solution.misfit;
   fix.matches = best.association.matches;
   fix.log_odds = best.association.log_odds, fix.rival_log_odds = best.rival_log_odds;
   const double left = best.association.side_predicted_px[1], right = best.association.side_predicted_px[2];
@@ -178,7 +197,7 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
     fix.verdict = Verdict::kTooFewEdges;
   } else if (fix.rival_log_odds > fix.log_odds - options_.min_lead) {
     fix.verdict = Verdict::kAmbiguous;
-  } else if (fix.residual_px > options_.max_residual_px) {
+  } else if (fix.residual_px > options_.max_residual_px || fix.misfit > options_.max_misfit) {
     fix.verdict = Verdict::kResidualTooLarge;
   } else if (SquaredDistance(fix.base_from_landmark, prediction.base_from_landmark, search) >
              options_.gate * options_.gate) {

@@ -43,6 +43,7 @@ struct LandmarkFix {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
   int n_matched = 0;                                     ///< model edges found, all images together
   double residual_px = 0;                                ///< RMS distance of the matched edges from the model
+  double misfit = 0;                                     ///< PoseSolution::misfit
   double log_odds = 0;                                   ///< landmark there against clutter only
   double rival_log_odds = 0;                             ///< the same of the best different pose
   std::vector<EdgeMatch> matches;
@@ -61,6 +62,9 @@ struct LandmarkFixOptions {
       5;                ///< wanted in addition if only one side is in view: it could be another landmark's
   double min_lead = 6;  ///< over the best different pose
   double max_residual_px = 1.2;
+  double max_misfit = 4;
+  double stranger_misfit = 8;  ///< an edge that fits worse (chi squared) is not the model's
+  int max_strangers = 3;       ///< so many may be taken out
   double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
   VerticalStereoOptions stereo;
   ProposalOptions proposals;
@@ -83,6 +87,8 @@ class LandmarkFinder {
  private:
   struct Pose;
   Pose Refine(const LandmarkModel& model, std::span<const CameraView> views, const Pose2& start) const;
+  void DropStrangers(const LandmarkModel& model, std::span<const CameraView> views,
+                     std::span<const CameraModel* const> cameras, Pose& pose) const;
   void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
              const Pose& best, LandmarkFix& fix) const;
 

@@ -15,6 +15,10 @@ constexpr int kPose = 6, kCamera = 2, kEdge = 2;
 using Vector10 = Eigen::Matrix<double, kPose + kCamera + kEdge, 1>;
 using Matrix10 = Eigen::Matrix<double, kPose + kCamera + kEdge, kPose + kCamera + kEdge>;
 
+double Square(double x) {
+  return x * x;
+}
+
 /// The points of one model edge in one image.
 struct Group {
   int edge = 0, camera = 0;
@@ -97,6 +101,7 @@ class Problem {
     Matrix10 normal = Matrix10::Zero();
     Vector10 right = Vector10::Zero();
     double mean = 0;
+    Vector10 mean_jacobian = Vector10::Zero();
     bool ok = false;
   };
 
@@ -126,10 +131,10 @@ class Problem {
       const double residual = normal.dot(o.at - view->p), weight = 1 / (o.sigma_px * o.sigma_px);
       rows.normal.noalias() += weight * j * j.transpose();
       rows.right += weight * residual * j;
-      rows.mean += weight * residual, weight_sum += weight;
+      rows.mean += weight * residual, rows.mean_jacobian += weight * j, weight_sum += weight;
     }
     if (weight_sum <= 0) return;
-    rows.mean /= weight_sum;
+    rows.mean /= weight_sum, rows.mean_jacobian /= weight_sum;
     rows.ok = true;
   }
 
@@ -206,8 +211,35 @@ class Problem {
       solution.worst_px = std::max(solution.worst_px, std::abs(g.mean_px));
     }
     solution.rms_px = std::sqrt(sum / std::max(n, 1));
+    AddMisfit(inverse * right_, solution);
     solution.base_from_landmark = pose_;
     solution.ok = true;
+  }
+
+  /// The priors and the rest after them, evaluated where the last step leads.
+  void AddMisfit(const Eigen::VectorXd& step, PoseSolution& solution) const {
+    constexpr double kUnexplainedPx = 0.15;  // of a whole edge, after all that is modelled
+    const int first_edge = kPose + kCamera * static_cast<int>(cameras_.size());
+    solution.edge_misfit.assign(model_.edges.size(), 0);
+    double sum = step.segment(kPose, first_edge - kPose).squaredNorm() / Square(options_.camera_sigma_px);
+    int n = 0;
+    for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+      if (slot_of_edge_[e] < 0) continue;
+      const auto error = step.segment<kEdge>(first_edge + kEdge * slot_of_edge_[e]);
+      solution.edge_misfit[e] = error.squaredNorm() / Square(options_.model_sigma_m);
+    }
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      if (!rows_[i].ok) continue;
+      const Vector10& j = rows_[i].mean_jacobian;
+      const double rest =
+          rows_[i].mean -
+          j.segment<kCamera>(kPose).dot(step.segment<kCamera>(kPose + kCamera * groups_[i].camera)) -
+          j.segment<kEdge>(8).dot(step.segment<kEdge>(first_edge + kEdge * slot_of_edge_[groups_[i].edge]));
+      solution.edge_misfit[groups_[i].edge] += Square(rest / kUnexplainedPx);
+      ++n;
+    }
+    for (const double m : solution.edge_misfit) sum += m;
+    solution.misfit = sum / std::max(n - (options_.on_floor ? 3 : 6), 1);
   }
 
   const LandmarkModel& model_;

@@ -32,6 +32,10 @@ struct PoseSolution {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double rms_px = 0;    ///< of the mean distances of the edges from the model, both images
   double worst_px = 0;  ///< the largest of them
+  /// What model errors, camera shifts and the rest would have to be, squared and in units of what they are
+  /// expected to be, per degree of freedom: about 1 or less for the right edges, large for wrong ones.
+  double misfit = 0;
+  std::vector<double> edge_misfit;  ///< the part of each model edge in that sum
 };
 
 /// Least squares pose from points on edges, in any number of images, starting at `initial`, without any prior
