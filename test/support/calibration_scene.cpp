@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "test/support/disc_renderer.hpp"
 
 namespace priamos::support {
 
@@ -127,6 +128,31 @@ Sightings Sight(const head::ReferenceObject& object, const head::CameraModel& ca
     sightings.detections.push_back(detection);
   }
   return sightings;
+}
+
+GreyImage RenderSightings(const head::ReferenceObject& object, const head::CameraModel& camera,
+                          const std::vector<int>& truth, Rng& rng) {
+  DiscRenderer scene(768, 576, rng.Uniform(10, 60), 1);
+  const double amplitude = rng.Uniform(60, 190);
+  for (std::uint64_t i = rng.Below(12); i > 0; --i) {
+    const double u = rng.Uniform(30, 700), v = rng.Uniform(30, 500), radius = rng.Uniform(3, 25);
+    if (rng.Chance(0.3)) {
+      scene.AddRectangle(u, v, u + rng.Uniform(5, 60), v + rng.Uniform(5, 60), amplitude);
+    } else {
+      const double minor = radius * rng.Uniform(0.6, 1);
+      scene.AddEllipse({{u, v}, Eigen::Vector2d(radius * radius, minor * minor).asDiagonal()},
+                       rng.Uniform(60, 190));
+    }
+  }
+  // The black body around every disc hides what lies behind.
+  for (const int disc : truth) {
+    const head::Ellipse e = *head::ProjectDisc(camera.image_from_base, object.discs[disc]);
+    const Eigen::Vector2d c = camera.Distort(e.centre_px);
+    const double reach = e.SemiMajor() + 6;
+    scene.Cover(c.x() - reach, c.y() - reach, c.x() + reach, c.y() + reach, 20);
+  }
+  for (const int disc : truth) scene.AddDisc(camera, object.discs[disc], amplitude);
+  return scene.Expose({rng.Uniform(0.4, 1.2), 2}, rng);
 }
 
 Vector3d EyeOf(const head::CameraModel& camera) {

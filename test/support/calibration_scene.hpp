@@ -45,6 +45,11 @@ struct Sightings {
 Sightings Sight(const head::ReferenceObject& object, const head::CameraModel& camera, int hidden, int clutter,
                 Rng& rng);
 
+/// The image of the discs that `truth` names before a black body, with other bright spots and rectangles
+/// around it; gain, blur and background are random.
+GreyImage RenderSightings(const head::ReferenceObject& object, const head::CameraModel& camera,
+                          const std::vector<int>& truth, Rng& rng);
+
 /// The optical centre.
 Eigen::Vector3d EyeOf(const head::CameraModel& camera);
 

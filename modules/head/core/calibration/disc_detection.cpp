@@ -60,9 +60,7 @@ std::vector<Ellipse> Neighbours(const std::vector<BrightRegion>& regions, std::s
 
 std::optional<DetectedDisc> Measure(const GreyImage& image, const BrightRegion& region,
                                     const std::vector<Ellipse>& others) {
-  // The second pass has the window in the right place and of the right shape.
-  std::optional<DetectedDisc> moments = MeasureMoments(image, FirstGuess(region), others);
-  if (moments) moments = MeasureMoments(image, moments->ellipse, others);
+  const std::optional<DetectedDisc> moments = MeasureMoments(image, FirstGuess(region), others);
   if (!moments) return std::nullopt;
   return FitDisc(image, *moments, others);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "common/geometry.hpp"
 
@@ -20,6 +21,8 @@ constexpr double kRimReach_px = 2.5;   // beyond the half-level rim: where a sha
 constexpr double kRingWidth_px = 2.0;  // of the ring that gives the background
 constexpr double kPixelVariance = 1.0 / 12;
 constexpr int kFitSteps = 5;
+constexpr double kConverged_px = 1.5e-3;
+constexpr double kMarginSlack_px = 1;  // for the fit to move within
 constexpr double kForeign = 0.1, kForeignLevels = 10;
 // What lamps and vignetting do at most, as a standard deviation. It keeps the slopes from being traded
 // against the centre where a disc is small or blurred.
@@ -111,10 +114,36 @@ bool MeasureLevels(const GreyImage& image, const Ellipse& guess, std::span<const
   return top >= 0 && disc.background >= 0 && disc.amplitude > 1;
 }
 
+/// The ellipse with the moments of what stands out of the background within the window.
+std::optional<Ellipse> MomentsWithin(const GreyImage& image, const Ellipse& window,
+                                     std::span<const Ellipse> others, const DetectedDisc& levels) {
+  const std::optional<Box> box = BoundingBox(image, window);
+  if (!box) return std::nullopt;
+  double sum = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  ForEachPixel(image, *box, window, others, [&](double dx, double dy, double, std::uint8_t grey) {
+    const double weight = grey - levels.background;
+    sum += weight;
+    x += weight * dx;
+    y += weight * dy;
+    xx += weight * dx * dx;
+    xy += weight * dx * dy;
+    yy += weight * dy * dy;
+  });
+  if (sum < levels.amplitude) return std::nullopt;
+  const Vector2d mean(x / sum, y / sum);
+  Matrix2d covariance;
+  covariance << xx / sum, xy / sum, xy / sum, yy / sum;
+  covariance -= mean * mean.transpose();
+  // A uniform ellipse has covariance shape/4; the pixels' extent is taken off, the unknown blur is not.
+  const Ellipse found{window.centre_px + mean, 4 * (covariance - kPixelVariance * Matrix2d::Identity())};
+  const bool positive = found.shape_px2(0, 0) > 0.5 && found.shape_px2.determinant() > 0.25;
+  return positive ? std::optional(found) : std::nullopt;
+}
+
 /// Phi and phi of the standard normal distribution, tabulated over +-kReach.
 class NormalTable {
  public:
-  static constexpr double kReach = 4;
+  static constexpr double kReach = 3.3;
   NormalTable() {
     for (int i = 0; i <= kSteps; ++i) {
       const double z = (i - kSteps / 2) / kPerUnit;
@@ -189,6 +218,96 @@ struct FlatPixels {
   }
 };
 
+/// The same sums of grey values, which no model changes: taken once for the pixels deep inside the disc.
+struct GreySums {
+  double n = 0, g = 0, gg = 0;
+  Vector2d x = Vector2d::Zero(), gx = Vector2d::Zero();
+  Matrix2d xx = Matrix2d::Zero();
+
+  /// Pixels of one row, from u0 to u1, with coordinates from (origin_u, origin_v).
+  void AddRow(const std::uint8_t* row, int u0, int u1, double origin_u, double dy) {
+    int sum = 0, weighted = 0, squares = 0;
+    for (int u = u0; u <= u1; ++u) {
+      sum += row[u];
+      weighted += row[u] * (u - u0);
+      squares += row[u] * row[u];
+    }
+    const double count = u1 - u0 + 1, first = u0 - origin_u, last = count - 1;
+    const double sum_x = count * (first + last / 2);
+    n += count;
+    g += sum;
+    gg += squares;
+    x += Vector2d(sum_x, count * dy);
+    gx += Vector2d(weighted + first * sum, sum * dy);
+    const double sum_xx = count * first * first + first * last * count + last * count * (2 * last + 1) / 6;
+    xx(0, 0) += sum_xx;
+    xx(0, 1) += sum_x * dy;
+    xx(1, 0) += sum_x * dy;
+    xx(1, 1) += count * dy * dy;
+  }
+  /// The residuals against level + slope * (x + shift).
+  FlatPixels Against(double level, const Vector2d& slope, const Vector2d& shift) const {
+    const Vector2d d = x + n * shift, gd = gx + g * shift;
+    const Matrix2d dd = xx + shift * x.transpose() + x * shift.transpose() + n * shift * shift.transpose();
+    const Vector2d rd = gd - level * d - dd * slope;
+    FlatPixels flat;
+    flat.n = n;
+    flat.r = g - level * n - slope.dot(d);
+    flat.rx = rd.x();
+    flat.ry = rd.y();
+    flat.xx = dd(0, 0);
+    flat.xy = dd(0, 1);
+    flat.yy = dd(1, 1);
+    flat.squares = gg - 2 * level * g - 2 * slope.dot(gd) + level * level * n + 2 * level * slope.dot(d) +
+                   slope.dot(dd * slope);
+    return flat;
+  }
+};
+
+/// The pixels of a window: those within `margin_px` of the rim or outside one by one, the core as sums.
+struct WindowPixels {
+  struct Pixel {
+    float dx, dy, grey;  ///< from the centre of the window
+  };
+  std::vector<Pixel> shell;
+  GreySums core;
+  double margin_px = 0;
+
+  void Collect(const GreyImage& image, const Ellipse& disc, const Ellipse& window,
+               std::span<const Ellipse> others, double margin) {
+    const std::optional<Box> box = BoundingBox(image, window);
+    margin_px = margin;
+    shell.clear();
+    core = {};
+    if (!box) return;
+    const double share = others.empty() ? std::max(0.0, 1 - margin / disc.SemiMinor()) : 0;
+    const Matrix2d k = window.shape_px2.inverse();
+    const double core_q2 = share * share * std::sqrt(disc.shape_px2.determinant() * k.determinant());
+    for (int v = box->v0; v <= box->v1; ++v) {
+      const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(v) * image.width;
+      const double dy = v - window.centre_px.y();
+      // Where the row crosses the core: k00 dx^2 + 2 k01 dx dy + k11 dy^2 = core_q2.
+      const double half_b = k(0, 1) * dy / k(0, 0);
+      const double discriminant = half_b * half_b - (k(1, 1) * dy * dy - core_q2) / k(0, 0);
+      int first = 1, last = 0;
+      if (discriminant > 0) {
+        first = static_cast<int>(std::ceil(window.centre_px.x() - half_b - std::sqrt(discriminant)));
+        last = static_cast<int>(std::floor(window.centre_px.x() - half_b + std::sqrt(discriminant)));
+      }
+      if (first <= last) core.AddRow(row, first, last, window.centre_px.x(), dy);
+      for (int u = box->u0; u <= box->u1; ++u) {
+        if (u == first && first <= last) u = last + 1;
+        if (u > box->u1) break;
+        const double dx = u - window.centre_px.x();
+        if (k(0, 0) * dx * dx + 2 * k(0, 1) * dx * dy + k(1, 1) * dy * dy > 1) continue;
+        const auto hides = [&](const Ellipse& other) { return Within(other, u, v); };
+        if (std::any_of(others.begin(), others.end(), hides)) continue;
+        shell.push_back({static_cast<float>(dx), static_cast<float>(dy), static_cast<float>(row[u])});
+      }
+    }
+  }
+};
+
 const NormalTable& Normal() {
   static const NormalTable kTable;
   return kTable;
@@ -220,6 +339,12 @@ class Accumulator {
     } else {
       AddRim(dx, dy, kx, ky, q2, rest, shading);
     }
+  }
+
+  /// Pixels of which the model knows that they lie inside.
+  void AddCore(const GreySums& core, const Vector2d& shift) {
+    const Vector2d slope = m_.amplitude * m_.slope + m_.background_slope;
+    core.Against(m_.amplitude + m_.background, slope, shift).AddTo(eq_, m_.amplitude);
   }
 
   NormalEquations Finish() {
@@ -313,30 +438,15 @@ std::optional<DetectedDisc> MeasureMoments(const GreyImage& image, const Ellipse
                                            std::span<const Ellipse> others) {
   DetectedDisc disc;
   if (!MeasureLevels(image, guess, others, disc)) return std::nullopt;
-  const Ellipse window = Grown(guess, kRimReach_px);
-  const std::optional<Box> box = BoundingBox(image, window);
-  if (!box) return std::nullopt;
-  double sum = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  ForEachPixel(image, *box, window, others, [&](double dx, double dy, double, std::uint8_t grey) {
-    const double weight = grey - disc.background;
-    sum += weight;
-    x += weight * dx;
-    y += weight * dy;
-    xx += weight * dx * dx;
-    xy += weight * dx * dy;
-    yy += weight * dy * dy;
-  });
-  if (sum < disc.amplitude) return std::nullopt;
-  const Vector2d mean(x / sum, y / sum);
-  Matrix2d covariance;
-  covariance << xx / sum, xy / sum, xy / sum, yy / sum;
-  covariance -= mean * mean.transpose();
-  // A uniform ellipse has covariance shape/4; the pixels' extent is taken off, the unknown blur is not.
-  disc.ellipse.centre_px = window.centre_px + mean;
-  disc.ellipse.shape_px2 = 4 * (covariance - kPixelVariance * Matrix2d::Identity());
+  disc.ellipse = guess;
+  // The second pass has the window in the right place and of the right shape.
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::optional<Ellipse> next = MomentsWithin(image, Grown(disc.ellipse, kRimReach_px), others, disc);
+    if (!next) return std::nullopt;
+    disc.ellipse = *next;
+  }
   disc.blur_sigma_px = 0.7;
-  const bool positive = disc.ellipse.shape_px2(0, 0) > 0.5 && disc.ellipse.shape_px2.determinant() > 0.25;
-  return positive ? std::optional(disc) : std::nullopt;
+  return disc;
 }
 
 std::optional<DetectedDisc> FitDisc(const GreyImage& image, const DetectedDisc& start,
@@ -348,22 +458,25 @@ std::optional<DetectedDisc> FitDisc(const GreyImage& image, const DetectedDisc& 
               std::sqrt(start.blur_sigma_px * start.blur_sigma_px + kPixelVariance), start.amplitude,
               start.background};
   const Ellipse window = Grown(start.ellipse, kRimReach_px + 1);
-  const std::optional<Box> box = BoundingBox(image, window);
-  if (!box) return std::nullopt;
+  if (!BoundingBox(image, window)) return std::nullopt;
+  WindowPixels pixels;
   NormalEquations eq;
   for (int i = 0; i < kFitSteps; ++i) {
+    const double fade_px = NormalTable::kReach * model.rim_sigma;
+    if (fade_px > pixels.margin_px) {
+      pixels.Collect(image, {window.centre_px, shape}, window, others, fade_px + kMarginSlack_px);
+    }
     Accumulator sums(model);
     const Vector2d shift = window.centre_px - model.centre;
-    ForEachPixel(image, *box, window, others, [&](double dx, double dy, double, std::uint8_t grey) {
-      sums.Add(dx + shift.x(), dy + shift.y(), grey);
-    });
+    for (const auto& p : pixels.shell) sums.Add(p.dx + shift.x(), p.dy + shift.y(), p.grey);
+    sums.AddCore(pixels.core, shift);
     eq = sums.Finish();
     if (eq.pixels < 15) return std::nullopt;
     AddPrior(model, eq);
     const Vector2d before = model.centre;
     Step(eq, model);
     if (!Sane(model, start)) return std::nullopt;
-    if (i > 0 && (model.centre - before).norm() < 1e-3) break;
+    if (i > 0 && (model.centre - before).norm() < kConverged_px) break;
   }
   return Result(model, eq);
 }
