@@ -17,7 +17,7 @@ std::optional<LookResult> FromMessage(const landmark_fix_t& message);
 /// The outcome of a look as far as the pose is concerned.
 LookResult FromMessage(const pose_correction_t& message);
 
-/// At most 24 edges and 16 points fit a message; what the core makes is below that.
+/// At most 20 edges and 16 points fit a message; what the core makes is below that.
 landmark_model_t ToMessage(const Landmark& landmark);
 path_t ToMessage(const PathOrder& path, Time now);
 look_request_t ToMessage(const LookOrder& look, Time now);

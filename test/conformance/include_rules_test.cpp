@@ -55,7 +55,7 @@ bool LibraryAllowed(const std::string& from, const std::string& file, const std:
   if (header.starts_with("mrpt/")) return from.ends_with("/core");
   if (header.starts_with("ceres/")) return in({"head/core"});
   if (header.starts_with("lcm/")) return file == "bus/lcm_bus.cpp";
-  if (header.starts_with("sodium")) return in({"bus", "cli"});
+  if (header.starts_with("sodium")) return in({"bus", "cli", "radio"});
   if (header.starts_with("toml++/")) return file == "modules/common/config.cpp";
   return true;
 }
