@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   priamos::cli::AddLockstepCommand(cli, exit_code);
   priamos::cli::AddCalibrateCommand(cli, exit_code);
   priamos::cli::AddTopicCommand(cli, exit_code);
+  priamos::cli::AddSeeCommand(cli, exit_code);
   priamos::cli::AddLinkCommand(cli, exit_code);
   try {
     cli.parse(argc, argv);
