@@ -31,8 +31,9 @@ std::string Config(const std::string& name) {
 }
 
 /// Runs a command in a network of its own, at most 10 s.
-Answer Run(const std::string& command,
-           const std::string& network = "ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo") {
+Answer RunCommand(
+    const std::string& command,
+    const std::string& network = "ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo") {
   const std::string line = "timeout 10 unshare -rn sh -c '" + network + "; " + command + "' 2>&1";
   FILE* pipe = popen(line.c_str(), "r");
   Answer answer;
@@ -55,13 +56,14 @@ void ExpectOneSentence(const Answer& answer) {
 }
 
 TEST_P(ProcessErrors, MissingConfigurationFile) {
-  const auto answer = Run(process() + " --config /nowhere/x.toml");
+  const auto answer = RunCommand(process() + " --config /nowhere/x.toml");
   ExpectOneSentence(answer);
   EXPECT_THAT(answer.text, HasSubstr("/nowhere/x.toml: expected a configuration file, got none"));
 }
 
 TEST_P(ProcessErrors, UnknownKeyOnTheCommandLine) {
-  const auto answer = Run(process() + " --config " + Config(name() + ".toml") + " --set no_such_key=1");
+  const auto answer =
+      RunCommand(process() + " --config " + Config(name() + ".toml") + " --set no_such_key=1");
   ExpectOneSentence(answer);
   EXPECT_THAT(answer.text, HasSubstr("no_such_key: expected a known key"));
 }
@@ -69,27 +71,27 @@ TEST_P(ProcessErrors, UnknownKeyOnTheCommandLine) {
 TEST_P(ProcessErrors, UnknownKeyInAFile) {
   const auto file = std::filesystem::path(testing::TempDir()) / ("unknown-" + name() + ".toml");
   std::ofstream(file) << "\nno_such_key = 1\n";
-  const auto answer = Run(process() + " --config " + file.string());
+  const auto answer = RunCommand(process() + " --config " + file.string());
   ExpectOneSentence(answer);
   EXPECT_THAT(answer.text, HasSubstr(file.string() + ":2:no_such_key"));
   std::filesystem::remove(file);
 }
 
 TEST_P(ProcessErrors, BusWithoutMulticast) {
-  const auto answer = Run(process() + " --config " + Config(name() + ".toml"), "ip link set lo up");
+  const auto answer = RunCommand(process() + " --config " + Config(name() + ".toml"), "ip link set lo up");
   ExpectOneSentence(answer);
   EXPECT_THAT(answer.text,
               AllOf(HasSubstr("expected a multicast route"), HasSubstr("ip route add 224.0.0.0/4 dev lo")));
 }
 
 TEST_P(ProcessErrors, PrintedConfigurationIsTheOneThatRuns) {
-  const auto answer = Run(process() + " --config " + Config(name() + ".toml") + " --print-config");
+  const auto answer = RunCommand(process() + " --config " + Config(name() + ".toml") + " --print-config");
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("# ["));
 }
 
 TEST_P(ProcessErrors, NoModuleListensToTheTruth) {
-  const auto answer = Run(process() + " --config " + Config(name() + ".toml") + " --interface");
+  const auto answer = RunCommand(process() + " --config " + Config(name() + ".toml") + " --interface");
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("out  HEALTH"));
   EXPECT_THAT(answer.text, Not(HasSubstr("in   WORLD_TRUTH")));
@@ -101,13 +103,13 @@ INSTANTIATE_TEST_SUITE_P(EveryProcess, ProcessErrors,
 
 TEST(RadioProcess, AbsentTtyNamesTheNextStep) {
   const auto answer =
-      Run(Binary("priamos-radio") + " --config " + Config("radio.toml") + " --port /dev/no-such-tty");
+      RunCommand(Binary("priamos-radio") + " --config " + Config("radio.toml") + " --port /dev/no-such-tty");
   ExpectOneSentence(answer);
   EXPECT_THAT(answer.text, HasSubstr("/dev/no-such-tty"));
 }
 
 TEST(PriamosRun, UnknownScenarioIsAnsweredWithTheKnownOnes) {
-  const auto answer = Run(Binary("priamos") + " run --scenario nothing --deployment " + Config(""));
+  const auto answer = RunCommand(Binary("priamos") + " run --scenario nothing --deployment " + Config(""));
   ExpectOneSentence(answer);
   EXPECT_THAT(answer.text, AllOf(HasSubstr("\"nothing\""), HasSubstr("door")));
 }
