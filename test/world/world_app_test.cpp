@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <thread>
@@ -11,6 +12,11 @@
 
 namespace priamos::world {
 namespace {
+
+/// Tests run side by side, each in a process of its own, and must not share a frame store.
+std::string Instance() {
+  return "world-app-test-" + std::to_string(getpid());
+}
 
 /// The world on a bus of its own in simulated time, and a robot played by hand.
 struct Stage {
@@ -25,7 +31,7 @@ struct Stage {
   }
   bus::Surroundings Around(std::uint64_t seed, bool lockstep) {
     bus::Surroundings around;
-    around.instance = "world-app-test";
+    around.instance = Instance();
     around.config_dir = PRIAMOS_SOURCE_DIR "/config/sim";
     around.seed = seed;
     around.lockstep = lockstep;
@@ -116,7 +122,7 @@ TEST(WorldAppTest, MovesTheHead) {
 
 TEST(WorldAppTest, ATriggerBringsAStereoPairIntoTheFrameStore) {
   Stage s;
-  const auto store = FrameStore::Attach("world-app-test-camera");
+  const auto store = FrameStore::Attach(Instance() + "-camera");
   ASSERT_TRUE(store);
   camera_trigger_t trigger{};
   trigger.utime = ToUtime(s.clock.Now());
@@ -143,7 +149,7 @@ TEST(WorldAppTest, ATriggerBringsAStereoPairIntoTheFrameStore) {
 TEST(WorldAppTest, InRealTimeTheSamePicturesComeFromAThread) {
   const auto pictures = [](bool lockstep) {
     Stage s("worlds/door.toml", 3, lockstep);
-    const auto store = FrameStore::Attach("world-app-test-camera");
+    const auto store = FrameStore::Attach(Instance() + "-camera");
     camera_trigger_t trigger{};
     trigger.utime = ToUtime(s.clock.Now());
     trigger.frame_id = 5;
