@@ -156,14 +156,15 @@ TEST(WorldAppTest, InRealTimeTheSamePicturesComeFromAThread) {
     trigger.cameras = 3;
     s.triggers.Publish(trigger);
     std::vector<std::vector<std::uint8_t>> all;
+    double reports = 0;  // drained at once: drawing may take longer than an inbox holds
     while (all.size() < 2) {
       s.Run(0.01);
+      reports += static_cast<double>(s.wheels.Drain().size());
       for (const auto& frame : s.frames.Drain()) all.push_back(store->Read(frame.slot, 5)->pixels);
       std::this_thread::yield();
     }
     // However long drawing took: the devices kept their rates.
-    EXPECT_NEAR(static_cast<double>(s.wheels.Drain().size()),
-                Seconds(s.clock.Now() - FromUtime(1'000'000'000)) * 50, 1.5);
+    EXPECT_NEAR(reports, Seconds(s.clock.Now() - FromUtime(1'000'000'000)) * 50, 1.5);
     return all;
   };
   EXPECT_EQ(pictures(true), pictures(false));
