@@ -7,7 +7,7 @@
 namespace priamos::bus::radio {
 namespace {
 
-enum ControlKind : std::uint8_t { kFrameAck = 0, kEventAck = 1, kFloor = 2, kListen = 3 };
+enum ControlKind : std::uint8_t { kFrameAck = 0, kEventAck = 1, kFloor = 2, kListen = 3, kOver = 4 };
 constexpr int kControlKindBits = 3;
 constexpr int kLengthBits = 8;
 constexpr int kSegmentLengthBits = 5;
@@ -69,6 +69,7 @@ class EntryWriter {
     Control(kListen);
     out_.Write(e.channels, static_cast<int>(table_.size()));
   }
+  void operator()(const OverEntry&) { Control(kOver); }
 
  private:
   void Id(std::size_t channel) { out_.Write(channel + 1, table_.id_bits()); }
@@ -161,6 +162,8 @@ class BundleReader {
         return FloorEntry{in_.Read(kFloorBits)};
       case kListen:
         return ListenEntry{in_.Read(static_cast<int>(table_.size()))};
+      case kOver:
+        return OverEntry{};
       default:
         return std::nullopt;
     }

@@ -57,8 +57,11 @@ struct ListenEntry {
   std::uint64_t channels = 0;
 };
 
-using BundleEntry =
-    std::variant<StateEntry, CommandEntry, EventEntry, EventAckEntry, FrameAckEntry, FloorEntry, ListenEntry>;
+/// Half-duplex: the sender falls silent after this frame and listens.
+struct OverEntry {};
+
+using BundleEntry = std::variant<StateEntry, CommandEntry, EventEntry, EventAckEntry, FrameAckEntry,
+                                 FloorEntry, ListenEntry, OverEntry>;
 
 /// Durations as 3 bits exponent, 9 bits mantissa: 1 ms up to 0.5 s, then 4, 16, 64 ms ...; up to 2.3 hours.
 std::uint16_t EncodeDuration12(Duration d);

@@ -17,8 +17,8 @@ using NonceSource = std::function<std::uint64_t()>;
 /// anything. Three hello frames, about 0.12 s at 9600 baud; both ends that kept their state need none.
 ///
 /// Why an old hello does no harm: an end changes its epoch only for a hello that echoes its own random
-/// number, which was drawn for this purpose and is paired with one number of the other end for good. A
-/// replayed hello therefore costs an answer (which the link limits in rate) and nothing else.
+/// number, and a number that has made an epoch never makes another. A replayed hello therefore costs an
+/// answer (which the link limits in rate) and nothing else.
 class EpochAgreement {
  public:
   struct Pair {
@@ -37,8 +37,6 @@ class EpochAgreement {
   Hello Compose(bool need) const;
 
  private:
-  void Pairing(std::uint64_t peer);
-
   NonceSource nonces_;
   std::uint64_t own_;
   std::optional<std::uint64_t> peer_;

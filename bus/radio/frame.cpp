@@ -68,7 +68,7 @@ std::array<std::byte, kHelloBodyBytes> EncodeHello(const Hello& hello) {
   PutLittleEndian(hello.stream, out.subspan(4, 4));
   PutLittleEndian(hello.nonce, out.subspan(8, 8));
   PutLittleEndian(hello.echo, out.subspan(16, 8));
-  body[24] = static_cast<std::byte>((hello.need ? 1 : 0) | (hello.agreed ? 2 : 0));
+  body[24] = static_cast<std::byte>((hello.need ? 1 : 0) | (hello.agreed ? 2 : 0) | (hello.over ? 4 : 0));
   return body;
 }
 
@@ -78,7 +78,8 @@ Hello DecodeHello(std::span<const std::byte> body) {
           .nonce = GetLittleEndian(body.subspan(8, 8)),
           .echo = GetLittleEndian(body.subspan(16, 8)),
           .need = (body[24] & std::byte{1}) != std::byte{0},
-          .agreed = (body[24] & std::byte{2}) != std::byte{0}};
+          .agreed = (body[24] & std::byte{2}) != std::byte{0},
+          .over = (body[24] & std::byte{4}) != std::byte{0}};
 }
 
 std::vector<std::byte> Delimited(std::span<const std::byte> content) {

@@ -64,6 +64,7 @@ struct Hello {
   std::uint64_t echo = 0;    ///< the receiver's random number as the sender heard it; 0 before
   bool need = false;         ///< the sender cannot use the receiver's frames: answer, please
   bool agreed = false;       ///< the sender uses the epoch of (nonce, echo)
+  bool over = false;         ///< half-duplex: the sender falls silent and listens
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 

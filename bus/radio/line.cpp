@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace priamos::bus::radio {
 namespace {
@@ -30,16 +31,43 @@ void LineConfig::Describe(Archive& a) {
   a.Number("burst_length_s", burst_length_s, {"s", 0, 10, "length of one burst"});
   a.Number("burst_error_rate", burst_error_rate, {"-", 0, 0.5, "bit error rate inside a burst"});
   a.Number("duplicate_probability", duplicate_probability, {"-", 0, 1, "a byte arrives twice"});
+  a.Flag("half_duplex", half_duplex, "a modem hears nothing while it sends");
+  a.Number("turnaround_s", turnaround_s, {"s", 0, 1, "half-duplex: nor for so long afterwards"});
   a.List("cut", cuts, "times without a line");
 }
 
-Line::Line(const LineConfig& config, Rng rng, Time start)
+void SharedAir::Sends(int side, std::int64_t from_ns, std::int64_t to_ns) {
+  auto& spans = spans_[side];
+  constexpr std::int64_t kMemory_ns = 30'000'000'000;
+  while (!spans.empty() && spans.front().to_ns < from_ns - kMemory_ns) spans.pop_front();
+  if (!spans.empty() && spans.back().to_ns >= from_ns) {
+    spans.back().to_ns = to_ns;
+  } else {
+    spans.push_back({from_ns, to_ns});
+  }
+}
+
+bool SharedAir::IsDeaf(int side, std::int64_t from_ns, std::int64_t to_ns) const {
+  return std::any_of(spans_[side].begin(), spans_[side].end(),
+                     [&](const Span& s) { return from_ns < s.to_ns + turnaround_ns_ && to_ns > s.from_ns; });
+}
+
+LinePair::LinePair(const LineConfig& config, Rng rng_a, Rng rng_b, Time start)
+    : air(config.half_duplex ? std::make_shared<SharedAir>(config.turnaround_s) : nullptr),
+      a_to_b(config, std::move(rng_a), start, air, 0),
+      b_to_a(config, std::move(rng_b), start, air, 1) {}
+
+Line::Line(const LineConfig& config, Rng rng, Time start) : Line(config, std::move(rng), start, nullptr, 0) {}
+
+Line::Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side)
     : config_(config),
       rng_(rng),
       start_ns_(ToNs(start)),
       byte_ns_(10'000'000'000 / config.baud),
       free_at_ns_(start_ns_),
-      last_arrival_ns_(start_ns_) {
+      last_arrival_ns_(start_ns_),
+      air_(std::move(air)),
+      side_(side) {
   std::sort(config_.cuts.begin(), config_.cuts.end(),
             [](const LineCut& a, const LineCut& b) { return a.from_s < b.from_s; });
   if (config_.burst_rate_hz > 0)
@@ -50,6 +78,7 @@ Line::Line(const LineConfig& config, Rng rng, Time start)
 void Line::Write(std::span<const std::byte> bytes, Time now) {
   for (const std::byte byte : bytes) {
     free_at_ns_ = std::max(free_at_ns_, ToNs(now)) + byte_ns_;
+    if (air_) air_->Sends(side_, free_at_ns_ - byte_ns_, free_at_ns_);
     Transmit(byte, free_at_ns_);
   }
   bytes_written_ += bytes.size();
@@ -58,7 +87,8 @@ void Line::Write(std::span<const std::byte> bytes, Time now) {
 std::vector<std::byte> Line::Read(Time now) {
   std::vector<std::byte> bytes;
   while (!arrivals_.empty() && arrivals_.front().at_ns <= ToNs(now)) {
-    bytes.push_back(arrivals_.front().byte);
+    const std::int64_t at_ns = arrivals_.front().at_ns;
+    if (!air_ || !air_->IsDeaf(1 - side_, at_ns - byte_ns_, at_ns)) bytes.push_back(arrivals_.front().byte);
     arrivals_.pop_front();
   }
   return bytes;

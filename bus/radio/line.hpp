@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,25 @@ struct LineConfig {
   double burst_length_s = 0.02;      ///< length of one burst
   double burst_error_rate = 0.3;     ///< bit error rate inside a burst
   double duplicate_probability = 0;  ///< probability that a byte arrives twice
+  bool half_duplex = false;          ///< a modem hears nothing while it sends
+  double turnaround_s = 0.02;        ///< nor for so long afterwards
   std::vector<LineCut> cuts{};       ///< in order of time
   void Describe(Archive& a);
+};
+
+/// When the modems of a half-duplex radio send: they cannot hear then.
+class SharedAir {
+ public:
+  explicit SharedAir(double turnaround_s) : turnaround_ns_(static_cast<std::int64_t>(turnaround_s * 1e9)) {}
+  void Sends(int side, std::int64_t from_ns, std::int64_t to_ns);
+  bool IsDeaf(int side, std::int64_t from_ns, std::int64_t to_ns) const;
+
+ private:
+  struct Span {
+    std::int64_t from_ns, to_ns;
+  };
+  std::int64_t turnaround_ns_;
+  std::deque<Span> spans_[2];
 };
 
 /// One direction of a serial line in simulated time. Bytes leave one after the other at the baud rate,
@@ -40,6 +58,8 @@ struct LineConfig {
 class Line {
  public:
   Line(const LineConfig& config, Rng rng, Time start);
+  /// On a half-duplex radio both directions share the air; `side` (0 or 1) sends into this one.
+  Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side);
 
   /// Calls come in the order of `now`.
   void Write(std::span<const std::byte> bytes, Time now);
@@ -68,9 +88,18 @@ class Line {
   std::int64_t free_at_ns_;
   std::int64_t last_arrival_ns_;
   std::int64_t burst_start_ns_ = std::numeric_limits<std::int64_t>::max();
+  std::shared_ptr<SharedAir> air_;
+  int side_ = 0;
   std::size_t next_cut_ = 0;
   std::uint64_t bytes_written_ = 0;
   std::deque<Arrival> arrivals_;
+};
+
+/// Both directions of one line, a to b and b to a.
+struct LinePair {
+  LinePair(const LineConfig& config, Rng rng_a, Rng rng_b, Time start);
+  std::shared_ptr<SharedAir> air;
+  Line a_to_b, b_to_a;
 };
 
 }  // namespace priamos::bus::radio

@@ -41,6 +41,7 @@ LinkEndpoint::LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey
       receivers_(table_.size()),
       deliveries_(table_.size()),
       pacer_(options.bytes_per_s, options.ahead_bytes, now),
+      turns_(options.half_duplex, outgoing == Direction::kUp, now),
       last_data_(now - options.keep_alive),
       last_hello_(now - kHelloPause),
       hello_limit_(now),
@@ -76,6 +77,7 @@ void LinkEndpoint::Listen(std::size_t channel, bool listening) {
 std::vector<Delivery> LinkEndpoint::Receive(std::span<const std::byte> bytes, Time now) {
   std::vector<Delivery> deliveries;
   counters_.bytes_received += bytes.size();
+  if (!bytes.empty()) turns_.OnBytes(now);
   for (const std::byte b : bytes) {
     switch (splitter_.Push(b)) {
       case FrameSplitter::Event::kNone:
@@ -155,7 +157,10 @@ void LinkEndpoint::OnEntry(BundleEntry entry, bool newest, std::size_t wire_byte
                           memory_.SkipCounters(e.counter);
                           confirmed_.reset();
                         },
-                        [&](ListenEntry& e) { OnListen(e); }},
+                        [&](ListenEntry& e) { OnListen(e); },
+                        [&](OverEntry&) {
+                          if (newest) turns_.OnOverReceived(now);
+                        }},
              entry);
 }
 
@@ -214,8 +219,9 @@ void LinkEndpoint::OnListen(const ListenEntry& listen) {
       queue_.SetWanted(i, (listen.channels >> i & 1U) != 0);
 }
 
-void LinkEndpoint::OnHello(const Hello& hello, Time /*now*/) {
+void LinkEndpoint::OnHello(const Hello& hello, Time now) {
   ++counters_.hellos_received;
+  if (hello.over) turns_.OnOverReceived(now);
   table_mismatch_ = hello.table_hash != table_.hash();
   if (table_mismatch_) return;
   const EpochAgreement::Outcome outcome = agreement_.OnHello(hello);

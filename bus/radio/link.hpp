@@ -20,6 +20,7 @@
 #include "bus/radio/link_quality.hpp"
 #include "bus/radio/pacer.hpp"
 #include "bus/radio/send_queue.hpp"
+#include "bus/radio/turn_taking.hpp"
 
 namespace priamos::bus::radio {
 
@@ -43,6 +44,7 @@ struct LinkOptions {
   Duration keep_alive{250'000};        ///< silence is broken after this
   Duration silence{1'500'000};         ///< without a frame for so long the link is down
   Duration ageing{1'000'000};          ///< a waiting message gains one priority level per this
+  HalfDuplex half_duplex{};            ///< by default the line has two directions
 };
 
 /// A message from the other end.
@@ -143,6 +145,7 @@ class LinkEndpoint {
     std::size_t next = 0;
     std::uint64_t counter = 0;  ///< 0: a hello
     bool urgent = false;
+    bool over = false;  ///< ends the turn
     std::size_t bundle_bytes = 0;
     std::vector<SentMessage> messages;
     std::vector<SentSegment> segments;
@@ -159,8 +162,10 @@ class LinkEndpoint {
   bool BuildFrame(Time now);
   void BuildHello(Time now);
   void BuildData(Time now, bool urgent_only);
+  void AddOver(Time now, BitWriter& bundle, Flight& flight) const;
   void Launch(Flight flight, std::vector<std::byte> wire, Time now);
   bool DataDue(Time now) const;
+  bool AckDue() const;
   bool HelloDue(Time now) const;
   bool FrameAckDue(Time now) const;
   void AddControl(Time now, BitWriter& bundle, Flight& flight);
@@ -206,6 +211,7 @@ class LinkEndpoint {
   std::vector<DeliveryCounters> deliveries_;
 
   Pacer pacer_;
+  TurnTaking turns_;
   std::optional<Flight> flight_;
   std::optional<std::uint64_t> confirmed_;  ///< highest counter that the other end reported
   std::deque<SentFrame> sent_frames_;       ///< the last ones, for round trips

@@ -98,11 +98,17 @@ void LinkConfig::Describe(Archive& a) {
   a.Number("keep_alive_s", keep_alive_s, {"s", 0.05, 10, "longest silence of an end"});
   a.Number("silence_s", silence_s, {"s", 0.1, 60, "the link is down when nothing came for so long"});
   a.Number("ageing_s", ageing_s, {"s", 0.05, 600, "a waiting message gains one level of priority per this"});
+  a.Number(
+      "half_duplex_turn_s", half_duplex_turn_s,
+      {"s", 0, 10, "one radio channel for both directions: longest time one end talks; 0: two directions"});
+  a.Number("turnaround_s", turnaround_s, {"s", 0, 1, "half-duplex: from sending to hearing"});
   a.Flag("encrypted", encrypted, "hides what is sent; it is authenticated in any case");
   a.Text("key_file", key_file, "secret key of the link, made by `priamos link keygen`, mode 0600");
   a.Flag("simulation_key", simulation_key, "use a key that everybody knows: only for emulated lines");
   a.List("channel", channels,
          "the channels that cross the link; their order is part of what both ends agree on");
+  if (half_duplex_turn_s > 0 && half_duplex_turn_s < 2 * (max_bundle_bytes + 8) / BytesPerSecond())
+    a.Refuse("half_duplex_turn_s", "0, or time for at least two frames of max_bundle_bytes");
   if (silence_s <= keep_alive_s) a.Refuse("silence_s", "more than keep_alive_s");
 }
 
@@ -117,7 +123,8 @@ LinkOptions LinkConfig::Options() const {
           .max_bundle_bytes = static_cast<std::size_t>(max_bundle_bytes),
           .keep_alive = FromSeconds(keep_alive_s),
           .silence = FromSeconds(silence_s),
-          .ageing = FromSeconds(ageing_s)};
+          .ageing = FromSeconds(ageing_s),
+          .half_duplex = {FromSeconds(half_duplex_turn_s), FromSeconds(turnaround_s)}};
 }
 
 ChannelTable LinkConfig::Table(const Schema& schema) const {

@@ -38,6 +38,8 @@ struct LinkConfig {
   double silence_s = 1.5;
   double ageing_s = 1;
   bool encrypted = false;
+  double half_duplex_turn_s = 0;
+  double turnaround_s = 0.02;
   std::string key_file = "link.key";
   bool simulation_key = false;
   std::vector<LinkChannelConfig> channels;

@@ -27,11 +27,12 @@ constexpr std::size_t kSmallestBundle = 60;
 std::vector<std::byte> LinkEndpoint::Step(Time now) {
   std::vector<std::byte> out;
   queue_.Expire(now);
+  turns_.Step(now, latency_.one_way());
   if (flight_ && !flight_->urgent && flight_->wire.size() - flight_->next > kNotWorthAborting &&
       memory_.epoch() != 0 && queue_.UrgentReady(now))
     Abort(now, out);
   while (pacer_.Allows(now)) {
-    if (!flight_ && !BuildFrame(now)) break;
+    if (!flight_ && (!turns_.MayTalk(now) || !BuildFrame(now))) break;
     Emit(flight_->wire[flight_->next++], now, out);
     if (flight_->next == flight_->wire.size()) Finish();
   }
@@ -48,7 +49,7 @@ bool LinkEndpoint::BuildFrame(Time now) {
   const bool agreed = memory_.epoch() != 0;
   if (agreed && queue_.UrgentReady(now)) BuildData(now, true);
   if (!flight_ && HelloDue(now)) BuildHello(now);
-  if (!flight_ && agreed && DataDue(now)) BuildData(now, false);
+  if (!flight_ && agreed && (DataDue(now) || turns_.MayPass(now))) BuildData(now, false);
   return flight_.has_value();
 }
 
@@ -67,7 +68,9 @@ void LinkEndpoint::BuildHello(Time now) {
   hello_reply_ = false;
   last_hello_ = now;
   hello_limit_.Use(now);
-  Launch({}, sealer_.Seal(hello), now);
+  Flight flight;
+  flight.over = hello.over = turns_.enabled();  // the answer is what is needed
+  Launch(std::move(flight), sealer_.Seal(hello), now);
 }
 
 bool LinkEndpoint::FrameAckDue(Time now) const {
@@ -78,9 +81,12 @@ bool LinkEndpoint::FrameAckDue(Time now) const {
 bool LinkEndpoint::DataDue(Time now) const {
   if (now - last_data_ >= options_.keep_alive || frames_since_ack_ >= kFramesPerAck || listen_due_)
     return true;
-  for (const EventReceiver& r : receivers_)
-    if (r.ack_due()) return true;
-  return !queue_.Ready(now).empty();
+  return AckDue() || !queue_.Ready(now).empty();
+}
+
+bool LinkEndpoint::AckDue() const {
+  return std::any_of(receivers_.begin(), receivers_.end(),
+                     [](const EventReceiver& r) { return r.ack_due(); });
 }
 
 void LinkEndpoint::BuildData(Time now, bool urgent_only) {
@@ -89,6 +95,7 @@ void LinkEndpoint::BuildData(Time now, bool urgent_only) {
   BitWriter bundle;
   if (!urgent_only) AddControl(now, bundle, flight);
   AddMessages(now, urgent_only, bundle, flight);
+  AddOver(now, bundle, flight);
   // Nothing that is ready could be packed: no frame for nothing.
   if (bundle.bits() == 0 && now - last_data_ < options_.keep_alive) return;
   flight.counter = memory_.TakeCounter();
@@ -98,6 +105,15 @@ void LinkEndpoint::BuildData(Time now, bool urgent_only) {
   sent_frames_.push_back({flight.counter, pacer_.LeavesAt(wire.size(), now)});
   if (sent_frames_.size() > kRememberedFrames) sent_frames_.pop_front();
   Launch(std::move(flight), std::move(wire), now);
+}
+
+void LinkEndpoint::AddOver(Time now, BitWriter& bundle, Flight& flight) const {
+  if (!turns_.enabled()) return;
+  const Time end = pacer_.LeavesAt(bundle.bytes().size() + kFrameOverhead, now);
+  const Duration longest = pacer_.WireTime(options_.max_bundle_bytes + kFrameOverhead);
+  if (!turns_.MustEnd(end, longest) && (AckDue() || !queue_.Ready(now).empty())) return;
+  WriteEntry(table_, OverEntry{}, bundle);
+  flight.over = true;
 }
 
 void LinkEndpoint::Launch(Flight flight, std::vector<std::byte> wire, Time now) {
@@ -122,7 +138,8 @@ std::size_t LinkEndpoint::BundleTarget() const {
 bool LinkEndpoint::AddEntry(const BundleEntry& entry, BitWriter& bundle, const Flight& flight) const {
   const std::size_t bits = bundle.bits() + EntryBits(table_, entry);
   const bool alone = flight.messages.empty() && flight.segments.empty();
-  if (bits > 8 * (alone ? kMaxBundleBytes : BundleTarget())) return false;
+  const std::size_t reserved = turns_.enabled() ? EntryBits(table_, OverEntry{}) : 0;
+  if (bits + reserved > 8 * (alone ? kMaxBundleBytes : BundleTarget())) return false;
   WriteEntry(table_, entry, bundle);
   return true;
 }
@@ -208,6 +225,7 @@ void LinkEndpoint::Abort(Time now, std::vector<std::byte>& out) {
 }
 
 void LinkEndpoint::Finish() {
+  if (flight_->over) turns_.OnOverSent(pacer_.free_at());
   for (const SentMessage& m : flight_->messages) queue_.CountSent(m.message.channel, m.bits);
   if (flight_->counter == 0) {
     ++counters_.hellos_sent;

@@ -45,6 +45,10 @@ void AddEmulate(CLI::App& link, int& exit_code) {
   verb->add_option("--duplicate", line.duplicate_probability, "probability that a byte arrives twice")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  verb->add_flag("--half-duplex", line.half_duplex, "a modem hears nothing while it sends");
+  verb->add_option("--turnaround", line.turnaround_s, "s, half-duplex: nor for so long afterwards")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   verb->add_option("--blackouts", options->blackouts,
                    "CSV file with from_s,to_s per line: no line in between");
   verb->add_option("--seed", options->seed, "of the errors")->capture_default_str();

@@ -118,18 +118,18 @@ void PseudoTerminal::Write(std::span<const std::byte> bytes) {
 EmulatedLine::EmulatedLine(const LinkEmulateOptions& options, Time start)
     : a_(options.a),
       b_(options.b),
-      a_to_b_(WithBlackouts(options), Rng::Stream(options.seed, "a to b"), start),
-      b_to_a_(WithBlackouts(options), Rng::Stream(options.seed, "b to a"), start) {}
+      lines_(WithBlackouts(options), Rng::Stream(options.seed, "a to b"), Rng::Stream(options.seed, "b to a"),
+             start) {}
 
 void EmulatedLine::Step(Time now) {
-  MoveIn(a_, a_to_b_, now);
-  MoveIn(b_, b_to_a_, now);
-  b_.Write(a_to_b_.Read(now));
-  a_.Write(b_to_a_.Read(now));
+  MoveIn(a_, lines_.a_to_b, now);
+  MoveIn(b_, lines_.b_to_a, now);
+  b_.Write(lines_.a_to_b.Read(now));
+  a_.Write(lines_.b_to_a.Read(now));
 }
 
 Time EmulatedLine::NextArrival() const {
-  return std::min(a_to_b_.next_arrival(), b_to_a_.next_arrival());
+  return std::min(lines_.a_to_b.next_arrival(), lines_.b_to_a.next_arrival());
 }
 
 int RunLinkEmulate(const LinkEmulateOptions& options) {

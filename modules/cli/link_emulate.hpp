@@ -58,7 +58,7 @@ class EmulatedLine {
 
  private:
   PseudoTerminal a_, b_;
-  bus::radio::Line a_to_b_, b_to_a_;
+  bus::radio::LinePair lines_;
 };
 
 /// Emulates until SIGINT or SIGTERM and returns 0. Throws ConfigError or std::runtime_error.

@@ -178,8 +178,8 @@ std::string ReportPage(const RunRecord& record, const Summary& summary, std::spa
   page += "<h2>Fixes</h2>\n" + FixTable(summary);
   page += "<h2>Over time</h2>\n<p>Shaded: from a look at the door to the fix.</p>\n<div class=\"two\">" +
           Plots(record) + "</div>\n";
-  page += "<h2>Radio</h2>\n<div class=\"two\">" + RadioTable("robot to workstation", summary.down) +
-          RadioTable("workstation to robot", summary.up) + "</div>\n";
+  page += "<h2>Radio</h2>\n<div class=\"two\">" + RadioTable("up: robot to workstation", summary.up) +
+          RadioTable("down: workstation to robot", summary.down) + "</div>\n";
   page += fmt::format(
       "<footer>A pose is {:.2f} s old at the workstation (median). Simulated at {:.1f} times "
       "real time.</footer>\n</main></body></html>\n",

@@ -169,7 +169,7 @@ void DrawLegend(Page& page, const Summary& summary) {
   page.Text(x, y + 76,
             fmt::format("{:.1f} s, {:.2f} m/s mean speed", summary.duration_s, summary.mean_speed_m_s), 12,
             kInk);
-  page.Text(x, y + 100, fmt::format("radio: {} B down, {} B up", summary.down.bytes, summary.up.bytes), 12,
+  page.Text(x, y + 100, fmt::format("radio: {} B up, {} B down", summary.up.bytes, summary.down.bytes), 12,
             kInk);
 }
 

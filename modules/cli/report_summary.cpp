@@ -144,8 +144,8 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   summary.mean_speed_m_s = MeanSpeed(record);
   summary.min_speed_during_fix_m_s = SlowestDuringFixes(record);
   summary.fixes = FixesOf(record, span.begin_utime);
-  summary.up = RadioOf(record.offboard_link);
-  summary.down = RadioOf(record.onboard_link);
+  summary.up = RadioOf(record.onboard_link);
+  summary.down = RadioOf(record.offboard_link);
   summary.pose_age_s = Median(record.pose_ages_s);
   return summary;
 }

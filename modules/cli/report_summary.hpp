@@ -48,8 +48,8 @@ struct Summary {
   double mean_speed_m_s = 0;                       ///< true way over the time from first to last motion
   std::optional<double> min_speed_during_fix_m_s;  ///< true speed from look request to correction
   std::vector<FixSummary> fixes;
-  RadioSummary up;    ///< workstation to robot
-  RadioSummary down;  ///< robot to workstation
+  RadioSummary up;    ///< robot to workstation, as in link.toml
+  RadioSummary down;  ///< workstation to robot
   double realtime_factor = 1;
 
   double pose_age_s = 0;  ///< median age of a pose at the workstation; not in summary.json

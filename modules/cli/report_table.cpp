@@ -68,8 +68,8 @@ void PrintSummary(std::ostream& out, const Summary& summary) {
   PrintFixes(out, summary);
   PrintDrive(out, summary);
   Rule(out, "radio");
-  PrintRadio(out, "robot to workstation", summary.down);
-  PrintRadio(out, "workstation to robot", summary.up);
+  PrintRadio(out, "up: robot to workstation", summary.up);
+  PrintRadio(out, "down: workstation to robot", summary.down);
   out << fmt::format("  a pose is {:.2f} s old at the workstation (median)\n", summary.pose_age_s);
   out << std::string(kWidth, '-') << "\n";
 }

@@ -32,14 +32,14 @@ TEST(ReportSummary, FixesAreJudgedByTheTruth) {
   EXPECT_NEAR(dut.fixes[1].sigma_m, 0.010, 1e-9);
 }
 
-TEST(ReportSummary, UpIsFromTheWorkstationDownFromTheRobot) {
+TEST(ReportSummary, UpIsFromTheRobotDownFromTheWorkstation) {
   const Summary dut = Summarise(SyntheticRun{}.Record(), TestInfo());
-  EXPECT_NEAR(dut.down.utilisation, 0.2, 1e-9);
-  EXPECT_NEAR(dut.up.utilisation, 0.05, 1e-9);
-  EXPECT_EQ(dut.down.bytes, 3600);
-  ASSERT_EQ(dut.down.channels.size(), 1u);
-  EXPECT_EQ(dut.down.channels[0].channel, "POSE");
-  EXPECT_EQ(dut.up.channels[0].channel, "LOOK_REQUEST");
+  EXPECT_NEAR(dut.up.utilisation, 0.2, 1e-9);
+  EXPECT_NEAR(dut.down.utilisation, 0.05, 1e-9);
+  EXPECT_EQ(dut.up.bytes, 3600);
+  ASSERT_EQ(dut.up.channels.size(), 1u);
+  EXPECT_EQ(dut.up.channels[0].channel, "POSE");
+  EXPECT_EQ(dut.down.channels[0].channel, "LOOK_REQUEST");
 }
 
 TEST(ReportSummary, MissionThatFailedHasNotPassed) {

@@ -66,8 +66,24 @@ TEST_F(EpochTest, ReplayedLastHelloCannotChangeTheEpochBack) {
   EXPECT_FALSE(b.OnHello(old).agreed);
 }
 
-TEST_F(EpochTest, OneNumberIsPairedWithOneNumber) {
+TEST_F(EpochTest, NumbersOfEarlierAttemptsDoNotKeepTheEndsFromAgreeing) {
+  EpochAgreement gone(nonces);
+  for (EpochAgreement* end : {&a, &b}) end->OnHello(gone.Compose(true));  // both are paired with a dead end
+  bool agreed = false;
+  for (int i = 0; i < 4 && !agreed; ++i) {
+    b.OnHello(a.Compose(true));
+    a.OnHello(b.Compose(true));
+    agreed = a.Compose(true).agreed && b.Compose(true).agreed;
+  }
+  EXPECT_TRUE(agreed);
+  EXPECT_EQ(a.Compose(true).echo, b.Compose(true).nonce);
+  EXPECT_EQ(b.Compose(true).echo, a.Compose(true).nonce);
+}
+
+TEST_F(EpochTest, ANumberMakesOneEpoch) {
   b.OnHello(a.Compose(true));
+  a.OnHello(b.Compose(false));
+  ASSERT_TRUE(b.OnHello(a.Compose(false)).agreed);
   const std::uint64_t first = b.Compose(false).nonce;
   EpochAgreement other(nonces);
   b.OnHello(other.Compose(true));

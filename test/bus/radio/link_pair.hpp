@@ -78,15 +78,17 @@ class LinkPair {
     }
   };
 
-  explicit LinkPair(LineConfig line = {}, std::uint64_t seed = 1)
+  explicit LinkPair(LineConfig line = {}, std::uint64_t seed = 1, LinkOptions options = {})
       : onboard(Direction::kUp),
         offboard(Direction::kDown),
-        line_up(line, Rng::Stream(seed, "up"), now),
-        line_down(line, Rng::Stream(seed, "down"), now),
+        lines(line, Rng::Stream(seed, "up"), Rng::Stream(seed, "down"), now),
         rng(Rng::Stream(seed, "nonces")) {
+    onboard.options = offboard.options = options;
     Start(onboard);
     Start(offboard);
   }
+  LinkPair(const LinkPair&) = delete;
+  LinkPair& operator=(const LinkPair&) = delete;
 
   /// Starts an end, as a new process would, from what its store holds.
   void Start(End& end) {
@@ -122,7 +124,8 @@ class LinkPair {
   std::function<void()> each_step;
   std::function<bool(std::span<const std::byte>)> lose_up, lose_down;  ///< true: the frame is lost
   End onboard, offboard;
-  Line line_up, line_down;
+  LinePair lines;
+  Line &line_up = lines.a_to_b, &line_down = lines.b_to_a;
   Rng rng;
   std::vector<std::byte> wire_up, wire_down;  ///< everything that was sent
 

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+
+#include "common/time.hpp"
+
+namespace priamos::bus::radio {
+
+/// A radio that cannot send and receive at once.
+struct HalfDuplex {
+  Duration turn{};        ///< longest time an end talks; 0: the line has two directions
+  Duration turnaround{};  ///< after its own last byte an end cannot hear for so long
+};
+
+/// Whose turn it is on a half-duplex radio. An end says "over" in its last frame; the other one begins when
+/// it has heard that and the first one can hear again. A lost "over" is made good by patience, which is
+/// longer at the onboard end, so that both do not begin at once. Without a turn length everybody may always
+/// talk.
+class TurnTaking {
+ public:
+  TurnTaking(HalfDuplex mode, bool onboard, Time now)
+      : mode_(mode), onboard_(onboard), mine_(onboard), began_(now), heard_(now) {}
+
+  bool enabled() const { return mode_.turn > Duration::zero(); }
+  bool MayTalk(Time now) const { return !enabled() || (mine_ && now >= began_); }
+  /// The turn is not worth keeping any longer with nothing to say.
+  bool MayPass(Time now) const { return enabled() && mine_ && now >= began_ + kHold; }
+  /// A frame of length `longest` after one that ends at `frame_end` would be too long.
+  bool MustEnd(Time frame_end, Duration longest) const {
+    return enabled() && frame_end + longest > began_ + mode_.turn;
+  }
+
+  /// Takes the turn when the other end has been silent for too long; `latency` is that of the line.
+  void Step(Time now, Duration latency) {
+    if (!enabled() || mine_) return;
+    const Duration patience = 2 * mode_.turnaround + 2 * latency + kSilence;
+    const Duration first_byte = mode_.turnaround + 2 * latency + kSilence;
+    const Duration wait = patience + (onboard_ ? first_byte : Duration::zero());
+    if (now < heard_ + (1 + missed_) * wait) return;
+    missed_ = std::min(missed_ + 1, kMostMissed);
+    Begin(now);
+  }
+  void OnBytes(Time now) { heard_ = std::max(heard_, now); }
+  void OnOverReceived(Time now) {
+    missed_ = 0;
+    if (enabled()) Begin(now + mode_.turnaround);
+  }
+  void OnOverSent(Time frame_end) {
+    mine_ = false;
+    heard_ = std::max(heard_, frame_end);
+  }
+
+ private:
+  static constexpr Duration kHold{10'000};
+  static constexpr int kMostMissed = 9;
+  static constexpr Duration kSilence{40'000};
+  void Begin(Time from) {
+    mine_ = true;
+    began_ = from;
+  }
+
+  HalfDuplex mode_;
+  bool onboard_;
+  bool mine_;
+  Time began_;      ///< own turn, from then on
+  Time heard_;      ///< last sign that the other end has the turn
+  int missed_ = 0;  ///< turns taken since the last "over": the line may be slower than it seems
+};
+
+}  // namespace priamos::bus::radio
