@@ -21,7 +21,7 @@ struct Lockstep::Host {
 /// Both directions of one serial line.
 struct Lockstep::Wire {
   std::string end_a, end_b;
-  radio::Line a_to_b, b_to_a;
+  radio::LinePair lines;
 };
 
 /// One end of a wire, as the App that opened it sees it.
@@ -66,10 +66,9 @@ void Lockstep::AddBus(const std::string& name) {
 
 void Lockstep::AddSerialLine(const std::string& end_a, const std::string& end_b,
                              const radio::LineConfig& config) {
-  const auto line = [&](const std::string& from) {
-    return radio::Line(config, Rng::Stream(options_.seed, "line from " + from), clock_.Now());
-  };
-  wires_.push_back(std::make_shared<Wire>(Wire{end_a, end_b, line(end_a), line(end_b)}));
+  const auto rng = [&](const std::string& from) { return Rng::Stream(options_.seed, "line from " + from); };
+  wires_.push_back(std::make_shared<Wire>(
+      Wire{end_a, end_b, radio::LinePair(config, rng(end_a), rng(end_b), clock_.Now())}));
 }
 
 Lockstep::Host& Lockstep::HostOf(const std::string& bus) {
@@ -84,8 +83,9 @@ Node& Lockstep::DriverNode(const std::string& bus) {
 
 std::unique_ptr<ByteStream> Lockstep::OpenSerial(const std::string& name) {
   for (const auto& wire : wires_) {
-    if (wire->end_a == name) return std::make_unique<SerialEnd>(wire, wire->a_to_b, wire->b_to_a, clock_);
-    if (wire->end_b == name) return std::make_unique<SerialEnd>(wire, wire->b_to_a, wire->a_to_b, clock_);
+    radio::LinePair& lines = wire->lines;
+    if (wire->end_a == name) return std::make_unique<SerialEnd>(wire, lines.a_to_b, lines.b_to_a, clock_);
+    if (wire->end_b == name) return std::make_unique<SerialEnd>(wire, lines.b_to_a, lines.a_to_b, clock_);
   }
   throw std::runtime_error(
       fmt::format("{}: expected the end of a serial line of this lockstep, got no such name", name));

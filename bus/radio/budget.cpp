@@ -17,6 +17,8 @@ constexpr std::size_t kFrameBytes = kFrameOverhead + 1;
 constexpr double kNotBounded_s = 60;
 /// Bytes are handed to the line once per tick.
 constexpr double kTick_s = 0.001;
+/// Half-duplex: between the end of one end's turn and what the other one makes of it.
+constexpr double kHandOver_s = 2 * kTick_s;
 /// Acknowledgements of frames per second, at most.
 constexpr double kFrameAcks_hz = 4;
 constexpr int kFrameAckBits = 3 + 12 + 12 + 4;
@@ -51,6 +53,7 @@ class DirectionAnalysis {
       largest = std::max(largest, static_cast<std::size_t>(std::ceil(loads_.back().entry_bits / 8)));
     }
     control_bits_ = ControlBits(direction);
+    if (options.half_duplex.turn > Duration::zero()) ShareTheAir(options);
     capacity_bits_ = 8.0 * static_cast<double>(options.max_bundle_bytes) - control_bits_;
     frame_s_ = FrameSeconds(8.0 * static_cast<double>(largest) + control_bits_);
     overhead_ = 1 + static_cast<double>(kFrameOverhead) / static_cast<double>(options.max_bundle_bytes);
@@ -58,6 +61,8 @@ class DirectionAnalysis {
   }
 
   const std::vector<Load>& loads() const { return loads_; }
+  /// Of the line, what this direction has for sure.
+  double share() const { return turn_s_ / (turn_s_ + gap_s_); }
   /// Bytes of a frame per byte of its bundle.
   double overhead() const { return overhead_; }
   double ControlBytesPerSecond(Direction direction) const {
@@ -115,6 +120,20 @@ class DirectionAnalysis {
     }
     if (on_request) bits += table_.id_bits() + 3 + static_cast<double>(table_.size());
     return bits;
+  }
+
+  /// Turns that end a frame early, and the time in between when the other end uses all of its turn.
+  void ShareTheAir(const LinkOptions& options) {
+    const double longest_s = FrameSeconds(8.0 * static_cast<double>(options.max_bundle_bytes));
+    const double alone_s = FrameSeconds(8.0 * static_cast<double>(kMaxBundleBytes)) - longest_s;
+    turn_s_ = Seconds(options.half_duplex.turn) - longest_s;
+    gap_s_ = Seconds(options.half_duplex.turn) + alone_s +
+             2 * (Seconds(options.half_duplex.turnaround) + kHandOver_s);
+    control_bits_ += table_.id_bits() + 3;  // "over"
+  }
+  /// When work that takes `work_s` on the line is done.
+  double InTurns(double work_s) const {
+    return gap_s_ > 0 ? work_s + gap_s_ * (1 + std::floor(work_s / turn_s_)) : work_s;
   }
 
   double FrameSeconds(double bits) const { return (kFrameBytes + std::ceil(bits / 8)) * byte_s_; }
@@ -187,10 +206,10 @@ class DirectionAnalysis {
   }
 
   template <class Latency>
-  static double Converge(const Latency& latency) {
+  double Converge(const Latency& latency) const {
     double window_s = 0;
     while (window_s < kNotBounded_s) {
-      const double next_s = latency(window_s);
+      const double next_s = InTurns(latency(window_s));
       if (next_s <= window_s) return next_s;
       window_s = next_s;
     }
@@ -204,6 +223,8 @@ class DirectionAnalysis {
   double control_bits_ = 0;
   double capacity_bits_ = 0;
   double frame_s_ = 0;
+  double turn_s_ = 1;  ///< with gap_s_ = 0: no turns
+  double gap_s_ = 0;
   double overhead_ = 1;
   bool solved_once_ = false;
   std::vector<Load> loads_;
@@ -215,18 +236,19 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, D
   budget.direction = direction;
   budget.control_bytes_per_s = analysis.ControlBytesPerSecond(direction);
   budget.bytes_per_s = budget.control_bytes_per_s;
+  budget.capacity_bytes_per_s = options.bytes_per_s * analysis.share();
   for (const Load& load : analysis.loads()) {
     ChannelBudget row;
     row.channel = load.channel;
     row.bits = static_cast<std::size_t>(load.bits);
     row.rate_hz = load.keys / load.period_s;
     row.bytes_per_s = load.bits / 8 * analysis.overhead() * row.rate_hz;
-    row.share = row.bytes_per_s / options.bytes_per_s;
+    row.share = row.bytes_per_s / budget.capacity_bytes_per_s;
     if (std::isfinite(load.latency_s)) row.worst_latency = FromSeconds(load.latency_s);
     budget.bytes_per_s += row.bytes_per_s;
     budget.channels.push_back(row);
   }
-  budget.utilisation = budget.bytes_per_s / options.bytes_per_s;
+  budget.utilisation = budget.bytes_per_s / budget.capacity_bytes_per_s;
   return budget;
 }
 
@@ -234,7 +256,7 @@ const char* NameOf(Direction d) {
   return d == Direction::kUp ? "up" : "down";
 }
 
-void CheckDirection(const ChannelTable& table, const LinkOptions& options, const DirectionBudget& budget,
+void CheckDirection(const ChannelTable& table, const DirectionBudget& budget,
                     std::vector<std::string>& problems) {
   if (budget.utilisation > 1) {
     ChannelBudget largest;
@@ -243,7 +265,7 @@ void CheckDirection(const ChannelTable& table, const LinkOptions& options, const
     problems.push_back(
         fmt::format("radio link {}: expected at most {:.0f} byte/s, got {:.0f} byte/s: lower a rate_hz, {} "
                     "alone takes {:.0f} byte/s",
-                    NameOf(budget.direction), options.bytes_per_s, budget.bytes_per_s,
+                    NameOf(budget.direction), budget.capacity_bytes_per_s, budget.bytes_per_s,
                     largest.share > 0 ? table.at(largest.channel).name : "acknowledging",
                     largest.share > 0 ? largest.bytes_per_s : budget.control_bytes_per_s));
   }
@@ -277,8 +299,8 @@ std::string FormatRow(const ChannelTable& table, const ChannelBudget& row) {
 
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options) {
   Budget budget{Analyse(table, options, Direction::kUp), Analyse(table, options, Direction::kDown), {}};
-  CheckDirection(table, options, budget.up, budget.problems);
-  CheckDirection(table, options, budget.down, budget.problems);
+  CheckDirection(table, budget.up, budget.problems);
+  CheckDirection(table, budget.down, budget.problems);
   return budget;
 }
 
@@ -287,17 +309,17 @@ void RequireBudget(const ChannelTable& table, const LinkOptions& options) {
   if (!budget.problems.empty()) throw ConfigError(budget.problems.front());
 }
 
-std::string FormatBudget(const ChannelTable& table, const LinkOptions& options, const Budget& budget) {
+std::string FormatBudget(const ChannelTable& table, const Budget& budget) {
   std::string text;
   for (const DirectionBudget* d : {&budget.up, &budget.down}) {
     text += fmt::format("{} ({}): {:.0f} of {:.0f} byte/s, {:.0f} % of the line\n", NameOf(d->direction),
                         d->direction == Direction::kUp ? "robot to workstation" : "workstation to robot",
-                        d->bytes_per_s, options.bytes_per_s, 100 * d->utilisation);
+                        d->bytes_per_s, d->capacity_bytes_per_s, 100 * d->utilisation);
     text += fmt::format("  {:<24} {:<8} {:>3} {:>6} {:>7} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "channel",
                         "class", "pri", "bits", "1/s", "byte/s", "share", "worst s", "deadline", "slack");
     for (const ChannelBudget& row : d->channels) text += FormatRow(table, row);
     text += fmt::format("  {:<24} {:>36.1f} {:>6.1f} %\n", "acknowledgements", d->control_bytes_per_s,
-                        100 * d->control_bytes_per_s / options.bytes_per_s);
+                        100 * d->control_bytes_per_s / d->capacity_bytes_per_s);
   }
   for (const std::string& problem : budget.problems) text += problem + "\n";
   return text;

@@ -26,9 +26,10 @@ struct ChannelBudget {
 struct DirectionBudget {
   Direction direction = Direction::kUp;
   std::vector<ChannelBudget> channels;
-  double control_bytes_per_s = 0;  ///< acknowledgements
-  double bytes_per_s = 0;          ///< everything
-  double utilisation = 0;
+  double control_bytes_per_s = 0;   ///< acknowledgements
+  double bytes_per_s = 0;           ///< everything
+  double capacity_bytes_per_s = 0;  ///< of the line; half-duplex: left when the other end uses its turns up
+  double utilisation = 0;           ///< of that
 };
 
 struct Budget {
@@ -39,13 +40,15 @@ struct Budget {
 /// Worst-case latencies by response-time analysis as for CAN (Davis, Burns, Bril, Lukkien, Real-Time Systems
 /// 35(3), 2007), adapted to frames that carry several messages: a frame is not interrupted except by an
 /// urgent channel; a frame that leaves a waiting message out is full of messages that go before it. Messages
-/// that overtake by ageing are counted among those.
+/// that overtake by ageing are counted among those. On a half-duplex radio an end may only talk in its turns:
+/// the other end's longest turn is added for every own turn that the work needs (periodic resource model,
+/// Shin and Lee, Real-Time Systems Symposium 2003).
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options);
 
 /// Throws ConfigError with the first problem.
 void RequireBudget(const ChannelTable& table, const LinkOptions& options);
 
 /// The table that `priamos link budget` shows.
-std::string FormatBudget(const ChannelTable& table, const LinkOptions& options, const Budget& budget);
+std::string FormatBudget(const ChannelTable& table, const Budget& budget);
 
 }  // namespace priamos::bus::radio

@@ -24,6 +24,8 @@ void LineCut::Describe(Archive& a) {
 
 void LineConfig::Describe(Archive& a) {
   a.Integer("baud", baud, {"baud", 300, 1000000, "10 bits per byte"});
+  a.Number("air_rate_bytes_s", air_rate_bytes_s,
+           {"byte/s", 0, 1e6, "what the radio itself carries when that is less; 0: as much as the port"});
   a.Number("latency_s", latency_s, {"s", 0, 10, "delay of every byte"});
   a.Number("jitter_s", jitter_s, {"s", 0, 10, "uniform addition to the latency"});
   a.Number("bit_error_rate", bit_error_rate, {"-", 0, 0.5, "probability of a flip per bit"});
@@ -64,7 +66,9 @@ Line::Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<Shared
       rng_(rng),
       start_ns_(ToNs(start)),
       byte_ns_(10'000'000'000 / config.baud),
+      air_byte_ns_(config.air_rate_bytes_s > 0 ? SecondsToNs(1 / config.air_rate_bytes_s) : 0),
       free_at_ns_(start_ns_),
+      air_free_at_ns_(start_ns_),
       last_arrival_ns_(start_ns_),
       air_(std::move(air)),
       side_(side) {
@@ -78,8 +82,12 @@ Line::Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<Shared
 void Line::Write(std::span<const std::byte> bytes, Time now) {
   for (const std::byte byte : bytes) {
     free_at_ns_ = std::max(free_at_ns_, ToNs(now)) + byte_ns_;
-    if (air_) air_->Sends(side_, free_at_ns_ - byte_ns_, free_at_ns_);
-    Transmit(byte, free_at_ns_);
+    // A slower radio begins with a byte when it has all of it.
+    const std::int64_t length_ns = air_byte_ns_ > byte_ns_ ? air_byte_ns_ : byte_ns_;
+    air_free_at_ns_ =
+        length_ns == byte_ns_ ? free_at_ns_ : std::max(air_free_at_ns_, free_at_ns_) + length_ns;
+    if (air_) air_->Sends(side_, air_free_at_ns_ - length_ns, air_free_at_ns_);
+    Transmit(byte, air_free_at_ns_);
   }
   bytes_written_ += bytes.size();
 }

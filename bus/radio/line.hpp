@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -24,6 +25,7 @@ struct LineCut {
 /// What a radio modem does to the bytes given to it.
 struct LineConfig {
   int baud = 9600;                   ///< 10 bits per byte: start, 8 data, stop
+  double air_rate_bytes_s = 0;       ///< what the radio itself carries; 0: as much as the port
   double latency_s = 0.005;          ///< from the end of a byte at the sender to its end at the receiver
   double jitter_s = 0;               ///< uniform addition to the latency; bytes keep their order
   double bit_error_rate = 0;         ///< probability per bit, all 10 of a byte
@@ -53,8 +55,9 @@ class SharedAir {
 };
 
 /// One direction of a serial line in simulated time. Bytes leave one after the other at the baud rate,
-/// whenever they were written: what is written too early waits, as in a tty's buffer. A flipped start bit
-/// loses the byte, a flipped stop bit makes it 0 (what a Linux tty delivers for a framing error).
+/// whenever they were written: what is written too early waits, as in a tty's buffer. A radio with a lower
+/// air rate keeps what it cannot send yet. A flipped start bit loses the byte, a flipped stop bit makes it 0
+/// (what a Linux tty delivers for a framing error).
 class Line {
  public:
   Line(const LineConfig& config, Rng rng, Time start);
@@ -65,8 +68,10 @@ class Line {
   void Write(std::span<const std::byte> bytes, Time now);
   /// Everything that has arrived until `now`.
   std::vector<std::byte> Read(Time now);
-  /// When the byte written last has left: the age of the backlog.
+  /// When the byte written last has left the port.
   Time free_at() const { return Time(Duration(free_at_ns_ / 1000)); }
+  /// When the byte written last has left the radio: the age of the backlog.
+  Time sent_at() const { return Time(Duration(std::max(free_at_ns_, air_free_at_ns_) / 1000)); }
   /// When the next byte can be read; Time::max() when none is under way.
   Time next_arrival() const;
   std::uint64_t bytes_written() const { return bytes_written_; }
@@ -85,7 +90,9 @@ class Line {
   Rng rng_;
   std::int64_t start_ns_;
   std::int64_t byte_ns_;
+  std::int64_t air_byte_ns_;  ///< 0: the air is as fast as the port
   std::int64_t free_at_ns_;
+  std::int64_t air_free_at_ns_;
   std::int64_t last_arrival_ns_;
   std::int64_t burst_start_ns_ = std::numeric_limits<std::int64_t>::max();
   std::shared_ptr<SharedAir> air_;

@@ -14,6 +14,8 @@ constexpr std::uint64_t kNeedyAfter = 3;
 constexpr Duration kProofSlack{1'000'000};
 /// An end without an epoch asks at once; one with an epoch first gives its frames a chance.
 constexpr Duration kHelloPause{300'000};
+/// Listeners say every 2 s that they still listen.
+constexpr Duration kListenMemory{6'000'000};
 
 template <class... Handlers>
 struct Overloaded : Handlers... {
@@ -157,7 +159,7 @@ void LinkEndpoint::OnEntry(BundleEntry entry, bool newest, std::size_t wire_byte
                           memory_.SkipCounters(e.counter);
                           confirmed_.reset();
                         },
-                        [&](ListenEntry& e) { OnListen(e); },
+                        [&](ListenEntry& e) { OnListen(e, now); },
                         [&](OverEntry&) {
                           if (newest) turns_.OnOverReceived(now);
                         }},
@@ -213,10 +215,15 @@ void LinkEndpoint::OnFrameAck(const FrameAckEntry& ack, std::size_t wire_bytes, 
   }
 }
 
-void LinkEndpoint::OnListen(const ListenEntry& listen) {
+void LinkEndpoint::OnListen(const ListenEntry& listen, Time now) {
+  if (listen.channels != 0) wanted_until_ = now + kListenMemory;
+  SetWanted(listen.channels);
+}
+
+void LinkEndpoint::SetWanted(std::uint64_t channels) {
   for (std::size_t i = 0; i < table_.size(); ++i)
     if (table_.at(i).on_request && table_.at(i).direction == outgoing_)
-      queue_.SetWanted(i, (listen.channels >> i & 1U) != 0);
+      queue_.SetWanted(i, (channels >> i & 1U) != 0);
 }
 
 void LinkEndpoint::OnHello(const Hello& hello, Time now) {

@@ -190,7 +190,8 @@ class LinkEndpoint {
   void OnEventAck(const EventAckEntry& entry, Time now);
   void OnEvent(const EventEntry& entry, Time sent_at, std::vector<Delivery>& out);
   void OnCommand(CommandEntry entry, bool newest, Time sent_at, Time now, std::vector<Delivery>& out);
-  void OnListen(const ListenEntry& listen);
+  void OnListen(const ListenEntry& listen, Time now);
+  void SetWanted(std::uint64_t channels);
   void ChangeEpoch(const EpochAgreement::Pair& pair, std::uint32_t peer_stream);
   bool Down(Time now) const { return !last_valid_ || now - *last_valid_ > options_.silence; }
   /// The other end's frames cannot be used although they come.
@@ -218,6 +219,7 @@ class LinkEndpoint {
   Time last_data_;                          ///< begin of the last data frame sent
   Time last_hello_;
   std::optional<Time> last_listen_;
+  std::optional<Time> wanted_until_;  ///< the other end's listeners are believed until then
   bool hello_reply_ = false;
   AnswerLimit hello_limit_;
   bool switched_ = false;   ///< to a new epoch, of which no frame has come yet

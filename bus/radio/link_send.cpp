@@ -27,6 +27,10 @@ constexpr std::size_t kSmallestBundle = 60;
 std::vector<std::byte> LinkEndpoint::Step(Time now) {
   std::vector<std::byte> out;
   queue_.Expire(now);
+  if (wanted_until_ && now >= *wanted_until_) {
+    wanted_until_.reset();
+    SetWanted(0);
+  }
   turns_.Step(now, latency_.one_way());
   if (flight_ && !flight_->urgent && flight_->wire.size() - flight_->next > kNotWorthAborting &&
       memory_.epoch() != 0 && queue_.UrgentReady(now))

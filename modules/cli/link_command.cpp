@@ -29,6 +29,9 @@ void AddEmulate(CLI::App& link, int& exit_code) {
   verb->add_option("--baud", line.baud, "10 bits per byte")
       ->check(CLI::Range(300, 1000000))
       ->capture_default_str();
+  verb->add_option("--air-rate", line.air_rate_bytes_s, "byte/s of the radio itself; 0: as much as the port")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   verb->add_option("--latency", line.latency_s, "s")->check(CLI::Range(0.0, 10.0))->capture_default_str();
   verb->add_option("--jitter", line.jitter_s, "s, on top of the latency")
       ->check(CLI::Range(0.0, 10.0))
@@ -41,6 +44,9 @@ void AddEmulate(CLI::App& link, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--burst-length", line.burst_length_s, "s")
       ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  verb->add_option("--burst-error-rate", line.burst_error_rate, "probability of a flip per bit in a burst")
+      ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   verb->add_option("--duplicate", line.duplicate_probability, "probability that a byte arrives twice")
       ->check(CLI::Range(0.0, 1.0))
@@ -96,7 +102,7 @@ void AddBudget(CLI::App& link, int& exit_code) {
     const bus::Schema schema = TypesOf(*types);
     const auto table = link_config.Table(schema);
     const auto budget = ComputeBudget(table, link_config.Options());
-    std::cout << FormatBudget(table, link_config.Options(), budget);
+    std::cout << FormatBudget(table, budget);
     exit_code = budget.problems.empty() ? 0 : kDoesNotHold;
   });
 }

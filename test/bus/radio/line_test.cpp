@@ -30,6 +30,24 @@ TEST(Line, WrittenTooEarlyWaitsLikeInATtyBuffer) {
   EXPECT_NEAR(Seconds(dut.free_at() - kStart), 4.27, 0.01);
 }
 
+TEST(Line, ASlowerRadioSendsAtItsOwnRate) {
+  Line dut({.baud = 9600, .air_rate_bytes_s = 240, .latency_s = 0}, Rng(1), kStart);
+  dut.Write(Bytes(960), kStart);
+  EXPECT_NEAR(static_cast<double>(dut.Read(After(1)).size()), 240, 2);
+  EXPECT_NEAR(Seconds(dut.free_at() - kStart), 1, 0.01);
+  EXPECT_NEAR(Seconds(dut.sent_at() - kStart), 4, 0.01);
+}
+
+TEST(Line, AHalfDuplexModemIsDeafWhileItSends) {
+  LinePair dut({.baud = 9600, .latency_s = 0, .half_duplex = true, .turnaround_s = 0.1}, Rng(1), Rng(2),
+               kStart);
+  dut.a_to_b.Write(Bytes(96), kStart);       // 0.1 s
+  dut.b_to_a.Write(Bytes(96), After(0.05));  // ends at 0.15 s, a can hear again at 0.2 s
+  dut.b_to_a.Write(Bytes(96, 0x33), After(0.2));
+  EXPECT_EQ(dut.b_to_a.Read(After(1)), Bytes(96, 0x33));
+  EXPECT_NEAR(static_cast<double>(dut.a_to_b.Read(After(1)).size()), 48, 2);
+}
+
 TEST(Line, LatencyDelaysEveryByte) {
   Line dut({.baud = 9600, .latency_s = 0.1}, Rng(1), kStart);
   dut.Write(Bytes(1), kStart);
