@@ -1,19 +1,17 @@
 #include "bus/log.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
+
+#include "test/support/temporary_folder.hpp"
 
 namespace priamos::bus {
 namespace {
 
 class Log : public testing::Test {
  protected:
-  void SetUp() override { path_ = testing::TempDir() + "log_test-" + std::to_string(getpid()) + ".lcmlog"; }
-  void TearDown() override { std::filesystem::remove(path_); }
-
   std::vector<std::byte> WriteSmallLog(int events) {
     {
       LogWriter writer(path_);
@@ -33,7 +31,8 @@ class Log : public testing::Test {
     return bytes;
   }
 
-  std::string path_;
+  const TemporaryFolder folder_;
+  const std::string path_ = (folder_ / "test.lcmlog").string();
 };
 
 TEST_F(Log, ReadsBackWhatWasWritten) {

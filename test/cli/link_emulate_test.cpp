@@ -9,6 +9,7 @@
 
 #include "common/config.hpp"
 #include "common/serial_port.hpp"
+#include "test/support/temporary_folder.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -19,16 +20,13 @@ using testing::HasSubstr;
 const Time kStart = FromUtime(1'000'000'000);
 
 struct LinkEmulateTest : testing::Test {
-  fs::path folder = fs::path(testing::TempDir()) / "link_emulate_test";
+  TemporaryFolder folder;
   LinkEmulateOptions options;
   void SetUp() override {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
     options.a = (folder / "a").string();
     options.b = (folder / "b").string();
     options.line.latency_s = 0;
   }
-  void TearDown() override { fs::remove_all(folder); }
 };
 
 TEST_F(LinkEmulateTest, BytesCrossAtTheBaudRate) {

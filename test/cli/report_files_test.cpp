@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "report_synthetic_run.hpp"
+#include "test/support/temporary_folder.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -17,19 +18,12 @@ const std::string kMap = PRIAMOS_SOURCE_DIR "/config/sim/maps/door.toml";
 
 class ReportFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ("report-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(ReportFiles, WritesSummaryPictureAndPage) {
   const RunRecord record = SyntheticRun{}.Record();
-  WriteReport(record, Summarise(record, TestInfo()), TestInfo(), kMap, folder_);
+  WriteReport(record, Summarise(record, TestInfo()), TestInfo(), kMap, folder_.path());
   std::ifstream json(folder_ / "summary.json");
   EXPECT_EQ(nlohmann::json::parse(json)["passed"], true);
   EXPECT_EQ(cv::imread((folder_ / "run.png").string()).cols, 1600);
@@ -43,9 +37,9 @@ TEST_F(ReportFiles, SameRecordGivesTheSameBytes) {
     return std::string(std::istreambuf_iterator<char>(in), {});
   };
   const RunRecord record = SyntheticRun{}.Record();
-  WriteReport(record, Summarise(record, TestInfo()), TestInfo(), kMap, folder_);
+  WriteReport(record, Summarise(record, TestInfo()), TestInfo(), kMap, folder_.path());
   const std::string page = read("report.html");
-  WriteReport(record, Summarise(record, TestInfo()), TestInfo(), kMap, folder_);
+  WriteReport(record, Summarise(record, TestInfo()), TestInfo(), kMap, folder_.path());
   EXPECT_EQ(read("report.html"), page);
 }
 

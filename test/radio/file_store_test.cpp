@@ -6,14 +6,15 @@
 #include <stdexcept>
 #include <vector>
 
+#include "test/support/temporary_folder.hpp"
+
 namespace priamos::radio {
 namespace {
 
 struct FileStoreTest : testing::Test {
-  std::string path = (std::filesystem::path(testing::TempDir()) / "file_store_test.state").string();
+  TemporaryFolder folder;
+  std::string path = (folder / "link.state").string();
   FileStore dut{path};
-  void SetUp() override { std::filesystem::remove(path); }
-  void TearDown() override { std::filesystem::remove(path); }
 };
 
 TEST_F(FileStoreTest, NothingBeforeTheFirstSave) {

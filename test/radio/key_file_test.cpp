@@ -8,15 +8,16 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "test/support/temporary_folder.hpp"
+
 namespace priamos::radio {
 namespace {
 
 using testing::HasSubstr;
 
 struct KeyFileTest : testing::Test {
-  std::string path = (std::filesystem::path(testing::TempDir()) / "key_file_test.key").string();
-  void SetUp() override { std::filesystem::remove(path); }
-  void TearDown() override { std::filesystem::remove(path); }
+  TemporaryFolder folder;
+  std::string path = (folder / "link.key").string();
   std::string ErrorOfReading() const {
     try {
       ReadKeyFile(path);

@@ -11,6 +11,7 @@
 
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
+#include "test/support/temporary_folder.hpp"
 
 namespace priamos::radio {
 namespace {
@@ -136,8 +137,7 @@ TEST_F(RadioAppTest, HealthOfEveryProcessGetsThrough) {
 }
 
 std::string StartError(const std::string& text, const std::string& link = "") {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "radio_app_test";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   std::ofstream(folder / "radio.toml") << text;
   std::ofstream(folder / "link.toml") << link;
   const bus::Schema schema = bus::OwnTypes();

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <string>
 
+#include "test/support/temporary_folder.hpp"
+
 // What a person gets for something that cannot be used: one sentence, exit code 2, nothing half started.
 
 namespace priamos {
@@ -69,12 +71,12 @@ TEST_P(ProcessErrors, UnknownKeyOnTheCommandLine) {
 }
 
 TEST_P(ProcessErrors, UnknownKeyInAFile) {
-  const auto file = std::filesystem::path(testing::TempDir()) / ("unknown-" + name() + ".toml");
+  const TemporaryFolder folder;
+  const auto file = folder / "unknown.toml";
   std::ofstream(file) << "\nno_such_key = 1\n";
   const auto answer = RunCommand(process() + " --config " + file.string());
   ExpectOneSentence(answer);
   EXPECT_THAT(answer.text, HasSubstr(file.string() + ":2:no_such_key"));
-  std::filesystem::remove(file);
 }
 
 TEST_P(ProcessErrors, BusWithoutMulticast) {

@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 
+#include "test/support/temporary_folder.hpp"
 #include "world/core/outline.hpp"
 
 namespace priamos::world {
@@ -94,8 +94,6 @@ TEST(LoadWorldTest, TheCalibrationBodyStandsBeforeTheCameras) {
 
 class BadWorldTest : public ::testing::Test {
  protected:
-  BadWorldTest() { std::filesystem::create_directories(folder_); }
-  ~BadWorldTest() override { std::filesystem::remove_all(folder_); }
   std::string ErrorOf(const std::string& world) {
     std::ofstream(folder_ / "map.toml") << "[[walls]]\nname = \"w\"\nfrom_m = [0, 3]\nto_m = [5, 3]\n";
     std::ofstream(folder_ / "world.toml") << "map = \"map.toml\"\n" << world;
@@ -107,8 +105,7 @@ class BadWorldTest : public ::testing::Test {
     }
     return "";
   }
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("priamos-world-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(BadWorldTest, AGoodOneLoads) {

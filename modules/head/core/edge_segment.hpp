@@ -20,8 +20,8 @@ struct EdgeSegment {
   Eigen::Vector2d begin = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();  ///< [px]
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< point of the line where position and angle errors
                                                      ///< are uncorrelated [px]
-  double sigma_normal_px = 0;            ///< standard deviation across the line, at `centre`
-  double sigma_angle_rad = 0;            ///< standard deviation of the direction
+  double sigma_normal_px = 0;                        ///< standard deviation across the line, at `centre`
+  double sigma_angle_rad = 0;                        ///< standard deviation of the direction
   double grey_left = 0, grey_right = 0;  ///< grey values 3 to 4 px beside the line; left is darker
   int first_point = 0, n_points = 0;     ///< its points in EdgeImage::points
 
