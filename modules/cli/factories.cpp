@@ -19,4 +19,8 @@ bus::AppFactory FactoryFor(const std::string& module) {
   throw std::invalid_argument("no module named " + module);
 }
 
+std::shared_ptr<void> HoldShared() {
+  return world::HoldGraphics();
+}
+
 }  // namespace priamos::cli

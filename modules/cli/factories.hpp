@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "bus/app.hpp"
@@ -9,5 +10,8 @@ namespace priamos::cli {
 /// The App of a module by its folder's name. The command line is where modules come together; nothing else
 /// may know more than one. Throws std::invalid_argument for an unknown name.
 bus::AppFactory FactoryFor(const std::string& module);
+
+/// What Apps made one after the other in this thread need not set up again while it is held: the graphics.
+std::shared_ptr<void> HoldShared();
 
 }  // namespace priamos::cli

@@ -9,6 +9,7 @@
 
 #include "bus/own_types.hpp"
 #include "cli/commands.hpp"
+#include "cli/factories.hpp"
 #include "cli/lockstep_run.hpp"
 #include "cli/report_files.hpp"
 
@@ -55,6 +56,7 @@ void WriteJson(const std::string& file, const nlohmann::ordered_json& json) {
 
 int Run(const LockstepOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
+  const auto shared = HoldShared();
   auto all = nlohmann::ordered_json::array();
   int passed = 0, contacts = 0;
   for (int i = 0; i < options.runs; ++i) {

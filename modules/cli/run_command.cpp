@@ -86,7 +86,9 @@ class RealTimeRun {
 
   const RunRecorder& recorder() const { return recorder_; }
   const std::filesystem::path& folder() const { return folder_; }
-  const ScenarioDriver& driver() const { return driver_; }
+  bool started() const { return driver_.Started(); }
+  /// Why the run ended as it did.
+  std::string Reason() const { return reason_.value_or(driver_.Reason()); }
 
  private:
   void Record(bus::LcmBus& bus, const char* name) {
@@ -131,13 +133,18 @@ class RealTimeRun {
     while (!driver_.Done(clock_.Now())) {
       pollfd fds[] = {{onboard_.fd(), POLLIN, 0}, {offboard_.fd(), POLLIN, 0}, {signals_.fd(), POLLIN, 0}};
       poll(fds, std::size(fds), 20);
-      if (fds[2].revents != 0) return Progress(clock_.Now(), "stopped by a signal"), false;
+      if (fds[2].revents != 0) return End("stopped by a signal"), false;
       onboard_.Drain();
       offboard_.Drain();
       driver_.Tick(clock_.Now());
-      if (const auto dead = group_.FirstDead()) return Progress(clock_.Now(), *dead), false;
+      if (const auto dead = group_.FirstDead()) return End(*dead), false;
     }
     return true;
+  }
+
+  void End(const std::string& reason) {
+    Progress(clock_.Now(), reason);
+    reason_ = reason;
   }
 
   RunOptions options_;
@@ -152,7 +159,14 @@ class RealTimeRun {
   Time start_;
   ScenarioDriver driver_;
   ProcessGroup group_;
+  std::optional<std::string> reason_;
 };
+
+int FailedStart(const RealTimeRun& run) {
+  std::cerr << fmt::format("priamos run: not started: {}\nwhat every process said is in {}/*.txt\n",
+                           run.Reason(), std::filesystem::relative(run.folder()).string());
+  return 2;
+}
 
 int Run(const RunOptions& options) {
   const Scenario scenario = LoadScenario(options.deployment, options.scenario);
@@ -160,12 +174,13 @@ int Run(const RunOptions& options) {
   const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
   RealTimeRun run(options, scenario);
   const bool whole = run.Run();
+  if (!run.started()) return FailedStart(run);
   const RunInfo info{options.scenario, options.seed, 1.0, door};
   const Summary summary = Summarise(run.recorder().record(), info);
   WriteReport(run.recorder().record(), summary, info, map_file, run.folder());
   PrintSummary(std::cout, summary);
   if (!run.recorder().good()) std::cout << "a log is incomplete: the disk is full or cannot be written\n";
-  if (!summary.passed) std::cout << "not passed: " << run.driver().Reason() << "\n";
+  if (!summary.passed) std::cout << "not passed: " << run.Reason() << "\n";
   std::cout << "logs and report: " << std::filesystem::relative(run.folder()).string() << "/report.html\n";
   return whole && summary.passed && summary.contacts == 0 ? 0 : 1;
 }

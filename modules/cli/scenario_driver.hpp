@@ -22,6 +22,8 @@ class ScenarioDriver {
   void Tick(Time now);
   /// True when the mission ended, or the time limit did it.
   bool Done(Time now) const;
+  /// True when every process was alive and the order was given.
+  bool Started() const { return ordered_.has_value(); }
   /// True when the planner reported success.
   bool Succeeded() const { return succeeded_; }
   /// The last words of the mission; what is missing while it has not begun.

@@ -96,4 +96,8 @@ void WorldApp::TakeCommands(Time now) {
                    fmt::format("camera trigger {} refused: cameras busy", trigger.frame_id));
 }
 
+std::shared_ptr<void> HoldGraphics() {
+  return Renderer::HoldGraphics();
+}
+
 }  // namespace priamos::world
