@@ -11,9 +11,12 @@ namespace priamos::head {
 namespace {
 
 constexpr double kNearDepth = 0.1;
-constexpr int kPose = 6, kCamera = 2, kEdge = 2;
-using Vector10 = Eigen::Matrix<double, kPose + kCamera + kEdge, 1>;
-using Matrix10 = Eigen::Matrix<double, kPose + kCamera + kEdge, kPose + kCamera + kEdge>;
+/// Unknowns: the pose; of every camera a shift, a roll and a scale; of every edge a shift and a tilt, across
+/// it.
+constexpr int kPose = 6, kCamera = 4, kEdge = 4, kAll = kPose + kCamera + kEdge;
+constexpr double kCameraLeverPx = 300;  ///< roll and scale are counted in pixels that far from the centre
+using VectorN = Eigen::Matrix<double, kAll, 1>;
+using MatrixN = Eigen::Matrix<double, kAll, kAll>;
 
 double Square(double x) {
   return x * x;
@@ -98,10 +101,10 @@ class Problem {
 
  private:
   struct Rows {
-    Matrix10 normal = Matrix10::Zero();
-    Vector10 right = Vector10::Zero();
+    MatrixN normal = MatrixN::Zero();
+    VectorN right = VectorN::Zero();
     double mean = 0;
-    Vector10 mean_jacobian = Vector10::Zero();
+    VectorN mean_jacobian = VectorN::Zero();
     bool ok = false;
   };
 
@@ -113,10 +116,12 @@ class Problem {
   void LineariseGroup(Group& group, Rows& rows) const {
     const LandmarkEdge& edge = model_.edges[group.edge];
     const CameraModel& camera = *cameras_[group.camera];
-    const auto view = Project(camera, pose_ * edge.from, pose_ * edge.to);
+    const Eigen::Vector3d from = pose_ * edge.from;
+    const auto view = Project(camera, from, pose_ * edge.to);
     if (!view) return;
     // Two axes across the edge in which the model may be wrong.
-    const Eigen::Vector3d along = pose_.linear() * (edge.to - edge.from).normalized();
+    const double length = (edge.to - edge.from).norm();
+    const Eigen::Vector3d along = pose_.linear() * (edge.to - edge.from) / length;
     const Eigen::Vector3d axis1 = along.unitOrthogonal(), axis2 = along.cross(axis1);
     const Eigen::Vector2d normal = view->normal();
     double weight_sum = 0;
@@ -124,10 +129,13 @@ class Problem {
       const Eigen::Vector3d point = view->PointAt(o.at);
       if (camera.Depth(point) < kNearDepth) continue;
       const Eigen::RowVector3d in_space = normal.transpose() * ProjectionJacobian(camera, point);
-      Vector10 j;
+      VectorN j;
       j.head<6>() = (in_space * PoseJacobian(pose_, point)).transpose();
-      j.segment<2>(6) = normal;
-      j[8] = in_space.dot(axis1), j[9] = in_space.dot(axis2);
+      const Eigen::Vector2d arm = (o.at - camera.centre_px) / kCameraLeverPx;
+      j.segment<kCamera>(kPose) << normal, normal.dot(Eigen::Vector2d(-arm.y(), arm.x())), normal.dot(arm);
+      const double lever = 2 * along.dot(point - from) / length - 1;  // -1 at one end, 1 at the other
+      const Eigen::Vector2d across(in_space.dot(axis1), in_space.dot(axis2));
+      j.segment<kEdge>(kPose + kCamera) << across, lever * across;
       const double residual = normal.dot(o.at - view->p), weight = 1 / (o.sigma_px * o.sigma_px);
       rows.normal.noalias() += weight * j * j.transpose();
       rows.right += weight * residual * j;
@@ -156,15 +164,16 @@ class Problem {
     right_ = Eigen::VectorXd::Zero(size_);
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       if (!rows_[i].ok) continue;
-      std::array<int, 10> at;
+      std::array<int, kAll> at;
       for (int k = 0; k < kPose; ++k) at[k] = k;
       for (int k = 0; k < kCamera; ++k) at[kPose + k] = kPose + kCamera * groups_[i].camera + k;
       for (int k = 0; k < kEdge; ++k) {
-        at[8 + k] = kPose + kCamera * int(cameras_.size()) + kEdge * slot_of_edge_[groups_[i].edge] + k;
+        at[kPose + kCamera + k] =
+            kPose + kCamera * int(cameras_.size()) + kEdge * slot_of_edge_[groups_[i].edge] + k;
       }
-      for (int r = 0; r < 10; ++r) {
+      for (int r = 0; r < kAll; ++r) {
         right_[at[r]] += groups_[i].weight * rows_[i].right[r];
-        for (int c = 0; c < 10; ++c) normal_(at[r], at[c]) += groups_[i].weight * rows_[i].normal(r, c);
+        for (int c = 0; c < kAll; ++c) normal_(at[r], at[c]) += groups_[i].weight * rows_[i].normal(r, c);
       }
     }
     AddPriors();
@@ -175,14 +184,18 @@ class Problem {
   void AddPriors() {
     const int first_edge = kPose + kCamera * static_cast<int>(cameras_.size());
     for (int k = kPose; k < size_; ++k) {
-      const double sigma = k < first_edge ? options_.camera_sigma_px : options_.model_sigma_m;
-      normal_(k, k) += 1 / (sigma * sigma);
+      normal_(k, k) += 1 / Square(PriorSigma(k, first_edge));
     }
     if (!options_.on_floor) return;
     for (int k = 2; k < 5; ++k) {
       normal_.row(k).setZero(), normal_.col(k).setZero();
       normal_(k, k) = 1, right_[k] = 0;
     }
+  }
+
+  double PriorSigma(int k, int first_edge) const {
+    if (k < first_edge) return options_.camera_sigma_px;
+    return (k - first_edge) % kEdge < 2 ? options_.model_sigma_m : options_.tilt_sigma_m;
   }
 
   void Apply(const Eigen::VectorXd& step) {
@@ -225,16 +238,19 @@ class Problem {
     int n = 0;
     for (std::size_t e = 0; e < model_.edges.size(); ++e) {
       if (slot_of_edge_[e] < 0) continue;
-      const auto error = step.segment<kEdge>(first_edge + kEdge * slot_of_edge_[e]);
-      solution.edge_misfit[e] = error.squaredNorm() / Square(options_.model_sigma_m);
+      const int first = first_edge + kEdge * slot_of_edge_[e];
+      for (int k = first; k < first + kEdge; ++k) {
+        solution.edge_misfit[e] += Square(step[k] / PriorSigma(k, first_edge));
+      }
     }
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       if (!rows_[i].ok) continue;
-      const Vector10& j = rows_[i].mean_jacobian;
+      const VectorN& j = rows_[i].mean_jacobian;
       const double rest =
           rows_[i].mean -
           j.segment<kCamera>(kPose).dot(step.segment<kCamera>(kPose + kCamera * groups_[i].camera)) -
-          j.segment<kEdge>(8).dot(step.segment<kEdge>(first_edge + kEdge * slot_of_edge_[groups_[i].edge]));
+          j.segment<kEdge>(kPose + kCamera)
+              .dot(step.segment<kEdge>(first_edge + kEdge * slot_of_edge_[groups_[i].edge]));
       solution.edge_misfit[groups_[i].edge] += Square(rest / kUnexplainedPx);
       ++n;
     }

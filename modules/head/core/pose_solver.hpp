@@ -19,8 +19,9 @@ struct EdgeObservation {
 
 struct PoseSolverOptions {
   bool on_floor = true;           ///< 3 degrees of freedom (x, y, yaw), else all 6
-  double model_sigma_m = 0.0008;  ///< how well the model's edges are known, each axis
-  double camera_sigma_px = 0.1;   ///< how well a camera is calibrated: shift of a whole image, each axis
+  double model_sigma_m = 0.0008;  ///< how well the model's edges are placed, each axis
+  double tilt_sigma_m = 0.00025;  ///< how well they are aligned: at the ends, against the middle
+  double camera_sigma_px = 0.1;   ///< how well a camera is calibrated: shift, roll and scale of the image
   double outlier_px = 1.0;        ///< an edge seen farther beside the model loses weight
   int max_iterations = 10;
 };
