@@ -52,6 +52,7 @@ void EdgeOperator::Extract(const cv::Mat& image, EdgeImage& out) {
       Own(found, static_cast<int>(out.segments.size()));
     }
   }
+  if (options_.fuse) FuseSegments(options_.fusion, out);
 }
 
 void EdgeOperator::Own(const EdgeSegment& segment, int id) {

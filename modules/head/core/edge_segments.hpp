@@ -7,11 +7,12 @@
 #include "head/core/edge_refit.hpp"
 #include "head/core/edge_segment.hpp"
 #include "head/core/gradient_map.hpp"
+#include "head/core/segment_fusion.hpp"
 
 namespace priamos::head {
 
-/// The edge operator: Sobel gradients, linked pixels, straight pieces, sub-pixel refit. Keeps its buffers, so
-/// one object per thread and camera size is fast.
+/// The edge operator: Sobel gradients, linked pixels, straight pieces, sub-pixel refit, fusion of broken
+/// edges. Keeps its buffers, so one object per thread and camera size is fast.
 class EdgeOperator {
  public:
   struct Options {
@@ -20,6 +21,8 @@ class EdgeOperator {
     double min_length_px = 12;  ///< shortest segment
     ChainSplitter::Options split;
     EdgeRefiner::Options refit;
+    bool fuse = true;  ///< join what is broken (section 4.1)
+    FusionOptions fusion;
   };
 
   EdgeOperator() = default;
