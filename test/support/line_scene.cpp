@@ -51,6 +51,21 @@ struct Rectangle {
   }
 };
 
+/// True if the segment begins on one line and ends on another.
+bool TouchesTwo(const std::vector<TrueLine>& lines, const head::EdgeSegment& segment) {
+  const auto line_at = [&](const Eigen::Vector2d& p) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const Eigen::Vector2d way = lines[i].end - lines[i].begin, d = way.normalized();
+      const double along = d.dot(p - lines[i].begin);
+      const double beside = std::abs(d.x() * (p - lines[i].begin).y() - d.y() * (p - lines[i].begin).x());
+      if (beside < 2 && along > -2 && along < way.norm() + 2) return static_cast<int>(i);
+    }
+    return -1;
+  };
+  const int first = line_at(segment.begin), second = line_at(segment.end);
+  return first >= 0 && second >= 0 && first != second;
+}
+
 }  // namespace
 
 LineScene RandomRectangles(double contrast, double noise, double blur_px, Rng& rng) {
@@ -90,7 +105,7 @@ LineScene RandomRectangles(double contrast, double noise, double blur_px, Rng& r
 }
 
 void LineScorer::Add(const std::vector<TrueLine>& lines, const std::vector<head::EdgeSegment>& segments) {
-  constexpr double kNearPx = 2, kEndPx = 2;
+  constexpr double kNearPx = 2, kEndPx = 2, kOverlongPx = 8;
   std::vector<bool> used(segments.size(), false);
   for (const TrueLine& line : lines) {
     const double length = (line.end - line.begin).norm();
@@ -103,6 +118,7 @@ void LineScorer::Add(const std::vector<TrueLine>& lines, const std::vector<head:
       if (from > to) std::swap(from, to);
       if (std::abs(a) > kNearPx || std::abs(b) > kNearPx || to < kEndPx || from > length - kEndPx) continue;
       used[i] = true;
+      n_overlong_ += from < -kOverlongPx || to > length + kOverlongPx;
       errors_.push_back(std::abs(a)), errors_.push_back(std::abs(b));
       const double along = d.dot(s.centre - line.begin), error = n.dot(s.centre - line.begin);
       if (along > 0 && along < length) nees_ += error * error / (s.sigma_normal_px * s.sigma_normal_px);
@@ -118,7 +134,9 @@ void LineScorer::Add(const std::vector<TrueLine>& lines, const std::vector<head:
     ++n_lines_, n_found_ += !parts.empty(), n_broken_ += parts.size() > 1;
     n_pieces_ += static_cast<int>(parts.size());
   }
-  n_false_ += static_cast<int>(std::count(used.begin(), used.end(), false));
+  const int n_strangers = static_cast<int>(std::count(used.begin(), used.end(), false));
+  n_false_ += n_strangers, n_segments_ += static_cast<int>(segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) n_overlong_ += !used[i] && TouchesTwo(lines, segments[i]);
 }
 
 LineScore LineScorer::Score() const {
@@ -130,6 +148,7 @@ LineScore LineScorer::Score() const {
   score.broken = double(n_broken_) / n_lines_;
   score.pieces = double(n_pieces_) / n_found_;
   score.n_false = n_false_;
+  score.wrong_unions = double(n_overlong_) / n_segments_;
   score.nees = nees_ / n_pieces_;
   return score;
 }

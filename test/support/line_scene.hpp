@@ -33,7 +33,9 @@ struct LineScore {
   double broken = 0;    ///< share of lines in more than one piece
   double pieces = 0;    ///< per line found
   int n_false = 0;      ///< segments of no line
-  double nees = 0;      ///< mean squared error across the line, in units of sigma_normal_px
+  double wrong_unions =
+      0;            ///< share of segments that run on where their line has ended, onto another or none
+  double nees = 0;  ///< mean squared error across the line, in units of sigma_normal_px
 };
 
 /// Adds up over scenes.
@@ -45,7 +47,8 @@ class LineScorer {
  private:
   std::vector<double> errors_;
   double covered_ = 0, length_ = 0, nees_ = 0;
-  int n_lines_ = 0, n_found_ = 0, n_broken_ = 0, n_pieces_ = 0, n_false_ = 0;
+  int n_lines_ = 0, n_found_ = 0, n_broken_ = 0, n_pieces_ = 0, n_false_ = 0, n_overlong_ = 0,
+      n_segments_ = 0;
 };
 
 }  // namespace priamos::test
