@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-bool Hits(const head::ReferenceBlock& block, const Vector3d& from, const Vector3d& to) {
+bool Hits(const ReferenceBlock& block, const Vector3d& from, const Vector3d& to) {
   double enter = 1e-6, leave = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = block.centre_m[axis] - block.size_m[axis] / 2 - from[axis];
@@ -28,8 +28,8 @@ bool Hits(const head::ReferenceBlock& block, const Vector3d& from, const Vector3
   return enter < leave;
 }
 
-bool InImage(const head::CameraModel& camera, const head::ReferenceObject& object) {
-  return std::all_of(object.discs.begin(), object.discs.end(), [&](const head::ReferenceDisc& disc) {
+bool InImage(const head::CameraModel& camera, const ReferenceObject& object) {
+  return std::all_of(object.discs.begin(), object.discs.end(), [&](const ReferenceDisc& disc) {
     const auto ellipse = head::ProjectDisc(camera.image_from_base, disc);
     if (!ellipse) return false;
     const double margin = ellipse->SemiMajor() + 8;
@@ -40,8 +40,8 @@ bool InImage(const head::CameraModel& camera, const head::ReferenceObject& objec
 
 }  // namespace
 
-head::ReferenceObject ShippedReferenceObject() {
-  return LoadConfig<head::ReferenceObject>(PRIAMOS_SOURCE_DIR "/config/sim/reference_object.toml");
+ReferenceObject ShippedReferenceObject() {
+  return LoadConfig<ReferenceObject>(PRIAMOS_SOURCE_DIR "/config/sim/reference_object.toml");
 }
 
 head::CameraModel MakeCamera(const CameraView& view) {
@@ -67,7 +67,7 @@ head::CameraModel MakeCamera(const CameraView& view) {
 }
 
 CameraView RandomView(Rng& rng) {
-  static const head::ReferenceObject object = ShippedReferenceObject();
+  static const ReferenceObject object = ShippedReferenceObject();
   for (;;) {
     CameraView view;
     view.focal_px = rng.Uniform(800, 1600);
@@ -82,20 +82,20 @@ CameraView RandomView(Rng& rng) {
   }
 }
 
-bool Unhidden(const head::ReferenceObject& object, const head::ReferenceDisc& disc, const Vector3d& eye_m) {
+bool Unhidden(const ReferenceObject& object, const ReferenceDisc& disc, const Vector3d& eye_m) {
   const Vector3d e1 = disc.normal.unitOrthogonal(), e2 = disc.normal.cross(e1);
   for (int i = 0; i < 16; ++i) {
     const double t = 2 * kPi * i / 16;
     const Vector3d rim =
         disc.centre_m + 1e-5 * disc.normal + 1.1 * disc.radius_m * (std::cos(t) * e1 + std::sin(t) * e2);
-    for (const head::ReferenceBlock& block : object.blocks) {
+    for (const ReferenceBlock& block : object.blocks) {
       if (Hits(block, rim, eye_m)) return false;
     }
   }
   return true;
 }
 
-Sightings Sight(const head::ReferenceObject& object, const head::CameraModel& camera, int hidden, int clutter,
+Sightings Sight(const ReferenceObject& object, const head::CameraModel& camera, int hidden, int clutter,
                 Rng& rng) {
   std::vector<std::pair<int, head::DetectedDisc>> all;
   for (std::size_t i = 0; i < object.discs.size(); ++i) {
@@ -130,7 +130,7 @@ Sightings Sight(const head::ReferenceObject& object, const head::CameraModel& ca
   return sightings;
 }
 
-GreyImage RenderSightings(const head::ReferenceObject& object, const head::CameraModel& camera,
+GreyImage RenderSightings(const ReferenceObject& object, const head::CameraModel& camera,
                           const std::vector<int>& truth, Rng& rng) {
   DiscRenderer scene(768, 576, rng.Uniform(10, 60), 1);
   const double amplitude = rng.Uniform(60, 190);

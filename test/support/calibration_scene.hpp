@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "common/random.hpp"
+#include "common/reference_object.hpp"
 #include "head/core/calibration/disc_fit.hpp"
-#include "head/core/calibration/reference_object.hpp"
 
 namespace priamos::support {
 
 /// The object shipped in config/sim.
-head::ReferenceObject ShippedReferenceObject();
+ReferenceObject ShippedReferenceObject();
 
 /// Where a camera stands before the reference object, and its lens.
 struct CameraView {
@@ -31,8 +31,7 @@ head::CameraModel MakeCamera(const CameraView& view);
 CameraView RandomView(Rng& rng);
 
 /// Whether the whole disc is visible past the blocks of the object.
-bool Unhidden(const head::ReferenceObject& object, const head::ReferenceDisc& disc,
-              const Eigen::Vector3d& eye_m);
+bool Unhidden(const ReferenceObject& object, const ReferenceDisc& disc, const Eigen::Vector3d& eye_m);
 
 /// What a detector would report of the visible discs, in any order: up to `hidden` discs are left out (those
 /// behind blocks count), `clutter` other bright ellipses are added, everything with the noise of a detector.
@@ -42,12 +41,12 @@ struct Sightings {
   std::vector<int> truth;
   int visible = 0;
 };
-Sightings Sight(const head::ReferenceObject& object, const head::CameraModel& camera, int hidden, int clutter,
+Sightings Sight(const ReferenceObject& object, const head::CameraModel& camera, int hidden, int clutter,
                 Rng& rng);
 
 /// The image of the discs that `truth` names before a black body, with other bright spots and rectangles
 /// around it; gain, blur and background are random.
-GreyImage RenderSightings(const head::ReferenceObject& object, const head::CameraModel& camera,
+GreyImage RenderSightings(const ReferenceObject& object, const head::CameraModel& camera,
                           const std::vector<int>& truth, Rng& rng);
 
 /// The optical centre.

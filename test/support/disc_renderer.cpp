@@ -117,8 +117,7 @@ void DiscRenderer::AddEllipse(const head::Ellipse& ellipse, double amplitude) {
        });
 }
 
-bool DiscRenderer::AddDisc(const head::CameraModel& camera, const head::ReferenceDisc& disc,
-                           double amplitude) {
+bool DiscRenderer::AddDisc(const head::CameraModel& camera, const ReferenceDisc& disc, double amplitude) {
   const std::optional<head::Ellipse> ellipse = head::ProjectDisc(camera.image_from_base, disc);
   if (!ellipse) return false;
   const double half = 0.5 / subpixels_, reach = 1.3 * ellipse->SemiMajor() + 2;

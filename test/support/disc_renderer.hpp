@@ -24,7 +24,7 @@ class DiscRenderer {
   /// Adds `amplitude` within the ellipse (undistorted pixels are pixels here).
   void AddEllipse(const head::Ellipse& ellipse, double amplitude);
   /// Adds the disc as the camera sees it, distortion included; false if it is not wholly before the camera.
-  bool AddDisc(const head::CameraModel& camera, const head::ReferenceDisc& disc, double amplitude);
+  bool AddDisc(const head::CameraModel& camera, const ReferenceDisc& disc, double amplitude);
   /// Adds `amplitude` within an axis-parallel rectangle, corners in pixels.
   void AddRectangle(double u0, double v0, double u1, double v1, double amplitude);
   /// Hides what lies behind an axis-parallel rectangle: the light there becomes `level`.

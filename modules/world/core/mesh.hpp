@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "world/core/lighting.hpp"
-#include "world/core/reference_object.hpp"
+#include "world/core/placed_reference.hpp"
 #include "world/core/scene.hpp"
 #include "world/core/solid.hpp"
 #include "world/core/textures.hpp"

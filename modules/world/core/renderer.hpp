@@ -11,7 +11,7 @@
 #include "world/core/imaging.hpp"
 #include "world/core/laser.hpp"
 #include "world/core/optics.hpp"
-#include "world/core/reference_object.hpp"
+#include "world/core/placed_reference.hpp"
 #include "world/core/scene.hpp"
 #include "world/core/solid.hpp"
 

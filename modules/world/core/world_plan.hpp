@@ -6,7 +6,7 @@
 
 #include "common/config.hpp"
 #include "common/ground_plan.hpp"
-#include "world/core/reference_object.hpp"
+#include "world/core/placed_reference.hpp"
 #include "world/core/scene.hpp"
 #include "world/core/solid.hpp"
 

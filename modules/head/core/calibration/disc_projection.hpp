@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "head/core/calibration/reference_object.hpp"
+#include "common/reference_object.hpp"
 #include "head/core/camera_model.hpp"
 
 namespace priamos::head {

@@ -1,10 +1,12 @@
-#include "head/core/calibration/reference_object.hpp"
+#include "common/reference_object.hpp"
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Dense>
+
 #include "common/geometry.hpp"
 
-namespace priamos::head {
+namespace priamos {
 namespace {
 
 using testing::HasSubstr;
@@ -22,9 +24,36 @@ std::string Message(const std::string& text) {
   return "";
 }
 
-TEST(ReferenceObject, TheShippedOneHas16DiscsWithinItsBody) {
-  const auto dut = LoadConfig<ReferenceObject>(PRIAMOS_SOURCE_DIR "/config/sim/reference_object.toml");
-  EXPECT_EQ(dut.discs.size(), 16u);
+ReferenceObject Shipped() {
+  return LoadConfig<ReferenceObject>(PRIAMOS_SOURCE_DIR "/config/sim/reference_object.toml");
+}
+
+TEST(ReferenceObject, TheShippedOneHasSixteenDiscsInSpace) {
+  const ReferenceObject dut = Shipped();
+  ASSERT_EQ(dut.discs.size(), 16U);
+  Eigen::MatrixXd centres(16, 3);
+  for (int i = 0; i < 16; ++i) centres.row(i) = dut.discs[i].centre_m.transpose();
+  centres.rowwise() -= centres.colwise().mean().eval();
+  const Eigen::VectorXd spread = Eigen::JacobiSVD<Eigen::MatrixXd>(centres).singularValues();
+  EXPECT_GT(spread(2), 0.1) << "coplanar points calibrate nothing";
+}
+
+TEST(ReferenceObject, EveryDiscLiesOnABlock) {
+  const ReferenceObject dut = Shipped();
+  for (const ReferenceDisc& disc : dut.discs) {
+    bool carried = false;
+    for (const ReferenceBlock& block : dut.blocks) {
+      const Eigen::Vector3d d = (disc.centre_m - block.centre_m).cwiseAbs();
+      const bool on_front = std::abs(disc.centre_m.x() - block.centre_m.x() - block.size_m.x() / 2) < 1e-9;
+      carried |= on_front && d.y() + disc.radius_m <= block.size_m.y() / 2 + 1e-9 &&
+                 d.z() + disc.radius_m <= block.size_m.z() / 2 + 1e-9;
+    }
+    EXPECT_TRUE(carried) << disc.centre_m.transpose();
+  }
+}
+
+TEST(ReferenceObject, TheShippedDiscsAreWithinTheirBody) {
+  const ReferenceObject dut = Shipped();
   for (const ReferenceDisc& disc : dut.discs) {
     EXPECT_LE(std::abs(disc.centre_m.y()) + disc.radius_m, 0.25);
     EXPECT_LE(std::abs(disc.centre_m.z()) + disc.radius_m, 0.30);
@@ -60,4 +89,4 @@ TEST(ReferenceObject, MovesCentresAndNormals) {
 }
 
 }  // namespace
-}  // namespace priamos::head
+}  // namespace priamos

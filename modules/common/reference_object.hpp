@@ -6,7 +6,7 @@
 
 #include "common/config.hpp"
 
-namespace priamos::head {
+namespace priamos {
 
 /// One retro-reflective disc of the reference object.
 struct ReferenceDisc {
@@ -39,4 +39,4 @@ struct ReferenceObject {
   ReferenceObject Moved(const Eigen::Isometry3d& a_from_object) const;
 };
 
-}  // namespace priamos::head
+}  // namespace priamos
