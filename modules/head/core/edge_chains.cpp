@@ -2,28 +2,24 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <opencv2/core.hpp>
-#include <opencv2/core/hal/intrin.hpp>
 
 namespace priamos::head {
 namespace {
 
-constexpr int kGrid = 6;  ///< seeds lie on every 6th row or column: a straight edge of 9 px crosses one
+constexpr int kGrid = 8;  ///< seeds lie on every 8th row or column: a straight edge of 12 px crosses one
 
-constexpr int kLanes = 8;
-
-/// True if all of kLanes magnitudes are below the threshold.
-bool IsBelow(const unsigned short* magnitude, const cv::v_uint16x8& threshold) {
-  return !v_check_any(cv::v_load(magnitude) >= threshold);
+/// Strongest across a steep edge.
+bool IsPeakInRow(const GradientMap& gradients, int x, int y) {
+  const unsigned short* row = gradients.magnitude(y);
+  return std::abs(gradients.gx(y)[x]) >= std::abs(gradients.gy(y)[x]) && row[x] > row[x - 1] &&
+         row[x] >= row[x + 1];
 }
 
-/// Strongest across the edge, on a grid line that crosses it.
-bool IsPeak(const GradientMap& gradients, int x, int y) {
-  const unsigned short* row = gradients.magnitude(y);
-  if (std::abs(gradients.gx(y)[x]) >= std::abs(gradients.gy(y)[x])) {
-    return y % kGrid == 0 && row[x] > row[x - 1] && row[x] >= row[x + 1];
-  }
-  return x % kGrid == 0 && row[x] > gradients.magnitude(y - 1)[x] && row[x] >= gradients.magnitude(y + 1)[x];
+/// Strongest across a flat edge.
+bool IsPeakInColumn(const GradientMap& gradients, int x, int y) {
+  return std::abs(gradients.gx(y)[x]) < std::abs(gradients.gy(y)[x]) &&
+         gradients.magnitude(y)[x] > gradients.magnitude(y - 1)[x] &&
+         gradients.magnitude(y)[x] >= gradients.magnitude(y + 1)[x];
 }
 
 }  // namespace
@@ -34,16 +30,15 @@ void ChainTracer::Trace(const GradientMap& gradients, const Options& options, Ed
   chains.pixels.clear();
   chains.begins.assign(1, 0);
   const int threshold = static_cast<int>(options.seed_threshold);
-  const cv::v_uint16x8 limit = cv::v_setall_u16(static_cast<unsigned short>(threshold));
+  const auto is_free = [&](int x, int y) { return !visited_[std::size_t(y) * stride_ + x]; };
   for (int y = 2; y < gradients.height() - 2; ++y) {
     const unsigned short* magnitude = gradients.magnitude(y);
-    for (int x = 0; x < gradients.width(); x += kLanes) {
-      const int end = std::min(x + kLanes, gradients.width() - 2);
-      if (end - x == kLanes && IsBelow(magnitude + x, limit)) continue;
-      const bool grid_row = y % kGrid == 0;
-      for (int u = std::max(x, grid_row ? 2 : kGrid); u < end; u += grid_row ? 1 : kGrid) {
-        if (magnitude[u] < threshold || visited_[std::size_t(y) * stride_ + u]) continue;
-        if (IsPeak(gradients, u, y)) TraceFrom(gradients, options, u, y, chains);
+    const int step = y % kGrid == 0 ? 1 : kGrid;
+    for (int x = step == 1 ? 2 : kGrid; x < gradients.width() - 2; x += step) {
+      if (magnitude[x] < threshold || !is_free(x, y)) continue;
+      if ((y % kGrid == 0 && IsPeakInRow(gradients, x, y)) ||
+          (x % kGrid == 0 && IsPeakInColumn(gradients, x, y))) {
+        TraceFrom(gradients, options, x, y, chains);
       }
     }
   }

@@ -12,6 +12,7 @@ constexpr double kMaxShiftPx = 1.5;  ///< an edge farther beside the line is ano
 /// Sharp edges that run along the pixel grid are sampled too coarsely for a narrow kernel: so much between
 /// the two widths means nothing.
 constexpr double kToleratedGapPx = 0.05;
+constexpr double kCornerPx = 0.2;       ///< how far a corner bends the edge that ends there
 constexpr double kSettledPx = 0.15;     ///< so near the edge one linear step is exact
 constexpr double kTypicalSpread = 1.4;  ///< wide kernel and lens together [px]
 
@@ -149,7 +150,10 @@ bool EdgeRefiner::Solve(const AxisLine& line, KernelWidth width, int rounds, Fit
   // For a Gaussian edge this holds beside its centre, too.
   fit.kappa = sharpness / total_.strength;
   if (width == KernelWidth::kWide) fit.kappa += Square(total_.imbalance[0] / total_.strength);
-  const std::size_t skip = blocks_.size() >= 8 ? 1 : 0;  // corners disturb the ends
+  // Corners disturb the ends: a loss worth taking unless a block's own noise is larger.
+  const double block_noise = std::sqrt(line.kernels(width).second_gain * total_.rows / blocks_.size()) *
+                             noise_sigma_ * blocks_.size() / (fit.kappa * total_.strength);
+  const std::size_t skip = blocks_.size() >= 8 && block_noise < kCornerPx ? 1 : 0;
   const double gap = 0.25 * total_.strength / total_.rows;
   weights_.assign(blocks_.size(), 0);
   shifts_.resize(blocks_.size());
@@ -181,11 +185,11 @@ bool EdgeRefiner::Reweight(const AxisLine& line, const Fit& fit) {
     const EdgeSums& b = blocks_[i];
     const double error = shifts_[i] - fit.step_offset - fit.step_slope * (b.along - fit.centroid);
     const double slope2 = Square(fit.kappa * b.strength);
-    const double excess =
-        Square(error) * slope2 / (kLimit * kLimit * (noise * b.rows + Square(kFloorPx) * slope2));
+    const double misfit = Square(error) * slope2;
+    const double allowed = kLimit * kLimit * (noise * b.rows + Square(kFloorPx) * slope2);
     weights_[i] = b.strength;
-    if (excess <= 1) continue;
-    weights_[i] /= std::sqrt(excess);
+    if (misfit <= allowed) continue;
+    weights_[i] *= std::sqrt(allowed / misfit);
     changed = true;
   }
   return changed;

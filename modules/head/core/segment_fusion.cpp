@@ -15,7 +15,8 @@ constexpr double kSigmas = 3;
 
 /// A total order of segments that depends on where they are, not on where they stand in a list.
 auto Place(const EdgeSegment& s) {
-  return std::tuple(s.begin.x(), s.begin.y(), s.end.x(), s.end.y());
+  return std::tuple<const double&, const double&, const double&, const double&>(s.begin.x(), s.begin.y(),
+                                                                                s.end.x(), s.end.y());
 }
 
 /// How far an end of `piece` lies beside `line`, in units of what is allowed.
@@ -30,17 +31,32 @@ double Deviation(const EdgeSegment& line, const EdgeSegment& piece, const Fusion
   return worst;
 }
 
+struct Line {
+  EdgeSegment segment;
+  int first_piece, last_piece;  ///< a list through Fuser::next_piece_
+  bool alive = true;
+  int seen_by = -1;  ///< last line that has been compared with it
+  // What every comparison needs.
+  Eigen::Vector2d direction = segment.direction();
+  double length_px = segment.length_px();
+};
+
 /// Cheap reasons why `a` and `b` are not pieces of one edge; else the gap between them [px].
-std::optional<double> Gap(const EdgeSegment& a, const EdgeSegment& b, const FusionOptions& options) {
-  const Eigen::Vector2d u = a.direction(), v = b.direction();
+std::optional<double> Gap(const Line& a, const Line& b, const FusionOptions& options) {
+  const Eigen::Vector2d &u = a.direction, &v = b.direction;
   if (u.dot(v) < 0.9) return std::nullopt;
-  const double noise = std::min(std::hypot(a.sigma_angle_rad, b.sigma_angle_rad), 0.03);
+  const double noise = std::min(a.segment.sigma_angle_rad + b.segment.sigma_angle_rad, 0.03);
   if (std::abs(u.x() * v.y() - u.y() * v.x()) > options.max_angle_rad + kSigmas * noise) return std::nullopt;
-  const double contrast = a.contrast() / b.contrast();
-  if (contrast > options.max_grey_ratio || contrast * options.max_grey_ratio < 1) return std::nullopt;
-  const double gap = std::max(u.dot(b.begin - a.end), u.dot(a.begin - b.end));
-  const double shorter = std::min(a.length_px(), b.length_px());
+  const double beside = std::abs(u.x() * (b.segment.centre - a.segment.centre).y() -
+                                 u.y() * (b.segment.centre - a.segment.centre).x());
+  const double reach = a.length_px + b.length_px + options.max_gap_px;
+  if (beside > options.max_distance_px + kSigmas + (options.max_angle_rad + kSigmas * noise) * reach)
+    return std::nullopt;
+  const double gap = std::max(u.dot(b.segment.begin - a.segment.end), u.dot(a.segment.begin - b.segment.end));
+  const double shorter = std::min(a.length_px, b.length_px);
   if (gap > std::min(options.max_gap_px, options.max_gap_share * shorter)) return std::nullopt;
+  const double contrast = a.segment.contrast() / b.segment.contrast();
+  if (contrast > options.max_grey_ratio || contrast * options.max_grey_ratio < 1) return std::nullopt;
   return gap;
 }
 
@@ -83,11 +99,6 @@ class Fuser {
   bool HasJoined() const { return lines_.size() > pieces_.size(); }
 
  private:
-  struct Line {
-    EdgeSegment segment;
-    int first_piece, last_piece;  ///< a list through next_piece_
-    bool alive = true;
-  };
   struct Pair {
     double cost;
     std::tuple<double, double, double, double> first_place, second_place;
@@ -107,10 +118,10 @@ class Fuser {
     FindAround(line.segment);
     lines_.push_back(line);
     index_.Insert(id, line.segment.begin, line.segment.end);
-    std::sort(near_.begin(), near_.end());
-    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
     for (const int other : near_) {
-      if (lines_[other].alive) Consider(id, other);
+      if (!lines_[other].alive || lines_[other].seen_by == id) continue;
+      lines_[other].seen_by = id;
+      Consider(id, other);
     }
   }
 
@@ -123,9 +134,9 @@ class Fuser {
 
   void Consider(int a, int b) {
     if (Place(lines_[b].segment) < Place(lines_[a].segment)) std::swap(a, b);
-    const EdgeSegment &first = lines_[a].segment, &second = lines_[b].segment;
-    const auto gap = Gap(first, second, options_);
+    const auto gap = Gap(lines_[a], lines_[b], options_);
     if (!gap) return;
+    const EdgeSegment &first = lines_[a].segment, &second = lines_[b].segment;
     const EdgeSegment joined = JoinFits(first, second);
     const double deviation =
         std::max(Deviation(joined, first, options_), Deviation(joined, second, options_));
