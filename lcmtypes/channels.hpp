@@ -5,12 +5,16 @@
 #include "lcmtypes/channel.hpp"
 #include "priamos/camera_frame_t.hpp"
 #include "priamos/camera_trigger_t.hpp"
+#include "priamos/drive_command_t.hpp"
 #include "priamos/drive_status_t.hpp"
+#include "priamos/estop_t.hpp"
 #include "priamos/head_command_t.hpp"
+#include "priamos/head_drive_t.hpp"
 #include "priamos/head_state_t.hpp"
 #include "priamos/health_t.hpp"
 #include "priamos/landmark_fix_t.hpp"
 #include "priamos/landmark_model_t.hpp"
+#include "priamos/lease_request_t.hpp"
 #include "priamos/link_status_t.hpp"
 #include "priamos/look_request_t.hpp"
 #include "priamos/mission_command_t.hpp"
@@ -46,6 +50,12 @@ inline constexpr Channel<path_t> kPath{"PATH", 0, milliseconds(0)};
 inline constexpr Channel<drive_status_t> kDriveStatus{"DRIVE_STATUS", 10, milliseconds(2000)};
 inline constexpr Channel<pose_correction_t> kPoseCorrection{"POSE_CORRECTION", 0, milliseconds(0)};
 
+// Driving by hand.
+inline constexpr Channel<drive_command_t> kDriveCommand{"DRIVE_COMMAND", 25, milliseconds(250)};
+inline constexpr Channel<head_drive_t> kHeadDrive{"HEAD_DRIVE", 10, milliseconds(500)};
+inline constexpr Channel<lease_request_t> kLeaseRequest{"LEASE_REQUEST", 0, milliseconds(0)};
+inline constexpr Channel<estop_t> kEstop{"ESTOP", 0, milliseconds(0)};
+
 // Seeing.
 inline constexpr Channel<landmark_model_t> kLandmarkModel{"LANDMARK_MODEL", 0, milliseconds(0)};
 inline constexpr Channel<look_request_t> kLookRequest{"LOOK_REQUEST", 0, milliseconds(0)};
@@ -65,6 +75,7 @@ inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseco
 inline constexpr std::tuple kAll{kWheelCommand,   kWheelState,     kSonarRanges,   kHeadCommand, kHeadState,
                                  kCameraTrigger,  kCameraFrame,    kOdometry,      kPose,        kPath,
                                  kDriveStatus,    kPoseCorrection, kLandmarkModel, kLookRequest, kLandmarkFix,
-                                 kMissionCommand, kMissionStatus,  kHealth,        kLinkStatus,  kWorldTruth};
+                                 kMissionCommand, kMissionStatus,  kHealth,        kLinkStatus,  kWorldTruth,
+                                 kDriveCommand,   kHeadDrive,      kLeaseRequest,  kEstop};
 
 }  // namespace priamos::channels

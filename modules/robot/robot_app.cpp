@@ -2,9 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace priamos::robot {
+namespace {
+
+/// Why a path is not driven; empty when it is.
+std::string_view Refusal(PathVerdict verdict) {
+  switch (verdict) {
+    case PathVerdict::kWithoutLease:
+      return "somebody else holds the lease";
+    case PathVerdict::kEstop:
+      return "the e-stop is pressed";
+    case PathVerdict::kTaken:
+    case PathVerdict::kSame:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
 
 RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
     : config_(config),
@@ -15,6 +33,11 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       sonars_(context.node().Subscribe(channels::kSonarRanges)),
       paths_(context.node().SubscribeAll(channels::kPath)),
       fixes_(context.node().SubscribeAll(channels::kLandmarkFix)),
+      commands_(context.node().SubscribeAll(channels::kDriveCommand)),
+      lease_requests_(context.node().SubscribeAll(channels::kLeaseRequest)),
+      estops_(context.node().SubscribeAll(channels::kEstop)),
+      healths_(context.node().SubscribeAll(channels::kHealth)),
+      link_(context.node().Subscribe(channels::kLinkStatus)),
       wheel_command_(context.node().Advertise(channels::kWheelCommand)),
       odometry_(context.node().Advertise(channels::kOdometry)),
       pose_(context.node().Advertise(channels::kPose)),
@@ -22,11 +45,15 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       correction_(context.node().Advertise(channels::kPoseCorrection)) {}
 
 void RobotApp::Tick(Time now) {
+  TakeEstops(now);
   TakeWheels(now);
   TakeSonars();
   TakeFixes(now);
   AnswerFixes(now);
-  TakePaths();
+  TakeSignsOfLife(now);
+  TakeLeaseRequests(now);
+  TakePaths(now);
+  TakeCommands(now);
   Drive(now);
   SendStatus(now);
 }
@@ -73,22 +100,73 @@ void RobotApp::AnswerFixes(Time now) {
   }
 }
 
-void RobotApp::TakePaths() {
-  for (const path_t& message : paths_.Drain()) {
-    if (const auto path = FromMessage(message)) {
-      drive_.SetPath(*path);
+bool RobotApp::IsOlder(std::int64_t utime, double most_s, Time now) const {
+  return Seconds(now - FromUtime(utime)) > most_s;
+}
+
+void RobotApp::TakeEstops(Time now) {
+  for (const estop_t& message : estops_.Drain()) {
+    if (message.action == estop_t::STOP) {
+      drive_.PressEstop();
+    } else if (message.action == estop_t::REARM && !IsOlder(message.utime, config_.order_max_age_s, now)) {
+      drive_.Rearm();
+      context_.Log(bus::Level::kInfo, "re-armed; a new order is needed to move");
     } else {
-      context_.Log(bus::Level::kWarning, fmt::format("path {} refused: not drivable", message.path_id));
+      context_.Log(bus::Level::kWarning, "re-arming refused: too old, or no such action");
     }
+  }
+}
+
+void RobotApp::TakeLeaseRequests(Time now) {
+  for (const lease_request_t& message : lease_requests_.Drain()) {
+    const auto request = FromMessage(message);
+    if (!request || IsOlder(message.utime, config_.order_max_age_s, now)) {
+      context_.Log(bus::Level::kWarning, "lease request refused: too old, or nobody that is known");
+      continue;
+    }
+    drive_.RequestLease(request->who, request->wish, now);
+  }
+}
+
+void RobotApp::TakeCommands(Time now) {
+  for (const drive_command_t& message : commands_.Drain()) drive_.SetCommand(FromMessage(message), now);
+}
+
+void RobotApp::TakeSignsOfLife(Time now) {
+  for (const health_t& message : healths_.Drain())
+    if (message.process == "head") head_heard_ = now;
+  // A robot without a radio hears of no link, and has none to lose.
+  const link_status_t* link = link_.get();
+  const bool down = link && (!link->up || link_.Age(now) > channels::kLinkStatus.stale_after);
+  if (!down) link_down_since_.reset();
+  if (down && !link_down_since_) link_down_since_ = now;
+}
+
+void RobotApp::TakePaths(Time now) {
+  for (const path_t& message : paths_.Drain()) {
+    const auto path = FromMessage(message);
+    std::string_view refusal;
+    if (!path) {
+      refusal = "not drivable";
+    } else if (!path->points.empty() && IsOlder(message.utime, config_.path_max_age_s, now)) {
+      refusal = "too old";
+    } else {
+      refusal = Refusal(drive_.SetPath(*path, now));
+    }
+    if (!refusal.empty())
+      context_.Log(bus::Level::kWarning, fmt::format("path {} refused: {}", message.path_id, refusal));
   }
 }
 
 void RobotApp::Drive(Time now) {
   const auto estimate = localiser_.estimate();
-  const auto speeds = drive_.Step({estimate, localiser_.odometry().pose(), wheels_heard_}, now);
+  const Duration link_down =
+      link_down_since_ ? std::max(now - *link_down_since_, Duration(1)) : Duration::zero();
+  const auto speeds =
+      drive_.Step({estimate, localiser_.odometry().pose(), wheels_heard_, head_heard_, link_down}, now);
   if (speeds) wheel_command_.Publish(ToMessage(*speeds, now));
   if (estimate) pose_.Publish(ToMessage(*estimate));
-  Tell(drive_.state().failsafe);
+  Tell(drive_.state());
 }
 
 void RobotApp::SendStatus(Time now) {
@@ -99,17 +177,26 @@ void RobotApp::SendStatus(Time now) {
   status_.Publish(ToMessage(drive_.state(), speed_m_s, now));
 }
 
-void RobotApp::Tell(const FailsafeDecision& decision) {
-  if (decision.cause == told_) return;
-  told_ = decision.cause;
-  if (!decision.cause) {
+void RobotApp::Tell(const DriveState& state) {
+  if (state.holder != told_holder_) {
+    told_holder_ = state.holder;
+    context_.Log(
+        bus::Level::kInfo,
+        fmt::format("the lease is {}", state.holder.driver == Driver::kNobody
+                                           ? "free"
+                                           : fmt::format("held by {}, session {}", Text(state.holder.driver),
+                                                         state.holder.session)));
+  }
+  const auto cause = state.failsafe.cause;
+  if (cause == told_) return;
+  told_ = cause;
+  if (!cause) {
     context_.SetHealth(bus::Health::kOk);
     context_.Log(bus::Level::kInfo, "nothing stops the base any more");
     return;
   }
-  const std::string_view text = Text(*decision.cause);
-  context_.SetHealth(bus::Health::kDegraded, text);
-  context_.Log(bus::Level::kWarning, fmt::format("the base is stopped: {}", text));
+  context_.SetHealth(bus::Health::kDegraded, Text(*cause));
+  context_.Log(bus::Level::kWarning, fmt::format("the base is stopped: {}", Text(*cause)));
 }
 
 }  // namespace priamos::robot

@@ -27,11 +27,16 @@ class RobotApp {
   void TakeWheels(Time now);
   void TakeSonars();
   void TakeFixes(Time now);
-  void TakePaths();
+  void TakePaths(Time now);
+  void TakeEstops(Time now);
+  void TakeLeaseRequests(Time now);
+  void TakeCommands(Time now);
+  void TakeSignsOfLife(Time now);
+  bool IsOlder(std::int64_t utime, double most_s, Time now) const;
   void AnswerFixes(Time now);
   void Drive(Time now);
   void SendStatus(Time now);
-  void Tell(const FailsafeDecision& decision);
+  void Tell(const DriveState& state);
 
   RobotConfig config_;
   bus::Context& context_;
@@ -42,13 +47,19 @@ class RobotApp {
   bus::Latest<sonar_ranges_t> sonars_;
   bus::Inbox<path_t> paths_;
   bus::Inbox<landmark_fix_t> fixes_;
+  bus::Inbox<drive_command_t> commands_;
+  bus::Inbox<lease_request_t> lease_requests_;
+  bus::Inbox<estop_t> estops_;
+  bus::Inbox<health_t> healths_;
+  bus::Latest<link_status_t> link_;
   bus::Publisher<wheel_command_t> wheel_command_;
   bus::Publisher<odometry_t> odometry_;
   bus::Publisher<pose_t> pose_;
   bus::Publisher<drive_status_t> status_;
   bus::Publisher<pose_correction_t> correction_;
 
-  std::optional<Time> wheels_heard_, status_sent_;
+  std::optional<Time> wheels_heard_, head_heard_, link_down_since_, status_sent_;
+  LeaseHolder told_holder_;
   std::optional<Condition> told_;
 };
 

@@ -11,6 +11,8 @@ namespace priamos::robot {
 struct RobotConfig {
   double rate_hz = 50;         ///< decisions and wheel commands
   double status_rate_hz = 10;  ///< DRIVE_STATUS
+  double path_max_age_s = 10;  ///< an older path is refused: somebody may have changed his mind since
+  double order_max_age_s = 2;  ///< the same for lease requests and re-arming
   MecanumGeometry base;
   LocaliserConfig localiser;
   DriveConfig drive;

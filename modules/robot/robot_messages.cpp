@@ -25,6 +25,67 @@ Eigen::Matrix3d CovarianceOf(const landmark_fix_t& m) {
   return ToCovariance({m.sigma_x_m, m.sigma_y_m, m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw});
 }
 
+/// nullopt for a number that names nobody.
+std::optional<Driver> DriverOf(int code) {
+  switch (code) {
+    case lease_request_t::NOBODY:
+      return Driver::kNobody;
+    case lease_request_t::PLANNER:
+      return Driver::kPlanner;
+    case lease_request_t::CONSOLE:
+      return Driver::kConsole;
+    case lease_request_t::TELEOP:
+      return Driver::kTeleop;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::int8_t DriverCode(Driver driver) {
+  switch (driver) {
+    case Driver::kNobody:
+      break;
+    case Driver::kPlanner:
+      return lease_request_t::PLANNER;
+    case Driver::kConsole:
+      return lease_request_t::CONSOLE;
+    case Driver::kTeleop:
+      return lease_request_t::TELEOP;
+  }
+  return lease_request_t::NOBODY;
+}
+
+std::optional<Lease::Wish> WishOf(int code) {
+  switch (code) {
+    case lease_request_t::ACQUIRE:
+      return Lease::Wish::kAcquire;
+    case lease_request_t::TAKE_OVER:
+      return Lease::Wish::kTakeOver;
+    case lease_request_t::RELEASE:
+      return Lease::Wish::kRelease;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::int8_t RefusalCode(CommandVerdict verdict) {
+  switch (verdict) {
+    case CommandVerdict::kAccepted:
+      break;
+    case CommandVerdict::kWithoutLease:
+      return drive_status_t::REFUSED_WITHOUT_LEASE;
+    case CommandVerdict::kOutOfOrder:
+      return drive_status_t::REFUSED_OUT_OF_ORDER;
+    case CommandVerdict::kTooOld:
+      return drive_status_t::REFUSED_TOO_OLD;
+    case CommandVerdict::kOutOfRange:
+      return drive_status_t::REFUSED_OUT_OF_RANGE;
+    case CommandVerdict::kNotAtRest:
+      return drive_status_t::REFUSED_NOT_AT_REST;
+  }
+  return drive_status_t::REFUSED_NOTHING;
+}
+
 std::int8_t ModeCode(DriveMode mode) {
   switch (mode) {
     case DriveMode::kIdle:
@@ -37,6 +98,8 @@ std::int8_t ModeCode(DriveMode mode) {
       return drive_status_t::HOLDING;
     case DriveMode::kBlocked:
       return drive_status_t::BLOCKED;
+    case DriveMode::kOperated:
+      return drive_status_t::OPERATED;
   }
   return drive_status_t::IDLE;
 }
@@ -116,6 +179,25 @@ std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message) {
   return fix;
 }
 
+DriveCommand FromMessage(const drive_command_t& message) {
+  DriveCommand command;
+  command.time = FromUtime(message.utime);
+  // Somebody unknown holds no lease, so the command is refused and counted like any without one.
+  command.from = {DriverOf(message.driver).value_or(Driver::kNobody), message.session};
+  command.sequence = message.sequence;
+  const bool credible = message.time_to_live_s > 0 && message.time_to_live_s < 1;
+  command.time_to_live = credible ? FromSeconds(message.time_to_live_s) : Duration::zero();
+  command.twist = {message.vx_m_s, message.vy_m_s, message.wz_rad_s};
+  return command;
+}
+
+std::optional<LeaseRequest> FromMessage(const lease_request_t& message) {
+  const auto driver = DriverOf(message.driver);
+  const auto wish = WishOf(message.action);
+  if (!driver || !wish) return std::nullopt;
+  return LeaseRequest{{*driver, message.session}, *wish};
+}
+
 wheel_command_t ToMessage(const WheelSpeeds& speeds, Time now) {
   wheel_command_t message{};
   message.utime = ToUtime(now);
@@ -160,12 +242,19 @@ drive_status_t ToMessage(const DriveState& state, double speed_m_s, Time now) {
   message.utime = ToUtime(now);
   message.mode = ModeCode(state.mode);
   message.limit = state.slowed_by_sonar ? drive_status_t::LIMIT_SONAR : drive_status_t::LIMIT_NONE;
+  if (state.halted_by) message.limit = LimitCode(*state.halted_by);
   if (state.failsafe.cause) message.limit = LimitCode(*state.failsafe.cause);
   message.path_id = state.path_id;
   message.remaining_m = state.remaining_m;
   message.cross_track_m = state.cross_track_m;
   message.speed_m_s = speed_m_s;
   message.nearest_m = state.nearest_m.value_or(-1);
+  message.allowed = state.allowed;
+  message.driver = DriverCode(state.holder.driver);
+  message.session = static_cast<std::int16_t>(state.holder.session);
+  message.estop = state.estop;
+  message.refused = state.refused_commands;
+  message.refusal = RefusalCode(state.refusal);
   return message;
 }
 
@@ -198,6 +287,20 @@ std::string_view Text(Condition condition) {
   for (const FailsafeRule& rule : FailsafeRules({}))
     if (rule.condition == condition) return rule.meaning;
   return "";
+}
+
+std::string_view Text(Driver driver) {
+  switch (driver) {
+    case Driver::kNobody:
+      break;
+    case Driver::kPlanner:
+      return "the planner";
+    case Driver::kConsole:
+      return "the console";
+    case Driver::kTeleop:
+      return "teleop";
+  }
+  return "nobody";
 }
 
 }  // namespace priamos::robot

@@ -17,6 +17,13 @@ std::optional<Path> FromMessage(const path_t& message);
 /// nullopt unless the head found the landmark. Numbers that make no sense become a fix that the estimator
 /// refuses.
 std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message);
+DriveCommand FromMessage(const drive_command_t& message);
+/// nullopt for a driver or an action that does not exist.
+struct LeaseRequest {
+  LeaseHolder who;
+  Lease::Wish wish = Lease::Wish::kAcquire;
+};
+std::optional<LeaseRequest> FromMessage(const lease_request_t& message);
 
 wheel_command_t ToMessage(const WheelSpeeds& speeds, Time now);
 odometry_t ToMessage(const Odometry& odometry);
@@ -29,5 +36,6 @@ pose_correction_t NotFound(const landmark_fix_t& message, Time now);
 
 /// A condition in words, for logs and HEALTH.
 std::string_view Text(Condition condition);
+std::string_view Text(Driver driver);
 
 }  // namespace priamos::robot

@@ -16,6 +16,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kUnits{{
                                                                                 {"m/s", "_m_s"},
                                                                                 {"rad", "_rad"},
                                                                                 {"rad/s", "_rad_s"},
+                                                                                {"step/s", "_step_s"},
                                                                                 {"s", "_s"},
                                                                                 {"Hz", "_hz"},
                                                                                 {"px", "_px"},

@@ -111,7 +111,7 @@ TEST(PlannerApp, PassesTheDoorOnTheBus) {
   EXPECT_EQ(looks[0].side, 2);
   w.SendCorrection(looks[0].request_id);
   w.Run(2);
-  EXPECT_EQ(w.phase(), mission_status_t::LOOKING_RIGHT);
+  EXPECT_EQ(w.phase(), mission_status_t::LOOKING_LEFT);
   w.SendPose(4.4, 0.3);
   w.Run(2);
   ASSERT_EQ(w.phase(), mission_status_t::PASSING);

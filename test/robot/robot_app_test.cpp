@@ -55,12 +55,44 @@ struct Onboard {
   }
   void SendPath(int id, double x_m, double speed_m_s = 0.4) {
     path_t message{};
+    message.utime = ToUtime(clock.Now());
     message.path_id = id;
     message.speed_m_s = speed_m_s;
     message.points.resize(1);
     message.points[0].x_m = x_m;
     message.n_points = 1;
     paths.Publish(message);
+  }
+  void SendLease(int action, int session = 7, int driver = lease_request_t::TELEOP, double age_s = 0) {
+    lease_request_t message{};
+    message.utime = ToUtime(clock.Now() - FromSeconds(age_s));
+    message.driver = static_cast<std::int8_t>(driver);
+    message.session = static_cast<std::int16_t>(session);
+    message.action = static_cast<std::int8_t>(action);
+    leases.Publish(message);
+  }
+  void SendCommand(double vx_m_s, int session = 7, double age_s = 0) {
+    drive_command_t message{};
+    message.utime = ToUtime(clock.Now() - FromSeconds(age_s));
+    message.driver = lease_request_t::TELEOP;
+    message.session = static_cast<std::int16_t>(session);
+    message.sequence = ++sequence;
+    message.time_to_live_s = 0.2;
+    message.vx_m_s = vx_m_s;
+    commands.Publish(message);
+  }
+  void SendEstop(int action, double age_s = 0) {
+    estop_t message{};
+    message.utime = ToUtime(clock.Now() - FromSeconds(age_s));
+    message.action = static_cast<std::int8_t>(action);
+    estops.Publish(message);
+  }
+  /// 25 commands per second.
+  void Drive(double vx_m_s, double seconds) {
+    for (int i = 0; i < seconds * 50; ++i) {
+      if (i % 2 == 0) SendCommand(vx_m_s);
+      Step();
+    }
   }
   landmark_fix_t Fix(int id) {
     const Pose2 seen = base.truth().Inverse() * Pose2{6, 0, 0};
@@ -77,7 +109,7 @@ struct Onboard {
   }
 
   bool wheels_answer = true;
-  int ticks = 0, statuses = 0;
+  int ticks = 0, statuses = 0, sequence = 0;
   SimulatedBase base{1, {0.05, 0.1, 0.02}};
   bus::Schema schema = bus::OwnTypes();
   bus::SimulatedClock clock{base.now()};
@@ -94,6 +126,10 @@ struct Onboard {
   bus::Publisher<sonar_ranges_t> sonars = other.Advertise(channels::kSonarRanges);
   bus::Publisher<path_t> paths = other.Advertise(channels::kPath);
   bus::Publisher<landmark_fix_t> fixes = other.Advertise(channels::kLandmarkFix);
+  bus::Publisher<lease_request_t> leases = other.Advertise(channels::kLeaseRequest);
+  bus::Publisher<drive_command_t> commands = other.Advertise(channels::kDriveCommand);
+  bus::Publisher<estop_t> estops = other.Advertise(channels::kEstop);
+  bus::Publisher<link_status_t> links = other.Advertise(channels::kLinkStatus);
   bus::Latest<wheel_command_t> command = other.Subscribe(channels::kWheelCommand);
   bus::Latest<odometry_t> odometry = other.Subscribe(channels::kOdometry);
   bus::Latest<pose_t> pose = other.Subscribe(channels::kPose);
@@ -188,6 +224,119 @@ TEST(RobotApp, RefusesAPathThatCannotBeDriven) {
   robot.Run(0.2);
   EXPECT_FALSE(robot.last_command);
   EXPECT_THAT(robot.log, Contains(HasSubstr("path 4 refused")));
+}
+
+TEST(RobotApp, AnOperatorTakesTheLeaseAndDrives) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendLease(lease_request_t::ACQUIRE);
+  robot.Drive(0, 0.1);
+  robot.Drive(0.4, 2);
+  EXPECT_EQ(robot.last_status.mode, drive_status_t::OPERATED);
+  EXPECT_EQ(robot.last_status.driver, lease_request_t::TELEOP);
+  EXPECT_EQ(robot.last_status.session, 7);
+  EXPECT_EQ(robot.last_status.allowed, 1);
+  EXPECT_NEAR(robot.last_status.speed_m_s, 0.4, 0.05);
+  EXPECT_EQ(robot.last_status.refused, 0);
+}
+
+TEST(RobotApp, CommandsWithoutLeaseAreRefusedCountedAndNamed) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.Drive(0.4, 1);
+  EXPECT_FALSE(robot.last_command);
+  EXPECT_NEAR(robot.last_status.refused, 25, 3);  // as of the newest status
+  EXPECT_EQ(robot.last_status.refusal, drive_status_t::REFUSED_WITHOUT_LEASE);
+  EXPECT_EQ(robot.last_status.driver, lease_request_t::NOBODY);
+}
+
+TEST(RobotApp, ACommandThatWasTooLongOnTheRadioIsRefused) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendLease(lease_request_t::ACQUIRE);
+  robot.Drive(0, 0.1);
+  robot.SendCommand(0.4, 7, 0.25);
+  robot.Run(0.2);
+  EXPECT_EQ(robot.last_status.refusal, drive_status_t::REFUSED_TOO_OLD);
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+}
+
+TEST(RobotApp, ALeaseRequestThatComesMuchTooLateIsNotGranted) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendLease(lease_request_t::TAKE_OVER, 7, lease_request_t::TELEOP, 3);
+  robot.SendLease(99);
+  robot.SendLease(lease_request_t::ACQUIRE, 7, 55);
+  robot.Run(0.2);
+  EXPECT_EQ(robot.last_status.driver, lease_request_t::NOBODY);
+}
+
+TEST(RobotApp, ThePlannersPathIsDrivenWithTheLeaseAndEndsWhenItIsTaken) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendPath(4, 3);
+  robot.Run(2);
+  EXPECT_EQ(robot.last_status.driver, lease_request_t::PLANNER);
+  robot.SendLease(lease_request_t::ACQUIRE);
+  robot.Run(0.2);
+  EXPECT_EQ(robot.last_status.driver, lease_request_t::PLANNER) << "only a take-over takes it";
+  robot.SendLease(lease_request_t::TAKE_OVER);
+  robot.Run(0.2);
+  EXPECT_EQ(robot.last_status.driver, lease_request_t::TELEOP);
+  EXPECT_EQ(robot.last_status.limit, drive_status_t::LIMIT_LEASE_LOST);
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+}
+
+TEST(RobotApp, EstopFromAnybodyStopsAtTheNextTickAndOnlyAFreshRearmLiftsIt) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendLease(lease_request_t::ACQUIRE);
+  robot.Drive(0, 0.1);
+  robot.Drive(0.4, 1);
+  robot.SendEstop(estop_t::STOP, 60);  // however old
+  robot.Step();
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+  robot.Drive(0.4, 0.5);
+  EXPECT_TRUE(robot.last_status.estop);
+  EXPECT_EQ(robot.last_status.limit, drive_status_t::LIMIT_ESTOP);
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+  robot.SendEstop(estop_t::REARM, 3);
+  robot.Run(0.2);
+  EXPECT_TRUE(robot.last_status.estop) << "an old re-arming";
+  robot.SendEstop(estop_t::REARM);
+  robot.Drive(0.4, 0.5);
+  EXPECT_FALSE(robot.last_status.estop);
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0)) << "the stick was not let go";
+  robot.Drive(0, 0.1);
+  robot.Drive(0.4, 0.5);
+  EXPECT_GT(robot.last_command->speed_rad_s[0], 1);
+}
+
+TEST(RobotApp, ARadioThatSaysItIsDownStopsTheOperator) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendLease(lease_request_t::ACQUIRE);
+  robot.Drive(0, 0.1);
+  robot.Drive(0.4, 1);
+  robot.links.Publish(link_status_t{});
+  robot.Drive(0.4, 0.4);
+  EXPECT_EQ(robot.last_status.limit, drive_status_t::LIMIT_LINK_LOST);
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+}
+
+TEST(RobotApp, APathThatIsOldIsRefused) {
+  Onboard robot;
+  robot.Run(0.2);
+  path_t path{};
+  path.utime = ToUtime(robot.clock.Now() - FromSeconds(11));
+  path.path_id = 4;
+  path.speed_m_s = 0.4;
+  path.points.resize(1);
+  path.n_points = 1;
+  robot.paths.Publish(path);
+  robot.Run(0.2);
+  EXPECT_FALSE(robot.last_command);
+  EXPECT_THAT(robot.log, Contains(HasSubstr("path 4 refused: too old")));
 }
 
 }  // namespace

@@ -168,6 +168,61 @@ TEST(StatusMessages, EveryConditionHasItsOwnLimitAndText) {
   EXPECT_FALSE(codes.contains(drive_status_t::LIMIT_SONAR));
 }
 
+TEST(StatusMessages, EveryRefusalHasItsOwnCode) {
+  std::set<int> codes;
+  for (const auto verdict :
+       {CommandVerdict::kAccepted, CommandVerdict::kWithoutLease, CommandVerdict::kOutOfOrder,
+        CommandVerdict::kTooOld, CommandVerdict::kOutOfRange, CommandVerdict::kNotAtRest}) {
+    DriveState state;
+    state.refusal = verdict;
+    codes.insert(ToMessage(state, 0, FromUtime(1)).refusal);
+  }
+  EXPECT_EQ(codes.size(), kCommandVerdicts);
+}
+
+TEST(CommandMessages, KeepSenderOrderLifeAndTwist) {
+  drive_command_t message{};
+  message.utime = 5'000'000;
+  message.driver = lease_request_t::CONSOLE;
+  message.session = 9;
+  message.sequence = 77;
+  message.time_to_live_s = 0.15;
+  message.vx_m_s = 0.1;
+  message.vy_m_s = -0.2;
+  message.wz_rad_s = 0.3;
+  const DriveCommand dut = FromMessage(message);
+  EXPECT_EQ(dut.time, FromUtime(5'000'000));
+  EXPECT_EQ(dut.from, (LeaseHolder{Driver::kConsole, 9}));
+  EXPECT_EQ(dut.sequence, 77);
+  EXPECT_EQ(dut.time_to_live, std::chrono::milliseconds(150));
+  EXPECT_EQ(dut.twist.vx, 0.1);
+  EXPECT_EQ(dut.twist.vy, -0.2);
+  EXPECT_EQ(dut.twist.wz, 0.3);
+}
+
+TEST(CommandMessages, UnknownDriversAndAbsurdLivesCountAsNobodyAndNever) {
+  drive_command_t message{};
+  message.driver = 99;
+  message.time_to_live_s = std::nan("");
+  EXPECT_EQ(FromMessage(message).from.driver, Driver::kNobody);
+  EXPECT_EQ(FromMessage(message).time_to_live, Duration::zero());
+  message.time_to_live_s = 1e300;
+  EXPECT_EQ(FromMessage(message).time_to_live, Duration::zero());
+}
+
+TEST(LeaseMessages, WhatDoesNotExistIsRefused) {
+  lease_request_t message{};
+  message.driver = lease_request_t::TELEOP;
+  message.action = lease_request_t::TAKE_OVER;
+  ASSERT_TRUE(FromMessage(message));
+  EXPECT_EQ(FromMessage(message)->wish, Lease::Wish::kTakeOver);
+  message.action = 3;
+  EXPECT_FALSE(FromMessage(message));
+  message.action = 0;
+  message.driver = -1;
+  EXPECT_FALSE(FromMessage(message));
+}
+
 TEST(StatusMessages, SonarIsTheLimitWhenNothingWorseIs) {
   DriveState state;
   state.slowed_by_sonar = true;

@@ -185,17 +185,15 @@ void DoorMission::LookAtDoor(Time now, MissionActions& actions) {
   const int failures = looks_.failures();
   if (SettleLook(now, actions)) judge_ = looks_.Enough();
   if (looks_.failures() > failures) Enter(state_.phase, looks_.trouble());
-  if (judge_) {
-    if (!PoseIsCorrected(now)) return;
+  if (judge_ && PoseIsCorrected(now)) {
     judge_ = false;
     EvaluatePose(now, actions);
   }
   const bool looking = state_.phase == Phase::kLookingLeft || state_.phase == Phase::kLookingRight;
   if (!looking || !looks_.Ready(now)) return;
-  if (looks_.Exhausted())
-    return Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()),
-                actions);
-  AskLook(now, actions);
+  if (!looks_.Exhausted()) return AskLook(now, actions);
+  if (!judge_)
+    Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()), actions);
 }
 
 bool DoorMission::PoseIsCorrected(Time now) const {

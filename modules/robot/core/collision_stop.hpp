@@ -12,10 +12,12 @@ namespace priamos::robot {
 
 struct CollisionStopConfig {
   double margin_m = 0.015;  ///< kept free on all sides of the footprint
-  double gap_m = 0.05;      ///< where to stand before an obstacle ahead
+  double gap_m = 0.13;      ///< where to stand before an obstacle ahead
   double braking_m_s2 = 1.0;
   double latency_s = 0.12;  ///< age of an echo when the wheels obey it
   double look_ahead_m = 5;
+  double memory_margin_m = -0.03;  ///< instead of margin_m for remembered things, whose place is vague
+  double memory_gap_m = 0.05;      ///< instead of gap_m
 
   void Describe(Archive& a);
 };
@@ -28,20 +30,24 @@ class CollisionStop {
  public:
   struct Result {
     Twist2 twist;
-    double scale = 1;              ///< of the wanted motion
-    std::optional<double> free_m;  ///< way until the footprint would meet a point; none within look_ahead_m
+    double scale = 1;               ///< of the wanted motion
+    std::optional<double> allowed;  ///< fastest motion in this direction [m/s of the fastest corner]
+    std::optional<double> free_m;   ///< way until the footprint would meet a point; none within look_ahead_m
   };
 
   CollisionStop(const CollisionStopConfig& config, const Footprint& footprint);
 
-  /// `points` are obstacles in the base frame.
-  Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> points) const;
+  /// How fast the fastest point of the footprint moves [m/s].
+  double SpeedOf(const Twist2& twist) const;
+  /// `seen` and `remembered` are obstacles in the base frame.
+  Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
+               std::span<const Eigen::Vector2d> remembered = {}) const;
 
  private:
-  double FreeWay(const Twist2& per_metre, const Eigen::Vector2d& point, double farthest) const;
+  double AllowedSpeed(double free_m, double gap_m) const;
 
   CollisionStopConfig config_;
-  Footprint guarded_;  ///< footprint with margin
+  Footprint seen_guard_, memory_guard_;  ///< footprint with margin
 };
 
 }  // namespace priamos::robot

@@ -11,8 +11,10 @@ using std::chrono::milliseconds;
 // Two and a half periods: a late message is not yet silence.
 constexpr milliseconds kWheelsDue{50};
 constexpr milliseconds kSonarDue{250};
+constexpr milliseconds kHeadDue{1500};
 constexpr double kStanding = 0.01;     ///< [m/s] slower is standing
 constexpr double kWantsToMove = 0.03;  ///< [m/s]
+constexpr double kCreeping = 0.05;     ///< [m/s] before an obstacle this is standing, too
 constexpr double kSlowed = 0.98;       ///< a scale below this is a limit worth telling
 
 double SpeedOf(const Twist2& twist) {
@@ -36,6 +38,12 @@ Duration Lasting(const std::optional<Time>& since, Time now) {
   return since ? std::max(now - *since, Duration(1)) : Duration::zero();
 }
 
+CollisionStopConfig WithMargin(CollisionStopConfig config, double more_m) {
+  config.margin_m += more_m;
+  config.memory_margin_m += more_m;
+  return config;
+}
+
 }  // namespace
 
 void DriveConfig::Describe(Archive& a) {
@@ -43,12 +51,18 @@ void DriveConfig::Describe(Archive& a) {
            {"m", 0.05, 5, "no path is driven by a pose with a larger sigma"});
   a.Number("lost_yaw_deg", lost_yaw_deg, {"deg", 1, 90, "the same for the heading"});
   a.Number("blocked_s", blocked_s, {"s", 0, 60, "standing before an obstacle for this long is BLOCKED"});
+  a.Number("operator_margin_m", operator_margin_m,
+           {"m", 0, 0.5, "added to the margins of collision while an operator drives"});
+  a.Number("fix_needed_m", fix_needed_m, {"m", 0.01, 5, "a silent head matters when sigma is larger"});
   a.Section("footprint", footprint, "the body of the base");
   a.Section("follower", follower, "how a path is driven");
-  a.Section("acceleration", acceleration, "limits while driving");
+  a.Section("acceleration", acceleration, "limits while a path is driven");
+  a.Section("operator_acceleration", operator_acceleration, "limits while an operator drives");
   a.Section("braking", braking, "limits while a hold brakes the base");
   a.Section("echoes", echoes, "which sonar echoes are believed");
   a.Section("collision", collision, "the last filter before the wheels");
+  a.Section("deflection", deflection, "how obstacles turn an operator's wish aside");
+  a.Section("authority", authority, "who may drive");
   a.Section("failsafe", failsafe, "when silence is too long");
 }
 
@@ -57,21 +71,43 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       geometry_(geometry),
       follower_(config.follower),
       slew_(config.acceleration),
+      operator_slew_(config.operator_acceleration),
       brake_(config.braking),
       echoes_(config.echoes, config.footprint),
       collision_(config.collision, config.footprint),
+      operator_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
+      authority_(config.authority),
       failsafe_(config.failsafe) {}
 
-void DriveController::SetPath(const Path& path) {
+PathVerdict DriveController::SetPath(const Path& path, Time now) {
   const bool driving_it = path_is_new_ || follower_.has_path();
-  if (driving_it && path_ && SamePath(*path_, path)) return;
+  if (driving_it && path_ && SamePath(*path_, path)) return PathVerdict::kSame;
+  if (!authority_.AdmitPath(now))
+    return authority_.estop() ? PathVerdict::kEstop : PathVerdict::kWithoutLease;
   path_ = path;
   path_is_new_ = !path.points.empty();
+  ever_ordered_ = true;
   state_.path_id = path.id;
+  state_.halted_by.reset();
   if (path.points.empty()) {
     follower_.Drop();
     state_.mode = DriveMode::kHolding;
   }
+  return PathVerdict::kTaken;
+}
+
+CommandVerdict DriveController::SetCommand(const DriveCommand& command, Time now) {
+  const CommandVerdict verdict = authority_.Admit(command, now);
+  if (verdict != CommandVerdict::kAccepted) return verdict;
+  ever_ordered_ = true;
+  DropPath();
+  state_.mode = DriveMode::kOperated;
+  state_.halted_by.reset();
+  return verdict;
+}
+
+Lease::Answer DriveController::RequestLease(const LeaseHolder& who, Lease::Wish wish, Time now) {
+  return authority_.Request(who, wish, now);
 }
 
 std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation, Time now) {
@@ -79,41 +115,77 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   const double dt_s = last_step_ ? std::clamp(Seconds(now - *last_step_), 1e-3, 0.1) : 0.02;
   last_step_ = now;
   if (echoes_.newest()) sonar_heard_ = echoes_.newest();
-  echoes_.Forget(now);
+  echoes_.Forget(situation.odom_from_base, now);
+  authority_.Tick(now, HasWayToGo());
+  if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
+  const DriveSource source = Source(now);
   state_.failsafe = Watch(situation, now);
+  if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause);
 
-  Twist2 wanted;
-  if (state_.failsafe.action == FailsafeAction::kNone) wanted = WantedByPath(situation, now, dt_s);
-  if (state_.failsafe.action == FailsafeAction::kHalt) Halt();
-  const bool braking = state_.failsafe.action != FailsafeAction::kNone || !follower_.has_path();
-  TwistSlew& slew = braking ? brake_ : slew_;
-  const Twist2 given = Guard(slew.Step(wanted, dt_s), situation);
-  const WheelSpeeds wheels = Saturated(geometry_, ToWheelSpeeds(geometry_, given));
-  const Twist2 commanded = FromWheelSpeeds(geometry_, wheels).twist;
-  slew_.SetCommanded(commanded);
-  brake_.SetCommanded(commanded);
-  NoteBlocked(wanted, commanded, now);
+  const auto points = echoes_.Points(situation.odom_from_base);
+  const auto remembered = echoes_.Remembered(situation.odom_from_base);
+  const Twist2 wanted = Wanted(situation, points, now, dt_s);
+  const CollisionStop& guard = state_.mode == DriveMode::kOperated ? operator_collision_ : collision_;
+  const CollisionStop::Result result = guard.Limit(Slewed(wanted, dt_s), points, remembered);
+  const WheelSpeeds wheels = Saturated(geometry_, ToWheelSpeeds(geometry_, result.twist));
+  SetCommanded(FromWheelSpeeds(geometry_, wheels).twist);
+  NoteSonar(wanted, result);
+  NoteBlocked(wanted, result.twist, now);
   NoteStuck(situation, now);
-  if (!path_) return std::nullopt;
+  NoteEnd(source);
+  if (!ever_ordered_) return std::nullopt;
   return wheels;
+}
+
+bool DriveController::HasWayToGo() const {
+  return path_is_new_ || (follower_.has_path() && state_.mode != DriveMode::kArrived);
+}
+
+void DriveController::DropPath() {
+  follower_.Drop();
+  path_is_new_ = false;
+}
+
+DriveSource DriveController::Source(Time now) const {
+  if (follower_.has_path() || path_is_new_) return DriveSource::kPath;
+  if (authority_.Wish(now) || authority_.OperatorFellSilent(now)) return DriveSource::kOperator;
+  return DriveSource::kNone;
 }
 
 FailsafeDecision DriveController::Watch(const DriveSituation& situation, Time now) {
   if (!IsLost(situation)) pose_lost_since_.reset();
   if (IsLost(situation) && !pose_lost_since_) pose_lost_since_ = now;
+  const auto when = [](bool present) { return present ? Duration::max() : Duration::zero(); };
+  const bool needs_fix = situation.estimate && situation.estimate->PositionSigma() > config_.fix_needed_m;
 
   FailsafeInputs inputs;
-  inputs.source = follower_.has_path() || path_is_new_ ? DriveSource::kPath : DriveSource::kNone;
+  inputs.source = Source(now);
+  inputs[Condition::kEstop] = when(authority_.estop());
+  inputs[Condition::kLeaseLost] = when(authority_.lease_lost());
+  inputs[Condition::kOperatorSilent] = when(authority_.OperatorFellSilent(now));
   inputs[Condition::kWheelsSilent] = Silence(situation.wheels_heard, *first_step_, now, kWheelsDue);
+  inputs[Condition::kWheelsStuck] = Lasting(stuck_since_, now);
   inputs[Condition::kSonarSilent] = Silence(sonar_heard_, *first_step_, now, kSonarDue);
   inputs[Condition::kPoseLost] = Lasting(pose_lost_since_, now);
-  inputs[Condition::kWheelsStuck] = Lasting(stuck_since_, now);
+  if (needs_fix) inputs[Condition::kHeadSilent] = Silence(situation.head_heard, *first_step_, now, kHeadDue);
+  inputs[Condition::kLinkLost] = situation.link_down;
+  state_.holder = authority_.holder();
+  state_.estop = authority_.estop();
+  state_.refused_commands = authority_.input().refused();
+  state_.refusal = authority_.input().newest_refusal();
   return failsafe_.Update(inputs, now);
 }
 
 bool DriveController::IsLost(const DriveSituation& situation) const {
   return !situation.estimate || !(situation.estimate->PositionSigma() < config_.lost_position_m) ||
          !(situation.estimate->YawSigma() < Radians(config_.lost_yaw_deg));
+}
+
+Twist2 DriveController::Wanted(const DriveSituation& situation, std::span<const Eigen::Vector2d> points,
+                               Time now, double dt_s) {
+  if (state_.failsafe.action != FailsafeAction::kNone) return {};
+  if (follower_.has_path() || path_is_new_) return WantedByPath(situation, now, dt_s);
+  return WantedByOperator(points, now);
 }
 
 Twist2 DriveController::WantedByPath(const DriveSituation& situation, Time now, double dt_s) {
@@ -134,17 +206,40 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, Time now, 
   return wanted.twist;
 }
 
-Twist2 DriveController::Guard(const Twist2& smooth, const DriveSituation& situation) {
-  const auto points = echoes_.Points(situation.odom_from_base);
-  const CollisionStop::Result result = collision_.Limit(smooth, points);
-  state_.slowed_by_sonar = result.scale < kSlowed;
+Twist2 DriveController::WantedByOperator(std::span<const Eigen::Vector2d> points, Time now) {
+  const Twist2* wish = authority_.Wish(now);
+  if (!wish) return {};
+  // A stick that was let go stops the wheels now; the drive board's own ramp is all the softness there is.
+  if (!WantsMotion(*wish)) {
+    SetCommanded({});
+    return {};
+  }
+  return Deflected(config_.deflection, config_.footprint, *wish, points);
+}
+
+Twist2 DriveController::Slewed(const Twist2& wanted, double dt_s) {
+  if (state_.failsafe.action != FailsafeAction::kNone) return brake_.Step(wanted, dt_s);
+  if (state_.mode == DriveMode::kOperated) return operator_slew_.Step(wanted, dt_s);
+  return follower_.has_path() ? slew_.Step(wanted, dt_s) : brake_.Step(wanted, dt_s);
+}
+
+void DriveController::SetCommanded(const Twist2& twist) {
+  slew_.SetCommanded(twist);
+  operator_slew_.SetCommanded(twist);
+  brake_.SetCommanded(twist);
+}
+
+void DriveController::NoteSonar(const Twist2& wanted, const CollisionStop::Result& result) {
   state_.nearest_m = result.free_m;
-  return result.twist;
+  const double speed = collision_.SpeedOf(wanted);
+  const double left = result.allowed && speed > 0 ? std::min(1.0, *result.allowed / speed) : 1.0;
+  state_.slowed_by_sonar = left < kSlowed;
+  state_.allowed = state_.failsafe.action == FailsafeAction::kNone ? left : 0;
 }
 
 void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Time now) {
   if (state_.mode != DriveMode::kFollowing && state_.mode != DriveMode::kBlocked) return;
-  const bool stopped = state_.slowed_by_sonar && SpeedOf(wanted) > kWantsToMove && SpeedOf(given) < kStanding;
+  const bool stopped = state_.slowed_by_sonar && SpeedOf(wanted) > kWantsToMove && SpeedOf(given) < kCreeping;
   if (!stopped) blocked_since_.reset();
   if (stopped && !blocked_since_) blocked_since_ = now;
   const bool blocked = blocked_since_ && now - *blocked_since_ >= FromSeconds(config_.blocked_s);
@@ -152,17 +247,23 @@ void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Tim
 }
 
 void DriveController::NoteStuck(const DriveSituation& situation, Time now) {
-  const bool told_to_move = SpeedOf(slew_.commanded()) > 5 * kStanding;
+  const bool told_to_move = SpeedOf(slew_.commanded()) > kCreeping;
   const bool stands = situation.estimate && SpeedOf(situation.estimate->twist) < kStanding;
   if (!told_to_move || !stands) stuck_since_.reset();
   if (told_to_move && stands && !stuck_since_) stuck_since_ = now;
 }
 
-void DriveController::Halt() {
-  follower_.Drop();
-  path_is_new_ = false;
-  slew_.SetCommanded({});
-  brake_.SetCommanded({});
+/// An operator who rested the stick and then fell silent has simply finished.
+void DriveController::NoteEnd(DriveSource source) {
+  if (state_.mode == DriveMode::kOperated && source == DriveSource::kNone) state_.mode = DriveMode::kHolding;
+}
+
+void DriveController::Halt(Condition cause) {
+  const bool moved = Source(*last_step_) != DriveSource::kNone || authority_.lease_lost();
+  if (moved) state_.halted_by = cause;
+  DropPath();
+  authority_.Forget();
+  SetCommanded({});
   if (state_.mode != DriveMode::kIdle) state_.mode = DriveMode::kHolding;
 }
 

@@ -32,9 +32,11 @@ void EchoMemoryConfig::Describe(Archive& a) {
   a.Number("blind_m", blind_m, {"m", 0, 0.5, "an echo up to here may come from nearer"});
   a.Number("blind_as_m", blind_as_m, {"m", 0, 0.5, "where such an echo is taken to come from"});
   a.Number("keep_s", keep_s, {"s", 0.05, 2, "how long an echo counts"});
+  a.Section("near_map", near_map, "places of near things that no beam sees any more");
 }
 
-EchoMemory::EchoMemory(const EchoMemoryConfig& config, const Footprint& footprint) : config_(config) {
+EchoMemory::EchoMemory(const EchoMemoryConfig& config, const Footprint& footprint)
+    : config_(config), near_map_(config.near_map) {
   for (int i = 0; i < kSonars; ++i)
     base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, footprint);
 }
@@ -42,9 +44,29 @@ EchoMemory::EchoMemory(const EchoMemoryConfig& config, const Footprint& footprin
 void EchoMemory::Add(const SonarCycle& cycle, const Pose2& odom_from_base) {
   kept_.push_back({cycle, odom_from_base});
   if (kept_.size() > kCycles) kept_.pop_front();
+  NoteNearThings();
 }
 
-void EchoMemory::Forget(Time now) {
+/// First what beams of this cycle see through, then what they see: a thing is not cleared by a neighbour that
+/// sees it a little later.
+void EchoMemory::NoteNearThings() {
+  const std::size_t newest = kept_.size() - 1;
+  for (const bool add : {false, true}) {
+    for (int i = 0; i < kSonars; ++i) {
+      if (!Agrees(newest, i)) continue;
+      const Pose2 odom_from_sonar =
+          kept_[newest].odom_from_base * base_from_sonar_[static_cast<std::size_t>(i)];
+      if (add) {
+        near_map_.Add(odom_from_sonar, RangeOf(newest, i), kept_[newest].cycle.time);
+      } else {
+        near_map_.Clear(odom_from_sonar, RangeOf(newest, i));
+      }
+    }
+  }
+}
+
+void EchoMemory::Forget(const Pose2& odom_from_base, Time now) {
+  near_map_.Forget(odom_from_base, now);
   while (!kept_.empty() && now - kept_.front().cycle.time > FromSeconds(config_.keep_s)) kept_.pop_front();
 }
 
@@ -59,8 +81,7 @@ std::vector<Eigen::Vector2d> EchoMemory::Points(const Pose2& odom_from_base) con
     const Pose2 base_from_then = odom_from_base.Inverse() * kept_[k].odom_from_base;
     for (int i = 0; i < kSonars; ++i) {
       if (!Agrees(k, i) || IsSuperseded(k, i)) continue;
-      const double measured = kept_[k].cycle.range_m[static_cast<std::size_t>(i)];
-      const double range = measured <= config_.blind_m ? config_.blind_as_m : measured;
+      const double range = RangeOf(k, i);
       const Pose2 base_from_sonar = base_from_then * base_from_sonar_[static_cast<std::size_t>(i)];
       for (int p = 0; p < kPointsPerArc; ++p) {
         const double bearing = -Radians(config_.half_beam_deg) + p * step;
@@ -70,6 +91,11 @@ std::vector<Eigen::Vector2d> EchoMemory::Points(const Pose2& odom_from_base) con
     }
   }
   return points;
+}
+
+double EchoMemory::RangeOf(std::size_t index, int sensor) const {
+  const double measured = kept_[index].cycle.range_m[static_cast<std::size_t>(sensor)];
+  return measured <= config_.blind_m ? config_.blind_as_m : measured;
 }
 
 /// A newer believed echo of the same sensor says where the thing is now.

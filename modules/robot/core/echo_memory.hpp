@@ -10,6 +10,7 @@
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "robot/core/footprint.hpp"
+#include "robot/core/near_map.hpp"
 
 namespace priamos::robot {
 
@@ -31,7 +32,8 @@ struct EchoMemoryConfig {
   double near_m = 0.25;        ///< an echo this near counts at once
   double blind_m = 0.12;       ///< echoes up to here may come from nearer: sensors do not measure below 0.1 m
   double blind_as_m = 0.05;    ///< where such an echo is taken to come from
-  double keep_s = 0.3;         ///< how long a cycle counts: three of them at 10 Hz
+  double keep_s = 0.22;        ///< how long an echo counts that nothing newer replaces: two cycles at 10 Hz
+  NearMapConfig near_map;
 
   void Describe(Archive& a);
 };
@@ -48,24 +50,31 @@ class EchoMemory {
   /// `odom_from_base` at the end of the cycle.
   void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
   /// Forgets what is too old at `now`.
-  void Forget(Time now);
+  void Forget(const Pose2& odom_from_base, Time now);
   /// Time of the newest cycle.
   std::optional<Time> newest() const;
 
   /// Points on the arcs of all believed echoes, base frame of `odom_from_base`.
   std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;
+  /// Places of near things that no beam sees any more, base frame of `odom_from_base`.
+  std::vector<Eigen::Vector2d> Remembered(const Pose2& odom_from_base) const {
+    return near_map_.Points(odom_from_base);
+  }
 
  private:
   struct Kept {
     SonarCycle cycle;
     Pose2 odom_from_base;
   };
+  void NoteNearThings();
+  double RangeOf(std::size_t index, int sensor) const;
   bool IsSuperseded(std::size_t index, int sensor) const;
   bool Agrees(std::size_t index, int sensor) const;
 
   EchoMemoryConfig config_;
   std::array<Pose2, kSonars> base_from_sonar_;
   std::deque<Kept> kept_;  ///< oldest first
+  NearMap near_map_;
 };
 
 }  // namespace priamos::robot

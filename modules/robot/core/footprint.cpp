@@ -15,6 +15,11 @@ double Footprint::Distance(const Eigen::Vector2d& point) const {
   return std::hypot(std::max(dx, 0.0), std::max(dy, 0.0)) + std::min(std::max(dx, dy), 0.0);
 }
 
+Eigen::Vector2d Footprint::Nearest(const Eigen::Vector2d& point) const {
+  return {std::clamp(point.x(), -length_m / 2, length_m / 2),
+          std::clamp(point.y(), -width_m / 2, width_m / 2)};
+}
+
 double Footprint::Reach() const {
   return std::hypot(length_m, width_m) / 2;
 }

@@ -16,6 +16,8 @@ struct Footprint {
 
   /// Distance of a point in the base frame from the edge; negative inside.
   double Distance(const Eigen::Vector2d& point) const;
+  /// The point of the edge or the inside that is nearest to `point`.
+  Eigen::Vector2d Nearest(const Eigen::Vector2d& point) const;
   /// From the centre to a corner.
   double Reach() const;
 };

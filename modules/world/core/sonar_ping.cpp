@@ -123,9 +123,11 @@ std::optional<Echo> Ping(const AcousticScene& scene, const SonarConfig& config, 
                          double threshold_db) {
   Listener listener(scene, config, map_from_sonar, threshold_db);
   listener.HearRay(0);
-  for (double off = kRayStepDeg; off <= config.beam_deg; off += kRayStepDeg) {
-    listener.HearRay(off);
-    listener.HearRay(-off);
+  // Twice the half width: out to -24 dB.
+  const int rays_beside = static_cast<int>(config.beam_deg / kRayStepDeg);
+  for (int i = 1; i <= rays_beside; ++i) {
+    listener.HearRay(i * kRayStepDeg);
+    listener.HearRay(-i * kRayStepDeg);
   }
   listener.HearEdges();
   return listener.nearest();

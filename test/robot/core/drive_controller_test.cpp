@@ -35,7 +35,7 @@ TEST_F(DriveControllerTest, IsSilentBeforeTheFirstPath) {
 
 TEST_F(DriveControllerTest, FollowsAPathAndArrives) {
   rig_.Run(0.2);
-  rig_.drive().SetPath(Straight(7));
+  rig_.SetPath(Straight(7));
   rig_.Run(3);
   EXPECT_EQ(rig_.state().mode, DriveMode::kFollowing);
   EXPECT_EQ(rig_.state().path_id, 7);
@@ -50,7 +50,7 @@ TEST_F(DriveControllerTest, FollowsAPathAndArrives) {
 
 TEST_F(DriveControllerTest, APathThatComesBeforeTheFirstEncoderSampleWaits) {
   rig_.wheels_answer = false;
-  rig_.drive().SetPath(Straight());
+  rig_.SetPath(Straight());
   rig_.Run(0.5);
   EXPECT_LT(Speed(), 1e-6);
   EXPECT_EQ(rig_.state().failsafe.cause, Condition::kWheelsSilent);
@@ -60,9 +60,9 @@ TEST_F(DriveControllerTest, APathThatComesBeforeTheFirstEncoderSampleWaits) {
 }
 
 TEST_F(DriveControllerTest, APathWithoutPointsBrakesAndHolds) {
-  rig_.drive().SetPath(Straight());
+  rig_.SetPath(Straight());
   rig_.Run(3);
-  rig_.drive().SetPath(Stop(8));
+  rig_.SetPath(Stop(8));
   rig_.Run(1);
   EXPECT_EQ(rig_.state().mode, DriveMode::kHolding);
   EXPECT_EQ(rig_.state().path_id, 8);
@@ -72,11 +72,11 @@ TEST_F(DriveControllerTest, APathWithoutPointsBrakesAndHolds) {
 
 TEST_F(DriveControllerTest, TheSamePathAgainChangesNothing) {
   const Path path{.id = 3, .speed_m_s = 0.4, .points = {{1, 0, 0}, {5, 0, 0}}};
-  rig_.drive().SetPath(path);
+  rig_.SetPath(path);
   rig_.Run(5);
   const double x = rig_.base().truth().x;
   ASSERT_GT(x, 1.4);
-  rig_.drive().SetPath(path);
+  rig_.SetPath(path);
   for (int i = 0; i < 100; ++i) {
     rig_.Tick();
     EXPECT_GT(rig_.base().twist().vx, 0.3);
@@ -84,7 +84,7 @@ TEST_F(DriveControllerTest, TheSamePathAgainChangesNothing) {
 }
 
 TEST_F(DriveControllerTest, EncodersFallSilentTheBaseBrakesAndGoesOnWhenTheyAreBack) {
-  rig_.drive().SetPath(Straight());
+  rig_.SetPath(Straight());
   rig_.Run(3);
   rig_.wheels_answer = false;
   rig_.Run(0.8);
@@ -97,7 +97,7 @@ TEST_F(DriveControllerTest, EncodersFallSilentTheBaseBrakesAndGoesOnWhenTheyAreB
 }
 
 TEST_F(DriveControllerTest, SonarsFallSilentTheBaseBrakes) {
-  rig_.drive().SetPath(Straight());
+  rig_.SetPath(Straight());
   rig_.Run(3);
   rig_.sonars_answer = false;
   rig_.Run(1.2);
@@ -108,7 +108,7 @@ TEST_F(DriveControllerTest, SonarsFallSilentTheBaseBrakes) {
 TEST_F(DriveControllerTest, WheelsThatDoNotTurnEndThePath) {
   rig_.Run(0.2);
   rig_.wheels_turn = false;
-  rig_.drive().SetPath(Straight());
+  rig_.SetPath(Straight());
   bool halted = false;
   for (int i = 0; i < 150; ++i) {
     rig_.Tick();
@@ -125,15 +125,16 @@ TEST(DriveController, DoesNotDriveByAPoseThatIsTooUncertain) {
   LocaliserConfig lost;
   lost.estimator.initial.position_error_m = 2;
   RobotRig rig(1, {0, 0, 0}, lost);
-  rig.drive().SetPath(Straight());
+  rig.SetPath(Straight());
   rig.Run(2);
   EXPECT_EQ(rig.state().failsafe.cause, Condition::kPoseLost);
   EXPECT_EQ(rig.base().truth().x, 0);
 }
 
 TEST(DriveController, StandsBeforeABoxAndSaysBlockedAndGoesOnWhenItIsGone) {
+  // The wall behind it shows that it is gone.
   RobotRig rig(1, {0, 0, 0}, {}, {}, BoxSides(2, -0.2, 2.3, 0.2));
-  rig.drive().SetPath(Straight());
+  rig.SetPath(Straight());
   rig.Run(8);
   EXPECT_EQ(rig.state().mode, DriveMode::kBlocked);
   EXPECT_TRUE(rig.state().slowed_by_sonar);
@@ -141,6 +142,7 @@ TEST(DriveController, StandsBeforeABoxAndSaysBlockedAndGoesOnWhenItIsGone) {
   EXPECT_LT(*rig.state().nearest_m, 0.15);
   EXPECT_GT(rig.min_gap(), 0.02);
   rig.sonars().Clear();
+  rig.sonars().Add(BoxSides(6.0, -2, 6.5, 2));
   rig.Run(3);
   EXPECT_EQ(rig.state().mode, DriveMode::kFollowing);
 }
@@ -149,7 +151,7 @@ TEST(DriveController, GivesTheSameCommandsForTheSameInputs) {
   const auto commands = [] {
     RobotRig rig(5, {0, 0.1, 0.05}, {}, {}, BoxSides(-1, -1.2, 7, 1.2));
     std::vector<WheelSpeeds> all;
-    rig.drive().SetPath(Straight());
+    rig.SetPath(Straight());
     for (int i = 0; i < 300; ++i) {
       rig.Tick();
       if (rig.command()) all.push_back(*rig.command());

@@ -121,9 +121,20 @@ TEST_F(EchoMemoryTest, ARememberedEchoStaysWhereItWasWhenTheBaseMoves) {
 TEST_F(EchoMemoryTest, EchoesAreForgottenWithTheirCycle) {
   Add(0, {{0, 1.0}});
   Add(1, {{0, 1.0}});
-  dut_.Forget(kStart + milliseconds(500));
+  dut_.Forget({}, kStart + milliseconds(500));
   EXPECT_THAT(dut_.Points({}), IsEmpty());
   EXPECT_FALSE(dut_.newest());
+}
+
+TEST_F(EchoMemoryTest, ANearThingIsRememberedWhenNoBeamSeesItAnyMore) {
+  Add(0, {{0, 0.3}});
+  Add(1, {{0, 0.3}});
+  Add(2, {});
+  dut_.Forget({}, kStart + milliseconds(1000));
+  EXPECT_THAT(dut_.Points({}), IsEmpty());
+  const auto remembered = dut_.Remembered({0.1, 0, 0});
+  ASSERT_EQ(remembered.size(), 1u);
+  EXPECT_NEAR(remembered[0].x(), 0.475 + 0.3 - 0.1, 1e-9);
 }
 
 TEST_F(EchoMemoryTest, NonsenseIsNoEcho) {

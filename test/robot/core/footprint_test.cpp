@@ -23,6 +23,11 @@ TEST(Footprint, DistanceIsNegativeInside) {
   EXPECT_NEAR(kDut.Distance({0.45, 0}), -0.05, 1e-12);
 }
 
+TEST(Footprint, NearestLiesOnTheSideOrCornerThatFacesThePoint) {
+  EXPECT_EQ(kDut.Nearest({0.7, 0.1}), Eigen::Vector2d(0.5, 0.1));
+  EXPECT_EQ(kDut.Nearest({-0.8, 0.8}), Eigen::Vector2d(-0.5, 0.4));
+}
+
 TEST(Footprint, ReachIsTheWayToACorner) {
   EXPECT_NEAR(kDut.Reach(), std::hypot(0.5, 0.4), 1e-12);
 }

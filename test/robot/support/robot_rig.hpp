@@ -20,7 +20,8 @@ class RobotRig {
         localiser_(localiser, MecanumGeometry()),
         drive_(drive, MecanumGeometry()) {}
 
-  bool wheels_answer = true, sonars_answer = true, wheels_turn = true;
+  bool wheels_answer = true, sonars_answer = true, wheels_turn = true, head_answers = true;
+  Duration link_down{};
 
   SimulatedBase& base() { return base_; }
   SimulatedSonars& sonars() { return sonars_; }
@@ -31,6 +32,26 @@ class RobotRig {
   Time now() const { return base_.now(); }
   double min_gap() const { return min_gap_; }
 
+  PathVerdict SetPath(const Path& path) { return drive_.SetPath(path, now()); }
+
+  /// One command of `who`, as of now.
+  CommandVerdict Command(const LeaseHolder& who, const Twist2& twist) {
+    return drive_.SetCommand({now(), who, ++sequence_ & 0xffff, std::chrono::milliseconds(200), twist},
+                             now());
+  }
+  /// The lease, and the stick at rest.
+  void TakeOver(const LeaseHolder& who) {
+    drive_.RequestLease(who, Lease::Wish::kTakeOver, now());
+    Command(who, {});
+  }
+  /// `who` holds the stick for a while, 25 commands per second.
+  void Hold(const LeaseHolder& who, const Twist2& twist, double seconds) {
+    for (int i = 0; i < seconds * 50; ++i) {
+      if (i % 2 == 0) Command(who, twist);
+      Tick();
+    }
+  }
+
   void Tick() {
     base_.Advance(std::chrono::milliseconds(20));
     const WheelSample sample = base_.Read();
@@ -38,7 +59,10 @@ class RobotRig {
     if (sonars_answer && tick_ % 5 == 0)
       drive_.AddSonar(sonars_.Listen(now(), base_.truth()), localiser_.odometry().pose());
     answers_ = localiser_.Step(now());
-    command_ = drive_.Step({localiser_.estimate(), localiser_.odometry().pose(), heard_}, now());
+    command_ = drive_.Step({localiser_.estimate(), localiser_.odometry().pose(), heard_,
+                            head_answers ? std::optional(now()) : std::nullopt, link_down},
+                           now());
+    if (link_down > Duration::zero()) link_down += std::chrono::milliseconds(20);
     if (command_ && wheels_turn) base_.Command(*command_, now());
     if (++tick_ % 5 == 0) min_gap_ = std::min(min_gap_, sonars_.Gap(base_.truth()));
   }
@@ -55,7 +79,7 @@ class RobotRig {
   std::optional<Time> heard_;
   std::optional<WheelSpeeds> command_;
   std::vector<Localiser::Answer> answers_;
-  int tick_ = 0;
+  int tick_ = 0, sequence_ = 0;
   double min_gap_ = 9;
 };
 
