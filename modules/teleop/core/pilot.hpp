@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "teleop/core/pilot_config.hpp"
+#include "teleop/core/stick.hpp"
+#include "teleop/core/wish_sender.hpp"
+
+namespace priamos::teleop {
+
+/// What the robot last said, as far as the pilot cares.
+struct RobotView {
+  enum class Lease { kFree, kMine, kOther };
+  std::optional<Time> heard{};  ///< when it said so, by the robot, in this process's clock
+  Lease lease = Lease::kFree;
+  bool estop = false;
+};
+
+/// A wish for the motion of the head, as in head_drive_t.
+struct HeadRates {
+  double pan_rad_s = 0, tilt_rad_s = 0, vergence_rad_s = 0, zoom_step_s = 0, focus_step_s = 0;
+  bool operator==(const HeadRates&) const = default;
+};
+
+enum class PilotMode { kBase, kHead };
+
+/// Why the stick does or does not move the robot.
+enum class PilotPhase {
+  kNoDevice,   ///< nothing to steer with
+  kIdle,       ///< the dead-man is not held
+  kMustLetGo,  ///< it was held when something ended the drive: let go of it first
+  kAsking,     ///< it is held; the robot has not yet said that the lease is ours
+  kDriving,
+};
+
+/// What to send now.
+struct PilotOutput {
+  enum class Lease { kAcquire, kTakeOver };
+  enum class Estop { kRearm, kStop };
+  std::optional<Twist2> drive{};
+  std::optional<HeadRates> head{};
+  std::optional<Lease> lease{};
+  std::optional<Estop> estop{};
+};
+
+/// Turns a stick and buttons into wishes. Pure: time is an argument.
+///
+/// Nothing moves unless the dead-man is held, the stick talks, and the robot says that the lease is ours and
+/// no e-stop is latched. Pressing the dead-man asks for a free lease; taking a held one needs the take-over
+/// button. While it asks, it sends commands to stand, which is what the robot wants to hear first. When the
+/// drive ends for any reason but the stick at rest, the dead-man must be let go and pressed again.
+class Pilot {
+ public:
+  explicit Pilot(const PilotConfig& config);
+
+  PilotOutput Step(const Stick& stick, const RobotView& robot, Time now);
+
+  PilotPhase phase() const { return phase_; }
+  PilotMode mode() const { return mode_; }
+  bool fast() const { return fast_; }
+  /// What the stick would wish if it might.
+  const Twist2& wish() const { return wish_; }
+  const HeadRates& head_wish() const { return head_wish_; }
+
+ private:
+  bool Pressed(const Stick& stick, int button) const;
+  bool LeaseIsOurs(const RobotView& robot, Time now) const;
+  void UseButtons(const Stick& stick, const RobotView& robot, Time now, PilotOutput& output);
+  void UseEstopButtons(const Stick& stick, const RobotView& robot, Time now, PilotOutput& output);
+  PilotPhase NextPhase(const Stick& stick, const RobotView& robot, Time now);
+  void Ask(Time now, PilotOutput& output);
+  void Wish(const Stick& stick);
+  bool AtRest(const Stick& stick) const;
+  void Send(const Stick& stick, Time now, PilotOutput& output);
+
+  PilotConfig config_;
+  PilotPhase phase_ = PilotPhase::kNoDevice;
+  PilotMode mode_ = PilotMode::kBase;
+  bool fast_ = false;
+  Twist2 wish_;
+  HeadRates head_wish_;
+  Stick before_;
+  WishSender base_sender_, head_sender_;
+  std::optional<Time> asked_, asked_again_, stopped_, rearm_since_;
+};
+
+}  // namespace priamos::teleop

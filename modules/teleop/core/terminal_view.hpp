@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "teleop/core/pilot.hpp"
+
+namespace priamos::teleop {
+
+/// What `priamos-teleop --show` draws.
+struct TerminalView {
+  std::string device;
+  Stick stick;
+  PilotPhase phase = PilotPhase::kNoDevice;
+  PilotMode mode = PilotMode::kBase;
+  bool fast = false;
+  Twist2 wish;
+  HeadRates head_wish;
+  ButtonUse buttons;
+  // From DRIVE_STATUS.
+  std::optional<double> answer_age_s;  ///< none before the first
+  std::string lease;                   ///< who has it, in words
+  std::string doing, limit;            ///< in words
+  double allowed = 1, speed_m_s = 0, nearest_m = -1;
+  bool estop = false;
+  int refused = 0;
+  std::string refusal;  ///< why, of the newest
+};
+
+/// Text for a terminal of 80 columns, without escape sequences, every line ended. Always as many lines.
+std::string Draw(const TerminalView& view);
+
+}  // namespace priamos::teleop

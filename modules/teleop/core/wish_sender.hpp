@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "common/time.hpp"
+
+namespace priamos::teleop {
+
+/// When to send on one stream of wishes: at once when the stick leaves rest, then periodically; three
+/// explicit zeros when it comes to rest, the first one at once; then silence, or a slow repetition while the
+/// operator holds on.
+class WishSender {
+ public:
+  enum class Stick { kDeflected, kHeld, kReleased };  ///< held: at rest, but in the hand
+
+  WishSender(Duration period, Duration rest_period) : period_(period), rest_period_(rest_period) {}
+
+  /// Whether to send now.
+  bool Step(Stick stick, Time now);
+  std::optional<Time> last() const { return last_; }
+
+ private:
+  static constexpr int kZeros = 3;
+  bool Due(Duration period, Time now) const;
+  bool Sent(Time now);
+
+  Duration period_, rest_period_;
+  int zeros_left_ = 0;
+  std::optional<Time> last_;
+};
+
+}  // namespace priamos::teleop
