@@ -39,6 +39,8 @@ class Lockstep {
   void AddApp(const AppFactory& factory, const std::string& bus, const ConfigSource& source);
   /// Sees every message on every bus, in order.
   void SetTap(Tap tap) { tap_ = std::move(tap); }
+  /// One end of a line, for the driver of the scenario. Throws std::runtime_error for an unknown name.
+  std::unique_ptr<ByteStream> OpenSerial(const std::string& name);
   /// A node for the driver of the scenario, e.g. to publish an order.
   Node& DriverNode(const std::string& bus);
 
@@ -56,7 +58,6 @@ class Lockstep {
 
   Host& HostOf(const std::string& bus);
   Surroundings SurroundingsOf(const AppFactory& factory, const Host& host, const ConfigSource& source);
-  std::unique_ptr<ByteStream> OpenSerial(const std::string& name);
   Time NextTick() const;
   void StepAll();
 

@@ -14,5 +14,7 @@ void AddCalibrateCommand(CLI::App& cli, int& exit_code);
 void AddTopicCommand(CLI::App& cli, int& exit_code);
 void AddSeeCommand(CLI::App& cli, int& exit_code);
 void AddLinkCommand(CLI::App& cli, int& exit_code);
+void AddUpCommands(CLI::App& cli, int& exit_code);  ///< up, down, status, logs
+void AddEstopCommand(CLI::App& cli, int& exit_code);
 
 }  // namespace priamos::cli

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <systemd/sd-daemon.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -31,6 +32,7 @@ using bus::radio::LineCut;
 /// What a tty's own buffer holds: who writes more has to wait.
 constexpr Duration kTtyBuffer{4'000'000};
 constexpr std::size_t kReadAtOnce = 256;
+constexpr Duration kAlivePeriod = std::chrono::milliseconds(200);
 
 LineConfig WithBlackouts(const LinkEmulateOptions& options) {
   LineConfig line = options.line;
@@ -138,9 +140,13 @@ int RunLinkEmulate(const LinkEmulateOptions& options) {
   EmulatedLine line(options, clock.Now());
   std::cout << fmt::format("{} <-> {}: {} baud; Ctrl-C ends it\n", options.a, options.b, options.line.baud)
             << std::flush;
-  for (;;) {
-    const Duration idle =
-        std::min<Duration>(line.NextArrival() - clock.Now(), std::chrono::milliseconds(500));
+  sd_notify(0, "READY=1\nWATCHDOG=1");
+  for (Time alive = clock.Now();;) {
+    if (clock.Now() - alive >= kAlivePeriod) {
+      alive = clock.Now();
+      sd_notify(0, "WATCHDOG=1");
+    }
+    const Duration idle = std::min<Duration>(line.NextArrival() - clock.Now(), kAlivePeriod);
     const auto us = std::max<Duration::rep>(0, idle.count());
     const timespec wait{static_cast<time_t>(us / 1'000'000), static_cast<long>(us % 1'000'000 * 1000)};
     pollfd fds[] = {{line.a().fd(), POLLIN, 0}, {line.b().fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};

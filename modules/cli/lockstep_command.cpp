@@ -42,6 +42,11 @@ LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options,
 
 std::string Line(const LockstepResult& result) {
   const Summary& s = result.summary;
+  if (result.honour.asked > 0)
+    return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  honoured {:.1f} %  {:.0f} s  {:4.1f}x  {}",
+                       s.seed, s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m,
+                       100 * result.honour.share(), Seconds(result.duration), s.realtime_factor,
+                       s.passed ? "" : result.reason);
   return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  lateral {:+.3f} m  {:5.1f} s  {:4.1f}x  {}",
                      s.seed, s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m,
                      s.lateral_at_door_m.value_or(NAN), s.duration_s, s.realtime_factor,

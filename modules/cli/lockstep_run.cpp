@@ -1,5 +1,7 @@
 #include "cli/lockstep_run.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <filesystem>
 
@@ -7,6 +9,7 @@
 #include "cli/factories.hpp"
 #include "cli/report_files.hpp"
 #include "cli/scenario_driver.hpp"
+#include "cli/teleop_story.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -19,7 +22,20 @@ ConfigSource SourceOf(const LockstepRequest& request, const ScenarioProcess& pro
   ConfigSource source{(std::filesystem::path(request.deployment) / process.config).string(), {}};
   if (!process.set.empty()) source.overrides.push_back(process.set);
   if (process.module == "radio") source.overrides.push_back("port=" + TtyOf(process.bus));
+  // No daemon in simulated time: the mouse is plugged into teleop itself.
+  if (process.module == "teleop")
+    source.overrides.insert(source.overrides.end(),
+                            {"device=serial", fmt::format("spacemouse.port={}", kMouseTty)});
   return source;
+}
+
+std::unique_ptr<ScenarioStory> StoryIn(bus::Lockstep& lockstep, const Scenario& scenario, std::uint64_t seed,
+                                       const TeleopStory::Progress& progress) {
+  bus::Node &onboard = lockstep.DriverNode("onboard"), &offboard = lockstep.DriverNode("offboard");
+  if (scenario.story != "teleop")
+    return std::make_unique<ScenarioDriver>(scenario, onboard, offboard, progress);
+  return std::make_unique<TeleopStory>(scenario, seed, onboard, offboard,
+                                       lockstep.OpenSerial(std::string(kHandTty)), progress);
 }
 
 }  // namespace
@@ -38,24 +54,37 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
         recorder.OnMessage(bus, now, channel, bytes);
         if (request.tap) request.tap(bus, now, channel, bytes);
       });
+  if (scenario.story == "teleop") lockstep.AddSerialLine(std::string(kMouseTty), std::string(kHandTty), {});
   for (const auto& process : scenario.processes)
-    lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
+    if (process.module != "spacenavd")
+      lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
 
   const Time start = lockstep.now();
-  ScenarioDriver driver(scenario, lockstep.DriverNode("onboard"), lockstep.DriverNode("offboard"),
-                        [&](Time now, const std::string& text) {
-                          if (request.progress) request.progress(Time(now - start), text);
-                        });
+  const auto progress = [&](Time now, const std::string& text) {
+    if (request.progress) request.progress(Time(now - start), text);
+  };
+  const auto story = StoryIn(lockstep, scenario, request.seed, progress);
   const auto wall_start = std::chrono::steady_clock::now();
   lockstep.RunUntil(Time::max(), [&] {
-    driver.Tick(lockstep.now());
-    return driver.Done(lockstep.now());
+    story->Tick(lockstep.now());
+    return story->Done(lockstep.now());
   });
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   recorder.Flush();
   const double factor = Seconds(lockstep.now() - start) / wall_s;
   const RunInfo info{request.scenario, request.seed, factor, door};
-  return {Summarise(recorder.record(), info), recorder.record(), info, map_file, driver.Reason()};
+  LockstepResult result{Summarise(recorder.record(), info),
+                        recorder.record(),
+                        info,
+                        map_file,
+                        story->Reason(),
+                        {},
+                        lockstep.now() - start};
+  if (const auto* teleop = dynamic_cast<const TeleopStory*>(story.get())) {
+    result.summary.passed = teleop->Succeeded();
+    result.honour = teleop->honour();
+  }
+  return result;
 }
 
 }  // namespace priamos::cli

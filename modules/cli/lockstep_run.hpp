@@ -8,6 +8,7 @@
 #include "cli/report_summary.hpp"
 #include "cli/run_recorder.hpp"
 #include "cli/scenario.hpp"
+#include "cli/teleop_story.hpp"
 
 namespace priamos::cli {
 
@@ -25,7 +26,9 @@ struct LockstepResult {
   RunRecord record;
   RunInfo info;
   std::string map_file;
-  std::string reason;  ///< the mission's last words
+  std::string reason;  ///< the story's last words
+  HonourCount honour;  ///< of an operator's input; empty in other stories
+  Duration duration{};
 };
 
 /// One scenario in lockstep. Throws ConfigError and what the Apps' start throws.

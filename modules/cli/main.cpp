@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
   priamos::cli::AddTopicCommand(cli, exit_code);
   priamos::cli::AddSeeCommand(cli, exit_code);
   priamos::cli::AddLinkCommand(cli, exit_code);
+  priamos::cli::AddUpCommands(cli, exit_code);
+  priamos::cli::AddEstopCommand(cli, exit_code);
   try {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

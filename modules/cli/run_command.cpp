@@ -11,23 +11,23 @@
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
 #include "cli/commands.hpp"
-#include "cli/process_group.hpp"
+#include "cli/deployment.hpp"
+#include "cli/link_emulate.hpp"
 #include "cli/report_files.hpp"
 #include "cli/run_recorder.hpp"
 #include "cli/scenario_driver.hpp"
+#include "cli/supervisor.hpp"
+#include "cli/teleop_story.hpp"
 
 namespace priamos::cli {
 namespace {
-
-constexpr const char* kOnboardUrl = "udpm://239.255.76.67:7667?ttl=0";
-constexpr const char* kOffboardUrl = "udpm://239.255.76.68:7668?ttl=0";
-constexpr auto kLineReady = std::chrono::seconds(5);
 
 struct RunOptions {
   std::string deployment = "config/sim";
   std::string scenario = "door";
   std::uint64_t seed = 1;
   std::string log_root = "logs";
+  bool restart = false;
 };
 
 std::filesystem::path OwnFolder() {
@@ -42,15 +42,33 @@ std::filesystem::path MakeRunFolder(const RunOptions& options) {
   return std::filesystem::absolute(folder);
 }
 
-void WaitForFile(const std::filesystem::path& file, ProcessGroup& group) {
-  const auto give_up = std::chrono::steady_clock::now() + kLineReady;
-  while (!std::filesystem::exists(file)) {
-    if (const auto dead = group.FirstDead()) throw std::runtime_error(*dead);
-    if (std::chrono::steady_clock::now() > give_up)
-      throw std::runtime_error(fmt::format("{}: the emulated line did not appear within 5 s", file.string()));
-    usleep(10'000);
-  }
+/// A scenario is a deployment with an emulated line, and a story.
+Deployment DeploymentOf(const Scenario& scenario) {
+  Deployment deployment;
+  deployment.title = scenario.title;
+  deployment.emulated_line = true;
+  deployment.line = scenario.line;
+  deployment.processes = scenario.processes;
+  return deployment;
 }
+
+/// The hand's end of the emulated mouse's cable.
+class MouseCable : public ByteStream {
+ public:
+  explicit MouseCable(const std::string& tty) : terminal_(tty) {}
+  std::size_t Read(std::span<std::byte> into) override {
+    const auto bytes = terminal_.Read(into.size());
+    std::copy(bytes.begin(), bytes.end(), into.begin());
+    return bytes.size();
+  }
+  std::size_t Write(std::span<const std::byte> bytes) override {
+    terminal_.Write(bytes);
+    return bytes.size();
+  }
+
+ private:
+  PseudoTerminal terminal_;
+};
 
 /// A whole run in real time: processes, serial line, driver, logs.
 class RealTimeRun {
@@ -58,16 +76,19 @@ class RealTimeRun {
   RealTimeRun(const RunOptions& options, const Scenario& scenario)
       : options_(options),
         scenario_(scenario),
+        deployment_(DeploymentOf(scenario)),
         schema_(bus::OwnTypes()),
-        onboard_(kOnboardUrl),
-        offboard_(kOffboardUrl),
+        onboard_(deployment_.onboard_url),
+        offboard_(deployment_.offboard_url),
         onboard_node_(onboard_, schema_, clock_),
         offboard_node_(offboard_, schema_, clock_),
         folder_(MakeRunFolder(options)),
         recorder_(folder_.string()),
         start_(clock_.Now()),
-        driver_(scenario, onboard_node_, offboard_node_,
-                [this](Time now, const std::string& text) { Progress(now, text); }) {
+        place_{OwnFolder().string(), options.deployment, folder_.string(), options.seed},
+        story_(MakeStory()),
+        supervisor_(PlanOf(deployment_, place_), folder_.string(),
+                    [this](const std::string& text) { Progress(clock_.Now(), text); }) {
     Record(onboard_, "onboard");
     Record(offboard_, "offboard");
   }
@@ -76,19 +97,21 @@ class RealTimeRun {
   bool Run() {
     Progress(clock_.Now(),
              fmt::format("scenario {}, seed {}: {}", options_.scenario, options_.seed, scenario_.title));
-    StartLine();
-    for (const auto& process : scenario_.processes) StartProcess(process);
     const bool whole = Loop();
-    group_.End();
+    supervisor_.StopAll();
+    while (!supervisor_.AllStopped()) {
+      supervisor_.Step(clock_.Now());
+      usleep(5'000);
+    }
     recorder_.Flush();
     return whole;
   }
 
   const RunRecorder& recorder() const { return recorder_; }
   const std::filesystem::path& folder() const { return folder_; }
-  bool started() const { return driver_.Started(); }
+  const ScenarioStory& story() const { return *story_; }
   /// Why the run ended as it did.
-  std::string Reason() const { return reason_.value_or(driver_.Reason()); }
+  std::string Reason() const { return reason_.value_or(story_->Reason()); }
 
  private:
   void Record(bus::LcmBus& bus, const char* name) {
@@ -101,43 +124,30 @@ class RealTimeRun {
     std::cout << fmt::format("{:6.1f} s  {}", Seconds(now - start_), text) << std::endl;
   }
 
-  void StartLine() {
-    const auto& line = scenario_.line;
-    group_.Start(
-        "line",
-        {(OwnFolder() / "priamos").string(), "link", "emulate", "--a", Tty("onboard"), "--b", Tty("offboard"),
-         "--baud", std::to_string(line.baud), "--latency", fmt::format("{}", line.latency_s),
-         "--bit-error-rate", fmt::format("{}", line.bit_error_rate), "--seed", std::to_string(options_.seed)},
-        (folder_ / "line.txt").string());
-    WaitForFile(Tty("onboard"), group_);
-    WaitForFile(Tty("offboard"), group_);
+  std::unique_ptr<ScenarioStory> MakeStory() {
+    const auto progress = [this](Time now, const std::string& text) { Progress(now, text); };
+    if (scenario_.story != "teleop")
+      return std::make_unique<ScenarioDriver>(scenario_, onboard_node_, offboard_node_, progress);
+    return std::make_unique<TeleopStory>(scenario_, options_.seed, onboard_node_, offboard_node_,
+                                         std::make_unique<MouseCable>(MouseTty(place_)), progress);
   }
-
-  void StartProcess(const ScenarioProcess& process) {
-    std::vector<std::string> arguments{(OwnFolder() / ("priamos-" + process.module)).string(),
-                                       "--config",
-                                       (std::filesystem::path(options_.deployment) / process.config).string(),
-                                       "--bus",
-                                       process.bus == "onboard" ? kOnboardUrl : kOffboardUrl,
-                                       "--seed",
-                                       std::to_string(options_.seed)};
-    if (!process.set.empty()) arguments.insert(arguments.end(), {"--set", process.set});
-    if (process.module == "radio") arguments.insert(arguments.end(), {"--port", Tty(process.bus)});
-    const auto name = process.bus + "-" + process.module;
-    group_.Start(name, arguments, (folder_ / (name + ".txt")).string());
-  }
-
-  std::string Tty(const std::string& side) const { return (folder_ / ("tty-" + side)).string(); }
 
   bool Loop() {
-    while (!driver_.Done(clock_.Now())) {
-      pollfd fds[] = {{onboard_.fd(), POLLIN, 0}, {offboard_.fd(), POLLIN, 0}, {signals_.fd(), POLLIN, 0}};
+    while (!story_->Done(clock_.Now())) {
+      pollfd fds[] = {{onboard_.fd(), POLLIN, 0},
+                      {offboard_.fd(), POLLIN, 0},
+                      {signals_.fd(), POLLIN, 0},
+                      {supervisor_.fd(), POLLIN, 0}};
       poll(fds, std::size(fds), 20);
       if (fds[2].revents != 0) return End("stopped by a signal"), false;
       onboard_.Drain();
       offboard_.Drain();
-      driver_.Tick(clock_.Now());
-      if (const auto dead = group_.FirstDead()) return End(*dead), false;
+      story_->Tick(clock_.Now());
+      supervisor_.Step(clock_.Now());
+      // What cannot start now will not start later: a scenario ends with the first failure, a robot goes on.
+      for (const ProcessReport& report : supervisor_.Report())
+        if (!report.reason.empty() && !options_.restart)
+          return reason_ = fmt::format("{} ended by itself, {}", report.name, report.reason), false;
     }
     return true;
   }
@@ -149,6 +159,7 @@ class RealTimeRun {
 
   RunOptions options_;
   Scenario scenario_;
+  Deployment deployment_;
   bus::SignalWatch signals_;
   bus::Schema schema_;
   bus::MonotonicClock clock_;
@@ -157,8 +168,9 @@ class RealTimeRun {
   std::filesystem::path folder_;
   RunRecorder recorder_;
   Time start_;
-  ScenarioDriver driver_;
-  ProcessGroup group_;
+  LaunchPlace place_;
+  std::unique_ptr<ScenarioStory> story_;
+  Supervisor supervisor_;
   std::optional<std::string> reason_;
 };
 
@@ -174,9 +186,10 @@ int Run(const RunOptions& options) {
   const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
   RealTimeRun run(options, scenario);
   const bool whole = run.Run();
-  if (!run.started()) return FailedStart(run);
+  if (!run.story().Started()) return FailedStart(run);
   const RunInfo info{options.scenario, options.seed, 1.0, door};
-  const Summary summary = Summarise(run.recorder().record(), info);
+  Summary summary = Summarise(run.recorder().record(), info);
+  if (scenario.story == "teleop") summary.passed = run.story().Succeeded();
   WriteReport(run.recorder().record(), summary, info, map_file, run.folder());
   PrintSummary(std::cout, summary);
   if (!run.recorder().good()) std::cout << "a log is incomplete: the disk is full or cannot be written\n";
@@ -197,6 +210,7 @@ void AddRunCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--seed", options->seed, "start pose, textures, noise, slip")->capture_default_str();
   verb->add_option("--deployment", options->deployment, "folder of configurations")->capture_default_str();
   verb->add_option("--logs", options->log_root, "a folder per run is made in it")->capture_default_str();
+  verb->add_flag("--restart", options->restart, "start again what died or hung, as `priamos up` does");
   verb->callback([options, &exit_code] { exit_code = Run(*options); });
 }
 

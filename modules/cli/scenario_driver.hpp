@@ -7,27 +7,26 @@
 
 #include "bus/node.hpp"
 #include "cli/scenario.hpp"
+#include "cli/scenario_story.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
 
 /// The person at the workstation: waits until every process is alive, gives the order, and watches the
 /// mission status on the offboard bus. The same in real time and in lockstep.
-class ScenarioDriver {
+class ScenarioDriver : public ScenarioStory {
  public:
   /// `progress` gets one line per phase.
   ScenarioDriver(const Scenario& scenario, bus::Node& onboard, bus::Node& offboard,
                  std::function<void(Time, const std::string&)> progress);
 
-  void Tick(Time now);
-  /// True when the mission ended, or the time limit did it.
-  bool Done(Time now) const;
-  /// True when every process was alive and the order was given.
-  bool Started() const { return ordered_.has_value(); }
+  void Tick(Time now) override;
+  bool Done(Time now) const override;
+  bool Started() const override { return ordered_.has_value(); }
   /// True when the planner reported success.
-  bool Succeeded() const { return succeeded_; }
+  bool Succeeded() const override { return succeeded_; }
   /// The last words of the mission; what is missing while it has not begun.
-  std::string Reason() const;
+  std::string Reason() const override;
 
  private:
   void CollectHealth();

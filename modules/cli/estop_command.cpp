@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "bus/clock.hpp"
+#include "bus/lcm_bus.hpp"
+#include "bus/node.hpp"
+#include "bus/own_types.hpp"
+#include "cli/commands.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr Duration kAgain = std::chrono::milliseconds(200);
+constexpr int kNoAnswer = 1;
+
+struct EstopOptions {
+  std::string bus = "udpm://239.255.76.68:7668?ttl=0";
+  bool rearm = false;
+  double wait_s = 5;
+};
+
+/// Says it at once, and again until the robot's status shows it.
+int Run(const EstopOptions& options) {
+  const bus::Schema schema = bus::OwnTypes();
+  const bus::MonotonicClock clock;
+  bus::LcmBus bus(options.bus);
+  bus::Node node(bus, schema, clock);
+  auto estop = node.Advertise(channels::kEstop);
+  const auto status = node.Subscribe(channels::kDriveStatus);
+  const Time begin = clock.Now();
+  for (Time said = begin - kAgain; clock.Now() - begin < FromSeconds(options.wait_s);) {
+    if (clock.Now() - said >= kAgain) {
+      said = clock.Now();
+      estop_t message{};
+      message.utime = ToUtime(said);
+      message.action = options.rearm ? estop_t::REARM : estop_t::STOP;
+      message.driver = lease_request_t::CONSOLE;
+      estop.Publish(message);
+    }
+    pollfd fd{bus.fd(), POLLIN, 0};
+    poll(&fd, 1, 20);
+    bus.Drain();
+    // A status from before the order proves nothing.
+    if (!status.get() || FromUtime(status.get()->utime) <= begin ||
+        bool(status.get()->estop) == options.rearm)
+      continue;
+    std::cout << fmt::format("{} after {:.2f} s\n", options.rearm ? "re-armed" : "e-stop is latched",
+                             Seconds(clock.Now() - begin));
+    return 0;
+  }
+  std::cerr << fmt::format("priamos estop: the robot did not answer within {:.0f} s on {}\n", options.wait_s,
+                           options.bus);
+  return kNoAnswer;
+}
+
+}  // namespace
+
+void AddEstopCommand(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<EstopOptions>();
+  auto* verb =
+      cli.add_subcommand("estop", "Emergency stop: the wheels stop and stay stopped until re-arming.");
+  verb->footer("Example: priamos estop; later priamos estop --rearm");
+  verb->add_option("--bus", options->bus, "LCM bus, that of the workstation or the robot's own")
+      ->capture_default_str();
+  verb->add_flag("--rearm", options->rearm, "lift it; nothing moves without a new command");
+  verb->add_option("--wait", options->wait_s, "s, for the robot's answer")
+      ->check(CLI::Range(0.1, 600.0))
+      ->capture_default_str();
+  verb->callback([options, &exit_code] { exit_code = Run(*options); });
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/time.hpp"
+
+namespace priamos::cli {
+
+/// When one supervised process is given up, and when it is started again.
+struct WatchPolicy {
+  Duration ready_within = std::chrono::seconds(10);  ///< READY must come so soon after the start
+  Duration watchdog =
+      std::chrono::milliseconds(1000);             ///< longest silence of one that is ready; 0: none expected
+  Duration stop_within = std::chrono::seconds(2);  ///< after SIGTERM
+  Duration first_back_off = std::chrono::seconds(1);  ///< doubled with every failure in a row
+  Duration longest_back_off = std::chrono::seconds(30);
+  Duration stable_after = std::chrono::seconds(30);  ///< ready for so long: the failures before are forgotten
+  int alarm_after = 3;                               ///< failures in a row
+};
+
+enum class ProcessState { kWaiting, kStarting, kReady, kBackOff, kStopping, kStopped };
+const char* Text(ProcessState state);
+
+/// The life of one supervised process as a state machine with time as argument: waits for what it depends on,
+/// must say READY in time and WATCHDOG ever after, is killed when it hangs, and is started again after 1, 2,
+/// 4 ... 30 s. Three failures in a row raise an alarm, which a stable run clears.
+class ProcessWatch {
+ public:
+  enum class Action { kNone, kStart, kTerminate, kKill };
+
+  explicit ProcessWatch(const WatchPolicy& policy) : policy_(policy) {}
+
+  /// What to do with the process now. After kStart the caller reports Started or, when that failed, Exited.
+  /// `may_stop`: nothing that depends on it runs any more.
+  Action Step(bool may_start, bool may_stop, Time now);
+  void Started(Time now);
+  void SaidReady(Time now);
+  void SaidAlive(Time now) { alive_ = now; }
+  void Exited(const std::string& how, Time now);
+  /// From now on it is to end, and is not started again.
+  void Stop() { stopping_ = true; }
+
+  ProcessState state() const { return state_; }
+  bool runs() const;
+  bool alarm() const { return failures_ >= policy_.alarm_after; }
+  int failures() const { return failures_; }  ///< in a row
+  int starts() const { return starts_; }
+  Time since() const { return since_; }                  ///< of the state
+  const std::string& reason() const { return reason_; }  ///< of the last end; empty before it
+
+ private:
+  void Enter(ProcessState state, Time now);
+  Action WatchRunning(Time now);
+  Action WatchStop(bool may_stop, Time now);
+
+  WatchPolicy policy_;
+  ProcessState state_ = ProcessState::kWaiting;
+  Time since_{}, alive_{};
+  bool stopping_ = false, killed_ = false;
+  int failures_ = 0, starts_ = 0;
+  std::string reason_, verdict_;  ///< verdict: why it was killed
+};
+
+}  // namespace priamos::cli

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "bus/node.hpp"
+#include "cli/scenario.hpp"
+#include "cli/scenario_story.hpp"
+#include "common/geometry.hpp"
+#include "common/random.hpp"
+#include "common/serial_port.hpp"
+#include "lcmtypes/channels.hpp"
+#include "teleop/emulated_mouse.hpp"
+
+namespace priamos::cli {
+
+/// How the robot took the operator's input.
+struct HonourCount {
+  int asked = 0;     ///< reports while the stick was deflected
+  int honoured = 0;  ///< of them with a base that obeys, as far as obstacles let it
+  double share() const { return asked == 0 ? 1.0 : double(honoured) / asked; }
+};
+
+/// A person at the space-mouse who sees the robot (WORLD_TRUTH stands for his eyes): drives from waypoint to
+/// waypoint, or shakes the stick at random, through an emulated mouse on `line`.
+class TeleopStory : public ScenarioStory {
+ public:
+  using Progress = std::function<void(Time, const std::string&)>;
+
+  TeleopStory(const Scenario& scenario, std::uint64_t seed, bus::Node& onboard, bus::Node& offboard,
+              std::unique_ptr<ByteStream> line, Progress progress);
+
+  void Tick(Time now) override;
+  bool Done(Time now) const override;
+  bool Succeeded() const override { return succeeded_; }
+  std::string Reason() const override;
+
+  const HonourCount& honour() const { return honour_; }
+  bool mouse_awake() const { return mouse_.awake(); }
+
+ private:
+  void Look();
+  bool Ready() const;
+  void Decide(Time now);
+  void DriveToWaypoint(Time now);
+  void Shake(Time now);
+  void Finish(Time now, bool succeeded, const std::string& text);
+  void MoveMouse(Time now);
+  void Judge();
+
+  Scenario scenario_;
+  Progress progress_;
+  std::unique_ptr<ByteStream> line_;
+  teleop::EmulatedMouse mouse_;
+  Rng rng_;
+  teleop::Stick hand_;
+  bus::Latest<world_truth_t> truth_;
+  bus::Inbox<health_t> onboard_health_, offboard_health_;
+  bus::Inbox<drive_status_t> onboard_status_;
+  bus::Latest<drive_status_t> status_;
+  std::set<std::string> alive_;
+  std::string text_ = "waits for the processes";
+  std::size_t waypoint_ = 0;
+  std::optional<Time> start_, began_, gripped_, driving_, shake_until_, ended_;
+  HonourCount honour_;
+  bool succeeded_ = false;
+};
+
+}  // namespace priamos::cli

@@ -1,0 +1,266 @@
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <thread>
+
+#include "bus/clock.hpp"
+#include "bus/real_time_loop.hpp"
+#include "cli/commands.hpp"
+#include "cli/deployment.hpp"
+#include "cli/supervisor.hpp"
+#include "cli/up_state.hpp"
+
+namespace priamos::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+
+constexpr int kNotThere = 1;
+constexpr auto kDownWithin = std::chrono::seconds(15);
+constexpr auto kReadyWithin = std::chrono::seconds(20);
+
+struct UpOptions {
+  std::string deployment = "sim";
+  std::string config_root = "config";
+  std::string log_root = "logs";
+  std::string group;
+  std::uint64_t seed = 1;
+  bool detach = false;
+};
+
+/// `sim`, or a folder of its own.
+fs::path DeploymentFolder(const UpOptions& options) {
+  const fs::path given(options.deployment);
+  if (fs::is_directory(given)) return given;
+  return fs::path(options.config_root) / given;
+}
+
+std::string MakeRunFolder(const UpOptions& options) {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  const auto folder =
+      fs::path(options.log_root) / fmt::format("{:%Y%m%d-%H%M%S}-up-{}", fmt::localtime(now),
+                                               fs::path(options.deployment).filename().string());
+  fs::create_directories(folder);
+  return fs::absolute(folder).string();
+}
+
+/// `priamos up` in the foreground.
+class UpRun {
+ public:
+  UpRun(const UpOptions& options, const Deployment& deployment)
+      : options_(options),
+        lock_(options.log_root),
+        start_(clock_.Now()),
+        place_{fs::read_symlink("/proc/self/exe").parent_path().string(), DeploymentFolder(options).string(),
+               MakeRunFolder(options), options.seed},
+        supervisor_(PlanOf(deployment, place_), place_.run_folder,
+                    [this](const std::string& text) { Say(text); }) {}
+
+  int Run() {
+    bool ready = false;
+    Time written{};
+    while (!Signalled()) {
+      const Time now = clock_.Now();
+      supervisor_.Step(now);
+      if (!ready && supervisor_.AllReady()) Say("all processes are ready");
+      const bool changed = ready != supervisor_.AllReady();
+      ready = supervisor_.AllReady();
+      if (!changed && now - written < milliseconds(250)) continue;
+      written = now;
+      Write(now);
+    }
+    Say("going down");
+    supervisor_.StopAll();
+    while (!supervisor_.AllStopped()) {
+      supervisor_.Step(clock_.Now());
+      std::this_thread::sleep_for(milliseconds(5));
+    }
+    supervisor_.Step(clock_.Now());
+    Write(clock_.Now());
+    Say("everything is down");
+    return 0;
+  }
+
+ private:
+  /// Waits for something to do, at most 20 ms.
+  bool Signalled() {
+    pollfd fds[] = {{signals_.fd(), POLLIN, 0}, {supervisor_.fd(), POLLIN, 0}};
+    poll(fds, std::size(fds), 20);
+    return fds[0].revents != 0;
+  }
+  void Say(const std::string& text) {
+    std::cout << fmt::format("{:6.1f} s  {}", Seconds(clock_.Now() - start_), text) << std::endl;
+  }
+  void Write(Time now) {
+    UpState state{options_.deployment,   place_.run_folder,    supervisor_.AllReady(),
+                  Seconds(now - start_), supervisor_.Report(), {}};
+    for (const ProcessReport& p : state.processes)
+      state.ages_s.push_back(p.since == Time{} ? state.up_s : Seconds(now - p.since));
+    WriteUpState(options_.log_root, state);
+  }
+
+  UpOptions options_;
+  bus::SignalWatch signals_;
+  UpLock lock_;
+  bus::MonotonicClock clock_;
+  Time start_;
+  LaunchPlace place_;
+  Supervisor supervisor_;
+};
+
+int UpNow(const UpOptions& options) {
+  const std::string file = (DeploymentFolder(options) / "deployment.toml").string();
+  auto deployment = LoadConfig<Deployment>(file);
+  if (!options.group.empty()) deployment.group = options.group;
+  return UpRun(options, deployment).Run();
+}
+
+/// The one in the background is a child that this process waits for until everything is ready.
+int UpDetached(const UpOptions& options) {
+  fs::create_directories(options.log_root);
+  const std::string console = (fs::path(options.log_root) / "up.txt").string();
+  const pid_t pid = fork();
+  if (pid == 0) {
+    setsid();
+    const int output = open(console.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    const int nothing = open("/dev/null", O_RDONLY);
+    dup2(nothing, STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    try {
+      _exit(UpNow(options));
+    } catch (const std::exception& error) {
+      std::cerr << "priamos: " << error.what() << std::endl;
+      _exit(2);
+    }
+  }
+  const auto give_up = std::chrono::steady_clock::now() + kReadyWithin;
+  while (std::chrono::steady_clock::now() < give_up) {
+    int status = 0;
+    if (waitpid(pid, &status, WNOHANG) == pid) {
+      std::cerr << std::ifstream(console).rdbuf();
+      return WIFEXITED(status) ? WEXITSTATUS(status) : kNotThere;
+    }
+    const auto state = ReadUpState(options.log_root);
+    if (UpLock::Holder(options.log_root) == pid && state && state->ready) {
+      std::cout << FormatUpState(*state);
+      return 0;
+    }
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  std::cerr
+      << "priamos up: not everything became ready; `priamos status` says what, `priamos down` ends it\n";
+  return kNotThere;
+}
+
+int Down(const std::string& log_root) {
+  const auto pid = UpLock::Holder(log_root);
+  if (!pid) {
+    std::cout << "nothing is up\n";
+    return 0;
+  }
+  kill(*pid, SIGTERM);
+  const auto give_up = std::chrono::steady_clock::now() + kDownWithin;
+  while (UpLock::Holder(log_root) == pid) {
+    if (std::chrono::steady_clock::now() > give_up) {
+      std::cerr << fmt::format(
+          "priamos down: pid {} did not end within 15 s; `kill -9 {}` ends it and its processes\n", *pid,
+          *pid);
+      return kNotThere;
+    }
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+  std::cout << "everything is down\n";
+  return 0;
+}
+
+int Status(const std::string& log_root) {
+  const auto state = ReadUpState(log_root);
+  if (!UpLock::Holder(log_root) || !state) {
+    std::cout << "nothing is up\n";
+    return kNotThere;
+  }
+  std::cout << FormatUpState(*state);
+  return state->ready ? 0 : kNotThere;
+}
+
+/// The last `lines` of a console, each with the name of its process.
+void PrintTail(const std::string& name, const fs::path& file, std::size_t lines) {
+  std::ifstream in(file);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(in, line);) all.push_back(line);
+  for (std::size_t i = all.size() > lines ? all.size() - lines : 0; i < all.size(); ++i)
+    std::cout << fmt::format("{:<18} {}\n", name, all[i]);
+}
+
+int Logs(const std::string& log_root, const std::string& name, std::size_t lines) {
+  const auto state = ReadUpState(log_root);
+  if (!state) {
+    std::cout << "nothing was ever up\n";
+    return kNotThere;
+  }
+  bool found = false;
+  for (const ProcessReport& p : state->processes) {
+    if (!name.empty() && p.name != name) continue;
+    found = true;
+    PrintTail(p.name, fs::path(state->folder) / (p.name + ".txt"), lines);
+  }
+  if (!found)
+    std::cerr << fmt::format("priamos logs: expected the name of a process (`priamos status`), got \"{}\"\n",
+                             name);
+  return found ? 0 : 2;
+}
+
+}  // namespace
+
+void AddUpCommands(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<UpOptions>();
+  const auto add_logs = [options](CLI::App* verb) {
+    verb->add_option("--logs", options->log_root, "consoles and state; one `up` per folder")
+        ->capture_default_str();
+  };
+  auto* up =
+      cli.add_subcommand("up", "Start the processes of a deployment, and start again what dies or hangs.");
+  up->footer("Example: priamos up sim, Ctrl-C ends it; or priamos up sim --detach, later priamos down");
+  up->add_option("deployment", options->deployment, "sim, robot, or a folder with a deployment.toml")
+      ->capture_default_str();
+  up->add_option("--config-root", options->config_root, "where deployments are")->capture_default_str();
+  up->add_option("--group", options->group, "only these processes; without it what the deployment says")
+      ->check(CLI::IsMember({"all", "onboard", "offboard"}));
+  up->add_option("--seed", options->seed, "of simulated hardware")->capture_default_str();
+  up->add_flag("--detach", options->detach, "return when everything is ready");
+  add_logs(up);
+  up->callback(
+      [options, &exit_code] { exit_code = options->detach ? UpDetached(*options) : UpNow(*options); });
+
+  auto* down = cli.add_subcommand("down", "End what `priamos up` started, in order.");
+  add_logs(down);
+  down->callback([options, &exit_code] { exit_code = Down(options->log_root); });
+
+  auto* status = cli.add_subcommand(
+      "status", "What is up, how it is, and why it last ended; exit code 0 when all is ready.");
+  add_logs(status);
+  status->callback([options, &exit_code] { exit_code = Status(options->log_root); });
+
+  auto name = std::make_shared<std::string>();
+  auto lines = std::make_shared<std::size_t>(20);
+  auto* logs = cli.add_subcommand("logs", "The consoles of the processes.");
+  logs->add_option("process", *name, "one process; without it all");
+  logs->add_option("-n", *lines, "lines per process")->capture_default_str();
+  add_logs(logs);
+  logs->callback([=, &exit_code] { exit_code = Logs(options->log_root, *name, *lines); });
+}
+
+}  // namespace priamos::cli
