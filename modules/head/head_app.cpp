@@ -52,6 +52,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       pose_(context.node().SubscribeAll(channels::kPose)),
       landmark_models_(context.node().SubscribeAll(channels::kLandmarkModel)),
       look_requests_(context.node().SubscribeAll(channels::kLookRequest)),
+      wishes_(context.node().SubscribeAll(channels::kHeadDrive)),
       head_command_(context.node().Advertise(channels::kHeadCommand)),
       trigger_(context.node().Advertise(channels::kCameraTrigger)),
       fix_(context.node().Advertise(channels::kLandmarkFix)) {
@@ -81,6 +82,7 @@ void HeadApp::Tick(Time now) {
   TakeMessages(now);
   StartNext(now);
   MoveHead(now);
+  MoveByHand(now);
   Look(now);
 }
 
@@ -89,6 +91,7 @@ void HeadApp::TakeMessages(Time now) {
   for (const pose_t& message : pose_.Drain()) {
     if (const auto sample = FromMessage(message)) poses_.Add(*sample);
   }
+  for (const head_drive_t& message : wishes_.Drain()) jog_.Take(FromMessage(message), now);
   for (const landmark_model_t& message : landmark_models_.Drain()) {
     if (auto model = FromMessage(message)) models_[model->id] = std::move(*model);
   }
@@ -112,6 +115,15 @@ void HeadApp::MoveHead(Time now) {
   if (const auto setting = positioner_.Step(report_ ? &*report_ : nullptr, now)) {
     head_command_.Publish(ToMessage(*setting, now));
   }
+}
+
+/// A look goes before an operator's hand.
+void HeadApp::MoveByHand(Time now) {
+  if (look_.active() || !report_) return jog_.Stop();
+  const auto setting = jog_.Step(report_->setting, now);
+  if (!setting) return;
+  positioner_.Release();
+  head_command_.Publish(ToMessage(*setting, now));
 }
 
 void HeadApp::Look(Time now) {

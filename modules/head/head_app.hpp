@@ -12,6 +12,7 @@
 #include "head/calibration_mode.hpp"
 #include "head/core/calibrated_setup.hpp"
 #include "head/core/edge_segments.hpp"
+#include "head/core/head_jog.hpp"
 #include "head/head_config.hpp"
 #include "head/head_messages.hpp"
 #include "lcmtypes/channels.hpp"
@@ -39,6 +40,7 @@ class HeadApp {
   void TakeMessages(Time now);
   void StartNext(Time now);
   void MoveHead(Time now);
+  void MoveByHand(Time now);
   void Look(Time now);
   LandmarkFix Evaluate(const FramePair& pair, Time& exposure);
   const CalibratedSetup& SetupFor(int side) const;
@@ -49,6 +51,7 @@ class HeadApp {
   std::optional<CalibrationMode> calibration_;
   std::vector<CalibratedSetup> setups_;
   HeadPositioner positioner_;
+  HeadJog jog_;
   LookSequence look_;
   LandmarkFinder finder_;
   EdgeOperator edges_;
@@ -63,6 +66,7 @@ class HeadApp {
   bus::Inbox<pose_t> pose_;
   bus::Inbox<landmark_model_t> landmark_models_;
   bus::Inbox<look_request_t> look_requests_;
+  bus::Inbox<head_drive_t> wishes_;
   bus::Publisher<head_command_t> head_command_;
   bus::Publisher<camera_trigger_t> trigger_;
   bus::Publisher<landmark_fix_t> fix_;

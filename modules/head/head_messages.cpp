@@ -67,6 +67,21 @@ std::optional<LandmarkModel> FromMessage(const landmark_model_t& message) {
   return model;
 }
 
+HeadWish FromMessage(const head_drive_t& message) {
+  HeadWish wish;
+  wish.time = FromUtime(message.utime);
+  const bool credible = message.time_to_live_s > 0 && message.time_to_live_s < 1;
+  wish.time_to_live = credible ? FromSeconds(message.time_to_live_s) : Duration::zero();
+  wish.session = message.session;
+  wish.sequence = message.sequence;
+  wish.pan_rad_s = message.pan_rad_s;
+  wish.tilt_rad_s = message.tilt_rad_s;
+  wish.vergence_rad_s = message.vergence_rad_s;
+  wish.zoom_step_s = message.zoom_step_s;
+  wish.focus_step_s = message.focus_step_s;
+  return wish;
+}
+
 head_command_t ToMessage(const HeadSetting& setting, Time now) {
   head_command_t message{};
   message.utime = ToUtime(now);

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "head/core/head_jog.hpp"
 #include "head/core/head_positioner.hpp"
 #include "head/core/landmark.hpp"
 #include "head/core/landmark_fix.hpp"
@@ -31,6 +32,7 @@ struct LookAnswer {
 HeadReport FromMessage(const head_state_t& message);
 FrameNotice FromMessage(const camera_frame_t& message);
 LookOrder FromMessage(const look_request_t& message);
+HeadWish FromMessage(const head_drive_t& message);
 /// nullopt unless all numbers are finite.
 std::optional<PoseSample> FromMessage(const pose_t& message);
 /// nullopt unless all numbers are finite; edges without length are left out.

@@ -36,6 +36,9 @@ class HeadPositioner {
   /// A new goal; the one before is given up.
   void MoveTo(const HeadSetting& goal, Time now);
 
+  /// Somebody else moves the head: no goal until the next MoveTo.
+  void Release() { phase_ = Phase::kIdle; }
+
   /// Call at every tick with the newest report, null before the first. Returns what to command, if anything.
   std::optional<HeadSetting> Step(const HeadReport* report, Time now);
 
