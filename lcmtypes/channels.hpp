@@ -51,7 +51,7 @@ inline constexpr Channel<drive_status_t> kDriveStatus{"DRIVE_STATUS", 10, millis
 inline constexpr Channel<pose_correction_t> kPoseCorrection{"POSE_CORRECTION", 0, milliseconds(0)};
 
 // Driving by hand.
-inline constexpr Channel<drive_command_t> kDriveCommand{"DRIVE_COMMAND", 25, milliseconds(250)};
+inline constexpr Channel<drive_command_t> kDriveCommand{"DRIVE_COMMAND", 20, milliseconds(250)};
 inline constexpr Channel<head_drive_t> kHeadDrive{"HEAD_DRIVE", 10, milliseconds(500)};
 inline constexpr Channel<lease_request_t> kLeaseRequest{"LEASE_REQUEST", 0, milliseconds(0)};
 inline constexpr Channel<estop_t> kEstop{"ESTOP", 0, milliseconds(0)};

@@ -14,7 +14,7 @@
 namespace priamos::cli {
 namespace {
 
-constexpr Duration kAgain = std::chrono::milliseconds(200);
+constexpr Duration kAgain = std::chrono::seconds(1);
 constexpr int kNoAnswer = 1;
 
 struct EstopOptions {

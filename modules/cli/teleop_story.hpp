@@ -35,6 +35,7 @@ class TeleopStory : public ScenarioStory {
 
   void Tick(Time now) override;
   bool Done(Time now) const override;
+  bool Started() const override { return began_.has_value(); }
   bool Succeeded() const override { return succeeded_; }
   std::string Reason() const override;
 

@@ -12,7 +12,7 @@ namespace priamos::bus {
 namespace {
 
 /// Units and the end of the names of their fields.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kUnits{{{"m", "_m"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kUnits{{{"m", "_m"},
                                                                                 {"m/s", "_m_s"},
                                                                                 {"rad", "_rad"},
                                                                                 {"rad/s", "_rad_s"},

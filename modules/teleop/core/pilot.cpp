@@ -7,7 +7,7 @@ namespace priamos::teleop {
 namespace {
 
 constexpr Duration kAskAgain = std::chrono::seconds(1);
-constexpr Duration kStopAgain = std::chrono::milliseconds(500);
+constexpr Duration kStopAgain = std::chrono::seconds(1);
 /// The robot keeps a lease for some seconds after the last command; within this it surely still has ours.
 constexpr Duration kSurelyKept = std::chrono::milliseconds(1500);
 

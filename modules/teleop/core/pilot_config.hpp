@@ -62,7 +62,7 @@ struct HeadAxes {
 };
 
 struct PilotConfig {
-  double rate_hz = 25;
+  double rate_hz = 20;
   double rest_rate_hz = 2;
   double time_to_live_s = 0.2;
   double silence_s = 0.15;
