@@ -1,5 +1,6 @@
 #include "teleop/emulated_mouse.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "teleop/core/magellan.hpp"
@@ -29,6 +30,14 @@ std::string EmulatedMouse::Hear(std::string_view bytes) {
   return answer;
 }
 
+/// A hand is never quite still, and spacenavd passes on only what changes.
+Stick EmulatedMouse::Trembling(Stick hand) {
+  trembles_ = !trembles_;
+  for (double& a : hand.axis)
+    if (a != 0 && trembles_) a -= std::copysign(1.0 / full_scale_, a);
+  return hand;
+}
+
 std::string EmulatedMouse::Move(const Stick& hand, Time now) {
   if (!awake_) return {};
   std::string packets;
@@ -36,7 +45,7 @@ std::string EmulatedMouse::Move(const Stick& hand, Time now) {
   const bool deflected = hand.axis != Stick{}.axis, was_deflected = last_.axis != Stick{}.axis;
   const bool leaves_rest = deflected && !was_deflected;
   if (leaves_rest || (deflected && now - *sent_ >= kPeriod) || (!deflected && was_deflected)) {
-    packets += MagellanMotion(hand, full_scale_);
+    packets += MagellanMotion(Trembling(hand), full_scale_);
     sent_ = now;
     last_.axis = hand.axis;
   }

@@ -22,8 +22,10 @@ class EmulatedMouse {
   bool awake() const { return awake_; }
 
  private:
+  Stick Trembling(Stick hand);
+
   int full_scale_;
-  bool awake_ = false;
+  bool awake_ = false, trembles_ = false;
   std::string line_;
   Stick last_;
   std::optional<Time> sent_;

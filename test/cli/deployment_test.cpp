@@ -26,7 +26,8 @@ TEST(Deployment, ShippedOnesLoadAndEveryConfigurationIsThere) {
   for (const char* name : {"sim", "robot"}) {
     const Deployment dut = Shipped(name);
     for (const ScenarioProcess& process : dut.processes)
-      EXPECT_TRUE(std::filesystem::exists(std::string(PRIAMOS_SOURCE_DIR) + "/config/" + name + "/" + process.config))
+      EXPECT_TRUE(
+          std::filesystem::exists(std::string(PRIAMOS_SOURCE_DIR) + "/config/" + name + "/" + process.config))
           << name << " " << process.config;
   }
 }
@@ -63,7 +64,8 @@ TEST(Deployment, AGroupStartsOnlyItsProcessesAndWaitsForNoOthers) {
 TEST(Deployment, AnUnknownNameInAfterIsRefused) {
   Deployment deployment = Shipped("sim");
   deployment.processes[0].after = "nobody";
-  EXPECT_THROW(Supervisor(PlanOf(deployment, kPlace), "/tmp", [](const std::string&) {}), std::invalid_argument);
+  EXPECT_THROW(Supervisor(PlanOf(deployment, kPlace), "/tmp", [](const std::string&) {}),
+               std::invalid_argument);
 }
 
 }  // namespace

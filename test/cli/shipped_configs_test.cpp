@@ -53,7 +53,8 @@ bool IsScenario(const std::string& file) {
 }
 
 bool IsForInstalling(const std::string& file) {
-  return fs::path(file).filename() == "CMakeLists.txt" || fs::path(file).parent_path().filename() == "systemd";
+  return fs::path(file).filename() == "CMakeLists.txt" ||
+         fs::path(file).parent_path().filename() == "systemd";
 }
 
 void ExpectThatScenarioLoads(const std::string& file) {
@@ -61,7 +62,8 @@ void ExpectThatScenarioLoads(const std::string& file) {
   const Scenario scenario = LoadScenario(deployment, fs::path(file).stem());
   EXPECT_TRUE(fs::exists(MapFile(deployment, scenario)));
   for (const auto& process : scenario.processes)
-    EXPECT_TRUE(process.config.empty() || fs::exists(fs::path(deployment) / process.config)) << process.config;
+    EXPECT_TRUE(process.config.empty() || fs::exists(fs::path(deployment) / process.config))
+        << process.config;
 }
 
 void ExpectThatModuleLoads(const std::string& file) {

@@ -37,7 +37,8 @@ class SupervisorTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  ProcessSpec Python(const std::string& name, const std::string& script, std::vector<std::string> after = {}) {
+  ProcessSpec Python(const std::string& name, const std::string& script,
+                     std::vector<std::string> after = {}) {
     ProcessSpec spec;
     spec.name = name;
     spec.after = std::move(after);
@@ -74,7 +75,8 @@ class SupervisorTest : public testing::Test {
 
 TEST_F(SupervisorTest, StartsInTheOrderOfDependenciesAndStopsInTheReverse) {
   {
-    Supervisor dut({Python("second", "time.sleep(0.05)\n" + kWell, {"first"}), Python("first", "time.sleep(0.2)\n" + kWell)},
+    Supervisor dut({Python("second", "time.sleep(0.05)\n" + kWell, {"first"}),
+                    Python("first", "time.sleep(0.2)\n" + kWell)},
                    folder_, Told());
     dut.Step(clock_.Now());
     EXPECT_EQ(dut.Report()[0].state, ProcessState::kWaiting);
@@ -127,7 +129,8 @@ TEST_F(SupervisorTest, AProgramThatDoesNotExistIsSaidSo) {
 TEST_F(SupervisorTest, OneThatIsDeafIsKilledInTheEnd) {
   pid_t pid = 0;
   {
-    Supervisor dut({Python("a", "import signal\nsignal.signal(signal.SIGTERM,signal.SIG_IGN)\n" + kWell)}, folder_, Told());
+    Supervisor dut({Python("a", "import signal\nsignal.signal(signal.SIGTERM,signal.SIG_IGN)\n" + kWell)},
+                   folder_, Told());
     ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
     pid = dut.Report()[0].pid;
   }
@@ -135,7 +138,8 @@ TEST_F(SupervisorTest, OneThatIsDeafIsKilledInTheEnd) {
 }
 
 TEST_F(SupervisorTest, ReadyFromAnotherProcessDoesNotCount) {
-  Supervisor dut({Python("a", "time.sleep(60)\n"), Python("b", "say(b'READY=1\\nREADY=1')\n" + kWell)}, folder_, Told());
+  Supervisor dut({Python("a", "time.sleep(60)\n"), Python("b", "say(b'READY=1\\nREADY=1')\n" + kWell)},
+                 folder_, Told());
   ASSERT_TRUE(Until(dut, [&] { return dut.Report()[1].state == ProcessState::kReady; }));
   EXPECT_EQ(dut.Report()[0].state, ProcessState::kStarting);
 }
@@ -171,7 +175,8 @@ TEST_F(SupervisorTest, LeavesNoOrphanWhenItIsKilled) {
 }
 
 TEST_F(SupervisorTest, ACircleIsRefused) {
-  EXPECT_THROW(Supervisor({Python("a", "", {"b"}), Python("b", "", {"a"})}, folder_, Told()), std::invalid_argument);
+  EXPECT_THROW(Supervisor({Python("a", "", {"b"}), Python("b", "", {"a"})}, folder_, Told()),
+               std::invalid_argument);
   EXPECT_THROW(Supervisor({Python("a", "", {"nobody"})}, folder_, Told()), std::invalid_argument);
 }
 

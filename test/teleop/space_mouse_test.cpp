@@ -79,7 +79,8 @@ class SpaceMouseTest : public testing::Test {
   void MoveMouse() {
     char bytes[256];
     const ssize_t n = read(master_, bytes, sizeof bytes);
-    const std::string said = mouse_.Hear({bytes, n > 0 ? static_cast<std::size_t>(n) : 0}) + mouse_.Move(hand_, clock_.Now());
+    const std::string said =
+        mouse_.Hear({bytes, n > 0 ? static_cast<std::size_t>(n) : 0}) + mouse_.Move(hand_, clock_.Now());
     EXPECT_EQ(write(master_, said.data(), said.size()), static_cast<ssize_t>(said.size()));
   }
   bool Silent(double seconds) const { return Seconds(clock_.Now() - stick_.heard) > seconds; }
@@ -101,14 +102,17 @@ TEST_F(SpaceMouseTest, DeliversHandAndKeysAndFallsSilentWhenUnplugged) {
     hand_.axis[axis] = 0.5;
     EXPECT_TRUE(Until([&] { return std::abs(stick_.axis[axis] - 0.5) < 0.01; })) << kAxisNames[axis];
     for (std::size_t other = 0; other < kAxes; ++other)
-      EXPECT_TRUE(other == axis || stick_.axis[other] == 0) << kAxisNames[axis] << " moved " << kAxisNames[other];
+      EXPECT_TRUE(other == axis || stick_.axis[other] == 0)
+          << kAxisNames[axis] << " moved " << kAxisNames[other];
   }
   for (const int key : {0, 2, 5}) {
     hand_.buttons = 1u << key;
     EXPECT_TRUE(Until([&] { return stick_.buttons == 1u << key; })) << key;
   }
   // A held cap keeps talking; a cable that is pulled is silence.
-  EXPECT_FALSE(Until([&, begin = clock_.Now()] { return Silent(0.15) || clock_.Now() - begin > std::chrono::milliseconds(400); }) &&
+  EXPECT_FALSE(Until([&, begin = clock_.Now()] {
+                 return Silent(0.15) || clock_.Now() - begin > std::chrono::milliseconds(400);
+               }) &&
                Silent(0.15));
   Unplug();
   EXPECT_TRUE(Until([&] { return Silent(0.15); }));

@@ -24,8 +24,8 @@ bool IsAfter(int a, int b) {
 bool Moves(const HeadWish& w) {
   // A zero that was packed for the radio comes back with a rounding error.
   constexpr double kZero = 1e-6;
-  return std::max({std::abs(w.pan_rad_s), std::abs(w.tilt_rad_s), std::abs(w.vergence_rad_s), std::abs(w.zoom_step_s),
-                   std::abs(w.focus_step_s)}) > kZero;
+  return std::max({std::abs(w.pan_rad_s), std::abs(w.tilt_rad_s), std::abs(w.vergence_rad_s),
+                   std::abs(w.zoom_step_s), std::abs(w.focus_step_s)}) > kZero;
 }
 
 int Added(int step, double change) {
@@ -35,7 +35,8 @@ int Added(int step, double change) {
 }  // namespace
 
 bool HeadJog::Take(const HeadWish& wish, Time now) {
-  const bool in_order = !newest_ || newest_->session != wish.session || IsAfter(wish.sequence, newest_->sequence);
+  const bool in_order =
+      !newest_ || newest_->session != wish.session || IsAfter(wish.sequence, newest_->sequence);
   if (!IsCredible(wish) || !in_order || now > wish.time + wish.time_to_live) {
     ++refused_;
     return false;
@@ -62,7 +63,8 @@ std::optional<HeadSetting> HeadJog::Step(const HeadSetting& here, Time now) {
   for (std::size_t i = 0; i < 2; ++i) {
     // Towards each other: the left camera turns right, the right one left.
     const double inward = i == 0 ? -1 : 1;
-    t.vergence_rad[i] = std::clamp(t.vergence_rad[i] + inward * wish_->vergence_rad_s * dt, -kMostVergence, kMostVergence);
+    t.vergence_rad[i] =
+        std::clamp(t.vergence_rad[i] + inward * wish_->vergence_rad_s * dt, -kMostVergence, kMostVergence);
     t.zoom_step[i] = Added(t.zoom_step[i], wish_->zoom_step_s * dt);
     t.focus_step[i] = Added(t.focus_step[i], wish_->focus_step_s * dt);
   }

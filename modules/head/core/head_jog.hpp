@@ -15,8 +15,8 @@ struct HeadWish {
   double pan_rad_s = 0, tilt_rad_s = 0, vergence_rad_s = 0, zoom_step_s = 0, focus_step_s = 0;
 };
 
-/// Moves the head by hand: adds up the wishes from where the head stands. A wish that is old, or not newer than
-/// the last one of the same sender, is refused and counted; silence stops the head.
+/// Moves the head by hand: adds up the wishes from where the head stands. A wish that is old, or not newer
+/// than the last one of the same sender, is refused and counted; silence stops the head.
 class HeadJog {
  public:
   /// Returns whether it is taken.
