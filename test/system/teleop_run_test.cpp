@@ -8,7 +8,7 @@
 namespace priamos::cli {
 namespace {
 
-LockstepResult Run(const std::string& scenario, std::uint64_t seed) {
+LockstepResult RunScenario(const std::string& scenario, std::uint64_t seed) {
   const bus::Schema schema = bus::OwnTypes();
   LockstepRequest request;
   request.deployment = std::string(PRIAMOS_SOURCE_DIR) + "/config/sim";
@@ -18,14 +18,14 @@ LockstepResult Run(const std::string& scenario, std::uint64_t seed) {
 }
 
 TEST(TeleopRun, RoundTheCartonAndThroughThePassageByHand) {
-  const auto dut = Run("teleop", 1);
+  const auto dut = RunScenario("teleop", 1);
   EXPECT_TRUE(dut.summary.passed) << dut.reason;
   EXPECT_EQ(dut.summary.contacts, 0);
   EXPECT_GT(dut.summary.min_gap_m, 0);
 }
 
 TEST(TeleopRun, AMonkeyAtTheStickTouchesNothingAndIsObeyed) {
-  const auto dut = Run("monkey", 1);
+  const auto dut = RunScenario("monkey", 1);
   EXPECT_TRUE(dut.summary.passed) << dut.reason;
   EXPECT_EQ(dut.summary.contacts, 0);
   EXPECT_GT(dut.honour.asked, 300);
