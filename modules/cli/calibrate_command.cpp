@@ -2,12 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
 #include "cli/commands.hpp"
 #include "cli/factories.hpp"
+#include "head/offline_calibration.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -19,7 +21,56 @@ struct CalibrateOptions {
   std::string world = "worlds/calibration.toml";
   std::string output;
   std::uint64_t seed = 1;
+  head::OfflineCalibration files;
+  std::vector<int> dots{6, 6}, image_size;
+  bool light = false;
 };
+
+/// Replaces `path` as a whole or not at all.
+void WriteWhole(const std::string& path, const std::string& text) {
+  std::ofstream file(path + ".new", std::ios::trunc);
+  file << text << '\n';
+  file.close();
+  if (!file) throw ConfigError(fmt::format("{}: expected a file that can be written, got none", path));
+  std::filesystem::rename(path + ".new", path);
+}
+
+/// From photographs or lists of points: JSON to the output file or, without one, to standard output.
+int CalibrateFiles(const CalibrateOptions& options) {
+  head::OfflineCalibration files = options.files;
+  files.target.columns = options.dots[0], files.target.rows = options.dots[1];
+  files.target.dark = !options.light;
+  if (!options.image_size.empty())
+    files.width_px = options.image_size[0], files.height_px = options.image_size[1];
+  const std::string json = head::CalibrateFromFiles(files);
+  options.output.empty() ? void(std::cout << json << std::endl) : WriteWhole(options.output, json);
+  return 0;
+}
+
+void AddFileOptions(CLI::App& verb, CalibrateOptions& options) {
+  const auto positive = CLI::Range(1e-6, 1e6);
+  auto* points = verb.add_option("--points", options.files.points,
+                                 "lines `X Y Z u v` [m, px] of one camera; several files: several cameras");
+  auto* photos =
+      verb.add_option("--photo", options.files.photographs,
+                      "photographs: of a dot target by one camera, or with --object one per camera");
+  points->excludes(photos);
+  verb.add_option("--object", options.files.object, "TOML of a reference object with discs")->needs(photos);
+  verb.add_option("--dots", options.dots, "columns and rows of the dot target")
+      ->expected(2)
+      ->check(CLI::Range(3, 100))
+      ->capture_default_str();
+  verb.add_option("--spacing", options.files.target.spacing_m, "between dots [m]")
+      ->check(positive)
+      ->capture_default_str();
+  verb.add_option("--radius", options.files.target.radius_m, "of a dot [m]")
+      ->check(positive)
+      ->capture_default_str();
+  verb.add_flag("--light-dots", options.light, "the dots are lighter than their ground");
+  verb.add_option("--image-size", options.image_size, "width and height behind --points [px]")
+      ->expected(2)
+      ->check(CLI::Range(64, 100000));
+}
 
 /// `world` and `head --calibrate` before the reference object, in lockstep.
 int Calibrate(const CalibrateOptions& options) {
@@ -49,16 +100,25 @@ void AddCalibrateCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<CalibrateOptions>();
   auto* verb = cli.add_subcommand("calibrate",
                                   "Calibrate the simulated KASTOR head before its reference object (a real "
-                                  "one: priamos-head --calibrate).");
-  verb->footer("Example: priamos calibrate --output kastor.yaml");
+                                  "one: priamos-head --calibrate), or cameras from files.");
+  verb->footer(
+      "Examples: priamos calibrate --output kastor.yaml\n"
+      "          priamos calibrate --points left.txt --points right.txt\n"
+      "          priamos calibrate --photo grid-*.pgm --dots 6 6 --spacing 0.03 --radius 0.0105");
   verb->add_option("--deployment", options->deployment, "folder of configurations")->capture_default_str();
   verb->add_option("--world", options->world,
                    "world file with the reference object, relative to the deployment")
       ->capture_default_str();
-  verb->add_option("--output", options->output, "table to write; without it the one head.toml names");
+  verb->add_option(
+      "--output", options->output,
+      "table to write, without it the one head.toml names; from files: JSON, without it to the terminal");
   verb->add_option("--seed", options->seed, "noise, and how exactly the object was placed")
       ->capture_default_str();
-  verb->callback([options, &exit_code] { exit_code = Calibrate(*options); });
+  AddFileOptions(*verb, *options);
+  verb->callback([options, &exit_code] {
+    const bool from_files = !options->files.points.empty() || !options->files.photographs.empty();
+    exit_code = from_files ? CalibrateFiles(*options) : Calibrate(*options);
+  });
 }
 
 }  // namespace priamos::cli

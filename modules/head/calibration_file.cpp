@@ -17,21 +17,21 @@ constexpr const char* kNextStep =
 
 }  // namespace
 
-std::vector<CalibratedSetup> LoadSetups(const std::string& path) {
+HeadModel LoadHeadModel(const std::string& path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (!file || !(text << file.rdbuf()))
     throw ConfigError(
         fmt::format("{}: expected a calibration table, got no readable file; {}", path, kNextStep));
-  auto setups = FromYaml(text.str());
-  if (!setups) throw ConfigError(fmt::format("{}: {}; {}", path, setups.reason(), kNextStep));
-  return *setups;
+  const auto model = FromYaml(text.str());
+  if (!model) throw ConfigError(fmt::format("{}: {}; {}", path, model.reason(), kNextStep));
+  return *model;
 }
 
-void SaveSetups(const std::string& path, const std::vector<CalibratedSetup>& setups) {
+void SaveHeadModel(const std::string& path, const HeadModel& model) {
   const std::string temporary = path + ".new";
   std::ofstream file(temporary, std::ios::trunc);
-  file << ToYaml(setups);
+  file << ToYaml(model);
   file.close();
   if (!file) throw std::runtime_error(fmt::format("{}: cannot be written", temporary));
   std::filesystem::rename(temporary, path);

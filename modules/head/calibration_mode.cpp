@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "head/calibration_file.hpp"
+#include "head/calibration_report.hpp"
 #include "head/core/calibration/camera_calibration.hpp"
+#include "head/core/calibration/disc_detection.hpp"
+#include "head/core/calibration/progress_bar.hpp"
 #include "head/head_messages.hpp"
 
 namespace priamos::head {
 namespace {
-
-constexpr const char* kCameraNames[] = {"left", "right"};
 
 Eigen::Isometry3d BaseFromObject(const ReferencePose& pose) {
   Eigen::Isometry3d base_from_object = Eigen::Isometry3d::Identity();
@@ -18,32 +21,47 @@ Eigen::Isometry3d BaseFromObject(const ReferencePose& pose) {
   return base_from_object;
 }
 
+/// What must be the same for old measurements to be of use.
+std::string FingerprintOf(const HeadConfig& config, const ReferenceObject& object) {
+  std::ostringstream text;
+  PrintConfig(text, object);
+  PrintConfig(text, config.reference);
+  PrintConfig(text, config.plan);
+  return Fingerprint(text.str());
+}
+
 }  // namespace
 
 CalibrationMode::CalibrationMode(const HeadConfig& config, bus::Context& context)
     : config_(config),
       context_(context),
+      table_path_(context.ResolvePath(config.calibration)),
       object_(LoadConfig<ReferenceObject>(context.ResolvePath(config.reference.object))),
+      object_in_base_(object_.Moved(BaseFromObject(config.reference))),
       labeller_(object_),
-      base_from_object_(BaseFromObject(config.reference)),
-      settings_(config.Settings()),
-      table_size_(settings_.size()),
+      settings_(config.plan.Settings()),
+      journal_(table_path_ + ".journal", FingerprintOf(config, object_),
+               static_cast<int>(object_.discs.size())),
+      done_(journal_.Resume()),
+      resumed_(done_.size()),
       positioner_(config.motors),
-      look_(config.look),
+      look_(config.look, kCameras),
       cameras_(context.instance() + "-camera"),
       head_state_(context.node().Subscribe(channels::kHeadState)),
       frames_(context.node().SubscribeAll(channels::kCameraFrame)),
       head_command_(context.node().Advertise(channels::kHeadCommand)),
       trigger_(context.node().Advertise(channels::kCameraTrigger)) {
-  const auto sweep = config.SweepSettings();
-  settings_.insert(settings_.end(), sweep.begin(), sweep.end());
+  if (resumed_ > 0)
+    context_.Log(bus::Level::kInfo,
+                 fmt::format("goes on after {} of {} settings", resumed_, settings_.size()));
 }
 
 void CalibrationMode::Tick(Time now) {
   if (context_.exit_code()) return;
+  if (!begun_) begun_ = now;
   TakeMessages();
   if (!look_.active()) {
-    if (done_.size() == settings_.size()) return Finish();
+    if (done_.size() >= settings_.size()) return Finish();
     positioner_.MoveTo(settings_[done_.size()], now);
     look_.Begin(now);
   }
@@ -62,70 +80,85 @@ void CalibrationMode::Look(Time now) {
     case LookSequence::Action::kWait:
       return;
     case LookSequence::Action::kTrigger:
-      return trigger_.Publish(TriggerMessage(look_.frame_id(), now));
+      return trigger_.Publish(TriggerMessage(look_.frame_id(), look_.camera_mask(), now));
     case LookSequence::Action::kGiveUp:
       return Fail(positioner_.failed() ? "the head did not reach its setting"
-                                       : "no stereo pair arrived from the cameras");
-    case LookSequence::Action::kUsePair:
-      Calibrate(look_.pair());
+                                       : "no pictures arrived from the cameras");
+    case LookSequence::Action::kUseFrames:
+      Use(look_.frames(), now);
       look_.End();
   }
 }
 
-void CalibrationMode::Calibrate(const FramePair& pair) {
-  View view{settings_[done_.size()], {}};
-  std::string line =
-      fmt::format("setting {} of {}, pan {:+.1f}, tilt {:+.1f} degrees:", done_.size() + 1, settings_.size(),
-                  Degrees(view.setting.pan_rad), Degrees(view.setting.tilt_rad));
-  for (std::size_t i = 0; i < pair.size(); ++i) {
-    const auto image = cameras_.Read(pair[i]);
-    if (!image) return Fail("a picture was not in the frame store");
-    const auto camera = CalibrateCamera(*image, object_, labeller_, base_from_object_);
-    if (camera) {
-      view.cameras[i] = *camera;
-      line +=
-          fmt::format(" {} {} discs, F {:.3f} px;", kCameraNames[i], camera->discs, camera->mean_error_px);
-    } else if (done_.size() < table_size_) {
-      return Fail(fmt::format("{} camera, pan {:.1f} degrees: {}", kCameraNames[i],
-                              Degrees(view.setting.pan_rad), camera.reason()));
-    } else {
-      line += fmt::format(" {} left out;", kCameraNames[i]);
-    }
-  }
-  line.pop_back();
-  context_.Log(bus::Level::kInfo, line);
-  done_.push_back(view);
+void CalibrationMode::Use(const Frames& frames, Time now) {
+  CalibrationExposure exposure{report_->setting, {}};
+  const HeadSetting& s = exposure.setting;
+  std::string note;
+  for (const FrameNotice& frame : frames) exposure.cameras.push_back(Recognise(frame, note));
+  journal_.Add(exposure);
+  done_.push_back(exposure);
+  const int new_ones = static_cast<int>(done_.size() - resumed_),
+            all = static_cast<int>(settings_.size() - resumed_);
+  context_.Log(bus::Level::kInfo,
+               fmt::format("{}; {} of {}, pan {:+.1f}, tilt {:+.1f} deg, zoom {}, focus {}:{}",
+                           ProgressBar(new_ones, all, Seconds(now - *begun_)), done_.size(), settings_.size(),
+                           Degrees(s.pan_rad), Degrees(s.tilt_rad), s.zoom_step[0], s.focus_step[0], note));
 }
 
-std::optional<std::vector<CalibratedSetup>> CalibrationMode::Table() {
-  std::vector<CalibratedSetup> table;
-  for (std::size_t k = 0; k < table_size_; ++k) table.push_back({settings_[k], {}});
-  for (std::size_t i = 0; i < std::size(kCameraNames); ++i) {
-    std::vector<CameraCalibration> views;
-    for (const View& view : done_)
-      if (view.cameras[i]) views.push_back(*view.cameras[i]);
-    const auto refined = ShareLens(views);
-    if (!refined) {
-      Fail(fmt::format("{} camera: {}", kCameraNames[i], refined.reason()));
-      return std::nullopt;
-    }
-    double mean_error_px = 0;
-    for (const auto& view : *refined)
-      mean_error_px += view.mean_error_px / static_cast<double>(refined->size());
-    context_.Log(bus::Level::kInfo,
-                 fmt::format("{} camera: one lens for {} pictures, F {:.3f} px, k1 {:+.4f}", kCameraNames[i],
-                             refined->size(), mean_error_px, refined->front().model.k1));
-    for (std::size_t k = 0; k < table_size_; ++k) table[k].cameras[i] = (*refined)[k].model;
+/// The discs in one picture; none, with the reason in `note`, if the object is not recognised.
+std::vector<SeenDisc> CalibrationMode::Recognise(const FrameNotice& frame, std::string& note) {
+  note += fmt::format(" {}", kCameraNames[frame.camera]);
+  const auto image = cameras_.Read(frame);
+  if (!image) return note += " no picture", std::vector<SeenDisc>();
+  const std::vector<DetectedDisc> detections = DetectDiscs(*image);
+  const Outcome<Labelling> labelling = labeller_.Label(detections);
+  if (!labelling) return note += fmt::format(" none ({})", labelling.reason()), std::vector<SeenDisc>();
+  std::vector<SeenDisc> discs;
+  for (const auto& [disc, detection] : labelling->labels) {
+    const DetectedDisc& d = detections[detection];
+    discs.push_back({disc, d.ellipse.centre_px.x(), d.ellipse.centre_px.y(), std::max(d.sigma_px, 1e-3)});
   }
-  return table;
+  note += fmt::format(" {}", discs.size());
+  return discs;
+}
+
+std::vector<HeadView> CalibrationMode::Views() const {
+  std::vector<HeadView> views;
+  for (std::size_t k = 0; k < done_.size(); ++k) {
+    for (std::size_t c = 0; c < done_[k].cameras.size(); ++c) {
+      if (done_[k].cameras[c].empty()) continue;
+      // The counters belong to the setting that was asked for: a node of the grid, not a step beside it.
+      HeadView view{settings_[k], static_cast<int>(k), static_cast<int>(c), {}};
+      for (const SeenDisc& d : done_[k].cameras[c])
+        view.discs.push_back({object_in_base_.discs[d.disc], {d.u_px, d.v_px}, d.sigma_px});
+      views.push_back(std::move(view));
+    }
+  }
+  return views;
 }
 
 void CalibrationMode::Finish() {
-  const auto table = Table();
-  if (!table) return;
-  const std::string path = context_.ResolvePath(config_.calibration);
-  SaveSetups(path, *table);
-  context_.Log(bus::Level::kInfo, fmt::format("{} settings calibrated, written to {}", table->size(), path));
+  HeadKnowledge known;
+  known.drawing = config_.drawing;
+  const std::vector<HeadView> views = Views();
+  auto result = SolveHead(views, known);
+  if (!result) return Fail(result.reason());
+  const ReferencePose& stand = config_.reference;
+  result->model.base_covariance =
+      PlacementCovariance({stand.x_m, stand.y_m, stand.z_m}, stand.error_m, Radians(stand.error_deg));
+  // The report first: without the table the journal is still there, and the calibration can be repeated.
+  const std::string report = table_path_ + "-report";
+  WriteCalibrationReport(report, views, *result, config_.LookSetting());
+  SaveHeadModel(table_path_, result->model);
+  journal_.Remove();
+  for (int camera = 0; camera < kCameras; ++camera)
+    context_.Log(bus::Level::kInfo,
+                 fmt::format("{} camera at pan 0, tilt {:.1f} deg, zoom {}, focus {}:\n{}",
+                             kCameraNames[camera], config_.tilt_deg, config_.zoom_step, config_.focus_step,
+                             PhysicalParameters(result->model, config_.LookSetting(), camera)));
+  context_.Log(bus::Level::kInfo,
+               fmt::format("{} settings calibrated, F {:.3f} px, written to {}; report: {}/index.html",
+                           done_.size(), result->mean_error_px, table_path_, report));
   context_.RequestStop(0);
 }
 

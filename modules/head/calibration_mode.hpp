@@ -1,14 +1,14 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/context.hpp"
+#include "head/calibration_journal.hpp"
 #include "head/camera_reader.hpp"
-#include "head/core/calibrated_setup.hpp"
-#include "head/core/calibration/camera_calibration.hpp"
+#include "head/core/calibration/correspondence.hpp"
+#include "head/core/calibration/head_solver.hpp"
 #include "head/core/head_positioner.hpp"
 #include "head/core/look_sequence.hpp"
 #include "head/head_config.hpp"
@@ -16,9 +16,11 @@
 
 namespace priamos::head {
 
-/// `priamos-head --calibrate`: goes through the head settings of the configuration before the reference
-/// object, takes a stereo pair at each, and writes the table of calibrated cameras. A setting at which a
-/// camera cannot be calibrated ends it with the reason and exit code 1; the old table stays.
+/// `priamos-head --calibrate`: goes through the settings of the plan before the reference object, exposes all
+/// three cameras at each, and calibrates mechanics and lenses together. It needs nobody: a setting is always
+/// approached from the same side, what is finished is kept in a journal beside the table, and an interrupted
+/// calibration goes on from there. Anything that keeps it from a good table ends it with the reason and exit
+/// code 1; the old table stays.
 class CalibrationMode {
  public:
   CalibrationMode(const HeadConfig& config, bus::Context& context);
@@ -26,27 +28,24 @@ class CalibrationMode {
   void Tick(Time now);
 
  private:
-  /// What both cameras saw at one setting; nothing for a camera that did not see the object whole.
-  struct View {
-    HeadSetting setting;
-    std::array<std::optional<CameraCalibration>, 2> cameras;
-  };
-
   void TakeMessages();
   void Look(Time now);
-  void Calibrate(const FramePair& pair);
-  std::optional<std::vector<CalibratedSetup>> Table();
+  void Use(const Frames& frames, Time now);
+  std::vector<SeenDisc> Recognise(const FrameNotice& frame, std::string& note);
+  std::vector<HeadView> Views() const;
   void Finish();
   void Fail(const std::string& reason);
 
   HeadConfig config_;
   bus::Context& context_;
-  ReferenceObject object_;
+  std::string table_path_;
+  ReferenceObject object_, object_in_base_;
   DiscLabeller labeller_;
-  Eigen::Isometry3d base_from_object_;
-  std::vector<HeadSetting> settings_;  ///< those of the table, then the sweep
-  std::size_t table_size_;
-  std::vector<View> done_;
+  std::vector<HeadSetting> settings_;
+  CalibrationJournal journal_;
+  std::vector<CalibrationExposure> done_;
+  std::size_t resumed_ = 0;  ///< so many of them are from an earlier run
+  std::optional<Time> begun_;
   HeadPositioner positioner_;
   LookSequence look_;
   CameraReader cameras_;

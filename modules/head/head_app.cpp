@@ -10,12 +10,12 @@ namespace priamos::head {
 namespace {
 
 constexpr std::size_t kMaxOrders = 16;
-constexpr double kPanToleranceRad = Radians(0.5);
 
-LandmarkFixOptions FinderOptions(const VisionConfig& vision) {
+LandmarkFixOptions FinderOptions(const VisionConfig& vision, const HeadModel& head) {
   LandmarkFixOptions options;
   options.solver.model_sigma_m = vision.model_sigma_m;
   options.solver.camera_sigma_px = vision.camera_sigma_px;
+  options.solver.base_covariance = head.base_covariance;
   options.stereo.camera_sigma_px = vision.camera_sigma_px;
   options.min_log_odds = vision.min_log_odds;
   options.min_lead = vision.min_lead;
@@ -40,11 +40,11 @@ LandmarkFix NotFound(Verdict verdict) {
 HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
     : config_(config),
       context_(context),
-      setups_(config.mode == "calibrate" ? std::vector<CalibratedSetup>{}
-                                         : LoadSetups(context.ResolvePath(config.calibration))),
+      head_(config.mode == "calibrate" ? HeadModel{}
+                                       : LoadHeadModel(context.ResolvePath(config.calibration))),
       positioner_(config.motors),
       look_(config.look),
-      finder_(FinderOptions(config.vision)),
+      finder_(FinderOptions(config.vision, head_)),
       edges_(EdgeOptions(config.vision)),
       cameras_(context.instance() + "-camera"),
       head_state_(context.node().Subscribe(channels::kHeadState)),
@@ -60,21 +60,24 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
     calibration_.emplace(config, context);
     return;
   }
-  for (const int side : {0, 1, 2})
-    SetupFor(side);  // a table without them must be known before the first look
+  // What a look needs must be known before the first one.
+  for (const Camera camera : {kLeft, kRight}) {
+    const auto model = head_.CameraAt(config.LookSetting(), camera);
+    if (!model)
+      throw ConfigError(fmt::format("{}: {} camera: {}; calibrate it with `priamos-head --calibrate`",
+                                    context.ResolvePath(config.calibration), kCameraNames[camera],
+                                    model.reason()));
+  }
 }
 
-const CalibratedSetup& HeadApp::SetupFor(int side) const {
-  const double pan_deg = side == 1   ? config_.left_pan_deg
-                         : side == 2 ? config_.right_pan_deg
-                                     : config_.whole_pan_deg;
-  const CalibratedSetup* setup = FindSetup(setups_, Radians(pan_deg), kPanToleranceRad);
-  if (!setup) {
-    throw ConfigError(
-        fmt::format("{}: no head setup with pan {} degrees; calibrate it with `priamos-head --calibrate`",
-                    context_.ResolvePath(config_.calibration), pan_deg));
-  }
-  return *setup;
+/// Straight ahead while model or pose are unknown: the answer will say so.
+double HeadApp::PanFor(const LookOrder& order, Time now) const {
+  const auto model = models_.find(order.landmark_id);
+  auto robot = poses_.At(now);
+  if (model == models_.end() || !robot) return 0;
+  robot->map_from_base = Integrate(robot->map_from_base, robot->twist, config_.aim.lead_s);
+  return AimPan(head_, config_.LookSetting(), model->second, Predict(*robot, model->second.map_from_landmark),
+                order.side, config_.aim);
 }
 
 void HeadApp::Tick(Time now) {
@@ -107,7 +110,9 @@ void HeadApp::TakeMessages(Time now) {
 
 void HeadApp::StartNext(Time now) {
   if (look_.active() || orders_.empty()) return;
-  positioner_.MoveTo(SetupFor(orders_.front().side).setting, now);
+  HeadSetting setting = config_.LookSetting();
+  setting.pan_rad = PanFor(orders_.front(), now);
+  positioner_.MoveTo(setting, now);
   look_.Begin(now);
 }
 
@@ -131,7 +136,7 @@ void HeadApp::Look(Time now) {
     case LookSequence::Action::kWait:
       return;
     case LookSequence::Action::kTrigger:
-      trigger_.Publish(TriggerMessage(look_.frame_id(), now));
+      trigger_.Publish(TriggerMessage(look_.frame_id(), look_.camera_mask(), now));
       return;
     case LookSequence::Action::kGiveUp:
       context_.Log(bus::Level::kWarning, positioner_.failed() ? "the head did not reach its setting"
@@ -139,30 +144,32 @@ void HeadApp::Look(Time now) {
       look_.End();
       Answer(NotFound(Verdict::kNoImage), now);
       return;
-    case LookSequence::Action::kUsePair: {
+    case LookSequence::Action::kUseFrames: {
       Time exposure = now;
-      const LandmarkFix fix = Evaluate(look_.pair(), exposure);
+      const LandmarkFix fix = Evaluate(look_.frames(), exposure);
       look_.End();
       Answer(fix, exposure);
     }
   }
 }
 
-LandmarkFix HeadApp::Evaluate(const FramePair& pair, Time& exposure) {
-  exposure = pair[0].exposure;
+LandmarkFix HeadApp::Evaluate(const Frames& frames, Time& exposure) {
+  exposure = frames[0].exposure;
   const auto model = models_.find(orders_.front().landmark_id);
   if (model == models_.end()) return NotFound(Verdict::kNoModel);
   const auto robot = poses_.At(exposure);
   if (!robot) return NotFound(Verdict::kNoPose);
   std::array<EdgeImage, 2> edges;
   for (int i = 0; i < 2; ++i) {
-    auto image = cameras_.Read(pair[i]);
+    auto image = cameras_.Read(frames[i]);
     if (!image || image->width < 64 || image->height < 64) return NotFound(Verdict::kNoImage);
     edges_.Extract(cv::Mat(image->height, image->width, CV_8UC1, image->pixels.data()), edges[i]);
   }
-  const CalibratedSetup& setup = SetupFor(orders_.front().side);
-  return finder_.Find(model->second, Predict(*robot, model->second.map_from_landmark), setup.cameras[0],
-                      setup.cameras[1], edges[0], edges[1]);
+  // Where the motors stand, not where they were sent: counters have steps.
+  const auto left = head_.CameraAt(report_->setting, kLeft), right = head_.CameraAt(report_->setting, kRight);
+  if (!left || !right) return NotFound(Verdict::kNoImage);
+  return finder_.Find(model->second, Predict(*robot, model->second.map_from_landmark), *left, *right,
+                      edges[0], edges[1]);
 }
 
 void HeadApp::Answer(const LandmarkFix& fix, Time exposure) {

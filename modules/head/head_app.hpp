@@ -10,9 +10,10 @@
 #include "bus/app.hpp"
 #include "bus/context.hpp"
 #include "head/calibration_mode.hpp"
-#include "head/core/calibrated_setup.hpp"
+#include "head/core/aim.hpp"
 #include "head/core/edge_segments.hpp"
 #include "head/core/head_jog.hpp"
+#include "head/core/head_model.hpp"
 #include "head/head_config.hpp"
 #include "head/head_messages.hpp"
 #include "lcmtypes/channels.hpp"
@@ -42,14 +43,14 @@ class HeadApp {
   void MoveHead(Time now);
   void MoveByHand(Time now);
   void Look(Time now);
-  LandmarkFix Evaluate(const FramePair& pair, Time& exposure);
-  const CalibratedSetup& SetupFor(int side) const;
+  LandmarkFix Evaluate(const Frames& frames, Time& exposure);
+  double PanFor(const LookOrder& order, Time now) const;
   void Answer(const LandmarkFix& fix, Time exposure);
 
   HeadConfig config_;
   bus::Context& context_;
   std::optional<CalibrationMode> calibration_;
-  std::vector<CalibratedSetup> setups_;
+  HeadModel head_;
   HeadPositioner positioner_;
   HeadJog jog_;
   LookSequence look_;

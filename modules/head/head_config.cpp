@@ -21,9 +21,8 @@ void ReferencePose::Describe(Archive& a) {
   a.Number("y_m", y_m, {"m", -10, 10, "its origin in the base frame"});
   a.Number("z_m", z_m, {"m", -1, 5, "its origin in the base frame"});
   a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "direction of its x axis, which points out of its front"});
-  a.Number("sweep_pan_deg", sweep_pan_deg,
-           {"deg", 0, 60, "the head turns so far to see it at the rim of the image"});
-  a.Number("sweep_tilt_deg", sweep_tilt_deg, {"deg", 0, 40, "and tilts so far"});
+  a.Number("error_m", error_m, {"m", 0, 0.1, "how exactly it stands there: 1 sigma of each coordinate"});
+  a.Number("error_deg", error_deg, {"deg", 0, 10, "and of the turn about each axis"});
 }
 
 void HeadConfig::Describe(Archive& a) {
@@ -31,44 +30,29 @@ void HeadConfig::Describe(Archive& a) {
   a.Choice("mode", mode, {"look", "calibrate"},
            "look answers LOOK_REQUEST; calibrate observes the reference object, writes the table and ends");
   a.Text("calibration", calibration, "table of calibrated head setups, relative to this file");
-  a.Number("left_pan_deg", left_pan_deg, {"deg", -110, 110, "pan to look at the left side of a landmark"});
-  a.Number("right_pan_deg", right_pan_deg, {"deg", -110, 110, "pan to look at the right side"});
-  a.Number("whole_pan_deg", whole_pan_deg, {"deg", -110, 110, "pan to look at the whole"});
   a.Number("tilt_deg", tilt_deg, {"deg", -45, 45, "tilt for all looks, positive looks down"});
   a.Number("convergence_deg", convergence_deg,
            {"deg", -20, 20, "each camera is turned so far towards the middle"});
   a.Integer("zoom_step", zoom_step, {"step", 0, 2000, "zoom motors for all looks"});
   a.Integer("focus_step", focus_step, {"step", 0, 2000, "focus motors for all looks"});
+  a.Section("aim", aim, "where the head looks");
   a.Section("reference", reference, "where the reference object stands during a calibration");
+  a.Section("plan", plan, "the settings a calibration visits");
+  a.Section("drawing", drawing, "the head as drawn: where a calibration starts");
   a.Section("motors", motors, "the KASTOR motors");
   a.Section("look", look, "the course of one look");
   a.Section("vision", vision, "edges and landmark fixes");
+  // Nearer to the end stop a motor cannot come from below.
+  const int nearest = motors.approach_steps;
+  if (zoom_step < nearest || plan.zoom.first < nearest)
+    a.Refuse("zoom_step", "zoom not below motors.approach_steps");
+  if (focus_step < nearest || plan.focus.first < nearest)
+    a.Refuse("focus_step", "focus not below motors.approach_steps");
 }
 
-HeadSetting HeadConfig::SettingAt(double pan_deg, double tilt_degrees) const {
+HeadSetting HeadConfig::LookSetting() const {
   const double turn = Radians(convergence_deg);
-  return {Radians(pan_deg),
-          Radians(tilt_degrees),
-          {-turn, turn},
-          {zoom_step, zoom_step},
-          {focus_step, focus_step}};
-}
-
-std::vector<HeadSetting> HeadConfig::Settings() const {
-  return {SettingAt(left_pan_deg, tilt_deg), SettingAt(whole_pan_deg, tilt_deg),
-          SettingAt(right_pan_deg, tilt_deg)};
-}
-
-std::vector<HeadSetting> HeadConfig::SweepSettings() const {
-  std::vector<HeadSetting> settings;
-  for (const double tilt : {-1.0, 0.0, 1.0}) {
-    for (const double pan : {-1.0, 0.0, 1.0}) {
-      if (pan == 0 && tilt == 0) continue;
-      settings.push_back(
-          SettingAt(pan * reference.sweep_pan_deg, tilt_deg + tilt * reference.sweep_tilt_deg));
-    }
-  }
-  return settings;
+  return {0, Radians(tilt_deg), {-turn, turn}, {zoom_step, zoom_step}, {focus_step, focus_step}};
 }
 
 }  // namespace priamos::head

@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "common/config.hpp"
+#include "head/core/aim.hpp"
+#include "head/core/calibration/calibration_plan.hpp"
+#include "head/core/head_model.hpp"
 #include "head/core/head_positioner.hpp"
 #include "head/core/look_sequence.hpp"
 
@@ -27,7 +30,7 @@ struct ReferencePose {
   std::string object = "reference_object.toml";  ///< its discs, beside the configuration file
   double x_m = 1.75, y_m = 0, z_m = 1.20;        ///< its origin in the base frame
   double yaw_deg = 180;                          ///< of its x axis, which points out of its front
-  double sweep_pan_deg = 9, sweep_tilt_deg = 6;  ///< how far the head turns to see it at the rim of the image
+  double error_m = 0.0005, error_deg = 0.05;     ///< how exactly it stands there: 1 sigma, each axis
 
   void Describe(Archive& a);
 };
@@ -37,26 +40,21 @@ struct HeadConfig {
   double rate_hz = 50;                      ///< decisions
   std::string mode = "look";                ///< look or calibrate
   std::string calibration = "kastor.yaml";  ///< table of head setups, beside the configuration file
-  double left_pan_deg = 5;                  ///< pan to look at the left side of a landmark
-  double right_pan_deg = -5;                ///< and at the right side
-  double whole_pan_deg = 0;                 ///< and at the whole of it
   double tilt_deg = 0;                      ///< for all looks
   double convergence_deg = 1.15;            ///< each camera is turned so far towards the middle
   int zoom_step = 650;
   int focus_step = 1600;
+  AimConfig aim;
   ReferencePose reference;
+  CalibrationPlan plan;
+  HeadGeometry drawing;  ///< where a calibration starts
   PositionerConfig motors;
   LookConfig look;
   VisionConfig vision;
 
   void Describe(Archive& a);
-  /// The settings to calibrate: left, whole, right.
-  std::vector<HeadSetting> Settings() const;
-  /// Further settings of a calibration, which carry the reference object through the image.
-  std::vector<HeadSetting> SweepSettings() const;
-
- private:
-  HeadSetting SettingAt(double pan_deg, double tilt_deg) const;
+  /// Of all looks, but for the pan.
+  HeadSetting LookSetting() const;
 };
 
 }  // namespace priamos::head

@@ -95,11 +95,11 @@ head_command_t ToMessage(const HeadSetting& setting, Time now) {
   return message;
 }
 
-camera_trigger_t TriggerMessage(std::int32_t frame_id, Time now) {
+camera_trigger_t TriggerMessage(std::int32_t frame_id, int cameras, Time now) {
   camera_trigger_t message{};
   message.utime = ToUtime(now);
   message.frame_id = frame_id;
-  message.cameras = 3;
+  message.cameras = static_cast<std::int8_t>(cameras);
   return message;
 }
 

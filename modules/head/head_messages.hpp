@@ -39,8 +39,8 @@ std::optional<PoseSample> FromMessage(const pose_t& message);
 std::optional<LandmarkModel> FromMessage(const landmark_model_t& message);
 
 head_command_t ToMessage(const HeadSetting& setting, Time now);
-/// Both cameras.
-camera_trigger_t TriggerMessage(std::int32_t frame_id, Time now);
+/// `cameras` as bits: 1 left, 2 right, 4 third.
+camera_trigger_t TriggerMessage(std::int32_t frame_id, int cameras, Time now);
 landmark_fix_t ToMessage(const LookAnswer& answer);
 
 }  // namespace priamos::head

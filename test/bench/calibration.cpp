@@ -13,6 +13,7 @@
 #include "head/core/calibration/dlt.hpp"
 #include "test/support/calibration_scene.hpp"
 #include "test/support/disc_renderer.hpp"
+#include "test/support/head_sweep.hpp"
 
 namespace priamos {
 namespace {
@@ -219,6 +220,33 @@ void DepthBias(int scale) {
              1e3 * std::sqrt(squares / n));
 }
 
+// --- table over zoom and focus
+// ------------------------------------------------------------------------------
+
+void Table(int scale) {
+  double nodes = 0, between = 0, spoilt = 0;
+  const int heads = scale > 1 ? 1 : 5;
+  for (int i = 0; i < heads; ++i) {
+    const CalibrationPlan plan;
+    PositionerConfig direct;
+    direct.approach_rad = 0, direct.approach_steps = 0;
+    for (const PositionerConfig& motors : {PositionerConfig(), direct}) {
+      support::SimulatedHead simulated(20 + i);
+      const auto calibrated = SolveHead(support::Sweep(simulated, plan.Settings(), motors, 20 + i));
+      if (!calibrated) return Report("table over zoom and focus: not calibrated", 1, 0, "");
+      const auto error = support::MeasureTable(calibrated->model, simulated, plan);
+      if (motors.approach_steps == 0) {
+        spoilt = std::max(spoilt, error.between_px);
+      } else {
+        nodes = std::max(nodes, error.at_nodes_px), between = std::max(between, error.between_px);
+      }
+    }
+  }
+  Report(fmt::format("table, {} heads: error between the nodes, worst head", heads), between, 0.1, "px");
+  Report("table: error between the nodes over that at the nodes", between / nodes, 1.5, "");
+  fmt::print("{:66} {:10.4f} px\n", "  the same without the one-sided approach", spoilt);
+}
+
 }  // namespace
 }  // namespace priamos
 
@@ -231,6 +259,7 @@ int main(int argc, char** argv) {
   Correspondence(scale);
   Dlt(scale);
   DepthBias(scale);
+  Table(scale);
   fmt::print("{}\n", missed ? fmt::format("{} figures missed", missed) : "all figures held");
   return missed ? 1 : 0;
 }

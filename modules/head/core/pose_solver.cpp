@@ -11,15 +11,33 @@ namespace priamos::head {
 namespace {
 
 constexpr double kNearDepth = 0.1;
-/// Unknowns: the pose; of every camera a shift, a roll and a scale; of every edge a shift and a tilt, across
-/// it.
-constexpr int kPose = 6, kCamera = 4, kEdge = 4, kAll = kPose + kCamera + kEdge;
+/// Unknowns: the pose; the error that all cameras share; of every camera a shift, a roll and a scale; of
+/// every edge a shift and a tilt, across it. The points of one edge in one image know all but the common
+/// error directly; that one acts like a change of the pose.
+constexpr int kPose = 6, kCommon = 6, kCamera = 4, kEdge = 4;
+constexpr int kLocal = kPose + kCamera + kEdge, kAll = kLocal + kCommon;
 constexpr double kCameraLeverPx = 300;  ///< roll and scale are counted in pixels that far from the centre
-using VectorN = Eigen::Matrix<double, kAll, 1>;
-using MatrixN = Eigen::Matrix<double, kAll, kAll>;
+using VectorN = Eigen::Matrix<double, kLocal, 1>;
+using MatrixN = Eigen::Matrix<double, kLocal, kLocal>;
+using Vector6 = Eigen::Matrix<double, kPose, 1>;
+using Matrix6 = Eigen::Matrix<double, kPose, kPose>;
 
 double Square(double x) {
   return x * x;
+}
+
+/// c = L * L.transpose(), also where c is singular.
+Matrix6 SquareRoot(const Matrix6& c) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(c);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+/// What a small motion about the origin of base is as a motion about the origin of the landmark, axes kept.
+Matrix6 AboutLandmark(const Eigen::Vector3d& landmark_in_base) {
+  const Eigen::Vector3d& o = landmark_in_base;
+  Matrix6 m = Matrix6::Identity();
+  m.topRightCorner<3, 3>() << 0, o.z(), -o.y(), -o.z(), 0, o.x(), o.y(), -o.x(), 0;
+  return m;
 }
 
 /// The points of one model edge in one image.
@@ -71,12 +89,14 @@ class Problem {
         cameras_(cameras),
         groups_(MakeGroups(observations)),
         pose_(initial),
-        options_(options) {
+        options_(options),
+        common_root_(SquareRoot(options.base_covariance)) {
     slot_of_edge_.assign(model.edges.size(), -1);
     for (const Group& g : groups_) {
       if (slot_of_edge_[g.edge] < 0) slot_of_edge_[g.edge] = n_edges_++;
     }
-    size_ = kPose + kCamera * static_cast<int>(cameras.size()) + kEdge * n_edges_;
+    first_edge_ = kFirstCamera + kCamera * static_cast<int>(cameras.size());
+    size_ = first_edge_ + kEdge * n_edges_;
   }
 
   PoseSolution Run() {
@@ -100,6 +120,8 @@ class Problem {
   }
 
  private:
+  static constexpr int kFirstCamera = kPose + kCommon;
+
   struct Rows {
     MatrixN normal = MatrixN::Zero();
     VectorN right = VectorN::Zero();
@@ -159,21 +181,35 @@ class Problem {
     return n >= (options_.on_floor ? 3 : 6);
   }
 
+  /// Common error, in standard deviations, to pose.
+  Matrix6 PoseFromCommon() const { return AboutLandmark(pose_.translation()) * common_root_; }
+
+  /// Where the unknowns of a group stand among all: local ones, then the common error.
+  std::array<int, kAll> Places(const Group& group) const {
+    std::array<int, kAll> at;
+    for (int k = 0; k < kPose; ++k) at[k] = k;
+    for (int k = 0; k < kCamera; ++k) at[kPose + k] = kFirstCamera + kCamera * group.camera + k;
+    for (int k = 0; k < kEdge; ++k)
+      at[kPose + kCamera + k] = first_edge_ + kEdge * slot_of_edge_[group.edge] + k;
+    for (int k = 0; k < kCommon; ++k) at[kLocal + k] = kPose + k;
+    return at;
+  }
+
   void Assemble() {
     normal_ = Eigen::MatrixXd::Zero(size_, size_);
     right_ = Eigen::VectorXd::Zero(size_);
+    Eigen::Matrix<double, kLocal, kAll> local_from_all = Eigen::Matrix<double, kLocal, kAll>::Zero();
+    local_from_all.leftCols<kLocal>().setIdentity();
+    local_from_all.topRightCorner<kPose, kCommon>() = PoseFromCommon();
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       if (!rows_[i].ok) continue;
-      std::array<int, kAll> at;
-      for (int k = 0; k < kPose; ++k) at[k] = k;
-      for (int k = 0; k < kCamera; ++k) at[kPose + k] = kPose + kCamera * groups_[i].camera + k;
-      for (int k = 0; k < kEdge; ++k) {
-        at[kPose + kCamera + k] =
-            kPose + kCamera * int(cameras_.size()) + kEdge * slot_of_edge_[groups_[i].edge] + k;
-      }
+      const std::array<int, kAll> at = Places(groups_[i]);
+      const Eigen::Matrix<double, kAll, 1> right = local_from_all.transpose() * rows_[i].right;
+      const Eigen::Matrix<double, kAll, kAll> normal =
+          local_from_all.transpose() * rows_[i].normal * local_from_all;
       for (int r = 0; r < kAll; ++r) {
-        right_[at[r]] += groups_[i].weight * rows_[i].right[r];
-        for (int c = 0; c < kAll; ++c) normal_(at[r], at[c]) += groups_[i].weight * rows_[i].normal(r, c);
+        right_[at[r]] += groups_[i].weight * right[r];
+        for (int c = 0; c < kAll; ++c) normal_(at[r], at[c]) += groups_[i].weight * normal(r, c);
       }
     }
     AddPriors();
@@ -182,10 +218,7 @@ class Problem {
   /// Model errors and camera shifts are linear and small, so they are not carried from step to step: each
   /// step estimates them anew around zero.
   void AddPriors() {
-    const int first_edge = kPose + kCamera * static_cast<int>(cameras_.size());
-    for (int k = kPose; k < size_; ++k) {
-      normal_(k, k) += 1 / Square(PriorSigma(k, first_edge));
-    }
+    for (int k = kPose; k < size_; ++k) normal_(k, k) += 1 / Square(PriorSigma(k));
     if (!options_.on_floor) return;
     for (int k = 2; k < 5; ++k) {
       normal_.row(k).setZero(), normal_.col(k).setZero();
@@ -193,9 +226,10 @@ class Problem {
     }
   }
 
-  double PriorSigma(int k, int first_edge) const {
-    if (k < first_edge) return options_.camera_sigma_px;
-    return (k - first_edge) % kEdge < 2 ? options_.model_sigma_m : options_.tilt_sigma_m;
+  double PriorSigma(int k) const {
+    if (k < kFirstCamera) return 1;
+    if (k < first_edge_) return options_.camera_sigma_px;
+    return (k - first_edge_) % kEdge < 2 ? options_.model_sigma_m : options_.tilt_sigma_m;
   }
 
   void Apply(const Eigen::VectorXd& step) {
@@ -232,25 +266,26 @@ class Problem {
   /// The priors and the rest after them, evaluated where the last step leads.
   void AddMisfit(const Eigen::VectorXd& step, PoseSolution& solution) const {
     constexpr double kUnexplainedPx = 0.15;  // of a whole edge, after all that is modelled
-    const int first_edge = kPose + kCamera * static_cast<int>(cameras_.size());
+    const Vector6 common = step.segment<kCommon>(kPose);
+    const Vector6 pose_by_common = PoseFromCommon() * common;
     solution.edge_misfit.assign(model_.edges.size(), 0);
-    double sum = step.segment(kPose, first_edge - kPose).squaredNorm() / Square(options_.camera_sigma_px);
+    double sum = common.squaredNorm() + step.segment(kFirstCamera, first_edge_ - kFirstCamera).squaredNorm() /
+                                            Square(options_.camera_sigma_px);
     int n = 0;
     for (std::size_t e = 0; e < model_.edges.size(); ++e) {
       if (slot_of_edge_[e] < 0) continue;
-      const int first = first_edge + kEdge * slot_of_edge_[e];
+      const int first = first_edge_ + kEdge * slot_of_edge_[e];
       for (int k = first; k < first + kEdge; ++k) {
-        solution.edge_misfit[e] += Square(step[k] / PriorSigma(k, first_edge));
+        solution.edge_misfit[e] += Square(step[k] / PriorSigma(k));
       }
     }
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       if (!rows_[i].ok) continue;
       const VectorN& j = rows_[i].mean_jacobian;
-      const double rest =
-          rows_[i].mean -
-          j.segment<kCamera>(kPose).dot(step.segment<kCamera>(kPose + kCamera * groups_[i].camera)) -
-          j.segment<kEdge>(kPose + kCamera)
-              .dot(step.segment<kEdge>(first_edge + kEdge * slot_of_edge_[groups_[i].edge]));
+      const auto shift = step.segment<kCamera>(kFirstCamera + kCamera * groups_[i].camera);
+      const auto edge = step.segment<kEdge>(first_edge_ + kEdge * slot_of_edge_[groups_[i].edge]);
+      const double rest = rows_[i].mean - j.head<kPose>().dot(pose_by_common) -
+                          j.segment<kCamera>(kPose).dot(shift) - j.tail<kEdge>().dot(edge);
       solution.edge_misfit[groups_[i].edge] += Square(rest / kUnexplainedPx);
       ++n;
     }
@@ -263,8 +298,9 @@ class Problem {
   std::vector<Group> groups_;
   Eigen::Isometry3d pose_;
   PoseSolverOptions options_;
+  Matrix6 common_root_;
   std::vector<int> slot_of_edge_;
-  int n_edges_ = 0, size_ = 0;
+  int n_edges_ = 0, first_edge_ = 0, size_ = 0;
   std::vector<Rows> rows_;
   Eigen::MatrixXd normal_;
   Eigen::VectorXd right_;

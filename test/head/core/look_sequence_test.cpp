@@ -25,14 +25,14 @@ TEST_F(LookSequenceTest, ExposesOnlyWhenTheHeadRests) {
   EXPECT_EQ(Step(true), Action::kTrigger);
 }
 
-TEST_F(LookSequenceTest, UsesThePairWhenBothPicturesAreThere) {
+TEST_F(LookSequenceTest, UsesThePicturesWhenAllAreThere) {
   dut_.Begin(now_);
   Step(true);
   Deliver(0, dut_.frame_id());
   EXPECT_EQ(Step(true), Action::kWait);
   Deliver(1, dut_.frame_id());
-  EXPECT_EQ(Step(true), Action::kUsePair);
-  EXPECT_EQ(dut_.pair()[1].camera, 1);
+  EXPECT_EQ(Step(true), Action::kUseFrames);
+  EXPECT_EQ(dut_.frames()[1].camera, 1);
 }
 
 TEST_F(LookSequenceTest, IgnoresPicturesOfOtherExposures) {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <array>
 
 #include "common/random.hpp"
+#include "head/core/head_model.hpp"
 #include "head/core/prediction.hpp"
 #include "test/support/quad_scene.hpp"
 
@@ -76,6 +78,8 @@ TEST_F(PoseSolverTest, CovarianceIsHonest) {
   // squared.
   PoseSolverOptions options;
   options.model_sigma_m = 0.001, options.tilt_sigma_m = 0.0005, options.camera_sigma_px = 0.2;
+  options.base_covariance = PlacementCovariance({2.05, 0, 1.2}, 0.0005, 0.001);
+  const Eigen::Matrix<double, 6, 6> common_root = options.base_covariance.llt().matrixL();
   Rng rng(4);
   const Pose2 truth{3.0, 0.05, -0.04};
   double nees = 0;
@@ -89,7 +93,15 @@ TEST_F(PoseSolverTest, CovarianceIsHonest) {
       const Eigen::Vector3d tilt = rng.Normal(0.0005) * a + rng.Normal(0.0005) * b;
       e.from += shift - tilt, e.to += shift + tilt;
     }
-    auto observations = Observe(real, cameras_, Lift(truth), 0.1, rng);
+    // All cameras are wrong together: as if the landmark had moved the other way.
+    Eigen::Matrix<double, 6, 1> common;
+    for (int i = 0; i < 6; ++i) common[i] = rng.Normal(1);
+    common = common_root * common;
+    const Eigen::Vector3d turn = common.tail<3>();
+    Eigen::Isometry3d moved = Lift(truth);
+    moved.prerotate(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+    moved.pretranslate(Eigen::Vector3d(common.head<3>()));
+    auto observations = Observe(real, cameras_, moved, 0.1, rng);
     const Eigen::Vector2d shift[2] = {{rng.Normal(0.2), rng.Normal(0.2)}, {rng.Normal(0.2), rng.Normal(0.2)}};
     for (EdgeObservation& o : observations) o.at += shift[o.camera];
     const PoseSolution dut = SolvePose(door_, cameras_, observations, Lift(truth), options);

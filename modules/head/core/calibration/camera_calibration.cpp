@@ -12,7 +12,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kPasses = 3;  // the third changes thousandths of a pixel: the first two are those that count
-constexpr double kWorstError_px = 1;
 constexpr double kSigmaFloor_px = 0.005;  // models of light and lens are not better than that
 
 /// Pairs of points with the bias taken off and the model's distortion undone.
@@ -63,7 +62,7 @@ Outcome<CameraCalibration> CalibrateFromDiscs(const std::vector<DiscObservation>
     if (pass + 1 < kPasses) bias = Biases(observations, *refined);
   }
   FillErrors(bias, result);
-  if (!(result.mean_error_px < kWorstError_px)) {
+  if (!(result.mean_error_px < lens.worst_error_px)) {
     return Refusal{
         fmt::format("the discs are {:.2f} px from where the best camera sees them: object or "
                     "measurements are wrong",

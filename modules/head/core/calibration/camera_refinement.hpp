@@ -23,6 +23,7 @@ struct LensKnowledge {
   double aspect = 1, aspect_sigma = 0.0005;  ///< pixel height over width
   double skew_sigma_rad = 0.0005;
   double k1_sigma = 0.1, k2_sigma = 0.02;  ///< at one focal length from the centre
+  double worst_error_px = 1;               ///< a larger F comes from wrong correspondences
 };
 
 /// What one picture says about a camera.

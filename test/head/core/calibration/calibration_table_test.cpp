@@ -2,23 +2,39 @@
 
 #include <gmock/gmock.h>
 
-#include "test/support/calibration_scene.hpp"
+#include "common/random.hpp"
 
 namespace priamos::head {
 namespace {
 
 using testing::HasSubstr;
 
-std::vector<CalibratedSetup> SomeSetups() {
-  std::vector<CalibratedSetup> setups;
-  Rng rng(1);
-  for (int i = 0; i < 3; ++i) {
-    CalibratedSetup setup;
-    setup.setting = {0.1 * i, -0.05, {-0.02, 0.02}, {650 + i, 651}, {1600, 1601}};
-    for (CameraModel& camera : setup.cameras) camera = support::MakeCamera(support::RandomView(rng));
-    setups.push_back(setup);
+LensTable SomeLens(Rng& rng) {
+  std::vector<LensState> nodes;
+  for (int i = 0; i < 6; ++i) {
+    nodes.push_back({rng.Uniform(800, 1600),
+                     {rng.Uniform(370, 390), rng.Uniform(280, 295)},
+                     rng.Normal(0.05),
+                     rng.Normal(0.01),
+                     rng.Uniform(0.01, 0.03)});
   }
-  return setups;
+  return LensTable({0, 650, 1300}, {1200, 1600}, nodes);
+}
+
+HeadModel SomeHead() {
+  Rng rng(1);
+  HeadModel model;
+  model.geometry.pitch_rad = 0.0123456789012345;
+  model.geometry.cameras[kRight].axis_roll_rad = -0.004;
+  model.lenses[kLeft] = SomeLens(rng);
+  model.lenses[kRight] = SomeLens(rng);
+  model.lenses[kThird] = LensTable({0}, {0}, {LensState{}});
+  model.base_covariance = PlacementCovariance({1.75, 0.1, 1.2}, 0.0005, 0.001);
+  return model;
+}
+
+HeadSetting Between() {
+  return {0.2, -0.1, {-0.02, 0.03}, {433, 501}, {1333, 1402}};
 }
 
 std::string Replaced(std::string text, const std::string& what, const std::string& by) {
@@ -28,40 +44,48 @@ std::string Replaced(std::string text, const std::string& what, const std::strin
 }
 
 TEST(CalibrationTable, ReadsBackWhatItWrote) {
-  const auto setups = SomeSetups();
-  const auto dut = FromYaml(ToYaml(setups));
+  const HeadModel written = SomeHead();
+  const auto dut = FromYaml(ToYaml(written));
   ASSERT_TRUE(dut) << dut.reason();
-  ASSERT_EQ(dut->size(), setups.size());
-  for (std::size_t i = 0; i < setups.size(); ++i) {
-    EXPECT_TRUE(IsSameSetting((*dut)[i].setting, setups[i].setting, 1e-12));
-    for (int c = 0; c < 2; ++c) {
-      const CameraModel &read = (*dut)[i].cameras[c], &written = setups[i].cameras[c];
-      EXPECT_LT((read.image_from_base - written.image_from_base).norm(), 1e-9);
-      EXPECT_LT((read.centre_px - written.centre_px).norm(), 1e-9);
-      EXPECT_NEAR(read.k1, written.k1, 1e-15);
-      EXPECT_NEAR(read.scale_px, written.scale_px, 1e-9);
-    }
+  EXPECT_EQ(dut->base_covariance, written.base_covariance);
+  for (int c = 0; c < kCameras; ++c) {
+    const auto a = dut->CameraAt(Between(), c), b = written.CameraAt(Between(), c);
+    ASSERT_TRUE(a) << a.reason();
+    EXPECT_EQ(a->image_from_base, b->image_from_base);
+    EXPECT_EQ(a->k1, b->k1);
+    EXPECT_EQ(a->k2, b->k2);
   }
+}
+
+TEST(CalibrationTable, ACameraThatWasNotCalibratedStaysSo) {
+  HeadModel written = SomeHead();
+  written.lenses[kThird] = LensTable();
+  const auto dut = FromYaml(ToYaml(written));
+  ASSERT_TRUE(dut) << dut.reason();
+  EXPECT_FALSE(dut->CameraAt(Between(), kThird));
 }
 
 TEST(CalibrationTable, EveryTruncationIsRefused) {
-  const std::string yaml = ToYaml(SomeSetups());
-  for (std::size_t n = 0; n + 2 < yaml.size(); n += 37) {
+  const std::string yaml = ToYaml(SomeHead());
+  for (std::size_t n = 0; n + 2 < yaml.size(); n += 37)
     EXPECT_FALSE(FromYaml(yaml.substr(0, n))) << "cut after " << n << " bytes";
-  }
 }
 
 TEST(CalibrationTable, DamageIsNamed) {
-  const std::string yaml = ToYaml(SomeSetups());
-  EXPECT_THAT(FromYaml(Replaced(yaml, "pan_rad", "pan")).reason(), HasSubstr("'pan_rad' is missing"));
-  EXPECT_THAT(FromYaml(Replaced(yaml, "priamos-calibration-1", "other-2")).reason(), HasSubstr("other-2"));
-  EXPECT_THAT(FromYaml(Replaced(yaml, "tilt_rad:", "tilt_rad: .nan #")).reason(), HasSubstr("tilt_rad"));
+  const std::string yaml = ToYaml(SomeHead());
+  EXPECT_THAT(FromYaml(Replaced(yaml, "pitch_rad", "pitch")).reason(), HasSubstr("'pitch_rad' is missing"));
+  EXPECT_THAT(FromYaml(Replaced(yaml, "priamos-calibration-2", "other-2")).reason(), HasSubstr("other-2"));
+  EXPECT_THAT(FromYaml(Replaced(yaml, "side_m:", "side_m: .nan #")).reason(), HasSubstr("side_m"));
+  EXPECT_THAT(FromYaml(Replaced(yaml, "[ 0, 650, 1300 ]", "[ 0, 650, 650 ]")).reason(),
+              HasSubstr("ascending"));
+  EXPECT_THAT(FromYaml(Replaced(yaml, "[ 0, 650, 1300 ]", "[ 0, 650 ]")).reason(), HasSubstr("2 by 2"));
+  EXPECT_THAT(FromYaml(Replaced(yaml, "focal_px:", "focal_px:-")).reason(), HasSubstr("left camera"));
   EXPECT_THAT(FromYaml("").reason(), testing::Not(testing::IsEmpty()));
   EXPECT_THAT(FromYaml("not yaml at all {{{").reason(), testing::Not(testing::IsEmpty()));
 }
 
 TEST(CalibrationTable, RandomDamageNeverThrows) {
-  const std::string yaml = ToYaml(SomeSetups());
+  const std::string yaml = ToYaml(SomeHead());
   Rng rng(5);
   for (int i = 0; i < 300; ++i) {
     std::string damaged = yaml;
@@ -70,10 +94,10 @@ TEST(CalibrationTable, RandomDamageNeverThrows) {
   }
 }
 
-TEST(CalibrationTable, AMatrixThatIsNoCameraIsRefused) {
-  auto setups = SomeSetups();
-  setups[1].cameras[0].image_from_base.row(2) *= 5;
-  EXPECT_THAT(FromYaml(ToYaml(setups)).reason(), HasSubstr("setup 1"));
+TEST(CalibrationTable, ACovarianceThatIsNoneIsRefused) {
+  HeadModel model = SomeHead();
+  model.base_covariance(0, 0) = -1;
+  EXPECT_THAT(FromYaml(ToYaml(model)).reason(), HasSubstr("no covariance"));
 }
 
 }  // namespace

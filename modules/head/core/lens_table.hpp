@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "head/core/calibration/outcome.hpp"
+
+namespace priamos::head {
+
+/// What zoom and focus change in a camera.
+struct LensState {
+  double focal_px = 1000;
+  Eigen::Vector2d centre_px{383.5, 287.5};  ///< principal point, which wanders as the lens groups move
+  double k1 = 0, k2 = 0;  ///< radial distortion at one focal length from the centre, see CameraModel
+  double pupil_m = 0;     ///< centre of projection before the camera's mounting point
+};
+
+/// A lens calibrated at the nodes of a grid over zoom and focus steps.
+///
+/// Between the nodes cubic polynomials through the four nearest ones in each direction (fewer where there
+/// are fewer) carry the parameters, the focal length by its logarithm. The nodes keep their values.
+class LensTable {
+ public:
+  LensTable() = default;
+  /// `nodes[i * focus_steps.size() + j]` belongs to zoom_steps[i], focus_steps[j]; both ascending.
+  /// Throws std::invalid_argument for sizes or orders that do not fit.
+  LensTable(std::vector<int> zoom_steps, std::vector<int> focus_steps, std::vector<LensState> nodes);
+
+  /// Refuses settings outside the calibrated interval: what a lens does there is not known. A direction
+  /// with a single node accepts only that.
+  Outcome<LensState> At(double zoom_step, double focus_step) const;
+
+  const std::vector<int>& zoom_steps() const { return zoom_steps_; }
+  const std::vector<int>& focus_steps() const { return focus_steps_; }
+  const std::vector<LensState>& nodes() const { return nodes_; }
+
+ private:
+  std::vector<int> zoom_steps_, focus_steps_;
+  std::vector<LensState> nodes_;
+};
+
+}  // namespace priamos::head
