@@ -39,10 +39,9 @@ LensKnowledge UnknownLens(int width_px, int height_px) {
 
 std::string ReadText(const std::string& path) {
   std::ifstream file(path);
-  std::ostringstream text;
-  if (!file || std::filesystem::is_directory(path) || !(text << file.rdbuf()))
+  if (!file || std::filesystem::is_directory(path))
     throw ConfigError(fmt::format("{}: expected a list of points, got no readable file", path));
-  return text.str();
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 GreyImage ReadImage(const std::string& path) {
