@@ -54,7 +54,7 @@ double MeanError(const head::HeadModel& dut, const SimulatedHead& truth, const s
 std::vector<head::HeadView> Sweep(SimulatedHead& simulated, const std::vector<HeadSetting>& settings,
                                   const head::PositionerConfig& motors, std::uint64_t seed) {
   Rng rng(seed);
-  const head::ReferenceObject in_base = ShippedReferenceObject().Moved(ObjectBeforeHead(1.8));
+  const ReferenceObject in_base = ShippedReferenceObject().Moved(ObjectBeforeHead(1.8));
   std::vector<head::HeadView> views;
   int exposure = 0;
   for (const HeadSetting& setting : settings) {

@@ -119,13 +119,13 @@ head::CameraModel SimulatedHead::AfterApproach(const HeadSetting& setting, int c
   return CameraAt(axes, camera);
 }
 
-std::vector<head::HeadView> Observe(const SimulatedHead& simulated, const head::ReferenceObject& in_base,
+std::vector<head::HeadView> Observe(const SimulatedHead& simulated, const ReferenceObject& in_base,
                                     int exposure, double noise_px, Rng& rng) {
   std::vector<head::HeadView> views;
   for (int c = 0; c < head::kCameras; ++c) {
     const head::CameraModel camera = simulated.Now(c);
     head::HeadView view{simulated.counters(), exposure, c, {}};
-    for (const head::ReferenceDisc& disc : in_base.discs) {
+    for (const ReferenceDisc& disc : in_base.discs) {
       const auto ellipse = head::ProjectDisc(camera.image_from_base, disc);
       if (!ellipse) continue;
       const Eigen::Vector2d px = *head::ProjectDiscCentroid(camera, disc);

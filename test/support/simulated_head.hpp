@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "common/random.hpp"
+#include "common/reference_object.hpp"
 #include "head/core/calibration/head_solver.hpp"
-#include "head/core/calibration/reference_object.hpp"
 #include "head/core/head_model.hpp"
 
 namespace priamos::support {
@@ -53,7 +53,7 @@ class SimulatedHead {
 
 /// What the cameras see of the object (given in the base frame) in one exposure, with a detector's noise.
 /// Discs outside of the image are left out, and so is a camera that sees fewer than 10.
-std::vector<head::HeadView> Observe(const SimulatedHead& simulated, const head::ReferenceObject& in_base,
+std::vector<head::HeadView> Observe(const SimulatedHead& simulated, const ReferenceObject& in_base,
                                     int exposure, double noise_px, Rng& rng);
 
 /// The shipped object in front of the head, `distance_m` before its pan axis.

@@ -25,7 +25,7 @@ struct PoseSolverOptions {
   /// Covariance of the motion of space (x, y, z, roll, pitch, yaw about the origin of base) by which all
   /// cameras together may be calibrated wrongly: HeadModel::base_covariance.
   Eigen::Matrix<double, 6, 6> base_covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  double outlier_px = 1.0;        ///< an edge seen farther beside the model loses weight
+  double outlier_px = 1.0;  ///< an edge seen farther beside the model loses weight
   int max_iterations = 10;
 };
 
@@ -44,8 +44,8 @@ struct PoseSolution {
 
 /// Least squares pose from points on edges, in any number of images, starting at `initial`, without any prior
 /// for the pose. The errors of the model's edges, those of each camera and the one that all cameras share are
-/// estimated with it under their own priors, so the covariance does not shrink with the number of pixels below
-/// what model and calibration allow. Needs edges that determine the pose, else ok is false.
+/// estimated with it under their own priors, so the covariance does not shrink with the number of pixels
+/// below what model and calibration allow. Needs edges that determine the pose, else ok is false.
 PoseSolution SolvePose(const LandmarkModel& model, std::span<const CameraModel* const> cameras,
                        std::span<const EdgeObservation> observations, const Eigen::Isometry3d& initial,
                        const PoseSolverOptions& options);
