@@ -88,7 +88,7 @@ TEST(LoadWorldTest, TheCalibrationBodyStandsBeforeTheCameras) {
   EXPECT_GE(dut.reference->object.discs.size(), 16u);
   const Pose2 base = dut.start.truth;
   const Eigen::Vector3d in_map = dut.reference->map_from_object.translation();
-  EXPECT_NEAR((base.Inverse() * Eigen::Vector2d(in_map.x(), in_map.y())).x(), 1.75, 0.005);
+  EXPECT_NEAR((base.Inverse() * Eigen::Vector2d(in_map.x(), in_map.y())).x(), 2.05, 0.005);
   EXPECT_NEAR(in_map.z(), 1.2, 0.005);
 }
 
