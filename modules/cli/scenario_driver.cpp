@@ -2,6 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/geometry.hpp"
+#include "planner/planner_messages.hpp"
+
 namespace priamos::cli {
 namespace {
 
@@ -12,6 +19,15 @@ constexpr Duration kOrderAgain = std::chrono::seconds(2);
 
 }  // namespace
 
+std::string LookText(const landmark_fix_t& look) {
+  constexpr std::array<std::string_view, 3> kSides{"landmark", "left side", "right side"};
+  const auto side = kSides[std::clamp<int>(look.side, 0, kSides.size() - 1)];
+  if (look.verdict != landmark_fix_t::FOUND)
+    return fmt::format("  {} not found: {}", side, planner::FixVerdictText(look.verdict));
+  return fmt::format("  {} found: {} edges, 1 sigma {:.1f} cm and {:.2f} degrees", side, look.n_matched,
+                     100 * std::hypot(look.sigma_x_m, look.sigma_y_m), Degrees(look.sigma_yaw_rad));
+}
+
 ScenarioDriver::ScenarioDriver(const Scenario& scenario, bus::Node& onboard, bus::Node& offboard,
                                std::function<void(Time, const std::string&)> progress)
     : scenario_(scenario),
@@ -19,6 +35,7 @@ ScenarioDriver::ScenarioDriver(const Scenario& scenario, bus::Node& onboard, bus
       onboard_health_(onboard.SubscribeAll(channels::kHealth)),
       offboard_health_(offboard.SubscribeAll(channels::kHealth)),
       status_(offboard.SubscribeAll(channels::kMissionStatus)),
+      looks_(offboard.SubscribeAll(channels::kLandmarkFix)),
       order_(offboard.Advertise(channels::kMissionCommand)) {}
 
 void ScenarioDriver::Tick(Time now) {
@@ -26,6 +43,7 @@ void ScenarioDriver::Tick(Time now) {
   CollectHealth();
   if (phase_ < mission_status_t::APPROACHING && Missing().empty()) GiveOrder(now);
   FollowMission(now);
+  FollowLooks(now);
 }
 
 void ScenarioDriver::CollectHealth() {
@@ -63,6 +81,10 @@ void ScenarioDriver::FollowMission(Time now) {
     succeeded_ = phase_ == mission_status_t::DONE;
     ended_ = now;
   }
+}
+
+void ScenarioDriver::FollowLooks(Time now) {
+  for (const auto& look : looks_.Drain()) progress_(now, LookText(look));
 }
 
 bool ScenarioDriver::Done(Time now) const {

@@ -12,11 +12,14 @@
 
 namespace priamos::cli {
 
+/// What a person reads of the answer to a look.
+std::string LookText(const landmark_fix_t& look);
+
 /// The person at the workstation: waits until every process is alive, gives the order, and watches the
 /// mission status on the offboard bus. The same in real time and in lockstep.
 class ScenarioDriver : public ScenarioStory {
  public:
-  /// `progress` gets one line per phase.
+  /// `progress` gets one line per phase and per look.
   ScenarioDriver(const Scenario& scenario, bus::Node& onboard, bus::Node& offboard,
                  std::function<void(Time, const std::string&)> progress);
 
@@ -32,12 +35,14 @@ class ScenarioDriver : public ScenarioStory {
   void CollectHealth();
   void GiveOrder(Time now);
   void FollowMission(Time now);
+  void FollowLooks(Time now);
   std::string Missing() const;
 
   Scenario scenario_;
   std::function<void(Time, const std::string&)> progress_;
   bus::Inbox<health_t> onboard_health_, offboard_health_;
   bus::Inbox<mission_status_t> status_;
+  bus::Inbox<landmark_fix_t> looks_;
   bus::Publisher<mission_command_t> order_;
   std::set<std::string> alive_;
   std::optional<Time> start_, ordered_, ended_;
