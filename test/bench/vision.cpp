@@ -1,6 +1,6 @@
 // How well the head sees: every figure that is promised, beside the public state of the art on the same
 // images in the same run.
-//   bench_vision [--quick] [--photo FILE]... [--only edges]...
+//   bench_vision [--quick] [--photo FILE]... [--only edges|stereo]...
 // Prints one line per figure with its bound; exit 1 if one is missed.
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   CLI::App app("Figures of seeing");
   app.add_flag("--quick", options.quick, "a tenth of the samples");
   app.add_option("--photo", options.photos, "photographs to take times on")->check(CLI::ExistingFile);
-  app.add_option("--only", only, "these parts only")->check(CLI::IsMember({"edges"}));
+  app.add_option("--only", only, "these parts only")->check(CLI::IsMember({"edges", "stereo"}));
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   const auto wanted = [&](std::string_view part) {
@@ -52,5 +52,6 @@ int main(int argc, char** argv) {
   };
   Figures figures;
   if (wanted("edges")) BenchEdges(options, figures);
+  if (wanted("stereo")) BenchStereo(options, figures);
   return figures.missed() > 0;
 }

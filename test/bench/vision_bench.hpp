@@ -33,4 +33,7 @@ double CpuSeconds();
 /// Time, accuracy and completeness of the edge operator, beside OpenCV's LSD and EdgeDrawing.
 void BenchEdges(const VisionOptions& options, Figures& figures);
 
+/// Wrong matches of edges with three cameras against two.
+void BenchStereo(const VisionOptions& options, Figures& figures);
+
 }  // namespace priamos::bench
