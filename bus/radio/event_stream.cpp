@@ -34,7 +34,7 @@ Duration RoundTrip::timeout() const {
 
 bool EventSender::Offer(std::vector<std::byte> packed, std::size_t bits, Time now) {
   if (events_.size() >= kCapacity || SegmentsOf(packed.size()) > kEventWindow) return false;
-  Restore({.first = next_, .packed_at = now, .bits = bits, .packed = std::move(packed)});
+  Restore({.first = next_, .packed_at = now, .bits = bits, .packed = std::move(packed), .released = false});
   return true;
 }
 
@@ -68,7 +68,7 @@ bool EventSender::Ready(Time now) const {
 
 bool EventSender::NextIsNew(Time now) const {
   const Segment* s = NextDue(now);
-  return s != nullptr && s->offset == 0 && s->times == 0;
+  return s != nullptr && !events_[s->event - first_event_].released;
 }
 
 Time EventSender::NextPackedAt(Time now) const {
@@ -102,6 +102,7 @@ EventSender::Segment* EventSender::Find(std::uint8_t number) {
 void EventSender::MarkSent(std::uint8_t number, Time at) {
   Segment* s = Find(number);
   if (s == nullptr) return;
+  events_[s->event - first_event_].released = true;
   s->sent = true;
   s->sent_at = at;
   if (++s->times > 1) ++resent_;

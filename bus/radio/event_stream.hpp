@@ -62,6 +62,7 @@ class EventSender {
     Time packed_at{};
     std::size_t bits = 0;
     std::vector<std::byte> packed;
+    bool released = false;  ///< some of it was sent, even if an urgent message cut that off
   };
 
   /// `next`: number of the first new segment.
@@ -76,7 +77,7 @@ class EventSender {
   bool Ready(Time now) const;
   /// The segment to be sent next, nullopt when there is none.
   std::optional<EventSegment> Next(Time now) const;
-  /// Whether that segment begins an event of which nothing was sent before.
+  /// Whether that segment begins an event of which sending was never begun.
   bool NextIsNew(Time now) const;
   /// When the event of that segment was packed.
   Time NextPackedAt(Time now) const;

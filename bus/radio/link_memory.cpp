@@ -69,8 +69,11 @@ void LinkMemory::RestoreEvents(SendQueue& queue, std::vector<EventReceiver>& rec
   }
   for (const StoredEvent& e : state_.events)
     if (e.channel < channels_)
-      queue.events(e.channel).Restore(
-          {.first = e.first, .packed_at = FromUtime(e.packed_utime), .bits = e.bits, .packed = e.packed});
+      queue.events(e.channel).Restore({.first = e.first,
+                                       .packed_at = FromUtime(e.packed_utime),
+                                       .bits = e.bits,
+                                       .packed = e.packed,
+                                       .released = false});
 }
 
 void LinkMemory::StoreEvents(const SendQueue& queue, const std::vector<EventReceiver>& receivers) {

@@ -1,0 +1,53 @@
+#include "link_measurements.hpp"
+
+#include <gtest/gtest.h>
+
+// What the link must hold, in short runs. test/bench/radio measures the same for long.
+
+namespace priamos::bus::radio {
+namespace {
+
+TEST(LinkMeasurements, OverloadDelaysNeitherCommandsNorEvents) {
+  const Overload dut = MeasureOverload(1, 60);
+  EXPECT_GT(dut.offered_share, 3);
+  EXPECT_GT(dut.timed, 1000U);
+  EXPECT_LE(dut.worst_bound_used, 1);
+  EXPECT_GE(dut.lowest_floor, 0.97);
+  EXPECT_LE(dut.worst_queue_age, 1);
+}
+
+TEST(LinkMeasurements, BlackoutsReturnFreshAndLoseNoEvent) {
+  const Blackouts dut = MeasureBlackouts(1, 400);
+  EXPECT_GT(dut.returns, 40);
+  EXPECT_LE(dut.slowest_fresh_s, 0.3);
+  EXPECT_GT(dut.commands, 100);
+  EXPECT_LE(dut.oldest_command_s, 0.25);
+  EXPECT_TRUE(dut.events_once_in_order);
+}
+
+TEST(LinkMeasurements, EventsBothWaysThroughLossAndRestarts) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    EXPECT_TRUE(EventsArriveOnceInOrder(seed, 40, 0.3, 0.1)) << seed;
+}
+
+TEST(LinkMeasurements, NoDamagedFrameBecomesAMessage) {
+  for (const double rate : {1e-4, 1e-3}) {
+    const DamagedFrames dut = SendDamagedFrames(rate, 1, 10000);
+    EXPECT_GT(dut.rejected, 500U);
+    EXPECT_GT(dut.delivered, 1000U);
+    EXPECT_EQ(dut.wrong, 0U);
+  }
+}
+
+TEST(LinkMeasurements, AttackersGetNothingAndAreNoticed) {
+  for (const Boot boot : {Boot::kSame, Boot::kLater, Boot::kLaterForgot}) {
+    const Attack dut = AttackReceiver(boot, 1, 30000);
+    EXPECT_EQ(dut.accepted, 0U);
+    EXPECT_EQ(dut.delivered, 0U);
+    EXPECT_TRUE(dut.alarm);
+    EXPECT_TRUE(dut.still_works) << static_cast<int>(boot);
+  }
+}
+
+}  // namespace
+}  // namespace priamos::bus::radio
