@@ -10,13 +10,14 @@ ChannelCounters& Node::CountersOf(std::string_view channel) {
   return found != counters_.end() ? found->second : counters_[std::string(channel)];
 }
 
-void Node::Listen(const Endpoint& endpoint, std::optional<std::uint64_t> fingerprint, Store store) {
+void Node::Listen(const Endpoint& endpoint, const Schema& types, std::optional<std::uint64_t> fingerprint,
+                  Store store) {
   inputs_.push_back(endpoint);
   ChannelCounters& counters = CountersOf(endpoint.channel);
-  bus_.Subscribe(endpoint.channel, [this, fingerprint, &counters, store = std::move(store)](
+  bus_.Subscribe(endpoint.channel, [&types, fingerprint, &counters, store = std::move(store)](
                                        std::string_view, std::span<const std::byte> bytes) {
     const std::uint64_t type = FingerprintOf(bytes.data(), bytes.size());
-    const Struct* expected = !fingerprint || type == *fingerprint ? schema_.Find(type) : nullptr;
+    const Struct* expected = !fingerprint || type == *fingerprint ? types.Find(type) : nullptr;
     if (!expected || !Walk(*expected, bytes)) {
       ++counters.refused;
       return;
@@ -32,7 +33,12 @@ void Node::Listen(const Endpoint& endpoint, std::optional<std::uint64_t> fingerp
 
 void Node::SubscribeRaw(std::string_view channel,
                         std::function<void(std::span<const std::byte>, Time)> handler) {
-  Listen({std::string(channel), "*", 0}, std::nullopt,
+  SubscribeRaw(channel, schema_, std::move(handler));
+}
+
+void Node::SubscribeRaw(std::string_view channel, const Schema& types,
+                        std::function<void(std::span<const std::byte>, Time)> handler) {
+  Listen({std::string(channel), "*", 0}, types, std::nullopt,
          [this, handler = std::move(handler)](std::span<const std::byte> bytes, ChannelCounters&) {
            handler(bytes, clock_.Now());
          });

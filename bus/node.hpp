@@ -130,6 +130,9 @@ class Node {
   /// For programs that carry types they were not compiled with. The bytes have passed the walk when their
   /// type is known to the schema, and are refused when it is not.
   void SubscribeRaw(std::string_view channel, std::function<void(std::span<const std::byte>, Time)> handler);
+  /// The same with types of the caller's, which must outlive the node.
+  void SubscribeRaw(std::string_view channel, const Schema& types,
+                    std::function<void(std::span<const std::byte>, Time)> handler);
   void AdvertiseRaw(std::string_view channel);
   void PublishRaw(std::string_view channel, std::span<const std::byte> bytes);
 
@@ -142,7 +145,8 @@ class Node {
  private:
   /// Stores one message; throws when it cannot be decoded.
   using Store = std::function<void(std::span<const std::byte>, ChannelCounters&)>;
-  void Listen(const Endpoint& endpoint, std::optional<std::uint64_t> fingerprint, Store store);
+  void Listen(const Endpoint& endpoint, const Schema& types, std::optional<std::uint64_t> fingerprint,
+              Store store);
   ChannelCounters& CountersOf(std::string_view channel);
 
   LcmBus& bus_;
@@ -171,7 +175,7 @@ std::vector<std::byte> Encode(const T& message) {
 template <class T>
 Latest<T> Node::Subscribe(const Channel<T>& channel) {
   auto state = std::make_shared<detail::LatestState<T>>();
-  Listen({std::string(channel.name), T::getTypeName(), channel.rate_hz},
+  Listen({std::string(channel.name), T::getTypeName(), channel.rate_hz}, schema_,
          static_cast<std::uint64_t>(T::getHash()),
          [this, state](std::span<const std::byte> bytes, ChannelCounters& counters) {
            state->message = Decode<T>(bytes);
@@ -186,7 +190,7 @@ Latest<T> Node::Subscribe(const Channel<T>& channel) {
 template <class T>
 Inbox<T> Node::SubscribeAll(const Channel<T>& channel) {
   auto state = std::make_shared<detail::InboxState<T>>();
-  Listen({std::string(channel.name), T::getTypeName(), channel.rate_hz},
+  Listen({std::string(channel.name), T::getTypeName(), channel.rate_hz}, schema_,
          static_cast<std::uint64_t>(T::getHash()),
          [state](std::span<const std::byte> bytes, ChannelCounters& counters) {
            T message = Decode<T>(bytes);

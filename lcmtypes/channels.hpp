@@ -15,6 +15,7 @@
 #include "priamos/landmark_fix_t.hpp"
 #include "priamos/landmark_model_t.hpp"
 #include "priamos/lease_request_t.hpp"
+#include "priamos/link_request_t.hpp"
 #include "priamos/link_status_t.hpp"
 #include "priamos/look_request_t.hpp"
 #include "priamos/mission_command_t.hpp"
@@ -68,14 +69,16 @@ inline constexpr Channel<mission_status_t> kMissionStatus{"MISSION_STATUS", 2, m
 // Every process, every bus.
 inline constexpr Channel<health_t> kHealth{"HEALTH", 1, milliseconds(3000)};
 inline constexpr Channel<link_status_t> kLinkStatus{"LINK_STATUS", 1, milliseconds(3000)};
+inline constexpr Channel<link_request_t> kLinkRequest{"LINK_REQUEST", 0, milliseconds(0)};
 
 /// For reports and tests; a test checks that no module subscribes to it.
 inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseconds(200)};
 
-inline constexpr std::tuple kAll{kWheelCommand,   kWheelState,     kSonarRanges,   kHeadCommand, kHeadState,
-                                 kCameraTrigger,  kCameraFrame,    kOdometry,      kPose,        kPath,
-                                 kDriveStatus,    kPoseCorrection, kLandmarkModel, kLookRequest, kLandmarkFix,
-                                 kMissionCommand, kMissionStatus,  kHealth,        kLinkStatus,  kWorldTruth,
-                                 kDriveCommand,   kHeadDrive,      kLeaseRequest,  kEstop};
+inline constexpr std::tuple kAll{
+    kWheelCommand,   kWheelState,     kSonarRanges,   kHeadCommand, kHeadState,
+    kCameraTrigger,  kCameraFrame,    kOdometry,      kPose,        kPath,
+    kDriveStatus,    kPoseCorrection, kLandmarkModel, kLookRequest, kLandmarkFix,
+    kMissionCommand, kMissionStatus,  kHealth,        kLinkStatus,  kWorldTruth,
+    kDriveCommand,   kHeadDrive,      kLeaseRequest,  kEstop,       kLinkRequest};
 
 }  // namespace priamos::channels

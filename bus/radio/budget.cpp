@@ -13,7 +13,7 @@ namespace priamos::bus::radio {
 namespace {
 
 /// Bytes of a frame beside its bundle, with the delimiter that leads after silence.
-constexpr std::size_t kFrameBytes = kFrameOverhead + 1;
+constexpr std::size_t kLeadingDelimiter = 1;
 constexpr double kNotBounded_s = 60;
 /// Bytes are handed to the line once per tick.
 constexpr double kTick_s = 0.001;
@@ -45,6 +45,7 @@ class DirectionAnalysis {
  public:
   DirectionAnalysis(const ChannelTable& table, const LinkOptions& options, Direction direction)
       : table_(table), byte_s_(1 / options.bytes_per_s), ageing_s_(Seconds(options.ageing)) {
+    frame_bytes_ = kFrameOverhead + (options.datagrams ? kDatagramHead : kLeadingDelimiter);
     ahead_s_ = (options.ahead_bytes + 4) * byte_s_;
     std::size_t largest = options.max_bundle_bytes;
     for (std::size_t i = 0; i < table.size(); ++i) {
@@ -56,7 +57,8 @@ class DirectionAnalysis {
     if (options.half_duplex.turn > Duration::zero()) ShareTheAir(options);
     capacity_bits_ = 8.0 * static_cast<double>(options.max_bundle_bytes) - control_bits_;
     frame_s_ = FrameSeconds(8.0 * static_cast<double>(largest) + control_bits_);
-    overhead_ = 1 + static_cast<double>(kFrameOverhead) / static_cast<double>(options.max_bundle_bytes);
+    overhead_ = 1 + static_cast<double>(frame_bytes_ - (options.datagrams ? 0 : kLeadingDelimiter)) /
+                        static_cast<double>(options.max_bundle_bytes);
     Solve();
   }
 
@@ -136,7 +138,9 @@ class DirectionAnalysis {
     return gap_s_ > 0 ? work_s + gap_s_ * (1 + std::floor(work_s / turn_s_)) : work_s;
   }
 
-  double FrameSeconds(double bits) const { return (kFrameBytes + std::ceil(bits / 8)) * byte_s_; }
+  double FrameSeconds(double bits) const {
+    return (static_cast<double>(frame_bytes_) + std::ceil(bits / 8)) * byte_s_;
+  }
 
   void Solve() {
     // Latencies only grow when more overtake, so this ends.
@@ -199,8 +203,9 @@ class DirectionAnalysis {
       const double room_bits = capacity_bits_ - load.entry_bits + 1;
       const double frames = room_bits > 0 ? std::min(entries, std::floor(bits / room_bits)) : entries;
       // Either all of them are as long as can be, or everything there is has been sent.
-      const double everything_s =
-          ((bits + other_bits + frames * control_bits_) / 8 + frames * (kFrameBytes + 1)) * byte_s_;
+      const double everything_s = ((bits + other_bits + frames * control_bits_) / 8 +
+                                   frames * static_cast<double>(frame_bytes_ + 1)) *
+                                  byte_s_;
       return frame_s_ + urgent_s + std::min(frames * frame_s_, everything_s) + frame_s_ + kTick_s;
     });
   }
@@ -219,6 +224,7 @@ class DirectionAnalysis {
   const ChannelTable& table_;
   double byte_s_;
   double ageing_s_;
+  std::size_t frame_bytes_ = 0;  ///< beside the bundle
   double ahead_s_ = 0;
   double control_bits_ = 0;
   double capacity_bits_ = 0;

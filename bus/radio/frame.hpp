@@ -76,6 +76,8 @@ inline constexpr std::size_t kHelloFrameBytes = 36;
 /// One COBS block must do.
 inline constexpr std::size_t kMaxBundleBytes = 240;
 inline constexpr std::byte kDelimiter{0};
+/// Of IPv4 and UDP, for links that carry a frame per datagram.
+inline constexpr std::size_t kDatagramHead = 28;
 
 enum class CounterForm { kLowBits, kWhole };
 

@@ -144,7 +144,7 @@ void LinkEndpoint::OnData(const DataFrame& frame, std::uint64_t highest_before, 
 
 void LinkEndpoint::OnEntry(BundleEntry entry, bool newest, std::size_t wire_bytes, Time now,
                            std::vector<Delivery>& out) {
-  const Time sent_at = now - pacer_.WireTime(wire_bytes) - latency_.one_way();
+  const Time sent_at = now - OnTheWay(wire_bytes) - latency_.one_way();
   std::visit(Overloaded{[&](StateEntry& e) {
                           if (!newest) return void(++deliveries_[e.channel].late);
                           ++deliveries_[e.channel].delivered;
@@ -210,7 +210,7 @@ void LinkEndpoint::OnFrameAck(const FrameAckEntry& ack, std::size_t wire_bytes, 
     if ((sent.counter & 0xFFFU) != ack.counter) continue;
     confirmed_ = std::max(confirmed_.value_or(0), sent.counter);
     proven_ = std::max(proven_.value_or(sent.end), sent.end);
-    latency_.Sample(now - sent.end - ack.hold - pacer_.WireTime(wire_bytes));
+    latency_.Sample(now - sent.end - ack.hold - OnTheWay(wire_bytes));
     return;
   }
 }

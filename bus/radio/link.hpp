@@ -45,6 +45,7 @@ struct LinkOptions {
   Duration silence{1'500'000};         ///< without a frame for so long the link is down
   Duration ageing{1'000'000};          ///< a waiting message gains one priority level per this
   HalfDuplex half_duplex{};            ///< by default the line has two directions
+  bool datagrams = false;              ///< a frame goes whole, in one datagram, whose head counts as sent
 };
 
 /// A message from the other end.
@@ -164,6 +165,10 @@ class LinkEndpoint {
   void BuildData(Time now, bool urgent_only);
   void AddOver(Time now, BitWriter& bundle, Flight& flight) const;
   void Launch(Flight flight, std::vector<std::byte> wire, Time now);
+  bool MaySend(Time now) const;
+  /// Time of a frame's bytes on the line; a datagram arrives at once.
+  Duration OnTheWay(std::size_t bytes) const;
+  Time LeavesAt(std::size_t bytes, Time now) const;
   bool DataDue(Time now) const;
   bool AckDue() const;
   bool HelloDue(Time now) const;

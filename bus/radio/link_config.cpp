@@ -102,6 +102,8 @@ void LinkConfig::Describe(Archive& a) {
       "half_duplex_turn_s", half_duplex_turn_s,
       {"s", 0, 10, "one radio channel for both directions: longest time one end talks; 0: two directions"});
   a.Number("turnaround_s", turnaround_s, {"s", 0, 1, "half-duplex: from sending to hearing"});
+  a.Flag("datagrams", datagrams,
+         "an IP link: one frame per UDP datagram, whose 28 bytes of head count as sent");
   a.Flag("encrypted", encrypted, "hides what is sent; it is authenticated in any case");
   a.Text("key_file", key_file, "secret key of the link, made by `priamos link keygen`, mode 0600");
   a.Flag("simulation_key", simulation_key, "use a key that everybody knows: only for emulated lines");
@@ -124,7 +126,8 @@ LinkOptions LinkConfig::Options() const {
           .keep_alive = FromSeconds(keep_alive_s),
           .silence = FromSeconds(silence_s),
           .ageing = FromSeconds(ageing_s),
-          .half_duplex = {FromSeconds(half_duplex_turn_s), FromSeconds(turnaround_s)}};
+          .half_duplex = {FromSeconds(half_duplex_turn_s), FromSeconds(turnaround_s)},
+          .datagrams = datagrams};
 }
 
 ChannelTable LinkConfig::Table(const Schema& schema) const {

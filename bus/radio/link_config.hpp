@@ -26,6 +26,7 @@ struct LinkChannelConfig {
   std::string key;
   int keys = 1;
   void Describe(Archive& a);
+  friend bool operator==(const LinkChannelConfig&, const LinkChannelConfig&) = default;
 };
 
 /// link.toml: what both ends of one link must agree on, and how they use it.
@@ -40,6 +41,7 @@ struct LinkConfig {
   bool encrypted = false;
   double half_duplex_turn_s = 0;
   double turnaround_s = 0.02;
+  bool datagrams = false;
   std::string key_file = "link.key";
   bool simulation_key = false;
   std::vector<LinkChannelConfig> channels;
@@ -51,6 +53,7 @@ struct LinkConfig {
   /// The channels with their packed sizes. Throws ConfigError with one sentence for a type that is unknown
   /// or cannot be packed, or a key that is no text field of it.
   ChannelTable Table(const Schema& schema) const;
+  friend bool operator==(const LinkConfig&, const LinkConfig&) = default;
 };
 
 }  // namespace priamos::bus::radio

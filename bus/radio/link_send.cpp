@@ -35,12 +35,27 @@ std::vector<std::byte> LinkEndpoint::Step(Time now) {
   if (flight_ && !flight_->urgent && flight_->wire.size() - flight_->next > kNotWorthAborting &&
       memory_.epoch() != 0 && queue_.UrgentReady(now))
     Abort(now, out);
-  while (pacer_.Allows(now)) {
+  while (MaySend(now)) {
     if (!flight_ && (!turns_.MayTalk(now) || !BuildFrame(now))) break;
-    Emit(flight_->wire[flight_->next++], now, out);
+    do {
+      Emit(flight_->wire[flight_->next++], now, out);
+    } while (options_.datagrams && flight_->next < flight_->wire.size());
     if (flight_->next == flight_->wire.size()) Finish();
   }
   return out;
+}
+
+bool LinkEndpoint::MaySend(Time now) const {
+  // A datagram cannot be cut off by an urgent one, which therefore does not wait for what is charged to it.
+  return pacer_.Allows(now) || (options_.datagrams && memory_.epoch() != 0 && queue_.UrgentReady(now));
+}
+
+Duration LinkEndpoint::OnTheWay(std::size_t bytes) const {
+  return options_.datagrams ? Duration::zero() : pacer_.WireTime(bytes);
+}
+
+Time LinkEndpoint::LeavesAt(std::size_t bytes, Time now) const {
+  return options_.datagrams ? now : pacer_.LeavesAt(bytes, now);
 }
 
 void LinkEndpoint::Emit(std::byte byte, Time now, std::vector<std::byte>& out) {
@@ -106,7 +121,7 @@ void LinkEndpoint::BuildData(Time now, bool urgent_only) {
   flight.bundle_bytes = bundle.bytes().size();
   auto wire = sealer_.Seal(memory_.epoch(), flight.counter, FormOf(flight.counter), bundle.bytes());
   last_data_ = now;
-  sent_frames_.push_back({flight.counter, pacer_.LeavesAt(wire.size(), now)});
+  sent_frames_.push_back({flight.counter, LeavesAt(wire.size(), now)});
   if (sent_frames_.size() > kRememberedFrames) sent_frames_.pop_front();
   Launch(std::move(flight), std::move(wire), now);
 }
@@ -122,7 +137,9 @@ void LinkEndpoint::AddOver(Time now, BitWriter& bundle, Flight& flight) const {
 
 void LinkEndpoint::Launch(Flight flight, std::vector<std::byte> wire, Time now) {
   flight.wire = std::move(wire);
-  if (pacer_.Idle(now) >= pacer_.WireTime(kIdleBytes)) flight.wire.insert(flight.wire.begin(), kDelimiter);
+  for (std::size_t i = 0; options_.datagrams && i < kDatagramHead; ++i) pacer_.Use(now);
+  if (!options_.datagrams && pacer_.Idle(now) >= pacer_.WireTime(kIdleBytes))
+    flight.wire.insert(flight.wire.begin(), kDelimiter);
   flight_ = std::move(flight);
 }
 
@@ -189,7 +206,7 @@ bool LinkEndpoint::AddSegment(std::size_t channel, Time now, BitWriter& bundle, 
   const auto segment = queue_.PeekEvent(channel, now);
   if (!segment || !AddEntry(EventEntry{channel, *segment}, bundle, flight)) return false;
   const std::size_t wire_bytes = bundle.bytes().size() + kFrameOverhead;
-  queue_.TakeEvent(channel, segment->number, now, pacer_.LeavesAt(wire_bytes, now));
+  queue_.TakeEvent(channel, segment->number, now, LeavesAt(wire_bytes, now));
   queue_.counters(channel).bits += segment->bits;
   flight.segments.push_back({channel, segment->number});
   return true;

@@ -8,6 +8,7 @@
 #include "bus/schema/packing.hpp"
 #include "cli/commands.hpp"
 #include "cli/link_emulate.hpp"
+#include "cli/link_top.hpp"
 #include "radio/key_file.hpp"
 
 namespace priamos::cli {
@@ -107,15 +108,40 @@ void AddBudget(CLI::App& link, int& exit_code) {
   });
 }
 
+void AddTop(CLI::App& link, int& exit_code) {
+  auto options = std::make_shared<LinkTopOptions>();
+  auto* verb = link.add_subcommand("top", "The link as it is now: load, quality, every channel.");
+  verb->footer("Example: priamos link top --bus 'udpm://239.255.76.68:7668?ttl=0'");
+  verb->add_option("--bus", options->bus, "LCM bus on which priamos-radio runs")->capture_default_str();
+  verb->add_flag("--once", options->once, "one screen, then end");
+  verb->callback([options, &exit_code] { exit_code = RunLinkTop(*options); });
+}
+
+void AddListen(CLI::App& link, int& exit_code) {
+  auto options = std::make_shared<LinkTopOptions>();
+  auto* verb =
+      link.add_subcommand("listen", "Have an on-request channel sent over the radio while this runs.");
+  verb->footer("Example: priamos link listen SONAR_RANGES --for 10");
+  verb->add_option("channel", options->channel, "LCM channel of the other side")->required();
+  verb->add_option("--for", options->seconds, "s; 0: until Ctrl-C")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str();
+  verb->add_option("--bus", options->bus, "LCM bus on which priamos-radio runs")->capture_default_str();
+  verb->callback([options, &exit_code] { exit_code = RunLinkListen(*options); });
+}
+
 }  // namespace
 
 void AddLinkCommand(CLI::App& cli, int& exit_code) {
-  auto* link = cli.add_subcommand("link", "The radio link: emulate one, make keys, see what it costs.");
+  auto* link = cli.add_subcommand(
+      "link", "The radio link: emulate one, make keys, see what it costs and what it does.");
   link->require_subcommand(1);
   AddEmulate(*link, exit_code);
   AddKeygen(*link, exit_code);
   AddBits(*link, exit_code);
   AddBudget(*link, exit_code);
+  AddTop(*link, exit_code);
+  AddListen(*link, exit_code);
 }
 
 }  // namespace priamos::cli

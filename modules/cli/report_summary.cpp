@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/report_timeline.hpp"
@@ -79,9 +80,13 @@ RadioSummary RadioOf(const std::vector<link_status_t>& reports) {
   radio.bytes = last.bytes_sent;
   radio.frames = last.frames_sent;
   radio.dropped = last.dropped;
-  for (const link_channel_t& channel : last.channels)
-    if (channel.outgoing)
-      radio.channels.push_back({channel.channel, channel.messages, channel.bytes, channel.dropped});
+  // A link with many channels tells of some of them at a time.
+  std::map<std::string, RadioSummary::ChannelSummary> channels;
+  for (const link_status_t& report : reports)
+    for (const link_channel_t& channel : report.channels)
+      if (channel.outgoing)
+        channels[channel.channel] = {channel.channel, channel.messages, channel.bytes, channel.dropped};
+  for (const auto& [name, channel] : channels) radio.channels.push_back(channel);
   std::sort(radio.channels.begin(), radio.channels.end(),
             [](const auto& a, const auto& b) { return a.bytes > b.bytes; });
   return radio;

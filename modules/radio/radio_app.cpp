@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sodium.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -10,7 +11,7 @@
 #include "common/random.hpp"
 #include "radio/file_store.hpp"
 #include "radio/key_file.hpp"
-#include "radio/radio_messages.hpp"
+#include "radio/net_port.hpp"
 
 namespace priamos::radio {
 namespace {
@@ -18,8 +19,14 @@ namespace {
 using bus::radio::Direction;
 
 constexpr Duration kReportPeriod{1'000'000};
+constexpr double kLongestHold_s = 600;
 /// A port that takes nothing for so long is not fed any more: what it gets late is worth nothing.
 constexpr std::size_t kMostUnwritten = 64;
+
+std::optional<bus::Schema> TypesIn(const std::string& folder) {
+  if (folder.empty()) return std::nullopt;
+  return bus::Schema(bus::Schema::ReadDirectory(folder));
+}
 
 bool IsPseudoTerminal(const std::string& port) {
   std::error_code error;
@@ -32,13 +39,15 @@ bool IsPseudoTerminal(const std::string& port) {
 RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
     : config_(config),
       context_(context),
-      link_config_(LoadConfig<bus::radio::LinkConfig>(context.ResolvePath(config.link))),
+      link_config_(LoadLink()),
+      own_types_(TypesIn(config.types)),
       outgoing_(config.side == "onboard" ? Direction::kUp : Direction::kDown),
-      codecs_(link_config_, context.node().schema()),
+      codecs_(link_config_, types()),
       key_(LoadKey()),
+      requests_(context.node().SubscribeAll(channels::kLinkRequest)),
       status_(context.node().Advertise(channels::kLinkStatus)) {
-  bus::radio::RequireBudget(link_config_.Table(context.node().schema()), link_config_.Options());
-  port_ = context.OpenSerial(config.port, link_config_.baud);
+  bus::radio::RequireBudget(link_config_.Table(types()), link_config_.Options());
+  port_ = OpenLine();
   if (config.state_file.empty()) {
     store_ = std::make_unique<bus::radio::MemoryStore>();
   } else {
@@ -53,6 +62,20 @@ RadioApp::~RadioApp() {
   } catch (const std::exception& error) {
     context_.Log(bus::Level::kError, error.what());
   }
+}
+
+bus::radio::LinkConfig RadioApp::LoadLink() const {
+  if (config_.HasOwnLink()) return config_.own_link;
+  return LoadConfig<bus::radio::LinkConfig>(context_.ResolvePath(config_.link));
+}
+
+std::unique_ptr<ByteStream> RadioApp::OpenLine() const {
+  if (!IsNetPort(config_.port)) return context_.OpenSerial(config_.port, link_config_.baud);
+  const NetAddress address = ParseNetAddress(config_.port);
+  if (address.datagrams != link_config_.datagrams)
+    throw ConfigError(fmt::format("radio link: datagrams: expected {} with port {}, got {}",
+                                  address.datagrams, config_.port, link_config_.datagrams));
+  return OpenNetPort(address);
 }
 
 bus::radio::LinkKey RadioApp::LoadKey() const {
@@ -76,26 +99,27 @@ bus::radio::NonceSource RadioApp::Nonces() const {
 }
 
 void RadioApp::SubscribeAll() {
-  const bus::radio::ChannelTable table = link_config_.Table(context_.node().schema());
+  const bus::radio::ChannelTable table = link_config_.Table(types());
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (table.at(i).direction != outgoing_) {
       context_.node().AdvertiseRaw(table.at(i).name);
       continue;
     }
-    context_.node().SubscribeRaw(table.at(i).name, [this, i](std::span<const std::byte> encoded, Time now) {
+    const auto offer = [this, i](std::span<const std::byte> encoded, Time now) {
       if (echo_.IsEcho(i, encoded, now)) return;
       if (!link_) {
         waiting_.push_back({i, {encoded.begin(), encoded.end()}});
         return;
       }
       link_->Offer(i, encoded, now, codecs_.KeyOf(i, encoded));
-    });
+    };
+    context_.node().SubscribeRaw(table.at(i).name, types(), offer);
   }
 }
 
 void RadioApp::StartLink(Time now) {
   link_ = std::make_unique<bus::radio::LinkEndpoint>(
-      link_config_.Table(context_.node().schema()), outgoing_, key_, link_config_.Options(), *store_,
+      link_config_.Table(types()), outgoing_, key_, link_config_.Options(), *store_,
       [this](std::size_t channel, std::span<const std::byte> encoded, Time at) {
         return codecs_.Pack(channel, encoded, at);
       },
@@ -110,8 +134,18 @@ void RadioApp::StartLink(Time now) {
 void RadioApp::Tick(Time now) {
   if (!link_) StartLink(now);
   ReadLine(now);
+  ServeListeners(now);
   FeedLine(now);
   if (now >= *next_report_) Report(now);
+}
+
+void RadioApp::ServeListeners(Time now) {
+  for (const link_request_t& request : requests_.Drain())
+    for (std::size_t i = 0; i < link_->table().size(); ++i)
+      if (link_->table().at(i).name == request.channel && link_->table().at(i).direction != outgoing_)
+        listening_until_[i] = now + FromSeconds(std::clamp(request.hold_s, 0.0, kLongestHold_s));
+  for (const auto& [channel, until] : listening_until_) link_->Listen(channel, now < until);
+  std::erase_if(listening_until_, [&](const auto& l) { return now >= l.second; });
 }
 
 void RadioApp::ReadLine(Time now) {
@@ -144,9 +178,8 @@ void RadioApp::Publish(const bus::radio::Delivery& delivery, Time now) {
 
 void RadioApp::Report(Time now) {
   const link_status_t message =
-      ToMessage(*link_, link_config_.BytesPerSecond(), bytes_reported_, now - last_report_, now);
+      ToMessage(*link_, link_config_.BytesPerSecond(), undecodable_, now - last_report_, now, reported_);
   status_.Publish(message);
-  bytes_reported_ = static_cast<std::uint64_t>(message.bytes_sent);
   last_report_ = now;
   next_report_ = now + kReportPeriod;
   if (message.table_mismatch) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -11,10 +12,12 @@
 #include "bus/radio/link.hpp"
 #include "bus/radio/link_config.hpp"
 #include "bus/radio/message_codecs.hpp"
+#include "bus/schema/schema.hpp"
 #include "common/serial_port.hpp"
 #include "lcmtypes/channels.hpp"
 #include "radio/echo_filter.hpp"
 #include "radio/radio_config.hpp"
+#include "radio/radio_messages.hpp"
 
 namespace priamos::radio {
 
@@ -24,8 +27,9 @@ class RadioApp {
  public:
   static constexpr std::string_view kName = "radio";
   static constexpr std::string_view kSummary = "One end of the radio link between two LCM buses.";
-  static constexpr std::array<bus::OptionAlias, 3> kOptions{
-      {{"--port", "port", "", "serial port of the modem"},
+  static constexpr std::array<bus::OptionAlias, 4> kOptions{
+      {{"--port", "port", "", "serial port of the modem, or udp:HOST:PORT, tcp:HOST:PORT, tcp::PORT"},
+       {"--types", "types", "", "folder of .lcm files: carry your own types"},
        {"--onboard", "side", "\"onboard\"", "this is the robot's end"},
        {"--offboard", "side", "\"offboard\"", "this is the workstation's end"}}};
   using Config = RadioConfig;
@@ -42,18 +46,23 @@ class RadioApp {
     std::size_t channel;
     std::vector<std::byte> encoded;
   };
+  bus::radio::LinkConfig LoadLink() const;
+  std::unique_ptr<ByteStream> OpenLine() const;
   void SubscribeAll();
   void StartLink(Time now);
+  void ServeListeners(Time now);
   void ReadLine(Time now);
   void FeedLine(Time now);
   void Publish(const bus::radio::Delivery& delivery, Time now);
   void Report(Time now);
+  const bus::Schema& types() const { return own_types_ ? *own_types_ : context_.node().schema(); }
   bus::radio::LinkKey LoadKey() const;
   bus::radio::NonceSource Nonces() const;
 
   RadioConfig config_;
   bus::Context& context_;
   bus::radio::LinkConfig link_config_;
+  std::optional<bus::Schema> own_types_;  ///< of config.types
   bus::radio::Direction outgoing_;
   bus::radio::MessageCodecs codecs_;
   bus::radio::LinkKey key_;
@@ -61,12 +70,14 @@ class RadioApp {
   std::unique_ptr<bus::radio::StateStore> store_;
   std::unique_ptr<bus::radio::LinkEndpoint> link_;  ///< since the first tick, which brings the time
   EchoFilter echo_;
-  std::vector<Waiting> waiting_;      ///< came before the first tick
-  std::vector<std::byte> unwritten_;  ///< the port did not take them
+  bus::Inbox<link_request_t> requests_;
+  std::map<std::size_t, Time> listening_until_;  ///< on-request channels of the other end
+  std::vector<Waiting> waiting_;                 ///< came before the first tick
+  std::vector<std::byte> unwritten_;             ///< the port did not take them
   bus::Publisher<link_status_t> status_;
   std::optional<Time> next_report_;
   Time last_report_{};
-  std::uint64_t bytes_reported_ = 0;
+  ReportState reported_;
   std::uint64_t undecodable_ = 0;
   bool was_up_ = false;
 };

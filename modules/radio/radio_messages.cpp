@@ -12,7 +12,7 @@ using bus::radio::LinkEndpoint;
 using bus::radio::QueueCounters;
 using bus::radio::Reject;
 
-constexpr std::size_t kMaxChannels = 20;
+constexpr std::size_t kMaxChannels = 16;
 constexpr std::size_t kMaxNameLength = 24;
 
 std::int32_t Count(std::uint64_t count, std::int32_t limit = std::numeric_limits<std::int32_t>::max()) {
@@ -31,16 +31,34 @@ link_channel_t ChannelToMessage(const LinkEndpoint& link, std::size_t index, Tim
   message.replaced = Count(sent.replaced, kLimit);
   message.dropped = Count(sent.expired + sent.refused, kLimit);
   message.expired = Count(sent.expired, kLimit);
+  message.unwanted = Count(sent.unwanted, kLimit);
   message.late = Count(delivered.late, kLimit);
   message.saturated = Count(sent.saturated, kLimit);
   message.queue_age_s = static_cast<float>(std::min(600.0, Seconds(link.OldestAge(index, now))));
   return message;
 }
 
+/// Share of the line that carried `bytes` in a time.
+double Utilisation(std::uint64_t bytes, double bytes_per_s, Duration elapsed) {
+  if (elapsed <= Duration::zero()) return 0;
+  return std::min(1.0, static_cast<double>(bytes) / (bytes_per_s * Seconds(elapsed)));
+}
+
+void AddChannels(const LinkEndpoint& link, Time now, ReportState& state, link_status_t& message) {
+  const std::size_t all = link.table().size();
+  const std::size_t n = std::min(all - state.first_channel, kMaxChannels);
+  message.all_channels = static_cast<std::int8_t>(all);
+  message.first_channel = static_cast<std::int8_t>(state.first_channel);
+  message.n_channels = static_cast<std::int8_t>(n);
+  for (std::size_t i = 0; i < n; ++i)
+    message.channels.push_back(ChannelToMessage(link, state.first_channel + i, now));
+  state.first_channel = state.first_channel + n < all ? state.first_channel + n : 0;
+}
+
 }  // namespace
 
-link_status_t ToMessage(const LinkEndpoint& link, double bytes_per_s, std::uint64_t bytes_before,
-                        Duration elapsed, Time now) {
+link_status_t ToMessage(const LinkEndpoint& link, double bytes_per_s, std::uint64_t undecodable,
+                        Duration elapsed, Time now, ReportState& state) {
   const bus::radio::LinkStatus status = link.Status(now);
   const auto& counters = status.counters;
   const auto rejected = [&](Reject cause) { return counters.rejected[static_cast<std::size_t>(cause)]; };
@@ -49,9 +67,12 @@ link_status_t ToMessage(const LinkEndpoint& link, double bytes_per_s, std::uint6
   message.up = status.up ? 1 : 0;
   message.alarm = status.alarm ? 1 : 0;
   message.table_mismatch = status.table_mismatch ? 1 : 0;
-  const double sent = static_cast<double>(counters.bytes_sent - bytes_before);
-  if (elapsed > Duration::zero())
-    message.utilisation = std::min(1.0, sent / (bytes_per_s * Seconds(elapsed)));
+  message.onboard = link.outgoing() == bus::radio::Direction::kUp ? 1 : 0;
+  message.utilisation = Utilisation(counters.bytes_sent - state.bytes_sent, bytes_per_s, elapsed);
+  message.utilisation_in = Utilisation(counters.bytes_received - state.bytes_received, bytes_per_s, elapsed);
+  state.bytes_sent = counters.bytes_sent;
+  state.bytes_received = counters.bytes_received;
+  message.undecodable = Count(counters.bundles_damaged + undecodable);
   message.bytes_sent = static_cast<std::int64_t>(counters.bytes_sent);
   message.bytes_received = static_cast<std::int64_t>(counters.bytes_received);
   message.frames_sent = Count(counters.frames_sent);
@@ -71,13 +92,11 @@ link_status_t ToMessage(const LinkEndpoint& link, double bytes_per_s, std::uint6
   message.latency_s = std::min(10.0, Seconds(status.latency));
   message.round_trip_s =
       status.round_trip < Duration::zero() ? -1 : std::min(60.0, Seconds(status.round_trip));
-  const std::size_t n = std::min(link.table().size(), kMaxChannels);
-  for (std::size_t i = 0; i < n; ++i) {
-    message.channels.push_back(ChannelToMessage(link, i, now));
-    message.dropped = Count(static_cast<std::uint64_t>(message.dropped) +
-                            static_cast<std::uint64_t>(message.channels.back().dropped));
-  }
-  message.n_channels = static_cast<std::int8_t>(n);
+  std::uint64_t dropped = 0;
+  for (std::size_t i = 0; i < link.table().size(); ++i)
+    dropped += link.sent(i).expired + link.sent(i).refused;
+  message.dropped = Count(dropped);
+  AddChannels(link, now, state, message);
   return message;
 }
 

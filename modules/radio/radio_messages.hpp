@@ -1,14 +1,24 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "bus/radio/link.hpp"
 #include "common/time.hpp"
 #include "priamos/link_status_t.hpp"
 
 namespace priamos::radio {
 
-/// The state of one end as a message. `bytes_before` and `elapsed` are since the report before, for the
-/// utilisation.
-link_status_t ToMessage(const bus::radio::LinkEndpoint& link, double bytes_per_s, std::uint64_t bytes_before,
-                        Duration elapsed, Time now);
+/// What one report leaves for the next.
+struct ReportState {
+  std::uint64_t bytes_sent = 0;      ///< until then, for the utilisation
+  std::uint64_t bytes_received = 0;  ///< the same
+  std::size_t first_channel = 0;     ///< of the next report, when there are more than fit one
+};
+
+/// The state of one end as a message. `elapsed` is the time since the report before; `undecodable`: messages
+/// that arrived and were none of their type.
+link_status_t ToMessage(const bus::radio::LinkEndpoint& link, double bytes_per_s, std::uint64_t undecodable,
+                        Duration elapsed, Time now, ReportState& state);
 
 }  // namespace priamos::radio

@@ -7,10 +7,12 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
+#include "bus/schema/json.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos::radio {
@@ -158,6 +160,110 @@ simulation_key = true
 name = "POSE"
 type = "pose_t"
 )";
+
+// ---- Types the program was never compiled with, and channels that are sent on request.
+
+constexpr const char* kForeignType =
+    "package yours;\n"
+    "struct tank_t {\n"
+    "  int64_t timestamp;  // [us] @age 1000000 @step 10000: when\n"
+    "  double level_m;     // [m] @range 0,10 @step 0.01: water\n"
+    "}\n";
+constexpr const char* kForeignLink = R"(
+simulation_key = true
+[[channel]]
+name = "TANK"
+type = "tank_t"
+rate_hz = 10
+[[channel]]
+name = "DETAILS"
+type = "tank_t"
+rate_hz = 10
+on_request = true
+)";
+
+/// One link.toml for both ends, given as their configuration, and a folder of types.
+struct ForeignTypes : testing::Test {
+  ForeignTypes() {
+    std::filesystem::create_directories(folder / "types");
+    std::ofstream(folder / "types" / "tank_t.lcm") << kForeignType;
+    std::ofstream(folder / "link.toml") << kForeignLink;
+    types = (folder / "types").string();
+    lockstep.AddBus("onboard");
+    lockstep.AddBus("offboard");
+    lockstep.AddSerialLine("tty-onboard", "tty-offboard", {});
+    for (const std::string side : {"onboard", "offboard"})
+      lockstep.AddApp(
+          bus::FactoryOf<RadioApp>(), side,
+          {(folder / "link.toml").string(), {"side=" + side, "port=tty-" + side, "types=" + types}});
+    lockstep.SetTap([&](std::string_view bus, Time, std::string_view channel, auto bytes) {
+      if (bus == "offboard" && channel == "TANK") tanks.emplace_back(bytes.begin(), bytes.end());
+      if (bus == "offboard" && channel == "DETAILS") ++details;
+    });
+  }
+  std::vector<std::byte> Tank(double level_m) {
+    const bus::Schema foreign(bus::Schema::ReadDirectory(types));
+    return bus::FromJson(*foreign.Find("tank_t"),
+                         {{"timestamp", ToUtime(lockstep.now())}, {"level_m", level_m}});
+  }
+  void Run(double seconds) {
+    const Time end = lockstep.now() + FromSeconds(seconds);
+    while (lockstep.now() < end) {
+      for (const char* channel : {"TANK", "DETAILS"})
+        lockstep.DriverNode("onboard").PublishRaw(channel, Tank(1.234));
+      lockstep.RunUntil(lockstep.now() + FromSeconds(0.05));
+    }
+  }
+
+  TemporaryFolder folder;
+  bus::Schema schema = bus::OwnTypes();
+  bus::Lockstep lockstep{schema, {.seed = 1, .start = FromUtime(1'000'000'000), .log = {}}};
+  std::string types;
+  std::vector<std::vector<std::byte>> tanks;
+  int details = 0;
+};
+
+TEST_F(ForeignTypes, AreBridged) {
+  Run(2);
+  ASSERT_GT(tanks.size(), 10U);
+  const bus::Schema foreign(bus::Schema::ReadDirectory(types));
+  EXPECT_NEAR(bus::ToJson(*foreign.Find("tank_t"), tanks.back()).at("level_m").get<double>(), 1.23, 1e-9);
+}
+
+TEST_F(ForeignTypes, OnRequestIsSentWhileSomebodyListens) {
+  Run(2);
+  EXPECT_EQ(details, 0);
+  auto requests = lockstep.DriverNode("offboard").Advertise(channels::kLinkRequest);
+  link_request_t request{};
+  request.channel = "DETAILS";
+  request.hold_s = 2;
+  requests.Publish(request);
+  Run(1.5);
+  EXPECT_GT(details, 8);
+  Run(1.5);
+  details = 0;
+  Run(2);
+  EXPECT_EQ(details, 0);
+}
+
+TEST_F(ForeignTypes, StatusCountsWhatNobodyWanted) {
+  auto status = lockstep.DriverNode("onboard").Subscribe(channels::kLinkStatus);
+  Run(3);
+  ASSERT_NE(status.get(), nullptr);
+  ASSERT_EQ(status.get()->all_channels, 2);
+  EXPECT_TRUE(status.get()->onboard);
+  EXPECT_GT(status.get()->channels[1].unwanted, 30);
+  EXPECT_EQ(status.get()->channels[0].unwanted, 0);
+  EXPECT_GT(status.get()->utilisation_in, 0);
+}
+
+TEST(RadioAppStart, KeysOfALinkWithoutChannelsAreRefused) {
+  EXPECT_THAT(StartError("port = 'a'\nbaud = 1200", kPoseLink), HasSubstr("channel"));
+}
+
+TEST(RadioAppStart, UdpNeedsDatagrams) {
+  EXPECT_THAT(StartError("port = 'udp:127.0.0.1:9000'", kPoseLink), HasSubstr("datagrams: expected true"));
+}
 
 TEST(RadioAppStart, ShippedConfigurationFits) {
   EXPECT_EQ(StartError("port = 'a'", kPoseLink), "");

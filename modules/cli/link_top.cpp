@@ -1,0 +1,167 @@
+#include "cli/link_top.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <functional>
+#include <iostream>
+
+#include "bus/clock.hpp"
+#include "bus/lcm_bus.hpp"
+#include "bus/node.hpp"
+#include "bus/own_types.hpp"
+#include "bus/real_time_loop.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr int kBarWidth = 24;
+constexpr Duration kStale{3'000'000};
+constexpr double kOnceWaits_s = 5;
+constexpr double kHold_s = 3;
+constexpr Duration kAskAgain{1'000'000};
+
+std::string Bar(double share) {
+  const int full = std::clamp(static_cast<int>(share * kBarWidth + 0.5), 0, kBarWidth);
+  return fmt::format("[{:#<{}}{:.<{}}] {:>3.0f} %", "", full, "", kBarWidth - full, share * 100);
+}
+
+std::string StateOf(const link_status_t& s, bool stale) {
+  if (stale) return "SILENT: is priamos-radio running on this bus?";
+  if (s.table_mismatch) return "TABLE MISMATCH: the other end has another link.toml or other types";
+  if (s.alarm) return "ALARM: frames arrive that the other end did not send";
+  return s.up ? "up" : "DOWN: nothing is heard from the other end";
+}
+
+/// Polls bus and signals until `until`, a signal or `done`; calls `every` ten times a second.
+void Watch(bus::LcmBus& bus, const bus::Clock& clock, Time until, const std::function<bool()>& done,
+           const std::function<void()>& every) {
+  const bus::SignalWatch signals;
+  while (clock.Now() < until && !done()) {
+    pollfd fds[] = {{bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
+    poll(fds, std::size(fds), 100);
+    if (fds[1].revents != 0) return;
+    bus.Drain();
+    every();
+  }
+}
+
+}  // namespace
+
+void LinkTopView::Add(const link_status_t& report, Time now) {
+  for (int i = 0; i < report.n_channels; ++i) {
+    const link_channel_t& channel = report.channels[static_cast<std::size_t>(i)];
+    const auto [at, is_new] = rows_.try_emplace(report.first_channel + i);
+    Row& row = at->second;
+    const double elapsed_s = Seconds(now - row.at);
+    // After a restart counters begin anew.
+    if (!is_new && elapsed_s > 0 && channel.messages >= row.channel.messages) {
+      row.messages_per_s = (channel.messages - row.channel.messages) / elapsed_s;
+      row.bytes_per_s = (channel.bytes - row.channel.bytes) / elapsed_s;
+    }
+    row.channel = channel;
+    row.at = now;
+  }
+  rows_.erase(rows_.lower_bound(report.all_channels), rows_.end());
+  last_ = report;
+  last_at_ = now;
+}
+
+std::string LinkTopView::Head(Time now) const {
+  const link_status_t& s = *last_;
+  const bool stale = now - last_at_ > kStale;
+  return fmt::format(
+      "radio link, {} end: {}\n"
+      "  sends {:<4} {}   {} frames, {} bytes, {} cut off, {} event pieces again\n"
+      "  hears {:<4} {}   {} frames, {} bytes, {} missed\n",
+      s.onboard ? "onboard" : "offboard", StateOf(s, stale), s.onboard ? "up" : "down", Bar(s.utilisation),
+      s.frames_sent, s.bytes_sent, s.frames_aborted, s.resent, s.onboard ? "down" : "up",
+      Bar(s.utilisation_in), s.frames_received, s.bytes_received, s.frames_missed);
+}
+
+std::string LinkTopView::Quality() const {
+  const link_status_t& s = *last_;
+  const std::string round_trip = s.round_trip_s < 0 ? "-" : fmt::format("{:.3f} s", s.round_trip_s);
+  return fmt::format(
+      "  round trip {}, delay {:.3f} s, frames lost {:.0f} % here and {:.0f} % there, bit errors {:.1e}\n"
+      "  refused: {} malformed, {} wrong code, {} replayed, {} flood; {} not readable\n",
+      round_trip, s.latency_s, s.loss * 100, s.peer_loss * 100, s.bit_error_rate, s.rejected_malformed,
+      s.rejected_code, s.rejected_replayed, s.rejected_flood, s.undecodable);
+}
+
+std::string LinkTopView::Table() const {
+  constexpr const char* kRow = "{:<5}{:<24}{:>7}{:>7}{:>9}{:>9}{:>8}{:>8}{:>9}{:>6}{:>7}{:>8}\n";
+  std::string text = fmt::format(fmt::runtime(kRow), "", "channel", "msg/s", "B/s", "messages", "replaced",
+                                 "expired", "refused", "unwanted", "late", "satur.", "queue s");
+  for (const bool outgoing : {true, false})
+    for (const auto& [number, row] : rows_) {
+      const link_channel_t& c = row.channel;
+      if (static_cast<bool>(c.outgoing) != outgoing) continue;
+      const bool up = outgoing == static_cast<bool>(last_->onboard);
+      text += fmt::format(fmt::runtime(kRow), up ? "up" : "down", c.channel,
+                          fmt::format("{:.1f}", row.messages_per_s), fmt::format("{:.0f}", row.bytes_per_s),
+                          c.messages, c.replaced, c.expired, c.dropped - c.expired, c.unwanted, c.late,
+                          c.saturated, fmt::format("{:.2f}", c.queue_age_s));
+    }
+  return text;
+}
+
+std::string LinkTopView::Render(Time now) const {
+  if (!last_) return "no LINK_STATUS yet: is priamos-radio running on this bus?\n";
+  return Head(now) + Quality() + Table();
+}
+
+int RunLinkTop(const LinkTopOptions& options) {
+  const bus::Schema schema = bus::OwnTypes();
+  const bus::MonotonicClock clock;
+  bus::LcmBus bus(options.bus);
+  bus::Node node(bus, schema, clock);
+  auto reports = node.SubscribeAll(channels::kLinkStatus);
+  LinkTopView view;
+  const auto take = [&] {
+    for (const link_status_t& report : reports.Drain()) view.Add(report, clock.Now());
+  };
+  const double seconds = options.once ? kOnceWaits_s : options.seconds;
+  const Time until = seconds > 0 ? clock.Now() + FromSeconds(seconds) : Time::max();
+  Time next = clock.Now();
+  Watch(
+      bus, clock, until, [&] { return options.once && !view.empty(); },
+      [&] {
+        take();
+        if (options.once || clock.Now() < next) return;
+        next = clock.Now() + FromSeconds(0.5);
+        std::cout << "\x1b[H\x1b[2J" << view.Render(clock.Now()) << std::flush;
+      });
+  if (options.once) std::cout << view.Render(clock.Now());
+  return options.once && view.empty() ? 1 : 0;
+}
+
+int RunLinkListen(const LinkTopOptions& options) {
+  const bus::Schema schema = bus::OwnTypes();
+  const bus::MonotonicClock clock;
+  bus::LcmBus bus(options.bus);
+  bus::Node node(bus, schema, clock);
+  auto publisher = node.Advertise(channels::kLinkRequest);
+  const auto ask = [&](double hold_s) {
+    link_request_t request{};
+    request.utime = ToUtime(clock.Now());
+    request.channel = options.channel;
+    request.hold_s = hold_s;
+    publisher.Publish(request);
+  };
+  Time next = clock.Now();
+  Watch(
+      bus, clock, options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max(),
+      [] { return false; },
+      [&] {
+        if (clock.Now() < next) return;
+        next = clock.Now() + kAskAgain;
+        ask(kHold_s);
+      });
+  ask(0);
+  return 0;
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "common/time.hpp"
+#include "priamos/link_status_t.hpp"
+
+namespace priamos::cli {
+
+/// What `priamos link top` shows: one end of the radio link, put together from its LINK_STATUS reports.
+/// Pure: time is given.
+class LinkTopView {
+ public:
+  /// A report that arrived at `now`. Reports of a link with many channels bring some of them each.
+  void Add(const link_status_t& report, Time now);
+  /// The screen as lines of text, at most 110 columns. Before the first report it says what is missing.
+  std::string Render(Time now) const;
+  bool empty() const { return !last_.has_value(); }
+
+ private:
+  struct Row {
+    link_channel_t channel{};
+    Time at{};
+    double messages_per_s = 0;  ///< between the last two reports of the channel
+    double bytes_per_s = 0;
+  };
+  std::string Head(Time now) const;
+  std::string Quality() const;
+  std::string Table() const;
+
+  std::optional<link_status_t> last_;
+  Time last_at_{};
+  std::map<int, Row> rows_;  ///< by number of the channel in the table
+};
+
+struct LinkTopOptions {
+  std::string bus = "udpm://239.255.76.67:7667?ttl=0";
+  bool once = false;      ///< print one screen and end
+  double seconds = 0;     ///< end after so long; 0: at Ctrl-C
+  std::string channel{};  ///< `listen`: the on-request channel that is wanted
+};
+
+/// Shows the link until Ctrl-C. Returns 0, or 1 when --once heard nothing within 5 s.
+int RunLinkTop(const LinkTopOptions& options);
+/// Asks the other end for an on-request channel for as long as it runs. Returns 0.
+int RunLinkListen(const LinkTopOptions& options);
+
+}  // namespace priamos::cli

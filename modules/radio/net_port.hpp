@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/serial_port.hpp"
+
+namespace priamos::radio {
+
+/// Links that are IP but thin. Ports are written
+///     udp:HOST:PORT          datagrams to and from HOST:PORT; bound to PORT here, too
+///     udp:HOST:PORT@LOCAL    bound to port LOCAL here
+///     tcp:HOST:PORT          connects, and again when the connection is lost
+///     tcp::PORT              waits for one to connect; a new connection replaces the old one
+/// HOST is a name or an address (IPv6 in brackets).
+struct NetAddress {
+  bool datagrams = false;
+  std::string host;  ///< empty: wait for a connection
+  std::string port;
+  std::string local_port;
+};
+
+/// True for what begins with "udp:" or "tcp:".
+bool IsNetPort(const std::string& port);
+
+/// Throws ConfigError with one sentence that shows the forms above.
+NetAddress ParseNetAddress(const std::string& port);
+
+/// UDP: what is written is put together to frames, up to and with the zero byte, and each goes as one
+/// datagram; a datagram that arrives is read with a zero at its end. What nobody receives is lost. TCP: a
+/// stream of bytes; written without a connection they are lost, as on a radio. Never blocks; names are looked
+/// up when it is opened. Throws std::runtime_error with one sentence when the port is taken or the host
+/// unknown.
+std::unique_ptr<ByteStream> OpenNetPort(const NetAddress& address);
+
+}  // namespace priamos::radio
