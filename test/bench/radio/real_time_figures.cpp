@@ -1,0 +1,148 @@
+// Real processes: `priamos link emulate` and two priamos-radio at full load, emergency stops in between.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "bus/clock.hpp"
+#include "bus/lcm_bus.hpp"
+#include "bus/schema/json.hpp"
+#include "bus/schema/schema.hpp"
+#include "cli/process_group.hpp"
+#include "figures.hpp"
+
+namespace priamos::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kFolder = std::string(PRIAMOS_SOURCE_DIR) + "/test/bench/radio";
+constexpr const char* kOnboardBus = "udpm://239.255.76.67:7667?ttl=0";
+constexpr const char* kOffboardBus = "udpm://239.255.76.68:7668?ttl=0";
+
+/// Processor time of the children whose command line has `word`, user and system.
+double CpuSeconds(const std::string& word) {
+  double ticks = 0;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::ifstream command(entry.path() / "cmdline"), stat(entry.path() / "stat");
+    std::string line, text;
+    std::getline(command, line);
+    if (line.find(word) == std::string::npos || !std::getline(stat, text)) continue;
+    std::istringstream fields(text.substr(text.rfind(')') + 2));
+    std::string field;
+    for (int i = 3; i <= 15 && fields >> field; ++i)
+      if (i >= 14) ticks += std::stod(field);
+  }
+  return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+class RealTimeRun {
+ public:
+  explicit RealTimeRun(const std::string& programs)
+      : types_(bus::Schema::ReadDirectory(kFolder)), onboard_(kOnboardBus), offboard_(kOffboardBus) {
+    const std::string folder = fs::temp_directory_path() / ("bench_radio." + std::to_string(getpid()));
+    fs::create_directories(folder);
+    const std::string a = folder + "/tty-a", b = folder + "/tty-b";
+    group_.Start("emulate", {programs + "/priamos", "link", "emulate", "--a", a, "--b", b, "--latency", "0"},
+                 folder + "/emulate.txt");
+    for (int i = 0; i < 500 && !fs::exists(b); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    StartRadio(programs, folder, "--onboard", a, kOnboardBus);
+    StartRadio(programs, folder, "--offboard", b, kOffboardBus);
+    onboard_.Subscribe("STOP", [this](std::string_view, std::span<const std::byte>) {
+      if (offered_) latencies_s_.push_back(Seconds(clock_.Now() - *offered_));
+      offered_.reset();
+    });
+    offboard_.Subscribe("EVENTS", [this](std::string_view, std::span<const std::byte>) { ++events_; });
+  }
+
+  void Run(double seconds) {
+    const Time end = clock_.Now() + FromSeconds(seconds);
+    Time next_stop = clock_.Now() + FromSeconds(0.3), next_load = clock_.Now();
+    while (clock_.Now() < end) {
+      onboard_.Drain();
+      offboard_.Drain();
+      if (clock_.Now() >= next_load) {
+        next_load += Duration(50'000);
+        Load();
+      }
+      if (clock_.Now() >= next_stop) {
+        lost_ += offered_ ? 1 : 0;
+        next_stop += FromSeconds(std::uniform_real_distribution<>(0.21, 0.35)(random_));
+        offered_ = clock_.Now();
+        Publish(offboard_, "STOP", "stop_t", {{"utime", ToUtime(clock_.Now())}, {"action", 1}});
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    if (const auto dead = group_.FirstDead()) throw std::runtime_error(*dead);
+  }
+  const std::vector<double>& latencies_s() const { return latencies_s_; }
+  int lost() const { return lost_; }
+  int events() const { return events_; }
+
+ private:
+  void StartRadio(const std::string& programs, const std::string& folder, const std::string& side,
+                  const std::string& port, const std::string& bus) {
+    group_.Start("radio " + side,
+                 {programs + "/priamos-radio", "--config", kFolder + "/link.toml", "--types", kFolder, side,
+                  "--port", port, "--bus", bus},
+                 folder + "/radio" + side + ".txt");
+  }
+  void Publish(bus::LcmBus& bus, const std::string& channel, const std::string& type,
+               const nlohmann::ordered_json& message) {
+    bus.Publish(channel, bus::FromJson(*types_.Find(type), message));
+  }
+  /// More than the line carries, both ways.
+  void Load() {
+    const std::int64_t now = ToUtime(clock_.Now());
+    const nlohmann::ordered_json report{{"utime", now}, {"text", std::string(180, 'x')}};
+    for (const char* channel : {"ORDERS", "BACKGROUND"}) Publish(offboard_, channel, "report_t", report);
+    Publish(offboard_, "DRIVE", "drive_t",
+            {{"vx_m_s", 0.1}, {"vy_m_s", 0}, {"wz_rad_s", 0}, {"time_to_live_s", 0.2}, {"mode", 1}});
+    Publish(onboard_, "EVENTS", "report_t", report);
+    Publish(onboard_, "POSE", "pose_velocity_t",
+            {{"utime", now},
+             {"x_m", 1},
+             {"y_m", 2},
+             {"yaw_rad", 0},
+             {"vx_m_s", 0},
+             {"vy_m_s", 0},
+             {"wz_rad_s", 0}});
+    Publish(onboard_, "SONARS", "sonars_t", {{"utime", now}, {"range_m", std::vector<double>(24, 1.5)}});
+  }
+
+  bus::Schema types_;
+  bus::MonotonicClock clock_;
+  bus::LcmBus onboard_, offboard_;
+  cli::ProcessGroup group_;
+  std::mt19937_64 random_{1};
+  std::optional<Time> offered_;
+  std::vector<double> latencies_s_;
+  int lost_ = 0, events_ = 0;
+};
+
+}  // namespace
+
+void RealTime(Figures& figures, const std::string& programs, double seconds) {
+  Figures::Section("Real time, over ptys, more offered than the line carries both ways");
+  RealTimeRun run(programs);
+  run.Run(5);
+  const double before = CpuSeconds("priamos-radio");
+  const auto warm = static_cast<std::ptrdiff_t>(run.latencies_s().size());
+  run.Run(seconds);
+  const double cpu = (CpuSeconds("priamos-radio") - before) / 2 / seconds;
+  const std::vector<double> latencies(run.latencies_s().begin() + warm, run.latencies_s().end());
+  figures.Note("emergency stops", static_cast<double>(latencies.size()), "");
+  figures.Exactly("lost", 0, run.lost(), "");
+  figures.Note("events of the other direction meanwhile", run.events(), "");
+  figures.AtMost("emergency stop, p99", 30, 1e3 * Quantile(latencies, 0.99), "ms");
+  figures.Note("  median", 1e3 * Quantile(latencies, 0.5), "ms");
+  figures.AtMost("processor time of one radio process", 3, 100 * cpu, "% of a core");
+}
+
+}  // namespace priamos::bench
