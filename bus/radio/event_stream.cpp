@@ -55,29 +55,38 @@ bool EventSender::Due(const Segment& segment, Time now) const {
   return !segment.held && (!segment.sent || now >= segment.sent_at + timeout_);
 }
 
-const EventSender::Segment* EventSender::NextDue(Time now) const {
+const EventSender::Segment* EventSender::NextDue(Time now, bool fresh_first) const {
   const std::size_t n = std::min(segments_.size(), kEventWindow);
-  for (std::size_t i = 0; i < n; ++i)
-    if (Due(segments_[i], now)) return &segments_[i];
-  return nullptr;
+  const Segment* overdue = nullptr;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!Due(segments_[i], now)) continue;
+    if (!fresh_first || segments_[i].times == 0) return &segments_[i];
+    if (overdue == nullptr) overdue = &segments_[i];
+  }
+  return overdue;
 }
 
 bool EventSender::Ready(Time now) const {
-  return NextDue(now) != nullptr;
+  return NextDue(now, false) != nullptr;
 }
 
-bool EventSender::NextIsNew(Time now) const {
-  const Segment* s = NextDue(now);
+bool EventSender::NextIsFresh(Time now, bool fresh_first) const {
+  const Segment* s = NextDue(now, fresh_first);
+  return s != nullptr && s->times == 0;
+}
+
+bool EventSender::NextIsNew(Time now, bool fresh_first) const {
+  const Segment* s = NextDue(now, fresh_first);
   return s != nullptr && !events_[s->event - first_event_].released;
 }
 
-Time EventSender::NextPackedAt(Time now) const {
-  const Segment* s = NextDue(now);
+Time EventSender::NextPackedAt(Time now, bool fresh_first) const {
+  const Segment* s = NextDue(now, fresh_first);
   return s == nullptr ? now : events_[s->event - first_event_].packed_at;
 }
 
-std::optional<EventSegment> EventSender::Next(Time now) const {
-  const Segment* s = NextDue(now);
+std::optional<EventSegment> EventSender::Next(Time now, bool fresh_first) const {
+  const Segment* s = NextDue(now, fresh_first);
   if (s == nullptr) return std::nullopt;
   const Event& event = events_[s->event - first_event_];
   EventSegment out;

@@ -75,12 +75,15 @@ class EventSender {
 
   /// Whether a segment is to be sent now: new, or its acknowledgement overdue.
   bool Ready(Time now) const;
-  /// The segment to be sent next, nullopt when there is none.
-  std::optional<EventSegment> Next(Time now) const;
+  /// The segment to be sent next, nullopt when there is none. `fresh_first`: what was never sent goes before
+  /// what is only overdue, so that an urgent event does not travel with repetitions of the one before.
+  std::optional<EventSegment> Next(Time now, bool fresh_first = false) const;
+  /// Whether that segment was never sent.
+  bool NextIsFresh(Time now, bool fresh_first) const;
   /// Whether that segment begins an event of which sending was never begun.
-  bool NextIsNew(Time now) const;
+  bool NextIsNew(Time now, bool fresh_first = false) const;
   /// When the event of that segment was packed.
-  Time NextPackedAt(Time now) const;
+  Time NextPackedAt(Time now, bool fresh_first = false) const;
   /// `at`: when its last byte will have left.
   void MarkSent(std::uint8_t number, Time at);
   /// The frame was aborted: as if never sent.
@@ -110,7 +113,7 @@ class EventSender {
   };
   void Cut(const Event& event);
   bool Due(const Segment& segment, Time now) const;
-  const Segment* NextDue(Time now) const;
+  const Segment* NextDue(Time now, bool fresh_first) const;
   Segment* Find(std::uint8_t number);
 
   std::uint8_t next_;

@@ -175,6 +175,7 @@ class LinkEndpoint {
   bool FrameAckDue(Time now) const;
   void AddControl(Time now, BitWriter& bundle, Flight& flight);
   void AddMessages(Time now, bool urgent_only, BitWriter& bundle, Flight& flight);
+  void AddSegments(std::size_t channel, Time now, bool urgent_only, BitWriter& bundle, Flight& flight);
   bool AddSegment(std::size_t channel, Time now, BitWriter& bundle, Flight& flight);
   void AddNewest(const SendQueue::Candidate& candidate, Time now, BitWriter& bundle, Flight& flight);
   bool AddEntry(const BundleEntry& entry, BitWriter& bundle, const Flight& flight) const;

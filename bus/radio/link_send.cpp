@@ -194,12 +194,19 @@ void LinkEndpoint::AddMessages(Time now, bool urgent_only, BitWriter& bundle, Fl
   for (const SendQueue::Candidate& candidate : queue_.Ready(now)) {
     if (urgent_only && !candidate.urgent) return;
     if (table_.at(candidate.channel).channel_class == ChannelClass::kEvent) {
-      while (AddSegment(candidate.channel, now, bundle, flight)) {
-      }
+      AddSegments(candidate.channel, now, urgent_only, bundle, flight);
     } else {
       AddNewest(candidate, now, bundle, flight);
     }
   }
+}
+
+void LinkEndpoint::AddSegments(std::size_t channel, Time now, bool urgent_only, BitWriter& bundle,
+                               Flight& flight) {
+  // What is urgent now is not made longer by repetitions of what was urgent before.
+  const bool fresh_only = urgent_only && queue_.NextIsFresh(channel, now);
+  while (!fresh_only || queue_.NextIsFresh(channel, now))
+    if (!AddSegment(channel, now, bundle, flight)) return;
 }
 
 bool LinkEndpoint::AddSegment(std::size_t channel, Time now, BitWriter& bundle, Flight& flight) {

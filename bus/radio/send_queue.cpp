@@ -90,7 +90,8 @@ double SendQueue::Effective(const LinkChannel& channel, Time since, Time now) co
 }
 
 bool SendQueue::EventReady(const Lane& lane, Time now) {
-  return lane.events.Ready(now) && (!lane.events.NextIsNew(now) || lane.event_rate.Allows(now));
+  return lane.events.Ready(now) &&
+         (!lane.events.NextIsNew(now, lane.channel->urgent) || lane.event_rate.Allows(now));
 }
 
 void SendQueue::AddReady(const Lane& lane, std::size_t index, Time now, std::vector<Candidate>& ready) const {
@@ -142,13 +143,18 @@ Time SendQueue::OfferedAt(const Candidate& candidate) const {
 
 std::optional<EventSegment> SendQueue::PeekEvent(std::size_t channel, Time now) const {
   const Lane& lane = lanes_[channel];
-  return EventReady(lane, now) ? lane.events.Next(now) : std::nullopt;
+  return EventReady(lane, now) ? lane.events.Next(now, lane.channel->urgent) : std::nullopt;
+}
+
+bool SendQueue::NextIsFresh(std::size_t channel, Time now) const {
+  return lanes_[channel].events.NextIsFresh(now, lanes_[channel].channel->urgent);
 }
 
 void SendQueue::TakeEvent(std::size_t channel, std::uint8_t number, Time now, Time leaves_at) {
   Lane& lane = lanes_[channel];
-  if (lane.events.NextIsNew(now))
-    lane.event_rate.Use(std::max(lane.events.NextPackedAt(now), lane.event_rate.next()));
+  const bool urgent = lane.channel->urgent;
+  if (lane.events.NextIsNew(now, urgent))
+    lane.event_rate.Use(std::max(lane.events.NextPackedAt(now, urgent), lane.event_rate.next()));
   lane.event_served = now;
   lane.events.MarkSent(number, leaves_at);
 }

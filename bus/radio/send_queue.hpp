@@ -89,6 +89,8 @@ class SendQueue {
   QueuedMessage Take(const Candidate& candidate);
   /// The segment an event channel would send next; the channel's rate only holds back new events.
   std::optional<EventSegment> PeekEvent(std::size_t channel, Time now) const;
+  /// Whether that segment was never sent before.
+  bool NextIsFresh(std::size_t channel, Time now) const;
   /// It is sent, its last byte leaves at `leaves_at`.
   void TakeEvent(std::size_t channel, std::uint8_t number, Time now, Time leaves_at);
   /// The frame was aborted: back into the queue, unless a newer message is there already.
