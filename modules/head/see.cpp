@@ -2,21 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "head/core/edge_segments.hpp"
+#include "head/projection_file.hpp"
+#include "head/see_drawing.hpp"
+#include "head/see_json.hpp"
 
 namespace priamos::head {
 namespace {
 
 constexpr int kSmallest_px = 32;
-constexpr int kShift = 4;  // cv::line takes sub-pixel points in 1/16 px
 
 cv::Mat ReadGrey(const std::string& file) {
   const cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE);
@@ -28,60 +31,93 @@ cv::Mat ReadGrey(const std::string& file) {
   return image;
 }
 
-cv::Point Fixed(const Eigen::Vector2d& p) {
-  return {static_cast<int>(std::lround(p.x() * (1 << kShift))),
-          static_cast<int>(std::lround(p.y() * (1 << kShift)))};
+/// Where a drawing goes; the folder's name keeps left/50.jpg and right/50.jpg apart.
+std::string DrawingFile(const SeeOptions& options, const std::string& image, const char* what) {
+  const std::filesystem::path path(image);
+  const std::string parent =
+      path.has_parent_path() ? path.parent_path().filename().string() + "-" : std::string();
+  return std::filesystem::path(options.folder) /
+         fmt::format("{}{}-{}.png", parent, path.stem().string(), what);
 }
 
-/// Upright edges green, level ones blue, others orange: a door shows at a glance.
-cv::Scalar ColourOf(const EdgeSegment& segment) {
-  const Eigen::Vector2d d = segment.direction().cwiseAbs();
-  constexpr double kNearlyAxis = 0.1;
-  if (d.x() < kNearlyAxis) return {60, 200, 60};
-  if (d.y() < kNearlyAxis) return {230, 140, 40};
-  return {40, 140, 250};
+void Write(const std::string& file, const cv::Mat& drawing) {
+  if (!cv::imwrite(file, drawing)) throw std::runtime_error(fmt::format("{}: cannot be written", file));
 }
 
-cv::Mat Draw(const cv::Mat& grey, const EdgeImage& edges) {
-  cv::Mat canvas;
-  cv::cvtColor(grey * 0.6 + 60, canvas, cv::COLOR_GRAY2BGR);
-  for (const EdgeSegment& s : edges.segments)
-    cv::line(canvas, Fixed(s.begin), Fixed(s.end), ColourOf(s), 2, cv::LINE_AA, kShift);
-  return canvas;
-}
+struct Photograph {
+  std::string file;
+  cv::Mat grey;
+  EdgeImage edges;
+};
 
-nlohmann::ordered_json ToJson(const std::string& file, const EdgeImage& edges) {
-  auto segments = nlohmann::ordered_json::array();
-  for (const EdgeSegment& s : edges.segments) {
-    segments.push_back({{"begin_px", {s.begin.x(), s.begin.y()}},
-                        {"end_px", {s.end.x(), s.end.y()}},
-                        {"sigma_normal_px", s.sigma_normal_px},
-                        {"sigma_angle_rad", s.sigma_angle_rad},
-                        {"grey_left", s.grey_left},
-                        {"grey_right", s.grey_right}});
+std::vector<Photograph> Read(const SeeOptions& options) {
+  std::vector<Photograph> photographs;
+  EdgeOperator edge_operator;
+  for (const std::string& file : options.images) {
+    Photograph& p = photographs.emplace_back(file, ReadGrey(file));
+    edge_operator.Extract(p.grey, p.edges);
   }
-  return {{"image", file}, {"width_px", edges.width}, {"height_px", edges.height}, {"segments", segments}};
+  return photographs;
+}
+
+std::vector<CameraModel> Cameras(const SeeOptions& options, const std::vector<Photograph>& photographs) {
+  if (options.cameras.empty()) return {};
+  const std::size_t n = photographs.size();
+  if (options.cameras.size() != n || n < 2 || n > 3)
+    throw std::runtime_error(fmt::format("expected two or three images and a camera for each, got {} and {}",
+                                         n, options.cameras.size()));
+  std::vector<CameraModel> cameras;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (photographs[i].grey.size() != photographs[0].grey.size())
+      throw std::runtime_error(fmt::format("{}: expected the size of {}, got {}x{}", photographs[i].file,
+                                           photographs[0].file, photographs[i].grey.cols,
+                                           photographs[i].grey.rows));
+    cameras.push_back(LoadProjection(options.cameras[i], photographs[i].grey.cols, photographs[i].grey.rows));
+  }
+  return cameras;
+}
+
+nlohmann::ordered_json SeeEach(const SeeOptions& options, const std::vector<Photograph>& photographs) {
+  auto all = nlohmann::ordered_json::array();
+  for (const Photograph& p : photographs) {
+    const ContourGraph contours(p.edges, {});
+    const auto is_parallelogram = [](const Polygon& q) { return q.is_parallelogram; };
+    const std::string drawing = DrawingFile(options, p.file, "edges");
+    Write(drawing, DrawContours(p.grey, p.edges, contours));
+    std::cout << fmt::format("{}: {} segments, {} corners, {} parallelograms, drawn in {}\n", p.file,
+                             p.edges.segments.size(), contours.corners().size(),
+                             std::ranges::count_if(contours.polygons(), is_parallelogram), drawing);
+    all.push_back(EdgesToJson(p.file, p.edges, contours));
+  }
+  return all;
+}
+
+nlohmann::ordered_json SeeTogether(const SeeOptions& options, const std::vector<Photograph>& photographs,
+                                   const std::vector<CameraModel>& cameras) {
+  std::vector<CameraView> views;
+  std::vector<cv::Mat> greys;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    views.push_back(MakeView(cameras[i], photographs[i].edges));
+    greys.push_back(photographs[i].grey);
+  }
+  const auto matches = views.size() == 2 ? MatchBinocular(views[0], views[1], {})
+                                         : MatchTrinocular(views[0], views[1], views[2], {});
+  const auto reconstructed =
+      std::ranges::count_if(matches, [](const StereoMatch& m) { return m.space.has_value(); });
+  const std::string drawing = DrawingFile(options, photographs[0].file, "stereo");
+  Write(drawing, DrawMatches(greys, views, matches));
+  std::cout << fmt::format("together: {} matches, {} of them with a place in space, drawn in {}\n",
+                           matches.size(), reconstructed, drawing);
+  return MatchesToJson(views, matches);
 }
 
 }  // namespace
 
 void See(const SeeOptions& options) {
-  auto all = nlohmann::ordered_json::array();
-  EdgeOperator edge_operator;
-  for (const std::string& file : options.images) {
-    const cv::Mat grey = ReadGrey(file);
-    EdgeImage edges;
-    edge_operator.Extract(grey, edges);
-    const std::filesystem::path path(file);
-    // The folder's name keeps left/50.jpg and right/50.jpg apart.
-    const std::string name =
-        path.has_parent_path() ? path.parent_path().filename().string() + "-" : std::string();
-    const auto drawing = std::filesystem::path(options.folder) / (name + path.stem().string() + "-edges.png");
-    if (!cv::imwrite(drawing.string(), Draw(grey, edges)))
-      throw std::runtime_error(fmt::format("{}: cannot be written", drawing.string()));
-    std::cout << fmt::format("{}: {} segments, drawn in {}\n", file, edges.segments.size(), drawing.string());
-    all.push_back(ToJson(file, edges));
-  }
+  const auto photographs = Read(options);
+  const auto cameras = Cameras(options, photographs);
+  nlohmann::ordered_json all{{"images", SeeEach(options, photographs)}};
+  if (!cameras.empty()) all["matches"] = SeeTogether(options, photographs, cameras);
   if (options.json.empty()) return;
   std::ofstream out(options.json);
   out << all.dump(1) << "\n";

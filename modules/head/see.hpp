@@ -5,15 +5,18 @@
 
 namespace priamos::head {
 
-/// What the edge operator finds in photographs; no robot needed.
+/// What seeing finds in photographs; no robot needed.
 struct SeeOptions {
   std::vector<std::string> images;  ///< files OpenCV can read
-  std::string folder = ".";         ///< NAME-edges.png for each image NAME is written here
-  std::string json;                 ///< all segments with sub-pixel ends; empty: none
+  std::vector<std::string>
+      cameras{};             ///< projection files (LoadProjection) of two or three images of one scene
+  std::string folder = ".";  ///< NAME-edges.png per image, and NAME-stereo.png, are written here
+  std::string json{};        ///< all that was found; empty: none
 };
 
-/// Draws the edge segments of each image and lists them. Throws std::runtime_error naming a file that cannot
-/// be read, is too small, or cannot be written; then nothing has been written for that image.
+/// Draws edges, corners and outlines of each image, with `cameras` also what the images have in common, and
+/// lists all of it. Throws std::runtime_error naming a file that cannot be read, does not fit the others, or
+/// cannot be written; then nothing has been written for that image.
 void See(const SeeOptions& options);
 
 }  // namespace priamos::head

@@ -1,0 +1,129 @@
+#include "head/see.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "head/projection_file.hpp"
+#include "test/support/temporary_folder.hpp"
+
+namespace priamos::head {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kWidth = 320, kHeight = 240;
+constexpr double kFocal = 300, kBaseline = 0.12, kDepth = 2.0;
+constexpr double kDisparity = kFocal * kBaseline / kDepth;  // 18 px
+
+class SeeTest : public ::testing::Test {
+ protected:
+  /// A bright board 2 m before the cameras, wider than high.
+  std::string Photograph(const std::string& name, double shift) {
+    cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(60));
+    const auto left = static_cast<int>(120 - shift);
+    cv::rectangle(image, {left, 70}, {left + 100, 150}, cv::Scalar(180), cv::FILLED);
+    cv::GaussianBlur(image, image, {}, 0.8);
+    const std::string file = folder_ / name;
+    cv::imwrite(file, image);
+    return file;
+  }
+
+  std::string Camera(const std::string& name, double baseline, const std::string& extra = "") {
+    const std::string file = folder_ / name;
+    std::ofstream(file) << "%YAML:1.0\n---\nimage_width: " << kWidth << "\nimage_height: " << kHeight
+                        << "\nprojection_matrix:\n   rows: 3\n   cols: 4\n   data: [ " << kFocal
+                        << ", 0., 160., " << -kFocal * baseline << ", 0., " << kFocal
+                        << ", 120., 0., 0., 0., 1., 0. ]\n"
+                        << extra;
+    return file;
+  }
+
+  nlohmann::json SeePair() {
+    See({.images = {Photograph("left.png", 0), Photograph("right.png", kDisparity)},
+         .cameras = {Camera("left.yaml", 0), Camera("right.yaml", kBaseline)},
+         .folder = folder_.path(),
+         .json = folder_ / "all.json"});
+    return nlohmann::json::parse(std::ifstream(folder_ / "all.json"));
+  }
+
+  std::string ErrorOf(const SeeOptions& options) {
+    try {
+      See(options);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(SeeTest, ABoardIsAParallelogramWithFourCorners) {
+  const auto dut = SeePair()["images"][0];
+  EXPECT_EQ(dut["segments"].size(), 4u);
+  EXPECT_EQ(dut["corners"].size(), 4u);
+  ASSERT_EQ(dut["outlines"].size(), 1u);
+  EXPECT_TRUE(dut["outlines"][0]["parallelogram"]);
+}
+
+TEST_F(SeeTest, UprightEdgesOfAPairAreInSpaceLevelOnesAreNot) {
+  const auto dut = SeePair()["matches"];
+  int in_space = 0, along_epipolar_lines = 0;
+  for (const auto& match : dut) {
+    if (!match.contains("from_m")) {
+      ++along_epipolar_lines;
+      continue;
+    }
+    ++in_space;
+    EXPECT_NEAR(match["from_m"][2].get<double>(), kDepth, 0.02);
+    EXPECT_NEAR(match["to_m"][2].get<double>(), kDepth, 0.02);
+  }
+  EXPECT_EQ(in_space, 2);
+  EXPECT_EQ(along_epipolar_lines, 2);
+}
+
+TEST_F(SeeTest, DrawingsLieSideBySide) {
+  SeePair();
+  int stereo = 0, edges = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    const std::string name = entry.path().filename();
+    if (name.ends_with("-edges.png")) ++edges;
+    if (!name.ends_with("-stereo.png")) continue;
+    ++stereo;
+    EXPECT_EQ(cv::imread(entry.path()).size(), cv::Size(2 * kWidth, kHeight));
+  }
+  EXPECT_EQ(edges, 2);
+  EXPECT_EQ(stereo, 1);
+}
+
+TEST_F(SeeTest, WhatCannotBeUsedIsNamed) {
+  const std::string photo = Photograph("left.png", 0);
+  const std::string other = Photograph("right.png", kDisparity);
+  const std::string camera = Camera("left.yaml", 0);
+  const std::string missing = folder_ / "none.png";
+  EXPECT_THAT(ErrorOf({.images = {missing}, .folder = folder_.path()}), HasSubstr(missing));
+  EXPECT_THAT(ErrorOf({.images = {photo}, .cameras = {camera, camera}, .folder = folder_.path()}),
+              HasSubstr("a camera for each"));
+  EXPECT_THAT(ErrorOf({.images = {photo, other}, .cameras = {camera, photo}, .folder = folder_.path()}),
+              HasSubstr("left.png"));
+  EXPECT_THAT(
+      ErrorOf({.images = {photo, other},
+               .cameras = {camera, Camera("bent.yaml", 0.1,
+                                          "distortion_coefficients:\n   data: [ 0.1, 0., 0., 0., 0. ]\n")},
+               .folder = folder_.path()}),
+      HasSubstr("rectified"));
+}
+
+TEST_F(SeeTest, ACameraOfAnotherImageIsRefused) {
+  const std::string camera = Camera("left.yaml", 0);
+  EXPECT_NO_THROW(LoadProjection(camera, kWidth, kHeight));
+  EXPECT_THROW(LoadProjection(camera, kWidth + 1, kHeight), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace priamos::head
