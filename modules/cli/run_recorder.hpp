@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "bus/log.hpp"
+#include "bus/log/log_writer.hpp"
 #include "cli/report_record.hpp"
 #include "common/time.hpp"
 

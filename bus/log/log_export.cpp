@@ -1,0 +1,171 @@
+#include "bus/log/log_export.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <tuple>
+
+#include "bus/log/csv_table.hpp"
+#include "bus/log/log_writer.hpp"
+#include "bus/log/mcap_writer.hpp"
+#include "bus/schema/json_schema.hpp"
+#include "bus/schema/schema.hpp"
+#include "bus/schema/walk.hpp"
+
+namespace priamos::bus {
+namespace {
+
+using Handler = std::function<void(const Struct&, const std::string& channel, const LogEvent&)>;
+
+/// Calls `handle` with every wanted event that is a message.
+ExportCount ForEachMessage(LogReader& reader, const Schema& schema, const LogSelection& selection,
+                           const Handler& handle) {
+  ExportCount count;
+  while (const auto event = reader.Next()) {
+    if (!selection.Wants(event->utime, event->channel)) continue;
+    const Struct* type = schema.Find(FingerprintOf(event->bytes.data(), event->bytes.size()));
+    if (type == nullptr || !Walk(*type, event->bytes)) {
+      ++count.undecodable;
+      continue;
+    }
+    handle(*type, selection.NameOf(event->channel), *event);
+    ++count.written;
+  }
+  return count;
+}
+
+/// A channel's name may hold what no file name can.
+std::string FileName(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '/' || c == '\\' || c == ' '; }, '_');
+  return name.starts_with('.') ? "_" + name : name;
+}
+
+/// The tables of an export, made when their first row comes.
+class CsvFolder {
+ public:
+  explicit CsvFolder(const std::filesystem::path& folder) : folder_(folder) {
+    std::filesystem::create_directories(folder);
+  }
+
+  void Add(const Struct& type, const std::string& channel, const LogEvent& event) {
+    auto found = tables_.find({channel, &type});
+    if (found == tables_.end()) found = tables_.try_emplace({channel, &type}, Open(type, channel)).first;
+    found->second.table.WriteRow(found->second.file, event);
+  }
+  void Close() {
+    for (auto& [key, open] : tables_) {
+      open.file.close();
+      if (!open.file)
+        throw std::runtime_error(fmt::format("{}: cannot be written: is the disk full?", open.path.string()));
+    }
+  }
+
+ private:
+  struct OpenTable {
+    CsvTable table;
+    std::filesystem::path path;
+    std::ofstream file;
+  };
+  OpenTable Open(const Struct& type, const std::string& channel) {
+    const bool first = std::none_of(tables_.begin(), tables_.end(),
+                                    [&](const auto& entry) { return entry.first.first == channel; });
+    const std::string name = FileName(first ? channel : channel + "." + type.full_name) + ".csv";
+    OpenTable open{CsvTable(type), folder_ / name, std::ofstream(folder_ / name, std::ios::binary)};
+    if (!open.file)
+      throw std::runtime_error(
+          fmt::format("{}: cannot be written: {}", open.path.string(), std::strerror(errno)));
+    open.table.WriteHeader(open.file);
+    return open;
+  }
+  std::filesystem::path folder_;
+  std::map<std::pair<std::string, const Struct*>, OpenTable> tables_;
+};
+
+std::string SchemaText(const Struct& type) {
+  try {
+    return JsonSchemaOf(type).dump();
+  } catch (const SchemaError&) {  // it contains itself: any object
+    return Json{{"title", type.full_name}, {"type", "object"}}.dump();
+  }
+}
+
+/// Schemas and channels of an MCAP file, made when their first message comes.
+class McapIds {
+ public:
+  explicit McapIds(McapWriter& writer) : writer_(writer) {}
+
+  std::uint16_t ChannelOf(const std::string& channel, const Struct& type) {
+    const auto [at, added] = channels_.try_emplace({channel, &type});
+    if (added) at->second = writer_.AddChannel(channel, SchemaOf(type));
+    return at->second;
+  }
+
+ private:
+  std::uint16_t SchemaOf(const Struct& type) {
+    const auto [at, added] = schemas_.try_emplace(&type);
+    if (added) at->second = writer_.AddSchema(type.full_name, SchemaText(type));
+    return at->second;
+  }
+  McapWriter& writer_;
+  std::map<std::pair<std::string, const Struct*>, std::uint16_t> channels_;
+  std::map<const Struct*, std::uint16_t> schemas_;
+};
+
+}  // namespace
+
+ExportCount ExportJsonLines(LogReader& reader, const Schema& schema, const LogSelection& selection,
+                            std::ostream& out) {
+  return ForEachMessage(reader, schema, selection,
+                        [&](const Struct& type, const std::string& channel, const LogEvent& event) {
+                          const Json line{{"utime", event.utime},
+                                          {"number", event.number},
+                                          {"channel", channel},
+                                          {"type", type.full_name},
+                                          {"message", ToJson(type, event.bytes)}};
+                          out << line.dump() << '\n';
+                        });
+}
+
+ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelection& selection,
+                      const std::filesystem::path& folder) {
+  CsvFolder tables(folder);
+  const auto count = ForEachMessage(
+      reader, schema, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
+        tables.Add(type, channel, event);
+      });
+  tables.Close();
+  return count;
+}
+
+ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelection& selection,
+                       std::ostream& out) {
+  McapWriter writer(out);
+  McapIds ids(writer);
+  const auto count = ForEachMessage(
+      reader, schema, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
+        const auto time_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(event.utime, 0)) * 1000;
+        writer.AddMessage(ids.ChannelOf(channel, type), static_cast<std::uint32_t>(event.number), time_ns,
+                          ToJson(type, event.bytes).dump());
+      });
+  writer.Finish();
+  return count;
+}
+
+std::uint64_t CopyEvents(LogReader& reader, const LogSelection& selection, LogWriter& writer) {
+  std::uint64_t copied = 0;
+  while (const auto event = reader.Next()) {
+    if (!selection.Wants(event->utime, event->channel)) continue;
+    writer.Write(event->utime, selection.NameOf(event->channel), event->bytes);
+    ++copied;
+  }
+  return copied;
+}
+
+}  // namespace priamos::bus

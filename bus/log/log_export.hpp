@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+
+#include "bus/log/log_reader.hpp"
+#include "bus/log/log_selection.hpp"
+
+namespace priamos::bus {
+
+class LogWriter;
+class Schema;
+
+/// What an export wrote, and what it could not.
+struct ExportCount {
+  std::uint64_t written = 0;
+  std::uint64_t undecodable = 0;  ///< of unknown type or refused by the schema walk: left out
+};
+
+/// One line of JSON per event: {"utime", "number", "channel", "type", "message"}.
+ExportCount ExportJsonLines(LogReader& reader, const Schema& schema, const LogSelection& selection,
+                            std::ostream& out);
+
+/// One table per channel, `<folder>/<CHANNEL>.csv`; a channel that carries several types gets
+/// `<CHANNEL>.<type>.csv` for each but the first. Throws std::runtime_error when a file cannot be written.
+ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelection& selection,
+                      const std::filesystem::path& folder);
+
+/// An MCAP file with a JSON schema per type (see McapWriter).
+ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelection& selection,
+                       std::ostream& out);
+
+/// The wanted events, whole and with their new names, into another log. Returns their number.
+std::uint64_t CopyEvents(LogReader& reader, const LogSelection& selection, LogWriter& writer);
+
+}  // namespace priamos::bus

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "bus/log/log_event.hpp"
+
+namespace priamos::bus {
+
+/// Reads LCM's log format. Damage does not end the reading: the reader goes on at the next credible event
+/// and counts what it skipped. A file is mapped, not loaded, so a log may be larger than the memory.
+class LogReader {
+ public:
+  static constexpr std::size_t kMaxChannelBytes = 255;
+  static constexpr std::size_t kMaxDataBytes = 1 << 24;
+
+  /// Throws std::runtime_error when the file cannot be read.
+  explicit LogReader(const std::string& path);
+  /// From bytes that outlive the reader.
+  explicit LogReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  /// The next whole event, or nullopt at the end.
+  std::optional<LogEvent> Next();
+  /// Bytes so far that belong to no whole event.
+  std::uint64_t skipped_bytes() const { return skipped_; }
+  /// How often whole events were interrupted by something else.
+  std::uint64_t damaged_places() const { return damaged_places_; }
+  std::size_t size() const { return bytes_.size(); }
+  /// Goes on at LogEvent::offset of an event read before; what was skipped stays counted.
+  void Seek(std::size_t offset) { offset_ = offset; }
+
+ private:
+  std::optional<LogEvent> ParseAt(std::size_t offset, std::size_t& end) const;
+  bool MagicAt(std::size_t offset) const;
+  bool FindMagic(std::size_t begin, std::size_t end) const;
+
+  std::shared_ptr<const void> mapping_;  ///< keeps the mapped file
+  std::span<const std::byte> bytes_;
+  std::size_t offset_ = 0;
+  std::uint64_t skipped_ = 0;
+  std::uint64_t damaged_places_ = 0;
+};
+
+}  // namespace priamos::bus

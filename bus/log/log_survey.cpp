@@ -1,0 +1,80 @@
+#include "bus/log/log_survey.hpp"
+
+#include <algorithm>
+
+#include "bus/schema/schema.hpp"
+#include "bus/schema/walk.hpp"
+
+namespace priamos::bus {
+namespace {
+
+/// A jump by more than this is a damaged number or a joined log, not a loss.
+constexpr std::int64_t kLargestGap = 1'000'000;
+
+/// Events missing from the recorder's numbers. A gap counts when the event behind it goes on from there: one
+/// damaged number is no loss.
+class NumberSequence {
+ public:
+  void Add(std::int64_t number) {
+    const bool proves_gap = gap_ > 0 && number == gap_end_;
+    const bool disproves_gap = gap_ > 0 && number == expected_ + 1;  // only the number before was wrong
+    if (proves_gap) missing_ += gap_;
+    gap_ = 0;
+    if (started_ && !proves_gap && !disproves_gap && number > expected_ &&
+        number - expected_ <= kLargestGap) {
+      gap_ = number - expected_;
+      gap_end_ = number + 1;
+      return;  // expected_ stays, until the next event tells
+    }
+    started_ = true;
+    expected_ = number + 1;
+  }
+  std::uint64_t Missing() const { return static_cast<std::uint64_t>(missing_ + gap_); }
+
+ private:
+  bool started_ = false;
+  std::int64_t expected_ = 0;
+  std::int64_t missing_ = 0, gap_ = 0;
+  std::int64_t gap_end_ = 0;  ///< the number that proves the gap
+};
+
+void Count(LogSurvey::Channel& channel, const LogEvent& event, const Schema& schema) {
+  const Struct* type = schema.Find(FingerprintOf(event.bytes.data(), event.bytes.size()));
+  channel.types.insert(type ? type->full_name : "?");
+  channel.undecodable += type == nullptr || !Walk(*type, event.bytes);
+  channel.first_utime = channel.events == 0 ? event.utime : std::min(channel.first_utime, event.utime);
+  channel.last_utime = channel.events == 0 ? event.utime : std::max(channel.last_utime, event.utime);
+  channel.bytes += event.bytes.size();
+  ++channel.events;
+}
+
+}  // namespace
+
+double LogSurvey::Channel::RateHz() const {
+  const auto span_us = static_cast<double>(last_utime - first_utime);
+  return events > 1 && span_us > 0 ? static_cast<double>(events - 1) / span_us * 1e6 : 0;
+}
+
+LogSurvey Survey(LogReader& reader, const Schema& schema) {
+  LogSurvey survey;
+  survey.size_bytes = reader.size();
+  NumberSequence numbers;
+  while (const auto event = reader.Next()) {
+    numbers.Add(event->number);
+    Count(survey.channels[event->channel], *event, schema);
+    ++survey.events;
+  }
+  survey.missing_numbers = numbers.Missing();
+  survey.skipped_bytes = reader.skipped_bytes();
+  survey.damaged_places = reader.damaged_places();
+  bool first = true;
+  for (const auto& [name, channel] : survey.channels) {
+    survey.undecodable += channel.undecodable;
+    survey.first_utime = first ? channel.first_utime : std::min(survey.first_utime, channel.first_utime);
+    survey.last_utime = first ? channel.last_utime : std::max(survey.last_utime, channel.last_utime);
+    first = false;
+  }
+  return survey;
+}
+
+}  // namespace priamos::bus

@@ -1,0 +1,132 @@
+#include "bus/log/log_reader.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "bus/log/log_writer.hpp"
+
+namespace priamos::bus {
+namespace {
+
+class Log : public testing::Test {
+ protected:
+  void SetUp() override { path_ = testing::TempDir() + "log_test-" + std::to_string(getpid()) + ".lcmlog"; }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  std::vector<std::byte> WriteSmallLog(int events) {
+    {
+      LogWriter writer(path_);
+      for (int i = 0; i < events; ++i) writer.Write(1000 + i, i % 2 ? "POSE" : "HEALTH", Payload(i));
+    }
+    std::ifstream file(path_, std::ios::binary);
+    std::vector<char> chars(std::istreambuf_iterator<char>(file), {});
+    std::vector<std::byte> bytes(chars.size());
+    std::memcpy(bytes.data(), chars.data(), chars.size());
+    return bytes;
+  }
+
+  static std::vector<std::byte> Payload(int i) {
+    std::vector<std::byte> bytes(static_cast<std::size_t>(20 + i % 7));
+    for (std::size_t k = 0; k < bytes.size(); ++k)
+      bytes[k] = static_cast<std::byte>(i * 31 + static_cast<int>(k));
+    return bytes;
+  }
+
+  std::string path_;
+};
+
+TEST_F(Log, ReadsBackWhatWasWritten) {
+  WriteSmallLog(10);
+  LogReader dut(path_);
+  for (int i = 0; i < 10; ++i) {
+    const auto event = dut.Next();
+    ASSERT_TRUE(event);
+    EXPECT_EQ(event->number, i);
+    EXPECT_EQ(event->utime, 1000 + i);
+    EXPECT_EQ(event->channel, i % 2 ? "POSE" : "HEALTH");
+    EXPECT_EQ(event->bytes, Payload(i));
+  }
+  EXPECT_FALSE(dut.Next());
+  EXPECT_EQ(dut.skipped_bytes(), 0u);
+}
+
+/// Flips every byte of a log of 64 kB in turn: whatever is not hit is read, and what is not read is told.
+void FlipEveryByte(std::vector<std::byte> bytes, std::byte mask) {
+  std::vector<LogEvent> whole;
+  LogReader reader(bytes);
+  while (auto event = reader.Next()) whole.push_back(std::move(*event));
+  for (std::size_t flip = 0; flip < bytes.size(); ++flip) {
+    bytes[flip] ^= mask;
+    LogReader dut(bytes);
+    std::size_t missed = 0, at = 0;
+    for (auto event = dut.Next(); event; event = dut.Next()) {
+      while (at < whole.size() && whole[at].offset < event->offset) ++missed, ++at;
+      if (at == whole.size() || whole[at].offset != event->offset) continue;  // not one that was written
+      const bool hit = flip >= event->offset && (at + 1 == whole.size() || flip < whole[at + 1].offset);
+      const bool same = event->number == whole[at].number && event->utime == whole[at].utime &&
+                        event->channel == whole[at].channel && event->bytes == whole[at].bytes;
+      ASSERT_TRUE(hit || same) << "event " << at << " changed by damage at byte " << flip;
+      ++at;
+    }
+    missed += whole.size() - at;
+    ASSERT_LE(missed, 1u) << "undamaged events lost by damage at byte " << flip;
+    if (missed > 0) {
+      ASSERT_GT(dut.skipped_bytes(), 0u) << "a loss at byte " << flip << " is not told";
+    }
+    bytes[flip] ^= mask;
+  }
+}
+
+TEST_F(Log, EveryUndamagedEventOf64kBIsReadWhateverByteIsInverted) {
+  FlipEveryByte(WriteSmallLog(1180), std::byte{0xff});
+}
+
+TEST_F(Log, EveryUndamagedEventOf64kBIsReadWhateverBitIsFlipped) {
+  const auto bytes = WriteSmallLog(1180);
+  ASSERT_GT(bytes.size(), 64000u);
+  FlipEveryByte(bytes, std::byte{0x10});
+}
+
+TEST_F(Log, TruncatedLogEndsWithItsLastWholeEvent) {
+  auto bytes = WriteSmallLog(3);
+  bytes.resize(bytes.size() - 5);
+  LogReader dut(bytes);
+  EXPECT_TRUE(dut.Next());
+  EXPECT_TRUE(dut.Next());
+  EXPECT_FALSE(dut.Next());
+  EXPECT_GT(dut.skipped_bytes(), 0u);
+  EXPECT_EQ(dut.damaged_places(), 1u);
+}
+
+TEST_F(Log, SeekGoesBackToAnEvent) {
+  const auto bytes = WriteSmallLog(5);
+  LogReader dut(bytes);
+  dut.Next();
+  const auto second = dut.Next();
+  while (dut.Next()) {
+  }
+  dut.Seek(second->offset);
+  EXPECT_EQ(dut.Next()->number, 1);
+}
+
+TEST_F(Log, EmptyFileHoldsNothing) {
+  std::ofstream(path_).close();
+  LogReader dut(path_);
+  EXPECT_FALSE(dut.Next());
+  EXPECT_EQ(dut.skipped_bytes(), 0u);
+}
+
+TEST_F(Log, FolderIsASentence) {
+  EXPECT_THROW(LogReader(std::string("/tmp")), std::runtime_error);
+}
+
+TEST_F(Log, AbsentFileIsASentence) {
+  EXPECT_THROW(LogReader(std::string("/nowhere/a.lcmlog")), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace priamos::bus
