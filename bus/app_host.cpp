@@ -7,6 +7,16 @@ namespace {
 
 constexpr Duration kHealthPeriod = std::chrono::seconds(1);
 
+constexpr std::size_t kHealthTextBytes = 100;  // @max of health_t.text
+
+/// At most `bytes` bytes, and no half character at the end.
+std::string CutUtf8(std::string text, std::size_t bytes) {
+  if (text.size() <= bytes) return text;
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xc0) == 0x80) --bytes;
+  text.resize(bytes);
+  return text;
+}
+
 std::int32_t Capped(std::uint64_t count) {
   return static_cast<std::int32_t>(std::min<std::uint64_t>(count, 1000000));
 }
@@ -28,6 +38,7 @@ std::int8_t ToMessage(Health health) {
 AppHost::AppHost(const AppFactory& factory, const ConfigSource& source, LcmBus& bus, const Schema& schema,
                  const Clock& clock, Surroundings surroundings)
     : name_(factory.name),
+      bus_(bus),
       node_(bus, schema, clock),
       context_(node_, std::move(surroundings)),
       health_(node_.Advertise(channels::kHealth)),
@@ -47,6 +58,14 @@ void AppHost::Step(Time now) {
   if (now >= next_health_) PublishHealth(now);
 }
 
+/// What the App says of itself comes first; after it, per channel, what went wrong on the bus.
+std::string AppHost::HealthText() const {
+  std::string text = context_.health_text();
+  const std::string problems = node_.Problems();
+  if (!text.empty() && !problems.empty()) text += "; ";
+  return CutUtf8(text + problems, kHealthTextBytes);
+}
+
 void AppHost::PublishHealth(Time now) {
   next_health_ = now + kHealthPeriod;
   const ChannelCounters totals = node_.Totals();
@@ -54,11 +73,11 @@ void AppHost::PublishHealth(Time now) {
   message.utime = ToUtime(now);
   message.process = name_.substr(0, 16);
   message.state = ToMessage(context_.health());
-  message.messages_lost = Capped(totals.dropped + totals.publish_failed);
-  message.decode_errors = Capped(totals.refused);
+  message.messages_lost = Capped(totals.dropped + totals.publish_failed + bus_.lost());
+  message.decode_errors = Capped(totals.refused + bus_.malformed());
   message.handler_exceptions = Capped(totals.exceptions);
   message.loop_overruns = Capped(static_cast<std::uint64_t>(overruns_));
-  message.text = context_.health_text();
+  message.text = HealthText();
   health_.Publish(message);
 }
 

@@ -26,7 +26,10 @@ class AppHost {
  private:
   void PublishHealth(Time now);
 
+  std::string HealthText() const;
+
   std::string name_;
+  LcmBus& bus_;
   Node node_;
   Context context_;
   Publisher<health_t> health_;

@@ -4,7 +4,7 @@
 #include <lcm/lcm.h>
 
 #include "bus/multicast.hpp"
-#include "bus/socket_filter.hpp"
+#include "bus/udp_receiver.hpp"
 
 namespace priamos::bus {
 
@@ -23,6 +23,8 @@ void LcmBus::Closer::operator()(_lcm_t* lcm) const {
 
 namespace {
 
+constexpr const char* kEverything = ".*";
+
 lcm_t* Open(const std::string& url) {
   if (url.starts_with("udpm://")) RequireMulticastRoute(url);
   lcm_t* lcm = lcm_create(url.c_str());
@@ -34,27 +36,33 @@ lcm_t* Open(const std::string& url) {
 
 }  // namespace
 
-LcmBus::LcmBus(const std::string& url) : url_(url), lcm_(Open(url)) {}
+LcmBus::LcmBus(const std::string& url, Messages messages) : url_(url), messages_(messages), lcm_(Open(url)) {}
 
 LcmBus::~LcmBus() = default;
 
 bool LcmBus::Publish(std::string_view channel, std::span<const std::byte> bytes) {
-  if (bytes.size() > kMaxMessageBytes) return false;
+  if (!Fits(bytes.size())) return false;
   return lcm_publish(lcm_.get(), std::string(channel).c_str(), bytes.data(),
                      static_cast<unsigned>(bytes.size())) == 0;
 }
 
 void LcmBus::Subscribe(std::string_view channel, Handler handler) {
-  SubscribeRegex(std::string(channel), std::move(handler));
+  if (url_.starts_with("udpm://") && messages_ == Messages::kParametric) {
+    if (!receiver_) receiver_ = std::make_unique<UdpReceiver>(url_);
+    auto& handlers = channel == kEverything ? of_everything_ : by_channel_[std::string(channel)];
+    handlers.push_back(std::move(handler));
+  } else {
+    ListenThroughLiblcm(std::string(channel), std::move(handler));
+  }
 }
 
 void LcmBus::SubscribeEverything(Handler handler) {
-  SubscribeRegex(".*", std::move(handler));
+  Subscribe(kEverything, std::move(handler));
 }
 
-void LcmBus::SubscribeRegex(const std::string& regex, Handler handler) {
+void LcmBus::ListenThroughLiblcm(const std::string& channel, Handler handler) {
   auto subscription = std::make_unique<Subscription>(Subscription{std::move(handler)});
-  auto* handle = lcm_subscribe(lcm_.get(), regex.c_str(), &Subscription::OnMessage, subscription.get());
+  auto* handle = lcm_subscribe(lcm_.get(), channel.c_str(), &Subscription::OnMessage, subscription.get());
   if (!handle) {
     throw BusError(
         fmt::format("bus {}: expected to receive, got no multicast; `priamos doctor` names the missing "
@@ -65,20 +73,41 @@ void LcmBus::SubscribeRegex(const std::string& regex, Handler handler) {
   // has to hold what one tick period can bring.
   lcm_subscription_set_queue_capacity(handle, 1000);
   subscriptions_.push_back(std::move(subscription));
-  if (!filtered_ && url_.starts_with("udpm://")) {
-    FilterFragments(PortOf(url_));
-    filtered_ = true;
-  }
+}
+
+void LcmBus::Dispatch(std::string_view channel, std::span<const std::byte> bytes) const {
+  for (const Handler& handler : of_everything_) handler(channel, bytes);
+  const auto found = by_channel_.find(channel);
+  if (found == by_channel_.end()) return;
+  for (const Handler& handler : found->second) handler(channel, bytes);
 }
 
 int LcmBus::fd() const {
-  return lcm_get_fileno(lcm_.get());
+  if (receiver_) return receiver_->fd();
+  return subscriptions_.empty() ? -1 : lcm_get_fileno(lcm_.get());
 }
 
 int LcmBus::Drain(int at_most) {
+  if (receiver_)
+    return receiver_->Receive(at_most, [this](std::string_view channel, std::span<const std::byte> bytes) {
+      Dispatch(channel, bytes);
+    });
   int handled = 0;
+  if (subscriptions_.empty()) return handled;
   while (handled < at_most && lcm_handle_timeout(lcm_.get(), 0) > 0) ++handled;
   return handled;
+}
+
+std::uint64_t LcmBus::lost() const {
+  return receiver_ ? receiver_->lost() : 0;
+}
+
+std::uint64_t LcmBus::malformed() const {
+  return receiver_ ? receiver_->malformed() : 0;
+}
+
+std::size_t LcmBus::senders() const {
+  return receiver_ ? receiver_->senders() : 0;
 }
 
 }  // namespace priamos::bus

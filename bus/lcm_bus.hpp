@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -13,6 +15,8 @@ struct _lcm_t;
 
 namespace priamos::bus {
 
+class UdpReceiver;
+
 /// A bus that cannot be opened or used; what() says which and the next step.
 class BusError : public std::runtime_error {
  public:
@@ -21,17 +25,24 @@ class BusError : public std::runtime_error {
 
 /// One LCM bus (`udpm://`, `memq://`, `file://`): the only place that calls liblcm. Messages are bytes here.
 ///
-/// On UDP multicast a socket filter lets only unfragmented messages pass (see socket_filter.hpp).
-/// Not thread safe; handlers run inside Handle()/Drain(), on the caller's thread.
+/// liblcm sends, and it receives from `memq://` and `file://`. UDP multicast is received by UdpReceiver,
+/// which liblcm's weaknesses cannot reach and which counts losses. A foreign bus whose messages come in
+/// fragments needs `Messages::kAnySize`: then liblcm receives there, too.
+///
+/// Not thread safe; handlers run inside Drain(), on the caller's thread.
 class LcmBus {
  public:
   using Handler = std::function<void(std::string_view channel, std::span<const std::byte> bytes)>;
+  enum class Messages {
+    kParametric,  ///< at most kMaxMessageBytes, never in fragments
+    kAnySize,     ///< as liblcm has it: no socket filter, losses are not known
+  };
 
   /// Largest message this bus sends: what fits into one unfragmented datagram.
   static constexpr std::size_t kMaxMessageBytes = 1400;
 
   /// Throws BusError.
-  explicit LcmBus(const std::string& url);
+  explicit LcmBus(const std::string& url, Messages messages = Messages::kParametric);
   ~LcmBus();
   LcmBus(const LcmBus&) = delete;
   LcmBus& operator=(const LcmBus&) = delete;
@@ -44,24 +55,38 @@ class LcmBus {
   void Subscribe(std::string_view channel, Handler handler);
   /// Every channel, for recorders.
   void SubscribeEverything(Handler handler);
+  /// True when a message of this size may be on this bus.
+  bool Fits(std::size_t bytes) const { return messages_ == Messages::kAnySize || bytes <= kMaxMessageBytes; }
 
-  /// Becomes readable when a message waits.
+  /// Becomes readable when a message waits; -1 (which poll ignores) while nothing is subscribed.
   int fd() const;
   /// Handles everything that waits now; returns the number of messages. Bounded, so that a flood cannot
   /// keep the caller from its next tick.
   int Drain(int at_most = 1000);
 
+  /// Datagrams that senders numbered and this bus never got, on all channels together. Known only of UDP
+  /// multicast with Messages::kParametric; 0 elsewhere.
+  std::uint64_t lost() const;
+  /// Datagrams that are not what LCM sends.
+  std::uint64_t malformed() const;
+  /// Senders heard, by address and port; known as lost() is.
+  std::size_t senders() const;
+
  private:
   struct Subscription;
-  void SubscribeRegex(const std::string& regex, Handler handler);
+  void ListenThroughLiblcm(const std::string& channel, Handler handler);
+  void Dispatch(std::string_view channel, std::span<const std::byte> bytes) const;
 
   std::string url_;
+  Messages messages_;
   struct Closer {
     void operator()(_lcm_t* lcm) const;
   };
   std::unique_ptr<_lcm_t, Closer> lcm_;
+  std::unique_ptr<UdpReceiver> receiver_;  ///< of UDP multicast, from the first subscription on
+  std::map<std::string, std::vector<Handler>, std::less<>> by_channel_;
+  std::vector<Handler> of_everything_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
-  bool filtered_ = false;
 };
 
 }  // namespace priamos::bus

@@ -17,14 +17,14 @@ namespace {
 
 constexpr const char* kLcmDefaultGroup = "239.255.76.67";
 
+}  // namespace
+
 std::string GroupOf(const std::string& url) {
   const auto begin = url.find("://") + 3;
   const auto end = url.find_first_of(":?", begin);
   const std::string group = url.substr(begin, end == std::string::npos ? end : end - begin);
   return group.empty() ? kLcmDefaultGroup : group;
 }
-
-}  // namespace
 
 void RequireMulticastRoute(const std::string& url) {
   sockaddr_in address{};

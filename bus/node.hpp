@@ -24,12 +24,15 @@ class Schema;
 /// What became of the messages of one channel in one process.
 struct ChannelCounters {
   std::uint64_t received = 0;     ///< passed the schema walk and the decoder
-  std::uint64_t refused = 0;      ///< wrong type, damaged, or not decodable
+  std::uint64_t refused = 0;      ///< wrong type, damaged, too long, or not decodable
+  std::uint64_t wrong_type = 0;   ///< of refused: another fingerprint than the channel's
+  std::uint64_t oversize = 0;     ///< of refused: longer than a message of this bus may be
   std::uint64_t overwritten = 0;  ///< newest-wins channel: replaced by a newer one before being taken
   std::uint64_t dropped = 0;      ///< every-message channel: the inbox was full
-  std::uint64_t exceptions = 0;   ///< handler threw
+  std::uint64_t exceptions = 0;   ///< decoder or handler threw
   std::uint64_t published = 0;
   std::uint64_t publish_failed = 0;  ///< too long, or the network refused
+  std::string last_exception;        ///< what() of the newest one
 };
 
 /// One line of a process's interface: what it reads or writes.
@@ -138,6 +141,9 @@ class Node {
 
   const std::map<std::string, ChannelCounters, std::less<>>& counters() const { return counters_; }
   ChannelCounters Totals() const;
+  /// What went wrong per channel, most first, as one line: "POSE: 3 wrong type; PATH: 1 exception (what)".
+  /// Empty when nothing did.
+  std::string Problems() const;
   const std::vector<Endpoint>& inputs() const { return inputs_; }
   const std::vector<Endpoint>& outputs() const { return outputs_; }
   const Schema& schema() const { return schema_; }
@@ -147,6 +153,8 @@ class Node {
   using Store = std::function<void(std::span<const std::byte>, ChannelCounters&)>;
   void Listen(const Endpoint& endpoint, const Schema& types, std::optional<std::uint64_t> fingerprint,
               Store store);
+  bool Admits(const Schema& types, std::optional<std::uint64_t> fingerprint, std::span<const std::byte> bytes,
+              ChannelCounters& counters) const;
   ChannelCounters& CountersOf(std::string_view channel);
 
   LcmBus& bus_;

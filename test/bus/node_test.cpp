@@ -82,6 +82,38 @@ TEST_F(NodeTest, WrongTypeAndDamagedBytesAreRefusedAndCounted) {
   EXPECT_EQ(dut_.counters().at("POSE").refused, 3u);
 }
 
+TEST_F(NodeTest, ProblemsAreNamedPerChannel) {
+  dut_.Subscribe(channels::kPose);
+  dut_.SubscribeRaw("HEALTH", [](std::span<const std::byte>, Time) { throw std::runtime_error("no pose"); });
+  EXPECT_EQ(dut_.Problems(), "");
+  bus_.Publish("POSE", Encode(health_t{}));
+  auto truncated = Encode(Pose(1));
+  truncated.resize(truncated.size() - 3);
+  bus_.Publish("POSE", truncated);
+  bus_.Publish("HEALTH", Encode(health_t{}));
+  bus_.Drain();
+  EXPECT_EQ(dut_.Problems(), "POSE: 1 of wrong type, 1 damaged; HEALTH: 1 exceptions (no pose)");
+}
+
+TEST_F(NodeTest, WhateverIsThrownIsCaught) {
+  dut_.SubscribeRaw("POSE", [](std::span<const std::byte>, Time) { throw 42; });
+  bus_.Publish("POSE", Encode(Pose(1)));
+  bus_.Drain();
+  EXPECT_EQ(dut_.counters().at("POSE").exceptions, 1u);
+}
+
+TEST_F(NodeTest, OversizeIsCountedAsSuch) {
+  const auto latest = dut_.Subscribe(channels::kPose);
+  // Past this side's limit, as another LCM program may send.
+  LcmBus foreign("memq://", LcmBus::Messages::kAnySize);
+  Node dut(foreign, schema_, clock_);
+  dut.Subscribe(channels::kPose);
+  EXPECT_TRUE(foreign.Publish("POSE", std::vector<std::byte>(5000)));
+  foreign.Drain();
+  EXPECT_EQ(dut.counters().at("POSE").oversize, 0u);  // any size may be here; it is only of the wrong type
+  EXPECT_EQ(dut.counters().at("POSE").wrong_type, 1u);
+}
+
 TEST_F(NodeTest, RawSubscriberSeesOnlyBytesThatPassedTheWalk) {
   int seen = 0;
   dut_.SubscribeRaw("POSE", [&](std::span<const std::byte>, Time) { ++seen; });

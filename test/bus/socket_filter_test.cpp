@@ -52,16 +52,15 @@ TEST_F(FilterTest, WithoutFilterFragmentsArrive) {
 }
 
 TEST_F(FilterTest, PassesMessagesAndStopsFragmentsAndRunts) {
-  ASSERT_EQ(FilterFragments(ntohs(address_.sin_port)), 1);
+  FilterSocket(receiver_);
   EXPECT_TRUE(Arrives("LC02 a message"));
   EXPECT_FALSE(Arrives("LC03 a fragment"));
   EXPECT_FALSE(Arrives("LC"));
   EXPECT_FALSE(Arrives(""));
 }
 
-TEST_F(FilterTest, LeavesSocketsOnOtherPortsAlone) {
-  FilterFragments(static_cast<std::uint16_t>(ntohs(address_.sin_port) ^ 1));
-  EXPECT_TRUE(Arrives("LC03 a fragment"));
+TEST_F(FilterTest, WhatIsNoSocketIsASentence) {
+  EXPECT_THROW(FilterSocket(-1), std::runtime_error);
 }
 
 }  // namespace

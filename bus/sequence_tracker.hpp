@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace priamos::bus {
+
+/// Counts what never arrived. Every LCM sender numbers its datagrams over all channels; a gap in the numbers
+/// of one sender is a loss, whoever caused it: the network, a full receive buffer, or a socket filter.
+///
+/// Before the first datagram of a sender nothing is known of it. A datagram that comes late takes its loss
+/// back. A jump back or by more than kLargestGap is a sender that began anew, not a loss.
+class SequenceTracker {
+ public:
+  static constexpr std::uint32_t kLargestGap = 1 << 20;
+  static constexpr std::size_t kMostSenders = 256;  ///< the least recently heard one is forgotten
+
+  /// `sender` names one sending socket, e.g. address and port.
+  void Add(std::uint64_t sender, std::uint32_t number);
+  std::uint64_t lost() const { return lost_; }
+  std::size_t senders() const { return senders_.size(); }
+
+ private:
+  struct Sender {
+    std::uint32_t next = 0;
+    std::uint32_t lately_lost = 0;  ///< could still come late
+    std::uint64_t heard = 0;        ///< as a count of all datagrams
+  };
+  void ForgetOldest();
+
+  std::map<std::uint64_t, Sender> senders_;
+  std::uint64_t datagrams_ = 0;
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace priamos::bus
