@@ -9,8 +9,10 @@
 #include <iostream>
 
 #include "bus/app_host.hpp"
+#include "bus/log/log_writer.hpp"
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
+#include "bus/replay.hpp"
 #include "bus/schema/schema.hpp"
 #include "bus/socket_filter.hpp"
 #include "common/serial_port.hpp"
@@ -20,6 +22,7 @@ namespace {
 
 constexpr int kFailedWhileRunning = 1;
 constexpr int kCannotStart = 2;
+constexpr std::string_view kFileUrl = "file://";
 
 struct Options {
   ConfigSource config;
@@ -45,7 +48,8 @@ std::optional<int> ParseCommandLine(const AppFactory& factory, int argc, char** 
   CLI::App cli(factory.summary, "priamos-" + factory.name);
   cli.add_option("--config", options.config.path, "TOML file; without it every key keeps its default");
   cli.add_option("--set", options.config.overrides, "KEY=VALUE on top of the file");
-  cli.add_option("--bus", options.bus, "LCM bus")->capture_default_str();
+  cli.add_option("--bus", options.bus, "LCM bus; file://LOG[?out=LOG] runs from a log")
+      ->capture_default_str();
   cli.add_option("--seed", options.seed, "seed of simulated hardware")->capture_default_str();
   cli.add_flag("--print-config", options.print_config,
                "print every key with value, unit and meaning, and exit");
@@ -107,9 +111,35 @@ int PrintInterface(const AppFactory& factory, const Options& options) {
   return 0;
 }
 
+/// `file://LOG[?out=LOG2]`: the App gets what the log holds at the log's own times, as fast as it can.
+int RunFromLog(const AppFactory& factory, const Options& options) {
+  const std::string rest = options.bus.substr(kFileUrl.size());
+  const auto question = rest.find('?');
+  const std::string query = question == std::string::npos ? "" : rest.substr(question + 1);
+  if (!query.empty() && (!query.starts_with("out=") || query.size() == 4))
+    throw BusError(
+        fmt::format("bus {}: expected file://LOG or file://LOG?out=LOG, got \"?{}\"", options.bus, query));
+  std::optional<LogWriter> out;
+  if (!query.empty()) out.emplace(query.substr(4));
+  const Schema schema = OwnTypes();
+  Replay replay(factory, options.config, schema, rest.substr(0, question),
+                {options.config.Folder(), options.seed, MakeLog(factory.name)});
+  std::uint64_t sent = 0;
+  replay.Run([&](const Output& output) {
+    ++sent;
+    if (out) out->Write(output.utime, output.channel, output.bytes);
+  });
+  std::cout << fmt::format(
+      "{} messages heard, {} sent{}\n", replay.fed(), sent,
+      replay.skipped_bytes() > 0 ? fmt::format(", {} damaged bytes skipped", replay.skipped_bytes()) : "");
+  if (out) out->Flush();
+  return out && !out->good() ? kFailedWhileRunning : 0;
+}
+
 int Run(const AppFactory& factory, const Options& options, bool& running) {
   if (options.print_config) return factory.print_config(std::cout, options.config), 0;
   if (options.interface) return PrintInterface(factory, options);
+  if (options.bus.starts_with(kFileUrl)) return RunFromLog(factory, options);
   const SignalWatch signals;
   const Schema schema = OwnTypes();
   const MonotonicClock clock;
