@@ -12,9 +12,15 @@ void AddRunCommand(CLI::App& cli, int& exit_code);
 void AddLockstepCommand(CLI::App& cli, int& exit_code);
 void AddCalibrateCommand(CLI::App& cli, int& exit_code);
 void AddTopicCommand(CLI::App& cli, int& exit_code);
+void AddLogCommand(CLI::App& cli, int& exit_code);
+void AddReplayCommand(CLI::App& cli, int& exit_code);
+void AddTypeCommand(CLI::App& cli, int& exit_code);
+void AddDoctorCommand(CLI::App& cli, int& exit_code);
 void AddSeeCommand(CLI::App& cli, int& exit_code);
 void AddLinkCommand(CLI::App& cli, int& exit_code);
 void AddUpCommands(CLI::App& cli, int& exit_code);  ///< up, down, status, logs
 void AddEstopCommand(CLI::App& cli, int& exit_code);
+/// After all others: it completes their names.
+void AddCompletionCommand(CLI::App& cli, int& exit_code);
 
 }  // namespace priamos::cli

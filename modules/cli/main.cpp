@@ -13,10 +13,15 @@ int main(int argc, char** argv) {
   priamos::cli::AddLockstepCommand(cli, exit_code);
   priamos::cli::AddCalibrateCommand(cli, exit_code);
   priamos::cli::AddTopicCommand(cli, exit_code);
+  priamos::cli::AddLogCommand(cli, exit_code);
+  priamos::cli::AddReplayCommand(cli, exit_code);
+  priamos::cli::AddTypeCommand(cli, exit_code);
+  priamos::cli::AddDoctorCommand(cli, exit_code);
   priamos::cli::AddSeeCommand(cli, exit_code);
   priamos::cli::AddLinkCommand(cli, exit_code);
   priamos::cli::AddUpCommands(cli, exit_code);
   priamos::cli::AddEstopCommand(cli, exit_code);
+  priamos::cli::AddCompletionCommand(cli, exit_code);
   try {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

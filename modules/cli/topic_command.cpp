@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/lcm_bus.hpp"
-#include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/json.hpp"
+#include "cli/bus_options.hpp"
 #include "cli/commands.hpp"
 #include "cli/topic_statistics.hpp"
 
@@ -18,9 +18,7 @@ namespace {
 
 constexpr auto kWatchPeriod = std::chrono::milliseconds(500);
 
-struct TopicOptions {
-  std::string bus = "udpm://239.255.76.67:7667?ttl=0";
-  std::string types;  ///< folder of .lcm files; empty: our own
+struct TopicOptions : BusOptions {
   std::string channel;
   std::string type;
   std::string message;
@@ -29,10 +27,6 @@ struct TopicOptions {
   bool json = false;
   bool watch = false;
 };
-
-bus::Schema TypesOf(const TopicOptions& options) {
-  return options.types.empty() ? bus::OwnTypes() : bus::Schema(bus::Schema::ReadDirectory(options.types));
-}
 
 /// Handles messages until `until`, a signal, or `done`; calls `every` twice a second. False after a signal.
 bool Listen(bus::LcmBus& bus, const bus::Clock& clock, Time until, const std::function<bool()>& done,
@@ -63,7 +57,7 @@ nlohmann::ordered_json ToJson(const TopicRow& row) {
           {"largest_bytes", row.largest_bytes}};
 }
 
-void PrintTable(const std::vector<TopicRow>& rows) {
+void PrintTable(const std::vector<TopicRow>& rows, const bus::LcmBus& bus) {
   std::cout << fmt::format("{:<20} {:<28} {:>9} {:>9} {:>10} {:>8} {:>9} {:>11}\n", "channel", "type",
                            "rate Hz", "jitter ms", "bytes/s", "age s", "messages", "undecodable");
   for (const auto& r : rows) {
@@ -71,21 +65,28 @@ void PrintTable(const std::vector<TopicRow>& rows) {
                              r.type, r.rate_hz, r.jitter_s * 1e3, r.bandwidth_bytes_s, r.age_s, r.messages,
                              r.undecodable);
   }
-  std::cout << std::flush;
+  std::cout << fmt::format("{} senders; lost: {} datagrams; malformed: {}\n", bus.senders(), bus.lost(),
+                           bus.malformed())
+            << std::flush;
 }
 
-void PrintRows(const std::vector<TopicRow>& rows, bool json) {
-  if (!json) return PrintTable(rows);
+void PrintRows(const std::vector<TopicRow>& rows, const bus::LcmBus& bus, bool json) {
+  if (!json) return PrintTable(rows, bus);
   auto all = nlohmann::ordered_json::array();
   for (const auto& row : rows) all.push_back(ToJson(row));
-  std::cout << all.dump() << std::endl;
+  std::cout << nlohmann::ordered_json{{"senders", bus.senders()},
+                                      {"lost", bus.lost()},
+                                      {"malformed", bus.malformed()},
+                                      {"channels", all}}
+                   .dump()
+            << std::endl;
 }
 
 /// `list`, and with a channel `hz` and `bw`: the same table of all or of one.
 int List(const TopicOptions& options) {
-  const bus::Schema schema = TypesOf(options);
+  const bus::Schema schema = LoadTypes(options);
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus);
+  bus::LcmBus bus(options.bus, options.messages());
   TopicStatistics statistics(schema, FromSeconds(std::max(2.0, options.seconds)));
   const auto add = [&](std::string_view channel, std::span<const std::byte> bytes) {
     statistics.Add(clock.Now(), channel, bytes);
@@ -97,10 +98,10 @@ int List(const TopicOptions& options) {
       [&] {
         if (!options.watch) return;
         if (!options.json) std::cout << "\x1b[H\x1b[2J";
-        PrintRows(statistics.Rows(clock.Now()), options.json);
+        PrintRows(statistics.Rows(clock.Now()), bus, options.json);
       });
   const auto rows = statistics.Rows(clock.Now());
-  if (!options.watch) PrintRows(rows, options.json);
+  if (!options.watch) PrintRows(rows, bus, options.json);
   if (!rows.empty()) return 0;
   std::cerr << fmt::format(
       "nothing heard on {} in {} s; is the port the right one, and does `ip route get 239.255.76.67` "
@@ -110,9 +111,9 @@ int List(const TopicOptions& options) {
 }
 
 int Echo(const TopicOptions& options) {
-  const bus::Schema schema = TypesOf(options);
+  const bus::Schema schema = LoadTypes(options);
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus);
+  bus::LcmBus bus(options.bus, options.messages());
   int seen = 0;
   bus.Subscribe(options.channel, [&](std::string_view channel, std::span<const std::byte> bytes) {
     ++seen;
@@ -131,10 +132,10 @@ int Echo(const TopicOptions& options) {
 }
 
 int Pub(const TopicOptions& options) {
-  const bus::Schema schema = TypesOf(options);
+  const bus::Schema schema = LoadTypes(options);
   const auto* type = schema.Find(options.type);
   if (!type) throw bus::MessageError(fmt::format("expected a known type, got \"{}\"", options.type));
-  bus::LcmBus bus(options.bus);
+  bus::LcmBus bus(options.bus, options.messages());
   const auto bytes = bus::FromJson(*type, bus::Json::parse(options.message));
   if (!bus.Publish(options.channel, bytes))
     throw bus::BusError(fmt::format("{}: {} bytes were not sent", options.bus, bytes.size()));
@@ -145,9 +146,8 @@ CLI::App* AddVerb(CLI::App& topic, const char* name, const char* help, const cha
                   TopicOptions& options) {
   auto* verb = topic.add_subcommand(name, help);
   verb->footer(std::string("Example: ") + example);
-  verb->add_option("--bus", options.bus, "LCM bus")->capture_default_str();
-  verb->add_option("--types", options.types, "folder of .lcm files; none: PRIAMOS's own types")
-      ->check(CLI::ExistingDirectory);
+  AddBusOption(*verb, options);
+  AddTypesOption(*verb, options);
   return verb;
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "bus/lcm_bus.hpp"
+#include "bus/schema/schema.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace priamos::cli {
+
+/// What every verb that looks at a bus or a log shares.
+struct BusOptions {
+  std::string bus = "udpm://239.255.76.67:7667?ttl=0";
+  std::string types;  ///< folder of .lcm files; empty: our own
+  bool fragments = false;
+
+  bus::LcmBus::Messages messages() const {
+    return fragments ? bus::LcmBus::Messages::kAnySize : bus::LcmBus::Messages::kParametric;
+  }
+};
+
+void AddBusOption(CLI::App& verb, BusOptions& options);
+void AddTypesOption(CLI::App& verb, BusOptions& options);
+
+/// The types named by --types, or our own. Throws SchemaError.
+bus::Schema LoadTypes(const BusOptions& options);
+
+}  // namespace priamos::cli

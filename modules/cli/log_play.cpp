@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+
+#include "bus/clock.hpp"
+#include "bus/log/log_player.hpp"
+#include "bus/real_time_loop.hpp"
+#include "cli/log_options.hpp"
+#include "cli/play_keys.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr int kNotAllSent = 1;
+constexpr auto kShowPeriod = std::chrono::milliseconds(200);
+
+struct PlayOptions {
+  BusOptions bus;
+  SelectionOptions selection;
+  std::string log;
+  std::string speed = "1";
+  bool loop = false, paused = false;
+};
+
+/// Single keys from a terminal, without Enter; nothing when standard input is none.
+class Keyboard {
+ public:
+  Keyboard() : is_terminal_(isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &before_) == 0) {
+    if (!is_terminal_) return;
+    termios raw = before_;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+  }
+  ~Keyboard() {
+    if (is_terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  }
+  Keyboard(const Keyboard&) = delete;
+  Keyboard& operator=(const Keyboard&) = delete;
+
+  bool is_terminal() const { return is_terminal_; }
+  int fd() const { return is_terminal_ ? STDIN_FILENO : -1; }
+  std::string Read() const {
+    char keys[16];
+    const ssize_t n = read(STDIN_FILENO, keys, sizeof keys);
+    return n > 0 ? std::string(keys, static_cast<std::size_t>(n)) : "";
+  }
+
+ private:
+  termios before_{};
+  bool is_terminal_;
+};
+
+class Playing {
+ public:
+  explicit Playing(const PlayOptions& options)
+      : bus_(options.bus.bus, options.bus.messages()),
+        player_(bus::LogReader(options.log), SelectionOf(options.selection, options.log)) {
+    const Time now = clock_.Now();
+    player_.SetSpeed(ParseSpeed(options.speed), now);
+    player_.SetLoop(options.loop);
+    player_.Pause(options.paused, now);
+  }
+
+  int Run() {
+    if (keyboard_.is_terminal()) std::cerr << kPlayKeysHelp << "\n";
+    while (!player_.done() && !quit_) {
+      Wait();
+      const int sent = player_.Play(
+          clock_.Now(),
+          [this](const std::string& channel, const bus::LogEvent& event) {
+            ++(bus_.Publish(channel, event.bytes) ? sent_ : refused_);
+          },
+          kBurst);
+      // Flat out, a receiver's socket buffer needs a moment between bursts.
+      if (player_.speed() == bus::LogPlayer::kFlatOut && sent == kBurst) usleep(1000);
+      Show();
+    }
+    std::cerr << (keyboard_.is_terminal() ? "\n" : "");
+    std::cout << fmt::format("{} events sent, {} refused, {} damaged bytes skipped\n", sent_, refused_,
+                             player_.skipped_bytes());
+    if (refused_ > 0) std::cerr << "refused: longer than an unfragmented message; --fragments sends them\n";
+    return refused_ > 0 ? kNotAllSent : 0;
+  }
+
+ private:
+  static constexpr int kBurst = 50;
+
+  void Wait() {
+    const Time due = player_.NextDue(), now = clock_.Now();
+    const auto wait = due <= now ? Duration() : std::min(due == Time::max() ? kLongest : due - now, kLongest);
+    pollfd fds[] = {{signals_.fd(), POLLIN, 0}, {keyboard_.fd(), POLLIN, 0}};
+    const timespec time{0, static_cast<long>(wait.count() * 1000)};
+    ppoll(fds, std::size(fds), &time, nullptr);
+    if (fds[0].revents != 0) quit_ = true;
+    if (fds[1].revents != 0 && !ApplyKeys(keyboard_.Read(), player_, clock_.Now())) quit_ = true;
+  }
+
+  void Show() {
+    const Time now = clock_.Now();
+    if (!keyboard_.is_terminal() || now < next_show_) return;
+    next_show_ = now + kShowPeriod;
+    std::cerr << fmt::format("\r{:8.2f} of {:.2f} s, {}x{}   ", Seconds(player_.position()),
+                             Seconds(player_.length()), SpeedText(player_.speed()),
+                             player_.paused() ? ", paused" : "");
+  }
+
+  static constexpr Duration kLongest = std::chrono::milliseconds(100);
+  bus::SignalWatch signals_;
+  bus::MonotonicClock clock_;
+  bus::LcmBus bus_;
+  bus::LogPlayer player_;
+  Keyboard keyboard_;
+  Time next_show_{};
+  std::uint64_t sent_ = 0, refused_ = 0;
+  bool quit_ = false;
+};
+
+}  // namespace
+
+void AddLogPlayVerb(CLI::App& log, int& exit_code) {
+  auto options = std::make_shared<PlayOptions>();
+  auto* verb = log.add_subcommand("play", "Play a log onto a bus.");
+  verb->footer(
+      std::string(kPlayKeysHelp) +
+      "\nExample: priamos log play onboard.lcmlog --speed 1/4 --without 'WHEEL_*' --rename POSE=POSE_OLD");
+  verb->add_option("log", options->log, "LCM log")->required()->check(CLI::ExistingFile);
+  AddBusOption(*verb, options->bus);
+  verb->add_option("--speed", options->speed, "1/64 to 1000, or max")->capture_default_str();
+  verb->add_flag("--loop", options->loop, "begin again at the end");
+  verb->add_flag("--paused", options->paused, "wait for a key");
+  AddSelectionOptions(*verb, options->selection);
+  verb->callback([options, &exit_code] { exit_code = Playing(*options).Run(); });
+}
+
+}  // namespace priamos::cli

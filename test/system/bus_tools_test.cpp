@@ -1,0 +1,186 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bus/log/log_reader.hpp"
+#include "bus/log/log_writer.hpp"
+#include "bus/node.hpp"
+#include "lcmtypes/channels.hpp"
+#include "private_network.hpp"
+#include "test/support/temporary_folder.hpp"
+
+// `priamos topic` and `priamos log`, and LCM's own tools, on a real UDP multicast bus.
+
+namespace priamos {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// What was on each channel, in order.
+using Contents = std::map<std::string, std::vector<std::vector<std::byte>>>;
+
+Contents ReadContents(const std::string& log) {
+  bus::LogReader reader(log);
+  Contents contents;
+  while (auto event = reader.Next()) contents[event->channel].push_back(std::move(event->bytes));
+  EXPECT_EQ(reader.skipped_bytes(), 0u) << log;
+  return contents;
+}
+
+class BusTools : public testing::Test {
+ protected:
+  /// Two seconds of 50 Hz poses and 10 Hz sonars.
+  void WriteLog(const std::string& file) {
+    bus::LogWriter writer(file);
+    for (int i = 0; i < 100; ++i) {
+      const std::int64_t utime = 1'000'000'000 + i * 20'000;
+      pose_t pose{};
+      pose.utime = utime;
+      pose.x_m = 0.01 * i;
+      writer.Write(utime, "POSE", bus::Encode(pose));
+      sonar_ranges_t sonar{};
+      sonar.utime = utime;
+      if (i % 5 == 0) writer.Write(utime, "SONAR_RANGES", bus::Encode(sonar));
+    }
+  }
+  ScriptAnswer Run(const std::string& script, int seconds = 30, const std::string& unshare = "unshare -rn") {
+    return RunInPrivateNetwork("cd " + folder_.path().string() + "\n" + script, folder_ / "script.sh",
+                               seconds, unshare);
+  }
+  TemporaryFolder folder_;
+  std::string log_ = folder_ / "in.lcmlog";
+};
+
+TEST_F(BusTools, PlayAndRecordKeepEveryByte) {
+  WriteLog(log_);
+  const auto answer = Run(R"sh(
+    $BIN/priamos log record out.lcmlog --no-health & recorder=$!
+    until [ -e out.lcmlog ]; do sleep 0.05; done; sleep 0.2
+    $BIN/priamos log play in.lcmlog --speed 4
+    sleep 0.3; kill -INT $recorder; wait $recorder)sh");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr("120 events sent, 0 refused"));
+  EXPECT_THAT(answer.text, HasSubstr("lost: 0 on the network, 0 on the disk"));
+  EXPECT_EQ(ReadContents(folder_ / "out.lcmlog"), ReadContents(log_));
+}
+
+TEST_F(BusTools, LcmLoggerAndLcmLogplayerDoSoToo) {
+  WriteLog(log_);
+  const auto answer = Run(R"sh(
+    URL='udpm://239.255.76.67:7667?ttl=0'
+    record() { lcm-logger --lcm-url="$URL" --flush-interval=50 -q $1 & logger=$!; sleep 0.7; }
+    stop() { sleep 0.5; kill -INT $logger; wait $logger; }
+    record theirs.lcmlog; $BIN/priamos log play in.lcmlog --speed 4; stop
+    record again.lcmlog; lcm-logplayer --lcm-url="$URL" --speed=4 theirs.lcmlog; stop)sh");
+  EXPECT_EQ(ReadContents(folder_ / "theirs.lcmlog"), ReadContents(log_)) << answer.text;
+  EXPECT_EQ(ReadContents(folder_ / "again.lcmlog"), ReadContents(log_)) << answer.text;
+}
+
+TEST_F(BusTools, TopicShowsTypesRatesAndLosses) {
+  WriteLog(log_);
+  const auto answer = Run(R"sh(
+    $BIN/priamos log play in.lcmlog --loop & player=$!
+    $BIN/priamos topic list --json --seconds 2; echo
+    $BIN/priamos topic echo POSE --json --count 1
+    kill -INT $player; wait $player)sh");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  const auto list = nlohmann::json::parse(answer.text.substr(0, answer.text.find('\n')));
+  EXPECT_EQ(list["lost"], 0);
+  EXPECT_EQ(list["senders"], 1);
+  ASSERT_EQ(list["channels"].size(), 2u);
+  EXPECT_EQ(list["channels"][0]["type"], "priamos.pose_t");
+  EXPECT_NEAR(list["channels"][0]["rate_hz"].get<double>(), 50, 5);
+  EXPECT_EQ(list["channels"][1]["undecodable"], 0);
+  EXPECT_THAT(answer.text, HasSubstr("\"x_m\":0."));
+}
+
+TEST_F(BusTools, ForeignTypesNeedNoCompilation) {
+  const auto answer = Run(R"sh(
+    mkdir types; echo 'package theirs; struct thing_t { int32_t n; string names[n]; }' > types/thing.lcm
+    $BIN/priamos topic echo THING --types types --json --count 1 & listener=$!
+    sleep 0.7
+    $BIN/priamos topic pub THING thing_t '{"names":["a","b"]}' --types types
+    wait $listener
+    $BIN/priamos type show theirs.thing_t --types types)sh");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr(R"({"n":2,"names":["a","b"]})"));
+  EXPECT_THAT(answer.text, HasSubstr("of no bounded size"));
+}
+
+TEST_F(BusTools, FullDiskIsToldWithinASecondAndTheLogStaysWhole) {
+  WriteLog(log_);
+  const auto answer = Run(R"sh(
+    mkdir disk; mount -t tmpfs -o size=16k none disk
+    $BIN/priamos topic echo HEALTH --json > health.txt & listener=$!
+    $BIN/priamos log record disk/run.lcmlog --keep-free-mb 0 > record.txt 2>&1 & recorder=$!
+    until [ -e disk/run.lcmlog ]; do sleep 0.05; done; sleep 0.3
+    $BIN/priamos log play in.lcmlog --speed max
+    for i in $(seq 100); do grep -q ALARM record.txt && break; sleep 0.01; done
+    echo "after $i hundredths: $(cat record.txt)"
+    sleep 0.2; kill -INT $recorder $listener; wait $recorder; echo "exit code $?"
+    cp disk/run.lcmlog kept.lcmlog; cat health.txt)sh",
+                          30, "unshare -rnm");
+  EXPECT_THAT(answer.text, HasSubstr("ALARM: disk/run.lcmlog: recording stopped: No space left on device"));
+  EXPECT_THAT(answer.text, HasSubstr("exit code 1"));
+  EXPECT_THAT(answer.text, testing::ContainsRegex("\"process\":\"recorder\",\"state\":3.*No space left"));
+  std::size_t events = 0;
+  for (const auto& [channel, messages] : ReadContents(folder_ / "kept.lcmlog")) events += messages.size();
+  EXPECT_GT(events, 60u);  // 120 events of 150 to 250 bytes; 16 kB hold most of them
+}
+
+TEST_F(BusTools, ReadOnlyDiskIsASentenceAtTheStart) {
+  const auto answer = Run(R"sh(
+    mkdir disk; mount -t tmpfs -o ro none disk
+    $BIN/priamos log record disk/run.lcmlog; echo "exit code $?")sh",
+                          30, "unshare -rnm");
+  EXPECT_THAT(answer.text, HasSubstr("disk/run.lcmlog: cannot be written: Read-only file system"));
+  EXPECT_THAT(answer.text, HasSubstr("exit code 2"));
+}
+
+TEST_F(BusTools, OtherGroupsOnTheSamePortAreNotHeard) {
+  WriteLog(log_);
+  const auto answer = Run(R"sh(
+    $BIN/priamos log play in.lcmlog --loop --bus 'udpm://239.255.76.99:7667?ttl=0' & player=$!
+    $BIN/priamos topic list --seconds 1
+    kill -INT $player; wait $player)sh");
+  EXPECT_THAT(answer.text, HasSubstr("nothing heard on udpm://239.255.76.67:7667"));
+}
+
+/// What killed every subscriber of LCM 1.3.1, and other things that LCM does not send.
+TEST_F(BusTools, FragmentsAndNonsenseHarmNobody) {
+  WriteLog(log_);
+  const auto answer = Run(R"sh(
+    $BIN/priamos log record out.lcmlog --no-health > record.txt & recorder=$!
+    until [ -e out.lcmlog ]; do sleep 0.05; done; sleep 0.2
+    python3 - <<'END'
+import random, socket, struct
+s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+bus = ("239.255.76.67", 7667)
+random.seed(1)
+# LC03: magic, number, message size, fragment offset, fragment number, fragments
+for offset in (0, 2**32 - 8, 2**32 - 1, 2**31):
+    for number in (0, 1):
+        s.sendto(struct.pack(">4sIIIHH", b"LC03", 7, 100, offset, number, 2) + b"POSE\0" + b"x" * 40, bus)
+for i in range(3000):
+    magic = random.choice([b"LC02", b"LC03", b"LC01", b"\0\0\0\0"])
+    s.sendto(magic + random.randbytes(random.randrange(0, 300)), bus)
+END
+    $BIN/priamos log play in.lcmlog --speed 4 --rename POSE=POSE_AFTER
+    sleep 0.3; kill -INT $recorder; wait $recorder; echo "exit code $?")sh");
+  EXPECT_THAT(answer.text, HasSubstr("exit code 0"));
+  auto contents = ReadContents(folder_ / "out.lcmlog");
+  EXPECT_EQ(contents["POSE_AFTER"].size(), 100u) << answer.text;
+  EXPECT_EQ(contents["POSE"].size(), 0u);
+}
+
+TEST_F(BusTools, DoctorNamesTheCommandThatMends) {
+  const auto answer = Run("ip route del 224.0.0.0/4; $BIN/priamos doctor; echo \"exit code $?\"");
+  EXPECT_THAT(answer.text, HasSubstr("BAD   multicast route"));
+  EXPECT_THAT(answer.text,
+              HasSubstr("sudo ip link set lo up multicast on && sudo ip route add 224.0.0.0/4 dev lo"));
+  EXPECT_THAT(answer.text, HasSubstr("exit code 1"));
+}
+
+}  // namespace
+}  // namespace priamos
