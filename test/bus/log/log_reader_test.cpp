@@ -1,22 +1,18 @@
 #include "bus/log/log_reader.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 
 #include "bus/log/log_writer.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace priamos::bus {
 namespace {
 
 class Log : public testing::Test {
  protected:
-  void SetUp() override { path_ = testing::TempDir() + "log_test-" + std::to_string(getpid()) + ".lcmlog"; }
-  void TearDown() override { std::filesystem::remove(path_); }
-
   std::vector<std::byte> WriteSmallLog(int events) {
     {
       LogWriter writer(path_);
@@ -36,7 +32,8 @@ class Log : public testing::Test {
     return bytes;
   }
 
-  std::string path_;
+  TemporaryFolder folder_;
+  std::string path_ = (folder_ / "test.lcmlog").string();
 };
 
 TEST_F(Log, ReadsBackWhatWasWritten) {
