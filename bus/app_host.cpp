@@ -1,6 +1,7 @@
 #include "bus/app_host.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace priamos::bus {
 namespace {
@@ -61,7 +62,9 @@ void AppHost::Step(Time now) {
 /// What the App says of itself comes first; after it, per channel, what went wrong on the bus.
 std::string AppHost::HealthText() const {
   std::string text = context_.health_text();
-  const std::string problems = node_.Problems();
+  std::string problems = node_.Problems();
+  if (const auto n = bus_.turned_away(); n > 0)
+    problems += (problems.empty() ? "" : "; ") + std::to_string(n) + " datagrams turned away by the kernel";
   if (!text.empty() && !problems.empty()) text += "; ";
   return CutUtf8(text + problems, kHealthTextBytes);
 }

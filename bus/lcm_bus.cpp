@@ -47,8 +47,8 @@ bool LcmBus::Publish(std::string_view channel, std::span<const std::byte> bytes)
 }
 
 void LcmBus::Subscribe(std::string_view channel, Handler handler) {
-  if (url_.starts_with("udpm://") && messages_ == Messages::kParametric) {
-    if (!receiver_) receiver_ = std::make_unique<UdpReceiver>(url_);
+  if (url_.starts_with("udpm://")) {
+    if (!receiver_) receiver_ = std::make_unique<UdpReceiver>(url_, messages_ == Messages::kAnySize);
     auto& handlers = channel == kEverything ? of_everything_ : by_channel_[std::string(channel)];
     handlers.push_back(std::move(handler));
   } else {
@@ -106,8 +106,12 @@ std::uint64_t LcmBus::malformed() const {
   return receiver_ ? receiver_->malformed() : 0;
 }
 
-std::size_t LcmBus::senders() const {
-  return receiver_ ? receiver_->senders() : 0;
+std::uint64_t LcmBus::turned_away() const {
+  return receiver_ ? receiver_->turned_away() : 0;
+}
+
+std::vector<SenderCounters> LcmBus::senders() const {
+  return receiver_ ? receiver_->numbers().PerSender() : std::vector<SenderCounters>();
 }
 
 }  // namespace priamos::bus

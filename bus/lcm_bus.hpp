@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/sequence_tracker.hpp"
+
 struct _lcm_t;
 
 namespace priamos::bus {
@@ -27,7 +29,7 @@ class BusError : public std::runtime_error {
 ///
 /// liblcm sends, and it receives from `memq://` and `file://`. UDP multicast is received by UdpReceiver,
 /// which liblcm's weaknesses cannot reach and which counts losses. A foreign bus whose messages come in
-/// fragments needs `Messages::kAnySize`: then liblcm receives there, too.
+/// fragments needs `Messages::kAnySize`.
 ///
 /// Not thread safe; handlers run inside Drain(), on the caller's thread.
 class LcmBus {
@@ -35,7 +37,7 @@ class LcmBus {
   using Handler = std::function<void(std::string_view channel, std::span<const std::byte> bytes)>;
   enum class Messages {
     kParametric,  ///< at most kMaxMessageBytes, never in fragments
-    kAnySize,     ///< as liblcm has it: no socket filter, losses are not known
+    kAnySize,     ///< up to 64 MB, in fragments: no socket filter
   };
 
   /// Largest message this bus sends: what fits into one unfragmented datagram.
@@ -64,13 +66,16 @@ class LcmBus {
   /// keep the caller from its next tick.
   int Drain(int at_most = 1000);
 
-  /// Datagrams that senders numbered and this bus never got, on all channels together. Known only of UDP
-  /// multicast with Messages::kParametric; 0 elsewhere.
+  /// Messages that senders numbered and this bus never got, on all channels together. Known only of UDP
+  /// multicast; 0 elsewhere.
   std::uint64_t lost() const;
-  /// Datagrams that are not what LCM sends.
+  /// Datagrams that are none of LCM's.
   std::uint64_t malformed() const;
-  /// Senders heard, by address and port; known as lost() is.
-  std::size_t senders() const;
+  /// Datagrams the kernel did not hand over: fragments and nonsense, which the socket filter stops, and what
+  /// found the receive buffer full (also in lost()).
+  std::uint64_t turned_away() const;
+  /// Senders heard; SenderAddress() names them. Known as lost() is.
+  std::vector<SenderCounters> senders() const;
 
  private:
   struct Subscription;

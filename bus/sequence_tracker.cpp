@@ -20,6 +20,7 @@ void SequenceTracker::Add(std::uint64_t sender, std::uint32_t number) {
   const auto [at, added] = senders_.try_emplace(sender);
   Sender& s = at->second;
   s.heard = ++datagrams_;
+  ++s.datagrams;
   const std::uint32_t ahead = number - s.next;  // modulo 2^32, as the numbers run
   const std::uint32_t behind = s.next - number;
   if (added || ahead == 0 || (ahead > kLargestGap && behind > kLatest)) {
@@ -27,12 +28,20 @@ void SequenceTracker::Add(std::uint64_t sender, std::uint32_t number) {
     if (added && senders_.size() > kMostSenders) ForgetOldest();
   } else if (ahead <= kLargestGap) {
     lost_ += ahead;
+    s.lost += ahead;
     s.lately_lost = std::min(ahead, kLatest);
     s.next = number + 1;
   } else if (s.lately_lost > 0) {
     --s.lately_lost;
+    --s.lost;
     --lost_;
   }
+}
+
+std::vector<SenderCounters> SequenceTracker::PerSender() const {
+  std::vector<SenderCounters> all;
+  for (const auto& [sender, s] : senders_) all.push_back({sender, s.datagrams, s.lost});
+  return all;
 }
 
 }  // namespace priamos::bus

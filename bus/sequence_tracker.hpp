@@ -3,9 +3,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <utility>
+#include <vector>
 
 namespace priamos::bus {
+
+/// What is known of one sender.
+struct SenderCounters {
+  std::uint64_t sender = 0;
+  std::uint64_t datagrams = 0;  ///< that arrived
+  std::uint64_t lost = 0;
+};
 
 /// Counts what never arrived. Every LCM sender numbers its datagrams over all channels; a gap in the numbers
 /// of one sender is a loss, whoever caused it: the network, a full receive buffer, or a socket filter.
@@ -21,12 +28,15 @@ class SequenceTracker {
   void Add(std::uint64_t sender, std::uint32_t number);
   std::uint64_t lost() const { return lost_; }
   std::size_t senders() const { return senders_.size(); }
+  /// Of the senders that are not forgotten, by name. Their losses sum up to lost() as long as none is.
+  std::vector<SenderCounters> PerSender() const;
 
  private:
   struct Sender {
     std::uint32_t next = 0;
     std::uint32_t lately_lost = 0;  ///< could still come late
     std::uint64_t heard = 0;        ///< as a count of all datagrams
+    std::uint64_t datagrams = 0, lost = 0;
   };
   void ForgetOldest();
 

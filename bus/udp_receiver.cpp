@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <linux/sock_diag.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -12,16 +13,14 @@
 #include <cstring>
 #include <vector>
 
+#include "bus/datagram.hpp"
 #include "bus/lcm_bus.hpp"
 #include "bus/multicast.hpp"
-#include "bus/schema/big_endian.hpp"
 #include "bus/socket_filter.hpp"
 
 namespace priamos::bus {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 8;
-constexpr std::size_t kLongestChannel = 63;
 constexpr std::size_t kDatagramBytes = 1 << 16;
 constexpr std::size_t kBatch = 32;
 constexpr int kReceiveBuffer = 4 << 20;  // the kernel cuts it to net.core.rmem_max
@@ -77,28 +76,11 @@ struct UdpReceiver::Batch {
   std::array<mmsghdr, kBatch> messages;
 };
 
-bool ParseDatagram(std::span<const std::byte> datagram, std::uint32_t& number, std::string_view& channel,
-                   std::span<const std::byte>& bytes) {
-  constexpr std::uint32_t kShortMagic = 0x4c433032;  // "LC02"
-  if (datagram.size() <= kHeaderBytes || ReadBigEndian<std::uint32_t>(datagram.data()) != kShortMagic)
-    return false;
-  const auto rest = datagram.subspan(kHeaderBytes);
-  const auto name = rest.first(std::min(rest.size(), kLongestChannel + 1));
-  const auto end = std::find(name.begin(), name.end(), std::byte{0});
-  // Names that nobody could type or read back from a log are nonsense or an attack.
-  const auto printable = [](std::byte b) { return b >= std::byte{0x20} && b < std::byte{0x7f}; };
-  if (end == name.end() || end == name.begin() || !std::all_of(name.begin(), end, printable)) return false;
-  number = ReadBigEndian<std::uint32_t>(datagram.data() + 4);
-  channel = {reinterpret_cast<const char*>(rest.data()), static_cast<std::size_t>(end - name.begin())};
-  bytes = rest.subspan(channel.size() + 1);
-  return true;
-}
-
-UdpReceiver::UdpReceiver(const std::string& url) : batch_(std::make_unique<Batch>()) {
+UdpReceiver::UdpReceiver(const std::string& url, bool fragments) : batch_(std::make_unique<Batch>()) {
   fd_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (fd_ < 0) CannotJoin(url, "expected a socket");
   try {
-    FilterSocket(fd_);  // before the first datagram can come
+    if (!fragments) FilterSocket(fd_);  // before the first datagram can come
     Join(fd_, url);
   } catch (...) {
     close(fd_);
@@ -110,10 +92,34 @@ UdpReceiver::~UdpReceiver() {
   close(fd_);
 }
 
+std::uint64_t UdpReceiver::turned_away() const {
+  std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
+  socklen_t size = sizeof info;
+  return getsockopt(fd_, SOL_SOCKET, SO_MEMINFO, info.data(), &size) == 0 ? info[SK_MEMINFO_DROPS] : 0;
+}
+
 int UdpReceiver::ReceiveBatch(int at_most) {
   for (auto& message : batch_->messages) message.msg_hdr.msg_namelen = sizeof(sockaddr_in);
   const auto wanted = static_cast<unsigned>(std::min<int>(at_most, kBatch));
   return recvmmsg(fd_, batch_->messages.data(), wanted, MSG_DONTWAIT, nullptr);
+}
+
+void UdpReceiver::Take(std::uint64_t sender, std::span<const std::byte> datagram, const Handler& handler) {
+  std::uint32_t number = 0;
+  std::string_view channel;
+  std::span<const std::byte> bytes;
+  if (!ParseDatagram(datagram, number, channel, bytes)) return TakeFragment(sender, datagram, handler);
+  numbers_.Add(sender, number);
+  handler(channel, bytes);
+}
+
+/// All fragments of a message carry its number: it counts once.
+void UdpReceiver::TakeFragment(std::uint64_t sender, std::span<const std::byte> datagram,
+                               const Handler& handler) {
+  const auto result = reassembler_.Add(sender, datagram, large_);
+  if (result == Reassembler::Result::kMalformed) ++malformed_;
+  if (result == Reassembler::Result::kBegun) numbers_.Add(sender, FragmentHeader::Read(datagram)->number);
+  if (result == Reassembler::Result::kComplete) handler(large_.channel, large_.bytes);
 }
 
 int UdpReceiver::Receive(int at_most, const Handler& handler) {
@@ -122,20 +128,19 @@ int UdpReceiver::Receive(int at_most, const Handler& handler) {
     const int n = ReceiveBatch(at_most - handled);
     if (n <= 0) break;
     handled += n;
-    for (int i = 0; i < n; ++i) {
-      std::uint32_t number = 0;
-      std::string_view channel;
-      std::span<const std::byte> bytes;
-      if (!ParseDatagram(batch_->Datagram(static_cast<std::size_t>(i)), number, channel, bytes)) {
-        ++malformed_;
-        continue;
-      }
-      numbers_.Add(NameOf(batch_->senders[static_cast<std::size_t>(i)]), number);
-      handler(channel, bytes);
-    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+      Take(NameOf(batch_->senders[i]), batch_->Datagram(i), handler);
     if (n < static_cast<int>(kBatch)) break;
   }
   return handled;
+}
+
+std::string SenderAddress(std::uint64_t sender) {
+  in_addr address{};
+  address.s_addr = static_cast<in_addr_t>(sender >> 16);
+  char text[INET_ADDRSTRLEN] = "?";
+  inet_ntop(AF_INET, &address, text, sizeof text);
+  return fmt::format("{}:{}", text, ntohs(static_cast<std::uint16_t>(sender & 0xffff)));
 }
 
 }  // namespace priamos::bus

@@ -8,13 +8,15 @@
 #include <string>
 #include <string_view>
 
+#include "bus/reassembler.hpp"
 #include "bus/sequence_tracker.hpp"
 
 namespace priamos::bus {
 
-/// Receives the unfragmented messages (`LC02`) of an LCM multicast bus, in place of liblcm's receive thread.
+/// Receives the messages of an LCM multicast bus, in place of liblcm's receive thread.
 ///
-/// Compared with liblcm: fragments, which kill it, are turned away by a socket filter in the kernel; the
+/// Compared with liblcm: fragments, which kill it, are turned away by a socket filter in the kernel, or,
+/// where a foreign bus has messages of any size, put together by a Reassembler that believes nothing; the
 /// socket is bound to the multicast group, so other groups on the same port are not heard, and neither is
 /// anything sent to this host alone; the sequence numbers of every sender are looked at, so that losses
 /// are known; and there is no thread and no copy between the kernel and the handler.
@@ -22,8 +24,9 @@ class UdpReceiver {
  public:
   using Handler = std::function<void(std::string_view channel, std::span<const std::byte> bytes)>;
 
-  /// Throws BusError with a sentence when the group cannot be joined.
-  explicit UdpReceiver(const std::string& url);
+  /// Throws BusError with a sentence when the group cannot be joined. Without `fragments` a filter stops
+  /// them.
+  explicit UdpReceiver(const std::string& url, bool fragments = false);
   ~UdpReceiver();
   UdpReceiver(const UdpReceiver&) = delete;
   UdpReceiver& operator=(const UdpReceiver&) = delete;
@@ -32,25 +35,30 @@ class UdpReceiver {
   /// Hands out at most `at_most` of the messages that wait, without blocking. Returns their number.
   int Receive(int at_most, const Handler& handler);
 
-  std::uint64_t lost() const { return numbers_.lost(); }
-  /// Datagrams that say they are LCM and are not.
+  /// A large message of which a part is missing is lost, too.
+  std::uint64_t lost() const { return numbers_.lost() + reassembler_.abandoned(); }
+  /// Datagrams that are not what LCM sends.
   std::uint64_t malformed() const { return malformed_; }
-  std::size_t senders() const { return numbers_.senders(); }
+  /// Datagrams the kernel did not hand over: no `LC02` (fragments, nonsense), or the receive buffer was full.
+  /// The latter are in lost() as well, if what came from their sender was numbered.
+  std::uint64_t turned_away() const;
+  const SequenceTracker& numbers() const { return numbers_; }
 
  private:
   struct Batch;
   int ReceiveBatch(int at_most);
+  void Take(std::uint64_t sender, std::span<const std::byte> datagram, const Handler& handler);
+  void TakeFragment(std::uint64_t sender, std::span<const std::byte> datagram, const Handler& handler);
 
   int fd_ = -1;
   std::unique_ptr<Batch> batch_;
   SequenceTracker numbers_;
+  Reassembler reassembler_;
+  Reassembler::Message large_;
   std::uint64_t malformed_ = 0;
 };
 
-/// One unfragmented LCM datagram: magic `LC02`, number, channel (printable ASCII) with a zero behind it,
-/// message. False when it
-/// is none; `channel` and `bytes` point into it.
-bool ParseDatagram(std::span<const std::byte> datagram, std::uint32_t& number, std::string_view& channel,
-                   std::span<const std::byte>& bytes);
+/// Address and port of SenderCounters::sender, as text.
+std::string SenderAddress(std::uint64_t sender);
 
 }  // namespace priamos::bus

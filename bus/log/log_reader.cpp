@@ -54,32 +54,40 @@ bool LogReader::MagicAt(std::size_t offset) const {
   return offset + 4 <= bytes_.size() && ReadBigEndian<std::uint32_t>(&bytes_[offset]) == kMagic;
 }
 
-bool LogReader::FindMagic(std::size_t begin, std::size_t end) const {
+/// True when an event begins between the two, as far as its header tells.
+bool LogReader::HoldsEvent(std::size_t begin, std::size_t end) const {
   for (std::size_t at = begin; at + 4 <= end; ++at)
-    if (MagicAt(at)) return true;
+    if (MagicAt(at) && EndOfEvent(at)) return true;
   return false;
 }
 
+std::size_t LogReader::EndOfEvent(std::size_t offset) const {
+  if (bytes_.size() - offset < kHeaderBytes) return 0;
+  const auto channel_bytes = ReadBigEndian<std::uint32_t>(&bytes_[offset + 20]);
+  const auto data_bytes = ReadBigEndian<std::uint32_t>(&bytes_[offset + 24]);
+  if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxDataBytes) return 0;
+  const std::size_t end = offset + kHeaderBytes + channel_bytes + data_bytes;
+  if (end > bytes_.size()) return 0;
+  const auto* name = reinterpret_cast<const char*>(&bytes_[offset + kHeaderBytes]);
+  return IsLogChannel({name, channel_bytes}) ? end : 0;
+}
+
 std::optional<LogEvent> LogReader::ParseAt(std::size_t offset, std::size_t& end) const {
-  if (bytes_.size() - offset < kHeaderBytes || !MagicAt(offset)) return std::nullopt;
+  if (!MagicAt(offset)) return std::nullopt;
+  end = EndOfEvent(offset);
+  if (end == 0) return std::nullopt;
+  // A damaged length that still fits shows by swallowing the next event. (An event followed by something else
+  // is whole: then the damage is in its successor. What only looks like a magic may be in any message.)
+  if (!MagicAt(end) && HoldsEvent(offset + 4, end)) return std::nullopt;
   const std::byte* header = &bytes_[offset];
   const auto channel_bytes = ReadBigEndian<std::uint32_t>(header + 20);
-  const auto data_bytes = ReadBigEndian<std::uint32_t>(header + 24);
-  if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxDataBytes)
-    return std::nullopt;
-  end = offset + kHeaderBytes + channel_bytes + data_bytes;
-  if (end > bytes_.size()) return std::nullopt;
-  // A damaged length that still fits shows by swallowing the next event's magic. (An event followed by
-  // something else is whole: then the damage is in its successor.)
-  if (!MagicAt(end) && FindMagic(offset + 4, end)) return std::nullopt;
-  const auto channel = bytes_.subspan(offset + kHeaderBytes, channel_bytes);
-  const std::string_view name(reinterpret_cast<const char*>(channel.data()), channel.size());
-  if (!IsLogChannel(name)) return std::nullopt;
-  const auto data = bytes_.subspan(end - data_bytes, data_bytes);
+  const auto* name = reinterpret_cast<const char*>(header + kHeaderBytes);
+  const auto data =
+      bytes_.subspan(offset + kHeaderBytes + channel_bytes, ReadBigEndian<std::uint32_t>(header + 24));
   LogEvent event;
   event.number = ReadBigEndian<std::int64_t>(header + 4);
   event.utime = ReadBigEndian<std::int64_t>(header + 12);
-  event.channel = name;
+  event.channel.assign(name, channel_bytes);
   event.bytes.assign(data.begin(), data.end());
   event.offset = offset;
   return event;

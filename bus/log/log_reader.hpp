@@ -33,7 +33,9 @@ class LogReader {
  private:
   std::optional<LogEvent> ParseAt(std::size_t offset, std::size_t& end) const;
   bool MagicAt(std::size_t offset) const;
-  bool FindMagic(std::size_t begin, std::size_t end) const;
+  /// By its header, which has to be plausible; 0 when it is not.
+  std::size_t EndOfEvent(std::size_t offset) const;
+  bool HoldsEvent(std::size_t begin, std::size_t end) const;
 
   std::shared_ptr<const void> mapping_;  ///< keeps the mapped file
   std::span<const std::byte> bytes_;

@@ -89,11 +89,19 @@ int Index(const LogOptions& options) {
   const bus::Schema schema = LoadTypes(options.bus);
   bus::LogReader reader(options.log);
   OutputFile out(options.out, options.log, options.force);
-  out.stream() << "offset,number,utime,channel,bytes,type\r\n";
+  if (!options.json) out.stream() << "offset,number,utime,channel,bytes,type\r\n";
   while (const auto event = reader.Next()) {
     const auto* type = schema.Find(bus::FingerprintOf(event->bytes.data(), event->bytes.size()));
+    const std::string type_name = type ? type->full_name : "?";
+    if (options.json) {
+      out.stream() << nlohmann::ordered_json{{"offset", event->offset},      {"number", event->number},
+                                             {"utime", event->utime},        {"channel", event->channel},
+                                             {"bytes", event->bytes.size()}, {"type", type_name}}
+                   << "\n";
+      continue;
+    }
     out.stream() << fmt::format("{},{},{},\"{}\",{},{}\r\n", event->offset, event->number, event->utime,
-                                event->channel, event->bytes.size(), type ? type->full_name : "?");
+                                event->channel, event->bytes.size(), type_name);
   }
   return out.Close();
 }
@@ -107,14 +115,28 @@ int Copy(const LogOptions& options) {
   const auto copied = bus::CopyEvents(reader, selection, writer);
   writer.Flush();
   if (!writer.good()) throw std::runtime_error(options.out + ": cannot be written: is the disk full?");
+  if (options.json)
+    return std::cout << nlohmann::ordered_json{{"events", copied},
+                                               {"damaged_places", reader.damaged_places()},
+                                               {"skipped_bytes", reader.skipped_bytes()}}
+                     << "\n",
+           0;
   std::cout << fmt::format("{}: {} events; {} damaged places with {} bytes left out\n", options.out, copied,
                            reader.damaged_places(), reader.skipped_bytes());
   return 0;
 }
 
 int Tell(const LogOptions& options, const bus::ExportCount& count, const bus::LogReader& reader) {
-  std::cerr << fmt::format("{} messages; left out: {} undecodable, {} damaged places with {} bytes\n",
-                           count.written, count.undecodable, reader.damaged_places(), reader.skipped_bytes());
+  if (options.json)
+    std::cerr << nlohmann::ordered_json{{"messages", count.written},
+                                        {"undecodable", count.undecodable},
+                                        {"damaged_places", reader.damaged_places()},
+                                        {"skipped_bytes", reader.skipped_bytes()}}
+              << "\n";
+  else
+    std::cerr << fmt::format("{} messages; left out: {} undecodable, {} damaged places with {} bytes\n",
+                             count.written, count.undecodable, reader.damaged_places(),
+                             reader.skipped_bytes());
   if (count.written > 0 || count.undecodable == 0) return 0;
   std::cerr << options.log << ": no message could be decoded; name its .lcm folder with --types\n";
   return 1;
@@ -208,7 +230,8 @@ CLI::App* AddVerb(CLI::App& log, const char* name, const char* help, const char*
   }
   if (which == "filter" || which == "export") AddSelectionOptions(*verb, options->selection);
   if (which != "filter" && which != "repair") AddTypesOption(*verb, options->bus);
-  if (which == "info" || which == "merge") verb->add_flag("--json", options->json, "machine-readable");
+  verb->add_flag("--json", options->json,
+                 which == "export" ? "the count on standard error machine-readable" : "machine-readable");
   if (which != "info") verb->add_flag("--force", options->force, "replace an existing file");
   verb->callback([options, run, &exit_code] { exit_code = run(*options); });
   return verb;

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "bus/clock.hpp"
 #include "bus/log/log_player.hpp"
@@ -24,7 +25,7 @@ struct PlayOptions {
   SelectionOptions selection;
   std::string log;
   std::string speed = "1";
-  bool loop = false, paused = false;
+  bool loop = false, paused = false, json = false;
 };
 
 /// Single keys from a terminal, without Enter; nothing when standard input is none.
@@ -58,7 +59,8 @@ class Keyboard {
 class Playing {
  public:
   explicit Playing(const PlayOptions& options)
-      : bus_(options.bus.bus, options.bus.messages()),
+      : json_(options.json),
+        bus_(options.bus.bus, options.bus.messages()),
         player_(bus::LogReader(options.log), SelectionOf(options.selection, options.log)) {
     const Time now = clock_.Now();
     player_.SetSpeed(ParseSpeed(options.speed), now);
@@ -81,8 +83,14 @@ class Playing {
       Show();
     }
     std::cerr << (keyboard_.is_terminal() ? "\n" : "");
-    std::cout << fmt::format("{} events sent, {} refused, {} damaged bytes skipped\n", sent_, refused_,
-                             player_.skipped_bytes());
+    if (json_)
+      std::cout << nlohmann::ordered_json{{"sent", sent_},
+                                          {"refused", refused_},
+                                          {"skipped_bytes", player_.skipped_bytes()}}
+                << "\n";
+    else
+      std::cout << fmt::format("{} events sent, {} refused, {} damaged bytes skipped\n", sent_, refused_,
+                               player_.skipped_bytes());
     if (refused_ > 0) std::cerr << "refused: longer than an unfragmented message; --fragments sends them\n";
     return refused_ > 0 ? kNotAllSent : 0;
   }
@@ -110,6 +118,7 @@ class Playing {
   }
 
   static constexpr Duration kLongest = std::chrono::milliseconds(100);
+  bool json_;
   bus::SignalWatch signals_;
   bus::MonotonicClock clock_;
   bus::LcmBus bus_;
@@ -133,6 +142,7 @@ void AddLogPlayVerb(CLI::App& log, int& exit_code) {
   verb->add_option("--speed", options->speed, "1/64 to 1000, or max")->capture_default_str();
   verb->add_flag("--loop", options->loop, "begin again at the end");
   verb->add_flag("--paused", options->paused, "wait for a key");
+  verb->add_flag("--json", options->json, "the count at the end machine-readable");
   AddSelectionOptions(*verb, options->selection);
   verb->callback([options, &exit_code] { exit_code = Playing(*options).Run(); });
 }

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "bus/log/log_recorder.hpp"
 #include "bus/log/log_selection.hpp"
@@ -27,7 +28,7 @@ struct RecordOptions {
   std::vector<std::string> only, without;
   double split_mb = 0, split_minutes = 0, keep_free_mb = 100, seconds = 0;
   std::size_t keep = 0;
-  bool no_health = false;
+  bool no_health = false, json = false;
 };
 
 std::string DefaultFile() {
@@ -62,7 +63,7 @@ class Recording {
 
   int Run() {
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a failed write, not the end
-    std::cout << recorder_.file().string() << std::endl;
+    if (!options_.json) std::cout << recorder_.file().string() << std::endl;
     const auto end = options_.seconds > 0 ? start_ + FromSeconds(options_.seconds) : Time::max();
     while (clock_.Now() < end) {
       pollfd fds[] = {{bus_.fd(), POLLIN, 0}, {signals_.fd(), POLLIN, 0}};
@@ -105,10 +106,20 @@ class Recording {
 
   int End() {
     recorder_.Tick(clock_.Now() + std::chrono::seconds(1));
+    if (options_.json) {
+      std::cout << nlohmann::ordered_json{{"events", recorder_.recorded()},
+                                          {"bytes", recorder_.bytes()},
+                                          {"lost_network", bus_.lost()},
+                                          {"lost_disk", recorder_.lost()},
+                                          {"alarm", recorder_.alarm()}}
+                << "\n";
+      return Code();
+    }
     std::cout << fmt::format("{} events, {} bytes; lost: {} on the network, {} on the disk\n",
                              recorder_.recorded(), recorder_.bytes(), bus_.lost(), recorder_.lost());
-    return recorder_.alarm().empty() && recorder_.lost() == 0 ? 0 : kIncomplete;
+    return Code();
   }
+  int Code() const { return recorder_.alarm().empty() && recorder_.lost() == 0 ? 0 : kIncomplete; }
 
   RecordOptions options_;
   bus::SignalWatch signals_;
@@ -149,6 +160,7 @@ void AddLogRecordVerb(CLI::App& log, int& exit_code) {
   verb->add_option("--seconds", options->seconds, "stop after so long; 0: at Ctrl-C")
       ->check(CLI::NonNegativeNumber);
   verb->add_flag("--no-health", options->no_health, "send nothing on the bus");
+  verb->add_flag("--json", options->json, "the count at the end machine-readable");
   verb->callback([options, &exit_code] {
     if (options->file.empty()) options->file = DefaultFile();
     if (std::filesystem::exists(options->file))

@@ -85,7 +85,7 @@ void AddReplayCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("log", options->log, "LCM log")->required()->check(CLI::ExistingFile);
   verb->add_option("--module", options->module, "whose messages to compare")
       ->required()
-      ->check(CLI::IsMember({"robot", "planner", "head", "radio", "world"}));
+      ->check(CLI::IsMember({"robot", "planner", "head", "teleop", "radio", "world"}));
   verb->add_option("--config", options->config, "its configuration; none: <deployment>/<module>.toml");
   verb->add_option("--deployment", options->deployment, "folder of configurations")->capture_default_str();
   verb->add_option("--set", options->set, "KEY=VALUE on top of the file");

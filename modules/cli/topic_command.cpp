@@ -9,6 +9,7 @@
 #include "bus/lcm_bus.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/json.hpp"
+#include "bus/udp_receiver.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/commands.hpp"
 #include "cli/topic_statistics.hpp"
@@ -65,8 +66,11 @@ void PrintTable(const std::vector<TopicRow>& rows, const bus::LcmBus& bus) {
                              r.type, r.rate_hz, r.jitter_s * 1e3, r.bandwidth_bytes_s, r.age_s, r.messages,
                              r.undecodable);
   }
-  std::cout << fmt::format("{} senders; lost: {} datagrams; malformed: {}\n", bus.senders(), bus.lost(),
-                           bus.malformed())
+  for (const auto& s : bus.senders())
+    std::cout << fmt::format("sender {:<21} {:>9} datagrams, {} lost\n", bus::SenderAddress(s.sender),
+                             s.datagrams, s.lost);
+  std::cout << fmt::format("lost: {} datagrams; malformed: {}; turned away by the kernel: {}\n", bus.lost(),
+                           bus.malformed(), bus.turned_away())
             << std::flush;
 }
 
@@ -74,9 +78,14 @@ void PrintRows(const std::vector<TopicRow>& rows, const bus::LcmBus& bus, bool j
   if (!json) return PrintTable(rows, bus);
   auto all = nlohmann::ordered_json::array();
   for (const auto& row : rows) all.push_back(ToJson(row));
-  std::cout << nlohmann::ordered_json{{"senders", bus.senders()},
+  auto senders = nlohmann::ordered_json::array();
+  for (const auto& s : bus.senders())
+    senders.push_back(
+        {{"address", bus::SenderAddress(s.sender)}, {"datagrams", s.datagrams}, {"lost", s.lost}});
+  std::cout << nlohmann::ordered_json{{"senders", senders},
                                       {"lost", bus.lost()},
                                       {"malformed", bus.malformed()},
+                                      {"turned_away", bus.turned_away()},
                                       {"channels", all}}
                    .dump()
             << std::endl;
@@ -139,6 +148,8 @@ int Pub(const TopicOptions& options) {
   const auto bytes = bus::FromJson(*type, bus::Json::parse(options.message));
   if (!bus.Publish(options.channel, bytes))
     throw bus::BusError(fmt::format("{}: {} bytes were not sent", options.bus, bytes.size()));
+  if (options.json)
+    std::cout << nlohmann::ordered_json{{"channel", options.channel}, {"bytes", bytes.size()}} << "\n";
   return 0;
 }
 
@@ -190,6 +201,7 @@ void AddTopicCommand(CLI::App& cli, int& exit_code) {
   pub->add_option("channel", options->channel, "LCM channel")->required();
   pub->add_option("type", options->type, "message type")->required();
   pub->add_option("message", options->message, "the message as JSON")->required();
+  pub->add_flag("--json", options->json, "say machine-readable what was sent");
   pub->callback([options, &exit_code] { exit_code = Pub(*options); });
 }
 

@@ -9,6 +9,7 @@ namespace priamos::cli {
 
 void TopicStatistics::Add(Time now, std::string_view channel, std::span<const std::byte> bytes) {
   auto found = topics_.find(channel);
+  if (found == topics_.end() && topics_.size() >= kMaxChannels) found = topics_.find(channel = kOthers);
   if (found == topics_.end()) found = topics_.emplace(std::string(channel), Topic{}).first;
   Topic& topic = found->second;
   const auto fingerprint = bus::FingerprintOf(bytes.data(), bytes.size());

@@ -28,6 +28,9 @@ struct TopicRow {
 /// Counts every message on a bus, of types it was never compiled with.
 class TopicStatistics {
  public:
+  static constexpr std::size_t kMaxChannels = 1000;  ///< what comes on further ones is counted in kOthers
+  static constexpr std::string_view kOthers = "(other channels)";
+
   /// `schema` must outlive this.
   TopicStatistics(const bus::Schema& schema, Duration window) : schema_(schema), window_(window) {}
 

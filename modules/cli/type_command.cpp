@@ -7,6 +7,7 @@
 #include "bus/schema/json_schema.hpp"
 #include "bus/schema/packing.hpp"
 #include "cli/bus_options.hpp"
+#include "cli/channel_table.hpp"
 #include "cli/commands.hpp"
 
 namespace priamos::cli {
@@ -94,6 +95,13 @@ void AddTypeCommand(CLI::App& cli, int& exit_code) {
   hash->add_option("type", options->type, "message type; none: all");
   hash->add_flag("--json", options->json, "machine-readable");
   hash->callback([options, &exit_code] { exit_code = Hash(*options); });
+  auto* table = type->add_subcommand("channels", "Every channel of PRIAMOS: type, rate, life span, sizes.");
+  table->footer("Example: priamos type channels");
+  table->add_flag("--json", options->json, "machine-readable");
+  table->callback([options, &exit_code] {
+    std::cout << (options->json ? ChannelsAsJson() + "\n" : ChannelTable());
+    exit_code = 0;
+  });
   for (auto* verb : {show, hash}) AddTypesOption(*verb, *options);
 }
 

@@ -79,6 +79,14 @@ TEST_F(Completion, EveryVerbHasAnExample) {
   EXPECT_GT(verbs, 15);
 }
 
+/// Whatever tells something tells it to programs, too.
+TEST_F(Completion, EveryVerbThatLooksAtABusOrALogHasJson) {
+  for (const std::string name : {"topic", "log", "type", "replay"})
+    for (const auto* verb : cli_.get_subcommand(name)->get_subcommands([](const CLI::App*) { return true; }))
+      EXPECT_NE(verb->get_option_no_throw("--json"), nullptr) << name << " " << verb->get_name();
+  EXPECT_NE(cli_.get_subcommand("doctor")->get_option_no_throw("--json"), nullptr);
+}
+
 TEST(BashCompletion, AsksUs) {
   EXPECT_THAT(BashCompletion(), testing::HasSubstr("complete -o default -F _priamos priamos"));
 }

@@ -66,7 +66,7 @@ public class SonarRing implements SpyPlugin {
 
     View(ChannelData channel) {
       this.channel = channel;
-      setPreferredSize(new Dimension(500, 500));
+      setPreferredSize(new Dimension(460, 320)); // fits into the window that lcm-spy gives a plugin
       setBackground(Color.WHITE);
     }
 

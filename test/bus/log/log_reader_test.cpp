@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "bus/log/log_writer.hpp"
-#include "support/temporary_folder.hpp"
+#include "test/support/temporary_folder.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -97,6 +97,20 @@ TEST_F(Log, TruncatedLogEndsWithItsLastWholeEvent) {
   EXPECT_FALSE(dut.Next());
   EXPECT_GT(dut.skipped_bytes(), 0u);
   EXPECT_EQ(dut.damaged_places(), 1u);
+}
+
+TEST_F(Log, AMessageMayHoldTheMagicEvenInTheLastEvent) {
+  const std::vector<std::byte> magic{std::byte{0xED}, std::byte{0xA1}, std::byte{0xDA}, std::byte{0x01}};
+  {
+    LogWriter writer(path_);
+    for (int i = 0; i < 2; ++i) writer.Write(i, "RAW", magic);
+  }
+  LogReader dut(path_);
+  EXPECT_EQ(dut.Next()->bytes, magic);
+  const auto last = dut.Next();
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->bytes, magic);
+  EXPECT_EQ(dut.skipped_bytes(), 0u);
 }
 
 TEST_F(Log, SeekGoesBackToAnEvent) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace priamos::cli {
+
+/// Every channel of lcmtypes/channels.hpp as a table in Markdown: name, type, nominal rate, life span,
+/// largest size on LCM and packed for the radio. bus/README.md holds it; a test compares.
+std::string ChannelTable();
+
+/// The same as a JSON array.
+std::string ChannelsAsJson();
+
+}  // namespace priamos::cli

@@ -1,0 +1,278 @@
+// What the bus costs beside raw liblcm, in one run: round trip of a small message, `priamos topic list` on a
+// busy bus, reading a log. Prints one line per figure with its bound; exit 1 if one is missed.
+//   scripts/in-private-network build/bin/bench_bus [--quick]
+#include <fmt/format.h>
+#include <lcm/lcm.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bus/log/log_reader.hpp"
+#include "bus/node.hpp"
+#include "bus/own_types.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::bench {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+int missed = 0;
+
+double SecondsSince(SteadyClock::time_point start) {
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
+/// One figure; `bound` 0: none.
+void Report(std::string_view what, double value, double bound, std::string_view unit) {
+  const bool held = bound == 0 || value <= bound;
+  missed += !held;
+  fmt::print("{:62} {:9.3f} {:5} {}{}\n", what, value, unit, bound == 0 ? "" : fmt::format("<= {:g}", bound),
+             held ? "" : "  MISSED");
+  std::fflush(stdout);
+}
+
+double Quantile(std::vector<double> values, double part) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// 64 bytes behind the fingerprint.
+odometry_t Sample() {
+  odometry_t message{};
+  message.x_m = 12.5;
+  return message;
+}
+
+/// One end of a ping pong: what came is sent back on another channel.
+class Peer {
+ public:
+  virtual ~Peer() = default;
+  virtual void Send() = 0;
+  /// Waits for a message and handles it; false after a second.
+  virtual bool Handle() = 0;
+};
+
+constexpr const char* kChannels[] = {"PING", "PONG"};
+
+class RawPeer : public Peer {
+ public:
+  RawPeer(int out, bool echo) : out_(kChannels[out]), echo_(echo), bytes_(bus::Encode(Sample())) {
+    lcm_subscribe(lcm_, kChannels[1 - out], &RawPeer::OnMessage, this);
+  }
+  ~RawPeer() override { lcm_destroy(lcm_); }
+  void Send() override { lcm_publish(lcm_, out_, bytes_.data(), static_cast<unsigned>(bytes_.size())); }
+  bool Handle() override { return lcm_handle_timeout(lcm_, 1000) > 0; }
+
+ private:
+  /// As generated subscribe functions do it.
+  static void OnMessage(const lcm_recv_buf_t* buffer, const char*, void* self) {
+    odometry_t message;
+    if (message.decode(buffer->data, 0, static_cast<int>(buffer->data_size)) < 0) return;
+    auto* peer = static_cast<RawPeer*>(self);
+    if (peer->echo_) peer->Send();
+  }
+  lcm_t* lcm_ = lcm_create("udpm://239.255.76.67:7701?ttl=0");
+  const char* out_;
+  bool echo_;
+  std::vector<std::byte> bytes_;
+};
+
+class WrappedPeer : public Peer {
+ public:
+  WrappedPeer(int out, bool echo)
+      : echo_(echo),
+        out_(node_.Advertise(Channel<odometry_t>{kChannels[out]})),
+        in_(node_.Subscribe(Channel<odometry_t>{kChannels[1 - out]})) {}
+  void Send() override { out_.Publish(Sample()); }
+  bool Handle() override {
+    pollfd waiting{bus_.fd(), POLLIN, 0};
+    if (poll(&waiting, 1, 1000) != 1) return false;
+    bus_.Drain();
+    if (in_.Take() && echo_) Send();
+    return true;
+  }
+
+ private:
+  bus::Schema schema_ = bus::OwnTypes();
+  bus::MonotonicClock clock_;
+  bus::LcmBus bus_{"udpm://239.255.76.67:7702?ttl=0"};
+  bus::Node node_{bus_, schema_, clock_};
+  bool echo_;
+  bus::Publisher<odometry_t> out_;
+  bus::Latest<odometry_t> in_;
+};
+
+/// A sender here, and its echo in another thread.
+template <class P>
+class PingPong {
+ public:
+  PingPong() {
+    thread_ = std::thread([this] {
+      P echo(1, true);
+      ready_ = true;
+      while (!stop_) echo.Handle();
+    });
+    while (!ready_) std::this_thread::yield();
+  }
+  ~PingPong() {
+    stop_ = true;
+    thread_.join();
+  }
+  void Measure(int n, std::vector<double>& micro_seconds) {
+    for (int i = 0; i < n; ++i) {
+      const auto start = SteadyClock::now();
+      here_.Send();
+      if (here_.Handle()) micro_seconds.push_back(1e6 * SecondsSince(start));
+    }
+  }
+
+ private:
+  P here_{0, false};
+  std::atomic<bool> ready_ = false, stop_ = false;
+  std::thread thread_;
+};
+
+void RoundTrip(bool quick) {
+  std::vector<double> raw_us, wrapped_us;
+  {
+    PingPong<RawPeer> raw;
+    PingPong<WrappedPeer> wrapped;
+    std::vector<double> warm_up;
+    raw.Measure(200, warm_up);
+    wrapped.Measure(200, warm_up);
+    for (int block = 0; block < (quick ? 20 : 200); ++block) {
+      raw.Measure(100, raw_us);
+      wrapped.Measure(100, wrapped_us);
+    }
+  }
+  Report("round trip of 64 bytes, raw liblcm: median", Quantile(raw_us, 0.5), 0, "us");
+  Report("round trip of 64 bytes, raw liblcm: 99 %", Quantile(raw_us, 0.99), 0, "us");
+  Report("round trip of 64 bytes, bus: median", Quantile(wrapped_us, 0.5), 0, "us");
+  Report("round trip of 64 bytes, bus: 99 %", Quantile(wrapped_us, 0.99), 0, "us");
+  Report("median of bus / median of raw liblcm", Quantile(wrapped_us, 0.5) / Quantile(raw_us, 0.5), 1.1, "");
+}
+
+constexpr int kMessagesPerSecond = 10'000;
+
+/// Sends on ten channels for so long; returns the number of messages.
+std::uint64_t Flood(double seconds) {
+  bus::LcmBus bus("udpm://239.255.76.67:7703?ttl=0");
+  const auto bytes = bus::Encode(Sample());
+  const auto start = SteadyClock::now();
+  std::uint64_t sent = 0;
+  while (SecondsSince(start) < seconds) {
+    while (static_cast<double>(sent) < SecondsSince(start) * kMessagesPerSecond)
+      bus.Publish(fmt::format("CHANNEL_{}", sent++ % 10), bytes);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return sent;
+}
+
+/// `priamos topic list` as a process: what it printed, and the CPU time it took.
+class TopicList {
+ public:
+  TopicList(const std::string& program, double seconds) {
+    int ends[2];
+    if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+    child_ = fork();
+    if (child_ == 0) {
+      dup2(ends[1], STDOUT_FILENO);
+      execl(program.c_str(), "priamos", "topic", "list", "--json", "--bus", "udpm://239.255.76.67:7703?ttl=0",
+            "--seconds", fmt::format("{}", seconds).c_str(), nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    out_ = ends[0];
+  }
+  nlohmann::json End() {
+    std::string text;
+    char part[4096];
+    for (ssize_t n = 0; (n = read(out_, part, sizeof part)) > 0;)
+      text.append(part, static_cast<std::size_t>(n));
+    close(out_);
+    rusage use{};
+    wait4(child_, nullptr, 0, &use);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    cpu_s = seconds(use.ru_utime) + seconds(use.ru_stime);
+    return nlohmann::json::parse(text);
+  }
+  double cpu_s = 0;
+
+ private:
+  pid_t child_ = 0;
+  int out_ = -1;
+};
+
+void BusyBus(const std::string& program, bool quick) {
+  const double seconds = quick ? 2 : 10;
+  TopicList list(program, seconds + 3);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  const double sent = static_cast<double>(Flood(seconds));
+  const auto answer = list.End();
+  double heard = 0;
+  for (const auto& channel : answer.at("channels")) heard += channel.at("messages").get<double>();
+  const double lost = answer.at("lost").get<double>();
+  Report("messages sent to `topic list` per second", sent / seconds, 0, "1/s");
+  Report("its CPU time, with its start, per second of sending", 100 * list.cpu_s / seconds, 30, "%");
+  Report("lost and reported", 100 * lost / sent, 0, "%");
+  Report("lost and not reported", std::abs(sent - heard - lost), 1e-9, "");
+}
+
+double LiblcmReadSeconds(const std::string& log, std::uint64_t& events) {
+  const auto start = SteadyClock::now();
+  lcm_eventlog_t* file = lcm_eventlog_create(log.c_str(), "r");
+  events = 0;
+  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(file)) {
+    ++events;
+    lcm_eventlog_free_event(event);
+  }
+  lcm_eventlog_destroy(file);
+  return SecondsSince(start);
+}
+
+double ReadSeconds(const std::string& log, std::uint64_t& events) {
+  const auto start = SteadyClock::now();
+  bus::LogReader reader(log);
+  for (events = 0; reader.Next(); ++events) {
+  }
+  return SecondsSince(start);
+}
+
+void ReadLog(const std::string& log, bool quick) {
+  std::vector<double> ours, theirs;
+  std::uint64_t n = 0, m = 0;
+  for (int i = 0; i < (quick ? 20 : 200); ++i) {
+    theirs.push_back(LiblcmReadSeconds(log, m));
+    ours.push_back(ReadSeconds(log, n));
+  }
+  Report("events of the log that liblcm reads and we do not", static_cast<double>(m) - static_cast<double>(n),
+         1e-9, "");
+  Report("reading it: liblcm, median", 1e3 * Quantile(theirs, 0.5), 0, "ms");
+  Report("reading it: bus/log, median", 1e3 * Quantile(ours, 0.5), 0, "ms");
+}
+
+}  // namespace
+}  // namespace priamos::bench
+
+int main(int argc, char** argv) {
+  using namespace priamos::bench;
+  bool quick = false;
+  CLI::App app("What the bus costs");
+  app.add_flag("--quick", quick, "a tenth of the samples");
+  CLI11_PARSE(app, argc, argv);
+  RoundTrip(quick);
+  BusyBus(PRIAMOS_BINARY_DIR "/bin/priamos", quick);
+  ReadLog(PRIAMOS_SOURCE_DIR "/logs/recorded/door-onboard.lcmlog", quick);
+  return missed > 0;
+}
