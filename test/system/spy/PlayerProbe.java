@@ -11,7 +11,7 @@ public class PlayerProbe {
   public static void main(String[] args) throws Exception {
     lcm.logging.LogPlayer.main(new String[] {"--lcm-url=" + args[0], args[1]});
     Thread.sleep(Long.parseLong(args[2]) * 1000);
-    ImageIO.write(new Robot().createScreenCapture(new Rectangle(1280, 800)), "png", new File(args[3]));
+    ImageIO.write(new Robot().createScreenCapture(new Rectangle(1280, 1024)), "png", new File(args[3]));
     System.exit(0);
   }
 }

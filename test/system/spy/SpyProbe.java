@@ -20,7 +20,7 @@ public class SpyProbe {
       Thread.sleep(Long.parseLong(args[1]) * 1000);
       SwingUtilities.invokeAndWait(() -> openPlugins(spy));
       Thread.sleep(1500);
-      ImageIO.write(new Robot().createScreenCapture(new Rectangle(1280, 800)), "png", new File(args[2]));
+      ImageIO.write(new Robot().createScreenCapture(new Rectangle(1280, 1024)), "png", new File(args[2]));
       for (ChannelData channel : spy.channelList)
         System.out.printf("channel %s %s %d %d%n", channel.name, channel.cls == null ? "?" : channel.cls.getName(),
             channel.nreceived, channel.nerrors);
