@@ -53,8 +53,11 @@ std::filesystem::path LogRecorder::NextPath() {
 }
 
 bool LogRecorder::Open(Time now) {
-  const auto path = NextPath();
-  fd_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  std::filesystem::path path;
+  do {  // what another recording left under such a name stays
+    path = NextPath();
+    fd_ = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  } while (fd_ < 0 && errno == EEXIST);
   if (fd_ < 0) {
     --file_count_;  // the name is free for the next attempt
     alarm_ = fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno));

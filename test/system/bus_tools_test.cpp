@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "bus/log/log_reader.hpp"
 #include "bus/log/log_writer.hpp"
@@ -145,6 +146,34 @@ TEST_F(BusTools, FullDiskIsToldWithinASecondAndTheLogStaysWhole) {
   std::size_t events = 0;
   for (const auto& [channel, messages] : ReadContents(folder_ / "kept.lcmlog")) events += messages.size();
   EXPECT_GT(events, 60u);  // 120 events of 150 to 250 bytes; 16 kB hold most of them
+}
+
+/// The recorder is a process of its own: what happens to it does not reach the robot.
+TEST_F(BusTools, ARobotIsNotAffectedByAFullDisk) {
+  WriteLog(log_);
+  const auto answer = Run(R"sh(
+    mkdir disk; mount -t tmpfs -o size=16k none disk
+    $BIN/priamos topic echo HEALTH --json > health.txt & listener=$!
+    $BIN/priamos-robot --config $SOURCE/config/sim/robot.toml 2> /dev/null & robot=$!
+    $BIN/priamos log record disk/run.lcmlog --keep-free-mb 0 > record.txt 2>&1 & recorder=$!
+    until grep -q ALARM record.txt; do $BIN/priamos log play in.lcmlog --speed max > /dev/null; sleep 0.1; done
+    sleep 2.5; kill -INT $recorder $robot; wait $recorder; wait $robot; echo "robot: exit code $?"
+    kill -INT $listener; wait $listener; cat health.txt)sh",
+                          30, "unshare -rnm");
+  EXPECT_THAT(answer.text, HasSubstr("robot: exit code 0"));
+  int after_alarm = 0;
+  bool alarm = false;
+  std::istringstream lines(answer.text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto health = nlohmann::json::parse(line, nullptr, false);
+    if (!health.is_object()) continue;
+    alarm |= health["process"] == "recorder" && health["state"] == health_t::FAILED;
+    if (!alarm || health["process"] != "robot") continue;
+    ++after_alarm;
+    EXPECT_EQ(health["messages_lost"], 0) << line;
+    EXPECT_EQ(health["handler_exceptions"], 0) << line;
+  }
+  EXPECT_GE(after_alarm, 2) << answer.text;
 }
 
 TEST_F(BusTools, ReadOnlyDiskIsASentenceAtTheStart) {

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <fstream>
 #include <set>
 
 #include "bus/log/log_reader.hpp"
@@ -74,6 +75,17 @@ TEST_F(RecorderTest, SplitsBySizeBetweenEvents) {
   EXPECT_EQ(Files(), (std::set<std::string>{"run.lcmlog", "run.1.lcmlog", "run.2.lcmlog"}));
   EXPECT_EQ(EventsIn(file_), 10);
   EXPECT_EQ(EventsIn(folder_ / "run.1.lcmlog"), 10);
+}
+
+TEST_F(RecorderTest, FilesOfAnotherRecordingStay) {
+  std::ofstream(folder_ / "run.1.lcmlog") << "theirs";
+  {
+    LogRecorder dut(file_, {.split_bytes = 10'000}, now_);
+    Record(dut, 30);
+  }
+  EXPECT_EQ(Files(), (std::set<std::string>{"run.lcmlog", "run.1.lcmlog", "run.2.lcmlog", "run.3.lcmlog"}));
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "run.1.lcmlog"), 6u);
+  EXPECT_EQ(EventsIn(folder_ / "run.2.lcmlog"), 10);
 }
 
 TEST_F(RecorderTest, SplitsByTime) {
