@@ -28,7 +28,8 @@ std::string TextOf(const fs::path& file) {
 std::vector<std::string> Files() {
   std::vector<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(kConfigs))
-    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), kConfigs).string());
+    if (entry.is_regular_file() && entry.path().extension() != ".md")
+      files.push_back(fs::relative(entry.path(), kConfigs).string());
   std::sort(files.begin(), files.end());
   return files;
 }
