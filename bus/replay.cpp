@@ -28,11 +28,14 @@ std::optional<health_t> HealthOf(const LogEvent& event, const Schema& schema) {
 }
 
 Time StartOf(LogReader reader, const std::string& process, const Schema& schema) {
+  constexpr std::int64_t kLargest = LogReader::kLargestNumber;
   std::optional<Time> first;
   while (const auto event = reader.Next()) {
     if (!first) first = FromUtime(event->utime);
     const auto health = HealthOf(*event, schema);
-    if (health && health->process == process) return FromUtime(health->utime);
+    if (health && health->process == process &&
+        std::clamp(health->utime, -kLargest, kLargest) == health->utime)
+      return FromUtime(health->utime);
   }
   if (!first) throw std::runtime_error("the log holds no event");
   return *first;

@@ -63,6 +63,10 @@ bool LogReader::HoldsEvent(std::size_t begin, std::size_t end) const {
 
 std::size_t LogReader::EndOfEvent(std::size_t offset) const {
   if (bytes_.size() - offset < kHeaderBytes) return 0;
+  for (const std::size_t at : {offset + 4, offset + 12}) {
+    const auto number_or_utime = ReadBigEndian<std::int64_t>(&bytes_[at]);
+    if (number_or_utime < -kLargestNumber || number_or_utime > kLargestNumber) return 0;
+  }
   const auto channel_bytes = ReadBigEndian<std::uint32_t>(&bytes_[offset + 20]);
   const auto data_bytes = ReadBigEndian<std::uint32_t>(&bytes_[offset + 24]);
   if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxDataBytes) return 0;

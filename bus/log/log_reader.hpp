@@ -14,6 +14,8 @@ class LogReader {
  public:
   static constexpr std::size_t kMaxChannelBytes = 255;
   static constexpr std::size_t kMaxDataBytes = 1 << 24;
+  /// Of times [us], up to the year 2255, and of numbers. More is damage, and who reads can compute with less.
+  static constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 
   /// Throws std::runtime_error when the file cannot be read.
   explicit LogReader(const std::string& path);

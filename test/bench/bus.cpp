@@ -95,9 +95,11 @@ class WrappedPeer : public Peer {
   void Send() override { out_.Publish(Sample()); }
   bool Handle() override {
     pollfd waiting{bus_.fd(), POLLIN, 0};
-    if (poll(&waiting, 1, 1000) != 1) return false;
-    bus_.Drain();
-    if (in_.Take() && echo_) Send();
+    do {  // its own messages wake it, too
+      if (poll(&waiting, 1, 1000) != 1) return false;
+      bus_.Drain();
+    } while (!in_.Take());
+    if (echo_) Send();
     return true;
   }
 

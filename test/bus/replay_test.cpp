@@ -124,7 +124,7 @@ TEST_F(ReplayTest, ATimeThatCannotBeIsLeftOut) {
   {
     LogWriter writer(log_);
     writer.Write(5'000'000, "POSE", Encode(pose_t{}));
-    writer.Write(std::int64_t{1} << 60, "POSE", Encode(pose_t{}));
+    writer.Write(std::int64_t{1} << 52, "POSE", Encode(pose_t{}));
     writer.Write(5'100'000, "POSE", Encode(pose_t{}));
   }
   Replay dut(FactoryOf<Answerer>(), {}, schema_, log_, {});

@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "bus/datagram.hpp"
 #include "bus/reassembler.hpp"
 #include "bus/schema/json.hpp"

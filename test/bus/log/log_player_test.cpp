@@ -116,7 +116,7 @@ TEST_F(PlayerTest, SelectionFiltersAndRenames) {
 }
 
 TEST_F(PlayerTest, OneDamagedTimeDoesNotStopIt) {
-  AddEvent(std::int64_t{1} << 62, "FUTURE");
+  AddEvent(std::int64_t{1} << 52, "FUTURE");
   AddEvent(kStart_us + 10'000'000, "NEXT");
   AddEvent(7, "PAST");
   AddEvent(kStart_us + 10'100'000, "LAST");

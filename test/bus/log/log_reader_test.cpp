@@ -113,6 +113,20 @@ TEST_F(Log, AMessageMayHoldTheMagicEvenInTheLastEvent) {
   EXPECT_EQ(dut.skipped_bytes(), 0u);
 }
 
+TEST_F(Log, ATimeThatCannotBeIsDamage) {
+  for (const std::int64_t utime : {INT64_MAX, INT64_MIN, LogReader::kLargestNumber + 1}) {
+    std::string bytes;
+    AppendEvent(bytes, 0, utime, "POSE", {});
+    AppendEvent(bytes, 1, LogReader::kLargestNumber, "POSE", {});
+    LogReader dut(std::as_bytes(std::span(bytes)));
+    const auto event = dut.Next();
+    ASSERT_TRUE(event);
+    EXPECT_EQ(event->number, 1);
+    EXPECT_EQ(dut.skipped_bytes(), 32u);
+    EXPECT_FALSE(dut.Next());
+  }
+}
+
 TEST_F(Log, SeekGoesBackToAnEvent) {
   const auto bytes = WriteSmallLog(5);
   LogReader dut(bytes);
