@@ -11,6 +11,9 @@ constexpr Duration kStopAgain = std::chrono::seconds(1);
 /// The robot keeps a lease for some seconds after the last command; within this it surely still has ours.
 constexpr Duration kSurelyKept = std::chrono::milliseconds(1500);
 
+/// Of the full deflection.
+constexpr double kJump = 0.15;
+
 double Deflection(const Stick& stick, const AxisUse& use) {
   const auto at = std::find(kAxisNames.begin(), kAxisNames.end(), use.axis) - kAxisNames.begin();
   const double value = stick.axis[static_cast<std::size_t>(at) % kAxes];
@@ -141,9 +144,17 @@ void Pilot::Send(const Stick& stick, Time now, PilotOutput& output) {
   const auto state = moves_base || phase_ == PilotPhase::kAsking ? WishSender::Stick::kDeflected
                      : in_hand                                   ? WishSender::Stick::kHeld
                                                                  : WishSender::Stick::kReleased;
-  if (base_sender_.Step(state, now)) output.drive = wish_;
-  if (head_sender_.Step(moves_head ? WishSender::Stick::kDeflected : WishSender::Stick::kReleased, now))
+  if (base_sender_.Step(state, Jumped(), now)) output.drive = sent_ = wish_;
+  if (head_sender_.Step(moves_head ? WishSender::Stick::kDeflected : WishSender::Stick::kReleased, false,
+                        now))
     output.head = head_wish_;
+}
+
+/// A hand that moves on slowly can wait for its turn, one that changes its mind not.
+bool Pilot::Jumped() const {
+  const SpeedRange& range = fast_ ? config_.fast : config_.slow;
+  return std::hypot(wish_.vx - sent_.vx, wish_.vy - sent_.vy) > kJump * range.speed_m_s ||
+         std::abs(wish_.wz - sent_.wz) > kJump * range.turn_rad_s;
 }
 
 }  // namespace priamos::teleop

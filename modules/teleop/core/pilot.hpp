@@ -74,12 +74,13 @@ class Pilot {
   void Wish(const Stick& stick);
   bool AtRest(const Stick& stick) const;
   void Send(const Stick& stick, Time now, PilotOutput& output);
+  bool Jumped() const;
 
   PilotConfig config_;
   PilotPhase phase_ = PilotPhase::kNoDevice;
   PilotMode mode_ = PilotMode::kBase;
   bool fast_ = false;
-  Twist2 wish_;
+  Twist2 wish_, sent_;
   HeadRates head_wish_;
   Stick before_;
   WishSender base_sender_, head_sender_;

@@ -2,9 +2,9 @@
 
 namespace priamos::teleop {
 
-bool WishSender::Step(Stick stick, Time now) {
+bool WishSender::Step(Stick stick, bool jumped, Time now) {
   if (stick == Stick::kDeflected) {
-    if (zeros_left_ == kZeros && !Due(period_, now)) return false;
+    if (zeros_left_ == kZeros && !Due(jumped ? period_ / 2 : period_, now)) return false;
     zeros_left_ = kZeros;
     return Sent(now);
   }

@@ -6,17 +6,17 @@
 
 namespace priamos::teleop {
 
-/// When to send on one stream of wishes: at once when the stick leaves rest, then periodically; three
-/// explicit zeros when it comes to rest, the first one at once; then silence, or a slow repetition while the
-/// operator holds on.
+/// When to send on one stream of wishes: at once when the stick leaves rest or jumps, else periodically;
+/// three explicit zeros when it comes to rest, the first one at once; then silence, or a slow repetition
+/// while the operator holds on. A jump waits for half a period after the last wish.
 class WishSender {
  public:
   enum class Stick { kDeflected, kHeld, kReleased };  ///< held: at rest, but in the hand
 
   WishSender(Duration period, Duration rest_period) : period_(period), rest_period_(rest_period) {}
 
-  /// Whether to send now.
-  bool Step(Stick stick, Time now);
+  /// Whether to send now. `jumped`: the wish is quite another one than the one sent last.
+  bool Step(Stick stick, bool jumped, Time now);
   std::optional<Time> last() const { return last_; }
 
  private:

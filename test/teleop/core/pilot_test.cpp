@@ -109,6 +109,18 @@ TEST_F(PilotTest, CommandsComeAtTheirRateWhileTheStickIsDeflected) {
   EXPECT_NEAR(static_cast<double>(sent_.size()), config_.rate_hz, 6);  // at the raster of the ticks
 }
 
+TEST_F(PilotTest, AHandThatChangesItsMindIsHeardWithinHalfAPeriod) {
+  DriveOff();
+  for (const double push : {-1.0, 0.5, -0.5, 1.0}) {
+    Run(0.3);
+    sent_.clear();
+    Push(push);
+    Run(0.5 / config_.rate_hz + 0.011);
+    ASSERT_FALSE(sent_.empty());
+    EXPECT_EQ(std::signbit(sent_.back().twist.vx), std::signbit(push));
+  }
+}
+
 TEST_F(PilotTest, AStickThatIsLetGoSaysThreeZeros) {
   DriveOff();
   Push(0);

@@ -11,18 +11,28 @@ using State = WishSender::Stick;
 
 TEST(WishSender, SaysNothingBeforeTheStickWasInTheHand) {
   WishSender dut(milliseconds(40), milliseconds(500));
-  for (int t = 0; t < 1000; t += 10) EXPECT_FALSE(dut.Step(State::kReleased, FromUtime(0) + milliseconds(t)));
+  for (int t = 0; t < 1000; t += 10)
+    EXPECT_FALSE(dut.Step(State::kReleased, false, FromUtime(0) + milliseconds(t)));
 }
 
 TEST(WishSender, TheFirstZeroWaitsForNoPeriod) {
   WishSender dut(milliseconds(40), milliseconds(500));
-  EXPECT_TRUE(dut.Step(State::kDeflected, FromUtime(0)));
-  EXPECT_FALSE(dut.Step(State::kDeflected, FromUtime(10'000)));
-  EXPECT_TRUE(dut.Step(State::kReleased, FromUtime(20'000)));
-  EXPECT_FALSE(dut.Step(State::kReleased, FromUtime(30'000)));
-  EXPECT_TRUE(dut.Step(State::kReleased, FromUtime(60'000)));
-  EXPECT_TRUE(dut.Step(State::kReleased, FromUtime(100'000)));
-  EXPECT_FALSE(dut.Step(State::kReleased, FromUtime(9'000'000)));
+  EXPECT_TRUE(dut.Step(State::kDeflected, false, FromUtime(0)));
+  EXPECT_FALSE(dut.Step(State::kDeflected, false, FromUtime(10'000)));
+  EXPECT_TRUE(dut.Step(State::kReleased, false, FromUtime(20'000)));
+  EXPECT_FALSE(dut.Step(State::kReleased, false, FromUtime(30'000)));
+  EXPECT_TRUE(dut.Step(State::kReleased, false, FromUtime(60'000)));
+  EXPECT_TRUE(dut.Step(State::kReleased, false, FromUtime(100'000)));
+  EXPECT_FALSE(dut.Step(State::kReleased, false, FromUtime(9'000'000)));
+}
+
+TEST(WishSender, AJumpWaitsForHalfAPeriod) {
+  WishSender dut(milliseconds(40), milliseconds(500));
+  EXPECT_TRUE(dut.Step(State::kDeflected, false, FromUtime(0)));
+  EXPECT_FALSE(dut.Step(State::kDeflected, true, FromUtime(10'000)));
+  EXPECT_TRUE(dut.Step(State::kDeflected, true, FromUtime(20'000)));
+  EXPECT_FALSE(dut.Step(State::kDeflected, false, FromUtime(50'000)));
+  EXPECT_TRUE(dut.Step(State::kDeflected, false, FromUtime(60'000)));
 }
 
 /// However the stick is shaken, no more than one command per period and one per release goes out, so that
@@ -35,7 +45,7 @@ RC_GTEST_PROP(WishSender, AShakyStickDoesNotFloodTheRadio, ()) {
     const bool deflected = *rc::gen::arbitrary<bool>();
     if (was_deflected && !deflected) ++releases;
     was_deflected = deflected;
-    sent += dut.Step(deflected ? State::kDeflected : State::kReleased, FromUtime(0) + milliseconds(t));
+    sent += dut.Step(deflected ? State::kDeflected : State::kReleased, false, FromUtime(0) + milliseconds(t));
   }
   RC_ASSERT(sent <= 4000 / 40 + 2 * releases + 2);
 }
