@@ -122,7 +122,11 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   state_.failsafe = Watch(situation, now);
   if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause);
 
-  const auto points = echoes_.Points(situation.odom_from_base);
+  auto points = echoes_.Points(situation.odom_from_base);
+  if (state_.mode == DriveMode::kOperated) {
+    const auto bridges = echoes_.Bridges(situation.odom_from_base);
+    points.insert(points.end(), bridges.begin(), bridges.end());
+  }
   const auto remembered = echoes_.Remembered(situation.odom_from_base);
   const Twist2 wanted = Wanted(situation, points, now, dt_s);
   const CollisionStop& guard = state_.mode == DriveMode::kOperated ? operator_collision_ : collision_;

@@ -86,6 +86,7 @@ class DriveController {
   Lease::Answer RequestLease(const LeaseHolder& who, Lease::Wish wish, Time now);
   void PressEstop() { authority_.PressEstop(); }
   void Rearm() { authority_.Rearm(); }
+  bool estop() const { return authority_.estop(); }
   /// `odom_from_base` when the cycle ended.
   void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) { echoes_.Add(cycle, odom_from_base); }
 

@@ -32,6 +32,8 @@ void EchoMemoryConfig::Describe(Archive& a) {
   a.Number("blind_m", blind_m, {"m", 0, 0.5, "an echo up to here may come from nearer"});
   a.Number("blind_as_m", blind_as_m, {"m", 0, 0.5, "where such an echo is taken to come from"});
   a.Number("keep_s", keep_s, {"s", 0.05, 2, "how long an echo counts"});
+  a.Number("bridge_from_m", bridge_from_m, {"m", 0, 2, "nearer echoes of neighbours are bridged"});
+  a.Number("bridge_m", bridge_m, {"m", 0, 0.7, "if they are not farther apart than this"});
   a.Section("near_map", near_map, "places of near things that no beam sees any more");
 }
 
@@ -89,6 +91,37 @@ std::vector<Eigen::Vector2d> EchoMemory::Points(const Pose2& odom_from_base) con
                          Eigen::Vector2d(range * std::cos(bearing), range * std::sin(bearing)));
       }
     }
+  }
+  return points;
+}
+
+/// The newest believed echo of each sensor, on its axis, when it is near.
+std::array<std::optional<Eigen::Vector2d>, kSonars> EchoMemory::NearEchoes(
+    const Pose2& odom_from_base) const {
+  std::array<std::optional<Eigen::Vector2d>, kSonars> near;
+  for (std::size_t k = 0; k < kept_.size(); ++k) {
+    const Pose2 base_from_then = odom_from_base.Inverse() * kept_[k].odom_from_base;
+    for (int i = 0; i < kSonars; ++i) {
+      const auto sensor = static_cast<std::size_t>(i);
+      if (!Agrees(k, i)) continue;
+      near[sensor].reset();
+      if (RangeOf(k, i) <= config_.bridge_from_m)
+        near[sensor] = base_from_then * base_from_sonar_[sensor] * Eigen::Vector2d(RangeOf(k, i), 0);
+    }
+  }
+  return near;
+}
+
+std::vector<Eigen::Vector2d> EchoMemory::Bridges(const Pose2& odom_from_base) const {
+  constexpr double kStep = 0.03;
+  const auto near = NearEchoes(odom_from_base);
+  std::vector<Eigen::Vector2d> points;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const auto &a = near[i], &b = near[(i + 1) % near.size()];
+    if (!a || !b) continue;
+    const double span = (*b - *a).norm();
+    if (span > config_.bridge_m) continue;
+    for (double way = kStep; way < span; way += kStep) points.push_back(*a + (*b - *a) * (way / span));
   }
   return points;
 }

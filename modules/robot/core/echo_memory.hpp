@@ -33,6 +33,8 @@ struct EchoMemoryConfig {
   double blind_m = 0.12;       ///< echoes up to here may come from nearer: sensors do not measure below 0.1 m
   double blind_as_m = 0.05;    ///< where such an echo is taken to come from
   double keep_s = 0.22;        ///< how long an echo counts that nothing newer replaces: two cycles at 10 Hz
+  double bridge_from_m = 0.5;  ///< neighbouring echoes nearer than this
+  double bridge_m = 0.4;       ///< and not farther apart than this are taken for one thing, see Bridges
   NearMapConfig near_map;
 
   void Describe(Archive& a);
@@ -56,6 +58,10 @@ class EchoMemory {
 
   /// Points on the arcs of all believed echoes, base frame of `odom_from_base`.
   std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;
+  /// What lies between the near echoes of neighbouring sensors. The beams leave wedges before the corners of
+  /// the base, and the corner of a box gets through them unseen while its faces are seen on both sides: two
+  /// echoes so near to each other are taken for one convex thing, whose inside holds the line between them.
+  std::vector<Eigen::Vector2d> Bridges(const Pose2& odom_from_base) const;
   /// Places of near things that no beam sees any more, base frame of `odom_from_base`.
   std::vector<Eigen::Vector2d> Remembered(const Pose2& odom_from_base) const {
     return near_map_.Points(odom_from_base);
@@ -67,6 +73,7 @@ class EchoMemory {
     Pose2 odom_from_base;
   };
   void NoteNearThings();
+  std::array<std::optional<Eigen::Vector2d>, kSonars> NearEchoes(const Pose2& odom_from_base) const;
   double RangeOf(std::size_t index, int sensor) const;
   bool IsSuperseded(std::size_t index, int sensor) const;
   bool Agrees(std::size_t index, int sensor) const;

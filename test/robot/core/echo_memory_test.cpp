@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 
+#include "robot/core/collision_stop.hpp"
+
 namespace priamos::robot {
 namespace {
 
@@ -96,6 +98,36 @@ TEST_F(EchoMemoryTest, AnEchoLiesOnTheArcOfItsCone) {
     widest = std::max(widest, std::abs(point.y()));
   }
   EXPECT_NEAR(widest, std::sin(Radians(7.5)), 1e-9);
+}
+
+TEST_F(EchoMemoryTest, BetweenNearEchoesOfNeighboursLiesAThing) {
+  Add(0, {{21, 0.20}, {22, 0.20}});  // on both sides of the corner on the right in front
+  const auto bridges = dut_.Bridges({});
+  ASSERT_THAT(bridges, Not(IsEmpty()));
+  // In the wedge before the corner that no arc reaches.
+  EXPECT_TRUE(std::any_of(bridges.begin(), bridges.end(), [](const Eigen::Vector2d& p) {
+    return p.x() > 0.54 && p.x() < 0.63 && p.y() < -0.37 && p.y() > -0.52;
+  }));
+}
+
+/// What a monkey found: he turned the base about the corner of an armchair, whose faces were seen on both
+/// sides of the base's corner and whose own corner by nobody.
+TEST_F(EchoMemoryTest, ABridgeStopsAMotionThatArcsDoNot) {
+  const CollisionStop guard({.margin_m = 0.055}, Footprint{});
+  const Twist2 round{0.03, -0.077, 0.19};
+  for (int cycle = 0; cycle < 3; ++cycle) Add(cycle, {{20, 0.23}, {21, 0.11}, {22, 0.30}});
+  auto points = dut_.Points({});
+  EXPECT_EQ(guard.Limit(round, points, {}).scale, 1);
+  const auto bridges = dut_.Bridges({});
+  points.insert(points.end(), bridges.begin(), bridges.end());
+  EXPECT_LT(guard.Limit(round, points, {}).scale, 0.3);
+}
+
+TEST_F(EchoMemoryTest, FarEchoesOrThoseFarApartAreNotBridged) {
+  Add(0, {{3, 0.8}, {4, 0.8}});     // far
+  Add(1, {{10, 0.15}, {11, 0.6}});  // one of them far
+  Add(2, {{17, 0.2}, {19, 0.2}});   // no neighbours
+  EXPECT_THAT(dut_.Bridges({}), IsEmpty());
 }
 
 TEST_F(EchoMemoryTest, AnEchoAtTheLeastDistanceMayComeFromNearer) {
