@@ -91,6 +91,9 @@ ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& proc
     spec.arguments.insert(spec.arguments.end(), {"--port", Tty(place, process.bus)});
     spec.after.push_back("line");
   }
+  // In simulation the e-stop is remembered as long as the deployment is up.
+  if (process.module == "robot" && deployment.emulated_line)
+    set("state_file=" + place.run_folder + "/robot-state");
   if (process.module == "teleop" && has_mouse) set("spacemouse.socket=" + MouseSocket(place));
   return spec;
 }

@@ -27,6 +27,7 @@ std::string_view Refusal(PathVerdict verdict) {
 RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
     : config_(config),
       context_(context),
+      last_word_(config.state_file.empty() ? "" : context.ResolvePath(config.state_file)),
       localiser_(config.localiser, config.base),
       drive_(config.drive, config.base),
       wheels_(context.node().SubscribeAll(channels::kWheelState)),
@@ -42,9 +43,30 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       odometry_(context.node().Advertise(channels::kOdometry)),
       pose_(context.node().Advertise(channels::kPose)),
       status_(context.node().Advertise(channels::kDriveStatus)),
-      correction_(context.node().Advertise(channels::kPoseCorrection)) {}
+      correction_(context.node().Advertise(channels::kPoseCorrection)) {
+  why_latched_ = WhyLatched(last_word_.Load());
+  if (!why_latched_.empty()) drive_.PressEstop();
+}
+
+RobotApp::~RobotApp() {
+  if (!running_) return;
+  try {
+    last_word_.Save(drive_.estop() ? LastWord::kEstop : LastWord::kEnded);
+  } catch (const std::exception& error) {
+    context_.Log(bus::Level::kError, error.what());
+  }
+}
+
+/// With the first tick: an App that is only asked for its interface writes nothing.
+void RobotApp::Begin() {
+  running_ = true;
+  last_word_.Save(drive_.estop() ? LastWord::kEstop : LastWord::kRunning);
+  if (why_latched_.empty()) return;
+  context_.Log(bus::Level::kWarning, fmt::format("the e-stop is latched: {}; re-arm to drive", why_latched_));
+}
 
 void RobotApp::Tick(Time now) {
+  if (!running_) Begin();
   TakeEstops(now);
   TakeWheels(now);
   TakeSonars();
@@ -55,6 +77,7 @@ void RobotApp::Tick(Time now) {
   TakePaths(now);
   TakeCommands(now);
   Drive(now);
+  KeepEstop(now);
   SendStatus(now);
 }
 
@@ -109,11 +132,32 @@ void RobotApp::TakeEstops(Time now) {
     if (message.action == estop_t::STOP) {
       drive_.PressEstop();
     } else if (message.action == estop_t::REARM && !IsOlder(message.utime, config_.order_max_age_s, now)) {
-      drive_.Rearm();
-      context_.Log(bus::Level::kInfo, "re-armed; a new order is needed to move");
+      Rearm();
     } else {
       context_.Log(bus::Level::kWarning, "re-arming refused: too old, or no such action");
     }
+  }
+}
+
+/// First the file, then the drive: a re-arming that is forgotten is better than one too many.
+void RobotApp::Rearm() {
+  try {
+    last_word_.Save(LastWord::kRunning);
+  } catch (const std::exception& error) {
+    return context_.Log(bus::Level::kError, fmt::format("not re-armed: {}", error.what()));
+  }
+  drive_.Rearm();
+  context_.Log(bus::Level::kInfo, "re-armed; a new order is needed to move");
+}
+
+/// After the wheels were told to stand: a slow disk delays nothing.
+void RobotApp::KeepEstop(Time now) {
+  if (!drive_.estop() || (keep_again_ && now < *keep_again_)) return;
+  try {
+    last_word_.Save(LastWord::kEstop);
+  } catch (const std::exception& error) {
+    keep_again_ = now + std::chrono::seconds(1);
+    context_.Log(bus::Level::kError, fmt::format("a restart would forget the e-stop: {}", error.what()));
   }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "bus/context.hpp"
 #include "lcmtypes/channels.hpp"
+#include "robot/last_word.hpp"
 #include "robot/robot_config.hpp"
 #include "robot/robot_messages.hpp"
 
@@ -20,6 +22,10 @@ class RobotApp {
 
   RobotApp(const RobotConfig& config, bus::Context& context);
 
+  ~RobotApp();
+  RobotApp(const RobotApp&) = delete;
+  RobotApp& operator=(const RobotApp&) = delete;
+
   Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
   void Tick(Time now);
 
@@ -28,7 +34,10 @@ class RobotApp {
   void TakeSonars();
   void TakeFixes(Time now);
   void TakePaths(Time now);
+  void Begin();
   void TakeEstops(Time now);
+  void Rearm();
+  void KeepEstop(Time now);
   void TakeLeaseRequests(Time now);
   void TakeCommands(Time now);
   void TakeSignsOfLife(Time now);
@@ -40,6 +49,9 @@ class RobotApp {
 
   RobotConfig config_;
   bus::Context& context_;
+  LastWordFile last_word_;
+  std::string why_latched_;
+  bool running_ = false;
   Localiser localiser_;
   DriveController drive_;
 
@@ -58,7 +70,7 @@ class RobotApp {
   bus::Publisher<drive_status_t> status_;
   bus::Publisher<pose_correction_t> correction_;
 
-  std::optional<Time> wheels_heard_, head_heard_, link_down_since_, status_sent_;
+  std::optional<Time> wheels_heard_, head_heard_, link_down_since_, status_sent_, keep_again_;
   LeaseHolder told_holder_;
   std::optional<Condition> told_;
 };

@@ -8,6 +8,8 @@ void RobotConfig::Describe(Archive& a) {
   a.Number("path_max_age_s", path_max_age_s, {"s", 0.5, 60, "an older path is refused"});
   a.Number("order_max_age_s", order_max_age_s,
            {"s", 0.1, 10, "older lease requests and re-armings are refused"});
+  a.Text("state_file", state_file,
+         "keeps a latched e-stop over a restart, and latches it after a crash; empty: neither");
   a.Section("base", base, "the four Mecanum wheels");
   a.Section("localiser", localiser, "where the base is");
   a.Section("drive", drive, "how the base moves, and what stops it");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "common/config.hpp"
 #include "robot/core/drive_controller.hpp"
 #include "robot/core/localiser.hpp"
@@ -13,6 +15,7 @@ struct RobotConfig {
   double status_rate_hz = 10;  ///< DRIVE_STATUS
   double path_max_age_s = 10;  ///< an older path is refused: somebody may have changed his mind since
   double order_max_age_s = 2;  ///< the same for lease requests and re-arming
+  std::string state_file;      ///< the e-stop survives a restart here; empty: it does not
   MecanumGeometry base;
   LocaliserConfig localiser;
   DriveConfig drive;
