@@ -39,6 +39,7 @@ class CrashStudy {
   void Episode(const std::string& name, Fault fault, Outcome& outcome) {
     if (!Drives()) {
       ++outcome.no_drive;
+      fmt::print(stderr, "{} {}: no episode, the base does not drive\n", name, Text(fault));
       return;
     }
     rig_.Wait(rig_.rng.Uniform(0, 0.1));
@@ -69,6 +70,9 @@ class CrashStudy {
     outcome.moved_after += std::any_of(rig_.wheels.begin(), rig_.wheels.end(), [&](const auto& w) {
       return w.at > when + kHandOn + kLastMotion && !DrivingRig::IsZero(w.message);
     });
+    fmt::print(stderr, "{} {}: stands after {:.2f} s, useful after {:.2f} s, {}\n", name, Text(fault),
+               stands == Time{} ? NAN : Seconds(stands - when), useful == Time{} ? NAN : Seconds(useful - when),
+               rig_.Reason(name));
     if (name == "offboard-teleop" && fault != Fault::kStalled) rig_.ForgetRange();
   }
 

@@ -1,0 +1,44 @@
+// `priamos`: an e-stop at once, every other verb by priamos-verbs beside it. That one holds all modules, and
+// loading its libraries takes longer than an e-stop may.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string_view>
+
+#include "cli/commands.hpp"
+
+namespace {
+
+constexpr int kCannotStart = 2;
+
+int Estop(int argc, char** argv) {
+  int exit_code = 0;
+  CLI::App cli("PRIAMOS", "priamos");
+  priamos::cli::AddEstopCommand(cli, exit_code);
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return cli.exit(error) == 0 ? 0 : kCannotStart;
+  } catch (const std::exception& error) {
+    std::cerr << "priamos: " << error.what() << "\n";
+    return kCannotStart;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "estop") return Estop(argc, argv);
+  const std::string verbs =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "priamos-verbs";
+  execv(verbs.c_str(), argv);
+  std::cerr << "priamos: " << verbs << ": expected the program of the other verbs, got: " << std::strerror(errno)
+            << "\n";
+  return kCannotStart;
+}
