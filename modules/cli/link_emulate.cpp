@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/ioctl.h>
 #include <systemd/sd-daemon.h>
 #include <termios.h>
 #include <unistd.h>
@@ -106,6 +107,8 @@ PseudoTerminal::~PseudoTerminal() {
 }
 
 std::vector<std::byte> PseudoTerminal::Read(std::size_t most) {
+  // This process keeps the tty open: the exclusive use of a program that was killed would never end.
+  ioctl(slave_, TIOCNXCL);
   std::vector<std::byte> bytes(most);
   const ssize_t n = read(master_, bytes.data(), bytes.size());
   bytes.resize(n > 0 ? static_cast<std::size_t>(n) : 0);

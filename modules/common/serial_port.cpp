@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
@@ -83,6 +84,11 @@ class SerialPort : public ByteStream {
     if (!isatty(fd_))
       throw std::runtime_error(fmt::format(
           "{} is not a tty: give --port the serial port of the modem, see `ls /dev/serial/by-id`", path_));
+    // TIOCEXCL keeps out everybody, but stays while anybody has the tty open, as an emulated line has: it takes
+    // it off again. The file lock keeps out our own programs, and ends with its holder.
+    if (flock(fd_, LOCK_EX | LOCK_NB) != 0)
+      throw std::runtime_error(fmt::format("cannot open serial port {} ({}): {}", path_, std::strerror(EBUSY),
+                                           NextStep(EBUSY, path_)));
     if (ioctl(fd_, TIOCEXCL) != 0) Fail("lock");
     termios settings{};
     if (tcgetattr(fd_, &settings) != 0) Fail("read the settings of");
@@ -98,8 +104,8 @@ class SerialPort : public ByteStream {
   }
   std::size_t Done(ssize_t n, const char* what) {
     if (n >= 0) return static_cast<std::size_t>(n);
-    // EIO is a pty whose other side is closed for now: silence, which the link notices by itself.
-    if (errno == EAGAIN || errno == EINTR || errno == EIO) return 0;
+    // EIO is a port that was pulled out, or a pty whose other side is gone: neither comes back under this name.
+    if (errno == EAGAIN || errno == EINTR) return 0;
     Fail(what);
   }
   [[noreturn]] void Fail(const char* what) const {

@@ -67,9 +67,16 @@ void Aftermath(DrivingRig& rig, End end) {
   rig.Wait(0.4);
 }
 
+/// On a busy machine a command may come too late, and the base stops in between.
+bool Drives(DrivingRig& rig) {
+  for (int attempt = 0; attempt < 3; ++attempt)
+    if (rig.Grip() && rig.DriveAtFullSpeed()) return true;
+  return false;
+}
+
 void Episode(DrivingRig& rig, End end, Outcome& outcome) {
   rig.Forget();
-  if (!rig.Grip() || !rig.DriveAtFullSpeed()) {
+  if (!Drives(rig)) {
     ++outcome.no_drive;
     return;
   }

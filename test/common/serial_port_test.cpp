@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -68,6 +70,30 @@ TEST(SerialPort, ReadingAnEmptyPortReturnsAtOnce) {
   const Pty modem;
   std::array<std::byte, 8> got{};
   EXPECT_EQ(OpenSerialPort(modem.path(), 9600)->Read(got), 0U);
+}
+
+TEST(SerialPort, APortThatWasPulledOutIsToldAndNotTakenForSilence) {
+  auto modem = std::make_unique<Pty>();
+  const auto dut = OpenSerialPort(modem->path(), 9600);
+  modem.reset();
+  std::array<std::byte, 4> bytes{};
+  EXPECT_THAT(ErrorOf([&] {
+                dut->Write(bytes);
+                dut->Read(bytes);
+              }),
+              HasSubstr("serial port"));
+}
+
+TEST(SerialPort, APortThatIsHeldByAnotherIsRefusedUntilThatOneEnds) {
+  const Pty modem;
+  const int kept = open(modem.path().c_str(), O_RDWR | O_NOCTTY);  // as an emulated line keeps it
+  auto holder = OpenSerialPort(modem.path(), 9600);
+  ioctl(kept, TIOCNXCL);
+  EXPECT_THAT(ErrorOf([&] { OpenSerialPort(modem.path(), 9600); }), HasSubstr("another process holds it"));
+  holder.reset();
+  ioctl(kept, TIOCNXCL);
+  EXPECT_NO_THROW(OpenSerialPort(modem.path(), 9600));
+  close(kept);
 }
 
 TEST(SerialPort, AbsentPortSaysWhatToDo) {
