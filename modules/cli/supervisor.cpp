@@ -73,6 +73,15 @@ std::string LastLine(const std::string& file) {
   return last;
 }
 
+/// By SIGSTOP or a debugger: the third field of /proc/PID/stat, behind the name in brackets.
+bool IsStopped(pid_t pid) {
+  std::string stat;
+  std::getline(std::ifstream(fmt::format("/proc/{}/stat", pid)), stat);
+  const auto name_end = stat.rfind(')');
+  return name_end != std::string::npos && stat.size() > name_end + 2 &&
+         (stat[name_end + 2] == 'T' || stat[name_end + 2] == 't');
+}
+
 std::string HowEnded(int status, const std::string& output_file) {
   if (WIFSIGNALED(status))
     return fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
@@ -85,7 +94,6 @@ std::string HowEnded(int status, const std::string& output_file) {
 Supervisor::Supervisor(std::vector<ProcessSpec> specs, std::string output_folder, Tell tell)
     : output_folder_(std::move(output_folder)), tell_(std::move(tell)) {
   for (ProcessSpec& spec : specs) {
-    if (!spec.notifies) spec.policy.watchdog = Duration::zero();
     const WatchPolicy policy = spec.policy;
     children_.push_back({std::move(spec), ProcessWatch(policy), 0});
   }
@@ -133,6 +141,7 @@ std::string Supervisor::OutputFile(const Child& child) const {
 
 void Supervisor::Step(Time now) {
   Listen(now);
+  LookAtTheMute(now);
   Reap(now);
   for (Child& child : children_) Act(child, now);
 }
@@ -147,6 +156,12 @@ void Supervisor::Listen(Time now) {
       tell_(fmt::format("{} is ready", child.spec.name));
     }
   }
+}
+
+/// Of a process that says nothing only its state can be seen: one that was stopped does not work.
+void Supervisor::LookAtTheMute(Time now) {
+  for (Child& child : children_)
+    if (!child.spec.notifies && child.pid != 0 && !IsStopped(child.pid)) child.watch.SaidAlive(now);
 }
 
 void Supervisor::Reap(Time now) {

@@ -19,7 +19,7 @@ struct ProcessSpec {
   std::string group;                   ///< for the eye
   std::vector<std::string> arguments;  ///< the first one is the program's path
   std::vector<std::string> after;      ///< names that must be ready before it starts
-  bool notifies = true;                ///< says READY and WATCHDOG; else it is ready as soon as it runs
+  bool notifies = true;                ///< says READY and WATCHDOG; else it is ready as soon as it runs, and hangs when stopped
   std::string folder;                  ///< working directory; empty: this process's
   WatchPolicy policy;
 };
@@ -70,6 +70,7 @@ class Supervisor {
   };
   void CheckOrder() const;
   void Listen(Time now);
+  void LookAtTheMute(Time now);
   void Reap(Time now);
   void Act(Child& child, Time now);
   void Start(Child& child, Time now);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -9,6 +10,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -52,35 +54,60 @@ std::string NextStep(int error, const std::string& path) {
 
 class SerialPort : public ByteStream {
  public:
-  SerialPort(const std::string& path, int baud) : path_(path) {
-    const speed_t speed = SpeedOf(path, baud);
-    // O_NONBLOCK at open: a port without carrier must not hang the process.
-    fd_ = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    if (fd_ < 0) {
-      const int error = errno;
-      throw std::runtime_error(fmt::format("cannot open serial port {} ({}): {}", path, std::strerror(error),
-                                           NextStep(error, path)));
-    }
-    try {
-      Configure(speed);
-    } catch (...) {
-      close(fd_);
-      throw;
-    }
-  }
+  SerialPort(const std::string& path, int baud) : path_(path), speed_(SpeedOf(path, baud)) { Open(); }
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
-  ~SerialPort() override { close(fd_); }
+  ~SerialPort() override { Close(); }
 
   std::size_t Read(std::span<std::byte> into) override {
-    return Done(read(fd_, into.data(), into.size()), "read from");
+    if (!Usable()) return 0;
+    const ssize_t n = read(fd_, into.data(), into.size());
+    if (n == 0 && HungUp()) return Close(), 0;
+    return Done(n, "read from");
   }
   std::size_t Write(std::span<const std::byte> bytes) override {
-    return Done(write(fd_, bytes.data(), bytes.size()), "write to");
+    return Usable() ? Done(write(fd_, bytes.data(), bytes.size()), "write to") : 0;
   }
 
  private:
-  void Configure(speed_t speed) {
+  using Clock = std::chrono::steady_clock;
+
+  void Open() {
+    // O_NONBLOCK at open: a port without carrier must not hang the process.
+    fd_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (fd_ < 0) {
+      const int error = errno;
+      throw std::runtime_error(fmt::format("cannot open serial port {} ({}): {}", path_,
+                                           std::strerror(error), NextStep(error, path_)));
+    }
+    try {
+      Configure();
+    } catch (...) {
+      Close();
+      throw;
+    }
+  }
+  void Close() {
+    if (fd_ >= 0) close(fd_);
+    fd_ = -1;
+  }
+  /// A port that was pulled out is looked for again now and then.
+  bool Usable() {
+    if (fd_ >= 0) return true;
+    if (Clock::now() < try_again_) return false;
+    try_again_ = Clock::now() + kTryAgain;
+    try {
+      Open();
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+    return true;
+  }
+  bool HungUp() const {
+    pollfd fd{fd_, POLLIN, 0};
+    return poll(&fd, 1, 0) == 1 && (fd.revents & (POLLHUP | POLLERR)) != 0;
+  }
+  void Configure() {
     if (!isatty(fd_))
       throw std::runtime_error(fmt::format(
           "{} is not a tty: give --port the serial port of the modem, see `ls /dev/serial/by-id`", path_));
@@ -97,23 +124,28 @@ class SerialPort : public ByteStream {
     settings.c_cflag |= CLOCAL | CREAD | CS8;
     settings.c_cc[VMIN] = 0;
     settings.c_cc[VTIME] = 0;
-    cfsetispeed(&settings, speed);
-    cfsetospeed(&settings, speed);
+    cfsetispeed(&settings, speed_);
+    cfsetospeed(&settings, speed_);
     if (tcsetattr(fd_, TCSANOW, &settings) != 0) Fail("set");
     tcflush(fd_, TCIOFLUSH);
   }
   std::size_t Done(ssize_t n, const char* what) {
     if (n >= 0) return static_cast<std::size_t>(n);
-    // EIO is a port that was pulled out, or a pty whose other side is gone: neither comes back under this name.
     if (errno == EAGAIN || errno == EINTR) return 0;
+    // Pulled out, or a pty whose other side is gone: this one never comes back, another one under its name may.
+    if (errno == EIO || errno == ENXIO || errno == ENODEV) return Close(), 0;
     Fail(what);
   }
   [[noreturn]] void Fail(const char* what) const {
     throw std::runtime_error(fmt::format("cannot {} serial port {}: {}", what, path_, std::strerror(errno)));
   }
 
+  static constexpr std::chrono::milliseconds kTryAgain{200};
+
   std::string path_;
+  speed_t speed_;
   int fd_ = -1;
+  Clock::time_point try_again_{};
 };
 
 }  // namespace

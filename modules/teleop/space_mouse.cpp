@@ -9,7 +9,7 @@
 namespace priamos::teleop {
 namespace {
 
-constexpr Duration kTryAgain = std::chrono::seconds(1);
+constexpr Duration kTryAgain = std::chrono::milliseconds(250);
 
 /// libspnav keeps its connection in globals of its own: one per process.
 class SpaceMouse : public StickDevice {

@@ -60,6 +60,7 @@ class CrashStudy {
           const bool again = fault == Fault::kStalled ? now - when > kStall
                                                       : rig_.Starts(name) > starts && rig_.IsReady(name);
           if (!again) begin_ = now;
+          if (again && useful == Time{}) Tap(now);
           if (useful == Time{} && again && Works(name, begin_)) useful = now;
           return useful != Time{} && stands != Time{} && now - when > std::chrono::seconds(2);
         },
@@ -86,6 +87,17 @@ class CrashStudy {
     return false;
   }
 
+  /// A finger on the dead-man and off again: that teleop hears it shows on the operator's bus.
+  void Tap(Time now) {
+    if (now - when_tapped_ < milliseconds(150)) return;
+    when_tapped_ = now;
+    rig_.hand.buttons ^= DrivingRig::kDeadMan;
+  }
+  bool HeardTheTap(Time begin) const {
+    const auto newer = [&](const auto& seen) { return FromUtime(seen.message.utime) > begin; };
+    return std::any_of(rig_.lease_requests.begin(), rig_.lease_requests.end(), newer) ||
+           std::any_of(rig_.offboard_commands.begin(), rig_.offboard_commands.end(), newer);
+  }
   bool HealthyAgain(const std::string& process, Time begin) const {
     return std::any_of(rig_.healths.begin(), rig_.healths.end(), [&](const auto& h) {
       return h.at > begin && h.message.process == process && h.message.state == health_t::OK;
@@ -101,12 +113,12 @@ class CrashStudy {
     if (name == "onboard-robot") return newer(rig_.onboard_status);
     if (name == "onboard-head") return HealthyAgain("head", begin);
     if (name == "offboard-planner") return newer(rig_.mission);
-    if (name == "offboard-teleop" || name == "spacenavd") return HealthyAgain("teleop", begin);
+    if (name == "offboard-teleop" || name == "spacenavd") return HeardTheTap(begin);
     return newer(rig_.offboard_status);  // a radio or the line: something has come across
   }
 
   DrivingRig rig_;
-  Time begin_{};
+  Time begin_{}, when_tapped_{};
 };
 
 }  // namespace

@@ -110,6 +110,18 @@ TEST_F(SupervisorTest, KillsAndStartsAgainWhatHangs) {
   EXPECT_THAT(dut.Report()[0].reason, HasSubstr("hung"));
 }
 
+TEST_F(SupervisorTest, OneThatSaysNothingHangsWhenItIsStopped) {
+  ProcessSpec mute = Python("a", "time.sleep(60)\n");
+  mute.notifies = false;
+  Supervisor dut({mute}, folder_, Told());
+  ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
+  const pid_t first = dut.Report()[0].pid;
+  EXPECT_FALSE(Until(dut, [&] { return dut.Report()[0].pid != first; }, milliseconds(900)));
+  kill(first, SIGSTOP);
+  ASSERT_TRUE(Until(dut, [&] { return dut.AllReady() && dut.Report()[0].pid != first; }));
+  EXPECT_THAT(dut.Report()[0].reason, HasSubstr("hung"));
+}
+
 TEST_F(SupervisorTest, TellsWhyAndRaisesTheAlarm) {
   Supervisor dut({Python("a", "sys.stderr.write('no such port\\n'); sys.exit(2)\n")}, folder_, Told());
   ASSERT_TRUE(Until(dut, [&] { return dut.Alarmed().has_value(); }));
