@@ -19,8 +19,9 @@ struct ProcessSpec {
   std::string group;                   ///< for the eye
   std::vector<std::string> arguments;  ///< the first one is the program's path
   std::vector<std::string> after;      ///< names that must be ready before it starts
-  bool notifies = true;                ///< says READY and WATCHDOG; else it is ready as soon as it runs, and hangs when stopped
-  std::string folder;                  ///< working directory; empty: this process's
+  bool notifies =
+      true;  ///< says READY and WATCHDOG; else it is ready as soon as it runs, and hangs when stopped
+  std::string folder;  ///< working directory; empty: this process's
   WatchPolicy policy;
 };
 

@@ -77,8 +77,8 @@ class SerialPort : public ByteStream {
     fd_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (fd_ < 0) {
       const int error = errno;
-      throw std::runtime_error(fmt::format("cannot open serial port {} ({}): {}", path_,
-                                           std::strerror(error), NextStep(error, path_)));
+      throw std::runtime_error(fmt::format("cannot open serial port {} ({}): {}", path_, std::strerror(error),
+                                           NextStep(error, path_)));
     }
     try {
       Configure();
@@ -111,8 +111,8 @@ class SerialPort : public ByteStream {
     if (!isatty(fd_))
       throw std::runtime_error(fmt::format(
           "{} is not a tty: give --port the serial port of the modem, see `ls /dev/serial/by-id`", path_));
-    // TIOCEXCL keeps out everybody, but stays while anybody has the tty open, as an emulated line has: it takes
-    // it off again. The file lock keeps out our own programs, and ends with its holder.
+    // TIOCEXCL keeps out everybody, but stays while anybody has the tty open, as an emulated line has: it
+    // takes it off again. The file lock keeps out our own programs, and ends with its holder.
     if (flock(fd_, LOCK_EX | LOCK_NB) != 0)
       throw std::runtime_error(fmt::format("cannot open serial port {} ({}): {}", path_, std::strerror(EBUSY),
                                            NextStep(EBUSY, path_)));
@@ -132,7 +132,8 @@ class SerialPort : public ByteStream {
   std::size_t Done(ssize_t n, const char* what) {
     if (n >= 0) return static_cast<std::size_t>(n);
     if (errno == EAGAIN || errno == EINTR) return 0;
-    // Pulled out, or a pty whose other side is gone: this one never comes back, another one under its name may.
+    // Pulled out, or a pty whose other side is gone: this one never comes back, another one under its name
+    // may.
     if (errno == EIO || errno == ENXIO || errno == ENODEV) return Close(), 0;
     Fail(what);
   }

@@ -19,8 +19,8 @@ class ByteStream {
 
 /// Opens a tty raw, 8N1, no flow control, and clears what its buffers held. Throws std::runtime_error with
 /// one sentence that names the next step when `path` is absent, is no tty, is held by another process, may
-/// not be opened, or cannot run at `baud`. A port that is pulled out later is silent, and is opened again when there
-/// is one under its name. Reading or writing throws for any other error.
+/// not be opened, or cannot run at `baud`. A port that is pulled out later is silent, and is opened again
+/// when there is one under its name. Reading or writing throws for any other error.
 std::unique_ptr<ByteStream> OpenSerialPort(const std::string& path, int baud);
 
 }  // namespace priamos

@@ -72,8 +72,8 @@ class CrashStudy {
       return w.at > when + kHandOn + kLastMotion && !DrivingRig::IsZero(w.message);
     });
     fmt::print(stderr, "{} {}: stands after {:.2f} s, useful after {:.2f} s, {}\n", name, Text(fault),
-               stands == Time{} ? NAN : Seconds(stands - when), useful == Time{} ? NAN : Seconds(useful - when),
-               rig_.Reason(name));
+               stands == Time{} ? NAN : Seconds(stands - when),
+               useful == Time{} ? NAN : Seconds(useful - when), rig_.Reason(name));
     if (name == "offboard-teleop" && fault != Fault::kStalled) rig_.ForgetRange();
   }
 

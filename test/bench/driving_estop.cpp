@@ -169,8 +169,7 @@ class EstopStudy {
 
 int Print(Source source, const Outcome& o) {
   const bool held = o.lost == 0 && o.moved_after == 0 && o.no_drive == 0 &&
-                    o.onboard.Percentile(99) <= kOnboard_ms &&
-                    o.whole.Percentile(99) <= kThroughRadio_ms;
+                    o.onboard.Percentile(99) <= kOnboard_ms && o.whole.Percentile(99) <= kThroughRadio_ms;
   fmt::print(
       "  {:<32} {:>5} {:>7.1f} {:>7.1f} {:>7.1f}   {:>7.1f} {:>7.1f} {:>7.1f}   {:>5} {:>6} {:>6}  {}\n",
       Text(source), o.whole.size(), o.whole.Percentile(50), o.whole.Percentile(99), o.whole.Largest(),

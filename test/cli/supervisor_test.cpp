@@ -116,7 +116,8 @@ TEST_F(SupervisorTest, OneThatSaysNothingHangsWhenItIsStopped) {
   Supervisor dut({mute}, folder_, Told());
   ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
   const pid_t first = dut.Report()[0].pid;
-  EXPECT_FALSE(Until(dut, [&] { return dut.Report()[0].pid != first; }, milliseconds(900)));
+  EXPECT_FALSE(Until(
+      dut, [&] { return dut.Report()[0].pid != first; }, milliseconds(900)));
   kill(first, SIGSTOP);
   ASSERT_TRUE(Until(dut, [&] { return dut.AllReady() && dut.Report()[0].pid != first; }));
   EXPECT_THAT(dut.Report()[0].reason, HasSubstr("hung"));

@@ -35,10 +35,9 @@ int Estop(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "estop") return Estop(argc, argv);
-  const std::string verbs =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "priamos-verbs";
+  const std::string verbs = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "priamos-verbs";
   execv(verbs.c_str(), argv);
-  std::cerr << "priamos: " << verbs << ": expected the program of the other verbs, got: " << std::strerror(errno)
-            << "\n";
+  std::cerr << "priamos: " << verbs
+            << ": expected the program of the other verbs, got: " << std::strerror(errno) << "\n";
   return kCannotStart;
 }

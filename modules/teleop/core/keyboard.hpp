@@ -14,7 +14,7 @@ namespace priamos::teleop {
 
 /// The keys, for the help line of the terminal.
 inline constexpr const char* kKeyHelp =
-    "w s a d: drive   q e: turn   r f: up down   arrows: pitch roll   SPACE: E-STOP\n"
+    "w s a d: drive  q e: turn  r f: up down  arrows: pitch roll  SPACE: E-STOP\n"
     "m: mode   t: take over   g: speed range   z (hold): re-arm   any other key: stand";
 
 /// A stick made of terminal keys. A terminal tells of presses and repetitions, never of a release: a key

@@ -86,9 +86,11 @@ std::string Draw(const TerminalView& view) {
   text += fmt::format("  lease    {}\n", view.answer_age_s ? view.lease : "-");
   text += fmt::format("  robot    {}\n", Robot(view));
   text += fmt::format("  limit    {}\n", Limit(view));
-  text += fmt::format("  refused  {} commands{}{}\n", view.refused,
-                      view.refusal.empty() ? "" : ", the last one: " + view.refusal,
-                      view.estop ? "      *** E-STOP LATCHED ***" : "");
+  text += fmt::format("  refused  {} commands{}\n", view.refused,
+                      view.refusal.empty() ? "" : ", the last one: " + view.refusal);
+  text += fmt::format("  e-stop   {}\n", !view.answer_age_s ? "-"
+                                         : view.estop       ? "*** LATCHED *** stick at rest, hold re-arm"
+                                                            : "armed");
   return text;
 }
 
