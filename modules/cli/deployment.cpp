@@ -66,6 +66,8 @@ ProcessSpec SpacenavdSpec(const LaunchPlace& place) {
   spec.arguments = {"/usr/bin/spacenavd", "-d", "-c", config, "-l", "/dev/stdout"};
   spec.notifies = false;
   spec.folder = place.run_folder;
+  // It lets a serial mouse reset itself for 2 s before it answers anybody: that much must not be added to.
+  spec.policy.first_back_off = std::chrono::milliseconds(400);
   return spec;
 }
 
