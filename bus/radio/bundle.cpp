@@ -7,7 +7,14 @@
 namespace priamos::bus::radio {
 namespace {
 
-enum ControlKind : std::uint8_t { kFrameAck = 0, kEventAck = 1, kFloor = 2, kListen = 3, kOver = 4 };
+enum ControlKind : std::uint8_t {
+  kFrameAck = 0,
+  kEventAck = 1,
+  kFloor = 2,
+  kListen = 3,
+  kOver = 4,
+  kForget = 5
+};
 constexpr int kControlKindBits = 3;
 constexpr int kLengthBits = 8;
 constexpr int kSegmentLengthBits = 5;
@@ -23,6 +30,12 @@ class EntryWriter {
 
   void operator()(const StateEntry& e) {
     Id(e.channel);
+    if (!table_.at(e.channel).delta.empty()) out_.Write(e.baseline ? 1 : 0, 1);
+    if (e.baseline) {
+      out_.Write(*e.baseline, kBaselineBits);
+      out_.Append(e.packed, e.bits);
+      return;
+    }
     Body(e.channel, e.bits, e.packed);
   }
   void operator()(const CommandEntry& e) {
@@ -70,6 +83,7 @@ class EntryWriter {
     out_.Write(e.channels, static_cast<int>(table_.size()));
   }
   void operator()(const OverEntry&) { Control(kOver); }
+  void operator()(const ForgetEntry&) { Control(kForget); }
 
  private:
   void Id(std::size_t channel) { out_.Write(channel + 1, table_.id_bits()); }
@@ -114,10 +128,8 @@ class BundleReader {
     if (channel >= table_.size() || table_.at(channel).direction != incoming_) return std::nullopt;
     const LinkChannel& c = table_.at(channel);
     switch (c.channel_class) {
-      case ChannelClass::kState: {
-        Packed body = Body(c);
-        return StateEntry{channel, body.bits, std::move(body.bytes)};
-      }
+      case ChannelClass::kState:
+        return State(channel, c);
       case ChannelClass::kCommand: {
         const Duration age(in_.Read(6) * static_cast<std::uint64_t>(c.ttl.count()) / kAgeSteps);
         Packed body = Body(c);
@@ -127,6 +139,16 @@ class BundleReader {
         return EventEntry{channel, Segment(c)};
     }
     return std::nullopt;
+  }
+  StateEntry State(std::size_t channel, const LinkChannel& c) {
+    if (c.delta.empty() || in_.Read(1) == 0) {
+      Packed body = Body(c);
+      return {channel, body.bits, std::move(body.bytes)};
+    }
+    const auto baseline = static_cast<std::uint8_t>(in_.Read(kBaselineBits));
+    const std::size_t before = in_.left();
+    std::vector<std::byte> delta = TakeDelta(c.delta, in_);
+    return {channel, before - in_.left(), std::move(delta), baseline};
   }
   Packed Body(const LinkChannel& c) {
     const std::size_t bits = c.fixed_bits > 0 ? c.fixed_bits : in_.Read(kLengthBits) * 8;
@@ -164,6 +186,8 @@ class BundleReader {
         return ListenEntry{in_.Read(static_cast<int>(table_.size()))};
       case kOver:
         return OverEntry{};
+      case kForget:
+        return ForgetEntry{};
       default:
         return std::nullopt;
     }

@@ -15,11 +15,12 @@
 /// ends the bundle (the zeros that fill the last byte are such an end).
 namespace priamos::bus::radio {
 
-/// A state message.
+/// A state message; or the difference to the one in an earlier frame, named by the low bits of its counter.
 struct StateEntry {
   std::size_t channel = 0;
   std::size_t bits = 0;
   std::vector<std::byte> packed;
+  std::optional<std::uint8_t> baseline{};
 };
 
 /// A command message. Its age is counted in 1/63 of the channel's time-to-live, rounded up.
@@ -57,11 +58,14 @@ struct ListenEntry {
   std::uint64_t channels = 0;
 };
 
+/// The sender does not have a message that a difference referred to: it restarted.
+struct ForgetEntry {};
+
 /// Half-duplex: the sender falls silent after this frame and listens.
 struct OverEntry {};
 
 using BundleEntry = std::variant<StateEntry, CommandEntry, EventEntry, EventAckEntry, FrameAckEntry,
-                                 FloorEntry, ListenEntry, OverEntry>;
+                                 FloorEntry, ListenEntry, OverEntry, ForgetEntry>;
 
 /// Durations as 3 bits exponent, 9 bits mantissa: 1 ms up to 0.5 s, then 4, 16, 64 ms ...; up to 2.3 hours.
 std::uint16_t EncodeDuration12(Duration d);

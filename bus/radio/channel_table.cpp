@@ -3,21 +3,28 @@
 #include <fmt/format.h>
 #include <sodium.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 namespace priamos::bus::radio {
 namespace {
 
+constexpr int kStateWithDeltas = 3;
+
 /// A text that says what a frame means; its hash is compared.
 std::string Meaning(const std::vector<LinkChannel>& channels, bool encrypted) {
   std::string text = fmt::format("priamos radio 1 table {}\n", encrypted ? "encrypted" : "clear");
-  for (const LinkChannel& c : channels)
-    text += fmt::format("{} {:016x} {} {} {} {} {}\n", c.name, c.fingerprint, static_cast<int>(c.direction),
-                        static_cast<int>(c.channel_class), c.fixed_bits, c.max_bits,
-                        c.channel_class == ChannelClass::kCommand ? c.ttl.count() : 0);
+  for (const LinkChannel& c : channels) {
+    text += fmt::format("{} {:016x} {} {} {} {} {}", c.name, c.fingerprint, static_cast<int>(c.direction),
+                        c.delta.empty() ? static_cast<int>(c.channel_class) : kStateWithDeltas, c.fixed_bits,
+                        c.max_bits, c.channel_class == ChannelClass::kCommand ? c.ttl.count() : 0);
+    if (!c.delta.empty()) text += fmt::format(" {}", fmt::join(c.delta, ","));
+    text += "\n";
+  }
   return text;
 }
 
@@ -30,7 +37,16 @@ std::uint32_t Hash(const std::string& text) {
   return value;
 }
 
+bool DeltaFits(const LinkChannel& c) {
+  return c.channel_class == ChannelClass::kState && c.max_keys == 1 &&
+         std::accumulate(c.delta.begin(), c.delta.end(), std::uint32_t{0}) == c.fixed_bits &&
+         std::all_of(c.delta.begin(), c.delta.end(), [](int width) { return width >= 1 && width <= 64; });
+}
+
 void Check(const LinkChannel& c) {
+  if (!c.delta.empty() && !DeltaFits(c))
+    throw std::invalid_argument(
+        fmt::format("radio channel {}: differences are for a state of fixed size without keys", c.name));
   if (c.fixed_bits == 0 && c.max_bits == 0)
     throw std::invalid_argument(fmt::format("radio channel {}: its packed size is unknown", c.name));
   if (c.channel_class == ChannelClass::kCommand && c.ttl <= Duration::zero())

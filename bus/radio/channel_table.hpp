@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/radio/delta.hpp"
 #include "bus/radio/frame.hpp"
 #include "common/time.hpp"
 
@@ -20,11 +21,12 @@ enum class ChannelClass : std::uint8_t {
 /// One channel that crosses the link, as both ends know it.
 struct LinkChannel {
   std::string name;
-  std::uint64_t fingerprint = 0;  ///< of its message type
+  std::uint64_t fingerprint = 0;  ///< of its message type and the codes of its packing
   Direction direction = Direction::kUp;
   ChannelClass channel_class = ChannelClass::kState;
   std::uint32_t fixed_bits = 0;  ///< packed size when it is always the same; 0: every message tells its own
   std::uint32_t max_bits = 0;    ///< largest packed size
+  ValueWidths delta{};           ///< state: may be sent as difference between such values; empty: never
   // How the sender treats it.
   int priority = 3;         ///< 0 first
   double rate_hz = 1;       ///< at most this often (per key), on average; 0: no limit

@@ -42,6 +42,8 @@ LinkEndpoint::LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey
       queue_(table_, outgoing, options.ageing),
       receivers_(table_.size()),
       deliveries_(table_.size()),
+      delta_senders_(table_.size()),
+      delta_received_(table_.size()),
       pacer_(options.bytes_per_s, options.ahead_bytes, now),
       turns_(options.half_duplex, outgoing == Direction::kUp, now),
       last_data_(now - options.keep_alive),
@@ -145,12 +147,7 @@ void LinkEndpoint::OnData(const DataFrame& frame, std::uint64_t highest_before, 
 void LinkEndpoint::OnEntry(BundleEntry entry, bool newest, std::size_t wire_bytes, Time now,
                            std::vector<Delivery>& out) {
   const Time sent_at = now - OnTheWay(wire_bytes) - latency_.one_way();
-  std::visit(Overloaded{[&](StateEntry& e) {
-                          if (!newest) return void(++deliveries_[e.channel].late);
-                          ++deliveries_[e.channel].delivered;
-                          deliveries_[e.channel].bits += e.bits;
-                          out.push_back({e.channel, std::move(e.packed), sent_at});
-                        },
+  std::visit(Overloaded{[&](StateEntry& e) { OnState(std::move(e), newest, sent_at, out); },
                         [&](CommandEntry& e) { OnCommand(std::move(e), newest, sent_at, now, out); },
                         [&](EventEntry& e) { OnEvent(e, sent_at, out); },
                         [&](EventAckEntry& e) { OnEventAck(e, now); },
@@ -162,8 +159,31 @@ void LinkEndpoint::OnEntry(BundleEntry entry, bool newest, std::size_t wire_byte
                         [&](ListenEntry& e) { OnListen(e, now); },
                         [&](OverEntry&) {
                           if (newest) turns_.OnOverReceived(now);
+                        },
+                        [&](ForgetEntry&) {
+                          for (DeltaSender& sender : delta_senders_) sender.Forget();
                         }},
              entry);
+}
+
+void LinkEndpoint::OnState(StateEntry entry, bool newest, Time sent_at, std::vector<Delivery>& out) {
+  const ValueWidths& widths = table_.at(entry.channel).delta;
+  MessageHistory& history = delta_received_[entry.channel];
+  if (newest && entry.baseline) {
+    const auto* baseline = history.Find(BaselineCounter(opener_.highest(), *entry.baseline));
+    auto whole = baseline != nullptr ? ApplyDelta(widths, baseline->packed, entry.packed) : std::nullopt;
+    forget_due_ = forget_due_ || !whole;
+    newest = whole.has_value();
+    if (whole) entry.packed = std::move(*whole);
+  }
+  if (!newest) {
+    ++deliveries_[entry.channel].late;
+    return;
+  }
+  if (!widths.empty()) history.Note(opener_.highest(), entry.packed);
+  ++deliveries_[entry.channel].delivered;
+  deliveries_[entry.channel].bits += entry.bits;
+  out.push_back({entry.channel, std::move(entry.packed), sent_at});
 }
 
 void LinkEndpoint::OnCommand(CommandEntry entry, bool newest, Time sent_at, Time now,
@@ -210,6 +230,7 @@ void LinkEndpoint::OnFrameAck(const FrameAckEntry& ack, std::size_t wire_bytes, 
     if ((sent.counter & 0xFFFU) != ack.counter) continue;
     confirmed_ = std::max(confirmed_.value_or(0), sent.counter);
     proven_ = std::max(proven_.value_or(sent.end), sent.end);
+    for (DeltaSender& sender : delta_senders_) sender.OnAcknowledged(sent.counter);
     latency_.Sample(now - sent.end - ack.hold - OnTheWay(wire_bytes));
     return;
   }
@@ -243,6 +264,8 @@ void LinkEndpoint::ChangeEpoch(const EpochAgreement::Pair& pair, std::uint32_t p
     for (EventReceiver& receiver : receivers_) receiver.Forget();
   opener_.SetEpoch(epoch, 0);
   for (std::size_t i = 0; i < table_.size(); ++i) queue_.events(i).ResendAll(true);
+  for (DeltaSender& sender : delta_senders_) sender.Forget();
+  for (MessageHistory& history : delta_received_) history.Clear();
   confirmed_ = 0;
   proven_.reset();
   sent_frames_.clear();

@@ -13,6 +13,7 @@
 #include "bus/radio/bundle.hpp"
 #include "bus/radio/channel_table.hpp"
 #include "bus/radio/cobs.hpp"
+#include "bus/radio/delta.hpp"
 #include "bus/radio/epoch.hpp"
 #include "bus/radio/event_stream.hpp"
 #include "bus/radio/frame.hpp"
@@ -76,7 +77,9 @@ struct LinkCounters {
 /// What arrived on one incoming channel.
 struct DeliveryCounters {
   std::uint64_t delivered = 0;
-  std::uint64_t late = 0;  ///< refused: a command that may be too old, a message overtaken by a newer one
+  /// Refused: a command that may be too old, a message overtaken by a newer one, a difference to a message
+  /// from before a restart.
+  std::uint64_t late = 0;
   std::uint64_t bits = 0;
 };
 
@@ -138,7 +141,8 @@ class LinkEndpoint {
   };
   struct SentMessage {
     QueuedMessage message;
-    std::size_t bits;
+    std::size_t bits;               ///< on the line
+    std::vector<std::byte> packed;  ///< what the other end will have; of channels with differences
   };
   /// The frame on its way out, and what must be undone when it is aborted.
   struct Flight {
@@ -153,6 +157,7 @@ class LinkEndpoint {
     std::vector<std::size_t> acks;
     bool frame_ack = false;
     bool listen = false;
+    bool forget = false;
   };
   struct SentFrame {
     std::uint64_t counter;
@@ -178,6 +183,7 @@ class LinkEndpoint {
   void AddSegments(std::size_t channel, Time now, bool urgent_only, BitWriter& bundle, Flight& flight);
   bool AddSegment(std::size_t channel, Time now, BitWriter& bundle, Flight& flight);
   void AddNewest(const SendQueue::Candidate& candidate, Time now, BitWriter& bundle, Flight& flight);
+  BundleEntry NewestEntry(const SendQueue::Candidate& candidate, const Packed& packed, Time now) const;
   bool AddEntry(const BundleEntry& entry, BitWriter& bundle, const Flight& flight) const;
   std::size_t BundleTarget() const;
   CounterForm FormOf(std::uint64_t counter) const;
@@ -195,6 +201,7 @@ class LinkEndpoint {
   void OnFrameAck(const FrameAckEntry& ack, std::size_t wire_bytes, Time now);
   void OnEventAck(const EventAckEntry& entry, Time now);
   void OnEvent(const EventEntry& entry, Time sent_at, std::vector<Delivery>& out);
+  void OnState(StateEntry entry, bool newest, Time sent_at, std::vector<Delivery>& out);
   void OnCommand(CommandEntry entry, bool newest, Time sent_at, Time now, std::vector<Delivery>& out);
   void OnListen(const ListenEntry& listen, Time now);
   void SetWanted(std::uint64_t channels);
@@ -216,6 +223,8 @@ class LinkEndpoint {
   SendQueue queue_;
   std::vector<EventReceiver> receivers_;
   std::vector<DeliveryCounters> deliveries_;
+  std::vector<DeltaSender> delta_senders_;
+  std::vector<MessageHistory> delta_received_;  ///< what differences may refer to
 
   Pacer pacer_;
   TurnTaking turns_;
@@ -232,6 +241,7 @@ class LinkEndpoint {
   bool floor_due_ = false;  ///< the other end may still send counters that count as used here
   std::uint64_t listening_ = 0;
   bool listen_due_ = false;
+  bool forget_due_ = false;  ///< the other end refers to what is not known here
 
   std::optional<Time> last_valid_;  ///< arrival of the last accepted data frame
   std::optional<Time> last_frame_ack_;

@@ -1,8 +1,10 @@
 #include "bus/radio/link_config.hpp"
 
 #include <fmt/format.h>
+#include <sodium.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "bus/schema/packing.hpp"
@@ -17,6 +19,26 @@ bool HasFixedSize(const Struct& type) {
         std::any_of(f.dims.begin(), f.dims.end(), [](const Dimension& d) { return d.variable; });
     return !variable && f.kind != Kind::kString && (f.type == nullptr || HasFixedSize(*f.type));
   });
+}
+
+/// Types that differ only in annotations have one fingerprint, but other bits.
+std::uint64_t CodesHash(const Packer& packer) {
+  std::string text;
+  for (const PackedField& field : packer.fields()) text += field.codes + "\n";
+  std::array<unsigned char, 16> hash{};
+  crypto_generichash(hash.data(), hash.size(), reinterpret_cast<const unsigned char*>(text.data()),
+                     text.size(), nullptr, 0);
+  std::uint64_t value = 0;
+  for (int i = 7; i >= 0; --i) value = value << 8 | hash[static_cast<std::size_t>(i)];
+  return value;
+}
+
+ValueWidths DeltaWidths(const LinkChannelConfig& c, const Struct& type) {
+  if (!HasFixedSize(type))
+    throw ConfigError(fmt::format(
+        "radio channel {}: delta: expected false with {}, whose messages differ in size, got true", c.name,
+        type.full_name));
+  return Packer(type).ValueWidths();
 }
 
 ChannelClass ClassOf(const std::string& name) {
@@ -41,15 +63,17 @@ LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
   CheckKey(c, *type);
   LinkChannel channel;
   channel.name = c.name;
-  channel.fingerprint = type->fingerprint;
   channel.direction = c.direction == "up" ? Direction::kUp : Direction::kDown;
   channel.channel_class = ClassOf(c.channel_class);
   try {
-    channel.max_bits = static_cast<std::uint32_t>(PackedBits(*type));
+    const Packer packer(*type);
+    channel.fingerprint = type->fingerprint ^ CodesHash(packer);
+    channel.max_bits = static_cast<std::uint32_t>(packer.MaxBits());
   } catch (const SchemaError& error) {
     throw ConfigError(fmt::format("radio channel {} cannot be packed: {}", c.name, error.what()));
   }
   channel.fixed_bits = HasFixedSize(*type) ? channel.max_bits : 0;
+  if (c.delta) channel.delta = DeltaWidths(c, *type);
   channel.priority = c.priority;
   channel.rate_hz = c.rate_hz;
   channel.burst = c.burst;
@@ -77,12 +101,16 @@ void LinkChannelConfig::Describe(Archive& a) {
   a.Number("deadline_s", deadline_s, {"s", 0, 600, "latest arrival that the budget must guarantee; 0: any"});
   a.Flag("urgent", urgent, "goes at once, also in the middle of another frame");
   a.Flag("on_request", on_request, "is sent only while somebody listens on the other side");
+  a.Flag("delta", delta,
+         "sent as difference to one that the other end is known to have, whenever that is shorter");
   a.Text("key", key, "text field of the type: newest wins per value of it; empty: newest of all");
   a.Integer("keys", keys, {"-", 1, 64, "values of `key` at most"});
   if (name.empty()) a.Refuse("name", "the name of an LCM channel");
   if (channel_class == "command" && ttl_s <= 0)
     a.Refuse("ttl_s", "a time-to-live above 0, as every command needs");
   if (channel_class == "event" && ttl_s > 0) a.Refuse("ttl_s", "none: an event is delivered, however late");
+  if (delta && (channel_class != "state" || !key.empty()))
+    a.Refuse("delta", "false: differences are for channels of class state without a key");
   if (channel_class != "state" && !key.empty()) a.Refuse("key", "none: keys are for channels of class state");
 }
 

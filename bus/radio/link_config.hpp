@@ -23,6 +23,7 @@ struct LinkChannelConfig {
   double deadline_s = 0;
   bool urgent = false;
   bool on_request = false;
+  bool delta = false;
   std::string key;
   int keys = 1;
   void Describe(Archive& a);

@@ -98,7 +98,8 @@ bool LinkEndpoint::FrameAckDue(Time now) const {
 }
 
 bool LinkEndpoint::DataDue(Time now) const {
-  if (now - last_data_ >= options_.keep_alive || frames_since_ack_ >= kFramesPerAck || listen_due_)
+  if (now - last_data_ >= options_.keep_alive || frames_since_ack_ >= kFramesPerAck || listen_due_ ||
+      forget_due_)
     return true;
   return AckDue() || !queue_.Ready(now).empty();
 }
@@ -182,6 +183,11 @@ void LinkEndpoint::AddControl(Time now, BitWriter& bundle, Flight& flight) {
     last_listen_ = now;
     flight.listen = true;
   }
+  if (forget_due_) {
+    AddEntry(ForgetEntry{}, bundle, flight);
+    forget_due_ = false;
+    flight.forget = true;
+  }
   for (std::size_t i = 0; i < receivers_.size(); ++i) {
     if (!receivers_[i].ack_due()) continue;
     if (!AddEntry(EventAckEntry{i, receivers_[i].ack()}, bundle, flight)) break;
@@ -228,13 +234,28 @@ void LinkEndpoint::AddNewest(const SendQueue::Candidate& candidate, Time now, Bi
     queue_.CountRefused(channel);
     return;
   }
-  const std::size_t bits = packed->bits;
-  BundleEntry entry = StateEntry{channel, bits, packed->bytes};
-  if (table_.at(channel).channel_class == ChannelClass::kCommand)
-    entry = CommandEntry{channel, now - queue_.OfferedAt(candidate), bits, std::move(packed->bytes)};
+  const BundleEntry entry = NewestEntry(candidate, *packed, now);
   if (!AddEntry(entry, bundle, flight)) return;
   if (packed->saturated) ++queue_.counters(channel).saturated;
-  flight.messages.push_back({queue_.Take(candidate), bits});
+  const auto* state = std::get_if<StateEntry>(&entry);
+  if (table_.at(channel).delta.empty()) packed->bytes.clear();
+  flight.messages.push_back(
+      {queue_.Take(candidate), state != nullptr ? state->bits : packed->bits, std::move(packed->bytes)});
+}
+
+BundleEntry LinkEndpoint::NewestEntry(const SendQueue::Candidate& candidate, const Packed& packed,
+                                      Time now) const {
+  const LinkChannel& channel = table_.at(candidate.channel);
+  if (channel.channel_class == ChannelClass::kCommand)
+    return CommandEntry{candidate.channel, now - queue_.OfferedAt(candidate), packed.bits, packed.bytes};
+  StateEntry entry{candidate.channel, packed.bits, packed.bytes};
+  if (channel.delta.empty()) return entry;
+  const auto* baseline = delta_senders_[candidate.channel].Baseline(memory_.last_counter() + 1);
+  if (baseline == nullptr) return entry;
+  const BitWriter delta = EncodeDelta(channel.delta, baseline->packed, packed.bytes);
+  if (delta.bits() + kBaselineBits >= packed.bits) return entry;
+  return StateEntry{candidate.channel, delta.bits(), delta.bytes(),
+                    static_cast<std::uint8_t>(baseline->counter & kDeltaReach)};
 }
 
 void LinkEndpoint::Abort(Time now, std::vector<std::byte>& out) {
@@ -249,12 +270,16 @@ void LinkEndpoint::Abort(Time now, std::vector<std::byte>& out) {
   if (flight.frame_ack) frames_since_ack_ += 1;
   if (flight.frame_ack) last_frame_ack_.reset();
   if (flight.listen) listen_due_ = true;
+  if (flight.forget) forget_due_ = true;
   if (flight.counter == 0) hello_reply_ = true;
 }
 
 void LinkEndpoint::Finish() {
   if (flight_->over) turns_.OnOverSent(pacer_.free_at());
-  for (const SentMessage& m : flight_->messages) queue_.CountSent(m.message.channel, m.bits);
+  for (SentMessage& m : flight_->messages) {
+    queue_.CountSent(m.message.channel, m.bits);
+    if (!m.packed.empty()) delta_senders_[m.message.channel].OnSent(flight_->counter, std::move(m.packed));
+  }
   if (flight_->counter == 0) {
     ++counters_.hellos_sent;
   } else {

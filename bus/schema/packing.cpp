@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 #include "bus/schema/big_endian.hpp"
 #include "bus/schema/bit_stream.hpp"
@@ -215,10 +216,32 @@ class UnpackTraversal : public Traversal<UnpackTraversal> {
   std::vector<std::byte> bytes_;
 };
 
+void AppendWidths(const PackPlan& plan, std::vector<std::uint8_t>& widths) {
+  for (const PackStep& step : plan.steps) {
+    std::int64_t values = 1;
+    bool fixed = !std::holds_alternative<TextPack>(step.code);
+    for (const std::int64_t dim : step.dims) {
+      fixed = fixed && dim >= 0;
+      values *= dim;
+    }
+    if (!fixed) throw std::logic_error("values of a type without fixed size have no fixed widths");
+    const auto* nested = std::get_if<StructPack>(&step.code);
+    for (std::int64_t i = 0; i < values; ++i)
+      nested != nullptr ? AppendWidths(*nested->plan, widths)
+                        : widths.push_back(static_cast<std::uint8_t>(step.bits));
+  }
+}
+
 }  // namespace
 
 Packer::Packer(const Struct& type) : type_(&type), plan_(MakePackPlan(type, fields_)) {
   for (const PackedField& field : fields_) max_bits_ += static_cast<std::size_t>(field.bits * field.values);
+}
+
+std::vector<std::uint8_t> Packer::ValueWidths() const {
+  std::vector<std::uint8_t> widths;
+  AppendWidths(*plan_, widths);
+  return widths;
 }
 
 std::optional<PackResult> Packer::Pack(std::span<const std::byte> encoded, std::int64_t now_us) const {

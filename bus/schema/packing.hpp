@@ -32,6 +32,9 @@ class Packer {
   const Struct& type() const { return *type_; }
   /// The bit table, in the order of the bits.
   const std::vector<PackedField>& fields() const { return fields_; }
+  /// Bits of every value of a message, in their order. Only for types whose messages all have the same size:
+  /// fixed arrays, no texts; throws std::logic_error for others.
+  std::vector<std::uint8_t> ValueWidths() const;
   /// Most bits and bytes of a packed message.
   std::size_t MaxBits() const { return max_bits_; }
   std::size_t MaxBytes() const { return (max_bits_ + 7) / 8; }

@@ -1,6 +1,6 @@
 // Forged, mutated, replayed and damaged frames.
 #include "figures.hpp"
-#include "test/bus/radio/link_measurements.hpp"
+#include "test/bus/radio/attack_measurement.hpp"
 
 namespace priamos::bench {
 

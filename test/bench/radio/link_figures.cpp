@@ -1,6 +1,8 @@
 // Efficiency, bit errors, loss, overload, blackouts.
 #include "figures.hpp"
-#include "test/bus/radio/link_measurements.hpp"
+#include "test/bus/radio/blackout_measurement.hpp"
+#include "test/bus/radio/goodput_measurement.hpp"
+#include "test/bus/radio/overload_measurement.hpp"
 
 namespace priamos::bench {
 

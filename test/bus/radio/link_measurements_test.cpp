@@ -1,11 +1,31 @@
-#include "link_measurements.hpp"
-
 #include <gtest/gtest.h>
+
+#include <utility>
+
+#include "attack_measurement.hpp"
+#include "blackout_measurement.hpp"
+#include "goodput_measurement.hpp"
+#include "overload_measurement.hpp"
 
 // What the link must hold, in short runs. test/bench/radio measures the same for long.
 
 namespace priamos::bus::radio {
 namespace {
+
+TEST(LinkMeasurements, SaturatedLineCarriesBundles) {
+  const Saturation dut = Saturate(60);
+  EXPECT_GT(dut.line_used, 0.995);
+  EXPECT_GT(dut.bundle_share, 0.93);
+}
+
+TEST(LinkMeasurements, BitErrorsCostNoMoreThanTheyMust) {
+  const double clean = EventGoodput(0, 1, 60).bytes_per_s;
+  for (const auto& [rate, share] : {std::pair{1e-5, 0.95}, {1e-4, 0.80}, {1e-3, 0.25}}) {
+    const Goodput dut = EventGoodput(rate, 2, 60);
+    EXPECT_GE(dut.bytes_per_s / clean, share) << rate;
+    EXPECT_TRUE(dut.once_in_order) << rate;
+  }
+}
 
 TEST(LinkMeasurements, OverloadDelaysNeitherCommandsNorEvents) {
   const Overload dut = MeasureOverload(1, 60);

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "bus/radio/channel_table.hpp"
+#include "bus/radio/link.hpp"
+
+/// Response times of the channels of one direction. What is bounded and after whom: budget.hpp.
+namespace priamos::bus::radio {
+
+/// One channel as a load on its direction.
+struct ChannelLoad {
+  std::size_t channel = 0;
+  bool urgent = false;
+  int priority = 0;
+  double period_s = 0;
+  double burst = 1;
+  double keys = 1;
+  double entries = 1;     ///< per message
+  double entry_bits = 0;  ///< largest of them
+  double bits = 0;        ///< all of them
+  double latency_s = std::numeric_limits<double>::infinity();
+
+  /// Messages that can come in a window of this length.
+  double Arrivals(double window_s) const;
+  /// Messages of the same channel that can be there before one that waits for so long.
+  double OwnBefore(double window_s) const;
+};
+
+class DirectionAnalysis {
+ public:
+  /// `table` must outlive this.
+  DirectionAnalysis(const ChannelTable& table, const LinkOptions& options, Direction direction);
+
+  const std::vector<ChannelLoad>& loads() const { return loads_; }
+  /// Of the line, what this direction has for sure.
+  double share() const { return turn_s_ / (turn_s_ + gap_s_); }
+  /// Bytes of a frame per byte of its bundle.
+  double overhead() const { return overhead_; }
+  /// For acknowledgements.
+  double ControlBytesPerSecond() const;
+
+ private:
+  ChannelLoad LoadOf(std::size_t index) const;
+  void SetEntries(const LinkChannel& channel, ChannelLoad& load) const;
+  double ControlBits() const;
+  void ShareTheAir(const LinkOptions& options);
+  double InTurns(double work_s) const;
+  double FrameSeconds(double bits) const;
+  void Solve();
+  bool GoesBefore(const ChannelLoad& other, const ChannelLoad& load) const;
+  double Urgent(const ChannelLoad& load) const;
+  double Ordinary(const ChannelLoad& load) const;
+  double OrdinaryIn(double window_s, const ChannelLoad& load) const;
+  double Converge(const std::function<double(double window_s)>& latency) const;
+
+  const ChannelTable& table_;
+  Direction direction_;
+  double byte_s_;
+  double ageing_s_;
+  std::size_t frame_bytes_;  ///< beside the bundle
+  double ahead_s_;
+  double control_bits_ = 0;
+  double capacity_bits_ = 0;
+  double frame_s_ = 0;
+  double turn_s_ = 1;  ///< with gap_s_ = 0: no turns
+  double gap_s_ = 0;
+  double overhead_ = 1;
+  bool solved_once_ = false;
+  std::vector<ChannelLoad> loads_;
+};
+
+}  // namespace priamos::bus::radio
