@@ -239,8 +239,9 @@ void LinkEndpoint::AddNewest(const SendQueue::Candidate& candidate, Time now, Bi
   if (packed->saturated) ++queue_.counters(channel).saturated;
   const auto* state = std::get_if<StateEntry>(&entry);
   if (table_.at(channel).delta.empty()) packed->bytes.clear();
-  flight.messages.push_back(
-      {queue_.Take(candidate), state != nullptr ? state->bits : packed->bits, std::move(packed->bytes)});
+  std::size_t bits = packed->bits;
+  if (state != nullptr && state->baseline) bits = state->bits + kBaselineBits;
+  flight.messages.push_back({queue_.Take(candidate), bits, std::move(packed->bytes)});
 }
 
 BundleEntry LinkEndpoint::NewestEntry(const SendQueue::Candidate& candidate, const Packed& packed,

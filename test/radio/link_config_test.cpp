@@ -5,6 +5,7 @@
 
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "bus/own_types.hpp"
 #include "bus/radio/budget.hpp"
@@ -41,6 +42,59 @@ TEST(ShippedLink, BudgetHolds) {
   EXPECT_THAT(budget.problems, testing::IsEmpty());
   EXPECT_LT(budget.up.utilisation, 0.5);
   EXPECT_LT(budget.down.utilisation, 0.5);
+}
+
+// ---- What both ends must agree on.
+
+constexpr const char* kTank =
+    "struct tank_t {\n"
+    "  int64_t utime;     // [us] @age 1000000 @step 10000: when\n"
+    "  double level_m[3]; // [m] @range 0,10 @step 0.01: water\n"
+    "  part_t part[2];\n"
+    "}\n"
+    "struct part_t {\n"
+    "  boolean open;     // [-]: valve\n"
+    "  int8_t position;  // [-] @range 0,5: of the handle\n"
+    "}\n";
+constexpr const char* kText = "struct text_t {\n  string text;  // [ascii] @max 20: words\n}\n";
+
+bus::radio::LinkChannelConfig Channel(const std::string& type, bool delta) {
+  bus::radio::LinkChannelConfig channel;
+  channel.name = "CHANNEL";
+  channel.type = type;
+  channel.delta = delta;
+  return channel;
+}
+
+bus::radio::ChannelTable TableOf(const std::string& lcm, const bus::radio::LinkChannelConfig& channel) {
+  const bus::Schema schema(std::vector<bus::Schema::Source>{{"a.lcm", lcm}});
+  LinkConfig config;
+  config.channels.push_back(channel);
+  return config.Table(schema);
+}
+
+TEST(LinkConfigTable, EndsWithOtherAnnotationsAreToldApart) {
+  std::string other = kTank;
+  other.replace(other.find("0,10 @step 0.01"), 15, "5,15 @step 0.01");  // as many bits
+  const auto one = TableOf(kTank, Channel("tank_t", false)), two = TableOf(other, Channel("tank_t", false));
+  EXPECT_EQ(one.at(0).fixed_bits, two.at(0).fixed_bits);
+  EXPECT_NE(one.hash(), two.hash());
+  EXPECT_EQ(one.hash(), TableOf(kTank, Channel("tank_t", false)).hash());
+}
+
+TEST(LinkConfigTable, DifferencesAreBetweenValuesInTheirOrder) {
+  EXPECT_THAT(TableOf(kTank, Channel("tank_t", true)).at(0).delta,
+              testing::ElementsAre(7, 10, 10, 10, 1, 3, 1, 3));
+  EXPECT_THAT(TableOf(kTank, Channel("tank_t", false)).at(0).delta, testing::IsEmpty());
+}
+
+TEST(LinkConfigTable, DifferencesNeedAFixedSize) {
+  try {
+    TableOf(kText, Channel("text_t", true));
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("CHANNEL: delta: expected false with text_t"));
+  }
 }
 
 }  // namespace

@@ -8,18 +8,20 @@ using namespace bus::radio;
 
 void Hostile(Figures& figures, const Effort& effort) {
   Figures::Section("Forged, mutated, replayed, reflected frames");
-  std::uint64_t tried = 0, accepted = 0, delivered = 0;
+  std::uint64_t tried = 0, accepted = 0, delivered = 0, flooded = 0;
   int alarms = 0, heard = 0;
   for (const Boot boot : {Boot::kSame, Boot::kLater, Boot::kLaterForgot}) {
     const Attack attack = AttackReceiver(boot, 7, 340'000);
     tried += attack.tried;
     accepted += attack.accepted;
     delivered += attack.delivered;
+    flooded += attack.flooded;
     alarms += attack.alarm ? 1 : 0;
     heard += attack.still_works ? 1 : 0;
   }
   figures.AtLeast("tried: same boot, later boot, later boot without memory", 1e6, static_cast<double>(tried),
                   "frames");
+  figures.Note("of them not looked at, because faster than the line", static_cast<double>(flooded), "");
   figures.Exactly("accepted", 0, static_cast<double>(accepted), "frames");
   figures.Exactly("messages delivered", 0, static_cast<double>(delivered), "");
   figures.Exactly("alarm raised", 3, alarms, "of 3");

@@ -53,6 +53,7 @@ void SimulatedLink(Figures& figures, const Effort& effort);  // sections of link
 void Hostile(Figures& figures, const Effort& effort);        // attack_figures.cpp
 void Stops(Figures& figures, const Effort& effort);          // stop_figures.cpp
 void SideBySide(Figures& figures);                           // size_figures.cpp
+void Differences(Figures& figures);                          // delta_figures.cpp
 /// Real processes on real ptys; `programs`: folder of priamos and priamos-radio.
 void RealTime(Figures& figures, const std::string& programs, double seconds);  // real_time_figures.cpp
 

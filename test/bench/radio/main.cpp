@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
       RealTime(figures, std::filesystem::read_symlink("/proc/self/exe").parent_path().string(), seconds);
     } else {
       SideBySide(figures);
+      Differences(figures);
       SimulatedLink(figures, effort);
       Stops(figures, effort);
       Hostile(figures, effort);

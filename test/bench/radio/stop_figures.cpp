@@ -88,6 +88,7 @@ void Stops(Figures& figures, const Effort& effort) {
                     static_cast<double>(latencies.size()), "");
     figures.AtMost("  p99.9", 20, 1e3 * Quantile(latencies, 0.999), "ms");
     figures.Note("  median", 1e3 * Quantile(latencies, 0.5), "ms");
+    figures.Note("  worst", 1e3 * Quantile(latencies, 1), "ms");
   }
 }
 

@@ -91,6 +91,7 @@ struct Attack {
   std::uint64_t tried = 0;
   std::uint64_t accepted = 0;   ///< data frames
   std::uint64_t delivered = 0;  ///< messages
+  std::uint64_t flooded = 0;    ///< not even looked at: faster than the line
   bool alarm = false;
   bool still_works = false;  ///< afterwards the true other end is heard within a second
 };
@@ -114,13 +115,16 @@ class AttackRun {
   Attack Run(std::uint64_t frames) {
     Attack attack;
     LinkEndpoint& receiver = *pair_.offboard.link;
-    const std::uint64_t before = receiver.Status(pair_.now).counters.frames_received;
+    const LinkCounters before = receiver.Status(pair_.now).counters;
     for (; attack.tried < frames; ++attack.tried) {
       pair_.now += Duration(7300);  // the smallest frame's time on the line
       attack.delivered += receiver.Receive(Forged(), pair_.now).size();
       attack.alarm = attack.alarm || receiver.Status(pair_.now).alarm;
     }
-    attack.accepted = receiver.Status(pair_.now).counters.frames_received - before;
+    const LinkCounters after = receiver.Status(pair_.now).counters;
+    constexpr auto kFlood = static_cast<std::size_t>(Reject::kFlood);
+    attack.accepted = after.frames_received - before.frames_received;
+    attack.flooded = after.rejected[kFlood] - before.rejected[kFlood];
     // The line kept its pace meanwhile.
     pair_.offboard.received.clear();
     pair_.Run(1);

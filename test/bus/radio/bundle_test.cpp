@@ -50,6 +50,22 @@ TEST_F(BundleTest, EverythingComesBack) {
   EXPECT_EQ(std::get<ListenEntry>(parsed.entries[5]).channels, 0x2AU);
 }
 
+TEST_F(BundleTest, DifferencesComeBackBetweenOthers) {
+  auto channels = TestChannels();
+  channels[kPoseUp].delta = {16, 64};
+  table = ChannelTable(channels, false);
+  const auto old_pose = Text("0123456789"), new_pose = Text("0123456799");
+  const BitWriter delta = EncodeDelta(channels[kPoseUp].delta, old_pose, new_pose);
+  const auto parsed = Parse({StateEntry{kPoseUp, 80, old_pose},
+                             StateEntry{kPoseUp, delta.bits(), delta.bytes(), 17}, FloorEntry{5}});
+  ASSERT_TRUE(parsed.whole);
+  ASSERT_EQ(parsed.entries.size(), 3U);
+  EXPECT_FALSE(std::get<StateEntry>(parsed.entries[0]).baseline);
+  EXPECT_EQ(std::get<StateEntry>(parsed.entries[1]).baseline, 17);
+  EXPECT_EQ(std::get<StateEntry>(parsed.entries[1]).packed, delta.bytes());
+  EXPECT_EQ(std::get<FloorEntry>(parsed.entries[2]).counter, 5U);
+}
+
 TEST_F(BundleTest, FixedSizesCostOnlyTheirBitsAndANumber) {
   EXPECT_EQ(EntryBits(table, StateEntry{kPoseUp, 80, Text("0123456789")}), 83U);
   EXPECT_EQ(EntryBits(table, CommandEntry{kDriveDown, {}, 40, Text("abcde")}), 49U);

@@ -133,6 +133,27 @@ TEST_F(ReadmeVectors, Bundles) {
   EXPECT_EQ(up.entries.size(), 5U);
 }
 
+TEST_F(ReadmeVectors, Differences) {
+  LinkChannel pose = Table().at(0);
+  pose.fixed_bits = pose.max_bits = 40;
+  pose.delta = {15, 13, 3, 9};
+  const ChannelTable table({pose}, false);
+  EXPECT_EQ(table.hash(), Number("difference_table_hash"));
+  const auto baseline = FromHex(values.at("difference_baseline"));
+  const auto message = FromHex(values.at("difference_message"));
+  const BitWriter delta = EncodeDelta(pose.delta, baseline, message);
+  EXPECT_EQ(delta.bits(), 33U);
+  EXPECT_EQ(ToHex(delta.bytes()), values.at("difference"));
+  EXPECT_EQ(ApplyDelta(pose.delta, baseline, delta.bytes()), message);
+  BitWriter bundle;
+  WriteEntry(table, StateEntry{0, 33, delta.bytes(), 300 & 63}, bundle);
+  WriteEntry(table, ForgetEntry{}, bundle);
+  EXPECT_EQ(ToHex(bundle.bytes()), values.at("difference_bundle"));
+  const ParsedBundle parsed = ParseBundle(table, Direction::kUp, bundle.bytes());
+  ASSERT_EQ(parsed.entries.size(), 2U);
+  EXPECT_EQ(std::get<StateEntry>(parsed.entries[0]).packed, delta.bytes());
+}
+
 TEST_F(ReadmeVectors, DataFrames) {
   const auto wire = [&](Direction direction, std::uint64_t counter, CounterForm form, bool encrypted) {
     const auto bundle = direction == Direction::kUp ? BundleUp() : BundleDown();
