@@ -27,6 +27,8 @@ class FrameSplitter {
   /// After kFrame, frame() holds the bytes before the delimiter until the next call.
   Event Push(std::byte byte);
   std::span<const std::byte> frame() const { return frame_; }
+  /// Whether the next byte, if it is no delimiter, is the first one of a frame.
+  bool between_frames() const { return complete_ || frame_.empty(); }
 
  private:
   std::size_t max_bytes_;

@@ -37,6 +37,7 @@ LinkEndpoint::LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey
       sealer_(keys_, outgoing, {table_.hash(), table_.encrypted()}),
       opener_(keys_, Opposite(outgoing), {table_.hash(), table_.encrypted()}),
       splitter_(kMaxEncodedBytes),
+      frame_began_(now),
       memory_(store, table_, nonces),
       agreement_(nonces),
       queue_(table_, outgoing, options.ageing),
@@ -83,6 +84,7 @@ std::vector<Delivery> LinkEndpoint::Receive(std::span<const std::byte> bytes, Ti
   counters_.bytes_received += bytes.size();
   if (!bytes.empty()) turns_.OnBytes(now);
   for (const std::byte b : bytes) {
+    if (splitter_.between_frames()) frame_began_ = now;
     switch (splitter_.Push(b)) {
       case FrameSplitter::Event::kNone:
         break;
@@ -144,9 +146,15 @@ void LinkEndpoint::OnData(const DataFrame& frame, std::uint64_t highest_before, 
   for (BundleEntry& entry : bundle.entries) OnEntry(std::move(entry), newest, wire_bytes, now, out);
 }
 
+/// When a frame that is complete now began to be sent. Its bytes need not have come one after the other: when
+/// a cut swallowed only the delimiter, the next one, however late, completes the frame.
+Time LinkEndpoint::SentAt(std::size_t wire_bytes, Time now) const {
+  return std::min(now - OnTheWay(wire_bytes), frame_began_ - OnTheWay(1)) - latency_.one_way();
+}
+
 void LinkEndpoint::OnEntry(BundleEntry entry, bool newest, std::size_t wire_bytes, Time now,
                            std::vector<Delivery>& out) {
-  const Time sent_at = now - OnTheWay(wire_bytes) - latency_.one_way();
+  const Time sent_at = SentAt(wire_bytes, now);
   std::visit(Overloaded{[&](StateEntry& e) { OnState(std::move(e), newest, sent_at, out); },
                         [&](CommandEntry& e) { OnCommand(std::move(e), newest, sent_at, now, out); },
                         [&](EventEntry& e) { OnEvent(e, sent_at, out); },

@@ -149,8 +149,9 @@ class LinkEndpoint {
     std::vector<std::byte> wire;
     std::size_t next = 0;
     std::uint64_t counter = 0;  ///< 0: a hello
-    bool urgent = false;
-    bool over = false;  ///< ends the turn
+    bool urgent = false;        ///< never cut off
+    bool repeats = false;       ///< only what was urgent before: cut off by what is urgent now
+    bool over = false;          ///< ends the turn
     std::size_t bundle_bytes = 0;
     std::vector<SentMessage> messages;
     std::vector<SentSegment> segments;
@@ -198,6 +199,7 @@ class LinkEndpoint {
   void OnEntry(BundleEntry entry, bool newest, std::size_t wire_bytes, Time now, std::vector<Delivery>& out);
   void OnHello(const Hello& hello, Time now);
   void OnReject(Reject reject, Time now);
+  Time SentAt(std::size_t wire_bytes, Time now) const;
   void OnFrameAck(const FrameAckEntry& ack, std::size_t wire_bytes, Time now);
   void OnEventAck(const EventAckEntry& entry, Time now);
   void OnEvent(const EventEntry& entry, Time sent_at, std::vector<Delivery>& out);
@@ -218,6 +220,7 @@ class LinkEndpoint {
   FrameSealer sealer_;
   FrameOpener opener_;
   FrameSplitter splitter_;
+  Time frame_began_;  ///< arrival of the first byte of the frame that is coming in
   LinkMemory memory_;
   EpochAgreement agreement_;
   SendQueue queue_;

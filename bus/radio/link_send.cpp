@@ -33,7 +33,7 @@ std::vector<std::byte> LinkEndpoint::Step(Time now) {
   }
   turns_.Step(now, latency_.one_way());
   if (flight_ && !flight_->urgent && flight_->wire.size() - flight_->next > kNotWorthAborting &&
-      memory_.epoch() != 0 && queue_.UrgentReady(now))
+      memory_.epoch() != 0 && queue_.UrgentReady(now, flight_->repeats))
     Abort(now, out);
   while (MaySend(now)) {
     if (!flight_ && (!turns_.MayTalk(now) || !BuildFrame(now))) break;
@@ -111,7 +111,8 @@ bool LinkEndpoint::AckDue() const {
 
 void LinkEndpoint::BuildData(Time now, bool urgent_only) {
   Flight flight;
-  flight.urgent = urgent_only;
+  flight.urgent = urgent_only && queue_.UrgentReady(now, true);
+  flight.repeats = urgent_only && !flight.urgent;
   BitWriter bundle;
   if (!urgent_only) AddControl(now, bundle, flight);
   AddMessages(now, urgent_only, bundle, flight);

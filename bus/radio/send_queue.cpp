@@ -89,9 +89,15 @@ double SendQueue::Effective(const LinkChannel& channel, Time since, Time now) co
   return channel.priority - std::floor(Seconds(waited) / Seconds(ageing_));
 }
 
+/// An urgent event goes before repetitions of those before it, unless its rate holds it back: that must not
+/// hold back the repetitions as well.
+bool SendQueue::FreshFirst(const Lane& lane, Time now) {
+  return lane.channel->urgent && (!lane.events.NextIsNew(now, true) || lane.event_rate.Allows(now));
+}
+
 bool SendQueue::EventReady(const Lane& lane, Time now) {
   return lane.events.Ready(now) &&
-         (!lane.events.NextIsNew(now, lane.channel->urgent) || lane.event_rate.Allows(now));
+         (!lane.events.NextIsNew(now, FreshFirst(lane, now)) || lane.event_rate.Allows(now));
 }
 
 void SendQueue::AddReady(const Lane& lane, std::size_t index, Time now, std::vector<Candidate>& ready) const {
@@ -125,11 +131,14 @@ std::vector<SendQueue::Candidate> SendQueue::Ready(Time now) const {
   return ready;
 }
 
-bool SendQueue::UrgentReady(Time now) const {
+bool SendQueue::UrgentReady(Time now, bool fresh) const {
   std::vector<Candidate> ready;
-  for (std::size_t i = 0; i < lanes_.size(); ++i)
-    if (lanes_[i].channel->urgent && lanes_[i].channel->direction == outgoing_)
-      AddReady(lanes_[i], i, now, ready);
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    const Lane& lane = lanes_[i];
+    if (!lane.channel->urgent || lane.channel->direction != outgoing_) continue;
+    const bool event = lane.channel->channel_class == ChannelClass::kEvent;
+    if (!fresh || !event || NextIsFresh(i, now)) AddReady(lane, i, now, ready);
+  }
   return !ready.empty();
 }
 
@@ -143,18 +152,19 @@ Time SendQueue::OfferedAt(const Candidate& candidate) const {
 
 std::optional<EventSegment> SendQueue::PeekEvent(std::size_t channel, Time now) const {
   const Lane& lane = lanes_[channel];
-  return EventReady(lane, now) ? lane.events.Next(now, lane.channel->urgent) : std::nullopt;
+  return EventReady(lane, now) ? lane.events.Next(now, FreshFirst(lane, now)) : std::nullopt;
 }
 
 bool SendQueue::NextIsFresh(std::size_t channel, Time now) const {
-  return lanes_[channel].events.NextIsFresh(now, lanes_[channel].channel->urgent);
+  const Lane& lane = lanes_[channel];
+  return lane.events.NextIsFresh(now, FreshFirst(lane, now));
 }
 
 void SendQueue::TakeEvent(std::size_t channel, std::uint8_t number, Time now, Time leaves_at) {
   Lane& lane = lanes_[channel];
-  const bool urgent = lane.channel->urgent;
-  if (lane.events.NextIsNew(now, urgent))
-    lane.event_rate.Use(std::max(lane.events.NextPackedAt(now, urgent), lane.event_rate.next()));
+  const bool fresh_first = FreshFirst(lane, now);
+  if (lane.events.NextIsNew(now, fresh_first))
+    lane.event_rate.Use(std::max(lane.events.NextPackedAt(now, fresh_first), lane.event_rate.next()));
   lane.event_served = now;
   lane.events.MarkSent(number, leaves_at);
 }

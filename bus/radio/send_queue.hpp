@@ -82,7 +82,8 @@ class SendQueue {
   void Expire(Time now);
   /// Who may be sent now, first one first.
   std::vector<Candidate> Ready(Time now) const;
-  bool UrgentReady(Time now) const;
+  /// Whether an urgent channel has something; `fresh`: something that was never sent.
+  bool UrgentReady(Time now, bool fresh = false) const;
 
   const std::vector<std::byte>& Peek(const Candidate& candidate) const;
   Time OfferedAt(const Candidate& candidate) const;
@@ -125,6 +126,7 @@ class SendQueue {
   Slot* SlotFor(Lane& lane, std::string_view key);
   double Effective(const LinkChannel& channel, Time since, Time now) const;
   static bool EventReady(const Lane& lane, Time now);
+  static bool FreshFirst(const Lane& lane, Time now);
   void AddReady(const Lane& lane, std::size_t index, Time now, std::vector<Candidate>& ready) const;
 
   Direction outgoing_;

@@ -101,6 +101,24 @@ TEST(Link, UrgentAbortsTheFrameInFlight) {
   EXPECT_EQ(dut.onboard.TextsOf(kEventDown), std::vector{std::string(700, 'x')});
 }
 
+TEST(Link, UrgentAbortsTheRepetitionOfAnotherUrgent) {
+  LinkPair dut(LineConfig{.latency_s = 0});
+  dut.Run(1);
+  // Nothing comes back, so that stops are sent again and again.
+  dut.lose_up = [](std::span<const std::byte>) { return true; };
+  dut.offboard.link->Offer(kStopDown, Text("1"), dut.now);
+  dut.Run(0.1);
+  ASSERT_EQ(dut.onboard.TextsOf(kStopDown).size(), 1U);
+  for (char c = '2'; c < '9'; ++c) {
+    const std::uint64_t resent = dut.offboard.link->Status(dut.now).resent;
+    ASSERT_TRUE(dut.RunUntil(5, [&] { return dut.offboard.link->Status(dut.now).resent > resent; }));
+    dut.Run(0.003);  // in the midst of the repetition
+    dut.offboard.link->Offer(kStopDown, Text(std::string(1, c)), dut.now);
+    dut.Run(0.02);
+    ASSERT_EQ(dut.onboard.TextsOf(kStopDown).size(), static_cast<std::size_t>(c - '0'));
+  }
+}
+
 TEST(Link, EventsSurviveARestartOfTheSender) {
   LinkPair dut;
   dut.Run(0.5);
@@ -215,6 +233,25 @@ TEST(Link, CommandHeldBackOnTheWayIsNotDelivered) {
   dut.offboard.link->Offer(kDriveDown, Text("fresh"), dut.now);
   dut.Run(0.5);
   EXPECT_THAT(dut.onboard.TextsOf(kDriveDown), ElementsAre("fresh"));
+}
+
+TEST(Link, CommandWhoseDelimiterWasLostIsNotDeliveredByALaterOne) {
+  for (const double late_s : {0.05, 0.5}) {
+    LinkPair dut(LineConfig{.latency_s = 0});
+    dut.Run(2);
+    dut.wire_down.clear();
+    dut.lose_down = [](std::span<const std::byte>) { return true; };
+    dut.offboard.link->Offer(kDriveDown, Text("abcde"), dut.now);
+    dut.Run(0.05);
+    auto frame = dut.wire_down;
+    ASSERT_EQ(frame.back(), kDelimiter);
+    frame.pop_back();
+    EXPECT_TRUE(dut.onboard.link->Receive(frame, dut.now).empty());
+    dut.now += FromSeconds(late_s);
+    const auto deliveries = dut.onboard.link->Receive(std::vector{kDelimiter}, dut.now);
+    EXPECT_EQ(deliveries.size(), late_s < 0.25 ? 1U : 0U);
+    EXPECT_EQ(dut.onboard.link->delivered(kDriveDown).late, late_s < 0.25 ? 0U : 1U);
+  }
 }
 
 TEST(Link, CommandSaysHowLongItHolds) {

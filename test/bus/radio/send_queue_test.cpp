@@ -79,6 +79,41 @@ TEST_F(SendQueueTest, UrgentGoesFirstWhateverWaits) {
   EXPECT_EQ(dut.Ready(After(0.1))[0].channel, kSlowUp);
 }
 
+/// Numbers of the segments that would be sent at `now`, one after the other.
+std::vector<int> SendAll(SendQueue& dut, std::size_t channel, Time now) {
+  std::vector<int> numbers;
+  while (const auto segment = dut.PeekEvent(channel, now)) {
+    numbers.push_back(segment->number);
+    dut.TakeEvent(channel, segment->number, now, now);
+  }
+  return numbers;
+}
+
+TEST_F(SendQueueTest, UrgentGoesBeforeTheRepetitionOfAnother) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kDown, kAgeing);
+  dut.OfferEvent(kStopDown, Text("1"), 8, kStart);
+  EXPECT_EQ(SendAll(dut, kStopDown, kStart), std::vector({0}));
+  EXPECT_FALSE(dut.UrgentReady(After(0.1)));
+  EXPECT_TRUE(dut.UrgentReady(After(1)));  // its acknowledgement is overdue
+  EXPECT_FALSE(dut.UrgentReady(After(1), true));
+  dut.OfferEvent(kStopDown, Text("2"), 8, After(1));
+  EXPECT_TRUE(dut.UrgentReady(After(1), true));
+  EXPECT_EQ(SendAll(dut, kStopDown, After(1)), std::vector({1, 0}));
+}
+
+TEST_F(SendQueueTest, UrgentThatItsRateHoldsBackDoesNotHoldBackRepetitions) {
+  channels[kStopDown].rate_hz = 0.1;
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kDown, kAgeing);
+  for (const char* text : {"1", "2"}) dut.OfferEvent(kStopDown, Text(text), 8, kStart);
+  EXPECT_EQ(SendAll(dut, kStopDown, kStart), std::vector({0}));
+  EXPECT_FALSE(dut.UrgentReady(After(1), true));
+  EXPECT_TRUE(dut.UrgentReady(After(1)));
+  EXPECT_EQ(SendAll(dut, kStopDown, After(1)), std::vector({0}));
+  EXPECT_EQ(SendAll(dut, kStopDown, After(10)), std::vector({1, 0}));
+}
+
 TEST_F(SendQueueTest, RateIsKept) {
   channels[kPoseUp].ttl = Duration::zero();
   const ChannelTable table = Table();
