@@ -140,5 +140,13 @@ TEST(ReadmeCommands, EveryLinkLeadsSomewhere) {
   }
 }
 
+TEST(ReadmeCommands, EveryFolderThatIsARoomHasOne) {
+  for (const auto* parent : {"modules", "bus"})
+    for (const auto& entry : fs::directory_iterator(fs::path(PRIAMOS_SOURCE_DIR) / parent))
+      EXPECT_TRUE(!entry.is_directory() || fs::exists(entry.path() / "README.md")) << entry.path();
+  for (const auto* folder : {".", "lcmtypes", "config", "test"})
+    EXPECT_TRUE(fs::exists(fs::path(PRIAMOS_SOURCE_DIR) / folder / "README.md")) << folder;
+}
+
 }  // namespace
 }  // namespace priamos

@@ -60,7 +60,8 @@ TEST_F(KeyFileTest, AMissingKeyNamesTheCommand) {
 }
 
 TEST_F(KeyFileTest, SomethingElseIsRefused) {
-  for (const std::string text : {"", "abc", std::string(64, 'g').c_str(), std::string(80, '0').c_str()}) {
+  for (const std::string& text :
+       {std::string(), std::string("abc"), std::string(64, 'g'), std::string(80, '0')}) {
     std::ofstream(path) << text;
     chmod(path.c_str(), 0600);
     EXPECT_THAT(ErrorOfReading(), HasSubstr("64 hexadecimal digits")) << text;
