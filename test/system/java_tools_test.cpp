@@ -98,7 +98,7 @@ TEST_F(JavaTools, LcmSpyDecodesEveryChannelAndDrawsTheSonarRing) {
 TEST_F(JavaTools, TheLogPlayersWindowPlaysEveryChannelOfOurLogs) {
   const auto answer =
       RunProbe("PlayerProbe", "PlayerProbe '" + kUrl + "' run.lcmlog 5",
-               "lcm-logger --lcm-url='" + kUrl + "' --flush-interval=50 -q out.lcmlog & logger=$!; sleep 0.5",
+               "lcm-logger --lcm-url='" + kUrl + "' --flush-interval=50 -q out.lcmlog & logger=$!; listening",
                "sleep 0.3; kill -INT $logger; wait $logger");
   ASSERT_EQ(answer.exit_code, 0) << answer.text;
   // It plays in real time: what comes in the first four seconds is there, as often as it was recorded.
