@@ -1,11 +1,9 @@
 #include <CLI/CLI.hpp>
-#include <exception>
-#include <iostream>
 
 #include "cli/commands.hpp"
+#include "cli/front/run_cli.hpp"
 
 int main(int argc, char** argv) {
-  constexpr int kCannotStart = 2;
   int exit_code = 0;
   CLI::App cli("PRIAMOS: an LCM robot stack whose operator link is 960 bytes per second", "priamos");
   cli.require_subcommand(1);
@@ -22,13 +20,5 @@ int main(int argc, char** argv) {
   priamos::cli::AddUpCommands(cli, exit_code);
   priamos::cli::AddEstopCommand(cli, exit_code);
   priamos::cli::AddCompletionCommand(cli, exit_code);
-  try {
-    cli.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return cli.exit(error) == 0 ? 0 : kCannotStart;
-  } catch (const std::exception& error) {
-    std::cerr << "priamos: " << error.what() << "\n";
-    return kCannotStart;
-  }
-  return exit_code;
+  return priamos::cli::RunCli(cli, argc, argv, exit_code);
 }

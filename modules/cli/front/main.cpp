@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string_view>
 
 #include "cli/commands.hpp"
+#include "cli/front/run_cli.hpp"
 
 namespace {
 
@@ -20,15 +20,7 @@ int Estop(int argc, char** argv) {
   int exit_code = 0;
   CLI::App cli("PRIAMOS", "priamos");
   priamos::cli::AddEstopCommand(cli, exit_code);
-  try {
-    cli.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return cli.exit(error) == 0 ? 0 : kCannotStart;
-  } catch (const std::exception& error) {
-    std::cerr << "priamos: " << error.what() << "\n";
-    return kCannotStart;
-  }
-  return exit_code;
+  return priamos::cli::RunCli(cli, argc, argv, exit_code);
 }
 
 }  // namespace
