@@ -17,7 +17,7 @@ constexpr double kTick_s = 0.001;
 constexpr double kHandOver_s = 2 * kTick_s;
 /// Acknowledgements of frames per second, at most.
 constexpr double kFrameAcks_hz = 4;
-constexpr int kFrameAckBits = 3 + 12 + 12 + 4;
+constexpr int kFrameAckBits = 3 + 12 + kEarlierFrames + 12 + 4;
 constexpr int kEventAckBits = 3 + 8 + 6 + 1 + static_cast<int>(kAckWindow);
 constexpr int kControlKindBits = 3;
 

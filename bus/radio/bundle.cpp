@@ -71,6 +71,7 @@ class EntryWriter {
   void operator()(const FrameAckEntry& e) {
     Control(kFrameAck);
     out_.Write(e.counter & 0xFFFU, 12);
+    out_.Write(e.earlier, kEarlierFrames);
     out_.Write(EncodeDuration12(e.hold), 12);
     out_.Write(static_cast<std::uint64_t>(std::lround(std::clamp(e.loss, 0.0, 1.0) * kLossSteps)), 4);
   }
@@ -174,6 +175,7 @@ class BundleReader {
       case kFrameAck: {
         FrameAckEntry e;
         e.counter = static_cast<std::uint16_t>(in_.Read(12));
+        e.earlier = static_cast<std::uint8_t>(in_.Read(kEarlierFrames));
         e.hold = DecodeDuration12(static_cast<std::uint16_t>(in_.Read(12)));
         e.loss = static_cast<double>(in_.Read(4)) / kLossSteps;
         return e;

@@ -41,9 +41,13 @@ struct EventAckEntry {
   EventAck ack;
 };
 
-/// Which frame of the other end came last.
+/// Frames before the last one that an acknowledgement speaks of as well.
+inline constexpr int kEarlierFrames = 4;
+
+/// Which frame of the other end came last, and which shortly before.
 struct FrameAckEntry {
   std::uint16_t counter = 0;  ///< lowest 12 bits
+  std::uint8_t earlier = 0;   ///< bit i: the frame 1 + i before it came as well, and in its turn
   Duration hold{};            ///< from the arrival of that frame to the begin of this one
   double loss = 0;            ///< share of the other end's frames that did not arrive, lately
 };

@@ -143,7 +143,13 @@ void LinkEndpoint::OnData(const DataFrame& frame, std::uint64_t highest_before, 
   ParsedBundle bundle = ParseBundle(table_, Opposite(outgoing_), frame.bundle);
   if (!bundle.whole) ++counters_.bundles_damaged;
   const bool newest = frame.counter > highest_before;
+  if (newest) NoteInTurn(frame.counter - highest_before);
   for (BundleEntry& entry : bundle.entries) OnEntry(std::move(entry), newest, wire_bytes, now, out);
+}
+
+/// Frames that others overtook are not noted: states in them were dropped.
+void LinkEndpoint::NoteInTurn(std::uint64_t ahead) {
+  in_turn_ = (ahead < 64 ? in_turn_ << ahead : 0) | 1U;
 }
 
 /// When a frame that is complete now began to be sent. Its bytes need not have come one after the other: when
@@ -235,12 +241,13 @@ void LinkEndpoint::OnEventAck(const EventAckEntry& entry, Time now) {
 void LinkEndpoint::OnFrameAck(const FrameAckEntry& ack, std::size_t wire_bytes, Time now) {
   peer_loss_ = ack.loss;
   for (const SentFrame& sent : sent_frames_) {
-    if ((sent.counter & 0xFFFU) != ack.counter) continue;
+    const std::uint64_t back = (ack.counter - sent.counter) & 0xFFFU;
+    if (back > kEarlierFrames || (back > 0 && (ack.earlier >> (back - 1) & 1U) == 0)) continue;
+    for (DeltaSender& sender : delta_senders_) sender.OnAcknowledged(sent.counter);
+    if (back > 0) continue;
     confirmed_ = std::max(confirmed_.value_or(0), sent.counter);
     proven_ = std::max(proven_.value_or(sent.end), sent.end);
-    for (DeltaSender& sender : delta_senders_) sender.OnAcknowledged(sent.counter);
     latency_.Sample(now - sent.end - ack.hold - OnTheWay(wire_bytes));
-    return;
   }
 }
 
@@ -278,6 +285,7 @@ void LinkEndpoint::ChangeEpoch(const EpochAgreement::Pair& pair, std::uint32_t p
   proven_.reset();
   sent_frames_.clear();
   frames_since_ack_ = 0;
+  in_turn_ = 0;
   switched_ = true;
   floor_due_ = false;
 }

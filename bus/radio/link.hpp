@@ -199,6 +199,7 @@ class LinkEndpoint {
   void OnEntry(BundleEntry entry, bool newest, std::size_t wire_bytes, Time now, std::vector<Delivery>& out);
   void OnHello(const Hello& hello, Time now);
   void OnReject(Reject reject, Time now);
+  void NoteInTurn(std::uint64_t ahead);
   Time SentAt(std::size_t wire_bytes, Time now) const;
   void OnFrameAck(const FrameAckEntry& ack, std::size_t wire_bytes, Time now);
   void OnEventAck(const EventAckEntry& entry, Time now);
@@ -249,6 +250,7 @@ class LinkEndpoint {
   std::optional<Time> last_valid_;  ///< arrival of the last accepted data frame
   std::optional<Time> last_frame_ack_;
   std::optional<Time> proven_;  ///< when the newest own frame was sent that the other end had heard
+  std::uint64_t in_turn_ = 0;   ///< bit i: the frame i before the highest was accepted before any later one
   std::uint64_t frames_since_ack_ = 0;
   std::uint64_t bad_since_valid_ = 0;
   RoundTrip round_trip_;

@@ -170,6 +170,7 @@ bool LinkEndpoint::AddEntry(const BundleEntry& entry, BitWriter& bundle, const F
 void LinkEndpoint::AddControl(Time now, BitWriter& bundle, Flight& flight) {
   if (FrameAckDue(now)) {
     AddEntry(FrameAckEntry{.counter = static_cast<std::uint16_t>(opener_.highest() & 0xFFF),
+                           .earlier = static_cast<std::uint8_t>(in_turn_ >> 1 & ((1U << kEarlierFrames) - 1)),
                            .hold = now - *last_valid_,
                            .loss = loss_.loss()},
              bundle, flight);

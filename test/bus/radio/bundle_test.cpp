@@ -28,10 +28,11 @@ TEST_F(BundleTest, EverythingComesBack) {
                              .age = Duration(1'500'000),
                              .bits = 8 * kSegmentBytes,
                              .bytes = Text(std::string(kSegmentBytes, 'e'))};
-  const auto parsed = Parse({StateEntry{kPoseUp, 80, Text("0123456789")}, EventEntry{kEventUp, segment},
-                             EventAckEntry{kEventDown, {.next = 7, .prefix = 33, .held = 0x8001}},
-                             FrameAckEntry{.counter = 0xABC, .hold = Duration(12'000), .loss = 0.4},
-                             FloorEntry{0x123456789A}, ListenEntry{0x2A}});
+  const auto parsed =
+      Parse({StateEntry{kPoseUp, 80, Text("0123456789")}, EventEntry{kEventUp, segment},
+             EventAckEntry{kEventDown, {.next = 7, .prefix = 33, .held = 0x8001}},
+             FrameAckEntry{.counter = 0xABC, .earlier = 0b1001, .hold = Duration(12'000), .loss = 0.4},
+             FloorEntry{0x123456789A}, ListenEntry{0x2A}});
   ASSERT_TRUE(parsed.whole);
   ASSERT_EQ(parsed.entries.size(), 6U);
   EXPECT_EQ(ToText(std::get<StateEntry>(parsed.entries[0]).packed), "0123456789");
@@ -44,6 +45,7 @@ TEST_F(BundleTest, EverythingComesBack) {
   EXPECT_EQ(std::get<EventAckEntry>(parsed.entries[2]).ack.prefix, 33);
   const auto& ack = std::get<FrameAckEntry>(parsed.entries[3]);
   EXPECT_EQ(ack.counter, 0xABC);
+  EXPECT_EQ(ack.earlier, 0b1001);
   EXPECT_EQ(ack.hold, Duration(12'000));
   EXPECT_NEAR(ack.loss, 0.4, 0.001);
   EXPECT_EQ(std::get<FloorEntry>(parsed.entries[4]).counter, 0x123456789AU);

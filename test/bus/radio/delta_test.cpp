@@ -145,6 +145,25 @@ TEST_F(DeltaLink, SendsLess) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST_F(DeltaLink, SendsLessAlsoWhenAnotherFrameAlwaysComesBeforeTheAcknowledgement) {
+  for (LinkPair::End* end : {&pair.onboard, &pair.offboard}) {
+    for (const std::size_t channel : {kPoseUp, kSlowUp}) {
+      end->channels[channel].rate_hz = 0;
+      end->channels[channel].fixed_bits = end->channels[channel].max_bits = 80;
+    }
+    pair.Start(*end);
+  }
+  const std::vector<std::byte> same(10);
+  pair.each_step = [&] {
+    // Acknowledgements are 250 ms apart: only the first of them falls between the pose and what follows it.
+    const std::int64_t phase_us = ToUtime(pair.now) % 500'000;
+    if (phase_us == 0) pair.onboard.link->Offer(kPoseUp, same, pair.now);
+    if (phase_us == 40'000 || phase_us == 290'000) pair.onboard.link->Offer(kSlowUp, same, pair.now);
+  };
+  pair.Run(60);
+  EXPECT_LT(BitsSent() / pair.onboard.link->sent(kPoseUp).sent, 20U);
+}
+
 TEST_F(DeltaLink, LossAndRestartsNeverMakeAWrongMessage) {
   Rng rng(4);
   pair.lose_up = pair.lose_down = [&](std::span<const std::byte>) { return rng.Chance(0.3); };

@@ -69,7 +69,7 @@ struct ReadmeVectors : testing::Test {
   std::vector<std::byte> BundleUp() const {
     const ChannelTable table = Table();
     BitWriter out;
-    WriteEntry(table, FrameAckEntry{0x7ab, std::chrono::milliseconds(37), 3.0 / 15}, out);
+    WriteEntry(table, FrameAckEntry{0x7ab, 0b0101, std::chrono::milliseconds(37), 3.0 / 15}, out);
     WriteEntry(table, FloorEntry{1000}, out);
     WriteEntry(table, StateEntry{0, 83, FromHex("0123456789abcdef0123e0")}, out);
     EventSegment door;
