@@ -22,7 +22,7 @@ struct CalibrateOptions {
   std::string output;
   std::uint64_t seed = 1;
   head::OfflineCalibration files;
-  std::vector<int> dots{6, 6}, image_size;
+  std::vector<int> dots{6, 6}, chessboard, image_size;
   bool light = false;
 };
 
@@ -40,6 +40,8 @@ int CalibrateFiles(const CalibrateOptions& options) {
   head::OfflineCalibration files = options.files;
   files.target.columns = options.dots[0], files.target.rows = options.dots[1];
   files.target.dark = !options.light;
+  if (!options.chessboard.empty())
+    files.chessboard = {options.chessboard[0], options.chessboard[1], files.target.spacing_m};
   if (!options.image_size.empty())
     files.width_px = options.image_size[0], files.height_px = options.image_size[1];
   const std::string json = head::CalibrateFromFiles(files);
@@ -53,14 +55,18 @@ void AddFileOptions(CLI::App& verb, CalibrateOptions& options) {
                                  "lines `X Y Z u v` [m, px] of one camera; several files: several cameras");
   auto* photos =
       verb.add_option("--photo", options.files.photographs,
-                      "photographs: of a dot target by one camera, or with --object one per camera");
+                      "photographs: of a flat target by one camera, or with --object one per camera");
   points->excludes(photos);
   verb.add_option("--object", options.files.object, "TOML of a reference object with discs")->needs(photos);
   verb.add_option("--dots", options.dots, "columns and rows of the dot target")
       ->expected(2)
       ->check(CLI::Range(3, 100))
       ->capture_default_str();
-  verb.add_option("--spacing", options.files.target.spacing_m, "between dots [m]")
+  verb.add_option("--chessboard", options.chessboard, "inner corners in a row and in a column; not dots")
+      ->expected(2)
+      ->check(CLI::Range(3, 100))
+      ->needs(photos);
+  verb.add_option("--spacing", options.files.target.spacing_m, "between dots, or side of a square [m]")
       ->check(positive)
       ->capture_default_str();
   verb.add_option("--radius", options.files.target.radius_m, "of a dot [m]")
@@ -104,7 +110,8 @@ void AddCalibrateCommand(CLI::App& cli, int& exit_code) {
   verb->footer(
       "Examples: priamos calibrate --output kastor.yaml\n"
       "          priamos calibrate --points left.txt --points right.txt\n"
-      "          priamos calibrate --photo grid-*.pgm --dots 6 6 --spacing 0.03 --radius 0.0105");
+      "          priamos calibrate --photo grid-*.pgm --dots 6 6 --spacing 0.03 --radius 0.0105\n"
+      "          priamos calibrate --photo left*.jpg --chessboard 9 6 --spacing 0.025");
   verb->add_option("--deployment", options->deployment, "folder of configurations")->capture_default_str();
   verb->add_option("--world", options->world,
                    "world file with the reference object, relative to the deployment")

@@ -166,7 +166,7 @@ double LeaveOneViewOut(const std::vector<std::vector<DiscObservation>>& views, i
 }
 
 /// All photographs by one camera.
-std::string FromDots(const OfflineCalibration& input) {
+std::string FromFlatTarget(const OfflineCalibration& input) {
   std::vector<std::vector<DiscObservation>> views;
   int width = 0, height = 0;
   for (const std::string& path : input.photographs) {
@@ -175,7 +175,8 @@ std::string FromDots(const OfflineCalibration& input) {
       throw ConfigError(fmt::format("{}: expected {} by {} pixels like the others, got {} by {}", path, width,
                                     height, image.width, image.height));
     width = image.width, height = image.height;
-    views.push_back(Must(path, FindDots(image, input.target)));
+    views.push_back(
+        Must(path, input.chessboard ? FindCorners(image, *input.chessboard) : FindDots(image, input.target)));
   }
   const LensKnowledge lens = UnknownLens(width, height);
   const auto cameras = Must(input.photographs.front(), CalibrateFromPlanes(views, width, height, lens));
@@ -198,7 +199,7 @@ std::string FromDots(const OfflineCalibration& input) {
 std::string CalibrateFromFiles(const OfflineCalibration& input) {
   if (!input.points.empty()) return FromPoints(input);
   if (input.photographs.empty()) throw ConfigError("calibrate: expected points or photographs, got none");
-  return input.object.empty() ? FromDots(input) : FromObject(input);
+  return input.object.empty() ? FromFlatTarget(input) : FromObject(input);
 }
 
 }  // namespace priamos::head

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "head/core/calibration/chessboard.hpp"
 #include "head/core/calibration/dot_target.hpp"
 
 namespace priamos::head {
@@ -10,9 +12,10 @@ namespace priamos::head {
 /// A calibration from files; no robot needed. Either `points` or `photographs`.
 struct OfflineCalibration {
   std::vector<std::string> points;       ///< one file of `X Y Z u v` lines per camera
-  std::vector<std::string> photographs;  ///< of a dot target by one camera, or of `object`, one per camera
+  std::vector<std::string> photographs;  ///< of a flat target by one camera, or of `object`, one per camera
   std::string object;                    ///< TOML of the reference object; empty: `target`
   DotTarget target;
+  std::optional<Chessboard> chessboard;  ///< instead of `target`
   int width_px = 0, height_px = 0;  ///< of the images behind `points`; 0: the lens is not asked to be centred
 };
 

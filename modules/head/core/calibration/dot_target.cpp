@@ -15,6 +15,8 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kFewestPhotographs = 3;
 constexpr double kPrintMisfit = 0.12;  // printed dots are no retro-reflectors: dust, gloss, shade
+// Gloss within a dot may be as strong as what is a dot elsewhere: such a dot falls apart at a low contrast.
+constexpr int kContrasts[] = {25, 40, 60, 80};
 
 GreyImage Inverted(GreyImage image) {
   for (auto& p : image.pixels) p = static_cast<std::uint8_t>(255 - p);
@@ -56,13 +58,8 @@ CameraModel ModelFrom(const cv::Mat& k, const std::vector<double>& distortion, c
   return model;
 }
 
-}  // namespace
-
-Outcome<std::vector<DiscObservation>> FindDots(const GreyImage& photograph, const DotTarget& target) {
-  DiscDetectorOptions options;
-  options.max_misfit = kPrintMisfit;
-  const std::vector<DetectedDisc> discs =
-      DetectDiscs(target.dark ? Inverted(photograph) : photograph, options);
+/// Centres of the dots in the order of the grid; empty if it is not there as a whole.
+std::vector<cv::Point2f> FindGrid(const std::vector<DetectedDisc>& discs, const DotTarget& target) {
   std::vector<cv::Point2f> candidates, centres;
   for (const DetectedDisc& d : discs)
     candidates.emplace_back(static_cast<float>(d.ellipse.centre_px.x()),
@@ -71,12 +68,32 @@ Outcome<std::vector<DiscObservation>> FindDots(const GreyImage& photograph, cons
   const bool found = candidates.size() >= wanted &&
                      cv::findCirclesGrid(candidates, {target.columns, target.rows}, centres,
                                          cv::CALIB_CB_SYMMETRIC_GRID, cv::Ptr<cv::FeatureDetector>());
-  if (!found || centres.size() != wanted)
-    return Refusal{fmt::format("no grid of {} by {} dots among {} disc-like spots", target.columns,
-                               target.rows, discs.size())};
+  if (!found || centres.size() != wanted) centres.clear();
+  return centres;
+}
+
+}  // namespace
+
+Outcome<std::vector<DiscObservation>> FindDots(const GreyImage& photograph, const DotTarget& target) {
+  const GreyImage image = target.dark ? Inverted(photograph) : photograph;
+  DiscDetectorOptions options;
+  options.max_misfit = kPrintMisfit;
+  std::vector<DetectedDisc> discs;
+  std::vector<cv::Point2f> centres;
+  std::size_t most = 0;
+  for (const int contrast : kContrasts) {
+    options.min_contrast = contrast;
+    discs = DetectDiscs(image, options);
+    most = std::max(most, discs.size());
+    centres = FindGrid(discs, target);
+    if (!centres.empty()) break;
+  }
+  if (centres.empty())
+    return Refusal{
+        fmt::format("no grid of {} by {} dots among {} disc-like spots", target.columns, target.rows, most)};
   const bool mirrored = IsMirrored(centres, target);
   std::vector<DiscObservation> observations;
-  for (std::size_t i = 0; i < wanted; ++i) {
+  for (std::size_t i = 0; i < centres.size(); ++i) {
     const int column = static_cast<int>(i) % target.columns, row = static_cast<int>(i) / target.columns;
     const DetectedDisc& d = Nearest(discs, centres[i]);
     const Eigen::Vector3d at(column * target.spacing_m, (mirrored ? -row : row) * target.spacing_m, 0);

@@ -1,0 +1,51 @@
+// Photographs that somebody took with a camera: Debian's visp-images-data and opencv-doc, where installed.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "head/offline_calibration.hpp"
+
+namespace priamos::head {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kVisp = "/usr/share/visp-images-data/ViSP-images/calibration";
+constexpr const char* kOpenCv = "/usr/share/doc/opencv-doc/examples/data";
+
+TEST(RealPhotographsTest, AGridOfPrintedDots) {
+  if (!std::filesystem::exists(kVisp)) GTEST_SKIP() << "Debian package visp-images-data is not installed";
+  OfflineCalibration input;
+  for (const char* name : {"grid36-01.pgm", "grid36-02.pgm", "grid36-03.pgm", "grid36-04.pgm"})
+    input.photographs.push_back(std::string(kVisp) + "/" + name);
+  input.target = {6, 6, 0.03, 0.0105, true};
+  const json dut = json::parse(CalibrateFromFiles(input));
+  EXPECT_EQ(dut["photographs"].size(), 4u);
+  // A compressing, sharpening camera and a bent sheet of paper: 0.26 px.
+  EXPECT_LT(dut["F_px"], 0.35);
+  EXPECT_LT(dut["leave_one_photograph_out_F_px"], 0.45);
+  EXPECT_NEAR(dut["K"][0][0], dut["K"][1][1], 15);
+}
+
+/// OpenCV's calibration of the left camera lies beside the photographs: left_intrinsics.yml has 535.9 px.
+TEST(RealPhotographsTest, AChessboard) {
+  if (!std::filesystem::exists(kOpenCv)) GTEST_SKIP() << "Debian package opencv-doc is not installed";
+  for (const char* side : {"left", "right"}) {
+    OfflineCalibration input;
+    for (const int number : {1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13, 14}) {
+      char name[200];
+      std::snprintf(name, sizeof name, "%s/%s%02d.jpg", kOpenCv, side, number);
+      input.photographs.push_back(name);
+    }
+    input.chessboard = Chessboard{9, 6, 0.025};
+    const json dut = json::parse(CalibrateFromFiles(input));
+    EXPECT_EQ(dut["photographs"].size(), 13u);
+    EXPECT_LT(dut["F_px"], 0.2) << side;
+    EXPECT_LT(dut["leave_one_photograph_out_F_px"], 0.25) << side;
+    EXPECT_NEAR(dut["K"][0][0], 535.9, 5) << side;
+  }
+}
+
+}  // namespace
+}  // namespace priamos::head
