@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "common/frame_store.hpp"
+
+namespace priamos::head {
+
+/// A point of the laser's line in an image.
+struct StripePoint {
+  Eigen::Vector2d at;   ///< u is a whole column, v sub-pixel [distorted px]
+  double contrast = 0;  ///< grey levels over what lies above and below
+  double sigma_px = 0;  ///< standard deviation of v, from the noise of the image
+};
+
+struct StripeOptions {
+  double min_contrast = 18;  ///< grey levels over both sides
+  int reach_px = 7;          ///< from the middle of the line to where it has faded
+  double max_step_px = 2;    ///< between neighbouring columns of one line
+  int min_length_px = 12;    ///< shorter pieces are glints
+};
+
+/// The line of a laser that runs across the image, roughly level (up to 45 degrees): at most one point per
+/// column, the brightest ridge of it, sub-pixel by the maximum of the smoothed grey values (Steger, 1998)
+/// over a sloping ground. An edge is no ridge, however strong. Pieces shorter than `min_length_px` are left
+/// out.
+class StripeFinder {
+ public:
+  explicit StripeFinder(const StripeOptions& options = {}) : options_(options) {}
+
+  /// Points by ascending column; none for an image with too few rows for a line.
+  std::vector<StripePoint> Find(const GreyImage& image);
+
+ private:
+  void FindRidges(const GreyImage& image);
+  void DropGlints(std::vector<StripePoint>& points) const;
+
+  StripeOptions options_;
+  std::vector<std::uint8_t> strength_, row_group_;  ///< best ridge of every column: contrast, and about where
+  int rows_per_group_ = 1;
+};
+
+}  // namespace priamos::head
