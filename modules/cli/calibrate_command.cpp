@@ -9,6 +9,7 @@
 #include "bus/own_types.hpp"
 #include "cli/commands.hpp"
 #include "cli/factories.hpp"
+#include "head/laser_files.hpp"
 #include "head/offline_calibration.hpp"
 
 namespace priamos::cli {
@@ -19,7 +20,7 @@ constexpr auto kTimeLimit = std::chrono::minutes(10);
 struct CalibrateOptions {
   std::string deployment = "config/sim";
   std::string world = "worlds/calibration.toml";
-  std::string output;
+  std::string output, laser, table;
   std::uint64_t seed = 1;
   head::OfflineCalibration files;
   std::vector<int> dots{6, 6}, chessboard, image_size;
@@ -78,6 +79,13 @@ void AddFileOptions(CLI::App& verb, CalibrateOptions& options) {
       ->check(CLI::Range(64, 100000));
 }
 
+/// The plane of the line laser into a table; JSON to standard output.
+int CalibrateLaser(const CalibrateOptions& options) {
+  const std::string table = options.table.empty() ? options.deployment + "/kastor.yaml" : options.table;
+  std::cout << head::CalibrateLaserFromFiles(options.laser, table, options.output) << std::endl;
+  return 0;
+}
+
 /// `world` and `head --calibrate` before the reference object, in lockstep.
 int Calibrate(const CalibrateOptions& options) {
   const auto config = [&](const char* name) {
@@ -111,7 +119,8 @@ void AddCalibrateCommand(CLI::App& cli, int& exit_code) {
       "Examples: priamos calibrate --output kastor.yaml\n"
       "          priamos calibrate --points left.txt --points right.txt\n"
       "          priamos calibrate --photo grid-*.pgm --dots 6 6 --spacing 0.03 --radius 0.0105\n"
-      "          priamos calibrate --photo left*.jpg --chessboard 9 6 --spacing 0.025");
+      "          priamos calibrate --photo left*.jpg --chessboard 9 6 --spacing 0.025\n"
+      "          priamos calibrate --laser laser.toml --table config/robot/kastor.yaml");
   verb->add_option("--deployment", options->deployment, "folder of configurations")->capture_default_str();
   verb->add_option("--world", options->world,
                    "world file with the reference object, relative to the deployment")
@@ -121,8 +130,14 @@ void AddCalibrateCommand(CLI::App& cli, int& exit_code) {
       "table to write, without it the one head.toml names; from files: JSON, without it to the terminal");
   verb->add_option("--seed", options->seed, "noise, and how exactly the object was placed")
       ->capture_default_str();
+  auto* laser = verb->add_option("--laser", options->laser,
+                                 "TOML that lists the third camera's pictures of the laser's line");
+  verb->add_option("--table", options->table,
+                   "calibration table that the laser goes into, without it kastor.yaml of the deployment")
+      ->needs(laser);
   AddFileOptions(*verb, *options);
   verb->callback([options, &exit_code] {
+    if (!options->laser.empty()) return void(exit_code = CalibrateLaser(*options));
     const bool from_files = !options->files.points.empty() || !options->files.photographs.empty();
     exit_code = from_files ? CalibrateFiles(*options) : Calibrate(*options);
   });

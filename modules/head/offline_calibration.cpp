@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "common/config.hpp"
@@ -14,6 +13,7 @@
 #include "head/core/calibration/camera_parameters.hpp"
 #include "head/core/calibration/disc_detection.hpp"
 #include "head/core/calibration/point_list.hpp"
+#include "head/image_file.hpp"
 
 namespace priamos::head {
 namespace {
@@ -42,13 +42,6 @@ std::string ReadText(const std::string& path) {
   if (!file || std::filesystem::is_directory(path))
     throw ConfigError(fmt::format("{}: expected a list of points, got no readable file", path));
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-GreyImage ReadImage(const std::string& path) {
-  const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
-  if (image.empty() || image.cols < 64 || image.rows < 64)
-    throw ConfigError(fmt::format("{}: expected an image of at least 64 by 64 pixels, got none", path));
-  return {image.cols, image.rows, {image.begin<std::uint8_t>(), image.end<std::uint8_t>()}};
 }
 
 template <class T>

@@ -24,5 +24,7 @@ void BenchDlt(const CalibrationOptions& options, Figures& figures);
 void BenchDepth(const CalibrationOptions& options, Figures& figures);
 /// The table over zoom and focus, with and without approaching from one side.
 void BenchTable(const CalibrationOptions& options, Figures& figures);
+/// The line of the laser, and its plane.
+void BenchLaser(const CalibrationOptions& options, Figures& figures);
 
 }  // namespace priamos::bench

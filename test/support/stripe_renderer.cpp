@@ -30,27 +30,32 @@ class LightPlane {
   Eigen::Vector3d eye_;
 };
 
+/// The line in one column.
+void AddLight(const StripeScene& scene, int u, cv::Mat& grey) {
+  const LightPlane light(scene);
+  const double sigma = scene.thickness_m / 2, row = StripeRow(scene, u);
+  if (std::isnan(row)) return;
+  const double m_per_px = std::abs(light.DistanceAt(u, row + 0.5) - light.DistanceAt(u, row - 0.5));
+  const double reach = 5 * sigma / m_per_px + 2;
+  const int first = std::max(0, static_cast<int>(row - reach));
+  const int last = std::min(scene.height - 1, static_cast<int>(row + reach));
+  for (int v = first; v <= last; ++v) {
+    double shine = 0;
+    for (int i = 0; i < 9; ++i) {
+      const double d = light.DistanceAt(u + (i % 3 - 1) / 3.0, v + (i / 3 - 1) / 3.0) / sigma;
+      shine += std::exp(-d * d / 2) / 9;
+    }
+    grey.at<float>(v, u) += static_cast<float>(scene.amplitude * shine);
+  }
+}
+
 }  // namespace
 
 GreyImage Render(const StripeScene& scene, Rng& rng) {
-  const LightPlane light(scene);
-  const double sigma = scene.thickness_m / 2;
   cv::Mat grey(scene.height, scene.width, CV_32FC1);
-  for (int v = 0; v < scene.height; ++v) {
-    for (int u = 0; u < scene.width; ++u) {
-      double shine = 0;
-      // Most pixels are far from the line.
-      const double far = 4 * sigma + 3 * std::abs(light.DistanceAt(u, v + 1) - light.DistanceAt(u, v - 1));
-      if (std::abs(light.DistanceAt(u, v)) < far) {
-        for (int i = 0; i < 9; ++i) {
-          const double d = light.DistanceAt(u + (i % 3 - 1) / 3.0, v + (i / 3 - 1) / 3.0) / sigma;
-          shine += std::exp(-d * d / 2) / 9;
-        }
-      }
-      grey.at<float>(v, u) = static_cast<float>(
-          scene.background + scene.slope_per_px * (v - scene.height / 2) + scene.amplitude * shine);
-    }
-  }
+  for (int v = 0; v < scene.height; ++v)
+    grey.row(v) = scene.background + scene.slope_per_px * (v - scene.height / 2);
+  for (int u = 0; u < scene.width && scene.amplitude != 0; ++u) AddLight(scene, u, grey);
   if (scene.blur_px > 0) cv::GaussianBlur(grey, grey, {}, scene.blur_px);
   GreyImage image{scene.width, scene.height, {}};
   image.pixels.reserve(grey.total());

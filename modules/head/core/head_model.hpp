@@ -2,10 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 
 #include "common/config.hpp"
 #include "head/core/camera_model.hpp"
 #include "head/core/head_setting.hpp"
+#include "head/core/laser_plane.hpp"
 #include "head/core/lens_table.hpp"
 
 namespace priamos::head {
@@ -49,6 +51,7 @@ struct HeadGeometry {
 struct HeadModel {
   HeadGeometry geometry;
   std::array<LensTable, kCameras> lenses;  ///< the third camera's has a single node
+  std::optional<LaserPlane> laser;         ///< of the line laser, where it was calibrated
   /// How well the calibrated frame is known to be the base frame: covariance of a small motion of space about
   /// the origin of base (x, y, z, roll, pitch, yaw) [m, rad] that all cameras share, whatever the setting.
   /// Most of it is how exactly the reference object was placed.

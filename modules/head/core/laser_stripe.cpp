@@ -124,6 +124,29 @@ std::optional<Ridge> Refine(const Column& column, int row, int first, int last, 
   return std::nullopt;
 }
 
+/// A row of the image, the ones beside it, and those at the reach of a line.
+struct RowsAround {
+  const std::uint8_t *row, *before, *after, *above, *below;
+};
+
+/// Keeps the strongest ridge of every column. Bytes and no branch, so that the compiler takes sixteen columns
+/// at a time.
+void KeepRidges(const RowsAround& rows, std::uint8_t number, int width, std::uint8_t* __restrict strength,
+                std::uint8_t* __restrict group) {
+  const std::uint8_t *row = rows.row, *before = rows.before, *after = rows.after;
+  const std::uint8_t *above = rows.above, *below = rows.below;
+  for (int u = 0; u < width; ++u) {
+    const std::uint8_t beside = (before[u] + after[u] + 1) >> 1;
+    const std::uint8_t middle = (beside + row[u] + 1) >> 1;
+    const std::uint8_t a = above[u], b = below[u], old = strength[u];
+    const std::uint8_t ground = a > b ? a : b;
+    const std::uint8_t ridge = (middle > ground ? middle : ground) - ground;
+    const std::uint8_t is_new = ridge > old ? 0xFF : 0;
+    group[u] = (number & is_new) | (group[u] & static_cast<std::uint8_t>(~is_new));
+    strength[u] = ridge > old ? ridge : old;
+  }
+}
+
 }  // namespace
 
 void StripeFinder::FindRidges(const GreyImage& image) {
@@ -131,22 +154,10 @@ void StripeFinder::FindRidges(const GreyImage& image) {
   rows_per_group_ = image.height / 256 + 1;  // so that their number fits into a byte
   strength_.assign(width, 0);
   row_group_.assign(width, 0);
-  std::uint8_t* __restrict strength = strength_.data();
-  std::uint8_t* __restrict group = row_group_.data();
-  // Bytes all along: sixteen columns at a time.
   for (int v = reach + kSide; v < image.height - reach - kSide; ++v) {
     const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(v) * width;
-    const std::uint8_t *before = row - width, *after = row + width;
-    const std::uint8_t *above = row - reach * width, *below = row + reach * width;
-    const auto number = static_cast<std::uint8_t>(v / rows_per_group_);
-    for (int u = 0; u < width; ++u) {
-      const auto beside = static_cast<std::uint8_t>((before[u] + after[u] + 1) >> 1);
-      const auto middle = static_cast<std::uint8_t>((beside + row[u] + 1) >> 1);
-      const std::uint8_t ground = std::max(above[u], below[u]);
-      const auto ridge = static_cast<std::uint8_t>(std::max(middle, ground) - ground);
-      group[u] = ridge > strength[u] ? number : group[u];
-      strength[u] = std::max(strength[u], ridge);
-    }
+    KeepRidges({row, row - width, row + width, row - reach * width, row + reach * width},
+               static_cast<std::uint8_t>(v / rows_per_group_), width, strength_.data(), row_group_.data());
   }
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <optional>
 
 namespace priamos::head {
 
@@ -133,6 +134,38 @@ Eigen::Matrix<double, 6, 6> ReadCovariance(const cv::FileNode& root) {
   return c;
 }
 
+Eigen::Vector3d ReadVector(const cv::FileNode& parent, const std::string& key) {
+  const std::vector<double> values = Numbers(parent, key, 100);
+  if (values.size() != 3) throw Damage{fmt::format("'{}' is not a list of 3 numbers", key)};
+  return {values[0], values[1], values[2]};
+}
+
+/// Absent in tables of heads whose laser was not calibrated.
+std::optional<LaserPlane> ReadLaser(const cv::FileNode& root) {
+  const cv::FileNode node = root["laser"];
+  if (node.empty()) return std::nullopt;
+  LaserPlane laser;
+  laser.normal = ReadVector(node, "normal");
+  if (!(std::abs(laser.normal.norm() - 1) < 1e-6)) throw Damage{"laser: 'normal' is not of length 1"};
+  laser.offset_m = Number(node, "offset_m", -100, 100);
+  laser.pivot_m = ReadVector(node, "pivot_m");
+  laser.sigma_turn_rad = Number(node, "sigma_turn_rad", 0, 1);
+  laser.sigma_shift_m = Number(node, "sigma_shift_m", 0, 1);
+  return laser;
+}
+
+void WriteLaser(cv::FileStorage& file, const LaserPlane& laser) {
+  const auto write = [&](const char* key, const Eigen::Vector3d& v) {
+    file << key << "[:" << v.x() << v.y() << v.z() << "]";
+  };
+  file << "laser"
+       << "{";
+  write("normal", laser.normal);
+  file << "offset_m" << laser.offset_m;
+  write("pivot_m", laser.pivot_m);
+  file << "sigma_turn_rad" << laser.sigma_turn_rad << "sigma_shift_m" << laser.sigma_shift_m << "}";
+}
+
 int CountNodes(const HeadModel& model) {
   std::size_t n = 0;
   for (const LensTable& lens : model.lenses) n += lens.nodes().size();
@@ -156,6 +189,7 @@ HeadModel Read(const std::string& yaml) {
       throw Damage{fmt::format("{} camera: {}", kCameraNames[c], damage.reason)};
     }
   }
+  model.laser = ReadLaser(file.root());
   model.base_covariance = ReadCovariance(file.root());
   // Written last: a file that was cut off does not have it.
   if (Number(file.root(), "number_of_nodes", 1, kMostNodes) != CountNodes(model))
@@ -175,6 +209,7 @@ std::string ToYaml(const HeadModel& model) {
     file << kCameraNames[c];
     WriteCamera(file, model.geometry.cameras[c], model.lenses[c]);
   }
+  if (model.laser) WriteLaser(file, *model.laser);
   file << "base_covariance"
        << "[:";
   for (int i = 0; i < 36; ++i) file << model.base_covariance(i % 6, i / 6);

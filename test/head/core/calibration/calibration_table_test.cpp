@@ -65,8 +65,26 @@ TEST(CalibrationTable, ACameraThatWasNotCalibratedStaysSo) {
   EXPECT_FALSE(dut->CameraAt(Between(), kThird));
 }
 
+TEST(CalibrationTable, KeepsTheLaserIfThereIsOne) {
+  HeadModel written = SomeHead();
+  EXPECT_FALSE(FromYaml(ToYaml(written))->laser);
+  written.laser = LaserPlane{{0.6, 0, 0.8}, -0.123456789, {1, 2, 3}, 0.0004, 0.0002};
+  const auto dut = FromYaml(ToYaml(written));
+  ASSERT_TRUE(dut) << dut.reason();
+  ASSERT_TRUE(dut->laser);
+  EXPECT_EQ(dut->laser->normal, written.laser->normal);
+  EXPECT_EQ(dut->laser->offset_m, written.laser->offset_m);
+  EXPECT_EQ(dut->laser->pivot_m, written.laser->pivot_m);
+  EXPECT_EQ(dut->laser->sigma_turn_rad, written.laser->sigma_turn_rad);
+  EXPECT_EQ(dut->laser->sigma_shift_m, written.laser->sigma_shift_m);
+  written.laser->normal *= 2;
+  EXPECT_THAT(FromYaml(ToYaml(written)).reason(), HasSubstr("'normal' is not of length 1"));
+}
+
 TEST(CalibrationTable, EveryTruncationIsRefused) {
-  const std::string yaml = ToYaml(SomeHead());
+  HeadModel model = SomeHead();
+  model.laser = LaserPlane{};
+  const std::string yaml = ToYaml(model);
   for (std::size_t n = 0; n + 2 < yaml.size(); n += 37)
     EXPECT_FALSE(FromYaml(yaml.substr(0, n))) << "cut after " << n << " bytes";
 }
