@@ -30,6 +30,14 @@ std::string FingerprintOf(const HeadConfig& config, const ReferenceObject& objec
   return Fingerprint(text.str());
 }
 
+bool HadLaser(const std::string& table) {
+  try {
+    return LoadHeadModel(table).laser.has_value();
+  } catch (const ConfigError&) {
+    return false;  // there was none, or none that could be read
+  }
+}
+
 }  // namespace
 
 CalibrationMode::CalibrationMode(const HeadConfig& config, bus::Context& context)
@@ -149,8 +157,13 @@ void CalibrationMode::Finish() {
   // The report first: without the table the journal is still there, and the calibration can be repeated.
   const std::string report = table_path_ + "-report";
   WriteCalibrationReport(report, views, *result, config_.LookSetting());
+  const bool had_laser = HadLaser(table_path_);
   SaveHeadModel(table_path_, result->model);
   journal_.Remove();
+  if (had_laser)
+    context_.Log(
+        bus::Level::kWarning,
+        "the laser's plane belonged to the old table: calibrate it anew (priamos calibrate --laser)");
   for (int camera = 0; camera < kCameras; ++camera)
     context_.Log(bus::Level::kInfo,
                  fmt::format("{} camera at pan 0, tilt {:.1f} deg, zoom {}, focus {}:\n{}",

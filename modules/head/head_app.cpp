@@ -46,6 +46,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       look_(config.look),
       finder_(FinderOptions(config.vision, head_)),
       edges_(EdgeOptions(config.vision)),
+      drift_(config.drift),
       cameras_(context.instance() + "-camera"),
       head_state_(context.node().Subscribe(channels::kHeadState)),
       frames_(context.node().SubscribeAll(channels::kCameraFrame)),
@@ -168,8 +169,32 @@ LandmarkFix HeadApp::Evaluate(const Frames& frames, Time& exposure) {
   // Where the motors stand, not where they were sent: counters have steps.
   const auto left = head_.CameraAt(report_->setting, kLeft), right = head_.CameraAt(report_->setting, kRight);
   if (!left || !right) return NotFound(Verdict::kNoImage);
-  return finder_.Find(model->second, Predict(*robot, model->second.map_from_landmark), *left, *right,
-                      edges[0], edges[1]);
+  const LandmarkFix fix = finder_.Find(model->second, Predict(*robot, model->second.map_from_landmark), *left,
+                                       *right, edges[0], edges[1]);
+  WatchDrift(model->second, fix, *left, *right, edges);
+  return fix;
+}
+
+/// A landmark that is found tells whether both cameras are still where the calibration says; so does one that
+/// fits badly.
+void HeadApp::WatchDrift(const LandmarkModel& model, const LandmarkFix& fix, const CameraModel& left,
+                         const CameraModel& right, const std::array<EdgeImage, 2>& edges) {
+  if (fix.verdict != Verdict::kFound && fix.verdict != Verdict::kResidualTooLarge) return;
+  const std::array<CameraView, 2> views{MakeView(left, edges[0]), MakeView(right, edges[1])};
+  const Eigen::Isometry3d at = Lift(fix.base_from_landmark);
+  Association association;
+  association.matches = fix.matches;
+  StereoDriftOptions options;
+  options.model_sigma_m = config_.vision.model_sigma_m;
+  options.calibration_sigma_px = config_.drift.calibration_sigma_px;
+  const auto drift =
+      MeasureDrift(model, Observations(model, association, views, at, false), left, right, at, options);
+  if (!drift) return;
+  const bool was_well = !drift_.alarm();
+  drift_.Add(*drift);
+  if (!drift_.alarm()) return context_.SetHealth(bus::Health::kOk);
+  context_.SetHealth(bus::Health::kDegraded, drift_.alarm()->ToText());
+  if (was_well) context_.Log(bus::Level::kWarning, drift_.alarm()->ToText());
 }
 
 void HeadApp::Answer(const LandmarkFix& fix, Time exposure) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <map>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "bus/context.hpp"
 #include "head/calibration_mode.hpp"
 #include "head/core/aim.hpp"
+#include "head/core/drift_monitor.hpp"
 #include "head/core/edge_segments.hpp"
 #include "head/core/head_jog.hpp"
 #include "head/core/head_model.hpp"
@@ -44,6 +46,8 @@ class HeadApp {
   void MoveByHand(Time now);
   void Look(Time now);
   LandmarkFix Evaluate(const Frames& frames, Time& exposure);
+  void WatchDrift(const LandmarkModel& model, const LandmarkFix& fix, const CameraModel& left,
+                  const CameraModel& right, const std::array<EdgeImage, 2>& edges);
   double PanFor(const LookOrder& order, Time now) const;
   void Answer(const LandmarkFix& fix, Time exposure);
 
@@ -56,6 +60,7 @@ class HeadApp {
   LookSequence look_;
   LandmarkFinder finder_;
   EdgeOperator edges_;
+  DriftMonitor drift_;
   PoseHistory poses_;
   std::map<int, LandmarkModel> models_;
   std::deque<LookOrder> orders_;

@@ -6,6 +6,7 @@
 #include "common/config.hpp"
 #include "head/core/aim.hpp"
 #include "head/core/calibration/calibration_plan.hpp"
+#include "head/core/drift_monitor.hpp"
 #include "head/core/head_model.hpp"
 #include "head/core/head_positioner.hpp"
 #include "head/core/look_sequence.hpp"
@@ -51,6 +52,7 @@ struct HeadConfig {
   PositionerConfig motors;
   LookConfig look;
   VisionConfig vision;
+  DriftConfig drift;
 
   void Describe(Archive& a);
   /// Of all looks, but for the pan.

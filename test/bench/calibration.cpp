@@ -1,6 +1,6 @@
 // How well the head calibrates itself: every figure that is promised, measured on exactly rendered images,
 // beside other detectors on the same images.
-//   bench_calibration [--quick] [--seed N] [--only discs|labels|dlt|depth|table|laser]...
+//   bench_calibration [--quick] [--seed N] [--only discs|labels|dlt|depth|table|laser|drift]...
 // Prints one line per figure with its bound; exit 1 if one is missed.
 #include <fmt/format.h>
 
@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
   using namespace priamos::bench;
   const std::vector<std::pair<std::string, void (*)(const CalibrationOptions&, Figures&)>> parts{
       {"discs", BenchDiscs}, {"labels", BenchLabels}, {"dlt", BenchDlt},
-      {"depth", BenchDepth}, {"table", BenchTable},   {"laser", BenchLaser}};
+      {"depth", BenchDepth}, {"table", BenchTable},   {"laser", BenchLaser},
+      {"drift", BenchDrift}};
   std::vector<std::string> names, only;
   for (const auto& [name, run] : parts) names.push_back(name);
   CalibrationOptions options;

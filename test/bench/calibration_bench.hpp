@@ -26,5 +26,7 @@ void BenchDepth(const CalibrationOptions& options, Figures& figures);
 void BenchTable(const CalibrationOptions& options, Figures& figures);
 /// The line of the laser, and its plane.
 void BenchLaser(const CalibrationOptions& options, Figures& figures);
+/// The alarm at run time: false ones, and those that should be.
+void BenchDrift(const CalibrationOptions& options, Figures& figures);
 
 }  // namespace priamos::bench
