@@ -12,9 +12,8 @@
 int main(int argc, char** argv) {
   using namespace priamos::bench;
   const std::vector<std::pair<std::string, void (*)(const CalibrationOptions&, Figures&)>> parts{
-      {"discs", BenchDiscs}, {"labels", BenchLabels}, {"dlt", BenchDlt},
-      {"depth", BenchDepth}, {"table", BenchTable},   {"laser", BenchLaser},
-      {"drift", BenchDrift}};
+      {"discs", BenchDiscs}, {"labels", BenchLabels}, {"dlt", BenchDlt},    {"depth", BenchDepth},
+      {"table", BenchTable}, {"laser", BenchLaser},   {"drift", BenchDrift}};
   std::vector<std::string> names, only;
   for (const auto& [name, run] : parts) names.push_back(name);
   CalibrationOptions options;

@@ -17,7 +17,7 @@ struct LabelCounts {
   double slowest_s = 0, seconds = 0;
 };
 
-void Count(const Outcome<Labelling>& found, int visible, const std::function<bool(const Label&)>& right,
+void Count(const Outcome<Labelling>& found, int visible, const std::function<bool(const DiscLabel&)>& right,
            LabelCounts& counts) {
   ++counts.views;
   if (!found) {
@@ -25,7 +25,7 @@ void Count(const Outcome<Labelling>& found, int visible, const std::function<boo
     return;
   }
   int wrong = 0;
-  for (const Label& label : found->labels) wrong += !right(label);
+  for (const DiscLabel& label : found->labels) wrong += !right(label);
   counts.wrong_labels += wrong;
   counts.complete += wrong == 0 && static_cast<int>(found->labels.size()) == visible;
 }
@@ -45,7 +45,7 @@ LabelCounts LabelImages(int views, const ReferenceObject& object, const DiscLabe
     counts.slowest_s = std::max(counts.slowest_s, seconds);
     Count(
         found, sightings.visible,
-        [&](const Label& label) {
+        [&](const DiscLabel& label) {
           const auto centroid = ProjectDiscCentroid(camera, object.discs[label.disc]);
           return centroid && (detections[label.detection].ellipse.centre_px - *centroid).norm() < 1;
         },
@@ -63,7 +63,7 @@ LabelCounts LabelSightings(int views, const ReferenceObject& object, const DiscL
         support::Sight(object, camera, static_cast<int>(rng.Below(7)), static_cast<int>(rng.Below(15)), rng);
     Count(
         labeller.Label(s.detections), s.visible,
-        [&](const Label& label) { return s.truth[label.detection] == label.disc; }, counts);
+        [&](const DiscLabel& label) { return s.truth[label.detection] == label.disc; }, counts);
   }
   return counts;
 }

@@ -21,14 +21,14 @@ struct LabellerOptions {
 };
 
 /// Disc `disc` of the object is detection `detection`.
-struct Label {
+struct DiscLabel {
   int disc, detection;
-  friend bool operator==(const Label&, const Label&) = default;
+  friend bool operator==(const DiscLabel&, const DiscLabel&) = default;
 };
 
 /// Which disc is which, ordered by disc, and the camera that shows it.
 struct Labelling {
-  std::vector<Label> labels;
+  std::vector<DiscLabel> labels;
   PinholeView view;  ///< in the frame of the object
   double rms_px = 0;
 };

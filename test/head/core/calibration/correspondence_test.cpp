@@ -16,7 +16,7 @@ class Correspondence : public testing::Test {
  protected:
   int Wrong(const Labelling& labelling, const Sightings& s) const {
     int wrong = 0;
-    for (const Label& label : labelling.labels) wrong += s.truth[label.detection] != label.disc;
+    for (const DiscLabel& label : labelling.labels) wrong += s.truth[label.detection] != label.disc;
     return wrong;
   }
 
@@ -60,7 +60,7 @@ TEST_F(Correspondence, WorksOnImagesOfAnyGain) {
     const auto found = dut.Label(detections);
     ASSERT_TRUE(found) << found.reason();
     EXPECT_EQ(static_cast<int>(found->labels.size()), visible);
-    for (const Label& label : found->labels) {
+    for (const DiscLabel& label : found->labels) {
       const auto centroid = ProjectDiscCentroid(camera, object.discs[label.disc]);
       EXPECT_LT((detections[label.detection].ellipse.centre_px - *centroid).norm(), 0.2);
     }
@@ -101,7 +101,7 @@ TEST_F(Correspondence, ASpotBesideAHiddenDiscIsNotTakenForIt) {
     s.detections[moved].ellipse.centre_px += Eigen::Vector2d(rng.Uniform(1, 6), rng.Uniform(-6, 6));
     const auto found = dut.Label(s.detections);
     ASSERT_TRUE(found) << found.reason();
-    for (const Label& label : found->labels) EXPECT_NE(label.detection, static_cast<int>(moved));
+    for (const DiscLabel& label : found->labels) EXPECT_NE(label.detection, static_cast<int>(moved));
     EXPECT_EQ(static_cast<int>(found->labels.size()), s.visible - 1);
   }
 }
