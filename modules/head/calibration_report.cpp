@@ -49,12 +49,13 @@ cv::Mat DrawResiduals(const std::vector<HeadView>& views, const std::vector<Eige
   }
   std::size_t i = 0;
   for (const HeadView& view : views) {
-    const double x = view.camera * (kWidth + kGap) + kGap / 2;
+    // No line leaves the frame of its camera.
+    cv::Mat frame(picture, cv::Rect(view.camera * (kWidth + kGap) + kGap / 2, kGap, kWidth, kHeight));
     for (const DiscObservation& o : view.discs) {
-      const cv::Point at = At(x + kScale * o.centroid_px.x(), kGap + kScale * o.centroid_px.y());
+      const cv::Point at = At(kScale * o.centroid_px.x(), kScale * o.centroid_px.y());
       const Eigen::Vector2d tip = kArrowScale * residuals[i++];
-      cv::circle(picture, at, 1, kColours[0], -1, cv::LINE_AA);
-      cv::line(picture, at, at + At(tip.x(), tip.y()), kRed, 1, cv::LINE_AA);
+      cv::circle(frame, at, 1, kColours[0], -1, cv::LINE_AA);
+      cv::line(frame, at, at + At(tip.x(), tip.y()), kRed, 1, cv::LINE_AA);
     }
   }
   Write(picture,
@@ -80,7 +81,8 @@ cv::Mat DrawErrors(const std::vector<HeadView>& views, const HeadCalibration& re
   constexpr int kCell = 62, kRow = 36, kLeftEdge = 70, kTop = 60;
   const auto& zooms = result.model.lenses[kLeft].zoom_steps();
   const auto& focuses = result.model.lenses[kLeft].focus_steps();
-  const int width = kLeftEdge + kCell * static_cast<int>(zooms.size()) + 20;
+  // Wide enough for the title of a small table.
+  const int width = std::max(370, kLeftEdge + kCell * static_cast<int>(zooms.size()) + 20);
   cv::Mat picture(kTop + kRow * static_cast<int>(focuses.size()) + 40, 2 * width, CV_8UC3, kWhite);
   for (const int camera : {kLeft, kRight}) {
     const auto errors = NodeErrors(views, result.view_error_px, camera);
