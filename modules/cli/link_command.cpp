@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bus/own_types.hpp"
 #include "bus/radio/budget.hpp"
@@ -18,6 +19,50 @@ constexpr int kDoesNotHold = 1;
 
 bus::Schema TypesOf(const std::string& folder) {
   return folder.empty() ? bus::OwnTypes() : bus::Schema(bus::Schema::ReadDirectory(folder));
+}
+
+nlohmann::ordered_json BitsAsJson(const bus::Packer& packer) {
+  nlohmann::ordered_json json{
+      {"type", packer.type().full_name}, {"max_bits", packer.MaxBits()}, {"fields", nlohmann::json::array()}};
+  for (const bus::PackedField& field : packer.fields())
+    json["fields"].push_back({{"name", field.name},
+                              {"bits", field.bits},
+                              {"values", field.values},
+                              {"unit", field.unit},
+                              {"codes", field.codes}});
+  return json;
+}
+
+nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
+                                       const bus::radio::DirectionBudget& budget) {
+  nlohmann::ordered_json json{{"bytes_per_s", budget.bytes_per_s},
+                              {"capacity_bytes_per_s", budget.capacity_bytes_per_s},
+                              {"utilisation", budget.utilisation},
+                              {"control_bytes_per_s", budget.control_bytes_per_s},
+                              {"channels", nlohmann::json::array()}};
+  for (const bus::radio::ChannelBudget& c : budget.channels) {
+    const bus::radio::LinkChannel& channel = table.at(c.channel);
+    const auto seconds = [](const std::optional<Duration>& d) {
+      return d ? nlohmann::json(Seconds(*d)) : nlohmann::json();
+    };
+    json["channels"].push_back(
+        {{"channel", channel.name},
+         {"priority", channel.priority},
+         {"bits", c.bits},
+         {"rate_hz", c.rate_hz},
+         {"bytes_per_s", c.bytes_per_s},
+         {"share", c.share},
+         {"worst_latency_s", seconds(c.worst_latency)},
+         {"deadline_s",
+          seconds(channel.deadline > Duration{} ? std::optional(channel.deadline) : std::nullopt)}});
+  }
+  return json;
+}
+
+nlohmann::ordered_json BudgetAsJson(const bus::radio::ChannelTable& table, const bus::radio::Budget& budget) {
+  return {{"up", DirectionAsJson(table, budget.up)},
+          {"down", DirectionAsJson(table, budget.down)},
+          {"problems", budget.problems}};
 }
 
 void AddEmulate(CLI::App& link, int& exit_code) {
@@ -81,12 +126,15 @@ void AddBits(CLI::App& link, int& exit_code) {
   verb->footer("Example: priamos link bits pose_t");
   verb->add_option("type", *type, "message type")->required();
   verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  auto json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "machine-readable");
   verb->callback([=, &exit_code] {
     const bus::Schema schema = TypesOf(*types);
     const bus::Struct* found = schema.Find(*type);
     if (found == nullptr)
       throw ConfigError("link bits: expected the name of a known .lcm type, got \"" + *type + "\"");
-    std::cout << bus::FormatBitTable(bus::Packer(*found));
+    const bus::Packer packer(*found);
+    std::cout << (*json ? BitsAsJson(packer).dump(2) + "\n" : bus::FormatBitTable(packer));
     exit_code = 0;
   });
 }
@@ -98,12 +146,14 @@ void AddBudget(CLI::App& link, int& exit_code) {
   verb->footer("Example: priamos link budget config/sim/link.toml");
   verb->add_option("config", *config, "link.toml")->required();
   verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  auto json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "machine-readable");
   verb->callback([=, &exit_code] {
     const auto link_config = LoadConfig<bus::radio::LinkConfig>(*config);
     const bus::Schema schema = TypesOf(*types);
     const auto table = link_config.Table(schema);
     const auto budget = ComputeBudget(table, link_config.Options());
-    std::cout << FormatBudget(table, budget);
+    std::cout << (*json ? BudgetAsJson(table, budget).dump(2) + "\n" : FormatBudget(table, budget));
     exit_code = budget.problems.empty() ? 0 : kDoesNotHold;
   });
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kBarWidth = 24;
 constexpr Duration kStale{3'000'000};
-constexpr double kOnceWaits_s = 5;
+constexpr double kOnceWaits_s = 10;  // two rounds of reports of the largest link
 constexpr double kHold_s = 3;
 constexpr Duration kAskAgain{1'000'000};
 
@@ -33,6 +33,10 @@ std::string StateOf(const link_status_t& s, bool stale) {
   if (s.table_mismatch) return "TABLE MISMATCH: the other end has another link.toml or other types";
   if (s.alarm) return "ALARM: frames arrive that the other end did not send";
   return s.up ? "up" : "DOWN: nothing is heard from the other end";
+}
+
+std::string Rate(const std::optional<double>& per_s, int digits) {
+  return per_s ? fmt::format("{:.{}f}", *per_s, digits) : "-";
 }
 
 /// Polls bus and signals until `until`, a signal or `done`; calls `every` ten times a second.
@@ -69,6 +73,12 @@ void LinkTopView::Add(const link_status_t& report, Time now) {
   last_at_ = now;
 }
 
+bool LinkTopView::complete() const {
+  return last_ && rows_.size() == static_cast<std::size_t>(last_->all_channels) &&
+         std::all_of(rows_.begin(), rows_.end(),
+                     [](const auto& row) { return row.second.messages_per_s.has_value(); });
+}
+
 std::string LinkTopView::Head(Time now) const {
   const link_status_t& s = *last_;
   const bool stale = now - last_at_ > kStale;
@@ -100,10 +110,9 @@ std::string LinkTopView::Table() const {
       const link_channel_t& c = row.channel;
       if (static_cast<bool>(c.outgoing) != outgoing) continue;
       const bool up = outgoing == static_cast<bool>(last_->onboard);
-      text += fmt::format(fmt::runtime(kRow), up ? "up" : "down", c.channel,
-                          fmt::format("{:.1f}", row.messages_per_s), fmt::format("{:.0f}", row.bytes_per_s),
-                          c.messages, c.replaced, c.expired, c.dropped - c.expired, c.unwanted, c.late,
-                          c.saturated, fmt::format("{:.2f}", c.queue_age_s));
+      text += fmt::format(fmt::runtime(kRow), up ? "up" : "down", c.channel, Rate(row.messages_per_s, 1),
+                          Rate(row.bytes_per_s, 0), c.messages, c.replaced, c.expired, c.dropped - c.expired,
+                          c.unwanted, c.late, c.saturated, fmt::format("{:.2f}", c.queue_age_s));
     }
   return text;
 }
@@ -127,7 +136,7 @@ int RunLinkTop(const LinkTopOptions& options) {
   const Time until = seconds > 0 ? clock.Now() + FromSeconds(seconds) : Time::max();
   Time next = clock.Now();
   Watch(
-      bus, clock, until, [&] { return options.once && !view.empty(); },
+      bus, clock, until, [&] { return options.once && view.complete(); },
       [&] {
         take();
         if (options.once || clock.Now() < next) return;

@@ -18,13 +18,15 @@ class LinkTopView {
   /// The screen as lines of text, at most 110 columns. Before the first report it says what is missing.
   std::string Render(Time now) const;
   bool empty() const { return !last_.has_value(); }
+  /// Every channel was reported twice: its rates are known.
+  bool complete() const;
 
  private:
   struct Row {
     link_channel_t channel{};
     Time at{};
-    double messages_per_s = 0;  ///< between the last two reports of the channel
-    double bytes_per_s = 0;
+    std::optional<double> messages_per_s{};  ///< between the last two reports of the channel
+    std::optional<double> bytes_per_s{};
   };
   std::string Head(Time now) const;
   std::string Quality() const;
@@ -42,7 +44,8 @@ struct LinkTopOptions {
   std::string channel{};  ///< `listen`: the on-request channel that is wanted
 };
 
-/// Shows the link until Ctrl-C. Returns 0, or 1 when --once heard nothing within 5 s.
+/// Shows the link until Ctrl-C, or with --once as soon as its rates are known. Returns 0, or 1 when --once
+/// heard nothing within 10 s.
 int RunLinkTop(const LinkTopOptions& options);
 /// Asks the other end for an on-request channel for as long as it runs. Returns 0.
 int RunLinkListen(const LinkTopOptions& options);

@@ -46,6 +46,18 @@ TEST(LinkTopView, PutsReportsTogetherAndCountsPerSecond) {
   EXPECT_THAT(text, testing::ContainsRegex("down +DRIVE_COMMAND +0.0"));
 }
 
+TEST(LinkTopView, ARateNeedsTwoReports) {
+  LinkTopView dut;
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_FALSE(dut.complete());
+    dut.Add(Report(0, 8 * i), kStart + std::chrono::seconds(2 * i));
+    EXPECT_THAT(dut.Render(kStart + std::chrono::seconds(2)),
+                testing::ContainsRegex(i == 0 ? "up +POSE +- +- " : "up +POSE +4.0"));
+    dut.Add(Report(1, 0), kStart + std::chrono::seconds(2 * i + 1));
+  }
+  EXPECT_TRUE(dut.complete());
+}
+
 TEST(LinkTopView, TroubleIsSaidFirst) {
   LinkTopView dut;
   link_status_t report = Report(0, 1);
