@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -80,6 +81,34 @@ TEST_F(BusTools, LcmLoggerAndLcmLogplayerDoSoToo) {
   EXPECT_GT(ReadContents(log_).size(), 8u) << "channels";
   EXPECT_EQ(ReadContents(folder_ / "theirs.lcmlog"), ReadContents(log_)) << answer.text;
   EXPECT_EQ(ReadContents(folder_ / "again.lcmlog"), ReadContents(log_)) << answer.text;
+}
+
+/// The whole simulation for some seconds: LCM's recorder hears what ours hears, and its player gives it back.
+TEST_F(BusTools, ALiveRobotIsRecordedByLcmLoggerAndPlayedByLcmLogplayer) {
+  const auto answer = Run(R"sh(
+    URL='udpm://239.255.76.67:7667?ttl=0'
+    $BIN/priamos up $SOURCE/config/sim --logs logs > up.txt 2>&1 & up=$!
+    for i in $(seq 150); do grep -q 'all processes are ready' up.txt && break; sleep 0.1; done; cat up.txt
+    $BIN/priamos log record ours.lcmlog --no-health & recorder=$!
+    listening
+    lcm-logger --lcm-url="$URL" --flush-interval=50 -q theirs.lcmlog & logger=$!
+    listening; sleep 4
+    kill -INT $logger; wait $logger
+    kill -INT $recorder; wait $recorder
+    $BIN/priamos down --logs logs; wait $up
+    lcm-logger --lcm-url="$URL" --flush-interval=50 -q again.lcmlog & logger=$!
+    listening; lcm-logplayer --lcm-url="$URL" --speed=1 theirs.lcmlog
+    sleep 1; kill -INT $logger; wait $logger)sh",
+                          60);
+  const Contents ours = ReadContents(folder_ / "ours.lcmlog"), theirs = ReadContents(folder_ / "theirs.lcmlog");
+  EXPECT_GT(theirs.size(), 8u) << "channels; " << answer.text;
+  for (const auto& [channel, messages] : theirs) {
+    const auto& all = ours.count(channel) != 0 ? ours.at(channel) : messages;
+    EXPECT_NE(std::search(all.begin(), all.end(), messages.begin(), messages.end()), all.end())
+        << channel << ": " << messages.size() << " messages, and " << all.size() << " in our own log";
+    EXPECT_EQ(ours.count(channel), 1u) << channel;
+  }
+  EXPECT_EQ(ReadContents(folder_ / "again.lcmlog"), theirs) << answer.text;
 }
 
 TEST_F(BusTools, TopicShowsTypesRatesAndLosses) {
