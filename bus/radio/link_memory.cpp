@@ -6,6 +6,8 @@ namespace priamos::bus::radio {
 namespace {
 
 constexpr std::uint64_t kBlock = 256;
+/// So many counters before its end the next block is begun: several seconds of a busy 9600-baud line.
+constexpr std::uint64_t kReserve = 64;
 /// A floor further ahead than this is not credible.
 constexpr std::uint64_t kFarthestSkip = std::uint64_t{1} << 24;
 
@@ -29,10 +31,8 @@ LinkMemory::LinkMemory(StateStore& store, const ChannelTable& table, const Nonce
 }
 
 std::uint64_t LinkMemory::TakeCounter() {
-  if (next_counter_ >= state_.send_next) {
-    state_.send_next = next_counter_ + kBlock;
-    Save(true);
-  }
+  if (next_counter_ + kReserve >= state_.send_next) Reserve();
+  if (next_counter_ >= synced_.send_next) AwaitSync();
   return next_counter_++;
 }
 
@@ -41,11 +41,30 @@ void LinkMemory::SkipCounters(std::uint64_t floor) {
 }
 
 void LinkMemory::NoteAccepted(std::uint64_t highest) {
-  accepted_ = true;
-  if (highest <= state_.receive_floor) return;
-  state_.receive_floor = highest + kBlock;
-  state_.floor_exact = false;
-  Save(true);
+  accepted_ = highest;
+  if (highest + kReserve > state_.receive_floor) Reserve();
+  if (highest > synced_.receive_floor) AwaitSync();
+}
+
+/// Both directions at once: else the one would wait for the disk on behalf of the other.
+void LinkMemory::Reserve() {
+  state_.send_next = next_counter_ + kBlock;
+  if (accepted_) {
+    state_.receive_floor = *accepted_ + kBlock;
+    state_.floor_exact = false;
+  }
+  StartSync();
+}
+
+void LinkMemory::StartSync() {
+  Save();
+  store_.StartSync();
+  syncing_ = {state_.send_next, state_.receive_floor};
+}
+
+void LinkMemory::AwaitSync() {
+  store_.AwaitSync();
+  synced_ = syncing_;
 }
 
 bool LinkMemory::ChangeEpoch(std::uint64_t epoch, std::uint32_t peer_stream) {
@@ -55,10 +74,11 @@ bool LinkMemory::ChangeEpoch(std::uint64_t epoch, std::uint32_t peer_stream) {
   state_.send_next = 1;
   state_.receive_floor = 0;
   state_.floor_exact = true;
-  accepted_ = false;
+  accepted_.reset();
   next_counter_ = 1;
   if (new_numbers) state_.receive_known.assign(channels_, 0);
-  Save(true);
+  StartSync();
+  AwaitSync();
   return new_numbers;
 }
 
@@ -90,8 +110,8 @@ void LinkMemory::StoreEvents(const SendQueue& queue, const std::vector<EventRece
                                .bits = static_cast<std::uint32_t>(e.bits),
                                .packed = e.packed});
   }
-  // Not durable: after a loss of power an event may come twice or be lost with everything else on board.
-  Save(false);
+  // No sync: after a loss of power an event may come twice or be lost with everything else on board.
+  Save();
 }
 
 void LinkMemory::Close(std::uint64_t highest_accepted) {
@@ -100,7 +120,8 @@ void LinkMemory::Close(std::uint64_t highest_accepted) {
     state_.receive_floor = highest_accepted;
     state_.floor_exact = true;
   }
-  Save(true);
+  StartSync();
+  AwaitSync();
 }
 
 }  // namespace priamos::bus::radio

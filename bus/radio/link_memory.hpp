@@ -14,7 +14,8 @@ namespace priamos::bus::radio {
 
 /// What an end must not forget, and when it writes it down. Counters are reserved in blocks: the block is on
 /// disk before its first counter is used, so that after a crash an end at worst skips some, and never sends
-/// one twice nor accepts one twice.
+/// one twice nor accepts one twice. A block is begun while counters of the last one are left, so that nobody
+/// waits for the disk, unless it takes longer than those last.
 class LinkMemory {
  public:
   /// Reads the store. A state that is missing, damaged or of another channel table loses what it held.
@@ -42,13 +43,22 @@ class LinkMemory {
   void Close(std::uint64_t highest_accepted);
 
  private:
-  void Save(bool durable) { store_.Save(Serialise(state_), durable); }
+  void Save() { store_.Save(Serialise(state_)); }
+  void Reserve();
+  void StartSync();
+  void AwaitSync();
 
   StateStore& store_;
   std::size_t channels_;
   LinkState state_;
   std::uint64_t next_counter_ = 1;
-  bool accepted_ = false;  ///< a frame above the floor, since the start or the last change of epoch
+  /// Bounds of state_: on the way to where they survive a loss of power, and known to be there.
+  struct Bounds {
+    std::uint64_t send_next = 0, receive_floor = 0;
+  };
+  Bounds syncing_, synced_;
+  std::optional<std::uint64_t>
+      accepted_;  ///< highest, above the floor, since the start or the last change of epoch
 };
 
 }  // namespace priamos::bus::radio

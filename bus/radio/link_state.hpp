@@ -14,17 +14,22 @@ class StateStore {
   virtual ~StateStore() = default;
   /// What was saved last; nullopt when there is nothing.
   virtual std::optional<std::vector<std::byte>> Load() = 0;
-  /// Replaces the saved state as a whole. `durable`: it must also survive a loss of power.
-  virtual void Save(std::span<const std::byte> state, bool durable) = 0;
+  /// Replaces the saved state as a whole: at once for a process that starts again, after a sync also for a
+  /// machine that does. An emergency stop passes here: it must not wait for a disk.
+  virtual void Save(std::span<const std::byte> state) = 0;
+  /// Begins to bring what was saved last to where it survives a loss of power.
+  virtual void StartSync() = 0;
+  /// Waits until what was begun last is there.
+  virtual void AwaitSync() = 0;
 };
 
 /// A store that lives as long as the process. After each start the ends agree on a new epoch.
 class MemoryStore : public StateStore {
  public:
   std::optional<std::vector<std::byte>> Load() override { return state_; }
-  void Save(std::span<const std::byte> state, bool /*durable*/) override {
-    state_.emplace(state.begin(), state.end());
-  }
+  void Save(std::span<const std::byte> state) override { state_.emplace(state.begin(), state.end()); }
+  void StartSync() override {}
+  void AwaitSync() override {}
   void Lose() { state_.reset(); }
 
  private:

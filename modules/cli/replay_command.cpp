@@ -28,13 +28,29 @@ ConfigSource SourceOf(const VerifyOptions& options) {
   return {options.config.empty() ? standard.string() : options.config, options.set};
 }
 
+/// What else than messages a module's outputs come from; empty when it is nothing.
+std::string UnrecordedInput(const std::string& module) {
+  if (module == "head") return "its pictures are in no log";
+  if (module == "radio") return "what came over the line is in no log";
+  if (module == "teleop") return "what the hand did is in no log";
+  if (module == "world") return "its scenario and seed are in no log: give them with --set";
+  return "";
+}
+
 void Print(const VerifyOptions& options, const bus::Replay& replay, const bus::OutputComparison& comparison) {
   std::cout << fmt::format("{}: {} messages fed to {}\n", options.log, replay.fed(), options.module);
   std::cout << fmt::format("{:<20} {:>9} {:>9} {:>9}\n", "channel", "recorded", "replayed", "equal");
   for (const auto& [name, c] : comparison.channels)
     std::cout << fmt::format("{:<20} {:>9} {:>9} {:>9}\n", name, c.recorded, c.replayed, c.equal);
   for (const auto& line : comparison.differences) std::cout << line << "\n";
-  std::cout << (comparison.equal ? "every byte is as it was recorded\n" : "DIFFERENT\n");
+  const std::string unrecorded = UnrecordedInput(options.module);
+  if (comparison.equal) {
+    std::cout << "every byte is as it was recorded\n";
+  } else {
+    std::cout << (unrecorded.empty()
+                      ? "DIFFERENT\n"
+                      : fmt::format("DIFFERENT, which {} may be: {}\n", options.module, unrecorded));
+  }
 }
 
 nlohmann::ordered_json ToJson(const VerifyOptions& options, const bus::Replay& replay,
@@ -80,7 +96,9 @@ void AddReplayCommand(CLI::App& cli, int& exit_code) {
       "verify",
       "Feed a module what a log recorded and compare what it sends with what it sent then, byte for byte.");
   verb->footer(
-      "Exact for logs of lockstep runs; the log of a live bus has the recorder's times.\n"
+      "Exact for robot and planner in logs of lockstep runs; the log of a live bus has the recorder's "
+      "times,\n"
+      "and what head, world, radio and teleop send comes from more than messages.\n"
       "Example: priamos replay verify logs/recorded/door-robot.lcmlog --module robot");
   verb->add_option("log", options->log, "LCM log")->required()->check(CLI::ExistingFile);
   verb->add_option("--module", options->module, "whose messages to compare")

@@ -1,22 +1,48 @@
 #pragma once
 
+#include <condition_variable>
+#include <exception>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "bus/radio/link_state.hpp"
 
 namespace priamos::radio {
 
-/// Keeps an end's state in one file, which is replaced as a whole: a crash at any moment leaves the old or
-/// the new state. Saving throws std::runtime_error when the disk is full or cannot be written: a link that
-/// cannot remember its counters must not go on.
+/// Keeps an end's state in a file, which is replaced as a whole: a crash at any moment leaves the old or the
+/// new state. A thread of its own waits for the disk. With a second file on a RAM disk (/run) nothing else
+/// ever does: what must survive the process is there at once, and the file on the disk follows with each
+/// sync. Everything throws std::runtime_error when a file cannot be written, for syncs that nobody waited for
+/// at the next call: a link that cannot remember its counters must not go on.
 class FileStore : public bus::radio::StateStore {
  public:
-  explicit FileStore(std::string path) : path_(std::move(path)) {}
+  /// `fast_path` empty: `path` holds everything.
+  explicit FileStore(std::string path, std::string fast_path = "");
+  ~FileStore() override;
+  FileStore(const FileStore&) = delete;
+  FileStore& operator=(const FileStore&) = delete;
+
   std::optional<std::vector<std::byte>> Load() override;
-  void Save(std::span<const std::byte> state, bool durable) override;
+  void Save(std::span<const std::byte> state) override;
+  void StartSync() override;
+  void AwaitSync() override;
 
  private:
-  std::string path_;
+  void SyncThread();
+  void ThrowFailure();
+
+  const std::string path_, fast_path_;
+  std::vector<std::byte> state_;  ///< saved last
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::byte> to_sync_;
+  std::uint64_t wanted_ = 0, done_ = 0;  ///< number of the newest sync asked for, and of the newest finished
+  bool end_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_;
 };
 
 }  // namespace priamos::radio

@@ -51,7 +51,9 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
   if (config.state_file.empty()) {
     store_ = std::make_unique<bus::radio::MemoryStore>();
   } else {
-    store_ = std::make_unique<FileStore>(context.ResolvePath(config.state_file));
+    store_ = std::make_unique<FileStore>(
+        context.ResolvePath(config.state_file),
+        config.fast_state_file.empty() ? "" : context.ResolvePath(config.fast_state_file));
   }
   SubscribeAll();
 }

@@ -13,7 +13,7 @@ struct RadioConfig {
   std::string port = "/dev/ttyUSB0";
   std::string link = "link.toml";
   std::string types;
-  std::string state_file;
+  std::string state_file, fast_state_file;
   double tick_s = 0.001;
   bus::radio::LinkConfig own_link;  ///< used when it has channels
 
@@ -31,6 +31,8 @@ struct RadioConfig {
     a.Text("state_file", state_file,
            "counters and unacknowledged events survive a restart here; empty: they do not, and the ends "
            "agree anew");
+    a.Text("fast_state_file", fast_state_file,
+           "the same on a RAM disk, so that no message waits for the disk of state_file; empty: none");
     a.Number("tick_s", tick_s, {"s", 0.0005, 0.02, "how often the line is fed"});
     // A link.toml may be given as this file; then `link` is not read.
     own_link.Describe(a);

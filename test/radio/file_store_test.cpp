@@ -11,27 +11,82 @@
 namespace priamos::radio {
 namespace {
 
+std::vector<std::byte> State(int number) {
+  return {std::byte{0}, static_cast<std::byte>(number), std::byte{255}};
+}
+
 struct FileStoreTest : testing::Test {
   TemporaryFolder folder;
   std::string path = (folder / "link.state").string();
-  FileStore dut{path};
+  std::string fast = (folder / "fast.state").string();
 };
 
 TEST_F(FileStoreTest, NothingBeforeTheFirstSave) {
-  EXPECT_FALSE(dut.Load());
+  EXPECT_FALSE(FileStore(path).Load());
+  EXPECT_FALSE(FileStore(path, fast).Load());
 }
 
-TEST_F(FileStoreTest, LastSavedStateIsLoaded) {
-  for (const bool durable : {true, false}) {
-    const std::vector state{std::byte{0}, std::byte{durable}, std::byte{255}};
-    dut.Save(state, durable);
-    EXPECT_EQ(FileStore(path).Load(), state);
+TEST_F(FileStoreTest, LastSavedStateIsLoadedSyncedOrNot) {
+  for (const std::string& second : {std::string(), fast}) {
+    FileStore dut(path, second);
+    for (int i = 0; i < 4; ++i) {
+      dut.Save(State(i));
+      if (i > 0) dut.StartSync();
+      if (i > 1) dut.AwaitSync();
+      EXPECT_EQ(FileStore(path, second).Load(), State(i));
+    }
   }
 }
 
-TEST(FileStore, AnUnwritablePlaceIsReported) {
-  FileStore dut("/proc/no_such_folder/state");
-  EXPECT_THROW(dut.Save({}, true), std::runtime_error);
+TEST_F(FileStoreTest, ALossOfPowerLeavesTheSyncedState) {
+  FileStore dut(path, fast);
+  dut.Save(State(1));
+  dut.StartSync();
+  dut.AwaitSync();
+  dut.Save(State(2));
+  std::filesystem::remove(fast);
+  EXPECT_EQ(FileStore(path, fast).Load(), State(1));
+}
+
+TEST_F(FileStoreTest, ASyncThatNobodyWaitedForIsFinishedBeforeTheEnd) {
+  {
+    FileStore dut(path, fast);
+    dut.Save(State(1));
+    dut.StartSync();
+  }
+  EXPECT_EQ(FileStore(path).Load(), State(1));
+}
+
+TEST_F(FileStoreTest, WithoutARamDiskASyncNeverBringsBackAnOlderState) {
+  FileStore dut(path);
+  for (int i = 0; i < 200; ++i) {
+    dut.Save(State(i));
+    if (i % 2 == 0) dut.StartSync();
+  }
+  dut.AwaitSync();
+  EXPECT_EQ(FileStore(path).Load(), State(199));
+}
+
+TEST_F(FileStoreTest, AnUnwritablePlaceIsReported) {
+  EXPECT_THROW(FileStore("/proc/no_such_folder/state").Save(State(1)), std::runtime_error);
+  FileStore dut("/proc/no_such_folder/state", fast);
+  dut.Save(State(1));
+  dut.StartSync();
+  EXPECT_THROW(dut.AwaitSync(), std::runtime_error);
+}
+
+TEST_F(FileStoreTest, AFailureThatNobodyWaitedForIsReportedWithTheNextCall) {
+  FileStore dut("/proc/no_such_folder/state", fast);
+  dut.Save(State(1));
+  dut.StartSync();
+  EXPECT_THROW(
+      {
+        for (int i = 0; i < 1000; ++i) {
+          dut.Save(State(i));
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+      },
+      std::runtime_error);
 }
 
 }  // namespace

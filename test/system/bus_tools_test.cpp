@@ -90,9 +90,9 @@ TEST_F(BusTools, ALiveRobotIsRecordedByLcmLoggerAndPlayedByLcmLogplayer) {
     $BIN/priamos up $SOURCE/config/sim --logs logs > up.txt 2>&1 & up=$!
     for i in $(seq 150); do grep -q 'all processes are ready' up.txt && break; sleep 0.1; done; cat up.txt
     $BIN/priamos log record ours.lcmlog --no-health & recorder=$!
-    listening
+    until [ -s ours.lcmlog ]; do sleep 0.1; done
     lcm-logger --lcm-url="$URL" --flush-interval=50 -q theirs.lcmlog & logger=$!
-    listening; sleep 4
+    until [ -s theirs.lcmlog ]; do sleep 0.1; done; sleep 3
     kill -INT $logger; wait $logger
     kill -INT $recorder; wait $recorder
     $BIN/priamos down --logs logs; wait $up
@@ -100,7 +100,9 @@ TEST_F(BusTools, ALiveRobotIsRecordedByLcmLoggerAndPlayedByLcmLogplayer) {
     listening; lcm-logplayer --lcm-url="$URL" --speed=1 theirs.lcmlog
     sleep 1; kill -INT $logger; wait $logger)sh",
                           60);
-  const Contents ours = ReadContents(folder_ / "ours.lcmlog"), theirs = ReadContents(folder_ / "theirs.lcmlog");
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  const Contents ours = ReadContents(folder_ / "ours.lcmlog"),
+                 theirs = ReadContents(folder_ / "theirs.lcmlog");
   EXPECT_GT(theirs.size(), 8u) << "channels; " << answer.text;
   for (const auto& [channel, messages] : theirs) {
     const auto& all = ours.count(channel) != 0 ? ours.at(channel) : messages;

@@ -1,0 +1,90 @@
+#include "bus/radio/link_memory.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "link_pair.hpp"
+
+namespace priamos::bus::radio {
+namespace {
+
+/// A disk that is slow: what was saved is on it only some calls later, unless somebody waits.
+class SlowDisk : public StateStore {
+ public:
+  explicit SlowDisk(int delay) : delay_(delay) {}
+  std::optional<std::vector<std::byte>> Load() override { return saved_; }
+  void Save(std::span<const std::byte> state) override { saved_.emplace(state.begin(), state.end()); }
+  void StartSync() override {
+    on_the_way_ = saved_;
+    left_ = delay_;
+  }
+  void AwaitSync() override {
+    if (!on_the_way_) return;
+    ++waits;
+    on_disk_ = std::exchange(on_the_way_, std::nullopt);
+  }
+  void Step() {
+    if (on_the_way_ && --left_ <= 0) on_disk_ = std::exchange(on_the_way_, std::nullopt);
+  }
+  void LosePower() {
+    saved_ = on_disk_;
+    on_the_way_.reset();
+  }
+
+  int waits = 0;
+
+ private:
+  int delay_, left_ = 0;
+  std::optional<std::vector<std::byte>> saved_, on_the_way_, on_disk_;
+};
+
+struct LinkMemoryTest : testing::Test {
+  LinkMemory Start(SlowDisk& disk) {
+    return {disk, table, [] { return std::uint64_t{7}; }};
+  }
+  const ChannelTable table{TestChannels(), false};
+};
+
+TEST_F(LinkMemoryTest, NobodyWaitsForADiskThatIsFasterThanTheReserve) {
+  SlowDisk disk(50);
+  LinkMemory dut = Start(disk);
+  dut.ChangeEpoch(1, 2);
+  dut.TakeCounter();
+  dut.NoteAccepted(1);
+  const int before = disk.waits;
+  for (std::uint64_t i = 2; i < 5000; ++i) {
+    dut.TakeCounter();
+    dut.NoteAccepted(i);
+    disk.Step();
+  }
+  EXPECT_EQ(disk.waits, before);
+}
+
+/// Whatever the disk does and whenever the process or the power goes: no counter is sent twice, and none that
+/// was accepted is below what the next start believes.
+RC_GTEST_FIXTURE_PROP(LinkMemoryTest, NoCounterIsUsedTwiceHoweverItEnds, ()) {
+  SlowDisk disk(*rc::gen::inRange(1, 400));
+  std::uint64_t last_sent = 0, last_accepted = 0;
+  Start(disk).ChangeEpoch(1, 2);
+  for (int run = 0; run < 5; ++run) {
+    LinkMemory dut = Start(disk);
+    RC_ASSERT(dut.receive_floor() >= last_accepted);
+    last_accepted = dut.receive_floor();
+    const int steps = *rc::gen::inRange(0, 600);
+    for (int i = 0; i < steps; ++i) {
+      const std::uint64_t sent = dut.TakeCounter();
+      RC_ASSERT(sent > last_sent);
+      last_sent = sent;
+      last_accepted += static_cast<std::uint64_t>(*rc::gen::inRange(1, 3));
+      dut.NoteAccepted(last_accepted);
+      disk.Step();
+    }
+    if (*rc::gen::arbitrary<bool>()) disk.LosePower();
+  }
+}
+
+}  // namespace
+}  // namespace priamos::bus::radio
