@@ -29,6 +29,7 @@ Contents ReadContents(const std::string& log) {
   Contents contents;
   while (auto event = reader.Next()) contents[event->channel].push_back(std::move(event->bytes));
   EXPECT_EQ(reader.skipped_bytes(), 0u) << log;
+  contents.erase("READY");
   return contents;
 }
 
@@ -69,13 +70,21 @@ TEST_F(BusTools, PlayAndRecordKeepEveryByte) {
   EXPECT_EQ(ReadContents(folder_ / "out.lcmlog"), ReadContents(log_));
 }
 
+/// `record FILE` starts LCM's recorder and returns when it hears, `stop` ends it. A socket that is open need
+/// not have joined the group yet, hence READY.
+const std::string kLogger = R"sh(
+    URL='udpm://239.255.76.67:7667?ttl=0'
+    record() {
+      lcm-logger --lcm-url="$URL" --flush-interval=50 -q $1 & logger=$!
+      until [ -s $1 ]; do $BIN/priamos topic pub READY link_request_t '{"utime":0,"channel":"","hold_s":0}' > /dev/null; sleep 0.1; done
+    }
+    stop() { sleep 1; kill -INT $logger; wait $logger; }
+)sh";
+
 /// Six seconds of a recorded door run, all its channels.
 TEST_F(BusTools, LcmLoggerAndLcmLogplayerDoSoToo) {
-  const auto answer = Run(R"sh(
+  const auto answer = Run(kLogger + R"sh(
     $BIN/priamos log filter $SOURCE/logs/recorded/door-onboard.lcmlog in.lcmlog --from 4 --to 10
-    URL='udpm://239.255.76.67:7667?ttl=0'
-    record() { lcm-logger --lcm-url="$URL" --flush-interval=50 -q $1 & logger=$!; listening; }
-    stop() { sleep 1; kill -INT $logger; wait $logger; }
     record theirs.lcmlog; $BIN/priamos log play in.lcmlog --speed 4; stop
     record again.lcmlog; lcm-logplayer --lcm-url="$URL" --speed=4 theirs.lcmlog; stop)sh");
   EXPECT_GT(ReadContents(log_).size(), 8u) << "channels";
@@ -85,20 +94,15 @@ TEST_F(BusTools, LcmLoggerAndLcmLogplayerDoSoToo) {
 
 /// The whole simulation for some seconds: LCM's recorder hears what ours hears, and its player gives it back.
 TEST_F(BusTools, ALiveRobotIsRecordedByLcmLoggerAndPlayedByLcmLogplayer) {
-  const auto answer = Run(R"sh(
-    URL='udpm://239.255.76.67:7667?ttl=0'
+  const auto answer = Run(kLogger + R"sh(
     $BIN/priamos up $SOURCE/config/sim --logs logs > up.txt 2>&1 & up=$!
     for i in $(seq 150); do grep -q 'all processes are ready' up.txt && break; sleep 0.1; done; cat up.txt
     $BIN/priamos log record ours.lcmlog --no-health & recorder=$!
     until [ -s ours.lcmlog ]; do sleep 0.1; done
-    lcm-logger --lcm-url="$URL" --flush-interval=50 -q theirs.lcmlog & logger=$!
-    until [ -s theirs.lcmlog ]; do sleep 0.1; done; sleep 3
-    kill -INT $logger; wait $logger
+    record theirs.lcmlog; sleep 3; stop
     kill -INT $recorder; wait $recorder
     $BIN/priamos down --logs logs; wait $up
-    lcm-logger --lcm-url="$URL" --flush-interval=50 -q again.lcmlog & logger=$!
-    listening; lcm-logplayer --lcm-url="$URL" --speed=1 theirs.lcmlog
-    sleep 1; kill -INT $logger; wait $logger)sh",
+    record again.lcmlog; lcm-logplayer --lcm-url="$URL" --speed=1 theirs.lcmlog; stop)sh",
                           60);
   ASSERT_EQ(answer.exit_code, 0) << answer.text;
   const Contents ours = ReadContents(folder_ / "ours.lcmlog"),
