@@ -33,6 +33,33 @@ Contents ReadContents(const std::string& log) {
   return contents;
 }
 
+/// How a recording of a while agrees with one that began earlier and ended later.
+struct Overlap {
+  std::size_t in_both = 0, missing_in_all = 0, missing_in_part = 0;
+  Overlap& operator+=(const Overlap& o) {
+    in_both += o.in_both;
+    missing_in_all += o.missing_in_all;
+    missing_in_part += o.missing_in_part;
+    return *this;
+  }
+};
+
+Overlap Compare(const std::vector<std::vector<std::byte>>& all,
+                const std::vector<std::vector<std::byte>>& part) {
+  Overlap overlap;
+  auto next = all.begin();
+  for (const auto& message : part) {
+    const auto at = std::find(next, all.end(), message);
+    if (at == all.end()) {
+      ++overlap.missing_in_all;
+      continue;
+    }
+    if (overlap.in_both++ > 0) overlap.missing_in_part += static_cast<std::size_t>(at - next);
+    next = at + 1;
+  }
+  return overlap;
+}
+
 class BusTools : public testing::Test {
  protected:
   /// Two seconds of 50 Hz poses and 10 Hz sonars.
@@ -108,12 +135,16 @@ TEST_F(BusTools, ALiveRobotIsRecordedByLcmLoggerAndPlayedByLcmLogplayer) {
   const Contents ours = ReadContents(folder_ / "ours.lcmlog"),
                  theirs = ReadContents(folder_ / "theirs.lcmlog");
   EXPECT_GT(theirs.size(), 8u) << "channels; " << answer.text;
+  // UDP loses on a machine that is busy; ours counts what it lost, lcm-logger does not.
+  Overlap sum;
   for (const auto& [channel, messages] : theirs) {
-    const auto& all = ours.count(channel) != 0 ? ours.at(channel) : messages;
-    EXPECT_NE(std::search(all.begin(), all.end(), messages.begin(), messages.end()), all.end())
-        << channel << ": " << messages.size() << " messages, and " << all.size() << " in our own log";
-    EXPECT_EQ(ours.count(channel), 1u) << channel;
+    ASSERT_EQ(ours.count(channel), 1u) << channel << "; " << answer.text;
+    sum += Compare(ours.at(channel), messages);
   }
+  EXPECT_GT(sum.in_both, 500u);
+  EXPECT_LT(sum.missing_in_part, sum.in_both / 50) << answer.text;
+  if (answer.text.find("lost: 0 on the network") != std::string::npos)
+    EXPECT_EQ(sum.missing_in_all, 0u) << answer.text;
   EXPECT_EQ(ReadContents(folder_ / "again.lcmlog"), theirs) << answer.text;
 }
 
