@@ -156,7 +156,8 @@ void CalibrationMode::Finish() {
       PlacementCovariance({stand.x_m, stand.y_m, stand.z_m}, stand.error_m, Radians(stand.error_deg));
   // The report first: without the table the journal is still there, and the calibration can be repeated.
   const std::string report = table_path_ + "-report";
-  WriteCalibrationReport(report, views, *result, config_.LookSetting());
+  const ReportedErrors errors{ReconstructObject(views, result->model), PredictHeldOut(views, known)};
+  WriteCalibrationReport(report, views, *result, errors, config_.LookSetting());
   const bool had_laser = HadLaser(table_path_);
   SaveHeadModel(table_path_, result->model);
   journal_.Remove();
@@ -170,8 +171,8 @@ void CalibrationMode::Finish() {
                              kCameraNames[camera], config_.tilt_deg, config_.zoom_step, config_.focus_step,
                              PhysicalParameters(result->model, config_.LookSetting(), camera)));
   context_.Log(bus::Level::kInfo,
-               fmt::format("{} settings calibrated, F {:.3f} px, written to {}; report: {}/index.html",
-                           done_.size(), result->mean_error_px, table_path_, report));
+               fmt::format("{} settings calibrated, F {:.3f} px; {}; written to {}; report: {}/index.html",
+                           done_.size(), result->mean_error_px, errors.ToText(), table_path_, report));
   context_.RequestStop(0);
 }
 

@@ -182,7 +182,8 @@ std::string Mechanics(const HeadGeometry& g) {
   return text;
 }
 
-std::string Html(const std::vector<HeadView>& views, const HeadCalibration& result, const HeadSetting& at) {
+std::string Html(const std::vector<HeadView>& views, const HeadCalibration& result,
+                 const ReportedErrors& errors, const HeadSetting& at) {
   std::string html = fmt::format(
       "<!doctype html><meta charset=\"utf-8\"><title>Calibration of KASTOR</title>\n"
       "<style>body{{font:15px sans-serif;max-width:1650px;margin:2em auto}}img{{max-width:100%}}"
@@ -192,6 +193,7 @@ std::string Html(const std::vector<HeadView>& views, const HeadCalibration& resu
       result.view_error_px.empty()
           ? 0
           : *std::max_element(result.view_error_px.begin(), result.view_error_px.end()));
+  html += "<p>" + errors.ToText() + ".</p>\n";
   html +=
       "<h2>Where discs were seen</h2>\n<img src=\"residuals.png\">\n"
       "<h2>F over the table</h2>\n<img src=\"errors.png\">\n"
@@ -207,6 +209,15 @@ std::string Html(const std::vector<HeadView>& views, const HeadCalibration& resu
 
 }  // namespace
 
+std::string ReportedErrors::ToText() const {
+  const std::string predicted = held_out
+                                    ? fmt::format("F of {} settings that took no part {:.4f} px",
+                                                  held_out->exposures, held_out->mean_px)
+                                    : "F of settings that took no part unknown (" + held_out.reason() + ")";
+  return predicted + fmt::format("; {} discs reconstructed by stereo, RMS {:.2f} mm, worst {:.2f} mm",
+                                 stereo.points, 1e3 * stereo.rms_m, 1e3 * stereo.max_m);
+}
+
 std::string PhysicalParameters(const HeadModel& head, const HeadSetting& at, int camera) {
   const auto model = head.CameraAt(at, camera);
   if (!model) return model.reason();
@@ -215,7 +226,8 @@ std::string PhysicalParameters(const HeadModel& head, const HeadSetting& at, int
 }
 
 void WriteCalibrationReport(const std::string& folder, const std::vector<HeadView>& views,
-                            const HeadCalibration& result, const HeadSetting& at) {
+                            const HeadCalibration& result, const ReportedErrors& errors,
+                            const HeadSetting& at) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error(fmt::format("{}: {}", folder, error.message()));
@@ -224,7 +236,7 @@ void WriteCalibrationReport(const std::string& folder, const std::vector<HeadVie
   Save(folder, "curves.png", DrawCurves(result.model));
   const std::string path = folder + "/index.html";
   std::ofstream file(path, std::ios::trunc);
-  file << Html(views, result, at);
+  file << Html(views, result, errors, at);
   file.close();
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }

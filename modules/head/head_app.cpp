@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "head/calibration_file.hpp"
+#include "head/core/epipolar_shift.hpp"
 
 namespace priamos::head {
 namespace {
@@ -175,23 +176,30 @@ LandmarkFix HeadApp::Evaluate(const Frames& frames, Time& exposure) {
   return fix;
 }
 
-/// A landmark that is found tells whether both cameras are still where the calibration says; so does one that
-/// fits badly.
+/// Edges tell whether both cameras are still where the calibration says: all of them about up and down, those
+/// of a landmark that was found (or fits badly) about the other turns, too.
 void HeadApp::WatchDrift(const LandmarkModel& model, const LandmarkFix& fix, const CameraModel& left,
                          const CameraModel& right, const std::array<EdgeImage, 2>& edges) {
-  if (fix.verdict != Verdict::kFound && fix.verdict != Verdict::kResidualTooLarge) return;
+  if (IsBlind(edges[0]) || IsBlind(edges[1])) return;
   const std::array<CameraView, 2> views{MakeView(left, edges[0]), MakeView(right, edges[1])};
-  const Eigen::Isometry3d at = Lift(fix.base_from_landmark);
-  Association association;
-  association.matches = fix.matches;
-  StereoDriftOptions options;
-  options.model_sigma_m = config_.vision.model_sigma_m;
-  options.calibration_sigma_px = config_.drift.calibration_sigma_px;
-  const auto drift =
-      MeasureDrift(model, Observations(model, association, views, at, false), left, right, at, options);
-  if (!drift) return;
+  std::optional<StereoDrift> drift;
+  if (fix.verdict == Verdict::kFound || fix.verdict == Verdict::kResidualTooLarge) {
+    const Eigen::Isometry3d at = Lift(fix.base_from_landmark);
+    Association association;
+    association.matches = fix.matches;
+    StereoDriftOptions options;
+    options.model_sigma_m = config_.vision.model_sigma_m;
+    options.calibration_sigma_px = config_.drift.calibration_sigma_px;
+    drift = MeasureDrift(model, Observations(model, association, views, at, false), left, right, at, options);
+  }
+  const auto shift = MeasureEpipolarShift(views[0], views[1], MatchBinocular(views[0], views[1], {}));
+  if (shift) drift = Fuse(drift.value_or(UnknownDrift()), *shift, right);
+  if (drift) Judge(*drift);
+}
+
+void HeadApp::Judge(const StereoDrift& drift) {
   const bool was_well = !drift_.alarm();
-  drift_.Add(*drift);
+  drift_.Add(drift);
   if (!drift_.alarm()) return context_.SetHealth(bus::Health::kOk);
   context_.SetHealth(bus::Health::kDegraded, drift_.alarm()->ToText());
   if (was_well) context_.Log(bus::Level::kWarning, drift_.alarm()->ToText());

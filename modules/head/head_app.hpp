@@ -48,6 +48,7 @@ class HeadApp {
   LandmarkFix Evaluate(const Frames& frames, Time& exposure);
   void WatchDrift(const LandmarkModel& model, const LandmarkFix& fix, const CameraModel& left,
                   const CameraModel& right, const std::array<EdgeImage, 2>& edges);
+  void Judge(const StereoDrift& drift);
   double PanFor(const LookOrder& order, Time now) const;
   void Answer(const LandmarkFix& fix, Time exposure);
 

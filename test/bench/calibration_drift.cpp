@@ -45,7 +45,7 @@ void BenchDrift(const CalibrationOptions& options, Figures& figures) {
         promised + slack, "");
   }
   const double pixel = 1.0 / 900;
-  figures.AtLeast("drift: vergence 0.05 degrees, noticed within 4 looks",
+  figures.AtLeast("drift: vergence 0.05 degrees, noticed within 3 looks",
                   AlarmShare({}, {0, Radians(0.05), 0}, 2.4, few, options.Stream("vergence")), 0.8, "");
   figures.AtLeast("drift: 1 px sideways, noticed",
                   AlarmShare({}, {0, pixel, 0}, 2.4, few, options.Stream("sideways")), 0.95, "");

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "common/geometry.hpp"
 
@@ -11,12 +13,17 @@ namespace {
 
 constexpr const char* kTurned[] = {"up or down", "sideways (vergence)", "about its axis (roll)"};
 
-StereoDrift Mean(const std::deque<StereoDrift>& looks) {
-  StereoDrift mean;
-  const auto n = static_cast<double>(looks.size());
-  for (const StereoDrift& look : looks)
-    mean.turn_rad += look.turn_rad / n, mean.covariance += look.covariance / n;
-  return mean;
+double Deviations(const StereoDrift& look, int axis) {
+  return look.turn_rad(axis) / std::sqrt(look.covariance(axis, axis));
+}
+
+/// The look in the middle of all, as one axis ranks them.
+const StereoDrift& Median(const std::deque<StereoDrift>& looks, int axis) {
+  std::vector<const StereoDrift*> ranked;
+  for (const StereoDrift& look : looks) ranked.push_back(&look);
+  std::sort(ranked.begin(), ranked.end(),
+            [&](const auto* a, const auto* b) { return Deviations(*a, axis) < Deviations(*b, axis); });
+  return *ranked[ranked.size() / 2];
 }
 
 }  // namespace
@@ -31,7 +38,8 @@ double NormalQuantile(double exceeded_with) {
 }
 
 void DriftConfig::Describe(Archive& a) {
-  a.Integer("looks", looks, {"-", 1, 100, "looks whose mean is judged"});
+  a.Integer("looks", looks, {"-", 1, 99, "looks whose median is judged"});
+  if (looks % 2 == 0) a.Refuse("looks", "an odd number");
   a.Number("false_alarm", false_alarm, {"-", 1e-9, 0.1, "probability of a false alarm, at most, each time"});
   a.Number("calibration_sigma_px", calibration_sigma_px,
            {"px", 0.01, 5, "error of a camera that has not moved: table and motors"});
@@ -43,17 +51,18 @@ std::string DriftAlarm::ToText() const {
 }
 
 DriftMonitor::DriftMonitor(const DriftConfig& config)
-    : config_(config), limit_(NormalQuantile(config.false_alarm / 6)) {}  // two sides, three axes
+    : config_(config), limit_(NormalQuantile(config.false_alarm / 12)) {}
 
 void DriftMonitor::Add(const StereoDrift& drift) {
   looks_.push_back(drift);
   if (looks_.size() > static_cast<std::size_t>(config_.looks)) looks_.pop_front();
   alarm_.reset();
   if (looks_.size() < static_cast<std::size_t>(config_.looks)) return;
-  DriftAlarm worst{Mean(looks_)};
+  DriftAlarm worst;
   for (int axis = 0; axis < 3; ++axis) {
-    const double z = std::abs(worst.drift.turn_rad(axis)) / std::sqrt(worst.drift.covariance(axis, axis));
-    if (z > worst.deviations) worst.deviations = z, worst.axis = axis;
+    const StereoDrift& median = Median(looks_, axis);
+    const double deviations = std::abs(Deviations(median, axis));
+    if (deviations > worst.deviations) worst = {median, axis, deviations};
   }
   if (worst.deviations > limit_) alarm_ = worst;
 }

@@ -11,7 +11,7 @@ namespace priamos::head {
 
 /// When the cameras are no longer believed to be where the calibration says.
 struct DriftConfig {
-  int looks = 4;                       ///< whose mean is judged; fewer are not
+  int looks = 3;                       ///< whose median is judged, an odd number; fewer are not
   double false_alarm = 1e-4;           ///< at most, of a judgement
   double calibration_sigma_px = 0.06;  ///< of each camera when nothing has moved
 
@@ -20,7 +20,7 @@ struct DriftConfig {
 
 /// What is wrong.
 struct DriftAlarm {
-  StereoDrift drift;      ///< mean of the looks
+  StereoDrift drift;      ///< as the median look has it
   int axis = 0;           ///< of the right camera, about which the turn is most improbable: x, y, z
   double deviations = 0;  ///< by so many standard deviations
 
@@ -28,10 +28,12 @@ struct DriftAlarm {
   std::string ToText() const;
 };
 
-/// Judges the mean of the last looks. What makes looks differ from the truth (a landmark that is not quite as
-/// modelled, the table between its nodes) is much the same in all of them, so the mean counts as no better
-/// than one look: under that worst case the rate of false alarms is `false_alarm` for each judgement, by the
-/// normal distribution and three axes (Bonferroni); it is lower as far as looks are independent.
+/// Judges, for each axis, the median of the last looks' deviations: one look that went wrong raises no alarm.
+/// What makes looks differ from the truth (a landmark that is not quite as modelled, the table between its
+/// nodes) is much the same in all of them, so looks do not add up. The rate of false alarms is at most
+/// `false_alarm` for each judgement whatever the looks have in common: if the median exceeds a limit, so does
+/// more than half of the looks, which is at most twice as probable as that one of them does (Markov); three
+/// axes and two sides make it twelve times.
 class DriftMonitor {
  public:
   explicit DriftMonitor(const DriftConfig& config);

@@ -45,12 +45,6 @@ Eigen::Matrix3d Axes(const CameraModel& camera) {
       .finished();
 }
 
-double FocalLength(const CameraModel& camera) {
-  const double scale = camera.image_from_base.block<1, 3>(2, 0).norm();
-  return camera.image_from_base.block<1, 3>(0, 0).cross(camera.image_from_base.block<1, 3>(2, 0)).norm() /
-         (scale * scale);
-}
-
 /// Halves each edge of each image along its direction.
 std::vector<HalfEdge> Halves(std::span<const EdgeObservation> observations, double floor_px) {
   std::map<std::array<int, 2>, std::vector<const EdgeObservation*>> groups;
@@ -190,6 +184,12 @@ int EdgesInBoth(const std::vector<HalfEdge>& halves) {
 }
 
 }  // namespace
+
+double FocalLength(const CameraModel& camera) {
+  const double scale = camera.image_from_base.block<1, 3>(2, 0).norm();
+  return camera.image_from_base.block<1, 3>(0, 0).cross(camera.image_from_base.block<1, 3>(2, 0)).norm() /
+         (scale * scale);
+}
 
 std::optional<StereoDrift> MeasureDrift(const LandmarkModel& model,
                                         std::span<const EdgeObservation> observations,

@@ -66,7 +66,7 @@ TEST(StereoDriftTest, TooFewEdgesSayNothing) {
   EXPECT_FALSE(MeasureDrift(scene.model(), observations, scene.camera(0), scene.camera(1), Lift({3, 0, 0})));
 }
 
-/// Whether four looks before one door, with errors that stay the same, raise the alarm.
+/// Whether a few looks before one door, with errors that stay the same, raise the alarm.
 bool Alarms(const DriftConfig& config, const Vector3d& turn_rad, Rng& rng, double nearest_m) {
   DriftScene scene({}, rng);
   scene.TurnRight(turn_rad);
@@ -119,8 +119,14 @@ TEST(DriftMonitorTest, FewLooksAreNotJudgedAndGoodOnesEndTheAlarm) {
       dut.alarm()->ToText(),
       "cameras out of calibration: right turned 0.573 deg sideways (vergence), 100 sigma; calibrate again");
   EXPECT_LE(dut.alarm()->ToText().size(), 100u) << "what HEALTH has room for";
-  for (int i = 0; i < config.looks; ++i) dut.Add(good);
+  dut.Add(good);
+  EXPECT_TRUE(dut.alarm()) << "one look is not enough, neither way";
+  dut.Add(good);
   EXPECT_FALSE(dut.alarm());
+}
+
+TEST(DriftMonitorTest, AnEvenNumberOfLooksIsRefused) {
+  EXPECT_THROW(ParseConfig<DriftConfig>("head.toml", "looks = 4\n"), ConfigError);
 }
 
 TEST(DriftMonitorTest, QuantilesOfTheNormalDistribution) {
