@@ -82,7 +82,7 @@ cv::Mat DrawErrors(const std::vector<HeadView>& views, const HeadCalibration& re
   const auto& zooms = result.model.lenses[kLeft].zoom_steps();
   const auto& focuses = result.model.lenses[kLeft].focus_steps();
   // Wide enough for the title of a small table.
-  const int width = std::max(370, kLeftEdge + kCell * static_cast<int>(zooms.size()) + 20);
+  const int width = std::max(430, kLeftEdge + kCell * static_cast<int>(zooms.size()) + 20);
   cv::Mat picture(kTop + kRow * static_cast<int>(focuses.size()) + 40, 2 * width, CV_8UC3, kWhite);
   for (const int camera : {kLeft, kRight}) {
     const auto errors = NodeErrors(views, result.view_error_px, camera);
