@@ -2,12 +2,13 @@
 
 #include <poll.h>
 #include <sys/signalfd.h>
-#include <systemd/sd-daemon.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <system_error>
+
+#include "bus/service_notifier.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -16,21 +17,6 @@ timespec ToTimespec(Duration d) {
   const auto us = std::max<Duration::rep>(0, d.count());
   return {static_cast<time_t>(us / 1000000), static_cast<long>(us % 1000000 * 1000)};
 }
-
-/// The watchdog is told twice per period, not on each of 1000 ticks per second.
-class Notifier {
- public:
-  void Beat(Time now) {
-    if (now < next_) return;
-    next_ = now + std::chrono::milliseconds(200);
-    sd_notify(0, first_ ? "READY=1\nWATCHDOG=1" : "WATCHDOG=1");
-    first_ = false;
-  }
-
- private:
-  Time next_{};
-  bool first_ = true;
-};
 
 }  // namespace
 
@@ -49,7 +35,7 @@ SignalWatch::~SignalWatch() {
 }
 
 int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals) {
-  Notifier notifier;
+  ServiceNotifier notifier;
   while (!host.exit_code()) {
     pollfd fds[] = {{bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
     const timespec wait = ToTimespec(host.next_tick() - clock.Now());

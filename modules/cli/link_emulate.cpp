@@ -5,7 +5,6 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
-#include <systemd/sd-daemon.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -20,6 +19,7 @@
 
 #include "bus/clock.hpp"
 #include "bus/real_time_loop.hpp"
+#include "bus/service_notifier.hpp"
 #include "common/config.hpp"
 
 namespace priamos::cli {
@@ -33,7 +33,7 @@ using bus::radio::LineCut;
 /// What a tty's own buffer holds: who writes more has to wait.
 constexpr Duration kTtyBuffer{4'000'000};
 constexpr std::size_t kReadAtOnce = 256;
-constexpr Duration kAlivePeriod = std::chrono::milliseconds(200);
+constexpr Duration kLongestIdle = std::chrono::milliseconds(100);
 
 LineConfig WithBlackouts(const LinkEmulateOptions& options) {
   LineConfig line = options.line;
@@ -143,13 +143,10 @@ int RunLinkEmulate(const LinkEmulateOptions& options) {
   EmulatedLine line(options, clock.Now());
   std::cout << fmt::format("{} <-> {}: {} baud; Ctrl-C ends it\n", options.a, options.b, options.line.baud)
             << std::flush;
-  sd_notify(0, "READY=1\nWATCHDOG=1");
-  for (Time alive = clock.Now();;) {
-    if (clock.Now() - alive >= kAlivePeriod) {
-      alive = clock.Now();
-      sd_notify(0, "WATCHDOG=1");
-    }
-    const Duration idle = std::min<Duration>(line.NextArrival() - clock.Now(), kAlivePeriod);
+  bus::ServiceNotifier notifier;
+  for (;;) {
+    notifier.Beat(clock.Now());
+    const Duration idle = std::min<Duration>(line.NextArrival() - clock.Now(), kLongestIdle);
     const auto us = std::max<Duration::rep>(0, idle.count());
     const timespec wait{static_cast<time_t>(us / 1'000'000), static_cast<long>(us % 1'000'000 * 1000)};
     pollfd fds[] = {{line.a().fd(), POLLIN, 0}, {line.b().fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};

@@ -47,7 +47,9 @@ ProcessWatch::Action ProcessWatch::Step(bool may_start, bool may_stop, Time now)
 
 ProcessWatch::Action ProcessWatch::WatchRunning(Time now) {
   if (killed_) return Action::kNone;
-  if (state_ == ProcessState::kStarting && now - since_ > policy_.ready_within) {
+  if (stopped_since_ && now - *stopped_since_ >= policy_.stopped) {
+    verdict_ = fmt::format("hung: stopped for {:.1f} s", Seconds(now - *stopped_since_));
+  } else if (state_ == ProcessState::kStarting && now - since_ > policy_.ready_within) {
     verdict_ = fmt::format("not ready within {:.0f} s", Seconds(policy_.ready_within));
   } else if (state_ == ProcessState::kReady && policy_.watchdog > Duration::zero() &&
              now - alive_ > policy_.watchdog) {
@@ -81,7 +83,16 @@ void ProcessWatch::Started(Time now) {
   killed_ = false;
   verdict_.clear();
   alive_ = now;
+  stopped_since_.reset();
   Enter(ProcessState::kStarting, now);
+}
+
+void ProcessWatch::SeenStopped(bool stopped, Time now) {
+  if (!stopped) {
+    stopped_since_.reset();
+  } else if (!stopped_since_) {
+    stopped_since_ = now;
+  }
 }
 
 void ProcessWatch::SaidReady(Time now) {

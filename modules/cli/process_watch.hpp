@@ -11,8 +11,9 @@ namespace priamos::cli {
 struct WatchPolicy {
   Duration ready_within = std::chrono::seconds(10);  ///< READY must come so soon after the start
   Duration watchdog =
-      std::chrono::milliseconds(1000);             ///< longest silence of one that is ready; 0: none expected
-  Duration stop_within = std::chrono::seconds(2);  ///< after SIGTERM
+      std::chrono::milliseconds(1000);  ///< longest silence of one that is ready; 0: none expected
+  Duration stopped = std::chrono::milliseconds(200);  ///< one that was stopped (SIGSTOP) for so long hangs
+  Duration stop_within = std::chrono::seconds(2);     ///< after SIGTERM
   Duration first_back_off = std::chrono::seconds(1);  ///< doubled with every failure in a row
   Duration longest_back_off = std::chrono::seconds(30);
   Duration stable_after = std::chrono::seconds(30);  ///< ready for so long: the failures before are forgotten
@@ -23,8 +24,8 @@ enum class ProcessState { kWaiting, kStarting, kReady, kBackOff, kStopping, kSto
 const char* Text(ProcessState state);
 
 /// The life of one supervised process as a state machine with time as argument: waits for what it depends on,
-/// must say READY in time and WATCHDOG ever after, is killed when it hangs, and is started again after 1, 2,
-/// 4 ... 30 s. Three failures in a row raise an alarm, which a stable run clears.
+/// must say READY in time and WATCHDOG ever after, is killed when it hangs or stands stopped, and is started
+/// again after 1, 2, 4 ... 30 s. Three failures in a row raise an alarm, which a stable run clears.
 class ProcessWatch {
  public:
   enum class Action { kNone, kStart, kTerminate, kKill };
@@ -37,6 +38,8 @@ class ProcessWatch {
   void Started(Time now);
   void SaidReady(Time now);
   void SaidAlive(Time now) { alive_ = now; }
+  /// What the kernel says: whether it is stopped by a signal.
+  void SeenStopped(bool stopped, Time now);
   void Exited(const std::string& how, Time now);
   /// From now on it is to end, and is not started again.
   void Stop() { stopping_ = true; }
@@ -57,6 +60,7 @@ class ProcessWatch {
   WatchPolicy policy_;
   ProcessState state_ = ProcessState::kWaiting;
   Time since_{}, alive_{};
+  std::optional<Time> stopped_since_;
   bool stopping_ = false, killed_ = false;
   int failures_ = 0, starts_ = 0;
   std::string reason_, verdict_;  ///< verdict: why it was killed

@@ -22,6 +22,7 @@ namespace priamos::cli {
 namespace {
 
 constexpr int kCannotExec = 127;
+constexpr Duration kOwnSilence = std::chrono::milliseconds(300), kLookPeriod = std::chrono::milliseconds(50);
 
 /// Everything that a child needs between fork and exec, where only async-signal-safe calls are allowed.
 struct Launch {
@@ -73,13 +74,12 @@ std::string LastLine(const std::string& file) {
   return last;
 }
 
-/// By SIGSTOP or a debugger: the third field of /proc/PID/stat, behind the name in brackets.
+/// By a signal, not by a debugger: the third field of /proc/PID/stat, behind the name in brackets.
 bool IsStopped(pid_t pid) {
   std::string stat;
   std::getline(std::ifstream(fmt::format("/proc/{}/stat", pid)), stat);
   const auto name_end = stat.rfind(')');
-  return name_end != std::string::npos && stat.size() > name_end + 2 &&
-         (stat[name_end + 2] == 'T' || stat[name_end + 2] == 't');
+  return name_end != std::string::npos && stat.size() > name_end + 2 && stat[name_end + 2] == 'T';
 }
 
 std::string HowEnded(int status, const std::string& output_file) {
@@ -94,7 +94,8 @@ std::string HowEnded(int status, const std::string& output_file) {
 Supervisor::Supervisor(std::vector<ProcessSpec> specs, std::string output_folder, Tell tell)
     : output_folder_(std::move(output_folder)), tell_(std::move(tell)) {
   for (ProcessSpec& spec : specs) {
-    const WatchPolicy policy = spec.policy;
+    WatchPolicy policy = spec.policy;
+    if (!spec.notifies) policy.watchdog = Duration::zero();
     children_.push_back({std::move(spec), ProcessWatch(policy), 0});
   }
   CheckOrder();
@@ -141,7 +142,8 @@ std::string Supervisor::OutputFile(const Child& child) const {
 
 void Supervisor::Step(Time now) {
   Listen(now);
-  LookAtTheMute(now);
+  ForgiveOwnSilence(now);
+  LookForStopped(now);
   Reap(now);
   for (Child& child : children_) Act(child, now);
 }
@@ -158,10 +160,20 @@ void Supervisor::Listen(Time now) {
   }
 }
 
-/// Of a process that says nothing only its state can be seen: one that was stopped does not work.
-void Supervisor::LookAtTheMute(Time now) {
+/// While this process stood still nobody could be heard: what was said then did not fit into the socket.
+void Supervisor::ForgiveOwnSilence(Time now) {
+  if (last_step_ != Time{} && now - last_step_ > kOwnSilence)
+    for (Child& child : children_) child.watch.SaidAlive(now);
+  last_step_ = now;
+}
+
+/// A stopped process does not work, also one of those that never say so; to see it takes no waiting for its
+/// watchdog, and a busy machine does not look like it.
+void Supervisor::LookForStopped(Time now) {
+  if (now < next_look_) return;
+  next_look_ = now + kLookPeriod;
   for (Child& child : children_)
-    if (!child.spec.notifies && child.pid != 0 && !IsStopped(child.pid)) child.watch.SaidAlive(now);
+    if (child.pid != 0) child.watch.SeenStopped(IsStopped(child.pid), now);
 }
 
 void Supervisor::Reap(Time now) {

@@ -19,9 +19,8 @@ struct ProcessSpec {
   std::string group;                   ///< for the eye
   std::vector<std::string> arguments;  ///< the first one is the program's path
   std::vector<std::string> after;      ///< names that must be ready before it starts
-  bool notifies =
-      true;  ///< says READY and WATCHDOG; else it is ready as soon as it runs, and hangs when stopped
-  std::string folder;  ///< working directory; empty: this process's
+  bool notifies = true;                ///< says READY and WATCHDOG; else it is ready as soon as it runs
+  std::string folder;                  ///< working directory; empty: this process's
   WatchPolicy policy;
 };
 
@@ -71,7 +70,8 @@ class Supervisor {
   };
   void CheckOrder() const;
   void Listen(Time now);
-  void LookAtTheMute(Time now);
+  void ForgiveOwnSilence(Time now);
+  void LookForStopped(Time now);
   void Reap(Time now);
   void Act(Child& child, Time now);
   void Start(Child& child, Time now);
@@ -84,6 +84,7 @@ class Supervisor {
   Tell tell_;
   NotifySocket notify_;
   std::vector<Child> children_;
+  Time last_step_{}, next_look_{};
 };
 
 }  // namespace priamos::cli

@@ -1,7 +1,9 @@
 // Driving by hand with real processes, the real spacenavd and a radio on pseudo terminals: latency from the
 // stick to the wheels, stops when something ends, e-stops through a full radio, crashes and hangs of every
 // process.
-//   scripts/in-private-network build/bin/bench_driving [--latency N] [--stops N] [--estop N] [--crashes N]
+//   scripts/in-private-network build/bin/bench_driving [--latency N] [--stops N] [--estop N]
+//   [--estop-saturated N]
+//     [--crashes N] [--stalls N]
 // Needs a quiet machine: prints the load before and after. Exit 1 if a promise is broken.
 #include <fmt/format.h>
 
@@ -35,7 +37,7 @@ int main(int argc, char** argv) {
   RigOptions options;
   options.source_folder = PRIAMOS_SOURCE_DIR;
   options.program_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
-  int latency = 0, stops = 0, estop = 0, saturated = 0, crashes = 0;
+  int latency = 0, stops = 0, estop = 0, saturated = 0, crashes = 0, stalls = 0;
   CLI::App app("Driving by hand: what is promised, measured");
   app.add_option("--latency", latency, "samples from the stick to the wheels, from rest and on the way");
   app.add_option("--stops", stops,
@@ -44,6 +46,7 @@ int main(int argc, char** argv) {
   app.add_option("--estop-saturated", saturated,
                  "e-stops through a radio that has more to carry than it can");
   app.add_option("--crashes", crashes, "kills and hangs of every process while it drives");
+  app.add_option("--stalls", stalls, "short stops of every process, after which it goes on with what it had");
   app.add_option("--seed", options.seed, "of moments and of the simulated hardware")->capture_default_str();
   app.add_option("--programs", options.program_folder, "where priamos-* are")->capture_default_str();
   app.add_option("--source", options.source_folder, "the tree with the configuration")->capture_default_str();
@@ -56,6 +59,7 @@ int main(int argc, char** argv) {
     if (stops > 0) broken += StudyStops(options, stops);
     if (estop > 0 || saturated > 0) broken += StudyEstop(options, estop, saturated);
     if (crashes > 0) broken += StudyCrashes(options, crashes);
+    if (stalls > 0) broken += StudyStalls(options, stalls);
     fmt::print("load {}; {}\n", Load(),
                broken == 0 ? "every promise held" : fmt::format("{} BROKEN", broken));
     return broken == 0 ? 0 : 1;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "test/bench/driving_freshness.hpp"
 #include "test/bench/driving_studies.hpp"
 
 namespace priamos::bench {
@@ -17,7 +18,10 @@ constexpr double kUsefulWithin_ms = 3000;
 constexpr Duration kHandOn{500'000};
 /// After that no wheel command but zero: the bound of the stops.
 constexpr Duration kLastMotion{300'000};
-constexpr Duration kStall{600'000};  ///< shorter than any watchdog
+constexpr Duration kStall{
+    600'000};  ///< shorter than any watchdog: what is old by then is still in the queues
+constexpr Duration kFreeze{3'000'000};
+constexpr double kLongestGap_ms = 100;
 constexpr double kStands_m_s = 0.02;
 
 enum class Fault { kKilled, kHung, kStalled };
@@ -28,7 +32,13 @@ const char* Text(Fault fault) {
 
 struct Outcome {
   Sample stands, useful;
-  int never_useful = 0, moved_after = 0, no_drive = 0;
+  int never_useful = 0, moved_after = 0, no_drive = 0, stale = 0;
+  Duration oldest{};
+
+  bool held(double useful_within_ms) const {
+    return never_useful == 0 && moved_after == 0 && no_drive == 0 && stale == 0 &&
+           useful.Largest() <= useful_within_ms && stands.size() == useful.size();
+  }
 };
 
 class CrashStudy {
@@ -37,47 +47,98 @@ class CrashStudy {
   const DrivingRig& rig() const { return rig_; }
 
   void Episode(const std::string& name, Fault fault, Outcome& outcome) {
+    rig_.Forget();
     if (!Drives()) {
       ++outcome.no_drive;
       fmt::print(stderr, "{} {}: no episode, the base does not drive\n", name, Text(fault));
       return;
     }
     rig_.Wait(rig_.rng.Uniform(0, 0.1));
-    rig_.Forget();
-    const Time when = rig_.Now();
-    const int starts = rig_.Starts(name);
+    Watch watch{name, fault, rig_.Now(), rig_.Starts(name), {}, {}, {}};
     kill(rig_.Pid(name), fault == Fault::kKilled ? SIGKILL : SIGSTOP);
-    bool hand_is_on = true, stalled = fault == Fault::kStalled;
-    Time stands{}, useful{};
-    rig_.Until(
-        [&] {
-          const Time now = rig_.Now();
-          if (hand_is_on && now - when > kHandOn) rig_.LetGo(), hand_is_on = false;
-          if (stalled && now - when > kStall) kill(rig_.Pid(name), SIGCONT), stalled = false;
-          const auto& t = rig_.truth;
-          if (stands == Time{} && t.at > when && std::hypot(t.message.vx_m_s, t.message.vy_m_s) < kStands_m_s)
-            stands = now;
-          const bool again = fault == Fault::kStalled ? now - when > kStall
-                                                      : rig_.Starts(name) > starts && rig_.IsReady(name);
-          if (!again) begin_ = now;
-          if (again && useful == Time{}) Tap(now);
-          if (useful == Time{} && again && Works(name, begin_)) useful = now;
-          return useful != Time{} && stands != Time{} && now - when > std::chrono::seconds(2);
-        },
-        std::chrono::seconds(12));
-    if (stands != Time{}) outcome.stands.Add(stands - when);
-    if (useful != Time{}) outcome.useful.Add(useful - when);
-    outcome.never_useful += useful == Time{};
-    outcome.moved_after += std::any_of(rig_.wheels.begin(), rig_.wheels.end(), [&](const auto& w) {
-      return w.at > when + kHandOn + kLastMotion && !DrivingRig::IsZero(w.message);
-    });
-    fmt::print(stderr, "{} {}: stands after {:.2f} s, useful after {:.2f} s, {}\n", name, Text(fault),
-               stands == Time{} ? NAN : Seconds(stands - when),
-               useful == Time{} ? NAN : Seconds(useful - when), rig_.Reason(name));
+    rig_.Until([&] { return Step(watch); }, std::chrono::seconds(12));
+    Judge(watch, outcome);
     if (name == "offboard-teleop" && fault != Fault::kStalled) rig_.ForgetRange();
   }
 
+  /// The supervisor itself stands still for a while: nobody needs it for driving, and nobody is blamed.
+  void Freeze(Sample& gaps, Outcome& outcome) {
+    rig_.Forget();
+    if (!Drives()) {
+      ++outcome.no_drive;
+      return;
+    }
+    const Time when = rig_.Now();
+    const int starts = rig_.AllStarts();
+    rig_.supervisor_frozen = true;
+    rig_.Wait(Seconds(kFreeze) / 2);
+    rig_.LetGo();
+    rig_.Wait(Seconds(kFreeze) / 2);
+    rig_.supervisor_frozen = false;
+    rig_.Wait(1.5);
+    outcome.never_useful += rig_.AllStarts() != starts;
+    Duration gap{};
+    for (std::size_t i = 1; i < rig_.wheels.size(); ++i)
+      if (rig_.wheels[i].at > when) gap = std::max(gap, rig_.wheels[i].at - rig_.wheels[i - 1].at);
+    gaps.Add(std::max(gap, rig_.Now() - rig_.wheels.back().at));
+    CountStale(outcome);
+  }
+
  private:
+  /// One fault and what came of it.
+  struct Watch {
+    std::string name;
+    Fault fault;
+    Time when;
+    int starts = 0;
+    Time again, stands, useful;  ///< again: it runs anew, or goes on
+    bool hand_is_on = true;
+  };
+
+  /// Returns whether everything has been seen.
+  bool Step(Watch& w) {
+    const Time now = rig_.Now();
+    if (w.hand_is_on && now - w.when > kHandOn) rig_.LetGo(), w.hand_is_on = false;
+    const auto& t = rig_.truth;
+    if (w.stands == Time{} && t.at > w.when && std::hypot(t.message.vx_m_s, t.message.vy_m_s) < kStands_m_s)
+      w.stands = now;
+    if (w.again == Time{}) w.again = RunsAgain(w, now);
+    if (w.again != Time{} && w.useful == Time{}) {
+      if (w.name == "onboard-head") AskHead(now);
+      if (!w.hand_is_on) Tap(now);
+      if (Works(w)) w.useful = now;
+    }
+    return w.useful != Time{} && w.stands != Time{} && now - w.when > std::chrono::seconds(2);
+  }
+
+  Time RunsAgain(const Watch& w, Time now) {
+    if (w.fault != Fault::kStalled) return rig_.Starts(w.name) > w.starts ? now : Time{};
+    if (now - w.when <= kStall) return Time{};
+    kill(rig_.Pid(w.name), SIGCONT);
+    return now;
+  }
+
+  void Judge(const Watch& w, Outcome& outcome) {
+    if (w.stands != Time{}) outcome.stands.Add(w.stands - w.when);
+    if (w.useful != Time{}) outcome.useful.Add(w.useful - w.when);
+    outcome.never_useful += w.useful == Time{};
+    outcome.moved_after += std::any_of(rig_.wheels.begin(), rig_.wheels.end(), [&](const auto& seen) {
+      return seen.at > w.when + kHandOn + kLastMotion && !DrivingRig::IsZero(seen.message);
+    });
+    const Duration oldest = CountStale(outcome);
+    fmt::print(stderr, "{} {}: stands after {:.2f} s, useful after {:.2f} s, oldest command {:.0f} ms, {}\n",
+               w.name, Text(w.fault), w.stands == Time{} ? NAN : Seconds(w.stands - w.when),
+               w.useful == Time{} ? NAN : Seconds(w.useful - w.when), 1e3 * Seconds(oldest),
+               rig_.Reason(w.name));
+  }
+
+  Duration CountStale(Outcome& outcome) {
+    const Freshness fresh = MeasureFreshness(rig_.wheels, rig_.onboard_commands);
+    outcome.stale += fresh.stale;
+    outcome.oldest = std::max(outcome.oldest, fresh.oldest);
+    return fresh.oldest;
+  }
+
   bool Drives() {
     for (int attempt = 0; attempt < 3; ++attempt) {
       if (rig_.onboard_status.message.estop) rig_.Rearm();
@@ -98,57 +159,102 @@ class CrashStudy {
     return std::any_of(rig_.lease_requests.begin(), rig_.lease_requests.end(), newer) ||
            std::any_of(rig_.offboard_commands.begin(), rig_.offboard_commands.end(), newer);
   }
-  bool HealthyAgain(const std::string& process, Time begin) const {
-    return std::any_of(rig_.healths.begin(), rig_.healths.end(), [&](const auto& h) {
-      return h.at > begin && h.message.process == process && h.message.state == health_t::OK;
-    });
+  /// It turns on request as long as its motors answer.
+  void AskHead(Time now) {
+    if (now - when_asked_ < milliseconds(60)) return;
+    when_asked_ = now;
+    rig_.TurnHead();
   }
 
-  /// Does its own job again, with something that was made after `begin`.
-  bool Works(const std::string& name, Time begin) const {
+  /// Does its own job again, with something that was made after it began to run again.
+  bool Works(const Watch& w) const {
+    const Time begin = w.again;
+    const std::string& name = w.name;
     const auto newer = [&](const auto& seen) {
       return seen.at > begin && FromUtime(seen.message.utime) > begin;
     };
     if (name == "onboard-world") return newer(rig_.wheel_state) && newer(rig_.truth);
     if (name == "onboard-robot") return newer(rig_.onboard_status);
-    if (name == "onboard-head") return HealthyAgain("head", begin);
+    if (name == "onboard-head") return newer(rig_.head_command);
     if (name == "offboard-planner") return newer(rig_.mission);
     if (name == "offboard-teleop" || name == "spacenavd") return HeardTheTap(begin);
     return newer(rig_.offboard_status);  // a radio or the line: something has come across
   }
 
   DrivingRig rig_;
-  Time begin_{}, when_tapped_{};
+  Time when_tapped_{}, when_asked_{};
 };
+
+RigOptions WithEverything(const RigOptions& base) {
+  RigOptions options = base;
+  options.own_line = false;
+  options.modules = {"world", "robot", "head", "radio", "planner", "teleop"};
+  return options;
+}
+
+using Outcomes = std::map<std::string, std::map<Fault, Outcome>>;
+
+void PrintHead(const std::string& what) {
+  fmt::print("\n{} [ms]\n  {:<18} {:<14} {:>4} {:>10} {:>8}   {:>10} {:>8} {:>8} {:>12} {:>7} {:>9} {:>11}\n",
+             what, "process", "", "n", "stands p50", "most", "useful p50", "most", "never", "moved after",
+             "stale", "oldest", "no episode");
+}
+
+int Print(const Outcomes& outcomes) {
+  int broken = 0;
+  for (const auto& [name, by_fault] : outcomes) {
+    for (const auto& [fault, o] : by_fault) {
+      const bool held = o.held(kUsefulWithin_ms);
+      broken += !held;
+      fmt::print(
+          "  {:<18} {:<14} {:>4} {:>10.0f} {:>8.0f}   {:>10.0f} {:>8.0f} {:>8} {:>12} {:>7} {:>9.0f} {:>11}  "
+          "{}\n",
+          name, Text(fault), o.useful.size(), o.stands.Percentile(50), o.stands.Largest(),
+          o.useful.Percentile(50), o.useful.Largest(), o.never_useful, o.moved_after, o.stale,
+          1e3 * Seconds(o.oldest), o.no_drive, held ? "held" : "BROKEN");
+    }
+  }
+  return broken;
+}
+
+int PrintFreeze(const Sample& gaps, const Outcome& o) {
+  const bool held =
+      o.never_useful == 0 && o.stale == 0 && o.no_drive == 0 && gaps.Largest() <= kLongestGap_ms;
+  fmt::print(
+      "\nThe supervisor stands still for {:.0f} s, {} times: longest gap of wheel commands {:.0f} ms, "
+      "{} times something was started again, {} stale, {} no episode  {}\n",
+      Seconds(kFreeze), gaps.size(), gaps.Largest(), o.never_useful, o.stale, o.no_drive,
+      held ? "held" : "BROKEN");
+  return !held;
+}
 
 }  // namespace
 
 int StudyCrashes(const RigOptions& base, int rounds) {
-  RigOptions options = base;
-  options.own_line = false;
-  options.modules = {"world", "robot", "head", "radio", "planner", "teleop"};
-  CrashStudy study(options);
-  std::map<std::string, std::map<Fault, Outcome>> outcomes;
+  CrashStudy study(WithEverything(base));
+  Outcomes outcomes;
+  Outcome frozen;
+  Sample gaps;
   // In turn, so that each has run for a while before it is its turn again.
-  for (int i = 0; i < rounds; ++i)
-    for (const Fault fault : {Fault::kKilled, Fault::kHung, Fault::kStalled})
+  for (int i = 0; i < rounds; ++i) {
+    for (const Fault fault : {Fault::kKilled, Fault::kHung})
       for (const std::string& name : study.rig().Names()) study.Episode(name, fault, outcomes[name][fault]);
-  fmt::print("\nCrashes and hangs at full speed; the hand pushes on for 0.5 s [ms]\n");
-  fmt::print("  {:<18} {:<14} {:>4} {:>10} {:>8}   {:>10} {:>8} {:>8} {:>12} {:>11}\n", "process", "", "n",
-             "stands p50", "most", "useful p50", "most", "never", "moved after", "no episode");
-  int broken = 0;
-  for (const auto& [name, by_fault] : outcomes) {
-    for (const auto& [fault, o] : by_fault) {
-      const bool held = o.never_useful == 0 && o.moved_after == 0 && o.no_drive == 0 &&
-                        o.useful.Largest() <= kUsefulWithin_ms && o.stands.size() == o.useful.size();
-      broken += !held;
-      fmt::print("  {:<18} {:<14} {:>4} {:>10.0f} {:>8.0f}   {:>10.0f} {:>8.0f} {:>8} {:>12} {:>11}  {}\n",
-                 name, Text(fault), o.useful.size(), o.stands.Percentile(50), o.stands.Largest(),
-                 o.useful.Percentile(50), o.useful.Largest(), o.never_useful, o.moved_after, o.no_drive,
-                 held ? "held" : "BROKEN");
-    }
+    study.Freeze(gaps, frozen);
   }
-  return broken;
+  PrintHead("Crashes and hangs at full speed; the hand pushes on for 0.5 s");
+  return Print(outcomes) + PrintFreeze(gaps, frozen);
+}
+
+int StudyStalls(const RigOptions& base, int rounds) {
+  RigOptions options = WithEverything(base);
+  options.patient = true;
+  CrashStudy study(options);
+  Outcomes outcomes;
+  for (int i = 0; i < rounds; ++i)
+    for (const std::string& name : study.rig().Names())
+      study.Episode(name, Fault::kStalled, outcomes[name][Fault::kStalled]);
+  PrintHead("Stopped for a moment and let go on, at full speed; the hand pushes on for 0.5 s");
+  return Print(outcomes);
 }
 
 }  // namespace priamos::bench

@@ -81,8 +81,10 @@ DrivingRig::DrivingRig(const RigOptions& options)
       wheel_state_(onboard_.Subscribe(channels::kWheelState)),
       offboard_link_(offboard_.Subscribe(channels::kLinkStatus)),
       mission_(offboard_.Subscribe(channels::kMissionStatus)),
+      head_command_(onboard_.Subscribe(channels::kHeadCommand)),
       onboard_estop_(onboard_.Advertise(channels::kEstop)),
       offboard_estop_(offboard_.Advertise(channels::kEstop)),
+      head_drive_(onboard_.Advertise(channels::kHeadDrive)),
       bulk_(offboard_, "BULK"),
       mouse_tty_(cli::MouseTty(place_)),
       mouse_(kFullScale) {
@@ -99,6 +101,7 @@ std::vector<cli::ProcessSpec> DrivingRig::Plan() const {
   auto plan = cli::PlanOf(deployment_, place_);
   for (cli::ProcessSpec& spec : plan) {
     if (options_.stable_after > Duration::zero()) spec.policy.stable_after = options_.stable_after;
+    if (options_.patient) spec.policy.stopped = std::chrono::hours(1);
     const bool radio = spec.name.ends_with("-radio");
     if (radio && options_.own_line)
       spec.arguments.insert(spec.arguments.end(), {"--port", place_.run_folder + "/tty-" +
@@ -170,7 +173,7 @@ void DrivingRig::Step() {
   pollfd fds[] = {{onboard_bus_.fd(), POLLIN, 0},
                   {offboard_bus_.fd(), POLLIN, 0},
                   {mouse_tty_.fd(), POLLIN, 0},
-                  {supervisor_->fd(), POLLIN, 0},
+                  {supervisor_frozen ? -1 : supervisor_->fd(), POLLIN, 0},
                   {signals_.fd(), POLLIN, 0}};
   poll(fds, std::size(fds), 1);
   if (fds[4].revents != 0) throw std::runtime_error("stopped by a signal");
@@ -179,7 +182,7 @@ void DrivingRig::Step() {
   Collect();
   MoveMouse();
   if (options_.saturated) Saturate();
-  supervisor_->Step(clock_.Now());
+  if (!supervisor_frozen) supervisor_->Step(clock_.Now());
 }
 
 void DrivingRig::Collect() {
@@ -197,6 +200,7 @@ void DrivingRig::Collect() {
   Replace(wheel_state_, now, wheel_state);
   Replace(offboard_link_, now, offboard_link);
   Replace(mission_, now, mission);
+  Replace(head_command_, now, head_command);
 }
 
 void DrivingRig::Forget() {
@@ -285,6 +289,16 @@ bool DrivingRig::Rearm() {
       milliseconds(1000));
 }
 
+void DrivingRig::TurnHead() {
+  head_drive_t message{};
+  message.utime = ToUtime(clock_.Now());
+  message.session = 77;
+  message.sequence = ++head_wishes_ % 65536;
+  message.time_to_live_s = 0.3;
+  message.pan_rad_s = head_wishes_ % 2 == 0 ? 0.1 : -0.1;
+  head_drive_.Publish(message);
+}
+
 pid_t DrivingRig::Pid(const std::string& name) const {
   for (const auto& p : supervisor_->Report())
     if (p.name == name) return p.pid;
@@ -302,6 +316,12 @@ int DrivingRig::Starts(const std::string& name) const {
   for (const auto& p : supervisor_->Report())
     if (p.name == name) return p.starts;
   return 0;
+}
+
+int DrivingRig::AllStarts() const {
+  int all = 0;
+  for (const auto& p : supervisor_->Report()) all += p.starts;
+  return all;
 }
 
 std::string DrivingRig::Reason(const std::string& name) const {

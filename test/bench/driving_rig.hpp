@@ -75,6 +75,7 @@ struct RigOptions {
   bool saturated = false;  ///< more is offered to the radio, towards the robot, than it can carry
   /// After so long a process counts as stable and its back-off begins anew; 0: as always.
   Duration stable_after{};
+  bool patient = false;  ///< the supervisor lets a stopped process be
   std::uint64_t seed = 1;
 };
 
@@ -98,6 +99,7 @@ class DrivingRig {
 
   teleop::Stick hand;  ///< what the hand does from now on
   bool mouse_plugged = true;
+  bool supervisor_frozen = false;  ///< as if it were stopped: it reads nothing and does nothing
   /// When the mouse last told of a change of the hand.
   Time mouse_spoke() const { return mouse_spoke_; }
 
@@ -115,6 +117,7 @@ class DrivingRig {
   pid_t Pid(const std::string& name) const;
   bool IsReady(const std::string& name) const;
   int Starts(const std::string& name) const;
+  int AllStarts() const;
   std::vector<std::string> Names() const;
   std::string Reason(const std::string& name) const;
   /// What a process was told to do with its range key is forgotten when it starts again.
@@ -131,7 +134,10 @@ class DrivingRig {
   Seen<wheel_state_t> wheel_state;
   Seen<link_status_t> offboard_link;
   Seen<mission_status_t> mission;
+  Seen<head_command_t> head_command;
   std::vector<Seen<health_t>> healths;
+  /// A wish to turn the head a little, on the robot's own bus.
+  void TurnHead();
 
   static bool IsZero(const wheel_command_t& command);
   /// Mean of the wheels: the part that drives straight on. [rad/s]
@@ -166,13 +172,16 @@ class DrivingRig {
   bus::Latest<wheel_state_t> wheel_state_;
   bus::Latest<link_status_t> offboard_link_;
   bus::Latest<mission_status_t> mission_;
+  bus::Latest<head_command_t> head_command_;
   bus::Publisher<estop_t> onboard_estop_, offboard_estop_;
+  bus::Publisher<head_drive_t> head_drive_;
   bus::Publisher<health_t> bulk_;
   cli::PseudoTerminal mouse_tty_;
   teleop::EmulatedMouse mouse_;
   teleop::Stick told_;
   Time mouse_spoke_{}, next_bulk_{};
   bool fast_ = false;
+  int head_wishes_ = 0;
   std::unique_ptr<StudyLine> line_;
   std::unique_ptr<cli::Supervisor> supervisor_;
 };

@@ -9,5 +9,6 @@ int StudyLatency(const RigOptions& options, int samples);
 int StudyStops(const RigOptions& options, int episodes);
 int StudyEstop(const RigOptions& options, int episodes, int saturated_episodes);
 int StudyCrashes(const RigOptions& options, int rounds);
+int StudyStalls(const RigOptions& options, int rounds);
 
 }  // namespace priamos::bench

@@ -83,6 +83,29 @@ TEST_F(ProcessWatchTest, OneThatHangsIsKilledAndStartedAgainWithinThreeSeconds) 
   EXPECT_LT(now_ - hung, milliseconds(2200));
 }
 
+TEST_F(ProcessWatchTest, OneThatIsStoppedNeedNotWaitForItsWatchdog) {
+  BecomeReady();
+  dut_.SeenStopped(true, now_);
+  const Time stopped = now_;
+  EXPECT_EQ(Wait(seconds(20)), Action::kKill) << "though what it had said before is still being read";
+  EXPECT_NEAR(Seconds(now_ - stopped), 0.2, 0.02);
+  dut_.Exited("killed by signal 9", now_);
+  EXPECT_THAT(dut_.reason(), HasSubstr("hung: stopped for 0.2 s"));
+  EXPECT_EQ(Wait(seconds(20)), Action::kStart);
+  dut_.Started(now_);
+  dut_.SaidReady(now_);
+  EXPECT_EQ(Wait(seconds(5)), Action::kNone) << "the next one is not stopped";
+}
+
+TEST_F(ProcessWatchTest, OneThatStopsForAMomentGoesOn) {
+  BecomeReady();
+  for (int i = 0; i < 20; ++i) {
+    dut_.SeenStopped(true, now_);
+    EXPECT_EQ(Wait(milliseconds(150)), Action::kNone);
+    dut_.SeenStopped(false, now_);
+  }
+}
+
 TEST_F(ProcessWatchTest, BacksOffLongerAndLongerUpToHalfAMinute) {
   Start();
   for (const double expected_s : {1, 2, 4, 8, 16, 30, 30}) EXPECT_NEAR(BackOff(), expected_s, 0.05);

@@ -102,12 +102,20 @@ TEST_F(SupervisorTest, StartsAgainWhatWasKilledAndKeepsItsConsole) {
 }
 
 TEST_F(SupervisorTest, KillsAndStartsAgainWhatHangs) {
+  Supervisor dut({Python("a", "say(b'READY=1')\ntime.sleep(60)\n")}, folder_, Told());
+  ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
+  const pid_t first = dut.Report()[0].pid;
+  ASSERT_TRUE(Until(dut, [&] { return dut.AllReady() && dut.Report()[0].pid != first; }));
+  EXPECT_THAT(dut.Report()[0].reason, HasSubstr("hung: silent"));
+}
+
+TEST_F(SupervisorTest, KillsAndStartsAgainWhatIsStopped) {
   Supervisor dut({Python("a", kWell)}, folder_, Told());
   ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
   const pid_t first = dut.Report()[0].pid;
   kill(first, SIGSTOP);
   ASSERT_TRUE(Until(dut, [&] { return dut.AllReady() && dut.Report()[0].pid != first; }));
-  EXPECT_THAT(dut.Report()[0].reason, HasSubstr("hung"));
+  EXPECT_THAT(dut.Report()[0].reason, HasSubstr("hung: stopped"));
 }
 
 TEST_F(SupervisorTest, OneThatSaysNothingHangsWhenItIsStopped) {
@@ -155,6 +163,17 @@ TEST_F(SupervisorTest, ReadyFromAnotherProcessDoesNotCount) {
                  folder_, Told());
   ASSERT_TRUE(Until(dut, [&] { return dut.Report()[1].state == ProcessState::kReady; }));
   EXPECT_EQ(dut.Report()[0].state, ProcessState::kStarting);
+}
+
+/// The supervisor itself stood still, longer than the watchdog: nobody is to blame for what it did not hear.
+TEST_F(SupervisorTest, ForgivesWhatItCouldNotHearItself) {
+  const std::string loud = "say(b'READY=1')\nwhile True:\n  say(b'WATCHDOG=1'); time.sleep(0.005)\n";
+  Supervisor dut({Python("a", kWell), Python("b", loud)}, folder_, Told());
+  ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
+  std::this_thread::sleep_for(milliseconds(1500));
+  EXPECT_FALSE(Until(
+      dut, [&] { return !dut.AllReady(); }, milliseconds(1000)));
+  EXPECT_EQ(dut.Report()[0].starts + dut.Report()[1].starts, 2);
 }
 
 /// The supervisor itself is killed: its children die with it, also one that is stopped.

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <string_view>
+
+#include "common/time.hpp"
+
+namespace priamos::bus {
+
+/// Tells whoever started this process, by the protocol of sd_notify(3), that it is ready and that it is
+/// alive. Unlike sd_notify it never waits: ten messages that nobody reads fill the socket, and a supervisor
+/// that stands still must not make its processes stand still as well.
+class ServiceNotifier {
+ public:
+  /// Without NOTIFY_SOCKET nobody wants to know.
+  ServiceNotifier();
+  /// `address`: a path, or @ and a name in the abstract namespace; null or empty: nobody.
+  explicit ServiceNotifier(const char* address);
+  ~ServiceNotifier();
+  ServiceNotifier(const ServiceNotifier&) = delete;
+  ServiceNotifier& operator=(const ServiceNotifier&) = delete;
+
+  /// Call it after every useful piece of work: READY and WATCHDOG after the first one, WATCHDOG every 0.2 s.
+  void Beat(Time now);
+
+ private:
+  bool Say(std::string_view text);
+
+  int fd_ = -1;
+  sockaddr_un address_{};
+  socklen_t length_ = 0;
+  bool told_ready_ = false;
+  Time next_{};
+};
+
+}  // namespace priamos::bus
