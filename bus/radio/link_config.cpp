@@ -99,7 +99,8 @@ void LinkChannelConfig::Describe(Archive& a) {
   a.Integer("priority", priority, {"-", 0, 15, "0 goes first"});
   a.Number("ttl_s", ttl_s, {"s", 0, 600, "not sent when older, a command not obeyed either; 0: no limit"});
   a.Number("deadline_s", deadline_s, {"s", 0, 600, "latest arrival that the budget must guarantee; 0: any"});
-  a.Flag("urgent", urgent, "goes at once, also in the middle of another frame");
+  a.Flag("urgent", urgent,
+         "goes at once, also in the middle of another frame; as an event never held back by its rate");
   a.Flag("on_request", on_request, "is sent only while somebody listens on the other side");
   a.Flag("delta", delta,
          "sent as difference to one that the other end is known to have, whenever that is shorter");

@@ -89,15 +89,11 @@ double SendQueue::Effective(const LinkChannel& channel, Time since, Time now) co
   return channel.priority - std::floor(Seconds(waited) / Seconds(ageing_));
 }
 
-/// An urgent event goes before repetitions of those before it, unless its rate holds it back: that must not
-/// hold back the repetitions as well.
-bool SendQueue::FreshFirst(const Lane& lane, Time now) {
-  return lane.channel->urgent && (!lane.events.NextIsNew(now, true) || lane.event_rate.Allows(now));
-}
-
+/// The rate of an urgent event is what the budget reckons with, and no limit: it goes at once, and before
+/// repetitions of those before it.
 bool SendQueue::EventReady(const Lane& lane, Time now) {
   return lane.events.Ready(now) &&
-         (!lane.events.NextIsNew(now, FreshFirst(lane, now)) || lane.event_rate.Allows(now));
+         (lane.channel->urgent || !lane.events.NextIsNew(now) || lane.event_rate.Allows(now));
 }
 
 void SendQueue::AddReady(const Lane& lane, std::size_t index, Time now, std::vector<Candidate>& ready) const {
@@ -152,17 +148,17 @@ Time SendQueue::OfferedAt(const Candidate& candidate) const {
 
 std::optional<EventSegment> SendQueue::PeekEvent(std::size_t channel, Time now) const {
   const Lane& lane = lanes_[channel];
-  return EventReady(lane, now) ? lane.events.Next(now, FreshFirst(lane, now)) : std::nullopt;
+  return EventReady(lane, now) ? lane.events.Next(now, lane.channel->urgent) : std::nullopt;
 }
 
 bool SendQueue::NextIsFresh(std::size_t channel, Time now) const {
   const Lane& lane = lanes_[channel];
-  return lane.events.NextIsFresh(now, FreshFirst(lane, now));
+  return lane.events.NextIsFresh(now, lane.channel->urgent);
 }
 
 void SendQueue::TakeEvent(std::size_t channel, std::uint8_t number, Time now, Time leaves_at) {
   Lane& lane = lanes_[channel];
-  const bool fresh_first = FreshFirst(lane, now);
+  const bool fresh_first = lane.channel->urgent;
   if (lane.events.NextIsNew(now, fresh_first))
     lane.event_rate.Use(std::max(lane.events.NextPackedAt(now, fresh_first), lane.event_rate.next()));
   lane.event_served = now;

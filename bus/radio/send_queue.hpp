@@ -88,7 +88,8 @@ class SendQueue {
   const std::vector<std::byte>& Peek(const Candidate& candidate) const;
   Time OfferedAt(const Candidate& candidate) const;
   QueuedMessage Take(const Candidate& candidate);
-  /// The segment an event channel would send next; the channel's rate only holds back new events.
+  /// The segment an event channel would send next; the channel's rate only holds back new events,
+  /// and no urgent ones.
   std::optional<EventSegment> PeekEvent(std::size_t channel, Time now) const;
   /// Whether that segment was never sent before.
   bool NextIsFresh(std::size_t channel, Time now) const;
@@ -126,7 +127,6 @@ class SendQueue {
   Slot* SlotFor(Lane& lane, std::string_view key);
   double Effective(const LinkChannel& channel, Time since, Time now) const;
   static bool EventReady(const Lane& lane, Time now);
-  static bool FreshFirst(const Lane& lane, Time now);
   void AddReady(const Lane& lane, std::size_t index, Time now, std::vector<Candidate>& ready) const;
 
   Direction outgoing_;

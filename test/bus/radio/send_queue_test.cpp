@@ -102,16 +102,13 @@ TEST_F(SendQueueTest, UrgentGoesBeforeTheRepetitionOfAnother) {
   EXPECT_EQ(SendAll(dut, kStopDown, After(1)), std::vector({1, 0}));
 }
 
-TEST_F(SendQueueTest, UrgentThatItsRateHoldsBackDoesNotHoldBackRepetitions) {
+TEST_F(SendQueueTest, UrgentEventIsNeverHeldBackByItsRate) {
   channels[kStopDown].rate_hz = 0.1;
   const ChannelTable table = Table();
   SendQueue dut(table, Direction::kDown, kAgeing);
-  for (const char* text : {"1", "2"}) dut.OfferEvent(kStopDown, Text(text), 8, kStart);
-  EXPECT_EQ(SendAll(dut, kStopDown, kStart), std::vector({0}));
-  EXPECT_FALSE(dut.UrgentReady(After(1), true));
-  EXPECT_TRUE(dut.UrgentReady(After(1)));
-  EXPECT_EQ(SendAll(dut, kStopDown, After(1)), std::vector({0}));
-  EXPECT_EQ(SendAll(dut, kStopDown, After(10)), std::vector({1, 0}));
+  for (const char* text : {"1", "2", "3"}) dut.OfferEvent(kStopDown, Text(text), 8, kStart);
+  EXPECT_TRUE(dut.UrgentReady(kStart, true));
+  EXPECT_EQ(SendAll(dut, kStopDown, kStart), std::vector({0, 1, 2}));
 }
 
 TEST_F(SendQueueTest, RateIsKept) {
