@@ -1,0 +1,109 @@
+// `priamos up`, `status`, `logs` and `down` as a person types them, with the real processes of config/sim.
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <regex>
+
+#include "test/support/temporary_folder.hpp"
+#include "test/system/private_network.hpp"
+
+namespace priamos {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+// `pids` of everything that is up; `running PID...` prints those that run (a zombie does not); `gone PID...`
+// waits 3 s for their end and prints who is left.
+const std::string kHelpers = R"sh(
+up() { $BIN/priamos up $SOURCE/config/sim --logs $LOGS "$@"; }
+# In the background; a shell would let it ignore Ctrl-C.
+start() { env --default-signal=INT $BIN/priamos up $SOURCE/config/sim --logs $LOGS > $1 & UP=$!; ready; }
+verb() { local v=$1; shift; $BIN/priamos $v --logs $LOGS "$@"; }
+pids() { grep -o '"pid": [1-9][0-9]*' $LOGS/up.json | cut -d' ' -f2; }
+pid_of() { grep -A3 "\"name\": \"$1\"" $LOGS/up.json | grep -o '"pid": [0-9]*' | cut -d' ' -f2; }
+running() { for p in "$@"; do grep -qs '^State:[[:space:]]*[^ZX]' /proc/$p/status && echo $p; done; }
+gone() {
+  for i in $(seq 60); do [ -z "$(running "$@")" ] && break; sleep 0.05; done
+  echo "left: $(running "$@" | wc -l)"
+}
+ready() {
+  for i in $(seq 400); do verb status > /dev/null && return; sleep 0.05; done
+  echo never ready; cat $LOGS/*/*.txt
+}
+)sh";
+
+class UpTest : public testing::Test {
+ protected:
+  ScriptAnswer RunScript(const std::string& script) const {
+    return RunInPrivateNetwork("LOGS=" + (folder_ / "logs").string() + "\n" + kHelpers + script,
+                               folder_ / "script.sh", 60);
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(UpTest, BringsEverythingUpStartsAgainWhatDiedTellsWhyAndEndsWithoutOrphans) {
+  const auto answer = RunScript(R"sh(
+    up --detach || echo failed
+    P=$(pids); echo "processes: $(echo $P | wc -w), running: $(running $P | wc -w)"
+    up && echo a second one
+    ROBOT=$(pid_of onboard-robot); kill -9 $ROBOT; gone $ROBOT
+    ready; verb status; echo "status: $?"
+    P=$(pids); verb logs onboard-robot
+    verb logs nobody; echo "nobody: $?"
+    verb down; echo "down: $?"
+    gone $P
+    verb status; echo "status: $?"
+    verb down; echo "down: $?"
+  )sh");
+  EXPECT_THAT(answer.text, HasSubstr("processes: 8, running: 8\n"));
+  EXPECT_THAT(answer.text, HasSubstr("expected nothing up, got `priamos up` with pid"));
+  EXPECT_THAT(answer.text, Not(HasSubstr("a second one")));
+  EXPECT_THAT(answer.text,
+              ContainsRegex("onboard-robot +onboard +ready +[0-9]+ +[0-9.]+ s +2  killed by signal 9"));
+  EXPECT_THAT(answer.text, HasSubstr("status: 0"));
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("--- start 1"), HasSubstr("--- start 2")))
+      << "its console is kept";
+  EXPECT_THAT(answer.text, HasSubstr("nobody: 2"));
+  EXPECT_THAT(answer.text, HasSubstr("everything is down\ndown: 0\nleft: 0\n"));
+  EXPECT_THAT(answer.text, HasSubstr("nothing is up\nstatus: 1\nnothing is up\ndown: 0\n"));
+  EXPECT_THAT(answer.text, Not(HasSubstr("failed")));
+}
+
+TEST_F(UpTest, LeavesNoOrphanAfterCtrlCNorAfterItsOwnDeathAndComesUpAgain) {
+  const auto answer = RunScript(R"sh(
+    start $LOGS.first; P=$(pids)
+    kill -INT $UP; wait $UP; echo "Ctrl-C: $?"; gone $P
+    start $LOGS.second; P=$(pids)
+    kill -STOP $(pid_of onboard-robot); kill -9 $UP; wait $UP; gone $P
+    verb status; up --detach > /dev/null && verb down
+    cat $LOGS.first
+  )sh");
+  EXPECT_THAT(answer.text, HasSubstr("Ctrl-C: 0\nleft: 0\n"));
+  EXPECT_THAT(answer.text, HasSubstr("left: 0\nnothing is up\neverything is down\n")) << "also a stopped one";
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("onboard-robot is ready"), HasSubstr("all processes are ready"),
+                                 HasSubstr("going down")))
+      << "progress is shown";
+}
+
+TEST_F(UpTest, WhileItIsStoppedItsProcessesGoOnAndAfterwardsNobodyIsBlamed) {
+  const auto answer = RunScript(R"sh(
+    start $LOGS.out
+    kill -STOP $UP; sleep 2
+    $BIN/priamos topic hz POSE --seconds 1
+    kill -CONT $UP; sleep 1.5
+    verb status; verb down; wait $UP
+  )sh");
+  std::smatch rate;
+  ASSERT_TRUE(std::regex_search(answer.text, rate, std::regex("POSE +priamos.pose_t +([0-9.]+)")))
+      << answer.text;
+  EXPECT_GT(std::stod(rate[1]), 25) << "50 poses a second on a machine that has time";
+  EXPECT_THAT(answer.text, Not(HasSubstr("hung")));
+  EXPECT_THAT(answer.text, ContainsRegex("onboard-robot +onboard +ready +[0-9]+ +[0-9.]+ s +1 "));
+}
+
+}  // namespace
+}  // namespace priamos
