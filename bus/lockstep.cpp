@@ -113,6 +113,14 @@ void Lockstep::AddApp(const AppFactory& factory, const std::string& bus, const C
   members_.push_back({std::move(app), &host});
 }
 
+void Lockstep::RemoveApp(const std::string& name, const std::string& bus) {
+  const auto dead = [&](const Member& m) { return m.app->name() == name && m.host->name == bus; };
+  // It ticks no more, but its bus has no end of a subscription.
+  for (Member& m : members_)
+    if (dead(m)) buried_.push_back(std::move(m.app));
+  std::erase_if(members_, [](const Member& m) { return !m.app; });
+}
+
 Time Lockstep::NextTick() const {
   Time next = Time::max();
   for (const auto& m : members_) next = std::min(next, m.app->next_tick());

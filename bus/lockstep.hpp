@@ -37,6 +37,8 @@ class Lockstep {
   void AddSerialLine(const std::string& end_a, const std::string& end_b, const radio::LineConfig& config);
   /// Throws what the App's start throws.
   void AddApp(const AppFactory& factory, const std::string& bus, const ConfigSource& source);
+  /// From now on it is gone, as if it had been killed; AddApp starts it again. Not while one ticks.
+  void RemoveApp(const std::string& name, const std::string& bus);
   /// Sees every message on every bus, in order.
   void SetTap(Tap tap) { tap_ = std::move(tap); }
   /// One end of a line, for the driver of the scenario. Throws std::runtime_error for an unknown name.
@@ -72,6 +74,7 @@ class Lockstep {
     Host* host;
   };
   std::vector<Member> members_;
+  std::vector<std::unique_ptr<AppHost>> buried_;
 };
 
 }  // namespace priamos::bus

@@ -52,6 +52,8 @@ ProcessSpec LineSpec(const Deployment& deployment, const LaunchPlace& place) {
                     fmt::format("{}", line.bit_error_rate),
                     "--seed",
                     std::to_string(place.seed)};
+  // Killed it leaves links to ttys whose numbers the next terminal of anybody on this machine gets.
+  spec.leftovers = {Tty(place, "onboard"), Tty(place, "offboard")};
   return spec;
 }
 

@@ -49,6 +49,11 @@ void MakeRaw(int fd) {
   tcsetattr(fd, TCSANOW, &settings);
 }
 
+void RemoveDeadLink(const std::string& link) {
+  std::error_code ignored;
+  if (fs::is_symlink(link, ignored)) fs::remove(link, ignored);
+}
+
 void MoveIn(PseudoTerminal& from, Line& line, Time now) {
   while (line.free_at() < now + kTtyBuffer) {
     const auto bytes = from.Read(kReadAtOnce);
@@ -140,6 +145,9 @@ Time EmulatedLine::NextArrival() const {
 int RunLinkEmulate(const LinkEmulateOptions& options) {
   const bus::SignalWatch signals;
   const bus::MonotonicClock clock;
+  // Both at once: the new tty of one end may have the number that a link left behind at the other end names.
+  RemoveDeadLink(options.a);
+  RemoveDeadLink(options.b);
   EmulatedLine line(options, clock.Now());
   std::cout << fmt::format("{} <-> {}: {} baud; Ctrl-C ends it\n", options.a, options.b, options.line.baud)
             << std::flush;

@@ -181,6 +181,7 @@ void Supervisor::Reap(Time now) {
     int status = 0;
     if (child.pid == 0 || waitpid(child.pid, &status, WNOHANG) != child.pid) continue;
     child.pid = 0;
+    for (const std::string& file : child.spec.leftovers) unlink(file.c_str());
     const bool asked = child.watch.state() == ProcessState::kStopping;
     child.watch.Exited(HowEnded(status, OutputFile(child)), now);
     if (!asked)

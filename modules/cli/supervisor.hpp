@@ -21,6 +21,7 @@ struct ProcessSpec {
   std::vector<std::string> after;      ///< names that must be ready before it starts
   bool notifies = true;                ///< says READY and WATCHDOG; else it is ready as soon as it runs
   std::string folder;                  ///< working directory; empty: this process's
+  std::vector<std::string> leftovers;  ///< files that lie about a living process: removed when it ended
   WatchPolicy policy;
 };
 

@@ -90,6 +90,7 @@ class SerialPort : public ByteStream {
   void Close() {
     if (fd_ >= 0) close(fd_);
     fd_ = -1;
+    try_again_ = Clock::now() + kTryAgain;  // what has just gone may still have its name
   }
   /// A port that was pulled out is looked for again now and then.
   bool Usable() {

@@ -105,8 +105,7 @@ class EstopStudy {
         if (message == Time{} && e.at >= pressed) message = e.at;
       // A zero before the message is a command that came too late; its own message may be seen after it.
       for (const auto& w : rig_.wheels)
-        if (zero == Time{} && message != Time{} && w.at >= message - kOrder && DrivingRig::IsZero(w.message))
-          zero = w.at;
+        if (zero == Time{} && message != Time{} && w.at >= message - kOrder && IsZero(w.message)) zero = w.at;
       return message != Time{} && zero != Time{};
     };
     if (!rig_.Until(stopped, milliseconds(3000))) {
@@ -156,9 +155,8 @@ class EstopStudy {
     rig_.hand.buttons &= ~DrivingRig::kEstopKey;
     rig_.Rearm();
     rig_.Wait(0.7);
-    outcome.moved_after += std::any_of(rig_.wheels.begin(), rig_.wheels.end(), [&](const auto& w) {
-      return w.at > zero && !DrivingRig::IsZero(w.message);
-    });
+    outcome.moved_after += std::any_of(rig_.wheels.begin(), rig_.wheels.end(),
+                                       [&](const auto& w) { return w.at > zero && !IsZero(w.message); });
   }
 
   RigOptions options_;

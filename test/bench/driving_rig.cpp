@@ -10,6 +10,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "test/support/saturated_link.hpp"
+
 namespace priamos::bench {
 namespace {
 
@@ -110,35 +112,12 @@ std::vector<cli::ProcessSpec> DrivingRig::Plan() const {
       spec.arguments.insert(spec.arguments.end(),
                             {"--set", "state_file=" + place_.run_folder + "/robot-state"});
     if (radio && options_.saturated)
-      spec.arguments.insert(spec.arguments.end(), {"--set", "link=" + SaturatedLink()});
+      spec.arguments.insert(
+          spec.arguments.end(),
+          {"--set", "link=" + WriteSaturatedLink(options_.source_folder + "/config/sim",
+                                                 place_.run_folder + "/link-saturated.toml")});
   }
   return plan;
-}
-
-/// What driving by hand needs of the shipped table, and as many long messages as the line can carry besides.
-std::string DrivingRig::SaturatedLink() const {
-  std::ifstream in(options_.source_folder + "/config/sim/link.toml");
-  const std::string file = place_.run_folder + "/link-saturated.toml";
-  std::ofstream out(file);
-  const std::array<std::string, 4> left_out{"LOOK_REQUEST", "PATH", "LANDMARK_MODEL", "HEAD_DRIVE"};
-  std::string channel;
-  const auto flush = [&] {
-    const bool left = std::any_of(left_out.begin(), left_out.end(), [&](const std::string& name) {
-      return channel.find("name = \"" + name + "\"") != std::string::npos;
-    });
-    if (!left) out << channel;
-    channel.clear();
-  };
-  for (std::string line; std::getline(in, line);) {
-    if (line == "[[channel]]") flush();
-    // Deadlines that the load breaks; that of the e-stop stays.
-    const bool estop = channel.find("\"ESTOP\"") != std::string::npos;
-    if (!line.starts_with("deadline_s") || estop) channel += line + "\n";
-  }
-  flush();
-  out << "\n[[channel]]\nname = \"BULK\"\ntype = \"health_t\"\ndirection = \"down\"\n"
-         "class = \"state\"\nrate_hz = 5\npriority = 3\nttl_s = 1.0\n";
-  return file;
 }
 
 void DrivingRig::Start() {
@@ -334,11 +313,6 @@ std::vector<std::string> DrivingRig::Names() const {
   std::vector<std::string> names;
   for (const auto& p : supervisor_->Report()) names.push_back(p.name);
   return names;
-}
-
-bool DrivingRig::IsZero(const wheel_command_t& command) {
-  return std::all_of(std::begin(command.speed_rad_s), std::end(command.speed_rad_s),
-                     [](double s) { return s == 0; });
 }
 
 double DrivingRig::Forward(const wheel_command_t& c) {

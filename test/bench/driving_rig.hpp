@@ -20,6 +20,7 @@
 #include "common/random.hpp"
 #include "lcmtypes/channels.hpp"
 #include "teleop/emulated_mouse.hpp"
+#include "test/support/drive_freshness.hpp"
 
 namespace priamos::bench {
 
@@ -57,13 +58,6 @@ class StudyLine {
   std::deque<Frame> down_;
   std::size_t bytes_ = 0;  ///< of the frame that is arriving
   std::thread thread_;
-};
-
-/// A message and when it was seen.
-template <class T>
-struct Seen {
-  Time at{};
-  T message{};
 };
 
 struct RigOptions {
@@ -139,7 +133,6 @@ class DrivingRig {
   /// A wish to turn the head a little, on the robot's own bus.
   void TurnHead();
 
-  static bool IsZero(const wheel_command_t& command);
   /// Mean of the wheels: the part that drives straight on. [rad/s]
   static double Forward(const wheel_command_t& command);
 
@@ -148,7 +141,6 @@ class DrivingRig {
 
  private:
   std::vector<cli::ProcessSpec> Plan() const;
-  std::string SaturatedLink() const;
   void Step();
   void Collect();
   void MoveMouse();

@@ -85,7 +85,7 @@ void Episode(DrivingRig& rig, End end, Outcome& outcome) {
   Time zero{};
   const auto is_zero = [&] {
     for (const auto& w : rig.wheels)
-      if (w.at > ended && DrivingRig::IsZero(w.message)) return zero = w.at, true;
+      if (w.at > ended && IsZero(w.message)) return zero = w.at, true;
     return false;
   };
   if (!rig.Until(is_zero, milliseconds(1000))) {
@@ -95,11 +95,11 @@ void Episode(DrivingRig& rig, End end, Outcome& outcome) {
   }
   Aftermath(rig, end);
   outcome.moved_after += std::any_of(rig.wheels.begin(), rig.wheels.end(), [&](const auto& w) {
-    return w.at > std::max(zero, ended + milliseconds(1000)) && !DrivingRig::IsZero(w.message);
+    return w.at > std::max(zero, ended + milliseconds(1000)) && !IsZero(w.message);
   });
   outcome.moved_after +=
       zero != Time{} && std::any_of(rig.wheels.begin(), rig.wheels.end(), [&](const auto& w) {
-        return w.at > zero && w.at <= ended + milliseconds(1000) && !DrivingRig::IsZero(w.message);
+        return w.at > zero && w.at <= ended + milliseconds(1000) && !IsZero(w.message);
       });
 }
 

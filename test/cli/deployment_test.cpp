@@ -51,6 +51,11 @@ TEST(Deployment, RadiosWaitForTheEmulatedLine) {
   EXPECT_THAT(Find(plan, "offboard-radio").arguments, Contains("/tmp/run/tty-offboard"));
 }
 
+TEST(Deployment, NoLinkOutlivesTheEmulatedLine) {
+  EXPECT_THAT(Find(PlanOf(Shipped("sim"), kPlace), "line").leftovers,
+              testing::UnorderedElementsAre("/tmp/run/tty-onboard", "/tmp/run/tty-offboard"));
+}
+
 TEST(Deployment, AGroupStartsOnlyItsProcessesAndWaitsForNoOthers) {
   Deployment deployment = Shipped("sim");
   deployment.emulated_line = false;

@@ -101,6 +101,19 @@ TEST_F(SupervisorTest, StartsAgainWhatWasKilledAndKeepsItsConsole) {
   EXPECT_EQ(Console("a"), "--- start 1\nhello\n--- start 2\nhello\n");
 }
 
+TEST_F(SupervisorTest, RemovesWhatOneThatWasKilledLeftBehindBeforeItStartsAgain) {
+  const std::string link = folder_ + "/link";
+  ProcessSpec spec = Python("a", "os.symlink('/dev/null', '" + link + "')\n" + kWell);
+  spec.leftovers = {link};
+  spec.policy.first_back_off = milliseconds(300);
+  Supervisor dut({spec}, folder_, Told());
+  ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
+  kill(dut.Report()[0].pid, SIGKILL);
+  ASSERT_TRUE(Until(dut, [&] { return !dut.AllReady(); }));
+  EXPECT_FALSE(fs::is_symlink(link));
+  EXPECT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
+}
+
 TEST_F(SupervisorTest, KillsAndStartsAgainWhatHangs) {
   Supervisor dut({Python("a", "say(b'READY=1')\ntime.sleep(60)\n")}, folder_, Told());
   ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));

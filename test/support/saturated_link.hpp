@@ -1,0 +1,36 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string>
+
+namespace priamos {
+
+/// Writes a channel table to `file`: what driving by hand needs of the one in `deployment`, and BULK, long
+/// messages towards the robot, as many as the line can carry besides. Returns `file`.
+inline std::string WriteSaturatedLink(const std::string& deployment, const std::string& file) {
+  std::ifstream in(deployment + "/link.toml");
+  std::ofstream out(file);
+  const std::array<std::string, 4> left_out{"LOOK_REQUEST", "PATH", "LANDMARK_MODEL", "HEAD_DRIVE"};
+  std::string channel;
+  const auto flush = [&] {
+    const bool left = std::any_of(left_out.begin(), left_out.end(), [&](const std::string& name) {
+      return channel.find("name = \"" + name + "\"") != std::string::npos;
+    });
+    if (!left) out << channel;
+    channel.clear();
+  };
+  for (std::string line; std::getline(in, line);) {
+    if (line == "[[channel]]") flush();
+    // Deadlines that the load breaks; that of the e-stop stays.
+    const bool estop = channel.find("\"ESTOP\"") != std::string::npos;
+    if (!line.starts_with("deadline_s") || estop) channel += line + "\n";
+  }
+  flush();
+  out << "\n[[channel]]\nname = \"BULK\"\ntype = \"health_t\"\ndirection = \"down\"\n"
+         "class = \"state\"\nrate_hz = 5\npriority = 3\nttl_s = 1.0\n";
+  return file;
+}
+
+}  // namespace priamos
