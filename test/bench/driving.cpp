@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   options.source_folder = PRIAMOS_SOURCE_DIR;
   options.program_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
   int latency = 0, stops = 0, estop = 0, saturated = 0, crashes = 0, stalls = 0;
+  std::string estop_only, crash_only;
   CLI::App app("Driving by hand: what is promised, measured");
   app.add_option("--latency", latency, "samples from the stick to the wheels, from rest and on the way");
   app.add_option("--stops", stops,
@@ -45,7 +46,9 @@ int main(int argc, char** argv) {
   app.add_option("--estop", estop, "e-stops by mouse, keyboard and command each");
   app.add_option("--estop-saturated", saturated,
                  "e-stops through a radio that has more to carry than it can");
+  app.add_option("--estop-only", estop_only, "mouse, keyboard, priamos or bus; without it all of them");
   app.add_option("--crashes", crashes, "kills and hangs of every process while it drives");
+  app.add_option("--crash-only", crash_only, "a part of the name of a process; without it all of them");
   app.add_option("--stalls", stalls, "short stops of every process, after which it goes on with what it had");
   app.add_option("--seed", options.seed, "of moments and of the simulated hardware")->capture_default_str();
   app.add_option("--programs", options.program_folder, "where priamos-* are")->capture_default_str();
@@ -57,8 +60,8 @@ int main(int argc, char** argv) {
     int broken = 0;
     if (latency > 0) broken += StudyLatency(options, latency);
     if (stops > 0) broken += StudyStops(options, stops);
-    if (estop > 0 || saturated > 0) broken += StudyEstop(options, estop, saturated);
-    if (crashes > 0) broken += StudyCrashes(options, crashes);
+    if (estop > 0 || saturated > 0) broken += StudyEstop(options, estop, saturated, estop_only);
+    if (crashes > 0) broken += StudyCrashes(options, crashes, crash_only);
     if (stalls > 0) broken += StudyStalls(options, stalls);
     fmt::print("load {}; {}\n", Load(),
                broken == 0 ? "every promise held" : fmt::format("{} BROKEN", broken));

@@ -123,14 +123,26 @@ class CrashStudy {
     if (w.stands != Time{}) outcome.stands.Add(w.stands - w.when);
     if (w.useful != Time{}) outcome.useful.Add(w.useful - w.when);
     outcome.never_useful += w.useful == Time{};
-    outcome.moved_after += std::any_of(rig_.wheels.begin(), rig_.wheels.end(), [&](const auto& seen) {
+    const auto moved = std::find_if(rig_.wheels.begin(), rig_.wheels.end(), [&](const auto& seen) {
       return seen.at > w.when + kHandOn + kLastMotion && !IsZero(seen.message);
     });
+    if (moved != rig_.wheels.end()) TellMotion(w, *moved);
+    outcome.moved_after += moved != rig_.wheels.end();
     const Duration oldest = CountStale(outcome);
     fmt::print(stderr, "{} {}: stands after {:.2f} s, useful after {:.2f} s, oldest command {:.0f} ms, {}\n",
                w.name, Text(w.fault), w.stands == Time{} ? NAN : Seconds(w.stands - w.when),
                w.useful == Time{} ? NAN : Seconds(w.useful - w.when), 1e3 * Seconds(oldest),
                rig_.Reason(w.name));
+  }
+
+  void TellMotion(const Watch& w, const Seen<wheel_command_t>& moved) const {
+    const auto& s = moved.message.speed_rad_s;
+    fmt::print(stderr, "{} {}: moved after {:.2f} s: wheels {:.2f} {:.2f} {:.2f} {:.2f} rad/s\n", w.name,
+               Text(w.fault), Seconds(moved.at - w.when), s[0], s[1], s[2], s[3]);
+    for (const auto& c : rig_.onboard_commands)
+      if (c.at > moved.at - milliseconds(300) && c.at < moved.at + milliseconds(100))
+        fmt::print(stderr, "    {:.3f} s: drive {:.2f} {:.2f} {:.2f}\n", Seconds(c.at - w.when),
+                   c.message.vx_m_s, c.message.vy_m_s, c.message.wz_rad_s);
   }
 
   Duration CountStale(Outcome& outcome) {
@@ -231,19 +243,22 @@ int PrintFreeze(const Sample& gaps, const Outcome& o) {
 
 }  // namespace
 
-int StudyCrashes(const RigOptions& base, int rounds) {
-  CrashStudy study(WithEverything(base));
+int StudyCrashes(const RigOptions& base, int rounds, const std::string& only) {
+  RigOptions options = WithEverything(base);
+  if (!only.empty()) options.stable_after = milliseconds(500);  // its turn comes too often
+  CrashStudy study(options);
   Outcomes outcomes;
   Outcome frozen;
   Sample gaps;
   // In turn, so that each has run for a while before it is its turn again.
   for (int i = 0; i < rounds; ++i) {
     for (const Fault fault : {Fault::kKilled, Fault::kHung})
-      for (const std::string& name : study.rig().Names()) study.Episode(name, fault, outcomes[name][fault]);
-    study.Freeze(gaps, frozen);
+      for (const std::string& name : study.rig().Names())
+        if (name.find(only) != std::string::npos) study.Episode(name, fault, outcomes[name][fault]);
+    if (only.empty()) study.Freeze(gaps, frozen);
   }
   PrintHead("Crashes and hangs at full speed; the hand pushes on for 0.5 s");
-  return Print(outcomes) + PrintFreeze(gaps, frozen);
+  return Print(outcomes) + (only.empty() ? PrintFreeze(gaps, frozen) : 0);
 }
 
 int StudyStalls(const RigOptions& base, int rounds) {

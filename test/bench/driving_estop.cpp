@@ -184,15 +184,18 @@ void PrintHead(const std::string& what) {
 
 }  // namespace
 
-int StudyEstop(const RigOptions& options, int episodes, int saturated_episodes) {
+int StudyEstop(const RigOptions& options, int episodes, int saturated_episodes, const std::string& only) {
   int broken = 0;
-  constexpr Source kAll[] = {Source::kMouse, Source::kKeyboard, Source::kCommand, Source::kBus};
+  std::vector<Source> sources{Source::kMouse, Source::kKeyboard, Source::kCommand, Source::kBus};
+  std::erase_if(sources, [&](Source s) { return std::string(Text(s)).find(only) == std::string::npos; });
   const auto run = [&](EstopStudy& study, int n, const std::string& what) {
     Outcome outcomes[4];
-    for (int i = 0; i < n; ++i)
-      for (const Source s : kAll) study.Episode(s, outcomes[static_cast<int>(s)]);
+    for (int i = 0; i < n; ++i) {
+      for (const Source s : sources) study.Episode(s, outcomes[static_cast<int>(s)]);
+      if (i % 10 == 9) fmt::print(stderr, "{}: {} of {}\n", what, i + 1, n);
+    }
     PrintHead(what);
-    for (const Source s : kAll) broken += Print(s, outcomes[static_cast<int>(s)]);
+    for (const Source s : sources) broken += Print(s, outcomes[static_cast<int>(s)]);
   };
   if (episodes > 0) {
     EstopStudy study(options);

@@ -7,8 +7,10 @@ namespace priamos::bench {
 /// Each prints its table and returns how many promises it found broken.
 int StudyLatency(const RigOptions& options, int samples);
 int StudyStops(const RigOptions& options, int episodes);
-int StudyEstop(const RigOptions& options, int episodes, int saturated_episodes);
-int StudyCrashes(const RigOptions& options, int rounds);
+/// `only`: which sources, by a part of their name; empty: all.
+int StudyEstop(const RigOptions& options, int episodes, int saturated_episodes, const std::string& only);
+/// `only`: which processes, by a part of their name; empty: all, and the supervisor.
+int StudyCrashes(const RigOptions& options, int rounds, const std::string& only);
 int StudyStalls(const RigOptions& options, int rounds);
 
 }  // namespace priamos::bench

@@ -187,8 +187,10 @@ bool DriveController::IsLost(const DriveSituation& situation) const {
 
 Twist2 DriveController::Wanted(const DriveSituation& situation, std::span<const Eigen::Vector2d> points,
                                Time now, double dt_s) {
+  const bool by_path = follower_.has_path() || path_is_new_;
+  if (!by_path) StandIfLetGo(now);
   if (state_.failsafe.action != FailsafeAction::kNone) return {};
-  if (follower_.has_path() || path_is_new_) return WantedByPath(situation, now, dt_s);
+  if (by_path) return WantedByPath(situation, now, dt_s);
   return WantedByOperator(points, now);
 }
 
@@ -210,14 +212,16 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, Time now, 
   return wanted.twist;
 }
 
+/// A stick that was let go stops the wheels now, also those that a hold is braking; the drive board's own
+/// ramp is all the softness there is.
+void DriveController::StandIfLetGo(Time now) {
+  const Twist2* wish = authority_.Wish(now);
+  if (wish && !WantsMotion(*wish)) SetCommanded({});
+}
+
 Twist2 DriveController::WantedByOperator(std::span<const Eigen::Vector2d> points, Time now) {
   const Twist2* wish = authority_.Wish(now);
-  if (!wish) return {};
-  // A stick that was let go stops the wheels now; the drive board's own ramp is all the softness there is.
-  if (!WantsMotion(*wish)) {
-    SetCommanded({});
-    return {};
-  }
+  if (!wish || !WantsMotion(*wish)) return {};
   return Deflected(config_.deflection, config_.footprint, *wish, points);
 }
 

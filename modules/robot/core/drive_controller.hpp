@@ -103,6 +103,7 @@ class DriveController {
   Twist2 Wanted(const DriveSituation& situation, std::span<const Eigen::Vector2d> points, Time now,
                 double dt_s);
   Twist2 WantedByPath(const DriveSituation& situation, Time now, double dt_s);
+  void StandIfLetGo(Time now);
   Twist2 WantedByOperator(std::span<const Eigen::Vector2d> points, Time now);
   Twist2 Slewed(const Twist2& wanted, double dt_s);
   void SetCommanded(const Twist2& twist);

@@ -71,6 +71,20 @@ TEST_F(SharedControlTest, TheStickIsLetGo) {
   EXPECT_FALSE(rig_.state().halted_by) << "a normal end";
 }
 
+TEST_F(SharedControlTest, TheStickIsLetGoWhileAHoldBrakes) {
+  rig_.Run(0.2);
+  rig_.TakeOver(kTeleop);
+  rig_.Hold(kTeleop, kForward, 2);
+  rig_.wheels_answer = false;
+  rig_.Hold(kTeleop, kForward, 0.3);
+  ASSERT_EQ(rig_.state().failsafe.cause, Condition::kWheelsSilent);
+  ASSERT_FALSE(WheelsAreZero()) << "on a ramp";
+  rig_.Command(kTeleop, {});
+  EXPECT_LE(TimeToZero(), milliseconds(20));
+  rig_.wheels_answer = true;
+  ExpectNoMotionFor(1);
+}
+
 TEST_F(SharedControlTest, TheOperatorsProgramDies) {
   rig_.Run(0.2);
   rig_.TakeOver(kTeleop);
