@@ -59,7 +59,7 @@ void EchoMemory::NoteNearThings() {
       const Pose2 odom_from_sonar =
           kept_[newest].odom_from_base * base_from_sonar_[static_cast<std::size_t>(i)];
       if (add) {
-        near_map_.Add(odom_from_sonar, RangeOf(newest, i), kept_[newest].cycle.time);
+        near_map_.Add(odom_from_sonar, RangeOf(newest, i));
       } else {
         near_map_.Clear(odom_from_sonar, RangeOf(newest, i));
       }

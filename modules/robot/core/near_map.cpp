@@ -1,5 +1,6 @@
 #include "robot/core/near_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace priamos::robot {
@@ -8,22 +9,25 @@ namespace {
 constexpr double kCell = 0.04;
 // A beam that ends this far behind a thing has gone through its place; less may be the thing's own size.
 constexpr double kBehind = 0.2;
+constexpr double kStands_m_s = 0.01, kStands_rad_s = 0.02;
 
 }  // namespace
 
 void NearMapConfig::Describe(Archive& a) {
   a.Number("keep_m", keep_m, {"m", 0, 2, "only echoes this near are kept; 0 keeps none"});
-  a.Number("keep_s", keep_s, {"s", 0, 60, "how long a thing is kept that is not seen again"});
+  a.Number("keep_s", keep_s,
+           {"s", 0.1, 60, "how long a thing is kept that is not seen again, while the base moves"});
+  a.Number("keep_standing_s", keep_standing_s, {"s", 0.1, 600, "the same while the base stands"});
   a.Number("forget_m", forget_m, {"m", 0.5, 10, "things farther from the base centre are forgotten"});
   a.Number("through_deg", through_deg, {"deg", 0, 15, "half width of the part of a beam that clears"});
 }
 
-void NearMap::Add(const Pose2& odom_from_sonar, double range_m, Time now) {
+void NearMap::Add(const Pose2& odom_from_sonar, double range_m) {
   if (!(range_m <= config_.keep_m)) return;
   const Eigen::Vector2d point = odom_from_sonar * Eigen::Vector2d(range_m, 0);
   const Cell cell{static_cast<int>(std::floor(point.x() / kCell)),
                   static_cast<int>(std::floor(point.y() / kCell))};
-  things_[cell] = {point, now};
+  things_[cell] = {point, clock_s_};
 }
 
 void NearMap::Clear(const Pose2& odom_from_sonar, double range_m) {
@@ -35,10 +39,22 @@ void NearMap::Clear(const Pose2& odom_from_sonar, double range_m) {
   });
 }
 
+/// How fast a thing grows old.
+double NearMap::Pace(const Pose2& odom_from_base, double dt_s) const {
+  const Pose2 step = here_.Inverse() * odom_from_base;
+  const bool stands =
+      step.translation().norm() <= kStands_m_s * dt_s && std::abs(step.yaw) <= kStands_rad_s * dt_s;
+  return stands ? config_.keep_s / config_.keep_standing_s : 1;
+}
+
 void NearMap::Forget(const Pose2& odom_from_base, Time now) {
-  const Eigen::Vector2d here = odom_from_base.translation();
+  const double dt_s = now_ ? std::max(Seconds(now - *now_), 0.0) : 0;
+  clock_s_ += dt_s * Pace(odom_from_base, dt_s);
+  now_ = now;
+  here_ = odom_from_base;
+  const Eigen::Vector2d here = here_.translation();
   std::erase_if(things_, [&](const auto& entry) {
-    return now - entry.second.seen > FromSeconds(config_.keep_s) ||
+    return clock_s_ - entry.second.seen_s > config_.keep_s ||
            (entry.second.in_odom - here).norm() > config_.forget_m;
   });
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,24 +14,27 @@ namespace priamos::robot {
 
 struct NearMapConfig {
   double keep_m = 0.5;  ///< only echoes this near are kept: farther away an arc is too wide to be a place
-  double keep_s = 5;
-  double forget_m = 2.0;   ///< things this far from the base centre are forgotten
-  double through_deg = 5;  ///< a thing this near to the axis of a beam that sees on behind it is gone
+  double keep_s = 5;    ///< while the base moves
+  double keep_standing_s = 30;  ///< while it stands
+  double forget_m = 2.0;        ///< things this far from the base centre are forgotten
+  double through_deg = 5;       ///< a thing this near to the axis of a beam that sees on behind it is gone
 
   void Describe(Archive& a);
 };
 
 /// Where near things were, frame of the odometry, in cells of 4 cm. The beams of 24 sensors on a rectangle
 /// leave gaps close to the base: a chair leg that a beam has seen disappears between two of them when the
-/// base comes nearer, but is still there. A thing is kept for some seconds, or until a beam sees through it.
+/// base comes nearer, but is still there. A thing is kept for some seconds, or until a beam sees through it;
+/// longer beside a base that stands, which has no other way to know of it when it drives off.
 class NearMap {
  public:
   explicit NearMap(const NearMapConfig& config) : config_(config) {}
 
   /// A believed echo at `range_m` of a sensor at `odom_from_sonar`.
-  void Add(const Pose2& odom_from_sonar, double range_m, Time now);
+  void Add(const Pose2& odom_from_sonar, double range_m);
   /// The same echo clears what lies well before it.
   void Clear(const Pose2& odom_from_sonar, double range_m);
+  /// Time goes on to `now`; call it often.
   void Forget(const Pose2& odom_from_base, Time now);
 
   std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;
@@ -39,11 +43,15 @@ class NearMap {
   using Cell = std::pair<int, int>;
   struct Thing {
     Eigen::Vector2d in_odom{0, 0};
-    Time seen{};
+    double seen_s = 0;  ///< by clock_s_
   };
+  double Pace(const Pose2& odom_from_base, double dt_s) const;
 
   NearMapConfig config_;
   std::map<Cell, Thing> things_;
+  double clock_s_ = 0;  ///< goes slower while the base stands
+  std::optional<Time> now_;
+  Pose2 here_;
 };
 
 }  // namespace priamos::robot

@@ -10,6 +10,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 constexpr Time kStart = FromUtime(1'000'000'000);
+constexpr milliseconds kTick{20};
 
 class NearMapTest : public testing::Test {
  protected:
@@ -17,7 +18,7 @@ class NearMapTest : public testing::Test {
 };
 
 TEST_F(NearMapTest, KeepsAThingWhereItIsWhileTheBaseMoves) {
-  dut_.Add({0.475, 0, 0}, 0.3, kStart);
+  dut_.Add({0.475, 0, 0}, 0.3);
   const auto points = dut_.Points({0.2, 0, kPi / 2});
   ASSERT_THAT(points, SizeIs(1));
   EXPECT_NEAR(points[0].x(), 0, 1e-9);
@@ -25,17 +26,17 @@ TEST_F(NearMapTest, KeepsAThingWhereItIsWhileTheBaseMoves) {
 }
 
 TEST_F(NearMapTest, KeepsNothingThatIsFarAway) {
-  dut_.Add({0.475, 0, 0}, 0.8, kStart);
+  dut_.Add({0.475, 0, 0}, 0.8);
   EXPECT_THAT(dut_.Points({}), IsEmpty());
 }
 
 TEST_F(NearMapTest, TheSamePlaceIsKeptOnce) {
-  for (int i = 0; i < 10; ++i) dut_.Add({0.475, 0, 0}, 0.3 + 0.0005 * i, kStart);
+  for (int i = 0; i < 10; ++i) dut_.Add({0.475, 0, 0}, 0.3 + 0.0005 * i);
   EXPECT_THAT(dut_.Points({}), SizeIs(1));
 }
 
 TEST_F(NearMapTest, ABeamThatSeesOnBehindAThingClearsIt) {
-  dut_.Add({0.475, 0, 0}, 0.3, kStart);
+  dut_.Add({0.475, 0, 0}, 0.3);
   dut_.Clear({0.475, 0, 0}, 0.4);
   EXPECT_THAT(dut_.Points({}), SizeIs(1)) << "that may be the thing itself";
   dut_.Clear({0.475, 0.2, 0}, 2.0);
@@ -45,14 +46,35 @@ TEST_F(NearMapTest, ABeamThatSeesOnBehindAThingClearsIt) {
 }
 
 TEST_F(NearMapTest, ForgetsWhatIsOldOrFarAway) {
-  dut_.Add({0.475, 0, 0}, 0.3, kStart);
-  dut_.Forget({}, kStart + milliseconds(4900));
+  Time now = kStart;
+  double x = 0;
+  const auto drive = [&](double seconds) {
+    for (const Time end = now + FromSeconds(seconds); now < end;)
+      dut_.Forget({x += 0.002, 0, 0}, now += kTick);
+  };
+  dut_.Forget({}, now);
+  dut_.Add({0.475, 0, 0}, 0.3);
+  drive(4.9);
   EXPECT_THAT(dut_.Points({}), SizeIs(1));
-  dut_.Forget({}, kStart + milliseconds(5100));
+  drive(0.2);
   EXPECT_THAT(dut_.Points({}), IsEmpty());
-  dut_.Add({0.475, 0, 0}, 0.3, kStart);
-  dut_.Forget({-2, 0, 0}, kStart);
+  dut_.Add({0.475, 0, 0}, 0.3);
+  dut_.Forget({-2, 0, 0}, now);
   EXPECT_THAT(dut_.Points({}), IsEmpty());
+}
+
+/// It parks beside a post that no beam sees, and drives off half a minute later.
+TEST_F(NearMapTest, KeepsAThingLongerWhileTheBaseStands) {
+  Time now = kStart;
+  dut_.Forget({}, now);
+  dut_.Add({0.475, 0, 0}, 0.3);
+  const auto stand = [&](double seconds) {
+    for (const Time end = now + FromSeconds(seconds); now < end;) dut_.Forget({}, now += kTick);
+  };
+  stand(29);
+  EXPECT_THAT(dut_.Points({}), SizeIs(1));
+  stand(2);
+  EXPECT_THAT(dut_.Points({}), IsEmpty()) << "or a person who went away would block it for ever";
 }
 
 }  // namespace
