@@ -86,6 +86,7 @@ void TeleopApp::Show(Time now) {
   view.wish = pilot_.wish();
   view.head_wish = pilot_.head_wish();
   view.buttons = config_.pilot.buttons;
+  view.uses = Uses(config_.pilot, pilot_.mode());
   if (newest_) {
     view.answer_age_s = Seconds(now - FromUtime(newest_->utime));
     Describe(*newest_, base_.session, view);

@@ -14,8 +14,8 @@ namespace priamos::teleop {
 
 /// The keys, for the help line of the terminal.
 inline constexpr const char* kKeyHelp =
-    "w s a d: drive  q e: turn  r f: up down  arrows: pitch roll  SPACE: E-STOP\n"
-    "m: mode   t: take over   g: speed range   z (hold): re-arm   any other key: stand";
+    "w s: forward  a d: left  q e: turn  r f: up  arrows: pitch roll  SPACE: E-STOP\n"
+    "m: mode  t: take over  g: range  z (hold): re-arm  others: stand  Ctrl-C: end";
 
 /// A stick made of terminal keys. A terminal tells of presses and repetitions, never of a release: a key
 /// counts as held for a while after its last repetition, and the dead-man is held while any driving key is.

@@ -20,14 +20,17 @@ std::string Bar(double value) {
   return bar;
 }
 
-const char* Text(PilotPhase phase) {
-  switch (phase) {
+/// What the operator does next.
+const char* NextStep(const TerminalView& view) {
+  if (view.estop && view.phase != PilotPhase::kNoDevice)
+    return "nothing moves: let go of everything, then hold re-arm";
+  switch (view.phase) {
     case PilotPhase::kNoDevice:
       return "no device";
     case PilotPhase::kIdle:
-      return "hold the dead-man to drive";
+      return view.device == "keyboard" ? "press and hold a key to drive" : "hold the dead-man and push";
     case PilotPhase::kMustLetGo:
-      return "let go of the dead-man first";
+      return "let go of the stick and of the dead-man first";
     case PilotPhase::kAsking:
       return "asking for the lease";
     case PilotPhase::kDriving:
@@ -74,14 +77,35 @@ std::string Limit(const TerminalView& view) {
 
 }  // namespace
 
+std::array<std::string, kAxes> Uses(const PilotConfig& config, PilotMode mode) {
+  std::array<std::string, kAxes> uses{};
+  const auto add = [&uses](const AxisUse& use, const char* name) {
+    for (std::size_t i = 0; i < kAxes; ++i)
+      if (use.axis == kAxisNames[i]) uses[i] += (uses[i].empty() ? "" : ", ") + std::string(name);
+  };
+  if (mode == PilotMode::kBase) {
+    add(config.base.vx, "x");
+    add(config.base.vy, "y");
+    add(config.base.turn, "turn");
+  } else {
+    add(config.head.pan, "pan");
+    add(config.head.tilt, "tilt");
+    add(config.head.vergence, "vergence");
+    add(config.head.zoom, "zoom");
+    add(config.head.focus, "focus");
+  }
+  return uses;
+}
+
 std::string Draw(const TerminalView& view) {
   std::string text =
       fmt::format("PRIAMOS teleop   {}   {} mode   {} range\n", view.device,
                   view.mode == PilotMode::kBase ? "BASE" : "HEAD", view.fast ? "fast" : "slow");
   for (std::size_t i = 0; i < kAxes; ++i)
-    text += fmt::format("  {:<8} {} {:+.2f}\n", kAxisNames[i], Bar(view.stick.axis[i]), view.stick.axis[i]);
+    text += fmt::format("  {:<8} {} {:+.2f}{}\n", kAxisNames[i], Bar(view.stick.axis[i]), view.stick.axis[i],
+                        view.uses[i].empty() ? "" : "  " + view.uses[i]);
   text += fmt::format("  buttons  {}\n", Buttons(view));
-  text += fmt::format("  stick    {}\n", Text(view.phase));
+  text += fmt::format("  stick    {}\n", NextStep(view));
   text += fmt::format("  wish     {}\n", Wish(view));
   text += fmt::format("  lease    {}\n", view.answer_age_s ? view.lease : "-");
   text += fmt::format("  robot    {}\n", Robot(view));
@@ -89,8 +113,8 @@ std::string Draw(const TerminalView& view) {
   text += fmt::format("  refused  {} commands{}\n", view.refused,
                       view.refusal.empty() ? "" : ", the last one: " + view.refusal);
   text += fmt::format("  e-stop   {}\n", !view.answer_age_s ? "-"
-                                         : view.estop       ? "*** LATCHED *** stick at rest, hold re-arm"
-                                                            : "armed");
+                                         : view.estop       ? "*** LATCHED ***"
+                                                            : "not pressed");
   return text;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,7 @@ struct TerminalView {
   Twist2 wish;
   HeadRates head_wish;
   ButtonUse buttons;
+  std::array<std::string, kAxes> uses{};  ///< what each axis moves in this mode; empty: nothing
   // From DRIVE_STATUS.
   std::optional<double> answer_age_s;  ///< none before the first
   std::string lease;                   ///< who has it, in words
@@ -26,6 +28,9 @@ struct TerminalView {
   int refused = 0;
   std::string refusal;  ///< why, of the newest
 };
+
+/// What each axis of the stick moves in `mode`.
+std::array<std::string, kAxes> Uses(const PilotConfig& config, PilotMode mode);
 
 /// Text for a terminal of 80 columns, without escape sequences, every line ended. Always as many lines.
 std::string Draw(const TerminalView& view);

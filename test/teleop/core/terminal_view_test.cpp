@@ -49,6 +49,27 @@ TEST(TerminalView, TheEstopIsNotOverlooked) {
   EXPECT_THAT(Draw(view), HasSubstr("e-stop   *** LATCHED ***"));
 }
 
+TEST(TerminalView, SaysWhatToDoNext) {
+  TerminalView view = Driving();
+  view.phase = PilotPhase::kIdle;
+  EXPECT_THAT(Draw(view), HasSubstr("hold the dead-man and push"));
+  view.device = "keyboard";
+  EXPECT_THAT(Draw(view), HasSubstr("press and hold a key")) << "it has no dead-man";
+  view.phase = PilotPhase::kMustLetGo;
+  EXPECT_THAT(Draw(view), HasSubstr("let go of the stick"));
+  view.estop = true;
+  EXPECT_THAT(Draw(view), HasSubstr("let go of everything, then hold re-arm"));
+}
+
+TEST(TerminalView, ShowsWhatEachAxisMovesInThisMode) {
+  TerminalView view = Driving();
+  view.uses = Uses(PilotConfig(), PilotMode::kBase);
+  EXPECT_THAT(Draw(view), HasSubstr("+0.25  turn\n"));
+  EXPECT_THAT(Draw(view), Not(HasSubstr("tilt")));
+  view.uses = Uses(PilotConfig(), PilotMode::kHead);
+  EXPECT_THAT(Draw(view), HasSubstr("+0.25  pan\n"));
+}
+
 TEST(TerminalView, HasAlwaysAsManyLinesAndFitsTheTerminal) {
   TerminalView longest = Driving();
   longest.mode = PilotMode::kHead;
