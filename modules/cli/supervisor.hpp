@@ -15,13 +15,13 @@ namespace priamos::cli {
 
 /// How to start one process.
 struct ProcessSpec {
-  std::string name;                    ///< unique
-  std::string group;                   ///< for the eye
-  std::vector<std::string> arguments;  ///< the first one is the program's path
-  std::vector<std::string> after;      ///< names that must be ready before it starts
-  bool notifies = true;                ///< says READY and WATCHDOG; else it is ready as soon as it runs
-  std::string folder;                  ///< working directory; empty: this process's
-  std::vector<std::string> leftovers;  ///< files that lie about a living process: removed when it ended
+  std::string name;                      ///< unique
+  std::string group;                     ///< for the eye
+  std::vector<std::string> arguments;    ///< the first one is the program's path
+  std::vector<std::string> after;        ///< names that must be ready before it starts
+  bool notifies = true;                  ///< says READY and WATCHDOG; else it is ready as soon as it runs
+  std::string folder;                    ///< working directory; empty: this process's
+  std::vector<std::string> leftovers{};  ///< files that lie about a living process: removed when it ended
   WatchPolicy policy;
 };
 

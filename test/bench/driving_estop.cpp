@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <stdexcept>
 
 #include "test/bench/driving_studies.hpp"
@@ -26,9 +27,14 @@ class Terminal {
     std::vector<char*> argv;
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
+    // A terminal is a session, and gets a scheduling group, of its own: with the priority of this one.
+    std::string of_parent;
+    std::getline(std::ifstream("/proc/self/autogroup"), of_parent);
     pid_ = forkpty(&master_, nullptr, nullptr, nullptr);
     if (pid_ < 0) throw std::runtime_error("no terminal");
     if (pid_ == 0) {
+      if (const auto at = of_parent.find("nice "); at != std::string::npos)
+        std::ofstream("/proc/self/autogroup") << of_parent.substr(at + 5);
       sigset_t none;
       sigemptyset(&none);
       sigprocmask(SIG_SETMASK, &none, nullptr);

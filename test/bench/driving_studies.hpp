@@ -11,6 +11,7 @@ int StudyStops(const RigOptions& options, int episodes);
 int StudyEstop(const RigOptions& options, int episodes, int saturated_episodes, const std::string& only);
 /// `only`: which processes, by a part of their name; empty: all, and the supervisor.
 int StudyCrashes(const RigOptions& options, int rounds, const std::string& only);
+int StudyBurden(const RigOptions& options, int seconds);
 int StudyStalls(const RigOptions& options, int rounds);
 
 }  // namespace priamos::bench
