@@ -115,7 +115,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   const double dt_s = last_step_ ? std::clamp(Seconds(now - *last_step_), 1e-3, 0.1) : 0.02;
   last_step_ = now;
   if (echoes_.newest()) sonar_heard_ = echoes_.newest();
-  echoes_.Forget(situation.odom_from_base, now);
+  echoes_.Forget(situation.odom_from_base, now, HasWayToGo());
   authority_.Tick(now, HasWayToGo());
   if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
   const DriveSource source = Source(now);

@@ -67,8 +67,8 @@ void EchoMemory::NoteNearThings() {
   }
 }
 
-void EchoMemory::Forget(const Pose2& odom_from_base, Time now) {
-  near_map_.Forget(odom_from_base, now);
+void EchoMemory::Forget(const Pose2& odom_from_base, Time now, bool waits) {
+  near_map_.Forget(odom_from_base, now, waits);
   while (!kept_.empty() && now - kept_.front().cycle.time > FromSeconds(config_.keep_s)) kept_.pop_front();
 }
 

@@ -51,8 +51,8 @@ class EchoMemory {
 
   /// `odom_from_base` at the end of the cycle.
   void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
-  /// Forgets what is too old at `now`.
-  void Forget(const Pose2& odom_from_base, Time now);
+  /// Forgets what is too old at `now`; `waits` as in NearMap::Forget.
+  void Forget(const Pose2& odom_from_base, Time now, bool waits = false);
   /// Time of the newest cycle.
   std::optional<Time> newest() const;
 

@@ -17,7 +17,8 @@ void NearMapConfig::Describe(Archive& a) {
   a.Number("keep_m", keep_m, {"m", 0, 2, "only echoes this near are kept; 0 keeps none"});
   a.Number("keep_s", keep_s,
            {"s", 0.1, 60, "how long a thing is kept that is not seen again, while the base moves"});
-  a.Number("keep_standing_s", keep_standing_s, {"s", 0.1, 600, "the same while the base stands"});
+  a.Number("keep_standing_s", keep_standing_s,
+           {"s", 0.1, 600, "the same while it stands and has no way to go"});
   a.Number("forget_m", forget_m, {"m", 0.5, 10, "things farther from the base centre are forgotten"});
   a.Number("through_deg", through_deg, {"deg", 0, 15, "half width of the part of a beam that clears"});
 }
@@ -39,17 +40,15 @@ void NearMap::Clear(const Pose2& odom_from_sonar, double range_m) {
   });
 }
 
-/// How fast a thing grows old.
-double NearMap::Pace(const Pose2& odom_from_base, double dt_s) const {
+bool NearMap::Stands(const Pose2& odom_from_base, double dt_s) const {
   const Pose2 step = here_.Inverse() * odom_from_base;
-  const bool stands =
-      step.translation().norm() <= kStands_m_s * dt_s && std::abs(step.yaw) <= kStands_rad_s * dt_s;
-  return stands ? config_.keep_s / config_.keep_standing_s : 1;
+  return step.translation().norm() <= kStands_m_s * dt_s && std::abs(step.yaw) <= kStands_rad_s * dt_s;
 }
 
-void NearMap::Forget(const Pose2& odom_from_base, Time now) {
+void NearMap::Forget(const Pose2& odom_from_base, Time now, bool waits) {
   const double dt_s = now_ ? std::max(Seconds(now - *now_), 0.0) : 0;
-  clock_s_ += dt_s * Pace(odom_from_base, dt_s);
+  const bool slowly = !waits && Stands(odom_from_base, dt_s);
+  clock_s_ += dt_s * (slowly ? config_.keep_s / config_.keep_standing_s : 1);
   now_ = now;
   here_ = odom_from_base;
   const Eigen::Vector2d here = here_.translation();

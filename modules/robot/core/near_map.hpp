@@ -15,7 +15,7 @@ namespace priamos::robot {
 struct NearMapConfig {
   double keep_m = 0.5;  ///< only echoes this near are kept: farther away an arc is too wide to be a place
   double keep_s = 5;    ///< while the base moves
-  double keep_standing_s = 30;  ///< while it stands
+  double keep_standing_s = 30;  ///< while it stands and has no way to go
   double forget_m = 2.0;        ///< things this far from the base centre are forgotten
   double through_deg = 5;       ///< a thing this near to the axis of a beam that sees on behind it is gone
 
@@ -34,8 +34,9 @@ class NearMap {
   void Add(const Pose2& odom_from_sonar, double range_m);
   /// The same echo clears what lies well before it.
   void Clear(const Pose2& odom_from_sonar, double range_m);
-  /// Time goes on to `now`; call it often.
-  void Forget(const Pose2& odom_from_base, Time now);
+  /// Time goes on to `now`; call it often. `waits`: for a way that something blocks, so that a base that
+  /// stands does not keep it for longer.
+  void Forget(const Pose2& odom_from_base, Time now, bool waits = false);
 
   std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;
 
@@ -45,7 +46,7 @@ class NearMap {
     Eigen::Vector2d in_odom{0, 0};
     double seen_s = 0;  ///< by clock_s_
   };
-  double Pace(const Pose2& odom_from_base, double dt_s) const;
+  bool Stands(const Pose2& odom_from_base, double dt_s) const;
 
   NearMapConfig config_;
   std::map<Cell, Thing> things_;

@@ -77,5 +77,12 @@ TEST_F(NearMapTest, KeepsAThingLongerWhileTheBaseStands) {
   EXPECT_THAT(dut_.Points({}), IsEmpty()) << "or a person who went away would block it for ever";
 }
 
+TEST_F(NearMapTest, ABaseThatWaitsForItsWayToBecomeFreeForgetsAsBefore) {
+  dut_.Forget({}, kStart);
+  dut_.Add({0.475, 0, 0}, 0.3);
+  dut_.Forget({}, kStart + milliseconds(5100), true);
+  EXPECT_THAT(dut_.Points({}), IsEmpty());
+}
+
 }  // namespace
 }  // namespace priamos::robot
