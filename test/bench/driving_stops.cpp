@@ -33,6 +33,8 @@ struct Outcome {
   int no_drive = 0;  ///< full speed was not reached: no episode
   int no_zero = 0;
   int moved_after = 0;
+
+  int episodes() const { return static_cast<int>(to_zero.size()) + no_zero; }
 };
 
 Time Do(DrivingRig& rig, End end) {
@@ -113,14 +115,20 @@ int StudyStops(const RigOptions& base, int episodes) {
   constexpr End kAll[] = {End::kReleased, End::kUnplugged, End::kCut, End::kKilled};
   Outcome outcomes[4];
   for (int i = 0; i < episodes; ++i)
-    for (const End end : kAll) Episode(rig, end, outcomes[static_cast<int>(end)]);
+    for (const End end : kAll) {
+      Outcome& outcome = outcomes[static_cast<int>(end)];
+      // On a busy machine full speed is not always reached: that says nothing about stops.
+      for (int attempt = 0, before = outcome.episodes(); attempt < 3 && outcome.episodes() == before;
+           ++attempt)
+        Episode(rig, end, outcome);
+    }
   fmt::print("\nStops at full speed: until the wheel command is zero onboard [ms]\n");
   fmt::print("  {:<18} {:>5} {:>8} {:>8} {:>8} {:>16} {:>14} {:>12}\n", "", "n", "p50", "p95", "most",
              "within 300 ms", "moved after", "no episode");
   int broken = 0;
   for (const End end : kAll) {
     const Outcome& o = outcomes[static_cast<int>(end)];
-    const bool held = o.no_zero == 0 && o.moved_after == 0 && o.no_drive == 0 && o.to_zero.size() > 0 &&
+    const bool held = o.no_zero == 0 && o.moved_after == 0 && o.episodes() == episodes &&
                       o.to_zero.Largest() <= kZeroWithin_ms;
     broken += !held;
     fmt::print("  {:<18} {:>5} {:>8.1f} {:>8.1f} {:>8.1f} {:>16} {:>14} {:>12}  {}\n", Text(end),
