@@ -77,6 +77,8 @@ TEST(CalibrationTable, KeepsTheLaserIfThereIsOne) {
   EXPECT_EQ(dut->laser->pivot_m, written.laser->pivot_m);
   EXPECT_EQ(dut->laser->sigma_turn_rad, written.laser->sigma_turn_rad);
   EXPECT_EQ(dut->laser->sigma_shift_m, written.laser->sigma_shift_m);
+  EXPECT_THAT(FromYaml(Replaced(ToYaml(written), "pivot_m:", "pivot_m: 3 #")).reason(),
+              HasSubstr("'pivot_m'"));
   written.laser->normal *= 2;
   EXPECT_THAT(FromYaml(ToYaml(written)).reason(), HasSubstr("'normal' is not of length 1"));
 }
@@ -103,7 +105,9 @@ TEST(CalibrationTable, DamageIsNamed) {
 }
 
 TEST(CalibrationTable, RandomDamageNeverThrows) {
-  const std::string yaml = ToYaml(SomeHead());
+  HeadModel model = SomeHead();
+  model.laser = LaserPlane{};
+  const std::string yaml = ToYaml(model);
   Rng rng(5);
   for (int i = 0; i < 300; ++i) {
     std::string damaged = yaml;
