@@ -22,6 +22,9 @@ namespace priamos::cli {
 namespace {
 
 constexpr int kCannotExec = 127;
+/// So many messages fit into the socket on most machines. When it was full, somebody was not heard: on a busy
+/// machine always the same one, who says something seldom.
+constexpr std::size_t kFull = 10;
 constexpr Duration kOwnSilence = std::chrono::milliseconds(300), kLookPeriod = std::chrono::milliseconds(50);
 
 /// Everything that a child needs between fork and exec, where only async-signal-safe calls are allowed.
@@ -149,7 +152,9 @@ void Supervisor::Step(Time now) {
 }
 
 void Supervisor::Listen(Time now) {
-  for (const NotifySocket::Message& message : notify_.Read()) {
+  const auto messages = notify_.Read();
+  if (messages.size() >= kFull) ForgiveSilence(now);
+  for (const NotifySocket::Message& message : messages) {
     for (Child& child : children_) {
       if (child.pid == 0 || child.pid != message.pid) continue;
       if (message.alive) child.watch.SaidAlive(now);
@@ -162,9 +167,12 @@ void Supervisor::Listen(Time now) {
 
 /// While this process stood still nobody could be heard: what was said then did not fit into the socket.
 void Supervisor::ForgiveOwnSilence(Time now) {
-  if (last_step_ != Time{} && now - last_step_ > kOwnSilence)
-    for (Child& child : children_) child.watch.SaidAlive(now);
+  if (last_step_ != Time{} && now - last_step_ > kOwnSilence) ForgiveSilence(now);
   last_step_ = now;
+}
+
+void Supervisor::ForgiveSilence(Time now) {
+  for (Child& child : children_) child.watch.SaidAlive(now);
 }
 
 /// A stopped process does not work, also one of those that never say so; to see it takes no waiting for its

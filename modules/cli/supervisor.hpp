@@ -72,6 +72,7 @@ class Supervisor {
   void CheckOrder() const;
   void Listen(Time now);
   void ForgiveOwnSilence(Time now);
+  void ForgiveSilence(Time now);
   void LookForStopped(Time now);
   void Reap(Time now);
   void Act(Child& child, Time now);

@@ -50,6 +50,8 @@ int StudyBurden(const RigOptions& base, int seconds) {
     rig.Forget();
   }
   const int again = rig.AllStarts() - starts;
+  for (const std::string& name : rig.Names())
+    if (!rig.Reason(name).empty()) fmt::print("{}: {}\n", name, rig.Reason(name));
   fmt::print("\n{} busy loops of the lowest priority for {} s: {} processes were started again  {}\n", kLoops,
              seconds, again, again == 0 ? "held" : "BROKEN");
   return again != 0;
