@@ -147,14 +147,19 @@ void KeepRidges(const RowsAround& rows, std::uint8_t number, int width, std::uin
   }
 }
 
+/// Rows at either border in which no line is looked for: the filters need what lies around.
+int MarginOf(const StripeOptions& options) {
+  return std::max(options.reach_px + kSide, kTaps + 1);
+}
+
 }  // namespace
 
 void StripeFinder::FindRidges(const GreyImage& image) {
-  const int width = image.width, reach = options_.reach_px;
+  const int width = image.width, reach = options_.reach_px, margin = MarginOf(options_);
   rows_per_group_ = image.height / 256 + 1;  // so that their number fits into a byte
   strength_.assign(width, 0);
   row_group_.assign(width, 0);
-  for (int v = reach + kSide; v < image.height - reach - kSide; ++v) {
+  for (int v = margin; v < image.height - margin; ++v) {
     const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(v) * width;
     KeepRidges({row, row - width, row + width, row - reach * width, row + reach * width},
                static_cast<std::uint8_t>(v / rows_per_group_), width, strength_.data(), row_group_.data());
@@ -176,7 +181,7 @@ void StripeFinder::DropGlints(std::vector<StripePoint>& points) const {
 }
 
 std::vector<StripePoint> StripeFinder::Find(const GreyImage& image) {
-  const int reach = options_.reach_px, first = reach + kSide, last = image.height - 1 - first;
+  const int reach = options_.reach_px, first = MarginOf(options_), last = image.height - 1 - first;
   std::vector<StripePoint> points;
   if (last < first || image.width < 3) return points;
   FindRidges(image);

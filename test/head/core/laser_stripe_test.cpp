@@ -93,6 +93,21 @@ TEST(LaserStripeTest, ImagesOfAnySizeAreSurvived) {
   }
 }
 
+TEST(LaserStripeTest, AnyReachStaysWithinTheImage) {
+  Rng rng(9);
+  for (int i = 0; i < 400; ++i) {
+    const int width = static_cast<int>(rng.Below(40)), height = static_cast<int>(rng.Below(60));
+    GreyImage image{width, height, std::vector<std::uint8_t>(std::size_t(width) * height)};
+    for (auto& p : image.pixels) p = static_cast<std::uint8_t>(rng.Below(256));
+    StripeOptions options;
+    options.reach_px = 1 + static_cast<int>(rng.Below(9)), options.min_length_px = 1;
+    for (const StripePoint& p : StripeFinder(options).Find(image)) {
+      EXPECT_GE(p.at.y(), 0);
+      EXPECT_LE(p.at.y(), height - 1);
+    }
+  }
+}
+
 TEST(LaserStripeTest, ATallImageKeepsItsRows) {
   GreyImage image{40, 3000, std::vector<std::uint8_t>(40 * 3000, 10)};
   for (int u = 0; u < 40; ++u) {
