@@ -11,20 +11,27 @@ void AddSeeCommand(CLI::App& cli, int& exit_code) {
       "see", "Draw edges, corners and parallelograms of photographs, and what a stereo pair has in common.");
   verb->footer(
       "Examples: priamos see photo.jpg --json edges.json\n"
-      "          priamos see left.jpg right.jpg --cameras left.yaml right.yaml");
+      "          priamos see left.jpg right.jpg --cameras left.yaml right.yaml\n"
+      "          priamos see photo.png --cameras camera.yaml --landmark body.cao --at 0.05 0.1 0.6 115 0 0");
   verb->add_option("image", options->images, "image files")->required();
   verb->add_option(
           "--cameras", options->cameras,
           "rectified cameras of two or three images: YAML with projection_matrix, in the images' order")
-      ->expected(2, 3);
+      ->expected(1, 3);
+  auto* at =
+      verb->add_option("--at", options->at,
+                       "where the landmark is believed to be, in the first camera's frame: x y z [m] roll "
+                       "pitch yaw [deg]")
+          ->expected(6);
+  verb->add_option(
+          "--landmark", options->landmark,
+          "a body of flat faces to look for, .toml or ViSP's .cao; one image with its camera is enough")
+      ->needs(at);
   verb->add_option("--out", options->folder, "folder for the drawings")
       ->capture_default_str()
       ->check(CLI::ExistingDirectory);
   verb->add_option("--json", options->json, "write segments, corners, outlines and matches there");
-  verb->callback([options, &exit_code] {
-    head::See(*options);
-    exit_code = 0;
-  });
+  verb->callback([options, &exit_code] { exit_code = head::See(*options) ? 0 : 1; });
 }
 
 }  // namespace priamos::cli

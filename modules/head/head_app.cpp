@@ -6,29 +6,12 @@
 
 #include "head/calibration_file.hpp"
 #include "head/core/epipolar_shift.hpp"
+#include "head/vision_options.hpp"
 
 namespace priamos::head {
 namespace {
 
 constexpr std::size_t kMaxOrders = 16;
-
-LandmarkFixOptions FinderOptions(const VisionConfig& vision, const HeadModel& head) {
-  LandmarkFixOptions options;
-  options.solver.model_sigma_m = vision.model_sigma_m;
-  options.solver.camera_sigma_px = vision.camera_sigma_px;
-  options.solver.base_covariance = head.base_covariance;
-  options.stereo.camera_sigma_px = vision.camera_sigma_px;
-  options.min_log_odds = vision.min_log_odds;
-  options.min_lead = vision.min_lead;
-  return options;
-}
-
-EdgeOperator::Options EdgeOptions(const VisionConfig& vision) {
-  EdgeOperator::Options options;
-  options.min_contrast = vision.min_contrast;
-  options.min_length_px = vision.min_edge_px;
-  return options;
-}
 
 LandmarkFix NotFound(Verdict verdict) {
   LandmarkFix fix;

@@ -12,9 +12,11 @@
 #include <stdexcept>
 
 #include "head/core/edge_segments.hpp"
+#include "head/landmark_file.hpp"
 #include "head/projection_file.hpp"
 #include "head/see_drawing.hpp"
 #include "head/see_json.hpp"
+#include "head/see_landmark.hpp"
 
 namespace priamos::head {
 namespace {
@@ -63,9 +65,11 @@ std::vector<Photograph> Read(const SeeOptions& options) {
 std::vector<CameraModel> Cameras(const SeeOptions& options, const std::vector<Photograph>& photographs) {
   if (options.cameras.empty()) return {};
   const std::size_t n = photographs.size();
-  if (options.cameras.size() != n || n < 2 || n > 3)
-    throw std::runtime_error(fmt::format("expected two or three images and a camera for each, got {} and {}",
-                                         n, options.cameras.size()));
+  const std::size_t fewest = options.landmark.empty() ? 2 : 1;
+  if (options.cameras.size() != n || n < fewest || n > 3)
+    throw std::runtime_error(fmt::format("expected {} images and a camera for each, got {} and {}",
+                                         fewest == 1 ? "one to three" : "two or three", n,
+                                         options.cameras.size()));
   std::vector<CameraModel> cameras;
   for (std::size_t i = 0; i < n; ++i) {
     if (photographs[i].grey.size() != photographs[0].grey.size())
@@ -88,22 +92,51 @@ nlohmann::ordered_json SeeEach(const SeeOptions& options, const std::vector<Phot
                              p.edges.segments.size(), contours.corners().size(),
                              std::ranges::count_if(contours.polygons(), is_parallelogram), drawing);
     all.push_back(EdgesToJson(p.file, p.edges, contours));
+    if (const auto why = WhyBlind(p.edges); !why.empty()) {
+      std::cout << fmt::format("{}: nothing can be seen: {}\n", p.file, why);
+      all.back()["unusable"] = why;
+    }
   }
   return all;
 }
 
+std::vector<CameraView> Views(const std::vector<Photograph>& photographs,
+                              const std::vector<CameraModel>& cameras) {
+  std::vector<CameraView> views;
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    views.push_back(MakeView(cameras[i], photographs[i].edges));
+  return views;
+}
+
+std::vector<StereoMatch> Match(const std::vector<CameraView>& views) {
+  return views.size() == 2 ? MatchBinocular(views[0], views[1], {})
+                           : MatchTrinocular(views[0], views[1], views[2], {});
+}
+
+std::ptrdiff_t InSpace(const std::vector<StereoMatch>& matches) {
+  return std::ranges::count_if(matches, [](const StereoMatch& m) { return m.space.has_value(); });
+}
+
+/// Seen from the wrong side everything lies behind the cameras, or nothing fits.
+void RefuseExchanged(const std::vector<Photograph>& photographs, const std::vector<CameraModel>& cameras,
+                     std::ptrdiff_t n_as_given) {
+  const auto exchanged = InSpace(MatchBinocular(MakeView(cameras[0], photographs[1].edges),
+                                                MakeView(cameras[1], photographs[0].edges), {}));
+  if (exchanged >= 2 && exchanged > 3 * n_as_given)
+    throw std::runtime_error(fmt::format(
+        "{} and {}: expected the images in the order of their cameras: {} edges fit as they are, {} "
+        "if the images are exchanged",
+        photographs[0].file, photographs[1].file, n_as_given, exchanged));
+}
+
 nlohmann::ordered_json SeeTogether(const SeeOptions& options, const std::vector<Photograph>& photographs,
                                    const std::vector<CameraModel>& cameras) {
-  std::vector<CameraView> views;
+  const std::vector<CameraView> views = Views(photographs, cameras);
   std::vector<cv::Mat> greys;
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    views.push_back(MakeView(cameras[i], photographs[i].edges));
-    greys.push_back(photographs[i].grey);
-  }
-  const auto matches = views.size() == 2 ? MatchBinocular(views[0], views[1], {})
-                                         : MatchTrinocular(views[0], views[1], views[2], {});
-  const auto reconstructed =
-      std::ranges::count_if(matches, [](const StereoMatch& m) { return m.space.has_value(); });
+  for (const Photograph& p : photographs) greys.push_back(p.grey);
+  const auto matches = Match(views);
+  const auto reconstructed = InSpace(matches);
+  RefuseExchanged(photographs, cameras, reconstructed);
   const std::string drawing = DrawingFile(options, photographs[0].file, "stereo");
   Write(drawing, DrawMatches(greys, views, matches));
   std::cout << fmt::format("together: {} matches, {} of them with a place in space, drawn in {}\n",
@@ -111,17 +144,44 @@ nlohmann::ordered_json SeeTogether(const SeeOptions& options, const std::vector<
   return MatchesToJson(views, matches);
 }
 
+nlohmann::ordered_json SeeLandmark(const SeeOptions& options, const std::vector<Photograph>& photographs,
+                                   const std::vector<CameraModel>& cameras, bool& found) {
+  const Polyhedron body = LoadPolyhedron(options.landmark);
+  const Eigen::Isometry3d believed = PoseFromSix(options.at);
+  const std::vector<CameraView> views = Views(photographs, cameras);
+  const FreeModelFix fix = LocateFreeModel(body, believed, views, {});
+  const std::string drawing = DrawingFile(options, photographs[0].file, "landmark");
+  Write(drawing, DrawLandmark(photographs[0].grey, views, body, believed, fix));
+  found = fix.verdict == Verdict::kFound;
+  if (found) {
+    const auto at = SixFromPose(fix.base_from_model);
+    std::cout << fmt::format(
+        "{}: at {:.4f} {:.4f} {:.4f} m, {:.3f} {:.3f} {:.3f} deg; {} edges, {:.2f} px, drawn in {}\n",
+        options.landmark, at[0], at[1], at[2], at[3], at[4], at[5], fix.n_matched, fix.residual_px, drawing);
+  } else {
+    std::cout << fmt::format("{}: not found: {}; drawn in {}\n", options.landmark, Describe(fix.verdict),
+                             drawing);
+  }
+  return LandmarkToJson(views, fix);
+}
+
 }  // namespace
 
-void See(const SeeOptions& options) {
+bool See(const SeeOptions& options) {
+  if (!options.landmark.empty() && options.cameras.empty())
+    throw std::runtime_error(
+        fmt::format("{}: expected a camera for each image to look for it", options.landmark));
   const auto photographs = Read(options);
   const auto cameras = Cameras(options, photographs);
+  bool found = true;
   nlohmann::ordered_json all{{"images", SeeEach(options, photographs)}};
-  if (!cameras.empty()) all["matches"] = SeeTogether(options, photographs, cameras);
-  if (options.json.empty()) return;
+  if (cameras.size() > 1) all["matches"] = SeeTogether(options, photographs, cameras);
+  if (!options.landmark.empty()) all["landmark"] = SeeLandmark(options, photographs, cameras, found);
+  if (options.json.empty()) return found;
   std::ofstream out(options.json);
   out << all.dump(1) << "\n";
   if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", options.json));
+  return found;
 }
 
 }  // namespace priamos::head

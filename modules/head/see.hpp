@@ -9,14 +9,19 @@ namespace priamos::head {
 struct SeeOptions {
   std::vector<std::string> images;  ///< files OpenCV can read
   std::vector<std::string>
-      cameras{};             ///< projection files (LoadProjection) of two or three images of one scene
+      cameras{};  ///< projection files (LoadProjection) of two or three images of one scene
+  std::string
+      landmark{};  ///< a free landmark model (LoadPolyhedron) to look for; needs cameras, one is enough
+  std::vector<double> at{};  ///< where it is believed to be (PoseFromSix)
   std::string folder = ".";  ///< NAME-edges.png per image, and NAME-stereo.png, are written here
   std::string json{};        ///< all that was found; empty: none
 };
 
 /// Draws edges, corners and outlines of each image, with `cameras` also what the images have in common, and
 /// lists all of it. Throws std::runtime_error naming a file that cannot be read, does not fit the others, or
-/// cannot be written; then nothing has been written for that image.
-void See(const SeeOptions& options);
+/// cannot be written; then nothing has been written for that image. An image in which nothing can be seen is
+/// named with the reason, and so are images that were exchanged. False if a landmark was asked for and not
+/// found.
+bool See(const SeeOptions& options);
 
 }  // namespace priamos::head

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@ namespace priamos::bench {
 /// What a run of the bench is asked to do.
 struct VisionOptions {
   bool quick = false;               ///< a tenth of the samples
+  bool verbose = false;             ///< a line per look
+  std::uint64_t seed = 1000;        ///< of the first look at a door
   std::vector<std::string> photos;  ///< for times; scaled to 768 x 576
 };
 
@@ -18,5 +21,18 @@ void BenchEdges(const VisionOptions& options, Figures& figures);
 
 /// Wrong matches of edges with three cameras against two.
 void BenchStereo(const VisionOptions& options, Figures& figures);
+
+/// Fixes at the door from rendered stereo pairs, beside ViSP's edge tracker where it is installed.
+void BenchDoor(const VisionOptions& options, Figures& figures);
+
+/// Scenes without the door, with another one, half hidden, with the leaf anywhere, nearly dark.
+void BenchDeceptions(const VisionOptions& options, Figures& figures);
+
+/// A free polyhedron with six degrees of freedom: ViSP's castle sequence with its own truth
+/// (visp-images-data).
+void BenchCastle(const VisionOptions& options, Figures& figures);
+
+/// Doors that no map told of.
+void BenchDetection(const VisionOptions& options, Figures& figures);
 
 }  // namespace priamos::bench

@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "head/core/landmark_fix.hpp"
 #include "head/projection_file.hpp"
 #include "test/support/temporary_folder.hpp"
 
@@ -117,6 +118,90 @@ TEST_F(SeeTest, WhatCannotBeUsedIsNamed) {
                                           "distortion_coefficients:\n   data: [ 0.1, 0., 0., 0., 0. ]\n")},
                .folder = folder_.path()}),
       HasSubstr("rectified"));
+}
+
+/// The board of Photograph as a model in the left camera's frame.
+constexpr const char* kBoard = R"(
+[[points]]
+at_m = [-0.2667, -0.3333, 2.0]
+[[points]]
+at_m = [0.4, -0.3333, 2.0]
+[[points]]
+at_m = [0.4, 0.2, 2.0]
+[[points]]
+at_m = [-0.2667, 0.2, 2.0]
+[[faces]]
+points = [0, 3, 2, 1]
+)";
+
+TEST_F(SeeTest, AnImageInWhichNothingCanBeSeenIsNamedWithTheReason) {
+  const std::string file = folder_ / "bad.png", json = folder_ / "bad.json";
+  for (const auto& [grey, why] :
+       {std::pair{0, "black"}, {255, "black or white all over"}, {90, "without edges"}}) {
+    cv::imwrite(file, cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(grey)));
+    EXPECT_TRUE(See({.images = {file}, .folder = folder_.path(), .json = json}));
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream(json))["images"][0]["unusable"], why);
+  }
+}
+
+TEST_F(SeeTest, ExchangedImagesAreRefused) {
+  const SeeOptions options{.images = {Photograph("right.png", kDisparity), Photograph("left.png", 0)},
+                           .cameras = {Camera("left.yaml", 0), Camera("right.yaml", kBaseline)},
+                           .folder = folder_.path()};
+  EXPECT_THAT(ErrorOf(options), HasSubstr("if the images are exchanged"));
+}
+
+TEST_F(SeeTest, FindsALandmarkOfFlatFaces) {
+  std::ofstream(folder_ / "board.toml") << kBoard;
+  const SeeOptions options{.images = {Photograph("left.png", 0), Photograph("right.png", kDisparity)},
+                           .cameras = {Camera("left.yaml", 0), Camera("right.yaml", kBaseline)},
+                           .landmark = folder_ / "board.toml",
+                           .at = {0.01, -0.01, 0.02, 0, 0, 0.3},
+                           .folder = folder_.path(),
+                           .json = folder_ / "all.json"};
+  EXPECT_TRUE(See(options));
+  const auto dut = nlohmann::json::parse(std::ifstream(folder_ / "all.json"))["landmark"];
+  ASSERT_TRUE(dut["found"]) << dut["verdict"];
+  EXPECT_NEAR(dut["pose_m_deg"][0].get<double>(), 0, 0.01);
+  EXPECT_NEAR(dut["pose_m_deg"][2].get<double>(), 0, 0.03);
+}
+
+TEST_F(SeeTest, ALandmarkThatCannotBeSeenIsNotFoundAndTheReasonIsTold) {
+  std::ofstream(folder_ / "board.toml") << kBoard;
+  SeeOptions options{.images = {Photograph("left.png", 0)},
+                     .cameras = {Camera("left.yaml", 0)},
+                     .landmark = folder_ / "board.toml",
+                     .at = {0, 0, -4, 0, 0, 0},
+                     .folder = folder_.path(),
+                     .json = folder_ / "all.json"};
+  EXPECT_FALSE(See(options));
+  const auto verdict = [&] {
+    return nlohmann::json::parse(std::ifstream(folder_ / "all.json"))["landmark"]["verdict"]
+        .get<std::string>();
+  };
+  EXPECT_EQ(verdict(), Describe(Verdict::kNotVisible));
+  cv::imwrite(options.images[0], cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(0)));
+  options.at = {0, 0, 0, 0, 0, 0};
+  EXPECT_FALSE(See(options));
+  EXPECT_EQ(verdict(), Describe(Verdict::kNoImage));
+}
+
+TEST_F(SeeTest, MistakesInALandmarkFileAreNamed) {
+  const std::string file = folder_ / "body.toml";
+  const auto error = [&](const std::string& text, const std::string& name) {
+    std::ofstream(name) << text;
+    return ErrorOf({.images = {Photograph("left.png", 0)},
+                    .cameras = {Camera("left.yaml", 0)},
+                    .landmark = name,
+                    .at = {0, 0, 0, 0, 0, 0},
+                    .folder = folder_.path()});
+  };
+  EXPECT_THAT(error("[[points]]\nat_m = [0, 0]\n", file), HasSubstr("body.toml:2"));
+  EXPECT_THAT(error("[[faces]]\npoints = [0, 1.5, 2]\n", file), HasSubstr("whole numbers"));
+  EXPECT_THAT(error("[[faces]]\npoints = [0, 1, 2]\n", file), HasSubstr("expected points 0 to"));
+  EXPECT_THAT(error("colour = 3\n", file), HasSubstr("colour"));
+  EXPECT_THAT(error("V2\n", folder_ / "body.cao"), HasSubstr("body.cao:1: expected V1"));
+  EXPECT_THAT(error("", folder_ / "body.stl"), HasSubstr(".toml or .cao"));
 }
 
 TEST_F(SeeTest, ACameraOfAnotherImageIsRefused) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "head/core/prediction.hpp"
@@ -41,6 +42,23 @@ std::optional<Candidate> Compare(const PredictedEdge& edge, const Eigen::Vector2
   if (std::abs(distance) > reach_px) return std::nullopt;
   return Candidate{
       index, from, to, std::max(0.0, -s), std::max(0.0, t - length), distance, normal.dot(line.normal) > 0};
+}
+
+/// Marks the lines that Compare may accept: all of them at once, with a little slack for single precision.
+void MarkNear(const LineTable& lines, const PredictedEdge& edge, double reach_px, double max_angle,
+              std::vector<std::uint8_t>& marks) {
+  constexpr float kSlack = 0.01F;
+  const Eigen::Vector2f n = edge.normal().cast<float>();
+  const float offset = n.dot(edge.p.cast<float>()), reach = static_cast<float>(reach_px) + kSlack;
+  const float angle = static_cast<float>(max_angle), one = 1.0F + kSlack;
+  marks.resize(lines.px.size());
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const float a = n.x() * lines.px[i] + n.y() * lines.py[i] - offset;
+    const float b = n.x() * lines.qx[i] + n.y() * lines.qy[i] - offset;
+    const bool turned = std::abs(b - a) > angle * lines.length[i] + one;
+    const bool far = (a > reach && b > reach) || (a < -reach && b < -reach);
+    marks[i] = !(turned | far);
+  }
 }
 
 double Union(std::vector<std::pair<double, double>>& parts) {
@@ -192,10 +210,13 @@ void Account(const Search& search, int side, double density, int camera, const A
   association.matches.back().log_odds = log_odds;
 }
 
-void Match(Search& search, const CameraView& view, const AssociationOptions& options) {
+void Match(Search& search, const CameraView& view, const AssociationOptions& options,
+           std::vector<std::uint8_t>& marks) {
   const double length = search.predicted.length_px();
   const Eigen::Vector2d direction = search.predicted.direction(), normal = search.predicted.normal();
+  MarkNear(view.table, search.predicted, options.clutter_window_px, options.max_angle_rad, marks);
   for (std::size_t i = 0; i < view.lines.size(); ++i) {
+    if (!marks[i]) continue;
     const auto c = Compare(search.predicted, direction, normal, length, view.lines[i], int(i),
                            options.clutter_window_px, options.max_angle_rad);
     if (c) search.candidates.push_back(*c);
@@ -213,10 +234,11 @@ Association Associate(const LandmarkModel& model, std::span<const int> visible,
                       const AssociationOptions& options) {
   Association association;
   association.missed_log_odds = std::log(1 - options.detection);
+  std::vector<std::uint8_t> marks;
   for (std::size_t c = 0; c < views.size(); ++c) {
     std::vector<Search> searches = Predict(model, visible, views[c], base_from_landmark);
     DropCrowded(searches, options.min_separation_px);
-    for (Search& search : searches) Match(search, views[c], options);
+    for (Search& search : searches) Match(search, views[c], options, marks);
     MakeExclusive(searches);
     for (const Search& search : searches) {
       const double density = Density(search, searches, options.clutter_window_px);
@@ -227,16 +249,17 @@ Association Associate(const LandmarkModel& model, std::span<const int> visible,
   return association;
 }
 
-void Association::Withdraw(const LandmarkModel& model, int edge) {
+void Association::Withdraw(const LandmarkModel& model, int edge, int camera) {
+  const auto is_it = [&](const EdgeMatch& m) { return m.edge == edge && (camera < 0 || m.camera == camera); };
   const int side = std::clamp(model.edges[edge].side, 0, 2);
   for (const EdgeMatch& m : matches) {
-    if (m.edge != edge) continue;
+    if (!is_it(m)) continue;
     const double importance = std::min(1.0, m.predicted_px / kFullLengthPx);
     log_odds += importance * missed_log_odds - m.log_odds;
     side_found_px[side] -= importance * kFullLengthPx * std::min(1.0, m.covered / kNearlyWhole);
   }
   side_found_px[side] = std::max(0.0, side_found_px[side]);
-  std::erase_if(matches, [edge](const EdgeMatch& m) { return m.edge == edge; });
+  std::erase_if(matches, is_it);
 }
 
 std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Association& association,

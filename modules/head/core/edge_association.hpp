@@ -33,8 +33,8 @@ struct Association {
   /// each edge counted up to kFullLengthPx [px].
   std::array<double, 3> side_predicted_px{}, side_found_px{};
 
-  /// Takes the matches of one model edge back: it was found, but is not what was found.
-  void Withdraw(const LandmarkModel& model, int edge);
+  /// Takes the match of one model edge in one image (-1: in all) back: what was found is something else.
+  void Withdraw(const LandmarkModel& model, int edge, int camera);
 };
 
 struct AssociationOptions {

@@ -39,6 +39,17 @@ Eigen::Matrix3d OnFloor(const Eigen::Matrix<double, 6, 6>& covariance) {
   return floor;
 }
 
+/// So near that refinement leads to the same place.
+bool IsSame(const Pose2& a, const Pose2& b) {
+  return (a.translation() - b.translation()).norm() < 0.004 && std::abs(WrapAngle(a.yaw - b.yaw)) < 0.002;
+}
+
+std::vector<const CameraModel*> Cameras(std::span<const CameraView> views) {
+  std::vector<const CameraModel*> cameras;
+  for (const CameraView& view : views) cameras.push_back(view.camera);
+  return cameras;
+}
+
 bool IsDistinct(const Pose2& a, const Pose2& b, const LandmarkFixOptions& options) {
   return (a.translation() - b.translation()).norm() > options.distinct_m ||
          std::abs(WrapAngle(a.yaw - b.yaw)) > options.distinct_rad;
@@ -77,45 +88,65 @@ const char* Describe(Verdict verdict) {
   return "unknown";
 }
 
-bool IsBlind(const EdgeImage& edges) {
-  return edges.width < 64 || edges.height < 64 || edges.saturated_share > 0.6 || edges.mean_grey < 4 ||
-         edges.segments.size() < 2;
+std::string_view WhyBlind(const EdgeImage& edges) {
+  if (edges.width < 64 || edges.height < 64) return "too small";
+  if (edges.mean_grey < 4) return "black";
+  if (edges.saturated_share > 0.6) return "black or white all over";
+  if (edges.segments.size() < 2) return "without edges";
+  return {};
 }
 
-LandmarkFinder::Pose LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraView> views,
-                                            const Pose2& start) const {
-  std::vector<const CameraModel*> cameras;
-  for (const CameraView& view : views) cameras.push_back(view.camera);
-  Pose pose;
-  pose.base_from_landmark = start;
-  for (const AssociationOptions* options : {&kProposed, &kApproached, &kRefined}) {
-    const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-    const auto visible = VisibleAt(model, pose.base_from_landmark);
-    pose.association = Associate(model, visible, views, at, *options);
-    const auto observations = Observations(model, pose.association, views, at, options != &kRefined);
-    pose.solution = SolvePose(model, cameras, observations, at, options_.solver);
-    if (!pose.solution.ok) return pose;
-    pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
-  }
+bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const CameraView> views,
+                              const AssociationOptions& gate, bool coarse, Pose& pose) const {
+  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+  pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, gate);
+  const auto observations = Observations(model, pose.association, views, at, coarse);
+  pose.solution = SolvePose(model, Cameras(views), observations, at, options_.solver);
+  if (pose.solution.ok) pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
+  return pose.solution.ok;
+}
+
+/// From a pose that was approached once.
+void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const {
+  if (!Approach(model, views, kApproached, true, pose) || !Approach(model, views, kRefined, false, pose))
+    return;
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
   pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
-  DropStrangers(model, views, cameras, pose);
-  return pose;
+  DropStrangers(model, views, pose);
+}
+
+/// Many proposals lead to the same pose: each is refined only once.
+std::vector<LandmarkFinder::Pose> LandmarkFinder::RefineAll(const LandmarkModel& model,
+                                                            std::span<const CameraView> views,
+                                                            std::span<const Pose2> starts) const {
+  std::vector<Pose> approached, refined;
+  for (const Pose2& start : starts) {
+    Pose pose;
+    pose.base_from_landmark = start;
+    if (!Approach(model, views, kProposed, true, pose)) continue;
+    const bool known = std::any_of(approached.begin(), approached.end(), [&](const Pose& other) {
+      return IsSame(other.base_from_landmark, pose.base_from_landmark);
+    });
+    if (known) continue;
+    approached.push_back(pose);
+    Refine(model, views, pose);
+    if (pose.solution.ok) refined.push_back(std::move(pose));
+  }
+  return refined;
 }
 
 /// An image edge beside the right one can lie within the gate; it shows when all others agree on the pose.
 void LandmarkFinder::DropStrangers(const LandmarkModel& model, std::span<const CameraView> views,
-                                   std::span<const CameraModel* const> cameras, Pose& pose) const {
+                                   Pose& pose) const {
   for (int dropped = 0;; ++dropped) {
     const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
     const auto observations = Observations(model, pose.association, views, at, false);
-    pose.solution = SolvePose(model, cameras, observations, at, options_.solver);
+    pose.solution = SolvePose(model, Cameras(views), observations, at, options_.solver);
     if (!pose.solution.ok) return;
     pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
-    const auto& misfit = pose.solution.edge_misfit;
-    const auto worst = std::max_element(misfit.begin(), misfit.end());
-    if (*worst < options_.stranger_misfit || dropped == options_.max_strangers) return;
-    pose.association.Withdraw(model, static_cast<int>(worst - misfit.begin()));
+    const EdgeSuspect& suspect = pose.solution.suspect;
+    if (suspect.misfit < options_.stranger_misfit || dropped == options_.max_strangers) return;
+    pose.association.Withdraw(model, suspect.edge, suspect.camera);
     if (pose.association.matches.size() < std::size_t(options_.min_matched)) return;
   }
 }
@@ -156,11 +187,9 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   if (judged.size() > kRefineBest) judged.resize(kRefineBest);
 
-  std::vector<Pose> poses;
-  for (const auto& [odds, start] : judged) {
-    Pose pose = Refine(model, views, start);
-    if (pose.solution.ok) poses.push_back(std::move(pose));
-  }
+  std::vector<Pose2> starts;
+  for (const auto& [odds, start] : judged) starts.push_back(start);
+  std::vector<Pose> poses = RefineAll(model, views, starts);
   fix.verdict = Verdict::kTooFewEdges;
   if (poses.empty()) return fix;
   const auto best = std::max_element(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) {

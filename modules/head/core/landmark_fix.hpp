@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "head/core/camera_model.hpp"
@@ -62,8 +63,9 @@ struct LandmarkFixOptions {
       5;                ///< wanted in addition if only one side is in view: it could be another landmark's
   double min_lead = 6;  ///< over the best different pose
   double max_residual_px = 1.2;
-  double max_misfit = 4;
-  double stranger_misfit = 8;  ///< an edge that fits worse (chi squared) is not the model's
+  double max_misfit = 3;
+  double stranger_misfit = 6;  ///< an edge that fits worse (chi squared per degree of freedom: 0.01 to 0.2 %
+                               ///< of the right ones) is not the model's
   int max_strangers = 3;       ///< so many may be taken out
   double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
   VerticalStereoOptions stereo;
@@ -86,16 +88,23 @@ class LandmarkFinder {
 
  private:
   struct Pose;
-  Pose Refine(const LandmarkModel& model, std::span<const CameraView> views, const Pose2& start) const;
-  void DropStrangers(const LandmarkModel& model, std::span<const CameraView> views,
-                     std::span<const CameraModel* const> cameras, Pose& pose) const;
+  bool Approach(const LandmarkModel& model, std::span<const CameraView> views, const AssociationOptions& gate,
+                bool coarse, Pose& pose) const;
+  void Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  std::vector<Pose> RefineAll(const LandmarkModel& model, std::span<const CameraView> views,
+                              std::span<const Pose2> starts) const;
+  void DropStrangers(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
   void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
              const Pose& best, LandmarkFix& fix) const;
 
   LandmarkFixOptions options_;
 };
 
-/// True if nothing can be seen in the image: too small, black or white all over, without contrast.
-bool IsBlind(const EdgeImage& edges);
+/// Why nothing can be seen in the image: too small, black or white all over, without contrast; empty if it is
+/// of use.
+std::string_view WhyBlind(const EdgeImage& edges);
+inline bool IsBlind(const EdgeImage& edges) {
+  return !WhyBlind(edges).empty();
+}
 
 }  // namespace priamos::head

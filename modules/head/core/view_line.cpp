@@ -56,7 +56,7 @@ void FitTo(std::span<const Eigen::Vector2d> points, Eigen::Vector2d& p, Eigen::V
 }  // namespace
 
 CameraView MakeView(const CameraModel& camera, const EdgeImage& edges) {
-  CameraView view{&camera, &edges, {edges.width, edges.height}, {}, {}};
+  CameraView view{&camera, &edges, {edges.width, edges.height}, {}, {}, {}};
   const FastUndistort undistort(camera, view.size);
   view.points.reserve(edges.points.size());
   for (const EdgePoint& point : edges.points) view.points.push_back(undistort(point.at));
@@ -75,6 +75,13 @@ CameraView MakeView(const CameraModel& camera, const EdgeImage& edges) {
                  Eigen::Vector3d(line.normal.x(), line.normal.y(), -line.normal.dot(line.p));
     line.plane /= line.plane.head<3>().norm();
     view.lines.push_back(line);
+  }
+  for (const ViewLine& line : view.lines) {
+    view.table.px.push_back(static_cast<float>(line.p.x())),
+        view.table.py.push_back(static_cast<float>(line.p.y()));
+    view.table.qx.push_back(static_cast<float>(line.q.x())),
+        view.table.qy.push_back(static_cast<float>(line.q.y()));
+    view.table.length.push_back(static_cast<float>(line.length_px));
   }
   return view;
 }

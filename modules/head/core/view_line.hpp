@@ -19,6 +19,11 @@ struct ViewLine {
   double contrast = 0;
 };
 
+/// The ends of all lines once more, one number after the other, for fast search.
+struct LineTable {
+  std::vector<float> px, py, qx, qy, length;
+};
+
 /// What one camera saw: its edges, and how to undo its lens.
 struct CameraView {
   const CameraModel* camera = nullptr;
@@ -26,6 +31,7 @@ struct CameraView {
   ImageSize size;
   std::vector<ViewLine> lines;
   std::vector<Eigen::Vector2d> points;  ///< EdgeImage::points, undistorted
+  LineTable table;
 };
 
 /// Undistorts the points of all segments and lays the lines through them: a long edge that the lens bends is

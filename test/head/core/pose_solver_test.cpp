@@ -128,9 +128,9 @@ TEST_F(PoseSolverTest, PointsOutTheEdgeThatIsNotTheModels) {
   }
   const PoseSolution dut = SolvePose(door_, cameras_, observations, truth, {});
   ASSERT_TRUE(dut.ok);
-  const auto worst = std::max_element(dut.edge_misfit.begin(), dut.edge_misfit.end());
-  EXPECT_EQ(worst - dut.edge_misfit.begin(), 3);
-  EXPECT_GT(dut.misfit, 4);
+  EXPECT_EQ(dut.suspect.edge, 3);
+  EXPECT_GT(dut.suspect.misfit, 10);
+  EXPECT_GT(dut.misfit, 2);
 }
 
 TEST_F(PoseSolverTest, RefusesTooFewEdges) {

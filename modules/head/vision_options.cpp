@@ -1,0 +1,23 @@
+#include "head/vision_options.hpp"
+
+namespace priamos::head {
+
+LandmarkFixOptions FinderOptions(const VisionConfig& vision, const HeadModel& head) {
+  LandmarkFixOptions options;
+  options.solver.model_sigma_m = vision.model_sigma_m;
+  options.solver.camera_sigma_px = vision.camera_sigma_px;
+  options.solver.base_covariance = head.base_covariance;
+  options.stereo.camera_sigma_px = vision.camera_sigma_px;
+  options.min_log_odds = vision.min_log_odds;
+  options.min_lead = vision.min_lead;
+  return options;
+}
+
+EdgeOperator::Options EdgeOptions(const VisionConfig& vision) {
+  EdgeOperator::Options options;
+  options.min_contrast = vision.min_contrast;
+  options.min_length_px = vision.min_edge_px;
+  return options;
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "head/core/edge_segments.hpp"
+#include "head/core/head_model.hpp"
+#include "head/core/landmark_fix.hpp"
+#include "head/head_config.hpp"
+
+namespace priamos::head {
+
+/// What the configuration and the head's calibration mean for the search of landmarks and edges.
+LandmarkFixOptions FinderOptions(const VisionConfig& vision, const HeadModel& head);
+EdgeOperator::Options EdgeOptions(const VisionConfig& vision);
+
+}  // namespace priamos::head

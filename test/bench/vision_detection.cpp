@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include "head/core/door_detection.hpp"
+#include "head/core/edge_segments.hpp"
+#include "test/bench/door_looks.hpp"
+#include "test/bench/vision_bench.hpp"
+
+namespace priamos::bench {
+namespace {
+
+struct Count {
+  int looks = 0, with_door = 0, found = 0, false_ones = 0, off = 0;
+};
+
+void Add(const DoorLook& look, const std::vector<head::DetectedDoor>& doors, Count& count) {
+  const Eigen::Vector2d front = look.truth * Eigen::Vector2d(-0.085, 0);
+  ++count.looks, count.with_door += look.door_is_there;
+  bool found = false;
+  for (const head::DetectedDoor& door : doors) {
+    const double error = (door.base_from_door.translation() - front).norm();
+    const bool is_it = look.door_is_there && error < 0.25;
+    found = found || is_it;
+    count.false_ones += !is_it;
+    count.off += is_it && error > 0.03;
+  }
+  count.found += found;
+}
+
+}  // namespace
+
+void BenchDetection(const VisionOptions& options, Figures& figures) {
+  const int n = options.quick ? 10 : 100;
+  fmt::print(
+      "doors without a map, 2.4 m away: {} open, {} with the leaf anywhere from closed to 90 degrees, {} "
+      "walls\n",
+      n, n, n);
+  DoorPhotographer photographer;
+  head::EdgeOperator edge_operator;
+  Count count;
+  double seconds = 0;
+  for (const Trouble trouble : {Trouble::kNone, Trouble::kLeafMoved, Trouble::kDoorAbsent}) {
+    for (int i = 0; i < n; ++i) {
+      const std::uint64_t seed = options.seed + i;
+      const DoorLook look = photographer.Take(seed, trouble, CalibrateSpecimen(seed % 7 + 1));
+      const double start = CpuSeconds();
+      std::array<head::EdgeImage, 2> edges;
+      for (int c = 0; c < 2; ++c) edge_operator.Extract(look.images[c], edges[c]);
+      const auto doors = head::DetectDoors(head::MakeView(look.calibrated[0], edges[0]),
+                                           head::MakeView(look.calibrated[1], edges[1]), {});
+      seconds += CpuSeconds() - start;
+      Add(look, doors, count);
+    }
+  }
+  figures.AtLeast("  found", 100.0 * count.found / count.with_door, 98, "%");
+  figures.AtMost("  false ones, of all looks", 100.0 * count.false_ones / count.looks, 1, "%");
+  figures.AtMost("  more than 3 cm beside the truth, of those found",
+                 100.0 * count.off / std::max(1, count.found), 2, "%");
+  figures.Note("  time per stereo pair, edges included", 1000 * seconds / count.looks, "ms");
+}
+
+}  // namespace priamos::bench
