@@ -56,7 +56,7 @@ void FitTo(std::span<const Eigen::Vector2d> points, Eigen::Vector2d& p, Eigen::V
 }  // namespace
 
 CameraView MakeView(const CameraModel& camera, const EdgeImage& edges) {
-  CameraView view{&camera, &edges, {edges.width, edges.height}, {}, {}, {}};
+  CameraView view{&camera, &edges, {edges.width, edges.height}, {}, {}};
   const FastUndistort undistort(camera, view.size);
   view.points.reserve(edges.points.size());
   for (const EdgePoint& point : edges.points) view.points.push_back(undistort(point.at));

@@ -31,7 +31,7 @@ struct CameraView {
   ImageSize size;
   std::vector<ViewLine> lines;
   std::vector<Eigen::Vector2d> points;  ///< EdgeImage::points, undistorted
-  LineTable table;
+  LineTable table = {};
 };
 
 /// Undistorts the points of all segments and lays the lines through them: a long edge that the lens bends is
