@@ -94,7 +94,7 @@ class Receiver {
     state.epoch = kEpoch;
     state.send_event = state.receive_event = state.receive_known =
         std::vector<std::uint8_t>(Table().size(), 0);
-    store_.Save(Serialise(state), true);
+    store_.Save(Serialise(state));
     return store_;
   }
   void Take(const std::vector<Delivery>& deliveries) {
