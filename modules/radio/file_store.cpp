@@ -1,17 +1,16 @@
 #include "radio/file_store.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
+
+#include "common/replace_file.hpp"
 
 namespace priamos::radio {
 namespace {
@@ -30,20 +29,9 @@ std::optional<std::vector<std::byte>> Read(const std::string& path) {
       fmt::format("{}: the radio's state cannot be saved: {}", path, std::strerror(errno)));
 }
 
-/// A new file beside the old one, then its name: never half a state.
-void Replace(const std::string& path, std::span<const std::byte> state) {
-  const std::string next = path + ".new";
-  const int fd = open(next.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (fd < 0) Fail(path);
-  const bool whole = write(fd, state.data(), state.size()) == static_cast<ssize_t>(state.size());
-  close(fd);
-  if (!whole || std::rename(next.c_str(), path.c_str()) != 0) Fail(path);
-}
-
-void SyncToDisk(const std::string& path, int flags) {
-  const int fd = open(path.c_str(), flags | O_CLOEXEC);
-  if (fd < 0 || fsync(fd) != 0) Fail(path);
-  close(fd);
+void Replace(const std::string& path, std::span<const std::byte> state, bool durable) {
+  const std::string_view content(reinterpret_cast<const char*>(state.data()), state.size());
+  if (!ReplaceFile(path, content, durable, 0600)) Fail(path);
 }
 
 }  // namespace
@@ -69,7 +57,7 @@ std::optional<std::vector<std::byte>> FileStore::Load() {
 void FileStore::Save(std::span<const std::byte> state) {
   ThrowFailure();
   state_.assign(state.begin(), state.end());
-  Replace(fast_path_.empty() ? path_ : fast_path_, state);
+  Replace(fast_path_.empty() ? path_ : fast_path_, state, false);
 }
 
 void FileStore::StartSync() {
@@ -107,10 +95,12 @@ void FileStore::SyncThread() {
     lock.unlock();
     std::exception_ptr failure;
     try {
-      if (!fast_path_.empty()) Replace(path_, state);
-      SyncToDisk(path_, O_RDONLY);
-      // The new name must survive a loss of power as well.
-      SyncToDisk(std::filesystem::absolute(path_).parent_path(), O_RDONLY | O_DIRECTORY);
+      // Without a RAM disk the file holds this state, or one that is newer.
+      if (!fast_path_.empty()) {
+        Replace(path_, state, true);
+      } else if (!SyncFile(path_)) {
+        Fail(path_);
+      }
     } catch (...) {
       failure = std::current_exception();
     }

@@ -1,16 +1,16 @@
 #include "robot/last_word.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+
+#include "common/replace_file.hpp"
 
 namespace priamos::robot {
 namespace {
@@ -29,25 +29,6 @@ std::string_view Text(LastWord word) {
       return "e-stop\n";
   }
   return "";
-}
-
-/// False with errno set when it failed.
-bool WriteDurably(const std::string& path, std::string_view text) {
-  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) return false;
-  const bool good =
-      write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && fsync(fd) == 0;
-  const int error = errno;
-  close(fd);
-  errno = error;
-  return good;
-}
-
-void SyncFolder(const fs::path& folder) {
-  const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  fsync(fd);
-  close(fd);
 }
 
 }  // namespace
@@ -83,11 +64,9 @@ LastWord LastWordFile::Load() const {
 
 void LastWordFile::Save(LastWord word) {
   if (path_.empty() || word == saved_) return;
-  const std::string next = path_ + ".new";
-  if (!WriteDurably(next, Text(word)) || std::rename(next.c_str(), path_.c_str()) != 0)
+  if (!ReplaceFile(path_, Text(word), true, 0644))
     throw std::runtime_error(
         fmt::format("{}: the state of the robot cannot be saved: {}", path_, std::strerror(errno)));
-  SyncFolder(fs::absolute(path_).parent_path());
   saved_ = word;
 }
 
