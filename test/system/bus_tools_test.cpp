@@ -76,7 +76,7 @@ class BusTools : public testing::Test {
       if (i % 5 == 0) writer.Write(utime, "SONAR_RANGES", bus::Encode(sonar));
     }
   }
-  ScriptAnswer Run(const std::string& script, int seconds = 30, const std::string& unshare = "unshare -rn") {
+  ShellAnswer Run(const std::string& script, int seconds = 30, const std::string& unshare = "unshare -rn") {
     return RunInPrivateNetwork("cd " + folder_.path().string() + "\n" + script, folder_ / "script.sh",
                                seconds, unshare);
   }

@@ -3,14 +3,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <thread>
 
+#include "test/support/shell.hpp"
 #include "test/support/temporary_folder.hpp"
 
 // `priamos calibrate` as a person runs it: interrupted in the middle, and with input that is of no use.
@@ -21,19 +20,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-struct Answer {
-  int exit_code = -1;
-  std::string text;
-};
-
-Answer RunCommand(const std::string& command) {
-  FILE* pipe = popen(("timeout 250 " + command + " 2>&1").c_str(), "r");
-  Answer answer;
-  std::array<char, 256> buffer;
-  while (fgets(buffer.data(), buffer.size(), pipe)) answer.text += buffer.data();
-  const int status = pclose(pipe);
-  answer.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return answer;
+ShellAnswer RunCommand(const std::string& command) {
+  return RunShell("timeout 250 " + command);
 }
 
 std::string ReadFile(const std::filesystem::path& path) {
@@ -95,7 +83,7 @@ TEST_F(CalibrationTest, GoesOnAfterKill9InTheMiddle) {
   KillAfter(deployment, 5);
   EXPECT_EQ(ReadFile(deployment / "kastor.yaml"), "the old table\n");
   const auto done = Lines(deployment / "kastor.yaml.journal") - 1;
-  const Answer answer = RunCommand(kPriamos + " calibrate --deployment " + deployment.string());
+  const ShellAnswer answer = RunCommand(kPriamos + " calibrate --deployment " + deployment.string());
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("goes on after"));
   EXPECT_THAT(answer.text, Not(HasSubstr("; 1 of "))) << "what was finished is not done again";
@@ -114,7 +102,7 @@ class BadCalibrationInput : public CalibrationTest, public testing::WithParamInt
 TEST_P(BadCalibrationInput, OneSentenceExitCode2AndTheOldFileUntouched) {
   const BadInput& bad = GetParam();
   const std::string input = Write(bad.name, bad.text), output = Write("old.json", "{\"old\": true}\n");
-  const Answer answer =
+  const ShellAnswer answer =
       RunCommand(kPriamos + " calibrate " + bad.option + " " + input + " --output " + output);
   EXPECT_EQ(answer.exit_code, 2) << answer.text;
   EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
@@ -143,7 +131,7 @@ TEST_F(CalibrationTest, ATruncatedTableIsRefusedAndStays) {
   const std::string whole = ReadFile(PRIAMOS_SOURCE_DIR "/config/sim/kastor.yaml");
   const std::string table = Write("kastor.yaml", whole.substr(0, whole.size() / 2));
   const std::string pictures = Write("laser.toml", "[[view]]\nimage = \"floor.png\"\n");
-  const Answer answer = RunCommand(kPriamos + " calibrate --laser " + pictures + " --table " + table);
+  const ShellAnswer answer = RunCommand(kPriamos + " calibrate --laser " + pictures + " --table " + table);
   EXPECT_EQ(answer.exit_code, 2) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("kastor.yaml: "));
   EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;

@@ -39,8 +39,8 @@ class JavaTools : public testing::Test {
     fs::remove(picture_);
   }
   /// `probe` is compiled and run under Xvfb, in one network with what `around` starts and `after` ends.
-  ScriptAnswer RunProbe(const std::string& probe, const std::string& main_and_arguments,
-                        const std::string& before, const std::string& after) {
+  ShellAnswer RunProbe(const std::string& probe, const std::string& main_and_arguments,
+                       const std::string& before, const std::string& after) {
     std::ostringstream script;
     script << "cd " << folder_.path().string() << "\nexport HOME=$PWD XDG_RUNTIME_DIR=$PWD\n"
            << "cp " << kRecorded << " run.lcmlog\n"

@@ -1,13 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <regex>
 #include <string>
 
+#include "test/support/shell.hpp"
 #include "test/support/temporary_folder.hpp"
 
 // The tutorial of modules/radio/README.md, as a person types it: read from there, run in a network of its
@@ -35,12 +33,7 @@ std::string RunScript(const std::string& script) {
                       << "\ntrap 'kill $(jobs -p)' EXIT\n"
                       // Names in /tmp are shared by everybody on the machine.
                       << std::regex_replace(script, std::regex("/tmp/"), folder.path().string() + "/");
-  FILE* pipe = popen(("timeout 30 unshare -rn bash " + file + " 2>&1").c_str(), "r");
-  std::string text;
-  std::array<char, 256> buffer;
-  while (fgets(buffer.data(), buffer.size(), pipe)) text += buffer.data();
-  pclose(pipe);
-  return text;
+  return RunShell("timeout 30 unshare -rn bash " + file).text;
 }
 
 TEST(LinkTutorial, BridgesTheExampleTypeOfLcmInTenLines) {

@@ -1,41 +1,24 @@
 #pragma once
 
-#include <stdlib.h>
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <string>
 
-namespace priamos {
+#include "test/support/shell.hpp"
 
-/// What a shell script said and how it ended.
-struct ScriptAnswer {
-  int exit_code = -1;
-  std::string text;  ///< standard output and standard error
-};
+namespace priamos {
 
 /// Runs a bash script in a network of its own (loopback with multicast and nothing else), at most `seconds`.
 /// `$BIN` is the folder of our programs, `$SOURCE` the source tree; `listening` waits until somebody hears
 /// the default bus (port 7667, 0x1DF3). `script_file` is written.
-inline ScriptAnswer RunInPrivateNetwork(const std::string& script, const std::string& script_file,
-                                        int seconds = 30, const std::string& unshare = "unshare -rn") {
+inline ShellAnswer RunInPrivateNetwork(const std::string& script, const std::string& script_file,
+                                       int seconds = 30, const std::string& unshare = "unshare -rn") {
   std::ofstream(script_file) << "set -u\nip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo\n"
                                 "BIN=" PRIAMOS_BINARY_DIR "/bin\nSOURCE=" PRIAMOS_SOURCE_DIR
                                 "\n"
                                 "listening() { until grep -q ':1DF3 ' /proc/net/udp; do sleep 0.05; done; "
                                 "sleep 0.3; }\n"
                              << script;
-  const std::string line =
-      "timeout " + std::to_string(seconds) + " " + unshare + " bash " + script_file + " 2>&1";
-  FILE* pipe = popen(line.c_str(), "r");
-  ScriptAnswer answer;
-  std::array<char, 4096> buffer;
-  while (fgets(buffer.data(), buffer.size(), pipe)) answer.text += buffer.data();
-  const int status = pclose(pipe);
-  answer.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return answer;
+  return RunShell("timeout " + std::to_string(seconds) + " " + unshare + " bash " + script_file);
 }
 
 }  // namespace priamos

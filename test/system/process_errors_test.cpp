@@ -1,14 +1,12 @@
 #include <gmock/gmock.h>
 #include <stdlib.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "test/support/shell.hpp"
 #include "test/support/temporary_folder.hpp"
 
 // What a person gets for something that cannot be used: one sentence, exit code 2, nothing half started.
@@ -20,11 +18,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-struct Answer {
-  int exit_code = -1;
-  std::string text;
-};
-
 std::string Binary(const std::string& name) {
   return std::string(PRIAMOS_BINARY_DIR) + "/bin/" + name;
 }
@@ -33,17 +26,10 @@ std::string Config(const std::string& name) {
 }
 
 /// Runs a command in a network of its own, at most 10 s.
-Answer RunCommand(
+ShellAnswer RunCommand(
     const std::string& command,
     const std::string& network = "ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo") {
-  const std::string line = "timeout 10 unshare -rn sh -c '" + network + "; " + command + "' 2>&1";
-  FILE* pipe = popen(line.c_str(), "r");
-  Answer answer;
-  std::array<char, 256> buffer;
-  while (fgets(buffer.data(), buffer.size(), pipe)) answer.text += buffer.data();
-  const int status = pclose(pipe);
-  answer.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return answer;
+  return RunShell("timeout 10 unshare -rn sh -c '" + network + "; " + command + "'");
 }
 
 class ProcessErrors : public testing::TestWithParam<const char*> {
@@ -52,7 +38,7 @@ class ProcessErrors : public testing::TestWithParam<const char*> {
   std::string process() const { return Binary("priamos-" + name()); }
 };
 
-void ExpectOneSentence(const Answer& answer) {
+void ExpectOneSentence(const ShellAnswer& answer) {
   EXPECT_EQ(answer.exit_code, 2) << answer.text;
   EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
 }

@@ -38,7 +38,7 @@ ready() {
 
 class UpTest : public testing::Test {
  protected:
-  ScriptAnswer RunScript(const std::string& script) const {
+  ShellAnswer RunScript(const std::string& script) const {
     return RunInPrivateNetwork("LOGS=" + (folder_ / "logs").string() + "\n" + kHelpers + script,
                                folder_ / "script.sh", 60);
   }
