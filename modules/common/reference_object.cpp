@@ -1,17 +1,13 @@
 #include "common/reference_object.hpp"
 
+#include "common/vector_key.hpp"
+
 namespace priamos {
 
 namespace {
 
 constexpr std::size_t kFewestDiscs = 6;  // of the DLT
 constexpr double kSmallestGap_m = 1e-4;
-
-void Vector(Archive& a, std::string_view key, Eigen::Vector3d& value, const ValueSpec& spec) {
-  std::vector<double> numbers(value.data(), value.data() + 3);
-  a.Numbers(key, numbers, spec);
-  value = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
-}
 
 bool AnyCoincide(const std::vector<ReferenceDisc>& discs) {
   for (std::size_t i = 0; i < discs.size(); ++i) {

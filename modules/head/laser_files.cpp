@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/geometry.hpp"
+#include "common/vector_key.hpp"
 #include "head/calibration_file.hpp"
 #include "head/image_file.hpp"
 
@@ -12,12 +13,6 @@ namespace priamos::head {
 namespace {
 
 using nlohmann::ordered_json;
-
-void Vector(Archive& a, std::string_view key, Eigen::Vector3d& value, const ValueSpec& spec) {
-  std::vector<double> numbers(value.data(), value.data() + 3);
-  a.Numbers(key, numbers, spec);
-  value = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
-}
 
 HeadSetting SettingOf(const LaserPicture& picture) {
   HeadSetting setting;
