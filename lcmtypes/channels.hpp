@@ -14,12 +14,14 @@
 #include "priamos/health_t.hpp"
 #include "priamos/landmark_fix_t.hpp"
 #include "priamos/landmark_model_t.hpp"
+#include "priamos/landmark_view_t.hpp"
 #include "priamos/lease_request_t.hpp"
 #include "priamos/link_request_t.hpp"
 #include "priamos/link_status_t.hpp"
 #include "priamos/look_request_t.hpp"
 #include "priamos/mission_command_t.hpp"
 #include "priamos/mission_status_t.hpp"
+#include "priamos/obstacle_line_t.hpp"
 #include "priamos/odometry_t.hpp"
 #include "priamos/path_t.hpp"
 #include "priamos/pose_correction_t.hpp"
@@ -61,6 +63,8 @@ inline constexpr Channel<estop_t> kEstop{"ESTOP", 0, milliseconds(0)};
 inline constexpr Channel<landmark_model_t> kLandmarkModel{"LANDMARK_MODEL", 0, milliseconds(0)};
 inline constexpr Channel<look_request_t> kLookRequest{"LOOK_REQUEST", 0, milliseconds(0)};
 inline constexpr Channel<landmark_fix_t> kLandmarkFix{"LANDMARK_FIX", 0, milliseconds(0)};
+inline constexpr Channel<landmark_view_t> kLandmarkView{"LANDMARK_VIEW", 0, milliseconds(0)};
+inline constexpr Channel<obstacle_line_t> kObstacleLine{"OBSTACLE_LINE", 5, milliseconds(1000)};
 
 // Missions, offboard.
 inline constexpr Channel<mission_command_t> kMissionCommand{"MISSION_COMMAND", 0, milliseconds(0)};
@@ -74,11 +78,11 @@ inline constexpr Channel<link_request_t> kLinkRequest{"LINK_REQUEST", 0, millise
 /// For reports and tests; a test checks that no module subscribes to it.
 inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseconds(200)};
 
-inline constexpr std::tuple kAll{
-    kWheelCommand,   kWheelState,     kSonarRanges,   kHeadCommand, kHeadState,
-    kCameraTrigger,  kCameraFrame,    kOdometry,      kPose,        kPath,
-    kDriveStatus,    kPoseCorrection, kLandmarkModel, kLookRequest, kLandmarkFix,
-    kMissionCommand, kMissionStatus,  kHealth,        kLinkStatus,  kWorldTruth,
-    kDriveCommand,   kHeadDrive,      kLeaseRequest,  kEstop,       kLinkRequest};
+inline constexpr std::tuple kAll{kWheelCommand,   kWheelState,     kSonarRanges,   kHeadCommand, kHeadState,
+                                 kCameraTrigger,  kCameraFrame,    kOdometry,      kPose,        kPath,
+                                 kDriveStatus,    kPoseCorrection, kLandmarkModel, kLookRequest, kLandmarkFix,
+                                 kMissionCommand, kMissionStatus,  kHealth,        kLinkStatus,  kWorldTruth,
+                                 kDriveCommand,   kHeadDrive,      kLeaseRequest,  kEstop,       kLinkRequest,
+                                 kLandmarkView,   kObstacleLine};
 
 }  // namespace priamos::channels

@@ -1,17 +1,15 @@
 #include "cli/link_top.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 
 #include <algorithm>
-#include <functional>
 #include <iostream>
 
 #include "bus/clock.hpp"
 #include "bus/lcm_bus.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
-#include "bus/real_time_loop.hpp"
+#include "cli/bus_watch.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
@@ -20,8 +18,6 @@ namespace {
 constexpr int kBarWidth = 24;
 constexpr Duration kStale{3'000'000};
 constexpr double kOnceWaits_s = 10;  // two rounds of reports of the largest link
-constexpr double kHold_s = 3;
-constexpr Duration kAskAgain{1'000'000};
 
 std::string Bar(double share) {
   const int full = std::clamp(static_cast<int>(share * kBarWidth + 0.5), 0, kBarWidth);
@@ -37,19 +33,6 @@ std::string StateOf(const link_status_t& s, bool stale) {
 
 std::string Rate(const std::optional<double>& per_s, int digits) {
   return per_s ? fmt::format("{:.{}f}", *per_s, digits) : "-";
-}
-
-/// Polls bus and signals until `until`, a signal or `done`; calls `every` ten times a second.
-void Watch(bus::LcmBus& bus, const bus::Clock& clock, Time until, const std::function<bool()>& done,
-           const std::function<void()>& every) {
-  const bus::SignalWatch signals;
-  while (clock.Now() < until && !done()) {
-    pollfd fds[] = {{bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
-    poll(fds, std::size(fds), 100);
-    if (fds[1].revents != 0) return;
-    bus.Drain();
-    every();
-  }
 }
 
 }  // namespace
@@ -152,24 +135,10 @@ int RunLinkListen(const LinkTopOptions& options) {
   const bus::MonotonicClock clock;
   bus::LcmBus bus(options.bus);
   bus::Node node(bus, schema, clock);
-  auto publisher = node.Advertise(channels::kLinkRequest);
-  const auto ask = [&](double hold_s) {
-    link_request_t request{};
-    request.utime = ToUtime(clock.Now());
-    request.channel = options.channel;
-    request.hold_s = hold_s;
-    publisher.Publish(request);
-  };
-  Time next = clock.Now();
+  LinkListener listener(node, {options.channel});
+  const Time until = options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max();
   Watch(
-      bus, clock, options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max(),
-      [] { return false; },
-      [&] {
-        if (clock.Now() < next) return;
-        next = clock.Now() + kAskAgain;
-        ask(kHold_s);
-      });
-  ask(0);
+      bus, clock, until, [] { return false; }, [&] { listener.Step(clock.Now()); });
   return 0;
 }
 

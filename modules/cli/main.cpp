@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   priamos::cli::AddDoctorCommand(cli, exit_code);
   priamos::cli::AddSeeCommand(cli, exit_code);
   priamos::cli::AddLinkCommand(cli, exit_code);
+  priamos::cli::AddViewCommand(cli, exit_code);
   priamos::cli::AddUpCommands(cli, exit_code);
   priamos::cli::AddEstopCommand(cli, exit_code);
   priamos::cli::AddCompletionCommand(cli, exit_code);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/report_looks.hpp"
 #include "cli/report_plot.hpp"
 #include "cli/report_table.hpp"
 #include "cli/report_timeline.hpp"
@@ -39,6 +40,9 @@ th:first-child,td:first-child,.text td:last-child,.text th:last-child{text-align
 svg{width:100%;height:auto;display:block;margin:14px 0}
 svg text{font-size:12px;fill:var(--faint)}svg .title{font-size:14px;font-weight:600;fill:var(--ink)}
 svg .grid{stroke:var(--line)}svg rect.span{fill:var(--good);opacity:.14}svg text.span{fill:var(--good);font-weight:600}
+figure{margin:0}figcaption{color:var(--faint);font-size:.86rem}
+svg.look{background:#1b2026;border-radius:6px}svg.look line{stroke-width:3;stroke-linecap:round}
+.expected{stroke:#8b96a1;stroke-dasharray:3 7}.matched{stroke:#3ddc84}.rejected{stroke:#ff6a5e}
 footer{color:var(--faint);font-size:.86rem;margin-top:32px}
 )";
 
@@ -176,6 +180,7 @@ std::string ReportPage(const RunRecord& record, const Summary& summary, std::spa
       Base64(png));
   page += "<h2>Mission</h2>\n" + PhaseTable(record);
   page += "<h2>Fixes</h2>\n" + FixTable(summary);
+  page += "<h2>Looks</h2>\n" + LookDrawings(record);
   page += "<h2>Over time</h2>\n<p>Shaded: from a look at the door to the fix.</p>\n<div class=\"two\">" +
           Plots(record) + "</div>\n";
   page += "<h2>Radio</h2>\n<div class=\"two\">" + RadioTable("up: robot to workstation", summary.up) +

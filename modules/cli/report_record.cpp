@@ -50,6 +50,7 @@ void RunRecord::AddOnboard(std::string_view channel, std::span<const std::byte> 
   if (channel == channels::kPose.name) Append(poses, bytes);
   if (channel == channels::kPoseCorrection.name) Append(corrections, bytes);
   if (channel == channels::kLandmarkFix.name) Append(fixes, bytes);
+  if (channel == channels::kLandmarkView.name) Append(views, bytes);
   if (channel == channels::kDriveStatus.name) Append(drive, bytes);
   if (channel == channels::kLinkStatus.name) Append(onboard_link, bytes);
 }

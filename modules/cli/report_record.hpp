@@ -31,6 +31,7 @@ class RunRecord {
   std::vector<pose_t> poses;
   std::vector<pose_correction_t> corrections;
   std::vector<landmark_fix_t> fixes;
+  std::vector<landmark_view_t> views;
   std::vector<drive_status_t> drive;
   // Offboard: when the planner asked, and what it said.
   std::vector<look_request_t> looks;

@@ -13,10 +13,11 @@ namespace {
 
 constexpr std::size_t kMaxOrders = 16;
 
-LandmarkFix NotFound(Verdict verdict) {
-  LandmarkFix fix;
-  fix.verdict = verdict;
-  return fix;
+LookAnswer NotFound(Verdict verdict, Time exposure) {
+  LookAnswer answer;
+  answer.exposure = exposure;
+  answer.fix.verdict = verdict;
+  return answer;
 }
 
 }  // namespace
@@ -40,7 +41,8 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       wishes_(context.node().SubscribeAll(channels::kHeadDrive)),
       head_command_(context.node().Advertise(channels::kHeadCommand)),
       trigger_(context.node().Advertise(channels::kCameraTrigger)),
-      fix_(context.node().Advertise(channels::kLandmarkFix)) {
+      fix_(context.node().Advertise(channels::kLandmarkFix)),
+      view_(context.node().Advertise(channels::kLandmarkView)) {
   if (config.mode == "calibrate") {
     calibration_.emplace(config, context);
     return;
@@ -89,7 +91,7 @@ void HeadApp::TakeMessages(Time now) {
     if (orders_.size() <= kMaxOrders) continue;
     context_.Log(bus::Level::kWarning, "too many look requests at once: the oldest is refused");
     look_.End();
-    Answer(NotFound(Verdict::kNoImage), now);
+    Answer(NotFound(Verdict::kNoImage, now));
   }
 }
 
@@ -127,44 +129,48 @@ void HeadApp::Look(Time now) {
       context_.Log(bus::Level::kWarning, positioner_.failed() ? "the head did not reach its setting"
                                                               : "no stereo pair arrived from the cameras");
       look_.End();
-      Answer(NotFound(Verdict::kNoImage), now);
+      Answer(NotFound(Verdict::kNoImage, now));
       return;
     case LookSequence::Action::kUseFrames: {
-      Time exposure = now;
-      const LandmarkFix fix = Evaluate(look_.frames(), exposure);
+      LookAnswer answer = Evaluate(look_.frames());
       look_.End();
-      Answer(fix, exposure);
+      Answer(std::move(answer));
     }
   }
 }
 
-LandmarkFix HeadApp::Evaluate(const Frames& frames, Time& exposure) {
-  exposure = frames[0].exposure;
+LookAnswer HeadApp::Evaluate(const Frames& frames) {
+  const Time exposure = frames[0].exposure;
   const auto model = models_.find(orders_.front().landmark_id);
-  if (model == models_.end()) return NotFound(Verdict::kNoModel);
+  if (model == models_.end()) return NotFound(Verdict::kNoModel, exposure);
   const auto robot = poses_.At(exposure);
-  if (!robot) return NotFound(Verdict::kNoPose);
+  if (!robot) return NotFound(Verdict::kNoPose, exposure);
   std::array<EdgeImage, 2> edges;
   for (int i = 0; i < 2; ++i) {
     auto image = cameras_.Read(frames[i]);
-    if (!image || image->width < 64 || image->height < 64) return NotFound(Verdict::kNoImage);
+    if (!image || image->width < 64 || image->height < 64) return NotFound(Verdict::kNoImage, exposure);
     edges_.Extract(cv::Mat(image->height, image->width, CV_8UC1, image->pixels.data()), edges[i]);
   }
   // Where the motors stand, not where they were sent: counters have steps.
   const auto left = head_.CameraAt(report_->setting, kLeft), right = head_.CameraAt(report_->setting, kRight);
-  if (!left || !right) return NotFound(Verdict::kNoImage);
-  const LandmarkFix fix = finder_.Find(model->second, Predict(*robot, model->second.map_from_landmark), *left,
-                                       *right, edges[0], edges[1]);
-  WatchDrift(model->second, fix, *left, *right, edges);
-  return fix;
+  if (!left || !right) return NotFound(Verdict::kNoImage, exposure);
+  LookAnswer answer;
+  answer.exposure = exposure;
+  const LandmarkPrediction expected = Predict(*robot, model->second.map_from_landmark);
+  answer.fix = finder_.Find(model->second, expected, *left, *right, edges[0], edges[1]);
+  const std::array<CameraView, 2> views{MakeView(*left, edges[0]), MakeView(*right, edges[1])};
+  const int camera = TellingCamera(answer.fix);
+  answer.view = ViewLandmark(model->second, expected, answer.fix, views[camera], camera);
+  WatchDrift(model->second, answer.fix, views);
+  return answer;
 }
 
 /// Edges tell whether both cameras are still where the calibration says: all of them about up and down, those
 /// of a landmark that was found (or fits badly) about the other turns, too.
-void HeadApp::WatchDrift(const LandmarkModel& model, const LandmarkFix& fix, const CameraModel& left,
-                         const CameraModel& right, const std::array<EdgeImage, 2>& edges) {
-  if (IsBlind(edges[0]) || IsBlind(edges[1])) return;
-  const std::array<CameraView, 2> views{MakeView(left, edges[0]), MakeView(right, edges[1])};
+void HeadApp::WatchDrift(const LandmarkModel& model, const LandmarkFix& fix,
+                         const std::array<CameraView, 2>& views) {
+  if (IsBlind(*views[0].edges) || IsBlind(*views[1].edges)) return;
+  const CameraModel &left = *views[0].camera, &right = *views[1].camera;
   std::optional<StereoDrift> drift;
   if (fix.verdict == Verdict::kFound || fix.verdict == Verdict::kResidualTooLarge) {
     const Eigen::Isometry3d at = Lift(fix.base_from_landmark);
@@ -188,12 +194,15 @@ void HeadApp::Judge(const StereoDrift& drift) {
   if (was_well) context_.Log(bus::Level::kWarning, drift_.alarm()->ToText());
 }
 
-void HeadApp::Answer(const LandmarkFix& fix, Time exposure) {
-  const LookOrder order = orders_.front();
+void HeadApp::Answer(LookAnswer answer) {
+  answer.order = orders_.front();
   orders_.pop_front();
-  const auto model = models_.find(order.landmark_id);
-  const Pose2 in_map = model == models_.end() ? Pose2{} : model->second.map_from_landmark;
-  fix_.Publish(ToMessage(LookAnswer{order, exposure, fix, in_map}));
+  const LookOrder& order = answer.order;
+  const LandmarkFix& fix = answer.fix;
+  if (const auto model = models_.find(order.landmark_id); model != models_.end())
+    answer.map_from_landmark = model->second.map_from_landmark;
+  fix_.Publish(ToMessage(answer));
+  view_.Publish(ViewMessage(answer));
   if (fix.verdict != Verdict::kFound) {
     context_.Log(bus::Level::kWarning, fmt::format("look {}: landmark {} not found: {}", order.request_id,
                                                    order.landmark_id, Describe(fix.verdict)));

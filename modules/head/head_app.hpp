@@ -45,12 +45,11 @@ class HeadApp {
   void MoveHead(Time now);
   void MoveByHand(Time now);
   void Look(Time now);
-  LandmarkFix Evaluate(const Frames& frames, Time& exposure);
-  void WatchDrift(const LandmarkModel& model, const LandmarkFix& fix, const CameraModel& left,
-                  const CameraModel& right, const std::array<EdgeImage, 2>& edges);
+  LookAnswer Evaluate(const Frames& frames);
+  void WatchDrift(const LandmarkModel& model, const LandmarkFix& fix, const std::array<CameraView, 2>& views);
   void Judge(const StereoDrift& drift);
   double PanFor(const LookOrder& order, Time now) const;
-  void Answer(const LandmarkFix& fix, Time exposure);
+  void Answer(LookAnswer answer);
 
   HeadConfig config_;
   bus::Context& context_;
@@ -77,6 +76,7 @@ class HeadApp {
   bus::Publisher<head_command_t> head_command_;
   bus::Publisher<camera_trigger_t> trigger_;
   bus::Publisher<landmark_fix_t> fix_;
+  bus::Publisher<landmark_view_t> view_;
 };
 
 }  // namespace priamos::head

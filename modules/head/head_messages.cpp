@@ -9,9 +9,19 @@ namespace priamos::head {
 namespace {
 
 constexpr double kMinEdgeM = 0.02;
+constexpr std::size_t kMaxViewEdges = 28;
+constexpr int kMaxLeftOut = 255;
 
 bool AllFinite(std::initializer_list<double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+view_edge_t ToMessage(const ViewedEdge& edge) {
+  view_edge_t message{};
+  message.kind = static_cast<std::int8_t>(edge.kind);
+  message.u1_px = static_cast<float>(edge.p.x()), message.v1_px = static_cast<float>(edge.p.y());
+  message.u2_px = static_cast<float>(edge.q.x()), message.v2_px = static_cast<float>(edge.q.y());
+  return message;
 }
 
 }  // namespace
@@ -125,6 +135,33 @@ landmark_fix_t ToMessage(const LookAnswer& answer) {
   message.sigma_yaw_rad = std::min(s.sigma_yaw, 0.5);
   message.rho_x_y = s.rho_x_y, message.rho_x_yaw = s.rho_x_yaw, message.rho_y_yaw = s.rho_y_yaw;
   return message;
+}
+
+landmark_view_t ViewMessage(const LookAnswer& answer) {
+  landmark_view_t message{};
+  message.utime_exposure = ToUtime(answer.exposure);
+  message.request_id = answer.order.request_id;
+  message.landmark_id = static_cast<std::int16_t>(answer.order.landmark_id);
+  message.side = static_cast<std::int8_t>(answer.order.side);
+  message.verdict = static_cast<std::int8_t>(answer.fix.verdict);
+  message.camera = static_cast<std::int8_t>(answer.view.camera);
+  const std::size_t n = std::min(answer.view.edges.size(), kMaxViewEdges);
+  const int left_out = answer.view.n_left_out + static_cast<int>(answer.view.edges.size() - n);
+  message.n_left_out = static_cast<std::int16_t>(std::min(left_out, kMaxLeftOut));
+  message.n_edges = static_cast<std::int8_t>(n);
+  for (std::size_t i = 0; i < n; ++i) message.edges.push_back(ToMessage(answer.view.edges[i]));
+  return message;
+}
+
+LandmarkView FromMessage(const landmark_view_t& message) {
+  LandmarkView view;
+  view.camera = message.camera;
+  view.n_left_out = message.n_left_out;
+  for (const view_edge_t& e : message.edges) {
+    if (e.kind < view_edge_t::PREDICTED || e.kind > view_edge_t::REJECTED) continue;
+    view.edges.push_back({static_cast<ViewedEdge::Kind>(e.kind), {e.u1_px, e.v1_px}, {e.u2_px, e.v2_px}});
+  }
+  return view;
 }
 
 }  // namespace priamos::head

@@ -6,6 +6,7 @@
 #include "head/core/head_positioner.hpp"
 #include "head/core/landmark.hpp"
 #include "head/core/landmark_fix.hpp"
+#include "head/core/landmark_view.hpp"
 #include "head/core/look_sequence.hpp"
 #include "head/core/pose_history.hpp"
 #include "lcmtypes/channels.hpp"
@@ -27,6 +28,7 @@ struct LookAnswer {
   Time exposure;
   LandmarkFix fix;
   Pose2 map_from_landmark;  ///< by the model
+  LandmarkView view;        ///< what it was decided by
 };
 
 HeadReport FromMessage(const head_state_t& message);
@@ -42,5 +44,9 @@ head_command_t ToMessage(const HeadSetting& setting, Time now);
 /// `cameras` as bits: 1 left, 2 right, 4 third.
 camera_trigger_t TriggerMessage(std::int32_t frame_id, int cameras, Time now);
 landmark_fix_t ToMessage(const LookAnswer& answer);
+/// Of more edges than the message holds the last ones are left out, and counted.
+landmark_view_t ViewMessage(const LookAnswer& answer);
+/// What the message says of the view; edges of unknown kind are left out.
+LandmarkView FromMessage(const landmark_view_t& message);
 
 }  // namespace priamos::head

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace priamos::cli {
+
+/// A picture of dots for a terminal: every character is a braille pattern of 2 x 4 dots. What is drawn with a
+/// higher ink colours the whole character.
+class Braille {
+ public:
+  enum Ink : std::uint8_t { kNone = 0, kDim, kRed, kYellow, kGreen };
+
+  /// In characters.
+  Braille(int columns, int rows);
+
+  int width() const { return 2 * columns_; }  ///< in dots
+  int height() const { return 4 * rows_; }    ///< in dots
+  /// From one point to another (dots: x right, y down, (0, 0) the first), cut to the picture; every
+  /// `pace`-th dot. Points that are not numbers draw nothing.
+  void Line(double x0, double y0, double x1, double y1, Ink ink, int pace = 1);
+  /// One line of text per row. `colour` adds the terminal's escape sequences.
+  std::string Text(bool colour) const;
+
+ private:
+  int columns_, rows_;
+  std::vector<std::uint8_t> dots_, inks_;
+};
+
+}  // namespace priamos::cli

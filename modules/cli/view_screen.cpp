@@ -1,0 +1,78 @@
+#include "cli/view_screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/geometry.hpp"
+#include "planner/planner_messages.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr double kPictureWidth_px = 768, kPictureHeight_px = 576;  // of every camera: lcmtypes/README.md
+constexpr int kTextRows = 4;
+constexpr std::array<std::string_view, 3> kSides{"", ", left side", ", right side"};
+
+int Count(const landmark_view_t& view, int kind) {
+  return static_cast<int>(std::count_if(view.edges.begin(), view.edges.end(),
+                                        [kind](const view_edge_t& e) { return e.kind == kind; }));
+}
+
+Braille::Ink InkOf(int kind) {
+  if (kind == view_edge_t::MATCHED) return Braille::kGreen;
+  return kind == view_edge_t::REJECTED ? Braille::kRed : Braille::kDim;
+}
+
+}  // namespace
+
+std::string ViewTitle(const landmark_view_t& view, const landmark_fix_t* fix) {
+  std::string text = fmt::format("look {}: landmark {}{}: {}", view.request_id, view.landmark_id,
+                                 kSides[static_cast<std::size_t>(std::clamp<int>(view.side, 0, 2))],
+                                 view.verdict == landmark_fix_t::FOUND
+                                     ? "FOUND"
+                                     : "not found, " + std::string(planner::FixVerdictText(view.verdict)));
+  if (fix == nullptr || fix->request_id != view.request_id || fix->verdict != view.verdict) return text;
+  if (fix->n_matched > 0) text += fmt::format("; {} edges, {:.2f} px", fix->n_matched, fix->residual_px);
+  if (fix->verdict == landmark_fix_t::FOUND)
+    text += fmt::format(", {:.1f} mm, {:.2f} deg", 1000 * std::hypot(fix->sigma_x_m, fix->sigma_y_m),
+                        Degrees(fix->sigma_yaw_rad));
+  return text;
+}
+
+std::string ViewLegend(const landmark_view_t& view) {
+  std::string text =
+      fmt::format("{} camera: {} edges expected (dotted), {} matched (green), {} rejected (red)",
+                  view.camera == 1 ? "right" : "left", Count(view, view_edge_t::PREDICTED),
+                  Count(view, view_edge_t::MATCHED), Count(view, view_edge_t::REJECTED));
+  if (view.n_left_out > 0) text += fmt::format(", {} more not shown", view.n_left_out);
+  return text;
+}
+
+Braille DrawView(const landmark_view_t& view, ScreenSize size) {
+  const double scale = std::min(2.0 * size.columns / kPictureWidth_px, 4.0 * size.rows / kPictureHeight_px);
+  Braille picture(static_cast<int>(kPictureWidth_px * scale / 2),
+                  static_cast<int>(kPictureHeight_px * scale / 4));
+  const double right = picture.width() - 1, bottom = picture.height() - 1;
+  picture.Line(0, 0, right, 0, Braille::kDim);
+  picture.Line(0, bottom, right, bottom, Braille::kDim);
+  picture.Line(0, 0, 0, bottom, Braille::kDim);
+  picture.Line(right, 0, right, bottom, Braille::kDim);
+  for (const view_edge_t& e : view.edges)
+    picture.Line(e.u1_px * scale, e.v1_px * scale, e.u2_px * scale, e.v2_px * scale, InkOf(e.kind),
+                 e.kind == view_edge_t::PREDICTED ? 3 : 1);
+  return picture;
+}
+
+std::string ViewScreen::Render(Time now, ScreenSize size, bool colour) const {
+  if (!view_) return "waiting for LANDMARK_VIEW: it comes when the head looks at a landmark\n";
+  const landmark_view_t& view = *view_;
+  const double age_s = Seconds(now - FromUtime(view.utime_exposure));
+  return fmt::format("{}\n{}\nseen {:.1f} s ago\n", ViewTitle(view, fix_ ? &*fix_ : nullptr),
+                     ViewLegend(view), std::max(age_s, 0.0)) +
+         DrawView(view, {size.columns, std::max(size.rows - kTextRows, 4)}).Text(colour);
+}
+
+}  // namespace priamos::cli
