@@ -7,6 +7,11 @@
 #include <utility>
 
 namespace priamos::world {
+namespace {
+
+constexpr int kLaserBit = 8;  // of camera_trigger_t
+
+}  // namespace
 
 void CameraConfig::Describe(Archive& a) {
   a.Number("trigger_delay_s", trigger_delay_s,
@@ -15,6 +20,7 @@ void CameraConfig::Describe(Archive& a) {
   a.Number("gain", gain, {"-", 0.1, 16, "amplification; multiplies noise too"});
   a.Number("readout_s", readout_s,
            {"s", 0, 1, "from the closing of the shutter to the picture in the store"});
+  a.Number("laser", laser, {"-", 0, 10, "brightness of the line laser; 1: white on white paper in 10 ms"});
   a.Integer("max_pending", max_pending, {"-", 3, 8, "pictures that may be on their way at once"});
 }
 
@@ -46,6 +52,7 @@ CameraServer::CameraServer(const CameraConfig& config, double camera_light, Rend
     : config_(config), camera_light_(camera_light), executor_(executor), seed_(seed) {}
 
 bool CameraServer::Trigger(Time now, std::int32_t frame_id, int cameras) {
+  const bool laser = (cameras & kLaserBit) != 0;
   cameras &= (1 << kCameras) - 1;
   auto count = static_cast<std::size_t>(std::popcount(static_cast<unsigned>(cameras))) + pending_.size();
   for (const auto& shot : shots_)
@@ -54,7 +61,7 @@ bool CameraServer::Trigger(Time now, std::int32_t frame_id, int cameras) {
   Time opening = now + FromSeconds(config_.trigger_delay_s);
   // A shutter that is open opens again only after it has closed.
   if (!shots_.empty()) opening = std::max(opening, shots_.back().closing + Duration(1));
-  shots_.push_back({opening, opening + FromSeconds(config_.exposure_s), frame_id, cameras, std::nullopt});
+  shots_.push_back({opening, opening + FromSeconds(config_.exposure_s), frame_id, cameras, laser, std::nullopt});
   return true;
 }
 
@@ -83,7 +90,7 @@ void CameraServer::Submit(const Shot& shot, const Viewpoint& closed) {
     job.camera = static_cast<Camera>(c);
     job.opening = *shot.opened;
     job.closing = closed;
-    job.exposure = {config_.exposure_s, config_.gain, camera_light_};
+    job.exposure = {config_.exposure_s, config_.gain, camera_light_, shot.laser ? config_.laser : 0};
     job.noise_seed = Rng::Stream(seed_, fmt::format("picture {}", job.number)).engine()();
     pending_.push_back(
         {job.number, shot.closing + FromSeconds(config_.readout_s), {middle, shot.frame_id, job.camera, {}}});

@@ -25,6 +25,7 @@ struct CameraConfig {
   double gain = 1;
   double readout_s = 0.04;
   int max_pending = 6;
+  double laser = 0.7;  ///< Exposure::laser of a picture that is taken with the laser on
 
   void Describe(Archive& a);
 };
@@ -91,7 +92,7 @@ class CameraServer {
   /// `executor` must outlive it; `seed` decides the noise of every picture.
   CameraServer(const CameraConfig& config, double camera_light, RenderExecutor& executor, std::uint64_t seed);
 
-  /// Bits of `cameras`: 1 left, 2 right, 4 third. Refused (false) while too many pictures are pending or when
+  /// Bits of `cameras`: 1 left, 2 right, 4 third; 8 with the line laser on. Refused (false) while too many pictures are pending or when
   /// no camera is asked for.
   bool Trigger(Time now, std::int32_t frame_id, int cameras);
 
@@ -109,6 +110,7 @@ class CameraServer {
     Time opening, closing;
     std::int32_t frame_id;
     int cameras;
+    bool laser;
     std::optional<Viewpoint> opened;
   };
   struct Pending {

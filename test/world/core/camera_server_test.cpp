@@ -62,6 +62,19 @@ TEST_F(CameraServerTest, ASampleIsWantedAtOpeningAndClosing) {
   EXPECT_EQ(executor_.jobs[0].closing.map_from_base.x, 2);
 }
 
+TEST_F(CameraServerTest, TheLaserShinesOnlyWhenTheTriggerAsksForIt) {
+  config_.laser = 0.6;
+  CameraServer dut(config_, 0, executor_, 1);
+  for (const int cameras : {4 + 8, 4}) {
+    ASSERT_TRUE(dut.Trigger(start_, 7, cameras));
+    Expose(dut);
+  }
+  ASSERT_EQ(executor_.jobs.size(), 2u);
+  EXPECT_EQ(executor_.jobs[0].exposure.laser, 0.6);
+  EXPECT_EQ(executor_.jobs[1].exposure.laser, 0);
+  EXPECT_FALSE(dut.Trigger(start_, 8, 8)) << "a laser is no camera";
+}
+
 TEST_F(CameraServerTest, AllCamerasShareOneExposure) {
   CameraServer dut(config_, 0.5, executor_, 1);
   dut.Trigger(start_, 7, 7);
