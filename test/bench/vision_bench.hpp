@@ -35,4 +35,7 @@ void BenchCastle(const VisionOptions& options, Figures& figures);
 /// Doors that no map told of.
 void BenchDetection(const VisionOptions& options, Figures& figures);
 
+/// Obstacles by the line laser: precision, false alarms, how low they may be.
+void BenchLaser(const VisionOptions& options, Figures& figures);
+
 }  // namespace priamos::bench

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace priamos::head {
+
+/// A point of the laser's line in space.
+struct LightPoint {
+  double u = 0;         ///< its column [px]
+  Eigen::Vector3d at;   ///< base frame [m]
+  double variance = 0;  ///< of its height, from the picture and the roughness of the surface [m^2]
+};
+
+/// The floor in the base frame: z = plane.dot(1, x, y).
+struct FloorPlane {
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+  double HeightOf(const Eigen::Vector3d& p) const { return p.z() - plane.dot(Row(p)); }
+  /// Variance of the floor's height below a point.
+  double VarianceAt(const Eigen::Vector3d& p) const { return Row(p).dot(covariance * Row(p)); }
+  static Eigen::Vector3d Row(const Eigen::Vector3d& p) { return {1, p.x(), p.y()}; }
+};
+
+/// Neighbouring columns see the same speckle: so many of them are worth one.
+inline constexpr double kColumnsPerFact = 5;
+
+/// The floor among the points: the plane within `prior` (covariance of (height, pitch, roll) about a floor at
+/// z = 0) that most of them lie on, refined by all that do. Points of obstacles do not draw it. Without
+/// points it is the prior.
+FloorPlane FitFloor(std::span<const LightPoint> points, const Eigen::Matrix3d& prior);
+
+}  // namespace priamos::head
