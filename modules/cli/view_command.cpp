@@ -34,7 +34,9 @@ int RunView(const ViewOptions& options) {
   bus::Node node(bus, schema, clock);
   auto views = node.SubscribeAll(channels::kLandmarkView);
   auto fixes = node.SubscribeAll(channels::kLandmarkFix);
-  LinkListener listener(node, {std::string(channels::kLandmarkView.name)});
+  auto lines = node.SubscribeAll(channels::kObstacleLine);
+  LinkListener listener(
+      node, {std::string(channels::kLandmarkView.name), std::string(channels::kObstacleLine.name)});
   ViewScreen screen;
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   const Time until = options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max();
@@ -45,6 +47,7 @@ int RunView(const ViewOptions& options) {
         listener.Step(clock.Now());
         for (const landmark_fix_t& fix : fixes.Drain()) screen.Add(fix);
         for (const landmark_view_t& view : views.Drain()) screen.Add(view);
+        for (const obstacle_line_t& line : lines.Drain()) screen.Add(line);
         if (options.once || clock.Now() < next) return;
         next = clock.Now() + FromSeconds(0.3);
         std::cout << "\x1b[H\x1b[2J" << screen.Render(clock.Now(), SizeOfTerminal(), true) << std::flush;
@@ -61,7 +64,7 @@ void AddViewCommand(CLI::App& cli, int& exit_code) {
       "view",
       "What the head sees, as lines in the terminal: also over the radio, which sends it while this runs.");
   verb->footer("Example: priamos view --once --for 60");
-  verb->add_flag("--once", options->once, "print the first look and end");
+  verb->add_flag("--once", options->once, "print what comes first and end");
   verb->add_option("--for", options->seconds, "s; 0: until Ctrl-C")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();

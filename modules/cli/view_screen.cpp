@@ -13,7 +13,9 @@ namespace priamos::cli {
 namespace {
 
 constexpr double kPictureWidth_px = 768, kPictureHeight_px = 576;  // of every camera: lcmtypes/README.md
-constexpr int kTextRows = 4;
+constexpr int kTextRows = 4, kFloorRows = 2;
+constexpr int kStrip = 61;           // characters
+constexpr double kStripReach_m = 1;  // to either side
 constexpr std::array<std::string_view, 3> kSides{"", ", left side", ", right side"};
 
 int Count(const landmark_view_t& view, int kind) {
@@ -26,7 +28,43 @@ Braille::Ink InkOf(int kind) {
   return kind == view_edge_t::REJECTED ? Braille::kRed : Braille::kDim;
 }
 
+std::string Piece(const obstacle_segment_t& s) {
+  const double ahead = (s.x1_m + s.x2_m) / 2;
+  const std::string where = fmt::format("{:.1f} m ahead, from {:+.2f} to {:+.2f} m", ahead, s.y2_m, s.y1_m);
+  if (s.kind == obstacle_segment_t::MISSING) return "no line " + where;
+  return fmt::format("{} {:.1f} cm {}", s.kind == obstacle_segment_t::UP ? "UP" : "DOWN",
+                     100 * std::abs(s.height_m), where);
+}
+
+/// From the left to the right: floor, up, down, not seen.
+std::string Strip(const obstacle_line_t& line) {
+  std::string strip(kStrip, line.verdict == obstacle_line_t::BLIND ? '?' : '-');
+  const auto column = [](double y_m) {
+    const double place = (kStripReach_m - y_m) / (2 * kStripReach_m) * (kStrip - 1);
+    return static_cast<int>(std::lround(std::clamp(place, 0.0, kStrip - 1.0)));
+  };
+  for (const obstacle_segment_t& s : line.segments) {
+    if (!std::isfinite(s.y1_m + s.y2_m) || s.kind < 0 || s.kind > 2) continue;
+    const int first = column(std::max(s.y1_m, s.y2_m)), last = column(std::min(s.y1_m, s.y2_m));
+    for (int i = first; i <= last; ++i) strip[static_cast<std::size_t>(i)] = "^v "[s.kind];
+  }
+  return strip;
+}
+
 }  // namespace
+
+std::string FloorText(const obstacle_line_t& line, double age_s) {
+  std::string text = line.verdict == obstacle_line_t::CLEAR   ? "floor: clear"
+                     : line.verdict == obstacle_line_t::BLIND ? "floor: not to be seen"
+                                                              : "floor: OBSTACLE";
+  for (const obstacle_segment_t& s : line.segments) {
+    if (s.kind == obstacle_segment_t::MISSING && line.verdict == obstacle_line_t::OBSTACLE) continue;
+    text += "; " + Piece(s);
+    break;
+  }
+  return fmt::format("{}; {:.0f} % of the line seen {:.1f} s ago\nleft |{}| right\n", text,
+                     100 * line.seen_share, std::max(age_s, 0.0), Strip(line));
+}
 
 std::string ViewTitle(const landmark_view_t& view, const landmark_fix_t* fix) {
   std::string text = fmt::format("look {}: landmark {}{}: {}", view.request_id, view.landmark_id,
@@ -67,12 +105,15 @@ Braille DrawView(const landmark_view_t& view, ScreenSize size) {
 }
 
 std::string ViewScreen::Render(Time now, ScreenSize size, bool colour) const {
-  if (!view_) return "waiting for LANDMARK_VIEW: it comes when the head looks at a landmark\n";
+  std::string text;
+  if (line_) text += FloorText(*line_, Seconds(now - FromUtime(line_->utime_exposure)));
+  if (!view_) return text + "waiting for LANDMARK_VIEW: it comes when the head looks at a landmark\n";
   const landmark_view_t& view = *view_;
   const double age_s = Seconds(now - FromUtime(view.utime_exposure));
-  return fmt::format("{}\n{}\nseen {:.1f} s ago\n", ViewTitle(view, fix_ ? &*fix_ : nullptr),
-                     ViewLegend(view), std::max(age_s, 0.0)) +
-         DrawView(view, {size.columns, std::max(size.rows - kTextRows, 4)}).Text(colour);
+  text += fmt::format("{}\n{}\nseen {:.1f} s ago\n", ViewTitle(view, fix_ ? &*fix_ : nullptr),
+                      ViewLegend(view), std::max(age_s, 0.0));
+  const int rows = size.rows - kTextRows - (line_ ? kFloorRows : 0);
+  return text + DrawView(view, {size.columns, std::max(rows, 4)}).Text(colour);
 }
 
 }  // namespace priamos::cli

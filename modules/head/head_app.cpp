@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "head/calibration_file.hpp"
@@ -12,6 +14,9 @@ namespace priamos::head {
 namespace {
 
 constexpr std::size_t kMaxOrders = 16;
+constexpr int kThirdWithLaser = 4 + 8;  // of a camera trigger
+constexpr int kPictureWidth = 768, kPictureHeight = 576;
+constexpr double kByHand_s = 0.5;  // an operator who paused for less still holds the head
 
 LookAnswer NotFound(Verdict verdict, Time exposure) {
   LookAnswer answer;
@@ -28,6 +33,8 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       head_(config.mode == "calibrate" ? HeadModel{}
                                        : LoadHeadModel(context.ResolvePath(config.calibration))),
       positioner_(config.motors),
+      watch_(config.laser),
+      obstacles_(config.laser.obstacle),
       look_(config.look),
       finder_(FinderOptions(config.vision, head_)),
       edges_(EdgeOptions(config.vision)),
@@ -42,7 +49,8 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       head_command_(context.node().Advertise(channels::kHeadCommand)),
       trigger_(context.node().Advertise(channels::kCameraTrigger)),
       fix_(context.node().Advertise(channels::kLandmarkFix)),
-      view_(context.node().Advertise(channels::kLandmarkView)) {
+      view_(context.node().Advertise(channels::kLandmarkView)),
+      obstacle_(context.node().Advertise(channels::kObstacleLine)) {
   if (config.mode == "calibrate") {
     calibration_.emplace(config, context);
     return;
@@ -55,6 +63,11 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
                                     context.ResolvePath(config.calibration), kCameraNames[camera],
                                     model.reason()));
   }
+  if (config.laser.rate_hz > 0 && !head_.laser)
+    throw ConfigError(
+        fmt::format("{}: laser: expected the plane of the line laser for laser.rate_hz above 0, got "
+                    "none; calibrate it with `priamos calibrate --laser`",
+                    context.ResolvePath(config.calibration)));
 }
 
 /// Straight ahead while model or pose are unknown: the answer will say so.
@@ -74,6 +87,7 @@ void HeadApp::Tick(Time now) {
   MoveHead(now);
   MoveByHand(now);
   Look(now);
+  WatchFloor(now);
 }
 
 void HeadApp::TakeMessages(Time now) {
@@ -85,7 +99,11 @@ void HeadApp::TakeMessages(Time now) {
   for (const landmark_model_t& message : landmark_models_.Drain()) {
     if (auto model = FromMessage(message)) models_[model->id] = std::move(*model);
   }
-  for (const camera_frame_t& message : frames_.Drain()) look_.Add(FromMessage(message));
+  for (const camera_frame_t& message : frames_.Drain()) {
+    const FrameNotice frame = FromMessage(message);
+    look_.Add(frame);
+    if (watch_.Takes(frame)) TellObstacles(frame);
+  }
   for (const look_request_t& message : look_requests_.Drain()) {
     orders_.push_back(FromMessage(message));
     if (orders_.size() <= kMaxOrders) continue;
@@ -115,6 +133,7 @@ void HeadApp::MoveByHand(Time now) {
   const auto setting = jog_.Step(report_->setting, now);
   if (!setting) return;
   positioner_.Release();
+  by_hand_ = now;
   head_command_.Publish(ToMessage(*setting, now));
 }
 
@@ -137,6 +156,42 @@ void HeadApp::Look(Time now) {
       Answer(std::move(answer));
     }
   }
+}
+
+bool HeadApp::SeesLaser() const {
+  if (!head_.laser || !report_ || report_->moving) return false;
+  const auto camera = head_.CameraAt(report_->setting, kThird);
+  return camera && SeesLine(*camera, *head_.laser, kPictureWidth, kPictureHeight);
+}
+
+/// Between looks the third camera watches the laser's line.
+void HeadApp::WatchFloor(Time now) {
+  if (config_.laser.rate_hz <= 0) return;
+  const bool by_hand = by_hand_ && Seconds(now - *by_hand_) < kByHand_s;
+  switch (watch_.Step(look_.active() || !orders_.empty() || by_hand, SeesLaser(), now)) {
+    case LaserWatch::Action::kWait:
+      return;
+    case LaserWatch::Action::kLower:
+      return positioner_.MoveTo(config_.WatchSetting(), now);
+    case LaserWatch::Action::kTrigger:
+      trigger_.Publish(TriggerMessage(watch_.frame_id(), kThirdWithLaser, now));
+  }
+}
+
+void HeadApp::TellObstacles(const FrameNotice& frame) {
+  const auto camera = head_.CameraAt(report_->setting, kThird);
+  const auto picture = cameras_.Read(frame);
+  if (!camera || !picture) return;
+  const ObstacleLines lines = obstacles_.Find(*picture, *camera, *head_.laser);
+  obstacle_.Publish(ToMessage(lines, frame.exposure));
+  if (lines.verdict == ObstacleLines::kObstacle && told_ != lines.verdict) {
+    const auto worst = std::max_element(
+        lines.pieces.begin(), lines.pieces.end(),
+        [](const auto& a, const auto& b) { return std::abs(a.height_m) < std::abs(b.height_m); });
+    context_.Log(bus::Level::kInfo, fmt::format("obstacle {:.1f} m ahead, {:+.3f} m against the floor",
+                                                worst->left.x(), worst->height_m));
+  }
+  told_ = lines.verdict;
 }
 
 LookAnswer HeadApp::Evaluate(const Frames& frames) {

@@ -45,6 +45,9 @@ class HeadApp {
   void MoveHead(Time now);
   void MoveByHand(Time now);
   void Look(Time now);
+  void WatchFloor(Time now);
+  bool SeesLaser() const;
+  void TellObstacles(const FrameNotice& frame);
   LookAnswer Evaluate(const Frames& frames);
   void WatchDrift(const LandmarkModel& model, const LandmarkFix& fix, const std::array<CameraView, 2>& views);
   void Judge(const StereoDrift& drift);
@@ -57,6 +60,9 @@ class HeadApp {
   HeadModel head_;
   HeadPositioner positioner_;
   HeadJog jog_;
+  LaserWatch watch_;
+  ObstacleFinder obstacles_;
+  ObstacleLines::Verdict told_ = ObstacleLines::kClear;
   LookSequence look_;
   LandmarkFinder finder_;
   EdgeOperator edges_;
@@ -66,6 +72,7 @@ class HeadApp {
   std::deque<LookOrder> orders_;
   CameraReader cameras_;
   std::optional<HeadReport> report_;
+  std::optional<Time> by_hand_;  ///< when an operator moved the head last
 
   bus::Latest<head_state_t> head_state_;
   bus::Inbox<camera_frame_t> frames_;
@@ -77,6 +84,7 @@ class HeadApp {
   bus::Publisher<camera_trigger_t> trigger_;
   bus::Publisher<landmark_fix_t> fix_;
   bus::Publisher<landmark_view_t> view_;
+  bus::Publisher<obstacle_line_t> obstacle_;
 };
 
 }  // namespace priamos::head

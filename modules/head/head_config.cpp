@@ -43,6 +43,7 @@ void HeadConfig::Describe(Archive& a) {
   a.Section("look", look, "the course of one look");
   a.Section("vision", vision, "edges and landmark fixes");
   a.Section("drift", drift, "alarm when the cameras are no longer where the calibration says");
+  a.Section("laser", laser, "obstacles and steps by the laser's line");
   // Nearer to the end stop a motor cannot come from below.
   const int nearest = motors.approach_steps;
   if (zoom_step < nearest || plan.zoom.first < nearest)
@@ -54,6 +55,12 @@ void HeadConfig::Describe(Archive& a) {
 HeadSetting HeadConfig::LookSetting() const {
   const double turn = Radians(convergence_deg);
   return {0, Radians(tilt_deg), {-turn, turn}, {zoom_step, zoom_step}, {focus_step, focus_step}};
+}
+
+HeadSetting HeadConfig::WatchSetting() const {
+  HeadSetting setting = LookSetting();
+  setting.tilt_rad = Radians(laser.tilt_deg);
+  return setting;
 }
 
 }  // namespace priamos::head

@@ -9,6 +9,7 @@
 #include "head/core/drift_monitor.hpp"
 #include "head/core/head_model.hpp"
 #include "head/core/head_positioner.hpp"
+#include "head/core/laser_watch.hpp"
 #include "head/core/look_sequence.hpp"
 
 namespace priamos::head {
@@ -53,10 +54,13 @@ struct HeadConfig {
   LookConfig look;
   VisionConfig vision;
   DriftConfig drift;
+  LaserWatchConfig laser;
 
   void Describe(Archive& a);
   /// Of all looks, but for the pan.
   HeadSetting LookSetting() const;
+  /// Where the third camera sees the laser's line.
+  HeadSetting WatchSetting() const;
 };
 
 }  // namespace priamos::head

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/covariance.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 constexpr double kMinEdgeM = 0.02;
 constexpr std::size_t kMaxViewEdges = 28;
 constexpr int kMaxLeftOut = 255;
+constexpr std::size_t kMaxPieces = 4, kMaxPiecesLeftOut = 63;
 
 bool AllFinite(std::initializer_list<double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -22,6 +24,32 @@ view_edge_t ToMessage(const ViewedEdge& edge) {
   message.u1_px = static_cast<float>(edge.p.x()), message.v1_px = static_cast<float>(edge.p.y());
   message.u2_px = static_cast<float>(edge.q.x()), message.v2_px = static_cast<float>(edge.q.y());
   return message;
+}
+
+obstacle_segment_t ToMessage(const ObstaclePiece& piece) {
+  obstacle_segment_t message{};
+  message.kind = static_cast<std::int8_t>(piece.kind);
+  message.x1_m = static_cast<float>(piece.right.x()), message.y1_m = static_cast<float>(piece.right.y());
+  message.x2_m = static_cast<float>(piece.left.x()), message.y2_m = static_cast<float>(piece.left.y());
+  message.height_m = static_cast<float>(piece.height_m);
+  message.sigma_height_m = static_cast<float>(piece.sigma_height_m);
+  return message;
+}
+
+/// The pieces that matter most, as they lie from right to left.
+std::vector<ObstaclePiece> MostImportant(const std::vector<ObstaclePiece>& pieces, std::size_t n) {
+  std::vector<std::size_t> order(pieces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto weight = [&](std::size_t i) {
+    return pieces[i].kind == ObstaclePiece::kMissing ? 0 : std::abs(pieces[i].height_m);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return weight(a) > weight(b); });
+  order.resize(std::min(n, order.size()));
+  std::sort(order.begin(), order.end());
+  std::vector<ObstaclePiece> chosen;
+  for (const std::size_t i : order) chosen.push_back(pieces[i]);
+  return chosen;
 }
 
 }  // namespace
@@ -151,6 +179,34 @@ landmark_view_t ViewMessage(const LookAnswer& answer) {
   message.n_edges = static_cast<std::int8_t>(n);
   for (std::size_t i = 0; i < n; ++i) message.edges.push_back(ToMessage(answer.view.edges[i]));
   return message;
+}
+
+obstacle_line_t ToMessage(const ObstacleLines& lines, Time exposure) {
+  obstacle_line_t message{};
+  message.utime_exposure = ToUtime(exposure);
+  message.verdict = static_cast<std::int8_t>(lines.verdict);
+  message.seen_share = static_cast<float>(lines.seen_share);
+  const auto chosen = MostImportant(lines.pieces, kMaxPieces);
+  message.n_left_out =
+      static_cast<std::int8_t>(std::min(lines.pieces.size() - chosen.size(), kMaxPiecesLeftOut));
+  message.n_segments = static_cast<std::int8_t>(chosen.size());
+  for (const ObstaclePiece& piece : chosen) message.segments.push_back(ToMessage(piece));
+  return message;
+}
+
+ObstacleLines FromMessage(const obstacle_line_t& message) {
+  ObstacleLines lines;
+  lines.verdict = static_cast<ObstacleLines::Verdict>(std::clamp<int>(message.verdict, 0, 2));
+  lines.seen_share = message.seen_share;
+  for (const obstacle_segment_t& s : message.segments) {
+    if (s.kind < obstacle_segment_t::UP || s.kind > obstacle_segment_t::MISSING) continue;
+    lines.pieces.push_back({static_cast<ObstaclePiece::Kind>(s.kind),
+                            {s.x1_m, s.y1_m, s.height_m},
+                            {s.x2_m, s.y2_m, s.height_m},
+                            s.height_m,
+                            s.sigma_height_m});
+  }
+  return lines;
 }
 
 LandmarkView FromMessage(const landmark_view_t& message) {

@@ -8,6 +8,7 @@
 #include "head/core/landmark_fix.hpp"
 #include "head/core/landmark_view.hpp"
 #include "head/core/look_sequence.hpp"
+#include "head/core/obstacle_lines.hpp"
 #include "head/core/pose_history.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -41,11 +42,15 @@ std::optional<PoseSample> FromMessage(const pose_t& message);
 std::optional<LandmarkModel> FromMessage(const landmark_model_t& message);
 
 head_command_t ToMessage(const HeadSetting& setting, Time now);
-/// `cameras` as bits: 1 left, 2 right, 4 third.
+/// `cameras` as bits: 1 left, 2 right, 4 third; 8 with the line laser on.
 camera_trigger_t TriggerMessage(std::int32_t frame_id, int cameras, Time now);
 landmark_fix_t ToMessage(const LookAnswer& answer);
 /// Of more edges than the message holds the last ones are left out, and counted.
 landmark_view_t ViewMessage(const LookAnswer& answer);
+/// Of more pieces than the message holds missing ones are left out first, then the lowest; they are counted.
+obstacle_line_t ToMessage(const ObstacleLines& lines, Time exposure);
+/// What the message says of the pieces; those of unknown kind are left out.
+ObstacleLines FromMessage(const obstacle_line_t& message);
 /// What the message says of the view; edges of unknown kind are left out.
 LandmarkView FromMessage(const landmark_view_t& message);
 

@@ -58,8 +58,8 @@ void Vary(LaserFloor& scene, const std::vector<cv::Mat>& textures, Rng& rng) {
   const FloorTolerance tolerance;
   scene.heave_m = rng.Normal(tolerance.heave_m);
   scene.pitch_rad = rng.Normal(tolerance.pitch_rad), scene.roll_rad = rng.Normal(tolerance.roll_rad);
-  scene.amplitude = rng.Uniform(50, 150), scene.speckle = rng.Uniform(0.05, 0.35);
-  scene.background = rng.Uniform(25, 90), scene.noise = rng.Uniform(1, 4);
+  scene.amplitude = rng.Uniform(60, 150), scene.speckle = rng.Uniform(0.05, 0.35);
+  scene.background = rng.Uniform(25, 90), scene.noise = rng.Uniform(1, 3);
   scene.texture = &textures[rng.Below(textures.size())];
 }
 
@@ -110,7 +110,7 @@ double Found(const Sizes& what, int frames, const std::vector<cv::Mat>& textures
     const double from = what.whole ? -4 : y;
     const double reach = what.height_m < 0 ? 1.5 : 0.3;
     scene.steps = {{what.distance_m - 0.25, what.distance_m + reach, from, from + width, what.height_m,
-                    rng.Uniform(0.4, 1.2)}};
+                    rng.Uniform(0.5, 1.2)}};
     const Belief belief = CalibratedWrongly(scene, rng);
     const ObstacleLines lines = dut.Find(Render(scene, rng), belief.camera, belief.laser);
     for (const ObstaclePiece& p : lines.pieces) {

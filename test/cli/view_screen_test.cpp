@@ -82,6 +82,26 @@ TEST(ViewScreenTest, FitsTheTerminal) {
   }
 }
 
+TEST(ViewScreenTest, TellsWhatTheLaserShowsOfTheFloor) {
+  obstacle_line_t line{};
+  line.utime_exposure = ToUtime(kNow) - 400'000;
+  line.seen_share = 0.9F;
+  EXPECT_THAT(FloorText(line, 0.4), HasSubstr("floor: clear; 90 % of the line seen 0.4 s ago"));
+  line.verdict = obstacle_line_t::OBSTACLE;
+  line.n_segments = 1;
+  line.segments.resize(1);
+  line.segments[0].kind = obstacle_segment_t::UP;
+  line.segments[0].x1_m = line.segments[0].x2_m = 2;
+  line.segments[0].y1_m = -1, line.segments[0].y2_m = -0.5;
+  line.segments[0].height_m = 0.03F;
+  ViewScreen dut;
+  dut.Add(line);
+  EXPECT_FALSE(dut.empty());
+  const std::string text = dut.Render(kNow, {}, false);
+  EXPECT_THAT(text, HasSubstr("OBSTACLE; UP 3.0 cm 2.0 m ahead, from -0.50 to -1.00 m"));
+  EXPECT_THAT(text, HasSubstr("--^^^^^^^^^^^^^^^^| right"));
+}
+
 TEST(ViewScreenTest, EachKindHasItsColourWhereItLies) {
   const std::string text = DrawView(View(), {80, 20}).Text(true);
   const auto green = text.find("\x1b[1;32m"), red = text.find("\x1b[31m");

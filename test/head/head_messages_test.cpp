@@ -51,5 +51,51 @@ TEST(HeadMessagesTest, AnEdgeOfUnknownKindIsLeftOut) {
   EXPECT_EQ(FromMessage(message).edges.size(), 1u);
 }
 
+ObstaclePiece Piece(ObstaclePiece::Kind kind, double y, double height_m) {
+  return {kind, {2.0, y, 0}, {2.1, y + 0.1, 0}, height_m, 0.002};
+}
+
+TEST(HeadMessagesTest, ObstaclesComeBackAsTheyWere) {
+  ObstacleLines lines;
+  lines.verdict = ObstacleLines::kObstacle;
+  lines.seen_share = 0.75;
+  lines.pieces = {Piece(ObstaclePiece::kDown, -0.5, -0.125), Piece(ObstaclePiece::kMissing, 0, 0),
+                  Piece(ObstaclePiece::kUp, 0.25, 0.03)};
+  const obstacle_line_t message = ToMessage(lines, FromUtime(7'000'000));
+  EXPECT_EQ(message.utime_exposure, 7'000'000);
+  EXPECT_EQ(message.verdict, obstacle_line_t::OBSTACLE);
+  EXPECT_EQ(message.n_segments, 3);
+  const ObstacleLines back = FromMessage(message);
+  EXPECT_EQ(back.verdict, lines.verdict);
+  EXPECT_EQ(back.seen_share, lines.seen_share);
+  ASSERT_EQ(back.pieces.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(back.pieces[i].kind, lines.pieces[i].kind);
+    EXPECT_NEAR(back.pieces[i].height_m, lines.pieces[i].height_m, 1e-6);
+    EXPECT_NEAR(back.pieces[i].right.y(), lines.pieces[i].right.y(), 1e-6);
+    EXPECT_NEAR(back.pieces[i].left.x(), 2.1, 1e-6);
+  }
+}
+
+TEST(HeadMessagesTest, OfManyPiecesTheHighestAreKeptInTheirOrder) {
+  ObstacleLines lines;
+  for (int i = 0; i < 6; ++i) {
+    lines.pieces.push_back(Piece(ObstaclePiece::kMissing, -1 + 0.2 * i, 0));
+    lines.pieces.push_back(Piece(ObstaclePiece::kUp, -0.9 + 0.2 * i, 0.02 + 0.01 * i));
+  }
+  const obstacle_line_t message = ToMessage(lines, FromUtime(1));
+  EXPECT_EQ(message.n_segments, 4);
+  EXPECT_EQ(message.n_left_out, 8);
+  int up = 0;
+  for (std::size_t i = 0; i < message.segments.size(); ++i) {
+    up += message.segments[i].kind == obstacle_segment_t::UP;
+    if (i > 0) {
+      EXPECT_GT(message.segments[i].y1_m, message.segments[i - 1].y1_m);
+    }
+  }
+  EXPECT_EQ(up, 4);
+  EXPECT_NEAR(message.segments.back().height_m, 0.07, 1e-6);
+}
+
 }  // namespace
 }  // namespace priamos::head

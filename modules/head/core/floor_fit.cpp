@@ -7,8 +7,9 @@
 namespace priamos::head {
 namespace {
 
-constexpr std::size_t kBlocks = 16;
-constexpr double kGate_m = 0.006;   ///< a block is on a floor or not
+constexpr std::size_t kBlocks = 12;
+constexpr double kGate_m = 0.006;  ///< a block is on a floor or not
+constexpr double kPerGate = 1 / (kGate_m * kGate_m);
 constexpr double kFarthest = 16;    ///< squared Mahalanobis distance of a floor from the prior
 constexpr double kPriorWeight = 2;  ///< points that one unit of it outweighs
 constexpr double kInlier = 9;       ///< square of the sigmas within which a point is on the floor
@@ -56,8 +57,8 @@ double Score(const std::vector<Block>& blocks, const Eigen::Vector3d& plane,
   if (!(distance < kFarthest)) return -1e9;
   double score = -kPriorWeight * distance;
   for (const Block& b : blocks) {
-    const double off = (b.at.z() - plane.dot(FloorPlane::Row(b.at))) / kGate_m;
-    score += b.n * std::max(0.0, 1 - off * off);
+    const double height = b.at.z() - plane[0] - plane[1] * b.at.x() - plane[2] * b.at.y();
+    score += b.n * std::max(0.0, 1 - height * height * kPerGate);
   }
   return score;
 }

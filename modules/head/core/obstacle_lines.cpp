@@ -179,14 +179,19 @@ void AddMissing(double from_u, double to_u, const FloorLine& line, std::vector<O
   if (left && right) pieces.push_back({ObstaclePiece::kMissing, *right, *left, 0, 0});
 }
 
-void FindMissing(const std::vector<LightPoint>& points, int width, const FloorLine& line, int min_missing,
+void FindMissing(const std::vector<LightPoint>& points, int width, const CameraModel& camera,
+                 const LaserPlane& laser, const FloorPlane& floor, int min_missing,
                  std::vector<ObstaclePiece>& pieces) {
+  std::vector<std::pair<double, double>> gaps;
   double last = -1;
   for (const LightPoint& p : points) {
-    if (p.u - last > min_missing) AddMissing(last + 1, p.u - 1, line, pieces);
+    if (p.u - last > min_missing) gaps.emplace_back(last + 1, p.u - 1);
     last = p.u;
   }
-  if (width - last > min_missing) AddMissing(last + 1, width - 1, line, pieces);
+  if (width - last > min_missing) gaps.emplace_back(last + 1, width - 1);
+  if (gaps.empty()) return;
+  const FloorLine line(camera, laser, floor);
+  for (const auto& [from, to] : gaps) AddMissing(from, to, line, pieces);
 }
 
 }  // namespace
@@ -226,7 +231,7 @@ ObstacleLines FindObstacles(std::span<const StripePoint> stripe, int width, cons
   result.verdict = !result.pieces.empty()                 ? ObstacleLines::kObstacle
                    : result.seen_share < options.min_seen ? ObstacleLines::kBlind
                                                           : ObstacleLines::kClear;
-  FindMissing(light.points, width, FloorLine(camera, laser, floor), options.min_missing, result.pieces);
+  FindMissing(light.points, width, camera, laser, floor, options.min_missing, result.pieces);
   std::stable_sort(result.pieces.begin(), result.pieces.end(),
                    [](const auto& a, const auto& b) { return a.right.y() < b.right.y(); });
   return result;
@@ -235,9 +240,9 @@ ObstacleLines FindObstacles(std::span<const StripePoint> stripe, int width, cons
 RowRange LineRows(const CameraModel& camera, const LaserPlane& laser, int width, int height,
                   const ObstacleOptions& options) {
   double first = 1e9, last = -1e9;
-  for (int step = 0; step <= 20; ++step) {
-    const double z = options.lowest_m + step / 20.0 * (options.highest_m - options.lowest_m);
-    for (double y = -kSpan_m; y <= kSpan_m; y += 0.1) {
+  for (int step = 0; step <= 10; ++step) {
+    const double z = options.lowest_m + step / 10.0 * (options.highest_m - options.lowest_m);
+    for (double y = -kSpan_m; y <= kSpan_m; y += 0.25) {
       const Vector3d at(-(laser.normal.y() * y + laser.normal.z() * z + laser.offset_m) / laser.normal.x(), y,
                         z);
       if (!at.allFinite() || at.x() < kNearest_m || at.x() > kFarthest_m || camera.Depth(at) < 0.1) continue;

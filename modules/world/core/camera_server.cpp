@@ -61,7 +61,8 @@ bool CameraServer::Trigger(Time now, std::int32_t frame_id, int cameras) {
   Time opening = now + FromSeconds(config_.trigger_delay_s);
   // A shutter that is open opens again only after it has closed.
   if (!shots_.empty()) opening = std::max(opening, shots_.back().closing + Duration(1));
-  shots_.push_back({opening, opening + FromSeconds(config_.exposure_s), frame_id, cameras, laser, std::nullopt});
+  shots_.push_back(
+      {opening, opening + FromSeconds(config_.exposure_s), frame_id, cameras, laser, std::nullopt});
   return true;
 }
 

@@ -92,8 +92,8 @@ class CameraServer {
   /// `executor` must outlive it; `seed` decides the noise of every picture.
   CameraServer(const CameraConfig& config, double camera_light, RenderExecutor& executor, std::uint64_t seed);
 
-  /// Bits of `cameras`: 1 left, 2 right, 4 third; 8 with the line laser on. Refused (false) while too many pictures are pending or when
-  /// no camera is asked for.
+  /// Bits of `cameras`: 1 left, 2 right, 4 third; 8 with the line laser on. Refused (false) while too many
+  /// pictures are pending or when no camera is asked for.
   bool Trigger(Time now, std::int32_t frame_id, int cameras);
 
   /// The next moment at which Sample() must be called; nullopt while nothing is being exposed.
