@@ -2,44 +2,69 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace priamos::head {
 namespace {
 
 constexpr int kGrid = 8;  ///< seeds lie on every 8th row or column: a straight edge of 12 px crosses one
 
-/// Strongest across a steep edge.
-bool IsPeakInRow(const GradientMap& gradients, int x, int y) {
-  const unsigned short* row = gradients.magnitude(y);
-  return std::abs(gradients.gx(y)[x]) >= std::abs(gradients.gy(y)[x]) && row[x] > row[x - 1] &&
-         row[x] >= row[x + 1];
-}
+/// The three pixels ahead of one that is entered in direction `step`, and what they are in x and y.
+struct Heading {
+  int tx, ty;            ///< the tangent that chose it, to one of the four sides: (+-1, 0) or (0, +-1)
+  int ahead, side;       ///< steps in memory
+  int side_x, side_y;    ///< of a step to the side
 
-/// Strongest across a flat edge.
-bool IsPeakInColumn(const GradientMap& gradients, int x, int y) {
-  return std::abs(gradients.gx(y)[x]) < std::abs(gradients.gy(y)[x]) &&
-         gradients.magnitude(y)[x] > gradients.magnitude(y - 1)[x] &&
-         gradients.magnitude(y)[x] >= gradients.magnitude(y + 1)[x];
-}
+  static Heading Of(int tx, int ty, int stride) {
+    if (std::abs(ty) >= std::abs(tx)) return {0, ty > 0 ? 1 : -1, ty > 0 ? stride : -stride, 1, 1, 0};
+    return {tx > 0 ? 1 : -1, 0, tx > 0 ? 1 : -1, stride, 0, 1};
+  }
+  bool Holds(int x, int y) const { return x * tx + y * ty >= std::abs(x * ty) + std::abs(y * tx); }
+};
 
 }  // namespace
 
 void ChainTracer::Trace(const GradientMap& gradients, const Options& options, EdgeChains& chains) {
   stride_ = gradients.width();
-  visited_.assign(std::size_t(gradients.width()) * gradients.height(), 0);
+  visited_.assign(std::size_t(stride_) * gradients.height(), 0);
+  CloseBorder(gradients.height());
+  walk_.resize(visited_.size());
   chains.pixels.clear();
   chains.begins.assign(1, 0);
-  const int threshold = static_cast<int>(options.seed_threshold);
-  const auto is_free = [&](int x, int y) { return !visited_[std::size_t(y) * stride_ + x]; };
-  for (int y = 2; y < gradients.height() - 2; ++y) {
-    const unsigned short* magnitude = gradients.magnitude(y);
-    const int step = y % kGrid == 0 ? 1 : kGrid;
-    for (int x = step == 1 ? 2 : kGrid; x < gradients.width() - 2; x += step) {
-      if (magnitude[x] < threshold || !is_free(x, y)) continue;
-      if ((y % kGrid == 0 && IsPeakInRow(gradients, x, y)) ||
-          (x % kGrid == 0 && IsPeakInColumn(gradients, x, y))) {
-        TraceFrom(gradients, options, x, y, chains);
-      }
+  for (int y = kGrid; y < gradients.height() - 2; y += kGrid) SeedRow(gradients, options, y, chains);
+  for (int y = 2; y < gradients.height() - 2; ++y) SeedColumns(gradients, options, y, chains);
+}
+
+/// No walk goes there, so none needs to look where the image ends.
+void ChainTracer::CloseBorder(int height) {
+  const auto close = [&](std::size_t from, std::size_t n) { std::fill_n(visited_.begin() + from, n, 1); };
+  close(0, stride_), close(std::size_t(height - 1) * stride_, stride_);
+  for (int y = 1; y < height; ++y) close(std::size_t(y) * stride_ - 1, 2);
+}
+
+/// Steep edges: strongest in the row.
+void ChainTracer::SeedRow(const GradientMap& gradients, const Options& options, int y, EdgeChains& chains) {
+  const unsigned short* const row = gradients.magnitude(y);
+  const short *const gx = gradients.gx(y), *const gy = gradients.gy(y);
+  const auto threshold = static_cast<unsigned short>(options.seed_threshold);
+  // One branch for all: it is hardly ever taken.
+  for (int x = 2; x < stride_ - 2; ++x) {
+    if (int(row[x] >= threshold) & int(row[x] > row[x - 1]) & int(row[x] >= row[x + 1])) {
+      if (std::abs(gx[x]) >= std::abs(gy[x])) TraceFrom(gradients, options, x, y, chains);
+    }
+  }
+}
+
+/// Flat edges: strongest in the column.
+void ChainTracer::SeedColumns(const GradientMap& gradients, const Options& options, int y,
+                              EdgeChains& chains) {
+  const unsigned short *const row = gradients.magnitude(y), *const above = row - stride_,
+                              *const below = row + stride_;
+  const short *const gx = gradients.gx(y), *const gy = gradients.gy(y);
+  const auto threshold = static_cast<unsigned short>(options.seed_threshold);
+  for (int x = kGrid; x < stride_ - 2; x += kGrid) {
+    if (int(row[x] >= threshold) & int(row[x] > above[x]) & int(row[x] >= below[x])) {
+      if (std::abs(gx[x]) < std::abs(gy[x])) TraceFrom(gradients, options, x, y, chains);
     }
   }
 }
@@ -47,45 +72,45 @@ void ChainTracer::Trace(const GradientMap& gradients, const Options& options, Ed
 void ChainTracer::TraceFrom(const GradientMap& gradients, const Options& options, int x, int y,
                             EdgeChains& chains) {
   const int threshold = static_cast<int>(options.link_threshold);
-  visited_[std::size_t(y) * stride_ + x] = 1;
-  walk_.clear();
-  Follow(gradients, threshold, x, y, -1);
-  std::reverse(walk_.begin(), walk_.end());
-  walk_.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)});
-  Follow(gradients, threshold, x, y, 1);
-  if (static_cast<int>(walk_.size()) < options.min_pixels) return;
-  chains.pixels.insert(chains.pixels.end(), walk_.begin(), walk_.end());
+  const ChainPixel seed{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
+  if (std::exchange(visited_[std::size_t(y) * stride_ + x], 1) != 0) return;
+  ChainPixel* const begin = walk_.data();
+  ChainPixel* const middle = Follow(gradients, threshold, seed, -1, begin);
+  std::reverse(begin, middle);
+  *middle = seed;
+  const ChainPixel* const end = Follow(gradients, threshold, seed, 1, middle + 1);
+  if (end - begin < options.min_pixels) return;
+  chains.pixels.insert(chains.pixels.end(), static_cast<const ChainPixel*>(begin), end);
   chains.begins.push_back(static_cast<int>(chains.pixels.size()));
 }
 
-void ChainTracer::Follow(const GradientMap& gradients, int threshold, int x, int y, int hand) {
+ChainPixel* ChainTracer::Follow(const GradientMap& gradients, int threshold, ChainPixel seed, int hand,
+                                ChainPixel* out) {
   const unsigned short* const magnitude = gradients.magnitude(0);
   const short *const gx = gradients.gx(0), *const gy = gradients.gy(0);
-  const int right = gradients.width() - 2, bottom = gradients.height() - 2;
-  int at = y * stride_ + x;
+  std::uint8_t* const visited = visited_.data();
+  int x = seed.x, y = seed.y, at = y * stride_ + x;
   // The tangent (gy, -gx) has the bright side on the right; averaged over a few pixels, or noise would turn
   // the walk where the edge is diagonal.
   int tx = 4 * hand * gy[at], ty = -4 * hand * gx[at];
   while (true) {
-    const bool steep = std::abs(ty) >= std::abs(tx);
-    const int step = steep ? (ty > 0 ? stride_ : -stride_) : (tx > 0 ? 1 : -1), side = steep ? 1 : stride_;
-    int next = at + step, best = magnitude[next];
-    if (magnitude[at + step - side] > best) next = at + step - side, best = magnitude[next];
-    if (magnitude[at + step + side] > best) next = at + step + side, best = magnitude[next];
-    if (best <= threshold || visited_[next]) return;
-    const int ahead_x = hand * gy[next], ahead_y = -hand * gx[next];
-    if (std::int64_t(ahead_x) * tx + std::int64_t(ahead_y) * ty <= 0) return;  // an edge of other contrast
-    visited_[next] = 1;
-    const int across = next - at - step;  // 0 or one step sideways
-    if (steep) {
-      y += ty > 0 ? 1 : -1, x += across;
-    } else {
-      x += tx > 0 ? 1 : -1, y += across == 0 ? 0 : across > 0 ? 1 : -1;
-    }
-    if (x < 1 || y < 1 || x > right || y > bottom) return;
-    walk_.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)});
-    at = next;
-    tx += ahead_x - tx / 4, ty += ahead_y - ty / 4;
+    const Heading heading = Heading::Of(tx, ty, stride_);
+    do {
+      const int middle = at + heading.ahead;
+      const int one = magnitude[middle - heading.side], two = magnitude[middle],
+                three = magnitude[middle + heading.side];
+      int aside = 0, best = two;
+      if (one > best) aside = -1, best = one;
+      if (three > best) aside = 1, best = three;
+      at = middle + aside * heading.side;
+      if (best <= threshold || visited[at]) return out;
+      const int ahead_x = hand * gy[at], ahead_y = -hand * gx[at];
+      if (ahead_x * tx + ahead_y * ty <= 0) return out;  // an edge of other contrast
+      visited[at] = 1;
+      x += heading.tx + aside * heading.side_x, y += heading.ty + aside * heading.side_y;
+      *out++ = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
+      tx += ahead_x - tx / 4, ty += ahead_y - ty / 4;
+    } while (heading.Holds(tx, ty));
   }
 }
 

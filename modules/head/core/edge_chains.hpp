@@ -33,9 +33,11 @@ class ChainTracer {
   void Trace(const GradientMap& gradients, const Options& options, EdgeChains& chains);
 
  private:
-  struct Walk;
+  void CloseBorder(int height);
+  void SeedRow(const GradientMap& gradients, const Options& options, int y, EdgeChains& chains);
+  void SeedColumns(const GradientMap& gradients, const Options& options, int y, EdgeChains& chains);
   void TraceFrom(const GradientMap& gradients, const Options& options, int x, int y, EdgeChains& chains);
-  void Follow(const GradientMap& gradients, int threshold, int x, int y, int hand);
+  ChainPixel* Follow(const GradientMap& gradients, int threshold, ChainPixel seed, int hand, ChainPixel* out);
 
   int stride_ = 0;
   std::vector<std::uint8_t> visited_;

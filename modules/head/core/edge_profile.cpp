@@ -9,8 +9,11 @@
 namespace priamos::head {
 namespace {
 
-constexpr int kFraction = 16;  ///< bits after the point of a position in the row
-constexpr int kPhaseShift = kFraction - 6;
+// A position in the row: pixel, phase of the kernel, and what remains of it.
+constexpr int kFraction = 32, kPhaseShift = kFraction - 6, kRemainderBits = 10;
+constexpr int kRemainderShift = kPhaseShift - kRemainderBits;
+constexpr double kOne = std::int64_t{1} << kFraction;
+constexpr std::int64_t kInPhase = (std::int64_t{1} << kPhaseShift) - 1;
 static_assert(EdgeKernelSet::kPhases == 1 << 6);
 
 struct Lanes {
@@ -34,6 +37,19 @@ void AddRow(const std::uint8_t* grey, const EdgeKernel& wide, const EdgeKernel& 
   lanes.second[1] = Add(lanes.second[1], a, b, narrow.second);
   lanes.third[1] = Add(lanes.third[1], a, b, narrow.third);
   lanes.near = lanes.near + near, lanes.far = lanes.far + far;
+}
+
+void Reduce(const Lanes& lanes, float scale, EdgeSums& sums) {
+  cv::v_int32x4 a, b, c, d;
+  cv::v_transpose4x4(lanes.first, lanes.second[0], lanes.second[1], lanes.third[0], a, b, c, d);
+  float sum[4];
+  cv::v_store(sum, cv::v_cvt_f32((a + b) + (c + d)));
+  sums.strength = scale * sum[0];
+  sums.imbalance[0] = scale * sum[1], sums.imbalance[1] = scale * sum[2];
+  sums.sharpness[0] = -scale * sum[3], sums.sharpness[1] = -scale * float(cv::v_reduce_sum(lanes.third[1]));
+  std::uint16_t near[8], far[8];
+  cv::v_store(near, lanes.near), cv::v_store(far, lanes.far);
+  sums.low = float(near[3] + near[4]) / 2, sums.high = float(far[3] + far[4]) / 2;
 }
 
 constexpr int kTile = 16;
@@ -72,61 +88,33 @@ void EdgeProfile::SetImage(const cv::Mat& image) {
 }
 
 EdgeSums EdgeProfile::Sum(const AxisLine& line, int first, int last) const {
+  constexpr int kRowsAhead = 6;
   const cv::Mat& rows = line.steep ? image_ : transposed_;
   first = std::max(first, 0), last = std::min(last, rows.rows - 1);
   EdgeSums sums;
   Lanes lanes;
   int along = 0, remainder = 0;
-  for (int t = first; t <= last; ++t) {
-    const int across = static_cast<int>(line.Across(t) * (1 << kFraction));
-    const int pixel = across >> kFraction;
+  auto across = static_cast<std::int64_t>(line.Across(first) * kOne);
+  const auto step = static_cast<std::int64_t>(line.slope * kOne);
+  const std::uint8_t* row = rows.ptr(0) + first * rows.step[0];
+  for (int t = first; t <= last; ++t, across += step, row += rows.step[0]) {
+    const int pixel = static_cast<int>(across >> kFraction);
     if (pixel < EdgeKernel::kCentre || pixel + EdgeKernel::kTaps - EdgeKernel::kCentre > rows.cols) continue;
-    const int phase = (across >> kPhaseShift) & (EdgeKernelSet::kPhases - 1);
-    remainder += (across & ((1 << kPhaseShift) - 1)) - (1 << (kPhaseShift - 1));
-    AddRow(rows.ptr(t) + pixel - EdgeKernel::kCentre, line.wide->phases[phase], line.narrow->phases[phase],
-           lanes);
+    const int phase = static_cast<int>(across >> kPhaseShift) & (EdgeKernelSet::kPhases - 1);
+    remainder += static_cast<int>((across & kInPhase) >> kRemainderShift);
+    __builtin_prefetch(row + kRowsAhead * rows.step[0] + pixel);
+    AddRow(row + pixel - EdgeKernel::kCentre, line.wide->phases[phase], line.narrow->phases[phase], lanes);
     along += t;
     ++sums.rows;
   }
+  if (sums.rows > 0) Reduce(lanes, line.sign / float(EdgeKernel::kScale), sums);
   if (sums.rows == 0) return sums;
-  const double scale = line.sign / EdgeKernel::kScale;
+  sums.along = float(along) / float(sums.rows);
+  sums.inverse = 1 / sums.strength;
   // The kernels of the nearest phase were used; this brings the sums to the line itself.
-  const double offset = double(remainder) / sums.rows / (1 << kFraction);
-  sums.along = double(along) / sums.rows;
-  sums.strength = scale * v_reduce_sum(lanes.first);
-  for (int i = 0; i < 2; ++i) {
-    sums.sharpness[i] = -scale * v_reduce_sum(lanes.third[i]);
-    sums.imbalance[i] = scale * v_reduce_sum(lanes.second[i]) - offset * sums.sharpness[i];
-  }
-  std::uint16_t near[8], far[8];
-  cv::v_store(near, lanes.near), cv::v_store(far, lanes.far);
-  sums.low = (near[3] + near[4]) / 2.0, sums.high = (far[3] + far[4]) / 2.0;
-  return sums;
-}
-
-EdgeSums EdgeProfile::RoughSum(const AxisLine& line, int first, int last, int step) const {
-  const cv::Mat& rows = line.steep ? image_ : transposed_;
-  first = std::max(first, 0), last = std::min(last, rows.rows - 1);
-  EdgeSums sums;
-  cv::v_int32x4 strength = cv::v_setzero_s32(), imbalance = strength;
-  int along = 0;
-  for (int t = first; t <= last; t += step) {
-    const int across = static_cast<int>(line.Across(t) * (1 << kFraction));
-    const int pixel = across >> kFraction;
-    if (pixel < EdgeKernel::kCentre || pixel + EdgeKernel::kTaps - EdgeKernel::kCentre > rows.cols) continue;
-    const EdgeKernel& kernel = line.wide->phases[(across >> kPhaseShift) & (EdgeKernelSet::kPhases - 1)];
-    const std::uint8_t* grey = rows.ptr(t) + pixel - EdgeKernel::kCentre;
-    const cv::v_int16x8 a = v_reinterpret_as_s16(cv::v_load_expand(grey));
-    const cv::v_int16x8 b = v_reinterpret_as_s16(cv::v_load_expand(grey + 8));
-    strength = Add(strength, a, b, kernel.first);
-    imbalance = Add(imbalance, a, b, kernel.second);
-    along += t;
-    ++sums.rows;
-  }
-  if (sums.rows == 0) return sums;
-  sums.along = double(along) / sums.rows;
-  sums.strength = line.sign / EdgeKernel::kScale * v_reduce_sum(strength);
-  sums.imbalance[0] = line.sign / EdgeKernel::kScale * v_reduce_sum(imbalance);
+  const float mean = float(remainder) / float(sums.rows) - 0.5F * (1 << kRemainderBits);
+  const float offset = mean / (EdgeKernelSet::kPhases << kRemainderBits);
+  for (int i = 0; i < 2; ++i) sums.imbalance[i] -= offset * sums.sharpness[i];
   return sums;
 }
 

@@ -31,15 +31,15 @@ struct AxisLine {
 /// sharpness are positive where the line lies on an edge of its contrast.
 struct EdgeSums {
   int rows = 0;
-  double along = 0;     ///< mean row
-  double strength = 0;  ///< first derivative
+  float along = 0;     ///< mean row
+  float strength = 0;  ///< first derivative
+  float inverse = 0;   ///< 1 / strength
   /// Second derivative and minus third, for each KernelWidth: their quotient is how far beside the line the
   /// edge lies.
-  double imbalance[2] = {0, 0}, sharpness[2] = {0, 0};
-  double low = 0, high = 0;  ///< grey values on the sides of small and large `across`
+  float imbalance[2] = {0, 0}, sharpness[2] = {0, 0};
+  float low = 0, high = 0;  ///< grey values on the sides of small and large `across`
 
-  double shift(KernelWidth width) const { return imbalance[int(width)] / sharpness[int(width)]; }
-  /// Adds all but the mean row.
+  /// Adds all but `along` and `inverse`.
   void Add(const EdgeSums& other) {
     rows += other.rows, strength += other.strength, low += other.low, high += other.high;
     for (int i = 0; i < 2; ++i) imbalance[i] += other.imbalance[i], sharpness[i] += other.sharpness[i];
@@ -54,8 +54,6 @@ class EdgeProfile {
 
   /// Rows (or columns) from `first` to `last`; those too near the border are left out.
   EdgeSums Sum(const AxisLine& line, int first, int last) const;
-  /// Strength and imbalance[0] only, on rows first, first + step, ...
-  EdgeSums RoughSum(const AxisLine& line, int first, int last, int step) const;
   /// Number of rows (or columns) of the image.
   int Extent(const AxisLine& line) const { return line.steep ? image_.rows : image_.cols; }
 

@@ -13,7 +13,9 @@ constexpr double kMaxShiftPx = 1.5;  ///< an edge farther beside the line is ano
 /// the two widths means nothing.
 constexpr double kToleratedGapPx = 0.05;
 constexpr double kCornerPx = 0.2;       ///< how far a corner bends the edge that ends there
-constexpr double kSettledPx = 0.15;     ///< so near the edge one linear step is exact
+constexpr double kSettledPx = 0.3;  ///< so near the edge one linear step is exact
+constexpr double kNearPx = 0.8;     ///< so near it is worth looking how far the edge goes
+constexpr double kLostPx = 5;
 constexpr double kTypicalSpread = 1.4;  ///< wide kernel and lens together [px]
 
 double Square(double x) {
@@ -41,51 +43,11 @@ void Move(AxisLine& line, double centroid, double step, double turn) {
   line.slope += turn;
 }
 
-/// Weighted straight line through (tau, value).
-struct LineSums {
-  double w = 0, wt = 0, wtt = 0, wd = 0, wtd = 0;
-  void Add(double weight, double tau, double value) {
-    w += weight, wt += weight * tau, wtt += weight * tau * tau;
-    wd += weight * value, wtd += weight * tau * value;
-  }
-  /// Value at the mean tau, and slope; false if undetermined.
-  bool Solve(double& mean, double& value, double& slope) const {
-    if (w <= 0) return false;
-    mean = wt / w, value = wd / w;
-    const double spread = wtt - wt * mean;
-    if (spread <= 0) return false;
-    slope = (wtd - wd * mean) / spread;
-    return true;
-  }
-};
-
 }  // namespace
 
 void EdgeRefiner::SetImage(const cv::Mat& image, double noise_sigma) {
   profile_.SetImage(image);
   noise_sigma_ = std::max(noise_sigma, 0.3);  // rounding to whole grey values is noise, too
-}
-
-/// Pixel accuracy to about 0.3 px, from a few rows only.
-bool EdgeRefiner::Approach(AxisLine& line, int first, int last) const {
-  constexpr int kGroups = 5, kRowsEach = 4;
-  const int n = last - first + 1, step = std::max(1, n / (kGroups * kRowsEach));
-  for (int round = 0; round < 2; ++round) {
-    LineSums sums;
-    for (int g = 0; g < kGroups; ++g) {
-      const EdgeSums s =
-          profile_.RoughSum(line, first + g * n / kGroups, first + (g + 1) * n / kGroups - 1, step);
-      if (s.strength <= 0) continue;
-      const double shift = s.imbalance[0] / s.strength * Square(kTypicalSpread);
-      sums.Add(s.strength, s.along - line.origin, std::clamp(shift, -kMaxShiftPx, kMaxShiftPx));
-    }
-    double mean = 0, step_offset = 0, turn = 0;
-    if (!sums.Solve(mean, step_offset, turn)) return false;
-    Move(line, line.origin + mean, step_offset, turn);
-    if (std::abs(step_offset) + std::abs(turn) * n / 2 < 0.5) break;
-  }
-  line.ChooseKernels();
-  return std::abs(line.slope) < 1.3;
 }
 
 void EdgeRefiner::MeasureBlocks(const AxisLine& line, int first, int last) {
@@ -95,11 +57,18 @@ void EdgeRefiner::MeasureBlocks(const AxisLine& line, int first, int last) {
     blocks_.push_back(profile_.Sum(line, t, std::min(t + block_rows_ - 1, last)));
     total_.Add(blocks_.back());
   }
+  SetLimits();
+}
+
+/// What MeasureBlocks found decides which blocks belong to the edge.
+void EdgeRefiner::SetLimits() {
+  mean_strength_ = total_.strength / float(total_.rows);
+  farthest_ = float(kMaxShiftPx) * total_.sharpness[0] / total_.strength;
 }
 
 bool EdgeRefiner::IsEdge(const EdgeSums& b) const {
-  return b.rows > 0 && b.strength > 0.5 * total_.strength / total_.rows * b.rows &&
-         std::abs(b.imbalance[0]) * total_.strength < kMaxShiftPx * total_.sharpness[0] * b.strength;
+  return b.rows > 0 && b.strength > 0.5F * mean_strength_ * float(b.rows) &&
+         std::abs(b.imbalance[0]) < farthest_ * b.strength;
 }
 
 /// Follows the edge beyond the measured blocks as far as it goes.
@@ -120,10 +89,9 @@ void EdgeRefiner::Extend(const AxisLine& line) {
 
 /// Drops blocks without the edge from both ends; the ends lie where half the strength is lost.
 void EdgeRefiner::Trim() {
-  const double mean = total_.strength / total_.rows;
-  const auto part = [&](const EdgeSums& b) {
-    return std::clamp(b.strength / mean, 0.0,
-                      1.0 * b.rows);  // rows of the edge inside a block beyond the end
+  const float mean = mean_strength_;
+  const auto part = [&](const EdgeSums& b) {  // rows of the edge inside a block beyond the end
+    return std::clamp(b.strength / mean, 0.0F, float(b.rows));
   };
   double before = 0, after = 0;
   while (!blocks_.empty() && !IsEdge(blocks_.back())) after = part(blocks_.back()), blocks_.pop_back();
@@ -134,7 +102,7 @@ void EdgeRefiner::Trim() {
   for (const EdgeSums& b : blocks_) total_.Add(b);
   if (blocks_.empty()) return;
   const auto whole = [&](const EdgeSums& b) {
-    return std::clamp(b.strength / mean, 0.5 * b.rows, 1.0 * b.rows);
+    return std::clamp(b.strength / mean, 0.5F * float(b.rows), float(b.rows));
   };
   const EdgeSums &front = blocks_.front(), &back = blocks_.back();
   first_ = front.along + 0.5 * front.rows - whole(front) - before;
@@ -145,67 +113,74 @@ void EdgeRefiner::Trim() {
 bool EdgeRefiner::Solve(const AxisLine& line, KernelWidth width, int rounds, Fit& fit) {
   fit = Fit{};
   fit.width = width;
-  const double sharpness = total_.sharpness[int(width)];
-  if (blocks_.size() < 3 || sharpness <= 0 || total_.strength <= 0) return false;
+  if (blocks_.size() < 3 || total_.sharpness[int(width)] <= 0 || total_.strength <= 0) return false;
   // For a Gaussian edge this holds beside its centre, too.
-  fit.kappa = sharpness / total_.strength;
+  fit.kappa = total_.sharpness[int(width)] / total_.strength;
   if (width == KernelWidth::kWide) fit.kappa += Square(total_.imbalance[0] / total_.strength);
-  // Corners disturb the ends: a loss worth taking unless a block's own noise is larger.
-  const double block_noise = std::sqrt(line.kernels(width).second_gain * total_.rows / blocks_.size()) *
-                             noise_sigma_ * blocks_.size() / (fit.kappa * total_.strength);
-  const std::size_t skip = blocks_.size() >= 8 && block_noise < kCornerPx ? 1 : 0;
-  const double gap = 0.25 * total_.strength / total_.rows;
-  weights_.assign(blocks_.size(), 0);
-  shifts_.resize(blocks_.size());
-  for (std::size_t i = skip; i + skip < blocks_.size(); ++i) {
-    if (blocks_[i].strength <= gap * blocks_[i].rows) continue;
-    weights_[i] = blocks_[i].strength;
-    shifts_[i] = std::clamp(fit.Shift(blocks_[i]), -kMaxShiftPx, kMaxShiftPx);
-  }
+  Collect(line, fit);
   for (int round = 0; round < rounds; ++round) {
     if (round > 0 && !Reweight(line, fit)) return true;
-    LineSums sums;
-    for (std::size_t i = 0; i < blocks_.size(); ++i) {
-      if (weights_[i] > 0) sums.Add(weights_[i], blocks_[i].along - line.origin, shifts_[i]);
-    }
-    double mean = 0;
-    if (!sums.Solve(mean, fit.step_offset, fit.step_slope)) return false;
-    fit.centroid = line.origin + mean;
+    if (!FitLine(fit)) return false;
   }
+  return true;
+}
+
+/// The blocks as arrays: where they are, how far beside the line the edge is there, and their weights.
+void EdgeRefiner::Collect(const AxisLine& line, const Fit& fit) {
+  const auto n = static_cast<Eigen::Index>(blocks_.size());
+  along_.resize(n), shifts_.resize(n), strengths_.resize(n), rows_.resize(n);
+  const float per_imbalance = 1 / fit.kappa, gap = 0.25F * mean_strength_, farthest = kMaxShiftPx;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const EdgeSums& b = blocks_[i];
+    along_[i] = b.along;
+    shifts_[i] = std::clamp(b.imbalance[int(fit.width)] * b.inverse * per_imbalance, -farthest, farthest);
+    strengths_[i] = b.strength > gap * float(b.rows) ? b.strength : 0;
+    rows_[i] = float(b.rows);
+  }
+  // Corners disturb the ends: a loss worth taking unless a block's own noise is larger.
+  const double per_block = double(n) / (fit.kappa * total_.strength);
+  const double block_noise =
+      std::sqrt(line.kernels(KernelWidth::kWide).second_gain * total_.rows / double(n)) * noise_sigma_ * per_block;
+  if (n >= 8 && block_noise < kCornerPx) strengths_[0] = strengths_[n - 1] = 0;
+  weights_ = strengths_;
+}
+
+bool EdgeRefiner::FitLine(Fit& fit) const {
+  const float weight = weights_.sum();
+  if (weight <= 0) return false;
+  fit.centroid = (weights_ * along_).sum() / weight;
+  const auto tau = along_ - float(fit.centroid);
+  const float spread = (weights_ * tau.square()).sum();
+  if (spread <= 0) return false;
+  fit.step_offset = (weights_ * shifts_).sum() / weight;
+  fit.step_slope = (weights_ * tau * shifts_).sum() / spread;
   return true;
 }
 
 /// False if no block is far off.
 bool EdgeRefiner::Reweight(const AxisLine& line, const Fit& fit) {
-  constexpr double kLimit = 2.5, kFloorPx = 0.03;
-  const double noise = Square(noise_sigma_) * line.kernels(fit.width).second_gain;
-  bool changed = false;
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    if (weights_[i] <= 0) continue;
-    const EdgeSums& b = blocks_[i];
-    const double error = shifts_[i] - fit.step_offset - fit.step_slope * (b.along - fit.centroid);
-    const double slope2 = Square(fit.kappa * b.strength);
-    const double misfit = Square(error) * slope2;
-    const double allowed = kLimit * kLimit * (noise * b.rows + Square(kFloorPx) * slope2);
-    weights_[i] = b.strength;
-    if (misfit <= allowed) continue;
-    weights_[i] *= std::sqrt(allowed / misfit);
-    changed = true;
-  }
-  return changed;
+  constexpr float kLimit = 2.5, kFloorPx = 0.03;
+  const auto noise = float(Square(noise_sigma_) * line.kernels(fit.width).second_gain);
+  const auto slope2 = (float(fit.kappa) * strengths_).square();
+  const auto error = shifts_ - float(fit.step_offset) - float(fit.step_slope) * (along_ - float(fit.centroid));
+  misfits_ = slope2 * error.square();
+  allowed_ = kLimit * kLimit * (noise * rows_ + kFloorPx * kFloorPx * slope2);
+  if ((misfits_ <= allowed_).all()) return false;
+  weights_ = strengths_ * (allowed_ / misfits_.max(allowed_)).sqrt();
+  return true;
 }
 
 /// From the pixel noise, enlarged where the blocks scatter more than that explains.
 void EdgeRefiner::AddVariance(const AxisLine& line, Fit& fit) const {
-  const double noise = Square(noise_sigma_) * line.kernels(fit.width).second_gain;
+  const auto noise = float(Square(noise_sigma_) * line.kernels(fit.width).second_gain);
+  const auto kappa = float(fit.kappa);
   double w = 0, wtt = 0, v = 0, vtt = 0, chi2 = 0;
   int n = 0;
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+  for (Eigen::Index i = 0; i < weights_.size(); ++i) {
     if (weights_[i] <= 0) continue;
-    const EdgeSums& b = blocks_[i];
-    const double tau = b.along - fit.centroid;
-    const double variance = noise * b.rows * Square(weights_[i] / (fit.kappa * b.strength));
-    const double error = fit.Shift(b) - fit.step_offset - fit.step_slope * tau;
+    const float tau = along_[i] - float(fit.centroid), share = weights_[i] * blocks_[i].inverse / kappa;
+    const float variance = noise * rows_[i] * share * share;
+    const float error = shifts_[i] - float(fit.step_offset) - float(fit.step_slope) * tau;
     w += weights_[i], wtt += weights_[i] * tau * tau, v += variance, vtt += variance * tau * tau;
     chi2 += Square(error * weights_[i]) / variance;
     ++n;
@@ -213,21 +188,6 @@ void EdgeRefiner::AddVariance(const AxisLine& line, Fit& fit) const {
   const double inflation = n > 4 ? std::clamp(chi2 / (n - 2), 1.0, 25.0) : 1.0;
   fit.variance_offset = inflation * v / Square(w);
   fit.variance_slope = inflation * vtt / Square(wtt);
-}
-
-/// Blocks on [first, last], the line moved until they lie around the edge.
-bool EdgeRefiner::Settle(AxisLine& line, int first, int last) {
-  for (int round = 0; round < 3; ++round) {
-    MeasureBlocks(line, first, last);
-    Fit fit;
-    if (!Solve(line, KernelWidth::kWide, 1, fit)) return false;
-    const double move = std::abs(fit.step_offset) + std::abs(fit.step_slope) * (last - first) / 2;
-    if (move < kSettledPx) return true;
-    if (move > 5) return false;
-    Move(line, fit.centroid, fit.step_offset, fit.step_slope);
-    line.ChooseKernels();
-  }
-  return std::abs(line.slope) < 1.3;
 }
 
 bool EdgeRefiner::IsClear(const AxisLine& line, const Options& options) const {
@@ -260,29 +220,34 @@ bool EdgeRefiner::Choose(const AxisLine& line, Fit& fit) {
 }
 
 bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeImage& out) {
+  constexpr int kRounds = 4;
   int first = 0, last = 0;
   AxisLine line = ToAxis(rough, first, last);
-  line.ChooseKernels();
   if (last - first < 5) return false;
   block_rows_ = last - first < 24 ? 3 : last - first < 160 ? 4 : 8;
-  if (last - first > 40 && !Approach(line, first, last)) return false;
-  if (!Settle(line, first, last) || !IsClear(line, options)) return false;
   Fit fit;
-  for (int round = 0;; ++round) {
-    Extend(line);
-    Trim();
-    if (blocks_.empty() || (last_ - first_) * line.Stretch() < options.min_length_px) return false;
-    if (!Choose(line, fit)) return false;
-    const double move = std::abs(fit.step_offset) + std::abs(fit.step_slope) * (last_ - first_) / 2;
-    if (move < kSettledPx) break;
-    if (round == 2) return false;
-    // The rough line led astray: its extension must be followed anew.
-    Move(line, fit.centroid, fit.step_offset, fit.step_slope);
+  for (int round = 0; round < kRounds; ++round) {
     line.ChooseKernels();
-    MeasureBlocks(line, static_cast<int>(std::ceil(first_)), static_cast<int>(last_));
+    MeasureBlocks(line, first, last);
+    if (!Solve(line, KernelWidth::kWide, 1, fit)) return false;
+    double move = fit.Move((last - first) / 2.0);
+    if (move > kLostPx) return false;
+    if (move < kNearPx) {
+      if (!IsClear(line, options)) return false;
+      Extend(line);
+      Trim();
+      if (blocks_.empty() || (last_ - first_) * line.Stretch() < options.min_length_px) return false;
+      if (!Choose(line, fit)) return false;
+      first = static_cast<int>(std::ceil(first_)), last = static_cast<int>(last_);
+      if (fit.Move((last_ - first_) / 2) < kSettledPx) {
+        Append(line, fit, options, out);
+        return true;
+      }
+    }
+    Move(line, fit.centroid, fit.step_offset, fit.step_slope);
+    if (std::abs(line.slope) > 1.3) return false;
   }
-  Append(line, fit, options, out);
-  return true;
+  return false;
 }
 
 void EdgeRefiner::Append(const AxisLine& measured, const Fit& fit, const Options& options,
@@ -308,10 +273,9 @@ void EdgeRefiner::Append(const AxisLine& measured, const Fit& fit, const Options
   const double noise = noise_sigma_ * std::sqrt(measured.kernels(fit.width).second_gain);
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const EdgeSums& b = blocks_[i];
-    if (weights_[i] <= 0) continue;
-    const double shift = std::clamp(fit.Shift(b), -kMaxShiftPx, kMaxShiftPx);
+    if (weights_[Eigen::Index(i)] <= 0) continue;
     const double sigma = noise * std::sqrt(b.rows) / (fit.kappa * b.strength);
-    out.points.push_back({point(b.along, measured.Across(b.along) + shift),
+    out.points.push_back({point(b.along, measured.Across(b.along) + shifts_[Eigen::Index(i)]),
                           std::sqrt(Square(sigma * cosine) + Square(options.floor_px))});
   }
   segment.n_points = static_cast<int>(out.points.size()) - segment.first_point;

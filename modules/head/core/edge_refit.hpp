@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -39,19 +40,19 @@ class EdgeRefiner {
     double variance_offset = 0, variance_slope = 0;
     double kappa = 1;  ///< imbalance per strength and pixel of shift
 
-    double Shift(const EdgeSums& block) const {
-      return block.imbalance[int(width)] / (kappa * block.strength);
-    }
+    /// How far the ends of a line move that reaches `half` to both sides [px].
+    double Move(double half) const { return std::abs(step_offset) + std::abs(step_slope) * half; }
   };
 
-  bool Approach(AxisLine& line, int first, int last) const;
-  bool Settle(AxisLine& line, int first, int last);
   void MeasureBlocks(const AxisLine& line, int first, int last);
   bool IsClear(const AxisLine& line, const Options& options) const;
+  void SetLimits();
   void Extend(const AxisLine& line);
   void Trim();
   bool IsEdge(const EdgeSums& block) const;
   bool Solve(const AxisLine& line, KernelWidth width, int rounds, Fit& fit);
+  void Collect(const AxisLine& line, const Fit& fit);
+  bool FitLine(Fit& fit) const;
   bool Reweight(const AxisLine& line, const Fit& fit);
   void AddVariance(const AxisLine& line, Fit& fit) const;
   bool Choose(const AxisLine& line, Fit& fit);
@@ -61,8 +62,10 @@ class EdgeRefiner {
   double noise_sigma_ = 0;
   int block_rows_ = 4;
   std::vector<EdgeSums> blocks_, front_;  ///< along the line, from its small end to its large end
-  std::vector<double> weights_, shifts_;
+  Eigen::ArrayXf along_, rows_, strengths_, shifts_, weights_;  ///< of blocks_, in the last solution
+  Eigen::ArrayXf misfits_, allowed_;
   EdgeSums total_;
+  float mean_strength_ = 0, farthest_ = 0;  ///< of a row; largest imbalance per strength
   double first_ = 0, last_ = 0;  ///< ends of the edge along the line
 };
 

@@ -8,6 +8,7 @@
 #include "head/core/edge_segment.hpp"
 #include "head/core/gradient_map.hpp"
 #include "head/core/segment_fusion.hpp"
+#include "head/core/segment_map.hpp"
 
 namespace priamos::head {
 
@@ -37,12 +38,10 @@ class EdgeOperator {
   ChainTracer tracer_;
   ChainSplitter splitter_;
   EdgeRefiner refiner_;
-  void Own(const EdgeSegment& segment, int id);
-  bool IsOwned(const RoughLine& line, const EdgeImage& out) const;
+  SegmentMap found_;
 
   EdgeChains chains_;
   std::vector<RoughLine> rough_;
-  cv::Mat owner_;  ///< pixel -> 1 + index of the segment that runs there
 };
 
 }  // namespace priamos::head

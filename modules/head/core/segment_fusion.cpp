@@ -5,6 +5,7 @@
 #include <queue>
 #include <tuple>
 
+#include "common/geometry.hpp"
 #include "head/core/segment_index.hpp"
 
 namespace priamos::head {
@@ -12,6 +13,9 @@ namespace {
 
 constexpr double kCellPx = 32;
 constexpr double kSigmas = 3;
+constexpr double kMaxAngleNoise = 0.03;  ///< beyond that a direction is not worth more doubt [rad]
+/// Lines are looked up among those of about their direction.
+constexpr int kSectors = 16;
 
 /// A total order of segments that depends on where they are, not on where they stand in a list.
 auto Place(const EdgeSegment& s) {
@@ -45,7 +49,7 @@ struct Line {
 std::optional<double> Gap(const Line& a, const Line& b, const FusionOptions& options) {
   const Eigen::Vector2d &u = a.direction, &v = b.direction;
   if (u.dot(v) < 0.9) return std::nullopt;
-  const double noise = std::min(a.segment.sigma_angle_rad + b.segment.sigma_angle_rad, 0.03);
+  const double noise = std::min(a.segment.sigma_angle_rad + b.segment.sigma_angle_rad, kMaxAngleNoise);
   if (std::abs(u.x() * v.y() - u.y() * v.x()) > options.max_angle_rad + kSigmas * noise) return std::nullopt;
   const double beside = std::abs(u.x() * (b.segment.centre - a.segment.centre).y() -
                                  u.y() * (b.segment.centre - a.segment.centre).x());
@@ -63,7 +67,8 @@ std::optional<double> Gap(const Line& a, const Line& b, const FusionOptions& opt
 class Fuser {
  public:
   Fuser(const FusionOptions& options, const EdgeImage& edges)
-      : options_(options), index_(edges.width, edges.height, kCellPx) {
+      : options_(options), index_(kSectors, SegmentIndex(edges.width, edges.height, kCellPx)) {
+    lines_.reserve(2 * edges.segments.size());
     for (const EdgeSegment& s : edges.segments) Add({s, int(lines_.size()), int(lines_.size())});
     next_piece_.assign(lines_.size(), -1);
     pieces_ = edges.segments;
@@ -112,12 +117,14 @@ class Fuser {
 
   void Add(const Line& line) {
     const int id = static_cast<int>(lines_.size());
+    const double turn = std::atan2(line.direction.y(), line.direction.x()) * kSectors / (2 * kPi) + kSectors;
+    const double doubt = (options_.max_angle_rad + kSigmas * kMaxAngleNoise) * kSectors / (2 * kPi);
     near_.clear();
-    index_.Near(line.segment.begin, options_.max_gap_px, near_);
-    index_.Near(line.segment.end, options_.max_gap_px, near_);
-    FindAround(line.segment);
+    for (int sector = int(turn - doubt); sector <= int(turn + doubt); ++sector) {
+      FindAround(line, index_[sector % kSectors]);
+    }
+    index_[int(turn) % kSectors].Insert(id, line.segment.begin, line.segment.end);
     lines_.push_back(line);
-    index_.Insert(id, line.segment.begin, line.segment.end);
     for (const int other : near_) {
       if (!lines_[other].alive || lines_[other].seen_by == id) continue;
       lines_[other].seen_by = id;
@@ -125,10 +132,12 @@ class Fuser {
     }
   }
 
-  void FindAround(const EdgeSegment& segment) {
+  void FindAround(const Line& line, const SegmentIndex& index) {
+    index.Near(line.segment.begin, options_.max_gap_px, near_);
+    index.Near(line.segment.end, options_.max_gap_px, near_);
     // A long line may run past a short one without an end near it.
-    for (double at = kCellPx; at < segment.length_px(); at += kCellPx) {
-      index_.Near(segment.begin + at * segment.direction(), 1, near_);
+    for (double at = kCellPx; at < line.length_px; at += kCellPx) {
+      index.Near(line.segment.begin + at * line.direction, 1, near_);
     }
   }
 
@@ -158,7 +167,7 @@ class Fuser {
   }
 
   FusionOptions options_;
-  SegmentIndex index_;
+  std::vector<SegmentIndex> index_;  ///< of lines of each sector of directions
   std::vector<EdgeSegment> pieces_;
   std::vector<int> next_piece_;
   std::vector<Line> lines_;  ///< the pieces, then every line that was joined

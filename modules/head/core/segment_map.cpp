@@ -1,0 +1,52 @@
+#include "head/core/segment_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace priamos::head {
+
+void SegmentMap::Clear(int width_px, int height_px) {
+  columns_ = (width_px + 1) / 2, rows_ = (height_px + 1) / 2;
+  cells_.assign(std::size_t(columns_) * rows_, 0);
+}
+
+void SegmentMap::Mark(double x, double y, std::uint16_t mark) {
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  if (column >= 0 && row >= 0 && column < columns_ && row < rows_)
+    cells_[std::size_t(row) * columns_ + column] = mark;
+}
+
+void SegmentMap::Draw(const EdgeSegment& segment, int index) {
+  if (index >= std::numeric_limits<std::uint16_t>::max()) return;
+  const Eigen::Vector2d way = (segment.end - segment.begin) / 2;
+  const int n = std::max(1, static_cast<int>(way.cwiseAbs().maxCoeff()));
+  const bool steep = std::abs(way.y()) >= std::abs(way.x());
+  const double aside_x = steep ? 0.5 : 0, aside_y = steep ? 0 : 0.5;  // a pixel to both sides
+  // The centre of pixel 0 is a quarter of a cell inside.
+  double x = segment.begin.x() / 2 + 0.25, y = segment.begin.y() / 2 + 0.25;
+  for (int i = 0; i <= n; ++i, x += way.x() / n, y += way.y() / n) {
+    Mark(x - aside_x, y - aside_y, static_cast<std::uint16_t>(index + 1));
+    Mark(x + aside_x, y + aside_y, static_cast<std::uint16_t>(index + 1));
+  }
+}
+
+bool SegmentMap::Covers(const RoughLine& line, const std::vector<EdgeSegment>& segments) const {
+  constexpr int kSamples = 5;
+  int n_covered = 0, mark = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double f = (i + 0.5) / kSamples;
+    const int column = static_cast<int>((line.x1 + f * (line.x2 - line.x1)) / 2 + 0.25);
+    const int row = static_cast<int>((line.y1 + f * (line.y2 - line.y1)) / 2 + 0.25);
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) continue;
+    const int found = cells_[std::size_t(row) * columns_ + column];
+    if (found == 0) continue;
+    n_covered += mark == 0 || mark == found;
+    mark = found;
+  }
+  if (n_covered < kSamples - 1) return false;
+  const Eigen::Vector2d way(line.x2 - line.x1, line.y2 - line.y1), along = segments[mark - 1].end - segments[mark - 1].begin;
+  return along.dot(way) > 0.9 * way.norm() * along.norm();
+}
+
+}  // namespace priamos::head
