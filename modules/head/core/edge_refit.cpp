@@ -117,7 +117,15 @@ bool EdgeRefiner::Solve(const AxisLine& line, KernelWidth width, int rounds, Fit
   // For a Gaussian edge this holds beside its centre, too.
   fit.kappa = total_.sharpness[int(width)] / total_.strength;
   if (width == KernelWidth::kWide) fit.kappa += Square(total_.imbalance[0] / total_.strength);
-  Collect(line, fit);
+  const float per_imbalance = 1 / float(fit.kappa), farthest = kMaxShiftPx;
+  shifts_ = (imbalances_[int(width)] * per_imbalance).max(-farthest).min(farthest);
+  base_ = strengths_;
+  // Corners disturb the ends: a loss worth taking unless a block's own noise is larger.
+  const auto n = base_.size();
+  const double block_noise = std::sqrt(line.kernels(width).second_gain * total_.rows / double(n)) * noise_sigma_ *
+                             double(n) / (fit.kappa * total_.strength);
+  if (n >= 8 && block_noise < kCornerPx) base_[0] = base_[n - 1] = 0;
+  weights_ = base_;
   for (int round = 0; round < rounds; ++round) {
     if (round > 0 && !Reweight(line, fit)) return true;
     if (!FitLine(fit)) return false;
@@ -125,24 +133,17 @@ bool EdgeRefiner::Solve(const AxisLine& line, KernelWidth width, int rounds, Fit
   return true;
 }
 
-/// The blocks as arrays: where they are, how far beside the line the edge is there, and their weights.
-void EdgeRefiner::Collect(const AxisLine& line, const Fit& fit) {
+/// The blocks as arrays.
+void EdgeRefiner::Collect() {
   const auto n = static_cast<Eigen::Index>(blocks_.size());
-  along_.resize(n), shifts_.resize(n), strengths_.resize(n), rows_.resize(n);
-  const float per_imbalance = 1 / fit.kappa, gap = 0.25F * mean_strength_, farthest = kMaxShiftPx;
+  along_.resize(n), rows_.resize(n), strengths_.resize(n), imbalances_[0].resize(n), imbalances_[1].resize(n);
+  const float gap = 0.25F * mean_strength_;
   for (Eigen::Index i = 0; i < n; ++i) {
     const EdgeSums& b = blocks_[i];
-    along_[i] = b.along;
-    shifts_[i] = std::clamp(b.imbalance[int(fit.width)] * b.inverse * per_imbalance, -farthest, farthest);
-    strengths_[i] = b.strength > gap * float(b.rows) ? b.strength : 0;
-    rows_[i] = float(b.rows);
+    along_[i] = b.along, rows_[i] = float(b.rows);
+    strengths_[i] = b.strength > gap * rows_[i] ? b.strength : 0;
+    for (int k = 0; k < 2; ++k) imbalances_[k][i] = b.imbalance[k] * b.inverse;
   }
-  // Corners disturb the ends: a loss worth taking unless a block's own noise is larger.
-  const double per_block = double(n) / (fit.kappa * total_.strength);
-  const double block_noise =
-      std::sqrt(line.kernels(KernelWidth::kWide).second_gain * total_.rows / double(n)) * noise_sigma_ * per_block;
-  if (n >= 8 && block_noise < kCornerPx) strengths_[0] = strengths_[n - 1] = 0;
-  weights_ = strengths_;
 }
 
 bool EdgeRefiner::FitLine(Fit& fit) const {
@@ -161,12 +162,12 @@ bool EdgeRefiner::FitLine(Fit& fit) const {
 bool EdgeRefiner::Reweight(const AxisLine& line, const Fit& fit) {
   constexpr float kLimit = 2.5, kFloorPx = 0.03;
   const auto noise = float(Square(noise_sigma_) * line.kernels(fit.width).second_gain);
-  const auto slope2 = (float(fit.kappa) * strengths_).square();
+  const auto slope2 = (float(fit.kappa) * base_).square();
   const auto error = shifts_ - float(fit.step_offset) - float(fit.step_slope) * (along_ - float(fit.centroid));
   misfits_ = slope2 * error.square();
   allowed_ = kLimit * kLimit * (noise * rows_ + kFloorPx * kFloorPx * slope2);
   if ((misfits_ <= allowed_).all()) return false;
-  weights_ = strengths_ * (allowed_ / misfits_.max(allowed_)).sqrt();
+  weights_ = base_ * (allowed_ / misfits_.max(allowed_)).sqrt();
   return true;
 }
 
@@ -229,6 +230,7 @@ bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeIma
   for (int round = 0; round < kRounds; ++round) {
     line.ChooseKernels();
     MeasureBlocks(line, first, last);
+    Collect();
     if (!Solve(line, KernelWidth::kWide, 1, fit)) return false;
     double move = fit.Move((last - first) / 2.0);
     if (move > kLostPx) return false;
@@ -237,6 +239,7 @@ bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeIma
       Extend(line);
       Trim();
       if (blocks_.empty() || (last_ - first_) * line.Stretch() < options.min_length_px) return false;
+      Collect();
       if (!Choose(line, fit)) return false;
       first = static_cast<int>(std::ceil(first_)), last = static_cast<int>(last_);
       if (fit.Move((last_ - first_) / 2) < kSettledPx) {
@@ -264,9 +267,9 @@ void EdgeRefiner::Append(const AxisLine& measured, const Fit& fit, const Options
   segment.begin = point(begin, line.Across(begin));
   segment.end = point(end, line.Across(end));
   segment.centre = point(fit.centroid, line.Across(fit.centroid));
-  segment.sigma_normal_px = std::hypot(std::sqrt(fit.variance_offset) * cosine, options.floor_px);
+  segment.sigma_normal_px = std::sqrt(fit.variance_offset * Square(cosine) + Square(options.floor_px));
   segment.sigma_angle_rad =
-      std::hypot(std::sqrt(fit.variance_slope) * Square(cosine), options.floor_px / segment.length_px());
+      std::sqrt(fit.variance_slope * Square(Square(cosine)) + Square(options.floor_px / segment.length_px()));
   segment.grey_left = (line.sign > 0 ? total_.low : total_.high) / total_.rows;
   segment.grey_right = (line.sign > 0 ? total_.high : total_.low) / total_.rows;
   segment.first_point = static_cast<int>(out.points.size());

@@ -51,7 +51,7 @@ class EdgeRefiner {
   void Trim();
   bool IsEdge(const EdgeSums& block) const;
   bool Solve(const AxisLine& line, KernelWidth width, int rounds, Fit& fit);
-  void Collect(const AxisLine& line, const Fit& fit);
+  void Collect();
   bool FitLine(Fit& fit) const;
   bool Reweight(const AxisLine& line, const Fit& fit);
   void AddVariance(const AxisLine& line, Fit& fit) const;
@@ -62,7 +62,8 @@ class EdgeRefiner {
   double noise_sigma_ = 0;
   int block_rows_ = 4;
   std::vector<EdgeSums> blocks_, front_;  ///< along the line, from its small end to its large end
-  Eigen::ArrayXf along_, rows_, strengths_, shifts_, weights_;  ///< of blocks_, in the last solution
+  Eigen::ArrayXf along_, rows_, strengths_, imbalances_[2];  ///< of blocks_; imbalance per strength
+  Eigen::ArrayXf shifts_, base_, weights_;  ///< of the last solution; weights before and after doubts
   Eigen::ArrayXf misfits_, allowed_;
   EdgeSums total_;
   float mean_strength_ = 0, farthest_ = 0;  ///< of a row; largest imbalance per strength

@@ -17,7 +17,7 @@ namespace priamos::head {
 class EdgeOperator {
  public:
   struct Options {
-    double min_contrast = 8;    ///< weakest edge of a quiet image [grey values]
+    double min_contrast = 10;   ///< weakest edge of a quiet image [grey values]
     double noise_factor = 3.0;  ///< a pixel is linked above so many standard deviations of the gradient
     double min_length_px = 12;  ///< shortest segment
     ChainSplitter::Options split;

@@ -52,7 +52,7 @@ void GradientMap::EstimateNoise(const cv::Mat& image) {
   std::array<int, 2048> histogram{};
   int n = 0, n_saturated = 0;
   std::int64_t sum = 0;
-  for (int y = 4; y + 1 < image.rows; y += 8) {
+  for (int y = 4; y + 1 < image.rows; y += 16) {
     const std::uint8_t *above = image.ptr(y - 1), *row = image.ptr(y), *below = image.ptr(y + 1);
     for (int x = 1; x + 1 < image.cols; x += 2) {
       const int mask = above[x - 1] - 2 * above[x] + above[x + 1] - 2 * row[x - 1] + 4 * row[x] -

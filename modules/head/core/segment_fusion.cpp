@@ -11,7 +11,7 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kCellPx = 32;
+constexpr double kCellPx = 64;
 constexpr double kSigmas = 3;
 constexpr double kMaxAngleNoise = 0.03;  ///< beyond that a direction is not worth more doubt [rad]
 /// Lines are looked up among those of about their direction.
