@@ -69,7 +69,8 @@ bool IsSteep(std::span<const ChainPixel> pixels) {
 }
 
 /// Length of the straight piece at the front of `chain`, 0 if there is none.
-int Grow(const GradientMap& gradients, std::span<const ChainPixel> chain, const ChainSplitter::Options& options, RoughLine& line) {
+int Grow(const GradientMap& gradients, std::span<const ChainPixel> chain,
+         const ChainSplitter::Options& options, RoughLine& line) {
   const int m = options.min_pixels, n = static_cast<int>(chain.size());
   const auto start = chain.first(m);
   RunningFit fit(gradients, chain.front(), IsSteep(start));

@@ -18,11 +18,12 @@ class ChainSplitter {
  public:
   struct Options {
     int min_pixels = 10;           ///< a line begins with so many pixels and is never shorter
-    double begin_rms_px = 0.5;    ///< they must lie on a line that well
+    double begin_rms_px = 0.5;     ///< they must lie on a line that well
     double max_distance_px = 1.5;  ///< a pixel farther away has left the line
     int max_strays = 4;            ///< so many of them in a row end it
   };
-  void Split(const GradientMap& gradients, const EdgeChains& chains, const Options& options, std::vector<RoughLine>& lines) const;
+  void Split(const GradientMap& gradients, const EdgeChains& chains, const Options& options,
+             std::vector<RoughLine>& lines) const;
 };
 
 }  // namespace priamos::head

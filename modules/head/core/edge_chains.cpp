@@ -9,11 +9,13 @@ namespace {
 
 constexpr int kGrid = 8;  ///< seeds lie on every 8th row or column: a straight edge of 12 px crosses one
 
+}  // namespace
+
 /// The three pixels ahead of one that is entered in direction `step`, and what they are in x and y.
-struct Heading {
-  int tx, ty;            ///< the tangent that chose it, to one of the four sides: (+-1, 0) or (0, +-1)
-  int ahead, side;       ///< steps in memory
-  int side_x, side_y;    ///< of a step to the side
+struct ChainTracer::Heading {
+  int tx, ty;          ///< the tangent that chose it, to one of the four sides: (+-1, 0) or (0, +-1)
+  int ahead, side;     ///< steps in memory
+  int side_x, side_y;  ///< of a step to the side
 
   static Heading Of(int tx, int ty, int stride) {
     if (std::abs(ty) >= std::abs(tx)) return {0, ty > 0 ? 1 : -1, ty > 0 ? stride : -stride, 1, 1, 0};
@@ -21,8 +23,6 @@ struct Heading {
   }
   bool Holds(int x, int y) const { return x * tx + y * ty >= std::abs(x * ty) + std::abs(y * tx); }
 };
-
-}  // namespace
 
 void ChainTracer::Trace(const GradientMap& gradients, const Options& options, EdgeChains& chains) {
   stride_ = gradients.width();
@@ -86,32 +86,39 @@ void ChainTracer::TraceFrom(const GradientMap& gradients, const Options& options
 
 ChainPixel* ChainTracer::Follow(const GradientMap& gradients, int threshold, ChainPixel seed, int hand,
                                 ChainPixel* out) {
-  const unsigned short* const magnitude = gradients.magnitude(0);
   const short *const gx = gradients.gx(0), *const gy = gradients.gy(0);
-  std::uint8_t* const visited = visited_.data();
-  int x = seed.x, y = seed.y, at = y * stride_ + x;
+  int at = seed.y * stride_ + seed.x;
   // The tangent (gy, -gx) has the bright side on the right; averaged over a few pixels, or noise would turn
   // the walk where the edge is diagonal.
   int tx = 4 * hand * gy[at], ty = -4 * hand * gx[at];
   while (true) {
     const Heading heading = Heading::Of(tx, ty, stride_);
     do {
-      const int middle = at + heading.ahead;
-      const int one = magnitude[middle - heading.side], two = magnitude[middle],
-                three = magnitude[middle + heading.side];
-      int aside = 0, best = two;
-      if (one > best) aside = -1, best = one;
-      if (three > best) aside = 1, best = three;
-      at = middle + aside * heading.side;
-      if (best <= threshold || visited[at]) return out;
+      ChainPixel* const before = out;
+      // Every other gradient is enough, and half as many reads from far memory.
+      for (int i = 0; i < 2; ++i) {
+        if (!Step(gradients, threshold, heading, at, seed)) return out;
+        *out++ = seed;
+      }
       const int ahead_x = hand * gy[at], ahead_y = -hand * gx[at];
-      if (ahead_x * tx + ahead_y * ty <= 0) return out;  // an edge of other contrast
-      visited[at] = 1;
-      x += heading.tx + aside * heading.side_x, y += heading.ty + aside * heading.side_y;
-      *out++ = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
-      tx += ahead_x - tx / 4, ty += ahead_y - ty / 4;
+      if (ahead_x * tx + ahead_y * ty <= 0) return before;  // an edge of other contrast
+      tx += 2 * ahead_x - tx / 2, ty += 2 * ahead_y - ty / 2;
     } while (heading.Holds(tx, ty));
   }
+}
+
+/// To the strongest of the three pixels ahead; false if it is too weak or has been visited.
+bool ChainTracer::Step(const GradientMap& gradients, int threshold, const Heading& heading, int& at,
+                       ChainPixel& pixel) {
+  const unsigned short* const ahead = gradients.magnitude(0) + at + heading.ahead;
+  int aside = 0, best = *ahead;
+  if (ahead[-heading.side] > best) aside = -1, best = ahead[-heading.side];
+  if (ahead[heading.side] > best) aside = 1, best = ahead[heading.side];
+  at += heading.ahead + aside * heading.side;
+  if (best <= threshold || std::exchange(visited_[at], 1) != 0) return false;
+  pixel.x = static_cast<std::int16_t>(pixel.x + heading.tx + aside * heading.side_x);
+  pixel.y = static_cast<std::int16_t>(pixel.y + heading.ty + aside * heading.side_y);
+  return true;
 }
 
 }  // namespace priamos::head

@@ -37,6 +37,8 @@ class ChainTracer {
   void SeedRow(const GradientMap& gradients, const Options& options, int y, EdgeChains& chains);
   void SeedColumns(const GradientMap& gradients, const Options& options, int y, EdgeChains& chains);
   void TraceFrom(const GradientMap& gradients, const Options& options, int x, int y, EdgeChains& chains);
+  struct Heading;
+  bool Step(const GradientMap& gradients, int threshold, const Heading& heading, int& at, ChainPixel& pixel);
   ChainPixel* Follow(const GradientMap& gradients, int threshold, ChainPixel seed, int hand, ChainPixel* out);
 
   int stride_ = 0;

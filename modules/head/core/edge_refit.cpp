@@ -12,10 +12,11 @@ constexpr double kMaxShiftPx = 1.5;  ///< an edge farther beside the line is ano
 /// Sharp edges that run along the pixel grid are sampled too coarsely for a narrow kernel: so much between
 /// the two widths means nothing.
 constexpr double kToleratedGapPx = 0.05;
-constexpr double kCornerPx = 0.2;       ///< how far a corner bends the edge that ends there
-constexpr double kSettledPx = 0.3;  ///< so near the edge one linear step is exact
+constexpr double kCornerPx = 0.2;   ///< how far a corner bends the edge that ends there
+constexpr double kSettledPx = 0.5;  ///< so near the edge one linear step is exact
 constexpr double kNearPx = 0.8;     ///< so near it is worth looking how far the edge goes
 constexpr double kLostPx = 5;
+constexpr double kPixelsBeyond = 1;     ///< an edge reaches about so far beyond the pixels that were linked
 constexpr double kTypicalSpread = 1.4;  ///< wide kernel and lens together [px]
 
 double Square(double x) {
@@ -122,8 +123,8 @@ bool EdgeRefiner::Solve(const AxisLine& line, KernelWidth width, int rounds, Fit
   base_ = strengths_;
   // Corners disturb the ends: a loss worth taking unless a block's own noise is larger.
   const auto n = base_.size();
-  const double block_noise = std::sqrt(line.kernels(width).second_gain * total_.rows / double(n)) * noise_sigma_ *
-                             double(n) / (fit.kappa * total_.strength);
+  const double block_noise = std::sqrt(line.kernels(width).second_gain * total_.rows / double(n)) *
+                             noise_sigma_ * double(n) / (fit.kappa * total_.strength);
   if (n >= 8 && block_noise < kCornerPx) base_[0] = base_[n - 1] = 0;
   weights_ = base_;
   for (int round = 0; round < rounds; ++round) {
@@ -163,7 +164,8 @@ bool EdgeRefiner::Reweight(const AxisLine& line, const Fit& fit) {
   constexpr float kLimit = 2.5, kFloorPx = 0.03;
   const auto noise = float(Square(noise_sigma_) * line.kernels(fit.width).second_gain);
   const auto slope2 = (float(fit.kappa) * base_).square();
-  const auto error = shifts_ - float(fit.step_offset) - float(fit.step_slope) * (along_ - float(fit.centroid));
+  const auto error =
+      shifts_ - float(fit.step_offset) - float(fit.step_slope) * (along_ - float(fit.centroid));
   misfits_ = slope2 * error.square();
   allowed_ = kLimit * kLimit * (noise * rows_ + kFloorPx * kFloorPx * slope2);
   if ((misfits_ <= allowed_).all()) return false;
@@ -224,7 +226,7 @@ bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeIma
   constexpr int kRounds = 4;
   int first = 0, last = 0;
   AxisLine line = ToAxis(rough, first, last);
-  if (last - first < 5) return false;
+  if ((last - first) * line.Stretch() < options.min_length_px - kPixelsBeyond) return false;
   block_rows_ = last - first < 24 ? 3 : last - first < 160 ? 4 : 8;
   Fit fit;
   for (int round = 0; round < kRounds; ++round) {

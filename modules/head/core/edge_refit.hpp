@@ -67,7 +67,7 @@ class EdgeRefiner {
   Eigen::ArrayXf misfits_, allowed_;
   EdgeSums total_;
   float mean_strength_ = 0, farthest_ = 0;  ///< of a row; largest imbalance per strength
-  double first_ = 0, last_ = 0;  ///< ends of the edge along the line
+  double first_ = 0, last_ = 0;             ///< ends of the edge along the line
 };
 
 }  // namespace priamos::head

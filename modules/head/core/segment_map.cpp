@@ -45,7 +45,8 @@ bool SegmentMap::Covers(const RoughLine& line, const std::vector<EdgeSegment>& s
     mark = found;
   }
   if (n_covered < kSamples - 1) return false;
-  const Eigen::Vector2d way(line.x2 - line.x1, line.y2 - line.y1), along = segments[mark - 1].end - segments[mark - 1].begin;
+  const Eigen::Vector2d way(line.x2 - line.x1, line.y2 - line.y1),
+      along = segments[mark - 1].end - segments[mark - 1].begin;
   return along.dot(way) > 0.9 * way.norm() * along.norm();
 }
 

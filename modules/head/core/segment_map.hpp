@@ -8,8 +8,8 @@
 
 namespace priamos::head {
 
-/// Which segment runs over a pixel, in cells of 2x2 pixels: so that pieces of an edge that has been found whole
-/// are recognised at a glance.
+/// Which segment runs over a pixel, in cells of 2x2 pixels: so that pieces of an edge that has been found
+/// whole are recognised at a glance.
 class SegmentMap {
  public:
   void Clear(int width_px, int height_px);
