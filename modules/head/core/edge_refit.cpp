@@ -81,10 +81,11 @@ void EdgeRefiner::Extend(const AxisLine& line) {
     return next < 0 || next >= extent ? EdgeSums{}
                                       : profile_.Sum(line, std::min(next, far), std::max(next, far));
   };
-  while (blocks_.back().rows > 0 && IsEdge(blocks_.back())) blocks_.push_back(ahead(blocks_.back(), 1));
+  const auto room = [&] { return blocks_.size() + front_.size() < kMaxBlocks; };
   front_.clear();
+  while (room() && IsEdge(blocks_.back())) blocks_.push_back(ahead(blocks_.back(), 1));
   EdgeSums first = blocks_.front();
-  while (first.rows > 0 && IsEdge(first)) front_.push_back(first = ahead(first, -1));
+  while (room() && IsEdge(first)) front_.push_back(first = ahead(first, -1));
   blocks_.insert(blocks_.begin(), front_.rbegin(), front_.rend());
 }
 
@@ -227,7 +228,7 @@ bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeIma
   int first = 0, last = 0;
   AxisLine line = ToAxis(rough, first, last);
   if ((last - first) * line.Stretch() < options.min_length_px - kPixelsBeyond) return false;
-  block_rows_ = last - first < 24 ? 3 : last - first < 160 ? 4 : 8;
+  block_rows_ = last - first < 24 ? 3 : last - first < 160 ? 4 : 8 + (last - first) / (kMaxBlocks / 2);
   Fit fit;
   for (int round = 0; round < kRounds; ++round) {
     line.ChooseKernels();

@@ -62,9 +62,12 @@ class EdgeRefiner {
   double noise_sigma_ = 0;
   int block_rows_ = 4;
   std::vector<EdgeSums> blocks_, front_;  ///< along the line, from its small end to its large end
-  Eigen::ArrayXf along_, rows_, strengths_, imbalances_[2];  ///< of blocks_; imbalance per strength
-  Eigen::ArrayXf shifts_, base_, weights_;  ///< of the last solution; weights before and after doubts
-  Eigen::ArrayXf misfits_, allowed_;
+  /// Of any length up to the longest edge, without a heap.
+  static constexpr int kMaxBlocks = 1024;
+  using BlockArray = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxBlocks, 1>;
+  BlockArray along_, rows_, strengths_, imbalances_[2];  ///< of blocks_; imbalance per strength
+  BlockArray shifts_, base_, weights_;  ///< of the last solution; weights before and after doubts
+  BlockArray misfits_, allowed_;
   EdgeSums total_;
   float mean_strength_ = 0, farthest_ = 0;  ///< of a row; largest imbalance per strength
   double first_ = 0, last_ = 0;             ///< ends of the edge along the line

@@ -31,22 +31,20 @@ void SegmentMap::Draw(const EdgeSegment& segment, int index) {
   }
 }
 
+std::uint16_t SegmentMap::MarkAt(const Eigen::Vector2d& at) const {
+  const int column = static_cast<int>(at.x() / 2 + 0.25), row = static_cast<int>(at.y() / 2 + 0.25);
+  const bool inside = column >= 0 && row >= 0 && column < columns_ && row < rows_;
+  return inside ? cells_[std::size_t(row) * columns_ + column] : 0;
+}
+
 bool SegmentMap::Covers(const RoughLine& line, const std::vector<EdgeSegment>& segments) const {
-  constexpr int kSamples = 5;
-  int n_covered = 0, mark = 0;
-  for (int i = 0; i < kSamples; ++i) {
-    const double f = (i + 0.5) / kSamples;
-    const int column = static_cast<int>((line.x1 + f * (line.x2 - line.x1)) / 2 + 0.25);
-    const int row = static_cast<int>((line.y1 + f * (line.y2 - line.y1)) / 2 + 0.25);
-    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) continue;
-    const int found = cells_[std::size_t(row) * columns_ + column];
-    if (found == 0) continue;
-    n_covered += mark == 0 || mark == found;
-    mark = found;
-  }
-  if (n_covered < kSamples - 1) return false;
-  const Eigen::Vector2d way(line.x2 - line.x1, line.y2 - line.y1),
-      along = segments[mark - 1].end - segments[mark - 1].begin;
+  const Eigen::Vector2d begin(line.x1, line.y1), way(line.x2 - line.x1, line.y2 - line.y1);
+  const int mark = MarkAt(begin + 0.5 * way);
+  if (mark == 0) return false;
+  int n_covered = 0;
+  for (const double f : {0.1, 0.3, 0.7, 0.9}) n_covered += MarkAt(begin + f * way) == mark;
+  if (n_covered < 3) return false;
+  const Eigen::Vector2d along = segments[mark - 1].end - segments[mark - 1].begin;
   return along.dot(way) > 0.9 * way.norm() * along.norm();
 }
 

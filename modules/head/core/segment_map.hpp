@@ -20,6 +20,7 @@ class SegmentMap {
 
  private:
   void Mark(double x, double y, std::uint16_t mark);
+  std::uint16_t MarkAt(const Eigen::Vector2d& at) const;
 
   int columns_ = 0, rows_ = 0;
   std::vector<std::uint16_t> cells_;  ///< 1 + index, 0 where nothing runs
