@@ -86,7 +86,7 @@ int Grow(const GradientMap& gradients, std::span<const ChainPixel> chain,
     strays = 0, last = i;
     fit.Add(chain[i]);
     // Early the fit moves much with each pixel, later little.
-    if (++unsolved * 6 > last) fit.Solve(), unsolved = 0;
+    if (++unsolved * 4 > last) fit.Solve(), unsolved = 0;
   }
   fit.Solve();
   line = fit.Line(chain.front(), chain[last]);
@@ -105,7 +105,7 @@ void ChainSplitter::Split(const GradientMap& gradients, const EdgeChains& chains
       RoughLine line;
       const int length = Grow(gradients, rest, options, line);
       if (length > 0) lines.push_back(line);
-      rest = rest.subspan(length > 0 ? length : 2);
+      rest = rest.subspan(length > 0 ? length : 3);
     }
   }
 }
