@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 #include "bus/lockstep.hpp"
@@ -32,6 +33,34 @@ class LaserRunTest : public testing::Test {
 
   const bus::Schema schema_ = bus::OwnTypes();
 };
+
+/// A look goes before the watch, and the watch goes on afterwards.
+TEST_F(LaserRunTest, ALookHasTheHeadAtOnceAndTheWatchGoesOn) {
+  std::vector<std::string> order;
+  landmark_view_t view{};
+  bus::Lockstep lockstep(schema_, {.seed = 3});
+  lockstep.AddBus("onboard");
+  lockstep.SetTap([&](std::string_view, Time, std::string_view channel, std::span<const std::byte> bytes) {
+    if (channel == channels::kLandmarkView.name) view = bus::Decode<landmark_view_t>(bytes);
+    if (channel != channels::kObstacleLine.name && channel != channels::kLandmarkFix.name) return;
+    if (order.empty() || order.back() != channel) order.emplace_back(channel);
+  });
+  const std::string sim = PRIAMOS_SOURCE_DIR "/config/sim/";
+  lockstep.AddApp(cli::FactoryFor("world"), "onboard", {sim + "world.toml", {"world=worlds/sill.toml"}});
+  lockstep.AddApp(cli::FactoryFor("head"), "onboard", {sim + "head.toml", {"laser.rate_hz=2"}});
+  auto looks = lockstep.DriverNode("onboard").Advertise(channels::kLookRequest);
+  const Time begin = lockstep.now();
+  lockstep.RunUntil(begin + FromSeconds(3.2));
+  look_request_t look{};
+  look.request_id = 41;
+  look.landmark_id = 1;
+  looks.Publish(look);
+  lockstep.RunUntil(begin + FromSeconds(8.5));
+  EXPECT_EQ(order, (std::vector<std::string>{"OBSTACLE_LINE", "LANDMARK_FIX", "OBSTACLE_LINE"}));
+  EXPECT_EQ(view.request_id, 41);
+  EXPECT_EQ(view.verdict, landmark_fix_t::NO_MODEL);
+  EXPECT_EQ(view.n_edges, 0);
+}
 
 TEST_F(LaserRunTest, ADuctOfThreeCentimetresIsToldWhereItLies) {
   const auto lines = Watch("sill.toml", 4.5);

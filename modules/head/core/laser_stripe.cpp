@@ -16,6 +16,7 @@ constexpr int kPhases = 64;
 constexpr double kSmoothing_px = 1.5;
 constexpr int kSide = 3;  // rows that give the ground on either side
 constexpr int kSteps = 5;
+constexpr double kSystematic_px = 0.006;  // what phases and pixels leave, however little noise there is
 
 /// First and second derivative of a Gaussian, at every row, for every sub-pixel phase of its centre.
 struct RidgeKernel {
@@ -180,6 +181,25 @@ void StripeFinder::DropGlints(std::vector<StripePoint>& points) const {
   points.swap(kept);
 }
 
+void StripeFinder::Smooth(std::vector<StripePoint>& points) const {
+  const std::vector<StripePoint> raw = points;
+  const auto n = static_cast<std::ptrdiff_t>(raw.size());
+  const auto joined = [&](std::ptrdiff_t a, std::ptrdiff_t b) {
+    return raw[b].at.x() - raw[a].at.x() == 1 &&
+           std::abs(raw[b].at.y() - raw[a].at.y()) <= options_.max_step_px;
+  };
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    double sum = raw[i].at.y(), variance = raw[i].sigma_px * raw[i].sigma_px, count = 1;
+    for (std::ptrdiff_t d = 1; d <= options_.smooth_px && i - d >= 0 && i + d < n; ++d) {
+      if (!joined(i - d, i - d + 1) || !joined(i + d - 1, i + d)) break;
+      sum += raw[i - d].at.y() + raw[i + d].at.y(), count += 2;
+      variance += raw[i - d].sigma_px * raw[i - d].sigma_px + raw[i + d].sigma_px * raw[i + d].sigma_px;
+    }
+    points[i].at.y() = sum / count;
+    points[i].sigma_px = std::hypot(std::sqrt(variance) / count, kSystematic_px);
+  }
+}
+
 std::vector<StripePoint> StripeFinder::Find(const GreyImage& image) {
   const int reach = options_.reach_px, first = MarginOf(options_), last = image.height - 1 - first;
   std::vector<StripePoint> points;
@@ -201,6 +221,7 @@ std::vector<StripePoint> StripeFinder::Find(const GreyImage& image) {
   const double noise = points.empty() ? 0 : std::sqrt(std::max(0.1, roughness / 2 / points.size()));
   for (StripePoint& p : points) p.sigma_px *= noise;
   DropGlints(points);
+  Smooth(points);
   return points;
 }
 

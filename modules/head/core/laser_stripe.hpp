@@ -20,12 +20,14 @@ struct StripeOptions {
   int reach_px = 7;          ///< from the middle of the line to where it has faded
   double max_step_px = 2;    ///< between neighbouring columns of one line
   int min_length_px = 12;    ///< shorter pieces are glints
+  int smooth_px = 2;  ///< columns to either side that a place is the mean of; fewer at the ends of a piece
 };
 
 /// The line of a laser that runs across the image, roughly level (up to 45 degrees): at most one point per
 /// column, the brightest ridge of it, sub-pixel by the maximum of the smoothed grey values (Steger, 1998)
 /// over a sloping ground. An edge is no ridge, however strong. Pieces shorter than `min_length_px` are left
-/// out.
+/// out. Grain of the surface and speckle differ from column to column: a place is the mean over symmetric
+/// neighbours, which leaves a straight line where it is.
 class StripeFinder {
  public:
   explicit StripeFinder(const StripeOptions& options = {}) : options_(options) {}
@@ -36,6 +38,7 @@ class StripeFinder {
  private:
   void FindRidges(const GreyImage& image);
   void DropGlints(std::vector<StripePoint>& points) const;
+  void Smooth(std::vector<StripePoint>& points) const;
 
   StripeOptions options_;
   std::vector<std::uint8_t> strength_, row_group_;  ///< best ridge of every column: contrast, and about where
