@@ -5,6 +5,17 @@
 #include <set>
 
 namespace priamos {
+namespace {
+
+/// Swing-clear hinges: the pin stands this far out of the far face of the frame and beside the leaf, so that
+/// a leaf that is open by 90 degrees or more leaves the whole opening free.
+constexpr double kPinOutM = 0.01;
+constexpr double kPinClearanceM = 0.005;
+/// Gap between leaf and frame all around, and under the leaf.
+constexpr double kLeafPlayM = 0.003;
+constexpr double kLeafLowM = 0.01;
+
+}  // namespace
 
 void WallPlan::Describe(Archive& a) {
   a.Text("name", name, "for messages");
@@ -34,15 +45,51 @@ void DoorPlan::Describe(Archive& a) {
            {"m", 0, 0.1, "how far that face stands before the wall"});
   a.Number("rebate_depth_m", rebate_depth_m, {"m", 0, 0.2, "how deep the leaf sits in the far side"});
   a.Number("rebate_width_m", rebate_width_m, {"m", 0, 0.1, "how much wider the opening is there, each side"});
+  a.Text("leaf", leaf, "hinges of the leaf, left or right, if its angle is known; none; or unknown");
+  a.Number("leaf_open_deg", leaf_open_deg, {"deg", 0, 175, "angle of the leaf, 0 is closed"});
+  a.Number("leaf_thickness_m", leaf_thickness_m, {"m", 0.01, 0.1, "thickness of the leaf"});
   if (rebate_depth_m >= wall_thickness_m) a.Refuse("rebate_depth_m", "less than wall_thickness_m");
+  if (leaf != "left" && leaf != "right" && leaf != "none" && leaf != "unknown")
+    a.Refuse("leaf", "left, right, none or unknown");
+}
+
+LeafShape LeafOf(const DoorPlan& door, const std::string& hinge, double open_deg, double thickness_m) {
+  const double side = hinge == "left" ? 1 : -1;
+  const double leaf_half = door.opening_width_m / 2 + door.rebate_width_m - kLeafPlayM;
+  const double pin_depth = door.BackX() + kPinOutM - door.StopX();
+  const double pin_y = side * (door.opening_width_m / 2 + pin_depth + kPinClearanceM);
+  const Pose2 door_from_pin{door.BackX() + kPinOutM, pin_y, side * Radians(open_deg)};
+  const Pose2 pin_from_leaf{-pin_depth + thickness_m / 2, -pin_y, 0};
+  return {door_from_pin * pin_from_leaf,
+          {thickness_m, 2 * leaf_half},
+          kLeafLowM,
+          door.opening_height_m + door.rebate_width_m - kLeafPlayM};
+}
+
+void CupboardPlan::Describe(Archive& a) {
+  a.Integer("id", id, {"-", 1, 999, "number of the landmark"});
+  a.Text("name", name, "for messages");
+  a.Number("x_m", x_m, {"m", -100, 100, "map, middle of its front"});
+  a.Number("y_m", y_m, {"m", -100, 100, "map, middle of its front"});
+  a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "map, direction into it"});
+  a.Number("width_m", width_m, {"m", 0.2, 5, "breadth of its front"});
+  a.Number("depth_m", depth_m, {"m", 0.1, 2.4, "from front to back"});
+  a.Number("height_m", height_m, {"m", 0.2, 4, "height"});
+  a.Integer("n_doors", n_doors, {"-", 1, 5, "doors side by side"});
+  a.Number("gap_m", gap_m, {"m", 0, 0.1, "between two doors"});
+  a.Number("plinth_m", plinth_m, {"m", 0, 0.5, "height of the plinth under the doors"});
+  if (plinth_m >= height_m) a.Refuse("plinth_m", "less than height_m");
 }
 
 void GroundPlan::Describe(Archive& a) {
   a.List("walls", walls, "straight walls, without the openings");
   a.List("doors", doors, "doors, each in a gap between two walls");
+  a.List("cupboards", cupboards, "cupboards that serve as landmarks");
   std::set<int> ids;
   for (const DoorPlan& door : doors)
     if (!ids.insert(door.id).second) a.Refuse("doors", "every door with its own id");
+  for (const CupboardPlan& cupboard : cupboards)
+    if (!ids.insert(cupboard.id).second) a.Refuse("cupboards", "every landmark with its own id");
 }
 
 const DoorPlan* GroundPlan::FindDoor(int id) const {

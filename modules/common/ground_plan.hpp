@@ -46,6 +46,9 @@ struct DoorPlan {
   double frame_protrusion_m = 0.015;  ///< how far that face stands before the wall
   double rebate_depth_m = 0.04;       ///< how deep the leaf sits in the far side
   double rebate_width_m = 0.015;      ///< how much wider the opening is there, on each side and above
+  std::string leaf = "unknown";  ///< hinges of the leaf, "left" or "right", if its angle is known; or "none"
+  double leaf_open_deg = 0;      ///< 0 is closed; it opens into the far room
+  double leaf_thickness_m = 0.04;
 
   void Describe(Archive& a);
 
@@ -56,10 +59,39 @@ struct DoorPlan {
   double BackX() const { return wall_thickness_m / 2; }
 };
 
+/// Where the leaf of a door stands: an upright box in the door's landmark frame.
+struct LeafShape {
+  Pose2 door_from_leaf;  ///< centre
+  Eigen::Vector2d size_m;
+  double z_min_m = 0, z_max_m = 0;
+};
+
+/// The leaf hinged on `hinge` ("left" or "right"). Closed it fills the rebate; it turns about the pin of
+/// swing-clear hinges into the far room.
+LeafShape LeafOf(const DoorPlan& door, const std::string& hinge, double open_deg, double thickness_m);
+
+/// A cupboard or shelf that stands with its back to something and is known well enough to be a landmark.
+/// Origin: middle of its front on the floor; x points into it.
+struct CupboardPlan {
+  int id = 1;
+  std::string name;
+  double x_m = 0, y_m = 0;  ///< map, origin
+  double yaw_deg = 0;       ///< map, direction into the cupboard
+  double width_m = 1.0, depth_m = 0.4, height_m = 1.8;
+  int n_doors = 2;         ///< side by side
+  double gap_m = 0.004;    ///< between two doors
+  double plinth_m = 0.09;  ///< height of the plinth under the doors, 0 if there is none
+
+  void Describe(Archive& a);
+
+  Pose2 map_from_cupboard() const { return {x_m, y_m, Radians(yaw_deg)}; }
+};
+
 /// The plan of a building as far as driving needs it: config/<deployment>/maps/*.toml.
 struct GroundPlan {
   std::vector<WallPlan> walls;
   std::vector<DoorPlan> doors;
+  std::vector<CupboardPlan> cupboards;
 
   void Describe(Archive& a);
   /// nullptr if there is none.

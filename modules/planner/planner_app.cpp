@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "planner/core/map_landmarks.hpp"
 #include "planner/planner_messages.hpp"
 
 namespace priamos::planner {
@@ -9,8 +10,8 @@ namespace priamos::planner {
 PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context)
     : config_(config),
       context_(context),
-      mission_(config.mission, config.passage, config.footprint,
-               LoadConfig<GroundPlan>(context.ResolvePath(config.map))),
+      plan_(LoadConfig<GroundPlan>(context.ResolvePath(config.map))),
+      mission_(config.mission, config.passage, config.footprint, plan_),
       orders_(context.node().SubscribeAll(channels::kMissionCommand)),
       poses_(context.node().Subscribe(channels::kPose)),
       drive_(context.node().Subscribe(channels::kDriveStatus)),
@@ -46,12 +47,20 @@ void PlannerApp::TakeReports(Time now) {
   mission_.OnLink(link && link->up && link_.Age(now) < channels::kLinkStatus.stale_after);
   if (const auto pose = poses_.Take()) mission_.OnPose(FromMessage(*pose));
   if (const auto drive = drive_.Take()) mission_.OnDrive(FromMessage(*drive), now);
-  for (const auto& fix : fixes_.Drain())
+  for (const auto& fix : fixes_.Drain()) {
     if (const auto failure = FromMessage(fix)) mission_.OnLook(*failure);
+    if (fix.verdict == landmark_fix_t::NO_MODEL) TeachLandmark(fix.landmark_id);
+  }
   for (const auto& correction : corrections_.Drain()) {
     mission_.OnLook(FromMessage(correction));
     if (correction.verdict == pose_correction_t::APPLIED) mission_.OnCorrected(FromUtime(correction.utime));
   }
+}
+
+/// Somebody has the head look at a landmark that only the map knows. A mission sends its own.
+void PlannerApp::TeachLandmark(int id) {
+  if (mission_.running()) return;
+  if (const auto landmark = MakeLandmark(plan_, id)) model_.Publish(ToMessage(*landmark));
 }
 
 void PlannerApp::Send(const MissionActions& actions, Time now) {

@@ -29,9 +29,11 @@ class PlannerApp {
   void TakeReports(Time now);
   void Send(const MissionActions& actions, Time now);
   void SendStatus(Time now);
+  void TeachLandmark(int id);
 
   PlannerConfig config_;
   bus::Context& context_;
+  GroundPlan plan_;
   DoorMission mission_;
 
   bus::Inbox<mission_command_t> orders_;

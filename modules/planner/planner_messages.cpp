@@ -8,7 +8,7 @@
 namespace priamos::planner {
 namespace {
 
-constexpr std::size_t kMaxEdges = 20, kMaxPoints = 16, kMaxText = 100;
+constexpr std::size_t kMaxPoints = 16, kMaxText = 100;
 
 DriveMode ModeOf(int mode) {
   switch (mode) {
@@ -86,7 +86,8 @@ LookResult FromMessage(const pose_correction_t& message) {
 }
 
 landmark_model_t ToMessage(const Landmark& landmark) {
-  if (landmark.edges.size() > kMaxEdges) throw std::invalid_argument("a landmark has more than 20 edges");
+  if (landmark.edges.size() > std::size_t(kMaxLandmarkEdges))
+    throw std::invalid_argument("a landmark has more than 20 edges");
   landmark_model_t message{};
   message.landmark_id = static_cast<std::int16_t>(landmark.id);
   message.x_m = landmark.map_from_landmark.x;

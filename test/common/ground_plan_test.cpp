@@ -60,6 +60,33 @@ TEST(GroundPlan, RefusesARebateThroughTheWholeWall) {
               HasSubstr("rebate_depth_m"));
 }
 
+TEST(GroundPlan, RefusesALeafHingedAbove) {
+  EXPECT_THAT(ErrorOf("[[doors]]\nleaf = \"above\"\n"), HasSubstr("left, right, none or unknown"));
+}
+
+TEST(GroundPlan, RefusesACupboardWithTheNumberOfADoor) {
+  EXPECT_THAT(ErrorOf("[[doors]]\nid = 3\n[[cupboards]]\nid = 3\n"),
+              HasSubstr("every landmark with its own id"));
+}
+
+TEST(GroundPlan, AClosedLeafFillsTheRebate) {
+  const DoorPlan door;
+  const LeafShape dut = LeafOf(door, "left", 0, 0.04);
+  EXPECT_NEAR(dut.door_from_leaf.x - dut.size_m.x() / 2, door.StopX(), 1e-9);
+  EXPECT_NEAR(dut.door_from_leaf.y, 0, 1e-9);
+  EXPECT_LT(dut.size_m.y(), door.opening_width_m + 2 * door.rebate_width_m);
+  EXPECT_GT(dut.size_m.y(), door.opening_width_m);
+}
+
+TEST(GroundPlan, ALeafOpenByNinetyDegreesLeavesTheOpeningFree) {
+  for (const char* hinge : {"left", "right"}) {
+    const LeafShape dut = LeafOf(DoorPlan{}, hinge, 90, 0.04);
+    EXPECT_NEAR(std::abs(dut.door_from_leaf.yaw), kPi / 2, 1e-9);
+    EXPECT_GE(std::abs(dut.door_from_leaf.y) - dut.size_m.x() / 2, 0.45);
+    EXPECT_GT(dut.door_from_leaf.x, 0.4);
+  }
+}
+
 TEST(GroundPlan, PrintedPlanLoadsAgain) {
   const auto plan = LoadConfig<GroundPlan>(PRIAMOS_SOURCE_DIR "/config/sim/maps/door.toml");
   std::ostringstream text;

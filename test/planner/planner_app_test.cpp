@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "bus/own_types.hpp"
+#include "test/support/temporary_folder.hpp"
 
 namespace priamos::planner {
 namespace {
@@ -79,6 +82,7 @@ struct Workstation {
   bus::Publisher<link_status_t> link = other.Advertise(channels::kLinkStatus);
   bus::Publisher<pose_t> pose = other.Advertise(channels::kPose);
   bus::Publisher<pose_correction_t> correction = other.Advertise(channels::kPoseCorrection);
+  bus::Publisher<landmark_fix_t> fix = other.Advertise(channels::kLandmarkFix);
   bus::Publisher<drive_status_t> drive = other.Advertise(channels::kDriveStatus);
   bus::Publisher<mission_command_t> order = other.Advertise(channels::kMissionCommand);
   bus::Inbox<landmark_model_t> models = other.SubscribeAll(channels::kLandmarkModel);
@@ -87,6 +91,27 @@ struct Workstation {
   bus::Inbox<mission_status_t> statuses = other.SubscribeAll(channels::kMissionStatus);
   mission_status_t last_status{};
 };
+
+TEST(PlannerApp, TeachesTheHeadACupboardThatItWasAskedToLookAt) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "map.toml") << "[[cupboards]]\nid = 7\nx_m = 4.0\ny_m = 1.0\nyaw_deg = 90\n";
+  PlannerConfig config;
+  config.map = (folder / "map.toml").string();
+  Workstation w(config);
+  landmark_fix_t answer{};
+  answer.utime_exposure = ToUtime(w.clock.Now());
+  answer.verdict = landmark_fix_t::NO_MODEL;
+  for (const int id : {8, 7}) {
+    answer.landmark_id = static_cast<std::int16_t>(id);
+    w.fix.Publish(answer);
+    w.Run(1);
+  }
+  const auto models = w.models.Drain();
+  ASSERT_EQ(models.size(), 1u);
+  EXPECT_EQ(models[0].landmark_id, 7);
+  EXPECT_NEAR(models[0].yaw_rad, kPi / 2, 1e-9);
+  EXPECT_GE(models[0].n_edges, 6);
+}
 
 TEST(PlannerApp, PassesTheDoorOnTheBus) {
   Workstation w;

@@ -1,6 +1,10 @@
 #include "planner/core/door_landmark.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "planner/core/box_skeleton.hpp"
 
 namespace priamos::planner {
 namespace {
@@ -39,6 +43,40 @@ void AddLintelEdge(std::vector<LandmarkEdge>& edges, double x, double half_width
       {{x, -half_width, z}, {x, half_width, z}, kApproachSide.from_rad, kApproachSide.to_rad, Side::kBoth});
 }
 
+/// Frame and wall as what hides the leaf, and the leaf itself.
+std::array<LandmarkBox, 7> BoxesOf(const DoorPlan& door) {
+  constexpr double kWall_m = 6, kCeiling_m = 4;
+  const double half = door.opening_width_m / 2, outer = half + door.frame_width_m;
+  const double top = door.opening_height_m, depth = door.StopX() - door.FrontX();
+  const double middle = (door.StopX() + door.FrontX()) / 2;
+  const auto hiding = [](double x, double y, double dx, double dy, double low, double high) {
+    return LandmarkBox{{x, y, 0}, {dx, dy}, low, high, false, Side::kBoth};
+  };
+  const LeafShape leaf = LeafOf(door, door.leaf, door.leaf_open_deg, door.leaf_thickness_m);
+  const double wall = half + kWall_m / 2, beyond = outer + kWall_m / 2;
+  return {hiding(middle, wall, depth, kWall_m, 0, kCeiling_m),
+          hiding(middle, -wall, depth, kWall_m, 0, kCeiling_m),
+          hiding(middle, 0, depth, 2 * half, top, kCeiling_m),
+          hiding(0, beyond, door.wall_thickness_m, kWall_m, 0, kCeiling_m),
+          hiding(0, -beyond, door.wall_thickness_m, kWall_m, 0, kCeiling_m),
+          hiding(0, 0, door.wall_thickness_m, 2 * outer, top + door.rebate_width_m, kCeiling_m),
+          {leaf.door_from_leaf, leaf.size_m, leaf.z_min_m, leaf.z_max_m, true, Side::kMovable}};
+}
+
+/// The leaf's edges that the approach side sees, the longest ones first, as many as there is room for.
+void AddLeaf(const DoorPlan& door, std::vector<LandmarkEdge>& edges) {
+  if (door.leaf != "left" && door.leaf != "right") return;
+  const auto boxes = BoxesOf(door);
+  Viewers viewers;
+  viewers.from_rad = kApproachSide.from_rad, viewers.to_rad = kApproachSide.to_rad;
+  std::vector<LandmarkEdge> leaf = SkeletonOf(boxes, viewers);
+  std::stable_sort(leaf.begin(), leaf.end(), [](const LandmarkEdge& a, const LandmarkEdge& b) {
+    return (a.to - a.from).norm() > (b.to - b.from).norm();
+  });
+  for (const LandmarkEdge& edge : leaf)
+    if (edges.size() < std::size_t(kMaxLandmarkEdges)) edges.push_back(edge);
+}
+
 }  // namespace
 
 Landmark MakeDoorLandmark(const DoorPlan& door) {
@@ -52,16 +90,8 @@ Landmark MakeDoorLandmark(const DoorPlan& door) {
   AddLintelEdge(edges, door.FrontX(), outer, outer_top);
   AddLintelEdge(edges, door.FrontX(), half, top);
   AddLintelEdge(edges, door.StopX(), half, top);
+  AddLeaf(door, edges);
   return landmark;
-}
-
-bool IsVisible(const LandmarkEdge& edge, const Eigen::Vector2d& in_landmark) {
-  const auto turn_from_begin = [&edge](double rad) {
-    const double turn = std::fmod(rad - edge.visible_from_rad, 2 * kPi);
-    return turn < 0 ? turn + 2 * kPi : turn;
-  };
-  const double azimuth = std::atan2(in_landmark.y(), in_landmark.x());
-  return turn_from_begin(azimuth) <= turn_from_begin(edge.visible_to_rad);
 }
 
 }  // namespace priamos::planner

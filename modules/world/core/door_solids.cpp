@@ -3,13 +3,6 @@
 namespace priamos::world {
 namespace {
 
-/// Swing-clear hinges: the pin stands this far out of the far face of the frame and beside the leaf, so that
-/// a leaf that is open by 90 degrees or more leaves the whole opening free.
-constexpr double kPinOutM = 0.01;
-constexpr double kPinClearanceM = 0.005;
-/// Gap between leaf and frame all around.
-constexpr double kLeafPlayM = 0.003;
-
 struct Span {
   double low, high;
   double middle() const { return (low + high) / 2; }
@@ -43,20 +36,11 @@ void AddFrame(std::vector<Solid>& solids, const DoorPlan& door) {
                          {door.opening_height_m + door.rebate_width_m, top}, "door_frame"));
 }
 
-/// Closed, the leaf fills the rebate; it turns about the pin into the far room.
 Solid Leaf(const DoorPlan& door, const DoorWork& work, double open_deg) {
-  const double side = work.hinge == "left" ? 1 : -1;
-  const double leaf_half = door.opening_width_m / 2 + door.rebate_width_m - kLeafPlayM;
-  const double pin_depth = door.BackX() + kPinOutM - door.StopX();
-  const double pin_y = side * (door.opening_width_m / 2 + pin_depth + kPinClearanceM);
-  const Pose2 door_from_pin{door.BackX() + kPinOutM, pin_y, side * Radians(open_deg)};
-  const Pose2 pin_from_leaf{-pin_depth + work.leaf_thickness_m / 2, -pin_y, 0};
-  return {door.name + ": leaf",
-          door.map_from_door() * door_from_pin * pin_from_leaf,
-          {work.leaf_thickness_m, 2 * leaf_half},
-          0.01,
-          door.opening_height_m + door.rebate_width_m - kLeafPlayM,
-          "door_leaf"};
+  const LeafShape leaf = LeafOf(door, work.hinge, open_deg, work.leaf_thickness_m);
+  return {door.name + ": leaf", door.map_from_door() * leaf.door_from_leaf,
+          leaf.size_m,          leaf.z_min_m,
+          leaf.z_max_m,         "door_leaf"};
 }
 
 }  // namespace
