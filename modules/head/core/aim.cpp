@@ -24,7 +24,7 @@ std::vector<Target> Targets(const HeadGeometry& head, const LandmarkModel& model
   const Eigen::Isometry3d base_from_landmark = Lift(prediction.base_from_landmark);
   std::vector<Target> targets;
   for (const LandmarkEdge& edge : model.edges) {
-    if (!edge.IsVertical() || !wanted(edge.side, side)) continue;
+    if (!edge.IsVertical() || edge.IsMovable() || !wanted(edge.side, side)) continue;
     Eigen::Vector3d p = base_from_landmark * edge.from;
     const Eigen::Vector2d r = p.head<2>() - prediction.base_from_landmark.translation();
     const Eigen::Vector2d d = p.head<2>() - Eigen::Vector2d(head.x_m, head.y_m);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <iterator>
 #include <optional>
 
 #include "head/core/prediction.hpp"
@@ -10,6 +12,9 @@
 namespace priamos::head {
 namespace {
 
+constexpr std::size_t kMarksAtOnce = sizeof(std::uint64_t);  ///< most lines are far from most edges
+constexpr std::size_t kUsualCandidates = 16;
+constexpr int kSides = 4;                  ///< values of LandmarkEdge::side
 constexpr double kFullLengthPx = 40;       ///< shorter predictions count less
 constexpr double kMinDensity = 0.01;       ///< similar edges per pixel: even a bare wall may hide one
 constexpr double kFreeOvershootPx = 6;     ///< ends are not found better than that
@@ -51,8 +56,8 @@ void MarkNear(const LineTable& lines, const PredictedEdge& edge, double reach_px
   const Eigen::Vector2f n = edge.normal().cast<float>();
   const float offset = n.dot(edge.p.cast<float>()), reach = static_cast<float>(reach_px) + kSlack;
   const float angle = static_cast<float>(max_angle), one = 1.0F + kSlack;
-  marks.resize(lines.px.size());
-  for (std::size_t i = 0; i < marks.size(); ++i) {
+  marks.assign((lines.px.size() + kMarksAtOnce - 1) / kMarksAtOnce * kMarksAtOnce, 0);
+  for (std::size_t i = 0; i < lines.px.size(); ++i) {
     const float a = n.x() * lines.px[i] + n.y() * lines.py[i] - offset;
     const float b = n.x() * lines.qx[i] + n.y() * lines.qy[i] - offset;
     const bool turned = std::abs(b - a) > angle * lines.length[i] + one;
@@ -126,6 +131,7 @@ struct Search {
 std::vector<Search> Predict(const LandmarkModel& model, std::span<const int> visible, const CameraView& view,
                             const Eigen::Isometry3d& base_from_landmark) {
   std::vector<Search> searches;
+  searches.reserve(visible.size());
   for (const int index : visible) {
     const LandmarkEdge& edge = model.edges[index];
     const auto predicted =
@@ -133,6 +139,7 @@ std::vector<Search> Predict(const LandmarkModel& model, std::span<const int> vis
     if (!predicted) continue;
     searches.push_back({*predicted, {}, {}, 1e9});
     searches.back().predicted.edge = index;
+    searches.back().candidates.reserve(kUsualCandidates);
   }
   return searches;
 }
@@ -210,16 +217,35 @@ void Account(const Search& search, int side, double density, int camera, const A
   association.matches.back().log_odds = log_odds;
 }
 
+/// Takes the part that may stand elsewhere in, if it was found.
+void JoinMovable(Association&& part, Association& all) {
+  if (part.log_odds <= 0) return;
+  const auto or_elsewhere = [](double log_odds) { return std::log1p(std::exp(log_odds)) + std::log(0.5); };
+  all.n_predicted += part.n_predicted;
+  all.log_odds += or_elsewhere(part.log_odds);
+  all.best_log_odds += or_elsewhere(part.best_log_odds);
+  for (std::size_t i = 0; i < all.side_found_px.size(); ++i) {
+    all.side_predicted_px[i] += part.side_predicted_px[i];
+    all.side_found_px[i] += part.side_found_px[i];
+  }
+  std::move(part.matches.begin(), part.matches.end(), std::back_inserter(all.matches));
+}
+
 void Match(Search& search, const CameraView& view, const AssociationOptions& options,
            std::vector<std::uint8_t>& marks) {
   const double length = search.predicted.length_px();
   const Eigen::Vector2d direction = search.predicted.direction(), normal = search.predicted.normal();
   MarkNear(view.table, search.predicted, options.clutter_window_px, options.max_angle_rad, marks);
-  for (std::size_t i = 0; i < view.lines.size(); ++i) {
-    if (!marks[i]) continue;
-    const auto c = Compare(search.predicted, direction, normal, length, view.lines[i], int(i),
-                           options.clutter_window_px, options.max_angle_rad);
-    if (c) search.candidates.push_back(*c);
+  for (std::size_t begin = 0; begin < marks.size(); begin += kMarksAtOnce) {
+    std::uint64_t some = 0;
+    std::memcpy(&some, &marks[begin], kMarksAtOnce);
+    if (!some) continue;
+    for (std::size_t i = begin; i < begin + kMarksAtOnce; ++i) {
+      if (!marks[i]) continue;
+      const auto c = Compare(search.predicted, direction, normal, length, view.lines[i], int(i),
+                             options.clutter_window_px, options.max_angle_rad);
+      if (c) search.candidates.push_back(*c);
+    }
   }
   search.match = Collect(search.candidates, true, search.predicted, options);
   EdgeMatch other = Collect(search.candidates, false, search.predicted, options);
@@ -232,7 +258,7 @@ void Match(Search& search, const CameraView& view, const AssociationOptions& opt
 Association Associate(const LandmarkModel& model, std::span<const int> visible,
                       std::span<const CameraView> views, const Eigen::Isometry3d& base_from_landmark,
                       const AssociationOptions& options) {
-  Association association;
+  Association association, movable;
   association.missed_log_odds = std::log(1 - options.detection);
   std::vector<std::uint8_t> marks;
   for (std::size_t c = 0; c < views.size(); ++c) {
@@ -242,16 +268,18 @@ Association Associate(const LandmarkModel& model, std::span<const int> visible,
     MakeExclusive(searches);
     for (const Search& search : searches) {
       const double density = Density(search, searches, options.clutter_window_px);
-      Account(search, std::clamp(model.edges[search.predicted.edge].side, 0, 2), density, static_cast<int>(c),
-              options, association);
+      const LandmarkEdge& edge = model.edges[search.predicted.edge];
+      Account(search, std::clamp(edge.side, 0, kSides - 1), density, static_cast<int>(c), options,
+              edge.IsMovable() ? movable : association);
     }
   }
+  JoinMovable(std::move(movable), association);
   return association;
 }
 
 void Association::Withdraw(const LandmarkModel& model, int edge, int camera) {
   const auto is_it = [&](const EdgeMatch& m) { return m.edge == edge && (camera < 0 || m.camera == camera); };
-  const int side = std::clamp(model.edges[edge].side, 0, 2);
+  const int side = std::clamp(model.edges[edge].side, 0, kSides - 1);
   for (const EdgeMatch& m : matches) {
     if (!is_it(m)) continue;
     const double importance = std::min(1.0, m.predicted_px / kFullLengthPx);

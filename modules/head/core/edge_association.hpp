@@ -31,7 +31,7 @@ struct Association {
   double best_log_odds = 0;  ///< what a perfect match would give
   /// Evidence by side of the landmark (LandmarkEdge::side): lengths that should be seen and that were found,
   /// each edge counted up to kFullLengthPx [px].
-  std::array<double, 3> side_predicted_px{}, side_found_px{};
+  std::array<double, 4> side_predicted_px{}, side_found_px{};
 
   /// Takes the match of one model edge in one image (-1: in all) back: what was found is something else.
   void Withdraw(const LandmarkModel& model, int edge, int camera);
@@ -51,7 +51,8 @@ struct AssociationOptions {
 /// Compares the model's edges at `base_from_landmark` with the edges of all images. `visible` lists the model
 /// edges to expect. The odds of an edge: how much better "there" explains an image edge of that length so
 /// near the prediction than the density of similar edges around it does; an edge that is not found counts
-/// against.
+/// against. A movable part stands as the model has it or elsewhere, either as likely: found, all of it speaks
+/// for the pose; not found, it says nothing.
 Association Associate(const LandmarkModel& model, std::span<const int> visible,
                       std::span<const CameraView> views, const Eigen::Isometry3d& base_from_landmark,
                       const AssociationOptions& options);

@@ -80,18 +80,13 @@ Verdict Judge(const State& state, const Eigen::Isometry3d& believed, const FreeM
   return Verdict::kFound;
 }
 
-}  // namespace
-
-FreeModelFix LocateFreeModel(const Polyhedron& body, const Eigen::Isometry3d& believed,
-                             std::span<const CameraView> views, const FreeModelOptions& options) {
+/// One way from the belief to the result.
+FreeModelFix Approach(const Search& search, const Eigen::Isometry3d& believed, double widening,
+                      const FreeModelOptions& options) {
   FreeModelFix fix;
-  if (views.empty() ||
-      std::any_of(views.begin(), views.end(), [](const CameraView& view) { return IsBlind(*view.edges); }))
-    return fix;
-  const Search search(body, views, options);
   State state{believed, {}, {}, {}};
   for (const double gate_px : options.gates_px) {
-    search.Look(gate_px, state);
+    search.Look(std::max(options.gates_px.back(), widening * gate_px), state);
     fix.verdict = Verdict::kNotVisible;
     if (state.association.n_predicted < options.min_matched) return fix;
     fix.verdict = Verdict::kTooFewEdges;
@@ -104,6 +99,23 @@ FreeModelFix LocateFreeModel(const Polyhedron& body, const Eigen::Isometry3d& be
   fix.residual_px = state.solution.rms_px, fix.misfit = state.solution.misfit;
   fix.seen = std::move(state.seen), fix.matches = std::move(state.association.matches);
   return fix;
+}
+
+}  // namespace
+
+FreeModelFix LocateFreeModel(const Polyhedron& body, const Eigen::Isometry3d& believed,
+                             std::span<const CameraView> views, const FreeModelOptions& options) {
+  if (views.empty() ||
+      std::any_of(views.begin(), views.end(), [](const CameraView& view) { return IsBlind(*view.edges); }))
+    return {};
+  const Search search(body, views, options);
+  FreeModelFix first = Approach(search, believed, 1, options);
+  for (const double widening : options.retries) {
+    if (first.verdict == Verdict::kFound || first.verdict == Verdict::kNotVisible) break;
+    if (FreeModelFix again = Approach(search, believed, widening, options); again.verdict == Verdict::kFound)
+      return again;
+  }
+  return first;
 }
 
 }  // namespace priamos::head

@@ -11,13 +11,15 @@ namespace priamos::head {
 /// How a free model is searched around where it is believed to be.
 struct FreeModelOptions {
   std::vector<double> gates_px{16, 8, 4, 2, 1.2};  ///< from the belief to the result
-  int min_matched = 5;                             ///< edges that must be found, all images together
-  double min_share = 0.4;                          ///< of the visible length that must be found
+  /// If that does not lead to it: the way there with all but the last gate wider or narrower by so much.
+  std::vector<double> retries{1.7, 0.6};
+  int min_matched = 5;     ///< edges that must be found, all images together
+  double min_share = 0.4;  ///< of the visible length that must be found
   double max_misfit = 4;
   double stranger_misfit = 9;
   int max_strangers = 4;
   double max_shift_m = 0.05, max_turn_rad = 0.2;  ///< from the belief; farther is "elsewhere"
-  PoseSolverOptions solver{.on_floor = false, .max_iterations = 15};
+  PoseSolverOptions solver{.on_floor = false, .edge_sigma_px = 0.03, .max_iterations = 15};
 };
 
 /// Where a free model is: all six degrees of freedom.

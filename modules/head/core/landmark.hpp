@@ -13,8 +13,10 @@ namespace priamos::head {
 struct LandmarkEdge {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
   double visible_from_rad = -kPi, visible_to_rad = kPi;
-  int side = 0;  ///< 0 both, 1 left, 2 right
+  int side = 0;  ///< 0 both, 1 left, 2 right, 3 movable
 
+  /// Part of something that may stand elsewhere, such as a door's leaf.
+  bool IsMovable() const { return side == 3; }
   bool IsVertical() const { return (to - from).head<2>().norm() < 0.01 * std::abs(to.z() - from.z()); }
   /// Whether a viewer at `in_landmark` is in the sector widened by `margin_rad` at both ends.
   bool IsSeenFrom(const Eigen::Vector2d& in_landmark, double margin_rad = 0) const;

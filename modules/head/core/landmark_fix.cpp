@@ -101,7 +101,9 @@ bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const Camera
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
   pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, gate);
   const auto observations = Observations(model, pose.association, views, at, coarse);
-  pose.solution = SolvePose(model, Cameras(views), observations, at, options_.solver);
+  PoseSolverOptions solver = options_.solver;
+  solver.find_suspect = false;
+  pose.solution = SolvePose(model, Cameras(views), observations, at, solver);
   if (pose.solution.ok) pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
   return pose.solution.ok;
 }
@@ -217,8 +219,9 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   const double found_left = best.association.side_found_px[1],
                found_right = best.association.side_found_px[2];
   const bool one_sided = (left == 0) != (right == 0);
-  const bool side_missing =
-      found_left < options_.min_side_share * left || found_right < options_.min_side_share * right;
+  if (left > 0) fix.side_share = std::min(fix.side_share, found_left / left);
+  if (right > 0) fix.side_share = std::min(fix.side_share, found_right / right);
+  const bool side_missing = fix.side_share < options_.min_side_share;
   const double wanted =
       options_.min_log_odds + std::log(std::max(n_tested, 1)) + (one_sided ? options_.one_sided_log_odds : 0);
   if (fix.n_matched < options_.min_matched || fix.log_odds < wanted || side_missing ||

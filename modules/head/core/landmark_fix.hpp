@@ -45,6 +45,7 @@ struct LandmarkFix {
   int n_matched = 0;                                     ///< model edges found, all images together
   double residual_px = 0;                                ///< RMS distance of the matched edges from the model
   double misfit = 0;                                     ///< PoseSolution::misfit
+  double side_share = 1;                                 ///< found of what the weaker side should show
   double log_odds = 0;                                   ///< landmark there against clutter only
   double rival_log_odds = 0;                             ///< the same of the best different pose
   std::vector<EdgeMatch> matches;
@@ -52,13 +53,13 @@ struct LandmarkFix {
 
 struct LandmarkFixOptions {
   double min_sigma_m = 0.02, min_sigma_rad = 0.01;  ///< the search is never narrower than that
-  double gate = 4;              ///< Mahalanobis distance from the prediction, 3 degrees of freedom
-  double gate_elsewhere = 7;    ///< so far out it is still looked for, to be refused
-  int min_predicted = 4;        ///< edges that must be predicted, all images together
-  int min_matched = 6;          ///< edges that must be found, all images together
-  double min_log_odds = 7;      ///< beyond the logarithm of the number of chances
-  double min_share = 0.4;       ///< of the log odds that a complete landmark would give
-  double min_side_share = 0.4;  ///< of what either side of the landmark should show, found
+  double gate = 4;               ///< Mahalanobis distance from the prediction, 3 degrees of freedom
+  double gate_elsewhere = 7;     ///< so far out it is still looked for, to be refused
+  int min_predicted = 4;         ///< edges that must be predicted, all images together
+  int min_matched = 6;           ///< edges that must be found, all images together
+  double min_log_odds = 7;       ///< beyond the logarithm of the number of chances
+  double min_share = 0.5;        ///< of the log odds that a complete landmark would give
+  double min_side_share = 0.45;  ///< of what either side of the landmark should show, found
   double one_sided_log_odds =
       5;                ///< wanted in addition if only one side is in view: it could be another landmark's
   double min_lead = 6;  ///< over the best different pose

@@ -92,9 +92,11 @@ class Problem {
   double Covariance(const Row& a, const Row& b) const {
     double c = a.by_common.dot(b.by_common);
     if (a.camera == b.camera) c += Square(options_.camera_sigma_px) * a.by_camera.dot(b.by_camera);
-    if (a.edge == b.edge)
-      c += a.across.dot(b.across) *
-           (Square(options_.model_sigma_m) + Square(options_.tilt_sigma_m) * a.lever * b.lever);
+    if (a.edge == b.edge) {
+      const double shift_m =
+          model_.edges[a.edge].IsMovable() ? options_.movable_sigma_m : options_.model_sigma_m;
+      c += a.across.dot(b.across) * (Square(shift_m) + Square(options_.tilt_sigma_m) * a.lever * b.lever);
+    }
     return c;
   }
 
@@ -136,7 +138,7 @@ class Problem {
     if (!solution.covariance.allFinite()) return;
     const double chi_squared = (white_distance_ - white_jacobian_ * step).squaredNorm();
     solution.misfit = chi_squared / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
-    solution.suspect = FindSuspect();
+    if (options_.find_suspect) solution.suspect = FindSuspect();
     double sum = 0;
     for (const Row& s : sights_) sum += Square(s.distance_px);
     solution.rms_px = std::sqrt(sum / static_cast<double>(n));

@@ -13,14 +13,16 @@ namespace priamos::head {
 
 struct PoseSolverOptions {
   bool on_floor = true;           ///< 3 degrees of freedom (x, y, yaw), else all 6
-  double edge_sigma_px = 0.03;    ///< of a whole edge at either end: what light, lens and neighbours do to it
+  double edge_sigma_px = 0.01;    ///< of a whole edge at either end: what light, lens and neighbours do to it
   double model_sigma_m = 0.0008;  ///< how well the model's edges are placed, each axis
   double tilt_sigma_m = 0.00025;  ///< how well they are aligned: at the ends, against the middle
+  double movable_sigma_m = 0.01;  ///< the same of a part that may stand elsewhere
   double camera_sigma_px = 0.05;  ///< how well a camera is calibrated: shift, roll and scale of the image
   /// Covariance of the motion of space (x, y, z, roll, pitch, yaw about the origin of base) by which all
   /// cameras together may be calibrated wrongly: HeadModel::base_covariance.
   Eigen::Matrix<double, 6, 6> base_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int max_iterations = 10;
+  bool find_suspect = true;  ///< PoseSolution::suspect costs as much as all the rest
 };
 
 /// The edge, seen in one image or in all, without which everything else would fit best.

@@ -196,7 +196,8 @@ std::optional<StereoDrift> MeasureDrift(const LandmarkModel& model,
                                         const CameraModel& left, const CameraModel& right,
                                         const Eigen::Isometry3d& base_from_landmark,
                                         const StereoDriftOptions& options) {
-  const std::vector<HalfEdge> halves = Halves(observations, options.edge_sigma_px);
+  std::vector<HalfEdge> halves = Halves(observations, options.edge_sigma_px);
+  std::erase_if(halves, [&model](const HalfEdge& half) { return model.edges[half.edge].IsMovable(); });
   if (EdgesInBoth(halves) < options.min_edges) return std::nullopt;
   return DriftProblem(model, left, right, base_from_landmark, options).Solve(halves);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "head/core/edge_segments.hpp"
 #include "test/support/quad_scene.hpp"
 
@@ -98,6 +100,37 @@ TEST_F(LandmarkFixTest, DarknessIsNoImage) {
 
 TEST_F(LandmarkFixTest, ALandmarkBehindTheRobotIsNotVisible) {
   EXPECT_EQ(Find(test::DoorQuads(), {3.2, 0, 0}, {-3.2, 0, 0}).verdict, Verdict::kNotVisible);
+}
+
+TEST_F(LandmarkFixTest, AMovablePartThatStandsElsewhereSaysNothing) {
+  const Pose2 truth{3.2, 0.05, 0.02};
+  const LandmarkFix without = Find(test::DoorQuads(), truth, truth);
+  ASSERT_EQ(without.verdict, Verdict::kFound);
+  LandmarkModel with_leaf = model_;
+  const int leaf = static_cast<int>(with_leaf.edges.size());
+  for (const double y : {-0.2, 0.0, 0.2}) with_leaf.edges.push_back({{0.5, y, 0}, {0.5, y, 2}, -kPi, kPi, 3});
+  const LandmarkFix with =
+      dut_.Find(with_leaf, {truth, kTwentyCentimetresFiveDegrees}, left_, right_, left_edges_, right_edges_);
+  ASSERT_EQ(with.verdict, Verdict::kFound);
+  EXPECT_DOUBLE_EQ(with.log_odds, without.log_odds);
+  EXPECT_DOUBLE_EQ(with.base_from_landmark.x, without.base_from_landmark.x);
+  for (const EdgeMatch& m : with.matches) EXPECT_LT(m.edge, leaf);
+}
+
+TEST_F(LandmarkFixTest, AMovablePartThatIsFoundSpeaksForThePose) {
+  const Pose2 truth{3.2, 0.05, 0.02};
+  LandmarkModel less = model_, more = model_;
+  const int part = 0;  // the outer arris on the left
+  less.edges.erase(less.edges.begin() + part);
+  more.edges[part].side = 3;
+  Find(test::DoorQuads(), truth, truth);
+  const LandmarkPrediction prediction{truth, kTwentyCentimetresFiveDegrees};
+  const LandmarkFix a = dut_.Find(less, prediction, left_, right_, left_edges_, right_edges_);
+  const LandmarkFix b = dut_.Find(more, prediction, left_, right_, left_edges_, right_edges_);
+  ASSERT_EQ(b.verdict, Verdict::kFound);
+  EXPECT_GT(b.log_odds, a.log_odds + 1);
+  EXPECT_TRUE(
+      std::any_of(b.matches.begin(), b.matches.end(), [&](const EdgeMatch& m) { return m.edge == part; }));
 }
 
 TEST_F(LandmarkFixTest, AnEmptyModelIsNoModel) {
