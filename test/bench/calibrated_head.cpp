@@ -25,15 +25,15 @@ head::CalibrationPlan PlanAroundLooks() {
   return plan;
 }
 
-/// As a person places it: a little beside where it should be.
-Eigen::Isometry3d Placed(Rng& rng) {
-  Eigen::Isometry3d pose(Eigen::Translation3d(
+/// As a person places it: a little beside where it should be. The motion of space from there to here.
+Eigen::Isometry3d Misplaced(Rng& rng) {
+  Eigen::Isometry3d motion(Eigen::Translation3d(
       kStand + Eigen::Vector3d(rng.Normal(kPlace_m), rng.Normal(kPlace_m), rng.Normal(kPlace_m))));
   const Eigen::Vector3d turn =
       Radians(kTurn_deg) * Eigen::Vector3d(rng.Normal(1), rng.Normal(1), rng.Normal(1));
-  pose.rotate(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
-  pose.rotate(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()));
-  return pose;
+  motion.rotate(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  motion.translate(-kStand);
+  return motion;
 }
 
 std::vector<head::DiscObservation> Observe(const head::CameraModel& camera, const ReferenceObject& real,
@@ -68,12 +68,13 @@ head::CameraModel ExactCamera(const world::HeadBuild& build, int camera, const w
   return {real.ImageFromBase(), real.centre_px, real.focal_px, real.k1, real.k2};
 }
 
-CalibratedHead CalibrateSpecimen(std::uint64_t seed) {
+CalibratedHead CalibrateSpecimen(std::uint64_t seed, bool exactly_placed) {
   Rng rng = Rng::Stream(seed, "calibration");
-  CalibratedHead head{world::HeadBuild::Specimen(seed), {}};
+  CalibratedHead head{world::HeadBuild::Specimen(seed), {}, Misplaced(rng)};
+  if (exactly_placed) head.misplacement.setIdentity();
   Eigen::Isometry3d nominal(Eigen::Translation3d(kStand) * Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()));
   const ReferenceObject object = support::ShippedReferenceObject(), supposed = object.Moved(nominal),
-                        real = object.Moved(Placed(rng));
+                        real = object.Moved(head.misplacement * nominal);
   std::vector<head::HeadView> views;
   int exposure = 0;
   for (const head::HeadSetting& setting : PlanAroundLooks().Settings()) {

@@ -73,8 +73,8 @@ Set MakeSet(std::uint64_t seed, Trouble trouble) {
   return set;
 }
 
-head::LandmarkModel ModelOf(const GroundPlan& map) {
-  const planner::Landmark landmark = planner::MakeDoorLandmark(*map.FindDoor(kDoor));
+head::LandmarkModel ModelOf(const DoorPlan& door) {
+  const planner::Landmark landmark = planner::MakeDoorLandmark(door);
   head::LandmarkModel model{landmark.id, landmark.map_from_landmark, {}};
   for (const planner::LandmarkEdge& e : landmark.edges)
     model.edges.push_back({e.from, e.to, e.visible_from_rad, e.visible_to_rad, static_cast<int>(e.side)});
@@ -94,12 +94,12 @@ head::LandmarkModel Tolerated(head::LandmarkModel model, const DoorTolerances& t
 }
 
 /// As the shipped configuration of the simulated head has it.
-head::HeadSetting LookAt(const head::HeadModel& head, const head::LandmarkModel& model,
-                         const Pose2& believed) {
+head::HeadSetting LookAt(const head::HeadModel& head, const head::LandmarkModel& model, const Pose2& believed,
+                         int side) {
   static const auto kConfig = LoadConfig<head::HeadConfig>(InSim("head.toml"));
   head::HeadSetting setting = kConfig.LookSetting();
   const Eigen::Matrix3d covariance = Eigen::Vector3d(0.115 * 0.115, 0.115 * 0.115, 0.05 * 0.05).asDiagonal();
-  setting.pan_rad = head::AimPan(head, setting, model, {believed, covariance}, 0, kConfig.aim);
+  setting.pan_rad = head::AimPan(head, setting, model, {believed, covariance}, side, kConfig.aim);
   setting.pan_rad = std::round(setting.pan_rad / 0.0001) * 0.0001;  // whole steps
   return setting;
 }
@@ -112,16 +112,24 @@ const char* Describe(Trouble trouble) {
   return kWords[static_cast<int>(trouble)];
 }
 
+head::LandmarkModel ModelWithLeaf(double open_deg) {
+  static const auto kMap = LoadConfig<GroundPlan>(InSim("maps/door.toml"));
+  DoorPlan door = *kMap.FindDoor(kDoor);
+  door.leaf = "left", door.leaf_open_deg = open_deg;
+  return ModelOf(door);
+}
+
 DoorPhotographer::DoorPhotographer() : graphics_(world::Renderer::HoldGraphics()) {}
 
 DoorLook DoorPhotographer::Take(std::uint64_t seed, Trouble trouble, const CalibratedHead& head,
-                                const DoorTolerances& tolerances) {
+                                const DoorTolerances& tolerances, int side) {
   Rng rng = Rng::Stream(seed, "look");
   const Set set = MakeSet(seed, trouble);
   const GroundPlan planned = LoadConfig<GroundPlan>(InSim(set.plan.map));
   DoorLook look;
   look.door_is_there = trouble != Trouble::kDoorAbsent && trouble != Trouble::kAnotherDoor;
-  look.exact_model = ModelOf(planned);
+  look.exact_model = ModelOf(*planned.FindDoor(kDoor));
+  look.leaf_open_deg = set.plan.doors.empty() ? 0 : set.plan.doors[0].open_deg;
   look.model = Tolerated(look.exact_model, tolerances, rng);
   look.base_covariance = head.model.base_covariance;
   // What is believed is nominal; the truth lies around it.
@@ -131,17 +139,18 @@ DoorLook DoorPhotographer::Take(std::uint64_t seed, Trouble trouble, const Calib
                              Radians(rng.Uniform(-5, 5))};
   look.believed = door_from_believed.Inverse(), look.truth = door_from_base.Inverse();
 
-  const head::HeadSetting setting = LookAt(head.model, look.exact_model, look.believed);
+  const head::HeadSetting setting = look.setting = LookAt(head.model, look.exact_model, look.believed, side);
   world::RendererConfig config;
   config.scene = set.light, config.head = head.build;
   world::Renderer renderer(config, world::BuildSolids(set.map, set.plan, seed), seed);
-  const world::HeadAxes axes = RestAfter(setting, rng);
+  Rng motors = Rng::Stream(seed, "motors " + std::to_string(side));
+  const world::HeadAxes axes = RestAfter(setting, motors);
   const Pose2 map_from_base = planned.FindDoor(kDoor)->map_from_door() * door_from_base;
   const world::Exposure exposure{0.008, 1, 0, 0};
   const Twist2 twist{rng.Uniform(0, 0.3), 0, rng.Uniform(-0.05, 0.05)};
   const world::Viewpoint opening{Integrate(map_from_base, twist, -exposure.exposure_s / 2), axes},
       closing{Integrate(map_from_base, twist, exposure.exposure_s / 2), axes};
-  Rng noise = Rng::Stream(seed, "noise");
+  Rng noise = Rng::Stream(seed, "noise " + std::to_string(side));
   for (int c = 0; c < 2; ++c) {
     const GreyImage image = renderer.Expose(static_cast<world::Camera>(c), opening, closing, exposure, noise);
     look.images[c] =

@@ -18,11 +18,12 @@ namespace priamos::bench {
 struct CalibratedHead {
   world::HeadBuild build;
   head::HeadModel model;
+  Eigen::Isometry3d misplacement = Eigen::Isometry3d::Identity();  ///< from where the object should stand
 };
 
 /// Calibrates specimen `seed` as priamos-head does, around the zoom of the looks; throws std::runtime_error
-/// if that fails.
-CalibratedHead CalibrateSpecimen(std::uint64_t seed);
+/// if that fails. With `exactly_placed` all other errors are the same.
+CalibratedHead CalibrateSpecimen(std::uint64_t seed, bool exactly_placed = false);
 
 /// What is wrong with the scene, or nothing.
 enum class Trouble { kNone, kDoorAbsent, kAnotherDoor, kHalfHidden, kLeafMoved, kLightsOut };
@@ -34,12 +35,17 @@ const char* Describe(Trouble trouble);
 struct DoorLook {
   std::array<cv::Mat, 2> images;
   std::array<head::CameraModel, 2> calibrated, exact;
-  Pose2 truth, believed;  ///< base_from_landmark
+  head::HeadSetting setting;  ///< of the motors
+  Pose2 truth, believed;      ///< base_from_landmark
   bool door_is_there = true;
+  double leaf_open_deg = 0;         ///< as it stands, Trouble::kLeafMoved only
   head::LandmarkModel model;        ///< as given to the finder: every edge off by the tolerance
   head::LandmarkModel exact_model;  ///< as built
   Eigen::Matrix<double, 6, 6> base_covariance;
 };
+
+/// The model of a map that tells the leaf's angle.
+head::LandmarkModel ModelWithLeaf(double open_deg);
 
 /// Tolerances that are drawn, and that the finder is told.
 struct DoorTolerances {
@@ -52,8 +58,9 @@ struct DoorTolerances {
 class DoorPhotographer {
  public:
   DoorPhotographer();
+  /// `side` of the landmark at which the head looks, as in look_request_t; all else goes with the seed.
   DoorLook Take(std::uint64_t seed, Trouble trouble, const CalibratedHead& head,
-                const DoorTolerances& tolerances = {});
+                const DoorTolerances& tolerances = {}, int side = 0);
 
  private:
   std::shared_ptr<void> graphics_;

@@ -1,6 +1,7 @@
 // How well the head sees: every figure that is promised, beside the public state of the art on the same
 // images in the same run.
-//   bench_vision [--quick] [--photo FILE]... [--only edges|stereo|door|deceptions|castle|detection|laser]...
+//   bench_vision [--quick] [--photo FILE]... [--only
+//   edges|stereo|door|budget|deceptions|leaves|castle|detection|laser]...
 // Prints one line per figure with its bound; exit 1 if one is missed.
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
@@ -17,7 +18,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "of the first look at the door");
   app.add_option("--photo", options.photos, "photographs to take times on")->check(CLI::ExistingFile);
   app.add_option("--only", only, "these parts only")
-      ->check(CLI::IsMember({"edges", "stereo", "door", "deceptions", "castle", "detection", "laser"}));
+      ->check(CLI::IsMember(
+          {"edges", "stereo", "door", "budget", "deceptions", "leaves", "castle", "detection", "laser"}));
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   const auto wanted = [&](std::string_view part) {
@@ -27,7 +29,9 @@ int main(int argc, char** argv) {
   if (wanted("edges")) BenchEdges(options, figures);
   if (wanted("stereo")) BenchStereo(options, figures);
   if (wanted("door")) BenchDoor(options, figures);
+  if (wanted("budget")) BenchBudget(options, figures);
   if (wanted("deceptions")) BenchDeceptions(options, figures);
+  if (wanted("leaves")) BenchLeaves(options, figures);
   if (wanted("castle")) BenchCastle(options, figures);
   if (wanted("detection")) BenchDetection(options, figures);
   if (wanted("laser")) BenchLaser(options, figures);

@@ -19,14 +19,22 @@ struct VisionOptions {
 /// Time, accuracy and completeness of the edge operator, beside OpenCV's LSD and EdgeDrawing.
 void BenchEdges(const VisionOptions& options, Figures& figures);
 
-/// Wrong matches of edges with three cameras against two.
+/// Wrong matches of edges with three cameras against two: simulated edges, and rendered rooms with the truth
+/// from their geometry.
 void BenchStereo(const VisionOptions& options, Figures& figures);
 
 /// Fixes at the door from rendered stereo pairs, beside ViSP's edge tracker where it is installed.
 void BenchDoor(const VisionOptions& options, Figures& figures);
 
+/// Where the error of a fix comes from: each source of errors alone, beside what an efficient estimator could
+/// reach (Cramer-Rao).
+void BenchBudget(const VisionOptions& options, Figures& figures);
+
 /// Scenes without the door, with another one, half hidden, with the leaf anywhere, nearly dark.
 void BenchDeceptions(const VisionOptions& options, Figures& figures);
+
+/// The door with its leaf at any angle, which the map tells, or not, or wrongly.
+void BenchLeaves(const VisionOptions& options, Figures& figures);
 
 /// A free polyhedron with six degrees of freedom: ViSP's castle sequence with its own truth
 /// (visp-images-data).

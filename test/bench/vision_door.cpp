@@ -1,14 +1,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "head/core/edge_segments.hpp"
-#include "head/core/landmark_fix.hpp"
-#include "head/vision_options.hpp"
-#include "test/bench/door_looks.hpp"
+#include "test/bench/door_fixes.hpp"
 #include "test/bench/vision_bench.hpp"
 #ifdef PRIAMOS_HAS_VISP
 #include "test/bench/visp_door.hpp"
@@ -19,28 +14,11 @@ namespace {
 
 using head::LandmarkFix, head::Verdict;
 
-const Eigen::Matrix3d kBelief = Eigen::Vector3d(0.115 * 0.115, 0.115 * 0.115, 0.05 * 0.05).asDiagonal();
-
-/// Error of a pose of the landmark in the base frame, seen along the door: depth, lateral, heading.
-Eigen::Vector3d ErrorOf(const Pose2& found, const Pose2& truth) {
-  return {found.x - truth.x, found.y - truth.y, WrapAngle(found.yaw - truth.yaw)};
-}
-
-bool IsGood(const Eigen::Vector3d& error) {
-  return error.head<2>().norm() < 0.03 && std::abs(error.z()) < Radians(1);
-}
-
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 1e9;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * values.size()))];
-}
-
 /// How a series of fixes fared.
 struct Series {
   int looks = 0, good = 0, wrong = 0;
   std::map<std::string, int> refusals;
-  std::vector<double> depth, lateral, yaw, nees, seconds;
+  std::vector<double> depth, lateral, yaw, nees, seconds, edge_seconds;
 
   void Add(const Eigen::Vector3d& error, double seconds_taken) {
     const bool is_good = IsGood(error);
@@ -57,78 +35,6 @@ struct Series {
   }
 };
 
-/// As priamos-head tells its finder, with this head's calibration.
-head::LandmarkFixOptions Told(const DoorLook& look) {
-  head::HeadModel head;
-  head.base_covariance = look.base_covariance;
-  return head::FinderOptions(head::VisionConfig(), head);
-}
-
-struct Fixer {
-  head::EdgeOperator edge_operator;
-  std::array<head::EdgeImage, 2> edges;
-  double seconds = 0;
-
-  LandmarkFix Find(const DoorLook& look, const head::LandmarkFixOptions& options,
-                   const head::LandmarkModel& model, const std::array<head::CameraModel, 2>& cameras) {
-    const double start = CpuSeconds();
-    for (int c = 0; c < 2; ++c) edge_operator.Extract(look.images[c], edges[c]);
-    const LandmarkFix fix = head::LandmarkFinder(options).Find(model, {look.believed, kBelief}, cameras[0],
-                                                               cameras[1], edges[0], edges[1]);
-    seconds = CpuSeconds() - start;
-    return fix;
-  }
-};
-
-/// How far the edges of an image really lie beside a model without errors in exact cameras.
-void AddEdgeNoise(const Fixer& fixer, const DoorLook& look, std::vector<double>& distances) {
-  const std::array<head::CameraView, 2> views{head::MakeView(look.exact[0], fixer.edges[0]),
-                                              head::MakeView(look.exact[1], fixer.edges[1])};
-  std::vector<int> visible;
-  const Eigen::Vector2d viewer = look.truth.Inverse().translation();
-  for (std::size_t i = 0; i < look.exact_model.edges.size(); ++i)
-    if (look.exact_model.edges[i].IsSeenFrom(viewer)) visible.push_back(static_cast<int>(i));
-  const auto found = head::Associate(look.exact_model, visible, views, head::Lift(look.truth), {});
-  for (const head::EdgeMatch& m : found.matches) distances.push_back(std::abs(m.distance_px));
-}
-
-/// Fixes with exact cameras and model: what is left is the noise of edges. Its Cramer-Rao bound is that of
-/// the edges' measured noise (1.48 times the median distance) and the geometry of the edges that were used.
-void OverCramerRao(const std::vector<DoorLook>& looks, Figures& figures) {
-  Fixer fixer;
-  head::LandmarkFixOptions options;
-  options.solver.model_sigma_m = options.solver.tilt_sigma_m = 1e-6;
-  options.solver.camera_sigma_px = 1e-4;
-  std::vector<LandmarkFix> fixes;
-  std::vector<double> noise;
-  for (const DoorLook& look : looks) {
-    fixes.push_back(fixer.Find(look, options, look.exact_model, look.exact));
-    AddEdgeNoise(fixer, look, noise);
-  }
-  const double sigma_px = 1.4826 * Quantile(noise, 0.5);
-  // All weights are equal but for the operator's own part, which is far smaller: the bound goes with the
-  // noise.
-  const double scale = sigma_px / options.solver.edge_sigma_px;
-  Eigen::Vector3d squares = Eigen::Vector3d::Zero(), bound = Eigen::Vector3d::Zero();
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < looks.size(); ++i) {
-    const Eigen::Vector3d error = ErrorOf(fixes[i].base_from_landmark, looks[i].truth);
-    if (fixes[i].verdict != Verdict::kFound || !IsGood(error)) continue;
-    squares += error.cwiseAbs2(), bound += scale * scale * fixes[i].covariance.diagonal();
-    ratios.push_back(std::sqrt(error.dot(fixes[i].covariance.inverse() * error) / 3) / scale);
-  }
-  figures.Note("  noise of a whole edge, cameras and model exact", sigma_px, "px");
-  const double n = static_cast<double>(ratios.size());
-  const Eigen::Vector3d rms = (squares / n).cwiseSqrt();
-  fmt::print(
-      "  exact cameras and model: {:.2f} mm depth, {:.2f} mm lateral, {:.4f} degrees root mean square\n",
-      1000 * rms.x(), 1000 * rms.y(), Degrees(rms.z()));
-  figures.AtMost("  error over Cramer-Rao bound, depth", rms.x() / std::sqrt(bound.x() / n), 1.5, "");
-  figures.AtMost("  error over Cramer-Rao bound, lateral", rms.y() / std::sqrt(bound.y() / n), 1.5, "");
-  figures.AtMost("  error over Cramer-Rao bound, heading", rms.z() / std::sqrt(bound.z() / n), 1.5, "");
-  figures.Note("  error over Cramer-Rao bound, all three, median look", Quantile(ratios, 0.5), "");
-}
-
 void Report(const Series& s, Figures& figures) {
   for (const auto& [why, n] : s.refusals) fmt::print("  refused, {}: {}\n", why, n);
   figures.AtLeast("  within 3 cm and 1 degree, of 60", 60.0 * s.good / s.looks, 59, "");
@@ -142,6 +48,7 @@ void Report(const Series& s, Figures& figures) {
   figures.AtLeast("  squared error over covariance, per degree of freedom", s.MeanNees(), 0.8, "");
   figures.AtMost("  squared error over covariance, per degree of freedom", s.MeanNees(), 1.2, "");
   figures.AtMost("  time per stereo pair, edges included", 1000 * Quantile(s.seconds, 0.5), 8, "ms");
+  figures.Note("    of it the edge operator", 1000 * Quantile(s.edge_seconds, 0.5), "ms");
 }
 
 /// Whole looks at the door, each with another specimen of the head, calibrated by itself.
@@ -152,7 +59,6 @@ void Looks(const VisionOptions& options, Figures& figures) {
   DoorPhotographer photographer;
   Fixer fixer;
   Series series;
-  std::vector<DoorLook> looks;
 #ifdef PRIAMOS_HAS_VISP
   Series stereo, mono;
 #endif
@@ -167,6 +73,7 @@ void Looks(const VisionOptions& options, Figures& figures) {
     } else {
       const Eigen::Vector3d error = ErrorOf(fix.base_from_landmark, look.truth);
       series.Add(error, fixer.seconds);
+      series.edge_seconds.push_back(fixer.edge_seconds);
       series.nees.push_back(error.dot(fix.covariance.inverse() * error) / 3);
       if (options.verbose) {
         const Eigen::Vector3d s = fix.covariance.diagonal().cwiseSqrt();
@@ -177,7 +84,6 @@ void Looks(const VisionOptions& options, Figures& figures) {
             Degrees(s.z()), series.nees.back(), fix.misfit, fix.n_matched, 1000 * fixer.seconds);
       }
     }
-    looks.push_back(look);
 #ifdef PRIAMOS_HAS_VISP
     for (const bool both : {true, false}) {
       Series& rival = both ? stereo : mono;
@@ -189,7 +95,6 @@ void Looks(const VisionOptions& options, Figures& figures) {
 #endif
   }
   Report(series, figures);
-  OverCramerRao(looks, figures);
 #ifdef PRIAMOS_HAS_VISP
   for (const auto& [name, rival] : {std::pair{"stereo", &stereo}, std::pair{"left image only", &mono}})
     fmt::print(
@@ -199,6 +104,49 @@ void Looks(const VisionOptions& options, Figures& figures) {
         name, rival->good, rival->looks, rival->wrong, Quantile(rival->lateral, 0.5),
         Quantile(rival->depth, 0.5), Quantile(rival->yaw, 0.5), 1000 * Quantile(rival->seconds, 0.5));
 #endif
+}
+
+/// The paper's way: the left and the right side of the door from two positions of the head, each look a fix,
+/// and both combined as a filter does it.
+void TwoSides(const VisionOptions& options, Figures& figures) {
+  const int n = options.quick ? 12 : 120;
+  fmt::print("left and right side of the door from two head positions, {} times\n", n);
+  DoorPhotographer photographer;
+  Fixer fixer;
+  Series series[3];
+  for (int i = 0; i < n; ++i) {
+    const std::uint64_t seed = options.seed + i;
+    const CalibratedHead head = CalibrateSpecimen(seed);
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+    int found = 0;
+    for (const int side : {1, 2}) {
+      const DoorLook look = photographer.Take(seed, Trouble::kNone, head, {}, side);
+      const LandmarkFix fix = fixer.Find(look, Told(look), look.model, look.calibrated);
+      ++series[side - 1].looks;
+      if (fix.verdict != Verdict::kFound) continue;
+      const Eigen::Vector3d error = ErrorOf(fix.base_from_landmark, look.truth);
+      series[side - 1].Add(error, fixer.seconds);
+      information += fix.covariance.inverse(), weighted += fix.covariance.inverse() * error;
+      ++found;
+    }
+    ++series[2].looks;
+    if (found < 2) continue;
+    const Eigen::Vector3d error = information.inverse() * weighted;
+    series[2].Add(error, 0);
+    series[2].nees.push_back(error.dot(information * error) / 3);
+  }
+  constexpr const char* kNames[] = {"left", "right", "both combined"};
+  for (int k = 0; k < 3; ++k)
+    fmt::print(
+        "  {}: {} of {} right, {} wrong; median {:.2f} mm lateral, {:.2f} mm depth, {:.3f} degrees; "
+        "95 % {:.2f} mm, {:.2f} mm, {:.3f} degrees\n",
+        kNames[k], series[k].good, series[k].looks, series[k].wrong, Quantile(series[k].lateral, 0.5),
+        Quantile(series[k].depth, 0.5), Quantile(series[k].yaw, 0.5), Quantile(series[k].lateral, 0.95),
+        Quantile(series[k].depth, 0.95), Quantile(series[k].yaw, 0.95));
+  figures.Note("  both: squared error over covariance, as if they had nothing in common",
+               series[2].MeanNees(), "");
+  figures.AtMost("  both: silent wrong fixes", series[2].wrong, 0, "");
 }
 
 /// Scenes made to deceive: the answer may be "not found", never a wrong pose.
@@ -238,10 +186,53 @@ void Deceptions(const VisionOptions& options, Figures& figures) {
   figures.AtMost("  silent wrong fixes", wrong, 0, "");
 }
 
+/// What knowing the leaf's angle is worth, and what believing a wrong one costs.
+void Leaves(const VisionOptions& options, Figures& figures) {
+  const int n = options.quick ? 20 : 200;
+  fmt::print("leaf at any angle from closed to 90 degrees: {} scenes\n", n);
+  constexpr const char* kNames[] = {"unknown", "told within half a degree", "told wrong by 10 to 60 degrees"};
+  DoorPhotographer photographer;
+  Fixer fixer;
+  const CalibratedHead head = CalibrateSpecimen(1);
+  Series series[3];
+  std::vector<double> odds[3];
+  for (int i = 0; i < n; ++i) {
+    const std::uint64_t seed = options.seed + i;
+    const DoorLook look = photographer.Take(seed, Trouble::kLeafMoved, head);
+    Rng rng = Rng::Stream(seed, "leaf");
+    const double about = std::max(0.0, look.leaf_open_deg + rng.Uniform(-0.5, 0.5));
+    const double wrong = std::fmod(look.leaf_open_deg + rng.Uniform(10, 60), 100);
+    for (int k = 0; k < 3; ++k) {
+      const auto model = k == 0 ? look.exact_model : ModelWithLeaf(k == 1 ? about : wrong);
+      const LandmarkFix fix = fixer.Find(look, Told(look), model, look.calibrated);
+      ++series[k].looks;
+      if (fix.verdict != Verdict::kFound) {
+        ++series[k].refusals[head::Describe(fix.verdict)];
+        continue;
+      }
+      odds[k].push_back(fix.log_odds);
+      series[k].Add(ErrorOf(fix.base_from_landmark, look.truth), fixer.seconds);
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    fmt::print(
+        "  leaf {}: {} right, median {:.2f} mm lateral, {:.2f} mm depth, {:.3f} degrees; log odds {:.0f}\n",
+        kNames[k], series[k].good, Quantile(series[k].lateral, 0.5), Quantile(series[k].depth, 0.5),
+        Quantile(series[k].yaw, 0.5), Quantile(odds[k], 0.5));
+    for (const auto& [why, count] : series[k].refusals) fmt::print("    {}: {}\n", why, count);
+    figures.AtMost("    silent wrong fixes", series[k].wrong, 0, "");
+  }
+}
+
 }  // namespace
+
+void BenchLeaves(const VisionOptions& options, Figures& figures) {
+  Leaves(options, figures);
+}
 
 void BenchDoor(const VisionOptions& options, Figures& figures) {
   Looks(options, figures);
+  TwoSides(options, figures);
 }
 
 void BenchDeceptions(const VisionOptions& options, Figures& figures) {

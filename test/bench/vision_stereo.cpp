@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include "head/core/edge_segments.hpp"
 #include "head/core/edge_stereo.hpp"
+#include "test/bench/stereo_scenes.hpp"
 #include "test/bench/vision_bench.hpp"
 #include "test/support/space_scene.hpp"
 
@@ -8,41 +10,83 @@ namespace priamos::bench {
 namespace {
 
 struct Count {
-  int right = 0, wrong = 0;
+  int right = 0, wrong = 0, scenes = 0;
   double seconds = 0;
 
   double WrongPercent() const { return 100.0 * wrong / std::max(1, right + wrong); }
-  void Add(const test::SpaceScene& scene, const std::vector<head::StereoMatch>& matches) {
-    for (const head::StereoMatch& m : matches) {
-      const int edge = scene.truth[0][m.left];
-      (edge >= 0 && edge == scene.truth[1][m.right.front()] ? right : wrong)++;
-    }
-  }
+  void Add(bool is_right) { (is_right ? right : wrong)++; }
 };
 
-}  // namespace
+/// Matches that give an edge of space, with two cameras and with three, and the ratio of the wrong ones.
+void Report(const Count& two, const Count& three, Figures& figures) {
+  for (const auto& [name, count] : {std::pair{"binocular", &two}, std::pair{"trinocular", &three}}) {
+    figures.Note(fmt::format("  {}: wrong matches", name), count->WrongPercent(), "%");
+    figures.Note(fmt::format("  {}: right matches per scene", name), double(count->right) / count->scenes,
+                 "");
+    figures.Note(fmt::format("  {}: time", name), 1000 * count->seconds / count->scenes, "ms");
+  }
+  figures.AtMost("  wrong matches, trinocular over binocular",
+                 three.WrongPercent() / std::max(1e-9, two.WrongPercent()), 0.1, "");
+}
 
-void BenchStereo(const VisionOptions& options, Figures& figures) {
+void SimulatedEdges(const VisionOptions& options, Figures& figures) {
   fmt::print("edges of a simulated room in three images: 120, 10 % missing, 10 % broken, 40 of clutter\n");
   Count two, three;
   Rng rng(31);
   const int n = options.quick ? 10 : 100;
   for (int i = 0; i < n; ++i) {
     const test::SpaceScene scene({}, rng);
+    const auto add = [&](const std::vector<head::StereoMatch>& matches, Count& count) {
+      ++count.scenes;
+      for (const head::StereoMatch& m : matches) {
+        const int edge = scene.truth[0][m.left];
+        if (m.space) count.Add(edge >= 0 && edge == scene.truth[1][m.right.front()]);
+      }
+    };
     const double start = CpuSeconds();
-    two.Add(scene, head::MatchBinocular(scene.views[0], scene.views[1], {}));
+    const auto pairs = head::MatchBinocular(scene.views[0], scene.views[1], {});
     const double middle = CpuSeconds();
-    three.Add(scene, head::MatchTrinocular(scene.views[0], scene.views[1], scene.views[2], {}));
+    const auto triples = head::MatchTrinocular(scene.views[0], scene.views[1], scene.views[2], {});
     two.seconds += middle - start, three.seconds += CpuSeconds() - middle;
+    add(pairs, two), add(triples, three);
   }
-  figures.Note("  binocular: wrong matches", two.WrongPercent(), "%");
-  figures.Note("  binocular: right matches per scene", double(two.right) / n, "");
-  figures.Note("  trinocular: wrong matches", three.WrongPercent(), "%");
-  figures.Note("  trinocular: right matches per scene", double(three.right) / n, "");
-  figures.AtMost("  wrong matches, trinocular over binocular", three.WrongPercent() / two.WrongPercent(), 0.1,
-                 "");
-  figures.Note("  binocular: time", 1000 * two.seconds / n, "ms");
-  figures.Note("  trinocular: time", 1000 * three.seconds / n, "ms");
+  Report(two, three, figures);
+}
+
+void RenderedEdges(StereoScene scene, const VisionOptions& options, Figures& figures) {
+  const int n = options.quick ? 5 : 50;
+  fmt::print("rendered: {}, {} views\n", Describe(scene), n);
+  StereoStage stage;
+  head::EdgeOperator edge_operator;
+  Count two, three;
+  for (int i = 0; i < n; ++i) {
+    const StereoTriple triple = stage.Take(scene, options.seed + i);
+    std::array<head::EdgeImage, 3> edges;
+    std::array<head::CameraView, 3> views;
+    for (int c = 0; c < 3; ++c) {
+      edge_operator.Extract(triple.images[c], edges[c]);
+      views[c] = head::MakeView(triple.cameras[c], edges[c]);
+    }
+    const auto add = [&](const std::vector<head::StereoMatch>& matches, Count& count) {
+      ++count.scenes;
+      for (const head::StereoMatch& m : matches)
+        if (m.space) count.Add(triple.IsSameEdge(views[0], m.left, views[1], m.right.front()));
+    };
+    const double start = CpuSeconds();
+    const auto pairs = head::MatchBinocular(views[0], views[1], {});
+    const double middle = CpuSeconds();
+    const auto triples = head::MatchTrinocular(views[0], views[1], views[2], {});
+    two.seconds += middle - start, three.seconds += CpuSeconds() - middle;
+    add(pairs, two), add(triples, three);
+  }
+  Report(two, three, figures);
+}
+
+}  // namespace
+
+void BenchStereo(const VisionOptions& options, Figures& figures) {
+  SimulatedEdges(options, figures);
+  for (const StereoScene scene : kStereoScenes) RenderedEdges(scene, options, figures);
 }
 
 }  // namespace priamos::bench

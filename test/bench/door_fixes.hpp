@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "head/core/edge_segments.hpp"
+#include "head/core/landmark_fix.hpp"
+#include "test/bench/door_looks.hpp"
+
+namespace priamos::bench {
+
+/// Covariance of (x, y, yaw) of what is believed of the door: 20 cm and 5 degrees at most.
+Eigen::Matrix3d DoorBelief();
+
+/// Error of a pose of the landmark in the base frame, seen along the door: depth, lateral, heading.
+Eigen::Vector3d ErrorOf(const Pose2& found, const Pose2& truth);
+
+/// Within 3 cm and 1 degree.
+bool IsGood(const Eigen::Vector3d& error);
+
+/// 1e9 of no values at all.
+double Quantile(std::vector<double> values, double share);
+
+/// As priamos-head tells its finder, with this head's calibration.
+head::LandmarkFixOptions Told(const DoorLook& look);
+
+/// From the images to the fix, and the time it takes.
+struct Fixer {
+  head::EdgeOperator edge_operator;
+  std::array<head::EdgeImage, 2> edges;
+  double seconds = 0, edge_seconds = 0;  ///< all of it; the edge operator's part
+
+  head::LandmarkFix Find(const DoorLook& look, const head::LandmarkFixOptions& options,
+                         const head::LandmarkModel& model, const std::array<head::CameraModel, 2>& cameras);
+};
+
+}  // namespace priamos::bench

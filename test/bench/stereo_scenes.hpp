@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "head/core/view_line.hpp"
+#include "world/core/renderer.hpp"
+#include "world/core/world_plan.hpp"
+
+namespace priamos::bench {
+
+/// Where the three cameras stand.
+enum class StereoScene { kDoorRoom, kCorridor, kBoxes };
+inline constexpr StereoScene kStereoScenes[] = {StereoScene::kDoorRoom, StereoScene::kCorridor,
+                                                StereoScene::kBoxes};
+const char* Describe(StereoScene scene);
+
+/// Rendered pictures of all three cameras (left, right, third) at one moment, and the scene they show.
+struct StereoTriple {
+  std::array<cv::Mat, 3> images;
+  std::array<head::CameraModel, 3> cameras;  ///< exact
+  std::vector<world::Solid> solids;
+  Pose2 map_from_base;
+  double ceiling_m = 2.8;
+
+  /// Whether lines of two views (of cameras of the same numbers) are images of the same edge: the places of
+  /// space that the first one shows, from the geometry that was drawn, lie on the second one.
+  bool IsSameEdge(const head::CameraView& first, int line, const head::CameraView& second, int other) const;
+  /// How far beside each other they lie [px], median; infinite if nothing is known of the first line.
+  double Beside(const head::CameraView& first, int line, const head::CameraView& second, int other) const;
+};
+
+/// Draws rooms with doors, a corridor with a row of equal doors, racks and boxes of equal shape: what repeats
+/// is what is mistaken.
+class StereoStage {
+ public:
+  StereoStage();
+  StereoTriple Take(StereoScene scene, std::uint64_t seed);
+
+ private:
+  std::shared_ptr<void> graphics_;
+};
+
+}  // namespace priamos::bench
