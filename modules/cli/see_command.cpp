@@ -12,12 +12,21 @@ void AddSeeCommand(CLI::App& cli, int& exit_code) {
   verb->footer(
       "Examples: priamos see photo.jpg --json edges.json\n"
       "          priamos see left.jpg right.jpg --cameras left.yaml right.yaml\n"
+      "          priamos see left.jpg right.jpg --cameras left.yaml right.yaml --stand 1.2 -5\n"
       "          priamos see photo.png --cameras camera.yaml --landmark body.cao --at 0.05 0.1 0.6 115 0 0");
   verb->add_option("image", options->images, "image files")->required();
   verb->add_option(
           "--cameras", options->cameras,
           "rectified cameras of two or three images: YAML with projection_matrix, in the images' order")
       ->expected(1, 3);
+  verb->add_option(
+          "--stand", options->stand,
+          "look for doors in two images: height of the left camera above the floor [m], its tilt and "
+          "roll [deg, down and to the right are positive]")
+      ->expected(1, 3);
+  verb->add_option("--max-door-width", options->max_door_width_m, "wider openings are no doors [m]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.5, 5.0));
   auto* at =
       verb->add_option("--at", options->at,
                        "where the landmark is believed to be, in the first camera's frame: x y z [m] roll "

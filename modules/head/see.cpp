@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -14,6 +16,7 @@
 #include "head/core/edge_segments.hpp"
 #include "head/landmark_file.hpp"
 #include "head/projection_file.hpp"
+#include "head/see_doors.hpp"
 #include "head/see_drawing.hpp"
 #include "head/see_json.hpp"
 #include "head/see_landmark.hpp"
@@ -22,6 +25,7 @@ namespace priamos::head {
 namespace {
 
 constexpr int kSmallest_px = 32;
+constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may be uncertain
 
 cv::Mat ReadGrey(const std::string& file) {
   const cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE);
@@ -165,6 +169,37 @@ nlohmann::ordered_json SeeLandmark(const SeeOptions& options, const std::vector<
   return LandmarkToJson(views, fix);
 }
 
+nlohmann::ordered_json SeeDoors(const SeeOptions& options, const std::vector<Photograph>& photographs,
+                                const std::vector<CameraModel>& cameras) {
+  if (cameras.size() != 2)
+    throw std::runtime_error(
+        fmt::format("expected two images and their cameras to look for doors, got {}", cameras.size()));
+  const auto standing = OnTheFloor(cameras, options.stand);
+  EdgeOperator edge_operator(DoorEdges());
+  std::array<EdgeImage, 2> edges;
+  for (int c = 0; c < 2; ++c) edge_operator.Extract(photographs[c].grey, edges[c]);
+  const std::vector<CameraView> views{MakeView(standing[0], edges[0]), MakeView(standing[1], edges[1])};
+  DoorDetectionOptions detection;
+  detection.stereo.max_range_m = kFarthestDoor_m;
+  if (options.max_door_width_m > detection.max_width_m) {  // one leaf or two
+    detection.width_sigma_m += (options.max_door_width_m - detection.max_width_m) / 2;
+    detection.usual_width_m += (options.max_door_width_m - detection.max_width_m) / 2;
+  }
+  detection.max_width_m = options.max_door_width_m;
+  const auto doors = DetectDoors(views[0], views[1], detection);
+  const std::vector<cv::Mat> greys{photographs[0].grey, photographs[1].grey};
+  const std::string drawing = DrawingFile(options, photographs[0].file, "doors");
+  Write(drawing, DrawDoors(greys, views, doors));
+  std::cout << fmt::format("doors: {}, drawn in {}\n", doors.size(), drawing);
+  for (const DetectedDoor& door : doors)
+    std::cout << fmt::format(
+        "  {:.2f} m ahead, {:.2f} m to the left, {:.1f} deg; {:.2f} m wide, {:.2f} m high, "
+        "sigma {:.2f} m\n",
+        door.base_from_door.x, door.base_from_door.y, Degrees(door.base_from_door.yaw), door.width_m,
+        door.height_m, std::sqrt(door.covariance.trace()));
+  return DoorsToJson(doors);
+}
+
 }  // namespace
 
 bool See(const SeeOptions& options) {
@@ -176,6 +211,7 @@ bool See(const SeeOptions& options) {
   bool found = true;
   nlohmann::ordered_json all{{"images", SeeEach(options, photographs)}};
   if (cameras.size() > 1) all["matches"] = SeeTogether(options, photographs, cameras);
+  if (!options.stand.empty()) all["doors"] = SeeDoors(options, photographs, cameras);
   if (!options.landmark.empty()) all["landmark"] = SeeLandmark(options, photographs, cameras, found);
   if (options.json.empty()) return found;
   std::ofstream out(options.json);

@@ -12,9 +12,11 @@ struct SeeOptions {
       cameras{};  ///< projection files (LoadProjection) of two or three images of one scene
   std::string
       landmark{};  ///< a free landmark model (LoadPolyhedron) to look for; needs cameras, one is enough
-  std::vector<double> at{};  ///< where it is believed to be (PoseFromSix)
-  std::string folder = ".";  ///< NAME-edges.png per image, and NAME-stereo.png, are written here
-  std::string json{};        ///< all that was found; empty: none
+  std::vector<double> at{};        ///< where it is believed to be (PoseFromSix)
+  std::vector<double> stand{};     ///< how the first of two cameras stands (OnTheFloor): doors are looked for
+  double max_door_width_m = 1.35;  ///< double doors are wider
+  std::string folder = ".";        ///< NAME-edges.png per image, and NAME-stereo.png, are written here
+  std::string json{};              ///< all that was found; empty: none
 };
 
 /// Draws edges, corners and outlines of each image, with `cameras` also what the images have in common, and

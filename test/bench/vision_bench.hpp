@@ -40,8 +40,11 @@ void BenchLeaves(const VisionOptions& options, Figures& figures);
 /// (visp-images-data).
 void BenchCastle(const VisionOptions& options, Figures& figures);
 
-/// Doors that no map told of.
+/// Doors that no map told of, one before the head or none.
 void BenchDetection(const VisionOptions& options, Figures& figures);
+
+/// Doors that no map told of, in corridors with many of them and what resembles them.
+void BenchCorridor(const VisionOptions& options, Figures& figures);
 
 /// Obstacles by the line laser: precision, false alarms, how low they may be.
 void BenchLaser(const VisionOptions& options, Figures& figures);

@@ -35,7 +35,7 @@ void BenchDetection(const VisionOptions& options, Figures& figures) {
       "walls\n",
       n, n, n);
   DoorPhotographer photographer;
-  head::EdgeOperator edge_operator;
+  head::EdgeOperator edge_operator(head::DoorEdges());
   Count count;
   double seconds = 0;
   for (const Trouble trouble : {Trouble::kNone, Trouble::kLeafMoved, Trouble::kDoorAbsent}) {

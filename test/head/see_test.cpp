@@ -210,5 +210,71 @@ TEST_F(SeeTest, ACameraOfAnotherImageIsRefused) {
   EXPECT_THROW(LoadProjection(camera, kWidth + 1, kHeight), std::runtime_error);
 }
 
+/// A framed door 3 m before the cameras, which stand 1.2 m above the floor.
+class SeeDoorTest : public SeeTest {
+ protected:
+  std::string PhotographOfADoor(const std::string& name, double left_m) {
+    constexpr int kScale = 4;  // drawn larger, for edges between pixels
+    cv::Mat image(kScale * 480, kScale * 640, CV_8UC1, cv::Scalar(180));
+    const auto box = [&](double half, double top, double bottom, int grey) {
+      const auto px = [&](double x, double z) {
+        return cv::Point(static_cast<int>(kScale * (320.5 + 500 * (x - left_m) / 3)),
+                         static_cast<int>(kScale * (240.5 + 500 * (1.2 - z) / 3)));
+      };
+      cv::rectangle(image, px(-half, top), px(half, bottom), cv::Scalar(grey), cv::FILLED);
+    };
+    box(10, 0, -1, 100);
+    box(0.51, 2.06, 0, 90), box(0.45, 2.0, 0, 140);
+    cv::resize(image, image, {640, 480}, 0, 0, cv::INTER_AREA);
+    cv::GaussianBlur(image, image, {}, 0.7);
+    cv::imwrite(folder_ / name, image);
+    return folder_ / name;
+  }
+  std::string LargeCamera(const std::string& name, double baseline) {
+    std::ofstream(folder_ / name) << "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n"
+                                  << "projection_matrix:\n   rows: 3\n   cols: 4\n   data: [ 500., 0., 320., "
+                                  << -500 * baseline << ", 0., 500., 240., 0., 0., 0., 1., 0. ]\n";
+    return folder_ / name;
+  }
+  SeeOptions Options() {
+    return {.images = {PhotographOfADoor("left.png", 0), PhotographOfADoor("right.png", 0.2)},
+            .cameras = {LargeCamera("left.yaml", 0), LargeCamera("right.yaml", 0.2)},
+            .stand = {1.2},
+            .folder = folder_.path(),
+            .json = folder_ / "all.json"};
+  }
+};
+
+TEST_F(SeeDoorTest, ADoorIsListedAndDrawn) {
+  See(Options());
+  const auto dut = nlohmann::json::parse(std::ifstream(folder_ / "all.json"))["doors"];
+  ASSERT_EQ(dut.size(), 1u);
+  EXPECT_NEAR(dut[0]["middle_m"][0], 3.0, 0.05);
+  EXPECT_NEAR(dut[0]["middle_m"][1], 0.0, 0.02);
+  EXPECT_NEAR(dut[0]["width_m"], 0.96, 0.08);
+  int drawings = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_.path()))
+    if (file.path().string().ends_with("left-doors.png")) {
+      ++drawings;
+      EXPECT_EQ(cv::imread(file.path().string()).cols, 2 * 640);
+    }
+  EXPECT_EQ(drawings, 1);
+}
+
+TEST_F(SeeDoorTest, WithoutAStandNoDoorsAreLookedFor) {
+  SeeOptions options = Options();
+  options.stand.clear();
+  See(options);
+  EXPECT_FALSE(nlohmann::json::parse(std::ifstream(folder_ / "all.json")).contains("doors"));
+}
+
+TEST_F(SeeDoorTest, DoorsNeedTwoCamerasAboveTheFloor) {
+  SeeOptions options = Options();
+  options.stand = {-1.0};
+  EXPECT_THAT(ErrorOf(options), HasSubstr("height [m]"));
+  options.stand = {1.2}, options.cameras.clear();
+  EXPECT_THAT(ErrorOf(options), HasSubstr("two images"));
+}
+
 }  // namespace
 }  // namespace priamos::head

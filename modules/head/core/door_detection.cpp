@@ -3,144 +3,252 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
+
+#include "head/core/door_evidence.hpp"
+#include "head/core/door_fit.hpp"
 
 namespace priamos::head {
 namespace {
 
-constexpr double kMinSpanShare = 0.5;  ///< of the way between two uprights that a lintel must be seen on
-constexpr double kBorderPx = 8;        ///< what ends here may go on outside of the picture
+constexpr double kLevel = 0.05;          ///< of a line's plane of sight: flatter ones are upright
+constexpr double kMinSpanShare = 0.25;   ///< of the way between two uprights that a lintel must be seen on
+constexpr double kSameHeight_m = 0.012;  ///< lintels nearer than this are tried once
+constexpr double kOnFloor_m = 0.12;      ///< skirting and threshold hide the last of an upright
+constexpr double kCorner_px = 8;         ///< of an upright from the end of the lintel
+constexpr double kRefined = 10;          ///< log odds that a fit may add
+constexpr double kMostChi2 = 40;         ///< what is stranger than that is no stranger
+constexpr double kMostDifference = 4;    ///< between what both cameras say, in log odds
+constexpr double kSameCorners = 0.3;     ///< of its width: nearer ones in an image are one door
+constexpr double kSmallest_px = 16;      ///< between the uprights
 
 /// Height at which an image line passes the upright at `at`.
 double HeightOn(const ViewLine& line, const Eigen::Vector2d& at) {
   return -(line.plane.x() * at.x() + line.plane.y() * at.y() + line.plane.w()) / line.plane.z();
 }
 
-Eigen::Vector2d Image(const CameraView& view, const Eigen::Vector2d& at, double z) {
-  return view.camera->Project({at.x(), at.y(), z});
+std::vector<const ViewLine*> LevelLines(const CameraView& view) {
+  std::vector<const ViewLine*> level;
+  for (const ViewLine& line : view.lines)
+    if (std::abs(line.plane.z()) > kLevel) level.push_back(&line);
+  return level;
 }
 
-/// How well a line is the lintel between two uprights: heights over both, and the distance of its ends from
-/// the corners along its direction.
-struct Lintel {
-  double height_a, height_b, gap_px, covered;
+/// What an image line shows of the world if it is a level edge at a given height: a line on the floor plan.
+struct PlanLine {
+  Eigen::Vector2d normal;
+  double offset = 0;  ///< normal.dot(at) + offset = 0
+
+  PlanLine(const ViewLine& line, double z) {
+    const double scale = line.plane.head<2>().norm();
+    normal = line.plane.head<2>() / scale, offset = (line.plane.z() * z + line.plane.w()) / scale;
+  }
 };
 
-std::optional<Lintel> AsLintel(const CameraView& view, const ViewLine& line, const VerticalEdge& a,
-                               const VerticalEdge& b, const DoorDetectionOptions& options) {
-  if (std::abs(line.plane.z()) < 0.05) return std::nullopt;
-  const double za = HeightOn(line, a.at), zb = HeightOn(line, b.at);
-  if (za < options.min_height_m || za > options.max_height_m || std::abs(za - zb) > options.level_m)
-    return std::nullopt;
-  const Eigen::Vector2d p = Image(view, a.at, za), q = Image(view, b.at, zb);
-  const double span = (q - p).norm();
-  if (span < 20) return std::nullopt;
-  const Eigen::Vector2d way = (q - p) / span;
-  double s = way.dot(line.p - p), t = way.dot(line.q - p);
-  if (s > t) std::swap(s, t);
-  const double covered = std::max(0.0, std::min(t, span) - std::max(s, 0.0)) / span;
-  return Lintel{za, zb, std::max(std::abs(s), std::abs(t - span)), covered};
+std::optional<Eigen::Vector2d> Crossing(const PlanLine& a, const PlanLine& b) {
+  Eigen::Matrix2d m;
+  m << a.normal.transpose(), b.normal.transpose();
+  if (std::abs(m.determinant()) < 0.02) return std::nullopt;
+  return m.inverse() * Eigen::Vector2d(-a.offset, -b.offset);
 }
 
-/// The line that fits best as a lintel at `height` (any if 0), its ends at both uprights.
-std::optional<Lintel> FindLintel(const CameraView& view, const VerticalEdge& a, const VerticalEdge& b,
-                                 double height, const DoorDetectionOptions& options) {
-  std::optional<Lintel> best;
-  for (const ViewLine& line : view.lines) {
-    const auto lintel = AsLintel(view, line, a, b, options);
-    if (!lintel || lintel->gap_px > options.corner_px || lintel->covered < kMinSpanShare) continue;
-    if (height > 0 && std::abs((lintel->height_a + lintel->height_b) / 2 - height) > options.level_m)
-      continue;
-    if (!best || lintel->gap_px < best->gap_px) best = lintel;
+class Detector {
+ public:
+  Detector(const CameraView& left, const CameraView& right, const DoorDetectionOptions& options)
+      : views_{&left, &right}, options_(options), level_{LevelLines(left), LevelLines(right)} {}
+
+  std::vector<DetectedDoor> Run() {
+    std::vector<VerticalEdge> uprights = MatchVerticals(*views_[0], *views_[1], options_.stereo);
+    std::erase_if(uprights,
+                  [&](const VerticalEdge& v) { return v.z_max_m - v.z_min_m < options_.min_upright_m; });
+    for (std::size_t i = 0; i < uprights.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) ConsiderPair(uprights[i], uprights[j]);
+    if (!getenv("NOEYE"))
+      for (const VerticalEdge& upright : uprights) ConsiderOneEyed(upright);
+    return Best();
   }
-  return best;
-}
 
-/// Where an upright ends below, if the end is in the picture.
-enum class Foot { kOnFloor, kOutside, kInTheAir };
+ private:
+  struct Candidate {
+    DetectedDoor door;
+    std::array<std::array<Eigen::Vector2d, 2>, 2> corners;  ///< camera, left and right; image
+    std::array<int, 2> lintel;                              ///< lines
+  };
 
-Foot FootOf(const CameraView& view, int line, const VerticalEdge& upright,
-            const DoorDetectionOptions& options) {
-  const ViewLine& l = view.lines[line];
-  const double v = std::max(l.p.y(), l.q.y());
-  if (v > view.size.height - 1 - kBorderPx) return Foot::kOutside;
-  return upright.z_min_m < options.floor_m ? Foot::kOnFloor : Foot::kInTheAir;
-}
+  /// Heights of level lines over both uprights, in either image.
+  std::vector<double> Lintels(const VerticalEdge& a, const VerticalEdge& b) const {
+    std::vector<double> heights;
+    for (int c = 0; c < 2; ++c) {
+      for (const ViewLine* line : level_[c]) {
+        const double za = HeightOn(*line, a.at), zb = HeightOn(*line, b.at), z = (za + zb) / 2;
+        if (!IsDoorHigh(z)) continue;
+        if (std::abs(za - zb) > 4 * options_.level_sigma_m || !Spans(*views_[c], *line, a, b, z)) continue;
+        const bool known = std::any_of(heights.begin(), heights.end(),
+                                       [&](double h) { return std::abs(h - z) < kSameHeight_m; });
+        if (!known) heights.push_back(z);
+      }
+    }
+    return heights;
+  }
 
-struct Candidate {
-  DetectedDoor door;
-  double gap_px;
-  int support =
-      0;  ///< candidates around the same middle: a frame has several edges on each side, a leaf has one
+  bool IsDoorHigh(double z) const { return z > options_.min_height_m && z < options_.max_height_m; }
+
+  bool Spans(const CameraView& view, const ViewLine& line, const VerticalEdge& a, const VerticalEdge& b,
+             double z) const {
+    const Eigen::Vector2d p = view.camera->Project({a.at.x(), a.at.y(), z}),
+                          q = view.camera->Project({b.at.x(), b.at.y(), z});
+    const double span = (q - p).norm();
+    if (span < kSmallest_px) return false;
+    const Eigen::Vector2d way = (q - p) / span;
+    const double s = way.dot(line.p - p), t = way.dot(line.q - p);
+    return std::min(std::max(s, t), span) - std::max(std::min(s, t), 0.0) > kMinSpanShare * span;
+  }
+
+  void ConsiderPair(const VerticalEdge& a, const VerticalEdge& b) {
+    if (a.left == b.left || a.right == b.right || !IsDoorWide(a.at, b.at)) return;
+    for (const double height : Lintels(a, b)) Weigh(a, b, height);
+  }
+
+  bool IsDoorWide(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+    const double width = (a - b).norm();
+    return width > options_.min_width_m && width < options_.max_width_m;
+  }
+
+  /// The other upright may be seen by one camera only: the lintel, which is level, leads to it.
+  void ConsiderOneEyed(const VerticalEdge& a) {
+    for (int c = 0; c < 2; ++c) {
+      for (const ViewLine* lintel : level_[c]) {
+        const double z = HeightOn(*lintel, a.at);
+        if (!IsDoorHigh(z)) continue;
+        const Eigen::Vector2d corner = views_[c]->camera->Project({a.at.x(), a.at.y(), z});
+        const double p = (lintel->p - corner).norm(), q = (lintel->q - corner).norm();
+        if (std::min(p, q) > kCorner_px) continue;
+        FollowLintel(a, c, *lintel, z, p > q ? lintel->p : lintel->q);
+      }
+    }
+  }
+
+  void FollowLintel(const VerticalEdge& a, int c, const ViewLine& lintel, double z,
+                    const Eigen::Vector2d& end) {
+    for (int other = 0; other < 2; ++other) {
+      for (const ViewLine& line : views_[other]->lines) {
+        if (std::abs(line.plane.z()) > kLevel) continue;
+        const auto at = Crossing(PlanLine(lintel, z), PlanLine(line, z));
+        if (!at || at->x() < 0 || !IsDoorWide(a.at, *at)) continue;
+        if ((views_[c]->camera->Project({at->x(), at->y(), z}) - end).norm() > kCorner_px) continue;
+        VerticalEdge b = a;  // as uncertain as the upright that the lintel begins at, and more
+        b.at = *at, b.covariance *= 2;
+        Weigh(a, b, z);
+      }
+    }
+  }
+
+  double Prior(double width, double height) const {
+    const double w = (width - options_.usual_width_m) / options_.width_sigma_m,
+                 h = (height - options_.usual_height_m) / options_.height_sigma_m;
+    return -0.5 * (w * w + h * h);
+  }
+
+  void Weigh(const VerticalEdge& a, const VerticalEdge& b, double height) {
+    // Left is what a robot at the origin has on its left hand.
+    const bool a_is_left = a.at.x() * b.at.y() - a.at.y() * b.at.x() < 0;
+    const DoorShape proposal{a_is_left ? a.at : b.at, a_is_left ? b.at : a.at, height};
+    const auto proposed = EvidenceFor(proposal);
+    if (proposed[0].log_odds + proposed[1].log_odds < options_.min_log_odds - kRefined) return;
+    const auto fit = FitDoor(views_, LinesOf(proposed), proposal, options_.edge_sigma_px);
+    if (!fit || !IsDoorWide(fit->shape.left, fit->shape.right) || !IsDoorHigh(fit->shape.height_m)) return;
+    const auto evidence = EvidenceFor(fit->shape);
+    if (std::min(evidence[0].lintel.share, evidence[1].lintel.share) < kMinSpanShare) return;
+    DetectedDoor door = AsDoor(*fit);
+    door.log_odds =
+        Together(evidence) + Prior(door.width_m, door.height_m) - 0.5 * std::min(fit->chi2, kMostChi2);
+    for (int i = 0; i < 2; ++i)
+      door.on_floor |= evidence[0].foot_inside[i] && evidence[0].hangs_m[i] < kOnFloor_m;
+    if (door.log_odds > options_.min_log_odds)
+      candidates_.push_back(AsCandidate(door, fit->shape, LinesOf(evidence)));
+  }
+
+  /// Where one camera sees a door and the other one does not, there is one, but elsewhere.
+  static double Together(const std::array<DoorEvidence, 2>& evidence) {
+    const auto [least, most] = std::minmax(evidence[0].log_odds, evidence[1].log_odds);
+    return 2 * least + std::min(most - least, kMostDifference);
+  }
+
+  std::array<DoorEvidence, 2> EvidenceFor(const DoorShape& shape) const {
+    return {WeighDoor(*views_[0], shape), WeighDoor(*views_[1], shape)};
+  }
+
+  static DoorLines LinesOf(const std::array<DoorEvidence, 2>& evidence) {
+    DoorLines lines;
+    for (int c = 0; c < 2; ++c) {
+      lines.lintel[c] = evidence[c].lintel.line;
+      for (int i = 0; i < 2; ++i) lines.uprights[c][i] = evidence[c].uprights[i].line;
+    }
+    return lines;
+  }
+
+  DetectedDoor AsDoor(const DoorFit& fit) const {
+    DetectedDoor door;
+    const Eigen::Vector2d middle = (fit.shape.left + fit.shape.right) / 2,
+                          across = fit.shape.left - fit.shape.right;
+    // From the right upright to the left one is the door's y axis.
+    door.base_from_door = {middle.x(), middle.y(), WrapAngle(std::atan2(across.y(), across.x()) - kPi / 2)};
+    Eigen::Matrix<double, 2, 5> half = Eigen::Matrix<double, 2, 5>::Zero();
+    half.leftCols<2>() = half.middleCols<2>(2) = Eigen::Matrix2d::Identity() / 2;
+    door.covariance = half * fit.covariance * half.transpose() +
+                      options_.frame_sigma_m * options_.frame_sigma_m * Eigen::Matrix2d::Identity();
+    door.width_m = across.norm(), door.height_m = fit.shape.height_m;
+    return door;
+  }
+
+  Candidate AsCandidate(const DetectedDoor& door, const DoorShape& shape, const DoorLines& lines) const {
+    Candidate c{door, {}, lines.lintel};
+    for (int i = 0; i < 2; ++i)
+      c.corners[i] = {views_[i]->camera->Project({shape.left.x(), shape.left.y(), shape.height_m}),
+                      views_[i]->camera->Project({shape.right.x(), shape.right.y(), shape.height_m})};
+    return c;
+  }
+
+  /// The same edges cannot be two doors: one behind the other, mostly, from edges that do not belong
+  /// together.
+  bool IsSame(const Candidate& a, const Candidate& b) const {
+    const Eigen::Vector2d away = a.door.base_from_door.translation() - b.door.base_from_door.translation();
+    if (away.norm() < options_.same_door_m) return true;
+    for (int c = 0; c < 2; ++c) {
+      if (a.lintel[c] == b.lintel[c]) return true;
+      const double width = (a.corners[c][0] - a.corners[c][1]).norm();
+      const double apart =
+          (a.corners[c][0] - b.corners[c][0]).norm() + (a.corners[c][1] - b.corners[c][1]).norm();
+      if (apart < 2 * kSameCorners * width) return true;
+    }
+    return false;
+  }
+
+  std::vector<DetectedDoor> Best() {
+    std::stable_sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+      return a.door.log_odds > b.door.log_odds;
+    });
+    std::vector<const Candidate*> best;
+    for (const Candidate& c : candidates_)
+      if (std::none_of(best.begin(), best.end(), [&](const Candidate* d) { return IsSame(*d, c); }))
+        best.push_back(&c);
+    std::vector<DetectedDoor> doors;
+    for (const Candidate* c : best) doors.push_back(c->door);
+    return doors;
+  }
+
+  std::array<const CameraView*, 2> views_;
+  const DoorDetectionOptions& options_;
+  std::array<std::vector<const ViewLine*>, 2> level_;
+  std::vector<Candidate> candidates_;
 };
-
-void CountSupport(std::vector<Candidate>& candidates) {
-  constexpr double kSameMiddle_m = 0.03, kSameYaw = 0.1;
-  for (Candidate& a : candidates) {
-    a.support = static_cast<int>(std::count_if(candidates.begin(), candidates.end(), [&](const Candidate& b) {
-      const Pose2 &p = a.door.base_from_door, &q = b.door.base_from_door;
-      return (p.translation() - q.translation()).norm() < kSameMiddle_m &&
-             std::abs(WrapAngle(p.yaw - q.yaw)) < kSameYaw;
-    }));
-  }
-}
-
-std::optional<Candidate> AsDoor(const CameraView& left, const CameraView& right, const VerticalEdge& a,
-                                const VerticalEdge& b, const DoorDetectionOptions& options) {
-  const Eigen::Vector2d way = b.at - a.at;
-  const double width = way.norm();
-  if (width < options.min_width_m || width > options.max_width_m) return std::nullopt;
-  const auto l = FindLintel(left, a, b, 0, options);
-  if (!l) return std::nullopt;
-  const double height = (l->height_a + l->height_b) / 2;
-  const auto r = FindLintel(right, a, b, height, options);
-  if (!r) return std::nullopt;
-  for (const VerticalEdge* upright : {&a, &b}) {
-    if (upright->z_max_m < height - options.max_missing_m) return std::nullopt;
-    if (upright->z_max_m > height + options.max_missing_m) return std::nullopt;
-  }
-  const Foot foot_a = FootOf(left, a.left, a, options), foot_b = FootOf(left, b.left, b, options);
-  if (foot_a == Foot::kInTheAir && foot_b == Foot::kInTheAir) return std::nullopt;
-  DetectedDoor door;
-  const Eigen::Vector2d middle = (a.at + b.at) / 2;
-  // From the right upright to the left one is the door's y axis; the robot is on its -x side.
-  double yaw = std::atan2(way.y(), way.x()) - kPi / 2;
-  if (std::cos(yaw) * middle.x() + std::sin(yaw) * middle.y() < 0) yaw += kPi;
-  door.base_from_door = {middle.x(), middle.y(), WrapAngle(yaw)};
-  door.covariance = (a.covariance + b.covariance) / 4;
-  door.width_m = width, door.height_m = height;
-  door.on_floor = foot_a == Foot::kOnFloor || foot_b == Foot::kOnFloor;
-  return Candidate{door, std::max(l->gap_px, r->gap_px), 0};
-}
 
 }  // namespace
 
 std::vector<DetectedDoor> DetectDoors(const CameraView& left, const CameraView& right,
                                       const DoorDetectionOptions& options) {
-  std::vector<VerticalEdge> uprights = MatchVerticals(left, right, options.stereo);
-  std::erase_if(uprights,
-                [&](const VerticalEdge& v) { return v.z_max_m - v.z_min_m < options.min_upright_m; });
-  std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < uprights.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const VerticalEdge &a = uprights[i], &b = uprights[j];
-      if (a.left == b.left || a.right == b.right) continue;
-      if (const auto c = AsDoor(left, right, a, b, options)) candidates.push_back(*c);
-    }
-  }
-  CountSupport(candidates);
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.support != b.support ? a.support > b.support : a.gap_px < b.gap_px;
-  });
-  std::vector<DetectedDoor> doors;
-  for (const Candidate& c : candidates) {
-    const bool known = std::any_of(doors.begin(), doors.end(), [&](const DetectedDoor& d) {
-      return (d.base_from_door.translation() - c.door.base_from_door.translation()).norm() <
-             options.same_door_m;
-    });
-    if (!known) doors.push_back(c.door);
-  }
-  return doors;
+  return Detector(left, right, options).Run();
 }
 
 }  // namespace priamos::head

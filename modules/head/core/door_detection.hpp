@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/geometry.hpp"
+#include "head/core/edge_segments.hpp"
 #include "head/core/vertical_stereo.hpp"
 
 namespace priamos::head {
@@ -15,23 +16,36 @@ struct DetectedDoor {
   double width_m = 0;          ///< between the uprights: the frame's outer or inner edges
   double height_m = 0;         ///< of the lintel
   bool on_floor = false;       ///< an upright was seen down to the floor
+  double log_odds = 0;         ///< a door against whatever else has uprights
 };
 
 struct DoorDetectionOptions {
   double min_width_m = 0.65, max_width_m = 1.35;
   double min_height_m = 1.85, max_height_m = 2.35;
-  double floor_m = 0.12;        ///< an upright whose end is in the picture must come down to this
-  double corner_px = 6;         ///< of the end of the lintel from the upright
-  double level_m = 0.02;        ///< the lintel's heights over both uprights, and from both cameras
-  double max_missing_m = 0.25;  ///< upright that is not seen below the lintel
-  double min_upright_m = 0.5;   ///< seen by both cameras
-  double same_door_m = 0.65;    ///< nearer ones are one door, such as frame and open leaf
-  VerticalStereoOptions stereo{.max_range_m = 6, .camera_sigma_px = 0.05};
+  double usual_height_m = 2.05, height_sigma_m = 0.1;  ///< what doors are like where the robot works: of the
+                                                       ///< lintel, with or without frame
+  double usual_width_m = 0.95, width_sigma_m = 0.2;    ///< likewise
+  double level_sigma_m = 0.012;  ///< the lintel's heights over both uprights, beyond the noise of edges
+  double edge_sigma_px = 0.3;    ///< what frames deviate from two uprights and a level lintel between them
+  double frame_sigma_m = 0.004;  ///< of a frame's edges from one plane and their mirror images, part of the
+                                 ///< covariance: near jambs show another edge of the frame than far ones
+  double min_upright_m = 0.15;   ///< seen by both cameras
+  double min_log_odds = 7;       ///< evidence wanted
+  double same_door_m = 0.65;     ///< nearer ones are one door, such as frame and open leaf
+  VerticalStereoOptions stereo{.max_range_m = 8, .camera_sigma_px = 0.05};
 };
 
-/// Doors, open or closed, in a stereo pair: the conclusion of the paper. The corners of lintel and uprights
-/// decide which uprights belong together; the position is metric by stereo. Nothing is remembered from look
-/// to look.
+/// The edges that doors are looked for in: fainter ones than elsewhere, because in a dim corridor frame and
+/// wall are nearly alike, and nothing is believed that stands alone.
+inline EdgeOperator::Options DoorEdges() {
+  EdgeOperator::Options options;
+  options.min_contrast = 5;
+  return options;
+}
+
+/// Doors, open or closed, in a stereo pair: the conclusion of the paper. Every pair of uprights of a door's
+/// width with a level line of a door's height over both is weighed in both images (WeighDoor); the best are
+/// doors. The position is metric by stereo. Nothing is remembered from look to look.
 std::vector<DetectedDoor> DetectDoors(const CameraView& left, const CameraView& right,
                                       const DoorDetectionOptions& options);
 

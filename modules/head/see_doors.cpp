@@ -1,0 +1,90 @@
+#include "head/see_doors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+namespace priamos::head {
+namespace {
+
+constexpr int kShift = 4;  // OpenCV takes sub-pixel points in 1/16 px
+
+cv::Point Fixed(const Eigen::Vector2d& p) {
+  return {static_cast<int>(std::lround(p.x() * (1 << kShift))),
+          static_cast<int>(std::lround(p.y() * (1 << kShift)))};
+}
+
+/// Left foot, left corner, right corner, right foot.
+std::array<Eigen::Vector2d, 4> Outline(const CameraModel& camera, const DetectedDoor& door) {
+  std::array<Eigen::Vector2d, 4> outline;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector2d at = door.base_from_door * Eigen::Vector2d(0, (i < 2 ? 0.5 : -0.5) * door.width_m);
+    const double z = i == 1 || i == 2 ? door.height_m : 0;
+    outline[i] = camera.Distort(camera.Project({at.x(), at.y(), z}));
+  }
+  return outline;
+}
+
+}  // namespace
+
+std::vector<CameraModel> OnTheFloor(std::vector<CameraModel> cameras, const std::vector<double>& stand) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  if (stand.empty() || stand.size() > 3 || !std::all_of(stand.begin(), stand.end(), finite) || stand[0] <= 0)
+    throw std::runtime_error("expected where the cameras stand: height [m], tilt and roll [deg]");
+  const double tilt = stand.size() > 1 ? Radians(stand[1]) : 0,
+               roll = stand.size() > 2 ? Radians(stand[2]) : 0;
+  Eigen::Matrix3d level;  // axes of an upright camera (x right, y down, z forward) in the base frame
+  level << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  Eigen::Isometry3d base_from_camera(Eigen::Translation3d(0, 0, stand[0]));
+  base_from_camera.rotate(Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()) *
+                          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()));
+  base_from_camera.rotate(level);
+  for (CameraModel& camera : cameras)
+    camera.image_from_base = (camera.image_from_base * base_from_camera.inverse().matrix()).eval();
+  return cameras;
+}
+
+cv::Mat DrawDoors(std::span<const cv::Mat> greys, std::span<const CameraView> views,
+                  std::span<const DetectedDoor> doors) {
+  std::vector<cv::Mat> canvases;
+  for (std::size_t c = 0; c < greys.size(); ++c) {
+    cv::Mat& canvas = canvases.emplace_back();
+    cv::cvtColor(greys[c] * 0.6 + 60, canvas, cv::COLOR_GRAY2BGR);
+    for (const EdgeSegment& s : views[c].edges->segments)
+      cv::line(canvas, Fixed(s.begin), Fixed(s.end), {150, 150, 150}, 1, cv::LINE_AA, kShift);
+    for (std::size_t i = 0; i < doors.size(); ++i) {
+      const auto outline = Outline(*views[c].camera, doors[i]);
+      for (int k = 0; k < 3; ++k)
+        cv::line(canvas, Fixed(outline[k]), Fixed(outline[k + 1]), {255, 0, 255}, 2, cv::LINE_AA, kShift);
+      const Eigen::Vector2d label = outline[1] + Eigen::Vector2d(4, 16);
+      cv::putText(canvas, fmt::format("{}", i), cv::Point2d(label.x(), label.y()), cv::FONT_HERSHEY_SIMPLEX,
+                  0.5, {255, 0, 255}, 1, cv::LINE_AA);
+    }
+  }
+  cv::Mat all;
+  cv::hconcat(canvases, all);
+  return all;
+}
+
+nlohmann::ordered_json DoorsToJson(std::span<const DetectedDoor> doors) {
+  auto list = nlohmann::ordered_json::array();
+  for (const DetectedDoor& door : doors) {
+    const Pose2& at = door.base_from_door;
+    list.push_back({{"middle_m", {at.x, at.y}},
+                    {"yaw_deg", Degrees(at.yaw)},
+                    {"width_m", door.width_m},
+                    {"height_m", door.height_m},
+                    {"on_floor", door.on_floor},
+                    {"log_odds", door.log_odds},
+                    {"sigma_m",
+                     {std::sqrt(std::max(0.0, door.covariance(0, 0))),
+                      std::sqrt(std::max(0.0, door.covariance(1, 1)))}}});
+  }
+  return list;
+}
+
+}  // namespace priamos::head
