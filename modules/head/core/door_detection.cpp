@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
 #include "head/core/door_evidence.hpp"
@@ -64,8 +63,7 @@ class Detector {
                   [&](const VerticalEdge& v) { return v.z_max_m - v.z_min_m < options_.min_upright_m; });
     for (std::size_t i = 0; i < uprights.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) ConsiderPair(uprights[i], uprights[j]);
-    if (!getenv("NOEYE"))
-      for (const VerticalEdge& upright : uprights) ConsiderOneEyed(upright);
+    for (const VerticalEdge& upright : uprights) ConsiderOneEyed(upright);
     return Best();
   }
 
