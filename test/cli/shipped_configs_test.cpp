@@ -10,6 +10,7 @@
 #include "cli/deployment.hpp"
 #include "cli/factories.hpp"
 #include "cli/scenario.hpp"
+#include "head/landmark_file.hpp"
 
 // Every configuration file of every deployment loads, and none lies about that nothing reads.
 
@@ -51,6 +52,11 @@ bool IsOfAModule(const std::string& file) {
 
 bool IsScenario(const std::string& file) {
   return fs::path(file).parent_path().filename() == "scenarios";
+}
+
+/// A body that `priamos see --landmark` looks for.
+bool IsLandmarkModel(const std::string& file) {
+  return fs::path(file).parent_path().filename() == "models";
 }
 
 bool IsForInstalling(const std::string& file) {
@@ -95,6 +101,8 @@ TEST_P(ShippedConfig, LoadsOrIsNamedByOneThatDoes) {
     SUCCEED() << "checked by installing";
   } else if (IsScenario(file)) {
     ExpectThatScenarioLoads(file);
+  } else if (IsLandmarkModel(file)) {
+    EXPECT_FALSE(head::LoadPolyhedron((kConfigs / file).string()).points.empty());
   } else {
     EXPECT_TRUE(IsNamedInAnother(file)) << "no configuration names " << file;
   }
