@@ -110,7 +110,7 @@ EdgeSums EdgeProfile::Sum(const AxisLine& line, int first, int last) const {
   if (sums.rows > 0) Reduce(lanes, line.sign / float(EdgeKernel::kScale), sums);
   if (sums.rows == 0) return sums;
   sums.along = float(along) / float(sums.rows);
-  sums.inverse = 1 / sums.strength;
+  sums.inverse = sums.strength != 0 ? 1 / sums.strength : 0;
   // The kernels of the nearest phase were used; this brings the sums to the line itself.
   const float mean = float(remainder) / float(sums.rows) - 0.5F * (1 << kRemainderBits);
   const float offset = mean / (EdgeKernelSet::kPhases << kRemainderBits);

@@ -33,7 +33,7 @@ struct EdgeSums {
   int rows = 0;
   float along = 0;     ///< mean row
   float strength = 0;  ///< first derivative
-  float inverse = 0;   ///< 1 / strength
+  float inverse = 0;   ///< 1 / strength, 0 where there is none
   /// Second derivative and minus third, for each KernelWidth: their quotient is how far beside the line the
   /// edge lies.
   float imbalance[2] = {0, 0}, sharpness[2] = {0, 0};
