@@ -37,7 +37,6 @@ class RunningFit {
     RoughLine line;
     Foot(first, line.x1, line.y1);
     Foot(last, line.x2, line.y2);
-    line.rms_px = std::sqrt(MeanSquare());
     return line;
   }
 

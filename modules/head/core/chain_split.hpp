@@ -9,7 +9,6 @@ namespace priamos::head {
 /// A straight piece of a chain, to pixel accuracy, in the direction of the chain.
 struct RoughLine {
   double x1 = 0, y1 = 0, x2 = 0, y2 = 0;  ///< ends, on the fitted line [px]
-  double rms_px = 0;                      ///< of its pixels' peaks beside it
 };
 
 /// Cuts chains into straight pieces: a line grows pixel by pixel while the pixels stay near its least squares

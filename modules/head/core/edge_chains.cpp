@@ -11,9 +11,9 @@ constexpr int kGrid = 8;  ///< seeds lie on every 8th row or column: a straight 
 
 }  // namespace
 
-/// The three pixels ahead of one that is entered in direction `step`, and what they are in x and y.
+/// To which of its four sides a walk goes on, and what a step is in memory and in x and y.
 struct ChainTracer::Heading {
-  int tx, ty;          ///< the tangent that chose it, to one of the four sides: (+-1, 0) or (0, +-1)
+  int tx, ty;          ///< of a step ahead: (+-1, 0) or (0, +-1)
   int ahead, side;     ///< steps in memory
   int side_x, side_y;  ///< of a step to the side
 

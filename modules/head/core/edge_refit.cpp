@@ -235,7 +235,7 @@ bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeIma
     MeasureBlocks(line, first, last);
     Collect();
     if (!Solve(line, KernelWidth::kWide, 1, fit)) return false;
-    double move = fit.Move((last - first) / 2.0);
+    const double move = fit.Move((last - first) / 2.0);
     if (move > kLostPx) return false;
     if (move < kNearPx) {
       if (!IsClear(line, options)) return false;
