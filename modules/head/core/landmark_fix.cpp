@@ -153,15 +153,19 @@ void LandmarkFinder::DropStrangers(const LandmarkModel& model, std::span<const C
   }
 }
 
+Eigen::Matrix3d LandmarkFixOptions::SearchCovariance(const LandmarkPrediction& prediction) const {
+  Eigen::Matrix3d search = prediction.covariance;
+  for (int k = 0; k < 3; ++k) search(k, k) += std::pow(k < 2 ? min_sigma_m : min_sigma_rad, 2);
+  return search;
+}
+
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
                                  const CameraModel& left, const CameraModel& right,
                                  const EdgeImage& left_edges, const EdgeImage& right_edges) const {
   LandmarkFix fix;
   if (model.edges.empty()) return fix.verdict = Verdict::kNoModel, fix;
   if (IsBlind(left_edges) || IsBlind(right_edges)) return fix;
-  Eigen::Matrix3d search = prediction.covariance;
-  for (int k = 0; k < 3; ++k)
-    search(k, k) += std::pow(k < 2 ? options_.min_sigma_m : options_.min_sigma_rad, 2);
+  const Eigen::Matrix3d search = options_.SearchCovariance(prediction);
   const auto n_predicted =
       PredictEdges(model, prediction.base_from_landmark, search, left, {left_edges.width, left_edges.height})
           .size() +

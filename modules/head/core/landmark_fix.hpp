@@ -72,6 +72,9 @@ struct LandmarkFixOptions {
   VerticalStereoOptions stereo;
   ProposalOptions proposals;
   PoseSolverOptions solver;
+
+  /// Of the prediction, as wide as it is searched.
+  Eigen::Matrix3d SearchCovariance(const LandmarkPrediction& prediction) const;
 };
 
 /// Finds the landmark in one stereo pair: vertical edges are reconstructed, pairs of them laid onto pairs of

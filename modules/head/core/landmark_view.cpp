@@ -9,8 +9,7 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kMinSigma_m = 0.02, kMinSigma_rad = 0.01;  ///< a strip is never narrower
-constexpr double kMinShare = 0.5;                           ///< of an edge that must lie along the prediction
+constexpr double kMinShare = 0.5;  ///< of an edge that must lie along the prediction
 
 std::vector<PredictedEdge> Predicted(const LandmarkModel& model, const Pose2& base_from_landmark,
                                      const Eigen::Matrix3d& covariance, const CameraView& picture) {
@@ -79,8 +78,7 @@ LandmarkView ViewLandmark(const LandmarkModel& model, const LandmarkPrediction& 
                           const LandmarkViewOptions& options) {
   LandmarkView view;
   view.camera = camera;
-  Eigen::Matrix3d search = prediction.covariance;
-  for (int k = 0; k < 3; ++k) search(k, k) += std::pow(k < 2 ? kMinSigma_m : kMinSigma_rad, 2);
+  const Eigen::Matrix3d search = LandmarkFixOptions{}.SearchCovariance(prediction);
   const auto expected = Predicted(model, prediction.base_from_landmark, search, picture);
   for (const PredictedEdge& e : expected) view.edges.push_back({ViewedEdge::kPredicted, e.p, e.q});
   for (const EdgeMatch& match : fix.matches) {
