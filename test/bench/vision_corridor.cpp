@@ -6,6 +6,7 @@
 #include "head/core/door_detection.hpp"
 #include "head/core/edge_segments.hpp"
 #include "test/bench/corridor_looks.hpp"
+#include "test/bench/timed_doors.hpp"
 #include "test/bench/vision_bench.hpp"
 
 namespace priamos::bench {
@@ -138,12 +139,7 @@ void BenchCorridor(const VisionOptions& options, Figures& figures) {
     const std::uint64_t seed = options.seed + i;
     for (const CorridorLook& look :
          photographer.Take(seed, kLooksPerCorridor, CalibrateSpecimen(seed % 7 + 1), rule)) {
-      const double start = CpuSeconds();
-      std::array<head::EdgeImage, 2> edges;
-      for (int c = 0; c < 2; ++c) edge_operator.Extract(look.images[c], edges[c]);
-      const auto doors = head::DetectDoors(head::MakeView(look.calibrated[0], edges[0]),
-                                           head::MakeView(look.calibrated[1], edges[1]), {});
-      seconds += CpuSeconds() - start;
+      const auto doors = DetectTimed(look.images, look.calibrated, edge_operator, seconds);
       Add(look, doors, options.verbose, count);
     }
   }
