@@ -151,7 +151,7 @@ const char* Describe(StereoScene scene) {
 bool StereoTriple::IsSameEdge(const head::CameraView& first, int line, const head::CameraView& second,
                               int other) const {
   constexpr double kReach_px = 2.5;
-  return Beside(first, line, second, other) < kReach_px;
+  return std::min(Beside(first, line, second, other), Beside(second, other, first, line)) < kReach_px;
 }
 
 double StereoTriple::Beside(const head::CameraView& first, int line, const head::CameraView& second,

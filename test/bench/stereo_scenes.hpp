@@ -26,8 +26,9 @@ struct StereoTriple {
   Pose2 map_from_base;
   double ceiling_m = 2.8;
 
-  /// Whether lines of two views (of cameras of the same numbers) are images of the same edge: the places of
-  /// space that the first one shows, from the geometry that was drawn, lie on the second one.
+  /// Whether lines of two views are images of the same edge: the places of space that one of them shows, from
+  /// the geometry that was drawn, lie on the other one. One way is enough: of a face that is seen edge-on,
+  /// less than two pixels wide, nothing can be said in that image, but in the other one it is broad.
   bool IsSameEdge(const head::CameraView& first, int line, const head::CameraView& second, int other) const;
   /// How far beside each other they lie [px], median; infinite if nothing is known of the first line.
   double Beside(const head::CameraView& first, int line, const head::CameraView& second, int other) const;

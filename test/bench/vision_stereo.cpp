@@ -53,6 +53,18 @@ void SimulatedEdges(const VisionOptions& options, Figures& figures) {
   Report(two, three, figures);
 }
 
+/// What a mistake looks like: the image line, how far beside it the match lies, and what spoke for it.
+void PrintWrong(std::uint64_t seed, const StereoTriple& triple, const std::array<head::CameraView, 3>& views,
+                const head::StereoMatch& match) {
+  const head::ViewLine& line = views[0].lines[match.left];
+  fmt::print(
+      "  seed {}: ({:.0f} {:.0f}) to ({:.0f} {:.0f}), beside the truth by {:.1f} px, similarity {:.2f}, "
+      "chi squared {:.1f}, {:.1f} m away\n",
+      seed, line.p.x(), line.p.y(), line.q.x(), line.q.y(),
+      triple.Beside(views[0], match.left, views[1], match.right.front()), match.similarity, match.space->chi2,
+      match.space->from.x());
+}
+
 void RenderedEdges(StereoScene scene, const VisionOptions& options, Figures& figures) {
   const int n = options.quick ? 5 : 50;
   fmt::print("rendered: {}, {} views\n", Describe(scene), n);
@@ -69,8 +81,12 @@ void RenderedEdges(StereoScene scene, const VisionOptions& options, Figures& fig
     }
     const auto add = [&](const std::vector<head::StereoMatch>& matches, Count& count) {
       ++count.scenes;
-      for (const head::StereoMatch& m : matches)
-        if (m.space) count.Add(triple.IsSameEdge(views[0], m.left, views[1], m.right.front()));
+      for (const head::StereoMatch& m : matches) {
+        if (!m.space) continue;
+        const bool is_right = triple.IsSameEdge(views[0], m.left, views[1], m.right.front());
+        count.Add(is_right);
+        if (!is_right && options.verbose && &count == &three) PrintWrong(options.seed + i, triple, views, m);
+      }
     };
     const double start = CpuSeconds();
     const auto pairs = head::MatchBinocular(views[0], views[1], {});
