@@ -6,7 +6,7 @@
 #include "head/core/calibration/calibration_plan.hpp"
 #include "head/core/calibration/disc_projection.hpp"
 #include "head/core/calibration/head_solver.hpp"
-#include "test/bench/door_looks.hpp"
+#include "test/bench/landmark_looks.hpp"
 #include "test/bench/true_axes.hpp"
 #include "test/support/calibration_scene.hpp"
 

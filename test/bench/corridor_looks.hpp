@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "test/bench/corridor_plan.hpp"
-#include "test/bench/door_looks.hpp"
+#include "test/bench/landmark_looks.hpp"
 
 namespace priamos::bench {
 

@@ -26,6 +26,9 @@ void BenchStereo(const VisionOptions& options, Figures& figures);
 /// Fixes at the door from rendered stereo pairs, beside ViSP's edge tracker where it is installed.
 void BenchDoor(const VisionOptions& options, Figures& figures);
 
+/// The same for cupboards of the map, and scenes that deceive: absent, another one, half hidden, nearly dark.
+void BenchCupboard(const VisionOptions& options, Figures& figures);
+
 /// Where the error of a fix comes from: each source of errors alone, beside what an efficient estimator could
 /// reach (Cramer-Rao).
 void BenchBudget(const VisionOptions& options, Figures& figures);

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "head/core/prediction.hpp"
-#include "test/bench/door_fixes.hpp"
+#include "test/bench/door_looks.hpp"
+#include "test/bench/landmark_fixes.hpp"
 #include "test/bench/vision_bench.hpp"
 
 namespace priamos::bench {
@@ -25,7 +26,7 @@ constexpr Source kSources[] = {{"edges alone", false, false, false},
 
 /// A look, and the cameras as the same calibration would have them if the object had stood exactly.
 struct Sample {
-  DoorLook look;
+  LandmarkLook look;
   Cameras placed_exactly, misplaced;
 };
 
@@ -54,7 +55,7 @@ head::LandmarkFixOptions OptionsOf(const Sample& sample, const Source& source) {
   return options;
 }
 
-std::vector<int> VisibleEdges(const DoorLook& look) {
+std::vector<int> VisibleEdges(const LandmarkLook& look) {
   std::vector<int> visible;
   const Eigen::Vector2d viewer = look.truth.Inverse().translation();
   for (std::size_t i = 0; i < look.exact_model.edges.size(); ++i)
@@ -64,7 +65,7 @@ std::vector<int> VisibleEdges(const DoorLook& look) {
 
 /// How far the edges of an image really lie beside a model without errors in exact cameras: one whole edge at
 /// both of its places, all that were found, right ones or not.
-void AddEdgeNoise(const DoorLook& look, const std::array<head::EdgeImage, 2>& edges,
+void AddEdgeNoise(const LandmarkLook& look, const std::array<head::EdgeImage, 2>& edges,
                   std::vector<double>& distances) {
   const std::array<head::CameraView, 2> views{head::MakeView(look.exact[0], edges[0]),
                                               head::MakeView(look.exact[1], edges[1])};
@@ -81,7 +82,7 @@ void AddEdgeNoise(const DoorLook& look, const std::array<head::EdgeImage, 2>& ed
 }
 
 /// Every edge of the model that is in view, from end to end, exactly where it is.
-std::vector<head::EdgeObservation> Everything(const DoorLook& look) {
+std::vector<head::EdgeObservation> Everything(const LandmarkLook& look) {
   constexpr int kPoints = 9;
   std::vector<head::EdgeObservation> observations;
   const Eigen::Isometry3d truth = head::Lift(look.truth);
@@ -101,7 +102,7 @@ std::vector<head::EdgeObservation> Everything(const DoorLook& look) {
 /// Cramer-Rao bound of (depth, lateral, heading): the covariance of the efficient estimator that uses every
 /// edge in view with the noise that edges were measured to have, and knows the distribution of the other
 /// errors but not their values.
-Eigen::Vector3d Bound(const DoorLook& look, head::PoseSolverOptions solver, double edge_sigma_px) {
+Eigen::Vector3d Bound(const LandmarkLook& look, head::PoseSolverOptions solver, double edge_sigma_px) {
   solver.edge_sigma_px = edge_sigma_px;
   const std::array<const head::CameraModel*, 2> cameras{&look.exact[0], &look.exact[1]};
   const auto solution =
@@ -143,7 +144,7 @@ void BenchBudget(const VisionOptions& options, Figures& figures) {
   std::vector<std::array<head::LandmarkFix, std::size(kSources)>> fixes(n);
   for (int i = 0; i < n; ++i) {
     samples.push_back(Take(photographer, options.seed + i));
-    const DoorLook& look = samples.back().look;
+    const LandmarkLook& look = samples.back().look;
     for (std::size_t s = 0; s < rows.size(); ++s)
       fixes[i][s] = fixer.Find(look, OptionsOf(samples.back(), kSources[s]),
                                kSources[s].model ? look.model : look.exact_model,
@@ -154,7 +155,7 @@ void BenchBudget(const VisionOptions& options, Figures& figures) {
   figures.Note("  noise of a whole edge at either end, cameras and model exact", sigma_px, "px");
   for (std::size_t s = 0; s < rows.size(); ++s) {
     for (int i = 0; i < n; ++i) {
-      const DoorLook& look = samples[i].look;
+      const LandmarkLook& look = samples[i].look;
       const head::LandmarkFix& fix = fixes[i][s];
       const Eigen::Vector3d error = ErrorOf(fix.base_from_landmark, look.truth);
       if (fix.verdict != head::Verdict::kFound || !IsGood(error)) continue;

@@ -13,13 +13,13 @@ struct Count {
   int looks = 0, with_door = 0, found = 0, false_ones = 0, off = 0;
 };
 
-void Add(const DoorLook& look, const std::vector<head::DetectedDoor>& doors, Count& count) {
+void Add(const LandmarkLook& look, const std::vector<head::DetectedDoor>& doors, Count& count) {
   const Eigen::Vector2d front = look.truth * Eigen::Vector2d(-0.085, 0);
-  ++count.looks, count.with_door += look.door_is_there;
+  ++count.looks, count.with_door += look.is_there;
   bool found = false;
   for (const head::DetectedDoor& door : doors) {
     const double error = (door.base_from_door.translation() - front).norm();
-    const bool is_it = look.door_is_there && error < 0.25;
+    const bool is_it = look.is_there && error < 0.25;
     found = found || is_it;
     count.false_ones += !is_it;
     count.off += is_it && error > 0.03;
@@ -42,7 +42,7 @@ void BenchDetection(const VisionOptions& options, Figures& figures) {
   for (const Trouble trouble : {Trouble::kNone, Trouble::kLeafMoved, Trouble::kDoorAbsent}) {
     for (int i = 0; i < n; ++i) {
       const std::uint64_t seed = options.seed + i;
-      const DoorLook look = photographer.Take(seed, trouble, CalibrateSpecimen(seed % 7 + 1));
+      const LandmarkLook look = photographer.Take(seed, trouble, CalibrateSpecimen(seed % 7 + 1));
       const auto doors = DetectTimed(look.images, look.calibrated, edge_operator, seconds);
       Add(look, doors, count);
     }

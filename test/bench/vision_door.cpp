@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <map>
 
-#include "test/bench/door_fixes.hpp"
+#include "test/bench/door_looks.hpp"
+#include "test/bench/fix_series.hpp"
+#include "test/bench/landmark_fixes.hpp"
 #include "test/bench/vision_bench.hpp"
 #ifdef PRIAMOS_HAS_VISP
 #include "test/bench/visp_door.hpp"
@@ -14,43 +15,6 @@ namespace {
 
 using head::LandmarkFix, head::Verdict;
 
-/// How a series of fixes fared.
-struct Series {
-  int looks = 0, good = 0, wrong = 0;
-  std::map<std::string, int> refusals;
-  std::vector<double> depth, lateral, yaw, nees, seconds, edge_seconds;
-
-  void Add(const Eigen::Vector3d& error, double seconds_taken) {
-    const bool is_good = IsGood(error);
-    (is_good ? good : wrong)++;
-    if (!is_good) return;
-    depth.push_back(1000 * std::abs(error.x())), lateral.push_back(1000 * std::abs(error.y()));
-    yaw.push_back(Degrees(std::abs(error.z())));
-    seconds.push_back(seconds_taken);
-  }
-  double MeanNees() const {
-    double sum = 0;
-    for (const double n : nees) sum += n;
-    return nees.empty() ? 0 : sum / nees.size();
-  }
-};
-
-void Report(const Series& s, Figures& figures) {
-  for (const auto& [why, n] : s.refusals) fmt::print("  refused, {}: {}\n", why, n);
-  figures.AtLeast("  within 3 cm and 1 degree, of 60", 60.0 * s.good / s.looks, 59, "");
-  figures.AtMost("  silent wrong fixes", s.wrong, 0, "");
-  figures.AtMost("  lateral error, median", Quantile(s.lateral, 0.5), 2, "mm");
-  figures.AtMost("  lateral error, 95 %", Quantile(s.lateral, 0.95), 6, "mm");
-  figures.AtMost("  depth error, median", Quantile(s.depth, 0.5), 2, "mm");
-  figures.AtMost("  depth error, 95 %", Quantile(s.depth, 0.95), 6, "mm");
-  figures.AtMost("  heading error, median", Quantile(s.yaw, 0.5), 0.05, "deg");
-  figures.AtMost("  heading error, 95 %", Quantile(s.yaw, 0.95), 0.15, "deg");
-  figures.AtLeast("  squared error over covariance, per degree of freedom", s.MeanNees(), 0.8, "");
-  figures.AtMost("  squared error over covariance, per degree of freedom", s.MeanNees(), 1.2, "");
-  figures.AtMost("  time per stereo pair, edges included", 1000 * Quantile(s.seconds, 0.5), 8, "ms");
-  figures.Note("    of it the edge operator", 1000 * Quantile(s.edge_seconds, 0.5), "ms");
-}
-
 /// Whole looks at the door, each with another specimen of the head, calibrated by itself.
 void Looks(const VisionOptions& options, Figures& figures) {
   const int n = options.quick ? 12 : 120;
@@ -58,13 +22,13 @@ void Looks(const VisionOptions& options, Figures& figures) {
              n);
   DoorPhotographer photographer;
   Fixer fixer;
-  Series series;
+  FixSeries series;
 #ifdef PRIAMOS_HAS_VISP
-  Series stereo, mono;
+  FixSeries stereo, mono;
 #endif
   for (int i = 0; i < n; ++i) {
     const std::uint64_t seed = options.seed + i;
-    const DoorLook look = photographer.Take(seed, Trouble::kNone, CalibrateSpecimen(seed));
+    const LandmarkLook look = photographer.Take(seed, Trouble::kNone, CalibrateSpecimen(seed));
     ++series.looks;
     const LandmarkFix fix = fixer.Find(look, Told(look), look.model, look.calibrated);
     if (fix.verdict != Verdict::kFound) {
@@ -86,7 +50,7 @@ void Looks(const VisionOptions& options, Figures& figures) {
     }
 #ifdef PRIAMOS_HAS_VISP
     for (const bool both : {true, false}) {
-      Series& rival = both ? stereo : mono;
+      FixSeries& rival = both ? stereo : mono;
       ++rival.looks;
       const VispFix fix = FixWithVisp(look, both);
       if (fix.ok) rival.Add(ErrorOf(fix.base_from_landmark, look.truth), fix.seconds);
@@ -113,7 +77,7 @@ void TwoSides(const VisionOptions& options, Figures& figures) {
   fmt::print("left and right side of the door from two head positions, {} times\n", n);
   DoorPhotographer photographer;
   Fixer fixer;
-  Series series[3];
+  FixSeries series[3];
   for (int i = 0; i < n; ++i) {
     const std::uint64_t seed = options.seed + i;
     const CalibratedHead head = CalibrateSpecimen(seed);
@@ -121,7 +85,7 @@ void TwoSides(const VisionOptions& options, Figures& figures) {
     Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
     int found = 0;
     for (const int side : {1, 2}) {
-      const DoorLook look = photographer.Take(seed, Trouble::kNone, head, {}, side);
+      const LandmarkLook look = photographer.Take(seed, Trouble::kNone, head, {}, side);
       const LandmarkFix fix = fixer.Find(look, Told(look), look.model, look.calibrated);
       ++series[side - 1].looks;
       if (fix.verdict != Verdict::kFound) continue;
@@ -158,10 +122,10 @@ void Deceptions(const VisionOptions& options, Figures& figures) {
   const CalibratedHead head = CalibrateSpecimen(1);
   int wrong = 0;
   for (const Trouble trouble : kTroubles) {
-    Series series;
+    FixSeries series;
     for (int i = 0; i < n; ++i) {
       const std::uint64_t seed = options.seed + 100000 * static_cast<int>(trouble) + i;
-      const DoorLook look = photographer.Take(seed, trouble, head);
+      const LandmarkLook look = photographer.Take(seed, trouble, head);
       const LandmarkFix fix = fixer.Find(look, Told(look), look.model, look.calibrated);
       ++series.looks;
       if (fix.verdict != Verdict::kFound) {
@@ -169,7 +133,7 @@ void Deceptions(const VisionOptions& options, Figures& figures) {
         continue;
       }
       const Eigen::Vector3d error = ErrorOf(fix.base_from_landmark, look.truth);
-      const bool right = look.door_is_there && IsGood(error);
+      const bool right = look.is_there && IsGood(error);
       (right ? series.good : series.wrong)++;
       if (!right)
         fmt::print(
@@ -194,11 +158,11 @@ void Leaves(const VisionOptions& options, Figures& figures) {
   DoorPhotographer photographer;
   Fixer fixer;
   const CalibratedHead head = CalibrateSpecimen(1);
-  Series series[3];
+  FixSeries series[3];
   std::vector<double> odds[3];
   for (int i = 0; i < n; ++i) {
     const std::uint64_t seed = options.seed + i;
-    const DoorLook look = photographer.Take(seed, Trouble::kLeafMoved, head);
+    const LandmarkLook look = photographer.Take(seed, Trouble::kLeafMoved, head);
     Rng rng = Rng::Stream(seed, "leaf");
     const double about = std::max(0.0, look.leaf_open_deg + rng.Uniform(-0.5, 0.5));
     const double wrong = std::fmod(look.leaf_open_deg + rng.Uniform(10, 60), 100);

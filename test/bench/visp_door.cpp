@@ -33,7 +33,7 @@ cv::Mat Undistorted(const cv::Mat& image, const head::CameraModel& camera) {
 
 }  // namespace
 
-VispFix FixWithVisp(const DoorLook& look, bool both_cameras) {
+VispFix FixWithVisp(const LandmarkLook& look, bool both_cameras) {
   const Eigen::Vector2d viewer = look.believed.Inverse().translation();
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;
   for (const head::LandmarkEdge& e : look.exact_model.edges)

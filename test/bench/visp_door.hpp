@@ -1,6 +1,6 @@
 #pragma once
 
-#include "test/bench/door_looks.hpp"
+#include "test/bench/landmark_looks.hpp"
 
 namespace priamos::bench {
 
@@ -11,6 +11,6 @@ struct VispFix {
 };
 
 /// What ViSP's edge tracker makes of one look: the model without errors, the calibrated cameras.
-VispFix FixWithVisp(const DoorLook& look, bool both_cameras);
+VispFix FixWithVisp(const LandmarkLook& look, bool both_cameras);
 
 }  // namespace priamos::bench

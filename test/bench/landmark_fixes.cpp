@@ -1,4 +1,4 @@
-#include "test/bench/door_fixes.hpp"
+#include "test/bench/landmark_fixes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace priamos::bench {
 
-Eigen::Matrix3d DoorBelief() {
+Eigen::Matrix3d LookBelief() {
   return Eigen::Vector3d(0.115 * 0.115, 0.115 * 0.115, 0.05 * 0.05).asDiagonal();
 }
 
@@ -26,20 +26,20 @@ double Quantile(std::vector<double> values, double share) {
   return values[std::min(values.size() - 1, static_cast<std::size_t>(share * values.size()))];
 }
 
-head::LandmarkFixOptions Told(const DoorLook& look) {
+head::LandmarkFixOptions Told(const LandmarkLook& look) {
   head::HeadModel head;
   head.base_covariance = look.base_covariance;
   return head::FinderOptions(head::VisionConfig(), head);
 }
 
-head::LandmarkFix Fixer::Find(const DoorLook& look, const head::LandmarkFixOptions& options,
+head::LandmarkFix Fixer::Find(const LandmarkLook& look, const head::LandmarkFixOptions& options,
                               const head::LandmarkModel& model,
                               const std::array<head::CameraModel, 2>& cameras) {
   const double start = CpuSeconds();
   for (int c = 0; c < 2; ++c) edge_operator.Extract(look.images[c], edges[c]);
   edge_seconds = CpuSeconds() - start;
   const head::LandmarkFix fix = head::LandmarkFinder(options).Find(
-      model, {look.believed, DoorBelief()}, cameras[0], cameras[1], edges[0], edges[1]);
+      model, {look.believed, LookBelief()}, cameras[0], cameras[1], edges[0], edges[1]);
   seconds = CpuSeconds() - start;
   return fix;
 }

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "head/core/landmark_fix.hpp"
+#include "test/bench/figures.hpp"
+#include "test/bench/landmark_looks.hpp"
+
+namespace priamos::bench {
+
+/// How a series of fixes fared.
+struct FixSeries {
+  int looks = 0, good = 0, wrong = 0;
+  std::map<std::string, int> refusals;
+  std::vector<double> depth, lateral, yaw, nees, seconds, edge_seconds;
+
+  void Add(const Eigen::Vector3d& error, double seconds_taken);
+  double MeanNees() const;
+};
+
+/// Every figure that is promised of fixes.
+void Report(const FixSeries& series, Figures& figures);
+
+}  // namespace priamos::bench
