@@ -1,13 +1,34 @@
 #include "head/core/edge_chains.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
+#include <opencv2/core/hal/intrin.hpp>
 #include <utility>
 
 namespace priamos::head {
 namespace {
 
 constexpr int kGrid = 8;  ///< seeds lie on every 8th row or column: a straight edge of 12 px crosses one
+constexpr int kLanes = cv::v_int16x8::nlanes;
+
+/// Tells `found` which of the `n` magnitudes from `at` are at least `threshold`, larger than the one `step`
+/// before and no smaller than the one `step` behind it; some it tells twice. `n` is at least kLanes.
+template <class Found>
+void ForEachPeak(const unsigned short* at, std::ptrdiff_t step, int n, double threshold, Found&& found) {
+  const auto values = reinterpret_cast<const short*>(at);  // a magnitude is at most 2040
+  const cv::v_int16x8 least = cv::v_setall_s16(static_cast<short>(threshold));
+  for (int i = 0; i < n; i += kLanes) {
+    const int first = std::min(i, n - kLanes);
+    const short* const here = values + first;
+    const cv::v_int16x8 value = cv::v_load(here);
+    const cv::v_int16x8 peak =
+        (value >= least) & (value > cv::v_load(here - step)) & (value >= cv::v_load(here + step));
+    for (auto left = unsigned(cv::v_signmask(peak)); left != 0; left &= left - 1) {
+      found(first + std::countr_zero(left));
+    }
+  }
+}
 
 }  // namespace
 
@@ -32,7 +53,7 @@ void ChainTracer::Trace(const GradientMap& gradients, const Options& options, Ed
   chains.pixels.clear();
   chains.begins.assign(1, 0);
   for (int y = kGrid; y < gradients.height() - 2; y += kGrid) SeedRow(gradients, options, y, chains);
-  for (int y = 2; y < gradients.height() - 2; ++y) SeedColumns(gradients, options, y, chains);
+  SeedColumns(gradients, options, chains);
 }
 
 /// No walk goes there, so none needs to look where the image ends.
@@ -44,28 +65,30 @@ void ChainTracer::CloseBorder(int height) {
 
 /// Steep edges: strongest in the row.
 void ChainTracer::SeedRow(const GradientMap& gradients, const Options& options, int y, EdgeChains& chains) {
-  const unsigned short* const row = gradients.magnitude(y);
-  const short *const gx = gradients.gx(y), *const gy = gradients.gy(y);
-  const auto threshold = static_cast<unsigned short>(options.seed_threshold);
-  // One branch for all: it is hardly ever taken.
-  for (int x = 2; x < stride_ - 2; ++x) {
-    if (int(row[x] >= threshold) & int(row[x] > row[x - 1]) & int(row[x] >= row[x + 1])) {
-      if (std::abs(gx[x]) >= std::abs(gy[x])) TraceFrom(gradients, options, x, y, chains);
-    }
-  }
+  constexpr int kMargin = 2;
+  const short *const gx = gradients.gx(y) + kMargin, *const gy = gradients.gy(y) + kMargin;
+  ForEachPeak(gradients.magnitude(y) + kMargin, 1, stride_ - 2 * kMargin, options.seed_threshold, [&](int i) {
+    if (std::abs(gx[i]) >= std::abs(gy[i])) TraceFrom(gradients, options, i + kMargin, y, chains);
+  });
 }
 
 /// Flat edges: strongest in the column.
-void ChainTracer::SeedColumns(const GradientMap& gradients, const Options& options, int y,
-                              EdgeChains& chains) {
-  const unsigned short *const row = gradients.magnitude(y), *const above = row - stride_,
-                              *const below = row + stride_;
-  const short *const gx = gradients.gx(y), *const gy = gradients.gy(y);
-  const auto threshold = static_cast<unsigned short>(options.seed_threshold);
-  for (int x = kGrid; x < stride_ - 2; x += kGrid) {
-    if (int(row[x] >= threshold) & int(row[x] > above[x]) & int(row[x] >= below[x])) {
+void ChainTracer::SeedColumns(const GradientMap& gradients, const Options& options, EdgeChains& chains) {
+  const int n = (stride_ - 3) / kGrid, step = (n + kLanes - 1) / kLanes * kLanes;
+  // The columns side by side, so that neighbours in memory can be looked at together.
+  columns_.assign(std::size_t(step) * gradients.height(), 0);
+  for (int y = 0; y < gradients.height(); ++y) {
+    const unsigned short* const row = gradients.magnitude(y) + kGrid;
+    unsigned short* const out = columns_.data() + std::ptrdiff_t(y) * step;
+    for (int i = 0; i < n; ++i) out[i] = row[i * kGrid];
+  }
+  for (int y = 2; y < gradients.height() - 2; ++y) {
+    const short *const gx = gradients.gx(y), *const gy = gradients.gy(y);
+    const unsigned short* const row = columns_.data() + std::ptrdiff_t(y) * step;
+    ForEachPeak(row, step, step, options.seed_threshold, [&](int i) {
+      const int x = (i + 1) * kGrid;
       if (std::abs(gx[x]) < std::abs(gy[x])) TraceFrom(gradients, options, x, y, chains);
-    }
+    });
   }
 }
 

@@ -35,7 +35,7 @@ class ChainTracer {
  private:
   void CloseBorder(int height);
   void SeedRow(const GradientMap& gradients, const Options& options, int y, EdgeChains& chains);
-  void SeedColumns(const GradientMap& gradients, const Options& options, int y, EdgeChains& chains);
+  void SeedColumns(const GradientMap& gradients, const Options& options, EdgeChains& chains);
   void TraceFrom(const GradientMap& gradients, const Options& options, int x, int y, EdgeChains& chains);
   struct Heading;
   bool Step(const GradientMap& gradients, int threshold, const Heading& heading, int& at, ChainPixel& pixel);
@@ -43,6 +43,7 @@ class ChainTracer {
 
   int stride_ = 0;
   std::vector<std::uint8_t> visited_;
+  std::vector<unsigned short> columns_;  ///< magnitudes of every kGrid-th column
   std::vector<ChainPixel> walk_;
 };
 

@@ -52,7 +52,7 @@ void Reduce(const Lanes& lanes, float scale, EdgeSums& sums) {
   sums.low = float(near[3] + near[4]) / 2, sums.high = float(far[3] + far[4]) / 2;
 }
 
-constexpr int kTile = 16;
+constexpr int kTile = 16, kCacheLine = 64;
 
 /// 16 x 16 pixels: four rounds of interleaving rows that are 8 apart.
 void TransposeTile(const std::uint8_t* from, std::size_t from_step, std::uint8_t* to, std::size_t to_step) {
@@ -69,9 +69,11 @@ void TransposeTile(const std::uint8_t* from, std::size_t from_step, std::uint8_t
 void Transpose(const cv::Mat& image, cv::Mat& out) {
   out.create(image.cols, image.rows, CV_8UC1);
   const int whole_x = image.cols / kTile * kTile, whole_y = image.rows / kTile * kTile;
-  for (int x = 0; x < whole_x; x += kTile) {
+  for (int left = 0; left < whole_x; left += kCacheLine) {  // whatever is read is used while it is near
     for (int y = 0; y < whole_y; y += kTile) {
-      TransposeTile(image.ptr(y) + x, image.step, out.ptr(x) + y, out.step);
+      for (int x = left; x < std::min(left + kCacheLine, whole_x); x += kTile) {
+        TransposeTile(image.ptr(y) + x, image.step, out.ptr(x) + y, out.step);
+      }
     }
   }
   for (int y = 0; y < image.rows; ++y) {
@@ -91,9 +93,8 @@ EdgeSums EdgeProfile::Sum(const AxisLine& line, int first, int last) const {
   constexpr int kRowsAhead = 6;
   const cv::Mat& rows = line.steep ? image_ : transposed_;
   first = std::max(first, 0), last = std::min(last, rows.rows - 1);
-  EdgeSums sums;
   Lanes lanes;
-  int along = 0, remainder = 0;
+  int n = 0, along = 0, remainder = 0;
   auto across = static_cast<std::int64_t>(line.Across(first) * kOne);
   const auto step = static_cast<std::int64_t>(line.slope * kOne);
   const std::uint8_t* row = rows.ptr(0) + first * rows.step[0];
@@ -105,14 +106,16 @@ EdgeSums EdgeProfile::Sum(const AxisLine& line, int first, int last) const {
     __builtin_prefetch(row + kRowsAhead * rows.step[0] + pixel);
     AddRow(row + pixel - EdgeKernel::kCentre, line.wide->phases[phase], line.narrow->phases[phase], lanes);
     along += t;
-    ++sums.rows;
+    ++n;
   }
-  if (sums.rows > 0) Reduce(lanes, line.sign / float(EdgeKernel::kScale), sums);
-  if (sums.rows == 0) return sums;
-  sums.along = float(along) / float(sums.rows);
+  EdgeSums sums;
+  if (n == 0) return sums;
+  Reduce(lanes, line.sign / float(EdgeKernel::kScale), sums);
+  sums.rows = float(n);
+  sums.along = float(along) / sums.rows;
   sums.inverse = sums.strength != 0 ? 1 / sums.strength : 0;
   // The kernels of the nearest phase were used; this brings the sums to the line itself.
-  const float mean = float(remainder) / float(sums.rows) - 0.5F * (1 << kRemainderBits);
+  const float mean = float(remainder) / sums.rows - 0.5F * (1 << kRemainderBits);
   const float offset = mean / (EdgeKernelSet::kPhases << kRemainderBits);
   for (int i = 0; i < 2; ++i) sums.imbalance[i] -= offset * sums.sharpness[i];
   return sums;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <opencv2/core/mat.hpp>
 
@@ -23,6 +24,10 @@ struct AxisLine {
     return width == KernelWidth::kWide ? *wide : *narrow;
   }
   double Across(double along) const { return offset + slope * (along - origin); }
+  /// In the image [px].
+  Eigen::Vector2d Point(double along, double at) const {
+    return steep ? Eigen::Vector2d(at, along) : Eigen::Vector2d(along, at);
+  }
   /// Length along the line per unit of `along`.
   double Stretch() const { return std::sqrt(1 + slope * slope); }
 };
@@ -30,8 +35,8 @@ struct AxisLine {
 /// Derivatives of the grey values across a line, summed over a few rows, signed so that strength and
 /// sharpness are positive where the line lies on an edge of its contrast.
 struct EdgeSums {
-  int rows = 0;
   float along = 0;     ///< mean row
+  float rows = 0;      ///< how many
   float strength = 0;  ///< first derivative
   float inverse = 0;   ///< 1 / strength, 0 where there is none
   /// Second derivative and minus third, for each KernelWidth: their quotient is how far beside the line the

@@ -9,8 +9,14 @@ namespace {
 /// Sobel sum (of the smoothed image) that a step of one grey value gives.
 constexpr double kSobelPerGrey = 2.3;
 
-double Extent(const RoughLine& line) {
-  return std::max(std::abs(line.x2 - line.x1), std::abs(line.y2 - line.y1));
+/// Numbers of `lines`, the longest first.
+void SortByExtent(const std::vector<RoughLine>& lines, std::vector<std::pair<float, int>>& order) {
+  order.clear();
+  for (const RoughLine& line : lines) {
+    const double extent = std::max(std::abs(line.x2 - line.x1), std::abs(line.y2 - line.y1));
+    order.emplace_back(-float(extent), int(order.size()));
+  }
+  std::sort(order.begin(), order.end());
 }
 
 }  // namespace
@@ -37,10 +43,10 @@ void EdgeOperator::Extract(const cv::Mat& image, EdgeImage& out) {
   EdgeRefiner::Options refit = options_.refit;
   refit.min_contrast = options_.min_contrast, refit.min_length_px = options_.min_length_px;
   // The longest first: they run on over their own broken pieces, which need not be looked at any more.
-  std::stable_sort(rough_.begin(), rough_.end(),
-                   [](const RoughLine& a, const RoughLine& b) { return Extent(a) > Extent(b); });
+  SortByExtent(rough_, order_);
   found_.Clear(image.cols, image.rows);
-  for (const RoughLine& line : rough_) {
+  for (const auto& [extent, i] : order_) {
+    const RoughLine& line = rough_[i];
     if (found_.Covers(line, out.segments) || !refiner_.Refine(line, refit, out)) continue;
     const EdgeSegment& segment = out.segments.back();
     const RoughLine refined{segment.begin.x(), segment.begin.y(), segment.end.x(), segment.end.y()};

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <utility>
+#include <vector>
 
 #include "head/core/chain_split.hpp"
 #include "head/core/edge_chains.hpp"
@@ -42,6 +44,7 @@ class EdgeOperator {
 
   EdgeChains chains_;
   std::vector<RoughLine> rough_;
+  std::vector<std::pair<float, int>> order_;
 };
 
 }  // namespace priamos::head

@@ -12,10 +12,10 @@ SegmentIndex::SegmentIndex(int width_px, int height_px, double cell_px)
       first_(std::size_t(columns_) * rows_, -1) {}
 
 int SegmentIndex::Column(double x) const {
-  return static_cast<int>(std::clamp(std::floor(x / cell_px_), 0.0, columns_ - 1.0));
+  return static_cast<int>(std::clamp(x / cell_px_, 0.0, columns_ - 1.0));
 }
 int SegmentIndex::Row(double y) const {
-  return static_cast<int>(std::clamp(std::floor(y / cell_px_), 0.0, rows_ - 1.0));
+  return static_cast<int>(std::clamp(y / cell_px_, 0.0, rows_ - 1.0));
 }
 
 void SegmentIndex::Insert(int id, const Eigen::Vector2d& begin, const Eigen::Vector2d& end) {
