@@ -161,6 +161,7 @@ landmark_fix_t ToMessage(const LookAnswer& answer) {
   message.sigma_x_m = std::min(s.sigma_x, 1.0);
   message.sigma_y_m = std::min(s.sigma_y, 1.0);
   message.sigma_yaw_rad = std::min(s.sigma_yaw, 0.5);
+  message.own_share = static_cast<float>(std::clamp(answer.fix.own_share, 0.0, 1.0));
   message.rho_x_y = s.rho_x_y, message.rho_x_yaw = s.rho_x_yaw, message.rho_y_yaw = s.rho_y_yaw;
   return message;
 }

@@ -175,6 +175,7 @@ std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message) {
   fix.request_id = message.request_id;
   fix.base_from_landmark = {message.x_m, message.y_m, WrapAngle(message.yaw_rad)};
   fix.covariance = CovarianceOf(message);
+  fix.own_share = message.own_share;
   fix.map_from_landmark = {message.model_x_m, message.model_y_m, WrapAngle(message.model_yaw_rad)};
   return fix;
 }

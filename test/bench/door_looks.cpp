@@ -79,8 +79,9 @@ head::LandmarkModel ModelWithLeaf(double open_deg) {
 DoorPhotographer::DoorPhotographer() : graphics_(world::Renderer::HoldGraphics()) {}
 
 LandmarkLook DoorPhotographer::Take(std::uint64_t seed, Trouble trouble, const CalibratedHead& head,
-                                    const LookTolerances& tolerances, int side) {
-  const LookStage stage = MakeStage(seed, trouble);
+                                    const LookTolerances& tolerances, int side, int visit) {
+  LookStage stage = MakeStage(seed, trouble);
+  stage.visit = visit;
   LandmarkLook look = TakeLook(stage, head, tolerances, side, seed);
   look.is_there = trouble != Trouble::kDoorAbsent && trouble != Trouble::kAnotherDoor;
   look.leaf_open_deg = stage.plan.doors.empty() ? 0 : stage.plan.doors[0].open_deg;

@@ -22,7 +22,7 @@ class DoorPhotographer {
  public:
   DoorPhotographer();
   LandmarkLook Take(std::uint64_t seed, Trouble trouble, const CalibratedHead& head,
-                    const LookTolerances& tolerances = {}, int side = 0);
+                    const LookTolerances& tolerances = {}, int side = 0, int visit = 0);
 
  private:
   std::shared_ptr<void> graphics_;

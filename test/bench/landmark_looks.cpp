@@ -1,5 +1,7 @@
 #include "test/bench/landmark_looks.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "head/core/aim.hpp"
@@ -41,6 +43,10 @@ void DrawPoses(double distance_m, Rng& rng, LandmarkLook& look) {
   look.believed = believed.Inverse(), look.truth = truth.Inverse();
 }
 
+std::string NameOf(int side, int visit) {
+  return visit > 0 ? fmt::format("{} {}", side, visit) : fmt::format("{}", side);
+}
+
 }  // namespace
 
 std::string InSim(const std::string& name) {
@@ -61,20 +67,22 @@ LandmarkLook TakeLook(const LookStage& stage, const CalibratedHead& head, const 
   look.exact_model = ToHead(stage.landmark);
   look.model = Tolerated(look.exact_model, tolerances, rng);
   look.base_covariance = head.model.base_covariance;
-  DrawPoses(stage.distance_m + head.build.x_m, rng, look);
+  if (stage.visit > 0) rng = Rng::Stream(seed, fmt::format("visit {}", stage.visit));
+  const double distance_m = stage.visit > 0 ? rng.Uniform(1.8, 3.2) : stage.distance_m;
+  DrawPoses(distance_m + head.build.x_m, rng, look);
 
   const head::HeadSetting setting = look.setting = LookAt(head.model, look.exact_model, look.believed, side);
   world::RendererConfig config;
   config.scene = stage.light, config.head = head.build;
   world::Renderer renderer(config, world::BuildSolids(stage.map, stage.plan, seed), seed);
-  Rng motors = Rng::Stream(seed, "motors " + std::to_string(side));
+  Rng motors = Rng::Stream(seed, "motors " + NameOf(side, stage.visit));
   const world::HeadAxes axes = RestAfter(setting, motors);
   const Pose2 map_from_base = stage.landmark.map_from_landmark * look.truth.Inverse();
   const world::Exposure exposure{0.008, 1, 0, 0};
   const Twist2 twist{rng.Uniform(0, 0.3), 0, rng.Uniform(-0.05, 0.05)};
   const world::Viewpoint opening{Integrate(map_from_base, twist, -exposure.exposure_s / 2), axes},
       closing{Integrate(map_from_base, twist, exposure.exposure_s / 2), axes};
-  Rng noise = Rng::Stream(seed, "noise " + std::to_string(side));
+  Rng noise = Rng::Stream(seed, "noise " + NameOf(side, stage.visit));
   for (int c = 0; c < 2; ++c) {
     const GreyImage image = renderer.Expose(static_cast<world::Camera>(c), opening, closing, exposure, noise);
     look.images[c] =

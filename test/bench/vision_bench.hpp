@@ -29,6 +29,9 @@ void BenchDoor(const VisionOptions& options, Figures& figures);
 /// The same for cupboards of the map, and scenes that deceive: absent, another one, half hidden, nearly dark.
 void BenchCupboard(const VisionOptions& options, Figures& figures);
 
+/// Several looks at one door, combined by the robot's filter: is its covariance honest?
+void BenchRepeated(const VisionOptions& options, Figures& figures);
+
 /// Where the error of a fix comes from: each source of errors alone, beside what an efficient estimator could
 /// reach (Cramer-Rao).
 void BenchBudget(const VisionOptions& options, Figures& figures);

@@ -70,49 +70,6 @@ void Looks(const VisionOptions& options, Figures& figures) {
 #endif
 }
 
-/// The paper's way: the left and the right side of the door from two positions of the head, each look a fix,
-/// and both combined as a filter does it.
-void TwoSides(const VisionOptions& options, Figures& figures) {
-  const int n = options.quick ? 12 : 120;
-  fmt::print("left and right side of the door from two head positions, {} times\n", n);
-  DoorPhotographer photographer;
-  Fixer fixer;
-  FixSeries series[3];
-  for (int i = 0; i < n; ++i) {
-    const std::uint64_t seed = options.seed + i;
-    const CalibratedHead head = CalibrateSpecimen(seed);
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-    int found = 0;
-    for (const int side : {1, 2}) {
-      const LandmarkLook look = photographer.Take(seed, Trouble::kNone, head, {}, side);
-      const LandmarkFix fix = fixer.Find(look, Told(look), look.model, look.calibrated);
-      ++series[side - 1].looks;
-      if (fix.verdict != Verdict::kFound) continue;
-      const Eigen::Vector3d error = ErrorOf(fix.base_from_landmark, look.truth);
-      series[side - 1].Add(error, fixer.seconds);
-      information += fix.covariance.inverse(), weighted += fix.covariance.inverse() * error;
-      ++found;
-    }
-    ++series[2].looks;
-    if (found < 2) continue;
-    const Eigen::Vector3d error = information.inverse() * weighted;
-    series[2].Add(error, 0);
-    series[2].nees.push_back(error.dot(information * error) / 3);
-  }
-  constexpr const char* kNames[] = {"left", "right", "both combined"};
-  for (int k = 0; k < 3; ++k)
-    fmt::print(
-        "  {}: {} of {} right, {} wrong; median {:.2f} mm lateral, {:.2f} mm depth, {:.3f} degrees; "
-        "95 % {:.2f} mm, {:.2f} mm, {:.3f} degrees\n",
-        kNames[k], series[k].good, series[k].looks, series[k].wrong, Quantile(series[k].lateral, 0.5),
-        Quantile(series[k].depth, 0.5), Quantile(series[k].yaw, 0.5), Quantile(series[k].lateral, 0.95),
-        Quantile(series[k].depth, 0.95), Quantile(series[k].yaw, 0.95));
-  figures.Note("  both: squared error over covariance, as if they had nothing in common",
-               series[2].MeanNees(), "");
-  figures.AtMost("  both: silent wrong fixes", series[2].wrong, 0, "");
-}
-
 /// Scenes made to deceive: the answer may be "not found", never a wrong pose.
 void Deceptions(const VisionOptions& options, Figures& figures) {
   const int n = options.quick ? 20 : 200;
@@ -196,7 +153,6 @@ void BenchLeaves(const VisionOptions& options, Figures& figures) {
 
 void BenchDoor(const VisionOptions& options, Figures& figures) {
   Looks(options, figures);
-  TwoSides(options, figures);
 }
 
 void BenchDeceptions(const VisionOptions& options, Figures& figures) {

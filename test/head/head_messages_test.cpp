@@ -38,6 +38,16 @@ TEST(HeadMessagesTest, AViewComesBackAsItWas) {
   }
 }
 
+TEST(HeadMessagesTest, AFixTellsWhatOfItsCovarianceIsItsOwn) {
+  LookAnswer answer = Answer(1);
+  answer.fix.verdict = Verdict::kFound;
+  answer.fix.covariance = Eigen::Vector3d(1e-4, 4e-4, 1e-6).asDiagonal();
+  answer.fix.own_share = 0.125;
+  EXPECT_EQ(ToMessage(answer).own_share, 0.125);
+  answer.fix.own_share = 1.0000001;  // rounding
+  EXPECT_EQ(ToMessage(answer).own_share, 1);
+}
+
 TEST(HeadMessagesTest, AViewHasRoomForTwentyEightEdgesAndCountsTheOthers) {
   const landmark_view_t message = ViewMessage(Answer(60));
   EXPECT_EQ(message.n_edges, 28);

@@ -38,6 +38,7 @@ landmark_fix_t SomeFix() {
   message.sigma_y_m = 0.01;
   message.sigma_yaw_rad = 0.005;
   message.rho_y_yaw = -0.5;
+  message.own_share = 0.25F;
   message.model_x_m = 6;
   message.model_y_m = 2.4;
   return message;
@@ -102,6 +103,7 @@ TEST(FixMessages, FoundGivesSightModelAndCovariance) {
   EXPECT_EQ(dut->base_from_landmark.x, 2.4);
   EXPECT_EQ(dut->map_from_landmark.y, 2.4);
   EXPECT_NEAR(dut->covariance(1, 2), -0.5 * 0.01 * 0.005, 1e-12);
+  EXPECT_EQ(dut->own_share, 0.25);
 }
 
 TEST(FixMessages, NotFoundGivesNoFixButAnAnswer) {
@@ -115,16 +117,17 @@ TEST(FixMessages, NotFoundGivesNoFixButAnAnswer) {
 }
 
 TEST(FixMessages, NumbersThatMakeNoSenseBecomeAFixThatIsRefused) {
-  landmark_fix_t negative = SomeFix(), odd = SomeFix(), correlated = SomeFix();
+  landmark_fix_t negative = SomeFix(), odd = SomeFix(), correlated = SomeFix(), shared = SomeFix();
   negative.sigma_x_m = -1;
   odd.sigma_yaw_rad = kNaN;
   correlated.rho_x_y = 3;
+  shared.own_share = 2;
   Localiser localiser{LocaliserConfig{}, MecanumGeometry{}};
   for (int i = 0; i < 5; ++i) {
     const Time time = FromUtime(980'000 + i * 20'000);
     localiser.AddWheels({.time = time}, time);
   }
-  for (const landmark_fix_t& message : {negative, odd, correlated}) {
+  for (const landmark_fix_t& message : {negative, odd, correlated, shared}) {
     localiser.AddFix(*FromMessage(message), kNow);
     EXPECT_EQ(localiser.Step(kNow).at(0).result.verdict, FixVerdict::kImplausible);
   }

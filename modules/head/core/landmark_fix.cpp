@@ -214,6 +214,7 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
                            const Pose& best, LandmarkFix& fix) const {
   fix.base_from_landmark = best.base_from_landmark;
   fix.covariance = OnFloor(best.solution.covariance);
+  fix.own_share = best.solution.own_share;
   fix.n_matched = static_cast<int>(best.association.matches.size());
   fix.residual_px = best.solution.rms_px;
   fix.misfit = best.solution.misfit;

@@ -42,6 +42,7 @@ struct LandmarkFix {
   Verdict verdict = Verdict::kNoImage;
   Pose2 base_from_landmark;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
+  double own_share = 0;                                  ///< of the covariance: PoseSolution
   int n_matched = 0;                                     ///< model edges found, all images together
   double residual_px = 0;                                ///< RMS distance of the matched edges from the model
   double misfit = 0;                                     ///< PoseSolution::misfit

@@ -136,6 +136,7 @@ class Problem {
     const Eigen::Index d = free_.cols(), n = distance_.size();
     solution.covariance = free_ * information_.solve(Eigen::MatrixXd::Identity(d, d)) * free_.transpose();
     if (!solution.covariance.allFinite()) return;
+    solution.own_share = OwnShare();
     const double chi_squared = (white_distance_ - white_jacobian_ * step).squaredNorm();
     solution.misfit = chi_squared / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
     if (options_.find_suspect) solution.suspect = FindSuspect();
@@ -144,6 +145,19 @@ class Problem {
     solution.rms_px = std::sqrt(sum / static_cast<double>(n));
     solution.base_from_landmark = pose_;
     solution.ok = true;
+  }
+
+  /// The estimate moves by P J' V^-1 times the errors of the distances. So a part C of their covariance V
+  /// makes P (A' C A) P of P, where A = V^-1 J: as a share of it trace(A' C A P) / d, and all parts
+  /// together 1.
+  double OwnShare() const {
+    const Eigen::Index d = free_.cols();
+    const Eigen::MatrixXd a = whitening_.matrixU().solve(white_jacobian_);
+    const Eigen::MatrixXd weighted = information_.solve(a.transpose());
+    double share = 0;
+    for (Eigen::Index i = 0; i < a.rows(); ++i)
+      share += sights_[i].variance * a.row(i).dot(weighted.col(i)) / static_cast<double>(d);
+    return share;
   }
 
   /// Leaving some of the sights out takes r' (P_ss)^-1 r from chi squared, where P projects out what the pose

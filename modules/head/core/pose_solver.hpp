@@ -36,6 +36,9 @@ struct PoseSolution {
   Eigen::Isometry3d base_from_landmark = Eigen::Isometry3d::Identity();
   /// Of (x, y, z, roll, pitch, yaw) as in PoseJacobian; zero where fixed.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Of the covariance, as the mean over all its directions, what the noise of edges makes. The rest comes
+  /// from the model and the calibration: another look repeats it.
+  double own_share = 0;
   double rms_px = 0;  ///< of the mean distances of the edges from the model, all images
   /// Chi squared per degree of freedom under all errors that are expected: about 1 for the right edges, large
   /// for wrong ones.

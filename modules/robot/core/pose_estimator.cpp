@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -40,8 +41,8 @@ void PoseEstimatorConfig::Describe(Archive& a) {
   a.Number("history_s", history_s, {"s", 0.5, 60, "oldest picture that can still correct the pose"});
   a.Number("gate_distance", gate_distance,
            {"-", 1, 20, "Mahalanobis distance beyond which a fix is refused"});
-  a.Number("least_fix_sigma_m", least_fix_sigma_m, {"m", 1e-4, 0.5, "no fix is believed to be better"});
-  a.Number("least_fix_sigma_deg", least_fix_sigma_deg, {"deg", 1e-3, 10, "no fix is believed to be better"});
+  a.Number("least_fix_sigma_m", least_fix_sigma_m, {"m", 1e-5, 0.5, "no fix is believed to be better"});
+  a.Number("least_fix_sigma_deg", least_fix_sigma_deg, {"deg", 1e-4, 10, "no fix is believed to be better"});
   a.Section("initial", initial, "what the robot is told about its place; errors are bounds, not sigmas");
   a.Section("bias", bias, "constant errors of the odometry, sigma before the first fix");
 }
@@ -78,13 +79,11 @@ void PoseEstimator::Move(const OdometryStep& step) {
   Forget();
 }
 
-FixResult PoseEstimator::Apply(const LandmarkFix& given) {
-  if (const auto refused = RefuseByForm(given)) return *refused;
-  const LandmarkFix fix = WithFloor(given);
+FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
+  if (const auto refused = RefuseByForm(fix)) return *refused;
   const std::size_t index = EntryAt(fix.exposure);
   Entry& entry = history_[index];
-  const SightUpdate update =
-      UpdatedBySight(entry.state, fix.base_from_landmark, fix.covariance, fix.map_from_landmark);
+  const SightUpdate update = UpdatedBySight(entry.state, SightOf(fix));
 
   FixResult result;
   result.distance = update.distance;
@@ -129,6 +128,8 @@ std::optional<FixResult> PoseEstimator::RefuseByForm(const LandmarkFix& fix) con
   };
   if (!IsFinite(fix.base_from_landmark) || !IsFinite(fix.map_from_landmark) || !fix.covariance.allFinite())
     return because(FixVerdict::kImplausible, "not a finite pose");
+  if (!(fix.own_share >= 0 && fix.own_share <= 1) || SightOf(fix).covariance.llt().info() != Eigen::Success)
+    return because(FixVerdict::kImplausible, "its covariance makes no sense");
   if (history_.empty() || fix.exposure > history_.back().step.to)
     return because(FixVerdict::kTooNew, "no odometry for the time of the picture yet");
   refused.at_picture = EstimateAt(history_.back());
@@ -144,12 +145,12 @@ std::optional<FixResult> PoseEstimator::RefuseByForm(const LandmarkFix& fix) con
   return std::nullopt;
 }
 
-LandmarkFix PoseEstimator::WithFloor(const LandmarkFix& fix) const {
-  LandmarkFix floored = fix;
+Sight PoseEstimator::SightOf(const LandmarkFix& fix) const {
   const Eigen::Vector3d least(config_.least_fix_sigma_m, config_.least_fix_sigma_m,
                               Radians(config_.least_fix_sigma_deg));
-  floored.covariance.diagonal() += least.cwiseAbs2();
-  return floored;
+  Sight sight{fix.base_from_landmark, fix.covariance, fix.map_from_landmark, fix.own_share};
+  sight.covariance.diagonal() += least.cwiseAbs2();
+  return sight;
 }
 
 /// The last entry at `time`, which lies within the history; a step that contains it is cut there.
@@ -172,9 +173,7 @@ void PoseEstimator::Replay(std::size_t from) {
     Entry& entry = history_[i];
     entry.state = Propagated(history_[i - 1].state, entry.step);
     if (!entry.fix) continue;
-    const LandmarkFix& fix = *entry.fix;
-    entry.state =
-        UpdatedBySight(entry.state, fix.base_from_landmark, fix.covariance, fix.map_from_landmark).state;
+    entry.state = UpdatedBySight(entry.state, SightOf(*entry.fix)).state;
   }
 }
 

@@ -26,9 +26,9 @@ struct PoseEstimatorConfig {
   InitialPose initial;
   OdometryBias bias;
   double history_s = 10;
-  double gate_distance = 4.0;  ///< 3 degrees of freedom: a true fix lies beyond 4.0 once in 900
-  double least_fix_sigma_m = 0.002;
-  double least_fix_sigma_deg = 0.05;
+  double gate_distance = 4.0;         ///< 3 degrees of freedom: a true fix lies beyond 4.0 once in 900
+  double least_fix_sigma_m = 0.0003;  ///< 1 ms at 0.3 m/s: how well the moment of a picture is known
+  double least_fix_sigma_deg = 0.01;
 
   void Describe(Archive& a);
 };
@@ -40,6 +40,7 @@ struct LandmarkFix {
   Pose2 base_from_landmark;                                  ///< X_rec
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw) of X_rec
   Pose2 map_from_landmark;                                   ///< X_mod
+  double own_share = 1;  ///< of the covariance, what no other look repeats
 };
 
 struct PoseEstimate {
@@ -65,8 +66,8 @@ struct FixResult {
 
 /// The pose in the map. Odometry carries it; a fix corrects it *at the time of its picture* and everything
 /// driven since is carried forward from there. So a fix may be seconds old, and two fixes may come in either
-/// order with the same result. Fixes that contradict estimate and covariance are refused: one wrong door
-/// must not move the robot.
+/// order with the same result. What several looks err by alike does not average out. Fixes that contradict
+/// estimate and covariance are refused: one wrong door must not move the robot.
 class PoseEstimator {
  public:
   explicit PoseEstimator(const PoseEstimatorConfig& config);
@@ -87,7 +88,7 @@ class PoseEstimator {
   };
 
   std::optional<FixResult> RefuseByForm(const LandmarkFix& fix) const;
-  LandmarkFix WithFloor(const LandmarkFix& fix) const;
+  Sight SightOf(const LandmarkFix& fix) const;
   std::size_t EntryAt(Time time);
   void Replay(std::size_t from);
   PoseEstimate EstimateAt(const Entry& entry) const;

@@ -1,6 +1,7 @@
 #include "robot/core/pose_state.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "robot/core/landmark_correction.hpp"
@@ -10,6 +11,7 @@ namespace {
 
 using Matrix = PoseState::Matrix;
 using Gain = Eigen::Matrix<double, PoseState::kSize, 3>;
+using Derivative = Eigen::Matrix<double, 3, PoseState::kSize>;
 using Bias = Eigen::Matrix<double, 3, 5>;
 
 enum BiasIndex { kForward, kSideways, kYaw, kYawPerMetre, kDrift };
@@ -34,6 +36,55 @@ PoseState::Vector Minus(const PoseState::Vector& a, const PoseState::Vector& b) 
   PoseState::Vector d = a - b;
   d(2) = WrapAngle(d(2));
   return d;
+}
+
+/// The covariance after an update; this form stays symmetric and positive whatever was rounded.
+Matrix Joseph(const Gain& gain, const Derivative& h, const Matrix& prior, const Eigen::Matrix3d& sight) {
+  const Matrix keep = Matrix::Identity() - gain * h;
+  return keep * prior * keep.transpose() + gain * sight * gain.transpose();
+}
+
+/// Estimate and sight with their repeated parts widened so far that they count as independent.
+struct Fusion {
+  Matrix prior;
+  Eigen::Matrix3d sight;
+
+  Gain GainFor(const Derivative& h) const {
+    const Eigen::Matrix3d spread = h * prior * h.transpose() + sight;
+    return spread.ldlt().solve(h * prior).transpose();
+  }
+};
+
+/// `weight` of the estimate, in (0, 1); the sight has the rest.
+Fusion Weighed(const PoseState& prior, const Sight& sight, double weight) {
+  return {prior.covariance + (1 / weight - 1) * prior.repeated,
+          (sight.own_share + (1 - sight.own_share) / (1 - weight)) * sight.covariance};
+}
+
+/// The weight after which the state is known best (golden section over the determinant, whose logarithm is
+/// convex): of all of it, lest what the sight does not show be widened for nothing.
+Fusion BestFusion(const PoseState& prior, const Sight& sight, const Derivative& h) {
+  constexpr double kLeast = 1e-4, kGolden = 0.618, kExact = 1e-12;
+  constexpr int kSteps = 20;
+  if (prior.repeated.isZero(0) || sight.own_share >= 1) return {prior.covariance, sight.covariance};
+  const auto spread = [&](double weight) {
+    const Fusion fusion = Weighed(prior, sight, weight);
+    const Matrix after = Joseph(fusion.GainFor(h), h, fusion.prior, fusion.sight);
+    return (after + kExact * Matrix::Identity()).determinant();
+  };
+  double low = kLeast, high = 1 - kLeast;
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  double at_a = spread(a), at_b = spread(b);
+  for (int i = 0; i < kSteps; ++i) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a;
+      at_a = spread(a = high - kGolden * (high - low));
+    } else {
+      low = a, a = b, at_a = at_b;
+      at_b = spread(b = low + kGolden * (high - low));
+    }
+  }
+  return Weighed(prior, sight, (low + high) / 2);
 }
 
 }  // namespace
@@ -71,40 +122,42 @@ PoseState Propagated(const PoseState& state, const OdometryStep& step) {
   f(1, 2) = after.x - before.x;
   f.topRightCorner<3, 5>() = by_increment * ByBias(Measured(step.twist, dt));
   next.covariance = f * state.covariance * f.transpose();
+  next.repeated = f * state.repeated * f.transpose();
   next.covariance.topLeftCorner<3, 3>() += by_increment * step.noise * by_increment.transpose();
   return next;
 }
 
-SightUpdate UpdatedBySight(const PoseState& prior, const Pose2& base_from_landmark,
-                           const Eigen::Matrix3d& covariance, const Pose2& map_from_landmark) {
+SightUpdate UpdatedBySight(const PoseState& prior, const Sight& sight) {
   constexpr int kIterations = 6;
-  const Pose2 start =
-      Corrected(prior.pose(), CorrectionFrom(prior.pose(), base_from_landmark, map_from_landmark));
+  const Pose2 start = Corrected(
+      prior.pose(), CorrectionFrom(prior.pose(), sight.base_from_landmark, sight.map_from_landmark));
+  Derivative h = Derivative::Zero();
+  h.leftCols<3>() = ExpectSight(start, sight.map_from_landmark).by_pose;
+  const Fusion fusion = BestFusion(prior, sight, h);
   PoseState::Vector at = prior.mean;
   at.head<3>() << start.x, start.y, start.yaw;
 
   Gain gain;
-  Eigen::Matrix<double, 3, PoseState::kSize> h = Eigen::Matrix<double, 3, PoseState::kSize>::Zero();
   double squared_distance = 0;
   for (int i = 0; i < kIterations; ++i) {
-    const ExpectedSight expected = ExpectSight({at(0), at(1), at(2)}, map_from_landmark);
+    const ExpectedSight expected = ExpectSight({at(0), at(1), at(2)}, sight.map_from_landmark);
     h.leftCols<3>() = expected.by_pose;
-    const Eigen::Vector3d residual(base_from_landmark.x - expected.base_from_landmark.x,
-                                   base_from_landmark.y - expected.base_from_landmark.y,
-                                   WrapAngle(base_from_landmark.yaw - expected.base_from_landmark.yaw));
+    const Eigen::Vector3d residual(sight.base_from_landmark.x - expected.base_from_landmark.x,
+                                   sight.base_from_landmark.y - expected.base_from_landmark.y,
+                                   WrapAngle(sight.base_from_landmark.yaw - expected.base_from_landmark.yaw));
     const Eigen::Vector3d innovation = residual - h * Minus(prior.mean, at);
-    const auto spread = Eigen::Matrix3d(h * prior.covariance * h.transpose() + covariance).ldlt();
-    gain = spread.solve(h * prior.covariance).transpose();
-    squared_distance = innovation.dot(spread.solve(innovation));
+    gain = fusion.GainFor(h);
+    const Eigen::Matrix3d spread = h * prior.covariance * h.transpose() + sight.covariance;
+    squared_distance = innovation.dot(spread.ldlt().solve(innovation));
     at = prior.mean + gain * innovation;
     at(2) = WrapAngle(at(2));
   }
 
   SightUpdate update{prior, std::sqrt(std::max(0.0, squared_distance))};
   update.state.mean = at;
-  // Joseph's form stays symmetric and positive whatever was rounded.
-  const Matrix keep = Matrix::Identity() - gain * h;
-  update.state.covariance = keep * prior.covariance * keep.transpose() + gain * covariance * gain.transpose();
+  const Matrix own = Joseph(gain, h, prior.covariance - prior.repeated, sight.own_share * sight.covariance);
+  update.state.covariance = Joseph(gain, h, fusion.prior, fusion.sight);
+  update.state.repeated = update.state.covariance - own;
   return update;
 }
 

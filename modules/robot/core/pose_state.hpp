@@ -29,6 +29,7 @@ struct PoseState {
 
   Vector mean = Vector::Zero();
   Matrix covariance = Matrix::Zero();
+  Matrix repeated = Matrix::Zero();  ///< part of it: errors of earlier looks that the next one may repeat
 
   Pose2 pose() const { return {mean(0), mean(1), mean(2)}; }
   Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }
@@ -40,6 +41,15 @@ Twist2 Unbiased(const PoseState& state, const Twist2& twist);
 /// The state after `step`.
 PoseState Propagated(const PoseState& state, const OdometryStep& step);
 
+/// One sight of a landmark. Looks repeat the errors of its model and of the head's calibration, each time
+/// from elsewhere and with other edges: that they are correlated is known, but not how.
+struct Sight {
+  Pose2 base_from_landmark;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw); positive definite
+  Pose2 map_from_landmark;
+  double own_share = 1;  ///< of the covariance, what no other look repeats
+};
+
 /// Covariance-weighted update with one sight of a landmark.
 struct SightUpdate {
   PoseState state;
@@ -48,8 +58,9 @@ struct SightUpdate {
 
 /// Iterated Kalman update (the maximum a posteriori estimate: Bell and Cathey, "The iterated Kalman filter
 /// update as a Gauss-Newton method", IEEE Trans. Automatic Control 1993), started at the pose that equations
-/// 8 and 9 give. `covariance` is that of (x, y, yaw) of `base_from_landmark` and must be positive definite.
-SightUpdate UpdatedBySight(const PoseState& prior, const Pose2& base_from_landmark,
-                           const Eigen::Matrix3d& covariance, const Pose2& map_from_landmark);
+/// 8 and 9 give. What looks repeat is weighed by split covariance intersection (Julier and Uhlmann, "General
+/// decentralized data fusion with covariance intersection", Handbook of Multisensor Data Fusion 2001): the
+/// covariance is honest whatever the correlation, two looks that err alike tell no more than one.
+SightUpdate UpdatedBySight(const PoseState& prior, const Sight& sight);
 
 }  // namespace priamos::robot

@@ -119,6 +119,22 @@ TEST_F(PoseSolverTest, CovarianceIsHonest) {
   EXPECT_LT(nees, 1.2);
 }
 
+TEST_F(PoseSolverTest, TellsHowMuchOfTheCovarianceIsThePicturesOwn) {
+  Rng rng(5);
+  const auto observations = Observe(door_, cameras_, Lift({3.0, 0.05, -0.04}), 0.1, rng);
+  PoseSolverOptions options;
+  options.model_sigma_m = options.tilt_sigma_m = options.movable_sigma_m = options.camera_sigma_px = 1e-9;
+  const auto share = [&] {
+    return SolvePose(door_, cameras_, observations, Lift({3, 0, 0}), options).own_share;
+  };
+  EXPECT_NEAR(share(), 1, 1e-3);
+  options.model_sigma_m = options.tilt_sigma_m = options.movable_sigma_m = 0.03;
+  EXPECT_LT(share(), 0.02);
+  options.model_sigma_m = options.tilt_sigma_m = options.movable_sigma_m = 1e-9;
+  options.base_covariance = PlacementCovariance({2.05, 0, 1.2}, 0.01, 0.01);
+  EXPECT_LT(share(), 0.02);
+}
+
 TEST_F(PoseSolverTest, PointsOutTheEdgeThatIsNotTheModels) {
   Rng rng(5);
   const Eigen::Isometry3d truth = Lift({3.0, 0.0, 0.0});

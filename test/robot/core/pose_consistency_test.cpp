@@ -89,5 +89,48 @@ TEST(PoseConsistency, TheErrorIsAsLargeAsTheCovarianceSays) {
   }
 }
 
+/// A head that is calibrated wrongly and a door that stands elsewhere: every look has the same error, seen
+/// from where the robot is, and little of its own.
+double NeesAfterLooks(int looks, double own_share_told) {
+  double sum = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    Rng rng = Rng::Stream(static_cast<std::uint64_t>(run), "repeated looks");
+    const Pose2 head_error{rng.Normal(0.002), rng.Normal(0.002), rng.Normal(0.002)};
+    const Pose2 door_error{rng.Normal(0.003), rng.Normal(0.003), rng.Normal(0.002)};
+    Pose2 truth{2 + rng.Uniform(-0.2, 0.2), 2.4 + rng.Uniform(-0.2, 0.2), Radians(rng.Uniform(-5, 5))};
+    PoseEstimatorConfig config;
+    config.initial = {.x_m = 2, .y_m = 2.4};
+    config.bias = {1e-6, 1e-6, 1e-6, 1e-6, 1e-6};
+    PoseEstimator dut(config);
+    Time now = FromUtime(1'000'000);
+    for (int look = 0; look < looks; ++look) {
+      const Twist2 twist{0.6, 0.1 - 0.05 * look, 0.05};
+      dut.Move({.from = now, .to = now + milliseconds(500), .twist = twist});
+      now += milliseconds(500);
+      truth = Integrate(truth, twist, 0.5);
+      const Pose2 seen = head_error * (truth.Inverse() * (kDoor * door_error));
+      // What such errors make of a fix from here.
+      Eigen::Matrix3d by_head = Eigen::Matrix3d::Identity();
+      by_head.topRightCorner<2, 1>() << -seen.y, seen.x;
+      const Eigen::Matrix3d covariance =
+          by_head * Eigen::Vector3d(4e-6, 4e-6, 4e-6).asDiagonal() * by_head.transpose() +
+          Eigen::Matrix3d(Eigen::Vector3d(9e-6, 9e-6, 4e-6).asDiagonal());
+      EXPECT_EQ(dut.Apply({now, look, seen, covariance, kDoor, own_share_told}).verdict,
+                FixVerdict::kApplied);
+    }
+    sum += Nees(*dut.newest(), truth) / kRuns;
+  }
+  return sum;
+}
+
+TEST(PoseConsistency, LooksAtOneDoorDoNotPretendToBeIndependent) {
+  EXPECT_GT(NeesAfterLooks(5, 1), 9) << "this test shows nothing";
+  for (const int looks : {1, 2, 5}) {
+    const double nees = NeesAfterLooks(looks, 0);
+    EXPECT_GT(nees, 1.9) << looks;
+    EXPECT_LT(nees, 3.6) << looks;
+  }
+}
+
 }  // namespace
 }  // namespace priamos::robot

@@ -165,12 +165,26 @@ TEST_F(PoseEstimatorTest, AFixThatIsNotANumberIsRefused) {
   EXPECT_TRUE(dut_.newest()->covariance.allFinite());
 }
 
+TEST_F(PoseEstimatorTest, ACovarianceThatCanBeNoneIsRefused) {
+  Drive(dut_, 0, 50);
+  const LandmarkFix fix = Fix(At(30), {1.3, 0.6, 0.06});
+  LandmarkFix indefinite = fix;
+  indefinite.covariance(0, 1) = indefinite.covariance(1, 0) = 0.1;
+  EXPECT_EQ(dut_.Apply(indefinite).verdict, FixVerdict::kImplausible);
+  for (const double share : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+    LandmarkFix odd = fix;
+    odd.own_share = share;
+    EXPECT_EQ(dut_.Apply(odd).verdict, FixVerdict::kImplausible) << share;
+  }
+  EXPECT_EQ(dut_.Apply(fix).verdict, FixVerdict::kApplied);
+}
+
 TEST_F(PoseEstimatorTest, AFixThatClaimsToBeExactIsNotBelievedToBe) {
   Drive(dut_, 0, 50);
   LandmarkFix fix = Fix(At(50), {1.4, 0.62, 0.1});
   fix.covariance.setZero();
   EXPECT_EQ(dut_.Apply(fix).verdict, FixVerdict::kApplied);
-  EXPECT_GE(dut_.newest()->YawSigma(), 0.9 * Radians(0.05));
+  EXPECT_GE(dut_.newest()->YawSigma(), 0.9 * Radians(Config().least_fix_sigma_deg));
 }
 
 TEST_F(PoseEstimatorTest, AfterATimeThatStepsBackTheStateIsKeptAndTheHistoryBeginsAnew) {
