@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "head/calibration_file.hpp"
+#include "head/core/edge_observations.hpp"
 #include "head/core/epipolar_shift.hpp"
 #include "head/vision_options.hpp"
 

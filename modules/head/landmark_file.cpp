@@ -35,9 +35,19 @@ struct CornersEntry {
   std::vector<int> indices() const { return {points.begin(), points.end()}; }
 };
 
+struct FaceEntry : CornersEntry {
+  double grey = 0;
+
+  void Describe(Archive& a) {
+    CornersEntry::Describe(a);
+    a.Number("grey", grey, {"-", 0, 255, "how bright it is beside the other faces; 0: not known"});
+  }
+};
+
 struct PolyhedronFile {
   std::vector<PointEntry> points;
-  std::vector<CornersEntry> faces, lines;
+  std::vector<FaceEntry> faces;
+  std::vector<CornersEntry> lines;
 
   void Describe(Archive& a) {
     a.List("points", points, "corners of the body");
@@ -60,7 +70,8 @@ Polyhedron LoadToml(const std::string& file) {
   const auto read = LoadConfig<PolyhedronFile>(file);
   Polyhedron body;
   for (const PointEntry& p : read.points) body.points.emplace_back(p.at_m[0], p.at_m[1], p.at_m[2]);
-  for (const CornersEntry& face : read.faces) body.faces.push_back(face.indices());
+  for (const FaceEntry& face : read.faces)
+    body.faces.push_back(face.indices()), body.greys.push_back(face.grey);
   for (const CornersEntry& line : read.lines) body.lines.push_back({line.indices()[0], line.indices()[1]});
   if (const std::string why = WhyNoPolyhedron(body); !why.empty())
     throw std::runtime_error(fmt::format("{}: {}", file, why));

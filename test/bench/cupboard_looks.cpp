@@ -7,14 +7,16 @@
 namespace priamos::bench {
 namespace {
 
-constexpr double kDistance_m = 2.0;    // of the head
-constexpr double kWall_m = 4.8;        // the north wall, map
-constexpr double kPlinthShare = 0.05;  // of the height, as the front's picture has it
+constexpr double kDistance_m = 2.0;  // of the head
+constexpr double kWall_m = 4.8;      // the north wall, map
+// As the picture of the front has it, of its height and of its width.
+constexpr double kPlinthShare = 0.05, kGrooveShare = 6.5 / 512;
 
 CupboardPlan DrawCupboard(Rng& rng) {
   CupboardPlan cupboard;
   cupboard.width_m = rng.Uniform(0.8, 1.2), cupboard.depth_m = rng.Uniform(0.35, 0.5);
   cupboard.height_m = rng.Uniform(1.6, 2.0), cupboard.plinth_m = kPlinthShare * cupboard.height_m;
+  cupboard.gap_m = kGrooveShare * cupboard.width_m;
   cupboard.x_m = rng.Uniform(2.0, 4.0), cupboard.y_m = kWall_m - 0.03 - cupboard.depth_m;
   cupboard.yaw_deg = 90;
   return cupboard;

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "head/core/edge_observations.hpp"
 #include "head/core/prediction.hpp"
 #include "test/bench/door_looks.hpp"
 #include "test/bench/landmark_fixes.hpp"

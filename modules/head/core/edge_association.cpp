@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <iterator>
-#include <optional>
 
-#include "head/core/prediction.hpp"
+#include "head/core/edge_candidates.hpp"
+#include "head/core/landmark_corners.hpp"
 
 namespace priamos::head {
 namespace {
 
-constexpr std::size_t kMarksAtOnce = sizeof(std::uint64_t);  ///< most lines are far from most edges
 constexpr std::size_t kUsualCandidates = 16;
 constexpr int kSides = 4;                  ///< values of LandmarkEdge::side
 constexpr double kFullLengthPx = 40;       ///< shorter predictions count less
@@ -20,51 +17,6 @@ constexpr double kMinDensity = 0.01;       ///< similar edges per pixel: even a 
 constexpr double kFreeOvershootPx = 6;     ///< ends are not found better than that
 constexpr double kOvershootPenalty = 0.2;  ///< log odds lost per pixel beyond
 constexpr double kNearlyWhole = 0.6;       ///< covered share that counts as a whole edge
-
-/// A line relative to a predicted edge.
-struct Candidate {
-  int line;
-  double from, to;       ///< covered part of the prediction [px]
-  double before, after;  ///< how far it runs on beyond both ends of the prediction [px]
-  double distance;       ///< signed, at the middle of that part [px]
-  bool same_sign;        ///< bright side at the prediction's normal
-};
-
-std::optional<Candidate> Compare(const PredictedEdge& edge, const Eigen::Vector2d& direction,
-                                 const Eigen::Vector2d& normal, double length, const ViewLine& line,
-                                 int index, double reach_px, double max_angle) {
-  const double a = normal.dot(line.p - edge.p), b = normal.dot(line.q - edge.p);
-  if (std::min(std::abs(a), std::abs(b)) > reach_px && a * b > 0) return std::nullopt;
-  const double turn = std::abs(normal.dot(line.q - line.p));
-  if (turn > max_angle * line.length_px + 1.0) return std::nullopt;  // one pixel is noise for a short line
-  double s = direction.dot(line.p - edge.p), t = direction.dot(line.q - edge.p);
-  const double slope = (b - a) / (t - s);
-  if (s > t) std::swap(s, t);
-  const double from = std::max(s, 0.0), to = std::min(t, length);
-  if (to - from < 4) return std::nullopt;
-  const double start = direction.dot(line.p - edge.p);
-  const double distance = a + slope * ((from + to) / 2 - start);
-  if (std::abs(distance) > reach_px) return std::nullopt;
-  return Candidate{
-      index, from, to, std::max(0.0, -s), std::max(0.0, t - length), distance, normal.dot(line.normal) > 0};
-}
-
-/// Marks the lines that Compare may accept: all of them at once, with a little slack for single precision.
-void MarkNear(const LineTable& lines, const PredictedEdge& edge, double reach_px, double max_angle,
-              std::vector<std::uint8_t>& marks) {
-  constexpr float kSlack = 0.01F;
-  const Eigen::Vector2f n = edge.normal().cast<float>();
-  const float offset = n.dot(edge.p.cast<float>()), reach = static_cast<float>(reach_px) + kSlack;
-  const float angle = static_cast<float>(max_angle), one = 1.0F + kSlack;
-  marks.assign((lines.px.size() + kMarksAtOnce - 1) / kMarksAtOnce * kMarksAtOnce, 0);
-  for (std::size_t i = 0; i < lines.px.size(); ++i) {
-    const float a = n.x() * lines.px[i] + n.y() * lines.py[i] - offset;
-    const float b = n.x() * lines.qx[i] + n.y() * lines.qy[i] - offset;
-    const bool turned = std::abs(b - a) > angle * lines.length[i] + one;
-    const bool far = (a > reach && b > reach) || (a < -reach && b < -reach);
-    marks[i] = !(turned | far);
-  }
-}
 
 double Union(std::vector<std::pair<double, double>>& parts) {
   std::sort(parts.begin(), parts.end());
@@ -76,15 +28,23 @@ double Union(std::vector<std::pair<double, double>>& parts) {
   return covered;
 }
 
+/// What lies beside a line, as the prediction's direction has it (EdgeMatch::grey_ratio).
+double GreyRatio(const CameraView& view, const EdgeCandidate& c) {
+  constexpr double kBlack = 4;  // darker than that a ratio means nothing
+  const EdgeSegment& segment = view.edges->segments[view.lines[c.line].segment];
+  const double ratio = std::log(std::max(segment.grey_right, kBlack) / std::max(segment.grey_left, kBlack));
+  return c.same_sign ? ratio : -ratio;
+}
+
 /// The candidates of one contrast sign within the gate, as one match.
-EdgeMatch Collect(const std::vector<Candidate>& candidates, bool sign, const PredictedEdge& predicted,
-                  const AssociationOptions& options) {
+EdgeMatch Collect(const std::vector<EdgeCandidate>& candidates, bool sign, const PredictedEdge& predicted,
+                  const CameraView& view, const AssociationOptions& options) {
   const double length = predicted.length_px();
   EdgeMatch match;
   // The nearest long one decides where the edge is; others must continue it, not lie beside it.
-  const Candidate* best = nullptr;
+  const EdgeCandidate* best = nullptr;
   double best_value = 0;
-  for (const Candidate& c : candidates) {
+  for (const EdgeCandidate& c : candidates) {
     if (c.same_sign != sign || std::abs(c.distance) > options.gate_px) continue;
     const double value =
         (c.to - c.from) * std::exp(-0.5 * c.distance * c.distance / (options.sigma_px * options.sigma_px));
@@ -92,18 +52,21 @@ EdgeMatch Collect(const std::vector<Candidate>& candidates, bool sign, const Pre
   }
   if (!best) return match;
   std::vector<std::pair<double, double>> parts;
-  double sum = 0, weight = 0, before = 0, after = 0;
-  for (const Candidate& c : candidates) {
+  double sum = 0, weight = 0, ratio = 0, before = 0, after = 0, first = length, last = 0;
+  for (const EdgeCandidate& c : candidates) {
     if (c.same_sign != sign || std::abs(c.distance) > options.gate_px) continue;
     if (std::abs(c.distance - best->distance) > 2 * options.sigma_px) continue;
     match.lines.push_back(c.line);
     parts.emplace_back(c.from, c.to);
     sum += c.distance * (c.to - c.from), weight += c.to - c.from;
+    ratio += GreyRatio(view, c) * (c.to - c.from);
     before = std::max(before, c.before), after = std::max(after, c.after);
+    first = std::min(first, c.from), last = std::max(last, c.to);
   }
   match.overshoot_px = (predicted.p_is_end ? before : 0) + (predicted.q_is_end ? after : 0);
   match.covered = std::min(1.0, Union(parts) / length);
-  match.distance_px = sum / weight;
+  match.gap_px = {before > 0 ? -before : first, after > 0 ? -after : length - last};
+  match.distance_px = sum / weight, match.grey_ratio = ratio / weight;
   match.predicted_px = length;
   return match;
 }
@@ -120,12 +83,35 @@ Odds EdgeOdds(double distance, double density, const AssociationOptions& options
   return {std::max(missed, std::log(options.detection * gauss / density + (1 - options.detection))), missed};
 }
 
+/// Log odds of the grey values beside a match: as the model tells them but for light, or, once in a while, of
+/// something before or behind; against those of any edge. Nothing is known: 0.
+double GreyOdds(const LandmarkEdge& edge, const EdgeMatch& match, const AssociationOptions& options) {
+  if (!edge.grey_ratio || match.lines.empty()) return 0;
+  const auto gauss = [](double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)) / sigma; };
+  const double any = gauss(match.grey_ratio, options.any_grey_sigma);
+  const double told = gauss(match.grey_ratio - *edge.grey_ratio, options.grey_sigma);
+  return std::log((1 - options.grey_surprise) * told / any + options.grey_surprise);
+}
+
+double BestGreyOdds(const LandmarkEdge& edge, const AssociationOptions& options) {
+  EdgeMatch match;
+  match.lines = {0}, match.grey_ratio = edge.grey_ratio.value_or(0);
+  return GreyOdds(edge, match, options);
+}
+
+Odds CornerOdds(const AssociationOptions& options) {
+  return {std::log(options.corner_detection / options.corner_chance),
+          std::log((1 - options.corner_detection) / (1 - options.corner_chance))};
+}
+
 /// A model edge in one image, on its way to a match.
 struct Search {
   PredictedEdge predicted;
-  std::vector<Candidate> candidates;
+  std::vector<EdgeCandidate> candidates;
   EdgeMatch match;
   double nearest_px = 1e9;  ///< distance of the next model edge beside it
+
+  bool EndIsInView(bool from) const { return from ? predicted.p_is_end : predicted.q_is_end; }
 };
 
 std::vector<Search> Predict(const LandmarkModel& model, std::span<const int> visible, const CameraView& view,
@@ -184,7 +170,7 @@ void MakeExclusive(std::vector<Search>& searches) {
 double Density(const Search& search, const std::vector<Search>& all, double window_px) {
   const double length = search.predicted.length_px();
   double n = 0;
-  for (const Candidate& c : search.candidates) {
+  for (const EdgeCandidate& c : search.candidates) {
     const bool explained = std::any_of(all.begin(), all.end(), [&](const Search& s) {
       return std::find(s.match.lines.begin(), s.match.lines.end(), c.line) != s.match.lines.end();
     });
@@ -193,16 +179,19 @@ double Density(const Search& search, const std::vector<Search>& all, double wind
   return std::max(kMinDensity, n / (2 * window_px));
 }
 
-void Account(const Search& search, int side, double density, int camera, const AssociationOptions& options,
-             Association& association) {
+void Account(const Search& search, const LandmarkEdge& edge, double density, int camera,
+             const AssociationOptions& options, Association& association) {
   const EdgeMatch& match = search.match;
   const double importance = std::min(1.0, search.predicted.length_px() / kFullLengthPx);
+  const int side = std::clamp(edge.side, 0, kSides - 1);
   Odds odds = EdgeOdds(match.distance_px, density, options);
+  odds.found += GreyOdds(edge, match, options);
   odds.found = std::max(
       odds.missed, odds.found - kOvershootPenalty * std::max(0.0, match.overshoot_px - kFreeOvershootPx));
   ++association.n_predicted;
   association.side_predicted_px[side] += importance * kFullLengthPx;
-  association.best_log_odds += importance * EdgeOdds(0, density, options).found;
+  association.best_log_odds +=
+      importance * (EdgeOdds(0, density, options).found + BestGreyOdds(edge, options));
   if (match.covered < options.min_covered) {
     association.log_odds += importance * odds.missed;
     return;
@@ -229,28 +218,42 @@ void JoinMovable(Association&& part, Association& all) {
     all.side_found_px[i] += part.side_found_px[i];
   }
   std::move(part.matches.begin(), part.matches.end(), std::back_inserter(all.matches));
+  std::move(part.corners.begin(), part.corners.end(), std::back_inserter(all.corners));
 }
 
-void Match(Search& search, const CameraView& view, const AssociationOptions& options,
-           std::vector<std::uint8_t>& marks) {
-  const double length = search.predicted.length_px();
-  const Eigen::Vector2d direction = search.predicted.direction(), normal = search.predicted.normal();
-  MarkNear(view.table, search.predicted, options.clutter_window_px, options.max_angle_rad, marks);
-  for (std::size_t begin = 0; begin < marks.size(); begin += kMarksAtOnce) {
-    std::uint64_t some = 0;
-    std::memcpy(&some, &marks[begin], kMarksAtOnce);
-    if (!some) continue;
-    for (std::size_t i = begin; i < begin + kMarksAtOnce; ++i) {
-      if (!marks[i]) continue;
-      const auto c = Compare(search.predicted, direction, normal, length, view.lines[i], int(i),
-                             options.clutter_window_px, options.max_angle_rad);
-      if (c) search.candidates.push_back(*c);
+/// The contrast sign that is more likely makes the match.
+void Match(Search& search, const LandmarkEdge& edge, const CameraView& view,
+           const AssociationOptions& options) {
+  search.match = Collect(search.candidates, true, search.predicted, view, options);
+  EdgeMatch other = Collect(search.candidates, false, search.predicted, view, options);
+  const auto worth = [&](const EdgeMatch& m) {
+    return m.covered * std::exp(GreyOdds(edge, m, options) - std::abs(m.distance_px));
+  };
+  if (worth(other) > worth(search.match)) search.match = std::move(other);
+}
+
+/// Where two matched edges of the model meet, the image edges should end, too: edges that merely lie beside
+/// the right ones do not know where those end. At a corner the operator sees little, so "there" is some
+/// pixels wide.
+void AccountCorners(const std::vector<Search>& searches, const LandmarkModel& model, int camera,
+                    const AssociationOptions& options, Association& all, Association& movable) {
+  for (std::size_t i = 0; i < searches.size(); ++i) {
+    for (std::size_t j = i + 1; j < searches.size(); ++j) {
+      const Search &s = searches[i], &t = searches[j];
+      if (std::min(s.match.covered, t.match.covered) < options.min_covered) continue;
+      const LandmarkEdge &a = model.edges[s.predicted.edge], &b = model.edges[t.predicted.edge];
+      if (a.IsMovable() != b.IsMovable()) continue;
+      const auto meeting = MeetingOf(a, b);
+      if (!meeting || !s.EndIsInView(meeting->a_at_from) || !t.EndIsInView(meeting->b_at_from)) continue;
+      const double gap = std::max(std::abs(s.match.gap_px[!meeting->a_at_from]),
+                                  std::abs(t.match.gap_px[!meeting->b_at_from]));
+      const Odds odds = CornerOdds(options);
+      Association& association = a.IsMovable() ? movable : all;
+      const double log_odds = gap <= options.corner_px ? odds.found : odds.missed;
+      association.corners.push_back({s.predicted.edge, t.predicted.edge, camera, log_odds});
+      association.log_odds += log_odds, association.best_log_odds += std::max(0.0, log_odds);
     }
   }
-  search.match = Collect(search.candidates, true, search.predicted, options);
-  EdgeMatch other = Collect(search.candidates, false, search.predicted, options);
-  const auto worth = [](const EdgeMatch& m) { return m.covered * std::exp(-std::abs(m.distance_px)); };
-  if (worth(other) > worth(search.match)) search.match = std::move(other);
 }
 
 }  // namespace
@@ -260,18 +263,21 @@ Association Associate(const LandmarkModel& model, std::span<const int> visible,
                       const AssociationOptions& options) {
   Association association, movable;
   association.missed_log_odds = std::log(1 - options.detection);
-  std::vector<std::uint8_t> marks;
   for (std::size_t c = 0; c < views.size(); ++c) {
     std::vector<Search> searches = Predict(model, visible, views[c], base_from_landmark);
     DropCrowded(searches, options.min_separation_px);
-    for (Search& search : searches) Match(search, views[c], options, marks);
+    CandidateSearch near(views[c], options.clutter_window_px, options.max_angle_rad);
+    for (Search& search : searches) {
+      near.Find(search.predicted, search.candidates);
+      Match(search, model.edges[search.predicted.edge], views[c], options);
+    }
     MakeExclusive(searches);
     for (const Search& search : searches) {
       const double density = Density(search, searches, options.clutter_window_px);
       const LandmarkEdge& edge = model.edges[search.predicted.edge];
-      Account(search, std::clamp(edge.side, 0, kSides - 1), density, static_cast<int>(c), options,
-              edge.IsMovable() ? movable : association);
+      Account(search, edge, density, static_cast<int>(c), options, edge.IsMovable() ? movable : association);
     }
+    AccountCorners(searches, model, static_cast<int>(c), options, association, movable);
   }
   JoinMovable(std::move(movable), association);
   return association;
@@ -288,42 +294,11 @@ void Association::Withdraw(const LandmarkModel& model, int edge, int camera) {
   }
   side_found_px[side] = std::max(0.0, side_found_px[side]);
   std::erase_if(matches, is_it);
-}
-
-std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Association& association,
-                                          std::span<const CameraView> views,
-                                          const Eigen::Isometry3d& base_from_landmark, bool coarse) {
-  constexpr double kBeyondPx = 3;
-  std::vector<EdgeObservation> observations;
-  for (const EdgeMatch& match : association.matches) {
-    const CameraView& view = views[match.camera];
-    const LandmarkEdge& edge = model.edges[match.edge];
-    const auto predicted =
-        ProjectEdge(*view.camera, view.size, base_from_landmark * edge.from, base_from_landmark * edge.to);
-    if (!predicted) continue;
-    const double length = predicted->length_px();
-    const Eigen::Vector2d direction = predicted->direction();
-    for (const int index : match.lines) {
-      const ViewLine& line = view.lines[index];
-      const EdgeSegment& segment = view.edges->segments[line.segment];
-      if (coarse) {
-        const double s = direction.dot(line.p - predicted->p), t = direction.dot(line.q - predicted->p);
-        for (const double at : {std::clamp(s, 0.0, length), std::clamp(t, 0.0, length)}) {
-          const double f = (at - s) / (t - s);
-          observations.push_back({match.edge, match.camera, line.p + f * (line.q - line.p), 0.3});
-        }
-        continue;
-      }
-      for (int i = 0; i < segment.n_points; ++i) {
-        const EdgePoint& point = view.edges->points[segment.first_point + i];
-        const Eigen::Vector2d& at = view.points[segment.first_point + i];
-        const double along = direction.dot(at - predicted->p);
-        if (along < -kBeyondPx || along > length + kBeyondPx) continue;
-        observations.push_back({match.edge, match.camera, at, point.sigma_normal_px});
-      }
-    }
-  }
-  return observations;
+  std::erase_if(corners, [&](const CornerMatch& c) {
+    const bool gone = (c.a == edge || c.b == edge) && (camera < 0 || c.camera == camera);
+    if (gone) log_odds -= c.log_odds;
+    return gone;
+  });
 }
 
 }  // namespace priamos::head

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "head/core/landmark.hpp"
-#include "head/core/pose_solver.hpp"
 #include "head/core/view_line.hpp"
 
 namespace priamos::head {
@@ -20,12 +19,22 @@ struct EdgeMatch {
   double predicted_px = 0;  ///< predicted length
   double log_odds = 0;      ///< what it contributes
   double overshoot_px = 0;  ///< how far the image edge runs on where the model has an end
+  /// How far the image edge ends before the prediction's from and to end; negative: it runs on.
+  std::array<double, 2> gap_px{};
+  double grey_ratio = 0;  ///< as LandmarkEdge::grey_ratio, measured
+};
+
+/// A corner of the model both of whose edges were found in one image.
+struct CornerMatch {
+  int a = 0, b = 0, camera = 0;  ///< the edges
+  double log_odds = 0;           ///< what it contributes: whether they end in it
 };
 
 /// What the images say about one supposed pose.
 struct Association {
   double missed_log_odds = 0;  ///< of a whole edge that is not found
   std::vector<EdgeMatch> matches;
+  std::vector<CornerMatch> corners;
   int n_predicted = 0;       ///< edges that should be seen, all images together
   double log_odds = 0;       ///< logarithm of p(images | landmark there) / p(images | clutter only)
   double best_log_odds = 0;  ///< what a perfect match would give
@@ -46,6 +55,13 @@ struct AssociationOptions {
       40;  ///< half width of the strip in which the density of similar edges is measured
   double min_covered = 0.15;
   double min_separation_px = 5;  ///< model edges seen nearer to each other are left out, both
+  double grey_sigma = 0.35;      ///< of a ratio of grey values that the model tells, by light
+  double any_grey_sigma = 0.7;   ///< of that of any edge
+  double grey_surprise = 0.1;    ///< share of edges beside which there is something else
+  double corner_px = 6;          ///< edges that end so near to a corner end in it
+  /// Share of corners in which both edges end: 0.62 were measured of doors, 0.11 of cupboards, whose edges
+  /// get lost in their own shadow; and where there is no corner (0.06, 0).
+  double corner_detection = 0.4, corner_chance = 0.06;
 };
 
 /// Compares the model's edges at `base_from_landmark` with the edges of all images. `visible` lists the model
@@ -56,11 +72,5 @@ struct AssociationOptions {
 Association Associate(const LandmarkModel& model, std::span<const int> visible,
                       std::span<const CameraView> views, const Eigen::Isometry3d& base_from_landmark,
                       const AssociationOptions& options);
-
-/// Observations for the solver: every point of the matched segments within the predicted edge, undistorted.
-/// With `coarse` only the two ends of each line, which is enough to approach.
-std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Association& association,
-                                          std::span<const CameraView> views,
-                                          const Eigen::Isometry3d& base_from_landmark, bool coarse);
 
 }  // namespace priamos::head

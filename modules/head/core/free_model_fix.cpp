@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "head/core/edge_observations.hpp"
+
 namespace priamos::head {
 namespace {
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -14,6 +15,9 @@ struct LandmarkEdge {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
   double visible_from_rad = -kPi, visible_to_rad = kPi;
   int side = 0;  ///< 0 both, 1 left, 2 right, 3 movable
+  /// Logarithm of the grey value on the right hand of who walks it from -> to in the image over that on the
+  /// left hand; nullopt: not known. The ratio, since light changes both.
+  std::optional<double> grey_ratio{};
 
   /// Part of something that may stand elsewhere, such as a door's leaf.
   bool IsMovable() const { return side == 3; }

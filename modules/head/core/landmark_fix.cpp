@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "head/core/edge_observations.hpp"
 #include "head/core/prediction.hpp"
 
 namespace priamos::head {

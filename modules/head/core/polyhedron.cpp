@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace priamos::head {
 namespace {
@@ -95,9 +96,30 @@ LandmarkEdge Everywhere(const Eigen::Vector3d& from, const Eigen::Vector3d& to) 
   return {from, to, -kPi, kPi, 0};
 }
 
+/// Whether the face's corners run from a to b, counter-clockwise from outside: it lies on their left hand.
+bool RunsFrom(const std::vector<int>& corners, int a, int b) {
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (corners[i] == a && corners[(i + 1) % corners.size()] == b) return true;
+  return false;
+}
+
+/// LandmarkEdge::grey_ratio of the edge from a to b between `borders`.
+std::optional<double> GreyRatio(const Polyhedron& body, const std::vector<Face>& faces,
+                                const std::vector<int>& borders, int a, int b, const Eigen::Vector3d& eye) {
+  if (body.greys.empty() || borders.size() != 2) return std::nullopt;
+  double left = 0, right = 0;
+  for (const int f : borders) {
+    if (!Looks(faces[f], eye)) return std::nullopt;
+    (RunsFrom(body.faces[f], a, b) ? left : right) = body.greys[f];
+  }
+  if (left <= 0 || right <= 0) return std::nullopt;
+  return std::log(right / left);
+}
+
 /// The parts of an edge that no face hides.
 void AddVisible(const std::vector<Face>& faces, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                const Eigen::Vector3d& eye, double min_m, LandmarkModel& seen) {
+                std::optional<double> grey_ratio, const Eigen::Vector3d& eye, double min_m,
+                LandmarkModel& seen) {
   const auto at = [&](int i) -> Eigen::Vector3d { return from + (to - from) * (double(i) / kSamples); };
   int begin = -1;
   for (int i = 0; i <= kSamples + 1; ++i) {
@@ -107,7 +129,10 @@ void AddVisible(const std::vector<Face>& faces, const Eigen::Vector3d& from, con
     if (visible && begin < 0) begin = i;
     if (visible || begin < 0) continue;
     const Eigen::Vector3d a = at(begin), b = at(i - 1);
-    if ((b - a).norm() >= min_m) seen.edges.push_back(Everywhere(a, b));
+    if ((b - a).norm() >= min_m) {
+      seen.edges.push_back(Everywhere(a, b));
+      seen.edges.back().grey_ratio = grey_ratio;
+    }
     begin = -1;
   }
 }
@@ -123,6 +148,10 @@ std::string WhyNoPolyhedron(const Polyhedron& body) {
   for (const auto& line : body.lines)
     for (const int i : line)
       if (!known(i)) return fmt::format("a line: expected points 0 to {}, got {}", n - 1, i);
+  if (!body.greys.empty() && body.greys.size() != body.faces.size())
+    return fmt::format("expected greys of all {} faces, got {}", body.faces.size(), body.greys.size());
+  for (const double grey : body.greys)
+    if (!(grey >= 0 && grey <= 255)) return fmt::format("expected greys from 0 to 255, got {}", grey);
   for (std::size_t f = 0; f < body.faces.size(); ++f) {
     const auto& face = body.faces[f];
     if (face.size() < 3) return fmt::format("face {}: expected 3 corners or more, got {}", f, face.size());
@@ -151,7 +180,9 @@ LandmarkModel VisibleSkeleton(const Polyhedron& body, const Eigen::Vector3d& eye
   for (const auto& [ends, borders] : EdgesOf(body)) {
     const bool faces_it = borders.empty() || std::any_of(borders.begin(), borders.end(),
                                                          [&](int f) { return Looks(faces[f], eye_m); });
-    if (faces_it) AddVisible(faces, body.points[ends[0]], body.points[ends[1]], eye_m, min_m, seen);
+    if (faces_it)
+      AddVisible(faces, body.points[ends[0]], body.points[ends[1]],
+                 GreyRatio(body, faces, borders, ends[0], ends[1], eye_m), eye_m, min_m, seen);
   }
   return seen;
 }

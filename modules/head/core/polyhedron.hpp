@@ -15,6 +15,8 @@ struct Polyhedron {
   /// Corners of each face, counter-clockwise seen from outside; a face hides what lies behind it from both of
   /// its sides, but its own edges are seen from outside only.
   std::vector<std::vector<int>> faces;
+  /// Of each face how bright it is beside the others under even light; 0: not known. Empty: of none.
+  std::vector<double> greys;
   std::vector<std::array<int, 2>>
       lines;  ///< further edges, seen from everywhere unless a face is before them
 };
@@ -27,7 +29,9 @@ std::string WhyNoPolyhedron(const Polyhedron& body);
 LandmarkModel WholeSkeleton(const Polyhedron& body);
 
 /// What an eye at `eye_m` (landmark frame) sees of the edges: those of faces that look at it, cut where other
-/// faces are before them. Pieces shorter than `min_m` are left out.
+/// faces are before them. Pieces shorter than `min_m` are left out. Between two faces that are
+/// both seen, and whose greys are known, the ratio of grey values is known; an outline has anything behind
+/// it.
 LandmarkModel VisibleSkeleton(const Polyhedron& body, const Eigen::Vector3d& eye_m, double min_m = 0.002);
 
 }  // namespace priamos::head

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace priamos::head {
 namespace {
 
@@ -69,6 +71,25 @@ TEST(Polyhedron, ALineIsSeenUnlessAFaceIsBeforeIt) {
   EXPECT_EQ(VisibleSkeleton(body, {-5, 0.5, 0.5}).edges.size(), 5u);
 }
 
+TEST(Polyhedron, BetweenTwoFacesThatAreSeenTheRatioOfGreysIsKnown) {
+  Polyhedron body = Cube();
+  body.greys = {0, 100, 50, 0, 0, 200};  // top 100, y = 0 50, x = 1 200
+  int known = 0;
+  for (const LandmarkEdge& e : VisibleSkeleton(body, {5, -4, 6}).edges) {
+    const bool upright = e.from.head<2>().isApprox(e.to.head<2>());
+    if (!e.grey_ratio) continue;
+    ++known;
+    // Seen from there x = 1 is on the right of the common upright edge, and upwards right is right.
+    const double upwards = e.to.z() > e.from.z() ? 1 : -1;
+    if (upright) {
+      EXPECT_NEAR(*e.grey_ratio, upwards * std::log(200.0 / 50), 1e-9);
+    }
+  }
+  EXPECT_EQ(known, 3);
+  for (const LandmarkEdge& e : VisibleSkeleton(body, {5, 0.5, 0.5}).edges) EXPECT_FALSE(e.grey_ratio);
+  for (const LandmarkEdge& e : VisibleSkeleton(Cube(), {5, -4, 6}).edges) EXPECT_FALSE(e.grey_ratio);
+}
+
 TEST(Polyhedron, NonsenseIsNamed) {
   EXPECT_EQ(WhyNoPolyhedron(Cube()), "");
   EXPECT_THAT(WhyNoPolyhedron({}), HasSubstr("at least one face"));
@@ -84,6 +105,11 @@ TEST(Polyhedron, NonsenseIsNamed) {
   body = Cube();
   body.points[3].x() = std::nan("");
   EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("point 3"));
+  body = Cube();
+  body.greys = {100};
+  EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("greys of all 6 faces"));
+  body.greys = {1, 2, 3, 4, 5, 300};
+  EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("0 to 255, got 300"));
 }
 
 }  // namespace
