@@ -83,20 +83,14 @@ Odds EdgeOdds(double distance, double density, const AssociationOptions& options
   return {std::max(missed, std::log(options.detection * gauss / density + (1 - options.detection))), missed};
 }
 
-/// Log odds of the grey values beside a match: as the model tells them but for light, or, once in a while, of
+/// Log odds of the grey values beside an edge: as the model tells them but for light, or, once in a while, of
 /// something before or behind; against those of any edge. Nothing is known: 0.
-double GreyOdds(const LandmarkEdge& edge, const EdgeMatch& match, const AssociationOptions& options) {
-  if (!edge.grey_ratio || match.lines.empty()) return 0;
+double GreyOdds(const LandmarkEdge& edge, double measured, const AssociationOptions& options) {
+  if (!edge.grey_ratio) return 0;
   const auto gauss = [](double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)) / sigma; };
-  const double any = gauss(match.grey_ratio, options.any_grey_sigma);
-  const double told = gauss(match.grey_ratio - *edge.grey_ratio, options.grey_sigma);
+  const double told = gauss(measured - *edge.grey_ratio, options.grey_sigma);
+  const double any = gauss(measured, options.any_grey_sigma);
   return std::log((1 - options.grey_surprise) * told / any + options.grey_surprise);
-}
-
-double BestGreyOdds(const LandmarkEdge& edge, const AssociationOptions& options) {
-  EdgeMatch match;
-  match.lines = {0}, match.grey_ratio = edge.grey_ratio.value_or(0);
-  return GreyOdds(edge, match, options);
 }
 
 Odds CornerOdds(const AssociationOptions& options) {
@@ -185,13 +179,13 @@ void Account(const Search& search, const LandmarkEdge& edge, double density, int
   const double importance = std::min(1.0, search.predicted.length_px() / kFullLengthPx);
   const int side = std::clamp(edge.side, 0, kSides - 1);
   Odds odds = EdgeOdds(match.distance_px, density, options);
-  odds.found += GreyOdds(edge, match, options);
+  odds.found += GreyOdds(edge, match.grey_ratio, options);
   odds.found = std::max(
       odds.missed, odds.found - kOvershootPenalty * std::max(0.0, match.overshoot_px - kFreeOvershootPx));
   ++association.n_predicted;
   association.side_predicted_px[side] += importance * kFullLengthPx;
-  association.best_log_odds +=
-      importance * (EdgeOdds(0, density, options).found + BestGreyOdds(edge, options));
+  association.best_log_odds += importance * (EdgeOdds(0, density, options).found +
+                                             GreyOdds(edge, edge.grey_ratio.value_or(0), options));
   if (match.covered < options.min_covered) {
     association.log_odds += importance * odds.missed;
     return;
@@ -227,7 +221,7 @@ void Match(Search& search, const LandmarkEdge& edge, const CameraView& view,
   search.match = Collect(search.candidates, true, search.predicted, view, options);
   EdgeMatch other = Collect(search.candidates, false, search.predicted, view, options);
   const auto worth = [&](const EdgeMatch& m) {
-    return m.covered * std::exp(GreyOdds(edge, m, options) - std::abs(m.distance_px));
+    return m.covered * std::exp(GreyOdds(edge, m.grey_ratio, options) - std::abs(m.distance_px));
   };
   if (worth(other) > worth(search.match)) search.match = std::move(other);
 }
