@@ -1,12 +1,16 @@
 #include "head/core/edge_fit.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <opencv2/core/hal/intrin.hpp>
 
 namespace priamos::head {
 namespace {
 
 using Lanes = cv::v_float32x4;
+static_assert(offsetof(EdgeSums, inverse) == 3 * sizeof(float) &&
+                  offsetof(EdgeSums, sharpness) == 6 * sizeof(float),
+              "Load takes four numbers at a time");
 constexpr double kCorner_px = 0.2;          ///< how far a corner bends the edge that ends there
 constexpr double kMinShare = 0.25;          ///< of the mean strength; a block with less is a gap
 constexpr double kLeastVariance_px2 = 0.5;  ///< of an edge seen through the narrow kernels
