@@ -32,6 +32,7 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       drive_(config.drive, config.base),
       wheels_(context.node().SubscribeAll(channels::kWheelState)),
       sonars_(context.node().Subscribe(channels::kSonarRanges)),
+      floor_lines_(context.node().SubscribeAll(channels::kObstacleLine)),
       paths_(context.node().SubscribeAll(channels::kPath)),
       fixes_(context.node().SubscribeAll(channels::kLandmarkFix)),
       commands_(context.node().SubscribeAll(channels::kDriveCommand)),
@@ -70,6 +71,7 @@ void RobotApp::Tick(Time now) {
   TakeEstops(now);
   TakeWheels(now);
   TakeSonars();
+  TakeFloorLines(now);
   TakeFixes(now);
   AnswerFixes(now);
   TakeSignsOfLife(now);
@@ -94,6 +96,21 @@ void RobotApp::TakeWheels(Time now) {
 void RobotApp::TakeSonars() {
   if (const auto message = sonars_.Take())
     drive_.AddSonar(FromMessage(*message), localiser_.odometry().pose());
+}
+
+/// The base has moved on since the picture.
+void RobotApp::TakeFloorLines(Time now) {
+  for (const obstacle_line_t& message : floor_lines_.Drain()) {
+    const auto line = FromMessage(message);
+    const Odometry& odometry = localiser_.odometry();
+    const double since_s = line && odometry.time() ? Seconds(*odometry.time() - line->exposure) : 0;
+    const Pose2 then = Integrate(odometry.pose(), odometry.twist(), -std::clamp(since_s, 0.0, 5.0));
+    if (line && drive_.AddFloorLine(*line, then, now)) continue;
+    ++floor_lines_refused_;
+    context_.Log(bus::Level::kWarning,
+                 fmt::format("obstacle line refused, the {}. one: {}", floor_lines_refused_,
+                             line ? "too old, of a time to come, or repeated" : "numbers out of range"));
+  }
 }
 
 void RobotApp::TakeFixes(Time now) {

@@ -32,6 +32,7 @@ class RobotApp {
  private:
   void TakeWheels(Time now);
   void TakeSonars();
+  void TakeFloorLines(Time now);
   void TakeFixes(Time now);
   void TakePaths(Time now);
   void Begin();
@@ -57,6 +58,7 @@ class RobotApp {
 
   bus::Inbox<wheel_state_t> wheels_;
   bus::Latest<sonar_ranges_t> sonars_;
+  bus::Inbox<obstacle_line_t> floor_lines_;
   bus::Inbox<path_t> paths_;
   bus::Inbox<landmark_fix_t> fixes_;
   bus::Inbox<drive_command_t> commands_;
@@ -72,6 +74,7 @@ class RobotApp {
 
   std::optional<Time> wheels_heard_, head_heard_, link_down_since_, status_sent_, keep_again_;
   LeaseHolder told_holder_;
+  int floor_lines_refused_ = 0;
   std::optional<Condition> told_;
 };
 

@@ -25,6 +25,14 @@ Eigen::Matrix3d CovarianceOf(const landmark_fix_t& m) {
   return ToCovariance({m.sigma_x_m, m.sigma_y_m, m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw});
 }
 
+/// As obstacle_segment_t.lcm bounds it; written so that NaN is refused.
+bool IsCredible(const obstacle_segment_t& s) {
+  const auto is_place = [](double x, double y) { return x >= 0 && x <= 10.23 && std::abs(y) <= 5.12; };
+  return s.kind >= obstacle_segment_t::UP && s.kind <= obstacle_segment_t::MISSING &&
+         is_place(s.x1_m, s.y1_m) && is_place(s.x2_m, s.y2_m) && std::abs(s.height_m) <= 1.28 &&
+         s.sigma_height_m >= 0 && s.sigma_height_m <= 0.255F;
+}
+
 /// nullopt for a number that names nobody.
 std::optional<Driver> DriverOf(int code) {
   switch (code) {
@@ -178,6 +186,18 @@ std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message) {
   fix.own_share = message.own_share;
   fix.map_from_landmark = {message.model_x_m, message.model_y_m, WrapAngle(message.model_yaw_rad)};
   return fix;
+}
+
+std::optional<FloorLine> FromMessage(const obstacle_line_t& message) {
+  if (message.verdict < obstacle_line_t::CLEAR || message.verdict > obstacle_line_t::BLIND)
+    return std::nullopt;
+  FloorLine line{FromUtime(message.utime_exposure), {}};
+  for (const obstacle_segment_t& s : message.segments) {
+    if (!IsCredible(s)) return std::nullopt;
+    if (s.kind != obstacle_segment_t::MISSING)
+      line.pieces.push_back({{s.x1_m, s.y1_m}, {s.x2_m, s.y2_m}, s.height_m});
+  }
+  return line;
 }
 
 DriveCommand FromMessage(const drive_command_t& message) {

@@ -17,6 +17,8 @@ std::optional<Path> FromMessage(const path_t& message);
 /// nullopt unless the head found the landmark. Numbers that make no sense become a fix that the estimator
 /// refuses.
 std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message);
+/// nullopt if any number is not finite or outside its range. What is only missing is no obstacle.
+std::optional<FloorLine> FromMessage(const obstacle_line_t& message);
 DriveCommand FromMessage(const drive_command_t& message);
 /// nullopt for a driver or an action that does not exist.
 struct LeaseRequest {

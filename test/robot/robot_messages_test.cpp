@@ -133,6 +133,46 @@ TEST(FixMessages, NumbersThatMakeNoSenseBecomeAFixThatIsRefused) {
   }
 }
 
+obstacle_line_t SomeLine() {
+  obstacle_line_t message{};
+  message.utime_exposure = 1'000'000;
+  message.verdict = obstacle_line_t::OBSTACLE;
+  for (const int kind : {obstacle_segment_t::UP, obstacle_segment_t::MISSING, obstacle_segment_t::DOWN}) {
+    obstacle_segment_t s{};
+    s.kind = static_cast<std::int8_t>(kind);
+    s.x1_m = 2.0F, s.y1_m = -0.5F, s.x2_m = 2.25F, s.y2_m = 0.25F;
+    s.height_m = kind == obstacle_segment_t::DOWN ? -0.125F : 0.03F;
+    message.segments.push_back(s);
+  }
+  message.n_segments = 3;
+  return message;
+}
+
+TEST(FloorMessages, StepsUpAndDownAreTakenAndWhatIsMissingIsNot) {
+  const auto dut = FromMessage(SomeLine());
+  ASSERT_TRUE(dut);
+  ASSERT_EQ(dut->pieces.size(), 2u);
+  EXPECT_EQ(dut->pieces[1].height_m, -0.125);
+  EXPECT_EQ(dut->pieces[0].left.y(), 0.25);
+}
+
+TEST(FloorMessages, NumbersThatMakeNoSenseAreRefused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto refused = [](auto spoil) {
+    obstacle_line_t message = SomeLine();
+    spoil(message);
+    return !FromMessage(message);
+  };
+  EXPECT_TRUE(refused([](auto& m) { m.verdict = 3; }));
+  EXPECT_TRUE(refused([&](auto& m) { m.segments[0].x1_m = nan; }));
+  EXPECT_TRUE(refused([&](auto& m) { m.segments[1].y2_m = nan; }));
+  EXPECT_TRUE(refused([&](auto& m) { m.segments[0].height_m = nan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.segments[0].x2_m = -0.5F; }));
+  EXPECT_TRUE(refused([](auto& m) { m.segments[2].y1_m = 1e30F; }));
+  EXPECT_TRUE(refused([](auto& m) { m.segments[2].kind = 7; }));
+  EXPECT_TRUE(refused([](auto& m) { m.segments[2].sigma_height_m = -1; }));
+}
+
 TEST(PoseMessages, CovarianceRoundTripsThroughSigmasAndCorrelations) {
   PoseEstimate estimate{.time = kNow, .pose = {1, 2, 0.3}, .twist = {0.4, 0.1, -0.2}};
   estimate.covariance << 4e-4, 1e-5, 2e-5, 1e-5, 1e-4, -3e-5, 2e-5, -3e-5, 9e-5;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,52 @@ TEST_F(LaserRunTest, AFloorWithoutAnythingIsClear) {
   const auto lines = Watch("door.toml", 4.5);
   ASSERT_GE(lines.size(), 2u);
   for (const obstacle_line_t& line : lines) EXPECT_EQ(line.verdict, obstacle_line_t::CLEAR);
+}
+
+/// Straight over the duct of sill.toml, which begins at 3.95 m: where the front of the base gets to, and
+/// whether it touches.
+struct Drive {
+  double front_m = 0;
+  int contacts = 0;
+};
+Drive DriveAtTheDuct(const bus::Schema& schema, std::uint64_t seed, double laser_hz) {
+  Drive drive;
+  bus::Lockstep lockstep(schema, {.seed = seed});
+  lockstep.AddBus("onboard");
+  lockstep.SetTap([&](std::string_view, Time, std::string_view channel, std::span<const std::byte> bytes) {
+    if (channel != channels::kWorldTruth.name) return;
+    const auto truth = bus::Decode<world_truth_t>(bytes);
+    drive = {truth.x_m + 0.475 * std::cos(truth.yaw_rad), truth.contacts};
+  });
+  const std::string sim = PRIAMOS_SOURCE_DIR "/config/sim/";
+  lockstep.AddApp(cli::FactoryFor("world"), "onboard", {sim + "world.toml", {"world=worlds/sill.toml"}});
+  lockstep.AddApp(cli::FactoryFor("head"), "onboard",
+                  {sim + "head.toml", {"laser.rate_hz=" + std::to_string(laser_hz)}});
+  lockstep.AddApp(cli::FactoryFor("robot"), "onboard", {sim + "robot.toml", {}});
+  auto paths = lockstep.DriverNode("onboard").Advertise(channels::kPath);
+  const Time begin = lockstep.now();
+  lockstep.RunUntil(begin + FromSeconds(3.5));
+  path_t path{};
+  path.utime = ToUtime(lockstep.now());
+  path.path_id = 1;
+  path.speed_m_s = 0.3;
+  path.points = {{2.0, 2.4, 0}, {5.0, 2.4, 0}};
+  path.n_points = 2;
+  paths.Publish(path);
+  lockstep.RunUntil(begin + FromSeconds(14));
+  return drive;
+}
+
+TEST_F(LaserRunTest, TheRobotStopsBeforeADuctThatNoSonarHears) {
+  const Drive dut = DriveAtTheDuct(schema_, 5, 2);
+  RecordProperty("front", std::to_string(dut.front_m));
+  EXPECT_EQ(dut.contacts, 0);
+  EXPECT_GT(dut.front_m, 3.0);
+  EXPECT_LT(dut.front_m, 3.94);
+}
+
+TEST_F(LaserRunTest, WithoutTheLaserItRunsIntoIt) {
+  EXPECT_GT(DriveAtTheDuct(schema_, 5, 0).contacts, 0);
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ void DriveConfig::Describe(Archive& a) {
   a.Section("operator_acceleration", operator_acceleration, "limits while an operator drives");
   a.Section("braking", braking, "limits while a hold brakes the base");
   a.Section("echoes", echoes, "which sonar echoes are believed");
+  a.Section("floor", floor, "what the laser's line showed of the floor");
   a.Section("collision", collision, "the last filter before the wheels");
   a.Section("deflection", deflection, "how obstacles turn an operator's wish aside");
   a.Section("authority", authority, "who may drive");
@@ -74,6 +75,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       operator_slew_(config.operator_acceleration),
       brake_(config.braking),
       echoes_(config.echoes, config.footprint),
+      floor_(config.floor),
       collision_(config.collision, config.footprint),
       operator_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
       authority_(config.authority),
@@ -116,6 +118,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   last_step_ = now;
   if (echoes_.newest()) sonar_heard_ = echoes_.newest();
   echoes_.Forget(situation.odom_from_base, now, HasWayToGo());
+  floor_.Forget(situation.odom_from_base, now);
   authority_.Tick(now, HasWayToGo());
   if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
   const DriveSource source = Source(now);
@@ -127,6 +130,8 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
     const auto bridges = echoes_.Bridges(situation.odom_from_base);
     points.insert(points.end(), bridges.begin(), bridges.end());
   }
+  const auto floor = floor_.Points(situation.odom_from_base);
+  points.insert(points.end(), floor.begin(), floor.end());
   const auto remembered = echoes_.Remembered(situation.odom_from_base);
   const Twist2 wanted = Wanted(situation, points, now, dt_s);
   const CollisionStop& guard = state_.mode == DriveMode::kOperated ? operator_collision_ : collision_;

@@ -10,6 +10,7 @@
 #include "robot/core/deflection.hpp"
 #include "robot/core/echo_memory.hpp"
 #include "robot/core/failsafe.hpp"
+#include "robot/core/floor_memory.hpp"
 #include "robot/core/mecanum.hpp"
 #include "robot/core/path_follower.hpp"
 #include "robot/core/pose_estimator.hpp"
@@ -24,6 +25,7 @@ struct DriveConfig {
   AccelerationLimits operator_acceleration{.acceleration_m_s2 = 0.8, .turn_acceleration_rad_s2 = 1.5};
   AccelerationLimits braking{.acceleration_m_s2 = 1.0, .turn_acceleration_rad_s2 = 2.0};
   EchoMemoryConfig echoes;
+  FloorMemoryConfig floor;
   CollisionStopConfig collision;
   double operator_margin_m = 0.04;  ///< more room than a path gets: nobody has planned an operator's motion
   DeflectionConfig deflection;
@@ -87,6 +89,10 @@ class DriveController {
   void PressEstop() { authority_.PressEstop(); }
   void Rearm() { authority_.Rearm(); }
   bool estop() const { return authority_.estop(); }
+  /// `odom_from_base` when the picture was taken. False: refused, see FloorMemory.
+  bool AddFloorLine(const FloorLine& line, const Pose2& odom_from_base, Time now) {
+    return floor_.Add(line, odom_from_base, now);
+  }
   /// `odom_from_base` when the cycle ended.
   void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) { echoes_.Add(cycle, odom_from_base); }
 
@@ -118,6 +124,7 @@ class DriveController {
   PathFollower follower_;
   TwistSlew slew_, operator_slew_, brake_;
   EchoMemory echoes_;
+  FloorMemory floor_;
   CollisionStop collision_, operator_collision_;
   Authority authority_;
   Failsafe failsafe_;
