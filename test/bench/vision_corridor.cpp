@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "head/core/door_detection.hpp"
@@ -13,6 +14,7 @@ namespace priamos::bench {
 namespace {
 
 constexpr double kSameDoor_m = 0.25, kWellPlaced_m = 0.03;
+constexpr double kSure_m = 0.02;  ///< a detection that claims less is told apart
 constexpr int kLooksPerCorridor = 6;
 
 struct Tally {
@@ -20,7 +22,7 @@ struct Tally {
 };
 
 struct Count {
-  int looks = 0, reported = 0, false_ones = 0, off = 0, jamb_off = 0;
+  int looks = 0, reported = 0, false_ones = 0, off = 0, jamb_off = 0, sure = 0, sure_but_off = 0;
   Tally asked, others;  ///< doors to be found; doors in both pictures that are too far, too slanted or hidden
   std::map<std::string, Tally> by_kind;
   std::vector<double> middle_m, jamb_m;  ///< errors of those to be found
@@ -35,6 +37,21 @@ double JambError(const TrueDoor& door, const head::DetectedDoor& detected) {
     return std::max((left - door.left - wider).norm(), (right - door.right + wider).norm());
   };
   return std::min(error(Eigen::Vector2d::Zero()), error(frame));
+}
+
+/// Standard deviation that a detection claims for its middle [m].
+double Sigma(const head::DetectedDoor& detected) {
+  return std::sqrt(detected.covariance.trace());
+}
+
+void PrintMisplaced(int look, const TrueDoor& door, const head::DetectedDoor& detected, double middle_m,
+                    double jamb_m) {
+  fmt::print(
+      "  look {}: middle {:.0f} mm beside the truth (sigma {:.0f}), worse jamb {:.0f} mm, at {:.1f} m, slant "
+      "{:.0f}, "
+      "open {:.0f}, width {:.3f} instead of {:.3f} m, log odds {:.1f}\n",
+      look, 1000 * middle_m, 1000 * Sigma(detected), 1000 * jamb_m, door.range_m, door.slant_deg,
+      door.open_deg, detected.width_m, (door.left - door.right).norm(), detected.log_odds);
 }
 
 const TrueDoor* Nearest(const CorridorLook& look, const head::DetectedDoor& detected) {
@@ -75,7 +92,10 @@ void Add(const CorridorLook& look, const std::vector<head::DetectedDoor>& detect
     const double middle = (door->middle() - d.base_from_door.translation()).norm(),
                  jamb = JambError(*door, d);
     count.middle_m.push_back(middle), count.jamb_m.push_back(jamb);
+    const bool is_sure = Sigma(d) < kSure_m;
+    count.sure += is_sure, count.sure_but_off += is_sure && middle > kWellPlaced_m;
     count.off += middle > kWellPlaced_m, count.jamb_off += jamb > kWellPlaced_m;
+    if (verbose && jamb > kWellPlaced_m) PrintMisplaced(count.looks, *door, d, middle, jamb);
   }
   for (const TrueDoor& door : look.doors) {
     const bool is_found = std::find(found.begin(), found.end(), &door) != found.end();
@@ -114,6 +134,9 @@ void Print(const Count& count, double seconds, Figures& figures) {
   figures.Note("  false ones, of all looks", Percent(count.false_ones, count.looks), "%");
   const double n = static_cast<double>(count.middle_m.size());
   figures.AtMost("  middle more than 3 cm beside the truth", Percent(count.off, n), 2, "%");
+  figures.AtMost(
+      fmt::format("    of those that claim a sigma below {:.0f} cm ({})", 100 * kSure_m, count.sure),
+      Percent(count.sure_but_off, count.sure), 1, "%");
   figures.AtMost("  middle, 95 % of them nearer than", 1000 * Quantile(count.middle_m, 0.95), 30, "mm");
   figures.Note("  middle, median", 1000 * Quantile(count.middle_m, 0.5), "mm");
   figures.Note("  a jamb more than 3 cm beside the truth", Percent(count.jamb_off, n), "%");
