@@ -17,10 +17,29 @@ void FixSeries::Add(const Eigen::Vector3d& error, double seconds_taken) {
   seconds.push_back(seconds_taken);
 }
 
+void FixSeries::Judge(const head::LandmarkFix& fix, const LandmarkLook& look, std::uint64_t seed) {
+  ++looks;
+  if (fix.verdict != head::Verdict::kFound) {
+    ++refusals[head::Describe(fix.verdict)];
+    return;
+  }
+  const Eigen::Vector3d error = ErrorOf(fix.base_from_landmark, look.truth);
+  const bool is_right = look.is_there && IsGood(error);
+  (is_right ? good : wrong)++;
+  if (!is_right) Print(seed, fix, error);
+}
+
 double FixSeries::MeanNees() const {
   double sum = 0;
   for (const double n : nees) sum += n;
   return nees.empty() ? 0 : sum / nees.size();
+}
+
+void Print(std::uint64_t seed, const head::LandmarkFix& fix, const Eigen::Vector3d& error) {
+  fmt::print(
+      "  seed {}: {}, {:.2f} {:.2f} mm {:.3f} deg, misfit {:.2f}, {} edges, log odds {:.1f}, rival {:.1f}\n",
+      seed, head::Describe(fix.verdict), 1000 * error.x(), 1000 * error.y(), Degrees(error.z()), fix.misfit,
+      fix.n_matched, fix.log_odds, fix.rival_log_odds);
 }
 
 void Report(const FixSeries& s, Figures& figures) {

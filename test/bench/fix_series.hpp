@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,8 +19,13 @@ struct FixSeries {
   std::vector<double> depth, lateral, yaw, nees, seconds, edge_seconds;
 
   void Add(const Eigen::Vector3d& error, double seconds_taken);
+  /// Where a right fix is not what is wanted, but no wrong one; prints wrong ones.
+  void Judge(const head::LandmarkFix& fix, const LandmarkLook& look, std::uint64_t seed);
   double MeanNees() const;
 };
+
+/// All of a fix that helps to understand it.
+void Print(std::uint64_t seed, const head::LandmarkFix& fix, const Eigen::Vector3d& error);
 
 /// Every figure that is promised of fixes.
 void Report(const FixSeries& series, Figures& figures);

@@ -83,8 +83,8 @@ void Add(const CorridorLook& look, const std::vector<head::DetectedDoor>& detect
     if (!door) {
       ++count.false_ones;
       if (verbose)
-        fmt::print("  look {}: false at {:.2f} {:.2f}\n", count.looks, d.base_from_door.x,
-                   d.base_from_door.y);
+        fmt::print("  look {}: false at {:.2f} {:.2f}, log odds {:.1f}\n", count.looks, d.base_from_door.x,
+                   d.base_from_door.y, d.log_odds);
       continue;
     }
     found.push_back(door);

@@ -2,10 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "test/bench/deceptions.hpp"
 #include "test/bench/door_looks.hpp"
-#include "test/bench/fix_series.hpp"
-#include "test/bench/landmark_fixes.hpp"
-#include "test/bench/vision_bench.hpp"
 #ifdef PRIAMOS_HAS_VISP
 #include "test/bench/visp_door.hpp"
 #endif
@@ -70,43 +68,6 @@ void Looks(const VisionOptions& options, Figures& figures) {
 #endif
 }
 
-/// Scenes made to deceive: the answer may be "not found", never a wrong pose.
-void Deceptions(const VisionOptions& options, Figures& figures) {
-  const int n = options.quick ? 20 : 200;
-  fmt::print("scenes that deceive: {} of each kind\n", n);
-  DoorPhotographer photographer;
-  Fixer fixer;
-  const CalibratedHead head = CalibrateSpecimen(1);
-  int wrong = 0;
-  for (const Trouble trouble : kTroubles) {
-    FixSeries series;
-    for (int i = 0; i < n; ++i) {
-      const std::uint64_t seed = options.seed + 100000 * static_cast<int>(trouble) + i;
-      const LandmarkLook look = photographer.Take(seed, trouble, head);
-      const LandmarkFix fix = fixer.Find(look, Told(look), look.model, look.calibrated);
-      ++series.looks;
-      if (fix.verdict != Verdict::kFound) {
-        ++series.refusals[head::Describe(fix.verdict)];
-        continue;
-      }
-      const Eigen::Vector3d error = ErrorOf(fix.base_from_landmark, look.truth);
-      const bool right = look.is_there && IsGood(error);
-      (right ? series.good : series.wrong)++;
-      if (!right)
-        fmt::print(
-            "  {}, seed {}: wrong by {:.0f} mm, {:.0f} mm, {:.2f} deg; log odds {:.1f}, rival {:.1f}, misfit "
-            "{:.2f}, {} edges\n",
-            Describe(trouble), seed, 1000 * error.x(), 1000 * error.y(), Degrees(error.z()), fix.log_odds,
-            fix.rival_log_odds, fix.misfit, fix.n_matched);
-    }
-    fmt::print("  {}: {} right, {} wrong, {} refused\n", Describe(trouble), series.good, series.wrong,
-               series.looks - series.good - series.wrong);
-    for (const auto& [why, count] : series.refusals) fmt::print("    {}: {}\n", why, count);
-    wrong += series.wrong;
-  }
-  figures.AtMost("  silent wrong fixes", wrong, 0, "");
-}
-
 /// What knowing the leaf's angle is worth, and what believing a wrong one costs.
 void Leaves(const VisionOptions& options, Figures& figures) {
   const int n = options.quick ? 20 : 200;
@@ -156,7 +117,7 @@ void BenchDoor(const VisionOptions& options, Figures& figures) {
 }
 
 void BenchDeceptions(const VisionOptions& options, Figures& figures) {
-  Deceptions(options, figures);
+  Deceive<DoorPhotographer>("doors", kTroubles, options, figures);
 }
 
 }  // namespace priamos::bench
