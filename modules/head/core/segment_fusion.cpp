@@ -67,11 +67,12 @@ std::optional<double> Gap(const Line& a, const Line& b, const FusionOptions& opt
 class Fuser {
  public:
   Fuser(const FusionOptions& options, const EdgeImage& edges)
-      : options_(options), index_(kSectors, SegmentIndex(edges.width, edges.height, kCellPx)) {
-    lines_.reserve(2 * edges.segments.size());
-    for (const EdgeSegment& s : edges.segments) Add({s, int(lines_.size()), int(lines_.size())});
+      : options_(options),
+        index_(kSectors, SegmentIndex(edges.width, edges.height, kCellPx)),
+        pieces_(edges.segments) {
+    lines_.reserve(2 * pieces_.size());
+    for (const EdgeSegment& s : pieces_) Add({s, int(lines_.size()), int(lines_.size())});
     next_piece_.assign(lines_.size(), -1);
-    pieces_ = edges.segments;
   }
 
   void Run() {
@@ -85,8 +86,9 @@ class Fuser {
   /// The lines left over, with the points of their pieces one after the other.
   void Store(EdgeImage& edges) const {
     std::vector<EdgePoint> points;
+    std::vector<EdgeSegment> segments;
     points.reserve(edges.points.size());
-    edges.segments.clear();
+    segments.reserve(pieces_.size());
     for (const Line& line : lines_) {
       if (!line.alive) continue;
       EdgeSegment segment = line.segment;
@@ -96,9 +98,9 @@ class Fuser {
         points.insert(points.end(), begin, begin + pieces_[p].n_points);
       }
       segment.n_points = static_cast<int>(points.size()) - segment.first_point;
-      edges.segments.push_back(segment);
+      segments.push_back(segment);
     }
-    edges.points = std::move(points);
+    edges.points = std::move(points), edges.segments = std::move(segments);
   }
 
   bool HasJoined() const { return lines_.size() > pieces_.size(); }
@@ -167,8 +169,8 @@ class Fuser {
   }
 
   FusionOptions options_;
-  std::vector<SegmentIndex> index_;  ///< of lines of each sector of directions
-  std::vector<EdgeSegment> pieces_;
+  std::vector<SegmentIndex> index_;         ///< of lines of each sector of directions
+  const std::vector<EdgeSegment>& pieces_;  ///< of the image
   std::vector<int> next_piece_;
   std::vector<Line> lines_;  ///< the pieces, then every line that was joined
   std::priority_queue<Pair, std::vector<Pair>, std::greater<>> pairs_;
