@@ -43,6 +43,7 @@ class AnyApp {
 struct AppFactory {
   std::string name;
   std::string summary;
+  std::string default_bus;  ///< "onboard" or "offboard"
   std::vector<OptionAlias> aliases;
   std::function<std::unique_ptr<AnyApp>(const ConfigSource&, Context&)> start;
   std::function<void(std::ostream&, const ConfigSource&)> print_config;
@@ -57,7 +58,8 @@ AppFactory FactoryOf() {
     void Tick(Time now) override { app.Tick(now); }
     T app;
   };
-  AppFactory factory{std::string(T::kName), std::string(T::kSummary), {}, {}, {}};
+  AppFactory factory{std::string(T::kName), std::string(T::kSummary), "onboard", {}, {}, {}};
+  if constexpr (requires { T::kDefaultBus; }) factory.default_bus = T::kDefaultBus;
   if constexpr (requires { T::kOptions; })
     factory.aliases.assign(std::begin(T::kOptions), std::end(T::kOptions));
   factory.start = [](const ConfigSource& source, Context& context) {

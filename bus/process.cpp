@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "bus/app_host.hpp"
+#include "bus/bus_choice.hpp"
 #include "bus/log/log_writer.hpp"
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
@@ -26,7 +27,8 @@ constexpr std::string_view kFileUrl = "file://";
 
 struct Options {
   ConfigSource config;
-  std::string bus = "udpm://239.255.76.67:7667?ttl=0";
+  BusChoice choice;
+  std::string bus;  ///< URL
   std::uint64_t seed = 0;
   bool print_config = false;
   bool interface = false;
@@ -48,8 +50,10 @@ std::optional<int> ParseCommandLine(const AppFactory& factory, int argc, char** 
   CLI::App cli(factory.summary, "priamos-" + factory.name);
   cli.add_option("--config", options.config.path, "TOML file; without it every key keeps its default");
   cli.add_option("--set", options.config.overrides, "KEY=VALUE on top of the file");
-  cli.add_option("--bus", options.bus, "LCM bus; file://LOG[?out=LOG] runs from a log")
-      ->capture_default_str();
+  options.choice.bus = factory.default_bus;
+  AddBusChoice(cli, options.choice);
+  cli.get_option("--bus")->description(
+      "LCM bus: onboard, offboard or an LCM URL; file://LOG[?out=LOG] runs from a log");
   cli.add_option("--seed", options.seed, "seed of simulated hardware")->capture_default_str();
   cli.add_flag("--print-config", options.print_config,
                "print every key with value, unit and meaning, and exit");
@@ -156,6 +160,7 @@ int RunProcess(const AppFactory& factory, int argc, char** argv) {
   if (const auto code = ParseCommandLine(factory, argc, argv, options)) return *code;
   bool running = false;
   try {
+    options.bus = options.choice.Url();
     return Run(factory, options, running);
   } catch (const std::exception& error) {
     std::cerr << "priamos-" << factory.name << ": " << error.what() << "\n";

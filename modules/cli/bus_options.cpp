@@ -7,7 +7,7 @@
 namespace priamos::cli {
 
 void AddBusOption(CLI::App& verb, BusOptions& options) {
-  verb.add_option("--bus", options.bus, "LCM bus")->capture_default_str();
+  bus::AddBusChoice(verb, options.bus);
   verb.add_flag("--fragments", options.fragments,
                 "a foreign bus with messages of any size, which come in fragments: no socket filter");
 }

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "bus/bus_choice.hpp"
 #include "bus/lcm_bus.hpp"
 #include "bus/schema/schema.hpp"
 
@@ -13,7 +14,7 @@ namespace priamos::cli {
 
 /// What every verb that looks at a bus or a log shares.
 struct BusOptions {
-  std::string bus = "udpm://239.255.76.67:7667?ttl=0";
+  bus::BusChoice bus;
   std::string types;  ///< folder of .lcm files; empty: our own
   bool fragments = false;
 

@@ -84,7 +84,7 @@ ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& proc
                     "--config",
                     (fs::path(place.config_folder) / process.config).string(),
                     "--bus",
-                    process.bus == "onboard" ? deployment.onboard_url : deployment.offboard_url,
+                    process.bus == "onboard" ? deployment.OnboardUrl() : deployment.OffboardUrl(),
                     "--seed",
                     std::to_string(place.seed)};
   const auto set = [&](const std::string& text) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/bus_address.hpp"
 #include "cli/scenario.hpp"
 #include "cli/supervisor.hpp"
 
@@ -11,17 +12,22 @@ namespace priamos::cli {
 /// config/<deployment>/deployment.toml: the processes of a robot, for `priamos up`.
 struct Deployment {
   std::string title;
-  std::string onboard_url = "udpm://239.255.76.67:7667?ttl=0";
-  std::string offboard_url = "udpm://239.255.76.68:7668?ttl=0";
+  std::string robot{bus::kDefaultRobot};  ///< its ports follow from its name
+  int onboard_ttl = 0, offboard_ttl = 0;
   std::string group = "all";   ///< which ones `priamos up` starts: onboard, offboard or all
   bool emulated_line = false;  ///< a serial line out of nothing between the radios
   bus::radio::LineConfig line;
   std::vector<ScenarioProcess> processes;
 
+  std::string OnboardUrl() const { return bus::BusUrl(robot, bus::BusSide::kOnboard, onboard_ttl); }
+  std::string OffboardUrl() const { return bus::BusUrl(robot, bus::BusSide::kOffboard, offboard_ttl); }
+
   void Describe(Archive& a) {
     a.Text("title", title, "what runs, in a few words");
-    a.Text("onboard_url", onboard_url, "LCM bus of the robot");
-    a.Text("offboard_url", offboard_url, "LCM bus of the workstation");
+    a.Text("robot", robot, "name of the robot: a-z, 0-9 and \"-\"; the ports of its buses follow from it");
+    a.Integer("onboard_ttl", onboard_ttl,
+              {"", 0, 255, "routers a message on the robot's bus may pass; 0: this host"});
+    a.Integer("offboard_ttl", offboard_ttl, {"", 0, 255, "the same on the workstation's bus"});
     a.Choice("group", group, {"all", "onboard", "offboard"}, "what runs on this machine");
     a.Flag("emulated_line", emulated_line, "join the two radios by an emulated serial line");
     a.Section("line", line, "that line");

@@ -48,11 +48,11 @@ void AddDoctorCommand(CLI::App& cli, int& exit_code) {
   auto* verb = cli.add_subcommand(
       "doctor",
       "What this machine lacks, each with the command that mends it (exit code 1 when something is bad).");
-  verb->footer("Example: priamos doctor --bus 'udpm://239.255.76.67:7667?ttl=1'");
-  verb->add_option("--bus", options->bus, "LCM bus")->capture_default_str();
+  verb->footer("Example: priamos doctor --bus onboard --ttl 1");
+  bus::AddBusChoice(*verb, options->bus);
   verb->add_flag("--json", options->json, "machine-readable");
   verb->callback([options, &exit_code] {
-    const auto findings = Examine(ThisMachine(), options->bus);
+    const auto findings = Examine(ThisMachine(), options->bus.Url());
     Print(findings, options->json);
     exit_code = std::any_of(findings.begin(), findings.end(),
                             [](const Finding& f) { return f.verdict == Finding::Verdict::kBad; })

@@ -161,8 +161,8 @@ void AddBudget(CLI::App& link, int& exit_code) {
 void AddTop(CLI::App& link, int& exit_code) {
   auto options = std::make_shared<LinkTopOptions>();
   auto* verb = link.add_subcommand("top", "The link as it is now: load, quality, every channel.");
-  verb->footer("Example: priamos link top --bus 'udpm://239.255.76.68:7668?ttl=0'");
-  verb->add_option("--bus", options->bus, "LCM bus on which priamos-radio runs")->capture_default_str();
+  verb->footer("Example: priamos link top --bus onboard");
+  bus::AddBusChoice(*verb, options->bus);
   verb->add_flag("--once", options->once, "one screen, then end");
   verb->callback([options, &exit_code] { exit_code = RunLinkTop(*options); });
 }
@@ -176,7 +176,7 @@ void AddListen(CLI::App& link, int& exit_code) {
   verb->add_option("--for", options->seconds, "s; 0: until Ctrl-C")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
-  verb->add_option("--bus", options->bus, "LCM bus on which priamos-radio runs")->capture_default_str();
+  bus::AddBusChoice(*verb, options->bus);
   verb->callback([options, &exit_code] { exit_code = RunLinkListen(*options); });
 }
 

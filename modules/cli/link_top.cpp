@@ -108,7 +108,7 @@ std::string LinkTopView::Render(Time now) const {
 int RunLinkTop(const LinkTopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus);
+  bus::LcmBus bus(options.bus.Url());
   bus::Node node(bus, schema, clock);
   auto reports = node.SubscribeAll(channels::kLinkStatus);
   LinkTopView view;
@@ -133,7 +133,7 @@ int RunLinkTop(const LinkTopOptions& options) {
 int RunLinkListen(const LinkTopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus);
+  bus::LcmBus bus(options.bus.Url());
   bus::Node node(bus, schema, clock);
   LinkListener listener(node, {options.channel});
   const Time until = options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "bus/bus_choice.hpp"
 #include "common/time.hpp"
 #include "priamos/link_status_t.hpp"
 
@@ -38,7 +39,7 @@ class LinkTopView {
 };
 
 struct LinkTopOptions {
-  std::string bus = "udpm://239.255.76.67:7667?ttl=0";
+  bus::BusChoice bus;
   bool once = false;      ///< print one screen and end
   double seconds = 0;     ///< end after so long; 0: at Ctrl-C
   std::string channel{};  ///< `listen`: the on-request channel that is wanted

@@ -60,7 +60,7 @@ class Playing {
  public:
   explicit Playing(const PlayOptions& options)
       : json_(options.json),
-        bus_(options.bus.bus, options.bus.messages()),
+        bus_(options.bus.bus.Url(), options.bus.messages()),
         player_(bus::LogReader(options.log), SelectionOf(options.selection, options.log)) {
     const Time now = clock_.Now();
     player_.SetSpeed(ParseSpeed(options.speed), now);

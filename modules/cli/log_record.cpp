@@ -48,7 +48,7 @@ class Recording {
   explicit Recording(const RecordOptions& options)
       : options_(options),
         schema_(bus::OwnTypes()),
-        bus_(options.bus.bus, options.bus.messages()),
+        bus_(options.bus.bus.Url(), options.bus.messages()),
         node_(bus_, schema_, clock_),
         health_(node_.Advertise(channels::kHealth)),
         recorder_(options.file, LimitsOf(options), clock_.Now()),

@@ -95,7 +95,7 @@ void PrintRows(const std::vector<TopicRow>& rows, const bus::LcmBus& bus, bool j
 int List(const TopicOptions& options) {
   const bus::Schema schema = LoadTypes(options);
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus, options.messages());
+  bus::LcmBus bus(options.bus.Url(), options.messages());
   TopicStatistics statistics(schema, FromSeconds(std::max(2.0, options.seconds)));
   const auto add = [&](std::string_view channel, std::span<const std::byte> bytes) {
     statistics.Add(clock.Now(), channel, bytes);
@@ -115,14 +115,14 @@ int List(const TopicOptions& options) {
   std::cerr << fmt::format(
       "nothing heard on {} in {} s; is the port the right one, and does `ip route get 239.255.76.67` "
       "lead to the same network?\n",
-      options.bus, options.seconds);
+      options.bus.Url(), options.seconds);
   return 1;
 }
 
 int Echo(const TopicOptions& options) {
   const bus::Schema schema = LoadTypes(options);
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus, options.messages());
+  bus::LcmBus bus(options.bus.Url(), options.messages());
   int seen = 0;
   bus.Subscribe(options.channel, [&](std::string_view channel, std::span<const std::byte> bytes) {
     ++seen;
@@ -144,12 +144,17 @@ int Pub(const TopicOptions& options) {
   const bus::Schema schema = LoadTypes(options);
   const auto* type = schema.Find(options.type);
   if (!type) throw bus::MessageError(fmt::format("expected a known type, got \"{}\"", options.type));
-  bus::LcmBus bus(options.bus, options.messages());
+  bus::LcmBus bus(options.bus.Url(), options.messages());
   const auto bytes = bus::FromJson(*type, bus::Json::parse(options.message));
   if (!bus.Publish(options.channel, bytes))
-    throw bus::BusError(fmt::format("{}: {} bytes were not sent", options.bus, bytes.size()));
+    throw bus::BusError(fmt::format("{}: {} bytes were not sent", options.bus.Url(), bytes.size()));
   if (options.json)
     std::cout << nlohmann::ordered_json{{"channel", options.channel}, {"bytes", bytes.size()}} << "\n";
+  return 0;
+}
+
+int PrintUrl(const TopicOptions& options) {
+  std::cout << options.bus.Url() << "\n";
   return 0;
 }
 
@@ -193,10 +198,12 @@ void AddTopicCommand(CLI::App& cli, int& exit_code) {
       ->capture_default_str();
   echo->add_flag("--json", options->json, "one line per message");
   echo->callback([options, &exit_code] { exit_code = Echo(*options); });
+  auto* url = AddVerb(*topic, "url", "Print the URL of a bus, for LCM's own programs.",
+                      "lcm-logger --lcm-url=$(priamos topic url --bus onboard)", *options);
+  url->callback([options, &exit_code] { exit_code = PrintUrl(*options); });
   auto* pub = AddVerb(
       *topic, "pub", "Send one message, given as JSON.",
-      "priamos topic pub MISSION_COMMAND mission_command_t '{\"utime\":0,\"mission\":1,\"landmark_id\":1}' "
-      "--bus 'udpm://239.255.76.68:7668?ttl=0'",
+      "priamos topic pub MISSION_COMMAND mission_command_t '{\"utime\":0,\"mission\":1,\"landmark_id\":1}'",
       *options);
   pub->add_option("channel", options->channel, "LCM channel")->required();
   pub->add_option("type", options->type, "message type")->required();

@@ -30,7 +30,7 @@ ScreenSize SizeOfTerminal() {
 int RunView(const ViewOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus.bus);
+  bus::LcmBus bus(options.bus.bus.Url());
   bus::Node node(bus, schema, clock);
   auto views = node.SubscribeAll(channels::kLandmarkView);
   auto fixes = node.SubscribeAll(channels::kLandmarkFix);

@@ -14,6 +14,7 @@ namespace priamos::planner {
 class PlannerApp {
  public:
   static constexpr std::string_view kName = "planner";
+  static constexpr std::string_view kDefaultBus = "offboard";
   static constexpr std::string_view kSummary =
       "The robot's workstation: the building's map, and missions such as passing a door.";
   using Config = PlannerConfig;

@@ -18,6 +18,7 @@ namespace priamos::teleop {
 class TeleopApp {
  public:
   static constexpr std::string_view kName = "teleop";
+  static constexpr std::string_view kDefaultBus = "offboard";
   static constexpr std::string_view kSummary =
       "Driving by hand: space-mouse, joystick or keyboard to DRIVE_COMMAND and HEAD_DRIVE.";
   static constexpr std::array<bus::OptionAlias, 3> kOptions{

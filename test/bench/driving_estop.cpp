@@ -89,8 +89,7 @@ class EstopStudy {
       : options_(options),
         rig_(options),
         keyboard_({options.program_folder + "/priamos-teleop", "--config",
-                   options.source_folder + "/config/sim/teleop.toml", "--bus",
-                   "udpm://239.255.76.68:7668?ttl=0", "--keyboard"}) {
+                   options.source_folder + "/config/sim/teleop.toml", "--bus", "offboard", "--keyboard"}) {
     rig_.Start();
     rig_.Wait(1);
   }

@@ -77,8 +77,9 @@ class BusTools : public testing::Test {
     }
   }
   ShellAnswer Run(const std::string& script, int seconds = 30, const std::string& unshare = "unshare -rn") {
-    return RunInPrivateNetwork("cd " + folder_.path().string() + "\n" + script, folder_ / "script.sh",
-                               seconds, unshare);
+    return RunInPrivateNetwork(
+        "export PRIAMOS_BUS='udpm://239.255.76.67:7667?ttl=0'\ncd " + folder_.path().string() + "\n" + script,
+        folder_ / "script.sh", seconds, unshare);
   }
   TemporaryFolder folder_;
   std::string log_ = folder_ / "in.lcmlog";
@@ -100,7 +101,7 @@ TEST_F(BusTools, PlayAndRecordKeepEveryByte) {
 /// `record FILE` starts LCM's recorder and returns when it hears, `stop` ends it. A socket that is open need
 /// not have joined the group yet, hence READY.
 const std::string kLogger = R"sh(
-    URL='udpm://239.255.76.67:7667?ttl=0'
+    URL=$PRIAMOS_BUS
     record() {
       lcm-logger --lcm-url="$URL" --flush-interval=50 -q $1 & logger=$!
       until [ -s $1 ]; do $BIN/priamos topic pub READY link_request_t '{"utime":0,"channel":"","hold_s":0}' > /dev/null; sleep 0.1; done

@@ -9,15 +9,16 @@ namespace priamos {
 
 /// Runs a bash script in a network of its own (loopback with multicast and nothing else), at most `seconds`.
 /// `$BIN` is the folder of our programs, `$SOURCE` the source tree; `listening` waits until somebody hears
-/// the default bus (port 7667, 0x1DF3). `script_file` is written.
+/// a bus of ours (bound to 239.255.76.67 or .68). `script_file` is written.
 inline ShellAnswer RunInPrivateNetwork(const std::string& script, const std::string& script_file,
                                        int seconds = 30, const std::string& unshare = "unshare -rn") {
-  std::ofstream(script_file) << "set -u\nip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo\n"
-                                "BIN=" PRIAMOS_BINARY_DIR "/bin\nSOURCE=" PRIAMOS_SOURCE_DIR
-                                "\n"
-                                "listening() { until grep -q ':1DF3 ' /proc/net/udp; do sleep 0.05; done; "
-                                "sleep 0.3; }\n"
-                             << script;
+  std::ofstream(script_file)
+      << "set -u\nip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo\n"
+         "BIN=" PRIAMOS_BINARY_DIR "/bin\nSOURCE=" PRIAMOS_SOURCE_DIR
+         "\n"
+         "listening() { until grep -qE ' 4[34]4CFFEF:' /proc/net/udp; do sleep 0.05; done; "
+         "sleep 0.3; }\n"
+      << script;
   return RunShell("timeout " + std::to_string(seconds) + " " + unshare + " bash " + script_file);
 }
 

@@ -93,7 +93,7 @@ TEST_F(UpTest, WhileItIsStoppedItsProcessesGoOnAndAfterwardsNobodyIsBlamed) {
   const auto answer = RunScript(R"sh(
     start $LOGS.out
     kill -STOP $UP; sleep 2
-    $BIN/priamos topic hz POSE --seconds 1
+    $BIN/priamos topic hz POSE --bus onboard --seconds 1
     kill -CONT $UP; sleep 1.5
     verb status; verb down; wait $UP
   )sh");

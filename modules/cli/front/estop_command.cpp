@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "bus/bus_choice.hpp"
 #include "bus/clock.hpp"
 #include "bus/lcm_bus.hpp"
 #include "bus/node.hpp"
@@ -18,7 +19,7 @@ constexpr Duration kAgain = std::chrono::seconds(1);
 constexpr int kNoAnswer = 1;
 
 struct EstopOptions {
-  std::string bus = "udpm://239.255.76.68:7668?ttl=0";
+  bus::BusChoice bus;
   bool rearm = false;
   double wait_s = 5;
 };
@@ -27,7 +28,7 @@ struct EstopOptions {
 int Run(const EstopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus);
+  bus::LcmBus bus(options.bus.Url());
   bus::Node node(bus, schema, clock);
   auto estop = node.Advertise(channels::kEstop);
   const auto status = node.Subscribe(channels::kDriveStatus);
@@ -53,7 +54,7 @@ int Run(const EstopOptions& options) {
     return 0;
   }
   std::cerr << fmt::format("priamos estop: the robot did not answer within {:.0f} s on {}\n", options.wait_s,
-                           options.bus);
+                           options.bus.Url());
   return kNoAnswer;
 }
 
@@ -64,8 +65,7 @@ void AddEstopCommand(CLI::App& cli, int& exit_code) {
   auto* verb =
       cli.add_subcommand("estop", "Emergency stop: the wheels stop and stay stopped until re-arming.");
   verb->footer("Example: priamos estop; later priamos estop --rearm");
-  verb->add_option("--bus", options->bus, "LCM bus, that of the workstation or the robot's own")
-      ->capture_default_str();
+  bus::AddBusChoice(*verb, options->bus);
   verb->add_flag("--rearm", options->rearm, "lift it; nothing moves without a new command");
   verb->add_option("--wait", options->wait_s, "s, for the robot's answer")
       ->check(CLI::Range(0.1, 600.0))

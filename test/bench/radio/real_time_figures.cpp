@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "bus/bus_address.hpp"
 #include "bus/clock.hpp"
 #include "bus/lcm_bus.hpp"
 #include "bus/schema/json.hpp"
@@ -22,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kFolder = std::string(PRIAMOS_SOURCE_DIR) + "/test/bench/radio";
-constexpr const char* kOnboardBus = "udpm://239.255.76.67:7667?ttl=0";
-constexpr const char* kOffboardBus = "udpm://239.255.76.68:7668?ttl=0";
+const std::string kOnboardBus = bus::BusUrl(bus::kDefaultRobot, bus::BusSide::kOnboard, 0);
+const std::string kOffboardBus = bus::BusUrl(bus::kDefaultRobot, bus::BusSide::kOffboard, 0);
 
 /// Processor time of a process until now, user and system.
 double CpuSeconds(pid_t pid) {
