@@ -30,9 +30,9 @@ class EntryWriter {
 
   void operator()(const StateEntry& e) {
     Id(e.channel);
-    if (!table_.at(e.channel).delta.empty()) out_.Write(e.baseline ? 1 : 0, 1);
+    if (!table_.at(e.channel).delta.empty()) out_.Put(e.baseline ? 1 : 0, 1);
     if (e.baseline) {
-      out_.Write(*e.baseline, kBaselineBits);
+      out_.Put(*e.baseline, kBaselineBits);
       out_.Append(e.packed, e.bits);
       return;
     }
@@ -42,61 +42,61 @@ class EntryWriter {
     Id(e.channel);
     const auto ttl = static_cast<std::uint64_t>(table_.at(e.channel).ttl.count());
     const auto age = static_cast<std::uint64_t>(std::max<std::int64_t>(0, e.age.count()));
-    out_.Write(std::min((age * kAgeSteps + ttl - 1) / ttl, kAgeSteps), 6);
+    out_.Put(std::min((age * kAgeSteps + ttl - 1) / ttl, kAgeSteps), 6);
     Body(e.channel, e.bits, e.packed);
   }
   void operator()(const EventEntry& e) {
     Id(e.channel);
     const EventSegment& s = e.segment;
-    out_.Write(s.number, 8);
-    out_.Write(s.base ? 1 : 0, 1);
-    out_.Write(s.first ? 1 : 0, 1);
-    out_.Write(s.last ? 1 : 0, 1);
-    if (s.first) out_.Write(EncodeDuration12(s.age), 12);
+    out_.Put(s.number, 8);
+    out_.Put(s.base ? 1 : 0, 1);
+    out_.Put(s.first ? 1 : 0, 1);
+    out_.Put(s.last ? 1 : 0, 1);
+    if (s.first) out_.Put(EncodeDuration12(s.age), 12);
     if (s.first && s.last && table_.at(e.channel).fixed_bits > 0) {
       out_.Append(s.bytes, s.bits);
       return;
     }
-    if (s.last) out_.Write(s.bytes.size(), kSegmentLengthBits);
+    if (s.last) out_.Put(s.bytes.size(), kSegmentLengthBits);
     out_.Append(s.bytes, s.bytes.size() * 8);
   }
   void operator()(const EventAckEntry& e) {
     Control(kEventAck);
     Id(e.channel);
-    out_.Write(e.ack.next, 8);
-    out_.Write(e.ack.prefix, kPrefixBits);
-    out_.Write(e.ack.held != 0 ? 1 : 0, 1);
-    if (e.ack.held != 0) out_.Write(e.ack.held, static_cast<int>(kAckWindow));
+    out_.Put(e.ack.next, 8);
+    out_.Put(e.ack.prefix, kPrefixBits);
+    out_.Put(e.ack.held != 0 ? 1 : 0, 1);
+    if (e.ack.held != 0) out_.Put(e.ack.held, static_cast<int>(kAckWindow));
   }
   void operator()(const FrameAckEntry& e) {
     Control(kFrameAck);
-    out_.Write(e.counter & 0xFFFU, 12);
-    out_.Write(e.earlier, kEarlierFrames);
-    out_.Write(EncodeDuration12(e.hold), 12);
-    out_.Write(static_cast<std::uint64_t>(std::lround(std::clamp(e.loss, 0.0, 1.0) * kLossSteps)), 4);
+    out_.Put(e.counter & 0xFFFU, 12);
+    out_.Put(e.earlier, kEarlierFrames);
+    out_.Put(EncodeDuration12(e.hold), 12);
+    out_.Put(static_cast<std::uint64_t>(std::lround(std::clamp(e.loss, 0.0, 1.0) * kLossSteps)), 4);
   }
   void operator()(const FloorEntry& e) {
     Control(kFloor);
-    out_.Write(e.counter, kFloorBits);
+    out_.Put(e.counter, kFloorBits);
   }
   void operator()(const ListenEntry& e) {
     Control(kListen);
-    out_.Write(e.channels, static_cast<int>(table_.size()));
+    out_.Put(e.channels, static_cast<int>(table_.size()));
   }
   void operator()(const OverEntry&) { Control(kOver); }
   void operator()(const ForgetEntry&) { Control(kForget); }
 
  private:
-  void Id(std::size_t channel) { out_.Write(channel + 1, table_.id_bits()); }
+  void Id(std::size_t channel) { out_.Put(channel + 1, table_.id_bits()); }
   void Control(ControlKind kind) {
-    out_.Write(table_.size() + 1, table_.id_bits());
-    out_.Write(kind, kControlKindBits);
+    out_.Put(table_.size() + 1, table_.id_bits());
+    out_.Put(kind, kControlKindBits);
   }
   void Body(std::size_t channel, std::size_t bits, std::span<const std::byte> packed) {
     if (table_.at(channel).fixed_bits > 0) {
       out_.Append(packed, bits);
     } else {
-      out_.Write(packed.size(), kLengthBits);
+      out_.Put(packed.size(), kLengthBits);
       out_.Append(packed, packed.size() * 8);
     }
   }
@@ -112,7 +112,7 @@ class BundleReader {
   /// nullopt at the end or where reading cannot go on; ok() tells which.
   std::optional<BundleEntry> Next() {
     if (in_.left() < static_cast<std::size_t>(table_.id_bits())) return std::nullopt;
-    const std::uint64_t id = in_.Read(table_.id_bits());
+    const std::uint64_t id = in_.Get(table_.id_bits());
     if (id == 0) return std::nullopt;
     const std::optional<BundleEntry> entry = id == table_.size() + 1 ? Control() : Message(id - 1);
     ok_ = ok_ && entry && in_.ok();
@@ -132,7 +132,7 @@ class BundleReader {
       case ChannelClass::kState:
         return State(channel, c);
       case ChannelClass::kCommand: {
-        const Duration age(in_.Read(6) * static_cast<std::uint64_t>(c.ttl.count()) / kAgeSteps);
+        const Duration age(in_.Get(6) * static_cast<std::uint64_t>(c.ttl.count()) / kAgeSteps);
         Packed body = Body(c);
         return CommandEntry{channel, age, body.bits, std::move(body.bytes)};
       }
@@ -142,50 +142,50 @@ class BundleReader {
     return std::nullopt;
   }
   StateEntry State(std::size_t channel, const LinkChannel& c) {
-    if (c.delta.empty() || in_.Read(1) == 0) {
+    if (c.delta.empty() || in_.Get(1) == 0) {
       Packed body = Body(c);
       return {channel, body.bits, std::move(body.bytes)};
     }
-    const auto baseline = static_cast<std::uint8_t>(in_.Read(kBaselineBits));
+    const auto baseline = static_cast<std::uint8_t>(in_.Get(kBaselineBits));
     const std::size_t before = in_.left();
     std::vector<std::byte> delta = TakeDelta(c.delta, in_);
     return {channel, before - in_.left(), std::move(delta), baseline};
   }
   Packed Body(const LinkChannel& c) {
-    const std::size_t bits = c.fixed_bits > 0 ? c.fixed_bits : in_.Read(kLengthBits) * 8;
+    const std::size_t bits = c.fixed_bits > 0 ? c.fixed_bits : in_.Get(kLengthBits) * 8;
     return {bits, in_.Take(bits)};
   }
   EventSegment Segment(const LinkChannel& c) {
     EventSegment s;
-    s.number = static_cast<std::uint8_t>(in_.Read(8));
-    s.base = in_.Read(1) != 0;
-    s.first = in_.Read(1) != 0;
-    s.last = in_.Read(1) != 0;
-    if (s.first) s.age = DecodeDuration12(static_cast<std::uint16_t>(in_.Read(12)));
+    s.number = static_cast<std::uint8_t>(in_.Get(8));
+    s.base = in_.Get(1) != 0;
+    s.first = in_.Get(1) != 0;
+    s.last = in_.Get(1) != 0;
+    if (s.first) s.age = DecodeDuration12(static_cast<std::uint16_t>(in_.Get(12)));
     if (s.first && s.last && c.fixed_bits > 0) {
       s.bits = c.fixed_bits;
     } else {
-      s.bits = 8 * (s.last ? in_.Read(kSegmentLengthBits) : kSegmentBytes);
+      s.bits = 8 * (s.last ? in_.Get(kSegmentLengthBits) : kSegmentBytes);
     }
     s.bytes = in_.Take(s.bits);
     return s;
   }
   std::optional<BundleEntry> Control() {
-    switch (in_.Read(kControlKindBits)) {
+    switch (in_.Get(kControlKindBits)) {
       case kFrameAck: {
         FrameAckEntry e;
-        e.counter = static_cast<std::uint16_t>(in_.Read(12));
-        e.earlier = static_cast<std::uint8_t>(in_.Read(kEarlierFrames));
-        e.hold = DecodeDuration12(static_cast<std::uint16_t>(in_.Read(12)));
-        e.loss = static_cast<double>(in_.Read(4)) / kLossSteps;
+        e.counter = static_cast<std::uint16_t>(in_.Get(12));
+        e.earlier = static_cast<std::uint8_t>(in_.Get(kEarlierFrames));
+        e.hold = DecodeDuration12(static_cast<std::uint16_t>(in_.Get(12)));
+        e.loss = static_cast<double>(in_.Get(4)) / kLossSteps;
         return e;
       }
       case kEventAck:
         return Acknowledgement();
       case kFloor:
-        return FloorEntry{in_.Read(kFloorBits)};
+        return FloorEntry{in_.Get(kFloorBits)};
       case kListen:
-        return ListenEntry{in_.Read(static_cast<int>(table_.size()))};
+        return ListenEntry{in_.Get(static_cast<int>(table_.size()))};
       case kOver:
         return OverEntry{};
       case kForget:
@@ -195,14 +195,14 @@ class BundleReader {
     }
   }
   std::optional<BundleEntry> Acknowledgement() {
-    const std::uint64_t id = in_.Read(table_.id_bits());
+    const std::uint64_t id = in_.Get(table_.id_bits());
     if (id == 0 || id > table_.size()) return std::nullopt;
     const LinkChannel& c = table_.at(id - 1);
     if (c.direction == incoming_ || c.channel_class != ChannelClass::kEvent) return std::nullopt;
     EventAckEntry e{id - 1, {}};
-    e.ack.next = static_cast<std::uint8_t>(in_.Read(8));
-    e.ack.prefix = static_cast<std::uint8_t>(in_.Read(kPrefixBits));
-    if (in_.Read(1) != 0) e.ack.held = static_cast<std::uint16_t>(in_.Read(static_cast<int>(kAckWindow)));
+    e.ack.next = static_cast<std::uint8_t>(in_.Get(8));
+    e.ack.prefix = static_cast<std::uint8_t>(in_.Get(kPrefixBits));
+    if (in_.Get(1) != 0) e.ack.held = static_cast<std::uint16_t>(in_.Get(static_cast<int>(kAckWindow)));
     return e;
   }
 

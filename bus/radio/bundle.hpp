@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
-#include "bus/radio/bit_stream.hpp"
 #include "bus/radio/channel_table.hpp"
 #include "bus/radio/event_stream.hpp"
+#include "bus/schema/bit_stream.hpp"
 
 /// What a data frame carries: entries one after the other, bit by bit. Each begins with a channel number, 0
 /// ends the bundle (the zeros that fill the last byte are such an end).

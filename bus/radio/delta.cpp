@@ -18,22 +18,22 @@ constexpr std::uint64_t Mask(int width) {
 }
 
 void WriteValue(int width, std::uint64_t before, std::uint64_t value, BitWriter& out) {
-  if (value == before) return out.Write(0, 1);
-  out.Write(1, 1);
-  if (width <= kNoSmallForm) return out.Write(value, width);
+  if (value == before) return out.Put(0, 1);
+  out.Put(1, 1);
+  if (width <= kNoSmallForm) return out.Put(value, width);
   // Modulo 2^width, from -2^(s-1) to 2^(s-1) - 1.
   const int small = SmallBits(width);
   const std::uint64_t shifted = (value - before + (std::uint64_t{1} << (small - 1))) & Mask(width);
   const bool fits = shifted <= Mask(small);
-  out.Write(fits ? 0 : 1, 1);
-  out.Write(fits ? shifted : value, fits ? small : width);
+  out.Put(fits ? 0 : 1, 1);
+  out.Put(fits ? shifted : value, fits ? small : width);
 }
 
 std::uint64_t ReadValue(int width, std::uint64_t before, BitReader& in) {
-  if (in.Read(1) == 0) return before;
-  if (width <= kNoSmallForm || in.Read(1) != 0) return in.Read(width);
+  if (in.Get(1) == 0) return before;
+  if (width <= kNoSmallForm || in.Get(1) != 0) return in.Get(width);
   const int small = SmallBits(width);
-  return (before + in.Read(small) - (std::uint64_t{1} << (small - 1))) & Mask(width);
+  return (before + in.Get(small) - (std::uint64_t{1} << (small - 1))) & Mask(width);
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ BitWriter EncodeDelta(const ValueWidths& widths, std::span<const std::byte> base
   BitReader before(baseline), now(message);
   BitWriter out;
   for (const int width : widths) {
-    const std::uint64_t old_value = before.Read(width);
-    WriteValue(width, old_value, now.Read(width), out);
+    const std::uint64_t old_value = before.Get(width);
+    WriteValue(width, old_value, now.Get(width), out);
   }
   return out;
 }
@@ -52,18 +52,18 @@ BitWriter EncodeDelta(const ValueWidths& widths, std::span<const std::byte> base
 std::vector<std::byte> TakeDelta(const ValueWidths& widths, BitReader& in) {
   BitWriter taken;
   for (const int width : widths) {
-    const bool changed = in.Read(1) != 0;
-    taken.Write(changed ? 1 : 0, 1);
+    const bool changed = in.Get(1) != 0;
+    taken.Put(changed ? 1 : 0, 1);
     if (!changed) continue;
     int bits = width;
     if (width > kNoSmallForm) {
-      const bool whole = in.Read(1) != 0;
-      taken.Write(whole ? 1 : 0, 1);
+      const bool whole = in.Get(1) != 0;
+      taken.Put(whole ? 1 : 0, 1);
       if (!whole) bits = SmallBits(width);
     }
-    taken.Write(in.Read(bits), bits);
+    taken.Put(in.Get(bits), bits);
   }
-  return taken.bytes();
+  return taken.Finish();
 }
 
 std::optional<std::vector<std::byte>> ApplyDelta(const ValueWidths& widths,
@@ -71,9 +71,9 @@ std::optional<std::vector<std::byte>> ApplyDelta(const ValueWidths& widths,
                                                  std::span<const std::byte> delta) {
   BitReader before(baseline), in(delta);
   BitWriter message;
-  for (const int width : widths) message.Write(ReadValue(width, before.Read(width), in), width);
+  for (const int width : widths) message.Put(ReadValue(width, before.Get(width), in), width);
   if (!in.ok() || !before.ok()) return std::nullopt;
-  return message.bytes();
+  return message.Finish();
 }
 
 void MessageHistory::Note(std::uint64_t counter, std::vector<std::byte> packed) {

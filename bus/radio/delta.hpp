@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "bus/radio/bit_stream.hpp"
+#include "bus/schema/bit_stream.hpp"
 
 /// State messages as differences to one that the other end is known to have: only against an acknowledged
 /// baseline, so a lost frame never makes a later one unreadable or wrong.

@@ -13,21 +13,31 @@ constexpr int BitsFor(std::uint64_t last) {
   return std::bit_width(last);
 }
 
-/// Appends numbers of 0..64 bits, most significant bit first; the last byte is filled with zeros.
+/// Bits in the making: numbers of 0..64 bits, most significant bit first; the last byte is filled with zeros.
 class BitWriter {
  public:
   explicit BitWriter(std::size_t expected_bytes = 0) { bytes_.reserve(expected_bytes); }
 
-  /// The low `bits` bits of `value`; the bits above them have to be 0.
+  /// Appends the low `bits` bits of `value`.
   void Put(std::uint64_t value, int bits) {
     if (bits > 32) {
       PutShort(value >> 32, bits - 32);
-      value &= 0xffffffffU;
       bits = 32;
     }
     PutShort(value, bits);
   }
+  /// Appends the first `bits` bits of `from`, which holds as many.
+  void Append(std::span<const std::byte> from, std::size_t bits) {
+    for (std::size_t i = 0; i < bits / 8; ++i) PutShort(std::to_integer<std::uint64_t>(from[i]), 8);
+    const int rest = static_cast<int>(bits % 8);
+    if (rest > 0) PutShort(std::to_integer<std::uint64_t>(from[bits / 8]) >> (8 - rest), rest);
+  }
 
+  /// Number of bits so far.
+  std::size_t bits() const { return 8 * bytes_.size() + static_cast<std::size_t>(held_bits_); }
+  /// A copy of the bytes so far.
+  std::vector<std::byte> bytes() const { return BitWriter(*this).Finish(); }
+  /// The bytes; the writer is used up.
   std::vector<std::byte> Finish() {
     if (held_bits_ > 0) PutShort(0, 8 - held_bits_);
     return std::move(bytes_);
@@ -35,7 +45,7 @@ class BitWriter {
 
  private:
   void PutShort(std::uint64_t value, int bits) {
-    held_ = held_ << bits | value;
+    held_ = held_ << bits | (value & ((std::uint64_t{1} << bits) - 1));
     held_bits_ += bits;
     while (held_bits_ >= 8) {
       held_bits_ -= 8;
@@ -48,21 +58,38 @@ class BitWriter {
   int held_bits_ = 0;
 };
 
-/// Reads what BitWriter wrote. Reading over the end gives zeros and makes ok() false for good.
+/// Bits that a BitWriter wrote. Reading over the end gives zeros and makes ok() false for good.
 class BitReader {
  public:
+  /// `bytes` must outlive the reader.
   explicit BitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  explicit BitReader(std::vector<std::byte>&& bytes) = delete;
 
+  /// The next number of 0..64 bits.
   std::uint64_t Get(int bits) {
     if (bits <= 32) return GetShort(bits);
     const std::uint64_t high = GetShort(bits - 32);
     return high << 32 | GetShort(32);
   }
+  /// The next `bits` bits as bytes, the last one filled with zeros; empty when fewer are left.
+  std::vector<std::byte> Take(std::size_t bits) {
+    if (bits > left()) {
+      ok_ = false;
+      return {};
+    }
+    BitWriter taken((bits + 7) / 8);
+    for (std::size_t i = 0; i < bits / 8; ++i) taken.Put(GetShort(8), 8);
+    const int rest = static_cast<int>(bits % 8);
+    taken.Put(GetShort(rest), rest);
+    return taken.Finish();
+  }
 
+  /// Number of bits not read yet.
+  std::size_t left() const { return 8 * (bytes_.size() - next_) + static_cast<std::size_t>(held_bits_); }
   bool ok() const { return ok_; }
-  /// Bytes touched so far.
+  /// Number of bytes touched so far.
   std::size_t bytes_used() const { return next_; }
-  /// True when only the zeros that fill the last byte are left of the bytes touched.
+  /// Whether only the zeros that fill the last byte are left of the bytes touched.
   bool FillIsZero() const { return (held_ & ((std::uint64_t{1} << held_bits_) - 1)) == 0; }
 
  private:

@@ -13,7 +13,7 @@ const ValueWidths kWidths{15, 15, 13, 9, 1, 3, 64};
 
 std::vector<std::byte> Message(const ValueWidths& widths, const std::vector<std::uint64_t>& values) {
   BitWriter out;
-  for (std::size_t i = 0; i < widths.size(); ++i) out.Write(values[i], widths[i]);
+  for (std::size_t i = 0; i < widths.size(); ++i) out.Put(values[i], widths[i]);
   return out.bytes();
 }
 
@@ -38,19 +38,20 @@ TEST(Delta, EverythingComesBack) {
     BitWriter before, now, wire;
     for (const int w : widths) {
       const std::uint64_t value = rng.engine()();
-      before.Write(value, w);
-      now.Write(rng.Chance(0.7) ? value + rng.Below(40) - 20 : rng.engine()(), w);
+      before.Put(value, w);
+      now.Put(rng.Chance(0.7) ? value + rng.Below(40) - 20 : rng.engine()(), w);
     }
     const BitWriter delta = EncodeDelta(widths, before.bytes(), now.bytes());
     EXPECT_EQ(ApplyDelta(widths, before.bytes(), delta.bytes()), now.bytes());
     // Between other bits it is found again without the baseline.
-    wire.Write(5, 3);
+    wire.Put(5, 3);
     wire.Append(delta.bytes(), delta.bits());
-    wire.Write(9, 4);
-    BitReader in(wire.bytes());
-    in.Read(3);
+    wire.Put(9, 4);
+    const std::vector<std::byte> bits = wire.Finish();
+    BitReader in(bits);
+    in.Get(3);
     EXPECT_EQ(TakeDelta(widths, in), delta.bytes());
-    EXPECT_EQ(in.Read(4), 9U);
+    EXPECT_EQ(in.Get(4), 9U);
     EXPECT_TRUE(in.ok());
   }
 }
@@ -119,8 +120,8 @@ struct DeltaLink : testing::Test {
     }
     for (const LinkPair::Received& r : pair.offboard.received) {
       BitReader in(r.delivery.packed);
-      in.Read(48);
-      const std::uint64_t id = in.Read(32);
+      in.Get(48);
+      const std::uint64_t id = in.Get(32);
       wrong += sent.count(id) == 0 || sent[id] != r.delivery.packed ? 1 : 0;
       ++arrived;
     }

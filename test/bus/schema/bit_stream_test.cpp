@@ -49,6 +49,45 @@ TEST(BitStream, SeesWhatIsLeftOfTheLastByte) {
   EXPECT_EQ(dut.bytes_used(), 2u);
 }
 
+TEST(BitStream, BitsAboveTheWidthAreLeftOut) {
+  BitWriter dut;
+  dut.Put(~std::uint64_t{0}, 3);
+  dut.Put(0, 2);
+  EXPECT_EQ(dut.Finish(), BytesOf({0xE0}));
+}
+
+TEST(BitStream, BytesSoFarAreACopy) {
+  BitWriter dut;
+  dut.Put(1, 1);
+  EXPECT_EQ(dut.bytes(), BytesOf({0x80}));
+  dut.Put(0xFF, 8);
+  EXPECT_EQ(dut.bits(), 9u);
+  EXPECT_EQ(dut.bytes(), BytesOf({0xFF, 0x80}));
+}
+
+TEST(BitStream, AppendedBitsComeBackAtAnyOffset) {
+  const Bytes body = BytesOf({0xA5, 0xC0});
+  for (int offset = 0; offset < 9; ++offset) {
+    BitWriter out;
+    out.Put(1, offset);
+    out.Append(body, 10);
+    out.Put(1, 1);
+    const Bytes bytes = out.Finish();
+    BitReader dut(bytes);
+    EXPECT_EQ(dut.Get(offset), offset == 0 ? 0u : 1u);
+    EXPECT_EQ(dut.Take(10), body);
+    EXPECT_EQ(dut.Get(1), 1u);
+    EXPECT_EQ(dut.left(), bytes.size() * 8 - static_cast<std::size_t>(offset) - 11);
+  }
+}
+
+TEST(BitStream, MoreThanIsLeftIsNotTaken) {
+  const Bytes bytes = BytesOf({0xFF});
+  BitReader dut(bytes);
+  EXPECT_TRUE(dut.Take(1000000000).empty());
+  EXPECT_FALSE(dut.ok());
+}
+
 TEST(BitStream, BitsForCodes) {
   EXPECT_EQ(BitsFor(0), 0);
   EXPECT_EQ(BitsFor(1), 1);
