@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bus/radio/channel_table.hpp"
-#include "bus/radio/link.hpp"
+#include "bus/radio/link_options.hpp"
 
 /// What a link's configuration asks of the line, before anything is sent.
 namespace priamos::bus::radio {

@@ -129,6 +129,8 @@ class FrameOpener {
   /// `encoded` is what lay between two delimiters. Exactly one code is computed per frame, so that the
   /// chance of a forged data frame is 2^-32, of a hello 2^-64.
   Opened Open(std::span<const std::byte> encoded);
+  /// Epoch of the frames that pass; 0: none.
+  std::uint64_t epoch() const { return epoch_; }
   /// Highest counter accepted, or the floor.
   std::uint64_t highest() const { return window_.highest(); }
 

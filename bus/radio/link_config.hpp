@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bus/radio/channel_table.hpp"
-#include "bus/radio/link.hpp"
+#include "bus/radio/link_options.hpp"
 #include "bus/schema/schema.hpp"
 #include "common/config.hpp"
 

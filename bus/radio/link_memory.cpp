@@ -14,7 +14,7 @@ constexpr std::uint64_t kFarthestSkip = std::uint64_t{1} << 24;
 }  // namespace
 
 LinkMemory::LinkMemory(StateStore& store, const ChannelTable& table, const NonceSource& nonces)
-    : store_(store), channels_(table.size()) {
+    : store_(&store), channels_(table.size()) {
   if (const auto saved = store.Load())
     if (auto state = ParseLinkState(*saved)) state_ = std::move(*state);
   if (state_.table_hash != table.hash() || state_.send_event.size() != channels_ ||
@@ -58,12 +58,12 @@ void LinkMemory::Reserve() {
 
 void LinkMemory::StartSync() {
   Save();
-  store_.StartSync();
+  store_->StartSync();
   syncing_ = {state_.send_next, state_.receive_floor};
 }
 
 void LinkMemory::AwaitSync() {
-  store_.AwaitSync();
+  store_->AwaitSync();
   synced_ = syncing_;
 }
 

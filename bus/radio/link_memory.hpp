@@ -39,16 +39,18 @@ class LinkMemory {
   /// Puts back the events that were waiting, and the numbers expected.
   void RestoreEvents(SendQueue& queue, std::vector<EventReceiver>& receivers) const;
   void StoreEvents(const SendQueue& queue, const std::vector<EventReceiver>& receivers);
+  /// From now on `store` is written, which holds what the one before holds.
+  void MoveTo(StateStore& store) { store_ = &store; }
   /// Orderly end: nothing is reserved ahead any more.
   void Close(std::uint64_t highest_accepted);
 
  private:
-  void Save() { store_.Save(Serialise(state_)); }
+  void Save() { store_->Save(Serialise(state_)); }
   void Reserve();
   void StartSync();
   void AwaitSync();
 
-  StateStore& store_;
+  StateStore* store_;
   std::size_t channels_;
   LinkState state_;
   std::uint64_t next_counter_ = 1;

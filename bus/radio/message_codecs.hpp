@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/radio/link.hpp"
 #include "bus/radio/link_config.hpp"
+#include "bus/radio/message_receiver.hpp"
+#include "bus/radio/message_sender.hpp"
 #include "bus/schema/packing.hpp"
 
 namespace priamos::bus::radio {

@@ -1,0 +1,53 @@
+#include "bus/radio/bundle_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::bus::radio {
+namespace {
+
+/// The smallest target when errors are many: one segment of an event and its head.
+constexpr std::size_t kSmallestBundle = 60;
+
+bool IsMessage(const BundleEntry& entry) {
+  return std::holds_alternative<StateEntry>(entry) || std::holds_alternative<CommandEntry>(entry) ||
+         std::holds_alternative<EventEntry>(entry);
+}
+
+}  // namespace
+
+std::size_t BestBundleBytes(std::size_t max_bytes, double loss) {
+  if (loss <= 0) return max_bytes;
+  // Goodput (1 - h / n) (1 - p)^(10 n) of n bytes with h of overhead is largest near n = sqrt(h / (10 p)).
+  const double mean = static_cast<double>(max_bytes) / 2;
+  const double p = -std::log(1 - std::min(loss, 0.95)) / (10 * mean);
+  const double best = std::sqrt(static_cast<double>(kFrameOverhead) / (10 * p));
+  return std::min(max_bytes, std::max(kSmallestBundle, static_cast<std::size_t>(best)));
+}
+
+BundleBuilder::BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow)
+    : table_(table),
+      target_bytes_(target_bytes),
+      reserved_bits_(over_may_follow ? EntryBits(table, OverEntry{}) : 0) {}
+
+bool BundleBuilder::Add(const BundleEntry& entry) {
+  const std::size_t bits = out_.bits() + EntryBits(table_, entry) + reserved_bits_;
+  if (bits > 8 * (has_message_ ? target_bytes_ : kMaxBundleBytes)) return false;
+  WriteEntry(table_, entry, out_);
+  has_message_ = has_message_ || IsMessage(entry);
+  return true;
+}
+
+void BundleBuilder::AddOver() {
+  WriteEntry(table_, OverEntry{}, out_);
+}
+
+std::size_t BundleBuilder::FrameBytes() const {
+  return (out_.bits() + 7) / 8 + kFrameOverhead;
+}
+
+std::vector<std::byte> BundleBuilder::Finish() {
+  return out_.Finish();
+}
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "bus/radio/bundle.hpp"
+
+namespace priamos::bus::radio {
+
+/// The size in bytes at which bundles bring the most across a line that loses the share `loss` (0..1) of its
+/// frames; at most `max_bytes`.
+std::size_t BestBundleBytes(std::size_t max_bytes, double loss);
+
+/// A bundle in the making: it takes entries as long as they fit.
+class BundleBuilder {
+ public:
+  /// `table` must outlive the builder. `over_may_follow`: leaves room for AddOver().
+  BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow);
+
+  /// False when the entry does not fit; nothing is added then. The first message may exceed the target up to
+  /// the longest bundle there is, or a long one would never be sent.
+  bool Add(const BundleEntry& entry);
+  /// Ends the turn of this end on a half-duplex radio. It always fits.
+  void AddOver();
+
+  bool empty() const { return out_.bits() == 0; }
+  /// Bytes of the frame that this bundle would make now, with the short form of the counter.
+  std::size_t FrameBytes() const;
+  /// The bundle; the builder is used up.
+  std::vector<std::byte> Finish();
+
+ private:
+  const ChannelTable& table_;
+  BitWriter out_;
+  std::size_t target_bytes_;
+  std::size_t reserved_bits_;
+  bool has_message_ = false;
+};
+
+}  // namespace priamos::bus::radio

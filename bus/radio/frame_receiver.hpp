@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "bus/radio/cobs.hpp"
+#include "bus/radio/frame.hpp"
+#include "bus/radio/handshake.hpp"
+#include "bus/radio/link_quality.hpp"
+
+namespace priamos::bus::radio {
+
+/// A data frame that passed every check.
+struct AcceptedFrame {
+  DataFrame frame;
+  /// By how much its counter is above the highest one before it; 0 when a later frame overtook it.
+  std::uint64_t ahead = 0;
+  std::size_t wire_bytes = 0;  ///< length on the line, delimiter included
+  Time first_byte{};           ///< arrival of its first byte
+  bool link_back = false;      ///< the link was down until now
+};
+
+/// Counters of what came from the line.
+struct ReceptionCounters {
+  std::uint64_t bytes = 0;
+  std::uint64_t frames = 0;                        ///< data frames accepted
+  std::uint64_t missed = 0;                        ///< counters of the other end that never came
+  std::array<std::uint64_t, kRejects> rejected{};  ///< by Reject
+};
+
+/// The way from bytes of the line to frames that are believed, and how well that goes.
+class FrameReceiver {
+ public:
+  /// A frame that was completed by a byte: nothing, a hello or data.
+  using Result = std::variant<std::monostate, Hello, AcceptedFrame>;
+
+  /// `incoming`: direction of the frames. `bytes_per_s`: what the line can carry; frames that come faster are
+  /// not looked at. `silence`: the link is down when nothing was accepted for so long.
+  FrameReceiver(const FrameKeys& keys, Direction incoming, FrameScope scope, double bytes_per_s,
+                Duration silence, Time now);
+
+  /// From now on data frames of `epoch` with counters above `floor` are accepted; 0: none.
+  void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
+  /// The next byte of the line.
+  Result Push(std::byte byte, Time now);
+
+  Reception reception(Time now) const;
+  /// Whether no data frame was accepted of late.
+  bool Down(Time now) const { return !heard_at_ || now - *heard_at_ > silence_; }
+  /// Whether frames came that the other end cannot have sent.
+  bool alarm(Time now) const { return guard_.alarm(now); }
+  /// Highest counter accepted, or the floor.
+  std::uint64_t highest() const { return opener_.highest(); }
+  /// Arrival of the last data frame accepted; the beginning of time before the first.
+  Time heard_at() const { return heard_at_.value_or(Time{}); }
+  const LossMeter& loss() const { return loss_; }
+  const ReceptionCounters& counters() const { return counters_; }
+
+ private:
+  Result OnFrame(Time now);
+  AcceptedFrame Accept(DataFrame frame, std::uint64_t highest_before, Time now);
+  Result OnReject(Reject reject, Time now);
+
+  FrameSplitter splitter_;
+  FrameOpener opener_;
+  ForgeryGuard guard_;
+  LossMeter loss_;
+  Duration silence_;
+  Time first_byte_;               ///< arrival of the first byte of the frame that is coming in
+  std::optional<Time> heard_at_;  ///< arrival of the last accepted data frame
+  std::uint64_t unusable_ = 0;    ///< frames with a wrong code or a used counter since then
+  ReceptionCounters counters_;
+};
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,133 @@
+#include "bus/radio/frame_scheduler.hpp"
+
+#include <utility>
+
+namespace priamos::bus::radio {
+
+FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sealer,
+                               const LinkOptions& options, bool onboard, Time now)
+    : table_(&table),
+      sealer_(sealer),
+      options_(options),
+      transmitter_(options, now),
+      turns_(options.half_duplex, onboard, now),
+      last_data_(now - options.keep_alive) {}
+
+std::vector<std::byte> FrameScheduler::Step(FrameSources from, Time now) {
+  std::vector<std::byte> out;
+  turns_.Step(now, from.peer.sent.one_way());
+  if (MustCut(from, now)) Cut(from, now, out);
+  while (MaySend(from, now)) {
+    if (!flight_ && (!turns_.MayTalk(now) || !Build(from, now))) break;
+    transmitter_.Emit(now, out);
+    if (!transmitter_.busy()) Finish(from);
+  }
+  return out;
+}
+
+bool FrameScheduler::MustCut(const FrameSources& from, Time now) const {
+  return flight_ && !flight_->urgent && transmitter_.WorthCutting() && from.memory.epoch() != 0 &&
+         from.outbox.queue().UrgentReady(now, flight_->repeats);
+}
+
+bool FrameScheduler::MaySend(const FrameSources& from, Time now) const {
+  if (transmitter_.Allows(now)) return true;
+  // A datagram cannot be cut off by an urgent one, which therefore does not wait for what is charged to it.
+  return options_.datagrams && from.memory.epoch() != 0 && from.outbox.queue().UrgentReady(now);
+}
+
+bool FrameScheduler::Build(FrameSources from, Time now) {
+  const bool agreed = from.memory.epoch() != 0;
+  if (agreed && from.outbox.queue().UrgentReady(now) && BuildData(from, true, now)) return true;
+  if (from.peer.handshake.HelloDue(from.receiver.reception(now), now)) {
+    BuildHello(from, now);
+    return true;
+  }
+  return agreed && (DataDue(from, now) || turns_.MayPass(now)) && BuildData(from, false, now);
+}
+
+bool FrameScheduler::DataDue(const FrameSources& from, Time now) const {
+  return now - last_data_ >= options_.keep_alive || from.peer.Due() || from.inbox.Due() ||
+         !from.outbox.queue().Ready(now).empty();
+}
+
+void FrameScheduler::BuildHello(FrameSources from, Time now) {
+  Hello hello = from.peer.handshake.Take(from.memory.stream(), from.receiver.reception(now), now);
+  hello.over = turns_.enabled();  // the answer is what is needed
+  flight_.emplace();
+  flight_->over = hello.over;
+  transmitter_.Begin(sealer_.Seal(hello), now);
+}
+
+bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
+  const std::size_t target = BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss());
+  BundleBuilder builder(*table_, target, turns_.enabled());
+  Flight flight = Fill(builder, from, urgent_only, now);
+  // Nothing that is ready could be packed: no frame for nothing.
+  if (builder.empty() && now - last_data_ < options_.keep_alive) return false;
+  const std::vector<std::byte> bundle = builder.Finish();
+  flight.bundle_bytes = bundle.size();
+  flight.counter = from.memory.TakeCounter();
+  auto wire =
+      sealer_.Seal(from.memory.epoch(), flight.counter, from.peer.sent.FormOf(flight.counter), bundle);
+  last_data_ = now;
+  from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
+  flight_ = std::move(flight);
+  transmitter_.Begin(std::move(wire), now);
+  return true;
+}
+
+FrameScheduler::Flight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only,
+                                            Time now) const {
+  Flight flight;
+  flight.urgent = urgent_only && from.outbox.queue().UrgentReady(now, true);
+  flight.repeats = urgent_only && !flight.urgent;
+  if (!urgent_only) {
+    flight.peer = from.peer.Tell(bundle,
+                                 {.highest = from.receiver.highest(),
+                                  .at = from.receiver.heard_at(),
+                                  .loss = from.receiver.loss().loss(),
+                                  .floor = from.memory.receive_floor()},
+                                 now);
+    flight.inbox = from.inbox.Tell(bundle);
+  }
+  flight.outbox = from.outbox.Load(
+      bundle, {.now = now,
+               .counter = from.memory.last_counter() + 1,
+               .urgent_only = urgent_only,
+               .leaves_at = [&](std::size_t bytes) { return transmitter_.LeavesAt(bytes, now); }});
+  flight.over = EndsTurn(from, bundle.FrameBytes(), now);
+  if (flight.over) bundle.AddOver();
+  return flight;
+}
+
+bool FrameScheduler::EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const {
+  if (!turns_.enabled()) return false;
+  const Pacer& pacer = transmitter_.pacer();
+  const Duration longest = pacer.WireTime(options_.max_bundle_bytes + kFrameOverhead);
+  if (turns_.MustEnd(pacer.LeavesAt(frame_bytes, now), longest)) return true;
+  return !from.inbox.AckDue() && from.outbox.queue().Ready(now).empty();
+}
+
+void FrameScheduler::Cut(FrameSources from, Time now, std::vector<std::byte>& out) {
+  Flight flight = std::move(*flight_);
+  flight_.reset();
+  transmitter_.Cut(now, out);
+  ++counters_.aborted;
+  from.outbox.Return(std::move(flight.outbox));
+  from.inbox.Return(flight.inbox);
+  from.peer.Return(flight.peer);
+  if (flight.counter == 0) from.peer.handshake.Return();
+}
+
+void FrameScheduler::Finish(FrameSources from) {
+  Flight flight = std::move(*flight_);
+  flight_.reset();
+  if (flight.over) turns_.OnOverSent(transmitter_.pacer().free_at());
+  from.outbox.OnSent(std::move(flight.outbox), flight.counter);
+  if (flight.counter == 0) return from.peer.handshake.OnSent();
+  ++counters_.frames;
+  counters_.bundle_bytes += flight.bundle_bytes;
+}
+
+}  // namespace priamos::bus::radio

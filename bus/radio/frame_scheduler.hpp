@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bus/radio/frame_receiver.hpp"
+#include "bus/radio/link_memory.hpp"
+#include "bus/radio/message_receiver.hpp"
+#include "bus/radio/message_sender.hpp"
+#include "bus/radio/peer.hpp"
+#include "bus/radio/transmitter.hpp"
+#include "bus/radio/turn_taking.hpp"
+
+namespace priamos::bus::radio {
+
+/// The parts of an end that have something to say in a frame.
+struct FrameSources {
+  LinkMemory& memory;
+  const FrameReceiver& receiver;
+  Peer& peer;
+  MessageReceiver& inbox;
+  MessageSender& outbox;
+};
+
+/// Counters of what went on the line.
+struct SendCounters {
+  std::uint64_t frames = 0;        ///< data frames that left whole
+  std::uint64_t aborted = 0;       ///< frames cut off by an urgent message
+  std::uint64_t bundle_bytes = 0;  ///< bytes of their bundles
+};
+
+/// Which frame goes next, when its bytes may leave, and when it is cut off for an urgent message.
+class FrameScheduler {
+ public:
+  /// `table` must outlive the scheduler and its copies.
+  FrameScheduler(const ChannelTable& table, const FrameSealer& sealer, const LinkOptions& options,
+                 bool onboard, Time now);
+
+  /// The bytes that may be written to the line now.
+  std::vector<std::byte> Step(FrameSources from, Time now);
+  /// Something came from the other end.
+  void OnBytes(Time now) { turns_.OnBytes(now); }
+  /// The other end said that it falls silent.
+  void OnOver(Time now) { turns_.OnOverReceived(now); }
+
+  /// Time that bytes of a frame take on the line.
+  Duration OnTheWay(std::size_t bytes) const { return transmitter_.OnTheWay(bytes); }
+  const SendCounters& counters() const { return counters_; }
+  std::uint64_t bytes_sent() const { return transmitter_.bytes_sent(); }
+
+ private:
+  /// What the frame on its way out means: what must be noted when it has left, or undone when it is cut off.
+  struct Flight {
+    std::uint64_t counter = 0;  ///< 0: a hello
+    bool urgent = false;        ///< never cut off
+    bool repeats = false;       ///< only what was urgent before: cut off by what is urgent now
+    bool over = false;          ///< ends the turn
+    std::size_t bundle_bytes = 0;
+    Peer::Told peer{};
+    MessageReceiver::Told inbox{};
+    MessageSender::Loaded outbox{};
+  };
+
+  bool MustCut(const FrameSources& from, Time now) const;
+  bool MaySend(const FrameSources& from, Time now) const;
+  bool Build(FrameSources from, Time now);
+  bool DataDue(const FrameSources& from, Time now) const;
+  void BuildHello(FrameSources from, Time now);
+  bool BuildData(FrameSources from, bool urgent_only, Time now);
+  Flight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, Time now) const;
+  bool EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const;
+  void Cut(FrameSources from, Time now, std::vector<std::byte>& out);
+  void Finish(FrameSources from);
+
+  const ChannelTable* table_;
+  FrameSealer sealer_;
+  LinkOptions options_;
+  Transmitter transmitter_;
+  TurnTaking turns_;
+  std::optional<Flight> flight_;
+  Time last_data_;  ///< begin of the last data frame sent
+  SendCounters counters_;
+};
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "bus/radio/epoch.hpp"
+#include "bus/radio/frame.hpp"
+#include "bus/radio/link_quality.hpp"
+#include "common/time.hpp"
+
+namespace priamos::bus::radio {
+
+/// How well this end can use what the other one sends.
+enum class Reception : std::uint8_t {
+  kHeard,    ///< data frames are accepted
+  kSilent,   ///< nothing was accepted of late
+  kUnusable  ///< frames come and cannot be used, or there is no epoch
+};
+
+/// What must be said until both ends use the same channel table, epoch and counters: hellos, and the floor.
+/// It decides when; epoch.hpp decides what a hello means.
+class Handshake {
+ public:
+  /// `floor_due`: this end's memory of accepted counters was reserved ahead, so that the other end may still
+  /// send counters that count as used here.
+  Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_due, Time now);
+
+  /// Takes a hello. Returns the pair of nonces whose epoch is to be used from now on, nullopt for no change.
+  std::optional<EpochAgreement::Pair> OnHello(const Hello& hello);
+  /// A data frame was accepted: both ends use the same table, epoch and counters.
+  void OnData();
+  /// This end uses a new epoch.
+  void OnEpochChanged();
+
+  /// Whether a hello is to be sent now. Hellos that somebody else can provoke are limited in rate.
+  bool HelloDue(Reception reception, Time now) const;
+  /// The hello; it counts as sent. `stream` names this end's numbering of events.
+  Hello Take(std::uint32_t stream, Reception reception, Time now);
+  /// The hello was cut off: it is due again.
+  void Return() { reply_due_ = true; }
+  /// The hello has left whole.
+  void OnSent() { ++sent_; }
+
+  /// Whether the other end must be told which counters to skip.
+  bool floor_due() const { return floor_due_; }
+  /// Whether the other end said last that it has another channel table.
+  bool table_mismatch() const { return table_mismatch_; }
+  std::uint64_t received() const { return received_; }
+  std::uint64_t sent() const { return sent_; }
+
+ private:
+  std::uint32_t table_hash_;
+  EpochAgreement agreement_;
+  AnswerLimit limit_;
+  Time last_;  ///< time of the last hello from here
+  bool reply_due_ = false;
+  bool switched_ = false;  ///< to a new epoch, of which no frame has come yet
+  bool floor_due_;
+  bool table_mismatch_ = false;
+  std::uint64_t received_ = 0;
+  std::uint64_t sent_ = 0;
+};
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+
+#include "bus/radio/turn_taking.hpp"
+#include "common/time.hpp"
+
+namespace priamos::bus::radio {
+
+/// How an end uses the line.
+struct LinkOptions {
+  double bytes_per_s = 960;            ///< what the line carries, or the radio if that is slower
+  int ahead_bytes = 2;                 ///< bytes written ahead of the line, beside the byte being sent
+  std::size_t max_bundle_bytes = 120;  ///< bytes of a bundle of several messages; a longer message goes alone
+  Duration keep_alive{250'000};        ///< longest silence of this end
+  Duration silence{1'500'000};         ///< the link is down after so long without a frame
+  Duration ageing{1'000'000};          ///< waiting time for which a message gains one priority level
+  HalfDuplex half_duplex{};  ///< turns of a radio with one channel; by default there are two directions
+  bool datagrams = false;    ///< a frame goes whole, in one datagram, whose head counts as sent
+};
+
+}  // namespace priamos::bus::radio

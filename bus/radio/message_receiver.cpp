@@ -1,0 +1,84 @@
+#include "bus/radio/message_receiver.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace priamos::bus::radio {
+
+MessageReceiver::MessageReceiver(const ChannelTable& table)
+    : table_(&table), events_(table.size()), histories_(table.size()), counters_(table.size()) {}
+
+void MessageReceiver::OnState(StateEntry entry, const Arrival& arrival, std::vector<Delivery>& out) {
+  const ValueWidths& widths = table_->at(entry.channel).delta;
+  MessageHistory& history = histories_[entry.channel];
+  bool usable = arrival.newest;
+  if (usable && entry.baseline) {
+    const auto* baseline = history.Find(BaselineCounter(arrival.counter, *entry.baseline));
+    auto whole = baseline != nullptr ? ApplyDelta(widths, baseline->packed, entry.packed) : std::nullopt;
+    usable = whole.has_value();
+    forget_due_ = forget_due_ || !usable;
+    if (usable) entry.packed = std::move(*whole);
+  }
+  if (!usable) {
+    ++counters_[entry.channel].late;
+    return;
+  }
+  if (!widths.empty()) history.Note(arrival.counter, entry.packed);
+  Deliver({entry.channel, std::move(entry.packed), arrival.sent_at}, entry.bits, out);
+}
+
+void MessageReceiver::OnCommand(CommandEntry entry, const Arrival& arrival, bool fresh,
+                                std::vector<Delivery>& out) {
+  const Time valid_until = arrival.sent_at - entry.age + table_->at(entry.channel).ttl;
+  if (!arrival.newest || !fresh || valid_until < arrival.now) {
+    ++counters_[entry.channel].late;
+    return;
+  }
+  Deliver({entry.channel, std::move(entry.packed), arrival.sent_at, valid_until}, entry.bits, out);
+}
+
+bool MessageReceiver::OnEvent(const EventEntry& entry, const Arrival& arrival, std::vector<Delivery>& out) {
+  EventReceiver& receiver = events_[entry.channel];
+  const bool known = receiver.known();
+  auto events = receiver.OnSegment(entry.segment, arrival.sent_at);
+  for (EventReceiver::Event& event : events)
+    Deliver({entry.channel, std::move(event.packed), event.packed_at}, event.bits, out);
+  return !events.empty() || receiver.known() != known;
+}
+
+void MessageReceiver::Deliver(Delivery delivery, std::size_t bits, std::vector<Delivery>& out) {
+  ++counters_[delivery.channel].delivered;
+  counters_[delivery.channel].bits += bits;
+  out.push_back(std::move(delivery));
+}
+
+void MessageReceiver::OnEpochChanged() {
+  for (MessageHistory& history : histories_) history.Clear();
+}
+
+void MessageReceiver::ForgetEvents() {
+  for (EventReceiver& receiver : events_) receiver.Forget();
+}
+
+bool MessageReceiver::AckDue() const {
+  return std::any_of(events_.begin(), events_.end(), [](const EventReceiver& r) { return r.ack_due(); });
+}
+
+MessageReceiver::Told MessageReceiver::Tell(BundleBuilder& bundle) {
+  Told told{.forget = std::exchange(forget_due_, false), .acks = {}};
+  if (told.forget) bundle.Add(ForgetEntry{});
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    if (!events_[i].ack_due()) continue;
+    if (!bundle.Add(EventAckEntry{i, events_[i].ack()})) break;
+    events_[i].set_ack_due(false);
+    told.acks.push_back(i);
+  }
+  return told;
+}
+
+void MessageReceiver::Return(const Told& told) {
+  forget_due_ = forget_due_ || told.forget;
+  for (const std::size_t channel : told.acks) events_[channel].set_ack_due(true);
+}
+
+}  // namespace priamos::bus::radio

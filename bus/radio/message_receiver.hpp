@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bus/radio/bundle_builder.hpp"
+#include "bus/radio/delta.hpp"
+#include "bus/radio/event_stream.hpp"
+
+namespace priamos::bus::radio {
+
+/// A message from the other end.
+struct Delivery {
+  std::size_t channel = 0;
+  std::vector<std::byte> packed;
+  Time packed_at{};                   ///< when it was packed, in this end's clock: its ages count from here
+  std::optional<Time> valid_until{};  ///< commands: not to be obeyed later
+};
+
+/// What arrived on one incoming channel.
+struct DeliveryCounters {
+  std::uint64_t delivered = 0;  ///< messages
+  /// Messages refused: a command that may be too old, a message overtaken by a newer one, a difference to a
+  /// message from before a restart.
+  std::uint64_t late = 0;
+  std::uint64_t bits = 0;  ///< packed bits of the messages delivered
+};
+
+/// The frame that brought a message.
+struct Arrival {
+  std::uint64_t counter = 0;
+  bool newest = true;  ///< no frame sent later has come before
+  Time sent_at{};      ///< when its first byte was sent, in this end's clock
+  Time began{};        ///< arrival of its first byte, had its bytes come one after the other
+  Time now{};          ///< arrival of its last byte
+};
+
+/// Messages from the entries of accepted bundles: it refuses what is late, completes differences, puts events
+/// in order, and knows what it has to acknowledge or to ask for.
+class MessageReceiver {
+ public:
+  /// `table` must outlive the receiver and its copies.
+  explicit MessageReceiver(const ChannelTable& table);
+
+  /// Each appends what is delivered to `out`.
+  void OnState(StateEntry entry, const Arrival& arrival, std::vector<Delivery>& out);
+  /// `fresh`: it is proven that the frame was not held back on its way.
+  void OnCommand(CommandEntry entry, const Arrival& arrival, bool fresh, std::vector<Delivery>& out);
+  /// Returns whether the numbers of events() have changed: they must be remembered before the acknowledgement
+  /// leaves, or a restarted end would deliver events again.
+  bool OnEvent(const EventEntry& entry, const Arrival& arrival, std::vector<Delivery>& out);
+  /// Counters begin anew: no difference can refer to what came before.
+  void OnEpochChanged();
+  /// The other end's numbering of events began anew.
+  void ForgetEvents();
+
+  /// What a frame carried of this, to be given back when it is cut off.
+  struct Told {
+    bool forget = false;
+    std::vector<std::size_t> acks;  ///< channels
+  };
+  bool AckDue() const;
+  /// Whether a frame is to be made for the sake of an entry of Tell().
+  bool Due() const { return forget_due_ || AckDue(); }
+  /// Adds what is due; that counts as sent.
+  Told Tell(BundleBuilder& bundle);
+  void Return(const Told& told);
+
+  const DeliveryCounters& counters(std::size_t channel) const { return counters_[channel]; }
+  std::vector<EventReceiver>& events() { return events_; }
+  const std::vector<EventReceiver>& events() const { return events_; }
+
+ private:
+  void Deliver(Delivery delivery, std::size_t bits, std::vector<Delivery>& out);
+
+  const ChannelTable* table_;
+  std::vector<EventReceiver> events_;       ///< by channel
+  std::vector<MessageHistory> histories_;   ///< by channel: what differences may refer to
+  std::vector<DeliveryCounters> counters_;  ///< by channel
+  bool forget_due_ = false;                 ///< the other end refers to what is not known here
+};
+
+}  // namespace priamos::bus::radio

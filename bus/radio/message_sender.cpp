@@ -1,0 +1,140 @@
+#include "bus/radio/message_sender.hpp"
+
+#include <utility>
+
+namespace priamos::bus::radio {
+
+MessageSender::MessageSender(const ChannelTable& table, Direction outgoing, Duration ageing,
+                             PackFunction pack)
+    : table_(&table),
+      outgoing_(outgoing),
+      pack_(std::move(pack)),
+      queue_(table, outgoing, ageing),
+      deltas_(table.size()) {}
+
+OfferResult MessageSender::Offer(std::size_t channel, std::span<const std::byte> encoded, Time now,
+                                 std::string_view key) {
+  if (channel >= table_->size() || table_->at(channel).direction != outgoing_)
+    return OfferResult::kNotOutgoing;
+  if (table_->at(channel).channel_class != ChannelClass::kEvent)
+    return queue_.Offer(channel, key, encoded, now) ? OfferResult::kAccepted : OfferResult::kRefused;
+  auto packed = pack_(channel, encoded, now);
+  if (!packed) {
+    queue_.CountRefused(channel);
+    return OfferResult::kRefused;
+  }
+  if (packed->saturated) ++queue_.counters(channel).saturated;
+  return queue_.OfferEvent(channel, std::move(packed->bytes), packed->bits, now) ? OfferResult::kAccepted
+                                                                                 : OfferResult::kRefused;
+}
+
+MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure& departure) {
+  Loaded loaded;
+  for (const SendQueue::Candidate& candidate : queue_.Ready(departure.now)) {
+    if (departure.urgent_only && !candidate.urgent) break;
+    if (table_->at(candidate.channel).channel_class == ChannelClass::kEvent) {
+      LoadSegments(candidate.channel, bundle, departure, loaded);
+    } else {
+      LoadNewest(candidate, bundle, departure, loaded);
+    }
+  }
+  return loaded;
+}
+
+void MessageSender::LoadSegments(std::size_t channel, BundleBuilder& bundle, const Departure& departure,
+                                 Loaded& loaded) {
+  // What is urgent now is not made longer by repetitions of what was urgent before.
+  const bool fresh_only = departure.urgent_only && queue_.NextIsFresh(channel, departure.now);
+  while (!fresh_only || queue_.NextIsFresh(channel, departure.now))
+    if (!LoadSegment(channel, bundle, departure, loaded)) return;
+}
+
+bool MessageSender::LoadSegment(std::size_t channel, BundleBuilder& bundle, const Departure& departure,
+                                Loaded& loaded) {
+  const auto segment = queue_.PeekEvent(channel, departure.now);
+  if (!segment || !bundle.Add(EventEntry{channel, *segment})) return false;
+  queue_.TakeEvent(channel, segment->number, departure.now, departure.leaves_at(bundle.FrameBytes()));
+  queue_.counters(channel).bits += segment->bits;
+  loaded.segments.push_back({channel, segment->number});
+  return true;
+}
+
+void MessageSender::LoadNewest(const SendQueue::Candidate& candidate, BundleBuilder& bundle,
+                               const Departure& departure, Loaded& loaded) {
+  const std::size_t channel = candidate.channel;
+  auto packed = pack_(channel, queue_.Peek(candidate), departure.now);
+  if (!packed) {
+    queue_.Take(candidate);
+    queue_.CountRefused(channel);
+    return;
+  }
+  const BundleEntry entry = EntryOf(candidate, *packed, departure);
+  if (!bundle.Add(entry)) return;
+  if (packed->saturated) ++queue_.counters(channel).saturated;
+  const auto* state = std::get_if<StateEntry>(&entry);
+  if (table_->at(channel).delta.empty()) packed->bytes.clear();
+  std::size_t bits = packed->bits;
+  if (state != nullptr && state->baseline) bits = state->bits + kBaselineBits;
+  loaded.messages.push_back({queue_.Take(candidate), bits, std::move(packed->bytes)});
+}
+
+BundleEntry MessageSender::EntryOf(const SendQueue::Candidate& candidate, const Packed& packed,
+                                   const Departure& departure) const {
+  const LinkChannel& channel = table_->at(candidate.channel);
+  if (channel.channel_class == ChannelClass::kCommand)
+    return CommandEntry{candidate.channel, departure.now - queue_.OfferedAt(candidate), packed.bits,
+                        packed.bytes};
+  StateEntry entry{candidate.channel, packed.bits, packed.bytes};
+  if (channel.delta.empty()) return entry;
+  const auto* baseline = deltas_[candidate.channel].Baseline(departure.counter);
+  if (baseline == nullptr) return entry;
+  BitWriter delta = EncodeDelta(channel.delta, baseline->packed, packed.bytes);
+  const std::size_t bits = delta.bits();
+  if (bits + kBaselineBits >= packed.bits) return entry;
+  return StateEntry{candidate.channel, bits, delta.Finish(),
+                    static_cast<std::uint8_t>(baseline->counter & kDeltaReach)};
+}
+
+void MessageSender::Return(Loaded loaded) {
+  for (Loaded::Message& m : loaded.messages) queue_.Return(std::move(m.queued));
+  for (const Loaded::Segment& s : loaded.segments) queue_.events(s.channel).MarkUnsent(s.number);
+}
+
+void MessageSender::OnSent(Loaded loaded, std::uint64_t counter) {
+  for (Loaded::Message& m : loaded.messages) {
+    queue_.CountSent(m.queued.channel, m.bits);
+    if (!m.packed.empty()) deltas_[m.queued.channel].OnSent(counter, std::move(m.packed));
+  }
+}
+
+std::size_t MessageSender::OnEventAck(const EventAckEntry& entry, Time now) {
+  const std::size_t done = queue_.events(entry.channel).OnAck(entry.ack, now, round_trip_);
+  for (std::size_t i = 0; i < table_->size(); ++i) queue_.events(i).set_timeout(round_trip_.timeout());
+  queue_.counters(entry.channel).sent += done;
+  return done;
+}
+
+void MessageSender::OnFrameAcknowledged(std::uint64_t counter) {
+  for (DeltaSender& sender : deltas_) sender.OnAcknowledged(counter);
+}
+
+void MessageSender::ForgetBaselines() {
+  for (DeltaSender& sender : deltas_) sender.Forget();
+}
+
+void MessageSender::OnEpochChanged() {
+  ResendEvents(true);
+  ForgetBaselines();
+}
+
+void MessageSender::ResendEvents(bool forgotten) {
+  for (std::size_t i = 0; i < table_->size(); ++i) queue_.events(i).ResendAll(forgotten);
+}
+
+std::uint64_t MessageSender::resent() const {
+  std::uint64_t resent = 0;
+  for (std::size_t i = 0; i < table_->size(); ++i) resent += queue_.events(i).resent();
+  return resent;
+}
+
+}  // namespace priamos::bus::radio

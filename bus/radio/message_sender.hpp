@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "bus/radio/bundle_builder.hpp"
+#include "bus/radio/delta.hpp"
+#include "bus/radio/send_queue.hpp"
+
+namespace priamos::bus::radio {
+
+/// A message as it goes over the air.
+struct Packed {
+  std::vector<std::byte> bytes;
+  std::size_t bits = 0;    ///< number of bits used, from the first bit of `bytes` on
+  bool saturated = false;  ///< a field was outside its range
+};
+
+/// Makes the encoded message of a channel small. It is asked when the message goes on the line, so that time
+/// stamps travel as age at sending; nullopt when it is no message of the channel's type.
+using PackFunction =
+    std::function<std::optional<Packed>(std::size_t channel, std::span<const std::byte> encoded, Time now)>;
+
+enum class OfferResult { kAccepted, kRefused, kNotOutgoing };
+
+/// The frame that messages are taken for.
+struct Departure {
+  Time now{};
+  std::uint64_t counter = 0;
+  bool urgent_only = false;
+  /// When a frame of so many bytes, begun now, will have left.
+  std::function<Time(std::size_t bytes)> leaves_at;
+};
+
+/// Messages on their way into bundles: it packs them, sends states as differences where that is shorter, and
+/// gives back what a frame that was cut off did not bring across. Who goes first is the queue's business.
+class MessageSender {
+ public:
+  /// `table` must outlive the sender and its copies. `outgoing`: direction of the messages sent.
+  MessageSender(const ChannelTable& table, Direction outgoing, Duration ageing, PackFunction pack);
+
+  /// An encoded message for an outgoing channel; messages with different keys do not replace each other.
+  OfferResult Offer(std::size_t channel, std::span<const std::byte> encoded, Time now, std::string_view key);
+
+  /// What a frame carries of messages.
+  struct Loaded {
+    struct Message {
+      QueuedMessage queued;
+      std::size_t bits;               ///< packed bits on the line
+      std::vector<std::byte> packed;  ///< what the other end will have; of channels with differences
+    };
+    struct Segment {
+      std::size_t channel;
+      std::uint8_t number;
+    };
+    std::vector<Message> messages;
+    std::vector<Segment> segments;
+  };
+  /// Adds messages and segments of events to `bundle`, those that go first as long as they fit.
+  Loaded Load(BundleBuilder& bundle, const Departure& departure);
+  /// The frame was cut off: nothing of it was sent.
+  void Return(Loaded loaded);
+  /// The frame with this counter has left whole.
+  void OnSent(Loaded loaded, std::uint64_t counter);
+
+  /// Returns how many events were acknowledged for the first time.
+  std::size_t OnEventAck(const EventAckEntry& entry, Time now);
+  /// The other end accepted the frame with this counter.
+  void OnFrameAcknowledged(std::uint64_t counter);
+  /// The other end does not have what differences refer to.
+  void ForgetBaselines();
+  /// The link is back: events under way are sent again at once.
+  void OnLinkBack() { ResendEvents(false); }
+  /// Counters begin anew: the other end may have lost what it held.
+  void OnEpochChanged();
+
+  SendQueue& queue() { return queue_; }
+  const SendQueue& queue() const { return queue_; }
+  /// Time from a segment of an event to its acknowledgement, smoothed; negative before the first.
+  Duration round_trip() const { return round_trip_.smoothed(); }
+  /// Number of segments of events that were sent again.
+  std::uint64_t resent() const;
+
+ private:
+  void LoadSegments(std::size_t channel, BundleBuilder& bundle, const Departure& departure, Loaded& loaded);
+  bool LoadSegment(std::size_t channel, BundleBuilder& bundle, const Departure& departure, Loaded& loaded);
+  void LoadNewest(const SendQueue::Candidate& candidate, BundleBuilder& bundle, const Departure& departure,
+                  Loaded& loaded);
+  BundleEntry EntryOf(const SendQueue::Candidate& candidate, const Packed& packed,
+                      const Departure& departure) const;
+  void ResendEvents(bool forgotten);
+
+  const ChannelTable* table_;
+  Direction outgoing_;
+  PackFunction pack_;
+  SendQueue queue_;
+  std::vector<DeltaSender> deltas_;  ///< by channel
+  RoundTrip round_trip_;
+};
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "bus/radio/bundle_builder.hpp"
+#include "bus/radio/frame_ack.hpp"
+#include "bus/radio/handshake.hpp"
+#include "bus/radio/listeners.hpp"
+
+namespace priamos::bus::radio {
+
+/// What both ends have told each other, messages apart: agreement, frames acknowledged, listeners.
+struct Peer {
+  Handshake handshake;
+  FrameAckSender acks{};  ///< of the other end's frames
+  SentFrames sent{};      ///< frames of this end, and their acknowledgements
+  Listeners listeners{};
+
+  /// What this end knows of the other's frames when it makes one of its own.
+  struct Heard {
+    std::uint64_t highest = 0;  ///< counter accepted
+    Time at{};                  ///< arrival of the last frame accepted
+    double loss = 0;            ///< share of frames lost, 0..1
+    std::uint64_t floor = 0;    ///< up to it counters count as used
+  };
+  /// What a frame carried of this, to be given back when it is cut off.
+  struct Told {
+    bool frame_ack = false;
+    bool listeners = false;
+  };
+  /// Whether a frame is to be made for the sake of an entry of Tell().
+  bool Due() const { return acks.Pressing() || listeners.changed(); }
+  /// Adds what is due; that counts as sent.
+  Told Tell(BundleBuilder& bundle, const Heard& heard, Time now);
+  void Return(const Told& told);
+  /// Counters begin anew.
+  void OnEpochChanged();
+};
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,58 @@
+#include "bus/radio/transmitter.hpp"
+
+#include <utility>
+
+#include "bus/radio/frame.hpp"
+
+namespace priamos::bus::radio {
+namespace {
+
+/// A cut costs a delimiter; a frame with no more than this to go is faster finished.
+constexpr std::size_t kNotWorthCutting = 2;
+/// After such a silence a delimiter leads, so that what noise left in the receiver does not spoil the frame.
+constexpr std::size_t kIdleBytes = 16;
+
+}  // namespace
+
+Transmitter::Transmitter(const LinkOptions& options, Time now)
+    : pacer_(options.bytes_per_s, options.ahead_bytes, now), datagrams_(options.datagrams) {}
+
+bool Transmitter::WorthCutting() const {
+  return busy() && wire_.size() - next_ > kNotWorthCutting;
+}
+
+void Transmitter::Begin(std::vector<std::byte> wire, Time now) {
+  wire_ = std::move(wire);
+  next_ = 0;
+  for (std::size_t i = 0; datagrams_ && i < kDatagramHead; ++i) pacer_.Use(now);
+  if (!datagrams_ && pacer_.Idle(now) >= pacer_.WireTime(kIdleBytes)) wire_.insert(wire_.begin(), kDelimiter);
+}
+
+void Transmitter::Emit(Time now, std::vector<std::byte>& out) {
+  do {
+    Put(wire_[next_++], now, out);
+  } while (datagrams_ && busy());
+}
+
+void Transmitter::Cut(Time now, std::vector<std::byte>& out) {
+  // If nothing of it has left, it never was.
+  if (next_ > 0) Put(kDelimiter, now, out);
+  wire_.clear();
+  next_ = 0;
+}
+
+Duration Transmitter::OnTheWay(std::size_t bytes) const {
+  return datagrams_ ? Duration::zero() : pacer_.WireTime(bytes);
+}
+
+Time Transmitter::LeavesAt(std::size_t bytes, Time now) const {
+  return datagrams_ ? now : pacer_.LeavesAt(bytes, now);
+}
+
+void Transmitter::Put(std::byte byte, Time now, std::vector<std::byte>& out) {
+  out.push_back(byte);
+  pacer_.Use(now);
+  ++bytes_sent_;
+}
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bus/radio/link_options.hpp"
+#include "bus/radio/pacer.hpp"
+
+namespace priamos::bus::radio {
+
+/// The frame on its way out, handed over byte by byte at the pace of the line, or whole as a datagram. It
+/// knows nothing of what the bytes mean.
+class Transmitter {
+ public:
+  Transmitter(const LinkOptions& options, Time now);
+
+  /// Whether a frame has bytes left to send.
+  bool busy() const { return next_ < wire_.size(); }
+  /// Whether cutting the frame off now gains time over finishing it.
+  bool WorthCutting() const;
+  /// Whether the line can take a byte (a datagram) now.
+  bool Allows(Time now) const { return pacer_.Allows(now); }
+
+  /// Begins a frame, delimiter included; not while busy().
+  void Begin(std::vector<std::byte> wire, Time now);
+  /// Appends the next byte of the frame, or all of a datagram, to `out`; only while busy().
+  void Emit(Time now, std::vector<std::byte>& out);
+  /// Gives the frame up. What has left of it is ended by a delimiter, which makes it no frame.
+  void Cut(Time now, std::vector<std::byte>& out);
+
+  /// Time that bytes of a frame take on the line; a datagram arrives at once.
+  Duration OnTheWay(std::size_t bytes) const;
+  /// When `bytes` of a frame begun now will have left.
+  Time LeavesAt(std::size_t bytes, Time now) const;
+  /// Pace of the line.
+  const Pacer& pacer() const { return pacer_; }
+  std::uint64_t bytes_sent() const { return bytes_sent_; }
+
+ private:
+  void Put(std::byte byte, Time now, std::vector<std::byte>& out);
+
+  Pacer pacer_;
+  bool datagrams_;
+  std::vector<std::byte> wire_;  ///< the frame, delimiter included
+  std::size_t next_ = 0;         ///< first byte of `wire_` that has not left
+  std::uint64_t bytes_sent_ = 0;
+};
+
+}  // namespace priamos::bus::radio
