@@ -1,0 +1,98 @@
+#include "bus/radio/handshake.hpp"
+
+#include <gtest/gtest.h>
+
+namespace priamos::bus::radio {
+namespace {
+
+const Time kStart = FromUtime(1'000'000'000);
+Time After(double s) {
+  return kStart + FromSeconds(s);
+}
+
+constexpr std::uint32_t kTable = 77;
+
+Handshake Make(std::uint64_t first_nonce, bool floor_due = false) {
+  return {kTable, [n = first_nonce]() mutable { return n++; }, floor_due, kStart};
+}
+
+TEST(Handshake, ThreeHellosMakeAnEpoch) {
+  Handshake a = Make(100), b = Make(200);
+  Hello hello = a.Take(1, Reception::kUnusable, kStart);
+  EXPECT_FALSE(b.OnHello(hello));
+  ASSERT_TRUE(b.HelloDue(Reception::kHeard, kStart));
+  const auto agreed_a = a.OnHello(b.Take(2, Reception::kUnusable, kStart));
+  ASSERT_TRUE(agreed_a);
+  ASSERT_TRUE(a.HelloDue(Reception::kHeard, kStart));
+  const auto agreed_b = b.OnHello(a.Take(1, Reception::kHeard, kStart));
+  ASSERT_TRUE(agreed_b);
+  EXPECT_EQ(agreed_a->own, agreed_b->peer);
+  EXPECT_EQ(agreed_a->peer, agreed_b->own);
+  EXPECT_EQ(a.sent() + b.sent(), 0U);  // as long as nobody says that they have left
+  EXPECT_EQ(b.received(), 2U);
+}
+
+TEST(Handshake, AnEndWithoutEpochAsksAtOnceAndRepeats) {
+  Handshake dut = Make(1);
+  EXPECT_FALSE(dut.HelloDue(Reception::kHeard, kStart));
+  EXPECT_TRUE(dut.HelloDue(Reception::kUnusable, kStart));
+  EXPECT_TRUE(dut.Take(9, Reception::kUnusable, kStart).need);
+  EXPECT_FALSE(dut.HelloDue(Reception::kUnusable, After(0.299)));
+  EXPECT_TRUE(dut.HelloDue(Reception::kUnusable, After(0.3)));
+}
+
+TEST(Handshake, SilenceIsAnnouncedOnceASecond) {
+  Handshake dut = Make(1);
+  EXPECT_FALSE(dut.Take(9, Reception::kSilent, kStart).need);
+  EXPECT_FALSE(dut.HelloDue(Reception::kSilent, After(0.999)));
+  EXPECT_TRUE(dut.HelloDue(Reception::kSilent, After(1)));
+}
+
+TEST(Handshake, CutOffItIsDueAgain) {
+  Handshake dut = Make(1);
+  dut.Take(9, Reception::kUnusable, kStart);
+  dut.Return();
+  EXPECT_TRUE(dut.HelloDue(Reception::kHeard, kStart));
+}
+
+TEST(Handshake, ProvokedAnswersAreLimited) {
+  Handshake dut = Make(1);
+  const Hello replay{.table_hash = kTable, .nonce = 5, .need = true};
+  int answers = 0;
+  for (int ms = 0; ms < 10'000; ++ms) {
+    dut.OnHello(replay);
+    if (!dut.HelloDue(Reception::kHeard, After(0.001 * ms))) continue;
+    dut.Take(9, Reception::kHeard, After(0.001 * ms));
+    ++answers;
+  }
+  EXPECT_LE(answers, 4 + 20);
+  EXPECT_GE(answers, 20);
+}
+
+TEST(Handshake, AnotherTableIsNotedAndNotAnswered) {
+  Handshake dut = Make(1);
+  EXPECT_FALSE(dut.OnHello({.table_hash = kTable + 1, .nonce = 5, .need = true}));
+  EXPECT_TRUE(dut.table_mismatch());
+  EXPECT_FALSE(dut.HelloDue(Reception::kHeard, kStart));
+  dut.OnData();
+  EXPECT_FALSE(dut.table_mismatch());
+}
+
+TEST(Handshake, TheFloorIsDueUntilAFrameShowsThatItIsKnown) {
+  Handshake dut = Make(1, true);
+  EXPECT_TRUE(dut.floor_due());
+  dut.OnData();
+  EXPECT_FALSE(dut.floor_due());
+}
+
+TEST(Handshake, AfterASwitchItRepeatsUntilAFrameComes) {
+  Handshake dut = Make(1);
+  dut.Take(9, Reception::kHeard, kStart);
+  dut.OnEpochChanged();
+  EXPECT_TRUE(dut.HelloDue(Reception::kHeard, After(0.3)));
+  dut.OnData();
+  EXPECT_FALSE(dut.HelloDue(Reception::kHeard, After(0.3)));
+}
+
+}  // namespace
+}  // namespace priamos::bus::radio
