@@ -10,24 +10,12 @@
 
 #include "bus/radio/line.hpp"
 #include "bus/radio/link.hpp"
-#include "bus/radio/link_state.hpp"
 #include "common/random.hpp"
+#include "link_trace.hpp"
 
 /// Two link ends in seeded worlds, and a digest of everything that they do: what a change of the inside must
 /// leave as it is.
 namespace priamos::bus::radio {
-
-/// A digest of numbers and bytes in their order (FNV-1a, 64 bits).
-class Trace {
- public:
-  void Number(std::uint64_t value);
-  void Bytes(std::span<const std::byte> bytes);
-  std::uint64_t digest() const { return digest_; }
-
- private:
-  void Add(std::uint8_t byte);
-  std::uint64_t digest_ = 0xcbf29ce484222325;
-};
 
 /// What happens to two ends; rates are means of random times.
 struct World {
@@ -48,24 +36,6 @@ struct World {
   bool tables_differ = false;
   bool keys_differ = false;
   double seconds = 30;
-};
-
-/// Memory that notes in a trace when it is written, and can be set back.
-class TracedStore : public StateStore {
- public:
-  explicit TracedStore(Trace& trace) : trace_(trace) {}
-  std::optional<std::vector<std::byte>> Load() override;
-  void Save(std::span<const std::byte> state) override;
-  void StartSync() override { trace_.Number('Y'); }
-  void AwaitSync() override { trace_.Number('A'); }
-  void Lose() { states_.clear(); }
-  void RollBack() {
-    states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(states_.size() / 2), states_.end());
-  }
-
- private:
-  Trace& trace_;
-  std::deque<std::vector<std::byte>> states_;  ///< the newest last
 };
 
 /// One direction of the line, or of a network that reorders and doubles datagrams.
