@@ -8,33 +8,36 @@
 #include "bus/radio/channel_table.hpp"
 #include "bus/radio/link_options.hpp"
 
-/// What a link's configuration asks of the line, before anything is sent.
+/// Load and worst-case latencies that a link's configuration asks of the line, computed before anything is
+/// sent.
 namespace priamos::bus::radio {
 
-/// One channel at its configured rate.
+/// Load of one channel at its configured rate.
 struct ChannelBudget {
   std::size_t channel = 0;
   std::size_t bits = 0;    ///< in a bundle, at most, with number and head (an event: all segments)
   double rate_hz = 0;      ///< all keys together
   double bytes_per_s = 0;  ///< on a busy line, with its share of full frames' overhead
-  double share = 0;        ///< of the line
+  double share = 0;        ///< `bytes_per_s` over what the line carries
   /// From Offer() to the last byte at the receiver, without the line's own latency, on an error-free line
   /// whose channels keep their rates; nullopt: not bounded within a minute.
   std::optional<Duration> worst_latency;
 };
 
+/// Load of one direction of the line.
 struct DirectionBudget {
   Direction direction = Direction::kUp;
   std::vector<ChannelBudget> channels;
-  double control_bytes_per_s = 0;   ///< acknowledgements
-  double bytes_per_s = 0;           ///< everything
-  double capacity_bytes_per_s = 0;  ///< of the line; half-duplex: left when the other end uses its turns up
-  double utilisation = 0;           ///< of that
+  double control_bytes_per_s = 0;   ///< load of the acknowledgements
+  double bytes_per_s = 0;           ///< load of everything
+  double capacity_bytes_per_s = 0;  ///< what the line carries; half-duplex: what the other end leaves of it
+  double utilisation = 0;           ///< `bytes_per_s` over `capacity_bytes_per_s`
 };
 
+/// Load of both directions, and why the configuration cannot be used.
 struct Budget {
   DirectionBudget up, down;
-  std::vector<std::string> problems;  ///< sentences; empty when the configuration holds
+  std::vector<std::string> problems;  ///< one sentence each; empty when the configuration holds
 };
 
 /// Worst-case latencies by response-time analysis as for CAN (Davis, Burns, Bril, Lukkien, Real-Time Systems

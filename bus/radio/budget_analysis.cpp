@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bus/radio/event_stream.hpp"
+#include "bus/radio/bundle.hpp"
 
 namespace priamos::bus::radio {
 namespace {
@@ -99,7 +99,8 @@ void DirectionAnalysis::SetEntries(const LinkChannel& c, ChannelLoad& load) cons
 /// Acknowledgements that can be in one frame before the messages.
 double DirectionAnalysis::ControlBits() const {
   double bits = table_.id_bits() + kFrameAckBits;
-  bool on_request = false, deltas = false;
+  bool on_request = false;
+  bool deltas = false;
   for (const LinkChannel& c : table_.channels()) {
     if (c.direction == direction_) continue;
     if (c.channel_class == ChannelClass::kEvent) bits += 2 * table_.id_bits() + kEventAckBits;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bus/radio/channel_table.hpp"
-#include "bus/radio/link.hpp"
+#include "bus/radio/link_options.hpp"
 
 /// Response times of the channels of one direction. What is bounded and after whom: budget.hpp.
 namespace priamos::bus::radio {
@@ -19,28 +19,29 @@ struct ChannelLoad {
   double period_s = 0;
   double burst = 1;
   double keys = 1;
-  double entries = 1;     ///< per message
-  double entry_bits = 0;  ///< largest of them
-  double bits = 0;        ///< all of them
+  double entries = 1;     ///< number of entries per message
+  double entry_bits = 0;  ///< bits of the largest entry
+  double bits = 0;        ///< bits of all entries of a message
   double latency_s = std::numeric_limits<double>::infinity();
 
-  /// Messages that can come in a window of this length.
+  /// Number of messages that can come in a window of this length.
   double Arrivals(double window_s) const;
-  /// Messages of the same channel that can be there before one that waits for so long.
+  /// Number of messages of the same channel that can be there before one that waits for so long.
   double OwnBefore(double window_s) const;
 };
 
+/// Analysis of all channels of one direction.
 class DirectionAnalysis {
  public:
   /// `table` must outlive this.
   DirectionAnalysis(const ChannelTable& table, const LinkOptions& options, Direction direction);
 
   const std::vector<ChannelLoad>& loads() const { return loads_; }
-  /// Of the line, what this direction has for sure.
+  /// Share of the line that this direction has for sure, 0..1.
   double share() const { return turn_s_ / (turn_s_ + gap_s_); }
   /// Bytes of a frame per byte of its bundle.
   double overhead() const { return overhead_; }
-  /// For acknowledgements.
+  /// Load of the acknowledgements.
   double ControlBytesPerSecond() const;
 
  private:

@@ -12,6 +12,7 @@
 
 namespace priamos::bus::radio {
 
+/// How the messages of a channel are treated.
 enum class ChannelClass : std::uint8_t {
   kState,   ///< newest wins, expires, heals itself by the next one
   kEvent,   ///< acknowledged, in order, exactly once
@@ -21,7 +22,7 @@ enum class ChannelClass : std::uint8_t {
 /// One channel that crosses the link, as both ends know it.
 struct LinkChannel {
   std::string name;
-  std::uint64_t fingerprint = 0;  ///< of its message type and the codes of its packing
+  std::uint64_t fingerprint = 0;  ///< names its message type and the codes of its packing
   Direction direction = Direction::kUp;
   ChannelClass channel_class = ChannelClass::kState;
   std::uint32_t fixed_bits = 0;  ///< packed size when it is always the same; 0: every message tells its own
@@ -30,7 +31,7 @@ struct LinkChannel {
   // How the sender treats it.
   int priority = 3;         ///< 0 first
   double rate_hz = 1;       ///< at most this often (per key), on average; 0: no limit
-  int burst = 1;            ///< so many may come at once
+  int burst = 1;            ///< number of messages that may come at once
   Duration ttl{};           ///< not sent (command: not delivered) when older; 0: lives until replaced
   bool urgent = false;      ///< may abort the frame that is being sent
   bool on_request = false;  ///< only while somebody listens on the other side

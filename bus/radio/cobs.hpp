@@ -13,7 +13,8 @@ namespace priamos::bus::radio {
 /// and nothing else, so that a receiver is in step again after the next one.
 std::vector<std::byte> CobsEncode(std::span<const std::byte> content);
 
-/// nullopt when `encoded` is nothing that CobsEncode makes: a zero inside, or a block cut short.
+/// Content that was encoded; nullopt when `encoded` is nothing that CobsEncode makes: a zero inside, or a
+/// block cut short.
 std::optional<std::vector<std::byte>> CobsDecode(std::span<const std::byte> encoded);
 
 /// Cuts a stream of bytes into what lies between two delimiters. Memory is bounded: a frame longer than

@@ -16,26 +16,28 @@ namespace priamos::bus::radio {
 /// Bits of the values of a message of fixed size, in the order of the bits; each 1 to 64.
 using ValueWidths = std::vector<std::uint8_t>;
 
-/// Frames between a baseline and what refers to it, at most.
+/// Largest number of frames between a baseline and what refers to it.
 inline constexpr std::uint64_t kDeltaReach = 63;
+/// Bits that name a baseline.
 inline constexpr int kBaselineBits = 6;
 
-/// Value by value: 0 as before; 10 and a small difference; 11 and the value. Values of up to 4 bits: 0, or 1
-/// and the value. Both messages have the bits that the widths add up to.
+/// Difference of a message to a baseline, value by value: 0 as before; 10 and a small difference; 11 and the
+/// value. Values of up to 4 bits: 0, or 1 and the value. Both messages have the bits that the widths add up
+/// to.
 BitWriter EncodeDelta(const ValueWidths& widths, std::span<const std::byte> baseline,
                       std::span<const std::byte> message);
 
-/// Reads over one difference and returns it as it is: its length follows from the widths alone. The reader
+/// One difference as it stands in the bits, read over: its length follows from the widths alone. The reader
 /// tells by ok() whether it was whole.
 std::vector<std::byte> TakeDelta(const ValueWidths& widths, BitReader& in);
 
-/// The message again; nullopt when the bits end early.
+/// Message that a difference to `baseline` stands for; nullopt when the bits end early.
 std::optional<std::vector<std::byte>> ApplyDelta(const ValueWidths& widths,
                                                  std::span<const std::byte> baseline,
                                                  std::span<const std::byte> delta);
 
-/// Messages of one channel and the counters of the frames that carried them, as far back as a difference
-/// can reach.
+/// History of one channel: messages and the counters of the frames that carried them, as far back as a
+/// difference can reach.
 class MessageHistory {
  public:
   struct Message {
@@ -52,7 +54,7 @@ class MessageHistory {
   std::deque<Message> messages_;
 };
 
-/// Sender's side of one channel.
+/// Sender's side of one channel: what was sent, and what differences may refer to.
 class DeltaSender {
  public:
   void OnSent(std::uint64_t counter, std::vector<std::byte> packed) {

@@ -8,7 +8,7 @@
 
 namespace priamos::bus::radio {
 
-/// A fresh random number: unpredictable on a robot, seeded in a simulation.
+/// Source of fresh random numbers: unpredictable on a robot, seeded in a simulation.
 using NonceSource = std::function<std::uint64_t()>;
 
 /// Agreement on an epoch after an end has lost its state. Counters protect against old frames only while

@@ -23,7 +23,8 @@ inline constexpr std::size_t kEventWindow = 56;
 /// Segments behind the first missing one that an acknowledgement tells of.
 inline constexpr std::size_t kAckWindow = 16;
 
-/// Tells when an acknowledgement is overdue (Jacobson, Karels 1988; samples as in Karn, Partridge 1987).
+/// Estimate of when an acknowledgement is overdue (Jacobson, Karels 1988; samples as in Karn, Partridge
+/// 1987).
 class RoundTrip {
  public:
   void Sample(Duration round_trip);
@@ -36,23 +37,25 @@ class RoundTrip {
   Duration deviation_{};
 };
 
+/// One numbered piece of an event.
 struct EventSegment {
   std::uint8_t number = 0;
-  bool base = false;   ///< the oldest one not acknowledged
-  bool first = false;  ///< of its event
-  bool last = false;
-  Duration age{};  ///< first segment only: time since the event was packed
-  std::size_t bits = 0;
+  bool base = false;     ///< the oldest one not acknowledged
+  bool first = false;    ///< it begins its event
+  bool last = false;     ///< it ends its event
+  Duration age{};        ///< time since the event was packed; first segment only
+  std::size_t bits = 0;  ///< number of bits used, from the first bit of `bytes` on
   std::vector<std::byte> bytes;
 };
 
-/// What the receiver of a channel says about it.
+/// Acknowledgement of one channel by its receiver.
 struct EventAck {
   std::uint8_t next = 0;    ///< everything before it was delivered
-  std::uint8_t prefix = 0;  ///< so many segments from `next` on are there, the one behind them is not
+  std::uint8_t prefix = 0;  ///< number of segments from `next` on that are there; the one behind them is not
   std::uint16_t held = 0;   ///< bit i: segment next + prefix + 1 + i is there, too
 };
 
+/// Sender's side of one channel: what waits, what is under way, what is overdue.
 class EventSender {
  public:
   static constexpr std::size_t kCapacity = 64;
@@ -118,12 +121,13 @@ class EventSender {
 
   std::uint8_t next_;
   std::deque<Event> events_;
-  std::deque<Segment> segments_;  ///< of all events_, in order
+  std::deque<Segment> segments_;  ///< segments of all events_, in order
   std::size_t first_event_ = 0;   ///< number of events acknowledged so far
   Duration timeout_{600'000};
   std::uint64_t resent_ = 0;
 };
 
+/// Receiver's side of one channel: segments that wait for those before them.
 class EventReceiver {
  public:
   struct Event {

@@ -21,14 +21,16 @@
 /// frame of another direction, epoch, counter or table never passes, although none of them is sent.
 namespace priamos::bus::radio {
 
+/// Which end sends.
 enum class Direction : std::uint8_t {
-  kUp = 0,   ///< from onboard to offboard
-  kDown = 1  ///< from offboard to onboard
+  kUp = 0,   ///< sent by the onboard end
+  kDown = 1  ///< sent by the offboard end
 };
 constexpr Direction Opposite(Direction d) {
   return d == Direction::kUp ? Direction::kDown : Direction::kUp;
 }
 
+/// Secret key that both ends have.
 using LinkKey = std::array<std::uint8_t, 32>;
 
 /// Keys for one purpose each, derived from the key in the file.
@@ -52,7 +54,7 @@ class FrameKeys {
 
 /// What both ends must have in common for a data frame to pass, beside the key.
 struct FrameScope {
-  std::uint32_t table_hash = 0;  ///< of the channel table, see channel_table.hpp
+  std::uint32_t table_hash = 0;  ///< hash of the channel table, see channel_table.hpp
   bool encrypted = false;
 };
 
@@ -70,18 +72,21 @@ struct Hello {
 
 /// Bytes of a data frame beside its bundle, delimiter included.
 inline constexpr std::size_t kFrameOverhead = 7;
-/// The whole counter is this much longer than its lowest bits.
+/// Bytes by which the whole counter is longer than its lowest bits.
 inline constexpr std::size_t kWholeCounterBytes = 5;
+/// Bytes of a hello frame, delimiter included.
 inline constexpr std::size_t kHelloFrameBytes = 36;
-/// One COBS block must do.
+/// Bytes of the longest bundle: one COBS block must do.
 inline constexpr std::size_t kMaxBundleBytes = 240;
+/// The byte that ends a frame and occurs nowhere else.
 inline constexpr std::byte kDelimiter{0};
-/// Of IPv4 and UDP, for links that carry a frame per datagram.
+/// Bytes of the heads of IPv4 and UDP, for links that carry a frame per datagram.
 inline constexpr std::size_t kDatagramHead = 28;
 
+/// How a counter is written in a frame: its lowest bits, or all of it.
 enum class CounterForm { kLowBits, kWhole };
 
-/// Makes frames, delimiter included.
+/// Maker of frames of one direction, delimiter included.
 class FrameSealer {
  public:
   FrameSealer(const FrameKeys& keys, Direction direction, FrameScope scope)
@@ -101,7 +106,7 @@ class FrameSealer {
 
 /// Why bytes between two delimiters were no frame.
 enum class Reject : std::uint8_t {
-  kMalformed,  ///< no frame by its form: cut off (also by an urgent frame), damaged
+  kMalformed,  ///< form of no frame: cut off (also by an urgent frame), damaged
   kOversize,   ///< longer than any frame
   kBadCode,    ///< wrong code: damaged, forged, of another direction, epoch, table or key
   kReplayed,   ///< right code, but its counter was used
@@ -109,15 +114,18 @@ enum class Reject : std::uint8_t {
   kFlood       ///< more frames than the line can carry: not even looked at
 };
 inline constexpr std::size_t kRejects = 6;
+/// Word for a reason, for people.
 std::string_view RejectName(Reject reject);
 
+/// Content of a data frame that passed.
 struct DataFrame {
   std::uint64_t counter = 0;
   std::vector<std::byte> bundle;
 };
+/// What lay between two delimiters.
 using Opened = std::variant<DataFrame, Hello, Reject>;
 
-/// Checks frames of one direction. An accepted data frame is accepted once.
+/// Checker of frames of one direction. An accepted data frame is accepted once.
 class FrameOpener {
  public:
   /// `direction` is that of the frames to be opened.

@@ -26,15 +26,15 @@ struct LineCut {
 struct LineConfig {
   int baud = 9600;                   ///< 10 bits per byte: start, 8 data, stop
   double air_rate_bytes_s = 0;       ///< what the radio itself carries; 0: as much as the port
-  double latency_s = 0.005;          ///< from the end of a byte at the sender to its end at the receiver
-  double jitter_s = 0;               ///< uniform addition to the latency; bytes keep their order
+  double latency_s = 0.005;          ///< time from the end of a byte at the sender to its end at the receiver
+  double jitter_s = 0;               ///< largest addition to the latency, uniform; bytes keep their order
   double bit_error_rate = 0;         ///< probability per bit, all 10 of a byte
   double burst_rate_hz = 0;          ///< error bursts per second, Poisson
   double burst_length_s = 0.02;      ///< length of one burst
   double burst_error_rate = 0.3;     ///< bit error rate inside a burst
   double duplicate_probability = 0;  ///< probability that a byte arrives twice
   bool half_duplex = false;          ///< a modem hears nothing while it sends
-  double turnaround_s = 0.02;        ///< nor for so long afterwards
+  double turnaround_s = 0.02;        ///< time after sending in which a modem hears nothing either
   std::vector<LineCut> cuts{};       ///< in order of time
   void Describe(Archive& a);
 };

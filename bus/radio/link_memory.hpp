@@ -54,13 +54,15 @@ class LinkMemory {
   std::size_t channels_;
   LinkState state_;
   std::uint64_t next_counter_ = 1;
-  /// Bounds of state_: on the way to where they survive a loss of power, and known to be there.
+  /// Bounds of state_ that survive a loss of power.
   struct Bounds {
-    std::uint64_t send_next = 0, receive_floor = 0;
+    std::uint64_t send_next = 0;
+    std::uint64_t receive_floor = 0;
   };
-  Bounds syncing_, synced_;
-  std::optional<std::uint64_t>
-      accepted_;  ///< highest, above the floor, since the start or the last change of epoch
+  Bounds syncing_;  ///< on their way to the disk
+  Bounds synced_;   ///< known to be there
+  /// Highest counter accepted above the floor, since the start or the last change of epoch.
+  std::optional<std::uint64_t> accepted_;
 };
 
 }  // namespace priamos::bus::radio

@@ -20,9 +20,9 @@ class LossMeter {
   double mean_bytes_ = 40;
 };
 
-/// Bounds how many codes are checked per second and notices frames that the other end cannot have sent.
-/// Noise damages frames of the other end, whose counters are missed later; refused frames beyond that were
-/// made by somebody else.
+/// Guard against forgers: it bounds how many codes are checked per second, and notices frames that the other
+/// end cannot have sent. Noise damages frames of the other end, whose counters are missed later; refused
+/// frames beyond that were made by somebody else.
 class ForgeryGuard {
  public:
   /// `tries_per_s`: frames of the smallest size that the line can carry.
@@ -46,7 +46,7 @@ class ForgeryGuard {
   Time level_at_;
 };
 
-/// Answers that somebody else can provoke: some at once, few on average.
+/// Limit of answers that somebody else can provoke: some at once, few on average.
 class AnswerLimit {
  public:
   explicit AnswerLimit(Time start) : refilled_at_(start) {}
@@ -67,8 +67,8 @@ class AnswerLimit {
   Time refilled_at_;
 };
 
-/// One-way delay of the line: half of the smallest round trip seen, without time on the wire and in the
-/// other end.
+/// Estimate of the one-way delay of the line: half of the smallest round trip seen, without time on the wire
+/// and in the other end.
 class LatencyMeter {
  public:
   void Sample(Duration round_trip) {

@@ -8,7 +8,7 @@
 
 namespace priamos::bus::radio {
 
-/// Where an end of the link keeps what must outlive the process. A file on a robot, memory in a test.
+/// Place where an end of the link keeps what must outlive the process: a file on a robot, memory in a test.
 class StateStore {
  public:
   virtual ~StateStore() = default;
@@ -50,11 +50,11 @@ struct StoredEvent {
 struct LinkState {
   std::uint32_t table_hash = 0;             ///< events and numbers below belong to this channel table
   std::uint64_t epoch = 0;                  ///< 0: none agreed yet
-  std::uint64_t send_next = 1;              ///< no counter from here on was ever sent in this epoch
-  std::uint64_t receive_floor = 0;          ///< no counter above was ever accepted in this epoch
+  std::uint64_t send_next = 1;              ///< first counter from which on none was ever sent in this epoch
+  std::uint64_t receive_floor = 0;          ///< counter above which none was ever accepted in this epoch
   bool floor_exact = true;                  ///< false: receive_floor was reserved ahead
   std::uint32_t stream = 0;                 ///< names this end's numbering of events
-  std::uint32_t peer_stream = 0;            ///< the other end's
+  std::uint32_t peer_stream = 0;            ///< names the other end's numbering of events
   std::vector<std::uint8_t> send_event;     ///< per channel: number of the next new segment
   std::vector<std::uint8_t> receive_event;  ///< per channel: number of the next segment expected
   std::vector<std::uint8_t> receive_known;  ///< per channel: 1 when receive_event is valid
@@ -62,8 +62,9 @@ struct LinkState {
   friend bool operator==(const LinkState&, const LinkState&) = default;
 };
 
+/// Bytes of a state, with a checksum.
 std::vector<std::byte> Serialise(const LinkState& state);
-/// nullopt when damaged in any way: treated as lost, which is safe.
+/// State from its bytes; nullopt when damaged in any way, which counts as lost and is safe.
 std::optional<LinkState> ParseLinkState(std::span<const std::byte> bytes);
 
 }  // namespace priamos::bus::radio

@@ -13,7 +13,7 @@
 
 namespace priamos::bus::radio {
 
-/// LCM messages of a link's channels, small and back, for types known from .lcm texts only.
+/// Packing and unpacking of the LCM messages of a link's channels, for types known from .lcm texts only.
 class MessageCodecs {
  public:
   /// `schema` must outlive this and know the types of `config`, which LinkConfig::Table checks.

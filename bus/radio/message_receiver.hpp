@@ -31,7 +31,7 @@ struct DeliveryCounters {
 /// The frame that brought a message.
 struct Arrival {
   std::uint64_t counter = 0;
-  bool newest = true;  ///< no frame sent later has come before
+  bool newest = true;  ///< false: a frame sent later has come before
   Time sent_at{};      ///< when its first byte was sent, in this end's clock
   Time began{};        ///< arrival of its first byte, had its bytes come one after the other
   Time now{};          ///< arrival of its last byte

@@ -8,7 +8,7 @@
 
 namespace priamos::bus::radio {
 
-/// When the line has sent what was given to it: pacing by time on the wire. A tty's buffer would take
+/// Pace of the line by time on the wire: when it has sent what was given to it. A tty's buffer would take
 /// seconds of bytes and then send an emergency stop behind all of them.
 class Pacer {
  public:

@@ -12,16 +12,16 @@ namespace priamos::bus::radio {
 /// What both ends have told each other, messages apart: agreement, frames acknowledged, listeners.
 struct Peer {
   Handshake handshake;
-  FrameAckSender acks{};  ///< of the other end's frames
+  FrameAckSender acks{};  ///< acknowledgements of the other end's frames
   SentFrames sent{};      ///< frames of this end, and their acknowledgements
   Listeners listeners{};
 
   /// What this end knows of the other's frames when it makes one of its own.
   struct Heard {
-    std::uint64_t highest = 0;  ///< counter accepted
+    std::uint64_t highest = 0;  ///< highest counter accepted
     Time at{};                  ///< arrival of the last frame accepted
     double loss = 0;            ///< share of frames lost, 0..1
-    std::uint64_t floor = 0;    ///< up to it counters count as used
+    std::uint64_t floor = 0;    ///< highest counter that counts as used
   };
   /// What a frame carried of this, to be given back when it is cut off.
   struct Told {

@@ -14,7 +14,7 @@
 
 namespace priamos::bus::radio {
 
-/// What became of the messages offered on one outgoing channel.
+/// Counters of what became of the messages offered on one outgoing channel.
 struct QueueCounters {
   std::uint64_t offered = 0;
   std::uint64_t sent = 0;       ///< state, command: handed to the line whole; event: acknowledged
@@ -26,7 +26,7 @@ struct QueueCounters {
   std::uint64_t bits = 0;       ///< packed bits handed to the line, repetitions included
 };
 
-/// Allows `rate` messages per second on average and `burst` at once (generic cell rate algorithm).
+/// Limit of `rate` messages per second on average and `burst` at once (generic cell rate algorithm).
 class RateLimit {
  public:
   RateLimit(double rate_hz, int burst);
@@ -35,13 +35,18 @@ class RateLimit {
   /// `since`: when the message could have been sent, so that waiting for the line does not slow it down.
   void Use(Time since);
   /// Undoes the Use before: the message was not sent after all.
-  void Undo() { theoretical_ = previous_, next_ = previous_next_; }
+  void Undo() {
+    theoretical_ = previous_;
+    next_ = previous_next_;
+  }
 
  private:
   Duration period_;
   Duration tolerance_;
-  Time theoretical_ = Time::min(), previous_ = Time::min();
-  Time next_ = Time::min(), previous_next_ = Time::min();
+  Time theoretical_ = Time::min();
+  Time previous_ = Time::min();  ///< `theoretical_` before the last Use()
+  Time next_ = Time::min();
+  Time previous_next_ = Time::min();  ///< `next_` before the last Use()
 };
 
 /// A message taken out of the queue for the frame being sent.
@@ -53,16 +58,16 @@ struct QueuedMessage {
   Time waiting_since{};
 };
 
-/// Everything one end wants to send: per channel the newest message (per key), or the events in order, and
-/// who is next. Order: urgent channels, then priority; a message gains one level of priority per `ageing`
-/// that it waits, so that nothing starves; then the one that waits longest. Events that wait behind others of
-/// their channel gain nothing, or a long queue of them would keep out everybody else.
+/// Queue of everything that one end wants to send: per channel the newest message (per key), or the events in
+/// order, and who is next. Order: urgent channels, then priority; a message gains one level of priority per
+/// `ageing` that it waits, so that nothing starves; then the one that waits longest. Events that wait behind
+/// others of their channel gain nothing, or a long queue of them would keep out everybody else.
 class SendQueue {
  public:
   /// A channel (and key) with something that may be sent now.
   struct Candidate {
     std::size_t channel = 0;
-    std::size_t slot = 0;  ///< of state and command channels
+    std::size_t slot = 0;  ///< place of the key; state and command channels
     bool urgent = false;
     double priority = 0;
     Time since{};

@@ -12,10 +12,10 @@ struct HalfDuplex {
   Duration turnaround{};  ///< after its own last byte an end cannot hear for so long
 };
 
-/// Whose turn it is on a half-duplex radio. An end says "over" in its last frame; the other one begins when
-/// it has heard that and the first one can hear again. A lost "over" is made good by patience, which is
-/// longer at the onboard end, so that both do not begin at once. Without a turn length everybody may always
-/// talk.
+/// Turns on a half-duplex radio: who may talk, and until when. An end says "over" in its last frame; the
+/// other one begins when it has heard that and the first one can hear again. A lost "over" is made good by
+/// patience, which is longer at the onboard end, so that both do not begin at once. Without a turn length
+/// everybody may always talk.
 class TurnTaking {
  public:
   TurnTaking(HalfDuplex mode, bool onboard, Time now)
