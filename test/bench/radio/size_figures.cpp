@@ -73,7 +73,7 @@ std::size_t LcmSize(const bus::Struct& type) {
 /// The three messages in one authenticated frame, delimiter and all.
 std::size_t BundleOfThree(const std::vector<LinkChannel>& channels) {
   const ChannelTable table(channels, false);
-  BitWriter bundle;
+  bus::BitWriter bundle;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     std::vector<std::byte> packed((channels[i].fixed_bits + 7) / 8);
     if (channels[i].channel_class == ChannelClass::kCommand) {
