@@ -11,6 +11,7 @@
 #include "cli/factories.hpp"
 #include "cli/scenario.hpp"
 #include "head/landmark_file.hpp"
+#include "test/support/project_files.hpp"
 
 // Every configuration file of every deployment loads, and none lies about that nothing reads.
 
@@ -28,10 +29,8 @@ std::string TextOf(const fs::path& file) {
 
 std::vector<std::string> Files() {
   std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(kConfigs))
-    if (entry.is_regular_file() && entry.path().extension() != ".md")
-      files.push_back(fs::relative(entry.path(), kConfigs).string());
-  std::sort(files.begin(), files.end());
+  for (const fs::path& file : ProjectFiles("config"))
+    if (file.extension() != ".md") files.push_back(fs::relative(file, "config").string());
   return files;
 }
 

@@ -8,6 +8,8 @@
 #include <regex>
 #include <sstream>
 
+#include "test/support/project_files.hpp"
+
 // Who may include whom: the rule that keeps the architecture readable from the folders (README.md).
 
 namespace priamos {
@@ -88,11 +90,10 @@ TEST(IncludeRules, HoldInEverySourceFile) {
   std::vector<std::string> found;
   int files = 0;
   for (const char* folder : {"lcmtypes", "bus", "modules"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      const auto extension = entry.path().extension();
-      if (extension != ".hpp" && extension != ".cpp") continue;
+    for (const fs::path& file : ProjectFiles(folder)) {
+      if (file.extension() != ".hpp" && file.extension() != ".cpp") continue;
       ++files;
-      const auto more = Violations(fs::relative(entry.path(), root).string(), Read(entry.path()));
+      const auto more = Violations(file.string(), Read(root / file));
       found.insert(found.end(), more.begin(), more.end());
     }
   }

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "head/landmark_file.hpp"
+#include "test/support/project_files.hpp"
 
 namespace priamos::head {
 namespace {
@@ -11,9 +12,9 @@ const std::filesystem::path kModels = PRIAMOS_SOURCE_DIR "/config/sim/models";
 
 TEST(LandmarkModels, EveryShippedBodyShowsThreeFacesToAnEyeBeforeItsCorner) {
   int n = 0;
-  for (const auto& file : std::filesystem::directory_iterator(kModels)) {
-    const Polyhedron body = LoadPolyhedron(file.path().string());
-    EXPECT_GE(VisibleSkeleton(body, {-1.5, -1.5, 2.5}).edges.size(), 9u) << file.path();
+  for (const auto& file : ProjectFiles("config/sim/models")) {
+    const Polyhedron body = LoadPolyhedron((PRIAMOS_SOURCE_DIR / file).string());
+    EXPECT_GE(VisibleSkeleton(body, {-1.5, -1.5, 2.5}).edges.size(), 9u) << file;
     ++n;
   }
   EXPECT_GE(n, 2);
