@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+
+#include "test/support/shell.hpp"
+#include "test/support/temporary_folder.hpp"
+
+// What scripts/ promise to a person: help at once, a first line at once, a clear sentence when they cannot go
+// on.
+
+namespace priamos {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// A clone's scripts in a folder with a blank, on a machine that has only the programs named and those added.
+class ScriptsTest : public ::testing::Test {
+ protected:
+  ScriptsTest() {
+    fs::create_directories(clone_);
+    fs::create_directories(folder_ / "bin");
+    fs::copy(PRIAMOS_SOURCE_DIR "/scripts", clone_ / "scripts");
+    for (const char* name : {"awk", "bash", "cat", "dirname", "dpkg-query", "env", "grep", "mktemp", "rm",
+                             "sed", "sort", "tail", "tee", "tr", "mkdir"})
+      for (const char* place : {"/usr/bin/", "/bin/"})
+        if (fs::exists(place + std::string(name)) && !fs::exists(folder_ / "bin" / name))
+          fs::create_symlink(place + std::string(name), folder_ / "bin" / name);
+    Program("id", "echo 1000");
+  }
+  void Program(const std::string& name, const std::string& body) { Write(folder_ / "bin" / name, body); }
+  void Script(const std::string& name, const std::string& body) { Write(clone_ / "scripts" / name, body); }
+  ShellAnswer Run(const std::string& command) const {
+    return RunShell("cd '" + clone_.string() + "' && PATH='" + (folder_ / "bin").string() + "' " + command);
+  }
+
+ private:
+  static void Write(const fs::path& file, const std::string& body) {
+    fs::remove(file);
+    std::ofstream(file) << "#!/bin/sh\n" << body << "\n";
+    chmod(file.c_str(), 0755);
+  }
+  const TemporaryFolder folder_;
+  const fs::path clone_ = folder_ / "a clone";
+
+ protected:
+  fs::path bin() const { return folder_ / "bin"; }
+};
+
+/// Option and default of every option in a help text.
+std::map<std::string, std::string> OptionsIn(const std::string& help, const std::regex& line) {
+  std::map<std::string, std::string> options;
+  for (std::sregex_iterator at(help.begin(), help.end(), line), end; at != end; ++at)
+    options[(*at)[1]] = (*at)[2];
+  return options;
+}
+
+TEST_F(ScriptsTest, TheDemosHelpNamesTheProgramsOptionsAndDefaultsAndInstallsNothing) {
+  Script("setup", "echo no; exit 1");
+  const auto answer = Run("scripts/demo --seed 3 --help");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  const auto program = RunShell(PRIAMOS_BINARY_DIR "/bin/priamos run --help").text;
+  const auto expected = OptionsIn(program, std::regex(R"(\n  (--[a-z-]+)(?: [A-Z]+=(\S+))?)"));
+  const auto shown =
+      OptionsIn(answer.text, std::regex(R"(\n  (--[a-z-]+) [^\n]*?(?:default: (\S+)\)|(?=\n|$)))"));
+  ASSERT_GT(expected.size(), 3u);
+  EXPECT_EQ(shown, expected);
+}
+
+TEST_F(ScriptsTest, SomethingIsSaidBeforeAnythingIsInstalled) {
+  Script("setup", "echo \"no network\"; exit 2");
+  for (const char* command : {"scripts/demo", "scripts/test"}) {
+    const auto answer = Run(command);
+    EXPECT_THAT(answer.text, StartsWith(fs::path(command).filename().string() + ": installing and building"));
+    EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  }
+}
+
+TEST_F(ScriptsTest, WhoIsNotRootAndHasNoSudoIsToldWhatRootMayType) {
+  const auto answer = Run("scripts/setup");
+  // Where everything is installed there is nothing to ask root for.
+  if (answer.exit_code == 0) {
+    std::ofstream(bin() / "list.txt") << "no-such-package-of-priamos\n";
+    const auto other = Run("scripts/setup '" + (bin() / "list.txt").string() + "'");
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_THAT(other.text,
+                HasSubstr("there is no sudo; next, as root: apt-get install --no-install-recommends "
+                          "no-such-package-of-priamos"));
+  } else {
+    EXPECT_THAT(answer.text, HasSubstr("there is no sudo; next, as root: apt-get install"));
+  }
+}
+
+TEST_F(ScriptsTest, WithoutDebianThePackagesAreToBeInstalledByHand) {
+  fs::remove(bin() / "dpkg-query");
+  const auto answer = Run("scripts/setup");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.text, HasSubstr("this is no Debian"));
+}
+
+TEST_F(ScriptsTest, ABareSystemNeedsRoot) {
+  const auto answer = Run("scripts/in-bare-system --check");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.text, HasSubstr("next: sudo scripts/in-bare-system"));
+}
+
+TEST_F(ScriptsTest, AParentThatCannotBeWrittenIsNamed) {
+  Script("setup", "exit 0");
+  Program("mkdir", "echo \"mkdir: cannot create directory 'build': Read-only file system\" >&2; exit 1");
+  const auto answer = Run("scripts/build product");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.text, HasSubstr("a clone: cannot be written"));
+}
+
+TEST_F(ScriptsTest, ThePresetChangesWithoutAWipeAndStaysUntilItIsChangedAgain) {
+  Script("setup", "exit 0");
+  // A cmake that only keeps its cache.
+  Program("cmake", R"([ "$1" = --build ] && exit 0
+mkdir -p build; : >>build/build.ninja; echo "$2" >>build/presets
+for word in "$@"; do case $word in -D*) name=${word#-D}
+  { grep -v "^${name%%=*}=" build/CMakeCache.txt; echo "$name"; } >build/new 2>/dev/null; cat build/new >build/CMakeCache.txt;; esac; done)");
+  const auto presets = [&](const std::string& command) {
+    const auto answer = Run(command + " >build.log 2>&1; cat build/presets");
+    return answer.text;
+  };
+  EXPECT_EQ(presets("scripts/build product"), "release\n");
+  EXPECT_EQ(presets("PRIAMOS_PRESET=dev scripts/build product"), "release\ndev\n");
+  EXPECT_EQ(presets("scripts/build product"), "release\ndev\n");
+  EXPECT_EQ(presets("scripts/build test_cli"), "release\ndev\ndev\n");
+  EXPECT_EQ(presets("scripts/build product"), "release\ndev\ndev\n");
+  EXPECT_EQ(presets("PRIAMOS_PRESET=release scripts/build"), "release\ndev\ndev\nrelease\n");
+  EXPECT_EQ(presets("scripts/build"), "release\ndev\ndev\nrelease\n");
+}
+
+}  // namespace
+}  // namespace priamos
