@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "test/support/readme_blocks.hpp"
+
 namespace priamos {
 namespace {
 
@@ -25,28 +27,16 @@ struct Command {
 
 std::vector<fs::path> Readmes() {
   std::vector<fs::path> found;
-  for (auto it = fs::recursive_directory_iterator(PRIAMOS_SOURCE_DIR); it != fs::end(it); ++it) {
-    const std::string name = it->path().filename();
-    if (it->is_directory() && (name.starts_with("build") || name.starts_with(".")))
-      it.disable_recursion_pending();
-    if (name == "README.md") found.push_back(it->path());
-  }
+  for (const fs::path& file : ProjectFiles())
+    if (file.filename() == "README.md") found.push_back(PRIAMOS_SOURCE_DIR / file);
   return found;
 }
 
-/// Lines of the fenced sh blocks, without comments.
-std::vector<Command> FencedCommands(const fs::path& readme) {
+/// Of the blocks.
+std::vector<Command> ShownCommands(const fs::path& readme) {
   std::vector<Command> found;
-  std::ifstream file(readme);
-  bool inside = false;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("```")) {
-      inside = line == "```sh";
-    } else if (inside) {
-      line = line.substr(0, line.find(" #"));
-      if (!line.empty() && line[0] != '#') found.push_back({readme, line});
-    }
-  }
+  for (const ReadmeBlock& block : BlocksOf(fs::relative(readme, PRIAMOS_SOURCE_DIR)))
+    for (const std::string& command : block.commands) found.push_back({readme, command});
   return found;
 }
 
@@ -117,7 +107,7 @@ void Check(const Command& command) {
 TEST(ReadmeCommands, EveryCommandShownExistsAndKnowsItsOptions) {
   std::size_t shown = 0;
   for (const auto& readme : Readmes())
-    for (const auto& commands : {FencedCommands(readme), QuotedCommands(readme)})
+    for (const auto& commands : {ShownCommands(readme), QuotedCommands(readme)})
       for (const auto& command : commands) {
         Check(command);
         ++shown;
@@ -142,8 +132,10 @@ TEST(ReadmeCommands, EveryLinkLeadsSomewhere) {
 
 TEST(ReadmeCommands, EveryFolderThatIsARoomHasOne) {
   for (const auto* parent : {"modules", "bus"})
-    for (const auto& entry : fs::directory_iterator(fs::path(PRIAMOS_SOURCE_DIR) / parent))
-      EXPECT_TRUE(!entry.is_directory() || fs::exists(entry.path() / "README.md")) << entry.path();
+    for (const fs::path& file : ProjectFiles(parent)) {
+      const fs::path room = parent / *std::next(file.begin());
+      EXPECT_TRUE(room == file || fs::exists(PRIAMOS_SOURCE_DIR / room / "README.md")) << room;
+    }
   for (const auto* folder : {".", "lcmtypes", "config", "test"})
     EXPECT_TRUE(fs::exists(fs::path(PRIAMOS_SOURCE_DIR) / folder / "README.md")) << folder;
 }

@@ -19,7 +19,7 @@ inline ShellAnswer RunInPrivateNetwork(const std::string& script, const std::str
          "listening() { until grep -qE ' 4[34]4CFFEF:' /proc/net/udp; do sleep 0.05; done; "
          "sleep 0.3; }\n"
       << script;
-  return RunShell("timeout " + std::to_string(seconds) + " " + unshare + " bash " + script_file);
+  return RunShell("timeout -k 2 " + std::to_string(seconds) + " " + unshare + " bash " + script_file);
 }
 
 }  // namespace priamos
