@@ -8,8 +8,13 @@
 #include <ostream>
 #include <set>
 
+#include "common/nearest_word.hpp"
+
 namespace priamos {
 namespace {
+
+/// Stands for the file in what `--set` gave; no file is called so.
+constexpr std::string_view kSetName = "--set ";
 
 std::string RangeText(const ValueSpec& spec) {
   const bool low = spec.min > std::numeric_limits<double>::lowest();
@@ -85,7 +90,8 @@ class ConfigFile::Reader : public Archive {
     if (!node) return;
     const auto text = node->value_exact<std::string>();
     if (!text || std::find(choices.begin(), choices.end(), *text) == choices.end())
-      Fail(*node, key, fmt::format("one of {}", fmt::join(choices, ", ")));
+      Fail(*node, key, fmt::format("one of {}", fmt::join(choices, ", ")),
+           NearestText(text.value_or(""), choices));
     value = *text;
   }
 
@@ -140,15 +146,18 @@ class ConfigFile::Reader : public Archive {
   const std::string& Prefix() const { return levels_.back().prefix; }
 
   const toml::node* Find(std::string_view key) {
+    known_.push_back(Prefix() + std::string(key));
     const auto* table = levels_.back().table;
     const auto* node = table ? table->get(key) : nullptr;
     if (node) asked_.insert(node);
     return node;
   }
 
-  /// An override has its own source.
-  const std::string& FileOf(const toml::node& node) const {
-    return node.source().path ? *node.source().path : name_;
+  /// `file:line:key`, or `--set KEY=VALUE: key` for what came from there.
+  std::string Place(const toml::node& node, std::string_view key) const {
+    const std::string& source = node.source().path ? *node.source().path : name_;
+    if (source.starts_with(kSetName)) return fmt::format("{}: {}", source, key);
+    return fmt::format("{}:{}:{}", source, node.source().begin.line, key);
   }
 
   double NumberIn(const toml::node& node, std::string_view key, const ValueSpec& spec) const {
@@ -159,17 +168,28 @@ class ConfigFile::Reader : public Archive {
     return *number;
   }
 
-  [[noreturn]] void Fail(const toml::node& node, std::string_view key, const std::string& expected) const {
-    throw ConfigError(fmt::format("{}:{}:{}{}: expected {}, got {}", FileOf(node), node.source().begin.line,
-                                  Prefix(), key, expected, Shown(node)));
+  [[noreturn]] void Fail(const toml::node& node, std::string_view key, const std::string& expected,
+                         const std::string& hint = "") const {
+    throw ConfigError(fmt::format("{}: expected {}, got {}{}", Place(node, Prefix() + std::string(key)),
+                                  expected, Shown(node), hint));
+  }
+
+  /// A key that resembles `path`; else one in another section that is called the same.
+  std::string NearestKeys(const std::string& path) const {
+    std::vector<std::string> namesakes;
+    const auto name = path.substr(path.rfind('.') + 1);
+    std::copy_if(known_.begin(), known_.end(), std::back_inserter(namesakes),
+                 [&](const std::string& key) { return key.substr(key.rfind('.') + 1) == name; });
+    if (namesakes.empty()) return NearestText(path, known_);
+    return fmt::format("; nearest: \"{}\"", fmt::join(namesakes, "\" or \""));
   }
 
   void RefuseUnknown(const toml::table& table, const std::string& prefix) const {
     for (const auto& [key, node] : table) {
       if (!asked_.contains(&node)) {
-        throw ConfigError(
-            fmt::format("{}:{}:{}{}: expected a known key (--print-config lists them), got this one", name_,
-                        node.source().begin.line, prefix, key.str()));
+        const std::string path = prefix + std::string(key.str());
+        throw ConfigError(fmt::format("{}: expected a known key (--print-config lists them), got this one{}",
+                                      Place(node, path), NearestKeys(path)));
       }
       if (const auto* inner = node.as_table()) RefuseUnknown(*inner, fmt::format("{}{}.", prefix, key.str()));
       if (const auto* array = node.as_array()) {
@@ -184,6 +204,7 @@ class ConfigFile::Reader : public Archive {
   toml::table table_;
   std::vector<Level> levels_;
   std::set<const toml::node*> asked_;
+  std::vector<std::string> known_;  ///< dotted, of every key that was asked for
 };
 
 namespace {
@@ -197,10 +218,18 @@ toml::table ParseOrThrow(const std::string& name, std::string_view text) {
   }
 }
 
+std::string NearestFiles(const std::filesystem::path& wanted) {
+  std::vector<std::string> names;
+  std::error_code none;
+  const auto folder = wanted.has_parent_path() ? wanted.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename());
+  return NearestText(wanted.filename().string(), names);
+}
+
 toml::table ParseFileOrThrow(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
-    throw ConfigError(
-        fmt::format("{}: expected a configuration file, got none; give one with --config FILE", path));
+    throw ConfigError(fmt::format("{}: expected a configuration file, got none{}", path, NearestFiles(path)));
   try {
     return toml::parse_file(path);
   } catch (const toml::parse_error& error) {
@@ -221,14 +250,13 @@ void Merge(toml::table& into, toml::table&& from) {
 }
 
 toml::table ParseOverride(const std::string& text) {
-  const std::string name = "command line";
+  const std::string name = std::string(kSetName) + text;
   try {
     return toml::parse(text, std::string_view(name));
   } catch (const toml::parse_error&) {
     // `port=/dev/ttyS0` is what people type; TOML wants the quotes.
     const auto equals = text.find('=');
-    if (equals == std::string::npos)
-      throw ConfigError(fmt::format("{}: expected key=value, got \"{}\"", name, text));
+    if (equals == std::string::npos) throw ConfigError(fmt::format("{}: expected KEY=VALUE", name));
     return ParseOrThrow(name, fmt::format("{} = '{}'", text.substr(0, equals), text.substr(equals + 1)));
   }
 }

@@ -5,10 +5,14 @@
 #include <fstream>
 #include <sstream>
 
+#include "test/support/temporary_folder.hpp"
+
 namespace priamos {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 struct Item {
   double size_m = 1;
@@ -107,12 +111,53 @@ TEST(Config, OverridesGoOnTopOfTheFileAndMayBeBareWords) {
   EXPECT_EQ(dut.inner.word, "right");
 }
 
-TEST(Config, BadOverrideIsBlamedOnTheCommandLine) {
+std::string OverrideErrorOf(const std::string& text) {
   try {
-    LoadConfig<Outer>(ConfigSource{"", {"count=99"}});
+    LoadConfig<Outer>(ConfigSource{"", {text}});
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Config, ABadOverrideIsBlamedOnItself) {
+  EXPECT_THAT(OverrideErrorOf("count=99"), HasSubstr("--set count=99: count: expected a whole number"));
+  EXPECT_EQ(OverrideErrorOf("count"), "--set count: expected KEY=VALUE");
+  EXPECT_EQ(OverrideErrorOf("inner.word=lft"),
+            "--set inner.word=lft: inner.word: expected one of left, right, got \"lft\"; nearest: \"left\"");
+}
+
+TEST(Config, AnUnknownOverrideIsNotBlamedOnTheFile) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "x.toml";
+  std::ofstream(file) << "[inner]\nword = 'left'\n";
+  try {
+    LoadConfig<Outer>(ConfigSource{file, {"inner.wrod=right"}});
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("command line:1:count: expected a whole number"));
+    EXPECT_THAT(error.what(), StartsWith("--set inner.wrod=right: inner.wrod: expected a known key"));
+    EXPECT_THAT(error.what(), HasSubstr("; nearest: \"inner.word\""));
+  }
+}
+
+TEST(Config, AnUnknownKeyIsAnsweredWithTheNearestOne) {
+  EXPECT_THAT(ErrorOf("sped_m_s = 1"), HasSubstr("; nearest: \"speed_m_s\""));
+  EXPECT_THAT(ErrorOf("[inner]\nwrod = 1"), HasSubstr("; nearest: \"inner.word\""));
+  EXPECT_THAT(ErrorOf("[iner]\nword = 1"), HasSubstr("; nearest: \"inner\""));
+  EXPECT_THAT(ErrorOf("word = 'left'"), HasSubstr("; nearest: \"inner.word\""))
+      << "right name, wrong section";
+  EXPECT_THAT(ErrorOf("elephant = 1"), Not(HasSubstr("nearest")));
+}
+
+TEST(Config, AMissingFileIsAnsweredWithTheNearestOne) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "robot.toml") << "";
+  try {
+    LoadConfig<Outer>(folder / "robto.toml");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("robto.toml: expected a configuration file, got none; nearest: \"robot.toml\""));
   }
 }
 
