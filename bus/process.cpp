@@ -10,6 +10,7 @@
 
 #include "bus/app_host.hpp"
 #include "bus/bus_choice.hpp"
+#include "bus/command_line.hpp"
 #include "bus/log/log_writer.hpp"
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
@@ -59,12 +60,7 @@ std::optional<int> ParseCommandLine(const AppFactory& factory, int argc, char** 
                "print every key with value, unit and meaning, and exit");
   cli.add_flag("--interface", options.interface, "print the channels read and written, and exit");
   for (const auto& alias : factory.aliases) AddAlias(cli, alias, options.config);
-  try {
-    cli.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return cli.exit(error) == 0 ? 0 : kCannotStart;
-  }
-  return std::nullopt;
+  return bus::ParseCommandLine(cli, argc, argv);
 }
 
 std::function<void(Level, std::string_view)> MakeLog(const std::string& name) {

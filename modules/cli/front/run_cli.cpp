@@ -4,14 +4,14 @@
 #include <exception>
 #include <iostream>
 
+#include "bus/command_line.hpp"
+
 namespace priamos::cli {
 
 int RunCli(CLI::App& cli, int argc, char** argv, const int& exit_code) {
   constexpr int kCannotStart = 2;
   try {
-    cli.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return cli.exit(error) == 0 ? 0 : kCannotStart;
+    if (const auto code = bus::ParseCommandLine(cli, argc, argv)) return *code;
   } catch (const std::exception& error) {
     std::cerr << "priamos: " << error.what() << "\n";
     return kCannotStart;

@@ -1,0 +1,231 @@
+#include "bus/command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+
+#include "bus/version.hpp"
+#include "common/nearest_word.hpp"
+
+namespace priamos::bus {
+namespace {
+
+constexpr int kCannotStart = 2;
+
+std::vector<std::string> VerbNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (!verb->get_group().empty()) names.push_back(verb->get_name());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> OptionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const auto* option : app.get_options()) {
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+    for (const auto& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+bool HasPositional(const CLI::App& app) {
+  const auto options = app.get_options();
+  return std::any_of(options.begin(), options.end(), [](const auto* o) { return o->get_positional(); });
+}
+
+/// The program, its verb, the verb of that, as far as they were understood.
+std::vector<const CLI::App*> Chain(const CLI::App& cli) {
+  std::vector<const CLI::App*> chain{&cli};
+  while (!chain.back()->get_subcommands().empty()) chain.push_back(chain.back()->get_subcommands().front());
+  return chain;
+}
+
+std::string Hint(const CLI::App& app) {
+  return fmt::format(" ({} --help lists all)", FullName(app));
+}
+
+/// `topic list` for a word that is a verb of a verb: `priamos list`.
+std::vector<std::string> DeeperVerbs(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> found;
+  for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const std::string& name : VerbNames(*verb))
+      if (name == word) found.push_back(verb->get_name() + " " + name);
+  return found;
+}
+
+std::string UnknownVerb(const CLI::App& app, const std::string& word) {
+  std::string nearest = NearestText(word, VerbNames(app));
+  if (const auto deeper = DeeperVerbs(app, word); nearest.empty() && !deeper.empty())
+    nearest = fmt::format("; nearest: \"{}\"", fmt::join(deeper, "\" or \""));
+  return fmt::format("{}: unknown verb \"{}\"{}{}", FullName(app), word, nearest, Hint(app));
+}
+
+std::string UnknownOption(const CLI::App& app, const std::string& word, const CLI::App& deepest) {
+  const std::string name = word.substr(0, word.find('='));
+  if (&deepest != &app && deepest.get_option_no_throw(name) != nullptr)
+    return fmt::format("{}: unknown option \"{}\"; it belongs behind the verb: {} {}", FullName(app), name,
+                       FullName(deepest), name);
+  return fmt::format("{}: unknown option \"{}\"{}{}", FullName(app), name,
+                     NearestText(name, OptionNames(app)), Hint(app));
+}
+
+/// A word that nothing took.
+std::string Unknown(const CLI::App& app, const std::string& word, const CLI::App& deepest) {
+  if (word.size() > 1 && word.front() == '-') return UnknownOption(app, word, deepest);
+  if (!VerbNames(app).empty()) return UnknownVerb(app, word);
+  return fmt::format("{}: expected {}, got \"{}\"{}", FullName(app),
+                     HasPositional(app) ? "no further argument" : "no argument", word, Hint(app));
+}
+
+/// The option an error of CLI11 speaks of; the longest name wins.
+const CLI::Option* OptionIn(const CLI::App& app, const std::string& text) {
+  const CLI::Option* found = nullptr;
+  for (const auto* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (text.find(name) == std::string::npos) continue;
+    if (found == nullptr || name.size() > found->get_name().size()) found = option;
+  }
+  return found;
+}
+
+/// Between `open` and `close` of CLI11's description of a type, e.g. of "FLOAT in [0 - 1]".
+std::optional<std::string> Between(const std::string& text, const std::string& open,
+                                   const std::string& close) {
+  const auto begin = text.find(open);
+  if (begin == std::string::npos) return std::nullopt;
+  const auto end = text.find(close, begin + open.size());
+  return end == std::string::npos
+             ? std::nullopt
+             : std::optional(text.substr(begin + open.size(), end - begin - open.size()));
+}
+
+std::vector<std::string> Members(const CLI::Option& option) {
+  std::vector<std::string> members;
+  std::istringstream list(Between(option.get_type_name(), "{", "}").value_or(""));
+  for (std::string word; std::getline(list, word, ',');) members.push_back(word);
+  return members;
+}
+
+std::string Expected(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const auto has = [&](const char* word) { return type.find(word) != std::string::npos; };
+  const std::string number = has("INT") ? "a whole number" : "a number";
+  if (const auto members = Members(option); !members.empty())
+    return fmt::format("one of {}", fmt::join(members, ", "));
+  if (auto range = Between(type, " in [", "]")) {
+    const auto dash = range->find(" - ");
+    return fmt::format("{}, {} to {}", number, range->substr(0, dash), range->substr(dash + 3));
+  }
+  if (has("POSITIVE")) return number + " above 0";
+  if (has("NONNEGATIVE") || has("UINT")) return number + ", at least 0";
+  if (has("INT") || has("FLOAT")) return number;
+  if (has("FILE")) return "an existing file";
+  if (has("DIR")) return "an existing folder";
+  return "a value";
+}
+
+std::string BadValue(const CLI::App& app, const CLI::Option& option) {
+  const std::string got = fmt::format("{}", fmt::join(option.results(), " "));
+  return fmt::format("{}: {}: expected {}, got \"{}\"{}", FullName(app), option.get_name(), Expected(option),
+                     got, NearestText(got, Members(option)));
+}
+
+std::string MissingValue(const CLI::App& app, const CLI::Option& option) {
+  const int wanted = option.get_items_expected_min();
+  const std::string what = wanted == 1 ? Expected(option) : fmt::format("{} values", wanted);
+  const std::string got = option.results().empty() ? "none" : std::to_string(option.results().size());
+  return fmt::format("{}: {}: expected {}, got {}{}", FullName(app), option.get_name(), what, got, Hint(app));
+}
+
+std::string Missing(const CLI::App& app) {
+  for (const auto* option : app.get_options())
+    if (option->get_required() && option->count() == 0)
+      return fmt::format("{}: expected {} ({}), got none{}", FullName(app), option->get_name(),
+                         option->get_description(), Hint(app));
+  return fmt::format("{}: expected a verb, got none; one of {}{}", FullName(app),
+                     fmt::join(VerbNames(app), ", "), Hint(app));
+}
+
+/// CLI11 takes -1 for the largest number, 010 for eight, and 0x for nothing.
+std::string CheckUnsigned(std::string& text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return "not a whole number";
+  text = std::to_string(number);
+  return "";
+}
+
+std::string CheckSigned(std::string& text) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return "not a whole number";
+  text = std::to_string(number);
+  return "";
+}
+
+std::string CheckFinite(std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = !text.empty() && error == std::errc() && end == text.data() + text.size();
+  return whole && std::isfinite(number) ? "" : "not a number";
+}
+
+/// In one place, so that no verb can forget it.
+void GuardNumbers(CLI::App& app) {
+  for (auto* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    if (option->get_items_expected_max() == 0) continue;  // a flag
+    if (type.starts_with("UINT")) option->transform(CLI::Validator(CheckUnsigned, ""));
+    if (type.starts_with("INT")) option->transform(CLI::Validator(CheckSigned, ""));
+    if (type.starts_with("FLOAT")) option->transform(CLI::Validator(CheckFinite, ""));
+  }
+  for (auto* verb : app.get_subcommands([](CLI::App*) { return true; })) GuardNumbers(*verb);
+}
+
+}  // namespace
+
+std::string FullName(const CLI::App& verb) {
+  return verb.get_parent() == nullptr ? verb.get_name()
+                                      : FullName(*verb.get_parent()) + " " + verb.get_name();
+}
+
+std::string HelpOf(const CLI::App& verb) {
+  return verb.help(verb.get_parent() == nullptr ? "" : FullName(*verb.get_parent()));
+}
+
+std::string Explain(const CLI::App& cli, const CLI::Error& error) {
+  const auto chain = Chain(cli);
+  const CLI::App& deepest = *chain.back();
+  for (const auto* app : chain)
+    if (const auto left = app->remaining(); !left.empty()) return Unknown(*app, left.front(), deepest);
+  const std::string kind = error.get_name(), text = error.what();
+  if (kind == "RequiredError") return Missing(deepest);
+  const CLI::Option* option = OptionIn(deepest, text);
+  if (option != nullptr && (kind == "ValidationError" || kind == "ConversionError"))
+    return BadValue(deepest, *option);
+  if (option != nullptr && kind == "ArgumentMismatch") return MissingValue(deepest, *option);
+  return fmt::format("{}: {}", FullName(deepest), text);
+}
+
+std::optional<int> ParseCommandLine(CLI::App& cli, int argc, char** argv) {
+  cli.set_version_flag("--version", fmt::format("{} {}", cli.get_name(), Version()),
+                       "print the version and exit");
+  GuardNumbers(cli);
+  try {
+    cli.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::Success& answered) {
+    return cli.exit(answered);
+  } catch (const CLI::Error& error) {
+    std::cerr << Explain(cli, error) << "\n";
+  }
+  return kCannotStart;
+}
+
+}  // namespace priamos::bus
