@@ -60,7 +60,9 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
       lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
 
   const Time start = lockstep.now();
+  std::vector<StoryLine> told;
   const auto progress = [&](Time now, const std::string& text) {
+    told.push_back({Seconds(now - start), text});
     if (request.progress) request.progress(Time(now - start), text);
   };
   const auto story = StoryIn(lockstep, scenario, request.seed, progress);
@@ -72,7 +74,7 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   recorder.Flush();
   const double factor = Seconds(lockstep.now() - start) / wall_s;
-  const RunInfo info{request.scenario, request.seed, factor, door};
+  const RunInfo info{request.scenario, request.seed, factor, door, story->Reason(), told};
   LockstepResult result{Summarise(recorder.record(), info),
                         recorder.record(),
                         info,

@@ -23,6 +23,7 @@ header{display:flex;flex-wrap:wrap;gap:8px 20px;align-items:center;justify-conte
 h1{font-size:1.6rem;margin:0}
 h2{font-size:1.1rem;margin:36px 0 10px;border-bottom:2px solid var(--line);padding-bottom:6px}
 .verdict{color:#fff;padding:6px 16px;border-radius:4px;font-weight:600}
+.reason{color:var(--bad);margin:8px 0 0}
 .good{background:var(--good)}.bad{background:var(--bad)}
 .cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(150px,1fr));gap:12px;margin:20px 0}
 .card{background:var(--card);border-radius:6px;padding:12px 14px}
@@ -86,16 +87,23 @@ std::string FixTable(const Summary& summary) {
   return table + "</table></div>\n";
 }
 
-std::string PhaseTable(const RunRecord& record) {
+/// What the planner said since the order; of a run without a planner what was told in the terminal.
+std::vector<StoryLine> Phases(const RunRecord& record, const Summary& summary) {
   const MissionSpan span = SpanOf(record);
-  std::string table = "<div class=\"scroll\"><table class=\"text\">" + Row({"time", "what happened"}, "th");
-  std::string last;
+  std::vector<StoryLine> phases;
   for (const mission_status_t& status : record.mission) {
-    if (status.utime < span.begin_utime || status.text == last) continue;
-    last = status.text;
-    table +=
-        Row({fmt::format("{:.1f} s", Seconds(Duration(status.utime - span.begin_utime))), EscapeHtml(last)});
+    if (status.utime < span.begin_utime || (!phases.empty() && status.text == phases.back().text)) continue;
+    phases.push_back({Seconds(Duration(status.utime - span.begin_utime)), status.text});
   }
+  return phases.empty() ? summary.story : phases;
+}
+
+std::string PhaseTable(const RunRecord& record, const Summary& summary) {
+  std::string table = "<div class=\"scroll\"><table class=\"text\">" + Row({"time", "what happened"}, "th");
+  for (const StoryLine& phase : Phases(record, summary))
+    table += Row({fmt::format("{:.1f} s", phase.t_s), EscapeHtml(phase.text)});
+  if (!summary.passed)
+    table += Row({"end", "not passed: " + EscapeHtml(summary.reason)}, "td", " class=\"sum\"");
   return table + "</table></div>\n";
 }
 
@@ -173,12 +181,13 @@ std::string ReportPage(const RunRecord& record, const Summary& summary, std::spa
   page += fmt::format("<title>PRIAMOS: {}</title>\n<style>{}</style></head>\n<body><main>\n", title, kStyle);
   page += fmt::format("<header><h1>{}</h1><span class=\"verdict {}\">{}</span></header>\n", title,
                       good ? "good" : "bad", EscapeHtml(Verdict(summary)));
+  if (!summary.passed) page += fmt::format("<p class=\"reason\">{}</p>\n", EscapeHtml(summary.reason));
   page += Cards(summary);
   page += fmt::format(
       "<img alt=\"Ground plan with true path, believed path and fixes\" "
       "src=\"data:image/png;base64,{}\">\n",
       Base64(png));
-  page += "<h2>Mission</h2>\n" + PhaseTable(record);
+  page += "<h2>Mission</h2>\n" + PhaseTable(record, summary);
   page += "<h2>Fixes</h2>\n" + FixTable(summary);
   page += "<h2>Looks</h2>\n" + LookDrawings(record);
   page += "<h2>Over time</h2>\n<p>Shaded: from a look at the door to the fix.</p>\n<div class=\"two\">" +

@@ -135,6 +135,8 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   Summary summary;
   summary.scenario = info.scenario;
   summary.seed = info.seed;
+  summary.reason = info.reason;
+  summary.story = info.story;
   summary.realtime_factor = info.realtime_factor;
   summary.passed = span.done && crossing && EndsBehind(record, info.door);
   if (!record.truth.empty()) {
@@ -161,6 +163,7 @@ nlohmann::ordered_json ToJson(const Summary& summary) {
   return {{"scenario", summary.scenario},
           {"seed", summary.seed},
           {"passed", summary.passed},
+          {"reason", summary.passed ? nlohmann::ordered_json(nullptr) : summary.reason},
           {"contacts", summary.contacts},
           {"min_gap_m", summary.min_gap_m},
           {"lateral_at_door_m", Json(summary.lateral_at_door_m)},

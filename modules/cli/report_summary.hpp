@@ -35,11 +35,18 @@ struct RadioSummary {
   std::vector<ChannelSummary> channels;  ///< for the table; not in summary.json
 };
 
+/// What was told while the run went on.
+struct StoryLine {
+  double t_s = 0;  ///< since the start of the run
+  std::string text;
+};
+
 /// What one run came to: summary.json, the same from the demo and from lockstep.
 struct Summary {
   std::string scenario;
   std::uint64_t seed = 0;
   bool passed = false;  ///< the mission says DONE and the base truly is behind the door
+  std::string reason;   ///< last words of the story; why, when it has not passed
   int contacts = 0;
   double min_gap_m = 0;                     ///< smallest true distance of the footprint to anything
   std::optional<double> lateral_at_door_m;  ///< none when the door was not crossed
@@ -52,7 +59,9 @@ struct Summary {
   RadioSummary down;  ///< workstation to robot
   double realtime_factor = 1;
 
-  double pose_age_s = 0;  ///< median age of a pose at the workstation; not in summary.json
+  // Not in summary.json.
+  double pose_age_s = 0;         ///< median age of a pose at the workstation
+  std::vector<StoryLine> story;  ///< in order of time
 };
 
 /// What the record itself does not say about a run.
@@ -60,7 +69,9 @@ struct RunInfo {
   std::string scenario;
   std::uint64_t seed = 0;
   double realtime_factor = 1;
-  DoorPlan door;  ///< the door that was to be passed, from the ground plan
+  DoorPlan door;                 ///< the door that was to be passed, from the ground plan
+  std::string reason;            ///< last words of the story
+  std::vector<StoryLine> story;  ///< what was told meanwhile
 };
 
 /// An empty record gives a summary that has not passed.

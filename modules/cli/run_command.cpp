@@ -112,6 +112,7 @@ class RealTimeRun {
   const ScenarioStory& story() const { return *story_; }
   /// Why the run ended as it did.
   std::string Reason() const { return reason_.value_or(story_->Reason()); }
+  const std::vector<StoryLine>& told() const { return told_; }
 
  private:
   void Record(bus::LcmBus& bus, const char* name) {
@@ -121,6 +122,7 @@ class RealTimeRun {
   }
 
   void Progress(Time now, const std::string& text) {
+    told_.push_back({Seconds(now - start_), text});
     std::cout << fmt::format("{:6.1f} s  {}", Seconds(now - start_), text) << std::endl;
   }
 
@@ -172,6 +174,7 @@ class RealTimeRun {
   std::unique_ptr<ScenarioStory> story_;
   Supervisor supervisor_;
   std::optional<std::string> reason_;
+  std::vector<StoryLine> told_;
 };
 
 int FailedStart(const RealTimeRun& run) {
@@ -187,7 +190,7 @@ int Run(const RunOptions& options) {
   RealTimeRun run(options, scenario);
   const bool whole = run.Run();
   if (!run.story().Started()) return FailedStart(run);
-  const RunInfo info{options.scenario, options.seed, 1.0, door};
+  const RunInfo info{options.scenario, options.seed, 1.0, door, run.Reason(), run.told()};
   Summary summary = Summarise(run.recorder().record(), info);
   if (scenario.story == "teleop") summary.passed = run.story().Succeeded();
   WriteReport(run.recorder().record(), summary, info, map_file, run.folder());
