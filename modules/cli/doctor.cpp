@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <net/if.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
 #include <sys/timex.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -37,9 +41,8 @@ Finding Route(const Machine& machine, const std::string& bus) {
 
 /// Only needed when the route leads to loopback, as on a machine without a network.
 Finding LoopbackFlag(const Machine& machine) {
-  constexpr unsigned long kMulticast = 0x1000;  // IFF_MULTICAST
-  const auto flags = std::strtoul(ReadWord(machine.root / "sys/class/net/lo/flags").c_str(), nullptr, 16);
-  if (flags & kMulticast) return {"multicast on loopback", Verdict::kGood, "lo has the flag", ""};
+  if (machine.loopback_has_multicast())
+    return {"multicast on loopback", Verdict::kGood, "lo has the flag", ""};
   return {"multicast on loopback", Verdict::kNotNeededYet,
           "lo lacks the flag; needed without a network (demo and tests bring their own)",
           "sudo ip link set lo multicast on"};
@@ -118,6 +121,16 @@ Finding ClockSync(const Machine& machine) {
           "sudo timedatectl set-ntp true"};
 }
 
+/// Asks the kernel about the network this process is in; /sys shows the one it was mounted in.
+bool LoopbackHasMulticast() {
+  ifreq request{};
+  std::strcpy(request.ifr_name, "lo");
+  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const bool answered = fd >= 0 && ioctl(fd, SIOCGIFFLAGS, &request) == 0;
+  if (fd >= 0) close(fd);
+  return answered && (request.ifr_flags & IFF_MULTICAST) != 0;
+}
+
 bool InPath(const std::string& program) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "/usr/bin:/bin");
@@ -139,6 +152,7 @@ Machine ThisMachine() {
       return text.substr(0, text.find(';'));
     }
   };
+  machine.loopback_has_multicast = LoopbackHasMulticast;
   machine.has_program = InPath;
   machine.clock_synchronised = [] {
     timex state{};

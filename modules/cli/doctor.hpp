@@ -21,6 +21,7 @@ struct Machine {
   std::filesystem::path root = "/";  ///< where /proc, /sys, /dev, /etc and /run are
   std::filesystem::path disk = ".";  ///< where logs are written
   std::function<std::string(const std::string& bus)> route_problem;  ///< empty: there is one
+  std::function<bool()> loopback_has_multicast;
   std::function<bool(const std::string& program)> has_program;
   std::function<bool()> clock_synchronised;
   std::function<bool(const std::filesystem::path&)> may_write;

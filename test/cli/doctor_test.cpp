@@ -22,7 +22,7 @@ class Doctor : public testing::Test {
     machine_.has_program = [](const std::string&) { return true; };
     machine_.clock_synchronised = [] { return true; };
     machine_.may_write = [](const std::filesystem::path&) { return true; };
-    Write("sys/class/net/lo/flags", "0x1009");
+    machine_.loopback_has_multicast = [] { return true; };
     Write("proc/sys/net/core/rmem_max", "4194304");
     Write("dev/ttyUSB0", "");
     Write("usr/share/java/lcm.jar", "");
@@ -60,7 +60,7 @@ TEST_F(Doctor, MissingRouteIsBad) {
 }
 
 TEST_F(Doctor, LoopbackWithoutMulticast) {
-  Write("sys/class/net/lo/flags", "0x9");
+  machine_.loopback_has_multicast = [] { return false; };
   EXPECT_EQ(Of("multicast on loopback").verdict, Verdict::kNotNeededYet);
   EXPECT_THAT(Of("multicast on loopback").command, HasSubstr("ip link set lo multicast on"));
 }
