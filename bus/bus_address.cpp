@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "bus/lcm_bus.hpp"
+#include "common/nearest_word.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -45,7 +46,8 @@ std::string ResolveBus(std::string_view bus, std::string_view robot, int ttl) {
   if (bus == "offboard") return BusUrl(robot, BusSide::kOffboard, ttl);
   if (bus.find("://") != std::string_view::npos) return std::string(bus);
   throw BusError(fmt::format(
-      "bus \"{}\": expected onboard, offboard or an LCM URL such as udpm://239.255.76.67:7667?ttl=1", bus));
+      "bus \"{}\": expected onboard, offboard or an LCM URL such as udpm://239.255.76.67:7667?ttl=1{}", bus,
+      NearestText(bus, std::vector<std::string>{"onboard", "offboard"})));
 }
 
 }  // namespace priamos::bus

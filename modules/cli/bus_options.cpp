@@ -1,8 +1,11 @@
 #include "cli/bus_options.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "bus/own_types.hpp"
+#include "common/nearest_word.hpp"
 
 namespace priamos::cli {
 
@@ -18,7 +21,19 @@ void AddTypesOption(CLI::App& verb, BusOptions& options) {
 }
 
 bus::Schema LoadTypes(const BusOptions& options) {
-  return options.types.empty() ? bus::OwnTypes() : bus::Schema(bus::Schema::ReadDirectory(options.types));
+  return LoadTypes(options.types);
+}
+
+bus::Schema LoadTypes(const std::string& folder) {
+  return folder.empty() ? bus::OwnTypes() : bus::Schema(bus::Schema::ReadDirectory(folder));
+}
+
+bus::SchemaError UnknownType(const bus::Schema& schema, const std::string& name) {
+  std::vector<std::string> known;
+  for (const auto* type : schema.All())
+    known.push_back(name.find('.') == std::string::npos ? type->name : type->full_name);
+  return bus::SchemaError(
+      fmt::format("unknown type \"{}\"{} (priamos type hash lists all)", name, NearestText(name, known)));
 }
 
 }  // namespace priamos::cli

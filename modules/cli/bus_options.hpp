@@ -28,5 +28,9 @@ void AddTypesOption(CLI::App& verb, BusOptions& options);
 
 /// The types named by --types, or our own. Throws SchemaError.
 bus::Schema LoadTypes(const BusOptions& options);
+bus::Schema LoadTypes(const std::string& folder);
+
+/// What to throw for a `name` that `schema` does not have: it names the nearest ones.
+bus::SchemaError UnknownType(const bus::Schema& schema, const std::string& name);
 
 }  // namespace priamos::cli

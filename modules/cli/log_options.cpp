@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <stdexcept>
 
 #include "bus/log/log_reader.hpp"
+#include "common/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -22,6 +25,19 @@ std::optional<double> Number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// No error: one of many logs that are treated alike may lack a channel.
+void TellAbsentChannels(const SelectionOptions& options, const std::string& log) {
+  const auto is_name = [](const std::string& channel) { return channel.find('*') == std::string::npos; };
+  if (std::none_of(options.only.begin(), options.only.end(), is_name)) return;
+  std::set<std::string> there;
+  for (bus::LogReader reader(log); const auto event = reader.Next();) there.insert(event->channel);
+  const std::vector<std::string> known(there.begin(), there.end());
+  for (const std::string& name : options.only)
+    if (is_name(name) && !there.contains(name))
+      std::cerr << fmt::format("{} has no channel {}{} (priamos log info lists all)\n", log, name,
+                               NearestText(name, known));
 }
 
 }  // namespace
@@ -44,6 +60,7 @@ bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string
       throw std::runtime_error(fmt::format("--rename: expected A=B, got \"{}\"", pair));
     selection.rename[pair.substr(0, equals)] = pair.substr(equals + 1);
   }
+  TellAbsentChannels(options, log);
   const auto first = bus::LogReader(log).Next();
   if (!first) return selection;
   if (options.from_s > 0)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/nearest_word.hpp"
+
 namespace priamos::cli {
 namespace {
 
@@ -23,8 +25,8 @@ Scenario LoadScenario(const std::string& folder, const std::string& name) {
   const auto scenarios = std::filesystem::path(folder) / "scenarios";
   const auto known = KnownScenarios(scenarios);
   if (std::find(known.begin(), known.end(), name) == known.end()) {
-    throw ConfigError(fmt::format("{}: expected a scenario ({}), got \"{}\"", scenarios.string(),
-                                  fmt::join(known, ", "), name));
+    throw ConfigError(fmt::format("{}: expected a scenario ({}), got \"{}\"{}", scenarios.string(),
+                                  fmt::join(known, ", "), name, NearestText(name, known)));
   }
   return LoadConfig<Scenario>((scenarios / (name + ".toml")).string());
 }

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "bus/clock.hpp"
+#include "common/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -134,9 +135,13 @@ Supervisor::~Supervisor() {
 }
 
 const Supervisor::Child& Supervisor::Find(const std::string& name) const {
-  for (const Child& c : children_)
+  std::vector<std::string> known;
+  for (const Child& c : children_) {
     if (c.spec.name == name) return c;
-  throw std::invalid_argument(fmt::format("after: expected the name of a process, got \"{}\"", name));
+    known.push_back(c.spec.name);
+  }
+  throw std::invalid_argument(
+      fmt::format("after: expected the name of a process, got \"{}\"{}", name, NearestText(name, known)));
 }
 
 std::string Supervisor::OutputFile(const Child& child) const {

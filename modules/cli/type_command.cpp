@@ -20,9 +20,7 @@ struct TypeOptions : BusOptions {
 
 const bus::Struct& Find(const bus::Schema& schema, const std::string& name) {
   if (const auto* type = schema.Find(std::string_view(name))) return *type;
-  std::string known;
-  for (const auto* type : schema.All()) known += " " + type->full_name;
-  throw bus::SchemaError(fmt::format("expected one of{}, got \"{}\"", known, name));
+  throw UnknownType(schema, name);
 }
 
 std::string Dimensions(const bus::Field& field) {

@@ -44,6 +44,18 @@ TEST_F(SelectionOfTest, RenamesArePairs) {
         << text;
 }
 
+TEST_F(SelectionOfTest, AChannelThatTheLogLacksIsToldWithTheNearest) {
+  const std::string log = folder_ / "poses.lcmlog";
+  { bus::LogWriter(log).Write(5'000'000, "POSE", {}); }
+  testing::internal::CaptureStderr();
+  SelectionOf({.only = {"POZE"}, .without = {}, .rename = {}}, log);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            log + " has no channel POZE; nearest: \"POSE\" (priamos log info lists all)\n");
+  testing::internal::CaptureStderr();
+  SelectionOf({.only = {"POSE", "WHEEL_*"}, .without = {}, .rename = {}}, log);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(SelectionOfTest, WhatIsReadIsNotOverwritten) {
   EXPECT_THROW(RequireNewFile(log_, log_, true), std::runtime_error);
   const std::string other = folder_ / "b";
