@@ -10,40 +10,42 @@
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/json.hpp"
 #include "bus/udp_receiver.hpp"
-#include "cli/bus_options.hpp"
 #include "cli/commands.hpp"
+#include "cli/silence_watch.hpp"
+#include "cli/topic_echo.hpp"
 #include "cli/topic_statistics.hpp"
 
 namespace priamos::cli {
 namespace {
 
 constexpr auto kWatchPeriod = std::chrono::milliseconds(500);
+constexpr Duration kPatience = std::chrono::seconds(1);
+constexpr int kNothingHeard = 1;
 
 struct TopicOptions : BusOptions {
   std::string channel;
   std::string type;
   std::string message;
   double seconds = 2;
-  int count = 0;
   bool json = false;
   bool watch = false;
 };
 
-/// Handles messages until `until`, a signal, or `done`; calls `every` twice a second. False after a signal.
-bool Listen(bus::LcmBus& bus, const bus::Clock& clock, Time until, const std::function<bool()>& done,
+/// Handles messages until `until` or a signal; calls `each` after every poll and `every` twice a second.
+void Listen(bus::LcmBus& bus, const bus::Clock& clock, Time until, const std::function<void(Time)>& each,
             const std::function<void()>& every) {
   const bus::SignalWatch signals;
   Time next = clock.Now() + kWatchPeriod;
-  while (clock.Now() < until && !done()) {
+  while (clock.Now() < until) {
     pollfd fds[] = {{bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
     poll(fds, std::size(fds), 50);
-    if (fds[1].revents != 0) return false;
+    if (fds[1].revents != 0) return;
     bus.Drain();
+    each(clock.Now());
     if (clock.Now() < next) continue;
     next += kWatchPeriod;
     every();
   }
-  return true;
 }
 
 nlohmann::ordered_json ToJson(const TopicRow& row) {
@@ -92,18 +94,22 @@ void PrintRows(const std::vector<TopicRow>& rows, const bus::LcmBus& bus, bool j
 }
 
 /// `list`, and with a channel `hz` and `bw`: the same table of all or of one.
-int List(const TopicOptions& options) {
+int List(const TopicOptions& options, const std::string& verb) {
   const bus::Schema schema = LoadTypes(options);
   const bus::MonotonicClock clock;
   bus::LcmBus bus(options.bus.Url(), options.messages());
   TopicStatistics statistics(schema, FromSeconds(std::max(2.0, options.seconds)));
+  // With an end in sight the sentence comes there, once.
+  const Duration patience = options.watch ? kPatience : FromSeconds(options.seconds) + kPatience;
+  SilenceWatch silence("priamos topic " + verb, options, options.channel, clock.Now(), patience);
   const auto add = [&](std::string_view channel, std::span<const std::byte> bytes) {
     statistics.Add(clock.Now(), channel, bytes);
+    silence.Heard();
   };
   options.channel.empty() ? bus.SubscribeEverything(add) : bus.Subscribe(options.channel, add);
   const Time until = options.watch ? Time::max() : clock.Now() + FromSeconds(options.seconds);
   Listen(
-      bus, clock, until, [] { return false; },
+      bus, clock, until, [&](Time now) { silence.Step(now); },
       [&] {
         if (!options.watch) return;
         if (!options.json) std::cout << "\x1b[H\x1b[2J";
@@ -111,41 +117,19 @@ int List(const TopicOptions& options) {
       });
   const auto rows = statistics.Rows(clock.Now());
   if (!options.watch) PrintRows(rows, bus, options.json);
-  if (!rows.empty()) return 0;
-  std::cerr << fmt::format(
-      "nothing heard on {} in {} s; is the port the right one, and does `ip route get 239.255.76.67` "
-      "lead to the same network?\n",
-      options.bus.Url(), options.seconds);
-  return 1;
-}
-
-int Echo(const TopicOptions& options) {
-  const bus::Schema schema = LoadTypes(options);
-  const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus.Url(), options.messages());
-  int seen = 0;
-  bus.Subscribe(options.channel, [&](std::string_view channel, std::span<const std::byte> bytes) {
-    ++seen;
-    const auto* type = schema.Find(bus::FingerprintOf(bytes.data(), bytes.size()));
-    try {
-      if (!type)
-        throw bus::MessageError("no known type has this fingerprint; name its .lcm folder with --types");
-      std::cout << bus::ToJson(*type, bytes).dump(options.json ? -1 : 2) << std::endl;
-    } catch (const bus::MessageError& error) {
-      std::cerr << fmt::format("{}: {} bytes: {}\n", channel, bytes.size(), error.what());
-    }
-  });
-  Listen(
-      bus, clock, Time::max(), [&] { return options.count > 0 && seen >= options.count; }, [] {});
-  return 0;
+  silence.Tell(clock.Now());
+  return rows.empty() ? kNothingHeard : 0;
 }
 
 int Pub(const TopicOptions& options) {
   const bus::Schema schema = LoadTypes(options);
   const auto* type = schema.Find(options.type);
-  if (!type) throw bus::MessageError(fmt::format("expected a known type, got \"{}\"", options.type));
+  if (!type) throw UnknownType(schema, options.type);
   bus::LcmBus bus(options.bus.Url(), options.messages());
-  const auto bytes = bus::FromJson(*type, bus::Json::parse(options.message));
+  const auto message = bus::Json::parse(options.message, nullptr, false);
+  if (message.is_discarded())
+    throw bus::MessageError(fmt::format("message: expected JSON, got {}", options.message));
+  const auto bytes = bus::FromJson(*type, message);
   if (!bus.Publish(options.channel, bytes))
     throw bus::BusError(fmt::format("{}: {} bytes were not sent", options.bus.Url(), bytes.size()));
   if (options.json)
@@ -154,7 +138,8 @@ int Pub(const TopicOptions& options) {
 }
 
 int PrintUrl(const TopicOptions& options) {
-  std::cout << options.bus.Url() << "\n";
+  const std::string url = options.bus.Url();
+  std::cout << (options.json ? nlohmann::ordered_json{{"url", url}}.dump() : url) << "\n";
   return 0;
 }
 
@@ -177,7 +162,7 @@ void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_
       ->check(CLI::Range(0.1, 3600.0));
   verb->add_flag("--watch", options->watch, "a live table, until Ctrl-C");
   verb->add_flag("--json", options->json, "machine-readable");
-  verb->callback([options, &exit_code] { exit_code = List(*options); });
+  verb->callback([options, &exit_code, name] { exit_code = List(*options, name); });
 }
 
 }  // namespace
@@ -191,20 +176,15 @@ void AddTopicCommand(CLI::App& cli, int& exit_code) {
                exit_code);
   AddTableVerb(*topic, "hz", "Rate and jitter of one channel.", true, options, exit_code);
   AddTableVerb(*topic, "bw", "Bandwidth of one channel.", true, options, exit_code);
-  auto* echo = AddVerb(*topic, "echo", "Print the messages of one channel as JSON.",
-                       "priamos topic echo POSE --count 1", *options);
-  echo->add_option("channel", options->channel, "LCM channel")->required();
-  echo->add_option("--count", options->count, "stop after so many messages; 0: at Ctrl-C")
-      ->capture_default_str();
-  echo->add_flag("--json", options->json, "one line per message");
-  echo->callback([options, &exit_code] { exit_code = Echo(*options); });
+  AddTopicEchoVerb(*topic, exit_code);
   auto* url = AddVerb(*topic, "url", "Print the URL of a bus, for LCM's own programs.",
                       "lcm-logger --lcm-url=$(priamos topic url --bus onboard)", *options);
+  url->add_flag("--json", options->json, "machine-readable");
   url->callback([options, &exit_code] { exit_code = PrintUrl(*options); });
-  auto* pub = AddVerb(
-      *topic, "pub", "Send one message, given as JSON.",
-      "priamos topic pub MISSION_COMMAND mission_command_t '{\"utime\":0,\"mission\":1,\"landmark_id\":1}'",
-      *options);
+  auto* pub = AddVerb(*topic, "pub", "Send one message, given as JSON.",
+                      "priamos topic pub LINK_REQUEST link_request_t "
+                      "'{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":5}'",
+                      *options);
   pub->add_option("channel", options->channel, "LCM channel")->required();
   pub->add_option("type", options->type, "message type")->required();
   pub->add_option("message", options->message, "the message as JSON")->required();

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace priamos::cli {
+
+/// `topic echo CHANNEL [FIELD...]`.
+void AddTopicEchoVerb(CLI::App& topic, int& exit_code);
+
+}  // namespace priamos::cli
