@@ -190,13 +190,17 @@ void GuardNumbers(CLI::App& app) {
 
 }  // namespace
 
+const CLI::App& ChosenVerb(const CLI::App& cli) {
+  return *Chain(cli).back();
+}
+
 std::string FullName(const CLI::App& verb) {
   return verb.get_parent() == nullptr ? verb.get_name()
                                       : FullName(*verb.get_parent()) + " " + verb.get_name();
 }
 
 std::string HelpOf(const CLI::App& verb) {
-  return verb.help(verb.get_parent() == nullptr ? "" : FullName(*verb.get_parent()));
+  return verb.get_formatter()->make_help(&verb, FullName(verb), CLI::AppFormatMode::Normal);
 }
 
 std::string Explain(const CLI::App& cli, const CLI::Error& error) {

@@ -20,6 +20,9 @@ std::optional<int> ParseCommandLine(CLI::App& cli, int argc, char** argv);
 /// lists all)`. `cli` is the app whose parsing threw `error`.
 std::string Explain(const CLI::App& cli, const CLI::Error& error);
 
+/// The verb that the parsed command line named: `list` of `priamos topic list`; `cli` itself when none.
+const CLI::App& ChosenVerb(const CLI::App& cli);
+
 /// `priamos topic list` for that verb.
 std::string FullName(const CLI::App& verb);
 

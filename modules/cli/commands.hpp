@@ -11,6 +11,8 @@ namespace priamos::cli {
 void AddRunCommand(CLI::App& cli, int& exit_code);
 void AddLockstepCommand(CLI::App& cli, int& exit_code);
 void AddCalibrateCommand(CLI::App& cli, int& exit_code);
+void AddMissionCommand(CLI::App& cli, int& exit_code);
+void AddWhereCommand(CLI::App& cli, int& exit_code);
 void AddTopicCommand(CLI::App& cli, int& exit_code);
 void AddLogCommand(CLI::App& cli, int& exit_code);
 void AddReplayCommand(CLI::App& cli, int& exit_code);
@@ -21,7 +23,11 @@ void AddLinkCommand(CLI::App& cli, int& exit_code);
 void AddViewCommand(CLI::App& cli, int& exit_code);
 void AddUpCommands(CLI::App& cli, int& exit_code);  ///< up, down, status, logs
 void AddEstopCommand(CLI::App& cli, int& exit_code);
+void AddHelpCommand(CLI::App& cli, int& exit_code);
 /// After all others: it completes their names.
 void AddCompletionCommand(CLI::App& cli, int& exit_code);
+
+/// All of them.
+void AddCommands(CLI::App& cli, int& exit_code);
 
 }  // namespace priamos::cli

@@ -13,7 +13,7 @@ int RunCli(CLI::App& cli, int argc, char** argv, const int& exit_code) {
   try {
     if (const auto code = bus::ParseCommandLine(cli, argc, argv)) return *code;
   } catch (const std::exception& error) {
-    std::cerr << "priamos: " << error.what() << "\n";
+    std::cerr << bus::FullName(bus::ChosenVerb(cli)) << ": " << error.what() << "\n";
     return kCannotStart;
   }
   return exit_code;

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "common/time.hpp"
+#include "priamos/drive_status_t.hpp"
+#include "priamos/mission_status_t.hpp"
+#include "priamos/pose_t.hpp"
+
+namespace priamos::cli {
+
+/// What a bus said last about where the robot is and what it does; empty: nothing was heard.
+struct Whereabouts {
+  std::optional<pose_t> pose;
+  std::optional<drive_status_t> drive;
+  std::optional<mission_status_t> mission;
+};
+
+/// Four or five lines, at most 80 columns: pose with one sigma and age, motion, what the base does and what
+/// limits it, the mission. Ages are against `now`, the clock of this machine.
+std::string WhereText(const Whereabouts& where, Time now);
+
+/// The same as JSON; what was not heard is null.
+nlohmann::ordered_json WhereJson(const Whereabouts& where, Time now);
+
+}  // namespace priamos::cli
