@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
@@ -24,7 +25,7 @@ struct CalibrateOptions {
   std::uint64_t seed = 1;
   head::OfflineCalibration files;
   std::vector<int> dots{6, 6}, chessboard, image_size;
-  bool light = false;
+  bool light = false, json = false;
 };
 
 /// Replaces `path` as a whole or not at all.
@@ -94,7 +95,8 @@ int Calibrate(const CalibrateOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const Time start = FromUtime(1'000'000'000);
   const auto log = [&](Time now, std::string_view process, bus::Level, std::string_view text) {
-    std::cout << fmt::format("{:6.1f} s  {}: {}", Seconds(now - start), process, text) << std::endl;
+    (options.json ? std::cerr : std::cout)
+        << fmt::format("{:6.1f} s  {}: {}", Seconds(now - start), process, text) << std::endl;
   };
   bus::Lockstep lockstep(schema, {.seed = options.seed, .start = start, .log = log});
   lockstep.AddBus("onboard");
@@ -103,7 +105,13 @@ int Calibrate(const CalibrateOptions& options) {
   if (!options.output.empty())
     head.overrides.push_back("calibration=" + std::filesystem::absolute(options.output).string());
   lockstep.AddApp(FactoryFor("head"), "onboard", head);
-  if (lockstep.RunUntil(start + kTimeLimit)) return lockstep.exit_code();
+  const bool finished = lockstep.RunUntil(start + kTimeLimit);
+  if (options.json)
+    std::cout << nlohmann::ordered_json{{"finished", finished},
+                                        {"exit_code", finished ? lockstep.exit_code() : 1},
+                                        {"simulated_s", Seconds(lockstep.now() - start)}}
+              << std::endl;
+  if (finished) return lockstep.exit_code();
   std::cerr << "priamos calibrate: the head did not finish within 10 simulated minutes\n";
   return 1;
 }
@@ -135,6 +143,7 @@ void AddCalibrateCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--table", options->table,
                    "calibration table that the laser goes into, without it kastor.yaml of the deployment")
       ->needs(laser);
+  verb->add_flag("--json", options->json, "machine-readable; from files it always is");
   AddFileOptions(*verb, *options);
   verb->callback([options, &exit_code] {
     if (!options->laser.empty()) return void(exit_code = CalibrateLaser(*options));

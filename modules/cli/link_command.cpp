@@ -3,7 +3,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bus/own_types.hpp"
 #include "bus/radio/budget.hpp"
 #include "bus/radio/link_config.hpp"
 #include "bus/schema/packing.hpp"
@@ -16,10 +15,6 @@ namespace priamos::cli {
 namespace {
 
 constexpr int kDoesNotHold = 1;
-
-bus::Schema TypesOf(const std::string& folder) {
-  return folder.empty() ? bus::OwnTypes() : bus::Schema(bus::Schema::ReadDirectory(folder));
-}
 
 nlohmann::ordered_json BitsAsJson(const bus::Packer& packer) {
   nlohmann::ordered_json json{
@@ -104,6 +99,7 @@ void AddEmulate(CLI::App& link, int& exit_code) {
   verb->add_option("--blackouts", options->blackouts,
                    "CSV file with from_s,to_s per line: no line in between");
   verb->add_option("--seed", options->seed, "of the errors")->capture_default_str();
+  verb->add_flag("--json", options->json, "say machine-readable which ttys there are");
   verb->callback([options, &exit_code] { exit_code = RunLinkEmulate(*options); });
 }
 
@@ -113,9 +109,12 @@ void AddKeygen(CLI::App& link, int& exit_code) {
       link.add_subcommand("keygen", "Make a secret key for a radio link; both ends need the same file.");
   verb->footer("Example: priamos link keygen /etc/priamos/link.key");
   verb->add_option("file", *path, "where to; an existing file is kept")->required();
-  verb->callback([path, &exit_code] {
+  auto json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "machine-readable");
+  verb->callback([=, &exit_code] {
     radio::WriteNewKeyFile(*path);
-    std::cout << *path << ": new key; copy it to the other end by a safe way, mode 0600\n";
+    if (*json) std::cout << nlohmann::ordered_json{{"file", *path}}.dump() << "\n";
+    if (!*json) std::cout << *path << ": new key; copy it to the other end by a safe way, mode 0600\n";
     exit_code = 0;
   });
 }
@@ -129,10 +128,9 @@ void AddBits(CLI::App& link, int& exit_code) {
   auto json = std::make_shared<bool>(false);
   verb->add_flag("--json", *json, "machine-readable");
   verb->callback([=, &exit_code] {
-    const bus::Schema schema = TypesOf(*types);
+    const bus::Schema schema = LoadTypes(*types);
     const bus::Struct* found = schema.Find(*type);
-    if (found == nullptr)
-      throw ConfigError("link bits: expected the name of a known .lcm type, got \"" + *type + "\"");
+    if (found == nullptr) throw UnknownType(schema, *type);
     const bus::Packer packer(*found);
     std::cout << (*json ? BitsAsJson(packer).dump(2) + "\n" : bus::FormatBitTable(packer));
     exit_code = 0;
@@ -150,7 +148,7 @@ void AddBudget(CLI::App& link, int& exit_code) {
   verb->add_flag("--json", *json, "machine-readable");
   verb->callback([=, &exit_code] {
     const auto link_config = LoadConfig<bus::radio::LinkConfig>(*config);
-    const bus::Schema schema = TypesOf(*types);
+    const bus::Schema schema = LoadTypes(*types);
     const auto table = link_config.Table(schema);
     const auto budget = ComputeBudget(table, link_config.Options());
     std::cout << (*json ? BudgetAsJson(table, budget).dump(2) + "\n" : FormatBudget(table, budget));
@@ -162,8 +160,9 @@ void AddTop(CLI::App& link, int& exit_code) {
   auto options = std::make_shared<LinkTopOptions>();
   auto* verb = link.add_subcommand("top", "The link as it is now: load, quality, every channel.");
   verb->footer("Example: priamos link top --bus onboard");
-  bus::AddBusChoice(*verb, options->bus);
+  bus::AddBusChoice(*verb, options->bus.bus);
   verb->add_flag("--once", options->once, "one screen, then end");
+  verb->add_flag("--json", options->json, "machine-readable, one line instead of a screen");
   verb->callback([options, &exit_code] { exit_code = RunLinkTop(*options); });
 }
 
@@ -176,7 +175,7 @@ void AddListen(CLI::App& link, int& exit_code) {
   verb->add_option("--for", options->seconds, "s; 0: until Ctrl-C")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
-  bus::AddBusChoice(*verb, options->bus);
+  bus::AddBusChoice(*verb, options->bus.bus);
   verb->callback([options, &exit_code] { exit_code = RunLinkListen(*options); });
 }
 

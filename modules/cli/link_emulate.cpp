@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "bus/clock.hpp"
@@ -149,8 +150,12 @@ int RunLinkEmulate(const LinkEmulateOptions& options) {
   RemoveDeadLink(options.a);
   RemoveDeadLink(options.b);
   EmulatedLine line(options, clock.Now());
-  std::cout << fmt::format("{} <-> {}: {} baud; Ctrl-C ends it\n", options.a, options.b, options.line.baud)
-            << std::flush;
+  if (options.json)
+    std::cout << nlohmann::ordered_json{{"a", options.a}, {"b", options.b}, {"baud", options.line.baud}}
+              << std::endl;
+  else
+    std::cout << fmt::format("{} <-> {}: {} baud; Ctrl-C ends it\n", options.a, options.b, options.line.baud)
+              << std::flush;
   bus::ServiceNotifier notifier;
   for (;;) {
     notifier.Beat(clock.Now());

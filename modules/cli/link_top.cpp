@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "bus/clock.hpp"
 #include "bus/lcm_bus.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "cli/bus_watch.hpp"
+#include "cli/silence_watch.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
@@ -108,12 +110,22 @@ std::string LinkTopView::Render(Time now) const {
 int RunLinkTop(const LinkTopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus.Url());
+  bus::LcmBus bus(options.bus.bus.Url());
   bus::Node node(bus, schema, clock);
+  // A radio reports once a second.
+  SilenceWatch silence("priamos link top", options.bus, std::string(channels::kLinkStatus.name), clock.Now(),
+                       std::chrono::milliseconds(2500));
   auto reports = node.SubscribeAll(channels::kLinkStatus);
   LinkTopView view;
   const auto take = [&] {
     for (const link_status_t& report : reports.Drain()) view.Add(report, clock.Now());
+    if (!view.empty()) silence.Heard();
+    silence.Step(clock.Now());
+  };
+  const auto show = [&] {
+    const Time now = clock.Now();
+    if (options.json) return void(std::cout << view.Json(now).dump() << std::endl);
+    std::cout << (options.once ? "" : "\x1b[H\x1b[2J") << view.Render(now) << std::flush;
   };
   const double seconds = options.once ? kOnceWaits_s : options.seconds;
   const Time until = seconds > 0 ? clock.Now() + FromSeconds(seconds) : Time::max();
@@ -124,21 +136,28 @@ int RunLinkTop(const LinkTopOptions& options) {
         take();
         if (options.once || clock.Now() < next) return;
         next = clock.Now() + FromSeconds(0.5);
-        std::cout << "\x1b[H\x1b[2J" << view.Render(clock.Now()) << std::flush;
+        show();
       });
-  if (options.once) std::cout << view.Render(clock.Now());
+  if (options.once) show();
   return options.once && view.empty() ? 1 : 0;
 }
 
 int RunLinkListen(const LinkTopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus.Url());
+  bus::LcmBus bus(options.bus.bus.Url());
   bus::Node node(bus, schema, clock);
+  SilenceWatch silence("priamos link listen", options.bus, options.channel, clock.Now(),
+                       std::chrono::milliseconds(2500));
+  bus.Subscribe(options.channel, [&](std::string_view, std::span<const std::byte>) { silence.Heard(); });
   LinkListener listener(node, {options.channel});
   const Time until = options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max();
   Watch(
-      bus, clock, until, [] { return false; }, [&] { listener.Step(clock.Now()); });
+      bus, clock, until, [] { return false; },
+      [&] {
+        listener.Step(clock.Now());
+        silence.Step(clock.Now());
+      });
   return 0;
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
-#include "bus/bus_choice.hpp"
+#include "cli/bus_options.hpp"
 #include "common/time.hpp"
 #include "priamos/link_status_t.hpp"
 
@@ -18,6 +19,8 @@ class LinkTopView {
   void Add(const link_status_t& report, Time now);
   /// The screen as lines of text, at most 110 columns. Before the first report it says what is missing.
   std::string Render(Time now) const;
+  /// The same for machines.
+  nlohmann::ordered_json Json(Time now) const;
   bool empty() const { return !last_.has_value(); }
   /// Every channel was reported twice: its rates are known.
   bool complete() const;
@@ -39,8 +42,9 @@ class LinkTopView {
 };
 
 struct LinkTopOptions {
-  bus::BusChoice bus;
+  BusOptions bus;
   bool once = false;      ///< print one screen and end
+  bool json = false;      ///< a line of JSON instead of a screen
   double seconds = 0;     ///< end after so long; 0: at Ctrl-C
   std::string channel{};  ///< `listen`: the on-request channel that is wanted
 };

@@ -19,10 +19,16 @@ namespace {
 struct LockstepOptions {
   LockstepRequest request;
   int runs = 1;
-  std::string json_file;
+  bool json = false;
+  std::string json_file;  ///< none: standard output
   std::string log_root;
   bool verbose = false;
 };
+
+/// What a person reads; without a file standard output belongs to the JSON.
+std::ostream& People(const LockstepOptions& options) {
+  return options.json && options.json_file.empty() ? std::cerr : std::cout;
+}
 
 LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options, std::uint64_t seed) {
   LockstepRequest request = options.request;
@@ -30,8 +36,8 @@ LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options,
   if (!options.log_root.empty())
     request.log_folder = (std::filesystem::path(options.log_root) / fmt::format("seed-{}", seed)).string();
   if (options.verbose)
-    request.progress = [](Time t, const std::string& text) {
-      std::cout << fmt::format("{:6.1f} s  {}", Seconds(t.time_since_epoch()), text) << std::endl;
+    request.progress = [&options](Time t, const std::string& text) {
+      People(options) << fmt::format("{:6.1f} s  {}", Seconds(t.time_since_epoch()), text) << std::endl;
     };
   if (request.log_folder) std::filesystem::create_directories(*request.log_folder);
   auto result = RunLockstep(schema, request);
@@ -54,6 +60,7 @@ std::string Line(const LockstepResult& result) {
 }
 
 void WriteJson(const std::string& file, const nlohmann::ordered_json& json) {
+  if (file.empty()) return void(std::cout << json.dump() << std::endl);
   std::ofstream out(file);
   out << json.dump(2) << "\n";
   if (!out) throw std::runtime_error(file + ": cannot be written");
@@ -69,12 +76,12 @@ int Run(const LockstepOptions& options) {
     passed += result.summary.passed;
     contacts += result.summary.contacts;
     all.push_back(ToJson(result.summary));
-    std::cout << Line(result) << std::endl;
-    if (options.runs == 1) PrintSummary(std::cout, result.summary);
+    People(options) << Line(result) << std::endl;
+    if (options.runs == 1) PrintSummary(People(options), result.summary);
   }
-  if (!options.json_file.empty()) WriteJson(options.json_file, options.runs == 1 ? all.front() : all);
+  if (options.json) WriteJson(options.json_file, options.runs == 1 ? all.front() : all);
   if (options.runs > 1)
-    std::cout << fmt::format("{} of {} passed, {} contacts\n", passed, options.runs, contacts);
+    People(options) << fmt::format("{} of {} passed, {} contacts\n", passed, options.runs, contacts);
   return passed == options.runs && contacts == 0 ? 0 : 1;
 }
 
@@ -92,14 +99,19 @@ void AddLockstepCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--runs", options->runs, "number of runs, each with the next seed")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  verb->add_option("--json", options->json_file,
-                   "write the summary (an array of them for several runs) there");
+  auto* json = verb->add_option("--json", options->json_file,
+                                "the summary (an array of them for several runs) into that file, or to "
+                                "standard output");
+  json->expected(0, 1);
   verb->add_option("--logs", options->log_root,
                    "write logs and report of each run into a folder per seed there");
   verb->add_option("--deployment", options->request.deployment, "folder of configurations")
       ->capture_default_str();
   verb->add_flag("--verbose", options->verbose, "one line per phase");
-  verb->callback([options, &exit_code] { exit_code = Run(*options); });
+  verb->callback([options, json, &exit_code] {
+    options->json = json->count() > 0;
+    exit_code = Run(*options);
+  });
 }
 
 }  // namespace priamos::cli

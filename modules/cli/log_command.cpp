@@ -127,12 +127,14 @@ int Copy(const LogOptions& options) {
 }
 
 int Tell(const LogOptions& options, const bus::ExportCount& count, const bus::LogReader& reader) {
+  // Standard output may be taken by the messages themselves.
+  const bool taken = options.out.empty() && options.format != "csv";
   if (options.json)
-    std::cerr << nlohmann::ordered_json{{"messages", count.written},
-                                        {"undecodable", count.undecodable},
-                                        {"damaged_places", reader.damaged_places()},
-                                        {"skipped_bytes", reader.skipped_bytes()}}
-              << "\n";
+    (taken ? std::cerr : std::cout) << nlohmann::ordered_json{{"messages", count.written},
+                                                              {"undecodable", count.undecodable},
+                                                              {"damaged_places", reader.damaged_places()},
+                                                              {"skipped_bytes", reader.skipped_bytes()}}
+                                    << "\n";
   else
     std::cerr << fmt::format("{} messages; left out: {} undecodable, {} damaged places with {} bytes\n",
                              count.written, count.undecodable, reader.damaged_places(),
@@ -231,7 +233,9 @@ CLI::App* AddVerb(CLI::App& log, const char* name, const char* help, const char*
   if (which == "filter" || which == "export") AddSelectionOptions(*verb, options->selection);
   if (which != "filter" && which != "repair") AddTypesOption(*verb, options->bus);
   verb->add_flag("--json", options->json,
-                 which == "export" ? "the count on standard error machine-readable" : "machine-readable");
+                 which == "export"
+                     ? "the count machine-readable, on standard error when the messages go to standard output"
+                     : "machine-readable");
   if (which != "info") verb->add_flag("--force", options->force, "replace an existing file");
   verb->callback([options, run, &exit_code] { exit_code = run(*options); });
   return verb;

@@ -163,7 +163,7 @@ nlohmann::ordered_json ToJson(const Summary& summary) {
   return {{"scenario", summary.scenario},
           {"seed", summary.seed},
           {"passed", summary.passed},
-          {"reason", summary.passed ? nlohmann::ordered_json(nullptr) : summary.reason},
+          {"reason", Json(summary.passed ? std::nullopt : std::optional(summary.reason))},
           {"contacts", summary.contacts},
           {"min_gap_m", summary.min_gap_m},
           {"lateral_at_door_m", Json(summary.lateral_at_door_m)},

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
@@ -27,8 +28,13 @@ struct RunOptions {
   std::string scenario = "door";
   std::uint64_t seed = 1;
   std::string log_root = "logs";
-  bool restart = false;
+  bool restart = false, json = false;
 };
+
+/// What a person reads; standard output belongs to the JSON.
+std::ostream& People(const RunOptions& options) {
+  return options.json ? std::cerr : std::cout;
+}
 
 std::filesystem::path OwnFolder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -123,7 +129,7 @@ class RealTimeRun {
 
   void Progress(Time now, const std::string& text) {
     told_.push_back({Seconds(now - start_), text});
-    std::cout << fmt::format("{:6.1f} s  {}", Seconds(now - start_), text) << std::endl;
+    People(options_) << fmt::format("{:6.1f} s  {}", Seconds(now - start_), text) << std::endl;
   }
 
   std::unique_ptr<ScenarioStory> MakeStory() {
@@ -177,7 +183,9 @@ class RealTimeRun {
   std::vector<StoryLine> told_;
 };
 
-int FailedStart(const RealTimeRun& run) {
+int FailedStart(const RealTimeRun& run, bool json) {
+  if (json)
+    std::cout << nlohmann::ordered_json{{"started", false}, {"reason", run.Reason()}}.dump() << std::endl;
   std::cerr << fmt::format("priamos run: not started: {}\nwhat every process said is in {}/*.txt\n",
                            run.Reason(), std::filesystem::relative(run.folder()).string());
   return 2;
@@ -189,15 +197,18 @@ int Run(const RunOptions& options) {
   const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
   RealTimeRun run(options, scenario);
   const bool whole = run.Run();
-  if (!run.story().Started()) return FailedStart(run);
+  if (!run.story().Started()) return FailedStart(run, options.json);
   const RunInfo info{options.scenario, options.seed, 1.0, door, run.Reason(), run.told()};
   Summary summary = Summarise(run.recorder().record(), info);
   if (scenario.story == "teleop") summary.passed = run.story().Succeeded();
   WriteReport(run.recorder().record(), summary, info, map_file, run.folder());
-  PrintSummary(std::cout, summary);
-  if (!run.recorder().good()) std::cout << "a log is incomplete: the disk is full or cannot be written\n";
-  if (!summary.passed) std::cout << "not passed: " << run.Reason() << "\n";
-  std::cout << "logs and report: " << std::filesystem::relative(run.folder()).string() << "/report.html\n";
+  PrintSummary(People(options), summary);
+  if (options.json) std::cout << ToJson(summary).dump() << std::endl;
+  if (!run.recorder().good())
+    People(options) << "a log is incomplete: the disk is full or cannot be written\n";
+  if (!summary.passed) People(options) << "not passed: " << run.Reason() << "\n";
+  People(options) << "logs and report: " << std::filesystem::relative(run.folder()).string()
+                  << "/report.html\n";
   return whole && summary.passed && summary.contacts == 0 ? 0 : 1;
 }
 
@@ -214,6 +225,7 @@ void AddRunCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--deployment", options->deployment, "folder of configurations")->capture_default_str();
   verb->add_option("--logs", options->log_root, "a folder per run is made in it")->capture_default_str();
   verb->add_flag("--restart", options->restart, "start again what died or hung, as `priamos up` does");
+  verb->add_flag("--json", options->json, "summary.json on standard output, all else on standard error");
   verb->callback([options, &exit_code] { exit_code = Run(*options); });
 }
 

@@ -4,11 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bus/own_types.hpp"
+#include "bus/schema/json.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/bus_watch.hpp"
 #include "cli/commands.hpp"
+#include "cli/silence_watch.hpp"
 #include "cli/view_screen.hpp"
 
 namespace priamos::cli {
@@ -17,6 +20,7 @@ namespace {
 struct ViewOptions {
   BusOptions bus;
   bool once = false;
+  bool json = false;
   double seconds = 0;  ///< end after so long; 0: at Ctrl-C
 };
 
@@ -25,6 +29,22 @@ ScreenSize SizeOfTerminal() {
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20 || size.ws_row < 10) return {};
   return {size.ws_col, size.ws_row};
 }
+
+/// A line per message, with its channel.
+class JsonLines {
+ public:
+  explicit JsonLines(const bus::Schema& schema) : schema_(schema) {}
+  template <class T>
+  void Print(const Channel<T>& channel, const T& message) const {
+    const auto* type = schema_.Find(static_cast<std::uint64_t>(T::getHash()));
+    std::cout
+        << bus::Json{{"channel", channel.name}, {"message", bus::ToJson(*type, bus::Encode(message))}}.dump()
+        << std::endl;
+  }
+
+ private:
+  const bus::Schema& schema_;
+};
 
 /// 0; 1 when nothing was seen in the time given.
 int RunView(const ViewOptions& options) {
@@ -38,6 +58,15 @@ int RunView(const ViewOptions& options) {
   LinkListener listener(
       node, {std::string(channels::kLandmarkView.name), std::string(channels::kObstacleLine.name)});
   ViewScreen screen;
+  const JsonLines lines_of_json(schema);
+  SilenceWatch silence("priamos view", options.bus, std::string(channels::kLandmarkView.name), clock.Now());
+  const auto take = [&](const auto& channel, auto& inbox) {
+    for (const auto& message : inbox.Drain()) {
+      silence.Heard();
+      screen.Add(message);
+      if (options.json) lines_of_json.Print(channel, message);
+    }
+  };
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   const Time until = options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max();
   Time next = clock.Now();
@@ -45,14 +74,15 @@ int RunView(const ViewOptions& options) {
       bus, clock, until, [&] { return options.once && !screen.empty(); },
       [&] {
         listener.Step(clock.Now());
-        for (const landmark_fix_t& fix : fixes.Drain()) screen.Add(fix);
-        for (const landmark_view_t& view : views.Drain()) screen.Add(view);
-        for (const obstacle_line_t& line : lines.Drain()) screen.Add(line);
-        if (options.once || clock.Now() < next) return;
+        silence.Step(clock.Now());
+        take(channels::kLandmarkFix, fixes);
+        take(channels::kLandmarkView, views);
+        take(channels::kObstacleLine, lines);
+        if (options.once || options.json || clock.Now() < next) return;
         next = clock.Now() + FromSeconds(0.3);
         std::cout << "\x1b[H\x1b[2J" << screen.Render(clock.Now(), SizeOfTerminal(), true) << std::flush;
       });
-  if (options.once) std::cout << screen.Render(clock.Now(), SizeOfTerminal(), terminal);
+  if (options.once && !options.json) std::cout << screen.Render(clock.Now(), SizeOfTerminal(), terminal);
   return screen.empty() ? 1 : 0;
 }
 
@@ -68,6 +98,7 @@ void AddViewCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--for", options->seconds, "s; 0: until Ctrl-C")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
+  verb->add_flag("--json", options->json, "a line per message instead of a screen");
   AddBusOption(*verb, options->bus);
   verb->callback([options, &exit_code] { exit_code = RunView(*options); });
 }

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <optional>
 
 #include "bus/bus_choice.hpp"
 #include "bus/clock.hpp"
@@ -20,9 +21,26 @@ constexpr int kNoAnswer = 1;
 
 struct EstopOptions {
   bus::BusChoice bus;
-  bool rearm = false;
+  bool rearm = false, json = false;
   double wait_s = 5;
 };
+
+/// Says how it went; `after` is none when nobody answered. Written by hand: the e-stop links little.
+int Tell(const EstopOptions& options, std::optional<Duration> after) {
+  if (options.json)
+    std::cout << fmt::format("{{\"action\":\"{}\",\"confirmed\":{},\"after_s\":{}}}\n",
+                             options.rearm ? "REARM" : "STOP", after.has_value(),
+                             after ? fmt::format("{:.3f}", Seconds(*after)) : "null");
+  if (!after) {
+    std::cerr << fmt::format("priamos estop: the robot did not answer within {:g} s on {} ({})\n",
+                             options.wait_s, options.bus.bus, options.bus.Url());
+    return kNoAnswer;
+  }
+  if (!options.json)
+    std::cout << fmt::format("{} after {:.2f} s\n", options.rearm ? "re-armed" : "e-stop is latched",
+                             Seconds(*after));
+  return 0;
+}
 
 /// Says it at once, and again until the robot's status shows it.
 int Run(const EstopOptions& options) {
@@ -49,13 +67,9 @@ int Run(const EstopOptions& options) {
     if (!status.get() || FromUtime(status.get()->utime) <= begin ||
         bool(status.get()->estop) == options.rearm)
       continue;
-    std::cout << fmt::format("{} after {:.2f} s\n", options.rearm ? "re-armed" : "e-stop is latched",
-                             Seconds(clock.Now() - begin));
-    return 0;
+    return Tell(options, clock.Now() - begin);
   }
-  std::cerr << fmt::format("priamos estop: the robot did not answer within {:.0f} s on {}\n", options.wait_s,
-                           options.bus.Url());
-  return kNoAnswer;
+  return Tell(options, std::nullopt);
 }
 
 }  // namespace
@@ -67,6 +81,7 @@ void AddEstopCommand(CLI::App& cli, int& exit_code) {
   verb->footer("Example: priamos estop; later priamos estop --rearm");
   bus::AddBusChoice(*verb, options->bus);
   verb->add_flag("--rearm", options->rearm, "lift it; nothing moves without a new command");
+  verb->add_flag("--json", options->json, "machine-readable");
   verb->add_option("--wait", options->wait_s, "s, for the robot's answer")
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();

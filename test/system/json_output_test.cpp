@@ -1,0 +1,149 @@
+// Every verb that prints something prints JSON with --json, and nothing else on standard output. The verbs
+// come from the command line itself, so a new one cannot be forgotten.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "bus/command_line.hpp"
+#include "cli/commands.hpp"
+#include "test/support/temporary_folder.hpp"
+#include "test/system/private_network.hpp"
+
+namespace priamos {
+namespace {
+
+/// A verb and what it is given. Those marked `streams` run until Ctrl-C, which comes after a while.
+struct Call {
+  std::string verb, arguments;
+  bool streams = false;
+};
+
+/// In this order, beside a running `up sim`. $LOG is a recorded log, $O where things are written.
+const std::vector<Call> kCalls{
+    {"status", "--logs $O/up"},
+    {"logs", "--logs $O/up"},
+    {"doctor", ""},
+    {"topic list", "--seconds 1"},
+    {"topic hz", "POSE --seconds 1"},
+    {"topic bw", "POSE --seconds 1"},
+    {"topic echo", "POSE x_m y_m --count 2"},
+    {"topic url", ""},
+    {"topic pub", "LINK_REQUEST link_request_t '{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":1}'"},
+    {"where", ""},
+    {"mission status", ""},
+    {"mission door", "laboratory --deployment $SOURCE/config/sim"},
+    {"view", "--once --for 40"},
+    {"mission abort", ""},
+    {"estop", ""},
+    {"link top", "--once"},
+    {"link emulate", "--a $O/a --b $O/b", true},
+    {"link keygen", "$O/key"},
+    {"link bits", "pose_t"},
+    {"link budget", "$SOURCE/config/sim/link.toml"},
+    {"log record", "$O/record.lcmlog --seconds 1"},
+    {"log info", "$LOG"},
+    {"log index", "$LOG"},
+    {"log filter", "$LOG $O/short.lcmlog --to 2"},
+    {"log export", "$O/short.lcmlog mcap --out $O/short.mcap"},
+    {"log repair", "$O/short.lcmlog $O/whole.lcmlog"},
+    {"log merge", "$LOG $SOURCE/logs/recorded/door-offboard.lcmlog $O/merged.lcmlog --offset 0"},
+    {"log play", "$O/short.lcmlog --speed max --bus 'udpm://239.255.76.69:7999?ttl=0'"},
+    {"replay verify", "$O/short.lcmlog --module planner --deployment $SOURCE/config/sim"},
+    {"type show", "pose_t"},
+    {"type hash", "pose_t"},
+    {"type channels", ""},
+    {"see", "$SOURCE/logs/recorded/run.png --out $O"},
+    {"calibrate", "--points $O/points.txt"},
+    {"down", "--logs $O/up"},
+    {"up", "$SOURCE/config/sim --detach --logs $O/up2"},
+    {"run", "--deployment $SOURCE/config/sim --logs $O/run", true},
+    {"lockstep", "--deployment $SOURCE/config/sim"},
+};
+
+/// Verbs without --json, and why.
+const std::map<std::string, std::string> kWithout{
+    {"link listen", "prints nothing"},
+    {"help", "text for people"},
+    {"completion bash", "a script for the shell"},
+    {"completion words", "what the shell asks, line by line"},
+};
+
+std::vector<const CLI::App*> Leaves(const CLI::App& app) {
+  const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });
+  if (verbs.empty()) return {&app};
+  std::vector<const CLI::App*> leaves;
+  for (const auto* verb : verbs)
+    for (const auto* leaf : Leaves(*verb)) leaves.push_back(leaf);
+  return leaves;
+}
+
+std::string NameOf(const CLI::App& verb) {
+  return bus::FullName(verb).substr(std::string("priamos ").size());
+}
+
+TEST(JsonOutput, EveryVerbHasItOrAReasonNotTo) {
+  int code = 0;
+  CLI::App cli("", "priamos");
+  cli::AddCommands(cli, code);
+  for (const auto* verb : Leaves(cli)) {
+    const std::string name = NameOf(*verb);
+    const bool has = verb->get_option_no_throw("--json") != nullptr;
+    EXPECT_NE(has, kWithout.contains(name)) << name;
+    const auto calls =
+        std::count_if(kCalls.begin(), kCalls.end(), [&](const Call& call) { return call.verb == name; });
+    EXPECT_EQ(calls, has ? 1 : 0) << name << " is to be tried below";
+  }
+}
+
+/// One document, or one per line.
+bool IsJson(const std::string& text) {
+  if (nlohmann::json::accept(text)) return true;
+  std::istringstream lines(text);
+  std::size_t n = 0;
+  for (std::string line; std::getline(lines, line); ++n)
+    if (!nlohmann::json::accept(line)) return false;
+  return n > 0;
+}
+
+std::string Read(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// A camera of 500 px focal length that looks at eight corners and four other points of space.
+std::string PointsOfACamera() {
+  std::string text;
+  for (const double x : {-0.5, 0.4})
+    for (const double y : {-0.3, 0.35})
+      for (const double z : {2.0, 2.7, 3.5})
+        text += fmt::format("{} {} {} {} {}\n", x, y, z, 384 + 500 * x / z, 288 + 500 * y / z);
+  return text;
+}
+
+TEST(JsonOutput, OfEveryVerbIsNothingButJson) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "points.txt") << PointsOfACamera();
+  std::string script = "O=" + folder.path().string() +
+                       "; LOG=$SOURCE/logs/recorded/door-onboard.lcmlog; cd $O\n" +
+                       "$BIN/priamos up $SOURCE/config/sim --detach --logs $O/up > up.text || cat up.text\n";
+  for (std::size_t i = 0; i < kCalls.size(); ++i)
+    script += fmt::format("timeout {} $BIN/priamos {} --json {} > {}.out 2> {}.err\n",
+                          kCalls[i].streams ? "-s INT 8" : "90", kCalls[i].verb, kCalls[i].arguments, i, i);
+  script += "$BIN/priamos down --logs $O/up2 > down.text; $BIN/priamos down --logs $O/up >> down.text\n";
+  const auto answer = RunInPrivateNetwork(script, folder / "script.sh", 280);
+  for (std::size_t i = 0; i < kCalls.size(); ++i) {
+    const std::string out = Read(folder / fmt::format("{}.out", i));
+    EXPECT_TRUE(IsJson(out)) << kCalls[i].verb << " " << kCalls[i].arguments << "\n"
+                             << out << "\n"
+                             << Read(folder / fmt::format("{}.err", i)) << answer.text;
+  }
+}
+
+}  // namespace
+}  // namespace priamos
