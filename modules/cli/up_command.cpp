@@ -7,24 +7,29 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "bus/clock.hpp"
+#include "bus/multicast.hpp"
 #include "bus/real_time_loop.hpp"
 #include "cli/commands.hpp"
 #include "cli/deployment.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/up_state.hpp"
+#include "common/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::ordered_json;
 using std::chrono::milliseconds;
 
 constexpr int kNotThere = 1;
@@ -37,14 +42,21 @@ struct UpOptions {
   std::string log_root = "logs";
   std::string group;
   std::uint64_t seed = 1;
-  bool detach = false;
+  bool detach = false, json = false;
 };
 
 /// `sim`, or a folder of its own.
 fs::path DeploymentFolder(const UpOptions& options) {
   const fs::path given(options.deployment);
   if (fs::is_directory(given)) return given;
-  return fs::path(options.config_root) / given;
+  if (fs::is_directory(fs::path(options.config_root) / given)) return fs::path(options.config_root) / given;
+  std::vector<std::string> known;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(options.config_root, none))
+    if (fs::exists(entry.path() / "deployment.toml")) known.push_back(entry.path().filename());
+  throw ConfigError(fmt::format("unknown deployment \"{}\"{}; {} has {}", options.deployment,
+                                NearestText(options.deployment, known), options.config_root,
+                                fmt::join(known, ", ")));
 }
 
 std::string MakeRunFolder(const UpOptions& options) {
@@ -101,7 +113,9 @@ class UpRun {
     return fds[0].revents != 0;
   }
   void Say(const std::string& text) {
-    std::cout << fmt::format("{:6.1f} s  {}", Seconds(clock_.Now() - start_), text) << std::endl;
+    const double t_s = Seconds(clock_.Now() - start_);
+    if (options_.json) return void(std::cout << ordered_json{{"t_s", t_s}, {"text", text}} << std::endl);
+    std::cout << fmt::format("{:6.1f} s  {}", t_s, text) << std::endl;
   }
   void Write(Time now) {
     UpState state{options_.deployment,   place_.run_folder,    supervisor_.AllReady(),
@@ -120,11 +134,34 @@ class UpRun {
   Supervisor supervisor_;
 };
 
+/// What no process could start with is told before any is started.
+void RequireBuses(const Deployment& deployment) {
+  if (deployment.group != "offboard") bus::RequireMulticastRoute(deployment.OnboardUrl());
+  if (deployment.group != "onboard") bus::RequireMulticastRoute(deployment.OffboardUrl());
+}
+
 int UpNow(const UpOptions& options) {
   const std::string file = (DeploymentFolder(options) / "deployment.toml").string();
   auto deployment = LoadConfig<Deployment>(file);
   if (!options.group.empty()) deployment.group = options.group;
+  RequireBuses(deployment);
   return UpRun(options, deployment).Run();
+}
+
+void Show(const UpState& state, bool json) {
+  std::cout << (json ? ToJson(state).dump() + "\n" : FormatUpState(state));
+}
+
+bool HasAlarm(const UpState& state) {
+  return std::any_of(state.processes.begin(), state.processes.end(), [](const auto& p) { return p.alarm; });
+}
+
+/// `: onboard-robot: exit code 2: ...` for the first process that ended.
+std::string Reasons(const std::optional<UpState>& state) {
+  if (!state) return "";
+  for (const ProcessReport& p : state->processes)
+    if (!p.reason.empty()) return fmt::format(": {}: {}", p.name, p.reason);
+  return "";
 }
 
 /// The one in the background is a child that this process waits for until everything is ready.
@@ -154,23 +191,26 @@ int UpDetached(const UpOptions& options) {
       return WIFEXITED(status) ? WEXITSTATUS(status) : kNotThere;
     }
     const auto state = ReadUpState(options.log_root);
-    if (UpLock::Holder(options.log_root) == pid && state && state->ready) {
-      std::cout << FormatUpState(*state);
-      return 0;
-    }
+    const bool its = UpLock::Holder(options.log_root) == pid && state;
+    if (its && state->ready) return Show(*state, options.json), 0;
+    if (its && HasAlarm(*state)) break;
     std::this_thread::sleep_for(milliseconds(20));
   }
-  std::cerr
-      << "priamos up: not everything became ready; `priamos status` says what, `priamos down` ends it\n";
+  if (const auto state = ReadUpState(options.log_root)) Show(*state, options.json);
+  std::cerr << fmt::format("priamos up: not everything became ready{}; `priamos down` ends it\n",
+                           Reasons(ReadUpState(options.log_root)));
   return kNotThere;
 }
 
-int Down(const std::string& log_root) {
+int SayDown(bool was_up, bool json) {
+  if (json) return std::cout << ordered_json{{"was_up", was_up}, {"up", false}} << "\n", 0;
+  std::cout << (was_up ? "everything is down\n" : "nothing is up\n");
+  return 0;
+}
+
+int Down(const std::string& log_root, bool json) {
   const auto pid = UpLock::Holder(log_root);
-  if (!pid) {
-    std::cout << "nothing is up\n";
-    return 0;
-  }
+  if (!pid) return SayDown(false, json);
   kill(*pid, SIGTERM);
   const auto give_up = std::chrono::steady_clock::now() + kDownWithin;
   while (UpLock::Holder(log_root) == pid) {
@@ -182,45 +222,51 @@ int Down(const std::string& log_root) {
     }
     std::this_thread::sleep_for(milliseconds(10));
   }
-  std::cout << "everything is down\n";
-  return 0;
+  return SayDown(true, json);
 }
 
-int Status(const std::string& log_root) {
+int Status(const std::string& log_root, bool json) {
   const auto state = ReadUpState(log_root);
   if (!UpLock::Holder(log_root) || !state) {
-    std::cout << "nothing is up\n";
+    std::cout << (json ? "{\"up\":false}\n" : "nothing is up\n");
     return kNotThere;
   }
-  std::cout << FormatUpState(*state);
+  ordered_json all{{"up", true}};
+  if (json) all.update(ToJson(*state));
+  std::cout << (json ? all.dump() + "\n" : FormatUpState(*state));
   return state->ready ? 0 : kNotThere;
 }
 
-/// The last `lines` of a console, each with the name of its process.
-void PrintTail(const std::string& name, const fs::path& file, std::size_t lines) {
+/// The last `lines` of a console.
+std::vector<std::string> Tail(const fs::path& file, std::size_t lines) {
   std::ifstream in(file);
   std::vector<std::string> all;
   for (std::string line; std::getline(in, line);) all.push_back(line);
-  for (std::size_t i = all.size() > lines ? all.size() - lines : 0; i < all.size(); ++i)
-    std::cout << fmt::format("{:<18} {}\n", name, all[i]);
+  if (all.size() > lines) all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(lines));
+  return all;
 }
 
-int Logs(const std::string& log_root, const std::string& name, std::size_t lines) {
+int Logs(const std::string& log_root, const std::string& name, std::size_t lines, bool json) {
   const auto state = ReadUpState(log_root);
   if (!state) {
-    std::cout << "nothing was ever up\n";
+    std::cout << (json ? "[]\n" : "nothing was ever up\n");
     return kNotThere;
   }
-  bool found = false;
+  auto all = ordered_json::array();
+  std::vector<std::string> known;
   for (const ProcessReport& p : state->processes) {
+    known.push_back(p.name);
     if (!name.empty() && p.name != name) continue;
-    found = true;
-    PrintTail(p.name, fs::path(state->folder) / (p.name + ".txt"), lines);
+    const auto tail = Tail(fs::path(state->folder) / (p.name + ".txt"), lines);
+    all.push_back({{"process", p.name}, {"lines", tail}});
+    for (const std::string& line : tail)
+      if (!json) std::cout << fmt::format("{:<18} {}\n", p.name, line);
   }
-  if (!found)
-    std::cerr << fmt::format("priamos logs: expected the name of a process (`priamos status`), got \"{}\"\n",
-                             name);
-  return found ? 0 : 2;
+  if (all.empty())
+    throw std::runtime_error(
+        fmt::format("unknown process \"{}\"{} (priamos status lists all)", name, NearestText(name, known)));
+  if (json) std::cout << all.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+  return 0;
 }
 
 }  // namespace
@@ -241,18 +287,24 @@ void AddUpCommands(CLI::App& cli, int& exit_code) {
       ->check(CLI::IsMember({"all", "onboard", "offboard"}));
   up->add_option("--seed", options->seed, "of simulated hardware")->capture_default_str();
   up->add_flag("--detach", options->detach, "return when everything is ready");
+  const auto add_json = [options](CLI::App* verb) {
+    verb->add_flag("--json", options->json, "machine-readable");
+  };
+  add_json(up);
   add_logs(up);
   up->callback(
       [options, &exit_code] { exit_code = options->detach ? UpDetached(*options) : UpNow(*options); });
 
   auto* down = cli.add_subcommand("down", "End what `priamos up` started, in order.");
   add_logs(down);
-  down->callback([options, &exit_code] { exit_code = Down(options->log_root); });
+  add_json(down);
+  down->callback([options, &exit_code] { exit_code = Down(options->log_root, options->json); });
 
   auto* status = cli.add_subcommand(
       "status", "What is up, how it is, and why it last ended; exit code 0 when all is ready.");
   add_logs(status);
-  status->callback([options, &exit_code] { exit_code = Status(options->log_root); });
+  add_json(status);
+  status->callback([options, &exit_code] { exit_code = Status(options->log_root, options->json); });
 
   auto name = std::make_shared<std::string>();
   auto lines = std::make_shared<std::size_t>(20);
@@ -260,7 +312,8 @@ void AddUpCommands(CLI::App& cli, int& exit_code) {
   logs->add_option("process", *name, "one process; without it all");
   logs->add_option("-n", *lines, "lines per process")->capture_default_str();
   add_logs(logs);
-  logs->callback([=, &exit_code] { exit_code = Logs(options->log_root, *name, *lines); });
+  add_json(logs);
+  logs->callback([=, &exit_code] { exit_code = Logs(options->log_root, *name, *lines, options->json); });
 }
 
 }  // namespace priamos::cli

@@ -68,7 +68,7 @@ std::optional<pid_t> UpLock::Holder(const std::string& log_root) {
   return free || pid <= 0 ? std::nullopt : std::optional<pid_t>(pid);
 }
 
-void WriteUpState(const std::string& log_root, const UpState& state) {
+ordered_json ToJson(const UpState& state) {
   ordered_json json{{"deployment", state.deployment},
                     {"folder", state.folder},
                     {"ready", state.ready},
@@ -85,9 +85,13 @@ void WriteUpState(const std::string& log_root, const UpState& state) {
                                  {"alarm", p.alarm},
                                  {"reason", p.reason}});
   }
+  return json;
+}
+
+void WriteUpState(const std::string& log_root, const UpState& state) {
   // Written aside and renamed, so that a reader never sees half of it.
   const std::string file = StateFile(log_root), aside = file + ".new";
-  std::ofstream(aside) << json.dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+  std::ofstream(aside) << ToJson(state).dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
   std::error_code ignored;
   fs::rename(aside, file, ignored);
 }

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ struct UpState {
   std::vector<ProcessReport> processes;
   std::vector<double> ages_s;  ///< how long each is in its state
 };
+
+/// As it is written to up.json.
+nlohmann::ordered_json ToJson(const UpState& state);
 
 void WriteUpState(const std::string& log_root, const UpState& state);
 /// nullopt when there is none that can be read.

@@ -73,6 +73,20 @@ TEST_F(UpTest, BringsEverythingUpStartsAgainWhatDiedTellsWhyAndEndsWithoutOrphan
   EXPECT_THAT(answer.text, Not(HasSubstr("failed")));
 }
 
+TEST_F(UpTest, WithoutMulticastSaysSoAtOnce) {
+  const auto answer = RunScript(R"sh(
+    ip route del 224.0.0.0/4
+    TIMEFORMAT='took %R s'
+    time up --detach; echo "code: $?"
+    verb status
+  )sh");
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("expected a multicast route"), HasSubstr("code: 2"),
+                                 HasSubstr("nothing is up")));
+  std::smatch took;
+  ASSERT_TRUE(std::regex_search(answer.text, took, std::regex("took ([0-9.]+) s"))) << answer.text;
+  EXPECT_LT(std::stod(took[1]), 2);
+}
+
 TEST_F(UpTest, LeavesNoOrphanAfterCtrlCNorAfterItsOwnDeathAndComesUpAgain) {
   const auto answer = RunScript(R"sh(
     start $LOGS.first; P=$(pids)
