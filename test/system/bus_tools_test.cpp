@@ -274,7 +274,29 @@ TEST_F(BusTools, OtherGroupsOnTheSamePortAreNotHeard) {
     $BIN/priamos log play in.lcmlog --loop --bus 'udpm://239.255.76.99:7667?ttl=0' & player=$!
     $BIN/priamos topic list --seconds 1
     kill -INT $player; wait $player)sh");
-  EXPECT_THAT(answer.text, HasSubstr("nothing heard on udpm://239.255.76.67:7667"));
+  EXPECT_THAT(answer.text, HasSubstr("nothing is heard on "));
+}
+
+TEST_F(BusTools, WhoWaitsInVainIsToldWhy) {
+  WriteLog(log_);
+  const auto answer = Run(R"sh(
+    $BIN/priamos log play in.lcmlog --loop --bus onboard & player=$!
+    sleep 0.5
+    timeout -s INT 2 $BIN/priamos topic echo POZE --bus onboard > poze.out 2> poze.err
+    timeout -s INT 2 $BIN/priamos topic echo POSE > other.out 2> other.err
+    timeout -s INT 2 $BIN/priamos where 2> where.err > where.out; echo "where: $?"
+    timeout -s INT 2 $BIN/priamos mission status 2> mission.err; echo "mission: $?"
+    timeout -s INT 2 $BIN/priamos topic echo POSE x_m utime --count 2 --bus onboard --json 2> good.err
+    kill -INT $player; wait $player
+    cat poze.err other.err where.err mission.err good.err; wc -c < poze.out)sh");
+  EXPECT_THAT(answer.text, HasSubstr("topic echo: nobody publishes POZE on onboard (udpm://239.255.76.67:"));
+  EXPECT_THAT(answer.text, testing::ContainsRegex("nearest: \"POSE\" \\([0-9.]+ Hz\\)"));
+  EXPECT_THAT(answer.text, testing::ContainsRegex("nobody publishes POSE on offboard .*; it is on onboard "
+                                                  "\\([0-9.]+ Hz\\): --bus onboard"));
+  EXPECT_THAT(answer.text, HasSubstr("priamos where: nobody publishes POSE on offboard"));
+  EXPECT_THAT(answer.text, HasSubstr("priamos mission status: nothing is heard on offboard"));
+  EXPECT_THAT(answer.text, HasSubstr("where: 1\nmission: 1\n"));
+  EXPECT_THAT(answer.text, testing::ContainsRegex("\\{\"x_m\":[0-9.]+,\"utime\":[0-9]+\\}"));
 }
 
 /// What killed every subscriber of LCM 1.3.1, and other things that LCM does not send.
