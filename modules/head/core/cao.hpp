@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "head/core/calibration/outcome.hpp"
+#include "common/outcome.hpp"
 #include "head/core/polyhedron.hpp"
 
 namespace priamos::head {

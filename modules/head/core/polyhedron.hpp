@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "head/core/calibration/outcome.hpp"
+#include "common/outcome.hpp"
 #include "head/core/landmark.hpp"
 
 namespace priamos::head {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "head/core/calibration/outcome.hpp"
+#include "common/outcome.hpp"
 #include "head/core/head_model.hpp"
 
 namespace priamos::head {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "head/core/calibration/outcome.hpp"
+#include "common/outcome.hpp"
 
 namespace priamos::head {
 

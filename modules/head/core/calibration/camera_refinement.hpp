@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "common/outcome.hpp"
 #include "head/core/calibration/disc_projection.hpp"
-#include "head/core/calibration/outcome.hpp"
 
 namespace priamos::head {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "common/geometry.hpp"
+#include "common/outcome.hpp"
 #include "head/core/calibration/disc_fit.hpp"
-#include "head/core/calibration/outcome.hpp"
 #include "head/core/calibration/view_fit.hpp"
 
 namespace priamos::head {

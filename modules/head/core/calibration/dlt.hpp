@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "head/core/calibration/outcome.hpp"
+#include "common/outcome.hpp"
 
 namespace priamos::head {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "head/core/calibration/outcome.hpp"
+#include "common/outcome.hpp"
 #include "head/core/laser_plane.hpp"
 #include "head/core/laser_stripe.hpp"
 

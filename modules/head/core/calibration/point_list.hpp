@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "common/outcome.hpp"
 #include "head/core/calibration/dlt.hpp"
-#include "head/core/calibration/outcome.hpp"
 
 namespace priamos::head {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-namespace priamos::head {
+namespace priamos {
 
 /// Why something could not be done: one sentence for a person.
 struct Refusal {
@@ -30,4 +30,4 @@ class Outcome {
   std::variant<T, Refusal> content_;
 };
 
-}  // namespace priamos::head
+}  // namespace priamos
