@@ -6,11 +6,11 @@
 #include <map>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bus/bus_error.hpp"
 #include "bus/sequence_tracker.hpp"
 
 struct _lcm_t;
@@ -18,12 +18,6 @@ struct _lcm_t;
 namespace priamos::bus {
 
 class UdpReceiver;
-
-/// A bus that cannot be opened or used; what() says which and the next step.
-class BusError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// One LCM bus (`udpm://`, `memq://`, `file://`): the only place that calls liblcm. Messages are bytes here.
 ///

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "bus/lcm_bus.hpp"
+#include "bus/bus_error.hpp"
 #include "bus/socket_filter.hpp"
 
 namespace priamos::bus {

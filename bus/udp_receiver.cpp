@@ -13,8 +13,8 @@
 #include <cstring>
 #include <vector>
 
+#include "bus/bus_error.hpp"
 #include "bus/datagram.hpp"
-#include "bus/lcm_bus.hpp"
 #include "bus/multicast.hpp"
 #include "bus/socket_filter.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/lcm_bus.hpp"
+#include "bus/bus_error.hpp"
 
 // With a network: test/system/bus_tools_test.cpp.
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace priamos::bus {
+
+/// A bus that cannot be opened or used; what() says which and the next step.
+class BusError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace priamos::bus
