@@ -3,10 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <set>
-#include <system_error>
 
 #include "bus/schema/fingerprint.hpp"
 #include "bus/schema/lcm_parser.hpp"
@@ -88,25 +84,6 @@ void Schema::ComputeFingerprints(std::vector<std::string>* problems) {
     }
     by_fingerprint_.try_emplace(type->fingerprint, type.get());
   }
-}
-
-std::vector<Schema::Source> Schema::ReadDirectory(const std::filesystem::path& directory) {
-  std::set<std::filesystem::path> paths;
-  std::error_code error;
-  for (std::filesystem::recursive_directory_iterator at(directory, error), end; !error && at != end;
-       at.increment(error)) {
-    if (at->path().extension() == ".lcm" && at->is_regular_file()) paths.insert(at->path());
-  }
-  if (error) throw SchemaError(fmt::format("{}: cannot be read: {}", directory.string(), error.message()));
-  if (paths.empty()) throw SchemaError(fmt::format("{}: there is no .lcm file in it", directory.string()));
-  std::vector<Source> sources;
-  for (const auto& path : paths) {
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file) throw SchemaError(fmt::format("{}: cannot be read", path.string()));
-    sources.push_back({path.string(), std::move(text)});
-  }
-  return sources;
 }
 
 const Struct* Schema::Find(std::uint64_t fingerprint) const {

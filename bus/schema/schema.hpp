@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -36,10 +35,6 @@ class Schema {
     for (const auto& t : texts) sources.push_back({t.file, t.text});
     return Schema(sources);
   }
-
-  /// All *.lcm below `directory`, as sources in the order of their paths. Throws SchemaError when it cannot
-  /// be read or holds none.
-  static std::vector<Source> ReadDirectory(const std::filesystem::path& directory);
 
   /// The type with this fingerprint; of several equal ones the first by name. nullptr when unknown.
   const Struct* Find(std::uint64_t fingerprint) const;

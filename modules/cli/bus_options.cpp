@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bus/own_types.hpp"
+#include "bus/type_files.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -25,7 +26,7 @@ bus::Schema LoadTypes(const BusOptions& options) {
 }
 
 bus::Schema LoadTypes(const std::string& folder) {
-  return folder.empty() ? bus::OwnTypes() : bus::Schema(bus::Schema::ReadDirectory(folder));
+  return folder.empty() ? bus::OwnTypes() : bus::Schema(bus::ReadTypeFiles(folder));
 }
 
 bus::SchemaError UnknownType(const bus::Schema& schema, const std::string& name) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bus/radio/budget.hpp"
+#include "bus/type_files.hpp"
 #include "common/random.hpp"
 #include "radio/file_store.hpp"
 #include "radio/key_file.hpp"
@@ -25,7 +26,7 @@ constexpr std::size_t kMostUnwritten = 64;
 
 std::optional<bus::Schema> TypesIn(const std::string& folder) {
   if (folder.empty()) return std::nullopt;
-  return bus::Schema(bus::Schema::ReadDirectory(folder));
+  return bus::Schema(bus::ReadTypeFiles(folder));
 }
 
 bool IsPseudoTerminal(const std::string& port) {

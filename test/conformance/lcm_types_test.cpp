@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "bus/type_files.hpp"
 #include "lcm_rules.hpp"
 #include "lcmtypes/channels.hpp"
 #include "lcmtypes/embedded_types.hpp"
@@ -17,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 std::vector<Schema::Source> Files() {
-  return Schema::ReadDirectory(PRIAMOS_SOURCE_DIR "/lcmtypes");
+  return ReadTypeFiles(PRIAMOS_SOURCE_DIR "/lcmtypes");
 }
 
 /// Without what a user of the clone is about to add.

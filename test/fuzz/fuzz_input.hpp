@@ -8,6 +8,7 @@
 
 #include "bus/schema/big_endian.hpp"
 #include "bus/schema/schema.hpp"
+#include "bus/type_files.hpp"
 #include "lcmtypes/embedded_types.hpp"
 
 namespace priamos::bus {
@@ -20,8 +21,7 @@ inline void Require(bool promise) {
 /// Our types and the foreign ones of test/bus/schema.
 inline const Schema& FuzzSchema() {
   static const Schema schema = [] {
-    std::vector<Schema::Source> sources =
-        Schema::ReadDirectory(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign");
+    std::vector<Schema::Source> sources = ReadTypeFiles(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign");
     for (const TypeText& text : EmbeddedTypes()) sources.push_back({text.file, text.text});
     return Schema(sources);
   }();

@@ -13,6 +13,7 @@
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
 #include "bus/schema/json.hpp"
+#include "bus/type_files.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos::radio {
@@ -202,7 +203,7 @@ struct ForeignTypes : testing::Test {
     });
   }
   std::vector<std::byte> Tank(double level_m) {
-    const bus::Schema foreign(bus::Schema::ReadDirectory(types));
+    const bus::Schema foreign(bus::ReadTypeFiles(types));
     return bus::FromJson(*foreign.Find("tank_t"),
                          {{"timestamp", ToUtime(lockstep.now())}, {"level_m", level_m}});
   }
@@ -226,7 +227,7 @@ struct ForeignTypes : testing::Test {
 TEST_F(ForeignTypes, AreBridged) {
   Run(2);
   ASSERT_GT(tanks.size(), 10U);
-  const bus::Schema foreign(bus::Schema::ReadDirectory(types));
+  const bus::Schema foreign(bus::ReadTypeFiles(types));
   EXPECT_NEAR(bus::ToJson(*foreign.Find("tank_t"), tanks.back()).at("level_m").get<double>(), 1.23, 1e-9);
 }
 

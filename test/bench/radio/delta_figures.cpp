@@ -6,6 +6,7 @@
 #include "bus/schema/json.hpp"
 #include "bus/schema/packing.hpp"
 #include "bus/schema/schema.hpp"
+#include "bus/type_files.hpp"
 #include "figures.hpp"
 #include "test/bus/radio/link_pair.hpp"
 
@@ -84,7 +85,7 @@ double MeanBits(const bus::Packer& packer, double speed_m_s, double frame_loss, 
 
 void Differences(Figures& figures) {
   Figures::Section("Differences to an acknowledged baseline: mean bits of a message, 4 per second");
-  const bus::Schema schema(bus::Schema::ReadDirectory(std::string(PRIAMOS_SOURCE_DIR) + "/test/bench/radio"));
+  const bus::Schema schema(bus::ReadTypeFiles(std::string(PRIAMOS_SOURCE_DIR) + "/test/bench/radio"));
   for (const char* name : {"pose_velocity_t", "sonars_t"}) {
     const bus::Packer packer(*schema.Find(name));
     const double whole = MeanBits(packer, 0.3, 0, false);

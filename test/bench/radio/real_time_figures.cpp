@@ -14,6 +14,7 @@
 #include "bus/lcm_bus.hpp"
 #include "bus/schema/json.hpp"
 #include "bus/schema/schema.hpp"
+#include "bus/type_files.hpp"
 #include "cli/supervisor.hpp"
 #include "figures.hpp"
 
@@ -75,7 +76,7 @@ std::string NewFolder() {
 class RealTimeRun {
  public:
   explicit RealTimeRun(const std::string& programs)
-      : types_(bus::Schema::ReadDirectory(kFolder)),
+      : types_(bus::ReadTypeFiles(kFolder)),
         folder_(NewFolder()),
         onboard_(kOnboardBus),
         offboard_(kOffboardBus),

@@ -5,6 +5,7 @@
 
 #include "bus/schema/packing.hpp"
 #include "bus/schema/schema.hpp"
+#include "bus/type_files.hpp"
 #include "figures.hpp"
 #include "test/bus/radio/link_pair.hpp"
 
@@ -106,7 +107,7 @@ double PackTime_ns(const bus::Packer& packer, const bus::Struct& type) {
 }  // namespace
 
 void SideBySide(Figures& figures) {
-  const bus::Schema schema(bus::Schema::ReadDirectory(BenchTypes()));
+  const bus::Schema schema(bus::ReadTypeFiles(BenchTypes()));
   const std::array<const char*, 3> names{"pose_velocity_t", "sonars_t", "drive_t"};
   const std::array<double, 3> dccl{14, 32, 6};
   std::vector<LinkChannel> channels;

@@ -5,6 +5,7 @@
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
 #include "bus/schema/json.hpp"
+#include "bus/type_files.hpp"
 #include "figures.hpp"
 #include "radio/radio_app.hpp"
 
@@ -17,7 +18,7 @@ const std::string kFolder = std::string(PRIAMOS_SOURCE_DIR) + "/test/bench/radio
 class StopRun {
  public:
   StopRun(double load, std::uint64_t seed)
-      : load_(load), rng_(Rng::Stream(seed, "stops")), types_(bus::Schema::ReadDirectory(kFolder)) {
+      : load_(load), rng_(Rng::Stream(seed, "stops")), types_(bus::ReadTypeFiles(kFolder)) {
     lockstep_.AddBus("onboard");
     lockstep_.AddBus("offboard");
     lockstep_.AddSerialLine("tty-onboard", "tty-offboard", {.latency_s = 0});

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/schema/walk.hpp"
+#include "bus/type_files.hpp"
 #include "encoding.hpp"
 #include "foreign_messages.hpp"
 #include "lcmtypes/embedded_types.hpp"
@@ -17,7 +18,7 @@ namespace priamos::bus {
 namespace {
 
 Schema Foreign() {
-  return Schema(Schema::ReadDirectory(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign"));
+  return Schema(ReadTypeFiles(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign"));
 }
 
 std::string ErrorOf(const Struct& type, const char* json) {

@@ -10,6 +10,7 @@
 #include "bus/schema/json.hpp"
 #include "bus/schema/packing.hpp"
 #include "bus/schema/walk.hpp"
+#include "bus/type_files.hpp"
 #include "encoding.hpp"
 #include "foreign_messages.hpp"
 #include "lcmtypes/channels.hpp"
@@ -82,14 +83,14 @@ TEST(Mutation, OfEveryChannelsTypeIsRefusedOrDecodable) {
 }
 
 TEST(Mutation, OfForeignTypesIsRefusedOrDecodable) {
-  const Schema schema(Schema::ReadDirectory(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign"));
+  const Schema schema(ReadTypeFiles(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign"));
   FeedMutantsOf<foreign::deep::everything_t>(schema, 1);
   FeedMutantsOf<foreign::deep::tree_t>(schema, 2);
   FeedMutantsOf<no_package_t>(schema, 3);
 }
 
 TEST(Mutation, RandomBytesBehindTheFingerprintAreRefusedOrDecodable) {
-  const Schema schema(Schema::ReadDirectory(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign"));
+  const Schema schema(ReadTypeFiles(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign"));
   const Struct& type = *schema.Find("tree_t");
   Rng rng(1);
   int passed = 0;

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "bus/type_files.hpp"
 #include "encoding.hpp"
 #include "foreign_messages.hpp"
 #include "lcmtypes/embedded_types.hpp"
@@ -14,7 +15,7 @@ namespace priamos::bus {
 namespace {
 
 Schema Foreign() {
-  return Schema(Schema::ReadDirectory(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign"));
+  return Schema(ReadTypeFiles(PRIAMOS_SOURCE_DIR "/test/bus/schema/foreign"));
 }
 
 WalkError ErrorOf(const Struct& type, const Bytes& bytes) {
