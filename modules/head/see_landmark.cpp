@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "head/core/prediction.hpp"
+#include "head/core/projection.hpp"
 
 namespace priamos::head {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "head/core/edge_observations.hpp"
-#include "head/core/prediction.hpp"
+#include "head/core/projection.hpp"
 #include "test/bench/door_looks.hpp"
 #include "test/bench/landmark_fixes.hpp"
 #include "test/bench/vision_bench.hpp"

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "head/core/prediction.hpp"
+#include "head/core/projection.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::test {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "head/core/prediction.hpp"
+#include "head/core/projection.hpp"
 #include "head/core/space_edge.hpp"
 #include "test/support/quad_scene.hpp"
 

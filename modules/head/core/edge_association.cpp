@@ -117,15 +117,14 @@ std::vector<Search> Predict(const LandmarkModel& model, std::span<const int> vis
     const auto predicted =
         ProjectEdge(*view.camera, view.size, base_from_landmark * edge.from, base_from_landmark * edge.to);
     if (!predicted) continue;
-    searches.push_back({*predicted, {}, {}, 1e9});
-    searches.back().predicted.edge = index;
+    searches.push_back({{*predicted, index}, {}, {}, 1e9});
     searches.back().candidates.reserve(kUsualCandidates);
   }
   return searches;
 }
 
 /// How far beside `a` the edge `b` runs, if they run beside each other.
-double Separation(const PredictedEdge& a, const PredictedEdge& b) {
+double Separation(const ProjectedEdge& a, const ProjectedEdge& b) {
   const Eigen::Vector2d direction = a.direction(), normal = a.normal();
   if (std::abs(normal.dot(b.direction())) > 0.1) return 1e9;
   double s = direction.dot(b.p - a.p), t = direction.dot(b.q - a.p);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "head/core/prediction.hpp"
+#include "head/core/projection.hpp"
 
 namespace priamos::head {
 

@@ -38,9 +38,9 @@ ObservedLine Fit(std::span<const EdgeObservation> points) {
 }
 
 /// The whole model edge in the image, uncut: points may lie a little beyond its ends.
-std::optional<PredictedEdge> Project(const CameraModel& camera, const Eigen::Vector3d& from,
+std::optional<ProjectedEdge> Project(const CameraModel& camera, const Eigen::Vector3d& from,
                                      const Eigen::Vector3d& to) {
-  PredictedEdge edge;
+  ProjectedEdge edge;
   edge.in_base_p = from, edge.in_base_q = to;
   edge.depth_p = camera.Depth(from), edge.depth_q = camera.Depth(to);
   if (edge.depth_p < kNearDepth && edge.depth_q < kNearDepth) return std::nullopt;

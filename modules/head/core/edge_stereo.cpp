@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "head/core/prediction.hpp"
+#include "head/core/projection.hpp"
 #include "head/core/segment_index.hpp"
 #include "head/core/stereo_pairs.hpp"
 

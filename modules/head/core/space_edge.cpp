@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "head/core/prediction.hpp"
+#include "head/core/projection.hpp"
 
 namespace priamos::head {
 namespace {

@@ -131,7 +131,7 @@ class DriftProblem {
     const LandmarkEdge& edge = model_.edges[half.edge];
     const CameraModel& camera = *cameras_[half.camera];
     const Vector3d from = pose_ * edge.from, to = pose_ * edge.to;
-    PredictedEdge line;
+    ProjectedEdge line;
     line.in_base_p = from, line.in_base_q = to;
     line.depth_p = camera.Depth(from), line.depth_q = camera.Depth(to);
     if (!(line.depth_p > kNearDepth && line.depth_q > kNearDepth)) return;

@@ -1,6 +1,5 @@
 #include "head/core/view_line.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,10 +83,6 @@ CameraView MakeView(const CameraModel& camera, const EdgeImage& edges) {
     view.table.length.push_back(static_cast<float>(line.length_px));
   }
   return view;
-}
-
-Eigen::Vector3d OpticalCentre(const CameraModel& camera) {
-  return -camera.image_from_base.leftCols<3>().inverse() * camera.image_from_base.col(3);
 }
 
 }  // namespace priamos::head

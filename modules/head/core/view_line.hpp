@@ -5,7 +5,7 @@
 
 #include "head/core/camera_model.hpp"
 #include "head/core/edge_segment.hpp"
-#include "head/core/prediction.hpp"
+#include "head/core/projection.hpp"
 
 namespace priamos::head {
 
@@ -37,8 +37,5 @@ struct CameraView {
 /// Undistorts the points of all segments and lays the lines through them: a long edge that the lens bends is
 /// straight again. Keeps references to both arguments.
 CameraView MakeView(const CameraModel& camera, const EdgeImage& edges);
-
-/// Optical centre in the base frame: where all rows of the DLT matrix vanish.
-Eigen::Vector3d OpticalCentre(const CameraModel& camera);
 
 }  // namespace priamos::head

@@ -7,7 +7,7 @@
 
 #include "common/random.hpp"
 #include "head/core/head_model.hpp"
-#include "head/core/prediction.hpp"
+#include "head/core/projection.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
