@@ -6,8 +6,8 @@
 #include "common/config.hpp"
 #include "common/time.hpp"
 #include "head/core/camera_model.hpp"
+#include "head/core/frame_notice.hpp"
 #include "head/core/laser_plane.hpp"
-#include "head/core/look_sequence.hpp"
 #include "head/core/obstacle_lines.hpp"
 
 namespace priamos::head {

@@ -7,6 +7,7 @@
 
 #include "common/config.hpp"
 #include "common/time.hpp"
+#include "head/core/frame_notice.hpp"
 
 namespace priamos::head {
 
@@ -17,18 +18,6 @@ struct LookConfig {
 
   void Describe(Archive& a);
 };
-
-/// A picture that lies ready in the frame store.
-struct FrameNotice {
-  Time exposure;
-  std::int32_t frame_id = 0;
-  int camera = 0;  ///< 0 left, 1 right, 2 third
-  int slot = 0;
-  int width = 0, height = 0;
-};
-
-/// The pictures of one exposure, by camera: two for a look, three for a calibration.
-using Frames = std::vector<FrameNotice>;
 
 /// The course of one look: the head settles, its cameras are exposed at once, all pictures arrive. Every
 /// look ends, with pictures or without.
