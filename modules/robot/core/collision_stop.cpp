@@ -71,6 +71,11 @@ double CollisionStop::AllowedSpeed(double free_m, double gap_m) const {
   return std::sqrt(lost * lost + 2 * a * std::max(0.0, free_m - gap_m)) - lost;
 }
 
+/// The inverse of AllowedSpeed, without the gap.
+double CollisionStop::BrakingWay(double speed) const {
+  return speed * config_.latency_s + speed * speed / (2 * config_.braking_m_s2);
+}
+
 CollisionStop::Result CollisionStop::Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                                            std::span<const Eigen::Vector2d> remembered) const {
   Result result{wanted, 1, std::nullopt, std::nullopt};
@@ -90,6 +95,20 @@ CollisionStop::Result CollisionStop::Limit(const Twist2& wanted, std::span<const
   result.scale = std::min(1.0, allowed / speed);
   result.twist = {wanted.vx * result.scale, wanted.vy * result.scale, wanted.wz * result.scale};
   return result;
+}
+
+double CollisionStop::Scale(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
+                            std::span<const Eigen::Vector2d> remembered) const {
+  const double speed = SpeedOf(wanted);
+  if (speed < 1e-6) return 1;
+  const Twist2 per_metre{wanted.vx / speed, wanted.vy / speed, wanted.wz / speed};
+  const double braking = BrakingWay(speed);
+  const auto allowed = [&](const Footprint& guard, std::span<const Eigen::Vector2d> points, double gap_m) {
+    const double enough = braking + gap_m, free = FreeWay(guard, per_metre, points, enough);
+    return free >= enough ? speed : AllowedSpeed(free, gap_m);
+  };
+  const double of_seen = allowed(seen_guard_, seen, config_.gap_m);
+  return std::min(of_seen, allowed(memory_guard_, remembered, config_.memory_gap_m)) / speed;
 }
 
 }  // namespace priamos::robot

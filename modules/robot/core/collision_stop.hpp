@@ -42,9 +42,14 @@ class CollisionStop {
   /// `seen` and `remembered` are obstacles in the base frame.
   Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                std::span<const Eigen::Vector2d> remembered = {}) const;
+  /// Only the scale of Limit, for whoever compares many motions: what is farther away than the base needs for
+  /// braking is not looked at.
+  double Scale(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
+               std::span<const Eigen::Vector2d> remembered) const;
 
  private:
   double AllowedSpeed(double free_m, double gap_m) const;
+  double BrakingWay(double speed) const;
 
   CollisionStopConfig config_;
   Footprint seen_guard_, memory_guard_;  ///< footprint with margin

@@ -1,30 +1,21 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
+#include <functional>
 
-#include "common/config.hpp"
 #include "common/geometry.hpp"
-#include "robot/core/footprint.hpp"
 
 namespace priamos::robot {
 
-struct DeflectionConfig {
-  double gap_m = 0.06;  ///< nearer than this nothing is approached
-  double braking_m_s2 = 0.6;
-  double latency_s = 0.2;
-  double reach_m = 1.0;  ///< points farther away do not deflect
+/// The part of a motion that may be driven, 0 to 1, as the last filter before the wheels sees it.
+using JudgeMotion = std::function<double(const Twist2&)>;
 
-  void Describe(Archive& a);
-};
-
-/// The part of an operator's wish that leads nowhere into an obstacle: each near point limits the velocity
-/// with which the part of the footprint that is nearest to it may approach, by braking distance; the nearest
-/// motion to `wanted` within all limits is found by projection. So pushing into a wall at a slant slides
-/// along it, and pushing straight into it stops. A point beside a corner may be passed on either side of it.
-/// Motion away is never limited, and nothing is turned round or invented. The collision stop still comes
-/// after it.
-Twist2 Deflected(const DeflectionConfig& config, const Footprint& footprint, const Twist2& wanted,
-                 std::span<const Eigen::Vector2d> points);
+/// The part of an operator's wish that leads nowhere into an obstacle: of all motions whose components lie
+/// between 0 and those of `wish`, scaled as `judge` allows, the one that comes farthest along the wish. So
+/// pushing into a wall at a slant slides along it, pushing straight into it stops, and nothing is turned
+/// round or invented. Because the judge is the filter that comes afterwards, the motion that is found is one
+/// that it lets pass: the base stands only where no part of the wish is free. `reach_m` is the lever that
+/// turns a turn rate into a speed.
+Twist2 Deflected(const Twist2& wish, double reach_m, const JudgeMotion& judge);
 
 }  // namespace priamos::robot

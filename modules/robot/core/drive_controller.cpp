@@ -62,7 +62,6 @@ void DriveConfig::Describe(Archive& a) {
   a.Section("echoes", echoes, "which sonar echoes are believed");
   a.Section("floor", floor, "what the laser's line showed of the floor");
   a.Section("collision", collision, "the last filter before the wheels");
-  a.Section("deflection", deflection, "how obstacles turn an operator's wish aside");
   a.Section("authority", authority, "who may drive");
   a.Section("failsafe", failsafe, "when silence is too long");
 }
@@ -125,25 +124,32 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   state_.failsafe = Watch(situation, now);
   if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause);
 
-  auto points = echoes_.Points(situation.odom_from_base);
-  if (state_.mode == DriveMode::kOperated) {
-    const auto bridges = echoes_.Bridges(situation.odom_from_base);
-    points.insert(points.end(), bridges.begin(), bridges.end());
-  }
-  const auto floor = floor_.Points(situation.odom_from_base);
-  points.insert(points.end(), floor.begin(), floor.end());
-  const auto remembered = echoes_.Remembered(situation.odom_from_base);
-  const Twist2 wanted = Wanted(situation, points, now, dt_s);
-  const CollisionStop& guard = state_.mode == DriveMode::kOperated ? operator_collision_ : collision_;
-  const CollisionStop::Result result = guard.Limit(Slewed(wanted, dt_s), points, remembered);
+  const Obstacles around = Around(situation.odom_from_base);
+  const Twist2 wanted = Wanted(situation, now, dt_s), slewed = Slewed(wanted, dt_s);
+  const Twist2 free = state_.mode == DriveMode::kOperated ? FreeOf(slewed, around) : slewed;
+  const CollisionStop::Result result = Guard().Limit(free, around.seen, around.remembered);
   const WheelSpeeds wheels = Saturated(geometry_, ToWheelSpeeds(geometry_, result.twist));
   SetCommanded(FromWheelSpeeds(geometry_, wheels).twist);
-  NoteSonar(wanted, result);
+  NoteSonar(wanted, around, result);
   NoteBlocked(wanted, result.twist, now);
   NoteStuck(situation, now);
   NoteEnd(source);
   if (!ever_ordered_) return std::nullopt;
   return wheels;
+}
+
+DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) const {
+  Obstacles around{echoes_.Points(odom_from_base), echoes_.Remembered(odom_from_base)};
+  const auto add = [&](const std::vector<Eigen::Vector2d>& points) {
+    around.seen.insert(around.seen.end(), points.begin(), points.end());
+  };
+  if (state_.mode == DriveMode::kOperated) add(echoes_.Bridges(odom_from_base));
+  add(floor_.Points(odom_from_base));
+  return around;
+}
+
+const CollisionStop& DriveController::Guard() const {
+  return state_.mode == DriveMode::kOperated ? operator_collision_ : collision_;
 }
 
 bool DriveController::HasWayToGo() const {
@@ -190,13 +196,12 @@ bool DriveController::IsLost(const DriveSituation& situation) const {
          !(situation.estimate->YawSigma() < Radians(config_.lost_yaw_deg));
 }
 
-Twist2 DriveController::Wanted(const DriveSituation& situation, std::span<const Eigen::Vector2d> points,
-                               Time now, double dt_s) {
+Twist2 DriveController::Wanted(const DriveSituation& situation, Time now, double dt_s) {
   const bool by_path = follower_.has_path() || path_is_new_;
   if (!by_path) StandIfLetGo(now);
   if (state_.failsafe.action != FailsafeAction::kNone) return {};
   if (by_path) return WantedByPath(situation, now, dt_s);
-  return WantedByOperator(points, now);
+  return WantedByOperator(now);
 }
 
 Twist2 DriveController::WantedByPath(const DriveSituation& situation, Time now, double dt_s) {
@@ -224,10 +229,16 @@ void DriveController::StandIfLetGo(Time now) {
   if (wish && !WantsMotion(*wish)) SetCommanded({});
 }
 
-Twist2 DriveController::WantedByOperator(std::span<const Eigen::Vector2d> points, Time now) {
+Twist2 DriveController::WantedByOperator(Time now) const {
   const Twist2* wish = authority_.Wish(now);
-  if (!wish || !WantsMotion(*wish)) return {};
-  return Deflected(config_.deflection, config_.footprint, *wish, points);
+  return wish && WantsMotion(*wish) ? *wish : Twist2{};
+}
+
+/// After the acceleration limits and not before: they change the direction of a motion, and a base that may
+/// drive to the left must not stand because its first step to the left is a turn as well.
+Twist2 DriveController::FreeOf(const Twist2& motion, const Obstacles& around) const {
+  return Deflected(motion, config_.footprint.Reach(),
+                   [&](const Twist2& part) { return Guard().Scale(part, around.seen, around.remembered); });
 }
 
 Twist2 DriveController::Slewed(const Twist2& wanted, double dt_s) {
@@ -242,10 +253,14 @@ void DriveController::SetCommanded(const Twist2& twist) {
   brake_.SetCommanded(twist);
 }
 
-void DriveController::NoteSonar(const Twist2& wanted, const CollisionStop::Result& result) {
-  state_.nearest_m = result.free_m;
+/// Of an operator's wish counts what deflection leaves of it; of a path, what the collision stop does.
+void DriveController::NoteSonar(const Twist2& wanted, const Obstacles& around,
+                                const CollisionStop::Result& result) {
+  const bool operated = state_.mode == DriveMode::kOperated;
   const double speed = collision_.SpeedOf(wanted);
-  const double left = result.allowed && speed > 0 ? std::min(1.0, *result.allowed / speed) : 1.0;
+  const double most = operated ? collision_.SpeedOf(FreeOf(wanted, around)) : result.allowed.value_or(speed);
+  const double left = speed > 0 ? std::min(1.0, most / speed) : 1.0;
+  state_.nearest_m = operated ? Guard().Limit(wanted, around.seen, around.remembered).free_m : result.free_m;
   state_.slowed_by_sonar = left < kSlowed;
   state_.allowed = state_.failsafe.action == FailsafeAction::kNone ? left : 0;
 }

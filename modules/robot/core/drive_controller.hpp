@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "common/config.hpp"
 #include "common/time.hpp"
@@ -28,7 +28,6 @@ struct DriveConfig {
   FloorMemoryConfig floor;
   CollisionStopConfig collision;
   double operator_margin_m = 0.04;  ///< more room than a path gets: nobody has planned an operator's motion
-  DeflectionConfig deflection;
   AuthorityConfig authority;
   FailsafeConfig failsafe;
   double lost_position_m = 0.5;  ///< sigma beyond which no path is driven
@@ -72,8 +71,9 @@ struct DriveState {
 
 /// Turns paths and an operator's commands into wheel speeds, through the chain that nothing bypasses:
 ///
-///     path follower, or operator -> deflection
-///         -> failsafe (hold, halt) -> acceleration limits -> collision stop -> wheels
+///     path follower, or operator
+///         -> failsafe (hold, halt) -> acceleration limits -> deflection (operator) -> collision stop ->
+///         wheels
 ///
 /// Silent until the first order; from then on it gives wheel speeds at every step, zeros while standing, so
 /// that the drive board's own dead-line is a second line of defence and not the normal way to stop.
@@ -101,19 +101,25 @@ class DriveController {
   const DriveState& state() const { return state_; }
 
  private:
+  /// What is in the way, base frame [m].
+  struct Obstacles {
+    std::vector<Eigen::Vector2d> seen, remembered;
+  };
+  const CollisionStop& Guard() const;
   bool HasWayToGo() const;
   void DropPath();
   DriveSource Source(Time now) const;
   FailsafeDecision Watch(const DriveSituation& situation, Time now);
   bool IsLost(const DriveSituation& situation) const;
-  Twist2 Wanted(const DriveSituation& situation, std::span<const Eigen::Vector2d> points, Time now,
-                double dt_s);
+  Obstacles Around(const Pose2& odom_from_base) const;
+  Twist2 Wanted(const DriveSituation& situation, Time now, double dt_s);
   Twist2 WantedByPath(const DriveSituation& situation, Time now, double dt_s);
   void StandIfLetGo(Time now);
-  Twist2 WantedByOperator(std::span<const Eigen::Vector2d> points, Time now);
+  Twist2 WantedByOperator(Time now) const;
+  Twist2 FreeOf(const Twist2& motion, const Obstacles& around) const;
   Twist2 Slewed(const Twist2& wanted, double dt_s);
   void SetCommanded(const Twist2& twist);
-  void NoteSonar(const Twist2& wanted, const CollisionStop::Result& result);
+  void NoteSonar(const Twist2& wanted, const Obstacles& around, const CollisionStop::Result& result);
   void NoteBlocked(const Twist2& wanted, const Twist2& given, Time now);
   void NoteStuck(const DriveSituation& situation, Time now);
   void NoteEnd(DriveSource source);
