@@ -46,17 +46,23 @@ LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options,
   return result;
 }
 
+std::string Text(const HandSummary& hand) {
+  const std::string honoured =
+      hand.honoured() ? fmt::format("honoured {:.1f} %", 100 * *hand.honoured()) : "nothing to honour";
+  return hand.longest_stop_s ? fmt::format("{}  longest stop {:.1f} s", honoured, *hand.longest_stop_s)
+                             : honoured;
+}
+
 std::string Line(const LockstepResult& result) {
   const Summary& s = result.summary;
-  if (result.honour.asked > 0)
-    return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  honoured {:.1f} %  {:.0f} s  {:4.1f}x  {}",
-                       s.seed, s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m,
-                       100 * result.honour.share(), Seconds(result.duration), s.realtime_factor,
-                       s.passed ? "" : result.reason);
+  if (s.hand)
+    return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  {}  {:.0f} s  {:4.1f}x  {}", s.seed,
+                       s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m, Text(*s.hand),
+                       Seconds(result.duration), s.realtime_factor, s.passed ? "" : s.reason);
   return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  lateral {:+.3f} m  {:5.1f} s  {:4.1f}x  {}",
                      s.seed, s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m,
                      s.lateral_at_door_m.value_or(NAN), s.duration_s, s.realtime_factor,
-                     s.passed ? "" : result.reason);
+                     s.passed ? "" : s.reason);
 }
 
 void WriteJson(const std::string& file, const nlohmann::ordered_json& json) {

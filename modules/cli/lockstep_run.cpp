@@ -9,6 +9,7 @@
 #include "cli/factories.hpp"
 #include "cli/report_files.hpp"
 #include "cli/scenario_driver.hpp"
+#include "cli/story_verdict.hpp"
 #include "cli/teleop_story.hpp"
 
 namespace priamos::cli {
@@ -74,19 +75,16 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   recorder.Flush();
   const double factor = Seconds(lockstep.now() - start) / wall_s;
-  const RunInfo info{request.scenario, request.seed, factor, door, story->Reason(), told};
-  LockstepResult result{Summarise(recorder.record(), info),
-                        recorder.record(),
-                        info,
-                        map_file,
-                        story->Reason(),
-                        {},
-                        lockstep.now() - start};
-  if (const auto* teleop = dynamic_cast<const TeleopStory*>(story.get())) {
-    result.summary.passed = teleop->Succeeded();
-    result.honour = teleop->honour();
-  }
-  return result;
+  const RunInfo info{request.scenario,
+                     request.seed,
+                     factor,
+                     door,
+                     story->Reason(),
+                     told,
+                     LoadTrueWorld(request.deployment, scenario, request.seed)};
+  Summary summary = Summarise(recorder.record(), info);
+  summary.reason = Judge(scenario, *story, summary);
+  return {summary, recorder.record(), info, map_file, lockstep.now() - start};
 }
 
 }  // namespace priamos::cli

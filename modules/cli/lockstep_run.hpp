@@ -8,7 +8,6 @@
 #include "cli/report_summary.hpp"
 #include "cli/run_recorder.hpp"
 #include "cli/scenario.hpp"
-#include "cli/teleop_story.hpp"
 
 namespace priamos::cli {
 
@@ -26,8 +25,6 @@ struct LockstepResult {
   RunRecord record;
   RunInfo info;
   std::string map_file;
-  std::string reason;  ///< the story's last words
-  HonourCount honour;  ///< of an operator's input; empty in other stories
   Duration duration{};
 };
 

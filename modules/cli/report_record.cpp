@@ -52,6 +52,7 @@ void RunRecord::AddOnboard(std::string_view channel, std::span<const std::byte> 
   if (channel == channels::kLandmarkFix.name) Append(fixes, bytes);
   if (channel == channels::kLandmarkView.name) Append(views, bytes);
   if (channel == channels::kDriveStatus.name) Append(drive, bytes);
+  if (channel == channels::kDriveCommand.name) Append(commands, bytes);
   if (channel == channels::kLinkStatus.name) Append(onboard_link, bytes);
 }
 

@@ -33,6 +33,7 @@ class RunRecord {
   std::vector<landmark_fix_t> fixes;
   std::vector<landmark_view_t> views;
   std::vector<drive_status_t> drive;
+  std::vector<drive_command_t> commands;  ///< an operator's wishes
   // Offboard: when the planner asked, and what it said.
   std::vector<look_request_t> looks;
   std::vector<mission_command_t> orders;

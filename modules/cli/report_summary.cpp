@@ -127,6 +127,12 @@ nlohmann::ordered_json ToJson(const FixSummary& fix) {
           {"sigma_deg", fix.sigma_deg}};
 }
 
+nlohmann::ordered_json ToJson(const HandSummary& hand) {
+  return {{"wished_s", hand.wished_s},
+          {"honoured", Json(hand.honoured())},
+          {"longest_stop_s", Json(hand.longest_stop_s)}};
+}
+
 }  // namespace
 
 Summary Summarise(const RunRecord& record, const RunInfo& info) {
@@ -151,6 +157,7 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   summary.mean_speed_m_s = MeanSpeed(record);
   summary.min_speed_during_fix_m_s = SlowestDuringFixes(record);
   summary.fixes = FixesOf(record, span.begin_utime);
+  summary.hand = HandSummaryOf(record, info.world, info.door);
   summary.up = RadioOf(record.onboard_link);
   summary.down = RadioOf(record.offboard_link);
   summary.pose_age_s = Median(record.pose_ages_s);
@@ -172,6 +179,7 @@ nlohmann::ordered_json ToJson(const Summary& summary) {
           {"mean_speed_m_s", summary.mean_speed_m_s},
           {"min_speed_during_fix_m_s", Json(summary.min_speed_during_fix_m_s)},
           {"fixes", fixes},
+          {"hand", summary.hand ? ToJson(*summary.hand) : nlohmann::ordered_json(nullptr)},
           {"radio", {{"up", ToJson(summary.up)}, {"down", ToJson(summary.down)}}},
           {"realtime_factor", summary.realtime_factor}};
 }

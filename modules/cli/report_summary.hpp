@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "cli/report_hand.hpp"
 #include "cli/report_record.hpp"
+#include "cli/true_world.hpp"
 #include "common/ground_plan.hpp"
 
 namespace priamos::cli {
@@ -55,8 +57,9 @@ struct Summary {
   double mean_speed_m_s = 0;                       ///< true way over the time from first to last motion
   std::optional<double> min_speed_during_fix_m_s;  ///< true speed from look request to correction
   std::vector<FixSummary> fixes;
-  RadioSummary up;    ///< robot to workstation, as in link.toml
-  RadioSummary down;  ///< workstation to robot
+  RadioSummary up;                  ///< robot to workstation, as in link.toml
+  RadioSummary down;                ///< workstation to robot
+  std::optional<HandSummary> hand;  ///< of a drive by hand
   double realtime_factor = 1;
 
   // Not in summary.json.
@@ -72,6 +75,7 @@ struct RunInfo {
   DoorPlan door;                 ///< the door that was to be passed, from the ground plan
   std::string reason;            ///< last words of the story
   std::vector<StoryLine> story;  ///< what was told meanwhile
+  TrueWorld world;               ///< what was in it
 };
 
 /// An empty record gives a summary that has not passed.

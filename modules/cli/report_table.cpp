@@ -52,6 +52,14 @@ void PrintRadio(std::ostream& out, std::string_view title, const RadioSummary& r
                      radio.frames, radio.bytes, radio.dropped);
 }
 
+void PrintHand(std::ostream& out, const HandSummary& hand) {
+  Rule(out, "operator");
+  out << fmt::format("  pushed for {:.0f} s; of the motion that was truly free {} was honoured\n",
+                     hand.wished_s, Figure(hand.honoured(), 100, "{:.1f} %"));
+  out << fmt::format("  longest stop in the passage while pushed: {}\n",
+                     Figure(hand.longest_stop_s, 1, "{:.1f} s"));
+}
+
 }  // namespace
 
 std::string Verdict(const Summary& summary) {
@@ -67,6 +75,7 @@ void PrintSummary(std::ostream& out, const Summary& summary) {
                      summary.duration_s);
   PrintFixes(out, summary);
   PrintDrive(out, summary);
+  if (summary.hand) PrintHand(out, *summary.hand);
   Rule(out, "radio");
   PrintRadio(out, "up: robot to workstation", summary.up);
   PrintRadio(out, "down: workstation to robot", summary.down);

@@ -17,6 +17,7 @@
 #include "cli/report_files.hpp"
 #include "cli/run_recorder.hpp"
 #include "cli/scenario_driver.hpp"
+#include "cli/story_verdict.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/teleop_story.hpp"
 
@@ -198,15 +199,22 @@ int Run(const RunOptions& options) {
   RealTimeRun run(options, scenario);
   const bool whole = run.Run();
   if (!run.story().Started()) return FailedStart(run, options.json);
-  const RunInfo info{options.scenario, options.seed, 1.0, door, run.Reason(), run.told()};
+  const RunInfo info{options.scenario,
+                     options.seed,
+                     1.0,
+                     door,
+                     run.Reason(),
+                     run.told(),
+                     LoadTrueWorld(options.deployment, scenario, options.seed)};
   Summary summary = Summarise(run.recorder().record(), info);
-  if (scenario.story == "teleop") summary.passed = run.story().Succeeded();
+  const std::string verdict = Judge(scenario, run.story(), summary);
+  summary.reason = whole ? verdict : run.Reason();
   WriteReport(run.recorder().record(), summary, info, map_file, run.folder());
   PrintSummary(People(options), summary);
   if (options.json) std::cout << ToJson(summary).dump() << std::endl;
   if (!run.recorder().good())
     People(options) << "a log is incomplete: the disk is full or cannot be written\n";
-  if (!summary.passed) People(options) << "not passed: " << run.Reason() << "\n";
+  if (!summary.passed) People(options) << "not passed: " << summary.reason << "\n";
   People(options) << "logs and report: " << std::filesystem::relative(run.folder()).string()
                   << "/report.html\n";
   return whole && summary.passed && summary.contacts == 0 ? 0 : 1;

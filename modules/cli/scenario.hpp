@@ -51,6 +51,8 @@ struct Scenario {
   std::vector<ScenarioWaypoint> waypoints;  ///< of the operator; none: he shakes the stick
   bool fast = false;                        ///< he uses the fast range
   double shake_s = 60;
+  double astray_deg = 0;      ///< how far beside the way his hand pushes, one sigma; 0: it is exact
+  double longest_stop_s = 0;  ///< he may be stopped in the passage for so long; 0: for any time
 
   void Describe(Archive& a) {
     a.Text("title", title, "what happens, in a few words");
@@ -62,6 +64,11 @@ struct Scenario {
     a.List("process", processes, "the processes, in order of start");
     a.List("waypoint", waypoints, "where the operator drives; none: he shakes the stick at random");
     a.Flag("fast", fast, "the operator uses the fast range");
+    a.Number("astray_deg", astray_deg,
+             {"deg", 0, 90, "one sigma of where his hand pushes; above 0 it also rests now and then"});
+    a.Number(
+        "longest_stop_s", longest_stop_s,
+        {"s", 0, 1000, "not passed when the base stands in the passage for longer while pushed; 0: any"});
     a.Number("shake_s", shake_s, {"s", 1, 100000, "how long he shakes it"});
   }
 };

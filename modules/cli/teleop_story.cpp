@@ -39,7 +39,6 @@ TeleopStory::TeleopStory(const Scenario& scenario, std::uint64_t seed, bus::Node
       truth_(onboard.Subscribe(channels::kWorldTruth)),
       onboard_health_(onboard.SubscribeAll(channels::kHealth)),
       offboard_health_(offboard.SubscribeAll(channels::kHealth)),
-      onboard_status_(onboard.SubscribeAll(channels::kDriveStatus)),
       status_(offboard.Subscribe(channels::kDriveStatus)) {}
 
 void TeleopStory::Tick(Time now) {
@@ -51,7 +50,6 @@ void TeleopStory::Tick(Time now) {
   }
   if (began_ && !ended_) Decide(now);
   MoveMouse(now);
-  Judge();
 }
 
 void TeleopStory::Look() {
@@ -100,10 +98,25 @@ void TeleopStory::DriveToWaypoint(Time now) {
   hand_.axis[0] = push * way.x() / size;
   hand_.axis[1] = push * way.y() / size;
   hand_.axis[5] = Deflection(WrapAngle(Radians(goal.yaw_deg) - truth.yaw_rad), kFullFrom_rad);
+  Waver(now);
   // A hand presses the range key once, for the whole drive.
   if (!driving_) driving_ = now;
   const bool toggle = scenario_.fast && now - *driving_ < kKeyPress;
   hand_.buttons = kDeadMan | (toggle ? kRange : 0);
+}
+
+/// A hand that is not exact pushes beside the way for a while, and rests now and then.
+void TeleopStory::Waver(Time now) {
+  if (scenario_.astray_deg == 0) return;
+  if (!waver_until_ || now >= *waver_until_) {
+    waver_until_ = now + FromSeconds(rng_.Uniform(0.3, 2.0));
+    astray_rad_ = rng_.Normal(Radians(scenario_.astray_deg));
+    rests_ = rng_.Chance(0.15);
+  }
+  const Eigen::Vector2d push = Pose2{0, 0, astray_rad_} * Eigen::Vector2d(hand_.axis[0], hand_.axis[1]);
+  hand_.axis[0] = rests_ ? 0 : push.x();
+  hand_.axis[1] = rests_ ? 0 : push.y();
+  if (rests_) hand_.axis[5] = 0;
 }
 
 /// Holds a random deflection for a random while; lets go of everything now and then.
@@ -132,17 +145,6 @@ void TeleopStory::MoveMouse(Time now) {
     bytes.append(reinterpret_cast<const char*>(heard.data()), n);
   const std::string packets = mouse_.Hear(bytes) + mouse_.Move(hand_, now);
   line_->Write(std::as_bytes(std::span(packets)));
-}
-
-void TeleopStory::Judge() {
-  const bool deflected = hand_.axis != teleop::Stick{}.axis;
-  for (const drive_status_t& status : onboard_status_.Drain()) {
-    if (!deflected || !began_ || ended_ || status.driver != lease_request_t::TELEOP) continue;
-    ++honour_.asked;
-    const bool free =
-        status.limit == drive_status_t::LIMIT_NONE || status.limit == drive_status_t::LIMIT_SONAR;
-    honour_.honoured += status.mode == drive_status_t::OPERATED && free;
-  }
 }
 
 bool TeleopStory::Done(Time now) const {

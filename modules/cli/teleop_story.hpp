@@ -17,13 +17,6 @@
 
 namespace priamos::cli {
 
-/// How the robot took the operator's input.
-struct HonourCount {
-  int asked = 0;     ///< reports while the stick was deflected
-  int honoured = 0;  ///< of them with a base that obeys, as far as obstacles let it
-  double share() const { return asked == 0 ? 1.0 : double(honoured) / asked; }
-};
-
 /// A person at the space-mouse who sees the robot (WORLD_TRUTH stands for his eyes): drives from waypoint to
 /// waypoint, or shakes the stick at random, through an emulated mouse on `line`.
 class TeleopStory : public ScenarioStory {
@@ -39,7 +32,6 @@ class TeleopStory : public ScenarioStory {
   bool Succeeded() const override { return succeeded_; }
   std::string Reason() const override;
 
-  const HonourCount& honour() const { return honour_; }
   bool mouse_awake() const { return mouse_.awake(); }
 
  private:
@@ -47,10 +39,10 @@ class TeleopStory : public ScenarioStory {
   bool Ready() const;
   void Decide(Time now);
   void DriveToWaypoint(Time now);
+  void Waver(Time now);
   void Shake(Time now);
   void Finish(Time now, bool succeeded, const std::string& text);
   void MoveMouse(Time now);
-  void Judge();
 
   Scenario scenario_;
   Progress progress_;
@@ -60,13 +52,13 @@ class TeleopStory : public ScenarioStory {
   teleop::Stick hand_;
   bus::Latest<world_truth_t> truth_;
   bus::Inbox<health_t> onboard_health_, offboard_health_;
-  bus::Inbox<drive_status_t> onboard_status_;
   bus::Latest<drive_status_t> status_;
   std::set<std::string> alive_;
   std::string text_ = "waits for the processes";
   std::size_t waypoint_ = 0;
-  std::optional<Time> start_, began_, gripped_, driving_, shake_until_, ended_;
-  HonourCount honour_;
+  std::optional<Time> start_, began_, gripped_, driving_, shake_until_, waver_until_, ended_;
+  double astray_rad_ = 0;
+  bool rests_ = false;
   bool succeeded_ = false;
 };
 

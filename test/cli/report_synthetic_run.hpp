@@ -139,7 +139,7 @@ inline DoorPlan TestDoor() {
 }
 
 inline RunInfo TestInfo() {
-  return {"door", 7, 12.5, TestDoor()};
+  return {"door", 7, 12.5, TestDoor(), {}, {}, {}};
 }
 
 }  // namespace priamos::cli

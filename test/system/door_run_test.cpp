@@ -42,7 +42,7 @@ LockstepRequest Request(std::uint64_t seed) {
 TEST(DoorRun, PassesTheDoorWithoutTouchingIt) {
   const bus::Schema schema = bus::OwnTypes();
   const auto dut = RunLockstep(schema, Request(1));
-  EXPECT_TRUE(dut.summary.passed) << dut.reason;
+  EXPECT_TRUE(dut.summary.passed) << dut.summary.reason;
   EXPECT_EQ(dut.summary.contacts, 0);
   EXPECT_GT(dut.summary.min_gap_m, 0);
   EXPECT_GE(dut.summary.fixes.size(), 2u);
