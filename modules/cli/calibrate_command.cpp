@@ -10,6 +10,7 @@
 #include "bus/own_types.hpp"
 #include "cli/commands.hpp"
 #include "cli/factories.hpp"
+#include "cli/folder_options.hpp"
 #include "head/laser_files.hpp"
 #include "head/offline_calibration.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 constexpr auto kTimeLimit = std::chrono::minutes(10);
 
 struct CalibrateOptions {
-  std::string deployment = "config/sim";
+  std::string deployment = "sim";
   std::string world = "worlds/calibration.toml";
   std::string output, laser, table;
   std::uint64_t seed = 1;
@@ -27,6 +28,11 @@ struct CalibrateOptions {
   std::vector<int> dots{6, 6}, chessboard, image_size;
   bool light = false, json = false;
 };
+
+/// A file of the deployment.
+std::string FileOf(const CalibrateOptions& options, const char* name) {
+  return std::filesystem::path(FolderOfDeployment(options.deployment)) / name;
+}
 
 /// Replaces `path` as a whole or not at all.
 void WriteWhole(const std::string& path, const std::string& text) {
@@ -82,16 +88,13 @@ void AddFileOptions(CLI::App& verb, CalibrateOptions& options) {
 
 /// The plane of the line laser into a table; JSON to standard output.
 int CalibrateLaser(const CalibrateOptions& options) {
-  const std::string table = options.table.empty() ? options.deployment + "/kastor.yaml" : options.table;
+  const std::string table = options.table.empty() ? FileOf(options, "kastor.yaml") : options.table;
   std::cout << head::CalibrateLaserFromFiles(options.laser, table, options.output) << std::endl;
   return 0;
 }
 
 /// `world` and `head --calibrate` before the reference object, in lockstep.
 int Calibrate(const CalibrateOptions& options) {
-  const auto config = [&](const char* name) {
-    return (std::filesystem::path(options.deployment) / name).string();
-  };
   const bus::Schema schema = bus::OwnTypes();
   const Time start = FromUtime(1'000'000'000);
   const auto log = [&](Time now, std::string_view process, bus::Level, std::string_view text) {
@@ -100,8 +103,9 @@ int Calibrate(const CalibrateOptions& options) {
   };
   bus::Lockstep lockstep(schema, {.seed = options.seed, .start = start, .log = log});
   lockstep.AddBus("onboard");
-  lockstep.AddApp(FactoryFor("world"), "onboard", {config("world.toml"), {"world=" + options.world}});
-  ConfigSource head{config("head.toml"), {"mode=calibrate"}};
+  lockstep.AddApp(FactoryFor("world"), "onboard",
+                  {FileOf(options, "world.toml"), {"world=" + options.world}});
+  ConfigSource head{FileOf(options, "head.toml"), {"mode=calibrate"}};
   if (!options.output.empty())
     head.overrides.push_back("calibration=" + std::filesystem::absolute(options.output).string());
   lockstep.AddApp(FactoryFor("head"), "onboard", head);
@@ -129,7 +133,7 @@ void AddCalibrateCommand(CLI::App& cli, int& exit_code) {
       "          priamos calibrate --photo grid-*.pgm --dots 6 6 --spacing 0.03 --radius 0.0105\n"
       "          priamos calibrate --photo left*.jpg --chessboard 9 6 --spacing 0.025\n"
       "          priamos calibrate --laser laser.toml --table config/robot/kastor.yaml");
-  verb->add_option("--deployment", options->deployment, "folder of configurations")->capture_default_str();
+  AddDeploymentOption(*verb, options->deployment);
   verb->add_option("--world", options->world,
                    "world file with the reference object, relative to the deployment")
       ->capture_default_str();

@@ -10,6 +10,7 @@
 #include "bus/own_types.hpp"
 #include "cli/commands.hpp"
 #include "cli/factories.hpp"
+#include "cli/folder_options.hpp"
 #include "cli/lockstep_run.hpp"
 #include "cli/report_files.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 
 struct LockstepOptions {
   LockstepRequest request;
+  std::string deployment = "sim";
   int runs = 1;
   bool json = false;
   std::string json_file;  ///< none: standard output
@@ -32,6 +34,7 @@ std::ostream& People(const LockstepOptions& options) {
 
 LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options, std::uint64_t seed) {
   LockstepRequest request = options.request;
+  request.deployment = FolderOfDeployment(options.deployment);
   request.seed = seed;
   if (!options.log_root.empty())
     request.log_folder = (std::filesystem::path(options.log_root) / fmt::format("seed-{}", seed)).string();
@@ -111,8 +114,7 @@ void AddLockstepCommand(CLI::App& cli, int& exit_code) {
   json->expected(0, 1);
   verb->add_option("--logs", options->log_root,
                    "write logs and report of each run into a folder per seed there");
-  verb->add_option("--deployment", options->request.deployment, "folder of configurations")
-      ->capture_default_str();
+  AddDeploymentOption(*verb, options->deployment);
   verb->add_flag("--verbose", options->verbose, "one line per phase");
   verb->callback([options, json, &exit_code] {
     options->json = json->count() > 0;

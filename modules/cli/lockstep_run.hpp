@@ -12,7 +12,7 @@
 namespace priamos::cli {
 
 struct LockstepRequest {
-  std::string deployment = "config/sim";
+  std::string deployment;  ///< its folder
   std::string scenario = "door";
   std::uint64_t seed = 1;
   std::optional<std::string> log_folder;                   ///< none: nothing is written

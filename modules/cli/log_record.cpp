@@ -13,6 +13,7 @@
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
+#include "cli/folder_options.hpp"
 #include "cli/log_options.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -33,8 +34,9 @@ struct RecordOptions {
 
 std::string DefaultFile() {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::filesystem::create_directories("logs");
-  return fmt::format("logs/{:%Y%m%d-%H%M%S}.lcmlog", fmt::localtime(now));
+  const std::filesystem::path folder = LogRoot("");
+  std::filesystem::create_directories(folder);
+  return folder / fmt::format("{:%Y%m%d-%H%M%S}.lcmlog", fmt::localtime(now));
 }
 
 bus::RecorderLimits LimitsOf(const RecordOptions& options) {
@@ -144,7 +146,8 @@ void AddLogRecordVerb(CLI::App& log, int& exit_code) {
       "file "
       "ends with\nits last whole event, and recording goes on when there is room again.\n"
       "Example: priamos log record logs/day.lcmlog --split-mb 100 --keep 20");
-  verb->add_option("file", options->file, "log to write; none: logs/<time>.lcmlog");
+  verb->add_option("file", options->file,
+                   "log to write; none: <time>.lcmlog in ~/.local/state/priamos, or logs of a clone");
   AddBusOption(*verb, options->bus);
   verb->add_option("--channels", options->only, "only these, A,B or with a star: 'WHEEL_*'")->delimiter(',');
   verb->add_option("--without", options->without, "not these")->delimiter(',');

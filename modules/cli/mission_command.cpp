@@ -9,6 +9,7 @@
 #include "cli/bus_watch.hpp"
 #include "cli/commands.hpp"
 #include "cli/door_name.hpp"
+#include "cli/folder_options.hpp"
 #include "cli/mission_order.hpp"
 #include "cli/silence_watch.hpp"
 #include "planner/planner_config.hpp"
@@ -21,7 +22,7 @@ constexpr int kNotDone = 1;
 struct MissionOptions {
   BusOptions bus;
   std::string door;
-  std::string deployment = "config/sim";
+  std::string deployment = "sim";
   bool wait = false, json = false;
 };
 
@@ -69,7 +70,7 @@ int Give(const MissionOptions& options, const mission_command_t& command, const 
 
 /// The map that the planner of the deployment has.
 int DoorOf(const MissionOptions& options) {
-  const auto file = std::filesystem::path(options.deployment) / "planner.toml";
+  const auto file = std::filesystem::path(FolderOfDeployment(options.deployment)) / "planner.toml";
   const auto config = LoadConfig<planner::PlannerConfig>(file.string());
   const std::string map = (file.parent_path() / config.map).lexically_normal().string();
   return DoorNamed(LoadConfig<GroundPlan>(map), options.door, map);
@@ -148,8 +149,7 @@ void AddMissionCommand(CLI::App& cli, int& exit_code) {
   door->footer("Example: priamos mission door laboratory --wait");
   door->add_option("door", options->door, "its name in the map, or its number")->required();
   door->add_flag("--wait", options->wait, "until the mission is over");
-  door->add_option("--deployment", options->deployment, "whose planner.toml names the map")
-      ->capture_default_str();
+  AddDeploymentOption(*door, options->deployment);
   Complete(*door, options, PassDoor, exit_code);
   auto* abort = mission->add_subcommand("abort", "End the mission that is under way; the robot brakes.");
   abort->footer("Example: priamos mission abort");

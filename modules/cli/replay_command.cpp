@@ -10,6 +10,7 @@
 #include "bus/replay.hpp"
 #include "cli/commands.hpp"
 #include "cli/factories.hpp"
+#include "cli/folder_options.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -18,14 +19,15 @@ constexpr int kDifferent = 1;
 
 struct VerifyOptions {
   std::string log, module, config;
-  std::string deployment = "config/sim";
+  std::string deployment = "sim";
   std::vector<std::string> set;
   bool json = false;
 };
 
 ConfigSource SourceOf(const VerifyOptions& options) {
-  const auto standard = std::filesystem::path(options.deployment) / (options.module + ".toml");
-  return {options.config.empty() ? standard.string() : options.config, options.set};
+  if (!options.config.empty()) return {options.config, options.set};
+  const std::filesystem::path folder = FolderOfDeployment(options.deployment);
+  return {(folder / (options.module + ".toml")).string(), options.set};
 }
 
 /// What else than messages a module's outputs come from; empty when it is nothing.
@@ -105,7 +107,7 @@ void AddReplayCommand(CLI::App& cli, int& exit_code) {
       ->required()
       ->check(CLI::IsMember({"robot", "planner", "head", "teleop", "radio", "world"}));
   verb->add_option("--config", options->config, "its configuration; none: <deployment>/<module>.toml");
-  verb->add_option("--deployment", options->deployment, "folder of configurations")->capture_default_str();
+  AddDeploymentOption(*verb, options->deployment);
   verb->add_option("--set", options->set, "KEY=VALUE on top of the file");
   verb->add_flag("--json", options->json, "machine-readable");
   verb->callback([options, &exit_code] { exit_code = Verify(*options); });

@@ -13,6 +13,7 @@
 #include "bus/real_time_loop.hpp"
 #include "cli/commands.hpp"
 #include "cli/deployment.hpp"
+#include "cli/folder_options.hpp"
 #include "cli/link_emulate.hpp"
 #include "cli/report_files.hpp"
 #include "cli/run_recorder.hpp"
@@ -20,25 +21,22 @@
 #include "cli/story_verdict.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/teleop_story.hpp"
+#include "common/data_folders.hpp"
 
 namespace priamos::cli {
 namespace {
 
 struct RunOptions {
-  std::string deployment = "config/sim";
+  std::string deployment = "sim";  ///< a name; its folder once it is found
   std::string scenario = "door";
   std::uint64_t seed = 1;
-  std::string log_root = "logs";
+  std::string log_root;
   bool restart = false, json = false;
 };
 
 /// What a person reads; standard output belongs to the JSON.
 std::ostream& People(const RunOptions& options) {
   return options.json ? std::cerr : std::cout;
-}
-
-std::filesystem::path OwnFolder() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
 std::filesystem::path MakeRunFolder(const RunOptions& options) {
@@ -92,7 +90,7 @@ class RealTimeRun {
         folder_(MakeRunFolder(options)),
         recorder_(folder_.string()),
         start_(clock_.Now()),
-        place_{OwnFolder().string(), options.deployment, folder_.string(), options.seed},
+        place_{ThisProgram().program_folder.string(), options.deployment, folder_.string(), options.seed},
         story_(MakeStory()),
         supervisor_(PlanOf(deployment_, place_), folder_.string(),
                     [this](const std::string& text) { Progress(clock_.Now(), text); }) {
@@ -188,11 +186,13 @@ int FailedStart(const RealTimeRun& run, bool json) {
   if (json)
     std::cout << nlohmann::ordered_json{{"started", false}, {"reason", run.Reason()}}.dump() << std::endl;
   std::cerr << fmt::format("priamos run: not started: {}\nwhat every process said is in {}/*.txt\n",
-                           run.Reason(), std::filesystem::relative(run.folder()).string());
+                           run.Reason(), ShownFrom(std::filesystem::current_path(), run.folder()));
   return 2;
 }
 
-int Run(const RunOptions& options) {
+int Run(RunOptions options) {
+  options.deployment = FolderOfDeployment(options.deployment);
+  options.log_root = LogRoot(options.log_root);
   const Scenario scenario = LoadScenario(options.deployment, options.scenario);
   const std::string map_file = MapFile(options.deployment, scenario);
   const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
@@ -214,10 +214,19 @@ int Run(const RunOptions& options) {
   if (options.json) std::cout << ToJson(summary).dump() << std::endl;
   if (!run.recorder().good())
     People(options) << "a log is incomplete: the disk is full or cannot be written\n";
-  if (!summary.passed) People(options) << "not passed: " << summary.reason << "\n";
-  People(options) << "logs and report: " << std::filesystem::relative(run.folder()).string()
-                  << "/report.html\n";
-  return whole && summary.passed && summary.contacts == 0 ? 0 : 1;
+  if (!summary.passed)
+    People(options) << "not passed: " << summary.reason
+                    << "
+                       ";
+                People(options)
+                    << "logs and report: "
+                    << ShownFrom(std::filesystem::current_path(), run.folder() / "report.html")
+                    << "
+                       ";
+                return whole &&
+            summary.passed && summary.contacts == 0
+        ? 0
+        : 1;
 }
 
 }  // namespace
@@ -230,8 +239,8 @@ void AddRunCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--scenario", options->scenario, "a file of the deployment's scenarios/")
       ->capture_default_str();
   verb->add_option("--seed", options->seed, "start pose, textures, noise, slip")->capture_default_str();
-  verb->add_option("--deployment", options->deployment, "folder of configurations")->capture_default_str();
-  verb->add_option("--logs", options->log_root, "a folder per run is made in it")->capture_default_str();
+  AddDeploymentOption(*verb, options->deployment);
+  AddLogsOption(*verb, options->log_root, "a folder per run is made in it");
   verb->add_flag("--restart", options->restart, "start again what died or hung, as `priamos up` does");
   verb->add_flag("--json", options->json, "summary.json on standard output, all else on standard error");
   verb->callback([options, &exit_code] { exit_code = Run(*options); });

@@ -21,8 +21,10 @@
 #include "bus/real_time_loop.hpp"
 #include "cli/commands.hpp"
 #include "cli/deployment.hpp"
+#include "cli/folder_options.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/up_state.hpp"
+#include "common/data_folders.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -38,26 +40,11 @@ constexpr auto kReadyWithin = std::chrono::seconds(20);
 
 struct UpOptions {
   std::string deployment = "sim";
-  std::string config_root = "config";
-  std::string log_root = "logs";
+  std::string log_root;
   std::string group;
   std::uint64_t seed = 1;
   bool detach = false, json = false;
 };
-
-/// `sim`, or a folder of its own.
-fs::path DeploymentFolder(const UpOptions& options) {
-  const fs::path given(options.deployment);
-  if (fs::is_directory(given)) return given;
-  if (fs::is_directory(fs::path(options.config_root) / given)) return fs::path(options.config_root) / given;
-  std::vector<std::string> known;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(options.config_root, none))
-    if (fs::exists(entry.path() / "deployment.toml")) known.push_back(entry.path().filename());
-  throw ConfigError(fmt::format("unknown deployment \"{}\"{}; {} has {}", options.deployment,
-                                NearestText(options.deployment, known), options.config_root,
-                                fmt::join(known, ", ")));
-}
 
 std::string MakeRunFolder(const UpOptions& options) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -71,12 +58,11 @@ std::string MakeRunFolder(const UpOptions& options) {
 /// `priamos up` in the foreground.
 class UpRun {
  public:
-  UpRun(const UpOptions& options, const Deployment& deployment)
+  UpRun(const UpOptions& options, const std::string& folder, const Deployment& deployment)
       : options_(options),
         lock_(options.log_root),
         start_(clock_.Now()),
-        place_{fs::read_symlink("/proc/self/exe").parent_path().string(), DeploymentFolder(options).string(),
-               MakeRunFolder(options), options.seed},
+        place_{ThisProgram().program_folder.string(), folder, MakeRunFolder(options), options.seed},
         supervisor_(PlanOf(deployment, place_), place_.run_folder,
                     [this](const std::string& text) { Say(text); }) {}
 
@@ -141,11 +127,11 @@ void RequireBuses(const Deployment& deployment) {
 }
 
 int UpNow(const UpOptions& options) {
-  const std::string file = (DeploymentFolder(options) / "deployment.toml").string();
-  auto deployment = LoadConfig<Deployment>(file);
+  const std::string folder = FolderOfDeployment(options.deployment);
+  auto deployment = LoadConfig<Deployment>((fs::path(folder) / "deployment.toml").string());
   if (!options.group.empty()) deployment.group = options.group;
   RequireBuses(deployment);
-  return UpRun(options, deployment).Run();
+  return UpRun(options, folder, deployment).Run();
 }
 
 void Show(const UpState& state, bool json) {
@@ -274,15 +260,15 @@ int Logs(const std::string& log_root, const std::string& name, std::size_t lines
 void AddUpCommands(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<UpOptions>();
   const auto add_logs = [options](CLI::App* verb) {
-    verb->add_option("--logs", options->log_root, "consoles and state; one `up` per folder")
-        ->capture_default_str();
+    AddLogsOption(*verb, options->log_root, "consoles and state, one `up` per folder");
+    verb->parse_complete_callback([options] { options->log_root = LogRoot(options->log_root); });
   };
   auto* up =
       cli.add_subcommand("up", "Start the processes of a deployment, and start again what dies or hangs.");
   up->footer("Example: priamos up sim, Ctrl-C ends it; or priamos up sim --detach, later priamos down");
-  up->add_option("deployment", options->deployment, "sim, robot, or a folder with a deployment.toml")
+  up->add_option("deployment", options->deployment,
+                 "sim, robot, or a folder with a deployment.toml, with a slash")
       ->capture_default_str();
-  up->add_option("--config-root", options->config_root, "where deployments are")->capture_default_str();
   up->add_option("--group", options->group, "only these processes; without it what the deployment says")
       ->check(CLI::IsMember({"all", "onboard", "offboard"}));
   up->add_option("--seed", options->seed, "of simulated hardware")->capture_default_str();

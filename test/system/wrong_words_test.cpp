@@ -64,7 +64,7 @@ const std::vector<WrongLine> kLines{
     {"priamos topic echo POSE x_mm", "unknown field \"x_mm\"", "\"x_m\""},
     {"priamos topic echo SONAR_RANGES 'rnges_m[3]'", "unknown field \"rnges_m\"", "\"ranges_m\""},
     {"priamos run --scenario dor --deployment $SOURCE/config/sim", "got \"dor\"", "\"door\""},
-    {"priamos up robto --config-root $SOURCE/config", "\"robto\"", "\"robot\""},
+    {"priamos up robto", "\"robto\"", "\"robot\""},
     {"priamos mission door labratory --deployment $SOURCE/config/sim", "unknown door \"labratory\"",
      "\"laboratory\""},
     // configuration

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace priamos::cli {
+
+/// `--deployment`, by default sim. What it names is found by FolderOfDeployment, once the verb runs.
+void AddDeploymentOption(CLI::App& verb, std::string& deployment);
+/// Throws ConfigError.
+std::string FolderOfDeployment(const std::string& deployment);
+
+/// `--logs`; `what` says what is written there. Left out it stays empty, and LogRoot says the default.
+void AddLogsOption(CLI::App& verb, std::string& log_root, const std::string& what);
+/// Throws ConfigError.
+std::string LogRoot(const std::string& log_root);
+
+}  // namespace priamos::cli
