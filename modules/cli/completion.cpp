@@ -110,26 +110,70 @@ std::vector<std::string> Completions(const CLI::App& cli, const std::vector<std:
 }
 
 std::string BashCompletion() {
-  return R"(_priamos() {
+  return R"shell(_priamos() {
   local IFS=$'\n'
   COMPREPLY=($("${COMP_WORDS[0]}" completion words -- "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null))
 }
 complete -o default -F _priamos priamos
-)";
+)shell";
 }
+
+/// `_files` when there is no word of ours, as bash does it by `-o default`.
+std::string ZshCompletion() {
+  return R"shell(#compdef priamos
+_priamos() {
+  local -a candidates
+  candidates=("${(@f)$("${(Q)words[1]}" completion words -- "${(@Q)words[2,CURRENT]}" 2>/dev/null)}")
+  if [[ -n "${candidates[1]}" ]]; then
+    compadd -a candidates
+  else
+    _files
+  fi
+}
+if [[ "${funcstack[1]}" = _priamos ]]; then
+  _priamos "$@"
+else
+  compdef _priamos priamos
+fi
+)shell";
+}
+
+std::string FishCompletion() {
+  return R"shell(function __priamos_words
+  set -l words (commandline -opc) (commandline -ct)
+  $words[1] completion words -- $words[2..-1] 2>/dev/null
+end
+function __priamos_has_words
+  test -n "$(__priamos_words)"
+end
+complete -c priamos -n __priamos_has_words -f -a '(__priamos_words)'
+)shell";
+}
+
+namespace {
+
+void AddShell(CLI::App& verb, const std::string& shell, std::string (*script)(), const std::string& example,
+              int& exit_code) {
+  auto* sub = verb.add_subcommand(
+      shell, "Print what makes " + shell + " complete verbs, options, channels and types.");
+  sub->footer("Example: " + example);
+  sub->callback([script, &exit_code] {
+    std::cout << script();
+    exit_code = 0;
+  });
+}
+
+}  // namespace
 
 void AddCompletionCommand(CLI::App& cli, int& exit_code) {
   auto* verb = cli.add_subcommand("completion", "Completion for a shell.");
   verb->require_subcommand(1);
-  auto* bash =
-      verb->add_subcommand("bash", "Print what makes bash complete verbs, options, channels and types.");
-  bash->footer("Example: priamos completion bash >> ~/.bashrc");
-  bash->callback([&exit_code] {
-    std::cout << BashCompletion();
-    exit_code = 0;
-  });
+  AddShell(*verb, "bash", BashCompletion, "priamos completion bash >> ~/.bashrc", exit_code);
+  AddShell(*verb, "zsh", ZshCompletion, "priamos completion zsh >> ~/.zshrc, below compinit", exit_code);
+  AddShell(*verb, "fish", FishCompletion, "priamos completion fish > ~/.config/fish/completions/priamos.fish",
+           exit_code);
   auto words = std::make_shared<std::vector<std::string>>();
-  auto* ask = verb->add_subcommand("words", "What bash asks.");
+  auto* ask = verb->add_subcommand("words", "What the shells ask.");
   ask->group("");
   ask->add_option("words", *words, "the command line so far");
   ask->callback([&cli, words, &exit_code] {

@@ -14,7 +14,10 @@ namespace priamos::cli {
 /// the program's name; the last word may be empty. Empty when it is a file's turn: then the shell completes.
 std::vector<std::string> Completions(const CLI::App& cli, const std::vector<std::string>& words);
 
-/// The lines for ~/.bashrc that make bash ask `priamos completion words ...`.
+/// What makes a shell ask `priamos completion words ...`; each is what `cmake --install` puts where that
+/// shell looks, and what a person may load by hand.
 std::string BashCompletion();
+std::string ZshCompletion();
+std::string FishCompletion();
 
 }  // namespace priamos::cli
