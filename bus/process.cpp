@@ -9,10 +9,10 @@
 #include <iostream>
 
 #include "bus/app_host.hpp"
-#include "bus/bus_choice.hpp"
 #include "bus/command_line.hpp"
 #include "bus/log/log_writer.hpp"
 #include "bus/own_types.hpp"
+#include "bus/process_options.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/replay.hpp"
 #include "bus/schema/schema.hpp"
@@ -26,40 +26,12 @@ constexpr int kFailedWhileRunning = 1;
 constexpr int kCannotStart = 2;
 constexpr std::string_view kFileUrl = "file://";
 
-struct Options {
-  ConfigSource config;
-  BusChoice choice;
-  std::string bus;  ///< URL
-  std::uint64_t seed = 0;
-  bool print_config = false;
-  bool interface = false;
-};
-
-void AddAlias(CLI::App& cli, const OptionAlias& alias, ConfigSource& config) {
-  const std::string flag(alias.flag), key(alias.key), value(alias.value), doc(alias.doc);
-  if (value.empty()) {
-    cli.add_option_function<std::string>(
-        flag, [&config, key](const std::string& text) { config.overrides.push_back(key + "=" + text); }, doc);
-  } else {
-    cli.add_flag_callback(
-        flag, [&config, key, value] { config.overrides.push_back(key + " = " + value); }, doc);
-  }
-}
+using Options = ProcessOptions;
 
 /// Returns the exit code when the command line was answered or refused.
 std::optional<int> ParseCommandLine(const AppFactory& factory, int argc, char** argv, Options& options) {
   CLI::App cli(factory.summary, "priamos-" + factory.name);
-  cli.add_option("--config", options.config.path, "TOML file; without it every key keeps its default");
-  cli.add_option("--set", options.config.overrides, "KEY=VALUE on top of the file");
-  options.choice.bus = factory.default_bus;
-  AddBusChoice(cli, options.choice);
-  cli.get_option("--bus")->description(
-      "LCM bus: onboard, offboard or an LCM URL; file://LOG[?out=LOG] runs from a log");
-  cli.add_option("--seed", options.seed, "seed of simulated hardware")->capture_default_str();
-  cli.add_flag("--print-config", options.print_config,
-               "print every key with value, unit and meaning, and exit");
-  cli.add_flag("--interface", options.interface, "print the channels read and written, and exit");
-  for (const auto& alias : factory.aliases) AddAlias(cli, alias, options.config);
+  AddProcessOptions(cli, factory, options);
   return bus::ParseCommandLine(cli, argc, argv);
 }
 

@@ -23,6 +23,7 @@ void AddCommands(CLI::App& cli, int& exit_code) {
   AddEstopCommand(cli, exit_code);
   AddHelpCommand(cli, exit_code);
   AddCompletionCommand(cli, exit_code);
+  AddManualCommand(cli, exit_code);
 }
 
 }  // namespace priamos::cli

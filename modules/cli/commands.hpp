@@ -26,6 +26,8 @@ void AddEstopCommand(CLI::App& cli, int& exit_code);
 void AddHelpCommand(CLI::App& cli, int& exit_code);
 /// After all others: it completes their names.
 void AddCompletionCommand(CLI::App& cli, int& exit_code);
+/// After all others: it describes them.
+void AddManualCommand(CLI::App& cli, int& exit_code);
 
 /// All of them.
 void AddCommands(CLI::App& cli, int& exit_code);

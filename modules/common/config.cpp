@@ -8,6 +8,7 @@
 #include <ostream>
 #include <set>
 
+#include "common/config_keys.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos {
@@ -15,15 +16,6 @@ namespace {
 
 /// Stands for the file in what `--set` gave; no file is called so.
 constexpr std::string_view kSetName = "--set ";
-
-std::string RangeText(const ValueSpec& spec) {
-  const bool low = spec.min > std::numeric_limits<double>::lowest();
-  const bool high = spec.max < std::numeric_limits<double>::max();
-  if (low && high) return fmt::format("{} to {}", spec.min, spec.max);
-  if (low) return fmt::format("at least {}", spec.min);
-  if (high) return fmt::format("at most {}", spec.max);
-  return "any";
-}
 
 std::string Shown(const toml::node& node) {
   std::string text;

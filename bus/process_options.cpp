@@ -1,0 +1,35 @@
+#include "bus/process_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace priamos::bus {
+namespace {
+
+void AddAlias(CLI::App& cli, const OptionAlias& alias, ConfigSource& config) {
+  const std::string flag(alias.flag), key(alias.key), value(alias.value), doc(alias.doc);
+  if (value.empty()) {
+    cli.add_option_function<std::string>(
+        flag, [&config, key](const std::string& text) { config.overrides.push_back(key + "=" + text); }, doc);
+  } else {
+    cli.add_flag_callback(
+        flag, [&config, key, value] { config.overrides.push_back(key + " = " + value); }, doc);
+  }
+}
+
+}  // namespace
+
+void AddProcessOptions(CLI::App& cli, const AppFactory& factory, ProcessOptions& options) {
+  cli.add_option("--config", options.config.path, "TOML file; without it every key keeps its default");
+  cli.add_option("--set", options.config.overrides, "KEY=VALUE on top of the file");
+  options.choice.bus = factory.default_bus;
+  AddBusChoice(cli, options.choice);
+  cli.get_option("--bus")->description(
+      "LCM bus: onboard, offboard or an LCM URL; file://LOG[?out=LOG] runs from a log");
+  cli.add_option("--seed", options.seed, "seed of simulated hardware")->capture_default_str();
+  cli.add_flag("--print-config", options.print_config,
+               "print every key with value, unit and meaning, and exit");
+  cli.add_flag("--interface", options.interface, "print the channels read and written, and exit");
+  for (const auto& alias : factory.aliases) AddAlias(cli, alias, options.config);
+}
+
+}  // namespace priamos::bus

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "bus/app.hpp"
+#include "bus/bus_choice.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace priamos::bus {
+
+/// What the command line of a process says.
+struct ProcessOptions {
+  ConfigSource config;
+  BusChoice choice;
+  std::string bus;  ///< URL
+  std::uint64_t seed = 0;
+  bool print_config = false;
+  bool interface = false;
+};
+
+/// Adds the options of the process that `factory` starts to `cli`; parsing fills `options`.
+void AddProcessOptions(CLI::App& cli, const AppFactory& factory, ProcessOptions& options);
+
+}  // namespace priamos::bus
