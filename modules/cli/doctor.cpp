@@ -67,7 +67,7 @@ Finding Java(const Machine& machine) {
   if (missing.empty()) return {"Java", Verdict::kGood, "java, lcm.jar and jchart2d.jar are there", ""};
   const std::string packages = fmt::format("{}", fmt::join(missing, " "));
   return {"Java", Verdict::kNotNeededYet,
-          "missing: " + packages + "; scripts/spy and scripts/logplayer-gui want it",
+          "missing: " + packages + "; priamos-spy and priamos-logplayer want it",
           "sudo apt-get install " + packages};
 }
 

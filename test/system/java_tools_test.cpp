@@ -8,7 +8,7 @@
 #include "private_network.hpp"
 #include "test/support/temporary_folder.hpp"
 
-// LCM's own windows under Xvfb, started as scripts/spy and scripts/logplayer-gui start them, beside a
+// LCM's own windows under Xvfb, started as priamos-spy and priamos-logplayer start them, beside a
 // recorded door run. The screenshots stay in the build folder: test/screenshots.
 
 namespace priamos {
