@@ -60,7 +60,7 @@ bool IsLandmarkModel(const std::string& file) {
 
 bool IsForInstalling(const std::string& file) {
   return fs::path(file).filename() == "CMakeLists.txt" ||
-         fs::path(file).parent_path().filename() == "systemd";
+         fs::path(file).parent_path().filename() == "systemd" || *fs::path(file).begin() == "install";
 }
 
 void ExpectThatScenarioLoads(const std::string& file) {

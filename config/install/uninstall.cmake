@@ -1,0 +1,73 @@
+# cmake --build build --target uninstall: takes away what the last `cmake --install build` put there, and the
+# folders that it made. Configuration that was changed on the machine stays, and is named.
+cmake_minimum_required(VERSION 3.25)
+set(manifest "${build}/install_manifest.txt")
+set(files)
+if(EXISTS "${manifest}")
+  file(STRINGS "${manifest}" files)
+endif()
+if(NOT files)
+  message(FATAL_ERROR "uninstall: expected ${manifest}, which `cmake --install` writes, got none")
+endif()
+set(folders)
+if(EXISTS "${build}/install_folders.txt")
+  file(STRINGS "${build}/install_folders.txt" folders)
+endif()
+
+# The shipped text of every file of a robot's configuration is installed as well.
+set(shipped)
+foreach(file ${files})
+  if(file MATCHES "^(.*/share/priamos/config)/sim/deployment.toml$")
+    set(shipped "$ENV{DESTDIR}${CMAKE_MATCH_1}")
+  endif()
+endforeach()
+
+# is_changed(FILE RESULT): whether FILE is configuration that is not as it was shipped.
+function(is_changed file result)
+  set(${result} FALSE PARENT_SCOPE)
+  if(file MATCHES "/etc/priamos/(.*)$")
+    execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files "$ENV{DESTDIR}${file}" "${shipped}/${CMAKE_MATCH_1}"
+                    RESULT_VARIABLE different OUTPUT_QUIET ERROR_QUIET)
+    if(different)
+      set(${result} TRUE PARENT_SCOPE)
+    endif()
+  endif()
+endfunction()
+
+set(kept)
+foreach(file ${files})
+  is_changed("${file}" changed)
+  if(changed AND EXISTS "$ENV{DESTDIR}${file}")
+    list(APPEND kept "${file}")
+  endif()
+endforeach()
+
+set(removed 0)
+foreach(file ${files})
+  if(NOT file IN_LIST kept AND (EXISTS "$ENV{DESTDIR}${file}" OR IS_SYMLINK "$ENV{DESTDIR}${file}"))
+    file(REMOVE "$ENV{DESTDIR}${file}")
+    math(EXPR removed "${removed} + 1")
+  endif()
+  # Our own folders, from the file up to the one called priamos.
+  get_filename_component(folder "${file}" DIRECTORY)
+  while(folder MATCHES "/(share|etc|doc)/priamos(/|$)")
+    list(APPEND folders "${folder}")
+    get_filename_component(folder "${folder}" DIRECTORY)
+  endwhile()
+endforeach()
+
+list(REMOVE_DUPLICATES folders)
+list(SORT folders ORDER DESCENDING)  # what is inside comes before what is around it
+foreach(folder ${folders})
+  file(GLOB inside "$ENV{DESTDIR}${folder}/*" "$ENV{DESTDIR}${folder}/.*")
+  list(FILTER inside EXCLUDE REGEX "/\\.\\.?$")
+  if(IS_DIRECTORY "$ENV{DESTDIR}${folder}" AND NOT inside)
+    file(REMOVE_RECURSE "$ENV{DESTDIR}${folder}")
+  endif()
+endforeach()
+file(REMOVE "${manifest}" "${build}/install_folders.txt")
+
+message(STATUS "uninstall: ${removed} files removed")
+foreach(file ${kept})
+  message(STATUS "uninstall: kept, it was changed: ${file}")
+endforeach()

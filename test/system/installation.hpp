@@ -1,0 +1,78 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "test/support/temporary_folder.hpp"
+#include "test/system/private_network.hpp"
+
+namespace priamos {
+
+/// This build, installed below a prefix with a blank in a folder of its own, and stripped.
+class Installation {
+ public:
+  std::filesystem::path folder() const { return folder_.path(); }
+  std::filesystem::path prefix() const { return folder_ / "a prefix"; }
+  std::filesystem::path package() const { return folder_ / "package"; }
+
+  /// What `cmake --install` says. Meanwhile /usr, /etc and the clone cannot be written, and the build's own
+  /// note of what a person installed from it is another file.
+  ShellAnswer Install() const { return Build(R"(cmake --install "$BUILD" --strip --prefix "$PREFIX")"); }
+  /// For /usr, as a package is made: into package() instead of the root of the file system.
+  ShellAnswer InstallForAPackage() const {
+    return Build(R"(DESTDIR="$FOLDER/package" cmake --install "$BUILD" --prefix /usr)");
+  }
+  ShellAnswer Uninstall() const { return Build(R"(cmake --build "$BUILD" --target uninstall)"); }
+
+  /// `script` as it runs on a machine that has the programs and nothing else of ours: in another folder, with
+  /// an empty home and a network of its own; no clone, no header, no lcm-gen, no pkg-config; only the test's
+  /// folder can be written. `$PREFIX/bin` is in the PATH.
+  ShellAnswer Run(const std::string& script, int seconds) const {
+    std::filesystem::create_directories(folder_ / "home");
+    std::filesystem::create_directories(folder_ / "elsewhere");
+    std::ofstream(folder_ / "inner.sh") << "set -u\nPREFIX='" << prefix().string() << "'\n" << script;
+    return Script(R"(
+      guard /usr; guard /etc
+      for hidden in "$SOURCE" /usr/include; do mount -t tmpfs none "$hidden"; done
+      for hidden in /usr/bin/lcm-gen /usr/bin/pkg-config; do
+        [ ! -e $hidden ] || mount --bind /dev/null "$(readlink -f $hidden)"
+      done
+      cd "$FOLDER/elsewhere"
+      exec env -i HOME="$FOLDER/home" PATH="$PREFIX/bin:/usr/bin:/bin:/usr/sbin:/sbin" LANG=C.UTF-8 bash "$FOLDER/inner.sh")",
+                  seconds);
+  }
+
+  static std::string TextOf(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  }
+
+ private:
+  ShellAnswer Build(const std::string& command) const {
+    return Script(R"(
+      for file in install_manifest.txt install_folders.txt; do
+        touch "$FOLDER/$file" "$BUILD/$file"
+        mount --bind "$FOLDER/$file" "$BUILD/$file"
+      done
+      for folder in "$SOURCE"/*; do [[ $BUILD/ = "$folder"/* ]] || guard "$folder"; done
+      guard /usr; guard /etc
+      )" + command,
+                  120);
+  }
+  ShellAnswer Script(const std::string& script, int seconds) const {
+    return RunInPrivateNetwork(
+        "FOLDER='" + folder_.path().string() + "'\nPREFIX='" + prefix().string() +
+            "'\nBUILD='" PRIAMOS_BINARY_DIR
+            "'\n"
+            "guard() { mount --bind \"$1\" \"$1\" && mount -o remount,bind,ro \"$1\"; }\n" +
+            script,
+        (folder_ / "outer.sh").string(), seconds, "unshare -rmn");
+  }
+
+  const TemporaryFolder folder_;
+};
+
+}  // namespace priamos
