@@ -13,7 +13,11 @@
 
 namespace priamos::bus {
 
-/// What a module's App offers. It runs unchanged in real time, in lockstep and from a log.
+/// What a module's App offers. It runs unchanged in real time, in lockstep and from a log. It may offer more:
+///
+///     static constexpr bool kOneOwner = true;     a second one of the same robot does not start on its bus
+///     static constexpr auto kSpeaksAlone = ...;   names of channels: it does not run beside others who speak
+///     them void Yield(Time now);                       its last act when another process has its role
 template <class T>
 concept App = requires(T app, const typename T::Config& config, Context& context, Time now) {
   { T::kName } -> std::convertible_to<std::string_view>;
@@ -37,14 +41,17 @@ class AnyApp {
   virtual ~AnyApp() = default;
   virtual Duration TickPeriod() const = 0;
   virtual void Tick(Time now) = 0;
+  virtual void Yield(Time now) = 0;
 };
 
 /// How to start one kind of App.
 struct AppFactory {
   std::string name;
   std::string summary;
-  std::string default_bus;  ///< "onboard" or "offboard"
+  std::string default_bus = "onboard";  ///< or "offboard"
   std::vector<OptionAlias> aliases;
+  bool one_owner = false;                 ///< of its robot on its bus
+  std::vector<std::string> speaks_alone;  ///< channels
   std::function<std::unique_ptr<AnyApp>(const ConfigSource&, Context&)> start;
   std::function<void(std::ostream&, const ConfigSource&)> print_config;
 };
@@ -56,12 +63,20 @@ AppFactory FactoryOf() {
         : app(LoadConfig<typename T::Config>(source), context) {}
     Duration TickPeriod() const override { return app.TickPeriod(); }
     void Tick(Time now) override { app.Tick(now); }
+    void Yield(Time now) override {
+      if constexpr (requires { app.Yield(now); }) app.Yield(now);
+    }
     T app;
   };
-  AppFactory factory{std::string(T::kName), std::string(T::kSummary), "onboard", {}, {}, {}};
+  AppFactory factory;
+  factory.name = T::kName;
+  factory.summary = T::kSummary;
   if constexpr (requires { T::kDefaultBus; }) factory.default_bus = T::kDefaultBus;
   if constexpr (requires { T::kOptions; })
     factory.aliases.assign(std::begin(T::kOptions), std::end(T::kOptions));
+  if constexpr (requires { T::kOneOwner; }) factory.one_owner = T::kOneOwner;
+  if constexpr (requires { T::kSpeaksAlone; })
+    factory.speaks_alone.assign(std::begin(T::kSpeaksAlone), std::end(T::kSpeaksAlone));
   factory.start = [](const ConfigSource& source, Context& context) {
     return std::make_unique<Erased>(source, context);
   };

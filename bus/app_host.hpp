@@ -20,6 +20,8 @@ class AppHost {
   Time next_tick() const { return next_tick_; }
   /// Ticks when one is due at `now`. A tick that comes over a period late is counted, and not made up for.
   void Step(Time now);
+  /// The App's last act when another process has its role.
+  void Yield(Time now) { app_->Yield(now); }
   std::optional<int> exit_code() const { return context_.exit_code(); }
   const Node& node() const { return node_; }
 

@@ -23,6 +23,7 @@ struct Surroundings {
   std::string instance;          ///< names this bus on this machine, e.g. for shared memory
   std::string config_dir = ".";  ///< relative file names in a configuration start here
   std::uint64_t seed = 0;        ///< for simulated hardware only
+  std::int32_t claimant = 0;     ///< instance of this process in its claim; random, 0 in lockstep
   bool lockstep = false;         ///< simulated time: work inline, never in a thread
   std::function<void(Level, std::string_view)> log;
   /// Opens a serial port; throws std::runtime_error with one sentence.
@@ -37,6 +38,7 @@ class Context {
   Node& node() { return node_; }
   const std::string& instance() const { return around_.instance; }
   std::uint64_t seed() const { return around_.seed; }
+  std::int32_t claimant() const { return around_.claimant; }
   bool lockstep() const { return around_.lockstep; }
   /// `name` itself when absolute, else below the folder of the configuration file.
   std::string ResolvePath(const std::string& name) const;

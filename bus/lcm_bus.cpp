@@ -89,9 +89,10 @@ int LcmBus::fd() const {
 
 int LcmBus::Drain(int at_most) {
   if (receiver_)
-    return receiver_->Receive(at_most, [this](std::string_view channel, std::span<const std::byte> bytes) {
-      Dispatch(channel, bytes);
-    });
+    return receiver_->Receive(
+        at_most, [this](std::uint64_t, std::string_view channel, std::span<const std::byte> bytes) {
+          Dispatch(channel, bytes);
+        });
   int handled = 0;
   if (subscriptions_.empty()) return handled;
   while (handled < at_most && lcm_handle_timeout(lcm_.get(), 0) > 0) ++handled;

@@ -25,7 +25,7 @@ class UdpReceiver;
 /// which liblcm's weaknesses cannot reach and which counts losses. A foreign bus whose messages come in
 /// fragments needs `Messages::kAnySize`.
 ///
-/// Not thread safe; handlers run inside Drain(), on the caller's thread.
+/// Not thread safe but for Publish(); handlers run inside Drain(), on the caller's thread.
 class LcmBus {
  public:
   using Handler = std::function<void(std::string_view channel, std::span<const std::byte> bytes)>;

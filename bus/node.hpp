@@ -54,7 +54,7 @@ struct LatestState {
 
 template <class T>
 struct InboxState {
-  std::deque<T> messages;
+  std::deque<std::pair<Time, T>> messages;
 };
 
 }  // namespace detail
@@ -87,8 +87,15 @@ class Inbox {
   explicit Inbox(std::shared_ptr<detail::InboxState<T>> state) : state_(std::move(state)) {}
 
   std::vector<T> Drain() {
-    std::vector<T> all(std::make_move_iterator(state_->messages.begin()),
-                       std::make_move_iterator(state_->messages.end()));
+    std::vector<T> all;
+    for (auto& [arrival, message] : state_->messages) all.push_back(std::move(message));
+    state_->messages.clear();
+    return all;
+  }
+  /// Each with its arrival, by the receiver's own clock.
+  std::vector<std::pair<Time, T>> DrainWithArrival() {
+    std::vector<std::pair<Time, T>> all(std::make_move_iterator(state_->messages.begin()),
+                                        std::make_move_iterator(state_->messages.end()));
     state_->messages.clear();
     return all;
   }
@@ -200,10 +207,10 @@ Inbox<T> Node::SubscribeAll(const Channel<T>& channel) {
   auto state = std::make_shared<detail::InboxState<T>>();
   Listen({std::string(channel.name), T::getTypeName(), channel.rate_hz}, schema_,
          static_cast<std::uint64_t>(T::getHash()),
-         [state](std::span<const std::byte> bytes, ChannelCounters& counters) {
+         [this, state](std::span<const std::byte> bytes, ChannelCounters& counters) {
            T message = Decode<T>(bytes);
            if (state->messages.size() < kInboxCapacity) {
-             state->messages.push_back(std::move(message));
+             state->messages.emplace_back(clock_.Now(), std::move(message));
            } else {
              ++counters.dropped;
            }

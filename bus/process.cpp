@@ -9,6 +9,8 @@
 #include <iostream>
 
 #include "bus/app_host.hpp"
+#include "bus/claim_keeper.hpp"
+#include "bus/claim_messages.hpp"
 #include "bus/command_line.hpp"
 #include "bus/log/log_writer.hpp"
 #include "bus/own_types.hpp"
@@ -53,8 +55,9 @@ std::string InstanceOf(const std::string& bus) {
   return fmt::format("{}-{}", PortOf(bus), network.st_ino);
 }
 
-Surroundings MakeSurroundings(const AppFactory& factory, const Options& options) {
+Surroundings MakeSurroundings(const AppFactory& factory, const Options& options, std::int32_t claimant = 0) {
   Surroundings around;
+  around.claimant = claimant;
   around.instance = InstanceOf(options.bus);
   around.config_dir = options.config.Folder();
   around.seed = options.seed;
@@ -108,6 +111,14 @@ int RunFromLog(const AppFactory& factory, const Options& options) {
   return out && !out->good() ? kFailedWhileRunning : 0;
 }
 
+/// Before the App is made: making it may already take what belongs to the owner, a port or a frame store.
+std::unique_ptr<ClaimKeeper> ClaimRole(const AppFactory& factory, LcmBus& bus, const Schema& schema,
+                                       const Clock& clock, const Claimant& self) {
+  if (!factory.one_owner || !bus.url().starts_with("udpm://")) return nullptr;
+  return std::make_unique<ClaimKeeper>(bus, schema, clock, self, ClaimTerms{factory.speaks_alone},
+                                       MakeLog(factory.name));
+}
+
 int Run(const AppFactory& factory, const Options& options, bool& running) {
   if (options.print_config) return factory.print_config(std::cout, options.config), 0;
   if (options.interface) return PrintInterface(factory, options);
@@ -116,9 +127,12 @@ int Run(const AppFactory& factory, const Options& options, bool& running) {
   const Schema schema = OwnTypes();
   const MonotonicClock clock;
   LcmBus bus(options.bus);
-  AppHost host(factory, options.config, bus, schema, clock, MakeSurroundings(factory, options));
+  const Claimant self = MakeClaimant(options.choice.robot, factory.name);
+  const auto claim = ClaimRole(factory, bus, schema, clock, self);
+  AppHost host(factory, options.config, bus, schema, clock,
+               MakeSurroundings(factory, options, self.instance));
   running = true;
-  return RunRealTime(host, bus, clock, signals);
+  return RunRealTime(host, bus, clock, signals, claim.get());
 }
 
 }  // namespace

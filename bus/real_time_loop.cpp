@@ -8,6 +8,7 @@
 #include <csignal>
 #include <system_error>
 
+#include "bus/claim_keeper.hpp"
 #include "bus/service_notifier.hpp"
 
 namespace priamos::bus {
@@ -34,13 +35,19 @@ SignalWatch::~SignalWatch() {
   close(fd_);
 }
 
-int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals) {
+int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals,
+                const ClaimKeeper* claim) {
   ServiceNotifier notifier;
   while (!host.exit_code()) {
-    pollfd fds[] = {{bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
+    pollfd fds[] = {
+        {bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}, {claim != nullptr ? claim->fd() : -1, POLLIN, 0}};
     const timespec wait = ToTimespec(host.next_tick() - clock.Now());
     ppoll(fds, std::size(fds), &wait, nullptr);
     if (fds[1].revents != 0) return 0;
+    if (fds[2].revents != 0) {
+      host.Yield(clock.Now());
+      throw BusError(*claim->lost());
+    }
     if (fds[0].revents != 0) bus.Drain();
     const Time now = clock.Now();
     if (now < host.next_tick()) continue;

@@ -4,6 +4,8 @@
 
 namespace priamos::bus {
 
+class ClaimKeeper;
+
 /// Turns SIGINT and SIGTERM into something a loop can look at. Create it before the first thread, so that
 /// every thread inherits the blocked signals.
 class SignalWatch {
@@ -21,7 +23,9 @@ class SignalWatch {
 };
 
 /// Ticks the host at its period and drains the bus in between, until a signal or RequestStop. Tells systemd
-/// (or whoever set NOTIFY_SOCKET) READY after the first tick and WATCHDOG with every later one.
-int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals);
+/// (or whoever set NOTIFY_SOCKET) READY after the first tick and WATCHDOG with every later one. When `claim`
+/// is lost (null: the App claims nothing), the App yields and BusError says why.
+int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals,
+                const ClaimKeeper* claim);
 
 }  // namespace priamos::bus

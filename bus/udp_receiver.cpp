@@ -110,7 +110,7 @@ void UdpReceiver::Take(std::uint64_t sender, std::span<const std::byte> datagram
   std::span<const std::byte> bytes;
   if (!ParseDatagram(datagram, number, channel, bytes)) return TakeFragment(sender, datagram, handler);
   numbers_.Add(sender, number);
-  handler(channel, bytes);
+  handler(sender, channel, bytes);
 }
 
 /// All fragments of a message carry its number: it counts once.
@@ -119,7 +119,7 @@ void UdpReceiver::TakeFragment(std::uint64_t sender, std::span<const std::byte> 
   const auto result = reassembler_.Add(sender, datagram, large_);
   if (result == Reassembler::Result::kMalformed) ++malformed_;
   if (result == Reassembler::Result::kBegun) numbers_.Add(sender, FragmentHeader::Read(datagram)->number);
-  if (result == Reassembler::Result::kComplete) handler(large_.channel, large_.bytes);
+  if (result == Reassembler::Result::kComplete) handler(sender, large_.channel, large_.bytes);
 }
 
 int UdpReceiver::Receive(int at_most, const Handler& handler) {

@@ -22,7 +22,9 @@ namespace priamos::bus {
 /// are known; and there is no thread and no copy between the kernel and the handler.
 class UdpReceiver {
  public:
-  using Handler = std::function<void(std::string_view channel, std::span<const std::byte> bytes)>;
+  /// `sender` names the sending socket, see SenderAddress.
+  using Handler =
+      std::function<void(std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes)>;
 
   /// Throws BusError with a sentence when the group cannot be joined. Without `fragments` a filter stops
   /// them.

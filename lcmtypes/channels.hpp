@@ -3,8 +3,10 @@
 #include <tuple>
 
 #include "lcmtypes/channel.hpp"
+#include "priamos/alarm_t.hpp"
 #include "priamos/camera_frame_t.hpp"
 #include "priamos/camera_trigger_t.hpp"
+#include "priamos/claim_t.hpp"
 #include "priamos/drive_command_t.hpp"
 #include "priamos/drive_status_t.hpp"
 #include "priamos/estop_t.hpp"
@@ -74,6 +76,8 @@ inline constexpr Channel<mission_status_t> kMissionStatus{"MISSION_STATUS", 2, m
 inline constexpr Channel<health_t> kHealth{"HEALTH", 1, milliseconds(3000)};
 inline constexpr Channel<link_status_t> kLinkStatus{"LINK_STATUS", 1, milliseconds(3000)};
 inline constexpr Channel<link_request_t> kLinkRequest{"LINK_REQUEST", 0, milliseconds(0)};
+inline constexpr Channel<alarm_t> kAlarm{"ALARM", 0, milliseconds(0)};
+inline constexpr Channel<claim_t> kClaim{"CLAIM", 5, milliseconds(1000)};
 
 /// For reports and tests; a test checks that no module subscribes to it.
 inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseconds(200)};
@@ -83,6 +87,6 @@ inline constexpr std::tuple kAll{kWheelCommand,   kWheelState,     kSonarRanges,
                                  kDriveStatus,    kPoseCorrection, kLandmarkModel, kLookRequest, kLandmarkFix,
                                  kMissionCommand, kMissionStatus,  kHealth,        kLinkStatus,  kWorldTruth,
                                  kDriveCommand,   kHeadDrive,      kLeaseRequest,  kEstop,       kLinkRequest,
-                                 kLandmarkView,   kObstacleLine};
+                                 kLandmarkView,   kObstacleLine,   kAlarm,         kClaim};
 
 }  // namespace priamos::channels

@@ -85,6 +85,8 @@ ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& proc
                     (fs::path(place.config_folder) / process.config).string(),
                     "--bus",
                     process.bus == "onboard" ? deployment.OnboardUrl() : deployment.OffboardUrl(),
+                    "--robot",
+                    deployment.robot,
                     "--seed",
                     std::to_string(place.seed)};
   const auto set = [&](const std::string& text) {

@@ -13,6 +13,7 @@
 #include "bus/real_time_loop.hpp"
 #include "cli/log_options.hpp"
 #include "cli/play_keys.hpp"
+#include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -75,6 +76,8 @@ class Playing {
       const int sent = player_.Play(
           clock_.Now(),
           [this](const std::string& channel, const bus::LogEvent& event) {
+            // Claims speak for processes, and those of the log do not run.
+            if (event.channel == channels::kClaim.name) return;
             ++(bus_.Publish(channel, event.bytes) ? sent_ : refused_);
           },
           kBurst);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
@@ -16,6 +17,7 @@
 #include "cli/folder_options.hpp"
 #include "cli/link_emulate.hpp"
 #include "cli/report_files.hpp"
+#include "cli/robot_owner.hpp"
 #include "cli/run_recorder.hpp"
 #include "cli/scenario_driver.hpp"
 #include "cli/story_verdict.hpp"
@@ -31,8 +33,15 @@ struct RunOptions {
   std::string scenario = "door";
   std::uint64_t seed = 1;
   std::string log_root;
+  std::string robot;  ///< empty: a name of its own, so that it meets nobody
   bool restart = false, json = false;
 };
+
+/// A robot that nobody else drives. $PRIAMOS_ROBOT does not count: it may be the one with real wheels.
+std::string RobotOf(const RunOptions& options) {
+  if (!options.robot.empty()) return options.robot;
+  return fmt::format("run-{:04x}", std::random_device()() & 0xffff);
+}
 
 /// What a person reads; standard output belongs to the JSON.
 std::ostream& People(const RunOptions& options) {
@@ -48,8 +57,9 @@ std::filesystem::path MakeRunFolder(const RunOptions& options) {
 }
 
 /// A scenario is a deployment with an emulated line, and a story.
-Deployment DeploymentOf(const Scenario& scenario) {
+Deployment DeploymentOf(const Scenario& scenario, const RunOptions& options) {
   Deployment deployment;
+  deployment.robot = RobotOf(options);
   deployment.title = scenario.title;
   deployment.emulated_line = true;
   deployment.line = scenario.line;
@@ -81,15 +91,17 @@ class RealTimeRun {
   RealTimeRun(const RunOptions& options, const Scenario& scenario)
       : options_(options),
         scenario_(scenario),
-        deployment_(DeploymentOf(scenario)),
+        deployment_(DeploymentOf(scenario, options)),
         schema_(bus::OwnTypes()),
         onboard_(deployment_.OnboardUrl()),
         offboard_(deployment_.OffboardUrl()),
         onboard_node_(onboard_, schema_, clock_),
         offboard_node_(offboard_, schema_, clock_),
+        start_(clock_.Now()),
+        owner_(deployment_, schema_, clock_,
+               [this](const std::string& text) { Progress(clock_.Now(), text); }),
         folder_(MakeRunFolder(options)),
         recorder_(folder_.string()),
-        start_(clock_.Now()),
         place_{ThisProgram().program_folder.string(), options.deployment, folder_.string(), options.seed},
         story_(MakeStory()),
         supervisor_(PlanOf(deployment_, place_), folder_.string(),
@@ -100,6 +112,10 @@ class RealTimeRun {
 
   /// Returns false when a signal or a dead process ended it early.
   bool Run() {
+    Progress(clock_.Now(),
+             fmt::format("robot {}, on buses of its own name; watch it with: priamos topic list "
+                         "--watch --robot {}",
+                         deployment_.robot, deployment_.robot));
     Progress(clock_.Now(),
              fmt::format("scenario {}, seed {}: {}", options_.scenario, options_.seed, scenario_.title));
     const bool whole = Loop();
@@ -147,6 +163,8 @@ class RealTimeRun {
                       {supervisor_.fd(), POLLIN, 0}};
       poll(fds, std::size(fds), 20);
       if (fds[2].revents != 0) return End("stopped by a signal"), false;
+      owner_.Listen();
+      if (const auto lost = owner_.lost()) return End(*lost), false;
       onboard_.Drain();
       offboard_.Drain();
       story_->Tick(clock_.Now());
@@ -172,9 +190,10 @@ class RealTimeRun {
   bus::MonotonicClock clock_;
   bus::LcmBus onboard_, offboard_;
   bus::Node onboard_node_, offboard_node_;
+  Time start_;
+  RobotOwner owner_;
   std::filesystem::path folder_;
   RunRecorder recorder_;
-  Time start_;
   LaunchPlace place_;
   std::unique_ptr<ScenarioStory> story_;
   Supervisor supervisor_;
@@ -241,6 +260,8 @@ void AddRunCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--seed", options->seed, "start pose, textures, noise, slip")->capture_default_str();
   AddDeploymentOption(*verb, options->deployment);
   AddLogsOption(*verb, options->log_root, "a folder per run is made in it");
+  verb->add_option("--robot", options->robot,
+                   "name of the robot; without it one that nobody has, so that the run meets nobody");
   verb->add_flag("--restart", options->restart, "start again what died or hung, as `priamos up` does");
   verb->add_flag("--json", options->json, "summary.json on standard output, all else on standard error");
   verb->callback([options, &exit_code] { exit_code = Run(*options); });

@@ -18,10 +18,13 @@
 
 #include "bus/clock.hpp"
 #include "bus/multicast.hpp"
+#include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
+#include "bus/schema/schema.hpp"
 #include "cli/commands.hpp"
 #include "cli/deployment.hpp"
 #include "cli/folder_options.hpp"
+#include "cli/robot_owner.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/up_state.hpp"
 #include "common/data_folders.hpp"
@@ -41,7 +44,7 @@ constexpr auto kReadyWithin = std::chrono::seconds(20);
 struct UpOptions {
   std::string deployment = "sim";
   std::string log_root;
-  std::string group;
+  std::string group, robot;
   std::uint64_t seed = 1;
   bool detach = false, json = false;
 };
@@ -61,7 +64,9 @@ class UpRun {
   UpRun(const UpOptions& options, const std::string& folder, const Deployment& deployment)
       : options_(options),
         lock_(options.log_root),
+        schema_(bus::OwnTypes()),
         start_(clock_.Now()),
+        owner_(deployment, schema_, clock_, [this](const std::string& text) { Say(text); }),
         place_{ThisProgram().program_folder.string(), folder, MakeRunFolder(options), options.seed},
         supervisor_(PlanOf(deployment, place_), place_.run_folder,
                     [this](const std::string& text) { Say(text); }) {}
@@ -69,8 +74,9 @@ class UpRun {
   int Run() {
     bool ready = false;
     Time written{};
-    while (!Signalled()) {
+    while (!Signalled() && !owner_.lost()) {
       const Time now = clock_.Now();
+      owner_.Listen();
       supervisor_.Step(now);
       if (!ready && supervisor_.AllReady()) Say("all processes are ready");
       const bool changed = ready != supervisor_.AllReady();
@@ -79,7 +85,8 @@ class UpRun {
       written = now;
       Write(now);
     }
-    Say("going down");
+    const auto lost = owner_.lost();
+    Say(lost ? "going down: " + *lost : "going down");
     supervisor_.StopAll();
     while (!supervisor_.AllStopped()) {
       supervisor_.Step(clock_.Now());
@@ -88,7 +95,7 @@ class UpRun {
     supervisor_.Step(clock_.Now());
     Write(clock_.Now());
     Say("everything is down");
-    return 0;
+    return lost ? kNotThere : 0;
   }
 
  private:
@@ -105,7 +112,8 @@ class UpRun {
   }
   void Write(Time now) {
     UpState state{options_.deployment,   place_.run_folder,    supervisor_.AllReady(),
-                  Seconds(now - start_), supervisor_.Report(), {}};
+                  Seconds(now - start_), supervisor_.Report(), {},
+                  owner_.alarms()};
     for (const ProcessReport& p : state.processes)
       state.ages_s.push_back(p.since == Time{} ? state.up_s : Seconds(now - p.since));
     WriteUpState(options_.log_root, state);
@@ -114,8 +122,10 @@ class UpRun {
   UpOptions options_;
   bus::SignalWatch signals_;
   UpLock lock_;
+  bus::Schema schema_;
   bus::MonotonicClock clock_;
   Time start_;
+  RobotOwner owner_;
   LaunchPlace place_;
   Supervisor supervisor_;
 };
@@ -130,6 +140,7 @@ int UpNow(const UpOptions& options) {
   const std::string folder = FolderOfDeployment(options.deployment);
   auto deployment = LoadConfig<Deployment>((fs::path(folder) / "deployment.toml").string());
   if (!options.group.empty()) deployment.group = options.group;
+  if (!options.robot.empty()) deployment.robot = options.robot;
   RequireBuses(deployment);
   return UpRun(options, folder, deployment).Run();
 }
@@ -271,6 +282,9 @@ void AddUpCommands(CLI::App& cli, int& exit_code) {
       ->capture_default_str();
   up->add_option("--group", options->group, "only these processes; without it what the deployment says")
       ->check(CLI::IsMember({"all", "onboard", "offboard"}));
+  up->add_option("--robot", options->robot,
+                 "its name, from which its ports follow; without it what the deployment says")
+      ->envname(bus::kRobotVariable);
   up->add_option("--seed", options->seed, "of simulated hardware")->capture_default_str();
   up->add_flag("--detach", options->detach, "return when everything is ready");
   const auto add_json = [options](CLI::App* verb) {

@@ -69,11 +69,9 @@ std::optional<pid_t> UpLock::Holder(const std::string& log_root) {
 }
 
 ordered_json ToJson(const UpState& state) {
-  ordered_json json{{"deployment", state.deployment},
-                    {"folder", state.folder},
-                    {"ready", state.ready},
-                    {"up_s", state.up_s},
-                    {"processes", ordered_json::array()}};
+  ordered_json json{{"deployment", state.deployment}, {"folder", state.folder},
+                    {"ready", state.ready},           {"up_s", state.up_s},
+                    {"alarms", state.alarms},         {"processes", ordered_json::array()}};
   for (std::size_t i = 0; i < state.processes.size(); ++i) {
     const ProcessReport& p = state.processes[i];
     json["processes"].push_back({{"name", p.name},
@@ -101,7 +99,8 @@ std::optional<UpState> ReadUpState(const std::string& log_root) {
   const auto json = ordered_json::parse(in, nullptr, false);
   if (!json.is_object()) return std::nullopt;
   try {
-    UpState state{json.at("deployment"), json.at("folder"), json.at("ready"), json.at("up_s"), {}, {}};
+    UpState state{json.at("deployment"), json.at("folder"), json.at("ready"), json.at("up_s"), {}, {},
+                  json.at("alarms")};
     for (const auto& p : json.at("processes")) {
       ProcessReport report;
       report.name = p.at("name");
@@ -131,6 +130,7 @@ std::string FormatUpState(const UpState& state) {
                         p.pid == 0 ? "-" : std::to_string(p.pid), state.ages_s[i], p.starts,
                         p.alarm ? "ALARM " : "", p.reason);
   }
+  for (const std::string& alarm : state.alarms) text += "  " + alarm + "\n";
   return text;
 }
 

@@ -36,7 +36,8 @@ struct UpState {
   bool ready = false;
   double up_s = 0;
   std::vector<ProcessReport> processes;
-  std::vector<double> ages_s;  ///< how long each is in its state
+  std::vector<double> ages_s;       ///< how long each is in its state
+  std::vector<std::string> alarms;  ///< heard on the buses, newest last
 };
 
 /// As it is written to up.json.

@@ -27,10 +27,20 @@ namespace {
 std::string ShmName(const std::string& name) {
   return "/priamos-" + name;
 }
+
+/// Tells one memory of a name from the next one of the same name; 0 when there is none.
+ino_t InodeOf(const std::string& path) {
+  const int fd = shm_open(path.c_str(), O_RDONLY | O_CLOEXEC, 0);
+  if (fd < 0) return 0;
+  struct stat info {};
+  const bool known = fstat(fd, &info) == 0;
+  close(fd);
+  return known ? info.st_ino : 0;
+}
 }  // namespace
 
-FrameStore::FrameStore(std::string name, void* memory, bool owner)
-    : name_(std::move(name)), memory_(memory), owner_(owner) {}
+FrameStore::FrameStore(std::string name, void* memory, ino_t owned)
+    : name_(std::move(name)), memory_(memory), owned_(owned) {}
 
 FrameStore FrameStore::Create(const std::string& name) {
   const std::string path = ShmName(name);
@@ -44,7 +54,7 @@ FrameStore FrameStore::Create(const std::string& name) {
   const int error = errno;
   close(fd);
   if (memory == MAP_FAILED) throw std::system_error(error, std::generic_category(), "frame store " + path);
-  return FrameStore(name, memory, true);
+  return FrameStore(name, memory, InodeOf(path));
 }
 
 std::optional<FrameStore> FrameStore::Attach(const std::string& name) {
@@ -57,26 +67,26 @@ std::optional<FrameStore> FrameStore::Attach(const std::string& name) {
     memory = mmap(nullptr, bytes, PROT_READ, MAP_SHARED, fd, 0);
   close(fd);
   if (memory == MAP_FAILED) return std::nullopt;
-  return FrameStore(name, memory, false);
+  return FrameStore(name, memory, 0);
 }
 
 FrameStore::FrameStore(FrameStore&& other) noexcept
     : name_(std::move(other.name_)),
       memory_(std::exchange(other.memory_, nullptr)),
-      owner_(std::exchange(other.owner_, false)),
+      owned_(std::exchange(other.owned_, 0)),
       next_(other.next_) {}
 
 FrameStore& FrameStore::operator=(FrameStore&& other) noexcept {
   std::swap(name_, other.name_);
   std::swap(memory_, other.memory_);
-  std::swap(owner_, other.owner_);
+  std::swap(owned_, other.owned_);
   std::swap(next_, other.next_);
   return *this;
 }
 
 FrameStore::~FrameStore() {
   if (memory_) munmap(memory_, sizeof(Slot) * kSlots);
-  if (owner_) shm_unlink(ShmName(name_).c_str());
+  if (owned_ != 0 && InodeOf(ShmName(name_)) == owned_) shm_unlink(ShmName(name_).c_str());
 }
 
 FrameStore::Slot* FrameStore::slot(int index) const {
@@ -86,7 +96,7 @@ FrameStore::Slot* FrameStore::slot(int index) const {
 int FrameStore::Write(std::int32_t frame_id, const GreyImage& image) {
   const bool fits = image.width > 0 && image.height > 0 && image.pixels.size() <= kSlotBytes &&
                     image.pixels.size() == static_cast<std::size_t>(image.width) * image.height;
-  if (!owner_ || !fits)
+  if (owned_ == 0 || !fits)
     throw std::invalid_argument(
         fmt::format("frame store {}: cannot hold {}x{}", name_, image.width, image.height));
   const int index = std::exchange(next_, (next_ + 1) % kSlots);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -22,7 +24,8 @@ class FrameStore {
   static constexpr int kSlots = 8;
   static constexpr std::size_t kSlotBytes = 1 << 20;
 
-  /// Creates the store, replacing one left behind by a dead process; removes it when destroyed.
+  /// Creates the store, replacing one left behind by a dead process; removes it when destroyed, unless
+  /// another has taken its place by then.
   static FrameStore Create(const std::string& name);
   /// Attaches for reading; nullopt while nobody has created it.
   static std::optional<FrameStore> Attach(const std::string& name);
@@ -43,12 +46,12 @@ class FrameStore {
 
  private:
   struct Slot;
-  FrameStore(std::string name, void* memory, bool owner);
+  FrameStore(std::string name, void* memory, ino_t owned);
   Slot* slot(int index) const;
 
   std::string name_;
   void* memory_ = nullptr;
-  bool owner_ = false;
+  ino_t owned_ = 0;  ///< the memory this one has created; 0: attached
   int next_ = 0;
 };
 

@@ -32,6 +32,7 @@ class HeadApp {
   static constexpr bus::OptionAlias kOptions[] = {
       {"--calibrate", "mode", "\"calibrate\"",
        "observe the reference object, write the calibration table, end"}};
+  static constexpr bool kOneOwner = true;
   using Config = HeadConfig;
 
   HeadApp(const HeadConfig& config, bus::Context& context);

@@ -17,6 +17,7 @@ class PlannerApp {
   static constexpr std::string_view kDefaultBus = "offboard";
   static constexpr std::string_view kSummary =
       "The robot's workstation: the building's map, and missions such as passing a door.";
+  static constexpr bool kOneOwner = true;
   using Config = PlannerConfig;
 
   /// Throws ConfigError when the map cannot be used.

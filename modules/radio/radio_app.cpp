@@ -68,8 +68,15 @@ RadioApp::~RadioApp() {
 }
 
 bus::radio::LinkConfig RadioApp::LoadLink() const {
-  if (config_.HasOwnLink()) return config_.own_link;
-  return LoadConfig<bus::radio::LinkConfig>(context_.ResolvePath(config_.link));
+  bus::radio::LinkConfig link = config_.HasOwnLink()
+                                    ? config_.own_link
+                                    : LoadConfig<bus::radio::LinkConfig>(context_.ResolvePath(config_.link));
+  // Who owns what is settled on each bus: an owner beyond the radio is none here.
+  for (const auto& channel : link.channels)
+    if (channel.name == channels::kClaim.name || channel.name == channels::kWheelCommand.name)
+      throw ConfigError(fmt::format("{}: channel: expected one that may cross the radio, got {}",
+                                    context_.ResolvePath(config_.link), channel.name));
+  return link;
 }
 
 std::unique_ptr<ByteStream> RadioApp::OpenLine() const {

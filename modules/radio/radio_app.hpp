@@ -32,6 +32,7 @@ class RadioApp {
        {"--types", "types", "", "folder of .lcm files: carry your own types"},
        {"--onboard", "side", "\"onboard\"", "this is the robot's end"},
        {"--offboard", "side", "\"offboard\"", "this is the workstation's end"}}};
+  static constexpr bool kOneOwner = true;
   using Config = RadioConfig;
 
   /// Throws ConfigError or std::runtime_error with one sentence.

@@ -83,9 +83,14 @@ void RobotApp::Tick(Time now) {
   SendStatus(now);
 }
 
+void RobotApp::Yield(Time now) {
+  if (commands_wheels_) wheel_command_.Publish(ToMessage(WheelSpeeds{}, context_.claimant(), now));
+}
+
 void RobotApp::TakeWheels(Time now) {
   bool moved = false;
   for (const wheel_state_t& message : wheels_.Drain()) {
+    if (bool(message.contested) != contested_) TellContest(message);
     if (!localiser_.AddWheels(FromMessage(message), now)) continue;
     wheels_heard_ = now;
     moved = true;
@@ -225,7 +230,8 @@ void RobotApp::Drive(Time now) {
       link_down_since_ ? std::max(now - *link_down_since_, Duration(1)) : Duration::zero();
   const auto speeds =
       drive_.Step({estimate, localiser_.odometry().pose(), wheels_heard_, head_heard_, link_down}, now);
-  if (speeds) wheel_command_.Publish(ToMessage(*speeds, now));
+  commands_wheels_ = speeds.has_value();
+  if (speeds) wheel_command_.Publish(ToMessage(*speeds, context_.claimant(), now));
   if (estimate) pose_.Publish(ToMessage(*estimate));
   Tell(drive_.state());
 }
@@ -236,6 +242,16 @@ void RobotApp::SendStatus(Time now) {
   const auto estimate = localiser_.estimate();
   const double speed_m_s = estimate ? std::hypot(estimate->twist.vx, estimate->twist.vy) : 0;
   status_.Publish(ToMessage(drive_.state(), speed_m_s, now));
+}
+
+void RobotApp::TellContest(const wheel_state_t& message) {
+  contested_ = message.contested;
+  context_.Log(bus::Level::kWarning,
+               contested_
+                   ? fmt::format("the drive board holds the wheels: another process commands them, too; "
+                                 "{} of its commands were not obeyed",
+                                 message.foreign_commands)
+                   : "the wheels are commanded by one process again");
 }
 
 void RobotApp::Tell(const DriveState& state) {

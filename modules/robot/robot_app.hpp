@@ -18,6 +18,7 @@ class RobotApp {
   static constexpr std::string_view kName = "robot";
   static constexpr std::string_view kSummary =
       "The mobile base: follows paths on four Mecanum wheels, knows its pose, stops before obstacles.";
+  static constexpr bool kOneOwner = true;
   using Config = RobotConfig;
 
   RobotApp(const RobotConfig& config, bus::Context& context);
@@ -28,6 +29,8 @@ class RobotApp {
 
   Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
   void Tick(Time now);
+  /// Another process drives this base: the last command is to stand.
+  void Yield(Time now);
 
  private:
   void TakeWheels(Time now);
@@ -47,12 +50,13 @@ class RobotApp {
   void Drive(Time now);
   void SendStatus(Time now);
   void Tell(const DriveState& state);
+  void TellContest(const wheel_state_t& message);
 
   RobotConfig config_;
   bus::Context& context_;
   LastWordFile last_word_;
   std::string why_latched_;
-  bool running_ = false;
+  bool running_ = false, commands_wheels_ = false, contested_ = false;
   Localiser localiser_;
   DriveController drive_;
 

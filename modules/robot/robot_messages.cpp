@@ -219,9 +219,10 @@ std::optional<LeaseRequest> FromMessage(const lease_request_t& message) {
   return LeaseRequest{{*driver, message.session}, *wish};
 }
 
-wheel_command_t ToMessage(const WheelSpeeds& speeds, Time now) {
+wheel_command_t ToMessage(const WheelSpeeds& speeds, std::int32_t instance, Time now) {
   wheel_command_t message{};
   message.utime = ToUtime(now);
+  message.instance = instance;
   std::copy(speeds.begin(), speeds.end(), std::begin(message.speed_rad_s));
   return message;
 }

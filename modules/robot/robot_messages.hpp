@@ -27,7 +27,8 @@ struct LeaseRequest {
 };
 std::optional<LeaseRequest> FromMessage(const lease_request_t& message);
 
-wheel_command_t ToMessage(const WheelSpeeds& speeds, Time now);
+/// `instance` names the process that commands.
+wheel_command_t ToMessage(const WheelSpeeds& speeds, std::int32_t instance, Time now);
 odometry_t ToMessage(const Odometry& odometry);
 pose_t ToMessage(const PoseEstimate& estimate);
 drive_status_t ToMessage(const DriveState& state, double speed_m_s, Time now);

@@ -29,7 +29,7 @@ WorldApp::WorldApp(const WorldConfig& config, bus::Context& context)
       executor_(MakeExecutor(config)),
       cameras_(config.robot.camera, world_.plan.camera_light, *executor_, context.seed()),
       simulation_(config.robot, world_.solids, world_.start.truth, cameras_, context.seed()),
-      wheel_commands_(context.node().Subscribe(channels::kWheelCommand)),
+      wheel_commands_(context.node().SubscribeAll(channels::kWheelCommand)),
       head_commands_(context.node().SubscribeAll(channels::kHeadCommand)),
       triggers_(context.node().SubscribeAll(channels::kCameraTrigger)),
       wheels_(context.node().Advertise(channels::kWheelState)),
@@ -64,7 +64,10 @@ void WorldApp::Tick(Time now) {
 }
 
 void WorldApp::PublishSamples() {
-  if (const auto wheels = simulation_.TakeWheels()) wheels_.Publish(ToMessage(*wheels));
+  if (const auto wheels = simulation_.TakeWheels()) {
+    TellContest(wheels->reading);
+    wheels_.Publish(ToMessage(*wheels));
+  }
   if (const auto head = simulation_.TakeHead()) head_.Publish(ToMessage(*head));
   if (const auto sonars = simulation_.TakeSonars()) sonars_.Publish(ToMessage(*sonars));
   if (const auto truth = simulation_.TakeTruth()) truth_.Publish(ToMessage(*truth));
@@ -81,12 +84,22 @@ void WorldApp::PublishFrames(Time now) {
   }
 }
 
-void WorldApp::TakeCommands(Time now) {
-  const Duration age = wheel_commands_.Age(now);
-  if (const auto command = wheel_commands_.Take()) {
-    if (!simulation_.CommandWheels(now - age, FromMessage(*command)))
+void WorldApp::TellContest(const WheelReading& reading) {
+  if (reading.contested && !told_contest_)
+    context_.Log(bus::Level::kWarning,
+                 "two processes command the wheels: they are held, and neither is obeyed");
+  told_contest_ = reading.contested;
+}
+
+/// All of them: who commands beside another must not be hidden by it.
+void WorldApp::TakeWheelCommands() {
+  for (const auto& [arrival, command] : wheel_commands_.DrainWithArrival())
+    if (!simulation_.CommandWheels(arrival, command.instance, FromMessage(command)))
       context_.Log(bus::Level::kWarning, "wheel command refused: not a number");
-  }
+}
+
+void WorldApp::TakeCommands(Time now) {
+  TakeWheelCommands();
   for (const auto& command : head_commands_.Drain())
     if (!simulation_.CommandHead(FromMessage(command)))
       context_.Log(bus::Level::kWarning, "head command refused: not a number");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -20,6 +21,10 @@ class WorldApp {
   static constexpr std::string_view kSummary =
       "Stands in for the hardware: wheels, sonars, KASTOR's motors and cameras, in a simulated building.";
   static constexpr bus::OptionAlias kOptions[] = {{"--world", "world", "", "world file to simulate"}};
+  static constexpr bool kOneOwner = true;
+  /// Of devices; where their drivers speak nothing may stand in for them.
+  static constexpr std::array kSpeaksAlone{channels::kWheelState.name, channels::kSonarRanges.name,
+                                           channels::kHeadState.name, channels::kCameraFrame.name};
   using Config = WorldConfig;
 
   /// Throws ConfigError when the world cannot be used, std::runtime_error without off-screen OpenGL or shared
@@ -33,6 +38,8 @@ class WorldApp {
   void PublishSamples();
   void PublishFrames(Time now);
   void TakeCommands(Time now);
+  void TakeWheelCommands();
+  void TellContest(const WheelReading& reading);
   std::unique_ptr<RenderExecutor> MakeExecutor(const WorldConfig& config) const;
 
   bus::Context& context_;
@@ -42,7 +49,7 @@ class WorldApp {
   CameraServer cameras_;
   Simulation simulation_;
 
-  bus::Latest<wheel_command_t> wheel_commands_;
+  bus::Inbox<wheel_command_t> wheel_commands_;
   bus::Inbox<head_command_t> head_commands_;
   bus::Inbox<camera_trigger_t> triggers_;
   bus::Publisher<wheel_state_t> wheels_;
@@ -50,6 +57,7 @@ class WorldApp {
   bus::Publisher<head_state_t> head_;
   bus::Publisher<camera_frame_t> frames_;
   bus::Publisher<world_truth_t> truth_;
+  bool told_contest_ = false;
 };
 
 /// What draws this world; it holds the renderer. To be called in the thread that will draw.

@@ -38,9 +38,10 @@ PerWheel FromMessage(const wheel_command_t& message) {
   return speed;
 }
 
-wheel_command_t ToMessage(const PerWheel& speed_rad_s, Time now) {
+wheel_command_t ToMessage(const PerWheel& speed_rad_s, Time now, std::int32_t instance) {
   wheel_command_t message;
   message.utime = ToUtime(now);
+  message.instance = instance;
   std::copy_n(speed_rad_s.begin(), 4, message.speed_rad_s);
   return message;
 }
@@ -61,6 +62,9 @@ wheel_state_t ToMessage(const WheelSample& sample) {
   message.utime = ToUtime(sample.time);
   std::copy_n(sample.reading.position_ticks.begin(), 4, message.position_ticks);
   message.deadline_stopped = sample.reading.deadline_stopped;
+  message.contested = sample.reading.contested;
+  message.instance = sample.reading.instance;
+  message.foreign_commands = sample.reading.foreign_commands;
   return message;
 }
 
@@ -69,6 +73,9 @@ WheelSample FromMessage(const wheel_state_t& message) {
   sample.time = FromUtime(message.utime);
   std::copy_n(message.position_ticks, 4, sample.reading.position_ticks.begin());
   sample.reading.deadline_stopped = message.deadline_stopped != 0;
+  sample.reading.contested = message.contested != 0;
+  sample.reading.instance = message.instance;
+  sample.reading.foreign_commands = message.foreign_commands;
   return sample;
 }
 

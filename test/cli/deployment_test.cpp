@@ -42,6 +42,7 @@ TEST(Deployment, PlanNamesProgramConfigurationBusAndSeed) {
   EXPECT_EQ(robot.arguments[0], "/opt/bin/priamos-robot");
   EXPECT_THAT(robot.arguments, Contains(kPlace.config_folder + "/robot.toml"));
   EXPECT_THAT(robot.arguments, Contains("7"));
+  EXPECT_THAT(robot.arguments, Contains("priamos")) << "whose robot it is";
   EXPECT_THAT(robot.after, Contains("onboard-world"));
 }
 

@@ -60,5 +60,12 @@ TEST(FrameStore, SecondCreatorReplacesAStoreLeftByADeadProcess) {
   EXPECT_TRUE(reader->Read(slot, 5));
 }
 
+TEST(FrameStore, OneThatWasReplacedDoesNotRemoveItsSuccessor) {
+  std::optional<FrameStore> replaced = FrameStore::Create(Name());
+  auto dut = FrameStore::Create(Name());
+  replaced.reset();
+  EXPECT_TRUE(FrameStore::Attach(Name()));
+}
+
 }  // namespace
 }  // namespace priamos

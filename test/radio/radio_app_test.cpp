@@ -277,6 +277,12 @@ TEST(RadioAppStart, RefusesALinkThatCannotHold) {
               HasSubstr("deadline_s"));
 }
 
+TEST(RadioAppStart, RefusesWhatMustNeverCrossTheRadio) {
+  for (const char* channel : {"name='CLAIM'\ntype='claim_t'", "name='WHEEL_COMMAND'\ntype='wheel_command_t'"})
+    EXPECT_THAT(StartError("port = 'a'", std::string("simulation_key=true\n[[channel]]\n") + channel),
+                HasSubstr("expected one that may cross the radio"));
+}
+
 TEST(RadioAppStart, RefusesAMissingKey) {
   EXPECT_THAT(StartError("port = 'a'", "[[channel]]\nname='POSE'\ntype='pose_t'"),
               HasSubstr("priamos link keygen"));

@@ -121,6 +121,7 @@ struct Onboard {
   std::vector<std::string> log;
   bus::Context context{node, [this] {
                          bus::Surroundings around;
+                         around.claimant = 77;
                          around.log = [this](bus::Level, std::string_view text) { log.emplace_back(text); };
                          return around;
                        }()};
@@ -169,6 +170,38 @@ TEST(RobotApp, DrivesAPathAndReportsIt) {
   robot.Run(10);
   EXPECT_EQ(robot.last_status.mode, drive_status_t::ARRIVED);
   EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+}
+
+TEST(RobotApp, YieldingItCommandsItsWheelsToStandAndNobodyElses) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.dut.Yield(robot.clock.Now());
+  robot.bus.Drain();
+  EXPECT_FALSE(robot.command.Take()) << "it has never commanded them";
+  robot.SendPath(4, 3);
+  robot.Run(1);
+  EXPECT_NE(robot.last_command->speed_rad_s[0], 0);
+  EXPECT_EQ(robot.last_command->instance, 77);
+  robot.dut.Yield(robot.clock.Now());
+  robot.bus.Drain();
+  const auto last = robot.command.Take();
+  ASSERT_TRUE(last);
+  EXPECT_THAT(last->speed_rad_s, Each(0.0));
+  EXPECT_EQ(last->instance, 77);
+}
+
+TEST(RobotApp, SaysThatTheBoardHoldsTheWheelsBecauseOfAnother) {
+  Onboard robot;
+  robot.Run(0.2);
+  wheel_state_t message{};
+  message.utime = ToUtime(robot.clock.Now());
+  message.contested = 1;
+  message.foreign_commands = 3;
+  robot.wheels.Publish(message);
+  robot.Step();
+  EXPECT_THAT(robot.log, Contains(HasSubstr("another process commands them, too; 3 of its commands")));
+  robot.Run(0.1);
+  EXPECT_THAT(robot.log, Contains(HasSubstr("by one process again")));
 }
 
 TEST(RobotApp, AnswersAFixAndMovesItsPose) {

@@ -56,7 +56,8 @@ TEST(WheelMessages, StateKeepsOrderAndTime) {
 }
 
 TEST(WheelMessages, CommandKeepsOrderAndTime) {
-  const wheel_command_t message = ToMessage(WheelSpeeds{1, 2, 3, 4}, kNow);
+  const wheel_command_t message = ToMessage(WheelSpeeds{1, 2, 3, 4}, 77, kNow);
+  EXPECT_EQ(message.instance, 77);
   EXPECT_EQ(message.utime, ToUtime(kNow));
   EXPECT_THAT(message.speed_rad_s, testing::ElementsAre(1, 2, 3, 4));
 }

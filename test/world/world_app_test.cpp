@@ -108,6 +108,22 @@ TEST(WorldAppTest, DrivesOnCommandAndStopsInSilence) {
   EXPECT_EQ(s.truths.Drain().back().vx_m_s, 0);
 }
 
+TEST(WorldAppTest, ObeysNeitherOfTwoThatCommandInTheSameTick) {
+  Stage s;
+  const PerWheel forward{3, 3, 3, 3}, backward{-3, -3, -3, -3};
+  for (int i = 0; i < 100; ++i) {
+    s.commands.Publish(ToMessage(forward, s.clock.Now(), 1));
+    s.commands.Publish(ToMessage(backward, s.clock.Now(), 2));
+    s.Run(0.02);
+  }
+  EXPECT_EQ(s.truths.Drain().back().vx_m_s, 0);
+  const wheel_state_t state = s.wheels.Drain().back();
+  EXPECT_TRUE(state.contested);
+  EXPECT_EQ(state.instance, 1);
+  EXPECT_NEAR(state.foreign_commands, 100, 2);
+  EXPECT_THAT(s.log, ::testing::Contains(::testing::HasSubstr("two processes command the wheels")));
+}
+
 TEST(WorldAppTest, MovesTheHead) {
   Stage s;
   s.head_commands.Publish(ToMessage(HeadSetting{0.1745, 0, {0, 0}, {650, 650}, {1600, 1600}}, s.clock.Now()));

@@ -31,11 +31,14 @@ TEST(WorldMessagesTest, HeadCommandKeepsEveryAxis) {
 }
 
 TEST(WorldMessagesTest, WheelState) {
-  const WheelSample sample{kNow, {{1, -2, 2147483647, -2147483647}, true}};
+  const WheelSample sample{kNow, {{1, -2, 2147483647, -2147483647}, true, true, -9, 12}};
   const WheelSample dut = FromMessage(Sent(ToMessage(sample)));
   EXPECT_EQ(dut.time, kNow);
   EXPECT_EQ(dut.reading.position_ticks, sample.reading.position_ticks);
   EXPECT_TRUE(dut.reading.deadline_stopped);
+  EXPECT_TRUE(dut.reading.contested);
+  EXPECT_EQ(dut.reading.instance, -9);
+  EXPECT_EQ(dut.reading.foreign_commands, 12);
 }
 
 TEST(WorldMessagesTest, SonarRanges) {

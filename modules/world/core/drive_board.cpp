@@ -17,12 +17,19 @@ void DriveBoardConfig::Describe(Archive& a) {
   a.Number("encoder_noise_ticks", encoder_noise_ticks, {"tick", 0, 50, "standard deviation of one reading"});
 }
 
-bool DriveBoard::Command(Time arrival, const PerWheel& speed_rad_s) {
+bool DriveBoard::Command(Time arrival, std::int32_t instance, const PerWheel& speed_rad_s) {
   if (!std::all_of(speed_rad_s.begin(), speed_rad_s.end(), [](double s) { return std::isfinite(s); }))
     return false;
+  if (instance != instance_ && !Silent(arrival)) {
+    last_foreign_ = arrival;
+    ++foreign_commands_;
+    return true;
+  }
+  if (instance != instance_) last_foreign_.reset();  // it commands alone now
+  instance_ = instance;
+  last_command_ = arrival;
   for (std::size_t i = 0; i < 4; ++i)
     set_rad_s_[i] = std::clamp(speed_rad_s[i], -config_.max_speed_rad_s, config_.max_speed_rad_s);
-  last_command_ = arrival;
   return true;
 }
 
@@ -30,13 +37,23 @@ bool DriveBoard::Silent(Time now) const {
   return !last_command_ || now - *last_command_ >= FromSeconds(config_.deadline_s);
 }
 
+bool DriveBoard::Stands() const {
+  return speed_rad_s_ == PerWheel{};
+}
+
+bool DriveBoard::Contested(Time now) const {
+  return last_foreign_ && now - *last_foreign_ < FromSeconds(config_.deadline_s);
+}
+
 void DriveBoard::Step(Time now, Duration step) {
   deadline_stopped_ = Silent(now);
+  contested_ = Contested(now) || (contested_ && !Stands());
+  const bool held = deadline_stopped_ || contested_;
   const double dt = Seconds(step);
-  const double change = dt * (deadline_stopped_ ? config_.braking_rad_s2 : config_.acceleration_rad_s2);
+  const double change = dt * (held ? config_.braking_rad_s2 : config_.acceleration_rad_s2);
   const double follow = 1 - std::exp(-dt / config_.lag_s);
   for (std::size_t i = 0; i < 4; ++i) {
-    const double target = deadline_stopped_ ? 0 : set_rad_s_[i];
+    const double target = held ? 0 : set_rad_s_[i];
     ramp_rad_s_[i] += std::clamp(target - ramp_rad_s_[i], -change, change);
     const double before = speed_rad_s_[i];
     speed_rad_s_[i] += follow * (ramp_rad_s_[i] - before);
@@ -55,6 +72,9 @@ WheelReading DriveBoard::Read() {
     reading.position_ticks[i] = static_cast<std::int32_t>(static_cast<std::int64_t>(std::floor(ticks)));
   }
   reading.deadline_stopped = deadline_stopped_;
+  reading.contested = contested_;
+  reading.instance = instance_;
+  reading.foreign_commands = foreign_commands_;
   return reading;
 }
 

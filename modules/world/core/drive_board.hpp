@@ -29,19 +29,26 @@ struct DriveBoardConfig {
 /// What the encoders say.
 struct WheelReading {
   std::array<std::int32_t, 4> position_ticks{};  ///< since power-on, wraps around
-  bool deadline_stopped = true;
+  bool deadline_stopped = true;                  ///< held: no command came for the deadline
+  bool contested = false;                        ///< held: commands of two instances came within it
+  std::int32_t instance = 0;                     ///< whose commands it took last; 0 before the first
+  std::int32_t foreign_commands = 0;             ///< of others, not obeyed
 };
 
 /// Four wheel drives: the set value runs along a ramp, the wheel follows the ramp with a first-order lag.
 /// Before the first command, and when none came for the deadline, the set value is 0 and the ramp steeper:
 /// this is the board's own safety, independent of everything that sends commands.
+///
+/// It obeys one instance at a time, and only while that one commands alone. A command of another one is
+/// counted, not obeyed, and holds the wheels for the deadline, and until they stand; only when the first one
+/// has been silent for the deadline, the other takes its place.
 class DriveBoard {
  public:
   DriveBoard(const DriveBoardConfig& config, Rng rng) : config_(config), rng_(rng) {}
 
   /// A command arrived. Speeds beyond the limit are clamped. A command that is not finite is refused as a
-  /// whole and does not feed the deadline; returns whether it was taken.
-  bool Command(Time arrival, const PerWheel& speed_rad_s);
+  /// whole and does not feed the deadline; returns false for that one. `instance` names who commands.
+  bool Command(Time arrival, std::int32_t instance, const PerWheel& speed_rad_s);
   /// Advances by one physics step that ends at `now`.
   void Step(Time now, Duration step);
 
@@ -51,12 +58,15 @@ class DriveBoard {
 
  private:
   bool Silent(Time now) const;
+  bool Stands() const;
+  bool Contested(Time now) const;
 
   DriveBoardConfig config_;
   Rng rng_;
-  std::optional<Time> last_command_;
+  std::optional<Time> last_command_, last_foreign_;
+  std::int32_t instance_ = 0, foreign_commands_ = 0;
   PerWheel set_rad_s_{}, ramp_rad_s_{}, speed_rad_s_{}, turned_rad_{};
-  bool deadline_stopped_ = true;
+  bool deadline_stopped_ = true, contested_ = false;
 };
 
 }  // namespace priamos::world

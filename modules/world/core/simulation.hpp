@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -71,7 +72,9 @@ class Simulation {
   Simulation(const RobotModel& model, const std::vector<Solid>& solids, const Pose2& start,
              CameraServer& cameras, std::uint64_t seed);
 
-  bool CommandWheels(Time now, const PerWheel& speed_rad_s) { return drive_.Command(now, speed_rad_s); }
+  bool CommandWheels(Time now, std::int32_t instance, const PerWheel& speed_rad_s) {
+    return drive_.Command(now, instance, speed_rad_s);
+  }
   bool CommandHead(const HeadSetting& setting) { return motors_.Command(setting); }
   bool Trigger(Time now, std::int32_t frame_id, int cameras) {
     return cameras_.Trigger(now, frame_id, cameras);

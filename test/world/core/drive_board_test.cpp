@@ -11,12 +11,13 @@ namespace priamos::world {
 namespace {
 
 constexpr Duration kStep{2500};
+constexpr std::int32_t kRobot = 17, kSecond = -4;
 
 /// Runs `dut` for `seconds`, repeating the command every 20 ms while `commanded`.
 Time Elapse(DriveBoard& dut, Time now, double seconds, const PerWheel* commanded) {
   const int steps = static_cast<int>(std::lround(seconds / Seconds(kStep)));
   for (int i = 0; i < steps; ++i) {
-    if (commanded && i % 8 == 0) dut.Command(now, *commanded);
+    if (commanded && i % 8 == 0) dut.Command(now, kRobot, *commanded);
     now += kStep;
     dut.Step(now, kStep);
   }
@@ -41,7 +42,7 @@ TEST_F(DriveBoardTest, SpeedNeverOutrunsTheRamp) {
   Time now = start_;
   double before = 0;
   for (int i = 0; i < 100; ++i) {
-    dut_.Command(now, forward_);
+    dut_.Command(now, kRobot, forward_);
     now += kStep;
     dut_.Step(now, kStep);
     EXPECT_LE(dut_.speed_rad_s()[0] - before, config_.acceleration_rad_s2 * Seconds(kStep) + 1e-9);
@@ -94,7 +95,7 @@ TEST_F(DriveBoardTest, ACommandThatIsNotFiniteDoesNotFeedTheDeadline) {
   Time now = Elapse(dut_, start_, 1, &forward_);
   const PerWheel bad{5, std::numeric_limits<double>::quiet_NaN(), 5, 5};
   for (int i = 0; i < 100; ++i) {
-    EXPECT_FALSE(dut_.Command(now, bad));
+    EXPECT_FALSE(dut_.Command(now, kRobot, bad));
     now += kStep;
     dut_.Step(now, kStep);
   }
@@ -122,6 +123,80 @@ TEST_F(DriveBoardTest, EncodersJitterWhileTurningAndAreQuietAtRest) {
   EXPECT_LE(spread(), 8);
   Elapse(dut_, now, 2, nullptr);
   EXPECT_EQ(spread(), 0);
+}
+
+// ---- Two that command.
+
+/// The robot goes on, and `second` commands beside it, 10 ms later each time.
+Time ElapseWithTwo(DriveBoard& dut, Time now, double seconds, const PerWheel& robot, const PerWheel& second) {
+  const int steps = static_cast<int>(std::lround(seconds / Seconds(kStep)));
+  for (int i = 0; i < steps; ++i) {
+    if (i % 8 == 0) dut.Command(now, kRobot, robot);
+    if (i % 8 == 4) dut.Command(now, kSecond, second);
+    now += kStep;
+    dut.Step(now, kStep);
+  }
+  return now;
+}
+
+TEST_F(DriveBoardTest, ObeysNeitherOfTwoAndBrakes) {
+  Time now = Elapse(dut_, start_, 1, &forward_);
+  const PerWheel backward{-5, -5, -5, -5};
+  const double travelled = 5.0 / 30 + 6 * config_.lag_s;
+  now = ElapseWithTwo(dut_, now, travelled, forward_, backward);
+  EXPECT_LT(std::abs(dut_.speed_rad_s()[0]), 0.05);
+  now = ElapseWithTwo(dut_, now, 1, forward_, backward);
+  EXPECT_EQ(dut_.speed_rad_s(), PerWheel{});
+  const WheelReading reading = dut_.Read();
+  EXPECT_TRUE(reading.contested);
+  EXPECT_FALSE(reading.deadline_stopped);
+  EXPECT_EQ(reading.instance, kRobot);
+  EXPECT_EQ(reading.foreign_commands, std::lround((travelled + 1) / 0.02));
+}
+
+TEST_F(DriveBoardTest, ObeysTheFirstAgainWhenTheSecondIsSilentAndTheWheelsHaveStood) {
+  Time now = Elapse(dut_, start_, 1, &forward_);
+  dut_.Command(now, kSecond, {-5, -5, -5, -5});
+  while (dut_.speed_rad_s() != PerWheel{}) {
+    now = Elapse(dut_, now, 0.02, &forward_);
+    EXPECT_TRUE(dut_.Read().contested);
+    ASSERT_LT(now, start_ + std::chrono::seconds(2)) << "they never stand";
+  }
+  now = Elapse(dut_, now, 0.02, &forward_);
+  EXPECT_FALSE(dut_.Read().contested);
+  Elapse(dut_, now, 1, &forward_);
+  EXPECT_NEAR(dut_.speed_rad_s()[0], 5, 0.01);
+}
+
+TEST_F(DriveBoardTest, HoldsStandingWheelsForTheDeadline) {
+  const PerWheel standing{};
+  Time now = Elapse(dut_, start_, 1, &standing);
+  dut_.Command(now, kSecond, forward_);
+  now = Elapse(dut_, now, 0.195, &forward_);
+  EXPECT_TRUE(dut_.Read().contested);
+  EXPECT_EQ(dut_.speed_rad_s(), standing);
+  now = Elapse(dut_, now, 0.01, &forward_);
+  EXPECT_FALSE(dut_.Read().contested);
+}
+
+TEST_F(DriveBoardTest, TheSecondFollowsTheFirstNoSoonerThanAfterTheDeadline) {
+  Time now = Elapse(dut_, start_, 1, &forward_);  // the last command is 20 ms old
+  const PerWheel backward{-5, -5, -5, -5};
+  const Time last = now - Duration(20'000);
+  while (dut_.Read().instance == kRobot) {
+    dut_.Command(now, kSecond, backward);
+    now += kStep;
+    dut_.Step(now, kStep);
+    EXPECT_GE(dut_.speed_rad_s()[0], 0) << "the second is not obeyed yet";
+  }
+  EXPECT_NEAR(Seconds(now - last), config_.deadline_s, 0.006);
+  for (int i = 0; i < 400; ++i) {
+    dut_.Command(now, kSecond, backward);
+    now += kStep;
+    dut_.Step(now, kStep);
+  }
+  EXPECT_NEAR(dut_.speed_rad_s()[0], -5, 0.01);
+  EXPECT_FALSE(dut_.Read().contested);
 }
 
 }  // namespace

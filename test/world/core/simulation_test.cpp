@@ -30,7 +30,7 @@ class SimulationTest : public ::testing::Test {
   Truth Run(double seconds, const PerWheel* wheels = nullptr) {
     std::optional<Truth> last;
     for (int i = 0; i < seconds / Seconds(kTick); ++i) {
-      if (wheels && i % 2 == 0) dut_->CommandWheels(now_, *wheels);
+      if (wheels && i % 2 == 0) dut_->CommandWheels(now_, 1, *wheels);
       now_ += kTick;
       EXPECT_EQ(dut_->Advance(now_), Duration(0));
       if (auto truth = dut_->TakeTruth()) last = truth;

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/time.hpp"
+
+namespace priamos::bus {
+
+/// A process that wants, or has, one role of one robot on one bus.
+struct Claimant {
+  std::string robot, role;
+  std::int32_t instance = 0;  ///< drawn at random when the process starts
+  std::string host;
+  int pid = 0;
+};
+
+/// What a claimant says of itself.
+struct ClaimWord {
+  Claimant who;
+  bool holds = false;  ///< has the role; otherwise asks for it
+  Duration age{};      ///< since it asked, by its own monotonic clock; frozen while it hears a rival
+};
+
+/// The claim of one process as a state machine: asks, and when nobody better answers holds the role and says
+/// so five times a second. Time is an argument; it is this process's own monotonic clock, and nothing of
+/// another clock is ever compared but durations.
+///
+/// Two that meet compare what they say: who holds goes before who asks, then the greater age, then the
+/// greater instance. The lesser one gives up: refused while it asked, yielded while it held. What a claimant
+/// says of itself never grows less, so whoever gives up leaves a better one behind: there is always a
+/// survivor. An age stands still from the first word of a rival on, so that both compare the same two numbers
+/// however long the words are on their way: there is only one survivor.
+///
+/// The last word of one that has just been killed may still be on its way: who asks gives up only when a
+/// holder is heard again kConfirm later, and asks on until nothing was heard of it for kAskFor.
+///
+/// A process that stood still for kLapse may have lost its role to somebody who asked meanwhile: it begins
+/// anew at age 0, and what waits to be heard by then is not to be told to it (see Touch).
+class Claim {
+ public:
+  enum class State { kAsking, kHeld, kRefused, kYielded };
+
+  static constexpr Duration kAskFor{200'000};
+  static constexpr Duration kAskAgain{40'000};
+  static constexpr Duration kConfirm{20'000};
+  static constexpr Duration kAnnounce{200'000};
+  static constexpr Duration kLapse{1'000'000};
+  /// A rival that is silent for so long is gone, and the age runs on.
+  static constexpr Duration kForget{2'000'000};
+  /// Answers to others come no faster than this.
+  static constexpr Duration kAnswer{10'000};
+
+  /// Asks from `now` on, for `ask_for`.
+  Claim(Claimant self, Time now, Duration ask_for = kAskFor);
+
+  /// To be called whenever the process runs, before anything is heard. Returns true when it stood still for
+  /// kLapse: everything that came meanwhile is out of date and has to be thrown away.
+  bool Touch(Time now);
+  /// Somebody's word; the process's own comes back from the bus and is not counted.
+  void Hear(const ClaimWord& word, Time now);
+  /// What is to be said now, if anything; asking ends here.
+  std::optional<ClaimWord> Step(Time now);
+  /// When Step has something to do next, unless something is heard before.
+  Time next_step() const { return say_at_; }
+
+  State state() const { return state_; }
+  const Claimant& self() const { return self_; }
+  /// Who refused it, or made it yield.
+  const std::optional<ClaimWord>& winner() const { return winner_; }
+  /// One that held the same role and has to yield; told once for each.
+  std::optional<ClaimWord> TakeLoser();
+
+ private:
+  bool IsRival(const Claimant& other) const;
+  bool Outranks(const ClaimWord& word, Time now) const;
+  Duration Age(Time now) const;
+  bool IsConfirmed(Time now);
+  void Meet(const ClaimWord& word, Time now);
+  ClaimWord Word(Time now) const;
+
+  Claimant self_;
+  Duration ask_for_;
+  State state_ = State::kAsking;
+  Time begin_, ask_until_, active_, say_at_;
+  std::optional<Time> said_, rival_heard_, holder_heard_;
+  Duration frozen_{};  ///< age while a rival is heard
+  std::optional<ClaimWord> winner_, loser_;
+  std::optional<std::int32_t> told_loser_;
+};
+
+}  // namespace priamos::bus
