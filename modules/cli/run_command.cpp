@@ -233,19 +233,10 @@ int Run(RunOptions options) {
   if (options.json) std::cout << ToJson(summary).dump() << std::endl;
   if (!run.recorder().good())
     People(options) << "a log is incomplete: the disk is full or cannot be written\n";
-  if (!summary.passed)
-    People(options) << "not passed: " << summary.reason
-                    << "
-                       ";
-                People(options)
-                    << "logs and report: "
-                    << ShownFrom(std::filesystem::current_path(), run.folder() / "report.html")
-                    << "
-                       ";
-                return whole &&
-            summary.passed && summary.contacts == 0
-        ? 0
-        : 1;
+  if (!summary.passed) People(options) << "not passed: " << summary.reason << "\n";
+  People(options) << "logs and report: "
+                  << ShownFrom(std::filesystem::current_path(), run.folder() / "report.html") << "\n";
+  return whole && summary.passed && summary.contacts == 0 ? 0 : 1;
 }
 
 }  // namespace
