@@ -127,7 +127,7 @@ class ReadmeRun : public ::testing::TestWithParam<ReadmeBlock> {};
 TEST_P(ReadmeRun, EveryCommandOfTheBlockWorks) {
   const std::string script = ScriptOf(GetParam());
   const auto commands = static_cast<std::size_t>(std::count(script.begin(), script.end(), '\n'));
-  const std::string text = commands == 0 ? "" : RunBlock(GetParam(), 280);
+  const std::string text = commands == 0 ? "" : RunBlock(GetParam(), 800);
   EXPECT_THAT(Complaints(text, commands), IsEmpty()) << text;
 }
 
