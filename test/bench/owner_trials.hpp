@@ -21,7 +21,7 @@ struct OwnerTrial {
 struct OwnerKind {
   std::string name, what;
   OwnerTrial (*run)(OwnerRig& rig, int trial);
-  bool meets;  ///< both command the wheels, so the board must notice
+  bool meets;  ///< both command: it proves nothing when the board never heard the two
 };
 
 const std::vector<OwnerKind>& OwnerKinds();
