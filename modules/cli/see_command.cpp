@@ -39,14 +39,8 @@ void AddSeeCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--out", options->folder, "folder for the drawings")
       ->capture_default_str()
       ->check(CLI::ExistingDirectory);
-  auto* json =
-      verb->add_option("--json", options->json,
-                       "segments, corners, outlines and matches into that file, or to standard output");
-  json->expected(0, 1);
-  verb->callback([options, json, &exit_code] {
-    if (json->count() > 0 && options->json.empty()) options->json = head::kStandardOutput;
-    exit_code = head::See(*options) ? 0 : 1;
-  });
+  verb->add_option("--json", options->json, "write segments, corners, outlines and matches there");
+  verb->callback([options, &exit_code] { exit_code = head::See(*options) ? 0 : 1; });
 }
 
 }  // namespace priamos::cli

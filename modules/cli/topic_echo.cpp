@@ -108,9 +108,9 @@ void AddTopicEchoVerb(CLI::App& topic, int& exit_code) {
       topic.add_subcommand("echo", "Print the messages of one channel, or some of their fields, as JSON.");
   verb->footer(
       "Examples: priamos topic echo POSE --count 1\n          priamos topic echo POSE x_m y_m\n"
-      "          priamos topic echo SONAR_RANGES ranges_m[3] --bus onboard");
+      "          priamos topic echo SONAR_RANGES range_m[3] --bus onboard");
   verb->add_option("channel", options->channel, "LCM channel")->required();
-  verb->add_option("field", options->fields, "only these fields, e.g. x_m, ranges_m[3], channels[0].bytes");
+  verb->add_option("field", options->fields, "only these fields, e.g. x_m, range_m[3], channels[0].bytes");
   AddBusOption(*verb, *options);
   AddTypesOption(*verb, *options);
   verb->add_option("--count", options->count, "stop after so many messages; 0: at Ctrl-C")

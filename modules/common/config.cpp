@@ -14,6 +14,7 @@
 namespace priamos {
 namespace {
 
+constexpr std::size_t kMostKeys = 4;  ///< as an answer to a wrong one
 /// Stands for the file in what `--set` gave; no file is called so.
 constexpr std::string_view kSetName = "--set ";
 
@@ -166,14 +167,20 @@ class ConfigFile::Reader : public Archive {
                                   expected, Shown(node), hint));
   }
 
-  /// A key that resembles `path`; else one in another section that is called the same.
+  /// A key called the same in another section, else one that resembles `path`, else one elsewhere that is
+  /// called nearly the same.
   std::string NearestKeys(const std::string& path) const {
-    std::vector<std::string> namesakes;
-    const auto name = path.substr(path.rfind('.') + 1);
-    std::copy_if(known_.begin(), known_.end(), std::back_inserter(namesakes),
-                 [&](const std::string& key) { return key.substr(key.rfind('.') + 1) == name; });
-    if (namesakes.empty()) return NearestText(path, known_);
-    return fmt::format("; nearest: \"{}\"", fmt::join(namesakes, "\" or \""));
+    const auto name_of = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+    std::vector<std::string> names, keys;
+    for (const std::string& key : known_) names.push_back(name_of(key));
+    const auto near = NearestWords(name_of(path), names);
+    for (const std::string& key : known_)
+      if (std::find(near.begin(), near.end(), name_of(key)) != near.end()) keys.push_back(key);
+    const bool same_name = near == std::vector{name_of(path)};
+    const auto alike = same_name ? std::vector<std::string>{} : NearestWords(path, known_);
+    if (!alike.empty()) keys = alike;
+    if (keys.size() > kMostKeys) keys.resize(kMostKeys);
+    return keys.empty() ? "" : fmt::format("; nearest: \"{}\"", fmt::join(keys, "\" or \""));
   }
 
   void RefuseUnknown(const toml::table& table, const std::string& prefix) const {

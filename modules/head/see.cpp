@@ -85,11 +85,6 @@ std::vector<CameraModel> Cameras(const SeeOptions& options, const std::vector<Ph
   return cameras;
 }
 
-/// What a person reads; standard output belongs to the JSON when it goes there.
-std::ostream& Text(const SeeOptions& options) {
-  return options.json == kStandardOutput ? std::cerr : std::cout;
-}
-
 nlohmann::ordered_json SeeEach(const SeeOptions& options, const std::vector<Photograph>& photographs) {
   auto all = nlohmann::ordered_json::array();
   for (const Photograph& p : photographs) {
@@ -97,12 +92,12 @@ nlohmann::ordered_json SeeEach(const SeeOptions& options, const std::vector<Phot
     const auto is_parallelogram = [](const Polygon& q) { return q.is_parallelogram; };
     const std::string drawing = DrawingFile(options, p.file, "edges");
     Write(drawing, DrawContours(p.grey, p.edges, contours));
-    Text(options) << fmt::format("{}: {} segments, {} corners, {} parallelograms, drawn in {}\n", p.file,
-                                 p.edges.segments.size(), contours.corners().size(),
-                                 std::ranges::count_if(contours.polygons(), is_parallelogram), drawing);
+    std::cout << fmt::format("{}: {} segments, {} corners, {} parallelograms, drawn in {}\n", p.file,
+                             p.edges.segments.size(), contours.corners().size(),
+                             std::ranges::count_if(contours.polygons(), is_parallelogram), drawing);
     all.push_back(EdgesToJson(p.file, p.edges, contours));
     if (const auto why = WhyBlind(p.edges); !why.empty()) {
-      Text(options) << fmt::format("{}: nothing can be seen: {}\n", p.file, why);
+      std::cout << fmt::format("{}: nothing can be seen: {}\n", p.file, why);
       all.back()["unusable"] = why;
     }
   }
@@ -148,8 +143,8 @@ nlohmann::ordered_json SeeTogether(const SeeOptions& options, const std::vector<
   RefuseExchanged(photographs, cameras, reconstructed);
   const std::string drawing = DrawingFile(options, photographs[0].file, "stereo");
   Write(drawing, DrawMatches(greys, views, matches));
-  Text(options) << fmt::format("together: {} matches, {} of them with a place in space, drawn in {}\n",
-                               matches.size(), reconstructed, drawing);
+  std::cout << fmt::format("together: {} matches, {} of them with a place in space, drawn in {}\n",
+                           matches.size(), reconstructed, drawing);
   return MatchesToJson(views, matches);
 }
 
@@ -164,12 +159,12 @@ nlohmann::ordered_json SeeLandmark(const SeeOptions& options, const std::vector<
   found = fix.verdict == Verdict::kFound;
   if (found) {
     const auto at = SixFromPose(fix.base_from_model);
-    Text(options) << fmt::format(
+    std::cout << fmt::format(
         "{}: at {:.4f} {:.4f} {:.4f} m, {:.3f} {:.3f} {:.3f} deg; {} edges, {:.2f} px, drawn in {}\n",
         options.landmark, at[0], at[1], at[2], at[3], at[4], at[5], fix.n_matched, fix.residual_px, drawing);
   } else {
-    Text(options) << fmt::format("{}: not found: {}; drawn in {}\n", options.landmark, Describe(fix.verdict),
-                                 drawing);
+    std::cout << fmt::format("{}: not found: {}; drawn in {}\n", options.landmark, Describe(fix.verdict),
+                             drawing);
   }
   return LandmarkToJson(views, fix);
 }
@@ -195,9 +190,9 @@ nlohmann::ordered_json SeeDoors(const SeeOptions& options, const std::vector<Pho
   const std::vector<cv::Mat> greys{photographs[0].grey, photographs[1].grey};
   const std::string drawing = DrawingFile(options, photographs[0].file, "doors");
   Write(drawing, DrawDoors(greys, views, doors));
-  Text(options) << fmt::format("doors: {}, drawn in {}\n", doors.size(), drawing);
+  std::cout << fmt::format("doors: {}, drawn in {}\n", doors.size(), drawing);
   for (const DetectedDoor& door : doors)
-    Text(options) << fmt::format(
+    std::cout << fmt::format(
         "  {:.2f} m ahead, {:.2f} m to the left, {:.1f} deg; {:.2f} m wide, {:.2f} m high, "
         "sigma {:.2f} m\n",
         door.base_from_door.x, door.base_from_door.y, Degrees(door.base_from_door.yaw), door.width_m,
@@ -219,7 +214,6 @@ bool See(const SeeOptions& options) {
   if (!options.stand.empty()) all["doors"] = SeeDoors(options, photographs, cameras);
   if (!options.landmark.empty()) all["landmark"] = SeeLandmark(options, photographs, cameras, found);
   if (options.json.empty()) return found;
-  if (options.json == kStandardOutput) return std::cout << all.dump() << std::endl, found;
   std::ofstream out(options.json);
   out << all.dump(1) << "\n";
   if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", options.json));

@@ -5,9 +5,6 @@
 
 namespace priamos::head {
 
-/// Stands for a file's name.
-inline constexpr const char* kStandardOutput = "-";
-
 /// What seeing finds in photographs; no robot needed.
 struct SeeOptions {
   std::vector<std::string> images;  ///< files OpenCV can read
@@ -19,7 +16,7 @@ struct SeeOptions {
   std::vector<double> stand{};     ///< how the first of two cameras stands (OnTheFloor): doors are looked for
   double max_door_width_m = 1.35;  ///< double doors are wider
   std::string folder = ".";        ///< NAME-edges.png per image, and NAME-stereo.png, are written here
-  std::string json{};              ///< file for all that was found; empty: none; kStandardOutput
+  std::string json{};              ///< all that was found; empty: none
 };
 
 /// Draws edges, corners and outlines of each image, with `cameras` also what the images have in common, and
