@@ -26,9 +26,9 @@
 #include "cli/folder_options.hpp"
 #include "cli/robot_owner.hpp"
 #include "cli/supervisor.hpp"
+#include "cli/up_queries.hpp"
 #include "cli/up_state.hpp"
 #include "common/data_folders.hpp"
-#include "common/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -38,7 +38,6 @@ using nlohmann::ordered_json;
 using std::chrono::milliseconds;
 
 constexpr int kNotThere = 1;
-constexpr auto kDownWithin = std::chrono::seconds(15);
 constexpr auto kReadyWithin = std::chrono::seconds(20);
 
 struct UpOptions {
@@ -145,10 +144,6 @@ int UpNow(const UpOptions& options) {
   return UpRun(options, folder, deployment).Run();
 }
 
-void Show(const UpState& state, bool json) {
-  std::cout << (json ? ToJson(state).dump() + "\n" : FormatUpState(state));
-}
-
 bool HasAlarm(const UpState& state) {
   return std::any_of(state.processes.begin(), state.processes.end(), [](const auto& p) { return p.alarm; });
 }
@@ -199,81 +194,10 @@ int UpDetached(const UpOptions& options) {
   return kNotThere;
 }
 
-int SayDown(bool was_up, bool json) {
-  if (json) return std::cout << ordered_json{{"was_up", was_up}, {"up", false}} << "\n", 0;
-  std::cout << (was_up ? "everything is down\n" : "nothing is up\n");
-  return 0;
-}
-
-int Down(const std::string& log_root, bool json) {
-  const auto pid = UpLock::Holder(log_root);
-  if (!pid) return SayDown(false, json);
-  kill(*pid, SIGTERM);
-  const auto give_up = std::chrono::steady_clock::now() + kDownWithin;
-  while (UpLock::Holder(log_root) == pid) {
-    if (std::chrono::steady_clock::now() > give_up) {
-      std::cerr << fmt::format(
-          "priamos down: pid {} did not end within 15 s; `kill -9 {}` ends it and its processes\n", *pid,
-          *pid);
-      return kNotThere;
-    }
-    std::this_thread::sleep_for(milliseconds(10));
-  }
-  return SayDown(true, json);
-}
-
-int Status(const std::string& log_root, bool json) {
-  const auto state = ReadUpState(log_root);
-  if (!UpLock::Holder(log_root) || !state) {
-    std::cout << (json ? "{\"up\":false}\n" : "nothing is up\n");
-    return kNotThere;
-  }
-  ordered_json all{{"up", true}};
-  if (json) all.update(ToJson(*state));
-  std::cout << (json ? all.dump() + "\n" : FormatUpState(*state));
-  return state->ready ? 0 : kNotThere;
-}
-
-/// The last `lines` of a console.
-std::vector<std::string> Tail(const fs::path& file, std::size_t lines) {
-  std::ifstream in(file);
-  std::vector<std::string> all;
-  for (std::string line; std::getline(in, line);) all.push_back(line);
-  if (all.size() > lines) all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(lines));
-  return all;
-}
-
-int Logs(const std::string& log_root, const std::string& name, std::size_t lines, bool json) {
-  const auto state = ReadUpState(log_root);
-  if (!state) {
-    std::cout << (json ? "[]\n" : "nothing was ever up\n");
-    return kNotThere;
-  }
-  auto all = ordered_json::array();
-  std::vector<std::string> known;
-  for (const ProcessReport& p : state->processes) {
-    known.push_back(p.name);
-    if (!name.empty() && p.name != name) continue;
-    const auto tail = Tail(fs::path(state->folder) / (p.name + ".txt"), lines);
-    all.push_back({{"process", p.name}, {"lines", tail}});
-    for (const std::string& line : tail)
-      if (!json) std::cout << fmt::format("{:<18} {}\n", p.name, line);
-  }
-  if (all.empty())
-    throw std::runtime_error(
-        fmt::format("unknown process \"{}\"{} (priamos status lists all)", name, NearestText(name, known)));
-  if (json) std::cout << all.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
-  return 0;
-}
-
 }  // namespace
 
 void AddUpCommands(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<UpOptions>();
-  const auto add_logs = [options](CLI::App* verb) {
-    AddLogsOption(*verb, options->log_root, "consoles and state, one `up` per folder");
-    verb->parse_complete_callback([options] { options->log_root = LogRoot(options->log_root); });
-  };
   auto* up =
       cli.add_subcommand("up", "Start the processes of a deployment, and start again what dies or hangs.");
   up->footer("Example: priamos up sim, Ctrl-C ends it; or priamos up sim --detach, later priamos down");
@@ -287,33 +211,11 @@ void AddUpCommands(CLI::App& cli, int& exit_code) {
       ->envname(bus::kRobotVariable);
   up->add_option("--seed", options->seed, "of simulated hardware")->capture_default_str();
   up->add_flag("--detach", options->detach, "return when everything is ready");
-  const auto add_json = [options](CLI::App* verb) {
-    verb->add_flag("--json", options->json, "machine-readable");
-  };
-  add_json(up);
-  add_logs(up);
+  up->add_flag("--json", options->json, "machine-readable");
+  AddUpLogsOption(*up, options->log_root);
   up->callback(
       [options, &exit_code] { exit_code = options->detach ? UpDetached(*options) : UpNow(*options); });
-
-  auto* down = cli.add_subcommand("down", "End what `priamos up` started, in order.");
-  add_logs(down);
-  add_json(down);
-  down->callback([options, &exit_code] { exit_code = Down(options->log_root, options->json); });
-
-  auto* status = cli.add_subcommand(
-      "status", "What is up, how it is, and why it last ended; exit code 0 when all is ready.");
-  add_logs(status);
-  add_json(status);
-  status->callback([options, &exit_code] { exit_code = Status(options->log_root, options->json); });
-
-  auto name = std::make_shared<std::string>();
-  auto lines = std::make_shared<std::size_t>(20);
-  auto* logs = cli.add_subcommand("logs", "The consoles of the processes.");
-  logs->add_option("process", *name, "one process; without it all");
-  logs->add_option("-n", *lines, "lines per process")->capture_default_str();
-  add_logs(logs);
-  add_json(logs);
-  logs->callback([=, &exit_code] { exit_code = Logs(options->log_root, *name, *lines, options->json); });
+  AddUpQueries(cli, exit_code);
 }
 
 }  // namespace priamos::cli

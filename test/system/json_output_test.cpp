@@ -70,7 +70,10 @@ const std::map<std::string, std::string> kWithout{
     {"help", "text for people"},
     {"see", "writes files: the drawings, and JSON into the file that is named"},
     {"completion bash", "a script for the shell"},
-    {"completion words", "what the shell asks, line by line"},
+    {"completion zsh", "a script for the shell"},
+    {"completion fish", "a script for the shell"},
+    {"completion words", "what the shells ask, line by line"},
+    {"manual", "writes files, and prints nothing"},
 };
 
 std::vector<const CLI::App*> Leaves(const CLI::App& app) {
