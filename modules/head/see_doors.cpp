@@ -1,5 +1,6 @@
 #include "head/see_doors.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
