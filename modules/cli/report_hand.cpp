@@ -7,8 +7,7 @@
 
 #include "cli/free_motion.hpp"
 #include "common/time.hpp"
-#include "robot/core/drive_controller.hpp"
-#include "robot/core/twist_slew.hpp"
+#include "robot/robot_config.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "cli/scenario.hpp"
-#include "world/core/contact.hpp"
-#include "world/core/solid.hpp"
+#include "world/world_loading.hpp"
 
 namespace priamos::cli {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "head/core/edge_segments.hpp"
+#include "head/core/prediction.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
