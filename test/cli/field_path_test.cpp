@@ -10,9 +10,11 @@ namespace {
 using testing::HasSubstr;
 
 const bus::Schema& Types() {
-  static const bus::Schema schema({{"test.lcm",
-                                    "package p; struct inner_t { double x_m; int8_t grid[2][3]; }\n"
-                                    "struct outer_t { int32_t n; double ranges_m[n]; inner_t parts[2]; }"}});
+  static const std::vector<bus::Schema::Source> kSources{
+      {"test.lcm",
+       "package p; struct inner_t { double x_m; int8_t grid[2][3]; }\n"
+       "struct outer_t { int32_t n; double ranges_m[n]; inner_t parts[2]; }"}};
+  static const bus::Schema schema(kSources);
   return schema;
 }
 
