@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <vector>
+
 #include "bus/schema/schema.hpp"
 
 namespace priamos::cli {

@@ -146,7 +146,8 @@ TEST(Config, AnUnknownKeyIsAnsweredWithTheNearestOne) {
   EXPECT_THAT(ErrorOf("[iner]\nword = 1"), HasSubstr("; nearest: \"inner\""));
   EXPECT_THAT(ErrorOf("word = 'left'"), HasSubstr("; nearest: \"inner.word\""))
       << "right name, wrong section";
-  EXPECT_THAT(ErrorOf("gians = [1, 2]"), HasSubstr("; nearest: \"inner.gains\"")) << "nearly the name, wrong section";
+  EXPECT_THAT(ErrorOf("gians = [1, 2]"), HasSubstr("; nearest: \"inner.gains\""))
+      << "nearly the name, wrong section";
   EXPECT_THAT(ErrorOf("elephant = 1"), Not(HasSubstr("nearest")));
 }
 

@@ -51,12 +51,12 @@ int CountOf(const std::string& text, const std::string& pattern) {
 
 TEST_F(Owners, ASecondOfEveryRoleIsRefusedAndNamesTheFirst) {
   const auto answer = RunScript(R"sh(
+    trap '$BIN/priamos down --logs $LOGS' EXIT  # also when the time is over
     $BIN/priamos up $SIM --logs $LOGS --detach > /dev/null || echo failed
     for m in world robot head radio; do second onboard $m; done
     for m in planner radio; do second offboard $m; done
     echo --- up; $BIN/priamos up $SIM --logs $LOGS.elsewhere; echo "exit $?"
     echo --- run; $BIN/priamos run --deployment $SIM --robot priamos --logs $LOGS.run; echo "exit $?"
-    $BIN/priamos down --logs $LOGS
   )sh",
                                 110);
   // The first is named by its process.
