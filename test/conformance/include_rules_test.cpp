@@ -53,7 +53,9 @@ bool LibraryAllowed(const std::string& from, const std::string& file, const std:
   const auto in = [&](std::initializer_list<const char*> rooms) {
     return std::any_of(rooms.begin(), rooms.end(), [&](const char* r) { return from == r; });
   };
-  if (header.starts_with("opencv2/")) return in({"head/core", "world/core", "head", "world", "cli"});
+  if (header.starts_with("opencv2/")) return in({"head/core", "world/core", "head", "world"});
+  if (header.starts_with("cairo") || header.starts_with("pango"))
+    return file.starts_with("modules/common/drawing/");
   if (header.starts_with("mrpt/")) return from.ends_with("/core");
   if (header.starts_with("ceres/")) return in({"head/core"});
   if (header.starts_with("lcm/")) return file == "bus/lcm_bus.cpp";

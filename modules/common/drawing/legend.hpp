@@ -1,0 +1,20 @@
+#pragma once
+
+#include "common/drawing/drawing.hpp"
+
+namespace priamos::drawing {
+
+/// How a legend is set.
+struct LegendLook {
+  Font font;
+  Colour ink;
+  double widen = 1;      ///< lines of the drawing are so many times as wide as their layers say
+  double leading = 1.5;  ///< distance of two rows, in sizes of the font
+};
+
+/// Writes what every layer of the drawing means, beside a sample of it, into as many columns as fit between
+/// x and x + width, from y downwards. Returns the height it took. A drawing can so never hold what its legend
+/// lacks.
+double WriteLegend(Drawing& drawing, double x, double y, double width, const LegendLook& look);
+
+}  // namespace priamos::drawing
