@@ -4,10 +4,11 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "cli/report_html.hpp"
 #include "cli/report_picture.hpp"
+#include "common/drawing/raster.hpp"
+#include "common/drawing/svg.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -31,11 +32,12 @@ DoorPlan LoadDoor(const std::string& map_file, int id) {
 void WriteReport(const RunRecord& record, const Summary& summary, const RunInfo& info,
                  const std::string& map_file, const std::filesystem::path& folder) {
   const auto plan = LoadConfig<GroundPlan>(map_file);
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", DrawRun(record, summary, info, plan), png);
+  const drawing::Drawing picture = DrawRun(record, summary, info, plan);
+  const std::string svg = drawing::ToSvg(picture);
   WriteFile(folder / "summary.json", ToJson(summary).dump(2) + "\n");
-  WriteFile(folder / "run.png", {reinterpret_cast<const char*>(png.data()), png.size()});
-  WriteFile(folder / "report.html", ReportPage(record, summary, png));
+  WriteFile(folder / "run.svg", svg);
+  WriteFile(folder / "run.png", drawing::ToPng(drawing::Paint(picture)));
+  WriteFile(folder / "report.html", ReportPage(record, summary, svg));
 }
 
 }  // namespace priamos::cli

@@ -9,6 +9,7 @@
 #include "cli/report_plot.hpp"
 #include "cli/report_table.hpp"
 #include "cli/report_timeline.hpp"
+#include "common/drawing/svg.hpp"
 #include "common/time.hpp"
 
 namespace priamos::cli {
@@ -29,14 +30,14 @@ h2{font-size:1.1rem;margin:36px 0 10px;border-bottom:2px solid var(--line);paddi
 .card{background:var(--card);border-radius:6px;padding:12px 14px}
 .card b{display:block;font-size:1.45rem;font-variant-numeric:tabular-nums;line-height:1.25}
 .card span{color:var(--faint);font-size:.86rem}
-img{width:100%;height:auto;display:block;border:1px solid var(--line);border-radius:6px}
+img{width:100%;max-width:860px;height:auto;display:block;border:1px solid var(--line);border-radius:6px}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}
 th,td{text-align:right;padding:5px 12px;border-bottom:1px solid var(--line);white-space:nowrap}
 th{color:var(--faint);font-weight:600;font-size:.86rem}
 th:first-child,td:first-child,.text td:last-child,.text th:last-child{text-align:left}
 .text td:last-child{white-space:normal;width:100%}
-.two{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr));gap:8px 36px}
+.two{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,400px),1fr));gap:8px 36px}
 .sum td{font-weight:600}
 svg{width:100%;height:auto;display:block;margin:14px 0}
 svg text{font-size:12px;fill:var(--faint)}svg .title{font-size:14px;font-weight:600;fill:var(--ink)}
@@ -101,16 +102,16 @@ std::vector<StoryLine> Phases(const RunRecord& record, const Summary& summary) {
 std::string PhaseTable(const RunRecord& record, const Summary& summary) {
   std::string table = "<div class=\"scroll\"><table class=\"text\">" + Row({"time", "what happened"}, "th");
   for (const StoryLine& phase : Phases(record, summary))
-    table += Row({fmt::format("{:.1f} s", phase.t_s), EscapeHtml(phase.text)});
+    table += Row({fmt::format("{:.1f} s", phase.t_s), drawing::EscapeMarkup(phase.text)});
   if (!summary.passed)
-    table += Row({"end", "not passed: " + EscapeHtml(summary.reason)}, "td", " class=\"sum\"");
+    table += Row({"end", "not passed: " + drawing::EscapeMarkup(summary.reason)}, "td", " class=\"sum\"");
   return table + "</table></div>\n";
 }
 
 std::string RadioTable(const char* title, const RadioSummary& radio) {
   std::string table = "<div class=\"scroll\"><table>" + Row({title, "messages", "bytes", "dropped"}, "th");
   for (const auto& c : radio.channels)
-    table += Row({EscapeHtml(c.channel), fmt::format("{}", c.messages), fmt::format("{}", c.bytes),
+    table += Row({drawing::EscapeMarkup(c.channel), fmt::format("{}", c.messages), fmt::format("{}", c.bytes),
                   fmt::format("{}", c.dropped)});
   table +=
       Row({fmt::format("frames, {:.0f} % of the line", radio.utilisation * 100),
@@ -155,38 +156,40 @@ std::string Plots(const RunRecord& record) {
   return ToSvg({"position error", "cm", {position, position_sigma}, spans, end_s}) +
          ToSvg({"heading error", "deg", {heading, heading_sigma}, spans, end_s}) +
          ToSvg({"speed", "m/s", {speed}, spans, end_s}) +
-         ToSvg({"distance of the footprint to the nearest thing", "m", {gap}, spans, end_s});
+         ToSvg({"gap to the nearest thing", "m", {gap}, spans, end_s});
 }
 
 }  // namespace
 
-std::string Base64(std::span<const std::uint8_t> bytes) {
+std::string Base64(std::string_view bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < n ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < n ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
     for (std::size_t k = 0; k < 4; ++k) text += k <= n ? kDigits[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
 }
 
-std::string ReportPage(const RunRecord& record, const Summary& summary, std::span<const std::uint8_t> png) {
+std::string ReportPage(const RunRecord& record, const Summary& summary, const std::string& svg) {
   const bool good = summary.passed && summary.contacts == 0;
-  const std::string title = fmt::format("{}, seed {}", EscapeHtml(summary.scenario), summary.seed);
+  const std::string title = fmt::format("{}, seed {}", drawing::EscapeMarkup(summary.scenario), summary.seed);
   std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   page += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
   page += fmt::format("<title>PRIAMOS: {}</title>\n<style>{}</style></head>\n<body><main>\n", title, kStyle);
   page += fmt::format("<header><h1>{}</h1><span class=\"verdict {}\">{}</span></header>\n", title,
-                      good ? "good" : "bad", EscapeHtml(Verdict(summary)));
-  if (!summary.passed) page += fmt::format("<p class=\"reason\">{}</p>\n", EscapeHtml(summary.reason));
+                      good ? "good" : "bad", drawing::EscapeMarkup(Verdict(summary)));
+  if (!summary.passed)
+    page += fmt::format("<p class=\"reason\">{}</p>\n", drawing::EscapeMarkup(summary.reason));
   page += Cards(summary);
   page += fmt::format(
-      "<img alt=\"Ground plan with true path, believed path and fixes\" "
-      "src=\"data:image/png;base64,{}\">\n",
-      Base64(png));
+      "<img alt=\"Ground plan with what stood in it, true path, believed path and fixes; legend and figures\" "
+      "src=\"data:image/svg+xml;base64,{}\">\n",
+      Base64(svg));
   page += "<h2>Mission</h2>\n" + PhaseTable(record, summary);
   page += "<h2>Fixes</h2>\n" + FixTable(summary);
   page += "<h2>Looks</h2>\n" + LookDrawings(record);

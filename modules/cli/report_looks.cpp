@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "cli/report_plot.hpp"
 #include "cli/view_screen.hpp"
+#include "common/drawing/svg.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -38,7 +38,8 @@ std::string LookDrawings(const RunRecord& record) {
   std::string html;
   for (const landmark_view_t& view : record.views)
     html += fmt::format("<figure>{}<figcaption>{}<br>{}</figcaption></figure>\n", Drawing(view),
-                        EscapeHtml(ViewTitle(view, FixOf(record, view))), EscapeHtml(ViewLegend(view)));
+                        drawing::EscapeMarkup(ViewTitle(view, FixOf(record, view))),
+                        drawing::EscapeMarkup(ViewLegend(view)));
   return html.empty() ? html : "<div class=\"two\">" + html + "</div>\n";
 }
 

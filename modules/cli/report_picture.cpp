@@ -4,186 +4,178 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "cli/report_canvas.hpp"
+#include "cli/report_fix_panel.hpp"
 #include "cli/report_plan_view.hpp"
 #include "cli/report_table.hpp"
 #include "cli/report_timeline.hpp"
-#include "common/time.hpp"
+#include "common/drawing/legend.hpp"
 
 namespace priamos::cli {
 namespace {
 
+using drawing::Box, drawing::Drawing, drawing::Font;
 using Eigen::Vector2d;
 using namespace colours;
 
-constexpr int kWidth = 1600, kHeight = 1236, kMargin = 36, kHeader = 84, kPanelHeight = 300;
-constexpr int kPlanHeight = kHeight - kHeader - kPanelHeight - 3 * kMargin + 8;
+constexpr double kWidth = 1200, kMargin = 36, kInner = kWidth - 2 * kMargin;
+constexpr double kAxisWidth = 64, kAxisHeight = 40, kTallestPlan = 1000, kPanelHeight = 400;
+constexpr Font kTitleFont{44, true};
+constexpr drawing::Layer kGood{"verdict", "", {.fill = kFix}}, kFailed{"verdict", "", {.fill = kBad}};
 
-void DrawScaleBar(Page& page, double right, double bottom, double px_per_m) {
-  const double x = right - px_per_m;
-  page.FillBox(x, bottom - 6, px_per_m / 2, 6, kInk);
-  page.FillBox(x + px_per_m / 2, bottom - 6, px_per_m / 2, 6, kFaint);
-  page.Text(x - 4, bottom - 14, "0", 11, kInk);
-  page.Text(x + px_per_m - 16, bottom - 14, "1 m", 11, kInk);
+/// Where it took place.
+struct Scene {
+  const GroundPlan& plan;
+  std::vector<TrueThing> things;
+  Vector2d footprint_m;
+};
+
+/// The largest size, up to that of `font`, at which `text` is no wider than `width`.
+Font Fitting(const std::string& text, Font font, double width) {
+  const double natural = drawing::MeasureText(text, font).width;
+  if (natural > width) font.size *= width / natural;
+  return font;
 }
 
-void DrawPlan(Page& page, const RunRecord& record, const RunInfo& info, const GroundPlan& plan) {
-  const Extent extent = ExtentOf(plan);
-  const cv::Rect window(kMargin, kHeader, kWidth - 2 * kMargin, kPlanHeight);
-  const double scale = std::min(window.width / extent.size().x(), window.height / extent.size().y());
-  View view(page, window, extent.centre(), scale);
+/// Title and verdict; returns where the next thing begins.
+double DrawHeader(Drawing& page, const Summary& summary) {
+  const std::string verdict = Verdict(summary);
+  const auto extent = drawing::MeasureText(verdict, kBoldFont);
+  const Box badge{kWidth - kMargin - extent.width - 32, 26, extent.width + 32, 56};
+  page.FillBox(summary.passed && summary.contacts == 0 ? kGood : kFailed, badge);
+  page.Write(layers::kText, {badge.x + 16, badge.y + 39}, verdict, kBoldFont, kPaper);
+  const std::string title = fmt::format("{}, seed {}", summary.scenario, summary.seed);
+  page.Write(layers::kText, {kMargin, 70}, title, Fitting(title, kTitleFont, badge.x - 2 * kMargin), kInk);
+  return 104;
+}
+
+/// Numbers of whole metres beside and below the plan, not nearer to each other than they can be read.
+void DrawAxes(Drawing& page, const MapView& view, const Extent& extent, double px_per_m) {
+  const double every_m = px_per_m > 70 ? 1 : px_per_m > 30 ? 2 : 5;
+  const Box& window = view.window();
+  const auto numbers = [&](double low, double high, const auto& write) {
+    const int last = static_cast<int>(std::floor(high / every_m));
+    for (int i = static_cast<int>(std::ceil(low / every_m)); i <= last; ++i)
+      write(i * every_m, fmt::format("{:.0f}{}", i * every_m, i == last ? " m" : ""));
+  };
+  numbers(extent.low.x(), extent.high.x(), [&](double x, const std::string& text) {
+    const double width = drawing::MeasureText(text, kSmallFont).width;
+    const double left = std::min(view.ToPage({x, 0}).x() - width / 2, window.right() - width);
+    page.Write(layers::kText, {left, window.bottom() + 30}, text, kSmallFont, kFaint);
+  });
+  numbers(extent.low.y(), extent.high.y(), [&](double y, const std::string& text) {
+    const double left = window.x - 10 - drawing::MeasureText(text, kSmallFont).width;
+    page.Write(layers::kText, {left, view.ToPage({0, y}).y() + 9}, text, kSmallFont, kFaint);
+  });
+}
+
+/// The whole plan, from `top`; returns where the next thing begins.
+double DrawOverview(Drawing& page, double top, const RunRecord& record, const RunInfo& info,
+                    const Scene& scene) {
+  const Extent extent = ExtentOf(scene.plan);
+  const double room = kInner - kAxisWidth;
+  const double scale = std::min(room / extent.size().x(), kTallestPlan / extent.size().y());
+  const Box window{kMargin + kAxisWidth + (room - scale * extent.size().x()) / 2, top,
+                   scale * extent.size().x(), scale * extent.size().y()};
+  MapView view(page, window, extent.centre(), scale);
   DrawFloor(view, extent);
+  DrawPlan(view, scene.plan, true);
+  DrawThings(view, scene.things, true);
   DrawAxis(view, info.door);
-  DrawWalls(view, plan);
-  DrawDoorName(view, info.door);
-  DrawRobots(view, record, info.door.map_from_door());
+  DrawRobots(view, record, scene.footprint_m);
   DrawEllipses(view, record);
   DrawTruth(view, record);
-  DrawBelief(view, record, 1.8);
+  DrawBelief(view, record);
   DrawLooks(view, record, info.door);
-  const Vector2d corner = extent.high - extent.centre();
-  DrawScaleBar(page, kMargin + window.width / 2.0 + corner.x() * scale - 60,
-               kHeader + window.height / 2.0 + corner.y() * scale - 50, scale);
-}
-
-void DrawHeader(Page& page, const Summary& summary) {
-  const bool good = summary.passed && summary.contacts == 0;
-  const std::string verdict = Verdict(summary);
-  page.Text(kMargin, 54, fmt::format("{}, seed {}", summary.scenario, summary.seed), 21, kInk, true);
-  const double width = page.TextWidth(verdict, 15, true);
-  page.FillBox(kWidth - kMargin - width - 32, 24, width + 32, 42, good ? kFix : kBad);
-  page.Text(kWidth - kMargin - width - 16, 53, verdict, 15, kPaper, true);
+  DrawContacts(view, record);
+  view.SetLabels();
+  DrawAxes(page, view, extent, scale);
+  return window.bottom() + kAxisHeight + 20;
 }
 
 /// Title of a panel; returns the window below it.
-cv::Rect BeginPanel(Page& page, int x, int width, const std::string& title) {
-  const int top = kHeight - kMargin - kPanelHeight;
-  page.Text(x, top + 14, title, 13, kInk, true);
-  page.Line(x, top + 26, x + width, top + 26, kGrid, 2);
-  return {x, top + 36, width, kPanelHeight - 36};
+Box BeginPanel(Drawing& page, const Box& panel, const std::string& title) {
+  page.Write(layers::kText, {panel.x, panel.y + 28}, title, Fitting(title, kBoldFont, panel.width), kInk);
+  page.Line(layers::kGrid, {panel.x, panel.y + 42}, {panel.right(), panel.y + 42});
+  return {panel.x, panel.y + 54, panel.width, panel.height - 54};
 }
 
-void DrawPassage(Page& page, const RunRecord& record, const Summary& summary, const RunInfo& info,
-                 const GroundPlan& plan) {
-  const cv::Rect window = BeginPanel(page, kMargin, 520, "in the door");
+void DrawPassage(Drawing& page, const Box& panel, const RunRecord& record, const RunInfo& info,
+                 const Scene& scene) {
+  constexpr double kScale = 210, kEvery_m = 0.06, kNear_m = 2, kOpacity = 0.04;
   const Pose2 map_from_door = info.door.map_from_door();
-  View view(page, {window.x, window.y, window.width, window.height - 34}, map_from_door.translation(), 175);
-  DrawFloor(view,
-            {map_from_door.translation() - Vector2d(3, 3), map_from_door.translation() + Vector2d(3, 3)});
-  DrawWalls(view, plan);
+  MapView view(page, BeginPanel(page, panel, "in the door"), map_from_door.translation(), kScale);
+  const Vector2d reach(3, 3);
+  DrawFloor(view, {map_from_door.translation() - reach, map_from_door.translation() + reach});
+  DrawPlan(view, scene.plan, false);
+  DrawThings(view, scene.things, false);
   DrawAxis(view, info.door);
-  constexpr double kEvery_m = 0.1;
   Vector2d last(1e9, 1e9);
   for (const auto& truth : record.truth) {
     if ((PositionOf(truth) - last).norm() < kEvery_m) continue;
     last = PositionOf(truth);
-    view.Fill(FootprintOutline({truth.x_m, truth.y_m, truth.yaw_rad}), kTruth, 0.05);
+    if ((last - map_from_door.translation()).norm() > kNear_m) continue;
+    view.Area(layers::kSwept, FootprintOutline({truth.x_m, truth.y_m, truth.yaw_rad}, scene.footprint_m),
+              kOpacity);
   }
   if (const auto crossing = CrossingOf(record, map_from_door))
-    if (const auto at = TruthAt(record, crossing->utime)) DrawRobot(view, *at, kTruth, 0.12);
+    if (const auto at = TruthAt(record, crossing->utime)) DrawRobot(view, *at, scene.footprint_m);
   DrawTruth(view, record);
-  DrawBelief(view, record, 1.8);
-  const std::string caption = summary.lateral_at_door_m
-                                  ? fmt::format("{:+.1f} cm lateral, {:+.2f} deg, smallest gap {:.1f} cm",
-                                                *summary.lateral_at_door_m * 100,
-                                                *summary.heading_at_door_deg, summary.min_gap_m * 100)
-                                  : "the door was not crossed";
-  page.Text(window.x, window.y + window.height - 8, caption, 12, kInk);
+  DrawBelief(view, record);
+  DrawContacts(view, record);
+  view.SetLabels();
 }
 
-/// The estimate nearest to `utime` that lies before (or after) it by 40 ms, relative to the truth.
-struct Offset {
-  Vector2d error{0, 0};
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-};
-std::optional<Offset> OffsetAt(const RunRecord& record, std::int64_t utime, bool before) {
-  constexpr std::int64_t kAside_us = 40'000;
-  const pose_t* nearest = nullptr;
-  for (const pose_t& pose : record.poses) {
-    if (before && pose.utime <= utime - kAside_us) nearest = &pose;
-    if (!before && !nearest && pose.utime >= utime + kAside_us) nearest = &pose;
-  }
-  const auto truth = nearest ? TruthAt(record, nearest->utime) : std::nullopt;
-  if (!truth) return std::nullopt;
-  return Offset{PositionOf(*nearest) - truth->translation(), CovarianceOf(*nearest)};
-}
-
-void DrawRings(View& view, double largest_m) {
-  for (double r_m = 0.05; r_m <= largest_m; r_m += 0.05) {
-    const auto ring = EllipseOutline({0, 0}, Eigen::Matrix2d::Identity() * r_m * r_m, 1);
-    view.Polyline(ring, kGrid, 1.2, true);
-    if (std::lround(r_m * 100) % 10 == 0)
-      view.Label({0, r_m}, 4, -3, fmt::format("{:.0f} cm", r_m * 100), 9, kFaint);
-  }
-  view.Polyline({{-largest_m, 0}, {largest_m, 0}}, kGrid, 1);
-  view.Polyline({{0, -largest_m}, {0, largest_m}}, kGrid, 1);
-}
-
-void DrawFixErrors(Page& page, const RunRecord& record) {
-  const cv::Rect window = BeginPanel(page, 592, 400, "believed minus true position at the fixes");
-  View view(page, window, {0, 0}, 500);
-  DrawRings(view, 0.25);
-  const auto looks = LooksOf(record);
-  for (std::size_t i = 0; i < looks.size(); ++i) {
-    const auto before = OffsetAt(record, looks[i].end_utime, true);
-    const auto after = OffsetAt(record, looks[i].end_utime, false);
-    if (!before || !after) continue;
-    view.Fill(EllipseOutline(after->error, after->covariance, 2), kBelief, 0.16);
-    view.Polyline(EllipseOutline(after->error, after->covariance, 2), kBelief, 1, true);
-    if (i == 0) view.Dot(before->error, 5, kBelief);
-    view.Arrow(before->error, after->error, kFix, 2);
-    view.Dot(after->error, 3.5, kFix);
-    view.Label((before->error + after->error) / 2, 8, 4, fmt::format("{}", i + 1), 12, kFix, true);
-  }
-  if (looks.empty()) view.Label({0, 0}, -88, 5, "no fix corrected the pose", 12, kInk);
-  view.Dot({0, 0}, 3.5, kTruth);
-}
-
-void DrawLegend(Page& page, const Summary& summary) {
-  const cv::Rect window = BeginPanel(page, 1028, kWidth - kMargin - 1028, "legend");
-  const auto row = [&](int i) { return window.y + 22.0 + i * 27; };
-  const double x = window.x, text_x = window.x + 58;
-  page.Line(x, row(0) - 5, x + 42, row(0) - 5, kTruth, 3);
-  page.Text(text_x, row(0), "true path of the base centre, and its footprint", 12, kInk);
-  page.Line(x, row(1) - 5, x + 42, row(1) - 5, kBelief, 1.8);
-  page.Text(text_x, row(1), "believed path, ellipses of 2 sigma", 12, kInk);
-  View symbols(page, {window.x, int(row(2)) - 20, 50, 28}, {0, 0}, 1);
-  symbols.Dot({-4, 0}, 11, kFix);
-  symbols.Label({-4, 0}, -5, 6, "1", 12, kPaper, true);
-  page.Text(text_x, row(2), "look: left, then right side of the door", 12, kInk);
-  View arrow(page, {window.x, int(row(3)) - 20, 50, 28}, {0, 0}, 1);
-  arrow.Arrow({-24, 0}, {18, 0}, kFix, 2);
-  page.Text(text_x, row(3), "correction of the pose by a fix", 12, kInk);
-
-  const double y = row(4) + 14;
-  for (std::size_t i = 0; i < summary.fixes.size() && i < 3; ++i) {
+std::vector<std::string> Figures(const Summary& summary, const DoorPlan& door) {
+  std::vector<std::string> lines;
+  lines.push_back(
+      summary.lateral_at_door_m
+          ? fmt::format("in the door: {:+.1f} cm lateral, {:+.2f}° heading; smallest gap {:.1f} cm",
+                        *summary.lateral_at_door_m * 100, summary.heading_at_door_deg.value_or(0),
+                        summary.min_gap_m * 100)
+          : fmt::format("door {} was not crossed; smallest gap {:.1f} cm", door.name,
+                        summary.min_gap_m * 100));
+  for (std::size_t i = 0; i < summary.fixes.size(); ++i) {
     const FixSummary& fix = summary.fixes[i];
-    page.Text(x, y + 24.0 * double(i),
-              fmt::format("fix {}:  {:.1f} cm, {:.2f} deg  ->  {:.1f} cm, {:.2f} deg", i + 1,
-                          fix.error_before_m * 100, fix.error_before_deg, fix.error_after_m * 100,
-                          fix.error_after_deg),
-              12, kInk);
+    lines.push_back(
+        fmt::format("fix {} at {:.1f} s: {:.1f} cm, {:.2f}° → {:.1f} cm, {:.2f}°; its sigma {:.1f} cm", i + 1,
+                    fix.t_s, fix.error_before_m * 100, fix.error_before_deg, fix.error_after_m * 100,
+                    fix.error_after_deg, fix.sigma_m * 100));
   }
-  page.Text(x, y + 76,
-            fmt::format("{:.1f} s, {:.2f} m/s mean speed", summary.duration_s, summary.mean_speed_m_s), 12,
-            kInk);
-  page.Text(x, y + 100, fmt::format("radio: {} B up, {} B down", summary.up.bytes, summary.down.bytes), 12,
-            kInk);
+  lines.push_back(fmt::format("{:.1f} s, mean speed {:.2f} m/s", summary.duration_s, summary.mean_speed_m_s));
+  lines.push_back(fmt::format("radio: {} bytes up (robot to workstation), {} bytes down", summary.up.bytes,
+                              summary.down.bytes));
+  return lines;
+}
+
+/// The run in words; returns where it ends.
+double WriteFigures(Drawing& page, double top, const Summary& summary, const RunInfo& info) {
+  double y = BeginPanel(page, {kMargin, top, kInner, 60}, "figures").y;
+  for (const std::string& line : Figures(summary, info.door)) {
+    y += 42;
+    page.Write(layers::kText, {kMargin, y - 8}, line, Fitting(line, kBodyFont, kInner), kInk);
+  }
+  return y;
 }
 
 }  // namespace
 
-cv::Mat DrawRun(const RunRecord& record, const Summary& summary, const RunInfo& info,
+Drawing DrawRun(const RunRecord& record, const Summary& summary, const RunInfo& info,
                 const GroundPlan& plan) {
-  Page page(kWidth, kHeight, kPaper);
-  DrawHeader(page, summary);
-  DrawPlan(page, record, info, plan);
-  DrawPassage(page, record, summary, info, plan);
-  DrawFixErrors(page, record);
-  DrawLegend(page, summary);
-  return page.Finish();
+  const Scene scene{plan, ThingsBeyond(plan, info.world), info.world.body.size_m};
+  Drawing page(kWidth, 0, kPaper);
+  const double panels = DrawOverview(page, DrawHeader(page, summary), record, info, scene);
+  const double width = (kInner - kMargin) / 2;
+  DrawPassage(page, {kMargin, panels, width, kPanelHeight}, record, info, scene);
+  DrawFixErrors(page,
+                BeginPanel(page, {kMargin + width + kMargin, panels, width, kPanelHeight},
+                           "belief − truth at the fixes"),
+                record);
+  // After all that it explains.
+  const Box legend = BeginPanel(page, {kMargin, panels + kPanelHeight + 30, kInner, 60}, "legend");
+  const double height = drawing::WriteLegend(page, legend.x, legend.y, kInner, {kBodyFont, kInk});
+  page.SetHeight(WriteFigures(page, legend.y + height + 30, summary, info) + kMargin);
+  return page;
 }
 
 }  // namespace priamos::cli

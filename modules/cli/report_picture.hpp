@@ -1,16 +1,17 @@
 #pragma once
 
-#include <opencv2/core.hpp>
-
 #include "cli/report_record.hpp"
 #include "cli/report_summary.hpp"
+#include "common/drawing/drawing.hpp"
 #include "common/ground_plan.hpp"
 
 namespace priamos::cli {
 
-/// The picture of a run (run.png): the ground plan with door, true path, believed path with its covariance
-/// ellipses (2 sigma) and the fixes; below it the passage enlarged, the pose errors at the fixes, and a
-/// legend. 1600 x 1236 pixels, BGR. An empty record gives the plan alone.
-cv::Mat DrawRun(const RunRecord& record, const Summary& summary, const RunInfo& info, const GroundPlan& plan);
+/// The picture of a run (run.svg, run.png): the ground plan with axes in metres, what stands in it, true and
+/// believed path, robot and fixes; the legend of all of it; the door enlarged, the pose errors at the fixes,
+/// and the run's figures. 1200 px wide, as high as it needs; its text can be read at a third of that. An
+/// empty record gives plan and legend.
+drawing::Drawing DrawRun(const RunRecord& record, const Summary& summary, const RunInfo& info,
+                         const GroundPlan& plan);
 
 }  // namespace priamos::cli

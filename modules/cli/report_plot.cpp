@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/drawing/svg.hpp"
+
 namespace priamos::cli {
 namespace {
 
-constexpr double kWidth = 560, kHeight = 210, kLeft = 46, kRight = 12, kTop = 34, kBottom = 28;
+constexpr double kWidth = 400, kHeight = 230, kLeft = 46, kRight = 12, kTop = 52, kBottom = 28;
+/// Base line of the legend, below the title: together they would not fit a telephone.
+constexpr double kLegend = 40;
 /// More points than this in one line cannot be told apart in the figure.
 constexpr std::size_t kMostPoints = 700;
 
@@ -47,7 +51,7 @@ class Axes {
       svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:.6g}</text>", kLeft - 6,
                          Y(y) + 4, std::abs(y) < step_ / 2 ? 0 : y);
     }
-    const double step_s = NiceStep(end_s_, 8);
+    const double step_s = NiceStep(end_s_, 6);
     for (int i = 0; i * step_s <= end_s_; ++i)
       svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:.6g}{}</text>",
                          X(i * step_s), kHeight - 8, i * step_s, i == 0 ? " s" : "");
@@ -79,51 +83,30 @@ std::string Legend(const Plot& plot) {
   for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series) {
     x -= 7.0 * static_cast<double>(series->name.size()) + 40;
     svg += fmt::format(
-        "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"14\" y2=\"14\" stroke=\"{}\" stroke-width=\"2\"{}/>", x,
-        x + 22, series->colour, series->dashed ? " stroke-dasharray=\"5 4\"" : "");
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"18\">{}</text>", x + 28, EscapeHtml(series->name));
+        "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.0f}\" y2=\"{:.0f}\" stroke=\"{}\" stroke-width=\"2\"{}/>",
+        x, x + 22, kLegend - 4, kLegend - 4, series->colour,
+        series->dashed ? " stroke-dasharray=\"5 4\"" : "");
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.0f}\">{}</text>", x + 28, kLegend,
+                       drawing::EscapeMarkup(series->name));
   }
   return svg;
 }
 
 }  // namespace
 
-std::string EscapeHtml(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return escaped;
-}
-
 std::string ToSvg(const Plot& plot) {
   const Axes axes(plot);
   std::string svg = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\"><title>{}</title>", kWidth, kHeight,
-                                EscapeHtml(plot.title));
-  svg += fmt::format("<text class=\"title\" x=\"0\" y=\"18\">{} [{}]</text>", EscapeHtml(plot.title),
-                     EscapeHtml(plot.unit));
+                                drawing::EscapeMarkup(plot.title));
+  svg += fmt::format("<text class=\"title\" x=\"0\" y=\"18\">{} [{}]</text>",
+                     drawing::EscapeMarkup(plot.title), drawing::EscapeMarkup(plot.unit));
   svg += axes.Grid() + Legend(plot);
   for (const PlotSpan& span : plot.spans) {
     svg += fmt::format("<rect class=\"span\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>",
                        axes.X(span.begin_s), kTop, axes.X(span.end_s) - axes.X(span.begin_s),
                        kHeight - kTop - kBottom);
     svg += fmt::format("<text class=\"span\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
-                       axes.X((span.begin_s + span.end_s) / 2), kTop + 12, EscapeHtml(span.label));
+                       axes.X((span.begin_s + span.end_s) / 2), kTop + 12, drawing::EscapeMarkup(span.label));
   }
   for (const PlotSeries& series : plot.series) svg += Line(series, axes);
   return svg + "</svg>";

@@ -32,7 +32,4 @@ struct Plot {
 /// Points that are not numbers are left out.
 std::string ToSvg(const Plot& plot);
 
-/// Text fit for the inside of HTML and SVG.
-std::string EscapeHtml(const std::string& text);
-
 }  // namespace priamos::cli

@@ -1,6 +1,9 @@
 #include "cli/report_plan_view.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <map>
+#include <string>
 
 #include "report_synthetic_run.hpp"
 
@@ -19,7 +22,7 @@ TEST(ReportPlanView, PlanWithoutWallsHasAnExtent) {
 }
 
 TEST(ReportPlanView, FootprintIsTurnedWithTheBase) {
-  const auto dut = FootprintOutline({1, 2, kPi / 2});
+  const auto dut = FootprintOutline({1, 2, kPi / 2}, {0.95, 0.78});
   EXPECT_NEAR((dut[0] - Eigen::Vector2d(1 - 0.39, 2 + 0.475)).norm(), 0, 1e-9);
 }
 
@@ -33,20 +36,20 @@ TEST(ReportPlanView, CovarianceIsThatOfThePosition) {
   EXPECT_NEAR(dut(0, 1), 0.01, 1e-12);
 }
 
-/// Pixels of a colour after `draw` had a clear view of 10 x 10 m.
+/// Number of shapes of each layer after `draw` had a view of 10 x 10 m.
 template <class Draw>
-int Painted(Colour colour, const Draw& draw) {
-  Page page(400, 400, {0xffffff});
-  View view(page, {0, 0, 400, 400}, {5, 5}, 40);
+std::map<std::string, int> Drawn(const Draw& draw) {
+  drawing::Drawing page(400, 400, {0xffffff});
+  MapView view(page, {0, 0, 400, 400}, {5, 5}, 40);
   draw(view);
-  cv::Mat mask;
-  const cv::Scalar bgr(colour.rgb & 0xff, colour.rgb >> 8 & 0xff, colour.rgb >> 16 & 0xff);
-  cv::inRange(page.Finish(), bgr - cv::Scalar::all(16), bgr + cv::Scalar::all(16), mask);
-  return cv::countNonZero(mask);
+  view.SetLabels();
+  std::map<std::string, int> drawn;
+  for (const auto& shape : page.shapes()) ++drawn[std::string(shape.layer->id)];
+  return drawn;
 }
 
 TEST(ReportPlanView, JumpOfTheBeliefIsAnArrowNotAPath) {
-  const auto record_with_step = [](double step_m) {
+  const auto with_step = [](double step_m) {
     RunRecord record;
     for (int i = 0; i < 2; ++i) {
       pose_t pose{};
@@ -54,23 +57,41 @@ TEST(ReportPlanView, JumpOfTheBeliefIsAnArrowNotAPath) {
       pose.y_m = 5;
       Feed(record, Side::kOnboard, i, "POSE", pose);
     }
-    return record;
+    return Drawn([&](MapView& view) { DrawBelief(view, record); });
   };
-  const auto painted = [&](Colour colour, double step_m) {
-    return Painted(colour, [&](View& view) { DrawBelief(view, record_with_step(step_m), 3); });
-  };
-  EXPECT_GT(painted(colours::kFix, 1.0), 50);
-  EXPECT_EQ(painted(colours::kBelief, 1.0), 0);
-  EXPECT_EQ(painted(colours::kFix, 0.015), 0);
-  EXPECT_GT(painted(colours::kBelief, 0.015), 0);
+  EXPECT_THAT(with_step(1.0), testing::ElementsAre(testing::Pair("correction", 2)));
+  EXPECT_THAT(with_step(0.019), testing::ElementsAre(testing::Pair("belief-path", 1)));
 }
 
 TEST(ReportPlanView, LooksWithoutTruthAreLeftOut) {
   RunRecord record = SyntheticRun{}.Record();
-  const auto draw = [&](View& view) { DrawLooks(view, record, TestDoor()); };
-  EXPECT_GT(Painted(colours::kFix, draw), 300);
+  const auto draw = [&](MapView& view) { DrawLooks(view, record, TestDoor()); };
+  EXPECT_EQ(Drawn(draw)["look-place"], 2);
   record.truth.clear();
-  EXPECT_EQ(Painted(colours::kFix, draw), 0);
+  EXPECT_TRUE(Drawn(draw).empty());
+}
+
+TEST(ReportPlanView, EveryContactIsMarkedOnce) {
+  RunRecord record;
+  for (const int contacts : {0, 1, 1, 2, 2}) {
+    world_truth_t truth{};
+    truth.x_m = truth.y_m = 3 + contacts;
+    truth.contacts = contacts;
+    Feed(record, Side::kOnboard, record.truth.size(), "WORLD_TRUTH", truth);
+  }
+  auto dut = Drawn([&](MapView& view) { DrawContacts(view, record); });
+  EXPECT_EQ(dut["contact"], 4);  // two crosses of two lines
+  EXPECT_EQ(dut["label"], 2);
+}
+
+TEST(ReportPlanView, ThingsHaveTheirNamesUnlessTheyAreTooSmall) {
+  const auto square = [](double x, double side) {
+    return std::vector<Eigen::Vector2d>{{x, 5}, {x + side, 5}, {x + side, 5 + side}, {x, 5 + side}};
+  };
+  const std::vector<TrueThing> things{{"carton", square(3, 0.5)}, {"leg", square(6, 0.05)}};
+  auto dut = Drawn([&](MapView& view) { DrawThings(view, things, true); });
+  EXPECT_EQ(dut["truth-thing"], 2);
+  EXPECT_EQ(dut["label"], 1);
 }
 
 }  // namespace

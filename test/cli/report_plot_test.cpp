@@ -13,7 +13,7 @@ using ::testing::Not;
 TEST(ReportPlot, LineRunsFromCornerToCornerOfTheAxes) {
   const std::string dut = ToSvg({"way", "m", {{"x", "red", {{0, 0}, {10, 4}}, false}}, {}, 10});
   // Left and right end of the time axis, bottom and top of the y axis.
-  EXPECT_THAT(dut, HasSubstr("points=\"46.0,182.0 548.0,34.0 \""));
+  EXPECT_THAT(dut, HasSubstr("points=\"46.0,202.0 388.0,52.0 \""));
 }
 
 TEST(ReportPlot, AxisHasRoundNumbers) {
@@ -23,7 +23,7 @@ TEST(ReportPlot, AxisHasRoundNumbers) {
 
 TEST(ReportPlot, SpansAreShadedAndNamed) {
   const std::string dut = ToSvg({"way", "m", {}, {{2, 4, "fix"}}, 10});
-  EXPECT_THAT(dut, HasSubstr("<rect class=\"span\" x=\"146.4\""));
+  EXPECT_THAT(dut, HasSubstr("<rect class=\"span\" x=\"114.4\""));
   EXPECT_THAT(dut, HasSubstr(">fix</text>"));
 }
 
@@ -44,7 +44,6 @@ TEST(ReportPlot, LongSeriesAreThinned) {
 }
 
 TEST(ReportPlot, TextFromOutsideCannotBecomeMarkup) {
-  EXPECT_EQ(EscapeHtml("<b a=\"&\n\">"), "&lt;b a=&quot;&amp; &quot;&gt;");
   EXPECT_THAT(ToSvg({"<script>", "m", {}, {}, 1}), Not(HasSubstr("<script>")));
 }
 
