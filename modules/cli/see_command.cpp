@@ -36,9 +36,10 @@ void AddSeeCommand(CLI::App& cli, int& exit_code) {
           "--landmark", options->landmark,
           "a body of flat faces to look for, .toml or ViSP's .cao; one image with its camera is enough")
       ->needs(at);
-  verb->add_option("--out", options->folder, "folder for the drawings")
-      ->capture_default_str()
-      ->check(CLI::ExistingDirectory);
+  verb->add_option("--output", options->output,
+                   "folder, or for a single drawing file, of the drawings; without it they lie beside their "
+                   "images as IMAGE-edges.png");
+  verb->add_flag("--force", options->force, "replace drawings and lists that are there already");
   verb->add_option("--json", options->json, "write segments, corners, outlines and matches there");
   verb->callback([options, &exit_code] { exit_code = head::See(*options) ? 0 : 1; });
 }

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -20,6 +18,7 @@
 #include "head/see_drawing.hpp"
 #include "head/see_json.hpp"
 #include "head/see_landmark.hpp"
+#include "head/see_output.hpp"
 
 namespace priamos::head {
 namespace {
@@ -37,18 +36,29 @@ cv::Mat ReadGrey(const std::string& file) {
   return image;
 }
 
-/// Where a drawing goes; the folder's name keeps left/50.jpg and right/50.jpg apart.
-std::string DrawingFile(const SeeOptions& options, const std::string& image, const char* what) {
-  const std::filesystem::path path(image);
-  const std::string parent =
-      path.has_parent_path() ? path.parent_path().filename().string() + "-" : std::string();
-  return std::filesystem::path(options.folder) /
-         fmt::format("{}{}-{}.png", parent, path.stem().string(), what);
+/// All that `options` ask for.
+std::vector<PlannedDrawing> Plan(const SeeOptions& options) {
+  std::vector<PlannedDrawing> drawings;
+  for (const std::string& image : options.images) drawings.push_back({image, "edges"});
+  if (options.cameras.size() > 1) drawings.push_back({options.images.front(), "stereo"});
+  if (!options.stand.empty()) drawings.push_back({options.images.front(), "doors"});
+  if (!options.landmark.empty()) drawings.push_back({options.images.front(), "landmark"});
+  return drawings;
 }
 
-void Write(const std::string& file, const cv::Mat& drawing) {
-  if (!cv::imwrite(file, drawing)) throw std::runtime_error(fmt::format("{}: cannot be written", file));
+SeeOutput OutputOf(const SeeOptions& options) {
+  std::vector<std::string> inputs = options.images;
+  inputs.insert(inputs.end(), options.cameras.begin(), options.cameras.end());
+  if (!options.landmark.empty()) inputs.push_back(options.landmark);
+  if (!options.json.empty()) RefuseToReplace(options.json, inputs, options.force);
+  return {Plan(options), inputs, options.output, options.force};
 }
+
+/// What was found, in pictures and words: shown when all of it is there.
+struct Findings {
+  SeeOutput output;
+  std::string text{};
+};
 
 struct Photograph {
   std::string file;
@@ -85,19 +95,19 @@ std::vector<CameraModel> Cameras(const SeeOptions& options, const std::vector<Ph
   return cameras;
 }
 
-nlohmann::ordered_json SeeEach(const SeeOptions& options, const std::vector<Photograph>& photographs) {
+nlohmann::ordered_json SeeEach(Findings& findings, const std::vector<Photograph>& photographs) {
   auto all = nlohmann::ordered_json::array();
   for (const Photograph& p : photographs) {
     const ContourGraph contours(p.edges, {});
     const auto is_parallelogram = [](const Polygon& q) { return q.is_parallelogram; };
-    const std::string drawing = DrawingFile(options, p.file, "edges");
-    Write(drawing, DrawContours(p.grey, p.edges, contours));
-    std::cout << fmt::format("{}: {} segments, {} corners, {} parallelograms, drawn in {}\n", p.file,
-                             p.edges.segments.size(), contours.corners().size(),
-                             std::ranges::count_if(contours.polygons(), is_parallelogram), drawing);
+    const std::string drawing =
+        findings.output.Add(p.file, "edges", DrawContours(p.grey, p.edges, contours).ToPng());
+    findings.text += fmt::format("{}: {} segments, {} corners, {} parallelograms, drawn in {}\n", p.file,
+                                 p.edges.segments.size(), contours.corners().size(),
+                                 std::ranges::count_if(contours.polygons(), is_parallelogram), drawing);
     all.push_back(EdgesToJson(p.file, p.edges, contours));
     if (const auto why = WhyBlind(p.edges); !why.empty()) {
-      std::cout << fmt::format("{}: nothing can be seen: {}\n", p.file, why);
+      findings.text += fmt::format("{}: nothing can be seen: {}\n", p.file, why);
       all.back()["unusable"] = why;
     }
   }
@@ -133,7 +143,7 @@ void RefuseExchanged(const std::vector<Photograph>& photographs, const std::vect
         photographs[0].file, photographs[1].file, n_as_given, exchanged));
 }
 
-nlohmann::ordered_json SeeTogether(const SeeOptions& options, const std::vector<Photograph>& photographs,
+nlohmann::ordered_json SeeTogether(Findings& findings, const std::vector<Photograph>& photographs,
                                    const std::vector<CameraModel>& cameras) {
   const std::vector<CameraView> views = Views(photographs, cameras);
   std::vector<cv::Mat> greys;
@@ -141,35 +151,37 @@ nlohmann::ordered_json SeeTogether(const SeeOptions& options, const std::vector<
   const auto matches = Match(views);
   const auto reconstructed = InSpace(matches);
   RefuseExchanged(photographs, cameras, reconstructed);
-  const std::string drawing = DrawingFile(options, photographs[0].file, "stereo");
-  Write(drawing, DrawMatches(greys, views, matches));
-  std::cout << fmt::format("together: {} matches, {} of them with a place in space, drawn in {}\n",
-                           matches.size(), reconstructed, drawing);
+  const std::string drawing =
+      findings.output.Add(photographs[0].file, "stereo", DrawMatches(greys, views, matches).ToPng());
+  findings.text += fmt::format("together: {} matches, {} of them with a place in space, drawn in {}\n",
+                               matches.size(), reconstructed, drawing);
   return MatchesToJson(views, matches);
 }
 
-nlohmann::ordered_json SeeLandmark(const SeeOptions& options, const std::vector<Photograph>& photographs,
+nlohmann::ordered_json SeeLandmark(const SeeOptions& options, Findings& findings,
+                                   const std::vector<Photograph>& photographs,
                                    const std::vector<CameraModel>& cameras, bool& found) {
   const Polyhedron body = LoadPolyhedron(options.landmark);
   const Eigen::Isometry3d believed = PoseFromSix(options.at);
   const std::vector<CameraView> views = Views(photographs, cameras);
   const FreeModelFix fix = LocateFreeModel(body, believed, views, {});
-  const std::string drawing = DrawingFile(options, photographs[0].file, "landmark");
-  Write(drawing, DrawLandmark(photographs[0].grey, views, body, believed, fix));
+  const std::string drawing = findings.output.Add(
+      photographs[0].file, "landmark", DrawLandmark(photographs[0].grey, views, body, believed, fix).ToPng());
   found = fix.verdict == Verdict::kFound;
   if (found) {
     const auto at = SixFromPose(fix.base_from_model);
-    std::cout << fmt::format(
+    findings.text += fmt::format(
         "{}: at {:.4f} {:.4f} {:.4f} m, {:.3f} {:.3f} {:.3f} deg; {} edges, {:.2f} px, drawn in {}\n",
         options.landmark, at[0], at[1], at[2], at[3], at[4], at[5], fix.n_matched, fix.residual_px, drawing);
   } else {
-    std::cout << fmt::format("{}: not found: {}; drawn in {}\n", options.landmark, Describe(fix.verdict),
-                             drawing);
+    findings.text +=
+        fmt::format("{}: not found: {}; drawn in {}\n", options.landmark, Describe(fix.verdict), drawing);
   }
   return LandmarkToJson(views, fix);
 }
 
-nlohmann::ordered_json SeeDoors(const SeeOptions& options, const std::vector<Photograph>& photographs,
+nlohmann::ordered_json SeeDoors(const SeeOptions& options, Findings& findings,
+                                const std::vector<Photograph>& photographs,
                                 const std::vector<CameraModel>& cameras) {
   if (cameras.size() != 2)
     throw std::runtime_error(
@@ -188,15 +200,16 @@ nlohmann::ordered_json SeeDoors(const SeeOptions& options, const std::vector<Pho
   detection.max_width_m = options.max_door_width_m;
   const auto doors = DetectDoors(views[0], views[1], detection);
   const std::vector<cv::Mat> greys{photographs[0].grey, photographs[1].grey};
-  const std::string drawing = DrawingFile(options, photographs[0].file, "doors");
-  Write(drawing, DrawDoors(greys, views, doors));
-  std::cout << fmt::format("doors: {}, drawn in {}\n", doors.size(), drawing);
+  const std::string drawing =
+      findings.output.Add(photographs[0].file, "doors", DrawDoors(greys, views, doors).ToPng());
+  findings.text += fmt::format("doors: {}, drawn in {}\n", doors.size(), drawing);
+  int number = 0;
   for (const DetectedDoor& door : doors)
-    std::cout << fmt::format(
-        "  {:.2f} m ahead, {:.2f} m to the left, {:.1f} deg; {:.2f} m wide, {:.2f} m high, "
+    findings.text += fmt::format(
+        "  door {}: {:.2f} m ahead, {:.2f} m to the left, {:.1f} deg; {:.2f} m wide, {:.2f} m high, "
         "sigma {:.2f} m\n",
-        door.base_from_door.x, door.base_from_door.y, Degrees(door.base_from_door.yaw), door.width_m,
-        door.height_m, std::sqrt(door.covariance.trace()));
+        ++number, door.base_from_door.x, door.base_from_door.y, Degrees(door.base_from_door.yaw),
+        door.width_m, door.height_m, std::sqrt(door.covariance.trace()));
   return DoorsToJson(doors);
 }
 
@@ -206,17 +219,18 @@ bool See(const SeeOptions& options) {
   if (!options.landmark.empty() && options.cameras.empty())
     throw std::runtime_error(
         fmt::format("{}: expected a camera for each image to look for it", options.landmark));
+  Findings findings{OutputOf(options)};
   const auto photographs = Read(options);
   const auto cameras = Cameras(options, photographs);
   bool found = true;
-  nlohmann::ordered_json all{{"images", SeeEach(options, photographs)}};
-  if (cameras.size() > 1) all["matches"] = SeeTogether(options, photographs, cameras);
-  if (!options.stand.empty()) all["doors"] = SeeDoors(options, photographs, cameras);
-  if (!options.landmark.empty()) all["landmark"] = SeeLandmark(options, photographs, cameras, found);
-  if (options.json.empty()) return found;
-  std::ofstream out(options.json);
-  out << all.dump(1) << "\n";
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", options.json));
+  nlohmann::ordered_json all{{"images", SeeEach(findings, photographs)}};
+  if (cameras.size() > 1) all["matches"] = SeeTogether(findings, photographs, cameras);
+  if (!options.stand.empty()) all["doors"] = SeeDoors(options, findings, photographs, cameras);
+  if (!options.landmark.empty())
+    all["landmark"] = SeeLandmark(options, findings, photographs, cameras, found);
+  findings.output.Write();
+  if (!options.json.empty()) WriteWhole(options.json, all.dump(1) + "\n");
+  std::cout << findings.text;
   return found;
 }
 

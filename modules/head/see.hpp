@@ -15,13 +15,15 @@ struct SeeOptions {
   std::vector<double> at{};        ///< where it is believed to be (PoseFromSix)
   std::vector<double> stand{};     ///< how the first of two cameras stands (OnTheFloor): doors are looked for
   double max_door_width_m = 1.35;  ///< double doors are wider
-  std::string folder = ".";        ///< NAME-edges.png per image, and NAME-stereo.png, are written here
-  std::string json{};              ///< all that was found; empty: none
+  std::string output{};  ///< folder or file for the drawings; empty: beside their images (SeeOutput)
+  bool force = false;    ///< replaces files that are there already, but never an image that is read
+  std::string json{};    ///< all that was found; empty: none
 };
 
 /// Draws edges, corners and outlines of each image, with `cameras` also what the images have in common, and
-/// lists all of it. Throws std::runtime_error naming a file that cannot be read, does not fit the others, or
-/// cannot be written; then nothing has been written for that image. An image in which nothing can be seen is
+/// lists all of it, and says where each drawing lies: IMAGE-edges.png, and of the first image -stereo, -doors
+/// and -landmark. Throws std::runtime_error naming a file that cannot be read, does not fit the others,
+/// cannot or may not be written; then nothing has been written. An image in which nothing can be seen is
 /// named with the reason, and so are images that were exchanged. False if a landmark was asked for and not
 /// found.
 bool See(const SeeOptions& options);

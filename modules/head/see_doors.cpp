@@ -6,18 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 namespace priamos::head {
 namespace {
 
-constexpr int kShift = 4;  // OpenCV takes sub-pixel points in 1/16 px
-
-cv::Point Fixed(const Eigen::Vector2d& p) {
-  return {static_cast<int>(std::lround(p.x() * (1 << kShift))),
-          static_cast<int>(std::lround(p.y() * (1 << kShift)))};
-}
+constexpr drawing::Colour kMagenta{0xff40ff};
+constexpr drawing::Layer kEdge{"edge", "edge", {.line = drawing::Colour{0x969696}, .width = 0.8}};
+constexpr drawing::Layer kDoor{"door", "door: posts and lintel", {.line = kMagenta, .width = 2}};
 
 /// Left foot, left corner, right corner, right foot.
 std::array<Eigen::Vector2d, 4> Outline(const CameraModel& camera, const DetectedDoor& door) {
@@ -49,26 +45,19 @@ std::vector<CameraModel> OnTheFloor(std::vector<CameraModel> cameras, const std:
   return cameras;
 }
 
-cv::Mat DrawDoors(std::span<const cv::Mat> greys, std::span<const CameraView> views,
+SeePage DrawDoors(std::span<const cv::Mat> greys, std::span<const CameraView> views,
                   std::span<const DetectedDoor> doors) {
-  std::vector<cv::Mat> canvases;
+  SeePage page(greys);
   for (std::size_t c = 0; c < greys.size(); ++c) {
-    cv::Mat& canvas = canvases.emplace_back();
-    cv::cvtColor(greys[c] * 0.6 + 60, canvas, cv::COLOR_GRAY2BGR);
-    for (const EdgeSegment& s : views[c].edges->segments)
-      cv::line(canvas, Fixed(s.begin), Fixed(s.end), {150, 150, 150}, 1, cv::LINE_AA, kShift);
+    for (const EdgeSegment& s : views[c].edges->segments) page.Line(kEdge, c, s.begin, s.end);
     for (std::size_t i = 0; i < doors.size(); ++i) {
       const auto outline = Outline(*views[c].camera, doors[i]);
-      for (int k = 0; k < 3; ++k)
-        cv::line(canvas, Fixed(outline[k]), Fixed(outline[k + 1]), {255, 0, 255}, 2, cv::LINE_AA, kShift);
-      const Eigen::Vector2d label = outline[1] + Eigen::Vector2d(4, 16);
-      cv::putText(canvas, fmt::format("{}", i), cv::Point2d(label.x(), label.y()), cv::FONT_HERSHEY_SIMPLEX,
-                  0.5, {255, 0, 255}, 1, cv::LINE_AA);
+      for (std::size_t k = 0; k < 3; ++k) page.Line(kDoor, c, outline[k], outline[k + 1]);
+      page.Label(c, outline[1], fmt::format("{}", i + 1), kMagenta);
     }
   }
-  cv::Mat all;
-  cv::hconcat(canvases, all);
-  return all;
+  page.Finish();
+  return page;
 }
 
 nlohmann::ordered_json DoorsToJson(std::span<const DetectedDoor> doors) {

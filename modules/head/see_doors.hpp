@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "head/core/door_detection.hpp"
+#include "head/see_page.hpp"
 
 namespace priamos::head {
 
@@ -15,8 +16,8 @@ namespace priamos::head {
 /// finite numbers, the height positive.
 std::vector<CameraModel> OnTheFloor(std::vector<CameraModel> cameras, const std::vector<double>& stand);
 
-/// The images side by side, dimmed, with their edges (thin) and the doors: uprights and lintel, numbered.
-cv::Mat DrawDoors(std::span<const cv::Mat> greys, std::span<const CameraView> views,
+/// The images side by side with their edges (thin) and the doors: uprights and lintel, numbered from 1.
+SeePage DrawDoors(std::span<const cv::Mat> greys, std::span<const CameraView> views,
                   std::span<const DetectedDoor> doors);
 
 /// Place [m, deg], size, log odds and standard deviations of each door, in the base frame.

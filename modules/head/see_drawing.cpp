@@ -1,92 +1,92 @@
 #include "head/see_drawing.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <functional>
+#include <map>
 
 namespace priamos::head {
 namespace {
 
-constexpr int kShift = 4;  // OpenCV takes sub-pixel points in 1/16 px
-constexpr double kNear_m = 0.8, kFar_m = 12;
+using drawing::Colour, drawing::Layer, drawing::Symbol;
 
-cv::Point Fixed(const Eigen::Vector2d& p) {
-  return {static_cast<int>(std::lround(p.x() * (1 << kShift))),
-          static_cast<int>(std::lround(p.y() * (1 << kShift)))};
-}
+constexpr Layer kParallelogram{
+    "parallelogram", "parallelogram", {.fill = Colour{0xdc78c8}, .opacity = 0.35}, Symbol::kArea};
+constexpr Layer kUpright{"upright", "upright edge", {.line = Colour{0x3cc83c}, .width = 1.6}};
+constexpr Layer kLevel{"level", "level edge", {.line = Colour{0x48a0f0}, .width = 1.6}};
+constexpr Layer kOther{"sloping", "other edge", {.line = Colour{0xfa8c28}, .width = 1.6}};
+constexpr Layer kCorner{"corner", "corner", {.line = Colour{0xff4040}, .width = 1.2}, Symbol::kDot};
+constexpr Layer kUnmatched{"unmatched", "edge without a match", {.line = Colour{0x969696}, .width = 0.8}};
+constexpr Layer kAlong{"epipolar", "matched, distance unknown", {.line = Colour{0xffffff}, .width = 1.6}};
 
-cv::Mat Dimmed(const cv::Mat& grey) {
-  cv::Mat canvas;
-  cv::cvtColor(grey * 0.6 + 60, canvas, cv::COLOR_GRAY2BGR);
-  return canvas;
-}
-
-void Line(cv::Mat& canvas, const EdgeSegment& s, const cv::Scalar& colour, int width) {
-  cv::line(canvas, Fixed(s.begin), Fixed(s.end), colour, width, cv::LINE_AA, kShift);
-}
+/// What lies nearer than `up_to_m`, and farther than the one before.
+struct DistanceClass {
+  double up_to_m;
+  Layer layer;
+};
+constexpr std::array<DistanceClass, 6> kDistances{{
+    {1, {"to-1m", "nearer than 1 m", {.line = Colour{0xff3030}, .width = 1.6}}},
+    {1.5, {"to-1.5m", "1 to 1.5 m", {.line = Colour{0xffa020}, .width = 1.6}}},
+    {2.5, {"to-2.5m", "1.5 to 2.5 m", {.line = Colour{0xf0f020}, .width = 1.6}}},
+    {4, {"to-4m", "2.5 to 4 m", {.line = Colour{0x40e040}, .width = 1.6}}},
+    {8, {"to-8m", "4 to 8 m", {.line = Colour{0x20d8f0}, .width = 1.6}}},
+    {INFINITY, {"beyond-8m", "farther than 8 m", {.line = Colour{0x5080ff}, .width = 1.6}}},
+}};
 
 /// A door shows at a glance.
-cv::Scalar ColourOf(const EdgeSegment& segment) {
+const Layer& LayerOf(const EdgeSegment& segment) {
   const Eigen::Vector2d d = segment.direction().cwiseAbs();
   constexpr double kNearlyAxis = 0.1;
-  if (d.x() < kNearlyAxis) return {60, 200, 60};
-  if (d.y() < kNearlyAxis) return {230, 140, 40};
-  return {40, 140, 250};
+  if (d.x() < kNearlyAxis) return kUpright;
+  return d.y() < kNearlyAxis ? kLevel : kOther;
 }
 
-void FillParallelograms(cv::Mat& canvas, const ContourGraph& contours) {
-  cv::Mat filled = canvas.clone();
-  for (const Polygon& polygon : contours.polygons()) {
-    if (!polygon.is_parallelogram) continue;
-    std::vector<cv::Point> outline;
-    for (const auto& p : contours.Outline(polygon)) outline.push_back(Fixed(p));
-    cv::fillConvexPoly(filled, outline, {200, 120, 220}, cv::LINE_AA, kShift);
-  }
-  cv::addWeighted(filled, 0.35, canvas, 0.65, 0, canvas);
+/// Infinite where nobody knows it.
+double DepthOf(const StereoMatch& match, const CameraModel& camera) {
+  if (!match.space) return INFINITY;
+  return MetricDepth(camera, 0.5 * (match.space->from + match.space->to));
 }
 
-/// Hue by inverse distance, as disparity pictures have it.
-cv::Scalar ColourOf(const StereoMatch& match, const CameraModel& camera) {
-  if (!match.space) return {255, 255, 255};
-  const double depth = MetricDepth(camera, 0.5 * (match.space->from + match.space->to));
-  const double far = (1 / kNear_m - 1 / std::clamp(depth, kNear_m, kFar_m)) / (1 / kNear_m - 1 / kFar_m);
-  const cv::Mat hsv(1, 1, CV_8UC3, cv::Scalar(120 * far, 255, 255));
-  cv::Mat bgr;
-  cv::cvtColor(hsv, bgr, cv::COLOR_HSV2BGR);
-  const auto c = bgr.at<cv::Vec3b>(0, 0);
-  return {double(c[0]), double(c[1]), double(c[2])};
+const Layer& LayerAt(double depth_m) {
+  for (const DistanceClass& distance : kDistances)
+    if (depth_m < distance.up_to_m) return distance.layer;
+  return kAlong;
 }
 
 }  // namespace
 
-cv::Mat DrawContours(const cv::Mat& grey, const EdgeImage& edges, const ContourGraph& contours) {
-  cv::Mat canvas = Dimmed(grey);
-  FillParallelograms(canvas, contours);
-  for (const EdgeSegment& s : edges.segments) Line(canvas, s, ColourOf(s), 2);
-  for (const Corner& corner : contours.corners())
-    cv::circle(canvas, Fixed(corner.at), 3 << kShift, {40, 40, 230}, 1, cv::LINE_AA, kShift);
-  return canvas;
+SeePage DrawContours(const cv::Mat& grey, const EdgeImage& edges, const ContourGraph& contours) {
+  SeePage page(std::span(&grey, 1));
+  for (const Polygon& polygon : contours.polygons()) {
+    if (!polygon.is_parallelogram) continue;
+    const auto outline = contours.Outline(polygon);
+    page.Area(kParallelogram, 0, {outline.begin(), outline.end()});
+  }
+  for (const EdgeSegment& s : edges.segments) page.Line(LayerOf(s), 0, s.begin, s.end);
+  for (const Corner& corner : contours.corners()) page.Ring(kCorner, 0, corner.at, 3);
+  page.Finish();
+  return page;
 }
 
-cv::Mat DrawMatches(std::span<const cv::Mat> greys, std::span<const CameraView> views,
+SeePage DrawMatches(std::span<const cv::Mat> greys, std::span<const CameraView> views,
                     std::span<const StereoMatch> matches) {
-  std::vector<cv::Mat> canvases;
-  for (std::size_t i = 0; i < greys.size(); ++i) {
-    canvases.push_back(Dimmed(greys[i]));
-    for (const EdgeSegment& s : views[i].edges->segments) Line(canvases[i], s, {150, 150, 150}, 1);
-  }
-  const auto segment = [&](std::size_t view, int line) -> const EdgeSegment& {
-    return views[view].edges->segments[views[view].lines[line].segment];
+  SeePage page(greys);
+  for (std::size_t i = 0; i < greys.size(); ++i)
+    for (const EdgeSegment& s : views[i].edges->segments) page.Line(kUnmatched, i, s.begin, s.end);
+  const auto draw = [&](const Layer& layer, std::size_t view, int line) {
+    const EdgeSegment& s = views[view].edges->segments[views[view].lines[line].segment];
+    page.Line(layer, view, s.begin, s.end);
   };
-  for (const StereoMatch& match : matches) {
-    const cv::Scalar colour = ColourOf(match, *views[0].camera);
-    Line(canvases[0], segment(0, match.left), colour, 2);
-    for (const int line : match.right) Line(canvases[1], segment(1, line), colour, 2);
-    for (const int line : match.third) Line(canvases[2], segment(2, line), colour, 2);
+  std::multimap<double, const StereoMatch*, std::greater<>> from_far;  // so that near ones lie on top
+  for (const StereoMatch& match : matches) from_far.emplace(DepthOf(match, *views[0].camera), &match);
+  for (const auto& [depth_m, match] : from_far) {
+    const Layer& layer = LayerAt(depth_m);
+    draw(layer, 0, match->left);
+    for (const int line : match->right) draw(layer, 1, line);
+    for (const int line : match->third) draw(layer, 2, line);
   }
-  cv::Mat all;
-  cv::hconcat(canvases, all);
-  return all;
+  page.Finish();
+  return page;
 }
 
 }  // namespace priamos::head

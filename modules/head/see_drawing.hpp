@@ -6,17 +6,17 @@
 #include "head/core/contour_graph.hpp"
 #include "head/core/edge_segment.hpp"
 #include "head/core/edge_stereo.hpp"
+#include "head/see_page.hpp"
 
 namespace priamos::head {
 
-/// The image, dimmed, with its edges (upright ones green, level ones blue, others orange), corners (red) and
-/// parallelograms (filled).
-cv::Mat DrawContours(const cv::Mat& grey, const EdgeImage& edges, const ContourGraph& contours);
+/// The image with its edges (upright, level and other ones), corners and parallelograms.
+SeePage DrawContours(const cv::Mat& grey, const EdgeImage& edges, const ContourGraph& contours);
 
-/// The images side by side. What was matched has the same colour in all of them, from red (near) over yellow
-/// and green to blue (far); matches along the epipolar lines, whose distance nobody knows, are white; other
+/// The images side by side. What was matched has the same colour in all of them, by its distance from red
+/// (near) to blue (far); matches along the epipolar lines, whose distance nobody knows, are white; other
 /// edges are thin and grey.
-cv::Mat DrawMatches(std::span<const cv::Mat> greys, std::span<const CameraView> views,
+SeePage DrawMatches(std::span<const cv::Mat> greys, std::span<const CameraView> views,
                     std::span<const StereoMatch> matches);
 
 }  // namespace priamos::head

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "head/core/projection.hpp"
@@ -13,44 +12,43 @@
 namespace priamos::head {
 namespace {
 
-constexpr int kShift = 4;  // OpenCV takes sub-pixel points in 1/16 px
+using drawing::Colour, drawing::Layer;
 
-void Line(cv::Mat& canvas, const Eigen::Vector2d& p, const Eigen::Vector2d& q, const cv::Scalar& colour,
-          int width) {
-  const auto fixed = [](const Eigen::Vector2d& at) {
-    return cv::Point(static_cast<int>(std::lround(at.x() * (1 << kShift))),
-                     static_cast<int>(std::lround(at.y() * (1 << kShift))));
-  };
-  cv::line(canvas, fixed(p), fixed(q), colour, width, cv::LINE_AA, kShift);
-}
+constexpr Layer kEdge{"edge", "other edge", {.line = Colour{0x969696}, .width = 0.8}};
+constexpr Layer kBelieved{"believed", "model where it is believed", {.line = Colour{0xffffff}, .width = 0.8}};
+constexpr Layer kMatched{"matched", "edge taken for the model", {.line = Colour{0x3cdc3c}, .width = 2}};
+constexpr Layer kFound{"found", "model where it was found", {.line = Colour{0xff40ff}, .width = 1}};
 
-void DrawModel(cv::Mat& canvas, const CameraView& view, const LandmarkModel& seen,
-               const Eigen::Isometry3d& at, const cv::Scalar& colour) {
+void DrawModel(SeePage& page, const CameraView& view, const LandmarkModel& seen, const Eigen::Isometry3d& at,
+               const Layer& layer) {
   for (const LandmarkEdge& edge : seen.edges)
     if (const auto p = ProjectEdge(*view.camera, view.size, at * edge.from, at * edge.to))
-      Line(canvas, p->p, p->q, colour, 1);
+      page.Line(layer, 0, p->p, p->q);
 }
 
-}  // namespace
-
-cv::Mat DrawLandmark(const cv::Mat& grey, std::span<const CameraView> views, const Polyhedron& body,
-                     const Eigen::Isometry3d& believed, const FreeModelFix& fix) {
-  cv::Mat canvas;
-  cv::cvtColor(grey * 0.6 + 30, canvas, cv::COLOR_GRAY2BGR);
-  const CameraView& view = views[0];
-  for (const EdgeSegment& s : view.edges->segments) Line(canvas, s.begin, s.end, {150, 150, 150}, 1);
-  const Eigen::Vector3d eye = believed.inverse() * OpticalCentre(*view.camera);
-  DrawModel(canvas, view, VisibleSkeleton(body, eye), believed, {255, 255, 255});
-  if (fix.verdict != Verdict::kFound) return canvas;
+void DrawFound(SeePage& page, const CameraView& view, const FreeModelFix& fix) {
   for (const EdgeMatch& match : fix.matches) {
     if (match.camera != 0) continue;
     for (const int line : match.lines) {
       const EdgeSegment& s = view.edges->segments[view.lines[line].segment];
-      Line(canvas, s.begin, s.end, {60, 220, 60}, 2);
+      page.Line(kMatched, 0, s.begin, s.end);
     }
   }
-  DrawModel(canvas, view, fix.seen, fix.base_from_model, {255, 0, 255});
-  return canvas;
+  DrawModel(page, view, fix.seen, fix.base_from_model, kFound);
+}
+
+}  // namespace
+
+SeePage DrawLandmark(const cv::Mat& grey, std::span<const CameraView> views, const Polyhedron& body,
+                     const Eigen::Isometry3d& believed, const FreeModelFix& fix) {
+  SeePage page(std::span(&grey, 1));
+  const CameraView& view = views[0];
+  for (const EdgeSegment& s : view.edges->segments) page.Line(kEdge, 0, s.begin, s.end);
+  const Eigen::Vector3d eye = believed.inverse() * OpticalCentre(*view.camera);
+  DrawModel(page, view, VisibleSkeleton(body, eye), believed, kBelieved);
+  if (fix.verdict == Verdict::kFound) DrawFound(page, view, fix);
+  page.Finish();
+  return page;
 }
 
 nlohmann::ordered_json LandmarkToJson(std::span<const CameraView> views, const FreeModelFix& fix) {

@@ -5,12 +5,13 @@
 #include <span>
 
 #include "head/core/free_model_fix.hpp"
+#include "head/see_page.hpp"
 
 namespace priamos::head {
 
-/// The first image, dimmed: what the model predicts at `believed` (thin, white), its visible edges where it
+/// The first image: what the model predicts at `believed` (thin, white), its visible edges where it
 /// was found (magenta, only if it was), image edges that were taken for it (green) and all others (grey).
-cv::Mat DrawLandmark(const cv::Mat& grey, std::span<const CameraView> views, const Polyhedron& body,
+SeePage DrawLandmark(const cv::Mat& grey, std::span<const CameraView> views, const Polyhedron& body,
                      const Eigen::Isometry3d& believed, const FreeModelFix& fix);
 
 /// Verdict, and if it was found pose, standard deviations and matches.

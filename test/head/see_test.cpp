@@ -47,7 +47,7 @@ class SeeTest : public ::testing::Test {
   nlohmann::json SeePair() {
     See({.images = {Photograph("left.png", 0), Photograph("right.png", kDisparity)},
          .cameras = {Camera("left.yaml", 0), Camera("right.yaml", kBaseline)},
-         .folder = folder_.path(),
+         .output = folder_.path(),
          .json = folder_ / "all.json"});
     return nlohmann::json::parse(std::ifstream(folder_ / "all.json"));
   }
@@ -96,7 +96,9 @@ TEST_F(SeeTest, DrawingsLieSideBySide) {
     if (name.ends_with("-edges.png")) ++edges;
     if (!name.ends_with("-stereo.png")) continue;
     ++stereo;
-    EXPECT_EQ(cv::imread(entry.path()).size(), cv::Size(2 * kWidth, kHeight));
+    const cv::Mat drawing = cv::imread(entry.path());
+    EXPECT_EQ(drawing.cols, 2 * kWidth);
+    EXPECT_GT(drawing.rows, kHeight);  // the legend
   }
   EXPECT_EQ(edges, 2);
   EXPECT_EQ(stereo, 1);
@@ -107,16 +109,16 @@ TEST_F(SeeTest, WhatCannotBeUsedIsNamed) {
   const std::string other = Photograph("right.png", kDisparity);
   const std::string camera = Camera("left.yaml", 0);
   const std::string missing = folder_ / "none.png";
-  EXPECT_THAT(ErrorOf({.images = {missing}, .folder = folder_.path()}), HasSubstr(missing));
-  EXPECT_THAT(ErrorOf({.images = {photo}, .cameras = {camera, camera}, .folder = folder_.path()}),
+  EXPECT_THAT(ErrorOf({.images = {missing}, .output = folder_.path()}), HasSubstr(missing));
+  EXPECT_THAT(ErrorOf({.images = {photo}, .cameras = {camera, camera}, .output = folder_.path()}),
               HasSubstr("a camera for each"));
-  EXPECT_THAT(ErrorOf({.images = {photo, other}, .cameras = {camera, photo}, .folder = folder_.path()}),
+  EXPECT_THAT(ErrorOf({.images = {photo, other}, .cameras = {camera, photo}, .output = folder_.path()}),
               HasSubstr("left.png"));
   EXPECT_THAT(
       ErrorOf({.images = {photo, other},
                .cameras = {camera, Camera("bent.yaml", 0.1,
                                           "distortion_coefficients:\n   data: [ 0.1, 0., 0., 0., 0. ]\n")},
-               .folder = folder_.path()}),
+               .output = folder_.path()}),
       HasSubstr("rectified"));
 }
 
@@ -139,7 +141,7 @@ TEST_F(SeeTest, AnImageInWhichNothingCanBeSeenIsNamedWithTheReason) {
   for (const auto& [grey, why] :
        {std::pair{0, "black"}, {255, "black or white all over"}, {90, "without edges"}}) {
     cv::imwrite(file, cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(grey)));
-    EXPECT_TRUE(See({.images = {file}, .folder = folder_.path(), .json = json}));
+    EXPECT_TRUE(See({.images = {file}, .output = folder_.path(), .force = true, .json = json}));
     EXPECT_EQ(nlohmann::json::parse(std::ifstream(json))["images"][0]["unusable"], why);
   }
 }
@@ -147,8 +149,37 @@ TEST_F(SeeTest, AnImageInWhichNothingCanBeSeenIsNamedWithTheReason) {
 TEST_F(SeeTest, ExchangedImagesAreRefused) {
   const SeeOptions options{.images = {Photograph("right.png", kDisparity), Photograph("left.png", 0)},
                            .cameras = {Camera("left.yaml", 0), Camera("right.yaml", kBaseline)},
-                           .folder = folder_.path()};
+                           .output = folder_.path()};
   EXPECT_THAT(ErrorOf(options), HasSubstr("if the images are exchanged"));
+}
+
+TEST_F(SeeTest, WithoutATargetDrawingsLieBesideTheirImages) {
+  const auto before = std::filesystem::current_path();
+  const TemporaryFolder elsewhere;
+  std::filesystem::current_path(elsewhere.path());
+  See({.images = {Photograph("left.png", 0)}});
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "left-edges.png"));
+  EXPECT_TRUE(std::filesystem::is_empty(elsewhere.path()));
+}
+
+TEST_F(SeeTest, NothingIsReplacedUnasked) {
+  const SeeOptions options{.images = {Photograph("left.png", 0)}};
+  const std::string drawing = folder_ / "left-edges.png";
+  std::ofstream(drawing) << "mine";
+  EXPECT_THAT(ErrorOf(options), HasSubstr(drawing + ": is there already"));
+  EXPECT_EQ(std::filesystem::file_size(drawing), 4u);
+  SeeOptions forced = options;
+  forced.force = true;
+  EXPECT_EQ(ErrorOf(forced), "");
+  EXPECT_GT(std::filesystem::file_size(drawing), 4u);
+}
+
+TEST_F(SeeTest, WhatFailsAtTheEndHasWrittenNothing) {
+  const SeeOptions exchanged{.images = {Photograph("right.png", kDisparity), Photograph("left.png", 0)},
+                             .cameras = {Camera("left.yaml", 0), Camera("right.yaml", kBaseline)}};
+  EXPECT_NE(ErrorOf(exchanged), "");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "left-edges.png"));
 }
 
 TEST_F(SeeTest, FindsALandmarkOfFlatFaces) {
@@ -157,7 +188,7 @@ TEST_F(SeeTest, FindsALandmarkOfFlatFaces) {
                            .cameras = {Camera("left.yaml", 0), Camera("right.yaml", kBaseline)},
                            .landmark = folder_ / "board.toml",
                            .at = {0.01, -0.01, 0.02, 0, 0, 0.3},
-                           .folder = folder_.path(),
+                           .output = folder_.path(),
                            .json = folder_ / "all.json"};
   EXPECT_TRUE(See(options));
   const auto dut = nlohmann::json::parse(std::ifstream(folder_ / "all.json"))["landmark"];
@@ -172,7 +203,8 @@ TEST_F(SeeTest, ALandmarkThatCannotBeSeenIsNotFoundAndTheReasonIsTold) {
                      .cameras = {Camera("left.yaml", 0)},
                      .landmark = folder_ / "board.toml",
                      .at = {0, 0, -4, 0, 0, 0},
-                     .folder = folder_.path(),
+                     .output = folder_.path(),
+                     .force = true,
                      .json = folder_ / "all.json"};
   EXPECT_FALSE(See(options));
   const auto verdict = [&] {
@@ -194,7 +226,7 @@ TEST_F(SeeTest, MistakesInALandmarkFileAreNamed) {
                     .cameras = {Camera("left.yaml", 0)},
                     .landmark = name,
                     .at = {0, 0, 0, 0, 0, 0},
-                    .folder = folder_.path()});
+                    .output = folder_.path()});
   };
   EXPECT_THAT(error("[[points]]\nat_m = [0, 0]\n", file), HasSubstr("body.toml:2"));
   EXPECT_THAT(error("[[faces]]\npoints = [0, 1.5, 2]\n", file), HasSubstr("whole numbers"));
@@ -240,7 +272,7 @@ class SeeDoorTest : public SeeTest {
     return {.images = {PhotographOfADoor("left.png", 0), PhotographOfADoor("right.png", 0.2)},
             .cameras = {LargeCamera("left.yaml", 0), LargeCamera("right.yaml", 0.2)},
             .stand = {1.2},
-            .folder = folder_.path(),
+            .output = folder_.path(),
             .json = folder_ / "all.json"};
   }
 };
