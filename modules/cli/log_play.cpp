@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <poll.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +11,7 @@
 #include "bus/log/log_player.hpp"
 #include "bus/real_time_loop.hpp"
 #include "cli/log_options.hpp"
+#include "cli/play_keyboard.hpp"
 #include "cli/play_keys.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -29,34 +29,6 @@ struct PlayOptions {
   bool loop = false, paused = false, json = false;
 };
 
-/// Single keys from a terminal, without Enter; nothing when standard input is none.
-class Keyboard {
- public:
-  Keyboard() : is_terminal_(isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &before_) == 0) {
-    if (!is_terminal_) return;
-    termios raw = before_;
-    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    tcsetattr(STDIN_FILENO, TCSANOW, &raw);
-  }
-  ~Keyboard() {
-    if (is_terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-  }
-  Keyboard(const Keyboard&) = delete;
-  Keyboard& operator=(const Keyboard&) = delete;
-
-  bool is_terminal() const { return is_terminal_; }
-  int fd() const { return is_terminal_ ? STDIN_FILENO : -1; }
-  std::string Read() const {
-    char keys[16];
-    const ssize_t n = read(STDIN_FILENO, keys, sizeof keys);
-    return n > 0 ? std::string(keys, static_cast<std::size_t>(n)) : "";
-  }
-
- private:
-  termios before_{};
-  bool is_terminal_;
-};
-
 class Playing {
  public:
   explicit Playing(const PlayOptions& options)
@@ -70,7 +42,6 @@ class Playing {
   }
 
   int Run() {
-    if (keyboard_.is_terminal()) std::cerr << kPlayKeysHelp << "\n";
     while (!player_.done() && !quit_) {
       Wait();
       const int sent = player_.Play(
@@ -85,7 +56,7 @@ class Playing {
       if (player_.speed() == bus::LogPlayer::kFlatOut && sent == kBurst) usleep(1000);
       Show();
     }
-    std::cerr << (keyboard_.is_terminal() ? "\n" : "");
+    status_.Wipe();
     if (json_)
       std::cout << nlohmann::ordered_json{{"sent", sent_},
                                           {"refused", refused_},
@@ -113,11 +84,13 @@ class Playing {
 
   void Show() {
     const Time now = clock_.Now();
-    if (!keyboard_.is_terminal() || now < next_show_) return;
+    if (now < next_show_) return;
     next_show_ = now + kShowPeriod;
-    std::cerr << fmt::format("\r{:8.2f} of {:.2f} s, {}x{}   ", Seconds(player_.position()),
+    keyboard_.Keep();
+    status_.Show(fmt::format("{:.2f} of {:.2f} s, {}x{}{}", Seconds(player_.position()),
                              Seconds(player_.length()), SpeedText(player_.speed()),
-                             player_.paused() ? ", paused" : "");
+                             player_.paused() ? ", paused" : "",
+                             keyboard_.fd() < 0 ? "" : fmt::format("   {}", kPlayKeysInShort)));
   }
 
   static constexpr Duration kLongest = std::chrono::milliseconds(100);
@@ -126,7 +99,8 @@ class Playing {
   bus::MonotonicClock clock_;
   bus::LcmBus bus_;
   bus::LogPlayer player_;
-  Keyboard keyboard_;
+  StatusLine status_;
+  PlayKeyboard keyboard_;
   Time next_show_{};
   std::uint64_t sent_ = 0, refused_ = 0;
   bool quit_ = false;

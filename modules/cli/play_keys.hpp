@@ -11,6 +11,10 @@ inline constexpr std::string_view kPlayKeysHelp =
     "Keys: space pause, s one event, left/right 1 s, down/up 10 s, - and + speed, 1 original speed, m max, "
     "0 beginning, q quit";
 
+/// The same beside the position, for 80 columns.
+inline constexpr std::string_view kPlayKeysInShort =
+    "space pause, s step, \u2190\u2192 1 s, \u2191\u2193 10 s, -+ speed, q";
+
 /// Does what the keys say; false for quit. Arrow keys come as escape sequences.
 bool ApplyKeys(std::string_view keys, bus::LogPlayer& player, Time now);
 
