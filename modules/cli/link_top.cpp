@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bus/clock.hpp"
@@ -12,13 +13,14 @@
 #include "bus/own_types.hpp"
 #include "cli/bus_watch.hpp"
 #include "cli/silence_watch.hpp"
+#include "cli/terminal_screen.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
 namespace {
 
 constexpr int kBarWidth = 24;
-constexpr Duration kStale{3'000'000};
+constexpr Duration kStale{3'000'000}, kPeriod{500'000};
 constexpr double kOnceWaits_s = 10;  // two rounds of reports of the largest link
 
 std::string Bar(double share) {
@@ -64,48 +66,80 @@ bool LinkTopView::complete() const {
                      [](const auto& row) { return row.second.messages_per_s.has_value(); });
 }
 
-std::string LinkTopView::Head(Time now) const {
+std::string LinkTopView::Head(Time now, int columns) const {
   const link_status_t& s = *last_;
   const bool stale = now - last_at_ > kStale;
-  return fmt::format(
-      "radio link, {} end: {}\n"
-      "  sends {:<4} {}   {} frames, {} bytes, {} cut off, {} event pieces again\n"
-      "  hears {:<4} {}   {} frames, {} bytes, {} missed\n",
-      s.onboard ? "onboard" : "offboard", StateOf(s, stale), s.onboard ? "up" : "down", Bar(s.utilisation),
-      s.frames_sent, s.bytes_sent, s.frames_aborted, s.resent, s.onboard ? "down" : "up",
-      Bar(s.utilisation_in), s.frames_received, s.bytes_received, s.frames_missed);
+  return Wrapped(fmt::format("radio link, {} end: {}", s.onboard ? "onboard" : "offboard", StateOf(s, stale)),
+                 columns) +
+         Wrapped(fmt::format("  sends {:<4} {}  {} frames, {} bytes, {} cut off, {} event pieces again",
+                             s.onboard ? "up" : "down", Bar(s.utilisation), s.frames_sent, s.bytes_sent,
+                             s.frames_aborted, s.resent),
+                 columns, 4) +
+         Wrapped(fmt::format("  hears {:<4} {}  {} frames, {} bytes, {} missed", s.onboard ? "down" : "up",
+                             Bar(s.utilisation_in), s.frames_received, s.bytes_received, s.frames_missed),
+                 columns, 4);
 }
 
-std::string LinkTopView::Quality() const {
+std::string LinkTopView::Quality(int columns) const {
   const link_status_t& s = *last_;
   const std::string round_trip = s.round_trip_s < 0 ? "-" : fmt::format("{:.3f} s", s.round_trip_s);
-  return fmt::format(
-      "  round trip {}, delay {:.3f} s, frames lost {:.0f} % here and {:.0f} % there, bit errors {:.1e}\n"
-      "  refused: {} malformed, {} wrong code, {} replayed, {} flood; {} not readable\n",
-      round_trip, s.latency_s, s.loss * 100, s.peer_loss * 100, s.bit_error_rate, s.rejected_malformed,
-      s.rejected_code, s.rejected_replayed, s.rejected_flood, s.undecodable);
+  return Wrapped(fmt::format("  round trip {}, delay {:.3f} s, frames lost {:.0f} % here and {:.0f} % there, "
+                             "bit errors {:.1e}",
+                             round_trip, s.latency_s, s.loss * 100, s.peer_loss * 100, s.bit_error_rate),
+                 columns, 4) +
+         Wrapped(fmt::format("  refused: {} malformed, {} wrong code, {} replayed, {} flood; {} not readable",
+                             s.rejected_malformed, s.rejected_code, s.rejected_replayed, s.rejected_flood,
+                             s.undecodable),
+                 columns, 4);
 }
 
-std::string LinkTopView::Table() const {
-  constexpr const char* kRow = "{:<5}{:<24}{:>7}{:>7}{:>9}{:>9}{:>8}{:>8}{:>9}{:>6}{:>7}{:>8}\n";
-  std::string text = fmt::format(fmt::runtime(kRow), "", "channel", "msg/s", "B/s", "messages", "replaced",
-                                 "expired", "refused", "unwanted", "late", "satur.", "queue s");
+TextTable LinkTopView::Table() const {
+  TextTable table({{"", 100, true},
+                   {"channel", 110, true},
+                   {"msg/s", 95},
+                   {"B/s", 98},
+                   {"messages", 40},
+                   {"replaced", 50},
+                   {"expired", 70},
+                   {"refused", 75},
+                   {"unwanted", 20},
+                   {"late", 80},
+                   {"satur.", 60},
+                   {"queue s", 90}});
   for (const bool outgoing : {true, false})
     for (const auto& [number, row] : rows_) {
       const link_channel_t& c = row.channel;
       if (static_cast<bool>(c.outgoing) != outgoing) continue;
       const bool up = outgoing == static_cast<bool>(last_->onboard);
-      text += fmt::format(fmt::runtime(kRow), up ? "up" : "down", c.channel, Rate(row.messages_per_s, 1),
-                          Rate(row.bytes_per_s, 0), c.messages, c.replaced, c.expired, c.dropped - c.expired,
-                          c.unwanted, c.late, c.saturated, fmt::format("{:.2f}", c.queue_age_s));
+      const auto count = [](auto n) { return fmt::format("{}", n); };
+      table.Add({up ? "up" : "down", c.channel, Rate(row.messages_per_s, 1), Rate(row.bytes_per_s, 0),
+                 count(c.messages), count(c.replaced), count(c.expired), count(c.dropped - c.expired),
+                 count(c.unwanted), count(c.late), count(c.saturated), fmt::format("{:.2f}", c.queue_age_s)});
     }
-  return text;
+  return table;
 }
 
-std::string LinkTopView::Render(Time now) const {
-  if (!last_) return "no LINK_STATUS yet: is priamos-radio running on this bus?\n";
-  return Head(now) + Quality() + Table();
+std::string LinkTopView::Render(Time now, std::optional<ScreenSize> size) const {
+  constexpr int kEndless = std::numeric_limits<int>::max();
+  const int columns = size ? size->columns : kEndless;
+  if (!last_) return Wrapped("no LINK_STATUS yet: is priamos-radio running on this bus?", columns);
+  const std::string head = Head(now, columns), quality = Quality(columns);
+  if (!size) return head + quality + Table().Render();
+  // Of the table its header, three channels and the count of the others are worth more than the quality.
+  const int least = 1 + std::min(4, static_cast<int>(rows_.size()));
+  int room = size->rows - Lines(head);
+  const bool has_room = room - Lines(quality) >= least;
+  if (has_room) room -= Lines(quality);
+  return head + (has_room ? quality : "") + Table().Render({columns, room});
 }
+
+namespace {
+
+void PrintJson(const LinkTopView& view, Time now) {
+  std::cout << view.Json(now).dump() << std::endl;
+}
+
+}  // namespace
 
 int RunLinkTop(const LinkTopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
@@ -122,23 +156,19 @@ int RunLinkTop(const LinkTopOptions& options) {
     if (!view.empty()) silence.Heard();
     silence.Step(clock.Now());
   };
-  const auto show = [&] {
-    const Time now = clock.Now();
-    if (options.json) return void(std::cout << view.Json(now).dump() << std::endl);
-    std::cout << (options.once ? "" : "\x1b[H\x1b[2J") << view.Render(now) << std::flush;
-  };
   const double seconds = options.once ? kOnceWaits_s : options.seconds;
   const Time until = seconds > 0 ? clock.Now() + FromSeconds(seconds) : Time::max();
-  Time next = clock.Now();
+  TerminalScreen screen;
   Watch(
       bus, clock, until, [&] { return options.once && view.complete(); },
       [&] {
         take();
-        if (options.once || clock.Now() < next) return;
-        next = clock.Now() + FromSeconds(0.5);
-        show();
+        if (options.once || view.empty() || !screen.Due(clock.Now(), kPeriod)) return;
+        if (options.json) return PrintJson(view, clock.Now());
+        screen.Show(view.Render(clock.Now(), screen.size()));
       });
-  if (options.once) show();
+  if (options.once && options.json) PrintJson(view, clock.Now());
+  if (options.once && !options.json) std::cout << view.Render(clock.Now(), TableSize());
   return options.once && view.empty() ? 1 : 0;
 }
 

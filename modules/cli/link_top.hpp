@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/bus_options.hpp"
+#include "cli/text_table.hpp"
 #include "common/time.hpp"
 #include "priamos/link_status_t.hpp"
 
@@ -17,8 +18,9 @@ class LinkTopView {
  public:
   /// A report that arrived at `now`. Reports of a link with many channels bring some of them each.
   void Add(const link_status_t& report, Time now);
-  /// The screen as lines of text, at most 110 columns. Before the first report it says what is missing.
-  std::string Render(Time now) const;
+  /// The screen as lines of text. With a size they fit: columns of the table go by worth, then the lines on
+  /// quality, then channels, which are counted. Before the first report it says what is missing.
+  std::string Render(Time now, std::optional<ScreenSize> size) const;
   /// The same for machines.
   nlohmann::ordered_json Json(Time now) const;
   bool empty() const { return !last_.has_value(); }
@@ -32,9 +34,9 @@ class LinkTopView {
     std::optional<double> messages_per_s{};  ///< between the last two reports of the channel
     std::optional<double> bytes_per_s{};
   };
-  std::string Head(Time now) const;
-  std::string Quality() const;
-  std::string Table() const;
+  std::string Head(Time now, int columns) const;
+  std::string Quality(int columns) const;
+  TextTable Table() const;
 
   std::optional<link_status_t> last_;
   Time last_at_{};

@@ -187,7 +187,8 @@ std::string ReportPage(const RunRecord& record, const Summary& summary, const st
     page += fmt::format("<p class=\"reason\">{}</p>\n", drawing::EscapeMarkup(summary.reason));
   page += Cards(summary);
   page += fmt::format(
-      "<img alt=\"Ground plan with what stood in it, true path, believed path and fixes; legend and figures\" "
+      "<img alt=\"Ground plan with what stood in it, true path, believed path and fixes; legend and "
+      "figures\" "
       "src=\"data:image/svg+xml;base64,{}\">\n",
       Base64(svg));
   page += "<h2>Mission</h2>\n" + PhaseTable(record, summary);

@@ -20,8 +20,8 @@ struct TrueThing {
 std::vector<Rectangle> WallShapes(const GroundPlan& plan);
 std::vector<Rectangle> FrameShapes(const DoorPlan& door);
 
-/// The solids at the robot's height that are not where the plan has a wall or a frame: truth. Left out is what is
-/// no thicker than 2 cm (skirting boards, posters), which belongs to its wall.
+/// The solids at the robot's height that are not where the plan has a wall or a frame: truth. Left out is
+/// what is no thicker than 2 cm (skirting boards, posters), which belongs to its wall.
 std::vector<TrueThing> ThingsBeyond(const GroundPlan& plan, const TrueWorld& world);
 
 }  // namespace priamos::cli

@@ -5,6 +5,7 @@
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bus/lcm_bus.hpp"
 #include "bus/real_time_loop.hpp"
@@ -12,7 +13,9 @@
 #include "bus/udp_receiver.hpp"
 #include "cli/commands.hpp"
 #include "cli/silence_watch.hpp"
+#include "cli/terminal_screen.hpp"
 #include "cli/topic_echo.hpp"
+#include "cli/topic_screen.hpp"
 #include "cli/topic_statistics.hpp"
 
 namespace priamos::cli {
@@ -31,20 +34,15 @@ struct TopicOptions : BusOptions {
   bool watch = false;
 };
 
-/// Handles messages until `until` or a signal; calls `each` after every poll and `every` twice a second.
-void Listen(bus::LcmBus& bus, const bus::Clock& clock, Time until, const std::function<void(Time)>& each,
-            const std::function<void()>& every) {
+/// Handles messages until `until` or a signal; calls `each` after every poll, 20 times a second at least.
+void Listen(bus::LcmBus& bus, const bus::Clock& clock, Time until, const std::function<void(Time)>& each) {
   const bus::SignalWatch signals;
-  Time next = clock.Now() + kWatchPeriod;
   while (clock.Now() < until) {
     pollfd fds[] = {{bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
     poll(fds, std::size(fds), 50);
     if (fds[1].revents != 0) return;
     bus.Drain();
     each(clock.Now());
-    if (clock.Now() < next) continue;
-    next += kWatchPeriod;
-    every();
   }
 }
 
@@ -60,24 +58,7 @@ nlohmann::ordered_json ToJson(const TopicRow& row) {
           {"largest_bytes", row.largest_bytes}};
 }
 
-void PrintTable(const std::vector<TopicRow>& rows, const bus::LcmBus& bus) {
-  std::cout << fmt::format("{:<20} {:<28} {:>9} {:>9} {:>10} {:>8} {:>9} {:>11}\n", "channel", "type",
-                           "rate Hz", "jitter ms", "bytes/s", "age s", "messages", "undecodable");
-  for (const auto& r : rows) {
-    std::cout << fmt::format("{:<20} {:<28} {:>9.2f} {:>9.2f} {:>10.0f} {:>8.2f} {:>9} {:>11}\n", r.channel,
-                             r.type, r.rate_hz, r.jitter_s * 1e3, r.bandwidth_bytes_s, r.age_s, r.messages,
-                             r.undecodable);
-  }
-  for (const auto& s : bus.senders())
-    std::cout << fmt::format("sender {:<21} {:>9} datagrams, {} lost\n", bus::SenderAddress(s.sender),
-                             s.datagrams, s.lost);
-  std::cout << fmt::format("lost: {} datagrams; malformed: {}; turned away by the kernel: {}\n", bus.lost(),
-                           bus.malformed(), bus.turned_away())
-            << std::flush;
-}
-
-void PrintRows(const std::vector<TopicRow>& rows, const bus::LcmBus& bus, bool json) {
-  if (!json) return PrintTable(rows, bus);
+void PrintJson(const std::vector<TopicRow>& rows, const bus::LcmBus& bus) {
   auto all = nlohmann::ordered_json::array();
   for (const auto& row : rows) all.push_back(ToJson(row));
   auto senders = nlohmann::ordered_json::array();
@@ -107,16 +88,22 @@ int List(const TopicOptions& options, const std::string& verb) {
     silence.Heard();
   };
   options.channel.empty() ? bus.SubscribeEverything(add) : bus.Subscribe(options.channel, add);
+  const auto losses = [&] {
+    return BusLosses{bus.senders(), bus.lost(), bus.malformed(), bus.turned_away()};
+  };
   const Time until = options.watch ? Time::max() : clock.Now() + FromSeconds(options.seconds);
-  Listen(
-      bus, clock, until, [&](Time now) { silence.Step(now); },
-      [&] {
-        if (!options.watch) return;
-        if (!options.json) std::cout << "\x1b[H\x1b[2J";
-        PrintRows(statistics.Rows(clock.Now()), bus, options.json);
-      });
+  std::optional<TerminalScreen> screen(std::in_place);
+  Listen(bus, clock, until, [&](Time now) {
+    silence.Step(now);
+    // Before the first message the terminal belongs to what `silence` has to say.
+    if (!options.watch || statistics.empty() || !screen->Due(now, kWatchPeriod)) return;
+    if (options.json) return PrintJson(statistics.Rows(now), bus);
+    screen->Show(TopicScreen(statistics.Rows(now), losses(), screen->size()));
+  });
+  screen.reset();
   const auto rows = statistics.Rows(clock.Now());
-  if (!options.watch) PrintRows(rows, bus, options.json);
+  if (!options.watch && options.json) PrintJson(rows, bus);
+  if (!options.watch && !options.json) std::cout << TopicScreen(rows, losses(), TableSize()) << std::flush;
   silence.Tell(clock.Now());
   return rows.empty() ? kNothingHeard : 0;
 }

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "cli/folder_options.hpp"
+#include "cli/terminal_screen.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -61,7 +62,7 @@ int Status(const QueryOptions& options) {
   }
   ordered_json all{{"up", true}};
   if (options.json) all.update(ToJson(*state));
-  std::cout << (options.json ? all.dump() + "\n" : FormatUpState(*state));
+  std::cout << (options.json ? all.dump() + "\n" : FormatUpState(*state, TableSize()));
   return state->ready ? 0 : kNotThere;
 }
 
@@ -111,7 +112,7 @@ void AddUpLogsOption(CLI::App& verb, std::string& log_root) {
 }
 
 void Show(const UpState& state, bool json) {
-  std::cout << (json ? ToJson(state).dump() + "\n" : FormatUpState(state));
+  std::cout << (json ? ToJson(state).dump() + "\n" : FormatUpState(state, TableSize()));
 }
 
 void AddUpQueries(CLI::App& cli, int& exit_code) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -119,19 +120,26 @@ std::optional<UpState> ReadUpState(const std::string& log_root) {
   }
 }
 
-std::string FormatUpState(const UpState& state) {
-  std::string text = fmt::format("{}: {}, up for {:.0f} s; consoles in {}\n", state.deployment,
-                                 state.ready ? "ready" : "not ready", state.up_s, state.folder);
-  text += fmt::format("  {:<18} {:<9} {:<9} {:>8} {:>9} {:>7}  {}\n", "process", "group", "state", "pid",
-                      "for", "starts", "last end");
+std::string FormatUpState(const UpState& state, std::optional<ScreenSize> size) {
+  TextTable table({{"process", 100, true},
+                   {"group", 20, true},
+                   {"state", 95, true},
+                   {"pid", 40},
+                   {"for", 60},
+                   {"starts", 70}});
+  const int columns = size ? size->columns : std::numeric_limits<int>::max();
+  std::string ends;
   for (std::size_t i = 0; i < state.processes.size(); ++i) {
     const ProcessReport& p = state.processes[i];
-    text += fmt::format("  {:<18} {:<9} {:<9} {:>8} {:>7.1f} s {:>7}  {}{}\n", p.name, p.group, Text(p.state),
-                        p.pid == 0 ? "-" : std::to_string(p.pid), state.ages_s[i], p.starts,
-                        p.alarm ? "ALARM " : "", p.reason);
+    table.Add({p.name, p.group, std::string(Text(p.state)), p.pid == 0 ? "-" : std::to_string(p.pid),
+               fmt::format("{:.1f} s", state.ages_s[i]), std::to_string(p.starts)});
+    if (p.alarm || !p.reason.empty())
+      ends += Wrapped(fmt::format("{}{} last ended: {}", p.alarm ? "ALARM " : "", p.name, p.reason), columns);
   }
-  for (const std::string& alarm : state.alarms) text += "  " + alarm + "\n";
-  return text;
+  for (const std::string& alarm : state.alarms) ends += Wrapped(alarm, columns);
+  const std::string head = fmt::format("{}: {}, up for {:.0f} s; consoles in {}", state.deployment,
+                                       state.ready ? "ready" : "not ready", state.up_s, state.folder);
+  return Wrapped(head, columns) + (size ? table.Render(*size) : table.Render()) + ends;
 }
 
 }  // namespace priamos::cli

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/supervisor.hpp"
+#include "cli/text_table.hpp"
 
 namespace priamos::cli {
 
@@ -46,7 +47,7 @@ nlohmann::ordered_json ToJson(const UpState& state);
 void WriteUpState(const std::string& log_root, const UpState& state);
 /// nullopt when there is none that can be read.
 std::optional<UpState> ReadUpState(const std::string& log_root);
-/// The table of `priamos status`.
-std::string FormatUpState(const UpState& state);
+/// The table of `priamos status`, and below it why processes last ended. With a size, lines fit its width.
+std::string FormatUpState(const UpState& state, std::optional<ScreenSize> size);
 
 }  // namespace priamos::cli

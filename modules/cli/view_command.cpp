@@ -1,6 +1,3 @@
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -12,10 +9,13 @@
 #include "cli/bus_watch.hpp"
 #include "cli/commands.hpp"
 #include "cli/silence_watch.hpp"
+#include "cli/terminal_screen.hpp"
 #include "cli/view_screen.hpp"
 
 namespace priamos::cli {
 namespace {
+
+constexpr Duration kPeriod{300'000};
 
 struct ViewOptions {
   BusOptions bus;
@@ -23,12 +23,6 @@ struct ViewOptions {
   bool json = false;
   double seconds = 0;  ///< end after so long; 0: at Ctrl-C
 };
-
-ScreenSize SizeOfTerminal() {
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20 || size.ws_row < 10) return {};
-  return {size.ws_col, size.ws_row};
-}
 
 /// A line per message, with its channel.
 class JsonLines {
@@ -67,9 +61,8 @@ int RunView(const ViewOptions& options) {
       if (options.json) lines_of_json.Print(channel, message);
     }
   };
-  const bool terminal = isatty(STDOUT_FILENO) == 1;
+  TerminalScreen terminal;
   const Time until = options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max();
-  Time next = clock.Now();
   Watch(
       bus, clock, until, [&] { return options.once && !screen.empty(); },
       [&] {
@@ -78,11 +71,12 @@ int RunView(const ViewOptions& options) {
         take(channels::kLandmarkFix, fixes);
         take(channels::kLandmarkView, views);
         take(channels::kObstacleLine, lines);
-        if (options.once || options.json || clock.Now() < next) return;
-        next = clock.Now() + FromSeconds(0.3);
-        std::cout << "\x1b[H\x1b[2J" << screen.Render(clock.Now(), SizeOfTerminal(), true) << std::flush;
+        if (options.once || options.json || screen.empty() || !terminal.Due(clock.Now(), kPeriod)) return;
+        terminal.Show(
+            screen.Render(clock.Now(), terminal.size().value_or(ScreenSize{}), terminal.is_terminal()));
       });
-  if (options.once && !options.json) std::cout << screen.Render(clock.Now(), SizeOfTerminal(), terminal);
+  if (options.once && !options.json)
+    std::cout << screen.Render(clock.Now(), terminal.size().value_or(ScreenSize{}), terminal.is_terminal());
   return screen.empty() ? 1 : 0;
 }
 

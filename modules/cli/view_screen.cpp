@@ -13,9 +13,9 @@ namespace priamos::cli {
 namespace {
 
 constexpr double kPictureWidth_px = 768, kPictureHeight_px = 576;  // of every camera: lcmtypes/README.md
-constexpr int kTextRows = 4, kFloorRows = 2;
-constexpr int kStrip = 61;           // characters
-constexpr double kStripReach_m = 1;  // to either side
+constexpr int kStrip = 61;                                         // characters, where there is room for them
+constexpr int kLeastPicture = 4;                                   // rows
+constexpr double kStripReach_m = 1;                                // to either side
 constexpr std::array<std::string_view, 3> kSides{"", ", left side", ", right side"};
 
 int Count(const landmark_view_t& view, int kind) {
@@ -37,11 +37,11 @@ std::string Piece(const obstacle_segment_t& s) {
 }
 
 /// From the left to the right: floor, up, down, not seen.
-std::string Strip(const obstacle_line_t& line) {
-  std::string strip(kStrip, line.verdict == obstacle_line_t::BLIND ? '?' : '-');
-  const auto column = [](double y_m) {
-    const double place = (kStripReach_m - y_m) / (2 * kStripReach_m) * (kStrip - 1);
-    return static_cast<int>(std::lround(std::clamp(place, 0.0, kStrip - 1.0)));
+std::string Strip(const obstacle_line_t& line, int characters) {
+  std::string strip(static_cast<std::size_t>(characters), line.verdict == obstacle_line_t::BLIND ? '?' : '-');
+  const auto column = [characters](double y_m) {
+    const double place = (kStripReach_m - y_m) / (2 * kStripReach_m) * (characters - 1);
+    return static_cast<int>(std::lround(std::clamp(place, 0.0, characters - 1.0)));
   };
   for (const obstacle_segment_t& s : line.segments) {
     if (!std::isfinite(s.y1_m + s.y2_m) || s.kind < 0 || s.kind > 2) continue;
@@ -53,7 +53,7 @@ std::string Strip(const obstacle_line_t& line) {
 
 }  // namespace
 
-std::string FloorText(const obstacle_line_t& line, double age_s) {
+std::string FloorText(const obstacle_line_t& line, double age_s, int columns) {
   std::string text = line.verdict == obstacle_line_t::CLEAR   ? "floor: clear"
                      : line.verdict == obstacle_line_t::BLIND ? "floor: not to be seen"
                                                               : "floor: OBSTACLE";
@@ -62,8 +62,11 @@ std::string FloorText(const obstacle_line_t& line, double age_s) {
     text += "; " + Piece(s);
     break;
   }
-  return fmt::format("{}; {:.0f} % of the line seen {:.1f} s ago\nleft |{}| right\n", text,
-                     100 * line.seen_share, std::max(age_s, 0.0), Strip(line));
+  const int strip = std::clamp(columns - 13, 1, kStrip);
+  return Wrapped(fmt::format("{}; {:.0f} % of the line seen {:.1f} s ago", text, 100 * line.seen_share,
+                             std::max(age_s, 0.0)),
+                 columns) +
+         fmt::format("left |{}| right\n", Strip(line, strip));
 }
 
 std::string ViewTitle(const landmark_view_t& view, const landmark_fix_t* fix) {
@@ -106,14 +109,16 @@ Braille DrawView(const landmark_view_t& view, ScreenSize size) {
 
 std::string ViewScreen::Render(Time now, ScreenSize size, bool colour) const {
   std::string text;
-  if (line_) text += FloorText(*line_, Seconds(now - FromUtime(line_->utime_exposure)));
-  if (!view_) return text + "waiting for LANDMARK_VIEW: it comes when the head looks at a landmark\n";
+  if (line_) text += FloorText(*line_, Seconds(now - FromUtime(line_->utime_exposure)), size.columns);
+  if (!view_)
+    return text +
+           Wrapped("waiting for LANDMARK_VIEW: it comes when the head looks at a landmark", size.columns);
   const landmark_view_t& view = *view_;
   const double age_s = Seconds(now - FromUtime(view.utime_exposure));
-  text += fmt::format("{}\n{}\nseen {:.1f} s ago\n", ViewTitle(view, fix_ ? &*fix_ : nullptr),
-                      ViewLegend(view), std::max(age_s, 0.0));
-  const int rows = size.rows - kTextRows - (line_ ? kFloorRows : 0);
-  return text + DrawView(view, {size.columns, std::max(rows, 4)}).Text(colour);
+  text += Wrapped(ViewTitle(view, fix_ ? &*fix_ : nullptr), size.columns) +
+          Wrapped(ViewLegend(view), size.columns) + fmt::format("seen {:.1f} s ago\n", std::max(age_s, 0.0));
+  const int rows = size.rows - Lines(text) - 1;
+  return text + DrawView(view, {size.columns, std::max(rows, kLeastPicture)}).Text(colour);
 }
 
 }  // namespace priamos::cli

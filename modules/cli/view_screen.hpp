@@ -4,17 +4,13 @@
 #include <string>
 
 #include "cli/braille.hpp"
+#include "cli/text_table.hpp"
 #include "common/time.hpp"
 #include "priamos/landmark_fix_t.hpp"
 #include "priamos/landmark_view_t.hpp"
 #include "priamos/obstacle_line_t.hpp"
 
 namespace priamos::cli {
-
-/// Size of a terminal in characters.
-struct ScreenSize {
-  int columns = 80, rows = 24;
-};
 
 /// What `priamos view` shows: what the head saw when it last looked for a landmark, and what the line laser
 /// shows of the floor. Pure: time is given.
@@ -36,8 +32,9 @@ class ViewScreen {
 
 /// In one line: which landmark, found or why not, and how well if the fix of the same look is known.
 std::string ViewTitle(const landmark_view_t& view, const landmark_fix_t* fix);
-/// In two lines: what the laser's line shows, in words and as a strip from 1 m left to 1 m right.
-std::string FloorText(const obstacle_line_t& line, double age_s);
+/// What the laser's line shows, in words and as a strip from 1 m left to 1 m right; lines of at most
+/// `columns`.
+std::string FloorText(const obstacle_line_t& line, double age_s, int columns);
 /// In one line: camera and number of edges of each kind.
 std::string ViewLegend(const landmark_view_t& view);
 /// The edges of the picture.

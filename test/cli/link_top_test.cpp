@@ -29,7 +29,7 @@ link_status_t Report(int first, int messages) {
 }
 
 TEST(LinkTopView, SaysWhatIsMissing) {
-  EXPECT_THAT(LinkTopView().Render(kStart), HasSubstr("is priamos-radio running"));
+  EXPECT_THAT(LinkTopView().Render(kStart, {}), HasSubstr("is priamos-radio running"));
 }
 
 TEST(LinkTopView, PutsReportsTogetherAndCountsPerSecond) {
@@ -38,7 +38,7 @@ TEST(LinkTopView, PutsReportsTogetherAndCountsPerSecond) {
     dut.Add(Report(0, 8 * i), kStart + std::chrono::seconds(2 * i));
     dut.Add(Report(1, 0), kStart + std::chrono::seconds(2 * i + 1));
   }
-  const std::string text = dut.Render(kStart + std::chrono::seconds(5));
+  const std::string text = dut.Render(kStart + std::chrono::seconds(5), {});
   EXPECT_THAT(text, HasSubstr("onboard end: up"));
   EXPECT_THAT(text, HasSubstr("[############............]  50 %"));
   EXPECT_THAT(text, HasSubstr("round trip -"));
@@ -51,7 +51,7 @@ TEST(LinkTopView, ARateNeedsTwoReports) {
   for (int i = 0; i < 2; ++i) {
     EXPECT_FALSE(dut.complete());
     dut.Add(Report(0, 8 * i), kStart + std::chrono::seconds(2 * i));
-    EXPECT_THAT(dut.Render(kStart + std::chrono::seconds(2)),
+    EXPECT_THAT(dut.Render(kStart + std::chrono::seconds(2), {}),
                 testing::ContainsRegex(i == 0 ? "up +POSE +- +- " : "up +POSE +4.0"));
     dut.Add(Report(1, 0), kStart + std::chrono::seconds(2 * i + 1));
   }
@@ -63,26 +63,41 @@ TEST(LinkTopView, TroubleIsSaidFirst) {
   link_status_t report = Report(0, 1);
   report.alarm = true;
   dut.Add(report, kStart);
-  EXPECT_THAT(dut.Render(kStart), HasSubstr("ALARM"));
-  EXPECT_THAT(dut.Render(kStart + std::chrono::seconds(4)), HasSubstr("SILENT"));
+  EXPECT_THAT(dut.Render(kStart, {}), HasSubstr("ALARM"));
+  EXPECT_THAT(dut.Render(kStart + std::chrono::seconds(4), {}), HasSubstr("SILENT"));
   report.alarm = false;
   report.up = false;
   dut.Add(report, kStart);
-  EXPECT_THAT(dut.Render(kStart), HasSubstr("DOWN"));
+  EXPECT_THAT(dut.Render(kStart, {}), HasSubstr("DOWN"));
 }
 
 TEST(LinkTopView, ARestartOfTheRadioIsNoNegativeRate) {
   LinkTopView dut;
   dut.Add(Report(0, 100), kStart);
   dut.Add(Report(0, 2), kStart + std::chrono::seconds(1));
-  EXPECT_THAT(dut.Render(kStart + std::chrono::seconds(1)), Not(HasSubstr("-98")));
+  EXPECT_THAT(dut.Render(kStart + std::chrono::seconds(1), {}), Not(HasSubstr("-98")));
 }
 
-TEST(LinkTopView, FitsATerminal) {
-  LinkTopView dut;
-  dut.Add(Report(0, 16'000'000), kStart);
-  std::istringstream lines(dut.Render(kStart));
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110U) << line;
+TEST(LinkTopView, FitsATerminalAndKeepsTheTablesHeader) {
+  for (const ScreenSize size : {ScreenSize{80, 24}, {40, 12}, {200, 50}}) {
+    LinkTopView dut;
+    for (int i = 0; i < 20; ++i) {
+      link_status_t report = Report(0, 16'000'000);
+      report.all_channels = 20;
+      report.first_channel = static_cast<std::int8_t>(i);
+      report.channels[0].channel = "A_CHANNEL_WITH_A_LONG_NAME";
+      report.bytes_sent = report.bytes_received = 123'456'789;
+      dut.Add(report, kStart);
+    }
+    const std::string text = dut.Render(kStart, size);
+    std::istringstream lines(text);
+    int n = 0;
+    for (std::string line; std::getline(lines, line); ++n) EXPECT_LE(Characters(line), size.columns) << line;
+    EXPECT_LE(n, size.rows) << text;
+    EXPECT_THAT(text, HasSubstr("channel"));
+    EXPECT_THAT(text, HasSubstr("msg/s"));
+    EXPECT_EQ(text.find(" more\n") != std::string::npos, size.rows < 24 + 4) << text;
+  }
 }
 
 }  // namespace

@@ -31,9 +31,10 @@ std::vector<std::string> NamesOf(const std::vector<TrueThing>& things) {
 TEST(ReportThings, OnlyWhatTheRobotCanTouchStandsInTheWay) {
   const auto dut = ThingsBeyond(
       Plan(), {},
-      {Box("carton", {3, 2, 0}, {0.4, 0.4}, 0, 0.5), Box("threshold", {6, 2.4, 0}, {0.1, 0.9}, 0, 0.008),
-       Box("lamp", {3, 2, 0}, {0.4, 0.4}, 2.0, 2.2), Box("poster", {3, 0.07, 0}, {0.6, 0.004}, 1, 1.8)}});
-  EXPECT_THAT(NamesOf(dut), testing::ElementsAre("carton"));
+      {
+  Box("carton", {3, 2, 0}, {0.4, 0.4}, 0, 0.5), Box("threshold", {6, 2.4, 0}, {0.1, 0.9}, 0, 0.008),
+      Box("lamp", {3, 2, 0}, {0.4, 0.4}, 2.0, 2.2), Box("poster", {3, 0.07, 0}, {0.6, 0.004}, 1, 1.8)}});
+EXPECT_THAT(NamesOf(dut), testing::ElementsAre("carton"));
 }
 
 TEST(ReportThings, WhatThePlanShowsIsNoNews) {
@@ -54,8 +55,7 @@ TEST(ReportThings, ADoorThatWasBuiltElsewhereIsShown) {
 
 TEST(ReportThings, OfAShippedWorldTheFurnitureAndTheLeafAreLeft) {
   const auto world = LoadTrueWorld(kDeployment, LoadScenario(kDeployment, "teleop"), 1);
-  const auto dut =
-      NamesOf(ThingsBeyond(LoadConfig<GroundPlan>(kDeployment + "/maps/passage.toml"), world));
+  const auto dut = NamesOf(ThingsBeyond(LoadConfig<GroundPlan>(kDeployment + "/maps/passage.toml"), world));
   EXPECT_THAT(dut, Contains("carton in the way"));
   EXPECT_THAT(dut, Contains("leaf"));
   EXPECT_THAT(dut, Not(Contains(HasSubstr("wall"))));

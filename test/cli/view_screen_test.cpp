@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace priamos::cli {
 namespace {
@@ -77,8 +78,10 @@ TEST(ViewScreenTest, FitsTheTerminal) {
   dut.Add(View());
   for (const ScreenSize size : {ScreenSize{80, 24}, ScreenSize{200, 50}, ScreenSize{40, 60}}) {
     const std::string text = dut.Render(kNow, size, false);
-    EXPECT_LT(std::count(text.begin(), text.end(), '\n'), size.rows);
-    EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 10);
+    EXPECT_LT(Lines(text), size.rows);
+    EXPECT_GT(Lines(text), 10);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(Characters(line), size.columns) << line;
   }
 }
 
@@ -86,7 +89,7 @@ TEST(ViewScreenTest, TellsWhatTheLaserShowsOfTheFloor) {
   obstacle_line_t line{};
   line.utime_exposure = ToUtime(kNow) - 400'000;
   line.seen_share = 0.9F;
-  EXPECT_THAT(FloorText(line, 0.4), HasSubstr("floor: clear; 90 % of the line seen 0.4 s ago"));
+  EXPECT_THAT(FloorText(line, 0.4, 80), HasSubstr("floor: clear; 90 % of the line seen 0.4 s ago"));
   line.verdict = obstacle_line_t::OBSTACLE;
   line.n_segments = 1;
   line.segments.resize(1);
@@ -100,6 +103,15 @@ TEST(ViewScreenTest, TellsWhatTheLaserShowsOfTheFloor) {
   const std::string text = dut.Render(kNow, {}, false);
   EXPECT_THAT(text, HasSubstr("OBSTACLE; UP 3.0 cm 2.0 m ahead, from -0.50 to -1.00 m"));
   EXPECT_THAT(text, HasSubstr("--^^^^^^^^^^^^^^^^| right"));
+}
+
+TEST(ViewScreenTest, AShortLineShowsTheWholeFloor) {
+  obstacle_line_t line{};
+  line.n_segments = 1;
+  line.segments.resize(1);
+  line.segments[0].kind = obstacle_segment_t::UP;
+  line.segments[0].y1_m = 1, line.segments[0].y2_m = 0;
+  EXPECT_THAT(FloorText(line, 0.4, 40), HasSubstr("left |^^^^^^^^^^^^^^-------------| right"));
 }
 
 TEST(ViewScreenTest, EachKindHasItsColourWhereItLies) {
