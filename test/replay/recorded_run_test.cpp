@@ -1,4 +1,6 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
 
 #include "bus/log/clock_fit.hpp"
 #include "bus/log/log_merge.hpp"
@@ -7,6 +9,11 @@
 #include "bus/own_types.hpp"
 #include "bus/replay.hpp"
 #include "cli/factories.hpp"
+#include "cli/report_files.hpp"
+#include "cli/report_picture.hpp"
+#include "common/drawing/svg.hpp"
+#include "test/support/svg_content.hpp"
+#include "test/support/temporary_folder.hpp"
 
 // One door run, recorded in lockstep and kept in logs/recorded: the robot and the planner do today what they
 // did then, byte for byte.
@@ -45,7 +52,7 @@ TEST(RecordedRun, ThePlannerDoesWhatItDid) {
 
 TEST(RecordedRun, EveryMessageIsOfATypeWeStillHave) {
   const bus::Schema schema = bus::OwnTypes();
-  for (const char* side : {"onboard", "offboard"}) {
+  for (const char* side : {"onboard", "offboard", "truth"}) {
     bus::LogReader reader(Log(side));
     const auto survey = bus::Survey(reader, schema);
     EXPECT_TRUE(survey.whole());
@@ -62,6 +69,59 @@ TEST(RecordedRun, TheRadioTellsThatBothClocksAreOne) {
   EXPECT_GT(fit->pairs, 30u);
   EXPECT_TRUE(fit->both_ways);
   EXPECT_NEAR(fit->offset_us, 0, 5'000);
+}
+
+std::string FileText(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+/// The picture of the door run whose logs lie in `folder`.
+std::string PictureOf(const std::filesystem::path& folder, std::uint64_t seed) {
+  cli::RunRecord record;
+  for (const auto& [file, side] : {std::pair{"onboard", cli::Side::kOnboard},
+                                   {"truth", cli::Side::kOnboard},
+                                   {"offboard", cli::Side::kOffboard}}) {
+    bus::LogReader reader(folder / (std::string("door-") + file + ".lcmlog"));
+    while (const auto event = reader.Next()) record.Add(side, event->utime, event->channel, event->bytes);
+  }
+  const std::string deployment = kSource + "/config/sim";
+  const auto scenario = cli::LoadScenario(deployment, "door");
+  const std::string map = cli::MapFile(deployment, scenario);
+  cli::RunInfo info{.scenario = "door", .seed = seed, .door = cli::LoadDoor(map, scenario.landmark_id)};
+  info.world = cli::LoadTrueWorld(deployment, scenario, seed);
+  return drawing::ToSvg(
+      cli::DrawRun(record, cli::Summarise(record, info), info, LoadConfig<GroundPlan>(map)));
+}
+
+std::uint64_t SeedOf(const SvgContent& picture) {
+  return std::stoull("0" + picture.TextThatBegins("door, seed ").substr(11));
+}
+
+/// In content: another version of the typeface may move its letters.
+void ExpectSamePicture(const SvgContent& dut, const SvgContent& expected) {
+  EXPECT_EQ(dut.texts, expected.texts);
+  EXPECT_EQ(dut.layers, expected.layers);
+  EXPECT_EQ(dut.paths, expected.paths);
+}
+
+TEST(RecordedRun, ThePictureOfTheReadmeIsThatOfItsLogs) {
+  const std::filesystem::path folder = kSource + "/logs/recorded";
+  EXPECT_THAT(FileText(kSource + "/README.md"), testing::HasSubstr("](logs/recorded/run.svg)"));
+  const auto shown = ContentOf(FileText(folder / "run.svg"));
+  ASSERT_NE(shown.TextThatBegins("door, seed "), "");
+  SCOPED_TRACE("scripts/record-run makes logs/recorded/run.svg anew");
+  ExpectSamePicture(ContentOf(PictureOf(folder, SeedOf(shown))), shown);
+}
+
+TEST(RecordedRun, TheScriptThatMakesItWorks) {
+  const TemporaryFolder folder;
+  const auto answer = RunShell(kSource + "/scripts/record-run --seed 2 --into " + folder.path().string() +
+                               " --programs " PRIAMOS_BINARY_DIR "/bin");
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  const auto made = ContentOf(FileText(folder / "run.svg"));
+  EXPECT_EQ(SeedOf(made), 2u);
+  ExpectSamePicture(ContentOf(PictureOf(folder.path(), 2)), made);
 }
 
 }  // namespace
