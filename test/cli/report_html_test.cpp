@@ -44,7 +44,7 @@ TEST(ReportHtml, AFailureIsShownWithItsReasonAndSeed) {
   info.seed = 4711;
   info.reason = "time limit of 180 s reached while: <waiting>";
   const RunRecord record = run.Record();
-  const std::string dut = ReportPage(record, Summarise(record, info), Bytes("foobar"));
+  const std::string dut = ReportPage(record, Summarise(record, info), "foobar");
   EXPECT_THAT(dut, HasSubstr("seed 4711"));
   EXPECT_THAT(dut, HasSubstr("<p class=\"reason\">time limit of 180 s reached while: &lt;waiting&gt;</p>"));
   EXPECT_THAT(dut, HasSubstr("<td>end</td><td>not passed: time limit of 180 s reached"));
@@ -54,7 +54,7 @@ TEST(ReportHtml, WithoutAPlannerTheMissionIsWhatWasTold) {
   RunInfo info = TestInfo();
   info.reason = "time limit of 180 s reached on the way to waypoint 2";
   info.story = {{3.2, "the operator takes the space-mouse"}, {9.5, "at waypoint 1 of 3"}};
-  const std::string dut = ReportPage(RunRecord{}, Summarise(RunRecord{}, info), Bytes("foobar"));
+  const std::string dut = ReportPage(RunRecord{}, Summarise(RunRecord{}, info), "foobar");
   EXPECT_THAT(dut, HasSubstr("<td>3.2 s</td><td>the operator takes the space-mouse</td>"));
   EXPECT_THAT(dut, HasSubstr("<td>9.5 s</td><td>at waypoint 1 of 3</td>"));
   EXPECT_THAT(dut,
