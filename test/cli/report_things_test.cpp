@@ -29,12 +29,12 @@ std::vector<std::string> NamesOf(const std::vector<TrueThing>& things) {
 }
 
 TEST(ReportThings, OnlyWhatTheRobotCanTouchStandsInTheWay) {
-  const auto dut = ThingsBeyond(
-      Plan(), {},
-      {
-  Box("carton", {3, 2, 0}, {0.4, 0.4}, 0, 0.5), Box("threshold", {6, 2.4, 0}, {0.1, 0.9}, 0, 0.008),
-      Box("lamp", {3, 2, 0}, {0.4, 0.4}, 2.0, 2.2), Box("poster", {3, 0.07, 0}, {0.6, 0.004}, 1, 1.8)}});
-EXPECT_THAT(NamesOf(dut), testing::ElementsAre("carton"));
+  const TrueWorld world{
+      {},
+      {Box("carton", {3, 2, 0}, {0.4, 0.4}, 0, 0.5), Box("threshold", {6, 2.4, 0}, {0.1, 0.9}, 0, 0.008),
+       Box("lamp", {3, 2, 0}, {0.4, 0.4}, 2.0, 2.2), Box("poster", {3, 0.07, 0}, {0.6, 0.004}, 1, 1.8)}};
+  const auto dut = ThingsBeyond(Plan(), world);
+  EXPECT_THAT(NamesOf(dut), testing::ElementsAre("carton"));
 }
 
 TEST(ReportThings, WhatThePlanShowsIsNoNews) {

@@ -33,14 +33,14 @@ class Installation {
     std::filesystem::create_directories(folder_ / "home");
     std::filesystem::create_directories(folder_ / "elsewhere");
     std::ofstream(folder_ / "inner.sh") << "set -u\nPREFIX='" << prefix().string() << "'\n" << script;
-    return Script(R"(
+    return Script(R"sh(
       guard /usr; guard /etc
       for hidden in "$SOURCE" /usr/include; do mount -t tmpfs none "$hidden"; done
       for hidden in /usr/bin/lcm-gen /usr/bin/pkg-config; do
         [ ! -e $hidden ] || mount --bind /dev/null "$(readlink -f $hidden)"
       done
       cd "$FOLDER/elsewhere"
-      exec env -i HOME="$FOLDER/home" PATH="$PREFIX/bin:/usr/bin:/bin:/usr/sbin:/sbin" LANG=C.UTF-8 bash "$FOLDER/inner.sh")",
+      exec env -i HOME="$FOLDER/home" PATH="$PREFIX/bin:/usr/bin:/bin:/usr/sbin:/sbin" LANG=C.UTF-8 bash "$FOLDER/inner.sh")sh",
                   seconds);
   }
 
