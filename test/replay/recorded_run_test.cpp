@@ -88,7 +88,10 @@ std::string PictureOf(const std::filesystem::path& folder, std::uint64_t seed) {
   const std::string deployment = kSource + "/config/sim";
   const auto scenario = cli::LoadScenario(deployment, "door");
   const std::string map = cli::MapFile(deployment, scenario);
-  cli::RunInfo info{.scenario = "door", .seed = seed, .door = cli::LoadDoor(map, scenario.landmark_id)};
+  cli::RunInfo info;
+  info.scenario = "door";
+  info.seed = seed;
+  info.door = cli::LoadDoor(map, scenario.landmark_id);
   info.world = cli::LoadTrueWorld(deployment, scenario, seed);
   return drawing::ToSvg(
       cli::DrawRun(record, cli::Summarise(record, info), info, LoadConfig<GroundPlan>(map)));
