@@ -36,7 +36,7 @@ const std::vector<Rule> kNotRun{
 /// it.
 const std::vector<Rule> kUntilStopped{
     {"priamos topic list .*--watch", "POSE +priamos.pose_t"},
-    {"priamos topic (echo|hz|bw) (?!.*--count)", "utime|Hz|bytes"},
+    {"priamos topic (echo|hz|bw) (?!.*--count)", "(utime|_m|Hz|bytes).*[0-9]"},
     {"priamos log record ", "lcmlog"},
     {"priamos (view|where)\\b", "."},
     {"priamos link top(?!.*--once)", "LINK_STATUS|CHANNEL|channel"},
@@ -60,18 +60,20 @@ std::string Quoted(const std::string& text) {
 /// Shell functions that say "$ COMMAND", let it print, and say "[exit CODE]".
 constexpr const char* kShellFunctions = R"(
 finite() { echo "$ $1"; eval "$1" </dev/null; echo "[exit $?]"; }
+seen() { sed '1d;/^Script done on/d' .seen 2>/dev/null; }  # `script` adds two lines of its own
 # On a terminal of its own, until it has proved itself for a second; then Ctrl-C is typed.
 until_stopped() {
   echo "$ $1"
   rm -f .keys .seen; mkfifo .keys
-  script -qefc "$1" .seen <>.keys >/dev/null & local screen=$! i
+  local screen i keys; exec {keys}<>.keys
+  env --default-signal=INT script -qefc "$1" .seen <&$keys >/dev/null & screen=$!
   for ((i = 0; i < 300; i++)); do
-    if grep -qE "$2" .seen 2>/dev/null; then break; fi
+    if seen | grep -qE "$2"; then break; fi
     sleep 0.1
   done
-  sleep 1; head -c 2000 .seen; grep -qE "$2" .seen || echo "[nothing like $2 within 30 s]"
-  printf '\003' >.keys
-  wait $screen; echo "[exit $?]"
+  sleep 1; seen | head -c 2000; seen | grep -qE "$2" || echo "[nothing like $2 within 30 s]"
+  printf '\003' >&$keys
+  wait $screen; echo "[exit $?]"; exec {keys}>&-
 }
 )";
 
