@@ -64,8 +64,9 @@ TEST_F(InstallTest, EverythingIsBelowThePrefix) {
                            "lib/systemd/system/priamos.target",
                            "lib/sysusers.d/priamos.conf"})
     EXPECT_THAT(files, Contains(file));
-  if (fs::exists(PRIAMOS_BINARY_DIR "/java/priamos-spy.jar"))
+  if (fs::exists(PRIAMOS_BINARY_DIR "/java/priamos-spy.jar")) {
     EXPECT_THAT(files, Contains("share/priamos/java/priamos-spy.jar"));
+  }
   // Every one is in the list that uninstall goes by.
   const std::string manifest = Installation::TextOf(installed_.folder() / "install_manifest.txt");
   for (const auto& file : files) EXPECT_THAT(manifest, HasSubstr(At(file).string()));
