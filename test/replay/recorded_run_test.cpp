@@ -12,6 +12,7 @@
 #include "cli/report_files.hpp"
 #include "cli/report_picture.hpp"
 #include "common/drawing/svg.hpp"
+#include "test/support/shell.hpp"
 #include "test/support/svg_content.hpp"
 #include "test/support/temporary_folder.hpp"
 

@@ -1,5 +1,6 @@
 // One owner per role, robot and bus, with the real programs in a network of their own.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -143,7 +144,7 @@ TEST_F(Owners, TwoNamesThatLeadToOnePortAreNotTakenForOneRobot) {
   std::string other;
   const std::string port = bus::BusUrl(bus::kDefaultRobot, bus::BusSide::kOnboard, 0);
   for (int i = 0; other.empty(); ++i)
-    if (const auto name = "r" + std::to_string(i); bus::BusUrl(name, bus::BusSide::kOnboard, 0) == port)
+    if (const auto name = fmt::format("r{}", i); bus::BusUrl(name, bus::BusSide::kOnboard, 0) == port)
       other = name;
   const auto answer = RunScript("OTHER=" + other + R"sh(
     $BIN/priamos-robot --config $SIM/robot.toml & FIRST=$!
