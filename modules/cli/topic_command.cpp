@@ -165,7 +165,7 @@ void AddTopicCommand(CLI::App& cli, int& exit_code) {
   AddTableVerb(*topic, "bw", "Bandwidth of one channel.", true, options, exit_code);
   AddTopicEchoVerb(*topic, exit_code);
   auto* url = AddVerb(*topic, "url", "Print the URL of a bus, for LCM's own programs.",
-                      "lcm-logger --lcm-url=$(priamos topic url --bus onboard)", *options);
+                      "priamos topic url --bus onboard", *options);
   url->add_flag("--json", options->json, "machine-readable");
   url->callback([options, &exit_code] { exit_code = PrintUrl(*options); });
   auto* pub = AddVerb(*topic, "pub", "Send one message, given as JSON.",

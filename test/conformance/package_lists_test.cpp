@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <optional>
+#include <sstream>
 
 #include "debian_packages.hpp"
 #include "test/support/project_files.hpp"
@@ -76,10 +77,13 @@ std::set<std::string> FoundBy(const fs::path& cache) {
     const auto colon = line.find(':'), equals = line.find('=');
     if (colon == std::string::npos || equals == std::string::npos || colon > equals) continue;
     if (IsOneOfSeveralTools(line.substr(0, colon))) continue;
-    const std::string value = line.substr(equals + 1);
-    const bool of_the_system =
-        value.starts_with("/usr/") || value.starts_with("/lib") || value.starts_with("/bin");
-    if (of_the_system && !kEverybodys.contains(value) && fs::exists(value)) found.insert(value);
+    // A value may be a list of paths.
+    std::istringstream values(line.substr(equals + 1));
+    for (std::string value; std::getline(values, value, ';');) {
+      const bool of_the_system =
+          value.starts_with("/usr/") || value.starts_with("/lib") || value.starts_with("/bin");
+      if (of_the_system && !kEverybodys.contains(value) && fs::exists(value)) found.insert(value);
+    }
   }
   return found;
 }
