@@ -132,7 +132,7 @@ TEST_F(BusTools, LcmLoggerAndLcmLogplayerDoSoToo) {
 
 /// The whole simulation for some seconds: LCM's recorder hears what ours hears, and its player gives it back.
 TEST_F(BusTools, ALiveRobotIsRecordedByLcmLoggerAndPlayedByLcmLogplayer) {
-  const auto answer = Run(kLogger + R"sh(
+  const auto answer = Run("export PRIAMOS_BUS=$($BIN/priamos topic url --bus onboard)\n" + kLogger + R"sh(
     $BIN/priamos up $SOURCE/config/sim --logs logs > up.txt 2>&1 & up=$!
     for i in $(seq 150); do grep -q 'all processes are ready' up.txt && break; sleep 0.1; done; cat up.txt
     $BIN/priamos log record ours.lcmlog --no-health & recorder=$!
@@ -280,6 +280,7 @@ TEST_F(BusTools, OtherGroupsOnTheSamePortAreNotHeard) {
 TEST_F(BusTools, WhoWaitsInVainIsToldWhy) {
   WriteLog(log_);
   const auto answer = Run(R"sh(
+    unset PRIAMOS_BUS
     $BIN/priamos log play in.lcmlog --loop --bus onboard & player=$!
     sleep 0.5
     timeout -s INT 2 $BIN/priamos topic echo POZE --bus onboard > poze.out 2> poze.err

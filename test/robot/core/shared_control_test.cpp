@@ -251,14 +251,15 @@ TEST(SharedControl, PushedAtASlantItGetsPastABox) {
 SonarCycle AnyCycle() {
   SonarCycle cycle;
   for (double& range_m : cycle.range_m)
-    range_m = *rc::gen::inRange(0, 4) == 0 ? *rc::gen::inRange(10, 50) / 100.0 : -1;
+    range_m = *rc::gen::inRange(0, 8) == 0 ? *rc::gen::inRange(10, 80) / 100.0 : -1;
   return cycle;
 }
 
 /// Whatever the sonars hear and the operator wishes: a base at rest sets off wherever a part of the wish is
-/// free.
+/// free. Where next to nothing is free the case says nothing, so those that do are counted.
 TEST(SharedControl, WhatIsFreeOfAWishMoves) {
-  EXPECT_TRUE(rc::check([] {
+  int cases = 0;
+  EXPECT_TRUE(rc::check([&cases] {
     const auto part = [] { return *rc::gen::inRange(-600, 601) / 1000.0; };
     const Twist2 wish{part(), part(), part()};
     SonarCycle cycle = AnyCycle();
@@ -284,9 +285,11 @@ TEST(SharedControl, WhatIsFreeOfAWishMoves) {
     const Twist2 free = Deflected(wish, Footprint().Reach(), [&](const Twist2& motion) {
       return guard.Scale(motion, seen, echoes.Remembered({}));
     });
-    RC_PRE(speed(free) > 0.15 * speed(wish) && speed(wish) > 0.1);
+    if (speed(free) <= 0.15 * speed(wish) || speed(wish) <= 0.1) return;
+    ++cases;
     RC_ASSERT(std::any_of(rig.command()->begin(), rig.command()->end(), [](double w) { return w != 0; }));
   }));
+  EXPECT_GE(cases, 20);
 }
 
 /// The acceleration limits make the first step of a turn larger than that of a drive. Beside a corner that
