@@ -17,7 +17,8 @@
 namespace priamos {
 namespace {
 
-/// A verb and what it is given. Those marked `streams` run until Ctrl-C, which comes after a while.
+/// A verb and what it is given. Those marked `streams` run until Ctrl-C, which comes a while after their
+/// first word.
 struct Call {
   std::string verb, arguments;
   bool streams = false;
@@ -37,7 +38,7 @@ const std::vector<Call> kCalls{
     {"where", ""},
     {"mission status", ""},
     {"mission door", "laboratory --deployment $SOURCE/config/sim"},
-    {"view", "--once --for 40"},
+    {"view", "--once --for 80"},
     {"mission abort", ""},
     {"estop", ""},
     {"link top", "--once"},
@@ -133,12 +134,23 @@ std::string PointsOfACamera() {
 TEST(JsonOutput, OfEveryVerbIsNothingButJson) {
   const TemporaryFolder folder;
   std::ofstream(folder / "points.txt") << PointsOfACamera();
-  std::string script = "O=" + folder.path().string() +
-                       "; LOG=$SOURCE/logs/recorded/door-onboard.lcmlog; cd $O\n" +
-                       "$BIN/priamos up $SOURCE/config/sim --detach --logs $O/up > up.text || cat up.text\n";
+  const std::string helpers = R"sh(
+    stream() {  # OUT ERR COMMAND...
+      local out=$1 err=$2; shift 2
+      env --default-signal=INT "$@" > $out 2> $err & local pid=$!
+      until [ -s $out ] || [ -s $err ] || ! kill -0 $pid; do sleep 0.1; done
+      sleep 3; kill -INT $pid; wait $pid
+    }
+    ready() { for i in $(seq 200); do $BIN/priamos status --logs $O/up > /dev/null && return; sleep 0.2; done; }
+)sh";
+  std::string script =
+      helpers + "O=" + folder.path().string() + "; LOG=$SOURCE/logs/recorded/door-onboard.lcmlog; cd $O\n" +
+      "$BIN/priamos up $SOURCE/config/sim --detach --logs $O/up > up.text || cat up.text\nready\n";
   for (std::size_t i = 0; i < kCalls.size(); ++i)
-    script += fmt::format("timeout {} $BIN/priamos {} --json {} > {}.out 2> {}.err\n",
-                          kCalls[i].streams ? "-s INT 8" : "90", kCalls[i].verb, kCalls[i].arguments, i, i);
+    script += kCalls[i].streams ? fmt::format("stream {}.out {}.err $BIN/priamos {} --json {}\n", i, i,
+                                              kCalls[i].verb, kCalls[i].arguments)
+                                : fmt::format("timeout 90 $BIN/priamos {} --json {} > {}.out 2> {}.err\n",
+                                              kCalls[i].verb, kCalls[i].arguments, i, i);
   script += "$BIN/priamos down --logs $O/up2 > down.text; $BIN/priamos down --logs $O/up >> down.text\n";
   const auto answer = RunInPrivateNetwork(script, folder / "script.sh", 280);
   for (std::size_t i = 0; i < kCalls.size(); ++i) {

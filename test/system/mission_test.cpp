@@ -19,6 +19,7 @@ TEST(Mission, IsOrderedRefusedFollowedAndAborted) {
     MAP="--deployment $SOURCE/config/sim"
     priamos mission door laboratory $MAP; echo "nothing up: $?"
     priamos up $SOURCE/config/sim --detach --logs $LOGS > /dev/null
+    for i in $(seq 200); do priamos status --logs $LOGS > /dev/null && break; sleep 0.2; done
     priamos mission abort; echo "nothing to abort: $?"
     priamos mission door 9 $MAP; echo "no such door: $?"
     priamos mission door 9 $MAP; echo "again: $?"
