@@ -78,10 +78,10 @@ std::map<std::string, SpyRow> SpyRows(const std::string& text) {
 }
 
 TEST_F(JavaTools, LcmSpyDecodesEveryChannelAndDrawsTheSonarRing) {
-  const auto answer = RunProbe(
-      "SpyProbe", "lcm.spy.SpyProbe '" + kUrl + "' 7",
-      "(sleep 2.5; exec $BIN/priamos log play run.lcmlog --speed 4 --loop) > played 2>&1 & player=$!",
-      "kill -INT $player 2>/dev/null; wait $player");
+  const auto answer = RunProbe("SpyProbe", "lcm.spy.SpyProbe '" + kUrl + "' 7",
+                               "(sleep 2.5; exec $BIN/priamos log play run.lcmlog --speed 4 --loop --bus '" +
+                                   kUrl + "') > played 2>&1 & player=$!",
+                               "kill -INT $player 2>/dev/null; wait $player");
   ASSERT_EQ(answer.exit_code, 0) << answer.text;
   const auto rows = SpyRows(answer.text);
   for (const auto& [channel, row] : rows) {
