@@ -11,8 +11,6 @@ constexpr double kTouch = 1e-3;
 constexpr double kLeastStep = 5e-3;
 /// Closing in by less than this part of the way is sliding along, not driving into.
 constexpr double kSliding = 0.05;
-/// A search for the best motion ends where a tolerance ends, and would use it up at every step.
-constexpr double kNotClosing = 0.002;
 
 Footprint WithMargin(const Footprint& footprint, double margin_m) {
   return {footprint.length_m + 2 * margin_m, footprint.width_m + 2 * margin_m};
@@ -20,15 +18,15 @@ Footprint WithMargin(const Footprint& footprint, double margin_m) {
 
 /// Way until `guard` meets `point`, at most `farthest`. The distance shrinks by at most 1 per way, so a step
 /// as long as the distance never jumps over the contact.
-double FreeWay(const Footprint& guard, const Twist2& per_metre, const Eigen::Vector2d& point, double farthest,
-               double sliding) {
+double FreeWay(const Footprint& guard, const Twist2& per_metre, const Eigen::Vector2d& point,
+               double farthest) {
   const auto distance_after = [&](double way) {
     return guard.Distance(Integrate({}, per_metre, way).Inverse() * point);
   };
   double distance = guard.Distance(point);
   if (distance < kTouch) {
     constexpr double kProbe = 0.01;
-    return distance_after(kProbe) < distance - sliding * kProbe ? 0 : farthest;
+    return distance_after(kProbe) < distance - kSliding * kProbe ? 0 : farthest;
   }
   double way = 0;
   while (way < farthest) {
@@ -41,8 +39,8 @@ double FreeWay(const Footprint& guard, const Twist2& per_metre, const Eigen::Vec
 }
 
 double FreeWay(const Footprint& guard, const Twist2& per_metre, std::span<const Eigen::Vector2d> points,
-               double farthest, double sliding) {
-  for (const Eigen::Vector2d& point : points) farthest = FreeWay(guard, per_metre, point, farthest, sliding);
+               double farthest) {
+  for (const Eigen::Vector2d& point : points) farthest = FreeWay(guard, per_metre, point, farthest);
   return farthest;
 }
 
@@ -85,8 +83,8 @@ CollisionStop::Result CollisionStop::Limit(const Twist2& wanted, std::span<const
   const double speed = SpeedOf(wanted);
   if (speed < 1e-6) return result;
   const Twist2 per_metre{wanted.vx / speed, wanted.vy / speed, wanted.wz / speed};
-  const double free_seen = FreeWay(seen_guard_, per_metre, seen, config_.look_ahead_m, kSliding);
-  const double free_memory = FreeWay(memory_guard_, per_metre, remembered, config_.look_ahead_m, kSliding);
+  const double free_seen = FreeWay(seen_guard_, per_metre, seen, config_.look_ahead_m);
+  const double free_memory = FreeWay(memory_guard_, per_metre, remembered, config_.look_ahead_m);
   const double free = std::min(free_seen, free_memory);
   if (free >= config_.look_ahead_m) return result;
 
@@ -106,7 +104,7 @@ double CollisionStop::Scale(const Twist2& wanted, std::span<const Eigen::Vector2
   const Twist2 per_metre{wanted.vx / speed, wanted.vy / speed, wanted.wz / speed};
   const double braking = BrakingWay(speed);
   const auto allowed = [&](const Footprint& guard, std::span<const Eigen::Vector2d> points, double gap_m) {
-    const double enough = braking + gap_m, free = FreeWay(guard, per_metre, points, enough, kNotClosing);
+    const double enough = braking + gap_m, free = FreeWay(guard, per_metre, points, enough);
     return free >= enough ? speed : AllowedSpeed(free, gap_m);
   };
   const double of_seen = allowed(seen_guard_, seen, config_.gap_m);

@@ -42,9 +42,8 @@ class CollisionStop {
   /// `seen` and `remembered` are obstacles in the base frame.
   Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                std::span<const Eigen::Vector2d> remembered = {}) const;
-  /// The scale for whoever searches among many motions: at most that of Limit, and 0 for a motion that closes
-  /// in at all on what is nearer than the margin, where Limit tolerates what is nearly sliding along. What is
-  /// farther away than the base needs for braking is not looked at.
+  /// Only the scale of Limit, for whoever compares many motions: what is farther away than the base needs for
+  /// braking is not looked at.
   double Scale(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                std::span<const Eigen::Vector2d> remembered) const;
 
