@@ -132,7 +132,8 @@ TEST_F(BusTools, LcmLoggerAndLcmLogplayerDoSoToo) {
 
 /// The whole simulation for some seconds: LCM's recorder hears what ours hears, and its player gives it back.
 TEST_F(BusTools, ALiveRobotIsRecordedByLcmLoggerAndPlayedByLcmLogplayer) {
-  const auto answer = Run("export PRIAMOS_BUS=$($BIN/priamos topic url --bus onboard)\n" + kLogger + R"sh(
+  const auto answer = Run(kLogger + R"sh(
+    export PRIAMOS_BUS=onboard; URL=$($BIN/priamos topic url)
     $BIN/priamos up $SOURCE/config/sim --logs logs > up.txt 2>&1 & up=$!
     for i in $(seq 150); do grep -q 'all processes are ready' up.txt && break; sleep 0.1; done; cat up.txt
     $BIN/priamos log record ours.lcmlog --no-health & recorder=$!
@@ -286,7 +287,7 @@ TEST_F(BusTools, WhoWaitsInVainIsToldWhy) {
     timeout -s INT 2 $BIN/priamos topic echo POZE --bus onboard > poze.out 2> poze.err
     timeout -s INT 2 $BIN/priamos topic echo POSE > other.out 2> other.err
     timeout -s INT 2 $BIN/priamos where 2> where.err > where.out; echo "where: $?"
-    timeout -s INT 2 $BIN/priamos mission status 2> mission.err; echo "mission: $?"
+    timeout -s INT 8 $BIN/priamos mission status 2> mission.err; echo "mission: $?"
     timeout -s INT 2 $BIN/priamos topic echo POSE x_m utime --count 2 --bus onboard --json 2> good.err
     kill -INT $player; wait $player
     cat poze.err other.err where.err mission.err good.err; wc -c < poze.out)sh");
