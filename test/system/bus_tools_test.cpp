@@ -284,11 +284,11 @@ TEST_F(BusTools, WhoWaitsInVainIsToldWhy) {
     unset PRIAMOS_BUS
     $BIN/priamos log play in.lcmlog --loop --bus onboard & player=$!
     sleep 0.5
-    timeout -s INT 2 $BIN/priamos topic echo POZE --bus onboard > poze.out 2> poze.err
-    timeout -s INT 2 $BIN/priamos topic echo POSE > other.out 2> other.err
-    timeout -s INT 2 $BIN/priamos where 2> where.err > where.out; echo "where: $?"
-    timeout -s INT 8 $BIN/priamos mission status 2> mission.err; echo "mission: $?"
-    timeout -s INT 2 $BIN/priamos topic echo POSE x_m utime --count 2 --bus onboard --json 2> good.err
+    timeout -s INT 4 $BIN/priamos topic echo POZE --bus onboard > poze.out 2> poze.err
+    timeout -s INT 4 $BIN/priamos topic echo POSE > other.out 2> other.err
+    timeout -s INT 20 $BIN/priamos where 2> where.err > where.out; echo "where: $?"
+    timeout -s INT 20 $BIN/priamos mission status 2> mission.err; echo "mission: $?"
+    timeout -s INT 20 $BIN/priamos topic echo POSE x_m utime --count 2 --bus onboard --json 2> good.err
     kill -INT $player; wait $player
     cat poze.err other.err where.err mission.err good.err; wc -c < poze.out)sh");
   EXPECT_THAT(answer.text, HasSubstr("topic echo: nobody publishes POZE on onboard (udpm://239.255.76.67:"));
