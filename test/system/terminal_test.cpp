@@ -25,7 +25,7 @@ std::string FileText(const std::filesystem::path& file) {
 
 class TerminalTest : public ::testing::Test {
  protected:
-  /// What a terminal of 80 x 24 gets from `command`, with a recorded run on the default bus.
+  /// What a terminal of 80 x 24 gets from `command`, with a recorded run on the onboard bus.
   std::string Screen(const std::string& command) {
     std::ofstream(folder_ / "inside.sh")
         << "stty rows 24 cols 80\nstty -g > " << (folder_ / "before").string() << "\n"
@@ -33,7 +33,7 @@ class TerminalTest : public ::testing::Test {
     const auto answer = RunInPrivateNetwork(
         "cd " + folder_.path().string() +
             "\nLOG=$SOURCE/logs/recorded/door-onboard.lcmlog\nexport BIN LOG SHELL=/bin/bash\n"
-            "$BIN/priamos log play $LOG --loop > /dev/null & player=$!\n"
+            "$BIN/priamos log play $LOG --loop --bus onboard > /dev/null & player=$!\n"
             "script -qc 'bash inside.sh' typescript > /dev/null < /dev/null\n"
             "kill $player; wait $player\n",
         folder_ / "run.sh", 40);
