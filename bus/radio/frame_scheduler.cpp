@@ -62,7 +62,7 @@ void FrameScheduler::BuildHello(FrameSources from, Time now) {
 bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   const std::size_t target = BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss());
   BundleBuilder builder(*table_, target, turns_.enabled());
-  Flight flight = Fill(builder, from, urgent_only, now);
+  FrameInFlight flight = Fill(builder, from, urgent_only, now);
   // Nothing that is ready could be packed: no frame for nothing.
   if (builder.empty() && now - last_data_ < options_.keep_alive) return false;
   const std::vector<std::byte> bundle = builder.Finish();
@@ -77,9 +77,9 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   return true;
 }
 
-FrameScheduler::Flight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only,
-                                            Time now) const {
-  Flight flight;
+FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only,
+                                   Time now) const {
+  FrameInFlight flight;
   flight.urgent = urgent_only && from.outbox.queue().UrgentReady(now, true);
   flight.repeats = urgent_only && !flight.urgent;
   if (!urgent_only) {
@@ -110,7 +110,7 @@ bool FrameScheduler::EndsTurn(const FrameSources& from, std::size_t frame_bytes,
 }
 
 void FrameScheduler::Cut(FrameSources from, Time now, std::vector<std::byte>& out) {
-  Flight flight = std::move(*flight_);
+  FrameInFlight flight = std::move(*flight_);
   flight_.reset();
   transmitter_.Cut(now, out);
   ++counters_.aborted;
@@ -121,7 +121,7 @@ void FrameScheduler::Cut(FrameSources from, Time now, std::vector<std::byte>& ou
 }
 
 void FrameScheduler::Finish(FrameSources from) {
-  Flight flight = std::move(*flight_);
+  FrameInFlight flight = std::move(*flight_);
   flight_.reset();
   if (flight.over) turns_.OnOverSent(transmitter_.pacer().free_at());
   from.outbox.OnSent(std::move(flight.outbox), flight.counter);

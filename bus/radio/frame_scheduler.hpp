@@ -31,6 +31,18 @@ struct SendCounters {
   std::uint64_t bundle_bytes = 0;  ///< bytes of their bundles
 };
 
+/// What the frame on its way out means: what must be noted when it has left, or undone when it is cut off.
+struct FrameInFlight {
+  std::uint64_t counter = 0;  ///< 0: a hello
+  bool urgent = false;        ///< never cut off
+  bool repeats = false;       ///< only what was urgent before: cut off by what is urgent now
+  bool over = false;          ///< ends the turn
+  std::size_t bundle_bytes = 0;
+  Peer::Told peer{};
+  MessageReceiver::Told inbox{};
+  MessageSender::Loaded outbox{};
+};
+
 /// Which frame goes next, when its bytes may leave, and when it is cut off for an urgent message.
 class FrameScheduler {
  public:
@@ -51,25 +63,13 @@ class FrameScheduler {
   std::uint64_t bytes_sent() const { return transmitter_.bytes_sent(); }
 
  private:
-  /// What the frame on its way out means: what must be noted when it has left, or undone when it is cut off.
-  struct Flight {
-    std::uint64_t counter = 0;  ///< 0: a hello
-    bool urgent = false;        ///< never cut off
-    bool repeats = false;       ///< only what was urgent before: cut off by what is urgent now
-    bool over = false;          ///< ends the turn
-    std::size_t bundle_bytes = 0;
-    Peer::Told peer{};
-    MessageReceiver::Told inbox{};
-    MessageSender::Loaded outbox{};
-  };
-
   bool MustCut(const FrameSources& from, Time now) const;
   bool MaySend(const FrameSources& from, Time now) const;
   bool Build(FrameSources from, Time now);
   bool DataDue(const FrameSources& from, Time now) const;
   void BuildHello(FrameSources from, Time now);
   bool BuildData(FrameSources from, bool urgent_only, Time now);
-  Flight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, Time now) const;
+  FrameInFlight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, Time now) const;
   bool EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const;
   void Cut(FrameSources from, Time now, std::vector<std::byte>& out);
   void Finish(FrameSources from);
@@ -79,7 +79,7 @@ class FrameScheduler {
   LinkOptions options_;
   Transmitter transmitter_;
   TurnTaking turns_;
-  std::optional<Flight> flight_;
+  std::optional<FrameInFlight> flight_;
   Time last_data_;  ///< begin of the last data frame sent
   SendCounters counters_;
 };

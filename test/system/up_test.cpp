@@ -116,7 +116,7 @@ TEST_F(UpTest, WhileItIsStoppedItsProcessesGoOnAndAfterwardsNobodyIsBlamed) {
       << answer.text;
   EXPECT_GT(std::stod(rate[1]), 25) << "50 poses a second on a machine that has time";
   EXPECT_THAT(answer.text, Not(HasSubstr("hung")));
-  EXPECT_THAT(answer.text, ContainsRegex("onboard-robot +onboard +ready +[0-9]+ +[0-9.]+ s +1 "));
+  EXPECT_THAT(answer.text, ContainsRegex("onboard-robot +onboard +ready +[0-9]+ +[0-9.]+ s +1\n"));
 }
 
 }  // namespace
