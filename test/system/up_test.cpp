@@ -62,8 +62,8 @@ TEST_F(UpTest, BringsEverythingUpStartsAgainWhatDiedTellsWhyAndEndsWithoutOrphan
   EXPECT_THAT(answer.text, HasSubstr("processes: 8, running: 8\n"));
   EXPECT_THAT(answer.text, HasSubstr("expected nothing up, got `priamos up` with pid"));
   EXPECT_THAT(answer.text, Not(HasSubstr("a second one")));
-  EXPECT_THAT(answer.text,
-              ContainsRegex("onboard-robot +onboard +ready +[0-9]+ +[0-9.]+ s +2  killed by signal 9"));
+  EXPECT_THAT(answer.text, ContainsRegex("onboard-robot +onboard +ready +[0-9]+ +[0-9.]+ s +2\n"));
+  EXPECT_THAT(answer.text, HasSubstr("onboard-robot last ended: killed by signal 9"));
   EXPECT_THAT(answer.text, HasSubstr("status: 0"));
   EXPECT_THAT(answer.text, AllOf(HasSubstr("--- start 1"), HasSubstr("--- start 2")))
       << "its console is kept";
