@@ -38,8 +38,8 @@ class ScriptsTest : public ::testing::Test {
   void Script(const std::string& name, const std::string& body) { Write(clone_ / "scripts" / name, body); }
   /// Whoever runs the tests may have chosen a preset: the clone's scripts know nothing of it.
   ShellAnswer Run(const std::string& command) const {
-    return RunShell("unset PRIAMOS_PRESET; cd '" + clone_.string() + "' && PATH='" + (folder_ / "bin").string() +
-                    "' " + command);
+    return RunShell("unset PRIAMOS_PRESET; cd '" + clone_.string() + "' && PATH='" +
+                    (folder_ / "bin").string() + "' " + command);
   }
 
  private:

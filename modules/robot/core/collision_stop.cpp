@@ -7,10 +7,13 @@ namespace priamos::robot {
 namespace {
 
 constexpr double kTouch = 1e-3;
+constexpr double kRounding = 1e-6;
 /// Skimming along a wall must not take a thousand steps; what this jumps over, the margin covers.
 constexpr double kLeastStep = 5e-3;
 /// Closing in by less than this part of the way is sliding along, not driving into.
 constexpr double kSliding = 0.05;
+/// How far a point within the guard is probed.
+constexpr double kProbe = 0.01;
 
 Footprint WithMargin(const Footprint& footprint, double margin_m) {
   return {footprint.length_m + 2 * margin_m, footprint.width_m + 2 * margin_m};
@@ -24,10 +27,7 @@ double FreeWay(const Footprint& guard, const Twist2& per_metre, const Eigen::Vec
     return guard.Distance(Integrate({}, per_metre, way).Inverse() * point);
   };
   double distance = guard.Distance(point);
-  if (distance < kTouch) {
-    constexpr double kProbe = 0.01;
-    return distance_after(kProbe) < distance - kSliding * kProbe ? 0 : farthest;
-  }
+  if (distance < kTouch) return distance_after(kProbe) < distance - kSliding * kProbe ? 0 : farthest;
   double way = 0;
   while (way < farthest) {
     way += std::max(distance, kLeastStep);
@@ -41,6 +41,32 @@ double FreeWay(const Footprint& guard, const Twist2& per_metre, const Eigen::Vec
 double FreeWay(const Footprint& guard, const Twist2& per_metre, std::span<const Eigen::Vector2d> points,
                double farthest) {
   for (const Eigen::Vector2d& point : points) farthest = FreeWay(guard, per_metre, point, farthest);
+  return farthest;
+}
+
+/// Is a point within `guard` nearer after a motion than sliding along makes it? The deeper it is in the
+/// margin, the less counts as sliding, and nothing where half of the margin is used up: what is tolerated at
+/// every step must not add up to a contact.
+bool ClosesIn(const Footprint& guard, double margin_m, const Eigen::Vector2d& point, const Pose2& from_base,
+              double way) {
+  const double distance = guard.Distance(point);
+  if (distance >= kTouch) return false;
+  const double left = std::clamp(1 + distance / std::max(margin_m / 2, kTouch), 0.0, 1.0);
+  return guard.Distance(from_base * point) < distance - kSliding * left * way - kRounding;
+}
+
+/// Way for which `guard` does not close in on any of the points within it, at most `farthest`. An arc closes
+/// in with the square of the way, so steps that double are fine enough; what is between two counts as not
+/// free.
+double WayKeptOff(const Footprint& guard, double margin_m, const Twist2& per_metre,
+                  std::span<const Eigen::Vector2d> points, double farthest) {
+  double kept_off = 0;
+  for (double way = kProbe; kept_off < farthest; way *= 2) {
+    const Pose2 from_base = Integrate({}, per_metre, way).Inverse();
+    for (const Eigen::Vector2d& point : points)
+      if (ClosesIn(guard, margin_m, point, from_base, way)) return kept_off;
+    kept_off = way;
+  }
   return farthest;
 }
 
@@ -103,12 +129,18 @@ double CollisionStop::Scale(const Twist2& wanted, std::span<const Eigen::Vector2
   if (speed < 1e-6) return 1;
   const Twist2 per_metre{wanted.vx / speed, wanted.vy / speed, wanted.wz / speed};
   const double braking = BrakingWay(speed);
-  const auto allowed = [&](const Footprint& guard, std::span<const Eigen::Vector2d> points, double gap_m) {
+  const auto allowed = [&](const Footprint& guard, double margin_m, std::span<const Eigen::Vector2d> points,
+                           double gap_m) {
+    const double kept_off = WayKeptOff(guard, margin_m, per_metre, points, braking);
+    if (kept_off <= 0) return 0.0;
     const double enough = braking + gap_m, free = FreeWay(guard, per_metre, points, enough);
-    return free >= enough ? speed : AllowedSpeed(free, gap_m);
+    return std::min(kept_off >= braking ? speed : AllowedSpeed(kept_off, 0),
+                    free >= enough ? speed : AllowedSpeed(free, gap_m));
   };
-  const double of_seen = allowed(seen_guard_, seen, config_.gap_m);
-  return std::min(of_seen, allowed(memory_guard_, remembered, config_.memory_gap_m)) / speed;
+  const double of_seen = allowed(seen_guard_, config_.margin_m, seen, config_.gap_m);
+  return std::min(of_seen,
+                  allowed(memory_guard_, config_.memory_margin_m, remembered, config_.memory_gap_m)) /
+         speed;
 }
 
 }  // namespace priamos::robot

@@ -42,8 +42,9 @@ class CollisionStop {
   /// `seen` and `remembered` are obstacles in the base frame.
   Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                std::span<const Eigen::Vector2d> remembered = {}) const;
-  /// Only the scale of Limit, for whoever compares many motions: what is farther away than the base needs for
-  /// braking is not looked at.
+  /// The scale for a search among many motions: at most that of Limit. What is farther away than the base
+  /// needs for braking is not looked at; and because a search ends where a tolerance ends, less and less is
+  /// tolerated the more of the margin is used up: it keeps half of the margin.
   double Scale(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                std::span<const Eigen::Vector2d> remembered) const;
 

@@ -125,12 +125,13 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause);
 
   const Obstacles around = Around(situation.odom_from_base);
-  const Twist2 wanted = Wanted(situation, now, dt_s), slewed = Slewed(wanted, dt_s);
-  const Twist2 free = state_.mode == DriveMode::kOperated ? FreeOf(slewed, around) : slewed;
-  const CollisionStop::Result result = Guard().Limit(free, around.seen, around.remembered);
+  const Twist2 wanted = Wanted(situation, now, dt_s), free = FreeOf(wanted, around);
+  // Once more: on its way from one free motion to another the base may pass through one that is not.
+  const Twist2 next = FreeOf(Slewed(free, dt_s), around);
+  const CollisionStop::Result result = Guard().Limit(next, around.seen, around.remembered);
   const WheelSpeeds wheels = Saturated(geometry_, ToWheelSpeeds(geometry_, result.twist));
   SetCommanded(FromWheelSpeeds(geometry_, wheels).twist);
-  NoteSonar(wanted, around, result);
+  NoteSonar(wanted, free, around, result);
   NoteBlocked(wanted, result.twist, now);
   NoteStuck(situation, now);
   NoteEnd(source);
@@ -234,9 +235,9 @@ Twist2 DriveController::WantedByOperator(Time now) const {
   return wish && WantsMotion(*wish) ? *wish : Twist2{};
 }
 
-/// After the acceleration limits and not before: they change the direction of a motion, and a base that may
-/// drive to the left must not stand because its first step to the left is a turn as well.
+/// What of a motion leads nowhere into an obstacle, where an operator drives: a path is driven or not.
 Twist2 DriveController::FreeOf(const Twist2& motion, const Obstacles& around) const {
+  if (state_.mode != DriveMode::kOperated) return motion;
   return Deflected(motion, config_.footprint.Reach(),
                    [&](const Twist2& part) { return Guard().Scale(part, around.seen, around.remembered); });
 }
@@ -254,11 +255,11 @@ void DriveController::SetCommanded(const Twist2& twist) {
 }
 
 /// Of an operator's wish counts what deflection leaves of it; of a path, what the collision stop does.
-void DriveController::NoteSonar(const Twist2& wanted, const Obstacles& around,
+void DriveController::NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
                                 const CollisionStop::Result& result) {
   const bool operated = state_.mode == DriveMode::kOperated;
   const double speed = collision_.SpeedOf(wanted);
-  const double most = operated ? collision_.SpeedOf(FreeOf(wanted, around)) : result.allowed.value_or(speed);
+  const double most = operated ? collision_.SpeedOf(free) : result.allowed.value_or(speed);
   const double left = speed > 0 ? std::min(1.0, most / speed) : 1.0;
   state_.nearest_m = operated ? Guard().Limit(wanted, around.seen, around.remembered).free_m : result.free_m;
   state_.slowed_by_sonar = left < kSlowed;

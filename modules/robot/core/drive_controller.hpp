@@ -119,7 +119,8 @@ class DriveController {
   Twist2 FreeOf(const Twist2& motion, const Obstacles& around) const;
   Twist2 Slewed(const Twist2& wanted, double dt_s);
   void SetCommanded(const Twist2& twist);
-  void NoteSonar(const Twist2& wanted, const Obstacles& around, const CollisionStop::Result& result);
+  void NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
+                 const CollisionStop::Result& result);
   void NoteBlocked(const Twist2& wanted, const Twist2& given, Time now);
   void NoteStuck(const DriveSituation& situation, Time now);
   void NoteEnd(DriveSource source);

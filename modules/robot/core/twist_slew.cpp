@@ -1,6 +1,7 @@
 #include "robot/core/twist_slew.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace priamos::robot {
 
@@ -14,12 +15,13 @@ Twist2 TwistSlew::Step(const Twist2& target, double dt_s) {
   // The same velocity over the floor, seen from the base after it has turned for dt.
   const Eigen::Vector2d before =
       Pose2{0, 0, -commanded_.wz * dt_s} * Eigen::Vector2d(commanded_.vx, commanded_.vy);
-  Eigen::Vector2d change = Eigen::Vector2d(target.vx, target.vy) - before;
-  const double most = limits_.acceleration_m_s2 * dt_s;
-  if (change.norm() > most) change *= most / change.norm();
-  const double most_turn = limits_.turn_acceleration_rad_s2 * dt_s;
-  commanded_ = {before.x() + change.x(), before.y() + change.y(),
-                commanded_.wz + std::clamp(target.wz - commanded_.wz, -most_turn, most_turn)};
+  const Eigen::Vector2d change = Eigen::Vector2d(target.vx, target.vy) - before;
+  const double turn_change = target.wz - commanded_.wz;
+  const auto share = [](double wanted, double most) { return wanted > most ? most / wanted : 1; };
+  const double part = std::min(share(change.norm(), limits_.acceleration_m_s2 * dt_s),
+                               share(std::abs(turn_change), limits_.turn_acceleration_rad_s2 * dt_s));
+  commanded_ = {before.x() + part * change.x(), before.y() + part * change.y(),
+                commanded_.wz + part * turn_change};
   return commanded_;
 }
 

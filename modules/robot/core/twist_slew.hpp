@@ -14,7 +14,8 @@ struct AccelerationLimits {
 
 /// Limits how fast the commanded velocity changes, so that a jump of the pose or a new path never jerks the
 /// base. Works on the floor, not in the turning base frame: driving straight while turning is no
-/// acceleration.
+/// acceleration. Drive and turn change by the same part of what they are to change, so a base that sets off
+/// does so in the direction of the target: a motion that is free stays free.
 class TwistSlew {
  public:
   explicit TwistSlew(const AccelerationLimits& limits) : limits_(limits) {}

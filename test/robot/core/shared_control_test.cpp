@@ -248,6 +248,47 @@ TEST(SharedControl, PushedAtASlantItGetsPastABox) {
     }
 }
 
+SonarCycle AnyCycle() {
+  SonarCycle cycle;
+  for (double& range_m : cycle.range_m)
+    range_m = *rc::gen::inRange(0, 8) == 0 ? *rc::gen::inRange(10, 80) / 100.0 : -1;
+  return cycle;
+}
+
+/// Whatever the sonars hear and the operator wishes: a base at rest sets off wherever a part of the wish is
+/// free.
+TEST(SharedControl, WhatIsFreeOfAWishMoves) {
+  EXPECT_TRUE(rc::check([] {
+    const auto part = [] { return *rc::gen::inRange(-500, 501) / 1000.0; };
+    const Twist2 wish{part(), part(), part()};
+    SonarCycle cycle = AnyCycle();
+    RobotRig rig(1, {0, 0, 0});
+    EchoMemory echoes{EchoMemoryConfig{}, Footprint{}};
+    rig.sonars_answer = rig.wheels_turn = false;
+    rig.Run(0.1);
+    rig.TakeOver(kTeleop);
+    for (int i = 0; i < 3; ++i) {
+      cycle.time = rig.now();
+      rig.drive().AddSonar(cycle, {});
+      echoes.Add(cycle, {});
+      rig.Hold(kTeleop, wish, 0.1);
+    }
+    CollisionStopConfig config;
+    config.margin_m += DriveConfig().operator_margin_m;
+    config.memory_margin_m += DriveConfig().operator_margin_m;
+    const CollisionStop guard(config, Footprint{});
+    auto seen = echoes.Points({});
+    const auto bridges = echoes.Bridges({});
+    seen.insert(seen.end(), bridges.begin(), bridges.end());
+    const auto speed = [](const Twist2& t) { return std::hypot(t.vx, t.vy, t.wz * Footprint().Reach()); };
+    const Twist2 free = Deflected(wish, Footprint().Reach(), [&](const Twist2& motion) {
+      return guard.Scale(motion, seen, echoes.Remembered({}));
+    });
+    RC_PRE(speed(free) > 0.15 * speed(wish) && speed(wish) > 0.1);
+    RC_ASSERT(std::any_of(rig.command()->begin(), rig.command()->end(), [](double w) { return w != 0; }));
+  }));
+}
+
 /// The acceleration limits make the first step of a turn larger than that of a drive. Beside a corner that
 /// forbids the turn the base must drive off all the same.
 TEST(SharedControl, ATurnThatIsNotFreeDoesNotHoldTheDriveThatIs) {
