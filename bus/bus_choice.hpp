@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bus/bus_address.hpp"
+#include "bus/wire/bus_address.hpp"
 
 namespace CLI {
 class App;

@@ -10,10 +10,10 @@
 #include <system_error>
 
 #include "bus/claim_messages.hpp"
-#include "bus/lcm_bus.hpp"
 #include "bus/node.hpp"
 #include "bus/schema/schema.hpp"
 #include "bus/schema/walk.hpp"
+#include "bus/wire/lcm_bus.hpp"
 
 namespace priamos::bus {
 namespace {

@@ -12,7 +12,7 @@
 #include "bus/clock.hpp"
 #include "bus/context.hpp"
 #include "bus/sole_speaker.hpp"
-#include "bus/udp_receiver.hpp"
+#include "bus/wire/udp_receiver.hpp"
 
 namespace priamos::bus {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bus/app_host.hpp"
-#include "bus/radio/line.hpp"
+#include "bus/radio/line/line.hpp"
 
 namespace priamos::bus {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bus/clock.hpp"
-#include "bus/lcm_bus.hpp"
+#include "bus/wire/lcm_bus.hpp"
 #include "common/time.hpp"
 #include "lcmtypes/channel.hpp"
 

@@ -18,7 +18,7 @@
 #include "bus/real_time_loop.hpp"
 #include "bus/replay.hpp"
 #include "bus/schema/schema.hpp"
-#include "bus/socket_filter.hpp"
+#include "bus/wire/socket_filter.hpp"
 #include "common/serial_port.hpp"
 
 namespace priamos::bus {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/radio/channel_table.hpp"
+#include "bus/radio/channels/channel_table.hpp"
 #include "bus/radio/link_options.hpp"
 
 /// Load and worst-case latencies that a link's configuration asks of the line, computed before anything is

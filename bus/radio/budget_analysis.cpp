@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bus/radio/bundle.hpp"
+#include "bus/radio/channels/bundle.hpp"
 
 namespace priamos::bus::radio {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "bus/radio/channel_table.hpp"
+#include "bus/radio/channels/channel_table.hpp"
 #include "bus/radio/link_options.hpp"
 
 /// Response times of the channels of one direction. What is bounded and after whom: budget.hpp.

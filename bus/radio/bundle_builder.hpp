@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "bus/radio/bundle.hpp"
+#include "bus/radio/channels/bundle.hpp"
 
 namespace priamos::bus::radio {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "bus/radio/bundle.hpp"
-#include "bus/radio/frame.hpp"
-#include "bus/radio/link_quality.hpp"
+#include "bus/radio/channels/bundle.hpp"
+#include "bus/radio/frame/frame.hpp"
+#include "bus/radio/line/link_quality.hpp"
 #include "common/time.hpp"
 
 /// Acknowledgements of frames. They repeat nothing by themselves: they prove that commands are fresh, name

@@ -6,10 +6,10 @@
 #include <optional>
 #include <variant>
 
-#include "bus/radio/cobs.hpp"
-#include "bus/radio/frame.hpp"
+#include "bus/radio/frame/cobs.hpp"
+#include "bus/radio/frame/frame.hpp"
 #include "bus/radio/handshake.hpp"
-#include "bus/radio/link_quality.hpp"
+#include "bus/radio/line/link_quality.hpp"
 
 namespace priamos::bus::radio {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "bus/radio/epoch.hpp"
-#include "bus/radio/frame.hpp"
-#include "bus/radio/link_quality.hpp"
+#include "bus/radio/frame/epoch.hpp"
+#include "bus/radio/frame/frame.hpp"
+#include "bus/radio/line/link_quality.hpp"
 #include "common/time.hpp"
 
 namespace priamos::bus::radio {

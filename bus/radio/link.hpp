@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bus/radio/channel_table.hpp"
+#include "bus/radio/channels/channel_table.hpp"
 #include "bus/radio/frame_receiver.hpp"
 #include "bus/radio/frame_scheduler.hpp"
 #include "bus/radio/link_memory.hpp"

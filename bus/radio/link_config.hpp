@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/radio/channel_table.hpp"
+#include "bus/radio/channels/channel_table.hpp"
 #include "bus/radio/link_options.hpp"
 #include "bus/schema/schema.hpp"
 #include "common/config.hpp"

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "bus/radio/channel_table.hpp"
-#include "bus/radio/epoch.hpp"
-#include "bus/radio/event_stream.hpp"
+#include "bus/radio/channels/channel_table.hpp"
+#include "bus/radio/channels/event_stream.hpp"
+#include "bus/radio/channels/send_queue.hpp"
+#include "bus/radio/frame/epoch.hpp"
 #include "bus/radio/link_state.hpp"
-#include "bus/radio/send_queue.hpp"
 
 namespace priamos::bus::radio {
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "bus/radio/turn_taking.hpp"
+#include "bus/radio/line/turn_taking.hpp"
 #include "common/time.hpp"
 
 namespace priamos::bus::radio {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "bus/radio/bundle.hpp"
+#include "bus/radio/channels/bundle.hpp"
 #include "common/time.hpp"
 
 namespace priamos::bus::radio {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bus/radio/bundle_builder.hpp"
-#include "bus/radio/delta.hpp"
-#include "bus/radio/event_stream.hpp"
+#include "bus/radio/channels/delta.hpp"
+#include "bus/radio/channels/event_stream.hpp"
 
 namespace priamos::bus::radio {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bus/radio/bundle_builder.hpp"
-#include "bus/radio/delta.hpp"
-#include "bus/radio/send_queue.hpp"
+#include "bus/radio/channels/delta.hpp"
+#include "bus/radio/channels/send_queue.hpp"
 
 namespace priamos::bus::radio {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "bus/radio/frame.hpp"
+#include "bus/radio/frame/frame.hpp"
 
 namespace priamos::bus::radio {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "bus/radio/line/pacer.hpp"
 #include "bus/radio/link_options.hpp"
-#include "bus/radio/pacer.hpp"
 
 namespace priamos::bus::radio {
 

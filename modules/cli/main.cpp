@@ -1,6 +1,6 @@
 #include <CLI/CLI.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/front/commands.hpp"
 #include "cli/front/run_cli.hpp"
 
 int main(int argc, char** argv) {

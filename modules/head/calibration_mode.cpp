@@ -4,11 +4,11 @@
 
 #include <sstream>
 
-#include "head/calibration_file.hpp"
 #include "head/calibration_report.hpp"
-#include "head/core/calibration/camera_calibration.hpp"
-#include "head/core/calibration/disc_detection.hpp"
-#include "head/core/calibration/progress_bar.hpp"
+#include "head/core/calibration/discs/disc_detection.hpp"
+#include "head/core/calibration/rig/progress_bar.hpp"
+#include "head/core/calibration/targets/camera_calibration.hpp"
+#include "head/files/calibration_file.hpp"
 #include "head/head_messages.hpp"
 
 namespace priamos::head {

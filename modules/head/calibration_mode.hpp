@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "bus/context.hpp"
-#include "head/calibration_journal.hpp"
 #include "head/camera_reader.hpp"
-#include "head/core/calibration/correspondence.hpp"
-#include "head/core/calibration/head_solver.hpp"
-#include "head/core/head_positioner.hpp"
-#include "head/core/look_sequence.hpp"
+#include "head/core/calibration/correspondence/correspondence.hpp"
+#include "head/core/calibration/rig/head_solver.hpp"
+#include "head/core/motion/head_positioner.hpp"
+#include "head/core/motion/look_sequence.hpp"
+#include "head/files/calibration_journal.hpp"
 #include "head/head_config.hpp"
 #include "lcmtypes/channels.hpp"
 

@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "common/geometry.hpp"
-#include "head/core/calibration/camera_parameters.hpp"
+#include "head/core/calibration/resection/camera_parameters.hpp"
 
 namespace priamos::head {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "head/core/calibration/head_quality.hpp"
+#include "head/core/calibration/rig/head_quality.hpp"
 
 namespace priamos::head {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/frame_store.hpp"
-#include "head/core/frame_notice.hpp"
+#include "head/core/camera/frame_notice.hpp"
 
 namespace priamos::head {
 

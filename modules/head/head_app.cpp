@@ -6,9 +6,9 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "head/calibration_file.hpp"
-#include "head/core/edge_observations.hpp"
-#include "head/core/epipolar_shift.hpp"
+#include "head/core/drift/epipolar_shift.hpp"
+#include "head/core/landmark/edge_observations.hpp"
+#include "head/files/calibration_file.hpp"
 #include "head/vision_options.hpp"
 
 namespace priamos::head {

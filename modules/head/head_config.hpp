@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "common/config.hpp"
-#include "head/core/aim.hpp"
-#include "head/core/calibration/calibration_plan.hpp"
-#include "head/core/drift_monitor.hpp"
-#include "head/core/head_model.hpp"
-#include "head/core/head_positioner.hpp"
-#include "head/core/laser_watch.hpp"
-#include "head/core/look_sequence.hpp"
+#include "head/core/calibration/rig/calibration_plan.hpp"
+#include "head/core/camera/head_model.hpp"
+#include "head/core/drift/drift_monitor.hpp"
+#include "head/core/floor/laser_watch.hpp"
+#include "head/core/motion/aim.hpp"
+#include "head/core/motion/head_positioner.hpp"
+#include "head/core/motion/look_sequence.hpp"
 
 namespace priamos::head {
 

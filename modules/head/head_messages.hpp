@@ -2,14 +2,14 @@
 
 #include <optional>
 
-#include "head/core/head_jog.hpp"
-#include "head/core/head_positioner.hpp"
-#include "head/core/landmark.hpp"
-#include "head/core/landmark_fix.hpp"
-#include "head/core/landmark_view.hpp"
-#include "head/core/look_sequence.hpp"
-#include "head/core/obstacle_lines.hpp"
-#include "head/core/pose_history.hpp"
+#include "head/core/floor/obstacle_lines.hpp"
+#include "head/core/landmark/landmark.hpp"
+#include "head/core/landmark/landmark_fix.hpp"
+#include "head/core/landmark/landmark_view.hpp"
+#include "head/core/landmark/pose_history.hpp"
+#include "head/core/motion/head_jog.hpp"
+#include "head/core/motion/head_positioner.hpp"
+#include "head/core/motion/look_sequence.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::head {

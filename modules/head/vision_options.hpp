@@ -1,8 +1,8 @@
 #pragma once
 
-#include "head/core/edge_segments.hpp"
-#include "head/core/head_model.hpp"
-#include "head/core/landmark_fix.hpp"
+#include "head/core/camera/head_model.hpp"
+#include "head/core/edges/edge_segments.hpp"
+#include "head/core/landmark/landmark_fix.hpp"
 #include "head/head_config.hpp"
 
 namespace priamos::head {

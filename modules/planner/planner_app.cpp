@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "planner/core/map_landmarks.hpp"
+#include "planner/core/map/map_landmarks.hpp"
 #include "planner/planner_messages.hpp"
 
 namespace priamos::planner {

@@ -5,7 +5,7 @@
 
 #include "bus/context.hpp"
 #include "lcmtypes/channels.hpp"
-#include "planner/core/door_mission.hpp"
+#include "planner/core/missions/door_mission.hpp"
 #include "planner/planner_config.hpp"
 
 namespace priamos::planner {

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "common/config.hpp"
-#include "planner/core/door_mission.hpp"
-#include "planner/core/door_planner.hpp"
-#include "planner/core/footprint.hpp"
+#include "planner/core/missions/door_mission.hpp"
+#include "planner/core/path/door_planner.hpp"
+#include "planner/core/path/footprint.hpp"
 
 namespace priamos::planner {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "lcmtypes/channels.hpp"
-#include "planner/core/mission_types.hpp"
+#include "planner/core/missions/mission_types.hpp"
 
 namespace priamos::planner {
 

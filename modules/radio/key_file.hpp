@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bus/radio/frame.hpp"
+#include "bus/radio/frame/frame.hpp"
 
 namespace priamos::radio {
 

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/radio/frame.hpp"
+#include "bus/radio/frame/frame.hpp"
 #include "common/config.hpp"
 
 namespace priamos::radio {

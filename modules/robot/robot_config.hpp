@@ -3,9 +3,9 @@
 #include <string>
 
 #include "common/config.hpp"
-#include "robot/core/drive_controller.hpp"
-#include "robot/core/localiser.hpp"
-#include "robot/core/mecanum.hpp"
+#include "robot/core/base/mecanum.hpp"
+#include "robot/core/motion/drive_controller.hpp"
+#include "robot/core/pose/localiser.hpp"
 
 namespace priamos::robot {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "lcmtypes/channels.hpp"
-#include "robot/core/drive_controller.hpp"
-#include "robot/core/localiser.hpp"
+#include "robot/core/motion/drive_controller.hpp"
+#include "robot/core/pose/localiser.hpp"
 
 namespace priamos::robot {
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "world/core/camera_server.hpp"
+#include "world/core/head/camera_server.hpp"
 
 namespace priamos::world {
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "common/config.hpp"
-#include "world/core/imaging.hpp"
-#include "world/core/optics.hpp"
+#include "world/core/camera/imaging.hpp"
+#include "world/core/camera/optics.hpp"
 #include "world/core/simulation.hpp"
 
 namespace priamos::world {

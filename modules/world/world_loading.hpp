@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "world/core/build_solids.hpp"
-#include "world/core/contact.hpp"
-#include "world/core/world_plan.hpp"
+#include "world/core/base/contact.hpp"
+#include "world/core/scene/build_solids.hpp"
+#include "world/core/scene/world_plan.hpp"
 
 namespace priamos::world {
 

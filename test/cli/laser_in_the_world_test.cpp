@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "head/core/calibration/laser_calibration.hpp"
-#include "world/core/renderer.hpp"
+#include "head/core/calibration/rig/laser_calibration.hpp"
+#include "world/core/render/renderer.hpp"
 
 // The simulated laser and its calibration share no code: do they mean the same plane?
 

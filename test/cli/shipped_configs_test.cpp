@@ -7,10 +7,10 @@
 #include <iterator>
 #include <sstream>
 
-#include "cli/deployment.hpp"
-#include "cli/factories.hpp"
-#include "cli/scenario.hpp"
-#include "head/landmark_file.hpp"
+#include "cli/lockstep/factories.hpp"
+#include "cli/scenario/scenario.hpp"
+#include "cli/supervise/deployment.hpp"
+#include "head/files/landmark_file.hpp"
 #include "test/support/project_files.hpp"
 
 // Every configuration file of every deployment loads, and none lies about that nothing reads.

@@ -1,10 +1,10 @@
 #include <nlohmann/json.hpp>
 
-#include "bus/datagram.hpp"
-#include "bus/reassembler.hpp"
 #include "bus/schema/json.hpp"
 #include "bus/schema/walk.hpp"
-#include "bus/sequence_tracker.hpp"
+#include "bus/wire/datagram.hpp"
+#include "bus/wire/reassembler.hpp"
+#include "bus/wire/sequence_tracker.hpp"
 #include "fuzz_input.hpp"
 
 namespace priamos::bus {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "head/landmark_file.hpp"
+#include "head/files/landmark_file.hpp"
 #include "test/support/project_files.hpp"
 
 namespace priamos::head {

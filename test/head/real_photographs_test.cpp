@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "head/offline_calibration.hpp"
+#include "head/files/offline_calibration.hpp"
 
 namespace priamos::head {
 namespace {

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "robot/core/failsafe.hpp"
+#include "robot/core/safety/failsafe.hpp"
 
 namespace priamos::robot {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "common/random.hpp"
 #include "common/reference_object.hpp"
-#include "head/core/calibration/disc_fit.hpp"
+#include "head/core/calibration/discs/disc_fit.hpp"
 
 namespace priamos::support {
 

@@ -4,7 +4,7 @@
 
 #include "common/frame_store.hpp"
 #include "common/random.hpp"
-#include "head/core/calibration/disc_projection.hpp"
+#include "head/core/calibration/discs/disc_projection.hpp"
 
 namespace priamos::support {
 

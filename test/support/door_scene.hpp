@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "world/core/solid.hpp"
+#include "world/core/scene/solid.hpp"
 
 namespace priamos::test {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "head/core/projection.hpp"
+#include "head/core/camera/projection.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::test {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/random.hpp"
-#include "head/core/stereo_drift.hpp"
+#include "head/core/drift/stereo_drift.hpp"
 
 namespace priamos::test {
 

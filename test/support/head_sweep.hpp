@@ -1,7 +1,7 @@
 #pragma once
 
-#include "head/core/calibration/calibration_plan.hpp"
-#include "head/core/head_positioner.hpp"
+#include "head/core/calibration/rig/calibration_plan.hpp"
+#include "head/core/motion/head_positioner.hpp"
 #include "test/support/simulated_head.hpp"
 
 namespace priamos::support {

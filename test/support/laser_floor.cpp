@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "common/geometry.hpp"
-#include "head/core/head_model.hpp"
+#include "head/core/camera/head_model.hpp"
 
 namespace priamos::support {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "common/frame_store.hpp"
 #include "common/random.hpp"
-#include "head/core/camera_model.hpp"
-#include "head/core/laser_plane.hpp"
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/camera/laser_plane.hpp"
 
 namespace priamos::support {
 

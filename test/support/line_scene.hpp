@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/random.hpp"
-#include "head/core/edge_segment.hpp"
+#include "head/core/edges/edge_segment.hpp"
 
 namespace priamos::test {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/random.hpp"
-#include "head/core/camera_model.hpp"
-#include "head/core/landmark.hpp"
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/landmark/landmark.hpp"
 
 namespace priamos::test {
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "head/see_landmark.hpp"
+#include "head/see/see_landmark.hpp"
 #include "test/support/calibration_scene.hpp"
 #include "test/support/disc_renderer.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "common/config.hpp"
 #include "test/support/door_scene.hpp"
-#include "world/core/renderer.hpp"
+#include "world/core/render/renderer.hpp"
 
 namespace {
 

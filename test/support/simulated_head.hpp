@@ -4,8 +4,8 @@
 
 #include "common/random.hpp"
 #include "common/reference_object.hpp"
-#include "head/core/calibration/head_solver.hpp"
-#include "head/core/head_model.hpp"
+#include "head/core/calibration/rig/head_solver.hpp"
+#include "head/core/camera/head_model.hpp"
 
 namespace priamos::support {
 

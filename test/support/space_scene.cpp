@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "head/core/projection.hpp"
-#include "head/core/space_edge.hpp"
+#include "head/core/camera/projection.hpp"
+#include "head/core/stereo/space_edge.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::test {

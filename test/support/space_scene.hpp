@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/random.hpp"
-#include "head/core/view_line.hpp"
+#include "head/core/stereo/view_line.hpp"
 
 namespace priamos::test {
 

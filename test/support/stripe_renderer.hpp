@@ -4,7 +4,7 @@
 
 #include "common/frame_store.hpp"
 #include "common/random.hpp"
-#include "head/core/camera_model.hpp"
+#include "head/core/camera/camera_model.hpp"
 
 namespace priamos::support {
 

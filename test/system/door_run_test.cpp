@@ -5,7 +5,7 @@
 #include <set>
 
 #include "bus/own_types.hpp"
-#include "cli/lockstep_run.hpp"
+#include "cli/lockstep/lockstep_run.hpp"
 
 // The whole system in one process on simulated time: world, robot, head, planner and both ends of the radio.
 

@@ -7,7 +7,7 @@
 #include "bus/lockstep.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
-#include "cli/factories.hpp"
+#include "cli/lockstep/factories.hpp"
 #include "lcmtypes/channels.hpp"
 
 // The head of the shipped deployment watches the laser's line in the simulated world.

@@ -5,7 +5,7 @@
 
 #include <regex>
 
-#include "bus/bus_address.hpp"
+#include "bus/wire/bus_address.hpp"
 #include "test/support/temporary_folder.hpp"
 #include "test/system/private_network.hpp"
 

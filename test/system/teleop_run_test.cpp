@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "bus/own_types.hpp"
-#include "cli/lockstep_run.hpp"
+#include "cli/lockstep/lockstep_run.hpp"
 #include "test/support/temporary_folder.hpp"
 
 // An operator's hand, the space-mouse, teleop, the radio, the robot and its world, in one process.

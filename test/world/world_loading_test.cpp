@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "test/support/temporary_folder.hpp"
-#include "world/core/outline.hpp"
+#include "world/core/scene/outline.hpp"
 
 namespace priamos::world {
 namespace {

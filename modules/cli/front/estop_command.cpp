@@ -7,10 +7,10 @@
 
 #include "bus/bus_choice.hpp"
 #include "bus/clock.hpp"
-#include "bus/lcm_bus.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
-#include "cli/commands.hpp"
+#include "bus/wire/lcm_bus.hpp"
+#include "cli/front/commands.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "common/config.hpp"
-#include "world/core/camera_server.hpp"
-#include "world/core/contact.hpp"
-#include "world/core/drive_board.hpp"
-#include "world/core/head_motors.hpp"
-#include "world/core/mecanum_base.hpp"
-#include "world/core/solid.hpp"
-#include "world/core/sonar_ring.hpp"
+#include "world/core/base/contact.hpp"
+#include "world/core/base/drive_board.hpp"
+#include "world/core/base/mecanum_base.hpp"
+#include "world/core/head/camera_server.hpp"
+#include "world/core/head/head_motors.hpp"
+#include "world/core/scene/solid.hpp"
+#include "world/core/sonar/sonar_ring.hpp"
 
 namespace priamos::world {
 

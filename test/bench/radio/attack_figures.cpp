@@ -1,6 +1,6 @@
 // Forged, mutated, replayed and damaged frames.
 #include "figures.hpp"
-#include "test/bus/radio/attack_measurement.hpp"
+#include "test/bus/radio/measurement/attack_measurement.hpp"
 
 namespace priamos::bench {
 

@@ -1,8 +1,8 @@
 // Efficiency, bit errors, loss, overload, blackouts.
 #include "figures.hpp"
-#include "test/bus/radio/blackout_measurement.hpp"
-#include "test/bus/radio/goodput_measurement.hpp"
-#include "test/bus/radio/overload_measurement.hpp"
+#include "test/bus/radio/measurement/blackout_measurement.hpp"
+#include "test/bus/radio/measurement/goodput_measurement.hpp"
+#include "test/bus/radio/measurement/overload_measurement.hpp"
 
 namespace priamos::bench {
 

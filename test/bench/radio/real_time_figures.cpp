@@ -9,13 +9,13 @@
 #include <stdexcept>
 #include <thread>
 
-#include "bus/bus_address.hpp"
 #include "bus/clock.hpp"
-#include "bus/lcm_bus.hpp"
 #include "bus/schema/json.hpp"
 #include "bus/schema/schema.hpp"
 #include "bus/type_files.hpp"
-#include "cli/supervisor.hpp"
+#include "bus/wire/bus_address.hpp"
+#include "bus/wire/lcm_bus.hpp"
+#include "cli/supervise/supervisor.hpp"
 #include "figures.hpp"
 
 namespace priamos::bench {

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "attack_measurement.hpp"
-#include "blackout_measurement.hpp"
-#include "goodput_measurement.hpp"
-#include "overload_measurement.hpp"
+#include "test/bus/radio/measurement/attack_measurement.hpp"
+#include "test/bus/radio/measurement/blackout_measurement.hpp"
+#include "test/bus/radio/measurement/goodput_measurement.hpp"
+#include "test/bus/radio/measurement/overload_measurement.hpp"
 
 // What the link must hold, in short runs. test/bench/radio measures the same for long.
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/radio/line.hpp"
+#include "bus/radio/line/line.hpp"
 #include "bus/radio/link.hpp"
 #include "bus/radio/link_state.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "numbered_message.hpp"
+#include "test/bus/radio/measurement/numbered_message.hpp"
 
 // What the link must hold when it is busy, disturbed or attacked. Simulated time.
 

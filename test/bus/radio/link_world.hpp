@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/radio/line.hpp"
+#include "bus/radio/line/line.hpp"
 #include "bus/radio/link.hpp"
 #include "common/random.hpp"
 #include "link_trace.hpp"

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "bus/radio/bundle.hpp"
-#include "bus/radio/cobs.hpp"
-#include "bus/radio/frame.hpp"
+#include "bus/radio/channels/bundle.hpp"
+#include "bus/radio/frame/cobs.hpp"
+#include "bus/radio/frame/frame.hpp"
 
 // The specification is a promise to whoever writes another implementation: bus/radio/README.md is read here,
 // and the code must say the same.

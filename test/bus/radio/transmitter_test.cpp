@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "bus/radio/frame.hpp"
+#include "bus/radio/frame/frame.hpp"
 #include "link_pair.hpp"
 
 namespace priamos::bus::radio {

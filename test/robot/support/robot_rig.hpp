@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "robot/core/drive_controller.hpp"
-#include "robot/core/localiser.hpp"
+#include "robot/core/motion/drive_controller.hpp"
+#include "robot/core/pose/localiser.hpp"
 #include "test/robot/support/simulated_base.hpp"
 #include "test/robot/support/simulated_sonars.hpp"
 

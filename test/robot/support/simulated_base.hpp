@@ -3,8 +3,8 @@
 #include "common/geometry.hpp"
 #include "common/random.hpp"
 #include "common/time.hpp"
-#include "robot/core/mecanum.hpp"
-#include "robot/core/odometry.hpp"
+#include "robot/core/base/mecanum.hpp"
+#include "robot/core/base/odometry.hpp"
 
 namespace priamos::robot {
 

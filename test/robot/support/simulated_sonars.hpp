@@ -5,7 +5,7 @@
 
 #include "common/geometry.hpp"
 #include "common/random.hpp"
-#include "robot/core/echo_memory.hpp"
+#include "robot/core/sonar/echo_memory.hpp"
 
 namespace priamos::robot {
 

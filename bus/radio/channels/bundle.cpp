@@ -1,0 +1,249 @@
+#include "bus/radio/channels/bundle.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace priamos::bus::radio {
+namespace {
+
+enum ControlKind : std::uint8_t {
+  kFrameAck = 0,
+  kEventAck = 1,
+  kFloor = 2,
+  kListen = 3,
+  kOver = 4,
+  kForget = 5
+};
+constexpr int kControlKindBits = 3;
+constexpr int kLengthBits = 8;
+constexpr int kSegmentLengthBits = 5;
+constexpr int kPrefixBits = 6;
+constexpr std::uint64_t kAgeSteps = 63;
+constexpr int kFloorBits = 40;
+constexpr int kLossSteps = 15;
+
+/// Writes one kind of entry after its channel number.
+class EntryWriter {
+ public:
+  EntryWriter(const ChannelTable& table, BitWriter& out) : table_(table), out_(out) {}
+
+  void operator()(const StateEntry& e) {
+    Id(e.channel);
+    if (!table_.at(e.channel).delta.empty()) out_.Put(e.baseline ? 1 : 0, 1);
+    if (e.baseline) {
+      out_.Put(*e.baseline, kBaselineBits);
+      out_.Append(e.packed, e.bits);
+      return;
+    }
+    Body(e.channel, e.bits, e.packed);
+  }
+  void operator()(const CommandEntry& e) {
+    Id(e.channel);
+    const auto ttl = static_cast<std::uint64_t>(table_.at(e.channel).ttl.count());
+    const auto age = static_cast<std::uint64_t>(std::max<std::int64_t>(0, e.age.count()));
+    out_.Put(std::min((age * kAgeSteps + ttl - 1) / ttl, kAgeSteps), 6);
+    Body(e.channel, e.bits, e.packed);
+  }
+  void operator()(const EventEntry& e) {
+    Id(e.channel);
+    const EventSegment& s = e.segment;
+    out_.Put(s.number, 8);
+    out_.Put(s.base ? 1 : 0, 1);
+    out_.Put(s.first ? 1 : 0, 1);
+    out_.Put(s.last ? 1 : 0, 1);
+    if (s.first) out_.Put(EncodeDuration12(s.age), 12);
+    if (s.first && s.last && table_.at(e.channel).fixed_bits > 0) {
+      out_.Append(s.bytes, s.bits);
+      return;
+    }
+    if (s.last) out_.Put(s.bytes.size(), kSegmentLengthBits);
+    out_.Append(s.bytes, s.bytes.size() * 8);
+  }
+  void operator()(const EventAckEntry& e) {
+    Control(kEventAck);
+    Id(e.channel);
+    out_.Put(e.ack.next, 8);
+    out_.Put(e.ack.prefix, kPrefixBits);
+    out_.Put(e.ack.held != 0 ? 1 : 0, 1);
+    if (e.ack.held != 0) out_.Put(e.ack.held, static_cast<int>(kAckWindow));
+  }
+  void operator()(const FrameAckEntry& e) {
+    Control(kFrameAck);
+    out_.Put(e.counter & 0xFFFU, 12);
+    out_.Put(e.earlier, kEarlierFrames);
+    out_.Put(EncodeDuration12(e.hold), 12);
+    out_.Put(static_cast<std::uint64_t>(std::lround(std::clamp(e.loss, 0.0, 1.0) * kLossSteps)), 4);
+  }
+  void operator()(const FloorEntry& e) {
+    Control(kFloor);
+    out_.Put(e.counter, kFloorBits);
+  }
+  void operator()(const ListenEntry& e) {
+    Control(kListen);
+    out_.Put(e.channels, static_cast<int>(table_.size()));
+  }
+  void operator()(const OverEntry&) { Control(kOver); }
+  void operator()(const ForgetEntry&) { Control(kForget); }
+
+ private:
+  void Id(std::size_t channel) { out_.Put(channel + 1, table_.id_bits()); }
+  void Control(ControlKind kind) {
+    out_.Put(table_.size() + 1, table_.id_bits());
+    out_.Put(kind, kControlKindBits);
+  }
+  void Body(std::size_t channel, std::size_t bits, std::span<const std::byte> packed) {
+    if (table_.at(channel).fixed_bits > 0) {
+      out_.Append(packed, bits);
+    } else {
+      out_.Put(packed.size(), kLengthBits);
+      out_.Append(packed, packed.size() * 8);
+    }
+  }
+  const ChannelTable& table_;
+  BitWriter& out_;
+};
+
+class BundleReader {
+ public:
+  BundleReader(const ChannelTable& table, Direction incoming, std::span<const std::byte> bundle)
+      : table_(table), incoming_(incoming), in_(bundle) {}
+
+  /// nullopt at the end or where reading cannot go on; ok() tells which.
+  std::optional<BundleEntry> Next() {
+    if (in_.left() < static_cast<std::size_t>(table_.id_bits())) return std::nullopt;
+    const std::uint64_t id = in_.Get(table_.id_bits());
+    if (id == 0) return std::nullopt;
+    const std::optional<BundleEntry> entry = id == table_.size() + 1 ? Control() : Message(id - 1);
+    ok_ = ok_ && entry && in_.ok();
+    return ok_ ? entry : std::nullopt;
+  }
+  bool ok() const { return ok_; }
+
+ private:
+  struct Packed {
+    std::size_t bits = 0;
+    std::vector<std::byte> bytes;
+  };
+  std::optional<BundleEntry> Message(std::size_t channel) {
+    if (channel >= table_.size() || table_.at(channel).direction != incoming_) return std::nullopt;
+    const LinkChannel& c = table_.at(channel);
+    switch (c.channel_class) {
+      case ChannelClass::kState:
+        return State(channel, c);
+      case ChannelClass::kCommand: {
+        const Duration age(in_.Get(6) * static_cast<std::uint64_t>(c.ttl.count()) / kAgeSteps);
+        Packed body = Body(c);
+        return CommandEntry{channel, age, body.bits, std::move(body.bytes)};
+      }
+      case ChannelClass::kEvent:
+        return EventEntry{channel, Segment(c)};
+    }
+    return std::nullopt;
+  }
+  StateEntry State(std::size_t channel, const LinkChannel& c) {
+    if (c.delta.empty() || in_.Get(1) == 0) {
+      Packed body = Body(c);
+      return {channel, body.bits, std::move(body.bytes)};
+    }
+    const auto baseline = static_cast<std::uint8_t>(in_.Get(kBaselineBits));
+    const std::size_t before = in_.left();
+    std::vector<std::byte> delta = TakeDelta(c.delta, in_);
+    return {channel, before - in_.left(), std::move(delta), baseline};
+  }
+  Packed Body(const LinkChannel& c) {
+    const std::size_t bits = c.fixed_bits > 0 ? c.fixed_bits : in_.Get(kLengthBits) * 8;
+    return {bits, in_.Take(bits)};
+  }
+  EventSegment Segment(const LinkChannel& c) {
+    EventSegment s;
+    s.number = static_cast<std::uint8_t>(in_.Get(8));
+    s.base = in_.Get(1) != 0;
+    s.first = in_.Get(1) != 0;
+    s.last = in_.Get(1) != 0;
+    if (s.first) s.age = DecodeDuration12(static_cast<std::uint16_t>(in_.Get(12)));
+    if (s.first && s.last && c.fixed_bits > 0) {
+      s.bits = c.fixed_bits;
+    } else {
+      s.bits = 8 * (s.last ? in_.Get(kSegmentLengthBits) : kSegmentBytes);
+    }
+    s.bytes = in_.Take(s.bits);
+    return s;
+  }
+  std::optional<BundleEntry> Control() {
+    switch (in_.Get(kControlKindBits)) {
+      case kFrameAck: {
+        FrameAckEntry e;
+        e.counter = static_cast<std::uint16_t>(in_.Get(12));
+        e.earlier = static_cast<std::uint8_t>(in_.Get(kEarlierFrames));
+        e.hold = DecodeDuration12(static_cast<std::uint16_t>(in_.Get(12)));
+        e.loss = static_cast<double>(in_.Get(4)) / kLossSteps;
+        return e;
+      }
+      case kEventAck:
+        return Acknowledgement();
+      case kFloor:
+        return FloorEntry{in_.Get(kFloorBits)};
+      case kListen:
+        return ListenEntry{in_.Get(static_cast<int>(table_.size()))};
+      case kOver:
+        return OverEntry{};
+      case kForget:
+        return ForgetEntry{};
+      default:
+        return std::nullopt;
+    }
+  }
+  std::optional<BundleEntry> Acknowledgement() {
+    const std::uint64_t id = in_.Get(table_.id_bits());
+    if (id == 0 || id > table_.size()) return std::nullopt;
+    const LinkChannel& c = table_.at(id - 1);
+    if (c.direction == incoming_ || c.channel_class != ChannelClass::kEvent) return std::nullopt;
+    EventAckEntry e{id - 1, {}};
+    e.ack.next = static_cast<std::uint8_t>(in_.Get(8));
+    e.ack.prefix = static_cast<std::uint8_t>(in_.Get(kPrefixBits));
+    if (in_.Get(1) != 0) e.ack.held = static_cast<std::uint16_t>(in_.Get(static_cast<int>(kAckWindow)));
+    return e;
+  }
+
+  const ChannelTable& table_;
+  Direction incoming_;
+  BitReader in_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+std::uint16_t EncodeDuration12(Duration d) {
+  const double ms = std::max(0.0, Seconds(d) * 1e3);
+  for (unsigned exponent = 0; exponent < 8; ++exponent) {
+    const auto mantissa =
+        static_cast<std::uint64_t>(std::round(ms / static_cast<double>(1U << (2 * exponent))));
+    if (mantissa < 512) return static_cast<std::uint16_t>(exponent << 9 | mantissa);
+  }
+  return 0xFFF;
+}
+
+Duration DecodeDuration12(std::uint16_t code) {
+  return std::chrono::milliseconds(static_cast<std::int64_t>(code & 0x1FF) << (2 * (code >> 9 & 7)));
+}
+
+std::size_t EntryBits(const ChannelTable& table, const BundleEntry& entry) {
+  BitWriter out;
+  WriteEntry(table, entry, out);
+  return out.bits();
+}
+
+void WriteEntry(const ChannelTable& table, const BundleEntry& entry, BitWriter& out) {
+  std::visit(EntryWriter(table, out), entry);
+}
+
+ParsedBundle ParseBundle(const ChannelTable& table, Direction incoming, std::span<const std::byte> bundle) {
+  BundleReader reader(table, incoming, bundle);
+  ParsedBundle parsed;
+  while (auto entry = reader.Next()) parsed.entries.push_back(std::move(*entry));
+  parsed.whole = reader.ok();
+  return parsed;
+}
+
+}  // namespace priamos::bus::radio

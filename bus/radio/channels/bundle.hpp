@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "bus/radio/channels/channel_table.hpp"
+#include "bus/radio/channels/event_stream.hpp"
+#include "bus/schema/bit_stream.hpp"
+
+/// What a data frame carries: entries one after the other, bit by bit. Each begins with a channel number, 0
+/// ends the bundle (the zeros that fill the last byte are such an end).
+namespace priamos::bus::radio {
+
+/// Entry of a state message, or of the difference to the one in an earlier frame, named by the low bits of
+/// its counter.
+struct StateEntry {
+  std::size_t channel = 0;
+  std::size_t bits = 0;
+  std::vector<std::byte> packed;
+  std::optional<std::uint8_t> baseline{};
+};
+
+/// Entry of a command message. Its age is counted in 1/63 of the channel's time-to-live, rounded up.
+struct CommandEntry {
+  std::size_t channel = 0;
+  Duration age{};
+  std::size_t bits = 0;
+  std::vector<std::byte> packed;
+};
+
+/// Entry of one segment of an event.
+struct EventEntry {
+  std::size_t channel = 0;
+  EventSegment segment;
+};
+
+/// Acknowledgement of the events of one channel.
+struct EventAckEntry {
+  std::size_t channel = 0;
+  EventAck ack;
+};
+
+/// Frames before the last one that an acknowledgement speaks of as well.
+inline constexpr int kEarlierFrames = 4;
+
+/// Acknowledgement of frames: which one of the other end came last, and which shortly before.
+struct FrameAckEntry {
+  std::uint16_t counter = 0;  ///< lowest 12 bits
+  std::uint8_t earlier = 0;   ///< bit i: the frame 1 + i before it came, too, and in its turn
+  Duration hold{};            ///< time from the arrival of that frame to the begin of this one
+  double loss = 0;            ///< share of the other end's frames that did not arrive lately, 0..1
+};
+
+/// Floor, "use only counters above this": sent by an end whose memory was reserved ahead when it restarted.
+struct FloorEntry {
+  std::uint64_t counter = 0;
+};
+
+/// List of the on-request channels that somebody listens to; bit i is channel i.
+struct ListenEntry {
+  std::uint64_t channels = 0;
+};
+
+/// Request to forget baselines: the sender does not have a message that a difference referred to.
+struct ForgetEntry {};
+
+/// End of a turn of a half-duplex radio: the sender falls silent after this frame and listens.
+struct OverEntry {};
+
+using BundleEntry = std::variant<StateEntry, CommandEntry, EventEntry, EventAckEntry, FrameAckEntry,
+                                 FloorEntry, ListenEntry, OverEntry, ForgetEntry>;
+
+/// Code of a duration: 3 bits exponent, 9 bits mantissa: 1 ms up to 0.5 s, then 4, 16, 64 ms ...; up to 2.3
+/// hours.
+std::uint16_t EncodeDuration12(Duration d);
+Duration DecodeDuration12(std::uint16_t code);
+
+/// Number of bits that an entry takes in a bundle.
+std::size_t EntryBits(const ChannelTable& table, const BundleEntry& entry);
+
+/// Appends one entry.
+void WriteEntry(const ChannelTable& table, const BundleEntry& entry, BitWriter& out);
+
+/// Entries of a received bundle, in their order.
+struct ParsedBundle {
+  std::vector<BundleEntry> entries;
+  bool whole = true;  ///< false: the rest could not be read
+};
+
+/// Reads a bundle from the other end: `incoming` channels only carry messages, acknowledgements are for
+/// channels of the other direction. Anything else ends the reading.
+ParsedBundle ParseBundle(const ChannelTable& table, Direction incoming, std::span<const std::byte> bundle);
+
+}  // namespace priamos::bus::radio

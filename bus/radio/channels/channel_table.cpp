@@ -1,0 +1,81 @@
+#include "bus/radio/channels/channel_table.hpp"
+
+#include <fmt/format.h>
+#include <sodium.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace priamos::bus::radio {
+namespace {
+
+constexpr int kStateWithDeltas = 3;
+
+/// A text that says what a frame means; its hash is compared.
+std::string Meaning(const std::vector<LinkChannel>& channels, bool encrypted) {
+  std::string text = fmt::format("priamos radio 1 table {}\n", encrypted ? "encrypted" : "clear");
+  for (const LinkChannel& c : channels) {
+    text += fmt::format("{} {:016x} {} {} {} {} {}", c.name, c.fingerprint, static_cast<int>(c.direction),
+                        c.delta.empty() ? static_cast<int>(c.channel_class) : kStateWithDeltas, c.fixed_bits,
+                        c.max_bits, c.channel_class == ChannelClass::kCommand ? c.ttl.count() : 0);
+    if (!c.delta.empty()) text += fmt::format(" {}", fmt::join(c.delta, ","));
+    text += "\n";
+  }
+  return text;
+}
+
+std::uint32_t Hash(const std::string& text) {
+  std::array<unsigned char, 16> hash{};
+  crypto_generichash(hash.data(), hash.size(), reinterpret_cast<const unsigned char*>(text.data()),
+                     text.size(), nullptr, 0);
+  std::uint32_t value = 0;
+  for (int i = 3; i >= 0; --i) value = value << 8 | hash[static_cast<std::size_t>(i)];
+  return value;
+}
+
+bool DeltaFits(const LinkChannel& c) {
+  return c.channel_class == ChannelClass::kState && c.max_keys == 1 &&
+         std::accumulate(c.delta.begin(), c.delta.end(), std::uint32_t{0}) == c.fixed_bits &&
+         std::all_of(c.delta.begin(), c.delta.end(), [](int width) { return width >= 1 && width <= 64; });
+}
+
+void Check(const LinkChannel& c) {
+  if (!c.delta.empty() && !DeltaFits(c))
+    throw std::invalid_argument(
+        fmt::format("radio channel {}: differences are for a state of fixed size without keys", c.name));
+  if (c.fixed_bits == 0 && c.max_bits == 0)
+    throw std::invalid_argument(fmt::format("radio channel {}: its packed size is unknown", c.name));
+  if (c.channel_class == ChannelClass::kCommand && c.ttl <= Duration::zero())
+    throw std::invalid_argument(fmt::format("radio channel {}: a command needs a time-to-live", c.name));
+  if (c.channel_class == ChannelClass::kEvent && c.max_bits > 8 * 1400)
+    throw std::invalid_argument(fmt::format("radio channel {}: larger than 1400 bytes", c.name));
+  if (c.channel_class != ChannelClass::kEvent && c.max_bits > 8 * 200)
+    throw std::invalid_argument(
+        fmt::format("radio channel {}: a {} of {} bits does not fit one frame, make it an event", c.name,
+                    c.channel_class == ChannelClass::kState ? "state" : "command", c.max_bits));
+}
+
+}  // namespace
+
+ChannelTable::ChannelTable(std::vector<LinkChannel> channels, bool encrypted)
+    : channels_(std::move(channels)), encrypted_(encrypted) {
+  if (channels_.empty() || channels_.size() > kMaxChannels)
+    throw std::invalid_argument(
+        fmt::format("a radio link has 1 to {} channels, not {}", kMaxChannels, channels_.size()));
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    LinkChannel& c = channels_[i];
+    if (c.fixed_bits > 0) c.max_bits = c.fixed_bits;
+    Check(c);
+    for (std::size_t j = 0; j < i; ++j)
+      if (channels_[j].name == c.name && channels_[j].direction == c.direction)
+        throw std::invalid_argument(fmt::format("radio channel {} is listed twice", c.name));
+  }
+  hash_ = Hash(Meaning(channels_, encrypted_));
+  id_bits_ = static_cast<int>(std::bit_width(channels_.size() + 1));
+}
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/radio/channels/delta.hpp"
+#include "bus/radio/frame/frame.hpp"
+#include "common/time.hpp"
+
+namespace priamos::bus::radio {
+
+/// How the messages of a channel are treated.
+enum class ChannelClass : std::uint8_t {
+  kState,   ///< newest wins, expires, heals itself by the next one
+  kEvent,   ///< acknowledged, in order, exactly once
+  kCommand  ///< newest wins, expires; the receiver refuses one that is too old
+};
+
+/// One channel that crosses the link, as both ends know it.
+struct LinkChannel {
+  std::string name;
+  std::uint64_t fingerprint = 0;  ///< names its message type and the codes of its packing
+  Direction direction = Direction::kUp;
+  ChannelClass channel_class = ChannelClass::kState;
+  std::uint32_t fixed_bits = 0;  ///< packed size when it is always the same; 0: every message tells its own
+  std::uint32_t max_bits = 0;    ///< largest packed size
+  ValueWidths delta{};           ///< state: may be sent as difference between such values; empty: never
+  // How the sender treats it.
+  int priority = 3;         ///< 0 first
+  double rate_hz = 1;       ///< at most this often (per key), on average; 0: no limit
+  int burst = 1;            ///< number of messages that may come at once
+  Duration ttl{};           ///< not sent (command: not delivered) when older; 0: lives until replaced
+  bool urgent = false;      ///< may abort the frame that is being sent
+  bool on_request = false;  ///< only while somebody listens on the other side
+  int max_keys = 1;         ///< state: newest wins per key, for so many keys
+  Duration deadline{};      ///< latest delivery after it was offered, for the budget; 0: any
+};
+
+/// All channels of a link. The index is the channel's name on the wire.
+class ChannelTable {
+ public:
+  static constexpr std::size_t kMaxChannels = 62;
+
+  /// Throws std::invalid_argument with a sentence for a table that cannot be used.
+  ChannelTable(std::vector<LinkChannel> channels, bool encrypted);
+
+  const LinkChannel& at(std::size_t index) const { return channels_[index]; }
+  std::size_t size() const { return channels_.size(); }
+  const std::vector<LinkChannel>& channels() const { return channels_; }
+  /// Changes with everything that changes the meaning of a frame: both ends must have the same. How often
+  /// and how urgently a channel is sent is the sender's own business and not part of it.
+  std::uint32_t hash() const { return hash_; }
+  bool encrypted() const { return encrypted_; }
+  /// Bits of a channel number in a bundle: 0 ends it, 1..size() are channels, size()+1 is a control entry.
+  int id_bits() const { return id_bits_; }
+
+ private:
+  std::vector<LinkChannel> channels_;
+  bool encrypted_;
+  std::uint32_t hash_;
+  int id_bits_;
+};
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/radio/channels/channel_table.hpp"
+#include "bus/radio/channels/event_stream.hpp"
+#include "common/time.hpp"
+
+namespace priamos::bus::radio {
+
+/// Counters of what became of the messages offered on one outgoing channel.
+struct QueueCounters {
+  std::uint64_t offered = 0;
+  std::uint64_t sent = 0;       ///< state, command: handed to the line whole; event: acknowledged
+  std::uint64_t replaced = 0;   ///< a newer one came before it was sent
+  std::uint64_t expired = 0;    ///< older than its time-to-live before it was sent
+  std::uint64_t refused = 0;    ///< queue full, too many keys, not packable
+  std::uint64_t unwanted = 0;   ///< on request, and nobody listens
+  std::uint64_t saturated = 0;  ///< sent with a field outside its range set to the limit
+  std::uint64_t bits = 0;       ///< packed bits handed to the line, repetitions included
+};
+
+/// Limit of `rate` messages per second on average and `burst` at once (generic cell rate algorithm).
+class RateLimit {
+ public:
+  RateLimit(double rate_hz, int burst);
+  Time next() const { return next_; }
+  bool Allows(Time now) const { return now >= next_; }
+  /// `since`: when the message could have been sent, so that waiting for the line does not slow it down.
+  void Use(Time since);
+  /// Undoes the Use before: the message was not sent after all.
+  void Undo() {
+    theoretical_ = previous_;
+    next_ = previous_next_;
+  }
+
+ private:
+  Duration period_;
+  Duration tolerance_;
+  Time theoretical_ = Time::min();
+  Time previous_ = Time::min();  ///< `theoretical_` before the last Use()
+  Time next_ = Time::min();
+  Time previous_next_ = Time::min();  ///< `next_` before the last Use()
+};
+
+/// A message taken out of the queue for the frame being sent.
+struct QueuedMessage {
+  std::size_t channel = 0;
+  std::string key;
+  std::vector<std::byte> encoded;
+  Time offered_at{};
+  Time waiting_since{};
+};
+
+/// Queue of everything that one end wants to send: per channel the newest message (per key), or the events in
+/// order, and who is next. Order: urgent channels, then priority; a message gains one level of priority per
+/// `ageing` that it waits, so that nothing starves; then the one that waits longest. Events that wait behind
+/// others of their channel gain nothing, or a long queue of them would keep out everybody else.
+class SendQueue {
+ public:
+  /// A channel (and key) with something that may be sent now.
+  struct Candidate {
+    std::size_t channel = 0;
+    std::size_t slot = 0;  ///< place of the key; state and command channels
+    bool urgent = false;
+    double priority = 0;
+    Time since{};
+  };
+
+  SendQueue(const ChannelTable& table, Direction outgoing, Duration ageing);
+
+  /// State and command channels: replaces the message with the same key.
+  bool Offer(std::size_t channel, std::string_view key, std::span<const std::byte> encoded, Time now);
+  /// Event channels; false when the queue of the channel is full.
+  bool OfferEvent(std::size_t channel, std::vector<std::byte> packed, std::size_t bits, Time now);
+  /// On-request channels: whether somebody listens.
+  void SetWanted(std::size_t channel, bool wanted) { lanes_[channel].wanted = wanted; }
+  bool wanted(std::size_t channel) const { return lanes_[channel].wanted; }
+
+  /// Drops what is older than its time-to-live.
+  void Expire(Time now);
+  /// Who may be sent now, first one first.
+  std::vector<Candidate> Ready(Time now) const;
+  /// Whether an urgent channel has something; `fresh`: something that was never sent.
+  bool UrgentReady(Time now, bool fresh = false) const;
+
+  const std::vector<std::byte>& Peek(const Candidate& candidate) const;
+  Time OfferedAt(const Candidate& candidate) const;
+  QueuedMessage Take(const Candidate& candidate);
+  /// The segment an event channel would send next; the channel's rate only holds back new events,
+  /// and no urgent ones.
+  std::optional<EventSegment> PeekEvent(std::size_t channel, Time now) const;
+  /// Whether that segment was never sent before.
+  bool NextIsFresh(std::size_t channel, Time now) const;
+  /// It is sent, its last byte leaves at `leaves_at`.
+  void TakeEvent(std::size_t channel, std::uint8_t number, Time now, Time leaves_at);
+  /// The frame was aborted: back into the queue, unless a newer message is there already.
+  void Return(QueuedMessage message);
+  void CountSent(std::size_t channel, std::size_t bits);
+  void CountRefused(std::size_t channel) { ++lanes_[channel].counters.refused; }
+
+  EventSender& events(std::size_t channel) { return lanes_[channel].events; }
+  const EventSender& events(std::size_t channel) const { return lanes_[channel].events; }
+  QueueCounters& counters(std::size_t channel) { return lanes_[channel].counters; }
+  const QueueCounters& counters(std::size_t channel) const { return lanes_[channel].counters; }
+  /// Age of the oldest message waiting on a channel; zero when none waits.
+  Duration OldestAge(std::size_t channel, Time now) const;
+
+ private:
+  struct Slot {
+    std::string key;
+    RateLimit rate;
+    std::optional<std::vector<std::byte>> encoded;
+    Time offered_at{};
+    Time waiting_since{};
+  };
+  struct Lane {
+    const LinkChannel* channel;
+    std::vector<Slot> slots;
+    EventSender events;
+    RateLimit event_rate;
+    Time event_served = Time::min();  ///< a segment was sent
+    bool wanted = true;
+    QueueCounters counters;
+  };
+  Slot* SlotFor(Lane& lane, std::string_view key);
+  double Effective(const LinkChannel& channel, Time since, Time now) const;
+  static bool EventReady(const Lane& lane, Time now);
+  void AddReady(const Lane& lane, std::size_t index, Time now, std::vector<Candidate>& ready) const;
+
+  Direction outgoing_;
+  Duration ageing_;
+  std::vector<Lane> lanes_;
+};
+
+}  // namespace priamos::bus::radio

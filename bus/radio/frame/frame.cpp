@@ -1,0 +1,215 @@
+#include "bus/radio/frame/frame.hpp"
+
+#include <sodium.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bus/radio/frame/cobs.hpp"
+
+namespace priamos::bus::radio {
+namespace {
+
+constexpr std::size_t kDataCodeBytes = 4;
+constexpr std::size_t kHelloCodeBytes = 8;
+constexpr std::size_t kHelloBodyBytes = 25;
+constexpr std::byte kWholeCounterTag{0x80};
+constexpr std::byte kHelloTag{0x81};
+constexpr std::uint64_t kMaxCounter = (std::uint64_t{1} << 40) - 1;
+
+template <class Byte>
+void PutLittleEndian(std::uint64_t value, std::span<Byte> out) {
+  for (Byte& b : out) {
+    b = static_cast<Byte>(value & 0xFF);
+    value >>= 8;
+  }
+}
+
+std::uint64_t GetLittleEndian(std::span<const std::byte> bytes) {
+  std::uint64_t value = 0;
+  for (std::size_t i = bytes.size(); i-- > 0;) value = value << 8 | std::to_integer<std::uint64_t>(bytes[i]);
+  return value;
+}
+
+/// Fixed length, so that no two frames have the same hash input.
+using AuthenticatedHeader = std::array<std::uint8_t, 22>;
+
+AuthenticatedHeader DataHeader(Direction direction, FrameScope scope, std::uint64_t epoch,
+                               std::uint64_t counter) {
+  AuthenticatedHeader header{};
+  header[0] = scope.encrypted ? 3 : 1;
+  header[1] = static_cast<std::uint8_t>(direction);
+  PutLittleEndian(epoch, std::span(header).subspan(2, 8));
+  PutLittleEndian(counter, std::span(header).subspan(10, 8));
+  PutLittleEndian(scope.table_hash, std::span(header).subspan(18, 4));
+  return header;
+}
+
+AuthenticatedHeader HelloHeader(Direction direction) {
+  AuthenticatedHeader header{};
+  header[0] = 2;
+  header[1] = static_cast<std::uint8_t>(direction);
+  return header;
+}
+
+/// BLAKE2b-256 of a text and numbers, keyed: one key for one purpose.
+LinkKey Derive(const LinkKey& key, std::string_view purpose, std::span<const std::uint8_t> numbers = {}) {
+  std::vector<std::uint8_t> input(purpose.begin(), purpose.end());
+  input.insert(input.end(), numbers.begin(), numbers.end());
+  LinkKey derived{};
+  crypto_generichash(derived.data(), derived.size(), input.data(), input.size(), key.data(), key.size());
+  return derived;
+}
+
+std::array<std::byte, kHelloBodyBytes> EncodeHello(const Hello& hello) {
+  std::array<std::byte, kHelloBodyBytes> body{};
+  const auto out = std::span(body);
+  PutLittleEndian(hello.table_hash, out.subspan(0, 4));
+  PutLittleEndian(hello.stream, out.subspan(4, 4));
+  PutLittleEndian(hello.nonce, out.subspan(8, 8));
+  PutLittleEndian(hello.echo, out.subspan(16, 8));
+  body[24] = static_cast<std::byte>((hello.need ? 1 : 0) | (hello.agreed ? 2 : 0) | (hello.over ? 4 : 0));
+  return body;
+}
+
+Hello DecodeHello(std::span<const std::byte> body) {
+  return {.table_hash = static_cast<std::uint32_t>(GetLittleEndian(body.subspan(0, 4))),
+          .stream = static_cast<std::uint32_t>(GetLittleEndian(body.subspan(4, 4))),
+          .nonce = GetLittleEndian(body.subspan(8, 8)),
+          .echo = GetLittleEndian(body.subspan(16, 8)),
+          .need = (body[24] & std::byte{1}) != std::byte{0},
+          .agreed = (body[24] & std::byte{2}) != std::byte{0},
+          .over = (body[24] & std::byte{4}) != std::byte{0}};
+}
+
+std::vector<std::byte> Delimited(std::span<const std::byte> content) {
+  std::vector<std::byte> wire = CobsEncode(content);
+  wire.push_back(kDelimiter);
+  return wire;
+}
+
+}  // namespace
+
+FrameKeys::FrameKeys(const LinkKey& link_key)
+    : authentication_key_(Derive(link_key, "priamos radio 1 authentication")),
+      encryption_key_(Derive(link_key, "priamos radio 1 encryption")) {
+  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be started");
+}
+
+void FrameKeys::Authenticate(std::span<const std::uint8_t> header, std::span<const std::byte> body,
+                             std::span<std::byte> out) const {
+  std::array<std::uint8_t, 16> hash{};
+  crypto_generichash_state state;
+  crypto_generichash_init(&state, authentication_key_.data(), authentication_key_.size(), hash.size());
+  crypto_generichash_update(&state, header.data(), header.size());
+  crypto_generichash_update(&state, reinterpret_cast<const unsigned char*>(body.data()), body.size());
+  crypto_generichash_final(&state, hash.data(), hash.size());
+  std::transform(hash.begin(), hash.begin() + static_cast<std::ptrdiff_t>(out.size()), out.begin(),
+                 [](std::uint8_t b) { return std::byte{b}; });
+}
+
+void FrameKeys::Crypt(Direction direction, std::uint64_t epoch, std::uint64_t counter,
+                      std::span<std::byte> body) const {
+  std::array<std::uint8_t, 9> scope{};
+  scope[0] = static_cast<std::uint8_t>(direction);
+  PutLittleEndian(epoch, std::span(scope).subspan(1, 8));
+  const LinkKey key = Derive(encryption_key_, "", scope);
+  std::array<std::uint8_t, crypto_stream_chacha20_ietf_NONCEBYTES> nonce{};
+  PutLittleEndian(counter, std::span(nonce).subspan(0, 8));
+  auto* data = reinterpret_cast<unsigned char*>(body.data());
+  crypto_stream_chacha20_ietf_xor(data, data, body.size(), nonce.data(), key.data());
+}
+
+std::uint64_t FrameKeys::EpochOf(std::uint64_t onboard_nonce, std::uint64_t offboard_nonce) const {
+  std::array<std::uint8_t, 16> nonces{};
+  PutLittleEndian(onboard_nonce, std::span(nonces).subspan(0, 8));
+  PutLittleEndian(offboard_nonce, std::span(nonces).subspan(8, 8));
+  const LinkKey hash = Derive(authentication_key_, "epoch", nonces);
+  const std::uint64_t epoch = GetLittleEndian(std::as_bytes(std::span(hash)).first(8));
+  return epoch == 0 ? 1 : epoch;
+}
+
+std::vector<std::byte> FrameSealer::Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
+                                         std::span<const std::byte> bundle) const {
+  if (bundle.size() > kMaxBundleBytes || counter > kMaxCounter || epoch == 0)
+    throw std::invalid_argument("radio frame: bundle too long, counter used up or no epoch");
+  std::vector<std::byte> content;
+  content.reserve(bundle.size() + 10);
+  if (form == CounterForm::kLowBits) {
+    content.push_back(static_cast<std::byte>(counter & 0x7F));
+  } else {
+    content.resize(1 + kWholeCounterBytes);
+    content[0] = kWholeCounterTag;
+    PutLittleEndian(counter, std::span(content).subspan(1));
+  }
+  const std::size_t body_at = content.size();
+  content.insert(content.end(), bundle.begin(), bundle.end());
+  if (scope_.encrypted) keys_.Crypt(direction_, epoch, counter, std::span(content).subspan(body_at));
+  std::array<std::byte, kDataCodeBytes> code{};
+  keys_.Authenticate(DataHeader(direction_, scope_, epoch, counter), std::span(content).subspan(body_at),
+                     code);
+  content.insert(content.end(), code.begin(), code.end());
+  return Delimited(content);
+}
+
+std::vector<std::byte> FrameSealer::Seal(const Hello& hello) const {
+  const auto body = EncodeHello(hello);
+  std::array<std::byte, kHelloCodeBytes> code{};
+  keys_.Authenticate(HelloHeader(direction_), body, code);
+  std::vector<std::byte> content{kHelloTag};
+  content.insert(content.end(), body.begin(), body.end());
+  content.insert(content.end(), code.begin(), code.end());
+  return Delimited(content);
+}
+
+std::string_view RejectName(Reject reject) {
+  constexpr std::array<std::string_view, kRejects> kNames{"malformed", "oversize", "bad code",
+                                                          "replayed",  "no epoch", "flood"};
+  return kNames[static_cast<std::size_t>(reject)];
+}
+
+void FrameOpener::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
+  epoch_ = epoch;
+  window_ = ReplayWindow(floor);
+}
+
+Opened FrameOpener::Open(std::span<const std::byte> encoded) {
+  const auto content = CobsDecode(encoded);
+  if (!content || content->size() < 1 + kDataCodeBytes) return Reject::kMalformed;
+  return content->front() == kHelloTag ? OpenHello(*content) : OpenData(*content);
+}
+
+Opened FrameOpener::OpenData(std::span<const std::byte> content) {
+  std::size_t body_at = 1;
+  std::uint64_t counter = window_.Reconstruct(std::to_integer<std::uint8_t>(content[0]));
+  if (content[0] == kWholeCounterTag) {
+    body_at += kWholeCounterBytes;
+    if (content.size() < body_at + kDataCodeBytes) return Reject::kMalformed;
+    counter = GetLittleEndian(content.subspan(1, kWholeCounterBytes));
+  } else if (content[0] > kWholeCounterTag) {
+    return Reject::kMalformed;
+  }
+  if (epoch_ == 0) return Reject::kNoEpoch;
+  const auto body = content.subspan(body_at, content.size() - body_at - kDataCodeBytes);
+  std::array<std::byte, kDataCodeBytes> code{};
+  keys_.Authenticate(DataHeader(direction_, scope_, epoch_, counter), body, code);
+  if (sodium_memcmp(code.data(), content.last(kDataCodeBytes).data(), code.size()) != 0)
+    return Reject::kBadCode;
+  if (!window_.Fresh(counter)) return Reject::kReplayed;
+  window_.Use(counter);
+  DataFrame frame{counter, {body.begin(), body.end()}};
+  if (scope_.encrypted) keys_.Crypt(direction_, epoch_, counter, frame.bundle);
+  return frame;
+}
+
+Opened FrameOpener::OpenHello(std::span<const std::byte> content) const {
+  if (content.size() != 1 + kHelloBodyBytes + kHelloCodeBytes) return Reject::kMalformed;
+  const auto body = content.subspan(1, kHelloBodyBytes);
+  std::array<std::byte, kHelloCodeBytes> code{};
+  keys_.Authenticate(HelloHeader(direction_), body, code);
+  if (sodium_memcmp(code.data(), content.last(kHelloCodeBytes).data(), code.size()) != 0)
+    return Reject::kBadCode;
+  return DecodeHello(body);
+}
+
+}  // namespace priamos::bus::radio

@@ -1,0 +1,156 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "bus/radio/frame/replay_window.hpp"
+
+/// Frames on the line; README.md of this folder is the byte-exact specification.
+///
+///     data   COBS( counter:1 | bundle | code:4 ) 0x00         7 bytes beside the bundle
+///     data   COBS( 0x80 | counter:5 | bundle | code:4 ) 0x00  the same with the whole counter
+///     hello  COBS( 0x81 | body:25 | code:8 ) 0x00             agreement on an epoch, see epoch.hpp
+///
+/// The code is a keyed BLAKE2b hash over direction, epoch, whole counter, channel table and bundle, so that a
+/// frame of another direction, epoch, counter or table never passes, although none of them is sent.
+namespace priamos::bus::radio {
+
+/// Which end sends.
+enum class Direction : std::uint8_t {
+  kUp = 0,   ///< sent by the onboard end
+  kDown = 1  ///< sent by the offboard end
+};
+constexpr Direction Opposite(Direction d) {
+  return d == Direction::kUp ? Direction::kDown : Direction::kUp;
+}
+
+/// Secret key that both ends have.
+using LinkKey = std::array<std::uint8_t, 32>;
+
+/// Keys for one purpose each, derived from the key in the file.
+class FrameKeys {
+ public:
+  explicit FrameKeys(const LinkKey& link_key);
+
+  /// Authentication code of a frame: the first `out.size()` bytes, at most 16.
+  void Authenticate(std::span<const std::uint8_t> header, std::span<const std::byte> body,
+                    std::span<std::byte> out) const;
+  /// Adds or removes the key stream of one frame (ChaCha20, RFC 8439).
+  void Crypt(Direction direction, std::uint64_t epoch, std::uint64_t counter,
+             std::span<std::byte> body) const;
+  /// Name of the epoch that two fresh random numbers make; never 0.
+  std::uint64_t EpochOf(std::uint64_t onboard_nonce, std::uint64_t offboard_nonce) const;
+
+ private:
+  LinkKey authentication_key_;
+  LinkKey encryption_key_;
+};
+
+/// What both ends must have in common for a data frame to pass, beside the key.
+struct FrameScope {
+  std::uint32_t table_hash = 0;  ///< hash of the channel table, see channel_table.hpp
+  bool encrypted = false;
+};
+
+/// Body of a hello frame; epoch.hpp says how it is used.
+struct Hello {
+  std::uint32_t table_hash = 0;
+  std::uint32_t stream = 0;  ///< names the sender's event numbering: a new one begins at 0
+  std::uint64_t nonce = 0;   ///< the sender's random number
+  std::uint64_t echo = 0;    ///< the receiver's random number as the sender heard it; 0 before
+  bool need = false;         ///< the sender cannot use the receiver's frames: answer, please
+  bool agreed = false;       ///< the sender uses the epoch of (nonce, echo)
+  bool over = false;         ///< half-duplex: the sender falls silent and listens
+  friend bool operator==(const Hello&, const Hello&) = default;
+};
+
+/// Bytes of a data frame beside its bundle, delimiter included.
+inline constexpr std::size_t kFrameOverhead = 7;
+/// Bytes by which the whole counter is longer than its lowest bits.
+inline constexpr std::size_t kWholeCounterBytes = 5;
+/// Bytes of a hello frame, delimiter included.
+inline constexpr std::size_t kHelloFrameBytes = 36;
+/// Bytes of the longest bundle: one COBS block must do.
+inline constexpr std::size_t kMaxBundleBytes = 240;
+/// The byte that ends a frame and occurs nowhere else.
+inline constexpr std::byte kDelimiter{0};
+/// Bytes of the heads of IPv4 and UDP, for links that carry a frame per datagram.
+inline constexpr std::size_t kDatagramHead = 28;
+
+/// How a counter is written in a frame: its lowest bits, or all of it.
+enum class CounterForm { kLowBits, kWhole };
+
+/// Maker of frames of one direction, delimiter included.
+class FrameSealer {
+ public:
+  FrameSealer(const FrameKeys& keys, Direction direction, FrameScope scope)
+      : keys_(keys), direction_(direction), scope_(scope) {}
+
+  /// `counter` below 2^40, used once per epoch; `bundle` at most kMaxBundleBytes. The lowest bits do when the
+  /// receiver has used a counter at most 64 below this one.
+  std::vector<std::byte> Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
+                              std::span<const std::byte> bundle) const;
+  std::vector<std::byte> Seal(const Hello& hello) const;
+
+ private:
+  FrameKeys keys_;
+  Direction direction_;
+  FrameScope scope_;
+};
+
+/// Why bytes between two delimiters were no frame.
+enum class Reject : std::uint8_t {
+  kMalformed,  ///< form of no frame: cut off (also by an urgent frame), damaged
+  kOversize,   ///< longer than any frame
+  kBadCode,    ///< wrong code: damaged, forged, of another direction, epoch, table or key
+  kReplayed,   ///< right code, but its counter was used
+  kNoEpoch,    ///< a data frame before the ends agreed on an epoch
+  kFlood       ///< more frames than the line can carry: not even looked at
+};
+inline constexpr std::size_t kRejects = 6;
+/// Word for a reason, for people.
+std::string_view RejectName(Reject reject);
+
+/// Content of a data frame that passed.
+struct DataFrame {
+  std::uint64_t counter = 0;
+  std::vector<std::byte> bundle;
+};
+/// What lay between two delimiters.
+using Opened = std::variant<DataFrame, Hello, Reject>;
+
+/// Checker of frames of one direction. An accepted data frame is accepted once.
+class FrameOpener {
+ public:
+  /// `direction` is that of the frames to be opened.
+  FrameOpener(const FrameKeys& keys, Direction direction, FrameScope scope)
+      : keys_(keys), direction_(direction), scope_(scope) {}
+
+  /// From now on data frames of `epoch` with counters above `floor` pass. Epoch 0: none.
+  void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
+  /// `encoded` is what lay between two delimiters. Exactly one code is computed per frame, so that the
+  /// chance of a forged data frame is 2^-32, of a hello 2^-64.
+  Opened Open(std::span<const std::byte> encoded);
+  /// Epoch of the frames that pass; 0: none.
+  std::uint64_t epoch() const { return epoch_; }
+  /// Highest counter accepted, or the floor.
+  std::uint64_t highest() const { return window_.highest(); }
+
+ private:
+  Opened OpenData(std::span<const std::byte> content);
+  Opened OpenHello(std::span<const std::byte> content) const;
+
+  FrameKeys keys_;
+  Direction direction_;
+  FrameScope scope_;
+  std::uint64_t epoch_ = 0;
+  ReplayWindow window_;
+};
+
+}  // namespace priamos::bus::radio

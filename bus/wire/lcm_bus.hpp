@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/wire/bus_error.hpp"
+#include "bus/wire/sequence_tracker.hpp"
+
+struct _lcm_t;
+
+namespace priamos::bus {
+
+class UdpReceiver;
+
+/// One LCM bus (`udpm://`, `memq://`, `file://`): the only place that calls liblcm. Messages are bytes here.
+///
+/// liblcm sends, and it receives from `memq://` and `file://`. UDP multicast is received by UdpReceiver,
+/// which liblcm's weaknesses cannot reach and which counts losses. A foreign bus whose messages come in
+/// fragments needs `Messages::kAnySize`.
+///
+/// Not thread safe but for Publish(); handlers run inside Drain(), on the caller's thread.
+class LcmBus {
+ public:
+  using Handler = std::function<void(std::string_view channel, std::span<const std::byte> bytes)>;
+  enum class Messages {
+    kParametric,  ///< at most kMaxMessageBytes, never in fragments
+    kAnySize,     ///< up to 64 MB, in fragments: no socket filter
+  };
+
+  /// Largest message this bus sends: what fits into one unfragmented datagram.
+  static constexpr std::size_t kMaxMessageBytes = 1400;
+
+  /// Throws BusError.
+  explicit LcmBus(const std::string& url, Messages messages = Messages::kParametric);
+  ~LcmBus();
+  LcmBus(const LcmBus&) = delete;
+  LcmBus& operator=(const LcmBus&) = delete;
+
+  const std::string& url() const { return url_; }
+
+  /// False when the message is too long or the network refused it.
+  bool Publish(std::string_view channel, std::span<const std::byte> bytes);
+  /// `channel` is taken literally. The handler must not throw.
+  void Subscribe(std::string_view channel, Handler handler);
+  /// Every channel, for recorders.
+  void SubscribeEverything(Handler handler);
+  /// True when a message of this size may be on this bus.
+  bool Fits(std::size_t bytes) const { return messages_ == Messages::kAnySize || bytes <= kMaxMessageBytes; }
+
+  /// Becomes readable when a message waits; -1 (which poll ignores) while nothing is subscribed.
+  int fd() const;
+  /// Handles everything that waits now; returns the number of messages. Bounded, so that a flood cannot
+  /// keep the caller from its next tick.
+  int Drain(int at_most = 1000);
+
+  /// Messages that senders numbered and this bus never got, on all channels together. Known only of UDP
+  /// multicast; 0 elsewhere.
+  std::uint64_t lost() const;
+  /// Datagrams that are none of LCM's.
+  std::uint64_t malformed() const;
+  /// Datagrams the kernel did not hand over: fragments and nonsense, which the socket filter stops, and what
+  /// found the receive buffer full (also in lost()).
+  std::uint64_t turned_away() const;
+  /// Senders heard; SenderAddress() names them. Known as lost() is.
+  std::vector<SenderCounters> senders() const;
+
+ private:
+  struct Subscription;
+  void ListenThroughLiblcm(const std::string& channel, Handler handler);
+  void Dispatch(std::string_view channel, std::span<const std::byte> bytes) const;
+
+  std::string url_;
+  Messages messages_;
+  struct Closer {
+    void operator()(_lcm_t* lcm) const;
+  };
+  std::unique_ptr<_lcm_t, Closer> lcm_;
+  std::unique_ptr<UdpReceiver> receiver_;  ///< of UDP multicast, from the first subscription on
+  std::map<std::string, std::vector<Handler>, std::less<>> by_channel_;
+  std::vector<Handler> of_everything_;
+  std::vector<std::unique_ptr<Subscription>> subscriptions_;
+};
+
+}  // namespace priamos::bus

@@ -1,0 +1,29 @@
+#include "cli/front/commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace priamos::cli {
+
+void AddCommands(CLI::App& cli, int& exit_code) {
+  cli.require_subcommand(1);
+  AddRunCommand(cli, exit_code);
+  AddLockstepCommand(cli, exit_code);
+  AddCalibrateCommand(cli, exit_code);
+  AddMissionCommand(cli, exit_code);
+  AddWhereCommand(cli, exit_code);
+  AddTopicCommand(cli, exit_code);
+  AddLogCommand(cli, exit_code);
+  AddReplayCommand(cli, exit_code);
+  AddTypeCommand(cli, exit_code);
+  AddDoctorCommand(cli, exit_code);
+  AddSeeCommand(cli, exit_code);
+  AddLinkCommand(cli, exit_code);
+  AddViewCommand(cli, exit_code);
+  AddUpCommands(cli, exit_code);
+  AddEstopCommand(cli, exit_code);
+  AddHelpCommand(cli, exit_code);
+  AddCompletionCommand(cli, exit_code);
+  AddManualCommand(cli, exit_code);
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,43 @@
+#include "cli/lockstep/factories.hpp"
+
+#include <stdexcept>
+#include <type_traits>
+
+#include "head/head_app.hpp"
+#include "planner/planner_app.hpp"
+#include "radio/radio_app.hpp"
+#include "robot/robot_app.hpp"
+#include "teleop/teleop_app.hpp"
+#include "world/world_app.hpp"
+
+namespace priamos::cli {
+
+namespace {
+
+/// What `visit` says of the App of `module`.
+template <class Visit>
+auto WithApp(const std::string& module, Visit visit) {
+  if (module == "world") return visit(std::type_identity<world::WorldApp>());
+  if (module == "robot") return visit(std::type_identity<robot::RobotApp>());
+  if (module == "head") return visit(std::type_identity<head::HeadApp>());
+  if (module == "planner") return visit(std::type_identity<planner::PlannerApp>());
+  if (module == "teleop") return visit(std::type_identity<teleop::TeleopApp>());
+  if (module == "radio") return visit(std::type_identity<radio::RadioApp>());
+  throw std::invalid_argument("no module named " + module);
+}
+
+}  // namespace
+
+bus::AppFactory FactoryFor(const std::string& module) {
+  return WithApp(module, []<class T>(std::type_identity<T>) { return bus::FactoryOf<T>(); });
+}
+
+std::vector<ConfigKey> ConfigKeysOf(const std::string& module) {
+  return WithApp(module, []<class T>(std::type_identity<T>) { return KeysOf<typename T::Config>(); });
+}
+
+std::shared_ptr<void> HoldShared() {
+  return world::HoldGraphics();
+}
+
+}  // namespace priamos::cli

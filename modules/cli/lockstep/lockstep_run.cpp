@@ -1,0 +1,90 @@
+#include "cli/lockstep/lockstep_run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "bus/lockstep.hpp"
+#include "cli/lockstep/factories.hpp"
+#include "cli/report/report_files.hpp"
+#include "cli/report/story_verdict.hpp"
+#include "cli/scenario/scenario_driver.hpp"
+#include "cli/scenario/teleop_story.hpp"
+
+namespace priamos::cli {
+namespace {
+
+std::string TtyOf(const std::string& bus) {
+  return std::string(bus == "onboard" ? kOnboardTty : kOffboardTty);
+}
+
+ConfigSource SourceOf(const LockstepRequest& request, const ScenarioProcess& process) {
+  ConfigSource source{(std::filesystem::path(request.deployment) / process.config).string(), {}};
+  if (!process.set.empty()) source.overrides.push_back(process.set);
+  if (process.module == "radio") source.overrides.push_back("port=" + TtyOf(process.bus));
+  // No daemon in simulated time: the mouse is plugged into teleop itself.
+  if (process.module == "teleop")
+    source.overrides.insert(source.overrides.end(),
+                            {"device=serial", fmt::format("spacemouse.port={}", kMouseTty)});
+  return source;
+}
+
+std::unique_ptr<ScenarioStory> StoryIn(bus::Lockstep& lockstep, const Scenario& scenario, std::uint64_t seed,
+                                       const TeleopStory::Progress& progress) {
+  bus::Node &onboard = lockstep.DriverNode("onboard"), &offboard = lockstep.DriverNode("offboard");
+  if (scenario.story != "teleop")
+    return std::make_unique<ScenarioDriver>(scenario, onboard, offboard, progress);
+  return std::make_unique<TeleopStory>(scenario, seed, onboard, offboard,
+                                       lockstep.OpenSerial(std::string(kHandTty)), progress);
+}
+
+}  // namespace
+
+LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& request) {
+  const Scenario scenario = LoadScenario(request.deployment, request.scenario);
+  const std::string map_file = MapFile(request.deployment, scenario);
+  const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
+  bus::Lockstep lockstep(schema, {.seed = request.seed});
+  lockstep.AddBus("onboard");
+  lockstep.AddBus("offboard");
+  lockstep.AddSerialLine(TtyOf("onboard"), TtyOf("offboard"), scenario.line);
+  RunRecorder recorder(request.log_folder);
+  lockstep.SetTap(
+      [&](std::string_view bus, Time now, std::string_view channel, std::span<const std::byte> bytes) {
+        recorder.OnMessage(bus, now, channel, bytes);
+        if (request.tap) request.tap(bus, now, channel, bytes);
+      });
+  if (scenario.story == "teleop") lockstep.AddSerialLine(std::string(kMouseTty), std::string(kHandTty), {});
+  for (const auto& process : scenario.processes)
+    if (process.module != "spacenavd")
+      lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
+
+  const Time start = lockstep.now();
+  std::vector<StoryLine> told;
+  const auto progress = [&](Time now, const std::string& text) {
+    told.push_back({Seconds(now - start), text});
+    if (request.progress) request.progress(Time(now - start), text);
+  };
+  const auto story = StoryIn(lockstep, scenario, request.seed, progress);
+  const auto wall_start = std::chrono::steady_clock::now();
+  lockstep.RunUntil(Time::max(), [&] {
+    story->Tick(lockstep.now());
+    return story->Done(lockstep.now());
+  });
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
+  recorder.Flush();
+  const double factor = Seconds(lockstep.now() - start) / wall_s;
+  const RunInfo info{request.scenario,
+                     request.seed,
+                     factor,
+                     door,
+                     story->Reason(),
+                     told,
+                     LoadTrueWorld(request.deployment, scenario, request.seed)};
+  Summary summary = Summarise(recorder.record(), info);
+  summary.reason = Judge(scenario, *story, summary);
+  return {summary, recorder.record(), info, map_file, lockstep.now() - start};
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "bus/schema/schema.hpp"
+#include "cli/report/report_summary.hpp"
+#include "cli/report/run_recorder.hpp"
+#include "cli/scenario/scenario.hpp"
+
+namespace priamos::cli {
+
+struct LockstepRequest {
+  std::string deployment;  ///< its folder
+  std::string scenario = "door";
+  std::uint64_t seed = 1;
+  std::optional<std::string> log_folder;                   ///< none: nothing is written
+  std::function<void(Time, const std::string&)> progress;  ///< simulated time since the start
+  std::function<void(std::string_view bus, Time, std::string_view channel, std::span<const std::byte>)> tap;
+};
+
+struct LockstepResult {
+  Summary summary;
+  RunRecord record;
+  RunInfo info;
+  std::string map_file;
+  Duration duration{};
+};
+
+/// One scenario in lockstep. Throws ConfigError and what the Apps' start throws.
+LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& request);
+
+}  // namespace priamos::cli

@@ -1,0 +1,27 @@
+#include "cli/options/folder_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "common/data_folders.hpp"
+
+namespace priamos::cli {
+
+void AddDeploymentOption(CLI::App& verb, std::string& deployment) {
+  verb.add_option("--deployment", deployment, "sim, robot, or a folder of configurations, with a slash")
+      ->capture_default_str();
+}
+
+std::string FolderOfDeployment(const std::string& deployment) {
+  return FindDeployment(deployment, ThisProgram());
+}
+
+void AddLogsOption(CLI::App& verb, std::string& log_root, const std::string& what) {
+  verb.add_option("--logs", log_root,
+                  what + "; without it $PRIAMOS_LOGS, ~/.local/state/priamos, or logs of a clone");
+}
+
+std::string LogRoot(const std::string& log_root) {
+  return log_root.empty() ? LogFolder(ThisProgram()) : log_root;
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,108 @@
+#include "cli/options/log_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <set>
+#include <stdexcept>
+
+#include "bus/log/log_reader.hpp"
+#include "common/nearest_word.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr double kSlowest = 1.0 / 64, kFastest = 1000;
+
+std::optional<double> Number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// No error: one of many logs that are treated alike may lack a channel.
+void TellAbsentChannels(const SelectionOptions& options, const std::string& log) {
+  const auto is_name = [](const std::string& channel) { return channel.find('*') == std::string::npos; };
+  if (std::none_of(options.only.begin(), options.only.end(), is_name)) return;
+  std::set<std::string> there;
+  for (bus::LogReader reader(log); const auto event = reader.Next();) there.insert(event->channel);
+  const std::vector<std::string> known(there.begin(), there.end());
+  for (const std::string& name : options.only)
+    if (is_name(name) && !there.contains(name))
+      std::cerr << fmt::format("{} has no channel {}{} (priamos log info lists all)\n", log, name,
+                               NearestText(name, known));
+}
+
+}  // namespace
+
+void AddSelectionOptions(CLI::App& verb, SelectionOptions& options) {
+  verb.add_option("--channels", options.only, "only these, A,B or with a star: 'WHEEL_*'")->delimiter(',');
+  verb.add_option("--without", options.without, "not these")->delimiter(',');
+  verb.add_option("--rename", options.rename, "A=B: channel A becomes B")->delimiter(',');
+  verb.add_option("--from", options.from_s, "[s] since the first event")->capture_default_str();
+  verb.add_option("--to", options.to_s, "[s] since the first event");
+}
+
+bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string& log) {
+  bus::LogSelection selection;
+  selection.only = options.only;
+  selection.without = options.without;
+  for (const auto& pair : options.rename) {
+    const auto equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == pair.size())
+      throw std::runtime_error(fmt::format("--rename: expected A=B, got \"{}\"", pair));
+    selection.rename[pair.substr(0, equals)] = pair.substr(equals + 1);
+  }
+  TellAbsentChannels(options, log);
+  const auto first = bus::LogReader(log).Next();
+  if (!first) return selection;
+  if (options.from_s > 0)
+    selection.from_utime = first->utime + static_cast<std::int64_t>(options.from_s * 1e6);
+  if (options.to_s >= 0) selection.to_utime = first->utime + static_cast<std::int64_t>(options.to_s * 1e6);
+  return selection;
+}
+
+void RequireNewFile(const std::string& out, const std::string& in, bool force) {
+  std::error_code none;
+  if (std::filesystem::equivalent(out, in, none))
+    throw std::runtime_error(out + ": expected another file than the one that is read, got the same");
+  if (!force && std::filesystem::exists(out))
+    throw std::runtime_error(out + ": expected a new file, got an existing one; --force replaces it");
+}
+
+OutputFile::OutputFile(const std::string& out, const std::string& in, bool force) : name_(out) {
+  if (out.empty()) return;
+  RequireNewFile(out, in, force);
+  file_.open(out, std::ios::binary | std::ios::trunc);
+  if (!file_) throw std::runtime_error(fmt::format("{}: cannot be written: {}", out, std::strerror(errno)));
+}
+
+std::ostream& OutputFile::stream() {
+  return name_.empty() ? std::cout : file_;
+}
+
+int OutputFile::Close() {
+  stream().flush();
+  if (stream()) return 0;
+  throw std::runtime_error(
+      fmt::format("{}: cannot be written: is the disk full?", name_.empty() ? "standard output" : name_));
+}
+
+double ParseSpeed(const std::string& text) {
+  if (text == "max") return 0;
+  const auto slash = text.find('/');
+  const auto above = Number(std::string_view(text).substr(0, slash));
+  const auto below = slash == std::string::npos ? 1.0 : Number(std::string_view(text).substr(slash + 1));
+  const double speed = above && below ? *above / *below : 0;
+  if (speed >= kSlowest && speed <= kFastest) return speed;
+  throw std::runtime_error(fmt::format("--speed: expected 1/64 to 1000 or max, got \"{}\"", text));
+}
+
+}  // namespace priamos::cli

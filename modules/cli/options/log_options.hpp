@@ -1,0 +1,52 @@
+#pragma once
+
+#include <fstream>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "bus/log/log_selection.hpp"
+#include "cli/options/bus_options.hpp"
+
+namespace priamos::cli {
+
+/// --channels, --without, --rename, --from and --to as a person types them.
+struct SelectionOptions {
+  std::vector<std::string> only, without;
+  std::vector<std::string> rename;  ///< A=B
+  double from_s = 0, to_s = -1;     ///< since the log's first event; negative: to the end
+};
+
+void AddSelectionOptions(CLI::App& verb, SelectionOptions& options);
+
+/// Throws std::runtime_error with a sentence for a --rename that is none. `log` tells where times begin. A
+/// channel asked for by name that `log` does not have is told on standard error, with the nearest ones it
+/// has.
+bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string& log);
+
+/// Throws std::runtime_error when `out` exists (unless `force`), or is the very file that is being read.
+void RequireNewFile(const std::string& out, const std::string& in, bool force);
+
+/// A new file, or standard output when `out` is empty.
+class OutputFile {
+ public:
+  /// Throws std::runtime_error as RequireNewFile does, or when the file cannot be made.
+  OutputFile(const std::string& out, const std::string& in, bool force);
+  std::ostream& stream();
+  /// Throws std::runtime_error when not all could be written; returns 0.
+  int Close();
+
+ private:
+  std::string name_;
+  std::ofstream file_;
+};
+
+/// "1/4", "2", "max" as a factor; 0 for max. Throws std::runtime_error for anything else or beyond
+/// 1/64..1000.
+double ParseSpeed(const std::string& text);
+
+/// The verbs of `log` that need a bus.
+void AddLogRecordVerb(CLI::App& log, int& exit_code);
+void AddLogPlayVerb(CLI::App& log, int& exit_code);
+
+}  // namespace priamos::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/report/report_record.hpp"
+#include "cli/report/report_summary.hpp"
+#include "cli/report/report_table.hpp"
+
+namespace priamos::cli {
+
+/// The door `id` of a ground plan file. Throws ConfigError when the plan cannot be used or has no such door.
+DoorPlan LoadDoor(const std::string& map_file, int id);
+
+/// Writes summary.json, run.svg and run.png (the same picture) and report.html into `folder`. Throws
+/// ConfigError for a ground plan that cannot be used, std::runtime_error naming a file that cannot be
+/// written.
+void WriteReport(const RunRecord& record, const Summary& summary, const RunInfo& info,
+                 const std::string& map_file, const std::filesystem::path& folder);
+
+}  // namespace priamos::cli

@@ -1,0 +1,46 @@
+#include "cli/report/report_looks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cli/terminal/view_screen.hpp"
+#include "common/drawing/svg.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr std::array<const char*, 3> kClasses{"expected", "matched", "rejected"};
+
+const landmark_fix_t* FixOf(const RunRecord& record, const landmark_view_t& view) {
+  const auto fix = std::find_if(record.fixes.begin(), record.fixes.end(), [&](const landmark_fix_t& f) {
+    return f.request_id == view.request_id && f.utime_exposure == view.utime_exposure;
+  });
+  return fix == record.fixes.end() ? nullptr : &*fix;
+}
+
+std::string Drawing(const landmark_view_t& view) {
+  std::string svg = "<svg class=\"look\" viewBox=\"0 0 768 576\">";
+  for (const view_edge_t& e : view.edges) {
+    if (e.kind < 0 || e.kind >= static_cast<int>(kClasses.size())) continue;
+    if (!std::isfinite(e.u1_px + e.v1_px + e.u2_px + e.v2_px)) continue;
+    svg += fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
+                       kClasses[static_cast<std::size_t>(e.kind)], e.u1_px, e.v1_px, e.u2_px, e.v2_px);
+  }
+  return svg + "</svg>";
+}
+
+}  // namespace
+
+std::string LookDrawings(const RunRecord& record) {
+  std::string html;
+  for (const landmark_view_t& view : record.views)
+    html += fmt::format("<figure>{}<figcaption>{}<br>{}</figcaption></figure>\n", Drawing(view),
+                        drawing::EscapeMarkup(ViewTitle(view, FixOf(record, view))),
+                        drawing::EscapeMarkup(ViewLegend(view)));
+  return html.empty() ? html : "<div class=\"two\">" + html + "</div>\n";
+}
+
+}  // namespace priamos::cli

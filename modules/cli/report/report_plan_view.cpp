@@ -1,0 +1,197 @@
+#include "cli/report/report_plan_view.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/report/report_timeline.hpp"
+#include "common/covariance.hpp"
+#include "common/time.hpp"
+
+namespace priamos::cli {
+
+using drawing::Font;
+using Eigen::Vector2d;
+
+namespace {
+
+/// The belief moves at most 2 cm between two estimates; what is more is a fix.
+constexpr double kJump_m = 0.02;
+constexpr double kArrowHead_px = 16;
+
+std::vector<Vector2d> Outline(const Rectangle& rectangle) {
+  const auto corners = rectangle.Corners();
+  return {corners.begin(), corners.end()};
+}
+
+Rectangle ShapeOf(const CupboardPlan& cupboard) {
+  return {cupboard.map_from_cupboard() * Pose2{cupboard.depth_m / 2, 0, 0},
+          {cupboard.depth_m / 2, cupboard.width_m / 2}};
+}
+
+Pose2 PoseOf(const world_truth_t& truth) {
+  return {truth.x_m, truth.y_m, truth.yaw_rad};
+}
+
+}  // namespace
+
+std::vector<Vector2d> FootprintOutline(const Pose2& pose, const Vector2d& size_m) {
+  return Outline({pose, size_m / 2});
+}
+
+Vector2d PositionOf(const pose_t& pose) {
+  return {pose.x_m, pose.y_m};
+}
+Vector2d PositionOf(const world_truth_t& truth) {
+  return {truth.x_m, truth.y_m};
+}
+
+Eigen::Matrix2d CovarianceOf(const pose_t& pose) {
+  return ToCovariance({pose.sigma_x_m, pose.sigma_y_m, pose.sigma_yaw_rad, pose.rho_x_y, pose.rho_x_yaw,
+                       pose.rho_y_yaw})
+      .topLeftCorner<2, 2>();
+}
+
+Extent ExtentOf(const GroundPlan& plan) {
+  if (plan.walls.empty()) return {};
+  Extent extent{plan.walls[0].from(), plan.walls[0].from()};
+  for (const Rectangle& wall : WallShapes(plan)) {
+    for (const Vector2d& corner : wall.Corners()) {
+      extent.low = extent.low.cwiseMin(corner);
+      extent.high = extent.high.cwiseMax(corner);
+    }
+  }
+  return extent;
+}
+
+void DrawFloor(MapView& view, const Extent& extent) {
+  const Vector2d a = extent.low, b = extent.high;
+  view.Area(layers::kFloor, {a, {b.x(), a.y()}, b, {a.x(), b.y()}});
+  for (double x = std::ceil(a.x()); x <= b.x(); x += 1) view.Line(layers::kGrid, {{x, a.y()}, {x, b.y()}});
+  for (double y = std::ceil(a.y()); y <= b.y(); y += 1) view.Line(layers::kGrid, {{a.x(), y}, {b.x(), y}});
+}
+
+void DrawPlan(MapView& view, const GroundPlan& plan, bool names) {
+  for (const Rectangle& wall : WallShapes(plan)) view.Solid(layers::kWall, wall);
+  for (const CupboardPlan& cupboard : plan.cupboards) {
+    const auto outline = Outline(ShapeOf(cupboard));
+    view.Area(layers::kCupboard, outline);
+    if (names) view.Name(outline, cupboard.name, kSmallFont, colours::kWall);
+  }
+  for (const DoorPlan& door : plan.doors) {
+    for (const Rectangle& part : FrameShapes(door)) view.Solid(layers::kFrame, part);
+    const Vector2d post =
+        door.map_from_door() * Vector2d(door.BackX(), door.opening_width_m / 2 + door.frame_width_m / 2);
+    if (names)
+      view.Label(post, fmt::format("{}, {:.2f} m", door.name, door.opening_width_m), kSmallFont,
+                 colours::kFrame, 14);
+  }
+}
+
+void DrawThings(MapView& view, const std::vector<TrueThing>& things, bool names) {
+  constexpr double kNamed_m = 0.2;
+  for (const TrueThing& thing : things) {
+    view.Area(layers::kThing, thing.outline);
+    const double diagonal_m = (thing.outline.at(2) - thing.outline.at(0)).norm();
+    if (names && diagonal_m > kNamed_m) view.Name(thing.outline, thing.name, kSmallFont, colours::kThing);
+  }
+}
+
+void DrawAxis(MapView& view, const DoorPlan& door) {
+  view.Line(layers::kAxis, {door.map_from_door() * Vector2d(-2.5, 0), door.map_from_door() * Vector2d(2, 0)});
+}
+
+void DrawTruth(MapView& view, const RunRecord& record) {
+  std::vector<Vector2d> path;
+  for (const auto& truth : record.truth) path.push_back(PositionOf(truth));
+  view.Line(layers::kTruth, path);
+}
+
+void DrawBelief(MapView& view, const RunRecord& record) {
+  std::vector<Vector2d> stretch;
+  for (const pose_t& pose : record.poses) {
+    const Vector2d at = PositionOf(pose);
+    if (!stretch.empty() && (at - stretch.back()).norm() > kJump_m) {
+      view.Line(layers::kBelief, stretch);
+      view.Arrow(layers::kCorrection, stretch.back(), at, kArrowHead_px);
+      stretch.clear();
+    }
+    stretch.push_back(at);
+  }
+  view.Line(layers::kBelief, stretch);
+}
+
+void DrawEllipses(MapView& view, const RunRecord& record) {
+  constexpr double kEvery_m = 0.4;
+  const auto draw = [&](const pose_t& pose) {
+    view.Area(layers::kSigma, EllipseOutline(PositionOf(pose), CovarianceOf(pose), 2));
+  };
+  const pose_t *last = nullptr, *drawn = nullptr;
+  for (const pose_t& pose : record.poses) {
+    const bool jump = last && (PositionOf(pose) - PositionOf(*last)).norm() > kJump_m;
+    if (jump && last != drawn) draw(*last);
+    if (jump || !drawn || (PositionOf(pose) - PositionOf(*drawn)).norm() > kEvery_m) {
+      draw(pose);
+      drawn = &pose;
+    }
+    last = &pose;
+  }
+}
+
+void DrawLooks(MapView& view, const RunRecord& record, const DoorPlan& door) {
+  int number = 0;
+  for (const LookSpan& look : LooksOf(record)) {
+    ++number;
+    const std::int64_t exposure = look.correction.utime_exposure;
+    const auto from = TruthAt(record, exposure != 0 ? exposure : look.begin_utime);
+    if (!from) continue;
+    const double half = door.opening_width_m / 2;
+    const double y = look.side == 1 ? half : look.side == 2 ? -half : 0;
+    view.Line(layers::kSight, {from->translation(), door.map_from_door() * Vector2d(door.FrontX(), y)});
+    view.Dot(layers::kLook, from->translation(), 9);
+    view.Label(from->translation(), fmt::format("{}", number), kBoldFont, colours::kFix, 14);
+  }
+}
+
+void DrawRobot(MapView& view, const Pose2& pose, const Vector2d& size_m) {
+  view.Area(layers::kFootprint, FootprintOutline(pose, size_m));
+  const double tip = size_m.x() / 2, arm = 0.12 * size_m.x();
+  view.Area(layers::kFootprint,
+            {pose * Vector2d(tip, 0), pose * Vector2d(tip - arm, arm), pose * Vector2d(tip - arm, -arm)});
+}
+
+void DrawRobots(MapView& view, const RunRecord& record, const Vector2d& size_m) {
+  constexpr double kEvery_m = 1.5, kLeast_m = 0.5;
+  if (!record.poses.empty()) {
+    const pose_t& pose = record.poses.front();
+    view.Area(layers::kFirstBelief, FootprintOutline({pose.x_m, pose.y_m, pose.yaw_rad}, size_m));
+  }
+  if (record.truth.empty()) return;
+  const std::int64_t begin = SpanOf(record).begin_utime;
+  const auto draw = [&](const world_truth_t& truth) {
+    DrawRobot(view, PoseOf(truth), size_m);
+    const double t_s = std::max(0.0, Seconds(Duration(truth.utime - begin)));
+    view.Label(PoseOf(truth) * Vector2d(-size_m.x() / 2, -size_m.y() / 2), fmt::format("{:.0f} s", t_s),
+               kSmallFont, colours::kTruth, 4);
+  };
+  const world_truth_t *drawn = &record.truth.front(), *last = &record.truth.back();
+  draw(*drawn);
+  for (const world_truth_t& truth : record.truth) {
+    if ((PositionOf(truth) - PositionOf(*drawn)).norm() < kEvery_m) continue;
+    if ((PositionOf(truth) - PositionOf(*last)).norm() < kLeast_m) continue;
+    draw(*(drawn = &truth));
+  }
+  draw(*last);
+}
+
+void DrawContacts(MapView& view, const RunRecord& record) {
+  int contacts = 0;
+  for (const world_truth_t& truth : record.truth) {
+    if (truth.contacts <= contacts) continue;
+    contacts = truth.contacts;
+    view.Cross(layers::kContact, PositionOf(truth), 16);
+    view.Label(PositionOf(truth), "contact", kSmallFont, colours::kBad, 22);
+  }
+}
+
+}  // namespace priamos::cli

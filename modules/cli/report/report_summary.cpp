@@ -1,0 +1,187 @@
+#include "cli/report/report_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cli/report/report_timeline.hpp"
+#include "common/time.hpp"
+
+namespace priamos::cli {
+namespace {
+
+/// A pose this far before or after a correction surely does not, or does, contain it: estimates come at 50 Hz
+/// and may carry the time of the wheel sample they were made from.
+constexpr std::int64_t kAside_us = 40'000;
+/// Slower than this is standing.
+constexpr double kMotion_m_s = 0.02;
+
+double SpeedOf(const world_truth_t& truth) {
+  return std::hypot(truth.vx_m_s, truth.vy_m_s);
+}
+
+void SetErrors(const RunRecord& record, std::int64_t utime, FixSummary& fix) {
+  const pose_t *before = nullptr, *after = nullptr;
+  for (const pose_t& pose : record.poses) {
+    if (pose.utime <= utime - kAside_us) before = &pose;
+    if (!after && pose.utime >= utime + kAside_us) after = &pose;
+  }
+  if (const auto error = before ? ErrorOf(record, *before) : std::nullopt) {
+    fix.error_before_m = error->position_m;
+    fix.error_before_deg = std::abs(Degrees(error->heading_rad));
+  }
+  if (const auto error = after ? ErrorOf(record, *after) : std::nullopt) {
+    fix.error_after_m = error->position_m;
+    fix.error_after_deg = std::abs(Degrees(error->heading_rad));
+  }
+}
+
+std::vector<FixSummary> FixesOf(const RunRecord& record, std::int64_t begin_utime) {
+  std::vector<FixSummary> fixes;
+  for (const LookSpan& look : LooksOf(record)) {
+    FixSummary fix;
+    fix.t_s = Seconds(Duration(look.end_utime - begin_utime));
+    fix.sigma_m = look.correction.sigma_m;
+    fix.sigma_deg = Degrees(look.correction.sigma_yaw_rad);
+    SetErrors(record, look.end_utime, fix);
+    fixes.push_back(fix);
+  }
+  return fixes;
+}
+
+std::optional<double> SlowestDuringFixes(const RunRecord& record) {
+  std::optional<double> slowest;
+  for (const LookSpan& look : LooksOf(record))
+    for (const world_truth_t& truth : record.truth)
+      if (truth.utime >= look.begin_utime && truth.utime <= look.end_utime)
+        slowest = std::min(slowest.value_or(SpeedOf(truth)), SpeedOf(truth));
+  return slowest;
+}
+
+double MeanSpeed(const RunRecord& record) {
+  const auto moves = [](const world_truth_t& truth) { return SpeedOf(truth) > kMotion_m_s; };
+  const auto first = std::find_if(record.truth.begin(), record.truth.end(), moves);
+  const auto last = std::find_if(record.truth.rbegin(), record.truth.rend(), moves).base();
+  double way_m = 0;
+  if (first == record.truth.end() || last - first < 2) return 0;
+  for (auto at = first + 1; at != last; ++at)
+    way_m += std::hypot(at->x_m - (at - 1)->x_m, at->y_m - (at - 1)->y_m);
+  return way_m / Seconds(Duration((last - 1)->utime - first->utime));
+}
+
+/// `reports` are of the end that sends.
+RadioSummary RadioOf(const std::vector<link_status_t>& reports) {
+  RadioSummary radio;
+  if (reports.empty()) return radio;
+  for (const link_status_t& report : reports)
+    radio.utilisation += report.utilisation / double(reports.size());
+  const link_status_t& last = reports.back();
+  radio.bytes = last.bytes_sent;
+  radio.frames = last.frames_sent;
+  radio.dropped = last.dropped;
+  // A link with many channels tells of some of them at a time.
+  std::map<std::string, RadioSummary::ChannelSummary> channels;
+  for (const link_status_t& report : reports)
+    for (const link_channel_t& channel : report.channels)
+      if (channel.outgoing)
+        channels[channel.channel] = {channel.channel, channel.messages, channel.bytes, channel.dropped};
+  for (const auto& [name, channel] : channels) radio.channels.push_back(channel);
+  std::sort(radio.channels.begin(), radio.channels.end(),
+            [](const auto& a, const auto& b) { return a.bytes > b.bytes; });
+  return radio;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool EndsBehind(const RunRecord& record, const DoorPlan& door) {
+  if (record.truth.empty()) return false;
+  const world_truth_t& last = record.truth.back();
+  return (door.map_from_door().Inverse() * Eigen::Vector2d(last.x_m, last.y_m)).x() > door.BackX();
+}
+
+template <class T>
+nlohmann::ordered_json Json(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json ToJson(const RadioSummary& radio) {
+  return {{"bytes", radio.bytes},
+          {"utilisation", radio.utilisation},
+          {"frames", radio.frames},
+          {"dropped", radio.dropped}};
+}
+
+nlohmann::ordered_json ToJson(const FixSummary& fix) {
+  return {{"t_s", fix.t_s},
+          {"error_before_m", fix.error_before_m},
+          {"error_before_deg", fix.error_before_deg},
+          {"error_after_m", fix.error_after_m},
+          {"error_after_deg", fix.error_after_deg},
+          {"sigma_m", fix.sigma_m},
+          {"sigma_deg", fix.sigma_deg}};
+}
+
+nlohmann::ordered_json ToJson(const HandSummary& hand) {
+  return {{"wished_s", hand.wished_s},
+          {"honoured", Json(hand.honoured())},
+          {"longest_stop_s", Json(hand.longest_stop_s)}};
+}
+
+}  // namespace
+
+Summary Summarise(const RunRecord& record, const RunInfo& info) {
+  const MissionSpan span = SpanOf(record);
+  const auto crossing = CrossingOf(record, info.door.map_from_door());
+  Summary summary;
+  summary.scenario = info.scenario;
+  summary.seed = info.seed;
+  summary.reason = info.reason;
+  summary.story = info.story;
+  summary.realtime_factor = info.realtime_factor;
+  summary.passed = span.done && crossing && EndsBehind(record, info.door);
+  if (!record.truth.empty()) {
+    summary.contacts = record.truth.back().contacts;
+    summary.min_gap_m = record.truth.back().min_gap_m;
+  }
+  if (crossing) {
+    summary.lateral_at_door_m = crossing->lateral_m;
+    summary.heading_at_door_deg = Degrees(crossing->heading_rad);
+  }
+  summary.duration_s = Seconds(Duration(span.end_utime - span.begin_utime));
+  summary.mean_speed_m_s = MeanSpeed(record);
+  summary.min_speed_during_fix_m_s = SlowestDuringFixes(record);
+  summary.fixes = FixesOf(record, span.begin_utime);
+  summary.hand = HandSummaryOf(record, info.world, info.door);
+  summary.up = RadioOf(record.onboard_link);
+  summary.down = RadioOf(record.offboard_link);
+  summary.pose_age_s = Median(record.pose_ages_s);
+  return summary;
+}
+
+nlohmann::ordered_json ToJson(const Summary& summary) {
+  auto fixes = nlohmann::ordered_json::array();
+  for (const FixSummary& fix : summary.fixes) fixes.push_back(ToJson(fix));
+  return {{"scenario", summary.scenario},
+          {"seed", summary.seed},
+          {"passed", summary.passed},
+          {"reason", Json(summary.passed ? std::nullopt : std::optional(summary.reason))},
+          {"contacts", summary.contacts},
+          {"min_gap_m", summary.min_gap_m},
+          {"lateral_at_door_m", Json(summary.lateral_at_door_m)},
+          {"heading_at_door_deg", Json(summary.heading_at_door_deg)},
+          {"duration_s", summary.duration_s},
+          {"mean_speed_m_s", summary.mean_speed_m_s},
+          {"min_speed_during_fix_m_s", Json(summary.min_speed_during_fix_m_s)},
+          {"fixes", fixes},
+          {"hand", summary.hand ? ToJson(*summary.hand) : nlohmann::ordered_json(nullptr)},
+          {"radio", {{"up", ToJson(summary.up)}, {"down", ToJson(summary.down)}}},
+          {"realtime_factor", summary.realtime_factor}};
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/report/report_hand.hpp"
+#include "cli/report/report_record.hpp"
+#include "cli/scenario/true_world.hpp"
+#include "common/ground_plan.hpp"
+
+namespace priamos::cli {
+
+/// One landmark fix that corrected the pose, judged by the truth.
+struct FixSummary {
+  double t_s = 0;  ///< time of the correction since the order
+  double error_before_m = 0, error_before_deg = 0;
+  double error_after_m = 0, error_after_deg = 0;
+  double sigma_m = 0, sigma_deg = 0;  ///< what the robot itself says is left, one sigma
+};
+
+/// One direction of the radio, as its sender counts it.
+struct RadioSummary {
+  struct ChannelSummary {
+    std::string channel;
+    int messages = 0;
+    int bytes = 0;  ///< packed
+    int dropped = 0;
+  };
+
+  std::int64_t bytes = 0;  ///< on the line, frames and all
+  double utilisation = 0;  ///< share of the line, mean over the run
+  int frames = 0;
+  int dropped = 0;
+  std::vector<ChannelSummary> channels;  ///< for the table; not in summary.json
+};
+
+/// What was told while the run went on.
+struct StoryLine {
+  double t_s = 0;  ///< since the start of the run
+  std::string text;
+};
+
+/// What one run came to: summary.json, the same from the demo and from lockstep.
+struct Summary {
+  std::string scenario;
+  std::uint64_t seed = 0;
+  bool passed = false;  ///< the mission says DONE and the base truly is behind the door
+  std::string reason;   ///< last words of the story; why, when it has not passed
+  int contacts = 0;
+  double min_gap_m = 0;                     ///< smallest true distance of the footprint to anything
+  std::optional<double> lateral_at_door_m;  ///< none when the door was not crossed
+  std::optional<double> heading_at_door_deg;
+  double duration_s = 0;                           ///< from the order to the end of the mission
+  double mean_speed_m_s = 0;                       ///< true way over the time from first to last motion
+  std::optional<double> min_speed_during_fix_m_s;  ///< true speed from look request to correction
+  std::vector<FixSummary> fixes;
+  RadioSummary up;                  ///< robot to workstation, as in link.toml
+  RadioSummary down;                ///< workstation to robot
+  std::optional<HandSummary> hand;  ///< of a drive by hand
+  double realtime_factor = 1;
+
+  // Not in summary.json.
+  double pose_age_s = 0;         ///< median age of a pose at the workstation
+  std::vector<StoryLine> story;  ///< in order of time
+};
+
+/// What the record itself does not say about a run.
+struct RunInfo {
+  std::string scenario;
+  std::uint64_t seed = 0;
+  double realtime_factor = 1;
+  DoorPlan door;                 ///< the door that was to be passed, from the ground plan
+  std::string reason;            ///< last words of the story
+  std::vector<StoryLine> story;  ///< what was told meanwhile
+  TrueWorld world;               ///< what was in it
+};
+
+/// An empty record gives a summary that has not passed.
+Summary Summarise(const RunRecord& record, const RunInfo& info);
+
+/// The keys of summary.json; a figure that does not exist is null.
+nlohmann::ordered_json ToJson(const Summary& summary);
+
+}  // namespace priamos::cli

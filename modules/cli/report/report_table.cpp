@@ -1,0 +1,86 @@
+#include "cli/report/report_table.hpp"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+namespace priamos::cli {
+namespace {
+
+constexpr int kWidth = 76;
+
+void Rule(std::ostream& out, std::string_view title) {
+  out << fmt::format("\n{} {:-<{}}\n", title, "", kWidth - 1 - static_cast<int>(title.size()));
+}
+
+std::string Figure(const std::optional<double>& value, double factor, std::string_view form) {
+  return value ? fmt::format(fmt::runtime(form), *value * factor) : "-";
+}
+
+void PrintFixes(std::ostream& out, const Summary& summary) {
+  Rule(out, "pose error");
+  if (summary.fixes.empty()) out << "  no fix corrected the pose\n";
+  if (!summary.fixes.empty())
+    out << fmt::format("  {:<6}{:>8}   {:>20}   {:>20}   {:>13}\n", "fix", "at", "before", "after",
+                       "1 sigma");
+  for (std::size_t i = 0; i < summary.fixes.size(); ++i) {
+    const FixSummary& f = summary.fixes[i];
+    out << fmt::format(
+        "  {:<6}{:>6.1f} s   {:>8.1f} cm {:>4.2f} deg   {:>8.1f} cm {:>4.2f} deg   {:.1f} cm {:.2f} deg\n",
+        i + 1, f.t_s, f.error_before_m * 100, f.error_before_deg, f.error_after_m * 100, f.error_after_deg,
+        f.sigma_m * 100, f.sigma_deg);
+  }
+}
+
+void PrintDrive(std::ostream& out, const Summary& summary) {
+  Rule(out, "door");
+  out << fmt::format("  in the door plane   {} lateral, {} heading\n",
+                     Figure(summary.lateral_at_door_m, 100, "{:+.1f} cm"),
+                     Figure(summary.heading_at_door_deg, 1, "{:+.2f} deg"));
+  out << fmt::format("  smallest gap        {:.1f} cm, {} contact{}\n", summary.min_gap_m * 100,
+                     summary.contacts, summary.contacts == 1 ? "" : "s");
+  out << fmt::format("  speed               {:.2f} m/s mean, {} at least while fixing\n",
+                     summary.mean_speed_m_s, Figure(summary.min_speed_during_fix_m_s, 1, "{:.2f} m/s"));
+}
+
+void PrintRadio(std::ostream& out, std::string_view title, const RadioSummary& radio) {
+  constexpr const char* kRow = "  {:<36}{:>12}{:>12}{:>12}\n";
+  out << fmt::format(kRow, title, "messages", "bytes", "dropped");
+  for (const auto& channel : radio.channels)
+    out << fmt::format(kRow, "  " + channel.channel, channel.messages, channel.bytes, channel.dropped);
+  out << fmt::format(kRow, fmt::format("  frames, {:.0f} % of the line", radio.utilisation * 100),
+                     radio.frames, radio.bytes, radio.dropped);
+}
+
+void PrintHand(std::ostream& out, const HandSummary& hand) {
+  Rule(out, "operator");
+  out << fmt::format("  pushed for {:.0f} s; of the motion that was truly free {} was honoured\n",
+                     hand.wished_s, Figure(hand.honoured(), 100, "{:.1f} %"));
+  out << fmt::format("  longest stop in the passage while pushed: {}\n",
+                     Figure(hand.longest_stop_s, 1, "{:.1f} s"));
+}
+
+}  // namespace
+
+std::string Verdict(const Summary& summary) {
+  return fmt::format("{}, {}", summary.passed ? "passed" : "not passed",
+                     summary.contacts == 0   ? "nothing touched"
+                     : summary.contacts == 1 ? "one contact"
+                                             : fmt::format("{} contacts", summary.contacts));
+}
+
+void PrintSummary(std::ostream& out, const Summary& summary) {
+  Rule(out, "run");
+  out << fmt::format("  {}, seed {}: {} after {:.1f} s\n", summary.scenario, summary.seed, Verdict(summary),
+                     summary.duration_s);
+  PrintFixes(out, summary);
+  PrintDrive(out, summary);
+  if (summary.hand) PrintHand(out, *summary.hand);
+  Rule(out, "radio");
+  PrintRadio(out, "up: robot to workstation", summary.up);
+  PrintRadio(out, "down: workstation to robot", summary.down);
+  out << fmt::format("  a pose is {:.2f} s old at the workstation (median)\n", summary.pose_age_s);
+  out << std::string(kWidth, '-') << "\n";
+}
+
+}  // namespace priamos::cli

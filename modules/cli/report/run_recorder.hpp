@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bus/log/log_writer.hpp"
+#include "cli/report/report_record.hpp"
+#include "common/time.hpp"
+
+namespace priamos::cli {
+
+/// Writes both buses of a run to logs and keeps what the report needs.
+class RunRecorder {
+ public:
+  /// Without a folder nothing is written to disk.
+  explicit RunRecorder(const std::optional<std::string>& folder);
+
+  void OnMessage(std::string_view bus, Time now, std::string_view channel, std::span<const std::byte> bytes);
+  void Flush();
+  const RunRecord& record() const { return record_; }
+  /// False once a log could not be written, e.g. on a full disk.
+  bool good() const;
+
+ private:
+  std::optional<bus::LogWriter> onboard_, offboard_;
+  RunRecord record_;
+};
+
+}  // namespace priamos::cli

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bus/radio/line/line.hpp"
+#include "common/config.hpp"
+
+namespace priamos::cli {
+
+/// One process of a scenario or a deployment.
+struct ScenarioProcess {
+  std::string module;  ///< folder of the program; spacenavd: the daemon, with an emulated mouse
+  std::string bus;     ///< onboard or offboard
+  std::string config;  ///< its configuration, relative to the deployment's folder
+  std::string set;     ///< KEY=VALUE on top of it, may be empty
+  std::string after;   ///< processes that must be ready before, e.g. "onboard-world, line"
+  double watchdog_s = 1.0;
+
+  void Describe(Archive& a) {
+    a.Choice("module", module, {"world", "robot", "head", "planner", "teleop", "radio", "spacenavd"},
+             "which program");
+    a.Choice("bus", bus, {"onboard", "offboard"}, "the LCM bus it lives on");
+    a.Text("config", config, "its configuration file, relative to the deployment's folder");
+    a.Text("set", set, "KEY=VALUE on top of that file");
+    a.Text("after", after, "processes that must be ready before, BUS-MODULE, with commas between them");
+    a.Number("watchdog_s", watchdog_s, {"s", 0.5, 60, "a process that is silent for so long hangs"});
+  }
+};
+
+/// A place to drive to by hand.
+struct ScenarioWaypoint {
+  double x_m = 0, y_m = 0, yaw_deg = 0;
+
+  void Describe(Archive& a) {
+    a.Number("x_m", x_m, {"m", -100, 100, "map frame"});
+    a.Number("y_m", y_m, {"m", -100, 100, "map frame"});
+    a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "heading on the way there"});
+  }
+};
+
+/// What runs, and what for: the same file for `priamos run` (real time) and `priamos lockstep`.
+struct Scenario {
+  std::string title;
+  std::string story = "door";  ///< door: the planner is told to pass it; teleop: an operator drives
+  int landmark_id = 1;
+  double time_limit_s = 120;
+  std::string map;
+  bus::radio::LineConfig line;
+  std::vector<ScenarioProcess> processes;
+  std::vector<ScenarioWaypoint> waypoints;  ///< of the operator; none: he shakes the stick
+  bool fast = false;                        ///< he uses the fast range
+  double shake_s = 60;
+  double astray_deg = 0;      ///< how far beside the way his hand pushes, one sigma; 0: it is exact
+  double longest_stop_s = 0;  ///< he may be stopped in the passage for so long; 0: for any time
+
+  void Describe(Archive& a) {
+    a.Text("title", title, "what happens, in a few words");
+    a.Choice("story", story, {"door", "teleop"}, "door: the planner passes it; teleop: an operator drives");
+    a.Integer("landmark_id", landmark_id, {"-", 0, 999, "the door of the map to pass"});
+    a.Number("time_limit_s", time_limit_s, {"s", 1, 100000, "the run is ended after that"});
+    a.Text("map", map, "ground plan drawn in the report, relative to the deployment's folder");
+    a.Section("line", line, "the serial line between the two radios");
+    a.List("process", processes, "the processes, in order of start");
+    a.List("waypoint", waypoints, "where the operator drives; none: he shakes the stick at random");
+    a.Flag("fast", fast, "the operator uses the fast range");
+    a.Number("astray_deg", astray_deg,
+             {"deg", 0, 90, "one sigma of where his hand pushes; above 0 it also rests now and then"});
+    a.Number(
+        "longest_stop_s", longest_stop_s,
+        {"s", 0, 1000, "not passed when the base stands in the passage for longer while pushed; 0: any"});
+    a.Number("shake_s", shake_s, {"s", 1, 100000, "how long he shakes it"});
+  }
+};
+
+/// Where the scenario's serial line ends, by the radios' names for it.
+inline constexpr std::string_view kMouseTty = "tty-mouse", kHandTty = "tty-hand";
+inline constexpr std::string_view kOnboardTty = "tty-onboard";
+inline constexpr std::string_view kOffboardTty = "tty-offboard";
+
+/// The scenario `name` of the deployment in `folder` (config/sim). Throws ConfigError; an unknown name is
+/// answered with the known ones.
+Scenario LoadScenario(const std::string& folder, const std::string& name);
+
+/// The map file of `scenario`.
+std::string MapFile(const std::string& folder, const Scenario& scenario);
+
+}  // namespace priamos::cli

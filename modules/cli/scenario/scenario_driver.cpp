@@ -1,0 +1,101 @@
+#include "cli/scenario/scenario_driver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/geometry.hpp"
+#include "planner/planner_messages.hpp"
+
+namespace priamos::cli {
+namespace {
+
+/// After the mission's end the run goes on, so that the last messages cross the radio and are recorded.
+constexpr Duration kAftermath = std::chrono::milliseconds(1500);
+/// The planner answers an order with its next status; an order lost on a starting bus is given again.
+constexpr Duration kOrderAgain = std::chrono::seconds(2);
+
+}  // namespace
+
+std::string LookText(const landmark_fix_t& look) {
+  constexpr std::array<std::string_view, 3> kSides{"landmark", "left side", "right side"};
+  const auto side = kSides[std::clamp<int>(look.side, 0, kSides.size() - 1)];
+  if (look.verdict != landmark_fix_t::FOUND)
+    return fmt::format("  {} not found: {}", side, planner::FixVerdictText(look.verdict));
+  return fmt::format("  {} found: {} edges, 1 sigma {:.1f} cm and {:.2f} degrees", side, look.n_matched,
+                     100 * std::hypot(look.sigma_x_m, look.sigma_y_m), Degrees(look.sigma_yaw_rad));
+}
+
+ScenarioDriver::ScenarioDriver(const Scenario& scenario, bus::Node& onboard, bus::Node& offboard,
+                               std::function<void(Time, const std::string&)> progress)
+    : scenario_(scenario),
+      progress_(std::move(progress)),
+      onboard_health_(onboard.SubscribeAll(channels::kHealth)),
+      offboard_health_(offboard.SubscribeAll(channels::kHealth)),
+      status_(offboard.SubscribeAll(channels::kMissionStatus)),
+      looks_(offboard.SubscribeAll(channels::kLandmarkFix)),
+      order_(offboard.Advertise(channels::kMissionCommand)) {}
+
+void ScenarioDriver::Tick(Time now) {
+  if (!start_) start_ = now;
+  CollectHealth();
+  if (phase_ < mission_status_t::APPROACHING && Missing().empty()) GiveOrder(now);
+  FollowMission(now);
+  FollowLooks(now);
+}
+
+void ScenarioDriver::CollectHealth() {
+  for (const auto& m : onboard_health_.Drain()) alive_.insert("onboard " + m.process);
+  for (const auto& m : offboard_health_.Drain()) alive_.insert("offboard " + m.process);
+}
+
+std::string ScenarioDriver::Missing() const {
+  std::string missing;
+  for (const auto& p : scenario_.processes) {
+    const auto name = p.bus + " " + p.module;
+    if (!alive_.contains(name)) missing += (missing.empty() ? "" : ", ") + name;
+  }
+  return missing;
+}
+
+void ScenarioDriver::GiveOrder(Time now) {
+  if (ordered_ && now - *ordered_ < kOrderAgain) return;
+  if (!ordered_) progress_(now, "all processes are alive; order to the planner: pass the door");
+  ordered_ = now;
+  mission_command_t order{};
+  order.utime = ToUtime(now);
+  order.mission = mission_command_t::PASS_DOOR;
+  order.landmark_id = static_cast<std::int16_t>(scenario_.landmark_id);
+  order_.Publish(order);
+}
+
+void ScenarioDriver::FollowMission(Time now) {
+  for (const auto& status : status_.Drain()) {
+    if (!ordered_ || ended_ || status.phase == phase_) continue;
+    phase_ = status.phase;
+    text_ = status.text;
+    progress_(now, text_);
+    if (phase_ != mission_status_t::DONE && phase_ != mission_status_t::FAILED) continue;
+    succeeded_ = phase_ == mission_status_t::DONE;
+    ended_ = now;
+  }
+}
+
+void ScenarioDriver::FollowLooks(Time now) {
+  for (const auto& look : looks_.Drain()) progress_(now, LookText(look));
+}
+
+bool ScenarioDriver::Done(Time now) const {
+  if (ended_) return now - *ended_ >= kAftermath;
+  return start_ && Seconds(now - *start_) >= scenario_.time_limit_s;
+}
+
+std::string ScenarioDriver::Reason() const {
+  if (!ordered_) return fmt::format("no sign of life from {}", Missing());
+  if (!ended_) return fmt::format("time limit of {:.0f} s reached while: {}", scenario_.time_limit_s, text_);
+  return text_;
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "bus/node.hpp"
+#include "cli/scenario/scenario.hpp"
+#include "cli/scenario/scenario_story.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::cli {
+
+/// What a person reads of the answer to a look.
+std::string LookText(const landmark_fix_t& look);
+
+/// The person at the workstation: waits until every process is alive, gives the order, and watches the
+/// mission status on the offboard bus. The same in real time and in lockstep.
+class ScenarioDriver : public ScenarioStory {
+ public:
+  /// `progress` gets one line per phase and per look.
+  ScenarioDriver(const Scenario& scenario, bus::Node& onboard, bus::Node& offboard,
+                 std::function<void(Time, const std::string&)> progress);
+
+  void Tick(Time now) override;
+  bool Done(Time now) const override;
+  bool Started() const override { return ordered_.has_value(); }
+  /// True when the planner reported success.
+  bool Succeeded() const override { return succeeded_; }
+  /// The last words of the mission; what is missing while it has not begun.
+  std::string Reason() const override;
+
+ private:
+  void CollectHealth();
+  void GiveOrder(Time now);
+  void FollowMission(Time now);
+  void FollowLooks(Time now);
+  std::string Missing() const;
+
+  Scenario scenario_;
+  std::function<void(Time, const std::string&)> progress_;
+  bus::Inbox<health_t> onboard_health_, offboard_health_;
+  bus::Inbox<mission_status_t> status_;
+  bus::Inbox<landmark_fix_t> looks_;
+  bus::Publisher<mission_command_t> order_;
+  std::set<std::string> alive_;
+  std::optional<Time> start_, ordered_, ended_;
+  int phase_ = -1;
+  bool succeeded_ = false;
+  std::string text_;
+};
+
+}  // namespace priamos::cli

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "bus/node.hpp"
+#include "cli/scenario/scenario.hpp"
+#include "cli/scenario/scenario_story.hpp"
+#include "common/geometry.hpp"
+#include "common/random.hpp"
+#include "common/serial_port.hpp"
+#include "lcmtypes/channels.hpp"
+#include "teleop/emulated_mouse.hpp"
+
+namespace priamos::cli {
+
+/// A person at the space-mouse who sees the robot (WORLD_TRUTH stands for his eyes): drives from waypoint to
+/// waypoint, or shakes the stick at random, through an emulated mouse on `line`.
+class TeleopStory : public ScenarioStory {
+ public:
+  using Progress = std::function<void(Time, const std::string&)>;
+
+  TeleopStory(const Scenario& scenario, std::uint64_t seed, bus::Node& onboard, bus::Node& offboard,
+              std::unique_ptr<ByteStream> line, Progress progress);
+
+  void Tick(Time now) override;
+  bool Done(Time now) const override;
+  bool Started() const override { return began_.has_value(); }
+  bool Succeeded() const override { return succeeded_; }
+  std::string Reason() const override;
+
+  bool mouse_awake() const { return mouse_.awake(); }
+
+ private:
+  void Look();
+  bool Ready() const;
+  void Decide(Time now);
+  void DriveToWaypoint(Time now);
+  void Waver(Time now);
+  void Shake(Time now);
+  void Finish(Time now, bool succeeded, const std::string& text);
+  void MoveMouse(Time now);
+
+  Scenario scenario_;
+  Progress progress_;
+  std::unique_ptr<ByteStream> line_;
+  teleop::EmulatedMouse mouse_;
+  Rng rng_;
+  teleop::Stick hand_;
+  bus::Latest<world_truth_t> truth_;
+  bus::Inbox<health_t> onboard_health_, offboard_health_;
+  bus::Latest<drive_status_t> status_;
+  std::set<std::string> alive_;
+  std::string text_ = "waits for the processes";
+  std::size_t waypoint_ = 0;
+  std::optional<Time> start_, began_, gripped_, driving_, shake_until_, waver_until_, ended_;
+  double astray_rad_ = 0;
+  bool rests_ = false;
+  bool succeeded_ = false;
+};
+
+}  // namespace priamos::cli

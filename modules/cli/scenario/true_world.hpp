@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/scenario/scenario.hpp"
+#include "world/world_loading.hpp"
+
+namespace priamos::cli {
+
+/// What the simulated world truly holds, map frame. Truth: it belongs into reports and nowhere else.
+struct TrueWorld {
+  world::Body body;
+  std::vector<world::Solid> solids;
+};
+
+/// As the scenario's process `world` draws it from `seed`; empty when it has none. `folder` is the
+/// deployment's. Throws ConfigError.
+TrueWorld LoadTrueWorld(const std::string& folder, const Scenario& scenario, std::uint64_t seed);
+
+}  // namespace priamos::cli

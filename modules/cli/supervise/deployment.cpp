@@ -1,0 +1,141 @@
+#include "cli/supervise/deployment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "cli/supervise/supervisor.hpp"
+
+namespace priamos::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string NameOf(const ScenarioProcess& process) {
+  return process.module == "spacenavd" ? process.module : process.bus + "-" + process.module;
+}
+
+std::vector<std::string> Words(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream in(list);
+  for (std::string word; std::getline(in, word, ',');) {
+    std::erase(word, ' ');
+    if (!word.empty()) words.push_back(word);
+  }
+  return words;
+}
+
+std::string Tty(const LaunchPlace& place, const std::string& side) {
+  return place.run_folder + "/tty-" + side;
+}
+
+ProcessSpec LineSpec(const Deployment& deployment, const LaunchPlace& place) {
+  const auto& line = deployment.line;
+  ProcessSpec spec;
+  spec.name = "line";
+  spec.group = "line";
+  spec.arguments = {place.program_folder + "/priamos",
+                    "link",
+                    "emulate",
+                    "--a",
+                    Tty(place, "onboard"),
+                    "--b",
+                    Tty(place, "offboard"),
+                    "--baud",
+                    std::to_string(line.baud),
+                    "--latency",
+                    fmt::format("{}", line.latency_s),
+                    "--bit-error-rate",
+                    fmt::format("{}", line.bit_error_rate),
+                    "--seed",
+                    std::to_string(place.seed)};
+  // Killed it leaves links to ttys whose numbers the next terminal of anybody on this machine gets.
+  spec.leftovers = {Tty(place, "onboard"), Tty(place, "offboard")};
+  return spec;
+}
+
+/// Debian's spacenavd binds its socket relative to its working directory.
+ProcessSpec SpacenavdSpec(const LaunchPlace& place) {
+  fs::create_directories(fs::path(place.run_folder) / "run");
+  const std::string config = place.run_folder + "/spnavrc";
+  std::ofstream(config) << "serial = " << MouseTty(place) << "\nled = off\n";
+  ProcessSpec spec;
+  spec.name = "spacenavd";
+  spec.group = "offboard";
+  spec.arguments = {"/usr/bin/spacenavd", "-d", "-c", config, "-l", "/dev/stdout"};
+  spec.notifies = false;
+  spec.folder = place.run_folder;
+  // It lets a serial mouse reset itself for 2 s before it answers anybody: that much must not be added to.
+  spec.policy.first_back_off = std::chrono::milliseconds(400);
+  return spec;
+}
+
+ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& process, const LaunchPlace& place,
+                       bool has_mouse) {
+  ProcessSpec spec;
+  spec.name = NameOf(process);
+  spec.group = process.bus;
+  spec.after = Words(process.after);
+  spec.policy.watchdog = FromSeconds(process.watchdog_s);
+  spec.arguments = {place.program_folder + "/priamos-" + process.module,
+                    "--config",
+                    (fs::path(place.config_folder) / process.config).string(),
+                    "--bus",
+                    process.bus == "onboard" ? deployment.OnboardUrl() : deployment.OffboardUrl(),
+                    "--robot",
+                    deployment.robot,
+                    "--seed",
+                    std::to_string(place.seed)};
+  const auto set = [&](const std::string& text) {
+    spec.arguments.insert(spec.arguments.end(), {"--set", text});
+  };
+  if (!process.set.empty()) set(process.set);
+  if (process.module == "radio" && deployment.emulated_line) {
+    spec.arguments.insert(spec.arguments.end(), {"--port", Tty(place, process.bus)});
+    spec.after.push_back("line");
+  }
+  // In simulation the e-stop is remembered as long as the deployment is up.
+  if (process.module == "robot" && deployment.emulated_line)
+    set("state_file=" + place.run_folder + "/robot-state");
+  if (process.module == "teleop" && has_mouse) set("spacemouse.socket=" + MouseSocket(place));
+  return spec;
+}
+
+}  // namespace
+
+std::string MouseTty(const LaunchPlace& place) {
+  return Tty(place, "mouse");
+}
+
+std::string MouseSocket(const LaunchPlace& place) {
+  return place.run_folder + "/run/spnav.sock";
+}
+
+std::vector<ProcessSpec> PlanOf(const Deployment& deployment, const LaunchPlace& place) {
+  const auto& all = deployment.processes;
+  const bool has_mouse =
+      std::any_of(all.begin(), all.end(), [](const ScenarioProcess& p) { return p.module == "spacenavd"; });
+  std::vector<ProcessSpec> plan;
+  if (deployment.emulated_line) plan.push_back(LineSpec(deployment, place));
+  for (const ScenarioProcess& process : all) {
+    if (deployment.group != "all" && process.bus != deployment.group) continue;
+    plan.push_back(process.module == "spacenavd" ? SpacenavdSpec(place)
+                                                 : ModuleSpec(deployment, process, place, has_mouse));
+  }
+  for (ProcessSpec& spec : plan) {
+    // A process of the other group is another machine's business.
+    std::erase_if(spec.after, [&](const std::string& name) {
+      const bool here =
+          std::any_of(plan.begin(), plan.end(), [&](const ProcessSpec& s) { return s.name == name; });
+      const bool elsewhere =
+          std::any_of(all.begin(), all.end(), [&](const ScenarioProcess& p) { return NameOf(p) == name; });
+      return !here && elsewhere;
+    });
+  }
+  return plan;
+}
+
+}  // namespace priamos::cli

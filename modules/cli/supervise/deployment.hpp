@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bus/wire/bus_address.hpp"
+#include "cli/scenario/scenario.hpp"
+#include "cli/supervise/supervisor.hpp"
+
+namespace priamos::cli {
+
+/// config/<deployment>/deployment.toml: the processes of a robot, for `priamos up`.
+struct Deployment {
+  std::string title;
+  std::string robot{bus::kDefaultRobot};  ///< its ports follow from its name
+  int onboard_ttl = 0, offboard_ttl = 0;
+  std::string group = "all";   ///< which ones `priamos up` starts: onboard, offboard or all
+  bool emulated_line = false;  ///< a serial line out of nothing between the radios
+  bus::radio::LineConfig line;
+  std::vector<ScenarioProcess> processes;
+
+  std::string OnboardUrl() const { return bus::BusUrl(robot, bus::BusSide::kOnboard, onboard_ttl); }
+  std::string OffboardUrl() const { return bus::BusUrl(robot, bus::BusSide::kOffboard, offboard_ttl); }
+
+  void Describe(Archive& a) {
+    a.Text("title", title, "what runs, in a few words");
+    a.Text("robot", robot, "name of the robot: a-z, 0-9 and \"-\"; the ports of its buses follow from it");
+    a.Integer("onboard_ttl", onboard_ttl,
+              {"", 0, 255, "routers a message on the robot's bus may pass; 0: this host"});
+    a.Integer("offboard_ttl", offboard_ttl, {"", 0, 255, "the same on the workstation's bus"});
+    a.Choice("group", group, {"all", "onboard", "offboard"}, "what runs on this machine");
+    a.Flag("emulated_line", emulated_line, "join the two radios by an emulated serial line");
+    a.Section("line", line, "that line");
+    a.List("process", processes, "the processes");
+  }
+};
+
+/// What a plan needs besides the processes themselves.
+struct LaunchPlace {
+  std::string program_folder;  ///< where priamos-* are
+  std::string config_folder;   ///< of the deployment
+  std::string run_folder;      ///< absolute; ttys and consoles
+  std::uint64_t seed = 1;
+};
+
+/// The processes of a deployment with their command lines, the emulated line and the emulated mouse among
+/// them. Processes of the same module on the same bus get names of their own.
+std::vector<ProcessSpec> PlanOf(const Deployment& deployment, const LaunchPlace& place);
+
+/// Where the emulated mouse of `place` is plugged in, and where its daemon answers.
+std::string MouseTty(const LaunchPlace& place);
+std::string MouseSocket(const LaunchPlace& place);
+
+}  // namespace priamos::cli

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bus/radio/line/line.hpp"
+#include "common/time.hpp"
+
+namespace priamos::cli {
+
+/// A pair of radio modems out of nothing: two pseudo terminals joined by an emulated line.
+struct LinkEmulateOptions {
+  std::string a = "tty-a";  ///< links to the ttys are made here and removed at the end
+  std::string b = "tty-b";
+  bus::radio::LineConfig line;
+  std::string blackouts;  ///< CSV file, `from_s,to_s` per line: more times without a line
+  std::uint64_t seed = 1;
+  bool json = false;  ///< says what it made as JSON
+};
+
+/// Reads a blackout schedule; lines that begin with # and a heading are passed over. Throws ConfigError,
+/// `file:line: expected ..., got ...`.
+std::vector<bus::radio::LineCut> ReadBlackouts(const std::string& path);
+
+/// One pseudo terminal, found under the name of a symbolic link. What a program writes to the link's target
+/// comes out of Read().
+class PseudoTerminal {
+ public:
+  /// Replaces a link left behind; throws std::runtime_error when something else has the name.
+  explicit PseudoTerminal(std::string link);
+  PseudoTerminal(const PseudoTerminal&) = delete;
+  PseudoTerminal& operator=(const PseudoTerminal&) = delete;
+  ~PseudoTerminal();
+
+  int fd() const { return master_; }
+  std::vector<std::byte> Read(std::size_t most);
+  /// What nobody reads is lost, as on a modem.
+  void Write(std::span<const std::byte> bytes);
+
+ private:
+  std::string link_;
+  std::string target_;
+  int master_ = -1;
+  int slave_ = -1;  ///< kept open, so that the line survives the programs at its ends
+};
+
+/// Both directions between two pseudo terminals; time is given, so that a test need not wait.
+class EmulatedLine {
+ public:
+  EmulatedLine(const LinkEmulateOptions& options, Time start);
+
+  /// Moves the bytes that are due at `now`.
+  void Step(Time now);
+  /// When the next byte is due; Time::max() when none is under way.
+  Time NextArrival() const;
+  const PseudoTerminal& a() const { return a_; }
+  const PseudoTerminal& b() const { return b_; }
+
+ private:
+  PseudoTerminal a_, b_;
+  bus::radio::LinePair lines_;
+};
+
+/// Emulates until SIGINT or SIGTERM and returns 0. Throws ConfigError or std::runtime_error.
+int RunLinkEmulate(const LinkEmulateOptions& options);
+
+}  // namespace priamos::cli

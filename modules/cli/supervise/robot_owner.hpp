@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/claim_keeper.hpp"
+#include "bus/node.hpp"
+#include "cli/supervise/deployment.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::cli {
+
+/// The role of whoever starts and supervises the processes of a robot, on one of its buses.
+inline constexpr const char* kSupervisorRole = "supervisor";
+
+/// Holds a robot for as long as its processes are supervised: nobody else starts them beside it. Hears the
+/// alarms of its buses meanwhile.
+class RobotOwner {
+ public:
+  using Say = std::function<void(const std::string&)>;
+
+  /// Asks for 0.3 s on every bus on which `deployment` starts a process. Throws BusError that names who has
+  /// the robot already: another supervisor, or one of the processes started by hand or by systemd. `say` gets
+  /// every alarm as one line.
+  RobotOwner(const Deployment& deployment, const bus::Schema& schema, const bus::Clock& clock, Say say);
+  ~RobotOwner();
+
+  /// Takes what has come; to be called often.
+  void Listen();
+  /// Why the robot is lost to somebody who had it longer.
+  std::optional<std::string> lost() const;
+  /// Newest last, at most 20.
+  const std::vector<std::string>& alarms() const { return alarms_; }
+
+ private:
+  struct Side;
+  void Add(const std::string& side, const Deployment& deployment, const bus::Schema& schema,
+           const bus::Clock& clock);
+
+  Say say_;
+  std::vector<std::string> alarms_;
+  std::vector<std::unique_ptr<Side>> sides_;
+};
+
+/// One line for a person: how bad, who says it, and what.
+std::string AlarmText(const alarm_t& alarm);
+
+}  // namespace priamos::cli

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/supervise/notify_socket.hpp"
+#include "cli/supervise/process_watch.hpp"
+#include "common/time.hpp"
+
+namespace priamos::cli {
+
+/// How to start one process.
+struct ProcessSpec {
+  std::string name;                      ///< unique
+  std::string group;                     ///< for the eye
+  std::vector<std::string> arguments;    ///< the first one is the program's path
+  std::vector<std::string> after;        ///< names that must be ready before it starts
+  bool notifies = true;                  ///< says READY and WATCHDOG; else it is ready as soon as it runs
+  std::string folder;                    ///< working directory; empty: this process's
+  std::vector<std::string> leftovers{};  ///< files that lie about a living process: removed when it ended
+  WatchPolicy policy;
+};
+
+/// What is known of one process now.
+struct ProcessReport {
+  std::string name, group;
+  ProcessState state = ProcessState::kWaiting;
+  pid_t pid = 0;  ///< 0 while it does not run
+  Time since{};
+  int starts = 0;
+  bool alarm = false;
+  std::string reason;  ///< of its last end
+};
+
+/// Starts processes in the order of their dependencies, keeps their console output, restarts what dies or
+/// hangs, and ends all of them. Children die with this process however it ends (PR_SET_PDEATHSIG, SIGKILL),
+/// so nothing is ever orphaned. Used by one thread; that thread must be the one that ends last.
+class Supervisor {
+ public:
+  using Tell = std::function<void(const std::string& sentence)>;
+
+  /// Each process writes to `output_folder`/NAME.txt. Throws std::invalid_argument when a name in `after`
+  /// does not exist or names depend on each other in a circle.
+  Supervisor(std::vector<ProcessSpec> specs, std::string output_folder, Tell tell);
+  /// Ends what still runs.
+  ~Supervisor();
+  Supervisor(const Supervisor&) = delete;
+  Supervisor& operator=(const Supervisor&) = delete;
+
+  /// Becomes readable when a process said something.
+  int fd() const { return notify_.fd(); }
+  /// Looks at everything once; call it whenever fd() is readable, and every 50 ms.
+  void Step(Time now);
+  bool AllReady() const;
+  std::vector<ProcessReport> Report() const;
+  /// The first process that raised the alarm; nullopt while there is none.
+  std::optional<ProcessReport> Alarmed() const;
+  /// Ends processes in the reverse order of their dependencies; SIGKILL for those that do not end.
+  void StopAll();
+  bool AllStopped() const;
+
+ private:
+  struct Child {
+    ProcessSpec spec;
+    ProcessWatch watch;
+    pid_t pid = 0;
+  };
+  void CheckOrder() const;
+  void Listen(Time now);
+  void ForgiveOwnSilence(Time now);
+  void ForgiveSilence(Time now);
+  void LookForStopped(Time now);
+  void Reap(Time now);
+  void Act(Child& child, Time now);
+  void Start(Child& child, Time now);
+  bool MayStart(const Child& child) const;
+  bool MayStop(const Child& child) const;
+  const Child& Find(const std::string& name) const;
+  std::string OutputFile(const Child& child) const;
+
+  std::string output_folder_;
+  Tell tell_;
+  NotifySocket notify_;
+  std::vector<Child> children_;
+  Time last_step_{}, next_look_{};
+};
+
+}  // namespace priamos::cli

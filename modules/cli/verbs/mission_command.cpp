@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "bus/own_types.hpp"
+#include "cli/front/commands.hpp"
+#include "cli/options/folder_options.hpp"
+#include "cli/scenario/door_name.hpp"
+#include "cli/scenario/mission_order.hpp"
+#include "cli/terminal/bus_watch.hpp"
+#include "cli/terminal/silence_watch.hpp"
+#include "planner/planner_config.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr int kNotDone = 1;
+
+struct MissionOptions {
+  BusOptions bus;
+  std::string door;
+  std::string deployment = "sim";
+  bool wait = false, json = false;
+};
+
+/// What a person reads meanwhile; standard output belongs to the JSON.
+std::ostream& People(const MissionOptions& options) {
+  return options.json ? std::cerr : std::cout;
+}
+
+/// Gives the order and follows it as long as it is open. Returns the exit code.
+int Give(const MissionOptions& options, const mission_command_t& command, const char* verb) {
+  const bus::Schema schema = bus::OwnTypes();
+  const bus::MonotonicClock clock;
+  bus::LcmBus bus(options.bus.bus.Url());
+  bus::Node node(bus, schema, clock);
+  auto statuses = node.SubscribeAll(channels::kMissionStatus);
+  auto orders = node.Advertise(channels::kMissionCommand);
+  SilenceWatch silence(fmt::format("priamos mission {}", verb), options.bus,
+                       std::string(channels::kMissionStatus.name), clock.Now());
+  MissionOrder order(command, options.wait);
+  const auto step = [&] {
+    const Time now = clock.Now();
+    for (const mission_status_t& status : statuses.Drain()) {
+      silence.Heard();
+      const auto text = order.Hear(status, now);
+      if (text && order.outcome() == OrderOutcome::kOpen) People(options) << *text << std::endl;
+    }
+    if (const auto message = order.Step(now)) orders.Publish(*message);
+    silence.Step(now);
+  };
+  Watch(
+      bus, clock, Time::max(), [&] { return order.outcome() != OrderOutcome::kOpen; }, step);
+  const OrderOutcome outcome = order.outcome();
+  if (options.json)
+    std::cout
+        << nlohmann::ordered_json{{"order", verb}, {"outcome", Text(outcome)}, {"text", order.text()}}.dump()
+        << "\n";
+  if (outcome == OrderOutcome::kDone || outcome == OrderOutcome::kAccepted) {
+    People(options) << fmt::format("{}: {}\n", Text(outcome), order.text());
+    return 0;
+  }
+  std::cerr << fmt::format("priamos mission {}: {}: {}\n", verb,
+                           outcome == OrderOutcome::kOpen ? "interrupted" : Text(outcome), order.text());
+  return kNotDone;
+}
+
+/// The map that the planner of the deployment has.
+int DoorOf(const MissionOptions& options) {
+  const auto file = std::filesystem::path(FolderOfDeployment(options.deployment)) / "planner.toml";
+  const auto config = LoadConfig<planner::PlannerConfig>(file.string());
+  const std::string map = (file.parent_path() / config.map).lexically_normal().string();
+  return DoorNamed(LoadConfig<GroundPlan>(map), options.door, map);
+}
+
+int PassDoor(const MissionOptions& options) {
+  mission_command_t command{};
+  command.mission = mission_command_t::PASS_DOOR;
+  command.landmark_id = static_cast<std::int16_t>(DoorOf(options));
+  return Give(options, command, "door");
+}
+
+int Abort(const MissionOptions& options) {
+  mission_command_t command{};
+  command.mission = mission_command_t::ABORT;
+  return Give(options, command, "abort");
+}
+
+void Print(const MissionOptions& options, const mission_status_t& status) {
+  if (options.json)
+    std::cout << nlohmann::ordered_json{{"phase", PhaseName(status.phase)}, {"text", status.text}}.dump()
+              << std::endl;
+  else
+    std::cout << fmt::format("{}: {}", PhaseName(status.phase), status.text) << std::endl;
+}
+
+/// What the planner says; with --wait until the mission is over. 1 when it failed or nobody answers.
+int Status(const MissionOptions& options) {
+  constexpr Duration kSpeaksWithin = std::chrono::seconds(2);
+  const bus::Schema schema = bus::OwnTypes();
+  const bus::MonotonicClock clock;
+  bus::LcmBus bus(options.bus.bus.Url());
+  bus::Node node(bus, schema, clock);
+  auto statuses = node.SubscribeAll(channels::kMissionStatus);
+  SilenceWatch silence("priamos mission status", options.bus, std::string(channels::kMissionStatus.name),
+                       clock.Now());
+  std::optional<mission_status_t> last;
+  Time heard = clock.Now();
+  const auto step = [&] {
+    for (const mission_status_t& status : statuses.Drain()) {
+      silence.Heard();
+      heard = clock.Now();
+      if (!last || last->text != status.text || last->phase != status.phase) Print(options, status);
+      last = status;
+    }
+    silence.Step(clock.Now());
+  };
+  const auto over = [&] {
+    if (clock.Now() - heard > kSpeaksWithin) return true;
+    return last && (!options.wait || IsOver(*last));
+  };
+  Watch(bus, clock, Time::max(), over, step);
+  if (!last && options.json) std::cout << nlohmann::ordered_json{{"phase", nullptr}}.dump() << "\n";
+  const bool good = last && last->phase != mission_status_t::FAILED && (!options.wait || IsOver(*last));
+  return good ? 0 : kNotDone;
+}
+
+using Run = int (*)(const MissionOptions&);
+
+/// The options that every mission has.
+void Complete(CLI::App& verb, const std::shared_ptr<MissionOptions>& options, Run run, int& exit_code) {
+  AddBusOption(verb, options->bus);
+  verb.add_flag("--json", options->json, "the outcome machine-readable");
+  verb.callback([options, run, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace
+
+void AddMissionCommand(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<MissionOptions>();
+  auto* mission = cli.add_subcommand("mission", "Order the planner, and ask how its mission stands.");
+  mission->require_subcommand(1);
+  auto* door = mission->add_subcommand(
+      "door",
+      "Pass a door; ends when the robot is under way, with --wait when it is through (exit code 1: not).");
+  door->footer("Example: priamos mission door laboratory --wait");
+  door->add_option("door", options->door, "its name in the map, or its number")->required();
+  door->add_flag("--wait", options->wait, "until the mission is over");
+  AddDeploymentOption(*door, options->deployment);
+  Complete(*door, options, PassDoor, exit_code);
+  auto* abort = mission->add_subcommand("abort", "End the mission that is under way; the robot brakes.");
+  abort->footer("Example: priamos mission abort");
+  Complete(*abort, options, Abort, exit_code);
+  auto* status =
+      mission->add_subcommand("status", "What the planner does (exit code 1: it failed or is silent).");
+  status->footer("Example: priamos mission status --wait");
+  status->add_flag("--wait", options->wait, "follow it until it is over");
+  Complete(*status, options, Status, exit_code);
+}
+
+}  // namespace priamos::cli

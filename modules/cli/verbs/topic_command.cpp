@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bus/real_time_loop.hpp"
+#include "bus/schema/json.hpp"
+#include "bus/wire/lcm_bus.hpp"
+#include "bus/wire/udp_receiver.hpp"
+#include "cli/front/commands.hpp"
+#include "cli/terminal/silence_watch.hpp"
+#include "cli/terminal/terminal_screen.hpp"
+#include "cli/terminal/topic_echo.hpp"
+#include "cli/terminal/topic_screen.hpp"
+#include "cli/terminal/topic_statistics.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr auto kWatchPeriod = std::chrono::milliseconds(500);
+constexpr Duration kPatience = std::chrono::seconds(1);
+constexpr int kNothingHeard = 1;
+
+struct TopicOptions : BusOptions {
+  std::string channel;
+  std::string type;
+  std::string message;
+  double seconds = 2;
+  bool json = false;
+  bool watch = false;
+};
+
+/// Handles messages until `until` or a signal; calls `each` after every poll, 20 times a second at least.
+void Listen(bus::LcmBus& bus, const bus::Clock& clock, Time until, const std::function<void(Time)>& each) {
+  const bus::SignalWatch signals;
+  while (clock.Now() < until) {
+    pollfd fds[] = {{bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
+    poll(fds, std::size(fds), 50);
+    if (fds[1].revents != 0) return;
+    bus.Drain();
+    each(clock.Now());
+  }
+}
+
+nlohmann::ordered_json ToJson(const TopicRow& row) {
+  return {{"channel", row.channel},
+          {"type", row.type},
+          {"messages", row.messages},
+          {"undecodable", row.undecodable},
+          {"rate_hz", row.rate_hz},
+          {"jitter_s", row.jitter_s},
+          {"bytes_per_s", row.bandwidth_bytes_s},
+          {"age_s", row.age_s},
+          {"largest_bytes", row.largest_bytes}};
+}
+
+void PrintJson(const std::vector<TopicRow>& rows, const bus::LcmBus& bus) {
+  auto all = nlohmann::ordered_json::array();
+  for (const auto& row : rows) all.push_back(ToJson(row));
+  auto senders = nlohmann::ordered_json::array();
+  for (const auto& s : bus.senders())
+    senders.push_back(
+        {{"address", bus::SenderAddress(s.sender)}, {"datagrams", s.datagrams}, {"lost", s.lost}});
+  std::cout << nlohmann::ordered_json{{"senders", senders},
+                                      {"lost", bus.lost()},
+                                      {"malformed", bus.malformed()},
+                                      {"turned_away", bus.turned_away()},
+                                      {"channels", all}}
+                   .dump()
+            << std::endl;
+}
+
+/// `list`, and with a channel `hz` and `bw`: the same table of all or of one.
+int List(const TopicOptions& options, const std::string& verb) {
+  const bus::Schema schema = LoadTypes(options);
+  const bus::MonotonicClock clock;
+  bus::LcmBus bus(options.bus.Url(), options.messages());
+  TopicStatistics statistics(schema, FromSeconds(std::max(2.0, options.seconds)));
+  // With an end in sight the sentence comes there, once.
+  const Duration patience = options.watch ? kPatience : FromSeconds(options.seconds) + kPatience;
+  SilenceWatch silence("priamos topic " + verb, options, options.channel, clock.Now(), patience);
+  const auto add = [&](std::string_view channel, std::span<const std::byte> bytes) {
+    statistics.Add(clock.Now(), channel, bytes);
+    silence.Heard();
+  };
+  options.channel.empty() ? bus.SubscribeEverything(add) : bus.Subscribe(options.channel, add);
+  const auto losses = [&] {
+    return BusLosses{bus.senders(), bus.lost(), bus.malformed(), bus.turned_away()};
+  };
+  const Time until = options.watch ? Time::max() : clock.Now() + FromSeconds(options.seconds);
+  std::optional<TerminalScreen> screen(std::in_place);
+  Listen(bus, clock, until, [&](Time now) {
+    silence.Step(now);
+    // Before the first message the terminal belongs to what `silence` has to say.
+    if (!options.watch || statistics.empty() || !screen->Due(now, kWatchPeriod)) return;
+    if (options.json) return PrintJson(statistics.Rows(now), bus);
+    screen->Show(TopicScreen(statistics.Rows(now), losses(), screen->size()));
+  });
+  screen.reset();
+  const auto rows = statistics.Rows(clock.Now());
+  if (!options.watch && options.json) PrintJson(rows, bus);
+  if (!options.watch && !options.json) std::cout << TopicScreen(rows, losses(), TableSize()) << std::flush;
+  silence.Tell(clock.Now());
+  return rows.empty() ? kNothingHeard : 0;
+}
+
+int Pub(const TopicOptions& options) {
+  const bus::Schema schema = LoadTypes(options);
+  const auto* type = schema.Find(options.type);
+  if (!type) throw UnknownType(schema, options.type);
+  bus::LcmBus bus(options.bus.Url(), options.messages());
+  const auto message = bus::Json::parse(options.message, nullptr, false);
+  if (message.is_discarded())
+    throw bus::MessageError(fmt::format("message: expected JSON, got {}", options.message));
+  const auto bytes = bus::FromJson(*type, message);
+  if (!bus.Publish(options.channel, bytes))
+    throw bus::BusError(fmt::format("{}: {} bytes were not sent", options.bus.Url(), bytes.size()));
+  if (options.json)
+    std::cout << nlohmann::ordered_json{{"channel", options.channel}, {"bytes", bytes.size()}} << "\n";
+  return 0;
+}
+
+int PrintUrl(const TopicOptions& options) {
+  const std::string url = options.bus.Url();
+  std::cout << (options.json ? nlohmann::ordered_json{{"url", url}}.dump() : url) << "\n";
+  return 0;
+}
+
+CLI::App* AddVerb(CLI::App& topic, const char* name, const char* help, const char* example,
+                  TopicOptions& options) {
+  auto* verb = topic.add_subcommand(name, help);
+  verb->footer(std::string("Example: ") + example);
+  AddBusOption(*verb, options);
+  AddTypesOption(*verb, options);
+  return verb;
+}
+
+void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_channel,
+                  const std::shared_ptr<TopicOptions>& options, int& exit_code) {
+  auto* verb = AddVerb(topic, name, help,
+                       one_channel ? "priamos topic hz POSE" : "priamos topic list --watch", *options);
+  if (one_channel) verb->add_option("channel", options->channel, "LCM channel")->required();
+  verb->add_option("--seconds", options->seconds, "how long to listen")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  verb->add_flag("--watch", options->watch, "a live table, until Ctrl-C");
+  verb->add_flag("--json", options->json, "machine-readable");
+  verb->callback([options, &exit_code, name] { exit_code = List(*options, name); });
+}
+
+}  // namespace
+
+void AddTopicCommand(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<TopicOptions>();
+  auto* topic =
+      cli.add_subcommand("topic", "See and send what is on a bus, of any type, without compiling it.");
+  topic->require_subcommand(1);
+  AddTableVerb(*topic, "list", "Every channel: type, rate, jitter, bandwidth, age.", false, options,
+               exit_code);
+  AddTableVerb(*topic, "hz", "Rate and jitter of one channel.", true, options, exit_code);
+  AddTableVerb(*topic, "bw", "Bandwidth of one channel.", true, options, exit_code);
+  AddTopicEchoVerb(*topic, exit_code);
+  auto* url = AddVerb(*topic, "url", "Print the URL of a bus, for LCM's own programs.",
+                      "priamos topic url --bus onboard", *options);
+  url->add_flag("--json", options->json, "machine-readable");
+  url->callback([options, &exit_code] { exit_code = PrintUrl(*options); });
+  auto* pub = AddVerb(*topic, "pub", "Send one message, given as JSON.",
+                      "priamos topic pub LINK_REQUEST link_request_t "
+                      "'{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":5}'",
+                      *options);
+  pub->add_option("channel", options->channel, "LCM channel")->required();
+  pub->add_option("type", options->type, "message type")->required();
+  pub->add_option("message", options->message, "the message as JSON")->required();
+  pub->add_flag("--json", options->json, "say machine-readable what was sent");
+  pub->callback([options, &exit_code] { exit_code = Pub(*options); });
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "cli/supervise/up_state.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace priamos::cli {
+
+/// `down`, `status` and `logs`: what one asks of a deployment that is up.
+void AddUpQueries(CLI::App& cli, int& exit_code);
+
+/// `--logs`, the folder in which the state of an `up` is; left out it becomes the default one when the
+/// command line was read. `log_root` must outlive `verb`.
+void AddUpLogsOption(CLI::App& verb, std::string& log_root);
+
+/// As a table, or as JSON, to standard output.
+void Show(const UpState& state, bool json);
+
+}  // namespace priamos::cli

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bus/own_types.hpp"
+#include "cli/front/commands.hpp"
+#include "cli/terminal/bus_watch.hpp"
+#include "cli/terminal/silence_watch.hpp"
+#include "cli/terminal/where_text.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr int kNoPose = 1;
+/// DRIVE_STATUS and MISSION_STATUS come twice a second over the radio.
+constexpr Duration kListen = std::chrono::milliseconds(1500);
+constexpr Duration kShow = std::chrono::milliseconds(500);
+
+struct WhereOptions {
+  BusOptions bus;
+  bool watch = false, json = false;
+};
+
+void Print(const WhereOptions& options, const Whereabouts& where, Time now) {
+  if (options.json) return void(std::cout << WhereJson(where, now).dump() << std::endl);
+  std::cout << (options.watch ? "\x1b[H\x1b[2J" : "") << WhereText(where, now) << std::flush;
+}
+
+int Run(const WhereOptions& options) {
+  const bus::Schema schema = bus::OwnTypes();
+  const bus::MonotonicClock clock;
+  bus::LcmBus bus(options.bus.bus.Url());
+  bus::Node node(bus, schema, clock);
+  auto poses = node.Subscribe(channels::kPose);
+  auto drive = node.Subscribe(channels::kDriveStatus);
+  auto mission = node.Subscribe(channels::kMissionStatus);
+  SilenceWatch silence("priamos where", options.bus, std::string(channels::kPose.name), clock.Now());
+  Whereabouts where;
+  const auto take = [&] {
+    if (const auto pose = poses.Take()) where.pose = *pose;
+    if (const auto status = drive.Take()) where.drive = *status;
+    if (const auto status = mission.Take()) where.mission = *status;
+    if (where.pose) silence.Heard();
+    silence.Step(clock.Now());
+  };
+  const Time until = options.watch ? Time::max() : clock.Now() + kListen;
+  Time next = clock.Now() + kShow;
+  const auto complete = [&] { return !options.watch && where.pose && where.drive && where.mission; };
+  Watch(bus, clock, until, complete, [&] {
+    take();
+    if (!options.watch || clock.Now() < next) return;
+    next += kShow;
+    Print(options, where, clock.Now());
+  });
+  if (!options.watch) Print(options, where, clock.Now());
+  return where.pose ? 0 : kNoPose;
+}
+
+}  // namespace
+
+void AddWhereCommand(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<WhereOptions>();
+  auto* verb = cli.add_subcommand(
+      "where",
+      "Where the robot believes to be, what it does, what limits it (exit code 1: no pose is heard).");
+  verb->footer("Example: priamos where --watch");
+  verb->add_flag("--watch", options->watch, "twice a second, until Ctrl-C");
+  verb->add_flag("--json", options->json, "machine-readable");
+  AddBusOption(*verb, options->bus);
+  verb->callback([options, &exit_code] { exit_code = Run(*options); });
+}
+
+}  // namespace priamos::cli

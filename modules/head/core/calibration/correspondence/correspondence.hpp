@@ -1,0 +1,72 @@
+#pragma once
+
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "common/outcome.hpp"
+#include "head/core/calibration/discs/disc_fit.hpp"
+#include "head/core/calibration/resection/view_fit.hpp"
+
+namespace priamos::head {
+
+/// What is known beforehand about camera and view, and when a labelling is believed.
+struct LabellerOptions {
+  double min_focal_px = 650, max_focal_px = 2000;
+  Eigen::Vector2d image_centre_px{383.5, 287.5};
+  double centre_sigma_px = 20;        ///< how far the principal point may be from it
+  double k1_sigma = 0.1;              ///< of the radial distortion, at one focal length from the centre
+  double max_roll_rad = Radians(50);  ///< of the object's z axis against the image's upward direction
+  int max_hidden = 6;                 ///< discs that may be missing
+  double max_rms_px = 0.4;            ///< of the accepted labelling
+};
+
+/// Disc `disc` of the object is detection `detection`.
+struct DiscLabel {
+  int disc, detection;
+  friend bool operator==(const DiscLabel&, const DiscLabel&) = default;
+};
+
+/// Which disc is which, ordered by disc, and the camera that shows it.
+struct Labelling {
+  std::vector<DiscLabel> labels;
+  PinholeView view;  ///< in the frame of the object
+  double rms_px = 0;
+};
+
+/// Finds which detected disc is which disc of the object, from one image and without a first guess.
+///
+/// One ellipse of known radius gives its disc's distance and, up to mirroring, its tilt; with the roll and
+/// the focal length sampled, one detection that is taken for one disc already predicts the whole image. The
+/// predictions that meet the most detections are fitted, extended and fitted again. A labelling is accepted
+/// only if enough discs lie within a fraction of a pixel and have the right size, and if no other labelling
+/// of the same image does as well.
+class DiscLabeller {
+ public:
+  /// `object` in its own frame, its z axis roughly upwards in the images.
+  explicit DiscLabeller(const ReferenceObject& object, const LabellerOptions& options = {});
+
+  /// Right, or a refusal that says why.
+  Outcome<Labelling> Label(const std::vector<DetectedDisc>& detections) const;
+
+ private:
+  class Search;
+  /// Another disc as one disc sees it.
+  struct Neighbour {
+    Eigen::Vector3d offset_m;  ///< along that disc's normal, upwards across it, and the third axis
+    double spacing_m;          ///< from the other disc to the one nearest to it
+    double radius_m;
+  };
+
+  std::vector<Neighbour> NeighboursOf(const ReferenceDisc& disc) const;
+  /// Labels a made-up front view without any short cut.
+  bool IsUnique() const;
+
+  ReferenceObject object_;
+  LabellerOptions options_;
+  std::vector<double> spacing_m_;                   ///< to the nearest other disc
+  std::vector<std::vector<Neighbour>> neighbours_;  ///< of every disc, nearest first
+  std::vector<Eigen::Vector2d> rolls_;              ///< (cos, sin) of the rolls to try
+  bool unique_ = false;  ///< no second arrangement fits a front view: the first good one may be taken
+};
+
+}  // namespace priamos::head

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+
+#include "common/config.hpp"
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/camera/head_setting.hpp"
+#include "head/core/camera/laser_plane.hpp"
+#include "head/core/camera/lens_table.hpp"
+
+namespace priamos::head {
+
+enum Camera : int { kLeft = 0, kRight = 1, kThird = 2 };
+inline constexpr int kCameras = 3;
+inline constexpr const char* kCameraNames[kCameras] = {"left", "right", "third"};
+
+/// How one camera sits on the platform: REP 103 axes, x forward. The platform's origin is on the tilt axis.
+struct CameraMount {
+  double x_m = 0, y_m = 0, z_m = 0;                 ///< vergence axis, and height of the camera on it
+  double axis_roll_rad = 0, axis_pitch_rad = 0;     ///< of the vergence axis
+  double side_m = 0;                                ///< camera beside its vergence axis, left
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< camera on its axis; pitch positive looks down
+
+  void Describe(Archive& a);
+};
+
+/// The mechanics of KASTOR: pan axis on the base, tilt axis on it, cameras on the tilting platform. The
+/// numbers start as those of the drawing and end as those of the calibration.
+struct HeadGeometry {
+  /// The pan axis, and on it the point nearest to the tilt axis: the origin of the head (section 3.1.3 of
+  /// the paper: the intersection of both axes).
+  double x_m = 0.25, y_m = 0, z_m = 1.20;
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< of the pan axis; yaw is the zero of the pan
+  double tilt_axis_x_m = 0;                         ///< by which the axes miss each other
+  double tilt_axis_roll_rad = 0;                    ///< by which they are not square
+  std::array<CameraMount, kCameras> cameras = NominalMounts();
+
+  void Describe(Archive& a);
+  static std::array<CameraMount, kCameras> NominalMounts();
+
+  /// Pose of a camera (axes x right, y down, z forward) with its centre of projection `pupil_m` before its
+  /// mounting point. Angles of the motors; the third camera has no vergence.
+  Eigen::Isometry3d BaseFromCamera(const HeadSetting& setting, int camera, double pupil_m) const;
+  /// Pose of the head's origin: the frame that turns with nothing.
+  Eigen::Isometry3d BaseFromHead() const;
+};
+
+/// P(pan, tilt, vergence, zoom, focus) of all three cameras.
+struct HeadModel {
+  HeadGeometry geometry;
+  std::array<LensTable, kCameras> lenses;  ///< the third camera's has a single node
+  std::optional<LaserPlane> laser;         ///< of the line laser, where it was calibrated
+  /// How well the calibrated frame is known to be the base frame: covariance of a small motion of space about
+  /// the origin of base (x, y, z, roll, pitch, yaw) [m, rad] that all cameras share, whatever the setting.
+  /// Most of it is how exactly the reference object was placed.
+  Eigen::Matrix<double, 6, 6> base_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+
+  /// The calibrated camera at a setting, in the base frame. Refuses zoom and focus that were not calibrated.
+  Outcome<CameraModel> CameraAt(const HeadSetting& setting, int camera) const;
+};
+
+/// Covariance of a small motion about the origin, from standard deviations of place and of turn (each axis)
+/// of something at `at_m`: what HeadModel::base_covariance is for a reference object that stands there.
+Eigen::Matrix<double, 6, 6> PlacementCovariance(const Eigen::Vector3d& at_m, double place_sigma_m,
+                                                double turn_sigma_rad);
+
+/// A camera from its parts.
+CameraModel MakeCameraModel(const LensState& lens, const Eigen::Isometry3d& base_from_camera);
+
+}  // namespace priamos::head

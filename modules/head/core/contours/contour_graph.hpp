@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "head/core/edges/edge_segment.hpp"
+
+namespace priamos::head {
+
+/// What two neighbouring segments are to each other; several may hold.
+struct Relation {
+  int a = 0, b = 0;  ///< indices in EdgeImage::segments, a < b
+  bool parallel = false, perpendicular = false, collinear = false, intersecting = false;
+  double angle_rad = 0;    ///< between the lines, 0 to pi/2
+  double distance_px = 0;  ///< of parallel ones: from the shorter one's middle to the other line
+  bool same_sign = false;  ///< of parallel and collinear ones: the bright sides face the same way
+
+  int Other(int segment) const { return segment == a ? b : a; }
+};
+
+/// Two segments that run up to each other, extended to where they meet: what the edge operator lost there is
+/// repaired.
+struct Corner {
+  Eigen::Vector2d at;                  ///< [px]
+  Eigen::Matrix2d covariance;          ///< [px^2]
+  std::array<int, 2> segments{};       ///< a, b
+  std::array<int, 2> ends{};           ///< which end of each: 0 begin, 1 end
+  std::array<double, 2> extension_px;  ///< by how much each had to be extended, negative if shortened
+};
+
+/// A closed convex outline: side i runs from corner i to corner i + 1, turning to the right (clockwise as
+/// seen in the image). Four sides, opposite ones parallel: a parallelogram.
+struct Polygon {
+  std::vector<int> sides;    ///< segments
+  std::vector<int> corners;  ///< indices in ContourGraph::corners
+  bool is_parallelogram = false;
+};
+
+struct ContourOptions {
+  double neighbour_px = 30;          ///< segments farther apart than that have no relation
+  double max_extension_px = 15;      ///< for a corner
+  double max_extension_share = 0.5;  ///< and at most so much of the segment
+  double min_corner_rad = 0.2;       ///< flatter intersections are no corners
+  double parallel_rad = 0.03;        ///< tolerance for perspective, beyond 3 sigma
+  double perpendicular_rad = 0.05;
+  double collinear_px = 0.8;    ///< beyond 3 sigma
+  int max_corners_per_end = 4;  ///< the nearest ones are kept
+  int max_sides = 6;
+  double perspective_rad = 0.12;  ///< by how much opposite sides of a parallelogram may converge
+};
+
+/// Section 4.2 of the paper: geometrical relations between neighbouring edges, and the contours that follow
+/// from them. Building it takes time near-linear in the number of segments.
+class ContourGraph {
+ public:
+  ContourGraph() = default;
+  ContourGraph(const EdgeImage& edges, const ContourOptions& options);
+
+  std::span<const Relation> relations() const { return relations_; }
+  std::span<const Corner> corners() const { return corners_; }
+  std::span<const Polygon> polygons() const { return polygons_; }
+
+  /// Indices of what a segment takes part in.
+  std::span<const int> RelationsOf(int segment) const { return relations_of_.at(segment); }
+  std::span<const int> CornersOf(int segment, int end) const { return corners_of_.at(2 * segment + end); }
+  std::span<const int> PolygonsOf(int segment) const { return polygons_of_.at(segment); }
+  /// The corners of a polygon in order [px].
+  std::vector<Eigen::Vector2d> Outline(const Polygon& polygon) const;
+
+ private:
+  std::vector<Relation> relations_;
+  std::vector<Corner> corners_;
+  std::vector<Polygon> polygons_;
+  std::vector<std::vector<int>> relations_of_, corners_of_, polygons_of_;
+};
+
+/// All pairs of segments that come within options.neighbour_px of each other and have a relation.
+std::vector<Relation> FindRelations(const EdgeImage& edges, const ContourOptions& options);
+
+/// All corners.
+std::vector<Corner> FindCorners(const EdgeImage& edges, const ContourOptions& options);
+
+/// Convex outlines made of `corners`; `corners_of` lists them by 2 * segment + end.
+std::vector<Polygon> FindPolygons(const EdgeImage& edges, std::span<const Corner> corners,
+                                  std::span<const std::vector<int>> corners_of,
+                                  const ContourOptions& options);
+
+}  // namespace priamos::head

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "head/core/edges/edge_segments.hpp"
+#include "head/core/stereo/vertical_stereo.hpp"
+
+namespace priamos::head {
+
+/// A door that no map told of: two uprights with a lintel between their tops, seen by both cameras.
+struct DetectedDoor {
+  Pose2 base_from_door;        ///< middle between the uprights; x away from the robot, through the door
+  Eigen::Matrix2d covariance;  ///< of that middle [m^2]
+  double width_m = 0;          ///< between the uprights: the frame's outer or inner edges
+  double height_m = 0;         ///< of the lintel
+  bool on_floor = false;       ///< an upright was seen down to the floor
+  double log_odds = 0;         ///< a door against whatever else has uprights
+};
+
+struct DoorDetectionOptions {
+  double min_width_m = 0.65, max_width_m = 1.35;
+  double min_height_m = 1.85, max_height_m = 2.35;
+  double usual_height_m = 2.05, height_sigma_m = 0.1;  ///< what doors are like where the robot works: of the
+                                                       ///< lintel, with or without frame
+  double usual_width_m = 0.95, width_sigma_m = 0.2;    ///< likewise
+  double level_sigma_m = 0.012;  ///< the lintel's heights over both uprights, beyond the noise of edges
+  double edge_sigma_px = 0.3;    ///< what frames deviate from two uprights and a level lintel between them
+  double frame_sigma_m = 0.004;  ///< of a frame's edges from one plane and their mirror images, part of the
+                                 ///< covariance: near jambs show another edge of the frame than far ones
+  double min_upright_m = 0.15;   ///< seen by both cameras
+  double min_log_odds = 7;       ///< evidence wanted
+  double same_door_m = 0.65;     ///< nearer ones are one door, such as frame and open leaf
+  VerticalStereoOptions stereo{.max_range_m = 8, .camera_sigma_px = 0.05};
+};
+
+/// The edges that doors are looked for in: fainter ones than elsewhere, because in a dim corridor frame and
+/// wall are nearly alike, and nothing is believed that stands alone.
+inline EdgeOperator::Options DoorEdges() {
+  EdgeOperator::Options options;
+  options.min_contrast = 5;
+  return options;
+}
+
+/// Doors, open or closed, in a stereo pair: the conclusion of the paper. Every pair of uprights of a door's
+/// width with a level line of a door's height over both is weighed in both images (WeighDoor); the best are
+/// doors. The position is metric by stereo. Nothing is remembered from look to look.
+std::vector<DetectedDoor> DetectDoors(const CameraView& left, const CameraView& right,
+                                      const DoorDetectionOptions& options);
+
+}  // namespace priamos::head

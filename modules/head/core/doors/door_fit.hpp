@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "head/core/doors/door_evidence.hpp"
+
+namespace priamos::head {
+
+/// Which image lines are a door's: indices in CameraView::lines, -1 where a camera does not see an edge.
+/// First index: camera.
+struct DoorLines {
+  std::array<std::array<int, 2>, 2> uprights{{{-1, -1}, {-1, -1}}};  ///< left, right
+  std::array<int, 2> lintel{-1, -1};
+};
+
+struct DoorFit {
+  DoorShape shape;
+  /// Of left x, y, right x, y [m^2] and height.
+  Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
+  double chi2 = 0;
+  int freedom = 0;  ///< observations beyond the five unknowns
+};
+
+/// Two uprights and a level lintel between them that explain all lines best, in both images at once: least
+/// squares from `start`. `sigma_px` is what edges of doors deviate from that, beyond their own noise.
+/// nullopt if the lines do not determine them, or lead far away from the start.
+std::optional<DoorFit> FitDoor(const std::array<const CameraView*, 2>& views, const DoorLines& lines,
+                               const DoorShape& start, double sigma_px);
+
+}  // namespace priamos::head

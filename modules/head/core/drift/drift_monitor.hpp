@@ -1,0 +1,57 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "common/config.hpp"
+#include "head/core/drift/stereo_drift.hpp"
+
+namespace priamos::head {
+
+/// When the cameras are no longer believed to be where the calibration says.
+struct DriftConfig {
+  int looks = 3;                       ///< whose median is judged, an odd number; fewer are not
+  double false_alarm = 1e-4;           ///< at most, of a judgement
+  double calibration_sigma_px = 0.06;  ///< of each camera when nothing has moved
+
+  void Describe(Archive& a);
+};
+
+/// What is wrong.
+struct DriftAlarm {
+  StereoDrift drift;      ///< as the median look has it
+  int axis = 0;           ///< of the right camera, about which the turn is most improbable: x, y, z
+  double deviations = 0;  ///< by so many standard deviations
+
+  /// One sentence that fits into HEALTH.
+  std::string ToText() const;
+};
+
+/// Judges, for each axis, the median of the last looks' deviations: one look that went wrong raises no alarm.
+/// What makes looks differ from the truth (a landmark that is not quite as modelled, the table between its
+/// nodes) is much the same in all of them, so looks do not add up. The rate of false alarms is at most
+/// `false_alarm` for each judgement whatever the looks have in common: if the median exceeds a limit, so does
+/// more than half of the looks, which is at most twice as probable as that one of them does (Markov); three
+/// axes and two sides make it twelve times.
+class DriftMonitor {
+ public:
+  explicit DriftMonitor(const DriftConfig& config);
+
+  void Add(const StereoDrift& drift);
+  /// nullopt while all is well or too few looks are known.
+  std::optional<DriftAlarm> alarm() const { return alarm_; }
+  /// So many standard deviations are an alarm.
+  double limit() const { return limit_; }
+
+ private:
+  DriftConfig config_;
+  double limit_;
+  std::deque<StereoDrift> looks_;
+  std::optional<DriftAlarm> alarm_;
+};
+
+/// The x that a standard normal variable exceeds with this probability, 1e-12 to 0.5.
+double NormalQuantile(double exceeded_with);
+
+}  // namespace priamos::head

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "head/core/drift/stereo_drift.hpp"
+#include "head/core/stereo/edge_stereo.hpp"
+
+namespace priamos::head {
+
+/// How far the ends of matched edges lie below the epipolar lines of their partners, in the right image.
+struct EpipolarShift {
+  double down_px = 0, sigma_px = 0;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< middle of the ends that count [undistorted px]
+  int n = 0;                                     ///< so many ends
+};
+
+struct EpipolarShiftOptions {
+  double min_epipolar_rad = 0.7;  ///< flatter edges have ends that slide along the epipolar lines
+  double reach_px = 6;            ///< ends farther off say nothing
+  double core_px = 1.2;           ///< half width of the crowd that counts
+  int min_ends = 12;              ///< in the crowd
+  double min_share = 0.35;        ///< of all within reach
+  double floor_px = 0.12;         ///< of the crowd's middle, however many there are
+};
+
+/// The plain epipolar residual of all matched edges, known landmark or not. More than half of the ends are no
+/// ends of anything (broken, hidden, cut by the image), so it is the crowd that counts: the densest place of
+/// the residuals, then Tukey's biweight around it. nullopt if there is no crowd.
+std::optional<EpipolarShift> MeasureEpipolarShift(const CameraView& left, const CameraView& right,
+                                                  std::span<const StereoMatch> matches,
+                                                  const EpipolarShiftOptions& options = {});
+
+/// Lets a shift speak with what the landmark said about the turn of the right camera.
+StereoDrift Fuse(const StereoDrift& drift, const EpipolarShift& shift, const CameraModel& right);
+
+/// Knows nothing yet, but that a camera which came loose rolls by fractions of a degree: for looks at which
+/// no landmark was found.
+StereoDrift UnknownDrift();
+
+}  // namespace priamos::head

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "head/core/edges/edge_blocks.hpp"
+
+namespace priamos::head {
+
+/// Where an edge lies beside the line along which it was measured.
+struct EdgeOffset {
+  KernelWidth width = KernelWidth::kWide;  ///< the kernels that it was found with
+  double centroid = 0;                     ///< row of the weighted mean
+  double offset = 0, slope = 0;            ///< from the line to the edge; the offset holds at the centroid
+  double variance_offset = 0, variance_slope = 0;
+  double kappa = 1;  ///< imbalance per strength and pixel of shift
+
+  /// How far the ends of a line move that reaches `half` to both sides [px].
+  double Move(double half) const { return std::abs(offset) + std::abs(slope) * half; }
+};
+
+/// The straight line through the blocks of an edge: weighted least squares, in which blocks that disagree
+/// lose weight. All of it runs over four blocks at a time.
+class EdgeFitter {
+ public:
+  /// `blocks` were measured along `line`, in an image whose pixels have noise of `noise_sigma`.
+  void Load(const EdgeBlocks& blocks, const AxisLine& line, double noise_sigma);
+  /// One round without doubts, more with. False if the blocks do not tell.
+  bool Solve(KernelWidth width, int rounds, EdgeOffset& fit);
+  /// From the noise, enlarged where the blocks scatter more than that explains.
+  void AddVariance(EdgeOffset& fit) const;
+
+  /// Variance that the pixels' noise gives the second derivative of a row.
+  double noise(KernelWidth width) const { return noise_[int(width)]; }
+  /// Of the last solution: how far beside the line block `i` saw the edge [px], and what that counted.
+  float shift(std::size_t i) const { return shifts_[i]; }
+  float weight(std::size_t i) const { return weights_[i]; }
+
+ private:
+  double Kappa(KernelWidth width) const;
+  void SetWeights(const EdgeOffset& fit);
+  bool FitLine(EdgeOffset& fit) const;
+  bool Reweight(const EdgeOffset& fit);
+
+  using Numbers = std::array<float, EdgeBlocks::kMaxBlocks + 4>;
+  EdgeSums total_;
+  double noise_[2] = {0, 0}, narrower_by_ = 0;  ///< of the two kernels' variances [px^2]
+  float begin_ = 0;                             ///< row that along_ counts from
+  int n_ = 0, padded_ = 0;  ///< blocks; the same with what fills up the last four, which weighs nothing
+  alignas(16) Numbers along_, rows_, strengths_, inverses_, imbalances_[2];  ///< imbalance per strength
+  alignas(16) Numbers shifts_, base_, weights_;  ///< weights before and after doubts
+  alignas(16) Numbers misfits_, allowed_;
+};
+
+}  // namespace priamos::head

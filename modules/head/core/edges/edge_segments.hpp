@@ -1,0 +1,50 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <utility>
+#include <vector>
+
+#include "head/core/edges/chain_split.hpp"
+#include "head/core/edges/edge_chains.hpp"
+#include "head/core/edges/edge_refit.hpp"
+#include "head/core/edges/edge_segment.hpp"
+#include "head/core/edges/gradient_map.hpp"
+#include "head/core/edges/segment_fusion.hpp"
+#include "head/core/edges/segment_map.hpp"
+
+namespace priamos::head {
+
+/// The edge operator: Sobel gradients, linked pixels, straight pieces, sub-pixel refit, fusion of broken
+/// edges. Keeps its buffers, so one object per thread and camera size is fast.
+class EdgeOperator {
+ public:
+  struct Options {
+    double min_contrast = 10;   ///< weakest edge of a quiet image [grey values]
+    double noise_factor = 3.0;  ///< a pixel is linked above so many standard deviations of the gradient
+    double min_length_px = 12;  ///< shortest segment
+    ChainSplitter::Options split;
+    EdgeRefiner::Options refit;
+    bool fuse = true;  ///< join what is broken (section 4.1)
+    FusionOptions fusion;
+  };
+
+  EdgeOperator() = default;
+  explicit EdgeOperator(const Options& options) : options_(options) {}
+
+  /// `image` is CV_8UC1, at least 32x32, else std::invalid_argument.
+  void Extract(const cv::Mat& image, EdgeImage& out);
+
+ private:
+  Options options_;
+  GradientMap gradients_;
+  ChainTracer tracer_;
+  ChainSplitter splitter_;
+  EdgeRefiner refiner_;
+  SegmentMap found_;
+
+  EdgeChains chains_;
+  std::vector<RoughLine> rough_;
+  std::vector<std::pair<float, int>> order_;
+};
+
+}  // namespace priamos::head

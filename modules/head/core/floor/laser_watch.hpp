@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/config.hpp"
+#include "common/time.hpp"
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/camera/frame_notice.hpp"
+#include "head/core/camera/laser_plane.hpp"
+#include "head/core/floor/obstacle_lines.hpp"
+
+namespace priamos::head {
+
+/// When the third camera watches the laser's line.
+struct LaserWatchConfig {
+  double rate_hz = 0;    ///< pictures of the line; 0: none, the head stays where it was
+  double tilt_deg = 36;  ///< of the head meanwhile: the line must be in the third camera's picture
+  double idle_s = 1;     ///< so long after a look, or an operator's hand, the head turns down
+  ObstacleOptions obstacle;
+
+  void Describe(Archive& a);
+};
+
+/// The course of watching: the head turns down when nobody else needs it, pictures are taken while it rests
+/// there. Whoever else wants the head has it at once.
+class LaserWatch {
+ public:
+  explicit LaserWatch(const LaserWatchConfig& config) : config_(config) {}
+
+  enum class Action { kWait, kLower, kTrigger };
+  /// `needed`: a look, or an operator's hand, moves the head; `sees`: it rests where the camera sees the
+  /// line. kLower means: turn it down; kTrigger: expose the third camera with the laser on, as frame_id().
+  Action Step(bool needed, bool sees, Time now);
+  /// Whether this is the picture that was asked for last; once.
+  bool Takes(const FrameNotice& frame);
+  std::int32_t frame_id() const { return frame_id_; }
+
+ private:
+  LaserWatchConfig config_;
+  std::optional<Time> idle_since_, lowered_, triggered_;
+  std::int32_t frame_id_ = 0;
+  bool waiting_ = false;
+};
+
+/// Whether the camera shows the middle of the line on a level floor, well inside its picture.
+bool SeesLine(const CameraModel& camera, const LaserPlane& laser, int width, int height);
+
+}  // namespace priamos::head

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/frame_store.hpp"
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/camera/laser_plane.hpp"
+#include "head/core/floor/laser_stripe.hpp"
+
+namespace priamos::head {
+
+/// How a floor may lie in the base frame, 1 sigma each: a robot nods and heels on its wheels.
+struct FloorTolerance {
+  double heave_m = 0.002;  ///< up and down below the robot, joints and ramps included
+  double pitch_rad = 0.002, roll_rad = 0.002;
+  double rough_m = 0.001;   ///< of the surface, from place to place
+  double camera_px = 0.15;  ///< how well the third camera is calibrated and its motors return
+
+  void Describe(Archive& a);
+};
+
+struct ObstacleOptions {
+  FloorTolerance floor;
+  double min_height_m = 0.015;              ///< what is lower is driven over
+  double lowest_m = -0.5, highest_m = 0.5;  ///< what is looked for, against the floor
+  double significance = 5;                  ///< sigmas of the height that an obstacle needs
+  int min_columns = 12;                     ///< of the picture
+  int min_missing = 40;                     ///< columns without a line that are told
+  double min_seen = 0.3;  ///< share of the columns: with less nothing is said about the floor
+
+  void Describe(Archive& a);
+};
+
+/// A straight piece of the laser's line that is not on the floor, in the base frame; the kinds are those of
+/// obstacle_segment_t.
+struct ObstaclePiece {
+  enum Kind {
+    kUp = 0,      ///< something stands there
+    kDown = 1,    ///< the floor drops
+    kMissing = 2  ///< no line; the ends are where the floor would show it
+  };
+  Kind kind = kUp;
+  Eigen::Vector3d right, left;              ///< ends [m]
+  double height_m = 0, sigma_height_m = 0;  ///< mean over the piece, above the floor
+};
+
+/// What one picture of the line says; the verdicts are those of obstacle_line_t.
+struct ObstacleLines {
+  enum Verdict { kClear = 0, kObstacle = 1, kBlind = 2 };
+  Verdict verdict = kBlind;
+  double seen_share = 0;              ///< columns with a line
+  std::vector<ObstaclePiece> pieces;  ///< from right to left
+  /// The floor, as it lay: z = floor.dot(1, x, y) in the base frame, and the covariance of these numbers.
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d floor_covariance = Eigen::Matrix3d::Zero();
+};
+
+/// Obstacles from the points of the line: every point is met with the plane of the light; the floor is the
+/// plane that explains most of the points within its tolerance (as a robust maximum a posteriori); what
+/// stands out from it over several neighbouring columns, by more than all errors together allow, is an
+/// obstacle. `width` is that of the picture [px].
+ObstacleLines FindObstacles(std::span<const StripePoint> points, int width, const CameraModel& camera,
+                            const LaserPlane& laser, const ObstacleOptions& options);
+
+/// From the picture. Only rows in which the line can lie are looked at.
+class ObstacleFinder {
+ public:
+  explicit ObstacleFinder(const ObstacleOptions& options = {}, const StripeOptions& stripe = {})
+      : options_(options), stripe_(stripe) {}
+  ObstacleLines Find(const GreyImage& picture, const CameraModel& camera, const LaserPlane& laser);
+
+ private:
+  ObstacleOptions options_;
+  StripeFinder stripe_;
+  GreyImage band_;
+};
+
+/// Rows of a picture in which the line can lie, for floors between lowest and highest; first > last: none,
+/// the camera does not look there.
+struct RowRange {
+  int first = 0, last = -1;
+};
+RowRange LineRows(const CameraModel& camera, const LaserPlane& laser, int width, int height,
+                  const ObstacleOptions& options);
+
+}  // namespace priamos::head

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/landmark/landmark.hpp"
+
+namespace priamos::head {
+
+/// A point of the image that lies on an edge of the model.
+struct EdgeObservation {
+  int edge = 0, camera = 0;
+  Eigen::Vector2d at;   ///< undistorted [px]
+  double sigma_px = 0;  ///< across the edge
+};
+
+/// All points of one model edge in one image, as what they say: a straight line, known at two places that are
+/// independent of each other (at one place if the points lie in one).
+struct ObservedLine {
+  int edge = 0, camera = 0, n = 2;
+  Eigen::Vector2d at[2];  ///< on the line that fits the points best [px]
+  double sigma_px = 0;    ///< across the line, at each place
+};
+
+/// Fits the lines; observations of one line must follow each other.
+std::vector<ObservedLine> ObservedLines(std::span<const EdgeObservation> observations);
+
+/// How far a point of the image lies beside a model edge, and what would change that.
+struct EdgeSight {
+  int edge = 0, camera = 0;
+  double distance_px = 0;
+  double variance = 0;                  ///< of the measurement [px^2]
+  Eigen::Matrix<double, 1, 6> by_pose;  ///< per (x, y, z, roll, pitch, yaw) as in PoseJacobian
+  Eigen::Matrix<double, 1, 6> by_base;  ///< per motion of space about the origin of base
+  Eigen::Vector4d by_camera;  ///< per shift (u, v), roll and scale of the image, in px at kCameraLeverPx
+  Eigen::Vector3d across;     ///< per shift of the model edge; its part along the edge is nought
+  double lever = 0;           ///< place on the model edge: -1 at one end, 1 at the other
+};
+
+inline constexpr double kCameraLeverPx =
+    300;  ///< roll and scale are counted in pixels that far from the centre
+
+/// The model edge as seen at `base_from_landmark`, from the image point `at`; nullopt if it lies behind the
+/// camera or is seen end-on.
+std::optional<EdgeSight> See(const CameraModel& camera, const Eigen::Isometry3d& base_from_landmark,
+                             const LandmarkEdge& edge, const Eigen::Vector2d& at);
+
+}  // namespace priamos::head

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "head/core/landmark/landmark.hpp"
+
+namespace priamos::head {
+
+/// Where two edges of a skeleton meet, each by one of its ends.
+struct Meeting {
+  bool a_at_from = false, b_at_from = false;  ///< the end that it is: LandmarkEdge::from, else ::to
+};
+
+/// Whether two edges end in the same corner: nearer to each other than `reach_m` (on the radio a coordinate
+/// is a multiple of 2 mm, and a model has its tolerance) and not along one line.
+std::optional<Meeting> MeetingOf(const LandmarkEdge& a, const LandmarkEdge& b, double reach_m = 0.01);
+
+/// Two neighbours in a skeleton and their corner.
+struct LandmarkCorner {
+  int a = 0, b = 0;  ///< indices in LandmarkModel::edges, a < b
+  Meeting meeting;
+};
+
+/// All corners of a model. They are attributes of its edges (paper, section 6.1) that its geometry tells:
+/// nobody has to send them.
+std::vector<LandmarkCorner> CornersOf(const LandmarkModel& model);
+
+}  // namespace priamos::head

@@ -1,0 +1,248 @@
+#include "head/core/landmark/landmark_fix.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "head/core/landmark/edge_observations.hpp"
+#include "head/core/landmark/prediction.hpp"
+
+namespace priamos::head {
+namespace {
+
+/// From a proposal to the result the prediction gets sharper, and with it the gate.
+constexpr AssociationOptions kProposed{2.0, 5.0, 0.06, 0.85, 40, 0.15};
+constexpr AssociationOptions kApproached{1.0, 3.0, 0.04, 0.85, 40, 0.15};
+constexpr AssociationOptions kRefined{0.5, 1.6, 0.03, 0.85, 40, 0.15};
+constexpr int kRefineBest = 8;
+
+std::vector<int> VisibleAt(const LandmarkModel& model, const Pose2& base_from_landmark,
+                           double margin_rad = 0) {
+  const Eigen::Vector2d viewer = base_from_landmark.Inverse().translation();
+  std::vector<int> visible;
+  for (std::size_t i = 0; i < model.edges.size(); ++i) {
+    if (model.edges[i].IsSeenFrom(viewer, margin_rad)) visible.push_back(static_cast<int>(i));
+  }
+  return visible;
+}
+
+Pose2 Flatten(const Eigen::Isometry3d& t) {
+  return {t.translation().x(), t.translation().y(), std::atan2(t.linear()(1, 0), t.linear()(0, 0))};
+}
+
+Eigen::Matrix3d OnFloor(const Eigen::Matrix<double, 6, 6>& covariance) {
+  constexpr std::array<int, 3> kAxes{0, 1, 5};
+  Eigen::Matrix3d floor;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) floor(r, c) = covariance(kAxes[r], kAxes[c]);
+  }
+  return floor;
+}
+
+/// So near that refinement leads to the same place.
+bool IsSame(const Pose2& a, const Pose2& b) {
+  return (a.translation() - b.translation()).norm() < 0.004 && std::abs(WrapAngle(a.yaw - b.yaw)) < 0.002;
+}
+
+std::vector<const CameraModel*> Cameras(std::span<const CameraView> views) {
+  std::vector<const CameraModel*> cameras;
+  for (const CameraView& view : views) cameras.push_back(view.camera);
+  return cameras;
+}
+
+bool IsDistinct(const Pose2& a, const Pose2& b, const LandmarkFixOptions& options) {
+  return (a.translation() - b.translation()).norm() > options.distinct_m ||
+         std::abs(WrapAngle(a.yaw - b.yaw)) > options.distinct_rad;
+}
+
+}  // namespace
+
+struct LandmarkFinder::Pose {
+  Pose2 base_from_landmark;
+  Association association;
+  PoseSolution solution;
+  double rival_log_odds = -1e9;
+};
+
+const char* Describe(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kFound:
+      return "found";
+    case Verdict::kNoModel:
+      return "no model of this landmark";
+    case Verdict::kNoPose:
+      return "the robot has no pose for the time of the picture";
+    case Verdict::kNoImage:
+      return "no usable image";
+    case Verdict::kNotVisible:
+      return "too few of its edges can be in the picture";
+    case Verdict::kTooFewEdges:
+      return "too few of its edges were found";
+    case Verdict::kAmbiguous:
+      return "two poses explain the picture equally well";
+    case Verdict::kResidualTooLarge:
+      return "the model does not fit";
+    case Verdict::kElsewhere:
+      return "it is not where it was expected";
+  }
+  return "unknown";
+}
+
+std::string_view WhyBlind(const EdgeImage& edges) {
+  if (edges.width < 64 || edges.height < 64) return "too small";
+  if (edges.mean_grey < 4) return "black";
+  if (edges.saturated_share > 0.6) return "black or white all over";
+  if (edges.segments.size() < 2) return "without edges";
+  return {};
+}
+
+bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const CameraView> views,
+                              const AssociationOptions& gate, bool coarse, Pose& pose) const {
+  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+  pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, gate);
+  const auto observations = Observations(model, pose.association, views, at, coarse);
+  PoseSolverOptions solver = options_.solver;
+  solver.find_suspect = false;
+  pose.solution = SolvePose(model, Cameras(views), observations, at, solver);
+  if (pose.solution.ok) pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
+  return pose.solution.ok;
+}
+
+/// From a pose that was approached once.
+void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const {
+  if (!Approach(model, views, kApproached, true, pose) || !Approach(model, views, kRefined, false, pose))
+    return;
+  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+  pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
+  DropStrangers(model, views, pose);
+}
+
+/// Many proposals lead to the same pose: each is refined only once.
+std::vector<LandmarkFinder::Pose> LandmarkFinder::RefineAll(const LandmarkModel& model,
+                                                            std::span<const CameraView> views,
+                                                            std::span<const Pose2> starts) const {
+  std::vector<Pose> approached, refined;
+  for (const Pose2& start : starts) {
+    Pose pose;
+    pose.base_from_landmark = start;
+    if (!Approach(model, views, kProposed, true, pose)) continue;
+    const bool known = std::any_of(approached.begin(), approached.end(), [&](const Pose& other) {
+      return IsSame(other.base_from_landmark, pose.base_from_landmark);
+    });
+    if (known) continue;
+    approached.push_back(pose);
+    Refine(model, views, pose);
+    if (pose.solution.ok) refined.push_back(std::move(pose));
+  }
+  return refined;
+}
+
+/// An image edge beside the right one can lie within the gate; it shows when all others agree on the pose.
+void LandmarkFinder::DropStrangers(const LandmarkModel& model, std::span<const CameraView> views,
+                                   Pose& pose) const {
+  for (int dropped = 0;; ++dropped) {
+    const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+    const auto observations = Observations(model, pose.association, views, at, false);
+    pose.solution = SolvePose(model, Cameras(views), observations, at, options_.solver);
+    if (!pose.solution.ok) return;
+    pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
+    const EdgeSuspect& suspect = pose.solution.suspect;
+    if (suspect.misfit < options_.stranger_misfit || dropped == options_.max_strangers) return;
+    pose.association.Withdraw(model, suspect.edge, suspect.camera);
+    if (pose.association.matches.size() < std::size_t(options_.min_matched)) return;
+  }
+}
+
+Eigen::Matrix3d LandmarkFixOptions::SearchCovariance(const LandmarkPrediction& prediction) const {
+  Eigen::Matrix3d search = prediction.covariance;
+  for (int k = 0; k < 3; ++k) search(k, k) += std::pow(k < 2 ? min_sigma_m : min_sigma_rad, 2);
+  return search;
+}
+
+LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                                 const CameraModel& left, const CameraModel& right,
+                                 const EdgeImage& left_edges, const EdgeImage& right_edges) const {
+  LandmarkFix fix;
+  if (model.edges.empty()) return fix.verdict = Verdict::kNoModel, fix;
+  if (IsBlind(left_edges) || IsBlind(right_edges)) return fix;
+  const Eigen::Matrix3d search = options_.SearchCovariance(prediction);
+  const auto n_predicted =
+      PredictEdges(model, prediction.base_from_landmark, search, left, {left_edges.width, left_edges.height})
+          .size() +
+      PredictEdges(model, prediction.base_from_landmark, search, right,
+                   {right_edges.width, right_edges.height})
+          .size();
+  if (n_predicted < std::size_t(options_.min_predicted)) return fix.verdict = Verdict::kNotVisible, fix;
+
+  const std::array<CameraView, 2> views{MakeView(left, left_edges), MakeView(right, right_edges)};
+  const auto verticals = MatchVerticals(views[0], views[1], options_.stereo);
+  ProposalOptions proposal_options = options_.proposals;
+  proposal_options.gate = options_.gate_elsewhere;
+  const double margin = 3 * std::sqrt(search(2, 2)) + 0.1;
+  const Proposals proposals =
+      ProposePoses(model, VisibleAt(model, prediction.base_from_landmark, margin), verticals,
+                   prediction.base_from_landmark, search, proposal_options);
+
+  std::vector<std::pair<double, Pose2>> judged;
+  for (const PoseProposal& p : proposals.poses) {
+    const auto visible = VisibleAt(model, p.base_from_landmark);
+    const auto a = Associate(model, visible, views, Lift(p.base_from_landmark), kProposed);
+    judged.emplace_back(a.log_odds, p.base_from_landmark);
+  }
+  std::stable_sort(judged.begin(), judged.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (judged.size() > kRefineBest) judged.resize(kRefineBest);
+
+  std::vector<Pose2> starts;
+  for (const auto& [odds, start] : judged) starts.push_back(start);
+  std::vector<Pose> poses = RefineAll(model, views, starts);
+  fix.verdict = Verdict::kTooFewEdges;
+  if (poses.empty()) return fix;
+  const auto best = std::max_element(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) {
+    return a.association.log_odds < b.association.log_odds;
+  });
+  for (const Pose& p : poses) {
+    if (IsDistinct(p.base_from_landmark, best->base_from_landmark, options_)) {
+      best->rival_log_odds = std::max(best->rival_log_odds, p.association.log_odds);
+    }
+  }
+  Judge(prediction, search, static_cast<int>(proposals.poses.size()), *best, fix);
+  return fix;
+}
+
+void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
+                           const Pose& best, LandmarkFix& fix) const {
+  fix.base_from_landmark = best.base_from_landmark;
+  fix.covariance = OnFloor(best.solution.covariance);
+  fix.own_share = best.solution.own_share;
+  fix.n_matched = static_cast<int>(best.association.matches.size());
+  fix.residual_px = best.solution.rms_px;
+  fix.misfit = best.solution.misfit;
+  fix.matches = best.association.matches;
+  fix.log_odds = best.association.log_odds, fix.rival_log_odds = best.rival_log_odds;
+  const double left = best.association.side_predicted_px[1], right = best.association.side_predicted_px[2];
+  const double found_left = best.association.side_found_px[1],
+               found_right = best.association.side_found_px[2];
+  const bool one_sided = (left == 0) != (right == 0);
+  if (left > 0) fix.side_share = std::min(fix.side_share, found_left / left);
+  if (right > 0) fix.side_share = std::min(fix.side_share, found_right / right);
+  const bool side_missing = fix.side_share < options_.min_side_share;
+  const double wanted =
+      options_.min_log_odds + std::log(std::max(n_tested, 1)) + (one_sided ? options_.one_sided_log_odds : 0);
+  if (fix.n_matched < options_.min_matched || fix.log_odds < wanted || side_missing ||
+      fix.log_odds < options_.min_share * best.association.best_log_odds) {
+    fix.verdict = Verdict::kTooFewEdges;
+  } else if (fix.rival_log_odds > fix.log_odds - options_.min_lead) {
+    fix.verdict = Verdict::kAmbiguous;
+  } else if (fix.residual_px > options_.max_residual_px || fix.misfit > options_.max_misfit) {
+    fix.verdict = Verdict::kResidualTooLarge;
+  } else if (SquaredDistance(fix.base_from_landmark, prediction.base_from_landmark, search) >
+             options_.gate * options_.gate) {
+    fix.verdict = Verdict::kElsewhere;
+  } else {
+    fix.verdict = Verdict::kFound;
+  }
+}
+
+}  // namespace priamos::head

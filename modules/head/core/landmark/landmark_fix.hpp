@@ -1,0 +1,115 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/edges/edge_segment.hpp"
+#include "head/core/landmark/edge_association.hpp"
+#include "head/core/landmark/landmark.hpp"
+#include "head/core/landmark/pose_proposals.hpp"
+#include "head/core/landmark/pose_solver.hpp"
+#include "head/core/stereo/vertical_stereo.hpp"
+
+namespace priamos::head {
+
+/// Outcome of a look; the values are those of landmark_fix_t.
+enum class Verdict {
+  kFound = 0,
+  kNoModel = 1,
+  kNoPose = 2,
+  kNoImage = 3,           ///< none, or black, saturated, of the wrong size
+  kNotVisible = 4,        ///< the prediction has too few edges in the images
+  kTooFewEdges = 5,       ///< too few of them were found
+  kAmbiguous = 6,         ///< two different poses explain the images about equally well
+  kResidualTooLarge = 7,  ///< found, but the model does not fit well enough
+  kElsewhere = 8          ///< found where the prediction and its covariance exclude it
+};
+
+/// In words, for logs and operators.
+const char* Describe(Verdict verdict);
+
+/// Where the robot believes the landmark to be: the prior of the search, not of the result.
+struct LandmarkPrediction {
+  Pose2 base_from_landmark;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
+};
+
+/// The landmark as reconstructed from one stereo pair.
+struct LandmarkFix {
+  Verdict verdict = Verdict::kNoImage;
+  Pose2 base_from_landmark;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
+  double own_share = 0;                                  ///< of the covariance: PoseSolution
+  int n_matched = 0;                                     ///< model edges found, all images together
+  double residual_px = 0;                                ///< RMS distance of the matched edges from the model
+  double misfit = 0;                                     ///< PoseSolution::misfit
+  double side_share = 1;                                 ///< found of what the weaker side should show
+  double log_odds = 0;                                   ///< landmark there against clutter only
+  double rival_log_odds = 0;                             ///< the same of the best different pose
+  std::vector<EdgeMatch> matches;
+};
+
+struct LandmarkFixOptions {
+  double min_sigma_m = 0.02, min_sigma_rad = 0.01;  ///< the search is never narrower than that
+  double gate = 4;               ///< Mahalanobis distance from the prediction, 3 degrees of freedom
+  double gate_elsewhere = 7;     ///< so far out it is still looked for, to be refused
+  int min_predicted = 4;         ///< edges that must be predicted, all images together
+  int min_matched = 6;           ///< edges that must be found, all images together
+  double min_log_odds = 7;       ///< beyond the logarithm of the number of chances
+  double min_share = 0.5;        ///< of the log odds that a complete landmark would give
+  double min_side_share = 0.45;  ///< of what either side of the landmark should show, found
+  double one_sided_log_odds =
+      5;                ///< wanted in addition if only one side is in view: it could be another landmark's
+  double min_lead = 6;  ///< over the best different pose
+  double max_residual_px = 1.2;
+  double max_misfit = 3;
+  double stranger_misfit = 6;  ///< an edge that fits worse (chi squared per degree of freedom: 0.01 to 0.2 %
+                               ///< of the right ones) is not the model's
+  int max_strangers = 3;       ///< so many may be taken out
+  double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
+  VerticalStereoOptions stereo;
+  ProposalOptions proposals;
+  PoseSolverOptions solver;
+
+  /// Of the prediction, as wide as it is searched.
+  Eigen::Matrix3d SearchCovariance(const LandmarkPrediction& prediction) const;
+};
+
+/// Finds the landmark in one stereo pair: vertical edges are reconstructed, pairs of them laid onto pairs of
+/// the model's edges wherever the prediction allows it, every pose proposed is judged by all edges in both
+/// images, and the best one refined over all their points. It answers FOUND only if the images speak for it
+/// far beyond chance and for no other pose; the estimate then depends on the images alone, not on the
+/// prediction.
+class LandmarkFinder {
+ public:
+  explicit LandmarkFinder(const LandmarkFixOptions& options) : options_(options) {}
+
+  /// `side` 0 uses all edges, 1 or 2 only needs that side to be in view.
+  LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction, const CameraModel& left,
+                   const CameraModel& right, const EdgeImage& left_edges, const EdgeImage& right_edges) const;
+
+ private:
+  struct Pose;
+  bool Approach(const LandmarkModel& model, std::span<const CameraView> views, const AssociationOptions& gate,
+                bool coarse, Pose& pose) const;
+  void Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  std::vector<Pose> RefineAll(const LandmarkModel& model, std::span<const CameraView> views,
+                              std::span<const Pose2> starts) const;
+  void DropStrangers(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
+             const Pose& best, LandmarkFix& fix) const;
+
+  LandmarkFixOptions options_;
+};
+
+/// Why nothing can be seen in the image: too small, black or white all over, without contrast; empty if it is
+/// of use.
+std::string_view WhyBlind(const EdgeImage& edges);
+inline bool IsBlind(const EdgeImage& edges) {
+  return !WhyBlind(edges).empty();
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "head/core/landmark/landmark_fix.hpp"
+#include "head/core/stereo/view_line.hpp"
+
+namespace priamos::head {
+
+/// One edge of a picture as an operator sees it; the kinds are those of view_edge_t.
+struct ViewedEdge {
+  enum Kind {
+    kPredicted = 0,  ///< where the robot's pose puts an edge of the model
+    kMatched = 1,    ///< seen, and taken for an edge of the model
+    kRejected = 2    ///< seen where an edge of the model might be, and not taken for it
+  };
+  Kind kind = kPredicted;
+  Eigen::Vector2d p, q;  ///< ends [undistorted px]
+};
+
+/// What was seen of a landmark in one picture.
+struct LandmarkView {
+  int camera = 0;                 ///< 0 left, 1 right
+  std::vector<ViewedEdge> edges;  ///< by kind; rejected ones by weight
+  int n_left_out = 0;             ///< rejected edges beyond LandmarkViewOptions::max_rejected
+};
+
+struct LandmarkViewOptions {
+  int max_rejected = 14;     ///< more would fill the picture, and the radio
+  double search_sigmas = 3;  ///< half width of the strip beside a prediction
+  double beside_px = 4;      ///< and what it is wider for the edge operator and the model
+  double max_angle_rad = 0.15;
+};
+
+/// The picture that tells more about the verdict: the left one of a landmark that was found, else the one
+/// with fewer matches.
+int TellingCamera(const LandmarkFix& fix);
+
+/// Predicted, matched and rejected edges of the picture `fix.matches` calls `camera`. Rejected are edges in
+/// the strip that the covariance of the prediction lays about a predicted edge; those beside the pose that
+/// was fitted weigh double. `prediction` is what the finder was given.
+LandmarkView ViewLandmark(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                          const LandmarkFix& fix, const CameraView& picture, int camera,
+                          const LandmarkViewOptions& options = {});
+
+}  // namespace priamos::head

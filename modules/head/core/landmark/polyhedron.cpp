@@ -1,0 +1,190 @@
+#include "head/core/landmark/polyhedron.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace priamos::head {
+namespace {
+
+constexpr int kSamples = 128;      ///< along an edge, to find where it is hidden
+constexpr double kGrazing = 0.02;  ///< sine of the angle under which a face is no longer seen
+constexpr double kTouching =
+    1e-4;  ///< share of the way to the eye: a face that the edge lies on hides nothing
+
+/// A face with its plane, and its corners in that plane.
+struct Face {
+  Eigen::Vector3d origin, normal, u, v;
+  std::vector<Eigen::Vector2d> corners;
+  double size = 0;
+};
+
+/// Newell's normal: exact for flat polygons, the best one for others.
+Eigen::Vector3d NormalOf(const Polyhedron& body, const std::vector<int>& face) {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    const Eigen::Vector3d &a = body.points[face[i]], &b = body.points[face[(i + 1) % face.size()]];
+    normal += a.cross(b);
+  }
+  return normal.normalized();
+}
+
+Face MakeFace(const Polyhedron& body, const std::vector<int>& corners) {
+  Face face;
+  face.origin = body.points[corners[0]];
+  face.normal = NormalOf(body, corners);
+  face.u = face.normal.unitOrthogonal(), face.v = face.normal.cross(face.u);
+  for (const int c : corners) {
+    const Eigen::Vector3d d = body.points[c] - face.origin;
+    face.corners.emplace_back(face.u.dot(d), face.v.dot(d));
+    face.size = std::max(face.size, d.norm());
+  }
+  return face;
+}
+
+/// Even-odd rule.
+bool Contains(const Face& face, const Eigen::Vector2d& p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = face.corners.size() - 1; i < face.corners.size(); j = i++) {
+    const Eigen::Vector2d &a = face.corners[i], &b = face.corners[j];
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
+      inside = !inside;
+  }
+  return inside;
+}
+
+bool Looks(const Face& face, const Eigen::Vector3d& eye) {
+  const Eigen::Vector3d way = eye - face.origin;
+  return face.normal.dot(way) > kGrazing * way.norm();
+}
+
+/// True if the face lies between the point and the eye, not merely at the point.
+bool Hides(const Face& face, const Eigen::Vector3d& point, const Eigen::Vector3d& eye) {
+  const double at_point = face.normal.dot(point - face.origin), at_eye = face.normal.dot(eye - face.origin);
+  if (at_point * at_eye >= 0 || std::abs(at_point) < kTouching * std::abs(at_eye)) return false;
+  const double share = at_point / (at_point - at_eye);
+  const Eigen::Vector3d hit = point + share * (eye - point) - face.origin;
+  return Contains(face, {face.u.dot(hit), face.v.dot(hit)});
+}
+
+std::vector<Face> FacesOf(const Polyhedron& body) {
+  std::vector<Face> faces;
+  for (const auto& corners : body.faces) faces.push_back(MakeFace(body, corners));
+  return faces;
+}
+
+/// Every edge once, with the faces it borders.
+std::map<std::array<int, 2>, std::vector<int>> EdgesOf(const Polyhedron& body) {
+  std::map<std::array<int, 2>, std::vector<int>> edges;
+  for (const auto& [a, b] : body.lines) edges[{std::min(a, b), std::max(a, b)}];
+  for (std::size_t f = 0; f < body.faces.size(); ++f) {
+    const auto& corners = body.faces[f];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const int a = corners[i], b = corners[(i + 1) % corners.size()];
+      edges[{std::min(a, b), std::max(a, b)}].push_back(static_cast<int>(f));
+    }
+  }
+  return edges;
+}
+
+LandmarkEdge Everywhere(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return {from, to, -kPi, kPi, 0};
+}
+
+/// Whether the face's corners run from a to b, counter-clockwise from outside: it lies on their left hand.
+bool RunsFrom(const std::vector<int>& corners, int a, int b) {
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (corners[i] == a && corners[(i + 1) % corners.size()] == b) return true;
+  return false;
+}
+
+/// LandmarkEdge::grey_ratio of the edge from a to b between `borders`.
+std::optional<double> GreyRatio(const Polyhedron& body, const std::vector<Face>& faces,
+                                const std::vector<int>& borders, int a, int b, const Eigen::Vector3d& eye) {
+  if (body.greys.empty() || borders.size() != 2) return std::nullopt;
+  double left = 0, right = 0;
+  for (const int f : borders) {
+    if (!Looks(faces[f], eye)) return std::nullopt;
+    (RunsFrom(body.faces[f], a, b) ? left : right) = body.greys[f];
+  }
+  if (left <= 0 || right <= 0) return std::nullopt;
+  return std::log(right / left);
+}
+
+/// The parts of an edge that no face hides.
+void AddVisible(const std::vector<Face>& faces, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                std::optional<double> grey_ratio, const Eigen::Vector3d& eye, double min_m,
+                LandmarkModel& seen) {
+  const auto at = [&](int i) -> Eigen::Vector3d { return from + (to - from) * (double(i) / kSamples); };
+  int begin = -1;
+  for (int i = 0; i <= kSamples + 1; ++i) {
+    const bool visible = i <= kSamples && std::none_of(faces.begin(), faces.end(), [&](const Face& face) {
+                           return Hides(face, at(i), eye);
+                         });
+    if (visible && begin < 0) begin = i;
+    if (visible || begin < 0) continue;
+    const Eigen::Vector3d a = at(begin), b = at(i - 1);
+    if ((b - a).norm() >= min_m) {
+      seen.edges.push_back(Everywhere(a, b));
+      seen.edges.back().grey_ratio = grey_ratio;
+    }
+    begin = -1;
+  }
+}
+
+}  // namespace
+
+std::string WhyNoPolyhedron(const Polyhedron& body) {
+  const int n = static_cast<int>(body.points.size());
+  const auto known = [n](int i) { return i >= 0 && i < n; };
+  if (body.faces.empty() && body.lines.empty()) return "expected at least one face or line, got none";
+  for (int i = 0; i < n; ++i)
+    if (!body.points[i].allFinite()) return fmt::format("point {}: expected finite numbers", i);
+  for (const auto& line : body.lines)
+    for (const int i : line)
+      if (!known(i)) return fmt::format("a line: expected points 0 to {}, got {}", n - 1, i);
+  if (!body.greys.empty() && body.greys.size() != body.faces.size())
+    return fmt::format("expected greys of all {} faces, got {}", body.faces.size(), body.greys.size());
+  for (const double grey : body.greys)
+    if (!(grey >= 0 && grey <= 255)) return fmt::format("expected greys from 0 to 255, got {}", grey);
+  for (std::size_t f = 0; f < body.faces.size(); ++f) {
+    const auto& face = body.faces[f];
+    if (face.size() < 3) return fmt::format("face {}: expected 3 corners or more, got {}", f, face.size());
+    for (const int i : face)
+      if (!known(i)) return fmt::format("face {}: expected points 0 to {}, got {}", f, n - 1, i);
+    const Face plane = MakeFace(body, face);
+    if (!plane.normal.allFinite() || plane.normal.norm() < 0.5)
+      return fmt::format("face {}: expected corners that span a plane", f);
+    for (const int i : face)
+      if (std::abs(plane.normal.dot(body.points[i] - plane.origin)) > 0.05 * plane.size)
+        return fmt::format("face {}: expected corners in one plane, point {} is beside it", f, i);
+  }
+  return "";
+}
+
+LandmarkModel WholeSkeleton(const Polyhedron& body) {
+  LandmarkModel model;
+  for (const auto& [ends, faces] : EdgesOf(body))
+    model.edges.push_back(Everywhere(body.points[ends[0]], body.points[ends[1]]));
+  return model;
+}
+
+LandmarkModel VisibleSkeleton(const Polyhedron& body, const Eigen::Vector3d& eye_m, double min_m) {
+  const std::vector<Face> faces = FacesOf(body);
+  LandmarkModel seen;
+  for (const auto& [ends, borders] : EdgesOf(body)) {
+    const bool faces_it = borders.empty() || std::any_of(borders.begin(), borders.end(),
+                                                         [&](int f) { return Looks(faces[f], eye_m); });
+    if (faces_it)
+      AddVisible(faces, body.points[ends[0]], body.points[ends[1]],
+                 GreyRatio(body, faces, borders, ends[0], ends[1], eye_m), eye_m, min_m, seen);
+  }
+  return seen;
+}
+
+}  // namespace priamos::head

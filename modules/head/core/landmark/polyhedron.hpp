@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/outcome.hpp"
+#include "head/core/landmark/landmark.hpp"
+
+namespace priamos::head {
+
+/// A body of flat faces: a free landmark model, which knows by itself what is seen from where.
+struct Polyhedron {
+  std::vector<Eigen::Vector3d> points;  ///< landmark frame [m]
+  /// Corners of each face, counter-clockwise seen from outside; a face hides what lies behind it from both of
+  /// its sides, but its own edges are seen from outside only.
+  std::vector<std::vector<int>> faces;
+  /// Of each face how bright it is beside the others under even light; 0: not known. Empty: of none.
+  std::vector<double> greys;
+  std::vector<std::array<int, 2>>
+      lines;  ///< further edges, seen from everywhere unless a face is before them
+};
+
+/// Empty if the body makes sense, else what is wrong: a face of fewer than 3 corners or not flat to 1 % of
+/// its size, a number of a point that is not there, numbers that are not finite, nothing at all.
+std::string WhyNoPolyhedron(const Polyhedron& body);
+
+/// All edges, each once, with all faces taken away: for drawing and counting.
+LandmarkModel WholeSkeleton(const Polyhedron& body);
+
+/// What an eye at `eye_m` (landmark frame) sees of the edges: those of faces that look at it, cut where other
+/// faces are before them. Pieces shorter than `min_m` are left out. Between two faces that are
+/// both seen, and whose greys are known, the ratio of grey values is known; an outline has anything behind
+/// it.
+LandmarkModel VisibleSkeleton(const Polyhedron& body, const Eigen::Vector3d& eye_m, double min_m = 0.002);
+
+}  // namespace priamos::head

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <optional>
+
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "head/core/landmark/landmark_fix.hpp"
+
+namespace priamos::head {
+
+/// Where the robot believed to be at one moment.
+struct PoseSample {
+  Time time;
+  Pose2 map_from_base;
+  Twist2 twist;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw), map frame
+};
+
+/// The poses of the last seconds. The landmark is predicted for the time of the exposure, which has passed
+/// when the picture arrives.
+class PoseHistory {
+ public:
+  /// Poses older than the newest one, or of the same time, are ignored.
+  void Add(const PoseSample& sample);
+
+  /// The pose at `time`: between two samples, or up to `kReach` beyond the newest by its velocity; nullopt
+  /// elsewhere.
+  std::optional<PoseSample> At(Time time) const;
+
+  static constexpr Duration kLength = std::chrono::seconds(3);
+  static constexpr Duration kReach = std::chrono::milliseconds(300);
+
+ private:
+  std::deque<PoseSample> samples_;
+};
+
+/// The landmark as seen from the robot, with the uncertainty of the robot's pose turned into its frame.
+LandmarkPrediction Predict(const PoseSample& robot, const Pose2& map_from_landmark);
+
+}  // namespace priamos::head

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "head/core/landmark/landmark.hpp"
+#include "head/core/stereo/vertical_stereo.hpp"
+
+namespace priamos::head {
+
+/// A pose of the landmark in the base frame that puts two of its vertical edges onto reconstructed ones.
+struct PoseProposal {
+  Pose2 base_from_landmark;
+  int support = 1;  ///< proposals that agree with it
+};
+
+struct ProposalOptions {
+  double max_distance_error_m =
+      0.03;                  ///< of the two edges from each other, beyond 3 sigma of the reconstruction
+  double min_base_m = 0.05;  ///< two model edges nearer to each other give no direction
+  double gate = 4;           ///< Mahalanobis distance from the prediction, 3 degrees of freedom
+  double merge_m = 0.015, merge_rad = 0.01;
+  int max_proposals = 200;
+};
+
+struct Proposals {
+  std::vector<PoseProposal> poses;  ///< most supported first
+  int n_tested = 0;                 ///< pairs of pairs that fitted, before merging: the number of chances
+};
+
+/// Every way to lay two visible vertical edges of the model onto two reconstructed ones, as far as the
+/// prediction and its covariance of (x, y, yaw) allow it.
+Proposals ProposePoses(const LandmarkModel& model, std::span<const int> visible,
+                       std::span<const VerticalEdge> verticals, const Pose2& predicted,
+                       const Eigen::Matrix3d& covariance, const ProposalOptions& options);
+
+/// Squared Mahalanobis distance of two poses.
+double SquaredDistance(const Pose2& a, const Pose2& b, const Eigen::Matrix3d& covariance);
+
+}  // namespace priamos::head

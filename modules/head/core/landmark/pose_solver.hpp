@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/landmark/edge_sight.hpp"
+#include "head/core/landmark/landmark.hpp"
+
+namespace priamos::head {
+
+struct PoseSolverOptions {
+  bool on_floor = true;           ///< 3 degrees of freedom (x, y, yaw), else all 6
+  double edge_sigma_px = 0.01;    ///< of a whole edge at either end: what light, lens and neighbours do to it
+  double model_sigma_m = 0.0008;  ///< how well the model's edges are placed, each axis
+  double tilt_sigma_m = 0.00025;  ///< how well they are aligned: at the ends, against the middle
+  double movable_sigma_m = 0.01;  ///< the same of a part that may stand elsewhere
+  double camera_sigma_px = 0.05;  ///< how well a camera is calibrated: shift, roll and scale of the image
+  /// Covariance of the motion of space (x, y, z, roll, pitch, yaw about the origin of base) by which all
+  /// cameras together may be calibrated wrongly: HeadModel::base_covariance.
+  Eigen::Matrix<double, 6, 6> base_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  int max_iterations = 10;
+  bool find_suspect = true;  ///< PoseSolution::suspect costs as much as all the rest
+};
+
+/// The edge, seen in one image or in all, without which everything else would fit best.
+struct EdgeSuspect {
+  int edge = -1, camera = -1;  ///< camera -1: in all of them
+  double misfit = 0;  ///< what it adds to chi squared, per degree of freedom: about 1 for the right one
+};
+
+struct PoseSolution {
+  bool ok = false;
+  Eigen::Isometry3d base_from_landmark = Eigen::Isometry3d::Identity();
+  /// Of (x, y, z, roll, pitch, yaw) as in PoseJacobian; zero where fixed.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Of the covariance, as the mean over all its directions, what the noise of edges makes. The rest comes
+  /// from the model and the calibration: another look repeats it.
+  double own_share = 0;
+  double rms_px = 0;  ///< of the mean distances of the edges from the model, all images
+  /// Chi squared per degree of freedom under all errors that are expected: about 1 for the right edges, large
+  /// for wrong ones.
+  double misfit = 0;
+  EdgeSuspect suspect;
+};
+
+/// Least squares pose from points on edges, in any number of images, starting at `initial`, without any prior
+/// for the pose. The points of an edge in an image are one straight line with two uncertain numbers. Errors
+/// of the model's edges, those of each camera and the one that all cameras share correlate these numbers
+/// (generalised least squares), so the covariance does not shrink with the number of pixels below what model
+/// and calibration allow. Needs edges that determine the pose, else ok is false.
+PoseSolution SolvePose(const LandmarkModel& model, std::span<const CameraModel* const> cameras,
+                       std::span<const EdgeObservation> observations, const Eigen::Isometry3d& initial,
+                       const PoseSolverOptions& options);
+
+}  // namespace priamos::head

@@ -1,0 +1,106 @@
+#include "head/core/motion/aim.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace priamos::head {
+namespace {
+
+constexpr double kWidthPx = 768;
+constexpr double kStepRad = 0.005;
+
+/// Where an upright edge is expected: half way up to the height of the cameras, so that it is in every
+/// picture that shows its bearing.
+struct Target {
+  Eigen::Vector3d in_base;
+  double bearing_sigma_rad;  ///< seen from the pan axis
+};
+
+std::vector<Target> Targets(const HeadGeometry& head, const LandmarkModel& model,
+                            const LandmarkPrediction& prediction, bool (*wanted)(int edge_side, int side),
+                            int side) {
+  const Eigen::Isometry3d base_from_landmark = Lift(prediction.base_from_landmark);
+  std::vector<Target> targets;
+  for (const LandmarkEdge& edge : model.edges) {
+    if (!edge.IsVertical() || edge.IsMovable() || !wanted(edge.side, side)) continue;
+    Eigen::Vector3d p = base_from_landmark * edge.from;
+    const Eigen::Vector2d r = p.head<2>() - prediction.base_from_landmark.translation();
+    const Eigen::Vector2d d = p.head<2>() - Eigen::Vector2d(head.x_m, head.y_m);
+    p.z() = head.z_m;
+    // The point moves with (x, y, yaw) of the landmark; what counts is its motion across the line of sight.
+    Eigen::Matrix<double, 2, 3> jacobian;
+    jacobian << 1, 0, -r.y(), 0, 1, r.x();
+    const Eigen::RowVector2d across(-d.y(), d.x());
+    const Eigen::RowVector3d row = across * jacobian / d.squaredNorm();
+    targets.push_back({p, std::sqrt(std::max(0.0, (row * prediction.covariance * row.transpose()).value()))});
+  }
+  return targets;
+}
+
+/// By how much [px] the worst target misses the usable part of the worse picture; 0 if all are in both.
+double Missing(const std::array<CameraModel, 2>& cameras, const std::vector<Target>& targets,
+               const AimConfig& config) {
+  double worst = 0;
+  for (const CameraModel& camera : cameras) {
+    for (const Target& t : targets) {
+      if (!(camera.Depth(t.in_base) > 0.1)) return 1e6;
+      const double u = camera.Project(t.in_base).x();
+      const double margin = config.margin_px + config.sigmas * t.bearing_sigma_rad * camera.scale_px;
+      worst = std::max({worst, margin - u, u - (kWidthPx - 1 - margin)});
+    }
+  }
+  return worst;
+}
+
+double Bearing(const HeadGeometry& head, const std::vector<Target>& targets) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Target& t : targets) mean += t.in_base.head<2>() / static_cast<double>(targets.size());
+  return std::atan2(mean.y() - head.y_m, mean.x() - head.x_m);
+}
+
+std::optional<std::array<CameraModel, 2>> CamerasAt(const HeadModel& head, HeadSetting setting, double pan) {
+  setting.pan_rad = pan;
+  const auto left = head.CameraAt(setting, kLeft), right = head.CameraAt(setting, kRight);
+  if (!left || !right) return std::nullopt;
+  return std::array{*left, *right};
+}
+
+}  // namespace
+
+void AimConfig::Describe(Archive& a) {
+  a.Number("side_share", side_share, {"-", 0, 1, "0 looks at the middle of the landmark, 1 at its side"});
+  a.Number("margin_px", margin_px, {"px", 0, 300, "edges nearer to the border are not in the picture"});
+  a.Number("sigmas", sigmas, {"-", 0, 5, "and so many standard deviations of where they are expected"});
+  a.Number("max_pan_deg", max_pan_deg, {"deg", 1, 110, "farther the head does not turn"});
+  a.Number("lead_s", lead_s, {"s", 0, 3, "the robot drives on until the picture is taken"});
+}
+
+double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model,
+              const LandmarkPrediction& prediction, int side, const AimConfig& config) {
+  const HeadGeometry& g = head.geometry;
+  const auto its = Targets(
+      g, model, prediction, [](int edge, int s) { return s == 0 || edge == s; }, side);
+  const auto all = Targets(
+      g, model, prediction, [](int, int) { return true; }, side);
+  if (all.empty()) return 0;
+  const double middle = Bearing(g, all), at_side = its.empty() ? middle : Bearing(g, its);
+  const double limit = Radians(config.max_pan_deg);
+  const double wanted = std::clamp(middle + config.side_share * WrapAngle(at_side - middle), -limit, limit);
+  double best = wanted, best_cost = 1e18;
+  // From the wanted angle outwards: of equal ones the nearest stays.
+  for (double off = 0; off < Radians(40); off += kStepRad) {
+    for (const double pan : {wanted + off, wanted - off}) {
+      const auto cameras = CamerasAt(head, base, pan);
+      if (!cameras || std::abs(pan) > limit) continue;
+      const double cost = 10 * Missing(*cameras, its, config) + Missing(*cameras, all, config);
+      if (cost >= best_cost - 1e-9) continue;
+      best = pan, best_cost = cost;
+    }
+    if (best_cost == 0) break;
+  }
+  return best;
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,60 @@
+#include "head/core/motion/look_sequence.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace priamos::head {
+
+void LookConfig::Describe(Archive& a) {
+  a.Number("frame_timeout_s", frame_timeout_s,
+           {"s", 0.05, 10, "all pictures must have come by then, or they are asked for again"});
+  a.Integer("attempts", attempts, {"-", 1, 10, "exposures per look"});
+  a.Number("age_limit_s", age_limit_s, {"s", 0.5, 60, "a look not answered by then is given up"});
+}
+
+void LookSequence::Begin(Time now) {
+  phase_ = Phase::kSettling;
+  begun_ = now;
+  attempts_ = 0;
+}
+
+void LookSequence::Add(const FrameNotice& frame) {
+  if (phase_ != Phase::kExposing || frame.frame_id != frame_id_) return;
+  if (frame.camera >= 0 && frame.camera < cameras_) frames_[frame.camera] = frame;
+}
+
+bool LookSequence::Complete() const {
+  return std::all_of(frames_.begin(), frames_.begin() + cameras_,
+                     [](const auto& f) { return f.has_value(); });
+}
+
+Frames LookSequence::frames() const {
+  Frames frames;
+  for (int i = 0; i < cameras_; ++i)
+    if (frames_[i]) frames.push_back(*frames_[i]);
+  return frames;
+}
+
+LookSequence::Action LookSequence::Step(bool head_settled, bool head_failed, Time now) {
+  if (phase_ == Phase::kIdle) return Action::kWait;
+  if (head_failed || Seconds(now - begun_) > config_.age_limit_s) return Action::kGiveUp;
+  if (phase_ == Phase::kExposing) {
+    if (!head_settled) {
+      phase_ = Phase::kSettling;
+    } else if (Complete()) {
+      return Action::kUseFrames;
+    } else if (Seconds(now - triggered_) < config_.frame_timeout_s) {
+      return Action::kWait;
+    }
+  }
+  if (!head_settled) return Action::kWait;
+  if (attempts_ == config_.attempts) return Action::kGiveUp;
+  ++attempts_;
+  frame_id_ = frame_id_ == std::numeric_limits<std::int32_t>::max() ? 1 : frame_id_ + 1;
+  frames_ = {};
+  triggered_ = now;
+  phase_ = Phase::kExposing;
+  return Action::kTrigger;
+}
+
+}  // namespace priamos::head

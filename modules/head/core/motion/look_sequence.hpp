@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/time.hpp"
+#include "head/core/camera/frame_notice.hpp"
+
+namespace priamos::head {
+
+struct LookConfig {
+  double frame_timeout_s = 0.5;  ///< all pictures must have come by then, or they are asked for again
+  int attempts = 3;              ///< exposures per look
+  double age_limit_s = 12;       ///< a look not answered by then is given up
+
+  void Describe(Archive& a);
+};
+
+/// The course of one look: the head settles, its cameras are exposed at once, all pictures arrive. Every
+/// look ends, with pictures or without.
+class LookSequence {
+ public:
+  /// `cameras` is 2 for the stereo pair, 3 for all.
+  explicit LookSequence(const LookConfig& config, int cameras = 2) : config_(config), cameras_(cameras) {}
+
+  void Begin(Time now);
+  bool active() const { return phase_ != Phase::kIdle; }
+  void End() { phase_ = Phase::kIdle; }
+
+  void Add(const FrameNotice& frame);
+
+  /// What to do now.
+  enum class Action { kWait, kTrigger, kUseFrames, kGiveUp };
+  /// `head_failed` gives up; kTrigger means: expose the cameras as frame_id(). A head that moves during the
+  /// exposure spoils the pictures: it is exposed again.
+  Action Step(bool head_settled, bool head_failed, Time now);
+
+  std::int32_t frame_id() const { return frame_id_; }
+  /// Bits of the cameras to expose.
+  int camera_mask() const { return (1 << cameras_) - 1; }
+  /// The pictures once they are all there.
+  Frames frames() const;
+
+ private:
+  enum class Phase { kIdle, kSettling, kExposing };
+  bool Complete() const;
+  LookConfig config_;
+  int cameras_;
+  Phase phase_ = Phase::kIdle;
+  Time begun_{}, triggered_{};
+  int attempts_ = 0;
+  std::int32_t frame_id_ = 0;
+  std::array<std::optional<FrameNotice>, 3> frames_;
+};
+
+}  // namespace priamos::head

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "head/core/stereo/space_edge.hpp"
+#include "head/core/stereo/view_line.hpp"
+
+namespace priamos::head {
+
+/// An edge of the scene found in several images.
+struct StereoMatch {
+  int left = -1;            ///< index in the left view's lines
+  std::vector<int> right;   ///< pieces of it in the right view, the best one first; may be broken there
+  std::vector<int> third;   ///< the same in the third view; empty if it was not used
+  double epipolar_rad = 0;  ///< angle between the edge and the epipolar line, the largest of the camera pairs
+  /// Nearly parallel to the epipolar lines of all cameras: the match stands, but nothing says how far away
+  /// the edge is.
+  bool is_near_epipolar = false;
+  double similarity = 0;           ///< 0..1, of grey values and common extent
+  std::optional<SpaceEdge> space;  ///< nullopt if is_near_epipolar
+};
+
+struct StereoOptions {
+  double min_epipolar_rad = 0.12;  ///< flatter edges are flagged, not triangulated
+  double min_depth_m = 0.4, max_depth_m = 12;
+  double min_overlap = 0.5;         ///< of the extent along the epipolar lines, over the shorter one
+  double max_grey_difference = 20;  ///< of the side that agrees better
+  double max_contrast_ratio = 2;    ///< of the two images
+  double max_turn_rad = 0.7;        ///< between the planes of sight: no camera sees an edge so differently
+  double camera_sigma_px = 0.1;     ///< calibration
+  double max_distance_px = 1.0;     ///< of the edge in the third image from where two epipolar lines cross,
+                                    ///< beyond 3 sigma
+};
+
+/// Matches the lines of two rectified or unrectified views by the epipolar constraint on the ends of edges,
+/// the sign of contrast, the grey values on both sides and the common extent. Each line is used once, except
+/// that pieces of one broken line share their partner. Ambiguous ones go to the most similar partner: with
+/// two images nothing better is known.
+std::vector<StereoMatch> MatchBinocular(const CameraView& left, const CameraView& right,
+                                        const StereoOptions& options);
+
+/// With a third camera the corresponding point is where the epipolar lines of the two others cross, so only a
+/// match that all three images confirm is given; edges along one pair's epipolar lines are reconstructed from
+/// another pair.
+std::vector<StereoMatch> MatchTrinocular(const CameraView& left, const CameraView& right,
+                                         const CameraView& third, const StereoOptions& options);
+
+}  // namespace priamos::head

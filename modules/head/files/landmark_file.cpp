@@ -1,0 +1,94 @@
+#include "head/files/landmark_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/config.hpp"
+#include "head/core/landmark/cao.hpp"
+
+namespace priamos::head {
+namespace {
+
+struct PointEntry {
+  std::vector<double> at_m;
+
+  void Describe(Archive& a) {
+    a.Numbers("at_m", at_m, {"m", -100, 100, "landmark frame: x, y, z"});
+    if (at_m.size() != 3) a.Refuse("at_m", "three coordinates");
+  }
+};
+
+struct CornersEntry {
+  std::vector<double> points;
+
+  void Describe(Archive& a) {
+    a.Numbers("points", points,
+              {"-", 0, 100000, "numbers of points, from 0; faces counter-clockwise from outside"});
+    for (const double p : points)
+      if (p != std::floor(p)) a.Refuse("points", "whole numbers");
+    if (points.size() < 2) a.Refuse("points", "two points of a line, or three and more of a face");
+  }
+  std::vector<int> indices() const { return {points.begin(), points.end()}; }
+};
+
+struct FaceEntry : CornersEntry {
+  double grey = 0;
+
+  void Describe(Archive& a) {
+    CornersEntry::Describe(a);
+    a.Number("grey", grey, {"-", 0, 255, "how bright it is beside the other faces; 0: not known"});
+  }
+};
+
+struct PolyhedronFile {
+  std::vector<PointEntry> points;
+  std::vector<FaceEntry> faces;
+  std::vector<CornersEntry> lines;
+
+  void Describe(Archive& a) {
+    a.List("points", points, "corners of the body");
+    a.List("faces", faces, "flat faces");
+    a.List("lines", lines, "edges that belong to no face");
+    for (const CornersEntry& line : lines)
+      if (line.points.size() != 2) a.Refuse("lines", "two points each");
+  }
+};
+
+Outcome<std::string> ReadText(const std::string& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) return Refusal{fmt::format("{}: cannot be read", file)};
+  return text.str();
+}
+
+Polyhedron LoadToml(const std::string& file) {
+  const auto read = LoadConfig<PolyhedronFile>(file);
+  Polyhedron body;
+  for (const PointEntry& p : read.points) body.points.emplace_back(p.at_m[0], p.at_m[1], p.at_m[2]);
+  for (const FaceEntry& face : read.faces)
+    body.faces.push_back(face.indices()), body.greys.push_back(face.grey);
+  for (const CornersEntry& line : read.lines) body.lines.push_back({line.indices()[0], line.indices()[1]});
+  if (const std::string why = WhyNoPolyhedron(body); !why.empty())
+    throw std::runtime_error(fmt::format("{}: {}", file, why));
+  return body;
+}
+
+}  // namespace
+
+Polyhedron LoadPolyhedron(const std::string& file) {
+  if (file.ends_with(".toml")) return LoadToml(file);
+  if (!file.ends_with(".cao"))
+    throw std::runtime_error(fmt::format("{}: expected a landmark model, .toml or .cao", file));
+  const auto text = ReadText(file);
+  if (!text) throw std::runtime_error(text.reason());
+  auto body = ParseCao(file, *text, ReadText);
+  if (!body) throw std::runtime_error(body.reason());
+  return std::move(*body);
+}
+
+}  // namespace priamos::head

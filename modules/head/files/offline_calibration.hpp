@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "head/core/calibration/targets/chessboard.hpp"
+#include "head/core/calibration/targets/dot_target.hpp"
+
+namespace priamos::head {
+
+/// A calibration from files; no robot needed. Either `points` or `photographs`.
+struct OfflineCalibration {
+  std::vector<std::string> points;       ///< one file of `X Y Z u v` lines per camera
+  std::vector<std::string> photographs;  ///< of a flat target by one camera, or of `object`, one per camera
+  std::string object;                    ///< TOML of the reference object; empty: `target`
+  DotTarget target;
+  std::optional<Chessboard> chessboard;  ///< instead of `target`
+  int width_px = 0, height_px = 0;  ///< of the images behind `points`; 0: the lens is not asked to be centred
+};
+
+/// Calibrates and describes the result as JSON: per camera F (equation 7) of the plain DLT matrix and after
+/// refinement, leave-one-out and held-out F, K, distortion, the 11 physical parameters, the matrix; and the
+/// 3-D error of reconstructing the points that several cameras saw. Throws ConfigError with one sentence,
+/// which names file and line, for what cannot be read or does not determine a camera.
+std::string CalibrateFromFiles(const OfflineCalibration& input);
+
+}  // namespace priamos::head

@@ -1,0 +1,80 @@
+#include "head/see/see_doors.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace priamos::head {
+namespace {
+
+constexpr drawing::Colour kMagenta{0xff40ff};
+constexpr drawing::Layer kEdge{"edge", "edge", {.line = drawing::Colour{0x969696}, .width = 0.8}};
+constexpr drawing::Layer kDoor{"door", "door: posts and lintel", {.line = kMagenta, .width = 2}};
+
+/// Left foot, left corner, right corner, right foot.
+std::array<Eigen::Vector2d, 4> Outline(const CameraModel& camera, const DetectedDoor& door) {
+  std::array<Eigen::Vector2d, 4> outline;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector2d at = door.base_from_door * Eigen::Vector2d(0, (i < 2 ? 0.5 : -0.5) * door.width_m);
+    const double z = i == 1 || i == 2 ? door.height_m : 0;
+    outline[i] = camera.Distort(camera.Project({at.x(), at.y(), z}));
+  }
+  return outline;
+}
+
+}  // namespace
+
+std::vector<CameraModel> OnTheFloor(std::vector<CameraModel> cameras, const std::vector<double>& stand) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  if (stand.empty() || stand.size() > 3 || !std::all_of(stand.begin(), stand.end(), finite) || stand[0] <= 0)
+    throw std::runtime_error("expected where the cameras stand: height [m], tilt and roll [deg]");
+  const double tilt = stand.size() > 1 ? Radians(stand[1]) : 0,
+               roll = stand.size() > 2 ? Radians(stand[2]) : 0;
+  Eigen::Matrix3d level;  // axes of an upright camera (x right, y down, z forward) in the base frame
+  level << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  Eigen::Isometry3d base_from_camera(Eigen::Translation3d(0, 0, stand[0]));
+  base_from_camera.rotate(Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()) *
+                          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()));
+  base_from_camera.rotate(level);
+  for (CameraModel& camera : cameras)
+    camera.image_from_base = (camera.image_from_base * base_from_camera.inverse().matrix()).eval();
+  return cameras;
+}
+
+SeePage DrawDoors(std::span<const cv::Mat> greys, std::span<const CameraView> views,
+                  std::span<const DetectedDoor> doors) {
+  SeePage page(greys);
+  for (std::size_t c = 0; c < greys.size(); ++c) {
+    for (const EdgeSegment& s : views[c].edges->segments) page.Line(kEdge, c, s.begin, s.end);
+    for (std::size_t i = 0; i < doors.size(); ++i) {
+      const auto outline = Outline(*views[c].camera, doors[i]);
+      for (std::size_t k = 0; k < 3; ++k) page.Line(kDoor, c, outline[k], outline[k + 1]);
+      page.Label(c, outline[1], fmt::format("{}", i + 1), kMagenta);
+    }
+  }
+  page.Finish();
+  return page;
+}
+
+nlohmann::ordered_json DoorsToJson(std::span<const DetectedDoor> doors) {
+  auto list = nlohmann::ordered_json::array();
+  for (const DetectedDoor& door : doors) {
+    const Pose2& at = door.base_from_door;
+    list.push_back({{"middle_m", {at.x, at.y}},
+                    {"yaw_deg", Degrees(at.yaw)},
+                    {"width_m", door.width_m},
+                    {"height_m", door.height_m},
+                    {"on_floor", door.on_floor},
+                    {"log_odds", door.log_odds},
+                    {"sigma_m",
+                     {std::sqrt(std::max(0.0, door.covariance(0, 0))),
+                      std::sqrt(std::max(0.0, door.covariance(1, 1)))}}});
+  }
+  return list;
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/config.hpp"
+#include "common/time.hpp"
+#include "planner/core/missions/mission_types.hpp"
+
+namespace priamos::planner {
+
+struct LookConfig {
+  double timeout_s = 5;  ///< silence after a request that counts as three failures
+  int failures = 9;      ///< looks without result before giving up
+  int looks = 16;        ///< looks with result before giving up
+
+  void Describe(Archive& a);
+};
+
+/// Looks at the left and the right side of a door, in turn, one at a time: a side that cannot be seen from
+/// here must not keep the robot from using the other one. Pure bookkeeping; sending is the mission's affair.
+class LookSequence {
+ public:
+  explicit LookSequence(const LookConfig& config) : config_(config) {}
+
+  /// Forgets everything; the left side is next.
+  void Reset();
+
+  /// Whether a look may be asked for now: none is under way and the pause after a failed one is over.
+  bool Ready(Time now) const { return !request_id_ && now >= not_before_; }
+  Side next() const { return next_; }
+  /// A look at next() was asked for.
+  void Asked(int request_id, Time now);
+
+  /// An answer; one to another request than the one under way is ignored, as is a second one.
+  void OnResult(const LookResult& result);
+  /// What became of the look under way, once: its answer, or its silence.
+  std::optional<LookResult> Settle(Time now);
+
+  /// Both sides were seen, or one of them three times while the other could not be.
+  bool Enough() const;
+  /// Too many looks failed, or too many succeeded without being good enough.
+  bool Exhausted() const { return failures_ >= config_.failures || good_[0] + good_[1] >= config_.looks; }
+  int failures() const { return failures_; }
+  /// Side and reason of the last failure, in words.
+  const std::string& trouble() const { return trouble_; }
+
+ private:
+  LookConfig config_;
+  Side next_ = Side::kLeft, current_ = Side::kLeft;
+  std::optional<int> request_id_;
+  std::optional<LookResult> result_;
+  Time asked_{}, not_before_{};
+  int good_[2] = {0, 0};  ///< left, right
+  int failures_ = 0;
+  std::string trouble_;
+};
+
+/// "left" or "right".
+const char* NameOf(Side side);
+
+}  // namespace priamos::planner

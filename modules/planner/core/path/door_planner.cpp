@@ -1,0 +1,151 @@
+#include "planner/core/path/door_planner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::planner {
+namespace {
+
+/// Sweep steps: no corner of a 1 m body moves more than about 1 cm between two checked poses.
+constexpr double kStepM = 0.005;
+constexpr double kStepRad = Radians(0.5);
+/// Steeper ways to the axis than this are driven only when there is no longer run-in.
+constexpr double kSteepestRunIn = 0.7;
+/// A place on the axis this near to the start is where the start is.
+constexpr double kHereM = 0.2;
+
+Pose2 Between(const Pose2& from, const Pose2& to, double part) {
+  return {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
+          WrapAngle(from.yaw + part * WrapAngle(to.yaw - from.yaw))};
+}
+
+DoorPath Refused(std::string reason) {
+  DoorPath path;
+  path.refusal = std::move(reason);
+  return path;
+}
+
+}  // namespace
+
+void DoorPlannerConfig::Describe(Archive& a) {
+  a.Number("door_margin_m", door_margin_m, {"m", 0, 0.2, "planned clearance to each jamb"});
+  a.Number("wall_margin_m", wall_margin_m, {"m", 0, 1, "planned clearance everywhere else"});
+  a.Number("align_m", align_m, {"m", 0.5, 5, "preferred place to be on the door's axis, straight"});
+  a.Number("align_least_m", align_least_m, {"m", 0.5, 5, "nearest such place"});
+  a.Number("goal_m", goal_m, {"m", 0.5, 20, "goal behind the door"});
+  a.Number("approach_m", approach_m, {"m", 0.5, 10, "place on the axis that the approach leads to"});
+  a.Number("hold_m", hold_m, {"m", 0.1, 5, "free way between footprint and wall where the approach ends"});
+  if (align_least_m > align_m) a.Refuse("align_least_m", "at most align_m");
+}
+
+DoorPlanner::DoorPlanner(const DoorPlannerConfig& config, const Footprint& footprint, const GroundPlan& plan)
+    : config_(config), footprint_(footprint), obstacles_(plan) {}
+
+double DoorPlanner::HoldX(const DoorPlan& door) const {
+  return door.FrontX() - config_.hold_m - footprint_.length_m / 2;
+}
+
+double DoorPlanner::PastX(const DoorPlan& door) const {
+  return door.BackX() + footprint_.length_m / 2;
+}
+
+DoorPlanner::Sweep DoorPlanner::SweepAlong(const Pose2& from, const Pose2& to) const {
+  const double length_m = (to.translation() - from.translation()).norm();
+  const double turn_rad = std::abs(WrapAngle(to.yaw - from.yaw));
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(std::max(length_m / kStepM, turn_rad / kStepRad))));
+  Sweep sweep{std::numeric_limits<double>::infinity(), ""};
+  for (int i = 0; i <= steps; ++i) {
+    const auto nearest = obstacles_.NearestTo(footprint_.At(Between(from, to, double(i) / steps)));
+    if (nearest.distance_m < sweep.min_gap_m) sweep = {nearest.distance_m, nearest.name};
+  }
+  return sweep;
+}
+
+DoorPath DoorPlanner::Check(const Pose2& start, std::vector<Pose2> points, std::size_t n_tight) const {
+  const double start_gap_m = obstacles_.NearestTo(footprint_.At(start)).distance_m;
+  DoorPath path{{}, start_gap_m, ""};
+  Pose2 from = start;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool tight = i + n_tight >= points.size();
+    // Who stands nearer to a wall than the margin may leave, but not come nearer still.
+    const double margin_m =
+        tight ? config_.door_margin_m : std::min(config_.wall_margin_m, start_gap_m * 0.9);
+    const Sweep sweep = SweepAlong(from, points[i]);
+    if (sweep.min_gap_m < margin_m)
+      return Refused(fmt::format("the way to the door comes within {:.2f} m of {}, it needs {:.2f} m",
+                                 sweep.min_gap_m, sweep.obstacle, margin_m));
+    path.min_gap_m = std::min(path.min_gap_m, sweep.min_gap_m);
+    from = points[i];
+  }
+  path.points = std::move(points);
+  return path;
+}
+
+std::vector<std::vector<Pose2>> DoorPlanner::PassageCandidates(const DoorPlan& door,
+                                                               const Pose2& start) const {
+  std::vector<std::vector<Pose2>> candidates;
+  const auto add = [&](std::vector<Pose2> way_in_door) {
+    way_in_door.push_back({config_.goal_m, 0, 0});
+    for (Pose2& point : way_in_door) point = door.map_from_door() * point;
+    candidates.push_back(std::move(way_in_door));
+  };
+  constexpr int kPlaces = 4;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double x = -config_.align_m + i * (config_.align_m - config_.align_least_m) / (kPlaces - 1);
+    const double run_in_m = x - start.x;
+    if (run_in_m >= kHereM && std::abs(start.y) <= kSteepestRunIn * run_in_m) add({{x, 0, 0}});
+  }
+  add({{std::min(start.x, -config_.align_least_m), 0, 0}});
+  for (const double x : {-config_.align_m, -config_.align_m - 0.5}) {
+    add({{x, 0, 0}});
+    add({{x, start.y, start.yaw}, {x, 0, 0}});
+    add({{x, start.y, 0}, {x, 0, 0}});
+  }
+  return candidates;
+}
+
+std::string DoorPlanner::RefuseDoor(const DoorPlan& door) const {
+  if (door.opening_width_m < NeededWidth())
+    return fmt::format("door '{}' is too narrow: needs {:.2f} m, opening is {:.2f} m", door.name,
+                       NeededWidth(), door.opening_width_m);
+  if (door.opening_height_m < footprint_.height_m)
+    return fmt::format("door '{}' is too low: needs {:.2f} m, opening is {:.2f} m", door.name,
+                       footprint_.height_m, door.opening_height_m);
+  return "";
+}
+
+std::string DoorPlanner::RefuseStart(const DoorPlan& door, const Pose2& map_from_start) const {
+  const double beyond_m = (door.map_from_door().Inverse() * map_from_start).x - door.FrontX();
+  if (beyond_m >= 0)
+    return fmt::format("the robot is {:.2f} m behind door '{}', not before it", beyond_m, door.name);
+  const auto nearest = obstacles_.NearestTo(footprint_.At(map_from_start));
+  return nearest.distance_m > 0 ? "" : "the robot would already be in " + nearest.name;
+}
+
+DoorPath DoorPlanner::PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const {
+  if (auto reason = RefuseDoor(door); !reason.empty()) return Refused(std::move(reason));
+  if (auto reason = RefuseStart(door, map_from_start); !reason.empty()) return Refused(std::move(reason));
+  DoorPath first_refusal;
+  for (auto& candidate : PassageCandidates(door, door.map_from_door().Inverse() * map_from_start)) {
+    DoorPath path = Check(map_from_start, std::move(candidate), 1);
+    if (path.ok()) return path;
+    if (first_refusal.ok()) first_refusal = std::move(path);
+  }
+  return first_refusal;
+}
+
+DoorPath DoorPlanner::PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const {
+  if (auto reason = RefuseStart(door, map_from_start); !reason.empty()) return Refused(std::move(reason));
+  const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
+  const double hold_x = HoldX(door), approach_x = std::min(-config_.approach_m, hold_x);
+  std::vector<Pose2> points;
+  if (approach_x - door_from_start.x >= kHereM)
+    points.push_back(door.map_from_door() * Pose2{approach_x, 0, 0});
+  points.push_back(door.map_from_door() * Pose2{hold_x, 0, 0});
+  return Check(map_from_start, std::move(points), 0);
+}
+
+}  // namespace priamos::planner

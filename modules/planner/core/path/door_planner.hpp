@@ -1,0 +1,78 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/ground_plan.hpp"
+#include "planner/core/map/obstacle_map.hpp"
+#include "planner/core/path/footprint.hpp"
+
+namespace priamos::planner {
+
+/// How the base goes to a door and through it. Distances along the door's axis are from the middle of the
+/// opening to the base centre.
+struct DoorPlannerConfig {
+  double door_margin_m = 0.01;  ///< planned clearance to each jamb; what is uncertain comes on top
+  double wall_margin_m = 0.10;  ///< planned clearance everywhere else
+  double align_m = 1.6;         ///< preferred place to be on the axis, straight
+  double align_least_m = 1.15;  ///< nearest such place
+  double goal_m = 1.5;          ///< goal behind the door
+  double approach_m = 2.0;      ///< place on the axis that the approach leads to
+  double hold_m = 1.1;          ///< free way between footprint and wall where the approach ends
+
+  void Describe(Archive& a);
+};
+
+/// A path in the map, the start left out, or the reason why there is none.
+struct DoorPath {
+  std::vector<Pose2> points;
+  double min_gap_m = 0;  ///< smallest planned distance to an obstacle, start to end
+  std::string refusal;   ///< a sentence; empty when there is a path
+
+  bool ok() const { return refusal.empty(); }
+};
+
+/// Plans paths for a holonomic rectangular base: straight lines along which the heading turns evenly, every
+/// one checked by sweeping the true footprint along it. A circle around the 78 cm wide footprint would not
+/// fit a 90 cm door.
+class DoorPlanner {
+ public:
+  DoorPlanner(const DoorPlannerConfig& config, const Footprint& footprint, const GroundPlan& plan);
+
+  /// Why no path can lead through this door, wherever the robot stands; empty when it fits.
+  std::string RefuseDoor(const DoorPlan& door) const;
+
+  /// From `start` through the door. Tried in this order: straight to a place on the axis before the door
+  /// (the farther from it the better), a side-step, backing off first.
+  DoorPath PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const;
+
+  /// From `start` to the place before the door where the robot may wait while it does not know its pose well:
+  /// over the axis at approach_m if that is ahead, and to the hold point.
+  DoorPath PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const;
+
+  /// x of the hold point in the door's frame [m], negative.
+  double HoldX(const DoorPlan& door) const;
+  /// x from which on the whole footprint is behind the wall.
+  double PastX(const DoorPlan& door) const;
+  /// Width that the footprint needs at least [m].
+  double NeededWidth() const { return footprint_.width_m + 2 * config_.door_margin_m; }
+
+ private:
+  std::string RefuseStart(const DoorPlan& door, const Pose2& map_from_start) const;
+  struct Sweep {
+    double min_gap_m = 0;
+    std::string obstacle;
+  };
+  Sweep SweepAlong(const Pose2& from, const Pose2& to) const;
+  /// Checks start -> points; all but the last `n_tight` legs with the wall margin.
+  DoorPath Check(const Pose2& start, std::vector<Pose2> points, std::size_t n_tight) const;
+  std::vector<std::vector<Pose2>> PassageCandidates(const DoorPlan& door, const Pose2& door_from_start) const;
+
+  DoorPlannerConfig config_;
+  Footprint footprint_;
+  ObstacleMap obstacles_;
+};
+
+}  // namespace priamos::planner

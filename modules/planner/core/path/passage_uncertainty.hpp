@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/ground_plan.hpp"
+#include "planner/core/path/footprint.hpp"
+
+namespace priamos::planner {
+
+/// What the wheels add to the pose error on the way to the door. Random walks grow with the root of the way,
+/// the bias with the way; the values are those of the robot's own odometry model.
+struct DriftModel {
+  double yaw_rad_per_sqrt_m = 0.0075;
+  double lateral_m_per_sqrt_m = 0.005;
+  double yaw_bias_rad_per_m = 0.003;
+
+  void Describe(Archive& a);
+};
+
+/// What the pose estimate's uncertainty will be worth in the plane of the door, if the base follows its path.
+struct PassageUncertainty {
+  double lateral_sigma_m = 0;    ///< across the door's axis
+  double heading_sigma_rad = 0;  ///< against the door's axis
+};
+
+/// Carries a pose covariance (map: x, y, yaw) forward along the door's axis. A heading error grows into a
+/// lateral one on the way, lateral = y + d yaw; the correlation that a landmark fix leaves between the two
+/// makes most of it cancel at the landmark itself, so it must not be left out. The drift of the way still to
+/// go comes on top: seen from afar, even a perfect fix is not good enough.
+PassageUncertainty AtDoor(const DoorPlan& door, const Pose2& map_from_base,
+                          const Eigen::Matrix3d& map_covariance, const DriftModel& drift);
+
+/// Half of the width the footprint takes when it goes through an opening turned by `heading_rad` [m].
+double HalfWidthTurned(const Footprint& footprint, double heading_rad);
+
+/// What is left of the gap on each side at 2 sigma [m]; negative when the footprint may touch.
+double GapLeft(const DoorPlan& door, const Footprint& footprint, const PassageUncertainty& uncertainty);
+
+}  // namespace priamos::planner

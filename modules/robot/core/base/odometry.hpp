@@ -1,0 +1,104 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "robot/core/base/mecanum.hpp"
+
+namespace priamos::robot {
+
+/// One reading of the four encoders; order of the wheels as in WheelSpeeds.
+struct WheelSample {
+  Time time{};
+  std::array<std::int32_t, 4> ticks{};
+  bool deadline_stopped = false;  ///< the drive board holds the wheels because commands stayed away
+};
+
+/// What the odometry does not know. Random walks: variance grows with the way, so sigma with its root.
+struct OdometryNoise {
+  double forward_m_per_sqrt_m = 0.005;
+  double sideways_m_per_sqrt_m = 0.006;  ///< along y when driving sideways
+  double drift_m_per_sqrt_m = 0.005;     ///< across the driving direction
+  double yaw_rad_per_sqrt_m = 0.0075;
+  double yaw_rad_per_sqrt_rad = 0.0075;
+  double slip_floor_m_s = 0.03;          ///< residual of the fourth equation that encoders alone explain
+  double slip_variance_m2_per_m = 0.02;  ///< added variance per metre that wheels slipped against each other
+
+  void Describe(Archive& a);
+};
+
+struct OdometryConfig {
+  double ticks_per_turn = 4096;
+  double unknown_speed_m_s = 0.5;  ///< speed assumed as sigma for a time without credible encoders
+  OdometryNoise noise;
+
+  void Describe(Archive& a);
+};
+
+/// Motion between two accepted samples: the body velocity was `twist` from `from` to `to`.
+struct OdometryStep {
+  Time from{}, to{};
+  Twist2 twist{};
+  double slip_m_s = 0;
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();  ///< covariance of the increment (x, y, yaw), base frame
+  bool known = true;  ///< false: encoders were not credible, `twist` is 0 and `noise` covers the motion
+
+  double seconds() const { return Seconds(to - from); }
+};
+
+/// Dead reckoning of the four wheels. Encoder counts may wrap; samples may be lost (the next one covers the
+/// gap), double, late, or absurd: those are refused and counted. After two samples that agree with each other
+/// but not with the past (a drive board that restarted), or 25 late ones in a row (a sender whose clock
+/// stepped back), it goes on from the new counts and says that the motion between is unknown; only then can a
+/// step end before the one before it.
+class Odometry {
+ public:
+  struct Counters {
+    int accepted = 0;
+    int doubles = 0;      ///< same time stamp as the last one
+    int late = 0;         ///< older than the last one
+    int from_future = 0;  ///< more than 0.1 s ahead of `now`
+    int jumps = 0;        ///< a wheel would have turned faster than it can
+    int restarts = 0;     ///< counts accepted anew
+  };
+
+  Odometry(const OdometryConfig& config, const MecanumGeometry& geometry)
+      : config_(config), geometry_(geometry) {}
+
+  /// Takes one sample; the step it completes, or nullopt for the first and for refused ones.
+  std::optional<OdometryStep> Add(const WheelSample& sample, Time now);
+
+  /// Base in the frame where it stood at the first sample.
+  const Pose2& pose() const { return pose_; }
+  /// Of the last step; 0 before the second sample.
+  const Twist2& twist() const { return twist_; }
+  double slip_m_s() const { return slip_m_s_; }
+  /// Time of the newest accepted sample; nullopt before the first.
+  std::optional<Time> time() const;
+  const Counters& counters() const { return counters_; }
+
+ private:
+  bool IsPlausible(const WheelSample& from, const WheelSample& to) const;
+  bool RefusedByTime(const WheelSample& sample, Time now);
+  OdometryStep KnownStep(const WheelSample& to) const;
+  OdometryStep UnknownStep(const WheelSample& to, Time from, Duration span) const;
+  Eigen::Matrix3d Noise(const Twist2& twist, double slip_m_s, double seconds) const;
+  OdometryStep Accept(const OdometryStep& step, const WheelSample& sample);
+
+  OdometryConfig config_;
+  MecanumGeometry geometry_;
+  std::optional<WheelSample> last_;
+  std::optional<WheelSample> candidate_;  ///< implausible against last_; a second one like it is believed
+  int late_in_a_row_ = 0;
+  Pose2 pose_;
+  Twist2 twist_;
+  double slip_m_s_ = 0;
+  Counters counters_;
+};
+
+}  // namespace priamos::robot

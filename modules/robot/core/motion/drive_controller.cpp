@@ -1,0 +1,299 @@
+#include "robot/core/motion/drive_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::robot {
+namespace {
+
+using std::chrono::milliseconds;
+
+// Two and a half periods: a late message is not yet silence.
+constexpr milliseconds kWheelsDue{50};
+constexpr milliseconds kSonarDue{250};
+constexpr milliseconds kHeadDue{1500};
+constexpr double kStanding = 0.01;     ///< [m/s] slower is standing
+constexpr double kWantsToMove = 0.03;  ///< [m/s]
+constexpr double kCreeping = 0.05;     ///< [m/s] before an obstacle this is standing, too
+constexpr double kSlowed = 0.98;       ///< a scale below this is a limit worth telling
+
+double SpeedOf(const Twist2& twist) {
+  return std::hypot(twist.vx, twist.vy) + std::abs(twist.wz) * PathShape::kTurnLever;
+}
+
+bool SamePath(const Path& a, const Path& b) {
+  const auto same = [](const Pose2& p, const Pose2& q) { return p.x == q.x && p.y == q.y && p.yaw == q.yaw; };
+  return a.id == b.id && a.speed_m_s == b.speed_m_s &&
+         std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same);
+}
+
+/// How long something that should have come by now has been missing.
+Duration Silence(std::optional<Time> heard, Time first_step, Time now, Duration due) {
+  const Duration age = now - heard.value_or(first_step);
+  return !heard || age > due ? std::max(age, Duration(1)) : Duration::zero();
+}
+
+/// How long a condition with a known begin has lasted.
+Duration Lasting(const std::optional<Time>& since, Time now) {
+  return since ? std::max(now - *since, Duration(1)) : Duration::zero();
+}
+
+CollisionStopConfig WithMargin(CollisionStopConfig config, double more_m) {
+  config.margin_m += more_m;
+  config.memory_margin_m += more_m;
+  return config;
+}
+
+}  // namespace
+
+void DriveConfig::Describe(Archive& a) {
+  a.Number("lost_position_m", lost_position_m,
+           {"m", 0.05, 5, "no path is driven by a pose with a larger sigma"});
+  a.Number("lost_yaw_deg", lost_yaw_deg, {"deg", 1, 90, "the same for the heading"});
+  a.Number("blocked_s", blocked_s, {"s", 0, 60, "standing before an obstacle for this long is BLOCKED"});
+  a.Number("operator_margin_m", operator_margin_m,
+           {"m", 0, 0.5, "added to the margins of collision while an operator drives"});
+  a.Number("fix_needed_m", fix_needed_m, {"m", 0.01, 5, "a silent head matters when sigma is larger"});
+  a.Section("footprint", footprint, "the body of the base");
+  a.Section("follower", follower, "how a path is driven");
+  a.Section("acceleration", acceleration, "limits while a path is driven");
+  a.Section("operator_acceleration", operator_acceleration, "limits while an operator drives");
+  a.Section("braking", braking, "limits while a hold brakes the base");
+  a.Section("echoes", echoes, "which sonar echoes are believed");
+  a.Section("floor", floor, "what the laser's line showed of the floor");
+  a.Section("collision", collision, "the last filter before the wheels");
+  a.Section("authority", authority, "who may drive");
+  a.Section("failsafe", failsafe, "when silence is too long");
+}
+
+DriveController::DriveController(const DriveConfig& config, const MecanumGeometry& geometry)
+    : config_(config),
+      geometry_(geometry),
+      follower_(config.follower),
+      slew_(config.acceleration),
+      operator_slew_(config.operator_acceleration),
+      brake_(config.braking),
+      echoes_(config.echoes, config.footprint),
+      floor_(config.floor),
+      collision_(config.collision, config.footprint),
+      operator_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
+      authority_(config.authority),
+      failsafe_(config.failsafe) {}
+
+PathVerdict DriveController::SetPath(const Path& path, Time now) {
+  const bool driving_it = path_is_new_ || follower_.has_path();
+  if (driving_it && path_ && SamePath(*path_, path)) return PathVerdict::kSame;
+  if (!authority_.AdmitPath(now))
+    return authority_.estop() ? PathVerdict::kEstop : PathVerdict::kWithoutLease;
+  path_ = path;
+  path_is_new_ = !path.points.empty();
+  ever_ordered_ = true;
+  state_.path_id = path.id;
+  state_.halted_by.reset();
+  if (path.points.empty()) {
+    follower_.Drop();
+    state_.mode = DriveMode::kHolding;
+  }
+  return PathVerdict::kTaken;
+}
+
+CommandVerdict DriveController::SetCommand(const DriveCommand& command, Time now) {
+  const CommandVerdict verdict = authority_.Admit(command, now);
+  if (verdict != CommandVerdict::kAccepted) return verdict;
+  ever_ordered_ = true;
+  DropPath();
+  state_.mode = DriveMode::kOperated;
+  state_.halted_by.reset();
+  return verdict;
+}
+
+Lease::Answer DriveController::RequestLease(const LeaseHolder& who, Lease::Wish wish, Time now) {
+  return authority_.Request(who, wish, now);
+}
+
+std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation, Time now) {
+  if (!first_step_) first_step_ = now;
+  const double dt_s = last_step_ ? std::clamp(Seconds(now - *last_step_), 1e-3, 0.1) : 0.02;
+  last_step_ = now;
+  if (echoes_.newest()) sonar_heard_ = echoes_.newest();
+  echoes_.Forget(situation.odom_from_base, now, HasWayToGo());
+  floor_.Forget(situation.odom_from_base, now);
+  authority_.Tick(now, HasWayToGo());
+  if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
+  const DriveSource source = Source(now);
+  state_.failsafe = Watch(situation, now);
+  if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause);
+
+  const Obstacles around = Around(situation.odom_from_base);
+  const Twist2 wanted = Wanted(situation, now, dt_s), free = FreeOf(wanted, around);
+  // Once more: on its way from one free motion to another the base may pass through one that is not.
+  const Twist2 next = FreeOf(Slewed(free, dt_s), around);
+  const CollisionStop::Result result = Guard().Limit(next, around.seen, around.remembered);
+  const WheelSpeeds wheels = Saturated(geometry_, ToWheelSpeeds(geometry_, result.twist));
+  SetCommanded(FromWheelSpeeds(geometry_, wheels).twist);
+  NoteSonar(wanted, free, around, result);
+  NoteBlocked(wanted, result.twist, now);
+  NoteStuck(situation, now);
+  NoteEnd(source);
+  if (!ever_ordered_) return std::nullopt;
+  return wheels;
+}
+
+DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) const {
+  Obstacles around{echoes_.Points(odom_from_base), echoes_.Remembered(odom_from_base)};
+  const auto add = [&](const std::vector<Eigen::Vector2d>& points) {
+    around.seen.insert(around.seen.end(), points.begin(), points.end());
+  };
+  if (state_.mode == DriveMode::kOperated) add(echoes_.Bridges(odom_from_base));
+  add(floor_.Points(odom_from_base));
+  return around;
+}
+
+const CollisionStop& DriveController::Guard() const {
+  return state_.mode == DriveMode::kOperated ? operator_collision_ : collision_;
+}
+
+bool DriveController::HasWayToGo() const {
+  return path_is_new_ || (follower_.has_path() && state_.mode != DriveMode::kArrived);
+}
+
+void DriveController::DropPath() {
+  follower_.Drop();
+  path_is_new_ = false;
+}
+
+DriveSource DriveController::Source(Time now) const {
+  if (follower_.has_path() || path_is_new_) return DriveSource::kPath;
+  if (authority_.Wish(now) || authority_.OperatorFellSilent(now)) return DriveSource::kOperator;
+  return DriveSource::kNone;
+}
+
+FailsafeDecision DriveController::Watch(const DriveSituation& situation, Time now) {
+  if (!IsLost(situation)) pose_lost_since_.reset();
+  if (IsLost(situation) && !pose_lost_since_) pose_lost_since_ = now;
+  const auto when = [](bool present) { return present ? Duration::max() : Duration::zero(); };
+  const bool needs_fix = situation.estimate && situation.estimate->PositionSigma() > config_.fix_needed_m;
+
+  FailsafeInputs inputs;
+  inputs.source = Source(now);
+  inputs[Condition::kEstop] = when(authority_.estop());
+  inputs[Condition::kLeaseLost] = when(authority_.lease_lost());
+  inputs[Condition::kOperatorSilent] = when(authority_.OperatorFellSilent(now));
+  inputs[Condition::kWheelsSilent] = Silence(situation.wheels_heard, *first_step_, now, kWheelsDue);
+  inputs[Condition::kWheelsStuck] = Lasting(stuck_since_, now);
+  inputs[Condition::kSonarSilent] = Silence(sonar_heard_, *first_step_, now, kSonarDue);
+  inputs[Condition::kPoseLost] = Lasting(pose_lost_since_, now);
+  if (needs_fix) inputs[Condition::kHeadSilent] = Silence(situation.head_heard, *first_step_, now, kHeadDue);
+  inputs[Condition::kLinkLost] = situation.link_down;
+  state_.holder = authority_.holder();
+  state_.estop = authority_.estop();
+  state_.refused_commands = authority_.input().refused();
+  state_.refusal = authority_.input().newest_refusal();
+  return failsafe_.Update(inputs, now);
+}
+
+bool DriveController::IsLost(const DriveSituation& situation) const {
+  return !situation.estimate || !(situation.estimate->PositionSigma() < config_.lost_position_m) ||
+         !(situation.estimate->YawSigma() < Radians(config_.lost_yaw_deg));
+}
+
+Twist2 DriveController::Wanted(const DriveSituation& situation, Time now, double dt_s) {
+  const bool by_path = follower_.has_path() || path_is_new_;
+  if (!by_path) StandIfLetGo(now);
+  if (state_.failsafe.action != FailsafeAction::kNone) return {};
+  if (by_path) return WantedByPath(situation, now, dt_s);
+  return WantedByOperator(now);
+}
+
+Twist2 DriveController::WantedByPath(const DriveSituation& situation, Time now, double dt_s) {
+  if (!situation.estimate) return {};
+  const PoseEstimate& estimate = *situation.estimate;
+  // What lasts too short to stop a drive is enough not to begin one.
+  if (path_is_new_ && !IsLost(situation)) {
+    follower_.Follow(*path_, estimate.pose);
+    path_is_new_ = false;
+    state_.mode = DriveMode::kFollowing;
+  }
+  if (!follower_.has_path()) return {};
+  const double age_s = std::clamp(Seconds(now - estimate.time), 0.0, config_.failsafe.wheels_silent_s);
+  const PathFollower::Wanted wanted = follower_.Step(estimate.pose, estimate.twist, age_s, dt_s);
+  state_.remaining_m = wanted.remaining_m;
+  state_.cross_track_m = wanted.cross_track_m;
+  if (wanted.arrived) state_.mode = DriveMode::kArrived;
+  return wanted.twist;
+}
+
+/// A stick that was let go stops the wheels now, also those that a hold is braking; the drive board's own
+/// ramp is all the softness there is.
+void DriveController::StandIfLetGo(Time now) {
+  const Twist2* wish = authority_.Wish(now);
+  if (wish && !WantsMotion(*wish)) SetCommanded({});
+}
+
+Twist2 DriveController::WantedByOperator(Time now) const {
+  const Twist2* wish = authority_.Wish(now);
+  return wish && WantsMotion(*wish) ? *wish : Twist2{};
+}
+
+/// What of a motion leads nowhere into an obstacle, where an operator drives: a path is driven or not.
+Twist2 DriveController::FreeOf(const Twist2& motion, const Obstacles& around) const {
+  if (state_.mode != DriveMode::kOperated) return motion;
+  return Deflected(motion, config_.footprint.Reach(),
+                   [&](const Twist2& part) { return Guard().Scale(part, around.seen, around.remembered); });
+}
+
+Twist2 DriveController::Slewed(const Twist2& wanted, double dt_s) {
+  if (state_.failsafe.action != FailsafeAction::kNone) return brake_.Step(wanted, dt_s);
+  if (state_.mode == DriveMode::kOperated) return operator_slew_.Step(wanted, dt_s);
+  return follower_.has_path() ? slew_.Step(wanted, dt_s) : brake_.Step(wanted, dt_s);
+}
+
+void DriveController::SetCommanded(const Twist2& twist) {
+  slew_.SetCommanded(twist);
+  operator_slew_.SetCommanded(twist);
+  brake_.SetCommanded(twist);
+}
+
+/// Of an operator's wish counts what deflection leaves of it; of a path, what the collision stop does.
+void DriveController::NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
+                                const CollisionStop::Result& result) {
+  const bool operated = state_.mode == DriveMode::kOperated;
+  const double speed = collision_.SpeedOf(wanted);
+  const double most = operated ? collision_.SpeedOf(free) : result.allowed.value_or(speed);
+  const double left = speed > 0 ? std::min(1.0, most / speed) : 1.0;
+  state_.nearest_m = operated ? Guard().Limit(wanted, around.seen, around.remembered).free_m : result.free_m;
+  state_.slowed_by_sonar = left < kSlowed;
+  state_.allowed = state_.failsafe.action == FailsafeAction::kNone ? left : 0;
+}
+
+void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Time now) {
+  if (state_.mode != DriveMode::kFollowing && state_.mode != DriveMode::kBlocked) return;
+  const bool stopped = state_.slowed_by_sonar && SpeedOf(wanted) > kWantsToMove && SpeedOf(given) < kCreeping;
+  if (!stopped) blocked_since_.reset();
+  if (stopped && !blocked_since_) blocked_since_ = now;
+  const bool blocked = blocked_since_ && now - *blocked_since_ >= FromSeconds(config_.blocked_s);
+  state_.mode = blocked ? DriveMode::kBlocked : DriveMode::kFollowing;
+}
+
+void DriveController::NoteStuck(const DriveSituation& situation, Time now) {
+  const bool told_to_move = SpeedOf(slew_.commanded()) > kCreeping;
+  const bool stands = situation.estimate && SpeedOf(situation.estimate->twist) < kStanding;
+  if (!told_to_move || !stands) stuck_since_.reset();
+  if (told_to_move && stands && !stuck_since_) stuck_since_ = now;
+}
+
+/// An operator who rested the stick and then fell silent has simply finished.
+void DriveController::NoteEnd(DriveSource source) {
+  if (state_.mode == DriveMode::kOperated && source == DriveSource::kNone) state_.mode = DriveMode::kHolding;
+}
+
+void DriveController::Halt(Condition cause) {
+  const bool moved = Source(*last_step_) != DriveSource::kNone || authority_.lease_lost();
+  if (moved) state_.halted_by = cause;
+  DropPath();
+  authority_.Forget();
+  SetCommanded({});
+  if (state_.mode != DriveMode::kIdle) state_.mode = DriveMode::kHolding;
+}
+
+}  // namespace priamos::robot

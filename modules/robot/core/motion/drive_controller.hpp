@@ -1,0 +1,146 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/time.hpp"
+#include "robot/core/base/mecanum.hpp"
+#include "robot/core/base/twist_slew.hpp"
+#include "robot/core/motion/deflection.hpp"
+#include "robot/core/motion/path_follower.hpp"
+#include "robot/core/pose/pose_estimator.hpp"
+#include "robot/core/safety/authority.hpp"
+#include "robot/core/safety/collision_stop.hpp"
+#include "robot/core/safety/failsafe.hpp"
+#include "robot/core/sonar/echo_memory.hpp"
+#include "robot/core/sonar/floor_memory.hpp"
+
+namespace priamos::robot {
+
+struct DriveConfig {
+  Footprint footprint;
+  PathFollowerConfig follower;
+  AccelerationLimits acceleration;
+  AccelerationLimits operator_acceleration{.acceleration_m_s2 = 0.8, .turn_acceleration_rad_s2 = 1.5};
+  AccelerationLimits braking{.acceleration_m_s2 = 1.0, .turn_acceleration_rad_s2 = 2.0};
+  EchoMemoryConfig echoes;
+  FloorMemoryConfig floor;
+  CollisionStopConfig collision;
+  double operator_margin_m = 0.04;  ///< more room than a path gets: nobody has planned an operator's motion
+  AuthorityConfig authority;
+  FailsafeConfig failsafe;
+  double lost_position_m = 0.5;  ///< sigma beyond which no path is driven
+  double lost_yaw_deg = 12;
+  double blocked_s = 0.5;
+  double fix_needed_m = 0.25;  ///< sigma beyond which a silent head matters
+
+  void Describe(Archive& a);
+};
+
+enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked, kOperated };
+
+/// What the base knows about itself at one tick.
+struct DriveSituation {
+  std::optional<PoseEstimate> estimate;
+  Pose2 odom_from_base;
+  std::optional<Time> wheels_heard;  ///< newest credible encoder sample
+  std::optional<Time> head_heard{};  ///< newest sign of life of the head
+  Duration
+      link_down{};  ///< how long the radio link has been down; 0 while it is up or nothing is known of it
+};
+
+/// What became of a path.
+enum class PathVerdict { kTaken, kSame, kWithoutLease, kEstop };
+
+struct DriveState {
+  DriveMode mode = DriveMode::kIdle;
+  FailsafeDecision failsafe;
+  std::optional<Condition> halted_by;  ///< what ended the last motion for good; until a new one begins
+  bool slowed_by_sonar = false;
+  int path_id = 0;  ///< 0 before the first path
+  double remaining_m = 0;
+  double cross_track_m = 0;
+  std::optional<double> nearest_m;  ///< free way to the nearest echo in driving direction
+  double allowed = 1;               ///< part of the wanted motion that sonars and failsafe leave
+  LeaseHolder holder;
+  bool estop = false;
+  int refused_commands = 0;
+  CommandVerdict refusal = CommandVerdict::kAccepted;  ///< of the newest refused one; kAccepted: none yet
+};
+
+/// Turns paths and an operator's commands into wheel speeds, through the chain that nothing bypasses:
+///
+///     path follower, or operator
+///         -> failsafe (hold, halt) -> acceleration limits -> deflection (operator) -> collision stop ->
+///         wheels
+///
+/// Silent until the first order; from then on it gives wheel speeds at every step, zeros while standing, so
+/// that the drive board's own dead-line is a second line of defence and not the normal way to stop.
+class DriveController {
+ public:
+  DriveController(const DriveConfig& config, const MecanumGeometry& geometry);
+
+  /// Replaces the path being driven; one without points brakes and holds. The very path that is being driven
+  /// is ignored: a repeated message must not lead the base back to points it has passed.
+  PathVerdict SetPath(const Path& path, Time now);
+  CommandVerdict SetCommand(const DriveCommand& command, Time now);
+  Lease::Answer RequestLease(const LeaseHolder& who, Lease::Wish wish, Time now);
+  void PressEstop() { authority_.PressEstop(); }
+  void Rearm() { authority_.Rearm(); }
+  bool estop() const { return authority_.estop(); }
+  /// `odom_from_base` when the picture was taken. False: refused, see FloorMemory.
+  bool AddFloorLine(const FloorLine& line, const Pose2& odom_from_base, Time now) {
+    return floor_.Add(line, odom_from_base, now);
+  }
+  /// `odom_from_base` when the cycle ended.
+  void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) { echoes_.Add(cycle, odom_from_base); }
+
+  /// Wheel speeds for now; nullopt while nothing was ever commanded.
+  std::optional<WheelSpeeds> Step(const DriveSituation& situation, Time now);
+  const DriveState& state() const { return state_; }
+
+ private:
+  /// What is in the way, base frame [m].
+  struct Obstacles {
+    std::vector<Eigen::Vector2d> seen, remembered;
+  };
+  const CollisionStop& Guard() const;
+  bool HasWayToGo() const;
+  void DropPath();
+  DriveSource Source(Time now) const;
+  FailsafeDecision Watch(const DriveSituation& situation, Time now);
+  bool IsLost(const DriveSituation& situation) const;
+  Obstacles Around(const Pose2& odom_from_base) const;
+  Twist2 Wanted(const DriveSituation& situation, Time now, double dt_s);
+  Twist2 WantedByPath(const DriveSituation& situation, Time now, double dt_s);
+  void StandIfLetGo(Time now);
+  Twist2 WantedByOperator(Time now) const;
+  Twist2 FreeOf(const Twist2& motion, const Obstacles& around) const;
+  Twist2 Slewed(const Twist2& wanted, double dt_s);
+  void SetCommanded(const Twist2& twist);
+  void NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
+                 const CollisionStop::Result& result);
+  void NoteBlocked(const Twist2& wanted, const Twist2& given, Time now);
+  void NoteStuck(const DriveSituation& situation, Time now);
+  void NoteEnd(DriveSource source);
+  void Halt(Condition cause);
+
+  DriveConfig config_;
+  MecanumGeometry geometry_;
+  PathFollower follower_;
+  TwistSlew slew_, operator_slew_, brake_;
+  EchoMemory echoes_;
+  FloorMemory floor_;
+  CollisionStop collision_, operator_collision_;
+  Authority authority_;
+  Failsafe failsafe_;
+  DriveState state_;
+  std::optional<Path> path_;  ///< the newest order
+  bool path_is_new_ = false;  ///< not yet given to the follower
+  bool ever_ordered_ = false;
+  std::optional<Time> last_step_, first_step_, sonar_heard_;
+  std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;
+};
+
+}  // namespace priamos::robot

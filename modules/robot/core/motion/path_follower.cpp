@@ -1,0 +1,120 @@
+#include "robot/core/motion/path_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::robot {
+namespace {
+
+// As far as the base drives while a path comes over the radio.
+constexpr double kPassedAtMost = 0.3;
+constexpr double kBeside = 0.3;
+
+struct Begin {
+  Pose2 start;
+  Path path;
+};
+
+/// A path that took a while to arrive may begin with a point that the base has just passed. Then it begins
+/// on its first line beside the base, so that the base need not go back and the line stays where it was.
+Begin WithoutPassedPoint(const Path& path, const Pose2& pose) {
+  if (path.points.size() < 2) return {pose, path};
+  const Pose2 &first = path.points[0], &second = path.points[1];
+  const Eigen::Vector2d line = second.translation() - first.translation();
+  const Eigen::Vector2d way = pose.translation() - first.translation();
+  const double length = line.norm();
+  if (length < kPassedAtMost) return {pose, path};
+  const double passed = line.dot(way) / length;
+  const double beside = (way - line * (passed / length)).norm();
+  if (passed <= 0 || passed > kPassedAtMost || beside > kBeside) return {pose, path};
+
+  const double part = passed / length;
+  const Eigen::Vector2d foot = first.translation() + line * part;
+  Begin begin{{foot.x(), foot.y(), WrapAngle(first.yaw + part * WrapAngle(second.yaw - first.yaw))}, path};
+  begin.path.points.erase(begin.path.points.begin());
+  return begin;
+}
+
+}  // namespace
+
+void PathFollowerConfig::Describe(Archive& a) {
+  a.Number("gain_per_s", gain_per_s, {"1/s", 0.1, 10, "velocity towards the path per distance from it"});
+  a.Number("turn_gain_per_s", turn_gain_per_s, {"1/s", 0.1, 10, "turn rate per heading error"});
+  a.Number("correction_speed_m_s", correction_speed_m_s,
+           {"m/s", 0.01, 1, "fastest velocity towards the path"});
+  a.Number("correction_turn_rad_s", correction_turn_rad_s, {"rad/s", 0.01, 2, "fastest turn to the heading"});
+  a.Number("arrival_m", arrival_m, {"m", 0.001, 0.2, "arrived when this near to the last point"});
+  a.Number("arrival_deg", arrival_deg, {"deg", 0.05, 10, "and the heading is this near"});
+  a.Number("latency_s", latency_s, {"s", 0, 0.5, "from a pose to wheels that obey it"});
+  a.Section("shape", shape, "how the points of a path become a curve with speeds");
+}
+
+void PathFollower::Follow(const Path& path, const Pose2& pose) {
+  const Begin begin = WithoutPassedPoint(path, pose);
+  shape_.emplace(config_.shape, begin.start, begin.path);
+  s_ = 0;
+  speed_ = 0;
+  arrived_ = false;
+}
+
+void PathFollower::Drop() {
+  shape_.reset();
+  arrived_ = false;
+}
+
+PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, double age_s, double dt_s) {
+  if (!shape_) return {};
+  // Act on where the base will be when the wheels obey.
+  const Pose2 ahead = Integrate(pose, twist, age_s + config_.latency_s);
+  MoveReference(ahead, dt_s);
+  const PathShape::Point reference = shape_->At(s_);
+  Wanted wanted = Report(pose, reference);
+  const double left = shape_->length() - s_;
+  const Eigen::Vector2d error = reference.pose.translation() - ahead.translation();
+  const double heading_error = WrapAngle(reference.pose.yaw - ahead.yaw);
+  arrived_ = arrived_ || IsAtGoal(ahead);
+  wanted.arrived = arrived_;
+  if (arrived_) return wanted;
+
+  // The last centimetres decay with the gain instead of following the braking parabola into its steep end.
+  speed_ = std::min(shape_->SpeedAt(s_), config_.turn_gain_per_s * left);
+  Eigen::Vector2d correction = error * config_.gain_per_s;
+  if (correction.norm() > config_.correction_speed_m_s)
+    correction *= config_.correction_speed_m_s / correction.norm();
+  const Eigen::Vector2d velocity =
+      Pose2{0, 0, -ahead.yaw} * Eigen::Vector2d(reference.direction * speed_ + correction);
+  const double turn = std::clamp(heading_error * config_.turn_gain_per_s, -config_.correction_turn_rad_s,
+                                 config_.correction_turn_rad_s);
+  wanted.twist = {velocity.x(), velocity.y(), reference.turn * speed_ + turn};
+  return wanted;
+}
+
+bool PathFollower::IsAtGoal(const Pose2& pose) const {
+  if (shape_->length() - s_ > PathShape::kTurnLever * Radians(config_.arrival_deg) + config_.arrival_m)
+    return false;
+  const Pose2 goal = shape_->At(shape_->length()).pose;
+  return (goal.translation() - pose.translation()).norm() < config_.arrival_m &&
+         std::abs(WrapAngle(goal.yaw - pose.yaw)) < Radians(config_.arrival_deg);
+}
+
+void PathFollower::MoveReference(const Pose2& pose, double dt_s) {
+  const PathShape::Point at = shape_->At(s_);
+  const double pace = std::hypot(at.direction.norm(), PathShape::kTurnLever * at.turn);
+  // At the point of a sharp reversal the base hardly moves, so its pose cannot say how far it has got.
+  constexpr double kTelling = 0.4;
+  s_ = pace < kTelling ? std::min(s_ + speed_ * dt_s, shape_->length()) : shape_->Project(pose, s_);
+}
+
+PathFollower::Wanted PathFollower::Report(const Pose2& pose, const PathShape::Point& reference) const {
+  Wanted wanted;
+  wanted.remaining_m = shape_->RemainingWay(s_);
+  const Eigen::Vector2d off = pose.translation() - reference.pose.translation();
+  const double pace = reference.direction.norm();
+  wanted.cross_track_m = pace > 0.1
+                             ? (reference.direction.x() * off.y() - reference.direction.y() * off.x()) / pace
+                             : off.norm();
+  wanted.heading_error_rad = WrapAngle(reference.pose.yaw - pose.yaw);
+  return wanted;
+}
+
+}  // namespace priamos::robot

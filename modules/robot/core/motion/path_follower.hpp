@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "robot/core/motion/path_shape.hpp"
+
+namespace priamos::robot {
+
+struct PathFollowerConfig {
+  PathShapeConfig shape;
+  double gain_per_s = 1.5;              ///< velocity towards the path per distance from it
+  double turn_gain_per_s = 2.0;         ///< turn rate per heading error
+  double correction_speed_m_s = 0.15;   ///< fastest velocity towards the path
+  double correction_turn_rad_s = 0.25;  ///< fastest turn towards the heading
+  double arrival_m = 0.005;
+  double arrival_deg = 0.2;
+  double latency_s = 0.06;  ///< from a pose to wheels that obey it
+
+  void Describe(Archive& a);
+};
+
+/// Drives the base along a path at continuous speed: the position on the path comes from the pose alone, so
+/// a corrected pose moves the reference along the path and leaves a cross-track error, which is driven back
+/// at a limited rate while the way along the path goes on. Brakes for corners as far as they need it and for
+/// the last point. Gives a wanted velocity; limits on its change are TwistSlew's.
+class PathFollower {
+ public:
+  struct Wanted {
+    Twist2 twist;  ///< base frame
+    double remaining_m = 0;
+    double cross_track_m = 0;      ///< positive when left of the path
+    double heading_error_rad = 0;  ///< how far the heading is to be turned, counter-clockwise
+    bool arrived = false;
+  };
+
+  explicit PathFollower(const PathFollowerConfig& config) : config_(config) {}
+
+  /// Takes a path; replaces the one before. It begins at `pose`, or beside it on its own first line when the
+  /// first point has just been passed.
+  void Follow(const Path& path, const Pose2& pose);
+  /// No path any more; Step then wants to stand.
+  void Drop();
+  bool has_path() const { return shape_.has_value(); }
+
+  /// `pose` and `twist` are the newest estimate, `age_s` its age, `dt_s` the time since the last call. Once
+  /// arrived it stays arrived until the next path, whatever corrections come.
+  Wanted Step(const Pose2& pose, const Twist2& twist, double age_s, double dt_s);
+
+ private:
+  bool IsAtGoal(const Pose2& pose) const;
+  void MoveReference(const Pose2& pose, double dt_s);
+  Wanted Report(const Pose2& pose, const PathShape::Point& reference) const;
+
+  PathFollowerConfig config_;
+  std::optional<PathShape> shape_;
+  double s_ = 0;      ///< where on the path the base is
+  double speed_ = 0;  ///< ds/dt wanted last
+  bool arrived_ = false;
+};
+
+}  // namespace priamos::robot

@@ -1,0 +1,161 @@
+#include "robot/core/motion/path_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::robot {
+namespace {
+
+// Points closer than this to the one before carry no shape; only the last one must be met.
+constexpr double kLeastSegment = 0.02;
+
+}  // namespace
+
+void PathShapeConfig::Describe(Archive& a) {
+  a.Number("corner_deviation_m", corner_deviation_m, {"m", 0.001, 0.5, "a rounded corner passes beside it"});
+  a.Number("corner_deviation_deg", corner_deviation_deg, {"deg", 0.1, 30, "the same for the heading"});
+  a.Number("corner_acceleration_m_s2", corner_acceleration_m_s2, {"m/s^2", 0.05, 3, "in rounded corners"});
+  a.Number("corner_turn_acceleration_rad_s2", corner_turn_acceleration_rad_s2,
+           {"rad/s^2", 0.05, 10, "in rounded corners"});
+  a.Number("max_speed_m_s", max_speed_m_s, {"m/s", 0.05, 1.5, "fastest way per time on any path"});
+  a.Number("max_turn_rad_s", max_turn_rad_s, {"rad/s", 0.05, 2, "fastest turn on any path"});
+  a.Number("braking_m_s2", braking_m_s2, {"m/s^2", 0.05, 3, "before corners and the last point"});
+}
+
+PathShape::PathShape(const PathShapeConfig& config, const Pose2& start, const Path& path)
+    : braking_m_s2_(config.braking_m_s2), end_(start) {
+  for (const Pose2& point : path.points) AddSegment(point);
+  Blend(config);
+  LimitSpeeds(config, path.speed_m_s);
+}
+
+void PathShape::AddSegment(const Pose2& to) {
+  const auto extent = [&](const Pose2& from) {
+    return std::max((to.translation() - from.translation()).norm(),
+                    kTurnLever * std::abs(WrapAngle(to.yaw - from.yaw)));
+  };
+  if (!segments_.empty() && extent(end_) < kLeastSegment) {
+    // The segment before goes to this point instead.
+    end_ = {segments_.back().from.x(), segments_.back().from.y(), segments_.back().yaw};
+    length_ = segments_.back().begin;
+    segments_.pop_back();
+  }
+  Segment segment;
+  segment.begin = length_;
+  segment.length = std::max(extent(end_), 1e-6);
+  segment.from = end_.translation();
+  segment.direction = (to.translation() - segment.from) / segment.length;
+  segment.yaw = end_.yaw;
+  segment.turn = WrapAngle(to.yaw - end_.yaw) / segment.length;
+  length_ += segment.length;
+  end_ = {to.x, to.y, segment.yaw + segment.turn * segment.length};
+  segments_.push_back(segment);
+}
+
+void PathShape::Blend(const PathShapeConfig& config) {
+  for (std::size_t i = 0; i + 1 < segments_.size(); ++i) {
+    const Segment &before = segments_[i], &after = segments_[i + 1];
+    // A parabola that leaves d before the corner passes it at d/4 times the change of direction.
+    const double bend = (after.direction - before.direction).norm();
+    const double turn = std::abs(after.turn - before.turn);
+    double d = std::min(before.length, after.length) / 2;
+    if (bend > 0) d = std::min(d, 4 * config.corner_deviation_m / bend);
+    if (turn > 0) d = std::min(d, 4 * Radians(config.corner_deviation_deg) / turn);
+    segments_[i].blend = d;
+  }
+}
+
+void PathShape::LimitSpeeds(const PathShapeConfig& config, double path_speed) {
+  const double speed = std::min(path_speed, config.max_speed_m_s);
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const Segment& segment = segments_[i];
+    const double end = segment.begin + segment.length;
+    const double turn = std::abs(segment.turn);
+    limits_.push_back({segment.begin, end, std::min(speed, config.max_turn_rad_s / std::max(turn, 1e-9))});
+    if (i + 1 == segments_.size()) break;
+    const Segment& next = segments_[i + 1];
+    const double bend = (next.direction - segment.direction).norm();
+    const double change = std::abs(next.turn - segment.turn);
+    const double squared = 2 * segment.blend *
+                           std::min(config.corner_acceleration_m_s2 / std::max(bend, 1e-9),
+                                    config.corner_turn_acceleration_rad_s2 / std::max(change, 1e-9));
+    const double sharper = std::max(std::abs(segment.turn), std::abs(next.turn));
+    const double turning = config.max_turn_rad_s / std::max(sharper, 1e-9);
+    limits_.push_back(
+        {end - segment.blend, end + segment.blend, std::min({speed, std::sqrt(squared), turning})});
+  }
+}
+
+PathShape::Point PathShape::At(double s) const {
+  if (segments_.empty()) return {{end_.x, end_.y, WrapAngle(end_.yaw)}};
+  const double inside = std::clamp(s, 0.0, length_);
+  const std::size_t i = SegmentAt(inside);
+  const Segment& segment = segments_[i];
+  if (i > 0 && inside < segment.begin + segments_[i - 1].blend)
+    return OnBlend(segments_[i - 1], segment, inside);
+  if (i + 1 < segments_.size() && inside > segment.begin + segment.length - segment.blend)
+    return OnBlend(segment, segments_[i + 1], inside);
+  return OnSegment(segment, inside);
+}
+
+double PathShape::SpeedAt(double s) const {
+  double squared = 2 * braking_m_s2_ * std::max(0.0, length_ - s);
+  for (const SpeedLimit& limit : limits_) {
+    if (limit.end < s) continue;
+    const double way = std::max(0.0, limit.begin - s);
+    squared = std::min(squared, limit.speed * limit.speed + 2 * braking_m_s2_ * way);
+  }
+  return std::sqrt(squared);
+}
+
+double PathShape::RemainingWay(double s) const {
+  double way = 0;
+  for (const Segment& segment : segments_) {
+    const double left = std::clamp(segment.begin + segment.length - s, 0.0, segment.length);
+    way += left * segment.direction.norm();
+  }
+  return way;
+}
+
+double PathShape::Project(const Pose2& pose, double guess) const {
+  constexpr int kIterations = 20;
+  constexpr double kMostStep = 0.1;
+  double s = std::clamp(guess, 0.0, length_);
+  for (int i = 0; i < kIterations; ++i) {
+    const Point at = At(s);
+    const double along = at.direction.dot(pose.translation() - at.pose.translation()) +
+                         kTurnLever * kTurnLever * at.turn * WrapAngle(pose.yaw - at.pose.yaw);
+    const double norm = at.direction.squaredNorm() + kTurnLever * kTurnLever * at.turn * at.turn;
+    const double step = std::clamp(along / std::max(norm, 0.1), -kMostStep, kMostStep);
+    const double next = std::clamp(s + step, 0.0, length_);
+    if (std::abs(next - s) < 1e-6) return next;
+    s = next;
+  }
+  return s;
+}
+
+PathShape::Point PathShape::OnSegment(const Segment& segment, double s) const {
+  const double way = s - segment.begin;
+  const Eigen::Vector2d p = segment.from + segment.direction * way;
+  return {{p.x(), p.y(), WrapAngle(segment.yaw + segment.turn * way)}, segment.direction, segment.turn};
+}
+
+PathShape::Point PathShape::OnBlend(const Segment& before, const Segment& after, double s) const {
+  const double d = before.blend;
+  const double u = (s - (after.begin - d)) / (2 * d);
+  Point point = OnSegment(before, s);
+  // The parabola that is tangent to both segments d before and d behind the corner.
+  const Eigen::Vector2d p = point.pose.translation() + (after.direction - before.direction) * (d * u * u);
+  point.pose = {p.x(), p.y(), WrapAngle(point.pose.yaw + (after.turn - before.turn) * (d * u * u))};
+  point.direction = before.direction + (after.direction - before.direction) * u;
+  point.turn = before.turn + (after.turn - before.turn) * u;
+  return point;
+}
+
+std::size_t PathShape::SegmentAt(double s) const {
+  std::size_t i = 0;
+  while (i + 1 < segments_.size() && s >= segments_[i + 1].begin) ++i;
+  return i;
+}
+
+}  // namespace priamos::robot

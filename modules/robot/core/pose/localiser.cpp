@@ -1,0 +1,46 @@
+#include "robot/core/pose/localiser.hpp"
+
+namespace priamos::robot {
+namespace {
+
+// More than any head sends; a flood of fixes with times in the future must not grow without bound.
+constexpr std::size_t kMostWaiting = 16;
+
+}  // namespace
+
+void LocaliserConfig::Describe(Archive& a) {
+  a.Number("fix_wait_s", fix_wait_s, {"s", 0, 5, "how long a fix waits for odometry of its time"});
+  a.Section("odometry", odometry, "dead reckoning of the four wheels");
+  a.Section("estimator", estimator, "pose in the map");
+}
+
+Localiser::Localiser(const LocaliserConfig& config, const MecanumGeometry& geometry)
+    : config_(config), odometry_(config.odometry, geometry), estimator_(config.estimator) {}
+
+bool Localiser::AddWheels(const WheelSample& sample, Time now) {
+  const int accepted = odometry_.counters().accepted;
+  if (const auto step = odometry_.Add(sample, now)) estimator_.Move(*step);
+  return odometry_.counters().accepted > accepted;
+}
+
+void Localiser::AddFix(const LandmarkFix& fix, Time now) {
+  if (waiting_.size() < kMostWaiting) waiting_.push_back({fix, now});
+}
+
+std::vector<Localiser::Answer> Localiser::Step(Time now) {
+  std::vector<Answer> answers;
+  std::vector<Waiting> still;
+  for (const Waiting& waiting : waiting_) {
+    FixResult result = estimator_.Apply(waiting.fix);
+    const bool may_wait = now - waiting.received < FromSeconds(config_.fix_wait_s);
+    if (result.verdict == FixVerdict::kTooNew && may_wait) {
+      still.push_back(waiting);
+    } else {
+      answers.push_back({waiting.fix, result});
+    }
+  }
+  waiting_ = std::move(still);
+  return answers;
+}
+
+}  // namespace priamos::robot

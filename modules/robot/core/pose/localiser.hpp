@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "robot/core/base/odometry.hpp"
+#include "robot/core/pose/pose_estimator.hpp"
+
+namespace priamos::robot {
+
+struct LocaliserConfig {
+  OdometryConfig odometry;
+  PoseEstimatorConfig estimator;
+  double fix_wait_s = 0.5;  ///< how long a fix waits for odometry of its picture's time
+
+  void Describe(Archive& a);
+};
+
+/// Odometry and pose estimator together, and the fixes that wait because their picture is newer than the
+/// newest odometry.
+class Localiser {
+ public:
+  struct Answer {
+    LandmarkFix fix;
+    FixResult result;
+  };
+
+  Localiser(const LocaliserConfig& config, const MecanumGeometry& geometry);
+
+  /// False when the sample was refused (see Odometry::counters).
+  bool AddWheels(const WheelSample& sample, Time now);
+  void AddFix(const LandmarkFix& fix, Time now);
+  /// Applies what can be applied; the answers, one per fix that is done with.
+  std::vector<Answer> Step(Time now);
+
+  const Odometry& odometry() const { return odometry_; }
+  std::optional<PoseEstimate> estimate() const { return estimator_.newest(); }
+
+ private:
+  struct Waiting {
+    LandmarkFix fix;
+    Time received;
+  };
+
+  LocaliserConfig config_;
+  Odometry odometry_;
+  PoseEstimator estimator_;
+  std::vector<Waiting> waiting_;
+};
+
+}  // namespace priamos::robot

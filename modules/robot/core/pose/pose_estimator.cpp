@@ -1,0 +1,190 @@
+#include "robot/core/pose/pose_estimator.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::robot {
+namespace {
+
+/// `part` of a step, counted from its begin or to its end.
+OdometryStep Part(const OdometryStep& step, Time from, Time to) {
+  OdometryStep part = step;
+  part.from = from;
+  part.to = to;
+  part.noise *= Seconds(to - from) / step.seconds();
+  return part;
+}
+
+Pose2 ChangeOf(const Pose2& before, const Pose2& after) {
+  return {after.x - before.x, after.y - before.y, WrapAngle(after.yaw - before.yaw)};
+}
+
+bool IsFinite(const Pose2& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
+}
+
+}  // namespace
+
+void InitialPose::Describe(Archive& a) {
+  a.Number("x_m", x_m, {"m", -100, 100, "map: where the base stands when it starts"});
+  a.Number("y_m", y_m, {"m", -100, 100, "map: where the base stands when it starts"});
+  a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "map: its heading"});
+  a.Number("position_error_m", position_error_m, {"m", 0.001, 5, "bound of the error of x and of y"});
+  a.Number("yaw_error_deg", yaw_error_deg, {"deg", 0.01, 90, "bound of the error of the heading"});
+}
+
+void PoseEstimatorConfig::Describe(Archive& a) {
+  a.Number("history_s", history_s, {"s", 0.5, 60, "oldest picture that can still correct the pose"});
+  a.Number("gate_distance", gate_distance,
+           {"-", 1, 20, "Mahalanobis distance beyond which a fix is refused"});
+  a.Number("least_fix_sigma_m", least_fix_sigma_m, {"m", 1e-5, 0.5, "no fix is believed to be better"});
+  a.Number("least_fix_sigma_deg", least_fix_sigma_deg, {"deg", 1e-4, 10, "no fix is believed to be better"});
+  a.Section("initial", initial, "what the robot is told about its place; errors are bounds, not sigmas");
+  a.Section("bias", bias, "constant errors of the odometry, sigma before the first fix");
+}
+
+double PoseEstimate::PositionSigma() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance.topLeftCorner<2, 2>(),
+                                                              Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues()(1)));
+}
+
+double PoseEstimate::YawSigma() const {
+  return std::sqrt(std::max(0.0, covariance(2, 2)));
+}
+
+PoseEstimator::PoseEstimator(const PoseEstimatorConfig& config) : config_(config) {
+  const InitialPose& initial = config.initial;
+  initial_.mean.head<3>() << initial.x_m, initial.y_m, WrapAngle(Radians(initial.yaw_deg));
+  const OdometryBias& b = config.bias;
+  PoseState::Vector sigma;
+  sigma << initial.position_error_m / std::sqrt(3), initial.position_error_m / std::sqrt(3),
+      Radians(initial.yaw_error_deg) / std::sqrt(3), b.forward, b.sideways, b.yaw, b.yaw_rad_per_m,
+      b.drift_m_per_m;
+  initial_.covariance = sigma.cwiseAbs2().asDiagonal();
+}
+
+void PoseEstimator::Move(const OdometryStep& step) {
+  const bool continues = !history_.empty() && step.from >= history_.back().step.to;
+  if (!continues) {
+    const PoseState state = history_.empty() ? initial_ : history_.back().state;
+    history_.clear();
+    history_.push_back({{.from = step.from, .to = step.from}, state, std::nullopt});
+  }
+  history_.push_back({step, Propagated(history_.back().state, step), std::nullopt});
+  Forget();
+}
+
+FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
+  if (const auto refused = RefuseByForm(fix)) return *refused;
+  const std::size_t index = EntryAt(fix.exposure);
+  Entry& entry = history_[index];
+  const SightUpdate update = UpdatedBySight(entry.state, SightOf(fix));
+
+  FixResult result;
+  result.distance = update.distance;
+  result.change = ChangeOf(entry.state.pose(), update.state.pose());
+  // Written so that NaN is refused.
+  if (!(update.distance <= config_.gate_distance)) {
+    result.verdict = FixVerdict::kImplausible;
+    result.at_picture = EstimateAt(entry);
+    result.reason = fmt::format("distance {:.1f} from the estimate, allowed {:.1f}", update.distance,
+                                config_.gate_distance);
+    return result;
+  }
+  result.verdict = FixVerdict::kApplied;
+  // A second fix for the same instant gets an entry of its own: replay applies one fix per entry.
+  if (entry.fix) {
+    OdometryStep standing = entry.step;
+    standing.from = standing.to;
+    standing.noise.setZero();
+    history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(index) + 1, {standing, update.state, fix});
+    result.at_picture = EstimateAt(history_[index + 1]);
+    Replay(index + 2);
+  } else {
+    entry.state = update.state;
+    entry.fix = fix;
+    result.at_picture = EstimateAt(entry);
+    Replay(index + 1);
+  }
+  return result;
+}
+
+std::optional<PoseEstimate> PoseEstimator::newest() const {
+  if (history_.empty()) return std::nullopt;
+  return EstimateAt(history_.back());
+}
+
+std::optional<FixResult> PoseEstimator::RefuseByForm(const LandmarkFix& fix) const {
+  FixResult refused;
+  const auto because = [&](FixVerdict verdict, std::string reason) {
+    refused.verdict = verdict;
+    refused.reason = std::move(reason);
+    return refused;
+  };
+  if (!IsFinite(fix.base_from_landmark) || !IsFinite(fix.map_from_landmark) || !fix.covariance.allFinite())
+    return because(FixVerdict::kImplausible, "not a finite pose");
+  if (!(fix.own_share >= 0 && fix.own_share <= 1) || SightOf(fix).covariance.llt().info() != Eigen::Success)
+    return because(FixVerdict::kImplausible, "its covariance makes no sense");
+  if (history_.empty() || fix.exposure > history_.back().step.to)
+    return because(FixVerdict::kTooNew, "no odometry for the time of the picture yet");
+  refused.at_picture = EstimateAt(history_.back());
+  if (fix.exposure < history_.front().step.to) {
+    const double age_s = Seconds(history_.back().step.to - fix.exposure);
+    return because(FixVerdict::kTooOld,
+                   fmt::format("picture {:.1f} s old, odometry kept for {:.1f} s", age_s, config_.history_s));
+  }
+  for (const Entry& entry : history_) {
+    if (entry.fix && entry.fix->exposure == fix.exposure && entry.fix->request_id == fix.request_id)
+      return because(FixVerdict::kDouble, "this fix has been applied before");
+  }
+  return std::nullopt;
+}
+
+Sight PoseEstimator::SightOf(const LandmarkFix& fix) const {
+  const Eigen::Vector3d least(config_.least_fix_sigma_m, config_.least_fix_sigma_m,
+                              Radians(config_.least_fix_sigma_deg));
+  Sight sight{fix.base_from_landmark, fix.covariance, fix.map_from_landmark, fix.own_share};
+  sight.covariance.diagonal() += least.cwiseAbs2();
+  return sight;
+}
+
+/// The last entry at `time`, which lies within the history; a step that contains it is cut there.
+std::size_t PoseEstimator::EntryAt(Time time) {
+  const auto after = std::upper_bound(history_.begin(), history_.end(), time,
+                                      [](Time t, const Entry& entry) { return t < entry.step.to; });
+  const auto index = static_cast<std::size_t>(after - history_.begin());
+  if (history_[index - 1].step.to == time || after == history_.end()) return index - 1;
+  const OdometryStep whole = after->step;
+  // Between two entries there is only the step unless odometry paused: then the pose stood still.
+  const OdometryStep first = Part(whole, whole.from, std::max(time, whole.from));
+  const OdometryStep second = Part(whole, first.to, whole.to);
+  after->step = second;
+  history_.insert(after, {first, Propagated(history_[index - 1].state, first), std::nullopt});
+  return index;
+}
+
+void PoseEstimator::Replay(std::size_t from) {
+  for (std::size_t i = from; i < history_.size(); ++i) {
+    Entry& entry = history_[i];
+    entry.state = Propagated(history_[i - 1].state, entry.step);
+    if (!entry.fix) continue;
+    entry.state = UpdatedBySight(entry.state, SightOf(*entry.fix)).state;
+  }
+}
+
+PoseEstimate PoseEstimator::EstimateAt(const Entry& entry) const {
+  return {entry.step.to, entry.state.pose(), Unbiased(entry.state, entry.step.twist),
+          entry.state.pose_covariance()};
+}
+
+void PoseEstimator::Forget() {
+  const Time oldest = history_.back().step.to - FromSeconds(config_.history_s);
+  while (history_.size() > 2 && history_[1].step.to < oldest) history_.pop_front();
+}
+
+}  // namespace priamos::robot

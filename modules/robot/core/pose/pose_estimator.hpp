@@ -1,0 +1,102 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "robot/core/base/odometry.hpp"
+#include "robot/core/pose/pose_state.hpp"
+
+namespace priamos::robot {
+
+/// Where the robot is told to be when it starts. The errors are bounds; inside them nothing is known, so the
+/// estimator starts with bound / sqrt(3), the standard deviation of a uniform distribution.
+struct InitialPose {
+  double x_m = 0, y_m = 0, yaw_deg = 0;
+  double position_error_m = 0.20;
+  double yaw_error_deg = 5;
+
+  void Describe(Archive& a);
+};
+
+struct PoseEstimatorConfig {
+  InitialPose initial;
+  OdometryBias bias;
+  double history_s = 10;
+  double gate_distance = 4.0;         ///< 3 degrees of freedom: a true fix lies beyond 4.0 once in 900
+  double least_fix_sigma_m = 0.0003;  ///< 1 ms at 0.3 m/s: how well the moment of a picture is known
+  double least_fix_sigma_deg = 0.01;
+
+  void Describe(Archive& a);
+};
+
+/// A landmark as the head reconstructed it from one stereo pair.
+struct LandmarkFix {
+  Time exposure{};
+  int request_id = 0;
+  Pose2 base_from_landmark;                                  ///< X_rec
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw) of X_rec
+  Pose2 map_from_landmark;                                   ///< X_mod
+  double own_share = 1;  ///< of the covariance, what no other look repeats
+};
+
+struct PoseEstimate {
+  Time time{};
+  Pose2 pose;    ///< map_from_base
+  Twist2 twist;  ///< base frame
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+  double PositionSigma() const;  ///< root of the larger eigenvalue [m]
+  double YawSigma() const;
+};
+
+enum class FixVerdict { kApplied, kTooOld, kTooNew, kImplausible, kDouble };
+
+/// What became of a fix.
+struct FixResult {
+  FixVerdict verdict = FixVerdict::kImplausible;
+  Pose2 change;         ///< map frame, at the time of the picture; also for a refused fix: what it asked for
+  double distance = 0;  ///< Mahalanobis, 3 degrees of freedom; 0 when it was not computed
+  PoseEstimate at_picture;  ///< the estimate for the time of the picture, after the fix if it was applied
+  std::string reason;       ///< why not applied, with numbers
+};
+
+/// The pose in the map. Odometry carries it; a fix corrects it *at the time of its picture* and everything
+/// driven since is carried forward from there. So a fix may be seconds old, and two fixes may come in either
+/// order with the same result. What several looks err by alike does not average out. Fixes that contradict
+/// estimate and covariance are refused: one wrong door must not move the robot.
+class PoseEstimator {
+ public:
+  explicit PoseEstimator(const PoseEstimatorConfig& config);
+
+  void Move(const OdometryStep& step);
+
+  /// kTooNew: taken after the newest odometry; give it again when odometry has got there.
+  FixResult Apply(const LandmarkFix& fix);
+
+  /// For the newest odometry; nullopt before the first step.
+  std::optional<PoseEstimate> newest() const;
+
+ private:
+  struct Entry {
+    OdometryStep step;               ///< that led here
+    PoseState state;                 ///< after step and fix
+    std::optional<LandmarkFix> fix;  ///< applied here
+  };
+
+  std::optional<FixResult> RefuseByForm(const LandmarkFix& fix) const;
+  Sight SightOf(const LandmarkFix& fix) const;
+  std::size_t EntryAt(Time time);
+  void Replay(std::size_t from);
+  PoseEstimate EstimateAt(const Entry& entry) const;
+  void Forget();
+
+  PoseEstimatorConfig config_;
+  PoseState initial_;
+  std::deque<Entry> history_;  ///< ascending in time; front() is where replay may start
+};
+
+}  // namespace priamos::robot

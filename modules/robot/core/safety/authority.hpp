@@ -1,0 +1,58 @@
+#pragma once
+
+#include "common/config.hpp"
+#include "common/time.hpp"
+#include "robot/core/safety/lease.hpp"
+#include "robot/core/safety/operator_input.hpp"
+
+namespace priamos::robot {
+
+struct AuthorityConfig {
+  LeaseConfig lease;
+  OperatorConfig operators;
+
+  void Describe(Archive& a);
+};
+
+/// Who may move the base now: the lease, the operator's newest command, the e-stop.
+///
+/// A path comes from the planner, which takes a free lease by sending one and keeps it while the path is
+/// driven. An operator asks for the lease first. After a lease is granted and after an e-stop the stick must
+/// have been at rest once: a command for motion is refused until one to stand has come.
+class Authority {
+ public:
+  explicit Authority(const AuthorityConfig& config) : lease_(config.lease), operator_(config.operators) {}
+
+  Lease::Answer Request(const LeaseHolder& who, Lease::Wish wish, Time now);
+  /// Whether the planner's path may be driven.
+  bool AdmitPath(Time now);
+  CommandVerdict Admit(const DriveCommand& command, Time now);
+  /// Latches until Rearm.
+  void PressEstop();
+  void Rearm() { estop_ = false; }
+
+  /// Once per step, before anything is asked. `path_is_driven` renews the planner's lease.
+  void Tick(Time now, bool path_is_driven);
+
+  const LeaseHolder& holder() const { return lease_.holder(); }
+  bool estop() const { return estop_; }
+  /// The velocity that the operator wishes; nullptr without a command that is still valid.
+  const Twist2* Wish(Time now) const;
+  bool OperatorFellSilent(Time now) const { return operator_.FellSilent(now); }
+  /// The lease was taken from the one who drove; stays until Forget.
+  bool lease_lost() const { return lease_lost_; }
+  /// After a halt: the command in hand and the loss of the lease are done with.
+  void Forget();
+  const OperatorInput& input() const { return operator_; }
+
+ private:
+  void NoteChange(const LeaseHolder& before, Time now);
+
+  Lease lease_;
+  OperatorInput operator_;
+  bool estop_ = false;
+  bool path_is_driven_ = false;
+  bool lease_lost_ = false;
+};
+
+}  // namespace priamos::robot

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "robot/core/base/footprint.hpp"
+
+namespace priamos::robot {
+
+struct CollisionStopConfig {
+  double margin_m = 0.015;  ///< kept free on all sides of the footprint
+  double gap_m = 0.13;      ///< where to stand before an obstacle ahead
+  double braking_m_s2 = 1.0;
+  double latency_s = 0.12;  ///< age of an echo when the wheels obey it
+  double look_ahead_m = 5;
+  double memory_margin_m = -0.03;  ///< instead of margin_m for remembered things, whose place is vague
+  double memory_gap_m = 0.05;      ///< instead of gap_m
+
+  void Describe(Archive& a);
+};
+
+/// The last filter before the wheels: sweeps the true rectangle along the wanted motion, whatever its
+/// direction, and slows it down so that the base can stand `gap_m` before the first point that it would
+/// sweep over: v^2 / 2a of braking after the latency. It scales the whole motion, so the base keeps its path.
+/// Points beside the way do not matter, so both jambs of a door 6 cm beside the base do not stop it.
+class CollisionStop {
+ public:
+  struct Result {
+    Twist2 twist;
+    double scale = 1;               ///< of the wanted motion
+    std::optional<double> allowed;  ///< fastest motion in this direction [m/s of the fastest corner]
+    std::optional<double> free_m;   ///< way until the footprint would meet a point; none within look_ahead_m
+  };
+
+  CollisionStop(const CollisionStopConfig& config, const Footprint& footprint);
+
+  /// How fast the fastest point of the footprint moves [m/s].
+  double SpeedOf(const Twist2& twist) const;
+  /// `seen` and `remembered` are obstacles in the base frame.
+  Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
+               std::span<const Eigen::Vector2d> remembered = {}) const;
+  /// The scale for a search among many motions: at most that of Limit. What is farther away than the base
+  /// needs for braking is not looked at; and because a search ends where a tolerance ends, less and less is
+  /// tolerated the more of the margin is used up: it keeps half of the margin.
+  double Scale(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
+               std::span<const Eigen::Vector2d> remembered) const;
+
+ private:
+  double AllowedSpeed(double free_m, double gap_m) const;
+  double BrakingWay(double speed) const;
+
+  CollisionStopConfig config_;
+  Footprint seen_guard_, memory_guard_;  ///< footprint with margin
+};
+
+}  // namespace priamos::robot

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "robot/core/safety/lease.hpp"
+
+namespace priamos::robot {
+
+/// One wish of an operator for the velocity of the base.
+struct DriveCommand {
+  Time time{};
+  LeaseHolder from;
+  int sequence = 0;  ///< 0..65535, counts up and wraps
+  Duration time_to_live{};
+  Twist2 twist;  ///< base frame
+};
+
+/// False for a stick at rest.
+bool WantsMotion(const Twist2& twist);
+
+enum class CommandVerdict { kAccepted, kWithoutLease, kOutOfOrder, kTooOld, kOutOfRange, kNotAtRest };
+inline constexpr std::size_t kCommandVerdicts = 6;
+
+struct OperatorConfig {
+  double max_speed_m_s = 0.8;
+  double max_turn_rad_s = 0.8;
+  double most_time_to_live_s = 0.25;
+
+  void Describe(Archive& a);
+};
+
+/// The newest drive command and whether it may still be obeyed. A command counts until its time-to-live,
+/// measured from when the operator gave it, has run out; a command without the lease, out of order, too old,
+/// or with values out of range is refused and counted. Values are never clamped: a number that cannot be
+/// meant is not to be guessed at.
+class OperatorInput {
+ public:
+  explicit OperatorInput(const OperatorConfig& config) : config_(config) {}
+
+  /// `has_lease`: whether the sender holds the lease.
+  CommandVerdict Take(const DriveCommand& command, bool has_lease, Time now);
+  /// Forgets the command being obeyed; its sequence number still counts.
+  void Drop() { command_.reset(); }
+  /// Refuses motion until a command to stand has come: the stick must have been let go once.
+  void RequireRest() { must_rest_ = true; }
+
+  /// The command to obey; nullptr when there is none or it ran out.
+  const DriveCommand* Valid(Time now) const;
+  /// True when the last command wanted motion and ran out: the operator fell silent while driving. After a
+  /// command to stand, silence is the normal end.
+  bool FellSilent(Time now) const;
+
+  /// How often each verdict was given.
+  const std::array<int, kCommandVerdicts>& counts() const { return counts_; }
+  int refused() const;
+  /// Why the newest refused command was refused; kAccepted before the first.
+  CommandVerdict newest_refusal() const { return newest_refusal_; }
+
+ private:
+  CommandVerdict Judge(const DriveCommand& command, bool has_lease, Time now) const;
+
+  OperatorConfig config_;
+  std::optional<DriveCommand> command_;
+  std::optional<DriveCommand> newest_;  ///< accepted last, for the order
+  bool must_rest_ = false;
+  std::array<int, kCommandVerdicts> counts_{};
+  CommandVerdict newest_refusal_ = CommandVerdict::kAccepted;
+};
+
+}  // namespace priamos::robot

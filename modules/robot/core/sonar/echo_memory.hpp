@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "robot/core/base/footprint.hpp"
+#include "robot/core/sonar/near_map.hpp"
+
+namespace priamos::robot {
+
+inline constexpr int kSonars = 24;
+
+/// One cycle of the ring.
+struct SonarCycle {
+  Time time{};
+  std::array<double, kSonars> range_m{};  ///< first echo of each sensor; anything outside 0..5 m is no echo
+};
+
+/// Sensor `index` (0 is S1) on the edge of the footprint: S1 looks straight ahead, the others follow every 15
+/// degrees counter-clockwise, each where the ray from the base centre leaves the rectangle.
+Pose2 BaseFromSonar(int index, const Footprint& footprint);
+
+struct EchoMemoryConfig {
+  double half_beam_deg = 7.5;  ///< an echo lies anywhere on this arc
+  double agreement_m = 0.3;    ///< two echoes nearer than this to each other confirm one another
+  double near_m = 0.25;        ///< an echo this near counts at once
+  double blind_m = 0.12;       ///< echoes up to here may come from nearer: sensors do not measure below 0.1 m
+  double blind_as_m = 0.05;    ///< where such an echo is taken to come from
+  double keep_s = 0.22;        ///< how long an echo counts that nothing newer replaces: two cycles at 10 Hz
+  double bridge_from_m = 0.5;  ///< neighbouring echoes nearer than this
+  double bridge_m = 0.4;       ///< and not farther apart than this are taken for one thing, see Bridges
+  NearMapConfig near_map;
+
+  void Describe(Archive& a);
+};
+
+/// Which echoes are to be believed, and where that puts things around the base. A single echo may be
+/// another sensor's sound, and a real one may be lost on a smooth surface. So an echo counts when a second
+/// one in the last three cycles, or a neighbour in the same cycle, agrees with it, or when it is very near;
+/// and it counts until its sensor hears another one or its cycle is forgotten. Odometry moves remembered
+/// echoes along.
+class EchoMemory {
+ public:
+  EchoMemory(const EchoMemoryConfig& config, const Footprint& footprint);
+
+  /// `odom_from_base` at the end of the cycle.
+  void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
+  /// Forgets what is too old at `now`; `waits` as in NearMap::Forget.
+  void Forget(const Pose2& odom_from_base, Time now, bool waits = false);
+  /// Time of the newest cycle.
+  std::optional<Time> newest() const;
+
+  /// Points on the arcs of all believed echoes, base frame of `odom_from_base`.
+  std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;
+  /// What lies between the near echoes of neighbouring sensors. The beams leave wedges before the corners of
+  /// the base, and the corner of a box gets through them unseen while its faces are seen on both sides: two
+  /// echoes so near to each other are taken for one convex thing, whose inside holds the line between them.
+  std::vector<Eigen::Vector2d> Bridges(const Pose2& odom_from_base) const;
+  /// Places of near things that no beam sees any more, base frame of `odom_from_base`.
+  std::vector<Eigen::Vector2d> Remembered(const Pose2& odom_from_base) const {
+    return near_map_.Points(odom_from_base);
+  }
+
+ private:
+  struct Kept {
+    SonarCycle cycle;
+    Pose2 odom_from_base;
+  };
+  void NoteNearThings();
+  std::array<std::optional<Eigen::Vector2d>, kSonars> NearEchoes(const Pose2& odom_from_base) const;
+  double RangeOf(std::size_t index, int sensor) const;
+  bool IsSuperseded(std::size_t index, int sensor) const;
+  bool Agrees(std::size_t index, int sensor) const;
+
+  EchoMemoryConfig config_;
+  std::array<Pose2, kSonars> base_from_sonar_;
+  std::deque<Kept> kept_;  ///< oldest first
+  NearMap near_map_;
+};
+
+}  // namespace priamos::robot

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "robot/core/sonar/near_map.hpp"
+
+namespace priamos::robot {
+
+/// A straight piece of the laser's line that does not lie on the floor, base frame at the time of the
+/// picture.
+struct FloorPiece {
+  Eigen::Vector2d right{0, 0}, left{0, 0};  ///< ends, as they lie
+  double height_m = 0;                      ///< above the floor; below it negative: a step down
+};
+
+/// What one picture of the line showed.
+struct FloorLine {
+  Time exposure{};
+  std::vector<FloorPiece> pieces;
+};
+
+struct FloorMemoryConfig {
+  double laser_x_m = 0.46, laser_height_m = 0.60;
+  double max_age_s = 1;   ///< of a picture when it arrives
+  double unseen_m = 0.3;  ///< the floor so far before the first line is unknown
+  NearMapConfig kept{.keep_m = 1, .keep_s = 60, .keep_standing_s = 600, .forget_m = 4};
+
+  void Describe(Archive& a);
+};
+
+/// Where the floor is no floor: what is too low for the sonars, and steps down. The line lies two metres
+/// ahead and sees a place once, so it is kept until the base is far from it or has driven about for a minute.
+/// A thing begins somewhere between this line and the one before; the nearer end counts.
+class FloorMemory {
+ public:
+  explicit FloorMemory(const FloorMemoryConfig& config) : config_(config), map_(config.kept) {}
+
+  /// `odom_from_base` at the time of the picture. False if it is too old, from the future, or not newer than
+  /// the one before.
+  bool Add(const FloorLine& line, const Pose2& odom_from_base, Time now);
+  void Forget(const Pose2& odom_from_base, Time now) { map_.Forget(odom_from_base, now); }
+  /// In the base frame.
+  std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const {
+    return map_.Points(odom_from_base);
+  }
+
+ private:
+  Eigen::Vector2d OnFloor(const Eigen::Vector2d& at, double height_m) const;
+
+  FloorMemoryConfig config_;
+  NearMap map_;
+  std::optional<Time> last_;
+  Pose2 odom_from_last_;
+};
+
+}  // namespace priamos::robot

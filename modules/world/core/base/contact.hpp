@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "common/rectangle.hpp"
+#include "world/core/scene/solid.hpp"
+
+namespace priamos::world {
+
+/// The body that can touch things: a rectangle around the base centre between two heights.
+struct Body {
+  Eigen::Vector2d size_m{0.95, 0.78};  ///< length (x), width (y)
+  double low_m = 0.02;                 ///< what is lower is rolled over: a door threshold
+  double high_m = 1.35;                ///< top of the robot
+};
+
+/// Exact distances between the robot's footprint and the solids at its height.
+class Clearance {
+ public:
+  /// Copies what it needs; solids below or above the body are left out.
+  Clearance(const Body& body, const std::vector<Solid>& solids);
+
+  /// Distance from the footprint at `pose` to the nearest solid, at most `limit_m`; 0 in contact.
+  double Gap(const Pose2& pose, double limit_m) const;
+  /// How far along the way from `from` to `to` (0 to 1) the footprint stays free; `from` counts as free.
+  double FreePart(const Pose2& from, const Pose2& to) const;
+
+ private:
+  struct Obstacle {
+    Rectangle outline;
+    double radius_m;  ///< of the circle around it
+  };
+
+  Body body_;
+  std::vector<Obstacle> obstacles_;
+};
+
+/// Counts touches: a touch begins when the gap falls below `begin_m` and ends when it rises above `end_m`,
+/// so that scraping along a wall is one touch.
+class ContactCounter {
+ public:
+  ContactCounter(double begin_m, double end_m) : begin_m_(begin_m), end_m_(end_m) {}
+
+  void Update(double gap_m);
+  int contacts() const { return contacts_; }
+  /// Smallest gap ever given [m]; infinity before the first.
+  double min_gap_m() const { return min_gap_m_; }
+
+ private:
+  double begin_m_, end_m_;
+  bool touching_ = false;
+  int contacts_ = 0;
+  double min_gap_m_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace priamos::world

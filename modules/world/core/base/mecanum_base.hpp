@@ -1,0 +1,52 @@
+#pragma once
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/random.hpp"
+#include "world/core/base/drive_board.hpp"
+
+namespace priamos::world {
+
+/// The base and how far reality is from its drawing. The nominal values are what `robot` may know; the
+/// errors are drawn once per run from the seed.
+struct MecanumConfig {
+  double wheel_radius_m = 0.10;
+  double half_wheelbase_m = 0.30;
+  double half_track_m = 0.32;
+  double radius_error = 0.008;
+  double lever_error = 0.01;
+  double lateral_loss = 0.03;
+  double roller_slip = 0.012;
+  double slip_length_m = 0.3;
+  double acceleration_slip_s2_m = 0.01;
+
+  void Describe(Archive& a);
+};
+
+/// Four Mecanum wheels (rollers at 45 degrees, O arrangement seen from the contact points) on a flat floor.
+///
+/// A wheel's contact speed c = radius * speed * (1 - slip). Rolling without slip means
+///   c_fl = vx - vy - k wz,  c_fr = vx + vy + k wz,  c_rl = vx + vy - k wz,  c_rr = vx - vy + k wz
+/// with k = half wheelbase + half track (Muir and Neuman, "Kinematic modeling of wheeled mobile robots",
+/// J. Robotic Systems 1987). Four slipping wheels contradict each other; the base takes the least squares
+/// motion, which is where equal roller friction balances.
+class MecanumBase {
+ public:
+  MecanumBase(const MecanumConfig& config, Rng rng);
+
+  /// True body velocity while the wheels turn so; slip wanders with the way that each wheel rolls.
+  Twist2 Step(const PerWheel& speed_rad_s, double dt_s);
+
+  /// The part of the contact speeds that no body motion explains [m/s]: what the rollers grind.
+  double scrub_m_s() const { return scrub_m_s_; }
+
+ private:
+  MecanumConfig config_;
+  Rng rng_;
+  double lever_m_;
+  double lateral_loss_;
+  PerWheel radius_m_, slip_{}, previous_m_s_{};
+  double scrub_m_s_ = 0;
+};
+
+}  // namespace priamos::world

@@ -1,0 +1,34 @@
+#include "world/core/render/graphics_context.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "world/core/render/graphics_mesh.hpp"
+
+namespace priamos::world {
+
+GraphicsContext::GraphicsContext(int width_px, int height_px)
+    : width_px_(width_px),
+      height_px_(height_px),
+      frame_buffer_(static_cast<unsigned>(width_px), static_cast<unsigned>(height_px)),
+      program_(GraphicsMesh::CompileProgram()) {}
+
+std::shared_ptr<GraphicsContext> GraphicsContext::Hold(int width_px, int height_px) {
+  thread_local std::weak_ptr<GraphicsContext> living;
+  if (auto context = living.lock()) {
+    if (context->width_px() != width_px || context->height_px() != height_px) {
+      throw std::logic_error("one picture size per thread");
+    }
+    return context;
+  }
+  try {
+    const auto context = std::make_shared<GraphicsContext>(width_px, height_px);
+    living = context;
+    return context;
+  } catch (const std::exception& e) {
+    throw std::runtime_error(std::string("no off-screen OpenGL (apt install libegl1 libgl1-mesa-dri): ") +
+                             e.what());
+  }
+}
+
+}  // namespace priamos::world

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "world/core/scene/scene.hpp"
+#include "world/core/scene/solid.hpp"
+
+namespace priamos::world {
+
+/// What a ray meets first.
+struct RayHit {
+  double distance_m = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface, towards the ray's origin
+  int solid = -1;                                     ///< index; -1 floor, -2 ceiling, -3 nothing
+};
+
+/// The solids and the light in them, for rays: how bright a surface is, how far the next thing is.
+class Lighting {
+ public:
+  Lighting(const SceneConfig& config, const std::vector<Solid>& solids);
+
+  /// Light on a surface element: about 1 under a lamp, 0 in the dark. Lamps are hidden by solids, corners get
+  /// less of the ambient light; light is not reflected from surface to surface.
+  double At(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+
+  /// The first solid, floor or ceiling along a unit vector; distance `max_m` if there is none before.
+  RayHit Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double max_m) const;
+  double Distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double max_m) const;
+
+ private:
+  struct Box {
+    double c, s;  ///< of its yaw
+    Eigen::Vector3d centre, half;
+  };
+  double Ambient(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+  double Lamps(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+  /// Entry distance into one box, with the axis (0, 1, 2) of the face; negative if the ray misses it.
+  double Enter(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+               int& axis) const;
+  double Hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double max_m) const;
+
+  SceneConfig config_;
+  std::vector<Box> boxes_;
+  std::vector<Eigen::Vector3d> lamps_;
+  Eigen::Vector3d window_;
+};
+
+}  // namespace priamos::world

@@ -1,0 +1,173 @@
+#include "world/core/render/mesh.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::world {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kCell_m = 0.6;  // grid on which light is computed, in the middle of a face ...
+constexpr double kRim_m = 0.2;   // ... and near its rim, where corners are darker
+constexpr double kInset_m = 0.08;
+constexpr float kBlackLight = 0.03F;  // of the reference body ...
+constexpr float kDiscLight = 0.08F;   // ... and its discs, but for the lamp beside the lens
+constexpr int kDiscCorners = 96;
+
+/// A rectangle in space: `origin` + a * `along` + b * `up`, a and b in 0..1; outside is along x up.
+struct Face {
+  Vector3d origin, along, up;
+  double u0, v0, u1, v1;  ///< texture coordinates at origin and at the far corner
+  int layer;
+};
+
+/// Coordinate of the face's beginning along one of its sides.
+double Start(const Vector3d& origin, const Vector3d& side) {
+  return origin.dot(side.normalized());
+}
+
+double LightAt(const Face& face, double a, double b, const Lighting& lighting) {
+  const Vector3d normal = face.along.cross(face.up).normalized();
+  // Off the border, where a thin neighbour such as a skirting shades only the last centimetres.
+  const double inset_a = std::min(0.3, kInset_m / face.along.norm()),
+               inset_b = std::min(0.3, kInset_m / face.up.norm());
+  const double inner_a = std::clamp(a, inset_a, 1 - inset_a), inner_b = std::clamp(b, inset_b, 1 - inset_b);
+  return lighting.At(face.origin + inner_a * face.along + inner_b * face.up + 0.002 * normal, normal);
+}
+
+/// Where along a side light is computed, 0..1: at its ends, near them, and at multiples of kCell_m of a
+/// coordinate that is `start` at its beginning, so that faces in one plane agree about the light where they
+/// meet.
+std::vector<double> Grid(double start, double length) {
+  std::vector<double> lines{0, length};
+  const auto add = [&](double line) {
+    const auto close = [line](double other) { return std::abs(line - other) < kRim_m / 2; };
+    if (line > 0 && line < length && std::none_of(lines.begin(), lines.end(), close)) lines.push_back(line);
+  };
+  if (length > 3 * kRim_m) add(kRim_m), add(length - kRim_m);
+  for (int i = static_cast<int>(std::ceil(start / kCell_m)); i * kCell_m < start + length; ++i)
+    add(i * kCell_m - start);
+  std::sort(lines.begin(), lines.end());
+  for (double& line : lines) line /= length;
+  return lines;
+}
+
+void AppendFace(const Face& face, const Lighting& lighting, double most_light, Mesh& mesh) {
+  const std::vector<double> columns = Grid(Start(face.origin, face.along), face.along.norm());
+  const std::vector<double> rows = Grid(Start(face.origin, face.up), face.up.norm());
+  std::vector<MeshVertex> grid;
+  for (const double b : rows) {
+    for (const double a : columns) {
+      const Vector3d p = face.origin + a * face.along + b * face.up;
+      const double light = std::min(LightAt(face, a, b, lighting) / most_light, 1.0);
+      grid.push_back({float(p.x()), float(p.y()), float(p.z()), float(face.u0 + a * (face.u1 - face.u0)),
+                      float(face.v0 + b * (face.v1 - face.v0)), float(face.layer), float(light), 0, 0});
+    }
+  }
+  for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
+      const std::size_t k = j * columns.size() + i, above = k + columns.size();
+      mesh.push_back({grid[k], grid[k + 1], grid[above + 1]});
+      mesh.push_back({grid[k], grid[above + 1], grid[above]});
+    }
+  }
+}
+
+struct Sides {
+  std::array<Face, 6> faces;  ///< -x, +x, -y, +y, bottom, top
+};
+
+/// Upright box about the frame's z axis.
+Sides BoxFaces(const Eigen::Isometry3d& map_from_box, const Vector3d& low, const Vector3d& high) {
+  const Vector3d s = high - low;
+  const Vector3d x = map_from_box.linear() * Vector3d(s.x(), 0, 0);
+  const Vector3d y = map_from_box.linear() * Vector3d(0, s.y(), 0);
+  const Vector3d z = map_from_box.linear() * Vector3d(0, 0, s.z());
+  const Vector3d o = map_from_box * low;
+  return {{Face{o + y, -y, z, 0, 0, 0, 0, 0}, Face{o + x, y, z, 0, 0, 0, 0, 0}, Face{o, x, z, 0, 0, 0, 0, 0},
+           Face{o + x + y, -x, z, 0, 0, 0, 0, 0}, Face{o + y, x, -y, 0, 0, 0, 0, 0},
+           Face{o + z, x, y, 0, 0, 0, 0, 0}}};
+}
+
+/// The picture's first row is at the top.
+void Hang(Face& face, int layer, bool mirrored) {
+  face.u0 = mirrored ? 1 : 0, face.u1 = 1 - face.u0, face.v0 = 1, face.v1 = 0;
+  face.layer = layer;
+}
+
+/// Coverings continue from solid to solid in one plane.
+void Cover(Face& face, const Surface& surface) {
+  face.u0 = Start(face.origin, face.along) / surface.tile_m;
+  face.v0 = Start(face.origin, face.up) / surface.tile_m;
+  face.u1 = face.u0 + face.along.norm() / surface.tile_m;
+  face.v1 = face.v0 + face.up.norm() / surface.tile_m;
+  face.layer = surface.picture ? surface.edge_layer : surface.layer;
+}
+
+}  // namespace
+
+void AppendSolid(const Solid& solid, const Surface& surface, const Lighting& lighting, double most_light,
+                 Mesh& mesh) {
+  Eigen::Isometry3d map_from_box(Eigen::Translation3d(solid.map_from_solid.x, solid.map_from_solid.y, 0));
+  map_from_box.rotate(Eigen::AngleAxisd(solid.map_from_solid.yaw, Vector3d::UnitZ()));
+  const Vector3d half(solid.size_m.x() / 2, solid.size_m.y() / 2, 0);
+  Sides sides =
+      BoxFaces(map_from_box, -half + Vector3d(0, 0, solid.z_min_m), half + Vector3d(0, 0, solid.z_max_m));
+  const bool thin_in_x = solid.size_m.x() <= solid.size_m.y();
+  for (std::size_t i = 0; i < sides.faces.size(); ++i) {
+    const bool front = surface.picture && (thin_in_x ? i < 2 : i == 2 || i == 3);
+    if (front)
+      Hang(sides.faces[i], surface.layer, surface.handed && i % 2 == 1);
+    else
+      Cover(sides.faces[i], surface);
+    AppendFace(sides.faces[i], lighting, most_light, mesh);
+  }
+}
+
+void AppendRoom(const SceneConfig& config, const Textures& textures, const Lighting& lighting,
+                double most_light, Mesh& mesh) {
+  const Vector3d x(config.x_max_m - config.x_min_m, 0, 0), y(0, config.y_max_m - config.y_min_m, 0);
+  const Vector3d corner(config.x_min_m, config.y_min_m, 0);
+  Face floor{corner, x, y, 0, 0, 0, 0, 0};
+  Cover(floor, textures.Find(config.floor, "floor"));
+  AppendFace(floor, lighting, most_light, mesh);
+  Face ceiling{corner + y + Vector3d(0, 0, config.ceiling_m), x, -y, 0, 0, 0, 0, 0};
+  Cover(ceiling, textures.Find("ceiling", "ceiling"));
+  AppendFace(ceiling, lighting, most_light, mesh);
+}
+
+void AppendReference(const PlacedReference& reference, Mesh& mesh) {
+  const auto vertex = [](const Vector3d& p, float light, float retro) {
+    return MeshVertex{float(p.x()), float(p.y()), float(p.z()), 0, 0, 0, light, retro, 0};
+  };
+  for (const ReferenceBlock& block : reference.object.blocks) {
+    const Vector3d half = (block.size_m / 2 - Vector3d::Constant(kDiscThickness_m)).cwiseMax(1e-4);
+    for (const Face& f :
+         BoxFaces(reference.map_from_object, block.centre_m - half, block.centre_m + half).faces) {
+      const auto corner = [&](int a, int b) {
+        return vertex(f.origin + a * f.along + b * f.up, kBlackLight, 0);
+      };
+      mesh.push_back({corner(0, 0), corner(1, 0), corner(1, 1)});
+      mesh.push_back({corner(0, 0), corner(1, 1), corner(0, 1)});
+    }
+  }
+  // A polygon with the circle's area.
+  const double step = 2 * kPi / kDiscCorners, grow = std::sqrt(step / std::sin(step));
+  for (const ReferenceDisc& disc : reference.object.discs) {
+    const Vector3d n = disc.normal;
+    const Vector3d a = (std::abs(n.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX()).cross(n).normalized();
+    const Vector3d b = n.cross(a);
+    const auto corner = [&](int i) {
+      const Vector3d rim =
+          disc.centre_m + disc.radius_m * grow * (std::cos(i * step) * a + std::sin(i * step) * b);
+      return vertex(reference.map_from_object * rim, kDiscLight, 1);
+    };
+    const MeshVertex centre = vertex(reference.map_from_object * disc.centre_m, kDiscLight, 1);
+    for (int i = 0; i < kDiscCorners; ++i) mesh.push_back({centre, corner(i), corner(i + 1)});
+  }
+}
+
+}  // namespace priamos::world

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/frame_store.hpp"
+#include "common/random.hpp"
+#include "world/core/camera/imaging.hpp"
+#include "world/core/camera/optics.hpp"
+#include "world/core/render/laser.hpp"
+#include "world/core/scene/placed_reference.hpp"
+#include "world/core/scene/scene.hpp"
+#include "world/core/scene/solid.hpp"
+
+namespace priamos::world {
+
+/// All that decides how a picture comes out; the world file's sections [light], [lens] and [head].
+struct RendererConfig {
+  SceneConfig scene;
+  ImagingConfig imaging;
+  HeadBuild head;
+  LaserBuild laser{};
+
+  void Describe(Archive& a);
+};
+
+/// From where a picture is taken, at one instant.
+struct Viewpoint {
+  Pose2 map_from_base;
+  HeadAxes head;
+};
+
+/// Draws the world as the three cameras see it. To be used and destroyed in the thread that made it, whose
+/// OpenGL context it shares with its like. Throws std::runtime_error when no off-screen OpenGL is to be had.
+class Renderer {
+ public:
+  /// `seed` decides textures; materials must be among MaterialNames(), else std::invalid_argument.
+  Renderer(const RendererConfig& config, const std::vector<Solid>& solids, std::uint64_t seed);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Another world, as if newly constructed.
+  void SetScene(const RendererConfig& config, const std::vector<Solid>& solids, std::uint64_t seed);
+  /// Moves the solid with this name (the door leaf); std::invalid_argument if there is none.
+  void MoveSolid(const std::string& name, const Pose2& map_from_solid);
+  /// Puts the calibration body somewhere, or takes it away.
+  void PlaceReference(const std::optional<PlacedReference>& reference);
+
+  /// One picture of kImageWidthPx x kImageHeightPx, exposed while base and head move evenly from `opening` to
+  /// `closing`. The same arguments give the same bytes; `rng` draws the noise.
+  GreyImage Expose(Camera camera, const Viewpoint& opening, const Viewpoint& closing,
+                   const Exposure& exposure, Rng& rng);
+
+  const RendererConfig& config() const;
+
+  /// While this is held, Renderers made one after the other in this thread need not set OpenGL up again.
+  static std::shared_ptr<void> HoldGraphics();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace priamos::world

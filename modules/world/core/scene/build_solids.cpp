@@ -1,0 +1,215 @@
+#include "world/core/scene/build_solids.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/random.hpp"
+
+namespace priamos::world {
+namespace {
+
+constexpr double kPosterThicknessM = 0.004;
+
+/// Part of a wall, as way from its `from_m`.
+struct Piece {
+  double begin_m, end_m;
+};
+
+struct WallLine {
+  explicit WallLine(const WallPlan& wall)
+      : length_m((wall.to() - wall.from()).norm()),
+        map_from_line{wall.from_m[0], wall.from_m[1],
+                      std::atan2(wall.to_m[1] - wall.from_m[1], wall.to_m[0] - wall.from_m[0])} {}
+
+  double length_m;
+  Pose2 map_from_line;  ///< x along the wall from its `from_m`
+};
+
+class Builder {
+ public:
+  Builder(const GroundPlan& map, const WorldPlan& plan, std::uint64_t seed)
+      : map_(map), plan_(plan), rng_(Rng::Stream(seed, "furniture")) {
+    for (const auto& door : map.doors) doors_.push_back(AsBuilt(door, WorkOf(door)));
+  }
+
+  std::vector<Solid> Build() {
+    CheckNames();
+    for (const auto& wall : map_.walls) AddWall(wall);
+    for (const auto& door : doors_) AddDoor(door);
+    for (const auto& poster : plan_.posters) AddPoster(poster);
+    for (const auto& box : plan_.boxes) AddBox(box);
+    MakeNamesUnique();
+    return std::move(solids_);
+  }
+
+ private:
+  DoorWork WorkOf(const DoorPlan& door) const {
+    for (const auto& work : plan_.doors)
+      if (work.id == door.id) return work;
+    return {};
+  }
+  const WallPlan& FindWall(const std::string& name, std::string_view asked_by) const;
+  void CheckNames() const;
+  std::string MaterialOf(const WallPlan& wall) const;
+  std::vector<Piece> PiecesBesideDoors(const WallPlan& wall);
+  void AddWall(const WallPlan& wall);
+  void AddSkirting(const WallPlan& wall, const Piece& piece);
+  void AddDoor(const DoorPlan& door);
+  void AddPoster(const PosterPlan& poster);
+  void AddBox(const BoxPlan& box);
+  void MakeNamesUnique();
+
+  const GroundPlan& map_;
+  const WorldPlan& plan_;
+  Rng rng_;
+  std::vector<DoorPlan> doors_;
+  std::vector<Solid> solids_;
+};
+
+const WallPlan& Builder::FindWall(const std::string& name, std::string_view asked_by) const {
+  const auto it = std::find_if(map_.walls.begin(), map_.walls.end(),
+                               [&](const WallPlan& wall) { return wall.name == name; });
+  if (it == map_.walls.end())
+    throw ConfigError(
+        fmt::format("{}: {}: expected the name of a wall of the map, got \"{}\"", plan_.map, asked_by, name));
+  return *it;
+}
+
+void Builder::CheckNames() const {
+  for (const auto& surface : plan_.surfaces) FindWall(surface.wall, "surfaces");
+  for (const auto& work : plan_.doors)
+    if (!map_.FindDoor(work.id))
+      throw ConfigError(
+          fmt::format("{}: doors: expected the id of a door of the map, got {}", plan_.map, work.id));
+}
+
+std::string Builder::MaterialOf(const WallPlan& wall) const {
+  for (const auto& surface : plan_.surfaces)
+    if (surface.wall == wall.name) return surface.material;
+  return plan_.wall_material;
+}
+
+/// A map may draw a wall through the door or end it at the opening: either way it ends at the frame.
+std::vector<Piece> Builder::PiecesBesideDoors(const WallPlan& wall) {
+  const WallLine line(wall);
+  std::vector<Piece> pieces{{0, line.length_m}};
+  for (const auto& door : doors_) {
+    const Pose2 in_wall = line.map_from_line.Inverse() * door.map_from_door();
+    const double reach = door.opening_width_m / 2 + door.frame_width_m;
+    const bool across = std::abs(std::cos(in_wall.yaw)) < 0.5;
+    const bool beside = in_wall.x < -reach || in_wall.x > line.length_m + reach;
+    if (!across || beside || std::abs(in_wall.y) > wall.thickness_m) continue;
+    std::vector<Piece> cut;
+    for (const auto& piece : pieces) {
+      cut.push_back({piece.begin_m, std::min(piece.end_m, in_wall.x - reach)});
+      cut.push_back({std::max(piece.begin_m, in_wall.x + reach), piece.end_m});
+    }
+    pieces = cut;
+  }
+  std::erase_if(pieces, [](const Piece& piece) { return piece.end_m - piece.begin_m < 0.001; });
+  return pieces;
+}
+
+void Builder::AddWall(const WallPlan& wall) {
+  const WallLine line(wall);
+  for (const auto& piece : PiecesBesideDoors(wall)) {
+    const double length = piece.end_m - piece.begin_m;
+    solids_.push_back({"wall " + wall.name,
+                       line.map_from_line * Pose2{piece.begin_m + length / 2, 0, 0},
+                       {length, wall.thickness_m},
+                       0,
+                       plan_.light.ceiling_m,
+                       MaterialOf(wall)});
+    if (plan_.skirting.height_m > 0) AddSkirting(wall, piece);
+  }
+}
+
+void Builder::AddSkirting(const WallPlan& wall, const Piece& piece) {
+  const WallLine line(wall);
+  const double length = piece.end_m - piece.begin_m;
+  for (const double side : {1.0, -1.0}) {
+    const double beside = side * (wall.thickness_m + plan_.skirting.thickness_m) / 2;
+    solids_.push_back({"skirting " + wall.name,
+                       line.map_from_line * Pose2{piece.begin_m + length / 2, beside, 0},
+                       {length, plan_.skirting.thickness_m},
+                       0,
+                       plan_.skirting.height_m,
+                       plan_.skirting.material});
+  }
+}
+
+void Builder::AddDoor(const DoorPlan& door) {
+  const DoorWork work = WorkOf(door);
+  const double open_deg = std::clamp(work.open_deg + rng_.Uniform(-1, 1) * work.open_spread_deg, 0.0, 175.0);
+  auto parts = DoorSolids(door, work, open_deg);
+  const bool listed =
+      std::any_of(plan_.doors.begin(), plan_.doors.end(), [&](const DoorWork& w) { return w.id == door.id; });
+  if (!listed) std::erase_if(parts, [](const Solid& part) { return part.material == "door_leaf"; });
+  solids_.insert(solids_.end(), parts.begin(), parts.end());
+
+  // The wall goes on above the frame, in the material of a wall that the door is in.
+  const double outer = door.opening_width_m / 2 + door.frame_width_m;
+  const double top = door.opening_height_m + door.frame_width_m;
+  const WallPlan* host = nullptr;
+  for (const auto& wall : map_.walls) {
+    const WallLine line(wall);
+    const Pose2 in_wall = line.map_from_line.Inverse() * door.map_from_door();
+    if (std::abs(std::cos(in_wall.yaw)) < 0.5 && std::abs(in_wall.y) <= wall.thickness_m &&
+        in_wall.x > -outer - 0.05 && in_wall.x < line.length_m + outer + 0.05)
+      host = &wall;
+  }
+  if (!host)
+    throw ConfigError(
+        fmt::format("{}: doors: expected door \"{}\" to stand in or between walls", plan_.map, door.name));
+  if (plan_.light.ceiling_m > top)
+    solids_.push_back({door.name + ": wall above",
+                       door.map_from_door(),
+                       {door.wall_thickness_m, 2 * outer},
+                       top,
+                       plan_.light.ceiling_m,
+                       MaterialOf(*host)});
+}
+
+void Builder::AddPoster(const PosterPlan& poster) {
+  const WallPlan& wall = FindWall(poster.wall, "posters");
+  const double side = poster.face == "left" ? 1 : -1;
+  // Front of the poster is its +y side, whichever face of the wall it hangs on.
+  const Pose2 in_wall{poster.along_m, side * (wall.thickness_m + kPosterThicknessM) / 2, side > 0 ? 0 : kPi};
+  solids_.push_back({"poster on " + wall.name,
+                     WallLine(wall).map_from_line * in_wall,
+                     {poster.width_m, kPosterThicknessM},
+                     poster.bottom_m,
+                     poster.bottom_m + poster.height_m,
+                     poster.material});
+}
+
+void Builder::AddBox(const BoxPlan& box) {
+  const auto within = [this](double spread) { return rng_.Uniform(-1, 1) * spread; };
+  const double x = box.x_m + within(box.spread_m), y = box.y_m + within(box.spread_m);
+  const double yaw = Radians(box.yaw_deg + within(box.spread_deg));
+  solids_.push_back({box.name,
+                     {x, y, WrapAngle(yaw)},
+                     {box.length_m, box.width_m},
+                     box.bottom_m,
+                     box.bottom_m + box.height_m,
+                     box.material});
+}
+
+void Builder::MakeNamesUnique() {
+  std::set<std::string> used;
+  for (auto& solid : solids_) {
+    const std::string name = solid.name;
+    for (int i = 2; !used.insert(solid.name).second; ++i) solid.name = fmt::format("{} {}", name, i);
+  }
+}
+
+}  // namespace
+
+std::vector<Solid> BuildSolids(const GroundPlan& map, const WorldPlan& plan, std::uint64_t seed) {
+  return Builder(map, plan, seed).Build();
+}
+
+}  // namespace priamos::world

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/ground_plan.hpp"
+#include "world/core/scene/placed_reference.hpp"
+#include "world/core/scene/scene.hpp"
+#include "world/core/scene/solid.hpp"
+
+namespace priamos::world {
+
+/// What the map does not say about one of its doors: the leaf, and how the door was really built.
+struct DoorWork {
+  int id = 1;
+  std::string hinge = "left";
+  double open_deg = 100;
+  double open_spread_deg = 0;
+  double leaf_thickness_m = 0.04;
+  double threshold_m = 0.008;
+  double built_dx_m = 0, built_dy_m = 0, built_dyaw_deg = 0, built_dwidth_m = 0;
+
+  void Describe(Archive& a);
+};
+
+/// An upright box: furniture, a column, clutter.
+struct BoxPlan {
+  std::string name = "box";
+  double x_m = 0, y_m = 0, yaw_deg = 0;
+  double length_m = 0.5, width_m = 0.5, height_m = 1, bottom_m = 0;
+  std::string material = "furniture";
+  double spread_m = 0, spread_deg = 0;
+
+  void Describe(Archive& a);
+};
+
+/// A flat thing on one face of a wall of the map.
+struct PosterPlan {
+  std::string wall;
+  std::string face = "left";
+  double along_m = 1, bottom_m = 1.1, width_m = 0.6, height_m = 0.8;
+  std::string material = "poster";
+
+  void Describe(Archive& a);
+};
+
+/// Boards along the foot of every wall.
+struct SkirtingPlan {
+  double height_m = 0.08, thickness_m = 0.012;
+  std::string material = "skirting";
+
+  void Describe(Archive& a);
+};
+
+/// Another surface for one wall than the usual one.
+struct WallSurface {
+  std::string wall, material = "concrete";
+
+  void Describe(Archive& a);
+};
+
+/// Where the robot starts: `nominal` is what it is told, the truth is off by an error drawn from the seed.
+struct StartPlan {
+  double x_m = 0, y_m = 0, yaw_deg = 0;
+  double x_spread_m = 0, y_spread_m = 0, yaw_spread_deg = 0;
+  double error_m = 0.2, error_deg = 5;
+
+  void Describe(Archive& a);
+};
+
+struct Start {
+  Pose2 nominal, truth;
+};
+
+/// Draws nominal pose (within the spreads) and truth (evenly from the disc of radius error_m, heading evenly
+/// within +-error_deg) from the seed.
+Start DrawStart(const StartPlan& plan, std::uint64_t seed);
+
+/// The calibration body before the robot: placed at a pose of the base frame at the start, off by what a
+/// careful person leaves.
+struct ReferencePlan {
+  std::string object;
+  double x_m = 1.75, y_m = 0, z_m = 1.2, yaw_deg = 180;
+  double error_m = 0.0005, error_deg = 0.05;
+
+  void Describe(Archive& a);
+};
+
+/// Draws the true place of `object` for a robot that starts at `map_from_base`.
+PlacedReference PlaceReference(const ReferencePlan& plan, const ReferenceObject& object,
+                               const Pose2& map_from_base, std::uint64_t seed);
+
+/// A world file: config/<deployment>/worlds/*.toml. File names in it are relative to the deployment's folder.
+struct WorldPlan {
+  std::string map;
+  std::string wall_material = "plaster";
+  std::vector<WallSurface> surfaces;
+  SkirtingPlan skirting;
+  std::vector<DoorWork> doors;
+  std::vector<PosterPlan> posters;
+  std::vector<BoxPlan> boxes;
+  SceneConfig light;
+  double brightness_spread = 0, window_spread_deg = 0;
+  double camera_light = 0;
+  StartPlan start;
+  ReferencePlan reference;
+
+  void Describe(Archive& a);
+};
+
+/// The light of this run: brightness and direction drawn within their spreads.
+SceneConfig DrawLight(const WorldPlan& plan, std::uint64_t seed);
+
+}  // namespace priamos::world

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "world/core/scene/outline.hpp"
+#include "world/core/scene/solid.hpp"
+
+namespace priamos::world {
+
+/// How a material answers 50 kHz sound (wave length 7 mm).
+struct EchoMaterial {
+  std::string material = "wall";   ///< as in Solid::material
+  double specular_limit_deg = 10;  ///< a mirror up to this incidence
+  double diffuse_db = -60;         ///< echo from any incidence, against a mirror at incidence 0
+  double reflection_loss_db = 1;   ///< lost when the sound bounces on
+
+  void Describe(Archive& a);
+  /// Smooth plaster and lacquer are mirrors; cloth and wood chip echo from everywhere.
+  static std::vector<EchoMaterial> Defaults();
+};
+
+/// A vertical edge of a solid that sound can reach.
+struct AcousticEdge {
+  Eigen::Vector2d point;
+};
+
+/// The solids as sound at one height meets them.
+class AcousticScene {
+ public:
+  /// Keeps the solids within `height_m` +- `half_band_m`. A material that `materials` does not list answers
+  /// like the first one listed.
+  AcousticScene(const std::vector<Solid>& solids, double height_m, double half_band_m,
+                const std::vector<EchoMaterial>& materials);
+
+  struct Hit {
+    double distance_m;
+    Eigen::Vector2d point, normal;
+    const EchoMaterial* material;
+  };
+  std::optional<Hit> Nearest(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
+                             double max_m) const;
+  /// Convex edges that no other solid covers.
+  const std::vector<AcousticEdge>& edges() const { return edges_; }
+  bool Visible(const Eigen::Vector2d& from, const Eigen::Vector2d& point) const;
+
+ private:
+  struct Obstacle {
+    Rectangle outline;
+    RayTarget target;
+    std::size_t material;
+  };
+  void FindEdges();
+
+  std::vector<EchoMaterial> materials_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<AcousticEdge> edges_;
+};
+
+}  // namespace priamos::world

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/random.hpp"
+#include "common/time.hpp"
+#include "world/core/sonar/acoustic_scene.hpp"
+
+namespace priamos::world {
+
+inline constexpr int kSonars = 24;
+
+/// The ring of 24 ultrasonic sensors. Levels are in dB against a smooth wall 1 m before the sensor.
+struct SonarConfig {
+  double height_m = 0.4;
+  double cycle_s = 0.1;
+  int groups = 3;
+  double beam_deg = 15;
+  double sensitivity_db = 45;
+  double absorption_db_m = 1.3;
+  double edge_db = -30;
+  double fading_db = 2;
+  double noise_m = 0.003;
+  double noise_per_m = 0.002;
+  double sound_speed_error = 0.004;
+  double crosstalk = 0.004;
+  std::vector<EchoMaterial> materials = EchoMaterial::Defaults();
+
+  void Describe(Archive& a);
+};
+
+inline constexpr double kSonarMinM = 0.1, kSonarMaxM = 5, kSonarResolutionM = 0.01, kNoEcho = -1;
+
+/// Where sensor `index` (0 is S1) sits and looks: on the edge of the footprint, every 15 degrees
+/// counter-clockwise from straight ahead.
+Pose2 BaseFromSonar(int index, const Eigen::Vector2d& footprint_m);
+
+/// The first echo of one ping.
+struct Echo {
+  double range_m;         ///< half the way of the sound, before noise
+  Eigen::Vector2d point;  ///< last reflector, map
+};
+
+/// What one sensor hears, without noise: rays over the beam, mirrored at up to two surfaces, plus edges that
+/// diffract. An echo counts when its level exceeds `threshold_db`; the nearest that counts is the first.
+std::optional<Echo> Ping(const AcousticScene& scene, const SonarConfig& config, const Pose2& map_from_sonar,
+                         double threshold_db);
+
+/// The ring and its sequencer: sensors i, i + groups, ... fire together, one group after the other through
+/// the cycle, so that sound of one group dies out before the next fires, but within a group a sensor may
+/// hear its neighbour's sound (cross-talk).
+class SonarRing {
+ public:
+  SonarRing(const SonarConfig& config, const Eigen::Vector2d& footprint_m, AcousticScene scene, Rng rng);
+
+  int groups() const { return config_.groups; }
+  Duration GroupPeriod() const { return FromSeconds(config_.cycle_s) / config_.groups; }
+  /// Fires one group with the base at `map_from_base`.
+  void Fire(int group, const Pose2& map_from_base);
+  /// Newest distance of each sensor [m], rounded to 1 cm, from 0.1 to 5, kNoEcho when none came.
+  const std::array<double, kSonars>& ranges_m() const { return ranges_m_; }
+
+ private:
+  std::optional<double> Overheard(const Pose2& map_from_sonar, const std::vector<std::optional<Echo>>& echoes,
+                                  int own);
+  double Measured(const std::optional<double>& range_m);
+
+  SonarConfig config_;
+  Eigen::Vector2d footprint_m_;
+  AcousticScene scene_;
+  Rng rng_;
+  double sound_speed_ratio_;
+  std::array<double, kSonars> ranges_m_;
+};
+
+}  // namespace priamos::world

@@ -1,0 +1,112 @@
+#include "bus/radio/channels/bundle.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/random.hpp"
+#include "test/bus/radio/link_pair.hpp"
+
+namespace priamos::bus::radio {
+namespace {
+
+struct BundleTest : testing::Test {
+  ChannelTable table{TestChannels(), false};
+  std::vector<std::byte> Write(const std::vector<BundleEntry>& entries) const {
+    BitWriter out;
+    for (const BundleEntry& entry : entries) WriteEntry(table, entry, out);
+    return out.bytes();
+  }
+  ParsedBundle Parse(const std::vector<BundleEntry>& entries, Direction incoming = Direction::kUp) const {
+    return ParseBundle(table, incoming, Write(entries));
+  }
+};
+
+TEST_F(BundleTest, EverythingComesBack) {
+  const EventSegment segment{.number = 200,
+                             .base = true,
+                             .first = true,
+                             .last = false,
+                             .age = Duration(1'500'000),
+                             .bits = 8 * kSegmentBytes,
+                             .bytes = Text(std::string(kSegmentBytes, 'e'))};
+  const auto parsed =
+      Parse({StateEntry{kPoseUp, 80, Text("0123456789")}, EventEntry{kEventUp, segment},
+             EventAckEntry{kEventDown, {.next = 7, .prefix = 33, .held = 0x8001}},
+             FrameAckEntry{.counter = 0xABC, .earlier = 0b1001, .hold = Duration(12'000), .loss = 0.4},
+             FloorEntry{0x123456789A}, ListenEntry{0x2A}});
+  ASSERT_TRUE(parsed.whole);
+  ASSERT_EQ(parsed.entries.size(), 6U);
+  EXPECT_EQ(ToText(std::get<StateEntry>(parsed.entries[0]).packed), "0123456789");
+  const auto& event = std::get<EventEntry>(parsed.entries[1]);
+  EXPECT_EQ(event.segment.number, 200);
+  EXPECT_TRUE(event.segment.base && event.segment.first && !event.segment.last);
+  EXPECT_EQ(event.segment.age, Duration(1'500'000));
+  EXPECT_EQ(event.segment.bytes, segment.bytes);
+  EXPECT_EQ(std::get<EventAckEntry>(parsed.entries[2]).ack.held, 0x8001U);
+  EXPECT_EQ(std::get<EventAckEntry>(parsed.entries[2]).ack.prefix, 33);
+  const auto& ack = std::get<FrameAckEntry>(parsed.entries[3]);
+  EXPECT_EQ(ack.counter, 0xABC);
+  EXPECT_EQ(ack.earlier, 0b1001);
+  EXPECT_EQ(ack.hold, Duration(12'000));
+  EXPECT_NEAR(ack.loss, 0.4, 0.001);
+  EXPECT_EQ(std::get<FloorEntry>(parsed.entries[4]).counter, 0x123456789AU);
+  EXPECT_EQ(std::get<ListenEntry>(parsed.entries[5]).channels, 0x2AU);
+}
+
+TEST_F(BundleTest, DifferencesComeBackBetweenOthers) {
+  auto channels = TestChannels();
+  channels[kPoseUp].delta = {16, 64};
+  table = ChannelTable(channels, false);
+  const auto old_pose = Text("0123456789"), new_pose = Text("0123456799");
+  const BitWriter delta = EncodeDelta(channels[kPoseUp].delta, old_pose, new_pose);
+  const auto parsed = Parse({StateEntry{kPoseUp, 80, old_pose},
+                             StateEntry{kPoseUp, delta.bits(), delta.bytes(), 17}, FloorEntry{5}});
+  ASSERT_TRUE(parsed.whole);
+  ASSERT_EQ(parsed.entries.size(), 3U);
+  EXPECT_FALSE(std::get<StateEntry>(parsed.entries[0]).baseline);
+  EXPECT_EQ(std::get<StateEntry>(parsed.entries[1]).baseline, 17);
+  EXPECT_EQ(std::get<StateEntry>(parsed.entries[1]).packed, delta.bytes());
+  EXPECT_EQ(std::get<FloorEntry>(parsed.entries[2]).counter, 5U);
+}
+
+TEST_F(BundleTest, FixedSizesCostOnlyTheirBitsAndANumber) {
+  EXPECT_EQ(EntryBits(table, StateEntry{kPoseUp, 80, Text("0123456789")}), 83U);
+  EXPECT_EQ(EntryBits(table, CommandEntry{kDriveDown, {}, 40, Text("abcde")}), 49U);
+}
+
+TEST_F(BundleTest, AgeOfACommandIsRoundedUp) {
+  const auto parsed = Parse({CommandEntry{kDriveDown, Duration(1), 40, Text("abcde")}}, Direction::kDown);
+  const Duration age = std::get<CommandEntry>(parsed.entries.at(0)).age;
+  EXPECT_GE(age, Duration(1));
+  EXPECT_LE(age, Duration(250'000 / 63 + 1));
+}
+
+TEST_F(BundleTest, MessagesOfTheOwnDirectionAreRefused) {
+  EXPECT_FALSE(Parse({StateEntry{kPoseUp, 80, Text("0123456789")}}, Direction::kDown).whole);
+  EXPECT_FALSE(Parse({EventAckEntry{kEventUp, {}}}, Direction::kUp).whole);
+  EXPECT_FALSE(Parse({EventAckEntry{kPoseUp, {}}}, Direction::kDown).whole);
+}
+
+TEST_F(BundleTest, CutShortIsNoticed) {
+  const auto bytes = Write({StateEntry{kPoseUp, 80, Text("0123456789")}});
+  for (std::size_t n = 1; n < bytes.size(); ++n)
+    EXPECT_FALSE(ParseBundle(table, Direction::kUp, std::span(bytes).first(n)).whole) << n;
+}
+
+TEST_F(BundleTest, AnyBytesAreReadWithoutHarm) {
+  Rng rng(1);
+  for (int i = 0; i < 200000; ++i) {
+    std::vector<std::byte> noise(rng.Below(60));
+    for (std::byte& b : noise) b = static_cast<std::byte>(rng.Below(256));
+    ParseBundle(table, i % 2 == 0 ? Direction::kUp : Direction::kDown, noise);
+  }
+}
+
+TEST(DurationCode, ErrorsStaySmall) {
+  for (double s = 0; s < 8000; s = s * 1.1 + 0.001) {
+    EXPECT_NEAR(Seconds(DecodeDuration12(EncodeDuration12(FromSeconds(s)))), s, 0.0006 + s * 0.005);
+  }
+  EXPECT_EQ(DecodeDuration12(EncodeDuration12(Duration(-5))), Duration(0));
+}
+
+}  // namespace
+}  // namespace priamos::bus::radio

@@ -1,0 +1,185 @@
+#include "bus/radio/channels/send_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include "test/bus/radio/link_pair.hpp"
+
+namespace priamos::bus::radio {
+namespace {
+
+const Time kStart = FromUtime(1'000'000'000);
+constexpr Duration kAgeing{1'000'000};
+
+Time After(double s) {
+  return kStart + FromSeconds(s);
+}
+
+struct SendQueueTest : testing::Test {
+  std::vector<LinkChannel> channels = TestChannels();
+  ChannelTable Table() const { return {channels, false}; }
+};
+
+TEST_F(SendQueueTest, NewestWins) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  dut.Offer(kPoseUp, "", Text("old"), kStart);
+  dut.Offer(kPoseUp, "", Text("new"), After(0.1));
+  const auto ready = dut.Ready(After(0.1));
+  ASSERT_EQ(ready.size(), 1U);
+  EXPECT_EQ(ToText(dut.Take(ready[0]).encoded), "new");
+  EXPECT_EQ(dut.counters(kPoseUp).replaced, 1U);
+  EXPECT_TRUE(dut.Ready(After(0.1)).empty());
+}
+
+TEST_F(SendQueueTest, KeysDoNotReplaceEachOther) {
+  channels[kSlowUp].max_keys = 2;
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  EXPECT_TRUE(dut.Offer(kSlowUp, "robot", Text("r"), kStart));
+  EXPECT_TRUE(dut.Offer(kSlowUp, "head", Text("h"), kStart));
+  EXPECT_FALSE(dut.Offer(kSlowUp, "world", Text("w"), kStart));
+  EXPECT_EQ(dut.Ready(kStart).size(), 2U);
+  EXPECT_EQ(dut.counters(kSlowUp).refused, 1U);
+}
+
+TEST_F(SendQueueTest, PriorityDecides) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  dut.Offer(kSlowUp, "", Text("s"), kStart);
+  dut.Offer(kPoseUp, "", Text("p"), kStart);
+  EXPECT_EQ(dut.Ready(kStart)[0].channel, kPoseUp);
+}
+
+TEST_F(SendQueueTest, WaitingRaisesThePriority) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  dut.Offer(kSlowUp, "", Text("s"), kStart);  // priority 5 against 2
+  dut.Offer(kPoseUp, "", Text("p"), After(2.9));
+  EXPECT_EQ(dut.Ready(After(2.9))[0].channel, kPoseUp);
+  dut.Offer(kPoseUp, "", Text("p"), After(3.0));
+  EXPECT_EQ(dut.Ready(After(3.0))[0].channel, kSlowUp);
+}
+
+TEST_F(SendQueueTest, AnEndlesslyReplacedMessageAgesAllTheSame) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  for (int i = 0; i <= 40; ++i) dut.Offer(kSlowUp, "", Text("s"), After(0.1 * i));
+  dut.Offer(kPoseUp, "", Text("p"), After(4));
+  EXPECT_EQ(dut.Ready(After(4))[0].channel, kSlowUp);
+}
+
+TEST_F(SendQueueTest, UrgentGoesFirstWhateverWaits) {
+  channels[kSlowUp].urgent = true;
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  dut.Offer(kPoseUp, "", Text("p"), kStart);
+  EXPECT_FALSE(dut.UrgentReady(kStart));
+  dut.Offer(kSlowUp, "", Text("s"), After(0.1));
+  EXPECT_TRUE(dut.UrgentReady(After(0.1)));
+  EXPECT_EQ(dut.Ready(After(0.1))[0].channel, kSlowUp);
+}
+
+/// Numbers of the segments that would be sent at `now`, one after the other.
+std::vector<int> SendAll(SendQueue& dut, std::size_t channel, Time now) {
+  std::vector<int> numbers;
+  while (const auto segment = dut.PeekEvent(channel, now)) {
+    numbers.push_back(segment->number);
+    dut.TakeEvent(channel, segment->number, now, now);
+  }
+  return numbers;
+}
+
+TEST_F(SendQueueTest, UrgentGoesBeforeTheRepetitionOfAnother) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kDown, kAgeing);
+  dut.OfferEvent(kStopDown, Text("1"), 8, kStart);
+  EXPECT_EQ(SendAll(dut, kStopDown, kStart), std::vector({0}));
+  EXPECT_FALSE(dut.UrgentReady(After(0.1)));
+  EXPECT_TRUE(dut.UrgentReady(After(1)));  // its acknowledgement is overdue
+  EXPECT_FALSE(dut.UrgentReady(After(1), true));
+  dut.OfferEvent(kStopDown, Text("2"), 8, After(1));
+  EXPECT_TRUE(dut.UrgentReady(After(1), true));
+  EXPECT_EQ(SendAll(dut, kStopDown, After(1)), std::vector({1, 0}));
+}
+
+TEST_F(SendQueueTest, UrgentEventIsNeverHeldBackByItsRate) {
+  channels[kStopDown].rate_hz = 0.1;
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kDown, kAgeing);
+  for (const char* text : {"1", "2", "3"}) dut.OfferEvent(kStopDown, Text(text), 8, kStart);
+  EXPECT_TRUE(dut.UrgentReady(kStart, true));
+  EXPECT_EQ(SendAll(dut, kStopDown, kStart), std::vector({0, 1, 2}));
+}
+
+TEST_F(SendQueueTest, RateIsKept) {
+  channels[kPoseUp].ttl = Duration::zero();
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  int sent = 0;
+  for (int i = 0; i < 1000; ++i) {
+    dut.Offer(kPoseUp, "", Text("p"), After(0.01 * i));
+    for (const auto& candidate : dut.Ready(After(0.01 * i))) {
+      dut.Take(candidate);
+      ++sent;
+    }
+  }
+  EXPECT_NEAR(sent, 100, 1);  // 10 Hz for 10 s
+}
+
+TEST_F(SendQueueTest, ExpiredIsDroppedAndCounted) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  dut.Offer(kPoseUp, "", Text("p"), kStart);
+  dut.Expire(After(0.5));
+  EXPECT_EQ(dut.Ready(After(0.5)).size(), 1U);
+  dut.Expire(After(0.501));
+  EXPECT_TRUE(dut.Ready(After(0.501)).empty());
+  EXPECT_EQ(dut.counters(kPoseUp).expired, 1U);
+}
+
+TEST_F(SendQueueTest, ReturnedAfterAnAbortUnlessANewerOneCame) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  dut.Offer(kPoseUp, "", Text("1"), kStart);
+  dut.Return(dut.Take(dut.Ready(kStart)[0]));
+  ASSERT_EQ(dut.Ready(kStart).size(), 1U);  // the rate is given back as well
+  auto taken = dut.Take(dut.Ready(kStart)[0]);
+  dut.Offer(kPoseUp, "", Text("2"), After(0.05));
+  dut.Return(std::move(taken));
+  ASSERT_EQ(dut.Ready(After(0.05)).size(), 1U);
+  EXPECT_EQ(ToText(dut.Peek(dut.Ready(After(0.05))[0])), "2");
+}
+
+TEST_F(SendQueueTest, OnRequestWaitsForAListener) {
+  channels[kPoseUp].on_request = true;
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kUp, kAgeing);
+  dut.Offer(kPoseUp, "", Text("p"), kStart);
+  EXPECT_TRUE(dut.Ready(kStart).empty());
+  EXPECT_EQ(dut.counters(kPoseUp).unwanted, 1U);
+  dut.SetWanted(kPoseUp, true);
+  dut.Offer(kPoseUp, "", Text("p"), kStart);
+  EXPECT_EQ(dut.Ready(kStart).size(), 1U);
+}
+
+TEST(RateLimit, AllowsABurstThenTheRate) {
+  RateLimit dut(2, 3);
+  int allowed = 0;
+  for (int i = 0; i < 5; ++i) {
+    if (!dut.Allows(kStart)) continue;
+    dut.Use(kStart);
+    ++allowed;
+  }
+  EXPECT_EQ(allowed, 3);
+  EXPECT_FALSE(dut.Allows(After(0.49)));
+  EXPECT_TRUE(dut.Allows(After(0.5)));
+}
+
+TEST(RateLimit, WaitingForTheLineDoesNotSlowItDown) {
+  RateLimit dut(10, 1);
+  dut.Use(kStart);  // sent late, at 0.09 s
+  EXPECT_TRUE(dut.Allows(After(0.1)));
+}
+
+}  // namespace
+}  // namespace priamos::bus::radio

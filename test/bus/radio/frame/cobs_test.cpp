@@ -1,0 +1,71 @@
+#include "bus/radio/frame/cobs.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace priamos::bus::radio {
+namespace {
+
+std::vector<std::byte> B(std::initializer_list<int> values) {
+  std::vector<std::byte> bytes;
+  for (const int v : values) bytes.push_back(static_cast<std::byte>(v));
+  return bytes;
+}
+
+TEST(Cobs, ExamplesOfThePublication) {
+  EXPECT_EQ(CobsEncode(B({})), B({1}));
+  EXPECT_EQ(CobsEncode(B({0})), B({1, 1}));
+  EXPECT_EQ(CobsEncode(B({0x11, 0x22, 0, 0x33})), B({3, 0x11, 0x22, 2, 0x33}));
+}
+
+TEST(Cobs, OneByteOfOverheadUpTo254) {
+  EXPECT_EQ(CobsEncode(std::vector<std::byte>(254, std::byte{7})).size(), 255U);
+  EXPECT_EQ(CobsEncode(std::vector<std::byte>(255, std::byte{7})).size(), 257U);
+}
+
+RC_GTEST_PROP(Cobs, RoundTripWithoutZeros, (const std::vector<std::uint8_t>& values)) {
+  std::vector<std::byte> content;
+  for (const std::uint8_t v : values) content.push_back(static_cast<std::byte>(v % 5 == 0 ? 0 : v));
+  const auto encoded = CobsEncode(content);
+  RC_ASSERT(std::count(encoded.begin(), encoded.end(), std::byte{0}) == 0);
+  RC_ASSERT(CobsDecode(encoded) == content);
+}
+
+TEST(Cobs, CutShortIsRefused) {
+  const auto encoded = CobsEncode(B({1, 2, 3, 4}));
+  for (std::size_t n = 1; n < encoded.size(); ++n) EXPECT_FALSE(CobsDecode(std::span(encoded).first(n))) << n;
+}
+
+TEST(Cobs, AZeroInsideIsRefused) {
+  EXPECT_FALSE(CobsDecode(B({3, 1, 0})));
+}
+
+TEST(FrameSplitter, ResynchronisesAtTheNextDelimiter) {
+  FrameSplitter dut(8);
+  for (const int b : {9, 9, 9}) EXPECT_EQ(dut.Push(static_cast<std::byte>(b)), FrameSplitter::Event::kNone);
+  EXPECT_EQ(dut.Push(std::byte{0}), FrameSplitter::Event::kFrame);
+  EXPECT_EQ(dut.Push(std::byte{5}), FrameSplitter::Event::kNone);
+  EXPECT_EQ(dut.Push(std::byte{0}), FrameSplitter::Event::kFrame);
+  EXPECT_EQ(std::vector(dut.frame().begin(), dut.frame().end()), B({5}));
+}
+
+TEST(FrameSplitter, OversizeIsThrownAwayWhole) {
+  FrameSplitter dut(8);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(dut.Push(std::byte{1}), FrameSplitter::Event::kNone);
+  EXPECT_EQ(dut.Push(std::byte{0}), FrameSplitter::Event::kOversize);
+  dut.Push(std::byte{2});
+  EXPECT_EQ(dut.Push(std::byte{0}), FrameSplitter::Event::kFrame);
+  EXPECT_EQ(dut.frame().size(), 1U);
+}
+
+TEST(FrameSplitter, RepeatedDelimitersAreNoFrames) {
+  FrameSplitter dut(8);
+  EXPECT_EQ(dut.Push(std::byte{0}), FrameSplitter::Event::kNone);
+  EXPECT_EQ(dut.Push(std::byte{0}), FrameSplitter::Event::kNone);
+}
+
+}  // namespace
+}  // namespace priamos::bus::radio

@@ -1,0 +1,98 @@
+#include "bus/radio/frame/epoch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+namespace priamos::bus::radio {
+namespace {
+
+struct EpochTest : testing::Test {
+  std::uint64_t drawn = 100;
+  NonceSource nonces = [this] { return ++drawn; };
+  EpochAgreement a{nonces}, b{nonces};
+};
+
+TEST_F(EpochTest, ThreeHellosAgree) {
+  const auto at_b = b.OnHello(a.Compose(true));
+  EXPECT_TRUE(at_b.reply);
+  EXPECT_FALSE(at_b.agreed);
+  const auto at_a = a.OnHello(b.Compose(false));
+  ASSERT_TRUE(at_a.agreed);
+  EXPECT_TRUE(at_a.reply);
+  const auto last = b.OnHello(a.Compose(false));
+  ASSERT_TRUE(last.agreed);
+  EXPECT_EQ(last.agreed->own, at_a.agreed->peer);
+  EXPECT_EQ(last.agreed->peer, at_a.agreed->own);
+  EXPECT_FALSE(last.reply);
+}
+
+TEST_F(EpochTest, BothMayBeginAtOnce) {
+  const Hello from_a = a.Compose(true), from_b = b.Compose(true);
+  a.OnHello(from_b);
+  b.OnHello(from_a);
+  const auto at_a = a.OnHello(b.Compose(true)), at_b = b.OnHello(a.Compose(true));
+  ASSERT_TRUE(at_a.agreed && at_b.agreed);
+  EXPECT_EQ(at_a.agreed->own, at_b.agreed->peer);
+  EXPECT_EQ(at_a.agreed->peer, at_b.agreed->own);
+}
+
+TEST_F(EpochTest, RepeatedHelloChangesNothing) {
+  b.OnHello(a.Compose(true));
+  a.OnHello(b.Compose(false));
+  b.OnHello(a.Compose(false));
+  const auto again = b.OnHello(a.Compose(false));
+  EXPECT_FALSE(again.agreed);
+  EXPECT_FALSE(again.reply);
+}
+
+TEST_F(EpochTest, ReplayedFirstHelloCannotChangeTheEpoch) {
+  const Hello old = a.Compose(true);
+  b.OnHello(old);
+  a.OnHello(b.Compose(false));
+  b.OnHello(a.Compose(false));
+  EXPECT_FALSE(b.OnHello(old).agreed);
+}
+
+TEST_F(EpochTest, ReplayedLastHelloCannotChangeTheEpochBack) {
+  b.OnHello(a.Compose(true));
+  a.OnHello(b.Compose(false));
+  const Hello old = a.Compose(false);
+  ASSERT_TRUE(b.OnHello(old).agreed);
+  EpochAgreement restarted(nonces);  // `a` has lost its state
+  b.OnHello(restarted.Compose(true));
+  ASSERT_TRUE(restarted.OnHello(b.Compose(false)).agreed);
+  ASSERT_TRUE(b.OnHello(restarted.Compose(false)).agreed);
+  EXPECT_FALSE(b.OnHello(old).agreed);
+}
+
+TEST_F(EpochTest, NumbersOfEarlierAttemptsDoNotKeepTheEndsFromAgreeing) {
+  EpochAgreement gone(nonces);
+  for (EpochAgreement* end : {&a, &b}) end->OnHello(gone.Compose(true));  // both are paired with a dead end
+  bool agreed = false;
+  for (int i = 0; i < 4 && !agreed; ++i) {
+    b.OnHello(a.Compose(true));
+    a.OnHello(b.Compose(true));
+    agreed = a.Compose(true).agreed && b.Compose(true).agreed;
+  }
+  EXPECT_TRUE(agreed);
+  EXPECT_EQ(a.Compose(true).echo, b.Compose(true).nonce);
+  EXPECT_EQ(b.Compose(true).echo, a.Compose(true).nonce);
+}
+
+TEST_F(EpochTest, ANumberMakesOneEpoch) {
+  b.OnHello(a.Compose(true));
+  a.OnHello(b.Compose(false));
+  ASSERT_TRUE(b.OnHello(a.Compose(false)).agreed);
+  const std::uint64_t first = b.Compose(false).nonce;
+  EpochAgreement other(nonces);
+  b.OnHello(other.Compose(true));
+  EXPECT_NE(b.Compose(false).nonce, first);
+}
+
+TEST_F(EpochTest, AnAnnouncementIsNotAnswered) {
+  EXPECT_FALSE(b.OnHello(a.Compose(false)).reply);
+}
+
+}  // namespace
+}  // namespace priamos::bus::radio

@@ -1,0 +1,176 @@
+#include "bus/radio/frame/frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <string>
+
+#include "bus/radio/frame/cobs.hpp"
+#include "common/random.hpp"
+#include "test/bus/radio/link_pair.hpp"
+
+namespace priamos::bus::radio {
+namespace {
+
+constexpr FrameScope kScope{.table_hash = 0x12345678};
+constexpr std::uint64_t kEpoch = 77;
+
+LinkKey Key(std::uint8_t first = 1) {
+  LinkKey key{};
+  std::iota(key.begin(), key.end(), first);
+  return key;
+}
+
+/// What lies between the delimiters.
+std::span<const std::byte> Content(const std::vector<std::byte>& wire) {
+  return std::span(wire).first(wire.size() - 1);
+}
+
+struct FrameTest : testing::Test {
+  FrameKeys keys{Key()};
+  FrameSealer sealer{keys, Direction::kUp, kScope};
+  FrameOpener dut{keys, Direction::kUp, kScope};
+  void SetUp() override { dut.SetEpoch(kEpoch, 0); }
+  std::vector<std::byte> Frame(std::uint64_t counter, const std::string& text = "bundle",
+                               CounterForm form = CounterForm::kLowBits) const {
+    return sealer.Seal(kEpoch, counter, form, Text(text));
+  }
+  Reject RejectOf(const std::vector<std::byte>& wire) {
+    const Opened opened = dut.Open(Content(wire));
+    EXPECT_TRUE(std::holds_alternative<Reject>(opened));
+    return std::get<Reject>(opened);
+  }
+  std::string TextOf(const std::vector<std::byte>& wire) {
+    const Opened opened = dut.Open(Content(wire));
+    const auto* data = std::get_if<DataFrame>(&opened);
+    return data == nullptr ? "(refused)" : ToText(data->bundle);
+  }
+};
+
+TEST_F(FrameTest, RoundTrip) {
+  EXPECT_EQ(TextOf(Frame(1)), "bundle");
+}
+
+TEST_F(FrameTest, SevenBytesOfOverhead) {
+  EXPECT_EQ(Frame(1, std::string(100, 'x')).size(), 100 + kFrameOverhead);
+  EXPECT_EQ(Frame(1, std::string(240, 'x')).size(), 240 + kFrameOverhead);
+}
+
+TEST_F(FrameTest, NoZeroBeforeTheDelimiter) {
+  const auto wire = Frame(1, std::string(50, '\0'));
+  EXPECT_EQ(std::count(wire.begin(), wire.end(), kDelimiter), 1);
+  EXPECT_EQ(wire.back(), kDelimiter);
+}
+
+TEST_F(FrameTest, SixtyFourLostFramesDoNotBreakTheCounter) {
+  EXPECT_EQ(TextOf(Frame(1)), "bundle");
+  EXPECT_EQ(TextOf(Frame(65)), "bundle");
+}
+
+TEST_F(FrameTest, WholeCounterBridgesAnyGap) {
+  EXPECT_EQ(TextOf(Frame(1ULL << 39, "bundle", CounterForm::kWhole)), "bundle");
+  EXPECT_EQ(TextOf(Frame((1ULL << 39) + 1)), "bundle");
+}
+
+TEST_F(FrameTest, ReplayIsRefused) {
+  const auto wire = Frame(1);
+  EXPECT_EQ(TextOf(wire), "bundle");
+  EXPECT_EQ(RejectOf(wire), Reject::kReplayed);
+}
+
+TEST_F(FrameTest, ReplayAfterALaterBootIsRefused) {
+  const auto low = Frame(10), whole = Frame(11, "bundle", CounterForm::kWhole);
+  dut.SetEpoch(kEpoch, 20);  // the floor that survived
+  EXPECT_EQ(RejectOf(low), Reject::kReplayed);
+  EXPECT_EQ(RejectOf(whole), Reject::kReplayed);
+  dut.SetEpoch(kEpoch, 2000);
+  EXPECT_EQ(RejectOf(low), Reject::kBadCode);
+  EXPECT_EQ(RejectOf(whole), Reject::kReplayed);
+}
+
+TEST_F(FrameTest, AnotherEpochIsRefused) {
+  const auto wire = Frame(1);
+  dut.SetEpoch(kEpoch + 1, 0);
+  EXPECT_EQ(RejectOf(wire), Reject::kBadCode);
+}
+
+TEST_F(FrameTest, AnotherDirectionIsRefused) {
+  const FrameSealer reflected(keys, Direction::kDown, kScope);
+  EXPECT_EQ(RejectOf(reflected.Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"))), Reject::kBadCode);
+  EXPECT_EQ(RejectOf(reflected.Seal(Hello{.nonce = 1})), Reject::kBadCode);
+}
+
+TEST_F(FrameTest, AnotherTableKeyOrModeIsRefused) {
+  const FrameSealer table(keys, Direction::kUp, {.table_hash = 1});
+  const FrameSealer key(FrameKeys(Key(2)), Direction::kUp, kScope);
+  const FrameSealer mode(keys, Direction::kUp, {.table_hash = kScope.table_hash, .encrypted = true});
+  for (const FrameSealer* other : {&table, &key, &mode})
+    EXPECT_EQ(RejectOf(other->Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"))), Reject::kBadCode);
+}
+
+TEST_F(FrameTest, WithoutAnEpochNothingPasses) {
+  dut.SetEpoch(0, 0);
+  EXPECT_EQ(RejectOf(Frame(1)), Reject::kNoEpoch);
+}
+
+TEST_F(FrameTest, EveryFlippedBitIsNoticed) {
+  const auto wire = Frame(1, "a bundle of some length");
+  for (std::size_t bit = 0; bit < 8 * (wire.size() - 1); ++bit) {
+    auto damaged = wire;
+    damaged[bit / 8] ^= std::byte{1} << static_cast<int>(bit % 8);
+    EXPECT_TRUE(std::holds_alternative<Reject>(dut.Open(Content(damaged)))) << bit;
+  }
+  EXPECT_EQ(TextOf(wire), "a bundle of some length");  // none of them has used up the counter
+}
+
+TEST_F(FrameTest, CutShortIsMalformed) {
+  const auto wire = Frame(1);
+  for (std::size_t n = 1; n + 1 < wire.size(); ++n)
+    EXPECT_EQ(std::get<Reject>(dut.Open(std::span(wire).first(n))), Reject::kMalformed) << n;
+}
+
+TEST_F(FrameTest, HelloRoundTrip) {
+  const Hello hello{
+      .table_hash = 5, .stream = 6, .nonce = 0x123456789ABCDEF0, .echo = 8, .need = true, .agreed = false};
+  const auto wire = sealer.Seal(hello);
+  EXPECT_EQ(wire.size(), kHelloFrameBytes);
+  EXPECT_EQ(std::get<Hello>(dut.Open(Content(wire))), hello);
+}
+
+TEST_F(FrameTest, EncryptedBundleIsNotReadable) {
+  const FrameScope scope{.table_hash = 1, .encrypted = true};
+  const FrameSealer hidden(keys, Direction::kUp, scope);
+  FrameOpener opener(keys, Direction::kUp, scope);
+  opener.SetEpoch(kEpoch, 0);
+  const auto first = hidden.Seal(kEpoch, 1, CounterForm::kLowBits, Text("attack at dawn"));
+  const auto second = hidden.Seal(kEpoch, 2, CounterForm::kLowBits, Text("attack at dawn"));
+  EXPECT_EQ(ToText(first).find("attack"), std::string::npos);
+  EXPECT_NE(ToText(first).substr(2, 10), ToText(second).substr(2, 10));
+  EXPECT_EQ(ToText(std::get<DataFrame>(opener.Open(Content(first))).bundle), "attack at dawn");
+}
+
+TEST_F(FrameTest, RandomBytesNeverPass) {
+  Rng rng(4);
+  for (int i = 0; i < 100000; ++i) {
+    std::vector<std::byte> noise(1 + rng.Below(60));
+    for (std::byte& b : noise) b = static_cast<std::byte>(1 + rng.Below(255));
+    noise.push_back(kDelimiter);
+    RejectOf(noise);
+    RejectOf([&] {  // well-formed, so that the code is what refuses it
+      auto content = CobsEncode(noise);
+      content.push_back(kDelimiter);
+      return content;
+    }());
+  }
+}
+
+TEST(FrameSealer, RefusesWhatItCannotProtect) {
+  const FrameSealer dut(FrameKeys(Key()), Direction::kUp, kScope);
+  const std::vector<std::byte> bundle(241);
+  EXPECT_THROW(dut.Seal(1, 1, CounterForm::kWhole, bundle), std::invalid_argument);
+  EXPECT_THROW(dut.Seal(0, 1, CounterForm::kWhole, {}), std::invalid_argument);
+  EXPECT_THROW(dut.Seal(1, std::uint64_t{1} << 40, CounterForm::kWhole, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace priamos::bus::radio

@@ -1,0 +1,45 @@
+#include "bus/wire/bus_address.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "bus/wire/lcm_bus.hpp"
+#include "bus/wire/multicast.hpp"
+#include "bus/wire/socket_filter.hpp"
+
+namespace priamos::bus {
+namespace {
+
+TEST(BusAddress, APortFollowsFromTheNameAndIsTheSameOnEveryMachine) {
+  EXPECT_EQ(BusUrl("priamos", BusSide::kOnboard, 0), "udpm://239.255.76.67:21932?ttl=0");
+  EXPECT_EQ(BusUrl("priamos", BusSide::kOffboard, 1), "udpm://239.255.76.68:21933?ttl=1");
+}
+
+TEST(BusAddress, RobotsAndSidesDifferInTheirPort) {
+  std::set<int> ports;
+  for (const auto* robot : {"priamos", "hektor", "kassandra", "robot-1", "robot-2"})
+    for (const auto side : {BusSide::kOnboard, BusSide::kOffboard})
+      ports.insert(PortOf(BusUrl(robot, side, 0)));
+  EXPECT_EQ(ports.size(), 10U);
+  EXPECT_GT(*ports.begin(), 19999);
+  EXPECT_LT(*ports.rbegin(), 32768);
+}
+
+TEST(BusAddress, ANameThatIsNoneIsRefused) {
+  for (const auto* name : {"", "Priamos", "a b", "a/b", "a123456789012345678901234567890123"})
+    EXPECT_THROW(BusUrl(name, BusSide::kOnboard, 0), BusError) << name;
+  EXPECT_THROW(BusUrl("priamos", BusSide::kOnboard, 256), BusError);
+  EXPECT_THROW(BusUrl("priamos", BusSide::kOnboard, -1), BusError);
+}
+
+TEST(BusAddress, ABusIsNamedOrAUrl) {
+  EXPECT_EQ(ResolveBus("onboard", "hektor", 1), BusUrl("hektor", BusSide::kOnboard, 1));
+  EXPECT_EQ(ResolveBus("offboard", "hektor", 0), BusUrl("hektor", BusSide::kOffboard, 0));
+  EXPECT_EQ(ResolveBus("memq://", "hektor", 0), "memq://");
+  EXPECT_EQ(GroupOf(ResolveBus("udpm://239.1.1.1:1?ttl=3", "hektor", 0)), "239.1.1.1");
+  EXPECT_THROW(ResolveBus("onbord", "hektor", 0), BusError);
+}
+
+}  // namespace
+}  // namespace priamos::bus

@@ -1,0 +1,55 @@
+#include "cli/report/report_table.hpp"
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "report_synthetic_run.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string Printed(const Summary& summary) {
+  std::ostringstream out;
+  PrintSummary(out, summary);
+  return out.str();
+}
+
+TEST(ReportTable, ShowsTheFiguresOfAPassedRun) {
+  const std::string dut = Printed(Summarise(SyntheticRun{}.Record(), TestInfo()));
+  EXPECT_THAT(dut, HasSubstr("door, seed 7: passed, nothing touched after 18.0 s"));
+  EXPECT_THAT(dut, HasSubstr("15.0 cm 4.00 deg"));
+  EXPECT_THAT(dut, HasSubstr("1.0 cm 0.20 deg"));
+  EXPECT_THAT(dut, HasSubstr("+0.6 cm lateral, +0.23 deg heading"));
+  EXPECT_THAT(dut, HasSubstr("5.2 cm, 0 contacts"));
+  EXPECT_THAT(dut, HasSubstr("20 % of the line"));
+  EXPECT_THAT(dut, HasSubstr("0.18 s old"));
+}
+
+TEST(ReportTable, SaysWhatIsMissing) {
+  const std::string dut = Printed(Summarise(RunRecord{}, TestInfo()));
+  EXPECT_THAT(dut, HasSubstr("not passed"));
+  EXPECT_THAT(dut, HasSubstr("no fix corrected the pose"));
+  EXPECT_THAT(dut, HasSubstr("- lateral, - heading"));
+}
+
+TEST(ReportTable, NoLineIsWiderThanATerminal) {
+  std::istringstream lines(Printed(Summarise(SyntheticRun{}.Record(), TestInfo())));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
+TEST(ReportTable, VerdictCountsContacts) {
+  Summary summary;
+  summary.passed = true;
+  EXPECT_EQ(Verdict(summary), "passed, nothing touched");
+  summary.contacts = 1;
+  EXPECT_EQ(Verdict(summary), "passed, one contact");
+  summary.passed = false;
+  summary.contacts = 3;
+  EXPECT_EQ(Verdict(summary), "not passed, 3 contacts");
+}
+
+}  // namespace
+}  // namespace priamos::cli

@@ -1,0 +1,149 @@
+#include "head/core/landmark/landmark_fix.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "head/core/edges/edge_segments.hpp"
+#include "test/support/quad_scene.hpp"
+
+namespace priamos::head {
+namespace {
+
+const Eigen::Matrix3d kTwentyCentimetresFiveDegrees =
+    Eigen::Vector3d(0.115 * 0.115, 0.115 * 0.115, 0.05 * 0.05).asDiagonal();
+
+class LandmarkFixTest : public testing::Test {
+ protected:
+  LandmarkFix Find(const std::vector<test::Quad>& quads, const Pose2& base_from_landmark,
+                   const Pose2& believed, double noise = 3, double light = 1) {
+    std::vector<test::Quad> lit = quads;
+    for (test::Quad& quad : lit) quad.grey *= light;
+    EdgeOperator op;
+    op.Extract(test::RenderQuads(lit, Lift(base_from_landmark), left_, noise, rng_, 60 * light), left_edges_);
+    op.Extract(test::RenderQuads(lit, Lift(base_from_landmark), right_, noise, rng_, 60 * light),
+               right_edges_);
+    return dut_.Find(model_, {believed, kTwentyCentimetresFiveDegrees}, left_, right_, left_edges_,
+                     right_edges_);
+  }
+
+  Rng rng_{7};
+  const CameraModel left_ = test::HeadCamera(0, 1, 1000, -0.05),
+                    right_ = test::HeadCamera(0, -1, 1000, -0.05);
+  const LandmarkModel model_ = test::DoorModel();
+  const LandmarkFinder dut_{LandmarkFixOptions{}};
+  EdgeImage left_edges_, right_edges_;
+};
+
+TEST_F(LandmarkFixTest, FindsTheDoorFromTwentyCentimetresAndFiveDegreesOff) {
+  for (int i = 0; i < 8; ++i) {
+    const Pose2 truth{rng_.Uniform(2.9, 4.2), rng_.Uniform(-0.15, 0.15), rng_.Uniform(-0.05, 0.05)};
+    const Pose2 error{rng_.Uniform(-0.2, 0.2), rng_.Uniform(-0.2, 0.2), Radians(rng_.Uniform(-5, 5))};
+    const Pose2 believed{truth.x + error.x, truth.y + error.y, truth.yaw + error.yaw};
+    const LandmarkFix fix = Find(test::DoorQuads(), truth, believed);
+    ASSERT_EQ(fix.verdict, Verdict::kFound) << Describe(fix.verdict) << " at " << truth.x << " " << truth.y;
+    EXPECT_NEAR(fix.base_from_landmark.x, truth.x, 0.005);
+    EXPECT_NEAR(fix.base_from_landmark.y, truth.y, 0.003);
+    EXPECT_NEAR(fix.base_from_landmark.yaw, truth.yaw, Radians(0.15));
+  }
+}
+
+TEST_F(LandmarkFixTest, TheResultDoesNotDependOnThePrediction) {
+  const Pose2 truth{3.2, 0.05, 0.02};
+  const LandmarkFix near = Find(test::DoorQuads(), truth, truth);
+  const LandmarkFix far = dut_.Find(model_, {{3.35, -0.05, -0.02}, kTwentyCentimetresFiveDegrees}, left_,
+                                    right_, left_edges_, right_edges_);
+  ASSERT_EQ(near.verdict, Verdict::kFound);
+  ASSERT_EQ(far.verdict, Verdict::kFound);
+  EXPECT_NEAR(near.base_from_landmark.x, far.base_from_landmark.x, 1e-4);
+  EXPECT_NEAR(near.base_from_landmark.yaw, far.base_from_landmark.yaw, 1e-4);
+}
+
+TEST_F(LandmarkFixTest, CovarianceIsCredible) {
+  const Pose2 truth{3.2, 0.05, 0.02};
+  const LandmarkFix fix = Find(test::DoorQuads(), truth, truth);
+  ASSERT_EQ(fix.verdict, Verdict::kFound);
+  const Eigen::Vector3d error(fix.base_from_landmark.x - truth.x, fix.base_from_landmark.y - truth.y,
+                              fix.base_from_landmark.yaw - truth.yaw);
+  EXPECT_LT(error.dot(fix.covariance.inverse() * error), 16);
+  EXPECT_LT(std::sqrt(fix.covariance(0, 0)), 0.01);
+  EXPECT_GT(std::sqrt(fix.covariance(0, 0)), 0.0003);
+}
+
+TEST_F(LandmarkFixTest, ABareWallIsNoDoor) {
+  const LandmarkFix fix = Find(test::WallQuads(), {3.2, 0, 0}, {3.2, 0, 0});
+  EXPECT_NE(fix.verdict, Verdict::kFound);
+}
+
+TEST_F(LandmarkFixTest, ADoorOfAnotherWidthIsNotThisDoor) {
+  for (const double width : {0.8, 1.0}) {
+    const LandmarkFix fix = Find(test::DoorQuads(width), {3.2, 0, 0}, {3.2, 0, 0});
+    EXPECT_NE(fix.verdict, Verdict::kFound) << width;
+  }
+}
+
+TEST_F(LandmarkFixTest, ADoorElsewhereIsRefused) {
+  const LandmarkFix fix = Find(test::DoorQuads(), {3.6, 0.1, 0}, {3.6, -0.55, 0});
+  EXPECT_EQ(fix.verdict, Verdict::kElsewhere);
+}
+
+TEST_F(LandmarkFixTest, SwappedImagesGiveNoFix) {
+  Find(test::DoorQuads(), {3.2, 0, 0}, {3.2, 0, 0});
+  const LandmarkFix fix = dut_.Find(model_, {{3.2, 0, 0}, kTwentyCentimetresFiveDegrees}, left_, right_,
+                                    right_edges_, left_edges_);
+  EXPECT_NE(fix.verdict, Verdict::kFound);
+}
+
+TEST_F(LandmarkFixTest, DarknessIsNoImage) {
+  EXPECT_EQ(Find(test::DoorQuads(), {3.2, 0, 0}, {3.2, 0, 0}, 0, 0).verdict, Verdict::kNoImage);
+}
+
+TEST_F(LandmarkFixTest, ALandmarkBehindTheRobotIsNotVisible) {
+  EXPECT_EQ(Find(test::DoorQuads(), {3.2, 0, 0}, {-3.2, 0, 0}).verdict, Verdict::kNotVisible);
+}
+
+TEST_F(LandmarkFixTest, AMovablePartThatStandsElsewhereSaysNothing) {
+  const Pose2 truth{3.2, 0.05, 0.02};
+  const LandmarkFix without = Find(test::DoorQuads(), truth, truth);
+  ASSERT_EQ(without.verdict, Verdict::kFound);
+  LandmarkModel with_leaf = model_;
+  const int leaf = static_cast<int>(with_leaf.edges.size());
+  for (const double y : {-0.2, 0.0, 0.2}) with_leaf.edges.push_back({{0.5, y, 0}, {0.5, y, 2}, -kPi, kPi, 3});
+  const LandmarkFix with =
+      dut_.Find(with_leaf, {truth, kTwentyCentimetresFiveDegrees}, left_, right_, left_edges_, right_edges_);
+  ASSERT_EQ(with.verdict, Verdict::kFound);
+  EXPECT_DOUBLE_EQ(with.log_odds, without.log_odds);
+  EXPECT_DOUBLE_EQ(with.base_from_landmark.x, without.base_from_landmark.x);
+  for (const EdgeMatch& m : with.matches) EXPECT_LT(m.edge, leaf);
+}
+
+TEST_F(LandmarkFixTest, AMovablePartThatIsFoundSpeaksForThePose) {
+  const Pose2 truth{3.2, 0.05, 0.02};
+  LandmarkModel less = model_, more = model_;
+  const int part = 0;  // the outer arris on the left
+  less.edges.erase(less.edges.begin() + part);
+  more.edges[part].side = 3;
+  Find(test::DoorQuads(), truth, truth);
+  const LandmarkPrediction prediction{truth, kTwentyCentimetresFiveDegrees};
+  const LandmarkFix a = dut_.Find(less, prediction, left_, right_, left_edges_, right_edges_);
+  const LandmarkFix b = dut_.Find(more, prediction, left_, right_, left_edges_, right_edges_);
+  ASSERT_EQ(b.verdict, Verdict::kFound);
+  EXPECT_GT(b.log_odds, a.log_odds + 1);
+  EXPECT_TRUE(
+      std::any_of(b.matches.begin(), b.matches.end(), [&](const EdgeMatch& m) { return m.edge == part; }));
+}
+
+TEST_F(LandmarkFixTest, AnEmptyModelIsNoModel) {
+  Find(test::DoorQuads(), {3.2, 0, 0}, {3.2, 0, 0});
+  EXPECT_EQ(
+      dut_.Find({}, {{3.2, 0, 0}, kTwentyCentimetresFiveDegrees}, left_, right_, left_edges_, right_edges_)
+          .verdict,
+      Verdict::kNoModel);
+}
+
+TEST(VerdictTest, EveryVerdictHasWords) {
+  for (int v = 0; v <= 8; ++v) EXPECT_STRNE(Describe(static_cast<Verdict>(v)), "unknown");
+}
+
+}  // namespace
+}  // namespace priamos::head

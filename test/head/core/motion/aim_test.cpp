@@ -1,0 +1,80 @@
+#include "head/core/motion/aim.hpp"
+
+#include <gtest/gtest.h>
+
+namespace priamos::head {
+namespace {
+
+/// 890 px: half the picture is 23 degrees.
+HeadModel Head() {
+  HeadModel head;
+  for (LensTable& lens : head.lenses)
+    lens = LensTable({250}, {1600}, {LensState{890, {383.5, 287.5}, 0, 0, 0.02}});
+  return head;
+}
+
+LandmarkModel Door() {
+  LandmarkModel model;
+  for (const double y : {0.45, 0.51}) {
+    model.edges.push_back({{0, y, 0}, {0, y, 2}, -kPi, kPi, 1});
+    model.edges.push_back({{0, -y, 0}, {0, -y, 2}, -kPi, kPi, 2});
+  }
+  model.edges.push_back({{0, -0.45, 2}, {0, 0.45, 2}, -kPi, kPi, 0});
+  return model;
+}
+
+LandmarkPrediction At(double x, double y, double sigma_m = 0.005, double sigma_rad = 0.003) {
+  return {{x, y, 0},
+          Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal()};
+}
+
+const HeadSetting kLooks{0, 0, {-0.02, 0.02}, {250, 250}, {1600, 1600}};
+
+bool IsInBothPictures(const HeadModel& head, double pan, const Eigen::Vector3d& p) {
+  HeadSetting setting = kLooks;
+  setting.pan_rad = pan;
+  for (const int camera : {kLeft, kRight}) {
+    const double u = head.CameraAt(setting, camera)->Project(p).x();
+    if (u < 25 || u > 743) return false;
+  }
+  return true;
+}
+
+TEST(Aim, LooksBetweenTheMiddleAndTheSide) {
+  const double left = AimPan(Head(), kLooks, Door(), At(3, 0), 1, {});
+  EXPECT_NEAR(left, 0.5 * std::atan2(0.48, 2.75), 0.01);
+  EXPECT_NEAR(AimPan(Head(), kLooks, Door(), At(3, 0), 2, {}), -left, 0.006);
+  EXPECT_NEAR(AimPan(Head(), kLooks, Door(), At(3, 0), 0, {}), 0, 0.006);
+}
+
+TEST(Aim, FollowsTheLandmark) {
+  EXPECT_NEAR(AimPan(Head(), kLooks, Door(), At(3, 1.2), 0, {}), std::atan2(1.2, 2.75), 0.01);
+}
+
+TEST(Aim, KeepsTheOtherSideInThePictureIfItCan) {
+  // Half way to the side the other jamb might be outside.
+  const double unsure = AimPan(Head(), kLooks, Door(), At(3, 0, 0.15, 0.045), 1, {});
+  EXPECT_LT(unsure, AimPan(Head(), kLooks, Door(), At(3, 0), 1, {}) - 0.01);
+}
+
+TEST(Aim, NearTheDoorTheSideAskedForIsInThePicture) {
+  for (const double x : {1.2, 1.5, 2.0}) {
+    for (const int side : {1, 2}) {
+      const double pan = AimPan(Head(), kLooks, Door(), At(x, 0.2, 0.01, 0.005), side, {});
+      const double y = 0.2 + (side == 1 ? 0.48 : -0.48);
+      EXPECT_TRUE(IsInBothPictures(Head(), pan, {x, y, 1.2})) << "from " << x << " m, side " << side;
+    }
+  }
+}
+
+TEST(Aim, ALandmarkBehindIsNotChased) {
+  AimConfig config;
+  EXPECT_LE(std::abs(AimPan(Head(), kLooks, Door(), At(-3, 0.5), 1, config)), Radians(config.max_pan_deg));
+}
+
+TEST(Aim, StraightAheadWithoutEdges) {
+  EXPECT_EQ(AimPan(Head(), kLooks, LandmarkModel{}, At(3, 0), 1, {}), 0);
+}
+
+}  // namespace
+}  // namespace priamos::head

@@ -1,0 +1,81 @@
+#include "head/core/motion/look_sequence.hpp"
+
+#include <gtest/gtest.h>
+
+namespace priamos::head {
+namespace {
+
+using Action = LookSequence::Action;
+
+class LookSequenceTest : public testing::Test {
+ protected:
+  Action Step(bool settled, bool failed = false, double seconds = 0.02) {
+    now_ += FromSeconds(seconds);
+    return dut_.Step(settled, failed, now_);
+  }
+  void Deliver(int camera, std::int32_t frame_id) { dut_.Add({now_, frame_id, camera, camera, 768, 576}); }
+
+  Time now_{std::chrono::seconds(50)};
+  LookSequence dut_{LookConfig{}};
+};
+
+TEST_F(LookSequenceTest, ExposesOnlyWhenTheHeadRests) {
+  dut_.Begin(now_);
+  EXPECT_EQ(Step(false), Action::kWait);
+  EXPECT_EQ(Step(true), Action::kTrigger);
+}
+
+TEST_F(LookSequenceTest, UsesThePicturesWhenAllAreThere) {
+  dut_.Begin(now_);
+  Step(true);
+  Deliver(0, dut_.frame_id());
+  EXPECT_EQ(Step(true), Action::kWait);
+  Deliver(1, dut_.frame_id());
+  EXPECT_EQ(Step(true), Action::kUseFrames);
+  EXPECT_EQ(dut_.frames()[1].camera, 1);
+}
+
+TEST_F(LookSequenceTest, IgnoresPicturesOfOtherExposures) {
+  dut_.Begin(now_);
+  Step(true);
+  Deliver(0, dut_.frame_id() - 1);
+  Deliver(1, dut_.frame_id() - 1);
+  EXPECT_EQ(Step(true), Action::kWait);
+}
+
+TEST_F(LookSequenceTest, ExposesAgainWhenAPictureIsLost) {
+  dut_.Begin(now_);
+  Step(true);
+  const auto first = dut_.frame_id();
+  Deliver(0, first);
+  EXPECT_EQ(Step(true, false, 0.6), Action::kTrigger);
+  EXPECT_NE(dut_.frame_id(), first);
+}
+
+TEST_F(LookSequenceTest, GivesUpAfterSomeAttempts) {
+  dut_.Begin(now_);
+  for (int i = 0; i < LookConfig{}.attempts; ++i) EXPECT_EQ(Step(true, false, 0.6), Action::kTrigger);
+  EXPECT_EQ(Step(true, false, 0.6), Action::kGiveUp);
+}
+
+TEST_F(LookSequenceTest, AHeadThatMovesSpoilsThePair) {
+  dut_.Begin(now_);
+  Step(true);
+  EXPECT_EQ(Step(false), Action::kWait);
+  Deliver(0, dut_.frame_id());
+  Deliver(1, dut_.frame_id());
+  EXPECT_EQ(Step(true), Action::kTrigger);
+}
+
+TEST_F(LookSequenceTest, GivesUpWhenTheHeadFails) {
+  dut_.Begin(now_);
+  EXPECT_EQ(Step(false, true), Action::kGiveUp);
+}
+
+TEST_F(LookSequenceTest, NeverLastsLongerThanTheAgeLimit) {
+  dut_.Begin(now_);
+  EXPECT_EQ(Step(false, false, LookConfig{}.age_limit_s + 0.1), Action::kGiveUp);
+}
+
+}  // namespace
+}  // namespace priamos::head

@@ -1,0 +1,348 @@
+#include "planner/core/missions/door_mission.hpp"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "common/random.hpp"
+#include "fake_robot.hpp"
+#include "test/planner/core/plans.hpp"
+
+namespace priamos::planner {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::Ge;
+using ::testing::HasSubstr;
+using ::testing::Le;
+
+struct Story {
+  explicit Story(const Pose2& truth = {2.0, 2.4, 0}, const GroundPlan& plan = ShippedPlan(),
+                 const DoorMissionConfig& config = {})
+      : dut(config, DoorPlannerConfig{}, Footprint{}, plan), robot(dut, truth) {}
+  void Start() { EXPECT_TRUE(dut.Start(robot.now(), 1)); }
+
+  DoorMission dut;
+  FakeRobot robot;
+};
+
+TEST(DoorMission, SendsNothingBeforeTheFirstOrder) {
+  Story s;
+  s.robot.RunFor(3);
+  EXPECT_EQ(s.dut.state().phase, Phase::kWaiting);
+  EXPECT_TRUE(s.robot.paths.empty());
+  EXPECT_EQ(s.robot.models_received, 0);
+}
+
+TEST(DoorMission, PassesTheDoor) {
+  Story s;
+  s.robot.error = {0.05, -0.15, Radians(4)};
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_THAT(s.dut.state().text, HasSubstr("through the door after"));
+  EXPECT_NEAR(s.robot.truth().x, 7.5, 0.01);
+  EXPECT_NEAR(s.robot.truth().y, 2.4, 0.01);
+  EXPECT_EQ(s.robot.paths.size(), 2u);
+  EXPECT_EQ(s.robot.models_received, 1);
+}
+
+TEST(DoorMission, LooksAtTheLeftSideFirstThenAtTheRightSide) {
+  Story s;
+  s.Start();
+  s.robot.RunFor(60);
+  ASSERT_GE(s.robot.looks.size(), 2u);
+  EXPECT_EQ(s.robot.looks[0].side, Side::kLeft);
+  EXPECT_EQ(s.robot.looks[1].side, Side::kRight);
+}
+
+RC_GTEST_PROP(DoorMission, LooksWhileDrivingAtAGoodDistanceFromAnyStart, (const unsigned seed)) {
+  Rng rng(seed);
+  Story s({6 - rng.Uniform(3, 5), 2.4 + rng.Uniform(-0.4, 0.4), rng.Uniform(-0.1, 0.1)});
+  s.robot.error = {rng.Uniform(-0.14, 0.14), rng.Uniform(-0.14, 0.14), Radians(rng.Uniform(-5, 5))};
+  s.robot.delay = std::chrono::milliseconds(50 + rng.Below(350));
+  s.Start();
+  s.robot.RunFor(90);
+  RC_ASSERT(s.dut.state().phase == Phase::kDone);
+  RC_ASSERT(s.robot.look_way_m.size() >= 2u);
+  for (int i = 0; i < 2; ++i) RC_ASSERT(s.robot.look_way_m[i] > 1.7 && s.robot.look_way_m[i] < 3.6);
+  RC_ASSERT(s.robot.look_way_m.back() > 1.0);
+  for (const double speed_m_s : s.robot.look_speed_m_s) RC_ASSERT(speed_m_s > 0.1);
+  // Footprint front and the 20 cm that the pose may be wrong: never nearer than half a metre to the wall.
+  RC_ASSERT(s.robot.nearest_before_fix_m > 0.475 + 0.085 + 0.4);
+}
+
+TEST(DoorMission, WaitsForThePose) {
+  Story s;
+  s.robot.silent = true;
+  s.Start();
+  s.robot.RunFor(2);
+  EXPECT_EQ(s.dut.state().phase, Phase::kWaiting);
+  s.robot.silent = false;
+  s.robot.RunFor(1);
+  EXPECT_EQ(s.dut.state().phase, Phase::kApproaching);
+}
+
+TEST(DoorMission, NoPoseAtAllEndsInASentence) {
+  Story s;
+  s.robot.silent = true;
+  s.Start();
+  s.robot.RunFor(20);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_EQ(s.dut.state().text, "no pose from the robot for 8 s: the radio link is down");
+}
+
+TEST(DoorMission, RadioThatDiesOnTheWayEndsTheMission) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kLookingLeft);
+  s.robot.silent = true;
+  s.robot.RunFor(20);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("no pose from the robot for 8 s"));
+}
+
+TEST(DoorMission, SideThatWasNotFoundIsLookedAtAgainAfterTheOther) {
+  Story s;
+  s.robot.answer = [](const LookOrder& look, int n) {
+    return LookResult{look.request_id, n != 0, n != 0 ? "" : "too few edges", false};
+  };
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  ASSERT_GE(s.robot.looks.size(), 3u);
+  EXPECT_EQ(s.robot.looks[1].side, Side::kRight);
+  EXPECT_EQ(s.robot.looks[2].side, Side::kLeft);
+  EXPECT_NE(s.robot.looks[0].request_id, s.robot.looks[1].request_id);
+  EXPECT_EQ(s.robot.models_received, 1);
+}
+
+TEST(DoorMission, DoorWithOneSideOutOfSightIsPassedAllTheSame) {
+  Story s;
+  s.robot.answer = [](const LookOrder& look, int) {
+    return LookResult{look.request_id, look.side == Side::kRight, "not visible from there", false};
+  };
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
+TEST(DoorMission, HeadThatLostTheModelGetsItAgainBeforeTheNextLook) {
+  Story s;
+  s.robot.answer = [&s](const LookOrder& look, int n) {
+    EXPECT_EQ(s.robot.models_received, n == 0 ? 1 : 2);
+    return LookResult{look.request_id, n != 0, "the head has no model of it", n == 0};
+  };
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
+TEST(DoorMission, SaysWhyItLooksAgain) {
+  Story s;
+  s.robot.answer = [](const LookOrder& look, int) {
+    return LookResult{look.request_id, false, "no image", false};
+  };
+  s.Start();
+  for (int i = 0; i < 1000 && s.dut.state().text.find("not found") == std::string::npos; ++i) s.robot.Step();
+  EXPECT_EQ(s.dut.state().text, "left side of the door not found: no image");
+  EXPECT_EQ(s.dut.state().phase, Phase::kLookingLeft);
+}
+
+TEST(DoorMission, GivesUpWithTheReasonAndBrakes) {
+  Story s;
+  s.robot.answer = [](const LookOrder& look, int) {
+    return LookResult{look.request_id, false, "ambiguous", false};
+  };
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_EQ(s.dut.state().text, "9 looks failed, the last one: left side of the door not found: ambiguous");
+  for (int i = 0; i < 10; ++i) s.robot.Step();
+  EXPECT_TRUE(s.robot.paths.back().points.empty());
+  EXPECT_LT(s.robot.truth().x, 6 - 1.1);
+}
+
+TEST(DoorMission, AnswerToAnEarlierRequestIsNotTaken) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kLookingLeft);
+  s.dut.OnLook({1, true, "", false});
+  s.robot.Step();
+  EXPECT_EQ(s.dut.state().phase, Phase::kLookingLeft);
+}
+
+TEST(DoorMission, HeadThatNeverAnswersIsAskedAgainThenGivenUp) {
+  Story s;
+  s.robot.look_time = std::chrono::seconds(1000);
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_EQ(s.dut.state().text, "9 looks failed, the last one: left side of the door not found: no answer");
+}
+
+TEST(DoorMission, UncertainPoseIsLookedAtAgainAndThenRefused) {
+  Story s;
+  s.robot.sigma_after_m = 0.05;
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("too uncertain for the gap"));
+  EXPECT_EQ(s.robot.looks.size(), 16u);
+  EXPECT_LT(s.robot.truth().x, 6 - 1.1);
+}
+
+TEST(DoorMission, LooksAgainFromNearerInTurnUntilTheDriftOfTheRestFits) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  EXPECT_LT(6 - s.robot.truth().x, 2.2);
+  ASSERT_GT(s.robot.looks.size(), 2u);
+  for (std::size_t i = 1; i < s.robot.looks.size(); ++i) {
+    EXPECT_NE(s.robot.looks[i].side, s.robot.looks[i - 1].side);
+    EXPECT_LT(s.robot.look_way_m[i], s.robot.look_way_m[i - 1]);
+  }
+  EXPECT_GT(s.robot.speed_m_s(), 0.2);
+}
+
+TEST(DoorMission, LooksGoOnWhilePassingUntilTheJambsLeaveThePicture) {
+  Story s;
+  s.robot.sigma_m = s.robot.sigma_after_m = 0.002;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  const std::size_t before = s.robot.looks.size();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_GT(s.robot.looks.size(), before);
+  EXPECT_GT(s.robot.look_way_m.back(), 1.2);
+}
+
+TEST(DoorMission, DoesNotPlanWithAPoseFromBeforeTheCorrection) {
+  DoorMissionConfig config;
+  config.drift = {0, 0, 0};
+  Story s({2.0, 2.4, 0}, ShippedPlan(), config);
+  s.robot.sigma_m = s.robot.sigma_after_m;
+  s.robot.sigma_yaw_rad = s.robot.sigma_yaw_after_rad;
+  s.Start();
+  s.robot.RunUntil(Phase::kLookingRight);
+  const Time corrected = s.robot.now() + FromSeconds(0.4);
+  s.dut.OnCorrected(corrected);
+  s.dut.OnLook({s.robot.looks.back().request_id + 1, true, "", false});
+  s.robot.RunFor(0.3);
+  EXPECT_NE(s.dut.state().phase, Phase::kPassing);
+  s.robot.RunUntil(Phase::kPassing, 2);
+  EXPECT_EQ(s.dut.state().phase, Phase::kPassing);
+  EXPECT_GT(s.robot.now(), corrected);
+}
+
+TEST(DoorMission, BlockedOnTheWayEndsInASentence) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  s.robot.RunFor(1);
+  s.robot.blocked = true;
+  s.robot.RunFor(30);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_EQ(s.dut.state().text, "the robot was blocked for 8 s: sonar");
+}
+
+TEST(DoorMission, ShortBlockadeIsWaitedOut) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  s.robot.RunFor(1);
+  s.robot.blocked = true;
+  s.robot.RunFor(4);
+  s.robot.blocked = false;
+  s.robot.RunFor(30);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
+TEST(DoorMission, NarrowDoorIsRefusedBeforeMoving) {
+  GroundPlan plan = ShippedPlan();
+  plan.doors[0].opening_width_m = 0.75;
+  Story s({2.0, 2.4, 0}, plan);
+  s.Start();
+  s.robot.RunFor(5);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_EQ(s.dut.state().text, "door 'laboratory' is too narrow: needs 0.80 m, opening is 0.75 m");
+  EXPECT_NEAR(s.robot.truth().x, 2.0, 1e-9);
+}
+
+TEST(DoorMission, UnknownDoorIsRefused) {
+  Story s;
+  s.dut.Start(s.robot.now(), 7);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_EQ(s.dut.state().text, "the map has no door 7");
+}
+
+TEST(DoorMission, AbortBrakes) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  s.dut.Abort(s.robot.now());
+  s.robot.Step();
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  for (int i = 0; i < 10; ++i) s.robot.Step();
+  EXPECT_TRUE(s.robot.paths.back().points.empty());
+}
+
+TEST(DoorMission, SecondOrderWhileRunningIsRefused) {
+  Story s;
+  s.Start();
+  s.robot.RunFor(2);
+  EXPECT_FALSE(s.dut.Start(s.robot.now(), 1));
+  EXPECT_EQ(s.dut.state().phase, Phase::kApproaching);
+}
+
+TEST(DoorMission, NewOrderAfterAFailureStartsAfresh) {
+  Story s;
+  s.Start();
+  s.robot.RunFor(2);
+  s.dut.Abort(s.robot.now());
+  s.robot.Step();
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
+TEST(DoorMission, PathThatTheRobotNeverConfirmsIsSentAgain) {
+  Story s;
+  s.Start();
+  s.robot.RunFor(1);
+  ASSERT_EQ(s.robot.paths.size(), 1u);
+  const int id = s.robot.paths[0].path_id;
+  int repeats = 0;
+  for (int i = 0; i < 100; ++i) {
+    s.dut.OnDrive({DriveMode::kIdle, 0, ""}, s.robot.now());
+    RobotPose pose{s.robot.now(), {1.0, 2.4, 0}, {}, Eigen::Matrix3d::Zero()};
+    s.dut.OnPose(pose);
+    const auto actions = s.dut.Tick(s.robot.now() + i * FromSeconds(0.05));
+    if (actions.path && actions.path->path_id == id) ++repeats;
+  }
+  EXPECT_EQ(repeats, 1);
+}
+
+TEST(DoorMission, ShortApproachIsSlowLongApproachIsNot) {
+  Story near({3.0, 2.4, 0}), far({1.0, 2.4, 0});
+  for (Story* s : {&near, &far}) {
+    s->Start();
+    s->robot.RunFor(1);
+  }
+  EXPECT_NEAR(near.robot.paths[0].speed_m_s, (3.0 - 2.0) / 3.5, 1e-9);
+  EXPECT_NEAR(far.robot.paths[0].speed_m_s, 0.3, 1e-9);
+}
+
+TEST(DoorMission, WorksAtADoorInAnyPoseOfTheMap) {
+  const Pose2 turned{-7, 11, 2.3};
+  Story s(turned * Pose2{2.0, 2.2, 0.1}, Moved(ShippedPlan(), turned));
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  const Pose2 end = turned.Inverse() * s.robot.truth();
+  EXPECT_NEAR(end.x, 7.5, 0.01);
+  EXPECT_NEAR(end.y, 2.4, 0.01);
+}
+
+}  // namespace
+}  // namespace priamos::planner

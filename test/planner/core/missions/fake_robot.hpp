@@ -1,0 +1,162 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "planner/core/missions/door_mission.hpp"
+
+namespace priamos::planner {
+
+/// A robot behind a slow radio, as a mission sees it: follows paths exactly, answers looks, and everything in
+/// both directions takes `delay`. It believes to be where `error` puts it until both looks are through.
+class FakeRobot {
+ public:
+  FakeRobot(DoorMission& mission, const Pose2& truth) : mission_(mission), truth_(truth) {}
+
+  Duration delay = std::chrono::milliseconds(200);
+  Duration look_time = std::chrono::milliseconds(700);
+  /// Error of the believed pose, in the base frame, until a fix takes it away.
+  Pose2 error{0, 0, 0};
+  double sigma_m = 0.1, sigma_yaw_rad = Radians(2);
+  double sigma_after_m = 0.008, sigma_yaw_after_rad = Radians(0.15);
+  /// The answer to the n-th look (from 0); all succeed by default.
+  std::function<LookResult(const LookOrder&, int n)> answer = [](const LookOrder& look, int) {
+    return LookResult{look.request_id, true, "", false};
+  };
+  bool silent = false;   ///< nothing comes through in either direction
+  bool blocked = false;  ///< stands before an obstacle
+
+  /// One step of 50 ms: robot, radio, mission.
+  void Step() {
+    now_ += kStep;
+    Drive();
+    AnswerLooks();
+    if (++ticks_ % 5 == 0) Report();
+    Deliver();
+    const MissionActions actions = mission_.Tick(now_);
+    if (silent) return;
+    if (actions.model) ++models_received;
+    if (actions.path) Later([this, path = *actions.path] { OnPath(path); });
+    if (actions.look) Later([this, look = *actions.look] { looks_.push_back({look, now_ + look_time}); });
+  }
+  void RunFor(double seconds) {
+    for (const Time end = now_ + FromSeconds(seconds); now_ < end && mission_.running();) Step();
+  }
+  void RunUntil(Phase phase, double limit_s = 60) {
+    for (const Time end = now_ + FromSeconds(limit_s); now_ < end && mission_.state().phase != phase;) Step();
+  }
+
+  Time now() const { return now_; }
+  const Pose2& truth() const { return truth_; }
+  double speed_m_s() const { return velocity_.translation().norm() / Seconds(kStep); }
+
+  int models_received = 0;
+  std::vector<PathOrder> paths;
+  std::vector<LookOrder> looks;        ///< in the order they were asked
+  std::vector<double> look_way_m;      ///< true way to the door at each exposure
+  std::vector<double> look_speed_m_s;  ///< speed at each exposure
+  double nearest_before_fix_m = 100;   ///< smallest true way to the door before both fixes
+
+ private:
+  static constexpr Duration kStep = std::chrono::milliseconds(50);
+  struct Delivery {
+    Time at;
+    std::function<void()> action;
+  };
+  struct PendingLook {
+    LookOrder look;
+    Time done;
+  };
+
+  void Later(std::function<void()> action) { radio_.push_back({now_ + delay, std::move(action)}); }
+  void Deliver() {
+    while (!radio_.empty() && radio_.front().at <= now_) {
+      const auto action = std::move(radio_.front().action);
+      radio_.pop_front();
+      if (!silent) action();
+    }
+  }
+  Pose2 Believed() const { return truth_ * error; }
+
+  void OnPath(const PathOrder& path) {
+    paths.push_back(path);
+    route_.assign(path.points.begin(), path.points.end());
+    path_id_ = path.path_id;
+  }
+
+  /// Moves the truth by what brings the belief along the path.
+  void Drive() {
+    velocity_ = {};
+    if (route_.empty() || blocked) return;
+    const Pose2 believed = Believed();
+    Pose2 next = believed;
+    for (double left_m = paths.back().speed_m_s * Seconds(kStep); left_m > 0 && !route_.empty();)
+      left_m = MoveTowards(route_.front(), left_m, next);
+    velocity_ = believed.Inverse() * next;
+    truth_ = truth_ * error * velocity_ * error.Inverse();
+    if (good_looks_ < 2) nearest_before_fix_m = std::min(nearest_before_fix_m, 6.0 - truth_.x);
+  }
+
+  /// Returns what is left of the step when the point is reached before its end.
+  double MoveTowards(const Pose2& to, double step_m, Pose2& pose) {
+    const double way_m = (to.translation() - pose.translation()).norm();
+    if (way_m <= step_m) {
+      pose = to;
+      route_.pop_front();
+      return step_m - way_m;
+    }
+    const double part = step_m / way_m;
+    pose = {pose.x + part * (to.x - pose.x), pose.y + part * (to.y - pose.y),
+            pose.yaw + part * WrapAngle(to.yaw - pose.yaw)};
+    return 0;
+  }
+
+  void AnswerLooks() {
+    if (looks_.empty() || looks_.front().done > now_) return;
+    const LookOrder look = looks_.front().look;
+    looks_.pop_front();
+    const LookResult result = answer(look, static_cast<int>(looks.size()));
+    looks.push_back(look);
+    look_way_m.push_back(6.0 - truth_.x);
+    look_speed_m_s.push_back(speed_m_s());
+    if (result.ok && ++good_looks_ == 1) error = {error.x / 4, error.y / 4, error.yaw / 4};
+    if (result.ok && good_looks_ >= 2) {
+      error = {};
+      sigma_m = sigma_after_m;
+      sigma_yaw_rad = sigma_yaw_after_rad;
+    }
+    Later([this, result, stamp = now_] {
+      mission_.OnLook(result);
+      if (result.ok) mission_.OnCorrected(stamp);
+    });
+  }
+
+  void Report() {
+    RobotPose pose{now_, Believed(), {}, Eigen::Matrix3d::Zero()};
+    pose.velocity = {velocity_.x / Seconds(kStep), velocity_.y / Seconds(kStep), 0};
+    pose.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_yaw_rad * sigma_yaw_rad;
+    DriveReport drive{paths.empty()    ? DriveMode::kIdle
+                      : route_.empty() ? DriveMode::kArrived
+                                       : DriveMode::kFollowing,
+                      path_id_, blocked ? "sonar" : ""};
+    if (blocked) drive.mode = DriveMode::kBlocked;
+    Later([this, pose, drive] {
+      mission_.OnPose(pose);
+      mission_.OnDrive(drive, now_);
+      mission_.OnLink(true);
+    });
+  }
+
+  DoorMission& mission_;
+  Pose2 truth_;
+  Pose2 velocity_;
+  Time now_ = FromUtime(1'000'000'000);
+  int ticks_ = 0, path_id_ = 0, good_looks_ = 0;
+  std::deque<Pose2> route_;
+  std::deque<PendingLook> looks_;
+  std::deque<Delivery> radio_;
+};
+
+}  // namespace priamos::planner

@@ -1,0 +1,165 @@
+#include "robot/core/motion/drive_controller.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "test/robot/support/robot_rig.hpp"
+
+namespace priamos::robot {
+namespace {
+
+using testing::Each;
+
+Path Straight(int id = 1) {
+  return {.id = id, .speed_m_s = 0.4, .points = {{5, 0, 0}}};
+}
+Path Stop(int id = 9) {
+  return {.id = id, .speed_m_s = 0, .points = {}};
+}
+
+class DriveControllerTest : public testing::Test {
+ protected:
+  double Speed() { return std::hypot(rig_.base().twist().vx, rig_.base().twist().vy); }
+
+  RobotRig rig_{1, {0, 0, 0}};
+};
+
+TEST_F(DriveControllerTest, IsSilentBeforeTheFirstPath) {
+  rig_.Run(1);
+  EXPECT_FALSE(rig_.command());
+  EXPECT_EQ(rig_.state().mode, DriveMode::kIdle);
+  EXPECT_EQ(rig_.state().path_id, 0);
+}
+
+TEST_F(DriveControllerTest, FollowsAPathAndArrives) {
+  rig_.Run(0.2);
+  rig_.SetPath(Straight(7));
+  rig_.Run(3);
+  EXPECT_EQ(rig_.state().mode, DriveMode::kFollowing);
+  EXPECT_EQ(rig_.state().path_id, 7);
+  EXPECT_NEAR(Speed(), 0.4, 0.03);
+  rig_.Run(14);
+  EXPECT_EQ(rig_.state().mode, DriveMode::kArrived);
+  EXPECT_EQ(rig_.state().failsafe.action, FailsafeAction::kNone);
+  EXPECT_LT(rig_.state().remaining_m, 0.01);
+  ASSERT_TRUE(rig_.command());
+  EXPECT_THAT(*rig_.command(), Each(0.0));
+}
+
+TEST_F(DriveControllerTest, APathThatComesBeforeTheFirstEncoderSampleWaits) {
+  rig_.wheels_answer = false;
+  rig_.SetPath(Straight());
+  rig_.Run(0.5);
+  EXPECT_LT(Speed(), 1e-6);
+  EXPECT_EQ(rig_.state().failsafe.cause, Condition::kWheelsSilent);
+  rig_.wheels_answer = true;
+  rig_.Run(3);
+  EXPECT_GT(Speed(), 0.3);
+}
+
+TEST_F(DriveControllerTest, APathWithoutPointsBrakesAndHolds) {
+  rig_.SetPath(Straight());
+  rig_.Run(3);
+  rig_.SetPath(Stop(8));
+  rig_.Run(1);
+  EXPECT_EQ(rig_.state().mode, DriveMode::kHolding);
+  EXPECT_EQ(rig_.state().path_id, 8);
+  EXPECT_LT(Speed(), 1e-3);
+  EXPECT_THAT(*rig_.command(), Each(0.0)) << "explicit zeros while holding";
+}
+
+TEST_F(DriveControllerTest, TheSamePathAgainChangesNothing) {
+  const Path path{.id = 3, .speed_m_s = 0.4, .points = {{1, 0, 0}, {5, 0, 0}}};
+  rig_.SetPath(path);
+  rig_.Run(5);
+  const double x = rig_.base().truth().x;
+  ASSERT_GT(x, 1.4);
+  rig_.SetPath(path);
+  for (int i = 0; i < 100; ++i) {
+    rig_.Tick();
+    EXPECT_GT(rig_.base().twist().vx, 0.3);
+  }
+}
+
+TEST_F(DriveControllerTest, EncodersFallSilentTheBaseBrakesAndGoesOnWhenTheyAreBack) {
+  rig_.SetPath(Straight());
+  rig_.Run(3);
+  rig_.wheels_answer = false;
+  rig_.Run(0.8);
+  EXPECT_EQ(rig_.state().failsafe.cause, Condition::kWheelsSilent);
+  EXPECT_LT(Speed(), 1e-3);
+  rig_.wheels_answer = true;
+  rig_.Run(2);
+  EXPECT_EQ(rig_.state().mode, DriveMode::kFollowing);
+  EXPECT_GT(Speed(), 0.3);
+}
+
+TEST_F(DriveControllerTest, SonarsFallSilentTheBaseBrakes) {
+  rig_.SetPath(Straight());
+  rig_.Run(3);
+  rig_.sonars_answer = false;
+  rig_.Run(1.2);
+  EXPECT_EQ(rig_.state().failsafe.cause, Condition::kSonarSilent);
+  EXPECT_LT(Speed(), 1e-3);
+}
+
+TEST_F(DriveControllerTest, WheelsThatDoNotTurnEndThePath) {
+  rig_.Run(0.2);
+  rig_.wheels_turn = false;
+  rig_.SetPath(Straight());
+  bool halted = false;
+  for (int i = 0; i < 150; ++i) {
+    rig_.Tick();
+    halted = halted || rig_.state().failsafe.cause == Condition::kWheelsStuck;
+  }
+  EXPECT_TRUE(halted);
+  EXPECT_EQ(rig_.state().mode, DriveMode::kHolding);
+  rig_.wheels_turn = true;
+  rig_.Run(1);
+  EXPECT_LT(Speed(), 1e-6) << "only a new path moves it again";
+}
+
+TEST(DriveController, DoesNotDriveByAPoseThatIsTooUncertain) {
+  LocaliserConfig lost;
+  lost.estimator.initial.position_error_m = 2;
+  RobotRig rig(1, {0, 0, 0}, lost);
+  rig.SetPath(Straight());
+  rig.Run(2);
+  EXPECT_EQ(rig.state().failsafe.cause, Condition::kPoseLost);
+  EXPECT_EQ(rig.base().truth().x, 0);
+}
+
+TEST(DriveController, StandsBeforeABoxAndSaysBlockedAndGoesOnWhenItIsGone) {
+  // The wall behind it shows that it is gone.
+  RobotRig rig(1, {0, 0, 0}, {}, {}, BoxSides(2, -0.2, 2.3, 0.2));
+  rig.SetPath(Straight());
+  rig.Run(8);
+  EXPECT_EQ(rig.state().mode, DriveMode::kBlocked);
+  EXPECT_TRUE(rig.state().slowed_by_sonar);
+  ASSERT_TRUE(rig.state().nearest_m);
+  EXPECT_LT(*rig.state().nearest_m, 0.15);
+  EXPECT_GT(rig.min_gap(), 0.02);
+  rig.sonars().Clear();
+  rig.sonars().Add(BoxSides(6.0, -2, 6.5, 2));
+  rig.Run(3);
+  EXPECT_EQ(rig.state().mode, DriveMode::kFollowing);
+}
+
+TEST(DriveController, GivesTheSameCommandsForTheSameInputs) {
+  const auto commands = [] {
+    RobotRig rig(5, {0, 0.1, 0.05}, {}, {}, BoxSides(-1, -1.2, 7, 1.2));
+    std::vector<WheelSpeeds> all;
+    rig.SetPath(Straight());
+    for (int i = 0; i < 300; ++i) {
+      rig.Tick();
+      if (rig.command()) all.push_back(*rig.command());
+    }
+    return all;
+  };
+  EXPECT_EQ(commands(), commands());
+}
+
+}  // namespace
+}  // namespace priamos::robot
