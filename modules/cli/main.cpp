@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 
-#include "cli/front/commands.hpp"
 #include "cli/front/run_cli.hpp"
+#include "cli/verbs/commands.hpp"
 
 int main(int argc, char** argv) {
   int exit_code = 0;

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "bus/command_line.hpp"
-#include "cli/front/commands.hpp"
+#include "cli/verbs/commands.hpp"
 #include "test/support/temporary_folder.hpp"
 #include "test/system/private_network.hpp"
 

@@ -1,3 +1,5 @@
+#include "cli/front/estop_command.hpp"
+
 #include <fmt/format.h>
 #include <poll.h>
 
@@ -10,7 +12,6 @@
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/wire/lcm_bus.hpp"
-#include "cli/front/commands.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {

@@ -9,7 +9,7 @@
 #include <iostream>
 #include <string_view>
 
-#include "cli/front/commands.hpp"
+#include "cli/front/estop_command.hpp"
 #include "cli/front/run_cli.hpp"
 
 namespace {

@@ -8,9 +8,9 @@
 
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/lockstep/factories.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/verbs/commands.hpp"
 #include "head/files/laser_files.hpp"
 #include "head/files/offline_calibration.hpp"
 

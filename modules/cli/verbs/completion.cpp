@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "bus/own_types.hpp"
-#include "cli/front/commands.hpp"
+#include "cli/verbs/commands.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {

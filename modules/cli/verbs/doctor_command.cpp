@@ -5,8 +5,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "cli/front/commands.hpp"
 #include "cli/options/bus_options.hpp"
+#include "cli/verbs/commands.hpp"
 #include "cli/verbs/doctor.hpp"
 
 namespace priamos::cli {

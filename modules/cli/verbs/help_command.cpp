@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "bus/command_line.hpp"
-#include "cli/front/commands.hpp"
+#include "cli/verbs/commands.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {

@@ -6,9 +6,9 @@
 #include "bus/radio/budget.hpp"
 #include "bus/radio/link_config.hpp"
 #include "bus/schema/packing.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/supervise/link_emulate.hpp"
 #include "cli/terminal/link_top.hpp"
+#include "cli/verbs/commands.hpp"
 #include "radio/key_file.hpp"
 
 namespace priamos::cli {

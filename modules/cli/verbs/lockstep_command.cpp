@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/own_types.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/lockstep/factories.hpp"
 #include "cli/lockstep/lockstep_run.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/report/report_files.hpp"
+#include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -13,8 +13,8 @@
 #include "bus/log/log_merge.hpp"
 #include "bus/log/log_survey.hpp"
 #include "bus/log/log_writer.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/options/log_options.hpp"
+#include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
 namespace {

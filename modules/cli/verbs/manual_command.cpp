@@ -3,7 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "cli/front/commands.hpp"
+#include "cli/verbs/commands.hpp"
 #include "cli/verbs/manual.hpp"
 
 namespace priamos::cli {

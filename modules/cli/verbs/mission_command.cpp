@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/own_types.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/scenario/door_name.hpp"
 #include "cli/scenario/mission_order.hpp"
 #include "cli/terminal/bus_watch.hpp"
 #include "cli/terminal/silence_watch.hpp"
+#include "cli/verbs/commands.hpp"
 #include "planner/planner_config.hpp"
 
 namespace priamos::cli {

@@ -8,9 +8,9 @@
 #include "bus/output_comparison.hpp"
 #include "bus/own_types.hpp"
 #include "bus/replay.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/lockstep/factories.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
 namespace {

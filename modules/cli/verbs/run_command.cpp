@@ -12,7 +12,6 @@
 
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/report/report_files.hpp"
 #include "cli/report/run_recorder.hpp"
@@ -23,6 +22,7 @@
 #include "cli/supervise/link_emulate.hpp"
 #include "cli/supervise/robot_owner.hpp"
 #include "cli/supervise/supervisor.hpp"
+#include "cli/verbs/commands.hpp"
 #include "common/data_folders.hpp"
 
 namespace priamos::cli {

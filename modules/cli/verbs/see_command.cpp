@@ -1,6 +1,6 @@
 #include <CLI/CLI.hpp>
 
-#include "cli/front/commands.hpp"
+#include "cli/verbs/commands.hpp"
 #include "head/see/see.hpp"
 
 namespace priamos::cli {

@@ -11,12 +11,12 @@
 #include "bus/schema/json.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/udp_receiver.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/terminal/silence_watch.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "cli/terminal/topic_echo.hpp"
 #include "cli/terminal/topic_screen.hpp"
 #include "cli/terminal/topic_statistics.hpp"
+#include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
 namespace {

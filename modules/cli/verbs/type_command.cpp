@@ -6,9 +6,9 @@
 
 #include "bus/schema/json_schema.hpp"
 #include "bus/schema/packing.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/options/bus_options.hpp"
 #include "cli/verbs/channel_table.hpp"
+#include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -21,12 +21,12 @@
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/schema.hpp"
 #include "bus/wire/multicast.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/supervise/deployment.hpp"
 #include "cli/supervise/robot_owner.hpp"
 #include "cli/supervise/supervisor.hpp"
 #include "cli/supervise/up_state.hpp"
+#include "cli/verbs/commands.hpp"
 #include "cli/verbs/up_queries.hpp"
 #include "common/data_folders.hpp"
 

@@ -5,12 +5,12 @@
 
 #include "bus/own_types.hpp"
 #include "bus/schema/json.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/options/bus_options.hpp"
 #include "cli/terminal/bus_watch.hpp"
 #include "cli/terminal/silence_watch.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "cli/terminal/view_screen.hpp"
+#include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
 namespace {

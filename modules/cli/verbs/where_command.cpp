@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/own_types.hpp"
-#include "cli/front/commands.hpp"
 #include "cli/terminal/bus_watch.hpp"
 #include "cli/terminal/silence_watch.hpp"
 #include "cli/terminal/where_text.hpp"
+#include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/front/commands.hpp"
+#include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
 namespace {

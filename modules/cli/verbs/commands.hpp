@@ -22,7 +22,6 @@ void AddSeeCommand(CLI::App& cli, int& exit_code);
 void AddLinkCommand(CLI::App& cli, int& exit_code);
 void AddViewCommand(CLI::App& cli, int& exit_code);
 void AddUpCommands(CLI::App& cli, int& exit_code);  ///< up, down, status, logs
-void AddEstopCommand(CLI::App& cli, int& exit_code);
 void AddHelpCommand(CLI::App& cli, int& exit_code);
 /// After all others: it completes their names.
 void AddCompletionCommand(CLI::App& cli, int& exit_code);

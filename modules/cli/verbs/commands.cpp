@@ -1,6 +1,8 @@
-#include "cli/front/commands.hpp"
+#include "cli/verbs/commands.hpp"
 
 #include <CLI/CLI.hpp>
+
+#include "cli/front/estop_command.hpp"
 
 namespace priamos::cli {
 
