@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "bus/clock.hpp"
+#include "bus/inbox.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "common/time.hpp"
 #include "lcmtypes/channel.hpp"
@@ -27,8 +27,8 @@ struct ChannelCounters {
   std::uint64_t refused = 0;      ///< wrong type, damaged, too long, or not decodable
   std::uint64_t wrong_type = 0;   ///< of refused: another fingerprint than the channel's
   std::uint64_t oversize = 0;     ///< of refused: longer than a message of this bus may be
-  std::uint64_t overwritten = 0;  ///< newest-wins channel: replaced by a newer one before being taken
-  std::uint64_t dropped = 0;      ///< every-message channel: the inbox was full
+  std::uint64_t overwritten = 0;  ///< replaced by a newer one, of a full safety inbox one of the same act
+  std::uint64_t dropped = 0;      ///< every-message channel: the oldest of a full inbox
   std::uint64_t exceptions = 0;   ///< decoder or handler threw
   std::uint64_t published = 0;
   std::uint64_t publish_failed = 0;  ///< too long, or the network refused
@@ -50,11 +50,6 @@ struct LatestState {
   Time received{};
   bool valid = false;
   bool taken = true;
-};
-
-template <class T>
-struct InboxState {
-  std::deque<std::pair<Time, T>> messages;
 };
 
 }  // namespace detail
@@ -80,30 +75,6 @@ class Latest {
   std::shared_ptr<detail::LatestState<T>> state_;
 };
 
-/// Every message of an event channel, oldest first.
-template <class T>
-class Inbox {
- public:
-  explicit Inbox(std::shared_ptr<detail::InboxState<T>> state) : state_(std::move(state)) {}
-
-  std::vector<T> Drain() {
-    std::vector<T> all;
-    for (auto& [arrival, message] : state_->messages) all.push_back(std::move(message));
-    state_->messages.clear();
-    return all;
-  }
-  /// Each with its arrival, by the receiver's own clock.
-  std::vector<std::pair<Time, T>> DrainWithArrival() {
-    std::vector<std::pair<Time, T>> all(std::make_move_iterator(state_->messages.begin()),
-                                        std::make_move_iterator(state_->messages.end()));
-    state_->messages.clear();
-    return all;
-  }
-
- private:
-  std::shared_ptr<detail::InboxState<T>> state_;
-};
-
 class Node;
 
 /// Right to publish on one channel.
@@ -119,12 +90,10 @@ class Publisher {
 };
 
 /// A process's place on a bus. Every byte that arrives is walked against the schema before a generated
-/// decoder sees it; what does not pass is counted, never fatal. Newest wins (Subscribe) or all are kept
-/// (SubscribeAll). Handlers run while the bus is drained, between ticks.
+/// decoder sees it; what does not pass is counted, never fatal. Newest wins (Subscribe) or all are kept, as
+/// far as an InboxQueue reaches (SubscribeAll). Handlers run while the bus is drained, between ticks.
 class Node {
  public:
-  static constexpr std::size_t kInboxCapacity = 256;
-
   /// `bus`, `schema` and `clock` must outlive the node.
   Node(LcmBus& bus, const Schema& schema, const Clock& clock) : bus_(bus), schema_(schema), clock_(clock) {}
   Node(const Node&) = delete;
@@ -204,18 +173,15 @@ Latest<T> Node::Subscribe(const Channel<T>& channel) {
 
 template <class T>
 Inbox<T> Node::SubscribeAll(const Channel<T>& channel) {
-  auto state = std::make_shared<detail::InboxState<T>>();
+  auto queue = std::make_shared<InboxQueue<T>>(channel.safety_act);
   Listen({std::string(channel.name), T::getTypeName(), channel.rate_hz}, schema_,
          static_cast<std::uint64_t>(T::getHash()),
-         [this, state](std::span<const std::byte> bytes, ChannelCounters& counters) {
-           T message = Decode<T>(bytes);
-           if (state->messages.size() < kInboxCapacity) {
-             state->messages.emplace_back(clock_.Now(), std::move(message));
-           } else {
-             ++counters.dropped;
-           }
+         [this, queue](std::span<const std::byte> bytes, ChannelCounters& counters) {
+           const Displaced displaced = queue->Add(clock_.Now(), Decode<T>(bytes));
+           if (displaced == Displaced::kRepeated) ++counters.overwritten;
+           if (displaced == Displaced::kLost) ++counters.dropped;
          });
-  return Inbox<T>(state);
+  return Inbox<T>(queue);
 }
 
 template <class T>

@@ -59,7 +59,8 @@ inline constexpr Channel<pose_correction_t> kPoseCorrection{"POSE_CORRECTION", 0
 inline constexpr Channel<drive_command_t> kDriveCommand{"DRIVE_COMMAND", 20, milliseconds(250)};
 inline constexpr Channel<head_drive_t> kHeadDrive{"HEAD_DRIVE", 10, milliseconds(500)};
 inline constexpr Channel<lease_request_t> kLeaseRequest{"LEASE_REQUEST", 0, milliseconds(0)};
-inline constexpr Channel<estop_t> kEstop{"ESTOP", 0, milliseconds(0)};
+inline constexpr Channel<estop_t> kEstop{.name = "ESTOP",
+                                         .safety_act = [](const estop_t& order) { return order.action; }};
 
 // Seeing.
 inline constexpr Channel<landmark_model_t> kLandmarkModel{"LANDMARK_MODEL", 0, milliseconds(0)};

@@ -62,11 +62,11 @@ TEST_F(NodeTest, EventsAreAllKeptInOrder) {
 TEST_F(NodeTest, FullInboxCountsWhatItDrops) {
   auto inbox = dut_.SubscribeAll(channels::kPose);
   auto publisher = dut_.Advertise(channels::kPose);
-  for (std::size_t i = 0; i < Node::kInboxCapacity + 5; ++i) {
+  for (std::size_t i = 0; i < kInboxCapacity + 5; ++i) {
     publisher.Publish(Pose(0));
     bus_.Drain();
   }
-  EXPECT_EQ(inbox.Drain().size(), Node::kInboxCapacity);
+  EXPECT_EQ(inbox.Drain().size(), kInboxCapacity);
   EXPECT_EQ(dut_.counters().at("POSE").dropped, 5u);
 }
 

@@ -36,6 +36,17 @@ TEST(ShippedLink, ChannelsAreThoseOfTheRobotWithTheirTypes) {
   }
 }
 
+TEST(ShippedLink, WhatIsASafetyChannelOnTheBusIsUrgentOnTheLine) {
+  for (const auto& channel : Shipped().channels) {
+    const auto is_this_safety = [&](const auto& c) {
+      return c.name == channel.name && c.safety_act != nullptr;
+    };
+    const bool safety =
+        std::apply([&](const auto&... c) { return (is_this_safety(c) || ...); }, channels::kAll);
+    EXPECT_EQ(channel.urgent, safety) << channel.name;
+  }
+}
+
 TEST(ShippedLink, BudgetHolds) {
   const bus::Schema schema = bus::OwnTypes();
   const auto budget = ComputeBudget(Shipped().Table(schema), Shipped().Options());
