@@ -269,10 +269,6 @@ std::optional<std::vector<std::byte>> Packer::Unpack(std::span<const std::byte> 
   return encoded;
 }
 
-std::size_t PackedBits(const Struct& type) {
-  return Packer(type).MaxBits();
-}
-
 std::string FormatBitTable(const Packer& packer) {
   std::size_t width = 5;
   for (const PackedField& field : packer.fields()) width = std::max(width, field.name.size());

@@ -58,9 +58,6 @@ class Packer {
   std::size_t max_bits_ = 0;
 };
 
-/// Most bits of a packed message of `type`. Throws SchemaError like Packer.
-std::size_t PackedBits(const Struct& type);
-
 /// The bit table as text for a terminal, with the sum.
 std::string FormatBitTable(const Packer& packer);
 

@@ -162,12 +162,6 @@ std::vector<std::byte> FrameSealer::Seal(const Hello& hello) const {
   return Delimited(content);
 }
 
-std::string_view RejectName(Reject reject) {
-  constexpr std::array<std::string_view, kRejects> kNames{"malformed", "oversize", "bad code",
-                                                          "replayed",  "no epoch", "flood"};
-  return kNames[static_cast<std::size_t>(reject)];
-}
-
 void FrameOpener::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
   epoch_ = epoch;
   window_ = ReplayWindow(floor);

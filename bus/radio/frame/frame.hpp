@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -114,8 +113,6 @@ enum class Reject : std::uint8_t {
   kFlood       ///< more frames than the line can carry: not even looked at
 };
 inline constexpr std::size_t kRejects = 6;
-/// Word for a reason, for people.
-std::string_view RejectName(Reject reject);
 
 /// Content of a data frame that passed.
 struct DataFrame {

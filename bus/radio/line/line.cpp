@@ -89,7 +89,6 @@ void Line::Write(std::span<const std::byte> bytes, Time now) {
     if (air_) air_->Sends(side_, air_free_at_ns_ - length_ns, air_free_at_ns_);
     Transmit(byte, air_free_at_ns_);
   }
-  bytes_written_ += bytes.size();
 }
 
 std::vector<std::byte> Line::Read(Time now) {

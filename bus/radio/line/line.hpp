@@ -74,7 +74,6 @@ class Line {
   Time sent_at() const { return Time(Duration(std::max(free_at_ns_, air_free_at_ns_) / 1000)); }
   /// When the next byte can be read; Time::max() when none is under way.
   Time next_arrival() const;
-  std::uint64_t bytes_written() const { return bytes_written_; }
 
  private:
   struct Arrival {
@@ -98,7 +97,6 @@ class Line {
   std::shared_ptr<SharedAir> air_;
   int side_ = 0;
   std::size_t next_cut_ = 0;
-  std::uint64_t bytes_written_ = 0;
   std::deque<Arrival> arrivals_;
 };
 

@@ -36,13 +36,6 @@ std::optional<PoseError> ErrorOf(const RunRecord& record, const pose_t& pose) {
   return PoseError{pose.utime, d.norm(), WrapAngle(pose.yaw_rad - truth->yaw)};
 }
 
-std::vector<PoseError> Errors(const RunRecord& record) {
-  std::vector<PoseError> errors;
-  for (const pose_t& pose : record.poses)
-    if (const auto error = ErrorOf(record, pose)) errors.push_back(*error);
-  return errors;
-}
-
 std::optional<Crossing> CrossingOf(const RunRecord& record, const Pose2& map_from_door) {
   const Pose2 door_from_map = map_from_door.Inverse();
   std::optional<Pose2> before;

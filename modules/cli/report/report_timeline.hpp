@@ -21,8 +21,6 @@ struct PoseError {
 
 /// The error of one pose estimate against the truth at the same time; nullopt outside the record.
 std::optional<PoseError> ErrorOf(const RunRecord& record, const pose_t& pose);
-/// Of every estimate.
-std::vector<PoseError> Errors(const RunRecord& record);
 
 /// How the base centre goes through the plane of a door for the first time, in the door's frame.
 struct Crossing {

@@ -32,8 +32,6 @@ class TeleopStory : public ScenarioStory {
   bool Succeeded() const override { return succeeded_; }
   std::string Reason() const override;
 
-  bool mouse_awake() const { return mouse_.awake(); }
-
  private:
   void Look();
   bool Ready() const;

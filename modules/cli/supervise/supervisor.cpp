@@ -275,12 +275,6 @@ std::vector<ProcessReport> Supervisor::Report() const {
   return all;
 }
 
-std::optional<ProcessReport> Supervisor::Alarmed() const {
-  for (const ProcessReport& report : Report())
-    if (report.alarm) return report;
-  return std::nullopt;
-}
-
 bool Supervisor::AllStopped() const {
   return std::none_of(children_.begin(), children_.end(), [](const Child& c) { return c.pid != 0; });
 }

@@ -57,8 +57,6 @@ class Supervisor {
   void Step(Time now);
   bool AllReady() const;
   std::vector<ProcessReport> Report() const;
-  /// The first process that raised the alarm; nullopt while there is none.
-  std::optional<ProcessReport> Alarmed() const;
   /// Ends processes in the reverse order of their dependencies; SIGKILL for those that do not end.
   void StopAll();
   bool AllStopped() const;

@@ -37,11 +37,11 @@ TEST(ReportTimeline, NoTruthOutsideTheRecord) {
 TEST(ReportTimeline, ErrorIsBeliefMinusTruth) {
   const SyntheticRun run;
   const RunRecord record = run.Record();
-  const auto dut = Errors(record);
-  ASSERT_EQ(dut.size(), record.poses.size());
-  EXPECT_NEAR(dut[50].position_m, 0.15, 1e-9);
-  EXPECT_NEAR(Degrees(dut[50].heading_rad), 4, 1e-9);
-  EXPECT_NEAR(dut[500].position_m, 0.01, 1e-9);
+  for (const pose_t& pose : record.poses) ASSERT_TRUE(ErrorOf(record, pose).has_value());
+  const auto before = ErrorOf(record, record.poses.at(50)), after = ErrorOf(record, record.poses.at(500));
+  EXPECT_NEAR(before->position_m, 0.15, 1e-9);
+  EXPECT_NEAR(Degrees(before->heading_rad), 4, 1e-9);
+  EXPECT_NEAR(after->position_m, 0.01, 1e-9);
 }
 
 TEST(ReportTimeline, CrossingIsInterpolatedToThePlane) {

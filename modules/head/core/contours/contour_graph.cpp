@@ -106,19 +106,11 @@ std::vector<Polygon> FindPolygons(const EdgeImage& edges, std::span<const Corner
 
 ContourGraph::ContourGraph(const EdgeImage& edges, const ContourOptions& options)
     : relations_(FindRelations(edges, options)), corners_(FindCorners(edges, options)) {
-  const std::size_t n = edges.segments.size();
-  relations_of_.resize(n), corners_of_.resize(2 * n), polygons_of_.resize(n);
-  for (int i = 0; i < static_cast<int>(relations_.size()); ++i) {
-    relations_of_[relations_[i].a].push_back(i);
-    relations_of_[relations_[i].b].push_back(i);
-  }
+  std::vector<std::vector<int>> corners_of(2 * edges.segments.size());
   for (int i = 0; i < static_cast<int>(corners_.size()); ++i) {
-    for (int k = 0; k < 2; ++k) corners_of_[2 * corners_[i].segments[k] + corners_[i].ends[k]].push_back(i);
+    for (int k = 0; k < 2; ++k) corners_of[2 * corners_[i].segments[k] + corners_[i].ends[k]].push_back(i);
   }
-  polygons_ = FindPolygons(edges, corners_, corners_of_, options);
-  for (int i = 0; i < static_cast<int>(polygons_.size()); ++i) {
-    for (const int side : polygons_[i].sides) polygons_of_[side].push_back(i);
-  }
+  polygons_ = FindPolygons(edges, corners_, corners_of, options);
 }
 
 std::vector<Eigen::Vector2d> ContourGraph::Outline(const Polygon& polygon) const {

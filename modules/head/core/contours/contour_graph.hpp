@@ -16,8 +16,6 @@ struct Relation {
   double angle_rad = 0;    ///< between the lines, 0 to pi/2
   double distance_px = 0;  ///< of parallel ones: from the shorter one's middle to the other line
   bool same_sign = false;  ///< of parallel and collinear ones: the bright sides face the same way
-
-  int Other(int segment) const { return segment == a ? b : a; }
 };
 
 /// Two segments that run up to each other, extended to where they meet: what the edge operator lost there is
@@ -62,10 +60,6 @@ class ContourGraph {
   std::span<const Corner> corners() const { return corners_; }
   std::span<const Polygon> polygons() const { return polygons_; }
 
-  /// Indices of what a segment takes part in.
-  std::span<const int> RelationsOf(int segment) const { return relations_of_.at(segment); }
-  std::span<const int> CornersOf(int segment, int end) const { return corners_of_.at(2 * segment + end); }
-  std::span<const int> PolygonsOf(int segment) const { return polygons_of_.at(segment); }
   /// The corners of a polygon in order [px].
   std::vector<Eigen::Vector2d> Outline(const Polygon& polygon) const;
 
@@ -73,7 +67,6 @@ class ContourGraph {
   std::vector<Relation> relations_;
   std::vector<Corner> corners_;
   std::vector<Polygon> polygons_;
-  std::vector<std::vector<int>> relations_of_, corners_of_, polygons_of_;
 };
 
 /// All pairs of segments that come within options.neighbour_px of each other and have a relation.

@@ -167,13 +167,6 @@ std::string WhyNoPolyhedron(const Polyhedron& body) {
   return "";
 }
 
-LandmarkModel WholeSkeleton(const Polyhedron& body) {
-  LandmarkModel model;
-  for (const auto& [ends, faces] : EdgesOf(body))
-    model.edges.push_back(Everywhere(body.points[ends[0]], body.points[ends[1]]));
-  return model;
-}
-
 LandmarkModel VisibleSkeleton(const Polyhedron& body, const Eigen::Vector3d& eye_m, double min_m) {
   const std::vector<Face> faces = FacesOf(body);
   LandmarkModel seen;

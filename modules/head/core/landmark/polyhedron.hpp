@@ -25,9 +25,6 @@ struct Polyhedron {
 /// its size, a number of a point that is not there, numbers that are not finite, nothing at all.
 std::string WhyNoPolyhedron(const Polyhedron& body);
 
-/// All edges, each once, with all faces taken away: for drawing and counting.
-LandmarkModel WholeSkeleton(const Polyhedron& body);
-
 /// What an eye at `eye_m` (landmark frame) sees of the edges: those of faces that look at it, cut where other
 /// faces are before them. Pieces shorter than `min_m` are left out. Between two faces that are
 /// both seen, and whose greys are known, the ratio of grey values is known; an outline has anything behind

@@ -65,7 +65,7 @@ TEST_F(FreeModelFixTest, FindsTheCupboardInSpace) {
 TEST_F(FreeModelFixTest, WhatIsHiddenIsNotLookedFor) {
   const FreeModelFix dut = Find(At(2.6, -0.4, 0.2, 0.3), At(2.6, -0.4, 0.2, 0.3));
   ASSERT_EQ(dut.verdict, Verdict::kFound);
-  EXPECT_LT(dut.seen.edges.size(), WholeSkeleton(cupboard_.body).edges.size());
+  EXPECT_LT(dut.seen.edges.size(), 12u) << "edges of a box";
 }
 
 TEST_F(FreeModelFixTest, DarknessIsNoImage) {

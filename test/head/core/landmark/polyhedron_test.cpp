@@ -34,10 +34,6 @@ double Length(const LandmarkModel& model) {
   return sum;
 }
 
-TEST(Polyhedron, AnEdgeOfTwoFacesIsOneEdge) {
-  EXPECT_EQ(WholeSkeleton(Cube()).edges.size(), 12u);
-}
-
 TEST(Polyhedron, NineEdgesOfACubeAreSeenFromACorner) {
   EXPECT_EQ(VisibleSkeleton(Cube(), {5, 6, 7}).edges.size(), 9u);
 }
