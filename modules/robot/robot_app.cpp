@@ -109,10 +109,7 @@ void RobotApp::TakeSonars() {
 void RobotApp::TakeFloorLines(Time now) {
   for (const obstacle_line_t& message : floor_lines_.Drain()) {
     const auto line = FromMessage(message);
-    const Odometry& odometry = localiser_.odometry();
-    const double since_s = line && odometry.time() ? Seconds(*odometry.time() - line->exposure) : 0;
-    const Pose2 then = Integrate(odometry.pose(), odometry.twist(), -std::clamp(since_s, 0.0, 5.0));
-    if (line && drive_.AddFloorLine(*line, then, now)) continue;
+    if (line && drive_.AddFloorLine(*line, localiser_.OdometryPoseAt(line->exposure), now)) continue;
     ++floor_lines_refused_;
     context_.Log(bus::Level::kWarning,
                  fmt::format("obstacle line refused, the {}. one: {}", floor_lines_refused_,

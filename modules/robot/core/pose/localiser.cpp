@@ -1,10 +1,14 @@
 #include "robot/core/pose/localiser.hpp"
 
+#include <algorithm>
+
 namespace priamos::robot {
 namespace {
 
 // More than any head sends; a flood of fixes with times in the future must not grow without bound.
 constexpr std::size_t kMostWaiting = 16;
+
+constexpr double kLongestBack_s = 5;  // a velocity says nothing about longer ago
 
 }  // namespace
 
@@ -41,6 +45,12 @@ std::vector<Localiser::Answer> Localiser::Step(Time now) {
   }
   waiting_ = std::move(still);
   return answers;
+}
+
+Pose2 Localiser::OdometryPoseAt(Time time) const {
+  const auto newest = odometry_.time();
+  const double since_s = newest ? Seconds(*newest - time) : 0;
+  return Integrate(odometry_.pose(), odometry_.twist(), -std::clamp(since_s, 0.0, kLongestBack_s));
 }
 
 }  // namespace priamos::robot

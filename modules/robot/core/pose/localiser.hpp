@@ -34,6 +34,9 @@ class Localiser {
   std::vector<Answer> Step(Time now);
 
   const Odometry& odometry() const { return odometry_; }
+  /// The base in the odometry frame at a time that has passed, for instance that of an exposure: back from
+  /// the newest sample with its velocity, 5 s at most. The newest pose for a time after it.
+  Pose2 OdometryPoseAt(Time time) const;
   std::optional<PoseEstimate> estimate() const { return estimator_.newest(); }
 
  private:

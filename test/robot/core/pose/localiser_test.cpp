@@ -71,5 +71,46 @@ TEST_F(LocaliserTest, AFloodOfFixesFromTheFutureDoesNotGrow) {
   EXPECT_LE(dut_.Step(base_.now()).size(), 16u);
 }
 
+TEST_F(LocaliserTest, TheOdometryPoseOfAnExposureLiesWhereTheBaseWasThen) {
+  const auto turn = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      base_.Command(ToWheelSpeeds({}, {0.3, 0.1, 0.2}), base_.now());
+      base_.Advance(milliseconds(20));
+      dut_.AddWheels(base_.Read(), base_.now());
+    }
+  };
+  turn(100);
+  const Time exposure = base_.now();
+  const Pose2 then = dut_.odometry().pose();
+  turn(25);
+  const Pose2 dut = dut_.OdometryPoseAt(exposure);
+  EXPECT_GT((dut_.odometry().pose().translation() - then.translation()).norm(), 0.1);
+  EXPECT_NEAR(dut.x, then.x, 0.01);
+  EXPECT_NEAR(dut.y, then.y, 0.01);
+  EXPECT_NEAR(dut.yaw, then.yaw, 0.01);
+}
+
+TEST_F(LocaliserTest, TheOdometryPoseOfATimeToComeIsTheNewestOne) {
+  Drive(50);
+  const Pose2 dut = dut_.OdometryPoseAt(base_.now() + milliseconds(500)), newest = dut_.odometry().pose();
+  EXPECT_GT(newest.x, 0.1);
+  EXPECT_DOUBLE_EQ(dut.x, newest.x);
+  EXPECT_DOUBLE_EQ(dut.y, newest.y);
+}
+
+TEST_F(LocaliserTest, AnExposureOfLongAgoIsFollowedBackForFiveSecondsOnly) {
+  Drive(50);
+  const auto x_ago = [&](int ms) { return dut_.OdometryPoseAt(base_.now() - milliseconds(ms)).x; };
+  EXPECT_DOUBLE_EQ(x_ago(60'000), x_ago(5'000));
+  EXPECT_GT(x_ago(4'900), x_ago(5'000) + 0.01);
+}
+
+TEST_F(LocaliserTest, BeforeTheFirstSampleTheBaseHasNotMoved) {
+  const Pose2 dut = dut_.OdometryPoseAt(base_.now() - milliseconds(100));
+  EXPECT_EQ(dut.x, 0);
+  EXPECT_EQ(dut.y, 0);
+  EXPECT_EQ(dut.yaw, 0);
+}
+
 }  // namespace
 }  // namespace priamos::robot
