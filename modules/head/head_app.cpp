@@ -2,12 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <opencv2/core.hpp>
-
-#include "head/core/drift/epipolar_shift.hpp"
-#include "head/core/landmark/edge_observations.hpp"
 #include "head/files/calibration_file.hpp"
 #include "head/vision_options.hpp"
 
@@ -35,10 +29,9 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
                                        : LoadHeadModel(context.ResolvePath(config.calibration))),
       positioner_(config.motors),
       watch_(config.laser),
-      obstacles_(config.laser.obstacle),
+      floor_(head_, config.laser.obstacle),
       look_(config.look),
-      finder_(FinderOptions(config.vision, head_)),
-      edges_(EdgeOptions(config.vision)),
+      evaluator_(head_, EvaluatorOptions(config, head_)),
       drift_(config.drift),
       cameras_(context.instance() + "-camera"),
       head_state_(context.node().Subscribe(channels::kHeadState)),
@@ -103,7 +96,7 @@ void HeadApp::TakeMessages(Time now) {
   for (const camera_frame_t& message : frames_.Drain()) {
     const FrameNotice frame = FromMessage(message);
     look_.Add(frame);
-    if (watch_.Takes(frame)) TellObstacles(frame);
+    if (watch_.Takes(frame)) ReportFloor(frame);
   }
   for (const look_request_t& message : look_requests_.Drain()) {
     orders_.push_back(FromMessage(message));
@@ -179,67 +172,25 @@ void HeadApp::WatchFloor(Time now) {
   }
 }
 
-void HeadApp::TellObstacles(const FrameNotice& frame) {
-  const auto camera = head_.CameraAt(report_->setting, kThird);
-  const auto picture = cameras_.Read(frame);
-  if (!camera || !picture) return;
-  const ObstacleLines lines = obstacles_.Find(*picture, *camera, *head_.laser);
-  obstacle_.Publish(ToMessage(lines, frame.exposure));
-  if (lines.verdict == ObstacleLines::kObstacle && told_ != lines.verdict) {
-    const auto worst = std::max_element(
-        lines.pieces.begin(), lines.pieces.end(),
-        [](const auto& a, const auto& b) { return std::abs(a.height_m) < std::abs(b.height_m); });
-    context_.Log(bus::Level::kInfo, fmt::format("obstacle {:.1f} m ahead, {:+.3f} m against the floor",
-                                                worst->left.x(), worst->height_m));
-  }
-  told_ = lines.verdict;
+void HeadApp::ReportFloor(const FrameNotice& frame) {
+  const auto floor = floor_.Evaluate(cameras_.Read(frame), report_->setting);
+  if (!floor) return;
+  obstacle_.Publish(ToMessage(floor->lines, frame.exposure));
+  if (floor->new_obstacle) context_.Log(bus::Level::kInfo, Describe(*floor->new_obstacle));
 }
 
 LookAnswer HeadApp::Evaluate(const Frames& frames) {
-  const Time exposure = frames[0].exposure;
   const auto model = models_.find(orders_.front().landmark_id);
-  if (model == models_.end()) return NotFound(Verdict::kNoModel, exposure);
-  const auto robot = poses_.At(exposure);
-  if (!robot) return NotFound(Verdict::kNoPose, exposure);
-  std::array<EdgeImage, 2> edges;
-  for (int i = 0; i < 2; ++i) {
-    auto image = cameras_.Read(frames[i]);
-    if (!image || image->width < 64 || image->height < 64) return NotFound(Verdict::kNoImage, exposure);
-    edges_.Extract(cv::Mat(image->height, image->width, CV_8UC1, image->pixels.data()), edges[i]);
-  }
-  // Where the motors stand, not where they were sent: counters have steps.
-  const auto left = head_.CameraAt(report_->setting, kLeft), right = head_.CameraAt(report_->setting, kRight);
-  if (!left || !right) return NotFound(Verdict::kNoImage, exposure);
   LookAnswer answer;
-  answer.exposure = exposure;
-  const LandmarkPrediction expected = Predict(*robot, model->second.map_from_landmark);
-  answer.fix = finder_.Find(model->second, expected, *left, *right, edges[0], edges[1]);
-  const std::array<CameraView, 2> views{MakeView(*left, edges[0]), MakeView(*right, edges[1])};
-  const int camera = TellingCamera(answer.fix);
-  answer.view = ViewLandmark(model->second, expected, answer.fix, views[camera], camera);
-  WatchDrift(model->second, answer.fix, views);
+  answer.exposure = frames[kLeft].exposure;
+  LookResult result = evaluator_.Evaluate({model == models_.end() ? nullptr : &model->second,
+                                           poses_.At(answer.exposure),
+                                           {cameras_.Read(frames[kLeft]), cameras_.Read(frames[kRight])},
+                                           report_->setting});
+  answer.fix = std::move(result.fix);
+  answer.view = std::move(result.view);
+  if (result.drift) Judge(*result.drift);
   return answer;
-}
-
-/// Edges tell whether both cameras are still where the calibration says: all of them about up and down, those
-/// of a landmark that was found (or fits badly) about the other turns, too.
-void HeadApp::WatchDrift(const LandmarkModel& model, const LandmarkFix& fix,
-                         const std::array<CameraView, 2>& views) {
-  if (IsBlind(*views[0].edges) || IsBlind(*views[1].edges)) return;
-  const CameraModel &left = *views[0].camera, &right = *views[1].camera;
-  std::optional<StereoDrift> drift;
-  if (fix.verdict == Verdict::kFound || fix.verdict == Verdict::kResidualTooLarge) {
-    const Eigen::Isometry3d at = Lift(fix.base_from_landmark);
-    Association association;
-    association.matches = fix.matches;
-    StereoDriftOptions options;
-    options.model_sigma_m = config_.vision.model_sigma_m;
-    options.calibration_sigma_px = config_.drift.calibration_sigma_px;
-    drift = MeasureDrift(model, Observations(model, association, views, at, false), left, right, at, options);
-  }
-  const auto shift = MeasureEpipolarShift(views[0], views[1], MatchBinocular(views[0], views[1], {}));
-  if (shift) drift = Fuse(drift.value_or(UnknownDrift()), *shift, right);
-  if (drift) Judge(*drift);
 }
 
 void HeadApp::Judge(const StereoDrift& drift) {

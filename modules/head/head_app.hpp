@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <deque>
 #include <map>
 #include <memory>
@@ -13,7 +12,8 @@
 #include "head/calibration_mode.hpp"
 #include "head/core/camera/head_model.hpp"
 #include "head/core/drift/drift_monitor.hpp"
-#include "head/core/edges/edge_segments.hpp"
+#include "head/core/look/floor_evaluator.hpp"
+#include "head/core/look/look_evaluator.hpp"
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/head_jog.hpp"
 #include "head/head_config.hpp"
@@ -48,9 +48,8 @@ class HeadApp {
   void Look(Time now);
   void WatchFloor(Time now);
   bool SeesLaser() const;
-  void TellObstacles(const FrameNotice& frame);
+  void ReportFloor(const FrameNotice& frame);
   LookAnswer Evaluate(const Frames& frames);
-  void WatchDrift(const LandmarkModel& model, const LandmarkFix& fix, const std::array<CameraView, 2>& views);
   void Judge(const StereoDrift& drift);
   double PanFor(const LookOrder& order, Time now) const;
   void Answer(LookAnswer answer);
@@ -62,11 +61,9 @@ class HeadApp {
   HeadPositioner positioner_;
   HeadJog jog_;
   LaserWatch watch_;
-  ObstacleFinder obstacles_;
-  ObstacleLines::Verdict told_ = ObstacleLines::kClear;
+  FloorEvaluator floor_;
   LookSequence look_;
-  LandmarkFinder finder_;
-  EdgeOperator edges_;
+  LookEvaluator evaluator_;
   DriftMonitor drift_;
   PoseHistory poses_;
   std::map<int, LandmarkModel> models_;

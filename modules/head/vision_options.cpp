@@ -20,4 +20,13 @@ EdgeOperator::Options EdgeOptions(const VisionConfig& vision) {
   return options;
 }
 
+LookOptions EvaluatorOptions(const HeadConfig& config, const HeadModel& head) {
+  LookOptions options;
+  options.edges = EdgeOptions(config.vision);
+  options.finder = FinderOptions(config.vision, head);
+  options.drift.model_sigma_m = config.vision.model_sigma_m;
+  options.drift.calibration_sigma_px = config.drift.calibration_sigma_px;
+  return options;
+}
+
 }  // namespace priamos::head

@@ -39,7 +39,7 @@ head::LandmarkFix Fixer::Find(const LandmarkLook& look, const head::LandmarkFixO
   for (int c = 0; c < 2; ++c) edge_operator.Extract(look.images[c], edges[c]);
   edge_seconds = CpuSeconds() - start;
   const head::LandmarkFix fix = head::LandmarkFinder(options).Find(
-      model, {look.believed, LookBelief()}, cameras[0], cameras[1], edges[0], edges[1]);
+      model, {look.believed, LookBelief()}, {MakeView(cameras[0], edges[0]), MakeView(cameras[1], edges[1])});
   seconds = CpuSeconds() - start;
   return fix;
 }

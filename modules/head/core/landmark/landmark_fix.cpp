@@ -161,21 +161,16 @@ Eigen::Matrix3d LandmarkFixOptions::SearchCovariance(const LandmarkPrediction& p
 }
 
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                                 const CameraModel& left, const CameraModel& right,
-                                 const EdgeImage& left_edges, const EdgeImage& right_edges) const {
+                                 const StereoViews& views) const {
   LandmarkFix fix;
   if (model.edges.empty()) return fix.verdict = Verdict::kNoModel, fix;
-  if (IsBlind(left_edges) || IsBlind(right_edges)) return fix;
+  if (IsBlind(*views[0].edges) || IsBlind(*views[1].edges)) return fix;
   const Eigen::Matrix3d search = options_.SearchCovariance(prediction);
-  const auto n_predicted =
-      PredictEdges(model, prediction.base_from_landmark, search, left, {left_edges.width, left_edges.height})
-          .size() +
-      PredictEdges(model, prediction.base_from_landmark, search, right,
-                   {right_edges.width, right_edges.height})
-          .size();
+  std::size_t n_predicted = 0;
+  for (const CameraView& view : views)
+    n_predicted += PredictEdges(model, prediction.base_from_landmark, search, *view.camera, view.size).size();
   if (n_predicted < std::size_t(options_.min_predicted)) return fix.verdict = Verdict::kNotVisible, fix;
 
-  const std::array<CameraView, 2> views{MakeView(left, left_edges), MakeView(right, right_edges)};
   const auto verticals = MatchVerticals(views[0], views[1], options_.stereo);
   ProposalOptions proposal_options = options_.proposals;
   proposal_options.gate = options_.gate_elsewhere;

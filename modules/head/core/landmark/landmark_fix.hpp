@@ -87,9 +87,10 @@ class LandmarkFinder {
  public:
   explicit LandmarkFinder(const LandmarkFixOptions& options) : options_(options) {}
 
-  /// `side` 0 uses all edges, 1 or 2 only needs that side to be in view.
-  LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction, const CameraModel& left,
-                   const CameraModel& right, const EdgeImage& left_edges, const EdgeImage& right_edges) const;
+  /// The fix from the undistorted edges of both images, in the frame of their cameras (base). An image in
+  /// which nothing can be seen gives kNoImage.
+  LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                   const StereoViews& views) const;
 
  private:
   struct Pose;

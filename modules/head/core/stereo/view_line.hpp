@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "head/core/camera/camera_model.hpp"
@@ -33,6 +34,9 @@ struct CameraView {
   std::vector<Eigen::Vector2d> points;  ///< EdgeImage::points, undistorted
   LineTable table = {};
 };
+
+/// Both images of one exposure: left, right.
+using StereoViews = std::array<CameraView, 2>;
 
 /// Undistorts the points of all segments and lays the lines through them: a long edge that the lens bends is
 /// straight again. Keeps references to both arguments.

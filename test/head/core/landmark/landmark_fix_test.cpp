@@ -23,8 +23,12 @@ class LandmarkFixTest : public testing::Test {
     op.Extract(test::RenderQuads(lit, Lift(base_from_landmark), left_, noise, rng_, 60 * light), left_edges_);
     op.Extract(test::RenderQuads(lit, Lift(base_from_landmark), right_, noise, rng_, 60 * light),
                right_edges_);
-    return dut_.Find(model_, {believed, kTwentyCentimetresFiveDegrees}, left_, right_, left_edges_,
-                     right_edges_);
+    return FindAgain(believed);
+  }
+  /// In the images of the last Find.
+  LandmarkFix FindAgain(const Pose2& believed) const {
+    return dut_.Find(model_, {believed, kTwentyCentimetresFiveDegrees},
+                     {MakeView(left_, left_edges_), MakeView(right_, right_edges_)});
   }
 
   Rng rng_{7};
@@ -51,8 +55,7 @@ TEST_F(LandmarkFixTest, FindsTheDoorFromTwentyCentimetresAndFiveDegreesOff) {
 TEST_F(LandmarkFixTest, TheResultDoesNotDependOnThePrediction) {
   const Pose2 truth{3.2, 0.05, 0.02};
   const LandmarkFix near = Find(test::DoorQuads(), truth, truth);
-  const LandmarkFix far = dut_.Find(model_, {{3.35, -0.05, -0.02}, kTwentyCentimetresFiveDegrees}, left_,
-                                    right_, left_edges_, right_edges_);
+  const LandmarkFix far = FindAgain({3.35, -0.05, -0.02});
   ASSERT_EQ(near.verdict, Verdict::kFound);
   ASSERT_EQ(far.verdict, Verdict::kFound);
   EXPECT_NEAR(near.base_from_landmark.x, far.base_from_landmark.x, 1e-4);

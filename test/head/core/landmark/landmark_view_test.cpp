@@ -28,9 +28,10 @@ class LandmarkViewTest : public testing::Test {
     op.Extract(test::RenderQuads(quads, Lift(truth), left_, 3, rng_), edges_[0]);
     op.Extract(test::RenderQuads(quads, Lift(truth), right_, 3, rng_), edges_[1]);
     const LandmarkPrediction expected{believed, kTwentyCentimetresFiveDegrees};
-    fix_ = finder_.Find(model_, expected, left_, right_, edges_[0], edges_[1]);
-    const CameraView left = MakeView(left_, edges_[0]), right = MakeView(right_, edges_[1]);
-    return {ViewLandmark(model_, expected, fix_, left, 0), ViewLandmark(model_, expected, fix_, right, 1)};
+    const StereoViews views{MakeView(left_, edges_[0]), MakeView(right_, edges_[1])};
+    fix_ = finder_.Find(model_, expected, views);
+    return {ViewLandmark(model_, expected, fix_, views[0], 0),
+            ViewLandmark(model_, expected, fix_, views[1], 1)};
   }
 
   Rng rng_{7};

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/frame_store.hpp"
+#include "head/core/camera/head_model.hpp"
+#include "head/core/floor/obstacle_lines.hpp"
+
+namespace priamos::head {
+
+/// What one picture of the laser's line says.
+struct FloorResult {
+  ObstacleLines lines;                        ///< base frame
+  std::optional<ObstaclePiece> new_obstacle;  ///< the worst piece, if the picture before showed no obstacle
+};
+
+/// Evaluates pictures of the laser's line, one after the other: remembers whether the last one showed an
+/// obstacle, so that each is reported once.
+class FloorEvaluator {
+ public:
+  FloorEvaluator(const HeadModel& head, const ObstacleOptions& options) : head_(head), finder_(options) {}
+
+  /// The floor in a picture of the third camera, taken with the motors at `setting`. nullopt if the picture
+  /// was lost, or laser or camera are not calibrated there.
+  std::optional<FloorResult> Evaluate(const std::optional<GreyImage>& picture, const HeadSetting& setting);
+
+ private:
+  HeadModel head_;
+  ObstacleFinder finder_;
+  ObstacleLines::Verdict last_ = ObstacleLines::kClear;
+};
+
+/// The piece that is farthest above or below the floor; nullopt of none.
+std::optional<ObstaclePiece> WorstPiece(const ObstacleLines& lines);
+
+/// For a log: how far ahead of the base, and how high [m].
+std::string Describe(const ObstaclePiece& piece);
+
+}  // namespace priamos::head

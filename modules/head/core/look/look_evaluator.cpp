@@ -1,0 +1,51 @@
+#include "head/core/look/look_evaluator.hpp"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+
+#include "head/core/look/look_drift.hpp"
+
+namespace priamos::head {
+namespace {
+
+constexpr int kSmallest_px = 64;
+
+bool IsUsable(const std::optional<GreyImage>& image) {
+  return image && image->width >= kSmallest_px && image->height >= kSmallest_px;
+}
+
+/// OpenCV's view of the pixels, which the edge operator only reads.
+cv::Mat Wrap(const GreyImage& image) {
+  return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
+}
+
+LookResult Without(Verdict verdict) {
+  LookResult result;
+  result.fix.verdict = verdict;
+  return result;
+}
+
+}  // namespace
+
+LookEvaluator::LookEvaluator(const HeadModel& head, const LookOptions& options)
+    : head_(head), drift_options_(options.drift), edge_operator_(options.edges), finder_(options.finder) {}
+
+LookResult LookEvaluator::Evaluate(const LookInput& input) {
+  if (!input.model) return Without(Verdict::kNoModel);
+  if (!input.robot) return Without(Verdict::kNoPose);
+  if (!std::all_of(input.images.begin(), input.images.end(), IsUsable)) return Without(Verdict::kNoImage);
+  // Where the motors stand, not where they were sent: counters have steps.
+  const auto left = head_.CameraAt(input.setting, kLeft), right = head_.CameraAt(input.setting, kRight);
+  if (!left || !right) return Without(Verdict::kNoImage);
+  for (int i = 0; i < 2; ++i) edge_operator_.Extract(Wrap(*input.images[i]), edges_[i]);
+  const StereoViews views{MakeView(*left, edges_[0]), MakeView(*right, edges_[1])};
+  const LandmarkPrediction expected = Predict(*input.robot, input.model->map_from_landmark);
+  LookResult result;
+  result.fix = finder_.Find(*input.model, expected, views);
+  const int camera = TellingCamera(result.fix);
+  result.view = ViewLandmark(*input.model, expected, result.fix, views[camera], camera);
+  result.drift = MeasureLookDrift(*input.model, result.fix, views, drift_options_);
+  return result;
+}
+
+}  // namespace priamos::head

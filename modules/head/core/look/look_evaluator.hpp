@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "common/frame_store.hpp"
+#include "head/core/camera/head_model.hpp"
+#include "head/core/drift/stereo_drift.hpp"
+#include "head/core/edges/edge_segments.hpp"
+#include "head/core/landmark/landmark_fix.hpp"
+#include "head/core/landmark/landmark_view.hpp"
+#include "head/core/landmark/pose_history.hpp"
+
+namespace priamos::head {
+
+/// What one look is evaluated from.
+struct LookInput {
+  const LandmarkModel* model = nullptr;            ///< of the landmark ordered; nullptr: nobody has sent it
+  std::optional<PoseSample> robot;                 ///< believed at the time of the exposure; nullopt: unknown
+  std::array<std::optional<GreyImage>, 2> images;  ///< left, right; nullopt: lost
+  HeadSetting setting;                             ///< counters of the motors during the exposure
+};
+
+/// What one look says.
+struct LookResult {
+  LandmarkFix fix;                   ///< base frame; its verdict says why there is none
+  LandmarkView view;                 ///< what the verdict was decided by; empty without two usable images
+  std::optional<StereoDrift> drift;  ///< of the right camera; nullopt: this look does not tell
+};
+
+struct LookOptions {
+  EdgeOperator::Options edges;
+  LandmarkFixOptions finder;
+  StereoDriftOptions drift;
+};
+
+/// Evaluates looks: edges of both images, undistorted once, then the landmark, its view and the drift from
+/// the same views. Keeps buffers, but no memory of earlier looks.
+class LookEvaluator {
+ public:
+  LookEvaluator(const HeadModel& head, const LookOptions& options);
+
+  /// kNoModel, kNoPose and kNoImage (an image lost, smaller than 64x64 px, or taken at a setting outside of
+  /// the calibration) are the verdicts of an incomplete input, in this order.
+  LookResult Evaluate(const LookInput& input);
+
+ private:
+  HeadModel head_;
+  StereoDriftOptions drift_options_;
+  EdgeOperator edge_operator_;
+  LandmarkFinder finder_;
+  std::array<EdgeImage, 2> edges_;
+};
+
+}  // namespace priamos::head
