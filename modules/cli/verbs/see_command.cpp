@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <iostream>
 
 #include "cli/verbs/commands.hpp"
 #include "head/see/see.hpp"
@@ -41,7 +42,11 @@ void AddSeeCommand(CLI::App& cli, int& exit_code) {
                    "images as IMAGE-edges.png");
   verb->add_flag("--force", options->force, "replace drawings and lists that are there already");
   verb->add_option("--json", options->json, "write segments, corners, outlines and matches there");
-  verb->callback([options, &exit_code] { exit_code = head::See(*options) ? 0 : 1; });
+  verb->callback([options, &exit_code] {
+    const head::SeeReport report = head::See(*options);
+    std::cout << report.text;
+    exit_code = report.found ? 0 : 1;
+  });
 }
 
 }  // namespace priamos::cli

@@ -20,12 +20,17 @@ struct SeeOptions {
   std::string json{};    ///< all that was found; empty: none
 };
 
+/// What a person is answered.
+struct SeeReport {
+  bool found = true;  ///< false: a landmark was asked for and not found
+  std::string text;   ///< what was found, and where each drawing lies; whole lines
+};
+
 /// Draws edges, corners and outlines of each image, with `cameras` also what the images have in common, and
-/// lists all of it, and says where each drawing lies: IMAGE-edges.png, and of the first image -stereo, -doors
-/// and -landmark. Throws std::runtime_error naming a file that cannot be read, does not fit the others,
-/// cannot or may not be written; then nothing has been written. An image in which nothing can be seen is
-/// named with the reason, and so are images that were exchanged. False if a landmark was asked for and not
-/// found.
-bool See(const SeeOptions& options);
+/// writes the drawings (IMAGE-edges.png, and of the first image -stereo, -doors and -landmark) and the list
+/// of all that was found. Prints nothing. Throws std::runtime_error naming a file that cannot be read, does
+/// not fit the others, cannot or may not be written; then nothing has been written. An image in which nothing
+/// can be seen is named with the reason, and so are images that were exchanged.
+SeeReport See(const SeeOptions& options);
 
 }  // namespace priamos::head

@@ -141,7 +141,7 @@ TEST_F(SeeTest, AnImageInWhichNothingCanBeSeenIsNamedWithTheReason) {
   for (const auto& [grey, why] :
        {std::pair{0, "black"}, {255, "black or white all over"}, {90, "without edges"}}) {
     cv::imwrite(file, cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(grey)));
-    EXPECT_TRUE(See({.images = {file}, .output = folder_.path(), .force = true, .json = json}));
+    EXPECT_TRUE(See({.images = {file}, .output = folder_.path(), .force = true, .json = json}).found);
     EXPECT_EQ(nlohmann::json::parse(std::ifstream(json))["images"][0]["unusable"], why);
   }
 }
@@ -190,7 +190,7 @@ TEST_F(SeeTest, FindsALandmarkOfFlatFaces) {
                            .at = {0.01, -0.01, 0.02, 0, 0, 0.3},
                            .output = folder_.path(),
                            .json = folder_ / "all.json"};
-  EXPECT_TRUE(See(options));
+  EXPECT_TRUE(See(options).found);
   const auto dut = nlohmann::json::parse(std::ifstream(folder_ / "all.json"))["landmark"];
   ASSERT_TRUE(dut["found"]) << dut["verdict"];
   EXPECT_NEAR(dut["pose_m_deg"][0].get<double>(), 0, 0.01);
@@ -206,7 +206,7 @@ TEST_F(SeeTest, ALandmarkThatCannotBeSeenIsNotFoundAndTheReasonIsTold) {
                      .output = folder_.path(),
                      .force = true,
                      .json = folder_ / "all.json"};
-  EXPECT_FALSE(See(options));
+  EXPECT_FALSE(See(options).found);
   const auto verdict = [&] {
     return nlohmann::json::parse(std::ifstream(folder_ / "all.json"))["landmark"]["verdict"]
         .get<std::string>();
@@ -214,7 +214,7 @@ TEST_F(SeeTest, ALandmarkThatCannotBeSeenIsNotFoundAndTheReasonIsTold) {
   EXPECT_EQ(verdict(), Describe(Verdict::kNotVisible));
   cv::imwrite(options.images[0], cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(0)));
   options.at = {0, 0, 0, 0, 0, 0};
-  EXPECT_FALSE(See(options));
+  EXPECT_FALSE(See(options).found);
   EXPECT_EQ(verdict(), Describe(Verdict::kNoImage));
 }
 

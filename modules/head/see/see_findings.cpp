@@ -1,0 +1,138 @@
+#include "head/see/see_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "head/files/landmark_file.hpp"
+#include "head/files/projection_file.hpp"
+#include "head/see/see_doors.hpp"
+#include "head/see/see_landmark.hpp"
+
+namespace priamos::head {
+namespace {
+
+constexpr int kSmallest_px = 32;
+constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may be uncertain
+
+cv::Mat ReadGrey(const std::string& file) {
+  const cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE);
+  if (image.empty())
+    throw std::runtime_error(fmt::format("{}: expected an image (PNG, JPEG, PGM ...), got none", file));
+  if (image.cols < kSmallest_px || image.rows < kSmallest_px)
+    throw std::runtime_error(fmt::format("{}: expected at least {}x{} pixels, got {}x{}", file, kSmallest_px,
+                                         kSmallest_px, image.cols, image.rows));
+  return image;
+}
+
+std::vector<SeenPhotograph> ReadPhotographs(const std::vector<std::string>& files) {
+  std::vector<SeenPhotograph> photographs;
+  EdgeOperator edge_operator;
+  for (const std::string& file : files) {
+    SeenPhotograph& photograph = photographs.emplace_back(file, ReadGrey(file));
+    edge_operator.Extract(photograph.grey, photograph.edges);
+  }
+  for (SeenPhotograph& photograph : photographs) photograph.contours = {photograph.edges, {}};
+  return photographs;
+}
+
+std::vector<CameraModel> ReadCameras(const SeeOptions& options,
+                                     const std::vector<SeenPhotograph>& photographs) {
+  if (options.cameras.empty()) return {};
+  const std::size_t n = photographs.size();
+  const std::size_t fewest = options.landmark.empty() ? 2 : 1;
+  if (options.cameras.size() != n || n < fewest || n > 3)
+    throw std::runtime_error(fmt::format("expected {} images and a camera for each, got {} and {}",
+                                         fewest == 1 ? "one to three" : "two or three", n,
+                                         options.cameras.size()));
+  std::vector<CameraModel> cameras;
+  for (std::size_t i = 0; i < n; ++i) {
+    const cv::Mat& grey = photographs[i].grey;
+    if (grey.size() != photographs[0].grey.size())
+      throw std::runtime_error(fmt::format("{}: expected the size of {}, got {}x{}", photographs[i].file,
+                                           photographs[0].file, grey.cols, grey.rows));
+    cameras.push_back(LoadProjection(options.cameras[i], grey.cols, grey.rows));
+  }
+  return cameras;
+}
+
+/// Seen from the wrong side everything lies behind the cameras, or nothing fits.
+void RefuseExchanged(const SeeFindings& findings, int n_as_given) {
+  const SeenPhotograph &first = findings.photographs[0], &second = findings.photographs[1];
+  const int exchanged =
+      CountInSpace(MatchBinocular(MakeView(findings.cameras[0], second.edges),
+                                  MakeView(findings.cameras[1], first.edges), StereoOptions()));
+  if (exchanged >= 2 && exchanged > 3 * n_as_given)
+    throw std::runtime_error(
+        fmt::format("{} and {}: expected the images in the order of their cameras: {} edges fit as they "
+                    "are, {} if the images are exchanged",
+                    first.file, second.file, n_as_given, exchanged));
+}
+
+std::vector<StereoMatch> MatchViews(const SeeFindings& findings) {
+  const auto& views = findings.views;
+  const auto matches = views.size() == 2 ? MatchBinocular(views[0], views[1], {})
+                                         : MatchTrinocular(views[0], views[1], views[2], {});
+  RefuseExchanged(findings, CountInSpace(matches));
+  return matches;
+}
+
+DoorDetectionOptions DoorOptions(double max_width_m) {
+  DoorDetectionOptions options;
+  options.stereo.max_range_m = kFarthestDoor_m;
+  if (const double wider_m = max_width_m - options.max_width_m; wider_m > 0) {  // one leaf or two
+    options.width_sigma_m += wider_m / 2;
+    options.usual_width_m += wider_m / 2;
+  }
+  options.max_width_m = max_width_m;
+  return options;
+}
+
+SeenDoors FindDoors(const SeeOptions& options, const SeeFindings& findings) {
+  if (findings.cameras.size() != 2)
+    throw std::runtime_error(fmt::format("expected two images and their cameras to look for doors, got {}",
+                                         findings.cameras.size()));
+  SeenDoors seen{OnTheFloor(findings.cameras, options.stand), std::vector<EdgeImage>(2), {}, {}};
+  EdgeOperator edge_operator(DoorEdges());
+  for (int c = 0; c < 2; ++c) {
+    edge_operator.Extract(findings.photographs[c].grey, seen.edges[c]);
+    seen.views.push_back(MakeView(seen.cameras[c], seen.edges[c]));
+  }
+  seen.doors = DetectDoors(seen.views[0], seen.views[1], DoorOptions(options.max_door_width_m));
+  return seen;
+}
+
+SeenLandmark FindLandmark(const SeeOptions& options, const std::vector<CameraView>& views) {
+  const Polyhedron body = LoadPolyhedron(options.landmark);
+  const Eigen::Isometry3d believed = PoseFromSix(options.at);
+  return {body, believed, LocateFreeModel(body, believed, views, {})};
+}
+
+}  // namespace
+
+std::vector<cv::Mat> SeeFindings::Greys() const {
+  std::vector<cv::Mat> greys;
+  for (const SeenPhotograph& photograph : photographs) greys.push_back(photograph.grey);
+  return greys;
+}
+
+SeeFindings FindAll(const SeeOptions& options) {
+  SeeFindings findings;
+  findings.photographs = ReadPhotographs(options.images);
+  findings.cameras = ReadCameras(options, findings.photographs);
+  for (std::size_t i = 0; i < findings.cameras.size(); ++i)
+    findings.views.push_back(MakeView(findings.cameras[i], findings.photographs[i].edges));
+  if (findings.cameras.size() > 1) findings.matches = MatchViews(findings);
+  if (!options.stand.empty()) findings.doors = FindDoors(options, findings);
+  if (!options.landmark.empty()) findings.landmark = FindLandmark(options, findings.views);
+  return findings;
+}
+
+int CountInSpace(std::span<const StereoMatch> matches) {
+  return static_cast<int>(
+      std::ranges::count_if(matches, [](const StereoMatch& m) { return m.space.has_value(); }));
+}
+
+}  // namespace priamos::head
