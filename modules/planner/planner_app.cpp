@@ -7,11 +7,11 @@
 
 namespace priamos::planner {
 
-PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context)
+PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, MissionMaker missions)
     : config_(config),
       context_(context),
       plan_(LoadConfig<GroundPlan>(context.ResolvePath(config.map))),
-      mission_(config.mission, config.passage, config.footprint, plan_),
+      missions_(missions(config, plan_)),
       orders_(context.node().SubscribeAll(channels::kMissionCommand)),
       poses_(context.node().Subscribe(channels::kPose)),
       drive_(context.node().Subscribe(channels::kDriveStatus)),
@@ -26,17 +26,17 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context)
 void PlannerApp::Tick(Time now) {
   TakeReports(now);
   TakeOrders(now);
-  Send(mission_.Tick(now), now);
+  Send(missions_.Tick(now), now);
   SendStatus(now);
 }
 
 void PlannerApp::TakeOrders(Time now) {
   for (const auto& order : orders_.Drain()) {
     if (order.mission == mission_command_t::ABORT) {
-      mission_.Abort(now);
-    } else if (order.mission != mission_command_t::PASS_DOOR) {
+      missions_.Abort();
+    } else if (!missions_.Knows(order.mission)) {
       context_.Log(bus::Level::kWarning, fmt::format("order refused: unknown mission {}", order.mission));
-    } else if (!mission_.Start(now, order.landmark_id)) {
+    } else if (!missions_.Start(now, FromMessage(order))) {
       context_.Log(bus::Level::kInfo, "order refused: a mission is being carried out");
     }
   }
@@ -44,22 +44,22 @@ void PlannerApp::TakeOrders(Time now) {
 
 void PlannerApp::TakeReports(Time now) {
   const auto* link = link_.get();
-  mission_.OnLink(link && link->up && link_.Age(now) < channels::kLinkStatus.stale_after);
-  if (const auto pose = poses_.Take()) mission_.OnPose(FromMessage(*pose));
-  if (const auto drive = drive_.Take()) mission_.OnDrive(FromMessage(*drive), now);
+  missions_.OnLink(link && link->up && link_.Age(now) < channels::kLinkStatus.stale_after);
+  if (const auto pose = poses_.Take()) missions_.OnPose(FromMessage(*pose));
+  if (const auto drive = drive_.Take()) missions_.OnDrive(FromMessage(*drive), now);
   for (const auto& fix : fixes_.Drain()) {
-    if (const auto failure = FromMessage(fix)) mission_.OnLook(*failure);
+    if (const auto failure = FromMessage(fix)) missions_.OnLook(*failure);
     if (fix.verdict == landmark_fix_t::NO_MODEL) TeachLandmark(fix.landmark_id);
   }
   for (const auto& correction : corrections_.Drain()) {
-    mission_.OnLook(FromMessage(correction));
-    if (correction.verdict == pose_correction_t::APPLIED) mission_.OnCorrected(FromUtime(correction.utime));
+    missions_.OnLook(FromMessage(correction));
+    if (correction.verdict == pose_correction_t::APPLIED) missions_.OnCorrected(FromUtime(correction.utime));
   }
 }
 
 /// Somebody has the head look at a landmark that only the map knows. A mission sends its own.
 void PlannerApp::TeachLandmark(int id) {
-  if (mission_.running()) return;
+  if (missions_.running()) return;
   if (const auto landmark = MakeLandmark(plan_, id)) model_.Publish(ToMessage(*landmark));
 }
 
@@ -70,12 +70,12 @@ void PlannerApp::Send(const MissionActions& actions, Time now) {
 }
 
 void PlannerApp::SendStatus(Time now) {
-  const bool changed = !(mission_.state() == sent_state_);
+  const bool changed = !(missions_.state() == sent_state_);
   const bool due = !status_sent_ || Seconds(now - *status_sent_) >= 1 / config_.status_rate_hz;
   if (!changed && !due) return;
-  if (changed) context_.Log(bus::Level::kInfo, mission_.state().text);
-  status_.Publish(ToMessage(mission_.state(), now));
-  sent_state_ = mission_.state();
+  if (changed) context_.Log(bus::Level::kInfo, missions_.state().text);
+  status_.Publish(ToMessage(missions_.state(), missions_.kind(), now));
+  sent_state_ = missions_.state();
   status_sent_ = now;
 }
 

@@ -5,8 +5,8 @@
 
 #include "bus/context.hpp"
 #include "lcmtypes/channels.hpp"
-#include "planner/core/missions/door_mission.hpp"
 #include "planner/planner_config.hpp"
+#include "planner/planner_missions.hpp"
 
 namespace priamos::planner {
 
@@ -20,8 +20,9 @@ class PlannerApp {
   static constexpr bool kOneOwner = true;
   using Config = PlannerConfig;
 
-  /// Throws ConfigError when the map cannot be used.
-  PlannerApp(const PlannerConfig& config, bus::Context& context);
+  /// `missions` makes the table of what the planner can carry out. Throws ConfigError when the map cannot be
+  /// used.
+  PlannerApp(const PlannerConfig& config, bus::Context& context, MissionMaker missions = MakeMissions);
 
   Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
   void Tick(Time now);
@@ -36,7 +37,7 @@ class PlannerApp {
   PlannerConfig config_;
   bus::Context& context_;
   GroundPlan plan_;
-  DoorMission mission_;
+  MissionTable missions_;
 
   bus::Inbox<mission_command_t> orders_;
   bus::Latest<pose_t> poses_;

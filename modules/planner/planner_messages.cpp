@@ -61,6 +61,10 @@ landmark_edge_t ToMessage(const LandmarkEdge& edge) {
 
 }  // namespace
 
+MissionOrder FromMessage(const mission_command_t& message) {
+  return {message.mission, message.landmark_id};
+}
+
 RobotPose FromMessage(const pose_t& message) {
   return {FromUtime(message.utime),
           {message.x_m, message.y_m, message.yaw_rad},
@@ -124,10 +128,10 @@ look_request_t ToMessage(const LookOrder& look, Time now) {
   return message;
 }
 
-mission_status_t ToMessage(const MissionState& state, Time now) {
+mission_status_t ToMessage(const MissionState& state, int kind, Time now) {
   mission_status_t message{};
   message.utime = ToUtime(now);
-  message.mission = mission_command_t::PASS_DOOR;
+  message.mission = static_cast<std::int8_t>(kind);
   message.phase = PhaseOf(state.phase);
   message.text = state.text.substr(0, kMaxText);
   return message;

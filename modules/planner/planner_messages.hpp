@@ -8,6 +8,7 @@
 
 namespace priamos::planner {
 
+MissionOrder FromMessage(const mission_command_t& message);
 RobotPose FromMessage(const pose_t& message);
 DriveReport FromMessage(const drive_status_t& message);
 
@@ -21,7 +22,8 @@ LookResult FromMessage(const pose_correction_t& message);
 landmark_model_t ToMessage(const Landmark& landmark);
 path_t ToMessage(const PathOrder& path, Time now);
 look_request_t ToMessage(const LookOrder& look, Time now);
-mission_status_t ToMessage(const MissionState& state, Time now);
+/// `kind`: of the mission's order.
+mission_status_t ToMessage(const MissionState& state, int kind, Time now);
 
 /// The words that a person reads for a verdict or limit.
 std::string_view FixVerdictText(int verdict);

@@ -124,7 +124,8 @@ TEST(PlannerMessages, LookNamesLandmarkAndSide) {
 }
 
 TEST(PlannerMessages, StatusTextKeepsItsBound) {
-  const auto message = ToMessage(MissionState{Phase::kFailed, std::string(300, 'a')}, kNow);
+  const auto message = ToMessage(MissionState{Phase::kFailed, std::string(300, 'a')}, 9, kNow);
+  EXPECT_EQ(message.mission, 9);
   EXPECT_EQ(message.phase, mission_status_t::FAILED);
   EXPECT_EQ(message.text.size(), 100u);
 }

@@ -17,8 +17,21 @@ constexpr Duration kStampRounding = std::chrono::milliseconds(30);
 constexpr double kAtSpeed = 0.8;
 /// Waiting longer for the speed than this would cost more way than it is worth.
 constexpr double kStartS = 3.0;
-/// Path and request numbers as the messages carry them.
-constexpr int kIds = 65535;
+
+double Speed(const RobotPose& pose) {
+  return std::hypot(pose.velocity.vx, pose.velocity.vy);
+}
+
+bool IsFresh(const RobotPose& pose, Time now) {
+  return Seconds(now - pose.stamp) <= kFreshPoseS;
+}
+
+/// Whether the newest pose is fresh and surely contains the newest correction.
+bool PoseIsCorrected(const MissionControl& control) {
+  const Heard& heard = control.heard();
+  return IsFresh(*heard.pose, control.now()) &&
+         (!heard.corrected || heard.pose->stamp >= *heard.corrected + kStampRounding);
+}
 
 }  // namespace
 
@@ -34,10 +47,7 @@ void DoorMissionConfig::Describe(Archive& a) {
            {"m", 0, 10, "way to the door down to which looks go on while passing"});
   a.Number("tracking_m", tracking_m, {"m", 0, 0.1, "what the path following may deviate in the door"});
   a.Number("command_delay_s", command_delay_s, {"s", 0, 2, "from a decision here to the wheels there"});
-  a.Number("resend_path_s", resend_path_s, {"s", 1, 60, "a path not confirmed by then is sent again"});
-  a.Number("blocked_s", blocked_s, {"s", 1, 600, "standing before an obstacle that ends the mission"});
-  a.Number("silent_s", silent_s, {"s", 1, 600, "silence of the robot that ends the mission"});
-  a.Number("limit_s", limit_s, {"s", 5, 3600, "time for the whole mission"});
+  limits.Describe(a);
   a.Section("look", look, "looks at the sides of the door");
   a.Section("drift", drift, "what the wheels add on the way to the door");
 }
@@ -50,213 +60,134 @@ DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfi
       plan_(plan),
       looks_(config.look) {}
 
-bool DoorMission::Start(Time now, int door_id) {
-  if (running()) return false;
-  door_ = plan_.FindDoor(door_id);
-  started_ = entered_ = now;
-  blocked_since_.reset();
-  corrected_.reset();
-  aborted_ = judge_ = false;
+std::string DoorMission::Start(const MissionOrder& order) {
+  door_ = plan_.FindDoor(order.landmark_id);
+  judge_ = false;
   looks_.Reset();
-  // Numbers go on from the clock, so that an answer meant for an earlier planner process is not taken for
-  // ours.
-  if (last_id_ == 0) last_id_ = 1 + static_cast<int>(ToUtime(now) / 1'000'000 % kIds);
-  Enter(Phase::kWaiting, "waiting for the robot's pose");
-  if (!door_) Enter(Phase::kFailed, fmt::format("the map has no door {}", door_id));
-  return true;
+  return door_ ? "" : fmt::format("the map has no door {}", order.landmark_id);
 }
 
-void DoorMission::Abort(Time) {
-  aborted_ = running();
-}
-
-void DoorMission::OnPose(const RobotPose& pose) {
-  if (!pose_ || pose.stamp > pose_->stamp) pose_ = pose;
-}
-
-void DoorMission::OnDrive(const DriveReport& drive, Time now) {
-  drive_ = drive;
-  const bool stands = drive.mode == DriveMode::kBlocked || drive.mode == DriveMode::kHolding;
-  const bool on_our_path = running() && drive.path_id == path_.path_id;
-  if (!stands || !on_our_path) {
-    blocked_since_.reset();
-  } else if (!blocked_since_) {
-    blocked_since_ = now;
-  }
-}
-
-void DoorMission::Enter(Phase phase, std::string text) {
-  state_ = {phase, std::move(text)};
-}
-
-void DoorMission::Fail(std::string reason, MissionActions& actions) {
-  Enter(Phase::kFailed, std::move(reason));
-  last_id_ = last_id_ % kIds + 1;
-  path_ = {last_id_, 0, {}};
-  actions = {};
-  actions.path = path_;
-}
-
-MissionActions DoorMission::Tick(Time now) {
-  MissionActions actions;
-  if (!running() || !CheckLimits(now, actions)) return actions;
-  switch (state_.phase) {
+void DoorMission::Step(MissionControl& control) {
+  for (const LookResult& result : control.heard().looks) looks_.OnResult(result);
+  switch (control.state().phase) {
     case Phase::kWaiting:
-      Wait(now, actions);
-      break;
+      return Wait(control);
     case Phase::kApproaching:
-      Approach(now, actions);
-      break;
+      return Approach(control);
     case Phase::kLookingLeft:
     case Phase::kLookingRight:
-      LookAtDoor(now, actions);
-      break;
+      return LookAtDoor(control);
     case Phase::kPassing:
-      Pass(now, actions);
-      break;
+      return Pass(control);
     case Phase::kDone:
     case Phase::kFailed:
       break;
   }
-  if (running()) RepeatUnconfirmedPath(now, actions);
-  return actions;
 }
 
-bool DoorMission::CheckLimits(Time now, MissionActions& actions) {
-  const Time heard = pose_ ? std::max(pose_->stamp, started_) : started_;
-  if (aborted_) {
-    Fail("aborted by the operator", actions);
-  } else if (Seconds(now - heard) > config_.silent_s) {
-    Fail(fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", config_.silent_s,
-                     link_up_ ? "up, is the robot running?" : "down"),
-         actions);
-  } else if (Seconds(now - started_) > config_.limit_s) {
-    Fail(fmt::format("not through the door after {:.0f} s", config_.limit_s), actions);
-  } else if (blocked_since_ && Seconds(now - *blocked_since_) > config_.blocked_s) {
-    const bool blocked = drive_->mode == DriveMode::kBlocked;
-    Fail(fmt::format("the robot {} for {:.0f} s{}", blocked ? "was blocked" : "held its place",
-                     config_.blocked_s, drive_->limit.empty() ? "" : ": " + drive_->limit),
-         actions);
-  }
-  return running();
+void DoorMission::Wait(MissionControl& control) {
+  const Heard& heard = control.heard();
+  if (!heard.link_up || !heard.pose || !IsFresh(*heard.pose, control.now())) return;
+  if (auto reason = planner_.RefuseDoor(*door_); !reason.empty()) return control.Fail(std::move(reason));
+  const DoorPath path = planner_.PlanApproach(*door_, heard.pose->map_from_base);
+  if (!path.ok()) return control.Fail(path.refusal);
+  control.SendModel(MakeDoorLandmark(*door_));
+  const double distance_m = DistanceToDoor(control);
+  const double speed_m_s = ApproachSpeed(distance_m);
+  control.OrderPath(path.points, speed_m_s);
+  entered_ = control.now();
+  control.Enter(Phase::kApproaching, fmt::format("approaching door '{}', {:.1f} m away, at {:.2f} m/s",
+                                                 door_->name, distance_m, speed_m_s));
 }
 
-void DoorMission::Wait(Time now, MissionActions& actions) {
-  if (!link_up_ || !pose_ || Seconds(now - pose_->stamp) > kFreshPoseS) return;
-  if (auto reason = planner_.RefuseDoor(*door_); !reason.empty()) return Fail(std::move(reason), actions);
-  const DoorPath path = planner_.PlanApproach(*door_, pose_->map_from_base);
-  if (!path.ok()) return Fail(path.refusal, actions);
-  actions.model = MakeDoorLandmark(*door_);
-  const double speed_m_s = ApproachSpeed(WayToDoor());
-  SendPath(path.points, speed_m_s, now, actions);
-  entered_ = now;
-  Enter(Phase::kApproaching, fmt::format("approaching door '{}', {:.1f} m away, at {:.2f} m/s", door_->name,
-                                         WayToDoor(), speed_m_s));
-}
-
-void DoorMission::Approach(Time now, MissionActions& actions) {
-  if (WayToDoor() > config_.look_from_m) return;
+void DoorMission::Approach(MissionControl& control) {
+  if (DistanceToDoor(control) > config_.look_from_m) return;
   // A robot that stands sees just as well, but the point of one stereo pair is not to stand: let it get
   // going.
-  const double speed_m_s = std::hypot(pose_->velocity.vx, pose_->velocity.vy);
-  const bool waited = Seconds(now - entered_) > kStartS;
-  if (speed_m_s < kAtSpeed * path_.speed_m_s && !waited) return;
-  AskLook(now, actions);
+  const bool waited = Seconds(control.now() - entered_) > kStartS;
+  if (Speed(*control.heard().pose) < kAtSpeed * control.path().speed_m_s && !waited) return;
+  AskLook(control);
 }
 
-void DoorMission::AskLook(Time now, MissionActions& actions) {
+void DoorMission::AskLook(MissionControl& control) {
   const Side side = looks_.next();
-  last_id_ = last_id_ % kIds + 1;
-  looks_.Asked(last_id_, now);
-  actions.look = LookOrder{last_id_, door_->id, side};
-  if (state_.phase == Phase::kPassing) return;
-  Enter(side == Side::kLeft ? Phase::kLookingLeft : Phase::kLookingRight,
-        fmt::format("looking at the {} side of the door, {:.1f} m away", NameOf(side), WayToDoor()));
+  looks_.Asked(control.OrderLook(door_->id, side), control.now());
+  if (control.state().phase == Phase::kPassing) return;
+  control.Enter(side == Side::kLeft ? Phase::kLookingLeft : Phase::kLookingRight,
+                fmt::format("looking at the {} side of the door, {:.1f} m away", NameOf(side),
+                            DistanceToDoor(control)));
 }
 
-bool DoorMission::SettleLook(Time now, MissionActions& actions) {
-  const auto result = looks_.Settle(now);
+bool DoorMission::SettleLook(MissionControl& control) {
+  const auto result = looks_.Settle(control.now());
   if (!result) return false;
-  if (!result->ok && result->no_model) actions.model = MakeDoorLandmark(*door_);
+  if (!result->ok && result->no_model) control.SendModel(MakeDoorLandmark(*door_));
   return result->ok;
 }
 
-void DoorMission::LookAtDoor(Time now, MissionActions& actions) {
+void DoorMission::LookAtDoor(MissionControl& control) {
   const int failures = looks_.failures();
-  if (SettleLook(now, actions)) judge_ = looks_.Enough();
-  if (looks_.failures() > failures) Enter(state_.phase, looks_.trouble());
-  if (judge_ && PoseIsCorrected(now)) {
+  if (SettleLook(control)) judge_ = looks_.Enough();
+  if (looks_.failures() > failures) control.Enter(control.state().phase, looks_.trouble());
+  if (judge_ && PoseIsCorrected(control)) {
     judge_ = false;
-    EvaluatePose(now, actions);
+    EvaluatePose(control);
   }
-  const bool looking = state_.phase == Phase::kLookingLeft || state_.phase == Phase::kLookingRight;
-  if (!looking || !looks_.Ready(now)) return;
-  if (!looks_.Exhausted()) return AskLook(now, actions);
+  const Phase phase = control.state().phase;
+  const bool looking = phase == Phase::kLookingLeft || phase == Phase::kLookingRight;
+  if (!looking || !looks_.Ready(control.now())) return;
+  if (!looks_.Exhausted()) return AskLook(control);
   if (!judge_)
-    Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()), actions);
+    control.Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()));
 }
 
-bool DoorMission::PoseIsCorrected(Time now) const {
-  const bool fresh = Seconds(now - pose_->stamp) <= kFreshPoseS;
-  return fresh && (!corrected_ || pose_->stamp >= *corrected_ + kStampRounding);
-}
-
-void DoorMission::EvaluatePose(Time now, MissionActions& actions) {
-  const auto uncertainty = AtDoor(*door_, pose_->map_from_base, pose_->covariance, config_.drift);
+void DoorMission::EvaluatePose(MissionControl& control) {
+  const RobotPose& pose = *control.heard().pose;
+  const auto uncertainty = AtDoor(*door_, pose.map_from_base, pose.covariance, config_.drift);
   const double gap_m = GapLeft(*door_, footprint_, uncertainty) - config_.tracking_m;
   const std::string figures =
       fmt::format("2 sigma at the door {:.3f} m and {:.1f} degrees", 2 * uncertainty.lateral_sigma_m,
                   Degrees(2 * uncertainty.heading_sigma_rad));
   if (gap_m < 0) {
-    if (looks_.Exhausted()) Fail("the pose is too uncertain for the gap: " + figures, actions);
+    if (looks_.Exhausted()) control.Fail("the pose is too uncertain for the gap: " + figures);
     return;
   }
-  const DoorPath path = planner_.PlanPassage(*door_, PredictedPose(now));
-  if (!path.ok()) return Fail(path.refusal, actions);
-  SendPath(path.points, config_.speed_m_s, now, actions);
-  Enter(Phase::kPassing, "passing the door: " + figures);
+  const DoorPath path = planner_.PlanPassage(*door_, PredictedPose(control));
+  if (!path.ok()) return control.Fail(path.refusal);
+  control.OrderPath(path.points, config_.speed_m_s);
+  control.Enter(Phase::kPassing, "passing the door: " + figures);
 }
 
-void DoorMission::Pass(Time now, MissionActions& actions) {
-  SettleLook(now, actions);
-  if (WayToDoor() > config_.confirm_to_m && looks_.Ready(now) && !looks_.Exhausted()) AskLook(now, actions);
-  const bool arrived = drive_ && drive_->path_id == path_.path_id && drive_->mode == DriveMode::kArrived;
-  if (!arrived) return;
-  if (-WayToDoor() >= planner_.PastX(*door_))
-    return Enter(Phase::kDone, fmt::format("through the door after {:.1f} s", Seconds(now - started_)));
+void DoorMission::Pass(MissionControl& control) {
+  SettleLook(control);
+  const double distance_m = DistanceToDoor(control);
+  if (distance_m > config_.confirm_to_m && looks_.Ready(control.now()) && !looks_.Exhausted())
+    AskLook(control);
+  if (!control.OnPath() || control.heard().drive->mode != DriveMode::kArrived) return;
+  if (-distance_m >= planner_.PastX(*door_))
+    return control.Enter(Phase::kDone, fmt::format("through the door after {:.1f} s",
+                                                   Seconds(control.now() - control.started())));
   // The pose may be older than the report of the arrival; once it is fresh it must be behind the door.
-  if (pose_->stamp > path_sent_ && Seconds(now - pose_->stamp) < kFreshPoseS &&
-      std::hypot(pose_->velocity.vx, pose_->velocity.vy) < 0.02)
-    Fail(fmt::format("the path ended {:.2f} m before the door was passed",
-                     planner_.PastX(*door_) + WayToDoor()),
-         actions);
+  const RobotPose& pose = *control.heard().pose;
+  if (pose.stamp > control.path_sent() && Seconds(control.now() - pose.stamp) < kFreshPoseS &&
+      Speed(pose) < 0.02)
+    control.Fail(fmt::format("the path ended {:.2f} m before the door was passed",
+                             planner_.PastX(*door_) + distance_m));
 }
 
-void DoorMission::SendPath(std::vector<Pose2> points, double speed_m_s, Time now, MissionActions& actions) {
-  last_id_ = last_id_ % kIds + 1;
-  path_ = {last_id_, speed_m_s, std::move(points)};
-  path_sent_ = now;
-  actions.path = path_;
+Pose2 DoorMission::PredictedPose(const MissionControl& control) const {
+  const RobotPose& pose = *control.heard().pose;
+  const double ahead_s =
+      std::clamp(Seconds(control.now() - pose.stamp), 0.0, kFreshPoseS) + config_.command_delay_s;
+  return Integrate(pose.map_from_base, pose.velocity, ahead_s);
 }
 
-void DoorMission::RepeatUnconfirmedPath(Time now, MissionActions& actions) {
-  if (state_.phase == Phase::kWaiting || (drive_ && drive_->path_id == path_.path_id)) return;
-  if (Seconds(now - path_sent_) < config_.resend_path_s) return;
-  path_sent_ = now;
-  actions.path = path_;
+double DoorMission::DistanceToDoor(const MissionControl& control) const {
+  return -(door_->map_from_door().Inverse() * control.heard().pose->map_from_base).x;
 }
 
-Pose2 DoorMission::PredictedPose(Time now) const {
-  const double ahead_s = std::clamp(Seconds(now - pose_->stamp), 0.0, kFreshPoseS) + config_.command_delay_s;
-  return Integrate(pose_->map_from_base, pose_->velocity, ahead_s);
-}
-
-double DoorMission::WayToDoor() const {
-  return -(door_->map_from_door().Inverse() * pose_->map_from_base).x;
-}
-
-double DoorMission::ApproachSpeed(double way_m) const {
-  return std::clamp((way_m - config_.look_to_m) / config_.looks_take_s, config_.slowest_m_s,
+double DoorMission::ApproachSpeed(double distance_m) const {
+  return std::clamp((distance_m - config_.look_to_m) / config_.looks_take_s, config_.slowest_m_s,
                     config_.speed_m_s);
 }
 

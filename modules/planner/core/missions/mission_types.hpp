@@ -13,6 +13,12 @@
 /// times of the events, in the planner's clock, and lie some hundred milliseconds back.
 namespace priamos::planner {
 
+/// An operator's order to carry out a mission.
+struct MissionOrder {
+  int kind = 0;         ///< which mission of the table
+  int landmark_id = 0;  ///< which landmark of the map it concerns
+};
+
 struct RobotPose {
   Time stamp;
   Pose2 map_from_base;

@@ -16,13 +16,18 @@ using ::testing::Ge;
 using ::testing::HasSubstr;
 using ::testing::Le;
 
+constexpr int kPassDoor = 1;
+
+/// The door mission in its frame, and the robot that it drives.
 struct Story {
   explicit Story(const Pose2& truth = {2.0, 2.4, 0}, const GroundPlan& plan = ShippedPlan(),
                  const DoorMissionConfig& config = {})
-      : dut(config, DoorPlannerConfig{}, Footprint{}, plan), robot(dut, truth) {}
-  void Start() { EXPECT_TRUE(dut.Start(robot.now(), 1)); }
+      : robot(dut, truth) {
+    dut.Add(kPassDoor, std::make_unique<DoorMission>(config, DoorPlannerConfig{}, Footprint{}, plan));
+  }
+  void Start() { EXPECT_TRUE(dut.Start(robot.now(), {kPassDoor, 1})); }
 
-  DoorMission dut;
+  MissionTable dut;
   FakeRobot robot;
 };
 
@@ -271,7 +276,7 @@ TEST(DoorMission, NarrowDoorIsRefusedBeforeMoving) {
 
 TEST(DoorMission, UnknownDoorIsRefused) {
   Story s;
-  s.dut.Start(s.robot.now(), 7);
+  s.dut.Start(s.robot.now(), {kPassDoor, 7});
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
   EXPECT_EQ(s.dut.state().text, "the map has no door 7");
 }
@@ -280,7 +285,7 @@ TEST(DoorMission, AbortBrakes) {
   Story s;
   s.Start();
   s.robot.RunUntil(Phase::kPassing);
-  s.dut.Abort(s.robot.now());
+  s.dut.Abort();
   s.robot.Step();
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
   for (int i = 0; i < 10; ++i) s.robot.Step();
@@ -291,7 +296,7 @@ TEST(DoorMission, SecondOrderWhileRunningIsRefused) {
   Story s;
   s.Start();
   s.robot.RunFor(2);
-  EXPECT_FALSE(s.dut.Start(s.robot.now(), 1));
+  EXPECT_FALSE(s.dut.Start(s.robot.now(), {kPassDoor, 1}));
   EXPECT_EQ(s.dut.state().phase, Phase::kApproaching);
 }
 
@@ -299,7 +304,7 @@ TEST(DoorMission, NewOrderAfterAFailureStartsAfresh) {
   Story s;
   s.Start();
   s.robot.RunFor(2);
-  s.dut.Abort(s.robot.now());
+  s.dut.Abort();
   s.robot.Step();
   s.Start();
   s.robot.RunFor(60);

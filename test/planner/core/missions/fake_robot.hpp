@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "planner/core/missions/door_mission.hpp"
+#include "planner/core/missions/mission_table.hpp"
 
 namespace priamos::planner {
 
@@ -13,7 +13,7 @@ namespace priamos::planner {
 /// both directions takes `delay`. It believes to be where `error` puts it until both looks are through.
 class FakeRobot {
  public:
-  FakeRobot(DoorMission& mission, const Pose2& truth) : mission_(mission), truth_(truth) {}
+  FakeRobot(MissionTable& mission, const Pose2& truth) : mission_(mission), truth_(truth) {}
 
   Duration delay = std::chrono::milliseconds(200);
   Duration look_time = std::chrono::milliseconds(700);
@@ -149,7 +149,7 @@ class FakeRobot {
     });
   }
 
-  DoorMission& mission_;
+  MissionTable& mission_;
   Pose2 truth_;
   Pose2 velocity_;
   Time now_ = FromUtime(1'000'000'000);

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "common/config.hpp"
+#include "planner/core/missions/mission_control.hpp"
+#include "planner/core/missions/mission_types.hpp"
+
+namespace priamos::planner {
+
+/// Limits that end any mission, and how patient it is with a path that the robot does not confirm.
+struct MissionLimits {
+  double resend_path_s = 4;  ///< [s] time after which a path the robot does not confirm is sent again
+  double blocked_s = 8;      ///< [s] standing before an obstacle that ends the mission
+  double silent_s = 8;       ///< [s] silence of the robot that ends the mission
+  double limit_s = 120;      ///< [s] time for the whole mission
+
+  void Describe(Archive& a);
+};
+
+/// One kind of mission: a pure state machine that sees the robot through a MissionControl. The frame around
+/// it (MissionTable) starts it, calls Step() at every time step until it is done or has failed, ends it at
+/// its limits or when it is aborted, and repeats its paths.
+class Mission {
+ public:
+  virtual ~Mission() = default;
+
+  /// Begins to carry out `order` and forgets what an earlier order left behind. Returns why the order cannot
+  /// be carried out; empty when the mission is under way.
+  virtual std::string Start(const MissionOrder& order) = 0;
+
+  /// Decides one time step. The phase is kWaiting at first; the mission enters every other one itself, and
+  /// ends with kDone or with MissionControl::Fail().
+  virtual void Step(MissionControl& control) = 0;
+
+  virtual const MissionLimits& limits() const = 0;
+  /// What is not reached when the time for the mission is over, "not through the door".
+  virtual std::string Unfinished() const = 0;
+};
+
+}  // namespace priamos::planner

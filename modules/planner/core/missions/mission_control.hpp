@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/time.hpp"
+#include "planner/core/missions/mission_types.hpp"
+
+namespace priamos::planner {
+
+/// What is known of the robot when a mission takes a step. All stamps are in the planner's clock.
+struct Heard {
+  bool link_up = false;
+  std::optional<RobotPose> pose;     ///< newest
+  std::optional<DriveReport> drive;  ///< newest
+  std::optional<Time> corrected;     ///< stamp of the newest pose correction since the mission's start
+  std::vector<LookResult> looks;     ///< answers to looks since the last time step, in order
+};
+
+/// A mission's view of the robot: what was heard of it, and the orders and the state that leave in this time
+/// step. Numbers of paths and looks go on over all missions, so that an answer meant for an earlier order is
+/// not taken for one to the present order.
+class MissionControl {
+ public:
+  Time now() const { return now_; }
+  Time started() const { return started_; }
+  const Heard& heard() const { return heard_; }
+
+  /// Shows `phase`, and `text` as its description or, at the end, as the outcome's reason.
+  void Enter(Phase phase, std::string text) { state_ = {phase, std::move(text)}; }
+  /// Ends the mission: the robot brakes, and whatever else was ordered in this time step is dropped.
+  void Fail(std::string reason);
+  const MissionState& state() const { return state_; }
+  /// Whether a mission is under way: started, neither done nor failed.
+  bool running() const { return running_ && state_.phase != Phase::kDone && state_.phase != Phase::kFailed; }
+
+  /// Orders a path at `speed_m_s`; it is sent again until the robot confirms it.
+  void OrderPath(std::vector<Pose2> points, double speed_m_s);
+  /// The path ordered last, and when it was sent last (none: not in this mission).
+  const PathOrder& path() const { return path_; }
+  const std::optional<Time>& path_sent() const { return path_sent_; }
+  /// Whether the robot reports about the path ordered last.
+  bool OnPath() const { return heard_.drive && heard_.drive->path_id == path_.path_id; }
+
+  /// Orders a look of the head at a side of a landmark. Returns the number that its answer will carry.
+  int OrderLook(int landmark_id, Side side);
+  /// Makes the head know a landmark.
+  void SendModel(Landmark model) { actions_.model = std::move(model); }
+
+ private:
+  friend class MissionTable;
+  void Begin(Time now);
+  void RepeatUnconfirmedPath(double after_s);
+  int NextNumber();
+
+  Heard heard_;
+  Time now_{}, started_{};
+  bool running_ = false;
+  MissionState state_;
+  MissionActions actions_;
+  PathOrder path_;
+  std::optional<Time> path_sent_;
+  int last_number_ = 0;
+};
+
+}  // namespace priamos::planner

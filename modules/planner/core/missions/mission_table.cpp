@@ -1,0 +1,85 @@
+#include "planner/core/missions/mission_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace priamos::planner {
+
+void MissionLimits::Describe(Archive& a) {
+  a.Number("resend_path_s", resend_path_s, {"s", 1, 60, "a path not confirmed by then is sent again"});
+  a.Number("blocked_s", blocked_s, {"s", 1, 600, "standing before an obstacle that ends the mission"});
+  a.Number("silent_s", silent_s, {"s", 1, 600, "silence of the robot that ends the mission"});
+  a.Number("limit_s", limit_s, {"s", 5, 3600, "time for the whole mission"});
+}
+
+void MissionTable::Add(int kind, std::unique_ptr<Mission> mission) {
+  if (missions_.empty()) kind_ = kind;
+  if (!missions_.emplace(kind, std::move(mission)).second)
+    throw std::logic_error(fmt::format("two missions of kind {}", kind));
+}
+
+bool MissionTable::Start(Time now, const MissionOrder& order) {
+  if (running()) return false;
+  kind_ = order.kind;
+  aborted_ = false;
+  blocked_since_.reset();
+  control_.Begin(now);
+  if (std::string refusal = missions_.at(kind_)->Start(order); !refusal.empty())
+    control_.Enter(Phase::kFailed, std::move(refusal));
+  return true;
+}
+
+void MissionTable::OnPose(const RobotPose& pose) {
+  auto& newest = control_.heard_.pose;
+  if (!newest || pose.stamp > newest->stamp) newest = pose;
+}
+
+void MissionTable::OnDrive(const DriveReport& drive, Time now) {
+  control_.heard_.drive = drive;
+  const bool stands = drive.mode == DriveMode::kBlocked || drive.mode == DriveMode::kHolding;
+  if (!stands || !running() || !control_.OnPath()) {
+    blocked_since_.reset();
+  } else if (!blocked_since_) {
+    blocked_since_ = now;
+  }
+}
+
+void MissionTable::OnCorrected(Time stamp) {
+  auto& newest = control_.heard_.corrected;
+  newest = std::max(stamp, newest.value_or(stamp));
+}
+
+MissionActions MissionTable::Tick(Time now) {
+  control_.now_ = now;
+  if (running()) Step(*missions_.at(kind_));
+  control_.heard_.looks.clear();
+  return std::exchange(control_.actions_, {});
+}
+
+void MissionTable::Step(Mission& mission) {
+  if (const auto reason = ReasonToEnd(mission)) return control_.Fail(*reason);
+  mission.Step(control_);
+  if (running()) control_.RepeatUnconfirmedPath(mission.limits().resend_path_s);
+}
+
+std::optional<std::string> MissionTable::ReasonToEnd(const Mission& mission) const {
+  const MissionLimits& limits = mission.limits();
+  const Heard& heard = control_.heard();
+  const Time now = control_.now(), started = control_.started();
+  if (aborted_) return "aborted by the operator";
+  if (Seconds(now - (heard.pose ? std::max(heard.pose->stamp, started) : started)) > limits.silent_s)
+    return fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", limits.silent_s,
+                       heard.link_up ? "up, is the robot running?" : "down");
+  if (Seconds(now - started) > limits.limit_s)
+    return fmt::format("{} after {:.0f} s", mission.Unfinished(), limits.limit_s);
+  if (blocked_since_ && Seconds(now - *blocked_since_) > limits.blocked_s)
+    return fmt::format("the robot {} for {:.0f} s{}",
+                       heard.drive->mode == DriveMode::kBlocked ? "was blocked" : "held its place",
+                       limits.blocked_s, heard.drive->limit.empty() ? "" : ": " + heard.drive->limit);
+  return std::nullopt;
+}
+
+}  // namespace priamos::planner

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "planner/core/missions/mission.hpp"
+
+namespace priamos::planner {
+
+/// The missions by the kind of their order, of which one at a time is carried out. Time is an argument,
+/// everything heard is stored by On...(), everything is decided in Tick(). Before the first order nothing is
+/// sent. The end of a mission is DONE, or FAILED with a sentence, and then the robot has been ordered to
+/// brake.
+class MissionTable {
+ public:
+  /// `kind` is what an order names the mission by. The first one added is shown before the first order.
+  void Add(int kind, std::unique_ptr<Mission> mission);
+  bool Knows(int kind) const { return missions_.contains(kind); }
+
+  /// Begins a known mission; refused (false) while one is being carried out. A mission that cannot carry out
+  /// the order has failed at once.
+  bool Start(Time now, const MissionOrder& order);
+  void Abort() { aborted_ = running(); }
+
+  void OnPose(const RobotPose& pose);
+  void OnDrive(const DriveReport& drive, Time now);
+  void OnLook(const LookResult& result) { control_.heard_.looks.push_back(result); }
+  /// The robot's pose was corrected at `stamp`: older poses are no longer worth planning with.
+  void OnCorrected(Time stamp);
+  void OnLink(bool up) { control_.heard_.link_up = up; }
+
+  /// One time step of the mission under way; what is to be sent.
+  MissionActions Tick(Time now);
+
+  const MissionState& state() const { return control_.state(); }
+  bool running() const { return control_.running(); }
+  /// Kind of the mission that state() is about.
+  int kind() const { return kind_; }
+
+ private:
+  void Step(Mission& mission);
+  std::optional<std::string> ReasonToEnd(const Mission& mission) const;
+
+  std::map<int, std::unique_ptr<Mission>> missions_;
+  MissionControl control_;
+  int kind_ = 0;
+  bool aborted_ = false;
+  std::optional<Time> blocked_since_;
+};
+
+}  // namespace priamos::planner

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "common/ground_plan.hpp"
+#include "planner/core/missions/mission_table.hpp"
+#include "planner/planner_config.hpp"
+
+namespace priamos::planner {
+
+/// The missions that a planner knows, by the constants of mission_command_t.
+using MissionMaker = MissionTable (*)(const PlannerConfig& config, const GroundPlan& plan);
+
+/// Every mission that is shipped: one line each.
+MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan);
+
+}  // namespace priamos::planner
