@@ -70,6 +70,9 @@ std::optional<std::string> MissionTable::ReasonToEnd(const Mission& mission) con
   const Heard& heard = control_.heard();
   const Time now = control_.now(), started = control_.started();
   if (aborted_) return "aborted by the operator";
+  // Not to be waited for: what moves after the re-arming is for a person to order anew.
+  if (heard.drive && heard.drive->estop)
+    return "the emergency stop is latched; next: priamos estop --rearm, and a new order";
   if (Seconds(now - (heard.pose ? std::max(heard.pose->stamp, started) : started)) > limits.silent_s)
     return fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", limits.silent_s,
                        heard.link_up ? "up, is the robot running?" : "down");

@@ -104,6 +104,23 @@ TEST(MissionTable, NumbersStayInTheRangeOfTheMessages) {
   EXPECT_EQ(f.Drive().path_id, 2);  // 65535 was the clock's, 1 the look's.
 }
 
+TEST(MissionTable, AnEmergencyStopEndsAMissionAndNoneBeginsWhileItIsLatched) {
+  Frame f;
+  const int path = f.Drive().path_id;
+  f.dut.OnDrive({DriveMode::kHolding, path, "emergency stop", true}, f.now);
+  const auto brake = f.Step().path;
+  ASSERT_TRUE(brake);
+  EXPECT_TRUE(brake->points.empty());
+  EXPECT_EQ(f.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(f.dut.state().text, testing::HasSubstr("emergency stop"));
+  EXPECT_TRUE(f.dut.Start(f.now, {kAhead, 3}));
+  const MissionActions actions = f.StepFor(10);
+  EXPECT_FALSE(actions.path && !actions.path->points.empty());
+  EXPECT_EQ(f.dut.state().phase, Phase::kFailed);
+  f.dut.OnDrive({DriveMode::kHolding, path, "", false}, f.now);
+  EXPECT_FALSE(f.Drive().points.empty()) << "re-armed";
+}
+
 TEST(MissionTable, SecondOrderIsRefusedUntilTheFirstMissionIsOver) {
   Frame f;
   f.Drive(kAhead);
