@@ -40,6 +40,7 @@ struct ClaimWord {
 /// anew at age 0, and what waits to be heard by then is not to be told to it (see Touch).
 class Claim {
  public:
+  /// How far the claim has come; kRefused (while it asked) and kYielded (while it held) are final.
   enum class State { kAsking, kHeld, kRefused, kYielded };
 
   static constexpr Duration kAskFor{200'000};

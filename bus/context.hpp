@@ -15,7 +15,9 @@ class ByteStream;
 
 namespace priamos::bus {
 
+/// How much a line of the log matters; who must act reads kError.
 enum class Level { kInfo, kWarning, kError };
+/// What HEALTH says of a process: it works; works with less than it wants; does not work.
 enum class Health { kOk, kDegraded, kFailed };
 
 /// What the surroundings of an App must provide; real time and lockstep do it differently.

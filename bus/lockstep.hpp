@@ -21,6 +21,7 @@ class Lockstep {
   using Tap = std::function<void(std::string_view bus, Time now, std::string_view channel,
                                  std::span<const std::byte>)>;
 
+  /// What a run starts from: seed of all random sources, first instant of the simulated clock, log.
   struct Options {
     std::uint64_t seed = 0;
     Time start = FromUtime(1'000'000'000);

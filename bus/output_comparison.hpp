@@ -13,6 +13,7 @@ class Schema;
 
 /// How what an App sent when it was recorded differs from what it sends when it is replayed.
 struct OutputComparison {
+  /// Numbers of messages of one channel: recorded, sent by the replay, equal in both.
   struct Channel {
     std::uint64_t recorded = 0, replayed = 0, equal = 0;
   };

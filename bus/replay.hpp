@@ -28,6 +28,7 @@ struct Output {
 /// log of a live bus has the recorder's times, so ticks are off by up to a period.
 class Replay {
  public:
+  /// What the recorded process started from: folder of its configuration, seed, where its log goes.
   struct Options {
     std::string config_dir = ".";
     std::uint64_t seed = 0;

@@ -20,6 +20,7 @@ class SoleSpeaker {
   static constexpr Duration kGrace{500'000};
   static constexpr Duration kExcused{2'000'000};
 
+  /// A sender that speaks on this role's channels and claims no role; `sender` stands for its socket.
   struct Intruder {
     std::uint64_t sender = 0;
     std::string channel;  ///< the first one heard of it

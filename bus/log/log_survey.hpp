@@ -12,6 +12,7 @@ class Schema;
 
 /// What a log holds, and what it has lost.
 struct LogSurvey {
+  /// What was recorded on one channel; times as in the log, since 1970 [us].
   struct Channel {
     std::set<std::string> types;  ///< full names; "?" for a fingerprint nobody knows
     std::uint64_t events = 0;

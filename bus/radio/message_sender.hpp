@@ -26,6 +26,7 @@ struct Packed {
 using PackFunction =
     std::function<std::optional<Packed>(std::size_t channel, std::span<const std::byte> encoded, Time now)>;
 
+/// What became of an offered message; kNotOutgoing: this end does not send the channel.
 enum class OfferResult { kAccepted, kRefused, kNotOutgoing };
 
 /// The frame that messages are taken for.
@@ -49,11 +50,13 @@ class MessageSender {
 
   /// What a frame carries of messages.
   struct Loaded {
+    /// A state or command in the frame.
     struct Message {
       QueuedMessage queued;
       std::size_t bits;               ///< packed bits on the line
       std::vector<std::byte> packed;  ///< what the other end will have; of channels with differences
     };
+    /// A piece of an event in the frame, by its number in the channel's stream.
     struct Segment {
       std::size_t channel;
       std::uint8_t number;

@@ -9,6 +9,7 @@ namespace priamos::bus {
 
 /// One word of a .lcm file.
 struct Token {
+  /// Sort of a token; kEnd stands once, behind the last word.
   enum class Type : std::uint8_t { kWord, kNumber, kSymbol, kComment, kEnd };
   Type type = Type::kEnd;
   std::string text;          ///< of a comment: without its marks, lines joined by blanks

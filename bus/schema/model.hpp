@@ -18,6 +18,7 @@ class SchemaError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Type of a field's values: LCM's primitives, and kStruct for a struct of its own.
 enum class Kind : std::uint8_t {
   kInt8,
   kInt16,
@@ -73,6 +74,7 @@ struct Dimension {
 
 struct Struct;
 
+/// One field of a struct with all that its .lcm file says about it; `line` counts from 1.
 struct Field {
   std::string name;
   Kind kind = Kind::kInt8;
@@ -84,6 +86,7 @@ struct Field {
   int line = 0;
 };
 
+/// One `const` of a struct; `line` counts from 1.
 struct Constant {
   std::string name;
   Kind kind = Kind::kInt8;
@@ -94,6 +97,7 @@ struct Constant {
 
 struct WalkPlan;
 
+/// One message type as its .lcm file declares it; `line` counts from 1.
 struct Struct {
   std::string package;    ///< "" when the file has none
   std::string name;       ///< without the package

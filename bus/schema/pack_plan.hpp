@@ -22,16 +22,19 @@ struct PackedField {
 
 struct PackPlan;
 
+/// A boolean as one bit.
 struct BooleanPack {};
 /// A time stamp as its age, [us].
 struct AgePack {
   IntegerCode code;
 };
+/// A text as its length and its characters; `max_length` in bytes, what is longer is cut.
 struct TextPack {
   std::int64_t max_length = 0;
   int length_bits = 0;
   int char_bits = 8;  ///< 7 for [ascii]
 };
+/// A nested struct, field after field.
 struct StructPack {
   std::shared_ptr<const PackPlan> plan;
 };
@@ -50,6 +53,7 @@ struct PackStep {
   std::size_t row = 0;  ///< index into the bit table
 };
 
+/// All fields of a struct in the order in which they are packed; `counts` of them are array lengths.
 struct PackPlan {
   std::vector<PackStep> steps;
   std::size_t counts = 0;

@@ -12,6 +12,7 @@
 
 namespace priamos::bus {
 
+/// A packed message, and what of it could not be said exactly.
 struct PackResult {
   std::vector<std::byte> bytes;
   /// Fields with a value that was outside its @range, too old, too long or too many, each once: rows of

@@ -29,6 +29,7 @@ inline constexpr std::int64_t kMaxEmptyElements = 32768;
 /// A sentence for a log or a person, such as "a count is negative".
 std::string_view Sentence(WalkError error);
 
+/// Whether bytes are a message of a type, and if not, what is wrong where.
 struct WalkResult {
   WalkError error = WalkError::kNone;
   std::size_t offset =

@@ -10,6 +10,7 @@ namespace priamos::bus {
 
 /// One thing to do while walking a body.
 struct WalkStep {
+  /// Kind of the step.
   enum class Op : std::uint8_t {
     kSkip,     ///< `size` bytes of fixed fields
     kCount,    ///< an integer of `size` bytes that is the count of a later array: kept in the next register

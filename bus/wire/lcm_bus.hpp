@@ -29,6 +29,7 @@ class UdpReceiver;
 class LcmBus {
  public:
   using Handler = std::function<void(std::string_view channel, std::span<const std::byte> bytes)>;
+  /// Which messages are received.
   enum class Messages {
     kParametric,  ///< at most kMaxMessageBytes, never in fragments
     kAnySize,     ///< up to 64 MB, in fragments: no socket filter

@@ -34,10 +34,12 @@ class Reassembler {
   static constexpr std::size_t kMostBytes = 64 << 20;
   static constexpr std::size_t kMostSenders = 64;
 
+  /// A message put together from its fragments.
   struct Message {
     std::string channel;
     std::vector<std::byte> bytes;
   };
+  /// What a datagram did, see Add.
   enum class Result { kWaiting, kBegun, kComplete, kMalformed };
 
   /// Takes one datagram that begins with `LC03`. kBegun: it is the first one heard of its message;

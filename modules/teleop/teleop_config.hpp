@@ -8,6 +8,7 @@
 
 namespace priamos::teleop {
 
+/// The space-mouse: through spacenavd, or raw on a serial port.
 struct SpaceMouseConfig {
   std::string socket;  ///< of spacenavd; empty: where libspnav looks
   std::string port = "/dev/ttyS0";
@@ -16,12 +17,14 @@ struct SpaceMouseConfig {
   void Describe(Archive& a);
 };
 
+/// Keys of a terminal, which report no release: a key counts as held for `hold_s`.
 struct KeyboardConfig {
   double hold_s = 0.25;
 
   void Describe(Archive& a);
 };
 
+/// A joystick or game pad of the kernel's evdev interface.
 struct JoystickConfig {
   std::string path = "/dev/input/by-id/joystick";
   /// evdev codes (linux/input-event-codes.h) for the axes forward, left, up, roll, pitch, turn; -1 for none.

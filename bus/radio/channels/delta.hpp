@@ -40,6 +40,7 @@ std::optional<std::vector<std::byte>> ApplyDelta(const ValueWidths& widths,
 /// difference can reach.
 class MessageHistory {
  public:
+  /// A packed message and the counter of the frame that carried it.
   struct Message {
     std::uint64_t counter = 0;
     std::vector<std::byte> packed;

@@ -60,6 +60,7 @@ class EventSender {
  public:
   static constexpr std::size_t kCapacity = 64;
 
+  /// An event that waits, or is on its way, in segments numbered from `first` on (modulo 256).
   struct Event {
     std::uint8_t first = 0;
     Time packed_at{};
@@ -130,6 +131,7 @@ class EventSender {
 /// Receiver's side of one channel: segments that wait for those before them.
 class EventReceiver {
  public:
+  /// An event that has arrived whole.
   struct Event {
     std::vector<std::byte> packed;
     std::size_t bits = 0;

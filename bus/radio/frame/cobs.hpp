@@ -21,6 +21,7 @@ std::optional<std::vector<std::byte>> CobsDecode(std::span<const std::byte> enco
 /// `max_bytes` is thrown away up to its delimiter and reported as oversize.
 class FrameSplitter {
  public:
+  /// What a byte completed: nothing, a frame, or one that was too long and is thrown away.
   enum class Event { kNone, kFrame, kOversize };
 
   explicit FrameSplitter(std::size_t max_bytes) : max_bytes_(max_bytes) {}

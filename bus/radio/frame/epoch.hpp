@@ -21,10 +21,12 @@ using NonceSource = std::function<std::uint64_t()>;
 /// answer (which the link limits in rate) and nothing else.
 class EpochAgreement {
  public:
+  /// The random numbers that an epoch is made of, one drawn by each end.
   struct Pair {
     std::uint64_t own = 0;
     std::uint64_t peer = 0;
   };
+  /// What a hello changes.
   struct Outcome {
     std::optional<Pair> agreed;  ///< change to the epoch of this pair now
     bool reply = false;          ///< send Compose() soon

@@ -20,6 +20,7 @@ struct PlotSpan {
   std::string label;
 };
 
+/// A diagram of values over time [s]; all series share `unit`.
 struct Plot {
   std::string title;
   std::string unit;

@@ -23,6 +23,7 @@ struct FixSummary {
 
 /// One direction of the radio, as its sender counts it.
 struct RadioSummary {
+  /// What the line carried of one channel in the whole run.
   struct ChannelSummary {
     std::string channel;
     int messages = 0;

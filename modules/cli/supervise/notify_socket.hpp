@@ -10,6 +10,7 @@ namespace priamos::cli {
 /// The receiving end of sd_notify(3): what systemd is to a service, for processes that `priamos` starts.
 class NotifySocket {
  public:
+  /// One datagram of a process: READY=1 sets `ready`, WATCHDOG=1 sets `alive`.
   struct Message {
     pid_t pid = 0;  ///< who sent it, by the kernel
     bool ready = false, alive = false;

@@ -20,6 +20,7 @@ struct WatchPolicy {
   int alarm_after = 3;                               ///< failures in a row
 };
 
+/// Where in its life a supervised process is; kBackOff: it ended, and waits to be started again.
 enum class ProcessState { kWaiting, kStarting, kReady, kBackOff, kStopping, kStopped };
 const char* Text(ProcessState state);
 
@@ -28,6 +29,7 @@ const char* Text(ProcessState state);
 /// again after 1, 2, 4 ... 30 s. Three failures in a row raise an alarm, which a stable run clears.
 class ProcessWatch {
  public:
+  /// What the caller does with the process now: SIGTERM for kTerminate, SIGKILL for kKill.
   enum class Action { kNone, kStart, kTerminate, kKill };
 
   explicit ProcessWatch(const WatchPolicy& policy) : policy_(policy) {}

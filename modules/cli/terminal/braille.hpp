@@ -10,6 +10,7 @@ namespace priamos::cli {
 /// higher ink colours the whole character.
 class Braille {
  public:
+  /// Colour of a dot, from the lowest to the highest.
   enum Ink : std::uint8_t { kNone = 0, kDim, kRed, kYellow, kGreen };
 
   /// In characters.

@@ -43,6 +43,7 @@ class LinkTopView {
   std::map<int, Row> rows_;  ///< by number of the channel in the table
 };
 
+/// Options of `priamos link top` and `priamos link listen`.
 struct LinkTopOptions {
   BusOptions bus;
   bool once = false;      ///< print one screen and end

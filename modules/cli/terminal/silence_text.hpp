@@ -8,6 +8,7 @@ namespace priamos::cli {
 
 /// One bus as it sounded for a while.
 struct BusSound {
+  /// A channel that was heard.
   struct Channel {
     std::string name;
     double rate_hz = 0;  ///< 0: one message

@@ -37,11 +37,13 @@ struct Layer {
   Symbol symbol = Symbol::kLine;
 };
 
+/// Points joined by straight lines [px of the page].
 struct Path {
   std::vector<Eigen::Vector2d> points;
   bool closed = false;
 };
 
+/// A circle [px of the page].
 struct Circle {
   Eigen::Vector2d centre;
   double radius = 0;
@@ -58,6 +60,7 @@ struct Text {
   Box box() const { return {at.x(), at.y() - extent.ascent, extent.width, extent.height()}; }
 };
 
+/// One form with its style, on a layer or on none.
 struct Shape {
   const Layer* layer = nullptr;
   Style style;

@@ -12,6 +12,7 @@ namespace priamos::teleop {
 
 /// What the robot last said, as far as the pilot cares.
 struct RobotView {
+  /// Who has the lease, seen from this operator.
   enum class Lease { kFree, kMine, kOther };
   std::optional<Time> heard{};  ///< when it said so, by the robot, in this process's clock
   Lease lease = Lease::kFree;
@@ -24,6 +25,7 @@ struct HeadRates {
   bool operator==(const HeadRates&) const = default;
 };
 
+/// What the stick moves.
 enum class PilotMode { kBase, kHead };
 
 /// Why the stick does or does not move the robot.
@@ -37,7 +39,9 @@ enum class PilotPhase {
 
 /// What to send now.
 struct PilotOutput {
+  /// How the lease is asked for: a free one, or also one that somebody holds.
   enum class Lease { kAcquire, kTakeOver };
+  /// What is done to the emergency stop.
   enum class Estop { kRearm, kStop };
   std::optional<Twist2> drive{};
   std::optional<HeadRates> head{};

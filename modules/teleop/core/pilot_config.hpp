@@ -47,12 +47,14 @@ struct ButtonUse {
   void Describe(Archive& a);
 };
 
+/// Axes of the stick for the base frame's velocities: forward, left, counter-clockwise.
 struct BaseAxes {
   AxisUse vx{"forward"}, vy{"left"}, turn{"turn"};
 
   void Describe(Archive& a);
 };
 
+/// Axes of the stick for the head, and its speeds at full deflection.
 struct HeadAxes {
   AxisUse pan{"turn"}, tilt{"pitch"}, vergence{"roll"}, zoom{"forward"}, focus{"up"};
   double pan_rad_s = 0.5, tilt_rad_s = 0.3, vergence_rad_s = 0.1;
@@ -61,6 +63,7 @@ struct HeadAxes {
   void Describe(Archive& a);
 };
 
+/// How a stick becomes commands: rates, waiting times, shape and use of axes and buttons.
 struct PilotConfig {
   double rate_hz = 20;
   double rest_rate_hz = 2;

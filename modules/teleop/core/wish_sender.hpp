@@ -11,6 +11,7 @@ namespace priamos::teleop {
 /// while the operator holds on. A jump waits for half a period after the last wish.
 class WishSender {
  public:
+  /// How the stick is held.
   enum class Stick { kDeflected, kHeld, kReleased };  ///< held: at rest, but in the hand
 
   WishSender(Duration period, Duration rest_period) : period_(period), rest_period_(rest_period) {}

@@ -32,16 +32,19 @@ struct RobotModel {
 /// What of it can touch things.
 Body BodyOf(const RobotModel& model);
 
+/// The encoders at one time.
 struct WheelSample {
   Time time;
   WheelReading reading;
 };
 
+/// A whole cycle of the sonars, complete at `time`; first echoes [m], -1 for none.
 struct SonarSample {
   Time time;
   std::array<double, kSonars> ranges_m;
 };
 
+/// The head's step counters at one time, and whether a motor runs.
 struct HeadSample {
   Time time;
   HeadSetting counters;

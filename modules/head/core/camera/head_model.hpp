@@ -12,6 +12,7 @@
 
 namespace priamos::head {
 
+/// The cameras by their numbers in messages; the third one is between and above the other two.
 enum Camera : int { kLeft = 0, kRight = 1, kThird = 2 };
 inline constexpr int kCameras = 3;
 inline constexpr const char* kCameraNames[kCameras] = {"left", "right", "third"};

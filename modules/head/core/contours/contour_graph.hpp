@@ -36,6 +36,7 @@ struct Polygon {
   bool is_parallelogram = false;
 };
 
+/// What counts as a neighbour, a corner, a parallel, a parallelogram; undistorted px and rad.
 struct ContourOptions {
   double neighbour_px = 30;          ///< segments farther apart than that have no relation
   double max_extension_px = 15;      ///< for a corner

@@ -19,6 +19,7 @@ struct DetectedDoor {
   double log_odds = 0;         ///< a door against whatever else has uprights
 };
 
+/// What doors look like, how well edges agree with one, and what evidence is wanted.
 struct DoorDetectionOptions {
   double min_width_m = 0.65, max_width_m = 1.35;
   double min_height_m = 1.85, max_height_m = 2.35;

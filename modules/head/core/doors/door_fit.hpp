@@ -15,6 +15,7 @@ struct DoorLines {
   std::array<int, 2> lintel{-1, -1};
 };
 
+/// The door that explains all lines best, base frame.
 struct DoorFit {
   DoorShape shape;
   /// Of left x, y, right x, y [m^2] and height.

@@ -15,6 +15,7 @@ struct EpipolarShift {
   int n = 0;                                     ///< so many ends
 };
 
+/// Which ends of matched edges count; distances from epipolar lines [undistorted px].
 struct EpipolarShiftOptions {
   double min_epipolar_rad = 0.7;  ///< flatter edges have ends that slide along the epipolar lines
   double reach_px = 6;            ///< ends farther off say nothing

@@ -19,6 +19,7 @@ struct StereoDrift {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
+/// Standard deviations (sigma) of what the drift is estimated from.
 struct StereoDriftOptions {
   double model_sigma_m = 0.001;        ///< how well the landmark's edges are placed, each axis
   double tilt_sigma_m = 0.00025;       ///< how well they are aligned

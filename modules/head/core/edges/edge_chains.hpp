@@ -25,6 +25,7 @@ struct EdgeChains {
 /// walk keeps the bright side on the same hand, so a chain never changes its contrast sign.
 class ChainTracer {
  public:
+  /// Which pixels are linked; magnitudes are Sobel sums of 8-bit grey values.
   struct Options {
     double link_threshold = 12;  ///< magnitude to go on [Sobel sum]
     double seed_threshold = 24;  ///< magnitude to begin

@@ -17,6 +17,7 @@ namespace priamos::head {
 /// disturbed by neighbouring edges; where they contradict each other the narrow one is believed.
 class EdgeRefiner {
  public:
+  /// Which edges are kept, and how exact the best are taken to be.
   struct Options {
     double min_length_px = 12;
     double min_contrast = 4;      ///< grey values; noise may demand more

@@ -18,6 +18,7 @@ namespace priamos::head {
 /// edges. Keeps its buffers, so one object per thread and camera size is fast.
 class EdgeOperator {
  public:
+  /// Settings of the operator and of its steps.
   struct Options {
     double min_contrast = 10;   ///< weakest edge of a quiet image [grey values]
     double noise_factor = 3.0;  ///< a pixel is linked above so many standard deviations of the gradient

@@ -7,6 +7,7 @@
 
 namespace priamos::head {
 
+/// Which two pieces are taken for one broken edge.
 struct FusionOptions {
   double max_gap_px = 24;        ///< longest gap that is bridged
   double max_gap_share = 1.0;    ///< and at most so much of the shorter piece

@@ -15,6 +15,7 @@ struct StripePoint {
   double sigma_px = 0;  ///< standard deviation of v, from the noise of the image
 };
 
+/// What counts as the line of the laser.
 struct StripeOptions {
   double min_contrast = 18;  ///< grey levels over both sides
   int reach_px = 7;          ///< from the middle of the line to where it has faded

@@ -28,6 +28,7 @@ class LaserWatch {
  public:
   explicit LaserWatch(const LaserWatchConfig& config) : config_(config) {}
 
+  /// What to do now, see Step.
   enum class Action { kWait, kLower, kTrigger };
   /// `needed`: a look, or an operator's hand, moves the head; `sees`: it rests where the camera sees the
   /// line. kLower means: turn it down; kTrigger: expose the third camera with the laser on, as frame_id().

@@ -22,6 +22,7 @@ struct FloorTolerance {
   void Describe(Archive& a);
 };
 
+/// What counts as an obstacle; heights above the floor [m].
 struct ObstacleOptions {
   FloorTolerance floor;
   double min_height_m = 0.015;              ///< what is lower is driven over
@@ -37,6 +38,7 @@ struct ObstacleOptions {
 /// A straight piece of the laser's line that is not on the floor, in the base frame; the kinds are those of
 /// obstacle_segment_t.
 struct ObstaclePiece {
+  /// What lies off the floor.
   enum Kind {
     kUp = 0,      ///< something stands there
     kDown = 1,    ///< the floor drops
@@ -49,6 +51,7 @@ struct ObstaclePiece {
 
 /// What one picture of the line says; the verdicts are those of obstacle_line_t.
 struct ObstacleLines {
+  /// kBlind: too little of the line was seen to say anything about the floor.
   enum Verdict { kClear = 0, kObstacle = 1, kBlind = 2 };
   Verdict verdict = kBlind;
   double seen_share = 0;              ///< columns with a line

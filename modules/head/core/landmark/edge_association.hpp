@@ -46,6 +46,7 @@ struct Association {
   void Withdraw(const LandmarkModel& model, int edge, int camera);
 };
 
+/// Which image edge may belong to which model edge, and what each agreement is worth.
 struct AssociationOptions {
   double sigma_px = 0.5;  ///< expected distance of an image edge from the right prediction
   double gate_px = 1.5;   ///< farther ones do not belong

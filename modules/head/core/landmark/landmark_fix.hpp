@@ -52,6 +52,7 @@ struct LandmarkFix {
   std::vector<EdgeMatch> matches;
 };
 
+/// Where a landmark is looked for, and what evidence a fix needs.
 struct LandmarkFixOptions {
   double min_sigma_m = 0.02, min_sigma_rad = 0.01;  ///< the search is never narrower than that
   double gate = 4;               ///< Mahalanobis distance from the prediction, 3 degrees of freedom

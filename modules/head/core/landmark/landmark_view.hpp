@@ -11,6 +11,7 @@ namespace priamos::head {
 
 /// One edge of a picture as an operator sees it; the kinds are those of view_edge_t.
 struct ViewedEdge {
+  /// What an edge is to the fix.
   enum Kind {
     kPredicted = 0,  ///< where the robot's pose puts an edge of the model
     kMatched = 1,    ///< seen, and taken for an edge of the model
@@ -27,6 +28,7 @@ struct LandmarkView {
   int n_left_out = 0;             ///< rejected edges beyond LandmarkViewOptions::max_rejected
 };
 
+/// How much of a picture is shown.
 struct LandmarkViewOptions {
   int max_rejected = 14;     ///< more would fill the picture, and the radio
   double search_sigmas = 3;  ///< half width of the strip beside a prediction

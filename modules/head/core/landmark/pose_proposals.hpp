@@ -15,6 +15,7 @@ struct PoseProposal {
   int support = 1;  ///< proposals that agree with it
 };
 
+/// Which pairs of edges may make a pose, and which poses are one.
 struct ProposalOptions {
   double max_distance_error_m =
       0.03;                  ///< of the two edges from each other, beyond 3 sigma of the reconstruction
@@ -24,6 +25,7 @@ struct ProposalOptions {
   int max_proposals = 200;
 };
 
+/// Poses of the landmark in the base frame that are worth a closer look.
 struct Proposals {
   std::vector<PoseProposal> poses;  ///< most supported first
   int n_tested = 0;                 ///< pairs of pairs that fitted, before merging: the number of chances

@@ -11,6 +11,7 @@
 
 namespace priamos::head {
 
+/// What is estimated, and the standard deviations (sigma) of everything it is estimated from.
 struct PoseSolverOptions {
   bool on_floor = true;           ///< 3 degrees of freedom (x, y, yaw), else all 6
   double edge_sigma_px = 0.01;    ///< of a whole edge at either end: what light, lens and neighbours do to it
@@ -31,6 +32,7 @@ struct EdgeSuspect {
   double misfit = 0;  ///< what it adds to chi squared, per degree of freedom: about 1 for the right one
 };
 
+/// The landmark's pose in the base frame [m, rad] and how well it is known; valid when `ok`.
 struct PoseSolution {
   bool ok = false;
   Eigen::Isometry3d base_from_landmark = Eigen::Isometry3d::Identity();

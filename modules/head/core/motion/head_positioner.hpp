@@ -8,6 +8,7 @@
 
 namespace priamos::head {
 
+/// How the head's motors are set: backlash, waiting times.
 struct PositionerConfig {
   double approach_rad = 0.004;  ///< angles are first set so far below the goal
   int approach_steps = 25;      ///< zoom and focus likewise

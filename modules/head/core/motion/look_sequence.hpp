@@ -11,6 +11,7 @@
 
 namespace priamos::head {
 
+/// Waiting times and attempts of one look.
 struct LookConfig {
   double frame_timeout_s = 0.5;  ///< all pictures must have come by then, or they are asked for again
   int attempts = 3;              ///< exposures per look

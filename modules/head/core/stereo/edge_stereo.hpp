@@ -21,6 +21,7 @@ struct StereoMatch {
   std::optional<SpaceEdge> space;  ///< nullopt if is_near_epipolar
 };
 
+/// Which edges of two images may be one edge of space.
 struct StereoOptions {
   double min_epipolar_rad = 0.12;  ///< flatter edges are flagged, not triangulated
   double min_depth_m = 0.4, max_depth_m = 12;

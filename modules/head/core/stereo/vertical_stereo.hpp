@@ -15,6 +15,7 @@ struct VerticalEdge {
   int left = 0, right = 0;          ///< indices in CameraView::lines
 };
 
+/// Which edges of two images may be one vertical edge of space; ranges from the origin of base [m].
 struct VerticalStereoOptions {
   double max_lean_rad = 0.03;  ///< of the plane of sight from the vertical, beyond its own noise
   double min_range_m = 0.4, max_range_m = 8;

@@ -32,6 +32,7 @@ struct OdometryNoise {
   void Describe(Archive& a);
 };
 
+/// Resolution of the encoders, and how far odometry is trusted.
 struct OdometryConfig {
   double ticks_per_turn = 4096;
   double unknown_speed_m_s = 0.5;  ///< speed assumed as sigma for a time without credible encoders
@@ -58,6 +59,7 @@ struct OdometryStep {
 /// step end before the one before it.
 class Odometry {
  public:
+  /// What became of the samples so far.
   struct Counters {
     int accepted = 0;
     int doubles = 0;      ///< same time stamp as the last one

@@ -5,6 +5,7 @@
 
 namespace priamos::robot {
 
+/// Fastest changes of the velocity: of driving in any direction, and of turning.
 struct AccelerationLimits {
   double acceleration_m_s2 = 0.5;
   double turn_acceleration_rad_s2 = 1.0;

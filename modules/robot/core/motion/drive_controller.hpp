@@ -18,6 +18,7 @@
 
 namespace priamos::robot {
 
+/// Everything that decides about motion: a section of config/<deployment>/robot.toml.
 struct DriveConfig {
   Footprint footprint;
   PathFollowerConfig follower;
@@ -38,6 +39,7 @@ struct DriveConfig {
   void Describe(Archive& a);
 };
 
+/// What the base does; kHolding: told to stand, kBlocked: something is in the way.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked, kOperated };
 
 /// What the base knows about itself at one tick.
@@ -54,6 +56,7 @@ struct DriveSituation {
 /// without a new order.
 enum class PathVerdict { kTaken, kSame, kWithoutLease, kEstop, kStale };
 
+/// What the base does at one tick and why, as DRIVE_STATUS reports it.
 struct DriveState {
   DriveMode mode = DriveMode::kIdle;
   FailsafeDecision failsafe;

@@ -8,6 +8,7 @@
 
 namespace priamos::robot {
 
+/// Gains and limits of following a path, and when the goal counts as reached.
 struct PathFollowerConfig {
   PathShapeConfig shape;
   double gain_per_s = 1.5;              ///< velocity towards the path per distance from it
@@ -27,6 +28,7 @@ struct PathFollowerConfig {
 /// the last point. Gives a wanted velocity; limits on its change are TwistSlew's.
 class PathFollower {
  public:
+  /// The velocity wanted at one tick, and where the base is on its path.
   struct Wanted {
     Twist2 twist;  ///< base frame
     double remaining_m = 0;

@@ -15,6 +15,7 @@ struct Path {
   std::vector<Pose2> points{};  ///< from the next one to the goal; none: brake and hold
 };
 
+/// How a path is rounded, and how fast its parts may be driven.
 struct PathShapeConfig {
   double corner_deviation_m = 0.05;   ///< how far a rounded corner may pass beside the point
   double corner_deviation_deg = 3.0;  ///< the same for the heading
@@ -35,6 +36,7 @@ class PathShape {
  public:
   static constexpr double kTurnLever = 0.6;  ///< [m/rad] about the reach of the base's corners
 
+  /// A point of the path at the arc length s [m], map frame.
   struct Point {
     Pose2 pose;
     Eigen::Vector2d direction{0, 0};  ///< d position / d s; shorter than 1 while turning or in a corner

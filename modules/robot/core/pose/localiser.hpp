@@ -8,6 +8,7 @@
 
 namespace priamos::robot {
 
+/// Odometry, pose filter, and how long a fix may wait.
 struct LocaliserConfig {
   OdometryConfig odometry;
   PoseEstimatorConfig estimator;
@@ -20,6 +21,7 @@ struct LocaliserConfig {
 /// newest odometry.
 class Localiser {
  public:
+  /// A fix and what became of it.
   struct Answer {
     LandmarkFix fix;
     FixResult result;

@@ -22,6 +22,7 @@ struct InitialPose {
   void Describe(Archive& a);
 };
 
+/// First pose, bias of odometry, and which fixes are believed.
 struct PoseEstimatorConfig {
   InitialPose initial;
   OdometryBias bias;
@@ -43,6 +44,7 @@ struct LandmarkFix {
   double own_share = 1;  ///< of the covariance, what no other look repeats
 };
 
+/// The pose at one time, map frame; covariance of (x, y, yaw) in m and rad.
 struct PoseEstimate {
   Time time{};
   Pose2 pose;    ///< map_from_base
@@ -53,6 +55,7 @@ struct PoseEstimate {
   double YawSigma() const;
 };
 
+/// Whether a fix was applied, or why not; kDouble: this picture has been used already.
 enum class FixVerdict { kApplied, kTooOld, kTooNew, kImplausible, kDouble };
 
 /// What became of a fix.

@@ -7,6 +7,7 @@
 
 namespace priamos::robot {
 
+/// Who may drive for how long, and which commands are taken.
 struct AuthorityConfig {
   LeaseConfig lease;
   OperatorConfig operators;

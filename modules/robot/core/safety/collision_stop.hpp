@@ -10,6 +10,7 @@
 
 namespace priamos::robot {
 
+/// Room that is kept free, and how the base brakes for what is in it.
 struct CollisionStopConfig {
   double margin_m = 0.015;  ///< kept free on all sides of the footprint
   double gap_m = 0.13;      ///< where to stand before an obstacle ahead
@@ -28,6 +29,7 @@ struct CollisionStopConfig {
 /// Points beside the way do not matter, so both jambs of a door 6 cm beside the base do not stop it.
 class CollisionStop {
  public:
+  /// What is left of a wanted motion.
   struct Result {
     Twist2 twist;
     double scale = 1;               ///< of the wanted motion

@@ -65,6 +65,7 @@ std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& con
 /// The rules as the table of README.md (Markdown).
 std::string FailsafeTable(const FailsafeConfig& config);
 
+/// What is wrong, for how long, and who drives.
 struct FailsafeInputs {
   /// For how long each condition has lasted; 0 when it is not present, Duration::max() when it has always
   /// been.
@@ -75,6 +76,7 @@ struct FailsafeInputs {
   Duration operator[](Condition condition) const { return lasting[static_cast<std::size_t>(condition)]; }
 };
 
+/// What to do, and the condition that asks for it.
 struct FailsafeDecision {
   FailsafeAction action = FailsafeAction::kNone;
   std::optional<Condition> cause;  ///< of the strongest action

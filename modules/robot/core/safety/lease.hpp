@@ -18,6 +18,7 @@ struct LeaseHolder {
   friend bool operator==(const LeaseHolder&, const LeaseHolder&) = default;
 };
 
+/// When a silent holder loses the lease.
 struct LeaseConfig {
   double keep_s = 3;  ///< a holder that is silent for this long loses the lease
 
@@ -29,7 +30,9 @@ struct LeaseConfig {
 /// same or a higher rank. Every sign of life of the holder renews it.
 class Lease {
  public:
+  /// What somebody asks for; kTakeOver also takes a held lease away.
   enum class Wish { kAcquire, kTakeOver, kRelease };
+  /// What became of a request; kRenewed: who asked had the lease already.
   enum class Answer { kGranted, kRenewed, kReleased, kRefused };
 
   explicit Lease(const LeaseConfig& config) : config_(config) {}

@@ -23,9 +23,11 @@ struct DriveCommand {
 /// False for a stick at rest.
 bool WantsMotion(const Twist2& twist);
 
+/// Whether a command was accepted, or why not; kNotAtRest: the stick must be let go first.
 enum class CommandVerdict { kAccepted, kWithoutLease, kOutOfOrder, kTooOld, kOutOfRange, kNotAtRest };
 inline constexpr std::size_t kCommandVerdicts = 6;
 
+/// Largest values that a command may have; beyond them it is refused.
 struct OperatorConfig {
   double max_speed_m_s = 0.8;
   double max_turn_rad_s = 0.8;

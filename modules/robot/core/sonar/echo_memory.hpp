@@ -26,6 +26,7 @@ struct SonarCycle {
 /// degrees counter-clockwise, each where the ray from the base centre leaves the rectangle.
 Pose2 BaseFromSonar(int index, const Footprint& footprint);
 
+/// How echoes become points in the base frame, and how long they count.
 struct EchoMemoryConfig {
   double half_beam_deg = 7.5;  ///< an echo lies anywhere on this arc
   double agreement_m = 0.3;    ///< two echoes nearer than this to each other confirm one another

@@ -23,6 +23,7 @@ struct FloorLine {
   std::vector<FloorPiece> pieces;
 };
 
+/// Where the line laser sits (base frame), and how long its lines count.
 struct FloorMemoryConfig {
   double laser_x_m = 0.46, laser_height_m = 0.60;
   double max_age_s = 1;   ///< of a picture when it arrives

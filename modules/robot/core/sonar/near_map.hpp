@@ -12,6 +12,7 @@
 
 namespace priamos::robot {
 
+/// What is remembered, and when it is forgotten.
 struct NearMapConfig {
   double keep_m = 0.5;  ///< only echoes this near are kept: farther away an arc is too wide to be a place
   double keep_s = 5;    ///< while the base moves

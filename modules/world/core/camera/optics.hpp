@@ -11,6 +11,7 @@ namespace priamos::world {
 
 inline constexpr int kImageWidthPx = 768, kImageHeightPx = 576;
 inline constexpr int kCameras = 3;
+/// The cameras by their numbers in messages.
 enum Camera : int { kLeftCamera = 0, kRightCamera = 1, kThirdCamera = 2 };
 
 /// Where the axes of KASTOR truly are, backlash and all; what the step counters say is not known here.

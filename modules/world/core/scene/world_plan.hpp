@@ -70,6 +70,7 @@ struct StartPlan {
   void Describe(Archive& a);
 };
 
+/// The pose the robot is told and the one it has, map frame.
 struct Start {
   Pose2 nominal, truth;
 };

@@ -36,6 +36,7 @@ class AcousticScene {
   AcousticScene(const std::vector<Solid>& solids, double height_m, double half_band_m,
                 const std::vector<EchoMaterial>& materials);
 
+  /// Where a ray meets a solid first, map frame [m]; `normal` is the solid's outward unit normal.
   struct Hit {
     double distance_m;
     Eigen::Vector2d point, normal;

@@ -50,6 +50,7 @@ struct GreySums {
 
 /// The pixels of a window: those within `margin_px` of the rim or outside one by one, the core as sums.
 struct WindowPixels {
+  /// Place [px] and grey value of one pixel.
   struct Pixel {
     float dx, dy, grey;  ///< from the centre of the window
   };
