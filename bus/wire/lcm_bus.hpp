@@ -13,7 +13,7 @@
 #include "bus/wire/bus_error.hpp"
 #include "bus/wire/sequence_tracker.hpp"
 
-struct _lcm_t;
+struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): the name that LCM gave it
 
 namespace priamos::bus {
 
