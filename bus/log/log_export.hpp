@@ -22,8 +22,8 @@ struct ExportCount {
 ExportCount ExportJsonLines(LogReader& reader, const Schema& schema, const LogSelection& selection,
                             std::ostream& out);
 
-/// One table per channel, `<folder>/<CHANNEL>.csv`; a channel that carries several types gets
-/// `<CHANNEL>.<type>.csv` for each but the first. Throws std::runtime_error when a file cannot be written.
+/// One table per channel, FOLDER/CHANNEL.csv; a channel that carries several types gets
+/// CHANNEL.TYPE.csv for each but the first. Throws std::runtime_error when a file cannot be written.
 ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelection& selection,
                       const std::filesystem::path& folder);
 

@@ -52,14 +52,14 @@ struct Number {
 /// meaning`.
 struct Annotation {
   std::string unit;               ///< text in the brackets; "-" for plain numbers; empty when there is none
-  std::string frame;              ///< @frame: the coordinate frame, empty when it has none
-  std::optional<Number> min;      ///< @range, first number
-  std::optional<Number> max;      ///< @range, second number
-  std::optional<Number> step;     ///< @step: resolution on the radio, in `unit`
-  std::optional<Number> invalid;  ///< @invalid: the value that means "none"
+  std::string frame;              ///< `@frame`: the coordinate frame, empty when it has none
+  std::optional<Number> min;      ///< `@range`, first number
+  std::optional<Number> max;      ///< `@range`, second number
+  std::optional<Number> step;     ///< `@step`: resolution on the radio, in `unit`
+  std::optional<Number> invalid;  ///< `@invalid`: the value that means "none"
   std::vector<std::int64_t>
-      sizes;  ///< @max: largest counts of the variable dimensions, then largest text length
-  std::optional<std::int64_t> age_us;  ///< @age: a time stamp [us] that is at most this old when it is sent
+      sizes;  ///< `@max`: largest counts of the variable dimensions, then largest text length
+  std::optional<std::int64_t> age_us;  ///< `@age`: a time stamp [us] that is at most this old when it is sent
   std::string meaning;                 ///< the sentence after the colon
   std::string problem;  ///< why the comment, though it begins with a bracket, cannot be read; else empty
 };

@@ -15,7 +15,7 @@ namespace priamos::bus {
 /// A packed message, and what of it could not be said exactly.
 struct PackResult {
   std::vector<std::byte> bytes;
-  /// Fields with a value that was outside its @range, too old, too long or too many, each once: rows of
+  /// Fields with a value that was outside its `@range`, too old, too long or too many, each once: rows of
   /// Packer::fields(). Such a value travels as the nearest one that can be said.
   std::vector<std::uint16_t> saturated;
 };

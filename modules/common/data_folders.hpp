@@ -11,7 +11,7 @@ namespace priamos {
 struct ProgramPlace {
   std::filesystem::path program_folder;  ///< where the running program is, absolute
   std::filesystem::path clone;           ///< the clone of the repository whose build folder it runs from
-  std::string data;                      ///< $PRIAMOS_DATA: a folder like <prefix>/share/priamos
+  std::string data;                      ///< $PRIAMOS_DATA: a folder like `<prefix>/share/priamos`
   std::string logs;                      ///< $PRIAMOS_LOGS: where runs are written
   std::string home;                      ///< $HOME
   std::string config_home;               ///< $XDG_CONFIG_HOME

@@ -87,7 +87,7 @@ struct CupboardPlan {
   Pose2 map_from_cupboard() const { return {x_m, y_m, Radians(yaw_deg)}; }
 };
 
-/// The plan of a building as far as driving needs it: config/<deployment>/maps/*.toml.
+/// The plan of a building as far as driving needs it: `config/<deployment>/maps/*.toml`.
 struct GroundPlan {
   std::vector<WallPlan> walls;
   std::vector<DoorPlan> doors;

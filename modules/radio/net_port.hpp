@@ -7,12 +7,11 @@
 
 namespace priamos::radio {
 
-/// Links that are IP but thin. Ports are written
-///     udp:HOST:PORT          datagrams to and from HOST:PORT; bound to PORT here, too
-///     udp:HOST:PORT@LOCAL    bound to port LOCAL here
-///     tcp:HOST:PORT          connects, and again when the connection is lost
-///     tcp::PORT              waits for one to connect; a new connection replaces the old one
-/// HOST is a name or an address (IPv6 in brackets).
+/// A link that is IP but thin. HOST is a name or an address (IPv6 in brackets); such a port is written
+/// - `udp:HOST:PORT`: datagrams to and from HOST:PORT; bound to PORT here, too
+/// - `udp:HOST:PORT@LOCAL`: the same, bound to port LOCAL here
+/// - `tcp:HOST:PORT`: connects, and again when the connection is lost
+/// - `tcp::PORT`: waits for one to connect; a new connection replaces the old one
 struct NetAddress {
   bool datagrams = false;
   std::string host;  ///< empty: wait for a connection

@@ -36,7 +36,7 @@ struct JoystickConfig {
   void Describe(Archive& a);
 };
 
-/// config/<deployment>/teleop.toml
+/// `config/<deployment>/teleop.toml`
 struct TeleopConfig {
   std::string device = "spacemouse";
   bool show = false;

@@ -18,7 +18,7 @@
 
 namespace priamos::robot {
 
-/// Everything that decides about motion: a section of config/<deployment>/robot.toml.
+/// Everything that decides about motion: a section of `config/<deployment>/robot.toml`.
 struct DriveConfig {
   Footprint footprint;
   PathFollowerConfig follower;
