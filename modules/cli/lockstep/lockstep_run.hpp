@@ -11,6 +11,7 @@
 
 namespace priamos::cli {
 
+/// Which scenario to run, from which seed, and who follows it.
 struct LockstepRequest {
   std::string deployment;  ///< its folder
   std::string scenario = "door";
@@ -20,6 +21,7 @@ struct LockstepRequest {
   std::function<void(std::string_view bus, Time, std::string_view channel, std::span<const std::byte>)> tap;
 };
 
+/// What a scenario came to; `duration` in simulated time.
 struct LockstepResult {
   Summary summary;
   RunRecord record;

@@ -13,6 +13,7 @@ namespace priamos::planner {
 /// before them.
 class ObstacleMap {
  public:
+  /// The obstacle nearest to a footprint.
   struct Nearest {
     double distance_m = std::numeric_limits<double>::infinity();
     std::string name;  ///< of the obstacle, for messages; empty when there is none at all

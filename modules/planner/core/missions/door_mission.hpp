@@ -12,6 +12,7 @@
 
 namespace priamos::planner {
 
+/// Speeds, distances to the door, and the patience of a mission through a door.
 struct DoorMissionConfig {
   double speed_m_s = 0.30;       ///< on the approach and through the door
   double slowest_m_s = 0.12;     ///< on a short approach

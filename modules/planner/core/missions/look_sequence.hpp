@@ -9,6 +9,7 @@
 
 namespace priamos::planner {
 
+/// When looking at a door is given up.
 struct LookConfig {
   double timeout_s = 5;  ///< silence after a request that counts as three failures
   int failures = 9;      ///< looks without result before giving up

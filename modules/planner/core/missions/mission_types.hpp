@@ -19,6 +19,7 @@ struct MissionOrder {
   int landmark_id = 0;  ///< which landmark of the map it concerns
 };
 
+/// Where the robot was at `stamp` and how it moved (base frame), as POSE says.
 struct RobotPose {
   Time stamp;
   Pose2 map_from_base;
@@ -26,8 +27,10 @@ struct RobotPose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< map: x, y, yaw
 };
 
+/// What the robot does; kHolding: told to stand, kBlocked: something is in its way.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked };
 
+/// How far the robot is with its path, as DRIVE_STATUS says; path_id is 0 before the first one.
 struct DriveReport {
   DriveMode mode = DriveMode::kIdle;
   int path_id = 0;
@@ -43,12 +46,14 @@ struct LookResult {
   bool no_model = false;  ///< the head does not know the landmark (it was restarted)
 };
 
+/// A path for the robot, map frame; driven at `speed_m_s`.
 struct PathOrder {
   int path_id = 0;
   double speed_m_s = 0;
   std::vector<Pose2> points;  ///< none: brake and hold
 };
 
+/// A look that the head is to take.
 struct LookOrder {
   int request_id = 0;
   int landmark_id = 0;
@@ -62,8 +67,10 @@ struct MissionActions {
   std::optional<LookOrder> look;
 };
 
+/// How far a mission has come; kDone and kFailed are its ends.
 enum class Phase { kWaiting, kApproaching, kLookingLeft, kLookingRight, kPassing, kDone, kFailed };
 
+/// Phase of the mission, and what it says to a person.
 struct MissionState {
   Phase phase = Phase::kWaiting;
   std::string text = "no order yet";
