@@ -60,8 +60,8 @@ std::uint64_t FingerprintOf(const void* data, std::size_t size);
 /// its `@max` (or the `@range` of its count): nullopt when one of them has none, or the type contains itself.
 std::optional<std::size_t> MaxEncodedSize(const Struct& type);
 
-/// Largest count of dimension `index` of `field`: the size of a constant one; for a variable one `@max` of the
-/// array or the upper end of the count's `@range`, the smaller one; nullopt when there is neither.
+/// Largest count of dimension `index` of `field`: the size of a constant one; for a variable one `@max` of
+/// the array or the upper end of the count's `@range`, the smaller one; nullopt when there is neither.
 std::optional<std::int64_t> MaxCount(const Struct& type, const Field& field, std::size_t index);
 
 /// Largest length of a string field in bytes, without LCM's terminating zero; nullopt without `@max`.

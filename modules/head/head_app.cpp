@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/image_size.hpp"
 #include "head/files/calibration_file.hpp"
 #include "head/vision_options.hpp"
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMaxOrders = 16;
 constexpr int kThirdWithLaser = 4 + 8;  // of a camera trigger
-constexpr int kPictureWidth = 768, kPictureHeight = 576;
+constexpr ImageSize kPicture{};
 constexpr double kByHand_s = 0.5;  // an operator who paused for less still holds the head
 
 LookAnswer NotFound(Verdict verdict, Time exposure) {
@@ -155,7 +156,7 @@ void HeadApp::Look(Time now) {
 bool HeadApp::SeesLaser() const {
   if (!head_.laser || !report_ || report_->moving) return false;
   const auto camera = head_.CameraAt(report_->setting, kThird);
-  return camera && SeesLine(*camera, *head_.laser, kPictureWidth, kPictureHeight);
+  return camera && SeesLine(*camera, *head_.laser, kPicture.width, kPicture.height);
 }
 
 /// Between looks the third camera watches the laser's line.

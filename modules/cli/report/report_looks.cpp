@@ -8,6 +8,7 @@
 
 #include "cli/terminal/view_screen.hpp"
 #include "common/drawing/svg.hpp"
+#include "common/image_size.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -22,7 +23,9 @@ const landmark_fix_t* FixOf(const RunRecord& record, const landmark_view_t& view
 }
 
 std::string Drawing(const landmark_view_t& view) {
-  std::string svg = "<svg class=\"look\" viewBox=\"0 0 768 576\">";
+  constexpr ImageSize kPicture{};
+  std::string svg =
+      fmt::format("<svg class=\"look\" viewBox=\"0 0 {} {}\">", kPicture.width, kPicture.height);
   for (const view_edge_t& e : view.edges) {
     if (e.kind < 0 || e.kind >= static_cast<int>(kClasses.size())) continue;
     if (!std::isfinite(e.u1_px + e.v1_px + e.u2_px + e.v2_px)) continue;

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "common/braking_law.hpp"
+
 namespace priamos::cli {
 namespace {
 
 constexpr double kBeside_m = 0.06, kAhead_m = 0.20;
-constexpr double kBraking_m_s2 = 1.0, kLatency_s = 0.2;
+constexpr BrakingLaw kBraking{.latency_s = 0.2};  // slower than the robot, which means to need 0.12 s
 constexpr std::array kParts{0.0, 0.25, 0.5, 0.75, 1.0};
 
 world::Body WithMargin(world::Body body, double margin_m) {
@@ -57,12 +59,11 @@ double FreeMotion::FreeWay(const Pose2& map_from_base, const Twist2& per_metre, 
 
 /// The part of `motion` from which the base can stand in time.
 double FreeMotion::Scale(const Pose2& map_from_base, const Twist2& motion) const {
-  const double speed = SpeedOf(motion), lost = kBraking_m_s2 * kLatency_s, gap = kAhead_m - kBeside_m;
+  const double speed = SpeedOf(motion), gap = kAhead_m - kBeside_m;
   if (speed < 1e-6) return 1;
-  const double enough = gap + speed * kLatency_s + speed * speed / (2 * kBraking_m_s2);
+  const double enough = gap + kBraking.Distance(speed);
   const double free = FreeWay(map_from_base, Scaled(motion, 1 / speed, 1 / speed, 1 / speed), enough);
-  const double allowed = std::sqrt(lost * lost + 2 * kBraking_m_s2 * std::max(0.0, free - gap)) - lost;
-  return free >= enough ? 1 : std::min(1.0, allowed / speed);
+  return free >= enough ? 1 : std::min(1.0, kBraking.SpeedWithin(free - gap) / speed);
 }
 
 Twist2 FreeMotion::Of(const Pose2& map_from_base, const Twist2& wish) const {

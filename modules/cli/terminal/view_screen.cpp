@@ -7,15 +7,16 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "common/image_size.hpp"
 #include "planner/planner_messages.hpp"
 
 namespace priamos::cli {
 namespace {
 
-constexpr double kPictureWidth_px = 768, kPictureHeight_px = 576;  // of every camera: lcmtypes/README.md
-constexpr int kStrip = 61;                                         // characters, where there is room for them
-constexpr int kLeastPicture = 4;                                   // rows
-constexpr double kStripReach_m = 1;                                // to either side
+constexpr ImageSize kPicture{};      // of every camera: lcmtypes/README.md
+constexpr int kStrip = 61;           // characters, where there is room for them
+constexpr int kLeastPicture = 4;     // rows
+constexpr double kStripReach_m = 1;  // to either side
 constexpr std::array<std::string_view, 3> kSides{"", ", left side", ", right side"};
 
 int Count(const landmark_view_t& view, int kind) {
@@ -93,9 +94,9 @@ std::string ViewLegend(const landmark_view_t& view) {
 }
 
 Braille DrawView(const landmark_view_t& view, ScreenSize size) {
-  const double scale = std::min(2.0 * size.columns / kPictureWidth_px, 4.0 * size.rows / kPictureHeight_px);
-  Braille picture(static_cast<int>(kPictureWidth_px * scale / 2),
-                  static_cast<int>(kPictureHeight_px * scale / 4));
+  const double scale = std::min(2.0 * size.columns / kPicture.width, 4.0 * size.rows / kPicture.height);
+  Braille picture(static_cast<int>(kPicture.width * scale / 2),
+                  static_cast<int>(kPicture.height * scale / 4));
   const double right = picture.width() - 1, bottom = picture.height() - 1;
   picture.Line(0, 0, right, 0, Braille::kDim);
   picture.Line(0, bottom, right, bottom, Braille::kDim);

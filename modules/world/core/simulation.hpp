@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/body_size.hpp"
 #include "common/config.hpp"
 #include "world/core/base/contact.hpp"
 #include "world/core/base/drive_board.hpp"
@@ -17,9 +18,10 @@
 
 namespace priamos::world {
 
-/// The robot's body and devices.
+/// The robot's body and devices as they are built, which may differ from what the robot and the planner
+/// believe.
 struct RobotModel {
-  double length_m = 0.95, width_m = 0.78, height_m = 1.35;
+  double length_m = kDrawnBody.length_m, width_m = kDrawnBody.width_m, height_m = kDrawnBody.height_m;
   MecanumConfig base;
   DriveBoardConfig drive;
   SonarConfig sonar;

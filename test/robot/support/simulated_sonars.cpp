@@ -23,7 +23,7 @@ std::vector<Surface> BoxSides(double x_min, double y_min, double x_max, double y
 SonarCycle SimulatedSonars::Listen(Time time, const Pose2& map_from_base) {
   SonarCycle cycle{.time = time};
   for (int i = 0; i < kSonars; ++i) {
-    double range = FirstEcho(map_from_base * BaseFromSonar(i, {}));
+    double range = FirstEcho(map_from_base * BaseFromSonar(i, Footprint{}.Size()));
     if (rng_.Chance(false_echoes_)) range = rng_.Uniform(0.1, 3);
     cycle.range_m[static_cast<std::size_t>(i)] = range;
   }

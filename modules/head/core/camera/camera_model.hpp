@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "common/image_size.hpp"
+
 namespace priamos::head {
 
 /// One calibrated camera at one head setup: the DLT matrix of equations 1-6 of the paper and the lens
@@ -12,7 +14,7 @@ struct CameraModel {
   Eigen::Matrix<double, 3, 4> image_from_base = Eigen::Matrix<double, 3, 4>::Zero();
   /// Radial distortion about `centre_px`: distorted - centre = (undistorted - centre) * (1 + k1 r^2 + k2
   /// r^4), r = |undistorted - centre| / scale_px.
-  Eigen::Vector2d centre_px{384, 288};
+  Eigen::Vector2d centre_px = ImageSize{}.Centre();
   double scale_px = 1000;
   double k1 = 0, k2 = 0;
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/image_size.hpp"
 #include "common/outcome.hpp"
 
 namespace priamos::head {
@@ -10,7 +11,8 @@ namespace priamos::head {
 /// What zoom and focus change in a camera.
 struct LensState {
   double focal_px = 1000;
-  Eigen::Vector2d centre_px{383.5, 287.5};  ///< principal point, which wanders as the lens groups move
+  /// Principal point, which wanders as the lens groups move.
+  Eigen::Vector2d centre_px = ImageSize{}.Centre();
   double k1 = 0, k2 = 0;  ///< radial distortion at one focal length from the centre, see CameraModel
   double pupil_m = 0;     ///< centre of projection before the camera's mounting point
 };

@@ -3,14 +3,10 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "common/image_size.hpp"
 #include "head/core/camera/camera_model.hpp"
 
 namespace priamos::head {
-
-/// Size of an image [px].
-struct ImageSize {
-  int width = 768, height = 576;
-};
 
 /// A straight edge of space as one camera sees it, undistorted pixels, cut to the image.
 struct ProjectedEdge {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/image_size.hpp"
 #include "head/core/floor/floor_fit.hpp"
 
 namespace priamos::head {
@@ -211,7 +212,7 @@ void ObstacleOptions::Describe(Archive& a) {
   a.Number("highest_m", highest_m, {"m", 0.01, 3, "highest that is looked for"});
   a.Number("significance", significance, {"-", 3, 20, "sigmas of its height that an obstacle needs"});
   a.Integer("min_columns", min_columns, {"px", 4, 200, "columns of the picture that it needs"});
-  a.Integer("min_missing", min_missing, {"px", 4, 768, "columns without a line that are told"});
+  a.Integer("min_missing", min_missing, {"px", 4, ImageSize{}.width, "columns without a line that are told"});
   a.Number("min_seen", min_seen,
            {"-", 0, 1, "share of the columns below which nothing is said of the floor"});
 }

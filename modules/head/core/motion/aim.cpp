@@ -5,10 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "common/image_size.hpp"
+
 namespace priamos::head {
 namespace {
 
-constexpr double kWidthPx = 768;
+constexpr double kWidthPx = ImageSize{}.width;
 constexpr double kStepRad = 0.005;
 
 /// Where an upright edge is expected: half way up to the height of the cameras, so that it is in every

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/body_size.hpp"
 #include "common/config.hpp"
 #include "common/rectangle.hpp"
 
@@ -7,9 +8,9 @@ namespace priamos::planner {
 
 /// The body that has to fit: a rectangle around the base centre, x forward.
 struct Footprint {
-  double length_m = 0.95;
-  double width_m = 0.78;
-  double height_m = 1.40;
+  double length_m = kDrawnBody.length_m;
+  double width_m = kDrawnBody.width_m;
+  double height_m = kDrawnBody.height_m;
 
   void Describe(Archive& a) {
     a.Number("length_m", length_m, {"m", 0.1, 3, "along the base's x axis"});

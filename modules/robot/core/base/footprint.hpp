@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "common/body_size.hpp"
 #include "common/config.hpp"
 #include "common/geometry.hpp"
 
@@ -9,8 +10,8 @@ namespace priamos::robot {
 
 /// The base seen from above: a rectangle around the base centre, x forward.
 struct Footprint {
-  double length_m = 0.95;
-  double width_m = 0.78;
+  double length_m = kDrawnBody.length_m;
+  double width_m = kDrawnBody.width_m;
 
   void Describe(Archive& a);
 
@@ -18,6 +19,8 @@ struct Footprint {
   double Distance(const Eigen::Vector2d& point) const;
   /// The point of the edge or the inside that is nearest to `point`.
   Eigen::Vector2d Nearest(const Eigen::Vector2d& point) const;
+  /// Length and width [m].
+  Eigen::Vector2d Size() const { return {length_m, width_m}; }
   /// From the centre to a corner.
   double Reach() const;
 };

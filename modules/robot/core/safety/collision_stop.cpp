@@ -76,8 +76,8 @@ void CollisionStopConfig::Describe(Archive& a) {
   a.Number("margin_m", margin_m,
            {"m", 0, 0.5, "kept free on all sides; half the play in a door is the most"});
   a.Number("gap_m", gap_m, {"m", 0, 1, "where to stand before an obstacle ahead"});
-  a.Number("braking_m_s2", braking_m_s2, {"m/s^2", 0.05, 5, "deceleration the base manages"});
-  a.Number("latency_s", latency_s, {"s", 0, 1, "age of an echo when the wheels obey it"});
+  a.Number("braking_m_s2", braking.deceleration_m_s2, {"m/s^2", 0.05, 5, "deceleration the base manages"});
+  a.Number("latency_s", braking.latency_s, {"s", 0, 1, "age of an echo when the wheels obey it"});
   a.Number("look_ahead_m", look_ahead_m, {"m", 0.5, 5, "echoes farther along the way are not reported"});
   a.Number("memory_margin_m", memory_margin_m, {"m", -0.2, 0.5, "margin for remembered things"});
   a.Number("memory_gap_m", memory_gap_m, {"m", 0, 1, "where to stand before remembered things"});
@@ -92,16 +92,6 @@ double CollisionStop::SpeedOf(const Twist2& twist) const {
   return std::hypot(twist.vx, twist.vy) + std::abs(twist.wz) * seen_guard_.Reach();
 }
 
-double CollisionStop::AllowedSpeed(double free_m, double gap_m) const {
-  const double a = config_.braking_m_s2, lost = a * config_.latency_s;
-  return std::sqrt(lost * lost + 2 * a * std::max(0.0, free_m - gap_m)) - lost;
-}
-
-/// The inverse of AllowedSpeed, without the gap.
-double CollisionStop::BrakingWay(double speed) const {
-  return speed * config_.latency_s + speed * speed / (2 * config_.braking_m_s2);
-}
-
 CollisionStop::Result CollisionStop::Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                                            std::span<const Eigen::Vector2d> remembered) const {
   Result result{wanted, 1, std::nullopt, std::nullopt};
@@ -114,8 +104,8 @@ CollisionStop::Result CollisionStop::Limit(const Twist2& wanted, std::span<const
   const double free = std::min(free_seen, free_memory);
   if (free >= config_.look_ahead_m) return result;
 
-  const double allowed =
-      std::min(AllowedSpeed(free_seen, config_.gap_m), AllowedSpeed(free_memory, config_.memory_gap_m));
+  const double allowed = std::min(config_.braking.SpeedWithin(free_seen - config_.gap_m),
+                                  config_.braking.SpeedWithin(free_memory - config_.memory_gap_m));
   result.free_m = free;
   result.allowed = allowed;
   result.scale = std::min(1.0, allowed / speed);
@@ -128,14 +118,14 @@ double CollisionStop::Scale(const Twist2& wanted, std::span<const Eigen::Vector2
   const double speed = SpeedOf(wanted);
   if (speed < 1e-6) return 1;
   const Twist2 per_metre{wanted.vx / speed, wanted.vy / speed, wanted.wz / speed};
-  const double braking = BrakingWay(speed);
+  const double braking = config_.braking.Distance(speed);
   const auto allowed = [&](const Footprint& guard, double margin_m, std::span<const Eigen::Vector2d> points,
                            double gap_m) {
     const double kept_off = WayKeptOff(guard, margin_m, per_metre, points, braking);
     if (kept_off <= 0) return 0.0;
     const double enough = braking + gap_m, free = FreeWay(guard, per_metre, points, enough);
-    return std::min(kept_off >= braking ? speed : AllowedSpeed(kept_off, 0),
-                    free >= enough ? speed : AllowedSpeed(free, gap_m));
+    return std::min(kept_off >= braking ? speed : config_.braking.SpeedWithin(kept_off),
+                    free >= enough ? speed : config_.braking.SpeedWithin(free - gap_m));
   };
   const double of_seen = allowed(seen_guard_, config_.margin_m, seen, config_.gap_m);
   return std::min(of_seen,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "common/braking_law.hpp"
 #include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "robot/core/base/footprint.hpp"
@@ -14,8 +15,7 @@ namespace priamos::robot {
 struct CollisionStopConfig {
   double margin_m = 0.015;  ///< kept free on all sides of the footprint
   double gap_m = 0.13;      ///< where to stand before an obstacle ahead
-  double braking_m_s2 = 1.0;
-  double latency_s = 0.12;  ///< age of an echo when the wheels obey it
+  BrakingLaw braking;       ///< what the base manages, and the age of an echo when the wheels obey it
   double look_ahead_m = 5;
   double memory_margin_m = -0.03;  ///< instead of margin_m for remembered things, whose place is vague
   double memory_gap_m = 0.05;      ///< instead of gap_m
@@ -51,9 +51,6 @@ class CollisionStop {
                std::span<const Eigen::Vector2d> remembered) const;
 
  private:
-  double AllowedSpeed(double free_m, double gap_m) const;
-  double BrakingWay(double speed) const;
-
   CollisionStopConfig config_;
   Footprint seen_guard_, memory_guard_;  ///< footprint with margin
 };

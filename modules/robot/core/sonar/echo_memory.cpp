@@ -6,23 +6,14 @@
 namespace priamos::robot {
 namespace {
 
-constexpr double kFarthest = 5.0;
 constexpr int kPointsPerArc = 5;
 constexpr std::size_t kCycles = 3;
 
 bool IsEcho(double range_m) {
-  return range_m >= 0 && range_m <= kFarthest;  // false for NaN and for the "none" of -1
+  return range_m >= 0 && range_m <= kSonarMaxM;  // false for NaN and for the "none" of -1
 }
 
 }  // namespace
-
-Pose2 BaseFromSonar(int index, const Footprint& footprint) {
-  const double bearing = 2 * kPi * index / kSonars;
-  const double c = std::cos(bearing), s = std::sin(bearing);
-  const double way = std::min(footprint.length_m / 2 / std::max(std::abs(c), 1e-9),
-                              footprint.width_m / 2 / std::max(std::abs(s), 1e-9));
-  return {way * c, way * s, WrapAngle(bearing)};
-}
 
 void EchoMemoryConfig::Describe(Archive& a) {
   a.Number("half_beam_deg", half_beam_deg, {"deg", 0, 30, "an echo lies anywhere within this of the axis"});
@@ -40,7 +31,7 @@ void EchoMemoryConfig::Describe(Archive& a) {
 EchoMemory::EchoMemory(const EchoMemoryConfig& config, const Footprint& footprint)
     : config_(config), near_map_(config.near_map) {
   for (int i = 0; i < kSonars; ++i)
-    base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, footprint);
+    base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, footprint.Size());
 }
 
 void EchoMemory::Add(const SonarCycle& cycle, const Pose2& odom_from_base) {

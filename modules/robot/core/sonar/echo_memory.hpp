@@ -8,23 +8,19 @@
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
+#include "common/sonar_ring.hpp"
 #include "common/time.hpp"
 #include "robot/core/base/footprint.hpp"
 #include "robot/core/sonar/near_map.hpp"
 
 namespace priamos::robot {
 
-inline constexpr int kSonars = 24;
-
 /// One cycle of the ring.
 struct SonarCycle {
   Time time{};
-  std::array<double, kSonars> range_m{};  ///< first echo of each sensor; anything outside 0..5 m is no echo
+  std::array<double, kSonars>
+      range_m{};  ///< first echo of each sensor; anything outside 0..kSonarMaxM is no echo
 };
-
-/// Sensor `index` (0 is S1) on the edge of the footprint: S1 looks straight ahead, the others follow every 15
-/// degrees counter-clockwise, each where the ray from the base centre leaves the rectangle.
-Pose2 BaseFromSonar(int index, const Footprint& footprint);
 
 /// How echoes become points in the base frame, and how long they count.
 struct EchoMemoryConfig {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/body_size.hpp"
 #include "common/geometry.hpp"
 #include "common/rectangle.hpp"
 #include "world/core/scene/solid.hpp"
@@ -12,9 +13,9 @@ namespace priamos::world {
 
 /// The body that can touch things: a rectangle around the base centre between two heights.
 struct Body {
-  Eigen::Vector2d size_m{0.95, 0.78};  ///< length (x), width (y)
-  double low_m = 0.02;                 ///< what is lower is rolled over: a door threshold
-  double high_m = 1.35;                ///< top of the robot
+  Eigen::Vector2d size_m{kDrawnBody.length_m, kDrawnBody.width_m};  ///< length (x), width (y)
+  double low_m = 0.02;                  ///< what is lower is rolled over: a door threshold
+  double high_m = kDrawnBody.height_m;  ///< top of the robot
 };
 
 /// Exact distances between the robot's footprint and the solids at its height.

@@ -6,10 +6,11 @@
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
+#include "common/image_size.hpp"
 
 namespace priamos::world {
 
-inline constexpr int kImageWidthPx = 768, kImageHeightPx = 576;
+inline constexpr int kImageWidthPx = ImageSize{}.width, kImageHeightPx = ImageSize{}.height;
 inline constexpr int kCameras = 3;
 /// The cameras by their numbers in messages.
 enum Camera : int { kLeftCamera = 0, kRightCamera = 1, kThirdCamera = 2 };
@@ -29,7 +30,8 @@ struct CameraBuild {
   double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< of the camera on that axis; pitch positive looks down
   double pupil_m = 0.02;                            ///< entrance pupil before the axis at focal_mid_px
   double focal_min_px = 800, focal_max_px = 1600;   ///< at zoom step 0 and 2000, focused at infinity
-  double centre_u_px = 383.5, centre_v_px = 287.5;  ///< principal point at the middle of the zoom
+  double centre_u_px = ImageSize{}.Centre().x();  ///< column of the principal point at the middle of the zoom
+  double centre_v_px = ImageSize{}.Centre().y();  ///< its row
   double centre_walk_u_px = 0, centre_walk_v_px = 0;   ///< its walk from zoom step 0 to 2000
   double k1_wide = -0.07, k1_tele = -0.02, k2 = 0.01;  ///< radial distortion at zoom step 0 and 2000
   double breathing = 0.012;      ///< relative growth of the focal length at the nearest focus
@@ -60,7 +62,7 @@ struct HeadBuild {
 struct TrueCamera {
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   double focal_px = 1000;
-  Eigen::Vector2d centre_px{383.5, 287.5};
+  Eigen::Vector2d centre_px = ImageSize{}.Centre();
   /// distorted - centre = (undistorted - centre) (1 + k1 r^2 + k2 r^4), r = |undistorted - centre| / focal_px
   double k1 = 0, k2 = 0;
   double focus_dioptre = 0;  ///< inverse of the distance that is sharp [1/m]

@@ -4,6 +4,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
+#include "common/image_size.hpp"
 #include "world/core/render/mesh.hpp"
 
 namespace priamos::world {
@@ -13,7 +14,7 @@ namespace priamos::world {
 struct PinholeView {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();  ///< x right, y down, z forward
   Eigen::Vector2d focal_px{1000, 1000};
-  Eigen::Vector2d centre_px{384, 288};
+  Eigen::Vector2d centre_px{ImageSize{}.width / 2.0, ImageSize{}.height / 2.0};
 };
 
 /// A mesh in graphics memory, drawn off-screen with mrpt::opengl::CFBORender. To be used and destroyed in the

@@ -93,7 +93,8 @@ struct ReferencePlan {
 PlacedReference PlaceReference(const ReferencePlan& plan, const ReferenceObject& object,
                                const Pose2& map_from_base, std::uint64_t seed);
 
-/// A world file: `config/<deployment>/worlds/*.toml`. File names in it are relative to the deployment's folder.
+/// A world file: `config/<deployment>/worlds/*.toml`. File names in it are relative to the deployment's
+/// folder.
 struct WorldPlan {
   std::string map;
   std::string wall_material = "plaster";

@@ -7,12 +7,11 @@
 #include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "common/random.hpp"
+#include "common/sonar_ring.hpp"
 #include "common/time.hpp"
 #include "world/core/sonar/acoustic_scene.hpp"
 
 namespace priamos::world {
-
-inline constexpr int kSonars = 24;
 
 /// The ring of 24 ultrasonic sensors. Levels are in dB against a smooth wall 1 m before the sensor.
 struct SonarConfig {
@@ -33,11 +32,7 @@ struct SonarConfig {
   void Describe(Archive& a);
 };
 
-inline constexpr double kSonarMinM = 0.1, kSonarMaxM = 5, kSonarResolutionM = 0.01, kNoEcho = -1;
-
-/// Where sensor `index` (0 is S1) sits and looks: on the edge of the footprint, every 15 degrees
-/// counter-clockwise from straight ahead.
-Pose2 BaseFromSonar(int index, const Eigen::Vector2d& footprint_m);
+inline constexpr double kSonarResolutionM = 0.01, kNoEcho = -1;
 
 /// The first echo of one ping.
 struct Echo {

@@ -18,7 +18,7 @@ namespace {
 using std::chrono::milliseconds;
 using Points = std::vector<Eigen::Vector2d>;
 
-const CollisionStop kDut{{.margin_m = 0.02, .gap_m = 0.1, .braking_m_s2 = 0.8, .latency_s = 0.1}, {}};
+const CollisionStop kDut{{.margin_m = 0.02, .gap_m = 0.1, .braking = {0.8, 0.1}}, {}};
 
 TEST(CollisionStop, LeavesTheMotionAloneWhereNothingIs) {
   const auto result = kDut.Limit({0.5, 0.1, 0.2}, {});

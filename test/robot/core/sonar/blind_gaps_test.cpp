@@ -24,7 +24,7 @@ double FromBeam(const Eigen::Vector2d& point, double half_beam) {
 double FromBeams(const Eigen::Vector2d& point) {
   double nearest = 9;
   for (int i = 0; i < kSonars; ++i)
-    nearest = std::min(nearest, FromBeam(BaseFromSonar(i, Footprint()).Inverse() * point,
+    nearest = std::min(nearest, FromBeam(BaseFromSonar(i, Footprint().Size()).Inverse() * point,
                                          Radians(EchoMemoryConfig().half_beam_deg)));
   return nearest;
 }

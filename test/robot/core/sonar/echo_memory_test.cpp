@@ -34,27 +34,6 @@ class EchoMemoryTest : public testing::Test {
   EchoMemory dut_{EchoMemoryConfig{}, Footprint{}};
 };
 
-TEST(BaseFromSonar, TheFirstSensorLooksStraightAheadFromTheFront) {
-  const Pose2 pose = BaseFromSonar(0, {});
-  EXPECT_NEAR(pose.x, 0.475, 1e-9);
-  EXPECT_NEAR(pose.y, 0, 1e-9);
-  EXPECT_NEAR(pose.yaw, 0, 1e-9);
-}
-
-TEST(BaseFromSonar, TheSeventhLooksToTheLeftFromTheLeftSide) {
-  const Pose2 pose = BaseFromSonar(6, {});
-  EXPECT_NEAR(pose.x, 0, 1e-9);
-  EXPECT_NEAR(pose.y, 0.39, 1e-9);
-  EXPECT_NEAR(pose.yaw, kPi / 2, 1e-9);
-}
-
-TEST(BaseFromSonar, AllSitOnTheEdgeOfTheFootprint) {
-  for (int i = 0; i < kSonars; ++i) {
-    const Pose2 pose = BaseFromSonar(i, {});
-    EXPECT_NEAR(Footprint().Distance(pose.translation()), 0, 1e-9) << i;
-  }
-}
-
 TEST_F(EchoMemoryTest, KnowsNothingBeforeTheFirstCycle) {
   EXPECT_FALSE(dut_.newest());
   EXPECT_THAT(dut_.Points({}), IsEmpty());

@@ -35,24 +35,6 @@ std::optional<double> Range(const AcousticScene& scene, const Pose2& sonar = {})
   return echo ? std::optional(echo->range_m) : std::nullopt;
 }
 
-TEST(BaseFromSonarTest, FirstLooksAheadThenCounterClockwise) {
-  const Pose2 s1 = BaseFromSonar(0, kFootprint), s7 = BaseFromSonar(6, kFootprint),
-              s13 = BaseFromSonar(12, kFootprint);
-  EXPECT_NEAR(s1.x, 0.475, 1e-12);
-  EXPECT_NEAR(s1.y, 0, 1e-12);
-  EXPECT_NEAR(s7.y, 0.39, 1e-12);
-  EXPECT_NEAR(s7.yaw, kPi / 2, 1e-12);
-  EXPECT_NEAR(s13.x, -0.475, 1e-12);
-}
-
-TEST(BaseFromSonarTest, EverySensorSitsOnTheOutline) {
-  const Rectangle footprint{{0, 0, 0}, kFootprint / 2};
-  for (int i = 0; i < kSonars; ++i) {
-    const Eigen::Vector2d at = BaseFromSonar(i, kFootprint).translation();
-    EXPECT_NEAR((footprint.ToLocal(at).cwiseAbs() - footprint.half_m).maxCoeff(), 0, 1e-12) << i;
-  }
-}
-
 TEST(PingTest, AWallAheadIsAtItsDistance) {
   for (const double distance : {0.2, 1.0, 3.0, 4.9}) {
     ASSERT_TRUE(Range(WallAt(distance, 0))) << distance;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/geometry.hpp"
+#include "common/image_size.hpp"
 #include "common/outcome.hpp"
 #include "head/core/calibration/discs/disc_fit.hpp"
 #include "head/core/calibration/resection/view_fit.hpp"
@@ -12,7 +13,7 @@ namespace priamos::head {
 /// What is known beforehand about camera and view, and when a labelling is believed.
 struct LabellerOptions {
   double min_focal_px = 650, max_focal_px = 2000;
-  Eigen::Vector2d image_centre_px{383.5, 287.5};
+  Eigen::Vector2d image_centre_px = ImageSize{}.Centre();
   double centre_sigma_px = 20;        ///< how far the principal point may be from it
   double k1_sigma = 0.1;              ///< of the radial distortion, at one focal length from the centre
   double max_roll_rad = Radians(50);  ///< of the object's z axis against the image's upward direction

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "common/image_size.hpp"
 #include "common/outcome.hpp"
 #include "head/core/calibration/discs/disc_projection.hpp"
 
@@ -18,7 +19,7 @@ struct DiscObservation {
 /// What is known of a camera without measuring: data sheet, as mean and standard deviation. One view of a
 /// small object says little about some of these, and what it says then comes from noise.
 struct LensKnowledge {
-  Eigen::Vector2d centre_px{383.5, 287.5};
+  Eigen::Vector2d centre_px = ImageSize{}.Centre();
   double centre_sigma_px = 15;
   double aspect = 1, aspect_sigma = 0.0005;  ///< pixel height over width
   double skew_sigma_rad = 0.0005;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "common/image_size.hpp"
 #include "head/core/calibration/resection/dlt.hpp"
 #include "head/core/camera/camera_model.hpp"
 
@@ -14,7 +15,7 @@ struct PinholeView {
   Eigen::Matrix3d camera_from_object = Eigen::Matrix3d::Identity();
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< the object's origin in the camera
   double focal_px = 1000;
-  Eigen::Vector2d centre_px{383.5, 287.5};
+  Eigen::Vector2d centre_px = ImageSize{}.Centre();
   double k1 = 0;  ///< with CameraModel::scale_px = focal_px
 
   Eigen::Vector3d InCamera(const Eigen::Vector3d& in_object) const {
@@ -29,7 +30,7 @@ struct PinholeView {
 struct LensPrior {
   double focal_px = 1150;
   double focal_log_sigma = 0.4;
-  Eigen::Vector2d centre_px{383.5, 287.5};
+  Eigen::Vector2d centre_px = ImageSize{}.Centre();
   double centre_sigma_px = 0;
   double k1_sigma = 0;
 };
