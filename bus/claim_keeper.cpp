@@ -71,7 +71,7 @@ void ClaimKeeper::Ask() {
   }
   if (claim_.state() == Claim::State::kRefused) throw BusError(WhyRefused());
   if (const auto intruder = alone_.Find(clock_.Now(), Duration::zero()))
-    throw BusError(WhyStrangers(*intruder));
+    throw BusError(WhyForeign(*intruder));
 }
 
 void ClaimKeeper::Run() {
@@ -135,7 +135,7 @@ std::string ClaimKeeper::WhyRefused() const {
       bus_.url(), self.role, self.robot, Whereabouts(winner, clock_.Now()), winner.who.pid);
 }
 
-std::string ClaimKeeper::WhyStrangers(const SoleSpeaker::Intruder& intruder) const {
+std::string ClaimKeeper::WhyForeign(const SoleSpeaker::Intruder& intruder) const {
   return fmt::format(
       "bus {}: expected nobody to speak {} beside `{}`, got messages from {}: where devices answer "
       "nothing has to stand in for them; end their drivers, or start a robot of another name with --robot",
@@ -174,7 +174,7 @@ bool ClaimKeeper::TellLoss() {
     return true;
   }
   const auto intruder = alone_.Find(now);
-  if (intruder) Lose(WhyStrangers(*intruder));
+  if (intruder) Lose(WhyForeign(*intruder));
   return intruder.has_value();
 }
 

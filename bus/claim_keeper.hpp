@@ -73,7 +73,7 @@ class ClaimKeeper {
   void OnClaim(std::uint64_t sender, std::span<const std::byte> bytes);
   void Say();
   std::string WhyRefused() const;
-  std::string WhyStrangers(const SoleSpeaker::Intruder& intruder) const;
+  std::string WhyForeign(const SoleSpeaker::Intruder& intruder) const;
   void Alarm(int severity, const std::string& text);
   bool TellLoss();
   void Lose(const std::string& why);

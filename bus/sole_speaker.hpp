@@ -33,10 +33,10 @@ class SoleSpeaker {
   /// Somebody who speaks and is not excused, and began at least `grace` ago.
   std::optional<Intruder> Find(Time now, Duration grace = kGrace) const;
   /// Forgets who spoke: it was heard late.
-  void Forget() { strangers_.clear(); }
+  void Forget() { foreign_.clear(); }
 
  private:
-  struct Stranger {
+  struct ForeignSender {
     std::string channel;
     Time first;
   };
@@ -44,7 +44,7 @@ class SoleSpeaker {
 
   std::vector<std::string> channels_;
   std::map<std::uint64_t, Time> excused_until_;
-  std::map<std::uint64_t, Stranger> strangers_;
+  std::map<std::uint64_t, ForeignSender> foreign_;
 };
 
 }  // namespace priamos::bus

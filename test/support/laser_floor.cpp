@@ -65,8 +65,8 @@ class Tracer {
   }
   /// On the ground of a pit or on its far wall, unless its near edge hides that from the camera.
   std::optional<Spot> Bottom(const FloorStep& step, const Vector3d& ray, int surface) const {
-    const double way = std::min(ToLevel(ray, step.height_m), (step.x_to - scene_.source.x()) / ray.x());
-    const Vector3d at = scene_.source + way * ray;
+    const double travel = std::min(ToLevel(ray, step.height_m), (step.x_to - scene_.source.x()) / ray.x());
+    const Vector3d at = scene_.source + travel * ray;
     const Vector3d eye =
         -scene_.camera.image_from_base.leftCols<3>().inverse() * scene_.camera.image_from_base.col(3);
     const double depth = Floor(at) - at.z(), share = depth / (depth + eye.z() - Floor(eye));
@@ -180,10 +180,10 @@ cv::Mat FloorTexture(Rng& rng, int width, int height) {
   cv::Mat marks(texture.size(), CV_32FC1, cv::Scalar(0));
   const int thick = 1 + static_cast<int>(rng.Below(4));
   for (const double angle : {turn, turn + kPi / 2}) {
-    const cv::Point2d way(std::cos(angle), std::sin(angle)), side(-way.y, way.x);
+    const cv::Point2d travel(std::cos(angle), std::sin(angle)), side(-travel.y, travel.x);
     for (double off = -1200; off < 1200; off += spacing) {
       const cv::Point2d at(width / 2.0 + off * side.x, height / 2.0 + off * side.y);
-      cv::line(marks, cv::Point(at - 2000 * way), cv::Point(at + 2000 * way), cv::Scalar(joint), thick,
+      cv::line(marks, cv::Point(at - 2000 * travel), cv::Point(at + 2000 * travel), cv::Scalar(joint), thick,
                cv::LINE_8);
     }
   }

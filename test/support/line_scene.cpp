@@ -55,10 +55,10 @@ struct Rectangle {
 bool TouchesTwo(const std::vector<TrueLine>& lines, const head::EdgeSegment& segment) {
   const auto line_at = [&](const Eigen::Vector2d& p) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const Eigen::Vector2d way = lines[i].end - lines[i].begin, d = way.normalized();
+      const Eigen::Vector2d direction = lines[i].end - lines[i].begin, d = direction.normalized();
       const double along = d.dot(p - lines[i].begin);
       const double beside = std::abs(d.x() * (p - lines[i].begin).y() - d.y() * (p - lines[i].begin).x());
-      if (beside < 2 && along > -2 && along < way.norm() + 2) return static_cast<int>(i);
+      if (beside < 2 && along > -2 && along < direction.norm() + 2) return static_cast<int>(i);
     }
     return -1;
   };
@@ -134,8 +134,8 @@ void LineScorer::Add(const std::vector<TrueLine>& lines, const std::vector<head:
     ++n_lines_, n_found_ += !parts.empty(), n_broken_ += parts.size() > 1;
     n_pieces_ += static_cast<int>(parts.size());
   }
-  const int n_strangers = static_cast<int>(std::count(used.begin(), used.end(), false));
-  n_false_ += n_strangers, n_segments_ += static_cast<int>(segments.size());
+  const int n_outliers = static_cast<int>(std::count(used.begin(), used.end(), false));
+  n_false_ += n_outliers, n_segments_ += static_cast<int>(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) n_overlong_ += !used[i] && TouchesTwo(lines, segments[i]);
 }
 

@@ -37,17 +37,17 @@ SpaceScene::Edge RandomEdge(bool only_horizontal, Rng& rng) {
   SpaceScene::Edge edge;
   const Vector3d at(rng.Uniform(2, 7), rng.Uniform(-1.6, 1.6), rng.Uniform(0.2, 2.4));
   const double length = rng.Uniform(0.2, 1.2), kind = rng.Uniform(0, 1);
-  Vector3d way(0, 0, length);
+  Vector3d direction(0, 0, length);
   if (only_horizontal) {
-    way = {0, length, 0};
+    direction = {0, length, 0};
   } else if (kind < 0.3) {
-    way = {0, length, 0};
+    direction = {0, length, 0};
   } else if (kind < 0.45) {
-    way = {length, 0, 0};
+    direction = {length, 0, 0};
   } else if (kind < 0.6) {
-    way = length * Vector3d(rng.Normal(1), rng.Normal(1), rng.Normal(1)).normalized();
+    direction = length * Vector3d(rng.Normal(1), rng.Normal(1), rng.Normal(1)).normalized();
   }
-  edge.from = at - way / 2, edge.to = at + way / 2;
+  edge.from = at - direction / 2, edge.to = at + direction / 2;
   const auto dark = rng.Below(3);
   edge.dark = kGreys[dark], edge.bright = kGreys[dark + 1 + rng.Below(3 - dark)];
   // Segments run with their bright side on the right hand: either way round.
@@ -73,10 +73,10 @@ SpaceScene::SpaceScene(const Options& options, Rng& rng) {
       const auto seen = head::ProjectEdge(cameras[c], {768, 576}, edges[i].from, edges[i].to);
       if (!seen || rng.Chance(options.missing)) continue;
       if (rng.Chance(options.broken)) {
-        const Vector2d way = seen->q - seen->p;
+        const Vector2d direction = seen->q - seen->p;
         const double cut = rng.Uniform(0.3, 0.7);
-        add(seen->p, seen->p + (cut - 0.05) * way, edges[i], i);
-        add(seen->p + (cut + 0.05) * way, seen->q, edges[i], i);
+        add(seen->p, seen->p + (cut - 0.05) * direction, edges[i], i);
+        add(seen->p + (cut + 0.05) * direction, seen->q, edges[i], i);
       } else {
         add(seen->p, seen->q, edges[i], i);
       }

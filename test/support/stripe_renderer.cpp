@@ -19,9 +19,9 @@ class LightPlane {
   }
   double DistanceAt(double u, double v) const {
     const Eigen::Vector3d ray = inverse_ * scene_.camera.Undistort({u, v}).homogeneous();
-    const double way = -scene_.board.signedDistance(eye_) / scene_.board.normal().dot(ray);
-    if (!(way > 0)) return std::numeric_limits<double>::infinity();
-    return scene_.laser.signedDistance(eye_ + way * ray);
+    const double travel = -scene_.board.signedDistance(eye_) / scene_.board.normal().dot(ray);
+    if (!(travel > 0)) return std::numeric_limits<double>::infinity();
+    return scene_.laser.signedDistance(eye_ + travel * ray);
   }
 
  private:

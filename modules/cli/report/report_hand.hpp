@@ -12,7 +12,7 @@ namespace priamos::cli {
 /// How a drive by hand went, judged by the truth.
 struct HandSummary {
   double wished_s = 0;    ///< how long a drive command asked for motion
-  double free_m = 0;      ///< way along the wishes that was truly free, see FreeMotion
+  double free_m = 0;      ///< distance along the wishes that was truly free, see FreeMotion
   double achieved_m = 0;  ///< the part of it that the base made
   /// Longest time that it stood while the operator pushed, with its footprint in the passage or at most 30 cm
   /// before or behind it [s]; none when it was never there.

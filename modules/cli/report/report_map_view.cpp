@@ -52,11 +52,11 @@ void MapView::Line(const drawing::Layer& layer, const std::vector<Vector2d>& poi
 void MapView::KeepOff(const std::vector<Vector2d>& line) {
   double since = kStep_px;
   for (std::size_t i = 1; i < line.size(); ++i) {
-    const Vector2d way = line[i] - line[i - 1];
-    const double length = way.norm();
+    const Vector2d delta = line[i] - line[i - 1];
+    const double length = delta.norm();
     if (!(length < 1e5)) continue;
     for (double at = std::max(0.0, kStep_px - since); at < length; at += kStep_px) {
-      const Vector2d point = line[i - 1] + way * (at / length);
+      const Vector2d point = line[i - 1] + delta * (at / length);
       if (window_.Holds(point)) around_.lines.push_back(point);
     }
     since = std::fmod(since + length, kStep_px);

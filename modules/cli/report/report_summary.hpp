@@ -55,7 +55,7 @@ struct Summary {
   std::optional<double> lateral_at_door_m;  ///< none when the door was not crossed
   std::optional<double> heading_at_door_deg;
   double duration_s = 0;                           ///< from the order to the end of the mission
-  double mean_speed_m_s = 0;                       ///< true way over the time from first to last motion
+  double mean_speed_m_s = 0;                       ///< true distance over the time from first to last motion
   std::optional<double> min_speed_during_fix_m_s;  ///< true speed from look request to correction
   std::vector<FixSummary> fixes;
   RadioSummary up;                  ///< robot to workstation, as in link.toml

@@ -39,20 +39,21 @@ double FreeMotion::Along(const Twist2& wish, const Twist2& motion) const {
   return w.norm() > 0 ? m.dot(w) / w.norm() : 0;
 }
 
-/// Until the guarded footprint meets something, at most `farthest`. The gap shrinks by at most 1 per way.
-double FreeMotion::FreeWay(const Pose2& map_from_base, const Twist2& per_metre, double farthest) const {
+/// Until the guarded footprint meets something, at most `farthest`. The gap shrinks by at most 1 per
+/// distance.
+double FreeMotion::FreeDistance(const Pose2& map_from_base, const Twist2& per_metre, double farthest) const {
   constexpr double kTouch = 1e-3, kLeastStep = 5e-3, kProbe = 0.01, kSliding = 0.05;
   double gap = guarded_.Gap(map_from_base, farthest + kTouch);
   if (gap < kTouch) {
     // Nearer than the margin: what does not close in any further is free.
-    const auto bare_gap = [&](double way) {
-      return bare_.Gap(Integrate(map_from_base, per_metre, way), kBeside_m + 2 * kProbe);
+    const auto bare_gap = [&](double travel) {
+      return bare_.Gap(Integrate(map_from_base, per_metre, travel), kBeside_m + 2 * kProbe);
     };
     return bare_gap(kProbe) < bare_gap(0) - kSliding * kProbe ? 0 : farthest;
   }
-  for (double way = std::max(gap, kLeastStep); way < farthest; way += std::max(gap, kLeastStep)) {
-    gap = guarded_.Gap(Integrate(map_from_base, per_metre, way), farthest + kTouch);
-    if (gap < kTouch) return way;
+  for (double travel = std::max(gap, kLeastStep); travel < farthest; travel += std::max(gap, kLeastStep)) {
+    gap = guarded_.Gap(Integrate(map_from_base, per_metre, travel), farthest + kTouch);
+    if (gap < kTouch) return travel;
   }
   return farthest;
 }
@@ -62,7 +63,7 @@ double FreeMotion::Scale(const Pose2& map_from_base, const Twist2& motion) const
   const double speed = SpeedOf(motion), gap = kAhead_m - kBeside_m;
   if (speed < 1e-6) return 1;
   const double enough = gap + kBraking.Distance(speed);
-  const double free = FreeWay(map_from_base, Scaled(motion, 1 / speed, 1 / speed, 1 / speed), enough);
+  const double free = FreeDistance(map_from_base, Scaled(motion, 1 / speed, 1 / speed, 1 / speed), enough);
   return free >= enough ? 1 : std::min(1.0, kBraking.SpeedWithin(free - gap) / speed);
 }
 

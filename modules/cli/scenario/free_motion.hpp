@@ -24,7 +24,7 @@ class FreeMotion {
  private:
   double SpeedOf(const Twist2& motion) const;
   double Scale(const Pose2& map_from_base, const Twist2& motion) const;
-  double FreeWay(const Pose2& map_from_base, const Twist2& per_metre, double farthest) const;
+  double FreeDistance(const Pose2& map_from_base, const Twist2& per_metre, double farthest) const;
 
   double lever_m_;
   world::Clearance bare_, guarded_;  ///< of the footprint, and of it with the margin beside

@@ -30,7 +30,7 @@ bool IsOver(const mission_status_t& status) {
   return status.phase == mission_status_t::DONE || status.phase == mission_status_t::FAILED;
 }
 
-bool IsUnderWay(const mission_status_t& status) {
+bool IsRunning(const mission_status_t& status) {
   return status.phase != mission_status_t::WAITING && !IsOver(status);
 }
 
@@ -74,7 +74,7 @@ std::optional<mission_command_t> MissionOrder::Step(Time now) {
     return std::nullopt;
   }
   if (!before_ || answered_) return std::nullopt;
-  if (!sent_ && !aborts() && IsUnderWay(*before_)) {
+  if (!sent_ && !aborts() && IsRunning(*before_)) {
     End(OrderOutcome::kRefused, "a mission is under way: " + before_->text);
     return std::nullopt;
   }
@@ -84,7 +84,7 @@ std::optional<mission_command_t> MissionOrder::Step(Time now) {
 /// At once, and again while the planner's words stay what they were.
 std::optional<mission_command_t> MissionOrder::Send(Time now) {
   if (sent_ && now - *sent_ < kAnswersWithin) return std::nullopt;
-  if (sent_ && aborts() && !IsUnderWay(*last_)) {
+  if (sent_ && aborts() && !IsRunning(*last_)) {
     End(OrderOutcome::kDone, "no mission is under way");
     return std::nullopt;
   }

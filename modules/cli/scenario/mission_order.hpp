@@ -14,7 +14,7 @@ namespace priamos::cli {
 /// "APPROACHING" and the like, the constants of mission_status_t.
 std::string_view PhaseName(int phase);
 /// The robot is under way.
-bool IsUnderWay(const mission_status_t& status);
+bool IsRunning(const mission_status_t& status);
 /// DONE or FAILED.
 bool IsOver(const mission_status_t& status);
 

@@ -85,18 +85,18 @@ void TeleopStory::DriveToWaypoint(Time now) {
   const world_truth_t& truth = *truth_.get();
   const ScenarioWaypoint& goal = scenario_.waypoints[waypoint_];
   const Pose2 map_from_base{truth.x_m, truth.y_m, truth.yaw_rad};
-  const Eigen::Vector2d way = map_from_base.Inverse() * Eigen::Vector2d(goal.x_m, goal.y_m);
-  if (way.norm() < kNear_m) {
+  const Eigen::Vector2d delta = map_from_base.Inverse() * Eigen::Vector2d(goal.x_m, goal.y_m);
+  if (delta.norm() < kNear_m) {
     progress_(now, fmt::format("at waypoint {} of {}: ({:.2f}, {:.2f}) m", waypoint_ + 1,
                                scenario_.waypoints.size(), truth.x_m, truth.y_m));
     if (++waypoint_ == scenario_.waypoints.size())
       return Finish(now, true, "the operator is where he wanted to be");
   }
-  const double size = std::max(way.norm(), 1e-6);
+  const double size = std::max(delta.norm(), 1e-6);
   const double push = Deflection(size, kFullFrom_m);
   hand_.axis = {};
-  hand_.axis[0] = push * way.x() / size;
-  hand_.axis[1] = push * way.y() / size;
+  hand_.axis[0] = push * delta.x() / size;
+  hand_.axis[1] = push * delta.y() / size;
   hand_.axis[5] = Deflection(WrapAngle(Radians(goal.yaw_deg) - truth.yaw_rad), kFullFrom_rad);
   Waver(now);
   // A hand presses the range key once, for the whole drive.

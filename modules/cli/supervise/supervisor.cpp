@@ -23,7 +23,7 @@ namespace priamos::cli {
 namespace {
 
 constexpr int kCannotExec = 127;
-/// So many messages fit into the socket on most machines. When it was full, somebody was not heard: on a busy
+/// So many messages fit into the socket on most machines. When it was full, datagrams were lost: on a busy
 /// machine always the same one, who says something seldom.
 constexpr std::size_t kFull = 10;
 constexpr Duration kOwnSilence = std::chrono::milliseconds(300), kLookPeriod = std::chrono::milliseconds(50);

@@ -18,9 +18,9 @@ std::string Utf8(std::uint8_t dots) {
 }
 
 /// Narrows [from, to] to where low <= at + share * way <= high; false if nothing is left.
-bool Clip(double at, double way, double low, double high, double& from, double& to) {
-  if (way == 0) return at >= low && at <= high;
-  double enter = (low - at) / way, leave = (high - at) / way;
+bool Clip(double at, double delta, double low, double high, double& from, double& to) {
+  if (delta == 0) return at >= low && at <= high;
+  double enter = (low - at) / delta, leave = (high - at) / delta;
   if (enter > leave) std::swap(enter, leave);
   from = std::max(from, enter), to = std::min(to, leave);
   return from <= to;

@@ -40,12 +40,12 @@ class Placer {
   }
 
  private:
-  void Try(const Box& box, double way) {
-    if (way >= best_cost_ || !around_.page.Holds(box)) return;
+  void Try(const Box& box, double distance) {
+    if (distance >= best_cost_ || !around_.page.Holds(box)) return;
     if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& t) { return t.Overlaps(box); })) return;
     const auto covered = std::count_if(around_.lines.begin(), around_.lines.end(),
                                        [&](const auto& p) { return box.Holds(p); });
-    const double cost = way + kCost_px * static_cast<double>(covered);
+    const double cost = distance + kCost_px * static_cast<double>(covered);
     if (cost >= best_cost_) return;
     best_cost_ = cost;
     best_ = box;

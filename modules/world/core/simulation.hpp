@@ -70,7 +70,7 @@ class Simulation {
  public:
   static constexpr Duration kStep{2500};
   static constexpr Duration kSamplePeriod{20000};  ///< wheels, head, truth
-  /// More than this is not made up for when the caller comes late: then the world stood still.
+  /// Longest time step that is simulated. A caller that is later than this finds that the world stood still.
   static constexpr Duration kMaxAdvance{500000};
 
   /// `cameras` must outlive it. Throws std::invalid_argument when the robot would start inside a solid.

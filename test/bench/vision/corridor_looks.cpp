@@ -34,8 +34,8 @@ struct Eyes {
   bool Visible(const Eigen::Vector3d& in_base) const {
     return std::all_of(cameras.begin(), cameras.end(), [&](const head::CameraModel& camera) {
       const Eigen::Isometry3d map = world::Lift(map_from_base);
-      const Eigen::Vector3d eye = map * head::OpticalCentre(camera), way = map * in_base - eye;
-      return scene.Distance(eye, way.normalized(), way.norm() + 1) > way.norm() - kHidden_m;
+      const Eigen::Vector3d eye = map * head::OpticalCentre(camera), direction = map * in_base - eye;
+      return scene.Distance(eye, direction.normalized(), direction.norm() + 1) > direction.norm() - kHidden_m;
     });
   }
 };

@@ -131,8 +131,8 @@ double TrueRow(const LaserFloor& scene, double u) {
   const Vector3d eye = -inverse * scene.camera.image_from_base.col(3);
   const auto beyond = [&](double v) {
     const Vector3d ray = inverse * scene.camera.Undistort({u, v}).homogeneous();
-    const double way = -eye.z() / ray.z();
-    return way < 0 || scene.laser.Plane().signedDistance(eye + way * ray) > 0;
+    const double travel = -eye.z() / ray.z();
+    return travel < 0 || scene.laser.Plane().signedDistance(eye + travel * ray) > 0;
   };
   for (int i = 0; i < 40; ++i) (beyond((low + high) / 2) ? low : high) = (low + high) / 2;
   return (low + high) / 2;

@@ -41,8 +41,7 @@ PoseState Driven(PoseState state, const Pose2& from, const Pose2& to) {
 
 PoseState Looked(const PoseState& state, const head::LandmarkFix& fix, bool repeats) {
   const double own_share = repeats ? fix.own_share : 1;
-  return robot::UpdatedBySight(state, {fix.base_from_landmark, fix.covariance, kMapFromDoor, own_share})
-      .state;
+  return robot::Updated(state, {fix.base_from_landmark, fix.covariance, kMapFromDoor, own_share}).state;
 }
 
 Eigen::Vector3d Error(const PoseState& state, const Pose2& truth) {

@@ -45,8 +45,8 @@ void SimulatedBase::Step(double dt) {
     speed_[i] += (ramp_[i] - speed_[i]) * (1 - std::exp(-dt / kLagS));
     turned_[i] += speed_[i] * dt;
     const double rolled = radius_m_[i] * speed_[i];
-    const double way = std::min(1.0, std::abs(rolled) * dt / errors_.slip_length_m);
-    slip_[i] += -slip_[i] * way + errors_.slip * std::sqrt(2 * way) * rng_.Normal(1);
+    const double travel = std::min(1.0, std::abs(rolled) * dt / errors_.slip_length_m);
+    slip_[i] += -slip_[i] * travel + errors_.slip * std::sqrt(2 * travel) * rng_.Normal(1);
     contact[i] = rolled * (1 - slip_[i]);
   }
   // Contact speeds are wheel speeds of a base with wheels of radius 1.

@@ -17,7 +17,7 @@ class SimulatedBase {
     double lever = 0.01;          ///< wheelbase + track off by up to this part
     double sideways_loss = 0.03;  ///< up to this part of sideways motion is lost
     double slip = 0.012;          ///< sigma of each wheel's wandering slip
-    double slip_length_m = 0.3;   ///< way after which the slip is forgotten
+    double slip_length_m = 0.3;   ///< distance after which the slip is forgotten
   };
 
   SimulatedBase(std::uint64_t seed, const Pose2& start) : SimulatedBase(seed, start, Errors()) {}

@@ -56,8 +56,8 @@ double SimulatedSonars::Gap(const Pose2& map_from_base) const {
   const Footprint footprint;
   for (const Surface& surface : surfaces_) {
     const double length = (surface.to - surface.from).norm();
-    for (double way = 0; way <= length; way += 0.01) {
-      const Eigen::Vector2d point = surface.from + (surface.to - surface.from) * (way / length);
+    for (double travel = 0; travel <= length; travel += 0.01) {
+      const Eigen::Vector2d point = surface.from + (surface.to - surface.from) * (travel / length);
       gap = std::min(gap, footprint.Distance(map_from_base.Inverse() * point));
     }
   }

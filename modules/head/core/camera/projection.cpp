@@ -26,8 +26,8 @@ bool Cut(double at_from, double at_to, double& begin, double& end) {
 }  // namespace
 
 Eigen::Vector3d ProjectedEdge::PointAt(const Eigen::Vector2d& image) const {
-  const Eigen::Vector2d way = q - p;
-  const double s = way.dot(image - p) / way.squaredNorm();
+  const Eigen::Vector2d delta = q - p;
+  const double s = delta.dot(image - p) / delta.squaredNorm();
   // Equal steps in the image are unequal steps in space.
   const double along = s * depth_p / (s * depth_p + (1 - s) * depth_q);
   return in_base_p + along * (in_base_q - in_base_p);

@@ -16,10 +16,10 @@ constexpr double kMaxNoiseRad = 0.05;  ///< no segment is so uncertain that anyt
 
 /// Where the lines of `a` and `b` cross; nullopt if they hardly do.
 std::optional<Eigen::Vector2d> Crossing(const EdgeSegment& a, const EdgeSegment& b, double min_angle_rad) {
-  const Eigen::Vector2d u = a.direction(), v = b.direction(), way = b.centre - a.centre;
+  const Eigen::Vector2d u = a.direction(), v = b.direction(), delta = b.centre - a.centre;
   const double cross = u.x() * v.y() - u.y() * v.x();
   if (std::abs(cross) < std::sin(min_angle_rad)) return std::nullopt;
-  return a.centre + (way.x() * v.y() - way.y() * v.x()) / cross * u;
+  return a.centre + (delta.x() * v.y() - delta.y() * v.x()) / cross * u;
 }
 
 /// How far `at`, a point of the segment's line, lies beyond the nearest end; negative inside.
@@ -34,8 +34,9 @@ double AngleNoise(const EdgeSegment& a, const EdgeSegment& b) {
 
 /// Signed distance of the middle of `s` from the line of `other`, and its standard deviation.
 std::pair<double, double> Beside(const EdgeSegment& s, const EdgeSegment& other) {
-  const Eigen::Vector2d way = (s.begin + s.end) / 2 - other.centre;
-  return {other.normal().dot(way), std::hypot(other.SigmaAt(other.direction().dot(way)), s.sigma_normal_px)};
+  const Eigen::Vector2d delta = (s.begin + s.end) / 2 - other.centre;
+  return {other.normal().dot(delta),
+          std::hypot(other.SigmaAt(other.direction().dot(delta)), s.sigma_normal_px)};
 }
 
 double DistanceToPoint(const EdgeSegment& s, const Eigen::Vector2d& p) {

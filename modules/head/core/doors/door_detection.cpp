@@ -17,7 +17,7 @@ constexpr double kSameHeight_m = 0.012;  ///< lintels nearer than this are tried
 constexpr double kOnFloor_m = 0.12;      ///< skirting and threshold hide the last of an upright
 constexpr double kCorner_px = 8;         ///< of an upright from the end of the lintel
 constexpr double kRefined = 10;          ///< log odds that a fit may add
-constexpr double kMostChi2 = 40;         ///< what is stranger than that is no stranger
+constexpr double kMostChi2 = 40;         ///< what fits worse is an outlier
 constexpr double kMostDifference = 4;    ///< between what both cameras say, in log odds
 constexpr double kSameCorners = 0.3;     ///< of its width: nearer ones in an image are one door
 constexpr double kSmallest_px = 16;      ///< between the uprights
@@ -98,8 +98,8 @@ class Detector {
                           q = view.camera->Project({b.at.x(), b.at.y(), z});
     const double span = (q - p).norm();
     if (span < kSmallest_px) return false;
-    const Eigen::Vector2d way = (q - p) / span;
-    const double s = way.dot(line.p - p), t = way.dot(line.q - p);
+    const Eigen::Vector2d direction = (q - p) / span;
+    const double s = direction.dot(line.p - p), t = direction.dot(line.q - p);
     return std::min(std::max(s, t), span) - std::max(std::min(s, t), 0.0) > kMinSpanShare * span;
   }
 

@@ -18,11 +18,11 @@ constexpr double kNearestFrame_m = 0.025, kFarthestFrame_m = 0.25;
 
 /// A segment of the image that is expected.
 struct Expected {
-  Eigen::Vector2d p, way, normal;
+  Eigen::Vector2d p, direction, normal;
   double length_px = 0;
 
   Expected(const Eigen::Vector2d& from, const Eigen::Vector2d& to) : p(from), length_px((to - from).norm()) {
-    way = (to - from) / length_px, normal = {-way.y(), way.x()};
+    direction = (to - from) / length_px, normal = {-direction.y(), direction.x()};
   }
 };
 
@@ -34,7 +34,7 @@ struct Interval {
 /// Where `line` runs along `e`, if it lies on it.
 std::optional<Interval> Along(const ViewLine& line, const Expected& e, double beside_px) {
   const Eigen::Vector2d a = line.p - e.p, b = line.q - e.p;
-  const double s = e.way.dot(a), t = e.way.dot(b);
+  const double s = e.direction.dot(a), t = e.direction.dot(b);
   const Interval piece{std::min(s, t), std::max(s, t)};
   if (piece.from > e.length_px || piece.to < 0) return std::nullopt;
   const double da = e.normal.dot(a), db = e.normal.dot(b);
@@ -86,14 +86,14 @@ bool Inside(const CameraView& view, const Eigen::Vector2d& px) {
 
 /// From the corner down as far as the picture goes.
 Expected UprightIn(const CameraView& view, const Eigen::Vector2d& corner, const Eigen::Vector2d& foot) {
-  const Eigen::Vector2d way = foot - corner, low = Eigen::Vector2d::Constant(kBorder_px),
+  const Eigen::Vector2d direction = foot - corner, low = Eigen::Vector2d::Constant(kBorder_px),
                         high(view.size.width - 1 - kBorder_px, view.size.height - 1 - kBorder_px);
   double t = 1;
   for (int axis = 0; axis < 2; ++axis) {
-    if (way[axis] > 0) t = std::min(t, (high[axis] - corner[axis]) / way[axis]);
-    if (way[axis] < 0) t = std::min(t, (low[axis] - corner[axis]) / way[axis]);
+    if (direction[axis] > 0) t = std::min(t, (high[axis] - corner[axis]) / direction[axis]);
+    if (direction[axis] < 0) t = std::min(t, (low[axis] - corner[axis]) / direction[axis]);
   }
-  return {corner, corner + std::max(t, 0.05) * way};
+  return {corner, corner + std::max(t, 0.05) * direction};
 }
 
 /// The best second line parallel to `e`, between two distances to its `inner` side.
@@ -105,7 +105,7 @@ double Nested(const CameraView& view, const Expected& e, const Eigen::Vector2d& 
     const Eigen::Vector2d a = line.p - e.p, b = line.q - e.p;
     const double da = side * e.normal.dot(a), db = side * e.normal.dot(b), at = (da + db) / 2;
     if (at < near_px || at > far_px || std::abs(da - db) > 0.12 * line.length_px) continue;
-    const double s = e.way.dot(a), t = e.way.dot(b);
+    const double s = e.direction.dot(a), t = e.direction.dot(b);
     const double common = std::min(std::max(s, t), e.length_px) - std::max(std::min(s, t), 0.0);
     best = std::max(best, common / e.length_px);
   }
@@ -169,7 +169,7 @@ DoorEvidence WeighDoor(const CameraView& view, const DoorShape& door) {
     e.foot_inside[i] = Inside(view, foot[i]);
     e.uprights[i] = CoverOf(view, upright);
     e.hangs_m[i] = -e.uprights[i].last_px / metre_px[i];
-    end[i] = upright.p + (upright.length_px + e.uprights[i].last_px) * upright.way;
+    end[i] = upright.p + (upright.length_px + e.uprights[i].last_px) * upright.direction;
     e.frame_uprights[i] =
         Nested(view, upright, corner[1 - i] - corner[i], std::max(2.0, 0.5 * kNearestFrame_m * slant),
                kFarthestFrame_m * metre_px[i]);

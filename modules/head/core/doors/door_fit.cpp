@@ -36,8 +36,8 @@ double HeightAt(const CameraModel& camera, const Eigen::Vector2d& at, double v) 
 
 double SigmaOf(const CameraView& view, const ViewLine& line, const Eigen::Vector2d& at, double extra) {
   const EdgeSegment& segment = view.edges->segments[line.segment];
-  const Eigen::Vector2d way = (line.q - line.p) / line.length_px;
-  const double along = way.dot(at - (line.p + line.q) / 2);
+  const Eigen::Vector2d direction = (line.q - line.p) / line.length_px;
+  const double along = direction.dot(at - (line.p + line.q) / 2);
   return std::hypot(segment.SigmaAt(along), extra);
 }
 

@@ -26,7 +26,7 @@ class EdgeFitter {
  public:
   /// `blocks` were measured along `line`, in an image whose pixels have noise of `noise_sigma`.
   void Load(const EdgeBlocks& blocks, const AxisLine& line, double noise_sigma);
-  /// One round without doubts, more with. False if the blocks do not tell.
+  /// Fits the edge once with equal weights, then with robust ones. False if the blocks do not determine it.
   bool Solve(KernelWidth width, int rounds, EdgeOffset& fit);
   /// From the noise, enlarged where the blocks scatter more than that explains.
   void AddVariance(EdgeOffset& fit) const;
@@ -49,7 +49,7 @@ class EdgeFitter {
   float begin_ = 0;                             ///< row that along_ counts from
   int n_ = 0, padded_ = 0;  ///< blocks; the same with what fills up the last four, which weighs nothing
   alignas(16) Numbers along_, rows_, strengths_, inverses_, imbalances_[2];  ///< imbalance per strength
-  alignas(16) Numbers shifts_, base_, weights_;  ///< weights before and after doubts
+  alignas(16) Numbers shifts_, base_, weights_;  ///< weights before and after robust weighting
   alignas(16) Numbers misfits_, allowed_;
 };
 

@@ -38,11 +38,11 @@ class Triangulation {
   };
   std::optional<Point> At(const Vector2d& image_px) const {
     const Vector3d ray = ray_from_image_ * camera_.Undistort(image_px).homogeneous();
-    const double slope = normal_.dot(ray), way = -distance_ / slope;
-    if (!(std::abs(slope) > kMinSine * ray.norm()) || !(way > 0)) return std::nullopt;
+    const double slope = normal_.dot(ray), range = -distance_ / slope;
+    if (!(std::abs(slope) > kMinSine * ray.norm()) || !(range > 0)) return std::nullopt;
     const Vector3d by_row = ray_from_image_.col(1);
-    const Vector3d moved = way * (by_row - ray * (normal_.dot(by_row) / slope));
-    return Point{eye_ + way * ray, moved.z(), ray.z() / slope};
+    const Vector3d moved = range * (by_row - ray * (normal_.dot(by_row) / slope));
+    return Point{eye_ + range * ray, moved.z(), ray.z() / slope};
   }
 
  private:
@@ -117,12 +117,12 @@ std::vector<Run> RunsOffFloor(const std::vector<LightPoint>& points, const Floor
 /// Cuts a run where it bends, as Ramer, Douglas and Peucker do.
 void CutStraight(Run run, std::vector<Run>& straight) {
   const Vector3d &begin = run.front().at, &end = run.back().at;
-  const Vector3d way = (end - begin).normalized();
+  const Vector3d direction = (end - begin).normalized();
   double farthest = kStraight_m;
   std::size_t cut = 0;
   for (std::size_t i = 1; i + 1 < run.size(); ++i) {
     const Vector3d offset = run[i].at - begin;
-    const double distance = way.allFinite() ? offset.cross(way).norm() : offset.norm();
+    const double distance = direction.allFinite() ? offset.cross(direction).norm() : offset.norm();
     if (distance > farthest) farthest = distance, cut = i;
   }
   if (cut == 0) return straight.push_back(run);

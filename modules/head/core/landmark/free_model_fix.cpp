@@ -50,7 +50,7 @@ class Search {
     for (int dropped = 0;; ++dropped) {
       if (!Solve(state)) return false;
       const EdgeSuspect& suspect = state.solution.suspect;
-      if (suspect.misfit < options_.stranger_misfit || dropped == options_.max_strangers) return true;
+      if (suspect.misfit < options_.outlier_misfit || dropped == options_.max_outliers) return true;
       state.association.Withdraw(state.seen, suspect.edge, suspect.camera);
     }
   }

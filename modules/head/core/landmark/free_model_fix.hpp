@@ -16,8 +16,8 @@ struct FreeModelOptions {
   int min_matched = 5;     ///< edges that must be found, all images together
   double min_share = 0.4;  ///< of the visible length that must be found
   double max_misfit = 4;
-  double stranger_misfit = 9;
-  int max_strangers = 4;
+  double outlier_misfit = 9;
+  int max_outliers = 4;
   double max_shift_m = 0.05, max_turn_rad = 0.2;  ///< from the belief; farther is "elsewhere"
   PoseSolverOptions solver{.on_floor = false, .edge_sigma_px = 0.03, .max_iterations = 15};
 };

@@ -115,7 +115,7 @@ void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraVi
     return;
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
   pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
-  DropStrangers(model, views, pose);
+  DropOutliers(model, views, pose);
 }
 
 /// Many proposals lead to the same pose: each is refined only once.
@@ -139,8 +139,8 @@ std::vector<LandmarkFinder::Pose> LandmarkFinder::RefineAll(const LandmarkModel&
 }
 
 /// An image edge beside the right one can lie within the gate; it shows when all others agree on the pose.
-void LandmarkFinder::DropStrangers(const LandmarkModel& model, std::span<const CameraView> views,
-                                   Pose& pose) const {
+void LandmarkFinder::DropOutliers(const LandmarkModel& model, std::span<const CameraView> views,
+                                  Pose& pose) const {
   for (int dropped = 0;; ++dropped) {
     const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
     const auto observations = Observations(model, pose.association, views, at, false);
@@ -148,7 +148,7 @@ void LandmarkFinder::DropStrangers(const LandmarkModel& model, std::span<const C
     if (!pose.solution.ok) return;
     pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
     const EdgeSuspect& suspect = pose.solution.suspect;
-    if (suspect.misfit < options_.stranger_misfit || dropped == options_.max_strangers) return;
+    if (suspect.misfit < options_.outlier_misfit || dropped == options_.max_outliers) return;
     pose.association.Withdraw(model, suspect.edge, suspect.camera);
     if (pose.association.matches.size() < std::size_t(options_.min_matched)) return;
   }

@@ -67,9 +67,9 @@ struct LandmarkFixOptions {
   double min_lead = 6;  ///< over the best different pose
   double max_residual_px = 1.2;
   double max_misfit = 3;
-  double stranger_misfit = 6;  ///< an edge that fits worse (chi squared per degree of freedom: 0.01 to 0.2 %
-                               ///< of the right ones) is not the model's
-  int max_strangers = 3;       ///< so many may be taken out
+  double outlier_misfit = 6;  ///< an edge that fits worse (chi squared per degree of freedom: 0.01 to 0.2 %
+                              ///< of the right ones) is not the model's
+  int max_outliers = 3;       ///< so many may be taken out
   double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
   VerticalStereoOptions stereo;
   ProposalOptions proposals;
@@ -100,7 +100,7 @@ class LandmarkFinder {
   void Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
   std::vector<Pose> RefineAll(const LandmarkModel& model, std::span<const CameraView> views,
                               std::span<const Pose2> starts) const;
-  void DropStrangers(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  void DropOutliers(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
   void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
              const Pose& best, LandmarkFix& fix) const;
 

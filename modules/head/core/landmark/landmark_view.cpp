@@ -22,12 +22,12 @@ ViewedEdge Join(const EdgeMatch& match, const CameraView& picture) {
     return picture.lines[a].length_px < picture.lines[b].length_px;
   });
   const ViewLine& line = picture.lines[*longest];
-  const Eigen::Vector2d way = (line.q - line.p).normalized();
+  const Eigen::Vector2d direction = (line.q - line.p).normalized();
   ViewedEdge edge{ViewedEdge::kMatched, line.p, line.q};
-  double first = 0, last = way.dot(line.q - line.p);
+  double first = 0, last = direction.dot(line.q - line.p);
   for (const int i : match.lines) {
     for (const Eigen::Vector2d& end : {picture.lines[i].p, picture.lines[i].q}) {
-      const double at = way.dot(end - line.p);
+      const double at = direction.dot(end - line.p);
       if (at < first) first = at, edge.p = end;
       if (at > last) last = at, edge.q = end;
     }
@@ -37,8 +37,8 @@ ViewedEdge Join(const EdgeMatch& match, const CameraView& picture) {
 
 /// Whether a line lies in the strip about a predicted edge, beside its length.
 bool MayBe(const PredictedEdge& edge, const ViewLine& line, double reach_px, double max_angle_rad) {
-  const Eigen::Vector2d along = edge.direction(), normal = edge.normal(), way = line.q - line.p;
-  if (std::abs(normal.dot(way)) > std::sin(max_angle_rad) * line.length_px + 1) return false;
+  const Eigen::Vector2d along = edge.direction(), normal = edge.normal(), direction = line.q - line.p;
+  if (std::abs(normal.dot(direction)) > std::sin(max_angle_rad) * line.length_px + 1) return false;
   if (std::abs(normal.dot(line.p - edge.p)) > reach_px || std::abs(normal.dot(line.q - edge.p)) > reach_px)
     return false;
   double from = along.dot(line.p - edge.p), to = along.dot(line.q - edge.p);

@@ -14,7 +14,7 @@ namespace {
 constexpr int kSamples = 128;      ///< along an edge, to find where it is hidden
 constexpr double kGrazing = 0.02;  ///< sine of the angle under which a face is no longer seen
 constexpr double kTouching =
-    1e-4;  ///< share of the way to the eye: a face that the edge lies on hides nothing
+    1e-4;  ///< share of the distance to the eye: a face that the edge lies on hides nothing
 
 /// A face with its plane, and its corners in that plane.
 struct Face {
@@ -59,8 +59,8 @@ bool Contains(const Face& face, const Eigen::Vector2d& p) {
 }
 
 bool Looks(const Face& face, const Eigen::Vector3d& eye) {
-  const Eigen::Vector3d way = eye - face.origin;
-  return face.normal.dot(way) > kGrazing * way.norm();
+  const Eigen::Vector3d delta = eye - face.origin;
+  return face.normal.dot(delta) > kGrazing * delta.norm();
 }
 
 /// True if the face lies between the point and the eye, not merely at the point.

@@ -88,8 +88,8 @@ Proposals ProposePoses(const LandmarkModel& model, std::span<const int> visible,
         for (const int b : edges[j].candidates) {
           const VerticalEdge &p = verticals[a], &q = verticals[b];
           if (p.left == q.left || p.right == q.right) continue;
-          const Eigen::Vector2d way = q.at - p.at, unit = way.normalized();
-          const double error = std::abs(way.norm() - base);
+          const Eigen::Vector2d direction = q.at - p.at, unit = direction.normalized();
+          const double error = std::abs(direction.norm() - base);
           if (error > options.max_distance_error_m) {
             const double variance = unit.dot((p.covariance + q.covariance) * unit);
             if (error > options.max_distance_error_m + 3 * std::sqrt(variance)) continue;

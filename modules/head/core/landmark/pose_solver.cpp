@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "head/core/landmark/edge_sight.hpp"
+#include "head/core/landmark/edge_residual.hpp"
 
 namespace priamos::head {
 namespace {
@@ -22,8 +22,8 @@ Matrix6 SquareRoot(const Matrix6& c) {
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-/// A sight with the error that all cameras share, in standard deviations.
-struct Row : EdgeSight {
+/// A residual with the error that all cameras share, in standard deviations.
+struct Row : EdgeResidual {
   Vector6 by_common = Vector6::Zero();
 };
 
@@ -68,27 +68,27 @@ class Problem {
 
  private:
   bool Linearise() {
-    sights_.clear();
+    residuals_.clear();
     for (const ObservedLine& line : lines_) {
       for (int end = 0; end < line.n; ++end) {
         const LandmarkEdge& edge = model_.edges[line.edge];
-        const auto sight = See(*cameras_[line.camera], pose_, edge, line.at[end]);
-        if (!sight) return false;
-        sights_.push_back({*sight, common_root_.transpose() * sight->by_base.transpose()});
-        sights_.back().edge = line.edge, sights_.back().camera = line.camera;
-        sights_.back().variance = Square(line.sigma_px) + Square(options_.edge_sigma_px);
+        const auto residual = ResidualOf(*cameras_[line.camera], pose_, edge, line.at[end]);
+        if (!residual) return false;
+        residuals_.push_back({*residual, common_root_.transpose() * residual->by_base.transpose()});
+        residuals_.back().edge = line.edge, residuals_.back().camera = line.camera;
+        residuals_.back().variance = Square(line.sigma_px) + Square(options_.edge_sigma_px);
       }
     }
-    const int n = static_cast<int>(sights_.size());
+    const int n = static_cast<int>(residuals_.size());
     jacobian_.resize(n, free_.cols()), distance_.resize(n);
     for (int i = 0; i < n; ++i) {
-      jacobian_.row(i) = sights_[i].by_pose * free_;
-      distance_[i] = sights_[i].distance_px;
+      jacobian_.row(i) = residuals_[i].by_pose * free_;
+      distance_[i] = residuals_[i].distance_px;
     }
     return n >= free_.cols();
   }
 
-  /// How much the errors of two sights have in common.
+  /// How much the errors of two residuals have in common.
   double Covariance(const Row& a, const Row& b) const {
     double c = a.by_common.dot(b.by_common);
     if (a.camera == b.camera) c += Square(options_.camera_sigma_px) * a.by_camera.dot(b.by_camera);
@@ -101,11 +101,12 @@ class Problem {
   }
 
   bool Whiten() {
-    const int n = static_cast<int>(sights_.size());
+    const int n = static_cast<int>(residuals_.size());
     Eigen::MatrixXd covariance(n, n);
     for (int i = 0; i < n; ++i) {
-      for (int j = 0; j <= i; ++j) covariance(i, j) = covariance(j, i) = Covariance(sights_[i], sights_[j]);
-      covariance(i, i) += sights_[i].variance;
+      for (int j = 0; j <= i; ++j)
+        covariance(i, j) = covariance(j, i) = Covariance(residuals_[i], residuals_[j]);
+      covariance(i, i) += residuals_[i].variance;
     }
     whitening_.compute(covariance);
     return whitening_.info() == Eigen::Success;
@@ -141,7 +142,7 @@ class Problem {
     solution.misfit = chi_squared / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
     if (options_.find_suspect) solution.suspect = FindSuspect();
     double sum = 0;
-    for (const Row& s : sights_) sum += Square(s.distance_px);
+    for (const Row& s : residuals_) sum += Square(s.distance_px);
     solution.rms_px = std::sqrt(sum / static_cast<double>(n));
     solution.base_from_landmark = pose_;
     solution.ok = true;
@@ -156,12 +157,12 @@ class Problem {
     const Eigen::MatrixXd weighted = information_.solve(a.transpose());
     double share = 0;
     for (Eigen::Index i = 0; i < a.rows(); ++i)
-      share += sights_[i].variance * a.row(i).dot(weighted.col(i)) / static_cast<double>(d);
+      share += residuals_[i].variance * a.row(i).dot(weighted.col(i)) / static_cast<double>(d);
     return share;
   }
 
-  /// Leaving some of the sights out takes r' (P_ss)^-1 r from chi squared, where P projects out what the pose
-  /// explains and r = P * distances: exact, and without solving anew.
+  /// Leaving some of the residuals out takes r' (P_ss)^-1 r from chi squared, where P projects out what the
+  /// pose explains and r = P * distances: exact, and without solving anew.
   EdgeSuspect FindSuspect() {
     const Eigen::Index n = distance_.size();
     const Eigen::MatrixXd inverse = whitening_.solve(Eigen::MatrixXd::Identity(n, n));
@@ -172,7 +173,7 @@ class Problem {
     const auto examine = [&](int edge, int camera) {
       std::vector<int> rows;
       for (int i = 0; i < n; ++i)
-        if (sights_[i].edge == edge && (camera < 0 || sights_[i].camera == camera)) rows.push_back(i);
+        if (residuals_[i].edge == edge && (camera < 0 || residuals_[i].camera == camera)) rows.push_back(i);
       const Eigen::MatrixXd block = projector(rows, rows);
       const Eigen::LDLT<Eigen::MatrixXd> ldlt(block);
       if (ldlt.rcond() < 1e-9) return;  // without it there would be no pose
@@ -196,7 +197,7 @@ class Problem {
   PoseSolverOptions options_;
   Matrix6 common_root_;
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> free_;  ///< directions in which the pose may move
-  std::vector<Row> sights_;
+  std::vector<Row> residuals_;
   Eigen::MatrixXd jacobian_, white_jacobian_;
   Eigen::VectorXd distance_, white_distance_;
   Eigen::LLT<Eigen::MatrixXd> whitening_;

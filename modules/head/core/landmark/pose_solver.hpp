@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "head/core/camera/camera_model.hpp"
-#include "head/core/landmark/edge_sight.hpp"
+#include "head/core/landmark/edge_residual.hpp"
 #include "head/core/landmark/landmark.hpp"
 
 namespace priamos::head {

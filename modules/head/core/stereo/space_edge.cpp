@@ -48,7 +48,7 @@ std::optional<TwoPoints> Intersect(std::span<const LineSighting> sightings) {
 
 /// The part of the line that all images show, from -> to in the direction of the first image.
 std::optional<TwoPoints> CommonPart(std::span<const LineSighting> sightings, const TwoPoints& line) {
-  const Eigen::Vector3d way = line.b - line.a;
+  const Eigen::Vector3d delta = line.b - line.a;
   double low = -1e9, high = 1e9;
   bool reversed = false;
   for (const LineSighting& sighting : sightings) {
@@ -56,7 +56,7 @@ std::optional<TwoPoints> CommonPart(std::span<const LineSighting> sightings, con
     double t[2];
     for (int end = 0; end < 2; ++end) {
       const Eigen::Vector4d plane = CrossPlane(*sighting.view->camera, seen, end == 0 ? seen.p : seen.q);
-      const double slope = plane.head<3>().dot(way);
+      const double slope = plane.head<3>().dot(delta);
       if (std::abs(slope) < 1e-9) return std::nullopt;
       t[end] = -plane.dot(line.a.homogeneous()) / slope;
     }
@@ -64,7 +64,7 @@ std::optional<TwoPoints> CommonPart(std::span<const LineSighting> sightings, con
     low = std::max(low, std::min(t[0], t[1])), high = std::min(high, std::max(t[0], t[1]));
   }
   if (low >= high) return std::nullopt;
-  TwoPoints part{line.a + low * way, line.a + high * way};
+  TwoPoints part{line.a + low * delta, line.a + high * delta};
   if (reversed) std::swap(part.a, part.b);
   for (const LineSighting& sighting : sightings) {
     if (MetricDepth(*sighting.view->camera, part.a) < 0.1 ||
@@ -108,9 +108,9 @@ class EdgeProblem {
     const EdgeSegment& segment = sighting.view->edges->segments[seen.segment];
     const CameraModel& camera = *sighting.view->camera;
     const Eigen::Vector2d a = camera.Project(line_.a), b = camera.Project(line_.b);
-    const Eigen::Vector2d way = b - a;
-    const double length = way.norm();
-    const Eigen::Vector2d normal(-way.y() / length, way.x() / length);
+    const Eigen::Vector2d delta = b - a;
+    const double length = delta.norm();
+    const Eigen::Vector2d normal(-delta.y() / length, delta.x() / length);
     const Eigen::RowVector2d at_a = normal.transpose() * ProjectionJacobian(camera, line_.a) * across_;
     const Eigen::RowVector2d at_b = normal.transpose() * ProjectionJacobian(camera, line_.b) * across_;
     const Eigen::Vector2d along = (seen.q - seen.p) / seen.length_px;
@@ -120,7 +120,7 @@ class EdgeProblem {
         2 * (segment.sigma_normal_px * segment.sigma_normal_px + camera_sigma_px * camera_sigma_px);
     for (const double side : {-1.0, 1.0}) {
       const Eigen::Vector2d point = centre + side * arm * along;
-      const double s = way.dot(point - a) / (length * length);
+      const double s = delta.dot(point - a) / (length * length);
       Eigen::Vector4d jacobian;
       jacobian << (1 - s) * at_a.transpose(), s * at_b.transpose();
       const double residual = normal.dot(point - a);

@@ -38,17 +38,17 @@ class FastUndistort {
 /// Moves p and q onto the least squares line through `points`.
 void FitTo(std::span<const Eigen::Vector2d> points, Eigen::Vector2d& p, Eigen::Vector2d& q) {
   if (points.size() < 3) return;
-  const Eigen::Vector2d way = (q - p).normalized(), normal(-way.y(), way.x());
+  const Eigen::Vector2d direction = (q - p).normalized(), normal(-direction.y(), direction.x());
   double n = 0, st = 0, ss = 0, stt = 0, sts = 0;
   for (const Eigen::Vector2d& point : points) {
-    const double t = way.dot(point - p), s = normal.dot(point - p);
+    const double t = direction.dot(point - p), s = normal.dot(point - p);
     n += 1, st += t, ss += s, stt += t * t, sts += t * s;
   }
   const double det = n * stt - st * st;
   if (det <= 0) return;
   const double slope = (n * sts - st * ss) / det, offset = (ss - slope * st) / n;
-  const double length = way.dot(q - p);
-  q = p + length * way + (offset + slope * length) * normal;
+  const double length = direction.dot(q - p);
+  q = p + length * direction + (offset + slope * length) * normal;
   p += offset * normal;
 }
 
@@ -66,9 +66,9 @@ CameraView MakeView(const CameraModel& camera, const EdgeImage& edges) {
     line.segment = static_cast<int>(i);
     line.p = undistort(segment.begin), line.q = undistort(segment.end);
     FitTo(std::span(view.points).subspan(segment.first_point, segment.n_points), line.p, line.q);
-    const Eigen::Vector2d way = line.q - line.p;
-    line.length_px = way.norm();
-    line.normal = Eigen::Vector2d(-way.y(), way.x()) / line.length_px;
+    const Eigen::Vector2d direction = line.q - line.p;
+    line.length_px = direction.norm();
+    line.normal = Eigen::Vector2d(-direction.y(), direction.x()) / line.length_px;
     line.contrast = segment.contrast();
     line.plane = camera.image_from_base.transpose() *
                  Eigen::Vector3d(line.normal.x(), line.normal.y(), -line.normal.dot(line.p));

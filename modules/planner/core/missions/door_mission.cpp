@@ -15,7 +15,7 @@ constexpr double kFreshPoseS = 1.0;
 constexpr Duration kStampRounding = std::chrono::milliseconds(30);
 /// Share of the ordered speed from which on the base counts as driving.
 constexpr double kAtSpeed = 0.8;
-/// Waiting longer for the speed than this would cost more way than it is worth.
+/// Waiting longer for the speed than this would cost more distance than it is worth.
 constexpr double kStartS = 3.0;
 
 double Speed(const RobotPose& pose) {
@@ -39,17 +39,18 @@ void DoorMissionConfig::Describe(Archive& a) {
   a.Number("speed_m_s", speed_m_s, {"m/s", 0.05, 1, "on the approach and through the door"});
   a.Number("slowest_m_s", slowest_m_s, {"m/s", 0.05, 1, "on a short approach"});
   if (slowest_m_s > speed_m_s) a.Refuse("slowest_m_s", "at most speed_m_s");
-  a.Number("look_from_m", look_from_m, {"m", 1.5, 10, "way to the door from which on the head may look"});
-  a.Number("look_to_m", look_to_m, {"m", 1, 10, "way to the door at which both looks should be done"});
+  a.Number("look_from_m", look_from_m,
+           {"m", 1.5, 10, "distance to the door from which on the head may look"});
+  a.Number("look_to_m", look_to_m, {"m", 1, 10, "distance to the door at which both looks should be done"});
   if (look_to_m > look_from_m) a.Refuse("look_to_m", "at most look_from_m");
   a.Number("looks_take_s", looks_take_s, {"s", 0.5, 60, "both looks, starting and radio included"});
   a.Number("confirm_to_m", confirm_to_m,
-           {"m", 0, 10, "way to the door down to which looks go on while passing"});
+           {"m", 0, 10, "distance to the door down to which looks go on while passing"});
   a.Number("tracking_m", tracking_m, {"m", 0, 0.1, "what the path following may deviate in the door"});
   a.Number("command_delay_s", command_delay_s, {"s", 0, 2, "from a decision here to the wheels there"});
   limits.Describe(a);
   a.Section("look", look, "looks at the sides of the door");
-  a.Section("drift", drift, "what the wheels add on the way to the door");
+  a.Section("drift", drift, "what the wheels add on the distance to the door");
 }
 
 DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner,

@@ -16,8 +16,8 @@ namespace priamos::planner {
 struct DoorMissionConfig {
   double speed_m_s = 0.30;       ///< on the approach and through the door
   double slowest_m_s = 0.12;     ///< on a short approach
-  double look_from_m = 3.4;      ///< way to the door from which on the head may look
-  double look_to_m = 2.0;        ///< way at which both sides should have been seen ...
+  double look_from_m = 3.4;      ///< distance to the door from which on the head may look
+  double look_to_m = 2.0;        ///< distance at which both sides should have been seen ...
   double looks_take_s = 3.5;     ///< ... and how long that takes, starting and radio included
   double confirm_to_m = 1.6;     ///< looks go on to here while passing; nearer, the jambs leave the picture
   double tracking_m = 0.01;      ///< what the path following may deviate in the door
@@ -31,9 +31,9 @@ struct DoorMissionConfig {
 
 /// The mission "pass the door": approach slowly, look at the left and at the right side of the door while
 /// driving, and only when both sides have corrected the pose and what is left of its uncertainty, with the
-/// drift of the way still to go, fits the gap, plan through the door and go. Until then look again, in turn
-/// left and right, while the robot comes nearer; at the hold point it stops by itself. On the first part of
-/// the passage the looks go on: each one sharpens the pose with which the robot follows its path.
+/// drift of the distance still to go, fits the gap, plan through the door and go. Until then look again, in
+/// turn left and right, while the robot comes nearer; at the hold point it stops by itself. On the first part
+/// of the passage the looks go on: each one sharpens the pose with which the robot follows its path.
 class DoorMission : public Mission {
  public:
   DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner, const Footprint& footprint,

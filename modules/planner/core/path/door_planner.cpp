@@ -36,7 +36,8 @@ void DoorPlannerConfig::Describe(Archive& a) {
   a.Number("align_least_m", align_least_m, {"m", 0.5, 5, "nearest such place"});
   a.Number("goal_m", goal_m, {"m", 0.5, 20, "goal behind the door"});
   a.Number("approach_m", approach_m, {"m", 0.5, 10, "place on the axis that the approach leads to"});
-  a.Number("hold_m", hold_m, {"m", 0.1, 5, "free way between footprint and wall where the approach ends"});
+  a.Number("hold_m", hold_m,
+           {"m", 0.1, 5, "free distance between footprint and wall where the approach ends"});
   if (align_least_m > align_m) a.Refuse("align_least_m", "at most align_m");
 }
 
@@ -75,7 +76,7 @@ DoorPath DoorPlanner::Check(const Pose2& start, std::vector<Pose2> points, std::
         tight ? config_.door_margin_m : std::min(config_.wall_margin_m, start_gap_m * 0.9);
     const Sweep sweep = SweepAlong(from, points[i]);
     if (sweep.min_gap_m < margin_m)
-      return Refused(fmt::format("the way to the door comes within {:.2f} m of {}, it needs {:.2f} m",
+      return Refused(fmt::format("the distance to the door comes within {:.2f} m of {}, it needs {:.2f} m",
                                  sweep.min_gap_m, sweep.obstacle, margin_m));
     path.min_gap_m = std::min(path.min_gap_m, sweep.min_gap_m);
     from = points[i];

@@ -20,7 +20,7 @@ struct DoorPlannerConfig {
   double align_least_m = 1.15;  ///< nearest such place
   double goal_m = 1.5;          ///< goal behind the door
   double approach_m = 2.0;      ///< place on the axis that the approach leads to
-  double hold_m = 1.1;          ///< free way between footprint and wall where the approach ends
+  double hold_m = 1.1;          ///< free distance between footprint and wall where the approach ends
 
   void Describe(Archive& a);
 };

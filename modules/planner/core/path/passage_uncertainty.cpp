@@ -16,10 +16,10 @@ PassageUncertainty AtDoor(const DoorPlan& door, const Pose2& map_from_base,
   const Pose2 map_from_door = door.map_from_door();
   const double d = std::max(0.0, -(map_from_door.Inverse() * map_from_base).x);
   const double c = std::cos(map_from_door.yaw), s = std::sin(map_from_door.yaw);
-  // The lateral error is the error across the axis now plus the way still to go times the heading error.
+  // The lateral error is the error across the axis now plus the distance still to go times the heading error.
   const Eigen::RowVector3d lateral(-s, c, d);
   const double now = (lateral * map_covariance * lateral.transpose()).value();
-  // A heading that walks randomly over the way d moves the base sideways by sigma sqrt(d^3 / 3).
+  // A heading that walks randomly over the distance d moves the base sideways by sigma sqrt(d^3 / 3).
   const double yaw_walk = drift.yaw_rad_per_sqrt_m * drift.yaw_rad_per_sqrt_m;
   const double lateral_walk = drift.lateral_m_per_sqrt_m * drift.lateral_m_per_sqrt_m;
   const double bias = drift.yaw_bias_rad_per_m * drift.yaw_bias_rad_per_m;

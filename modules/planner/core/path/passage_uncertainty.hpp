@@ -9,8 +9,8 @@
 
 namespace priamos::planner {
 
-/// What the wheels add to the pose error on the way to the door. Random walks grow with the root of the way,
-/// the bias with the way; the values are those of the robot's own odometry model.
+/// What the wheels add to the pose error on the distance to the door. Random walks grow with the root of the
+/// distance, the bias with the distance; the values are those of the robot's own odometry model.
 struct DriftModel {
   double yaw_rad_per_sqrt_m = 0.0075;
   double lateral_m_per_sqrt_m = 0.005;

@@ -32,7 +32,7 @@ void OdometryNoise::Describe(Archive& a) {
   a.Number("forward_m_per_sqrt_m", forward_m_per_sqrt_m, {"m/sqrt(m)", 0, 0.2, "forward error"});
   a.Number("sideways_m_per_sqrt_m", sideways_m_per_sqrt_m,
            {"m/sqrt(m)", 0, 0.2, "error along y when driving sideways"});
-  a.Number("drift_m_per_sqrt_m", drift_m_per_sqrt_m, {"m/sqrt(m)", 0, 0.2, "error across the way"});
+  a.Number("drift_m_per_sqrt_m", drift_m_per_sqrt_m, {"m/sqrt(m)", 0, 0.2, "error across the path"});
   a.Number("yaw_rad_per_sqrt_m", yaw_rad_per_sqrt_m, {"rad/sqrt(m)", 0, 0.2, "heading error by driving"});
   a.Number("yaw_rad_per_sqrt_rad", yaw_rad_per_sqrt_rad,
            {"rad/sqrt(rad)", 0, 0.2, "heading error by turning"});
@@ -45,7 +45,7 @@ void OdometryConfig::Describe(Archive& a) {
   a.Number("ticks_per_turn", ticks_per_turn, {"tick", 16, 1e6, "encoder counts per turn of a wheel"});
   a.Number("unknown_speed_m_s", unknown_speed_m_s,
            {"m/s", 0.05, 2, "speed assumed as sigma while encoders are not credible"});
-  a.Section("noise", noise, "how odometry errors grow; sigma grows with the root of the way");
+  a.Section("noise", noise, "how odometry errors grow; sigma grows with the root of the distance");
 }
 
 std::optional<OdometryStep> Odometry::Add(const WheelSample& sample, Time now) {
@@ -118,8 +118,8 @@ OdometryStep Odometry::KnownStep(const WheelSample& to) const {
 
 OdometryStep Odometry::UnknownStep(const WheelSample& to, Time from, Duration span) const {
   OdometryStep step{.from = from, .to = to.time};
-  const double way = config_.unknown_speed_m_s * Seconds(span);
-  step.noise.diagonal() << Square(way), Square(way), Square(way / geometry_.lever_m);
+  const double travel = config_.unknown_speed_m_s * Seconds(span);
+  step.noise.diagonal() << Square(travel), Square(travel), Square(travel / geometry_.lever_m);
   step.known = false;
   return step;
 }
@@ -128,7 +128,7 @@ Eigen::Matrix3d Odometry::Noise(const Twist2& twist, double slip_m_s, double sec
   const OdometryNoise& n = config_.noise;
   const double forward = std::abs(twist.vx) * seconds, sideways = std::abs(twist.vy) * seconds;
   const double turn = std::abs(twist.wz) * seconds;
-  const double way = std::hypot(forward, sideways);
+  const double travel = std::hypot(forward, sideways);
   const double slip =
       n.slip_variance_m2_per_m * std::max(0.0, std::abs(slip_m_s) - n.slip_floor_m_s) * seconds;
   // One radian of turning moves the wheels by the lever: their translation error comes from that way too.
@@ -136,7 +136,7 @@ Eigen::Matrix3d Odometry::Noise(const Twist2& twist, double slip_m_s, double sec
       Square(n.forward_m_per_sqrt_m) * forward + Square(n.drift_m_per_sqrt_m) * (sideways + turn);
   const double y =
       Square(n.sideways_m_per_sqrt_m) * sideways + Square(n.drift_m_per_sqrt_m) * (forward + turn);
-  const double yaw = Square(n.yaw_rad_per_sqrt_m) * way + Square(n.yaw_rad_per_sqrt_rad) * turn;
+  const double yaw = Square(n.yaw_rad_per_sqrt_m) * travel + Square(n.yaw_rad_per_sqrt_rad) * turn;
   return Eigen::Vector3d(x + slip, y + slip, yaw + slip / Square(geometry_.lever_m)).asDiagonal();
 }
 

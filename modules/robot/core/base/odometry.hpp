@@ -19,7 +19,7 @@ struct WheelSample {
   bool deadline_stopped = false;  ///< the drive board holds the wheels because commands stayed away
 };
 
-/// What the odometry does not know. Random walks: variance grows with the way, so sigma with its root.
+/// What the odometry does not know. Random walks: variance grows with the distance, so sigma with its root.
 struct OdometryNoise {
   double forward_m_per_sqrt_m = 0.005;
   double sideways_m_per_sqrt_m = 0.006;  ///< along y when driving sideways

@@ -118,9 +118,9 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   const double dt_s = last_step_ ? std::clamp(Seconds(now - *last_step_), 1e-3, 0.1) : 0.02;
   last_step_ = now;
   if (echoes_.newest()) sonar_heard_ = echoes_.newest();
-  echoes_.Forget(situation.odom_from_base, now, HasWayToGo());
+  echoes_.Forget(situation.odom_from_base, now, HasPathToGo());
   floor_.Forget(situation.odom_from_base, now);
-  authority_.Tick(now, HasWayToGo());
+  authority_.Tick(now, HasPathToGo());
   if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
   const DriveSource source = Source(now);
   state_.failsafe = Watch(situation, now);
@@ -155,7 +155,7 @@ const CollisionStop& DriveController::Guard() const {
   return state_.mode == DriveMode::kOperated ? operator_collision_ : collision_;
 }
 
-bool DriveController::HasWayToGo() const {
+bool DriveController::HasPathToGo() const {
   return path_is_new_ || (follower_.has_path() && state_.mode != DriveMode::kArrived);
 }
 
@@ -291,7 +291,7 @@ void DriveController::NoteEnd(DriveSource source) {
 
 void DriveController::Halt(Condition cause) {
   const bool moved = Source(*last_step_) != DriveSource::kNone || authority_.lease_lost();
-  if (cause == Condition::kEstop && HasWayToGo()) stale_path_ = path_;
+  if (cause == Condition::kEstop && HasPathToGo()) stale_path_ = path_;
   if (moved) state_.halted_by = cause;
   DropPath();
   authority_.Forget();

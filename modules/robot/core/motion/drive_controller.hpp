@@ -65,7 +65,7 @@ struct DriveState {
   int path_id = 0;  ///< 0 before the first path
   double remaining_m = 0;
   double cross_track_m = 0;
-  std::optional<double> nearest_m;  ///< free way to the nearest echo in driving direction
+  std::optional<double> nearest_m;  ///< free distance to the nearest echo in driving direction
   double allowed = 1;               ///< part of the wanted motion that sonars and failsafe leave
   LeaseHolder holder;
   bool estop = false;
@@ -110,7 +110,7 @@ class DriveController {
     std::vector<Eigen::Vector2d> seen, remembered;
   };
   const CollisionStop& Guard() const;
-  bool HasWayToGo() const;
+  bool HasPathToGo() const;
   void DropPath();
   DriveSource Source(Time now) const;
   FailsafeDecision Watch(const DriveSituation& situation, Time now);

@@ -21,11 +21,11 @@ Begin WithoutPassedPoint(const Path& path, const Pose2& pose) {
   if (path.points.size() < 2) return {pose, path};
   const Pose2 &first = path.points[0], &second = path.points[1];
   const Eigen::Vector2d line = second.translation() - first.translation();
-  const Eigen::Vector2d way = pose.translation() - first.translation();
+  const Eigen::Vector2d delta = pose.translation() - first.translation();
   const double length = line.norm();
   if (length < kPassedAtMost) return {pose, path};
-  const double passed = line.dot(way) / length;
-  const double beside = (way - line * (passed / length)).norm();
+  const double passed = line.dot(delta) / length;
+  const double beside = (delta - line * (passed / length)).norm();
   if (passed <= 0 || passed > kPassedAtMost || beside > kBeside) return {pose, path};
 
   const double part = passed / length;
@@ -107,7 +107,7 @@ void PathFollower::MoveReference(const Pose2& pose, double dt_s) {
 
 PathFollower::Wanted PathFollower::Report(const Pose2& pose, const PathShape::Point& reference) const {
   Wanted wanted;
-  wanted.remaining_m = shape_->RemainingWay(s_);
+  wanted.remaining_m = shape_->RemainingDistance(s_);
   const Eigen::Vector2d off = pose.translation() - reference.pose.translation();
   const double pace = reference.direction.norm();
   wanted.cross_track_m = pace > 0.1

@@ -24,8 +24,8 @@ struct PathFollowerConfig {
 
 /// Drives the base along a path at continuous speed: the position on the path comes from the pose alone, so
 /// a corrected pose moves the reference along the path and leaves a cross-track error, which is driven back
-/// at a limited rate while the way along the path goes on. Brakes for corners as far as they need it and for
-/// the last point. Gives a wanted velocity; limits on its change are TwistSlew's.
+/// at a limited rate while the distance along the path goes on. Brakes for corners as far as they need it and
+/// for the last point. Gives a wanted velocity; limits on its change are TwistSlew's.
 class PathFollower {
  public:
   /// The velocity wanted at one tick, and where the base is on its path.

@@ -17,7 +17,7 @@ void PathShapeConfig::Describe(Archive& a) {
   a.Number("corner_acceleration_m_s2", corner_acceleration_m_s2, {"m/s^2", 0.05, 3, "in rounded corners"});
   a.Number("corner_turn_acceleration_rad_s2", corner_turn_acceleration_rad_s2,
            {"rad/s^2", 0.05, 10, "in rounded corners"});
-  a.Number("max_speed_m_s", max_speed_m_s, {"m/s", 0.05, 1.5, "fastest way per time on any path"});
+  a.Number("max_speed_m_s", max_speed_m_s, {"m/s", 0.05, 1.5, "fastest distance per time on any path"});
   a.Number("max_turn_rad_s", max_turn_rad_s, {"rad/s", 0.05, 2, "fastest turn on any path"});
   a.Number("braking_m_s2", braking_m_s2, {"m/s^2", 0.05, 3, "before corners and the last point"});
 }
@@ -102,19 +102,19 @@ double PathShape::SpeedAt(double s) const {
   double squared = 2 * braking_m_s2_ * std::max(0.0, length_ - s);
   for (const SpeedLimit& limit : limits_) {
     if (limit.end < s) continue;
-    const double way = std::max(0.0, limit.begin - s);
-    squared = std::min(squared, limit.speed * limit.speed + 2 * braking_m_s2_ * way);
+    const double travel = std::max(0.0, limit.begin - s);
+    squared = std::min(squared, limit.speed * limit.speed + 2 * braking_m_s2_ * travel);
   }
   return std::sqrt(squared);
 }
 
-double PathShape::RemainingWay(double s) const {
-  double way = 0;
+double PathShape::RemainingDistance(double s) const {
+  double travel = 0;
   for (const Segment& segment : segments_) {
     const double left = std::clamp(segment.begin + segment.length - s, 0.0, segment.length);
-    way += left * segment.direction.norm();
+    travel += left * segment.direction.norm();
   }
-  return way;
+  return travel;
 }
 
 double PathShape::Project(const Pose2& pose, double guess) const {
@@ -135,9 +135,9 @@ double PathShape::Project(const Pose2& pose, double guess) const {
 }
 
 PathShape::Point PathShape::OnSegment(const Segment& segment, double s) const {
-  const double way = s - segment.begin;
-  const Eigen::Vector2d p = segment.from + segment.direction * way;
-  return {{p.x(), p.y(), WrapAngle(segment.yaw + segment.turn * way)}, segment.direction, segment.turn};
+  const double travel = s - segment.begin;
+  const Eigen::Vector2d p = segment.from + segment.direction * travel;
+  return {{p.x(), p.y(), WrapAngle(segment.yaw + segment.turn * travel)}, segment.direction, segment.turn};
 }
 
 PathShape::Point PathShape::OnBlend(const Segment& before, const Segment& after, double s) const {

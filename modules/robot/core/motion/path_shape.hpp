@@ -28,10 +28,11 @@ struct PathShapeConfig {
   void Describe(Archive& a);
 };
 
-/// A path as a curve over its way s [m]: linear segments joined by parabolic blends (Taylor, "Planning and
-/// execution of straight line manipulator trajectories", IBM J. Res. Dev. 1979), so that at constant speed
-/// the acceleration in a corner is constant, too. A turn on the spot takes way as well: kTurnLever metres per
-/// radian. Between the points the curve leaves the straight lines only at corners, by the allowed deviation.
+/// A path as a curve over its arc length s [m]: linear segments joined by parabolic blends (Taylor, "Planning
+/// and execution of straight line manipulator trajectories", IBM J. Res. Dev. 1979), so that at constant
+/// speed the acceleration in a corner is constant, too. A turn on the spot takes distance as well: kTurnLever
+/// metres per radian. Between the points the curve leaves the straight lines only at corners, by the allowed
+/// deviation.
 class PathShape {
  public:
   static constexpr double kTurnLever = 0.6;  ///< [m/rad] about the reach of the base's corners
@@ -51,8 +52,8 @@ class PathShape {
   Point At(double s) const;
   /// Fastest ds/dt at s from which every later limit, and the stop at the end, is still reached by braking.
   double SpeedAt(double s) const;
-  /// Way of the base centre from s to the end [m], turns on the spot not counted.
-  double RemainingWay(double s) const;
+  /// Distance of the base centre from s to the end [m], turns on the spot not counted.
+  double RemainingDistance(double s) const;
   /// The s near `guess` where the curve is closest to `pose`, position and heading together. Searches
   /// downhill, so a path that crosses itself is not cut short.
   double Project(const Pose2& pose, double guess) const;

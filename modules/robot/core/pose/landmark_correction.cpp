@@ -16,7 +16,7 @@ Pose2 Corrected(const Pose2& map_from_base, const LandmarkCorrection& correction
           WrapAngle(map_from_base.yaw + correction.rotation_rad)};
 }
 
-ExpectedSight ExpectSight(const Pose2& map_from_base, const Pose2& map_from_landmark) {
+ExpectedMeasurement PredictMeasurement(const Pose2& map_from_base, const Pose2& map_from_landmark) {
   const Pose2 seen = map_from_base.Inverse() * map_from_landmark;
   Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
   by_pose.topLeftCorner<2, 2>() = -map_from_base.rotation().transpose();

@@ -6,7 +6,8 @@
 
 namespace priamos::robot {
 
-/// What one sight of a landmark says about the estimate at the time of the picture (paper, section 6.2.1).
+/// What one measurement of a landmark says about the estimate at the time of the picture (paper,
+/// section 6.2.1).
 struct LandmarkCorrection {
   double rotation_rad = 0;  ///< equation 8, with its sign: to be added to the estimated heading
   Eigen::Vector2d displacement_m{0,
@@ -20,15 +21,16 @@ struct LandmarkCorrection {
 LandmarkCorrection CorrectionFrom(const Pose2& map_from_base, const Pose2& base_from_landmark,
                                   const Pose2& map_from_landmark);
 
-/// The pose after the correction, as if the sight were exact: map_from_landmark * base_from_landmark^-1.
+/// The pose after the correction, as if the measurement were exact: map_from_landmark *
+/// base_from_landmark^-1.
 Pose2 Corrected(const Pose2& map_from_base, const LandmarkCorrection& correction);
 
 /// Where a landmark must appear in the base frame when the base is at `map_from_base`, as (x, y, yaw), and
 /// the derivative of that with respect to (x, y, yaw) of the base.
-struct ExpectedSight {
+struct ExpectedMeasurement {
   Pose2 base_from_landmark;
   Eigen::Matrix3d by_pose;
 };
-ExpectedSight ExpectSight(const Pose2& map_from_base, const Pose2& map_from_landmark);
+ExpectedMeasurement PredictMeasurement(const Pose2& map_from_base, const Pose2& map_from_landmark);
 
 }  // namespace priamos::robot

@@ -83,7 +83,7 @@ FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
   if (const auto refused = RefuseByForm(fix)) return *refused;
   const std::size_t index = EntryAt(fix.exposure);
   Entry& entry = history_[index];
-  const SightUpdate update = UpdatedBySight(entry.state, SightOf(fix));
+  const MeasurementUpdate update = Updated(entry.state, MeasurementOf(fix));
 
   FixResult result;
   result.distance = update.distance;
@@ -128,7 +128,8 @@ std::optional<FixResult> PoseEstimator::RefuseByForm(const LandmarkFix& fix) con
   };
   if (!IsFinite(fix.base_from_landmark) || !IsFinite(fix.map_from_landmark) || !fix.covariance.allFinite())
     return because(FixVerdict::kImplausible, "not a finite pose");
-  if (!(fix.own_share >= 0 && fix.own_share <= 1) || SightOf(fix).covariance.llt().info() != Eigen::Success)
+  if (!(fix.own_share >= 0 && fix.own_share <= 1) ||
+      MeasurementOf(fix).covariance.llt().info() != Eigen::Success)
     return because(FixVerdict::kImplausible, "its covariance makes no sense");
   if (history_.empty() || fix.exposure > history_.back().step.to)
     return because(FixVerdict::kTooNew, "no odometry for the time of the picture yet");
@@ -145,12 +146,13 @@ std::optional<FixResult> PoseEstimator::RefuseByForm(const LandmarkFix& fix) con
   return std::nullopt;
 }
 
-Sight PoseEstimator::SightOf(const LandmarkFix& fix) const {
+LandmarkMeasurement PoseEstimator::MeasurementOf(const LandmarkFix& fix) const {
   const Eigen::Vector3d least(config_.least_fix_sigma_m, config_.least_fix_sigma_m,
                               Radians(config_.least_fix_sigma_deg));
-  Sight sight{fix.base_from_landmark, fix.covariance, fix.map_from_landmark, fix.own_share};
-  sight.covariance.diagonal() += least.cwiseAbs2();
-  return sight;
+  LandmarkMeasurement measurement{fix.base_from_landmark, fix.covariance, fix.map_from_landmark,
+                                  fix.own_share};
+  measurement.covariance.diagonal() += least.cwiseAbs2();
+  return measurement;
 }
 
 /// The last entry at `time`, which lies within the history; a step that contains it is cut there.
@@ -173,7 +175,7 @@ void PoseEstimator::Replay(std::size_t from) {
     Entry& entry = history_[i];
     entry.state = Propagated(history_[i - 1].state, entry.step);
     if (!entry.fix) continue;
-    entry.state = UpdatedBySight(entry.state, SightOf(*entry.fix)).state;
+    entry.state = Updated(entry.state, MeasurementOf(*entry.fix)).state;
   }
 }
 

@@ -91,7 +91,7 @@ class PoseEstimator {
   };
 
   std::optional<FixResult> RefuseByForm(const LandmarkFix& fix) const;
-  Sight SightOf(const LandmarkFix& fix) const;
+  LandmarkMeasurement MeasurementOf(const LandmarkFix& fix) const;
   std::size_t EntryAt(Time time);
   void Replay(std::size_t from);
   PoseEstimate EstimateAt(const Entry& entry) const;

@@ -39,37 +39,39 @@ PoseState::Vector Minus(const PoseState::Vector& a, const PoseState::Vector& b) 
 }
 
 /// The covariance after an update; this form stays symmetric and positive whatever was rounded.
-Matrix Joseph(const Gain& gain, const Derivative& h, const Matrix& prior, const Eigen::Matrix3d& sight) {
+Matrix Joseph(const Gain& gain, const Derivative& h, const Matrix& prior,
+              const Eigen::Matrix3d& measurement) {
   const Matrix keep = Matrix::Identity() - gain * h;
-  return keep * prior * keep.transpose() + gain * sight * gain.transpose();
+  return keep * prior * keep.transpose() + gain * measurement * gain.transpose();
 }
 
-/// Estimate and sight with their repeated parts widened so far that they count as independent.
+/// Estimate and measurement with their repeated parts widened so far that they count as independent.
 struct Fusion {
   Matrix prior;
-  Eigen::Matrix3d sight;
+  Eigen::Matrix3d measurement;
 
   Gain GainFor(const Derivative& h) const {
-    const Eigen::Matrix3d spread = h * prior * h.transpose() + sight;
+    const Eigen::Matrix3d spread = h * prior * h.transpose() + measurement;
     return spread.ldlt().solve(h * prior).transpose();
   }
 };
 
-/// `weight` of the estimate, in (0, 1); the sight has the rest.
-Fusion Weighed(const PoseState& prior, const Sight& sight, double weight) {
+/// `weight` of the estimate, in (0, 1); the measurement has the rest.
+Fusion Weighed(const PoseState& prior, const LandmarkMeasurement& measurement, double weight) {
   return {prior.covariance + (1 / weight - 1) * prior.repeated,
-          (sight.own_share + (1 - sight.own_share) / (1 - weight)) * sight.covariance};
+          (measurement.own_share + (1 - measurement.own_share) / (1 - weight)) * measurement.covariance};
 }
 
 /// The weight after which the state is known best (golden section over the determinant, whose logarithm is
-/// convex): of all of it, lest what the sight does not show be widened for nothing.
-Fusion BestFusion(const PoseState& prior, const Sight& sight, const Derivative& h) {
+/// convex): of all of it, lest what the measurement does not show be widened for nothing.
+Fusion BestFusion(const PoseState& prior, const LandmarkMeasurement& measurement, const Derivative& h) {
   constexpr double kLeast = 1e-4, kGolden = 0.618, kExact = 1e-12;
   constexpr int kSteps = 20;
-  if (prior.repeated.isZero(0) || sight.own_share >= 1) return {prior.covariance, sight.covariance};
+  if (prior.repeated.isZero(0) || measurement.own_share >= 1)
+    return {prior.covariance, measurement.covariance};
   const auto spread = [&](double weight) {
-    const Fusion fusion = Weighed(prior, sight, weight);
-    const Matrix after = Joseph(fusion.GainFor(h), h, fusion.prior, fusion.sight);
+    const Fusion fusion = Weighed(prior, measurement, weight);
+    const Matrix after = Joseph(fusion.GainFor(h), h, fusion.prior, fusion.measurement);
     return (after + kExact * Matrix::Identity()).determinant();
   };
   double low = kLeast, high = 1 - kLeast;
@@ -84,7 +86,7 @@ Fusion BestFusion(const PoseState& prior, const Sight& sight, const Derivative& 
       at_b = spread(b = low + kGolden * (high - low));
     }
   }
-  return Weighed(prior, sight, (low + high) / 2);
+  return Weighed(prior, measurement, (low + high) / 2);
 }
 
 }  // namespace
@@ -94,7 +96,8 @@ void OdometryBias::Describe(Archive& a) {
   a.Number("sideways", sideways, {"-", 0, 0.2, "sigma of the scale of sideways motion"});
   a.Number("yaw", yaw, {"-", 0, 0.2, "sigma of the scale of turning"});
   a.Number("yaw_rad_per_m", yaw_rad_per_m, {"rad/m", 0, 0.2, "sigma of the turn per metre forward"});
-  a.Number("drift_m_per_m", drift_m_per_m, {"m/m", 0, 0.2, "sigma of the sideways way per metre forward"});
+  a.Number("drift_m_per_m", drift_m_per_m,
+           {"m/m", 0, 0.2, "sigma of the sideways distance per metre forward"});
 }
 
 Twist2 Unbiased(const PoseState& state, const Twist2& twist) {
@@ -127,36 +130,39 @@ PoseState Propagated(const PoseState& state, const OdometryStep& step) {
   return next;
 }
 
-SightUpdate UpdatedBySight(const PoseState& prior, const Sight& sight) {
+MeasurementUpdate Updated(const PoseState& prior, const LandmarkMeasurement& measurement) {
   constexpr int kIterations = 6;
-  const Pose2 start = Corrected(
-      prior.pose(), CorrectionFrom(prior.pose(), sight.base_from_landmark, sight.map_from_landmark));
+  const Pose2 start = Corrected(prior.pose(), CorrectionFrom(prior.pose(), measurement.base_from_landmark,
+                                                             measurement.map_from_landmark));
   Derivative h = Derivative::Zero();
-  h.leftCols<3>() = ExpectSight(start, sight.map_from_landmark).by_pose;
-  const Fusion fusion = BestFusion(prior, sight, h);
+  h.leftCols<3>() = PredictMeasurement(start, measurement.map_from_landmark).by_pose;
+  const Fusion fusion = BestFusion(prior, measurement, h);
   PoseState::Vector at = prior.mean;
   at.head<3>() << start.x, start.y, start.yaw;
 
   Gain gain;
   double squared_distance = 0;
   for (int i = 0; i < kIterations; ++i) {
-    const ExpectedSight expected = ExpectSight({at(0), at(1), at(2)}, sight.map_from_landmark);
+    const ExpectedMeasurement expected =
+        PredictMeasurement({at(0), at(1), at(2)}, measurement.map_from_landmark);
     h.leftCols<3>() = expected.by_pose;
-    const Eigen::Vector3d residual(sight.base_from_landmark.x - expected.base_from_landmark.x,
-                                   sight.base_from_landmark.y - expected.base_from_landmark.y,
-                                   WrapAngle(sight.base_from_landmark.yaw - expected.base_from_landmark.yaw));
+    const Eigen::Vector3d residual(
+        measurement.base_from_landmark.x - expected.base_from_landmark.x,
+        measurement.base_from_landmark.y - expected.base_from_landmark.y,
+        WrapAngle(measurement.base_from_landmark.yaw - expected.base_from_landmark.yaw));
     const Eigen::Vector3d innovation = residual - h * Minus(prior.mean, at);
     gain = fusion.GainFor(h);
-    const Eigen::Matrix3d spread = h * prior.covariance * h.transpose() + sight.covariance;
+    const Eigen::Matrix3d spread = h * prior.covariance * h.transpose() + measurement.covariance;
     squared_distance = innovation.dot(spread.ldlt().solve(innovation));
     at = prior.mean + gain * innovation;
     at(2) = WrapAngle(at(2));
   }
 
-  SightUpdate update{prior, std::sqrt(std::max(0.0, squared_distance))};
+  MeasurementUpdate update{prior, std::sqrt(std::max(0.0, squared_distance))};
   update.state.mean = at;
-  const Matrix own = Joseph(gain, h, prior.covariance - prior.repeated, sight.own_share * sight.covariance);
-  update.state.covariance = Joseph(gain, h, fusion.prior, fusion.sight);
+  const Matrix own =
+      Joseph(gain, h, prior.covariance - prior.repeated, measurement.own_share * measurement.covariance);
+  update.state.covariance = Joseph(gain, h, fusion.prior, fusion.measurement);
   update.state.repeated = update.state.covariance - own;
   return update;
 }

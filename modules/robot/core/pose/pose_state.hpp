@@ -9,14 +9,14 @@
 namespace priamos::robot {
 
 /// What the odometry gets wrong always in the same way. Wheel radii, lever and roller loss do not change
-/// during a run, so treating them as noise would claim too much after a long way and too little after a
+/// during a run, so treating them as noise would claim too much after a long distance and too little after a
 /// short one: they are estimated along with the pose. Values are standard deviations before the first fix.
 struct OdometryBias {
   double forward = 0.004;         ///< scale of forward motion
   double sideways = 0.015;        ///< scale of sideways motion
   double yaw = 0.008;             ///< scale of turning
   double yaw_rad_per_m = 0.004;   ///< turn per metre forward: left and right wheels differ
-  double drift_m_per_m = 0.0025;  ///< sideways way per metre forward: front and rear wheels differ
+  double drift_m_per_m = 0.0025;  ///< sideways distance per metre forward: front and rear wheels differ
 
   void Describe(Archive& a);
 };
@@ -41,19 +41,19 @@ Twist2 Unbiased(const PoseState& state, const Twist2& twist);
 /// The state after `step`.
 PoseState Propagated(const PoseState& state, const OdometryStep& step);
 
-/// One sight of a landmark. Looks repeat the errors of its model and of the head's calibration, each time
-/// from elsewhere and with other edges: that they are correlated is known, but not how.
-struct Sight {
+/// One measurement of a landmark. Looks repeat the errors of its model and of the head's calibration, each
+/// time from elsewhere and with other edges: that they are correlated is known, but not how.
+struct LandmarkMeasurement {
   Pose2 base_from_landmark;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw); positive definite
   Pose2 map_from_landmark;
   double own_share = 1;  ///< of the covariance, what no other look repeats
 };
 
-/// Covariance-weighted update with one sight of a landmark.
-struct SightUpdate {
+/// Covariance-weighted update with one measurement of a landmark.
+struct MeasurementUpdate {
   PoseState state;
-  double distance = 0;  ///< Mahalanobis distance of the sight from the estimate, 3 degrees of freedom
+  double distance = 0;  ///< Mahalanobis distance of the measurement from the estimate, 3 degrees of freedom
 };
 
 /// Iterated Kalman update (the maximum a posteriori estimate: Bell and Cathey, "The iterated Kalman filter
@@ -61,6 +61,6 @@ struct SightUpdate {
 /// 8 and 9 give. What looks repeat is weighed by split covariance intersection (Julier and Uhlmann, "General
 /// decentralized data fusion with covariance intersection", Handbook of Multisensor Data Fusion 2001): the
 /// covariance is honest whatever the correlation, two looks that err alike tell no more than one.
-SightUpdate UpdatedBySight(const PoseState& prior, const Sight& sight);
+MeasurementUpdate Updated(const PoseState& prior, const LandmarkMeasurement& measurement);
 
 }  // namespace priamos::robot

@@ -10,7 +10,7 @@ constexpr double kTouch = 1e-3;
 constexpr double kRounding = 1e-6;
 /// Skimming along a wall must not take a thousand steps; what this jumps over, the margin covers.
 constexpr double kLeastStep = 5e-3;
-/// Closing in by less than this part of the way is sliding along, not driving into.
+/// Closing in by less than this part of the distance is sliding along, not driving into.
 constexpr double kSliding = 0.05;
 /// How far a point within the guard is probed.
 constexpr double kProbe = 0.01;
@@ -19,28 +19,28 @@ Footprint WithMargin(const Footprint& footprint, double margin_m) {
   return {footprint.length_m + 2 * margin_m, footprint.width_m + 2 * margin_m};
 }
 
-/// Way until `guard` meets `point`, at most `farthest`. The distance shrinks by at most 1 per way, so a step
-/// as long as the distance never jumps over the contact.
-double FreeWay(const Footprint& guard, const Twist2& per_metre, const Eigen::Vector2d& point,
-               double farthest) {
-  const auto distance_after = [&](double way) {
-    return guard.Distance(Integrate({}, per_metre, way).Inverse() * point);
+/// Distance until `guard` meets `point`, at most `farthest`. The distance shrinks by at most 1 per distance,
+/// so a step as long as the distance never jumps over the contact.
+double FreeDistance(const Footprint& guard, const Twist2& per_metre, const Eigen::Vector2d& point,
+                    double farthest) {
+  const auto distance_after = [&](double travel) {
+    return guard.Distance(Integrate({}, per_metre, travel).Inverse() * point);
   };
   double distance = guard.Distance(point);
   if (distance < kTouch) return distance_after(kProbe) < distance - kSliding * kProbe ? 0 : farthest;
-  double way = 0;
-  while (way < farthest) {
-    way += std::max(distance, kLeastStep);
-    if (way >= farthest) break;
-    distance = distance_after(way);
-    if (distance < kTouch) return way;
+  double travel = 0;
+  while (travel < farthest) {
+    travel += std::max(distance, kLeastStep);
+    if (travel >= farthest) break;
+    distance = distance_after(travel);
+    if (distance < kTouch) return travel;
   }
   return farthest;
 }
 
-double FreeWay(const Footprint& guard, const Twist2& per_metre, std::span<const Eigen::Vector2d> points,
-               double farthest) {
-  for (const Eigen::Vector2d& point : points) farthest = FreeWay(guard, per_metre, point, farthest);
+double FreeDistance(const Footprint& guard, const Twist2& per_metre, std::span<const Eigen::Vector2d> points,
+                    double farthest) {
+  for (const Eigen::Vector2d& point : points) farthest = FreeDistance(guard, per_metre, point, farthest);
   return farthest;
 }
 
@@ -48,24 +48,24 @@ double FreeWay(const Footprint& guard, const Twist2& per_metre, std::span<const 
 /// margin, the less counts as sliding, and nothing where half of the margin is used up: what is tolerated at
 /// every step must not add up to a contact.
 bool ClosesIn(const Footprint& guard, double margin_m, const Eigen::Vector2d& point, const Pose2& from_base,
-              double way) {
+              double travel) {
   const double distance = guard.Distance(point);
   if (distance >= kTouch) return false;
   const double left = std::clamp(1 + distance / std::max(margin_m / 2, kTouch), 0.0, 1.0);
-  return guard.Distance(from_base * point) < distance - kSliding * left * way - kRounding;
+  return guard.Distance(from_base * point) < distance - kSliding * left * travel - kRounding;
 }
 
-/// Way for which `guard` does not close in on any of the points within it, at most `farthest`. An arc closes
-/// in with the square of the way, so steps that double are fine enough; what is between two counts as not
-/// free.
-double WayKeptOff(const Footprint& guard, double margin_m, const Twist2& per_metre,
-                  std::span<const Eigen::Vector2d> points, double farthest) {
+/// Distance for which `guard` does not close in on any of the points within it, at most `farthest`. An arc
+/// closes in with the square of the distance, so steps that double are fine enough; what is between two
+/// counts as not free.
+double DistanceKeptOff(const Footprint& guard, double margin_m, const Twist2& per_metre,
+                       std::span<const Eigen::Vector2d> points, double farthest) {
   double kept_off = 0;
-  for (double way = kProbe; kept_off < farthest; way *= 2) {
-    const Pose2 from_base = Integrate({}, per_metre, way).Inverse();
+  for (double travel = kProbe; kept_off < farthest; travel *= 2) {
+    const Pose2 from_base = Integrate({}, per_metre, travel).Inverse();
     for (const Eigen::Vector2d& point : points)
-      if (ClosesIn(guard, margin_m, point, from_base, way)) return kept_off;
-    kept_off = way;
+      if (ClosesIn(guard, margin_m, point, from_base, travel)) return kept_off;
+    kept_off = travel;
   }
   return farthest;
 }
@@ -95,12 +95,12 @@ double CollisionStop::SpeedOf(const Twist2& twist) const {
 CollisionStop::Result CollisionStop::Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                                            std::span<const Eigen::Vector2d> remembered) const {
   Result result{wanted, 1, std::nullopt, std::nullopt};
-  // Way is that of the fastest point of the footprint, so that turning counts.
+  // Distance is that of the fastest point of the footprint, so that turning counts.
   const double speed = SpeedOf(wanted);
   if (speed < 1e-6) return result;
   const Twist2 per_metre{wanted.vx / speed, wanted.vy / speed, wanted.wz / speed};
-  const double free_seen = FreeWay(seen_guard_, per_metre, seen, config_.look_ahead_m);
-  const double free_memory = FreeWay(memory_guard_, per_metre, remembered, config_.look_ahead_m);
+  const double free_seen = FreeDistance(seen_guard_, per_metre, seen, config_.look_ahead_m);
+  const double free_memory = FreeDistance(memory_guard_, per_metre, remembered, config_.look_ahead_m);
   const double free = std::min(free_seen, free_memory);
   if (free >= config_.look_ahead_m) return result;
 
@@ -121,9 +121,9 @@ double CollisionStop::Scale(const Twist2& wanted, std::span<const Eigen::Vector2
   const double braking = config_.braking.Distance(speed);
   const auto allowed = [&](const Footprint& guard, double margin_m, std::span<const Eigen::Vector2d> points,
                            double gap_m) {
-    const double kept_off = WayKeptOff(guard, margin_m, per_metre, points, braking);
+    const double kept_off = DistanceKeptOff(guard, margin_m, per_metre, points, braking);
     if (kept_off <= 0) return 0.0;
-    const double enough = braking + gap_m, free = FreeWay(guard, per_metre, points, enough);
+    const double enough = braking + gap_m, free = FreeDistance(guard, per_metre, points, enough);
     return std::min(kept_off >= braking ? speed : config_.braking.SpeedWithin(kept_off),
                     free >= enough ? speed : config_.braking.SpeedWithin(free - gap_m));
   };

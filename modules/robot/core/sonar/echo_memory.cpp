@@ -112,7 +112,8 @@ std::vector<Eigen::Vector2d> EchoMemory::Bridges(const Pose2& odom_from_base) co
     if (!a || !b) continue;
     const double span = (*b - *a).norm();
     if (span > config_.bridge_m) continue;
-    for (double way = kStep; way < span; way += kStep) points.push_back(*a + (*b - *a) * (way / span));
+    for (double travel = kStep; travel < span; travel += kStep)
+      points.push_back(*a + (*b - *a) * (travel / span));
   }
   return points;
 }

@@ -13,7 +13,8 @@ void MecanumConfig::Describe(Archive& a) {
   a.Number("lever_error", lever_error, {"-", 0, 0.1, "true wheelbase + track is off by up to this part"});
   a.Number("lateral_loss", lateral_loss, {"-", 0, 0.5, "up to this part of sideways motion is lost"});
   a.Number("roller_slip", roller_slip, {"-", 0, 0.2, "standard deviation of each wheel's wandering slip"});
-  a.Number("slip_length_m", slip_length_m, {"m", 0.01, 10, "way after which a wheel's slip is forgotten"});
+  a.Number("slip_length_m", slip_length_m,
+           {"m", 0.01, 10, "distance after which a wheel's slip is forgotten"});
   a.Number("acceleration_slip_s2_m", acceleration_slip_s2_m,
            {"s^2/m", 0, 0.2, "slip per acceleration of the contact"});
 }
@@ -34,8 +35,8 @@ Twist2 MecanumBase::Step(const PerWheel& speed_rad_s, double dt_s) {
     const double acceleration = (rolled - previous_m_s_[i]) / dt_s;
     previous_m_s_[i] = rolled;
     // Ornstein-Uhlenbeck along the way, not along time: a wheel at rest keeps its contact.
-    const double way = std::min(std::abs(rolled) * dt_s / config_.slip_length_m, 1.0);
-    slip_[i] += -slip_[i] * way + config_.roller_slip * std::sqrt(2 * way) * rng_.Normal(1);
+    const double travel = std::min(std::abs(rolled) * dt_s / config_.slip_length_m, 1.0);
+    slip_[i] += -slip_[i] * travel + config_.roller_slip * std::sqrt(2 * travel) * rng_.Normal(1);
     const double driven_slip = config_.acceleration_slip_s2_m * acceleration * (rolled < 0 ? -1 : 1);
     contact_m_s[i] = rolled * (1 - slip_[i] - driven_slip);
   }

@@ -34,7 +34,7 @@ class MecanumBase {
  public:
   MecanumBase(const MecanumConfig& config, Rng rng);
 
-  /// True body velocity while the wheels turn so; slip wanders with the way that each wheel rolls.
+  /// True body velocity while the wheels turn so; slip wanders with the distance that each wheel rolls.
   Twist2 Step(const PerWheel& speed_rad_s, double dt_s);
 
   /// The part of the contact speeds that no body motion explains [m/s]: what the rollers grind.

@@ -59,11 +59,11 @@ void Axis::MoveTo(double target) {
 void Axis::Step(Duration step) {
   if (!moving_) return;
   const double dt = Seconds(step), change = config_.acceleration * dt;
-  const double way = target_ - motor_;
+  const double travel = target_ - motor_;
   // The fastest speed from which braking step by step still ends at the target.
   const double brakable =
-      std::sqrt(change * change / 4 + 2 * config_.acceleration * std::abs(way)) - change / 2;
-  const double wanted = std::copysign(std::min(config_.speed, brakable), way);
+      std::sqrt(change * change / 4 + 2 * config_.acceleration * std::abs(travel)) - change / 2;
+  const double wanted = std::copysign(std::min(config_.speed, brakable), travel);
   speed_ += std::clamp(wanted - speed_, -change, change);
   motor_ += speed_ * dt;
   if (std::abs(target_ - motor_) <= config_.step / 2 && std::abs(speed_) <= 2 * change) {

@@ -65,9 +65,9 @@ std::optional<AcousticScene::Hit> AcousticScene::Nearest(const Eigen::Vector2d& 
 }
 
 bool AcousticScene::Visible(const Eigen::Vector2d& from, const Eigen::Vector2d& point) const {
-  const Eigen::Vector2d way = point - from;
-  const double distance = way.norm();
-  return distance > kJointM && !Nearest(from, way / distance, distance - kJointM);
+  const Eigen::Vector2d delta = point - from;
+  const double distance = delta.norm();
+  return distance > kJointM && !Nearest(from, delta / distance, distance - kJointM);
 }
 
 }  // namespace priamos::world

@@ -107,10 +107,10 @@ void Listener::HearReturn(const AcousticScene::Hit& mirror, const Eigen::Vector2
 
 void Listener::HearEdges() {
   for (const auto& edge : scene_.edges()) {
-    const Eigen::Vector2d way = edge.point - at_;
-    const double range_m = way.norm();
+    const Eigen::Vector2d delta = edge.point - at_;
+    const double range_m = delta.norm();
     if (range_m > Limit() || range_m < 1e-3) continue;
-    const double off_axis_deg = AngleDeg(way / range_m, axis_);
+    const double off_axis_deg = AngleDeg(delta / range_m, axis_);
     if (off_axis_deg > config_.beam_deg) continue;
     const double level_db = config_.edge_db + BeamDb(config_, off_axis_deg) + WayDb(config_, range_m, 30);
     if (level_db >= threshold_db_ && scene_.Visible(at_, edge.point)) Hear(range_m, level_db, edge.point);

@@ -36,7 +36,7 @@ inline constexpr double kSonarResolutionM = 0.01, kNoEcho = -1;
 
 /// The first echo of one ping.
 struct Echo {
-  double range_m;         ///< half the way of the sound, before noise
+  double range_m;         ///< half the distance that the sound travels, before noise
   Eigen::Vector2d point;  ///< last reflector, map
 };
 

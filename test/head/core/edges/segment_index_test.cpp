@@ -13,9 +13,9 @@ struct Segment {
   Eigen::Vector2d begin, end;
 
   double DistanceTo(const Eigen::Vector2d& p) const {
-    const Eigen::Vector2d way = end - begin;
-    const double f = std::clamp(way.dot(p - begin) / std::max(way.squaredNorm(), 1e-9), 0.0, 1.0);
-    return (begin + f * way - p).norm();
+    const Eigen::Vector2d delta = end - begin;
+    const double f = std::clamp(delta.dot(p - begin) / std::max(delta.squaredNorm(), 1e-9), 0.0, 1.0);
+    return (begin + f * delta - p).norm();
   }
 };
 
@@ -49,14 +49,14 @@ TEST_F(SegmentIndexTest, MissesNothingNearAPoint) {
 
 TEST_F(SegmentIndexTest, MissesNothingAlongASegment) {
   for (int k = 0; k < 50; ++k) {
-    const Segment& way = segments_[k];
+    const Segment& delta = segments_[k];
     std::vector<int> found;
-    dut_.Along(way.begin, way.end, 10, found);
+    dut_.Along(delta.begin, delta.end, 10, found);
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
     for (int i = 0; i < 200; ++i) {
       bool near = false;
       for (double f = 0; f <= 1; f += 0.01)
-        near = near || segments_[i].DistanceTo(way.begin + f * (way.end - way.begin)) <= 10;
+        near = near || segments_[i].DistanceTo(delta.begin + f * (delta.end - delta.begin)) <= 10;
       if (near) {
         EXPECT_TRUE(std::binary_search(found.begin(), found.end(), i));
       }

@@ -69,9 +69,9 @@ RC_GTEST_PROP(DoorMission, LooksWhileDrivingAtAGoodDistanceFromAnyStart, (const 
   s.Start();
   s.robot.RunFor(90);
   RC_ASSERT(s.dut.state().phase == Phase::kDone);
-  RC_ASSERT(s.robot.look_way_m.size() >= 2u);
-  for (int i = 0; i < 2; ++i) RC_ASSERT(s.robot.look_way_m[i] > 1.7 && s.robot.look_way_m[i] < 3.6);
-  RC_ASSERT(s.robot.look_way_m.back() > 1.0);
+  RC_ASSERT(s.robot.look_distance_m.size() >= 2u);
+  for (int i = 0; i < 2; ++i) RC_ASSERT(s.robot.look_distance_m[i] > 1.7 && s.robot.look_distance_m[i] < 3.6);
+  RC_ASSERT(s.robot.look_distance_m.back() > 1.0);
   for (const double speed_m_s : s.robot.look_speed_m_s) RC_ASSERT(speed_m_s > 0.1);
   // Footprint front and the 20 cm that the pose may be wrong: never nearer than half a metre to the wall.
   RC_ASSERT(s.robot.nearest_before_fix_m > 0.475 + 0.085 + 0.4);
@@ -205,7 +205,7 @@ TEST(DoorMission, LooksAgainFromNearerInTurnUntilTheDriftOfTheRestFits) {
   ASSERT_GT(s.robot.looks.size(), 2u);
   for (std::size_t i = 1; i < s.robot.looks.size(); ++i) {
     EXPECT_NE(s.robot.looks[i].side, s.robot.looks[i - 1].side);
-    EXPECT_LT(s.robot.look_way_m[i], s.robot.look_way_m[i - 1]);
+    EXPECT_LT(s.robot.look_distance_m[i], s.robot.look_distance_m[i - 1]);
   }
   EXPECT_GT(s.robot.speed_m_s(), 0.2);
 }
@@ -219,7 +219,7 @@ TEST(DoorMission, LooksGoOnWhilePassingUntilTheJambsLeaveThePicture) {
   s.robot.RunFor(60);
   EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
   EXPECT_GT(s.robot.looks.size(), before);
-  EXPECT_GT(s.robot.look_way_m.back(), 1.2);
+  EXPECT_GT(s.robot.look_distance_m.back(), 1.2);
 }
 
 TEST(DoorMission, DoesNotPlanWithAPoseFromBeforeTheCorrection) {

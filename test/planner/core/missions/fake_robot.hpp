@@ -54,10 +54,10 @@ class FakeRobot {
 
   int models_received = 0;
   std::vector<PathOrder> paths;
-  std::vector<LookOrder> looks;        ///< in the order they were asked
-  std::vector<double> look_way_m;      ///< true way to the door at each exposure
-  std::vector<double> look_speed_m_s;  ///< speed at each exposure
-  double nearest_before_fix_m = 100;   ///< smallest true way to the door before both fixes
+  std::vector<LookOrder> looks;         ///< in the order they were asked
+  std::vector<double> look_distance_m;  ///< true distance to the door at each exposure
+  std::vector<double> look_speed_m_s;   ///< speed at each exposure
+  double nearest_before_fix_m = 100;    ///< smallest true distance to the door before both fixes
 
  private:
   static constexpr Duration kStep = std::chrono::milliseconds(50);
@@ -119,7 +119,7 @@ class FakeRobot {
     looks_.pop_front();
     const LookResult result = answer(look, static_cast<int>(looks.size()));
     looks.push_back(look);
-    look_way_m.push_back(6.0 - truth_.x);
+    look_distance_m.push_back(6.0 - truth_.x);
     look_speed_m_s.push_back(speed_m_s());
     if (result.ok && ++good_looks_ == 1) error = {error.x / 4, error.y / 4, error.yaw / 4};
     if (result.ok && good_looks_ >= 2) {

@@ -29,7 +29,7 @@ struct DoorRun {
   bool arrived = false;
 };
 
-/// A sight of the door from `truth` with the accuracy that the paper reports.
+/// A measurement of the door from `truth` with the accuracy that the paper reports.
 LandmarkFix NoisyFix(Time exposure, int id, const Pose2& truth, Rng& rng) {
   const Eigen::Vector3d sigma(0.015, 0.006, Radians(0.25));
   const Pose2 door{kDoorX, 0, 0};

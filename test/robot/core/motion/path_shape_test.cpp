@@ -92,7 +92,7 @@ TEST(PathShape, ATurnOnTheSpotHasWayToo) {
   const PathShape dut({}, {}, {.id = 1, .speed_m_s = 0.4, .points = {{0, 0, 1}}});
   EXPECT_NEAR(dut.length(), PathShape::kTurnLever, 1e-9);
   EXPECT_NEAR(dut.At(dut.length() / 2).pose.yaw, 0.5, 1e-9);
-  EXPECT_EQ(dut.RemainingWay(0), 0);
+  EXPECT_EQ(dut.RemainingDistance(0), 0);
 }
 
 TEST(PathShape, HeadingTakesTheShorterTurnAcrossPi) {

@@ -42,12 +42,12 @@ TEST(LandmarkCorrection, EquationsEightAndNineGiveThePoseFromWhichTheLandmarkLoo
 TEST(LandmarkCorrection, TheDerivativeOfTheExpectedSightIsTheDifferenceQuotient) {
   EXPECT_TRUE(rc::check([] {
     const Pose2 pose = AnyPose(5), landmark = AnyPose(5);
-    const ExpectedSight dut = ExpectSight(pose, landmark);
+    const ExpectedMeasurement dut = PredictMeasurement(pose, landmark);
     constexpr double kStep = 1e-6;
     for (int i = 0; i < 3; ++i) {
       Pose2 moved = pose;
       (i == 0 ? moved.x : i == 1 ? moved.y : moved.yaw) += kStep;
-      const Pose2 seen = ExpectSight(moved, landmark).base_from_landmark;
+      const Pose2 seen = PredictMeasurement(moved, landmark).base_from_landmark;
       const Eigen::Vector3d quotient =
           Eigen::Vector3d(seen.x - dut.base_from_landmark.x, seen.y - dut.base_from_landmark.y,
                           WrapAngle(seen.yaw - dut.base_from_landmark.yaw)) /

@@ -24,7 +24,7 @@ double Nees(const PoseEstimate& estimate, const Pose2& truth) {
   return error.dot(estimate.covariance.inverse() * error);
 }
 
-/// A sight whose error really has the covariance it claims, with correlations.
+/// A measurement whose error really has the covariance it claims, with correlations.
 LandmarkFix NoisyFix(Time exposure, int id, const Pose2& truth, Rng& rng) {
   Eigen::Matrix3d root;
   root << 0.02, 0, 0, 0.004, 0.01, 0, 0.001, 0.004, 0.006;

@@ -44,9 +44,9 @@ double BruteForceGap(const Pose2& pose, const Body& body, const std::vector<Soli
                         Distance(footprint, solid.map_from_solid.translation())});
     const auto corners = footprint.Corners();
     for (std::size_t i = 0; i < 4; ++i) {
-      const Eigen::Vector2d way = corners[(i + 1) % 4] - corners[i];
-      const int n = static_cast<int>(way.norm() / spacing) + 1;
-      for (int k = 0; k <= n; ++k) nearest = std::min(nearest, Distance(other, corners[i] + way * k / n));
+      const Eigen::Vector2d delta = corners[(i + 1) % 4] - corners[i];
+      const int n = static_cast<int>(delta.norm() / spacing) + 1;
+      for (int k = 0; k <= n; ++k) nearest = std::min(nearest, Distance(other, corners[i] + delta * k / n));
     }
   }
   return nearest;

@@ -1,4 +1,4 @@
-#include "head/core/landmark/edge_sight.hpp"
+#include "head/core/landmark/edge_residual.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,8 +70,8 @@ std::vector<ObservedLine> ObservedLines(std::span<const EdgeObservation> observa
   return lines;
 }
 
-std::optional<EdgeSight> See(const CameraModel& camera, const Eigen::Isometry3d& base_from_landmark,
-                             const LandmarkEdge& edge, const Eigen::Vector2d& at) {
+std::optional<EdgeResidual> ResidualOf(const CameraModel& camera, const Eigen::Isometry3d& base_from_landmark,
+                                       const LandmarkEdge& edge, const Eigen::Vector2d& at) {
   const Eigen::Vector3d from = base_from_landmark * edge.from, to = base_from_landmark * edge.to;
   const auto view = Project(camera, from, to);
   if (!view) return std::nullopt;
@@ -79,15 +79,15 @@ std::optional<EdgeSight> See(const CameraModel& camera, const Eigen::Isometry3d&
   const Eigen::Vector3d point = view->PointAt(at);
   const Eigen::RowVector3d in_space = normal.transpose() * ProjectionJacobian(camera, point);
   const Eigen::Vector3d along = (to - from).normalized();
-  EdgeSight sight;
-  sight.distance_px = normal.dot(at - view->p);
-  sight.by_pose = in_space * PoseJacobian(base_from_landmark, point);
-  sight.by_base = in_space * PoseJacobian(Eigen::Isometry3d::Identity(), point);
+  EdgeResidual residual;
+  residual.distance_px = normal.dot(at - view->p);
+  residual.by_pose = in_space * PoseJacobian(base_from_landmark, point);
+  residual.by_base = in_space * PoseJacobian(Eigen::Isometry3d::Identity(), point);
   const Eigen::Vector2d arm = (at - camera.centre_px) / kCameraLeverPx;
-  sight.by_camera << normal, normal.dot(Eigen::Vector2d(-arm.y(), arm.x())), normal.dot(arm);
-  sight.across = in_space.transpose() - along * in_space.dot(along);
-  sight.lever = 2 * along.dot(point - from) / (to - from).norm() - 1;
-  return sight;
+  residual.by_camera << normal, normal.dot(Eigen::Vector2d(-arm.y(), arm.x())), normal.dot(arm);
+  residual.across = in_space.transpose() - along * in_space.dot(along);
+  residual.lever = 2 * along.dot(point - from) / (to - from).norm() - 1;
+  return residual;
 }
 
 }  // namespace priamos::head

@@ -30,7 +30,7 @@ struct ObservedLine {
 std::vector<ObservedLine> ObservedLines(std::span<const EdgeObservation> observations);
 
 /// How far a point of the image lies beside a model edge, and what would change that.
-struct EdgeSight {
+struct EdgeResidual {
   int edge = 0, camera = 0;
   double distance_px = 0;
   double variance = 0;                  ///< of the measurement [px^2]
@@ -46,7 +46,7 @@ inline constexpr double kCameraLeverPx =
 
 /// The model edge as seen at `base_from_landmark`, from the image point `at`; nullopt if it lies behind the
 /// camera or is seen end-on.
-std::optional<EdgeSight> See(const CameraModel& camera, const Eigen::Isometry3d& base_from_landmark,
-                             const LandmarkEdge& edge, const Eigen::Vector2d& at);
+std::optional<EdgeResidual> ResidualOf(const CameraModel& camera, const Eigen::Isometry3d& base_from_landmark,
+                                       const LandmarkEdge& edge, const Eigen::Vector2d& at);
 
 }  // namespace priamos::head
