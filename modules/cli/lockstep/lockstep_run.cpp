@@ -9,8 +9,7 @@
 #include "cli/lockstep/factories.hpp"
 #include "cli/report/report_files.hpp"
 #include "cli/report/story_verdict.hpp"
-#include "cli/scenario/scenario_driver.hpp"
-#include "cli/scenario/teleop_story.hpp"
+#include "cli/scenario/scenario_story.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -30,15 +29,6 @@ ConfigSource SourceOf(const LockstepRequest& request, const ScenarioProcess& pro
   return source;
 }
 
-std::unique_ptr<ScenarioStory> StoryIn(bus::Lockstep& lockstep, const Scenario& scenario, std::uint64_t seed,
-                                       const TeleopStory::Progress& progress) {
-  bus::Node &onboard = lockstep.DriverNode("onboard"), &offboard = lockstep.DriverNode("offboard");
-  if (scenario.story != "teleop")
-    return std::make_unique<ScenarioDriver>(scenario, onboard, offboard, progress);
-  return std::make_unique<TeleopStory>(scenario, seed, onboard, offboard,
-                                       lockstep.OpenSerial(std::string(kHandTty)), progress);
-}
-
 }  // namespace
 
 LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& request) {
@@ -55,7 +45,8 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
         recorder.OnMessage(bus, now, channel, bytes);
         if (request.tap) request.tap(bus, now, channel, bytes);
       });
-  if (scenario.story == "teleop") lockstep.AddSerialLine(std::string(kMouseTty), std::string(kHandTty), {});
+  const StoryKind& story_kind = FindStory(scenario.story);
+  if (story_kind.moves_mouse) lockstep.AddSerialLine(std::string(kMouseTty), std::string(kHandTty), {});
   for (const auto& process : scenario.processes)
     if (process.module != "spacenavd")
       lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
@@ -66,7 +57,9 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
     told.push_back({Seconds(now - start), text});
     if (request.progress) request.progress(Time(now - start), text);
   };
-  const auto story = StoryIn(lockstep, scenario, request.seed, progress);
+  const auto story = story_kind.make({scenario, request.seed, lockstep.DriverNode("onboard"),
+                                      lockstep.DriverNode("offboard"),
+                                      [&] { return lockstep.OpenSerial(std::string(kHandTty)); }, progress});
   const auto wall_start = std::chrono::steady_clock::now();
   lockstep.RunUntil(Time::max(), [&] {
     story->Tick(lockstep.now());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/scenario/story_registry.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -19,7 +20,37 @@ std::vector<std::string> KnownScenarios(const std::filesystem::path& folder) {
   return names;
 }
 
+std::vector<std::string> StoryNames() {
+  std::vector<std::string> names;
+  for (const StoryKind& kind : Stories()) names.emplace_back(kind.name);
+  return names;
+}
+
+/// "door: the planner passes it; teleop: an operator drives".
+std::string StoryMeanings() {
+  std::vector<std::string> meanings;
+  for (const StoryKind& kind : Stories()) meanings.push_back(fmt::format("{}: {}", kind.name, kind.summary));
+  return fmt::format("{}", fmt::join(meanings, "; "));
+}
+
 }  // namespace
+
+void Scenario::Describe(Archive& a) {
+  a.Text("title", title, "what happens, in a few words");
+  a.Choice("story", story, StoryNames(), StoryMeanings());
+  a.Integer("landmark_id", landmark_id, {"-", 0, 999, "the door of the map to pass"});
+  a.Number("time_limit_s", time_limit_s, {"s", 1, 100000, "the run is ended after that"});
+  a.Text("map", map, "ground plan drawn in the report, relative to the deployment's folder");
+  a.Section("line", line, "the serial line between the two radios");
+  a.List("process", processes, "the processes, in order of start");
+  a.List("waypoint", waypoints, "where the operator drives; none: he shakes the stick at random");
+  a.Flag("fast", fast, "the operator uses the fast range");
+  a.Number("astray_deg", astray_deg,
+           {"deg", 0, 90, "one sigma of where his hand pushes; above 0 it also rests now and then"});
+  a.Number("longest_stop_s", longest_stop_s,
+           {"s", 0, 1000, "not passed when the base stands in the passage for longer while pushed; 0: any"});
+  a.Number("shake_s", shake_s, {"s", 1, 100000, "how long he shakes it"});
+}
 
 Scenario LoadScenario(const std::string& folder, const std::string& name) {
   const auto scenarios = std::filesystem::path(folder) / "scenarios";

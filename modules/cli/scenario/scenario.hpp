@@ -42,7 +42,7 @@ struct ScenarioWaypoint {
 /// What runs, and what for: the same file for `priamos run` (real time) and `priamos lockstep`.
 struct Scenario {
   std::string title;
-  std::string story = "door";  ///< door: the planner is told to pass it; teleop: an operator drives
+  std::string story = "door";  ///< name in Stories()
   int landmark_id = 1;
   double time_limit_s = 120;
   std::string map;
@@ -54,23 +54,7 @@ struct Scenario {
   double astray_deg = 0;      ///< how far beside the way his hand pushes, one sigma; 0: it is exact
   double longest_stop_s = 0;  ///< he may be stopped in the passage for so long; 0: for any time
 
-  void Describe(Archive& a) {
-    a.Text("title", title, "what happens, in a few words");
-    a.Choice("story", story, {"door", "teleop"}, "door: the planner passes it; teleop: an operator drives");
-    a.Integer("landmark_id", landmark_id, {"-", 0, 999, "the door of the map to pass"});
-    a.Number("time_limit_s", time_limit_s, {"s", 1, 100000, "the run is ended after that"});
-    a.Text("map", map, "ground plan drawn in the report, relative to the deployment's folder");
-    a.Section("line", line, "the serial line between the two radios");
-    a.List("process", processes, "the processes, in order of start");
-    a.List("waypoint", waypoints, "where the operator drives; none: he shakes the stick at random");
-    a.Flag("fast", fast, "the operator uses the fast range");
-    a.Number("astray_deg", astray_deg,
-             {"deg", 0, 90, "one sigma of where his hand pushes; above 0 it also rests now and then"});
-    a.Number(
-        "longest_stop_s", longest_stop_s,
-        {"s", 0, 1000, "not passed when the base stands in the passage for longer while pushed; 0: any"});
-    a.Number("shake_s", shake_s, {"s", 1, 100000, "how long he shakes it"});
-  }
+  void Describe(Archive& a);
 };
 
 /// Where the scenario's serial line ends, by the radios' names for it.

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
+#include "cli/scenario/story_registry.hpp"
 #include "common/time.hpp"
 
 namespace priamos::cli {
 
 /// What a person does in a scenario, and whether it came to a good end. The same in real time and in
-/// lockstep.
+/// lockstep. A story is a class in a file of its own with the constants kName, kSummary and kMovesMouse (see
+/// StoryKind) and a constructor from a StoryStage; the file ends with `template StoryKind
+/// KindOf<MyStory>();`, and story_registry.cpp has a line for the class.
 class ScenarioStory {
  public:
   virtual ~ScenarioStory() = default;
@@ -17,8 +21,18 @@ class ScenarioStory {
   /// True when every process was alive and the person began.
   virtual bool Started() const = 0;
   virtual bool Succeeded() const = 0;
+  /// Whether Succeeded() decides if the run has passed; if not, the record of the run does.
+  virtual bool DecidesTheRun() const { return false; }
   /// The last words; what is missing while it has not begun.
   virtual std::string Reason() const = 0;
 };
+
+template <class Story>
+StoryKind KindOf() {
+  return {Story::kName, Story::kSummary, Story::kMovesMouse,
+          [](const StoryStage& stage) -> std::unique_ptr<ScenarioStory> {
+            return std::make_unique<Story>(stage);
+          }};
+}
 
 }  // namespace priamos::cli

@@ -29,21 +29,19 @@ double Deflection(double error, double full_from) {
 
 }  // namespace
 
-TeleopStory::TeleopStory(const Scenario& scenario, std::uint64_t seed, bus::Node& onboard,
-                         bus::Node& offboard, std::unique_ptr<ByteStream> line, Progress progress)
-    : scenario_(scenario),
-      progress_(std::move(progress)),
-      line_(std::move(line)),
+TeleopStory::TeleopStory(const StoryStage& stage)
+    : scenario_(stage.scenario),
+      progress_(stage.progress),
+      line_(stage.open_mouse()),
       mouse_(kFullScale),
-      rng_(Rng::Stream(seed, "operator")),
-      truth_(onboard.Subscribe(channels::kWorldTruth)),
-      onboard_health_(onboard.SubscribeAll(channels::kHealth)),
-      offboard_health_(offboard.SubscribeAll(channels::kHealth)),
-      status_(offboard.Subscribe(channels::kDriveStatus)) {}
+      rng_(Rng::Stream(stage.seed, "operator")),
+      truth_(stage.onboard.Subscribe(channels::kWorldTruth)),
+      alive_(stage.scenario, stage.onboard, stage.offboard),
+      status_(stage.offboard.Subscribe(channels::kDriveStatus)) {}
 
 void TeleopStory::Tick(Time now) {
   if (!start_) start_ = now;
-  Look();
+  alive_.Listen();
   if (!began_ && Ready()) {
     began_ = now;
     progress_(now, "all processes are alive; the operator takes the space-mouse");
@@ -52,16 +50,8 @@ void TeleopStory::Tick(Time now) {
   MoveMouse(now);
 }
 
-void TeleopStory::Look() {
-  for (const auto& m : onboard_health_.Drain()) alive_.insert("onboard " + m.process);
-  for (const auto& m : offboard_health_.Drain()) alive_.insert("offboard " + m.process);
-}
-
 bool TeleopStory::Ready() const {
-  const bool all = std::all_of(scenario_.processes.begin(), scenario_.processes.end(), [this](const auto& p) {
-    return p.module == "spacenavd" || alive_.contains(p.bus + " " + p.module);
-  });
-  return all && mouse_.awake() && truth_.get() && status_.get();
+  return alive_.Missing().empty() && mouse_.awake() && truth_.get() && status_.get();
 }
 
 void TeleopStory::Decide(Time now) {
@@ -158,5 +148,7 @@ std::string TeleopStory::Reason() const {
   return fmt::format("time limit of {:.0f} s reached on the way to waypoint {}", scenario_.time_limit_s,
                      waypoint_ + 1);
 }
+
+template StoryKind KindOf<TeleopStory>();
 
 }  // namespace priamos::cli

@@ -3,10 +3,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <string_view>
 
 #include "bus/node.hpp"
+#include "cli/scenario/alive_processes.hpp"
 #include "cli/scenario/scenario.hpp"
 #include "cli/scenario/scenario_story.hpp"
 #include "common/geometry.hpp"
@@ -18,22 +19,23 @@
 namespace priamos::cli {
 
 /// A person at the space-mouse who sees the robot (WORLD_TRUTH stands for his eyes): drives from waypoint to
-/// waypoint, or shakes the stick at random, through an emulated mouse on `line`.
+/// waypoint, or shakes the stick at random, through an emulated mouse.
 class TeleopStory : public ScenarioStory {
  public:
-  using Progress = std::function<void(Time, const std::string&)>;
+  static constexpr std::string_view kName = "teleop";
+  static constexpr std::string_view kSummary = "an operator drives";
+  static constexpr bool kMovesMouse = true;
 
-  TeleopStory(const Scenario& scenario, std::uint64_t seed, bus::Node& onboard, bus::Node& offboard,
-              std::unique_ptr<ByteStream> line, Progress progress);
+  explicit TeleopStory(const StoryStage& stage);
 
   void Tick(Time now) override;
   bool Done(Time now) const override;
   bool Started() const override { return began_.has_value(); }
   bool Succeeded() const override { return succeeded_; }
+  bool DecidesTheRun() const override { return true; }
   std::string Reason() const override;
 
  private:
-  void Look();
   bool Ready() const;
   void Decide(Time now);
   void DriveToWaypoint(Time now);
@@ -43,15 +45,14 @@ class TeleopStory : public ScenarioStory {
   void MoveMouse(Time now);
 
   Scenario scenario_;
-  Progress progress_;
+  std::function<void(Time, const std::string&)> progress_;
   std::unique_ptr<ByteStream> line_;
   teleop::EmulatedMouse mouse_;
   Rng rng_;
   teleop::Stick hand_;
   bus::Latest<world_truth_t> truth_;
-  bus::Inbox<health_t> onboard_health_, offboard_health_;
+  AliveProcesses alive_;
   bus::Latest<drive_status_t> status_;
-  std::set<std::string> alive_;
   std::string text_ = "waits for the processes";
   std::size_t waypoint_ = 0;
   std::optional<Time> start_, began_, gripped_, driving_, shake_until_, waver_until_, ended_;

@@ -16,8 +16,7 @@
 #include "cli/report/report_files.hpp"
 #include "cli/report/run_recorder.hpp"
 #include "cli/report/story_verdict.hpp"
-#include "cli/scenario/scenario_driver.hpp"
-#include "cli/scenario/teleop_story.hpp"
+#include "cli/scenario/scenario_story.hpp"
 #include "cli/supervise/deployment.hpp"
 #include "cli/supervise/link_emulate.hpp"
 #include "cli/supervise/robot_owner.hpp"
@@ -148,11 +147,10 @@ class RealTimeRun {
   }
 
   std::unique_ptr<ScenarioStory> MakeStory() {
-    const auto progress = [this](Time now, const std::string& text) { Progress(now, text); };
-    if (scenario_.story != "teleop")
-      return std::make_unique<ScenarioDriver>(scenario_, onboard_node_, offboard_node_, progress);
-    return std::make_unique<TeleopStory>(scenario_, options_.seed, onboard_node_, offboard_node_,
-                                         std::make_unique<MouseCable>(MouseTty(place_)), progress);
+    return FindStory(scenario_.story)
+        .make({scenario_, options_.seed, onboard_node_, offboard_node_,
+               [this] { return std::make_unique<MouseCable>(MouseTty(place_)); },
+               [this](Time now, const std::string& text) { Progress(now, text); }});
   }
 
   bool Loop() {

@@ -1,4 +1,4 @@
-#include "cli/scenario/scenario_driver.hpp"
+#include "cli/scenario/door_story.hpp"
 
 #include <fmt/format.h>
 
@@ -28,39 +28,23 @@ std::string LookText(const landmark_fix_t& look) {
                      100 * std::hypot(look.sigma_x_m, look.sigma_y_m), Degrees(look.sigma_yaw_rad));
 }
 
-ScenarioDriver::ScenarioDriver(const Scenario& scenario, bus::Node& onboard, bus::Node& offboard,
-                               std::function<void(Time, const std::string&)> progress)
-    : scenario_(scenario),
-      progress_(std::move(progress)),
-      onboard_health_(onboard.SubscribeAll(channels::kHealth)),
-      offboard_health_(offboard.SubscribeAll(channels::kHealth)),
-      status_(offboard.SubscribeAll(channels::kMissionStatus)),
-      looks_(offboard.SubscribeAll(channels::kLandmarkFix)),
-      order_(offboard.Advertise(channels::kMissionCommand)) {}
+DoorStory::DoorStory(const StoryStage& stage)
+    : scenario_(stage.scenario),
+      progress_(stage.progress),
+      alive_(stage.scenario, stage.onboard, stage.offboard),
+      status_(stage.offboard.SubscribeAll(channels::kMissionStatus)),
+      looks_(stage.offboard.SubscribeAll(channels::kLandmarkFix)),
+      order_(stage.offboard.Advertise(channels::kMissionCommand)) {}
 
-void ScenarioDriver::Tick(Time now) {
+void DoorStory::Tick(Time now) {
   if (!start_) start_ = now;
-  CollectHealth();
-  if (phase_ < mission_status_t::APPROACHING && Missing().empty()) GiveOrder(now);
+  alive_.Listen();
+  if (phase_ < mission_status_t::APPROACHING && alive_.Missing().empty()) GiveOrder(now);
   FollowMission(now);
   FollowLooks(now);
 }
 
-void ScenarioDriver::CollectHealth() {
-  for (const auto& m : onboard_health_.Drain()) alive_.insert("onboard " + m.process);
-  for (const auto& m : offboard_health_.Drain()) alive_.insert("offboard " + m.process);
-}
-
-std::string ScenarioDriver::Missing() const {
-  std::string missing;
-  for (const auto& p : scenario_.processes) {
-    const auto name = p.bus + " " + p.module;
-    if (!alive_.contains(name)) missing += (missing.empty() ? "" : ", ") + name;
-  }
-  return missing;
-}
-
-void ScenarioDriver::GiveOrder(Time now) {
+void DoorStory::GiveOrder(Time now) {
   if (ordered_ && now - *ordered_ < kOrderAgain) return;
   if (!ordered_) progress_(now, "all processes are alive; order to the planner: pass the door");
   ordered_ = now;
@@ -71,7 +55,7 @@ void ScenarioDriver::GiveOrder(Time now) {
   order_.Publish(order);
 }
 
-void ScenarioDriver::FollowMission(Time now) {
+void DoorStory::FollowMission(Time now) {
   for (const auto& status : status_.Drain()) {
     if (!ordered_ || ended_ || status.phase == phase_) continue;
     phase_ = status.phase;
@@ -83,19 +67,21 @@ void ScenarioDriver::FollowMission(Time now) {
   }
 }
 
-void ScenarioDriver::FollowLooks(Time now) {
+void DoorStory::FollowLooks(Time now) {
   for (const auto& look : looks_.Drain()) progress_(now, LookText(look));
 }
 
-bool ScenarioDriver::Done(Time now) const {
+bool DoorStory::Done(Time now) const {
   if (ended_) return now - *ended_ >= kAftermath;
   return start_ && Seconds(now - *start_) >= scenario_.time_limit_s;
 }
 
-std::string ScenarioDriver::Reason() const {
-  if (!ordered_) return fmt::format("no sign of life from {}", Missing());
+std::string DoorStory::Reason() const {
+  if (!ordered_) return fmt::format("no sign of life from {}", alive_.Missing());
   if (!ended_) return fmt::format("time limit of {:.0f} s reached while: {}", scenario_.time_limit_s, text_);
   return text_;
 }
+
+template StoryKind KindOf<DoorStory>();
 
 }  // namespace priamos::cli

@@ -2,10 +2,11 @@
 
 #include <functional>
 #include <optional>
-#include <set>
 #include <string>
+#include <string_view>
 
 #include "bus/node.hpp"
+#include "cli/scenario/alive_processes.hpp"
 #include "cli/scenario/scenario.hpp"
 #include "cli/scenario/scenario_story.hpp"
 #include "lcmtypes/channels.hpp"
@@ -16,12 +17,15 @@ namespace priamos::cli {
 std::string LookText(const landmark_fix_t& look);
 
 /// The person at the workstation: waits until every process is alive, gives the order, and watches the
-/// mission status on the offboard bus. The same in real time and in lockstep.
-class ScenarioDriver : public ScenarioStory {
+/// mission status on the offboard bus.
+class DoorStory : public ScenarioStory {
  public:
-  /// `progress` gets one line per phase and per look.
-  ScenarioDriver(const Scenario& scenario, bus::Node& onboard, bus::Node& offboard,
-                 std::function<void(Time, const std::string&)> progress);
+  static constexpr std::string_view kName = "door";
+  static constexpr std::string_view kSummary = "the planner passes it";
+  static constexpr bool kMovesMouse = false;
+
+  /// The stage's `progress` gets one line per phase and per look.
+  explicit DoorStory(const StoryStage& stage);
 
   void Tick(Time now) override;
   bool Done(Time now) const override;
@@ -32,19 +36,16 @@ class ScenarioDriver : public ScenarioStory {
   std::string Reason() const override;
 
  private:
-  void CollectHealth();
   void GiveOrder(Time now);
   void FollowMission(Time now);
   void FollowLooks(Time now);
-  std::string Missing() const;
 
   Scenario scenario_;
   std::function<void(Time, const std::string&)> progress_;
-  bus::Inbox<health_t> onboard_health_, offboard_health_;
+  AliveProcesses alive_;
   bus::Inbox<mission_status_t> status_;
   bus::Inbox<landmark_fix_t> looks_;
   bus::Publisher<mission_command_t> order_;
-  std::set<std::string> alive_;
   std::optional<Time> start_, ordered_, ended_;
   int phase_ = -1;
   bool succeeded_ = false;
