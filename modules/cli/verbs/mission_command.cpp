@@ -5,13 +5,13 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "bus/own_types.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/scenario/door_name.hpp"
 #include "cli/scenario/mission_order.hpp"
-#include "cli/terminal/bus_watch.hpp"
-#include "cli/terminal/silence_watch.hpp"
+#include "cli/terminal/bus_session.hpp"
 #include "cli/verbs/commands.hpp"
+#include "lcmtypes/channels.hpp"
 #include "planner/planner_config.hpp"
 
 namespace priamos::cli {
@@ -33,27 +33,21 @@ std::ostream& People(const MissionOptions& options) {
 
 /// Gives the order and follows it as long as it is open. Returns the exit code.
 int Give(const MissionOptions& options, const mission_command_t& command, const char* verb) {
-  const bus::Schema schema = bus::OwnTypes();
-  const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus.bus.Url());
-  bus::Node node(bus, schema, clock);
-  auto statuses = node.SubscribeAll(channels::kMissionStatus);
-  auto orders = node.Advertise(channels::kMissionCommand);
-  SilenceWatch silence(fmt::format("priamos mission {}", verb), options.bus,
-                       std::string(channels::kMissionStatus.name), clock.Now());
+  BusSession session(fmt::format("priamos mission {}", verb), options.bus, channels::kMissionStatus.name);
+  auto statuses = session.node().SubscribeAll(channels::kMissionStatus);
+  auto orders = session.node().Advertise(channels::kMissionCommand);
   MissionOrder order(command, options.wait);
   const auto step = [&] {
-    const Time now = clock.Now();
+    const Time now = session.now();
     for (const mission_status_t& status : statuses.Drain()) {
-      silence.Heard();
+      session.Heard();
       const auto text = order.Hear(status, now);
       if (text && order.outcome() == OrderOutcome::kOpen) People(options) << *text << std::endl;
     }
     if (const auto message = order.Step(now)) orders.Publish(*message);
-    silence.Step(now);
   };
-  Watch(
-      bus, clock, Time::max(), [&] { return order.outcome() != OrderOutcome::kOpen; }, step);
+  session.Watch(
+      Time::max(), [&] { return order.outcome() != OrderOutcome::kOpen; }, step);
   const OrderOutcome outcome = order.outcome();
   if (options.json)
     std::cout
@@ -100,29 +94,23 @@ void Print(const MissionOptions& options, const mission_status_t& status) {
 /// What the planner says; with --wait until the mission is over. 1 when it failed or nobody answers.
 int Status(const MissionOptions& options) {
   constexpr Duration kSpeaksWithin = std::chrono::seconds(2);
-  const bus::Schema schema = bus::OwnTypes();
-  const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus.bus.Url());
-  bus::Node node(bus, schema, clock);
-  auto statuses = node.SubscribeAll(channels::kMissionStatus);
-  SilenceWatch silence("priamos mission status", options.bus, std::string(channels::kMissionStatus.name),
-                       clock.Now());
+  BusSession session("priamos mission status", options.bus, channels::kMissionStatus.name);
+  auto statuses = session.node().SubscribeAll(channels::kMissionStatus);
   std::optional<mission_status_t> last;
-  Time heard = clock.Now();
+  Time heard = session.now();
   const auto step = [&] {
     for (const mission_status_t& status : statuses.Drain()) {
-      silence.Heard();
-      heard = clock.Now();
+      session.Heard();
+      heard = session.now();
       if (!last || last->text != status.text || last->phase != status.phase) Print(options, status);
       last = status;
     }
-    silence.Step(clock.Now());
   };
   const auto over = [&] {
-    if (clock.Now() - heard > kSpeaksWithin) return true;
+    if (session.now() - heard > kSpeaksWithin) return true;
     return last && (!options.wait || IsOver(*last));
   };
-  Watch(bus, clock, Time::max(), over, step);
+  session.Watch(Time::max(), over, step);
   if (!last && options.json) std::cout << nlohmann::ordered_json{{"phase", nullptr}}.dump() << "\n";
   const bool good = last && last->phase != mission_status_t::FAILED && (!options.wait || IsOver(*last));
   return good ? 0 : kNotDone;
@@ -133,8 +121,7 @@ using Run = int (*)(const MissionOptions&);
 /// The options that every mission has.
 void Complete(CLI::App& verb, const std::shared_ptr<MissionOptions>& options, Run run, int& exit_code) {
   AddBusOption(verb, options->bus);
-  verb.add_flag("--json", options->json, "the outcome machine-readable");
-  verb.callback([options, run, &exit_code] { exit_code = run(*options); });
+  CompleteVerb(verb, options, run, exit_code, "the outcome machine-readable");
 }
 
 }  // namespace

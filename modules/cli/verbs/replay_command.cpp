@@ -10,6 +10,7 @@
 #include "bus/replay.hpp"
 #include "cli/lockstep/factories.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
@@ -109,8 +110,7 @@ void AddReplayCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--config", options->config, "its configuration; none: <deployment>/<module>.toml");
   AddDeploymentOption(*verb, options->deployment);
   verb->add_option("--set", options->set, "KEY=VALUE on top of the file");
-  verb->add_flag("--json", options->json, "machine-readable");
-  verb->callback([options, &exit_code] { exit_code = Verify(*options); });
+  CompleteVerb(*verb, options, Verify, exit_code);
 }
 
 }  // namespace priamos::cli

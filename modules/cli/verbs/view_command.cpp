@@ -3,14 +3,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bus/own_types.hpp"
 #include "bus/schema/json.hpp"
 #include "cli/options/bus_options.hpp"
+#include "cli/terminal/bus_session.hpp"
 #include "cli/terminal/bus_watch.hpp"
-#include "cli/terminal/silence_watch.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "cli/terminal/view_screen.hpp"
 #include "cli/verbs/commands.hpp"
+#include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -42,41 +42,36 @@ class JsonLines {
 
 /// 0; 1 when nothing was seen in the time given.
 int RunView(const ViewOptions& options) {
-  const bus::Schema schema = bus::OwnTypes();
-  const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus.bus.Url());
-  bus::Node node(bus, schema, clock);
-  auto views = node.SubscribeAll(channels::kLandmarkView);
-  auto fixes = node.SubscribeAll(channels::kLandmarkFix);
-  auto lines = node.SubscribeAll(channels::kObstacleLine);
+  BusSession session("priamos view", options.bus, channels::kLandmarkView.name);
+  auto views = session.node().SubscribeAll(channels::kLandmarkView);
+  auto fixes = session.node().SubscribeAll(channels::kLandmarkFix);
+  auto lines = session.node().SubscribeAll(channels::kObstacleLine);
   LinkListener listener(
-      node, {std::string(channels::kLandmarkView.name), std::string(channels::kObstacleLine.name)});
+      session.node(), {std::string(channels::kLandmarkView.name), std::string(channels::kObstacleLine.name)});
   ViewScreen screen;
-  const JsonLines lines_of_json(schema);
-  SilenceWatch silence("priamos view", options.bus, std::string(channels::kLandmarkView.name), clock.Now());
+  const JsonLines lines_of_json(session.schema());
   const auto take = [&](const auto& channel, auto& inbox) {
     for (const auto& message : inbox.Drain()) {
-      silence.Heard();
+      session.Heard();
       screen.Add(message);
       if (options.json) lines_of_json.Print(channel, message);
     }
   };
   TerminalScreen terminal;
-  const Time until = options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max();
-  Watch(
-      bus, clock, until, [&] { return options.once && !screen.empty(); },
+  const Time until = options.seconds > 0 ? session.now() + FromSeconds(options.seconds) : Time::max();
+  session.Watch(
+      until, [&] { return options.once && !screen.empty(); },
       [&] {
-        listener.Step(clock.Now());
-        silence.Step(clock.Now());
+        listener.Step(session.now());
         take(channels::kLandmarkFix, fixes);
         take(channels::kLandmarkView, views);
         take(channels::kObstacleLine, lines);
-        if (options.once || options.json || screen.empty() || !terminal.Due(clock.Now(), kPeriod)) return;
+        if (options.once || options.json || screen.empty() || !terminal.Due(session.now(), kPeriod)) return;
         terminal.Show(
-            screen.Render(clock.Now(), terminal.size().value_or(ScreenSize{}), terminal.is_terminal()));
+            screen.Render(session.now(), terminal.size().value_or(ScreenSize{}), terminal.is_terminal()));
       });
   if (options.once && !options.json)
-    std::cout << screen.Render(clock.Now(), terminal.size().value_or(ScreenSize{}), terminal.is_terminal());
+    std::cout << screen.Render(session.now(), terminal.size().value_or(ScreenSize{}), terminal.is_terminal());
   return screen.empty() ? 1 : 0;
 }
 

@@ -5,11 +5,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bus/own_types.hpp"
-#include "cli/terminal/bus_watch.hpp"
-#include "cli/terminal/silence_watch.hpp"
+#include "cli/terminal/bus_session.hpp"
 #include "cli/terminal/where_text.hpp"
 #include "cli/verbs/commands.hpp"
+#include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -30,32 +29,27 @@ void Print(const WhereOptions& options, const Whereabouts& where, Time now) {
 }
 
 int Run(const WhereOptions& options) {
-  const bus::Schema schema = bus::OwnTypes();
-  const bus::MonotonicClock clock;
-  bus::LcmBus bus(options.bus.bus.Url());
-  bus::Node node(bus, schema, clock);
-  auto poses = node.Subscribe(channels::kPose);
-  auto drive = node.Subscribe(channels::kDriveStatus);
-  auto mission = node.Subscribe(channels::kMissionStatus);
-  SilenceWatch silence("priamos where", options.bus, std::string(channels::kPose.name), clock.Now());
+  BusSession session("priamos where", options.bus, channels::kPose.name);
+  auto poses = session.node().Subscribe(channels::kPose);
+  auto drive = session.node().Subscribe(channels::kDriveStatus);
+  auto mission = session.node().Subscribe(channels::kMissionStatus);
   Whereabouts where;
   const auto take = [&] {
     if (const auto pose = poses.Take()) where.pose = *pose;
     if (const auto status = drive.Take()) where.drive = *status;
     if (const auto status = mission.Take()) where.mission = *status;
-    if (where.pose) silence.Heard();
-    silence.Step(clock.Now());
+    if (where.pose) session.Heard();
   };
-  const Time until = options.watch ? Time::max() : clock.Now() + kListen;
-  Time next = clock.Now() + kShow;
+  const Time until = options.watch ? Time::max() : session.now() + kListen;
+  Time next = session.now() + kShow;
   const auto complete = [&] { return !options.watch && where.pose && where.drive && where.mission; };
-  Watch(bus, clock, until, complete, [&] {
+  session.Watch(until, complete, [&] {
     take();
-    if (!options.watch || clock.Now() < next) return;
+    if (!options.watch || session.now() < next) return;
     next += kShow;
-    Print(options, where, clock.Now());
+    Print(options, where, session.now());
   });
-  if (!options.watch) Print(options, where, clock.Now());
+  if (!options.watch) Print(options, where, session.now());
   return where.pose ? 0 : kNoPose;
 }
 

@@ -49,6 +49,12 @@ struct Talk {
   int steps = 0, orders = 0;
 };
 
+/// An order with this outcome, the last words of which are `text`.
+auto Ended(OrderOutcome outcome, const testing::Matcher<std::string>& text) {
+  return testing::AllOf(testing::Property("outcome", &MissionOrder::outcome, outcome),
+                        testing::Property("text", &MissionOrder::text, text));
+}
+
 const Status kIdle = Says(Status::WAITING, "no order yet");
 
 TEST(MissionOrder, IsAcceptedWhenTheRobotIsUnderWay) {
@@ -59,8 +65,7 @@ TEST(MissionOrder, IsAcceptedWhenTheRobotIsUnderWay) {
               testing::ElementsAre("waiting for the robot's pose"));
   EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen) << "it may be refused yet";
   talk.For(0.6, Says(Status::APPROACHING, "approaching"));
-  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kAccepted);
-  EXPECT_EQ(talk.dut.text(), "approaching");
+  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kAccepted, "approaching"));
   EXPECT_EQ(talk.orders, 1);
 }
 
@@ -74,8 +79,7 @@ TEST(MissionOrder, IsFollowedToItsEnd) {
   done.For(0.6, Says(Status::DONE, "through the door"));
   EXPECT_EQ(done.dut.outcome(), OrderOutcome::kDone);
   failed.For(0.6, Says(Status::FAILED, "blocked"));
-  EXPECT_EQ(failed.dut.outcome(), OrderOutcome::kFailed);
-  EXPECT_EQ(failed.dut.text(), "blocked");
+  EXPECT_THAT(failed.dut, Ended(OrderOutcome::kFailed, "blocked"));
 }
 
 TEST(MissionOrder, AFailureOfYesterdayIsNotTheAnswerButItsRepetitionIs) {
@@ -83,31 +87,27 @@ TEST(MissionOrder, AFailureOfYesterdayIsNotTheAnswerButItsRepetitionIs) {
   talk.For(1, Says(Status::FAILED, "the map has no door 9"));
   EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
   talk.For(1.5, Says(Status::FAILED, "the map has no door 9"));
-  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kFailed);
-  EXPECT_EQ(talk.dut.text(), "the map has no door 9");
+  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kFailed, "the map has no door 9"));
 }
 
 TEST(MissionOrder, IsNotGivenWhileAnotherMissionIsUnderWay) {
   Talk talk;
   talk.For(0.6, Says(Status::PASSING, "passing"));
-  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kRefused);
-  EXPECT_THAT(talk.dut.text(), HasSubstr("passing"));
+  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kRefused, HasSubstr("passing")));
   EXPECT_EQ(talk.orders, 0);
 }
 
 TEST(MissionOrder, IsRepeatedAndGivenUpWhenThePlannerDoesNotTakeIt) {
   Talk talk;
   talk.For(8, kIdle);
-  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kNoAnswer);
-  EXPECT_THAT(talk.dut.text(), HasSubstr("no order yet"));
+  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kNoAnswer, HasSubstr("no order yet")));
   EXPECT_GE(talk.orders, 3);
 }
 
 TEST(MissionOrder, WithoutAPlannerItIsNotGiven) {
   Talk talk;
   talk.Silence(3);
-  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kNoAnswer);
-  EXPECT_EQ(talk.dut.text(), "no planner is heard");
+  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kNoAnswer, "no planner is heard"));
   EXPECT_EQ(talk.orders, 0);
 }
 
@@ -116,8 +116,7 @@ TEST(MissionOrder, APlannerThatFallsSilentIsTold) {
   talk.For(0.6, kIdle);
   talk.For(1, Says(Status::APPROACHING, "approaching"));
   talk.Silence(3);
-  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kNoAnswer);
-  EXPECT_EQ(talk.dut.text(), "the planner fell silent");
+  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kNoAnswer, "the planner fell silent"));
 }
 
 TEST(MissionOrder, AnAbortIsDoneWhenTheMissionHasFailed) {
@@ -125,15 +124,13 @@ TEST(MissionOrder, AnAbortIsDoneWhenTheMissionHasFailed) {
   talk.For(0.6, Says(Status::PASSING, "passing"));
   EXPECT_EQ(talk.orders, 1);
   talk.For(0.6, Says(Status::FAILED, "aborted by the operator"));
-  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kDone);
-  EXPECT_EQ(talk.dut.text(), "aborted by the operator");
+  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kDone, "aborted by the operator"));
 }
 
 TEST(MissionOrder, AnAbortOfNothingIsToldSo) {
   Talk talk(mission_command_t::ABORT);
   talk.For(2, Says(Status::DONE, "through the door"));
-  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kDone);
-  EXPECT_EQ(talk.dut.text(), "no mission is under way");
+  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kDone, "no mission is under way"));
 }
 
 TEST(DoorNamed, KnowsNamesAndNumbersAndTheNearestName) {
