@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "test/system/installation.hpp"
+#include "test/system/installed_test.hpp"
 
 namespace priamos {
 namespace {
@@ -16,12 +16,8 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-class InstallTest : public testing::Test {
+class InstallTest : public InstalledTest {
  protected:
-  void SetUp() override {
-    const auto answer = installed_.Install();
-    ASSERT_EQ(answer.exit_code, 0) << answer.text;
-  }
   fs::path At(const std::string& file) const { return installed_.prefix() / file; }
   std::string TextAt(const std::string& file) const { return Installation::TextOf(At(file)); }
   std::vector<std::string> Files() const {
@@ -30,7 +26,6 @@ class InstallTest : public testing::Test {
       if (!entry.is_directory()) files.push_back(fs::relative(entry.path(), installed_.prefix()).string());
     return files;
   }
-  const Installation installed_;
 };
 
 /// That nothing is written elsewhere is seen by everything else being read-only.

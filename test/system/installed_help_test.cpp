@@ -2,22 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include "test/system/installation.hpp"
+#include "test/system/installed_test.hpp"
 
 namespace priamos {
 namespace {
 
 using testing::HasSubstr;
-namespace fs = std::filesystem;
 
-class InstalledHelpTest : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto answer = installed_.Install();
-    ASSERT_EQ(answer.exit_code, 0) << answer.text;
-  }
-  const Installation installed_;
-};
+class InstalledHelpTest : public InstalledTest {};
 
 TEST_F(InstalledHelpTest, BashCompletes) {
   const auto answer = installed_.Run(R"(

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "test/system/installation.hpp"
+#include "test/system/installed_test.hpp"
 
 namespace priamos {
 namespace {
@@ -11,14 +11,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class InstalledProgramsTest : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto answer = installed_.Install();
-    ASSERT_EQ(answer.exit_code, 0) << answer.text;
-  }
-  const Installation installed_;
-};
+class InstalledProgramsTest : public InstalledTest {};
 
 TEST_F(InstalledProgramsTest, ARunInRealTimePassesTheDoor) {
   const auto answer = installed_.Run("priamos run --scenario door --seed 1", 120);

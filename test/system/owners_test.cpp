@@ -6,8 +6,7 @@
 #include <regex>
 
 #include "bus/wire/bus_address.hpp"
-#include "test/support/temporary_folder.hpp"
-#include "test/system/private_network.hpp"
+#include "test/system/robot_shell.hpp"
 
 namespace priamos {
 namespace {
@@ -19,7 +18,6 @@ using testing::Not;
 
 const std::string kHelpers = R"sh(
 SIM=$SOURCE/config/sim
-pid_of() { grep -A3 "\"name\": \"$1\"" $LOGS/up.json | grep -o '"pid": [0-9]*' | cut -d' ' -f2; }
 # A second process of a module: what it says, and how it ended.
 second() {
   echo "first: pid $(pid_of $1-$2) on"
@@ -36,13 +34,9 @@ holds() {
 }
 )sh";
 
-class Owners : public testing::Test {
+class Owners : public RobotShell {
  protected:
-  ShellAnswer RunScript(const std::string& script, int seconds = 60) const {
-    return RunInPrivateNetwork("LOGS=" + (folder_ / "logs").string() + "\n" + kHelpers + script,
-                               folder_ / "script.sh", seconds);
-  }
-  const TemporaryFolder folder_;
+  Owners() : RobotShell(kHelpers) {}
 };
 
 int CountOf(const std::string& text, const std::string& pattern) {

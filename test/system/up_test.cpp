@@ -5,8 +5,7 @@
 #include <fstream>
 #include <regex>
 
-#include "test/support/temporary_folder.hpp"
-#include "test/system/private_network.hpp"
+#include "test/system/robot_shell.hpp"
 
 namespace priamos {
 namespace {
@@ -24,7 +23,6 @@ up() { $BIN/priamos up $SOURCE/config/sim --logs $LOGS "$@"; }
 start() { env --default-signal=INT $BIN/priamos up $SOURCE/config/sim --logs $LOGS > $1 & UP=$!; ready; }
 verb() { local v=$1; shift; $BIN/priamos $v --logs $LOGS "$@"; }
 pids() { grep -o '"pid": [1-9][0-9]*' $LOGS/up.json | cut -d' ' -f2; }
-pid_of() { grep -A3 "\"name\": \"$1\"" $LOGS/up.json | grep -o '"pid": [0-9]*' | cut -d' ' -f2; }
 running() { for p in "$@"; do grep -qs '^State:[[:space:]]*[^ZX]' /proc/$p/status && echo $p; done; }
 gone() {
   for i in $(seq 60); do [ -z "$(running "$@")" ] && break; sleep 0.05; done
@@ -36,13 +34,9 @@ ready() {
 }
 )sh";
 
-class UpTest : public testing::Test {
+class UpTest : public RobotShell {
  protected:
-  ShellAnswer RunScript(const std::string& script) const {
-    return RunInPrivateNetwork("LOGS=" + (folder_ / "logs").string() + "\n" + kHelpers + script,
-                               folder_ / "script.sh", 60);
-  }
-  const TemporaryFolder folder_;
+  UpTest() : RobotShell(kHelpers) {}
 };
 
 TEST_F(UpTest, BringsEverythingUpStartsAgainWhatDiedTellsWhyAndEndsWithoutOrphans) {
