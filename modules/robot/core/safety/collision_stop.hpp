@@ -15,7 +15,7 @@ namespace priamos::robot {
 struct CollisionStopConfig {
   double margin_m = 0.015;  ///< kept free on all sides of the footprint
   double gap_m = 0.13;      ///< where to stand before an obstacle ahead
-  BrakingLaw braking;       ///< what the base manages, and the age of an echo when the wheels obey it
+  BrakingLaw braking{};     ///< what the base manages, and the age of an echo when the wheels obey it
   double look_ahead_m = 5;
   double memory_margin_m = -0.03;  ///< instead of margin_m for remembered things, whose place is vague
   double memory_gap_m = 0.05;      ///< instead of gap_m
