@@ -132,6 +132,9 @@ std::string Expected(const CLI::Option& option) {
 
 std::string BadValue(const CLI::App& app, const CLI::Option& option) {
   const std::string got = fmt::format("{}", fmt::join(option.results(), " "));
+  if (got.empty() && option.get_type_name() == "TEXT")
+    return fmt::format("{}: expected {} ({}), got \"\"{}", FullName(app), option.get_name(),
+                       option.get_description(), Hint(app));
   return fmt::format("{}: {}: expected {}, got \"{}\"{}", FullName(app), option.get_name(), Expected(option),
                      got, NearestText(got, Members(option)));
 }
@@ -189,6 +192,10 @@ void GuardNumbers(CLI::App& app) {
 }
 
 }  // namespace
+
+CLI::Validator NotEmpty() {
+  return {[](std::string& text) { return text.empty() ? std::string("nothing") : std::string(); }, ""};
+}
 
 const CLI::App& ChosenVerb(const CLI::App& cli) {
   return *Chain(cli).back();

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bus/command_line.hpp"
 #include "bus/own_types.hpp"
 #include "bus/type_files.hpp"
 #include "common/nearest_word.hpp"
@@ -19,6 +20,10 @@ void AddBusOption(CLI::App& verb, BusOptions& options) {
 void AddTypesOption(CLI::App& verb, BusOptions& options) {
   verb.add_option("--types", options.types, "folder of .lcm files; none: PRIAMOS's own types")
       ->check(CLI::ExistingDirectory);
+}
+
+void AddChannelArgument(CLI::App& verb, std::string& channel) {
+  verb.add_option("channel", channel, "LCM channel")->required()->check(bus::NotEmpty());
 }
 
 bus::Schema LoadTypes(const BusOptions& options) {

@@ -26,6 +26,9 @@ struct BusOptions {
 void AddBusOption(CLI::App& verb, BusOptions& options);
 void AddTypesOption(CLI::App& verb, BusOptions& options);
 
+/// The channel that a verb is about, its first argument. `channel` must outlive `verb`.
+void AddChannelArgument(CLI::App& verb, std::string& channel);
+
 /// The types named by --types, or our own. Throws SchemaError.
 bus::Schema LoadTypes(const BusOptions& options);
 bus::Schema LoadTypes(const std::string& folder);
