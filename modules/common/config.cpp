@@ -109,6 +109,7 @@ class ConfigFile::Reader : public Archive {
  protected:
   bool Enter(std::string_view key, std::string_view) override {
     const auto* node = Find(key);
+    sections_.push_back(known_.back());
     if (node && !node->is_table()) Fail(*node, key, "a table");
     levels_.push_back({Prefix() + std::string(key) + ".", node ? node->as_table() : nullptr});
     return true;
@@ -117,6 +118,7 @@ class ConfigFile::Reader : public Archive {
 
   std::size_t BeginList(std::string_view key, std::size_t default_size, std::string_view) override {
     const auto* node = Find(key);
+    sections_.push_back(known_.back());
     if (!node) return default_size;
     const auto* array = node->as_array();
     if (!array || !std::all_of(array->begin(), array->end(), [](const auto& n) { return n.is_table(); }))
@@ -183,13 +185,21 @@ class ConfigFile::Reader : public Archive {
     return keys.empty() ? "" : fmt::format("; nearest: \"{}\"", fmt::join(keys, "\" or \""));
   }
 
+  /// A section that resembles none is answered for its first key, which may be right elsewhere.
+  [[noreturn]] void FailUnknown(const toml::node& node, const std::string& path) const {
+    const auto* table = node.as_table();
+    std::string hint = table ? NearestText(path, sections_) : NearestKeys(path);
+    if (table && hint.empty() && !table->empty()) {
+      const auto& [key, inner] = *table->begin();
+      FailUnknown(inner, fmt::format("{}.{}", path, key.str()));
+    }
+    throw ConfigError(fmt::format("{}: expected a known key (--print-config lists them), got this one{}",
+                                  Place(node, path), hint));
+  }
+
   void RefuseUnknown(const toml::table& table, const std::string& prefix) const {
     for (const auto& [key, node] : table) {
-      if (!asked_.contains(&node)) {
-        const std::string path = prefix + std::string(key.str());
-        throw ConfigError(fmt::format("{}: expected a known key (--print-config lists them), got this one{}",
-                                      Place(node, path), NearestKeys(path)));
-      }
+      if (!asked_.contains(&node)) FailUnknown(node, prefix + std::string(key.str()));
       if (const auto* inner = node.as_table()) RefuseUnknown(*inner, fmt::format("{}{}.", prefix, key.str()));
       if (const auto* array = node.as_array()) {
         for (std::size_t i = 0; i < array->size(); ++i)
@@ -203,7 +213,8 @@ class ConfigFile::Reader : public Archive {
   toml::table table_;
   std::vector<Level> levels_;
   std::set<const toml::node*> asked_;
-  std::vector<std::string> known_;  ///< dotted, of every key that was asked for
+  std::vector<std::string> known_;     ///< dotted, of every key that was asked for
+  std::vector<std::string> sections_;  ///< those of them that are tables
 };
 
 namespace {
@@ -251,7 +262,9 @@ void Merge(toml::table& into, toml::table&& from) {
 toml::table ParseOverride(const std::string& text) {
   const std::string name = std::string(kSetName) + text;
   try {
-    return toml::parse(text, std::string_view(name));
+    toml::table table = toml::parse(text, std::string_view(name));
+    if (table.empty()) throw ConfigError(fmt::format("{}\"{}\": expected KEY=VALUE", kSetName, text));
+    return table;
   } catch (const toml::parse_error&) {
     // `port=/dev/ttyS0` is what people type; TOML wants the quotes.
     const auto equals = text.find('=');

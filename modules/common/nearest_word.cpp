@@ -20,11 +20,17 @@ std::string Lower(std::string_view word) {
   return lower;
 }
 
+std::string WithoutUnderscores(std::string word) {
+  std::erase(word, '_');
+  return word;
+}
+
 /// 0: the same but for the case; then words that begin with it, the shortest first; then by distance.
 /// nullopt: not near.
 std::optional<int> Rank(const std::string& word, const std::string& known) {
   constexpr int kPrefix = 1, kResembles = 1000;
   if (word == known) return 0;
+  if (WithoutUnderscores(word) == WithoutUnderscores(known)) return kPrefix;
   if (word.size() >= kShortestPrefix && known.starts_with(word))
     return kPrefix + static_cast<int>(std::min<std::size_t>(known.size() - word.size(), kResembles - 2));
   const int distance = EditDistance(word, known);

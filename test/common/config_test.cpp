@@ -123,6 +123,7 @@ std::string OverrideErrorOf(const std::string& text) {
 TEST(Config, ABadOverrideIsBlamedOnItself) {
   EXPECT_THAT(OverrideErrorOf("count=99"), HasSubstr("--set count=99: count: expected a whole number"));
   EXPECT_EQ(OverrideErrorOf("count"), "--set count: expected KEY=VALUE");
+  EXPECT_EQ(OverrideErrorOf(""), "--set \"\": expected KEY=VALUE") << "of a variable that is not set";
   EXPECT_EQ(OverrideErrorOf("inner.word=lft"),
             "--set inner.word=lft: inner.word: expected one of left, right, got \"lft\"; nearest: \"left\"");
 }
@@ -148,6 +149,9 @@ TEST(Config, AnUnknownKeyIsAnsweredWithTheNearestOne) {
       << "right name, wrong section";
   EXPECT_THAT(ErrorOf("gians = [1, 2]"), HasSubstr("; nearest: \"inner.gains\""))
       << "nearly the name, wrong section";
+  EXPECT_THAT(ErrorOf("[speed]\nwrod = 'left'"),
+              AllOf(StartsWith("x.toml:2:speed.wrod:"), HasSubstr("; nearest: \"inner.word\"")))
+      << "nearly the name, no such section";
   EXPECT_THAT(ErrorOf("elephant = 1"), Not(HasSubstr("nearest")));
 }
 

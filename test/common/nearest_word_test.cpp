@@ -46,6 +46,10 @@ TEST(NearestWords, AWordThatBeginsSoWinsAndTheShortestOfThem) {
   EXPECT_THAT(NearestWords("lock", kVerbs), ElementsAre("lockstep")) << "not log, which is as near";
 }
 
+TEST(NearestWords, AForgottenUnderscoreIsFoundInAShortWord) {
+  EXPECT_THAT(NearestWords("xm", std::vector<std::string>{"x_m", "y_m", "yaw_rad"}), ElementsAre("x_m"));
+}
+
 TEST(NearestWords, NamesAllThatAreEquallyNear) {
   EXPECT_THAT(NearestWords("lxgs", std::vector<std::string>{"lags", "logs", "status"}),
               ElementsAre("lags", "logs"));
