@@ -111,6 +111,12 @@ int RunFromLog(const AppFactory& factory, const Options& options) {
   return out && !out->good() ? kFailedWhileRunning : 0;
 }
 
+/// A configuration that cannot be used is told before anybody is asked for the role.
+void RequireConfiguration(const AppFactory& factory, const ConfigSource& source) {
+  std::ostream nowhere(nullptr);
+  factory.print_config(nowhere, source);
+}
+
 /// Before the App is made: making it may already take what belongs to the owner, a port or a frame store.
 std::unique_ptr<ClaimKeeper> ClaimRole(const AppFactory& factory, LcmBus& bus, const Schema& schema,
                                        const Clock& clock, const Claimant& self) {
@@ -123,6 +129,7 @@ int Run(const AppFactory& factory, const Options& options, bool& running) {
   if (options.print_config) return factory.print_config(std::cout, options.config), 0;
   if (options.interface) return PrintInterface(factory, options);
   if (options.bus.starts_with(kFileUrl)) return RunFromLog(factory, options);
+  RequireConfiguration(factory, options.config);
   const SignalWatch signals;
   const Schema schema = OwnTypes();
   const MonotonicClock clock;
