@@ -10,6 +10,7 @@
 #include "bus/schema/json.hpp"
 #include "bus/schema/text_codec.hpp"
 #include "bus/schema/walk.hpp"
+#include "common/nearest_word.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -59,7 +60,10 @@ class Writer {
     for (const auto& [key, value] : json.items()) {
       const auto same = [&key = key](const Field& field) { return field.name == key; };
       if (std::none_of(type.fields.begin(), type.fields.end(), same)) {
-        throw MessageError(fmt::format("{}.{}: there is no such field", path_, key));
+        std::vector<std::string> known;
+        for (const Field& field : type.fields) known.push_back(field.name);
+        throw MessageError(
+            fmt::format("{}.{}: there is no such field{}", path_, key, NearestText(key, known)));
       }
     }
   }

@@ -21,6 +21,7 @@ class MessageError : public std::runtime_error {
 
 /// An encoded message as JSON: an object with every field. Nothing is lost:
 /// - integers are JSON integers, also where JavaScript would round them;
+/// - a float is the shortest decimal that reads back as it;
 /// - NaN and the infinities are the strings "NaN", "Infinity", "-Infinity";
 /// - booleans are true and false, any other byte in their place is a number;
 /// - an array of bytes is a base64 string (as JSON schema's contentEncoding has it), other arrays are arrays;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "bus/schema/big_endian.hpp"
@@ -15,6 +16,11 @@ Json FloatToJson(double value) {
   if (std::isnan(value)) return "NaN";
   if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
   return value;
+}
+
+/// The shortest decimal that reads back as this float: 1.14, not 1.1399999856948853.
+Json ShortFloat(float value) {
+  return FloatToJson(std::isfinite(value) ? std::strtod(fmt::format("{}", value).c_str(), nullptr) : value);
 }
 
 /// Reads a message that passed Walk, so nothing here can run over its end.
@@ -53,7 +59,7 @@ class Printer {
       case Kind::kString:
         return Text();
       case Kind::kFloat:
-        return FloatToJson(ReadBigEndian<float>(Take(size).data()));
+        return ShortFloat(ReadBigEndian<float>(Take(size).data()));
       case Kind::kDouble:
         return FloatToJson(ReadBigEndian<double>(Take(size).data()));
       case Kind::kByte:
