@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <sstream>
+#include <utility>
 
 #include "common/nearest_word.hpp"
 
@@ -21,18 +22,37 @@ const bus::Field& Find(const bus::Struct& type, const std::string& name) {
                                       type.full_name, name, NearestText(name, known), type.name));
 }
 
-/// `[3]` or `[3][0]` behind the name of `field`, appended to `pointer`; false when it is something else.
-bool AppendIndices(std::string_view text, const bus::Field& field, bus::Json::json_pointer& pointer) {
-  std::size_t depth = 0;
-  while (!text.empty()) {
+/// `[0] to [23]`: what may stand behind a field at one of its dimensions.
+std::string Indices(const bus::Dimension& dimension) {
+  return dimension.variable ? "a whole number in brackets like [0]"
+                            : fmt::format("[0] to [{}]", dimension.size - 1);
+}
+
+[[noreturn]] void RefuseIndex(const std::string& path, const bus::Field& field, std::size_t depth,
+                              std::string_view got) {
+  const std::string expected =
+      depth < field.dims.size()
+          ? Indices(field.dims[depth])
+          : (depth == 0 ? "none, it is no array" : fmt::format("no more than {} indices", depth));
+  throw bus::MessageError(
+      fmt::format("field {}: bad index behind {}: expected {}, got \"{}\"", path, field.name, expected, got));
+}
+
+/// `[3]` or `[3][0]` behind the name of `field`, appended to `pointer`. Throws MessageError.
+void AppendIndices(std::string_view text, const std::string& path, const bus::Field& field,
+                   bus::Json::json_pointer& pointer) {
+  for (std::size_t depth = 0; !text.empty(); ++depth) {
     std::size_t index = 0;
-    if (text.front() != '[' || ++depth > field.dims.size()) return false;
+    if (text.front() != '[' || depth == field.dims.size()) RefuseIndex(path, field, depth, text);
     const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), index);
-    if (error != std::errc() || end == text.data() + text.size() || *end != ']') return false;
+    if (error != std::errc() || end == text.data() + text.size() || *end != ']')
+      RefuseIndex(path, field, depth, text);
+    const bus::Dimension& dimension = field.dims[depth];
+    if (!dimension.variable && std::cmp_greater_equal(index, dimension.size))
+      RefuseIndex(path, field, depth, text);
     pointer /= index;
     text.remove_prefix(static_cast<std::size_t>(end + 1 - text.data()));
   }
-  return true;
 }
 
 }  // namespace
@@ -47,10 +67,7 @@ FieldPath::FieldPath(const bus::Struct& type, const std::string& text) : text_(t
       throw bus::MessageError(fmt::format("field {}: expected the end before \"{}\", got more", text, part));
     const bus::Field& field = Find(*within, name);
     pointer_ /= name;
-    if (!AppendIndices(std::string_view(part).substr(bracket), field, pointer_))
-      throw bus::MessageError(
-          fmt::format("field {}: expected at most {} indices like [0] behind {}, got \"{}\"", text,
-                      field.dims.size(), name, part.substr(bracket)));
+    AppendIndices(std::string_view(part).substr(bracket), text, field, pointer_);
     within = field.type;
   }
   if (text.empty() || text.back() == '.')

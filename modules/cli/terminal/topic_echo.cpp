@@ -10,6 +10,7 @@
 
 #include "cli/terminal/bus_watch.hpp"
 #include "cli/terminal/field_path.hpp"
+#include "cli/terminal/plain_numbers.hpp"
 #include "cli/terminal/silence_watch.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -83,7 +84,8 @@ class Echo {
     }
   }
 
-  void Print(const bus::Json& message) const {
+  void Print(const bus::Json& exact) const {
+    const bus::Json message = WithPlainNumbers(exact);
     if (fields_.empty()) return void(std::cout << message.dump(options_.json ? -1 : 2) << std::endl);
     if (!options_.json && fields_.size() == 1)
       return void(std::cout << fields_[0].In(message).dump() << std::endl);
@@ -109,7 +111,7 @@ void AddTopicEchoVerb(CLI::App& topic, int& exit_code) {
   verb->footer(
       "Examples: priamos topic echo POSE --count 1\n          priamos topic echo POSE x_m y_m\n"
       "          priamos topic echo SONAR_RANGES range_m[3] --bus onboard");
-  verb->add_option("channel", options->channel, "LCM channel")->required();
+  AddChannelArgument(*verb, options->channel);
   verb->add_option("field", options->fields, "only these fields, e.g. x_m, range_m[3], channels[0].bytes");
   AddBusOption(*verb, *options);
   AddTypesOption(*verb, *options);

@@ -52,12 +52,20 @@ TEST(FieldPath, NamesTheWrongPartAndTheNearestOne) {
       ErrorOf("range_m[1]"),
       "p.outer_t: unknown field \"range_m\"; nearest: \"ranges_m\" (priamos type show outer_t lists all)");
   EXPECT_THAT(ErrorOf("parts[0].xm"), HasSubstr("p.inner_t: unknown field \"xm\""));
-  EXPECT_THAT(ErrorOf("n[0]"), HasSubstr("expected at most 0 indices like [0] behind n, got \"[0]\""));
-  EXPECT_THAT(ErrorOf("ranges_m[one]"), HasSubstr("got \"[one]\""));
-  EXPECT_THAT(ErrorOf("ranges_m[1"), HasSubstr("got \"[1\""));
   EXPECT_THAT(ErrorOf("n.x"), HasSubstr("expected the end"));
   EXPECT_THAT(ErrorOf(""), HasSubstr("expected a name"));
   EXPECT_THAT(ErrorOf("n."), HasSubstr("expected a name"));
+}
+
+TEST(FieldPath, ABadIndexIsAnsweredWithThoseThatThereAre) {
+  EXPECT_EQ(ErrorOf("n[0]"), "field n[0]: bad index behind n: expected none, it is no array, got \"[0]\"");
+  EXPECT_EQ(ErrorOf("parts[2]"), "field parts[2]: bad index behind parts: expected [0] to [1], got \"[2]\"");
+  EXPECT_THAT(ErrorOf("parts[0].grid[1][3]"), HasSubstr("behind grid: expected [0] to [2], got \"[3]\""));
+  EXPECT_THAT(ErrorOf("parts[0][0]"), HasSubstr("expected no more than 1 indices, got \"[0]\""));
+  for (const std::string wrong : {"[one]", "[1", "[", "[-1]", "[0:3]"})
+    EXPECT_THAT(ErrorOf("ranges_m" + wrong),
+                HasSubstr("bad index behind ranges_m: expected a whole number in brackets like [0], got \"" +
+                          wrong + "\""));
 }
 
 }  // namespace
