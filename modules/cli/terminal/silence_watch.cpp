@@ -14,16 +14,6 @@
 namespace priamos::cli {
 namespace {
 
-/// Names of PRIAMOS's channels; `events`: only those without a rate.
-std::vector<std::string> ChannelNames(bool events) {
-  std::vector<std::string> names;
-  const auto add = [&](const auto& channel) {
-    if (!events || channel.rate_hz == 0) names.emplace_back(channel.name);
-  };
-  std::apply([&](const auto&... channel) { (add(channel), ...); }, channels::kAll);
-  return names;
-}
-
 /// The other of the two buses of the same robot, as --bus names it.
 std::optional<std::string> OtherBus(const bus::BusChoice& choice) {
   for (const char* name : {"onboard", "offboard"}) {
@@ -35,6 +25,15 @@ std::optional<std::string> OtherBus(const bus::BusChoice& choice) {
 }
 
 }  // namespace
+
+std::vector<std::string> ChannelNames(bool events) {
+  std::vector<std::string> names;
+  const auto add = [&](const auto& channel) {
+    if (!events || channel.rate_hz == 0) names.emplace_back(channel.name);
+  };
+  std::apply([&](const auto&... channel) { (add(channel), ...); }, channels::kAll);
+  return names;
+}
 
 /// Counts what is on one bus.
 struct SilenceWatch::Ear {

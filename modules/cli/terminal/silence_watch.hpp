@@ -10,6 +10,9 @@
 
 namespace priamos::cli {
 
+/// Names of PRIAMOS's channels; `events`: only those without a rate.
+std::vector<std::string> ChannelNames(bool events);
+
 /// Tells a person who waits in vain why: listens to both buses of the robot until something came or its
 /// patience is over, then writes one sentence to standard error, once.
 class SilenceWatch {

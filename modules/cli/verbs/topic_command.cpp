@@ -2,6 +2,7 @@
 #include <poll.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@
 #include "cli/terminal/topic_screen.hpp"
 #include "cli/terminal/topic_statistics.hpp"
 #include "cli/verbs/commands.hpp"
+#include "common/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -108,17 +110,38 @@ int List(const TopicOptions& options, const std::string& verb) {
   return rows.empty() ? kNothingHeard : 0;
 }
 
+bus::Json ParseMessage(const std::string& text) {
+  try {
+    return bus::Json::parse(text);
+  } catch (const bus::Json::out_of_range&) {
+    throw bus::MessageError(
+        fmt::format("message: expected numbers of at most 1.8e308, got one out of range in {}", text));
+  } catch (const bus::Json::parse_error&) {
+    throw bus::MessageError(fmt::format("message: expected JSON, got {}", text));
+  }
+}
+
+/// What is sent all the same, but probably to nobody: a channel that PRIAMOS does not have.
+void WarnOfUnknownChannel(const TopicOptions& options, const std::string& channel) {
+  const auto known = ChannelNames(false);
+  if (!options.types.empty() || std::find(known.begin(), known.end(), channel) != known.end()) return;
+  std::cerr << fmt::format(
+      "priamos topic pub: \"{}\" is no channel of PRIAMOS{} (priamos type channels lists all)\n", channel,
+      NearestText(channel, known));
+}
+
 int Pub(const TopicOptions& options) {
   const bus::Schema schema = LoadTypes(options);
   const auto* type = schema.Find(options.type);
   if (!type) throw UnknownType(schema, options.type);
   bus::LcmBus bus(options.bus.Url(), options.messages());
-  const auto message = bus::Json::parse(options.message, nullptr, false);
-  if (message.is_discarded())
-    throw bus::MessageError(fmt::format("message: expected JSON, got {}", options.message));
+  const auto message = ParseMessage(options.message);
   const auto bytes = bus::FromJson(*type, message);
   if (!bus.Publish(options.channel, bytes))
     throw bus::BusError(fmt::format("{}: {} bytes were not sent", options.bus.Url(), bytes.size()));
+  WarnOfUnknownChannel(options, options.channel);
+  if (type->name == "link_request_t" && message.at("channel").is_string())
+    WarnOfUnknownChannel(options, message.at("channel").get<std::string>());
   if (options.json)
     std::cout << nlohmann::ordered_json{{"channel", options.channel}, {"bytes", bytes.size()}} << "\n";
   return 0;
@@ -143,7 +166,7 @@ void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_
                   const std::shared_ptr<TopicOptions>& options, int& exit_code) {
   auto* verb = AddVerb(topic, name, help,
                        one_channel ? "priamos topic hz POSE" : "priamos topic list --watch", *options);
-  if (one_channel) verb->add_option("channel", options->channel, "LCM channel")->required();
+  if (one_channel) AddChannelArgument(*verb, options->channel);
   verb->add_option("--seconds", options->seconds, "how long to listen")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));
@@ -172,7 +195,7 @@ void AddTopicCommand(CLI::App& cli, int& exit_code) {
                       "priamos topic pub LINK_REQUEST link_request_t "
                       "'{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":5}'",
                       *options);
-  pub->add_option("channel", options->channel, "LCM channel")->required();
+  AddChannelArgument(*pub, options->channel);
   pub->add_option("type", options->type, "message type")->required();
   pub->add_option("message", options->message, "the message as JSON")->required();
   pub->add_flag("--json", options->json, "say machine-readable what was sent");
