@@ -108,9 +108,10 @@ void AddLockstepCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--runs", options->runs, "number of runs, each with the next seed")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  auto* json = verb->add_option("--json", options->json_file,
-                                "the summary (an array of them for several runs) into that file, or to "
-                                "standard output");
+  auto* json =
+      verb->add_option("--json", options->json_file,
+                       "the summary (an array of them for several runs) into that file; without one, or "
+                       "with -, to standard output");
   json->expected(0, 1);
   verb->add_option("--logs", options->log_root,
                    "write logs and report of each run into a folder per seed there");
@@ -118,6 +119,7 @@ void AddLockstepCommand(CLI::App& cli, int& exit_code) {
   verb->add_flag("--verbose", options->verbose, "one line per phase");
   verb->callback([options, json, &exit_code] {
     options->json = json->count() > 0;
+    if (options->json_file == "-") options->json_file.clear();
     exit_code = Run(*options);
   });
 }

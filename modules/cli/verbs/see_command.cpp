@@ -41,10 +41,12 @@ void AddSeeCommand(CLI::App& cli, int& exit_code) {
                    "folder, or for a single drawing file, of the drawings; without it they lie beside their "
                    "images as IMAGE-edges.png");
   verb->add_flag("--force", options->force, "replace drawings and lists that are there already");
-  verb->add_option("--json", options->json, "write segments, corners, outlines and matches there");
+  verb->add_option("--json", options->json,
+                   "write segments, corners, outlines and matches there; -: to standard output");
   verb->callback([options, &exit_code] {
     const head::SeeReport report = head::See(*options);
-    std::cout << report.text;
+    std::cout << report.json;
+    (report.json.empty() ? std::cout : std::cerr) << report.text;
     exit_code = report.found ? 0 : 1;
   });
 }

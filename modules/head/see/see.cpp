@@ -16,6 +16,9 @@
 namespace priamos::head {
 namespace {
 
+/// As the name of the list: whoever asked prints it.
+constexpr std::string_view kNoFile = "-";
+
 /// All that `options` ask for.
 std::vector<PlannedDrawing> Plan(const SeeOptions& options) {
   std::vector<PlannedDrawing> drawings;
@@ -30,7 +33,7 @@ SeeOutput OutputOf(const SeeOptions& options) {
   std::vector<std::string> inputs = options.images;
   inputs.insert(inputs.end(), options.cameras.begin(), options.cameras.end());
   if (!options.landmark.empty()) inputs.push_back(options.landmark);
-  if (!options.json.empty()) RefuseToReplace(options.json, inputs, options.force);
+  if (!options.json.empty() && options.json != kNoFile) RefuseToReplace(options.json, inputs, options.force);
   return {Plan(options), inputs, options.output, options.force};
 }
 
@@ -82,9 +85,13 @@ SeeReport See(const SeeOptions& options) {
   const SeeFindings findings = FindAll(options);
   Draw(findings, output);
   output.Write();
-  if (!options.json.empty()) WriteWhole(options.json, ToJson(findings).dump(1) + "\n");
-  const bool found = !findings.landmark || findings.landmark->fix.verdict == Verdict::kFound;
-  return {found, ToText(findings, options.landmark, output)};
+  SeeReport report;
+  report.found = !findings.landmark || findings.landmark->fix.verdict == Verdict::kFound;
+  report.text = ToText(findings, options.landmark, output);
+  if (options.json.empty()) return report;
+  const std::string json = ToJson(findings).dump(1) + "\n";
+  options.json == kNoFile ? void(report.json = json) : WriteWhole(options.json, json);
+  return report;
 }
 
 }  // namespace priamos::head

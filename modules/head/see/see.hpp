@@ -17,13 +17,14 @@ struct SeeOptions {
   double max_door_width_m = 1.35;  ///< double doors are wider
   std::string output{};  ///< folder or file for the drawings; empty: beside their images (SeeOutput)
   bool force = false;    ///< replaces files that are there already, but never an image that is read
-  std::string json{};    ///< all that was found; empty: none
+  std::string json{};    ///< file for all that was found; "-": into SeeReport::json; empty: none
 };
 
 /// What a person is answered.
 struct SeeReport {
   bool found = true;  ///< false: a landmark was asked for and not found
   std::string text;   ///< what was found, and where each drawing lies; whole lines
+  std::string json;   ///< all that was found, when SeeOptions::json is "-"
 };
 
 /// Draws edges, corners and outlines of each image, with `cameras` also what the images have in common, and

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "head/files/image_file.hpp"
 #include "head/files/landmark_file.hpp"
 #include "head/files/projection_file.hpp"
 #include "head/see/see_doors.hpp"
@@ -17,10 +17,11 @@ namespace {
 constexpr int kSmallest_px = 32;
 constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may be uncertain
 
-cv::Mat ReadGrey(const std::string& file) {
-  const cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE);
+cv::Mat ReadLargeEnough(const std::string& file) {
+  const cv::Mat image = ReadGrey(file);
   if (image.empty())
-    throw std::runtime_error(fmt::format("{}: expected an image (PNG, JPEG, PGM ...), got none", file));
+    throw std::runtime_error(
+        fmt::format("{}: expected an image (PNG, JPEG, PGM ...), got none", file.empty() ? "\"\"" : file));
   if (image.cols < kSmallest_px || image.rows < kSmallest_px)
     throw std::runtime_error(fmt::format("{}: expected at least {}x{} pixels, got {}x{}", file, kSmallest_px,
                                          kSmallest_px, image.cols, image.rows));
@@ -31,7 +32,7 @@ std::vector<SeenPhotograph> ReadPhotographs(const std::vector<std::string>& file
   std::vector<SeenPhotograph> photographs;
   EdgeOperator edge_operator;
   for (const std::string& file : files) {
-    SeenPhotograph& photograph = photographs.emplace_back(file, ReadGrey(file));
+    SeenPhotograph& photograph = photographs.emplace_back(file, ReadLargeEnough(file));
     edge_operator.Extract(photograph.grey, photograph.edges);
   }
   for (SeenPhotograph& photograph : photographs) photograph.contours = {photograph.edges, {}};
