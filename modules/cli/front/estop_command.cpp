@@ -12,6 +12,7 @@
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/wire/lcm_bus.hpp"
+#include "cli/front/estop_silence.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
@@ -26,15 +27,16 @@ struct EstopOptions {
   double wait_s = 5;
 };
 
-/// Says how it went; `after` is none when nobody answered. Written by hand: the e-stop links little.
-int Tell(const EstopOptions& options, std::optional<Duration> after) {
+/// Says how it went; `after` is none when nobody answered, then `why` is the hint. Written by hand: the
+/// e-stop links little.
+int Tell(const EstopOptions& options, std::optional<Duration> after, const std::string& why = "") {
   if (options.json)
     std::cout << fmt::format("{{\"action\":\"{}\",\"confirmed\":{},\"after_s\":{}}}\n",
                              options.rearm ? "REARM" : "STOP", after.has_value(),
                              after ? fmt::format("{:.3f}", Seconds(*after)) : "null");
   if (!after) {
-    std::cerr << fmt::format("priamos estop: the robot did not answer within {:g} s on {} ({})\n",
-                             options.wait_s, options.bus.bus, options.bus.Url());
+    std::cerr << fmt::format("priamos estop: the robot did not answer within {:g} s on {} ({}); {}\n",
+                             options.wait_s, options.bus.bus, options.bus.Url(), why);
     return kNoAnswer;
   }
   if (!options.json)
@@ -52,6 +54,7 @@ int Run(const EstopOptions& options) {
   auto estop = node.Advertise(channels::kEstop);
   const auto status = node.Subscribe(channels::kDriveStatus);
   const Time begin = clock.Now();
+  std::optional<EstopSilence> silence;
   for (Time said = begin - kAgain; clock.Now() - begin < FromSeconds(options.wait_s);) {
     if (clock.Now() - said >= kAgain) {
       said = clock.Now();
@@ -65,12 +68,13 @@ int Run(const EstopOptions& options) {
     poll(&fd, 1, 20);
     bus.Drain();
     // A status from before the order proves nothing.
-    if (!status.get() || FromUtime(status.get()->utime) <= begin ||
-        bool(status.get()->estop) == options.rearm)
-      continue;
-    return Tell(options, clock.Now() - begin);
+    if (status.get() && FromUtime(status.get()->utime) > begin && bool(status.get()->estop) != options.rearm)
+      return Tell(options, clock.Now() - begin);
+    // Not before the order has been said.
+    if (!silence) silence.emplace(options.bus);
+    silence->Drain();
   }
-  return Tell(options, std::nullopt);
+  return Tell(options, std::nullopt, silence ? silence->Why() : "");
 }
 
 }  // namespace
