@@ -69,6 +69,15 @@ std::optional<pid_t> UpLock::Holder(const std::string& log_root) {
   return free || pid <= 0 ? std::nullopt : std::optional<pid_t>(pid);
 }
 
+std::optional<std::string> UpLock::FolderOf(pid_t pid) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(fmt::format("/proc/{}/fd", pid), none)) {
+    const fs::path file = fs::read_symlink(entry.path(), none);
+    if (file.filename() == fs::path(LockFile("")).filename()) return file.parent_path().string();
+  }
+  return std::nullopt;
+}
+
 ordered_json ToJson(const UpState& state) {
   ordered_json json{{"deployment", state.deployment}, {"folder", state.folder},
                     {"ready", state.ready},           {"up_s", state.up_s},

@@ -24,6 +24,9 @@ class UpLock {
 
   /// The `up` that holds the folder; nullopt when none does.
   static std::optional<pid_t> Holder(const std::string& log_root);
+  /// The folder that process `pid` of this computer holds; nullopt when it holds none, or belongs to another
+  /// user.
+  static std::optional<std::string> FolderOf(pid_t pid);
 
  private:
   std::string file_;

@@ -11,7 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bus/wire/bus_address.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/supervise/supervisor_search.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "common/nearest_word.hpp"
 
@@ -26,6 +28,7 @@ constexpr auto kDownWithin = std::chrono::seconds(15);
 
 struct QueryOptions {
   std::string log_root;
+  std::string robot{bus::kDefaultRobot};
   std::string process;  ///< `logs`: empty: all
   std::size_t lines = 20;
   bool json = false;
@@ -37,9 +40,22 @@ int SayDown(bool was_up, bool json) {
   return 0;
 }
 
+/// For a folder of logs from which nothing is up: the robot may be up from another one.
+bool SayWhereItIsUp(const QueryOptions& options) {
+  const auto found = FindSupervisor(options.robot);
+  if (!found) return false;
+  std::cerr << Describe(*found, options.robot) << "\n";
+  if (options.json)
+    std::cout << ordered_json{{"up", false},
+                              {"elsewhere", found->who},
+                              {"logs", found->log_root ? ordered_json(*found->log_root) : ordered_json()}}
+              << "\n";
+  return true;
+}
+
 int Down(const QueryOptions& options) {
   const auto pid = UpLock::Holder(options.log_root);
-  if (!pid) return SayDown(false, options.json);
+  if (!pid) return SayWhereItIsUp(options) ? kNotThere : SayDown(false, options.json);
   kill(*pid, SIGTERM);
   const auto give_up = std::chrono::steady_clock::now() + kDownWithin;
   while (UpLock::Holder(options.log_root) == pid) {
@@ -57,6 +73,7 @@ int Down(const QueryOptions& options) {
 int Status(const QueryOptions& options) {
   const auto state = ReadUpState(options.log_root);
   if (!UpLock::Holder(options.log_root) || !state) {
+    if (SayWhereItIsUp(options)) return kNotThere;
     std::cout << (options.json ? "{\"up\":false}\n" : "nothing is up\n");
     return kNotThere;
   }
@@ -99,6 +116,12 @@ int Logs(const QueryOptions& options) {
   return 0;
 }
 
+void AddRobot(CLI::App& verb, QueryOptions& options) {
+  verb.add_option("--robot", options.robot, "whom to look for on the buses when nothing is up from --logs")
+      ->envname(bus::kRobotVariable)
+      ->capture_default_str();
+}
+
 void AddShared(CLI::App& verb, QueryOptions& options) {
   AddUpLogsOption(verb, options.log_root);
   verb.add_flag("--json", options.json, "machine-readable");
@@ -119,11 +142,13 @@ void AddUpQueries(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<QueryOptions>();
   auto* down = cli.add_subcommand("down", "End what `priamos up` started, in order.");
   AddShared(*down, *options);
+  AddRobot(*down, *options);
   down->callback([options, &exit_code] { exit_code = Down(*options); });
 
   auto* status = cli.add_subcommand(
       "status", "What is up, how it is, and why it last ended; exit code 0 when all is ready.");
   AddShared(*status, *options);
+  AddRobot(*status, *options);
   status->callback([options, &exit_code] { exit_code = Status(*options); });
 
   auto* logs = cli.add_subcommand("logs", "The consoles of the processes.");
