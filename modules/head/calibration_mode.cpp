@@ -59,6 +59,11 @@ CalibrationMode::CalibrationMode(const HeadConfig& config, bus::Context& context
       frames_(context.node().SubscribeAll(channels::kCameraFrame)),
       head_command_(context.node().Advertise(channels::kHeadCommand)),
       trigger_(context.node().Advertise(channels::kCameraTrigger)) {
+  context_.Log(
+      bus::Level::kInfo,
+      fmt::format("takes pictures of the reference object at {} settings; the table goes to {}, until "
+                  "then {} keeps what is finished, and the same command goes on there",
+                  settings_.size(), table_path_, table_path_ + ".journal"));
   if (resumed_ > 0)
     context_.Log(bus::Level::kInfo,
                  fmt::format("goes on after {} of {} settings", resumed_, settings_.size()));

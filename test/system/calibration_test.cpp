@@ -63,7 +63,8 @@ class CalibrationTest : public testing::Test {
     if (child == 0) {
       const std::string log = folder_ / "first.txt";
       if (!freopen(log.c_str(), "w", stdout) || !freopen(log.c_str(), "a", stderr)) _exit(127);
-      execl(kPriamos.c_str(), "priamos", "calibrate", "--deployment", deployment.c_str(), nullptr);
+      execl(kPriamos.c_str(), "priamos", "calibrate", "--deployment", deployment.c_str(), "--output",
+            (deployment + "/kastor.yaml").c_str(), nullptr);
       _exit(127);
     }
     const auto journal = std::filesystem::path(deployment) / "kastor.yaml.journal";
@@ -83,7 +84,8 @@ TEST_F(CalibrationTest, GoesOnAfterKill9InTheMiddle) {
   KillAfter(deployment, 5);
   EXPECT_EQ(ReadFile(deployment / "kastor.yaml"), "the old table\n");
   const auto done = Lines(deployment / "kastor.yaml.journal") - 1;
-  const ShellAnswer answer = RunCommand(kPriamos + " calibrate --deployment " + deployment.string());
+  const ShellAnswer answer = RunCommand(kPriamos + " calibrate --deployment " + deployment.string() +
+                                        " --output " + (deployment / "kastor.yaml").string());
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("goes on after"));
   EXPECT_THAT(answer.text, Not(HasSubstr("; 1 of "))) << "what was finished is not done again";

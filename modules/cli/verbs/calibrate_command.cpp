@@ -53,7 +53,8 @@ int CalibrateFiles(const CalibrateOptions& options) {
   if (!options.image_size.empty())
     files.width_px = options.image_size[0], files.height_px = options.image_size[1];
   const std::string json = head::CalibrateFromFiles(files);
-  options.output.empty() ? void(std::cout << json << std::endl) : WriteWhole(options.output, json);
+  const bool to_pipe = options.output.empty() || options.output == "-";
+  to_pipe ? void(std::cout << json << std::endl) : WriteWhole(options.output, json);
   return 0;
 }
 
@@ -93,6 +94,16 @@ int CalibrateLaser(const CalibrateOptions& options) {
   return 0;
 }
 
+/// Where the simulated head's table goes: never into a deployment that was not named, which belongs to its
+/// owner. Another seed is another head, so each has a folder of its own.
+std::string TableOf(const CalibrateOptions& options) {
+  namespace fs = std::filesystem;
+  if (!options.output.empty()) return fs::absolute(options.output).string();
+  const fs::path folder = fs::path(LogRoot("")) / fmt::format("calibration-seed-{}", options.seed);
+  fs::create_directories(folder);
+  return fs::absolute(folder / "kastor.yaml").string();
+}
+
 /// `world` and `head --calibrate` before the reference object, in lockstep.
 int Calibrate(const CalibrateOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
@@ -105,9 +116,8 @@ int Calibrate(const CalibrateOptions& options) {
   lockstep.AddBus("onboard");
   lockstep.AddApp(FactoryFor("world"), "onboard",
                   {FileOf(options, "world.toml"), {"world=" + options.world}});
-  ConfigSource head{FileOf(options, "head.toml"), {"mode=calibrate"}};
-  if (!options.output.empty())
-    head.overrides.push_back("calibration=" + std::filesystem::absolute(options.output).string());
+  const ConfigSource head{FileOf(options, "head.toml"),
+                          {"mode=calibrate", "calibration=" + TableOf(options)}};
   lockstep.AddApp(FactoryFor("head"), "onboard", head);
   const bool finished = lockstep.RunUntil(start + kTimeLimit);
   if (options.json)
@@ -139,7 +149,8 @@ void AddCalibrateCommand(CLI::App& cli, int& exit_code) {
       ->capture_default_str();
   verb->add_option(
       "--output", options->output,
-      "table to write, without it the one head.toml names; from files: JSON, without it to the terminal");
+      "table to write, without it calibration-seed-N/kastor.yaml in the folder of logs; from files: JSON, "
+      "without it to the terminal");
   verb->add_option("--seed", options->seed, "noise, and how exactly the object was placed")
       ->capture_default_str();
   auto* laser = verb->add_option("--laser", options->laser,
