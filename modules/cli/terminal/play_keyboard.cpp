@@ -10,6 +10,7 @@ namespace priamos::cli {
 namespace {
 
 constexpr const char* kWipe = "\r\x1b[K";
+constexpr const char* kUpAndWipe = "\x1b[A\x1b[K";
 constexpr tcflag_t kLineMode = ICANON | ECHO;
 
 }  // namespace
@@ -55,13 +56,19 @@ void StatusLine::Show(const std::string& text) {
   if (!is_terminal_ || tcgetpgrp(STDERR_FILENO) != getpgrp()) return;
   // The last column stays free: some terminals go to the next line there.
   const int columns = TerminalSize(STDERR_FILENO).value_or(ScreenSize{}).columns - 1;
-  std::cerr << kWipe << Clipped(text, columns) << std::flush;
-  shown_ = true;
+  std::string rows = Wrapped(text, columns);
+  rows.pop_back();  // the cursor stays in the last row
+  Wipe();
+  std::cerr << (rows_ == 0 ? kWipe : "") << rows << std::flush;
+  rows_ = Lines(rows) + 1;
 }
 
 void StatusLine::Wipe() {
-  if (shown_) std::cerr << kWipe << std::flush;
-  shown_ = false;
+  if (rows_ == 0) return;
+  std::string wipe = kWipe;
+  for (int row = 1; row < rows_; ++row) wipe += kUpAndWipe;
+  std::cerr << wipe << std::flush;
+  rows_ = 0;
 }
 
 }  // namespace priamos::cli

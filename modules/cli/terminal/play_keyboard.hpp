@@ -30,8 +30,8 @@ class PlayKeyboard {
   termios before_{};
 };
 
-/// One line at the foot of the terminal on standard error that is written over and over, and wiped out at the
-/// end; nothing when standard error is no terminal.
+/// One line at the foot of the terminal on standard error, in as many rows as it needs, that is written over
+/// and over, and wiped out at the end; nothing when standard error is no terminal.
 class StatusLine {
  public:
   StatusLine();
@@ -40,12 +40,13 @@ class StatusLine {
   StatusLine& operator=(const StatusLine&) = delete;
 
   bool is_terminal() const { return is_terminal_; }
-  /// As much of the text as fits the terminal's width.
+  /// Broken at blanks where the terminal is narrower than the text.
   void Show(const std::string& text);
   void Wipe();
 
  private:
-  bool is_terminal_, shown_ = false;
+  bool is_terminal_;
+  int rows_ = 0;  ///< shown
 };
 
 }  // namespace priamos::cli
