@@ -160,6 +160,15 @@ void DrawRobot(MapView& view, const Pose2& pose, const Vector2d& size_m) {
             {pose * Vector2d(tip, 0), pose * Vector2d(tip - arm, arm), pose * Vector2d(tip - arm, -arm)});
 }
 
+/// Where the mission ended: a robot that stands there while the record goes on is not drawn later.
+const world_truth_t& AtTheEnd(const RunRecord& record, const MissionSpan& span, double same_place_m) {
+  const world_truth_t& last = record.truth.back();
+  const world_truth_t* end = &last;
+  for (auto truth = record.truth.rbegin(); truth != record.truth.rend(); ++truth)
+    if (end = &*truth; truth->utime <= span.end_utime) break;
+  return (PositionOf(*end) - PositionOf(last)).norm() < same_place_m ? *end : last;
+}
+
 void DrawRobots(MapView& view, const RunRecord& record, const Vector2d& size_m) {
   constexpr double kEvery_m = 1.5, kLeast_m = 0.5;
   if (!record.poses.empty()) {
@@ -167,14 +176,14 @@ void DrawRobots(MapView& view, const RunRecord& record, const Vector2d& size_m) 
     view.Area(layers::kFirstBelief, FootprintOutline({pose.x_m, pose.y_m, pose.yaw_rad}, size_m));
   }
   if (record.truth.empty()) return;
-  const std::int64_t begin = SpanOf(record).begin_utime;
+  const MissionSpan span = SpanOf(record);
   const auto draw = [&](const world_truth_t& truth) {
     DrawRobot(view, PoseOf(truth), size_m);
-    const double t_s = std::max(0.0, Seconds(Duration(truth.utime - begin)));
+    const double t_s = std::max(0.0, Seconds(Duration(truth.utime - span.begin_utime)));
     view.Label(PoseOf(truth) * Vector2d(-size_m.x() / 2, -size_m.y() / 2), fmt::format("{:.0f} s", t_s),
                kSmallFont, colours::kTruth, 4);
   };
-  const world_truth_t *drawn = &record.truth.front(), *last = &record.truth.back();
+  const world_truth_t *drawn = &record.truth.front(), *last = &AtTheEnd(record, span, kLeast_m);
   draw(*drawn);
   for (const world_truth_t& truth : record.truth) {
     if ((PositionOf(truth) - PositionOf(*drawn)).norm() < kEvery_m) continue;

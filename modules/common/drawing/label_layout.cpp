@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kDirections = 16;
 /// A covered point of a line is as bad as so many pixels of distance.
-constexpr double kCost_px = 6;
+constexpr double kCost_px = 15;
 
 /// The label whose border is `distance` away from the point, in one of the directions.
 Box Beside(const LabelWish& wish, double distance, int direction) {
