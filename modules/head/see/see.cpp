@@ -78,6 +78,8 @@ std::string ToText(const SeeFindings& findings, const std::string& model_file, c
 }  // namespace
 
 SeeReport See(const SeeOptions& options) {
+  for (const std::string& image : options.images)
+    if (image.empty()) throw std::runtime_error("\"\": expected an image (PNG, JPEG, PGM ...), got none");
   if (!options.landmark.empty() && options.cameras.empty())
     throw std::runtime_error(
         fmt::format("{}: expected a camera for each image to look for it", options.landmark));

@@ -20,8 +20,7 @@ constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may 
 cv::Mat ReadLargeEnough(const std::string& file) {
   const cv::Mat image = ReadGrey(file);
   if (image.empty())
-    throw std::runtime_error(
-        fmt::format("{}: expected an image (PNG, JPEG, PGM ...), got none", file.empty() ? "\"\"" : file));
+    throw std::runtime_error(fmt::format("{}: expected an image (PNG, JPEG, PGM ...), got none", file));
   if (image.cols < kSmallest_px || image.rows < kSmallest_px)
     throw std::runtime_error(fmt::format("{}: expected at least {}x{} pixels, got {}x{}", file, kSmallest_px,
                                          kSmallest_px, image.cols, image.rows));
