@@ -190,8 +190,8 @@ class ConfigFile::Reader : public Archive {
     const auto* table = node.as_table();
     std::string hint = table ? NearestText(path, sections_) : NearestKeys(path);
     if (table && hint.empty() && !table->empty()) {
-      const auto& [key, inner] = *table->begin();
-      FailUnknown(inner, fmt::format("{}.{}", path, key.str()));
+      const auto first = *table->begin();
+      FailUnknown(first.second, fmt::format("{}.{}", path, first.first.str()));
     }
     throw ConfigError(fmt::format("{}: expected a known key (--print-config lists them), got this one{}",
                                   Place(node, path), hint));
