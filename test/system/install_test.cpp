@@ -1,6 +1,7 @@
 // What `cmake --install` puts where: everything below the prefix, configuration that survives the next
 // installation, units that systemd takes; and what `uninstall` leaves.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -77,6 +78,14 @@ TEST_F(InstallTest, TheWholeSimulatedDeploymentIsThere) {
   }
 }
 
+TEST_F(InstallTest, EverybodyMayReadItWhateverTheUmask) {
+  for (const auto& entry : fs::recursive_directory_iterator(installed_.prefix())) {
+    const auto needed =
+        fs::perms::others_read | (entry.is_directory() ? fs::perms::others_exec : fs::perms());
+    EXPECT_EQ(entry.status().permissions() & needed, needed) << entry.path();
+  }
+}
+
 TEST_F(InstallTest, TheUnitNamesTheProgramsWhereTheyAre) {
   const std::string unit = TextAt("lib/systemd/system/priamos@.service");
   EXPECT_THAT(unit, HasSubstr("ExecStart=\"" + At("bin/priamos-%i").string() + "\" --config \"" +
@@ -140,6 +149,45 @@ TEST_F(InstallTest, UninstallLeavesWhatIsSomebodyElses) {
                                                      "etc/priamos/robot/robot.toml"));
 }
 
+TEST_F(InstallTest, AnUninstallWithoutRightsFailsAndCanBeDoneAgain) {
+  const auto before = Files();
+  const auto refused = installed_.UninstallWithoutRights();
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_THAT(refused.text, HasSubstr(fmt::format("0 files removed, {} could not be", before.size())));
+  EXPECT_EQ(Files(), before);
+  EXPECT_EQ(installed_.Uninstall().exit_code, 0);
+  EXPECT_FALSE(fs::exists(installed_.prefix()));
+}
+
+/// What is a pattern to a shell or to CMake is a name here.
+TEST(InstallBelowABracket, UninstallTakesWhatTheInstallationMadeAndNothingElse) {
+  for (const char* name : {"a[1]", "a[1", "a*"}) {
+    const Installation installed(std::string(name) + "/below/prefix");
+    const fs::path above = installed.folder() / name;
+    fs::create_directories(above);
+    std::ofstream(above / "mine") << "mine\n";
+    ASSERT_EQ(installed.Install().exit_code, 0);
+    std::ofstream(installed.prefix() / "bin/another") << "mine\n";
+    EXPECT_EQ(installed.Uninstall().exit_code, 0);
+    EXPECT_EQ(Installation::TextOf(above / "mine"), "mine\n");
+    EXPECT_EQ(Installation::TextOf(installed.prefix() / "bin/another"), "mine\n");
+    fs::remove_all(installed.prefix());
+    ASSERT_EQ(installed.Install().exit_code, 0);
+    EXPECT_EQ(installed.Uninstall().exit_code, 0);
+    EXPECT_TRUE(fs::exists(above / "below")) << "this one was there before";
+    EXPECT_FALSE(fs::exists(installed.prefix()));
+  }
+}
+
+TEST(InstallBelowASemicolon, IsRefusedBeforeAnythingIsWritten) {
+  const Installation installed("a;b");
+  const auto answer = installed.Install();
+  EXPECT_NE(answer.exit_code, 0);
+  EXPECT_THAT(answer.text, HasSubstr("the prefix has a \";\""));
+  EXPECT_FALSE(fs::exists(installed.prefix()));
+  EXPECT_FALSE(fs::exists(installed.folder() / "a"));
+}
+
 /// Folders that were there before an installation are not its own, even when they are empty.
 TEST(InstallIntoAFolderInUse, TheEmptyFoldersOfOthersStay) {
   const Installation installed;
@@ -150,6 +198,16 @@ TEST(InstallIntoAFolderInUse, TheEmptyFoldersOfOthersStay) {
   for (const auto& entry : fs::recursive_directory_iterator(installed.prefix()))
     left.push_back(fs::relative(entry.path(), installed.prefix()).string());
   EXPECT_THAT(left, testing::UnorderedElementsAre("share", "share/man", "share/man/man1"));
+}
+
+/// DESTDIR is remembered: `uninstall` needs no word about it.
+TEST(InstallIntoUsr, UninstallFindsWhereItWasPut) {
+  const Installation installed;
+  ASSERT_EQ(installed.InstallForAPackage().exit_code, 0);
+  const auto answer = installed.Uninstall();
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_FALSE(fs::exists(installed.package()))
+      << RunShell("find '" + installed.package().string() + "'").text;
 }
 
 /// For a Debian package, configuration is in /etc.

@@ -13,18 +13,25 @@ namespace priamos {
 /// This build, installed below a prefix with a blank in a folder of its own, and stripped.
 class Installation {
  public:
+  explicit Installation(const std::string& prefix = "a prefix") : prefix_(prefix) {}
   std::filesystem::path folder() const { return folder_.path(); }
-  std::filesystem::path prefix() const { return folder_ / "a prefix"; }
+  std::filesystem::path prefix() const { return folder_ / prefix_; }
   std::filesystem::path package() const { return folder_ / "package"; }
 
-  /// What `cmake --install` says. Meanwhile /usr, /etc and the clone cannot be written, and the build's own
-  /// note of what a person installed from it is another file.
-  ShellAnswer Install() const { return Build(R"(cmake --install "$BUILD" --strip --prefix "$PREFIX")"); }
+  /// What `cmake --install` says, with a umask that lets nobody else read. Meanwhile /usr, /etc and the clone
+  /// cannot be written, and the build's own note of what a person installed from it is another file.
+  ShellAnswer Install() const {
+    return Build(R"(umask 077; cmake --install "$BUILD" --strip --prefix "$PREFIX")");
+  }
   /// For /usr, as a package is made: into package() instead of the root of the file system.
   ShellAnswer InstallForAPackage() const {
     return Build(R"(DESTDIR="$FOLDER/package" cmake --install "$BUILD" --prefix /usr)");
   }
   ShellAnswer Uninstall() const { return Build(R"(cmake --build "$BUILD" --target uninstall)"); }
+  /// By somebody who may not write below the prefix.
+  ShellAnswer UninstallWithoutRights() const {
+    return Build(R"(guard "$PREFIX"; cmake --build "$BUILD" --target uninstall)");
+  }
 
   /// `script` as it runs on a machine that has the programs and nothing else of ours: in another folder, with
   /// an empty home and a network of its own; no clone, no header, no lcm-gen, no pkg-config; only the test's
@@ -73,6 +80,7 @@ class Installation {
   }
 
   const TemporaryFolder folder_;
+  const std::string prefix_;
 };
 
 }  // namespace priamos
