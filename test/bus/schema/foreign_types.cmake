@@ -3,7 +3,7 @@
 find_program(LCM_GEN lcm-gen REQUIRED)
 set(foreign_dir ${CMAKE_CURRENT_BINARY_DIR}/foreign_types)
 set(foreign_stamp ${foreign_dir}/generated.stamp)
-file(GLOB foreign_lcm CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/foreign/*.lcm)
+file(GLOB foreign_lcm CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/foreign/[a-z]*.lcm)
 set(foreign_commands)
 foreach(file ${foreign_lcm})
   list(APPEND foreign_commands COMMAND ${LCM_GEN} -x --cpp-std c++11 --cpp-hpath ${foreign_dir} ${file})
