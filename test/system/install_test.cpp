@@ -161,22 +161,26 @@ TEST_F(InstallTest, AnUninstallWithoutRightsFailsAndCanBeDoneAgain) {
 
 /// What is a pattern to a shell or to CMake is a name here.
 TEST(InstallBelowABracket, UninstallTakesWhatTheInstallationMadeAndNothingElse) {
-  for (const char* name : {"a[1]", "a[1", "a*"}) {
-    const Installation installed(std::string(name) + "/below/prefix");
-    const fs::path above = installed.folder() / name;
-    fs::create_directories(above);
-    std::ofstream(above / "mine") << "mine\n";
-    ASSERT_EQ(installed.Install().exit_code, 0);
-    std::ofstream(installed.prefix() / "bin/another") << "mine\n";
-    EXPECT_EQ(installed.Uninstall().exit_code, 0);
-    EXPECT_EQ(Installation::TextOf(above / "mine"), "mine\n");
-    EXPECT_EQ(Installation::TextOf(installed.prefix() / "bin/another"), "mine\n");
-    fs::remove_all(installed.prefix());
-    ASSERT_EQ(installed.Install().exit_code, 0);
-    EXPECT_EQ(installed.Uninstall().exit_code, 0);
-    EXPECT_TRUE(fs::exists(above / "below")) << "this one was there before";
-    EXPECT_FALSE(fs::exists(installed.prefix()));
-  }
+  const Installation installed("a[1]/below/prefix");
+  const fs::path above = installed.folder() / "a[1]";
+  fs::create_directories(above);
+  std::ofstream(above / "mine") << "mine\n";
+  ASSERT_EQ(installed.Install().exit_code, 0);
+  std::ofstream(installed.prefix() / "share/mine") << "mine\n";
+  EXPECT_EQ(installed.Uninstall().exit_code, 0);
+  EXPECT_EQ(Installation::TextOf(above / "mine"), "mine\n");
+  EXPECT_EQ(Installation::TextOf(installed.prefix() / "share/mine"), "mine\n");
+  EXPECT_FALSE(fs::exists(installed.prefix() / "share/priamos"));
+}
+
+/// Also the folders around the prefix.
+TEST(InstallBelowABracket, UninstallTakesTheFoldersAroundThePrefixThatWereMade) {
+  const Installation installed("a[1/below/prefix");
+  fs::create_directories(installed.folder() / "a[1");
+  ASSERT_EQ(installed.Install().exit_code, 0);
+  EXPECT_EQ(installed.Uninstall().exit_code, 0);
+  EXPECT_TRUE(fs::exists(installed.folder() / "a[1"));
+  EXPECT_FALSE(fs::exists(installed.folder() / "a[1/below"));
 }
 
 TEST(InstallBelowASemicolon, IsRefusedBeforeAnythingIsWritten) {
