@@ -16,6 +16,7 @@
 
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/multicast.hpp"
+#include "cli/options/folder_options.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -99,16 +100,24 @@ Finding SpaceMouse(const Machine& machine) {
                                            : "sudo apt-get install spacenavd"};
 }
 
+/// The folder itself, or the one that it will be made in.
+std::filesystem::path Existing(std::filesystem::path folder) {
+  std::error_code error;
+  while (!std::filesystem::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
 Finding Disk(const Machine& machine) {
   std::error_code error;
-  const auto space = std::filesystem::space(machine.disk, error);
+  const std::filesystem::path folder = Existing(std::filesystem::absolute(machine.disk));
+  const auto space = std::filesystem::space(folder, error);
   if (error)
     return {"disk", Verdict::kBad, machine.disk.string() + ": " + error.message(),
             "df -h   # choose another place"};
   const auto megabytes = space.available / 1'000'000;
-  if (!machine.may_write(machine.disk))
+  if (!machine.may_write(folder))
     return {"disk", Verdict::kBad, machine.disk.string() + " cannot be written",
-            fmt::format("sudo chown $USER {}   # or another folder", machine.disk.string())};
+            "export PRIAMOS_LOGS=$HOME/logs   # or another folder of yours"};
   if (megabytes >= kDiskMegabytes) return {"disk", Verdict::kGood, fmt::format("{} MB free", megabytes), ""};
   return {"disk", Verdict::kBad, fmt::format("{} MB free; logs want {}", megabytes, kDiskMegabytes),
           "du -sh logs/* | sort -h   # and delete old ones"};
@@ -143,6 +152,7 @@ bool InPath(const std::string& program) {
 
 Machine ThisMachine() {
   Machine machine;
+  machine.disk = LogRoot("");
   machine.route_problem = [](const std::string& bus) -> std::string {
     try {
       if (bus.starts_with("udpm://")) bus::RequireMulticastRoute(bus);

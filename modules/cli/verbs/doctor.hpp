@@ -20,7 +20,7 @@ struct Finding {
 /// The machine the doctor looks at, so that a test can bring another one.
 struct Machine {
   std::filesystem::path root = "/";  ///< where /proc, /sys, /dev, /etc and /run are
-  std::filesystem::path disk = ".";  ///< where logs are written
+  std::filesystem::path disk = ".";  ///< where runs are written; it need not be there yet
   std::function<std::string(const std::string& bus)> route_problem;  ///< empty: there is one
   std::function<bool()> loopback_has_multicast;
   std::function<bool(const std::string& program)> has_program;

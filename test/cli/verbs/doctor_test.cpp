@@ -97,8 +97,10 @@ TEST_F(Doctor, SpaceMouseDaemon) {
 TEST_F(Doctor, ADiskThatCannotBeWritten) {
   machine_.may_write = [this](const std::filesystem::path& path) { return path != machine_.disk; };
   EXPECT_EQ(Of("disk").verdict, Verdict::kBad);
-  machine_.disk = "/nowhere";
-  EXPECT_EQ(Of("disk").verdict, Verdict::kBad);
+  machine_.may_write = [this](const std::filesystem::path& path) { return path != folder_.path(); };
+  machine_.disk = folder_ / "runs/to be made";
+  EXPECT_EQ(Of("disk").verdict, Verdict::kBad) << "that is where it would be made";
+  EXPECT_THAT(Of("disk").command, HasSubstr("PRIAMOS_LOGS"));
 }
 
 TEST_F(Doctor, UnsynchronisedClock) {
