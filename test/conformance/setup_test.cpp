@@ -30,7 +30,7 @@ class SetupTest : public ::testing::Test {
   int Run(const std::string& packages) {
     std::ofstream(folder_ / "list.txt") << packages;
     const std::string command = "PATH=" + folder_.path().string() +
-                                ":$PATH " PRIAMOS_SOURCE_DIR "/scripts/setup " +
+                                ":$PATH '" PRIAMOS_SOURCE_DIR "/scripts/setup' " +
                                 (folder_ / "list.txt").string() + " > /dev/null 2>&1";
     const int status = std::system(command.c_str());
     std::ostringstream text;

@@ -20,10 +20,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-ShellAnswer RunCommand(const std::string& command) {
-  return RunShell("timeout 250 " + command);
-}
-
 std::string ReadFile(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
@@ -36,6 +32,10 @@ std::ptrdiff_t Lines(const std::filesystem::path& path) {
 }
 
 const std::string kPriamos = std::string(PRIAMOS_BINARY_DIR) + "/bin/priamos";
+
+ShellAnswer RunPriamos(const std::string& arguments) {
+  return RunShell("timeout 250 '" + kPriamos + "' " + arguments);
+}
 
 class CalibrationTest : public testing::Test {
  protected:
@@ -84,8 +84,8 @@ TEST_F(CalibrationTest, GoesOnAfterKill9InTheMiddle) {
   KillAfter(deployment, 5);
   EXPECT_EQ(ReadFile(deployment / "kastor.yaml"), "the old table\n");
   const auto done = Lines(deployment / "kastor.yaml.journal") - 1;
-  const ShellAnswer answer = RunCommand(kPriamos + " calibrate --deployment " + deployment.string() +
-                                        " --output " + (deployment / "kastor.yaml").string());
+  const ShellAnswer answer = RunPriamos("calibrate --deployment " + deployment.string() + " --output " +
+                                        (deployment / "kastor.yaml").string());
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("goes on after"));
   EXPECT_THAT(answer.text, Not(HasSubstr("; 1 of "))) << "what was finished is not done again";
@@ -104,8 +104,7 @@ class BadCalibrationInput : public CalibrationTest, public testing::WithParamInt
 TEST_P(BadCalibrationInput, OneSentenceExitCode2AndTheOldFileUntouched) {
   const BadInput& bad = GetParam();
   const std::string input = Write(bad.name, bad.text), output = Write("old.json", "{\"old\": true}\n");
-  const ShellAnswer answer =
-      RunCommand(kPriamos + " calibrate " + bad.option + " " + input + " --output " + output);
+  const ShellAnswer answer = RunPriamos("calibrate " + bad.option + " " + input + " --output " + output);
   EXPECT_EQ(answer.exit_code, 2) << answer.text;
   EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr(bad.why));
@@ -133,7 +132,7 @@ TEST_F(CalibrationTest, ATruncatedTableIsRefusedAndStays) {
   const std::string whole = ReadFile(PRIAMOS_SOURCE_DIR "/config/sim/kastor.yaml");
   const std::string table = Write("kastor.yaml", whole.substr(0, whole.size() / 2));
   const std::string pictures = Write("laser.toml", "[[view]]\nimage = \"floor.png\"\n");
-  const ShellAnswer answer = RunCommand(kPriamos + " calibrate --laser " + pictures + " --table " + table);
+  const ShellAnswer answer = RunPriamos("calibrate --laser " + pictures + " --table " + table);
   EXPECT_EQ(answer.exit_code, 2) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("kastor.yaml: "));
   EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
