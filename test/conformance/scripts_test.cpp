@@ -1,7 +1,11 @@
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -18,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 /// A clone's scripts in a folder with a blank, on a machine that has only the programs named and those added.
@@ -27,8 +32,10 @@ class ScriptsTest : public ::testing::Test {
     fs::create_directories(clone_);
     fs::create_directories(folder_ / "bin");
     fs::copy(PRIAMOS_SOURCE_DIR "/scripts", clone_ / "scripts");
+    fs::create_directories(clone_ / "modules/cli");
+    fs::copy(PRIAMOS_SOURCE_DIR "/modules/cli/spy", clone_ / "modules/cli/spy");
     for (const char* name : {"awk", "bash", "cat", "dirname", "dpkg-query", "env", "grep", "mktemp", "rm",
-                             "sed", "sort", "tail", "tee", "tr", "mkdir"})
+                             "sed", "sort", "tail", "tee", "tr", "mkdir", "flock", "git", "realpath"})
       for (const char* place : {"/usr/bin/", "/bin/"})
         if (fs::exists(place + std::string(name)) && !fs::exists(folder_ / "bin" / name))
           fs::create_symlink(place + std::string(name), folder_ / "bin" / name);
@@ -53,6 +60,7 @@ class ScriptsTest : public ::testing::Test {
 
  protected:
   fs::path bin() const { return folder_ / "bin"; }
+  fs::path clone() const { return clone_; }
 };
 
 /// Option and default of every option in a help text.
@@ -67,7 +75,7 @@ TEST_F(ScriptsTest, TheDemosHelpNamesTheProgramsOptionsAndDefaultsAndInstallsNot
   Script("setup", "echo no; exit 1");
   const auto answer = Run("scripts/demo --seed 3 --help");
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
-  const auto program = RunShell(PRIAMOS_BINARY_DIR "/bin/priamos run --help").text;
+  const auto program = RunShell("'" PRIAMOS_BINARY_DIR "/bin/priamos' run --help").text;
   const auto expected = OptionsIn(program, std::regex(R"(\n  (--[a-z-]+)(?: [A-Z]+=(\S+))?)"));
   const auto shown =
       OptionsIn(answer.text, std::regex(R"(\n  (--[a-z-]+) [^\n]*?(?:default: (\S+)\)|(?=\n|$)))"));
@@ -122,6 +130,7 @@ TEST_F(ScriptsTest, AParentThatCannotBeWrittenIsNamed) {
 
 TEST_F(ScriptsTest, ThePresetChangesWithoutAWipeAndStaysUntilItIsChangedAgain) {
   Script("setup", "exit 0");
+  Program("ninja", "exit 0");
   // A cmake that only keeps its cache.
   Program("cmake", R"([ "$1" = --build ] && exit 0
 mkdir -p build; : >>build/build.ninja; echo "$2" >>build/presets
@@ -138,6 +147,100 @@ for word in "$@"; do case $word in -D*) name=${word#-D}
   EXPECT_EQ(presets("scripts/build product"), "release\ndev\ndev\n");
   EXPECT_EQ(presets("PRIAMOS_PRESET=release scripts/build"), "release\ndev\ndev\nrelease\n");
   EXPECT_EQ(presets("scripts/build"), "release\ndev\ndev\nrelease\n");
+}
+
+TEST_F(ScriptsTest, EveryScriptHasAHelpThatDoesNothing) {
+  for (const auto& entry : fs::directory_iterator(PRIAMOS_SOURCE_DIR "/scripts")) {
+    if (entry.path().extension() == ".txt") continue;
+    for (const char* option : {" -h", " --help"}) {
+      const auto answer = Run("scripts/" + entry.path().filename().string() + option);
+      EXPECT_EQ(answer.exit_code, 0) << entry.path() << answer.text;
+      EXPECT_THAT(answer.text, HasSubstr("usage: ")) << entry.path();
+    }
+  }
+}
+
+TEST_F(ScriptsTest, AWrongWordIsNamedAndNothingIsDone) {
+  Script("setup", "echo \"installing\"; exit 1");
+  for (const auto& [command, got] :
+       std::map<std::string, std::string>{{"scripts/build --verbose", "--verbose"},
+                                          {"scripts/format --chekc", "--chekc"},
+                                          {"scripts/lint no-such-revision", "no-such-revision"},
+                                          {"scripts/fuzz abc", "abc"},
+                                          {"scripts/spy onbord", "onbord"},
+                                          {"scripts/in-private-network -x", "-x"},
+                                          {"scripts/in-private-network", ""},
+                                          {"scripts/in-bare-system -x", "-x"},
+                                          {"scripts/record-run --seed", ""},
+                                          {"scripts/record-run --seed one", "one"},
+                                          {"scripts/record-run --into nowhere", "nowhere"}}) {
+    const auto answer = Run(command);
+    EXPECT_EQ(answer.exit_code, 2) << command << ": " << answer.text;
+    EXPECT_THAT(answer.text, HasSubstr("got \"" + got + "\"")) << command;
+    EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
+  }
+}
+
+TEST_F(ScriptsTest, AListOfPackagesThatIsNotThereIsNamed) {
+  const auto answer = Run("scripts/setup nosuch.txt");
+  EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  EXPECT_THAT(answer.text, StartsWith("setup: nosuch.txt: expected a list of packages"));
+}
+
+TEST_F(ScriptsTest, CdpathDoesNotLeadIntoAnotherClone) {
+  fs::create_directories(bin() / "other/scripts");
+  Script("setup", "pwd; exit 2");
+  const auto answer = Run("CDPATH='" + (bin() / "other").string() + "' scripts/build product");
+  EXPECT_THAT(answer.text, HasSubstr("/a clone\n"));
+}
+
+TEST_F(ScriptsTest, ABuildFolderOfAnotherPlaceIsConfiguredAnew) {
+  Script("setup", "exit 0");
+  Program("ninja", "exit 0");
+  Program("cmake", "echo \"$@\" >>asked");
+  fs::create_directories(clone() / "build");
+  std::ofstream(clone() / "build/build.ninja") << "\n";
+  const auto build_in = [&](const std::string& home) {
+    std::ofstream(clone() / "build/CMakeCache.txt")
+        << "PRIAMOS_PRESET:STRING=dev\nPRIAMOS_TESTS:BOOL=ON\nCMAKE_HOME_DIRECTORY:INTERNAL=" << home << "\n";
+    return Run("scripts/build product; cat asked; rm asked").text;
+  };
+  EXPECT_THAT(build_in(clone()), Not(HasSubstr("--preset")));
+  const std::string moved = build_in("/elsewhere");
+  EXPECT_THAT(moved, HasSubstr("build/ was made for /elsewhere"));
+  EXPECT_THAT(moved, HasSubstr("--preset dev"));
+  EXPECT_THAT(moved, HasSubstr("-DPRIAMOS_TESTS:BOOL=ON"));
+}
+
+TEST_F(ScriptsTest, APathThatCMakeCannotBearIsRefused) {
+  for (const char* name : {"a[1]", "a#b", "a;b", "a*"}) {
+    fs::create_directories(bin() / name);
+    fs::copy(clone() / "scripts", bin() / name / "scripts");
+    const auto answer = Run("'" + (bin() / name / "scripts/build").string() + "'");
+    EXPECT_EQ(answer.exit_code, 2) << answer.text;
+    EXPECT_THAT(answer.text, HasSubstr(std::string(name) + ": CMake cannot build in a path"));
+  }
+}
+
+TEST_F(ScriptsTest, ASecondBuildWaitsAndSaysSo) {
+  Script("setup", "exit 3");
+  fs::create_directories(clone() / "build");
+  const int folder = open((clone() / "build").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(folder, LOCK_EX), 0);
+  const auto waiting = Run("/usr/bin/timeout 1 scripts/build product");
+  EXPECT_THAT(waiting.text, HasSubstr("another scripts/build is at work"));
+  EXPECT_EQ(waiting.exit_code, 124);
+  close(folder);
+  EXPECT_EQ(Run("scripts/build product").exit_code, 3);
+}
+
+TEST_F(ScriptsTest, ATargetThatNobodyKnowsIsNamed) {
+  Script("setup", "exit 0");
+  Program("ninja", "exit 1");
+  Program("cmake", "exit 0");
+  const auto answer = Run("scripts/build prodcut");
+  EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr("build: expected a target, got \"prodcut\""));
 }
 
 }  // namespace
