@@ -101,6 +101,9 @@ std::string FindDeployment(const std::string& given, const ProgramPlace& place) 
     if (fs::is_directory(given)) return given;
     throw ConfigError(fmt::format("{}: expected the folder of a deployment, got none", given));
   }
+  if (!place.data.empty() && !fs::is_directory(fs::path(place.data) / "config"))
+    throw ConfigError(
+        fmt::format("PRIAMOS_DATA: expected a folder with config/ inside, got \"{}\"", place.data));
   for (const auto& root : DeploymentRoots(place))
     if (!given.empty() && fs::is_directory(root / given)) return root / given;
   RefuseDeployment(given, place);

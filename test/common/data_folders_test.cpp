@@ -113,6 +113,13 @@ TEST_F(FindDeploymentTest, AnUnknownNameIsAnsweredWithTheKnownOnesAndThePlaces) 
   EXPECT_THAT(Refusal(""), HasSubstr("got \"\""));
 }
 
+TEST(DataFolders, AFolderOfDataWithoutConfigurationIsNamed) {
+  ProgramPlace place;
+  place.data = "/nowhere";
+  EXPECT_THAT([&] { FindDeployment("sim", place); },
+              testing::ThrowsMessage<ConfigError>(testing::HasSubstr("PRIAMOS_DATA: expected a folder")));
+}
+
 TEST(ShownFrom, IsShortBelowAndWholeElsewhere) {
   EXPECT_EQ(ShownFrom("/a/b", "/a/b/logs/x"), "logs/x");
   EXPECT_EQ(ShownFrom("/a/b", "/a/c"), "/a/c");
