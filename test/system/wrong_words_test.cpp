@@ -79,8 +79,8 @@ const std::vector<WrongLine> kLines{
     // configuration
     {"priamos-robot --config $SOURCE/config/sim/robot.toml --set drive.max_sped_m_s=1",
      "--set drive.max_sped_m_s=1:", "\"drive.follower.shape.max_speed_m_s\""},
-    {"priamos-robot --set speed.max_sped_m_s=1", "--set speed.max_sped_m_s=1: speed.max_sped_m_s:",
-     "\"drive.follower.shape.max_speed_m_s\""},
+    {"priamos-robot --set speed.max_sped_m_s=1",
+     "--set speed.max_sped_m_s=1: speed.max_sped_m_s:", "\"drive.follower.shape.max_speed_m_s\""},
     {"priamos-planner --set mission.sped_m_s=1", "--set mission.sped_m_s=1:", "\"mission.speed_m_s\""},
     {"priamos-robot --config $SOURCE/config/sim/robto.toml", "robto.toml: expected a configuration file",
      "\"robot.toml\""},

@@ -92,8 +92,8 @@ TEST_F(LandmarkFixTest, ADoorElsewhereIsRefused) {
 
 TEST_F(LandmarkFixTest, SwappedImagesGiveNoFix) {
   Find(test::DoorQuads(), {3.2, 0, 0}, {3.2, 0, 0});
-  const LandmarkFix fix = dut_.Find(model_, {{3.2, 0, 0}, kTwentyCentimetresFiveDegrees}, left_, right_,
-                                    right_edges_, left_edges_);
+  const LandmarkFix fix = dut_.Find(model_, {{3.2, 0, 0}, kTwentyCentimetresFiveDegrees},
+                                    {MakeView(left_, right_edges_), MakeView(right_, left_edges_)});
   EXPECT_NE(fix.verdict, Verdict::kFound);
 }
 
@@ -112,8 +112,8 @@ TEST_F(LandmarkFixTest, AMovablePartThatStandsElsewhereSaysNothing) {
   LandmarkModel with_leaf = model_;
   const int leaf = static_cast<int>(with_leaf.edges.size());
   for (const double y : {-0.2, 0.0, 0.2}) with_leaf.edges.push_back({{0.5, y, 0}, {0.5, y, 2}, -kPi, kPi, 3});
-  const LandmarkFix with =
-      dut_.Find(with_leaf, {truth, kTwentyCentimetresFiveDegrees}, left_, right_, left_edges_, right_edges_);
+  const LandmarkFix with = dut_.Find(with_leaf, {truth, kTwentyCentimetresFiveDegrees},
+                                     {MakeView(left_, left_edges_), MakeView(right_, right_edges_)});
   ASSERT_EQ(with.verdict, Verdict::kFound);
   EXPECT_DOUBLE_EQ(with.log_odds, without.log_odds);
   EXPECT_DOUBLE_EQ(with.base_from_landmark.x, without.base_from_landmark.x);
@@ -128,8 +128,10 @@ TEST_F(LandmarkFixTest, AMovablePartThatIsFoundSpeaksForThePose) {
   more.edges[part].side = 3;
   Find(test::DoorQuads(), truth, truth);
   const LandmarkPrediction prediction{truth, kTwentyCentimetresFiveDegrees};
-  const LandmarkFix a = dut_.Find(less, prediction, left_, right_, left_edges_, right_edges_);
-  const LandmarkFix b = dut_.Find(more, prediction, left_, right_, left_edges_, right_edges_);
+  const LandmarkFix a =
+      dut_.Find(less, prediction, {MakeView(left_, left_edges_), MakeView(right_, right_edges_)});
+  const LandmarkFix b =
+      dut_.Find(more, prediction, {MakeView(left_, left_edges_), MakeView(right_, right_edges_)});
   ASSERT_EQ(b.verdict, Verdict::kFound);
   EXPECT_GT(b.log_odds, a.log_odds + 1);
   EXPECT_TRUE(
@@ -138,10 +140,10 @@ TEST_F(LandmarkFixTest, AMovablePartThatIsFoundSpeaksForThePose) {
 
 TEST_F(LandmarkFixTest, AnEmptyModelIsNoModel) {
   Find(test::DoorQuads(), {3.2, 0, 0}, {3.2, 0, 0});
-  EXPECT_EQ(
-      dut_.Find({}, {{3.2, 0, 0}, kTwentyCentimetresFiveDegrees}, left_, right_, left_edges_, right_edges_)
-          .verdict,
-      Verdict::kNoModel);
+  EXPECT_EQ(dut_.Find({}, {{3.2, 0, 0}, kTwentyCentimetresFiveDegrees},
+                      {MakeView(left_, left_edges_), MakeView(right_, right_edges_)})
+                .verdict,
+            Verdict::kNoModel);
 }
 
 TEST(VerdictTest, EveryVerdictHasWords) {
