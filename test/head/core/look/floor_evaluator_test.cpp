@@ -29,7 +29,7 @@ class FloorEvaluatorTest : public testing::Test {
   std::optional<FloorResult> Evaluate(double height_m) { return dut_.Evaluate(Picture(height_m), setting_); }
 
   Rng rng_{11};
-  const HeadModel head_ = HeadWithLaser();
+  HeadModel head_ = HeadWithLaser();
   HeadSetting setting_;
   support::LaserFloor scene_ = support::NominalLaserFloor();
   FloorEvaluator dut_{head_, ObstacleOptions()};
@@ -62,10 +62,9 @@ TEST_F(FloorEvaluatorTest, ALostPictureSaysNothingAndForgetsNothing) {
 }
 
 TEST_F(FloorEvaluatorTest, WithoutACalibratedLaserOrCameraNothingIsSaid) {
-  HeadModel without_laser = head_;
-  without_laser.laser.reset();
-  EXPECT_FALSE(FloorEvaluator(without_laser, {}).Evaluate(Picture(0.03), setting_));
   HeadModel without_camera = head_;
+  head_.laser.reset();
+  EXPECT_FALSE(FloorEvaluator(head_, {}).Evaluate(Picture(0.03), setting_));
   without_camera.lenses[kThird] = LensTable();
   EXPECT_FALSE(FloorEvaluator(without_camera, {}).Evaluate(Picture(0.03), setting_));
 }
