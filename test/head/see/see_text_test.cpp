@@ -30,7 +30,10 @@ TEST(SeeTextTest, AnImageWithoutContentIsNamedWithTheReason) {
 
 TEST(SeeTextTest, MatchesAlongEpipolarLinesHaveNoPlaceInSpace) {
   std::vector<StereoMatch> matches(3);
-  matches[1].space = SpaceEdge();
+  SpaceEdge somewhere;
+  somewhere.from.setZero();
+  somewhere.to.setZero();
+  matches[1].space = somewhere;
   EXPECT_EQ(MatchesText(matches, "s.png"),
             "together: 3 matches, 1 of them with a place in space, drawn in s.png\n");
   EXPECT_EQ(MatchesText({}, "s.png"),
