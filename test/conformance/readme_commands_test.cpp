@@ -80,7 +80,7 @@ std::optional<std::string> OutputOf(const std::string& command) {
 /// The program with the verbs it was given: `priamos link bits`.
 std::string VerbOf(const fs::path& program, const std::vector<std::string>& words) {
   static const std::set<std::string> kVerbsWithVerbs{"link", "topic", "log", "type", "replay", "completion"};
-  std::string command = "'" + program.string() + "'";
+  std::string command = fmt::format("'{}'", program.string());
   if (program.filename() != "priamos" || words.size() < 2 || words[1].starts_with("-")) return command;
   command += " " + words[1];
   if (kVerbsWithVerbs.contains(words[1]) && words.size() > 2) command += " " + words[2];

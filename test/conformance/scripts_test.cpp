@@ -216,7 +216,7 @@ TEST_F(ScriptsTest, APathThatCMakeCannotBearIsRefused) {
   for (const char* name : {"a[1]", "a#b", "a;b", "a*"}) {
     fs::create_directories(bin() / name);
     fs::copy(clone() / "scripts", bin() / name / "scripts");
-    const auto answer = Run("'" + (bin() / name / "scripts/build").string() + "'");
+    const auto answer = Run(fmt::format("'{}'", (bin() / name / "scripts/build").string()));
     EXPECT_EQ(answer.exit_code, 2) << answer.text;
     EXPECT_THAT(answer.text, HasSubstr(std::string(name) + ": CMake cannot build in a path"));
   }
