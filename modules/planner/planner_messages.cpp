@@ -70,7 +70,8 @@ RobotPose FromMessage(const pose_t& message) {
 }
 
 DriveReport FromMessage(const drive_status_t& message) {
-  return {ModeOf(message.mode), message.path_id, std::string(DriveLimitText(message.limit))};
+  return {ModeOf(message.mode), message.path_id, std::string(DriveLimitText(message.limit)),
+          message.estop != 0};
 }
 
 std::optional<LookResult> FromMessage(const landmark_fix_t& message) {

@@ -12,9 +12,11 @@ namespace {
 std::string_view Refusal(PathVerdict verdict) {
   switch (verdict) {
     case PathVerdict::kWithoutLease:
-      return "somebody else holds the lease";
+      return "another driver holds the lease";
     case PathVerdict::kEstop:
       return "the e-stop is pressed";
+    case PathVerdict::kStale:
+      return "it was ordered before the e-stop was re-armed; next: order it again";
     case PathVerdict::kTaken:
     case PathVerdict::kSame:
       break;

@@ -126,6 +126,9 @@ bool DoorMission::CheckLimits(Time now, MissionActions& actions) {
   const Time heard = pose_ ? std::max(pose_->stamp, started_) : started_;
   if (aborted_) {
     Fail("aborted by the operator", actions);
+  } else if (drive_ && drive_->estop) {
+    // Not to be waited for: what moves after the re-arming is for a person to order anew.
+    Fail("the emergency stop is latched; next: priamos estop --rearm, and a new order", actions);
   } else if (Seconds(now - heard) > config_.silent_s) {
     Fail(fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", config_.silent_s,
                      link_up_ ? "up, is the robot running?" : "down"),

@@ -25,7 +25,8 @@ enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked };
 struct DriveReport {
   DriveMode mode = DriveMode::kIdle;
   int path_id = 0;
-  std::string limit;  ///< what limits the speed, in words; empty when nothing does
+  std::string limit;   ///< what limits the speed, in words; empty when nothing does
+  bool estop = false;  ///< the emergency stop is latched
 };
 
 /// What became of a look: from the head (not found) or from the robot (applied or refused).

@@ -83,8 +83,10 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
 PathVerdict DriveController::SetPath(const Path& path, Time now) {
   const bool driving_it = path_is_new_ || follower_.has_path();
   if (driving_it && path_ && SamePath(*path_, path)) return PathVerdict::kSame;
+  if (authority_.estop()) stale_path_ = path;
   if (!authority_.AdmitPath(now))
     return authority_.estop() ? PathVerdict::kEstop : PathVerdict::kWithoutLease;
+  if (stale_path_ && SamePath(*stale_path_, path)) return PathVerdict::kStale;
   path_ = path;
   path_is_new_ = !path.points.empty();
   ever_ordered_ = true;
@@ -289,6 +291,7 @@ void DriveController::NoteEnd(DriveSource source) {
 
 void DriveController::Halt(Condition cause) {
   const bool moved = Source(*last_step_) != DriveSource::kNone || authority_.lease_lost();
+  if (cause == Condition::kEstop && HasWayToGo()) stale_path_ = path_;
   if (moved) state_.halted_by = cause;
   DropPath();
   authority_.Forget();

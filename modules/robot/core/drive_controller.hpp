@@ -50,8 +50,9 @@ struct DriveSituation {
       link_down{};  ///< how long the radio link has been down; 0 while it is up or nothing is known of it
 };
 
-/// What became of a path.
-enum class PathVerdict { kTaken, kSame, kWithoutLease, kEstop };
+/// What became of a path. Stale: it was ordered before the e-stop was re-armed, and after that nothing moves
+/// without a new order.
+enum class PathVerdict { kTaken, kSame, kWithoutLease, kEstop, kStale };
 
 struct DriveState {
   DriveMode mode = DriveMode::kIdle;
@@ -136,8 +137,9 @@ class DriveController {
   Authority authority_;
   Failsafe failsafe_;
   DriveState state_;
-  std::optional<Path> path_;  ///< the newest order
-  bool path_is_new_ = false;  ///< not yet given to the follower
+  std::optional<Path> path_;        ///< the newest order
+  std::optional<Path> stale_path_;  ///< ended or refused by the e-stop
+  bool path_is_new_ = false;        ///< not yet given to the follower
   bool ever_ordered_ = false;
   std::optional<Time> last_step_, first_step_, sonar_heard_;
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;

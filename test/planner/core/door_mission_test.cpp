@@ -287,6 +287,21 @@ TEST(DoorMission, AbortBrakes) {
   EXPECT_TRUE(s.robot.paths.back().points.empty());
 }
 
+TEST(DoorMission, AnEmergencyStopEndsItAndNoneBeginsWhileItIsLatched) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  s.robot.estop = true;
+  s.robot.RunFor(1);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, testing::HasSubstr("emergency stop"));
+  EXPECT_TRUE(s.dut.Start(s.robot.now(), 1));
+  s.robot.Step();
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  for (int i = 0; i < 100; ++i) s.robot.Step();
+  EXPECT_TRUE(s.robot.paths.back().points.empty());
+}
+
 TEST(DoorMission, SecondOrderWhileRunningIsRefused) {
   Story s;
   s.Start();

@@ -27,6 +27,7 @@ class FakeRobot {
   };
   bool silent = false;   ///< nothing comes through in either direction
   bool blocked = false;  ///< stands before an obstacle
+  bool estop = false;    ///< reports a latched emergency stop
 
   /// One step of 50 ms: robot, radio, mission.
   void Step() {
@@ -142,6 +143,7 @@ class FakeRobot {
                                        : DriveMode::kFollowing,
                       path_id_, blocked ? "sonar" : ""};
     if (blocked) drive.mode = DriveMode::kBlocked;
+    drive.estop = estop;
     Later([this, pose, drive] {
       mission_.OnPose(pose);
       mission_.OnDrive(drive, now_);

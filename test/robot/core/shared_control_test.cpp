@@ -127,9 +127,29 @@ TEST_F(SharedControlTest, EstopEndsAPathForGood) {
   rig_.drive().Rearm();
   ExpectNoMotionFor(1);
   EXPECT_EQ(rig_.state().halted_by, Condition::kEstop);
-  EXPECT_EQ(rig_.SetPath(path), PathVerdict::kTaken) << "the same path is an order again";
+  EXPECT_EQ(rig_.SetPath(path), PathVerdict::kStale) << "repeated by somebody who knows nothing of the stop";
+  ExpectNoMotionFor(1);
+  EXPECT_EQ(rig_.SetPath({.id = 2, .speed_m_s = 0.4, .points = {{5, 0, 0}}}), PathVerdict::kTaken);
   rig_.Run(2);
   EXPECT_GT(Speed(), 0.3);
+}
+
+/// A planner repeats its path until it is confirmed, also while the e-stop is latched.
+TEST_F(SharedControlTest, APathOrderedDuringAnEstopIsNotDrivenAfterIt) {
+  rig_.Run(0.2);
+  rig_.drive().PressEstop();
+  rig_.Tick();
+  const Path path{.id = 1, .speed_m_s = 0.4, .points = {{5, 0, 0}}};
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(rig_.SetPath(path), PathVerdict::kEstop);
+    rig_.Run(0.5);
+  }
+  rig_.drive().Rearm();
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(rig_.SetPath(path), PathVerdict::kStale);
+    rig_.Run(0.5);
+    EXPECT_FALSE(rig_.command()) << "nothing was ordered";
+  }
 }
 
 TEST_F(SharedControlTest, TeleopTakesOverFromAPath) {
