@@ -35,7 +35,7 @@ const std::vector<Rule> kNotRun{
 /// What goes on until it is stopped, with a regular expression of what proves that it works. Ctrl-C must end
 /// it.
 const std::vector<Rule> kUntilStopped{
-    {"priamos topic list .*--watch", "POSE +priamos.pose_t"},
+    {"priamos topic list .*--watch", "POSE +(priamos.pose_t +)?[0-9]"},
     {"priamos topic (echo|hz|bw) (?!.*--count)", "(utime|_m|Hz|bytes).*[0-9]"},
     {"priamos log record ", "lcmlog"},
     {"priamos (view|where)\\b", "."},
@@ -111,15 +111,23 @@ std::vector<std::string> Complaints(const std::string& text, std::size_t command
   return complaints;
 }
 
+/// The simulated world refuses to stand in for devices that speak already.
+bool StandsInForTheRobot(const ReadmeBlock& block) {
+  return std::any_of(block.commands.begin(), block.commands.end(), [](const std::string& command) {
+    return command.find("priamos-world ") != std::string::npos;
+  });
+}
+
 /// Runs a block at most `seconds`; nothing of it lives longer.
 std::string RunBlock(const ReadmeBlock& block, int seconds) {
   const TemporaryFolder folder;
   const fs::path tree = folder / "tree";
   MakeScratchTree(tree);
-  const std::string script = "cd '" + tree.string() + "'; export PATH=$BIN:$PATH\n" +
-                             "for side in onboard offboard; do\n"
-                             "  priamos log play $side.lcmlog --loop --bus $side >/dev/null 2>&1 &\ndone\n" +
-                             kShellFunctions + ScriptOf(block);
+  const std::string script =
+      "cd '" + tree.string() + "'; export PATH=$BIN:$PATH\n" +
+      fmt::format("for side in {}; do\n", StandsInForTheRobot(block) ? "offboard" : "onboard offboard") +
+      "  priamos log play $side.lcmlog --loop --bus $side >/dev/null 2>&1 &\ndone\n" + kShellFunctions +
+      ScriptOf(block);
   return RunInPrivateNetwork(script, folder / "script.sh", seconds, "unshare -rnpf --kill-child --mount-proc")
       .text;
 }
