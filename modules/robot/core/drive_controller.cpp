@@ -83,7 +83,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
 PathVerdict DriveController::SetPath(const Path& path, Time now) {
   const bool driving_it = path_is_new_ || follower_.has_path();
   if (driving_it && path_ && SamePath(*path_, path)) return PathVerdict::kSame;
-  if (authority_.estop()) stale_path_ = path;
+  if (authority_.estop() && !path.points.empty()) stale_path_ = path;
   if (!authority_.AdmitPath(now))
     return authority_.estop() ? PathVerdict::kEstop : PathVerdict::kWithoutLease;
   if (stale_path_ && SamePath(*stale_path_, path)) return PathVerdict::kStale;

@@ -127,7 +127,7 @@ TEST_F(SharedControlTest, EstopEndsAPathForGood) {
   rig_.drive().Rearm();
   ExpectNoMotionFor(1);
   EXPECT_EQ(rig_.state().halted_by, Condition::kEstop);
-  EXPECT_EQ(rig_.SetPath(path), PathVerdict::kStale) << "repeated by somebody who knows nothing of the stop";
+  EXPECT_EQ(rig_.SetPath(path), PathVerdict::kStale) << "repeated by a planner that missed the stop";
   ExpectNoMotionFor(1);
   EXPECT_EQ(rig_.SetPath({.id = 2, .speed_m_s = 0.4, .points = {{5, 0, 0}}}), PathVerdict::kTaken);
   rig_.Run(2);
@@ -144,6 +144,7 @@ TEST_F(SharedControlTest, APathOrderedDuringAnEstopIsNotDrivenAfterIt) {
     EXPECT_EQ(rig_.SetPath(path), PathVerdict::kEstop);
     rig_.Run(0.5);
   }
+  EXPECT_EQ(rig_.SetPath({.id = 2}), PathVerdict::kEstop) << "an order to brake changes nothing";
   rig_.drive().Rearm();
   for (int i = 0; i < 4; ++i) {
     EXPECT_EQ(rig_.SetPath(path), PathVerdict::kStale);

@@ -13,6 +13,7 @@ constexpr double kDt = 0.02;
 TEST(TwistSlew, ReachesTheTargetInStepsOfTheLimit) {
   TwistSlew dut({.acceleration_m_s2 = 0.5, .turn_acceleration_rad_s2 = 1});
   EXPECT_NEAR(dut.Step({0.4, 0, 0.5}, kDt).vx, 0.01, 1e-12);
+  EXPECT_NEAR(dut.commanded().wz, 0.0125, 1e-12);
   for (int i = 0; i < 60; ++i) dut.Step({0.4, 0, 0.5}, kDt);
   EXPECT_NEAR(std::hypot(dut.commanded().vx, dut.commanded().vy - 0), 0.4, 0.01);
   EXPECT_NEAR(dut.commanded().wz, 0.5, 1e-12);
