@@ -22,7 +22,7 @@ const std::vector<Fact> kFacts{
      R"(\b0\.95, 0\.78\b|\b(length|width|height)_m = (0\.95|0\.78|1\.35|1\.40?)\b)"},
     {"modules/common/image_size.hpp", R"(\b768\b.*\b576\b|\b(383\.5|384), *(287\.5|288)\b)"},
     {"modules/common/sonar_ring.hpp", R"(\bkSonars = |\bkSonarM(in|ax)M = )"},
-    {"modules/common/sonar_ring.cpp", R"(^Pose2 BaseFromSonar\()"},
+    {"modules/common/sonar_ring.cpp", R"(^Pose2 BaseFromSonar\(.*\{$)"},
 };
 
 /// "file:line" of every line of the product's sources that matches.

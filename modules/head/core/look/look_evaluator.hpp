@@ -28,6 +28,7 @@ struct LookResult {
   std::optional<StereoDrift> drift;  ///< of the right camera; nullopt: this look does not tell
 };
 
+/// What of a look's evaluation the configuration sets.
 struct LookOptions {
   EdgeOperator::Options edges;
   LandmarkFixOptions finder;
