@@ -24,9 +24,9 @@ std::optional<EpochAgreement::Pair> Handshake::OnHello(const Hello& hello) {
   ++received_;
   table_mismatch_ = hello.table_hash != table_hash_;
   if (table_mismatch_) return std::nullopt;
-  const EpochAgreement::Outcome outcome = agreement_.OnHello(hello);
-  reply_due_ = reply_due_ || outcome.reply;
-  return outcome.agreed;
+  const EpochAgreement::Change change = agreement_.OnHello(hello);
+  reply_due_ = reply_due_ || change.reply;
+  return change.agreed;
 }
 
 void Handshake::OnData() {

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
 namespace priamos {
 
-/// Why something could not be done: one sentence for a person.
+/// Why something cannot be done: one sentence for a person. A check that has nothing else to say returns
+/// std::optional<Refusal>, nullopt when all is well. Exceptions are for what ends a program (ConfigError,
+/// BusError), and a bare optional is for a value that may be missing without a reason.
 struct Refusal {
   std::string reason;
 };

@@ -104,7 +104,8 @@ class BadCalibrationInput : public CalibrationTest, public testing::WithParamInt
 TEST_P(BadCalibrationInput, OneSentenceExitCode2AndTheOldFileUntouched) {
   const BadInput& bad = GetParam();
   const std::string input = Write(bad.name, bad.text), output = Write("old.json", "{\"old\": true}\n");
-  const ShellAnswer answer = RunPriamos(std::string("calibrate ") + bad.option + " " + input + " --output " + output);
+  const ShellAnswer answer =
+      RunPriamos(std::string("calibrate ") + bad.option + " " + input + " --output " + output);
   EXPECT_EQ(answer.exit_code, 2) << answer.text;
   EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr(bad.why));

@@ -6,7 +6,7 @@ namespace priamos::bus::radio {
 
 EpochAgreement::EpochAgreement(NonceSource nonces) : nonces_(std::move(nonces)), own_(nonces_()) {}
 
-EpochAgreement::Outcome EpochAgreement::OnHello(const Hello& hello) {
+EpochAgreement::Change EpochAgreement::OnHello(const Hello& hello) {
   const bool known = agreed_ && peer_ == hello.nonce;
   if (hello.echo != own_ && !hello.need) return {};  // an announcement
   if (agreed_ && !known) {

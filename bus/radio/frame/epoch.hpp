@@ -27,14 +27,14 @@ class EpochAgreement {
     std::uint64_t peer = 0;
   };
   /// What a hello changes.
-  struct Outcome {
+  struct Change {
     std::optional<Pair> agreed;  ///< change to the epoch of this pair now
     bool reply = false;          ///< send Compose() soon
   };
 
   explicit EpochAgreement(NonceSource nonces);
 
-  Outcome OnHello(const Hello& hello);
+  Change OnHello(const Hello& hello);
   /// The next hello to send, table hash and stream left to the caller.
   Hello Compose(bool need) const;
 

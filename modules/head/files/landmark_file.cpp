@@ -73,8 +73,8 @@ Polyhedron LoadToml(const std::string& file) {
   for (const FaceEntry& face : read.faces)
     body.faces.push_back(face.indices()), body.greys.push_back(face.grey);
   for (const CornersEntry& line : read.lines) body.lines.push_back({line.indices()[0], line.indices()[1]});
-  if (const std::string why = WhyNoPolyhedron(body); !why.empty())
-    throw std::runtime_error(fmt::format("{}: {}", file, why));
+  if (const auto refusal = CheckPolyhedron(body))
+    throw std::runtime_error(fmt::format("{}: {}", file, refusal->reason));
   return body;
 }
 

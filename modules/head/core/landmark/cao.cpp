@@ -189,7 +189,7 @@ Outcome<Polyhedron> ParseCao(const std::string& name, const std::string& text,
   } catch (const Trouble& trouble) {
     return Refusal{trouble.sentence};
   }
-  if (const std::string why = WhyNoPolyhedron(body); !why.empty()) return Refusal{name + ": " + why};
+  if (const auto refusal = CheckPolyhedron(body)) return Refusal{name + ": " + refusal->reason};
   return body;
 }
 

@@ -139,32 +139,36 @@ void AddVisible(const std::vector<Face>& faces, const Eigen::Vector3d& from, con
 
 }  // namespace
 
-std::string WhyNoPolyhedron(const Polyhedron& body) {
+std::optional<Refusal> CheckPolyhedron(const Polyhedron& body) {
   const int n = static_cast<int>(body.points.size());
   const auto known = [n](int i) { return i >= 0 && i < n; };
-  if (body.faces.empty() && body.lines.empty()) return "expected at least one face or line, got none";
+  if (body.faces.empty() && body.lines.empty())
+    return Refusal{"expected at least one face or line, got none"};
   for (int i = 0; i < n; ++i)
-    if (!body.points[i].allFinite()) return fmt::format("point {}: expected finite numbers", i);
+    if (!body.points[i].allFinite()) return Refusal{fmt::format("point {}: expected finite numbers", i)};
   for (const auto& line : body.lines)
     for (const int i : line)
-      if (!known(i)) return fmt::format("a line: expected points 0 to {}, got {}", n - 1, i);
+      if (!known(i)) return Refusal{fmt::format("a line: expected points 0 to {}, got {}", n - 1, i)};
   if (!body.greys.empty() && body.greys.size() != body.faces.size())
-    return fmt::format("expected greys of all {} faces, got {}", body.faces.size(), body.greys.size());
+    return Refusal{
+        fmt::format("expected greys of all {} faces, got {}", body.faces.size(), body.greys.size())};
   for (const double grey : body.greys)
-    if (!(grey >= 0 && grey <= 255)) return fmt::format("expected greys from 0 to 255, got {}", grey);
+    if (!(grey >= 0 && grey <= 255))
+      return Refusal{fmt::format("expected greys from 0 to 255, got {}", grey)};
   for (std::size_t f = 0; f < body.faces.size(); ++f) {
     const auto& face = body.faces[f];
-    if (face.size() < 3) return fmt::format("face {}: expected 3 corners or more, got {}", f, face.size());
+    if (face.size() < 3)
+      return Refusal{fmt::format("face {}: expected 3 corners or more, got {}", f, face.size())};
     for (const int i : face)
-      if (!known(i)) return fmt::format("face {}: expected points 0 to {}, got {}", f, n - 1, i);
+      if (!known(i)) return Refusal{fmt::format("face {}: expected points 0 to {}, got {}", f, n - 1, i)};
     const Face plane = MakeFace(body, face);
     if (!plane.normal.allFinite() || plane.normal.norm() < 0.5)
-      return fmt::format("face {}: expected corners that span a plane", f);
+      return Refusal{fmt::format("face {}: expected corners that span a plane", f)};
     for (const int i : face)
       if (std::abs(plane.normal.dot(body.points[i] - plane.origin)) > 0.05 * plane.size)
-        return fmt::format("face {}: expected corners in one plane, point {} is beside it", f, i);
+        return Refusal{fmt::format("face {}: expected corners in one plane, point {} is beside it", f, i)};
   }
-  return "";
+  return std::nullopt;
 }
 
 LandmarkModel VisibleSkeleton(const Polyhedron& body, const Eigen::Vector3d& eye_m, double min_m) {

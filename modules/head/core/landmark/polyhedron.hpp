@@ -21,9 +21,9 @@ struct Polyhedron {
       lines;  ///< further edges, seen from everywhere unless a face is before them
 };
 
-/// Empty if the body makes sense, else what is wrong: a face of fewer than 3 corners or not flat to 1 % of
+/// Nullopt if the body makes sense, else what is wrong: a face of fewer than 3 corners or not flat to 1 % of
 /// its size, a number of a point that is not there, numbers that are not finite, nothing at all.
-std::string WhyNoPolyhedron(const Polyhedron& body);
+std::optional<Refusal> CheckPolyhedron(const Polyhedron& body);
 
 /// What an eye at `eye_m` (landmark frame) sees of the edges: those of faces that look at it, cut where other
 /// faces are before them. Pieces shorter than `min_m` are left out. Between two faces that are

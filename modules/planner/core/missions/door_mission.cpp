@@ -50,7 +50,7 @@ void DoorMissionConfig::Describe(Archive& a) {
   a.Number("command_delay_s", command_delay_s, {"s", 0, 2, "from a decision here to the wheels there"});
   limits.Describe(a);
   a.Section("look", look, "looks at the sides of the door");
-  a.Section("drift", drift, "what the wheels add on the distance to the door");
+  a.Section("drift", drift, "what the wheels add on the way to the door");
 }
 
 DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner,
@@ -61,11 +61,12 @@ DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfi
       plan_(plan),
       looks_(config.look) {}
 
-std::string DoorMission::Start(const MissionOrder& order) {
+std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
   door_ = plan_.FindDoor(order.landmark_id);
   judge_ = false;
   looks_.Reset();
-  return door_ ? "" : fmt::format("the map has no door {}", order.landmark_id);
+  if (!door_) return Refusal{fmt::format("the map has no door {}", order.landmark_id)};
+  return std::nullopt;
 }
 
 void DoorMission::Step(MissionControl& control) {
@@ -89,13 +90,13 @@ void DoorMission::Step(MissionControl& control) {
 void DoorMission::Wait(MissionControl& control) {
   const Heard& heard = control.heard();
   if (!heard.link_up || !heard.pose || !IsFresh(*heard.pose, control.now())) return;
-  if (auto reason = planner_.RefuseDoor(*door_); !reason.empty()) return control.Fail(std::move(reason));
-  const DoorPath path = planner_.PlanApproach(*door_, heard.pose->map_from_base);
-  if (!path.ok()) return control.Fail(path.refusal);
+  if (const auto refusal = planner_.CheckDoor(*door_)) return control.Fail(refusal->reason);
+  const auto path = planner_.PlanApproach(*door_, heard.pose->map_from_base);
+  if (!path) return control.Fail(path.reason());
   control.SendModel(MakeDoorLandmark(*door_));
   const double distance_m = DistanceToDoor(control);
   const double speed_m_s = ApproachSpeed(distance_m);
-  control.OrderPath(path.points, speed_m_s);
+  control.OrderPath(path->points, speed_m_s);
   entered_ = control.now();
   control.Enter(Phase::kApproaching, fmt::format("approaching door '{}', {:.1f} m away, at {:.2f} m/s",
                                                  door_->name, distance_m, speed_m_s));
@@ -153,9 +154,9 @@ void DoorMission::EvaluatePose(MissionControl& control) {
     if (looks_.Exhausted()) control.Fail("the pose is too uncertain for the gap: " + figures);
     return;
   }
-  const DoorPath path = planner_.PlanPassage(*door_, PredictedPose(control));
-  if (!path.ok()) return control.Fail(path.refusal);
-  control.OrderPath(path.points, config_.speed_m_s);
+  const auto path = planner_.PlanPassage(*door_, PredictedPose(control));
+  if (!path) return control.Fail(path.reason());
+  control.OrderPath(path->points, config_.speed_m_s);
   control.Enter(Phase::kPassing, "passing the door: " + figures);
 }
 

@@ -42,7 +42,7 @@ class DoorMission : public Mission {
   DoorMission& operator=(const DoorMission&) = delete;
 
   /// The order's landmark is a door of the plan.
-  std::string Start(const MissionOrder& order) override;
+  std::optional<Refusal> Start(const MissionOrder& order) override;
   void Step(MissionControl& control) override;
   const MissionLimits& limits() const override { return config_.limits; }
   std::string Unfinished() const override { return "not through the door"; }

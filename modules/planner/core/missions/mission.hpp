@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/config.hpp"
+#include "common/outcome.hpp"
 #include "planner/core/missions/mission_control.hpp"
 #include "planner/core/missions/mission_types.hpp"
 
@@ -26,8 +28,8 @@ class Mission {
   virtual ~Mission() = default;
 
   /// Begins to carry out `order` and forgets what an earlier order left behind. Returns why the order cannot
-  /// be carried out; empty when the mission is under way.
-  virtual std::string Start(const MissionOrder& order) = 0;
+  /// be carried out; nullopt when the mission is running.
+  virtual std::optional<Refusal> Start(const MissionOrder& order) = 0;
 
   /// Decides one time step. The phase is kWaiting at first; the mission enters every other one itself, and
   /// ends with kDone or with MissionControl::Fail().

@@ -27,8 +27,8 @@ bool MissionTable::Start(Time now, const MissionOrder& order) {
   aborted_ = false;
   blocked_since_.reset();
   control_.Begin(now);
-  if (std::string refusal = missions_.at(kind_)->Start(order); !refusal.empty())
-    control_.Enter(Phase::kFailed, std::move(refusal));
+  if (auto refusal = missions_.at(kind_)->Start(order))
+    control_.Enter(Phase::kFailed, std::move(refusal->reason));
   return true;
 }
 

@@ -11,7 +11,7 @@ namespace {
 /// Sweep steps: no corner of a 1 m body moves more than about 1 cm between two checked poses.
 constexpr double kStepM = 0.005;
 constexpr double kStepRad = Radians(0.5);
-/// Steeper ways to the axis than this are driven only when there is no longer run-in.
+/// Steeper runs onto the axis than this are driven only when there is no longer run-in.
 constexpr double kSteepestRunIn = 0.7;
 /// A place on the axis this near to the start is where the start is.
 constexpr double kHereM = 0.2;
@@ -19,12 +19,6 @@ constexpr double kHereM = 0.2;
 Pose2 Between(const Pose2& from, const Pose2& to, double part) {
   return {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
           WrapAngle(from.yaw + part * WrapAngle(to.yaw - from.yaw))};
-}
-
-DoorPath Refused(std::string reason) {
-  DoorPath path;
-  path.refusal = std::move(reason);
-  return path;
 }
 
 }  // namespace
@@ -65,9 +59,10 @@ DoorPlanner::Sweep DoorPlanner::SweepAlong(const Pose2& from, const Pose2& to) c
   return sweep;
 }
 
-DoorPath DoorPlanner::Check(const Pose2& start, std::vector<Pose2> points, std::size_t n_tight) const {
+Outcome<DoorPath> DoorPlanner::CheckPath(const Pose2& start, std::vector<Pose2> points,
+                                         std::size_t n_tight) const {
   const double start_gap_m = obstacles_.NearestTo(footprint_.At(start)).distance_m;
-  DoorPath path{{}, start_gap_m, ""};
+  DoorPath path{{}, start_gap_m};
   Pose2 from = start;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool tight = i + n_tight >= points.size();
@@ -76,8 +71,8 @@ DoorPath DoorPlanner::Check(const Pose2& start, std::vector<Pose2> points, std::
         tight ? config_.door_margin_m : std::min(config_.wall_margin_m, start_gap_m * 0.9);
     const Sweep sweep = SweepAlong(from, points[i]);
     if (sweep.min_gap_m < margin_m)
-      return Refused(fmt::format("the distance to the door comes within {:.2f} m of {}, it needs {:.2f} m",
-                                 sweep.min_gap_m, sweep.obstacle, margin_m));
+      return Refusal{fmt::format("the path to the door comes within {:.2f} m of {}, it needs {:.2f} m",
+                                 sweep.min_gap_m, sweep.obstacle, margin_m)};
     path.min_gap_m = std::min(path.min_gap_m, sweep.min_gap_m);
     from = points[i];
   }
@@ -88,10 +83,10 @@ DoorPath DoorPlanner::Check(const Pose2& start, std::vector<Pose2> points, std::
 std::vector<std::vector<Pose2>> DoorPlanner::PassageCandidates(const DoorPlan& door,
                                                                const Pose2& start) const {
   std::vector<std::vector<Pose2>> candidates;
-  const auto add = [&](std::vector<Pose2> way_in_door) {
-    way_in_door.push_back({config_.goal_m, 0, 0});
-    for (Pose2& point : way_in_door) point = door.map_from_door() * point;
-    candidates.push_back(std::move(way_in_door));
+  const auto add = [&](std::vector<Pose2> path_in_door) {
+    path_in_door.push_back({config_.goal_m, 0, 0});
+    for (Pose2& point : path_in_door) point = door.map_from_door() * point;
+    candidates.push_back(std::move(path_in_door));
   };
   constexpr int kPlaces = 4;
   for (int i = 0; i < kPlaces; ++i) {
@@ -108,45 +103,46 @@ std::vector<std::vector<Pose2>> DoorPlanner::PassageCandidates(const DoorPlan& d
   return candidates;
 }
 
-std::string DoorPlanner::RefuseDoor(const DoorPlan& door) const {
+std::optional<Refusal> DoorPlanner::CheckDoor(const DoorPlan& door) const {
   if (door.opening_width_m < NeededWidth())
-    return fmt::format("door '{}' is too narrow: needs {:.2f} m, opening is {:.2f} m", door.name,
-                       NeededWidth(), door.opening_width_m);
+    return Refusal{fmt::format("door '{}' is too narrow: needs {:.2f} m, opening is {:.2f} m", door.name,
+                               NeededWidth(), door.opening_width_m)};
   if (door.opening_height_m < footprint_.height_m)
-    return fmt::format("door '{}' is too low: needs {:.2f} m, opening is {:.2f} m", door.name,
-                       footprint_.height_m, door.opening_height_m);
-  return "";
+    return Refusal{fmt::format("door '{}' is too low: needs {:.2f} m, opening is {:.2f} m", door.name,
+                               footprint_.height_m, door.opening_height_m)};
+  return std::nullopt;
 }
 
-std::string DoorPlanner::RefuseStart(const DoorPlan& door, const Pose2& map_from_start) const {
+std::optional<Refusal> DoorPlanner::CheckStart(const DoorPlan& door, const Pose2& map_from_start) const {
   const double beyond_m = (door.map_from_door().Inverse() * map_from_start).x - door.FrontX();
   if (beyond_m >= 0)
-    return fmt::format("the robot is {:.2f} m behind door '{}', not before it", beyond_m, door.name);
+    return Refusal{fmt::format("the robot is {:.2f} m behind door '{}', not before it", beyond_m, door.name)};
   const auto nearest = obstacles_.NearestTo(footprint_.At(map_from_start));
-  return nearest.distance_m > 0 ? "" : "the robot would already be in " + nearest.name;
+  if (nearest.distance_m <= 0) return Refusal{"the robot would already be in " + nearest.name};
+  return std::nullopt;
 }
 
-DoorPath DoorPlanner::PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const {
-  if (auto reason = RefuseDoor(door); !reason.empty()) return Refused(std::move(reason));
-  if (auto reason = RefuseStart(door, map_from_start); !reason.empty()) return Refused(std::move(reason));
-  DoorPath first_refusal;
+Outcome<DoorPath> DoorPlanner::PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const {
+  if (const auto refusal = CheckDoor(door)) return *refusal;
+  if (const auto refusal = CheckStart(door, map_from_start)) return *refusal;
+  std::optional<Refusal> first_refusal;
   for (auto& candidate : PassageCandidates(door, door.map_from_door().Inverse() * map_from_start)) {
-    DoorPath path = Check(map_from_start, std::move(candidate), 1);
-    if (path.ok()) return path;
-    if (first_refusal.ok()) first_refusal = std::move(path);
+    Outcome<DoorPath> path = CheckPath(map_from_start, std::move(candidate), 1);
+    if (path) return path;
+    if (!first_refusal) first_refusal = Refusal{path.reason()};
   }
-  return first_refusal;
+  return *first_refusal;
 }
 
-DoorPath DoorPlanner::PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const {
-  if (auto reason = RefuseStart(door, map_from_start); !reason.empty()) return Refused(std::move(reason));
+Outcome<DoorPath> DoorPlanner::PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const {
+  if (const auto refusal = CheckStart(door, map_from_start)) return *refusal;
   const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
   const double hold_x = HoldX(door), approach_x = std::min(-config_.approach_m, hold_x);
   std::vector<Pose2> points;
   if (approach_x - door_from_start.x >= kHereM)
     points.push_back(door.map_from_door() * Pose2{approach_x, 0, 0});
   points.push_back(door.map_from_door() * Pose2{hold_x, 0, 0});
-  return Check(map_from_start, std::move(points), 0);
+  return CheckPath(map_from_start, std::move(points), 0);
 }
 
 }  // namespace priamos::planner

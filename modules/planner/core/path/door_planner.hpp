@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "common/ground_plan.hpp"
+#include "common/outcome.hpp"
 #include "planner/core/map/obstacle_map.hpp"
 #include "planner/core/path/footprint.hpp"
 
@@ -25,13 +27,10 @@ struct DoorPlannerConfig {
   void Describe(Archive& a);
 };
 
-/// A path in the map, the start left out, or the reason why there is none.
+/// A path in the map frame, the start left out.
 struct DoorPath {
   std::vector<Pose2> points;
   double min_gap_m = 0;  ///< smallest planned distance to an obstacle, start to end
-  std::string refusal;   ///< a sentence; empty when there is a path
-
-  bool ok() const { return refusal.empty(); }
 };
 
 /// Plans paths for a holonomic rectangular base: straight lines along which the heading turns evenly, every
@@ -41,16 +40,16 @@ class DoorPlanner {
  public:
   DoorPlanner(const DoorPlannerConfig& config, const Footprint& footprint, const GroundPlan& plan);
 
-  /// Why no path can lead through this door, wherever the robot stands; empty when it fits.
-  std::string RefuseDoor(const DoorPlan& door) const;
+  /// Why no path can lead through this door, wherever the robot stands; nullopt when it fits.
+  std::optional<Refusal> CheckDoor(const DoorPlan& door) const;
 
   /// From `start` through the door. Tried in this order: straight to a place on the axis before the door
   /// (the farther from it the better), a side-step, backing off first.
-  DoorPath PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const;
+  Outcome<DoorPath> PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const;
 
   /// From `start` to the place before the door where the robot may wait while it does not know its pose well:
   /// over the axis at approach_m if that is ahead, and to the hold point.
-  DoorPath PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const;
+  Outcome<DoorPath> PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const;
 
   /// x of the hold point in the door's frame [m], negative.
   double HoldX(const DoorPlan& door) const;
@@ -60,14 +59,14 @@ class DoorPlanner {
   double NeededWidth() const { return footprint_.width_m + 2 * config_.door_margin_m; }
 
  private:
-  std::string RefuseStart(const DoorPlan& door, const Pose2& map_from_start) const;
+  std::optional<Refusal> CheckStart(const DoorPlan& door, const Pose2& map_from_start) const;
   struct Sweep {
     double min_gap_m = 0;
     std::string obstacle;
   };
   Sweep SweepAlong(const Pose2& from, const Pose2& to) const;
   /// Checks start -> points; all but the last `n_tight` legs with the wall margin.
-  DoorPath Check(const Pose2& start, std::vector<Pose2> points, std::size_t n_tight) const;
+  Outcome<DoorPath> CheckPath(const Pose2& start, std::vector<Pose2> points, std::size_t n_tight) const;
   std::vector<std::vector<Pose2>> PassageCandidates(const DoorPlan& door, const Pose2& door_from_start) const;
 
   DoorPlannerConfig config_;

@@ -9,7 +9,7 @@
 
 namespace priamos::planner {
 
-/// What the wheels add to the pose error on the distance to the door. Random walks grow with the root of the
+/// What the wheels add to the pose error on the way to the door. Random walks grow with the root of the
 /// distance, the bias with the distance; the values are those of the robot's own odometry model.
 struct DriftModel {
   double yaw_rad_per_sqrt_m = 0.0075;

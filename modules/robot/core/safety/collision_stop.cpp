@@ -19,8 +19,8 @@ Footprint WithMargin(const Footprint& footprint, double margin_m) {
   return {footprint.length_m + 2 * margin_m, footprint.width_m + 2 * margin_m};
 }
 
-/// Distance until `guard` meets `point`, at most `farthest`. The distance shrinks by at most 1 per distance,
-/// so a step as long as the distance never jumps over the contact.
+/// Distance until `guard` meets `point`, at most `farthest`. The distance shrinks by at most 1 m per metre
+/// driven, so a step as long as the distance never jumps over the contact.
 double FreeDistance(const Footprint& guard, const Twist2& per_metre, const Eigen::Vector2d& point,
                     double farthest) {
   const auto distance_after = [&](double travel) {

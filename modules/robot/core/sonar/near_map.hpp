@@ -16,7 +16,7 @@ namespace priamos::robot {
 struct NearMapConfig {
   double keep_m = 0.5;  ///< only echoes this near are kept: farther away an arc is too wide to be a place
   double keep_s = 5;    ///< while the base moves
-  double keep_standing_s = 30;  ///< while it stands and has no distance to go
+  double keep_standing_s = 30;  ///< while it stands and has no path to follow
   double forget_m = 2.0;        ///< things this far from the base centre are forgotten
   double through_deg = 5;       ///< a thing this near to the axis of a beam that sees on behind it is gone
 

@@ -87,25 +87,25 @@ TEST(Polyhedron, BetweenTwoFacesThatAreSeenTheRatioOfGreysIsKnown) {
 }
 
 TEST(Polyhedron, NonsenseIsNamed) {
-  EXPECT_EQ(WhyNoPolyhedron(Cube()), "");
-  EXPECT_THAT(WhyNoPolyhedron({}), HasSubstr("at least one face"));
+  EXPECT_FALSE(CheckPolyhedron(Cube()));
+  EXPECT_THAT(CheckPolyhedron({})->reason, HasSubstr("at least one face"));
   Polyhedron body = Cube();
   body.faces[2] = {0, 1};
-  EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("face 2: expected 3 corners"));
+  EXPECT_THAT(CheckPolyhedron(body)->reason, HasSubstr("face 2: expected 3 corners"));
   body.faces[2] = {0, 1, 8};
-  EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("points 0 to 7, got 8"));
+  EXPECT_THAT(CheckPolyhedron(body)->reason, HasSubstr("points 0 to 7, got 8"));
   body.faces[2] = {0, 1, 1};
-  EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("span a plane"));
+  EXPECT_THAT(CheckPolyhedron(body)->reason, HasSubstr("span a plane"));
   body.faces[2] = {0, 1, 5, 6};
-  EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("in one plane"));
+  EXPECT_THAT(CheckPolyhedron(body)->reason, HasSubstr("in one plane"));
   body = Cube();
   body.points[3].x() = std::nan("");
-  EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("point 3"));
+  EXPECT_THAT(CheckPolyhedron(body)->reason, HasSubstr("point 3"));
   body = Cube();
   body.greys = {100};
-  EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("greys of all 6 faces"));
+  EXPECT_THAT(CheckPolyhedron(body)->reason, HasSubstr("greys of all 6 faces"));
   body.greys = {1, 2, 3, 4, 5, 300};
-  EXPECT_THAT(WhyNoPolyhedron(body), HasSubstr("0 to 255, got 300"));
+  EXPECT_THAT(CheckPolyhedron(body)->reason, HasSubstr("0 to 255, got 300"));
 }
 
 }  // namespace

@@ -26,6 +26,16 @@ HeadSetting Convergent() {
   return setting;
 }
 
+/// The door between framed notices: upright edges with ends, which show how the right camera is turned.
+std::vector<test::Quad> DoorAndNotices() {
+  constexpr double kBeforeWall = -0.075, kWidth = 0.09, kHeight = 0.14;
+  std::vector<test::Quad> quads = test::DoorQuads();
+  for (const double y : {-1.0, -0.75, 0.75, 1.0})
+    for (const double z : {0.9, 1.2, 1.5})
+      quads.push_back({{kBeforeWall, y, z}, {0, kWidth, 0}, {0, 0, kHeight}, 60});
+  return quads;
+}
+
 class LookEvaluatorTest : public testing::Test {
  protected:
   GreyImage Expose(const HeadModel& head, int camera, const std::vector<test::Quad>& quads) {
@@ -71,7 +81,7 @@ TEST_F(LookEvaluatorTest, ADoorIsFoundWhereItIsAndTheViewShowsByWhat) {
 }
 
 TEST_F(LookEvaluatorTest, CamerasThatStandAsCalibratedShowNoDrift) {
-  const LookResult dut = dut_.Evaluate(Look(head_, test::DoorQuads()));
+  const LookResult dut = dut_.Evaluate(Look(head_, DoorAndNotices()));
   ASSERT_TRUE(dut.drift);
   for (int axis = 0; axis < 3; ++axis)
     EXPECT_LT(std::abs(dut.drift->turn_rad(axis)), 3 * std::sqrt(dut.drift->covariance(axis, axis))) << axis;
@@ -80,7 +90,7 @@ TEST_F(LookEvaluatorTest, CamerasThatStandAsCalibratedShowNoDrift) {
 TEST_F(LookEvaluatorTest, ARightCameraThatLooksHigherThanCalibratedIsMeasured) {
   HeadModel bent = head_;
   bent.geometry.cameras[kRight].pitch_rad -= 0.001;
-  const LookResult dut = dut_.Evaluate(Look(bent, test::DoorQuads()));
+  const LookResult dut = dut_.Evaluate(Look(bent, DoorAndNotices()));
   ASSERT_TRUE(dut.drift);
   EXPECT_NEAR(dut.drift->turn_rad.x(), 0.001, 0.0003);
 }
@@ -88,7 +98,7 @@ TEST_F(LookEvaluatorTest, ARightCameraThatLooksHigherThanCalibratedIsMeasured) {
 TEST_F(LookEvaluatorTest, ALookWithoutItsLandmarkMeasuresTheTurnAcrossTheEpipolarLines) {
   HeadModel bent = head_;
   bent.geometry.cameras[kRight].pitch_rad -= 0.001;
-  LookInput input = Look(bent, test::DoorQuads());
+  LookInput input = Look(bent, DoorAndNotices());
   const LandmarkModel narrow = test::DoorModel(0.6);
   input.model = &narrow;
   const LookResult dut = dut_.Evaluate(input);
@@ -136,13 +146,14 @@ TEST_F(LookEvaluatorTest, OneBlackImageMeasuresNothing) {
 }
 
 TEST_F(LookEvaluatorTest, NothingIsRememberedOfEarlierLooks) {
-  const LookInput input = Look(head_, test::DoorQuads());
+  const LookInput input = Look(head_, DoorAndNotices());
   const LookResult first = dut_.Evaluate(input);
   dut_.Evaluate(Look(head_, test::WallQuads()));
   const LookResult again = dut_.Evaluate(input);
   ASSERT_EQ(again.fix.verdict, Verdict::kFound);
   EXPECT_EQ(again.fix.base_from_landmark.x, first.fix.base_from_landmark.x);
   EXPECT_EQ(again.view.edges.size(), first.view.edges.size());
+  ASSERT_TRUE(first.drift && again.drift);
   EXPECT_EQ(again.drift->turn_rad, first.drift->turn_rad);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,11 @@ namespace priamos::planner {
 /// and is done when the robot has arrived.
 class DriveAheadMission : public Mission {
  public:
-  std::string Start(const MissionOrder& order) override {
+  std::optional<Refusal> Start(const MissionOrder& order) override {
     landmark_id_ = order.landmark_id;
     request_id_ = 0;
-    return landmark_id_ == 0 ? "there is no landmark 0" : "";
+    if (landmark_id_ == 0) return Refusal{"there is no landmark 0"};
+    return std::nullopt;
   }
   void Step(MissionControl& control) override {
     switch (control.state().phase) {

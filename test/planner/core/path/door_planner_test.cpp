@@ -21,11 +21,11 @@ struct Fixture {
 
 TEST(DoorPlanner, FromTheAxisItGoesStraightThrough) {
   const Fixture f;
-  const DoorPath path = f.Make().PlanPassage(f.door(), {3.5, 2.4, 0});
-  ASSERT_TRUE(path.ok()) << path.refusal;
-  EXPECT_NEAR(path.min_gap_m, 0.06, 1e-9);
-  EXPECT_NEAR(path.points.back().x, 7.5, 1e-9);
-  for (const Pose2& point : path.points) {
+  const auto path = f.Make().PlanPassage(f.door(), {3.5, 2.4, 0});
+  ASSERT_TRUE(path) << path.reason();
+  EXPECT_NEAR(path->min_gap_m, 0.06, 1e-9);
+  EXPECT_NEAR(path->points.back().x, 7.5, 1e-9);
+  for (const Pose2& point : path->points) {
     EXPECT_NEAR(point.y, 2.4, 1e-9);
     EXPECT_NEAR(point.yaw, 0, 1e-9);
   }
@@ -33,83 +33,83 @@ TEST(DoorPlanner, FromTheAxisItGoesStraightThrough) {
 
 TEST(DoorPlanner, PrefersALongStraightRunBeforeTheDoor) {
   const Fixture f;
-  const DoorPath path = f.Make().PlanPassage(f.door(), {3.5, 2.6, 0.1});
-  ASSERT_TRUE(path.ok()) << path.refusal;
-  ASSERT_EQ(path.points.size(), 2u);
-  EXPECT_NEAR(path.points[0].x, 6 - 1.6, 1e-9);
+  const auto path = f.Make().PlanPassage(f.door(), {3.5, 2.6, 0.1});
+  ASSERT_TRUE(path) << path.reason();
+  ASSERT_EQ(path->points.size(), 2u);
+  EXPECT_NEAR(path->points[0].x, 6 - 1.6, 1e-9);
 }
 
 TEST(DoorPlanner, AlignsLaterWhenItIsAlreadyNear) {
   const Fixture f;
-  const DoorPath path = f.Make().PlanPassage(f.door(), {6 - 1.75, 2.45, 0});
-  ASSERT_TRUE(path.ok()) << path.refusal;
-  EXPECT_GT(path.points[0].x, 6 - 1.55);
-  EXPECT_LE(path.points[0].x, 6 - 1.15 + 1e-9);
+  const auto path = f.Make().PlanPassage(f.door(), {6 - 1.75, 2.45, 0});
+  ASSERT_TRUE(path) << path.reason();
+  EXPECT_GT(path->points[0].x, 6 - 1.55);
+  EXPECT_LE(path->points[0].x, 6 - 1.15 + 1e-9);
 }
 
 TEST(DoorPlanner, SideStepsWhenThereIsNoRunIn) {
   const Fixture f;
-  const DoorPath path = f.Make().PlanPassage(f.door(), {6 - 1.3, 3.4, 0});
-  ASSERT_TRUE(path.ok()) << path.refusal;
-  ASSERT_EQ(path.points.size(), 2u);
-  EXPECT_NEAR(path.points[0].x, 6 - 1.3, 1e-9);
+  const auto path = f.Make().PlanPassage(f.door(), {6 - 1.3, 3.4, 0});
+  ASSERT_TRUE(path) << path.reason();
+  ASSERT_EQ(path->points.size(), 2u);
+  EXPECT_NEAR(path->points[0].x, 6 - 1.3, 1e-9);
 }
 
 TEST(DoorPlanner, BacksOffWhenItStandsTooNearToTheWall) {
   const Fixture f;
-  const DoorPath path = f.Make().PlanPassage(f.door(), {6 - 0.65, 3.9, 0});
-  ASSERT_TRUE(path.ok()) << path.refusal;
-  EXPECT_LT(path.points[0].x, 6 - 1.1);
+  const auto path = f.Make().PlanPassage(f.door(), {6 - 0.65, 3.9, 0});
+  ASSERT_TRUE(path) << path.reason();
+  EXPECT_LT(path->points[0].x, 6 - 1.1);
 }
 
 TEST(DoorPlanner, RefusesADoorThatIsTooNarrow) {
   Fixture f;
   f.plan.doors[0].opening_width_m = 0.75;
-  const DoorPath path = f.Make().PlanPassage(f.door(), {3.5, 2.4, 0});
-  EXPECT_THAT(path.refusal, HasSubstr("needs 0.80 m, opening is 0.75 m"));
+  const auto path = f.Make().PlanPassage(f.door(), {3.5, 2.4, 0});
+  EXPECT_THAT(path.reason(), HasSubstr("needs 0.80 m, opening is 0.75 m"));
 }
 
 TEST(DoorPlanner, RefusesADoorThatIsTooLow) {
   Fixture f;
   f.plan.doors[0].opening_height_m = 1.2;
-  const DoorPath path = f.Make().PlanPassage(f.door(), {3.5, 2.4, 0});
-  EXPECT_THAT(path.refusal, HasSubstr("too low: needs 1.35 m, opening is 1.20 m"));
+  const auto path = f.Make().PlanPassage(f.door(), {3.5, 2.4, 0});
+  EXPECT_THAT(path.reason(), HasSubstr("too low: needs 1.35 m, opening is 1.20 m"));
 }
 
 TEST(DoorPlanner, RefusesToStartBehindTheDoor) {
   const Fixture f;
-  EXPECT_THAT(f.Make().PlanPassage(f.door(), {7.5, 2.4, 0}).refusal, HasSubstr("behind door 'laboratory'"));
-  EXPECT_THAT(f.Make().PlanApproach(f.door(), {7.5, 2.4, 0}).refusal, HasSubstr("behind door 'laboratory'"));
+  EXPECT_THAT(f.Make().PlanPassage(f.door(), {7.5, 2.4, 0}).reason(), HasSubstr("behind door 'laboratory'"));
+  EXPECT_THAT(f.Make().PlanApproach(f.door(), {7.5, 2.4, 0}).reason(), HasSubstr("behind door 'laboratory'"));
 }
 
 TEST(DoorPlanner, RefusesToStartInAWall) {
   const Fixture f;
-  EXPECT_THAT(f.Make().PlanPassage(f.door(), {3, 0.2, 0}).refusal, HasSubstr("in wall 'south'"));
+  EXPECT_THAT(f.Make().PlanPassage(f.door(), {3, 0.2, 0}).reason(), HasSubstr("in wall 'south'"));
 }
 
 TEST(DoorPlanner, SeesAWallAcrossTheWay) {
   Fixture f;
   f.plan.walls.push_back({"shelf", {7.0, 2.2}, {7.0, 2.3}, 0.1});
-  const DoorPath path = f.Make().PlanPassage(f.door(), {3.5, 2.4, 0});
-  EXPECT_THAT(path.refusal, HasSubstr("wall 'shelf'"));
+  const auto path = f.Make().PlanPassage(f.door(), {3.5, 2.4, 0});
+  EXPECT_THAT(path.reason(), HasSubstr("wall 'shelf'"));
 }
 
 TEST(DoorPlanner, ApproachLeadsOverTheAxisToTheHoldPoint) {
   const Fixture f;
-  const DoorPath path = f.Make().PlanApproach(f.door(), {2.0, 2.0, 0.1});
-  ASSERT_TRUE(path.ok()) << path.refusal;
-  ASSERT_EQ(path.points.size(), 2u);
-  EXPECT_NEAR(path.points[0].x, 4.0, 1e-9);
-  EXPECT_NEAR(path.points[1].x, 6 - 0.085 - 1.1 - 0.475, 1e-9);
-  EXPECT_NEAR(path.points[1].y, 2.4, 1e-9);
+  const auto path = f.Make().PlanApproach(f.door(), {2.0, 2.0, 0.1});
+  ASSERT_TRUE(path) << path.reason();
+  ASSERT_EQ(path->points.size(), 2u);
+  EXPECT_NEAR(path->points[0].x, 4.0, 1e-9);
+  EXPECT_NEAR(path->points[1].x, 6 - 0.085 - 1.1 - 0.475, 1e-9);
+  EXPECT_NEAR(path->points[1].y, 2.4, 1e-9);
 }
 
 TEST(DoorPlanner, ApproachFromBeyondTheHoldPointBacksOff) {
   const Fixture f;
-  const DoorPath path = f.Make().PlanApproach(f.door(), {5.2, 2.4, 0});
-  ASSERT_TRUE(path.ok()) << path.refusal;
-  ASSERT_EQ(path.points.size(), 1u);
-  EXPECT_LT(path.points[0].x, 5.2);
+  const auto path = f.Make().PlanApproach(f.door(), {5.2, 2.4, 0});
+  ASSERT_TRUE(path) << path.reason();
+  ASSERT_EQ(path->points.size(), 1u);
+  EXPECT_LT(path->points[0].x, 5.2);
 }
 
 /// Smallest gap along a path, computed independently of the planner at random places.
@@ -136,13 +136,13 @@ RC_GTEST_PROP(DoorPlanner, AnyStartBeforeAnyDoorPoseGivesAFreePath, (const unsig
   f.plan = Moved(ShippedPlan(), new_from_map);
   const Pose2 start =
       new_from_map * Pose2{rng.Uniform(0.8, 4.6), rng.Uniform(0.9, 3.9), rng.Uniform(-3.1, 3.1)};
-  const DoorPath path = f.Make().PlanPassage(f.door(), start);
-  RC_ASSERT(path.refusal == "");
-  RC_ASSERT(path.points.size() <= 16u);
-  const double gap_m = GapOn(f.plan, start, path.points, rng);
+  const auto path = f.Make().PlanPassage(f.door(), start);
+  RC_ASSERT(path.reason() == "");
+  RC_ASSERT(path->points.size() <= 16u);
+  const double gap_m = GapOn(f.plan, start, path->points, rng);
   RC_ASSERT(gap_m > 0.05);
-  RC_ASSERT(gap_m > path.min_gap_m - 0.005);
-  const Pose2 end = f.door().map_from_door().Inverse() * path.points.back();
+  RC_ASSERT(gap_m > path->min_gap_m - 0.005);
+  const Pose2 end = f.door().map_from_door().Inverse() * path->points.back();
   RC_ASSERT(std::abs(end.x - 1.5) + std::abs(end.y) + std::abs(end.yaw) < 1e-9);
 }
 

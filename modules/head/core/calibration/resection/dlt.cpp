@@ -50,19 +50,19 @@ Normalisation<N> Normalise(std::span<const PointPair> pairs, const Get& get) {
   return n;
 }
 
-std::string CheckInput(std::span<const PointPair> pairs) {
+std::optional<Refusal> CheckInput(std::span<const PointPair> pairs) {
   if (pairs.size() < kFewestPoints) {
-    return fmt::format("a DLT matrix needs at least {} points, got {}", kFewestPoints, pairs.size());
+    return Refusal{fmt::format("a DLT matrix needs at least {} points, got {}", kFewestPoints, pairs.size())};
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!pairs[i].point_m.allFinite() || !pairs[i].image_px.allFinite()) {
-      return fmt::format("point {} is not a finite number", i);
+      return Refusal{fmt::format("point {} is not a finite number", i)};
     }
   }
-  return "";
+  return std::nullopt;
 }
 
-std::string CheckBody(std::span<const PointPair> pairs, const Normalisation<3>& n) {
+std::optional<Refusal> CheckBody(std::span<const PointPair> pairs, const Normalisation<3>& n) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const PointPair& p : pairs) {
     const Eigen::Vector3d x = n(p.point_m);
@@ -71,12 +71,12 @@ std::string CheckBody(std::span<const PointPair> pairs, const Normalisation<3>& 
   const Eigen::Vector3d extent =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
   // The extent relative to where the body stands; rounding alone gives about 1e-16.
-  if (!(1 / n.scale > 1e-9 * n.mean.norm()) || !(extent(2) > 0)) return "all points coincide";
-  if (extent(1) <= kFlattest * kFlattest * extent(2)) return "all points lie on one line";
+  if (!(1 / n.scale > 1e-9 * n.mean.norm()) || !(extent(2) > 0)) return Refusal{"all points coincide"};
+  if (extent(1) <= kFlattest * kFlattest * extent(2)) return Refusal{"all points lie on one line"};
   if (extent(0) <= kFlattest * kFlattest * extent(2)) {
-    return "all points lie in one plane: a single view of it does not determine a DLT matrix";
+    return Refusal{"all points lie in one plane: a single view of it does not determine a DLT matrix"};
   }
-  return "";
+  return std::nullopt;
 }
 
 Matrix12 NormalMatrix(std::span<const PointPair> pairs, const Normalisation<3>& ns,
@@ -105,9 +105,9 @@ Matrix12 NormalMatrix(std::span<const PointPair> pairs, const Normalisation<3>& 
 }
 
 /// Scales to depths in metres; says what is wrong with the geometry if anything is.
-std::string NormaliseDepth(std::span<const PointPair> pairs, Matrix34& m) {
+std::optional<Refusal> NormaliseDepth(std::span<const PointPair> pairs, Matrix34& m) {
   const double length = m.block<1, 3>(2, 0).norm();
-  if (!(length > 0) || !std::isfinite(length)) return "the solution is a camera at infinity";
+  if (!(length > 0) || !std::isfinite(length)) return Refusal{"the solution is a camera at infinity"};
   m /= length;
   std::size_t behind = 0;
   for (const PointPair& p : pairs) behind += m.row(2).dot(p.point_m.homogeneous()) <= 0;
@@ -116,25 +116,25 @@ std::string NormaliseDepth(std::span<const PointPair> pairs, Matrix34& m) {
     behind = pairs.size() - behind;
   }
   if (behind > 0) {
-    return fmt::format(
-        "{} of {} points would lie behind the camera: points and images do not belong together", behind,
-        pairs.size());
+    return Refusal{
+        fmt::format("{} of {} points would lie behind the camera: points and images do not belong together",
+                    behind, pairs.size())};
   }
   if (m.leftCols<3>().determinant() < 0) {
-    return "the image is mirrored: two columns are swapped (u with v, or two of X, Y, Z)";
+    return Refusal{"the image is mirrored: two columns are swapped (u with v, or two of X, Y, Z)"};
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace
 
 Outcome<Matrix34> SolveDlt(std::span<const PointPair> pairs) {
-  if (std::string reason = CheckInput(pairs); !reason.empty()) return Refusal{reason};
+  if (const auto refusal = CheckInput(pairs)) return *refusal;
   const auto ns = Normalise<3>(
       pairs, [](const PointPair& p) -> const auto& { return p.point_m; });
   const auto ni = Normalise<2>(
       pairs, [](const PointPair& p) -> const auto& { return p.image_px; });
-  if (std::string reason = CheckBody(pairs, ns); !reason.empty()) return Refusal{reason};
+  if (const auto refusal = CheckBody(pairs, ns)) return *refusal;
   const Eigen::SelfAdjointEigenSolver<Matrix12> solver(NormalMatrix(pairs, ns, ni));
   const auto& values = solver.eigenvalues();
   if (values(1) <= kAmbiguous * kAmbiguous * values(11)) {
@@ -142,12 +142,12 @@ Outcome<Matrix34> SolveDlt(std::span<const PointPair> pairs) {
   }
   const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> normalised(solver.eigenvectors().col(0).data());
   Matrix34 m = ni.Homogeneous().inverse() * normalised * ns.Homogeneous();
-  const std::string reason = NormaliseDepth(pairs, m);
-  if (reason.empty()) return m;
+  const auto refusal = NormaliseDepth(pairs, m);
+  if (!refusal) return m;
   // Few noisy points with weak perspective leave even the sign of the depths open. If a camera with square
   // pixels explains them, that is the answer; if the columns are swapped, none does.
   const Outcome<PinholeView> view = FitViewFromPoints(pairs);
-  if (!view) return Refusal{reason};
+  if (!view) return *refusal;
   return view->Model().image_from_base;
 }
 

@@ -79,15 +79,17 @@ CameraModel CameraOf(const Unknowns& x, const HeadView& view) {
   return MakeCameraModel(lens, GeometryFrom(x).BaseFromCamera(setting, view.camera, lens.pupil_m));
 }
 
-std::string CheckViews(const std::vector<HeadView>& views) {
-  if (views.empty()) return "there are no views";
+std::optional<Refusal> CheckViews(const std::vector<HeadView>& views) {
+  if (views.empty()) return Refusal{"there are no views"};
   for (const HeadView& view : views) {
-    if (view.camera < 0 || view.camera >= kCameras) return fmt::format("there is no camera {}", view.camera);
+    if (view.camera < 0 || view.camera >= kCameras)
+      return Refusal{fmt::format("there is no camera {}", view.camera)};
     for (const DiscObservation& o : view.discs) {
-      if (!o.centroid_px.allFinite() || !o.disc.centre_m.allFinite()) return "a disc is not a finite number";
+      if (!o.centroid_px.allFinite() || !o.disc.centre_m.allFinite())
+        return Refusal{"a disc is not a finite number"};
     }
   }
-  return "";
+  return std::nullopt;
 }
 
 /// Focal lengths from every view alone; everything else as the drawing has it.
@@ -214,7 +216,7 @@ void FillErrors(const std::vector<HeadView>& views, const Unknowns& x, HeadCalib
 }  // namespace
 
 Outcome<HeadCalibration> SolveHead(const std::vector<HeadView>& views, const HeadKnowledge& known) {
-  if (std::string reason = CheckViews(views); !reason.empty()) return Refusal{reason};
+  if (const auto refusal = CheckViews(views)) return *refusal;
   Outcome<Unknowns> x = Start(views, known);
   if (!x) return Refusal{x.reason()};
   for (int pass = 0; pass < kPasses; ++pass) {
