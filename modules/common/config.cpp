@@ -8,7 +8,6 @@
 #include <ostream>
 #include <set>
 
-#include "common/config_keys.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos {

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <iosfwd>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "common/value_spec.hpp"
 
 namespace priamos {
 
@@ -15,14 +16,6 @@ namespace priamos {
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-/// What one value means and may be; printed by --print-config and checked on loading.
-struct ValueSpec {
-  std::string_view unit;  ///< "m", "rad/s", "-" ...
-  double min = std::numeric_limits<double>::lowest();
-  double max = std::numeric_limits<double>::max();
-  std::string_view doc;  ///< one sentence
 };
 
 /// Visits the fields of a configuration struct, to read, check or print them. A struct takes part by

@@ -62,15 +62,6 @@ class KeyList : public Archive {
 
 }  // namespace
 
-std::string RangeText(const ValueSpec& spec) {
-  const bool low = spec.min > std::numeric_limits<double>::lowest();
-  const bool high = spec.max < std::numeric_limits<double>::max();
-  if (low && high) return fmt::format("{} to {}", spec.min, spec.max);
-  if (low) return fmt::format("at least {}", spec.min);
-  if (high) return fmt::format("at most {}", spec.max);
-  return "any";
-}
-
 std::unique_ptr<Archive> MakeKeyList(std::vector<ConfigKey>& keys) {
   return std::make_unique<KeyList>(keys);
 }

@@ -15,9 +15,6 @@ struct ConfigKey {
   std::string meaning;  ///< unit, what it is, what it may be
 };
 
-/// `0 to 1.5`, `at least 0`, `any`: what `spec` allows.
-std::string RangeText(const ValueSpec& spec);
-
 /// Visits a configuration struct and keeps its keys in the order of its Describe; of every list one item.
 std::unique_ptr<Archive> MakeKeyList(std::vector<ConfigKey>& keys);
 

@@ -62,9 +62,16 @@ std::string FolderOf(const fs::path& root, const std::string& header) {
   return "";
 }
 
+std::vector<std::string> QuotedIncludes(const std::string& text) {
+  static const std::regex kInclude(R"re(#include\s+"([^"]+)")re");
+  std::vector<std::string> headers;
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), kInclude); it != std::sregex_iterator(); ++it)
+    headers.push_back((*it)[1]);
+  return headers;
+}
+
 /// Includes that run up, and folders that no CMakeLists.txt names.
 std::vector<std::string> ArrowsUp(const fs::path& root) {
-  static const std::regex kInclude(R"re(#include\s+"([^"]+)")re");
   std::vector<std::string> order, found;
   AddInOrder(root, "", order);
   const auto place = [&](const std::string& folder) { return std::find(order.begin(), order.end(), folder); };
@@ -72,10 +79,8 @@ std::vector<std::string> ArrowsUp(const fs::path& root) {
     const std::string from = source.parent_path().string();
     if (place(from) == order.end())
       found.push_back(fmt::format("{}: no add_subdirectory names its folder", source.string()));
-    const std::string text = Read(root / source);
-    for (auto it = std::sregex_iterator(text.begin(), text.end(), kInclude); it != std::sregex_iterator();
-         ++it) {
-      const std::string header = (*it)[1], to = FolderOf(root, header);
+    for (const std::string& header : QuotedIncludes(Read(root / source))) {
+      const std::string to = FolderOf(root, header);
       if (!to.empty() && to != from && place(to) >= place(from))
         found.push_back(
             fmt::format("{}: must not include {}, whose folder is named later", source.string(), header));
@@ -91,6 +96,40 @@ std::vector<std::string> FullFolders(const fs::path& root) {
   std::vector<std::string> found;
   for (const auto& [folder, names] : units)
     if (names.size() > kMostUnits) found.push_back(fmt::format("{}: {} units", folder, names.size()));
+  return found;
+}
+
+/// Of every unit (a header and its .cpp, named without extension) those that it includes.
+std::map<std::string, std::set<std::string>> UnitGraph(const fs::path& root) {
+  std::map<std::string, std::set<std::string>> graph;
+  for (const fs::path& source : SourcesIn(root, {"lcmtypes", "bus", "modules"})) {
+    auto& included = graph[fs::path(source).replace_extension().string()];
+    for (const std::string& header : QuotedIncludes(Read(root / source))) {
+      const std::string folder = FolderOf(root, header);
+      if (!folder.empty()) included.insert(folder + "/" + fs::path(header).stem().string());
+    }
+  }
+  return graph;
+}
+
+void Reach(const std::map<std::string, std::set<std::string>>& graph, const std::string& from,
+           std::set<std::string>& reached) {
+  if (const auto unit = graph.find(from); unit != graph.end())
+    for (const std::string& next : unit->second)
+      if (reached.insert(next).second) Reach(graph, next, reached);
+}
+
+/// Pairs of units that include each other, directly or through others: neither can be read alone.
+std::vector<std::string> Circles(const fs::path& root) {
+  const auto graph = UnitGraph(root);
+  std::map<std::string, std::set<std::string>> reached;
+  for (const auto& [unit, included] : graph)
+    for (const std::string& next : included)
+      if (next != unit && reached[unit].insert(next).second) Reach(graph, next, reached[unit]);
+  std::vector<std::string> found;
+  for (const auto& [unit, others] : reached)
+    for (const std::string& other : others)
+      if (unit < other && reached[other].contains(unit)) found.push_back(unit + " and " + other);
   return found;
 }
 
@@ -111,6 +150,10 @@ std::vector<std::string> SilentFolders(const fs::path& root) {
 TEST(RoomRules, NoIncludeRunsUp) {
   EXPECT_GT(SourcesIn(PRIAMOS_SOURCE_DIR, {"bus", "modules"}).size(), 300u);
   EXPECT_THAT(ArrowsUp(PRIAMOS_SOURCE_DIR), IsEmpty());
+}
+
+TEST(RoomRules, NoTwoUnitsIncludeEachOther) {
+  EXPECT_THAT(Circles(PRIAMOS_SOURCE_DIR), IsEmpty());
 }
 
 TEST(RoomRules, NoFolderIsCrowded) {
@@ -165,6 +208,16 @@ TEST_F(SmallHouse, AnArrowIntoAModuleIsFoundByItsShortName) {
 TEST_F(SmallHouse, AFolderThatNobodyNamesIsFound) {
   Put("bus/new/e.hpp", "");
   EXPECT_THAT(ArrowsUp(root()), ElementsAre(HasSubstr("bus/new/e.hpp: no add_subdirectory")));
+}
+
+TEST_F(SmallHouse, ACircleOfUnitsIsFound) {
+  Put("bus/low/a.cpp", "#include \"bus/low/a.hpp\"\n#include \"bus/low/f.hpp\"\n");
+  Put("bus/low/g.hpp", "");
+  Put("bus/low/f.hpp", "#include \"bus/low/g.hpp\"\n");
+  EXPECT_THAT(Circles(root()), IsEmpty());
+  Put("bus/low/g.cpp", "#include \"bus/low/a.hpp\"\n");
+  EXPECT_THAT(Circles(root()),
+              ElementsAre("bus/low/a and bus/low/f", "bus/low/a and bus/low/g", "bus/low/f and bus/low/g"));
 }
 
 TEST_F(SmallHouse, ACrowdedFolderIsFound) {

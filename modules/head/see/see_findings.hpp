@@ -12,7 +12,7 @@
 #include "head/core/edges/edge_segments.hpp"
 #include "head/core/landmark/free_model_fix.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
-#include "head/see/see.hpp"
+#include "head/see/see_options.hpp"
 
 namespace priamos::head {
 

@@ -2,13 +2,11 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "world/core/render/textures.hpp"
-
 namespace priamos::world {
 
 namespace {
 
-constexpr int kSide = Textures::kSide;
+constexpr int kSide = kTextureSide;
 
 /// Drawing is done on bytes, where OpenCV smooths its lines.
 cv::Mat ToBytes(const cv::Mat& picture) {

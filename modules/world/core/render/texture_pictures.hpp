@@ -6,6 +6,9 @@
 
 namespace priamos::world {
 
+/// Side of every texture and picture [px].
+inline constexpr int kTextureSide = 512;
+
 /// Pictures that fill one face of a box: CV_32F albedo, first row at the top of the face.
 
 /// A sheet with a white border, figures and lines of writing.

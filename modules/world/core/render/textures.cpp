@@ -23,10 +23,10 @@ cv::Mat Noise(Rng& rng, int cells_x, int cells_y) {
   constexpr int kMargin = 2;
   cv::Mat wrapped, large;
   cv::copyMakeBorder(grid, wrapped, kMargin, kMargin, kMargin, kMargin, cv::BORDER_WRAP);
-  const double sx = double(Textures::kSide) / cells_x, sy = double(Textures::kSide) / cells_y;
+  const double sx = double(kTextureSide) / cells_x, sy = double(kTextureSide) / cells_y;
   cv::resize(wrapped, large, {}, sx, sy, cv::INTER_CUBIC);
-  const cv::Rect inner(static_cast<int>(kMargin * sx), static_cast<int>(kMargin * sy), Textures::kSide,
-                       Textures::kSide);
+  const cv::Rect inner(static_cast<int>(kMargin * sx), static_cast<int>(kMargin * sy), kTextureSide,
+                       kTextureSide);
   return large(inner).clone();
 }
 
@@ -35,7 +35,7 @@ struct Look {
 };
 
 cv::Mat Covered(Rng& rng, const Look& look) {
-  cv::Mat image(Textures::kSide, Textures::kSide, CV_32F, cv::Scalar(look.albedo));
+  cv::Mat image(kTextureSide, kTextureSide, CV_32F, cv::Scalar(look.albedo));
   image +=
       look.coarse * Noise(rng, 4, 4) + look.middle * Noise(rng, 32, 32) + look.fine * Noise(rng, 256, 256);
   return image;
@@ -43,7 +43,7 @@ cv::Mat Covered(Rng& rng, const Look& look) {
 
 /// Grain along v (up the box).
 cv::Mat Grain(Rng& rng, double albedo, double contrast) {
-  cv::Mat image(Textures::kSide, Textures::kSide, CV_32F, cv::Scalar(albedo));
+  cv::Mat image(kTextureSide, kTextureSide, CV_32F, cv::Scalar(albedo));
   image += contrast * (Noise(rng, 16, 2) + 0.7 * Noise(rng, 64, 4) + 0.5 * Noise(rng, 256, 8));
   return image;
 }
@@ -51,7 +51,7 @@ cv::Mat Grain(Rng& rng, double albedo, double contrast) {
 /// Floor tiles, `count` a side, with joints; each tile a little different.
 cv::Mat Tiles(Rng& rng, int count, double albedo, double spread) {
   cv::Mat image = Covered(rng, {albedo, 0.01, 0.01, 0.02});
-  const int side = Textures::kSide / count;
+  const int side = kTextureSide / count;
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < count; ++x) {
       const cv::Rect tile(x * side, y * side, side, side);

@@ -16,11 +16,9 @@ struct Surface {
   bool handed = false;   ///< the picture is mirrored on the back: a door handle is on one side of the door
 };
 
-/// Grey albedo textures of one world: squares of kSide that continue at their borders. White is 1.
+/// Grey albedo textures of one world: squares of kTextureSide that continue at their borders. White is 1.
 class Textures {
  public:
-  static constexpr int kSide = 512;
-
   explicit Textures(std::uint64_t seed);
 
   /// The surface of a material; `solid_name` chooses among the posters. std::invalid_argument for an unknown

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "world/core/render/texture_pictures.hpp"
 #include "world/core/scene/scene.hpp"
 
 namespace priamos::world {
@@ -16,7 +17,7 @@ TEST(Textures, EveryMaterialHasOne) {
     ASSERT_LT(surface.layer, static_cast<int>(dut.layers().size()));
     const cv::Mat& layer = dut.layers()[surface.layer];
     EXPECT_EQ(layer.type(), CV_8U);
-    EXPECT_EQ(layer.size(), cv::Size(Textures::kSide, Textures::kSide));
+    EXPECT_EQ(layer.size(), cv::Size(kTextureSide, kTextureSide));
     EXPECT_GT(cv::mean(layer)[0], 20) << material;
     EXPECT_LT(cv::mean(layer)[0], 245) << material;
   }
@@ -45,7 +46,7 @@ TEST(Textures, TheSeedDecides) {
 TEST(Textures, CoveringContinuesAtTheBorder) {
   const Textures dut(1);
   const cv::Mat& plaster = dut.layers()[dut.Find("plaster", "").layer];
-  const double seam = cv::norm(plaster.col(0), plaster.col(Textures::kSide - 1), cv::NORM_L1);
+  const double seam = cv::norm(plaster.col(0), plaster.col(kTextureSide - 1), cv::NORM_L1);
   const double inside = cv::norm(plaster.col(200), plaster.col(201), cv::NORM_L1);
   EXPECT_LT(seam, 2 * inside);
 }

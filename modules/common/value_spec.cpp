@@ -1,0 +1,16 @@
+#include "common/value_spec.hpp"
+
+#include <fmt/format.h>
+
+namespace priamos {
+
+std::string RangeText(const ValueSpec& spec) {
+  const bool low = spec.min > std::numeric_limits<double>::lowest();
+  const bool high = spec.max < std::numeric_limits<double>::max();
+  if (low && high) return fmt::format("{} to {}", spec.min, spec.max);
+  if (low) return fmt::format("at least {}", spec.min);
+  if (high) return fmt::format("at most {}", spec.max);
+  return "any";
+}
+
+}  // namespace priamos

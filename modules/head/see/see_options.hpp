@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace priamos::head {
+
+/// Which photographs to look at, and for what; no robot needed.
+struct SeeOptions {
+  std::vector<std::string> images;  ///< files OpenCV can read
+  std::vector<std::string>
+      cameras{};  ///< projection files (LoadProjection) of two or three images of one scene
+  std::string
+      landmark{};  ///< a free landmark model (LoadPolyhedron) to look for; needs cameras, one is enough
+  std::vector<double> at{};        ///< where it is believed to be (PoseFromSix)
+  std::vector<double> stand{};     ///< how the first of two cameras stands (OnTheFloor): doors are looked for
+  double max_door_width_m = 1.35;  ///< double doors are wider
+  std::string output{};  ///< folder or file for the drawings; empty: beside their images (SeeOutput)
+  bool force = false;    ///< replaces files that are there already, but never an image that is read
+  std::string json{};    ///< file for all that was found; "-": into SeeReport::json; empty: none
+};
+
+}  // namespace priamos::head
