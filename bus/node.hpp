@@ -25,8 +25,8 @@ class Schema;
 struct ChannelCounters {
   std::uint64_t received = 0;     ///< passed the schema walk and the decoder
   std::uint64_t refused = 0;      ///< wrong type, damaged, too long, or not decodable
-  std::uint64_t wrong_type = 0;   ///< of refused: another fingerprint than the channel's
-  std::uint64_t oversize = 0;     ///< of refused: longer than a message of this bus may be
+  std::uint64_t wrong_type = 0;   ///< part of `refused`: another fingerprint than the channel's
+  std::uint64_t oversize = 0;     ///< part of `refused`: longer than a message of this bus may be
   std::uint64_t overwritten = 0;  ///< replaced by a newer one, of a full safety inbox one of the same act
   std::uint64_t dropped = 0;      ///< every-message channel: the oldest of a full inbox
   std::uint64_t exceptions = 0;   ///< decoder or handler threw

@@ -15,7 +15,7 @@ class Schema;
 /// What an export wrote, and what it could not.
 struct ExportCount {
   std::uint64_t written = 0;
-  std::uint64_t undecodable = 0;  ///< of unknown type or refused by the schema walk: left out
+  std::uint64_t undecodable = 0;  ///< events left out: of unknown type or refused by the schema walk
 };
 
 /// One line of JSON per event: {"utime", "number", "channel", "type", "message"}.

@@ -16,7 +16,7 @@ namespace priamos::bus {
 /// neighbours.
 class LogPlayer {
  public:
-  static constexpr double kFlatOut = 0;  ///< as speed: as fast as events can be sent
+  static constexpr double kFlatOut = 0;  ///< the speed that means: as fast as events can be sent
   using Send = std::function<void(const std::string& channel, const LogEvent& event)>;
 
   /// Reads through the whole log once.

@@ -14,9 +14,9 @@ namespace priamos::bus {
 
 /// How a recording is cut into files and what disk it may use.
 struct RecorderLimits {
-  std::uint64_t split_bytes = 0;      ///< begin another file after so many bytes; 0: never
-  Duration split_time{};              ///< ... or after this time; 0: never
-  std::size_t keep_files = 0;         ///< of this recording, the oldest is deleted beyond; 0: keep all
+  std::uint64_t split_bytes = 0;  ///< begin another file after so many bytes; 0: never
+  Duration split_time{};          ///< ... or after this time; 0: never
+  std::size_t keep_files = 0;     ///< files of this recording; beyond them the oldest is deleted; 0: keep all
   std::uint64_t keep_free_bytes = 0;  ///< stop (after deleting old files, if allowed) before less is free
 };
 

@@ -16,7 +16,7 @@ struct LogSurvey {
   struct Channel {
     std::set<std::string> types;  ///< full names; "?" for a fingerprint nobody knows
     std::uint64_t events = 0;
-    std::uint64_t bytes = 0;        ///< of the messages
+    std::uint64_t bytes = 0;        ///< encoded size of all messages
     std::uint64_t undecodable = 0;  ///< refused by the schema walk, or of unknown type
     std::int64_t first_utime = 0, last_utime = 0;
     /// Mean rate over the channel's own time; 0 for a single event.

@@ -12,10 +12,10 @@ struct Token {
   /// Sort of a token; kEnd stands once, behind the last word.
   enum class Type : std::uint8_t { kWord, kNumber, kSymbol, kComment, kEnd };
   Type type = Type::kEnd;
-  std::string text;          ///< of a comment: without its marks, lines joined by blanks
-  int line = 0;              ///< of its first character, from 1
-  int last_line = 0;         ///< of its last character
-  int column = 0;            ///< of its first character, from 1
+  std::string text;          ///< the characters; a comment without its marks, lines joined by blanks
+  int line = 0;              ///< where its first character stands, from 1
+  int last_line = 0;         ///< line of its last character
+  int column = 0;            ///< where its first character stands, from 1
   bool starts_line = false;  ///< nothing but blanks before it
 };
 

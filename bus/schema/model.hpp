@@ -66,10 +66,10 @@ struct Annotation {
 
 /// One dimension of an array: a constant, or an integer field declared before in the same struct.
 struct Dimension {
-  std::string text;  ///< as written: LCM's fingerprint contains it
+  std::string text;  ///< the size as written: LCM's fingerprint contains it
   bool variable = false;
-  std::int64_t size = 0;        ///< of a constant dimension, > 0
-  std::size_t count_field = 0;  ///< of a variable dimension: index into Struct::fields
+  std::int64_t size = 0;        ///< elements of a constant dimension, > 0
+  std::size_t count_field = 0;  ///< index into Struct::fields of a variable dimension's count
 };
 
 struct Struct;
@@ -79,7 +79,7 @@ struct Field {
   std::string name;
   Kind kind = Kind::kInt8;
   std::string type_name;         ///< primitive, or full name of the struct
-  const Struct* type = nullptr;  ///< of kStruct: resolved by Schema, null before
+  const Struct* type = nullptr;  ///< the nested struct if `kind` is kStruct: resolved by Schema, null before
   std::vector<Dimension> dims;
   std::string comment;  ///< leading and trailing comment as one line
   Annotation annotation;
@@ -90,7 +90,7 @@ struct Field {
 struct Constant {
   std::string name;
   Kind kind = Kind::kInt8;
-  std::string text;  ///< as written
+  std::string text;  ///< the value as written
   Number value;
   int line = 0;
 };

@@ -15,7 +15,7 @@ namespace priamos::bus {
 struct PackedField {
   std::string name;
   std::string unit;
-  int bits = 0;             ///< of one value; of a text the most
+  int bits = 0;             ///< size of one value; the largest size of a text
   std::int64_t values = 1;  ///< in a message, at most
   std::string codes;        ///< "-100..100 by 0.01", "age 0..5 s by 10 ms", "7 bit x 24" ...
 };
@@ -49,7 +49,7 @@ struct PackStep {
   Kind kind = Kind::kInt8;
   std::vector<std::int64_t> dims;  ///< >= 0: constant; < 0: count number -1 - dim
   std::variant<BooleanPack, RealCode, IntegerCode, AgePack, TextPack, StructPack, CountPack> code;
-  int bits = 0;         ///< of the code of one value; of a text its length
+  int bits = 0;         ///< size of one value's code; of a text's length
   std::size_t row = 0;  ///< index into the bit table
 };
 

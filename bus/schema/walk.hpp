@@ -15,7 +15,7 @@ enum class WalkError : std::uint8_t {
   kWrongFingerprint,  ///< the first 8 bytes name another type (or other fields of the same name)
   kTruncated,         ///< a fixed field begins before the end and ends behind it
   kTrailing,          ///< bytes are left over
-  kNegativeCount,     ///< of a variable array
+  kNegativeCount,     ///< a variable array counts less than 0 elements
   kHugeCount,         ///< more elements than the bytes left can hold
   kBadStringLength,   ///< below 1 (the terminator counts) or beyond the end
   kUnterminated,      ///< the last byte of a string is not zero

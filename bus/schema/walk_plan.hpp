@@ -20,7 +20,7 @@ struct WalkStep {
   };
   Op op = Op::kSkip;
   std::size_t size = 0;
-  const Struct* type = nullptr;    ///< of kStructs
+  const Struct* type = nullptr;    ///< type of the elements of kStructs
   std::vector<std::int64_t> dims;  ///< >= 0: constant; < 0: the count in register -1 - dim
 };
 
@@ -28,7 +28,7 @@ struct WalkStep {
 struct WalkPlan {
   std::vector<WalkStep> steps;
   std::size_t counts = 0;                 ///< registers needed
-  std::optional<std::size_t> fixed_size;  ///< of the body, when all messages of the type have the same
+  std::optional<std::size_t> fixed_size;  ///< bytes of the body, if all messages of the type have the same
 };
 
 /// Plans the walk of a type whose nested types are resolved.

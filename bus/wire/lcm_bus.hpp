@@ -83,7 +83,7 @@ class LcmBus {
     void operator()(_lcm_t* lcm) const;
   };
   std::unique_ptr<_lcm_t, Closer> lcm_;
-  std::unique_ptr<UdpReceiver> receiver_;  ///< of UDP multicast, from the first subscription on
+  std::unique_ptr<UdpReceiver> receiver_;  ///< receives UDP multicast, from the first subscription on
   std::map<std::string, std::vector<Handler>, std::less<>> by_channel_;
   std::vector<Handler> of_everything_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;

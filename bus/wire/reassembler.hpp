@@ -13,9 +13,9 @@ namespace priamos::bus {
 /// Header of an LCM fragment (`LC03`), big endian: magic 4, number 4, message size 4, offset 4, fragment 2,
 /// fragments 2. The first fragment has the channel and a zero before its data.
 struct FragmentHeader {
-  std::uint32_t number = 0;  ///< of the message, counted by its sender
+  std::uint32_t number = 0;  ///< the message's number, counted by its sender
   std::uint32_t message_bytes = 0;
-  std::uint32_t offset = 0;  ///< of this fragment's data in the message
+  std::uint32_t offset = 0;  ///< where this fragment's data begin in the message [bytes]
   std::uint16_t fragment = 0;
   std::uint16_t fragments = 0;
 
@@ -58,7 +58,7 @@ class Reassembler {
     std::size_t Cost() const { return bytes.size() + 100; }  ///< with its place in the map, about
   };
   struct Partial {
-    FragmentHeader header;  ///< of the first one heard
+    FragmentHeader header;  ///< header of the first fragment received
     std::map<std::uint16_t, Piece> pieces;
     std::optional<std::uint32_t> finished;  ///< number of the newest whole message
     std::uint64_t heard = 0;

@@ -35,7 +35,7 @@ class SequenceTracker {
   struct Sender {
     std::uint32_t next = 0;
     std::uint32_t lately_lost = 0;  ///< could still come late
-    std::uint64_t heard = 0;        ///< as a count of all datagrams
+    std::uint64_t heard = 0;        ///< count of all senders' datagrams when this one was last heard
     std::uint64_t datagrams = 0, lost = 0;
   };
   void ForgetOldest();

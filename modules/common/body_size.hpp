@@ -9,7 +9,7 @@ namespace priamos {
 struct BodySize {
   double length_m = 0.95;  ///< along the base's x axis
   double width_m = 0.78;   ///< along the base's y axis
-  double height_m = 1.35;  ///< of the tallest part, the third camera: its axis is at 1.32 m
+  double height_m = 1.35;  ///< top of the third camera, the tallest part: its axis is at 1.32 m
 };
 
 inline constexpr BodySize kDrawnBody{};

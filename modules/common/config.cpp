@@ -13,7 +13,7 @@
 namespace priamos {
 namespace {
 
-constexpr std::size_t kMostKeys = 4;  ///< as an answer to a wrong one
+constexpr std::size_t kMostKeys = 4;  ///< keys named in the answer to a wrong one
 /// Stands for the file in what `--set` gave; no file is called so.
 constexpr std::string_view kSetName = "--set ";
 

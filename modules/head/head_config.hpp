@@ -31,7 +31,7 @@ struct VisionConfig {
 struct ReferencePose {
   std::string object = "reference_object.toml";  ///< its discs, beside the configuration file
   double x_m = 1.75, y_m = 0, z_m = 1.20;        ///< its origin in the base frame
-  double yaw_deg = 180;                          ///< of its x axis, which points out of its front
+  double yaw_deg = 180;                          ///< direction of its x axis, which points out of its front
   double error_m = 0.0005, error_deg = 0.05;     ///< how exactly it stands there: 1 sigma, each axis
 
   void Describe(Archive& a);

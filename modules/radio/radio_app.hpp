@@ -63,7 +63,7 @@ class RadioApp {
   RadioConfig config_;
   bus::Context& context_;
   bus::radio::LinkConfig link_config_;
-  std::optional<bus::Schema> own_types_;  ///< of config.types
+  std::optional<bus::Schema> own_types_;  ///< message types in the folder config.types
   bus::radio::Direction outgoing_;
   bus::radio::MessageCodecs codecs_;
   bus::radio::LinkKey key_;

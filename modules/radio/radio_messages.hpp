@@ -13,7 +13,7 @@ namespace priamos::radio {
 struct ReportState {
   std::uint64_t bytes_sent = 0;      ///< until then, for the utilisation
   std::uint64_t bytes_received = 0;  ///< the same
-  std::size_t first_channel = 0;     ///< of the next report, when there are more than fit one
+  std::size_t first_channel = 0;     ///< where the next report begins if not all channels fit one
 };
 
 /// The state of one end as a message. `elapsed` is the time since the report before; `undecodable`: messages

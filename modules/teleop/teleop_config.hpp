@@ -10,7 +10,7 @@ namespace priamos::teleop {
 
 /// The space-mouse: through spacenavd, or raw on a serial port.
 struct SpaceMouseConfig {
-  std::string socket;  ///< of spacenavd; empty: where libspnav looks
+  std::string socket;  ///< socket of spacenavd; empty: libspnav's default
   std::string port = "/dev/ttyS0";
   int full_scale = 350;  ///< counts at full deflection
 

@@ -11,7 +11,7 @@ namespace priamos::teleop {
 /// Who this process is in its messages.
 struct Sender {
   int session = 0;   ///< 0..255
-  int sequence = 0;  ///< of the newest command, 0..65535
+  int sequence = 0;  ///< number of the newest command, 0..65535
 };
 
 drive_command_t ToMessage(const Twist2& wish, const Sender& sender, double time_to_live_s, Time now);

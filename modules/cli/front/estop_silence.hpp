@@ -12,7 +12,7 @@ namespace priamos::cli {
 
 /// What was heard on one bus while an e-stop waited for its answer.
 struct EstopEar {
-  std::string name;                ///< as a person types it behind --bus
+  std::string name;                ///< the bus as a person types it behind --bus
   std::set<std::string> channels;  ///< without the e-stop's own
 };
 

@@ -9,7 +9,7 @@ namespace priamos::cli {
 /// One line of a plot: x is time [s], y in the plot's unit.
 struct PlotSeries {
   std::string name;
-  std::string colour;  ///< as CSS writes it
+  std::string colour;  ///< a CSS colour
   std::vector<Eigen::Vector2d> points;
   bool dashed = false;
 };
@@ -26,7 +26,7 @@ struct Plot {
   std::string unit;
   std::vector<PlotSeries> series;
   std::vector<PlotSpan> spans;
-  double end_s = 0;  ///< of the time axis, which begins at 0
+  double end_s = 0;  ///< end of the time axis, which begins at 0
 };
 
 /// An inline SVG figure that scales with its place, with axes, legend and shades; no external resource.

@@ -60,7 +60,7 @@ struct Summary {
   std::vector<FixSummary> fixes;
   RadioSummary up;                  ///< robot to workstation, as in link.toml
   RadioSummary down;                ///< workstation to robot
-  std::optional<HandSummary> hand;  ///< of a drive by hand
+  std::optional<HandSummary> hand;  ///< only after a drive by hand
   double realtime_factor = 1;
 
   // Not in summary.json.

@@ -40,7 +40,7 @@ MissionSpan SpanOf(const RunRecord& record);
 /// From a look request to the pose correction it led to.
 struct LookSpan {
   std::int64_t begin_utime = 0, end_utime = 0;
-  int side = 0;  ///< of the look_request_t
+  int side = 0;  ///< look_request_t::side
   pose_correction_t correction{};
 };
 /// Applied corrections only, in time order.

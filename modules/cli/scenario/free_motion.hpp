@@ -27,7 +27,7 @@ class FreeMotion {
   double FreeDistance(const Pose2& map_from_base, const Twist2& per_metre, double farthest) const;
 
   double lever_m_;
-  world::Clearance bare_, guarded_;  ///< of the footprint, and of it with the margin beside
+  world::Clearance bare_, guarded_;  ///< free space around the footprint, and around it with the margin
 };
 
 }  // namespace priamos::cli

@@ -48,7 +48,7 @@ struct Scenario {
   std::string map;
   bus::radio::LineConfig line;
   std::vector<ScenarioProcess> processes;
-  std::vector<ScenarioWaypoint> waypoints;  ///< of the operator; none: he shakes the stick
+  std::vector<ScenarioWaypoint> waypoints;  ///< where the operator drives; none: he shakes the stick
   bool fast = false;                        ///< he uses the fast range
   double shake_s = 60;
   double astray_deg = 0;      ///< how far beside the way his hand pushes, one sigma; 0: it is exact

@@ -38,7 +38,7 @@ struct Deployment {
 /// What a plan needs besides the processes themselves.
 struct LaunchPlace {
   std::string program_folder;  ///< where priamos-* are
-  std::string config_folder;   ///< of the deployment
+  std::string config_folder;   ///< where the deployment's configuration files are
   std::string run_folder;      ///< absolute; ttys and consoles
   std::uint64_t seed = 1;
 };

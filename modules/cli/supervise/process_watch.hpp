@@ -51,8 +51,8 @@ class ProcessWatch {
   bool alarm() const { return failures_ >= policy_.alarm_after; }
   int failures() const { return failures_; }  ///< in a row
   int starts() const { return starts_; }
-  Time since() const { return since_; }                  ///< of the state
-  const std::string& reason() const { return reason_; }  ///< of the last end; empty before it
+  Time since() const { return since_; }                  ///< when the state began
+  const std::string& reason() const { return reason_; }  ///< why the process ended last; empty before
 
  private:
   void Enter(ProcessState state, Time now);

@@ -33,7 +33,7 @@ struct ProcessReport {
   Time since{};
   int starts = 0;
   bool alarm = false;
-  std::string reason;  ///< of its last end
+  std::string reason;  ///< why it ended last
 };
 
 /// Starts processes in the order of their dependencies, keeps their console output, restarts what dies or

@@ -13,7 +13,7 @@ struct BusSound {
     std::string name;
     double rate_hz = 0;  ///< 0: one message
   };
-  std::string name;  ///< as a person types it behind --bus: "offboard", or a URL
+  std::string name;  ///< the bus as a person types it behind --bus: "offboard", or a URL
   std::string url;
   std::vector<Channel> channels;
 };

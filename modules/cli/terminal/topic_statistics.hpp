@@ -17,7 +17,7 @@ struct TopicRow {
   std::string channel;
   std::string type;               ///< full name, "?" when no known type has the fingerprint
   std::uint64_t messages = 0;     ///< since the start
-  std::uint64_t undecodable = 0;  ///< of them, refused by the schema walk
+  std::uint64_t undecodable = 0;  ///< messages refused by the schema walk
   double rate_hz = 0;             ///< over the window
   double jitter_s = 0;            ///< standard deviation of the intervals in the window
   double bandwidth_bytes_s = 0;   ///< message bytes, without LCM's header

@@ -20,10 +20,10 @@ struct Colour {
 /// How lines and areas look.
 struct Style {
   std::optional<Colour> line{};
-  double width = 1;  ///< of the line [px]
+  double width = 1;  ///< width of the line [px]
   double dash = 0;   ///< length of a dash and of a gap [px]; 0: a solid line
   std::optional<Colour> fill{};
-  double opacity = 1;  ///< of the fill: 1 covers, 0 is invisible
+  double opacity = 1;  ///< opacity of the fill: 1 covers, 0 is invisible
 };
 
 /// What stands for a layer in the legend.

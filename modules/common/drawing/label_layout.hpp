@@ -10,7 +10,7 @@ namespace priamos::drawing {
 /// A label that wants to stand near the point it names.
 struct LabelWish {
   Eigen::Vector2d at{0, 0};      ///< what it names
-  double width = 0, height = 0;  ///< of the text [px]
+  double width = 0, height = 0;  ///< size of the text [px]
   double distance = 0;           ///< from `at` to the label's border, at least [px]
   bool centred = false;          ///< stand on the point itself if that is free
 };

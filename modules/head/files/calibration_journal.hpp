@@ -17,7 +17,7 @@ struct SeenDisc {
 
 /// What all cameras saw at one setting of a calibration.
 struct CalibrationExposure {
-  HeadSetting setting;  ///< as the motors reported it
+  HeadSetting setting;  ///< the setting that the motors reported
   std::vector<std::vector<SeenDisc>>
       cameras;  ///< left, right, third; none where the object was not recognised
 };

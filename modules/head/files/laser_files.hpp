@@ -11,9 +11,9 @@ namespace priamos::head {
 /// One picture of the laser's line by the third camera, as a file says it: `[[view]]`.
 struct LaserPicture {
   std::string image;                                  ///< beside the file that lists it
-  double pan_deg = 0, tilt_deg = 0;                   ///< of the head at the exposure
+  double pan_deg = 0, tilt_deg = 0;                   ///< angles of the head at the exposure
   Eigen::Vector3d board_m = Eigen::Vector3d::Zero();  ///< a point of the board, base frame; the floor
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the board, any length
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< normal of the board, base frame, any length
   double error_m = 0.0005;                            ///< how exactly the board stands there, 1 sigma
 
   void Describe(Archive& a);

@@ -12,11 +12,11 @@ namespace priamos::head {
 /// A calibration from files; no robot needed. Either `points` or `photographs`.
 struct OfflineCalibration {
   std::vector<std::string> points;       ///< one file of `X Y Z u v` lines per camera
-  std::vector<std::string> photographs;  ///< of a flat target by one camera, or of `object`, one per camera
+  std::vector<std::string> photographs;  ///< one camera's of a flat target, or one per camera of `object`
   std::string object;                    ///< TOML of the reference object; empty: `target`
   DotTarget target;
   std::optional<Chessboard> chessboard;  ///< instead of `target`
-  int width_px = 0, height_px = 0;  ///< of the images behind `points`; 0: the lens is not asked to be centred
+  int width_px = 0, height_px = 0;       ///< size of the images of `points`; 0: the centre is not constrained
 };
 
 /// Calibrates and describes the result as JSON: per camera F (equation 7) of the plain DLT matrix and after

@@ -42,7 +42,7 @@ struct SeenLandmark {
 /// All that was found. `views` refer to `photographs` and `cameras`: it is moved, never copied.
 struct SeeFindings {
   std::vector<SeenPhotograph> photographs;
-  std::vector<CameraModel> cameras;                 ///< of the photographs, or none
+  std::vector<CameraModel> cameras;                 ///< cameras of the photographs, or none
   std::vector<CameraView> views;                    ///< by camera
   std::optional<std::vector<StereoMatch>> matches;  ///< with two or three cameras
   std::optional<SeenDoors> doors;                   ///< with SeeOptions::stand

@@ -43,7 +43,7 @@ class SeePage {
   };
 
   std::vector<cv::Mat> greys_;
-  std::vector<double> left_;  ///< of each image on the page
+  std::vector<double> left_;  ///< left border of each image on the page
   double unit_;               ///< pixels of the images per pixel of 640 x 480
   drawing::Drawing drawing_;
   drawing::Font font_;

@@ -18,7 +18,7 @@ struct AxisUse {
 
 /// From deflection to wish: nothing inside the dead band, then a straight line blended with a cubic one.
 struct AxisShape {
-  double dead_band = 0.08;  ///< of the full deflection
+  double dead_band = 0.08;  ///< share of the full deflection
   double expo = 0.4;        ///< 0 straight, 1 purely cubic: fine near the middle
 
   void Describe(Archive& a);

@@ -20,7 +20,7 @@ inline constexpr const char* kCameraNames[kCameras] = {"left", "right", "third"}
 /// How one camera sits on the platform: REP 103 axes, x forward. The platform's origin is on the tilt axis.
 struct CameraMount {
   double x_m = 0, y_m = 0, z_m = 0;                 ///< vergence axis, and height of the camera on it
-  double axis_roll_rad = 0, axis_pitch_rad = 0;     ///< of the vergence axis
+  double axis_roll_rad = 0, axis_pitch_rad = 0;     ///< tilt of the vergence axis
   double side_m = 0;                                ///< camera beside its vergence axis, left
   double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< camera on its axis; pitch positive looks down
 
@@ -33,9 +33,10 @@ struct HeadGeometry {
   /// The pan axis, and on it the point nearest to the tilt axis: the origin of the head (section 3.1.3 of
   /// the paper: the intersection of both axes).
   double x_m = 0.25, y_m = 0, z_m = 1.20;
-  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< of the pan axis; yaw is the zero of the pan
-  double tilt_axis_x_m = 0;                         ///< by which the axes miss each other
-  double tilt_axis_roll_rad = 0;                    ///< by which they are not square
+  double roll_rad = 0, pitch_rad = 0,
+         yaw_rad = 0;             ///< orientation of the pan axis; yaw is the zero of the pan
+  double tilt_axis_x_m = 0;       ///< by which the axes miss each other
+  double tilt_axis_roll_rad = 0;  ///< by which they are not square
   std::array<CameraMount, kCameras> cameras = NominalMounts();
 
   void Describe(Archive& a);
@@ -52,7 +53,7 @@ struct HeadGeometry {
 struct HeadModel {
   HeadGeometry geometry;
   std::array<LensTable, kCameras> lenses;  ///< the third camera's has a single node
-  std::optional<LaserPlane> laser;         ///< of the line laser, where it was calibrated
+  std::optional<LaserPlane> laser;         ///< light plane of the line laser, if it was calibrated
   /// How well the calibrated frame is known to be the base frame: covariance of a small motion of space about
   /// the origin of base (x, y, z, roll, pitch, yaw) [m, rad] that all cameras share, whatever the setting.
   /// Most of it is how exactly the reference object was placed.

@@ -14,8 +14,8 @@ struct Relation {
   int a = 0, b = 0;  ///< indices in EdgeImage::segments, a < b
   bool parallel = false, perpendicular = false, collinear = false, intersecting = false;
   double angle_rad = 0;    ///< between the lines, 0 to pi/2
-  double distance_px = 0;  ///< of parallel ones: from the shorter one's middle to the other line
-  bool same_sign = false;  ///< of parallel and collinear ones: the bright sides face the same way
+  double distance_px = 0;  ///< if parallel: from the shorter one's middle to the other line
+  bool same_sign = false;  ///< if parallel or collinear: the bright sides face the same way
 };
 
 /// Two segments that run up to each other, extended to where they meet: what the edge operator lost there is

@@ -11,16 +11,18 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kLevel = 0.05;          ///< of a line's plane of sight: flatter ones are upright
-constexpr double kMinSpanShare = 0.25;   ///< of the way between two uprights that a lintel must be seen on
-constexpr double kSameHeight_m = 0.012;  ///< lintels nearer than this are tried once
-constexpr double kOnFloor_m = 0.12;      ///< skirting and threshold hide the last of an upright
-constexpr double kCorner_px = 8;         ///< of an upright from the end of the lintel
-constexpr double kRefined = 10;          ///< log odds that a fit may add
-constexpr double kMostChi2 = 40;         ///< what fits worse is an outlier
-constexpr double kMostDifference = 4;    ///< between what both cameras say, in log odds
-constexpr double kSameCorners = 0.3;     ///< of its width: nearer ones in an image are one door
-constexpr double kSmallest_px = 16;      ///< between the uprights
+constexpr double kLevel = 0.05;          ///< |z| of the unit normal of a line's plane: below it an upright
+constexpr double kMinSpanShare = 0.25;   ///< share of the lintel between two uprights that must be seen
+constexpr double kSameHeight_m = 0.012;  ///< lintels whose heights differ by less are tried once
+constexpr double kOnFloor_m =
+    0.12;                         ///< an upright that ends lower stands on the floor: skirting hides the rest
+constexpr double kCorner_px = 8;  ///< largest distance of the lintel's end from the upright's top
+constexpr double kRefined = 10;   ///< log odds that a fit may add
+constexpr double kMostChi2 = 40;  ///< largest chi squared that counts: what fits worse is an outlier
+constexpr double kMostDifference = 4;  ///< largest difference of both cameras' log odds that counts
+constexpr double kSameCorners =
+    0.3;  ///< share of the width: candidates with corners nearer in an image are one door
+constexpr double kSmallest_px = 16;  ///< least distance of the uprights in an image
 
 /// Height at which an image line passes the upright at `at`.
 double HeightOn(const ViewLine& line, const Eigen::Vector2d& at) {

@@ -12,9 +12,9 @@ namespace priamos::head {
 /// A door that no map told of: two uprights with a lintel between their tops, seen by both cameras.
 struct DetectedDoor {
   Pose2 base_from_door;        ///< middle between the uprights; x away from the robot, through the door
-  Eigen::Matrix2d covariance;  ///< of that middle [m^2]
+  Eigen::Matrix2d covariance;  ///< covariance of that middle (x, y) [m^2]
   double width_m = 0;          ///< between the uprights: the frame's outer or inner edges
-  double height_m = 0;         ///< of the lintel
+  double height_m = 0;         ///< height of the lintel above the floor
   bool on_floor = false;       ///< an upright was seen down to the floor
   double log_odds = 0;         ///< a door against whatever else has uprights
 };
@@ -23,12 +23,12 @@ struct DetectedDoor {
 struct DoorDetectionOptions {
   double min_width_m = 0.65, max_width_m = 1.35;
   double min_height_m = 1.85, max_height_m = 2.35;
-  double usual_height_m = 2.05, height_sigma_m = 0.1;  ///< what doors are like where the robot works: of the
-                                                       ///< lintel, with or without frame
-  double usual_width_m = 0.95, width_sigma_m = 0.2;    ///< likewise
-  double level_sigma_m = 0.012;  ///< the lintel's heights over both uprights, beyond the noise of edges
-  double edge_sigma_px = 0.3;    ///< what frames deviate from two uprights and a level lintel between them
-  double frame_sigma_m = 0.004;  ///< of a frame's edges from one plane and their mirror images, part of the
+  double usual_height_m = 2.05,
+         height_sigma_m = 0.1;                       ///< prior of the lintel's height, with or without frame
+  double usual_width_m = 0.95, width_sigma_m = 0.2;  ///< prior of the width
+  double level_sigma_m = 0.012;  ///< difference of the lintel's heights over both uprights
+  double edge_sigma_px = 0.3;    ///< deviation of frames from two uprights and a level lintel
+  double frame_sigma_m = 0.004;  ///< deviation of a frame's edges from one plane and symmetry, part of the
                                  ///< covariance: near jambs show another edge of the frame than far ones
   double min_upright_m = 0.15;   ///< seen by both cameras
   double min_log_odds = 7;       ///< evidence wanted

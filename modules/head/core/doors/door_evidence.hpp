@@ -15,9 +15,9 @@ struct DoorShape {
 
 /// How far image lines cover a segment of the image that is expected, all of one contrast sign.
 struct Cover {
-  double share = 0;     ///< of the segment
-  double first_px = 0;  ///< of what covers it: before the segment's beginning if negative
-  double last_px = 0;   ///< likewise beyond its end if positive
+  double share = 0;     ///< covered share of the segment
+  double first_px = 0;  ///< where the cover begins, from the segment's beginning; negative: before it
+  double last_px = 0;   ///< where the cover ends, from the segment's end; positive: beyond it
   int line = -1;        ///< in CameraView::lines: the one that covers most of it
 };
 
@@ -29,8 +29,8 @@ struct DoorEvidence {
   std::array<double, 2> hangs_m{};    ///< their lower ends above the floor, or above the picture's border
   double sill = 0;                    ///< share of a level edge between their lower ends, if these hang
   double frame_lintel = 0;            ///< share of a second lintel within the first: frame and leaf
-  std::array<double, 2> frame_uprights{};  ///< likewise beside the uprights
-  double log_odds = 0;                     ///< of all of this: a door against whatever else a corridor has
+  std::array<double, 2> frame_uprights{};  ///< share of second uprights within the first ones
+  double log_odds = 0;  ///< sum of all this evidence: a door against whatever else a corridor has
 };
 
 /// Weighs the edges of one image, whichever they are: an edge that is missing counts against the door.

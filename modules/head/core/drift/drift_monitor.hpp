@@ -11,18 +11,18 @@ namespace priamos::head {
 
 /// When the cameras are no longer believed to be where the calibration says.
 struct DriftConfig {
-  int looks = 3;                       ///< whose median is judged, an odd number; fewer are not
-  double false_alarm = 1e-4;           ///< at most, of a judgement
-  double calibration_sigma_px = 0.06;  ///< of each camera when nothing has moved
+  int looks = 3;                       ///< number of looks whose median is judged, odd; fewer are not judged
+  double false_alarm = 1e-4;           ///< highest probability of a false alarm per judgement
+  double calibration_sigma_px = 0.06;  ///< errors of each camera's calibration when nothing has moved
 
   void Describe(Archive& a);
 };
 
 /// What is wrong.
 struct DriftAlarm {
-  StereoDrift drift;      ///< as the median look has it
-  int axis = 0;           ///< of the right camera, about which the turn is most improbable: x, y, z
-  double deviations = 0;  ///< by so many standard deviations
+  StereoDrift drift;      ///< turn of the right camera in the median look
+  int axis = 0;           ///< axis of the right camera (x, y, z) with the most improbable turn
+  double deviations = 0;  ///< that turn in standard deviations
 
   /// One sentence that fits into HEALTH.
   std::string ToText() const;

@@ -12,17 +12,17 @@ namespace priamos::head {
 struct EpipolarShift {
   double down_px = 0, sigma_px = 0;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< middle of the ends that count [undistorted px]
-  int n = 0;                                     ///< so many ends
+  int n = 0;                                     ///< number of ends that count
 };
 
 /// Which ends of matched edges count; distances from epipolar lines [undistorted px].
 struct EpipolarShiftOptions {
   double min_epipolar_rad = 0.7;  ///< flatter edges have ends that slide along the epipolar lines
-  double reach_px = 6;            ///< ends farther off say nothing
-  double core_px = 1.2;           ///< half width of the crowd that counts
-  int min_ends = 12;              ///< in the crowd
-  double min_share = 0.35;        ///< of all within reach
-  double floor_px = 0.12;         ///< of the crowd's middle, however many there are
+  double reach_px = 6;            ///< ends farther from their epipolar line are left out
+  double core_px = 1.2;           ///< residuals farther from the mode have no weight
+  int min_ends = 12;              ///< least number of ends near the mode
+  double min_share = 0.35;        ///< least share of the ends within reach that are near the mode
+  double floor_px = 0.12;         ///< systematic part of sigma_px, however many ends there are
 };
 
 /// The plain epipolar residual of all matched edges, known landmark or not. More than half of the ends are no

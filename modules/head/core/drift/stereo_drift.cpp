@@ -171,7 +171,7 @@ class DriftProblem {
   std::array<const CameraModel*, 2> cameras_;
   const Eigen::Isometry3d& pose_;
   const StereoDriftOptions& options_;
-  Eigen::Matrix3d axes_;  ///< of the right camera
+  Eigen::Matrix3d axes_;  ///< axes of the right camera
   std::map<int, int> slots_;
   std::vector<Row> rows_;
 };

@@ -23,10 +23,10 @@ struct StereoDrift {
 struct StereoDriftOptions {
   double model_sigma_m = 0.001;        ///< how well the landmark's edges are placed, each axis
   double tilt_sigma_m = 0.00025;       ///< how well they are aligned
-  double edge_sigma_px = 0.07;         ///< of half an edge in one image, beyond the noise of its points
-  double calibration_sigma_px = 0.06;  ///< of each camera when nothing has moved: table and motors
-  double outlier_px = 0.4;             ///< half an edge that fits worse loses weight
-  int min_edges = 4;                   ///< that both images show
+  double edge_sigma_px = 0.07;         ///< error of half an edge in one image, beyond the noise of its points
+  double calibration_sigma_px = 0.06;  ///< errors of table and motors of each camera when nothing has moved
+  double outlier_px = 0.4;             ///< a half edge with a larger residual loses weight
+  int min_edges = 4;                   ///< least number of edges that both images show
 };
 
 /// The epipolar residual of tracked edges. Edges have no ends that can be trusted, and a turn about y moves

@@ -46,7 +46,7 @@ class EdgeBlocks {
   int block_rows_ = 4;
   std::vector<EdgeSums> blocks_, front_;
   EdgeSums total_;
-  float mean_strength_ = 0, farthest_ = 0;  ///< of a row; largest imbalance per strength
+  float mean_strength_ = 0, farthest_ = 0;  ///< edge strength of a row; largest imbalance per strength
   double first_ = 0, last_ = 0;
 };
 

@@ -34,9 +34,9 @@ void ForEachPeak(const unsigned short* at, std::ptrdiff_t step, int n, double th
 
 /// To which of its four sides a walk goes on, and what a step is in memory and in x and y.
 struct ChainTracer::Heading {
-  int tx, ty;          ///< of a step ahead: (+-1, 0) or (0, +-1)
+  int tx, ty;          ///< a step ahead: (+-1, 0) or (0, +-1)
   int ahead, side;     ///< steps in memory
-  int side_x, side_y;  ///< of a step to the side
+  int side_x, side_y;  ///< a step to the side
 
   static Heading Of(int tx, int ty, int stride) {
     if (std::abs(ty) >= std::abs(tx)) return {0, ty > 0 ? 1 : -1, ty > 0 ? stride : -stride, 1, 1, 0};

@@ -12,8 +12,8 @@ static_assert(offsetof(EdgeSums, inverse) == 3 * sizeof(float) &&
                   offsetof(EdgeSums, sharpness) == 6 * sizeof(float),
               "Load takes four numbers at a time");
 constexpr double kCorner_px = 0.2;          ///< how far a corner bends the edge that ends there
-constexpr double kMinShare = 0.25;          ///< of the mean strength; a block with less is a gap
-constexpr double kLeastVariance_px2 = 0.5;  ///< of an edge seen through the narrow kernels
+constexpr double kMinShare = 0.25;          ///< share of the mean strength below which a block is a gap
+constexpr double kLeastVariance_px2 = 0.5;  ///< least variance of an edge seen through the narrow kernels
 
 double Square(double x) {
   return x * x;

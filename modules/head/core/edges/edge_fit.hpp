@@ -45,9 +45,10 @@ class EdgeFitter {
 
   using Numbers = std::array<float, EdgeBlocks::kMaxBlocks + 4>;
   EdgeSums total_;
-  double noise_[2] = {0, 0}, narrower_by_ = 0;  ///< of the two kernels' variances [px^2]
-  float begin_ = 0;                             ///< row that along_ counts from
-  int n_ = 0, padded_ = 0;  ///< blocks; the same with what fills up the last four, which weighs nothing
+  double noise_[2] = {0, 0};  ///< noise(), by kernel width
+  double narrower_by_ = 0;    ///< difference of the two kernels' variances [px^2]
+  float begin_ = 0;           ///< row that along_ counts from
+  int n_ = 0, padded_ = 0;    ///< blocks; the same with what fills up the last four, which weighs nothing
   alignas(16) Numbers along_, rows_, strengths_, inverses_, imbalances_[2];  ///< imbalance per strength
   alignas(16) Numbers shifts_, base_, weights_;  ///< weights before and after robust weighting
   alignas(16) Numbers misfits_, allowed_;

@@ -12,7 +12,7 @@ namespace priamos::head {
 /// A line as `across = offset + slope * (along - origin)`; `along` counts rows if it is steep, else columns.
 struct AxisLine {
   bool steep = true;
-  int sign = 1;  ///< of the contrast in the direction of growing `across`
+  int sign = 1;  ///< sign of the contrast in the direction of growing `across`
   double origin = 0, offset = 0, slope = 0;
   const EdgeKernelSet *wide = nullptr, *narrow = nullptr;  ///< for this slope
 

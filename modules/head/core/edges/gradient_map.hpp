@@ -18,7 +18,7 @@ class GradientMap {
   /// |gx| + |gy|.
   const unsigned short* magnitude(int row) const { return magnitude_.ptr<unsigned short>(row); }
 
-  double noise_sigma() const { return noise_sigma_; }  ///< of a pixel of the raw image [grey values]
+  double noise_sigma() const { return noise_sigma_; }  ///< noise of a pixel of the raw image [grey values]
   double mean_grey() const { return mean_grey_; }
   double saturated_share() const { return saturated_share_; }
   /// Standard deviation that this noise gives gx and gy.

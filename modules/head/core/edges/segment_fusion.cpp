@@ -169,8 +169,8 @@ class Fuser {
   }
 
   FusionOptions options_;
-  std::vector<SegmentIndex> index_;         ///< of lines of each sector of directions
-  const std::vector<EdgeSegment>& pieces_;  ///< of the image
+  std::vector<SegmentIndex> index_;         ///< the lines, by sector of their directions
+  const std::vector<EdgeSegment>& pieces_;  ///< all pieces of the image
   std::vector<int> next_piece_;
   std::vector<Line> lines_;  ///< the pieces, then every line that was joined
   std::priority_queue<Pair, std::vector<Pair>, std::greater<>> pairs_;

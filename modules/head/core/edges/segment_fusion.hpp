@@ -11,9 +11,9 @@ namespace priamos::head {
 struct FusionOptions {
   double max_gap_px = 24;        ///< longest gap that is bridged
   double max_gap_share = 1.0;    ///< and at most so much of the shorter piece
-  double max_distance_px = 0.6;  ///< of a piece from the common line, beyond 3 sigma: lenses bend long edges
+  double max_distance_px = 0.6;  ///< from a piece to the common line, beyond 3 sigma: lenses bend long edges
   double max_angle_rad = 0.02;   ///< between two pieces, beyond 3 sigma
-  double max_grey_ratio = 2.0;   ///< of their contrasts
+  double max_grey_ratio = 2.0;   ///< larger over smaller contrast of the two pieces
 };
 
 /// The line of two pieces together, as if it had been fitted to the points of both: a fit is fully described

@@ -10,7 +10,7 @@ namespace priamos::head {
 struct LightPoint {
   double u = 0;         ///< its column [px]
   Eigen::Vector3d at;   ///< base frame [m]
-  double variance = 0;  ///< of its height, from the picture and the roughness of the surface [m^2]
+  double variance = 0;  ///< variance of its height, from picture and roughness of the surface [m^2]
 };
 
 /// The floor in the base frame: z = plane.dot(1, x, y).

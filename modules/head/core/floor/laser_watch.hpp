@@ -15,7 +15,7 @@ namespace priamos::head {
 /// When the third camera watches the laser's line.
 struct LaserWatchConfig {
   double rate_hz = 0;    ///< pictures of the line; 0: none, the head stays where it was
-  double tilt_deg = 36;  ///< of the head meanwhile: the line must be in the third camera's picture
+  double tilt_deg = 36;  ///< tilt of the head meanwhile: the third camera must see the line
   double idle_s = 1;     ///< so long after a look, or an operator's hand, the head turns down
   ObstacleOptions obstacle;
 

@@ -14,10 +14,10 @@ namespace {
 using Eigen::Vector2d, Eigen::Vector3d;
 
 constexpr double kNearest_m = 0.2, kFarthest_m = 8;
-constexpr double kMinSine = 0.02;      ///< of the angle between line of sight and light
-constexpr double kGap_px = 4;          ///< columns that a piece may lack
-constexpr double kStraight_m = 0.015;  ///< a piece is straight to that
-constexpr double kScaleError = 0.01;   ///< of the height of what stands out
+constexpr double kMinSine = 0.02;  ///< sine of the smallest angle between line of sight and plane of light
+constexpr double kGap_px = 4;      ///< widest gap within a piece, in columns
+constexpr double kStraight_m = 0.015;  ///< largest deviation of a piece from a straight line
+constexpr double kScaleError = 0.01;   ///< relative error of an obstacle's height
 constexpr double kSpan_m = 3;          ///< to either side, where the floor's line is looked for
 constexpr double kRowMargin_px = 14;
 
@@ -199,9 +199,9 @@ void FindMissing(const std::vector<LightPoint>& points, int width, const CameraM
 
 void FloorTolerance::Describe(Archive& a) {
   a.Number("heave_m", heave_m, {"m", 0.0001, 0.1, "up and down below the robot, joints included; 1 sigma"});
-  a.Number("pitch_rad", pitch_rad, {"rad", 0.0001, 0.1, "by which the robot nods; 1 sigma"});
-  a.Number("roll_rad", roll_rad, {"rad", 0.0001, 0.1, "by which it heels; 1 sigma"});
-  a.Number("rough_m", rough_m, {"m", 0.0001, 0.05, "of the surface, from place to place; 1 sigma"});
+  a.Number("pitch_rad", pitch_rad, {"rad", 0.0001, 0.1, "angle by which the robot nods; 1 sigma"});
+  a.Number("roll_rad", roll_rad, {"rad", 0.0001, 0.1, "angle by which the robot heels; 1 sigma"});
+  a.Number("rough_m", rough_m, {"m", 0.0001, 0.05, "roughness of the surface, from place to place; 1 sigma"});
   a.Number("camera_px", camera_px, {"px", 0.01, 5, "how well the third camera is calibrated; 1 sigma"});
 }
 
@@ -212,7 +212,8 @@ void ObstacleOptions::Describe(Archive& a) {
   a.Number("highest_m", highest_m, {"m", 0.01, 3, "highest that is looked for"});
   a.Number("significance", significance, {"-", 3, 20, "sigmas of its height that an obstacle needs"});
   a.Integer("min_columns", min_columns, {"px", 4, 200, "columns of the picture that it needs"});
-  a.Integer("min_missing", min_missing, {"px", 4, ImageSize{}.width, "columns without a line that are told"});
+  a.Integer("min_missing", min_missing,
+            {"px", 4, ImageSize{}.width, "a gap in the line is reported if it has more columns"});
   a.Number("min_seen", min_seen,
            {"-", 0, 1, "share of the columns below which nothing is said of the floor"});
 }

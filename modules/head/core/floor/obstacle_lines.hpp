@@ -16,7 +16,7 @@ namespace priamos::head {
 struct FloorTolerance {
   double heave_m = 0.002;  ///< up and down below the robot, joints and ramps included
   double pitch_rad = 0.002, roll_rad = 0.002;
-  double rough_m = 0.001;   ///< of the surface, from place to place
+  double rough_m = 0.001;   ///< roughness of the surface, from place to place
   double camera_px = 0.15;  ///< how well the third camera is calibrated and its motors return
 
   void Describe(Archive& a);
@@ -28,9 +28,9 @@ struct ObstacleOptions {
   double min_height_m = 0.015;              ///< what is lower is driven over
   double lowest_m = -0.5, highest_m = 0.5;  ///< what is looked for, against the floor
   double significance = 5;                  ///< sigmas of the height that an obstacle needs
-  int min_columns = 12;                     ///< of the picture
-  int min_missing = 40;                     ///< columns without a line that are told
-  double min_seen = 0.3;  ///< share of the columns: with less nothing is said about the floor
+  int min_columns = 12;                     ///< columns of the picture that an obstacle needs
+  int min_missing = 40;                     ///< a gap in the line is reported if it has more columns
+  double min_seen = 0.3;  ///< share of columns with a line; with less the floor is not judged
 
   void Describe(Archive& a);
 };

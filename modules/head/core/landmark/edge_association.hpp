@@ -21,7 +21,7 @@ struct EdgeMatch {
   double overshoot_px = 0;  ///< how far the image edge runs on where the model has an end
   /// How far the image edge ends before the prediction's from and to end; negative: it runs on.
   std::array<double, 2> gap_px{};
-  double grey_ratio = 0;  ///< as LandmarkEdge::grey_ratio, measured
+  double grey_ratio = 0;  ///< measured value of LandmarkEdge::grey_ratio
 };
 
 /// A corner of the model both of whose edges were found in one image.
@@ -32,7 +32,7 @@ struct CornerMatch {
 
 /// What the images say about one supposed pose.
 struct Association {
-  double missed_log_odds = 0;  ///< of a whole edge that is not found
+  double missed_log_odds = 0;  ///< log odds of a whole edge that is not found
   std::vector<EdgeMatch> matches;
   std::vector<CornerMatch> corners;
   int n_predicted = 0;       ///< edges that should be seen, all images together
@@ -56,8 +56,8 @@ struct AssociationOptions {
       40;  ///< half width of the strip in which the density of similar edges is measured
   double min_covered = 0.15;
   double min_separation_px = 5;  ///< model edges seen nearer to each other are left out, both
-  double grey_sigma = 0.35;      ///< of a ratio of grey values that the model tells, by light
-  double any_grey_sigma = 0.7;   ///< of that of any edge
+  double grey_sigma = 0.35;      ///< measured minus modelled grey_ratio: lighting
+  double any_grey_sigma = 0.7;   ///< measured grey_ratio of any edge, about 0
   double grey_surprise = 0.1;    ///< share of edges beside which there is something else
   double corner_px = 6;          ///< edges that end so near to a corner end in it
   /// Share of corners in which both edges end: 0.62 were measured of doors, 0.11 of cupboards, whose edges

@@ -33,7 +33,7 @@ std::vector<ObservedLine> ObservedLines(std::span<const EdgeObservation> observa
 struct EdgeResidual {
   int edge = 0, camera = 0;
   double distance_px = 0;
-  double variance = 0;                  ///< of the measurement [px^2]
+  double variance = 0;                  ///< variance of the measurement [px^2]
   Eigen::Matrix<double, 1, 6> by_pose;  ///< per (x, y, z, roll, pitch, yaw) as in PoseJacobian
   Eigen::Matrix<double, 1, 6> by_base;  ///< per motion of space about the origin of base
   Eigen::Vector4d by_camera;  ///< per shift (u, v), roll and scale of the image, in px at kCameraLeverPx

@@ -10,15 +10,15 @@ namespace priamos::head {
 
 /// How a free model is searched around where it is believed to be.
 struct FreeModelOptions {
-  std::vector<double> gates_px{16, 8, 4, 2, 1.2};  ///< from the belief to the result
+  std::vector<double> gates_px{16, 8, 4, 2, 1.2};  ///< gate of each pass, from the belief to the result
   /// If that does not lead to it: the way there with all but the last gate wider or narrower by so much.
   std::vector<double> retries{1.7, 0.6};
   int min_matched = 5;     ///< edges that must be found, all images together
-  double min_share = 0.4;  ///< of the visible length that must be found
+  double min_share = 0.4;  ///< share of the visible length that must be found
   double max_misfit = 4;
   double outlier_misfit = 9;
   int max_outliers = 4;
-  double max_shift_m = 0.05, max_turn_rad = 0.2;  ///< from the belief; farther is "elsewhere"
+  double max_shift_m = 0.05, max_turn_rad = 0.2;  ///< distance from the belief; farther is "elsewhere"
   PoseSolverOptions solver{.on_floor = false, .edge_sigma_px = 0.03, .max_iterations = 15};
 };
 
@@ -26,7 +26,7 @@ struct FreeModelOptions {
 struct FreeModelFix {
   Verdict verdict = Verdict::kNoImage;
   Eigen::Isometry3d base_from_model = Eigen::Isometry3d::Identity();
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< as PoseSolution
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< PoseSolution::covariance
   int n_matched = 0;
   double residual_px = 0, misfit = 0;
   LandmarkModel seen;              ///< what is visible of it at that pose

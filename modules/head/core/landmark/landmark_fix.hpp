@@ -34,42 +34,43 @@ const char* Describe(Verdict verdict);
 /// Where the robot believes the landmark to be: the prior of the search, not of the result.
 struct LandmarkPrediction {
   Pose2 base_from_landmark;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of (x, y, yaw), base frame [m, rad]
 };
 
 /// The landmark as reconstructed from one stereo pair.
 struct LandmarkFix {
   Verdict verdict = Verdict::kNoImage;
   Pose2 base_from_landmark;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
-  double own_share = 0;                                  ///< of the covariance: PoseSolution
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of (x, y, yaw), base frame [m, rad]
+  double own_share = 0;                                  ///< PoseSolution::own_share
   int n_matched = 0;                                     ///< model edges found, all images together
   double residual_px = 0;                                ///< RMS distance of the matched edges from the model
   double misfit = 0;                                     ///< PoseSolution::misfit
-  double side_share = 1;                                 ///< found of what the weaker side should show
-  double log_odds = 0;                                   ///< landmark there against clutter only
-  double rival_log_odds = 0;                             ///< the same of the best different pose
+  double side_share = 1;      ///< found share of the visible length of the weaker side
+  double log_odds = 0;        ///< Association::log_odds
+  double rival_log_odds = 0;  ///< log_odds of the best different pose
   std::vector<EdgeMatch> matches;
 };
 
 /// Where a landmark is looked for, and what evidence a fix needs.
 struct LandmarkFixOptions {
-  double min_sigma_m = 0.02, min_sigma_rad = 0.01;  ///< the search is never narrower than that
-  double gate = 4;               ///< Mahalanobis distance from the prediction, 3 degrees of freedom
-  double gate_elsewhere = 7;     ///< so far out it is still looked for, to be refused
-  int min_predicted = 4;         ///< edges that must be predicted, all images together
-  int min_matched = 6;           ///< edges that must be found, all images together
-  double min_log_odds = 7;       ///< beyond the logarithm of the number of chances
-  double min_share = 0.5;        ///< of the log odds that a complete landmark would give
-  double min_side_share = 0.45;  ///< of what either side of the landmark should show, found
+  double min_sigma_m = 0.02, min_sigma_rad = 0.01;  ///< added to the prediction's covariance
+  double gate = 4;  ///< Mahalanobis distance from the prediction, 3 degrees of freedom
+  double gate_elsewhere =
+      7;                    ///< Mahalanobis distance up to which it is searched; beyond `gate` it is refused
+  int min_predicted = 4;    ///< edges that must be predicted, all images together
+  int min_matched = 6;      ///< edges that must be found, all images together
+  double min_log_odds = 7;  ///< log odds wanted beyond the logarithm of the number of poses tried
+  double min_share = 0.5;   ///< share of the log odds that a perfect match would give
+  double min_side_share = 0.45;  ///< least side_share of a fix
   double one_sided_log_odds =
-      5;                ///< wanted in addition if only one side is in view: it could be another landmark's
-  double min_lead = 6;  ///< over the best different pose
+      5;  ///< log odds wanted in addition if only one side is in view: it could be another landmark's
+  double min_lead = 6;  ///< log odds wanted over the best different pose
   double max_residual_px = 1.2;
   double max_misfit = 3;
   double outlier_misfit = 6;  ///< an edge that fits worse (chi squared per degree of freedom: 0.01 to 0.2 %
                               ///< of the right ones) is not the model's
-  int max_outliers = 3;       ///< so many may be taken out
+  int max_outliers = 3;       ///< largest number of edges that are taken out
   double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
   VerticalStereoOptions stereo;
   ProposalOptions proposals;

@@ -9,7 +9,7 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kMinShare = 0.5;  ///< of an edge that must lie along the prediction
+constexpr double kMinShare = 0.5;  ///< share of a line's length that must lie along the prediction
 
 std::vector<PredictedEdge> Predicted(const LandmarkModel& model, const Pose2& base_from_landmark,
                                      const Eigen::Matrix3d& covariance, const CameraView& picture) {

@@ -15,7 +15,7 @@ struct PoseSample {
   Time time;
   Pose2 map_from_base;
   Twist2 twist;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw), map frame
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of (x, y, yaw), map frame [m, rad]
 };
 
 /// The poses of the last seconds. The landmark is predicted for the time of the exposure, which has passed

@@ -12,13 +12,13 @@ namespace priamos::head {
 /// A pose of the landmark in the base frame that puts two of its vertical edges onto reconstructed ones.
 struct PoseProposal {
   Pose2 base_from_landmark;
-  int support = 1;  ///< proposals that agree with it
+  int support = 1;  ///< number of proposals that agree with it
 };
 
 /// Which pairs of edges may make a pose, and which poses are one.
 struct ProposalOptions {
   double max_distance_error_m =
-      0.03;                  ///< of the two edges from each other, beyond 3 sigma of the reconstruction
+      0.03;                  ///< error of the distance of the two edges, beyond 3 sigma of the reconstruction
   double min_base_m = 0.05;  ///< two model edges nearer to each other give no direction
   double gate = 4;           ///< Mahalanobis distance from the prediction, 3 degrees of freedom
   double merge_m = 0.015, merge_rad = 0.01;

@@ -14,7 +14,7 @@ namespace priamos::head {
 /// What is estimated, and the standard deviations (sigma) of everything it is estimated from.
 struct PoseSolverOptions {
   bool on_floor = true;           ///< 3 degrees of freedom (x, y, yaw), else all 6
-  double edge_sigma_px = 0.01;    ///< of a whole edge at either end: what light, lens and neighbours do to it
+  double edge_sigma_px = 0.01;    ///< systematic error of an edge at either end: light, lens, neighbours
   double model_sigma_m = 0.0008;  ///< how well the model's edges are placed, each axis
   double tilt_sigma_m = 0.00025;  ///< how well they are aligned: at the ends, against the middle
   double movable_sigma_m = 0.01;  ///< the same of a part that may stand elsewhere
@@ -41,7 +41,7 @@ struct PoseSolution {
   /// Of the covariance, as the mean over all its directions, what the noise of edges makes. The rest comes
   /// from the model and the calibration: another look repeats it.
   double own_share = 0;
-  double rms_px = 0;  ///< of the mean distances of the edges from the model, all images
+  double rms_px = 0;  ///< RMS of the edges' mean distances from the model, all images
   /// Chi squared per degree of freedom under all errors that are expected: about 1 for the right edges, large
   /// for wrong ones.
   double misfit = 0;

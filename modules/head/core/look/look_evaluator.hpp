@@ -15,8 +15,8 @@ namespace priamos::head {
 
 /// What one look is evaluated from.
 struct LookInput {
-  const LandmarkModel* model = nullptr;            ///< of the landmark ordered; nullptr: nobody has sent it
-  std::optional<PoseSample> robot;                 ///< believed at the time of the exposure; nullopt: unknown
+  const LandmarkModel* model = nullptr;  ///< model of the landmark ordered; nullptr: nobody has sent it
+  std::optional<PoseSample> robot;       ///< believed at the time of the exposure; nullopt: unknown
   std::array<std::optional<GreyImage>, 2> images;  ///< left, right; nullopt: lost
   HeadSetting setting;                             ///< counters of the motors during the exposure
 };
@@ -25,7 +25,7 @@ struct LookInput {
 struct LookResult {
   LandmarkFix fix;                   ///< base frame; its verdict says why there is none
   LandmarkView view;                 ///< what the verdict was decided by; empty without two usable images
-  std::optional<StereoDrift> drift;  ///< of the right camera; nullopt: this look does not tell
+  std::optional<StereoDrift> drift;  ///< turn of the right camera; nullopt: this look does not determine it
 };
 
 /// What of a look's evaluation the configuration sets.

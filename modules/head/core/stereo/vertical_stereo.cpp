@@ -11,7 +11,7 @@ namespace {
 struct FloorLine {
   int line = 0;
   Eigen::Vector3d coefficients;
-  double sigma_rad = 0;  ///< of its direction
+  double sigma_rad = 0;  ///< sigma of its direction
   double contrast = 0;   ///< signed: positive if it is brighter where the coefficients give positive values
 };
 

@@ -17,10 +17,10 @@ struct VerticalEdge {
 
 /// Which edges of two images may be one vertical edge of space; ranges from the origin of base [m].
 struct VerticalStereoOptions {
-  double max_lean_rad = 0.03;  ///< of the plane of sight from the vertical, beyond its own noise
+  double max_lean_rad = 0.03;  ///< angle of the plane of sight to the vertical, beyond its own noise
   double min_range_m = 0.4, max_range_m = 8;
   double min_overlap = 0.4;       ///< common height over the smaller of both heights
-  double max_contrast_ratio = 3;  ///< of the two cameras
+  double max_contrast_ratio = 3;  ///< larger over smaller contrast in the two cameras
   double camera_sigma_px = 0.1;   ///< calibration, added to the noise of the edges
 };
 

@@ -16,7 +16,7 @@ class ObstacleMap {
   /// The obstacle nearest to a footprint.
   struct Nearest {
     double distance_m = std::numeric_limits<double>::infinity();
-    std::string name;  ///< of the obstacle, for messages; empty when there is none at all
+    std::string name;  ///< name of the obstacle, for messages; empty if there is none
   };
 
   explicit ObstacleMap(const GroundPlan& plan);

@@ -37,8 +37,8 @@ class Search {
   Eigen::Vector3d speeds_;
   const JudgeMotion& judge_;
   Parts best_ = Parts::Zero();
-  double scale_ = 0;   ///< of the best motion
-  double gained_ = 0;  ///< by it, along the wish [m/s times the size of the wish]
+  double scale_ = 0;   ///< scale of the best motion
+  double gained_ = 0;  ///< the best motion's part along the wish [m/s times the size of the wish]
 };
 
 /// The judge is asked only about what would be better than the best so far.

@@ -70,7 +70,8 @@ struct DriveState {
   LeaseHolder holder;
   bool estop = false;
   int refused_commands = 0;
-  CommandVerdict refusal = CommandVerdict::kAccepted;  ///< of the newest refused one; kAccepted: none yet
+  CommandVerdict refusal =
+      CommandVerdict::kAccepted;  ///< verdict on the newest refused command; kAccepted: none yet
 };
 
 /// Turns paths and an operator's commands into wheel speeds, through the chain that nothing bypasses:

@@ -39,9 +39,9 @@ struct LandmarkFix {
   Time exposure{};
   int request_id = 0;
   Pose2 base_from_landmark;                                  ///< X_rec
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw) of X_rec
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< covariance of X_rec (x, y, yaw) [m, rad]
   Pose2 map_from_landmark;                                   ///< X_mod
-  double own_share = 1;  ///< of the covariance, what no other look repeats
+  double own_share = 1;  ///< share of the covariance that is independent of other looks
 };
 
 /// The pose at one time, map frame; covariance of (x, y, yaw) in m and rad.

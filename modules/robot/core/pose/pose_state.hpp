@@ -45,9 +45,10 @@ PoseState Propagated(const PoseState& state, const OdometryStep& step);
 /// time from elsewhere and with other edges: that they are correlated is known, but not how.
 struct LandmarkMeasurement {
   Pose2 base_from_landmark;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw); positive definite
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Zero();  ///< covariance of (x, y, yaw) [m, rad]; positive definite
   Pose2 map_from_landmark;
-  double own_share = 1;  ///< of the covariance, what no other look repeats
+  double own_share = 1;  ///< share of the covariance that is independent of other looks
 };
 
 /// Covariance-weighted update with one measurement of a landmark.

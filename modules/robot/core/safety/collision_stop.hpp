@@ -32,7 +32,7 @@ class CollisionStop {
   /// What is left of a wanted motion.
   struct Result {
     Twist2 twist;
-    double scale = 1;               ///< of the wanted motion
+    double scale = 1;               ///< `twist` over the wanted motion
     std::optional<double> allowed;  ///< fastest motion in this direction [m/s of the fastest corner]
     std::optional<double>
         free_m;  ///< distance until the footprint would meet a point; none within look_ahead_m

@@ -79,7 +79,7 @@ struct FailsafeInputs {
 /// What to do, and the condition that asks for it.
 struct FailsafeDecision {
   FailsafeAction action = FailsafeAction::kNone;
-  std::optional<Condition> cause;  ///< of the strongest action
+  std::optional<Condition> cause;  ///< condition that asks for the action
 };
 
 /// Decides what is done about everything that is wrong at once: the strongest action wins. A condition that

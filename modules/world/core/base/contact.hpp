@@ -32,7 +32,7 @@ class Clearance {
  private:
   struct Obstacle {
     Rectangle outline;
-    double radius_m;  ///< of the circle around it
+    double radius_m;  ///< radius of the circle around it
   };
 
   Body body_;

@@ -32,7 +32,7 @@ struct WheelReading {
   bool deadline_stopped = true;                  ///< held: no command came for the deadline
   bool contested = false;                        ///< held: commands of two instances came within it
   std::int32_t instance = 0;                     ///< whose commands it took last; 0 before the first
-  std::int32_t foreign_commands = 0;             ///< of others, not obeyed
+  std::int32_t foreign_commands = 0;             ///< commands of other instances, not obeyed
 };
 
 /// Four wheel drives: the set value runs along a ramp, the wheel follows the ramp with a first-order lag.

@@ -26,10 +26,11 @@ struct HeadAxes {
 
 /// How one camera was really built, which nobody but the simulator knows.
 struct CameraBuild {
-  double x_m = 0, y_m = 0, z_m = 0;                 ///< camera axis (vergence axis) on the platform
-  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< of the camera on that axis; pitch positive looks down
-  double pupil_m = 0.02;                            ///< entrance pupil before the axis at focal_mid_px
-  double focal_min_px = 800, focal_max_px = 1600;   ///< at zoom step 0 and 2000, focused at infinity
+  double x_m = 0, y_m = 0, z_m = 0;  ///< camera axis (vergence axis) on the platform
+  double roll_rad = 0, pitch_rad = 0,
+         yaw_rad = 0;     ///< orientation of the camera on that axis; pitch positive looks down
+  double pupil_m = 0.02;  ///< entrance pupil before the axis at focal_mid_px
+  double focal_min_px = 800, focal_max_px = 1600;  ///< at zoom step 0 and 2000, focused at infinity
   double centre_u_px = ImageSize{}.Centre().x();  ///< column of the principal point at the middle of the zoom
   double centre_v_px = ImageSize{}.Centre().y();  ///< its row
   double centre_walk_u_px = 0, centre_walk_v_px = 0;   ///< its walk from zoom step 0 to 2000
@@ -44,7 +45,7 @@ struct CameraBuild {
 /// (0.25, 0, 1.20) of the base frame, the cameras sit at y = +-0.15 m and the third 0.12 m above them.
 struct HeadBuild {
   double x_m = 0.25, y_m = 0, z_m = 1.20;                ///< pan axis in the base frame
-  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;       ///< of the pan axis
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;       ///< orientation of the pan axis, base frame
   double tilt_axis_x_m = 0, tilt_axis_z_m = 0;           ///< tilt axis on the pan platform
   double tilt_axis_roll_rad = 0, tilt_axis_yaw_rad = 0;  ///< its skew against the pan axis
   std::array<CameraBuild, kCameras> cameras = NominalCameras();

@@ -10,10 +10,10 @@ namespace priamos::world {
 /// the paper): a fan of light in one plane.
 struct LaserBuild {
   double x_m = 0.46, y_m = 0, z_m = 0.60;  ///< where the fan begins, base frame
-  double roll_rad = 0, yaw_rad = 0;        ///< of the fan
+  double roll_rad = 0, yaw_rad = 0;        ///< orientation of the fan, with pitch_rad
   double pitch_rad = 0.35;                 ///< its middle looks down by this
   double half_angle_rad = 0.6;             ///< from its middle to its sides
-  double thickness_m = 0.004;              ///< of the sheet of light
+  double thickness_m = 0.004;              ///< thickness of the sheet of light
 
   void Describe(Archive& a);
   /// Frame of the fan: x along its middle, z across the plane of the light.

@@ -11,7 +11,7 @@ namespace priamos::world {
 /// What a ray meets first.
 struct RayHit {
   double distance_m = 0;
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface, towards the ray's origin
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< normal of the surface, towards the ray's origin
   int solid = -1;                                     ///< index; -1 floor, -2 ceiling, -3 nothing
 };
 
@@ -30,7 +30,7 @@ class Lighting {
 
  private:
   struct Box {
-    double c, s;  ///< of its yaw
+    double c, s;  ///< cosine and sine of its yaw
     Eigen::Vector3d centre, half;
   };
   double Ambient(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;

@@ -181,8 +181,8 @@ class Renderer::Impl {
   std::unique_ptr<Textures> textures_;
   std::unique_ptr<Lighting> lighting_;
   Mesh room_;
-  std::vector<Mesh> parts_;  ///< of solids_
-  Mesh mesh_;                ///< all of them
+  std::vector<Mesh> parts_;  ///< meshes of solids_
+  Mesh mesh_;                ///< room, parts and reference object together
   cv::Mat light_;            ///< sum of the sub-exposures on the fine grid
 };
 

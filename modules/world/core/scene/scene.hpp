@@ -12,7 +12,7 @@ struct SceneConfig {
   double x_min_m = -8, x_max_m = 8, y_min_m = -6, y_max_m = 6;  ///< floor and ceiling, map
   double ceiling_m = 2.8;
   std::string floor = "lino";
-  double brightness = 1.2;     ///< of all light together
+  double brightness = 1.2;     ///< brightness of all light together
   double ambient = 0.35;       ///< share of the light that comes from everywhere
   double window = 0.3;         ///< share that comes from the windows, the rest from ceiling lamps
   double window_yaw_deg = 60;  ///< map direction towards the windows

@@ -13,7 +13,7 @@ namespace priamos::world {
 
 /// How a material answers 50 kHz sound (wave length 7 mm).
 struct EchoMaterial {
-  std::string material = "wall";   ///< as in Solid::material
+  std::string material = "wall";   ///< name in Solid::material
   double specular_limit_deg = 10;  ///< a mirror up to this incidence
   double diffuse_db = -60;         ///< echo from any incidence, against a mirror at incidence 0
   double reflection_loss_db = 1;   ///< lost when the sound bounces on

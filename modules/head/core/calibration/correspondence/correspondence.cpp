@@ -74,7 +74,7 @@ class DiscLabeller::Search {
   const std::vector<DetectedDisc>& detections_;
   NearestMap nearest_;
   LabelFit fit_;
-  std::vector<double> major_px_;  ///< of every detection
+  std::vector<double> major_px_;  ///< major semi-axis of every detection's ellipse
 };
 
 std::vector<int> DiscLabeller::Search::Anchors() const {

@@ -15,10 +15,10 @@ struct LabellerOptions {
   double min_focal_px = 650, max_focal_px = 2000;
   Eigen::Vector2d image_centre_px = ImageSize{}.Centre();
   double centre_sigma_px = 20;        ///< how far the principal point may be from it
-  double k1_sigma = 0.1;              ///< of the radial distortion, at one focal length from the centre
-  double max_roll_rad = Radians(50);  ///< of the object's z axis against the image's upward direction
+  double k1_sigma = 0.1;              ///< sigma of the radial distortion at one focal length from the centre
+  double max_roll_rad = Radians(50);  ///< angle of the object's z axis to the image's upward direction
   int max_hidden = 6;                 ///< discs that may be missing
-  double max_rms_px = 0.4;            ///< of the accepted labelling
+  double max_rms_px = 0.4;            ///< RMS residual of a labelling that is accepted
 };
 
 /// Disc `disc` of the object is detection `detection`.
@@ -65,7 +65,7 @@ class DiscLabeller {
   ReferenceObject object_;
   LabellerOptions options_;
   std::vector<double> spacing_m_;                   ///< to the nearest other disc
-  std::vector<std::vector<Neighbour>> neighbours_;  ///< of every disc, nearest first
+  std::vector<std::vector<Neighbour>> neighbours_;  ///< neighbours of every disc, nearest first
   std::vector<Eigen::Vector2d> rolls_;              ///< (cos, sin) of the rolls to try
   bool unique_ = false;  ///< no second arrangement fits a front view: the first good one may be taken
 };

@@ -10,7 +10,7 @@ namespace priamos::head {
 /// The viewing ray of a detection, its apparent angular radius, and the disc normals it may have.
 struct Sighting {
   Eigen::Vector3d ray;                   ///< unit
-  double angular_radius;                 ///< of the disc's major axis
+  double angular_radius;                 ///< apparent size of the disc's major semi-axis [rad]
   std::vector<Eigen::Vector3d> normals;  ///< in the camera, towards it
 };
 

@@ -9,7 +9,7 @@ namespace priamos::head {
 /// The bounding box of one connected bright region; columns and rows inclusive.
 struct BrightRegion {
   int u_min = 0, u_max = 0, v_min = 0, v_max = 0;
-  int pixels = 0;  ///< of the rows that were looked at, which is every second one
+  int pixels = 0;  ///< bright pixels in every second row: only those rows are scanned
 
   int width() const { return u_max - u_min + 1; }
   int height() const { return v_max - v_min + 1; }

@@ -12,8 +12,9 @@ struct DiscModel {
   Eigen::Vector2d centre;
   Eigen::Matrix2d k;  ///< inverse shape
   double rim_sigma, amplitude, background;
-  Eigen::Vector2d slope = Eigen::Vector2d::Zero();             ///< of the brightness inside, relative, per px
-  Eigen::Vector2d background_slope = Eigen::Vector2d::Zero();  ///< per px
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< relative gradient of the brightness inside [1/px]
+  Eigen::Vector2d background_slope =
+      Eigen::Vector2d::Zero();  ///< gradient of the background [grey values/px]
 
   /// One Gauss-Newton step.
   void Step(const NormalEquations& eq);

@@ -26,7 +26,7 @@ constexpr double kAmbiguous = 1e-7;
 template <int N>
 struct Normalisation {
   Eigen::Matrix<double, N, 1> mean = Eigen::Matrix<double, N, 1>::Zero();
-  double scale = 1e300;  ///< of points that coincide
+  double scale = 1e300;  ///< this value stands for points that coincide
 
   Eigen::Matrix<double, N, 1> operator()(const Eigen::Matrix<double, N, 1>& x) const {
     return scale * (x - mean);

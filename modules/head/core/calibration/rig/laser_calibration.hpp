@@ -22,8 +22,8 @@ struct StripeView {
 struct LaserCalibration {
   LaserPlane plane;
   int points = 0, outliers = 0;      ///< used, and left out as other bright lines
-  double rms_px = 0;                 ///< of the points used
-  std::vector<double> view_rms_px;   ///< of every view's points that were used
+  double rms_px = 0;                 ///< RMS residual of the points used
+  std::vector<double> view_rms_px;   ///< the same for each view
   std::vector<double> residuals_px;  ///< measured minus computed row of every point, view after view
 };
 

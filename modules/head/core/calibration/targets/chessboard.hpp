@@ -9,7 +9,7 @@ namespace priamos::head {
 
 /// A flat target of squares; what counts are its inner corners. Its frame: x along a row, y along a column.
 struct Chessboard {
-  int columns = 9, rows = 6;  ///< of inner corners
+  int columns = 9, rows = 6;  ///< number of inner corners
   double spacing_m = 0.025;   ///< side of a square
 };
 
