@@ -89,13 +89,13 @@ LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
 
 void LinkChannelConfig::Describe(Archive& a) {
   a.Text("name", name, "LCM channel");
-  a.Text("type", type, "its message type, with package when that is needed to tell it");
+  a.Text("type", type, "its message type, with package if the name alone is ambiguous");
   a.Choice("direction", direction, {"up", "down"}, "up: robot to workstation");
   a.Choice("class", channel_class, {"state", "event", "command"},
            "state: newest wins; event: acknowledged, in order, exactly once; command: newest wins, refused "
            "when old");
   a.Number("rate_hz", rate_hz, {"1/s", 0.001, 1000, "at most this often; of an event: so often in the mean"});
-  a.Integer("burst", burst, {"-", 1, 64, "so many may come at once"});
+  a.Integer("burst", burst, {"-", 1, 64, "largest number of messages that come at once"});
   a.Integer("priority", priority, {"-", 0, 15, "0 goes first"});
   a.Number("ttl_s", ttl_s, {"s", 0, 600, "not sent when older, a command not obeyed either; 0: no limit"});
   a.Number("deadline_s", deadline_s, {"s", 0, 600, "latest arrival that the budget must guarantee; 0: any"});
@@ -116,7 +116,7 @@ void LinkChannelConfig::Describe(Archive& a) {
 }
 
 void LinkConfig::Describe(Archive& a) {
-  a.Integer("baud", baud, {"baud", 300, 1000000, "of the serial port, 10 bits per byte"});
+  a.Integer("baud", baud, {"baud", 300, 1000000, "baud rate of the serial port, 10 bits per byte"});
   a.Number("air_rate_bytes_s", air_rate_bytes_s,
            {"byte/s", 0, 1e6, "what the radio itself carries when that is less; 0: as much as the port"});
   a.Integer("ahead_bytes", ahead_bytes,

@@ -3,7 +3,7 @@
 namespace priamos::teleop {
 
 void SpaceMouseConfig::Describe(Archive& a) {
-  a.Text("socket", socket, "of spacenavd; empty: /var/run/spnav.sock or what /etc/spnavrc says");
+  a.Text("socket", socket, "socket of spacenavd; empty: /var/run/spnav.sock or as in /etc/spnavrc");
   a.Text("port", port, "serial port of a Magellan, for device = \"serial\"");
   a.Integer("full_scale", full_scale, {"count", 10, 32767, "what the mouse says at full deflection"});
 }

@@ -27,7 +27,7 @@ struct Deployment {
     a.Text("robot", robot, "name of the robot: a-z, 0-9 and \"-\"; the ports of its buses follow from it");
     a.Integer("onboard_ttl", onboard_ttl,
               {"", 0, 255, "routers a message on the robot's bus may pass; 0: this host"});
-    a.Integer("offboard_ttl", offboard_ttl, {"", 0, 255, "the same on the workstation's bus"});
+    a.Integer("offboard_ttl", offboard_ttl, {"", 0, 255, "TTL of datagrams on the workstation's bus"});
     a.Choice("group", group, {"all", "onboard", "offboard"}, "what runs on this machine");
     a.Flag("emulated_line", emulated_line, "join the two radios by an emulated serial line");
     a.Section("line", line, "that line");

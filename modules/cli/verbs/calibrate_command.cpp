@@ -78,7 +78,7 @@ void AddFileOptions(CLI::App& verb, CalibrateOptions& options) {
   verb.add_option("--spacing", options.files.target.spacing_m, "between dots, or side of a square [m]")
       ->check(positive)
       ->capture_default_str();
-  verb.add_option("--radius", options.files.target.radius_m, "of a dot [m]")
+  verb.add_option("--radius", options.files.target.radius_m, "radius of a dot [m]")
       ->check(positive)
       ->capture_default_str();
   verb.add_flag("--light-dots", options.light, "the dots are lighter than their ground");

@@ -98,7 +98,7 @@ void AddEmulate(CLI::App& link, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--blackouts", options->blackouts,
                    "CSV file with from_s,to_s per line: no line in between");
-  verb->add_option("--seed", options->seed, "of the errors")->capture_default_str();
+  verb->add_option("--seed", options->seed, "seed of the errors")->capture_default_str();
   verb->add_flag("--json", options->json, "say machine-readable which ttys there are");
   verb->callback([options, &exit_code] { exit_code = RunLinkEmulate(*options); });
 }

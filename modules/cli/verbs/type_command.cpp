@@ -86,7 +86,7 @@ void AddTypeCommand(CLI::App& cli, int& exit_code) {
   auto* show = type->add_subcommand("show", "A type with every field: unit, range, meaning, sizes.");
   show->footer("Example: priamos type show pose_t\n         priamos type show my_t --types ~/their/lcmtypes");
   show->add_option("type", options->type, "message type")->required();
-  show->add_flag("--json", options->json, "as JSON schema");
+  show->add_flag("--json", options->json, "print a JSON schema");
   show->callback([options, &exit_code] { exit_code = Show(*options); });
   auto* hash = type->add_subcommand("hash", "LCM's fingerprint of a type, or of all; equal to lcm-gen's.");
   hash->footer("Example: priamos type hash pose_t");

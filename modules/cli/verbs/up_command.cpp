@@ -209,7 +209,7 @@ void AddUpCommands(CLI::App& cli, int& exit_code) {
   up->add_option("--robot", options->robot,
                  "its name, from which its ports follow; without it what the deployment says")
       ->envname(bus::kRobotVariable);
-  up->add_option("--seed", options->seed, "of simulated hardware")->capture_default_str();
+  up->add_option("--seed", options->seed, "seed of simulated hardware")->capture_default_str();
   up->add_flag("--detach", options->detach, "return when everything is ready");
   up->add_flag("--json", options->json, "machine-readable");
   AddUpLogsOption(*up, options->log_root);

@@ -60,8 +60,8 @@ std::string Describe(const LaserCalibration& result, const LaserPictures& pictur
 
 void LaserPicture::Describe(Archive& a) {
   a.Text("image", image, "picture of the third camera, beside this file");
-  a.Number("pan_deg", pan_deg, {"deg", -180, 180, "of the head at the exposure"});
-  a.Number("tilt_deg", tilt_deg, {"deg", -90, 90, "of the head at the exposure, positive looks down"});
+  a.Number("pan_deg", pan_deg, {"deg", -180, 180, "pan of the head at the exposure"});
+  a.Number("tilt_deg", tilt_deg, {"deg", -90, 90, "tilt of the head at the exposure, positive looks down"});
   Vector(a, "board_m", board_m, {"m", -20, 20, "a point of the board in the base frame"});
   Vector(a, "normal", normal, {"-", -1e3, 1e3, "across the board, of any length"});
   a.Number("error_m", error_m, {"m", 0, 0.1, "how exactly the board stands there, across itself: 1 sigma"});

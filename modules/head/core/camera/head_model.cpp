@@ -57,8 +57,9 @@ void HeadGeometry::Describe(Archive& a) {
   Angle(a, "roll_rad", roll_rad, "pan axis about x");
   Angle(a, "pitch_rad", pitch_rad, "pan axis about y");
   Angle(a, "yaw_rad", yaw_rad, "zero of the pan");
-  a.Number("tilt_axis_x_m", tilt_axis_x_m, {"m", -0.2, 0.2, "by which pan and tilt axis miss each other"});
-  Angle(a, "tilt_axis_roll_rad", tilt_axis_roll_rad, "by which they are not square");
+  a.Number("tilt_axis_x_m", tilt_axis_x_m,
+           {"m", -0.2, 0.2, "offset of the tilt axis along x of the pan platform"});
+  Angle(a, "tilt_axis_roll_rad", tilt_axis_roll_rad, "tilt of the tilt axis about x of the pan platform");
   a.Section("left", cameras[kLeft], "left camera");
   a.Section("right", cameras[kRight], "right camera");
   a.Section("third", cameras[kThird], "third camera");

@@ -35,8 +35,8 @@ struct HeadGeometry {
   double x_m = 0.25, y_m = 0, z_m = 1.20;
   double roll_rad = 0, pitch_rad = 0,
          yaw_rad = 0;             ///< orientation of the pan axis; yaw is the zero of the pan
-  double tilt_axis_x_m = 0;       ///< by which the axes miss each other
-  double tilt_axis_roll_rad = 0;  ///< by which they are not square
+  double tilt_axis_x_m = 0;       ///< offset of the tilt axis along x of the pan platform
+  double tilt_axis_roll_rad = 0;  ///< tilt of the tilt axis about x of the pan platform
   std::array<CameraMount, kCameras> cameras = NominalMounts();
 
   void Describe(Archive& a);

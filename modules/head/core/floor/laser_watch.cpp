@@ -12,9 +12,9 @@ constexpr double kMargin = 0.15;  // of the picture's height
 
 void LaserWatchConfig::Describe(Archive& a) {
   a.Number("rate_hz", rate_hz, {"Hz", 0, 25, "pictures of the laser's line; 0: none"});
-  a.Number("tilt_deg", tilt_deg, {"deg", -45, 45, "of the head meanwhile, positive looks down"});
+  a.Number("tilt_deg", tilt_deg, {"deg", -45, 45, "tilt of the head meanwhile, positive looks down"});
   a.Number("idle_s", idle_s,
-           {"s", 0, 60, "so long after a look, or an operator's hand, the head turns down"});
+           {"s", 0, 60, "time after a look, or an operator's order, until the head turns down"});
   a.Section("obstacle", obstacle, "what stands out from the floor");
 }
 

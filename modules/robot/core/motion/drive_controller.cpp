@@ -49,7 +49,8 @@ CollisionStopConfig WithMargin(CollisionStopConfig config, double more_m) {
 void DriveConfig::Describe(Archive& a) {
   a.Number("lost_position_m", lost_position_m,
            {"m", 0.05, 5, "no path is driven by a pose with a larger sigma"});
-  a.Number("lost_yaw_deg", lost_yaw_deg, {"deg", 1, 90, "the same for the heading"});
+  a.Number("lost_yaw_deg", lost_yaw_deg,
+           {"deg", 1, 90, "no path is driven by a pose with a larger sigma of the heading"});
   a.Number("blocked_s", blocked_s, {"s", 0, 60, "standing before an obstacle for this long is BLOCKED"});
   a.Number("operator_margin_m", operator_margin_m,
            {"m", 0, 0.5, "added to the margins of collision while an operator drives"});

@@ -13,10 +13,12 @@ constexpr double kLeastSegment = 0.02;
 
 void PathShapeConfig::Describe(Archive& a) {
   a.Number("corner_deviation_m", corner_deviation_m, {"m", 0.001, 0.5, "a rounded corner passes beside it"});
-  a.Number("corner_deviation_deg", corner_deviation_deg, {"deg", 0.1, 30, "the same for the heading"});
-  a.Number("corner_acceleration_m_s2", corner_acceleration_m_s2, {"m/s^2", 0.05, 3, "in rounded corners"});
+  a.Number("corner_deviation_deg", corner_deviation_deg,
+           {"deg", 0.1, 30, "a rounded corner deviates so far in heading"});
+  a.Number("corner_acceleration_m_s2", corner_acceleration_m_s2,
+           {"m/s^2", 0.05, 3, "acceleration in rounded corners"});
   a.Number("corner_turn_acceleration_rad_s2", corner_turn_acceleration_rad_s2,
-           {"rad/s^2", 0.05, 10, "in rounded corners"});
+           {"rad/s^2", 0.05, 10, "angular acceleration in rounded corners"});
   a.Number("max_speed_m_s", max_speed_m_s, {"m/s", 0.05, 1.5, "fastest distance per time on any path"});
   a.Number("max_turn_rad_s", max_turn_rad_s, {"rad/s", 0.05, 2, "fastest turn on any path"});
   a.Number("braking_m_s2", braking_m_s2, {"m/s^2", 0.05, 3, "before corners and the last point"});

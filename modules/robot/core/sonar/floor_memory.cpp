@@ -13,9 +13,10 @@ constexpr double kFuture_s = 0.1;  // a picture of a time to come is somebody el
 
 void FloorMemoryConfig::Describe(Archive& a) {
   a.Number("laser_x_m", laser_x_m, {"m", -2, 2, "where the fan of light begins, base frame"});
-  a.Number("laser_height_m", laser_height_m, {"m", 0.05, 3, "the same: above the floor"});
+  a.Number("laser_height_m", laser_height_m,
+           {"m", 0.05, 3, "height above the floor where the fan of light begins"});
   a.Number("max_age_s", max_age_s, {"s", 0.05, 5, "an older picture of the line is refused"});
-  a.Number("unseen_m", unseen_m, {"m", 0, 2, "so far before the first line a thing may begin"});
+  a.Number("unseen_m", unseen_m, {"m", 0, 2, "distance before the first line in which a thing may begin"});
   a.Section("kept", kept, "how long places are remembered");
 }
 

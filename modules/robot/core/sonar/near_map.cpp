@@ -18,7 +18,7 @@ void NearMapConfig::Describe(Archive& a) {
   a.Number("keep_s", keep_s,
            {"s", 0.1, 60, "how long a thing is kept that is not seen again, while the base moves"});
   a.Number("keep_standing_s", keep_standing_s,
-           {"s", 0.1, 600, "the same while it stands and has no path to follow"});
+           {"s", 0.1, 600, "how long it is kept while the base stands and has no path to follow"});
   a.Number("forget_m", forget_m, {"m", 0.5, 10, "things farther from the base centre are forgotten"});
   a.Number("through_deg", through_deg, {"deg", 0, 15, "half width of the part of a beam that clears"});
 }

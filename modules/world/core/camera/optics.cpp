@@ -123,8 +123,8 @@ void CameraBuild::Describe(Archive& a) {
   a.Number("focal_max_px", focal_max_px, {"px", 200, 5000, "focal length at zoom step 2000"});
   a.Number("centre_u_px", centre_u_px, {"px", 184, 584, "principal point at middle zoom, column"});
   a.Number("centre_v_px", centre_v_px, {"px", 88, 488, "principal point at middle zoom, row"});
-  a.Number("centre_walk_u_px", centre_walk_u_px, {"px", -50, 50, "its walk over the zoom range"});
-  a.Number("centre_walk_v_px", centre_walk_v_px, {"px", -50, 50, "its walk over the zoom range"});
+  a.Number("centre_walk_u_px", centre_walk_u_px, {"px", -50, 50, "how far it moves over the zoom range"});
+  a.Number("centre_walk_v_px", centre_walk_v_px, {"px", -50, 50, "how far it moves over the zoom range"});
   a.Number("k1_wide", k1_wide, {"-", -0.15, 0.15, "radial distortion at zoom step 0"});
   a.Number("k1_tele", k1_tele, {"-", -0.15, 0.15, "radial distortion at zoom step 2000"});
   a.Number("k2", k2, {"-", -0.1, 0.1, "radial distortion of fifth order at zoom step 0"});

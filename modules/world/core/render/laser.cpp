@@ -12,11 +12,11 @@ void LaserBuild::Describe(Archive& a) {
   a.Number("x_m", x_m, {"m", -2, 2, "where the fan begins, base frame"});
   a.Number("y_m", y_m, {"m", -2, 2, "where the fan begins, base frame"});
   a.Number("z_m", z_m, {"m", 0, 3, "where the fan begins, base frame"});
-  a.Number("roll_rad", roll_rad, {"rad", -0.5, 0.5, "of the fan, right side down"});
-  a.Number("pitch_rad", pitch_rad, {"rad", -1.5, 1.5, "its middle looks down by this"});
-  a.Number("yaw_rad", yaw_rad, {"rad", -3.2, 3.2, "its middle looks left by this"});
+  a.Number("roll_rad", roll_rad, {"rad", -0.5, 0.5, "roll of the fan, right side down"});
+  a.Number("pitch_rad", pitch_rad, {"rad", -1.5, 1.5, "pitch of the fan's middle, positive looks down"});
+  a.Number("yaw_rad", yaw_rad, {"rad", -3.2, 3.2, "yaw of the fan's middle, positive looks left"});
   a.Number("half_angle_rad", half_angle_rad, {"rad", 0.01, 1.4, "from its middle to its sides"});
-  a.Number("thickness_m", thickness_m, {"m", 0.0005, 0.05, "of the sheet of light"});
+  a.Number("thickness_m", thickness_m, {"m", 0.0005, 0.05, "thickness of the sheet of light"});
 }
 
 Eigen::Hyperplane<double, 3> LaserBuild::Plane() const {

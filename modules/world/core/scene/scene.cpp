@@ -18,7 +18,7 @@ void SceneConfig::Describe(Archive& a) {
   if (y_max_m <= y_min_m) a.Refuse("y_max_m", "more than y_min_m");
   a.Number("ceiling_m", ceiling_m, {"m", 1.5, 20, "height of the ceiling"});
   a.Choice("floor", floor, MaterialNames(), "what the floor is made of");
-  a.Number("brightness", brightness, {"-", 0, 4, "of all light together"});
+  a.Number("brightness", brightness, {"-", 0, 4, "brightness of all light together"});
   a.Number("ambient", ambient, {"-", 0, 1, "share of the light that comes from everywhere"});
   a.Number("window", window, {"-", 0, 1, "share of the light that comes from windows; the rest is lamps"});
   if (ambient + window > 1) a.Refuse("window", "at most 1 together with ambient");

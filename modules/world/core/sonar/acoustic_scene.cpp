@@ -11,7 +11,7 @@ constexpr double kJointM = 0.007;
 }  // namespace
 
 void EchoMaterial::Describe(Archive& a) {
-  a.Text("material", material, "as the solids name it");
+  a.Text("material", material, "name of the material in the list of solids");
   a.Number("specular_limit_deg", specular_limit_deg, {"deg", 0.5, 90, "a mirror up to this incidence"});
   a.Number("diffuse_db", diffuse_db, {"dB", -200, 0, "echo from any incidence, 0 is a mirror"});
   a.Number("reflection_loss_db", reflection_loss_db, {"dB", 0, 100, "lost when the sound bounces on"});

@@ -16,7 +16,7 @@ void SonarConfig::Describe(Archive& a) {
   a.Number("edge_db", edge_db, {"dB", -100, 0, "echo of a vertical edge against a wall, at 1 m"});
   a.Number("fading_db", fading_db, {"dB", 0, 20, "standard deviation of the level from ping to ping"});
   a.Number("noise_m", noise_m, {"m", 0, 0.1, "standard deviation of a distance"});
-  a.Number("noise_per_m", noise_per_m, {"-", 0, 0.1, "its growth with the distance"});
+  a.Number("noise_per_m", noise_per_m, {"-", 0, 0.1, "growth of the noise with the distance"});
   a.Number("sound_speed_error", sound_speed_error,
            {"-", 0, 0.05, "all distances are off by up to this part (temperature)"});
   a.Number("crosstalk", crosstalk, {"-", 0, 1, "chance per ping to hear another sensor's sound"});

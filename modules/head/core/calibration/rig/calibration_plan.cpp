@@ -25,13 +25,19 @@ std::vector<int> StepInterval::Steps() const {
 void CalibrationPlan::Describe(Archive& a) {
   a.Number("pan_deg", pan_deg,
            {"deg", 0, 60, "the mechanics are calibrated at this pan, its negative and 0"});
-  a.Number("tilt_deg", tilt_deg, {"deg", 0, 40, "likewise"});
-  a.Number("vergence_deg", vergence_deg, {"deg", 0, 20, "likewise, each camera"});
-  a.Number("convergence_deg", convergence_deg, {"deg", 0, 10, "where vergence does not matter"});
+  a.Number("tilt_deg", tilt_deg,
+           {"deg", 0, 40, "the mechanics are calibrated at this tilt, its negative and 0"});
+  a.Number(
+      "vergence_deg", vergence_deg,
+      {"deg", 0, 20, "the mechanics are calibrated at this vergence of each camera, its negative and 0"});
+  a.Number("convergence_deg", convergence_deg,
+           {"deg", 0, 10, "vergence of both cameras where it does not matter"});
   a.Number("grid_pan_deg", grid_pan_deg,
            {"deg", 0, 20, "every zoom and focus is seen at both signs of this pan"});
-  a.Number("grid_tilt_deg", grid_tilt_deg, {"deg", 0, 20, "and of this tilt, at the shortest focal length"});
-  a.Number("grid_tele_share", grid_tele_share, {"-", 0, 1, "at the longest of this share of both"});
+  a.Number("grid_tilt_deg", grid_tilt_deg,
+           {"deg", 0, 20, "every zoom and focus is seen at both signs of this tilt"});
+  a.Number("grid_tele_share", grid_tele_share,
+           {"-", 0, 1, "share of grid_pan_deg and grid_tilt_deg at the longest focal length"});
   a.Section("zoom", zoom, "interval of zoom");
   a.Section("focus", focus, "interval of focus");
 }

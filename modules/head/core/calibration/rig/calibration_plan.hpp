@@ -21,8 +21,8 @@ struct StepInterval {
 /// focus (section 3.1.4 of the paper). The reference object must stay in the images at all of them.
 struct CalibrationPlan {
   double pan_deg = 12, tilt_deg = 7;  ///< the mechanics are calibrated at these, their negatives and 0
-  double vergence_deg = 5;            ///< the mechanics are also calibrated at +- this and 0, each camera
-  double convergence_deg = 1.15;      ///< vergence of both cameras where it does not matter
+  double vergence_deg = 5;        ///< the mechanics are calibrated at this of each camera, its negative and 0
+  double convergence_deg = 1.15;  ///< vergence of both cameras where it does not matter
   /// Every node of zoom and focus is seen twice, the object in opposite corners of the picture: at both signs
   /// of these at the shortest focal length, of `grid_tele_share` of them at the longest.
   double grid_pan_deg = 10, grid_tilt_deg = 8, grid_tele_share = 0.2;
