@@ -126,7 +126,10 @@ std::unique_ptr<ClaimKeeper> ClaimRole(const AppFactory& factory, LcmBus& bus, c
 }
 
 int Run(const AppFactory& factory, const Options& options, bool& running) {
-  if (options.print_config) return factory.print_config(std::cout, options.config), 0;
+  if (options.print_config) {
+    factory.print_config(std::cout, options.config);
+    return 0;
+  }
   if (options.interface) return PrintInterface(factory, options);
   if (options.bus.starts_with(kFileUrl)) return RunFromLog(factory, options);
   RequireConfiguration(factory, options.config);

@@ -62,7 +62,10 @@ class SerialPort : public ByteStream {
   std::size_t Read(std::span<std::byte> into) override {
     if (!Usable()) return 0;
     const ssize_t n = read(fd_, into.data(), into.size());
-    if (n == 0 && HungUp()) return Close(), 0;
+    if (n == 0 && HungUp()) {
+      Close();
+      return 0;
+    }
     return Done(n, "read from");
   }
   std::size_t Write(std::span<const std::byte> bytes) override {
@@ -135,7 +138,10 @@ class SerialPort : public ByteStream {
     if (errno == EAGAIN || errno == EINTR) return 0;
     // Pulled out, or a pty whose other side is gone: this one never comes back, another one under its name
     // may.
-    if (errno == EIO || errno == ENXIO || errno == ENODEV) return Close(), 0;
+    if (errno == EIO || errno == ENXIO || errno == ENODEV) {
+      Close();
+      return 0;
+    }
     Fail(what);
   }
   [[noreturn]] void Fail(const char* what) const {

@@ -122,10 +122,16 @@ void CalibrationMode::Use(const Frames& frames, Time now) {
 std::vector<SeenDisc> CalibrationMode::Recognise(const FrameNotice& frame, std::string& note) {
   note += fmt::format(" {}", kCameraNames[frame.camera]);
   const auto image = cameras_.Read(frame);
-  if (!image) return note += " no picture", std::vector<SeenDisc>();
+  if (!image) {
+    note += " no picture";
+    return std::vector<SeenDisc>();
+  }
   const std::vector<DetectedDisc> detections = DetectDiscs(*image);
   const Outcome<Labelling> labelling = labeller_.Label(detections);
-  if (!labelling) return note += fmt::format(" none ({})", labelling.reason()), std::vector<SeenDisc>();
+  if (!labelling) {
+    note += fmt::format(" none ({})", labelling.reason());
+    return std::vector<SeenDisc>();
+  }
   std::vector<SeenDisc> discs;
   for (const auto& [disc, detection] : labelling->labels) {
     const DetectedDisc& d = detections[detection];

@@ -111,10 +111,14 @@ void DrawCurve(cv::Mat& picture, const cv::Rect& box, const std::string& title, 
                const std::function<double(const LensState&)>& value) {
   double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
   for (const int camera : {kLeft, kRight}) {
-    for (const LensState& node : head.lenses[camera].nodes())
-      low = std::min(low, value(node)), high = std::max(high, value(node));
-    for (const int zoom : head.lenses[camera].zoom_steps())
-      first = std::min<double>(first, zoom), last = std::max<double>(last, zoom);
+    for (const LensState& node : head.lenses[camera].nodes()) {
+      low = std::min(low, value(node));
+      high = std::max(high, value(node));
+    }
+    for (const int zoom : head.lenses[camera].zoom_steps()) {
+      first = std::min<double>(first, zoom);
+      last = std::max<double>(last, zoom);
+    }
   }
   if (!(high > low)) high = low + 1;
   if (!(last > first)) last = first + 1;

@@ -21,16 +21,20 @@ bool AllFinite(std::initializer_list<double> values) {
 view_edge_t ToMessage(const ViewedEdge& edge) {
   view_edge_t message{};
   message.kind = static_cast<std::int8_t>(edge.kind);
-  message.u1_px = static_cast<float>(edge.p.x()), message.v1_px = static_cast<float>(edge.p.y());
-  message.u2_px = static_cast<float>(edge.q.x()), message.v2_px = static_cast<float>(edge.q.y());
+  message.u1_px = static_cast<float>(edge.p.x());
+  message.v1_px = static_cast<float>(edge.p.y());
+  message.u2_px = static_cast<float>(edge.q.x());
+  message.v2_px = static_cast<float>(edge.q.y());
   return message;
 }
 
 obstacle_segment_t ToMessage(const ObstaclePiece& piece) {
   obstacle_segment_t message{};
   message.kind = static_cast<std::int8_t>(piece.kind);
-  message.x1_m = static_cast<float>(piece.right.x()), message.y1_m = static_cast<float>(piece.right.y());
-  message.x2_m = static_cast<float>(piece.left.x()), message.y2_m = static_cast<float>(piece.left.y());
+  message.x1_m = static_cast<float>(piece.right.x());
+  message.y1_m = static_cast<float>(piece.right.y());
+  message.x2_m = static_cast<float>(piece.left.x());
+  message.y2_m = static_cast<float>(piece.left.y());
   message.height_m = static_cast<float>(piece.height_m);
   message.sigma_height_m = static_cast<float>(piece.sigma_height_m);
   return message;
@@ -162,7 +166,9 @@ landmark_fix_t ToMessage(const LookAnswer& answer) {
   message.sigma_y_m = std::min(s.sigma_y, 1.0);
   message.sigma_yaw_rad = std::min(s.sigma_yaw, 0.5);
   message.own_share = static_cast<float>(std::clamp(answer.fix.own_share, 0.0, 1.0));
-  message.rho_x_y = s.rho_x_y, message.rho_x_yaw = s.rho_x_yaw, message.rho_y_yaw = s.rho_y_yaw;
+  message.rho_x_y = s.rho_x_y;
+  message.rho_x_yaw = s.rho_x_yaw;
+  message.rho_y_yaw = s.rho_y_yaw;
   return message;
 }
 

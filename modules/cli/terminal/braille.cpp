@@ -22,7 +22,8 @@ bool Clip(double at, double delta, double low, double high, double& from, double
   if (delta == 0) return at >= low && at <= high;
   double enter = (low - at) / delta, leave = (high - at) / delta;
   if (enter > leave) std::swap(enter, leave);
-  from = std::max(from, enter), to = std::min(to, leave);
+  from = std::max(from, enter);
+  to = std::min(to, leave);
   return from <= to;
 }
 
@@ -39,7 +40,10 @@ void Braille::Line(double x0, double y0, double x1, double y1, Ink ink, int pace
   double from = 0, to = 1;
   if (!Clip(x0, x1 - x0, 0, width() - 1, from, to) || !Clip(y0, y1 - y0, 0, height() - 1, from, to)) return;
   const double wx = x1 - x0, wy = y1 - y0;
-  x1 = x0 + to * wx, y1 = y0 + to * wy, x0 += from * wx, y0 += from * wy;
+  x1 = x0 + to * wx;
+  y1 = y0 + to * wy;
+  x0 += from * wx;
+  y0 += from * wy;
   const int steps = static_cast<int>(std::ceil(std::max(std::abs(x1 - x0), std::abs(y1 - y0))));
   for (int i = 0; i <= steps; i += std::max(pace, 1)) {
     const double share = steps == 0 ? 0 : static_cast<double>(i) / steps;

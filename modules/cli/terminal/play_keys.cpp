@@ -18,13 +18,17 @@ bool ApplyArrow(char key, bus::LogPlayer& player, Time now) {
   const auto move = [&](int seconds) { player.Seek(player.position() + std::chrono::seconds(seconds), now); };
   switch (key) {
     case 'A':
-      return move(10), true;
+      move(10);
+      return true;
     case 'B':
-      return move(-10), true;
+      move(-10);
+      return true;
     case 'C':
-      return move(1), true;
+      move(1);
+      return true;
     case 'D':
-      return move(-1), true;
+      move(-1);
+      return true;
     default:
       return false;
   }
@@ -33,20 +37,27 @@ bool ApplyArrow(char key, bus::LogPlayer& player, Time now) {
 bool ApplyKey(char key, bus::LogPlayer& player, Time now) {
   switch (key) {
     case ' ':
-      return player.Pause(!player.paused(), now), true;
+      player.Pause(!player.paused(), now);
+      return true;
     case 's':
     case '.':
-      return player.Step(now), true;
+      player.Step(now);
+      return true;
     case '+':
-      return ChangeSpeed(2, player, now), true;
+      ChangeSpeed(2, player, now);
+      return true;
     case '-':
-      return ChangeSpeed(0.5, player, now), true;
+      ChangeSpeed(0.5, player, now);
+      return true;
     case '1':
-      return player.SetSpeed(1, now), true;
+      player.SetSpeed(1, now);
+      return true;
     case 'm':
-      return player.SetSpeed(bus::LogPlayer::kFlatOut, now), true;
+      player.SetSpeed(bus::LogPlayer::kFlatOut, now);
+      return true;
     case '0':
-      return player.Seek({}, now), true;
+      player.Seek({}, now);
+      return true;
     default:
       return key != 'q';
   }

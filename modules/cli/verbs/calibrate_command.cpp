@@ -46,12 +46,15 @@ void WriteWhole(const std::string& path, const std::string& text) {
 /// From photographs or lists of points: JSON to the output file or, without one, to standard output.
 int CalibrateFiles(const CalibrateOptions& options) {
   head::OfflineCalibration files = options.files;
-  files.target.columns = options.dots[0], files.target.rows = options.dots[1];
+  files.target.columns = options.dots[0];
+  files.target.rows = options.dots[1];
   files.target.dark = !options.light;
   if (!options.chessboard.empty())
     files.chessboard = {options.chessboard[0], options.chessboard[1], files.target.spacing_m};
-  if (!options.image_size.empty())
-    files.width_px = options.image_size[0], files.height_px = options.image_size[1];
+  if (!options.image_size.empty()) {
+    files.width_px = options.image_size[0];
+    files.height_px = options.image_size[1];
+  }
   const std::string json = head::CalibrateFromFiles(files);
   const bool to_pipe = options.output.empty() || options.output == "-";
   to_pipe ? void(std::cout << json << std::endl) : WriteWhole(options.output, json);

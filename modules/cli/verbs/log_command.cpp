@@ -115,12 +115,13 @@ int Copy(const LogOptions& options) {
   const auto copied = bus::CopyEvents(reader, selection, writer);
   writer.Flush();
   if (!writer.good()) throw std::runtime_error(options.out + ": cannot be written: is the disk full?");
-  if (options.json)
-    return std::cout << nlohmann::ordered_json{{"events", copied},
-                                               {"damaged_places", reader.damaged_places()},
-                                               {"skipped_bytes", reader.skipped_bytes()}}
-                     << "\n",
-           0;
+  if (options.json) {
+    std::cout << nlohmann::ordered_json{{"events", copied},
+                                        {"damaged_places", reader.damaged_places()},
+                                        {"skipped_bytes", reader.skipped_bytes()}}
+              << "\n";
+    return 0;
+  }
   std::cout << fmt::format("{}: {} events; {} damaged places with {} bytes left out\n", options.out, copied,
                            reader.damaged_places(), reader.skipped_bytes());
   return 0;
@@ -192,7 +193,10 @@ int Merge(const LogOptions& options) {
                                     {"spread_s", fit.spread_us * 1e-6},
                                     {"both_directions", fit.both_ways},
                                     {"asymmetry_s", fit.asymmetry_us * 1e-6}};
-  if (options.json) return std::cout << json.dump() << "\n", 0;
+  if (options.json) {
+    std::cout << json.dump() << "\n";
+    return 0;
+  }
   std::cout << fmt::format(
       "{}: {} events. Onboard clock = offboard clock {:+.6f} s {:+.1f} ppm, from {} messages in both logs "
       "({} outliers), median distance {:.1f} ms, {}\n",

@@ -160,17 +160,25 @@ class RealTimeRun {
                       {signals_.fd(), POLLIN, 0},
                       {supervisor_.fd(), POLLIN, 0}};
       poll(fds, std::size(fds), 20);
-      if (fds[2].revents != 0) return End("stopped by a signal"), false;
+      if (fds[2].revents != 0) {
+        End("stopped by a signal");
+        return false;
+      }
       owner_.Listen();
-      if (const auto lost = owner_.lost()) return End(*lost), false;
+      if (const auto lost = owner_.lost()) {
+        End(*lost);
+        return false;
+      }
       onboard_.Drain();
       offboard_.Drain();
       story_->Tick(clock_.Now());
       supervisor_.Step(clock_.Now());
       // What cannot start now will not start later: a scenario ends with the first failure, a robot goes on.
       for (const ProcessReport& report : supervisor_.Report())
-        if (!report.reason.empty() && !options_.restart)
-          return reason_ = fmt::format("{} ended by itself, {}", report.name, report.reason), false;
+        if (!report.reason.empty() && !options_.restart) {
+          reason_ = fmt::format("{} ended by itself, {}", report.name, report.reason);
+          return false;
+        }
     }
     return true;
   }

@@ -184,7 +184,10 @@ int UpDetached(const UpOptions& options) {
     }
     const auto state = ReadUpState(options.log_root);
     const bool its = UpLock::Holder(options.log_root) == pid && state;
-    if (its && state->ready) return Show(*state, options.json), 0;
+    if (its && state->ready) {
+      Show(*state, options.json);
+      return 0;
+    }
     if (its && HasAlarm(*state)) break;
     std::this_thread::sleep_for(milliseconds(20));
   }

@@ -35,7 +35,10 @@ struct QueryOptions {
 };
 
 int SayDown(bool was_up, bool json) {
-  if (json) return std::cout << ordered_json{{"was_up", was_up}, {"up", false}} << "\n", 0;
+  if (json) {
+    std::cout << ordered_json{{"was_up", was_up}, {"up", false}} << "\n";
+    return 0;
+  }
   std::cout << (was_up ? "everything is down\n" : "nothing is up\n");
   return 0;
 }

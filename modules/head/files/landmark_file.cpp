@@ -70,8 +70,10 @@ Polyhedron LoadToml(const std::string& file) {
   const auto read = LoadConfig<PolyhedronFile>(file);
   Polyhedron body;
   for (const PointEntry& p : read.points) body.points.emplace_back(p.at_m[0], p.at_m[1], p.at_m[2]);
-  for (const FaceEntry& face : read.faces)
-    body.faces.push_back(face.indices()), body.greys.push_back(face.grey);
+  for (const FaceEntry& face : read.faces) {
+    body.faces.push_back(face.indices());
+    body.greys.push_back(face.grey);
+  }
   for (const CornersEntry& line : read.lines) body.lines.push_back({line.indices()[0], line.indices()[1]});
   if (const auto refusal = CheckPolyhedron(body))
     throw std::runtime_error(fmt::format("{}: {}", file, refusal->reason));

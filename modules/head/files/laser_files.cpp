@@ -16,7 +16,8 @@ using nlohmann::ordered_json;
 
 HeadSetting SettingOf(const LaserPicture& picture) {
   HeadSetting setting;
-  setting.pan_rad = Radians(picture.pan_deg), setting.tilt_rad = Radians(picture.tilt_deg);
+  setting.pan_rad = Radians(picture.pan_deg);
+  setting.tilt_rad = Radians(picture.tilt_deg);
   return setting;
 }
 

@@ -153,7 +153,8 @@ double LeaveOneViewOut(const std::vector<std::vector<DiscObservation>>& views, i
     if (!calibrated) continue;
     const auto error = ErrorWithLens(views[k], calibrated->front().model);
     if (!error) continue;
-    sum += *error, ++n;
+    sum += *error;
+    ++n;
   }
   return n > 0 ? sum / static_cast<double>(n) : -1;
 }
@@ -167,7 +168,8 @@ std::string FromFlatTarget(const OfflineCalibration& input) {
     if (!views.empty() && (image.width != width || image.height != height))
       throw ConfigError(fmt::format("{}: expected {} by {} pixels like the others, got {} by {}", path, width,
                                     height, image.width, image.height));
-    width = image.width, height = image.height;
+    width = image.width;
+    height = image.height;
     views.push_back(
         Must(path, input.chessboard ? FindCorners(image, *input.chessboard) : FindDots(image, input.target)));
   }

@@ -58,7 +58,8 @@ nlohmann::ordered_json LandmarkToJson(std::span<const CameraView> views, const F
   json["pose_m_deg"] = SixFromPose(fix.base_from_model);
   json["sigma_m"] = {sigma[0], sigma[1], sigma[2]};
   json["sigma_deg"] = {Degrees(sigma[3]), Degrees(sigma[4]), Degrees(sigma[5])};
-  json["residual_px"] = fix.residual_px, json["misfit"] = fix.misfit;
+  json["residual_px"] = fix.residual_px;
+  json["misfit"] = fix.misfit;
   auto matches = nlohmann::ordered_json::array();
   for (const EdgeMatch& match : fix.matches) {
     const LandmarkEdge& edge = fix.seen.edges[match.edge];

@@ -117,7 +117,10 @@ void Pilot::Wish(const Stick& stick) {
   double x = shaped(base.vx), y = shaped(base.vy);
   // Full deflection along both axes is not faster than along one.
   const double size = std::hypot(x, y);
-  if (size > 1) x /= size, y /= size;
+  if (size > 1) {
+    x /= size;
+    y /= size;
+  }
   wish_ = {x * range.speed_m_s, y * range.speed_m_s, shaped(base.turn) * range.turn_rad_s};
   const HeadAxes& head = config_.head;
   head_wish_ = {shaped(head.pan) * head.pan_rad_s, shaped(head.tilt) * head.tilt_rad_s,

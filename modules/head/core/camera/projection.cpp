@@ -48,9 +48,12 @@ std::optional<ProjectedEdge> ProjectEdge(const CameraModel& camera, const ImageS
   }
   const Eigen::Vector3d p = a + begin * (b - a), q = a + end * (b - a);
   ProjectedEdge edge;
-  edge.p = p.hnormalized(), edge.q = q.hnormalized();
-  edge.depth_p = p.z(), edge.depth_q = q.z();
-  edge.p_is_end = begin == 0, edge.q_is_end = end == 1;
+  edge.p = p.hnormalized();
+  edge.q = q.hnormalized();
+  edge.depth_p = p.z();
+  edge.depth_q = q.z();
+  edge.p_is_end = begin == 0;
+  edge.q_is_end = end == 1;
   edge.in_base_p = from_in_base + begin * (to_in_base - from_in_base);
   edge.in_base_q = from_in_base + end * (to_in_base - from_in_base);
   if (edge.length_px() < kMinLengthPx) return std::nullopt;

@@ -18,8 +18,10 @@ class PolygonSearch {
   std::vector<Polygon> Run() {
     for (int i = 0; i < static_cast<int>(edges_.segments.size()); ++i) {
       for (const int end : {0, 1}) {
-        first_ = i, first_end_ = end;
-        sides_.assign(1, i), path_.clear();
+        first_ = i;
+        first_end_ = end;
+        sides_.assign(1, i);
+        path_.clear();
         Continue(i, end, 0);
       }
     }

@@ -132,7 +132,8 @@ std::vector<Relation> FindRelations(const EdgeImage& edges, const ContourOptions
     for (const int other : near) {
       auto relation = Relate(edges.segments[other], s, options);
       if (!relation) continue;
-      relation->a = other, relation->b = static_cast<int>(i);
+      relation->a = other;
+      relation->b = static_cast<int>(i);
       relations.push_back(*relation);
     }
     index.Insert(static_cast<int>(i), s.begin, s.end);
@@ -149,7 +150,8 @@ std::vector<Corner> FindCorners(const EdgeImage& edges, const ContourOptions& op
   for (int i = 0; i < static_cast<int>(edges.segments.size()); ++i) {
     for (const int end : {0, 1}) {
       const Eigen::Vector2d at = end == 1 ? edges.segments[i].end : edges.segments[i].begin;
-      near.clear(), here.clear();
+      near.clear();
+      here.clear();
       // Both sides may have to be extended, at a sharp angle.
       index.Near(at, 2 * options.max_extension_px, near);
       std::sort(near.begin(), near.end());
@@ -166,7 +168,8 @@ std::vector<Corner> FindCorners(const EdgeImage& edges, const ContourOptions& op
   // A corner was found from both of its sides, unless one of them knew too many better ones.
   for (Corner& c : corners) {
     if (c.segments[0] < c.segments[1]) continue;
-    std::swap(c.segments[0], c.segments[1]), std::swap(c.ends[0], c.ends[1]);
+    std::swap(c.segments[0], c.segments[1]);
+    std::swap(c.ends[0], c.ends[1]);
     std::swap(c.extension_px[0], c.extension_px[1]);
   }
   const auto key = [](const Corner& c) {

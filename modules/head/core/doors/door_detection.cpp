@@ -43,7 +43,8 @@ struct PlanLine {
 
   PlanLine(const ViewLine& line, double z) {
     const double scale = line.plane.head<2>().norm();
-    normal = line.plane.head<2>() / scale, offset = (line.plane.z() * z + line.plane.w()) / scale;
+    normal = line.plane.head<2>() / scale;
+    offset = (line.plane.z() * z + line.plane.w()) / scale;
   }
 };
 
@@ -138,7 +139,8 @@ class Detector {
         if (!at || at->x() < 0 || !IsDoorWide(a.at, *at)) continue;
         if ((views_[c]->camera->Project({at->x(), at->y(), z}) - end).norm() > kCorner_px) continue;
         VerticalEdge b = a;  // as uncertain as the upright that the lintel begins at, and more
-        b.at = *at, b.covariance *= 2;
+        b.at = *at;
+        b.covariance *= 2;
         Weigh(a, b, z);
       }
     }
@@ -198,7 +200,8 @@ class Detector {
     half.leftCols<2>() = half.middleCols<2>(2) = Eigen::Matrix2d::Identity() / 2;
     door.covariance = half * fit.covariance * half.transpose() +
                       options_.frame_sigma_m * options_.frame_sigma_m * Eigen::Matrix2d::Identity();
-    door.width_m = across.norm(), door.height_m = fit.shape.height_m;
+    door.width_m = across.norm();
+    door.height_m = fit.shape.height_m;
     return door;
   }
 

@@ -22,7 +22,8 @@ struct Expected {
   double length_px = 0;
 
   Expected(const Eigen::Vector2d& from, const Eigen::Vector2d& to) : p(from), length_px((to - from).norm()) {
-    direction = (to - from) / length_px, normal = {-direction.y(), direction.x()};
+    direction = (to - from) / length_px;
+    normal = {-direction.y(), direction.x()};
   }
 };
 
@@ -55,7 +56,10 @@ Cover Union(std::vector<Interval> pieces, double length_px) {
     covered += std::max(0.0, std::min(piece.to, length_px) - from);
     until = std::max(until, std::min(piece.to, length_px));
     cover.last_px = std::max(cover.last_px, piece.to);
-    if (piece.to - piece.from > longest) longest = piece.to - piece.from, cover.line = piece.line;
+    if (piece.to - piece.from > longest) {
+      longest = piece.to - piece.from;
+      cover.line = piece.line;
+    }
   }
   cover.share = covered / length_px;
   cover.last_px -= length_px;
@@ -154,7 +158,8 @@ DoorEvidence WeighDoor(const CameraView& view, const DoorShape& door) {
   std::array<Eigen::Vector2d, 2> corner, foot;
   std::array<double, 2> metre_px;  // along the uprights
   for (int i = 0; i < 2; ++i) {
-    corner[i] = Image(view, *at[i], door.height_m), foot[i] = Image(view, *at[i], 0);
+    corner[i] = Image(view, *at[i], door.height_m);
+    foot[i] = Image(view, *at[i], 0);
     metre_px[i] = (corner[i] - foot[i]).norm() / door.height_m;
   }
   const Expected lintel(corner[0], corner[1]);

@@ -51,7 +51,10 @@ double Densest(const std::vector<End>& ends, double reach_px) {
   for (double at = -reach_px; at <= reach_px; at += kGridStep_px) {
     double density = 0;
     for (const End& end : ends) density += std::exp(-0.5 * std::pow((end.down_px - at) / kBandwidth_px, 2));
-    if (density > most) most = density, best = at;
+    if (density > most) {
+      most = density;
+      best = at;
+    }
   }
   return best;
 }
@@ -73,15 +76,20 @@ std::optional<EpipolarShift> MeasureEpipolarShift(const CameraView& left, const 
   double weights = 0, weighted_squares = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     double sum = 0;
-    weights = weighted_squares = 0, shift.n = 0, shift.at.setZero();
+    weights = weighted_squares = 0;
+    shift.n = 0;
+    shift.at.setZero();
     for (const End& end : ends) {
       const double residual = end.down_px - shift.down_px, weight = Weight(residual, options.core_px);
-      weights += weight, sum += weight * residual, shift.at += weight * end.at;
+      weights += weight;
+      sum += weight * residual;
+      shift.at += weight * end.at;
       weighted_squares += weight * weight * residual * residual;
       shift.n += weight > 0;
     }
     if (!(weights > 0)) return std::nullopt;
-    shift.down_px += sum / weights, shift.at /= weights;
+    shift.down_px += sum / weights;
+    shift.at /= weights;
   }
   if (shift.n < options.min_ends || shift.n < options.min_share * static_cast<double>(ends.size()))
     return std::nullopt;

@@ -59,8 +59,10 @@ std::vector<HalfEdge> Halves(std::span<const EdgeObservation> observations, doub
     for (const auto& [begin, end] : {std::pair(std::size_t{0}, middle), std::pair(middle, points.size())}) {
       HalfEdge half{key[0], key[1], Vector2d::Zero(), 0};
       const auto n = static_cast<double>(end - begin);
-      for (std::size_t i = begin; i < end; ++i)
-        half.at += points[i]->at / n, half.sigma_px += points[i]->sigma_px * points[i]->sigma_px / (n * n);
+      for (std::size_t i = begin; i < end; ++i) {
+        half.at += points[i]->at / n;
+        half.sigma_px += points[i]->sigma_px * points[i]->sigma_px / (n * n);
+      }
       half.sigma_px = std::sqrt(half.sigma_px + floor_px * floor_px);
       halves.push_back(half);
     }
@@ -132,10 +134,13 @@ class DriftProblem {
     const CameraModel& camera = *cameras_[half.camera];
     const Vector3d from = pose_ * edge.from, to = pose_ * edge.to;
     ProjectedEdge line;
-    line.in_base_p = from, line.in_base_q = to;
-    line.depth_p = camera.Depth(from), line.depth_q = camera.Depth(to);
+    line.in_base_p = from;
+    line.in_base_q = to;
+    line.depth_p = camera.Depth(from);
+    line.depth_q = camera.Depth(to);
     if (!(line.depth_p > kNearDepth && line.depth_q > kNearDepth)) return;
-    line.p = camera.Project(from), line.q = camera.Project(to);
+    line.p = camera.Project(from);
+    line.q = camera.Project(to);
     const Vector3d point = line.PointAt(half.at);
     const RowVector3d in_space = line.normal().transpose() * ProjectionJacobian(camera, point);
     Row row;

@@ -20,7 +20,12 @@ class RunningFit {
 
   void Add(ChainPixel p) {
     const float t = Along(p), s = Across(p) + PeakOffset(p);
-    n_ += 1, st_ += t, ss_ += s, stt_ += t * t, sts_ += t * s, sss_ += s * s;
+    n_ += 1;
+    st_ += t;
+    ss_ += s;
+    stt_ += t * t;
+    sts_ += t * s;
+    sss_ += s * s;
   }
   void Solve() {
     const float det = n_ * stt_ - st_ * st_;
@@ -52,7 +57,8 @@ class RunningFit {
   }
   void Foot(ChainPixel p, double& x, double& y) const {
     const float t = Along(p), s = a_ + b_ * t;
-    x = origin_.x + (steep_ ? s : t), y = origin_.y + (steep_ ? t : s);
+    x = origin_.x + (steep_ ? s : t);
+    y = origin_.y + (steep_ ? t : s);
   }
 
   ChainPixel origin_;
@@ -82,11 +88,15 @@ int Grow(const GradientMap& gradients, std::span<const ChainPixel> chain,
       ++strays;
       continue;
     }
-    strays = 0, last = i;
+    strays = 0;
+    last = i;
     if (i % 2 != 0) continue;  // neighbours were smoothed together: every other one tells as much
     fit.Add(chain[i]);
     // Early the fit moves much with each pixel, later little.
-    if (++unsolved * 4 > last) fit.Solve(), unsolved = 0;
+    if (++unsolved * 4 > last) {
+      fit.Solve();
+      unsolved = 0;
+    }
   }
   fit.Solve();
   line = fit.Line(chain.front(), chain[last]);

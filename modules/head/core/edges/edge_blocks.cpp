@@ -48,7 +48,10 @@ void EdgeBlocks::Extend(const AxisLine& line) {
 
 void EdgeBlocks::Trim() {
   EdgeSums before, after;  // the blocks just beyond the ends
-  while (!blocks_.empty() && !IsEdge(blocks_.back())) after = blocks_.back(), blocks_.pop_back();
+  while (!blocks_.empty() && !IsEdge(blocks_.back())) {
+    after = blocks_.back();
+    blocks_.pop_back();
+  }
   std::size_t lost = 0;
   while (lost < blocks_.size() && !IsEdge(blocks_[lost])) before = blocks_[lost++];
   blocks_.erase(blocks_.begin(), blocks_.begin() + lost);

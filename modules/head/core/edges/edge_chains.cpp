@@ -59,7 +59,8 @@ void ChainTracer::Trace(const GradientMap& gradients, const Options& options, Ed
 /// No walk goes there, so none needs to look where the image ends.
 void ChainTracer::CloseBorder(int height) {
   const auto close = [&](std::size_t from, std::size_t n) { std::fill_n(visited_.begin() + from, n, 1); };
-  close(0, stride_), close(std::size_t(height - 1) * stride_, stride_);
+  close(0, stride_);
+  close(std::size_t(height - 1) * stride_, stride_);
   for (int y = 1; y < height; ++y) close(std::size_t(y) * stride_ - 1, 2);
 }
 
@@ -125,7 +126,8 @@ ChainPixel* ChainTracer::Follow(const GradientMap& gradients, int threshold, Cha
       }
       const int ahead_x = hand * gy[at], ahead_y = -hand * gx[at];
       if (ahead_x * tx + ahead_y * ty <= 0) return before;  // an edge of other contrast
-      tx += 2 * ahead_x - tx / 2, ty += 2 * ahead_y - ty / 2;
+      tx += 2 * ahead_x - tx / 2;
+      ty += 2 * ahead_y - ty / 2;
     } while (heading.Holds(tx, ty));
   }
 }
@@ -135,8 +137,14 @@ bool ChainTracer::Step(const GradientMap& gradients, int threshold, const Headin
                        ChainPixel& pixel) {
   const unsigned short* const ahead = gradients.magnitude(0) + at + heading.ahead;
   int aside = 0, best = *ahead;
-  if (ahead[-heading.side] > best) aside = -1, best = ahead[-heading.side];
-  if (ahead[heading.side] > best) aside = 1, best = ahead[heading.side];
+  if (ahead[-heading.side] > best) {
+    aside = -1;
+    best = ahead[-heading.side];
+  }
+  if (ahead[heading.side] > best) {
+    aside = 1;
+    best = ahead[heading.side];
+  }
   at += heading.ahead + aside * heading.side;
   if (best <= threshold || std::exchange(visited_[at], 1) != 0) return false;
   pixel.x = static_cast<std::int16_t>(pixel.x + heading.tx + aside * heading.side_x);

@@ -42,20 +42,24 @@ void EdgeFitter::Load(const EdgeBlocks& blocks, const AxisLine& line, double noi
   const Lanes gap = All(kMinShare * blocks.mean_strength());
   const auto all = blocks.all();
   total_ = blocks.total();
-  n_ = static_cast<int>(all.size()), padded_ = (n_ + 3) / 4 * 4;
+  n_ = static_cast<int>(all.size());
+  padded_ = (n_ + 3) / 4 * 4;
   begin_ = n_ > 0 ? all[0].along : 0;
   for (int i = 0; i < padded_; i += 4) {
     Lanes from[4], from2[4], along, rows, strength, inverse, wide, narrow, unused;
     for (int k = 0; k < 4; ++k) {
       const EdgeSums& b = i + k < n_ ? all[i + k] : kNothing;
-      from[k] = cv::v_load(&b.along), from2[k] = cv::v_load(b.imbalance);
+      from[k] = cv::v_load(&b.along);
+      from2[k] = cv::v_load(b.imbalance);
     }
     cv::v_transpose4x4(from[0], from[1], from[2], from[3], along, rows, strength, inverse);
     cv::v_transpose4x4(from2[0], from2[1], from2[2], from2[3], wide, narrow, unused, unused);
-    cv::v_store(&along_[i], along - All(begin_)), cv::v_store(&rows_[i], rows);
+    cv::v_store(&along_[i], along - All(begin_));
+    cv::v_store(&rows_[i], rows);
     cv::v_store(&strengths_[i], strength & (strength > gap * rows));
     cv::v_store(&inverses_[i], inverse);
-    cv::v_store(&imbalances_[0][i], wide * inverse), cv::v_store(&imbalances_[1][i], narrow * inverse);
+    cv::v_store(&imbalances_[0][i], wide * inverse);
+    cv::v_store(&imbalances_[1][i], narrow * inverse);
   }
 }
 
@@ -102,7 +106,11 @@ bool EdgeFitter::FitLine(EdgeOffset& fit) const {
   for (int i = 0; i < padded_; i += 4) {
     const Lanes weight = cv::v_load(&weights_[i]), t = cv::v_load(&along_[i]), s = cv::v_load(&shifts_[i]);
     const Lanes moment = weight * t;
-    w += weight, wt += moment, wtt += moment * t, ws += weight * s, wts += moment * s;
+    w += weight;
+    wt += moment;
+    wtt += moment * t;
+    ws += weight * s;
+    wts += moment * s;
   }
   const float weight = cv::v_reduce_sum(w), shift = cv::v_reduce_sum(ws);
   if (weight <= 0) return false;
@@ -128,7 +136,8 @@ bool EdgeFitter::Reweight(const EdgeOffset& fit) {
     const Lanes misfit = error * error;
     const Lanes allowed = per_row * cv::v_load(&rows_[i]) + floor * slope * slope;
     any |= cv::v_check_any(misfit > allowed);
-    cv::v_store(&misfits_[i], misfit), cv::v_store(&allowed_[i], allowed);
+    cv::v_store(&misfits_[i], misfit);
+    cv::v_store(&allowed_[i], allowed);
   }
   if (!any) return false;
   for (int i = 0; i < padded_; i += 4) {
@@ -149,8 +158,12 @@ void EdgeFitter::AddVariance(EdgeOffset& fit) const {
     const Lanes counts = weight > All(0), per_strength = per_kappa * cv::v_load(&inverses_[i]);
     const Lanes variance = per_row * cv::v_load(&rows_[i]) * per_strength * per_strength;  // of a shift
     const Lanes noisy = weight * weight * variance, error = misfit_of(cv::v_load(&shifts_[i]), along);
-    w += weight, wtt += weight * tau * tau, v += noisy, vtt += noisy * tau * tau;
-    chi2 += counts & (error * error / variance), n += counts & All(1);
+    w += weight;
+    wtt += weight * tau * tau;
+    v += noisy;
+    vtt += noisy * tau * tau;
+    chi2 += counts & (error * error / variance);
+    n += counts & All(1);
   }
   const double count = cv::v_reduce_sum(n), weight = cv::v_reduce_sum(w), spread = cv::v_reduce_sum(wtt);
   const double inflation = count > 4 ? std::clamp(cv::v_reduce_sum(chi2) / (count - 2), 1.0, 25.0) : 1.0;

@@ -42,7 +42,9 @@ EdgeKernel MakeKernel(double sigma, double phase) {
     kernel.second[i] = static_cast<std::int16_t>(std::lround(d[1] * EdgeKernel::kScale));
     kernel.third[i] = static_cast<std::int16_t>(std::lround(d[2] * EdgeKernel::kScale));
   }
-  MakeZeroSum(kernel.first), MakeZeroSum(kernel.second), MakeZeroSum(kernel.third);
+  MakeZeroSum(kernel.first);
+  MakeZeroSum(kernel.second);
+  MakeZeroSum(kernel.third);
   return kernel;
 }
 

@@ -36,7 +36,8 @@ void AddRow(const std::uint8_t* grey, const EdgeKernel& wide, const EdgeKernel& 
   lanes.third[0] = Add(lanes.third[0], a, b, wide.third);
   lanes.second[1] = Add(lanes.second[1], a, b, narrow.second);
   lanes.third[1] = Add(lanes.third[1], a, b, narrow.third);
-  lanes.near = lanes.near + near, lanes.far = lanes.far + far;
+  lanes.near = lanes.near + near;
+  lanes.far = lanes.far + far;
 }
 
 void Reduce(const Lanes& lanes, float scale, EdgeSums& sums) {
@@ -45,11 +46,15 @@ void Reduce(const Lanes& lanes, float scale, EdgeSums& sums) {
   float sum[4];
   cv::v_store(sum, cv::v_cvt_f32((a + b) + (c + d)));
   sums.strength = scale * sum[0];
-  sums.imbalance[0] = scale * sum[1], sums.imbalance[1] = scale * sum[2];
-  sums.sharpness[0] = -scale * sum[3], sums.sharpness[1] = -scale * float(cv::v_reduce_sum(lanes.third[1]));
+  sums.imbalance[0] = scale * sum[1];
+  sums.imbalance[1] = scale * sum[2];
+  sums.sharpness[0] = -scale * sum[3];
+  sums.sharpness[1] = -scale * float(cv::v_reduce_sum(lanes.third[1]));
   std::uint16_t near[8], far[8];
-  cv::v_store(near, lanes.near), cv::v_store(far, lanes.far);
-  sums.low = float(near[3] + near[4]) / 2, sums.high = float(far[3] + far[4]) / 2;
+  cv::v_store(near, lanes.near);
+  cv::v_store(far, lanes.far);
+  sums.low = float(near[3] + near[4]) / 2;
+  sums.high = float(far[3] + far[4]) / 2;
 }
 
 constexpr int kTile = 16, kCacheLine = 64;
@@ -92,7 +97,8 @@ void EdgeProfile::SetImage(const cv::Mat& image) {
 EdgeSums EdgeProfile::Sum(const AxisLine& line, int first, int last) const {
   constexpr int kRowsAhead = 6;
   const cv::Mat& rows = line.steep ? image_ : transposed_;
-  first = std::max(first, 0), last = std::min(last, rows.rows - 1);
+  first = std::max(first, 0);
+  last = std::min(last, rows.rows - 1);
   Lanes lanes;
   int n = 0, along = 0, remainder = 0;
   auto across = static_cast<std::int64_t>(line.Across(first) * kOne);

@@ -46,8 +46,14 @@ struct EdgeSums {
 
   /// Adds all but `along` and `inverse`.
   void Add(const EdgeSums& other) {
-    rows += other.rows, strength += other.strength, low += other.low, high += other.high;
-    for (int i = 0; i < 2; ++i) imbalance[i] += other.imbalance[i], sharpness[i] += other.sharpness[i];
+    rows += other.rows;
+    strength += other.strength;
+    low += other.low;
+    high += other.high;
+    for (int i = 0; i < 2; ++i) {
+      imbalance[i] += other.imbalance[i];
+      sharpness[i] += other.sharpness[i];
+    }
   }
 };
 

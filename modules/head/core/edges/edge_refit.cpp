@@ -29,7 +29,8 @@ AxisLine ToAxis(const RoughLine& rough, int& first, int& last) {
   line.sign = line.steep ? (dy < 0 ? 1 : -1) : (dx > 0 ? 1 : -1);
   const double t1 = line.steep ? rough.y1 : rough.x1, t2 = line.steep ? rough.y2 : rough.x2;
   const double s1 = line.steep ? rough.x1 : rough.y1, s2 = line.steep ? rough.x2 : rough.y2;
-  line.origin = (t1 + t2) / 2, line.offset = (s1 + s2) / 2;
+  line.origin = (t1 + t2) / 2;
+  line.offset = (s1 + s2) / 2;
   line.slope = t1 == t2 ? 0 : (s2 - s1) / (t2 - t1);
   first = static_cast<int>(std::lround(std::min(t1, t2)));
   last = static_cast<int>(std::lround(std::max(t1, t2)));
@@ -104,7 +105,8 @@ bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeIma
         Append(line, fit, options, out);
         return true;
       }
-      first = static_cast<int>(std::ceil(blocks_.first())), last = static_cast<int>(blocks_.last());
+      first = static_cast<int>(std::ceil(blocks_.first()));
+      last = static_cast<int>(blocks_.last());
     }
     Move(line, fit.centroid, fit.offset, fit.slope);
     if (std::abs(line.slope) > 1.3) return false;

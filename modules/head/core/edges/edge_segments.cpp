@@ -35,13 +35,17 @@ void EdgeOperator::Extract(const cv::Mat& image, EdgeImage& out) {
   tracer_.Trace(gradients_, trace, chains_);
   splitter_.Split(gradients_, chains_, options_.split, rough_);
 
-  out.width = image.cols, out.height = image.rows;
+  out.width = image.cols;
+  out.height = image.rows;
   out.noise_sigma = gradients_.noise_sigma();
-  out.mean_grey = gradients_.mean_grey(), out.saturated_share = gradients_.saturated_share();
-  out.segments.clear(), out.points.clear();
+  out.mean_grey = gradients_.mean_grey();
+  out.saturated_share = gradients_.saturated_share();
+  out.segments.clear();
+  out.points.clear();
   refiner_.SetImage(image, gradients_.noise_sigma());
   EdgeRefiner::Options refit = options_.refit;
-  refit.min_contrast = options_.min_contrast, refit.min_length_px = options_.min_length_px;
+  refit.min_contrast = options_.min_contrast;
+  refit.min_length_px = options_.min_length_px;
   // The longest first: they run on over their own broken pieces, which need not be looked at any more.
   SortByExtent(rough_, order_);
   found_.Clear(image.cols, image.rows);

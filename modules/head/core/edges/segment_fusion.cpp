@@ -100,7 +100,8 @@ class Fuser {
       segment.n_points = static_cast<int>(points.size()) - segment.first_point;
       segments.push_back(segment);
     }
-    edges.points = std::move(points), edges.segments = std::move(segments);
+    edges.points = std::move(points);
+    edges.segments = std::move(segments);
   }
 
   bool HasJoined() const { return lines_.size() > pieces_.size(); }
@@ -190,15 +191,18 @@ EdgeSegment JoinFits(const EdgeSegment& first, const EdgeSegment& second) {
     const EdgeSegment& s = *parts[i];
     w[i] = 1 / (s.sigma_normal_px * s.sigma_normal_px);
     spread[i] = 1 / (s.sigma_angle_rad * s.sigma_angle_rad);
-    t[i] = d.dot(s.centre - origin), y[i] = n.dot(s.centre - origin);
+    t[i] = d.dot(s.centre - origin);
+    y[i] = n.dot(s.centre - origin);
     slope[i] = n.dot(s.direction()) / d.dot(s.direction());
-    from = std::min(from, d.dot(s.begin - origin)), to = std::max(to, d.dot(s.end - origin));
+    from = std::min(from, d.dot(s.begin - origin));
+    to = std::max(to, d.dot(s.end - origin));
   }
   const double weight = w[0] + w[1], mean = (w[0] * t[0] + w[1] * t[1]) / weight;
   const double offset = (w[0] * y[0] + w[1] * y[1]) / weight;
   double total = spread[0] + spread[1], moment = spread[0] * slope[0] + spread[1] * slope[1];
   for (int i = 0; i < 2; ++i) {
-    total += w[i] * (t[i] - mean) * (t[i] - mean), moment += w[i] * (t[i] - mean) * (y[i] - offset);
+    total += w[i] * (t[i] - mean) * (t[i] - mean);
+    moment += w[i] * (t[i] - mean) * (y[i] - offset);
   }
   const double turn = moment / total;
   double chi2 = 0;
@@ -211,7 +215,9 @@ EdgeSegment JoinFits(const EdgeSegment& first, const EdgeSegment& second) {
     return origin + along * d + (offset + turn * (along - mean)) * n;
   };
   EdgeSegment joined;
-  joined.begin = at(from), joined.end = at(to), joined.centre = at(mean);
+  joined.begin = at(from);
+  joined.end = at(to);
+  joined.centre = at(mean);
   joined.sigma_normal_px = inflation / std::sqrt(weight);
   joined.sigma_angle_rad = inflation / std::sqrt(total);
   const double share = first.length_px() / (first.length_px() + second.length_px());

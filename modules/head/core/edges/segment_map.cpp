@@ -7,7 +7,8 @@
 namespace priamos::head {
 
 void SegmentMap::Clear(int width_px, int height_px) {
-  columns_ = (width_px + 1) / 2, rows_ = (height_px + 1) / 2;
+  columns_ = (width_px + 1) / 2;
+  rows_ = (height_px + 1) / 2;
   cells_.assign(std::size_t(columns_) * rows_, 0);
 }
 

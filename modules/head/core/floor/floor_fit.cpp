@@ -75,7 +75,10 @@ Eigen::Vector3d Guess(const std::vector<Block>& blocks, const Eigen::Matrix3d& p
       if (j != i) sums.Add(blocks[j].at, kWeight);
       const Eigen::Vector3d plane = sums.Covariance() * sums.vector;
       const double score = Score(blocks, plane, prior_information);
-      if (score > best_score) best = plane, best_score = score;
+      if (score > best_score) {
+        best = plane;
+        best_score = score;
+      }
     }
   }
   return best;

@@ -58,7 +58,10 @@ struct Ground {
 
   Ground(const Column& column, int v, int reach) {
     double above = 0, below = 0, rough = 0;
-    for (int i = 0; i < kSide; ++i) above += column[v - reach - i], below += column[v + reach + i];
+    for (int i = 0; i < kSide; ++i) {
+      above += column[v - reach - i];
+      below += column[v + reach + i];
+    }
     for (int i = 1; i < kSide; ++i) {
       const double a = column[v - reach - i] - column[v - reach - i + 1];
       const double b = column[v + reach + i] - column[v + reach + i - 1];
@@ -75,7 +78,10 @@ int BrightestRow(const Column& column, int first, int last) {
   int best = first, most = -1;
   for (int v = first; v <= last; ++v) {
     const int sum = column[v - 1] + 2 * column[v] + column[v + 1];
-    if (sum > most) most = sum, best = v;
+    if (sum > most) {
+      most = sum;
+      best = v;
+    }
   }
   return best;
 }
@@ -95,9 +101,11 @@ struct Slopes {
     const auto level = static_cast<float>(ground.level), slope = static_cast<float>(ground.slope);
     for (int i = -kTaps; i <= kTaps; ++i) {
       const float value = static_cast<float>(column[row + i]) - level - slope * static_cast<float>(i);
-      sum1 += k1[i + kTaps] * value, sum2 += k2[i + kTaps] * value;
+      sum1 += k1[i + kTaps] * value;
+      sum2 += k2[i + kTaps] * value;
     }
-    first = sum1, second = sum2;
+    first = sum1;
+    second = sum2;
   }
 };
 
@@ -192,7 +200,8 @@ void StripeFinder::Smooth(std::vector<StripePoint>& points) const {
     double sum = raw[i].at.y(), variance = raw[i].sigma_px * raw[i].sigma_px, count = 1;
     for (std::ptrdiff_t d = 1; d <= options_.smooth_px && i - d >= 0 && i + d < n; ++d) {
       if (!joined(i - d, i - d + 1) || !joined(i + d - 1, i + d)) break;
-      sum += raw[i - d].at.y() + raw[i + d].at.y(), count += 2;
+      sum += raw[i - d].at.y() + raw[i + d].at.y();
+      count += 2;
       variance += raw[i - d].sigma_px * raw[i - d].sigma_px + raw[i + d].sigma_px * raw[i + d].sigma_px;
     }
     points[i].at.y() = sum / count;

@@ -21,7 +21,8 @@ void LaserWatchConfig::Describe(Archive& a) {
 LaserWatch::Action LaserWatch::Step(bool needed, bool sees, Time now) {
   if (config_.rate_hz <= 0) return Action::kWait;
   if (needed) {
-    idle_since_.reset(), lowered_.reset();
+    idle_since_.reset();
+    lowered_.reset();
     waiting_ = false;  // a picture of a moving head says nothing
     return Action::kWait;
   }

@@ -107,7 +107,10 @@ std::vector<Run> RunsOffFloor(const std::vector<LightPoint>& points, const Floor
     const bool off = std::abs(height) > std::max(options.min_height_m / 2, 3 * std::sqrt(points[i].variance));
     if (sign != 0 && (points[i].u - points[last].u > kGap_px || (off && height * sign < 0))) close();
     if (!off) continue;
-    if (sign == 0) first = i, sign = height;
+    if (sign == 0) {
+      first = i;
+      sign = height;
+    }
     last = i;
   }
   close();
@@ -123,7 +126,10 @@ void CutStraight(Run run, std::vector<Run>& straight) {
   for (std::size_t i = 1; i + 1 < run.size(); ++i) {
     const Vector3d offset = run[i].at - begin;
     const double distance = direction.allFinite() ? offset.cross(direction).norm() : offset.norm();
-    if (distance > farthest) farthest = distance, cut = i;
+    if (distance > farthest) {
+      farthest = distance;
+      cut = i;
+    }
   }
   if (cut == 0) return straight.push_back(run);
   CutStraight(run.first(cut), straight);
@@ -136,8 +142,11 @@ std::optional<ObstaclePiece> Judge(Run run, const FloorPlane& floor, const Obsta
   Vector3d mean = Vector3d::Zero();
   double height = 0, variance = 0;
   const double n = static_cast<double>(run.size());
-  for (const LightPoint& p : run)
-    mean += p.at / n, height += floor.HeightOf(p.at) / n, variance += p.variance / n;
+  for (const LightPoint& p : run) {
+    mean += p.at / n;
+    height += floor.HeightOf(p.at) / n;
+    variance += p.variance / n;
+  }
   const double scale = kScaleError * height;
   const double sigma =
       std::sqrt(variance / std::max(1.0, n / kColumnsPerFact) + floor.VarianceAt(mean) + scale * scale);
@@ -224,7 +233,8 @@ ObstacleLines FindObstacles(std::span<const StripePoint> stripe, int width, cons
   const FloorPlane floor = FitFloor(light.points, FloorPrior(options.floor, laser, light));
   ObstacleLines result;
   result.seen_share = width > 0 ? static_cast<double>(light.points.size()) / width : 0;
-  result.floor = floor.plane, result.floor_covariance = floor.covariance;
+  result.floor = floor.plane;
+  result.floor_covariance = floor.covariance;
   std::vector<Run> straight;
   for (const Run run : RunsOffFloor(light.points, floor, options)) CutStraight(run, straight);
   for (const Run run : straight) {
@@ -252,7 +262,8 @@ RowRange LineRows(const CameraModel& camera, const LaserPlane& laser, int width,
       if (image.x() < -0.1 * width || image.x() > 1.1 * width) continue;
       const Vector2d distorted = camera.Distort(image);
       if (distorted.y() < -0.5 * height || distorted.y() > 1.5 * height) continue;
-      first = std::min(first, distorted.y()), last = std::max(last, distorted.y());
+      first = std::min(first, distorted.y());
+      last = std::max(last, distorted.y());
     }
   }
   const RowRange rows{static_cast<int>(std::max(0.0, first - kRowMargin_px)),
@@ -267,7 +278,8 @@ ObstacleLines ObstacleFinder::Find(const GreyImage& picture, const CameraModel& 
   const auto row = [&](int v) {
     return picture.pixels.begin() + static_cast<std::ptrdiff_t>(v) * picture.width;
   };
-  band_.width = picture.width, band_.height = rows.last - rows.first + 1;
+  band_.width = picture.width;
+  band_.height = rows.last - rows.first + 1;
   band_.pixels.assign(row(rows.first), row(rows.last + 1));
   std::vector<StripePoint> stripe = stripe_.Find(band_);
   for (StripePoint& p : stripe) p.at.y() += rows.first;

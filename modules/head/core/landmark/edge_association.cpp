@@ -48,7 +48,10 @@ EdgeMatch Collect(const std::vector<EdgeCandidate>& candidates, bool sign, const
     if (c.same_sign != sign || std::abs(c.distance) > options.gate_px) continue;
     const double value =
         (c.to - c.from) * std::exp(-0.5 * c.distance * c.distance / (options.sigma_px * options.sigma_px));
-    if (value > best_value) best = &c, best_value = value;
+    if (value > best_value) {
+      best = &c;
+      best_value = value;
+    }
   }
   if (!best) return match;
   std::vector<std::pair<double, double>> parts;
@@ -58,15 +61,19 @@ EdgeMatch Collect(const std::vector<EdgeCandidate>& candidates, bool sign, const
     if (std::abs(c.distance - best->distance) > 2 * options.sigma_px) continue;
     match.lines.push_back(c.line);
     parts.emplace_back(c.from, c.to);
-    sum += c.distance * (c.to - c.from), weight += c.to - c.from;
+    sum += c.distance * (c.to - c.from);
+    weight += c.to - c.from;
     ratio += GreyRatio(view, c) * (c.to - c.from);
-    before = std::max(before, c.before), after = std::max(after, c.after);
-    first = std::min(first, c.from), last = std::max(last, c.to);
+    before = std::max(before, c.before);
+    after = std::max(after, c.after);
+    first = std::min(first, c.from);
+    last = std::max(last, c.to);
   }
   match.overshoot_px = (predicted.p_is_end ? before : 0) + (predicted.q_is_end ? after : 0);
   match.covered = std::min(1.0, Union(parts) / length);
   match.gap_px = {before > 0 ? -before : first, after > 0 ? -after : length - last};
-  match.distance_px = sum / weight, match.grey_ratio = ratio / weight;
+  match.distance_px = sum / weight;
+  match.grey_ratio = ratio / weight;
   match.predicted_px = length;
   return match;
 }
@@ -244,7 +251,8 @@ void AccountCorners(const std::vector<Search>& searches, const LandmarkModel& mo
       Association& association = a.IsMovable() ? movable : all;
       const double log_odds = gap <= options.corner_px ? odds.found : odds.missed;
       association.corners.push_back({s.predicted.edge, t.predicted.edge, camera, log_odds});
-      association.log_odds += log_odds, association.best_log_odds += std::max(0.0, log_odds);
+      association.log_odds += log_odds;
+      association.best_log_odds += std::max(0.0, log_odds);
     }
   }
 }

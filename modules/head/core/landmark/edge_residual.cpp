@@ -18,7 +18,8 @@ ObservedLine Fit(std::span<const EdgeObservation> points) {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   for (const EdgeObservation& o : points) {
     const double weight = 1 / (o.sigma_px * o.sigma_px);
-    w += weight, centre += weight * o.at;
+    w += weight;
+    centre += weight * o.at;
   }
   centre /= w;
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
@@ -41,15 +42,18 @@ ObservedLine Fit(std::span<const EdgeObservation> points) {
 std::optional<ProjectedEdge> Project(const CameraModel& camera, const Eigen::Vector3d& from,
                                      const Eigen::Vector3d& to) {
   ProjectedEdge edge;
-  edge.in_base_p = from, edge.in_base_q = to;
-  edge.depth_p = camera.Depth(from), edge.depth_q = camera.Depth(to);
+  edge.in_base_p = from;
+  edge.in_base_q = to;
+  edge.depth_p = camera.Depth(from);
+  edge.depth_q = camera.Depth(to);
   if (edge.depth_p < kNearDepth && edge.depth_q < kNearDepth) return std::nullopt;
   if (edge.depth_p < kNearDepth || edge.depth_q < kNearDepth) {
     const double cut = (kNearDepth - edge.depth_p) / (edge.depth_q - edge.depth_p);
     (edge.depth_p < kNearDepth ? edge.in_base_p : edge.in_base_q) = from + cut * (to - from);
     (edge.depth_p < kNearDepth ? edge.depth_p : edge.depth_q) = kNearDepth;
   }
-  edge.p = camera.Project(edge.in_base_p), edge.q = camera.Project(edge.in_base_q);
+  edge.p = camera.Project(edge.in_base_p);
+  edge.q = camera.Project(edge.in_base_q);
   if (edge.length_px() < 1) return std::nullopt;
   return edge;
 }

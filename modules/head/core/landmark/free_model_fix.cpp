@@ -32,7 +32,8 @@ class Search {
     std::vector<int> all(state.seen.edges.size());
     std::iota(all.begin(), all.end(), 0);
     AssociationOptions association;
-    association.gate_px = gate_px, association.sigma_px = gate_px / 3;
+    association.gate_px = gate_px;
+    association.sigma_px = gate_px / 3;
     association.max_angle_rad = 0.02 + 0.01 * gate_px;
     state.association = Associate(state.seen, all, views_, state.base_from_model, association);
   }
@@ -96,10 +97,13 @@ FreeModelFix Approach(const Search& search, const Eigen::Isometry3d& believed, d
     if (!search.SolveRobustly(state)) return fix;
   }
   fix.verdict = Judge(state, believed, options);
-  fix.base_from_model = state.base_from_model, fix.covariance = state.solution.covariance;
+  fix.base_from_model = state.base_from_model;
+  fix.covariance = state.solution.covariance;
   fix.n_matched = static_cast<int>(state.association.matches.size());
-  fix.residual_px = state.solution.rms_px, fix.misfit = state.solution.misfit;
-  fix.seen = std::move(state.seen), fix.matches = std::move(state.association.matches);
+  fix.residual_px = state.solution.rms_px;
+  fix.misfit = state.solution.misfit;
+  fix.seen = std::move(state.seen);
+  fix.matches = std::move(state.association.matches);
   return fix;
 }
 

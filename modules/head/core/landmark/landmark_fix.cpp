@@ -163,13 +163,19 @@ Eigen::Matrix3d LandmarkFixOptions::SearchCovariance(const LandmarkPrediction& p
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
                                  const StereoViews& views) const {
   LandmarkFix fix;
-  if (model.edges.empty()) return fix.verdict = Verdict::kNoModel, fix;
+  if (model.edges.empty()) {
+    fix.verdict = Verdict::kNoModel;
+    return fix;
+  }
   if (IsBlind(*views[0].edges) || IsBlind(*views[1].edges)) return fix;
   const Eigen::Matrix3d search = options_.SearchCovariance(prediction);
   std::size_t n_predicted = 0;
   for (const CameraView& view : views)
     n_predicted += PredictEdges(model, prediction.base_from_landmark, search, *view.camera, view.size).size();
-  if (n_predicted < std::size_t(options_.min_predicted)) return fix.verdict = Verdict::kNotVisible, fix;
+  if (n_predicted < std::size_t(options_.min_predicted)) {
+    fix.verdict = Verdict::kNotVisible;
+    return fix;
+  }
 
   const auto verticals = MatchVerticals(views[0], views[1], options_.stereo);
   ProposalOptions proposal_options = options_.proposals;
@@ -215,7 +221,8 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   fix.residual_px = best.solution.rms_px;
   fix.misfit = best.solution.misfit;
   fix.matches = best.association.matches;
-  fix.log_odds = best.association.log_odds, fix.rival_log_odds = best.rival_log_odds;
+  fix.log_odds = best.association.log_odds;
+  fix.rival_log_odds = best.rival_log_odds;
   const double left = best.association.side_predicted_px[1], right = best.association.side_predicted_px[2];
   const double found_left = best.association.side_found_px[1],
                found_right = best.association.side_found_px[2];

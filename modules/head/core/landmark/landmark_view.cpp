@@ -28,8 +28,14 @@ ViewedEdge Join(const EdgeMatch& match, const CameraView& picture) {
   for (const int i : match.lines) {
     for (const Eigen::Vector2d& end : {picture.lines[i].p, picture.lines[i].q}) {
       const double at = direction.dot(end - line.p);
-      if (at < first) first = at, edge.p = end;
-      if (at > last) last = at, edge.q = end;
+      if (at < first) {
+        first = at;
+        edge.p = end;
+      }
+      if (at > last) {
+        last = at;
+        edge.q = end;
+      }
     }
   }
   return edge;

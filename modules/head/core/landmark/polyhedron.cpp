@@ -37,7 +37,8 @@ Face MakeFace(const Polyhedron& body, const std::vector<int>& corners) {
   Face face;
   face.origin = body.points[corners[0]];
   face.normal = NormalOf(body, corners);
-  face.u = face.normal.unitOrthogonal(), face.v = face.normal.cross(face.u);
+  face.u = face.normal.unitOrthogonal();
+  face.v = face.normal.cross(face.u);
   for (const int c : corners) {
     const Eigen::Vector3d d = body.points[c] - face.origin;
     face.corners.emplace_back(face.u.dot(d), face.v.dot(d));

@@ -52,7 +52,8 @@ Pose2 Lay(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vecto
   const Eigen::Vector2d model = b - a, seen = q - p;
   Pose2 pose{0, 0, WrapAngle(std::atan2(seen.y(), seen.x()) - std::atan2(model.y(), model.x()))};
   const Eigen::Vector2d t = (p + q) / 2 - pose.rotation() * ((a + b) / 2);
-  pose.x = t.x(), pose.y = t.y();
+  pose.x = t.x();
+  pose.y = t.y();
   return pose;
 }
 

@@ -75,12 +75,14 @@ class Problem {
         const auto residual = ResidualOf(*cameras_[line.camera], pose_, edge, line.at[end]);
         if (!residual) return false;
         residuals_.push_back({*residual, common_root_.transpose() * residual->by_base.transpose()});
-        residuals_.back().edge = line.edge, residuals_.back().camera = line.camera;
+        residuals_.back().edge = line.edge;
+        residuals_.back().camera = line.camera;
         residuals_.back().variance = Square(line.sigma_px) + Square(options_.edge_sigma_px);
       }
     }
     const int n = static_cast<int>(residuals_.size());
-    jacobian_.resize(n, free_.cols()), distance_.resize(n);
+    jacobian_.resize(n, free_.cols());
+    distance_.resize(n);
     for (int i = 0; i < n; ++i) {
       jacobian_.row(i) = residuals_[i].by_pose * free_;
       distance_[i] = residuals_[i].distance_px;
@@ -114,7 +116,8 @@ class Problem {
 
   /// Least squares step of the free directions.
   bool Solve(Eigen::VectorXd& step) {
-    white_jacobian_ = jacobian_, white_distance_ = distance_;
+    white_jacobian_ = jacobian_;
+    white_distance_ = distance_;
     whitening_.matrixL().solveInPlace(white_jacobian_);
     whitening_.matrixL().solveInPlace(white_distance_);
     information_.compute(white_jacobian_.transpose() * white_jacobian_);

@@ -98,7 +98,8 @@ double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkMode
       if (!cameras || std::abs(pan) > limit) continue;
       const double cost = 10 * Missing(*cameras, its, config) + Missing(*cameras, all, config);
       if (cost >= best_cost - 1e-9) continue;
-      best = pan, best_cost = cost;
+      best = pan;
+      best_cost = cost;
     }
     if (best_cost == 0) break;
   }

@@ -24,7 +24,10 @@ class HeadJog {
   /// What to command now, every 50 ms while a wish to move is valid. `here`: where the motors are.
   std::optional<HeadSetting> Step(const HeadSetting& here, Time now);
   /// Somebody else moves the head now.
-  void Stop() { target_.reset(), wish_.reset(); }
+  void Stop() {
+    target_.reset();
+    wish_.reset();
+  }
   int refused() const { return refused_; }
 
  private:

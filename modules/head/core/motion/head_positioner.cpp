@@ -49,7 +49,8 @@ std::optional<HeadSetting> HeadPositioner::Step(const HeadReport* report, Time n
                        IsSameSetting(report->setting, target);
   if (phase_ == Phase::kSettled) {
     if (!report || resting) return std::nullopt;
-    MoveTo(goal_, now), phase_ = Phase::kBelow;  // somebody moved it
+    MoveTo(goal_, now);
+    phase_ = Phase::kBelow;  // somebody moved it
   } else if (resting && phase_ == Phase::kBelow) {
     phase_ = Phase::kAtGoal;
     must_send_ = true;

@@ -35,8 +35,10 @@ void Rank(std::vector<StereoPair>& pairs) {
 StereoMatch MakeMatch(const CameraView& left, const CameraView& right, const StereoPair& pair,
                       const StereoOptions& options) {
   StereoMatch match;
-  match.left = pair.first, match.right = {pair.second};
-  match.epipolar_rad = pair.epipolar_rad, match.similarity = pair.similarity;
+  match.left = pair.first;
+  match.right = {pair.second};
+  match.epipolar_rad = pair.epipolar_rad;
+  match.similarity = pair.similarity;
   match.is_near_epipolar = pair.epipolar_rad <= options.min_epipolar_rad;
   if (!match.is_near_epipolar) {
     const std::array<LineSighting, 2> sightings{{{&left, pair.first}, {&right, pair.second}}};
@@ -86,7 +88,9 @@ class TripleSearch {
       const double grey = GreySimilarity(*views_[i], pair.first, view, line, options_);
       if (grey <= 0) continue;
       std::array<int, 3> lines{};
-      lines[i] = pair.first, lines[j] = pair.second, lines[k] = line;
+      lines[i] = pair.first;
+      lines[j] = pair.second;
+      lines[k] = line;
       Add(lines, pair, grey);
     }
   }
@@ -163,7 +167,9 @@ std::vector<StereoMatch> MatchBinocular(const CameraView& left, const CameraView
 std::vector<StereoMatch> MatchTrinocular(const CameraView& left, const CameraView& right,
                                          const CameraView& third, const StereoOptions& options) {
   TripleSearch search({&left, &right, &third}, options);
-  search.Search(0, 1, 2), search.Search(0, 2, 1), search.Search(1, 2, 0);
+  search.Search(0, 1, 2);
+  search.Search(0, 2, 1);
+  search.Search(1, 2, 0);
   auto& triples = search.triples();
   std::sort(triples.begin(), triples.end(), [](const Triple& a, const Triple& b) {
     return std::tuple(-a.score, a.left, a.right, a.third) < std::tuple(-b.score, b.left, b.right, b.third);
@@ -175,8 +181,12 @@ std::vector<StereoMatch> MatchTrinocular(const CameraView& left, const CameraVie
     if (left_used[t.left] || right_used[t.right] || third_used[t.third]) continue;
     left_used[t.left] = right_used[t.right] = third_used[t.third] = true;
     StereoMatch match;
-    match.left = t.left, match.right = {t.right}, match.third = {t.third};
-    match.epipolar_rad = t.epipolar_rad, match.similarity = t.score, match.space = t.space;
+    match.left = t.left;
+    match.right = {t.right};
+    match.third = {t.third};
+    match.epipolar_rad = t.epipolar_rad;
+    match.similarity = t.score;
+    match.space = t.space;
     matches.push_back(std::move(match));
   }
   return matches;

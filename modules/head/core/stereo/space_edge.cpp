@@ -61,7 +61,8 @@ std::optional<TwoPoints> CommonPart(std::span<const LineSighting> sightings, con
       t[end] = -plane.dot(line.a.homogeneous()) / slope;
     }
     if (&sighting == &sightings.front()) reversed = t[0] > t[1];
-    low = std::max(low, std::min(t[0], t[1])), high = std::min(high, std::max(t[0], t[1]));
+    low = std::max(low, std::min(t[0], t[1]));
+    high = std::min(high, std::max(t[0], t[1]));
   }
   if (low >= high) return std::nullopt;
   TwoPoints part{line.a + low * delta, line.a + high * delta};
@@ -89,13 +90,15 @@ class EdgeProblem {
     const Eigen::LDLT<Eigen::Matrix4d> ldlt(normal_);
     if (ldlt.info() != Eigen::Success || ldlt.rcond() < 1e-12) return false;
     const Eigen::Vector4d step = ldlt.solve(right_);
-    line.a = line_.a + across_ * step.head<2>(), line.b = line_.b + across_ * step.tail<2>();
+    line.a = line_.a + across_ * step.head<2>();
+    line.b = line_.b + across_ * step.tail<2>();
     chi2_ = squares_ - right_.dot(step);
     return step.allFinite();
   }
   Eigen::Matrix<double, 6, 6> Covariance() const {
     Eigen::Matrix<double, 6, 4> spread = Eigen::Matrix<double, 6, 4>::Zero();
-    spread.topLeftCorner<3, 2>() = across_, spread.bottomRightCorner<3, 2>() = across_;
+    spread.topLeftCorner<3, 2>() = across_;
+    spread.bottomRightCorner<3, 2>() = across_;
     return spread * normal_.inverse() * spread.transpose();
   }
   double chi2() const { return std::max(0.0, chi2_); }

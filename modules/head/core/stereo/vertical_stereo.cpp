@@ -80,10 +80,12 @@ std::vector<VerticalEdge> MatchVerticals(const CameraView& left, const CameraVie
       const double range = edge.at.norm();
       if (edge.at.x() <= 0 || range < options.min_range_m || range > options.max_range_m) continue;
       const Heights a = HeightsOf(left, l.line, edge.at), b = HeightsOf(right, r.line, edge.at);
-      edge.z_min_m = std::max(a.low, b.low), edge.z_max_m = std::min(a.high, b.high);
+      edge.z_min_m = std::max(a.low, b.low);
+      edge.z_max_m = std::min(a.high, b.high);
       if (edge.z_max_m - edge.z_min_m < options.min_overlap * std::min(a.high - a.low, b.high - b.low))
         continue;
-      edge.left = l.line, edge.right = r.line;
+      edge.left = l.line;
+      edge.right = r.line;
       Eigen::Matrix2d normals;
       normals << l.coefficients.head<2>().transpose(), r.coefficients.head<2>().transpose();
       const Eigen::Matrix2d spread =

@@ -42,7 +42,11 @@ void FitTo(std::span<const Eigen::Vector2d> points, Eigen::Vector2d& p, Eigen::V
   double n = 0, st = 0, ss = 0, stt = 0, sts = 0;
   for (const Eigen::Vector2d& point : points) {
     const double t = direction.dot(point - p), s = normal.dot(point - p);
-    n += 1, st += t, ss += s, stt += t * t, sts += t * s;
+    n += 1;
+    st += t;
+    ss += s;
+    stt += t * t;
+    sts += t * s;
   }
   const double det = n * stt - st * st;
   if (det <= 0) return;
@@ -64,7 +68,8 @@ CameraView MakeView(const CameraModel& camera, const EdgeImage& edges) {
     const EdgeSegment& segment = edges.segments[i];
     ViewLine line;
     line.segment = static_cast<int>(i);
-    line.p = undistort(segment.begin), line.q = undistort(segment.end);
+    line.p = undistort(segment.begin);
+    line.q = undistort(segment.end);
     FitTo(std::span(view.points).subspan(segment.first_point, segment.n_points), line.p, line.q);
     const Eigen::Vector2d direction = line.q - line.p;
     line.length_px = direction.norm();
@@ -76,10 +81,10 @@ CameraView MakeView(const CameraModel& camera, const EdgeImage& edges) {
     view.lines.push_back(line);
   }
   for (const ViewLine& line : view.lines) {
-    view.table.px.push_back(static_cast<float>(line.p.x())),
-        view.table.py.push_back(static_cast<float>(line.p.y()));
-    view.table.qx.push_back(static_cast<float>(line.q.x())),
-        view.table.qy.push_back(static_cast<float>(line.q.y()));
+    view.table.px.push_back(static_cast<float>(line.p.x()));
+    view.table.py.push_back(static_cast<float>(line.p.y()));
+    view.table.qx.push_back(static_cast<float>(line.q.x()));
+    view.table.qy.push_back(static_cast<float>(line.q.y()));
     view.table.length.push_back(static_cast<float>(line.length_px));
   }
   return view;

@@ -66,7 +66,10 @@ bool FindSector(std::span<const LandmarkBox> boxes, const Viewers& viewers, Land
   for (int begin = 0; begin < kSteps; ++begin) {
     int length = 0;
     while (length < kSteps && seen[(begin + length) % kSteps]) ++length;
-    if (length > best) best = length, best_begin = begin;
+    if (length > best) {
+      best = length;
+      best_begin = begin;
+    }
   }
   if ((best - 1) * 2 * kPi / kSteps < viewers.min_sector_rad) return false;
   const bool everywhere = best == kSteps;

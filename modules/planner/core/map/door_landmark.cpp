@@ -68,7 +68,8 @@ void AddLeaf(const DoorPlan& door, std::vector<LandmarkEdge>& edges) {
   if (door.leaf != "left" && door.leaf != "right") return;
   const auto boxes = BoxesOf(door);
   Viewers viewers;
-  viewers.from_rad = kApproachSide.from_rad, viewers.to_rad = kApproachSide.to_rad;
+  viewers.from_rad = kApproachSide.from_rad;
+  viewers.to_rad = kApproachSide.to_rad;
   std::vector<LandmarkEdge> leaf = SkeletonOf(boxes, viewers);
   std::stable_sort(leaf.begin(), leaf.end(), [](const LandmarkEdge& a, const LandmarkEdge& b) {
     return (a.to - a.from).norm() > (b.to - b.from).norm();

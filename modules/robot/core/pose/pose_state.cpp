@@ -79,11 +79,17 @@ Fusion BestFusion(const PoseState& prior, const LandmarkMeasurement& measurement
   double at_a = spread(a), at_b = spread(b);
   for (int i = 0; i < kSteps; ++i) {
     if (at_a < at_b) {
-      high = b, b = a, at_b = at_a;
-      at_a = spread(a = high - kGolden * (high - low));
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - kGolden * (high - low);
+      at_a = spread(a);
     } else {
-      low = a, a = b, at_a = at_b;
-      at_b = spread(b = low + kGolden * (high - low));
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + kGolden * (high - low);
+      at_b = spread(b);
     }
   }
   return Weighed(prior, measurement, (low + high) / 2);

@@ -33,7 +33,8 @@ bool FloorMemory::Add(const FloorLine& line, const Pose2& odom_from_base, Time n
     return false;
   const double way_m = (odom_from_base.translation() - odom_from_last_.translation()).norm();
   const double unseen_m = last_ ? std::min(way_m, config_.unseen_m) : config_.unseen_m;
-  last_ = line.exposure, odom_from_last_ = odom_from_base;
+  last_ = line.exposure;
+  odom_from_last_ = odom_from_base;
   for (const FloorPiece& piece : line.pieces) {
     const Eigen::Vector2d right = OnFloor(piece.right, piece.height_m),
                           left = OnFloor(piece.left, piece.height_m);

@@ -41,7 +41,10 @@ double Entry(const Vector3d& origin, const Vector3d& direction, const Vector3d& 
     }
     const double inverse = 1 / direction[i];
     const double a = (-half[i] - origin[i]) * inverse, b = (half[i] - origin[i]) * inverse;
-    if (std::min(a, b) > near) near = std::min(a, b), axis = i;
+    if (std::min(a, b) > near) {
+      near = std::min(a, b);
+      axis = i;
+    }
     far = std::min(far, std::max(a, b));
   }
   return near <= far ? near : -1;

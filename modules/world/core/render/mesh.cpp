@@ -47,7 +47,10 @@ std::vector<double> Grid(double start, double length) {
     const auto close = [line](double other) { return std::abs(line - other) < kRim_m / 2; };
     if (line > 0 && line < length && std::none_of(lines.begin(), lines.end(), close)) lines.push_back(line);
   };
-  if (length > 3 * kRim_m) add(kRim_m), add(length - kRim_m);
+  if (length > 3 * kRim_m) {
+    add(kRim_m);
+    add(length - kRim_m);
+  }
   for (int i = static_cast<int>(std::ceil(start / kCell_m)); i * kCell_m < start + length; ++i)
     add(i * kCell_m - start);
   std::sort(lines.begin(), lines.end());
@@ -94,7 +97,10 @@ Sides BoxFaces(const Eigen::Isometry3d& map_from_box, const Vector3d& low, const
 
 /// The picture's first row is at the top.
 void Hang(Face& face, int layer, bool mirrored) {
-  face.u0 = mirrored ? 1 : 0, face.u1 = 1 - face.u0, face.v0 = 1, face.v1 = 0;
+  face.u0 = mirrored ? 1 : 0;
+  face.u1 = 1 - face.u0;
+  face.v0 = 1;
+  face.v1 = 0;
   face.layer = layer;
 }
 

@@ -70,7 +70,8 @@ std::vector<HeadSetting> CalibrationPlan::Settings() const {
         add(sign * share * Radians(grid_pan_deg), sign * diagonal * share * Radians(grid_tilt_deg), -in, in,
             *z, f);
       }
-      side = -side, diagonal = -diagonal;
+      side = -side;
+      diagonal = -diagonal;
     }
   }
   return settings;

@@ -48,17 +48,26 @@ std::vector<double> Numbers(const cv::FileNode& parent, const std::string& key, 
 /// Visits the numbers of the mechanics by name: written and read by the same list.
 template <class Geometry, class Visit>
 void ForEachNumber(Geometry& g, const Visit& visit) {
-  visit("x_m", g.x_m, 10.0), visit("y_m", g.y_m, 10.0), visit("z_m", g.z_m, 10.0);
-  visit("roll_rad", g.roll_rad, 7.0), visit("pitch_rad", g.pitch_rad, 7.0), visit("yaw_rad", g.yaw_rad, 7.0);
+  visit("x_m", g.x_m, 10.0);
+  visit("y_m", g.y_m, 10.0);
+  visit("z_m", g.z_m, 10.0);
+  visit("roll_rad", g.roll_rad, 7.0);
+  visit("pitch_rad", g.pitch_rad, 7.0);
+  visit("yaw_rad", g.yaw_rad, 7.0);
   visit("tilt_axis_x_m", g.tilt_axis_x_m, 1.0);
   visit("tilt_axis_roll_rad", g.tilt_axis_roll_rad, 7.0);
 }
 template <class Mount, class Visit>
 void ForEachMountNumber(Mount& m, const Visit& visit) {
-  visit("x_m", m.x_m, 10.0), visit("y_m", m.y_m, 10.0), visit("z_m", m.z_m, 10.0);
-  visit("axis_roll_rad", m.axis_roll_rad, 7.0), visit("axis_pitch_rad", m.axis_pitch_rad, 7.0);
+  visit("x_m", m.x_m, 10.0);
+  visit("y_m", m.y_m, 10.0);
+  visit("z_m", m.z_m, 10.0);
+  visit("axis_roll_rad", m.axis_roll_rad, 7.0);
+  visit("axis_pitch_rad", m.axis_pitch_rad, 7.0);
   visit("side_m", m.side_m, 1.0);
-  visit("roll_rad", m.roll_rad, 7.0), visit("pitch_rad", m.pitch_rad, 7.0), visit("yaw_rad", m.yaw_rad, 7.0);
+  visit("roll_rad", m.roll_rad, 7.0);
+  visit("pitch_rad", m.pitch_rad, 7.0);
+  visit("yaw_rad", m.yaw_rad, 7.0);
 }
 
 void WriteNode(cv::FileStorage& file, int zoom, int focus, const LensState& lens) {

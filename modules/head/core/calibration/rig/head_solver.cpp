@@ -61,9 +61,14 @@ struct Unknowns {
 HeadGeometry GeometryFrom(const Unknowns& x) {
   HeadGeometry g;
   const auto& h = x.head;
-  g.x_m = h[0], g.y_m = h[1], g.z_m = h[2];
-  g.roll_rad = h[3], g.pitch_rad = h[4], g.yaw_rad = h[5];
-  g.tilt_axis_x_m = h[6], g.tilt_axis_roll_rad = h[7];
+  g.x_m = h[0];
+  g.y_m = h[1];
+  g.z_m = h[2];
+  g.roll_rad = h[3];
+  g.pitch_rad = h[4];
+  g.yaw_rad = h[5];
+  g.tilt_axis_x_m = h[6];
+  g.tilt_axis_roll_rad = h[7];
   for (int c = 0; c < kCameras; ++c) g.cameras[c] = MountFrom(x.mounts[c]);
   return g;
 }

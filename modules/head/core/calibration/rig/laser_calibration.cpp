@@ -85,7 +85,10 @@ std::optional<Plane> PlaneOfMost(const std::vector<Point>& points) {
     const Plane plane(normal.normalized(), a);
     int agree = 0;
     for (std::size_t k = 0; k < n; k += stride) agree += std::abs(RowsFrom(plane, points[k])) < kConsensus_px;
-    if (agree > most) most = agree, best = plane;
+    if (agree > most) {
+      most = agree;
+      best = plane;
+    }
   }
   return best;
 }
@@ -107,7 +110,10 @@ Spread SpreadOf(const std::vector<Point>& points, const std::vector<bool>& used)
   Spread s;
   double n = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (used[i]) s.middle += points[i].at, n += 1;
+    if (used[i]) {
+      s.middle += points[i].at;
+      n += 1;
+    }
   }
   s.middle /= std::max(n, 1.0);
   Matrix3d scatter = Matrix3d::Zero();
@@ -204,7 +210,9 @@ void FillErrors(const std::vector<Point>& points, const std::vector<bool>& used,
       ++result.outliers;
       continue;
     }
-    squares[points[i].view] += square, n[points[i].view] += 1, sum += square;
+    squares[points[i].view] += square;
+    n[points[i].view] += 1;
+    sum += square;
     ++result.points;
   }
   result.rms_px = std::sqrt(sum / std::max(1, result.points));
@@ -249,7 +257,8 @@ Outcome<LaserCalibration> CalibrateLaserPlane(std::span<const StripeView> views)
   plane = Refine(*points, used, spread.middle, plane);
   LaserCalibration result;
   const double sign = plane.normal().z() < 0 ? -1 : 1;
-  result.plane.normal = sign * plane.normal(), result.plane.offset_m = sign * plane.offset();
+  result.plane.normal = sign * plane.normal();
+  result.plane.offset_m = sign * plane.offset();
   const Motion motion(result.plane.Plane(), spread.middle);
   result.plane.pivot_m = motion.pivot;
   FillErrors(*points, used, views.size(), result);

@@ -54,7 +54,8 @@ CameraModel ModelFrom(const cv::Mat& k, const std::vector<double>& distortion, c
   model.image_from_base = intrinsics * pose;
   model.centre_px = intrinsics.block<2, 1>(0, 2);
   model.scale_px = intrinsics(0, 0);
-  model.k1 = distortion[0], model.k2 = distortion[1];
+  model.k1 = distortion[0];
+  model.k2 = distortion[1];
   return model;
 }
 
@@ -112,7 +113,8 @@ Outcome<std::vector<CameraCalibration>> CalibrateFromPlanes(
   std::vector<std::vector<cv::Point3f>> points;
   std::vector<std::vector<cv::Point2f>> pixels;
   for (const auto& photograph : photographs) {
-    points.emplace_back(), pixels.emplace_back();
+    points.emplace_back();
+    pixels.emplace_back();
     for (const DiscObservation& o : photograph) {
       points.back().emplace_back(o.disc.centre_m.x(), o.disc.centre_m.y(), o.disc.centre_m.z());
       pixels.back().emplace_back(o.centroid_px.x(), o.centroid_px.y());
