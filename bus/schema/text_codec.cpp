@@ -18,19 +18,19 @@ constexpr std::array<std::int8_t, 256> MakeValues() {
 }
 constexpr std::array<std::int8_t, 256> kValues = MakeValues();
 
-/// Bytes of the sequence that begins with `lead`, and the least code point that needs that many.
+/// What the first byte of a UTF-8 sequence says about it.
 struct SequenceForm {
-  int size;
-  std::uint32_t least;
-  std::uint32_t bits;
+  int size;             ///< bytes of the sequence; 0: no sequence begins with this byte
+  std::uint32_t least;  ///< least code point that needs so many bytes
+  std::uint32_t bits;   ///< the code point's bits in the first byte
 };
 
 SequenceForm FormOf(unsigned char lead) {
-  if (lead < 0x80) return {1, 0, lead};
-  if ((lead & 0xe0) == 0xc0) return {2, 0x80, lead & 0x1fU};
-  if ((lead & 0xf0) == 0xe0) return {3, 0x800, lead & 0x0fU};
-  if ((lead & 0xf8) == 0xf0) return {4, 0x10000, lead & 0x07U};
-  return {0, 0, 0};
+  if (lead < 0x80) return {.size = 1, .least = 0, .bits = lead};
+  if ((lead & 0xe0) == 0xc0) return {.size = 2, .least = 0x80, .bits = lead & 0x1fU};
+  if ((lead & 0xf0) == 0xe0) return {.size = 3, .least = 0x800, .bits = lead & 0x0fU};
+  if ((lead & 0xf8) == 0xf0) return {.size = 4, .least = 0x10000, .bits = lead & 0x07U};
+  return {.size = 0, .least = 0, .bits = 0};
 }
 
 }  // namespace

@@ -11,10 +11,10 @@
 namespace priamos::head {
 namespace {
 
-/// From a proposal to the result the prediction gets sharper, and with it the gate.
-constexpr AssociationOptions kProposed{2.0, 5.0, 0.06, 0.85, 40, 0.15};
-constexpr AssociationOptions kApproached{1.0, 3.0, 0.04, 0.85, 40, 0.15};
-constexpr AssociationOptions kRefined{0.5, 1.6, 0.03, 0.85, 40, 0.15};
+/// Gates of the three passes from a proposal to the result: the prediction gets sharper from pass to pass.
+constexpr AssociationOptions kProposed{.sigma_px = 2.0, .gate_px = 5.0, .max_angle_rad = 0.06};
+constexpr AssociationOptions kApproached{.sigma_px = 1.0, .gate_px = 3.0, .max_angle_rad = 0.04};
+constexpr AssociationOptions kRefined{.sigma_px = 0.5, .gate_px = 1.6, .max_angle_rad = 0.03};
 constexpr int kRefineBest = 8;
 
 std::vector<int> VisibleAt(const LandmarkModel& model, const Pose2& base_from_landmark,

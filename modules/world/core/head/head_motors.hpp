@@ -12,11 +12,41 @@ namespace priamos::world {
 /// The motors of KASTOR. Play and repeatability are those of stepper motors with spur or worm gears; at a
 /// focal length of 1000 px, 0.0001 rad is 0.1 px.
 struct HeadMotorsConfig {
-  AngleAxisConfig pan{{-2, 2, 0.0001, 1.5, 6, 0.0004, 0.00003}};
-  AngleAxisConfig tilt{{-0.8, 0.8, 0.0001, 1, 4, 0.0004, 0.00003}};
-  AngleAxisConfig vergence{{-0.4, 0.4, 0.0001, 0.8, 4, 0.0003, 0.00002}};
-  LensAxisConfig zoom{{0, 2000, 1, 800, 4000, 6, 0.4}};
-  LensAxisConfig focus{{0, 2000, 1, 800, 4000, 6, 0.4}};
+  AngleAxisConfig pan{{.min = -2,
+                       .max = 2,
+                       .step = 0.0001,
+                       .speed = 1.5,
+                       .acceleration = 6,
+                       .backlash = 0.0004,
+                       .repeatability = 0.00003}};
+  AngleAxisConfig tilt{{.min = -0.8,
+                        .max = 0.8,
+                        .step = 0.0001,
+                        .speed = 1,
+                        .acceleration = 4,
+                        .backlash = 0.0004,
+                        .repeatability = 0.00003}};
+  AngleAxisConfig vergence{{.min = -0.4,
+                            .max = 0.4,
+                            .step = 0.0001,
+                            .speed = 0.8,
+                            .acceleration = 4,
+                            .backlash = 0.0003,
+                            .repeatability = 0.00002}};
+  LensAxisConfig zoom{{.min = 0,
+                       .max = 2000,
+                       .step = 1,
+                       .speed = 800,
+                       .acceleration = 4000,
+                       .backlash = 6,
+                       .repeatability = 0.4}};
+  LensAxisConfig focus{{.min = 0,
+                        .max = 2000,
+                        .step = 1,
+                        .speed = 800,
+                        .acceleration = 4000,
+                        .backlash = 6,
+                        .repeatability = 0.4}};
 
   void Describe(Archive& a);
 };

@@ -30,14 +30,18 @@ cv::Mat Noise(Rng& rng, int cells_x, int cells_y) {
   return large(inner).clone();
 }
 
-struct Look {
-  double albedo, coarse, middle, fine;  ///< mean and amplitudes at 4, 32 and 256 bumps a side
+/// Reflectance of a rough covering: its mean, and the amplitudes of three layers of noise.
+struct Covering {
+  double albedo;  ///< mean
+  double coarse;  ///< amplitude at 4 bumps a side
+  double middle;  ///< amplitude at 32 bumps a side
+  double fine;    ///< amplitude at 256 bumps a side
 };
 
-cv::Mat Covered(Rng& rng, const Look& look) {
-  cv::Mat image(kTextureSide, kTextureSide, CV_32F, cv::Scalar(look.albedo));
-  image +=
-      look.coarse * Noise(rng, 4, 4) + look.middle * Noise(rng, 32, 32) + look.fine * Noise(rng, 256, 256);
+cv::Mat Covered(Rng& rng, const Covering& covering) {
+  cv::Mat image(kTextureSide, kTextureSide, CV_32F, cv::Scalar(covering.albedo));
+  image += covering.coarse * Noise(rng, 4, 4) + covering.middle * Noise(rng, 32, 32) +
+           covering.fine * Noise(rng, 256, 256);
   return image;
 }
 
@@ -50,7 +54,7 @@ cv::Mat Grain(Rng& rng, double albedo, double contrast) {
 
 /// Floor tiles, `count` a side, with joints; each tile a little different.
 cv::Mat Tiles(Rng& rng, int count, double albedo, double spread) {
-  cv::Mat image = Covered(rng, {albedo, 0.01, 0.01, 0.02});
+  cv::Mat image = Covered(rng, {.albedo = albedo, .coarse = 0.01, .middle = 0.01, .fine = 0.02});
   const int side = kTextureSide / count;
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < count; ++x) {
@@ -67,21 +71,21 @@ cv::Mat Tiles(Rng& rng, int count, double albedo, double spread) {
 Textures::Textures(std::uint64_t seed) {
   Rng rng = Rng::Stream(seed, "textures");
   // The order is that of MaterialNames().
-  Add(Covered(rng, {0.74, 0.02, 0.008, 0.02}));    // plaster
-  Add(Covered(rng, {0.50, 0.04, 0.03, 0.03}));     // concrete
-  Add(Grain(rng, 0.42, 0.05));                     // wood
-  Add(Covered(rng, {0.40, 0.005, 0.003, 0.004}));  // door frame: painted steel
-  Add(LeafPicture(Grain(rng, 0.56, 0.015)));       // door leaf
-  Add(Covered(rng, {0.24, 0.01, 0.01, 0.01}));     // skirting
-  Add(Covered(rng, {0.33, 0.02, 0.02, 0.05}));     // lino
-  Add(Tiles(rng, 4, 0.45, 0.03));                  // tiles
-  Add(Covered(rng, {0.22, 0.02, 0.02, 0.04}));     // carpet
-  Add(Tiles(rng, 4, 0.82, 0.01));                  // ceiling
-  Add(Grain(rng, 0.50, 0.03));                     // furniture
-  Add(CupboardPicture(Grain(rng, 0.52, 0.03)));    // cupboard
-  Add(Covered(rng, {0.48, 0.02, 0.01, 0.01}));     // metal
-  Add(Covered(rng, {0.46, 0.03, 0.01, 0.02}));     // cardboard
-  Add(Covered(rng, {0.30, 0.03, 0.03, 0.06}));     // fabric
+  Add(Covered(rng, {.albedo = 0.74, .coarse = 0.02, .middle = 0.008, .fine = 0.02}));    // plaster
+  Add(Covered(rng, {.albedo = 0.50, .coarse = 0.04, .middle = 0.03, .fine = 0.03}));     // concrete
+  Add(Grain(rng, 0.42, 0.05));                                                           // wood
+  Add(Covered(rng, {.albedo = 0.40, .coarse = 0.005, .middle = 0.003, .fine = 0.004}));  // door frame
+  Add(LeafPicture(Grain(rng, 0.56, 0.015)));                                             // door leaf
+  Add(Covered(rng, {.albedo = 0.24, .coarse = 0.01, .middle = 0.01, .fine = 0.01}));     // skirting
+  Add(Covered(rng, {.albedo = 0.33, .coarse = 0.02, .middle = 0.02, .fine = 0.05}));     // lino
+  Add(Tiles(rng, 4, 0.45, 0.03));                                                        // tiles
+  Add(Covered(rng, {.albedo = 0.22, .coarse = 0.02, .middle = 0.02, .fine = 0.04}));     // carpet
+  Add(Tiles(rng, 4, 0.82, 0.01));                                                        // ceiling
+  Add(Grain(rng, 0.50, 0.03));                                                           // furniture
+  Add(CupboardPicture(Grain(rng, 0.52, 0.03)));                                          // cupboard
+  Add(Covered(rng, {.albedo = 0.48, .coarse = 0.02, .middle = 0.01, .fine = 0.01}));     // metal
+  Add(Covered(rng, {.albedo = 0.46, .coarse = 0.03, .middle = 0.01, .fine = 0.02}));     // cardboard
+  Add(Covered(rng, {.albedo = 0.30, .coarse = 0.03, .middle = 0.03, .fine = 0.06}));     // fabric
   first_poster_ = static_cast<int>(layers_.size());
   posters_ = kPosters;
   for (int i = 0; i < kPosters; ++i) Add(PosterPicture(rng));

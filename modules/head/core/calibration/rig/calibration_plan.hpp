@@ -26,8 +26,8 @@ struct CalibrationPlan {
   /// Every node of zoom and focus is seen twice, the object in opposite corners of the picture: at both signs
   /// of these at the shortest focal length, of `grid_tele_share` of them at the longest.
   double grid_pan_deg = 10, grid_tilt_deg = 8, grid_tele_share = 0.2;
-  StepInterval zoom{50, 1850, 7};
-  StepInterval focus{1000, 2000, 4};
+  StepInterval zoom{.first = 50, .last = 1850, .nodes = 7};
+  StepInterval focus{.first = 1000, .last = 2000, .nodes = 4};
 
   void Describe(Archive& a);
   /// In the order in which they are visited: mechanics first, at the shortest focal length, then the grid
