@@ -5,7 +5,7 @@
 namespace priamos::cli {
 
 /// Every channel of lcmtypes/channels.hpp as a table in Markdown: name, type, nominal rate, life span,
-/// largest size on LCM and packed for the radio. bus/README.md holds it; a test compares.
+/// largest size on LCM and packed for the radio. lcmtypes/README.md holds it; a test compares.
 std::string ChannelTable();
 
 /// The same as a JSON array.

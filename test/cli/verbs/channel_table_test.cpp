@@ -8,9 +8,9 @@
 namespace priamos::cli {
 namespace {
 
-TEST(ChannelTable, IsTheOneInTheReadmeOfTheBus) {
+TEST(ChannelTable, IsTheOneInTheReadmeOfTheTypes) {
   std::ostringstream readme;
-  readme << std::ifstream(PRIAMOS_SOURCE_DIR "/bus/README.md").rdbuf();
+  readme << std::ifstream(PRIAMOS_SOURCE_DIR "/lcmtypes/README.md").rdbuf();
   EXPECT_THAT(readme.str(), testing::HasSubstr(ChannelTable())) << "print it anew: priamos type channels";
 }
 
