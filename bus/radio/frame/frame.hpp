@@ -10,7 +10,7 @@
 
 #include "bus/radio/frame/replay_window.hpp"
 
-/// Frames on the line; README.md of this folder is the byte-exact specification.
+/// Frames on the line; bus/radio/PROTOCOL.md is the byte-exact specification.
 ///
 ///     data   COBS( counter:1 | bundle | code:4 ) 0x00         7 bytes beside the bundle
 ///     data   COBS( 0x80 | counter:5 | bundle | code:4 ) 0x00  the same with the whole counter

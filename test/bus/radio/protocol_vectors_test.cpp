@@ -11,14 +11,14 @@
 #include "bus/radio/frame/cobs.hpp"
 #include "bus/radio/frame/frame.hpp"
 
-// The specification is a promise to whoever writes another implementation: bus/radio/README.md is read here,
-// and the code must say the same.
+// The specification is a promise to whoever writes another implementation: bus/radio/PROTOCOL.md is read
+// here, and the code must say the same.
 
 namespace priamos::bus::radio {
 namespace {
 
-std::string ReadmeBlock(const std::string& name) {
-  std::ifstream in(std::string(PRIAMOS_SOURCE_DIR) + "/bus/radio/README.md");
+std::string ProtocolBlock(const std::string& name) {
+  std::ifstream in(std::string(PRIAMOS_SOURCE_DIR) + "/bus/radio/PROTOCOL.md");
   std::string line, block;
   while (std::getline(in, line) && line != "```" + name) {
   }
@@ -42,9 +42,9 @@ std::string ToHex(std::span<const std::byte> bytes) {
   return hex;
 }
 
-struct ReadmeVectors : testing::Test {
-  ReadmeVectors() {
-    std::istringstream in(ReadmeBlock("vectors"));
+struct ProtocolVectors : testing::Test {
+  ProtocolVectors() {
+    std::istringstream in(ProtocolBlock("vectors"));
     std::string name, equals, value;
     while (in >> name >> equals >> value) values[name] = value;
     const auto bytes = FromHex(values.at("link_key"));
@@ -52,7 +52,7 @@ struct ReadmeVectors : testing::Test {
   }
   std::uint64_t Number(const std::string& name) const { return std::stoull(values.at(name), nullptr, 16); }
   ChannelTable Table(bool encrypted = false) const {
-    std::istringstream in(ReadmeBlock("table"));
+    std::istringstream in(ProtocolBlock("table"));
     std::vector<LinkChannel> channels;
     LinkChannel c;
     int direction = 0, channel_class = 0;
@@ -98,7 +98,7 @@ struct ReadmeVectors : testing::Test {
   LinkKey key{};
 };
 
-TEST_F(ReadmeVectors, DerivedKeys) {
+TEST_F(ProtocolVectors, DerivedKeys) {
   for (const std::string purpose : {"authentication", "encryption"}) {
     const std::string text = "priamos radio 1 " + purpose;
     std::array<std::byte, 32> derived{};
@@ -109,23 +109,23 @@ TEST_F(ReadmeVectors, DerivedKeys) {
   }
 }
 
-TEST_F(ReadmeVectors, TableHash) {
+TEST_F(ProtocolVectors, TableHash) {
   EXPECT_EQ(Table().hash(), Number("table_hash"));
   EXPECT_EQ(Table(true).hash(), Number("table_hash_encrypted"));
 }
 
-TEST_F(ReadmeVectors, Epoch) {
+TEST_F(ProtocolVectors, Epoch) {
   EXPECT_EQ(FrameKeys(key).EpochOf(Number("onboard_nonce"), Number("offboard_nonce")), Number("epoch"));
 }
 
-TEST_F(ReadmeVectors, CobsAndDurations) {
+TEST_F(ProtocolVectors, CobsAndDurations) {
   EXPECT_EQ(ToHex(CobsEncode(FromHex("11000022"))), values.at("cobs_of_11_00_00_22"));
   EXPECT_EQ(EncodeDuration12(std::chrono::milliseconds(37)), Number("duration_37_ms"));
   EXPECT_EQ(EncodeDuration12(std::chrono::milliseconds(1500)), Number("duration_1500_ms"));
   EXPECT_EQ(EncodeDuration12(std::chrono::hours(1)), Number("duration_3600000_ms"));
 }
 
-TEST_F(ReadmeVectors, Bundles) {
+TEST_F(ProtocolVectors, Bundles) {
   EXPECT_EQ(ToHex(BundleUp()), values.at("bundle_up"));
   EXPECT_EQ(ToHex(BundleDown()), values.at("bundle_down"));
   const ParsedBundle up = ParseBundle(Table(), Direction::kUp, FromHex(values.at("bundle_up")));
@@ -133,7 +133,7 @@ TEST_F(ReadmeVectors, Bundles) {
   EXPECT_EQ(up.entries.size(), 5U);
 }
 
-TEST_F(ReadmeVectors, Differences) {
+TEST_F(ProtocolVectors, Differences) {
   LinkChannel pose = Table().at(0);
   pose.fixed_bits = pose.max_bits = 40;
   pose.delta = {15, 13, 3, 9};
@@ -154,7 +154,7 @@ TEST_F(ReadmeVectors, Differences) {
   EXPECT_EQ(std::get<StateEntry>(parsed.entries[0]).packed, delta.bytes());
 }
 
-TEST_F(ReadmeVectors, DataFrames) {
+TEST_F(ProtocolVectors, DataFrames) {
   const auto wire = [&](Direction direction, std::uint64_t counter, CounterForm form, bool encrypted) {
     const auto bundle = direction == Direction::kUp ? BundleUp() : BundleDown();
     return ToHex(Sealer(direction, encrypted).Seal(Number("epoch"), counter, form, bundle));
@@ -166,7 +166,7 @@ TEST_F(ReadmeVectors, DataFrames) {
             values.at("frame_down_counter_7_encrypted"));
 }
 
-TEST_F(ReadmeVectors, FramesOpen) {
+TEST_F(ProtocolVectors, FramesOpen) {
   FrameOpener dut(FrameKeys(key), Direction::kDown, {Table(true).hash(), true});
   dut.SetEpoch(Number("epoch"), 0);
   auto wire = FromHex(values.at("frame_down_counter_7_encrypted"));
@@ -176,7 +176,7 @@ TEST_F(ReadmeVectors, FramesOpen) {
   EXPECT_EQ(ToHex(std::get<DataFrame>(opened).bundle), values.at("bundle_down"));
 }
 
-TEST_F(ReadmeVectors, HelloFrame) {
+TEST_F(ProtocolVectors, HelloFrame) {
   Hello hello;
   hello.table_hash = Table().hash();
   hello.stream = 0xcafe0001;
