@@ -2,9 +2,22 @@
 
 #include <vector>
 
-#include "head/core/stereo/edge_stereo.hpp"
+#include "head/core/stereo/view_line.hpp"
 
 namespace priamos::head {
+
+/// Which edges of two images may be one edge of space.
+struct StereoOptions {
+  double min_epipolar_rad = 0.12;  ///< flatter edges are flagged, not triangulated
+  double min_depth_m = 0.4, max_depth_m = 12;
+  double min_overlap = 0.5;         ///< common extent along the epipolar lines over the shorter extent
+  double max_grey_difference = 20;  ///< grey values on the side of the edge that agrees better
+  double max_contrast_ratio = 2;    ///< larger over smaller contrast in the two images
+  double max_turn_rad = 0.7;        ///< largest angle between the planes of sight
+  double camera_sigma_px = 0.1;     ///< error of the calibration, added to the noise of the edges
+  double max_distance_px = 1.0;     ///< from the edge in the third image to where two epipolar lines cross,
+                                    ///< beyond 3 sigma
+};
 
 /// Two lines of two views that can be the same edge.
 struct StereoPair {

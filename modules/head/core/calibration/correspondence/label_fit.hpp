@@ -3,7 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "head/core/calibration/correspondence/correspondence.hpp"
+#include "common/reference_object.hpp"
+#include "head/core/calibration/correspondence/labelling.hpp"
+#include "head/core/calibration/discs/disc_fit.hpp"
 
 namespace priamos::head {
 

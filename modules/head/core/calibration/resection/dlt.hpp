@@ -4,14 +4,9 @@
 #include <span>
 
 #include "common/outcome.hpp"
+#include "head/core/calibration/resection/point_pair.hpp"
 
 namespace priamos::head {
-
-/// A point in space [m] and its undistorted image [px].
-struct PointPair {
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
-  Eigen::Vector2d image_px = Eigen::Vector2d::Zero();
-};
 
 /// Equations 1-6 of the paper: the DLT matrix (Abdel-Aziz and Karara, 1971) from 6 or more points by
 /// homogeneous least squares on normalised coordinates. The result's third row has a direction part of

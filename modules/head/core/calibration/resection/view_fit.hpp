@@ -4,7 +4,8 @@
 #include <span>
 
 #include "common/image_size.hpp"
-#include "head/core/calibration/resection/dlt.hpp"
+#include "common/outcome.hpp"
+#include "head/core/calibration/resection/point_pair.hpp"
 #include "head/core/camera/camera_model.hpp"
 
 namespace priamos::head {
