@@ -106,6 +106,9 @@ struct Case {
   const char* command;
   const char* needed;  ///< a package that is found by CMake and brought by no other
 };
+void PrintTo(const Case& command, std::ostream* out) {
+  *out << command.command;
+}
 
 class PackageLists : public ::testing::TestWithParam<Case> {};
 

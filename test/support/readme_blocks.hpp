@@ -18,6 +18,10 @@ struct ReadmeBlock {
   int line = 0;                ///< of the first command, from 1
   std::vector<std::string> commands;
 };
+/// As googletest names a block.
+inline void PrintTo(const ReadmeBlock& block, std::ostream* out) {
+  *out << block.file.string() << ':' << block.line;
+}
 
 /// Without the comment at its end; empty when the line is nothing else.
 inline std::string CommandIn(const std::string& line) {
@@ -42,7 +46,9 @@ inline std::vector<ReadmeBlock> BlocksOf(const std::filesystem::path& readme) {
   for (std::string line; std::getline(file, line);) {
     ++number;
     if (line.starts_with("```")) {
-      fenced = !fenced, shell = fenced && std::regex_match(line, kShell), open = false;
+      fenced = !fenced;
+      shell = fenced && std::regex_match(line, kShell);
+      open = false;
     } else if (fenced) {
       for (std::string rest; line.ends_with('\\') && std::getline(file, rest); ++number)
         line = line.substr(0, line.size() - 1) + rest;
