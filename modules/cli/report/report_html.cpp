@@ -62,14 +62,27 @@ std::string Optional(const std::optional<double>& value, double factor, const ch
   return value ? fmt::format(fmt::runtime(form), *value * factor) : "&ndash;";
 }
 
+/// What a drive by hand is judged by.
+std::string HandCards(const HandSummary& hand) {
+  return Card(Optional(hand.honoured(), 100, "{:.1f} %"), "of the free motion wished was made") +
+         Card(Optional(hand.longest_stop_s, 1, "{:.1f} s"), "longest stop in the passage while pushed") +
+         Card(fmt::format("{:.0f} s", hand.wished_s), "pushed");
+}
+
+/// What a mission through the door is judged by.
+std::string DoorCards(const Summary& s) {
+  return Card(Optional(s.lateral_at_door_m, 100, "{:+.1f} cm"), "lateral error in the door plane") +
+         Card(Optional(s.heading_at_door_deg, 1, "{:+.2f}&deg;"), "heading error in the door plane") +
+         Card(Optional(s.min_speed_during_fix_m_s, 1, "{:.2f} m/s"), "lowest speed while fixing");
+}
+
 std::string Cards(const Summary& s) {
   std::string cards = "<div class=\"cards\">";
-  cards += Card(Optional(s.lateral_at_door_m, 100, "{:+.1f} cm"), "lateral error in the door plane");
-  cards += Card(Optional(s.heading_at_door_deg, 1, "{:+.2f}&deg;"), "heading error in the door plane");
+  if (s.hand) cards += HandCards(*s.hand);
+  if (SeeksTheDoor(s)) cards += DoorCards(s);
   cards += Card(fmt::format("{:.1f} cm", s.min_gap_m * 100), "smallest gap to anything");
   cards += Card(fmt::format("{:.1f} s", s.duration_s), "from order to end");
   cards += Card(fmt::format("{:.2f} m/s", s.mean_speed_m_s), "mean speed");
-  cards += Card(Optional(s.min_speed_during_fix_m_s, 1, "{:.2f} m/s"), "lowest speed while fixing");
   return cards + "</div>\n";
 }
 
@@ -192,10 +205,12 @@ std::string ReportPage(const RunRecord& record, const Summary& summary, const st
       "src=\"data:image/svg+xml;base64,{}\">\n",
       Base64(svg));
   page += "<h2>Mission</h2>\n" + PhaseTable(record, summary);
-  page += "<h2>Fixes</h2>\n" + FixTable(summary);
-  page += "<h2>Looks</h2>\n" + LookDrawings(record);
-  page += "<h2>Over time</h2>\n<p>Shaded: from a look at the door to the fix.</p>\n<div class=\"two\">" +
-          Plots(record) + "</div>\n";
+  const std::string looks = LookDrawings(record);
+  if (SeeksTheDoor(summary)) page += "<h2>Fixes</h2>\n" + FixTable(summary);
+  if (!looks.empty()) page += "<h2>Looks</h2>\n" + looks;
+  page += "<h2>Over time</h2>\n";
+  if (!looks.empty()) page += "<p>Shaded: from a look at the door to the fix.</p>\n";
+  page += "<div class=\"two\">" + Plots(record) + "</div>\n";
   page += "<h2>Radio</h2>\n<div class=\"two\">" + RadioTable("up: robot to workstation", summary.up) +
           RadioTable("down: workstation to robot", summary.down) + "</div>\n";
   page += fmt::format(

@@ -164,6 +164,10 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   return summary;
 }
 
+bool SeeksTheDoor(const Summary& summary) {
+  return !summary.hand || !summary.fixes.empty();
+}
+
 nlohmann::ordered_json ToJson(const Summary& summary) {
   auto fixes = nlohmann::ordered_json::array();
   for (const FixSummary& fix : summary.fixes) fixes.push_back(ToJson(fix));

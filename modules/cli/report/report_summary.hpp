@@ -82,6 +82,9 @@ struct RunInfo {
 /// An empty record gives a summary that has not passed.
 Summary Summarise(const RunRecord& record, const RunInfo& info);
 
+/// False for a drive by hand alone, which nobody judges by fixes and by how straight it met the door.
+bool SeeksTheDoor(const Summary& summary);
+
 /// The keys of summary.json; a figure that does not exist is null.
 nlohmann::ordered_json ToJson(const Summary& summary);
 

@@ -32,15 +32,13 @@ void PrintFixes(std::ostream& out, const Summary& summary) {
   }
 }
 
-void PrintDrive(std::ostream& out, const Summary& summary) {
+void PrintDoor(std::ostream& out, const Summary& summary) {
   Rule(out, "door");
   out << fmt::format("  in the door plane   {} lateral, {} heading\n",
                      Figure(summary.lateral_at_door_m, 100, "{:+.1f} cm"),
                      Figure(summary.heading_at_door_deg, 1, "{:+.2f} deg"));
-  out << fmt::format("  smallest gap        {:.1f} cm, {} contact{}\n", summary.min_gap_m * 100,
-                     summary.contacts, summary.contacts == 1 ? "" : "s");
-  out << fmt::format("  speed               {:.2f} m/s mean, {} at least while fixing\n",
-                     summary.mean_speed_m_s, Figure(summary.min_speed_during_fix_m_s, 1, "{:.2f} m/s"));
+  out << fmt::format("  while fixing        {} at least\n",
+                     Figure(summary.min_speed_during_fix_m_s, 1, "{:.2f} m/s"));
 }
 
 void PrintRadio(std::ostream& out, std::string_view title, const RadioSummary& radio) {
@@ -73,9 +71,15 @@ void PrintSummary(std::ostream& out, const Summary& summary) {
   Rule(out, "run");
   out << fmt::format("  {}, seed {}: {} after {:.1f} s\n", summary.scenario, summary.seed, Verdict(summary),
                      summary.duration_s);
-  PrintFixes(out, summary);
-  PrintDrive(out, summary);
+  if (SeeksTheDoor(summary)) {
+    PrintFixes(out, summary);
+    PrintDoor(out, summary);
+  }
   if (summary.hand) PrintHand(out, *summary.hand);
+  Rule(out, "drive");
+  out << fmt::format("  smallest gap        {:.1f} cm, {} contact{}\n", summary.min_gap_m * 100,
+                     summary.contacts, summary.contacts == 1 ? "" : "s");
+  out << fmt::format("  speed               {:.2f} m/s mean\n", summary.mean_speed_m_s);
   Rule(out, "radio");
   PrintRadio(out, "up: robot to workstation", summary.up);
   PrintRadio(out, "down: workstation to robot", summary.down);

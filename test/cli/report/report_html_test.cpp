@@ -90,6 +90,17 @@ TEST(ReportHtml, TextFromTheBusIsEscaped) {
   EXPECT_THAT(dut, HasSubstr("&lt;img src=x&gt;"));
 }
 
+TEST(ReportHtml, ADriveByHandShowsNoFixesAndNoLooks) {
+  Summary summary = Summarise(RunRecord{}, TestInfo());
+  summary.hand = HandSummary{.wished_s = 20, .free_m = 10, .achieved_m = 9.4, .longest_stop_s = 0.5};
+  const std::string dut = ReportPage(RunRecord{}, summary, "");
+  EXPECT_THAT(dut, HasSubstr("<b>94.0 %</b>"));
+  EXPECT_THAT(dut, HasSubstr("<b>0.5 s</b>"));
+  EXPECT_THAT(dut, Not(HasSubstr("door plane")));
+  EXPECT_THAT(dut, Not(HasSubstr("<h2>Fixes")));
+  EXPECT_THAT(dut, Not(HasSubstr("<h2>Looks")));
+}
+
 TEST(ReportHtml, EmptyRecordGivesAPage) {
   const std::string dut = Page(RunRecord{});
   EXPECT_THAT(dut, HasSubstr("not passed"));

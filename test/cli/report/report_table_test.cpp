@@ -10,6 +10,7 @@ namespace priamos::cli {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string Printed(const Summary& summary) {
   std::ostringstream out;
@@ -26,6 +27,19 @@ TEST(ReportTable, ShowsTheFiguresOfAPassedRun) {
   EXPECT_THAT(dut, HasSubstr("5.2 cm, 0 contacts"));
   EXPECT_THAT(dut, HasSubstr("20 % of the line"));
   EXPECT_THAT(dut, HasSubstr("0.18 s old"));
+}
+
+TEST(ReportTable, ADriveByHandIsJudgedByWhatItsOperatorWished) {
+  Summary summary;
+  summary.hand = HandSummary{.wished_s = 20, .free_m = 10, .achieved_m = 9.4, .longest_stop_s = 0.5};
+  const std::string dut = Printed(summary);
+  EXPECT_THAT(dut, HasSubstr("of the motion that was truly free 94.0 % was honoured"));
+  EXPECT_THAT(dut, HasSubstr("longest stop in the passage while pushed: 0.5 s"));
+  EXPECT_THAT(dut, HasSubstr("smallest gap"));
+  EXPECT_THAT(dut, Not(HasSubstr("door plane")));
+  EXPECT_THAT(dut, Not(HasSubstr("fix")));
+  summary.fixes.emplace_back();
+  EXPECT_THAT(Printed(summary), HasSubstr("door plane"));
 }
 
 TEST(ReportTable, SaysWhatIsMissing) {

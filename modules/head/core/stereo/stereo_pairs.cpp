@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "head/core/stereo/space_edge.hpp"
+
 namespace priamos::head {
 namespace {
 
