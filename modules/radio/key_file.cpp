@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
@@ -45,6 +46,11 @@ void RefuseOpenMode(const std::string& path, int fd) {
                     path, info.st_mode & 0777U, path));
 }
 
+/// Of 10^16 random keys one has fewer than 16 different bytes.
+bool LooksRandom(const LinkKey& key) {
+  return key != SimulationKey() && std::set(key.begin(), key.end()).size() >= 16;
+}
+
 }  // namespace
 
 LinkKey ReadKeyFile(const std::string& path) {
@@ -67,6 +73,9 @@ LinkKey ReadKeyFile(const std::string& path) {
   if (!is_hex || bytes != key.size())
     throw std::runtime_error(fmt::format(
         "{}: expected 64 hexadecimal digits, got something else: copy it again from the other end", path));
+  if (!LooksRandom(key))
+    throw std::runtime_error(fmt::format(
+        "{}: expected a random key, got one that can be guessed: make one with `priamos link keygen`", path));
   return key;
 }
 

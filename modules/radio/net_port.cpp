@@ -140,7 +140,9 @@ void TuneTcp(const Fd& fd) {
 
 class TcpPort : public ByteStream {
  public:
-  explicit TcpPort(const NetAddress& address) : peer_(LookUp(address.host, address.port, SOCK_STREAM)) {
+  explicit TcpPort(const NetAddress& address)
+      : peer_(LookUp(address.host.empty() && address.loopback_only ? "127.0.0.1" : address.host, address.port,
+                     SOCK_STREAM)) {
     if (!address.host.empty()) return;
     listener_ = Socket(*peer_);
     Bind(listener_, *peer_, address.port);

@@ -17,6 +17,7 @@ struct NetAddress {
   std::string host;  ///< empty: wait for a connection
   std::string port;
   std::string local_port;
+  bool loopback_only = false;  ///< who waits is heard by this machine alone
 };
 
 /// True for what begins with "udp:" or "tcp:".

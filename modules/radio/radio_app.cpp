@@ -13,6 +13,7 @@
 #include "radio/file_store.hpp"
 #include "radio/key_file.hpp"
 #include "radio/net_port.hpp"
+#include "radio/private_line.hpp"
 
 namespace priamos::radio {
 namespace {
@@ -27,12 +28,6 @@ constexpr std::size_t kMostUnwritten = 64;
 std::optional<bus::Schema> TypesIn(const std::string& folder) {
   if (folder.empty()) return std::nullopt;
   return bus::Schema(bus::ReadTypeFiles(folder));
-}
-
-bool IsPseudoTerminal(const std::string& port) {
-  std::error_code error;
-  const auto real = std::filesystem::weakly_canonical(port, error);
-  return !error && real.string().rfind("/dev/pts/", 0) == 0;
 }
 
 }  // namespace
@@ -81,7 +76,8 @@ bus::radio::LinkConfig RadioApp::LoadLink() const {
 
 std::unique_ptr<ByteStream> RadioApp::OpenLine() const {
   if (!IsNetPort(config_.port)) return context_.OpenSerial(config_.port, link_config_.baud);
-  const NetAddress address = ParseNetAddress(config_.port);
+  NetAddress address = ParseNetAddress(config_.port);
+  address.loopback_only = link_config_.simulation_key;
   if (address.datagrams != link_config_.datagrams)
     throw ConfigError(fmt::format("radio link: datagrams: expected {} with port {}, got {}",
                                   address.datagrams, config_.port, link_config_.datagrams));
@@ -90,11 +86,15 @@ std::unique_ptr<ByteStream> RadioApp::OpenLine() const {
 
 bus::radio::LinkKey RadioApp::LoadKey() const {
   if (!link_config_.simulation_key) return ReadKeyFile(context_.ResolvePath(link_config_.key_file));
-  if (!context_.lockstep() && std::filesystem::exists(config_.port) && !IsPseudoTerminal(config_.port))
+  if (context_.lockstep()) return SimulationKey();
+  const bool is_there =
+      IsNetPort(config_.port) || std::filesystem::exists(config_.port);  // else see OpenLine
+  if (is_there && !IsPrivateLine(config_.port))
     throw ConfigError(
-        fmt::format("{}: simulation_key: expected false on the serial port {}, got true: make a key with "
-                    "`priamos link keygen`",
+        fmt::format("{}: simulation_key: expected false on {}, which others can reach, got true: make a key "
+                    "with `priamos link keygen`",
                     context_.ResolvePath(config_.link), config_.port));
+  context_.Log(bus::Level::kInfo, "the link has the simulation key, which everybody knows");
   return SimulationKey();
 }
 

@@ -1,5 +1,6 @@
 #include "radio/key_file.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -65,6 +66,18 @@ TEST_F(KeyFileTest, SomethingElseIsRefused) {
     std::ofstream(path) << text;
     chmod(path.c_str(), 0600);
     EXPECT_THAT(ErrorOfReading(), HasSubstr("64 hexadecimal digits")) << text;
+  }
+}
+
+TEST_F(KeyFileTest, AKeyThatCanBeGuessedIsRefused) {
+  std::string simulation;
+  for (const auto byte : SimulationKey()) simulation += fmt::format("{:02x}", byte);
+  std::string pattern;
+  while (pattern.size() < 64) pattern += "0123456789abcdef";
+  for (const std::string& text : {std::string(64, '0'), std::string(64, 'f'), pattern, simulation}) {
+    std::ofstream(path) << text;
+    chmod(path.c_str(), 0600);
+    EXPECT_THAT(ErrorOfReading(), HasSubstr("expected a random key")) << text;
   }
 }
 

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 /// Ports of this process: tests run side by side.
 int Port(int which) {
-  return 20000 + static_cast<int>(getpid() % 3000) * 4 + which;
+  return 20000 + static_cast<int>(getpid() % 2400) * 5 + which;
 }
 
 std::vector<std::byte> Bytes(std::initializer_list<int> values) {
@@ -89,6 +89,25 @@ TEST(NetPort, TcpConnectsAndConnectsAgain) {
   EXPECT_TRUE(arrives(std::byte{7}));
   client = OpenNetPort(ParseNetAddress("tcp:127.0.0.1:" + port));
   EXPECT_TRUE(arrives(std::byte{8}));
+}
+
+TEST(NetPort, WhoWaitsForThisMachineAloneIsNotFoundElsewhere) {
+  const std::string port = std::to_string(Port(4));
+  NetAddress address = ParseNetAddress("tcp::" + port);
+  for (const bool loopback_only : {false, true}) {
+    address.loopback_only = loopback_only;
+    const auto server = OpenNetPort(address);
+    const auto client = OpenNetPort(ParseNetAddress("tcp:127.0.0.2:" + port));  // not where it is bound
+    std::array<std::byte, 1> byte{std::byte{9}};
+    std::size_t arrived = 0;
+    for (int i = 0; i < 500 && arrived == 0; ++i) {
+      client->Read({});
+      client->Write(byte);
+      arrived = server->Read(byte);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(arrived, loopback_only ? 0u : 1u);
+  }
 }
 
 TEST(NetPort, ATakenPortIsASentence) {

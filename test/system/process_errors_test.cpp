@@ -96,6 +96,17 @@ TEST(RadioProcess, AbsentTtyNamesTheNextStep) {
   EXPECT_THAT(answer.text, HasSubstr("/dev/no-such-tty"));
 }
 
+TEST(RadioProcess, TheKeyThatEverybodyKnowsStaysOnThisMachine) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "link.toml") << "simulation_key = true\ndatagrams = true\n"
+                                         "[[channel]]\nname = \"POSE\"\ntype = \"pose_t\"\n";
+  const auto answer = RunCommand(Binary("priamos-radio") + " --config " + (folder / "link.toml").string() +
+                                 " --port udp:192.0.2.1:9000");
+  ExpectOneSentence(answer);
+  EXPECT_THAT(answer.text, HasSubstr("simulation_key: expected false on udp:192.0.2.1:9000"));
+  EXPECT_THAT(answer.text, HasSubstr("priamos link keygen"));
+}
+
 TEST(PriamosRun, UnknownScenarioIsAnsweredWithTheKnownOnes) {
   const auto answer = RunCommand(Binary("priamos") + " run --scenario nothing --deployment " + Config(""));
   ExpectOneSentence(answer);
