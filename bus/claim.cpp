@@ -56,8 +56,8 @@ void Claim::Meet(const ClaimWord& word, Time now) {
     state_ = state_ == State::kHeld ? State::kYielded : State::kRefused;
     return;
   }
-  if (state_ != State::kHeld || told_loser_ == word.who.instance) return;
-  told_loser_ = word.who.instance;
+  if (state_ != State::kHeld || reported_loser_ == word.who.instance) return;
+  reported_loser_ = word.who.instance;
   loser_ = word;
 }
 

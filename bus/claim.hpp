@@ -37,7 +37,7 @@ struct ClaimWord {
 /// holder is heard again kConfirm later, and asks on until nothing was heard of it for kAskFor.
 ///
 /// A process that stood still for kLapse may have lost its role to somebody who asked meanwhile: it begins
-/// anew at age 0, and what waits to be heard by then is not to be told to it (see Touch).
+/// anew at age 0, and messages that arrived meanwhile must be thrown away (see Touch).
 class Claim {
  public:
   /// How far the claim has come; kRefused (while it asked) and kYielded (while it held) are final.
@@ -70,7 +70,7 @@ class Claim {
   const Claimant& self() const { return self_; }
   /// Who refused it, or made it yield.
   const std::optional<ClaimWord>& winner() const { return winner_; }
-  /// One that held the same role and has to yield; told once for each.
+  /// A process that held the same role and has to yield; each is returned once.
   std::optional<ClaimWord> TakeLoser();
 
  private:
@@ -88,7 +88,7 @@ class Claim {
   std::optional<Time> said_, rival_heard_, holder_heard_;
   Duration frozen_{};  ///< age while a rival is heard
   std::optional<ClaimWord> winner_, loser_;
-  std::optional<std::int32_t> told_loser_;
+  std::optional<std::int32_t> reported_loser_;
 };
 
 }  // namespace priamos::bus

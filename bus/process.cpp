@@ -111,7 +111,7 @@ int RunFromLog(const AppFactory& factory, const Options& options) {
   return out && !out->good() ? kFailedWhileRunning : 0;
 }
 
-/// A configuration that cannot be used is told before anybody is asked for the role.
+/// Reports a configuration that cannot be used before the role is claimed.
 void RequireConfiguration(const AppFactory& factory, const ConfigSource& source) {
   std::ostream nowhere(nullptr);
   factory.print_config(nowhere, source);

@@ -22,7 +22,7 @@ struct Output {
 /// ticked, and gets the recorded messages in between, in their order.
 ///
 /// The clock begins with the App's own first HEALTH in the log, which it sends in its first tick, or with
-/// the first event when there is none. What the App itself sent is not fed to it, but tells when it had
+/// the first event when there is none. What the App itself sent is not fed to it, but shows when it had
 /// ticked: a message recorded at the very moment of a tick counts as heard before it, unless one of the
 /// App's own messages of that moment comes first. With a log from lockstep this is exact to the byte; a
 /// log of a live bus has the recorder's times, so ticks are off by up to a period.

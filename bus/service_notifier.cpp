@@ -35,11 +35,11 @@ bool ServiceNotifier::Say(std::string_view text) {
                 length_) == static_cast<ssize_t>(text.size());
 }
 
-/// What could not be said is said at the next occasion.
+/// What could not be sent is sent again at the next call.
 void ServiceNotifier::Beat(Time now) {
   if (fd_ < 0 || now < next_) return;
-  if (!Say(told_ready_ ? "WATCHDOG=1" : "READY=1\nWATCHDOG=1")) return;
-  told_ready_ = true;
+  if (!Say(ready_sent_ ? "WATCHDOG=1" : "READY=1\nWATCHDOG=1")) return;
+  ready_sent_ = true;
   next_ = now + kPeriod;
 }
 

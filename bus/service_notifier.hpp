@@ -9,7 +9,7 @@
 
 namespace priamos::bus {
 
-/// Tells whoever started this process, by the protocol of sd_notify(3), that it is ready and that it is
+/// Reports to whoever started this process, by the protocol of sd_notify(3), that it is ready and that it is
 /// alive. Unlike sd_notify it never waits: ten messages that nobody reads fill the socket, and a supervisor
 /// that stands still must not make its processes stand still as well.
 class ServiceNotifier {
@@ -31,7 +31,7 @@ class ServiceNotifier {
   int fd_ = -1;
   sockaddr_un address_{};
   socklen_t length_ = 0;
-  bool told_ready_ = false;
+  bool ready_sent_ = false;
   Time next_{};
 };
 

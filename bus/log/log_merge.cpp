@@ -41,7 +41,7 @@ struct Sighting {
 };
 using Sightings = std::map<std::string, Sighting>;  ///< by channel and content
 
-/// Knows for each type how to tell messages apart by what the radio carries.
+/// Identifies messages, for each type by what of it the radio carries.
 class Identifier {
  public:
   explicit Identifier(const Schema& schema) : schema_(schema) {}

@@ -54,7 +54,7 @@ bool LogReader::MagicAt(std::size_t offset) const {
   return offset + 4 <= bytes_.size() && ReadBigEndian<std::uint32_t>(&bytes_[offset]) == kMagic;
 }
 
-/// True when an event begins between the two, as far as its header tells.
+/// True when an event begins between the two: magic and a plausible length are there.
 bool LogReader::HoldsEvent(std::size_t begin, std::size_t end) const {
   for (std::size_t at = begin; at + 4 <= end; ++at)
     if (MagicAt(at) && EndOfEvent(at)) return true;

@@ -21,7 +21,7 @@ constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
 constexpr Duration kRetryPeriod = std::chrono::seconds(1);
 constexpr std::uint64_t kWorthARetry = 1 << 20;  // free bytes; with less the next file would end at once
 
-/// Writes all of it; on failure `written` tells how far it came.
+/// Writes all of it; on failure `written` is the number of bytes that were written.
 bool WriteAll(int fd, std::string_view bytes, std::size_t& written) {
   for (written = 0; written < bytes.size();) {
     const ssize_t n = write(fd, bytes.data() + written, bytes.size() - written);
@@ -138,7 +138,7 @@ void LogRecorder::Add(Time now, std::string_view channel, std::span<const std::b
 
 void LogRecorder::Lose() {
   ++lost_;
-  ++next_number_;  // a gap in the numbers tells the reader
+  ++next_number_;  // the reader reports the gap in the numbers as a loss
 }
 
 void LogRecorder::Split(Time now) {

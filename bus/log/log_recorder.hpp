@@ -22,7 +22,7 @@ struct RecorderLimits {
 
 /// Records a bus into log files that every LCM tool reads. It never blocks for longer than a write, never
 /// throws after the start, and a file always ends with a whole event: what a full disk cut off is taken
-/// back. After a failure it tells (alarm()), counts what it loses, and tries again once per second.
+/// back. After a failure it reports why (alarm()), counts what it loses, and tries again once per second.
 ///
 /// `path` is the first file; files after it are called `path` with .1, .2 ... before the extension.
 class LogRecorder {

@@ -24,7 +24,7 @@ class NumberSequence {
         number - expected_ <= kLargestGap) {
       gap_ = number - expected_;
       gap_end_ = number + 1;
-      return;  // expected_ stays, until the next event tells
+      return;  // the next event decides which number was wrong
     }
     started_ = true;
     expected_ = number + 1;

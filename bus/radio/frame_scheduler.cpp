@@ -83,13 +83,13 @@ FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, boo
   flight.urgent = urgent_only && from.outbox.queue().UrgentReady(now, true);
   flight.repeats = urgent_only && !flight.urgent;
   if (!urgent_only) {
-    flight.peer = from.peer.Tell(bundle,
+    flight.peer = from.peer.Load(bundle,
                                  {.highest = from.receiver.highest(),
                                   .at = from.receiver.heard_at(),
                                   .loss = from.receiver.loss().loss(),
                                   .floor = from.memory.receive_floor()},
                                  now);
-    flight.inbox = from.inbox.Tell(bundle);
+    flight.inbox = from.inbox.Load(bundle);
   }
   flight.outbox = from.outbox.Load(
       bundle, {.now = now,

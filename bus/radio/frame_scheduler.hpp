@@ -38,8 +38,8 @@ struct FrameInFlight {
   bool repeats = false;       ///< only what was urgent before: cut off by what is urgent now
   bool over = false;          ///< ends the turn
   std::size_t bundle_bytes = 0;
-  Peer::Told peer{};
-  MessageReceiver::Told inbox{};
+  Peer::Loaded peer{};
+  MessageReceiver::Loaded inbox{};
   MessageSender::Loaded outbox{};
 };
 

@@ -41,9 +41,9 @@ class Handshake {
   /// The hello has left whole.
   void OnSent() { ++sent_; }
 
-  /// Whether the other end must be told which counters to skip.
+  /// Whether a FloorEntry is to be sent: the counters that the other end must skip.
   bool floor_due() const { return floor_due_; }
-  /// Whether the other end said last that it has another channel table.
+  /// Whether the other end's last hello had another channel table.
   bool table_mismatch() const { return table_mismatch_; }
   std::uint64_t received() const { return received_; }
   std::uint64_t sent() const { return sent_; }

@@ -17,8 +17,7 @@ FrameScope ScopeOf(const ChannelTable& table) {
   return {table.hash(), table.encrypted()};
 }
 
-/// Whether the other end must be told which counters to skip: this end cannot tell those used from fresh
-/// ones.
+/// Whether the other end must skip counters: this end does not know which of those reserved were used.
 bool FloorDue(const LinkMemory& memory) {
   return memory.epoch() != 0 && !memory.floor_exact();
 }

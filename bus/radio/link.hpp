@@ -56,11 +56,11 @@ struct LinkStatus {
 /// its state waits for about 0.15 s (see EpochAgreement).
 ///
 /// It only joins its parts, each of which can be read alone: FrameReceiver (bytes to frames), MessageReceiver
-/// (frames to messages), Peer (what the ends told each other), MessageSender (messages to bundles),
+/// (frames to messages), Peer (what the ends report to each other), MessageSender (messages to bundles),
 /// FrameScheduler (bundles to bytes) and LinkMemory (what outlives the process).
 class LinkEndpoint {
  public:
-  /// `store` must outlive the endpoint. `outgoing` tells which end this is: the onboard end sends kUp.
+  /// `store` must outlive the endpoint. `outgoing` is kUp at the onboard end, kDown at the other one.
   LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey& key, const LinkOptions& options,
                StateStore& store, PackFunction pack, NonceSource nonces, Time now);
   LinkEndpoint& operator=(const LinkEndpoint&) = delete;

@@ -17,12 +17,12 @@ void Listeners::Listen(std::size_t channel, bool listening) {
 }
 
 bool Listeners::Due(Time now) const {
-  return changed_ || (here_ != 0 && now - told_at_.value_or(Time{}) >= kRepeat);
+  return changed_ || (here_ != 0 && now - sent_at_.value_or(Time{}) >= kRepeat);
 }
 
 ListenEntry Listeners::Take(Time now) {
   changed_ = false;
-  told_at_ = now;
+  sent_at_ = now;
   return {here_};
 }
 

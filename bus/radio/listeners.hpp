@@ -9,22 +9,22 @@
 
 namespace priamos::bus::radio {
 
-/// Who listens to on-request channels: those here, of whom the other end is told; and those at the other end,
-/// who are believed for some seconds after it spoke of them.
+/// Which on-request channels have listeners: here, as this end reports to the other one; and at the other
+/// end, whose report counts for some seconds.
 class Listeners {
  public:
   /// Whether somebody listens here to a channel of the other end.
   void Listen(std::size_t channel, bool listening);
   /// Whether the other end does not know yet who listens here.
   bool changed() const { return changed_; }
-  /// Whether the other end is to be told who listens here: after a change, and now and then.
+  /// Whether a report to the other end is due: after a change, and now and then.
   bool Due(Time now) const;
-  /// What it is told; that counts as sent.
+  /// The report; it counts as sent.
   ListenEntry Take(Time now);
   /// The frame with it was cut off: it is due again.
   void Return() { changed_ = true; }
 
-  /// The other end said that somebody listens there.
+  /// Takes the other end's report.
   void OnListen(const ListenEntry& listen, Time now);
   /// Whether the other end has been silent about its listeners for too long: nobody is believed to listen any
   /// more. True once.
@@ -33,7 +33,7 @@ class Listeners {
  private:
   std::uint64_t here_ = 0;  ///< bit i: somebody listens to channel i
   bool changed_ = false;
-  std::optional<Time> told_at_;
+  std::optional<Time> sent_at_;
   std::optional<Time> believed_until_;
 };
 

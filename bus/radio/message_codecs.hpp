@@ -23,7 +23,8 @@ class MessageCodecs {
   std::optional<Packed> Pack(std::size_t channel, std::span<const std::byte> encoded, Time now) const;
   /// The LCM message; nullopt when the other end sent something else.
   std::optional<std::vector<std::byte>> Unpack(const Delivery& delivery) const;
-  /// What tells messages apart that do not replace each other; empty without a key field.
+  /// Value of the key field: messages with different keys do not replace each other. Empty without a key
+  /// field.
   std::string KeyOf(std::size_t channel, std::span<const std::byte> encoded) const;
 
  private:

@@ -64,21 +64,21 @@ bool MessageReceiver::AckDue() const {
   return std::any_of(events_.begin(), events_.end(), [](const EventReceiver& r) { return r.ack_due(); });
 }
 
-MessageReceiver::Told MessageReceiver::Tell(BundleBuilder& bundle) {
-  Told told{.forget = std::exchange(forget_due_, false), .acks = {}};
-  if (told.forget) bundle.Add(ForgetEntry{});
+MessageReceiver::Loaded MessageReceiver::Load(BundleBuilder& bundle) {
+  Loaded loaded{.forget = std::exchange(forget_due_, false), .acks = {}};
+  if (loaded.forget) bundle.Add(ForgetEntry{});
   for (std::size_t i = 0; i < events_.size(); ++i) {
     if (!events_[i].ack_due()) continue;
     if (!bundle.Add(EventAckEntry{i, events_[i].ack()})) break;
     events_[i].set_ack_due(false);
-    told.acks.push_back(i);
+    loaded.acks.push_back(i);
   }
-  return told;
+  return loaded;
 }
 
-void MessageReceiver::Return(const Told& told) {
-  forget_due_ = forget_due_ || told.forget;
-  for (const std::size_t channel : told.acks) events_[channel].set_ack_due(true);
+void MessageReceiver::Return(const Loaded& loaded) {
+  forget_due_ = forget_due_ || loaded.forget;
+  for (const std::size_t channel : loaded.acks) events_[channel].set_ack_due(true);
 }
 
 }  // namespace priamos::bus::radio

@@ -56,17 +56,17 @@ class MessageReceiver {
   /// The other end's numbering of events began anew.
   void ForgetEvents();
 
-  /// What a frame carried of this, to be given back when it is cut off.
-  struct Told {
+  /// Which entries a frame carries, to be given back when it is cut off.
+  struct Loaded {
     bool forget = false;
-    std::vector<std::size_t> acks;  ///< channels
+    std::vector<std::size_t> acks;  ///< channels whose acknowledgements are in it
   };
   bool AckDue() const;
-  /// Whether a frame is to be made for the sake of an entry of Tell().
+  /// Whether a frame is to be made for the sake of an entry of Load().
   bool Due() const { return forget_due_ || AckDue(); }
-  /// Adds what is due; that counts as sent.
-  Told Tell(BundleBuilder& bundle);
-  void Return(const Told& told);
+  /// Adds the entries that are due; they count as sent.
+  Loaded Load(BundleBuilder& bundle);
+  void Return(const Loaded& loaded);
 
   const DeliveryCounters& counters(std::size_t channel) const { return counters_[channel]; }
   std::vector<EventReceiver>& events() { return events_; }

@@ -2,17 +2,17 @@
 
 namespace priamos::bus::radio {
 
-Peer::Told Peer::Tell(BundleBuilder& bundle, const Heard& heard, Time now) {
-  Told told{.frame_ack = acks.Due(now), .listeners = listeners.Due(now)};
-  if (told.frame_ack) bundle.Add(acks.Take(heard.highest, heard.at, heard.loss, now));
+Peer::Loaded Peer::Load(BundleBuilder& bundle, const Heard& heard, Time now) {
+  Loaded loaded{.frame_ack = acks.Due(now), .listeners = listeners.Due(now)};
+  if (loaded.frame_ack) bundle.Add(acks.Take(heard.highest, heard.at, heard.loss, now));
   if (handshake.floor_due()) bundle.Add(FloorEntry{heard.floor});
-  if (told.listeners) bundle.Add(listeners.Take(now));
-  return told;
+  if (loaded.listeners) bundle.Add(listeners.Take(now));
+  return loaded;
 }
 
-void Peer::Return(const Told& told) {
-  if (told.frame_ack) acks.Return();
-  if (told.listeners) listeners.Return();
+void Peer::Return(const Loaded& loaded) {
+  if (loaded.frame_ack) acks.Return();
+  if (loaded.listeners) listeners.Return();
 }
 
 void Peer::OnEpochChanged() {

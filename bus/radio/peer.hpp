@@ -9,7 +9,7 @@
 
 namespace priamos::bus::radio {
 
-/// What both ends have told each other, messages apart: agreement, frames acknowledged, listeners.
+/// What both ends report to each other besides messages: agreement, frames acknowledged, listeners.
 struct Peer {
   Handshake handshake;
   FrameAckSender acks{};  ///< acknowledgements of the other end's frames
@@ -23,16 +23,16 @@ struct Peer {
     double loss = 0;            ///< share of frames lost, 0..1
     std::uint64_t floor = 0;    ///< highest counter that counts as used
   };
-  /// What a frame carried of this, to be given back when it is cut off.
-  struct Told {
+  /// Which entries a frame carries, to be given back when it is cut off.
+  struct Loaded {
     bool frame_ack = false;
     bool listeners = false;
   };
-  /// Whether a frame is to be made for the sake of an entry of Tell().
+  /// Whether a frame is to be made for the sake of an entry of Load().
   bool Due() const { return acks.Pressing() || listeners.changed(); }
-  /// Adds what is due; that counts as sent.
-  Told Tell(BundleBuilder& bundle, const Heard& heard, Time now);
-  void Return(const Told& told);
+  /// Adds the entries that are due; they count as sent.
+  Loaded Load(BundleBuilder& bundle, const Heard& heard, Time now);
+  void Return(const Loaded& loaded);
   /// Counters begin anew.
   void OnEpochChanged();
 };

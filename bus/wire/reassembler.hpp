@@ -43,7 +43,7 @@ class Reassembler {
   enum class Result { kWaiting, kBegun, kComplete, kMalformed };
 
   /// Takes one datagram that begins with `LC03`. kBegun: it is the first one heard of its message;
-  /// kComplete: `message` is whole (kBegun was told before, as no message has only one fragment).
+  /// kComplete: `message` is whole (kBegun was returned before, as no message has only one fragment).
   Result Add(std::uint64_t sender, std::span<const std::byte> datagram, Message& message);
 
   /// Messages that began and never became whole.

@@ -37,7 +37,7 @@ std::vector<std::string> KnownDeployments(const ProgramPlace& place);
 /// it. Throws ConfigError that names the known ones and the places searched.
 std::string FindDeployment(const std::string& given, const ProgramPlace& place);
 
-/// Where runs are written unless told otherwise: $PRIAMOS_LOGS; logs/ of the clone; else
+/// Where runs are written by default: $PRIAMOS_LOGS; logs/ of the clone; else
 /// $XDG_STATE_HOME/priamos, without it
 /// ~/.local/state/priamos. Throws ConfigError without a home.
 std::string LogFolder(const ProgramPlace& place);

@@ -28,7 +28,7 @@ std::string ShmName(const std::string& name) {
   return "/priamos-" + name;
 }
 
-/// Tells one memory of a name from the next one of the same name; 0 when there is none.
+/// Inode of the shared memory: a later one of the same name has another. 0 when there is none.
 ino_t InodeOf(const std::string& path) {
   const int fd = shm_open(path.c_str(), O_RDONLY | O_CLOEXEC, 0);
   if (fd < 0) return 0;

@@ -7,7 +7,7 @@
 
 namespace priamos::head {
 
-/// What F does not tell.
+/// Errors that F does not contain.
 struct ReportedErrors {
   ReconstructionErrors stereo;
   Outcome<HeldOutErrors> held_out = Refusal{"not predicted"};
@@ -24,7 +24,7 @@ void WriteCalibrationReport(const std::string& folder, const std::vector<HeadVie
                             const HeadCalibration& result, const ReportedErrors& errors,
                             const HeadSetting& at);
 
-/// The 11 physical parameters of one calibrated camera, for a person; why not if they cannot be told.
+/// The 11 physical parameters of one calibrated camera, for a person; why not if they cannot be determined.
 std::string PhysicalParameters(const HeadModel& head, const HeadSetting& at, int camera);
 
 }  // namespace priamos::head

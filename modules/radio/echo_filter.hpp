@@ -10,7 +10,7 @@
 
 namespace priamos::radio {
 
-/// Tells a message that this process put on the bus from one of somebody else: a channel that crosses the
+/// Recognises messages that this process itself put on the bus: a channel that crosses the
 /// link in both directions would otherwise send back what it brought, for ever.
 class EchoFilter {
  public:

@@ -92,7 +92,7 @@ void RobotApp::Yield(Time now) {
 void RobotApp::TakeWheels(Time now) {
   bool moved = false;
   for (const wheel_state_t& message : wheels_.Drain()) {
-    if (bool(message.contested) != contested_) TellContest(message);
+    if (bool(message.contested) != contested_) ReportContest(message);
     if (!localiser_.AddWheels(FromMessage(message), now)) continue;
     wheels_heard_ = now;
     moved = true;
@@ -171,7 +171,7 @@ void RobotApp::Rearm() {
   context_.Log(bus::Level::kInfo, "re-armed; a new order is needed to move");
 }
 
-/// After the wheels were told to stand: a slow disk delays nothing.
+/// After the order to stand was sent to the wheels: a slow disk delays nothing.
 void RobotApp::KeepEstop(Time now) {
   if (!drive_.estop() || (keep_again_ && now < *keep_again_)) return;
   try {
@@ -232,7 +232,7 @@ void RobotApp::Drive(Time now) {
   commands_wheels_ = speeds.has_value();
   if (speeds) wheel_command_.Publish(ToMessage(*speeds, context_.claimant(), now));
   if (estimate) pose_.Publish(ToMessage(*estimate));
-  Tell(drive_.state());
+  Report(drive_.state());
 }
 
 void RobotApp::SendStatus(Time now) {
@@ -243,7 +243,7 @@ void RobotApp::SendStatus(Time now) {
   status_.Publish(ToMessage(drive_.state(), speed_m_s, now));
 }
 
-void RobotApp::TellContest(const wheel_state_t& message) {
+void RobotApp::ReportContest(const wheel_state_t& message) {
   contested_ = message.contested;
   context_.Log(bus::Level::kWarning,
                contested_
@@ -253,9 +253,9 @@ void RobotApp::TellContest(const wheel_state_t& message) {
                    : "the wheels are commanded by one process again");
 }
 
-void RobotApp::Tell(const DriveState& state) {
-  if (state.holder != told_holder_) {
-    told_holder_ = state.holder;
+void RobotApp::Report(const DriveState& state) {
+  if (state.holder != reported_holder_) {
+    reported_holder_ = state.holder;
     context_.Log(
         bus::Level::kInfo,
         fmt::format("the lease is {}", state.holder.driver == Driver::kNobody
@@ -264,8 +264,8 @@ void RobotApp::Tell(const DriveState& state) {
                                                          state.holder.session)));
   }
   const auto cause = state.failsafe.cause;
-  if (cause == told_) return;
-  told_ = cause;
+  if (cause == reported_cause_) return;
+  reported_cause_ = cause;
   if (!cause) {
     context_.SetHealth(bus::Health::kOk);
     context_.Log(bus::Level::kInfo, "nothing stops the base any more");

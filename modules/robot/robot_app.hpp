@@ -49,8 +49,8 @@ class RobotApp {
   void AnswerFixes(Time now);
   void Drive(Time now);
   void SendStatus(Time now);
-  void Tell(const DriveState& state);
-  void TellContest(const wheel_state_t& message);
+  void Report(const DriveState& state);
+  void ReportContest(const wheel_state_t& message);
 
   RobotConfig config_;
   bus::Context& context_;
@@ -77,9 +77,9 @@ class RobotApp {
   bus::Publisher<pose_correction_t> correction_;
 
   std::optional<Time> wheels_heard_, head_heard_, link_down_since_, status_sent_, keep_again_;
-  LeaseHolder told_holder_;
+  LeaseHolder reported_holder_;
   int floor_lines_refused_ = 0;
-  std::optional<Condition> told_;
+  std::optional<Condition> reported_cause_;
 };
 
 }  // namespace priamos::robot

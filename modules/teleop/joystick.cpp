@@ -33,7 +33,7 @@ class Joystick : public StickDevice {
         Close();  // unplugged: ENODEV, or the end of the stream
       }
     }
-    // The kernel tells of changes only, and of an unplugged device for certain.
+    // The kernel reports changes only, and reliably that a device was unplugged.
     if (fd_ >= 0) stick_.heard = now;
     return stick_;
   }

@@ -46,7 +46,7 @@ class SpaceMouse : public StickDevice {
     open_ = false;
     stick_ = {};
   }
-  /// libspnav does not tell a closed connection from an idle one.
+  /// libspnav does not distinguish a closed connection from an idle one.
   static bool DaemonIsGone() {
     char byte = 0;
     return recv(spnav_fd(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;

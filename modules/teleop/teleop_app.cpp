@@ -11,7 +11,7 @@ namespace {
 
 constexpr Duration kShowPeriod = std::chrono::milliseconds(100);
 
-/// Tells two teleop processes apart.
+/// Distinguishes two teleop processes.
 int DrawSession(const bus::Context& context) {
   if (context.lockstep()) return static_cast<int>(Rng::Stream(context.seed(), "teleop session").Below(256));
   return static_cast<int>(std::random_device{}() % 256);
@@ -36,7 +36,7 @@ void TeleopApp::Tick(Time now) {
   TakeStatus();
   stick_ = device_->Poll(now);
   Send(pilot_.Step(stick_, robot_, now), now);
-  Tell();
+  ReportPhase();
   if (config_.show) Show(now);
 }
 
@@ -60,11 +60,11 @@ void TeleopApp::Send(const PilotOutput& output, Time now) {
   if (output.head) head_drive_.Publish(ToMessage(*output.head, next(head_), time_to_live_s, now));
 }
 
-void TeleopApp::Tell() {
-  if (told_ == pilot_.phase()) return;
-  const bool was_gone = told_ == PilotPhase::kNoDevice;
-  told_ = pilot_.phase();
-  if (told_ == PilotPhase::kNoDevice) {
+void TeleopApp::ReportPhase() {
+  if (reported_ == pilot_.phase()) return;
+  const bool was_gone = reported_ == PilotPhase::kNoDevice;
+  reported_ = pilot_.phase();
+  if (reported_ == PilotPhase::kNoDevice) {
     context_.SetHealth(bus::Health::kDegraded, device_->Describe());
     context_.Log(bus::Level::kWarning, device_->Describe());
   } else {

@@ -35,7 +35,7 @@ class TeleopApp {
  private:
   void TakeStatus();
   void Send(const PilotOutput& output, Time now);
-  void Tell();
+  void ReportPhase();
   void Show(Time now);
 
   TeleopConfig config_;
@@ -46,7 +46,7 @@ class TeleopApp {
   Sender base_, head_;
   RobotView robot_;
   std::optional<drive_status_t> newest_;
-  std::optional<PilotPhase> told_;
+  std::optional<PilotPhase> reported_;
   std::optional<Time> shown_;
 
   bus::Latest<drive_status_t> status_;

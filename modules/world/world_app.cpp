@@ -65,7 +65,7 @@ void WorldApp::Tick(Time now) {
 
 void WorldApp::PublishSamples() {
   if (const auto wheels = simulation_.TakeWheels()) {
-    TellContest(wheels->reading);
+    ReportContest(wheels->reading);
     wheels_.Publish(ToMessage(*wheels));
   }
   if (const auto head = simulation_.TakeHead()) head_.Publish(ToMessage(*head));
@@ -84,11 +84,11 @@ void WorldApp::PublishFrames(Time now) {
   }
 }
 
-void WorldApp::TellContest(const WheelReading& reading) {
-  if (reading.contested && !told_contest_)
+void WorldApp::ReportContest(const WheelReading& reading) {
+  if (reading.contested && !reported_contest_)
     context_.Log(bus::Level::kWarning,
                  "two processes command the wheels: they are held, and neither is obeyed");
-  told_contest_ = reading.contested;
+  reported_contest_ = reading.contested;
 }
 
 /// All of them: who commands beside another must not be hidden by it.

@@ -39,7 +39,7 @@ class WorldApp {
   void PublishFrames(Time now);
   void TakeCommands(Time now);
   void TakeWheelCommands();
-  void TellContest(const WheelReading& reading);
+  void ReportContest(const WheelReading& reading);
   std::unique_ptr<RenderExecutor> MakeExecutor(const WorldConfig& config) const;
 
   bus::Context& context_;
@@ -57,7 +57,7 @@ class WorldApp {
   bus::Publisher<head_state_t> head_;
   bus::Publisher<camera_frame_t> frames_;
   bus::Publisher<world_truth_t> truth_;
-  bool told_contest_ = false;
+  bool reported_contest_ = false;
 };
 
 /// What draws this world; it holds the renderer. To be called in the thread that will draw.

@@ -109,7 +109,7 @@ class BundleReader {
   BundleReader(const ChannelTable& table, Direction incoming, std::span<const std::byte> bundle)
       : table_(table), incoming_(incoming), in_(bundle) {}
 
-  /// nullopt at the end or where reading cannot go on; ok() tells which.
+  /// The next entry; nullopt at the end (ok() is true) or where reading cannot go on (false).
   std::optional<BundleEntry> Next() {
     if (in_.left() < static_cast<std::size_t>(table_.id_bits())) return std::nullopt;
     const std::uint64_t id = in_.Get(table_.id_bits());

@@ -25,7 +25,7 @@ struct LinkChannel {
   std::uint64_t fingerprint = 0;  ///< names its message type and the codes of its packing
   Direction direction = Direction::kUp;
   ChannelClass channel_class = ChannelClass::kState;
-  std::uint32_t fixed_bits = 0;  ///< packed size when it is always the same; 0: every message tells its own
+  std::uint32_t fixed_bits = 0;  ///< packed size if it is always the same; 0: it is sent with every message
   std::uint32_t max_bits = 0;    ///< largest packed size
   ValueWidths delta{};           ///< state: may be sent as difference between such values; empty: never
   // How the sender treats it.

@@ -27,8 +27,8 @@ inline constexpr int kBaselineBits = 6;
 BitWriter EncodeDelta(const ValueWidths& widths, std::span<const std::byte> baseline,
                       std::span<const std::byte> message);
 
-/// One difference as it stands in the bits, read over: its length follows from the widths alone. The reader
-/// tells by ok() whether it was whole.
+/// Reads one encoded difference without applying it: its length follows from the widths alone. The reader's
+/// ok() is false if it was cut off.
 std::vector<std::byte> TakeDelta(const ValueWidths& widths, BitReader& in);
 
 /// Message that a difference to `baseline` stands for; nullopt when the bits end early.

@@ -20,7 +20,7 @@ namespace priamos::bus::radio {
 inline constexpr std::size_t kSegmentBytes = 26;
 /// Segments under way at most: one event of 1456 bytes.
 inline constexpr std::size_t kEventWindow = 56;
-/// Segments behind the first missing one that an acknowledgement tells of.
+/// Segments behind the first missing one whose receipt an acknowledgement reports.
 inline constexpr std::size_t kAckWindow = 16;
 
 /// Estimate of when an acknowledgement is overdue (Jacobson, Karels 1988; samples as in Karn, Partridge

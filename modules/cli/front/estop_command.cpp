@@ -27,9 +27,9 @@ struct EstopOptions {
   double wait_s = 5;
 };
 
-/// Says how it went; `after` is none when nobody answered, then `why` is the hint. Written by hand: the
-/// e-stop links little.
-int Tell(const EstopOptions& options, std::optional<Duration> after, const std::string& why = "") {
+/// Prints the result; `after` is none when nobody answered, then `why` is the hint. JSON is written by hand,
+/// for the e-stop links few libraries.
+int Report(const EstopOptions& options, std::optional<Duration> after, const std::string& why = "") {
   if (options.json)
     std::cout << fmt::format("{{\"action\":\"{}\",\"confirmed\":{},\"after_s\":{}}}\n",
                              options.rearm ? "REARM" : "STOP", after.has_value(),
@@ -45,7 +45,7 @@ int Tell(const EstopOptions& options, std::optional<Duration> after, const std::
   return 0;
 }
 
-/// Says it at once, and again until the robot's status shows it.
+/// Sends the order at once, and again until the robot's status shows its effect.
 int Run(const EstopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const bus::MonotonicClock clock;
@@ -55,11 +55,11 @@ int Run(const EstopOptions& options) {
   const auto status = node.Subscribe(channels::kDriveStatus);
   const Time begin = clock.Now();
   std::optional<EstopSilence> silence;
-  for (Time said = begin - kAgain; clock.Now() - begin < FromSeconds(options.wait_s);) {
-    if (clock.Now() - said >= kAgain) {
-      said = clock.Now();
+  for (Time sent = begin - kAgain; clock.Now() - begin < FromSeconds(options.wait_s);) {
+    if (clock.Now() - sent >= kAgain) {
+      sent = clock.Now();
       estop_t message{};
-      message.utime = ToUtime(said);
+      message.utime = ToUtime(sent);
       message.action = options.rearm ? estop_t::REARM : estop_t::STOP;
       message.driver = lease_request_t::CONSOLE;
       estop.Publish(message);
@@ -69,12 +69,12 @@ int Run(const EstopOptions& options) {
     bus.Drain();
     // A status from before the order proves nothing.
     if (status.get() && FromUtime(status.get()->utime) > begin && bool(status.get()->estop) != options.rearm)
-      return Tell(options, clock.Now() - begin);
-    // Not before the order has been said.
+      return Report(options, clock.Now() - begin);
+    // Not before the order has been sent.
     if (!silence) silence.emplace(options.bus);
     silence->Drain();
   }
-  return Tell(options, std::nullopt, silence ? silence->Why() : "");
+  return Report(options, std::nullopt, silence ? silence->Why() : "");
 }
 
 }  // namespace

@@ -52,9 +52,9 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
       lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
 
   const Time start = lockstep.now();
-  std::vector<StoryLine> told;
+  std::vector<StoryLine> lines;
   const auto progress = [&](Time now, const std::string& text) {
-    told.push_back({Seconds(now - start), text});
+    lines.push_back({Seconds(now - start), text});
     if (request.progress) request.progress(Time(now - start), text);
   };
   const auto story = story_kind.make({scenario, request.seed, lockstep.DriverNode("onboard"),
@@ -73,7 +73,7 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
                      factor,
                      door,
                      story->Reason(),
-                     told,
+                     lines,
                      LoadTrueWorld(request.deployment, scenario, request.seed)};
   Summary summary = Summarise(recorder.record(), info);
   summary.reason = Judge(scenario, *story, summary);

@@ -19,9 +19,9 @@ struct SelectionOptions {
 
 void AddSelectionOptions(CLI::App& verb, SelectionOptions& options);
 
-/// Throws std::runtime_error with a sentence for a --rename that is none. `log` tells where times begin. A
-/// channel asked for by name that `log` does not have is told on standard error, with the nearest ones it
-/// has.
+/// What the options select. `log` is read for the time at which it begins. A channel asked for by name that
+/// `log` does not have is reported on standard error, with the nearest names that it has. Throws
+/// std::runtime_error with a sentence for a --rename that cannot be read.
 bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string& log);
 
 /// Throws std::runtime_error when `out` exists (unless `force`), or is the very file that is being read.

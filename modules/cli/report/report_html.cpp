@@ -101,7 +101,7 @@ std::string FixTable(const Summary& summary) {
   return table + "</table></div>\n";
 }
 
-/// What the planner said since the order; of a run without a planner what was told in the terminal.
+/// Texts of the planner's status since the order; without a planner the lines shown in the terminal.
 std::vector<StoryLine> Phases(const RunRecord& record, const Summary& summary) {
   const MissionSpan span = SpanOf(record);
   std::vector<StoryLine> phases;

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Points nearer than this to the one before cannot be told from it.
+/// Points nearer than this to the one before coincide with it in the figure.
 constexpr double kFine_px = 0.7;
 /// Labels look at lines in steps of so many pixels.
 constexpr double kStep_px = 8;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kWidth = 400, kHeight = 230, kLeft = 46, kRight = 12, kTop = 52, kBottom = 28;
 /// Base line of the legend, below the title: together they would not fit a telephone.
 constexpr double kLegend = 40;
-/// More points than this in one line cannot be told apart in the figure.
+/// More points than this in one line cannot be distinguished in the figure.
 constexpr std::size_t kMostPoints = 700;
 
 /// 1, 2 or 5 times a power of ten, so that an axis of `span` gets about `wanted` steps.

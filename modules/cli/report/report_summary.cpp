@@ -80,7 +80,7 @@ RadioSummary RadioOf(const std::vector<link_status_t>& reports) {
   radio.bytes = last.bytes_sent;
   radio.frames = last.frames_sent;
   radio.dropped = last.dropped;
-  // A link with many channels tells of some of them at a time.
+  // A link with many channels reports some of them at a time.
   std::map<std::string, RadioSummary::ChannelSummary> channels;
   for (const link_status_t& report : reports)
     for (const link_channel_t& channel : report.channels)

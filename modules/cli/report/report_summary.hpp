@@ -38,7 +38,7 @@ struct RadioSummary {
   std::vector<ChannelSummary> channels;  ///< for the table; not in summary.json
 };
 
-/// What was told while the run went on.
+/// A line that was shown while the run went on.
 struct StoryLine {
   double t_s = 0;  ///< since the start of the run
   std::string text;
@@ -49,7 +49,7 @@ struct Summary {
   std::string scenario;
   std::uint64_t seed = 0;
   bool passed = false;  ///< the mission says DONE and the base truly is behind the door
-  std::string reason;   ///< last words of the story; why, when it has not passed
+  std::string reason;   ///< last line of the story; why, if it has not passed
   int contacts = 0;
   double min_gap_m = 0;                     ///< smallest true distance of the footprint to anything
   std::optional<double> lateral_at_door_m;  ///< none when the door was not crossed
@@ -74,8 +74,8 @@ struct RunInfo {
   std::uint64_t seed = 0;
   double realtime_factor = 1;
   DoorPlan door;                 ///< the door that was to be passed, from the ground plan
-  std::string reason;            ///< last words of the story
-  std::vector<StoryLine> story;  ///< what was told meanwhile
+  std::string reason;            ///< last line of the story
+  std::vector<StoryLine> story;  ///< the lines shown meanwhile
   TrueWorld world;               ///< what was in it
 };
 

@@ -30,8 +30,8 @@ enum class OrderOutcome {
 
 std::string_view Text(OrderOutcome outcome);
 
-/// An order to the planner and what it answers. The planner tells how its mission stands and says nothing
-/// about single orders, so what it said before the order is compared with what it says afterwards; times are
+/// An order to the planner and what it answers. The planner reports the state of its mission and does
+/// not answer single orders, so its status before the order is compared with its status afterwards; times are
 /// those of arrival, for the two may have different clocks. Pure: time and messages are given.
 class MissionOrder {
  public:

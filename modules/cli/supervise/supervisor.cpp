@@ -95,8 +95,8 @@ std::string HowEnded(int status, const std::string& output_file) {
 
 }  // namespace
 
-Supervisor::Supervisor(std::vector<ProcessSpec> specs, std::string output_folder, Tell tell)
-    : output_folder_(std::move(output_folder)), tell_(std::move(tell)) {
+Supervisor::Supervisor(std::vector<ProcessSpec> specs, std::string output_folder, Announce announce)
+    : output_folder_(std::move(output_folder)), announce_(std::move(announce)) {
   for (ProcessSpec& spec : specs) {
     WatchPolicy policy = spec.policy;
     if (!spec.notifies) policy.watchdog = Duration::zero();
@@ -165,7 +165,7 @@ void Supervisor::Listen(Time now) {
       if (message.alive) child.watch.SaidAlive(now);
       if (!message.ready || child.watch.state() != ProcessState::kStarting) continue;
       child.watch.SaidReady(now);
-      tell_(fmt::format("{} is ready", child.spec.name));
+      announce_(fmt::format("{} is ready", child.spec.name));
     }
   }
 }
@@ -198,7 +198,7 @@ void Supervisor::Reap(Time now) {
     const bool asked = child.watch.state() == ProcessState::kStopping;
     child.watch.Exited(HowEnded(status, OutputFile(child)), now);
     if (!asked)
-      tell_(fmt::format(
+      announce_(fmt::format(
           "{} ended: {}{}", child.spec.name, child.watch.reason(),
           child.watch.alarm() ? fmt::format("  ALARM: {} times in a row", child.watch.failures()) : ""));
   }

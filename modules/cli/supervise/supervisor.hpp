@@ -41,17 +41,18 @@ struct ProcessReport {
 /// so nothing is ever orphaned. Used by one thread; that thread must be the one that ends last.
 class Supervisor {
  public:
-  using Tell = std::function<void(const std::string& sentence)>;
+  /// Called with a sentence for each change that a person should know of.
+  using Announce = std::function<void(const std::string& sentence)>;
 
   /// Each process writes to `output_folder`/NAME.txt. Throws std::invalid_argument when a name in `after`
   /// does not exist or names depend on each other in a circle.
-  Supervisor(std::vector<ProcessSpec> specs, std::string output_folder, Tell tell);
+  Supervisor(std::vector<ProcessSpec> specs, std::string output_folder, Announce announce);
   /// Ends what still runs.
   ~Supervisor();
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// Becomes readable when a process said something.
+  /// Becomes readable when a process has sent a notification.
   int fd() const { return notify_.fd(); }
   /// Looks at everything once; call it whenever fd() is readable, and every 50 ms.
   void Step(Time now);
@@ -81,7 +82,7 @@ class Supervisor {
   std::string OutputFile(const Child& child) const;
 
   std::string output_folder_;
-  Tell tell_;
+  Announce announce_;
   NotifySocket notify_;
   std::vector<Child> children_;
   Time last_step_{}, next_look_{};

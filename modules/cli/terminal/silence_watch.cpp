@@ -84,10 +84,10 @@ void SilenceWatch::Step(Time now) {
   if (!here_) return;
   here_->Drain(now);
   if (other_) other_->Drain(now);
-  if (now >= until_) Tell(now);
+  if (now >= until_) Explain(now);
 }
 
-void SilenceWatch::Tell(Time now) {
+void SilenceWatch::Explain(Time now) {
   if (!here_) return;
   here_->Drain(now);
   const auto other = other_ ? std::optional(other_->Sound()) : std::nullopt;

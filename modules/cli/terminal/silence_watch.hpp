@@ -13,7 +13,7 @@ namespace priamos::cli {
 /// Names of PRIAMOS's channels; `events`: only those without a rate.
 std::vector<std::string> ChannelNames(bool events);
 
-/// Tells a person who waits in vain why: listens to both buses of the robot until something came or its
+/// Explains to a person why nothing arrives: listens to both buses of the robot until something came or its
 /// patience is over, then writes one sentence to standard error, once.
 class SilenceWatch {
  public:
@@ -24,18 +24,18 @@ class SilenceWatch {
   SilenceWatch(const SilenceWatch&) = delete;
   SilenceWatch& operator=(const SilenceWatch&) = delete;
 
-  /// Something came: there is nothing to tell.
+  /// Something came: there is nothing to explain.
   void Heard();
   /// To be called often.
   void Step(Time now);
-  /// Tells it now when nothing came.
-  void Tell(Time now);
+  /// Writes the sentence now if nothing came.
+  void Explain(Time now);
 
  private:
   struct Ear;
   std::string who_, channel_;
   std::unique_ptr<bus::Schema> schema_;
-  std::unique_ptr<Ear> here_, other_;  ///< none when there is nothing to tell any more
+  std::unique_ptr<Ear> here_, other_;  ///< none when there is nothing left to explain
   Time until_;
 };
 

@@ -24,7 +24,7 @@ struct EchoOptions : BusOptions {
   bool json = false;
 };
 
-/// The type that a channel of PRIAMOS carries; nullptr for others, which tell it with their first message.
+/// The type that a channel of PRIAMOS carries; nullptr for others, whose first message shows it.
 const bus::Struct* TypeOf(const bus::Schema& schema, const std::string& name) {
   const bus::Struct* type = nullptr;
   const auto look = [&]<class T>(const Channel<T>& channel) {

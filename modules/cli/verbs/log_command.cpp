@@ -127,7 +127,7 @@ int Copy(const LogOptions& options) {
   return 0;
 }
 
-int Tell(const LogOptions& options, const bus::ExportCount& count, const bus::LogReader& reader) {
+int ReportExport(const LogOptions& options, const bus::ExportCount& count, const bus::LogReader& reader) {
   // Standard output may be taken by the messages themselves.
   const bool taken = options.out.empty() && options.format != "csv";
   if (options.json)
@@ -154,13 +154,13 @@ int Export(const LogOptions& options) {
         options.out.empty() ? std::filesystem::path(options.log).stem().string() + "-csv" : options.out;
     if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder) && !options.force)
       throw std::runtime_error(folder + ": expected a new folder, got one with files in it; --force uses it");
-    return Tell(options, bus::ExportCsv(reader, schema, selection, folder), reader);
+    return ReportExport(options, bus::ExportCsv(reader, schema, selection, folder), reader);
   }
   OutputFile out(options.out, options.log, options.force);
   const auto count = options.format == "mcap" ? bus::ExportMcap(reader, schema, selection, out.stream())
                                               : bus::ExportJsonLines(reader, schema, selection, out.stream());
   out.Close();
-  return Tell(options, count, reader);
+  return ReportExport(options, count, reader);
 }
 
 bus::ClockFit Clocks(const LogOptions& options, bus::LogReader& onboard, bus::LogReader& offboard) {
@@ -263,7 +263,7 @@ void AddLogCommand(CLI::App& cli, int& exit_code) {
           "priamos log repair damaged.lcmlog mended.lcmlog", Copy, exit_code);
   AddVerb(*log, "merge",
           "An onboard and an offboard log of one run as one, in the onboard clock: messages that crossed the "
-          "radio tell how the two clocks differ.",
+          "radio show how the two clocks differ.",
           "priamos log merge onboard.lcmlog offboard.lcmlog run.lcmlog", Merge, exit_code);
   AddLogRecordVerb(*log, exit_code);
   AddLogPlayVerb(*log, exit_code);

@@ -73,20 +73,20 @@ class Recording {
       if (fds[1].revents != 0) break;
       bus_.Drain();
       recorder_.Tick(clock_.Now());
-      TellAlarm();
+      ReportAlarm();
       SendHealth();
     }
     return End();
   }
 
  private:
-  void TellAlarm() {
-    if (recorder_.alarm() == told_) return;
-    told_ = recorder_.alarm();
-    if (told_.empty()) {
+  void ReportAlarm() {
+    if (recorder_.alarm() == reported_) return;
+    reported_ = recorder_.alarm();
+    if (reported_.empty()) {
       std::cerr << "recording again: " << recorder_.file().string() << std::endl;
     } else {
-      std::cerr << "ALARM: " << told_ << std::endl;
+      std::cerr << "ALARM: " << reported_ << std::endl;
     }
     next_health_ = {};
   }
@@ -99,10 +99,10 @@ class Recording {
     health_t message{};
     message.utime = ToUtime(now);
     message.process = "recorder";
-    message.state = told_.empty() ? health_t::OK : health_t::FAILED;
+    message.state = reported_.empty() ? health_t::OK : health_t::FAILED;
     message.messages_lost =
         static_cast<std::int32_t>(std::min<std::uint64_t>(bus_.lost() + recorder_.lost(), 1'000'000));
-    message.text = told_.substr(0, 100);
+    message.text = reported_.substr(0, 100);
     health_.Publish(message);
   }
 
@@ -133,7 +133,7 @@ class Recording {
   bus::LogRecorder recorder_;
   bus::LogSelection wanted_;
   Time start_, next_health_{};
-  std::string told_;
+  std::string reported_;
 };
 
 }  // namespace
@@ -142,7 +142,8 @@ void AddLogRecordVerb(CLI::App& log, int& exit_code) {
   auto options = std::make_shared<RecordOptions>();
   auto* verb = log.add_subcommand("record", "Record a bus, until Ctrl-C.");
   verb->footer(
-      "A full or read-only disk is told on the terminal and as HEALTH of \"recorder\" within a second; the "
+      "A full or read-only disk is reported on the terminal and as HEALTH of \"recorder\" within a second; "
+      "the "
       "file "
       "ends with\nits last whole event, and recording goes on when there is room again.\n"
       "Example: priamos log record logs/day.lcmlog --split-mb 100 --keep 20");

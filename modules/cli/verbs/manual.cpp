@@ -145,9 +145,8 @@ ManualPage ProcessPage(const std::string& module, const ManualIssue& issue) {
   page.Section("DESCRIPTION");
   page.Paragraph(factory.summary);
   page.Paragraph(
-      "It runs until SIGINT or SIGTERM, tells READY=1 and WATCHDOG=1 to who started it (sd_notify), and "
-      "sends "
-      "HEALTH on its bus.");
+      "It runs until SIGINT or SIGTERM, reports READY=1 and WATCHDOG=1 to the process that started it "
+      "(sd_notify), and sends HEALTH on its bus.");
   page.Section("OPTIONS");
   AddOptions(page, cli);
   page.Section("CONFIGURATION");

@@ -132,7 +132,7 @@ class RealTimeRun {
   const ScenarioStory& story() const { return *story_; }
   /// Why the run ended as it did.
   std::string Reason() const { return reason_.value_or(story_->Reason()); }
-  const std::vector<StoryLine>& told() const { return told_; }
+  const std::vector<StoryLine>& lines() const { return lines_; }
 
  private:
   void Record(bus::LcmBus& bus, const char* name) {
@@ -142,7 +142,7 @@ class RealTimeRun {
   }
 
   void Progress(Time now, const std::string& text) {
-    told_.push_back({Seconds(now - start_), text});
+    lines_.push_back({Seconds(now - start_), text});
     People(options_) << fmt::format("{:6.1f} s  {}", Seconds(now - start_), text) << std::endl;
   }
 
@@ -204,7 +204,7 @@ class RealTimeRun {
   std::unique_ptr<ScenarioStory> story_;
   Supervisor supervisor_;
   std::optional<std::string> reason_;
-  std::vector<StoryLine> told_;
+  std::vector<StoryLine> lines_;
 };
 
 int FailedStart(const RealTimeRun& run, bool json) {
@@ -229,7 +229,7 @@ int Run(RunOptions options) {
                      1.0,
                      door,
                      run.Reason(),
-                     run.told(),
+                     run.lines(),
                      LoadTrueWorld(options.deployment, scenario, options.seed)};
   Summary summary = Summarise(run.recorder().record(), info);
   const std::string verdict = Judge(scenario, run.story(), summary);

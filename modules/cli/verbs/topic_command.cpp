@@ -106,7 +106,7 @@ int List(const TopicOptions& options, const std::string& verb) {
   const auto rows = statistics.Rows(clock.Now());
   if (!options.watch && options.json) PrintJson(rows, bus);
   if (!options.watch && !options.json) std::cout << TopicScreen(rows, losses(), TableSize()) << std::flush;
-  silence.Tell(clock.Now());
+  silence.Explain(clock.Now());
   return rows.empty() ? kNothingHeard : 0;
 }
 

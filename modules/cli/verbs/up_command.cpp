@@ -129,7 +129,7 @@ class UpRun {
   Supervisor supervisor_;
 };
 
-/// What no process could start with is told before any is started.
+/// Throws, before any process is started, if there is no route for multicast, without which none can run.
 void RequireBuses(const Deployment& deployment) {
   if (deployment.group != "offboard") bus::RequireMulticastRoute(deployment.OnboardUrl());
   if (deployment.group != "onboard") bus::RequireMulticastRoute(deployment.OffboardUrl());

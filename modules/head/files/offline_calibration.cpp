@@ -58,7 +58,8 @@ std::vector<DiscObservation> ToObservations(const std::vector<PointPair>& pairs,
   return observations;
 }
 
-/// How exactly points were measured is not told; what the DLT matrix leaves over says about it.
+/// Noise of the image points [px], which the file does not give: estimated from the residuals of the DLT
+/// matrix.
 double NoiseOf(const std::vector<PointPair>& pairs, const Eigen::Matrix<double, 3, 4>& dlt) {
   return std::max(0.02, 0.8 * MeanImageError(dlt, pairs));
 }

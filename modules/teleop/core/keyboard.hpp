@@ -17,7 +17,7 @@ inline constexpr const char* kKeyHelp =
     "w s: forward  a d: left  q e: turn  r f: up  arrows: pitch roll  SPACE: E-STOP\n"
     "m: mode  t: take over  g: range  z (hold): re-arm  others: stand  Ctrl-C: end";
 
-/// A stick made of terminal keys. A terminal tells of presses and repetitions, never of a release: a key
+/// A stick made of terminal keys. A terminal reports presses and repetitions, never a release: a key
 /// counts as held for a while after its last repetition, and the dead-man is held while any driving key is.
 class Keyboard {
  public:

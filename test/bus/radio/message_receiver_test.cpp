@@ -76,10 +76,10 @@ TEST_F(MessageReceiverTest, WithoutTheBaselineItAsksToForgetAndAsksAgainAfterACu
   EXPECT_TRUE(dut.Due());
   EXPECT_FALSE(dut.AckDue());
   BundleBuilder bundle(table, 120, false);
-  const auto told = dut.Tell(bundle);
-  EXPECT_TRUE(told.forget);
+  const auto loaded = dut.Load(bundle);
+  EXPECT_TRUE(loaded.forget);
   EXPECT_FALSE(dut.Due());
-  dut.Return(told);
+  dut.Return(loaded);
   EXPECT_TRUE(dut.Due());
 }
 
@@ -113,10 +113,10 @@ TEST_F(MessageReceiverTest, EventsAreRememberedAcknowledgedAndDeliveredOnce) {
   EXPECT_EQ(ToText(out[1].packed), "two");
   EXPECT_TRUE(dut.AckDue());
   BundleBuilder bundle(table, 120, false);
-  const auto told = dut.Tell(bundle);
-  EXPECT_EQ(told.acks, std::vector<std::size_t>{kEventUp});
+  const auto loaded = dut.Load(bundle);
+  EXPECT_EQ(loaded.acks, std::vector<std::size_t>{kEventUp});
   EXPECT_FALSE(dut.AckDue());
-  dut.Return(told);
+  dut.Return(loaded);
   EXPECT_TRUE(dut.AckDue());
 }
 

@@ -59,7 +59,7 @@ class SupervisorTest : public testing::Test {
     }
     return false;
   }
-  Supervisor::Tell Told() {
+  Supervisor::Announce Told() {
     return [this](const std::string& text) { told_.push_back(text); };
   }
   std::string Console(const std::string& name) const {

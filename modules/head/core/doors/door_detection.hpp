@@ -9,7 +9,7 @@
 
 namespace priamos::head {
 
-/// A door that no map told of: two uprights with a lintel between their tops, seen by both cameras.
+/// A door found without a map: two uprights with a lintel between their tops, seen by both cameras.
 struct DetectedDoor {
   Pose2 base_from_door;        ///< middle between the uprights; x away from the robot, through the door
   Eigen::Matrix2d covariance;  ///< covariance of that middle (x, y) [m^2]

@@ -90,7 +90,7 @@ int Grow(const GradientMap& gradients, std::span<const ChainPixel> chain,
     }
     strays = 0;
     last = i;
-    if (i % 2 != 0) continue;  // neighbours were smoothed together: every other one tells as much
+    if (i % 2 != 0) continue;  // neighbours were smoothed together: every other one is as good
     fit.Add(chain[i]);
     // Early the fit moves much with each pixel, later little.
     if (++unsolved * 4 > last) {

@@ -12,8 +12,8 @@ namespace {
 constexpr int kGrid = 8;  ///< seeds lie on every 8th row or column: a straight edge of 12 px crosses one
 constexpr int kLanes = cv::v_int16x8::nlanes;
 
-/// Tells `found` which of the `n` magnitudes from `at` are at least `threshold`, larger than the one `step`
-/// before and no smaller than the one `step` behind it; some it tells twice. `n` is at least kLanes.
+/// Calls `found(i)` for each of the `n` magnitudes from `at` that is at least `threshold`, larger than the
+/// one `step` before and no smaller than the one `step` behind it; for some twice. `n` is at least kLanes.
 template <class Found>
 void ForEachPeak(const unsigned short* at, std::ptrdiff_t step, int n, double threshold, Found&& found) {
   const auto values = reinterpret_cast<const short*>(at);  // a magnitude is at most 2040

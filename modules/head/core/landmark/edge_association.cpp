@@ -90,14 +90,14 @@ Odds EdgeOdds(double distance, double density, const AssociationOptions& options
   return {std::max(missed, std::log(options.detection * gauss / density + (1 - options.detection))), missed};
 }
 
-/// Log odds of the grey values beside an edge: as the model tells them but for light, or, once in a while, of
-/// something before or behind; against those of any edge. Nothing is known: 0.
+/// Log odds of the grey values beside an edge: those of the model but for lighting, or, once in a while,
+/// those of something before or behind it; against those of any edge. 0 if the model has none.
 double GreyOdds(const LandmarkEdge& edge, double measured, const AssociationOptions& options) {
   if (!edge.grey_ratio) return 0;
   const auto gauss = [](double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)) / sigma; };
-  const double told = gauss(measured - *edge.grey_ratio, options.grey_sigma);
+  const double modelled = gauss(measured - *edge.grey_ratio, options.grey_sigma);
   const double any = gauss(measured, options.any_grey_sigma);
-  return std::log((1 - options.grey_surprise) * told / any + options.grey_surprise);
+  return std::log((1 - options.grey_surprise) * modelled / any + options.grey_surprise);
 }
 
 Odds CornerOdds(const AssociationOptions& options) {
@@ -105,7 +105,7 @@ Odds CornerOdds(const AssociationOptions& options) {
           std::log((1 - options.corner_detection) / (1 - options.corner_chance))};
 }
 
-/// A model edge in one image, on its way to a match.
+/// A model edge in one image, its candidates and its match.
 struct Search {
   PredictedEdge predicted;
   std::vector<EdgeCandidate> candidates;
@@ -140,7 +140,7 @@ double Separation(const ProjectedEdge& a, const ProjectedEdge& b) {
   return std::abs(normal.dot((b.p + b.q) / 2 - a.p));
 }
 
-/// The operator cannot tell edges apart that lie nearer to each other than its kernels are wide.
+/// Drops edges that lie nearer to each other than the kernels of the edge operator are wide.
 void DropCrowded(std::vector<Search>& searches, double min_separation_px) {
   for (Search& a : searches) {
     for (const Search& b : searches) {

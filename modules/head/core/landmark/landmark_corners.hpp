@@ -22,8 +22,8 @@ struct LandmarkCorner {
   Meeting meeting;
 };
 
-/// All corners of a model. They are attributes of its edges (paper, section 6.1) that its geometry tells:
-/// nobody has to send them.
+/// All corners of a model. They are attributes of its edges (paper, section 6.1) that follow from its
+/// geometry and need not be sent.
 std::vector<LandmarkCorner> CornersOf(const LandmarkModel& model);
 
 }  // namespace priamos::head

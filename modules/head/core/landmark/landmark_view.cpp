@@ -72,7 +72,7 @@ std::vector<bool> Used(const LandmarkFix& fix, const CameraView& picture, int ca
 
 }  // namespace
 
-int TellingCamera(const LandmarkFix& fix) {
+int CameraToShow(const LandmarkFix& fix) {
   if (fix.verdict == Verdict::kFound) return 0;
   std::array<int, 2> matches{};
   for (const EdgeMatch& match : fix.matches) ++matches[match.camera == 0 ? 0 : 1];

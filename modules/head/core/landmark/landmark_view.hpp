@@ -36,9 +36,9 @@ struct LandmarkViewOptions {
   double max_angle_rad = 0.15;
 };
 
-/// The picture that tells more about the verdict: the left one of a landmark that was found, else the one
+/// The camera whose picture explains the verdict better: the left one if the landmark was found, else the one
 /// with fewer matches.
-int TellingCamera(const LandmarkFix& fix);
+int CameraToShow(const LandmarkFix& fix);
 
 /// Predicted, matched and rejected edges of the picture `fix.matches` calls `camera`. Rejected are edges in
 /// the strip that the covariance of the prediction lays about a predicted edge; those beside the pose that

@@ -27,7 +27,7 @@ struct Row : EdgeResidual {
   Vector6 by_common = Vector6::Zero();
 };
 
-/// The two numbers that an edge tells in an image are the distances at two places along it.
+/// The least squares problem: an edge gives two measurements per image, its distances at two places along it.
 class Problem {
  public:
   Problem(const LandmarkModel& model, std::span<const CameraModel* const> cameras,

@@ -42,7 +42,7 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   const LandmarkPrediction expected = Predict(*input.robot, input.model->map_from_landmark);
   LookResult result;
   result.fix = finder_.Find(*input.model, expected, views);
-  const int camera = TellingCamera(result.fix);
+  const int camera = CameraToShow(result.fix);
   result.view = ViewLandmark(*input.model, expected, result.fix, views[camera], camera);
   result.drift = MeasureLookDrift(*input.model, result.fix, views, drift_options_);
   return result;

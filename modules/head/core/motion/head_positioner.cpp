@@ -44,7 +44,7 @@ std::optional<HeadSetting> HeadPositioner::Send(const HeadSetting& setting, Time
 std::optional<HeadSetting> HeadPositioner::Step(const HeadReport* report, Time now) {
   if (phase_ == Phase::kIdle || phase_ == Phase::kFailed) return std::nullopt;
   const HeadSetting target = phase_ == Phase::kBelow ? Below() : goal_;
-  // Only a report younger than the command tells of its effect.
+  // Only a report younger than the command shows its effect.
   const bool resting = report && !must_send_ && report->time > sent_ && !report->moving &&
                        IsSameSetting(report->setting, target);
   if (phase_ == Phase::kSettled) {

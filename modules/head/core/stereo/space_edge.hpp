@@ -11,7 +11,7 @@ namespace priamos::head {
 /// A straight edge of space, reconstructed from its images (paper, section 5).
 struct SpaceEdge {
   Eigen::Vector3d from, to;  ///< base frame [m]: the part that all images show, in the left one's direction
-  /// Of (from, to) across the edge [m^2]. Along it there is none: an edge tells nothing about that direction,
+  /// Covariance of (from, to) across the edge [m^2]; 0 along it: an edge does not determine that direction,
   /// and its ends are only where the images end.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double chi2 = 0;  ///< misfit of the images, 2 * (number of images) - 4 degrees of freedom
@@ -31,8 +31,8 @@ std::optional<SpaceEdge> Reconstruct(std::span<const LineSighting> sightings, do
 /// Image of another camera's optical centre, homogeneous: all epipolar lines pass through it.
 Eigen::Vector3d Epipole(const CameraModel& in, const CameraModel& of);
 
-/// Angle between a line and the epipolar line through its middle, 0 to pi/2. Near 0 the other camera cannot
-/// tell where along its line of sight the edge lies.
+/// Angle between a line and the epipolar line through its middle, 0 to pi/2. Near 0 the other camera does not
+/// determine the depth of the edge.
 double EpipolarAngle(const ViewLine& line, const Eigen::Vector3d& epipole);
 
 /// Distance from the optical centre along the optical axis, if the DLT matrix has any scale [m].

@@ -6,7 +6,7 @@
 namespace priamos::planner {
 
 /// The skeleton of a cupboard: its box, and on its front the gaps between the doors and the plinth. Both
-/// sides of a gap are edges; the head leaves out pairs that it could not tell apart from where it stands.
+/// sides of a gap are edges; the head leaves out pairs that it cannot resolve from where it stands.
 /// Origin: middle of the front on the floor; x points into the cupboard, as it points through a door.
 Landmark MakeCupboardLandmark(const CupboardPlan& cupboard);
 

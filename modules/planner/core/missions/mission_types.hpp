@@ -27,7 +27,7 @@ struct RobotPose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< map: x, y, yaw
 };
 
-/// What the robot does; kHolding: told to stand, kBlocked: something is in its way.
+/// What the robot does; kHolding: ordered to stand, kBlocked: something is in its way.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked };
 
 /// How far the robot is with its path, as DRIVE_STATUS says; path_id is 0 before the first one.

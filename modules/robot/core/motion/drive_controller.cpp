@@ -15,7 +15,7 @@ constexpr milliseconds kHeadDue{1500};
 constexpr double kStanding = 0.01;     ///< [m/s] slower is standing
 constexpr double kWantsToMove = 0.03;  ///< [m/s]
 constexpr double kCreeping = 0.05;     ///< [m/s] before an obstacle this is standing, too
-constexpr double kSlowed = 0.98;       ///< a scale below this is a limit worth telling
+constexpr double kSlowed = 0.98;       ///< a scale below this is reported as a limit
 
 double SpeedOf(const Twist2& twist) {
   return std::hypot(twist.vx, twist.vy) + std::abs(twist.wz) * PathShape::kTurnLever;
@@ -279,10 +279,10 @@ void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Tim
 }
 
 void DriveController::NoteStuck(const DriveSituation& situation, Time now) {
-  const bool told_to_move = SpeedOf(slew_.commanded()) > kCreeping;
+  const bool ordered_to_move = SpeedOf(slew_.commanded()) > kCreeping;
   const bool stands = situation.estimate && SpeedOf(situation.estimate->twist) < kStanding;
-  if (!told_to_move || !stands) stuck_since_.reset();
-  if (told_to_move && stands && !stuck_since_) stuck_since_ = now;
+  if (!ordered_to_move || !stands) stuck_since_.reset();
+  if (ordered_to_move && stands && !stuck_since_) stuck_since_ = now;
 }
 
 /// An operator who rested the stick and then fell silent has simply finished.

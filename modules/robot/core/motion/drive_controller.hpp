@@ -39,7 +39,7 @@ struct DriveConfig {
   void Describe(Archive& a);
 };
 
-/// What the base does; kHolding: told to stand, kBlocked: something is in the way.
+/// What the base does; kHolding: ordered to stand, kBlocked: something is in the way.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked, kOperated };
 
 /// What the base knows about itself at one tick.

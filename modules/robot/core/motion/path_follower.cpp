@@ -101,8 +101,8 @@ void PathFollower::MoveReference(const Pose2& pose, double dt_s) {
   const PathShape::Point at = shape_->At(s_);
   const double pace = std::hypot(at.direction.norm(), PathShape::kTurnLever * at.turn);
   // At the point of a sharp reversal the base hardly moves, so its pose cannot say how far it has got.
-  constexpr double kTelling = 0.4;
-  s_ = pace < kTelling ? std::min(s_ + speed_ * dt_s, shape_->length()) : shape_->Project(pose, s_);
+  constexpr double kMeasurablePace = 0.4;
+  s_ = pace < kMeasurablePace ? std::min(s_ + speed_ * dt_s, shape_->length()) : shape_->Project(pose, s_);
 }
 
 PathFollower::Wanted PathFollower::Report(const Pose2& pose, const PathShape::Point& reference) const {

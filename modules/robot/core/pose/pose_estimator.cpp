@@ -43,7 +43,7 @@ void PoseEstimatorConfig::Describe(Archive& a) {
            {"-", 1, 20, "Mahalanobis distance beyond which a fix is refused"});
   a.Number("least_fix_sigma_m", least_fix_sigma_m, {"m", 1e-5, 0.5, "no fix is believed to be better"});
   a.Number("least_fix_sigma_deg", least_fix_sigma_deg, {"deg", 1e-4, 10, "no fix is believed to be better"});
-  a.Section("initial", initial, "what the robot is told about its place; errors are bounds, not sigmas");
+  a.Section("initial", initial, "where the robot starts; errors are bounds, not sigmas");
   a.Section("bias", bias, "constant errors of the odometry, sigma before the first fix");
 }
 

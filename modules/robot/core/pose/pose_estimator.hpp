@@ -12,7 +12,7 @@
 
 namespace priamos::robot {
 
-/// Where the robot is told to be when it starts. The errors are bounds; inside them nothing is known, so the
+/// Pose at the start as configured, map frame. The errors are bounds; inside them nothing is known, so the
 /// estimator starts with bound / sqrt(3), the standard deviation of a uniform distribution.
 struct InitialPose {
   double x_m = 0, y_m = 0, yaw_deg = 0;

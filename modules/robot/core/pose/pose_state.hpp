@@ -61,7 +61,7 @@ struct MeasurementUpdate {
 /// update as a Gauss-Newton method", IEEE Trans. Automatic Control 1993), started at the pose that equations
 /// 8 and 9 give. What looks repeat is weighed by split covariance intersection (Julier and Uhlmann, "General
 /// decentralized data fusion with covariance intersection", Handbook of Multisensor Data Fusion 2001): the
-/// covariance is honest whatever the correlation, two looks that err alike tell no more than one.
+/// covariance is honest whatever the correlation, two looks with the same error count no more than one.
 MeasurementUpdate Updated(const PoseState& prior, const LandmarkMeasurement& measurement);
 
 }  // namespace priamos::robot

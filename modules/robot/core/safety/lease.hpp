@@ -10,7 +10,7 @@ namespace priamos::robot {
 /// Who may drive, in ascending order of precedence.
 enum class Driver { kNobody, kPlanner, kConsole, kTeleop };
 
-/// One process that drives. `session` tells two processes of the same kind apart.
+/// One process that drives. `session` distinguishes two processes of the same kind.
 struct LeaseHolder {
   Driver driver = Driver::kNobody;
   int session = 0;

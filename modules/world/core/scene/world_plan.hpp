@@ -61,7 +61,8 @@ struct WallSurface {
   void Describe(Archive& a);
 };
 
-/// Where the robot starts: `nominal` is what it is told, the truth is off by an error drawn from the seed.
+/// Where the robot starts: `nominal` is the pose it is given, the truth is off by an error drawn from the
+/// seed.
 struct StartPlan {
   double x_m = 0, y_m = 0, yaw_deg = 0;
   double x_spread_m = 0, y_spread_m = 0, yaw_spread_deg = 0;
@@ -70,7 +71,7 @@ struct StartPlan {
   void Describe(Archive& a);
 };
 
-/// The pose the robot is told and the one it has, map frame.
+/// The pose the robot is given and the one it has, map frame.
 struct Start {
   Pose2 nominal, truth;
 };

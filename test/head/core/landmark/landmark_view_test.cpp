@@ -95,12 +95,12 @@ TEST_F(LandmarkViewTest, RejectedEdgesAreBoundedAndTheRestIsCounted) {
 TEST_F(LandmarkViewTest, TheTellingPictureIsTheOneThatMissedMore) {
   LandmarkFix fix;
   fix.verdict = Verdict::kTooFewEdges;
-  EXPECT_EQ(TellingCamera(fix), 0);
+  EXPECT_EQ(CameraToShow(fix), 0);
   fix.matches.resize(3);
   fix.matches[2].camera = 1;
-  EXPECT_EQ(TellingCamera(fix), 1);
+  EXPECT_EQ(CameraToShow(fix), 1);
   fix.verdict = Verdict::kFound;
-  EXPECT_EQ(TellingCamera(fix), 0);
+  EXPECT_EQ(CameraToShow(fix), 0);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ std::optional<DetectedDisc> Measure(const GreyImage& image, const BrightRegion& 
 
 std::vector<DetectedDisc> DetectDiscs(const GreyImage& image, const DiscDetectorOptions& options) {
   std::vector<DetectedDisc> discs;
-  // Only spots of a disc's size are measured, and only they can be told from a disc close by.
+  // Only spots of a disc's size are measured, and only they can be separated from a disc close by.
   std::vector<BrightRegion> regions = FindBrightRegions(image, options.min_contrast);
   std::erase_if(regions, [&](const BrightRegion& r) { return !Plausible(r, options); });
   for (std::size_t i = 0; i < regions.size(); ++i) {

@@ -35,8 +35,8 @@ struct SeenPoint {
 /// The experiment of section 3.1.5 of the paper: the calibration object as test object of reconstruction.
 ReconstructionErrors Reconstruct(std::span<const SeenPoint> points);
 
-/// The discs that two or more calibrations saw, with the bias of their centroids taken off. Discs are told
-/// apart by their place.
+/// The discs that two or more calibrations saw, with the bias of their centroids taken off. Discs are
+/// identified by their place.
 std::vector<SeenPoint> CommonPoints(std::span<const CameraCalibration> cameras);
 
 }  // namespace priamos::head
