@@ -51,7 +51,7 @@ struct AppFactory {
   std::string default_bus = "onboard";  ///< or "offboard"
   std::vector<OptionAlias> aliases;
   bool one_owner = false;                 ///< only one such process may own its role on one robot's bus
-  std::vector<std::string> speaks_alone;  ///< channels that nobody beside the owner may send
+  std::vector<std::string> speaks_alone;  ///< channels on which nobody but the owner may send
   std::function<std::unique_ptr<AnyApp>(const ConfigSource&, Context&)> start;
   std::function<void(std::ostream&, const ConfigSource&)> print_config;
 };

@@ -59,7 +59,7 @@ void AppHost::Step(Time now) {
   if (now >= next_health_) PublishHealth(now);
 }
 
-/// What the App says of itself comes first; after it, per channel, what went wrong on the bus.
+/// The App's own state comes first; after it, per channel, what went wrong on the bus.
 std::string AppHost::HealthText() const {
   std::string text = context_.health_text();
   std::string problems = node_.Problems();

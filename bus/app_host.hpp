@@ -9,7 +9,7 @@
 namespace priamos::bus {
 
 /// One App with its node and its schedule; the same in real time and in lockstep. It decides when a tick is
-/// due and publishes HEALTH once per second, also while the App itself has nothing to say.
+/// due and publishes HEALTH once per second, also when the App itself set none.
 class AppHost {
  public:
   /// Starts the App; throws ConfigError, BusError or std::runtime_error with one sentence.

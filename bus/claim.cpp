@@ -40,7 +40,7 @@ bool Claim::Touch(Time now) {
   return true;
 }
 
-/// Of a holder that was heard while this one asks.
+/// Whether a holder, first heard while this one asks, was heard again kConfirm later.
 bool Claim::IsConfirmed(Time now) {
   if (!holder_heard_) holder_heard_ = now;
   ask_until_ = std::max(ask_until_, *holder_heard_ + kAskFor);

@@ -16,24 +16,24 @@ struct Claimant {
   int pid = 0;
 };
 
-/// What a claimant says of itself.
+/// What a claimant reports of itself.
 struct ClaimWord {
   Claimant who;
   bool holds = false;  ///< has the role; otherwise asks for it
   Duration age{};      ///< since it asked, by its own monotonic clock; frozen while it hears a rival
 };
 
-/// The claim of one process as a state machine: asks, and when nobody better answers holds the role and says
-/// so five times a second. Time is an argument; it is this process's own monotonic clock, and nothing of
-/// another clock is ever compared but durations.
+/// The claim of one process as a state machine: asks, and when nobody better answers holds the role and
+/// reports it five times a second. Time is an argument; it is this process's own monotonic clock, and nothing
+/// of another clock is ever compared but durations.
 ///
-/// Two that meet compare what they say: who holds goes before who asks, then the greater age, then the
-/// greater instance. The lesser one gives up: refused while it asked, yielded while it held. What a claimant
-/// says of itself never grows less, so whoever gives up leaves a better one behind: there is always a
-/// survivor. An age stands still from the first word of a rival on, so that both compare the same two numbers
-/// however long the words are on their way: there is only one survivor.
+/// Two claimants compare their messages: who holds goes before who asks, then the greater age, then the
+/// greater instance. The lesser one gives up: refused while it asked, yielded while it held. The
+/// rank that a claimant reports never decreases, so whoever gives up leaves a better one behind: there is
+/// always a survivor. An age stands still from the first message of a rival on, so that both compare the same
+/// two numbers whatever the delay of their messages: there is only one survivor.
 ///
-/// The last word of one that has just been killed may still be on its way: who asks gives up only when a
+/// The last message of a process that was just killed may still be in transit: who asks gives up only when a
 /// holder is heard again kConfirm later, and asks on until nothing was heard of it for kAskFor.
 ///
 /// A process that stood still for kLapse may have lost its role to somebody who asked meanwhile: it begins
@@ -59,11 +59,11 @@ class Claim {
   /// To be called whenever the process runs, before anything is heard. Returns true when it stood still for
   /// kLapse: everything that came meanwhile is out of date and has to be thrown away.
   bool Touch(Time now);
-  /// Somebody's word; the process's own comes back from the bus and is not counted.
+  /// Takes a claimant's message; the process's own ones come back from the bus and are not counted.
   void Hear(const ClaimWord& word, Time now);
-  /// What is to be said now, if anything; asking ends here.
+  /// The message that is to be sent now, if any; asking ends here.
   std::optional<ClaimWord> Step(Time now);
-  /// When Step has something to do next, unless something is heard before.
+  /// When Step is to be called next, unless a message arrives before.
   Time next_step() const { return say_at_; }
 
   State state() const { return state_; }

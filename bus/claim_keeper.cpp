@@ -93,7 +93,7 @@ void ClaimKeeper::Wait() {
 void ClaimKeeper::Listen() {
   constexpr int kBurst = 1000;
   if (claim_.Touch(clock_.Now())) {
-    // What was said while this process stood still may be of somebody who is gone.
+    // Messages that arrived while this process did not run may be of a sender that is gone.
     while (receiver_.Receive(kBurst, [](auto, auto, auto) {}) == kBurst) continue;
     return alone_.Forget();
   }
@@ -137,7 +137,7 @@ std::string ClaimKeeper::WhyRefused() const {
 
 std::string ClaimKeeper::WhyForeign(const SoleSpeaker::Intruder& intruder) const {
   return fmt::format(
-      "bus {}: expected nobody to speak {} beside `{}`, got messages from {}: where devices answer "
+      "bus {}: expected nobody to send {} beside `{}`, got messages from {}: where devices answer "
       "nothing has to stand in for them; end their drivers, or start a robot of another name with --robot",
       bus_.url(), intruder.channel, claim_.self().role, SenderAddress(intruder.sender));
 }

@@ -21,8 +21,8 @@ class Schema;
 
 /// What a process has for itself besides its role.
 struct ClaimTerms {
-  std::vector<std::string> speaks_alone;  ///< channels that nobody else may speak
-  /// How long it asks, and listens for others who speak them: the slowest device channel comes ten times a
+  std::vector<std::string> speaks_alone;  ///< channels on which nobody else may send
+  /// How long it asks, and listens for other senders on them: the slowest device channel comes ten times a
   /// second and is stale after half a second.
   Duration ask_for = speaks_alone.empty() ? Claim::kAskFor : Duration(500'000);
 };

@@ -83,7 +83,7 @@ std::string Unknown(const CLI::App& app, const std::string& word, const CLI::App
                      HasPositional(app) ? "no further argument" : "no argument", word, Hint(app));
 }
 
-/// The option an error of CLI11 speaks of; the longest name wins.
+/// The option that an error of CLI11 names; the longest name wins.
 const CLI::Option* OptionIn(const CLI::App& app, const std::string& text) {
   const CLI::Option* found = nullptr;
   for (const auto* option : app.get_options()) {

@@ -17,7 +17,7 @@ namespace priamos::bus {
 
 /// How much a line of the log matters; who must act reads kError.
 enum class Level { kInfo, kWarning, kError };
-/// What HEALTH says of a process: it works; works with less than it wants; does not work.
+/// State of a process in HEALTH: it works; works with less than it wants; does not work.
 enum class Health { kOk, kDegraded, kFailed };
 
 /// What the surroundings of an App must provide; real time and lockstep do it differently.
@@ -48,7 +48,7 @@ class Context {
   std::unique_ptr<ByteStream> OpenSerial(const std::string& path, int baud);
   void Log(Level level, std::string_view text) { around_.log(level, text); }
 
-  /// Goes into the next HEALTH message; `text` says why not OK.
+  /// Goes into the next HEALTH message; `text` gives the reason if it is not OK.
   void SetHealth(Health health, std::string_view text = "");
   Health health() const { return health_; }
   const std::string& health_text() const { return health_text_; }

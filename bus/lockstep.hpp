@@ -50,7 +50,7 @@ class Lockstep {
   Time now() const { return clock_.Now(); }
   /// The exit code of the first App that asked to stop; 0 when none did.
   int exit_code() const;
-  /// Runs until `until`, or until `done()` (asked after every step) says so. Returns whether it was done; an
+  /// Runs until `until`, or until `done()` (asked after every step) is true. Returns whether it was done; an
   /// App that asks to stop ends the run as well.
   bool RunUntil(Time until, const std::function<bool()>& done = {});
 

@@ -11,7 +11,7 @@ class App;
 
 namespace priamos::bus {
 
-/// What the command line of a process says.
+/// The options on the command line of a process.
 struct ProcessOptions {
   ConfigSource config;
   BusChoice choice;

@@ -24,7 +24,7 @@ class SignalWatch {
 
 /// Ticks the host at its period and drains the bus in between, until a signal or RequestStop. Reports to
 /// systemd (or whoever set NOTIFY_SOCKET) READY after the first tick and WATCHDOG with every later one. When
-/// `claim` is lost (null: the App claims nothing), the App yields and BusError says why.
+/// `claim` is lost (null: the App claims nothing), the App yields and BusError gives the reason.
 int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals,
                 const ClaimKeeper* claim);
 

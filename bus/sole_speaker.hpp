@@ -11,28 +11,28 @@
 
 namespace priamos::bus {
 
-/// Notices that somebody else speaks channels that one process has for itself: `world` stands in for drivers
-/// and must not speak beside them. Senders are told apart by their socket. One that claims the same role is
-/// excused for a while: with it the claim deals.
+/// Notices another sender on channels that one process has for itself: `world` stands in for drivers and must
+/// not send beside them. Senders are distinguished by their socket. One that claims the same role is excused
+/// for a while: Claim decides between the two.
 class SoleSpeaker {
  public:
-  /// A sender is judged when it had so much time to say a claim; longer than Claim::kAnnounce.
+  /// Time that a new sender has to send a claim before it is judged; longer than Claim::kAnnounce.
   static constexpr Duration kGrace{500'000};
   static constexpr Duration kExcused{2'000'000};
 
-  /// A sender that speaks on this role's channels and claims no role; `sender` stands for its socket.
+  /// A sender on this role's channels that claims no role; `sender` stands for its socket.
   struct Intruder {
     std::uint64_t sender = 0;
-    std::string channel;  ///< the first one heard of it
+    std::string channel;  ///< first channel on which it was heard
   };
 
   explicit SoleSpeaker(std::vector<std::string> channels) : channels_(std::move(channels)) {}
 
   void Excuse(std::uint64_t sender, Time now);
   void Hear(std::uint64_t sender, std::string_view channel, Time now);
-  /// Somebody who speaks and is not excused, and began at least `grace` ago.
+  /// A sender that is not excused and began at least `grace` ago.
   std::optional<Intruder> Find(Time now, Duration grace = kGrace) const;
-  /// Forgets who spoke: it was heard late.
+  /// Forgets all senders: their messages were received late.
   void Forget() { foreign_.clear(); }
 
  private:

@@ -34,6 +34,7 @@ const Field* StampOf(const Struct& type) {
   return found == type.fields.end() ? nullptr : &*found;
 }
 
+/// One message as it stands in one log.
 struct Sighting {
   std::int64_t stamp_us = 0;
   std::int64_t recorded_us = 0;

@@ -10,10 +10,10 @@
 
 namespace priamos::bus {
 
-/// Plays a log against a clock that the caller brings: says when the next event is due and hands out what is
-/// due. Speed, pause, step and seek take effect at the next Play(). Times of recording that run backwards or
-/// jump ahead for a single event (damage, joined logs) do not stop it: such an event is played between its
-/// neighbours.
+/// Plays a log against a clock that the caller brings: gives the time of the next event and hands out those
+/// that are due. Speed, pause, step and seek take effect at the next Play(). Times of recording that run
+/// backwards or jump ahead for a single event (damage, joined logs) do not stop it: such an event is played
+/// between its neighbours.
 class LogPlayer {
  public:
   static constexpr double kFlatOut = 0;  ///< the speed that means: as fast as events can be sent

@@ -40,7 +40,7 @@ class FrameAckSender {
   std::optional<Time> last_;   ///< time of the last acknowledgement
 };
 
-/// The data frames of this end, and what the other end has said of them.
+/// The data frames of this end, and what the other end has acknowledged of them.
 class SentFrames {
  public:
   /// `end`: when the last byte of the frame leaves.
@@ -50,9 +50,9 @@ class SentFrames {
   std::vector<std::uint64_t> OnAck(const FrameAckEntry& ack, Time began);
   /// The shortest form of a counter that the other end can complete.
   CounterForm FormOf(std::uint64_t counter) const;
-  /// Whether a command that was heard now and lives for `ttl` is fresh. A modem, or somebody, may have held
-  /// the frame back; it is not older than the newest frame from here that the other end had heard when it was
-  /// made.
+  /// Whether a command that was received now and lives for `ttl` is fresh. A modem, or somebody, may have
+  /// held the frame back; it is not older than the newest frame from here that the other end had received
+  /// when it was made.
   bool ProvesFresh(Duration ttl, Time now) const;
   /// The other end asked for counters that it cannot have used: it does not know the highest one any more.
   void OnFloor() { confirmed_.reset(); }
@@ -71,7 +71,7 @@ class SentFrames {
   };
   std::deque<Frame> frames_;                ///< the last ones
   std::optional<std::uint64_t> confirmed_;  ///< highest counter that the other end reported
-  std::optional<Time> proven_;              ///< end of the newest frame that the other end had heard
+  std::optional<Time> proven_;              ///< end of the newest frame that the other end had received
   LatencyMeter latency_;
   double peer_loss_ = 0;
 };

@@ -31,7 +31,7 @@ struct ReceptionCounters {
   std::array<std::uint64_t, kRejects> rejected{};  ///< by Reject
 };
 
-/// The way from bytes of the line to frames that are believed, and how well that goes.
+/// Turns bytes of the line into authenticated frames, and counts how well that goes.
 class FrameReceiver {
  public:
   /// A frame that was completed by a byte: nothing, a hello or data.

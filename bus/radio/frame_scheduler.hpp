@@ -15,7 +15,7 @@
 
 namespace priamos::bus::radio {
 
-/// The parts of an end that have something to say in a frame.
+/// The parts of an end that put entries into a frame.
 struct FrameSources {
   LinkMemory& memory;
   const FrameReceiver& receiver;
@@ -31,7 +31,7 @@ struct SendCounters {
   std::uint64_t bundle_bytes = 0;  ///< bytes of their bundles
 };
 
-/// What the frame on its way out means: what must be noted when it has left, or undone when it is cut off.
+/// The frame that is being sent: what must be noted when it has left, or undone when it is cut off.
 struct FrameInFlight {
   std::uint64_t counter = 0;  ///< 0: a hello
   bool urgent = false;        ///< never cut off
@@ -54,7 +54,7 @@ class FrameScheduler {
   std::vector<std::byte> Step(FrameSources from, Time now);
   /// Something came from the other end.
   void OnBytes(Time now) { turns_.OnBytes(now); }
-  /// The other end said that it falls silent.
+  /// The other end announced the end of its turn.
   void OnOver(Time now) { turns_.OnOverReceived(now); }
 
   /// Time that bytes of a frame take on the line.

@@ -17,7 +17,7 @@ enum class Reception : std::uint8_t {
   kUnusable  ///< frames come and cannot be used, or there is no epoch
 };
 
-/// What must be said until both ends use the same channel table, epoch and counters: hellos, and the floor.
+/// What is exchanged until both ends use the same channel table, epoch and counters: hellos, and the floor.
 /// It decides when; epoch.hpp decides what a hello means.
 class Handshake {
  public:

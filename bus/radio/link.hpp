@@ -64,8 +64,8 @@ class LinkEndpoint {
   LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey& key, const LinkOptions& options,
                StateStore& store, PackFunction pack, NonceSource nonces, Time now);
   LinkEndpoint& operator=(const LinkEndpoint&) = delete;
-  /// An end in the same state that goes its own way from here on, with its own memory: what an explorer of
-  /// possible futures needs. What `store` holds must be a copy of what the store of this end holds.
+  /// An independent copy of this end in the same state, with its own memory, for a search over possible
+  /// futures. What `store` holds must be a copy of what the store of this end holds.
   LinkEndpoint Fork(StateStore& store) const;
 
   /// An encoded message for an outgoing channel; messages with different keys do not replace each other.

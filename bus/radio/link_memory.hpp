@@ -59,7 +59,7 @@ class LinkMemory {
     std::uint64_t send_next = 0;
     std::uint64_t receive_floor = 0;
   };
-  Bounds syncing_;  ///< on their way to the disk
+  Bounds syncing_;  ///< being written to the disk
   Bounds synced_;   ///< known to be there
   /// Highest counter accepted above the floor, since the start or the last change of epoch.
   std::optional<std::uint64_t> accepted_;

@@ -46,7 +46,7 @@ class MessageReceiver {
 
   /// Each appends what is delivered to `out`.
   void OnState(StateEntry entry, const Arrival& arrival, std::vector<Delivery>& out);
-  /// `fresh`: it is proven that the frame was not held back on its way.
+  /// `fresh`: it is proven that the frame was not held back in transit.
   void OnCommand(CommandEntry entry, const Arrival& arrival, bool fresh, std::vector<Delivery>& out);
   /// Returns whether the numbers of events() have changed: they must be remembered before the acknowledgement
   /// leaves, or a restarted end would deliver events again.

@@ -38,7 +38,7 @@ struct Departure {
   std::function<Time(std::size_t bytes)> leaves_at;
 };
 
-/// Messages on their way into bundles: it packs them, sends states as differences where that is shorter, and
+/// Puts messages into bundles: it packs them, sends states as differences where that is shorter, and
 /// gives back what a frame that was cut off did not bring across. Who goes first is the queue's business.
 class MessageSender {
  public:

@@ -9,7 +9,7 @@
 
 namespace priamos::bus::radio {
 
-/// The frame on its way out, handed over byte by byte at the pace of the line, or whole as a datagram. It
+/// The frame that is being sent, handed over byte by byte at the pace of the line, or whole as a datagram. It
 /// knows nothing of what the bytes mean.
 class Transmitter {
  public:

@@ -53,7 +53,7 @@ std::set<const Struct*> Nested(const Struct& type) {
   return seen;
 }
 
-/// Depth first search for a way back to a type that is still open.
+/// Depth first search for a path back to a type that is still open.
 class CycleSearch {
  public:
   bool From(const Struct& type) {

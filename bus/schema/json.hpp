@@ -29,8 +29,8 @@ class MessageError : public std::runtime_error {
 /// Throws MessageError when Walk refuses the bytes.
 Json ToJson(const Struct& type, std::span<const std::byte> encoded);
 
-/// The way back. Counts of variable arrays may be left out; every other field has to be there, and no other
-/// key. Throws MessageError, "edges[2].x_m: expected a number, got ...".
+/// The inverse of ToJson. Counts of variable arrays may be left out; every other field has to be there, and
+/// no other key. Throws MessageError, "edges[2].x_m: expected a number, got ...".
 std::vector<std::byte> FromJson(const Struct& type, const Json& json);
 
 }  // namespace priamos::bus

@@ -141,7 +141,7 @@ class Parser {
       separator = Separator();
       own_comments.push_back(TrailingComment());
     } while (separator == ",");
-    // What stands behind the semicolon speaks of every field of the declaration that has no own comment.
+    // A comment behind the semicolon belongs to every field of the declaration that has none of its own.
     for (std::size_t i = first; i < type.fields.size(); ++i) {
       const std::string& own = own_comments[i - first];
       Annotate(type.fields[i], leading, own.empty() ? own_comments.back() : own);

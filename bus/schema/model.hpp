@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-/// What a .lcm file says, as data: filled by ParseLcm, completed (nested types, fingerprints) by Schema.
+/// The content of a .lcm file, as data: filled by ParseLcm, completed (nested types, fingerprints) by Schema.
 namespace priamos::bus {
 
 /// A type that cannot be used. what() is one sentence, `file:line: ...`.
@@ -48,7 +48,7 @@ struct Number {
   std::optional<std::int64_t> integer;
 };
 
-/// What the comment of a field says about it: `[unit] @frame F @range A,B @step S @invalid V @max N @age US:
+/// The annotation in the comment of a field: `[unit] @frame F @range A,B @step S @invalid V @max N @age US:
 /// meaning`.
 struct Annotation {
   std::string unit;               ///< text in the brackets; "-" for plain numbers; empty when there is none
@@ -74,7 +74,7 @@ struct Dimension {
 
 struct Struct;
 
-/// One field of a struct with all that its .lcm file says about it; `line` counts from 1.
+/// One field of a struct with all its attributes from the .lcm file; `line` counts from 1.
 struct Field {
   std::string name;
   Kind kind = Kind::kInt8;

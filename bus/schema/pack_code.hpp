@@ -5,7 +5,7 @@
 
 namespace priamos::bus {
 
-/// A value as a code, and whether the value was outside of what codes can say (beyond half a step).
+/// A value as a code, and whether the value was outside the range of codes (beyond half a step).
 struct Coded {
   std::uint64_t code = 0;
   bool saturated = false;

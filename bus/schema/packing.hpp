@@ -12,11 +12,11 @@
 
 namespace priamos::bus {
 
-/// A packed message, and what of it could not be said exactly.
+/// A packed message, and which values could not be represented.
 struct PackResult {
   std::vector<std::byte> bytes;
   /// Fields with a value that was outside its `@range`, too old, too long or too many, each once: rows of
-  /// Packer::fields(). Such a value travels as the nearest one that can be said.
+  /// Packer::fields(). Such a value is sent as the nearest one that can be represented.
   std::vector<std::uint16_t> saturated;
 };
 
@@ -45,7 +45,7 @@ class Packer {
   std::optional<PackResult> Pack(std::span<const std::byte> encoded, std::int64_t now_us) const;
 
   /// The encoded message, with time stamps in the receiver's clock: `now_us` is when it was received (less
-  /// the time on the way, where that is known). nullopt when the bits are no packed message of the type,
+  /// the transmission time, where that is known). nullopt when the bits are no packed message of the type,
   /// which has exactly packed.size() bytes. What comes out passes Walk.
   std::optional<std::vector<std::byte>> Unpack(std::span<const std::byte> packed, std::int64_t now_us) const;
   /// The same for a packed message at the beginning of `packed`, which loses its bytes.

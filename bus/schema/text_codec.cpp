@@ -18,7 +18,7 @@ constexpr std::array<std::int8_t, 256> MakeValues() {
 }
 constexpr std::array<std::int8_t, 256> kValues = MakeValues();
 
-/// What the first byte of a UTF-8 sequence says about it.
+/// What the first byte of a UTF-8 sequence determines.
 struct SequenceForm {
   int size;             ///< bytes of the sequence; 0: no sequence begins with this byte
   std::uint32_t least;  ///< least code point that needs so many bytes

@@ -4,7 +4,7 @@
 
 namespace priamos::bus {
 
-/// A bus that cannot be opened or used; what() says which and the next step.
+/// A bus that cannot be opened or used; what() names it and the next step.
 class BusError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -18,7 +18,7 @@ struct GreyImage {
 };
 
 /// The frame grabber's memory: a ring of image slots in shared memory (/dev/shm), written by the camera
-/// side and read by `head`. Images never travel on a bus; a camera_frame_t says which slot holds which.
+/// side and read by `head`. Images never travel on a bus; a camera_frame_t names the slot of each.
 class FrameStore {
  public:
   static constexpr int kSlots = 8;

@@ -37,7 +37,7 @@ void Save(const std::string& folder, const std::string& name, const cv::Mat& pic
   if (!cv::imwrite(path, picture)) throw std::runtime_error(path + ": cannot be written");
 }
 
-/// Every centroid where it was seen, with the way from where the calibrated head sees it.
+/// Every centroid where it was measured, with its residual against the calibrated head.
 cv::Mat DrawResiduals(const std::vector<HeadView>& views, const std::vector<Eigen::Vector2d>& residuals) {
   constexpr double kScale = 0.65;
   constexpr int kWidth = 500, kHeight = 375, kGap = 30;

@@ -65,7 +65,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
                     context.ResolvePath(config.calibration)));
 }
 
-/// Straight ahead while model or pose are unknown: the answer will say so.
+/// Straight ahead while model or pose are unknown, which the answer reports.
 double HeadApp::PanFor(const LookOrder& order, Time now) const {
   const auto model = models_.find(order.landmark_id);
   auto robot = poses_.At(now);

@@ -42,7 +42,7 @@ void HeadConfig::Describe(Archive& a) {
   a.Section("motors", motors, "the KASTOR motors");
   a.Section("look", look, "the course of one look");
   a.Section("vision", vision, "edges and landmark fixes");
-  a.Section("drift", drift, "alarm when the cameras are no longer where the calibration says");
+  a.Section("drift", drift, "alarm when the cameras are no longer where the calibration has them");
   a.Section("laser", laser, "obstacles and steps by the laser's line");
   // Nearer to the end stop a motor cannot come from below.
   const int nearest = motors.approach_steps;

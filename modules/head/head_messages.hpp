@@ -49,9 +49,9 @@ landmark_fix_t ToMessage(const LookAnswer& answer);
 landmark_view_t ViewMessage(const LookAnswer& answer);
 /// Of more pieces than the message holds missing ones are left out first, then the lowest; they are counted.
 obstacle_line_t ToMessage(const ObstacleLines& lines, Time exposure);
-/// What the message says of the pieces; those of unknown kind are left out.
+/// The pieces in the message; those of unknown kind are left out.
 ObstacleLines FromMessage(const obstacle_line_t& message);
-/// What the message says of the view; edges of unknown kind are left out.
+/// The view in the message; edges of unknown kind are left out.
 LandmarkView FromMessage(const landmark_view_t& message);
 
 }  // namespace priamos::head

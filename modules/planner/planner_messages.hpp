@@ -12,8 +12,8 @@ MissionOrder FromMessage(const mission_command_t& message);
 RobotPose FromMessage(const pose_t& message);
 DriveReport FromMessage(const drive_status_t& message);
 
-/// What a fix alone says about a look: nothing yet when the landmark was found, because only the robot knows
-/// whether the pose could be corrected with it; a failure otherwise.
+/// What follows for a look from its fix alone: nothing yet when the landmark was found, because only the
+/// robot knows whether the pose could be corrected with it; a failure otherwise.
 std::optional<LookResult> FromMessage(const landmark_fix_t& message);
 /// The outcome of a look as far as the pose is concerned.
 LookResult FromMessage(const pose_correction_t& message);

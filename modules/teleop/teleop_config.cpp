@@ -5,7 +5,7 @@ namespace priamos::teleop {
 void SpaceMouseConfig::Describe(Archive& a) {
   a.Text("socket", socket, "socket of spacenavd; empty: /var/run/spnav.sock or as in /etc/spnavrc");
   a.Text("port", port, "serial port of a Magellan, for device = \"serial\"");
-  a.Integer("full_scale", full_scale, {"count", 10, 32767, "what the mouse says at full deflection"});
+  a.Integer("full_scale", full_scale, {"count", 10, 32767, "counts of the mouse at full deflection"});
 }
 
 void KeyboardConfig::Describe(Archive& a) {

@@ -22,7 +22,7 @@ class WorldApp {
       "Stands in for the hardware: wheels, sonars, KASTOR's motors and cameras, in a simulated building.";
   static constexpr bus::OptionAlias kOptions[] = {{"--world", "world", "", "world file to simulate"}};
   static constexpr bool kOneOwner = true;
-  /// Of devices; where their drivers speak nothing may stand in for them.
+  /// Channels of devices: where their drivers send, nothing may stand in for them.
   static constexpr std::array kSpeaksAlone{channels::kWheelState.name, channels::kSonarRanges.name,
                                            channels::kHeadState.name, channels::kCameraFrame.name};
   using Config = WorldConfig;

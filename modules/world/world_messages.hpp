@@ -16,7 +16,7 @@ world_truth_t ToMessage(const Truth& truth);
 /// `slot` is where the picture lies in the frame store.
 camera_frame_t ToMessage(const Frame& frame, int slot);
 
-/// The other way, for tests and tools that stand in for the robot.
+/// The opposite direction, for tests and tools that stand in for the robot.
 wheel_command_t ToMessage(const PerWheel& speed_rad_s, Time now, std::int32_t instance = 0);
 head_command_t ToMessage(const HeadSetting& setting, Time now);
 WheelSample FromMessage(const wheel_state_t& message);

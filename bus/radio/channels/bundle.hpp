@@ -44,7 +44,7 @@ struct EventAckEntry {
   EventAck ack;
 };
 
-/// Frames before the last one that an acknowledgement speaks of as well.
+/// Frames before the last one whose receipt an acknowledgement reports as well.
 inline constexpr int kEarlierFrames = 4;
 
 /// Acknowledgement of frames: which one of the other end came last, and which shortly before.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kStateWithDeltas = 3;
 
-/// A text that says what a frame means; its hash is compared.
+/// A text that determines the meaning of every frame; both ends compare its hash.
 std::string Meaning(const std::vector<LinkChannel>& channels, bool encrypted) {
   std::string text = fmt::format("priamos radio 1 table {}\n", encrypted ? "encrypted" : "clear");
   for (const LinkChannel& c : channels) {

@@ -57,12 +57,12 @@ struct FrameScope {
   bool encrypted = false;
 };
 
-/// Body of a hello frame; epoch.hpp says how it is used.
+/// Body of a hello frame; epoch.hpp defines how it is used.
 struct Hello {
   std::uint32_t table_hash = 0;
   std::uint32_t stream = 0;  ///< names the sender's event numbering: a new one begins at 0
   std::uint64_t nonce = 0;   ///< the sender's random number
-  std::uint64_t echo = 0;    ///< the receiver's random number as the sender heard it; 0 before
+  std::uint64_t echo = 0;    ///< the receiver's random number as the sender received it; 0 before
   bool need = false;         ///< the sender cannot use the receiver's frames: answer, please
   bool agreed = false;       ///< the sender uses the epoch of (nonce, echo)
   bool over = false;         ///< half-duplex: the sender falls silent and listens

@@ -12,10 +12,10 @@ struct HalfDuplex {
   Duration turnaround{};  ///< after its own last byte an end cannot hear for so long
 };
 
-/// Turns on a half-duplex radio: who may talk, and until when. An end says "over" in its last frame; the
-/// other one begins when it has heard that and the first one can hear again. A lost "over" is made good by
-/// patience, which is longer at the onboard end, so that both do not begin at once. Without a turn length
-/// everybody may always talk.
+/// Turns on a half-duplex radio: who may talk, and until when. An end sends "over" in its last frame; the
+/// other one begins when it has received that and the first one can receive again. If "over" is lost, an end
+/// takes the turn after a time without bytes, which is longer at the onboard end, so that both do not begin
+/// at once. Without a turn length everybody may always talk.
 class TurnTaking {
  public:
   TurnTaking(HalfDuplex mode, bool onboard, Time now)
@@ -23,7 +23,7 @@ class TurnTaking {
 
   bool enabled() const { return mode_.turn > Duration::zero(); }
   bool MayTalk(Time now) const { return !enabled() || (mine_ && now >= began_); }
-  /// The turn is not worth keeping any longer with nothing to say.
+  /// Whether the turn has lasted long enough to be passed on with nothing to send.
   bool MayPass(Time now) const { return enabled() && mine_ && now >= began_ + kHold; }
   /// A frame of length `longest` after one that ends at `frame_end` would be too long.
   bool MustEnd(Time frame_end, Duration longest) const {

@@ -33,7 +33,8 @@ std::string WhyNoAnswer(const EstopEar& here, const std::optional<EstopEar>& oth
   if (other && !other->channels.empty())
     return fmt::format("nothing is heard there; {} carries {} channels: --bus {}", other->name,
                        other->channels.size(), other->name);
-  return "nothing is heard there; is anything up (priamos status), and is there a way (priamos doctor)?";
+  return "nothing is heard there; is anything up (priamos status), and is there a route for multicast "
+         "(priamos doctor)?";
 }
 
 struct EstopSilence::Side {
@@ -65,7 +66,7 @@ void EstopSilence::Drain() {
 }
 
 std::string EstopSilence::Why() const {
-  if (sides_.empty()) return "nothing could be heard there; is there a way (priamos doctor)?";
+  if (sides_.empty()) return "nothing could be heard there; is there a route for multicast (priamos doctor)?";
   return WhyNoAnswer(sides_.front()->ear,
                      sides_.size() > 1 ? std::optional(sides_.back()->ear) : std::nullopt);
 }

@@ -14,7 +14,7 @@ namespace priamos::cli {
 
 namespace {
 
-/// What `visit` says of the App of `module`.
+/// The result of `visit` for the App of `module`.
 template <class Visit>
 auto WithApp(const std::string& module, Visit visit) {
   if (module == "world") return visit(std::type_identity<world::WorldApp>());

@@ -13,7 +13,7 @@ void AddDeploymentOption(CLI::App& verb, std::string& deployment);
 /// Throws ConfigError.
 std::string FolderOfDeployment(const std::string& deployment);
 
-/// `--logs`; `what` says what is written there. Left out it stays empty, and LogRoot says the default.
+/// `--logs`; `what` names what is written there. Left out it stays empty, and LogRoot gives the default.
 void AddLogsOption(CLI::App& verb, std::string& log_root, const std::string& what);
 /// Throws ConfigError.
 std::string LogRoot(const std::string& log_root);

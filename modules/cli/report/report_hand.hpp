@@ -25,11 +25,12 @@ struct HandSummary {
 
 /// Nothing when no command for motion was recorded. What is free grows and shrinks with the acceleration that
 /// the robot grants an operator, and 0.1 s after the wish, so that starting and turning back are no faults.
-/// Time spent before something that truly is in the way does not count, time spent where there was room does.
+/// Time spent before something that blocks the wished motion does not count, time spent where there was room
+/// does.
 std::optional<HandSummary> HandSummaryOf(const RunRecord& record, const TrueWorld& world,
                                          const DoorPlan& passage);
 
-/// What speaks against a drive by hand that came to its end, in words; empty when nothing does.
+/// Why a drive by hand that came to its end has not passed, in words; empty if it has.
 /// `longest_stop_s` as in Scenario.
 std::string FaultOf(const HandSummary& hand, double longest_stop_s);
 

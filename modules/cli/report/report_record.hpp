@@ -16,7 +16,7 @@ namespace priamos::cli {
 /// Which bus a message was recorded on.
 enum class Side { kOnboard, kOffboard };
 
-/// What one run said about itself: the decoded messages that a report is made of, each stream in the order of
+/// The messages of one run: the decoded messages that a report is made of, each stream in the order of
 /// recording. It is fed message by message, from a live bus, from lockstep or from logs; what the report does
 /// not need is ignored, what is not a valid message is counted.
 class RunRecord {
@@ -34,7 +34,7 @@ class RunRecord {
   std::vector<landmark_view_t> views;
   std::vector<drive_status_t> drive;
   std::vector<drive_command_t> commands;  ///< an operator's wishes
-  // Offboard: when the planner asked, and what it said.
+  // Offboard: requests and status of the planner.
   std::vector<look_request_t> looks;
   std::vector<mission_command_t> orders;
   std::vector<mission_status_t> mission;

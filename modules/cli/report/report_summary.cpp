@@ -63,11 +63,11 @@ double MeanSpeed(const RunRecord& record) {
   const auto moves = [](const world_truth_t& truth) { return SpeedOf(truth) > kMotion_m_s; };
   const auto first = std::find_if(record.truth.begin(), record.truth.end(), moves);
   const auto last = std::find_if(record.truth.rbegin(), record.truth.rend(), moves).base();
-  double way_m = 0;
+  double driven_m = 0;
   if (first == record.truth.end() || last - first < 2) return 0;
   for (auto at = first + 1; at != last; ++at)
-    way_m += std::hypot(at->x_m - (at - 1)->x_m, at->y_m - (at - 1)->y_m);
-  return way_m / Seconds(Duration((last - 1)->utime - first->utime));
+    driven_m += std::hypot(at->x_m - (at - 1)->x_m, at->y_m - (at - 1)->y_m);
+  return driven_m / Seconds(Duration((last - 1)->utime - first->utime));
 }
 
 /// `reports` are of the end that sends.

@@ -18,7 +18,7 @@ struct FixSummary {
   double t_s = 0;  ///< time of the correction since the order
   double error_before_m = 0, error_before_deg = 0;
   double error_after_m = 0, error_after_deg = 0;
-  double sigma_m = 0, sigma_deg = 0;  ///< what the robot itself says is left, one sigma
+  double sigma_m = 0, sigma_deg = 0;  ///< error that the robot itself estimates, one sigma
 };
 
 /// One direction of the radio, as its sender counts it.
@@ -48,7 +48,7 @@ struct StoryLine {
 struct Summary {
   std::string scenario;
   std::uint64_t seed = 0;
-  bool passed = false;  ///< the mission says DONE and the base truly is behind the door
+  bool passed = false;  ///< the mission reports DONE and the base truly is behind the door
   std::string reason;   ///< last line of the story; why, if it has not passed
   int contacts = 0;
   double min_gap_m = 0;                     ///< smallest true distance of the footprint to anything
@@ -68,7 +68,7 @@ struct Summary {
   std::vector<StoryLine> story;  ///< in order of time
 };
 
-/// What the record itself does not say about a run.
+/// What the record itself does not contain about a run.
 struct RunInfo {
   std::string scenario;
   std::uint64_t seed = 0;

@@ -6,7 +6,7 @@ namespace priamos::cli {
 namespace {
 
 constexpr double kSurface_m = 0.02;
-/// What the plan and the world say of the same wall differs by rounding only.
+/// Plan and world give the same wall but for rounding.
 constexpr double kSame_m = 1e-3;
 
 Rectangle ShapeOf(const world::Solid& solid) {

@@ -10,7 +10,7 @@
 
 namespace priamos::cli {
 
-/// Which processes of a scenario have been heard of on their bus. spacenavd speaks on none and is not waited
+/// Which processes of a scenario have been heard of on their bus. spacenavd sends on none and is not waited
 /// for.
 class AliveProcesses {
  public:

@@ -7,7 +7,7 @@
 namespace priamos::cli {
 
 /// The id of the door that a person calls `name`: its name in the map, or its number, which need not be in
-/// this map. Throws ConfigError that names the nearest ones; `map` says where the plan is from.
+/// this map. Throws ConfigError that names the nearest ones; `map` names where the plan is from.
 int DoorNamed(const GroundPlan& plan, const std::string& name, const std::string& map);
 
 }  // namespace priamos::cli

@@ -6,10 +6,10 @@
 namespace priamos::cli {
 
 /// What a robot that knew the world exactly could do with an operator's wish. It is the measure of a drive by
-/// hand and no part of one: it looks at the exact rectangles of the world, not at echoes, and shares
+/// hand and no part of one: it uses the exact rectangles of the world, not at echoes, and shares
 /// nothing with the robot but the form of the braking law.
 ///
-/// The margin: 6 cm are kept free beside the way, and the base comes to stand 20 cm before what it would
+/// The margin: 6 cm are kept free beside the path, and the base comes to stand 20 cm before what it would
 /// touch, braking with 1 m/s^2 after 0.2 s. The robot itself means to keep 5.5 and 18.5 cm.
 class FreeMotion {
  public:

@@ -46,7 +46,7 @@ void Scenario::Describe(Archive& a) {
   a.List("waypoint", waypoints, "where the operator drives; none: he shakes the stick at random");
   a.Flag("fast", fast, "the operator uses the fast range");
   a.Number("astray_deg", astray_deg,
-           {"deg", 0, 90, "one sigma of where his hand pushes; above 0 it also rests now and then"});
+           {"deg", 0, 90, "error of the direction in which he pushes, one sigma; above 0 he also pauses"});
   a.Number("longest_stop_s", longest_stop_s,
            {"s", 0, 1000, "not passed when the base stands in the passage for longer while pushed; 0: any"});
   a.Number("shake_s", shake_s, {"s", 1, 100000, "how long he shakes it"});

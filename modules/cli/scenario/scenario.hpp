@@ -35,7 +35,7 @@ struct ScenarioWaypoint {
   void Describe(Archive& a) {
     a.Number("x_m", x_m, {"m", -100, 100, "map frame"});
     a.Number("y_m", y_m, {"m", -100, 100, "map frame"});
-    a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "heading on the way there"});
+    a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "heading on the drive there"});
   }
 };
 
@@ -51,7 +51,7 @@ struct Scenario {
   std::vector<ScenarioWaypoint> waypoints;  ///< where the operator drives; none: he shakes the stick
   bool fast = false;                        ///< he uses the fast range
   double shake_s = 60;
-  double astray_deg = 0;      ///< how far beside the way his hand pushes, one sigma; 0: it is exact
+  double astray_deg = 0;      ///< error of the direction in which he pushes, one sigma; 0: exact
   double longest_stop_s = 0;  ///< he may be stopped in the passage for so long; 0: for any time
 
   void Describe(Archive& a);

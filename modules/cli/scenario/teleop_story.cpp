@@ -95,7 +95,7 @@ void TeleopStory::DriveToWaypoint(Time now) {
   hand_.buttons = kDeadMan | (toggle ? kRange : 0);
 }
 
-/// A hand that is not exact pushes beside the way for a while, and rests now and then.
+/// A hand that is not exact pushes in a wrong direction for a while, and rests now and then.
 void TeleopStory::Waver(Time now) {
   if (scenario_.astray_deg == 0) return;
   if (!waver_until_ || now >= *waver_until_) {

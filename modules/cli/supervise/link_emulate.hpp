@@ -16,7 +16,7 @@ struct LinkEmulateOptions {
   bus::radio::LineConfig line;
   std::string blackouts;  ///< CSV file, `from_s,to_s` per line: more times without a line
   std::uint64_t seed = 1;
-  bool json = false;  ///< says what it made as JSON
+  bool json = false;  ///< print the ttys that were made as JSON
 };
 
 /// Reads a blackout schedule; lines that begin with # and a heading are passed over. Throws ConfigError,

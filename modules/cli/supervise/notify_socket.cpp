@@ -67,8 +67,8 @@ std::vector<NotifySocket::Message> NotifySocket::Read() {
     header.msg_controllen = control.size();
     const ssize_t n = recvmsg(fd_, &header, MSG_CMSG_CLOEXEC);
     if (n < 0) return messages;
-    const std::string_view said(text.data(), static_cast<std::size_t>(n));
-    messages.push_back({SenderOf(header), HasLine(said, "READY=1"), HasLine(said, "WATCHDOG=1")});
+    const std::string_view lines(text.data(), static_cast<std::size_t>(n));
+    messages.push_back({SenderOf(header), HasLine(lines, "READY=1"), HasLine(lines, "WATCHDOG=1")});
   }
 }
 

@@ -25,7 +25,7 @@ enum class ProcessState { kWaiting, kStarting, kReady, kBackOff, kStopping, kSto
 const char* Text(ProcessState state);
 
 /// The life of one supervised process as a state machine with time as argument: waits for what it depends on,
-/// must say READY in time and WATCHDOG ever after, is killed when it hangs or stands stopped, and is started
+/// must send READY in time and WATCHDOG ever after, is killed when it hangs or stands stopped, and is started
 /// again after 1, 2, 4 ... 30 s. Three failures in a row raise an alarm, which a stable run clears.
 class ProcessWatch {
  public:
@@ -40,7 +40,7 @@ class ProcessWatch {
   void Started(Time now);
   void SaidReady(Time now);
   void SaidAlive(Time now) { alive_ = now; }
-  /// What the kernel says: whether it is stopped by a signal.
+  /// Whether the process is stopped by a signal, as the kernel reports it.
   void SeenStopped(bool stopped, Time now);
   void Exited(const std::string& how, Time now);
   /// From now on it is to end, and is not started again.

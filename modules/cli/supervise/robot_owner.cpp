@@ -55,8 +55,8 @@ std::string AlarmText(const alarm_t& alarm) {
 }
 
 RobotOwner::RobotOwner(const Deployment& deployment, const bus::Schema& schema, const bus::Clock& clock,
-                       Say say)
-    : say_(std::move(say)) {
+                       Announce announce)
+    : announce_(std::move(announce)) {
   for (const char* side : {"onboard", "offboard"})
     if (Starts(deployment, side, "")) Add(side, deployment, schema, clock);
 }

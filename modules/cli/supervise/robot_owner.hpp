@@ -19,12 +19,14 @@ inline constexpr const char* kSupervisorRole = "supervisor";
 /// alarms of its buses meanwhile.
 class RobotOwner {
  public:
-  using Say = std::function<void(const std::string&)>;
+  /// Called with one line for each alarm.
+  using Announce = std::function<void(const std::string&)>;
 
   /// Asks for 0.3 s on every bus on which `deployment` starts a process. Throws BusError that names who has
-  /// the robot already: another supervisor, or one of the processes started by hand or by systemd. `say` gets
-  /// every alarm as one line.
-  RobotOwner(const Deployment& deployment, const bus::Schema& schema, const bus::Clock& clock, Say say);
+  /// the robot already: another supervisor, or one of the processes started by hand or by systemd. `announce`
+  /// gets every alarm as one line.
+  RobotOwner(const Deployment& deployment, const bus::Schema& schema, const bus::Clock& clock,
+             Announce announce);
   ~RobotOwner();
 
   /// Takes what has come; to be called often.
@@ -39,12 +41,12 @@ class RobotOwner {
   void Add(const std::string& side, const Deployment& deployment, const bus::Schema& schema,
            const bus::Clock& clock);
 
-  Say say_;
+  Announce announce_;
   std::vector<std::string> alarms_;
   std::vector<std::unique_ptr<Side>> sides_;
 };
 
-/// One line for a person: how bad, who says it, and what.
+/// One line for a person: severity, source and text.
 std::string AlarmText(const alarm_t& alarm);
 
 }  // namespace priamos::cli

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kCannotExec = 127;
 /// So many messages fit into the socket on most machines. When it was full, datagrams were lost: on a busy
-/// machine always the same one, who says something seldom.
+/// machine always those of the process that sends least often.
 constexpr std::size_t kFull = 10;
 constexpr Duration kOwnSilence = std::chrono::milliseconds(300), kLookPeriod = std::chrono::milliseconds(50);
 
@@ -170,7 +170,8 @@ void Supervisor::Listen(Time now) {
   }
 }
 
-/// While this process stood still nobody could be heard: what was said then did not fit into the socket.
+/// While this process did not run nothing was received: what children sent then may not have fit into the
+/// socket.
 void Supervisor::ForgiveOwnSilence(Time now) {
   if (last_step_ != Time{} && now - last_step_ > kOwnSilence) ForgiveSilence(now);
   last_step_ = now;
@@ -180,8 +181,8 @@ void Supervisor::ForgiveSilence(Time now) {
   for (Child& child : children_) child.watch.SaidAlive(now);
 }
 
-/// A stopped process does not work, also one of those that never say so; to see it takes no waiting for its
-/// watchdog, and a busy machine does not look like it.
+/// Finds children that a signal has stopped, also those that send no WATCHDOG. It needs no timeout, and a
+/// busy machine causes no false alarm.
 void Supervisor::LookForStopped(Time now) {
   if (now < next_look_) return;
   next_look_ = now + kLookPeriod;

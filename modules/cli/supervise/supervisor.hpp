@@ -19,7 +19,7 @@ struct ProcessSpec {
   std::string group;                     ///< for the eye
   std::vector<std::string> arguments;    ///< the first one is the program's path
   std::vector<std::string> after;        ///< names that must be ready before it starts
-  bool notifies = true;                  ///< says READY and WATCHDOG; else it is ready as soon as it runs
+  bool notifies = true;                  ///< sends READY and WATCHDOG; else it is ready as soon as it runs
   std::string folder;                    ///< working directory; empty: this process's
   std::vector<std::string> leftovers{};  ///< files that lie about a living process: removed when it ended
   WatchPolicy policy;
@@ -54,7 +54,7 @@ class Supervisor {
 
   /// Becomes readable when a process has sent a notification.
   int fd() const { return notify_.fd(); }
-  /// Looks at everything once; call it whenever fd() is readable, and every 50 ms.
+  /// Checks all processes once; call it whenever fd() is readable, and every 50 ms.
   void Step(Time now);
   bool AllReady() const;
   std::vector<ProcessReport> Report() const;

@@ -12,8 +12,8 @@ struct FoundSupervisor {
       log_root;  ///< where it keeps its state; none: on another computer, or of another user
 };
 
-/// Listens for half a second to what the supervisor of `robot` says on both buses. Nothing when none is
-/// heard, and on a computer whose network has no way for the buses.
+/// Listens for half a second for the supervisor of `robot` on both buses. Nothing if none is heard, or if the
+/// computer has no route for multicast.
 std::optional<FoundSupervisor> FindSupervisor(const std::string& robot);
 
 /// For a person: where it is, and what to type.

@@ -13,7 +13,7 @@
 namespace priamos::cli {
 
 /// What `priamos up` leaves in the log folder for `status`, `logs` and `down`: who runs, and how it is. One
-/// `up` per folder: a lock says whether one runs, so a dead one is never taken for alive.
+/// `up` per folder: a lock shows whether one runs, so a dead one is never taken for alive.
 class UpLock {
  public:
   /// Throws std::runtime_error with one sentence when another `up` has the folder.

@@ -17,7 +17,7 @@ std::string Utf8(std::uint8_t dots) {
           static_cast<char>(0x80 | (dots & 63))};
 }
 
-/// Narrows [from, to] to where low <= at + share * way <= high; false if nothing is left.
+/// Narrows [from, to] to the shares for which low <= at + share * delta <= high; false if nothing is left.
 bool Clip(double at, double delta, double low, double high, double& from, double& to) {
   if (delta == 0) return at >= low && at <= high;
   double enter = (low - at) / delta, leave = (high - at) / delta;

@@ -19,7 +19,7 @@ class LinkTopView {
   /// A report that arrived at `now`. Reports of a link with many channels bring some of them each.
   void Add(const link_status_t& report, Time now);
   /// The screen as lines of text. With a size they fit: columns of the table go by worth, then the lines on
-  /// quality, then channels, which are counted. Before the first report it says what is missing.
+  /// quality, then channels, which are counted. Before the first report it shows what is missing.
   std::string Render(Time now, std::optional<ScreenSize> size) const;
   /// The same for machines.
   nlohmann::ordered_json Json(Time now) const;

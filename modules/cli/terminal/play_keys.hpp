@@ -15,7 +15,7 @@ inline constexpr std::string_view kPlayKeysHelp =
 inline constexpr std::string_view kPlayKeysInShort =
     "space pause, s step, \u2190\u2192 1 s, \u2191\u2193 10 s, -+ speed, 1 original, m max, 0 begin, q quit";
 
-/// Does what the keys say; false for quit. Arrow keys come as escape sequences.
+/// Carries out the keys; false for quit. Arrow keys come as escape sequences.
 bool ApplyKeys(std::string_view keys, bus::LogPlayer& player, Time now);
 
 /// "1/4", "2", "max".

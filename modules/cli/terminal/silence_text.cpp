@@ -43,7 +43,7 @@ std::string NothingAtAll(const BusSound& here, const std::optional<BusSound>& ot
   if (other && !other->channels.empty())
     return text + fmt::format("; {} carries {} channels: --bus {}", other->name, other->channels.size(),
                               other->name);
-  return text + "; is anything up (priamos status), and is there a way (priamos doctor)?";
+  return text + "; is anything up (priamos status), and is there a route for multicast (priamos doctor)?";
 }
 
 }  // namespace

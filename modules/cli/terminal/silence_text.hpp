@@ -6,7 +6,7 @@
 
 namespace priamos::cli {
 
-/// One bus as it sounded for a while.
+/// What was received on one bus for a while.
 struct BusSound {
   /// A channel that was heard.
   struct Channel {
@@ -19,7 +19,7 @@ struct BusSound {
 };
 
 /// Why nothing came on `channel` of the bus `here`, in one sentence: what it carries that has nearly this
-/// name, whether the robot's other bus has it, or that the channel speaks only now and then. An empty
+/// name, whether the robot's other bus has it, or that the channel is sent only now and then. An empty
 /// `channel` stands for any. `known` are the channels that there can be, `events` those of them without a
 /// rate.
 std::string SilenceText(const std::string& channel, const BusSound& here,

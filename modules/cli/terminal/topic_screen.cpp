@@ -50,7 +50,7 @@ std::string TopicScreen(const std::vector<TopicRow>& rows, const BusLosses& loss
   if (!size) return Channels(rows).Render() + Senders(losses).Render() + sums;
   const int room = size->rows - Lines(sums), n = static_cast<int>(rows.size()) + 1;
   const int left = room - n;
-  // Senders get what the channels leave, and a header alone says nothing.
+  // Senders get what the channels leave, and a header alone is of no use.
   const std::string senders = left >= 2 ? Senders(losses).Render({columns, left}) : "";
   return Channels(rows).Render({columns, room - Lines(senders)}) + senders + sums;
 }

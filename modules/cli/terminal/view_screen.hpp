@@ -20,7 +20,7 @@ class ViewScreen {
   void Add(const landmark_fix_t& fix) { fix_ = fix; }
   void Add(const obstacle_line_t& line) { line_ = line; }
 
-  /// The screen as lines of text that fit `size`. Before anything came it says what it waits for.
+  /// The screen as lines of text that fit `size`. Before the first message it shows what it waits for.
   std::string Render(Time now, ScreenSize size, bool colour) const;
   bool empty() const { return !view_ && !line_; }
 

@@ -11,7 +11,7 @@
 
 namespace priamos::cli {
 
-/// What a bus said last about where the robot is and what it does; empty: nothing was heard.
+/// The last messages of a bus about the robot's pose and state; empty: nothing was received.
 struct Whereabouts {
   std::optional<pose_t> pose;
   std::optional<drive_status_t> drive;

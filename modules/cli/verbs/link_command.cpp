@@ -99,7 +99,7 @@ void AddEmulate(CLI::App& link, int& exit_code) {
   verb->add_option("--blackouts", options->blackouts,
                    "CSV file with from_s,to_s per line: no line in between");
   verb->add_option("--seed", options->seed, "seed of the errors")->capture_default_str();
-  verb->add_flag("--json", options->json, "say machine-readable which ttys there are");
+  verb->add_flag("--json", options->json, "print the ttys as JSON");
   verb->callback([options, &exit_code] { exit_code = RunLinkEmulate(*options); });
 }
 
@@ -114,7 +114,8 @@ void AddKeygen(CLI::App& link, int& exit_code) {
   verb->callback([=, &exit_code] {
     radio::WriteNewKeyFile(*path);
     if (*json) std::cout << nlohmann::ordered_json{{"file", *path}}.dump() << "\n";
-    if (!*json) std::cout << *path << ": new key; copy it to the other end by a safe way, mode 0600\n";
+    if (!*json)
+      std::cout << *path << ": new key; copy it to the other end over a secure channel, mode 0600\n";
     exit_code = 0;
   });
 }

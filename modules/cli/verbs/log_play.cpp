@@ -47,7 +47,7 @@ class Playing {
       const int sent = player_.Play(
           clock_.Now(),
           [this](const std::string& channel, const bus::LogEvent& event) {
-            // Claims speak for processes, and those of the log do not run.
+            // Claims belong to processes, and those of the log do not run.
             if (event.channel == channels::kClaim.name) return;
             ++(bus_.Publish(channel, event.bytes) ? sent_ : refused_);
           },

@@ -185,7 +185,7 @@ std::vector<ManualPage> Manual(const CLI::App& cli, const ManualIssue& issue) {
   pages.push_back(
       FilePage("link", "link.toml, what crosses the radio",
                "TOML. The file that both ends of the radio read: which channels cross, which way and how "
-               "often. priamos link budget says whether the line can carry it.",
+               "often. priamos link budget shows whether the line can carry it.",
                KeysOf<bus::radio::LinkConfig>(), issue));
   pages.push_back(FilePage("map", "maps/NAME.toml, the plan of a building",
                            "TOML. The file that the planner reads: walls, and doors as landmarks.",

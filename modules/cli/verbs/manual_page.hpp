@@ -6,7 +6,7 @@
 
 namespace priamos::cli {
 
-/// Of which release a manual speaks.
+/// The release that a manual describes.
 struct ManualIssue {
   std::string date;     ///< YYYY-MM-DD
   std::string release;  ///< "priamos 0.1.0"

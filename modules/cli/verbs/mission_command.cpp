@@ -91,7 +91,7 @@ void Print(const MissionOptions& options, const mission_status_t& status) {
     std::cout << fmt::format("{}: {}", PhaseName(status.phase), status.text) << std::endl;
 }
 
-/// What the planner says; with --wait until the mission is over. 1 when it failed or nobody answers.
+/// Prints the planner's answer; with --wait until the mission is over. 1 when it failed or nobody answers.
 int Status(const MissionOptions& options) {
   constexpr Duration kSpeaksWithin = std::chrono::seconds(2);
   BusSession session("priamos mission status", options.bus, channels::kMissionStatus.name);

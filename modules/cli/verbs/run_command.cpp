@@ -210,8 +210,8 @@ class RealTimeRun {
 int FailedStart(const RealTimeRun& run, bool json) {
   if (json)
     std::cout << nlohmann::ordered_json{{"started", false}, {"reason", run.Reason()}}.dump() << std::endl;
-  std::cerr << fmt::format("priamos run: not started: {}\nwhat every process said is in {}/*.txt\n",
-                           run.Reason(), ShownFrom(std::filesystem::current_path(), run.folder()));
+  std::cerr << fmt::format("priamos run: not started: {}\noutput of every process:  {}/*.txt\n", run.Reason(),
+                           ShownFrom(std::filesystem::current_path(), run.folder()));
   return 2;
 }
 

@@ -82,7 +82,7 @@ int List(const TopicOptions& options, const std::string& verb) {
   const bus::MonotonicClock clock;
   bus::LcmBus bus(options.bus.Url(), options.messages());
   TopicStatistics statistics(schema, FromSeconds(std::max(2.0, options.seconds)));
-  // With an end in sight the sentence comes there, once.
+  // With a time limit the sentence comes at the end, once.
   const Duration patience = options.watch ? kPatience : FromSeconds(options.seconds) + kPatience;
   SilenceWatch silence("priamos topic " + verb, options, options.channel, clock.Now(), patience);
   const auto add = [&](std::string_view channel, std::span<const std::byte> bytes) {
@@ -198,7 +198,7 @@ void AddTopicCommand(CLI::App& cli, int& exit_code) {
   AddChannelArgument(*pub, options->channel);
   pub->add_option("type", options->type, "message type")->required();
   pub->add_option("message", options->message, "the message as JSON")->required();
-  pub->add_flag("--json", options->json, "say machine-readable what was sent");
+  pub->add_flag("--json", options->json, "print what was sent as JSON");
   pub->callback([options, &exit_code] { exit_code = Pub(*options); });
 }
 

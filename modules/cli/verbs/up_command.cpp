@@ -207,10 +207,10 @@ void AddUpCommands(CLI::App& cli, int& exit_code) {
   up->add_option("deployment", options->deployment,
                  "sim, robot, or a folder with a deployment.toml, with a slash")
       ->capture_default_str();
-  up->add_option("--group", options->group, "only these processes; without it what the deployment says")
+  up->add_option("--group", options->group, "only these processes; default: as in the deployment")
       ->check(CLI::IsMember({"all", "onboard", "offboard"}));
   up->add_option("--robot", options->robot,
-                 "its name, from which its ports follow; without it what the deployment says")
+                 "its name, from which its ports follow; default: as in the deployment")
       ->envname(bus::kRobotVariable);
   up->add_option("--seed", options->seed, "seed of simulated hardware")->capture_default_str();
   up->add_flag("--detach", options->detach, "return when everything is ready");

@@ -17,7 +17,7 @@ struct Colour {
   unsigned rgb = 0;
 };
 
-/// How lines and areas look.
+/// Appearance of lines and areas.
 struct Style {
   std::optional<Colour> line{};
   double width = 1;  ///< width of the line [px]

@@ -8,7 +8,7 @@ namespace priamos::drawing {
 struct LegendLook {
   Font font;
   Colour ink;
-  double widen = 1;      ///< lines of the drawing are so many times as wide as their layers say
+  double widen = 1;      ///< width of lines in the drawing over that of their layers
   double leading = 1.5;  ///< distance of two rows, in sizes of the font
 };
 

@@ -8,7 +8,7 @@
 
 namespace priamos::head {
 
-/// One picture of the laser's line by the third camera, as a file says it: `[[view]]`.
+/// One picture of the laser's line by the third camera, an entry `[[view]]` of a file.
 struct LaserPicture {
   std::string image;                                  ///< beside the file that lists it
   double pan_deg = 0, tilt_deg = 0;                   ///< angles of the head at the exposure

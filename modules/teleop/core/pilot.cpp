@@ -65,7 +65,7 @@ void Pilot::UseEstopButtons(const Stick& stick, const RobotView& robot, Time now
   } else if (stopped_ && robot.estop) {
     stopped_.reset();
   } else if (stopped_ && now - *stopped_ >= kStopAgain) {
-    output.estop = PilotOutput::Estop::kStop;  // until the robot says that it stands
+    output.estop = PilotOutput::Estop::kStop;  // until the robot reports that it stands
     stopped_ = now;
   }
   const bool rearming = stick.connected && IsPressed(stick, buttons.rearm) && AtRest(stick) &&

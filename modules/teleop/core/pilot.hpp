@@ -10,11 +10,11 @@
 
 namespace priamos::teleop {
 
-/// What the robot last said, as far as the pilot cares.
+/// The part of the robot's last status that the pilot needs.
 struct RobotView {
   /// Who has the lease, seen from this operator.
   enum class Lease { kFree, kMine, kOther };
-  std::optional<Time> heard{};  ///< when it said so, by the robot, in this process's clock
+  std::optional<Time> heard{};  ///< time of that status, in this process's clock
   Lease lease = Lease::kFree;
   bool estop = false;
 };
@@ -33,7 +33,7 @@ enum class PilotPhase {
   kNoDevice,   ///< nothing to steer with
   kIdle,       ///< the dead-man is not held
   kMustLetGo,  ///< it was held when something ended the drive: let go of it first
-  kAsking,     ///< it is held; the robot has not yet said that the lease is ours
+  kAsking,     ///< it is held; the robot has not yet granted the lease
   kDriving,
 };
 
@@ -51,9 +51,9 @@ struct PilotOutput {
 
 /// Turns a stick and buttons into wishes. Pure: time is an argument.
 ///
-/// Nothing moves unless the dead-man is held, the stick talks, and the robot says that the lease is ours and
-/// no e-stop is latched. Pressing the dead-man asks for a free lease; taking a held one needs the take-over
-/// button. While it asks, it sends commands to stand, which is what the robot wants to hear first. When the
+/// Nothing moves unless the dead-man is held, the stick talks, and the robot reports that the lease is ours
+/// and no e-stop is latched. Pressing the dead-man asks for a free lease; taking a held one needs the
+/// take-over button. While it asks, it sends commands to stand, which the robot must receive first. When the
 /// drive ends for any reason but the stick at rest, the dead-man must be let go and pressed again.
 class Pilot {
  public:

@@ -67,7 +67,7 @@ void PilotConfig::Describe(Archive& a) {
   a.Number("time_to_live_s", time_to_live_s, {"s", 0.02, 0.25, "how long the robot may obey one command"});
   a.Number("silence_s", silence_s, {"s", 0.05, 0.5, "a deflected stick that is silent for so long is gone"});
   a.Number("rearm_hold_s", rearm_hold_s, {"s", 0.2, 10, "how long the rearm button must be held"});
-  a.Number("status_stale_s", status_stale_s, {"s", 0.5, 10, "an older DRIVE_STATUS says nothing"});
+  a.Number("status_stale_s", status_stale_s, {"s", 0.5, 10, "an older DRIVE_STATUS does not count"});
   a.Section("shape", shape, "from deflection to wish");
   a.Section("slow", slow, "speed range after the start");
   a.Section("fast", fast, "the other speed range");

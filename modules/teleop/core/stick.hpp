@@ -17,12 +17,12 @@ inline constexpr std::size_t kAxes = 6;
 /// above.
 inline const std::vector<std::string> kAxisNames{"forward", "left", "up", "roll", "pitch", "turn"};
 
-/// What an input device says now.
+/// State of an input device.
 struct Stick {
   std::array<double, kAxes> axis{};  ///< deflection -1..1, order of kAxisNames
   std::uint32_t buttons = 0;         ///< bit i: button i is pressed
   bool connected = false;
-  Time heard{};  ///< newest word of the device; a device that is deflected keeps talking
+  Time heard{};  ///< time of the device's newest report; a device that is deflected keeps talking
   bool operator==(const Stick&) const = default;
 };
 

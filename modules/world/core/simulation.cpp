@@ -73,23 +73,23 @@ void Simulation::Step() {
   motors_.Step(kStep);
   ExposeUntil(end, from);
   now_ = end;
-  // Moving by a way changes the gap by at most that way, so nothing farther needs to be looked at.
+  // A motion changes the gap by at most its length, so nothing farther needs to be examined.
   gap_m_ = clearance_.Gap(pose_, std::min(kGapLimitM, gap_m_ + Reach(Seconds(kStep))));
   contacts_.Update(gap_m_);
   SampleDevices();
 }
 
-/// The wheels turn as they are driven; where a solid is in the way the base stays before it and they slip.
+/// The wheels turn as they are driven; where a solid blocks the base it stays before it and they slip.
 void Simulation::Move(double dt_s) {
   velocity_ = base_.Step(drive_.speed_rad_s(), dt_s);
   const Pose2 wanted = Integrate(pose_, velocity_, dt_s);
-  // Nothing that is farther away than a step is long can be in the way.
+  // What is farther away than a step is long cannot block it.
   const double part = gap_m_ > Reach(dt_s) ? 1 : clearance_.FreePart(pose_, wanted);
   if (part < 1) velocity_ = {part * velocity_.vx, part * velocity_.vy, part * velocity_.wz};
   pose_ = part < 1 ? Integrate(pose_, velocity_, dt_s) : wanted;
 }
 
-/// The way no point of the footprint exceeds in that time.
+/// Upper bound of the distance that any point of the footprint moves in that time.
 double Simulation::Reach(double dt_s) const {
   const double speed_m_s = std::hypot(velocity_.vx, velocity_.vy);
   return (speed_m_s + std::abs(velocity_.wz) * body_.size_m.norm() / 2) * dt_s;

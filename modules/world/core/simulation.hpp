@@ -70,7 +70,8 @@ class Simulation {
  public:
   static constexpr Duration kStep{2500};
   static constexpr Duration kSamplePeriod{20000};  ///< wheels, head, truth
-  /// Longest time step that is simulated. A caller that is later than this finds that the world stood still.
+  /// Longest time that one call simulates. A caller that is later than this loses the rest: no time passes
+  /// then.
   static constexpr Duration kMaxAdvance{500000};
 
   /// `cameras` must outlive it. Throws std::invalid_argument when the robot would start inside a solid.

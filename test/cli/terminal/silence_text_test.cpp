@@ -40,9 +40,9 @@ TEST(SilenceText, AnEventMayBeSilent) {
 
 TEST(SilenceText, SaysWhenNothingIsHeardAtAll) {
   const BusSound silent{"udpm://c", "udpm://c", {}};
-  EXPECT_EQ(
-      Text("POSE", silent, std::nullopt),
-      "nothing is heard on udpm://c; is anything up (priamos status), and is there a way (priamos doctor)?");
+  EXPECT_EQ(Text("POSE", silent, std::nullopt),
+            "nothing is heard on udpm://c; is anything up (priamos status), and is there a route for "
+            "multicast (priamos doctor)?");
   EXPECT_EQ(Text("", silent, kOnboard),
             "nothing is heard on udpm://c; onboard carries 2 channels: --bus onboard");
 }

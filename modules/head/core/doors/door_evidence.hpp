@@ -21,7 +21,7 @@ struct Cover {
   int line = -1;        ///< in CameraView::lines: the one that covers most of it
 };
 
-/// What one camera says for or against a door.
+/// Evidence of one camera for or against a door.
 struct DoorEvidence {
   Cover lintel;                   ///< from the left to the right upright
   std::array<Cover, 2> uprights;  ///< left, right: from the lintel down to the floor or out of the picture

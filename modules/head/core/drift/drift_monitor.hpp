@@ -9,7 +9,7 @@
 
 namespace priamos::head {
 
-/// When the cameras are no longer believed to be where the calibration says.
+/// When the cameras are no longer believed to be where the calibration has them.
 struct DriftConfig {
   int looks = 3;                       ///< number of looks whose median is judged, odd; fewer are not judged
   double false_alarm = 1e-4;           ///< highest probability of a false alarm per judgement
@@ -18,7 +18,7 @@ struct DriftConfig {
   void Describe(Archive& a);
 };
 
-/// What is wrong.
+/// A turn of the right camera that is too improbable under the calibration's errors.
 struct DriftAlarm {
   StereoDrift drift;      ///< turn of the right camera in the median look
   int axis = 0;           ///< axis of the right camera (x, y, z) with the most improbable turn
@@ -39,9 +39,9 @@ class DriftMonitor {
   explicit DriftMonitor(const DriftConfig& config);
 
   void Add(const StereoDrift& drift);
-  /// nullopt while all is well or too few looks are known.
+  /// The alarm; nullopt while there is none or too few looks are known.
   std::optional<DriftAlarm> alarm() const { return alarm_; }
-  /// So many standard deviations are an alarm.
+  /// Threshold of the alarm, in standard deviations.
   double limit() const { return limit_; }
 
  private:

@@ -45,7 +45,7 @@ std::vector<End> EndsOf(const CameraView& left, const CameraView& right, std::sp
   return ends;
 }
 
-/// Where most of them are.
+/// Mode of the residuals: the shift at which their density is largest.
 double Densest(const std::vector<End>& ends, double reach_px) {
   double best = 0, most = 0;
   for (double at = -reach_px; at <= reach_px; at += kGridStep_px) {

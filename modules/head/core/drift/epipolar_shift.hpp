@@ -10,7 +10,8 @@ namespace priamos::head {
 
 /// How far the ends of matched edges lie below the epipolar lines of their partners, in the right image.
 struct EpipolarShift {
-  double down_px = 0, sigma_px = 0;
+  double down_px = 0;                            ///< shift, positive downwards [undistorted px]
+  double sigma_px = 0;                           ///< standard deviation of the shift
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< middle of the ends that count [undistorted px]
   int n = 0;                                     ///< number of ends that count
 };
@@ -25,18 +26,18 @@ struct EpipolarShiftOptions {
   double floor_px = 0.12;         ///< systematic part of sigma_px, however many ends there are
 };
 
-/// The plain epipolar residual of all matched edges, known landmark or not. More than half of the ends are no
-/// ends of anything (broken, hidden, cut by the image), so it is the crowd that counts: the densest place of
-/// the residuals, then Tukey's biweight around it. nullopt if there is no crowd.
+/// Mean epipolar residual of the ends of all matched edges, known landmark or not. More than half of the ends
+/// are not physical (broken, hidden, cut by the image), so the estimate is robust: the mode of the residuals,
+/// refined with Tukey's biweight around it. nullopt if too few ends are near the mode.
 std::optional<EpipolarShift> MeasureEpipolarShift(const CameraView& left, const CameraView& right,
                                                   std::span<const StereoMatch> matches,
                                                   const EpipolarShiftOptions& options = {});
 
-/// Lets a shift speak with what the landmark said about the turn of the right camera.
+/// Kalman update of the right camera's turn, which the landmark gave, with a shift.
 StereoDrift Fuse(const StereoDrift& drift, const EpipolarShift& shift, const CameraModel& right);
 
-/// Knows nothing yet, but that a camera which came loose rolls by fractions of a degree: for looks at which
-/// no landmark was found.
+/// Prior of the drift for looks at which no landmark was found: no turn, wide about x and y, and a roll of
+/// fractions of a degree, as of a camera that came loose.
 StereoDrift UnknownDrift();
 
 }  // namespace priamos::head

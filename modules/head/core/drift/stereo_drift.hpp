@@ -10,7 +10,7 @@
 
 namespace priamos::head {
 
-/// By how much the right camera is turned against the left, beyond what the calibration says. A turn about x
+/// By how much the right camera is turned against the left, beyond the calibrated pose. A turn about x
 /// moves its image up or down (across the epipolar lines), one about y sideways (along them: wrong depths),
 /// one about z rolls it.
 struct StereoDrift {

@@ -123,7 +123,7 @@ bool EdgeFitter::FitLine(EdgeOffset& fit) const {
   return true;
 }
 
-/// False if no block is far off.
+/// Huber weights from the last fit; false if no block is an outlier.
 bool EdgeFitter::Reweight(const EdgeOffset& fit) {
   constexpr double kLimit = 2.5, kFloor_px = 0.03;
   const Misfit misfit_of(fit, begin_);
@@ -142,8 +142,8 @@ bool EdgeFitter::Reweight(const EdgeOffset& fit) {
   if (!any) return false;
   for (int i = 0; i < padded_; i += 4) {
     const Lanes allowed = cv::v_load(&allowed_[i]);
-    const Lanes doubt = cv::v_sqrt(allowed / cv::v_max(allowed, cv::v_load(&misfits_[i])));
-    cv::v_store(&weights_[i], doubt * cv::v_load(&base_[i]));
+    const Lanes robust = cv::v_sqrt(allowed / cv::v_max(allowed, cv::v_load(&misfits_[i])));
+    cv::v_store(&weights_[i], robust * cv::v_load(&base_[i]));
   }
   return true;
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCellPx = 64;
 constexpr double kSigmas = 3;
-constexpr double kMaxAngleNoise = 0.03;  ///< beyond that a direction is not worth more doubt [rad]
+constexpr double kMaxAngleNoise = 0.03;  ///< largest error of a direction that is searched for [rad]
 /// Lines are looked up among those of about their direction.
 constexpr int kSectors = 16;
 
@@ -121,9 +121,9 @@ class Fuser {
   void Add(const Line& line) {
     const int id = static_cast<int>(lines_.size());
     const double turn = std::atan2(line.direction.y(), line.direction.x()) * kSectors / (2 * kPi) + kSectors;
-    const double doubt = (options_.max_angle_rad + kSigmas * kMaxAngleNoise) * kSectors / (2 * kPi);
+    const double reach = (options_.max_angle_rad + kSigmas * kMaxAngleNoise) * kSectors / (2 * kPi);
     near_.clear();
-    for (int sector = int(turn - doubt); sector <= int(turn + doubt); ++sector) {
+    for (int sector = int(turn - reach); sector <= int(turn + reach); ++sector) {
       FindAround(line, index_[sector % kSectors]);
     }
     index_[int(turn) % kSectors].Insert(id, line.segment.begin, line.segment.end);

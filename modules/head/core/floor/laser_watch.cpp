@@ -23,7 +23,7 @@ LaserWatch::Action LaserWatch::Step(bool needed, bool sees, Time now) {
   if (needed) {
     idle_since_.reset();
     lowered_.reset();
-    waiting_ = false;  // a picture of a moving head says nothing
+    waiting_ = false;  // a picture of a moving head is of no use
     return Action::kWait;
   }
   if (!idle_since_) idle_since_ = now;

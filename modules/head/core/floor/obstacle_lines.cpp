@@ -224,7 +224,7 @@ void ObstacleOptions::Describe(Archive& a) {
   a.Integer("min_missing", min_missing,
             {"px", 4, ImageSize{}.width, "a gap in the line is reported if it has more columns"});
   a.Number("min_seen", min_seen,
-           {"-", 0, 1, "share of the columns below which nothing is said of the floor"});
+           {"-", 0, 1, "least share of columns with a line; with less the floor is not judged"});
 }
 
 ObstacleLines FindObstacles(std::span<const StripePoint> stripe, int width, const CameraModel& camera,

@@ -49,9 +49,9 @@ struct ObstaclePiece {
   double height_m = 0, sigma_height_m = 0;  ///< mean over the piece, above the floor
 };
 
-/// What one picture of the line says; the verdicts are those of obstacle_line_t.
+/// The floor in one picture of the line; the verdicts are those of obstacle_line_t.
 struct ObstacleLines {
-  /// kBlind: too little of the line was seen to say anything about the floor.
+  /// kBlind: too little of the line was seen to judge the floor.
   enum Verdict { kClear = 0, kObstacle = 1, kBlind = 2 };
   Verdict verdict = kBlind;
   double seen_share = 0;              ///< columns with a line

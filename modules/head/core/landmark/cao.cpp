@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxDepth = 8, kMaxCount = 100000;
 
-/// What a line of the file says, comments taken away.
+/// A line of the file without comments.
 struct Line {
   int number = 0;
   std::vector<std::string> words;

@@ -30,7 +30,7 @@ struct CornerMatch {
   double log_odds = 0;           ///< what it contributes: whether they end in it
 };
 
-/// What the images say about one supposed pose.
+/// Evidence of the images for one supposed pose.
 struct Association {
   double missed_log_odds = 0;  ///< log odds of a whole edge that is not found
   std::vector<EdgeMatch> matches;
@@ -68,8 +68,8 @@ struct AssociationOptions {
 /// Compares the model's edges at `base_from_landmark` with the edges of all images. `visible` lists the model
 /// edges to expect. The odds of an edge: how much better "there" explains an image edge of that length so
 /// near the prediction than the density of similar edges around it does; an edge that is not found counts
-/// against. A movable part stands as the model has it or elsewhere, either as likely: found, all of it speaks
-/// for the pose; not found, it says nothing.
+/// against. A movable part stands as the model has it or elsewhere, either as likely: found, all of it counts
+/// for the pose; not found, it does not count.
 Association Associate(const LandmarkModel& model, std::span<const int> visible,
                       std::span<const CameraView> views, const Eigen::Isometry3d& base_from_landmark,
                       const AssociationOptions& options);

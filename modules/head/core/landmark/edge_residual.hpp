@@ -18,8 +18,8 @@ struct EdgeObservation {
   double sigma_px = 0;  ///< across the edge
 };
 
-/// All points of one model edge in one image, as what they say: a straight line, known at two places that are
-/// independent of each other (at one place if the points lie in one).
+/// All points of one model edge in one image, reduced to a straight line: its position at two places whose
+/// errors are independent (at one place if the points coincide).
 struct ObservedLine {
   int edge = 0, camera = 0, n = 2;
   Eigen::Vector2d at[2];  ///< on the line that fits the points best [px]

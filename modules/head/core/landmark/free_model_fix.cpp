@@ -83,7 +83,7 @@ Verdict Judge(const State& state, const Eigen::Isometry3d& believed, const FreeM
   return Verdict::kFound;
 }
 
-/// One way from the belief to the result.
+/// One sequence of gates from the belief to the result.
 FreeModelFix Approach(const Search& search, const Eigen::Isometry3d& believed, double widening,
                       const FreeModelOptions& options) {
   FreeModelFix fix;

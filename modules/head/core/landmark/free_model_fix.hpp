@@ -11,7 +11,7 @@ namespace priamos::head {
 /// How a free model is searched around where it is believed to be.
 struct FreeModelOptions {
   std::vector<double> gates_px{16, 8, 4, 2, 1.2};  ///< gate of each pass, from the belief to the result
-  /// If that does not lead to it: the way there with all but the last gate wider or narrower by so much.
+  /// Factors on all gates but the last, tried one after the other if the first pass finds nothing.
   std::vector<double> retries{1.7, 0.6};
   int min_matched = 5;     ///< edges that must be found, all images together
   double min_share = 0.4;  ///< share of the visible length that must be found

@@ -82,9 +82,9 @@ struct LandmarkFixOptions {
 
 /// Finds the landmark in one stereo pair: vertical edges are reconstructed, pairs of them laid onto pairs of
 /// the model's edges wherever the prediction allows it, every pose proposed is judged by all edges in both
-/// images, and the best one refined over all their points. It answers FOUND only if the images speak for it
-/// far beyond chance and for no other pose; the estimate then depends on the images alone, not on the
-/// prediction.
+/// images, and the best one refined over all their points. It answers FOUND only if the evidence for it is
+/// far beyond chance and far above that of every other pose; the estimate then depends on the images alone,
+/// not on the prediction.
 class LandmarkFinder {
  public:
   explicit LandmarkFinder(const LandmarkFixOptions& options) : options_(options) {}

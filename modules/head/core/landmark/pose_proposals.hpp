@@ -31,7 +31,7 @@ struct Proposals {
   int n_tested = 0;                 ///< pairs of pairs that fitted, before merging: the number of chances
 };
 
-/// Every way to lay two visible vertical edges of the model onto two reconstructed ones, as far as the
+/// Every pose that lays two visible vertical edges of the model onto two reconstructed ones, as far as the
 /// prediction and its covariance of (x, y, yaw) allow it.
 Proposals ProposePoses(const LandmarkModel& model, std::span<const int> visible,
                        std::span<const VerticalEdge> verticals, const Pose2& predicted,

@@ -52,7 +52,7 @@ class Problem {
     double previous_step = 1e9;
     for (int i = 0; i < options_.max_iterations; ++i) {
       if (!Linearise()) return solution;
-      // Covariance changes little on the way; the last step of Finish takes it where it belongs.
+      // Covariance changes little between the iterations; the last step of Finish takes it where it belongs.
       if (i == 0 && !Whiten()) return solution;
       Eigen::VectorXd step;
       if (!Solve(step)) return solution;

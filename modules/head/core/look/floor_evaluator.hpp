@@ -9,7 +9,7 @@
 
 namespace priamos::head {
 
-/// What one picture of the laser's line says.
+/// Evaluation of one picture of the laser's line.
 struct FloorResult {
   ObstacleLines lines;                        ///< base frame
   std::optional<ObstaclePiece> new_obstacle;  ///< the worst piece, if the picture before showed no obstacle

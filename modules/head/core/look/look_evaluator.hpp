@@ -21,9 +21,9 @@ struct LookInput {
   HeadSetting setting;                             ///< counters of the motors during the exposure
 };
 
-/// What one look says.
+/// Evaluation of one look.
 struct LookResult {
-  LandmarkFix fix;                   ///< base frame; its verdict says why there is none
+  LandmarkFix fix;                   ///< base frame; its verdict gives the reason if there is none
   LandmarkView view;                 ///< what the verdict was decided by; empty without two usable images
   std::optional<StereoDrift> drift;  ///< turn of the right camera; nullopt: this look does not determine it
 };

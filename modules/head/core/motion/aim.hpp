@@ -21,7 +21,7 @@ struct AimConfig {
 /// The pan angle [rad] for a look at `side` (0 whole, 1 left, 2 right) of a landmark that is expected at
 /// `prediction`. The upright edges of that side shall be in both pictures for certain, those of the other
 /// side if that is possible as well; among such angles the one nearest to `side_share`. Straight ahead if the
-/// landmark has no upright edges. `base` says all but the pan.
+/// landmark has no upright edges. `base` gives all axes but the pan.
 double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model,
               const LandmarkPrediction& prediction, int side, const AimConfig& config);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds(50);
 constexpr Duration kLongestLife = std::chrono::milliseconds(500);
-// What head_command_t can say.
+// Ranges of head_command_t.
 constexpr double kMostPan = 2.0, kMostTilt = 0.8, kMostVergence = 0.4, kMostStep = 2000;
 
 bool IsCredible(const HeadWish& w) {

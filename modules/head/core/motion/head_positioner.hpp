@@ -26,9 +26,9 @@ struct HeadReport {
   bool moving = false;
 };
 
-/// Brings the head to a setting and says when it rests there. Every motor arrives from below: gears have
+/// Brings the head to a setting and reports when it rests there. Every motor arrives from below: gears have
 /// play, so a setting is repeatable, and its calibration valid, only if it is always approached from the same
-/// side (paper, section 3.1.5; Wilson 1993). A goal that was reached that way and not left is not approached
+/// side (paper, section 3.1.5; Wilson 1993). A goal that was reached like this and not left is not approached
 /// again.
 class HeadPositioner {
  public:

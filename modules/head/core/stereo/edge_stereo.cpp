@@ -54,7 +54,7 @@ struct Triple {
   SpaceEdge space;
 };
 
-/// Finds third lines where two others say the edge must be.
+/// Finds third lines where two others predict the edge.
 class TripleSearch {
  public:
   TripleSearch(const std::array<const CameraView*, 3>& views, const StereoOptions& options)

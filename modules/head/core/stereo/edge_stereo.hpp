@@ -15,8 +15,8 @@ struct StereoMatch {
   std::vector<int> right;   ///< pieces of it in the right view, the best one first; may be broken there
   std::vector<int> third;   ///< the same in the third view; empty if it was not used
   double epipolar_rad = 0;  ///< angle between the edge and the epipolar line, the largest of the camera pairs
-  /// Nearly parallel to the epipolar lines of all cameras: the match stands, but nothing says how far away
-  /// the edge is.
+  /// Nearly parallel to the epipolar lines of all cameras: the match stands, but nothing determines how far
+  /// away the edge is.
   bool is_near_epipolar = false;
   double similarity = 0;           ///< 0..1, of grey values and common extent
   std::optional<SpaceEdge> space;  ///< nullopt if is_near_epipolar

@@ -44,7 +44,7 @@ double Overlap(const Pairing& pairing, const ViewLine& a, const ViewLine& b) {
   return common <= 0 ? 0 : common / std::max(1.0, std::min(high - low, b.length_px));
 }
 
-/// Along the epipolar line the ends say nothing: the lines must be the same one.
+/// Along the epipolar line the ends do not count: the lines must be the same one.
 bool LieOnOneEpipolarLine(const Pairing& pairing, const ViewLine& a, const ViewLine& b) {
   constexpr double kReachPx = 2.5;
   const Eigen::Vector3d epipolar = pairing.fundamental * ((a.p + a.q) / 2).homogeneous();

@@ -11,24 +11,24 @@ constexpr int kPoints = 9;             ///< along an edge
 constexpr double kTouching_m = 0.001;  ///< a ray that only touches a box is not stopped by it
 constexpr double kOnFloor_m = 0.05;
 
-/// Whether the way from `eye` to `point` leads through the box: in its own frame, slab by slab.
+/// Whether the line of sight from `eye` to `point` passes through the box: in its own frame, slab by slab.
 bool Hides(const LandmarkBox& box, const Eigen::Vector3d& eye, const Eigen::Vector3d& point) {
   const Pose2 inverse = box.landmark_from_box.Inverse();
   const Eigen::Vector2d a2 = inverse * Eigen::Vector2d(eye.head<2>()),
                         b2 = inverse * Eigen::Vector2d(point.head<2>());
   const Eigen::Vector3d a(a2.x(), a2.y(), eye.z()),
-      way(b2.x() - a2.x(), b2.y() - a2.y(), point.z() - eye.z());
+      ray(b2.x() - a2.x(), b2.y() - a2.y(), point.z() - eye.z());
   const Eigen::Vector3d low(-box.size_m.x() / 2, -box.size_m.y() / 2, box.z_min_m),
       high(box.size_m.x() / 2, box.size_m.y() / 2, box.z_max_m);
   double begin = 0, end = 1;
   for (int k = 0; k < 3; ++k) {
     const double from = low[k] + kTouching_m - a[k], to = high[k] - kTouching_m - a[k];
-    if (std::abs(way[k]) < 1e-12) {
+    if (std::abs(ray[k]) < 1e-12) {
       if (from > 0 || to < 0) return false;
       continue;
     }
-    begin = std::max(begin, std::min(from / way[k], to / way[k]));
-    end = std::min(end, std::max(from / way[k], to / way[k]));
+    begin = std::max(begin, std::min(from / ray[k], to / ray[k]));
+    end = std::min(end, std::max(from / ray[k], to / ray[k]));
   }
   return begin < end;
 }

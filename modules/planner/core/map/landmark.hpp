@@ -8,7 +8,7 @@
 namespace priamos::planner {
 
 /// Which part of a landmark an edge belongs to, seen from the landmark's -x side. A movable part (a door's
-/// leaf) may stand elsewhere than the map says: finding it there is evidence, missing it is none.
+/// leaf) may stand elsewhere than in the map: finding it there is evidence, missing it is none.
 enum class Side { kBoth = 0, kLeft = 1, kRight = 2, kMovable = 3 };
 
 /// One straight edge of a skeleton, landmark frame [m].

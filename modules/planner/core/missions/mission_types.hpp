@@ -9,8 +9,8 @@
 #include "common/time.hpp"
 #include "planner/core/map/door_landmark.hpp"
 
-/// What a mission hears and says. Everything it hears from the robot has crossed a slow radio: stamps are the
-/// times of the events, in the planner's clock, and lie some hundred milliseconds back.
+/// Inputs and outputs of a mission. Everything it receives from the robot has crossed a slow radio: stamps
+/// are the times of the events, in the planner's clock, and lie some hundred milliseconds back.
 namespace priamos::planner {
 
 /// An operator's order to carry out a mission.
@@ -19,7 +19,7 @@ struct MissionOrder {
   int landmark_id = 0;  ///< which landmark of the map it concerns
 };
 
-/// Where the robot was at `stamp` and how it moved (base frame), as POSE says.
+/// Where the robot was at `stamp` and how it moved (base frame), as in POSE.
 struct RobotPose {
   Time stamp;
   Pose2 map_from_base;
@@ -27,10 +27,10 @@ struct RobotPose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< map: x, y, yaw
 };
 
-/// What the robot does; kHolding: ordered to stand, kBlocked: something is in its way.
+/// What the robot does; kHolding: ordered to stand, kBlocked: an obstacle stops it.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked };
 
-/// How far the robot is with its path, as DRIVE_STATUS says; path_id is 0 before the first one.
+/// How far the robot is with its path, as in DRIVE_STATUS; path_id is 0 before the first one.
 struct DriveReport {
   DriveMode mode = DriveMode::kIdle;
   int path_id = 0;
@@ -70,7 +70,7 @@ struct MissionActions {
 /// How far a mission has come; kDone and kFailed are its ends.
 enum class Phase { kWaiting, kApproaching, kLookingLeft, kLookingRight, kPassing, kDone, kFailed };
 
-/// Phase of the mission, and what it says to a person.
+/// Phase of the mission, and a sentence for a person.
 struct MissionState {
   Phase phase = Phase::kWaiting;
   std::string text = "no order yet";

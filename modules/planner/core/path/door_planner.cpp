@@ -11,7 +11,7 @@ namespace {
 /// Sweep steps: no corner of a 1 m body moves more than about 1 cm between two checked poses.
 constexpr double kStepM = 0.005;
 constexpr double kStepRad = Radians(0.5);
-/// Steeper runs onto the axis than this are driven only when there is no longer run-in.
+/// Steeper approaches to the axis than this are driven only when there is no longer run-in.
 constexpr double kSteepestRunIn = 0.7;
 /// A place on the axis this near to the start is where the start is.
 constexpr double kHereM = 0.2;

@@ -26,9 +26,9 @@ struct PassageUncertainty {
 };
 
 /// Carries a pose covariance (map: x, y, yaw) forward along the door's axis. A heading error grows into a
-/// lateral one on the way, lateral = y + d yaw; the correlation that a landmark fix leaves between the two
-/// makes most of it cancel at the landmark itself, so it must not be left out. The drift of the way still to
-/// go comes on top: seen from afar, even a perfect fix is not good enough.
+/// lateral one with the distance d, lateral = y + d yaw; the correlation that a landmark fix leaves between
+/// the two makes most of it cancel at the landmark itself, so it must not be left out. The drift over the
+/// distance still to go comes on top: seen from afar, even a perfect fix is not good enough.
 PassageUncertainty AtDoor(const DoorPlan& door, const Pose2& map_from_base,
                           const Eigen::Matrix3d& map_covariance, const DriftModel& drift);
 

@@ -20,7 +20,7 @@ struct MecanumGeometry {
   void Describe(Archive& a);
 };
 
-/// What four wheels say about the motion of the base.
+/// Motion of the base computed from four wheels.
 struct WheelMotion {
   Twist2 twist;         ///< least squares over the four wheels, base frame
   double slip_m_s = 0;  ///< residual of the fourth equation; 0 when all rollers roll

@@ -131,7 +131,8 @@ Eigen::Matrix3d Odometry::Noise(const Twist2& twist, double slip_m_s, double sec
   const double travel = std::hypot(forward, sideways);
   const double slip =
       n.slip_variance_m2_per_m * std::max(0.0, std::abs(slip_m_s) - n.slip_floor_m_s) * seconds;
-  // One radian of turning moves the wheels by the lever: their translation error comes from that way too.
+  // One radian of turning moves the wheels by the lever: their translation error comes from that distance
+  // too.
   const double x =
       Square(n.forward_m_per_sqrt_m) * forward + Square(n.drift_m_per_sqrt_m) * (sideways + turn);
   const double y =

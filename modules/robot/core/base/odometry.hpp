@@ -55,8 +55,8 @@ struct OdometryStep {
 /// Dead reckoning of the four wheels. Encoder counts may wrap; samples may be lost (the next one covers the
 /// gap), double, late, or absurd: those are refused and counted. After two samples that agree with each other
 /// but not with the past (a drive board that restarted), or 25 late ones in a row (a sender whose clock
-/// stepped back), it goes on from the new counts and says that the motion between is unknown; only then can a
-/// step end before the one before it.
+/// stepped back), it goes on from the new counts and reports that the motion between is unknown; only then
+/// can a step end before the one before it.
 class Odometry {
  public:
   /// What became of the samples so far.

@@ -9,7 +9,7 @@ namespace {
 using Parts = Eigen::Vector3d;
 
 /// Of the parts: first all combinations in coarse steps, in denser ones where next to nothing was found, for
-/// a narrow way is missed by coarse ones; then ever smaller steps from the best.
+/// coarse ones miss a narrow passage; then ever smaller steps from the best.
 constexpr double kCoarse = 1.0 / 4, kDense = 1.0 / 8, kLeast = 1.0 / 32;
 constexpr double kNextToNothing = 0.1;
 

@@ -129,7 +129,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
 
   const Obstacles around = Around(situation.odom_from_base);
   const Twist2 wanted = Wanted(situation, now, dt_s), free = FreeOf(wanted, around);
-  // Once more: on its way from one free motion to another the base may pass through one that is not.
+  // Once more: between two free motions the slewed motion may pass through one that is not.
   const Twist2 next = FreeOf(Slewed(free, dt_s), around);
   const CollisionStop::Result result = Guard().Limit(next, around.seen, around.remembered);
   const WheelSpeeds wheels = Saturated(geometry_, ToWheelSpeeds(geometry_, result.twist));

@@ -39,7 +39,7 @@ struct DriveConfig {
   void Describe(Archive& a);
 };
 
-/// What the base does; kHolding: ordered to stand, kBlocked: something is in the way.
+/// What the base does; kHolding: ordered to stand, kBlocked: an obstacle stops it.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked, kOperated };
 
 /// What the base knows about itself at one tick.
@@ -81,7 +81,7 @@ struct DriveState {
 ///         wheels
 ///
 /// Silent until the first order; from then on it gives wheel speeds at every step, zeros while standing, so
-/// that the drive board's own dead-line is a second line of defence and not the normal way to stop.
+/// that the drive board's own dead-line is a second line of defence and not the normal stop.
 class DriveController {
  public:
   DriveController(const DriveConfig& config, const MecanumGeometry& geometry);
@@ -106,7 +106,7 @@ class DriveController {
   const DriveState& state() const { return state_; }
 
  private:
-  /// What is in the way, base frame [m].
+  /// The obstacles that limit the motion, base frame [m].
   struct Obstacles {
     std::vector<Eigen::Vector2d> seen, remembered;
   };

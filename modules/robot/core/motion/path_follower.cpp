@@ -100,7 +100,7 @@ bool PathFollower::IsAtGoal(const Pose2& pose) const {
 void PathFollower::MoveReference(const Pose2& pose, double dt_s) {
   const PathShape::Point at = shape_->At(s_);
   const double pace = std::hypot(at.direction.norm(), PathShape::kTurnLever * at.turn);
-  // At the point of a sharp reversal the base hardly moves, so its pose cannot say how far it has got.
+  // At the point of a sharp reversal the base hardly moves, so its pose does not show how far it has got.
   constexpr double kMeasurablePace = 0.4;
   s_ = pace < kMeasurablePace ? std::min(s_ + speed_ * dt_s, shape_->length()) : shape_->Project(pose, s_);
 }

@@ -6,7 +6,7 @@
 
 namespace priamos::robot {
 
-/// What one measurement of a landmark says about the estimate at the time of the picture (paper,
+/// Residual and Jacobian of one measurement of a landmark at the time of the picture (paper,
 /// section 6.2.1).
 struct LandmarkCorrection {
   double rotation_rad = 0;  ///< equation 8, with its sign: to be added to the estimated heading

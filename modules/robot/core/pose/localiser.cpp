@@ -8,7 +8,7 @@ namespace {
 // More than any head sends; a flood of fixes with times in the future must not grow without bound.
 constexpr std::size_t kMostWaiting = 16;
 
-constexpr double kLongestBack_s = 5;  // a velocity says nothing about longer ago
+constexpr double kLongestBack_s = 5;  // a velocity is not extrapolated back any further
 
 }  // namespace
 

@@ -8,7 +8,7 @@
 
 namespace priamos::robot {
 
-/// What the odometry gets wrong always in the same way. Wheel radii, lever and roller loss do not change
+/// Systematic errors of the odometry. Wheel radii, lever and roller loss do not change
 /// during a run, so treating them as noise would claim too much after a long distance and too little after a
 /// short one: they are estimated along with the pose. Values are standard deviations before the first fix.
 struct OdometryBias {

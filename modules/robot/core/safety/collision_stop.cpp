@@ -78,7 +78,7 @@ void CollisionStopConfig::Describe(Archive& a) {
   a.Number("gap_m", gap_m, {"m", 0, 1, "where to stand before an obstacle ahead"});
   a.Number("braking_m_s2", braking.deceleration_m_s2, {"m/s^2", 0.05, 5, "deceleration the base manages"});
   a.Number("latency_s", braking.latency_s, {"s", 0, 1, "age of an echo when the wheels obey it"});
-  a.Number("look_ahead_m", look_ahead_m, {"m", 0.5, 5, "echoes farther along the way are not reported"});
+  a.Number("look_ahead_m", look_ahead_m, {"m", 0.5, 5, "echoes farther along the motion are not reported"});
   a.Number("memory_margin_m", memory_margin_m, {"m", -0.2, 0.5, "margin for remembered things"});
   a.Number("memory_gap_m", memory_gap_m, {"m", 0, 1, "where to stand before remembered things"});
 }

@@ -26,7 +26,7 @@ struct CollisionStopConfig {
 /// The last filter before the wheels: sweeps the true rectangle along the wanted motion, whatever its
 /// direction, and slows it down so that the base can stand `gap_m` before the first point that it would
 /// sweep over: v^2 / 2a of braking after the latency. It scales the whole motion, so the base keeps its path.
-/// Points beside the way do not matter, so both jambs of a door 6 cm beside the base do not stop it.
+/// Points beside the swept area do not matter, so both jambs of a door 6 cm beside the base do not stop it.
 class CollisionStop {
  public:
   /// What is left of a wanted motion.
@@ -46,7 +46,7 @@ class CollisionStop {
   Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                std::span<const Eigen::Vector2d> remembered = {}) const;
   /// The scale for a search among many motions: at most that of Limit. What is farther away than the base
-  /// needs for braking is not looked at; and because a search ends where a tolerance ends, less and less is
+  /// needs for braking is ignored; and because a search ends where a tolerance ends, less and less is
   /// tolerated the more of the margin is used up: it keeps half of the margin.
   double Scale(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                std::span<const Eigen::Vector2d> remembered) const;

@@ -26,7 +26,7 @@ struct LeaseConfig {
 };
 
 /// Exactly one driver at a time. A free lease is granted to whoever asks. A held one is refused, also to a
-/// higher rank, unless that one says take-over: nobody loses the wheel by accident. Taking over needs the
+/// higher rank, unless that request is a take-over: nobody loses the wheel by accident. Taking over needs the
 /// same or a higher rank. Every sign of life of the holder renews it.
 class Lease {
  public:

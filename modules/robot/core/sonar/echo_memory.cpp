@@ -123,7 +123,7 @@ double EchoMemory::RangeOf(std::size_t index, int sensor) const {
   return measured <= config_.blind_m ? config_.blind_as_m : measured;
 }
 
-/// A newer believed echo of the same sensor says where the thing is now.
+/// A newer believed echo of the same sensor shows where the thing is now.
 bool EchoMemory::IsSuperseded(std::size_t index, int sensor) const {
   for (std::size_t k = index + 1; k < kept_.size(); ++k) {
     if (Agrees(k, sensor)) return true;

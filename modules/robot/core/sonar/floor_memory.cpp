@@ -31,8 +31,8 @@ bool FloorMemory::Add(const FloorLine& line, const Pose2& odom_from_base, Time n
   const double age_s = Seconds(now - line.exposure);
   if (!(age_s <= config_.max_age_s && age_s >= -kFuture_s) || (last_ && line.exposure <= *last_))
     return false;
-  const double way_m = (odom_from_base.translation() - odom_from_last_.translation()).norm();
-  const double unseen_m = last_ ? std::min(way_m, config_.unseen_m) : config_.unseen_m;
+  const double driven_m = (odom_from_base.translation() - odom_from_last_.translation()).norm();
+  const double unseen_m = last_ ? std::min(driven_m, config_.unseen_m) : config_.unseen_m;
   last_ = line.exposure;
   odom_from_last_ = odom_from_base;
   for (const FloorPiece& piece : line.pieces) {

@@ -35,8 +35,8 @@ class NearMap {
   void Add(const Pose2& odom_from_sonar, double range_m);
   /// The same echo clears what lies well before it.
   void Clear(const Pose2& odom_from_sonar, double range_m);
-  /// Time goes on to `now`; call it often. `waits`: for a way that something blocks, so that a base that
-  /// stands does not keep it for longer.
+  /// Time goes on to `now`; call it often. `waits`: the base stands before an obstacle that blocks its
+  /// path, so that standing does not keep points for longer.
   void Forget(const Pose2& odom_from_base, Time now, bool waits = false);
 
   std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;

@@ -26,7 +26,8 @@ class Clearance {
 
   /// Distance from the footprint at `pose` to the nearest solid, at most `limit_m`; 0 in contact.
   double Gap(const Pose2& pose, double limit_m) const;
-  /// How far along the way from `from` to `to` (0 to 1) the footprint stays free; `from` counts as free.
+  /// Share of the motion from `from` to `to` (0 to 1) on which the footprint stays free; `from` counts as
+  /// free.
   double FreePart(const Pose2& from, const Pose2& to) const;
 
  private:

@@ -26,7 +26,7 @@ struct DriveBoardConfig {
   void Describe(Archive& a);
 };
 
-/// What the encoders say.
+/// State of the drive board: encoder counts, and whether it holds the wheels.
 struct WheelReading {
   std::array<std::int32_t, 4> position_ticks{};  ///< since power-on, wraps around
   bool deadline_stopped = true;                  ///< held: no command came for the deadline

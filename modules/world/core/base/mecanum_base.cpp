@@ -34,7 +34,7 @@ Twist2 MecanumBase::Step(const PerWheel& speed_rad_s, double dt_s) {
     const double rolled = radius_m_[i] * speed_rad_s[i];
     const double acceleration = (rolled - previous_m_s_[i]) / dt_s;
     previous_m_s_[i] = rolled;
-    // Ornstein-Uhlenbeck along the way, not along time: a wheel at rest keeps its contact.
+    // Ornstein-Uhlenbeck process over the distance, not over time: a wheel at rest keeps its contact.
     const double travel = std::min(std::abs(rolled) * dt_s / config_.slip_length_m, 1.0);
     slip_[i] += -slip_[i] * travel + config_.roller_slip * std::sqrt(2 * travel) * rng_.Normal(1);
     const double driven_slip = config_.acceleration_slip_s2_m * acceleration * (rolled < 0 ? -1 : 1);

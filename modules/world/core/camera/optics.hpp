@@ -15,7 +15,7 @@ inline constexpr int kCameras = 3;
 /// The cameras by their numbers in messages.
 enum Camera : int { kLeftCamera = 0, kRightCamera = 1, kThirdCamera = 2 };
 
-/// Where the axes of KASTOR truly are, backlash and all; what the step counters say is not known here.
+/// Where the axes of KASTOR truly are, backlash and all; the step counters are not known here.
 /// Signs as in head_command_t: pan and vergence positive to the left, tilt positive looks down.
 struct HeadAxes {
   double pan_rad = 0, tilt_rad = 0;

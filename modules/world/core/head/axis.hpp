@@ -39,9 +39,9 @@ class Axis {
   void Step(Duration step);
 
   bool moving() const { return moving_; }
-  /// What the step counter says.
+  /// Position by the step counter.
   double counter() const;
-  /// Where the axis truly is.
+  /// True position of the axis.
   double position() const { return axis_ + rest_error_; }
 
  private:

@@ -21,7 +21,7 @@ void CameraConfig::Describe(Archive& a) {
   a.Number("readout_s", readout_s,
            {"s", 0, 1, "from the closing of the shutter to the picture in the store"});
   a.Number("laser", laser, {"-", 0, 10, "brightness of the line laser; 1: white on white paper in 10 ms"});
-  a.Integer("max_pending", max_pending, {"-", 3, 8, "pictures that may be on their way at once"});
+  a.Integer("max_pending", max_pending, {"-", 3, 8, "pictures that may be pending at once"});
 }
 
 DrawnPicture Draw(const RenderFunction& render, const RenderJob& job) {

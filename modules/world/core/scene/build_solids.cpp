@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPosterThicknessM = 0.004;
 
-/// Part of a wall, as way from its `from_m`.
+/// Part of a wall; distances along it from its `from_m`.
 struct Piece {
   double begin_m, end_m;
 };

@@ -40,7 +40,7 @@ void BoxPlan::Describe(Archive& a) {
 void PosterPlan::Describe(Archive& a) {
   a.Text("wall", wall, "name of the wall in the map");
   a.Choice("face", face, {"left", "right"}, "side of the wall, looking from its from_m to its to_m");
-  a.Number("along_m", along_m, {"m", 0, 200, "middle of the poster, way from from_m"});
+  a.Number("along_m", along_m, {"m", 0, 200, "middle of the poster, distance from from_m"});
   a.Number("bottom_m", bottom_m, {"m", 0, 10, "height of its lower edge"});
   a.Number("width_m", width_m, {"m", 0.02, 10, "width"});
   a.Number("height_m", height_m, {"m", 0.02, 10, "height"});

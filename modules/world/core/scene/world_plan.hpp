@@ -12,7 +12,7 @@
 
 namespace priamos::world {
 
-/// What the map does not say about one of its doors: the leaf, and how the door was really built.
+/// What the map does not contain about one of its doors: the leaf, and how the door was really built.
 struct DoorWork {
   int id = 1;
   std::string hinge = "left";

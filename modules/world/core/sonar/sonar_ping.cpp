@@ -17,7 +17,7 @@ double BeamDb(const SonarConfig& config, double off_axis_deg) {
 }
 
 /// Spreading (`decades` dB per factor 10 of distance) and absorption, against 1 m.
-double WayDb(const SonarConfig& config, double range_m, double decades) {
+double PathDb(const SonarConfig& config, double range_m, double decades) {
   const double r = std::max(range_m, kSonarMinM);
   return -decades * std::log10(r) - 2 * config.absorption_db_m * (r - 1);
 }
@@ -57,7 +57,7 @@ class Listener {
   }
   /// Farther echoes cannot become the first one.
   double Limit() const { return nearest_ ? nearest_->range_m : kSonarMaxM; }
-  void HearReturn(const AcousticScene::Hit& mirror, const Eigen::Vector2d& direction, double way_m,
+  void HearReturn(const AcousticScene::Hit& mirror, const Eigen::Vector2d& direction, double path_m,
                   double level_db, double free_m);
 
   const AcousticScene& scene_;
@@ -72,17 +72,17 @@ void Listener::HearRay(double off_axis_deg) {
   Eigen::Vector2d direction = Pose2{0, 0, Radians(off_axis_deg)}.rotation() * axis_;
   const double beam_db = BeamDb(config_, off_axis_deg);
   std::optional<AcousticScene::Hit> mirror;
-  double way_m = 0, mirror_db = 0;
+  double path_m = 0, mirror_db = 0;
   for (int bounce = 0; bounce <= kMirrors; ++bounce) {
-    // A ray that comes back needs at most the way out again; a ray in the open is no longer of interest.
-    const auto hit = scene_.Nearest(origin, direction, 2 * Limit() - way_m);
+    // A ray that comes back needs at most the distance out again; a ray in the open is no longer of interest.
+    const auto hit = scene_.Nearest(origin, direction, 2 * Limit() - path_m);
     const double free_m = hit ? hit->distance_m : 2 * kSonarMaxM;
-    if (bounce == kMirrors) HearReturn(*mirror, direction, way_m, beam_db / 2 + mirror_db, free_m);
+    if (bounce == kMirrors) HearReturn(*mirror, direction, path_m, beam_db / 2 + mirror_db, free_m);
     if (!hit) return;
-    way_m += hit->distance_m;
-    // Straight back the same way, over the mirrors passed so far.
+    path_m += hit->distance_m;
+    // Straight back along the same path, over the mirrors passed so far.
     const double surface_db = BackscatterDb(*hit->material, AngleDeg(-direction, hit->normal));
-    Hear(way_m, beam_db + 2 * mirror_db + surface_db + WayDb(config_, way_m, 20), hit->point);
+    Hear(path_m, beam_db + 2 * mirror_db + surface_db + PathDb(config_, path_m, 20), hit->point);
     mirror_db -= hit->material->reflection_loss_db;
     mirror = hit;
     direction -= 2 * direction.dot(hit->normal) * hit->normal;
@@ -92,17 +92,17 @@ void Listener::HearRay(double off_axis_deg) {
 
 /// Two mirrors at a right angle send sound back where it came from: inner corners are loud. `free_m` is how
 /// far the ray runs after its last mirror, `level_db` holds its losses up to there.
-void Listener::HearReturn(const AcousticScene::Hit& mirror, const Eigen::Vector2d& direction, double way_m,
+void Listener::HearReturn(const AcousticScene::Hit& mirror, const Eigen::Vector2d& direction, double path_m,
                           double level_db, double free_m) {
   const Eigen::Vector2d to_sensor = at_ - mirror.point;
   const double back_m = to_sensor.dot(direction);
   if (back_m <= 0 || back_m > free_m) return;
-  const double range_m = (way_m + back_m) / 2;
+  const double range_m = (path_m + back_m) / 2;
   // Neighbouring rays are this far apart at their end; between them they cover the membrane.
   const double reach_m = kMembraneM + range_m * Radians(kRayStepDeg);
   if ((to_sensor - direction * back_m).norm() > reach_m) return;
   const double arrival_db = BeamDb(config_, AngleDeg(-direction, axis_)) / 2;
-  Hear(range_m, level_db + arrival_db + WayDb(config_, range_m, 20), mirror.point);
+  Hear(range_m, level_db + arrival_db + PathDb(config_, range_m, 20), mirror.point);
 }
 
 void Listener::HearEdges() {
@@ -112,7 +112,7 @@ void Listener::HearEdges() {
     if (range_m > Limit() || range_m < 1e-3) continue;
     const double off_axis_deg = AngleDeg(delta / range_m, axis_);
     if (off_axis_deg > config_.beam_deg) continue;
-    const double level_db = config_.edge_db + BeamDb(config_, off_axis_deg) + WayDb(config_, range_m, 30);
+    const double level_db = config_.edge_db + BeamDb(config_, off_axis_deg) + PathDb(config_, range_m, 30);
     if (level_db >= threshold_db_ && scene_.Visible(at_, edge.point)) Hear(range_m, level_db, edge.point);
   }
 }

@@ -47,8 +47,8 @@ void SonarRing::Fire(int group, const Pose2& map_from_base) {
   }
 }
 
-/// Sound of another sensor of the group that comes in over that sensor's reflector: the way out belongs to
-/// the other, the way back leads here.
+/// Sound of another sensor of the group that comes in over that sensor's reflector: the path out is that of
+/// the other sensor, the path back leads here.
 std::optional<double> SonarRing::Overheard(const Pose2& map_from_sonar,
                                            const std::vector<std::optional<Echo>>& echoes, int own) {
   const auto other = static_cast<std::size_t>(rng_.Below(echoes.size()));

@@ -21,7 +21,7 @@ class DiscLabeller {
   /// `object` in its own frame, its z axis roughly upwards in the images.
   explicit DiscLabeller(const ReferenceObject& object, const LabellerOptions& options = {});
 
-  /// Right, or a refusal that says why.
+  /// The right labelling, or a refusal with the reason.
   Outcome<Labelling> Label(const std::vector<DetectedDisc>& detections) const;
 
  private:

@@ -36,7 +36,7 @@ Sighting SightDisc(const Ellipse& e, double focal_px, const Vector2d& centre_px)
   };
   const double tilt = std::acos(std::min(1.0, ratio));
   if (tilt < Radians(22)) {
-    // Too round to say in which direction it is tilted.
+    // Too round to determine in which direction it is tilted.
     s.normals = {tilted(0, axis(0)), tilted(Radians(15), axis(0)), tilted(-Radians(15), axis(0)),
                  tilted(Radians(15), axis(1)), tilted(-Radians(15), axis(1))};
   } else {

@@ -9,12 +9,12 @@ namespace priamos::head {
 
 /// The viewing ray of a detection, its apparent angular radius, and the disc normals it may have.
 struct Sighting {
-  Eigen::Vector3d ray;                   ///< unit
+  Eigen::Vector3d ray;                   ///< unit vector in the camera's frame, from the camera to the disc
   double angular_radius;                 ///< apparent size of the disc's major semi-axis [rad]
   std::vector<Eigen::Vector3d> normals;  ///< in the camera, towards it
 };
 
-/// What one ellipse says about its disc, for a supposed focal length and image centre.
+/// Ray, size and possible normals of a disc from its ellipse, for a supposed focal length and image centre.
 Sighting SightDisc(const Ellipse& e, double focal_px, const Eigen::Vector2d& centre_px);
 
 /// Right-handed axes (normal, upward across the normal, third).

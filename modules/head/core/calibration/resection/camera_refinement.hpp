@@ -17,7 +17,7 @@ struct DiscObservation {
 };
 
 /// What is known of a camera without measuring: data sheet, as mean and standard deviation. One view of a
-/// small object says little about some of these, and what it says then comes from noise.
+/// small object hardly determines some of these, and without the prior noise would.
 struct LensKnowledge {
   Eigen::Vector2d centre_px = ImageSize{}.Centre();
   double centre_sigma_px = 15;
@@ -27,7 +27,7 @@ struct LensKnowledge {
   double worst_error_px = 1;               ///< a larger F comes from wrong correspondences
 };
 
-/// What one picture says about a camera.
+/// Measurements of one picture for the refinement of its camera.
 struct RefinementView {
   std::span<const DiscObservation> observations;
   std::span<const Eigen::Vector2d> bias;  ///< to be taken off the observed centroids [px]

@@ -104,7 +104,7 @@ Matrix12 NormalMatrix(std::span<const PointPair> pairs, const Normalisation<3>& 
   return m;
 }
 
-/// Scales to depths in metres; says what is wrong with the geometry if anything is.
+/// Scales the matrix to depths in metres; returns what is wrong with the geometry if anything is.
 std::optional<Refusal> NormaliseDepth(std::span<const PointPair> pairs, Matrix34& m) {
   const double length = m.block<1, 3>(2, 0).norm();
   if (!(length > 0) || !std::isfinite(length)) return Refusal{"the solution is a camera at infinity"};

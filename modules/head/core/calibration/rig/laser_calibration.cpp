@@ -161,7 +161,7 @@ Plane Refine(const std::vector<Point>& points, const std::vector<bool>& used, co
   return plane;
 }
 
-/// What one view says: its points measure its line once, however many they are.
+/// Information of one view: its points measure its line once, however many they are.
 struct ViewInformation {
   Matrix3d motion = Matrix3d::Zero();
   double n = 0, rows2_by_board = 0;  ///< square of how far the line moves with the board's error
@@ -250,7 +250,7 @@ Outcome<LaserCalibration> CalibrateLaserPlane(std::span<const StripeView> views)
   if (inliers < kFewestInliers * static_cast<double>(points->size()))
     return Refusal{
         fmt::format("only {:.0f} % of the points lie in one plane: boards or cameras are not where "
-                    "they are said to be",
+                    "the files place them",
                     100 * inliers / static_cast<double>(points->size()))};
   // Judged again: what gave the lines their width may have been another light.
   if (std::string reason = WhyNarrow(spread); !reason.empty()) return Refusal{reason};

@@ -30,7 +30,7 @@ struct LaserCalibration {
 /// Fits the plane of light to the points in which the lines of sight meet the boards: a first plane by
 /// consensus, then least squares of the distance in the image without the points that belong to other bright
 /// lines. The standard deviations count the errors of a view as common to all its points, because what is
-/// wrong about a board's place is: as large as `board_sigma_m` says, or as the lines show if that is more.
+/// wrong about a board's place is: `board_sigma_m`, or what the residuals of the lines show if that is more.
 ///
 /// Refuses numbers that are not finite, a board that is seen edge-on or lies behind the camera, too few
 /// points, lines that (nearly) are one straight line of space, as those of all pictures of one floor are, and

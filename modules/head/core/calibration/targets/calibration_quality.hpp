@@ -9,7 +9,7 @@
 namespace priamos::head {
 
 /// F (equation 7) of points that took no part in the calibration: F of the points that did falls when points
-/// are dropped, and says nothing of the places between them.
+/// are dropped, and does not measure the errors between them.
 struct PredictionErrors {
   double leave_one_out_px = 0;  ///< every point predicted from all others
   double held_out_px = 0;       ///< a quarter predicted from the other three, for each quarter

@@ -20,7 +20,7 @@ struct CameraCalibration {
 
 /// The procedure of section 3.1 of the paper on discs whose places are known: DLT matrix by least squares,
 /// refined with lens distortion; then once more with the bias of the centroids, which the first pass makes
-/// known, taken off. Refuses too few discs, degenerate arrangements, and a fit worse than `lens` says.
+/// known, taken off. Refuses too few discs, degenerate arrangements, and a fit worse than `lens` allows.
 Outcome<CameraCalibration> CalibrateFromDiscs(const std::vector<DiscObservation>& observations,
                                               const LensKnowledge& lens = {});
 

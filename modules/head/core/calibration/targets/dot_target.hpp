@@ -22,7 +22,7 @@ Outcome<std::vector<DiscObservation>> FindDots(const GreyImage& photograph, cons
 
 /// One camera from several photographs of a flat target at different slants: Zhang's method for a start, then
 /// all photographs together, with the centroids' bias taken off. Refuses fewer than 3 photographs (what one
-/// plane says about a lens is ambiguous) and a fit worse than `lens` allows.
+/// plane determines of a lens is ambiguous) and a fit worse than `lens` allows.
 Outcome<std::vector<CameraCalibration>> CalibrateFromPlanes(
     const std::vector<std::vector<DiscObservation>>& photographs, int width_px, int height_px,
     const LensKnowledge& lens);
