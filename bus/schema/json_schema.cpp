@@ -69,7 +69,7 @@ Json ObjectOf(const Struct& type) {
 Json JsonSchemaOf(const Struct& type) {
   if (ReachesRecursion(type)) {
     throw SchemaError(
-        fmt::format("{}:{}: {} has a type in it that contains itself, which no flat JSON schema can say",
+        fmt::format("{}:{}: {} has a type in it that contains itself, which no flat JSON schema can describe",
                     type.file, type.line, type.full_name));
   }
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}};

@@ -50,7 +50,7 @@ class IntegerCode {
   /// Largest code that means something.
   std::uint64_t last() const { return last_ + (invalid_ ? 1 : 0); }
 
-  /// False when the codes and the one for `invalid` do not fit into 64 bits.
+  /// Whether all codes, `with_invalid` one more for the invalid value, fit into 64 bits.
   static bool Fits(std::int64_t min, std::int64_t max, std::uint64_t step, bool with_invalid);
 
  private:

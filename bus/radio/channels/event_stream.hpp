@@ -60,7 +60,7 @@ class EventSender {
  public:
   static constexpr std::size_t kCapacity = 64;
 
-  /// An event that waits, or is on its way, in segments numbered from `first` on (modulo 256).
+  /// An event that waits, or is being sent, in segments numbered from `first` on (modulo 256).
   struct Event {
     std::uint8_t first = 0;
     Time packed_at{};

@@ -89,7 +89,7 @@ std::optional<mission_command_t> MissionOrder::Send(Time now) {
     return std::nullopt;
   }
   if (first_sent_ && now - *first_sent_ > kGivesUp) {
-    End(OrderOutcome::kNoAnswer, "the planner did not take the order; it says: " + last_->text);
+    End(OrderOutcome::kNoAnswer, "the planner did not take the order; it answers: " + last_->text);
     return std::nullopt;
   }
   sent_ = now;

@@ -15,8 +15,8 @@ struct TrueWorld {
   std::vector<world::Solid> solids;
 };
 
-/// As the scenario's process `world` draws it from `seed`; empty when it has none. `folder` is the
-/// deployment's. Throws ConfigError.
+/// The world as the scenario's process `world` draws it from `seed`; empty if the scenario has none. `folder`
+/// is the deployment's. Throws ConfigError.
 TrueWorld LoadTrueWorld(const std::string& folder, const Scenario& scenario, std::uint64_t seed);
 
 }  // namespace priamos::cli

@@ -80,7 +80,7 @@ void ManualPage::Example(std::string_view lines) {
 
 void ManualPage::Term(std::string_view tag, std::string_view rest, std::string_view text) {
   text_ += fmt::format(".TP\n\\fB{}\\fR{}\n", Escaped(tag), Escaped(rest));
-  Line(text.empty() ? "No more is to be said of it." : text);
+  Line(text.empty() ? "There is no further description." : text);
   begun_ = true;
 }
 

@@ -97,7 +97,7 @@ int List(const TopicOptions& options, const std::string& verb) {
   std::optional<TerminalScreen> screen(std::in_place);
   Listen(bus, clock, until, [&](Time now) {
     silence.Step(now);
-    // Before the first message the terminal belongs to what `silence` has to say.
+    // Before the first message the terminal belongs to the sentence of `silence`.
     if (!options.watch || statistics.empty() || !screen->Due(now, kWatchPeriod)) return;
     if (options.json) return PrintJson(statistics.Rows(now), bus);
     screen->Show(TopicScreen(statistics.Rows(now), losses(), screen->size()));

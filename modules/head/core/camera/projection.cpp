@@ -9,8 +9,8 @@ namespace {
 constexpr double kNearDepth = 0.1;  ///< [m] nothing nearer is imaged
 constexpr double kMinLengthPx = 8;
 
-/// Cuts the segment from + f * (to - from), f in [begin, end], to the half space where `value` grows from
-/// `at_from` to `at_to` and is positive. False if nothing is left.
+/// Cuts the segment from + f * (to - from), f in [begin, end], to where a value that is
+/// linear along it, `at_from` at its beginning and `at_to` at its end, is positive. False if nothing is left.
 bool Cut(double at_from, double at_to, double& begin, double& end) {
   if (at_from < 0 && at_to < 0) return false;
   if (at_from >= 0 && at_to >= 0) return true;

@@ -13,13 +13,13 @@ namespace priamos::head {
 struct DetectedDoor {
   Pose2 base_from_door;        ///< middle between the uprights; x away from the robot, through the door
   Eigen::Matrix2d covariance;  ///< covariance of that middle (x, y) [m^2]
-  double width_m = 0;          ///< between the uprights: the frame's outer or inner edges
+  double width_m = 0;          ///< distance of the uprights: the frame's outer or inner edges
   double height_m = 0;         ///< height of the lintel above the floor
   bool on_floor = false;       ///< an upright was seen down to the floor
-  double log_odds = 0;         ///< a door against whatever else has uprights
+  double log_odds = 0;         ///< log odds of a door against whatever else has uprights
 };
 
-/// What doors look like, how well edges agree with one, and what evidence is wanted.
+/// Size of doors, how well edges agree with one, and what evidence is wanted.
 struct DoorDetectionOptions {
   double min_width_m = 0.65, max_width_m = 1.35;
   double min_height_m = 1.85, max_height_m = 2.35;
@@ -30,14 +30,14 @@ struct DoorDetectionOptions {
   double edge_sigma_px = 0.3;    ///< deviation of frames from two uprights and a level lintel
   double frame_sigma_m = 0.004;  ///< deviation of a frame's edges from one plane and symmetry, part of the
                                  ///< covariance: near jambs show another edge of the frame than far ones
-  double min_upright_m = 0.15;   ///< seen by both cameras
-  double min_log_odds = 7;       ///< evidence wanted
-  double same_door_m = 0.65;     ///< nearer ones are one door, such as frame and open leaf
+  double min_upright_m = 0.15;   ///< shortest part of an upright that both cameras must see
+  double min_log_odds = 7;       ///< log odds wanted
+  double same_door_m = 0.65;  ///< candidates nearer to each other are one door, such as frame and open leaf
   VerticalStereoOptions stereo{.max_range_m = 8, .camera_sigma_px = 0.05};
 };
 
-/// The edges that doors are looked for in: fainter ones than elsewhere, because in a dim corridor frame and
-/// wall are nearly alike, and nothing is believed that stands alone.
+/// Edge operator for the search of doors. It finds fainter edges than elsewhere, because in a dim corridor
+/// frame and wall have nearly the same brightness; a single wrong edge does not make a door.
 inline EdgeOperator::Options DoorEdges() {
   EdgeOperator::Options options;
   options.min_contrast = 5;
@@ -46,7 +46,7 @@ inline EdgeOperator::Options DoorEdges() {
 
 /// Doors, open or closed, in a stereo pair: the conclusion of the paper. Every pair of uprights of a door's
 /// width with a level line of a door's height over both is weighed in both images (WeighDoor); the best are
-/// doors. The position is metric by stereo. Nothing is remembered from look to look.
+/// doors. The position is metric by stereo. Nothing is kept from look to look.
 std::vector<DetectedDoor> DetectDoors(const CameraView& left, const CameraView& right,
                                       const DoorDetectionOptions& options);
 

@@ -13,27 +13,27 @@ struct DoorShape {
   double height_m = 0;
 };
 
-/// How far image lines cover a segment of the image that is expected, all of one contrast sign.
+/// The part of an expected image segment that image lines of one contrast sign cover.
 struct Cover {
   double share = 0;     ///< covered share of the segment
   double first_px = 0;  ///< where the cover begins, from the segment's beginning; negative: before it
   double last_px = 0;   ///< where the cover ends, from the segment's end; positive: beyond it
-  int line = -1;        ///< in CameraView::lines: the one that covers most of it
+  int line = -1;        ///< index in CameraView::lines of the one that covers most of it; -1: none
 };
 
 /// Evidence of one camera for or against a door.
 struct DoorEvidence {
-  Cover lintel;                   ///< from the left to the right upright
-  std::array<Cover, 2> uprights;  ///< left, right: from the lintel down to the floor or out of the picture
+  Cover lintel;                       ///< cover of the lintel, from the left to the right upright
+  std::array<Cover, 2> uprights;      ///< left, right: from the lintel down to the floor or the border
   std::array<bool, 2> foot_inside{};  ///< the picture shows where they meet the floor
-  std::array<double, 2> hangs_m{};    ///< their lower ends above the floor, or above the picture's border
+  std::array<double, 2> hangs_m{};    ///< height of their lower ends above the floor or the picture's border
   double sill = 0;                    ///< share of a level edge between their lower ends, if these hang
   double frame_lintel = 0;            ///< share of a second lintel within the first: frame and leaf
   std::array<double, 2> frame_uprights{};  ///< share of second uprights within the first ones
   double log_odds = 0;  ///< sum of all this evidence: a door against whatever else a corridor has
 };
 
-/// Weighs the edges of one image, whichever they are: an edge that is missing counts against the door.
+/// Evidence in one image for a door at a given place: an edge that is missing counts against it.
 DoorEvidence WeighDoor(const CameraView& view, const DoorShape& door);
 
 }  // namespace priamos::head

@@ -18,14 +18,14 @@ struct DoorLines {
 /// The door that explains all lines best, base frame.
 struct DoorFit {
   DoorShape shape;
-  /// Of left x, y, right x, y [m^2] and height.
+  /// Covariance of (left x, left y, right x, right y, height), base frame [m^2].
   Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
   double chi2 = 0;
   int freedom = 0;  ///< observations beyond the five unknowns
 };
 
 /// Two uprights and a level lintel between them that explain all lines best, in both images at once: least
-/// squares from `start`. `sigma_px` is what edges of doors deviate from that, beyond their own noise.
+/// squares from `start`. `sigma_px` is the deviation of real doors from that, beyond the noise of the edges.
 /// nullopt if the lines do not determine them, or lead far away from the start.
 std::optional<DoorFit> FitDoor(const std::array<const CameraView*, 2>& views, const DoorLines& lines,
                                const DoorShape& start, double sigma_px);

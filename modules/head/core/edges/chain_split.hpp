@@ -18,9 +18,9 @@ class ChainSplitter {
   /// When a straight piece begins and ends.
   struct Options {
     int min_pixels = 10;           ///< a line begins with so many pixels and is never shorter
-    double begin_rms_px = 0.5;     ///< they must lie on a line that well
+    double begin_rms_px = 0.5;     ///< largest RMS distance of these pixels from their line
     double max_distance_px = 1.5;  ///< a pixel farther away has left the line
-    int max_strays = 4;            ///< so many of them in a row end it
+    int max_strays = 4;            ///< so many such pixels in a row end the line
   };
   void Split(const GradientMap& gradients, const EdgeChains& chains, const Options& options,
              std::vector<RoughLine>& lines) const;

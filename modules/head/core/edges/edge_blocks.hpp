@@ -18,19 +18,19 @@ class EdgeBlocks {
   /// Refers to `image` (CV_8UC1) until the next call.
   void SetImage(const cv::Mat& image) { profile_.SetImage(image); }
 
-  /// So many rows will be a block, for lines of about `n_rows`.
+  /// Chooses the number of rows per block for lines of about `n_rows`.
   void ChooseSize(int n_rows);
-  /// The rows (or columns) from `first` to `last`.
+  /// Measures the rows (or columns) from `first` to `last`.
   void Measure(const AxisLine& line, int first, int last);
   /// Follows the edge to both sides as far as it goes, then drops the blocks at both ends that do not show
   /// it. The ends of the edge lie where half of its strength is lost. False if no block is left.
   bool FindEnds(const AxisLine& line);
 
-  /// From the small end to the large end.
+  /// The blocks, in ascending order along the line.
   std::span<const EdgeSums> all() const { return blocks_; }
   /// Sum of all blocks.
   const EdgeSums& total() const { return total_; }
-  /// Of a row, before FindEnds.
+  /// Mean edge strength of a row before FindEnds.
   float mean_strength() const { return mean_strength_; }
   /// Ends of the edge along the line, found by FindEnds.
   double first() const { return first_; }

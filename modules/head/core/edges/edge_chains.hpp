@@ -21,8 +21,8 @@ struct EdgeChains {
 };
 
 /// Links pixels of strong gradient: from every local maximum on a coarse grid it walks along the edge, both
-/// ways, always to the strongest of the three pixels ahead (as in edge drawing; Topal and Akinlar 2012). The
-/// walk keeps the bright side on the same hand, so a chain never changes its contrast sign.
+/// directions, always to the strongest of the three pixels ahead (as in edge drawing; Topal and Akinlar
+/// 2012). The walk keeps the bright side on the same hand, so a chain never changes its contrast sign.
 class ChainTracer {
  public:
   /// Which pixels are linked; magnitudes are Sobel sums of 8-bit grey values.

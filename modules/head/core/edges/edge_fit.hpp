@@ -28,13 +28,14 @@ class EdgeFitter {
   void Load(const EdgeBlocks& blocks, const AxisLine& line, double noise_sigma);
   /// Fits the edge once with equal weights, then with robust ones. False if the blocks do not determine it.
   bool Solve(KernelWidth width, int rounds, EdgeOffset& fit);
-  /// From the noise, enlarged where the blocks scatter more than that explains.
+  /// Sets the variances of `fit` from the noise, enlarged where the blocks scatter more than that explains.
   void AddVariance(EdgeOffset& fit) const;
 
   /// Variance that the pixels' noise gives the second derivative of a row.
   double noise(KernelWidth width) const { return noise_[int(width)]; }
-  /// Of the last solution: how far beside the line block `i` saw the edge [px], and what that counted.
+  /// Distance of the edge in block `i` from the line [px], in the last solution.
   float shift(std::size_t i) const { return shifts_[i]; }
+  /// Weight of block `i` in the last solution.
   float weight(std::size_t i) const { return weights_[i]; }
 
  private:
@@ -48,7 +49,8 @@ class EdgeFitter {
   double noise_[2] = {0, 0};  ///< noise(), by kernel width
   double narrower_by_ = 0;    ///< difference of the two kernels' variances [px^2]
   float begin_ = 0;           ///< row that along_ counts from
-  int n_ = 0, padded_ = 0;    ///< blocks; the same with what fills up the last four, which weighs nothing
+  int n_ = 0,
+      padded_ = 0;  ///< number of blocks; the same rounded up to a multiple of 4 (padding has weight 0)
   alignas(16) Numbers along_, rows_, strengths_, inverses_, imbalances_[2];  ///< imbalance per strength
   alignas(16) Numbers shifts_, base_, weights_;  ///< weights before and after robust weighting
   alignas(16) Numbers misfits_, allowed_;

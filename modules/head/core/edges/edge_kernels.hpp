@@ -6,7 +6,7 @@
 namespace priamos::head {
 
 /// Weights for one row of grey values around a line: first, second and third derivative, at a sub-pixel
-/// position, of the row smoothed with a Gaussian and the pixel's own box. In 1/kKernelScale.
+/// position, of the row smoothed with a Gaussian and the pixel's own box. Unit: 1 / kScale.
 struct alignas(16) EdgeKernel {
   static constexpr int kTaps = 16;
   static constexpr int kCentre = 7;  ///< the position lies between taps 7 and 8
@@ -30,8 +30,8 @@ struct EdgeKernelSet {
 /// Widths to choose from, normal to the edge.
 enum class KernelWidth { kWide = 0, kNarrow = 1 };
 
-/// The kernels for a line that crosses rows with |dx/dy| = `slope` at most 1: along the row they are wider by
-/// 1/cos, so that normal to the edge they are the same.
+/// The kernels for a line that crosses rows with |dx/dy| = `slope`, at most 1. Along the row they are wider
+/// by 1/cos of its angle, so that their width normal to the edge is always the same.
 const EdgeKernelSet& KernelsFor(KernelWidth width, double slope);
 
 }  // namespace priamos::head

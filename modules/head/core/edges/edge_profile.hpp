@@ -14,7 +14,7 @@ struct AxisLine {
   bool steep = true;
   int sign = 1;  ///< sign of the contrast in the direction of growing `across`
   double origin = 0, offset = 0, slope = 0;
-  const EdgeKernelSet *wide = nullptr, *narrow = nullptr;  ///< for this slope
+  const EdgeKernelSet *wide = nullptr, *narrow = nullptr;  ///< kernels for this slope
 
   void ChooseKernels() {
     wide = &KernelsFor(KernelWidth::kWide, std::abs(slope));
@@ -24,7 +24,7 @@ struct AxisLine {
     return width == KernelWidth::kWide ? *wide : *narrow;
   }
   double Across(double along) const { return offset + slope * (along - origin); }
-  /// In the image [px].
+  /// The point at (`along`, `at`) in image coordinates [px].
   Eigen::Vector2d Point(double along, double at) const {
     return steep ? Eigen::Vector2d(at, along) : Eigen::Vector2d(along, at);
   }
@@ -36,11 +36,11 @@ struct AxisLine {
 /// sharpness are positive where the line lies on an edge of its contrast.
 struct EdgeSums {
   float along = 0;     ///< mean row
-  float rows = 0;      ///< how many
+  float rows = 0;      ///< number of rows
   float strength = 0;  ///< first derivative
   float inverse = 0;   ///< 1 / strength, 0 where there is none
-  /// Second derivative and minus third, for each KernelWidth: their quotient is how far beside the line the
-  /// edge lies.
+  /// Second derivative, and minus the third, for each KernelWidth: their quotient is the distance of the edge
+  /// from the line.
   float imbalance[2] = {0, 0}, sharpness[2] = {0, 0};
   float low = 0, high = 0;  ///< grey values on the sides of small and large `across`
 
@@ -63,7 +63,7 @@ class EdgeProfile {
   /// Refers to `image` (CV_8UC1) until the next call.
   void SetImage(const cv::Mat& image);
 
-  /// Rows (or columns) from `first` to `last`; those too near the border are left out.
+  /// The sums over rows (or columns) from `first` to `last`; those too near the border are left out.
   EdgeSums Sum(const AxisLine& line, int first, int last) const;
   /// Number of rows (or columns) of the image.
   int Extent(const AxisLine& line) const { return line.steep ? image_.rows : image_.cols; }

@@ -6,8 +6,8 @@
 namespace priamos::head {
 
 /// Which segments pass near a point. A grid of square cells over the image, every cell with a list of the
-/// segments that cross it: as many entries as the segments are long in cells, so building and asking are
-/// linear in what is there. Points outside the image count to its border cells.
+/// segments that cross it: a segment has as many entries as it is long in cells, so building and queries
+/// take linear time. Points outside the image count to its border cells.
 class SegmentIndex {
  public:
   SegmentIndex(int width_px, int height_px, double cell_px);
@@ -16,7 +16,8 @@ class SegmentIndex {
   /// Adds to `found` every segment that comes within `reach_px` of `at`, and some that do not; each may come
   /// several times.
   void Near(const Eigen::Vector2d& at, double reach_px, std::vector<int>& found) const;
-  /// The same for all points of a segment; sorted, each id once.
+  /// Sets `found` to every segment that comes within `reach_px` of a point of the segment; sorted, each id
+  /// once.
   void Along(const Eigen::Vector2d& begin, const Eigen::Vector2d& end, double reach_px,
              std::vector<int>& found) const;
 

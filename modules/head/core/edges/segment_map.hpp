@@ -9,11 +9,11 @@
 namespace priamos::head {
 
 /// Which segment runs over a pixel, in cells of 2x2 pixels: so that pieces of an edge that has been found
-/// whole are recognised at a glance.
+/// as a whole are recognised quickly.
 class SegmentMap {
  public:
   void Clear(int width_px, int height_px);
-  /// `index` of the segment in EdgeImage::segments; beyond 65 534 nothing is noted.
+  /// `index` of the segment in EdgeImage::segments; beyond 65 534 it is not drawn.
   void Draw(const EdgeSegment& segment, int index);
   /// True if nearly all of `line` runs on one of `segments`, with the same contrast sign.
   bool Covers(const RoughLine& line, const std::vector<EdgeSegment>& segments) const;
@@ -23,7 +23,7 @@ class SegmentMap {
   std::uint16_t MarkAt(const Eigen::Vector2d& at) const;
 
   int columns_ = 0, rows_ = 0;
-  std::vector<std::uint16_t> cells_;  ///< 1 + index, 0 where nothing runs
+  std::vector<std::uint16_t> cells_;  ///< 1 + index of the segment, 0 where there is none
 };
 
 }  // namespace priamos::head

@@ -17,7 +17,7 @@ struct EdgeMatch {
   double covered = 0;       ///< share of the predicted length they cover, 0..1
   double distance_px = 0;   ///< mean distance from the prediction, to the right of its direction positive
   double predicted_px = 0;  ///< predicted length
-  double log_odds = 0;      ///< what it contributes
+  double log_odds = 0;      ///< part of Association::log_odds
   double overshoot_px = 0;  ///< how far the image edge runs on where the model has an end
   /// How far the image edge ends before the prediction's from and to end; negative: it runs on.
   std::array<double, 2> gap_px{};
@@ -26,8 +26,8 @@ struct EdgeMatch {
 
 /// A corner of the model both of whose edges were found in one image.
 struct CornerMatch {
-  int a = 0, b = 0, camera = 0;  ///< the edges
-  double log_odds = 0;           ///< what it contributes: whether they end in it
+  int a = 0, b = 0, camera = 0;  ///< edges a and b, and the image
+  double log_odds = 0;           ///< part of Association::log_odds: whether the edges end in the corner
 };
 
 /// Evidence of the images for one supposed pose.
@@ -46,10 +46,10 @@ struct Association {
   void Withdraw(const LandmarkModel& model, int edge, int camera);
 };
 
-/// Which image edge may belong to which model edge, and what each agreement is worth.
+/// Which image edge may belong to which model edge, and the statistics that give the odds.
 struct AssociationOptions {
   double sigma_px = 0.5;  ///< expected distance of an image edge from the right prediction
-  double gate_px = 1.5;   ///< farther ones do not belong
+  double gate_px = 1.5;   ///< image edges farther from the prediction do not belong to it
   double max_angle_rad = 0.05;
   double detection = 0.85;  ///< chance that the operator finds an edge that is there
   double clutter_window_px =

@@ -8,10 +8,10 @@
 
 namespace priamos::head {
 
-/// How a free model is searched around where it is believed to be.
+/// Settings of the search for a free model around its believed pose.
 struct FreeModelOptions {
   std::vector<double> gates_px{16, 8, 4, 2, 1.2};  ///< gate of each pass, from the belief to the result
-  /// Factors on all gates but the last, tried one after the other if the first pass finds nothing.
+  /// Factors on all gates but the last, tried one after the other if the first search does not find it.
   std::vector<double> retries{1.7, 0.6};
   int min_matched = 5;     ///< edges that must be found, all images together
   double min_share = 0.4;  ///< share of the visible length that must be found

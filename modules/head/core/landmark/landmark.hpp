@@ -15,8 +15,8 @@ struct LandmarkEdge {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
   double visible_from_rad = -kPi, visible_to_rad = kPi;
   int side = 0;  ///< 0 both, 1 left, 2 right, 3 movable
-  /// Logarithm of the grey value on the right hand of who walks it from -> to in the image over that on the
-  /// left hand; nullopt: not known. The ratio, since light changes both.
+  /// Logarithm of the ratio of the grey values beside the edge in the image, right over left of its direction
+  /// from -> to; nullopt: not known. A ratio, since lighting changes both alike.
   std::optional<double> grey_ratio{};
 
   /// Part of something that may stand elsewhere, such as a door's leaf.

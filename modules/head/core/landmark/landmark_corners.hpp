@@ -9,7 +9,7 @@ namespace priamos::head {
 
 /// Where two edges of a skeleton meet, each by one of its ends.
 struct Meeting {
-  bool a_at_from = false, b_at_from = false;  ///< the end that it is: LandmarkEdge::from, else its `to`
+  bool a_at_from = false, b_at_from = false;  ///< the edges meet at LandmarkEdge::from; false: at `to`
 };
 
 /// Whether two edges end in the same corner: nearer to each other than `reach_m` (on the radio a coordinate

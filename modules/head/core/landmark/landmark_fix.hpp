@@ -20,7 +20,7 @@ enum class Verdict {
   kFound = 0,
   kNoModel = 1,
   kNoPose = 2,
-  kNoImage = 3,           ///< none, or black, saturated, of the wrong size
+  kNoImage = 3,           ///< no image, or a black, saturated or too small one
   kNotVisible = 4,        ///< the prediction has too few edges in the images
   kTooFewEdges = 5,       ///< too few of them were found
   kAmbiguous = 6,         ///< two different poses explain the images about equally well
@@ -28,7 +28,7 @@ enum class Verdict {
   kElsewhere = 8          ///< found where the prediction and its covariance exclude it
 };
 
-/// In words, for logs and operators.
+/// The verdict in words, for logs and operators.
 const char* Describe(Verdict verdict);
 
 /// Where the robot believes the landmark to be: the prior of the search, not of the result.
@@ -76,7 +76,7 @@ struct LandmarkFixOptions {
   ProposalOptions proposals;
   PoseSolverOptions solver;
 
-  /// Of the prediction, as wide as it is searched.
+  /// The prediction's covariance of (x, y, yaw), widened by the minimum sigmas [m, rad].
   Eigen::Matrix3d SearchCovariance(const LandmarkPrediction& prediction) const;
 };
 

@@ -31,8 +31,8 @@ struct LandmarkView {
 /// How much of a picture is shown.
 struct LandmarkViewOptions {
   int max_rejected = 14;     ///< more would fill the picture, and the radio
-  double search_sigmas = 3;  ///< half width of the strip beside a prediction
-  double beside_px = 4;      ///< and what it is wider for the edge operator and the model
+  double search_sigmas = 3;  ///< half width of the strip about a prediction, in its standard deviations
+  double beside_px = 4;      ///< added to that half width for errors of edge operator and model
   double max_angle_rad = 0.15;
 };
 
@@ -40,9 +40,9 @@ struct LandmarkViewOptions {
 /// with fewer matches.
 int CameraToShow(const LandmarkFix& fix);
 
-/// Predicted, matched and rejected edges of the picture `fix.matches` calls `camera`. Rejected are edges in
-/// the strip that the covariance of the prediction lays about a predicted edge; those beside the pose that
-/// was fitted weigh double. `prediction` is what the finder was given.
+/// Predicted, matched and rejected edges of one picture; `camera` is its number in `fix.matches`. Rejected
+/// are edges in the strip that the covariance of the prediction lays about a predicted edge; those beside the
+/// pose that was fitted weigh double. `prediction` is what the finder was given.
 LandmarkView ViewLandmark(const LandmarkModel& model, const LandmarkPrediction& prediction,
                           const LandmarkFix& fix, const CameraView& picture, int camera,
                           const LandmarkViewOptions& options = {});

@@ -10,19 +10,20 @@
 
 namespace priamos::head {
 
-/// Where the robot believed to be at one moment.
+/// The robot's estimate of its pose at one time.
 struct PoseSample {
   Time time;
   Pose2 map_from_base;
   Twist2 twist;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of (x, y, yaw), map frame [m, rad]
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Zero();  ///< covariance of map_from_base (x, y, yaw), map frame [m, rad]
 };
 
 /// The poses of the last seconds. The landmark is predicted for the time of the exposure, which has passed
 /// when the picture arrives.
 class PoseHistory {
  public:
-  /// Poses older than the newest one, or of the same time, are ignored.
+  /// Adds a pose; those not newer than the newest one are ignored.
   void Add(const PoseSample& sample);
 
   /// The pose at `time`: between two samples, or up to `kReach` beyond the newest by its velocity; nullopt
@@ -36,7 +37,8 @@ class PoseHistory {
   std::deque<PoseSample> samples_;
 };
 
-/// The landmark as seen from the robot, with the uncertainty of the robot's pose turned into its frame.
+/// Predicted pose of the landmark in the base frame; its covariance is that of the robot's pose, turned into
+/// the base frame.
 LandmarkPrediction Predict(const PoseSample& robot, const Pose2& map_from_landmark);
 
 }  // namespace priamos::head

@@ -15,7 +15,7 @@ struct PoseProposal {
   int support = 1;  ///< number of proposals that agree with it
 };
 
-/// Which pairs of edges may make a pose, and which poses are one.
+/// Which pairs of edges may give a pose, and which poses are merged.
 struct ProposalOptions {
   double max_distance_error_m =
       0.03;                  ///< error of the distance of the two edges, beyond 3 sigma of the reconstruction
@@ -25,10 +25,10 @@ struct ProposalOptions {
   int max_proposals = 200;
 };
 
-/// Poses of the landmark in the base frame that are worth a closer look.
+/// Candidate poses of the landmark in the base frame.
 struct Proposals {
   std::vector<PoseProposal> poses;  ///< most supported first
-  int n_tested = 0;                 ///< pairs of pairs that fitted, before merging: the number of chances
+  int n_tested = 0;                 ///< pairs of pairs that fitted, before merging: the number of trials
 };
 
 /// Every pose that lays two visible vertical edges of the model onto two reconstructed ones, as far as the

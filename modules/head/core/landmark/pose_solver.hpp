@@ -11,35 +11,35 @@
 
 namespace priamos::head {
 
-/// What is estimated, and the standard deviations (sigma) of everything it is estimated from.
+/// The unknowns of the pose solver, and the standard deviations (sigma) of its measurements and models.
 struct PoseSolverOptions {
   bool on_floor = true;           ///< 3 degrees of freedom (x, y, yaw), else all 6
   double edge_sigma_px = 0.01;    ///< systematic error of an edge at either end: light, lens, neighbours
-  double model_sigma_m = 0.0008;  ///< how well the model's edges are placed, each axis
-  double tilt_sigma_m = 0.00025;  ///< how well they are aligned: at the ends, against the middle
-  double movable_sigma_m = 0.01;  ///< the same of a part that may stand elsewhere
-  double camera_sigma_px = 0.05;  ///< how well a camera is calibrated: shift, roll and scale of the image
-  /// Covariance of the motion of space (x, y, z, roll, pitch, yaw about the origin of base) by which all
-  /// cameras together may be calibrated wrongly: HeadModel::base_covariance.
+  double model_sigma_m = 0.0008;  ///< position error of a model edge, each axis
+  double tilt_sigma_m = 0.00025;  ///< alignment error of a model edge: at its ends, against its middle
+  double movable_sigma_m = 0.01;  ///< position error of a movable part's edge, each axis
+  double camera_sigma_px = 0.05;  ///< calibration error of a camera: shift, roll and scale of the image
+  /// Covariance of the calibration error that all cameras share, as a motion of space (x, y, z, roll, pitch,
+  /// yaw about the origin of base): HeadModel::base_covariance.
   Eigen::Matrix<double, 6, 6> base_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int max_iterations = 10;
-  bool find_suspect = true;  ///< PoseSolution::suspect costs as much as all the rest
+  bool find_suspect = true;  ///< compute PoseSolution::suspect, which takes as long as all the rest
 };
 
-/// The edge, seen in one image or in all, without which everything else would fit best.
+/// The worst outlier: the edge, in one image or in all, without which the others fit best.
 struct EdgeSuspect {
   int edge = -1, camera = -1;  ///< camera -1: in all of them
-  double misfit = 0;  ///< what it adds to chi squared, per degree of freedom: about 1 for the right one
+  double misfit = 0;           ///< its part of chi squared, per degree of freedom: about 1 for an inlier
 };
 
 /// The landmark's pose in the base frame [m, rad] and how well it is known; valid when `ok`.
 struct PoseSolution {
   bool ok = false;
   Eigen::Isometry3d base_from_landmark = Eigen::Isometry3d::Identity();
-  /// Of (x, y, z, roll, pitch, yaw) as in PoseJacobian; zero where fixed.
+  /// Covariance of (x, y, z, roll, pitch, yaw) as in PoseJacobian [m, rad]; 0 where fixed.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  /// Of the covariance, as the mean over all its directions, what the noise of edges makes. The rest comes
-  /// from the model and the calibration: another look repeats it.
+  /// Share of the covariance that comes from the noise of edges, as a mean over all directions, 0..1. The
+  /// rest comes from the model and the calibration and is the same in other looks.
   double own_share = 0;
   double rms_px = 0;  ///< RMS of the edges' mean distances from the model, all images
   /// Chi squared per degree of freedom under all errors that are expected: about 1 for the right edges, large
@@ -49,8 +49,8 @@ struct PoseSolution {
 };
 
 /// Least squares pose from points on edges, in any number of images, starting at `initial`, without any prior
-/// for the pose. The points of an edge in an image are one straight line with two uncertain numbers. Errors
-/// of the model's edges, those of each camera and the one that all cameras share correlate these numbers
+/// for the pose. The points of an edge in an image give two measurements (see ObservedLine). Errors of
+/// the model's edges, those of each camera and the one that all cameras share correlate the measurements
 /// (generalised least squares), so the covariance does not shrink with the number of pixels below what model
 /// and calibration allow. Needs edges that determine the pose, else ok is false.
 PoseSolution SolvePose(const LandmarkModel& model, std::span<const CameraModel* const> cameras,

@@ -11,16 +11,16 @@ namespace priamos::head {
 /// A model edge as one camera should see it.
 struct PredictedEdge : ProjectedEdge {
   int edge = 0;          ///< index in LandmarkModel::edges
-  double search_px = 0;  ///< 1 sigma of the position across the edge, by the covariance of the pose
+  double search_px = 0;  ///< sigma of the position across the edge that follows from the pose's covariance
 };
 
-/// Change of a point of space by (x, y, z, roll, pitch, yaw) of base_from_landmark, turning about the
-/// landmark's origin with axes parallel to base.
+/// Jacobian of a point `in_base` of the landmark by (x, y, z, roll, pitch, yaw) of base_from_landmark,
+/// turning about the landmark's origin with axes parallel to base.
 Eigen::Matrix<double, 3, 6> PoseJacobian(const Eigen::Isometry3d& base_from_landmark,
                                          const Eigen::Vector3d& in_base);
 
 /// The edges of `model` visible at `base_from_landmark` (equations 5 and 6), for the search in the image.
-/// `covariance` is that of (x, y, yaw) of base_from_landmark; edges whose visibility it leaves open are kept.
+/// `covariance` is that of (x, y, yaw) of base_from_landmark; edges that may be visible under it are kept.
 std::vector<PredictedEdge> PredictEdges(const LandmarkModel& model, const Pose2& base_from_landmark,
                                         const Eigen::Matrix3d& covariance, const CameraModel& camera,
                                         const ImageSize& size);

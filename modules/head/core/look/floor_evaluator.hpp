@@ -11,7 +11,7 @@ namespace priamos::head {
 
 /// Evaluation of one picture of the laser's line.
 struct FloorResult {
-  ObstacleLines lines;                        ///< base frame
+  ObstacleLines lines;                        ///< floor and obstacles, base frame
   std::optional<ObstaclePiece> new_obstacle;  ///< the worst piece, if the picture before showed no obstacle
 };
 
@@ -31,7 +31,7 @@ class FloorEvaluator {
   ObstacleLines::Verdict last_ = ObstacleLines::kClear;
 };
 
-/// The piece that is farthest above or below the floor; nullopt of none.
+/// The piece that is farthest above or below the floor; nullopt if there is none.
 std::optional<ObstaclePiece> WorstPiece(const ObstacleLines& lines);
 
 /// For a log: how far ahead of the base, and how high [m].

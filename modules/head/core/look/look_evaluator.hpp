@@ -13,22 +13,22 @@
 
 namespace priamos::head {
 
-/// What one look is evaluated from.
+/// Input of a look's evaluation.
 struct LookInput {
   const LandmarkModel* model = nullptr;  ///< model of the landmark ordered; nullptr: nobody has sent it
-  std::optional<PoseSample> robot;       ///< believed at the time of the exposure; nullopt: unknown
+  std::optional<PoseSample> robot;       ///< estimated pose at the time of the exposure; nullopt: unknown
   std::array<std::optional<GreyImage>, 2> images;  ///< left, right; nullopt: lost
   HeadSetting setting;                             ///< counters of the motors during the exposure
 };
 
 /// Evaluation of one look.
 struct LookResult {
-  LandmarkFix fix;                   ///< base frame; its verdict gives the reason if there is none
-  LandmarkView view;                 ///< what the verdict was decided by; empty without two usable images
+  LandmarkFix fix;                   ///< the fix, base frame; its verdict gives the reason if there is none
+  LandmarkView view;                 ///< edges that led to the verdict; empty without two usable images
   std::optional<StereoDrift> drift;  ///< turn of the right camera; nullopt: this look does not determine it
 };
 
-/// What of a look's evaluation the configuration sets.
+/// Settings of a look's evaluation.
 struct LookOptions {
   EdgeOperator::Options edges;
   LandmarkFixOptions finder;
@@ -36,13 +36,13 @@ struct LookOptions {
 };
 
 /// Evaluates looks: edges of both images, undistorted once, then the landmark, its view and the drift from
-/// the same views. Keeps buffers, but no memory of earlier looks.
+/// the same views. Keeps its buffers, but nothing of earlier looks.
 class LookEvaluator {
  public:
   LookEvaluator(const HeadModel& head, const LookOptions& options);
 
-  /// kNoModel, kNoPose and kNoImage (an image lost, smaller than 64x64 px, or taken at a setting outside of
-  /// the calibration) are the verdicts of an incomplete input, in this order.
+  /// Evaluates one look. The verdict of an incomplete input is kNoModel, kNoPose or kNoImage (an image lost,
+  /// smaller than 64x64 px, or taken at a setting outside of the calibration), in this order.
   LookResult Evaluate(const LookInput& input);
 
  private:

@@ -43,17 +43,17 @@ class DoorPlanner {
   /// Why no path can lead through this door, wherever the robot stands; nullopt when it fits.
   std::optional<Refusal> CheckDoor(const DoorPlan& door) const;
 
-  /// From `start` through the door. Tried in this order: straight to a place on the axis before the door
-  /// (the farther from it the better), a side-step, backing off first.
+  /// Path from `map_from_start` through the door. Tried in this order: straight to a place on the axis before
+  /// the door (the farther from it the better), a side-step, backing off first.
   Outcome<DoorPath> PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const;
 
-  /// From `start` to the place before the door where the robot may wait while it does not know its pose well:
-  /// over the axis at approach_m if that is ahead, and to the hold point.
+  /// Path from `map_from_start` to the place before the door where the robot may wait while it does not know
+  /// its pose well: over the axis at approach_m if that is ahead, and to the hold point.
   Outcome<DoorPath> PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const;
 
   /// x of the hold point in the door's frame [m], negative.
   double HoldX(const DoorPlan& door) const;
-  /// x from which on the whole footprint is behind the wall.
+  /// x in the door's frame from which on the whole footprint is behind the wall [m].
   double PastX(const DoorPlan& door) const;
   /// Width that the footprint needs at least [m].
   double NeededWidth() const { return footprint_.width_m + 2 * config_.door_margin_m; }

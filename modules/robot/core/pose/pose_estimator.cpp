@@ -10,7 +10,7 @@
 namespace priamos::robot {
 namespace {
 
-/// `part` of a step, counted from its begin or to its end.
+/// The part of `step` between two times.
 OdometryStep Part(const OdometryStep& step, Time from, Time to) {
   OdometryStep part = step;
   part.from = from;

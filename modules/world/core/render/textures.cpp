@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kPosters = 16;
 
-/// Smooth noise with `cells` bumps along a side, mean 0, about +-1, seamless.
+/// Smooth noise with `cells_x` by `cells_y` bumps, mean 0, about +-1, seamless.
 cv::Mat Noise(Rng& rng, int cells_x, int cells_y) {
   cv::Mat grid(cells_y, cells_x, CV_32F);
   for (auto it = grid.begin<float>(); it != grid.end<float>(); ++it)

@@ -10,7 +10,7 @@ constexpr int kMirrors = 2;
 constexpr double kRayStepDeg = 1.5;
 constexpr double kMembraneM = 0.02;  ///< radius of the sensor's membrane
 
-/// Level in both directions together of the beam `off_axis` degrees beside its axis: -6 dB at its edge.
+/// Level of the beam, out and back together, `off_axis_deg` beside its axis [dB]: -6 dB at its edge.
 double BeamDb(const SonarConfig& config, double off_axis_deg) {
   const double part = off_axis_deg / (config.beam_deg / 2);
   return -6 * part * part;
@@ -22,7 +22,7 @@ double PathDb(const SonarConfig& config, double range_m, double decades) {
   return -decades * std::log10(r) - 2 * config.absorption_db_m * (r - 1);
 }
 
-/// What a surface sends straight back at `incidence`.
+/// Level that a surface sends straight back at `incidence_deg` [dB].
 double BackscatterDb(const EchoMaterial& material, double incidence_deg) {
   double db = material.diffuse_db;
   if (incidence_deg <= material.specular_limit_deg) {
