@@ -15,12 +15,12 @@ namespace priamos::bus::radio {
 /// Load of one channel at its configured rate.
 struct ChannelBudget {
   std::size_t channel = 0;
-  std::size_t bits = 0;    ///< in a bundle, at most, with number and head (an event: all segments)
-  double rate_hz = 0;      ///< all keys together
-  double bytes_per_s = 0;  ///< on a busy line, with its share of full frames' overhead
+  std::size_t bits = 0;  ///< largest size in a bundle, channel number and head included (event: all segments)
+  double rate_hz = 0;    ///< rate of all keys together
+  double bytes_per_s = 0;  ///< load on a busy line, with its share of the overhead of full frames
   double share = 0;        ///< `bytes_per_s` over what the line carries
-  /// From Offer() to the last byte at the receiver, without the line's own latency, on an error-free line
-  /// whose channels keep their rates; nullopt: not bounded within a minute.
+  /// Longest time from Offer() to the last byte at the receiver, without the line's own latency, on an
+  /// error-free line whose channels keep their rates; nullopt: not bounded within a minute.
   std::optional<Duration> worst_latency;
 };
 
@@ -30,7 +30,7 @@ struct DirectionBudget {
   std::vector<ChannelBudget> channels;
   double control_bytes_per_s = 0;   ///< load of the acknowledgements
   double bytes_per_s = 0;           ///< load of everything
-  double capacity_bytes_per_s = 0;  ///< what the line carries; half-duplex: what the other end leaves of it
+  double capacity_bytes_per_s = 0;  ///< capacity of the line; half-duplex: what the other end leaves of it
   double utilisation = 0;           ///< `bytes_per_s` over `capacity_bytes_per_s`
 };
 
@@ -44,8 +44,8 @@ struct Budget {
 /// 35(3), 2007), adapted to frames that carry several messages: a frame is not interrupted except by an
 /// urgent channel; a frame that leaves a waiting message out is full of messages that go before it. Messages
 /// that overtake by ageing are counted among those. On a half-duplex radio an end may only talk in its turns:
-/// the other end's longest turn is added for every own turn that the work needs (periodic resource model,
-/// Shin and Lee, Real-Time Systems Symposium 2003).
+/// the other end's longest turn is added for every own turn that the transmission needs (periodic resource
+/// model, Shin and Lee, Real-Time Systems Symposium 2003).
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options);
 
 /// Throws ConfigError with the first problem.

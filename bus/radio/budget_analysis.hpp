@@ -8,7 +8,7 @@
 #include "bus/radio/channels/channel_table.hpp"
 #include "bus/radio/link_options.hpp"
 
-/// Response times of the channels of one direction. What is bounded and after whom: budget.hpp.
+/// Response times of the channels of one direction. The method and its sources: budget.hpp.
 namespace priamos::bus::radio {
 
 /// One channel as a load on its direction.
@@ -26,7 +26,7 @@ struct ChannelLoad {
 
   /// Number of messages that can come in a window of this length.
   double Arrivals(double window_s) const;
-  /// Number of messages of the same channel that can be there before one that waits for so long.
+  /// Largest number of messages of the same channel ahead of one that waits for `window_s`.
   double OwnBefore(double window_s) const;
 };
 
@@ -37,7 +37,7 @@ class DirectionAnalysis {
   DirectionAnalysis(const ChannelTable& table, const LinkOptions& options, Direction direction);
 
   const std::vector<ChannelLoad>& loads() const { return loads_; }
-  /// Share of the line that this direction has for sure, 0..1.
+  /// Guaranteed share of the line for this direction, 0..1.
   double share() const { return turn_s_ / (turn_s_ + gap_s_); }
   /// Bytes of a frame per byte of its bundle.
   double overhead() const { return overhead_; }
@@ -62,12 +62,12 @@ class DirectionAnalysis {
   Direction direction_;
   double byte_s_;
   double ageing_s_;
-  std::size_t frame_bytes_;  ///< beside the bundle
+  std::size_t frame_bytes_;  ///< bytes of a frame besides its bundle
   double ahead_s_;
   double control_bits_ = 0;
   double capacity_bits_ = 0;
   double frame_s_ = 0;
-  double turn_s_ = 1;  ///< with gap_s_ = 0: no turns
+  double turn_s_ = 1;  ///< length of a turn; without turns 1, with gap_s_ = 0
   double gap_s_ = 0;
   double overhead_ = 1;
   bool solved_once_ = false;

@@ -7,20 +7,20 @@
 
 namespace priamos::bus::radio {
 
-/// The size in bytes at which bundles bring the most across a line that loses the share `loss` (0..1) of its
+/// The bundle size in bytes with the highest throughput over a line that loses the share `loss` (0..1) of its
 /// frames; at most `max_bytes`.
 std::size_t BestBundleBytes(std::size_t max_bytes, double loss);
 
-/// A bundle in the making: it takes entries as long as they fit.
+/// Builds a bundle: takes entries as long as they fit.
 class BundleBuilder {
  public:
   /// `table` must outlive the builder. `over_may_follow`: leaves room for AddOver().
   BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow);
 
-  /// False when the entry does not fit; nothing is added then. The first message may exceed the target up to
-  /// the longest bundle there is, or a long one would never be sent.
+  /// Adds an entry. Returns false, and adds nothing, if it does not fit. The first message may exceed the
+  /// target up to the longest bundle, or a long one would never be sent.
   bool Add(const BundleEntry& entry);
-  /// Ends the turn of this end on a half-duplex radio. It always fits.
+  /// Adds the entry that ends this end's turn on a half-duplex radio. It always fits.
   void AddOver();
 
   bool empty() const { return out_.bits() == 0; }

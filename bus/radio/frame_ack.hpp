@@ -10,8 +10,8 @@
 #include "bus/radio/line/link_quality.hpp"
 #include "common/time.hpp"
 
-/// Acknowledgements of frames. They repeat nothing by themselves: they prove that commands are fresh, name
-/// the frames that differences may refer to, and measure delay and loss.
+/// Acknowledgements of frames. They cause no repetition: they prove that commands are fresh, name the frames
+/// that differences may refer to, and measure delay and loss.
 namespace priamos::bus::radio {
 
 /// The frames of the other end that this end has to acknowledge, and when.
@@ -22,14 +22,14 @@ class FrameAckSender {
   void OnFrame(std::uint64_t ahead);
   /// Whether an acknowledgement goes into the next frame that carries control entries.
   bool Due(Time now) const;
-  /// Whether so many frames wait for it that a frame is made for its sake.
+  /// Whether so many frames are unacknowledged that a frame is sent for the acknowledgement alone.
   bool Pressing() const;
   /// The acknowledgement; it counts as sent. `highest`: highest counter accepted; `heard_at`: arrival of that
   /// frame; `loss`: share of the other end's frames lost, 0..1.
   FrameAckEntry Take(std::uint64_t highest, Time heard_at, double loss, Time now);
   /// The frame with the acknowledgement was cut off: it is due again.
   void Return();
-  /// The link is back: the other end waits for an acknowledgement, to know that commands are fresh.
+  /// The link is up again: the other end waits for an acknowledgement, to know that commands are fresh.
   void MakeDue() { last_.reset(); }
   /// Counters begin anew.
   void OnEpochChanged();
@@ -50,11 +50,11 @@ class SentFrames {
   std::vector<std::uint64_t> OnAck(const FrameAckEntry& ack, Time began);
   /// The shortest form of a counter that the other end can complete.
   CounterForm FormOf(std::uint64_t counter) const;
-  /// Whether a command that was received now and lives for `ttl` is fresh. A modem, or somebody, may have
+  /// Whether a command that was received now and lives for `ttl` is fresh. A modem, or an attacker, may have
   /// held the frame back; it is not older than the newest frame from here that the other end had received
   /// when it was made.
   bool ProvesFresh(Duration ttl, Time now) const;
-  /// The other end asked for counters that it cannot have used: it does not know the highest one any more.
+  /// The other end sent a FloorEntry: it no longer knows the highest counter that it accepted.
   void OnFloor() { confirmed_.reset(); }
   /// Counters begin anew.
   void OnEpochChanged();

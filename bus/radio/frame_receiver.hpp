@@ -20,7 +20,7 @@ struct AcceptedFrame {
   std::uint64_t ahead = 0;
   std::size_t wire_bytes = 0;  ///< length on the line, delimiter included
   Time first_byte{};           ///< arrival of its first byte
-  bool link_back = false;      ///< the link was down until now
+  bool link_back = false;      ///< the link was down before this frame
 };
 
 /// Counters of what came from the line.
@@ -34,11 +34,11 @@ struct ReceptionCounters {
 /// Turns bytes of the line into authenticated frames, and counts how well that goes.
 class FrameReceiver {
  public:
-  /// A frame that was completed by a byte: nothing, a hello or data.
+  /// The frame that a byte completed: none, a hello or data.
   using Result = std::variant<std::monostate, Hello, AcceptedFrame>;
 
   /// `incoming`: direction of the frames. `bytes_per_s`: what the line can carry; frames that come faster are
-  /// not looked at. `silence`: the link is down when nothing was accepted for so long.
+  /// not checked. `silence`: the link is down when nothing was accepted for so long.
   FrameReceiver(const FrameKeys& keys, Direction incoming, FrameScope scope, double bytes_per_s,
                 Duration silence, Time now);
 

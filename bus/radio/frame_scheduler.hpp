@@ -24,18 +24,18 @@ struct FrameSources {
   MessageSender& outbox;
 };
 
-/// Counters of what went on the line.
+/// Counters of the frames that were sent.
 struct SendCounters {
   std::uint64_t frames = 0;        ///< data frames that left whole
   std::uint64_t aborted = 0;       ///< frames cut off by an urgent message
-  std::uint64_t bundle_bytes = 0;  ///< bytes of their bundles
+  std::uint64_t bundle_bytes = 0;  ///< bytes of the bundles of these frames
 };
 
 /// The frame that is being sent: what must be noted when it has left, or undone when it is cut off.
 struct FrameInFlight {
   std::uint64_t counter = 0;  ///< 0: a hello
   bool urgent = false;        ///< never cut off
-  bool repeats = false;       ///< only what was urgent before: cut off by what is urgent now
+  bool repeats = false;       ///< only repetitions of urgent events: cut off by a new urgent message
   bool over = false;          ///< ends the turn
   std::size_t bundle_bytes = 0;
   Peer::Loaded peer{};

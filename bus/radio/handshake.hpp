@@ -18,7 +18,7 @@ enum class Reception : std::uint8_t {
 };
 
 /// What is exchanged until both ends use the same channel table, epoch and counters: hellos, and the floor.
-/// It decides when; epoch.hpp decides what a hello means.
+/// It decides when a hello is sent; epoch.hpp defines what it means.
 class Handshake {
  public:
   /// `floor_due`: this end's memory of accepted counters was reserved ahead, so that the other end may still
@@ -32,7 +32,7 @@ class Handshake {
   /// This end uses a new epoch.
   void OnEpochChanged();
 
-  /// Whether a hello is to be sent now. Hellos that somebody else can provoke are limited in rate.
+  /// Whether a hello is to be sent now. Hellos that an attacker can provoke are limited in rate.
   bool HelloDue(Reception reception, Time now) const;
   /// The hello; it counts as sent. `stream` names this end's numbering of events.
   Hello Take(std::uint32_t stream, Reception reception, Time now);
@@ -54,7 +54,7 @@ class Handshake {
   AnswerLimit limit_;
   Time last_;  ///< time of the last hello from here
   bool reply_due_ = false;
-  bool switched_ = false;  ///< to a new epoch, of which no frame has come yet
+  bool switched_ = false;  ///< this end uses a new epoch, of which no frame has come yet
   bool floor_due_;
   bool table_mismatch_ = false;
   std::uint64_t received_ = 0;

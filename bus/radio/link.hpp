@@ -34,10 +34,10 @@ struct LinkCounters {
   std::array<std::uint64_t, kRejects> rejected{};
 };
 
-/// How the link does.
+/// State of the link.
 struct LinkStatus {
   bool up = false;
-  bool agreed = false;          ///< there is an epoch
+  bool agreed = false;          ///< both ends have agreed on an epoch
   bool alarm = false;           ///< frames came that the other end cannot have sent: see ForgeryGuard
   bool table_mismatch = false;  ///< the other end has another channel table: nothing is exchanged
   Duration round_trip{-1};      ///< from event to acknowledgement, smoothed; negative before the first
@@ -45,15 +45,15 @@ struct LinkStatus {
   double loss = 0;              ///< share of the other end's frames that did not arrive, lately
   double peer_loss = 0;         ///< share of this end's frames that did not arrive there, lately
   double bit_error_rate = 0;    ///< probability per bit that explains `loss`
-  std::uint64_t resent = 0;     ///< segments of events
+  std::uint64_t resent = 0;     ///< segments of events that were sent again
   LinkCounters counters;
 };
 
 /// One end of the radio link: pure, time is an argument, bytes in and bytes out.
 ///
-/// Offer() what is to be sent, call Step() every 1 or 2 ms and write what it returns to the line at once,
-/// give Receive() what the line brought. Any frame of any start can be used at once; only an end that lost
-/// its state waits for about 0.15 s (see EpochAgreement).
+/// Pass messages to Offer(), call Step() every 1 or 2 ms and write what it returns to the line at once, and
+/// pass the bytes from the line to Receive(). After a restart frames can be used at once; only an end that
+/// lost its state waits for about 0.15 s (see EpochAgreement).
 ///
 /// It only joins its parts, each of which can be read alone: FrameReceiver (bytes to frames), MessageReceiver
 /// (frames to messages), Peer (what the ends report to each other), MessageSender (messages to bundles),
@@ -71,9 +71,9 @@ class LinkEndpoint {
   /// An encoded message for an outgoing channel; messages with different keys do not replace each other.
   OfferResult Offer(std::size_t channel, std::span<const std::byte> encoded, Time now,
                     std::string_view key = {});
-  /// Whether somebody listens here to an on-request channel of the other end.
+  /// Reports whether this end has a listener for an on-request channel of the other end.
   void Listen(std::size_t channel, bool listening) { peer_.listeners.Listen(channel, listening); }
-  /// Whether somebody listens to an outgoing on-request channel on the other side.
+  /// Whether the other end has a listener for an outgoing on-request channel.
   bool wanted(std::size_t channel) const { return outbox_.queue().wanted(channel); }
 
   /// The bytes that may be written to the line now.

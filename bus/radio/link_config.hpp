@@ -30,7 +30,7 @@ struct LinkChannelConfig {
   friend bool operator==(const LinkChannelConfig&, const LinkChannelConfig&) = default;
 };
 
-/// link.toml: what both ends of one link must agree on, and how they use it.
+/// link.toml: the settings that both ends of one link must share, and those of the sender.
 struct LinkConfig {
   int baud = 9600;
   double air_rate_bytes_s = 0;

@@ -12,13 +12,14 @@
 
 namespace priamos::bus::radio {
 
-/// What an end must not forget, and when it writes it down. Counters are reserved in blocks: the block is on
+/// The persistent state of an end, and when it is written. Counters are reserved in blocks: the block is on
 /// disk before its first counter is used, so that after a crash an end at worst skips some, and never sends
-/// one twice nor accepts one twice. A block is begun while counters of the last one are left, so that nobody
-/// waits for the disk, unless it takes longer than those last.
+/// one twice nor accepts one twice. The next block is written while counters of the last one are left, so
+/// that sending waits for the disk only if that takes longer than they last.
 class LinkMemory {
  public:
-  /// Reads the store. A state that is missing, damaged or of another channel table loses what it held.
+  /// Reads the store. If the state is missing, damaged or of another channel table, this end begins without
+  /// one.
   LinkMemory(StateStore& store, const ChannelTable& table, const NonceSource& nonces);
 
   std::uint64_t epoch() const { return state_.epoch; }
@@ -26,7 +27,7 @@ class LinkMemory {
   std::uint64_t receive_floor() const { return state_.receive_floor; }
   bool floor_exact() const { return state_.floor_exact; }
 
-  /// The next counter to send with; it will never be given out again in this epoch.
+  /// The counter for the next frame; it is not given out again in this epoch.
   std::uint64_t TakeCounter();
   std::uint64_t last_counter() const { return next_counter_ - 1; }
   /// The other end accepts only counters above `floor`.
@@ -39,7 +40,7 @@ class LinkMemory {
   /// Puts back the events that were waiting, and the numbers expected.
   void RestoreEvents(SendQueue& queue, std::vector<EventReceiver>& receivers) const;
   void StoreEvents(const SendQueue& queue, const std::vector<EventReceiver>& receivers);
-  /// From now on `store` is written, which holds what the one before holds.
+  /// Writes to `store` from now on, which must be a copy of the one before.
   void MoveTo(StateStore& store) { store_ = &store; }
   /// Orderly end: nothing is reserved ahead any more.
   void Close(std::uint64_t highest_accepted);

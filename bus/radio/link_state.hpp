@@ -12,14 +12,14 @@ namespace priamos::bus::radio {
 class StateStore {
  public:
   virtual ~StateStore() = default;
-  /// What was saved last; nullopt when there is nothing.
+  /// The state saved last; nullopt if there is none.
   virtual std::optional<std::vector<std::byte>> Load() = 0;
-  /// Replaces the saved state as a whole: at once for a process that starts again, after a sync also for a
-  /// machine that does. An emergency stop passes here: it must not wait for a disk.
+  /// Replaces the saved state as a whole. It survives a restart of the process at once, and one of the
+  /// machine after a sync. Does not wait for the disk: an emergency stop must not.
   virtual void Save(std::span<const std::byte> state) = 0;
-  /// Begins to bring what was saved last to where it survives a loss of power.
+  /// Begins to write the state saved last to disk, where it survives a loss of power.
   virtual void StartSync() = 0;
-  /// Waits until what was begun last is there.
+  /// Waits until the sync that was begun last is finished.
   virtual void AwaitSync() = 0;
 };
 
@@ -46,7 +46,7 @@ struct StoredEvent {
   friend bool operator==(const StoredEvent&, const StoredEvent&) = default;
 };
 
-/// What one end remembers.
+/// The persistent state of one end.
 struct LinkState {
   std::uint32_t table_hash = 0;             ///< events and numbers below belong to this channel table
   std::uint64_t epoch = 0;                  ///< 0: none agreed yet
@@ -64,7 +64,7 @@ struct LinkState {
 
 /// Bytes of a state, with a checksum.
 std::vector<std::byte> Serialise(const LinkState& state);
-/// State from its bytes; nullopt when damaged in any way, which counts as lost and is safe.
+/// State from its bytes; nullopt if it is damaged; it then counts as lost, which is safe.
 std::optional<LinkState> ParseLinkState(std::span<const std::byte> bytes);
 
 }  // namespace priamos::bus::radio

@@ -15,7 +15,7 @@ class Listeners {
  public:
   /// Whether somebody listens here to a channel of the other end.
   void Listen(std::size_t channel, bool listening);
-  /// Whether the other end does not know yet who listens here.
+  /// Whether the listeners here have changed since the last report.
   bool changed() const { return changed_; }
   /// Whether a report to the other end is due: after a change, and now and then.
   bool Due(Time now) const;
@@ -26,12 +26,12 @@ class Listeners {
 
   /// Takes the other end's report.
   void OnListen(const ListenEntry& listen, Time now);
-  /// Whether the other end has been silent about its listeners for too long: nobody is believed to listen any
-  /// more. True once.
+  /// Whether the other end has been silent about its listeners for too long: none is believed to be
+  /// there any more. True once.
   bool TakeExpiry(Time now);
 
  private:
-  std::uint64_t here_ = 0;  ///< bit i: somebody listens to channel i
+  std::uint64_t here_ = 0;  ///< bit i: channel i has a listener here
   bool changed_ = false;
   std::optional<Time> sent_at_;
   std::optional<Time> believed_until_;

@@ -16,10 +16,10 @@ struct Delivery {
   std::size_t channel = 0;
   std::vector<std::byte> packed;
   Time packed_at{};                   ///< when it was packed, in this end's clock: its ages count from here
-  std::optional<Time> valid_until{};  ///< commands: not to be obeyed later
+  std::optional<Time> valid_until{};  ///< commands only: they must not be obeyed later
 };
 
-/// What arrived on one incoming channel.
+/// Counters of one incoming channel.
 struct DeliveryCounters {
   std::uint64_t delivered = 0;  ///< messages
   /// Messages refused: a command that may be too old, a message overtaken by a newer one, a difference to a
@@ -31,25 +31,25 @@ struct DeliveryCounters {
 /// The frame that brought a message.
 struct Arrival {
   std::uint64_t counter = 0;
-  bool newest = true;  ///< false: a frame sent later has come before
+  bool newest = true;  ///< false: a frame that was sent later arrived before
   Time sent_at{};      ///< when its first byte was sent, in this end's clock
   Time began{};        ///< arrival of its first byte, had its bytes come one after the other
   Time now{};          ///< arrival of its last byte
 };
 
-/// Messages from the entries of accepted bundles: it refuses what is late, completes differences, puts events
-/// in order, and knows what it has to acknowledge or to ask for.
+/// Turns the entries of accepted bundles into messages: refuses late ones, applies differences, puts events
+/// in order, and keeps the acknowledgements and requests that are due.
 class MessageReceiver {
  public:
   /// `table` must outlive the receiver and its copies.
   explicit MessageReceiver(const ChannelTable& table);
 
-  /// Each appends what is delivered to `out`.
+  /// Takes a state; appends the message to `out` unless it is refused.
   void OnState(StateEntry entry, const Arrival& arrival, std::vector<Delivery>& out);
-  /// `fresh`: it is proven that the frame was not held back in transit.
+  /// Takes a command; `fresh`: it is proven that the frame was not held back in transit.
   void OnCommand(CommandEntry entry, const Arrival& arrival, bool fresh, std::vector<Delivery>& out);
-  /// Returns whether the numbers of events() have changed: they must be remembered before the acknowledgement
-  /// leaves, or a restarted end would deliver events again.
+  /// Takes a segment of an event. Returns whether the numbers of events() have changed: they must be
+  /// remembered before the acknowledgement leaves, or a restarted end would deliver events again.
   bool OnEvent(const EventEntry& entry, const Arrival& arrival, std::vector<Delivery>& out);
   /// Counters begin anew: no difference can refer to what came before.
   void OnEpochChanged();
@@ -62,7 +62,7 @@ class MessageReceiver {
     std::vector<std::size_t> acks;  ///< channels whose acknowledgements are in it
   };
   bool AckDue() const;
-  /// Whether a frame is to be made for the sake of an entry of Load().
+  /// Whether an entry of Load() is so urgent that a frame is sent for it alone.
   bool Due() const { return forget_due_ || AckDue(); }
   /// Adds the entries that are due; they count as sent.
   Loaded Load(BundleBuilder& bundle);
@@ -77,9 +77,9 @@ class MessageReceiver {
 
   const ChannelTable* table_;
   std::vector<EventReceiver> events_;       ///< by channel
-  std::vector<MessageHistory> histories_;   ///< by channel: what differences may refer to
+  std::vector<MessageHistory> histories_;   ///< by channel: the baselines of differences
   std::vector<DeliveryCounters> counters_;  ///< by channel
-  bool forget_due_ = false;                 ///< the other end refers to what is not known here
+  bool forget_due_ = false;                 ///< the other end uses a baseline that is not known here
 };
 
 }  // namespace priamos::bus::radio

@@ -14,22 +14,22 @@
 
 namespace priamos::bus::radio {
 
-/// A message as it goes over the air.
+/// A packed message.
 struct Packed {
   std::vector<std::byte> bytes;
   std::size_t bits = 0;    ///< number of bits used, from the first bit of `bytes` on
   bool saturated = false;  ///< a field was outside its range
 };
 
-/// Makes the encoded message of a channel small. It is asked when the message goes on the line, so that time
-/// stamps travel as age at sending; nullopt when it is no message of the channel's type.
+/// Packs the encoded message of a channel. It is called when the message is sent, because time stamps are
+/// sent as ages; nullopt if it is no message of the channel's type.
 using PackFunction =
     std::function<std::optional<Packed>(std::size_t channel, std::span<const std::byte> encoded, Time now)>;
 
 /// What became of an offered message; kNotOutgoing: this end does not send the channel.
 enum class OfferResult { kAccepted, kRefused, kNotOutgoing };
 
-/// The frame that messages are taken for.
+/// The frame that messages are loaded into.
 struct Departure {
   Time now{};
   std::uint64_t counter = 0;
@@ -39,7 +39,7 @@ struct Departure {
 };
 
 /// Puts messages into bundles: it packs them, sends states as differences where that is shorter, and
-/// gives back what a frame that was cut off did not bring across. Who goes first is the queue's business.
+/// puts messages of a frame that was cut off back. SendQueue decides the order.
 class MessageSender {
  public:
   /// `table` must outlive the sender and its copies. `outgoing`: direction of the messages sent.
@@ -48,13 +48,14 @@ class MessageSender {
   /// An encoded message for an outgoing channel; messages with different keys do not replace each other.
   OfferResult Offer(std::size_t channel, std::span<const std::byte> encoded, Time now, std::string_view key);
 
-  /// What a frame carries of messages.
+  /// The messages and segments in a frame.
   struct Loaded {
     /// A state or command in the frame.
     struct Message {
       QueuedMessage queued;
-      std::size_t bits;               ///< packed bits on the line
-      std::vector<std::byte> packed;  ///< what the other end will have; of channels with differences
+      std::size_t bits;  ///< packed bits on the line
+      std::vector<std::byte>
+          packed;  ///< for channels with differences: the message as the other end will have it
     };
     /// A piece of an event in the frame, by its number in the channel's stream.
     struct Segment {
@@ -75,9 +76,9 @@ class MessageSender {
   std::size_t OnEventAck(const EventAckEntry& entry, Time now);
   /// The other end accepted the frame with this counter.
   void OnFrameAcknowledged(std::uint64_t counter);
-  /// The other end does not have what differences refer to.
+  /// The other end does not have the baselines of differences.
   void ForgetBaselines();
-  /// The link is back: events under way are sent again at once.
+  /// The link is up again: events that are not acknowledged are sent again at once.
   void OnLinkBack() { ResendEvents(false); }
   /// Counters begin anew: the other end may have lost what it held.
   void OnEpochChanged();

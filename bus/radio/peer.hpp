@@ -16,19 +16,19 @@ struct Peer {
   SentFrames sent{};      ///< frames of this end, and their acknowledgements
   Listeners listeners{};
 
-  /// What this end knows of the other's frames when it makes one of its own.
+  /// State of reception at the time at which this end makes a frame.
   struct Heard {
     std::uint64_t highest = 0;  ///< highest counter accepted
     Time at{};                  ///< arrival of the last frame accepted
     double loss = 0;            ///< share of frames lost, 0..1
-    std::uint64_t floor = 0;    ///< highest counter that counts as used
+    std::uint64_t floor = 0;    ///< highest counter that the other end must not use any more
   };
   /// Which entries a frame carries, to be given back when it is cut off.
   struct Loaded {
     bool frame_ack = false;
     bool listeners = false;
   };
-  /// Whether a frame is to be made for the sake of an entry of Load().
+  /// Whether an entry of Load() is so urgent that a frame is sent for it alone.
   bool Due() const { return acks.Pressing() || listeners.changed(); }
   /// Adds the entries that are due; they count as sent.
   Loaded Load(BundleBuilder& bundle, const Heard& heard, Time now);

@@ -26,10 +26,10 @@ class Transmitter {
   void Begin(std::vector<std::byte> wire, Time now);
   /// Appends the next byte of the frame, or all of a datagram, to `out`; only while busy().
   void Emit(Time now, std::vector<std::byte>& out);
-  /// Gives the frame up. What has left of it is ended by a delimiter, which makes it no frame.
+  /// Aborts the frame. The part that has left is ended by a delimiter, so that the receiver discards it.
   void Cut(Time now, std::vector<std::byte>& out);
 
-  /// Time that bytes of a frame take on the line; a datagram arrives at once.
+  /// Time that `bytes` take on the line; 0 for a datagram.
   Duration OnTheWay(std::size_t bytes) const;
   /// When `bytes` of a frame begun now will have left.
   Time LeavesAt(std::size_t bytes, Time now) const;

@@ -23,7 +23,7 @@ class RealCode {
 
   Coded Encode(double value) const;
   double Decode(std::uint64_t code) const;
-  /// Largest code that means something.
+  /// Largest code that stands for a value.
   std::uint64_t last() const { return last_ + (invalid_ ? 1 : 0); }
 
   /// Steps between the bounds, rounded; not finite or above 2^52 when there are too many for a code.
@@ -47,7 +47,7 @@ class IntegerCode {
 
   Coded Encode(std::int64_t value) const;
   std::int64_t Decode(std::uint64_t code) const;
-  /// Largest code that means something.
+  /// Largest code that stands for a value.
   std::uint64_t last() const { return last_ + (invalid_ ? 1 : 0); }
 
   /// Whether all codes, `with_invalid` one more for the invalid value, fit into 64 bits.

@@ -50,12 +50,12 @@ inline constexpr int kEarlierFrames = 4;
 /// Acknowledgement of frames: which one of the other end came last, and which shortly before.
 struct FrameAckEntry {
   std::uint16_t counter = 0;  ///< lowest 12 bits
-  std::uint8_t earlier = 0;   ///< bit i: the frame 1 + i before it came, too, and in its turn
+  std::uint8_t earlier = 0;   ///< bit i: the frame 1 + i before it also came, and in order
   Duration hold{};            ///< time from the arrival of that frame to the begin of this one
   double loss = 0;            ///< share of the other end's frames that did not arrive lately, 0..1
 };
 
-/// Floor, "use only counters above this": sent by an end whose memory was reserved ahead when it restarted.
+/// Order to use only counters above `counter`: sent by an end that restarted with counters reserved ahead.
 struct FloorEntry {
   std::uint64_t counter = 0;
 };
@@ -74,8 +74,8 @@ struct OverEntry {};
 using BundleEntry = std::variant<StateEntry, CommandEntry, EventEntry, EventAckEntry, FrameAckEntry,
                                  FloorEntry, ListenEntry, OverEntry, ForgetEntry>;
 
-/// Code of a duration: 3 bits exponent, 9 bits mantissa: 1 ms up to 0.5 s, then 4, 16, 64 ms ...; up to 2.3
-/// hours.
+/// Code of a duration, 3 bits exponent and 9 bits mantissa. Resolution: 1 ms up to 0.5 s, then 4, 16, 64 ms
+/// ...; range: 2.3 hours.
 std::uint16_t EncodeDuration12(Duration d);
 Duration DecodeDuration12(std::uint16_t code);
 

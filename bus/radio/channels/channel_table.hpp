@@ -14,9 +14,9 @@ namespace priamos::bus::radio {
 
 /// How the messages of a channel are treated.
 enum class ChannelClass : std::uint8_t {
-  kState,   ///< newest wins, expires, heals itself by the next one
+  kState,   ///< the newest replaces older ones, expires; a lost one is replaced by the next
   kEvent,   ///< acknowledged, in order, exactly once
-  kCommand  ///< newest wins, expires; the receiver refuses one that is too old
+  kCommand  ///< the newest replaces older ones, expires; the receiver refuses one that is too old
 };
 
 /// One channel that crosses the link, as both ends know it.
@@ -27,14 +27,14 @@ struct LinkChannel {
   ChannelClass channel_class = ChannelClass::kState;
   std::uint32_t fixed_bits = 0;  ///< packed size if it is always the same; 0: it is sent with every message
   std::uint32_t max_bits = 0;    ///< largest packed size
-  ValueWidths delta{};           ///< state: may be sent as difference between such values; empty: never
-  // How the sender treats it.
+  ValueWidths delta{};           ///< state: widths of its values, for differences; empty: always sent whole
+  // Settings of the sender; the receiver does not need them.
   int priority = 3;         ///< 0 first
   double rate_hz = 1;       ///< at most this often (per key), on average; 0: no limit
   int burst = 1;            ///< number of messages that may come at once
   Duration ttl{};           ///< not sent (command: not delivered) when older; 0: lives until replaced
   bool urgent = false;      ///< may abort the frame that is being sent
-  bool on_request = false;  ///< only while somebody listens on the other side
+  bool on_request = false;  ///< sent only while the other side has a listener
   int max_keys = 1;         ///< state: newest wins per key, for so many keys
   Duration deadline{};      ///< latest delivery after it was offered, for the budget; 0: any
 };
@@ -50,8 +50,8 @@ class ChannelTable {
   const LinkChannel& at(std::size_t index) const { return channels_[index]; }
   std::size_t size() const { return channels_.size(); }
   const std::vector<LinkChannel>& channels() const { return channels_; }
-  /// Changes with everything that changes the meaning of a frame: both ends must have the same. How often
-  /// and how urgently a channel is sent is the sender's own business and not part of it.
+  /// Hash of everything that changes the meaning of a frame: both ends must have the same. Rates and
+  /// priorities concern the sender alone and are not part of it.
   std::uint32_t hash() const { return hash_; }
   bool encrypted() const { return encrypted_; }
   /// Bits of a channel number in a bundle: 0 ends it, 1..size() are channels, size()+1 is a control entry.

@@ -16,14 +16,14 @@ namespace priamos::bus::radio {
 /// Bits of the values of a message of fixed size, in the order of the bits; each 1 to 64.
 using ValueWidths = std::vector<std::uint8_t>;
 
-/// Largest number of frames between a baseline and what refers to it.
+/// Largest number of frames between a baseline and a difference to it.
 inline constexpr std::uint64_t kDeltaReach = 63;
 /// Bits that name a baseline.
 inline constexpr int kBaselineBits = 6;
 
-/// Difference of a message to a baseline, value by value: 0 as before; 10 and a small difference; 11 and the
-/// value. Values of up to 4 bits: 0, or 1 and the value. Both messages have the bits that the widths add up
-/// to.
+/// Difference of a message to a baseline. Code of each value: bit 0 if unchanged; bits 10 and a small
+/// difference; bits 11 and the value. Values of up to 4 bits: 0, or 1 and the value. Both messages have the
+/// bits that the widths add up to.
 BitWriter EncodeDelta(const ValueWidths& widths, std::span<const std::byte> baseline,
                       std::span<const std::byte> message);
 
@@ -45,9 +45,9 @@ class MessageHistory {
     std::uint64_t counter = 0;
     std::vector<std::byte> packed;
   };
-  /// Counters grow.
+  /// Adds a message; counters must ascend.
   void Note(std::uint64_t counter, std::vector<std::byte> packed);
-  /// The one with this counter; nullptr when there is none.
+  /// The message with this counter; nullptr if there is none.
   const Message* Find(std::uint64_t counter) const;
   void Clear() { messages_.clear(); }
 
@@ -55,7 +55,7 @@ class MessageHistory {
   std::deque<Message> messages_;
 };
 
-/// Sender's side of one channel: what was sent, and what differences may refer to.
+/// Sender's side of one channel: the messages sent, and the baseline of differences.
 class DeltaSender {
  public:
   void OnSent(std::uint64_t counter, std::vector<std::byte> packed) {
@@ -65,7 +65,7 @@ class DeltaSender {
   void OnAcknowledged(std::uint64_t counter);
   /// The other end has lost its memory.
   void Forget();
-  /// What a message in the frame with this counter may refer to; nullptr when there is none.
+  /// The baseline for a message in the frame with this counter; nullptr if there is none.
   const MessageHistory::Message* Baseline(std::uint64_t counter) const;
 
  private:

@@ -15,10 +15,10 @@
 /// is there. Numbers are modulo 256 and never more than kEventWindow apart, so they are never ambiguous.
 namespace priamos::bus::radio {
 
-/// Bytes of a segment, except the last of an event: small, so that they fill a frame whatever else is in it.
-/// Part of the protocol: a restarted sender must cut as before.
+/// Bytes of a segment, except the last of an event. Small, so that segments fill what other entries leave of
+/// a frame. Part of the protocol: a restarted sender must cut as before.
 inline constexpr std::size_t kSegmentBytes = 26;
-/// Segments under way at most: one event of 1456 bytes.
+/// Largest number of segments sent and not acknowledged: one event of 1456 bytes.
 inline constexpr std::size_t kEventWindow = 56;
 /// Segments behind the first missing one whose receipt an acknowledgement reports.
 inline constexpr std::size_t kAckWindow = 16;
@@ -28,7 +28,7 @@ inline constexpr std::size_t kAckWindow = 16;
 class RoundTrip {
  public:
   void Sample(Duration round_trip);
-  /// Smoothed; negative before the first sample.
+  /// Smoothed round trip; negative before the first sample.
   Duration smoothed() const { return smoothed_; }
   Duration timeout() const;
 
@@ -40,7 +40,7 @@ class RoundTrip {
 /// One numbered piece of an event.
 struct EventSegment {
   std::uint8_t number = 0;
-  bool base = false;     ///< the oldest one not acknowledged
+  bool base = false;     ///< this is the oldest segment that is not acknowledged
   bool first = false;    ///< it begins its event
   bool last = false;     ///< it ends its event
   Duration age{};        ///< time since the event was packed; first segment only
@@ -55,7 +55,7 @@ struct EventAck {
   std::uint16_t held = 0;   ///< bit i: segment next + prefix + 1 + i is there, too
 };
 
-/// Sender's side of one channel: what waits, what is under way, what is overdue.
+/// Sender's side of one channel: events that wait, and segments that are sent but not acknowledged.
 class EventSender {
  public:
   static constexpr std::size_t kCapacity = 64;
@@ -72,7 +72,7 @@ class EventSender {
   /// `next`: number of the first new segment.
   explicit EventSender(std::uint8_t next = 0) : next_(next) {}
 
-  /// False when the queue is full or the event has more than kEventWindow segments.
+  /// Queues an event; false if the queue is full or the event has more than kEventWindow segments.
   bool Offer(std::vector<std::byte> packed, std::size_t bits, Time now);
   /// Puts back an event from before a restart; its number follows the one put back before.
   void Restore(Event event);
@@ -82,20 +82,20 @@ class EventSender {
   /// The segment to be sent next, nullopt when there is none. `fresh_first`: what was never sent goes before
   /// what is only overdue, so that an urgent event does not travel with repetitions of the one before.
   std::optional<EventSegment> Next(Time now, bool fresh_first = false) const;
-  /// Whether that segment was never sent.
+  /// Whether the segment of Next() was never sent.
   bool NextIsFresh(Time now, bool fresh_first) const;
-  /// Whether that segment begins an event of which sending was never begun.
+  /// Whether the segment of Next() begins an event of which nothing was sent.
   bool NextIsNew(Time now, bool fresh_first = false) const;
-  /// When the event of that segment was packed.
+  /// When the event of the segment of Next() was packed.
   Time NextPackedAt(Time now, bool fresh_first = false) const;
-  /// `at`: when its last byte will have left.
+  /// Notes that a segment is sent; `at`: when its last byte will have left.
   void MarkSent(std::uint8_t number, Time at);
-  /// The frame was aborted: as if never sent.
+  /// Undoes MarkSent: the frame was aborted.
   void MarkUnsent(std::uint8_t number);
-  /// Returns how many events were acknowledged for the first time.
+  /// Takes an acknowledgement. Returns how many events were acknowledged for the first time.
   std::size_t OnAck(const EventAck& ack, Time now, RoundTrip& round_trip);
-  /// The link is back: what is overdue or under way is sent again at once. `forgotten`: the receiver lost
-  /// what it held.
+  /// The link is up again: every segment sent and not acknowledged is sent again at once. `forgotten`: the
+  /// receiver lost the segments that it held.
   void ResendAll(bool forgotten);
   void set_timeout(Duration timeout) { timeout_ = timeout; }
 
@@ -128,7 +128,7 @@ class EventSender {
   std::uint64_t resent_ = 0;
 };
 
-/// Receiver's side of one channel: segments that wait for those before them.
+/// Receiver's side of one channel: keeps segments until those before them have arrived.
 class EventReceiver {
  public:
   /// An event that has arrived whole.

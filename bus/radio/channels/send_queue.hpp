@@ -17,11 +17,11 @@ namespace priamos::bus::radio {
 /// Counters of what became of the messages offered on one outgoing channel.
 struct QueueCounters {
   std::uint64_t offered = 0;
-  std::uint64_t sent = 0;       ///< state, command: handed to the line whole; event: acknowledged
+  std::uint64_t sent = 0;       ///< state, command: left the line whole; event: acknowledged
   std::uint64_t replaced = 0;   ///< a newer one came before it was sent
   std::uint64_t expired = 0;    ///< older than its time-to-live before it was sent
   std::uint64_t refused = 0;    ///< queue full, too many keys, not packable
-  std::uint64_t unwanted = 0;   ///< on request, and nobody listens
+  std::uint64_t unwanted = 0;   ///< channel on request, without a listener
   std::uint64_t saturated = 0;  ///< sent with a field outside its range set to the limit
   std::uint64_t bits = 0;       ///< packed bits handed to the line, repetitions included
 };
@@ -59,9 +59,9 @@ struct QueuedMessage {
 };
 
 /// Queue of everything that one end wants to send: per channel the newest message (per key), or the events in
-/// order, and who is next. Order: urgent channels, then priority; a message gains one level of priority per
-/// `ageing` that it waits, so that nothing starves; then the one that waits longest. Events that wait behind
-/// others of their channel gain nothing, or a long queue of them would keep out everybody else.
+/// order, and which one is next. Order: urgent channels, then priority; a message gains one level of priority
+/// per `ageing` that it waits, so that none waits for ever; then the one that waits longest. Events that wait
+/// behind others of their channel gain nothing, or a long queue of them would block all other channels.
 class SendQueue {
  public:
   /// A channel (and key) with something that may be sent now.
@@ -75,17 +75,17 @@ class SendQueue {
 
   SendQueue(const ChannelTable& table, Direction outgoing, Duration ageing);
 
-  /// State and command channels: replaces the message with the same key.
+  /// Queues a message of a state or command channel; it replaces the one with the same key.
   bool Offer(std::size_t channel, std::string_view key, std::span<const std::byte> encoded, Time now);
-  /// Event channels; false when the queue of the channel is full.
+  /// Queues an event; false if the queue of the channel is full.
   bool OfferEvent(std::size_t channel, std::vector<std::byte> packed, std::size_t bits, Time now);
-  /// On-request channels: whether somebody listens.
+  /// Whether the other end has a listener for an on-request channel.
   void SetWanted(std::size_t channel, bool wanted) { lanes_[channel].wanted = wanted; }
   bool wanted(std::size_t channel) const { return lanes_[channel].wanted; }
 
-  /// Drops what is older than its time-to-live.
+  /// Drops messages that are older than their time-to-live.
   void Expire(Time now);
-  /// Who may be sent now, first one first.
+  /// The messages that may be sent now, in order of priority.
   std::vector<Candidate> Ready(Time now) const;
   /// Whether an urgent channel has something; `fresh`: something that was never sent.
   bool UrgentReady(Time now, bool fresh = false) const;
@@ -96,11 +96,11 @@ class SendQueue {
   /// The segment an event channel would send next; the channel's rate only holds back new events,
   /// and no urgent ones.
   std::optional<EventSegment> PeekEvent(std::size_t channel, Time now) const;
-  /// Whether that segment was never sent before.
+  /// Whether the segment of PeekEvent() was never sent before.
   bool NextIsFresh(std::size_t channel, Time now) const;
-  /// It is sent, its last byte leaves at `leaves_at`.
+  /// Notes that the segment is sent; its last byte leaves at `leaves_at`.
   void TakeEvent(std::size_t channel, std::uint8_t number, Time now, Time leaves_at);
-  /// The frame was aborted: back into the queue, unless a newer message is there already.
+  /// Puts a message of an aborted frame back, unless a newer one is queued already.
   void Return(QueuedMessage message);
   void CountSent(std::size_t channel, std::size_t bits);
   void CountRefused(std::size_t channel) { ++lanes_[channel].counters.refused; }

@@ -9,15 +9,15 @@
 namespace priamos::bus::radio {
 
 /// Consistent overhead byte stuffing (Cheshire, Baker: IEEE/ACM Transactions on Networking 7(2), 1999): the
-/// same content without zero bytes, 1 byte longer per begun 254 bytes. A zero then marks the end of a frame
-/// and nothing else, so that a receiver is in step again after the next one.
+/// same content without zero bytes, 1 byte longer per begun 254 bytes. A zero then marks only the end of a
+/// frame, so that a receiver is synchronised again after the next one.
 std::vector<std::byte> CobsEncode(std::span<const std::byte> content);
 
-/// Content that was encoded; nullopt when `encoded` is nothing that CobsEncode makes: a zero inside, or a
+/// Content that was encoded; nullopt if CobsEncode cannot have made `encoded`: a zero inside, or a
 /// block cut short.
 std::optional<std::vector<std::byte>> CobsDecode(std::span<const std::byte> encoded);
 
-/// Cuts a stream of bytes into what lies between two delimiters. Memory is bounded: a frame longer than
+/// Cuts a stream of bytes into frames at the delimiters. Memory is bounded: a frame longer than
 /// `max_bytes` is thrown away up to its delimiter and reported as oversize.
 class FrameSplitter {
  public:

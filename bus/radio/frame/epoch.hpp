@@ -26,7 +26,7 @@ class EpochAgreement {
     std::uint64_t own = 0;
     std::uint64_t peer = 0;
   };
-  /// What a hello changes.
+  /// What follows from a hello.
   struct Change {
     std::optional<Pair> agreed;  ///< change to the epoch of this pair now
     bool reply = false;          ///< send Compose() soon

@@ -51,7 +51,7 @@ class FrameKeys {
   LinkKey encryption_key_;
 };
 
-/// What both ends must have in common for a data frame to pass, beside the key.
+/// What both ends must have in common, besides the key, for a data frame to be accepted.
 struct FrameScope {
   std::uint32_t table_hash = 0;  ///< hash of the channel table, see channel_table.hpp
   bool encrypted = false;
@@ -63,7 +63,7 @@ struct Hello {
   std::uint32_t stream = 0;  ///< names the sender's event numbering: a new one begins at 0
   std::uint64_t nonce = 0;   ///< the sender's random number
   std::uint64_t echo = 0;    ///< the receiver's random number as the sender received it; 0 before
-  bool need = false;         ///< the sender cannot use the receiver's frames: answer, please
+  bool need = false;         ///< the sender cannot use the receiver's frames and asks for an answer
   bool agreed = false;       ///< the sender uses the epoch of (nonce, echo)
   bool over = false;         ///< half-duplex: the sender falls silent and listens
   friend bool operator==(const Hello&, const Hello&) = default;
@@ -75,7 +75,7 @@ inline constexpr std::size_t kFrameOverhead = 7;
 inline constexpr std::size_t kWholeCounterBytes = 5;
 /// Bytes of a hello frame, delimiter included.
 inline constexpr std::size_t kHelloFrameBytes = 36;
-/// Bytes of the longest bundle: one COBS block must do.
+/// Bytes of the longest bundle: a frame must fit one COBS block.
 inline constexpr std::size_t kMaxBundleBytes = 240;
 /// The byte that ends a frame and occurs nowhere else.
 inline constexpr std::byte kDelimiter{0};
@@ -85,14 +85,14 @@ inline constexpr std::size_t kDatagramHead = 28;
 /// How a counter is written in a frame: its lowest bits, or all of it.
 enum class CounterForm { kLowBits, kWhole };
 
-/// Maker of frames of one direction, delimiter included.
+/// Makes the frames of one direction, delimiter included.
 class FrameSealer {
  public:
   FrameSealer(const FrameKeys& keys, Direction direction, FrameScope scope)
       : keys_(keys), direction_(direction), scope_(scope) {}
 
-  /// `counter` below 2^40, used once per epoch; `bundle` at most kMaxBundleBytes. The lowest bits do when the
-  /// receiver has used a counter at most 64 below this one.
+  /// `counter` below 2^40, used once per epoch; `bundle` at most kMaxBundleBytes. The lowest bits are
+  /// enough if the receiver has accepted a counter at most 64 below this one.
   std::vector<std::byte> Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
                               std::span<const std::byte> bundle) const;
   std::vector<std::byte> Seal(const Hello& hello) const;
@@ -105,16 +105,16 @@ class FrameSealer {
 
 /// Why bytes between two delimiters were no frame.
 enum class Reject : std::uint8_t {
-  kMalformed,  ///< form of no frame: cut off (also by an urgent frame), damaged
+  kMalformed,  ///< not the form of a frame: cut off (also by an urgent frame) or damaged
   kOversize,   ///< longer than any frame
   kBadCode,    ///< wrong code: damaged, forged, of another direction, epoch, table or key
   kReplayed,   ///< right code, but its counter was used
   kNoEpoch,    ///< a data frame before the ends agreed on an epoch
-  kFlood       ///< more frames than the line can carry: not even looked at
+  kFlood       ///< more frames than the line can carry: not checked
 };
 inline constexpr std::size_t kRejects = 6;
 
-/// Content of a data frame that passed.
+/// Content of a data frame that was accepted.
 struct DataFrame {
   std::uint64_t counter = 0;
   std::vector<std::byte> bundle;
@@ -122,19 +122,19 @@ struct DataFrame {
 /// What lay between two delimiters.
 using Opened = std::variant<DataFrame, Hello, Reject>;
 
-/// Checker of frames of one direction. An accepted data frame is accepted once.
+/// Checks the frames of one direction. A data frame is accepted once.
 class FrameOpener {
  public:
   /// `direction` is that of the frames to be opened.
   FrameOpener(const FrameKeys& keys, Direction direction, FrameScope scope)
       : keys_(keys), direction_(direction), scope_(scope) {}
 
-  /// From now on data frames of `epoch` with counters above `floor` pass. Epoch 0: none.
+  /// From now on data frames of `epoch` with counters above `floor` are accepted. Epoch 0: none.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
   /// `encoded` is what lay between two delimiters. Exactly one code is computed per frame, so that the
   /// chance of a forged data frame is 2^-32, of a hello 2^-64.
   Opened Open(std::span<const std::byte> encoded);
-  /// Epoch of the frames that pass; 0: none.
+  /// Epoch of the frames that are accepted; 0: none.
   std::uint64_t epoch() const { return epoch_; }
   /// Highest counter accepted, or the floor.
   std::uint64_t highest() const { return window_.highest(); }

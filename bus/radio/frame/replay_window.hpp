@@ -4,8 +4,8 @@
 
 namespace priamos::bus::radio {
 
-/// Window of the counters of one direction that were used. A counter is fresh once; older than the window is
-/// never fresh. The window (64) only matters on links that reorder, such as UDP.
+/// The counters of one direction that were used. A counter is fresh until it is used; one older than the
+/// window is never fresh. The window (64) only matters on links that reorder, such as UDP.
 class ReplayWindow {
  public:
   /// All counters up to `floor` count as used.

@@ -15,14 +15,14 @@
 
 namespace priamos::bus::radio {
 
-/// The line is dead between these times after its start.
+/// An interval in which the line carries nothing, in seconds after its start.
 struct LineCut {
   double from_s = 0;
   double to_s = 0;
   void Describe(Archive& a);
 };
 
-/// What a radio modem does to the bytes given to it.
+/// Delays, errors and losses of a serial line or a radio modem.
 struct LineConfig {
   int baud = 9600;                   ///< 10 bits per byte: start, 8 data, stop
   double air_rate_bytes_s = 0;       ///< what the radio itself carries; 0: as much as the port
@@ -33,13 +33,13 @@ struct LineConfig {
   double burst_length_s = 0.02;      ///< length of one burst
   double burst_error_rate = 0.3;     ///< bit error rate inside a burst
   double duplicate_probability = 0;  ///< probability that a byte arrives twice
-  bool half_duplex = false;          ///< a modem hears nothing while it sends
-  double turnaround_s = 0.02;        ///< time after sending in which a modem hears nothing either
+  bool half_duplex = false;          ///< a modem receives nothing while it sends
+  double turnaround_s = 0.02;        ///< time after sending in which a modem receives nothing either
   std::vector<LineCut> cuts{};       ///< in order of time
   void Describe(Archive& a);
 };
 
-/// When the modems of a half-duplex radio send: they cannot hear then.
+/// The times at which the modems of a half-duplex radio send and cannot receive.
 class SharedAir {
  public:
   explicit SharedAir(double turnaround_s) : turnaround_ns_(static_cast<std::int64_t>(turnaround_s * 1e9)) {}
@@ -55,7 +55,7 @@ class SharedAir {
 };
 
 /// One direction of a serial line in simulated time. Bytes leave one after the other at the baud rate,
-/// whenever they were written: what is written too early waits, as in a tty's buffer. A radio with a lower
+/// whenever they were written; bytes written too early wait, as in a tty's buffer. A radio with a lower
 /// air rate keeps what it cannot send yet. A flipped start bit loses the byte, a flipped stop bit makes it 0
 /// (what a Linux tty delivers for a framing error).
 class Line {
@@ -64,7 +64,7 @@ class Line {
   /// On a half-duplex radio both directions share the air; `side` (0 or 1) sends into this one.
   Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side);
 
-  /// Calls come in the order of `now`.
+  /// Sends bytes; calls must come in the order of `now`.
   void Write(std::span<const std::byte> bytes, Time now);
   /// Everything that has arrived until `now`.
   std::vector<std::byte> Read(Time now);

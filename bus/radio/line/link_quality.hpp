@@ -20,15 +20,15 @@ class LossMeter {
   double mean_bytes_ = 40;
 };
 
-/// Guard against forgers: it bounds how many codes are checked per second, and notices frames that the other
-/// end cannot have sent. Noise damages frames of the other end, whose counters are missed later; refused
-/// frames beyond that were made by somebody else.
+/// Guard against forged frames: it bounds how many codes are checked per second, and detects frames that the
+/// other end cannot have sent. Noise damages frames of the other end, whose counters are missed later; more
+/// refused frames than that are forged.
 class ForgeryGuard {
  public:
   /// `tries_per_s`: frames of the smallest size that the line can carry.
   ForgeryGuard(double tries_per_s, Time start);
 
-  /// False: there were too many, do not look at this frame.
+  /// Whether this frame may be checked; false if there were too many.
   bool MayTry(Time now);
   void OnBadCode(Time now) { Raise(1, now); }
   void OnReplay(Time now) { Raise(kReplayWeight, now); }
@@ -46,7 +46,7 @@ class ForgeryGuard {
   Time level_at_;
 };
 
-/// Limit of answers that somebody else can provoke: some at once, few on average.
+/// Limit of answers that an attacker can provoke: some at once, few on average.
 class AnswerLimit {
  public:
   explicit AnswerLimit(Time start) : refilled_at_(start) {}

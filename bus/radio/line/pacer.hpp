@@ -8,8 +8,8 @@
 
 namespace priamos::bus::radio {
 
-/// Pace of the line by time on the wire: when it has sent what was given to it. A tty's buffer would take
-/// seconds of bytes and then send an emergency stop behind all of them.
+/// Computes, from the time on the wire, when the line has sent the bytes given to it. A tty's buffer would
+/// take bytes for seconds and then send an emergency stop behind all of them.
 class Pacer {
  public:
   Pacer(double bytes_per_s, int ahead_bytes, Time start)
@@ -20,14 +20,14 @@ class Pacer {
 
   bool Allows(Time now) const { return free_at_ns_ <= ToUtime(now) * 1000 + ahead_ns_; }
   void Use(Time now) { free_at_ns_ = std::max(free_at_ns_, ToUtime(now) * 1000) + byte_ns_; }
-  /// Time on the wire.
+  /// Time that `bytes` take on the wire.
   Duration WireTime(std::size_t bytes) const {
     return Duration(byte_ns_ * static_cast<std::int64_t>(bytes) / 1000);
   }
   /// When `bytes` more will have left if they are written from `now` on.
   Time LeavesAt(std::size_t bytes, Time now) const { return std::max(free_at(), now) + WireTime(bytes); }
   Time free_at() const { return Time(Duration(free_at_ns_ / 1000)); }
-  /// For how long nothing was sent.
+  /// Time since the last byte left.
   Duration Idle(Time now) const { return std::max(now - free_at(), Duration::zero()); }
 
  private:

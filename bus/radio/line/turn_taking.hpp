@@ -6,16 +6,16 @@
 
 namespace priamos::bus::radio {
 
-/// A radio that cannot send and receive at once.
+/// Settings of a radio that cannot send and receive at once.
 struct HalfDuplex {
-  Duration turn{};        ///< longest time an end talks; 0: the line has two directions
-  Duration turnaround{};  ///< after its own last byte an end cannot hear for so long
+  Duration turn{};        ///< longest time that an end sends; 0: full duplex
+  Duration turnaround{};  ///< time after its own last byte in which an end cannot receive
 };
 
-/// Turns on a half-duplex radio: who may talk, and until when. An end sends "over" in its last frame; the
-/// other one begins when it has received that and the first one can receive again. If "over" is lost, an end
-/// takes the turn after a time without bytes, which is longer at the onboard end, so that both do not begin
-/// at once. Without a turn length everybody may always talk.
+/// Turns on a half-duplex radio: which end may send, and until when. An end sends "over" in its last frame;
+/// the other one begins when it has received that and the first one can receive again. If "over" is lost, an
+/// end takes the turn after a time without bytes, which is longer at the onboard end, so that both do not
+/// begin at once. Without a turn length both ends may always send.
 class TurnTaking {
  public:
   TurnTaking(HalfDuplex mode, bool onboard, Time now)
@@ -25,7 +25,7 @@ class TurnTaking {
   bool MayTalk(Time now) const { return !enabled() || (mine_ && now >= began_); }
   /// Whether the turn has lasted long enough to be passed on with nothing to send.
   bool MayPass(Time now) const { return enabled() && mine_ && now >= began_ + kHold; }
-  /// A frame of length `longest` after one that ends at `frame_end` would be too long.
+  /// Whether a further frame of length `longest` after one that ends at `frame_end` would exceed the turn.
   bool MustEnd(Time frame_end, Duration longest) const {
     return enabled() && frame_end + longest > began_ + mode_.turn;
   }
@@ -62,7 +62,7 @@ class TurnTaking {
   HalfDuplex mode_;
   bool onboard_;
   bool mine_;
-  Time began_;      ///< own turn, from then on
+  Time began_;      ///< beginning of the own turn
   Time heard_;      ///< last sign that the other end has the turn
   int missed_ = 0;  ///< turns taken since the last "over": the line may be slower than it seems
 };

@@ -18,7 +18,7 @@ struct CameraModel {
   double scale_px = 1000;
   double k1 = 0, k2 = 0;
 
-  /// Equations 5 and 6; the point must lie before the camera (see Depth).
+  /// Undistorted image of a point (equations 5 and 6) [px]; the point must lie before the camera (see Depth).
   Eigen::Vector2d Project(const Eigen::Vector3d& in_base) const;
   /// Third homogeneous coordinate, positive before the camera when the matrix is normalised.
   double Depth(const Eigen::Vector3d& in_base) const;

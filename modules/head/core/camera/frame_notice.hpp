@@ -7,7 +7,7 @@
 
 namespace priamos::head {
 
-/// A picture that lies ready in the frame store.
+/// A picture in the frame store.
 struct FrameNotice {
   Time exposure;
   std::int32_t frame_id = 0;

@@ -17,12 +17,14 @@ enum Camera : int { kLeft = 0, kRight = 1, kThird = 2 };
 inline constexpr int kCameras = 3;
 inline constexpr const char* kCameraNames[kCameras] = {"left", "right", "third"};
 
-/// How one camera sits on the platform: REP 103 axes, x forward. The platform's origin is on the tilt axis.
+/// Mounting of one camera on the platform: REP 103 axes, x forward. The platform's origin is on the tilt
+/// axis.
 struct CameraMount {
-  double x_m = 0, y_m = 0, z_m = 0;                 ///< vergence axis, and height of the camera on it
-  double axis_roll_rad = 0, axis_pitch_rad = 0;     ///< tilt of the vergence axis
-  double side_m = 0;                                ///< camera beside its vergence axis, left
-  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< camera on its axis; pitch positive looks down
+  double x_m = 0, y_m = 0, z_m = 0;              ///< vergence axis, and height of the camera on it
+  double axis_roll_rad = 0, axis_pitch_rad = 0;  ///< tilt of the vergence axis
+  double side_m = 0;                             ///< offset of the camera from its vergence axis, to the left
+  double roll_rad = 0, pitch_rad = 0,
+         yaw_rad = 0;  ///< orientation of the camera on its axis; pitch positive looks down
 
   void Describe(Archive& a);
 };
@@ -45,7 +47,7 @@ struct HeadGeometry {
   /// Pose of a camera (axes x right, y down, z forward) with its centre of projection `pupil_m` before its
   /// mounting point. Angles of the motors; the third camera has no vergence.
   Eigen::Isometry3d BaseFromCamera(const HeadSetting& setting, int camera, double pupil_m) const;
-  /// Pose of the head's origin: the frame that turns with nothing.
+  /// Pose of the head's origin, which no motor moves, in the base frame.
   Eigen::Isometry3d BaseFromHead() const;
 };
 
@@ -54,21 +56,21 @@ struct HeadModel {
   HeadGeometry geometry;
   std::array<LensTable, kCameras> lenses;  ///< the third camera's has a single node
   std::optional<LaserPlane> laser;         ///< light plane of the line laser, if it was calibrated
-  /// How well the calibrated frame is known to be the base frame: covariance of a small motion of space about
-  /// the origin of base (x, y, z, roll, pitch, yaw) [m, rad] that all cameras share, whatever the setting.
-  /// Most of it is how exactly the reference object was placed.
+  /// Covariance of the error that all cameras share at every setting, as a small motion of space about the
+  /// origin of base (x, y, z, roll, pitch, yaw) [m, rad]. Most of it is the placement error of the reference
+  /// object.
   Eigen::Matrix<double, 6, 6> base_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 
   /// The calibrated camera at a setting, in the base frame. Refuses zoom and focus that were not calibrated.
   Outcome<CameraModel> CameraAt(const HeadSetting& setting, int camera) const;
 };
 
-/// Covariance of a small motion about the origin, from standard deviations of place and of turn (each axis)
-/// of something at `at_m`: what HeadModel::base_covariance is for a reference object that stands there.
+/// HeadModel::base_covariance for a reference object at `at_m` [base frame] whose position and orientation
+/// have these standard deviations on each axis.
 Eigen::Matrix<double, 6, 6> PlacementCovariance(const Eigen::Vector3d& at_m, double place_sigma_m,
                                                 double turn_sigma_rad);
 
-/// A camera from its parts.
+/// The camera model from the state of its lens and its pose.
 CameraModel MakeCameraModel(const LensState& lens, const Eigen::Isometry3d& base_from_camera);
 
 }  // namespace priamos::head

@@ -6,7 +6,7 @@
 
 namespace priamos::head {
 
-/// Step counters of the KASTOR motors: what is commanded and reported, and what a calibration belongs to.
+/// Step counters of the KASTOR motors, as commanded and reported; a calibration belongs to one setting.
 /// Signs and zeros are those of head_command_t: pan and vergence positive to the left, tilt positive down;
 /// index 0 is the left camera.
 struct HeadSetting {

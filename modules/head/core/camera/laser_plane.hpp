@@ -7,10 +7,10 @@
 
 namespace priamos::head {
 
-/// The plane in which the line laser shines, in the base frame: the laser sits on the robot, not on the head,
-/// so it is the same whatever the head does.
+/// The light plane of the line laser in the base frame. The laser is mounted on the robot, not on the head,
+/// so the plane does not depend on the head's setting.
 struct LaserPlane {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit normal of the plane
   double offset_m = 0;  ///< normal.dot(p) + offset_m = 0 for points in the light
   Eigen::Vector3d pivot_m = Eigen::Vector3d::Zero();  ///< middle of the points it was calibrated with
   /// Standard deviations: of a turn about the pivot (the worse axis), and of the pivot along the normal.

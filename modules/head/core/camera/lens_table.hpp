@@ -8,10 +8,10 @@
 
 namespace priamos::head {
 
-/// What zoom and focus change in a camera.
+/// Parameters of a lens at one zoom and focus.
 struct LensState {
   double focal_px = 1000;
-  /// Principal point, which wanders as the lens groups move.
+  /// Principal point, which moves with the lens groups.
   Eigen::Vector2d centre_px = ImageSize{}.Centre();
   double k1 = 0, k2 = 0;  ///< radial distortion at one focal length from the centre, see CameraModel
   double pupil_m = 0;     ///< centre of projection before the camera's mounting point
@@ -28,7 +28,7 @@ class LensTable {
   /// Throws std::invalid_argument for sizes or orders that do not fit.
   LensTable(std::vector<int> zoom_steps, std::vector<int> focus_steps, std::vector<LensState> nodes);
 
-  /// Refuses settings outside the calibrated interval: what a lens does there is not known. A direction
+  /// The lens at a setting. Refuses one outside the calibrated interval. A direction
   /// with a single node accepts only that.
   Outcome<LensState> At(double zoom_step, double focus_step) const;
 

@@ -11,9 +11,9 @@ namespace priamos::head {
 /// A straight edge of space as one camera sees it, undistorted pixels, cut to the image.
 struct ProjectedEdge {
   Eigen::Vector2d p, q;                   ///< ends in the image
-  Eigen::Vector3d in_base_p, in_base_q;   ///< the points of space seen there [m]
+  Eigen::Vector3d in_base_p, in_base_q;   ///< the points of space seen there, base frame [m]
   double depth_p = 1, depth_q = 1;        ///< their third homogeneous coordinates
-  bool p_is_end = true, q_is_end = true;  ///< an end of the edge, not the border of the image
+  bool p_is_end = true, q_is_end = true;  ///< true: the end of the edge; false: the border of the image
 
   double length_px() const { return (q - p).norm(); }
   Eigen::Vector2d direction() const { return (q - p).normalized(); }
@@ -25,12 +25,13 @@ struct ProjectedEdge {
   Eigen::Vector3d PointAt(const Eigen::Vector2d& image) const;
 };
 
-/// One edge of space, cut to what lies before the camera and in the image; nullopt if nothing does.
+/// The image of an edge of space, cut to the part before the camera and in the image; nullopt if there is
+/// none.
 std::optional<ProjectedEdge> ProjectEdge(const CameraModel& camera, const ImageSize& size,
                                          const Eigen::Vector3d& from_in_base,
                                          const Eigen::Vector3d& to_in_base);
 
-/// Change of the image point by a change of the point of space: derivative of equations 5 and 6.
+/// Jacobian of the image point by the point of space: derivative of equations 5 and 6.
 Eigen::Matrix<double, 2, 3> ProjectionJacobian(const CameraModel& camera, const Eigen::Vector3d& in_base);
 
 /// Optical centre in the base frame [m]: where all rows of the DLT matrix vanish.

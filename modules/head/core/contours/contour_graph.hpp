@@ -9,7 +9,7 @@
 
 namespace priamos::head {
 
-/// What two neighbouring segments are to each other; several may hold.
+/// Geometrical relation of two neighbouring segments; several may hold.
 struct Relation {
   int a = 0, b = 0;  ///< indices in EdgeImage::segments, a < b
   bool parallel = false, perpendicular = false, collinear = false, intersecting = false;
@@ -18,14 +18,14 @@ struct Relation {
   bool same_sign = false;  ///< if parallel or collinear: the bright sides face the same way
 };
 
-/// Two segments that run up to each other, extended to where they meet: what the edge operator lost there is
-/// repaired.
+/// The corner of two segments, extended to where they meet: it restores what the edge operator loses at
+/// corners.
 struct Corner {
-  Eigen::Vector2d at;                  ///< [px]
-  Eigen::Matrix2d covariance;          ///< [px^2]
+  Eigen::Vector2d at;                  ///< position of the corner [px]
+  Eigen::Matrix2d covariance;          ///< covariance of the position [px^2]
   std::array<int, 2> segments{};       ///< a, b
   std::array<int, 2> ends{};           ///< which end of each: 0 begin, 1 end
-  std::array<double, 2> extension_px;  ///< by how much each had to be extended, negative if shortened
+  std::array<double, 2> extension_px;  ///< length by which each was extended, negative if shortened
 };
 
 /// A closed convex outline: side i runs from corner i to corner i + 1, turning to the right (clockwise as
@@ -36,22 +36,22 @@ struct Polygon {
   bool is_parallelogram = false;
 };
 
-/// What counts as a neighbour, a corner, a parallel, a parallelogram; undistorted px and rad.
+/// Thresholds for neighbours, corners, parallels and parallelograms; undistorted px and rad.
 struct ContourOptions {
   double neighbour_px = 30;          ///< segments farther apart than that have no relation
-  double max_extension_px = 15;      ///< for a corner
-  double max_extension_share = 0.5;  ///< and at most so much of the segment
+  double max_extension_px = 15;      ///< longest extension of a segment to a corner
+  double max_extension_share = 0.5;  ///< longest extension over the length of the segment
   double min_corner_rad = 0.2;       ///< flatter intersections are no corners
   double parallel_rad = 0.03;        ///< tolerance for perspective, beyond 3 sigma
   double perpendicular_rad = 0.05;
-  double collinear_px = 0.8;    ///< beyond 3 sigma
+  double collinear_px = 0.8;    ///< distance of collinear segments, beyond 3 sigma
   int max_corners_per_end = 4;  ///< the nearest ones are kept
   int max_sides = 6;
-  double perspective_rad = 0.12;  ///< by how much opposite sides of a parallelogram may converge
+  double perspective_rad = 0.12;  ///< largest angle between opposite sides of a parallelogram
 };
 
-/// Section 4.2 of the paper: geometrical relations between neighbouring edges, and the contours that follow
-/// from them. Building it takes time near-linear in the number of segments.
+/// Geometrical relations between neighbouring edges, and the contours that follow from them (paper,
+/// section 4.2). Building it takes time near-linear in the number of segments.
 class ContourGraph {
  public:
   ContourGraph() = default;

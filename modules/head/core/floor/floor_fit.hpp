@@ -24,11 +24,11 @@ struct FloorPlane {
   static Eigen::Vector3d Row(const Eigen::Vector3d& p) { return {1, p.x(), p.y()}; }
 };
 
-/// Neighbouring columns see the same speckle: so many of them are worth one.
+/// Number of neighbouring columns that count as one measurement, because they see the same speckle.
 inline constexpr double kColumnsPerFact = 5;
 
 /// The floor among the points: the plane within `prior` (covariance of (height, pitch, roll) about a floor at
-/// z = 0) that most of them lie on, refined by all that do. Points of obstacles do not draw it. Without
+/// z = 0) that most of them lie on, refined by all that do. Points of obstacles do not affect it. Without
 /// points it is the prior.
 FloorPlane FitFloor(std::span<const LightPoint> points, const Eigen::Matrix3d& prior);
 

@@ -11,16 +11,16 @@ namespace priamos::head {
 /// A point of the laser's line in an image.
 struct StripePoint {
   Eigen::Vector2d at;   ///< u is a whole column, v sub-pixel [distorted px]
-  double contrast = 0;  ///< grey levels over what lies above and below
+  double contrast = 0;  ///< brightness over that above and below the line [grey levels]
   double sigma_px = 0;  ///< standard deviation of v, from the noise of the image
 };
 
-/// What counts as the line of the laser.
+/// When a ridge of brightness counts as the line of the laser.
 struct StripeOptions {
-  double min_contrast = 18;  ///< grey levels over both sides
-  int reach_px = 7;          ///< from the middle of the line to where it has faded
-  double max_step_px = 2;    ///< between neighbouring columns of one line
-  int min_length_px = 12;    ///< shorter pieces are glints
+  double min_contrast = 18;  ///< least contrast [grey levels]
+  int reach_px = 7;          ///< distance from the middle of the line to where it has faded
+  double max_step_px = 2;    ///< largest step between neighbouring columns of one line
+  int min_length_px = 12;    ///< shorter pieces are left out as reflections
   int smooth_px = 2;  ///< columns to either side that a place is the mean of; fewer at the ends of a piece
 };
 

@@ -16,24 +16,25 @@ namespace priamos::head {
 struct LaserWatchConfig {
   double rate_hz = 0;    ///< pictures of the line; 0: none, the head stays where it was
   double tilt_deg = 36;  ///< tilt of the head meanwhile: the third camera must see the line
-  double idle_s = 1;     ///< so long after a look, or an operator's hand, the head turns down
+  double idle_s = 1;     ///< time after a look, or an operator's motion, until the head turns down
   ObstacleOptions obstacle;
 
   void Describe(Archive& a);
 };
 
-/// The course of watching: the head turns down when nobody else needs it, pictures are taken while it rests
-/// there. Whoever else wants the head has it at once.
+/// Sequence of orders for watching the line: the head turns down when it is not needed for anything else, and
+/// pictures are taken while it rests there. Looks and operators take the head at once.
 class LaserWatch {
  public:
   explicit LaserWatch(const LaserWatchConfig& config) : config_(config) {}
 
   /// What to do now, see Step.
   enum class Action { kWait, kLower, kTrigger };
-  /// `needed`: a look, or an operator's hand, moves the head; `sees`: it rests where the camera sees the
-  /// line. kLower means: turn it down; kTrigger: expose the third camera with the laser on, as frame_id().
+  /// One time step. `needed`: a look or an operator moves the head; `sees`: it rests where the camera sees
+  /// the line. kLower means: turn it down; kTrigger: expose the third camera with the laser on, as
+  /// frame_id().
   Action Step(bool needed, bool sees, Time now);
-  /// Whether this is the picture that was asked for last; once.
+  /// Whether this is the picture that was ordered last; true once.
   bool Takes(const FrameNotice& frame);
   std::int32_t frame_id() const { return frame_id_; }
 

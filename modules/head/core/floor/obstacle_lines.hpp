@@ -12,12 +12,13 @@
 
 namespace priamos::head {
 
-/// How a floor may lie in the base frame, 1 sigma each: a robot nods and heels on its wheels.
+/// Standard deviations of the floor's pose in the base frame, and of its measurement: a robot pitches and
+/// rolls on its wheels.
 struct FloorTolerance {
-  double heave_m = 0.002;  ///< up and down below the robot, joints and ramps included
+  double heave_m = 0.002;  ///< height below the robot, joints and ramps included
   double pitch_rad = 0.002, roll_rad = 0.002;
   double rough_m = 0.001;   ///< roughness of the surface, from place to place
-  double camera_px = 0.15;  ///< how well the third camera is calibrated and its motors return
+  double camera_px = 0.15;  ///< error of the third camera's calibration and of its motors
 
   void Describe(Archive& a);
 };
@@ -25,8 +26,8 @@ struct FloorTolerance {
 /// What counts as an obstacle; heights above the floor [m].
 struct ObstacleOptions {
   FloorTolerance floor;
-  double min_height_m = 0.015;              ///< what is lower is driven over
-  double lowest_m = -0.5, highest_m = 0.5;  ///< what is looked for, against the floor
+  double min_height_m = 0.015;              ///< lower obstacles are driven over
+  double lowest_m = -0.5, highest_m = 0.5;  ///< range of heights that is searched, above the floor
   double significance = 5;                  ///< sigmas of the height that an obstacle needs
   int min_columns = 12;                     ///< columns of the picture that an obstacle needs
   int min_missing = 40;                     ///< a gap in the line is reported if it has more columns
@@ -38,7 +39,7 @@ struct ObstacleOptions {
 /// A straight piece of the laser's line that is not on the floor, in the base frame; the kinds are those of
 /// obstacle_segment_t.
 struct ObstaclePiece {
-  /// What lies off the floor.
+  /// Kind of deviation from the floor.
   enum Kind {
     kUp = 0,      ///< something stands there
     kDown = 1,    ///< the floor drops
@@ -56,19 +57,19 @@ struct ObstacleLines {
   Verdict verdict = kBlind;
   double seen_share = 0;              ///< columns with a line
   std::vector<ObstaclePiece> pieces;  ///< from right to left
-  /// The floor, as it lay: z = floor.dot(1, x, y) in the base frame, and the covariance of these numbers.
+  /// The estimated floor: z = floor.dot(1, x, y) in the base frame, and the covariance of these numbers.
   Eigen::Vector3d floor = Eigen::Vector3d::Zero();
   Eigen::Matrix3d floor_covariance = Eigen::Matrix3d::Zero();
 };
 
-/// Obstacles from the points of the line: every point is met with the plane of the light; the floor is the
-/// plane that explains most of the points within its tolerance (as a robust maximum a posteriori); what
+/// Obstacles from the points of the line: every point is triangulated with the plane of light; the floor is
+/// the plane that explains most of the points within its tolerance (as a robust maximum a posteriori); what
 /// stands out from it over several neighbouring columns, by more than all errors together allow, is an
 /// obstacle. `width` is that of the picture [px].
 ObstacleLines FindObstacles(std::span<const StripePoint> points, int width, const CameraModel& camera,
                             const LaserPlane& laser, const ObstacleOptions& options);
 
-/// From the picture. Only rows in which the line can lie are looked at.
+/// Finds the line in a picture and the obstacles on it. Only rows in which the line can lie are searched.
 class ObstacleFinder {
  public:
   explicit ObstacleFinder(const ObstacleOptions& options = {}, const StripeOptions& stripe = {})
@@ -82,7 +83,7 @@ class ObstacleFinder {
 };
 
 /// Rows of a picture in which the line can lie, for floors between lowest and highest; first > last: none,
-/// the camera does not look there.
+/// the camera does not see it.
 struct RowRange {
   int first = 0, last = -1;
 };

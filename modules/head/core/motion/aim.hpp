@@ -7,13 +7,13 @@
 
 namespace priamos::head {
 
-/// How the head is turned for a look.
+/// Settings of the pan angle for a look.
 struct AimConfig {
-  double side_share = 0.5;   ///< 0 looks at the middle of the landmark, 1 at the side asked for
+  double side_share = 0.5;   ///< 0: aim at the middle of the landmark, 1: at the side ordered
   double margin_px = 30;     ///< an edge nearer to the border than this does not count as in the picture
-  double sigmas = 2;         ///< and so many standard deviations of where it is expected
-  double max_pan_deg = 100;  ///< farther the head does not turn
-  double lead_s = 0.6;       ///< the robot drives on until the picture is taken
+  double sigmas = 2;         ///< added to that margin, in standard deviations of the predicted edge
+  double max_pan_deg = 100;  ///< largest pan angle
+  double lead_s = 0.6;       ///< time until the picture is taken, in which the robot drives on
 
   void Describe(Archive& a);
 };

@@ -7,7 +7,7 @@
 
 namespace priamos::head {
 
-/// An operator's wish for the motion of the head, per second; signs as in head_drive_t.
+/// Velocities that an operator orders for the head; signs as in head_drive_t.
 struct HeadWish {
   Time time{};
   Duration time_to_live{};
@@ -15,13 +15,14 @@ struct HeadWish {
   double pan_rad_s = 0, tilt_rad_s = 0, vergence_rad_s = 0, zoom_step_s = 0, focus_step_s = 0;
 };
 
-/// Moves the head by hand: adds up the wishes from where the head stands. A wish that is old, or not newer
-/// than the last one of the same sender, is refused and counted; silence stops the head.
+/// Moves the head by hand: integrates the ordered velocities from where the head stands. An order that is
+/// old, or not newer than the last one of the same sender, is refused and counted; without orders the head
+/// stops.
 class HeadJog {
  public:
-  /// Returns whether it is taken.
+  /// Takes an order; returns whether it was accepted.
   bool Take(const HeadWish& wish, Time now);
-  /// What to command now, every 50 ms while a wish to move is valid. `here`: where the motors are.
+  /// The setting to command, every 50 ms while an order is valid. `here`: where the motors are.
   std::optional<HeadSetting> Step(const HeadSetting& here, Time now);
   /// Somebody else moves the head now.
   void Stop() {

@@ -8,18 +8,18 @@
 
 namespace priamos::head {
 
-/// How the head's motors are set: backlash, waiting times.
+/// Approach and waiting times of the head's motors.
 struct PositionerConfig {
-  double approach_rad = 0.004;  ///< angles are first set so far below the goal
-  int approach_steps = 25;      ///< zoom and focus likewise
-  double settle_s = 0.06;       ///< rest after the last movement before a picture is taken
-  double repeat_s = 0.25;       ///< a command without effect is sent again
-  double timeout_s = 4;         ///< a setting not reached by then is given up
+  double approach_rad = 0.004;  ///< distance below the goal that the angles are set to first
+  int approach_steps = 25;      ///< the same distance of zoom and focus
+  double settle_s = 0.06;       ///< time at rest before a picture is taken
+  double repeat_s = 0.25;       ///< time after which a command without effect is sent again
+  double timeout_s = 4;         ///< time after which a setting that is not reached is given up
 
   void Describe(Archive& a);
 };
 
-/// What the motors report.
+/// A report of the motors.
 struct HeadReport {
   Time time;
   HeadSetting setting;
@@ -45,7 +45,7 @@ class HeadPositioner {
 
   /// The head rests at the goal, and did so for the settling time.
   bool settled() const { return phase_ == Phase::kSettled; }
-  /// The goal was not reached in time. No motion without a report: silence ends here, too.
+  /// The goal was not reached in time, or no report came.
   bool failed() const { return phase_ == Phase::kFailed; }
 
  private:

@@ -13,15 +13,15 @@ namespace priamos::head {
 
 /// Waiting times and attempts of one look.
 struct LookConfig {
-  double frame_timeout_s = 0.5;  ///< all pictures must have come by then, or they are asked for again
+  double frame_timeout_s = 0.5;  ///< time after which missing pictures are exposed again
   int attempts = 3;              ///< exposures per look
-  double age_limit_s = 12;       ///< a look not answered by then is given up
+  double age_limit_s = 12;       ///< time after which a look is given up
 
   void Describe(Archive& a);
 };
 
-/// The course of one look: the head settles, its cameras are exposed at once, all pictures arrive. Every
-/// look ends, with pictures or without.
+/// State machine of one look: the head settles, its cameras are exposed at the same time, all pictures
+/// arrive. It always ends, with pictures or without.
 class LookSequence {
  public:
   /// `cameras` is 2 for the stereo pair, 3 for all.
@@ -35,14 +35,14 @@ class LookSequence {
 
   /// What to do now.
   enum class Action { kWait, kTrigger, kUseFrames, kGiveUp };
-  /// `head_failed` gives up; kTrigger means: expose the cameras as frame_id(). A head that moves during the
-  /// exposure spoils the pictures: it is exposed again.
+  /// One time step. `head_failed` gives the look up; kTrigger: expose the cameras as frame_id(). If the head
+  /// moves during the exposure the pictures are exposed again.
   Action Step(bool head_settled, bool head_failed, Time now);
 
   std::int32_t frame_id() const { return frame_id_; }
   /// Bits of the cameras to expose.
   int camera_mask() const { return (1 << cameras_) - 1; }
-  /// The pictures once they are all there.
+  /// The pictures, after kUseFrames.
   Frames frames() const;
 
  private:

@@ -17,15 +17,15 @@ struct SpaceEdge {
   double chi2 = 0;  ///< misfit of the images, 2 * (number of images) - 4 degrees of freedom
 };
 
-/// An image line as one of several observations of the same edge.
+/// An image line, one of several observations of the same edge.
 struct LineSighting {
   const CameraView* view = nullptr;
   int line = 0;  ///< in view->lines
 };
 
-/// Least squares edge from two or more sightings; `camera_sigma_px` is the calibration's part of their
-/// errors. nullopt if the planes of sight are the same or the edge lies behind a camera, or if no part of it
-/// is in all images.
+/// Reconstructs an edge from two or more image lines by least squares; `camera_sigma_px` is the calibration's
+/// part of their errors. nullopt if the planes of sight are the same or the edge lies behind a camera, or if
+/// no part of it is in all images.
 std::optional<SpaceEdge> Reconstruct(std::span<const LineSighting> sightings, double camera_sigma_px);
 
 /// Image of another camera's optical centre, homogeneous: all epipolar lines pass through it.

@@ -26,11 +26,11 @@ struct StereoPair {
   double epipolar_rad = 0;  ///< angle between line and epipolar line, the smaller of both images
 };
 
-/// All of them: whoever knows more has to choose.
+/// All pairs of lines that can be the same edge; a line may be in several pairs.
 std::vector<StereoPair> FindPairs(const CameraView& first, const CameraView& second,
                                   const StereoOptions& options);
 
-/// How alike the grey values are, 0 (too different) to 1.
+/// Similarity of the grey values beside two lines, 0 (too different) to 1.
 double GreySimilarity(const CameraView& a, int line_a, const CameraView& b, int line_b,
                       const StereoOptions& options);
 

@@ -10,7 +10,8 @@
 
 namespace priamos::head {
 
-/// A segment freed from lens distortion, with the plane of space that the optical centre spans with it.
+/// An edge segment without lens distortion, with its plane of sight: the plane through it and the optical
+/// centre.
 struct ViewLine {
   int segment = 0;         ///< index in EdgeImage::segments, whose points are at the same place in CameraView
   Eigen::Vector2d p, q;    ///< begin and end [undistorted px]
@@ -20,12 +21,12 @@ struct ViewLine {
   double contrast = 0;
 };
 
-/// The ends of all lines once more, one number after the other, for fast search.
+/// The ends and lengths of all lines as arrays of numbers, for a fast search.
 struct LineTable {
   std::vector<float> px, py, qx, qy, length;
 };
 
-/// What one camera saw: its edges, and how to undo its lens.
+/// The edges of one image with their camera model, distorted and undistorted.
 struct CameraView {
   const CameraModel* camera = nullptr;
   const EdgeImage* edges = nullptr;
@@ -38,8 +39,8 @@ struct CameraView {
 /// Both images of one exposure: left, right.
 using StereoViews = std::array<CameraView, 2>;
 
-/// Undistorts the points of all segments and lays the lines through them: a long edge that the lens bends is
-/// straight again. Keeps references to both arguments.
+/// Undistorts the points of all segments and fits the lines to them, so that long edges that the lens bends
+/// are straight. Keeps references to both arguments.
 CameraView MakeView(const CameraModel& camera, const EdgeImage& edges);
 
 }  // namespace priamos::head
