@@ -16,8 +16,8 @@ class SegmentIndex {
   /// Adds to `found` every segment that comes within `reach_px` of `at`, and some that do not; each may come
   /// several times.
   void Near(const Eigen::Vector2d& at, double reach_px, std::vector<int>& found) const;
-  /// Sets `found` to every segment that comes within `reach_px` of a point of the segment; sorted, each id
-  /// once.
+  /// Adds to `found` every segment that comes within `reach_px` of a point between `begin` and `end`, then
+  /// sorts `found`, each id once.
   void Along(const Eigen::Vector2d& begin, const Eigen::Vector2d& end, double reach_px,
              std::vector<int>& found) const;
 
