@@ -1,4 +1,4 @@
-// How large a thing can be that no sonar sees: figures of modules/robot/README.md.
+// How large a thing can be that no sonar sees: modules/robot/FIGURES.md.
 
 #include <gtest/gtest.h>
 
