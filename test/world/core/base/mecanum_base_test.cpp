@@ -69,7 +69,7 @@ TEST(MecanumBaseTest, ThreeMetresStraightDriftInTheStatedBand) {
     for (const double v : values) sum += v * v;
     return std::sqrt(sum / static_cast<double>(values.size()));
   };
-  // The README's figures: about 1 % along, 1 % across, a quarter of a degree per metre; never perfect.
+  // modules/world/FIGURES.md: about 1 % along, 1 % across, a quarter of a degree per metre; never perfect.
   EXPECT_GT(rms(lateral), 0.010);
   EXPECT_LT(rms(lateral), 0.045);
   EXPECT_GT(rms(along), 0.005);
