@@ -54,8 +54,8 @@ class MessageSender {
     struct Message {
       QueuedMessage queued;
       std::size_t bits;  ///< packed bits on the line
-      std::vector<std::byte>
-          packed;  ///< for channels with differences: the message as the other end will have it
+      /// For channels with differences: the message as the other end will have it.
+      std::vector<std::byte> packed;
     };
     /// A piece of an event in the frame, by its number in the channel's stream.
     struct Segment {

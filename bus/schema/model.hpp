@@ -57,8 +57,8 @@ struct Annotation {
   std::optional<Number> max;      ///< `@range`, second number
   std::optional<Number> step;     ///< `@step`: resolution on the radio, in `unit`
   std::optional<Number> invalid;  ///< `@invalid`: the value that means "none"
-  std::vector<std::int64_t>
-      sizes;  ///< `@max`: largest counts of the variable dimensions, then largest text length
+  /// `@max`: largest counts of the variable dimensions, then largest text length.
+  std::vector<std::int64_t> sizes;
   std::optional<std::int64_t> age_us;  ///< `@age`: a time stamp [us] that is at most this old when it is sent
   std::string meaning;                 ///< the sentence after the colon
   std::string problem;  ///< why the comment, though it begins with a bracket, cannot be read; else empty

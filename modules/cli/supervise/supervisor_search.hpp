@@ -8,8 +8,8 @@ namespace priamos::cli {
 /// Who supervises a robot, as heard on its buses.
 struct FoundSupervisor {
   std::string who;  ///< e.g. pid 12 on hall9, since 2026-11-22 06:31:12
-  std::optional<std::string>
-      log_root;  ///< where it keeps its state; none: on another computer, or of another user
+  /// Where it keeps its state; none: on another computer, or of another user.
+  std::optional<std::string> log_root;
 };
 
 /// Listens for half a second for the supervisor of `robot` on both buses. Nothing if none is heard, or if the

@@ -18,8 +18,8 @@ struct SeenDisc {
 /// What all cameras saw at one setting of a calibration.
 struct CalibrationExposure {
   HeadSetting setting;  ///< the setting that the motors reported
-  std::vector<std::vector<SeenDisc>>
-      cameras;  ///< left, right, third; none where the object was not recognised
+  /// Left, right, third; none where the object was not recognised.
+  std::vector<std::vector<SeenDisc>> cameras;
 };
 
 /// What a calibration has measured so far, in a file beside its table: one line of JSON per finished setting,

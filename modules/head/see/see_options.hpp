@@ -8,10 +8,10 @@ namespace priamos::head {
 /// Which photographs to look at, and for what; no robot needed.
 struct SeeOptions {
   std::vector<std::string> images;  ///< files OpenCV can read
-  std::vector<std::string>
-      cameras{};  ///< projection files (LoadProjection) of two or three images of one scene
-  std::string
-      landmark{};  ///< a free landmark model (LoadPolyhedron) to look for; needs cameras, one is enough
+  /// Projection files (LoadProjection) of two or three images of one scene.
+  std::vector<std::string> cameras{};
+  /// A free landmark model (LoadPolyhedron) to look for; needs cameras, one is enough.
+  std::string landmark{};
   std::vector<double> at{};        ///< where it is believed to be (PoseFromSix)
   std::vector<double> stand{};     ///< how the first of two cameras stands (OnTheFloor): doors are looked for
   double max_door_width_m = 1.35;  ///< double doors are wider

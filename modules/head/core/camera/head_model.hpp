@@ -23,8 +23,8 @@ struct CameraMount {
   double x_m = 0, y_m = 0, z_m = 0;              ///< vergence axis, and height of the camera on it
   double axis_roll_rad = 0, axis_pitch_rad = 0;  ///< tilt of the vergence axis
   double side_m = 0;                             ///< offset of the camera from its vergence axis, to the left
-  double roll_rad = 0, pitch_rad = 0,
-         yaw_rad = 0;  ///< orientation of the camera on its axis; pitch positive looks down
+  /// Orientation of the camera on its axis; pitch positive looks down.
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
 
   void Describe(Archive& a);
 };
@@ -35,8 +35,8 @@ struct HeadGeometry {
   /// The pan axis, and on it the point nearest to the tilt axis: the origin of the head (section 3.1.3 of
   /// the paper: the intersection of both axes).
   double x_m = 0.25, y_m = 0, z_m = 1.20;
-  double roll_rad = 0, pitch_rad = 0,
-         yaw_rad = 0;             ///< orientation of the pan axis; yaw is the zero of the pan
+  /// Orientation of the pan axis; yaw is the zero of the pan.
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
   double tilt_axis_x_m = 0;       ///< offset of the tilt axis along x of the pan platform
   double tilt_axis_roll_rad = 0;  ///< tilt of the tilt axis about x of the pan platform
   std::array<CameraMount, kCameras> cameras = NominalMounts();

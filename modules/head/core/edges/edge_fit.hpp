@@ -49,8 +49,8 @@ class EdgeFitter {
   double noise_[2] = {0, 0};  ///< noise(), by kernel width
   double narrower_by_ = 0;    ///< difference of the two kernels' variances [px^2]
   float begin_ = 0;           ///< row that along_ counts from
-  int n_ = 0,
-      padded_ = 0;  ///< number of blocks; the same rounded up to a multiple of 4 (padding has weight 0)
+  /// Number of blocks; the same rounded up to a multiple of 4 (padding has weight 0).
+  int n_ = 0, padded_ = 0;
   alignas(16) Numbers along_, rows_, strengths_, inverses_, imbalances_[2];  ///< imbalance per strength
   alignas(16) Numbers shifts_, base_, weights_;  ///< weights before and after robust weighting
   alignas(16) Numbers misfits_, allowed_;

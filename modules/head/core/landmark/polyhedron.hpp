@@ -17,8 +17,8 @@ struct Polyhedron {
   std::vector<std::vector<int>> faces;
   /// Brightness of each face relative to the others under even light; 0: not known. Empty: none is known.
   std::vector<double> greys;
-  std::vector<std::array<int, 2>>
-      lines;  ///< further edges, seen from everywhere unless a face is before them
+  /// Further edges, seen from everywhere unless a face is before them.
+  std::vector<std::array<int, 2>> lines;
 };
 
 /// What is wrong with the body, nullopt if nothing: a face of fewer than 3 corners or not flat to 1 % of

@@ -48,8 +48,8 @@ struct DriveSituation {
   Pose2 odom_from_base;
   std::optional<Time> wheels_heard;  ///< newest credible encoder sample
   std::optional<Time> head_heard{};  ///< newest sign of life of the head
-  Duration
-      link_down{};  ///< how long the radio link has been down; 0 while it is up or nothing is known of it
+  /// How long the radio link has been down; 0 while it is up or nothing is known of it.
+  Duration link_down{};
 };
 
 /// What became of a path. Stale: it was ordered before the e-stop was re-armed, and after that nothing moves

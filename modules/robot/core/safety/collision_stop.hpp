@@ -34,8 +34,8 @@ class CollisionStop {
     Twist2 twist;
     double scale = 1;               ///< `twist` over the wanted motion
     std::optional<double> allowed;  ///< fastest motion in this direction [m/s of the fastest corner]
-    std::optional<double>
-        free_m;  ///< distance until the footprint would meet a point; none within look_ahead_m
+    /// Distance until the footprint would meet a point; none within look_ahead_m.
+    std::optional<double> free_m;
   };
 
   CollisionStop(const CollisionStopConfig& config, const Footprint& footprint);

@@ -18,8 +18,8 @@ namespace priamos::robot {
 /// One cycle of the ring.
 struct SonarCycle {
   Time time{};
-  std::array<double, kSonars>
-      range_m{};  ///< first echo of each sensor; anything outside 0..kSonarMaxM is no echo
+  /// First echo of each sensor; anything outside 0..kSonarMaxM is no echo.
+  std::array<double, kSonars> range_m{};
 };
 
 /// How echoes become points in the base frame, and how long they count.

@@ -27,9 +27,9 @@ struct HeadAxes {
 /// How one camera was really built, which nobody but the simulator knows.
 struct CameraBuild {
   double x_m = 0, y_m = 0, z_m = 0;  ///< camera axis (vergence axis) on the platform
-  double roll_rad = 0, pitch_rad = 0,
-         yaw_rad = 0;     ///< orientation of the camera on that axis; pitch positive looks down
-  double pupil_m = 0.02;  ///< entrance pupil before the axis at focal_mid_px
+  /// Orientation of the camera on that axis; pitch positive looks down.
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
+  double pupil_m = 0.02;                           ///< entrance pupil before the axis at focal_mid_px
   double focal_min_px = 800, focal_max_px = 1600;  ///< at zoom step 0 and 2000, focused at infinity
   double centre_u_px = ImageSize{}.Centre().x();  ///< column of the principal point at the middle of the zoom
   double centre_v_px = ImageSize{}.Centre().y();  ///< its row
