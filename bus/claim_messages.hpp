@@ -17,7 +17,7 @@ Claimant MakeClaimant(const std::string& robot, const std::string& role);
 /// Where it runs and since when, e.g. pid 12 on hall9, since 2026-11-22 06:31:12. `now` is of a clock
 /// anchored to the date.
 std::string Whereabouts(const ClaimWord& word, Time now);
-/// The same with its role and robot before it.
+/// Role and robot of the claimant, then its Whereabouts().
 std::string Describe(const ClaimWord& word, Time now);
 
 }  // namespace priamos::bus

@@ -32,15 +32,15 @@ class Lockstep {
   Lockstep(const Schema& schema, Options options);
   ~Lockstep();
 
-  /// A host's bus; `name` is for taps and for AddApp.
+  /// Adds the bus of one host; `name` identifies it for taps and AddApp.
   void AddBus(const std::string& name);
-  /// Two ends of a serial line; Apps open them by these names. One line per direction.
+  /// Adds a serial line, whose ends Apps open by these names; each direction is a Line of its own.
   void AddSerialLine(const std::string& end_a, const std::string& end_b, const radio::LineConfig& config);
-  /// Throws what the App's start throws.
+  /// Starts an App on a bus; throws what its start throws.
   void AddApp(const AppFactory& factory, const std::string& bus, const ConfigSource& source);
-  /// From now on it is gone, as if it had been killed; AddApp starts it again. Not while one ticks.
+  /// Removes an App as if it had been killed; AddApp starts it again. Not to be called while an App ticks.
   void RemoveApp(const std::string& name, const std::string& bus);
-  /// Sees every message on every bus, in order.
+  /// `tap` gets every message on every bus, in order.
   void SetTap(Tap tap) { tap_ = std::move(tap); }
   /// One end of a line, for the driver of the scenario. Throws std::runtime_error for an unknown name.
   std::unique_ptr<ByteStream> OpenSerial(const std::string& name);

@@ -106,10 +106,10 @@ class Node {
   template <class T>
   Publisher<T> Advertise(const Channel<T>& channel);
 
-  /// For programs that carry types they were not compiled with. The bytes have passed the walk when their
-  /// type is known to the schema, and are refused when it is not.
+  /// Subscribes to encoded messages, for programs that were not compiled with their types. `handler` gets the
+  /// messages that passed the walk; those of a type that the schema does not know are refused.
   void SubscribeRaw(std::string_view channel, std::function<void(std::span<const std::byte>, Time)> handler);
-  /// The same with types of the caller's, which must outlive the node.
+  /// Subscribes to encoded messages of `types`, which must outlive the node.
   void SubscribeRaw(std::string_view channel, const Schema& types,
                     std::function<void(std::span<const std::byte>, Time)> handler);
   void AdvertiseRaw(std::string_view channel);

@@ -43,10 +43,10 @@ class Replay {
   /// Feeds the whole log; `send` gets what the App sends. An App that asks to stop ends it.
   void Run(const std::function<void(const Output&)>& send);
 
-  /// Of the log: what the App sent when it was recorded, from the start of the clock on.
+  /// Messages in the log that the App sent when it was recorded, from the start of the clock on.
   const std::vector<Output>& recorded() const { return recorded_; }
   std::uint64_t fed() const { return fed_; }
-  /// Events left out because their time cannot be.
+  /// Number of events left out because of an impossible time.
   std::uint64_t implausible() const { return implausible_; }
   std::uint64_t skipped_bytes() const { return reader_.skipped_bytes(); }
   const Node& node() const { return host_->node(); }

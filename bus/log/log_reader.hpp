@@ -14,19 +14,20 @@ class LogReader {
  public:
   static constexpr std::size_t kMaxChannelBytes = 255;
   static constexpr std::size_t kMaxDataBytes = 1 << 24;
-  /// Of times [us], up to the year 2255, and of numbers. More is damage, and who reads can compute with less.
+  /// Largest time [us] (the year 2255) and number of an event; a larger one is damage. Sums of such numbers
+  /// do not overflow.
   static constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 
   /// Throws std::runtime_error when the file cannot be read.
   explicit LogReader(const std::string& path);
-  /// From bytes that outlive the reader.
+  /// Reads from `bytes`, which must outlive the reader.
   explicit LogReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   /// The next whole event, or nullopt at the end.
   std::optional<LogEvent> Next();
-  /// Bytes so far that belong to no whole event.
+  /// Number of bytes so far that belong to no whole event.
   std::uint64_t skipped_bytes() const { return skipped_; }
-  /// How often whole events were interrupted by something else.
+  /// Number of places so far with damaged bytes between whole events.
   std::uint64_t damaged_places() const { return damaged_places_; }
   std::size_t size() const { return bytes_.size(); }
   /// Goes on at LogEvent::offset of an event read before; what was skipped stays counted.
@@ -35,7 +36,7 @@ class LogReader {
  private:
   std::optional<LogEvent> ParseAt(std::size_t offset, std::size_t& end) const;
   bool MagicAt(std::size_t offset) const;
-  /// By its header, which has to be plausible; 0 when it is not.
+  /// End of the event at `offset` by its header; 0 if the header is not plausible.
   std::size_t EndOfEvent(std::size_t offset) const;
   bool HoldsEvent(std::size_t begin, std::size_t end) const;
 

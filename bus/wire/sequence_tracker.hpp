@@ -7,15 +7,16 @@
 
 namespace priamos::bus {
 
-/// What is known of one sender.
+/// Counters of one sender.
 struct SenderCounters {
   std::uint64_t sender = 0;
-  std::uint64_t datagrams = 0;  ///< that arrived
+  std::uint64_t datagrams = 0;  ///< datagrams that arrived
   std::uint64_t lost = 0;
 };
 
-/// Counts what never arrived. Every LCM sender numbers its datagrams over all channels; a gap in the numbers
-/// of one sender is a loss, whoever caused it: the network, a full receive buffer, or a socket filter.
+/// Counts datagrams that never arrived. Every LCM sender numbers its datagrams over all channels; a gap in
+/// the numbers of one sender is a loss, whoever caused it: the network, a full receive buffer, or a socket
+/// filter.
 ///
 /// Before the first datagram of a sender nothing is known of it. A datagram that comes late takes its loss
 /// back. A jump back or by more than kLargestGap is a sender that began anew, not a loss.
@@ -28,13 +29,14 @@ class SequenceTracker {
   void Add(std::uint64_t sender, std::uint32_t number);
   std::uint64_t lost() const { return lost_; }
   std::size_t senders() const { return senders_.size(); }
-  /// Of the senders that are not forgotten, by name. Their losses sum up to lost() as long as none is.
+  /// Counters of the senders that are not forgotten, by name. Their losses sum up to lost() until one is
+  /// forgotten.
   std::vector<SenderCounters> PerSender() const;
 
  private:
   struct Sender {
     std::uint32_t next = 0;
-    std::uint32_t lately_lost = 0;  ///< could still come late
+    std::uint32_t lately_lost = 0;  ///< number of lost datagrams that may still arrive late
     std::uint64_t heard = 0;        ///< count of all senders' datagrams when this one was last heard
     std::uint64_t datagrams = 0, lost = 0;
   };

@@ -81,7 +81,7 @@ class ConfigFile {
  public:
   /// Throws ConfigError when the file is missing, not readable or not TOML.
   explicit ConfigFile(const ConfigSource& source);
-  /// The same from a text; `name` stands for the file in messages.
+  /// Reads a TOML text; `name` stands for the file in messages.
   ConfigFile(const std::string& name, std::string_view text);
   ~ConfigFile();
 
@@ -109,7 +109,7 @@ T LoadConfig(const std::string& path) {
   return LoadConfig<T>(ConfigSource{path, {}});
 }
 
-/// The same from a text; `name` stands for the file in messages.
+/// Reads a TOML text into a T; `name` stands for the file in messages. Throws ConfigError.
 template <class T>
 T ParseConfig(const std::string& name, std::string_view text) {
   T config;

@@ -57,9 +57,9 @@ struct HeadConfig {
   LaserWatchConfig laser;
 
   void Describe(Archive& a);
-  /// Of all looks, but for the pan.
+  /// Setting of all looks; each look sets the pan itself.
   HeadSetting LookSetting() const;
-  /// Where the third camera sees the laser's line.
+  /// Setting at which the third camera sees the laser's line.
   HeadSetting WatchSetting() const;
 };
 

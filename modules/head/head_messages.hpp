@@ -23,13 +23,13 @@ struct LookOrder {
   bool operator==(const LookOrder&) const = default;
 };
 
-/// A fix with what it answers.
+/// A fix with the order that it answers.
 struct LookAnswer {
   LookOrder order;
   Time exposure;
   LandmarkFix fix;
-  Pose2 map_from_landmark;  ///< by the model
-  LandmarkView view;        ///< what it was decided by
+  Pose2 map_from_landmark;  ///< pose of the landmark in its model, map frame
+  LandmarkView view;        ///< edges that led to the verdict
 };
 
 HeadReport FromMessage(const head_state_t& message);
@@ -42,12 +42,13 @@ std::optional<PoseSample> FromMessage(const pose_t& message);
 std::optional<LandmarkModel> FromMessage(const landmark_model_t& message);
 
 head_command_t ToMessage(const HeadSetting& setting, Time now);
-/// `cameras` as bits: 1 left, 2 right, 4 third; 8 with the line laser on.
+/// Order to expose `cameras`, given as bits: 1 left, 2 right, 4 third; 8 with the line laser on.
 camera_trigger_t TriggerMessage(std::int32_t frame_id, int cameras, Time now);
 landmark_fix_t ToMessage(const LookAnswer& answer);
-/// Of more edges than the message holds the last ones are left out, and counted.
+/// The view as a message; edges that do not fit it, the last ones, are left out and counted.
 landmark_view_t ViewMessage(const LookAnswer& answer);
-/// Of more pieces than the message holds missing ones are left out first, then the lowest; they are counted.
+/// The pieces as a message; of those that do not fit, kMissing ones are left out first, then the lowest. They
+/// are counted.
 obstacle_line_t ToMessage(const ObstacleLines& lines, Time exposure);
 /// The pieces in the message; those of unknown kind are left out.
 ObstacleLines FromMessage(const obstacle_line_t& message);

@@ -9,10 +9,10 @@
 
 namespace priamos::radio {
 
-/// What one report leaves for the next.
+/// State that one report keeps for the next.
 struct ReportState {
-  std::uint64_t bytes_sent = 0;      ///< until then, for the utilisation
-  std::uint64_t bytes_received = 0;  ///< the same
+  std::uint64_t bytes_sent = 0;      ///< count at the last report, for the utilisation
+  std::uint64_t bytes_received = 0;  ///< count at the last report
   std::size_t first_channel = 0;     ///< where the next report begins if not all channels fit one
 };
 

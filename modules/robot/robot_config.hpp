@@ -13,8 +13,8 @@ namespace priamos::robot {
 struct RobotConfig {
   double rate_hz = 50;         ///< decisions and wheel commands
   double status_rate_hz = 10;  ///< DRIVE_STATUS
-  double path_max_age_s = 10;  ///< an older path is refused: somebody may have changed his mind since
-  double order_max_age_s = 2;  ///< the same for lease requests and re-arming
+  double path_max_age_s = 10;  ///< an older path is refused: it may no longer be wanted
+  double order_max_age_s = 2;  ///< older lease requests and orders to re-arm are refused
   std::string state_file;      ///< the e-stop survives a restart here; empty: it does not
   MecanumGeometry base;
   LocaliserConfig localiser;

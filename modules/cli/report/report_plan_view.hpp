@@ -78,9 +78,9 @@ Extent ExtentOf(const GroundPlan& plan);
 
 Eigen::Vector2d PositionOf(const pose_t& pose);
 Eigen::Vector2d PositionOf(const world_truth_t& truth);
-/// Of the position alone.
+/// Covariance of the position (x, y), map frame [m^2].
 Eigen::Matrix2d CovarianceOf(const pose_t& pose);
-/// Of a robot of length and width `size_m`.
+/// Corners of the footprint of a robot of length and width `size_m`, map frame.
 std::vector<Eigen::Vector2d> FootprintOutline(const Pose2& map_from_base, const Eigen::Vector2d& size_m);
 
 /// The floor with a grid of 1 m.

@@ -21,7 +21,7 @@ class LinkTopView {
   /// The screen as lines of text. With a size they fit: columns of the table go by worth, then the lines on
   /// quality, then channels, which are counted. Before the first report it shows what is missing.
   std::string Render(Time now, std::optional<ScreenSize> size) const;
-  /// The same for machines.
+  /// The same content as JSON.
   nlohmann::ordered_json Json(Time now) const;
   bool empty() const { return !last_.has_value(); }
   /// Every channel was reported twice: its rates are known.
@@ -40,7 +40,7 @@ class LinkTopView {
 
   std::optional<link_status_t> last_;
   Time last_at_{};
-  std::map<int, Row> rows_;  ///< by number of the channel in the table
+  std::map<int, Row> rows_;  ///< rows by the channel's number in the table
 };
 
 /// Options of `priamos link top` and `priamos link listen`.

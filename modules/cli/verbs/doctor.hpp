@@ -14,7 +14,7 @@ struct Finding {
   std::string what;  ///< "multicast route"
   Verdict verdict = Verdict::kGood;
   std::string found;    ///< "224.0.0.0/4 leads to lo"
-  std::string command;  ///< that mends it; empty when good
+  std::string command;  ///< command that repairs it; empty if nothing is wrong
 };
 
 /// The machine the doctor looks at, so that a test can bring another one.

@@ -10,19 +10,19 @@
 
 namespace priamos::head {
 
-/// By how much the right camera is turned against the left, beyond the calibrated pose. A turn about x
+/// Rotation of the right camera relative to the left one, beyond the calibrated pose. A turn about x
 /// moves its image up or down (across the epipolar lines), one about y sideways (along them: wrong depths),
 /// one about z rolls it.
 struct StereoDrift {
   Eigen::Vector3d turn_rad =
-      Eigen::Vector3d::Zero();  ///< about the right camera's x right, y down, z forward
+      Eigen::Vector3d::Zero();  ///< rotation about the right camera's x right, y down, z forward
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-/// Standard deviations (sigma) of what the drift is estimated from.
+/// Standard deviations (sigma) of the errors in the estimate of the drift.
 struct StereoDriftOptions {
-  double model_sigma_m = 0.001;        ///< how well the landmark's edges are placed, each axis
-  double tilt_sigma_m = 0.00025;       ///< how well they are aligned
+  double model_sigma_m = 0.001;        ///< position error of a landmark's edge, each axis
+  double tilt_sigma_m = 0.00025;       ///< alignment error of a landmark's edge
   double edge_sigma_px = 0.07;         ///< error of half an edge in one image, beyond the noise of its points
   double calibration_sigma_px = 0.06;  ///< errors of table and motors of each camera when nothing has moved
   double outlier_px = 0.4;             ///< a half edge with a larger residual loses weight
@@ -30,7 +30,7 @@ struct StereoDriftOptions {
 };
 
 /// The epipolar residual of tracked edges. Edges have no ends that can be trusted, and a turn about y moves
-/// images along the epipolar lines, where two images alone agree with anything. But the edges of a landmark
+/// images along the epipolar lines, where two images alone do not determine it. But the edges of a landmark
 /// that was found belong to a body of known shape: its pose, the errors of its edges and the cameras' scales
 /// are estimated together with the turn, and what both images show alike does not count.
 ///

@@ -11,7 +11,7 @@ namespace {
 /// Sharp edges that run along the pixel grid are sampled too coarsely for a narrow kernel: so much between
 /// the two widths means nothing.
 constexpr double kToleratedGapPx = 0.05;
-constexpr double kNearPx = 0.8;  ///< so near it is worth looking how far the edge goes
+constexpr double kNearPx = 0.8;  ///< distance from the edge below which its ends are searched
 /// So near one linear step is exact: for wide kernels, and for narrow ones.
 constexpr double kSettledPx[] = {0.8, 0.5};
 constexpr double kLostPx = 5;

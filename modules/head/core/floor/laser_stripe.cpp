@@ -88,7 +88,7 @@ int BrightestRow(const Column& column, int first, int last) {
 
 struct Ridge {
   double v, contrast, roughness;
-  double gain;  ///< by which noise of a pixel moves it [px per grey level]
+  double gain;  ///< displacement of the ridge by noise of a pixel [px per grey level]
 };
 
 /// Correlation of a column, its ground taken off, with the derivatives of a Gaussian at row + shift.

@@ -15,8 +15,8 @@ namespace priamos::planner {
 
 /// An operator's order to carry out a mission.
 struct MissionOrder {
-  int kind = 0;         ///< which mission of the table
-  int landmark_id = 0;  ///< which landmark of the map it concerns
+  int kind = 0;         ///< index of the mission in the mission table
+  int landmark_id = 0;  ///< landmark of the map that the mission concerns
 };
 
 /// Where the robot was at `stamp` and how it moved (base frame), as in POSE.
@@ -24,7 +24,7 @@ struct RobotPose {
   Time stamp;
   Pose2 map_from_base;
   Twist2 velocity;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< map: x, y, yaw
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of (x, y, yaw), map frame [m, rad]
 };
 
 /// What the robot does; kHolding: ordered to stand, kBlocked: an obstacle stops it.

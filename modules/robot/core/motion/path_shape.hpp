@@ -18,7 +18,7 @@ struct Path {
 /// How a path is rounded, and how fast its parts may be driven.
 struct PathShapeConfig {
   double corner_deviation_m = 0.05;   ///< how far a rounded corner may pass beside the point
-  double corner_deviation_deg = 3.0;  ///< the same for the heading
+  double corner_deviation_deg = 3.0;  ///< largest deviation of the heading in a rounded corner
   double corner_acceleration_m_s2 = 0.4;
   double corner_turn_acceleration_rad_s2 = 0.6;
   double max_speed_m_s = 0.6;
@@ -44,7 +44,7 @@ class PathShape {
     double turn = 0;                  ///< d yaw / d s [rad/m]
   };
 
-  /// From `start` through path.points.
+  /// The curve from `start` through path.points.
   PathShape(const PathShapeConfig& config, const Pose2& start, const Path& path);
 
   double length() const { return length_; }

@@ -51,7 +51,7 @@ struct PoseEstimate {
   Twist2 twist;  ///< base frame
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
-  double PositionSigma() const;  ///< root of the larger eigenvalue [m]
+  double PositionSigma() const;  ///< root of the larger eigenvalue of the position's covariance [m]
   double YawSigma() const;
 };
 
@@ -61,15 +61,15 @@ enum class FixVerdict { kApplied, kTooOld, kTooNew, kImplausible, kDouble };
 /// What became of a fix.
 struct FixResult {
   FixVerdict verdict = FixVerdict::kImplausible;
-  Pose2 change;         ///< map frame, at the time of the picture; also for a refused fix: what it asked for
-  double distance = 0;  ///< Mahalanobis, 3 degrees of freedom; 0 when it was not computed
+  Pose2 change;  ///< correction of the pose at the time of the picture, map frame; also of a refused fix
+  double distance = 0;      ///< Mahalanobis distance, 3 degrees of freedom; 0 if it was not computed
   PoseEstimate at_picture;  ///< the estimate for the time of the picture, after the fix if it was applied
   std::string reason;       ///< why not applied, with numbers
 };
 
 /// The pose in the map. Odometry carries it; a fix corrects it *at the time of its picture* and everything
 /// driven since is carried forward from there. So a fix may be seconds old, and two fixes may come in either
-/// order with the same result. What several looks err by alike does not average out. Fixes that contradict
+/// order with the same result. Errors that several looks share do not average out. Fixes that contradict
 /// estimate and covariance are refused: one wrong door must not move the robot.
 class PoseEstimator {
  public:
@@ -80,14 +80,14 @@ class PoseEstimator {
   /// kTooNew: taken after the newest odometry; give it again when odometry has got there.
   FixResult Apply(const LandmarkFix& fix);
 
-  /// For the newest odometry; nullopt before the first step.
+  /// The estimate at the time of the newest odometry; nullopt before the first step.
   std::optional<PoseEstimate> newest() const;
 
  private:
   struct Entry {
-    OdometryStep step;               ///< that led here
+    OdometryStep step;               ///< odometry step to this entry
     PoseState state;                 ///< after step and fix
-    std::optional<LandmarkFix> fix;  ///< applied here
+    std::optional<LandmarkFix> fix;  ///< the fix that was applied at this entry
   };
 
   std::optional<FixResult> RefuseByForm(const LandmarkFix& fix) const;

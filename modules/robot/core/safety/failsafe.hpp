@@ -28,7 +28,7 @@ inline constexpr std::size_t kConditions = 9;
 /// Who moves the base.
 enum class DriveSource { kNone, kPath, kOperator };
 
-/// In ascending order of precedence.
+/// What is done about a condition, in ascending order of precedence.
 enum class FailsafeAction {
   kNone,
   kHold,  ///< brake on a ramp, keep the path, go on when the condition has cleared
@@ -40,13 +40,13 @@ struct FailsafeRule {
   Condition condition;
   DriveSource source;  ///< kNone: whoever drives
   FailsafeAction action;
-  double after_s;  ///< the condition must last this long
-  double clear_s;  ///< and be gone this long
+  double after_s;  ///< time that the condition must last before the action
+  double clear_s;  ///< time that the condition must be absent before the action ends
   std::string_view meaning;
   std::string_view cleared_by;
 };
 
-/// When silence is too long. The defaults are those of the table in README.md.
+/// Time limits of the conditions. The defaults are those of the table in README.md.
 struct FailsafeConfig {
   double wheels_silent_s = 0.2;
   double wheels_stuck_s = 1.0;
@@ -65,9 +65,9 @@ std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& con
 /// The rules as the table of README.md (Markdown).
 std::string FailsafeTable(const FailsafeConfig& config);
 
-/// What is wrong, for how long, and who drives.
+/// The conditions present, for how long, and the source of motion.
 struct FailsafeInputs {
-  /// For how long each condition has lasted; 0 when it is not present, Duration::max() when it has always
+  /// Time that each condition has lasted; 0 when it is not present, Duration::max() when it has always
   /// been.
   std::array<Duration, kConditions> lasting{};
   DriveSource source = DriveSource::kNone;

@@ -30,14 +30,14 @@ struct EchoMemoryConfig {
   double blind_m = 0.12;       ///< echoes up to here may come from nearer: sensors do not measure below 0.1 m
   double blind_as_m = 0.05;    ///< where such an echo is taken to come from
   double keep_s = 0.22;        ///< how long an echo counts that nothing newer replaces: two cycles at 10 Hz
-  double bridge_from_m = 0.5;  ///< neighbouring echoes nearer than this
-  double bridge_m = 0.4;       ///< and not farther apart than this are taken for one thing, see Bridges
+  double bridge_from_m = 0.5;  ///< range of neighbouring echoes up to which they may be one thing
+  double bridge_m = 0.4;       ///< largest distance between the two echoes of one thing, see Bridges
   NearMapConfig near_map;
 
   void Describe(Archive& a);
 };
 
-/// Which echoes are to be believed, and where that puts things around the base. A single echo may be
+/// Decides which echoes are believed, and where that puts things around the base. A single echo may be
 /// another sensor's sound, and a real one may be lost on a smooth surface. So an echo counts when a second
 /// one in the last three cycles, or a neighbour in the same cycle, agrees with it, or when it is very near;
 /// and it counts until its sensor hears another one or its cycle is forgotten. Odometry moves remembered

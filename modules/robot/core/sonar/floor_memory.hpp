@@ -33,8 +33,8 @@ struct FloorMemoryConfig {
   void Describe(Archive& a);
 };
 
-/// Where the floor is no floor: what is too low for the sonars, and steps down. The line lies two metres
-/// ahead and sees a place once, so it is kept until the base is far from it or has driven about for a minute.
+/// Obstacles on the floor that are too low for the sonars, and steps down. The line lies two metres ahead and
+/// passes a place once, so a place is kept until the base is far from it or has driven about for a minute.
 /// A thing begins somewhere between this line and the one before; the nearer end counts.
 class FloorMemory {
  public:
@@ -44,7 +44,7 @@ class FloorMemory {
   /// the one before.
   bool Add(const FloorLine& line, const Pose2& odom_from_base, Time now);
   void Forget(const Pose2& odom_from_base, Time now) { map_.Forget(odom_from_base, now); }
-  /// In the base frame.
+  /// The points that are kept, in the frame of `odom_from_base` [m].
   std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const {
     return map_.Points(odom_from_base);
   }

@@ -17,7 +17,7 @@
 
 namespace priamos::world {
 
-/// All that decides how a picture comes out; the world file's sections [light], [lens] and [head].
+/// Everything that determines a picture; the world file's sections [light], [lens] and [head].
 struct RendererConfig {
   SceneConfig scene;
   ImagingConfig imaging;
@@ -27,14 +27,15 @@ struct RendererConfig {
   void Describe(Archive& a);
 };
 
-/// From where a picture is taken, at one instant.
+/// Poses of base and head at one instant of the exposure.
 struct Viewpoint {
   Pose2 map_from_base;
   HeadAxes head;
 };
 
 /// Draws the world as the three cameras see it. To be used and destroyed in the thread that made it, whose
-/// OpenGL context it shares with its like. Throws std::runtime_error when no off-screen OpenGL is to be had.
+/// OpenGL context all Renderers of the thread share. Throws std::runtime_error when no off-screen OpenGL is
+/// to be had.
 class Renderer {
  public:
   /// `seed` decides textures; materials must be among MaterialNames(), else std::invalid_argument.
@@ -43,7 +44,7 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Another world, as if newly constructed.
+  /// Replaces the world, as if newly constructed.
   void SetScene(const RendererConfig& config, const std::vector<Solid>& solids, std::uint64_t seed);
   /// Moves the solid with this name (the door leaf); std::invalid_argument if there is none.
   void MoveSolid(const std::string& name, const Pose2& map_from_solid);

@@ -22,13 +22,13 @@ class LabelFit {
   /// Detections that lie where the view shows discs, within `share` of the spacing but at least `least_px`.
   std::vector<DiscLabel> Match(const PinholeView& view, double share, double least_px,
                                double size_ratio) const;
-  /// Fits the view to ever more labels, then judges the result strictly.
+  /// Fits the view to ever more labels; nullopt if the result fails the strict test.
   std::optional<Labelling> Grow(PinholeView view) const;
-  /// Whether so many labels are believed.
+  /// Whether a labelling with so many labels is accepted.
   bool Enough(std::size_t labels) const;
-  /// So many labels are needed.
+  /// Least number of labels of an accepted labelling.
   std::size_t Needed() const;
-  /// The most that any view has come to, for messages.
+  /// Largest number of labels that a view has reached, for messages.
   std::size_t most_labels() const { return most_labels_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace priamos::head {
 
-/// What one camera saw of the reference object at one setting.
+/// Discs of the reference object that one camera saw at one setting.
 struct HeadView {
   HeadSetting setting;
   int exposure = 0;  ///< views of the same exposure share where the axes truly stood
@@ -15,7 +15,7 @@ struct HeadView {
   std::vector<DiscObservation> discs;  ///< in the base frame
 };
 
-/// How well the drawing is known, and how well the motors return to a setting.
+/// Prior knowledge of the head: its drawing, the drawing's errors, and the repeatability of the motors.
 struct HeadKnowledge {
   HeadGeometry drawing;
   double length_sigma_m = 0.005, angle_sigma_rad = 0.02;
@@ -24,7 +24,7 @@ struct HeadKnowledge {
   LensKnowledge lens;
 };
 
-/// The calibrated head and what remained unexplained.
+/// The calibrated head and its residuals.
 struct HeadCalibration {
   HeadModel model;
   double mean_error_px = 0;                   ///< F over all views

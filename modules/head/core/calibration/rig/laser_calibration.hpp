@@ -15,15 +15,15 @@ struct StripeView {
   CameraModel camera;                  ///< at the exposure, in the base frame
   Eigen::Hyperplane<double, 3> board;  ///< in the base frame
   std::vector<StripePoint> points;
-  double board_sigma_m = 0.0005;  ///< how exactly the board stands there, across itself
+  double board_sigma_m = 0.0005;  ///< placement error of the board along its normal
 };
 
 /// The plane of the laser's light and how well it explains the lines.
 struct LaserCalibration {
   LaserPlane plane;
-  int points = 0, outliers = 0;      ///< used, and left out as other bright lines
+  int points = 0, outliers = 0;      ///< number of points used, and of those left out as other bright lines
   double rms_px = 0;                 ///< RMS residual of the points used
-  std::vector<double> view_rms_px;   ///< the same for each view
+  std::vector<double> view_rms_px;   ///< RMS residual of the points used, of each view
   std::vector<double> residuals_px;  ///< measured minus computed row of every point, view after view
 };
 
