@@ -75,7 +75,7 @@ void RobotOwner::Listen() {
     side->bus.Drain();
     for (const alarm_t& alarm : side->alarms.Drain()) {
       alarms_.push_back(AlarmText(alarm));
-      say_(alarms_.back());
+      announce_(alarms_.back());
     }
   }
   if (alarms_.size() > kMostAlarms)
