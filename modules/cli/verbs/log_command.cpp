@@ -110,8 +110,9 @@ int Index(const LogOptions& options) {
 int Copy(const LogOptions& options) {
   bus::LogReader reader(options.log);
   RequireNewFile(options.out, options.log, options.force);
-  bus::LogWriter writer(options.out);
+  // Before the writer, which empties the file: a refusal leaves it as it was.
   const auto selection = SelectionOf(options.selection, options.log);
+  bus::LogWriter writer(options.out);
   const auto copied = bus::CopyEvents(reader, selection, writer);
   writer.Flush();
   if (!writer.good()) throw std::runtime_error(options.out + ": cannot be written: is the disk full?");

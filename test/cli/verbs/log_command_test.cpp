@@ -1,0 +1,178 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "lcmtypes/channels.hpp"
+#include "test/cli/message_log.hpp"
+#include "test/cli/priamos_answer.hpp"
+#include "test/support/temporary_folder.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// Five poses at 4 Hz and one message of an unknown type.
+class LogCommand : public testing::Test {
+ protected:
+  LogCommand() {
+    MessageLog log(log_);
+    for (int i = 0; i < 5; ++i) {
+      pose_t pose{};
+      pose.x_m = i;
+      log.Add(0.25 * i, "POSE", pose);
+    }
+    log.AddBytes(2.0, "FOREIGN", std::vector<std::byte>(12, std::byte{7}));
+  }
+  /// The log with its bytes from `begin` on replaced by nonsense.
+  std::string Damaged(std::size_t begin, std::size_t size) {
+    std::string bytes = FileContent(log_);
+    bytes.replace(begin, size, size, '?');
+    const std::string file = folder_ / "damaged.lcmlog";
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file;
+  }
+  TemporaryFolder folder_;
+  std::string log_ = folder_ / "run.lcmlog";
+};
+
+TEST_F(LogCommand, InfoCountsEventsRatesAndUnknownTypes) {
+  const auto answer = Priamos({"log", "info", log_, "--json"});
+  EXPECT_EQ(answer.exit_code, 0);
+  const auto dut = json::parse(answer.out);
+  EXPECT_EQ(dut.at("file"), log_);
+  EXPECT_EQ(dut.at("events"), 6);
+  EXPECT_EQ(dut.at("size_bytes"), FileContent(log_).size());
+  EXPECT_EQ(dut.at("first_utime"), MessageLog::UtimeAt(0));
+  EXPECT_EQ(dut.at("last_utime"), MessageLog::UtimeAt(2));
+  EXPECT_EQ(dut.at("undecodable"), 1);
+  const auto& foreign = dut.at("channels").at(0);
+  EXPECT_EQ(foreign.at("types"), json::array({"?"}));
+  EXPECT_EQ(foreign.at("bytes"), 12);
+  const auto& pose = dut.at("channels").at(1);
+  EXPECT_EQ(pose.at("channel"), "POSE");
+  EXPECT_DOUBLE_EQ(pose.at("rate_hz"), 4) << "five events in four periods of 0.25 s";
+}
+
+TEST_F(LogCommand, InfoForAPersonHasADateAndALinePerChannel) {
+  const auto lines = LinesOf(Priamos({"log", "info", log_}).out);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_THAT(lines[0], HasSubstr("6 events in 2.0 s from 1970-01-01 00:16:40 UTC"));
+  EXPECT_THAT(lines[0], HasSubstr("no damage, no event missing"));
+  EXPECT_THAT(lines[3], AllOf(StartsWith("POSE "), HasSubstr("priamos.pose_t"), HasSubstr(" 4.00 ")));
+}
+
+TEST_F(LogCommand, InfoOfADamagedLogCountsTheLossAndExitsWithOne) {
+  const std::size_t event = 28 + 4 + 112;  // header, POSE, its 14 numbers of 8 bytes with the fingerprint
+  const auto answer = Priamos({"log", "info", Damaged(event, event), "--json"});
+  EXPECT_EQ(answer.exit_code, 1);
+  const auto dut = json::parse(answer.out);
+  EXPECT_EQ(dut.at("damaged_places"), 1);
+  EXPECT_EQ(dut.at("skipped_bytes"), event);
+  EXPECT_EQ(dut.at("missing_events"), 1);
+  EXPECT_THAT(Priamos({"log", "info", Damaged(event, event)}).out,
+              HasSubstr("1 damaged places, 144 bytes skipped, 1 events missing"));
+}
+
+TEST_F(LogCommand, IndexHasALinePerEventWithItsPlace) {
+  const auto answer = Priamos({"log", "index", log_});
+  EXPECT_EQ(answer.exit_code, 0);
+  const auto lines = LinesOf(answer.out);
+  ASSERT_EQ(lines.size(), 7u);
+  EXPECT_EQ(lines[0], "offset,number,utime,channel,bytes,type\r");
+  EXPECT_EQ(lines[1], "0,0,1000000000,\"POSE\",112,priamos.pose_t\r");
+  EXPECT_EQ(lines[2], "144,1,1000250000,\"POSE\",112,priamos.pose_t\r");
+  EXPECT_EQ(lines[6], "720,5,1002000000,\"FOREIGN\",12,?\r");
+}
+
+TEST_F(LogCommand, IndexAsJsonSaysTheSame) {
+  const auto lines = LinesOf(Priamos({"log", "index", log_, "--json"}).out);
+  ASSERT_EQ(lines.size(), 6u);
+  const auto second = json::parse(lines[1]);
+  EXPECT_EQ(second.at("offset"), 144);
+  EXPECT_EQ(second.at("type"), "priamos.pose_t");
+  EXPECT_EQ(json::parse(lines[5]).at("channel"), "FOREIGN");
+}
+
+TEST_F(LogCommand, FilterKeepsTheChosenChannelsAndTimes) {
+  const std::string out = folder_ / "some.lcmlog";
+  const auto answer = Priamos({"log", "filter", log_, out, "--channels", "PO*", "--from", "0.25", "--to",
+                               "0.75", "--rename", "POSE=POSE_OLD", "--json"});
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(json::parse(answer.out).at("events"), 2);
+  const auto events = EventsOf(out);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].channel, "POSE_OLD");
+  EXPECT_EQ(events[0].utime, MessageLog::UtimeAt(0.25)) << "the first time belongs to it";
+  EXPECT_EQ(events[1].utime, MessageLog::UtimeAt(0.5)) << "the last one does not";
+}
+
+TEST_F(LogCommand, FilterWithoutChannelsLeavesThemOut) {
+  const std::string out = folder_ / "some.lcmlog";
+  EXPECT_EQ(Priamos({"log", "filter", log_, out, "--without", "POSE"}).exit_code, 0);
+  ASSERT_EQ(EventsOf(out).size(), 1u);
+  EXPECT_EQ(EventsOf(out)[0].channel, "FOREIGN");
+}
+
+TEST_F(LogCommand, ARefusedFilterLeavesTheFileThatItWouldHaveReplaced) {
+  const std::string out = folder_ / "precious.lcmlog";
+  std::ofstream(out) << "precious";
+  const auto answer = Priamos({"log", "filter", log_, out, "--force", "--rename", "POSE"});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_EQ(answer.err, "priamos log filter: --rename: expected A=B, got \"POSE\"\n");
+  EXPECT_EQ(FileContent(out), "precious");
+}
+
+TEST_F(LogCommand, RepairKeepsEveryWholeEvent) {
+  const std::string out = folder_ / "mended.lcmlog";
+  const auto answer = Priamos({"log", "repair", Damaged(144, 144), out});
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(answer.out, out + ": 5 events; 1 damaged places with 144 bytes left out\n");
+  EXPECT_EQ(EventsOf(out).size(), 5u);
+  EXPECT_EQ(Priamos({"log", "info", out}).exit_code, 0) << "what was mended is whole";
+}
+
+TEST_F(LogCommand, WhatIsThereIsReplacedOnlyByForce) {
+  const std::string out = folder_ / "there.lcmlog";
+  std::ofstream(out) << "there";
+  for (const char* verb : {"filter", "repair"}) {
+    const auto answer = Priamos({"log", verb, log_, out});
+    EXPECT_EQ(answer.exit_code, 2) << verb;
+    EXPECT_THAT(answer.err, HasSubstr("there.lcmlog: expected a new file, got an existing one; --force"));
+    EXPECT_EQ(FileContent(out), "there") << verb;
+  }
+  EXPECT_EQ(Priamos({"log", "repair", log_, out, "--force"}).exit_code, 0);
+  EXPECT_EQ(EventsOf(out).size(), 6u);
+}
+
+TEST_F(LogCommand, NoVerbWritesIntoTheLogThatItReads) {
+  const std::string before = FileContent(log_);
+  const std::vector<std::vector<std::string>> lines{
+      {"log", "filter", log_, log_, "--force"},
+      {"log", "repair", log_, log_, "--force"},
+      {"log", "index", log_, "--out", log_, "--force"},
+      {"log", "export", log_, "jsonl", "--out", log_, "--force"}};
+  for (const auto& line : lines) {
+    const auto answer = Priamos(line);
+    EXPECT_EQ(answer.exit_code, 2) << line[1];
+    EXPECT_THAT(answer.err, HasSubstr("expected another file than the one that is read")) << line[1];
+  }
+  EXPECT_EQ(FileContent(log_), before);
+}
+
+TEST_F(LogCommand, AMissingLogAndAWrongFormatAreNamed) {
+  const auto missing = Priamos({"log", "info", folder_ / "none.lcmlog"});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, AllOf(HasSubstr("log: expected an existing file"), HasSubstr("none.lcmlog")));
+  const auto format = Priamos({"log", "export", log_, "cvs"});
+  EXPECT_EQ(format.exit_code, 2);
+  EXPECT_THAT(format.err, AllOf(HasSubstr("csv"), HasSubstr("jsonl"), HasSubstr("mcap"),
+                                HasSubstr("got \"cvs\""), HasSubstr("nearest: \"csv\"")));
+}
+
+}  // namespace
+}  // namespace priamos::cli
