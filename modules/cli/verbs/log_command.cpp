@@ -85,6 +85,13 @@ int Info(const LogOptions& options) {
   return survey.whole() ? 0 : kDamaged;
 }
 
+/// A cell of a table in CSV (RFC 4180): a quote inside is doubled.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
 int Index(const LogOptions& options) {
   const bus::Schema schema = LoadTypes(options.bus);
   bus::LogReader reader(options.log);
@@ -100,8 +107,8 @@ int Index(const LogOptions& options) {
                    << "\n";
       continue;
     }
-    out.stream() << fmt::format("{},{},{},\"{}\",{},{}\r\n", event->offset, event->number, event->utime,
-                                event->channel, event->bytes.size(), type_name);
+    out.stream() << fmt::format("{},{},{},{},{},{}\r\n", event->offset, event->number, event->utime,
+                                Quoted(event->channel), event->bytes.size(), type_name);
   }
   return out.Close();
 }

@@ -98,6 +98,12 @@ TEST_F(LogCommand, IndexAsJsonSaysTheSame) {
   EXPECT_EQ(json::parse(lines[5]).at("channel"), "FOREIGN");
 }
 
+TEST_F(LogCommand, IndexDoublesAQuoteInTheNameOfAChannel) {
+  const std::string log = folder_ / "quotes.lcmlog";
+  MessageLog(log).Add(0, "A\"B", pose_t{});
+  EXPECT_THAT(LinesOf(Priamos({"log", "index", log}).out).at(1), HasSubstr(",\"A\"\"B\",")) << "RFC 4180";
+}
+
 TEST_F(LogCommand, FilterKeepsTheChosenChannelsAndTimes) {
   const std::string out = folder_ / "some.lcmlog";
   const auto answer = Priamos({"log", "filter", log_, out, "--channels", "PO*", "--from", "0.25", "--to",
