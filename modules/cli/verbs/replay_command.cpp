@@ -102,7 +102,7 @@ void AddReplayCommand(CLI::App& cli, int& exit_code) {
       "Exact for robot and planner in logs of lockstep runs; the log of a live bus has the recorder's "
       "times,\n"
       "and what head, world, radio and teleop send comes from more than messages.\n"
-      "Example: priamos replay verify logs/recorded/door-robot.lcmlog --module robot");
+      "Example: priamos replay verify logs/recorded/door-onboard.lcmlog --module robot");
   verb->add_option("log", options->log, "LCM log")->required()->check(CLI::ExistingFile);
   verb->add_option("--module", options->module, "whose messages to compare")
       ->required()
