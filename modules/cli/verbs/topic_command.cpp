@@ -164,8 +164,8 @@ CLI::App* AddVerb(CLI::App& topic, const char* name, const char* help, const cha
 
 void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_channel,
                   const std::shared_ptr<TopicOptions>& options, int& exit_code) {
-  auto* verb = AddVerb(topic, name, help,
-                       one_channel ? "priamos topic hz POSE" : "priamos topic list --watch", *options);
+  const std::string example = fmt::format("priamos topic {} {}", name, one_channel ? "POSE" : "--watch");
+  auto* verb = AddVerb(topic, name, help, example.c_str(), *options);
   if (one_channel) AddChannelArgument(*verb, options->channel);
   verb->add_option("--seconds", options->seconds, "how long to listen")
       ->capture_default_str()
