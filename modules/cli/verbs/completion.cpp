@@ -90,7 +90,7 @@ std::vector<std::string> Completions(const CLI::App& cli, const std::vector<std:
     } else if (const auto* sub = Subcommand(*app, words[i])) {
       app = sub;
       positionals = 0;
-    } else {
+    } else if (!words[i].starts_with("-")) {  // an option with its value in the same word is no argument
       ++positionals;
     }
   }

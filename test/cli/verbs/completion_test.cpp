@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/verbs/commands.hpp"
+#include "test/cli/priamos_answer.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -54,6 +55,31 @@ TEST_F(Completion, LimitedValues) {
   EXPECT_THAT(Of({"replay", "verify", "a", "--module", "ro"}), ElementsAre("robot"));
 }
 
+TEST_F(Completion, AnOptionBeforeAnArgumentTakesNoneOfItsPlaces) {
+  for (const Words& option : {Words{"--bus", "onboard"}, Words{"--bus=onboard"}, Words{"--json"}}) {
+    Words words{"topic", "echo"};
+    words.insert(words.end(), option.begin(), option.end());
+    words.emplace_back("POSE_");
+    EXPECT_THAT(Of(words), ElementsAre("POSE_CORRECTION")) << option.front();
+  }
+}
+
+TEST_F(Completion, AnOptionThatWantsAValueIsNotFollowedByAnOption) {
+  EXPECT_THAT(Of({"log", "filter", "a", "b", "--without", "WHEEL_C"}), ElementsAre("WHEEL_COMMAND"));
+  EXPECT_THAT(Of({"topic", "list", "--seconds", ""}), IsEmpty());
+}
+
+TEST_F(Completion, BehindTheLastArgumentComeTheOptions) {
+  EXPECT_THAT(Of({"topic", "hz", "POSE", ""}), testing::IsSupersetOf({"--watch", "--seconds"}));
+  EXPECT_THAT(Of({"topic", "hz", "POSE", ""}), Not(Contains("POSE")));
+}
+
+TEST_F(Completion, WithoutAWordEveryVerbIsOffered) {
+  EXPECT_THAT(Of({}),
+              testing::IsSupersetOf({"completion", "doctor", "log", "replay", "run", "topic", "type"}));
+  EXPECT_EQ(Of({}), Of({""}));
+}
+
 TEST_F(Completion, FilesAreTheShells) {
   EXPECT_THAT(Of({"log", "info", ""}), IsEmpty());
   EXPECT_THAT(Of({"topic", "list", "--types", ""}), IsEmpty());
@@ -85,6 +111,22 @@ TEST_F(Completion, EveryVerbThatLooksAtABusOrALogHasJson) {
     for (const auto* verb : cli_.get_subcommand(name)->get_subcommands([](const CLI::App*) { return true; }))
       EXPECT_NE(verb->get_option_no_throw("--json"), nullptr) << name << " " << verb->get_name();
   EXPECT_NE(cli_.get_subcommand("doctor")->get_option_no_throw("--json"), nullptr);
+}
+
+TEST(Shells, AskForWordsAndTakeTheScriptFromPriamos) {
+  const std::pair<const char*, std::string> scripts[] = {
+      {"bash", BashCompletion()}, {"zsh", ZshCompletion()}, {"fish", FishCompletion()}};
+  for (const auto& [shell, script] : scripts) {
+    EXPECT_THAT(script, testing::HasSubstr("completion words -- ")) << shell;
+    const auto answer = Priamos({"completion", shell});
+    EXPECT_EQ(answer.exit_code, 0) << shell;
+    EXPECT_EQ(answer.out, script);
+  }
+}
+
+TEST(Shells, AreAnsweredWithAWordPerLine) {
+  EXPECT_EQ(Priamos({"completion", "words", "--", "log", "re"}).out, "record\nrepair\n");
+  EXPECT_EQ(Priamos({"completion", "words", "--", "nonsense"}).out, "");
 }
 
 TEST(BashCompletion, AsksUs) {
