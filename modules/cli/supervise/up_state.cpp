@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -40,9 +42,11 @@ ProcessState StateOf(const std::string& text) {
 UpLock::UpLock(const std::string& log_root) : file_(LockFile(log_root)) {
   fs::create_directories(log_root);
   fd_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (fd_ < 0 || flock(fd_, LOCK_EX | LOCK_NB) != 0) {
+  if (fd_ < 0)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", file_, std::strerror(errno)));
+  if (flock(fd_, LOCK_EX | LOCK_NB) != 0) {
     const auto holder = Holder(log_root);
-    if (fd_ >= 0) close(fd_);
+    close(fd_);
     throw std::runtime_error(
         fmt::format("{}: expected nothing up, got `priamos up` with pid {}: `priamos down` ends it", log_root,
                     holder.value_or(0)));

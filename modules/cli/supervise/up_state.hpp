@@ -16,7 +16,7 @@ namespace priamos::cli {
 /// `up` per folder: a lock shows whether one runs, so a dead one is never taken for alive.
 class UpLock {
  public:
-  /// Throws std::runtime_error with one sentence when another `up` has the folder.
+  /// Throws std::runtime_error with one sentence when another `up` has the folder, or it cannot be written.
   explicit UpLock(const std::string& log_root);
   ~UpLock();
   UpLock(const UpLock&) = delete;
