@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "lcmtypes/channels.hpp"
+#include "test/cli/message_log.hpp"
+#include "test/cli/priamos_answer.hpp"
+#include "test/support/temporary_folder.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kLink = PRIAMOS_SOURCE_DIR "/config/sim/link.toml";
+
+/// Channels whose load the line can carry, or cannot.
+std::string LinkToml(double rate_hz) {
+  return fmt::format(
+      "baud = 9600\nsimulation_key = true\n[[channel]]\nname = \"POSE\"\ntype = \"pose_t\"\n"
+      "direction = \"up\"\nclass = \"state\"\nrate_hz = {}\npriority = 3\n",
+      rate_hz);
+}
+
+class LinkCommand : public testing::Test {
+ protected:
+  std::string Write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(LinkCommand, BitsOfTheFieldsAddUpToThoseOfTheMessage) {
+  for (const std::string type : {"estop_t", "pose_t", "drive_status_t"}) {
+    const auto dut = json::parse(Priamos({"link", "bits", type, "--json"}).out);
+    EXPECT_EQ(dut.at("type"), "priamos." + type);
+    std::size_t sum = 0;
+    for (const json& field : dut.at("fields")) sum += field.at("bits").get<std::size_t>();
+    EXPECT_EQ(dut.at("max_bits"), sum) << "no field varies in number here: " << type;
+  }
+}
+
+TEST_F(LinkCommand, AFieldTakesTheBitsThatItsRangeAndStepNeed) {
+  for (const json& field : json::parse(Priamos({"link", "bits", "pose_t", "--json"}).out).at("fields")) {
+    if (field.at("name") == "x_m") {
+      EXPECT_EQ(field.at("bits"), 15) << "-100 to 100 by 0.01: 20001 values";
+      EXPECT_EQ(field.at("unit"), "m");
+    }
+    if (field.at("name") == "rho_x_y") {
+      EXPECT_EQ(field.at("bits"), 7) << "-1 to 1 by 0.02: 101 values";
+    }
+  }
+}
+
+TEST_F(LinkCommand, BitsForAPersonNameEveryField) {
+  const auto answer = Priamos({"link", "bits", "estop_t"});
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("utime"), HasSubstr("action"), HasSubstr("driver")));
+}
+
+TEST_F(LinkCommand, BitsOfAnUnknownTypeAreRefusedWithTheNearest) {
+  const auto answer = Priamos({"link", "bits", "pos_t"});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("unknown type \"pos_t\"; nearest: \"pose_t\""));
+}
+
+TEST_F(LinkCommand, ATypeWithoutAnnotationsHasNoBits) {
+  Write("their_t.lcm", "package their;\nstruct their_t {\n  double speed;\n}\n");
+  const auto answer = Priamos({"link", "bits", "their_t", "--types", folder_.path()});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("their_t.lcm:3"), HasSubstr("speed")));
+}
+
+TEST_F(LinkCommand, TheShippedBudgetHoldsAndItsSharesAddUp) {
+  const auto answer = Priamos({"link", "budget", kLink, "--json"});
+  EXPECT_EQ(answer.exit_code, 0);
+  const auto dut = json::parse(answer.out);
+  EXPECT_TRUE(dut.at("problems").empty());
+  for (const char* way : {"up", "down"}) {
+    const json& direction = dut.at(way);
+    double sum = direction.at("control_bytes_per_s");
+    for (const json& channel : direction.at("channels")) {
+      sum += channel.at("bytes_per_s").get<double>();
+      if (channel.at("deadline_s").is_null()) continue;
+      EXPECT_LE(channel.at("worst_latency_s"), channel.at("deadline_s")) << channel.at("channel");
+    }
+    EXPECT_NEAR(direction.at("bytes_per_s"), sum, 1e-6) << way;
+    EXPECT_NEAR(
+        direction.at("utilisation").get<double>() * direction.at("capacity_bytes_per_s").get<double>(), sum,
+        1e-6);
+  }
+}
+
+TEST_F(LinkCommand, ABudgetThatDoesNotHoldIsExitCodeOneWithTheReason) {
+  const std::string file = Write("link.toml", LinkToml(1000));
+  const auto answer = Priamos({"link", "budget", file, "--json"});
+  EXPECT_EQ(answer.exit_code, 1);
+  const auto dut = json::parse(answer.out);
+  EXPECT_FALSE(dut.at("problems").empty());
+  EXPECT_GT(dut.at("up").at("utilisation"), 1);
+  EXPECT_EQ(dut.at("up").at("channels").at(0).at("deadline_s"), nullptr) << "none was asked for";
+  EXPECT_EQ(Priamos({"link", "budget", Write("slow.toml", LinkToml(1))}).exit_code, 0);
+}
+
+TEST_F(LinkCommand, ALinkTomlThatIsWrongIsNamedWithLineAndKey) {
+  const std::string file = Write("link.toml", "baud = 9600\nbauds = 3\n");
+  const auto answer = Priamos({"link", "budget", file});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("link.toml:2"), HasSubstr("bauds")));
+  EXPECT_EQ(Priamos({"link", "budget", folder_ / "none.toml"}).exit_code, 2);
+}
+
+TEST_F(LinkCommand, ANewKeyIsForItsOwnerAloneAndNeverTwiceTheSame) {
+  const std::string first = folder_ / "a.key", second = folder_ / "b.key";
+  EXPECT_EQ(json::parse(Priamos({"link", "keygen", first, "--json"}).out), json({{"file", first}}));
+  EXPECT_THAT(Priamos({"link", "keygen", second}).out, StartsWith(second + ": new key; copy it"));
+  struct stat info {};
+  ASSERT_EQ(stat(first.c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0600u);
+  EXPECT_EQ(FileContent(first).size(), 65u) << "64 hexadecimal digits and a line feed";
+  EXPECT_NE(FileContent(first), FileContent(second));
+}
+
+TEST_F(LinkCommand, AKeyThatIsThereIsKept) {
+  const std::string file = Write("a.key", "precious");
+  EXPECT_EQ(Priamos({"link", "keygen", file}).exit_code, 2);
+  EXPECT_EQ(FileContent(file), "precious");
+}
+
+TEST_F(LinkCommand, WhatAnEmulatedLineCannotBeIsRefused) {
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"--baud", "299"},         {"--latency", "10.1"},          {"--bit-error-rate", "0.6"},
+      {"--duplicate", "1.5"},    {"--burst-rate", "-1"},         {"--turnaround", "2"},
+      {"--air-rate", "2000000"}, {"--burst-error-rate", "-0.1"}, {"--jitter", "nan"}};
+  for (const auto& [option, value] : wrong) {
+    const auto answer =
+        Priamos({"link", "emulate", "--a", folder_ / "a", "--b", folder_ / "b", option, value});
+    EXPECT_EQ(answer.exit_code, 2) << option;
+    EXPECT_THAT(answer.err, AllOf(StartsWith("priamos link emulate: " + option + ": expected a"),
+                                  HasSubstr("got \"" + value + "\"")));
+  }
+}
+
+TEST_F(LinkCommand, TopAndListenSayForHowLong) {
+  for (const char* seconds : {"-1", "86401"}) {
+    const auto answer = Priamos({"link", "listen", "SONAR_RANGES", "--for", seconds, "--bus", "memq://"});
+    EXPECT_EQ(answer.exit_code, 2) << seconds;
+    EXPECT_THAT(answer.err, HasSubstr("--for: expected a number, 0 to 86400"));
+  }
+}
+
+class LinkOnABus : public LinkCommand {
+ protected:
+  LinkOnABus() {
+    for (int i = 0; i < 40; ++i) Report(0.1 * i, 10 + i);
+  }
+  void Report(double t_s, int messages) {
+    link_status_t report{};
+    report.up = report.onboard = true;
+    report.all_channels = report.n_channels = 1;
+    link_channel_t channel{};
+    channel.channel = "POSE";
+    channel.outgoing = true;
+    channel.messages = messages;
+    report.channels = {channel};
+    log_.Add(t_s, "LINK_STATUS", report);
+  }
+  MessageLog log_{folder_ / "bus.lcmlog"};
+};
+
+TEST_F(LinkOnABus, TopOnceEndsWhenTheRatesAreKnown) {
+  const auto answer = Priamos({"link", "top", "--once", "--json", "--bus", log_.url()});
+  EXPECT_EQ(answer.exit_code, 0);
+  const auto lines = LinesOf(answer.out);
+  ASSERT_EQ(lines.size(), 1u);
+  const auto dut = json::parse(lines[0]);
+  EXPECT_TRUE(dut.at("heard"));
+  EXPECT_EQ(dut.at("channels").at(0).at("channel"), "POSE");
+  EXPECT_TRUE(dut.at("channels").at(0).at("messages_per_s").is_number());
+}
+
+TEST_F(LinkOnABus, TopOnceForAPersonIsAScreen) {
+  EXPECT_THAT(Priamos({"link", "top", "--once", "--bus", log_.url()}).out,
+              StartsWith("radio link, onboard end: up\n"));
+}
+
+}  // namespace
+}  // namespace priamos::cli
