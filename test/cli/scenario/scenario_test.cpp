@@ -1,0 +1,111 @@
+#include "cli/scenario/scenario.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "test/support/temporary_folder.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string Refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+Scenario Parsed(const std::string& text) {
+  return ParseConfig<Scenario>("walk.toml", text);
+}
+
+class ScenarioFolder : public testing::Test {
+ protected:
+  ScenarioFolder() {
+    std::filesystem::create_directory(folder_ / "scenarios");
+    for (const char* name : {"walk.toml", "door.toml", "notes.txt"})
+      std::ofstream(folder_ / "scenarios" / name) << "title = \"" << name << "\"\n";
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ScenarioFolder, AScenarioIsLoadedByItsName) {
+  EXPECT_EQ(LoadScenario(folder_.path(), "walk").title, "walk.toml");
+}
+
+TEST_F(ScenarioFolder, AnUnknownOneIsAnsweredWithTheKnownOnesInOrder) {
+  EXPECT_EQ(Refusal([&] { LoadScenario(folder_.path(), "dor"); }),
+            (folder_ / "scenarios").string() +
+                ": expected a scenario (door, walk), got \"dor\"; nearest: \"door\"");
+}
+
+TEST_F(ScenarioFolder, NoNameLeadsOutOfTheFolder) {
+  std::ofstream(folder_ / "outside.toml") << "title = \"outside\"\n";
+  EXPECT_THAT(Refusal([&] { LoadScenario(folder_.path(), "../outside"); }), HasSubstr("got \"../outside\""));
+}
+
+TEST_F(ScenarioFolder, AFolderWithoutScenariosIsRefusedInTheSameWords) {
+  EXPECT_THAT(Refusal([] { LoadScenario("/no/such/folder", "door"); }),
+              HasSubstr("/no/such/folder/scenarios: expected a scenario (), got \"door\""));
+}
+
+TEST_F(ScenarioFolder, TheMapIsThatOfTheDeployment) {
+  Scenario scenario;
+  scenario.map = "maps/door.toml";
+  EXPECT_EQ(MapFile("config/sim", scenario), "config/sim/maps/door.toml");
+}
+
+TEST(ScenarioFile, WhatIsLeftOutKeepsItsDefault) {
+  const Scenario dut = Parsed("title = \"nothing\"\n"), none;
+  EXPECT_EQ(dut.story, none.story);
+  EXPECT_EQ(dut.landmark_id, none.landmark_id);
+  EXPECT_EQ(dut.time_limit_s, none.time_limit_s);
+  EXPECT_TRUE(dut.processes.empty());
+  EXPECT_FALSE(dut.fast);
+}
+
+TEST(ScenarioFile, ProcessesAndWaypointsKeepTheirOrder) {
+  const Scenario dut = Parsed(
+      "[[process]]\nmodule = \"world\"\nbus = \"onboard\"\nconfig = \"world.toml\"\n"
+      "[[process]]\nmodule = \"radio\"\nbus = \"offboard\"\nconfig = \"radio.toml\"\nset = "
+      "\"side=offboard\"\n"
+      "[[waypoint]]\nx_m = 1.5\n[[waypoint]]\ny_m = -2.0\nyaw_deg = 90.0\n");
+  ASSERT_EQ(dut.processes.size(), 2u);
+  EXPECT_EQ(dut.processes[0].module, "world");
+  EXPECT_EQ(dut.processes[1].bus, "offboard");
+  EXPECT_EQ(dut.processes[1].set, "side=offboard");
+  ASSERT_EQ(dut.waypoints.size(), 2u);
+  EXPECT_EQ(dut.waypoints[0].x_m, 1.5);
+  EXPECT_EQ(dut.waypoints[1].yaw_deg, 90);
+}
+
+TEST(ScenarioFile, ValuesOutsideTheirBoundsAreRefusedWithLineAndKey) {
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"landmark_id = 1000\n", "walk.toml:1:landmark_id"},
+      {"landmark_id = -1\n", "walk.toml:1:landmark_id"},
+      {"time_limit_s = 0.5\n", "walk.toml:1:time_limit_s"},
+      {"astray_deg = 91\n", "walk.toml:1:astray_deg"},
+      {"shake_s = 0\n", "walk.toml:1:shake_s"},
+      {"longest_stop_s = -1\n", "longest_stop_s"},
+      {"[[process]]\nmodule = \"wheels\"\n", "module"},
+      {"[[process]]\nbus = \"yellow\"\n", "bus"},
+      {"[[process]]\nwatchdog_s = 0.4\n", "watchdog_s"},
+      {"[[waypoint]]\nyaw_deg = 181\n", "yaw_deg"}};
+  for (const auto& [text, place] : wrong)
+    EXPECT_THAT(Refusal([&] { Parsed(text); }), HasSubstr(place)) << text;
+}
+
+TEST(ScenarioFile, AnUnknownKeyIsNamed) {
+  EXPECT_THAT(Refusal([] { Parsed("titel = \"x\"\n"); }),
+              AllOf(HasSubstr("walk.toml:1"), HasSubstr("titel")));
+}
+
+}  // namespace
+}  // namespace priamos::cli
