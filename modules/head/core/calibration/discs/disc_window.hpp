@@ -13,7 +13,7 @@ namespace priamos::head {
 inline constexpr double kRimReach_px = 2.5;  ///< beyond the half-level rim: where a sharp rim has faded
 inline constexpr double kPixelVariance = 1.0 / 12;  ///< variance of light spread over a pixel [px^2]
 
-/// Grown by `px` along both semi-axes.
+/// Grown in proportion, by `px` at the mean of both semi-axes.
 Ellipse Grown(const Ellipse& ellipse, double px);
 
 /// Pixels from (u0, v0) to (u1, v1), both included.

@@ -7,15 +7,13 @@
 #include "common/geometry.hpp"
 #include "test/support/calibration_scene.hpp"
 #include "test/support/disc_renderer.hpp"
+#include "test/support/ellipses.hpp"
 
 namespace priamos::head {
 namespace {
 
+using support::CircleAt;
 using support::DiscRenderer;
-
-Ellipse Circle(double u, double v, double radius) {
-  return {{u, v}, radius * radius * Eigen::Matrix2d::Identity()};
-}
 
 /// RMS of the distance between true and measured centre over `n` exposures; all must be found.
 double CentreRms(int n, double radius, double tilt_rad, const support::Exposure& exposure) {
@@ -23,11 +21,8 @@ double CentreRms(int n, double radius, double tilt_rad, const support::Exposure&
   double squares = 0;
   for (int i = 0; i < n; ++i) {
     const Eigen::Vector2d centre(48 + rng.Uniform(-0.5, 0.5), 48 + rng.Uniform(-0.5, 0.5));
-    const Eigen::Rotation2Dd turn(rng.Uniform(0, kPi));
-    Ellipse ellipse{centre, Eigen::Matrix2d::Identity()};
-    const double minor = radius * std::cos(tilt_rad);
-    const Eigen::Matrix2d axes = Eigen::Vector2d(radius * radius, minor * minor).asDiagonal();
-    ellipse.shape_px2 = turn.toRotationMatrix() * axes * turn.toRotationMatrix().transpose();
+    const Ellipse ellipse =
+        support::EllipseAt(centre, radius, radius * std::cos(tilt_rad), rng.Uniform(0, kPi));
     DiscRenderer scene(96, 96, 20, 3);
     scene.AddEllipse(ellipse, 200);
     const auto found = DetectDiscs(scene.Expose(exposure, rng));
@@ -58,7 +53,7 @@ TEST(DiscDetection, ShadingDoesNotShiftTheCentre) {
   Rng rng(1);
   DiscRenderer dark(96, 96, 40, 3);
   dark.AddSlope({0.3, -0.2});
-  dark.AddEllipse(Circle(48.2, 47.9, 9), 150);
+  dark.AddEllipse(CircleAt(48.2, 47.9, 9), 150);
   const auto found = DetectDiscs(dark.Expose({0.7, 0}, rng));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_LT((found[0].ellipse.centre_px - Eigen::Vector2d(48.2, 47.9)).norm(), 0.006);
@@ -67,7 +62,7 @@ TEST(DiscDetection, ShadingDoesNotShiftTheCentre) {
 TEST(DiscDetection, SaturationDoesNotShiftTheCentre) {
   Rng rng(1);
   DiscRenderer scene(96, 96, 40, 3);
-  scene.AddEllipse(Circle(48.2, 47.9, 9), 400);
+  scene.AddEllipse(CircleAt(48.2, 47.9, 9), 400);
   const auto found = DetectDiscs(scene.Expose({0.7, 2}, rng));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_LT((found[0].ellipse.centre_px - Eigen::Vector2d(48.2, 47.9)).norm(), 0.02);
@@ -76,7 +71,7 @@ TEST(DiscDetection, SaturationDoesNotShiftTheCentre) {
 TEST(DiscDetection, ReportsShapeLevelsAndItsOwnPrecision) {
   Rng rng(5);
   DiscRenderer scene(96, 96, 30, 3);
-  scene.AddEllipse(Circle(48, 48, 12), 160);
+  scene.AddEllipse(CircleAt(48, 48, 12), 160);
   const auto found = DetectDiscs(scene.Expose({0.8, 2}, rng));
   ASSERT_EQ(found.size(), 1u);
   const DetectedDisc& dut = found[0];
@@ -92,7 +87,7 @@ TEST(DiscDetection, GainAndOffsetOfTheCameraDoNotMatter) {
   Rng rng(2);
   for (const double amplitude : {40.0, 90.0, 200.0}) {
     DiscRenderer scene(96, 96, 50, 2);
-    scene.AddEllipse(Circle(40, 50, 8), amplitude);
+    scene.AddEllipse(CircleAt(40, 50, 8), amplitude);
     EXPECT_EQ(DetectDiscs(scene.Expose({0.7, 2}, rng)).size(), 1u) << amplitude;
   }
 }
@@ -100,12 +95,12 @@ TEST(DiscDetection, GainAndOffsetOfTheCameraDoNotMatter) {
 TEST(DiscDetection, RejectsWhatIsNotAnEllipse) {
   Rng rng(2);
   DiscRenderer scene(400, 200, 30, 2);
-  scene.AddRectangle(20, 20, 60, 60, 150);      // a square
-  scene.AddRectangle(100, 20, 104, 180, 150);   // a stripe
-  scene.AddRectangle(150, 0, 399, 60, 150);     // a wall at the border
-  scene.AddEllipse(Circle(2, 100, 10), 150);    // cut by the border
-  scene.AddEllipse(Circle(200, 120, 10), 150);  // two that touch
-  scene.AddEllipse(Circle(217, 122, 10), 150);
+  scene.AddRectangle(20, 20, 60, 60, 150);        // a square
+  scene.AddRectangle(100, 20, 104, 180, 150);     // a stripe
+  scene.AddRectangle(150, 0, 399, 60, 150);       // a wall at the border
+  scene.AddEllipse(CircleAt(2, 100, 10), 150);    // cut by the border
+  scene.AddEllipse(CircleAt(200, 120, 10), 150);  // two that touch
+  scene.AddEllipse(CircleAt(217, 122, 10), 150);
   EXPECT_TRUE(DetectDiscs(scene.Expose({0.7, 2}, rng)).empty());
 }
 
@@ -113,7 +108,7 @@ TEST(DiscDetection, RejectsAHalfHiddenDisc) {
   Rng rng(2);
   for (double covered_px = 2; covered_px < 20; covered_px += 1.5) {
     DiscRenderer scene(96, 96, 30, 3);
-    scene.AddEllipse(Circle(48, 48, 12), 150);
+    scene.AddEllipse(CircleAt(48, 48, 12), 150);
     scene.Cover(0, 0, 36 + covered_px, 95, 30);
     for (const DetectedDisc& disc : DetectDiscs(scene.Expose({0.7, 2}, rng))) {
       ADD_FAILURE() << "covered " << covered_px << " px: taken for a disc, misfit " << disc.residual;
