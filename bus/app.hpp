@@ -13,11 +13,12 @@
 
 namespace priamos::bus {
 
-/// What a module's App offers. It runs unchanged in real time, in lockstep and from a log. It may offer more:
+/// The interface of a module's App. It runs unchanged in real time, in lockstep and from a log. Optional
+/// members:
 ///
 ///     static constexpr bool kOneOwner = true;     a second one of the same robot does not start on its bus
-///     static constexpr auto kSpeaksAlone = ...;   names of channels: it does not run beside others who speak
-///     them void Yield(Time now);                       its last act when another process has its role
+///     static constexpr auto kSpeaksAlone = ...;   channels on which nobody else may send: else it does not
+///     run void Yield(Time now);                       its last act when another process has its role
 template <class T>
 concept App = requires(T app, const typename T::Config& config, Context& context, Time now) {
   { T::kName } -> std::convertible_to<std::string_view>;

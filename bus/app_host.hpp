@@ -18,7 +18,8 @@ class AppHost {
 
   const std::string& name() const { return name_; }
   Time next_tick() const { return next_tick_; }
-  /// Ticks when one is due at `now`. A tick that comes over a period late is counted, and not made up for.
+  /// Ticks if a tick is due at `now`. A tick more than a period late is counted; those missed are not
+  /// repeated.
   void Step(Time now);
   /// The App's last act when another process has its role.
   void Yield(Time now) { app_->Yield(now); }

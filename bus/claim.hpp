@@ -36,7 +36,7 @@ struct ClaimWord {
 /// The last message of a process that was just killed may still be in transit: who asks gives up only when a
 /// holder is heard again kConfirm later, and asks on until nothing was heard of it for kAskFor.
 ///
-/// A process that stood still for kLapse may have lost its role to somebody who asked meanwhile: it begins
+/// A process that stood still for kLapse may have lost its role to a process that asked meanwhile: it begins
 /// anew at age 0, and messages that arrived meanwhile must be thrown away (see Touch).
 class Claim {
  public:
@@ -48,15 +48,15 @@ class Claim {
   static constexpr Duration kConfirm{20'000};
   static constexpr Duration kAnnounce{200'000};
   static constexpr Duration kLapse{1'000'000};
-  /// A rival that is silent for so long is gone, and the age runs on.
+  /// Silence after which a rival counts as gone, and the age increases again.
   static constexpr Duration kForget{2'000'000};
-  /// Answers to others come no faster than this.
+  /// Shortest time between two answers to others.
   static constexpr Duration kAnswer{10'000};
 
   /// Asks from `now` on, for `ask_for`.
   Claim(Claimant self, Time now, Duration ask_for = kAskFor);
 
-  /// To be called whenever the process runs, before anything is heard. Returns true when it stood still for
+  /// To be called whenever the process runs, before it takes messages. Returns true when it stood still for
   /// kLapse: everything that came meanwhile is out of date and has to be thrown away.
   bool Touch(Time now);
   /// Takes a claimant's message; the process's own ones come back from the bus and are not counted.
@@ -68,7 +68,7 @@ class Claim {
 
   State state() const { return state_; }
   const Claimant& self() const { return self_; }
-  /// Who refused it, or made it yield.
+  /// The claimant that refused this one, or made it yield.
   const std::optional<ClaimWord>& winner() const { return winner_; }
   /// A process that held the same role and has to yield; each is returned once.
   std::optional<ClaimWord> TakeLoser();

@@ -79,7 +79,7 @@ void ClaimKeeper::Run() {
     Say();
     Wait();
     Listen();
-    if (TellLoss()) return;
+    if (ReportLoss()) return;
   }
 }
 
@@ -164,7 +164,7 @@ void ClaimKeeper::Lose(const std::string& why) {
 }
 
 /// Returns whether the role is lost.
-bool ClaimKeeper::TellLoss() {
+bool ClaimKeeper::ReportLoss() {
   const Time now = clock_.Now();
   if (const auto loser = claim_.TakeLoser())
     Alarm(alarm_t::WARNING, fmt::format("two held one role and this one goes on; the other has to yield: {}",

@@ -19,7 +19,7 @@ namespace priamos::bus {
 class LcmBus;
 class Schema;
 
-/// What a process has for itself besides its role.
+/// Exclusive rights that a process claims besides its role.
 struct ClaimTerms {
   std::vector<std::string> speaks_alone;  ///< channels on which nobody else may send
   /// How long it asks, and listens for other senders on them: the slowest device channel comes ten times a
@@ -27,7 +27,7 @@ struct ClaimTerms {
   Duration ask_for = speaks_alone.empty() ? Claim::kAskFor : Duration(500'000);
 };
 
-/// Wakes whoever polls it, from another thread.
+/// Wakes a thread that polls it, from another thread.
 class Signal {
  public:
   Signal();
@@ -35,7 +35,7 @@ class Signal {
   Signal(const Signal&) = delete;
   Signal& operator=(const Signal&) = delete;
 
-  /// Readable from Set() on.
+  /// File descriptor that is readable from Set() on.
   int fd() const { return fd_; }
   void Set() const;
 
@@ -44,7 +44,7 @@ class Signal {
 };
 
 /// Keeps the claim of this process on a UDP multicast bus: asks when it is made, then answers in a thread of
-/// its own, because an App may think for long and who asks waits only 200 ms.
+/// its own, because a tick may take long and a process that asks waits only 200 ms.
 class ClaimKeeper {
  public:
   using Log = std::function<void(Level, std::string_view)>;
@@ -61,7 +61,7 @@ class ClaimKeeper {
   int fd() const { return lost_.fd(); }
   /// Why it is lost, one sentence with the next step; nullopt while it is held.
   std::optional<std::string> lost() const;
-  /// Who held another role on this bus while this one asked.
+  /// Holders of other roles on this bus, heard while this one asked.
   const std::vector<ClaimWord>& others() const { return others_; }
 
  private:
@@ -75,7 +75,7 @@ class ClaimKeeper {
   std::string WhyRefused() const;
   std::string WhyForeign(const SoleSpeaker::Intruder& intruder) const;
   void Alarm(int severity, const std::string& text);
-  bool TellLoss();
+  bool ReportLoss();
   void Lose(const std::string& why);
 
   LcmBus& bus_;

@@ -22,7 +22,7 @@ class MonotonicClock : public Clock {
   Duration unix_minus_monotonic_;
 };
 
-/// The clock of lockstep: it stands still until it is set.
+/// The clock of lockstep: it changes only when it is set.
 class SimulatedClock : public Clock {
  public:
   explicit SimulatedClock(Time start) : now_(start) {}

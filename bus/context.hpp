@@ -15,12 +15,12 @@ class ByteStream;
 
 namespace priamos::bus {
 
-/// How much a line of the log matters; who must act reads kError.
+/// Severity of a line of the log; kError needs action by a person.
 enum class Level { kInfo, kWarning, kError };
 /// State of a process in HEALTH: it works; works with less than it wants; does not work.
 enum class Health { kOk, kDegraded, kFailed };
 
-/// What the surroundings of an App must provide; real time and lockstep do it differently.
+/// Services that an App's host must provide; real time and lockstep do so differently.
 struct Surroundings {
   std::string instance;          ///< names this bus on this machine, e.g. for shared memory
   std::string config_dir = ".";  ///< relative file names in a configuration start here

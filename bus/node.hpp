@@ -21,7 +21,7 @@ namespace priamos::bus {
 
 class Schema;
 
-/// What became of the messages of one channel in one process.
+/// Counters of the messages of one channel in one process.
 struct ChannelCounters {
   std::uint64_t received = 0;     ///< passed the schema walk and the decoder
   std::uint64_t refused = 0;      ///< wrong type, damaged, too long, or not decodable
@@ -117,8 +117,8 @@ class Node {
 
   const std::map<std::string, ChannelCounters, std::less<>>& counters() const { return counters_; }
   ChannelCounters Totals() const;
-  /// What went wrong per channel, most first, as one line: "POSE: 3 wrong type; PATH: 1 exception (what)".
-  /// Empty when nothing did.
+  /// Errors per channel, most frequent first, as one line: "POSE: 3 wrong type; PATH: 1 exception (what)".
+  /// Empty if there were none.
   std::string Problems() const;
   const std::vector<Endpoint>& inputs() const { return inputs_; }
   const std::vector<Endpoint>& outputs() const { return outputs_; }

@@ -11,7 +11,7 @@ namespace priamos::bus {
 
 class Schema;
 
-/// How what an App sent when it was recorded differs from what it sends when it is replayed.
+/// Differences between the recorded messages of an App and those of its replay.
 struct OutputComparison {
   /// Numbers of messages of one channel: recorded, sent by the replay, equal in both.
   struct Channel {

@@ -12,7 +12,7 @@ namespace priamos::bus {
 class LogWriter;
 class Schema;
 
-/// What an export wrote, and what it could not.
+/// Numbers of events that an export wrote and left out.
 struct ExportCount {
   std::uint64_t written = 0;
   std::uint64_t undecodable = 0;  ///< events left out: of unknown type or refused by the schema walk
@@ -31,7 +31,8 @@ ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelectio
 ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelection& selection,
                        std::ostream& out);
 
-/// The wanted events, whole and with their new names, into another log. Returns their number.
+/// Copies the wanted events, undecoded and with their new channel names, into another log. Returns their
+/// number.
 std::uint64_t CopyEvents(LogReader& reader, const LogSelection& selection, LogWriter& writer);
 
 }  // namespace priamos::bus

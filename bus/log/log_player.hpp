@@ -39,9 +39,9 @@ class LogPlayer {
   std::uint64_t skipped_bytes() const { return reader_.skipped_bytes(); }
   bool done() const { return next_ >= index_.size(); }
 
-  /// When Play() has something to do next; Time::max() while paused or done.
+  /// When the next event is due; Time::max() while paused or at the end.
   Time NextDue() const;
-  /// Sends what is due at `now`, at most `at_most` events. Returns their number.
+  /// Sends the events that are due at `now`, at most `at_most`. Returns their number.
   int Play(Time now, const Send& send, int at_most = 1000);
 
  private:

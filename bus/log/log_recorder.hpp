@@ -21,8 +21,8 @@ struct RecorderLimits {
 };
 
 /// Records a bus into log files that every LCM tool reads. It never blocks for longer than a write, never
-/// throws after the start, and a file always ends with a whole event: what a full disk cut off is taken
-/// back. After a failure it reports why (alarm()), counts what it loses, and tries again once per second.
+/// throws after the start, and a file always ends with a whole event: one that a full disk cut off is
+/// removed. After a failure it reports why (alarm()), counts what it loses, and tries again once per second.
 ///
 /// `path` is the first file; files after it are called `path` with .1, .2 ... before the extension.
 class LogRecorder {
@@ -34,10 +34,10 @@ class LogRecorder {
   LogRecorder& operator=(const LogRecorder&) = delete;
 
   void Add(Time now, std::string_view channel, std::span<const std::byte> bytes);
-  /// Call at least every 0.2 s, also in silence: writes what is buffered, looks at the disk.
+  /// Call at least every 0.2 s, also in silence: writes the buffer and checks the free space.
   void Tick(Time now);
 
-  /// Why nothing is recorded at the moment; empty while all is well.
+  /// Why nothing is being recorded; empty while recording works.
   const std::string& alarm() const { return alarm_; }
   std::uint64_t recorded() const { return recorded_; }  ///< events in files
   std::uint64_t lost() const { return lost_; }          ///< events that did not get into a file

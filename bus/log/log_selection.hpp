@@ -12,7 +12,7 @@ namespace priamos::bus {
 /// True when `name` matches `pattern`, in which `*` stands for any text.
 bool MatchesPattern(std::string_view pattern, std::string_view name);
 
-/// Which events of a log are wanted, and what their channels are to be called.
+/// Selection of events by time and channel, and new names for channels.
 struct LogSelection {
   std::vector<std::string> only;              ///< patterns of channels; empty: all
   std::vector<std::string> without;           ///< patterns of channels to leave out, stronger than `only`

@@ -10,9 +10,9 @@ namespace priamos::bus {
 
 class Schema;
 
-/// What a log holds, and what it has lost.
+/// Contents and losses of a log.
 struct LogSurvey {
-  /// What was recorded on one channel; times as in the log, since 1970 [us].
+  /// Contents of one channel; times as in the log, since 1970 [us].
   struct Channel {
     std::set<std::string> types;  ///< full names; "?" for a fingerprint nobody knows
     std::uint64_t events = 0;

@@ -21,7 +21,7 @@ struct Footprint {
   Eigen::Vector2d Nearest(const Eigen::Vector2d& point) const;
   /// Length and width [m].
   Eigen::Vector2d Size() const { return {length_m, width_m}; }
-  /// From the centre to a corner.
+  /// Distance from the centre to a corner [m].
   double Reach() const;
 };
 

@@ -29,8 +29,8 @@ struct WheelMotion {
 /// Wheel speeds that produce `twist` when all rollers roll. Not limited.
 WheelSpeeds ToWheelSpeeds(const MecanumGeometry& geometry, const Twist2& twist);
 
-/// The inverse. Four wheels determine three degrees of freedom: front left + front right - rear left - rear
-/// right is 0 for every motion that rolls, so the rest of that sum measures slip.
+/// The inverse of ToWheelSpeeds. Four wheels determine three degrees of freedom: front left + front right -
+/// rear left - rear right is 0 for every motion that rolls, so the rest of that sum measures slip.
 WheelMotion FromWheelSpeeds(const MecanumGeometry& geometry, const WheelSpeeds& speeds);
 
 /// Scales all wheels by one factor so that none exceeds the limit: the twist keeps its direction, the base

@@ -19,7 +19,7 @@ struct WheelSample {
   bool deadline_stopped = false;  ///< the drive board holds the wheels because commands stayed away
 };
 
-/// What the odometry does not know. Random walks: variance grows with the distance, so sigma with its root.
+/// Noise of the odometry, as random walks: the variance grows with the distance, sigma with its root.
 struct OdometryNoise {
   double forward_m_per_sqrt_m = 0.005;
   double sideways_m_per_sqrt_m = 0.006;  ///< along y when driving sideways
@@ -59,7 +59,7 @@ struct OdometryStep {
 /// can a step end before the one before it.
 class Odometry {
  public:
-  /// What became of the samples so far.
+  /// Counters of the samples so far.
   struct Counters {
     int accepted = 0;
     int doubles = 0;      ///< same time stamp as the last one
@@ -75,9 +75,9 @@ class Odometry {
   /// Takes one sample; the step it completes, or nullopt for the first and for refused ones.
   std::optional<OdometryStep> Add(const WheelSample& sample, Time now);
 
-  /// Base in the frame where it stood at the first sample.
+  /// Pose of the base in the odometry frame, its pose at the first sample.
   const Pose2& pose() const { return pose_; }
-  /// Of the last step; 0 before the second sample.
+  /// Velocity and slip of the last step; 0 before the second sample.
   const Twist2& twist() const { return twist_; }
   double slip_m_s() const { return slip_m_s_; }
   /// Time of the newest accepted sample; nullopt before the first.

@@ -28,10 +28,10 @@ struct DriveConfig {
   EchoMemoryConfig echoes;
   FloorMemoryConfig floor;
   CollisionStopConfig collision;
-  double operator_margin_m = 0.04;  ///< more room than a path gets: nobody has planned an operator's motion
+  double operator_margin_m = 0.04;  ///< added to the margins of collision while an operator drives
   AuthorityConfig authority;
   FailsafeConfig failsafe;
-  double lost_position_m = 0.5;  ///< sigma beyond which no path is driven
+  double lost_position_m = 0.5;  ///< sigma of the position beyond which no path is driven
   double lost_yaw_deg = 12;
   double blocked_s = 0.5;
   double fix_needed_m = 0.25;  ///< sigma beyond which a silent head matters
@@ -52,8 +52,8 @@ struct DriveSituation {
   Duration link_down{};
 };
 
-/// What became of a path. Stale: it was ordered before the e-stop was re-armed, and after that nothing moves
-/// without a new order.
+/// Result of an order to drive a path. Stale: it was ordered before the e-stop was re-armed, and after that
+/// nothing moves without a new order.
 enum class PathVerdict { kTaken, kSame, kWithoutLease, kEstop, kStale };
 
 /// What the base does at one tick and why, as DRIVE_STATUS reports it.

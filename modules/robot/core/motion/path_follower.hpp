@@ -42,7 +42,7 @@ class PathFollower {
   /// Takes a path; replaces the one before. It begins at `pose`, or beside it on its own first line when the
   /// first point has just been passed.
   void Follow(const Path& path, const Pose2& pose);
-  /// No path any more; Step then wants to stand.
+  /// Drops the path; Step then returns a velocity of 0.
   void Drop();
   bool has_path() const { return shape_.has_value(); }
 
@@ -57,8 +57,8 @@ class PathFollower {
 
   PathFollowerConfig config_;
   std::optional<PathShape> shape_;
-  double s_ = 0;      ///< where on the path the base is
-  double speed_ = 0;  ///< ds/dt wanted last
+  double s_ = 0;      ///< arc length of the reference point on the path [m]
+  double speed_ = 0;  ///< last wanted ds/dt [m/s]
   bool arrived_ = false;
 };
 

@@ -32,7 +32,7 @@ class Localiser {
   /// False when the sample was refused (see Odometry::counters).
   bool AddWheels(const WheelSample& sample, Time now);
   void AddFix(const LandmarkFix& fix, Time now);
-  /// Applies what can be applied; the answers, one per fix that is done with.
+  /// Applies the fixes that can be applied. Returns one answer per fix that no longer waits.
   std::vector<Answer> Step(Time now);
 
   const Odometry& odometry() const { return odometry_; }

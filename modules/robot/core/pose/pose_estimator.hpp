@@ -27,8 +27,10 @@ struct PoseEstimatorConfig {
   InitialPose initial;
   OdometryBias bias;
   double history_s = 10;
-  double gate_distance = 4.0;         ///< 3 degrees of freedom: a true fix lies beyond 4.0 once in 900
-  double least_fix_sigma_m = 0.0003;  ///< 1 ms at 0.3 m/s: how well the moment of a picture is known
+  double gate_distance =
+      4.0;  ///< Mahalanobis gate, 3 degrees of freedom: a true fix lies beyond 4.0 once in 900
+  double least_fix_sigma_m =
+      0.0003;  ///< least sigma of a fix: 1 ms at 0.3 m/s, the error of the picture's time
   double least_fix_sigma_deg = 0.01;
 
   void Describe(Archive& a);

@@ -29,7 +29,7 @@ struct PoseState {
 
   Vector mean = Vector::Zero();
   Matrix covariance = Matrix::Zero();
-  Matrix repeated = Matrix::Zero();  ///< part of it: errors of earlier looks that the next one may repeat
+  Matrix repeated = Matrix::Zero();  ///< part of `covariance` from errors that later looks may repeat
 
   Pose2 pose() const { return {mean(0), mean(1), mean(2)}; }
   Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }
@@ -59,9 +59,10 @@ struct MeasurementUpdate {
 
 /// Iterated Kalman update (the maximum a posteriori estimate: Bell and Cathey, "The iterated Kalman filter
 /// update as a Gauss-Newton method", IEEE Trans. Automatic Control 1993), started at the pose that equations
-/// 8 and 9 give. What looks repeat is weighed by split covariance intersection (Julier and Uhlmann, "General
-/// decentralized data fusion with covariance intersection", Handbook of Multisensor Data Fusion 2001): the
-/// covariance is honest whatever the correlation, two looks with the same error count no more than one.
+/// 8 and 9 give. Errors that looks share are treated by split covariance intersection (Julier and Uhlmann,
+/// "General decentralized data fusion with covariance intersection", Handbook of Multisensor Data Fusion
+/// 2001): the covariance is consistent whatever the correlation, two looks with the same error count no more
+/// than one.
 MeasurementUpdate Updated(const PoseState& prior, const LandmarkMeasurement& measurement);
 
 }  // namespace priamos::robot

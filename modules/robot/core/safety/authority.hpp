@@ -28,7 +28,7 @@ class Authority {
   /// Whether the planner's path may be driven.
   bool AdmitPath(Time now);
   CommandVerdict Admit(const DriveCommand& command, Time now);
-  /// Latches until Rearm.
+  /// Sets the e-stop, which stays set until Rearm.
   void PressEstop();
   void Rearm() { estop_ = false; }
 
@@ -40,9 +40,9 @@ class Authority {
   /// The velocity that the operator wishes; nullptr without a command that is still valid.
   const Twist2* Wish(Time now) const;
   bool OperatorFellSilent(Time now) const { return operator_.FellSilent(now); }
-  /// The lease was taken from the one who drove; stays until Forget.
+  /// Whether the lease was taken from the driver in motion; true until Forget.
   bool lease_lost() const { return lease_lost_; }
-  /// After a halt: the command in hand and the loss of the lease are done with.
+  /// After a halt: drops the operator's command and the note of a lost lease.
   void Forget();
   const OperatorInput& input() const { return operator_; }
 

@@ -11,11 +11,11 @@
 
 namespace priamos::robot {
 
-/// Room that is kept free, and how the base brakes for what is in it.
+/// Margins that are kept free, and the braking before obstacles.
 struct CollisionStopConfig {
   double margin_m = 0.015;  ///< kept free on all sides of the footprint
   double gap_m = 0.13;      ///< where to stand before an obstacle ahead
-  BrakingLaw braking{};     ///< what the base manages, and the age of an echo when the wheels obey it
+  BrakingLaw braking{};     ///< deceleration of the base, and the age of an echo when the wheels obey it
   double look_ahead_m = 5;
   double memory_margin_m = -0.03;  ///< instead of margin_m for remembered things, whose place is vague
   double memory_gap_m = 0.05;      ///< instead of gap_m
@@ -29,7 +29,7 @@ struct CollisionStopConfig {
 /// Points beside the swept area do not matter, so both jambs of a door 6 cm beside the base do not stop it.
 class CollisionStop {
  public:
-  /// What is left of a wanted motion.
+  /// The limited motion.
   struct Result {
     Twist2 twist;
     double scale = 1;               ///< `twist` over the wanted motion
@@ -40,7 +40,7 @@ class CollisionStop {
 
   CollisionStop(const CollisionStopConfig& config, const Footprint& footprint);
 
-  /// How fast the fastest point of the footprint moves [m/s].
+  /// Speed of the fastest point of the footprint [m/s].
   double SpeedOf(const Twist2& twist) const;
   /// `seen` and `remembered` are obstacles in the base frame.
   Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,

@@ -11,7 +11,7 @@
 
 namespace priamos::robot {
 
-/// What can be wrong. The order is that of precedence among equal actions.
+/// Conditions that stop the base. The order is that of precedence among equal actions.
 enum class Condition {
   kEstop,
   kLeaseLost,
