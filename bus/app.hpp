@@ -17,8 +17,8 @@ namespace priamos::bus {
 /// members:
 ///
 ///     static constexpr bool kOneOwner = true;     a second one of the same robot does not start on its bus
-///     static constexpr auto kSpeaksAlone = ...;   channels on which nobody else may send: else it does not
-///     run void Yield(Time now);                       its last act when another process has its role
+///     static constexpr auto kSpeaksAlone = ...;   channels: it does not run beside other senders on them
+///     void Yield(Time now);                       its last act when another process has its role
 template <class T>
 concept App = requires(T app, const typename T::Config& config, Context& context, Time now) {
   { T::kName } -> std::convertible_to<std::string_view>;

@@ -3,9 +3,8 @@
 namespace priamos {
 
 /// Size of the robot's body by its drawing [m]: a box around the base centre, x forward, over everything that
-/// can touch. It is the default of each configuration that has a body. What the robot and the planner believe
-/// and what the world builds are configured each for itself, because a robot that was built differs from its
-/// drawing.
+/// can touch. It is the default of each configuration that has a body. Robot, planner and simulated
+/// world are configured separately, because a robot that was built differs from its drawing.
 struct BodySize {
   double length_m = 0.95;  ///< along the base's x axis
   double width_m = 0.78;   ///< along the base's y axis

@@ -12,7 +12,7 @@
 namespace priamos {
 
 /// A configuration that cannot be used. what() is one sentence, `file:line:key: expected ..., got ...`,
-/// fit to be shown to a tired person; processes answer it with exit code 2.
+/// fit to be shown to a person; processes end with exit code 2.
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -13,8 +13,8 @@ struct SigmaRho {
 /// Zero variances give zero correlations.
 SigmaRho ToSigmaRho(const Eigen::Matrix3d& covariance);
 
-/// Symmetric, and positive semidefinite even when the correlations were rounded on a radio: they are shrunk
-/// towards 0 as far as that needs.
+/// Symmetric, and positive semidefinite even when the correlations were rounded on a radio: they are scaled
+/// towards 0 as far as necessary.
 Eigen::Matrix3d ToCovariance(const SigmaRho& sigma_rho);
 
 }  // namespace priamos

@@ -6,8 +6,8 @@
 
 namespace priamos {
 
-/// What decides where deployments, shared files and logs are. The functions below look at this and at the
-/// disk, at nothing else. What is empty is not there.
+/// Paths and variables that determine where deployments, shared files and logs are. The functions below
+/// depend on these and on the disk only. An empty one is not set.
 struct ProgramPlace {
   std::filesystem::path program_folder;  ///< where the running program is, absolute
   std::filesystem::path clone;           ///< the clone of the repository whose build folder it runs from

@@ -14,7 +14,7 @@ constexpr double Degrees(double radians) {
   return radians * 180 / kPi;
 }
 
-/// The same angle in (-pi, pi].
+/// The angle `rad` plus a multiple of 2 pi, in (-pi, pi].
 inline double WrapAngle(double rad) {
   const double wrapped = std::remainder(rad, 2 * kPi);
   return wrapped <= -kPi ? kPi : wrapped;

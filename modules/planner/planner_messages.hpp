@@ -15,10 +15,11 @@ DriveReport FromMessage(const drive_status_t& message);
 /// What follows for a look from its fix alone: nothing yet when the landmark was found, because only the
 /// robot knows whether the pose could be corrected with it; a failure otherwise.
 std::optional<LookResult> FromMessage(const landmark_fix_t& message);
-/// The outcome of a look as far as the pose is concerned.
+/// The outcome of a look from the correction of the pose.
 LookResult FromMessage(const pose_correction_t& message);
 
-/// At most 20 edges and 16 points fit a message; what the core makes is below that.
+/// A landmark as a message, which holds at most 20 edges; a path holds at most 16 points. The core makes
+/// fewer.
 landmark_model_t ToMessage(const Landmark& landmark);
 path_t ToMessage(const PathOrder& path, Time now);
 look_request_t ToMessage(const LookOrder& look, Time now);

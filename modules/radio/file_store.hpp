@@ -12,10 +12,10 @@
 namespace priamos::radio {
 
 /// Keeps an end's state in a file, which is replaced as a whole: a crash at any moment leaves the old or the
-/// new state. A thread of its own waits for the disk. With a second file on a RAM disk (/run) nothing else
-/// ever does: what must survive the process is there at once, and the file on the disk follows with each
-/// sync. Everything throws std::runtime_error when a file cannot be written, for syncs that nobody waited for
-/// at the next call: a link that cannot remember its counters must not go on.
+/// new state. A thread of its own waits for the disk. With a second file on a RAM disk (/run) no other thread
+/// does: the state survives the process there at once, and the file on the disk follows with each sync. Every
+/// call throws std::runtime_error if a file cannot be written, or if a sync failed since the last call: a
+/// link that cannot store its counters must not go on.
 class FileStore : public bus::radio::StateStore {
  public:
   /// `fast_path` empty: `path` holds everything.
@@ -34,7 +34,7 @@ class FileStore : public bus::radio::StateStore {
   void ThrowFailure();
 
   const std::string path_, fast_path_;
-  std::vector<std::byte> state_;  ///< saved last
+  std::vector<std::byte> state_;  ///< the state saved last
 
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -27,10 +27,10 @@ bool IsNetPort(const std::string& port);
 NetAddress ParseNetAddress(const std::string& port);
 
 /// UDP: what is written is put together to frames, up to and with the zero byte, and each goes as one
-/// datagram; a datagram that arrives is read with a zero at its end. What nobody receives is lost. TCP: a
-/// stream of bytes; written without a connection they are lost, as on a radio. Never blocks; names are looked
-/// up when it is opened. Throws std::runtime_error with one sentence when the port is taken or the host
-/// unknown.
+/// datagram; a datagram that arrives is read with a zero at its end. Datagrams without a receiver are lost.
+/// TCP: a stream of bytes; written without a connection they are lost, as on a radio. Never blocks; names are
+/// looked up when it is opened. Throws std::runtime_error with one sentence when the port is taken or the
+/// host unknown.
 std::unique_ptr<ByteStream> OpenNetPort(const NetAddress& address);
 
 }  // namespace priamos::radio

@@ -73,8 +73,8 @@ class RadioApp {
   EchoFilter echo_;
   bus::Inbox<link_request_t> requests_;
   std::map<std::size_t, Time> listening_until_;  ///< on-request channels of the other end
-  std::vector<Waiting> waiting_;                 ///< came before the first tick
-  std::vector<std::byte> unwritten_;             ///< the port did not take them
+  std::vector<Waiting> waiting_;                 ///< messages that came before the first tick
+  std::vector<std::byte> unwritten_;             ///< bytes that the port has not taken yet
   bus::Publisher<link_status_t> status_;
   std::optional<Time> next_report_;
   Time last_report_{};

@@ -26,13 +26,13 @@ struct Style {
   double opacity = 1;  ///< opacity of the fill: 1 covers, 0 is invisible
 };
 
-/// What stands for a layer in the legend.
+/// The sample of a layer in the legend.
 enum class Symbol { kLine, kArea, kDot, kArrow, kEllipse, kCross };
 
 /// One kind of thing in a drawing. Layers are constants of the code that draws; shapes refer to them.
 struct Layer {
   std::string_view id;       ///< class of the group in SVG
-  std::string_view meaning;  ///< in the legend; empty: it explains itself (grid, frame, text)
+  std::string_view meaning;  ///< text in the legend; empty: no entry (grid, frame, text)
   Style style{};
   Symbol symbol = Symbol::kLine;
 };
@@ -65,7 +65,7 @@ struct Shape {
   const Layer* layer = nullptr;
   Style style;
   std::variant<Path, Circle, Text> form;
-  std::optional<Box> clip{};  ///< nothing is seen outside
+  std::optional<Box> clip{};  ///< the form is cut to this box
 };
 
 /// A page as a list of shapes, the first lowest: x right, y down, in pixels of a screen at scale 1. It is
@@ -77,12 +77,12 @@ class Drawing {
       : width_(width), height_(height), background_(background) {}
 
   void Add(const Layer& layer, std::variant<Path, Circle, Text> form, const std::optional<Box>& clip = {});
-  /// With another style than the layer's usual one.
+  /// Adds a form with another style than the layer's usual one.
   void Add(const Layer& layer, const Style& style, std::variant<Path, Circle, Text> form,
            const std::optional<Box>& clip = {});
   void Line(const Layer& layer, const Eigen::Vector2d& from, const Eigen::Vector2d& to);
   void FillBox(const Layer& layer, const Box& box);
-  /// Returns what it covers.
+  /// Adds a line of text. Returns the box that it covers.
   Box Write(const Layer& layer, const Eigen::Vector2d& at, const std::string& text, const Font& font,
             Colour colour);
 
@@ -90,7 +90,7 @@ class Drawing {
   double height() const { return height_; }
   Colour background() const { return background_; }
   const std::vector<Shape>& shapes() const { return shapes_; }
-  /// Those of shapes on the page with a meaning, in the order in which they were first drawn.
+  /// Layers that have a meaning and shapes on the page, in the order in which they were first drawn.
   std::vector<const Layer*> LayersToExplain() const;
   /// A page may grow while it is drawn.
   void SetHeight(double height) { height_ = height; }

@@ -9,13 +9,13 @@ namespace priamos::drawing {
 
 /// A label that wants to stand near the point it names.
 struct LabelWish {
-  Eigen::Vector2d at{0, 0};      ///< what it names
+  Eigen::Vector2d at{0, 0};      ///< the point that it names
   double width = 0, height = 0;  ///< size of the text [px]
   double distance = 0;           ///< from `at` to the label's border, at least [px]
   bool centred = false;          ///< stand on the point itself if that is free
 };
 
-/// What labels keep away from.
+/// Areas and lines that labels avoid.
 struct Surroundings {
   Box page;                            ///< no label leaves it
   std::vector<Box> taken;              ///< never covered

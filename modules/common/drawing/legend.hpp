@@ -4,7 +4,7 @@
 
 namespace priamos::drawing {
 
-/// How a legend is set.
+/// Layout of a legend.
 struct LegendLook {
   Font font;
   Colour ink;
@@ -13,8 +13,8 @@ struct LegendLook {
 };
 
 /// Writes what every layer of the drawing means, beside a sample of it, into as many columns as fit between
-/// x and x + width, from y downwards. Returns the height it took. A drawing can so never hold what its legend
-/// lacks.
+/// x and x + width, from y downwards. Returns the height it took. So every layer of a drawing is in its
+/// legend.
 double WriteLegend(Drawing& drawing, double x, double y, double width, const LegendLook& look);
 
 }  // namespace priamos::drawing

@@ -12,7 +12,7 @@ namespace priamos::teleop {
 
 /// The part of the robot's last status that the pilot needs.
 struct RobotView {
-  /// Who has the lease, seen from this operator.
+  /// Holder of the lease, as seen by this operator.
   enum class Lease { kFree, kMine, kOther };
   std::optional<Time> heard{};  ///< time of that status, in this process's clock
   Lease lease = Lease::kFree;
@@ -30,14 +30,14 @@ enum class PilotMode { kBase, kHead };
 
 /// Why the stick does or does not move the robot.
 enum class PilotPhase {
-  kNoDevice,   ///< nothing to steer with
+  kNoDevice,   ///< no input device
   kIdle,       ///< the dead-man is not held
   kMustLetGo,  ///< it was held when something ended the drive: let go of it first
   kAsking,     ///< it is held; the robot has not yet granted the lease
   kDriving,
 };
 
-/// What to send now.
+/// The messages to send now.
 struct PilotOutput {
   /// How the lease is asked for: a free one, or also one that somebody holds.
   enum class Lease { kAcquire, kTakeOver };
@@ -51,7 +51,7 @@ struct PilotOutput {
 
 /// Turns a stick and buttons into wishes. Pure: time is an argument.
 ///
-/// Nothing moves unless the dead-man is held, the stick talks, and the robot reports that the lease is ours
+/// Nothing moves unless the dead-man is held, the stick reports, and the robot reports that the lease is ours
 /// and no e-stop is latched. Pressing the dead-man asks for a free lease; taking a held one needs the
 /// take-over button. While it asks, it sends commands to stand, which the robot must receive first. When the
 /// drive ends for any reason but the stick at rest, the dead-man must be let go and pressed again.
@@ -64,7 +64,7 @@ class Pilot {
   PilotPhase phase() const { return phase_; }
   PilotMode mode() const { return mode_; }
   bool fast() const { return fast_; }
-  /// What the stick would wish if it might.
+  /// The wish of the stick, whether it may be sent or not.
   const Twist2& wish() const { return wish_; }
   const HeadRates& head_wish() const { return head_wish_; }
 

@@ -20,13 +20,13 @@ struct TerminalView {
   ButtonUse buttons;
   std::array<std::string, kAxes> uses{};  ///< what each axis moves in this mode; empty: nothing
   // From DRIVE_STATUS.
-  std::optional<double> answer_age_s;  ///< none before the first
-  std::string lease;                   ///< who has it, in words
-  std::string doing, limit;            ///< in words
+  std::optional<double> answer_age_s;  ///< age of the last answer; none before the first
+  std::string lease;                   ///< holder of the lease, in words
+  std::string doing, limit;            ///< state and limit of the base, in words
   double allowed = 1, speed_m_s = 0, nearest_m = -1;
   bool estop = false;
   int refused = 0;
-  std::string refusal;  ///< why, of the newest
+  std::string refusal;  ///< reason of the newest refusal
 };
 
 /// What each axis of the stick moves in `mode`.

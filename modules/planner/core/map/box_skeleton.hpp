@@ -19,7 +19,7 @@ struct LandmarkBox {
   Side side = Side::kBoth;
 };
 
-/// Who looks at it: eyes at one height, at some distances from the landmark's origin, within a sector of
+/// Viewpoints of a landmark: at one height, at some distances from the landmark's origin, within a sector of
 /// azimuths from `from_rad` counter-clockwise to `to_rad`.
 struct Viewers {
   double from_rad = -kPi, to_rad = kPi;
@@ -29,8 +29,8 @@ struct Viewers {
   double min_sector_rad = Radians(12);  ///< edges seen from less are left out
 };
 
-/// The edges of the boxes that somebody sees, each with the largest sector of azimuths from which it is seen:
-/// past all boxes, and from every distance. Edges that stand on the floor (below 5 cm) are left out: skirting
+/// The edges of the boxes that are visible, each with the largest sector of azimuths from which it is seen
+/// past all boxes and from every distance. Edges that stand on the floor (below 5 cm) are left out: skirting
 /// and shadows are there.
 std::vector<LandmarkEdge> SkeletonOf(std::span<const LandmarkBox> boxes, const Viewers& viewers = {});
 

@@ -27,7 +27,7 @@ struct Landmark {
   std::vector<LandmarkEdge> edges;
 };
 
-/// So many edges a LANDMARK_MODEL can carry.
+/// Largest number of edges in a LANDMARK_MODEL.
 inline constexpr int kMaxLandmarkEdges = 20;
 
 /// Whether a viewer at `in_landmark` is within the edge's sector.

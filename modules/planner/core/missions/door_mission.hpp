@@ -12,7 +12,7 @@
 
 namespace priamos::planner {
 
-/// Speeds, distances to the door, and the patience of a mission through a door.
+/// Speeds, distances to the door, and time limits of a mission through a door.
 struct DoorMissionConfig {
   double speed_m_s = 0.30;       ///< on the approach and through the door
   double slowest_m_s = 0.12;     ///< on a short approach
@@ -20,7 +20,7 @@ struct DoorMissionConfig {
   double look_to_m = 2.0;        ///< distance at which both sides should have been seen ...
   double looks_take_s = 3.5;     ///< ... and how long that takes, starting and radio included
   double confirm_to_m = 1.6;     ///< looks go on to here while passing; nearer, the jambs leave the picture
-  double tracking_m = 0.01;      ///< what the path following may deviate in the door
+  double tracking_m = 0.01;      ///< largest deviation of the path following in the door
   double command_delay_s = 0.2;  ///< from a decision here to the wheels there
   MissionLimits limits;
   LookConfig look;
@@ -69,7 +69,7 @@ class DoorMission : public Mission {
   const DoorPlan* door_ = nullptr;
   Time entered_{};  ///< when the approach began
   LookSequence looks_;
-  bool judge_ = false;  ///< a look succeeded and enough have: the pose is to be judged when it has come
+  bool judge_ = false;  ///< enough looks have succeeded: the next pose is to be judged
 };
 
 }  // namespace priamos::planner

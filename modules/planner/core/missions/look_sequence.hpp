@@ -9,7 +9,7 @@
 
 namespace priamos::planner {
 
-/// When looking at a door is given up.
+/// Limits at which looking at a door is given up.
 struct LookConfig {
   double timeout_s = 5;  ///< silence after a request that counts as three failures
   int failures = 9;      ///< looks without result before giving up
@@ -19,7 +19,7 @@ struct LookConfig {
 };
 
 /// Looks at the left and the right side of a door, in turn, one at a time: a side that cannot be seen from
-/// here must not keep the robot from using the other one. Pure bookkeeping; sending is the mission's affair.
+/// here must not keep the robot from using the other one. Pure bookkeeping; the mission sends the requests.
 class LookSequence {
  public:
   explicit LookSequence(const LookConfig& config) : config_(config) {}
@@ -33,9 +33,9 @@ class LookSequence {
   /// A look at next() was asked for.
   void Asked(int request_id, Time now);
 
-  /// An answer; one to another request than the one under way is ignored, as is a second one.
+  /// Takes an answer; a second one, or one to another request than that under way, is ignored.
   void OnResult(const LookResult& result);
-  /// What became of the look under way, once: its answer, or its silence.
+  /// The outcome of the look under way, returned once: its answer, or none within the time limit.
   std::optional<LookResult> Settle(Time now);
 
   /// Both sides were seen, or one of them three times while the other could not be.

@@ -36,7 +36,7 @@ class Mission {
   virtual void Step(MissionControl& control) = 0;
 
   virtual const MissionLimits& limits() const = 0;
-  /// What is not reached when the time for the mission is over, "not through the door".
+  /// Reason when the time for the mission is over, e.g. "not through the door".
   virtual std::string Unfinished() const = 0;
 };
 

@@ -9,7 +9,7 @@
 
 namespace priamos::planner {
 
-/// What is known of the robot when a mission takes a step. All stamps are in the planner's clock.
+/// State of the robot as the planner knows it at a time step. All stamps are in the planner's clock.
 struct Heard {
   bool link_up = false;
   std::optional<RobotPose> pose;     ///< newest
@@ -18,7 +18,7 @@ struct Heard {
   std::vector<LookResult> looks;     ///< answers to looks since the last time step, in order
 };
 
-/// A mission's view of the robot: what was heard of it, and the orders and the state that leave in this time
+/// A mission's view of the robot: its state, and the orders and the state that leave in this time
 /// step. Numbers of paths and looks go on over all missions, so that an answer meant for an earlier order is
 /// not taken for one to the present order.
 class MissionControl {
@@ -45,7 +45,7 @@ class MissionControl {
 
   /// Orders a look of the head at a side of a landmark. Returns the number that its answer will carry.
   int OrderLook(int landmark_id, Side side);
-  /// Makes the head know a landmark.
+  /// Sends a landmark's model to the head.
   void SendModel(Landmark model) { actions_.model = std::move(model); }
 
  private:

@@ -10,12 +10,12 @@
 namespace priamos::planner {
 
 /// The missions by the kind of their order, of which one at a time is carried out. Time is an argument,
-/// everything heard is stored by On...(), everything is decided in Tick(). Before the first order nothing is
+/// messages are stored by On...(), everything is decided in Tick(). Before the first order nothing is
 /// sent. The end of a mission is DONE, or FAILED with a sentence, and then the robot has been ordered to
 /// brake.
 class MissionTable {
  public:
-  /// `kind` is what an order names the mission by. The first one added is shown before the first order.
+  /// `kind` identifies the mission in an order. The first one added is shown before the first order.
   void Add(int kind, std::unique_ptr<Mission> mission);
   bool Knows(int kind) const { return missions_.contains(kind); }
 
@@ -27,11 +27,11 @@ class MissionTable {
   void OnPose(const RobotPose& pose);
   void OnDrive(const DriveReport& drive, Time now);
   void OnLook(const LookResult& result) { control_.heard_.looks.push_back(result); }
-  /// The robot's pose was corrected at `stamp`: older poses are no longer worth planning with.
+  /// The robot's pose was corrected at `stamp`: older poses are not used for planning any more.
   void OnCorrected(Time stamp);
   void OnLink(bool up) { control_.heard_.link_up = up; }
 
-  /// One time step of the mission under way; what is to be sent.
+  /// One time step of the mission under way. Returns what is to be sent.
   MissionActions Tick(Time now);
 
   const MissionState& state() const { return control_.state(); }

@@ -27,10 +27,10 @@ struct RobotPose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of (x, y, yaw), map frame [m, rad]
 };
 
-/// What the robot does; kHolding: ordered to stand, kBlocked: an obstacle stops it.
+/// State of the base; kHolding: ordered to stand, kBlocked: an obstacle stops it.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked };
 
-/// How far the robot is with its path, as in DRIVE_STATUS; path_id is 0 before the first one.
+/// Progress of the robot on its path, as in DRIVE_STATUS; path_id is 0 before the first one.
 struct DriveReport {
   DriveMode mode = DriveMode::kIdle;
   int path_id = 0;
@@ -38,7 +38,7 @@ struct DriveReport {
   bool estop = false;  ///< the emergency stop is latched
 };
 
-/// What became of a look: from the head (not found) or from the robot (applied or refused).
+/// Outcome of a look: from the head (not found) or from the robot (applied or refused).
 struct LookResult {
   int request_id = 0;
   bool ok = false;

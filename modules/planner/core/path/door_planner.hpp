@@ -13,10 +13,11 @@
 
 namespace priamos::planner {
 
-/// How the base goes to a door and through it. Distances along the door's axis are from the middle of the
-/// opening to the base centre.
+/// Clearances and distances of paths to a door and through it. Distances along the door's axis are from the
+/// middle of the opening to the base centre.
 struct DoorPlannerConfig {
-  double door_margin_m = 0.01;  ///< planned clearance to each jamb; what is uncertain comes on top
+  double door_margin_m =
+      0.01;  ///< planned clearance to each jamb, in addition to the uncertainty of the pose
   double wall_margin_m = 0.10;  ///< planned clearance everywhere else
   double align_m = 1.6;         ///< preferred place to be on the axis, straight
   double align_least_m = 1.15;  ///< nearest such place

@@ -9,7 +9,7 @@
 
 namespace priamos::planner {
 
-/// What the wheels add to the pose error on the way to the door. Random walks grow with the root of the
+/// Growth of the pose error by odometry on the distance to the door. Random walks grow with the root of the
 /// distance, the bias with the distance; the values are those of the robot's own odometry model.
 struct DriftModel {
   double yaw_rad_per_sqrt_m = 0.0075;
@@ -19,10 +19,10 @@ struct DriftModel {
   void Describe(Archive& a);
 };
 
-/// What the pose estimate's uncertainty will be worth in the plane of the door, if the base follows its path.
+/// Predicted uncertainty of the pose in the plane of the door, if the base follows its path.
 struct PassageUncertainty {
-  double lateral_sigma_m = 0;    ///< across the door's axis
-  double heading_sigma_rad = 0;  ///< against the door's axis
+  double lateral_sigma_m = 0;    ///< sigma of the position across the door's axis
+  double heading_sigma_rad = 0;  ///< sigma of the heading relative to the door's axis
 };
 
 /// Carries a pose covariance (map: x, y, yaw) forward along the door's axis. A heading error grows into a
@@ -35,7 +35,7 @@ PassageUncertainty AtDoor(const DoorPlan& door, const Pose2& map_from_base,
 /// Half of the width the footprint takes when it goes through an opening turned by `heading_rad` [m].
 double HalfWidthTurned(const Footprint& footprint, double heading_rad);
 
-/// What is left of the gap on each side at 2 sigma [m]; negative when the footprint may touch.
+/// Free gap on each side at 2 sigma [m]; negative when the footprint may touch.
 double GapLeft(const DoorPlan& door, const Footprint& footprint, const PassageUncertainty& uncertainty);
 
 }  // namespace priamos::planner

@@ -39,7 +39,7 @@ struct DriveConfig {
   void Describe(Archive& a);
 };
 
-/// What the base does; kHolding: ordered to stand, kBlocked: an obstacle stops it.
+/// State of the base; kHolding: ordered to stand, kBlocked: an obstacle stops it.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked, kOperated };
 
 /// What the base knows about itself at one tick.

@@ -14,7 +14,7 @@ namespace priamos::world {
 /// The body that can touch things: a rectangle around the base centre between two heights.
 struct Body {
   Eigen::Vector2d size_m{kDrawnBody.length_m, kDrawnBody.width_m};  ///< length (x), width (y)
-  double low_m = 0.02;                  ///< what is lower is rolled over: a door threshold
+  double low_m = 0.02;                  ///< lower solids are rolled over: a door threshold
   double high_m = kDrawnBody.height_m;  ///< top of the robot
 };
 

@@ -29,10 +29,10 @@ struct DriveBoardConfig {
 /// State of the drive board: encoder counts, and whether it holds the wheels.
 struct WheelReading {
   std::array<std::int32_t, 4> position_ticks{};  ///< since power-on, wraps around
-  bool deadline_stopped = true;                  ///< held: no command came for the deadline
-  bool contested = false;                        ///< held: commands of two instances came within it
-  std::int32_t instance = 0;                     ///< whose commands it took last; 0 before the first
-  std::int32_t foreign_commands = 0;             ///< commands of other instances, not obeyed
+  bool deadline_stopped = true;  ///< true: the wheels are held, because no command came for the deadline
+  bool contested = false;  ///< true: the wheels are held, because two instances commanded within the deadline
+  std::int32_t instance = 0;          ///< instance whose command was obeyed last; 0 before the first
+  std::int32_t foreign_commands = 0;  ///< commands of other instances, not obeyed
 };
 
 /// Four wheel drives: the set value runs along a ramp, the wheel follows the ramp with a first-order lag.
@@ -53,7 +53,7 @@ class DriveBoard {
   void Step(Time now, Duration step);
 
   const PerWheel& speed_rad_s() const { return speed_rad_s_; }
-  /// Counts as an encoder read now would give them: whole ticks, with the jitter of the pulse edges.
+  /// The state as a reading at this time gives it: whole ticks, with the jitter of the pulse edges.
   WheelReading Read();
 
  private:

@@ -7,7 +7,7 @@
 
 namespace priamos::world {
 
-/// The base and how far reality is from its drawing. The nominal values are what `robot` may know; the
+/// The base and the errors of its construction. The nominal values are known to `robot`; the
 /// errors are drawn once per run from the seed.
 struct MecanumConfig {
   double wheel_radius_m = 0.10;
@@ -37,7 +37,7 @@ class MecanumBase {
   /// True body velocity while the wheels turn so; slip wanders with the distance that each wheel rolls.
   Twist2 Step(const PerWheel& speed_rad_s, double dt_s);
 
-  /// The part of the contact speeds that no body motion explains [m/s]: what the rollers grind.
+  /// Residual of the contact speeds that no body motion explains [m/s]: slip of the rollers.
   double scrub_m_s() const { return scrub_m_s_; }
 
  private:

@@ -15,7 +15,7 @@ inline constexpr int kCameras = 3;
 /// The cameras by their numbers in messages.
 enum Camera : int { kLeftCamera = 0, kRightCamera = 1, kThirdCamera = 2 };
 
-/// Where the axes of KASTOR truly are, backlash and all; the step counters are not known here.
+/// True positions of the axes of KASTOR, backlash included; the step counters are not known here.
 /// Signs as in head_command_t: pan and vergence positive to the left, tilt positive looks down.
 struct HeadAxes {
   double pan_rad = 0, tilt_rad = 0;
@@ -24,7 +24,7 @@ struct HeadAxes {
   std::array<double, 2> focus_step{1600, 1600};  ///< 0 nearest distance ... 2000 infinity
 };
 
-/// How one camera was really built, which nobody but the simulator knows.
+/// True geometry of one camera, known to the simulator only.
 struct CameraBuild {
   double x_m = 0, y_m = 0, z_m = 0;  ///< camera axis (vergence axis) on the platform
   /// Orientation of the camera on that axis; pitch positive looks down.
@@ -32,8 +32,9 @@ struct CameraBuild {
   double pupil_m = 0.02;                           ///< entrance pupil before the axis at focal_mid_px
   double focal_min_px = 800, focal_max_px = 1600;  ///< at zoom step 0 and 2000, focused at infinity
   double centre_u_px = ImageSize{}.Centre().x();  ///< column of the principal point at the middle of the zoom
-  double centre_v_px = ImageSize{}.Centre().y();  ///< its row
-  double centre_walk_u_px = 0, centre_walk_v_px = 0;   ///< its walk from zoom step 0 to 2000
+  double centre_v_px = ImageSize{}.Centre().y();  ///< row of the principal point at the middle of the zoom
+  double centre_walk_u_px = 0,
+         centre_walk_v_px = 0;  ///< shift of the principal point from zoom step 0 to 2000
   double k1_wide = -0.07, k1_tele = -0.02, k2 = 0.01;  ///< radial distortion at zoom step 0 and 2000
   double breathing = 0.012;      ///< relative growth of the focal length at the nearest focus
   double nearest_focus_m = 0.6;  ///< distance in focus at focus step 0
@@ -44,10 +45,11 @@ struct CameraBuild {
 /// The mechanics of KASTOR with their manufacturing errors. Nominally pan and tilt axis meet at
 /// (0.25, 0, 1.20) of the base frame, the cameras sit at y = +-0.15 m and the third 0.12 m above them.
 struct HeadBuild {
-  double x_m = 0.25, y_m = 0, z_m = 1.20;                ///< pan axis in the base frame
-  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;       ///< orientation of the pan axis, base frame
-  double tilt_axis_x_m = 0, tilt_axis_z_m = 0;           ///< tilt axis on the pan platform
-  double tilt_axis_roll_rad = 0, tilt_axis_yaw_rad = 0;  ///< its skew against the pan axis
+  double x_m = 0.25, y_m = 0, z_m = 1.20;           ///< pan axis in the base frame
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< orientation of the pan axis, base frame
+  double tilt_axis_x_m = 0, tilt_axis_z_m = 0;      ///< tilt axis on the pan platform
+  double tilt_axis_roll_rad = 0,
+         tilt_axis_yaw_rad = 0;  ///< orientation of the tilt axis relative to the pan axis
   std::array<CameraBuild, kCameras> cameras = NominalCameras();
 
   void Describe(Archive& a);
@@ -72,7 +74,7 @@ struct TrueCamera {
   Eigen::Vector2d ProjectPinhole(const Eigen::Vector3d& in_camera) const;
   Eigen::Vector2d Distort(const Eigen::Vector2d& undistorted_px) const;
   Eigen::Vector2d Undistort(const Eigen::Vector2d& distorted_px) const;
-  /// Exactly where a point of the base frame appears.
+  /// The exact image of a point of the base frame [distorted px].
   Eigen::Vector2d Project(const Eigen::Vector3d& in_base) const;
   /// Homogeneous pinhole matrix (before distortion), third row a unit vector: image_from_base.
   Eigen::Matrix<double, 3, 4> ImageFromBase() const;

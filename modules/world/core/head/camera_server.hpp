@@ -98,7 +98,7 @@ class CameraServer {
 
   /// The next moment at which Sample() must be called; nullopt while nothing is being exposed.
   std::optional<Time> NextSample() const;
-  /// Where the cameras are at the moment NextSample() named.
+  /// Poses of the cameras at the time of NextSample().
   void Sample(const Viewpoint& viewpoint);
 
   /// The oldest frame whose readout is over at `now`. Throws what drawing it threw; that frame is lost, the

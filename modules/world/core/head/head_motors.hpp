@@ -70,7 +70,7 @@ class HeadMotors {
 
   HeadSetting Counters() const;
   bool moving() const;
-  /// Where the axes truly are.
+  /// True positions of the axes.
   HeadAxes Truth() const;
 
  private:
