@@ -215,7 +215,6 @@ void FloorTolerance::Describe(Archive& a) {
 }
 
 void ObstacleOptions::Describe(Archive& a) {
-  a.Section("floor", floor, "how a floor may lie");
   a.Number("min_height_m", min_height_m, {"m", 0.003, 0.2, "what is lower is driven over"});
   a.Number("lowest_m", lowest_m, {"m", -3, -0.01, "deepest that is looked for, against the floor"});
   a.Number("highest_m", highest_m, {"m", 0.01, 3, "highest that is looked for"});
@@ -225,6 +224,8 @@ void ObstacleOptions::Describe(Archive& a) {
             {"px", 4, ImageSize{}.width, "a gap in the line is reported if it has more columns"});
   a.Number("min_seen", min_seen,
            {"-", 0, 1, "least share of columns with a line; with less the floor is not judged"});
+  // Last: as TOML, what followed would belong to it.
+  a.Section("floor", floor, "how a floor may lie");
 }
 
 ObstacleLines FindObstacles(std::span<const StripePoint> stripe, int width, const CameraModel& camera,
