@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "common/covariance.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -105,6 +109,178 @@ TEST(HeadMessagesTest, OfManyPiecesTheHighestAreKeptInTheirOrder) {
   }
   EXPECT_EQ(up, 4);
   EXPECT_NEAR(message.segments.back().height_m, 0.07, 1e-6);
+}
+
+TEST(HeadMessagesTest, WhatTheMotorsReportIsReadWhole) {
+  head_state_t message{};
+  message.utime = 3'000'000;
+  message.pan_rad = 0.25;
+  message.tilt_rad = -0.125;
+  message.vergence_rad[0] = -0.02;
+  message.vergence_rad[1] = 0.03;
+  message.zoom_step[0] = 650;
+  message.zoom_step[1] = 651;
+  message.focus_step[0] = 1600;
+  message.focus_step[1] = 1601;
+  message.moving = true;
+  const HeadReport dut = FromMessage(message);
+  const HeadSetting expected{0.25, -0.125, {-0.02, 0.03}, {650, 651}, {1600, 1601}};
+  EXPECT_EQ(dut.time, FromUtime(3'000'000));
+  EXPECT_TRUE(dut.moving);
+  EXPECT_EQ(dut.setting.pan_rad, expected.pan_rad);
+  EXPECT_EQ(dut.setting.tilt_rad, expected.tilt_rad);
+  EXPECT_EQ(dut.setting.vergence_rad, expected.vergence_rad);
+  EXPECT_EQ(dut.setting.zoom_step, expected.zoom_step);
+  EXPECT_EQ(dut.setting.focus_step, expected.focus_step);
+}
+
+TEST(HeadMessagesTest, ACommandSaysTheWholeSetting) {
+  const HeadSetting setting{0.25, -0.125, {-0.02, 0.03}, {650, 651}, {1600, 1601}};
+  const head_command_t dut = ToMessage(setting, FromUtime(42));
+  EXPECT_EQ(dut.utime, 42);
+  EXPECT_EQ(dut.pan_rad, 0.25);
+  EXPECT_EQ(dut.tilt_rad, -0.125);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(dut.vergence_rad[i], setting.vergence_rad[i]);
+    EXPECT_EQ(dut.zoom_step[i], setting.zoom_step[i]);
+    EXPECT_EQ(dut.focus_step[i], setting.focus_step[i]);
+  }
+}
+
+TEST(HeadMessagesTest, ATriggerAndItsFramesSpeakOfTheSamePicture) {
+  const camera_trigger_t trigger = TriggerMessage(77, 12, FromUtime(42));
+  EXPECT_EQ(trigger.utime, 42);
+  EXPECT_EQ(trigger.frame_id, 77);
+  EXPECT_EQ(trigger.cameras, 12);
+  camera_frame_t message{};
+  message.utime_exposure = 43;
+  message.frame_id = 77;
+  message.camera = 2;
+  message.slot = 5;
+  message.width_px = 768;
+  message.height_px = 576;
+  const FrameNotice dut = FromMessage(message);
+  EXPECT_EQ(dut.exposure, FromUtime(43));
+  EXPECT_EQ(dut.frame_id, 77);
+  EXPECT_EQ(dut.camera, 2);
+  EXPECT_EQ(dut.slot, 5);
+  EXPECT_EQ(dut.width, 768);
+  EXPECT_EQ(dut.height, 576);
+}
+
+TEST(HeadMessagesTest, ASideThatDoesNotExistIsTheNearestOne) {
+  for (const auto& [side, expected] : {std::pair(-3, 0), {0, 0}, {1, 1}, {2, 2}, {9, 2}}) {
+    look_request_t message{};
+    message.request_id = 5;
+    message.landmark_id = 6;
+    message.side = static_cast<std::int8_t>(side);
+    EXPECT_EQ(FromMessage(message), (LookOrder{5, 6, expected}));
+  }
+}
+
+TEST(HeadMessagesTest, AWishWithoutACredibleLifeIsNeverValid) {
+  head_drive_t message{};
+  message.utime = 9;
+  message.session = 3;
+  message.sequence = 4;
+  message.pan_rad_s = 0.1;
+  message.tilt_rad_s = 0.2;
+  message.vergence_rad_s = 0.3;
+  message.zoom_step_s = 40;
+  message.focus_step_s = 50;
+  message.time_to_live_s = 0.25;
+  const HeadWish dut = FromMessage(message);
+  EXPECT_EQ(dut.time_to_live, std::chrono::milliseconds(250));
+  EXPECT_EQ(dut.time, FromUtime(9));
+  EXPECT_EQ(dut.session, 3);
+  EXPECT_EQ(dut.sequence, 4);
+  EXPECT_EQ(dut.pan_rad_s, 0.1);
+  EXPECT_EQ(dut.tilt_rad_s, 0.2);
+  EXPECT_EQ(dut.vergence_rad_s, 0.3);
+  EXPECT_EQ(dut.zoom_step_s, 40);
+  EXPECT_EQ(dut.focus_step_s, 50);
+  for (const double life : {-0.1, 0.0, 1.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    message.time_to_live_s = life;
+    EXPECT_EQ(FromMessage(message).time_to_live, Duration::zero()) << life;
+  }
+}
+
+TEST(HeadMessagesTest, APoseNeedsFiniteNumbers) {
+  pose_t message{};
+  message.utime = 7;
+  message.x_m = 1;
+  message.y_m = 2;
+  message.yaw_rad = 4;
+  message.vx_m_s = 0.3;
+  message.vy_m_s = 0.1;
+  message.wz_rad_s = -0.2;
+  message.sigma_x_m = 0.1;
+  message.sigma_y_m = 0.2;
+  message.sigma_yaw_rad = 0.05;
+  message.rho_x_y = 0.5;
+  const auto dut = FromMessage(message);
+  ASSERT_TRUE(dut);
+  EXPECT_EQ(dut->time, FromUtime(7));
+  EXPECT_EQ(dut->map_from_base.x, 1);
+  EXPECT_NEAR(dut->map_from_base.yaw, 4 - 2 * kPi, 1e-12);
+  EXPECT_EQ(dut->twist.wz, -0.2);
+  EXPECT_NEAR(dut->covariance(0, 0), 0.01, 1e-12);
+  EXPECT_NEAR(dut->covariance(1, 0), 0.5 * 0.1 * 0.2, 1e-12);
+  for (double pose_t::*field :
+       {&pose_t::x_m, &pose_t::yaw_rad, &pose_t::vy_m_s, &pose_t::sigma_yaw_rad, &pose_t::rho_y_yaw}) {
+    pose_t damaged = message;
+    damaged.*field = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(FromMessage(damaged));
+  }
+}
+
+TEST(HeadMessagesTest, EdgesWithoutLengthAreLeftOutOfALandmark) {
+  landmark_model_t message{};
+  message.landmark_id = 12;
+  message.x_m = 3;
+  message.yaw_rad = -4;
+  message.edges.resize(2);
+  message.edges[0].z2_m = 2;
+  message.edges[0].side = 1;
+  message.edges[0].visible_from_rad = -1;
+  message.edges[0].visible_to_rad = 1;
+  message.edges[1].z2_m = 0.01;
+  message.n_edges = 2;
+  const auto dut = FromMessage(message);
+  ASSERT_TRUE(dut);
+  EXPECT_EQ(dut->id, 12);
+  EXPECT_NEAR(dut->map_from_landmark.yaw, 2 * kPi - 4, 1e-12);
+  ASSERT_EQ(dut->edges.size(), 1u);
+  EXPECT_EQ(dut->edges[0].to, Eigen::Vector3d(0, 0, 2));
+  EXPECT_EQ(dut->edges[0].side, 1);
+  EXPECT_EQ(dut->edges[0].visible_to_rad, 1);
+  message.edges[1].y1_m = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(FromMessage(message));
+}
+
+TEST(HeadMessagesTest, OnlyAFoundLandmarkHasAPlace) {
+  LookAnswer answer = Answer(0);
+  answer.map_from_landmark = {6, 7, 0.5};
+  answer.fix.base_from_landmark = {2, 0.5, 0.1};
+  answer.fix.covariance = Eigen::Vector3d(1e-4, 4e-4, 1e-6).asDiagonal();
+  answer.fix.n_matched = 300;
+  answer.fix.residual_px = 50;
+  landmark_fix_t dut = ToMessage(answer);
+  EXPECT_EQ(dut.verdict, landmark_fix_t::AMBIGUOUS);
+  EXPECT_EQ(dut.model_x_m, 6);
+  EXPECT_EQ(dut.model_yaw_rad, 0.5);
+  EXPECT_EQ(dut.x_m, 0);
+  EXPECT_EQ(dut.sigma_x_m, 0);
+  EXPECT_EQ(dut.n_matched, 255) << "what the message can say";
+  EXPECT_EQ(dut.residual_px, 20);
+  answer.fix.verdict = Verdict::kFound;
+  dut = ToMessage(answer);
+  EXPECT_EQ(dut.x_m, 2);
+  EXPECT_EQ(dut.y_m, 0.5);
+  EXPECT_EQ(dut.yaw_rad, 0.1);
+  EXPECT_NEAR(dut.sigma_x_m, 0.01, 1e-12);
+  EXPECT_NEAR(dut.sigma_y_m, 0.02, 1e-12);
+  EXPECT_NEAR(dut.sigma_yaw_rad, 0.001, 1e-12);
 }
 
 }  // namespace
