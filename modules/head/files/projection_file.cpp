@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
 #include <stdexcept>
@@ -18,18 +19,27 @@ namespace {
 
 cv::FileStorage Open(const std::string& file) {
   try {
-    cv::FileStorage storage(file, cv::FileStorage::READ);
-    if (storage.isOpened()) return storage;
+    // OpenCV would complain of a file that is not there on standard error.
+    if (std::ifstream(file)) {
+      cv::FileStorage storage(file, cv::FileStorage::READ);
+      if (storage.isOpened() && storage.root().isMap()) return storage;
+    }
   } catch (const cv::Exception&) {
     // OpenCV's own words name its source file, not ours.
   }
   Fail(file, "expected a camera as YAML (first line %YAML:1.0), got none");
 }
 
+/// `key`.data; none where `key` holds something else than a matrix.
+cv::FileNode DataOf(const cv::FileStorage& storage, const char* key) {
+  const cv::FileNode node = storage[key];
+  return node.isMap() ? node["data"] : cv::FileNode();
+}
+
 /// The numbers of `key`.data, which must be `count`.
 std::vector<double> Numbers(const std::string& file, const cv::FileStorage& storage, const char* key,
                             std::size_t count) {
-  const cv::FileNode data = storage[key]["data"];
+  const cv::FileNode data = DataOf(storage, key);
   std::vector<double> numbers;
   if (data.isSeq())
     for (const auto& node : data) numbers.push_back(node.isReal() || node.isInt() ? double(node) : NAN);
@@ -48,15 +58,21 @@ void CheckSize(const std::string& file, const cv::FileStorage& storage, int widt
                            int(w), int(h)));
 }
 
+void CheckRectified(const std::string& file, const cv::FileStorage& storage) {
+  constexpr const char* kKey = "distortion_coefficients";
+  if (storage[kKey].empty()) return;
+  const std::size_t count = DataOf(storage, kKey).size();
+  if (count == 0) Fail(file, fmt::format("{}: expected data with numbers, got none", kKey));
+  for (const double k : Numbers(file, storage, kKey, count))
+    if (k != 0) Fail(file, fmt::format("{}: expected zeros (rectified photographs), got others", kKey));
+}
+
 }  // namespace
 
 CameraModel LoadProjection(const std::string& file, int image_width, int image_height) {
   const cv::FileStorage storage = Open(file);
   CheckSize(file, storage, image_width, image_height);
-  if (!storage["distortion_coefficients"].empty())
-    for (const double k :
-         Numbers(file, storage, "distortion_coefficients", storage["distortion_coefficients"]["data"].size()))
-      if (k != 0) Fail(file, "distortion_coefficients: expected zeros (rectified photographs), got others");
+  CheckRectified(file, storage);
   const auto p = Numbers(file, storage, "projection_matrix", 12);
   CameraModel camera;
   camera.image_from_base = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(p.data());
