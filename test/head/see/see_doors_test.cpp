@@ -35,7 +35,8 @@ DetectedDoor Door() {
   DetectedDoor door;
   door.base_from_door = {3, 0.4, Radians(20)};
   door.covariance << 0.0009, 0.0001, 0.0001, 0.0016;
-  door.width_m = 0.9, door.height_m = 2.0;
+  door.width_m = 0.9;
+  door.height_m = 2.0;
   door.on_floor = true;
   door.log_odds = 12.5;
   return door;
@@ -110,9 +111,13 @@ class DrawDoorsTest : public testing::Test {
  protected:
   DrawDoorsTest() {
     for (int c = 0; c < 2; ++c) {
-      edges_[c].width = kWidth, edges_[c].height = kHeight;
+      edges_[c].width = kWidth;
+      edges_[c].height = kHeight;
       edges_[c].segments.resize(c + 1);
-      for (EdgeSegment& s : edges_[c].segments) s.begin = {10, 20}, s.end = {10, 120};
+      for (EdgeSegment& s : edges_[c].segments) {
+        s.begin = {10, 20};
+        s.end = {10, 120};
+      }
     }
     for (int c = 0; c < 2; ++c)
       views_.push_back({.camera = &cameras_[c], .edges = &edges_[c], .size = {}, .lines = {}, .points = {}});

@@ -19,7 +19,8 @@ constexpr int kWidth = 320, kHeight = 240;
 
 EdgeSegment Segment(const Vector2d& begin, const Vector2d& end) {
   EdgeSegment s;
-  s.begin = begin, s.end = end;
+  s.begin = begin;
+  s.end = end;
   return s;
 }
 
@@ -75,14 +76,17 @@ class DrawMatchesTest : public testing::Test {
         edges_[v].segments.push_back(Segment({10.0 * i + 5, 20}, {10.0 * i + 5, 100}));
         views_[v].lines.emplace_back().segment = 1 - i;  // the lines count backwards
       }
-      views_[v].camera = &camera_, views_[v].edges = &edges_[v];
+      views_[v].camera = &camera_;
+      views_[v].edges = &edges_[v];
     }
   }
   static StereoMatch At(double depth_m, int line = 0) {
     StereoMatch match;
-    match.left = line, match.right = {line};
+    match.left = line;
+    match.right = {line};
     SpaceEdge edge;
-    edge.from = {0, -0.5, depth_m - 0.1}, edge.to = {0, 0.5, depth_m + 0.1};
+    edge.from = {0, -0.5, depth_m - 0.1};
+    edge.to = {0, 0.5, depth_m + 0.1};
     match.space = edge;
     return match;
   }

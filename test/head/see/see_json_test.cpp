@@ -14,15 +14,19 @@ using nlohmann::ordered_json;
 
 EdgeSegment Segment(double u1, double v1, double u2, double v2) {
   EdgeSegment s;
-  s.begin = {u1, v1}, s.end = {u2, v2};
-  s.sigma_normal_px = 0.02, s.sigma_angle_rad = 0.001;
-  s.grey_left = 60, s.grey_right = 180;
+  s.begin = {u1, v1};
+  s.end = {u2, v2};
+  s.sigma_normal_px = 0.02;
+  s.sigma_angle_rad = 0.001;
+  s.grey_left = 60;
+  s.grey_right = 180;
   return s;
 }
 
 TEST(EdgesToJson, SegmentsKeepTheirEndsSigmasAndGreyValues) {
   EdgeImage edges;
-  edges.width = 320, edges.height = 240;
+  edges.width = 320;
+  edges.height = 240;
   edges.segments = {Segment(10.25, 20.5, 30, 40), Segment(1, 2, 3, 4)};
   const ordered_json dut = EdgesToJson("hall.png", edges, {});
   EXPECT_EQ(dut["image"], "hall.png");
@@ -68,8 +72,10 @@ class MatchesToJsonTest : public testing::Test {
   MatchesToJsonTest() {
     for (int v = 0; v < 3; ++v)
       for (int i = 0; i < 3; ++i) views_[v].lines.emplace_back().segment = 10 * (v + 1) + i;
-    match_.left = 1, match_.right = {2, 0};
-    match_.epipolar_rad = 0.5, match_.similarity = 0.75;
+    match_.left = 1;
+    match_.right = {2, 0};
+    match_.epipolar_rad = 0.5;
+    match_.similarity = 0.75;
   }
   ordered_json Dut(std::size_t views) const {
     return MatchesToJson(std::span(views_).first(views), std::span(&match_, 1))[0];
@@ -99,7 +105,8 @@ TEST_F(MatchesToJsonTest, WithoutAPlaceInSpaceNoneIsTold) {
 
 TEST_F(MatchesToJsonTest, AnEdgeOfSpaceHasItsEndsAndTheirSigmas) {
   SpaceEdge edge;
-  edge.from = {1, 2, 3}, edge.to = {4, 5, 6};
+  edge.from = {1, 2, 3};
+  edge.to = {4, 5, 6};
   edge.covariance.diagonal() << 1, 4, 9, 16, 25, -1e-18;
   match_.space = edge;
   const ordered_json dut = Dut(2);

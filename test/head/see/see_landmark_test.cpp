@@ -70,18 +70,24 @@ class SeeLandmark : public testing::Test {
     camera_.image_from_base << 320, -500, 0, 0, 240, 0, -500, 0, 1, 0, 0, 0;  // u to the right of y left
     body_.points = {{0, 0.5, 0.5}, {0, 0.5, -0.5}, {0, -0.5, -0.5}, {0, -0.5, 0.5}};
     body_.faces = {{0, 1, 2, 3}};
-    edges_.width = kWidth, edges_.height = kHeight;
+    edges_.width = kWidth;
+    edges_.height = kHeight;
     edges_.segments.resize(3);
     for (int i = 0; i < 3; ++i) {
-      edges_.segments[i].begin = {100.0 + i, 10}, edges_.segments[i].end = {100.0 + i, 90};
+      edges_.segments[i].begin = {100.0 + i, 10};
+      edges_.segments[i].end = {100.0 + i, 90};
       view_.lines.emplace_back().segment = 2 - i;  // the lines count backwards
     }
-    view_.camera = &camera_, view_.edges = &edges_, view_.size = {kWidth, kHeight};
+    view_.camera = &camera_;
+    view_.edges = &edges_;
+    view_.size = {kWidth, kHeight};
     fix_.base_from_model = believed_;
     fix_.seen.edges = {{.from = {0, 0.5, 0.5}, .to = {0, 0.5, -0.5}},
                        {.from = {0, 0.5, -0.5}, .to = {0, -0.5, -0.5}}};
     EdgeMatch match;
-    match.edge = 1, match.camera = 0, match.lines = {0, 2};
+    match.edge = 1;
+    match.camera = 0;
+    match.lines = {0, 2};
     fix_.matches = {match};
   }
   SeePage Draw() const {
@@ -146,7 +152,8 @@ TEST_F(SeeLandmark, JsonOfAFixHasPoseSigmasAndMatches) {
   fix_.verdict = Verdict::kFound;
   fix_.base_from_model = PoseFromSix({1, 2, 3, 10, 20, 30});
   fix_.covariance.diagonal() << 1e-4, 4e-4, -1e-20, std::pow(Radians(1), 2), std::pow(Radians(2), 2), 0;
-  fix_.residual_px = 0.25, fix_.misfit = 1.5;
+  fix_.residual_px = 0.25;
+  fix_.misfit = 1.5;
   const auto dut = LandmarkToJson(std::span(&view_, 1), fix_);
   EXPECT_EQ(dut["found"], true);
   EXPECT_THAT(dut["pose_m_deg"].get<std::vector<double>>(),

@@ -169,7 +169,8 @@ TEST_F(LabelFitTest, ALabellingThatIsTooInexactIsNone) {
 
 TEST_F(LabelFitTest, AFocalLengthFarFromWhatIsKnownIsNotBelieved) {
   ASSERT_TRUE(Fit().Grow(Rough()));
-  options_.min_focal_px = 3000, options_.max_focal_px = 4000;
+  options_.min_focal_px = 3000;
+  options_.max_focal_px = 4000;
   EXPECT_FALSE(Fit().Grow(Rough()));
 }
 

@@ -36,7 +36,9 @@ double HalfLevel(double semi_axis_px, double other_px, double blur_sigma_px) {
 DetectedDisc Start(const Ellipse& truth, const Vector2d& off = {0.4, -0.3}) {
   DetectedDisc start;
   start.ellipse = {truth.centre_px + off, 1.1 * truth.shape_px2};
-  start.amplitude = 0.9 * kAmplitude, start.background = kGround + 3, start.blur_sigma_px = 0.7;
+  start.amplitude = 0.9 * kAmplitude;
+  start.background = kGround + 3;
+  start.blur_sigma_px = 0.7;
   return start;
 }
 

@@ -123,7 +123,9 @@ TEST(DiscModel, EveryParameterThatIsOffIsMendedByItsSteps) {
 
 TEST(DiscModel, ASumOverTheCoreSaysTheSameAsItsPixels) {
   DiscModel off = Truth();
-  off.centre += Vector2d(0.2, -0.1), off.amplitude += 3, off.background -= 2;
+  off.centre += Vector2d(0.2, -0.1);
+  off.amplitude += 3;
+  off.background -= 2;
   const WindowPixels all = PixelsOf(Truth());
   WindowPixels split;
   for (const auto& p : all.shell) {
@@ -134,8 +136,12 @@ TEST(DiscModel, ASumOverTheCoreSaysTheSameAsItsPixels) {
     }
     GreySums& sums = split.core;
     const Vector2d at(p.dx, p.dy);
-    sums.n += 1, sums.g += p.grey, sums.gg += p.grey * p.grey;
-    sums.x += at, sums.gx += p.grey * at, sums.xx += at * at.transpose();
+    sums.n += 1;
+    sums.g += p.grey;
+    sums.gg += p.grey * p.grey;
+    sums.x += at;
+    sums.gx += p.grey * at;
+    sums.xx += at * at.transpose();
   }
   ASSERT_GT(split.core.n, 10);
   const NormalEquations one_by_one = Linearise(off, all, kWindowCentre),
@@ -168,7 +174,8 @@ TEST(DiscModel, WithoutPixelsThereAreNoEquations) {
 
 TEST(DiscModel, SlopesThatNothingSupportsAreDrawnBackToZero) {
   DiscModel dut = Truth();
-  dut.slope = {0.02, -0.03}, dut.background_slope = {4, -5};
+  dut.slope = {0.02, -0.03};
+  dut.background_slope = {4, -5};
   WindowPixels one;
   one.shell.push_back({0, 0, 160});
   dut.Step(Linearise(dut, one, kWindowCentre));

@@ -55,8 +55,12 @@ RC_GTEST_PROP(GreySums, RowsSumUpToWhatTheirPixelsDo, ()) {
   Vector2d x = Vector2d::Zero(), gx = Vector2d::Zero();
   Eigen::Matrix2d xx = Eigen::Matrix2d::Zero();
   for (const Sample& s : AddRows(dut, image, {Between(-3, 20), Between(-3, 9)}, rng)) {
-    n += 1, g += s.grey, gg += s.grey * s.grey;
-    x += s.at, gx += s.grey * s.at, xx += s.at * s.at.transpose();
+    n += 1;
+    g += s.grey;
+    gg += s.grey * s.grey;
+    x += s.at;
+    gx += s.grey * s.at;
+    xx += s.at * s.at.transpose();
   }
   RC_ASSERT(Near(dut.n, n) && Near(dut.g, g) && Near(dut.gg, gg));
   RC_ASSERT((dut.x - x).norm() < 1e-8 && (dut.gx - gx).norm() < 1e-6 && (dut.xx - xx).norm() < 1e-6);
@@ -93,8 +97,10 @@ RC_GTEST_PROP(FlatPixels, MakeTheNormalEquationsOfTheirPixels, ()) {
     NormalEquations::Vector odd, even;
     odd << 0, 0, amplitude * dx, amplitude * dy, dx, dy;
     even << (amplitude > 0 ? 1 : 0), 1, 0, 0, 0, 0;
-    expected.odd += odd * odd.transpose(), expected.odd_rhs += residual * odd;
-    expected.even += even * even.transpose(), expected.even_rhs += residual * even;
+    expected.odd += odd * odd.transpose();
+    expected.odd_rhs += residual * odd;
+    expected.even += even * even.transpose();
+    expected.even_rhs += residual * even;
     expected.squares += residual * residual;
   }
   dut.AddTo(got, amplitude);
@@ -115,9 +121,16 @@ RC_GTEST_PROP(WindowPixels, ShellAndCoreTogetherAreTheWindow, ()) {
   WindowPixels dut;
   dut.Collect(image, disc, window, {}, Between(1, 4));
   double n = 0, g = 0, gg = 0;
-  ForEachPixel(image, *BoundingBox(image, window), window, {},
-               [&](double, double, double, int grey) { n += 1, g += grey, gg += grey * grey; });
-  for (const auto& p : dut.shell) n -= 1, g -= p.grey, gg -= p.grey * p.grey;
+  ForEachPixel(image, *BoundingBox(image, window), window, {}, [&](double, double, double, int grey) {
+    n += 1;
+    g += grey;
+    gg += grey * grey;
+  });
+  for (const auto& p : dut.shell) {
+    n -= 1;
+    g -= p.grey;
+    gg -= p.grey * p.grey;
+  }
   RC_ASSERT(Near(n, dut.core.n) && Near(g, dut.core.g) && Near(gg, dut.core.gg));
 }
 

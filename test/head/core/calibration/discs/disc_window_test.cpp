@@ -83,7 +83,8 @@ RC_GTEST_PROP(DiscWindow, TheBoxHoldsTheEllipseAndNothingToSpare, ()) {
   for (int i = 0; i < 3600; ++i) {
     const double t = 2 * kPi * i / 3600;
     const Eigen::Vector2d rim = e.centre_px + root * Eigen::Vector2d(std::cos(t), std::sin(t));
-    low = low.cwiseMin(rim), high = high.cwiseMax(rim);
+    low = low.cwiseMin(rim);
+    high = high.cwiseMax(rim);
   }
   // The whole pixels between the outermost points of the rim.
   constexpr double kSlack = 1e-4;

@@ -36,7 +36,10 @@ class CameraRefinement : public testing::Test {
   }
   /// The same camera without distortion, a little elsewhere.
   static CameraModel StartNear(CameraView view) {
-    view.k1 = 0, view.focal_px *= 1.03, view.distance_m *= 1.02, view.azimuth_rad += 0.02;
+    view.k1 = 0;
+    view.focal_px *= 1.03;
+    view.distance_m *= 1.02;
+    view.azimuth_rad += 0.02;
     view.centre_px = {383.5, 287.5};
     return support::MakeCamera(view);
   }

@@ -59,7 +59,8 @@ std::optional<Vector2d> ResidualOf(const HeadModel& head, const HeadReprojection
 
 HeadSetting AnySetting(Rng& rng) {
   HeadSetting s;
-  s.pan_rad = rng.Uniform(-0.3, 0.3), s.tilt_rad = rng.Uniform(-0.2, 0.2);
+  s.pan_rad = rng.Uniform(-0.3, 0.3);
+  s.tilt_rad = rng.Uniform(-0.2, 0.2);
   s.vergence_rad = {rng.Uniform(-0.1, 0.1), rng.Uniform(-0.1, 0.1)};
   return s;
 }
@@ -93,8 +94,10 @@ RC_GTEST_PROP(HeadReprojection, ErrorsOfTheMotorsAddToTheSetting, ()) {
   const std::array<double, kJitter> jitter{rng.Normal(0.01), rng.Normal(0.01), rng.Normal(0.01),
                                            rng.Normal(0.01)};
   HeadSetting moved = setting;
-  moved.pan_rad += jitter[0], moved.tilt_rad += jitter[1];
-  moved.vergence_rad[0] += jitter[2], moved.vergence_rad[1] += jitter[3];
+  moved.pan_rad += jitter[0];
+  moved.tilt_rad += jitter[1];
+  moved.vergence_rad[0] += jitter[2];
+  moved.vergence_rad[1] += jitter[3];
   for (const int camera : {kLeft, kRight, kThird}) {
     const Vector3d point = PointBefore(head, setting, camera, rng);
     const auto dut = ResidualOf(head, {setting, camera, point, {400, 300}, 1}, jitter),
