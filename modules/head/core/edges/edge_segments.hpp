@@ -20,9 +20,9 @@ class EdgeOperator {
  public:
   /// Settings of the operator and of its steps.
   struct Options {
-    double min_contrast = 10;   ///< weakest edge of a quiet image [grey values]
-    double noise_factor = 3.0;  ///< a pixel is linked above so many standard deviations of the gradient
-    double min_length_px = 12;  ///< shortest segment
+    double min_contrast = 10;    ///< weakest edge of a quiet image [grey values]
+    double noise_factor = 2.36;  ///< a pixel is linked above so many standard deviations of the gradient
+    double min_length_px = 12;   ///< shortest segment
     ChainSplitter::Options split;
     EdgeRefiner::Options refit;
     bool fuse = true;  ///< join what is broken (section 4.1)

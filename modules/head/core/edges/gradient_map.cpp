@@ -9,8 +9,8 @@ namespace priamos::head {
 namespace {
 
 constexpr double kBlurSigma = 1.0;
-/// Standard deviation of the 5x5 Gaussian followed by a 3x3 Sobel, for pixel noise of 1.
-constexpr double kGradientGain = 0.92;
+/// Standard deviation that pixel noise of 1 has after the 5x5 Gaussian and a 3x3 Sobel.
+constexpr double kGradientGain = 1.169;
 /// Standard deviation of the mask [1 -2 1; -2 4 -2; 1 -2 1], for pixel noise of 1.
 constexpr double kLaplaceGain = 6.0;
 constexpr double kMedianToSigma = 1 / 0.6745;
