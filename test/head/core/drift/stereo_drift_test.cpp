@@ -105,35 +105,5 @@ TEST(DriftMonitorTest, VergenceOf0Point05DegreesIsNoticed) {
   EXPECT_GE(CountAlarms({}, {0, Radians(0.05), 0}, 40, 8), 30);
 }
 
-TEST(DriftMonitorTest, FewLooksAreNotJudgedAndGoodOnesEndTheAlarm) {
-  DriftConfig config;
-  DriftMonitor dut(config);
-  StereoDrift bad{{0, 0.01, 0}, Vector3d(1e-8, 1e-8, 1e-8).asDiagonal()},
-      good{Vector3d::Zero(), bad.covariance};
-  for (int i = 0; i < config.looks - 1; ++i) dut.Add(bad);
-  EXPECT_FALSE(dut.alarm());
-  dut.Add(bad);
-  ASSERT_TRUE(dut.alarm());
-  EXPECT_EQ(dut.alarm()->axis, 1);
-  EXPECT_EQ(
-      dut.alarm()->ToText(),
-      "cameras out of calibration: right turned 0.573 deg sideways (vergence), 100 sigma; calibrate again");
-  EXPECT_LE(dut.alarm()->ToText().size(), 100u) << "what HEALTH has room for";
-  dut.Add(good);
-  EXPECT_TRUE(dut.alarm()) << "one look is not enough, neither way";
-  dut.Add(good);
-  EXPECT_FALSE(dut.alarm());
-}
-
-TEST(DriftMonitorTest, AnEvenNumberOfLooksIsRefused) {
-  EXPECT_THROW(ParseConfig<DriftConfig>("head.toml", "looks = 4\n"), ConfigError);
-}
-
-TEST(DriftMonitorTest, QuantilesOfTheNormalDistribution) {
-  EXPECT_NEAR(NormalQuantile(0.5), 0, 1e-9);
-  EXPECT_NEAR(NormalQuantile(0.025), 1.959964, 1e-5);
-  EXPECT_NEAR(NormalQuantile(1e-6), 4.753424, 1e-5);
-}
-
 }  // namespace
 }  // namespace priamos::head
