@@ -13,7 +13,7 @@ constexpr std::size_t kLeadingDelimiter = 1;
 constexpr double kNotBounded_s = 60;
 /// Bytes are handed to the line once per tick.
 constexpr double kTick_s = 0.001;
-/// Half-duplex: between the end of one end's turn and what the other one makes of it.
+/// Half-duplex: time from the end of one end's turn to the reaction of the other one.
 constexpr double kHandOver_s = 2 * kTick_s;
 /// Acknowledgements of frames per second, at most.
 constexpr double kFrameAcks_hz = 4;

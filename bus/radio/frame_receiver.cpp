@@ -7,7 +7,7 @@ namespace {
 
 /// One COBS code byte before the longest content.
 constexpr std::size_t kMaxEncodedBytes = 1 + 1 + kWholeCounterBytes + kMaxBundleBytes + 4;
-/// So many unusable frames in a row are no accident.
+/// Number of unusable frames in a row that noise alone does not explain.
 constexpr std::uint64_t kUnusableAfter = 3;
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kNoSmallForm = 4;
 
-/// Bits of a small difference: a value seldom moves by more than a few steps, a wide one by a few more.
+/// Number of bits of a small difference: most values change by a few steps only, wide ones by a few more.
 constexpr int SmallBits(int width) {
   return width / 3 + 1;
 }

@@ -12,7 +12,7 @@ constexpr double kBurstOfTries = 256;  // a tty's buffer after a pause of this p
 constexpr double kAlarmLevel = 20;
 constexpr double kMaxLevel = 200;
 constexpr double kDecayPerSecond = 1;
-/// One damaged frame can look like several.
+/// One damaged frame may be received as several.
 constexpr double kPiecesPerFrame = 1.5;
 
 }  // namespace

@@ -21,7 +21,7 @@ struct LockstepRequest {
   std::function<void(std::string_view bus, Time, std::string_view channel, std::span<const std::byte>)> tap;
 };
 
-/// What a scenario came to; `duration` in simulated time.
+/// Result of a scenario; `duration` in simulated time.
 struct LockstepResult {
   Summary summary;
   RunRecord record;

@@ -23,10 +23,10 @@ struct HandSummary {
   std::optional<double> honoured() const;
 };
 
-/// Nothing when no command for motion was recorded. What is free grows and shrinks with the acceleration that
-/// the robot grants an operator, and 0.1 s after the wish, so that starting and turning back are no faults.
-/// Time spent before something that blocks the wished motion does not count, time spent where there was room
-/// does.
+/// Summary of a drive by hand; nullopt if no command for motion was recorded. The free motion changes with
+/// the acceleration that the robot grants an operator, and 0.1 s after the wish, so that starting and turning
+/// back are no faults. Time spent before something that blocks the wished motion does not count, time spent
+/// where there was room does.
 std::optional<HandSummary> HandSummaryOf(const RunRecord& record, const TrueWorld& world,
                                          const DoorPlan& passage);
 

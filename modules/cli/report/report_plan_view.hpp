@@ -8,7 +8,7 @@
 #include "cli/report/report_things.hpp"
 #include "common/geometry.hpp"
 
-/// What a run looks like from above, drawn into a view of the map.
+/// Drawing of a run from above, in a view of the map.
 namespace priamos::cli {
 
 namespace colours {
@@ -85,9 +85,9 @@ std::vector<Eigen::Vector2d> FootprintOutline(const Pose2& map_from_base, const 
 
 /// The floor with a grid of 1 m.
 void DrawFloor(MapView& view, const Extent& extent);
-/// What the planner knows: walls, frames of the doors with their rebates, cupboards.
+/// The planner's map: walls, frames of the doors with their rebates, cupboards.
 void DrawPlan(MapView& view, const GroundPlan& plan, bool names);
-/// What it does not: truth. Names are of what is large enough to be seen.
+/// True solids that the planner does not know; large ones are named.
 void DrawThings(MapView& view, const std::vector<TrueThing>& things, bool names);
 void DrawAxis(MapView& view, const DoorPlan& door);
 void DrawTruth(MapView& view, const RunRecord& record);

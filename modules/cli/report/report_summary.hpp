@@ -44,7 +44,7 @@ struct StoryLine {
   std::string text;
 };
 
-/// What one run came to: summary.json, the same from the demo and from lockstep.
+/// Result of one run: summary.json, the same from the demo and from lockstep.
 struct Summary {
   std::string scenario;
   std::uint64_t seed = 0;
@@ -76,7 +76,7 @@ struct RunInfo {
   DoorPlan door;                 ///< the door that was to be passed, from the ground plan
   std::string reason;            ///< last line of the story
   std::vector<StoryLine> story;  ///< the lines shown meanwhile
-  TrueWorld world;               ///< what was in it
+  TrueWorld world;               ///< the simulated world of the run
 };
 
 /// An empty record gives a summary that has not passed.

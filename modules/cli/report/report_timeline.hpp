@@ -12,7 +12,7 @@ namespace priamos::cli {
 /// Where the robot truly was at `utime`, between two truth messages; nullopt outside the record.
 std::optional<Pose2> TruthAt(const RunRecord& record, std::int64_t utime);
 
-/// How wrong the robot's belief is at one time.
+/// Error of the robot's pose estimate at one time.
 struct PoseError {
   std::int64_t utime = 0;
   double position_m = 0;   ///< distance, never negative
@@ -22,7 +22,7 @@ struct PoseError {
 /// The error of one pose estimate against the truth at the same time; nullopt outside the record.
 std::optional<PoseError> ErrorOf(const RunRecord& record, const pose_t& pose);
 
-/// How the base centre goes through the plane of a door for the first time, in the door's frame.
+/// The first passage of the base centre through the plane of a door, in the door's frame.
 struct Crossing {
   std::int64_t utime = 0;
   double lateral_m = 0;    ///< true y in the door's frame, positive left of the middle
@@ -30,14 +30,14 @@ struct Crossing {
 };
 std::optional<Crossing> CrossingOf(const RunRecord& record, const Pose2& map_from_door);
 
-/// From the order to the first DONE or FAILED; the whole record as far as these are missing.
+/// Time span from the order to the first DONE or FAILED; the whole record as far as these are missing.
 struct MissionSpan {
   std::int64_t begin_utime = 0, end_utime = 0;
   bool done = false;
 };
 MissionSpan SpanOf(const RunRecord& record);
 
-/// From a look request to the pose correction it led to.
+/// Time span from a look request to the pose correction that it led to.
 struct LookSpan {
   std::int64_t begin_utime = 0, end_utime = 0;
   int side = 0;  ///< look_request_t::side

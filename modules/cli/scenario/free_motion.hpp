@@ -6,8 +6,8 @@
 namespace priamos::cli {
 
 /// What a robot that knew the world exactly could do with an operator's wish. It is the measure of a drive by
-/// hand and no part of one: it uses the exact rectangles of the world, not at echoes, and shares
-/// nothing with the robot but the form of the braking law.
+/// hand and no part of one: it uses the exact rectangles of the world, not echoes, and shares only
+/// the form of the braking law with the robot.
 ///
 /// The margin: 6 cm are kept free beside the path, and the base comes to stand 20 cm before what it would
 /// touch, braking with 1 m/s^2 after 0.2 s. The robot itself means to keep 5.5 and 18.5 cm.
@@ -15,9 +15,9 @@ class FreeMotion {
  public:
   explicit FreeMotion(const TrueWorld& world);
 
-  /// Of all motions whose components lie between 0 and those of `wish`: the one that comes farthest along it.
+  /// The motion that comes farthest along `wish`, of all whose components lie between 0 and those of `wish`.
   Twist2 Of(const Pose2& map_from_base, const Twist2& wish) const;
-  /// How fast `motion` is along `wish` [m/s of the fastest corner]: turning counts with the lever of a
+  /// Speed of `motion` along `wish` [m/s of the fastest corner]: turning counts with the lever of a
   /// corner.
   double Along(const Twist2& wish, const Twist2& motion) const;
 

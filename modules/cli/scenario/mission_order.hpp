@@ -18,10 +18,10 @@ bool IsRunning(const mission_status_t& status);
 /// DONE or FAILED.
 bool IsOver(const mission_status_t& status);
 
-/// What became of an order.
+/// Outcome of an order.
 enum class OrderOutcome {
   kOpen,      ///< not known yet
-  kAccepted,  ///< the planner carries it out; nobody asked for the end
+  kAccepted,  ///< the planner carries it out, and its end is not waited for
   kDone,      ///< the mission is done, or is aborted as was ordered
   kFailed,    ///< the mission failed
   kRefused,   ///< another mission is under way
@@ -44,7 +44,7 @@ class MissionOrder {
   std::optional<mission_command_t> Step(Time now);
 
   OrderOutcome outcome() const { return outcome_; }
-  /// The planner's last words, or why there are none.
+  /// The planner's last status text, or why there is none.
   const std::string& text() const { return text_; }
 
  private:
@@ -58,7 +58,7 @@ class MissionOrder {
   OrderOutcome outcome_ = OrderOutcome::kOpen;
   std::string text_;
   std::optional<mission_status_t> before_, last_;  ///< the status when the order was given, and the newest
-  bool answered_ = false;                          ///< the planner's words have changed since the order
+  bool answered_ = false;                          ///< the planner's status has changed since the order
   std::optional<Time> start_, first_sent_, sent_, heard_;
 };
 

@@ -39,7 +39,7 @@ struct ScenarioWaypoint {
   }
 };
 
-/// What runs, and what for: the same file for `priamos run` (real time) and `priamos lockstep`.
+/// The processes and the task of a run: the same file for `priamos run` (real time) and `priamos lockstep`.
 struct Scenario {
   std::string title;
   std::string story = "door";  ///< name in Stories()
@@ -52,7 +52,7 @@ struct Scenario {
   bool fast = false;                        ///< he uses the fast range
   double shake_s = 60;
   double astray_deg = 0;      ///< error of the direction in which he pushes, one sigma; 0: exact
-  double longest_stop_s = 0;  ///< he may be stopped in the passage for so long; 0: for any time
+  double longest_stop_s = 0;  ///< longest stop of the base in the passage; 0: any
 
   void Describe(Archive& a);
 };

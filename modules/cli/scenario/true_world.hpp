@@ -9,7 +9,7 @@
 
 namespace priamos::cli {
 
-/// What the simulated world truly holds, map frame. Truth: it belongs into reports and nowhere else.
+/// True body and solids of the simulated world, map frame. Only reports may use them.
 struct TrueWorld {
   world::Body body;
   std::vector<world::Solid> solids;

@@ -15,7 +15,7 @@ struct Deployment {
   std::string robot{bus::kDefaultRobot};  ///< its ports follow from its name
   int onboard_ttl = 0, offboard_ttl = 0;
   std::string group = "all";   ///< which ones `priamos up` starts: onboard, offboard or all
-  bool emulated_line = false;  ///< a serial line out of nothing between the radios
+  bool emulated_line = false;  ///< join the radios by an emulated serial line
   bus::radio::LineConfig line;
   std::vector<ScenarioProcess> processes;
 
@@ -35,7 +35,7 @@ struct Deployment {
   }
 };
 
-/// What a plan needs besides the processes themselves.
+/// Folders and seed of a plan of processes.
 struct LaunchPlace {
   std::string program_folder;  ///< where priamos-* are
   std::string config_folder;   ///< where the deployment's configuration files are

@@ -9,7 +9,7 @@
 
 namespace priamos::cli {
 
-/// A pair of radio modems out of nothing: two pseudo terminals joined by an emulated line.
+/// An emulated pair of radio modems: two pseudo terminals joined by an emulated line.
 struct LinkEmulateOptions {
   std::string a = "tty-a";  ///< links to the ttys are made here and removed at the end
   std::string b = "tty-b";
@@ -35,7 +35,7 @@ class PseudoTerminal {
 
   int fd() const { return master_; }
   std::vector<std::byte> Read(std::size_t most);
-  /// What nobody reads is lost, as on a modem.
+  /// Writes bytes; those that no program reads are lost, as on a modem.
   void Write(std::span<const std::byte> bytes);
 
  private:

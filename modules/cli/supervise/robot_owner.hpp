@@ -12,7 +12,7 @@
 
 namespace priamos::cli {
 
-/// The role of whoever starts and supervises the processes of a robot, on one of its buses.
+/// The role of the supervisor of a robot's processes, on one of its buses.
 inline constexpr const char* kSupervisorRole = "supervisor";
 
 /// Holds a robot for as long as its processes are supervised: nobody else starts them beside it. Hears the
@@ -31,7 +31,7 @@ class RobotOwner {
 
   /// Takes what has come; to be called often.
   void Listen();
-  /// Why the robot is lost to somebody who had it longer.
+  /// Why the robot was lost to another supervisor that had it longer; nullopt while it is held.
   std::optional<std::string> lost() const;
   /// Newest last, at most 20.
   const std::vector<std::string>& alarms() const { return alarms_; }

@@ -15,17 +15,18 @@ namespace priamos::cli {
 
 /// How to start one process.
 struct ProcessSpec {
-  std::string name;                      ///< unique
-  std::string group;                     ///< for the eye
-  std::vector<std::string> arguments;    ///< the first one is the program's path
-  std::vector<std::string> after;        ///< names that must be ready before it starts
-  bool notifies = true;                  ///< sends READY and WATCHDOG; else it is ready as soon as it runs
-  std::string folder;                    ///< working directory; empty: this process's
-  std::vector<std::string> leftovers{};  ///< files that lie about a living process: removed when it ended
+  std::string name;                    ///< unique
+  std::string group;                   ///< "onboard", "offboard" or "line": a column of `priamos status`
+  std::vector<std::string> arguments;  ///< the first one is the program's path
+  std::vector<std::string> after;      ///< names that must be ready before it starts
+  bool notifies = true;                ///< sends READY and WATCHDOG; else it is ready as soon as it runs
+  std::string folder;                  ///< working directory; empty: this process's
+  std::vector<std::string>
+      leftovers{};  ///< files that it leaves behind, e.g. links to ttys: removed when it has ended
   WatchPolicy policy;
 };
 
-/// What is known of one process now.
+/// State of one process.
 struct ProcessReport {
   std::string name, group;
   ProcessState state = ProcessState::kWaiting;

@@ -36,7 +36,7 @@ std::vector<const ViewLine*> LevelLines(const CameraView& view) {
   return level;
 }
 
-/// What an image line shows of the world if it is a level edge at a given height: a line on the floor plan.
+/// The projection of an image line onto the floor plan, if it is a level edge at a given height.
 struct PlanLine {
   Eigen::Vector2d normal;
   double offset = 0;  ///< normal.dot(at) + offset = 0
@@ -171,7 +171,8 @@ class Detector {
       candidates_.push_back(AsCandidate(door, fit->shape, LinesOf(evidence)));
   }
 
-  /// Where one camera sees a door and the other one does not, there is one, but elsewhere.
+  /// Log odds of both images. If only one camera sees the door, it is elsewhere: the weaker evidence counts
+  /// twice.
   static double Together(const std::array<DoorEvidence, 2>& evidence) {
     const auto [least, most] = std::minmax(evidence[0].log_odds, evidence[1].log_odds);
     return 2 * least + std::min(most - least, kMostDifference);

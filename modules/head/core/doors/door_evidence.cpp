@@ -66,7 +66,7 @@ Cover Union(std::vector<Interval> pieces, double length_px) {
   return cover;
 }
 
-/// The better of both contrast signs.
+/// The cover of `e` by image lines of the contrast sign that covers more.
 Cover CoverOf(const CameraView& view, const Expected& e, double beside_px = kBeside_px) {
   std::array<std::vector<Interval>, 2> pieces;
   for (std::size_t i = 0; i < view.lines.size(); ++i) {
@@ -128,13 +128,13 @@ double Table(double x, std::initializer_list<std::array<double, 2>> points) {
   return (*last)[1];
 }
 
-/// Where two edges should end and one does so, by so many pixels: normal for a door, anywhere for others.
+/// Log odds of an edge that ends `px` beside the corner: normally distributed for a door, evenly for others.
 double OfEnd(double px, double sigma_px, double door_share, double reach_px) {
   const double normal = std::exp(-0.5 * px * px / (sigma_px * sigma_px)) / (2.507 * sigma_px);
   return std::log(door_share * normal * reach_px + 1 - door_share);
 }
 
-/// Tables: how much more often doors of rendered corridors show this than what else was taken for one.
+/// Log odds of all evidence. The tables compare doors of rendered corridors with false candidates there.
 double LogOdds(const DoorEvidence& e) {
   double sum = Table(e.lintel.share, {{0.3, -4}, {0.6, -2.5}, {0.8, -1}, {0.95, 1.2}});
   sum += OfEnd(e.lintel.first_px, 2.5, 0.85, 50) + OfEnd(e.lintel.last_px, 2.5, 0.85, 50);

@@ -122,7 +122,7 @@ class DriftProblem {
     return prior;
   }
 
-  /// What two cameras that did not move may seem to be turned.
+  /// Variances of the apparent turn of cameras that did not move: errors of the calibration.
   Vector3d Floor() const {
     const double shift = options_.calibration_sigma_px / FocalLength(*cameras_[1]);
     const double roll = options_.calibration_sigma_px / kLever_px;

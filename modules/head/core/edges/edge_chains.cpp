@@ -32,7 +32,7 @@ void ForEachPeak(const unsigned short* at, std::ptrdiff_t step, int n, double th
 
 }  // namespace
 
-/// To which of its four sides a walk goes on, and what a step is in memory and in x and y.
+/// The direction of a walk, one of four, and its steps in memory and in x and y.
 struct ChainTracer::Heading {
   int tx, ty;          ///< a step ahead: (+-1, 0) or (0, +-1)
   int ahead, side;     ///< steps in memory
@@ -56,7 +56,7 @@ void ChainTracer::Trace(const GradientMap& gradients, const Options& options, Ed
   SeedColumns(gradients, options, chains);
 }
 
-/// No walk goes there, so none needs to look where the image ends.
+/// Marks the border as visited, so that no walk needs to check for the end of the image.
 void ChainTracer::CloseBorder(int height) {
   const auto close = [&](std::size_t from, std::size_t n) { std::fill_n(visited_.begin() + from, n, 1); };
   close(0, stride_);

@@ -23,7 +23,7 @@ Lanes All(double value) {
   return cv::v_setall_f32(static_cast<float>(value));
 }
 
-/// How far each block lies beside the fit.
+/// Distances of four blocks from the fit.
 struct Misfit {
   explicit Misfit(const EdgeOffset& fit, float begin)
       : offset(All(fit.offset - fit.slope * (fit.centroid - begin))), slope(All(fit.slope)) {}

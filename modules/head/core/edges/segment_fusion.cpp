@@ -23,7 +23,7 @@ auto Place(const EdgeSegment& s) {
                                                                                 s.end.x(), s.end.y());
 }
 
-/// How far an end of `piece` lies beside `line`, in units of what is allowed.
+/// Distance of the ends of `piece` from `line`, in units of the allowed distance.
 double Deviation(const EdgeSegment& line, const EdgeSegment& piece, const FusionOptions& options) {
   const Eigen::Vector2d normal = line.normal(), along = piece.direction();
   double worst = 0;

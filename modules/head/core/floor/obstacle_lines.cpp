@@ -79,7 +79,7 @@ Light Triangulate(std::span<const StripePoint> stripe, const CameraModel& camera
   return light;
 }
 
-/// How the floor may lie; what camera and laser add looks like heave and roll of it.
+/// Prior covariance of the floor; errors of camera and laser act like heave and roll of it.
 Eigen::Matrix3d FloorPrior(const FloorTolerance& floor, const LaserPlane& laser, const Light& light) {
   const double camera = light.rise_m_per_px * floor.camera_px;
   const double shift = light.rise_per_shift * laser.sigma_shift_m;
@@ -136,7 +136,7 @@ void CutStraight(Run run, std::vector<Run>& straight) {
   CutStraight(run.subspan(cut), straight);
 }
 
-/// nullopt for what is too short, too low or not certain.
+/// The obstacle piece that a run of points shows; nullopt if it is too short, too low or not significant.
 std::optional<ObstaclePiece> Judge(Run run, const FloorPlane& floor, const ObstacleOptions& options) {
   if (run.size() < static_cast<std::size_t>(options.min_columns)) return std::nullopt;
   Vector3d mean = Vector3d::Zero();

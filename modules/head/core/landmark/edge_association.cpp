@@ -28,7 +28,7 @@ double Union(std::vector<std::pair<double, double>>& parts) {
   return covered;
 }
 
-/// What lies beside a line, as the prediction's direction has it (EdgeMatch::grey_ratio).
+/// EdgeMatch::grey_ratio of a candidate: its sign follows the direction of the prediction.
 double GreyRatio(const CameraView& view, const EdgeCandidate& c) {
   constexpr double kBlack = 4;  // darker than that a ratio means nothing
   const EdgeSegment& segment = view.edges->segments[view.lines[c.line].segment];
@@ -206,7 +206,7 @@ void Account(const Search& search, const LandmarkEdge& edge, double density, int
   association.matches.back().log_odds = log_odds;
 }
 
-/// Takes the part that may stand elsewhere in, if it was found.
+/// Adds the evidence of the movable part if it was found.
 void JoinMovable(Association&& part, Association& all) {
   if (part.log_odds <= 0) return;
   const auto or_elsewhere = [](double log_odds) { return std::log1p(std::exp(log_odds)) + std::log(0.5); };

@@ -40,7 +40,7 @@ Eigen::Matrix3d OnFloor(const Eigen::Matrix<double, 6, 6>& covariance) {
   return floor;
 }
 
-/// So near that refinement leads to the same place.
+/// Whether two poses are so near that refinement leads to the same one.
 bool IsSame(const Pose2& a, const Pose2& b) {
   return (a.translation() - b.translation()).norm() < 0.004 && std::abs(WrapAngle(a.yaw - b.yaw)) < 0.002;
 }
@@ -109,7 +109,7 @@ bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const Camera
   return pose.solution.ok;
 }
 
-/// From a pose that was approached once.
+/// Refines a pose that was approached once.
 void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const {
   if (!Approach(model, views, kApproached, true, pose) || !Approach(model, views, kRefined, false, pose))
     return;
@@ -118,7 +118,7 @@ void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraVi
   DropOutliers(model, views, pose);
 }
 
-/// Many proposals lead to the same pose: each is refined only once.
+/// Refines all starts; many lead to the same pose, which is refined only once.
 std::vector<LandmarkFinder::Pose> LandmarkFinder::RefineAll(const LandmarkModel& model,
                                                             std::span<const CameraView> views,
                                                             std::span<const Pose2> starts) const {
@@ -138,7 +138,8 @@ std::vector<LandmarkFinder::Pose> LandmarkFinder::RefineAll(const LandmarkModel&
   return refined;
 }
 
-/// An image edge beside the right one can lie within the gate; it shows when all others agree on the pose.
+/// Removes outliers: an image edge beside the right one can lie within the gate and has a large residual when
+/// all others agree on the pose.
 void LandmarkFinder::DropOutliers(const LandmarkModel& model, std::span<const CameraView> views,
                                   Pose& pose) const {
   for (int dropped = 0;; ++dropped) {

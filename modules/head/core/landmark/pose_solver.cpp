@@ -90,7 +90,7 @@ class Problem {
     return n >= free_.cols();
   }
 
-  /// How much the errors of two residuals have in common.
+  /// Covariance of the common errors of two residuals.
   double Covariance(const Row& a, const Row& b) const {
     double c = a.by_common.dot(b.by_common);
     if (a.camera == b.camera) c += Square(options_.camera_sigma_px) * a.by_camera.dot(b.by_camera);

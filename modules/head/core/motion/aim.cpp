@@ -41,7 +41,7 @@ std::vector<Target> Targets(const HeadGeometry& head, const LandmarkModel& model
   return targets;
 }
 
-/// By how much [px] the worst target misses the usable part of the worse picture; 0 if all are in both.
+/// Largest distance of a target from the usable part of a picture [px]; 0 if all are in both.
 double Missing(const std::array<CameraModel, 2>& cameras, const std::vector<Target>& targets,
                const AimConfig& config) {
   double worst = 0;
