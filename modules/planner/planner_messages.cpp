@@ -75,7 +75,7 @@ RobotPose FromMessage(const pose_t& message) {
 
 DriveReport FromMessage(const drive_status_t& message) {
   return {ModeOf(message.mode), message.path_id, std::string(DriveLimitText(message.limit)),
-          message.estop != 0};
+          message.estop != 0, message.estop_changes};
 }
 
 std::optional<LookResult> FromMessage(const landmark_fix_t& message) {
@@ -108,6 +108,7 @@ path_t ToMessage(const PathOrder& path, Time now) {
   path_t message{};
   message.utime = ToUtime(now);
   message.path_id = path.path_id;
+  message.estop_changes = static_cast<std::int16_t>(path.estop_changes);
   message.speed_m_s = path.speed_m_s;
   message.n_points = static_cast<std::int8_t>(path.points.size());
   for (const Pose2& point : path.points) {

@@ -16,7 +16,7 @@ std::string_view Refusal(PathVerdict verdict) {
     case PathVerdict::kEstop:
       return "the e-stop is pressed";
     case PathVerdict::kStale:
-      return "it was ordered before the e-stop was re-armed; next: order it again";
+      return "it was ordered before the e-stop was pressed or re-armed; next: order it again";
     case PathVerdict::kTaken:
     case PathVerdict::kSame:
       break;
@@ -61,15 +61,16 @@ RobotApp::~RobotApp() {
 }
 
 /// With the first tick: an App that is only asked for its interface writes nothing.
-void RobotApp::Begin() {
+void RobotApp::Begin(Time now) {
   running_ = true;
+  drive_.CountEstopChangesFrom(static_cast<int>(ToUtime(now) / 1'000'000 % 256));
   last_word_.Save(drive_.estop() ? LastWord::kEstop : LastWord::kRunning);
   if (why_latched_.empty()) return;
   context_.Log(bus::Level::kWarning, fmt::format("the e-stop is latched: {}; re-arm to drive", why_latched_));
 }
 
 void RobotApp::Tick(Time now) {
-  if (!running_) Begin();
+  if (!running_) Begin(now);
   TakeEstops(now);
   TakeWheels(now);
   TakeSonars();

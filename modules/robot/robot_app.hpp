@@ -38,7 +38,7 @@ class RobotApp {
   void TakeFloorLines(Time now);
   void TakeFixes(Time now);
   void TakePaths(Time now);
-  void Begin();
+  void Begin(Time now);
   void TakeEstops(Time now);
   void Rearm();
   void KeepEstop(Time now);

@@ -168,7 +168,10 @@ SonarCycle FromMessage(const sonar_ranges_t& message) {
 std::optional<Path> FromMessage(const path_t& message) {
   const bool drivable = message.n_points == 0 || message.speed_m_s >= kLeastSpeed;
   if (!drivable || !std::isfinite(message.speed_m_s)) return std::nullopt;
-  Path path{.id = message.path_id, .speed_m_s = message.speed_m_s};
+  Path path{.id = message.path_id,
+            .speed_m_s = message.speed_m_s,
+            .points = {},
+            .estop_changes = message.estop_changes};
   for (const path_point_t& point : message.points) {
     if (!IsOnMap(point)) return std::nullopt;
     path.points.push_back({point.x_m, point.y_m, WrapAngle(point.yaw_rad)});
@@ -275,6 +278,7 @@ drive_status_t ToMessage(const DriveState& state, double speed_m_s, Time now) {
   message.driver = DriverCode(state.holder.driver);
   message.session = static_cast<std::int16_t>(state.holder.session);
   message.estop = state.estop;
+  message.estop_changes = static_cast<std::int16_t>(state.estop_changes);
   message.refused = state.refused_commands;
   message.refusal = RefusalCode(state.refusal);
   return message;

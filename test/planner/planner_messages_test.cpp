@@ -96,10 +96,12 @@ TEST(PlannerMessages, LandmarkSurvivesTheWire) {
 }
 
 TEST(PlannerMessages, PathSurvivesTheWire) {
-  const PathOrder path{7, 0.3, {{1, 2, 0.1}, {3, 4, -0.2}}};
+  const PathOrder path{
+      .path_id = 7, .speed_m_s = 0.3, .points = {{1, 2, 0.1}, {3, 4, -0.2}}, .estop_changes = 201};
   const auto message = bus::Decode<path_t>(bus::Encode(ToMessage(path, kNow)));
   EXPECT_EQ(message.utime, ToUtime(kNow));
   EXPECT_EQ(message.path_id, 7);
+  EXPECT_EQ(message.estop_changes, 201);
   EXPECT_EQ(message.speed_m_s, 0.3);
   ASSERT_EQ(message.n_points, 2);
   EXPECT_EQ(message.points[1].x_m, 3);

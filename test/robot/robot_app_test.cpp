@@ -60,6 +60,7 @@ struct Onboard {
     path_t message{};
     message.utime = ToUtime(clock.Now());
     message.path_id = id;
+    message.estop_changes = last_status.estop_changes;
     message.speed_m_s = speed_m_s;
     message.points.resize(1);
     message.points[0].x_m = x_m;

@@ -17,6 +17,7 @@ const Time kNow = FromUtime(1'234'567);
 path_t SomePath() {
   path_t message{};
   message.path_id = 7;
+  message.estop_changes = 201;
   message.speed_m_s = 0.3;
   message.points.resize(2);
   message.points[0].x_m = 1;
@@ -75,6 +76,7 @@ TEST(PathMessages, PointsAndSpeedAreKept) {
   const auto dut = FromMessage(SomePath());
   ASSERT_TRUE(dut);
   EXPECT_EQ(dut->id, 7);
+  EXPECT_EQ(dut->estop_changes, 201);
   ASSERT_EQ(dut->points.size(), 2u);
   EXPECT_EQ(dut->points[1].yaw, 0.5);
 }

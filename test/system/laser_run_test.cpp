@@ -106,11 +106,13 @@ Drive DriveAtTheDuct(const bus::Schema& schema, std::uint64_t seed, double laser
                   {sim + "head.toml", {"laser.rate_hz=" + std::to_string(laser_hz)}});
   lockstep.AddApp(cli::FactoryFor("robot"), "onboard", {sim + "robot.toml", {}});
   auto paths = lockstep.DriverNode("onboard").Advertise(channels::kPath);
+  auto status = lockstep.DriverNode("onboard").Subscribe(channels::kDriveStatus);
   const Time begin = lockstep.now();
   lockstep.RunUntil(begin + FromSeconds(3.5));
   path_t path{};
   path.utime = ToUtime(lockstep.now());
   path.path_id = 1;
+  path.estop_changes = status.get()->estop_changes;
   path.speed_m_s = 0.3;
   path.points = {{2.0, 2.4, 0}, {5.0, 2.4, 0}};
   path.n_points = 2;

@@ -16,10 +16,22 @@ void MissionControl::Begin(Time now) {
   path_sent_.reset();
   heard_.corrected.reset();
   heard_.looks.clear();
+  // The order stands on what its operator could know: a stop that is not reported yet came after it.
+  estop_changes_.reset();
+  if (heard_.drive) estop_changes_ = heard_.drive->estop_changes;
   // Numbers begin with the clock, so that an answer meant for an earlier planner process is not taken for
   // ours.
   if (last_number_ == 0) last_number_ = 1 + static_cast<int>(ToUtime(now) / 1'000'000 % kNumbers);
   Enter(Phase::kWaiting, "waiting for the robot's pose");
+}
+
+void MissionControl::NoteDrive(const DriveReport& drive) {
+  heard_.drive = drive;
+  if (!estop_changes_) estop_changes_ = drive.estop_changes;
+}
+
+bool MissionControl::EstopChanged() const {
+  return heard_.drive && estop_changes_ != heard_.drive->estop_changes;
 }
 
 void MissionControl::Fail(std::string reason) {
@@ -29,7 +41,12 @@ void MissionControl::Fail(std::string reason) {
 }
 
 void MissionControl::OrderPath(std::vector<Pose2> points, double speed_m_s) {
-  path_ = {NextNumber(), speed_m_s, std::move(points)};
+  path_ = {.path_id = NextNumber(), .speed_m_s = speed_m_s, .points = std::move(points)};
+  SendPath();
+}
+
+void MissionControl::SendPath() {
+  path_.estop_changes = estop_changes_.value_or(0);
   path_sent_ = now_;
   actions_.path = path_;
 }
@@ -41,8 +58,7 @@ int MissionControl::OrderLook(int landmark_id, Side side) {
 
 void MissionControl::RepeatUnconfirmedPath(double after_s) {
   if (!path_sent_ || OnPath() || Seconds(now_ - *path_sent_) < after_s) return;
-  path_sent_ = now_;
-  actions_.path = path_;
+  SendPath();
 }
 
 int MissionControl::NextNumber() {

@@ -51,6 +51,10 @@ class MissionControl {
  private:
   friend class MissionTable;
   void Begin(Time now);
+  void NoteDrive(const DriveReport& drive);
+  /// Whether the emergency stop was pressed or lifted since the last report before the order.
+  bool EstopChanged() const;
+  void SendPath();
   void RepeatUnconfirmedPath(double after_s);
   int NextNumber();
 
@@ -61,6 +65,7 @@ class MissionControl {
   MissionActions actions_;
   PathOrder path_;
   std::optional<Time> path_sent_;
+  std::optional<int> estop_changes_;  ///< as last reported before the order, else as reported first after it
   int last_number_ = 0;
 };
 

@@ -38,7 +38,7 @@ void MissionTable::OnPose(const RobotPose& pose) {
 }
 
 void MissionTable::OnDrive(const DriveReport& drive, Time now) {
-  control_.heard_.drive = drive;
+  control_.NoteDrive(drive);
   const bool stands = drive.mode == DriveMode::kBlocked || drive.mode == DriveMode::kHolding;
   if (!stands || !running() || !control_.OnPath()) {
     blocked_since_.reset();
@@ -73,6 +73,8 @@ std::optional<std::string> MissionTable::ReasonToEnd(const Mission& mission) con
   // Not to be waited for: what moves after the re-arming is for a person to order anew.
   if (heard.drive && heard.drive->estop)
     return "the emergency stop is latched; next: priamos estop --rearm, and a new order";
+  if (control_.EstopChanged())
+    return "the emergency stop was pressed or lifted since the order; next: order it again";
   if (Seconds(now - (heard.pose ? std::max(heard.pose->stamp, started) : started)) > limits.silent_s)
     return fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", limits.silent_s,
                        heard.link_up ? "up, is the robot running?" : "down");

@@ -34,8 +34,9 @@ enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked };
 struct DriveReport {
   DriveMode mode = DriveMode::kIdle;
   int path_id = 0;
-  std::string limit;   ///< what limits the speed, in words; empty when nothing does
-  bool estop = false;  ///< the emergency stop is latched
+  std::string limit;      ///< what limits the speed, in words; empty when nothing does
+  bool estop = false;     ///< the emergency stop is latched
+  int estop_changes = 0;  ///< how often it was latched or lifted, modulo 256
 };
 
 /// Outcome of a look: from the head (not found) or from the robot (applied or refused).
@@ -51,6 +52,7 @@ struct PathOrder {
   int path_id = 0;
   double speed_m_s = 0;
   std::vector<Pose2> points;  ///< none: brake and hold
+  int estop_changes = 0;      ///< DriveReport::estop_changes when the mission was ordered
 };
 
 /// A look that the head is to take.

@@ -84,10 +84,9 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
 PathVerdict DriveController::SetPath(const Path& path, Time now) {
   const bool driving_it = path_is_new_ || follower_.has_path();
   if (driving_it && path_ && SamePath(*path_, path)) return PathVerdict::kSame;
-  if (authority_.estop() && !path.points.empty()) stale_path_ = path;
   if (!authority_.AdmitPath(now))
     return authority_.estop() ? PathVerdict::kEstop : PathVerdict::kWithoutLease;
-  if (stale_path_ && SamePath(*stale_path_, path)) return PathVerdict::kStale;
+  if (!path.points.empty() && path.estop_changes != authority_.estop_changes()) return PathVerdict::kStale;
   path_ = path;
   path_is_new_ = !path.points.empty();
   ever_ordered_ = true;
@@ -190,6 +189,7 @@ FailsafeDecision DriveController::Watch(const DriveSituation& situation, Time no
   inputs[Condition::kLinkLost] = situation.link_down;
   state_.holder = authority_.holder();
   state_.estop = authority_.estop();
+  state_.estop_changes = authority_.estop_changes();
   state_.refused_commands = authority_.input().refused();
   state_.refusal = authority_.input().newest_refusal();
   return failsafe_.Update(inputs, now);
@@ -292,7 +292,6 @@ void DriveController::NoteEnd(DriveSource source) {
 
 void DriveController::Halt(Condition cause) {
   const bool moved = Source(*last_step_) != DriveSource::kNone || authority_.lease_lost();
-  if (cause == Condition::kEstop && HasPathToGo()) stale_path_ = path_;
   if (moved) state_.halted_by = cause;
   DropPath();
   authority_.Forget();

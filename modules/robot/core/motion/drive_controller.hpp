@@ -52,8 +52,8 @@ struct DriveSituation {
   Duration link_down{};
 };
 
-/// Result of an order to drive a path. Stale: it was ordered before the e-stop was re-armed, and after that
-/// nothing moves without a new order.
+/// Result of an order to drive a path. Stale: who ordered it did not know of the newest e-stop or re-arming,
+/// and after these nothing moves without a new order.
 enum class PathVerdict { kTaken, kSame, kWithoutLease, kEstop, kStale };
 
 /// What the base does at one tick and why, as DRIVE_STATUS reports it.
@@ -69,6 +69,7 @@ struct DriveState {
   double allowed = 1;               ///< part of the wanted motion that sonars and failsafe leave
   LeaseHolder holder;
   bool estop = false;
+  int estop_changes = 0;  ///< see Authority
   int refused_commands = 0;
   CommandVerdict refusal =
       CommandVerdict::kAccepted;  ///< verdict on the newest refused command; kAccepted: none yet
@@ -94,6 +95,8 @@ class DriveController {
   void PressEstop() { authority_.PressEstop(); }
   void Rearm() { authority_.Rearm(); }
   bool estop() const { return authority_.estop(); }
+  /// Before the first step: see Authority.
+  void CountEstopChangesFrom(int n) { authority_.CountEstopChangesFrom(n); }
   /// `odom_from_base` when the picture was taken. False: refused, see FloorMemory.
   bool AddFloorLine(const FloorLine& line, const Pose2& odom_from_base, Time now) {
     return floor_.Add(line, odom_from_base, now);
@@ -141,9 +144,8 @@ class DriveController {
   Authority authority_;
   Failsafe failsafe_;
   DriveState state_;
-  std::optional<Path> path_;        ///< the newest order
-  std::optional<Path> stale_path_;  ///< ended or refused by the e-stop
-  bool path_is_new_ = false;        ///< not yet given to the follower
+  std::optional<Path> path_;  ///< the newest order
+  bool path_is_new_ = false;  ///< not yet given to the follower
   bool ever_ordered_ = false;
   std::optional<Time> last_step_, first_step_, sonar_heard_;
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;

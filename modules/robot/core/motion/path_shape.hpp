@@ -13,6 +13,7 @@ struct Path {
   int id = 0;
   double speed_m_s = 0;
   std::vector<Pose2> points{};  ///< from the next one to the goal; none: brake and hold
+  int estop_changes = 0;        ///< Authority::estop_changes() as who ordered the path knew it
 };
 
 /// How a path is rounded, and how fast its parts may be driven.

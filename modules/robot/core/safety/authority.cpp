@@ -4,6 +4,8 @@ namespace priamos::robot {
 namespace {
 
 const LeaseHolder kPlanner{Driver::kPlanner, 0};
+/// As many as the messages tell apart.
+constexpr int kEstopChanges = 256;
 
 }  // namespace
 
@@ -37,8 +39,17 @@ CommandVerdict Authority::Admit(const DriveCommand& command, Time now) {
 }
 
 void Authority::PressEstop() {
-  estop_ = true;
+  SetEstop(true);
   operator_.RequireRest();
+}
+
+void Authority::Rearm() {
+  SetEstop(false);
+}
+
+void Authority::SetEstop(bool estop) {
+  if (estop != estop_) estop_changes_ = (estop_changes_ + 1) % kEstopChanges;
+  estop_ = estop;
 }
 
 void Authority::Tick(Time now, bool path_is_driven) {

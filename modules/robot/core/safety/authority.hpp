@@ -30,13 +30,18 @@ class Authority {
   CommandVerdict Admit(const DriveCommand& command, Time now);
   /// Sets the e-stop, which stays set until Rearm.
   void PressEstop();
-  void Rearm() { estop_ = false; }
+  void Rearm();
+  /// Counts the e-stop's changes from `n` on, 0..255. A robot that starts again must not count from where an
+  /// order of before stands.
+  void CountEstopChangesFrom(int n) { estop_changes_ = n; }
 
   /// Once per step, before anything is asked. `path_is_driven` renews the planner's lease.
   void Tick(Time now, bool path_is_driven);
 
   const LeaseHolder& holder() const { return lease_.holder(); }
   bool estop() const { return estop_; }
+  /// How often the e-stop was set or lifted, modulo 256.
+  int estop_changes() const { return estop_changes_; }
   /// The velocity that the operator wishes; nullptr without a command that is still valid.
   const Twist2* Wish(Time now) const;
   bool OperatorFellSilent(Time now) const { return operator_.FellSilent(now); }
@@ -48,10 +53,12 @@ class Authority {
 
  private:
   void NoteChange(const LeaseHolder& before, Time now);
+  void SetEstop(bool estop);
 
   Lease lease_;
   OperatorInput operator_;
   bool estop_ = false;
+  int estop_changes_ = 0;
   bool path_is_driven_ = false;
   bool lease_lost_ = false;
 };

@@ -121,6 +121,41 @@ TEST(MissionTable, AnEmergencyStopEndsAMissionAndNoneBeginsWhileItIsLatched) {
   EXPECT_FALSE(f.Drive().points.empty()) << "re-armed";
 }
 
+/// The radio may lose every report between a stop and its re-arming.
+TEST(MissionTable, AnEmergencyStopThatNobodyReportedEndsTheMissionAllTheSame) {
+  Frame f;
+  f.dut.OnDrive({.mode = DriveMode::kIdle, .estop_changes = 255}, f.now);
+  const PathOrder path = f.Drive();
+  EXPECT_EQ(path.estop_changes, 255);
+  f.dut.OnDrive({.mode = DriveMode::kHolding, .path_id = path.path_id, .estop_changes = 1}, f.now);
+  const auto brake = f.Step().path;
+  ASSERT_TRUE(brake);
+  EXPECT_TRUE(brake->points.empty());
+  EXPECT_THAT(f.dut.state().text, testing::HasSubstr("since the order"));
+  EXPECT_EQ(f.Drive().estop_changes, 1) << "a new order";
+}
+
+/// Who ordered could not know of a stop that was reported later.
+TEST(MissionTable, AStopBetweenTheLastReportAndTheOrderEndsTheMission) {
+  Frame f;
+  f.dut.OnDrive({.mode = DriveMode::kIdle, .estop_changes = 7}, f.now);
+  EXPECT_TRUE(f.dut.Start(f.now, {kAhead, 3}));
+  f.dut.OnDrive({.mode = DriveMode::kIdle, .estop_changes = 9}, f.now);
+  f.Step();
+  EXPECT_EQ(f.dut.state().phase, Phase::kFailed);
+}
+
+TEST(MissionTable, WithoutAReportBeforeTheOrderTheFirstOneAfterItCounts) {
+  Frame f;
+  EXPECT_TRUE(f.dut.Start(f.now, {kAhead, 3}));
+  f.Hear();
+  const auto look = f.Step().look;
+  ASSERT_TRUE(look);
+  f.dut.OnDrive({.mode = DriveMode::kIdle, .estop_changes = 40}, f.now);
+  f.dut.OnLook({look->request_id, true, "", false});
+  EXPECT_EQ(f.Step().path.value_or(PathOrder{}).estop_changes, 40);
+}
+
 TEST(MissionTable, SecondOrderIsRefusedUntilTheFirstMissionIsOver) {
   Frame f;
   f.Drive(kAhead);

@@ -128,8 +128,12 @@ TEST_F(SharedControlTest, EstopEndsAPathForGood) {
   ExpectNoMotionFor(1);
   EXPECT_EQ(rig_.state().halted_by, Condition::kEstop);
   EXPECT_EQ(rig_.SetPath(path), PathVerdict::kStale) << "repeated by a planner that missed the stop";
+  EXPECT_EQ(rig_.SetPath({.id = 2, .speed_m_s = 0.4, .points = {{5, 1, 0}}}), PathVerdict::kStale)
+      << "the next path of a mission that missed the stop";
   ExpectNoMotionFor(1);
-  EXPECT_EQ(rig_.SetPath({.id = 2, .speed_m_s = 0.4, .points = {{5, 0, 0}}}), PathVerdict::kTaken);
+  const int changes = rig_.state().estop_changes;
+  EXPECT_EQ(rig_.SetPath({.id = 3, .speed_m_s = 0.4, .points = {{5, 0, 0}}, .estop_changes = changes}),
+            PathVerdict::kTaken);
   rig_.Run(2);
   EXPECT_GT(Speed(), 0.3);
 }
@@ -139,7 +143,8 @@ TEST_F(SharedControlTest, APathOrderedDuringAnEstopIsNotDrivenAfterIt) {
   rig_.Run(0.2);
   rig_.drive().PressEstop();
   rig_.Tick();
-  const Path path{.id = 1, .speed_m_s = 0.4, .points = {{5, 0, 0}}};
+  const Path path{
+      .id = 1, .speed_m_s = 0.4, .points = {{5, 0, 0}}, .estop_changes = rig_.state().estop_changes};
   for (int i = 0; i < 4; ++i) {
     EXPECT_EQ(rig_.SetPath(path), PathVerdict::kEstop);
     rig_.Run(0.5);
