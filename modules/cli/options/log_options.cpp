@@ -18,6 +18,7 @@
 namespace priamos::cli {
 namespace {
 
+constexpr double kLongest_s = 1e10;  ///< three centuries: as microseconds still a whole number
 constexpr double kSlowest = 1.0 / 64, kFastest = 1000;
 
 std::optional<double> Number(std::string_view text) {
@@ -28,7 +29,7 @@ std::optional<double> Number(std::string_view text) {
 }
 
 /// No error: one of many logs that are treated alike may lack a channel.
-void TellAbsentChannels(const SelectionOptions& options, const std::string& log) {
+void ReportAbsentChannels(const SelectionOptions& options, const std::string& log) {
   const auto is_name = [](const std::string& channel) { return channel.find('*') == std::string::npos; };
   if (std::none_of(options.only.begin(), options.only.end(), is_name)) return;
   std::set<std::string> there;
@@ -46,8 +47,10 @@ void AddSelectionOptions(CLI::App& verb, SelectionOptions& options) {
   verb.add_option("--channels", options.only, "only these, A,B or with a star: 'WHEEL_*'")->delimiter(',');
   verb.add_option("--without", options.without, "not these")->delimiter(',');
   verb.add_option("--rename", options.rename, "A=B: channel A becomes B")->delimiter(',');
-  verb.add_option("--from", options.from_s, "[s] since the first event")->capture_default_str();
-  verb.add_option("--to", options.to_s, "[s] since the first event");
+  verb.add_option("--from", options.from_s, "[s] since the first event")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, kLongest_s));
+  verb.add_option("--to", options.to_s, "[s] since the first event")->check(CLI::Range(0.0, kLongest_s));
 }
 
 bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string& log) {
@@ -60,7 +63,10 @@ bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string
       throw std::runtime_error(fmt::format("--rename: expected A=B, got \"{}\"", pair));
     selection.rename[pair.substr(0, equals)] = pair.substr(equals + 1);
   }
-  TellAbsentChannels(options, log);
+  if (options.to_s >= 0 && options.to_s <= options.from_s)
+    throw std::runtime_error(
+        fmt::format("--to: expected more than the {} s of --from, got {}", options.from_s, options.to_s));
+  ReportAbsentChannels(options, log);
   const auto first = bus::LogReader(log).Next();
   if (!first) return selection;
   if (options.from_s > 0)
@@ -70,6 +76,8 @@ bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string
 }
 
 void RequireNewFile(const std::string& out, const std::string& in, bool force) {
+  if (out == "-")
+    throw std::runtime_error("expected the name of a new file, got \"-\": this cannot go to standard output");
   std::error_code none;
   if (std::filesystem::equivalent(out, in, none))
     throw std::runtime_error(out + ": expected another file than the one that is read, got the same");
@@ -77,8 +85,9 @@ void RequireNewFile(const std::string& out, const std::string& in, bool force) {
     throw std::runtime_error(out + ": expected a new file, got an existing one; --force replaces it");
 }
 
-OutputFile::OutputFile(const std::string& out, const std::string& in, bool force) : name_(out) {
-  if (out.empty()) return;
+OutputFile::OutputFile(const std::string& out, const std::string& in, bool force)
+    : name_(out == "-" ? "" : out) {
+  if (name_.empty()) return;
   RequireNewFile(out, in, force);
   file_.open(out, std::ios::binary | std::ios::trunc);
   if (!file_) throw std::runtime_error(fmt::format("{}: cannot be written: {}", out, std::strerror(errno)));

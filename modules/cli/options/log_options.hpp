@@ -24,10 +24,11 @@ void AddSelectionOptions(CLI::App& verb, SelectionOptions& options);
 /// std::runtime_error with a sentence for a --rename that cannot be read.
 bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string& log);
 
-/// Throws std::runtime_error when `out` exists (unless `force`), or is the very file that is being read.
+/// Throws std::runtime_error when `out` exists (unless `force`), is the very file that is being read, or is
+/// "-", which elsewhere means standard output.
 void RequireNewFile(const std::string& out, const std::string& in, bool force);
 
-/// A new file, or standard output when `out` is empty.
+/// A new file, or standard output when `out` is empty or "-".
 class OutputFile {
  public:
   /// Throws std::runtime_error as RequireNewFile does, or when the file cannot be made.

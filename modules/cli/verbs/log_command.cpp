@@ -20,6 +20,7 @@ namespace priamos::cli {
 namespace {
 
 constexpr int kDamaged = 1;
+constexpr double kMostOffset_s = 1e10;  ///< three centuries
 
 struct LogOptions {
   BusOptions bus;  ///< only its types
@@ -113,12 +114,22 @@ int Index(const LogOptions& options) {
   return out.Close();
 }
 
+/// Throws std::runtime_error when no event is selected: then nothing is to be written.
+void RequireEvents(const LogOptions& options, const bus::LogSelection& selection) {
+  bus::LogReader reader(options.log);
+  while (const auto event = reader.Next())
+    if (selection.Wants(event->utime, event->channel)) return;
+  throw std::runtime_error(
+      fmt::format("{}: expected events to copy, got none; {} is not written", options.log, options.out));
+}
+
 /// `filter`, and without any selection `repair`: the whole events into another log.
 int Copy(const LogOptions& options) {
   bus::LogReader reader(options.log);
   RequireNewFile(options.out, options.log, options.force);
   // Before the writer, which empties the file: a refusal leaves it as it was.
   const auto selection = SelectionOf(options.selection, options.log);
+  RequireEvents(options, selection);
   bus::LogWriter writer(options.out);
   const auto copied = bus::CopyEvents(reader, selection, writer);
   writer.Flush();
@@ -158,6 +169,7 @@ int Export(const LogOptions& options) {
   bus::LogReader reader(options.log);
   const auto selection = SelectionOf(options.selection, options.log);
   if (options.format == "csv") {
+    if (options.out == "-") throw std::runtime_error("--out: expected a folder for csv, got \"-\"");
     const std::string folder =
         options.out.empty() ? std::filesystem::path(options.log).stem().string() + "-csv" : options.out;
     if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder) && !options.force)
@@ -240,7 +252,8 @@ CLI::App* AddVerb(CLI::App& log, const char* name, const char* help, const char*
     verb->add_option("--prefix", options->prefix, "before the names of the offboard channels")
         ->capture_default_str();
     verb->add_option("--offset", options->offset_s,
-                     "[s] onboard clock minus offboard clock, instead of an estimate");
+                     "[s] onboard clock minus offboard clock, instead of an estimate")
+        ->check(CLI::Range(-kMostOffset_s, kMostOffset_s));
   }
   if (which == "filter" || which == "export") AddSelectionOptions(*verb, options->selection);
   if (which != "filter" && which != "repair") AddTypesOption(*verb, options->bus);
@@ -249,7 +262,11 @@ CLI::App* AddVerb(CLI::App& log, const char* name, const char* help, const char*
                      ? "the count machine-readable, on standard error when the messages go to standard output"
                      : "machine-readable");
   if (which != "info") verb->add_flag("--force", options->force, "replace an existing file");
-  verb->callback([options, run, &exit_code] { exit_code = run(*options); });
+  const bool to_stream = which == "export" || which == "index";
+  verb->callback([options, run, to_stream, &exit_code] {
+    if (to_stream && options->out == "-" && options->format != "csv") options->out.clear();
+    exit_code = run(*options);
+  });
   return verb;
 }
 

@@ -21,6 +21,7 @@ namespace priamos::cli {
 namespace {
 
 constexpr int kIncomplete = 1;
+constexpr double kMost = 1e9;  ///< MB, minutes, seconds: more than any machine has
 constexpr auto kHealthPeriod = std::chrono::seconds(1);
 
 struct RecordOptions {
@@ -153,19 +154,22 @@ void AddLogRecordVerb(CLI::App& log, int& exit_code) {
   verb->add_option("--channels", options->only, "only these, A,B or with a star: 'WHEEL_*'")->delimiter(',');
   verb->add_option("--without", options->without, "not these")->delimiter(',');
   verb->add_option("--split-mb", options->split_mb, "begin another file (.1, .2 ...) after so many megabytes")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, kMost));
   verb->add_option("--split-minutes", options->split_minutes, "... or after so many minutes")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, kMost));
   verb->add_option("--keep", options->keep, "keep the newest so many files of this recording; 0: all");
   verb->add_option("--keep-free-mb", options->keep_free_mb,
                    "stop before less of the disk is free (with --keep the oldest files go first)")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, kMost));
   verb->add_option("--seconds", options->seconds, "stop after so long; 0: at Ctrl-C")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, kMost));
   verb->add_flag("--no-health", options->no_health, "send nothing on the bus");
   verb->add_flag("--json", options->json, "the count at the end machine-readable");
   verb->callback([options, &exit_code] {
+    if (options->file == "-")
+      throw std::runtime_error(
+          "expected the name of a new log, got \"-\": a log cannot go to standard output");
     if (options->file.empty()) options->file = DefaultFile();
     if (std::filesystem::exists(options->file))
       throw std::runtime_error(options->file + ": expected a new file, got an existing one");

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -178,6 +179,39 @@ TEST_F(LogCommand, AMissingLogAndAWrongFormatAreNamed) {
   EXPECT_EQ(format.exit_code, 2);
   EXPECT_THAT(format.err, AllOf(HasSubstr("csv"), HasSubstr("jsonl"), HasSubstr("mcap"),
                                 HasSubstr("got \"cvs\""), HasSubstr("nearest: \"csv\"")));
+}
+
+TEST_F(LogCommand, WhereNothingIsToBeCopiedTheFileThatIsThereStays) {
+  const std::string good = folder_ / "good.lcmlog", text = folder_ / "text.txt";
+  std::ofstream(good) << "kept";
+  std::ofstream(text) << "no log at all";
+  const std::vector<std::vector<std::string>> wrong{
+      {"log", "filter", log_, good, "--force", "--channels", "POZE"},
+      {"log", "filter", log_, good, "--force", "--channels", ""},
+      {"log", "filter", log_, good, "--force", "--from", "20"},
+      {"log", "filter", log_, good, "--force", "--from", "1e300"},
+      {"log", "filter", log_, good, "--force", "--to", "-1"},
+      {"log", "filter", log_, good, "--force", "--from", "1", "--to", "1"},
+      {"log", "filter", log_, good, "--force", "--rename", "POSE"},
+      {"log", "repair", text, good, "--force"}};
+  for (const auto& words : wrong) {
+    EXPECT_EQ(Priamos(words).exit_code, 2) << testing::PrintToString(words);
+    EXPECT_EQ(FileContent(good), "kept") << testing::PrintToString(words);
+  }
+}
+
+TEST_F(LogCommand, AMinusIsStandardOutputForTextAndNoNameOfALog) {
+  EXPECT_EQ(Priamos({"log", "index", log_, "--out", "-"}).out, Priamos({"log", "index", log_}).out);
+  EXPECT_EQ(Priamos({"log", "export", log_, "jsonl", "--out", "-"}).out,
+            Priamos({"log", "export", log_, "jsonl"}).out);
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"log", "filter", log_, "-"},
+                                             {"log", "repair", log_, "-"},
+                                             {"log", "merge", log_, log_, "-"},
+                                             {"log", "export", log_, "csv", "--out", "-"},
+                                             {"log", "record", "-"}})
+    EXPECT_EQ(Priamos(words).exit_code, 2) << testing::PrintToString(words);
+  EXPECT_FALSE(std::filesystem::exists("-"));
 }
 
 }  // namespace
