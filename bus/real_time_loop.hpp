@@ -6,8 +6,8 @@ namespace priamos::bus {
 
 class ClaimKeeper;
 
-/// Turns SIGINT and SIGTERM into something a loop can look at. Create it before the first thread, so that
-/// every thread inherits the blocked signals.
+/// Turns SIGINT, SIGTERM and SIGHUP (unless it is ignored) into something a loop can look at. Create it
+/// before the first thread, so that every thread inherits the blocked signals.
 class SignalWatch {
  public:
   SignalWatch();

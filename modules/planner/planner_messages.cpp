@@ -202,7 +202,7 @@ std::string_view DriveLimitText(int limit) {
     case drive_status_t::LIMIT_LEASE_LOST:
       return "the lease is lost";
     case drive_status_t::LIMIT_ESTOP:
-      return "the emergency stop is pressed";
+      return "the emergency stop was pressed";
     default:
       return "unknown limit";
   }

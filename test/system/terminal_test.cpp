@@ -51,7 +51,7 @@ class TerminalTest : public ::testing::Test {
 };
 
 TEST_F(TerminalTest, ALiveTableGivesTheScreenBackAtCtrlCAndAtKill) {
-  for (const char* signal : {"INT", "TERM"}) {
+  for (const char* signal : {"INT", "TERM", "HUP"}) {
     const std::string dut = Screen(std::string("timeout --foreground -s ") + signal +
                                    " 4 $BIN/priamos topic list --watch --bus onboard");
     EXPECT_THAT(dut, HasSubstr(kEnter));
@@ -73,7 +73,7 @@ TEST_F(TerminalTest, LogPlayWipesItsLine) {
 }
 
 TEST_F(TerminalTest, LogPlayThatIsStoppedLeavesNothingBehind) {
-  for (const char* signal : {"INT", "TERM"}) {
+  for (const char* signal : {"INT", "TERM", "HUP"}) {
     const std::string dut = Screen(std::string("timeout --foreground -s ") + signal +
                                    " 2 $BIN/priamos log play $LOG --loop --bus offboard");
     EXPECT_THAT(dut.substr(std::min(dut.rfind(kWipe), dut.size())), HasSubstr("events sent"));
@@ -84,11 +84,14 @@ TEST_F(TerminalTest, LogPlayThatIsStoppedLeavesNothingBehind) {
 TEST_F(TerminalTest, IntoAFileNothingButTextIsWritten) {
   Screen(
       "$BIN/priamos log play $LOG --to 1 --bus offboard > out.txt 2> err.txt; "
-      "timeout --foreground -s INT 2 $BIN/priamos topic list --watch --bus onboard > table.txt");
+      "timeout --foreground -s INT 2 $BIN/priamos topic list --watch --bus onboard > table.txt; "
+      "timeout --foreground -s INT 2 $BIN/priamos where --watch --bus onboard > where.txt");
   EXPECT_EQ(FileText(folder_ / "err.txt"), "");
   EXPECT_THAT(FileText(folder_ / "out.txt"), HasSubstr("events sent"));
   EXPECT_THAT(FileText(folder_ / "table.txt"), HasSubstr("undecodable"));
   EXPECT_THAT(FileText(folder_ / "table.txt"), Not(HasSubstr("\x1b")));
+  EXPECT_NE(FileText(folder_ / "where.txt"), "");
+  EXPECT_THAT(FileText(folder_ / "where.txt"), Not(HasSubstr("\x1b")));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ inline constexpr Layer kTruth{"truth-path", "true path (world)", {.line = colour
 inline constexpr Layer kBelief{"belief-path", "believed path", {.line = colours::kBelief, .width = 3}};
 inline constexpr Layer kSight{
     "look", "look at a side of the door", {.line = colours::kFix, .width = 2.5, .dash = 9}};
-inline constexpr Layer kLook{"look-place", "place of look 1, 2 ...", {.fill = colours::kFix}, Symbol::kDot};
+inline constexpr Layer kLook{"look-place", "place of fix 1, 2 ...", {.fill = colours::kFix}, Symbol::kDot};
 inline constexpr Layer kCorrection{
     "correction", "correction by a fix", {.line = colours::kFix, .width = 3}, Symbol::kArrow};
 inline constexpr Layer kContact{"contact", "contact", {.line = colours::kBad, .width = 6}, Symbol::kCross};

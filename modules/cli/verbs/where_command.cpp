@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/terminal/bus_session.hpp"
+#include "cli/terminal/terminal_screen.hpp"
 #include "cli/terminal/where_text.hpp"
 #include "cli/verbs/commands.hpp"
 #include "lcmtypes/channels.hpp"
@@ -23,9 +24,14 @@ struct WhereOptions {
   bool watch = false, json = false;
 };
 
-void Print(const WhereOptions& options, const Whereabouts& where, Time now) {
-  if (options.json) return void(std::cout << WhereJson(where, now).dump() << std::endl);
-  std::cout << (options.watch ? "\x1b[H\x1b[2J" : "") << WhereText(where, now) << std::flush;
+void Print(const WhereOptions& options, const Whereabouts& where, Time now, TerminalScreen& screen) {
+  if (options.json) {
+    std::cout << WhereJson(where, now).dump() << std::endl;
+  } else if (options.watch) {
+    screen.Show(WhereText(where, now));
+  } else {
+    std::cout << WhereText(where, now) << std::flush;
+  }
 }
 
 int Run(const WhereOptions& options) {
@@ -34,6 +40,7 @@ int Run(const WhereOptions& options) {
   auto drive = session.node().Subscribe(channels::kDriveStatus);
   auto mission = session.node().Subscribe(channels::kMissionStatus);
   Whereabouts where;
+  TerminalScreen screen;
   const auto take = [&] {
     if (const auto pose = poses.Take()) where.pose = *pose;
     if (const auto status = drive.Take()) where.drive = *status;
@@ -47,9 +54,9 @@ int Run(const WhereOptions& options) {
     take();
     if (!options.watch || session.now() < next) return;
     next += kShow;
-    Print(options, where, session.now());
+    Print(options, where, session.now(), screen);
   });
-  if (!options.watch) Print(options, where, session.now());
+  if (!options.watch) Print(options, where, session.now(), screen);
   return where.pose ? 0 : kNoPose;
 }
 
