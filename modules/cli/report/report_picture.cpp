@@ -126,15 +126,20 @@ void DrawPassage(Drawing& page, const Box& panel, const RunRecord& record, const
   view.SetLabels();
 }
 
+std::string DoorFigures(const Summary& summary, const DoorPlan& door) {
+  const std::string gap = fmt::format("smallest gap {:.1f} cm", summary.min_gap_m * 100);
+  if (!SeeksTheDoor(summary)) {
+    const auto honoured = summary.hand->honoured();
+    return fmt::format("{} of the free motion wished was made; {}",
+                       honoured ? fmt::format("{:.1f} %", *honoured * 100) : "-", gap);
+  }
+  if (!summary.lateral_at_door_m) return fmt::format("door {} was not crossed; {}", door.name, gap);
+  return fmt::format("in the door: {:+.1f} cm lateral, {:+.2f}° heading; {}",
+                     *summary.lateral_at_door_m * 100, summary.heading_at_door_deg.value_or(0), gap);
+}
+
 std::vector<std::string> Figures(const Summary& summary, const DoorPlan& door) {
-  std::vector<std::string> lines;
-  lines.push_back(
-      summary.lateral_at_door_m
-          ? fmt::format("in the door: {:+.1f} cm lateral, {:+.2f}° heading; smallest gap {:.1f} cm",
-                        *summary.lateral_at_door_m * 100, summary.heading_at_door_deg.value_or(0),
-                        summary.min_gap_m * 100)
-          : fmt::format("door {} was not crossed; smallest gap {:.1f} cm", door.name,
-                        summary.min_gap_m * 100));
+  std::vector<std::string> lines{DoorFigures(summary, door)};
   for (std::size_t i = 0; i < summary.fixes.size(); ++i) {
     const FixSummary& fix = summary.fixes[i];
     lines.push_back(

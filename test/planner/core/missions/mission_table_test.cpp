@@ -124,10 +124,11 @@ TEST(MissionTable, AnEmergencyStopEndsAMissionAndNoneBeginsWhileItIsLatched) {
 /// The radio may lose every report between a stop and its re-arming.
 TEST(MissionTable, AnEmergencyStopThatNobodyReportedEndsTheMissionAllTheSame) {
   Frame f;
-  f.dut.OnDrive({.mode = DriveMode::kIdle, .estop_changes = 255}, f.now);
+  f.dut.OnDrive({.mode = DriveMode::kIdle, .limit = "", .estop_changes = 255}, f.now);
   const PathOrder path = f.Drive();
   EXPECT_EQ(path.estop_changes, 255);
-  f.dut.OnDrive({.mode = DriveMode::kHolding, .path_id = path.path_id, .estop_changes = 1}, f.now);
+  f.dut.OnDrive({.mode = DriveMode::kHolding, .path_id = path.path_id, .limit = "", .estop_changes = 1},
+                f.now);
   const auto brake = f.Step().path;
   ASSERT_TRUE(brake);
   EXPECT_TRUE(brake->points.empty());
@@ -138,9 +139,9 @@ TEST(MissionTable, AnEmergencyStopThatNobodyReportedEndsTheMissionAllTheSame) {
 /// Who ordered could not know of a stop that was reported later.
 TEST(MissionTable, AStopBetweenTheLastReportAndTheOrderEndsTheMission) {
   Frame f;
-  f.dut.OnDrive({.mode = DriveMode::kIdle, .estop_changes = 7}, f.now);
+  f.dut.OnDrive({.mode = DriveMode::kIdle, .limit = "", .estop_changes = 7}, f.now);
   EXPECT_TRUE(f.dut.Start(f.now, {kAhead, 3}));
-  f.dut.OnDrive({.mode = DriveMode::kIdle, .estop_changes = 9}, f.now);
+  f.dut.OnDrive({.mode = DriveMode::kIdle, .limit = "", .estop_changes = 9}, f.now);
   f.Step();
   EXPECT_EQ(f.dut.state().phase, Phase::kFailed);
 }
@@ -151,7 +152,7 @@ TEST(MissionTable, WithoutAReportBeforeTheOrderTheFirstOneAfterItCounts) {
   f.Hear();
   const auto look = f.Step().look;
   ASSERT_TRUE(look);
-  f.dut.OnDrive({.mode = DriveMode::kIdle, .estop_changes = 40}, f.now);
+  f.dut.OnDrive({.mode = DriveMode::kIdle, .limit = "", .estop_changes = 40}, f.now);
   f.dut.OnLook({look->request_id, true, "", false});
   EXPECT_EQ(f.Step().path.value_or(PathOrder{}).estop_changes, 40);
 }
