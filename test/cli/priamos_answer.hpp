@@ -18,6 +18,6 @@ PriamosAnswer Priamos(const std::vector<std::string>& words);
 std::vector<std::string> LinesOf(const std::string& text);
 
 /// All of a file, byte for byte.
-std::string ContentOf(const std::string& file);
+std::string FileContent(const std::string& file);
 
 }  // namespace priamos::cli
