@@ -1,8 +1,7 @@
 #include "cli/terminal/bus_watch.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
-
-#include <cmath>
 
 #include "bus/own_types.hpp"
 
@@ -18,7 +17,7 @@ class LinkListenerTest : public testing::Test {
     bus_.Drain();
     std::vector<std::string> asked;
     for (const link_request_t& request : requests_.Drain())
-      asked.push_back(request.channel + " " + std::to_string(std::lround(request.hold_s)));
+      asked.push_back(fmt::format("{} {}", request.channel, request.hold_s));
     return asked;
   }
   const bus::Schema schema_ = bus::OwnTypes();
