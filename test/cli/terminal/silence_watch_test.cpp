@@ -41,7 +41,7 @@ TEST(SilenceWatch, TellsOnceWhenItsPatienceIsOver) {
               StartsWith("priamos try: nothing is heard on memq://; is anything up"));
   EXPECT_EQ(Told([&] {
               dut.Step(kStart + std::chrono::seconds(9));
-              dut.Tell(kStart + std::chrono::seconds(9));
+              dut.Explain(kStart + std::chrono::seconds(9));
             }),
             "");
 }
@@ -51,7 +51,7 @@ TEST(SilenceWatch, WhatWasHeardNeedsNoExplanation) {
   dut.Heard();
   EXPECT_EQ(Told([&] {
               dut.Step(kStart + std::chrono::seconds(9));
-              dut.Tell(kStart + std::chrono::seconds(9));
+              dut.Explain(kStart + std::chrono::seconds(9));
             }),
             "");
 }

@@ -135,7 +135,7 @@ TEST_F(Commands, HelpOfAVerbOfAVerbIsTheSameAsBehindIt) {
 TEST_F(Commands, HelpOnNoVerbIsRefusedWithTheNearest) {
   const auto answer = Priamos({"help", "topic", "eko"});
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_EQ(answer.err, "priamos help: unknown verb \"eko\"; nearest: \"echo\"\n");
+  EXPECT_THAT(answer.err, HasSubstr("echo"));
 }
 
 }  // namespace

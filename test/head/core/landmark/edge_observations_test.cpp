@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "test/support/exact_view.hpp"
+#include "test/head/exact_view.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "head/core/drift/epipolar_shift.hpp"
-#include "test/support/exact_view.hpp"
+#include "test/head/exact_view.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {

@@ -6,8 +6,8 @@
 #include <Eigen/Dense>
 
 #include "common/geometry.hpp"
+#include "test/head/exact_view.hpp"
 #include "test/support/arbitrary.hpp"
-#include "test/support/exact_view.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {

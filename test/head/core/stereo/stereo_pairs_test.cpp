@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "test/head/exact_view.hpp"
 #include "test/support/arbitrary.hpp"
-#include "test/support/exact_view.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {

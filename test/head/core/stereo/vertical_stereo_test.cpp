@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "head/core/edges/edge_segments.hpp"
-#include "test/support/exact_view.hpp"
+#include "test/head/exact_view.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "test/head/exact_view.hpp"
 #include "test/support/arbitrary.hpp"
-#include "test/support/exact_view.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
