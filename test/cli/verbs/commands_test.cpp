@@ -133,9 +133,9 @@ TEST_F(Commands, HelpOfAVerbOfAVerbIsTheSameAsBehindIt) {
 }
 
 TEST_F(Commands, HelpOnNoVerbIsRefusedWithTheNearest) {
-  const auto answer = Priamos({"help", "topic", "eko"});
+  const auto answer = Priamos({"help", "topic", "ecko"});
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("echo"));
+  EXPECT_THAT(answer.err, HasSubstr("nearest: \"echo\""));
 }
 
 }  // namespace
