@@ -44,6 +44,8 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
       status_(context.node().Advertise(channels::kLinkStatus)) {
   bus::radio::RequireBudget(link_config_.Table(types()), link_config_.Options());
   port_ = OpenLine();
+  if (link_config_.simulation_key && !context.lockstep())
+    context.Log(bus::Level::kInfo, "the link has the simulation key, which everybody knows");
   if (config.state_file.empty()) {
     store_ = std::make_unique<bus::radio::MemoryStore>();
   } else {
@@ -94,7 +96,6 @@ bus::radio::LinkKey RadioApp::LoadKey() const {
         fmt::format("{}: simulation_key: expected false on {}, which others can reach, got true: make a key "
                     "with `priamos link keygen`",
                     context_.ResolvePath(config_.link), config_.port));
-  context_.Log(bus::Level::kInfo, "the link has the simulation key, which everybody knows");
   return SimulationKey();
 }
 
