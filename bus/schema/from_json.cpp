@@ -176,11 +176,13 @@ class Writer {
   }
 
   void PutFloat(const Json& json) {
+    // Half a step above the largest float: what is written with eight digits may lie above it and rounds to
+    // it.
+    constexpr double kTooLarge = 0x1.ffffffp127;
     const double value = Real(json);
-    if (std::isfinite(value) && std::abs(value) > std::numeric_limits<float>::max()) {
-      Refuse("a number that fits into a float", json);
-    }
-    Put(static_cast<float>(value));
+    if (std::isfinite(value) && std::abs(value) >= kTooLarge) Refuse("a number that fits into a float", json);
+    constexpr double kMost = std::numeric_limits<float>::max();
+    Put(static_cast<float>(std::isfinite(value) ? std::clamp(value, -kMost, kMost) : value));
   }
 
   void Text(const Json& json) {

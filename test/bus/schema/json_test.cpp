@@ -129,6 +129,17 @@ TEST(Json, RefusesWithTheFieldsName) {
   EXPECT_EQ(ErrorOf(type, "[]"), "s: expected an object, got []");
 }
 
+TEST(Json, TheLargestFloatsSurviveTheirEightDigits) {
+  const Schema schema = SchemaOf("struct f { float v; }");
+  const Struct& type = *schema.Find("f");
+  for (const char* written : {"3.4028235e+38", "-3.4028235e+38"}) {
+    const Bytes bytes = FromJson(type, Json::parse(std::string("{\"v\": ") + written + "}"));
+    EXPECT_EQ(std::abs(ToJson(type, bytes)["v"].get<float>()), std::numeric_limits<float>::max()) << written;
+  }
+  EXPECT_EQ(ErrorOf(type, R"({"v": 3.4028236e+38})"),
+            "f.v: expected a number that fits into a float, got 3.4028236e+38");
+}
+
 TEST(Json, RefusesNumbersAndBytesThatDoNotFit) {
   const Schema schema = SchemaOf(
       "struct f { float v; } struct k { int64_t v; } struct b { byte v[2]; } struct t { string v; }");
