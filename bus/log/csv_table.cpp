@@ -48,12 +48,7 @@ void WriteCell(std::ostream& out, const std::string& text) {
     out << text;
     return;
   }
-  out << '"';
-  for (const char c : text) {
-    if (c == '"') out << '"';
-    out << c;
-  }
-  out << '"';
+  out << QuotedCell(text);
 }
 
 std::string TextOf(const Json& value) {
@@ -88,6 +83,12 @@ class RowWriter {
 };
 
 }  // namespace
+
+std::string QuotedCell(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
 
 CsvTable::CsvTable(const Struct& type) : type_(&type) {
   AddColumns(type, "", columns_);

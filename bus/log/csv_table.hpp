@@ -9,6 +9,9 @@
 
 namespace priamos::bus {
 
+/// A text as a cell of a table in CSV (RFC 4180), always in quotes: a quote inside is doubled.
+std::string QuotedCell(const std::string& text);
+
 /// Messages of one type as a table (RFC 4180): a column per value. Fields of nested structs and elements of
 /// fixed arrays get columns of their own (`pose.x_m`, `range_m[3]`); what varies in size, an array of
 /// variable length or a type that contains itself, is one column of JSON. The first two columns are the log's

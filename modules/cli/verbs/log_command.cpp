@@ -9,6 +9,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "bus/log/csv_table.hpp"
 #include "bus/log/log_export.hpp"
 #include "bus/log/log_merge.hpp"
 #include "bus/log/log_survey.hpp"
@@ -86,13 +87,6 @@ int Info(const LogOptions& options) {
   return survey.whole() ? 0 : kDamaged;
 }
 
-/// A cell of a table in CSV (RFC 4180): a quote inside is doubled.
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  return quoted + '"';
-}
-
 int Index(const LogOptions& options) {
   const bus::Schema schema = LoadTypes(options.bus);
   bus::LogReader reader(options.log);
@@ -109,7 +103,7 @@ int Index(const LogOptions& options) {
       continue;
     }
     out.stream() << fmt::format("{},{},{},{},{},{}\r\n", event->offset, event->number, event->utime,
-                                Quoted(event->channel), event->bytes.size(), type_name);
+                                bus::QuotedCell(event->channel), event->bytes.size(), type_name);
   }
   return out.Close();
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
@@ -14,20 +14,21 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using test::Real;
+using support::Between;
 
 Vector3d AnyDirection() {
-  const double azimuth = Real(-3.1, 3.1), height = Real(-0.95, 0.95), ring = std::sqrt(1 - height * height);
+  const double azimuth = Between(-3.1, 3.1), height = Between(-0.95, 0.95),
+               ring = std::sqrt(1 - height * height);
   return {ring * std::cos(azimuth), ring * std::sin(azimuth), height};
 }
 
 RC_GTEST_PROP(LaserPlaneTest, InTheCameraItIsAsFarFromEveryPoint, ()) {
   LaserPlane dut;
-  dut.normal = AnyDirection(), dut.offset_m = Real(-1, 1);
+  dut.normal = AnyDirection(), dut.offset_m = Between(-1, 1);
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
-  base_from_camera.translation() = Vector3d(Real(-1, 1), Real(-1, 1), Real(0, 2));
-  base_from_camera.linear() = Eigen::AngleAxisd(Real(-3, 3), AnyDirection()).toRotationMatrix();
-  const Vector3d in_base(Real(-3, 3), Real(-3, 3), Real(-1, 2));
+  base_from_camera.translation() = Vector3d(Between(-1, 1), Between(-1, 1), Between(0, 2));
+  base_from_camera.linear() = Eigen::AngleAxisd(Between(-3, 3), AnyDirection()).toRotationMatrix();
+  const Vector3d in_base(Between(-3, 3), Between(-3, 3), Between(-1, 2));
   const auto in_camera = dut.InCamera(base_from_camera);
   RC_ASSERT(std::abs(in_camera.normal().norm() - 1) < 1e-9);
   RC_ASSERT(std::abs(in_camera.signedDistance(base_from_camera.inverse() * in_base) -
@@ -36,9 +37,9 @@ RC_GTEST_PROP(LaserPlaneTest, InTheCameraItIsAsFarFromEveryPoint, ()) {
 }
 
 RC_GTEST_PROP(PointOnPlaneTest, IsThePointThatTheCameraShowsThere, ()) {
-  CameraModel camera = test::HeadCamera(Real(-0.3, 0.3), 1, 900, Real(-0.2, 0.1));
-  camera.image_from_base *= Real(0.1, 5);  // a DLT matrix has any scale
-  const Vector3d seen(Real(2, 5), Real(-0.3, 0.3), Real(0.8, 1.6)), normal = AnyDirection();
+  CameraModel camera = test::HeadCamera(Between(-0.3, 0.3), 1, 900, Between(-0.2, 0.1));
+  camera.image_from_base *= Between(0.1, 5);  // a DLT matrix has any scale
+  const Vector3d seen(Between(2, 5), Between(-0.3, 0.3), Between(0.8, 1.6)), normal = AnyDirection();
   const Vector3d sight = (seen - Vector3d(0.25, 0.15, 1.2)).normalized();
   RC_PRE(std::abs(normal.dot(sight)) > 0.15);
   const auto dut =

@@ -7,13 +7,13 @@
 
 #include "common/geometry.hpp"
 #include "head/core/contours/contour_graph.hpp"
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 
 namespace priamos::head {
 namespace {
 
 using Eigen::Vector2d;
-using test::Real;
+using support::Between;
 
 constexpr double kSigma_px = 1e-3;  ///< so exact that tolerances are those of the options
 
@@ -201,7 +201,7 @@ TEST(FindCornersTest, EveryEndKeepsItsNearestCorners) {
 }
 
 RC_GTEST_PROP(FindCornersTest, ErrorsOfBothLinesMakeThatOfTheCorner, ()) {
-  const double angle = Real(0.4, kPi - 0.4), sigma_a = Real(0.01, 0.1), sigma_b = Real(0.01, 0.1);
+  const double angle = Between(0.4, kPi - 0.4), sigma_a = Between(0.01, 0.1), sigma_b = Between(0.01, 0.1);
   const Vector2d at(300, 300), u(1, 0), v(std::cos(angle), std::sin(angle));
   auto a = Segment(at - 80 * u, at, sigma_a), b = Segment(at, at + 60 * v, sigma_b);
   const auto corners = FindCorners(Image({a, b}), {});

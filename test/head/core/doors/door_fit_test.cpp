@@ -7,7 +7,7 @@
 
 #include "common/random.hpp"
 #include "test/head/exact_view.hpp"
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using support::Between;
 using test::ExactView;
-using test::Real;
 
 constexpr double kSigma_px = 0.3;
 const DoorShape kDoor{{3.2, 0.45}, {3.3, -0.45}, 2.0};
@@ -83,9 +83,9 @@ TEST_F(DoorFitTest, ADoorThatAllLinesAgreeOnIsFoundExactly) {
 }
 
 RC_GTEST_FIXTURE_PROP(DoorFitTest, TheStartMayBeWrong, ()) {
-  const DoorShape start{kDoor.left + Vector2d(Real(-0.2, 0.2), Real(-0.05, 0.05)),
-                        kDoor.right + Vector2d(Real(-0.2, 0.2), Real(-0.05, 0.05)),
-                        kDoor.height_m + Real(-0.1, 0.1)};
+  const DoorShape start{kDoor.left + Vector2d(Between(-0.2, 0.2), Between(-0.05, 0.05)),
+                        kDoor.right + Vector2d(Between(-0.2, 0.2), Between(-0.05, 0.05)),
+                        kDoor.height_m + Between(-0.1, 0.1)};
   const auto dut = pictures_.Fit(start, kAllLines);
   RC_ASSERT(dut.has_value());
   RC_ASSERT((Unknowns(dut->shape) - Unknowns(kDoor)).norm() < 1e-3);

@@ -5,13 +5,13 @@
 
 #include <cmath>
 
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 
 namespace priamos::head {
 namespace {
 
 using Eigen::Vector3d;
-using test::Real;
+using support::Between;
 
 constexpr double kSigma_rad = 1e-4;
 
@@ -133,7 +133,7 @@ TEST(DriftMonitorTest, SettingsHaveBounds) {
 }
 
 RC_GTEST_PROP(NormalQuantileTest, IsExceededWithItsProbability, ()) {
-  const double probability = std::pow(10, Real(-12, std::log10(0.5)));
+  const double probability = std::pow(10, Between(-12, std::log10(0.5)));
   const double x = NormalQuantile(probability);
   RC_ASSERT(x >= 0);
   RC_ASSERT(std::abs(0.5 * std::erfc(x / std::sqrt(2.0)) - probability) < 1e-6 * probability);

@@ -7,12 +7,12 @@
 #include <opencv2/core.hpp>
 
 #include "common/geometry.hpp"
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 
 namespace priamos::head {
 namespace {
 
-using test::Real;
+using support::Between;
 
 /// Gradients that say nothing about where between the pixels an edge lies.
 GradientMap Flat() {
@@ -66,7 +66,7 @@ TEST(ChainSplitterTest, AStraightChainIsOneLineFromItsFirstToItsLastPixel) {
 }
 
 RC_GTEST_PROP(ChainSplitterTest, ALineOfAnySlopeIsFoundToPixelAccuracy, ()) {
-  const double angle = Real(-kPi, kPi), length = Real(15, 80);
+  const double angle = Between(-kPi, kPi), length = Between(15, 80);
   const double ux = std::cos(angle), uy = std::sin(angle), step = std::max(std::abs(ux), std::abs(uy));
   Pencil pencil;
   int n = 0;

@@ -8,12 +8,12 @@
 #include <opencv2/core.hpp>
 
 #include "common/random.hpp"
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 
 namespace priamos::head {
 namespace {
 
-using test::Real;
+using support::Between;
 
 /// Grey values `of` the distance from column 32; what rounding takes from one row it gives to another.
 cv::Mat Columns(const std::function<double(double)>& of) {
@@ -154,7 +154,7 @@ TEST(EdgeProfileTest, ASlantingLineIsMeasuredWhereItIsInside) {
 RC_GTEST_PROP(EdgeProfileTest, FlatLinesAreMeasuredAsSteepOnesOfTheTransposedPicture, ()) {
   const int width = *rc::gen::inRange(32, 90), height = *rc::gen::inRange(32, 90);
   const cv::Mat image = Noise(width, height, *rc::gen::inRange(0, 1000));
-  const double offset = Real(8, height - 10), slope = Real(-1, 1);
+  const double offset = Between(8, height - 10), slope = Between(-1, 1);
   const EdgeSums flat = Sum(image, Slanting(width / 2.0, offset, slope, false), 0, width - 1);
   const EdgeSums steep = Sum(image.t(), Slanting(width / 2.0, offset, slope), 0, width - 1);
   RC_ASSERT(flat.rows == steep.rows);

@@ -8,13 +8,13 @@
 #include <cmath>
 
 #include "common/random.hpp"
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 
 namespace priamos::head {
 namespace {
 
 using Eigen::Vector3d;
-using test::Real;
+using support::Between;
 
 const Eigen::Matrix3d kPrior = Vector3d(0.005 * 0.005, 0.01 * 0.01, 0.01 * 0.01).asDiagonal();
 constexpr double kVariance = 0.001 * 0.001;
@@ -48,7 +48,7 @@ FloorPlane Weighted(const std::vector<LightPoint>& points) {
 }
 
 RC_GTEST_PROP(FloorFitTest, WithoutObstaclesItIsTheWeightedFitOfAllPoints, ()) {
-  const Vector3d plane(Real(-0.006, 0.006), Real(-0.012, 0.012), Real(-0.012, 0.012));
+  const Vector3d plane(Between(-0.006, 0.006), Between(-0.012, 0.012), Between(-0.012, 0.012));
   const auto points = Line(plane);
   const FloorPlane dut = FitFloor(points, kPrior), expected = Weighted(points);
   RC_ASSERT((dut.plane - expected.plane).norm() < 1e-9);
@@ -70,10 +70,10 @@ TEST(FloorFitTest, OnePointMovesThePriorByItsGain) {
 }
 
 RC_GTEST_PROP(FloorFitTest, WhatStandsOnTheFloorDoesNotDrawIt, ()) {
-  const Vector3d plane(Real(-0.005, 0.005), Real(-0.01, 0.01), Real(-0.01, 0.01));
+  const Vector3d plane(Between(-0.005, 0.005), Between(-0.01, 0.01), Between(-0.01, 0.01));
   auto points = Line(plane, 0.0005, *rc::gen::inRange(0, 1000));
   const int first = *rc::gen::inRange(0, 200);
-  Raise(points, first, first + 90, Real(0.03, 0.5) * (*rc::gen::arbitrary<bool>() ? 1 : -1));
+  Raise(points, first, first + 90, Between(0.03, 0.5) * (*rc::gen::arbitrary<bool>() ? 1 : -1));
   const FloorPlane dut = FitFloor(points, kPrior);
   for (const double y : {-1.0, 0.0, 1.0}) {
     const Vector3d at(1.5, y, plane.dot(Vector3d(1, 1.5, y)));

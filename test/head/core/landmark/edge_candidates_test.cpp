@@ -4,14 +4,14 @@
 #include <rapidcheck/gtest.h>
 
 #include "test/head/exact_view.hpp"
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
 namespace {
 
 using Eigen::Vector2d;
-using test::Real;
+using support::Between;
 
 PredictedEdge Predicted(const Vector2d& p, const Vector2d& q) {
   PredictedEdge edge;
@@ -132,7 +132,7 @@ TEST_F(EdgeCandidatesTest, NoLinesNoCandidates) {
 }
 
 Vector2d AnyPixel() {
-  return {Real(50, 700), Real(50, 500)};
+  return {Between(50, 700), Between(50, 500)};
 }
 
 RC_GTEST_PROP(CandidateSearchTest, ManyLinesAreFoundAsEachOfThemAlone, ()) {
@@ -143,7 +143,7 @@ RC_GTEST_PROP(CandidateSearchTest, ManyLinesAreFoundAsEachOfThemAlone, ()) {
   test::ExactView all(test::HeadCamera(0, 1));
   std::vector<int> alone;
   for (int i = 0; i < 20; ++i) {
-    const double s = Real(-60, 40), t = s + Real(20, 120), a = Real(-9, 9), b = a + Real(-9, 9);
+    const double s = Between(-60, 40), t = s + Between(20, 120), a = Between(-9, 9), b = a + Between(-9, 9);
     const Vector2d from = p + s * along + a * normal, to = p + t * along + b * normal;
     all.Draw(from, to, 80, 140, 0);
     test::ExactView one(test::HeadCamera(0, 1));

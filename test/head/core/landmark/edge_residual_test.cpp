@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
@@ -14,7 +14,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using test::Real;
+using support::Between;
 
 /// A small motion of space: shift and turn about the origin.
 Isometry3d Motion(const Eigen::Matrix<double, 6, 1>& by) {
@@ -28,11 +28,11 @@ Isometry3d Motion(const Eigen::Matrix<double, 6, 1>& by) {
 /// An edge of any direction before the left camera, and a place in the image beside it.
 struct Setup {
   CameraModel camera = test::HeadCamera(0.1, 1);
-  Isometry3d pose = Lift({Real(2.5, 4), Real(-0.3, 0.3), Real(-0.3, 0.3)});
-  LandmarkEdge edge{.from = {Real(-0.2, 0.2), Real(-0.4, 0.4), Real(0.7, 1.7)}};
-  double share = Real(0.1, 0.9), aside_px = 0;
+  Isometry3d pose = Lift({Between(2.5, 4), Between(-0.3, 0.3), Between(-0.3, 0.3)});
+  LandmarkEdge edge{.from = {Between(-0.2, 0.2), Between(-0.4, 0.4), Between(0.7, 1.7)}};
+  double share = Between(0.1, 0.9), aside_px = 0;
 
-  Setup() { edge.to = edge.from + Vector3d(Real(-0.1, 0.1), Real(-0.3, 0.3), Real(0.2, 0.4)); }
+  Setup() { edge.to = edge.from + Vector3d(Between(-0.1, 0.1), Between(-0.3, 0.3), Between(0.2, 0.4)); }
   Vector2d At() const {
     const Vector2d p = camera.Project(pose * edge.from), q = camera.Project(pose * edge.to);
     const Vector2d d = (q - p).normalized();
@@ -47,7 +47,7 @@ constexpr double kStep = 1e-6;
 
 RC_GTEST_PROP(EdgeResidualTest, DistanceIsPositiveToTheRightOfTheEdge, ()) {
   Setup setup;
-  setup.aside_px = Real(-5, 5);
+  setup.aside_px = Between(-5, 5);
   const auto dut = ResidualOf(setup.camera, setup.pose, setup.edge, setup.At());
   RC_ASSERT(dut.has_value());
   RC_ASSERT(std::abs(dut->distance_px - setup.aside_px) < 1e-9);
@@ -118,7 +118,7 @@ RC_GTEST_PROP(EdgeResidualTest, AShiftOfTheModelEdgeCountsOnlyAcrossIt, ()) {
 
 RC_GTEST_PROP(EdgeResidualTest, TheLeverTellsWhereOnTheEdgeOfSpaceItIs, ()) {
   const Setup setup;
-  const double lever = Real(-1, 1);
+  const double lever = Between(-1, 1);
   const Vector3d on_edge =
       (setup.edge.from + setup.edge.to) / 2 + lever / 2 * (setup.edge.to - setup.edge.from);
   const auto dut =
@@ -161,8 +161,8 @@ std::vector<EdgeObservation> Points(const Vector2d& first, const Vector2d& step,
 }
 
 RC_GTEST_PROP(ObservedLinesTest, TwoPlacesKnowAsMuchOfTheLineAsAllPoints, ()) {
-  const double bearing = Real(-kPi, kPi), sigma = Real(0.05, 0.5);
-  const Vector2d along(std::cos(bearing), std::sin(bearing)), first(Real(0, 700), Real(0, 500));
+  const double bearing = Between(-kPi, kPi), sigma = Between(0.05, 0.5);
+  const Vector2d along(std::cos(bearing), std::sin(bearing)), first(Between(0, 700), Between(0, 500));
   const auto points = Points(first, 3 * along, *rc::gen::inRange(3, 60), sigma);
   const auto lines = ObservedLines(points);
   RC_ASSERT(lines.size() == 1u && lines[0].n == 2);

@@ -5,13 +5,13 @@
 
 #include <numeric>
 
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 
 namespace priamos::head {
 namespace {
 
 using Eigen::Vector2d;
-using test::Real;
+using support::Between;
 
 const Eigen::Matrix3d kWide = Eigen::Vector3d(0.1 * 0.1, 0.1 * 0.1, 0.05 * 0.05).asDiagonal();
 const Pose2 kTruth{3.2, 0.1, 0.05};
@@ -65,10 +65,10 @@ TEST_F(PoseProposalsTest, EveryPairOfEdgesSpeaksForTheTruePose) {
 }
 
 RC_GTEST_FIXTURE_PROP(PoseProposalsTest, ThePoseIsFoundWhereverItIsNearThePrediction, ()) {
-  const Pose2 truth{Real(-5, 5), Real(-5, 5), Real(-kPi, kPi)};
+  const Pose2 truth{Between(-5, 5), Between(-5, 5), Between(-kPi, kPi)};
   verticals_ = Seen(model_, truth);
   const Proposals dut =
-      Propose({truth.x + Real(-0.1, 0.1), truth.y + Real(-0.1, 0.1), truth.yaw + Real(-0.05, 0.05)});
+      Propose({truth.x + Between(-0.1, 0.1), truth.y + Between(-0.1, 0.1), truth.yaw + Between(-0.05, 0.05)});
   RC_ASSERT(!dut.poses.empty());
   RC_ASSERT(Apart(dut.poses[0].base_from_landmark, truth) < 1e-6);
 }

@@ -7,7 +7,7 @@
 
 #include "common/geometry.hpp"
 #include "test/head/exact_view.hpp"
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using test::Real;
+using support::Between;
 
 /// The same camera with its optical centre elsewhere.
 CameraModel MovedTo(CameraModel camera, const Vector3d& centre) {
@@ -152,11 +152,11 @@ TEST_F(SpaceEdgeTest, ImagesThatAgreeHaveNoMisfitAndOthersOneThatGrowsWithTheSqu
 }
 
 RC_GTEST_PROP(EpipoleTest, EpipolarLinesPassThroughTheEpipole, ()) {
-  const CameraModel in = test::HeadCamera(Real(-0.2, 0.2), 1),
-                    of = MovedTo(test::HeadCamera(0, -1), {Real(1, 2), Real(-1, 1), Real(1, 1.5)});
+  const CameraModel in = test::HeadCamera(Between(-0.2, 0.2), 1),
+                    of = MovedTo(test::HeadCamera(0, -1), {Between(1, 2), Between(-1, 1), Between(1, 1.5)});
   const Vector3d epipole = Epipole(in, of), centre = OpticalCentre(of);
   RC_ASSERT((epipole.hnormalized() - in.Project(centre)).norm() < 1e-6);
-  const Vector3d seen(Real(3, 6), Real(-1, 1), Real(0, 2)), nearer = centre + 0.6 * (seen - centre);
+  const Vector3d seen(Between(3, 6), Between(-1, 1), Between(0, 2)), nearer = centre + 0.6 * (seen - centre);
   const Vector3d line = in.Project(seen).homogeneous().cross(in.Project(nearer).homogeneous());
   RC_ASSERT(std::abs(line.dot(epipole)) < 1e-6 * line.norm() * epipole.norm());
 }
@@ -169,8 +169,8 @@ ViewLine LineThrough(const Vector2d& p, const Vector2d& q) {
 }
 
 RC_GTEST_PROP(EpipolarAngleTest, IsThatBetweenTheLineAndTheWayToTheEpipole, ()) {
-  const double angle = Real(0, kPi / 2), bearing = Real(-kPi, kPi), away = Real(50, 2000);
-  const Vector2d middle(Real(0, 768), Real(0, 576));
+  const double angle = Between(0, kPi / 2), bearing = Between(-kPi, kPi), away = Between(50, 2000);
+  const Vector2d middle(Between(0, 768), Between(0, 576));
   const Vector2d along(std::cos(bearing + angle), std::sin(bearing + angle));
   const Vector2d epipole = middle + away * Vector2d(std::cos(bearing), std::sin(bearing));
   const ViewLine line = LineThrough(middle - 20 * along, middle + 20 * along),
@@ -190,9 +190,9 @@ TEST(EpipolarAngleTest, AnEpipoleMayBeInfinitelyFar) {
 
 RC_GTEST_PROP(MetricDepthTest, IsMetresAlongTheAxisWhateverTheScaleOfTheMatrix, ()) {
   CameraModel camera = test::HeadCamera(0, 0);
-  camera.image_from_base *= Real(0.01, 10);
-  const double depth = Real(0.1, 9);
-  const Vector3d at = OpticalCentre(camera) + Vector3d(depth, Real(-2, 2), Real(-2, 2));
+  camera.image_from_base *= Between(0.01, 10);
+  const double depth = Between(0.1, 9);
+  const Vector3d at = OpticalCentre(camera) + Vector3d(depth, Between(-2, 2), Between(-2, 2));
   RC_ASSERT(std::abs(MetricDepth(camera, at) - depth) < 1e-9);
 }
 

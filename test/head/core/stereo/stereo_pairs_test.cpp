@@ -8,15 +8,15 @@
 
 #include "common/geometry.hpp"
 #include "test/head/exact_view.hpp"
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
 namespace {
 
 using Eigen::Vector3d;
+using support::Between;
 using test::ExactView;
-using test::Real;
 
 class StereoPairsTest : public testing::Test {
  protected:
@@ -153,7 +153,7 @@ TEST(GreySimilarityTest, TheContrastsMayDifferUpToARatio) {
 }
 
 RC_GTEST_PROP(GreySimilarityTest, IsBetween0And1AndTheSameBothWays, ()) {
-  const double a = Real(0, 120), b = a + Real(5, 120), c = Real(0, 120), d = c + Real(5, 120);
+  const double a = Between(0, 120), b = a + Between(5, 120), c = Between(0, 120), d = c + Between(5, 120);
   const double there = Similarity(a, b, c, d), back = Similarity(c, d, a, b);
   RC_ASSERT(there >= 0 && there <= 1);
   RC_ASSERT(std::abs(there - back) < 1e-12);

@@ -4,7 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "test/head/exact_view.hpp"
-#include "test/support/arbitrary.hpp"
+#include "test/support/generated_numbers.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::head {
@@ -12,13 +12,13 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using support::Between;
 using test::ExactView;
-using test::Real;
 
 constexpr double kTable_px = 0.005;  ///< between the nodes of the table of the lens
 
 Vector2d AnyPixel() {
-  return {Real(20, 748), Real(20, 556)};
+  return {Between(20, 748), Between(20, 556)};
 }
 
 TEST(MakeViewTest, ALineThatTheLensBendsIsStraightAgain) {
@@ -38,7 +38,7 @@ TEST(MakeViewTest, ALineThatTheLensBendsIsStraightAgain) {
 }
 
 RC_GTEST_PROP(MakeViewTest, PointsAreUndistortedAsTheCameraSays, ()) {
-  ExactView scene(test::HeadCamera(0, 1, 1000, Real(-0.3, 0.15)));
+  ExactView scene(test::HeadCamera(0, 1, 1000, Between(-0.3, 0.15)));
   scene.Draw(AnyPixel(), AnyPixel() + Vector2d(0.1, 0));
   const CameraView dut = scene.View();
   RC_ASSERT(dut.points.size() == scene.edges().points.size());
@@ -59,7 +59,7 @@ RC_GTEST_PROP(MakeViewTest, TheNormalPointsToTheBrightSide, ()) {
 }
 
 RC_GTEST_PROP(MakeViewTest, ThePlaneOfSightHoldsTheEdgeAndTheOpticalCentre, ()) {
-  ExactView scene(test::HeadCamera(Real(-0.3, 0.3), 1));
+  ExactView scene(test::HeadCamera(Between(-0.3, 0.3), 1));
   const CameraModel& camera = scene.camera();
   const Eigen::Matrix3d inverse = camera.image_from_base.leftCols<3>().inverse();
   const Vector2d begin = AnyPixel(), end = AnyPixel();
@@ -70,7 +70,7 @@ RC_GTEST_PROP(MakeViewTest, ThePlaneOfSightHoldsTheEdgeAndTheOpticalCentre, ()) 
   RC_ASSERT(std::abs(line.plane.head<3>().norm() - 1) < 1e-9);
   RC_ASSERT(std::abs(line.plane.dot(centre.homogeneous())) < 1e-6);
   for (const Vector2d& at : {begin, end}) {
-    const Vector3d sight = inverse * at.homogeneous(), seen = centre + Real(0.5, 8) * sight;
+    const Vector3d sight = inverse * at.homogeneous(), seen = centre + Between(0.5, 8) * sight;
     RC_ASSERT(std::abs(line.plane.dot(seen.homogeneous())) < 1e-5 * (seen - centre).norm());
   }
   // What is seen on the bright side has a positive distance from the plane.
