@@ -98,6 +98,8 @@ void AddEmulate(CLI::App& link, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--blackouts", options->blackouts,
                    "CSV file with from_s,to_s per line: no line in between");
+  verb->add_option("--delays", options->delays,
+                   "CSV file with way,from_s,to_s,first_s,last_s per line: more delay of one way for a time");
   verb->add_option("--seed", options->seed, "seed of the errors")->capture_default_str();
   verb->add_flag("--json", options->json, "print the ttys as JSON");
   verb->callback([options, &exit_code] { exit_code = RunLinkEmulate(*options); });
