@@ -124,8 +124,10 @@ TEST_P(LinkGolden, DoesWhatItDid) {
     all.Number(dut.digest());
     classes = std::max(classes, dut.delivered().size());
   }
-  // A world in which nothing happens would prove nothing.
-  EXPECT_EQ(classes, s.world.tables_differ || s.world.keys_differ ? 0U : 3U);
+  // A world in which nothing happens would prove nothing. On a line that is slower there and back than every
+  // time-to-live no command can be proven fresh.
+  const std::size_t alive = s.world.line.latency_s > 0.5 ? 2 : 3;
+  EXPECT_EQ(classes, s.world.tables_differ || s.world.keys_differ ? 0U : alive);
   EXPECT_EQ(fmt::format("{:016x}", all.digest()), s.digest);
 }
 
