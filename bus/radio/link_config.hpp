@@ -42,6 +42,7 @@ struct LinkConfig {
   bool encrypted = false;
   double half_duplex_turn_s = 0;
   double turnaround_s = 0.02;
+  double line_delay_s = 0.1;
   bool datagrams = false;
   std::string key_file = "link.key";
   bool simulation_key = false;

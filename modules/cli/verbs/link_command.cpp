@@ -49,7 +49,8 @@ nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
          {"share", c.share},
          {"worst_latency_s", seconds(c.worst_latency)},
          {"deadline_s",
-          seconds(channel.deadline > Duration{} ? std::optional(channel.deadline) : std::nullopt)}});
+          seconds(channel.deadline > Duration{} ? std::optional(channel.deadline) : std::nullopt)},
+         {"proven_age_s", seconds(c.proof ? std::optional(c.proof->age()) : std::nullopt)}});
   }
   return json;
 }
