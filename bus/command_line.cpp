@@ -115,7 +115,7 @@ std::vector<std::string> Members(const CLI::Option& option) {
 std::string Expected(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const auto has = [&](const char* word) { return type.find(word) != std::string::npos; };
-  const std::string number = has("INT") ? "a whole number" : "a number";
+  std::string number = has("INT") ? "a whole number" : "a number";
   if (const auto members = Members(option); !members.empty())
     return fmt::format("one of {}", fmt::join(members, ", "));
   if (auto range = Between(type, " in [", "]")) {

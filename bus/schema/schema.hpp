@@ -32,6 +32,7 @@ class Schema {
   template <class Texts>
   static Schema FromTexts(const Texts& texts) {
     std::vector<Source> sources;
+    sources.reserve(std::size(texts));
     for (const auto& t : texts) sources.push_back({t.file, t.text});
     return Schema(sources);
   }
