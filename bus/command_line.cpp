@@ -8,8 +8,10 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "bus/version.hpp"
+#include "common/nearest_file.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::bus {
@@ -112,6 +114,16 @@ std::vector<std::string> Members(const CLI::Option& option) {
   return members;
 }
 
+/// What an option of whole numbers takes; CLI11 calls an int INT, and a std::uint64_t UINT.
+std::string WholeNumber(bool is_unsigned, bool is_positive, bool is_negative_refused) {
+  const int lowest = is_positive                          ? 1
+                     : is_unsigned || is_negative_refused ? 0
+                                                          : std::numeric_limits<int>::min();
+  const std::uint64_t highest = is_unsigned ? std::numeric_limits<std::uint64_t>::max()
+                                            : std::uint64_t{std::numeric_limits<int>::max()};
+  return fmt::format("a whole number, {} to {}", lowest, highest);
+}
+
 std::string Expected(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const auto has = [&](const char* word) { return type.find(word) != std::string::npos; };
@@ -122,9 +134,10 @@ std::string Expected(const CLI::Option& option) {
     const auto dash = range->find(" - ");
     return fmt::format("{}, {} to {}", number, range->substr(0, dash), range->substr(dash + 3));
   }
+  if (has("INT")) return WholeNumber(has("UINT"), has("POSITIVE"), has("NONNEGATIVE"));
   if (has("POSITIVE")) return number + " above 0";
-  if (has("NONNEGATIVE") || has("UINT")) return number + ", at least 0";
-  if (has("INT") || has("FLOAT")) return number;
+  if (has("NONNEGATIVE")) return number + ", at least 0";
+  if (has("FLOAT")) return number;
   if (has("FILE")) return "an existing file";
   if (has("DIR")) return "an existing folder";
   return "a value";
@@ -135,12 +148,18 @@ std::string BadValue(const CLI::App& app, const CLI::Option& option) {
   if (got.empty() && option.get_type_name() == "TEXT")
     return fmt::format("{}: expected {} ({}), got \"\"{}", FullName(app), option.get_name(),
                        option.get_description(), Hint(app));
+  const std::string type = option.get_type_name();
+  const bool is_path = type.find("FILE") != std::string::npos || type.find("DIR") != std::string::npos;
   return fmt::format("{}: {}: expected {}, got \"{}\"{}", FullName(app), option.get_name(), Expected(option),
-                     got, NearestText(got, Members(option)));
+                     got, is_path ? NearestFileText(got) : NearestText(got, Members(option)));
 }
 
-std::string MissingValue(const CLI::App& app, const CLI::Option& option) {
+std::string WrongCount(const CLI::App& app, const CLI::Option& option) {
   const int wanted = option.get_items_expected_min();
+  const int most = std::max(1, option.get_items_expected_max());
+  if (const int given = static_cast<int>(option.results().size()); given > most)
+    return fmt::format("{}: {} is given {}; next: leave one", FullName(app), option.get_name(),
+                       given == 2 * most ? "twice" : "more than once");
   const std::string what = wanted == 1 ? Expected(option) : fmt::format("{} values", wanted);
   const std::string got = option.results().empty() ? "none" : std::to_string(option.results().size());
   return fmt::format("{}: {}: expected {}, got {}{}", FullName(app), option.get_name(), what, got, Hint(app));
@@ -220,7 +239,7 @@ std::string Explain(const CLI::App& cli, const CLI::Error& error) {
   const CLI::Option* option = OptionIn(deepest, text);
   if (option != nullptr && (kind == "ValidationError" || kind == "ConversionError"))
     return BadValue(deepest, *option);
-  if (option != nullptr && kind == "ArgumentMismatch") return MissingValue(deepest, *option);
+  if (option != nullptr && kind == "ArgumentMismatch") return WrongCount(deepest, *option);
   return fmt::format("{}: {}", FullName(deepest), text);
 }
 

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
+#include <fstream>
+
+#include "test/support/temporary_folder.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -95,7 +98,8 @@ TEST(CommandLine, WhatIsMissingIsNamed) {
   EXPECT_EQ(Refusal({"topic", "echo"}),
             "prog topic echo: expected channel (LCM channel), got none (prog topic echo --help lists all)");
   EXPECT_EQ(Refusal({"run", "--seed"}),
-            "prog run: --seed: expected a whole number, at least 0, got none (prog run --help lists all)");
+            "prog run: --seed: expected a whole number, 0 to 18446744073709551615, got none (prog run --help "
+            "lists all)");
   EXPECT_THAT(Refusal({"run", "--dots", "6"}), HasSubstr("--dots: expected 2 values, got 1"));
 }
 
@@ -108,14 +112,42 @@ TEST(CommandLine, CountsAreNeitherNegativeNorTooLargeNorSomethingElse) {
   for (const char* bad : {"-1", "18446744073709551616", "1e3", "0x10", "1.5", "seven", ""})
     EXPECT_EQ(
         Refusal({"run", std::string("--seed=") + bad}),
-        *bad ? fmt::format("prog run: --seed: expected a whole number, at least 0, got \"{}\"", bad)
-             : "prog run: --seed: expected a whole number, at least 0, got none (prog run --help lists all)");
-  EXPECT_THAT(Refusal({"run", "--keep", "-2"}), HasSubstr("--keep: expected a whole number, at least 0"));
+        *bad ? fmt::format("prog run: --seed: expected a whole number, 0 to 18446744073709551615, got \"{}\"",
+                           bad)
+             : "prog run: --seed: expected a whole number, 0 to 18446744073709551615, got none (prog run "
+               "--help lists all)");
+  EXPECT_THAT(Refusal({"run", "--keep", "-2"}),
+              HasSubstr("--keep: expected a whole number, 0 to 18446744073709551615"));
   EXPECT_THAT(Refusal({"topic", "echo", "POSE", "--count", "99999999999"}),
               HasSubstr("--count: expected a whole number"));
   Fixture good;
   EXPECT_EQ(good.Refusal({"run", "--seed", "010"}), "");
   EXPECT_EQ(good.seed, 10u) << "no octal";
+}
+
+TEST(CommandLine, ANumberBeyondWhatAnOptionCanHoldIsToldItsRange) {
+  EXPECT_EQ(
+      Refusal({"topic", "echo", "POSE", "--count", "99999999999"}),
+      "prog topic echo: --count: expected a whole number, -2147483648 to 2147483647, got \"99999999999\"");
+}
+
+TEST(CommandLine, AnOptionIsGivenOnce) {
+  EXPECT_EQ(Refusal({"run", "--seed", "3", "--seed", "4"}),
+            "prog run: --seed is given twice; next: leave one");
+  EXPECT_THAT(Refusal({"run", "--format=csv", "--format=csv", "--format=csv"}),
+              HasSubstr("--format is given more than once"));
+}
+
+TEST(CommandLine, AFileThatDoesNotExistIsAnsweredWithTheNearestOne) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "day.lcmlog") << "a log";
+  Fixture fixture;
+  std::string log;
+  fixture.cli.get_subcommand("status")->add_option("log", log, "LCM log")->check(CLI::ExistingFile);
+  const std::string wrong = folder / "day.lgo";
+  EXPECT_EQ(fixture.Refusal({"status", wrong}),
+            fmt::format("prog status: log: expected an existing file, got \"{}\"; nearest: \"{}\"", wrong,
+                        (folder / "day.lcmlog").string()));
 }
 
 TEST(CommandLine, NumbersAreFiniteAndInTheirRange) {

@@ -21,7 +21,7 @@ void AddSelectionOptions(CLI::App& verb, SelectionOptions& options);
 
 /// What the options select. `log` is read for the time at which it begins. A channel asked for by name that
 /// `log` does not have is reported on standard error, with the nearest names that it has. Throws
-/// std::runtime_error with a sentence for a --rename that cannot be read.
+/// std::runtime_error with a sentence for a --rename that cannot be read or does not fit the log.
 bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string& log);
 
 /// Throws std::runtime_error when `out` exists (unless `force`), is the very file that is being read, or is

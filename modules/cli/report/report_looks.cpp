@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "cli/terminal/view_screen.hpp"
 #include "common/drawing/svg.hpp"
@@ -39,10 +42,14 @@ std::string Drawing(const landmark_view_t& view) {
 
 std::string LookDrawings(const RunRecord& record) {
   std::string html;
-  for (const landmark_view_t& view : record.views)
+  std::vector<std::int64_t> looks;  // one look may show several views
+  for (const landmark_view_t& view : record.views) {
+    if (looks.empty() || looks.back() != view.request_id) looks.push_back(view.request_id);
+    const std::string title = fmt::format("look {} ({} in the log): {}", looks.size(), view.request_id,
+                                          ViewFinding(view, FixOf(record, view)));
     html += fmt::format("<figure>{}<figcaption>{}<br>{}</figcaption></figure>\n", Drawing(view),
-                        drawing::EscapeMarkup(ViewTitle(view, FixOf(record, view))),
-                        drawing::EscapeMarkup(ViewLegend(view)));
+                        drawing::EscapeMarkup(title), drawing::EscapeMarkup(ViewLegend(view)));
+  }
   return html.empty() ? html : "<div class=\"two\">" + html + "</div>\n";
 }
 

@@ -30,8 +30,10 @@ class ViewScreen {
   std::optional<obstacle_line_t> line_;
 };
 
-/// In one line: which landmark, found or why not, and how well if the fix of the same look is known.
+/// In one line: the look, by its number on the bus, and its finding.
 std::string ViewTitle(const landmark_view_t& view, const landmark_fix_t* fix);
+/// Which landmark, found or why not, and how well if the fix of the same look is known.
+std::string ViewFinding(const landmark_view_t& view, const landmark_fix_t* fix);
 /// What the laser's line shows, in words and as a strip from 1 m left to 1 m right; lines of at most
 /// `columns`.
 std::string FloorText(const obstacle_line_t& line, double age_s, int columns);

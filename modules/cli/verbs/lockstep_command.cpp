@@ -1,7 +1,10 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -75,7 +78,22 @@ void WriteJson(const std::string& file, const nlohmann::ordered_json& json) {
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
+/// Throws before the first run what would otherwise be found out after the last one. Leaves the file that is
+/// there as it is.
+void RequireWritable(const LockstepOptions& options) {
+  if (!options.log_root.empty()) {
+    std::filesystem::create_directories(options.log_root);
+    if (access(options.log_root.c_str(), W_OK | X_OK) != 0)
+      throw std::runtime_error(fmt::format("--logs: expected a folder that can be written, got \"{}\": {}",
+                                           options.log_root, std::strerror(errno)));
+  }
+  if (!options.json_file.empty() && !std::ofstream(options.json_file, std::ios::app))
+    throw std::runtime_error(fmt::format("--json: expected a file that can be written, got \"{}\": {}",
+                                         options.json_file, std::strerror(errno)));
+}
+
 int Run(const LockstepOptions& options) {
+  RequireWritable(options);
   const bus::Schema schema = bus::OwnTypes();
   const auto shared = HoldShared();
   auto all = nlohmann::ordered_json::array();

@@ -190,7 +190,18 @@ bus::ClockFit Clocks(const LogOptions& options, bus::LogReader& onboard, bus::Lo
   return *fit;
 }
 
+/// Two names may lead to one file.
+void RequireTwoLogs(const LogOptions& options) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(options.log, options.second, none)) return;
+  throw std::runtime_error(fmt::format(
+      "{} and {}: expected the logs of two buses, got the same file twice; next: name the log of the "
+      "other bus",
+      options.log, options.second));
+}
+
 int Merge(const LogOptions& options) {
+  RequireTwoLogs(options);
   bus::LogReader onboard(options.log), offboard(options.second);
   RequireNewFile(options.out, options.log, options.force);
   RequireNewFile(options.out, options.second, options.force);

@@ -124,28 +124,45 @@ void Complete(CLI::App& verb, const std::shared_ptr<MissionOptions>& options, Ru
   CompleteVerb(verb, options, run, exit_code, "the outcome machine-readable");
 }
 
+// Each verb has options of its own: CLI11 fills in what $PRIAMOS_BUS says for every verb that was not typed,
+// and would overwrite the --bus of the one that was.
+
+void AddDoorVerb(CLI::App& mission, int& exit_code) {
+  auto options = std::make_shared<MissionOptions>();
+  auto* verb = mission.add_subcommand(
+      "door",
+      "Pass a door; ends when the robot is under way, with --wait when it is through (exit code 1: not).");
+  verb->footer("Example: priamos mission door laboratory --wait");
+  verb->add_option("door", options->door, "its name in the map, or its number")->required();
+  verb->add_flag("--wait", options->wait, "until the mission is over");
+  AddDeploymentOption(*verb, options->deployment);
+  Complete(*verb, options, PassDoor, exit_code);
+}
+
+void AddAbortVerb(CLI::App& mission, int& exit_code) {
+  auto options = std::make_shared<MissionOptions>();
+  auto* verb = mission.add_subcommand("abort", "End the mission that is under way; the robot brakes.");
+  verb->footer("Example: priamos mission abort");
+  Complete(*verb, options, Abort, exit_code);
+}
+
+void AddStatusVerb(CLI::App& mission, int& exit_code) {
+  auto options = std::make_shared<MissionOptions>();
+  auto* verb =
+      mission.add_subcommand("status", "What the planner does (exit code 1: it failed or is silent).");
+  verb->footer("Example: priamos mission status --wait");
+  verb->add_flag("--wait", options->wait, "follow it until it is over");
+  Complete(*verb, options, Status, exit_code);
+}
+
 }  // namespace
 
 void AddMissionCommand(CLI::App& cli, int& exit_code) {
-  auto options = std::make_shared<MissionOptions>();
   auto* mission = cli.add_subcommand("mission", "Order the planner, and ask how its mission stands.");
   mission->require_subcommand(1);
-  auto* door = mission->add_subcommand(
-      "door",
-      "Pass a door; ends when the robot is under way, with --wait when it is through (exit code 1: not).");
-  door->footer("Example: priamos mission door laboratory --wait");
-  door->add_option("door", options->door, "its name in the map, or its number")->required();
-  door->add_flag("--wait", options->wait, "until the mission is over");
-  AddDeploymentOption(*door, options->deployment);
-  Complete(*door, options, PassDoor, exit_code);
-  auto* abort = mission->add_subcommand("abort", "End the mission that is under way; the robot brakes.");
-  abort->footer("Example: priamos mission abort");
-  Complete(*abort, options, Abort, exit_code);
-  auto* status =
-      mission->add_subcommand("status", "What the planner does (exit code 1: it failed or is silent).");
-  status->footer("Example: priamos mission status --wait");
-  status->add_flag("--wait", options->wait, "follow it until it is over");
-  Complete(*status, options, Status, exit_code);
+  AddDoorVerb(*mission, exit_code);
+  AddAbortVerb(*mission, exit_code);
+  AddStatusVerb(*mission, exit_code);
 }
 
 }  // namespace priamos::cli

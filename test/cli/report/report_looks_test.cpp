@@ -48,6 +48,19 @@ TEST(ReportLooksTest, DrawsEveryEdgeByItsKindAndNamesTheVerdict) {
   EXPECT_THAT(html, HasSubstr("FOUND; 15 edges"));
 }
 
+TEST(ReportLooksTest, LooksAreCountedFromOneAndKeepTheirNumberInTheLog) {
+  RunRecord record;
+  for (const std::int32_t id : {1003, 1003, 1007}) {
+    landmark_view_t view = View();
+    view.request_id = id;
+    record.Add(Side::kOnboard, 1, "LANDMARK_VIEW", bus::Encode(view));
+  }
+  const std::string html = LookDrawings(record);
+  EXPECT_THAT(html, HasSubstr("<figcaption>look 1 (1003 in the log): landmark "));
+  EXPECT_THAT(html, HasSubstr("<figcaption>look 2 (1007 in the log): landmark "));
+  EXPECT_THAT(html, Not(HasSubstr("look 3")));
+}
+
 TEST(ReportLooksTest, AnEdgeThatIsNoneIsLeftOut) {
   landmark_view_t view = View();
   view.edges[0].kind = 7;
