@@ -62,6 +62,22 @@ TEST_F(HeadPositionerTest, ArrivesFromBelow) {
   EXPECT_TRUE(IsSameSetting(motors_.commands_[1], Left(), 1e-9));
 }
 
+TEST_F(HeadPositionerTest, EveryMotorArrivesFromBelow) {
+  const HeadSetting goal = Left();
+  const PositionerConfig config;
+  dut_.MoveTo(goal, now_);
+  Run(3);
+  ASSERT_EQ(motors_.commands_.size(), 2u);
+  const HeadSetting& below = motors_.commands_[0];
+  EXPECT_NEAR(below.pan_rad, goal.pan_rad - config.approach_rad, 1e-12);
+  EXPECT_NEAR(below.tilt_rad, goal.tilt_rad - config.approach_rad, 1e-12);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(below.vergence_rad[i], goal.vergence_rad[i] - config.approach_rad, 1e-12) << i;
+    EXPECT_EQ(below.zoom_step[i], goal.zoom_step[i] - config.approach_steps) << i;
+    EXPECT_EQ(below.focus_step[i], goal.focus_step[i] - config.approach_steps) << i;
+  }
+}
+
 TEST_F(HeadPositionerTest, ApproachesFromBelowAlsoWhenItComesFromAbove) {
   HeadSetting above = Left();
   above.pan_rad = 0.5;
