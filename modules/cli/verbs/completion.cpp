@@ -51,7 +51,7 @@ std::vector<std::string> Members(const CLI::Option& option) {
 }
 
 std::vector<std::string> ValuesOf(const CLI::Option& option) {
-  const std::string name = option.get_single_name();
+  const std::string& name = option.get_single_name();
   if (name == "channel" || name == "channels" || name == "without") return ChannelNames();
   if (name == "type") return TypeNames();
   return Members(option);
