@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -12,6 +12,7 @@
 #include "bus/schema/json.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/udp_receiver.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/terminal/silence_watch.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "cli/terminal/topic_echo.hpp"
@@ -153,9 +154,9 @@ int PrintUrl(const TopicOptions& options) {
   return 0;
 }
 
-CLI::App* AddVerb(CLI::App& topic, const char* name, const char* help, const char* example,
-                  TopicOptions& options) {
-  auto* verb = topic.add_subcommand(name, help);
+CLI::App* AddTopicVerb(CLI::App& topic, const char* name, const char* help, const char* example,
+                       TopicOptions& options) {
+  auto* verb = AddVerb(topic, name, help);
   verb->footer(std::string("Example: ") + example);
   AddBusOption(*verb, options);
   AddTypesOption(*verb, options);
@@ -165,7 +166,7 @@ CLI::App* AddVerb(CLI::App& topic, const char* name, const char* help, const cha
 void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_channel,
                   const std::shared_ptr<TopicOptions>& options, int& exit_code) {
   const std::string example = fmt::format("priamos topic {} {}", name, one_channel ? "POSE" : "--watch");
-  auto* verb = AddVerb(topic, name, help, example.c_str(), *options);
+  auto* verb = AddTopicVerb(topic, name, help, example.c_str(), *options);
   if (one_channel) AddChannelArgument(*verb, options->channel);
   verb->add_option("--seconds", options->seconds, "how long to listen")
       ->capture_default_str()
@@ -179,22 +180,21 @@ void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_
 
 void AddTopicCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<TopicOptions>();
-  auto* topic =
-      cli.add_subcommand("topic", "See and send what is on a bus, of any type, without compiling it.");
+  auto* topic = AddVerb(cli, "topic", "See and send what is on a bus, of any type, without compiling it.");
   topic->require_subcommand(1);
   AddTableVerb(*topic, "list", "Every channel: type, rate, jitter, bandwidth, age.", false, options,
                exit_code);
   AddTableVerb(*topic, "hz", "Rate and jitter of one channel.", true, options, exit_code);
   AddTableVerb(*topic, "bw", "Bandwidth of one channel.", true, options, exit_code);
   AddTopicEchoVerb(*topic, exit_code);
-  auto* url = AddVerb(*topic, "url", "Print the URL of a bus, for LCM's own programs.",
-                      "priamos topic url --bus onboard", *options);
+  auto* url = AddTopicVerb(*topic, "url", "Print the URL of a bus, for LCM's own programs.",
+                           "priamos topic url --bus onboard", *options);
   url->add_flag("--json", options->json, "machine-readable");
   url->callback([options, &exit_code] { exit_code = PrintUrl(*options); });
-  auto* pub = AddVerb(*topic, "pub", "Send one message, given as JSON.",
-                      "priamos topic pub LINK_REQUEST link_request_t "
-                      "'{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":5}'",
-                      *options);
+  auto* pub = AddTopicVerb(*topic, "pub", "Send one message, given as JSON.",
+                           "priamos topic pub LINK_REQUEST link_request_t "
+                           "'{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":5}'",
+                           *options);
   AddChannelArgument(*pub, options->channel);
   pub->add_option("type", options->type, "message type")->required();
   pub->add_option("message", options->message, "the message as JSON")->required();
