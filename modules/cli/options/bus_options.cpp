@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include "bus/own_types.hpp"
 #include "bus/type_files.hpp"
