@@ -17,7 +17,7 @@ namespace priamos::bus {
 /// sentence on standard error); nothing when the program may go on.
 std::optional<int> ParseCommandLine(CLI::App& cli, int argc, char** argv);
 
-/// For an option or an argument of text that must not be empty, as `"$FILE"` is of a variable that is not
+/// Check that the text of an option or an argument is not empty, as `"$FILE"` is of a variable that is not
 /// set.
 CLI::Validator NotEmpty();
 

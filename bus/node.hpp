@@ -140,7 +140,7 @@ class Node {
   std::vector<Endpoint> inputs_, outputs_;
 };
 
-/// Throws std::runtime_error when `bytes` is not a whole T.
+/// Decodes an LCM message of type T. Throws std::runtime_error when `bytes` is not exactly one T.
 template <class T>
 T Decode(std::span<const std::byte> bytes) {
   T message{};

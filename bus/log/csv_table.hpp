@@ -22,7 +22,8 @@ class CsvTable {
   explicit CsvTable(const Struct& type);
 
   void WriteHeader(std::ostream& out) const;
-  /// Throws MessageError when the event's bytes are no message of the type.
+  /// Writes one message as a line of the table. Throws MessageError when the event's bytes are no message of
+  /// the type.
   void WriteRow(std::ostream& out, const LogEvent& event) const;
 
  private:

@@ -18,7 +18,7 @@ class LogReader {
   /// do not overflow.
   static constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 
-  /// Throws std::runtime_error when the file cannot be read.
+  /// Opens the log file `path`. Throws std::runtime_error when it cannot be read.
   explicit LogReader(const std::string& path);
   /// Reads from `bytes`, which must outlive the reader.
   explicit LogReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -52,9 +52,9 @@ class FrameScheduler {
 
   /// The bytes that may be written to the line now.
   std::vector<std::byte> Step(FrameSources from, Time now);
-  /// Something came from the other end.
+  /// Notes the time at which bytes came from the other end.
   void OnBytes(Time now) { turns_.OnBytes(now); }
-  /// The other end announced the end of its turn.
+  /// Notes that the other end announced the end of its turn (half-duplex).
   void OnOver(Time now) { turns_.OnOverReceived(now); }
 
   /// Time that bytes of a frame take on the line.

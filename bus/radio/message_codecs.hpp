@@ -19,7 +19,8 @@ class MessageCodecs {
   /// `schema` must outlive this and know the types of `config`, which LinkConfig::Table checks.
   MessageCodecs(const LinkConfig& config, const Schema& schema);
 
-  /// See PackFunction.
+  /// Packs an encoded message of a channel at the time of sending `now`; nullopt if it is no message of the
+  /// channel's type.
   std::optional<Packed> Pack(std::size_t channel, std::span<const std::byte> encoded, Time now) const;
   /// The LCM message; nullopt when the other end sent something else.
   std::optional<std::vector<std::byte>> Unpack(const Delivery& delivery) const;

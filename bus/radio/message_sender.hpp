@@ -54,7 +54,7 @@ class MessageSender {
     struct Message {
       QueuedMessage queued;
       std::size_t bits;  ///< packed bits on the line
-      /// For channels with differences: the message as the other end will have it.
+      /// Message as the other end will have it; empty unless the channel sends differences.
       std::vector<std::byte> packed;
     };
     /// A piece of an event in the frame, by its number in the channel's stream.

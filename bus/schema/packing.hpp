@@ -27,7 +27,8 @@ struct PackResult {
 /// threads.
 class Packer {
  public:
-  /// Throws SchemaError, `file:line: type.field: ...`, when a field lacks what packing needs.
+  /// Prepares packing of messages of `type`. Throws SchemaError, `file:line: type.field: ...`, when a field
+  /// lacks what packing needs.
   explicit Packer(const Struct& type);
 
   const Struct& type() const { return *type_; }
@@ -48,7 +49,7 @@ class Packer {
   /// the transmission time, where that is known). nullopt when the bits are no packed message of the type,
   /// which has exactly packed.size() bytes. What comes out passes Walk.
   std::optional<std::vector<std::byte>> Unpack(std::span<const std::byte> packed, std::int64_t now_us) const;
-  /// The same for a packed message at the beginning of `packed`, which loses its bytes.
+  /// Unpacks the message at the beginning of `packed` as Unpack does and removes its bytes from `packed`.
   std::optional<std::vector<std::byte>> UnpackFront(std::span<const std::byte>& packed,
                                                     std::int64_t now_us) const;
 

@@ -94,7 +94,7 @@ struct GroundPlan {
   std::vector<CupboardPlan> cupboards;
 
   void Describe(Archive& a);
-  /// nullptr if there is none.
+  /// Door of this id; nullptr if there is none.
   const DoorPlan* FindDoor(int id) const;
 };
 

@@ -27,8 +27,8 @@ class WorldApp {
                                            channels::kHeadState.name, channels::kCameraFrame.name};
   using Config = WorldConfig;
 
-  /// Throws ConfigError when the world cannot be used, std::runtime_error without off-screen OpenGL or shared
-  /// memory.
+  /// Builds the world. Throws ConfigError when the world cannot be used, std::runtime_error without
+  /// off-screen OpenGL or shared memory.
   WorldApp(const WorldConfig& config, bus::Context& context);
 
   Duration TickPeriod() const { return Duration(10000); }

@@ -90,7 +90,7 @@ class EventSender {
   Time NextPackedAt(Time now, bool fresh_first = false) const;
   /// Notes that a segment is sent; `at`: when its last byte will have left.
   void MarkSent(std::uint8_t number, Time at);
-  /// Undoes MarkSent: the frame was aborted.
+  /// Marks the segment as not sent, because its frame was aborted.
   void MarkUnsent(std::uint8_t number);
   /// Takes an acknowledgement. Returns how many events were acknowledged for the first time.
   std::size_t OnAck(const EventAck& ack, Time now, RoundTrip& round_trip);

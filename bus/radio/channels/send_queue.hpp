@@ -34,7 +34,7 @@ class RateLimit {
   bool Allows(Time now) const { return now >= next_; }
   /// `since`: when the message could have been sent, so that waiting for the line does not slow it down.
   void Use(Time since);
-  /// Undoes the Use before: the message was not sent after all.
+  /// Reverts the last Use, because the message was not sent after all.
   void Undo() {
     theoretical_ = previous_;
     next_ = previous_next_;

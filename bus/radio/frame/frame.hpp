@@ -129,7 +129,7 @@ class FrameOpener {
   FrameOpener(const FrameKeys& keys, Direction direction, FrameScope scope)
       : keys_(keys), direction_(direction), scope_(scope) {}
 
-  /// From now on data frames of `epoch` with counters above `floor` are accepted. Epoch 0: none.
+  /// Accepts from now on data frames of `epoch` with counters above `floor`. Epoch 0: no data frames.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
   /// `encoded` is what lay between two delimiters. Exactly one code is computed per frame, so that the
   /// chance of a forged data frame is 2^-32, of a hello 2^-64.

@@ -21,7 +21,7 @@ class BusSession {
   bus::Node& node() { return node_; }
   const bus::Schema& schema() const { return schema_; }
   Time now() const { return clock_.Now(); }
-  /// Something came: there is no silence to explain.
+  /// Notes that a message came, so that there is no silence to explain.
   void Heard() { silence_.Heard(); }
 
   /// Listens until `until`, a signal or `done`; calls `every` ten times a second.

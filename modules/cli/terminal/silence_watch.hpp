@@ -24,9 +24,9 @@ class SilenceWatch {
   SilenceWatch(const SilenceWatch&) = delete;
   SilenceWatch& operator=(const SilenceWatch&) = delete;
 
-  /// Something came: there is nothing to explain.
+  /// Notes that a message came, so that there is no silence to explain.
   void Heard();
-  /// To be called often.
+  /// Listens, and writes the sentence when the patience is over. Call it often.
   void Step(Time now);
   /// Writes the sentence now if nothing came.
   void Explain(Time now);

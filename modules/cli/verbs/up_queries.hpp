@@ -17,7 +17,7 @@ void AddUpQueries(CLI::App& cli, int& exit_code);
 /// command line was read. `log_root` must outlive `verb`.
 void AddUpLogsOption(CLI::App& verb, std::string& log_root);
 
-/// As a table, or as JSON, to standard output.
+/// Prints the state of a deployment to standard output, as a table or as JSON.
 void Show(const UpState& state, bool json);
 
 }  // namespace priamos::cli

@@ -33,7 +33,7 @@ class CalibrationJournal {
   /// The finished settings of the run before, in order; a line that was cut off ends them. Rewrites the file
   /// to just these, so that Add can go on. Throws std::runtime_error if it cannot be written.
   std::vector<CalibrationExposure> Resume();
-  /// Throws std::runtime_error if the line cannot be written.
+  /// Adds a finished setting. Throws std::runtime_error if its line cannot be written.
   void Add(const CalibrationExposure& exposure);
   /// The calibration is complete.
   void Remove();

@@ -20,7 +20,7 @@ struct DriveCommand {
   Twist2 twist;  ///< base frame
 };
 
-/// False for a stick at rest.
+/// Whether a velocity is not zero; it is zero for a stick at rest.
 bool WantsMotion(const Twist2& twist);
 
 /// Whether a command was accepted, or why not; kNotAtRest: the stick must be let go first.

@@ -54,7 +54,7 @@ struct HeadBuild {
 
   void Describe(Archive& a);
   static std::array<CameraBuild, kCameras> NominalCameras();
-  /// The same head as another specimen: every dimension off by a few tenths of a millimetre and
+  /// Head as another specimen would be built: every dimension off by a few tenths of a millimetre and
   /// milliradians, every lens off by a percent and some pixels.
   static HeadBuild Specimen(std::uint64_t seed);
 };

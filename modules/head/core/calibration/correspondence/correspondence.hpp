@@ -26,7 +26,7 @@ class DiscLabeller {
 
  private:
   class Search;
-  /// Another disc as one disc sees it.
+  /// Position of another disc relative to a disc, and its size.
   struct Neighbour {
     Eigen::Vector3d offset_m;  ///< along that disc's normal, upwards across it, and the third axis
     double spacing_m;          ///< from the other disc to the one nearest to it
