@@ -94,7 +94,7 @@ class Publisher {
 /// far as an InboxQueue reaches (SubscribeAll). Handlers run while the bus is drained, between ticks.
 class Node {
  public:
-  /// `bus`, `schema` and `clock` must outlive the node.
+  /// Node of a process on `bus`; `bus`, `schema` and `clock` must outlive it.
   Node(LcmBus& bus, const Schema& schema, const Clock& clock) : bus_(bus), schema_(schema), clock_(clock) {}
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;

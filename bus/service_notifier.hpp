@@ -16,7 +16,7 @@ class ServiceNotifier {
  public:
   /// Reports to the address in the environment variable NOTIFY_SOCKET, or to nobody when it is not set.
   ServiceNotifier();
-  /// `address`: a path, or @ and a name in the abstract namespace; null or empty: nobody.
+  /// Reports to `address`: a path, or @ and a name in the abstract namespace; null or empty: nobody.
   explicit ServiceNotifier(const char* address);
   ~ServiceNotifier();
   ServiceNotifier(const ServiceNotifier&) = delete;

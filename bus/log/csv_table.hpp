@@ -18,7 +18,7 @@ std::string QuotedCell(const std::string& text);
 /// `log_utime` and `log_number`.
 class CsvTable {
  public:
-  /// `type` must outlive the table.
+  /// Table of messages of `type`, which must outlive it.
   explicit CsvTable(const Struct& type);
 
   void WriteHeader(std::ostream& out) const;

@@ -30,7 +30,7 @@ class LogReader {
   /// Number of places so far with damaged bytes between whole events.
   std::uint64_t damaged_places() const { return damaged_places_; }
   std::size_t size() const { return bytes_.size(); }
-  /// Goes on at LogEvent::offset of an event read before; what was skipped stays counted.
+  /// Continues reading at LogEvent::offset of an event read before; what was skipped stays counted.
   void Seek(std::size_t offset) { offset_ = offset; }
 
  private:

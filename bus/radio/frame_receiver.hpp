@@ -37,8 +37,9 @@ class FrameReceiver {
   /// The frame that a byte completed: none, a hello or data.
   using Result = std::variant<std::monostate, Hello, AcceptedFrame>;
 
-  /// `incoming`: direction of the frames. `bytes_per_s`: what the line can carry; frames that come faster are
-  /// not checked. `silence`: the link is down when nothing was accepted for so long.
+  /// Receiver of frames that travel in the direction `incoming`. `bytes_per_s`: what the line can carry;
+  /// frames that come faster are not checked. `silence`: the link is down when nothing was accepted for so
+  /// long.
   FrameReceiver(const FrameKeys& keys, Direction incoming, FrameScope scope, double bytes_per_s,
                 Duration silence, Time now);
 

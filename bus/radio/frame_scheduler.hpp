@@ -46,7 +46,7 @@ struct FrameInFlight {
 /// Which frame goes next, when its bytes may leave, and when it is cut off for an urgent message.
 class FrameScheduler {
  public:
-  /// `table` must outlive the scheduler and its copies.
+  /// Scheduler without a frame; `table` must outlive it and its copies.
   FrameScheduler(const ChannelTable& table, const FrameSealer& sealer, const LinkOptions& options,
                  bool onboard, Time now);
 

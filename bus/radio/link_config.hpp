@@ -30,7 +30,7 @@ struct LinkChannelConfig {
   friend bool operator==(const LinkChannelConfig&, const LinkChannelConfig&) = default;
 };
 
-/// link.toml: the settings that both ends of one link must share, and those of the sender.
+/// Contents of link.toml: the settings that both ends of one link must share, and those of the sender.
 struct LinkConfig {
   int baud = 9600;              ///< [baud] 300..1000000: rate of the serial port, 10 bits per byte
   double air_rate_bytes_s = 0;  ///< [byte/s] 0..1e6: rate of the radio if it is slower; 0: as the port

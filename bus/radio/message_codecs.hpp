@@ -16,7 +16,8 @@ namespace priamos::bus::radio {
 /// Packing and unpacking of the LCM messages of a link's channels, for types known from .lcm texts only.
 class MessageCodecs {
  public:
-  /// `schema` must outlive this and know the types of `config`, which LinkConfig::Table checks.
+  /// Codecs of all channels of `config`. `schema` must outlive them and know the types of `config`, which
+  /// LinkConfig::Table checks.
   MessageCodecs(const LinkConfig& config, const Schema& schema);
 
   /// Packs an encoded message of a channel at the time of sending `now`; nullopt if it is no message of the

@@ -41,8 +41,8 @@ class Packer {
   std::size_t MaxBits() const { return max_bits_; }
   std::size_t MaxBytes() const { return (max_bits_ + 7) / 8; }
 
-  /// `now_us` is the time at which the message is sent: time stamps travel as their age then. nullopt when
-  /// Walk refuses the encoded message.
+  /// Packs an encoded message. `now_us` is the time of sending [us]: time stamps travel as their age then.
+  /// nullopt when Walk refuses the encoded message.
   std::optional<PackResult> Pack(std::span<const std::byte> encoded, std::int64_t now_us) const;
 
   /// The encoded message, with time stamps in the receiver's clock: `now_us` is when it was received (less

@@ -48,7 +48,7 @@ class LcmBus {
 
   /// Sends a message; returns false when it is too long or the network refused it.
   bool Publish(std::string_view channel, std::span<const std::byte> bytes);
-  /// `channel` is taken literally. The handler must not throw.
+  /// Subscribes to one channel, whose name is taken literally. The handler must not throw.
   void Subscribe(std::string_view channel, Handler handler);
   /// Every channel, for recorders.
   void SubscribeEverything(Handler handler);

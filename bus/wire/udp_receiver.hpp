@@ -22,7 +22,7 @@ namespace priamos::bus {
 /// are known; and there is no thread and no copy between the kernel and the handler.
 class UdpReceiver {
  public:
-  /// `sender` names the sending socket, see SenderAddress.
+  /// Function that gets each message; `sender` names the sending socket, see SenderAddress.
   using Handler =
       std::function<void(std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes)>;
 

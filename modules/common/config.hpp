@@ -69,7 +69,8 @@ class Archive {
 /// Where a configuration comes from: a TOML file (none: the struct's defaults), then single keys on top.
 struct ConfigSource {
   std::string path;
-  /// `key = value` as TOML, dotted keys for sections; a bare word is a string.
+  /// Values that replace those of the file: `key = value` as TOML, dotted keys for sections; a bare word is a
+  /// string.
   std::vector<std::string> overrides;
 
   /// Where relative file names in the configuration start; the working directory when there is no file.

@@ -29,7 +29,7 @@ struct LeaseRequest {
 /// Request for the lease; nullopt for a driver or an action that does not exist.
 std::optional<LeaseRequest> FromMessage(const lease_request_t& message);
 
-/// `instance` names the process that commands.
+/// Set values of the wheels as a message; `instance` names the process that commands.
 wheel_command_t ToMessage(const WheelSpeeds& speeds, std::int32_t instance, Time now);
 odometry_t ToMessage(const Odometry& odometry);
 pose_t ToMessage(const PoseEstimate& estimate);

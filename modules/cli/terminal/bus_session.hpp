@@ -15,7 +15,7 @@ namespace priamos::cli {
 /// when what it waits for does not come.
 class BusSession {
  public:
-  /// `who` is the verb, "priamos where". `channel`: what is waited for.
+  /// Session of the verb `who`, e.g. "priamos where". `channel`: what is waited for.
   BusSession(std::string who, const BusOptions& options, std::string_view channel);
 
   bus::Node& node() { return node_; }

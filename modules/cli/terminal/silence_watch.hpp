@@ -17,7 +17,7 @@ std::vector<std::string> ChannelNames(bool events);
 /// patience is over, then writes one sentence to standard error, once.
 class SilenceWatch {
  public:
-  /// `who` is the verb, "priamos topic echo". `channel`: what is waited for; empty: anything.
+  /// Watch for the verb `who`, e.g. "priamos topic echo". `channel`: what is waited for; empty: anything.
   SilenceWatch(std::string who, const BusOptions& options, std::string channel, Time now,
                Duration patience = std::chrono::seconds(1));
   ~SilenceWatch();

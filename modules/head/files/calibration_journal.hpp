@@ -27,7 +27,7 @@ struct CalibrationExposure {
 /// begins anew.
 class CalibrationJournal {
  public:
-  /// `fingerprint` stands for everything that must not change between two runs.
+  /// Journal in the file `path`; `fingerprint` stands for everything that must not change between two runs.
   CalibrationJournal(std::string path, std::string fingerprint, int discs);
 
   /// The finished settings of the run before, in order; a line that was cut off ends them. Rewrites the file
@@ -35,7 +35,7 @@ class CalibrationJournal {
   std::vector<CalibrationExposure> Resume();
   /// Adds a finished setting. Throws std::runtime_error if its line cannot be written.
   void Add(const CalibrationExposure& exposure);
-  /// The calibration is complete.
+  /// Removes the file, because the calibration is complete.
   void Remove();
 
  private:

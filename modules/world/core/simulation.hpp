@@ -74,7 +74,8 @@ class Simulation {
   /// then.
   static constexpr Duration kMaxAdvance{500000};
 
-  /// `cameras` must outlive it. Throws std::invalid_argument when the robot would start inside a solid.
+  /// World with the robot at `start`; `cameras` must outlive it. Throws std::invalid_argument when the robot
+  /// would start inside a solid.
   Simulation(const RobotModel& model, const std::vector<Solid>& solids, const Pose2& start,
              CameraServer& cameras, std::uint64_t seed);
 

@@ -38,7 +38,8 @@ struct Viewpoint {
 /// to be had.
 class Renderer {
  public:
-  /// `seed` decides textures; materials must be among MaterialNames(), else std::invalid_argument.
+  /// Renderer of the solids; `seed` decides textures; materials must be among MaterialNames(), else
+  /// std::invalid_argument.
   Renderer(const RendererConfig& config, const std::vector<Solid>& solids, std::uint64_t seed);
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -58,7 +59,8 @@ class Renderer {
 
   const RendererConfig& config() const;
 
-  /// While this is held, Renderers made one after the other in this thread need not set OpenGL up again.
+  /// Handle on OpenGL of this thread: while it is held, Renderers made one after the other in this thread
+  /// need not set OpenGL up again.
   static std::shared_ptr<void> HoldGraphics();
 
  private:

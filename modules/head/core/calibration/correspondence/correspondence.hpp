@@ -18,7 +18,7 @@ namespace priamos::head {
 /// of the same image does as well.
 class DiscLabeller {
  public:
-  /// `object` in its own frame, its z axis roughly upwards in the images.
+  /// Labeller for the discs of `object`, given in its own frame, its z axis roughly upwards in the images.
   explicit DiscLabeller(const ReferenceObject& object, const LabellerOptions& options = {});
 
   /// The right labelling, or a refusal with the reason.
