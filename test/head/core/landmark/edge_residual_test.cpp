@@ -110,7 +110,8 @@ RC_GTEST_PROP(EdgeResidualTest, AShiftOfTheModelEdgeCountsOnlyAcrossIt, ()) {
   for (int k = 0; k < 3; ++k) {
     const Vector3d shift = kStep * (setup.pose.linear().transpose() * Vector3d::Unit(k));
     LandmarkEdge moved = setup.edge;
-    moved.from += shift, moved.to += shift;
+    moved.from += shift;
+    moved.to += shift;
     const double fallen = (dut->distance_px - setup.Distance(setup.camera, setup.pose, moved)) / kStep;
     RC_ASSERT(std::abs(fallen - dut->across[k]) < 1e-2 + 1e-4 * std::abs(fallen));
   }
@@ -200,7 +201,8 @@ TEST(ObservedLinesTest, EveryEdgeInEveryImageIsALineOfItsOwn) {
   std::vector<EdgeObservation> all;
   for (const auto& [edge, camera] : {std::pair(3, 0), std::pair(3, 1), std::pair(5, 1)}) {
     for (EdgeObservation o : Points({10.0 * edge, 20.0 * camera}, {5, 1}, 6, 0.1)) {
-      o.edge = edge, o.camera = camera;
+      o.edge = edge;
+      o.camera = camera;
       all.push_back(o);
     }
   }
