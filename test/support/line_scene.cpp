@@ -107,7 +107,7 @@ LineScene RandomRectangles(double contrast, double noise, double blur_px, Rng& r
 }
 
 void LineScorer::Add(const std::vector<TrueLine>& lines, const std::vector<head::EdgeSegment>& segments) {
-  constexpr double kNearPx = 2, kEndPx = 2, kOverlongPx = 8;
+  constexpr double kNear_px = 2, kEnd_px = 2, kOverlong_px = 8;
   std::vector<bool> used(segments.size(), false);
   for (const TrueLine& line : lines) {
     const double length = (line.end - line.begin).norm();
@@ -118,9 +118,10 @@ void LineScorer::Add(const std::vector<TrueLine>& lines, const std::vector<head:
       const double a = n.dot(s.begin - line.begin), b = n.dot(s.end - line.begin);
       double from = d.dot(s.begin - line.begin), to = d.dot(s.end - line.begin);
       if (from > to) std::swap(from, to);
-      if (std::abs(a) > kNearPx || std::abs(b) > kNearPx || to < kEndPx || from > length - kEndPx) continue;
+      if (std::abs(a) > kNear_px || std::abs(b) > kNear_px || to < kEnd_px || from > length - kEnd_px)
+        continue;
       used[i] = true;
-      n_overlong_ += from < -kOverlongPx || to > length + kOverlongPx;
+      n_overlong_ += from < -kOverlong_px || to > length + kOverlong_px;
       errors_.push_back(std::abs(a));
       errors_.push_back(std::abs(b));
       const double along = d.dot(s.centre - line.begin), error = n.dot(s.centre - line.begin);

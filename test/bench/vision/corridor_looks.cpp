@@ -27,8 +27,8 @@ struct Eyes {
     return std::all_of(cameras.begin(), cameras.end(), [&](const head::CameraModel& camera) {
       if (camera.Depth(in_base) <= 0) return false;
       const Eigen::Vector2d px = camera.Distort(camera.Project(in_base));
-      return px.x() > border && px.x() < world::kImageWidthPx - 1 - border && px.y() > border &&
-             px.y() < world::kImageHeightPx - 1 - border;
+      return px.x() > border && px.x() < world::kImageWidth_px - 1 - border && px.y() > border &&
+             px.y() < world::kImageHeight_px - 1 - border;
     });
   }
   bool Visible(const Eigen::Vector3d& in_base) const {

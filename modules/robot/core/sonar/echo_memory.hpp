@@ -18,7 +18,7 @@ namespace priamos::robot {
 /// One cycle of the ring.
 struct SonarCycle {
   Time time{};
-  /// First echo of each sensor; anything outside 0..kSonarMaxM is no echo.
+  /// First echo of each sensor; anything outside 0..kSonarMax_m is no echo.
   std::array<double, kSonars> range_m{};
 };
 

@@ -10,7 +10,7 @@
 
 namespace priamos::world {
 
-inline constexpr int kImageWidthPx = ImageSize{}.width, kImageHeightPx = ImageSize{}.height;
+inline constexpr int kImageWidth_px = ImageSize{}.width, kImageHeight_px = ImageSize{}.height;
 inline constexpr int kCameras = 3;
 /// The cameras by their numbers in messages.
 enum Camera : int { kLeftCamera = 0, kRightCamera = 1, kThirdCamera = 2 };

@@ -52,8 +52,8 @@ class Renderer {
   /// Puts the calibration body somewhere, or takes it away.
   void PlaceReference(const std::optional<PlacedReference>& reference);
 
-  /// One picture of kImageWidthPx x kImageHeightPx, exposed while base and head move evenly from `opening` to
-  /// `closing`. The same arguments give the same bytes; `rng` draws the noise.
+  /// One picture of kImageWidth_px x kImageHeight_px, exposed while base and head move evenly from `opening`
+  /// to `closing`. The same arguments give the same bytes; `rng` draws the noise.
   GreyImage Expose(Camera camera, const Viewpoint& opening, const Viewpoint& closing,
                    const Exposure& exposure, Rng& rng);
 

@@ -81,7 +81,7 @@ RC_GTEST_PROP(EdgeResidualTest, MovingSpaceAboutTheOriginOfBaseMovesTheEdgeAsPro
 
 /// The camera whose image is shifted, rolled and scaled by so many pixels at the lever.
 CameraModel Disturbed(CameraModel camera, const Eigen::Vector4d& by) {
-  const double roll = by[2] / kCameraLeverPx, scale = 1 + by[3] / kCameraLeverPx;
+  const double roll = by[2] / kCameraLever_px, scale = 1 + by[3] / kCameraLever_px;
   const Eigen::Rotation2Dd turn(roll);
   Eigen::Matrix3d image = Eigen::Matrix3d::Identity();
   image.topLeftCorner<2, 2>() = scale * turn.toRotationMatrix();
