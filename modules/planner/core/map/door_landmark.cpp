@@ -32,7 +32,7 @@ Sector LeftJambSector(const DoorPlan& door) {
   return {WrapAngle(kPi - behind_face), WrapAngle(kPi + past_right_jamb - kGrazing_rad)};
 }
 
-/// The same edge at y and mirrored at -y; the sector is mirrored with it.
+/// Adds an upright edge at y and its mirror image at -y [m]; the sector is mirrored with it.
 void AddJambEdge(std::vector<LandmarkEdge>& edges, double x, double y, double height, const Sector& sector) {
   edges.push_back({{x, y, 0}, {x, y, height}, sector.from_rad, sector.to_rad, Side::kLeft});
   edges.push_back({{x, -y, 0}, {x, -y, height}, -sector.to_rad, -sector.from_rad, Side::kRight});
