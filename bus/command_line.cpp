@@ -52,7 +52,7 @@ std::string Hint(const CLI::App& app) {
   return fmt::format(" ({} --help lists all)", FullName(app));
 }
 
-/// `topic list` for a word that is a verb of a verb: `priamos list`.
+/// Verbs of verbs that have the name `word`: for `priamos list` it is `topic list`.
 std::vector<std::string> DeeperVerbs(const CLI::App& app, const std::string& word) {
   std::vector<std::string> found;
   for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -202,7 +202,7 @@ std::string CheckNotEmpty(const std::string& text) {
   return text.empty() ? "nothing" : "";
 }
 
-/// In one place, so that no verb can forget it.
+/// Adds the checks of values to all options of a program, in one place, so that no verb can forget them.
 void GuardValues(CLI::App& app) {
   for (auto* option : app.get_options()) {
     const std::string type = option->get_type_name();

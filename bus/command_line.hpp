@@ -24,7 +24,7 @@ std::string Explain(const CLI::App& cli, const CLI::Error& error);
 /// The verb that the parsed command line named: `list` of `priamos topic list`; `cli` itself when none.
 const CLI::App& ChosenVerb(const CLI::App& cli);
 
-/// `priamos topic list` for that verb.
+/// Name of a verb as it is typed, e.g. `priamos topic list`.
 std::string FullName(const CLI::App& verb);
 
 /// The help of `verb`, with its full name.

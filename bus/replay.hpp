@@ -35,7 +35,8 @@ class Replay {
     std::function<void(Level, std::string_view)> log{};  ///< none: silent
   };
 
-  /// `log_path` is read twice. Throws what the reader and the App's start throw.
+  /// Replay of one App from the log `log_path`, which is read twice. Throws what the reader and the App's
+  /// start throw.
   Replay(const AppFactory& factory, const ConfigSource& source, const Schema& schema,
          const std::string& log_path, const Options& options);
   ~Replay();

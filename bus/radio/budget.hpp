@@ -48,7 +48,7 @@ struct Budget {
 /// model, Shin and Lee, Real-Time Systems Symposium 2003).
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options);
 
-/// Throws ConfigError with the first problem.
+/// Checks that the link can keep its deadlines. Throws ConfigError with the first problem of ComputeBudget.
 void RequireBudget(const ChannelTable& table, const LinkOptions& options);
 
 /// The table that `priamos link budget` shows.

@@ -14,7 +14,7 @@ std::size_t BestBundleBytes(std::size_t max_bytes, double loss);
 /// Builds a bundle: takes entries as long as they fit.
 class BundleBuilder {
  public:
-  /// `table` must outlive the builder. `over_may_follow`: leaves room for AddOver().
+  /// Empty bundle; `table` must outlive the builder. `over_may_follow`: leaves room for AddOver().
   BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow);
 
   /// Adds an entry. Returns false, and adds nothing, if it does not fit. The first message may exceed the

@@ -27,11 +27,12 @@ class FrameAckSender {
   /// The acknowledgement; it counts as sent. `highest`: highest counter accepted; `heard_at`: arrival of that
   /// frame; `loss`: share of the other end's frames lost, 0..1.
   FrameAckEntry Take(std::uint64_t highest, Time heard_at, double loss, Time now);
-  /// The frame with the acknowledgement was cut off: it is due again.
+  /// Makes the acknowledgement due again, because the frame with it was cut off.
   void Return();
-  /// The link is up again: the other end waits for an acknowledgement, to know that commands are fresh.
+  /// Makes an acknowledgement due, because the link is up again: the other end waits for an acknowledgement,
+  /// to know that commands are fresh.
   void MakeDue() { last_.reset(); }
-  /// Counters begin anew.
+  /// Notes that counters begin anew.
   void OnEpochChanged();
 
  private:
@@ -43,7 +44,7 @@ class FrameAckSender {
 /// The data frames of this end, and what the other end has acknowledged of them.
 class SentFrames {
  public:
-  /// `end`: when the last byte of the frame leaves.
+  /// Notes a frame that was sent. `end`: time at which its last byte leaves.
   void OnSent(std::uint64_t counter, Time end);
   /// Takes an acknowledgement; `began`: arrival of the first byte of the frame that brought it. Returns the
   /// counters that it names, in the order of sending.
@@ -54,9 +55,9 @@ class SentFrames {
   /// held the frame back; it is not older than the newest frame from here that the other end had received
   /// when it was made.
   bool ProvesFresh(Duration ttl, Time now) const;
-  /// The other end sent a FloorEntry: it no longer knows the highest counter that it accepted.
+  /// Notes that the other end sent a FloorEntry: it no longer knows the highest counter that it accepted.
   void OnFloor() { confirmed_.reset(); }
-  /// Counters begin anew.
+  /// Notes that counters begin anew.
   void OnEpochChanged();
 
   /// Delay of the line, one way, estimated.

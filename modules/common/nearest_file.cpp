@@ -38,7 +38,7 @@ std::vector<std::string> LogsIn(const fs::path& folder) {
   return names;
 }
 
-/// `folder/name` of each of `names`, and behind it as much of `rest` as leads to something.
+/// Paths `folder/name` of each of `names`, and behind it as much of `rest` as leads to something.
 std::string Text(const char* begin, const fs::path& folder, std::vector<std::string> names,
                  const fs::path& rest) {
   if (names.empty()) return "";

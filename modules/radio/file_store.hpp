@@ -18,7 +18,7 @@ namespace priamos::radio {
 /// link that cannot store its counters must not go on.
 class FileStore : public bus::radio::StateStore {
  public:
-  /// `fast_path` empty: `path` holds everything.
+  /// Store in the file `path` and the file `fast_path`; when that is empty, `path` holds everything.
   explicit FileStore(std::string path, std::string fast_path = "");
   ~FileStore() override;
   FileStore(const FileStore&) = delete;

@@ -91,8 +91,8 @@ class FrameSealer {
   FrameSealer(const FrameKeys& keys, Direction direction, FrameScope scope)
       : keys_(keys), direction_(direction), scope_(scope) {}
 
-  /// `counter` below 2^40, used once per epoch; `bundle` at most kMaxBundleBytes. The lowest bits are
-  /// enough if the receiver has accepted a counter at most 64 below this one.
+  /// Makes a data frame. `counter` is below 2^40 and used once per epoch; `bundle` at most kMaxBundleBytes.
+  /// The lowest bits are enough if the receiver has accepted a counter at most 64 below this one.
   std::vector<std::byte> Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
                               std::span<const std::byte> bundle) const;
   std::vector<std::byte> Seal(const Hello& hello) const;
@@ -125,13 +125,13 @@ using Opened = std::variant<DataFrame, Hello, Reject>;
 /// Checks the frames of one direction. A data frame is accepted once.
 class FrameOpener {
  public:
-  /// `direction` is that of the frames to be opened.
+  /// Opener of frames that travel in `direction`.
   FrameOpener(const FrameKeys& keys, Direction direction, FrameScope scope)
       : keys_(keys), direction_(direction), scope_(scope) {}
 
-  /// From now on data frames of `epoch` with counters above `floor` are accepted. Epoch 0: none.
+  /// Accepts from now on data frames of `epoch` with counters above `floor`. Epoch 0: no data frames.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
-  /// `encoded` is what lay between two delimiters. Exactly one code is computed per frame, so that the
+  /// Checks and decodes the bytes between two delimiters. Exactly one code is computed per frame, so that the
   /// chance of a forged data frame is 2^-32, of a hello 2^-64.
   Opened Open(std::span<const std::byte> encoded);
   /// Epoch of the frames that are accepted; 0: none.

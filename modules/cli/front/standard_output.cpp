@@ -45,7 +45,7 @@ bool MayBeTriedAgain(int error) {
   return true;
 }
 
-/// As bus::SignalWatch leaves it.
+/// Whether SIGTERM is blocked, as bus::SignalWatch leaves it.
 bool WatchesSignals() {
   sigset_t blocked;
   return pthread_sigmask(SIG_BLOCK, nullptr, &blocked) == 0 && sigismember(&blocked, SIGTERM) == 1;

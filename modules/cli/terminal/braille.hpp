@@ -13,12 +13,12 @@ class Braille {
   /// Colour of a dot, from the lowest to the highest.
   enum Ink : std::uint8_t { kNone = 0, kDim, kRed, kYellow, kGreen };
 
-  /// In characters.
+  /// Empty picture; its size is given in characters.
   Braille(int columns, int rows);
 
   int width() const { return 2 * columns_; }  ///< in dots
   int height() const { return 4 * rows_; }    ///< in dots
-  /// From one point to another (dots: x right, y down, (0, 0) the first), cut to the picture; every
+  /// Draws a line between two points (dots: x right, y down, (0, 0) the first), cut to the picture; every
   /// `pace`-th dot. Points that are not numbers draw nothing.
   void Line(double x0, double y0, double x1, double y1, Ink ink, int pace = 1);
   /// One line of text per row. `colour` adds the terminal's escape sequences.

@@ -108,7 +108,7 @@ std::string TableOf(const CalibrateOptions& options) {
   return fs::absolute(folder / "kastor.yaml").string();
 }
 
-/// `world` and `head --calibrate` before the reference object, in lockstep.
+/// Runs `world` and `head --calibrate` before the reference object, in lockstep.
 int Calibrate(const CalibrateOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const Time start = FromUtime(1'000'000'000);

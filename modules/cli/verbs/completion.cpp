@@ -119,7 +119,7 @@ complete -o default -F _priamos priamos
 )shell";
 }
 
-/// `_files` when there is no word of ours, as bash does it by `-o default`.
+/// Script for zsh; calls `_files` when there is no word of ours, as bash does it by `-o default`.
 std::string ZshCompletion() {
   return R"shell(#compdef priamos
 _priamos() {

@@ -78,8 +78,8 @@ void WriteJson(const std::string& file, const std::vector<Summary>& all) {
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
-/// Throws before the first run what would otherwise be found out after the last one. Leaves the file that is
-/// there as it is.
+/// Checks that the files can be written: throws before the first run what would otherwise be found out after
+/// the last one. Leaves the file that is there as it is.
 void RequireWritable(const LockstepOptions& options) {
   if (!options.log_root.empty()) {
     std::filesystem::create_directories(options.log_root);

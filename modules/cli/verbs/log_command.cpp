@@ -109,7 +109,7 @@ int Index(const LogOptions& options) {
   return out.Close();
 }
 
-/// Throws std::runtime_error when no event is selected: then nothing is to be written.
+/// Checks the selection. Throws std::runtime_error when no event is selected: then nothing is to be written.
 void RequireEvents(const LogOptions& options, const bus::LogSelection& selection) {
   bus::LogReader reader(options.log);
   while (const auto event = reader.Next())
@@ -118,7 +118,7 @@ void RequireEvents(const LogOptions& options, const bus::LogSelection& selection
       fmt::format("{}: expected events to copy, got none; {} is not written", options.log, options.out));
 }
 
-/// `filter`, and without any selection `repair`: the whole events into another log.
+/// Verb `filter`, and without any selection `repair`: copies whole events into another log.
 int Copy(const LogOptions& options) {
   bus::LogReader reader(options.log);
   RequireNewFile(options.out, options.log, options.force);

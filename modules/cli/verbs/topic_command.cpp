@@ -77,7 +77,7 @@ void PrintJson(const std::vector<TopicRow>& rows, const bus::LcmBus& bus) {
             << std::endl;
 }
 
-/// `list`, and with a channel `hz` and `bw`: the same table of all or of one.
+/// Verb `list`, and with a channel `hz` and `bw`: a table of all channels or of one.
 int List(const TopicOptions& options, const std::string& verb) {
   const bus::Schema schema = LoadTypes(options);
   const bus::MonotonicClock clock;
@@ -154,8 +154,8 @@ int PrintUrl(const TopicOptions& options) {
   return 0;
 }
 
-/// `options` are the verb's own: CLI11 fills in what $PRIAMOS_BUS says for every verb that was not typed, and
-/// would overwrite the --bus of the one that was.
+/// Adds a verb of `topic`. `options` are the verb's own: CLI11 fills in what $PRIAMOS_BUS says for every verb
+/// that was not typed, and would overwrite the --bus of the one that was.
 CLI::App* AddTopicVerb(CLI::App& topic, const char* name, const char* help, const char* example,
                        TopicOptions& options) {
   auto* verb = AddVerb(topic, name, help);

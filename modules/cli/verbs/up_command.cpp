@@ -58,7 +58,7 @@ std::string MakeRunFolder(const UpOptions& options) {
   return fs::absolute(folder).string();
 }
 
-/// `priamos up` in the foreground.
+/// Run of `priamos up` in the foreground.
 class UpRun {
  public:
   UpRun(const UpOptions& options, const std::string& folder, const Deployment& deployment)
@@ -130,7 +130,8 @@ class UpRun {
   Supervisor supervisor_;
 };
 
-/// Throws, before any process is started, if there is no route for multicast, without which none can run.
+/// Checks the buses before any process is started: throws if there is no route for multicast, without which
+/// none can run.
 void RequireBuses(const Deployment& deployment) {
   if (deployment.group != "offboard") bus::RequireMulticastRoute(deployment.OnboardUrl());
   if (deployment.group != "onboard") bus::RequireMulticastRoute(deployment.OffboardUrl());
@@ -149,7 +150,7 @@ bool HasAlarm(const UpState& state) {
   return std::any_of(state.processes.begin(), state.processes.end(), [](const auto& p) { return p.alarm; });
 }
 
-/// `: onboard-robot: exit code 2: ...` for the first process that ended.
+/// Reason of the first process that ended, as `: onboard-robot: exit code 2: ...`; empty if there is none.
 std::string Reasons(const std::optional<UpState>& state) {
   if (!state) return "";
   for (const ProcessReport& p : state->processes)

@@ -44,7 +44,7 @@ int SayDown(bool was_up, bool json) {
   return 0;
 }
 
-/// For a folder of logs from which nothing is up: the robot may be up from another one.
+/// Says where the robot is up if it is up from another folder of logs; returns false if it is not.
 bool SayWhereItIsUp(const QueryOptions& options) {
   const auto found = FindSupervisor(options.robot);
   if (!found) return false;

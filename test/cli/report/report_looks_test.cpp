@@ -26,7 +26,8 @@ landmark_view_t View() {
   for (std::int8_t kind = 0; kind < 3; ++kind) {
     view_edge_t edge{};
     edge.kind = kind;
-    edge.u1_px = 10.0F * kind, edge.v2_px = 576;
+    edge.u1_px = 10.0F * kind;
+    edge.v2_px = 576;
     view.edges.push_back(edge);
   }
   view.n_edges = 3;

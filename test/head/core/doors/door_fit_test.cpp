@@ -93,9 +93,11 @@ RC_GTEST_FIXTURE_PROP(DoorFitTest, TheStartMayBeWrong, ()) {
 
 TEST_F(DoorFitTest, AFitThatLeadsFarAwayIsNone) {
   DoorShape start = kDoor;
-  start.left.x() -= 0.35, start.right.x() -= 0.35;
+  start.left.x() -= 0.35;
+  start.right.x() -= 0.35;
   EXPECT_TRUE(pictures_.Fit(start, kAllLines));
-  start.left.x() -= 0.15, start.right.x() -= 0.15;
+  start.left.x() -= 0.15;
+  start.right.x() -= 0.15;
   EXPECT_FALSE(pictures_.Fit(start, kAllLines)) << "half a metre is another door";
 }
 

@@ -9,7 +9,8 @@ namespace {
 class FakeMotors {
  public:
   void Command(const HeadSetting& setting, Time now) {
-    target_ = setting, arrival_ = now + std::chrono::milliseconds(200);
+    target_ = setting;
+    arrival_ = now + std::chrono::milliseconds(200);
     if (commands_.empty() || !IsSameSetting(commands_.back(), setting, 1e-9)) commands_.push_back(setting);
   }
   HeadReport Report(Time now) {

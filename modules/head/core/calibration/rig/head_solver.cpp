@@ -120,7 +120,8 @@ Outcome<Unknowns> Start(const std::vector<HeadView>& views, const HeadKnowledge&
   return x;
 }
 
-/// For three nodes in a row, one direction (1 zoom, 2 focus) of the grid.
+/// Adds residuals of smoothness, each for three nodes in a row, in one direction (1 zoom, 2 focus) of the
+/// grid.
 void AddSmoothness(Unknowns& x, int direction, ceres::Problem& problem) {
   std::map<LensKey, std::vector<double*>> rows;  // by what stays the same; a map is in order of the steps
   for (auto& [key, block] : x.lenses) {
