@@ -16,7 +16,7 @@ struct BusChoice {
   std::string robot{kDefaultRobot};  ///< for a named bus
   int ttl = 0;                       ///< for a named bus: routers a message may pass; 0 stays on this host
 
-  /// Throws BusError.
+  /// LCM URL of the chosen bus. Throws BusError for a name or a ttl that ResolveBus refuses.
   std::string Url() const { return ResolveBus(bus, robot, ttl); }
 };
 

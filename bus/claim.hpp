@@ -56,8 +56,8 @@ class Claim {
   /// Asks from `now` on, for `ask_for`.
   Claim(Claimant self, Time now, Duration ask_for = kAskFor);
 
-  /// To be called whenever the process runs, before it takes messages. Returns true when it stood still for
-  /// kLapse: everything that came meanwhile is out of date and has to be thrown away.
+  /// Notes that the process runs; called at every turn, before it takes messages. Returns true when it stood
+  /// still for kLapse: everything that came meanwhile is out of date and has to be thrown away.
   bool Touch(Time now);
   /// Takes a claimant's message; the process's own ones come back from the bus and are not counted.
   void Hear(const ClaimWord& word, Time now);

@@ -57,7 +57,7 @@ class ClaimKeeper {
   ClaimKeeper(const ClaimKeeper&) = delete;
   ClaimKeeper& operator=(const ClaimKeeper&) = delete;
 
-  /// Becomes readable when the role is lost; ALARM has been sent by then.
+  /// File descriptor that becomes readable when the role is lost; ALARM has been sent by then.
   int fd() const { return lost_.fd(); }
   /// Why it is lost, one sentence with the next step; nullopt while it is held.
   std::optional<std::string> lost() const;

@@ -8,8 +8,10 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "bus/version.hpp"
+#include "common/nearest_file.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::bus {
@@ -50,7 +52,7 @@ std::string Hint(const CLI::App& app) {
   return fmt::format(" ({} --help lists all)", FullName(app));
 }
 
-/// `topic list` for a word that is a verb of a verb: `priamos list`.
+/// Verbs of verbs that have the name `word`: for `priamos list` it is `topic list`.
 std::vector<std::string> DeeperVerbs(const CLI::App& app, const std::string& word) {
   std::vector<std::string> found;
   for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -112,19 +114,30 @@ std::vector<std::string> Members(const CLI::Option& option) {
   return members;
 }
 
+/// What an option of whole numbers takes; CLI11 calls an int INT, and a std::uint64_t UINT.
+std::string WholeNumber(bool is_unsigned, bool is_positive, bool is_negative_refused) {
+  const int lowest = is_positive                          ? 1
+                     : is_unsigned || is_negative_refused ? 0
+                                                          : std::numeric_limits<int>::min();
+  const std::uint64_t highest = is_unsigned ? std::numeric_limits<std::uint64_t>::max()
+                                            : std::uint64_t{std::numeric_limits<int>::max()};
+  return fmt::format("a whole number, {} to {}", lowest, highest);
+}
+
 std::string Expected(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const auto has = [&](const char* word) { return type.find(word) != std::string::npos; };
-  const std::string number = has("INT") ? "a whole number" : "a number";
+  std::string number = has("INT") ? "a whole number" : "a number";
   if (const auto members = Members(option); !members.empty())
     return fmt::format("one of {}", fmt::join(members, ", "));
   if (auto range = Between(type, " in [", "]")) {
     const auto dash = range->find(" - ");
     return fmt::format("{}, {} to {}", number, range->substr(0, dash), range->substr(dash + 3));
   }
+  if (has("INT")) return WholeNumber(has("UINT"), has("POSITIVE"), has("NONNEGATIVE"));
   if (has("POSITIVE")) return number + " above 0";
-  if (has("NONNEGATIVE") || has("UINT")) return number + ", at least 0";
-  if (has("INT") || has("FLOAT")) return number;
+  if (has("NONNEGATIVE")) return number + ", at least 0";
+  if (has("FLOAT")) return number;
   if (has("FILE")) return "an existing file";
   if (has("DIR")) return "an existing folder";
   return "a value";
@@ -132,15 +145,21 @@ std::string Expected(const CLI::Option& option) {
 
 std::string BadValue(const CLI::App& app, const CLI::Option& option) {
   const std::string got = fmt::format("{}", fmt::join(option.results(), " "));
-  if (got.empty() && option.get_type_name() == "TEXT")
+  if (got.empty() && option.get_positional())
     return fmt::format("{}: expected {} ({}), got \"\"{}", FullName(app), option.get_name(),
                        option.get_description(), Hint(app));
+  const std::string type = option.get_type_name();
+  const bool is_path = type.find("FILE") != std::string::npos || type.find("DIR") != std::string::npos;
   return fmt::format("{}: {}: expected {}, got \"{}\"{}", FullName(app), option.get_name(), Expected(option),
-                     got, NearestText(got, Members(option)));
+                     got, is_path ? NearestFileText(got) : NearestText(got, Members(option)));
 }
 
-std::string MissingValue(const CLI::App& app, const CLI::Option& option) {
+std::string WrongCount(const CLI::App& app, const CLI::Option& option) {
   const int wanted = option.get_items_expected_min();
+  const int most = std::max(1, option.get_items_expected_max());
+  if (const int given = static_cast<int>(option.results().size()); given > most)
+    return fmt::format("{}: {} is given {}; next: leave one", FullName(app), option.get_name(),
+                       given == 2 * most ? "twice" : "more than once");
   const std::string what = wanted == 1 ? Expected(option) : fmt::format("{} values", wanted);
   const std::string got = option.results().empty() ? "none" : std::to_string(option.results().size());
   return fmt::format("{}: {}: expected {}, got {}{}", FullName(app), option.get_name(), what, got, Hint(app));
@@ -179,23 +198,24 @@ std::string CheckFinite(std::string& text) {
   return whole && std::isfinite(number) ? "" : "not a number";
 }
 
-/// In one place, so that no verb can forget it.
-void GuardNumbers(CLI::App& app) {
+std::string CheckNotEmpty(const std::string& text) {
+  return text.empty() ? "nothing" : "";
+}
+
+/// Adds the checks of values to all options of a program, in one place, so that no verb can forget them.
+void GuardValues(CLI::App& app) {
   for (auto* option : app.get_options()) {
     const std::string type = option->get_type_name();
     if (option->get_items_expected_max() == 0) continue;  // a flag
     if (type.starts_with("UINT")) option->transform(CLI::Validator(CheckUnsigned, ""));
     if (type.starts_with("INT")) option->transform(CLI::Validator(CheckSigned, ""));
     if (type.starts_with("FLOAT")) option->transform(CLI::Validator(CheckFinite, ""));
+    if (type.starts_with("TEXT")) option->check(CheckNotEmpty);
   }
-  for (auto* verb : app.get_subcommands([](CLI::App*) { return true; })) GuardNumbers(*verb);
+  for (auto* verb : app.get_subcommands([](CLI::App*) { return true; })) GuardValues(*verb);
 }
 
 }  // namespace
-
-CLI::Validator NotEmpty() {
-  return {[](std::string& text) { return text.empty() ? std::string("nothing") : std::string(); }, ""};
-}
 
 const CLI::App& ChosenVerb(const CLI::App& cli) {
   return *Chain(cli).back();
@@ -220,14 +240,14 @@ std::string Explain(const CLI::App& cli, const CLI::Error& error) {
   const CLI::Option* option = OptionIn(deepest, text);
   if (option != nullptr && (kind == "ValidationError" || kind == "ConversionError"))
     return BadValue(deepest, *option);
-  if (option != nullptr && kind == "ArgumentMismatch") return MissingValue(deepest, *option);
+  if (option != nullptr && kind == "ArgumentMismatch") return WrongCount(deepest, *option);
   return fmt::format("{}: {}", FullName(deepest), text);
 }
 
 std::optional<int> ParseCommandLine(CLI::App& cli, int argc, char** argv) {
   cli.set_version_flag("--version", fmt::format("{} {}", cli.get_name(), Version()),
                        "print the version and exit");
-  GuardNumbers(cli);
+  GuardValues(cli);
   try {
     cli.parse(argc, argv);
     return std::nullopt;

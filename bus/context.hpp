@@ -42,13 +42,13 @@ class Context {
   std::uint64_t seed() const { return around_.seed; }
   std::int32_t claimant() const { return around_.claimant; }
   bool lockstep() const { return around_.lockstep; }
-  /// `name` itself when absolute, else below the folder of the configuration file.
+  /// Path of a file: `name` itself when absolute, else below the folder of the configuration file.
   std::string ResolvePath(const std::string& name) const;
 
   std::unique_ptr<ByteStream> OpenSerial(const std::string& path, int baud);
   void Log(Level level, std::string_view text) { around_.log(level, text); }
 
-  /// Goes into the next HEALTH message; `text` gives the reason if it is not OK.
+  /// Sets the state that goes into the next HEALTH message; `text` gives the reason if it is not OK.
   void SetHealth(Health health, std::string_view text = "");
   Health health() const { return health_; }
   const std::string& health_text() const { return health_text_; }

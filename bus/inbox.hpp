@@ -36,7 +36,7 @@ class InboxQueue {
  public:
   using Entry = std::pair<Time, T>;
 
-  /// `act`: Channel::safety_act of the channel, null unless it is a safety channel.
+  /// Empty queue. `act`: Channel::safety_act of the channel, null unless it is a safety channel.
   explicit InboxQueue(SafetyAct<T> act) : act_(act) {}
 
   std::size_t size() const { return entries_.size(); }

@@ -40,7 +40,7 @@ class Lockstep {
   void AddApp(const AppFactory& factory, const std::string& bus, const ConfigSource& source);
   /// Removes an App as if it had been killed; AddApp starts it again. Not to be called while an App ticks.
   void RemoveApp(const std::string& name, const std::string& bus);
-  /// `tap` gets every message on every bus, in order.
+  /// Sets the function that gets every message on every bus, in order.
   void SetTap(Tap tap) { tap_ = std::move(tap); }
   /// One end of a line, for the driver of the scenario. Throws std::runtime_error for an unknown name.
   std::unique_ptr<ByteStream> OpenSerial(const std::string& name);

@@ -94,7 +94,7 @@ class Publisher {
 /// far as an InboxQueue reaches (SubscribeAll). Handlers run while the bus is drained, between ticks.
 class Node {
  public:
-  /// `bus`, `schema` and `clock` must outlive the node.
+  /// Node of a process on `bus`; `bus`, `schema` and `clock` must outlive it.
   Node(LcmBus& bus, const Schema& schema, const Clock& clock) : bus_(bus), schema_(schema), clock_(clock) {}
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -142,7 +142,7 @@ class Node {
   std::vector<Endpoint> inputs_, outputs_;
 };
 
-/// Throws std::runtime_error when `bytes` is not a whole T.
+/// Decodes an LCM message of type T. Throws std::runtime_error when `bytes` is not exactly one T.
 template <class T>
 T Decode(std::span<const std::byte> bytes) {
   T message{};

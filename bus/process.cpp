@@ -86,7 +86,8 @@ int PrintInterface(const AppFactory& factory, const Options& options) {
   return 0;
 }
 
-/// `file://LOG[?out=LOG2]`: the App gets what the log holds at the log's own times, as fast as it can.
+/// Runs the App from a log, `file://LOG[?out=LOG2]`: it gets what the log holds at the log's own times, as
+/// fast as it can.
 int RunFromLog(const AppFactory& factory, const Options& options) {
   const std::string rest = options.bus.substr(kFileUrl.size());
   const auto question = rest.find('?');

@@ -19,7 +19,7 @@ timespec ToTimespec(Duration d) {
   return {static_cast<time_t>(us / 1000000), static_cast<long>(us % 1000000 * 1000)};
 }
 
-/// As nohup leaves it to a program that is to outlive its terminal.
+/// Whether a signal is ignored, as nohup leaves SIGHUP to a program that is to outlive its terminal.
 bool IsIgnored(int signal) {
   struct sigaction now {};
   return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;

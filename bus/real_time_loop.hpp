@@ -15,7 +15,7 @@ class SignalWatch {
   SignalWatch(const SignalWatch&) = delete;
   SignalWatch& operator=(const SignalWatch&) = delete;
 
-  /// Becomes readable when a signal came.
+  /// File descriptor that becomes readable when a signal came.
   int fd() const { return fd_; }
 
  private:

@@ -14,15 +14,16 @@ namespace priamos::bus {
 /// that stands still must not make its processes stand still as well.
 class ServiceNotifier {
  public:
-  /// Without NOTIFY_SOCKET nobody wants to know.
+  /// Reports to the address in the environment variable NOTIFY_SOCKET, or to nobody when it is not set.
   ServiceNotifier();
-  /// `address`: a path, or @ and a name in the abstract namespace; null or empty: nobody.
+  /// Reports to `address`: a path, or @ and a name in the abstract namespace; null or empty: nobody.
   explicit ServiceNotifier(const char* address);
   ~ServiceNotifier();
   ServiceNotifier(const ServiceNotifier&) = delete;
   ServiceNotifier& operator=(const ServiceNotifier&) = delete;
 
-  /// Call it after every useful piece of work: READY and WATCHDOG after the first one, WATCHDOG every 0.2 s.
+  /// Sends READY and WATCHDOG at the first call, afterwards WATCHDOG every 0.2 s. Call it after every useful
+  /// piece of work.
   void Beat(Time now);
 
  private:

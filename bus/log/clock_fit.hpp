@@ -30,8 +30,9 @@ struct ClockFit {
   std::int64_t ToA(std::int64_t b_us) const;
 };
 
-/// Robust: median of slopes, median of offsets, so that up to a third of wrong pairs do no harm. The drift is
-/// only estimated from pairs that span at least 20 s and stays within 0.1 %. nullopt for no pairs.
+/// Fits clock A over clock B by the median of slopes and the median of offsets, so that up to a third of
+/// wrong pairs do no harm. The drift is only estimated from pairs that span at least 20 s and stays within
+/// 0.1 %. nullopt for no pairs.
 std::optional<ClockFit> FitClocks(std::vector<StampPair> pairs);
 
 }  // namespace priamos::bus

@@ -18,11 +18,12 @@ std::string QuotedCell(const std::string& text);
 /// `log_utime` and `log_number`.
 class CsvTable {
  public:
-  /// `type` must outlive the table.
+  /// Table of messages of `type`, which must outlive it.
   explicit CsvTable(const Struct& type);
 
   void WriteHeader(std::ostream& out) const;
-  /// Throws MessageError when the event's bytes are no message of the type.
+  /// Writes one message as a line of the table. Throws MessageError when the event's bytes are no message of
+  /// the type.
   void WriteRow(std::ostream& out, const LogEvent& event) const;
 
  private:

@@ -63,7 +63,7 @@ class Identifier {
   }
 
  private:
-  /// nullptr for types that cannot be packed or carry no stamp.
+  /// Packer of a type; nullptr if it cannot be packed or carries no stamp.
   const Packer* PackerOf(const Struct& type) {
     const auto [at, added] = packers_.try_emplace(&type);
     if (added && StampOf(type) != nullptr) {

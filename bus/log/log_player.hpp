@@ -29,7 +29,7 @@ class LogPlayer {
   bool paused() const { return paused_; }
   /// Sends the next event at the next Play(), whatever its time; pauses.
   void Step(Time now);
-  /// Goes to `position` since the log's beginning, cut to the log's length.
+  /// Moves the playback to `position` since the log's beginning, cut to the log's length.
   void Seek(Duration position, Time now);
 
   Duration position() const;

@@ -18,7 +18,7 @@ class LogReader {
   /// do not overflow.
   static constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 
-  /// Throws std::runtime_error when the file cannot be read.
+  /// Opens the log file `path`. Throws std::runtime_error when it cannot be read.
   explicit LogReader(const std::string& path);
   /// Reads from `bytes`, which must outlive the reader.
   explicit LogReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -30,7 +30,7 @@ class LogReader {
   /// Number of places so far with damaged bytes between whole events.
   std::uint64_t damaged_places() const { return damaged_places_; }
   std::size_t size() const { return bytes_.size(); }
-  /// Goes on at LogEvent::offset of an event read before; what was skipped stays counted.
+  /// Continues reading at LogEvent::offset of an event read before; what was skipped stays counted.
   void Seek(std::size_t offset) { offset_ = offset; }
 
  private:

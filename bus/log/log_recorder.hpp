@@ -27,14 +27,14 @@ struct RecorderLimits {
 /// `path` is the first file; files after it are called `path` with .1, .2 ... before the extension.
 class LogRecorder {
  public:
-  /// Throws std::runtime_error when the first file cannot be made.
+  /// Begins recording into a new file. Throws std::runtime_error when the first file cannot be made.
   LogRecorder(const std::filesystem::path& path, const RecorderLimits& limits, Time now);
   ~LogRecorder();
   LogRecorder(const LogRecorder&) = delete;
   LogRecorder& operator=(const LogRecorder&) = delete;
 
   void Add(Time now, std::string_view channel, std::span<const std::byte> bytes);
-  /// Call at least every 0.2 s, also in silence: writes the buffer and checks the free space.
+  /// Writes the buffer and checks the free space. Call it at least every 0.2 s, also while nothing arrives.
   void Tick(Time now);
 
   /// Why nothing is being recorded; empty while recording works.

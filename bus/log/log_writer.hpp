@@ -9,12 +9,12 @@ namespace priamos::bus {
 /// Writes LCM's log format; every LCM tool reads it. For recording a live bus there is LogRecorder.
 class LogWriter {
  public:
-  /// Throws std::runtime_error when the file cannot be made.
+  /// Creates the log file `path`. Throws std::runtime_error when it cannot be made.
   explicit LogWriter(const std::string& path);
   void Write(std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes);
   /// Puts everything written so far where a reader sees it.
   void Flush() { file_.flush(); }
-  /// False once a write failed, e.g. on a full disk.
+  /// Whether every write has succeeded so far; a full disk is one reason for false.
   bool good() const { return file_.good(); }
   std::int64_t written() const { return next_number_; }
 

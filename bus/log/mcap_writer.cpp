@@ -31,7 +31,7 @@ class Content {
     for (std::size_t i = 0; i < sizeof(T); ++i) text_.push_back(static_cast<char>(value >> (8 * i) & 0xff));
     return *this;
   }
-  /// With its length in front.
+  /// Appends a text with its length in front.
   Content& Text(std::string_view text) {
     Put(static_cast<std::uint32_t>(text.size()));
     text_.append(text);

@@ -66,7 +66,7 @@ struct Budget {
 /// deadline: the one that comes too late behind them is refused, and the next one obeyed.
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options);
 
-/// Throws ConfigError with the first problem.
+/// Checks that the link can keep its deadlines. Throws ConfigError with the first problem of ComputeBudget.
 void RequireBudget(const ChannelTable& table, const LinkOptions& options);
 
 /// The table that `priamos link budget` shows.

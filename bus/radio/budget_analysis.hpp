@@ -34,7 +34,7 @@ struct ChannelLoad {
 /// Analysis of all channels of one direction.
 class DirectionAnalysis {
  public:
-  /// `table` must outlive this.
+  /// Analysis of the channels of one direction; `table` must outlive it.
   DirectionAnalysis(const ChannelTable& table, const LinkOptions& options, Direction direction);
 
   const std::vector<ChannelLoad>& loads() const { return loads_; }

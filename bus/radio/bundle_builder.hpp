@@ -14,8 +14,8 @@ std::size_t BestBundleBytes(std::size_t max_bytes, double loss);
 /// Builds a bundle: takes entries as long as they fit.
 class BundleBuilder {
  public:
-  /// `table` must outlive the builder. `over_may_follow`: leaves room for AddOver(). `frame_overhead`: bytes
-  /// of a short frame beside its bundle.
+  /// Empty bundle; `table` must outlive the builder. `over_may_follow`: leaves room for AddOver().
+  /// `frame_overhead`: bytes of a short frame beside its bundle.
   BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow,
                 std::size_t frame_overhead = kFrameOverhead);
 

@@ -27,11 +27,12 @@ class FrameAckSender {
   /// The acknowledgement; it counts as sent. `highest`: highest counter accepted; `heard_at`: arrival of that
   /// frame; `loss`: share of the other end's frames lost, 0..1.
   FrameAckEntry Take(std::uint64_t highest, Time heard_at, double loss, Time now);
-  /// The frame with the acknowledgement was cut off: it is due again.
+  /// Makes the acknowledgement due again, because the frame with it was cut off.
   void Return();
-  /// The link is up again: the other end waits for an acknowledgement, to write its counters short.
+  /// Makes an acknowledgement due, because the link is up again: the other end waits for it, to write its
+  /// counters short.
   void MakeDue() { last_.reset(); }
-  /// Counters begin anew.
+  /// Notes that counters begin anew.
   void OnEpochChanged();
 
  private:
@@ -43,22 +44,22 @@ class FrameAckSender {
 /// The data frames of this end, and what the other end has acknowledged of them.
 class SentFrames {
  public:
-  /// `end`: when the last byte of the frame leaves.
+  /// Notes a frame that was sent. `end`: time at which its last byte leaves.
   void OnSent(std::uint64_t counter, Time end);
   /// Takes an acknowledgement; `began`: arrival of the first byte of the frame that brought it. Returns the
   /// counters that it names, in the order of sending.
   std::vector<std::uint64_t> OnAck(const FrameAckEntry& ack, Time began);
   /// The shortest form of a counter that the other end can complete.
   CounterForm FormOf(std::uint64_t counter) const;
-  /// The last byte of the frame's content is handed to the line now.
+  /// Notes that the last byte of the frame's content is handed to the line now.
   void OnHandedOver(std::uint64_t counter, Time now);
-  /// A time before which the other end cannot have had the frame: who echoes its counter did so later,
+  /// Time before which the other end cannot have had the frame: who echoes its counter did so later,
   /// however long a modem, or an attacker, has held either frame. nullopt: a frame of before a restart, or an
   /// old one.
   std::optional<Time> HandedOver(std::uint64_t counter) const;
-  /// The other end sent a FloorEntry: it no longer knows the highest counter that it accepted.
+  /// Notes that the other end sent a FloorEntry: it no longer knows the highest counter that it accepted.
   void OnFloor() { confirmed_.reset(); }
-  /// Counters begin anew.
+  /// Notes that counters begin anew.
   void OnEpochChanged();
 
   /// Delay of the line, one way, estimated.

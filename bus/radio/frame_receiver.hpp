@@ -16,7 +16,7 @@ namespace priamos::bus::radio {
 /// A data frame that passed every check.
 struct AcceptedFrame {
   DataFrame frame;
-  /// By how much its counter is above the highest one before it; 0 when a later frame overtook it.
+  /// Increase of the frame counter over the highest one before; 0 when a later frame overtook this one.
   std::uint64_t ahead = 0;
   std::size_t wire_bytes = 0;  ///< length on the line, delimiter included
   Time first_byte{};           ///< arrival of its first byte
@@ -43,12 +43,13 @@ class FrameReceiver {
   /// The frame that a byte completed: none, a hello or data.
   using Result = std::variant<std::monostate, Hello, AcceptedFrame>;
 
-  /// `incoming`: direction of the frames. `bytes_per_s`: what the line can carry; frames that come faster are
-  /// not checked. `silence`: the link is down when nothing was accepted for so long.
+  /// Receiver of frames that travel in the direction `incoming`. `bytes_per_s`: what the line can carry;
+  /// frames that come faster are not checked. `silence`: the link is down when nothing was accepted for so
+  /// long.
   FrameReceiver(const FrameKeys& keys, Direction incoming, FrameScope scope, double bytes_per_s,
                 Duration silence, Time now);
 
-  /// From now on data frames of `epoch` with counters above `floor` are accepted; 0: none.
+  /// Accepts from now on data frames of `epoch` with counters above `floor`. Epoch 0: no data frames.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
   /// The next byte of the line. `newest_sent`: see FrameOpener::Open.
   Result Push(std::byte byte, Time now, std::uint64_t newest_sent = 0);

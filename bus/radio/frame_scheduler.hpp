@@ -46,15 +46,15 @@ struct FrameInFlight {
 /// Which frame goes next, when its bytes may leave, and when it is cut off for an urgent message.
 class FrameScheduler {
  public:
-  /// `table` must outlive the scheduler and its copies.
+  /// Scheduler without a frame; `table` must outlive it and its copies.
   FrameScheduler(const ChannelTable& table, const FrameSealer& sealer, const LinkOptions& options,
                  bool onboard, Time now);
 
   /// The bytes that may be written to the line now.
   std::vector<std::byte> Step(FrameSources from, Time now);
-  /// Something came from the other end.
+  /// Notes the time at which bytes came from the other end.
   void OnBytes(Time now) { turns_.OnBytes(now); }
-  /// The other end announced the end of its turn.
+  /// Notes that the other end announced the end of its turn (half-duplex).
   void OnOver(Time now) { turns_.OnOverReceived(now); }
 
   /// Time that bytes of a frame take on the line.

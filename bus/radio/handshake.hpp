@@ -21,22 +21,22 @@ enum class Reception : std::uint8_t {
 /// It decides when a hello is sent; epoch.hpp defines what it means.
 class Handshake {
  public:
-  /// `floor_due`: this end's memory of accepted counters was reserved ahead, so that the other end may still
-  /// send counters that count as used here.
+  /// Handshake that begins now. `floor_due`: this end's memory of accepted counters was reserved ahead, so
+  /// that the other end may still send counters that count as used here.
   Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_due, Time now);
 
   /// Takes a hello. Returns the pair of nonces whose epoch is to be used from now on, nullopt for no change.
   std::optional<EpochAgreement::Pair> OnHello(const Hello& hello);
-  /// A data frame was accepted: both ends use the same table, epoch and counters.
+  /// Notes that a data frame was accepted: both ends use the same table, epoch and counters.
   void OnData();
-  /// This end uses a new epoch.
+  /// Notes that this end uses a new epoch.
   void OnEpochChanged();
 
   /// Whether a hello is to be sent now. Hellos that an attacker can provoke are limited in rate.
   bool HelloDue(Reception reception, Time now) const;
   /// The hello; it counts as sent. `stream` names this end's numbering of events.
   Hello Take(std::uint32_t stream, Reception reception, Time now);
-  /// The hello was cut off: it is due again.
+  /// Makes the hello due again, because its frame was cut off.
   void Return() { reply_due_ = true; }
   /// The hello has left whole.
   void OnSent() { ++sent_; }

@@ -62,7 +62,7 @@ struct LinkStatus {
 /// FrameScheduler (bundles to bytes) and LinkMemory (what outlives the process).
 class LinkEndpoint {
  public:
-  /// `store` must outlive the endpoint. `outgoing` is kUp at the onboard end, kDown at the other one.
+  /// End of a link; `store` must outlive it. `outgoing` is kUp at the onboard end, kDown at the other one.
   LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey& key, const LinkOptions& options,
                StateStore& store, PackFunction pack, NonceSource nonces, Time now);
   LinkEndpoint& operator=(const LinkEndpoint&) = delete;
@@ -82,7 +82,7 @@ class LinkEndpoint {
   std::vector<std::byte> Step(Time now);
   /// The messages that the bytes from the line make complete.
   std::vector<Delivery> Receive(std::span<const std::byte> bytes, Time now);
-  /// Orderly end: saves the exact counters, so that the next start need not skip any.
+  /// Ends in order: saves the exact counters, so that the next start need not skip any.
   void Close();
 
   LinkStatus Status(Time now) const;

@@ -10,43 +10,45 @@
 
 namespace priamos::bus::radio {
 
-/// One `[[channel]]` of link.toml.
+/// Settings of one channel that crosses the link: a `[[channel]]` of link.toml.
 struct LinkChannelConfig {
-  std::string name;
-  std::string type;
-  std::string direction = "up";
-  std::string channel_class = "state";
-  double rate_hz = 1;
-  int burst = 1;
-  int priority = 4;
-  double ttl_s = 0;
-  double deadline_s = 0;
-  bool urgent = false;
-  bool on_request = false;
-  bool delta = false;
-  std::string key;
-  int keys = 1;
+  std::string name;                     ///< name of the LCM channel, not empty
+  std::string type;                     ///< message type, with its package if the name alone is ambiguous
+  std::string direction = "up";         ///< "up": robot to workstation; "down": workstation to robot
+  std::string channel_class = "state";  ///< "state", "event" or "command": see ChannelClass
+  double rate_hz = 1;     ///< [1/s] 0.001..1000: highest rate of messages; of events: their mean rate
+  int burst = 1;          ///< [-] 1..64: largest number of messages that come at once
+  int priority = 4;       ///< [-] 0..15: 0 is sent first
+  double ttl_s = 0;       ///< [s] 0..600: age from which a message is not sent, a command not obeyed; 0: none
+  double deadline_s = 0;  ///< [s] 0..600: latest arrival that the budget must guarantee; 0: none
+  bool urgent = false;    ///< may cut off the frame being sent; as an event not limited by `rate_hz`
+  bool on_request = false;  ///< sent only while somebody listens on the other side
+  bool delta = false;       ///< sent as a difference to an acknowledged message whenever that is shorter
+  std::string key;  ///< text field of the type: the newest message per value of it is kept; empty: no key
+  int keys = 1;     ///< [-] 1..64: largest number of values of `key`
   void Describe(Archive& a);
   friend bool operator==(const LinkChannelConfig&, const LinkChannelConfig&) = default;
 };
 
-/// link.toml: the settings that both ends of one link must share, and those of the sender.
+/// Contents of link.toml: the settings that both ends of one link must share, and those of the sender.
 struct LinkConfig {
-  int baud = 9600;
-  double air_rate_bytes_s = 0;
-  int ahead_bytes = 2;
-  int max_bundle_bytes = 120;
-  double keep_alive_s = 0.25;
-  double silence_s = 1.5;
-  double ageing_s = 1;
-  bool encrypted = false;
-  double half_duplex_turn_s = 0;
-  double turnaround_s = 0.02;
-  double line_delay_s = 0.1;
-  bool datagrams = false;
-  std::string key_file = "link.key";
-  bool simulation_key = false;
-  std::vector<LinkChannelConfig> channels;
+  int baud = 9600;              ///< [baud] 300..1000000: rate of the serial port, 10 bits per byte
+  double air_rate_bytes_s = 0;  ///< [byte/s] 0..1e6: rate of the radio if it is slower; 0: as the port
+  int ahead_bytes = 2;          ///< [byte] 0..16: bytes written ahead of the line
+  int max_bundle_bytes = 120;   ///< [byte] 60..240: size of a bundle of several messages in one frame
+  double keep_alive_s = 0.25;   ///< [s] 0.05..10: longest silence of an end
+  double silence_s = 1.5;       ///< [s] 0.1..60, above `keep_alive_s`: silence after which the link is down
+  double ageing_s = 1;          ///< [s] 0.05..600: waiting time for which a message gains one priority level
+  bool encrypted = false;       ///< contents are encrypted; they are authenticated in any case
+  double half_duplex_turn_s =
+      0;                       ///< [s] 0..10: longest turn on a half-duplex radio; 0: two directions at once
+  double turnaround_s = 0.02;  ///< [s] 0..1: half-duplex: time from sending to hearing
+  double line_delay_s = 0.1;   ///< [s] 0..60: delay of the line, there and back, in which commands are proven
+  bool datagrams = false;  ///< IP link: one frame per UDP datagram, whose 28 bytes of header count as sent
+  std::string key_file = "link.key";  ///< secret key of the link, made by `priamos link keygen`, mode 0600
+  bool simulation_key = false;        ///< uses a key that everybody knows: only for emulated lines
+  std::vector<LinkChannelConfig>
+      channels;  ///< channels that cross the link; both ends must have the same order
 
   void Describe(Archive& a);
   /// Bytes per second of the slower of line and radio.

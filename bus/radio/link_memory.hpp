@@ -36,7 +36,7 @@ class LinkMemory {
   void SkipCounters(std::uint64_t floor);
   /// A frame with this counter was accepted, the highest so far; to be called before it is used.
   void NoteAccepted(std::uint64_t highest);
-  /// Counters begin anew. Returns whether the other end's event numbers do so, too.
+  /// Notes that counters begin anew. Returns whether the other end's event numbers do so, too.
   bool ChangeEpoch(std::uint64_t epoch, std::uint32_t peer_stream);
 
   /// Puts back the events that were waiting, and the numbers expected.
@@ -44,7 +44,7 @@ class LinkMemory {
   void StoreEvents(const SendQueue& queue, const std::vector<EventReceiver>& receivers);
   /// Writes to `store` from now on, which must be a copy of the one before.
   void MoveTo(StateStore& store) { store_ = &store; }
-  /// Orderly end: nothing is reserved ahead any more.
+  /// Ends in order: nothing is reserved ahead any more.
   void Close(std::uint64_t highest_accepted);
 
  private:

@@ -21,7 +21,7 @@ class Listeners {
   bool Due(Time now) const;
   /// The report; it counts as sent.
   ListenEntry Take(Time now);
-  /// The frame with it was cut off: it is due again.
+  /// Makes the report due again, because the frame with it was cut off.
   void Return() { changed_ = true; }
 
   /// Takes the other end's report.

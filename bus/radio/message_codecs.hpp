@@ -16,10 +16,12 @@ namespace priamos::bus::radio {
 /// Packing and unpacking of the LCM messages of a link's channels, for types known from .lcm texts only.
 class MessageCodecs {
  public:
-  /// `schema` must outlive this and know the types of `config`, which LinkConfig::Table checks.
+  /// Codecs of all channels of `config`. `schema` must outlive them and know the types of `config`, which
+  /// LinkConfig::Table checks.
   MessageCodecs(const LinkConfig& config, const Schema& schema);
 
-  /// See PackFunction.
+  /// Packs an encoded message of a channel at the time of sending `now`; nullopt if it is no message of the
+  /// channel's type.
   std::optional<Packed> Pack(std::size_t channel, std::span<const std::byte> encoded, Time now) const;
   /// The LCM message; nullopt when the other end sent something else.
   std::optional<std::vector<std::byte>> Unpack(const Delivery& delivery) const;

@@ -46,7 +46,7 @@ struct Arrival {
 /// in order, and keeps the acknowledgements and requests that are due.
 class MessageReceiver {
  public:
-  /// `table` must outlive the receiver and its copies.
+  /// Receiver of the channels of `table`, which must outlive it and its copies.
   explicit MessageReceiver(const ChannelTable& table);
 
   /// Takes a state; appends the message to `out` unless it is refused.
@@ -58,7 +58,7 @@ class MessageReceiver {
   /// Takes a segment of an event. Returns whether the numbers of events() have changed: they must be
   /// remembered before the acknowledgement leaves, or a restarted end would deliver events again.
   bool OnEvent(const EventEntry& entry, const Arrival& arrival, std::vector<Delivery>& out);
-  /// Counters begin anew: no difference can refer to what came before.
+  /// Notes that counters begin anew: no difference can refer to what came before.
   void OnEpochChanged();
   /// The other end's numbering of events began anew.
   void ForgetEvents();

@@ -47,7 +47,8 @@ struct Departure {
 /// puts messages of a frame that was cut off back. SendQueue decides the order.
 class MessageSender {
  public:
-  /// `table` must outlive the sender and its copies. `outgoing`: direction of the messages sent.
+  /// Sender of the channels of `table`, which must outlive it and its copies. `outgoing`: direction of the
+  /// messages sent.
   MessageSender(const ChannelTable& table, Direction outgoing, Duration ageing, PackFunction pack);
 
   /// An encoded message for an outgoing channel; messages with different keys do not replace each other.
@@ -59,7 +60,7 @@ class MessageSender {
     struct Message {
       QueuedMessage queued;
       std::size_t bits;  ///< packed bits on the line
-      /// For channels with differences: the message as the other end will have it.
+      /// Message as the other end will have it; empty unless the channel sends differences.
       std::vector<std::byte> packed;
     };
     /// A piece of an event in the frame, by its number in the channel's stream.
@@ -72,20 +73,20 @@ class MessageSender {
   };
   /// Adds messages and segments of events to `bundle`, those that go first as long as they fit.
   Loaded Load(BundleBuilder& bundle, const Departure& departure);
-  /// The frame was cut off: nothing of it was sent.
+  /// Takes back the contents of a frame that was cut off: nothing of it was sent.
   void Return(Loaded loaded);
-  /// The frame with this counter has left whole.
+  /// Notes that the frame with this counter has left whole.
   void OnSent(Loaded loaded, std::uint64_t counter);
 
   /// Returns how many events were acknowledged for the first time.
   std::size_t OnEventAck(const EventAckEntry& entry, Time now);
-  /// The other end accepted the frame with this counter.
+  /// Notes that the other end accepted the frame with this counter.
   void OnFrameAcknowledged(std::uint64_t counter);
   /// The other end does not have the baselines of differences.
   void ForgetBaselines();
-  /// The link is up again: events that are not acknowledged are sent again at once.
+  /// Makes events that are not acknowledged due at once, because the link is up again.
   void OnLinkBack() { ResendEvents(false); }
-  /// Counters begin anew: the other end may have lost what it held.
+  /// Notes that counters begin anew: the other end may have lost what it held.
   void OnEpochChanged();
 
   SendQueue& queue() { return queue_; }

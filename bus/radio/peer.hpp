@@ -33,7 +33,7 @@ struct Peer {
   /// Adds the entries that are due; they count as sent.
   Loaded Load(BundleBuilder& bundle, const Heard& heard, Time now);
   void Return(const Loaded& loaded);
-  /// Counters begin anew.
+  /// Notes that counters begin anew.
   void OnEpochChanged();
 };
 

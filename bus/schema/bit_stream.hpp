@@ -61,7 +61,7 @@ class BitWriter {
 /// Bits that a BitWriter wrote. Reading over the end gives zeros and makes ok() false for good.
 class BitReader {
  public:
-  /// `bytes` must outlive the reader.
+  /// Reader that begins at the first bit of `bytes`, which must outlive it.
   explicit BitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
   explicit BitReader(std::vector<std::byte>&& bytes) = delete;
 

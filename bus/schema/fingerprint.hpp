@@ -12,8 +12,9 @@ namespace priamos::bus {
 /// Equal to what lcm-gen writes into generated code.
 class Fingerprints {
  public:
-  /// Throws SchemaError when types nest deeper than 256 or so densely in themselves that the sum has over
-  /// a million terms. Keeps what it computed for the next type; the types must not change meanwhile.
+  /// Fingerprint of `type`. Throws SchemaError when types nest deeper than 256 or so densely in themselves
+  /// that the sum has over a million terms. Keeps what it computed for the next type; the types must not
+  /// change meanwhile.
   std::uint64_t Of(const Struct& type);
 
  private:

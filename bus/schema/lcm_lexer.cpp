@@ -121,7 +121,7 @@ class Lexer {
     tokens_.push_back(token_);
   }
 
-  /// Without blanks on both ends and without leading comment marks.
+  /// Text without blanks on both ends and without leading comment marks.
   static std::string Stripped(std::string_view text, std::string_view marks) {
     while (!text.empty() && IsBlank(text.front())) text.remove_prefix(1);
     while (!text.empty() && marks.find(text.front()) != std::string_view::npos) text.remove_prefix(1);

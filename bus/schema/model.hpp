@@ -57,7 +57,7 @@ struct Annotation {
   std::optional<Number> max;      ///< `@range`, second number
   std::optional<Number> step;     ///< `@step`: resolution on the radio, in `unit`
   std::optional<Number> invalid;  ///< `@invalid`: the value that means "none"
-  /// `@max`: largest counts of the variable dimensions, then largest text length.
+  /// Numbers of `@max`: largest counts of the variable dimensions, then largest text length.
   std::vector<std::int64_t> sizes;
   std::optional<std::int64_t> age_us;  ///< `@age`: a time stamp [us] that is at most this old when it is sent
   std::string meaning;                 ///< the sentence after the colon

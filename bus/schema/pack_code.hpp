@@ -18,7 +18,7 @@ struct Coded {
 /// number they are the doubles a person would write (0.3, not 0.30000000000000004).
 class RealCode {
  public:
-  /// Needs min < max, step > 0 and at most 2^52 steps between.
+  /// Code for values in [min, max], in units of the field. Needs min < max, step > 0 and at most 2^52 steps.
   RealCode(double min, double max, double step, std::optional<double> invalid);
 
   Coded Encode(double value) const;
@@ -39,10 +39,11 @@ class RealCode {
   double min_per_unit_ = 0;  // min * per_unit
 };
 
-/// The same for integers, exact over all of int64_t when step is 1.
+/// Integers min, min + step, ... as codes 0, 1, ...: RealCode for whole numbers, exact over all of int64_t
+/// when step is 1.
 class IntegerCode {
  public:
-  /// Needs min < max and step > 0.
+  /// Code for values in [min, max]. Needs min < max and step > 0.
   IntegerCode(std::int64_t min, std::int64_t max, std::uint64_t step, std::optional<std::int64_t> invalid);
 
   Coded Encode(std::int64_t value) const;

@@ -27,7 +27,8 @@ struct PackResult {
 /// threads.
 class Packer {
  public:
-  /// Throws SchemaError, `file:line: type.field: ...`, when a field lacks what packing needs.
+  /// Prepares packing of messages of `type`. Throws SchemaError, `file:line: type.field: ...`, when a field
+  /// lacks what packing needs.
   explicit Packer(const Struct& type);
 
   const Struct& type() const { return *type_; }
@@ -40,15 +41,15 @@ class Packer {
   std::size_t MaxBits() const { return max_bits_; }
   std::size_t MaxBytes() const { return (max_bits_ + 7) / 8; }
 
-  /// `now_us` is the time at which the message is sent: time stamps travel as their age then. nullopt when
-  /// Walk refuses the encoded message.
+  /// Packs an encoded message. `now_us` is the time of sending [us]: time stamps travel as their age then.
+  /// nullopt when Walk refuses the encoded message.
   std::optional<PackResult> Pack(std::span<const std::byte> encoded, std::int64_t now_us) const;
 
   /// The encoded message, with time stamps in the receiver's clock: `now_us` is when it was received (less
   /// the transmission time, where that is known). nullopt when the bits are no packed message of the type,
   /// which has exactly packed.size() bytes. What comes out passes Walk.
   std::optional<std::vector<std::byte>> Unpack(std::span<const std::byte> packed, std::int64_t now_us) const;
-  /// The same for a packed message at the beginning of `packed`, which loses its bytes.
+  /// Unpacks the message at the beginning of `packed` as Unpack does and removes its bytes from `packed`.
   std::optional<std::vector<std::byte>> UnpackFront(std::span<const std::byte>& packed,
                                                     std::int64_t now_us) const;
 

@@ -22,16 +22,17 @@ class Schema {
     std::string text;
   };
 
-  /// Throws SchemaError for the first type that cannot be taken: unreadable, defined twice, or with a nested
-  /// type that nobody defines.
+  /// Reads all types of `sources`. Throws SchemaError for the first type that cannot be taken: unreadable,
+  /// defined twice, or with a nested type that nobody defines.
   explicit Schema(const std::vector<Source>& sources);
-  /// The same, but takes what it can: every refused file or type leaves its sentence in `problems`.
+  /// Reads the types of `sources` that can be taken; each refused file or type adds a sentence to `problems`.
   Schema(const std::vector<Source>& sources, std::vector<std::string>& problems);
 
-  /// From anything with members `file` and `text`, such as priamos::EmbeddedTypes().
+  /// Schema from a range of elements with members `file` and `text`, such as priamos::EmbeddedTypes().
   template <class Texts>
   static Schema FromTexts(const Texts& texts) {
     std::vector<Source> sources;
+    sources.reserve(std::size(texts));
     for (const auto& t : texts) sources.push_back({t.file, t.text});
     return Schema(sources);
   }

@@ -15,7 +15,7 @@ bool IsUtf8(std::string_view text);
 
 /// RFC 4648 base64 with padding.
 std::string ToBase64(std::span<const std::byte> bytes);
-/// nullopt when the text is no padded base64.
+/// Bytes of a base64 text with padding (RFC 4648); nullopt when the text is none.
 std::optional<std::vector<std::byte>> FromBase64(std::string_view text);
 
 }  // namespace priamos::bus

@@ -22,8 +22,8 @@ inline constexpr const char* kTtlVariable = "PRIAMOS_TTL";
 /// outside 0..255.
 std::string BusUrl(std::string_view robot, BusSide side, int ttl);
 
-/// `bus` as a person types it: "onboard" or "offboard" of that robot, or any LCM URL, which is returned as it
-/// is. Throws BusError for anything else.
+/// LCM URL of a bus as a person types it: "onboard" or "offboard" of that robot, or any LCM URL, which is
+/// returned as it is. Throws BusError for anything else.
 std::string ResolveBus(std::string_view bus, std::string_view robot, int ttl);
 
 }  // namespace priamos::bus

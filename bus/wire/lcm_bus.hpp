@@ -38,7 +38,7 @@ class LcmBus {
   /// Largest message this bus sends: what fits into one unfragmented datagram.
   static constexpr std::size_t kMaxMessageBytes = 1400;
 
-  /// Throws BusError.
+  /// Opens the bus at an LCM URL. Throws BusError when it cannot be opened.
   explicit LcmBus(const std::string& url, Messages messages = Messages::kParametric);
   ~LcmBus();
   LcmBus(const LcmBus&) = delete;
@@ -46,16 +46,17 @@ class LcmBus {
 
   const std::string& url() const { return url_; }
 
-  /// False when the message is too long or the network refused it.
+  /// Sends a message; returns false when it is too long or the network refused it.
   bool Publish(std::string_view channel, std::span<const std::byte> bytes);
-  /// `channel` is taken literally. The handler must not throw.
+  /// Subscribes to one channel, whose name is taken literally. The handler must not throw.
   void Subscribe(std::string_view channel, Handler handler);
   /// Every channel, for recorders.
   void SubscribeEverything(Handler handler);
   /// True when a message of this size may be on this bus.
   bool Fits(std::size_t bytes) const { return messages_ == Messages::kAnySize || bytes <= kMaxMessageBytes; }
 
-  /// Becomes readable when a message waits; -1 (which poll ignores) while nothing is subscribed.
+  /// File descriptor that becomes readable when a message waits; -1 (which poll ignores) while nothing is
+  /// subscribed.
   int fd() const;
   /// Handles everything that waits now; returns the number of messages. Bounded, so that a flood cannot
   /// keep the caller from its next tick.

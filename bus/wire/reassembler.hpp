@@ -20,7 +20,7 @@ struct FragmentHeader {
   std::uint16_t fragments = 0;
 
   static constexpr std::size_t kBytes = 20;
-  /// nullopt when it is none, or cannot be true.
+  /// Header at the beginning of a datagram; nullopt when there is none, or its numbers are impossible.
   static std::optional<FragmentHeader> Read(std::span<const std::byte> datagram);
 };
 

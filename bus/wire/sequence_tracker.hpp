@@ -25,7 +25,7 @@ class SequenceTracker {
   static constexpr std::uint32_t kLargestGap = 1 << 20;
   static constexpr std::size_t kMostSenders = 256;  ///< the least recently heard one is forgotten
 
-  /// `sender` names one sending socket, e.g. address and port.
+  /// Counts the message `number` of a sender. `sender` names one sending socket, e.g. address and port.
   void Add(std::uint64_t sender, std::uint32_t number);
   std::uint64_t lost() const { return lost_; }
   std::size_t senders() const { return senders_.size(); }

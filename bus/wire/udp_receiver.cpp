@@ -138,9 +138,13 @@ int UdpReceiver::Receive(int at_most, const Handler& handler) {
 std::string SenderAddress(std::uint64_t sender) {
   in_addr address{};
   address.s_addr = static_cast<in_addr_t>(sender >> 16);
+  const auto port = ntohs(static_cast<std::uint16_t>(sender & 0xffff));
+  // Where loopback has the only route for multicast, the kernel finds no address of that scope and sends from
+  // none. Such a datagram never leaves its machine.
+  if (address.s_addr == INADDR_ANY) return fmt::format("localhost:{}", port);
   char text[INET_ADDRSTRLEN] = "?";
   inet_ntop(AF_INET, &address, text, sizeof text);
-  return fmt::format("{}:{}", text, ntohs(static_cast<std::uint16_t>(sender & 0xffff)));
+  return fmt::format("{}:{}", text, port);
 }
 
 }  // namespace priamos::bus

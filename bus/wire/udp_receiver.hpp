@@ -22,12 +22,12 @@ namespace priamos::bus {
 /// are known; and there is no thread and no copy between the kernel and the handler.
 class UdpReceiver {
  public:
-  /// `sender` names the sending socket, see SenderAddress.
+  /// Function that gets each message; `sender` names the sending socket, see SenderAddress.
   using Handler =
       std::function<void(std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes)>;
 
-  /// Throws BusError with a sentence when the group cannot be joined. Without `fragments` a filter stops
-  /// them.
+  /// Joins the multicast group of an LCM URL. Throws BusError with a sentence when the group cannot be
+  /// joined. Without `fragments` a filter stops them.
   explicit UdpReceiver(const std::string& url, bool fragments = false);
   ~UdpReceiver();
   UdpReceiver(const UdpReceiver&) = delete;

@@ -147,7 +147,7 @@ class ConfigFile::Reader : public Archive {
     return node;
   }
 
-  /// `file:line:key`, or `--set KEY=VALUE: key` for what came from there.
+  /// Place of a value, `file:line:key`, or `--set KEY=VALUE: key` for what came from there.
   std::string Place(const toml::node& node, std::string_view key) const {
     const std::string& source = node.source().path ? *node.source().path : name_;
     if (source.starts_with(kSetName)) return fmt::format("{}: {}", source, key);

@@ -69,7 +69,8 @@ class Archive {
 /// Where a configuration comes from: a TOML file (none: the struct's defaults), then single keys on top.
 struct ConfigSource {
   std::string path;
-  /// `key = value` as TOML, dotted keys for sections; a bare word is a string.
+  /// Values that replace those of the file: `key = value` as TOML, dotted keys for sections; a bare word is a
+  /// string.
   std::vector<std::string> overrides;
 
   /// Where relative file names in the configuration start; the working directory when there is no file.
@@ -79,14 +80,14 @@ struct ConfigSource {
 /// A TOML file being read into a struct.
 class ConfigFile {
  public:
-  /// Throws ConfigError when the file is missing, not readable or not TOML.
+  /// Reads the file of `source`. Throws ConfigError when it is missing, not readable or not TOML.
   explicit ConfigFile(const ConfigSource& source);
   /// Reads a TOML text; `name` stands for the file in messages.
   ConfigFile(const std::string& name, std::string_view text);
   ~ConfigFile();
 
   Archive& archive();
-  /// Throws ConfigError for the first key that nothing asked for.
+  /// Checks that every key of the file was asked for. Throws ConfigError for the first that was not.
   void RefuseUnknownKeys() const;
 
  private:

@@ -42,7 +42,7 @@ std::string FindDeployment(const std::string& given, const ProgramPlace& place);
 /// ~/.local/state/priamos. Throws ConfigError without a home.
 std::string LogFolder(const ProgramPlace& place);
 
-/// `path` as a person in `folder` would type it: relative when it is below, else as it is.
+/// Path `path` as a person in `folder` would type it: relative when it is below, else as it is.
 std::string ShownFrom(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 }  // namespace priamos

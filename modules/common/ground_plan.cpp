@@ -9,11 +9,11 @@ namespace {
 
 /// Swing-clear hinges: the pin stands this far out of the far face of the frame and beside the leaf, so that
 /// a leaf that is open by 90 degrees or more leaves the whole opening free.
-constexpr double kPinOutM = 0.01;
-constexpr double kPinClearanceM = 0.005;
+constexpr double kPinOut_m = 0.01;
+constexpr double kPinClearance_m = 0.005;
 /// Gap between leaf and frame all around, and under the leaf.
-constexpr double kLeafPlayM = 0.003;
-constexpr double kLeafLowM = 0.01;
+constexpr double kLeafPlay_m = 0.003;
+constexpr double kLeafLow_m = 0.01;
 
 }  // namespace
 
@@ -55,15 +55,15 @@ void DoorPlan::Describe(Archive& a) {
 
 LeafShape LeafOf(const DoorPlan& door, const std::string& hinge, double open_deg, double thickness_m) {
   const double side = hinge == "left" ? 1 : -1;
-  const double leaf_half = door.opening_width_m / 2 + door.rebate_width_m - kLeafPlayM;
-  const double pin_depth = door.BackX() + kPinOutM - door.StopX();
-  const double pin_y = side * (door.opening_width_m / 2 + pin_depth + kPinClearanceM);
-  const Pose2 door_from_pin{door.BackX() + kPinOutM, pin_y, side * Radians(open_deg)};
+  const double leaf_half = door.opening_width_m / 2 + door.rebate_width_m - kLeafPlay_m;
+  const double pin_depth = door.BackX() + kPinOut_m - door.StopX();
+  const double pin_y = side * (door.opening_width_m / 2 + pin_depth + kPinClearance_m);
+  const Pose2 door_from_pin{door.BackX() + kPinOut_m, pin_y, side * Radians(open_deg)};
   const Pose2 pin_from_leaf{-pin_depth + thickness_m / 2, -pin_y, 0};
   return {door_from_pin * pin_from_leaf,
           {thickness_m, 2 * leaf_half},
-          kLeafLowM,
-          door.opening_height_m + door.rebate_width_m - kLeafPlayM};
+          kLeafLow_m,
+          door.opening_height_m + door.rebate_width_m - kLeafPlay_m};
 }
 
 void CupboardPlan::Describe(Archive& a) {

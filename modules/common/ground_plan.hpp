@@ -53,7 +53,7 @@ struct DoorPlan {
   void Describe(Archive& a);
 
   Pose2 map_from_door() const { return {x_m, y_m, Radians(yaw_deg)}; }
-  /// x of the planes on which the edges lie, landmark frame.
+  /// Coordinates x [m] of the planes on which the edges lie, landmark frame.
   double FrontX() const { return -wall_thickness_m / 2 - frame_protrusion_m; }
   double StopX() const { return wall_thickness_m / 2 - rebate_depth_m; }
   double BackX() const { return wall_thickness_m / 2; }
@@ -94,7 +94,7 @@ struct GroundPlan {
   std::vector<CupboardPlan> cupboards;
 
   void Describe(Archive& a);
-  /// nullptr if there is none.
+  /// Door of this id; nullptr if there is none.
   const DoorPlan* FindDoor(int id) const;
 };
 

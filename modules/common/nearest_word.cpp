@@ -10,7 +10,7 @@
 namespace priamos {
 namespace {
 
-/// Of several that are equally near, more than these would be a list and not an answer.
+/// Largest number of equally near words in an answer; more would be a list and not an answer.
 constexpr std::size_t kMostAnswers = 4;
 constexpr std::size_t kShortestPrefix = 2;
 
@@ -25,8 +25,8 @@ std::string WithoutUnderscores(std::string word) {
   return word;
 }
 
-/// 0: the same but for the case; then words that begin with it, the shortest first; then by distance.
-/// nullopt: not near.
+/// Order of answers, the best first. 0: the same but for the case; then words that begin with it, the
+/// shortest first; then by distance. nullopt: not near.
 std::optional<int> Rank(const std::string& word, const std::string& known) {
   constexpr int kPrefix = 1, kResembles = 1000;
   if (word == known) return 0;

@@ -32,7 +32,8 @@ struct ReferenceObject {
   std::vector<ReferenceDisc> discs;
   std::vector<ReferenceBlock> blocks;
 
-  /// For LoadConfig<ReferenceObject>; refuses fewer than 6 discs and two discs in one place.
+  /// Describes the keys of the object's file to LoadConfig; refuses fewer than 6 discs and two discs in one
+  /// place.
   void Describe(Archive& a);
 
   /// The discs in frame a; the blocks stay behind, they only describe the body in its own frame.

@@ -20,7 +20,7 @@ struct StampClock {
 };
 using Time = StampClock::time_point;
 
-/// `utime` fields of messages are microseconds of StampClock.
+/// Time stamp for the field `utime` of messages: microseconds of StampClock.
 constexpr std::int64_t ToUtime(Time t) {
   return t.time_since_epoch().count();
 }

@@ -14,7 +14,7 @@ struct ValueSpec {
   std::string_view doc;  ///< one sentence
 };
 
-/// `0 to 1.5`, `at least 0`, `any`: what `spec` allows.
+/// Text of what `spec` allows: `0 to 1.5`, `at least 0`, `any`.
 std::string RangeText(const ValueSpec& spec);
 
 }  // namespace priamos

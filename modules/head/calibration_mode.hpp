@@ -16,11 +16,11 @@
 
 namespace priamos::head {
 
-/// `priamos-head --calibrate`: goes through the settings of the plan before the reference object, exposes all
-/// three cameras at each, and calibrates mechanics and lenses together. It needs nobody: a setting is always
-/// approached from the same side, what is finished is kept in a journal beside the table, and an interrupted
-/// calibration goes on from there. Anything that keeps it from a good table ends it with the reason and exit
-/// code 1; the old table stays.
+/// Process `priamos-head --calibrate`: goes through the settings of the plan before the reference object,
+/// exposes all three cameras at each, and calibrates mechanics and lenses together. It needs nobody: a
+/// setting is always approached from the same side, what is finished is kept in a journal beside the table,
+/// and an interrupted calibration goes on from there. Anything that keeps it from a good table ends it with
+/// the reason and exit code 1; the old table stays.
 class CalibrationMode {
  public:
   CalibrationMode(const HeadConfig& config, bus::Context& context);

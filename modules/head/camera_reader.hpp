@@ -13,7 +13,7 @@ class CameraReader {
  public:
   explicit CameraReader(std::string store_name) : store_name_(std::move(store_name)) {}
 
-  /// nullopt if the picture is not there (any more) or not the one that the notice names.
+  /// Picture that a notice names; nullopt if it is not there (any more) or not the one that the notice names.
   std::optional<GreyImage> Read(const FrameNotice& frame);
 
  private:

@@ -37,7 +37,7 @@ struct ReferencePose {
   void Describe(Archive& a);
 };
 
-/// `config/<deployment>/head.toml`
+/// Contents of `config/<deployment>/head.toml`.
 struct HeadConfig {
   double rate_hz = 50;                      ///< decisions
   std::string mode = "look";                ///< look or calibrate

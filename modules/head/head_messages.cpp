@@ -9,7 +9,7 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kMinEdgeM = 0.02;
+constexpr double kMinEdge_m = 0.02;
 constexpr std::size_t kMaxViewEdges = 28;
 constexpr int kMaxLeftOut = 255;
 constexpr std::size_t kMaxPieces = 4, kMaxPiecesLeftOut = 63;
@@ -104,7 +104,7 @@ std::optional<LandmarkModel> FromMessage(const landmark_model_t& message) {
     }
     LandmarkEdge edge{
         {e.x1_m, e.y1_m, e.z1_m}, {e.x2_m, e.y2_m, e.z2_m}, e.visible_from_rad, e.visible_to_rad, e.side};
-    if ((edge.to - edge.from).norm() > kMinEdgeM) model.edges.push_back(edge);
+    if ((edge.to - edge.from).norm() > kMinEdge_m) model.edges.push_back(edge);
   }
   return model;
 }

@@ -36,9 +36,9 @@ HeadReport FromMessage(const head_state_t& message);
 FrameNotice FromMessage(const camera_frame_t& message);
 LookOrder FromMessage(const look_request_t& message);
 HeadWish FromMessage(const head_drive_t& message);
-/// nullopt unless all numbers are finite.
+/// Pose of the base; nullopt unless all numbers are finite.
 std::optional<PoseSample> FromMessage(const pose_t& message);
-/// nullopt unless all numbers are finite; edges without length are left out.
+/// Model of a landmark; nullopt unless all numbers are finite; edges without length are left out.
 std::optional<LandmarkModel> FromMessage(const landmark_model_t& message);
 
 head_command_t ToMessage(const HeadSetting& setting, Time now);

@@ -20,8 +20,8 @@ class PlannerApp {
   static constexpr bool kOneOwner = true;
   using Config = PlannerConfig;
 
-  /// `missions` makes the table of what the planner can carry out. Throws ConfigError when the map cannot be
-  /// used.
+  /// App of the planner; `missions` makes the table of what the planner can carry out. Throws ConfigError
+  /// when the map cannot be used.
   PlannerApp(const PlannerConfig& config, bus::Context& context, MissionMaker missions = MakeMissions);
 
   Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }

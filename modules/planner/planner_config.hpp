@@ -9,7 +9,7 @@
 
 namespace priamos::planner {
 
-/// `config/<deployment>/planner.toml`
+/// Contents of `config/<deployment>/planner.toml`.
 struct PlannerConfig {
   std::string map = "maps/door.toml";  ///< ground plan, relative to the folder of this file
   double rate_hz = 20;                 ///< decisions

@@ -23,7 +23,7 @@ LookResult FromMessage(const pose_correction_t& message);
 landmark_model_t ToMessage(const Landmark& landmark);
 path_t ToMessage(const PathOrder& path, Time now);
 look_request_t ToMessage(const LookOrder& look, Time now);
-/// `kind`: of the mission's order.
+/// Status of a mission as a message; `kind` is that of the mission's order.
 mission_status_t ToMessage(const MissionState& state, int kind, Time now);
 
 /// The words that a person reads for a verdict or limit.

@@ -21,8 +21,9 @@ std::string BootId();
 /// link that cannot store its counters must not go on.
 class FileStore : public bus::radio::StateStore {
  public:
-  /// `fast_path` empty: `path` holds everything. `boot` names the time since the machine was started: what
-  /// another one wrote to a disk need not be the last that it saved.
+  /// Store in the file `path` and the file `fast_path`; when that is empty, `path` holds everything. `boot`
+  /// names the time since the machine was started: what another one wrote to a disk need not be the last that
+  /// it saved.
   explicit FileStore(std::string path, std::string fast_path = "", std::string boot = BootId());
   ~FileStore() override;
   FileStore(const FileStore&) = delete;

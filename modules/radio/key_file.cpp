@@ -46,7 +46,7 @@ void RefuseOpenMode(const std::string& path, int fd) {
                     path, info.st_mode & 0777U, path));
 }
 
-/// Of 10^16 random keys one has fewer than 16 different bytes.
+/// Whether a key looks random: of 10^16 random keys one has fewer than 16 different bytes.
 bool LooksRandom(const LinkKey& key) {
   return key != SimulationKey() && std::set(key.begin(), key.end()).size() >= 16;
 }

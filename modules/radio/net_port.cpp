@@ -55,7 +55,7 @@ struct AddressInfoCloser {
 };
 using AddressInfo = std::unique_ptr<addrinfo, AddressInfoCloser>;
 
-/// `host` empty: any address of this machine.
+/// Address of a host; an empty `host` means any address of this machine.
 AddressInfo LookUp(const std::string& host, const std::string& port, int type) {
   addrinfo hints{};
   hints.ai_socktype = type;

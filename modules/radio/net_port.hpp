@@ -23,7 +23,7 @@ struct NetAddress {
 /// True for what begins with "udp:" or "tcp:".
 bool IsNetPort(const std::string& port);
 
-/// Throws ConfigError with one sentence that shows the forms above.
+/// Reads a port of the forms of NetAddress. Throws ConfigError with one sentence that shows them.
 NetAddress ParseNetAddress(const std::string& port);
 
 /// UDP: what is written is put together to frames, up to and with the zero byte, and each goes as one

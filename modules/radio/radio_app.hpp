@@ -35,7 +35,8 @@ class RadioApp {
   static constexpr bool kOneOwner = true;
   using Config = RadioConfig;
 
-  /// Throws ConfigError or std::runtime_error with one sentence.
+  /// Loads the link and its key and opens the port. Throws ConfigError or std::runtime_error with one
+  /// sentence.
   RadioApp(const RadioConfig& config, bus::Context& context);
   ~RadioApp();
 

@@ -7,7 +7,7 @@
 
 namespace priamos::radio {
 
-/// `config/<deployment>/radio.toml`
+/// Contents of `config/<deployment>/radio.toml`.
 struct RadioConfig {
   std::string side = "onboard";
   std::string port = "/dev/ttyUSB0";

@@ -60,7 +60,7 @@ RobotApp::~RobotApp() {
   }
 }
 
-/// With the first tick: an App that is only asked for its interface writes nothing.
+/// Begins the work with the first tick: an App that is only asked for its interface writes nothing.
 void RobotApp::Begin(Time now) {
   running_ = true;
   drive_.CountEstopChangesFrom(static_cast<int>(ToUtime(now) / 1'000'000 % 256));

@@ -29,7 +29,7 @@ class RobotApp {
 
   Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
   void Tick(Time now);
-  /// Another process drives this base: the last command is to stand.
+  /// Sends a last command, to stand, because another process drives this base.
   void Yield(Time now);
 
  private:

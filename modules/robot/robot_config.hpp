@@ -9,7 +9,7 @@
 
 namespace priamos::robot {
 
-/// `config/<deployment>/robot.toml`
+/// Contents of `config/<deployment>/robot.toml`.
 struct RobotConfig {
   double rate_hz = 50;         ///< decisions and wheel commands
   double status_rate_hz = 10;  ///< DRIVE_STATUS

@@ -25,7 +25,7 @@ Eigen::Matrix3d CovarianceOf(const landmark_fix_t& m) {
   return ToCovariance({m.sigma_x_m, m.sigma_y_m, m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw});
 }
 
-/// As obstacle_segment_t.lcm bounds it; written so that NaN is refused.
+/// Whether a segment is within the bounds of obstacle_segment_t.lcm; written so that NaN is refused.
 bool IsCredible(const obstacle_segment_t& s) {
   const auto is_place = [](double x, double y) { return x >= 0 && x <= 10.23 && std::abs(y) <= 5.12; };
   return s.kind >= obstacle_segment_t::UP && s.kind <= obstacle_segment_t::MISSING &&
@@ -33,7 +33,7 @@ bool IsCredible(const obstacle_segment_t& s) {
          s.sigma_height_m >= 0 && s.sigma_height_m <= 0.255F;
 }
 
-/// nullopt for a number that names nobody.
+/// Driver of a number in a message; nullopt for a number that names no driver.
 std::optional<Driver> DriverOf(int code) {
   switch (code) {
     case lease_request_t::NOBODY:

@@ -11,23 +11,25 @@ namespace priamos::robot {
 
 WheelSample FromMessage(const wheel_state_t& message);
 SonarCycle FromMessage(const sonar_ranges_t& message);
-/// nullopt for a path that cannot be driven: points that are not finite or outside the map's 100 m, or a
-/// speed that is not above 0 while there are points.
+/// Path in the map frame; nullopt if it cannot be driven: points that are not finite or outside the map's 100
+/// m, or a speed that is not above 0 while there are points.
 std::optional<Path> FromMessage(const path_t& message);
-/// nullopt unless the head found the landmark. Numbers that make no sense become a fix that the estimator
-/// refuses.
+/// Fix from the head; nullopt unless it found the landmark. Numbers that make no sense become a fix that the
+/// estimator refuses.
 std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message);
-/// nullopt if any number is not finite or outside its range. What is only missing is no obstacle.
+/// Obstacles seen by the line laser; nullopt if any number is not finite or outside its range. What is only
+/// missing is no obstacle.
 std::optional<FloorLine> FromMessage(const obstacle_line_t& message);
 DriveCommand FromMessage(const drive_command_t& message);
-/// nullopt for a driver or an action that does not exist.
+/// Request for the lease: who asks, and for what.
 struct LeaseRequest {
   LeaseHolder who;
   Lease::Wish wish = Lease::Wish::kAcquire;
 };
+/// Request for the lease; nullopt for a driver or an action that does not exist.
 std::optional<LeaseRequest> FromMessage(const lease_request_t& message);
 
-/// `instance` names the process that commands.
+/// Set values of the wheels as a message; `instance` names the process that commands.
 wheel_command_t ToMessage(const WheelSpeeds& speeds, std::int32_t instance, Time now);
 odometry_t ToMessage(const Odometry& odometry);
 pose_t ToMessage(const PoseEstimate& estimate);

@@ -9,13 +9,13 @@
 
 namespace priamos::teleop {
 
-/// Something an operator holds in the hand. Never blocks.
+/// Input device that an operator holds in the hand. Never blocks.
 class StickDevice {
  public:
   virtual ~StickDevice() = default;
   /// Reads what has come. A device that is gone is not connected, and is looked for again.
   virtual Stick Poll(Time now) = 0;
-  /// For the operator: which device, and what is wrong with it.
+  /// Text for the operator: which device, and what is wrong with it.
   virtual std::string Describe() const = 0;
 };
 

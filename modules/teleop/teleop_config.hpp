@@ -27,7 +27,8 @@ struct KeyboardConfig {
 /// A joystick or game pad of the kernel's evdev interface.
 struct JoystickConfig {
   std::string path = "/dev/input/by-id/joystick";
-  /// evdev codes (linux/input-event-codes.h) for the axes forward, left, up, roll, pitch, turn; -1 for none.
+  /// Codes of evdev (linux/input-event-codes.h) for the axes forward, left, up, roll, pitch, turn; -1 for
+  /// none.
   std::vector<double> axis_codes{1, 0, -1, -1, -1, 3};
   /// Evdev axes grow to the right and towards the operator.
   std::vector<double> axis_signs{-1, -1, 1, 1, 1, -1};
@@ -36,7 +37,7 @@ struct JoystickConfig {
   void Describe(Archive& a);
 };
 
-/// `config/<deployment>/teleop.toml`
+/// Contents of `config/<deployment>/teleop.toml`.
 struct TeleopConfig {
   std::string device = "spacemouse";
   bool show = false;

@@ -25,7 +25,7 @@ RenderThread::~RenderThread() {
   thread_.join();
 }
 
-/// `failed` and `started` belong to the constructor, which waits for `started`.
+/// Main function of the thread. `failed` and `started` belong to the constructor, which waits for `started`.
 void RenderThread::Run(const std::function<RenderFunction()>& make, std::exception_ptr& failed,
                        bool& started) {
   RenderFunction render;

@@ -15,8 +15,8 @@ namespace priamos::world {
 /// Draws pictures in a thread of its own: in real time a picture takes longer than the drive board may wait.
 class RenderThread : public RenderExecutor {
  public:
-  /// `make` is called in the thread, because what draws belongs to the thread that made it. Returns when it
-  /// has returned; throws what it threw.
+  /// Starts the thread. `make` is called in it, because what draws belongs to the thread that made it.
+  /// Returns when it has returned; throws what it threw.
   explicit RenderThread(std::function<RenderFunction()> make);
   /// Finishes the picture under way and drops the others.
   ~RenderThread() override;

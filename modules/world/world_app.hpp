@@ -27,8 +27,8 @@ class WorldApp {
                                            channels::kHeadState.name, channels::kCameraFrame.name};
   using Config = WorldConfig;
 
-  /// Throws ConfigError when the world cannot be used, std::runtime_error without off-screen OpenGL or shared
-  /// memory.
+  /// Builds the world. Throws ConfigError when the world cannot be used, std::runtime_error without
+  /// off-screen OpenGL or shared memory.
   WorldApp(const WorldConfig& config, bus::Context& context);
 
   Duration TickPeriod() const { return Duration(10000); }
@@ -63,7 +63,8 @@ class WorldApp {
 /// What draws this world; it holds the renderer. To be called in the thread that will draw.
 RenderFunction MakeRenderFunction(const LoadedWorld& world, const WorldConfig& config, std::uint64_t seed);
 
-/// While this is held, worlds made one after the other in this thread need not set OpenGL up again.
+/// Handle on OpenGL of this thread: while it is held, worlds made one after the other in this thread need not
+/// set OpenGL up again.
 std::shared_ptr<void> HoldGraphics();
 
 }  // namespace priamos::world

@@ -9,7 +9,7 @@
 
 namespace priamos::world {
 
-/// `config/<deployment>/world.toml`: the simulated robot, and which world it is put into.
+/// Contents of `config/<deployment>/world.toml`: the simulated robot, and which world it is put into.
 struct WorldConfig {
   std::string world = "worlds/door.toml";
   RobotModel robot;

@@ -13,7 +13,7 @@ sonar_ranges_t ToMessage(const SonarSample& sample);
 head_state_t ToMessage(const HeadSample& sample);
 /// Gaps beyond the message's range (nothing near) are sent as its end, 10 m.
 world_truth_t ToMessage(const Truth& truth);
-/// `slot` is where the picture lies in the frame store.
+/// Notice of a picture; `slot` is where the picture lies in the frame store.
 camera_frame_t ToMessage(const Frame& frame, int slot);
 
 /// The opposite direction, for tests and tools that stand in for the robot.

@@ -44,7 +44,8 @@ struct Party {
 class Network {
  public:
   Network(std::uint64_t seed, std::size_t parties, bool stalls) : rng_(seed), loss_(rng_.Uniform(0, 0.3)) {
-    cut_from_ = Draw(0, 2), cut_to_ = cut_from_ + Draw(0, 3);
+    cut_from_ = Draw(0, 2);
+    cut_to_ = cut_from_ + Draw(0, 3);
     const bool at_once = rng_.Chance(0.5);
     for (std::size_t i = 0; i < parties; ++i) {
       starts_.push_back(at_once ? Draw(0, 0.06) : Draw(0, 4));

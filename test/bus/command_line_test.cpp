@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
+#include <fstream>
+
+#include "test/support/temporary_folder.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -18,7 +21,7 @@ struct Fixture {
   std::size_t keep = 0;
   int count = 0;
   double seconds = 2;
-  std::string channel, format;
+  std::string channel, format, logs;
   std::vector<int> dots;
 
   Fixture() {
@@ -31,6 +34,7 @@ struct Fixture {
     echo->add_option("--count", count, "how many");
     auto* run = cli.add_subcommand("run", "a run");
     run->add_option("--seed", seed, "noise");
+    run->add_option("--logs", logs, "a folder");
     run->add_option("--keep", keep, "files");
     run->add_option("--seconds", seconds, "how long")->check(CLI::Range(0.1, 60.0));
     run->add_option("--format", format, "how")->check(CLI::IsMember({"csv", "jsonl", "mcap"}));
@@ -95,7 +99,8 @@ TEST(CommandLine, WhatIsMissingIsNamed) {
   EXPECT_EQ(Refusal({"topic", "echo"}),
             "prog topic echo: expected channel (LCM channel), got none (prog topic echo --help lists all)");
   EXPECT_EQ(Refusal({"run", "--seed"}),
-            "prog run: --seed: expected a whole number, at least 0, got none (prog run --help lists all)");
+            "prog run: --seed: expected a whole number, 0 to 18446744073709551615, got none (prog run --help "
+            "lists all)");
   EXPECT_THAT(Refusal({"run", "--dots", "6"}), HasSubstr("--dots: expected 2 values, got 1"));
 }
 
@@ -108,14 +113,49 @@ TEST(CommandLine, CountsAreNeitherNegativeNorTooLargeNorSomethingElse) {
   for (const char* bad : {"-1", "18446744073709551616", "1e3", "0x10", "1.5", "seven", ""})
     EXPECT_EQ(
         Refusal({"run", std::string("--seed=") + bad}),
-        *bad ? fmt::format("prog run: --seed: expected a whole number, at least 0, got \"{}\"", bad)
-             : "prog run: --seed: expected a whole number, at least 0, got none (prog run --help lists all)");
-  EXPECT_THAT(Refusal({"run", "--keep", "-2"}), HasSubstr("--keep: expected a whole number, at least 0"));
+        *bad ? fmt::format("prog run: --seed: expected a whole number, 0 to 18446744073709551615, got \"{}\"",
+                           bad)
+             : "prog run: --seed: expected a whole number, 0 to 18446744073709551615, got none (prog run "
+               "--help lists all)");
+  EXPECT_THAT(Refusal({"run", "--keep", "-2"}),
+              HasSubstr("--keep: expected a whole number, 0 to 18446744073709551615"));
   EXPECT_THAT(Refusal({"topic", "echo", "POSE", "--count", "99999999999"}),
               HasSubstr("--count: expected a whole number"));
   Fixture good;
   EXPECT_EQ(good.Refusal({"run", "--seed", "010"}), "");
   EXPECT_EQ(good.seed, 10u) << "no octal";
+}
+
+TEST(CommandLine, ANumberBeyondWhatAnOptionCanHoldIsToldItsRange) {
+  EXPECT_EQ(
+      Refusal({"topic", "echo", "POSE", "--count", "99999999999"}),
+      "prog topic echo: --count: expected a whole number, -2147483648 to 2147483647, got \"99999999999\"");
+}
+
+TEST(CommandLine, TextIsNeverEmpty) {
+  EXPECT_EQ(Refusal({"topic", "echo", ""}),
+            "prog topic echo: expected channel (LCM channel), got \"\" (prog topic echo --help lists all)");
+  EXPECT_EQ(Refusal({"run", "--logs", ""}), "prog run: --logs: expected a value, got \"\"");
+  EXPECT_EQ(Refusal({"run", "--logs", "a"}), "");
+}
+
+TEST(CommandLine, AnOptionIsGivenOnce) {
+  EXPECT_EQ(Refusal({"run", "--seed", "3", "--seed", "4"}),
+            "prog run: --seed is given twice; next: leave one");
+  EXPECT_THAT(Refusal({"run", "--format=csv", "--format=csv", "--format=csv"}),
+              HasSubstr("--format is given more than once"));
+}
+
+TEST(CommandLine, AFileThatDoesNotExistIsAnsweredWithTheNearestOne) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "day.lcmlog") << "a log";
+  Fixture fixture;
+  std::string log;
+  fixture.cli.get_subcommand("status")->add_option("log", log, "LCM log")->check(CLI::ExistingFile);
+  const std::string wrong = folder / "day.lgo";
+  EXPECT_EQ(fixture.Refusal({"status", wrong}),
+            fmt::format("prog status: log: expected an existing file, got \"{}\"; nearest: \"{}\"", wrong,
+                        (folder / "day.lcmlog").string()));
 }
 
 TEST(CommandLine, NumbersAreFiniteAndInTheirRange) {

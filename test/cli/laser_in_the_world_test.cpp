@@ -20,7 +20,10 @@ std::vector<world::Solid> Box(double height_m) {
 
 TEST(LaserInTheWorld, IsCalibratedToWhereItIs) {
   world::RendererConfig config;
-  config.scene.x_min_m = -1, config.scene.x_max_m = 8, config.scene.y_min_m = -3, config.scene.y_max_m = 3;
+  config.scene.x_min_m = -1;
+  config.scene.x_max_m = 8;
+  config.scene.y_min_m = -3;
+  config.scene.y_max_m = 3;
   config.head = world::HeadBuild::Specimen(5);
   world::Viewpoint at;
   at.head.tilt_rad = 0.62;

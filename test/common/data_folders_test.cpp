@@ -55,7 +55,8 @@ TEST(DataFolders, TheEnvironmentGoesFirst) {
 
 TEST(DataFolders, ARelativeXdgFolderDoesNotCount) {
   auto place = Installed();
-  place.config_home = "c", place.state_home = "s";
+  place.config_home = "c";
+  place.state_home = "s";
   EXPECT_EQ(DeploymentRoots(place).front(), "/home/ada/.config/priamos");
   EXPECT_EQ(LogFolder(place), "/home/ada/.local/state/priamos");
 }
@@ -64,7 +65,8 @@ TEST(DataFolders, LogsFollowXdgAndNeedAHome) {
   auto place = Installed();
   place.state_home = "/var/state";
   EXPECT_EQ(LogFolder(place), "/var/state/priamos");
-  place.clone = "/src", place.logs = "/mnt/logs";
+  place.clone = "/src";
+  place.logs = "/mnt/logs";
   EXPECT_EQ(LogFolder(place), "/mnt/logs");
   EXPECT_THROW(LogFolder(ProgramPlace()), ConfigError);
 }

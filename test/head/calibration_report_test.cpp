@@ -31,7 +31,8 @@ class CalibrationReportTest : public testing::Test {
  protected:
   CalibrationReportTest() {
     CalibrationPlan plan;
-    plan.zoom.nodes = 2, plan.focus.nodes = 2;
+    plan.zoom.nodes = 2;
+    plan.focus.nodes = 2;
     support::SimulatedHead simulated(31);
     views_ = support::Sweep(simulated, plan.Settings(), {}, 31);
     const auto solved = SolveHead(views_);

@@ -14,7 +14,8 @@ class ExactView {
  public:
   explicit ExactView(const head::CameraModel& camera, double sigma_px = 0.05)
       : camera_(camera), sigma_px_(sigma_px) {
-    edges_.width = 768, edges_.height = 576;
+    edges_.width = 768;
+    edges_.height = 576;
   }
   ExactView(const ExactView&) = delete;
   ExactView& operator=(const ExactView&) = delete;
@@ -24,9 +25,13 @@ class ExactView {
   int Draw(const Eigen::Vector2d& begin, const Eigen::Vector2d& end, double dark = 80, double bright = 140,
            double step_px = 4) {
     head::EdgeSegment s;
-    s.begin = camera_.Distort(begin), s.end = camera_.Distort(end), s.centre = (s.begin + s.end) / 2;
-    s.sigma_normal_px = sigma_px_, s.sigma_angle_rad = sigma_px_ * std::sqrt(12.0) / (end - begin).norm();
-    s.grey_left = dark, s.grey_right = bright;
+    s.begin = camera_.Distort(begin);
+    s.end = camera_.Distort(end);
+    s.centre = (s.begin + s.end) / 2;
+    s.sigma_normal_px = sigma_px_;
+    s.sigma_angle_rad = sigma_px_ * std::sqrt(12.0) / (end - begin).norm();
+    s.grey_left = dark;
+    s.grey_right = bright;
     s.first_point = static_cast<int>(edges_.points.size());
     const double length = (end - begin).norm();
     for (double along = 0; step_px > 0 && along <= length; along += step_px)

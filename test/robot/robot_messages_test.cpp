@@ -143,7 +143,10 @@ obstacle_line_t SomeLine() {
   for (const int kind : {obstacle_segment_t::UP, obstacle_segment_t::MISSING, obstacle_segment_t::DOWN}) {
     obstacle_segment_t s{};
     s.kind = static_cast<std::int8_t>(kind);
-    s.x1_m = 2.0F, s.y1_m = -0.5F, s.x2_m = 2.25F, s.y2_m = 0.25F;
+    s.x1_m = 2.0F;
+    s.y1_m = -0.5F;
+    s.x2_m = 2.25F;
+    s.y2_m = 0.25F;
     s.height_m = kind == obstacle_segment_t::DOWN ? -0.125F : 0.03F;
     message.segments.push_back(s);
   }

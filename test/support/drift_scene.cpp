@@ -36,7 +36,8 @@ DriftScene::DriftScene(const Errors& errors, Rng& rng) : errors_(errors), model_
   true_model_ = model_;
   for (head::LandmarkEdge& edge : true_model_.edges) {
     const Vector3d shift = Somewhere(errors.model_m, rng), tilt = Somewhere(errors.tilt_m, rng);
-    edge.from += shift - tilt, edge.to += shift + tilt;
+    edge.from += shift - tilt;
+    edge.to += shift + tilt;
   }
   for (const int i : {0, 1}) {
     cameras_[i] = HeadCamera(0, i == 0 ? 1 : -1, kFocal_px);

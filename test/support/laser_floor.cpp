@@ -40,8 +40,10 @@ class Tracer {
         continue;
       }
       const double top = ToLevel(ray, step.height_m), front = (step.x_from - scene_.source.x()) / ray.x();
-      if (top > 0 && top < nearest && Within(step, scene_.source + top * ray))
-        nearest = top, spot = {scene_.source + top * ray, surface, step.albedo, kOnFloor_px};
+      if (top > 0 && top < nearest && Within(step, scene_.source + top * ray)) {
+        nearest = top;
+        spot = {scene_.source + top * ray, surface, step.albedo, kOnFloor_px};
+      }
       const Vector3d at = scene_.source + front * ray;
       const double above = at.z() - Floor(at);
       if (front > 0 && front < nearest && above >= 0 && above <= step.height_m && at.y() >= step.y_from &&
@@ -129,7 +131,8 @@ void DrawLine(const LaserFloor& scene, cv::Mat& grey, Rng& rng) {
                    spot->sigma_px);
       }
     }
-    last = spot, last_px = px;
+    last = spot;
+    last_px = px;
   }
 }
 

@@ -78,8 +78,10 @@ LineScene RandomRectangles(double contrast, double noise, double blur_px, Rng& r
     Rectangle r;
     r.centre = {(cell % kColumns + 0.5) * kWidth / kColumns, (cell / kColumns + 0.5) * kHeight / kRows};
     r.centre += Eigen::Vector2d(rng.Uniform(-8, 8), rng.Uniform(-8, 8));
-    r.along = {std::cos(angle), std::sin(angle)}, r.across = {-r.along.y(), r.along.x()};
-    r.half_length = rng.Uniform(30, 75), r.half_width = rng.Uniform(20, 40);
+    r.along = {std::cos(angle), std::sin(angle)};
+    r.across = {-r.along.y(), r.along.x()};
+    r.half_length = rng.Uniform(30, 75);
+    r.half_width = rng.Uniform(20, 40);
     const double step = rng.Chance(0.5) ? contrast : -contrast;
     constexpr int kReach = 90;
     for (int y = std::max(0, int(r.centre.y()) - kReach); y < std::min(kHeight, int(r.centre.y()) + kReach);
@@ -105,7 +107,7 @@ LineScene RandomRectangles(double contrast, double noise, double blur_px, Rng& r
 }
 
 void LineScorer::Add(const std::vector<TrueLine>& lines, const std::vector<head::EdgeSegment>& segments) {
-  constexpr double kNearPx = 2, kEndPx = 2, kOverlongPx = 8;
+  constexpr double kNear_px = 2, kEnd_px = 2, kOverlong_px = 8;
   std::vector<bool> used(segments.size(), false);
   for (const TrueLine& line : lines) {
     const double length = (line.end - line.begin).norm();
@@ -116,10 +118,12 @@ void LineScorer::Add(const std::vector<TrueLine>& lines, const std::vector<head:
       const double a = n.dot(s.begin - line.begin), b = n.dot(s.end - line.begin);
       double from = d.dot(s.begin - line.begin), to = d.dot(s.end - line.begin);
       if (from > to) std::swap(from, to);
-      if (std::abs(a) > kNearPx || std::abs(b) > kNearPx || to < kEndPx || from > length - kEndPx) continue;
+      if (std::abs(a) > kNear_px || std::abs(b) > kNear_px || to < kEnd_px || from > length - kEnd_px)
+        continue;
       used[i] = true;
-      n_overlong_ += from < -kOverlongPx || to > length + kOverlongPx;
-      errors_.push_back(std::abs(a)), errors_.push_back(std::abs(b));
+      n_overlong_ += from < -kOverlong_px || to > length + kOverlong_px;
+      errors_.push_back(std::abs(a));
+      errors_.push_back(std::abs(b));
       const double along = d.dot(s.centre - line.begin), error = n.dot(s.centre - line.begin);
       if (along > 0 && along < length) nees_ += error * error / (s.sigma_normal_px * s.sigma_normal_px);
       parts.emplace_back(std::max(from, 0.0), std::min(to, length));
@@ -131,11 +135,14 @@ void LineScorer::Add(const std::vector<TrueLine>& lines, const std::vector<head:
       end = std::max(end, to);
     }
     length_ += length;
-    ++n_lines_, n_found_ += !parts.empty(), n_broken_ += parts.size() > 1;
+    ++n_lines_;
+    n_found_ += !parts.empty();
+    n_broken_ += parts.size() > 1;
     n_pieces_ += static_cast<int>(parts.size());
   }
   const int n_outliers = static_cast<int>(std::count(used.begin(), used.end(), false));
-  n_false_ += n_outliers, n_segments_ += static_cast<int>(segments.size());
+  n_false_ += n_outliers;
+  n_segments_ += static_cast<int>(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) n_overlong_ += !used[i] && TouchesTwo(lines, segments[i]);
 }
 

@@ -102,8 +102,10 @@ class Sampler {
  private:
   static RendererConfig Config(const Options& options) {
     RendererConfig config;
-    config.scene.x_min_m = -0.14, config.scene.x_max_m = 10.14;
-    config.scene.y_min_m = -0.14, config.scene.y_max_m = 4.94;
+    config.scene.x_min_m = -0.14;
+    config.scene.x_max_m = 10.14;
+    config.scene.y_min_m = -0.14;
+    config.scene.y_max_m = 4.94;
     if (!options.nominal) config.head = HeadBuild::Specimen(options.seed);
     return config;
   }

@@ -79,7 +79,10 @@ void SimulatedHead::MoveTo(const HeadSetting& setting) {
 void SimulatedHead::ApproachFromBelow(const HeadSetting& setting) {
   HeadSetting below = setting;
   ForEachAngle(below, [](double& angle, int) { angle -= 0.004; });
-  for (int c = 0; c < 2; ++c) below.zoom_step[c] -= 25, below.focus_step[c] -= 25;
+  for (int c = 0; c < 2; ++c) {
+    below.zoom_step[c] -= 25;
+    below.focus_step[c] -= 25;
+  }
   MoveTo(below);
   MoveTo(setting);
 }

@@ -28,8 +28,10 @@ void AddSegment(head::EdgeImage& image, const Vector2d& a, const Vector2d& b, co
   s.centre = (a + b) / 2 + offset * n;
   const double before = length / 2 + rng.Normal(1), after = length / 2 + rng.Normal(1);
   const Vector2d along = (d + turn * n).normalized();
-  s.begin = s.centre - before * along, s.end = s.centre + after * along;
-  s.grey_left = edge.dark + rng.Normal(3), s.grey_right = edge.bright + rng.Normal(3);
+  s.begin = s.centre - before * along;
+  s.end = s.centre + after * along;
+  s.grey_left = edge.dark + rng.Normal(3);
+  s.grey_right = edge.bright + rng.Normal(3);
   image.segments.push_back(s);
 }
 
@@ -47,9 +49,11 @@ SpaceScene::Edge RandomEdge(bool only_horizontal, Rng& rng) {
   } else if (kind < 0.6) {
     direction = length * Vector3d(rng.Normal(1), rng.Normal(1), rng.Normal(1)).normalized();
   }
-  edge.from = at - direction / 2, edge.to = at + direction / 2;
+  edge.from = at - direction / 2;
+  edge.to = at + direction / 2;
   const auto dark = rng.Below(3);
-  edge.dark = kGreys[dark], edge.bright = kGreys[dark + 1 + rng.Below(3 - dark)];
+  edge.dark = kGreys[dark];
+  edge.bright = kGreys[dark + 1 + rng.Below(3 - dark)];
   // Segments run with their bright side on the right hand: either way round.
   if (rng.Chance(0.5)) std::swap(edge.from, edge.to);
   return edge;
@@ -64,7 +68,8 @@ SpaceScene::SpaceScene(const Options& options, Rng& rng) {
   cameras[2].image_from_base.col(3) = -m * Vector3d(0.25, 0, 1.32);
   for (int c = 0; c < 3; ++c) {
     head::EdgeImage& image = images[c];
-    image.width = 768, image.height = 576;
+    image.width = 768;
+    image.height = 576;
     const auto add = [&](const Vector2d& a, const Vector2d& b, const Edge& edge, int index) {
       AddSegment(image, a, b, edge, options.noise_px, rng);
       truth[c].resize(image.segments.size(), index);

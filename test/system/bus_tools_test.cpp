@@ -385,6 +385,22 @@ END
             << turned_away << " turned away\n";
 }
 
+/// Each of these would otherwise go on for ever.
+TEST_F(BusTools, ALiveVerbEndsWhenNothingCanBeWrittenAnyMore) {
+  const auto answer = Run(R"(
+    $BIN/priamos log play $SOURCE/logs/recorded/door-onboard.lcmlog --loop --bus onboard > /dev/null & player=$!
+    for verb in 'topic echo POSE' 'topic list --watch' 'link top' 'where --watch'; do
+      timeout 8 $BIN/priamos $verb --bus onboard > /dev/full; echo "$verb: full $?"
+      timeout 8 $BIN/priamos $verb --bus onboard >&-; echo "$verb: closed $?"
+      timeout 8 $BIN/priamos $verb --bus onboard | head -1 > /dev/null; echo "$verb: pipe ${PIPESTATUS[0]}"
+    done
+    kill $player; wait $player)",
+                          60);
+  for (const std::string verb : {"topic echo POSE", "topic list --watch", "link top", "where --watch"})
+    for (const char* end : {": full 2\n", ": closed 2\n", ": pipe 141\n"})
+      EXPECT_THAT(answer.text, HasSubstr(verb + end));
+}
+
 TEST_F(BusTools, DoctorNamesTheCommandThatMends) {
   const auto answer = Run("ip route del 224.0.0.0/4; $BIN/priamos doctor; echo \"exit code $?\"");
   EXPECT_THAT(answer.text, HasSubstr("BAD   multicast route"));

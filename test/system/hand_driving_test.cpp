@@ -44,7 +44,10 @@ TEST(HandDriving, LettingGoUnpluggingAndTheDeathOfTeleopStopTheWheels) {
     const Time ended = dut.now();
     if (end == "released") dut.hand.axis = {};
     if (end == "unplugged") dut.mouse_plugged = false;
-    if (end == "killed") dut.Kill("teleop", "offboard"), dut.ForgetRange();
+    if (end == "killed") {
+      dut.Kill("teleop", "offboard");
+      dut.ForgetRange();
+    }
     dut.Wait(1);
     EXPECT_LE(dut.ToStandstill(ended), 0.300);
     if (end == "killed") dut.Begin("teleop", "offboard");

@@ -78,6 +78,17 @@ TEST_F(InstallTest, TheWholeSimulatedDeploymentIsThere) {
   }
 }
 
+TEST(InstallWhileEditing, WhatAnEditorLeavesBesideAFileStaysWhereItIs) {
+  const Installation installed;
+  const auto answer = installed.InstallWhileEditing();
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(fs::exists(installed.prefix() / "share/priamos/config/sim/world.toml")) << answer.text;
+  for (const auto& entry : fs::recursive_directory_iterator(installed.prefix())) {
+    const std::string name = entry.path().filename();
+    EXPECT_FALSE(name.starts_with('.') || name.starts_with('#') || name.ends_with('~')) << entry.path();
+  }
+}
+
 TEST_F(InstallTest, EverybodyMayReadItWhateverTheUmask) {
   for (const auto& entry : fs::recursive_directory_iterator(installed_.prefix())) {
     const auto needed =

@@ -23,6 +23,19 @@ class Installation {
   ShellAnswer Install() const {
     return Build(R"(umask 077; cmake --install "$BUILD" --strip --prefix "$PREFIX")");
   }
+  /// The same while an editor has files of config/ and of the manual open.
+  ShellAnswer InstallWhileEditing() const {
+    return Build(R"(
+      for folder in config modules/cli/spy; do
+        mkdir -p "$FOLDER/edited/$folder"; cp -r "$SOURCE/$folder/." "$FOLDER/edited/$folder"
+        mount --bind "$FOLDER/edited/$folder" "$SOURCE/$folder"
+      done
+      for file in config/sim/world.toml config/robot/robot.toml config/sim/scenarios/door.toml modules/cli/spy/man1/priamos-spy.1; do
+        here=$SOURCE/${file%/*} name=${file##*/}
+        ln -s nobody@nowhere "$here/.#$name"; touch "$here/$name~" "$here/.$name.swp" "$here/#$name#" "$here/.auto.toml"
+      done
+      cmake --install "$BUILD" --prefix "$PREFIX")");
+  }
   /// For /usr, as a package is made: into package() instead of the root of the file system.
   ShellAnswer InstallForAPackage() const {
     return Build(R"(DESTDIR="$FOLDER/package" cmake --install "$BUILD" --prefix /usr)");

@@ -61,7 +61,10 @@ class SpaceMouseTest : public testing::Test {
     daemon_ = 0;
   }
   void Unplug() {
-    if (master_ >= 0) close(master_), close(slave_);
+    if (master_ >= 0) {
+      close(master_);
+      close(slave_);
+    }
     master_ = slave_ = -1;
   }
 

@@ -44,7 +44,7 @@ class ChannelTable {
  public:
   static constexpr std::size_t kMaxChannels = 62;
 
-  /// Throws std::invalid_argument with a sentence for a table that cannot be used.
+  /// Table of `channels` in this order. Throws std::invalid_argument with a sentence if it cannot be used.
   ChannelTable(std::vector<LinkChannel> channels, bool encrypted);
 
   const LinkChannel& at(std::size_t index) const { return channels_[index]; }

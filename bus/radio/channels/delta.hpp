@@ -61,7 +61,7 @@ class DeltaSender {
   void OnSent(std::uint64_t counter, std::vector<std::byte> packed) {
     sent_.Note(counter, std::move(packed));
   }
-  /// The other end acknowledged the frame with this counter.
+  /// Notes that the other end acknowledged the frame with this counter.
   void OnAcknowledged(std::uint64_t counter);
   /// The other end has lost its memory.
   void Forget();

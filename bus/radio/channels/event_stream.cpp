@@ -177,7 +177,8 @@ std::vector<EventReceiver::Event> EventReceiver::OnSegment(const EventSegment& s
     next_ = segment.number;
   }
   ack_due_ = true;
-  const int ahead = static_cast<std::int8_t>(segment.number - next_);
+  const int difference = static_cast<std::uint8_t>(segment.number - next_);
+  const int ahead = difference < 128 ? difference : difference - 256;
   if (ahead < 0) return {};  // delivered before, its acknowledgement was lost
   // The sender has an acknowledgement for everything before: this end's memory is older than that.
   if (ahead > 0 && is_begin) Advance(static_cast<std::size_t>(ahead));

@@ -69,7 +69,7 @@ class EventSender {
     bool released = false;  ///< some of it was sent, even if an urgent message cut that off
   };
 
-  /// `next`: number of the first new segment.
+  /// Empty queue of events. `next`: number of the first new segment.
   explicit EventSender(std::uint8_t next = 0) : next_(next) {}
 
   /// Queues an event; false if the queue is full or the event has more than kEventWindow segments.
@@ -90,12 +90,12 @@ class EventSender {
   Time NextPackedAt(Time now, bool fresh_first = false) const;
   /// Notes that a segment is sent; `at`: when its last byte will have left.
   void MarkSent(std::uint8_t number, Time at);
-  /// Undoes MarkSent: the frame was aborted.
+  /// Marks the segment as not sent, because its frame was aborted.
   void MarkUnsent(std::uint8_t number);
   /// Takes an acknowledgement. Returns how many events were acknowledged for the first time.
   std::size_t OnAck(const EventAck& ack, Time now, RoundTrip& round_trip);
-  /// The link is up again: every segment sent and not acknowledged is sent again at once. `forgotten`: the
-  /// receiver lost the segments that it held.
+  /// Makes every segment that was sent and not acknowledged due at once, as the link is up again.
+  /// `forgotten`: the receiver lost the segments that it held.
   void ResendAll(bool forgotten);
   void set_timeout(Duration timeout) { timeout_ = timeout; }
 
@@ -141,7 +141,8 @@ class EventReceiver {
   EventReceiver() = default;
   EventReceiver(std::uint8_t next, bool known) : next_(next), known_(known) {}
 
-  /// `sent_at`: when the segment was sent, in the receiver's clock. Returns the events that are complete now.
+  /// Takes a segment and returns the events that are complete now. `sent_at`: time of sending by the
+  /// receiver's clock.
   std::vector<Event> OnSegment(const EventSegment& segment, Time sent_at);
   /// The sender's numbering began anew.
   void Forget();

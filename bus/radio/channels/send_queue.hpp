@@ -32,9 +32,10 @@ class RateLimit {
   RateLimit(double rate_hz, int burst);
   Time next() const { return next_; }
   bool Allows(Time now) const { return now >= next_; }
-  /// `since`: when the message could have been sent, so that waiting for the line does not slow it down.
+  /// Counts a message as sent. `since`: time from which it could have been sent, so that waiting for the line
+  /// does not slow it down.
   void Use(Time since);
-  /// Undoes the Use before: the message was not sent after all.
+  /// Reverts the last Use, because the message was not sent after all.
   void Undo() {
     theoretical_ = previous_;
     next_ = previous_next_;

@@ -26,7 +26,8 @@ class FrameSplitter {
 
   explicit FrameSplitter(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-  /// After kFrame, frame() holds the bytes before the delimiter until the next call.
+  /// Takes the next byte of the stream. After kFrame, frame() holds the bytes before the delimiter until the
+  /// next call.
   Event Push(std::byte byte);
   std::span<const std::byte> frame() const { return frame_; }
   /// Whether the next byte, if it is no delimiter, is the first one of a frame.

@@ -99,9 +99,10 @@ class FrameSealer {
   FrameSealer(const FrameKeys& keys, Direction direction, FrameScope scope)
       : keys_(keys), direction_(direction), scope_(scope) {}
 
-  /// `counter` below 2^40, used once per epoch; `bundle` at most kMaxBundleBytes. The lowest bits are
-  /// enough if the receiver has accepted a counter at most 64 below this one. `echo`: counter of the newest
-  /// frame accepted from the receiver; the short frames of a direction with commands carry it.
+  /// Makes a data frame. `counter` is below 2^40 and used once per epoch; `bundle` at most kMaxBundleBytes.
+  /// The lowest bits are enough if the receiver has accepted a counter at most 64 below this one. `echo`:
+  /// counter of the newest frame accepted from the receiver; the short frames of a direction with commands
+  /// carry it.
   std::vector<std::byte> Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
                               std::span<const std::byte> bundle, std::uint64_t echo = 0) const;
   std::vector<std::byte> Seal(const Hello& hello) const;
@@ -139,13 +140,13 @@ using Opened = std::variant<DataFrame, Hello, Reject>;
 /// Checks the frames of one direction. A data frame is accepted once.
 class FrameOpener {
  public:
-  /// `direction` is that of the frames to be opened.
+  /// Opener of frames that travel in `direction`.
   FrameOpener(const FrameKeys& keys, Direction direction, FrameScope scope)
       : keys_(keys), direction_(direction), scope_(scope) {}
 
-  /// From now on data frames of `epoch` with counters above `floor` are accepted. Epoch 0: none.
+  /// Accepts from now on data frames of `epoch` with counters above `floor`. Epoch 0: no data frames.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
-  /// `encoded` is what lay between two delimiters. Exactly one code is computed per frame, so that the
+  /// Checks and decodes the bytes between two delimiters. Exactly one code is computed per frame, so that the
   /// chance of a forged data frame is 2^-32, of a hello 2^-64. `newest_sent`: the newest counter that this
   /// end has sent in the epoch. An echo of one 256 (with 2 bytes: 65536) or more below it is a wrong code.
   Opened Open(std::span<const std::byte> encoded, std::uint64_t newest_sent = 0);

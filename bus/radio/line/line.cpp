@@ -66,10 +66,10 @@ bool SharedAir::IsDeaf(int side, std::int64_t from_ns, std::int64_t to_ns) const
 
 LinePair::LinePair(const LineConfig& config, Rng rng_a, Rng rng_b, Time start)
     : air(config.half_duplex ? std::make_shared<SharedAir>(config.turnaround_s) : nullptr),
-      a_to_b(config, std::move(rng_a), start, air, 0),
-      b_to_a(config, std::move(rng_b), start, air, 1) {}
+      a_to_b(config, rng_a, start, air, 0),
+      b_to_a(config, rng_b, start, air, 1) {}
 
-Line::Line(const LineConfig& config, Rng rng, Time start) : Line(config, std::move(rng), start, nullptr, 0) {}
+Line::Line(const LineConfig& config, Rng rng, Time start) : Line(config, rng, start, nullptr, 0) {}
 
 Line::Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side)
     : config_(config),

@@ -25,7 +25,7 @@ class LossMeter {
 /// refused frames than that are forged.
 class ForgeryGuard {
  public:
-  /// `tries_per_s`: frames of the smallest size that the line can carry.
+  /// Guard with `tries_per_s`, the number of smallest frames that the line can carry [1/s].
   ForgeryGuard(double tries_per_s, Time start);
 
   /// Whether this frame may be checked; false if there were too many.

@@ -8,14 +8,17 @@ class App;
 
 namespace priamos::cli {
 
-/// `--deployment`, by default sim. What it names is found by FolderOfDeployment, once the verb runs.
+/// Adds the option `--deployment`, by default sim. What it names is found by FolderOfDeployment, once the
+/// verb runs.
 void AddDeploymentOption(CLI::App& verb, std::string& deployment);
-/// Throws ConfigError.
+/// Folder of the configuration of `deployment`. Throws ConfigError when it is not found.
 std::string FolderOfDeployment(const std::string& deployment);
 
-/// `--logs`; `what` names what is written there. Left out it stays empty, and LogRoot gives the default.
+/// Adds the option `--logs`; `what` names what is written there. Left out it stays empty, and LogRoot gives
+/// the default.
 void AddLogsOption(CLI::App& verb, std::string& log_root, const std::string& what);
-/// Throws ConfigError.
+/// Folder for logs: `log_root`, or the default one when that is empty. Throws ConfigError when there is no
+/// default.
 std::string LogRoot(const std::string& log_root);
 
 }  // namespace priamos::cli

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "bus/log/log_reader.hpp"
+#include "cli/options/channel_renames.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -28,17 +29,33 @@ std::optional<double> Number(std::string_view text) {
   return value;
 }
 
+std::set<std::string> ChannelsOf(const std::string& log) {
+  std::set<std::string> channels;
+  for (bus::LogReader reader(log); const auto event = reader.Next();) channels.insert(event->channel);
+  return channels;
+}
+
+bool IsName(const std::string& channel) {
+  return channel.find('*') == std::string::npos;
+}
+
 /// No error: one of many logs that are treated alike may lack a channel.
-void ReportAbsentChannels(const SelectionOptions& options, const std::string& log) {
-  const auto is_name = [](const std::string& channel) { return channel.find('*') == std::string::npos; };
-  if (std::none_of(options.only.begin(), options.only.end(), is_name)) return;
-  std::set<std::string> there;
-  for (bus::LogReader reader(log); const auto event = reader.Next();) there.insert(event->channel);
+void ReportAbsentChannels(const SelectionOptions& options, const std::set<std::string>& there,
+                          const std::string& log) {
   const std::vector<std::string> known(there.begin(), there.end());
   for (const std::string& name : options.only)
-    if (is_name(name) && !there.contains(name))
-      std::cerr << fmt::format("{} has no channel {}{} (priamos log info lists all)\n", log, name,
-                               NearestText(name, known));
+    if (IsName(name) && !there.contains(name))
+      std::cerr << fmt::format("{} has no channel {}{} (priamos log info lists all)\n", log,
+                               name.empty() ? "\"\"" : name, NearestText(name, known));
+}
+
+/// The log is read once more only when a channel is named.
+void CompareWithLog(const SelectionOptions& options, const bus::LogSelection& selection,
+                    const std::string& log) {
+  if (selection.rename.empty() && std::none_of(options.only.begin(), options.only.end(), IsName)) return;
+  const std::set<std::string> there = ChannelsOf(log);
+  RequireRenamesFit(selection, there, log);
+  ReportAbsentChannels(options, there, log);
 }
 
 }  // namespace
@@ -57,16 +74,11 @@ bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string
   bus::LogSelection selection;
   selection.only = options.only;
   selection.without = options.without;
-  for (const auto& pair : options.rename) {
-    const auto equals = pair.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == pair.size())
-      throw std::runtime_error(fmt::format("--rename: expected A=B, got \"{}\"", pair));
-    selection.rename[pair.substr(0, equals)] = pair.substr(equals + 1);
-  }
+  selection.rename = ParseRenames(options.rename);
   if (options.to_s >= 0 && options.to_s <= options.from_s)
     throw std::runtime_error(
         fmt::format("--to: expected more than the {} s of --from, got {}", options.from_s, options.to_s));
-  ReportAbsentChannels(options, log);
+  CompareWithLog(options, selection, log);
   const auto first = bus::LogReader(log).Next();
   if (!first) return selection;
   if (options.from_s > 0)

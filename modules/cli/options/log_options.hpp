@@ -21,20 +21,22 @@ void AddSelectionOptions(CLI::App& verb, SelectionOptions& options);
 
 /// What the options select. `log` is read for the time at which it begins. A channel asked for by name that
 /// `log` does not have is reported on standard error, with the nearest names that it has. Throws
-/// std::runtime_error with a sentence for a --rename that cannot be read.
+/// std::runtime_error with a sentence for a --rename that cannot be read or does not fit the log.
 bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string& log);
 
-/// Throws std::runtime_error when `out` exists (unless `force`), is the very file that is being read, or is
+/// Checks that `out` may be written as a new file. Throws std::runtime_error when it exists (unless `force`),
+/// is the very file that is being read, or is
 /// "-", which elsewhere means standard output.
 void RequireNewFile(const std::string& out, const std::string& in, bool force);
 
 /// A new file, or standard output when `out` is empty or "-".
 class OutputFile {
  public:
-  /// Throws std::runtime_error as RequireNewFile does, or when the file cannot be made.
+  /// Opens the output. Throws std::runtime_error as RequireNewFile does, or when the file cannot be made.
   OutputFile(const std::string& out, const std::string& in, bool force);
   std::ostream& stream();
-  /// Throws std::runtime_error when not all could be written; returns 0.
+  /// Writes what is left and closes the output; returns 0. Throws std::runtime_error when not all could be
+  /// written.
   int Close();
 
  private:

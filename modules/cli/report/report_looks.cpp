@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "cli/terminal/view_screen.hpp"
 #include "common/drawing/svg.hpp"
@@ -27,10 +30,11 @@ std::string Drawing(const landmark_view_t& view) {
   std::string svg =
       fmt::format("<svg class=\"look\" viewBox=\"0 0 {} {}\">", kPicture.width, kPicture.height);
   for (const view_edge_t& e : view.edges) {
-    if (e.kind < 0 || e.kind >= static_cast<int>(kClasses.size())) continue;
+    const auto kind = static_cast<std::uint8_t>(e.kind);  // a negative one is too large
+    if (kind >= kClasses.size()) continue;
     if (!std::isfinite(e.u1_px + e.v1_px + e.u2_px + e.v2_px)) continue;
     svg += fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
-                       kClasses[static_cast<std::size_t>(e.kind)], e.u1_px, e.v1_px, e.u2_px, e.v2_px);
+                       kClasses[kind], e.u1_px, e.v1_px, e.u2_px, e.v2_px);
   }
   return svg + "</svg>";
 }
@@ -39,10 +43,14 @@ std::string Drawing(const landmark_view_t& view) {
 
 std::string LookDrawings(const RunRecord& record) {
   std::string html;
-  for (const landmark_view_t& view : record.views)
+  std::vector<std::int64_t> looks;  // one look may show several views
+  for (const landmark_view_t& view : record.views) {
+    if (looks.empty() || looks.back() != view.request_id) looks.push_back(view.request_id);
+    const std::string title = fmt::format("look {} ({} in the log): {}", looks.size(), view.request_id,
+                                          ViewFinding(view, FixOf(record, view)));
     html += fmt::format("<figure>{}<figcaption>{}<br>{}</figcaption></figure>\n", Drawing(view),
-                        drawing::EscapeMarkup(ViewTitle(view, FixOf(record, view))),
-                        drawing::EscapeMarkup(ViewLegend(view)));
+                        drawing::EscapeMarkup(title), drawing::EscapeMarkup(ViewLegend(view)));
+  }
   return html.empty() ? html : "<div class=\"two\">" + html + "</div>\n";
 }
 

@@ -34,7 +34,7 @@ class MapView {
   /// A dot that no label covers.
   void Dot(const drawing::Layer& layer, const Eigen::Vector2d& at, double radius_px);
   void Cross(const drawing::Layer& layer, const Eigen::Vector2d& at, double radius_px);
-  /// `distance_px` from the point at least; a centred label stands on it if it can.
+  /// Writes a label at least `distance_px` [px] from the point; a centred label stands on it if it can.
   void Label(const Eigen::Vector2d& at, const std::string& text, const drawing::Font& font,
              drawing::Colour colour, double distance_px, bool centred = false);
   /// The name of an area: on it where it fits, else beside it.

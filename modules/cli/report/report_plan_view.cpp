@@ -188,7 +188,8 @@ void DrawRobots(MapView& view, const RunRecord& record, const Vector2d& size_m) 
   for (const world_truth_t& truth : record.truth) {
     if ((PositionOf(truth) - PositionOf(*drawn)).norm() < kEvery_m) continue;
     if ((PositionOf(truth) - PositionOf(*last)).norm() < kLeast_m) continue;
-    draw(*(drawn = &truth));
+    drawn = &truth;
+    draw(*drawn);
   }
   draw(*last);
 }

@@ -23,7 +23,7 @@ class RunRecord {
  public:
   RunRecord();
 
-  /// `utime` is the time of recording [us].
+  /// Adds a message of one bus. `utime` is the time of recording [us].
   void Add(Side side, std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes);
 
   // Onboard.

@@ -70,7 +70,7 @@ double MeanSpeed(const RunRecord& record) {
   return driven_m / Seconds(Duration((last - 1)->utime - first->utime));
 }
 
-/// `reports` are of the end that sends.
+/// Summary of one direction of the radio; `reports` are of the end that sends.
 RadioSummary RadioOf(const std::vector<link_status_t>& reports) {
   RadioSummary radio;
   if (reports.empty()) return radio;

@@ -82,7 +82,7 @@ struct RunInfo {
 /// An empty record gives a summary that has not passed.
 Summary Summarise(const RunRecord& record, const RunInfo& info);
 
-/// False for a drive by hand alone, which nobody judges by fixes and by how straight it met the door.
+/// Whether the run is judged by fixes and by how straight it met the door; a drive by hand alone is not.
 bool SeeksTheDoor(const Summary& summary);
 
 /// The keys of summary.json; a figure that does not exist is null.

@@ -12,13 +12,13 @@ namespace priamos::cli {
 /// Writes both buses of a run to logs and keeps what the report needs.
 class RunRecorder {
  public:
-  /// Without a folder nothing is written to disk.
+  /// Records into logs in `folder`; nothing is written to disk without a folder.
   explicit RunRecorder(const std::optional<std::string>& folder);
 
   void OnMessage(std::string_view bus, Time now, std::string_view channel, std::span<const std::byte> bytes);
   void Flush();
   const RunRecord& record() const { return record_; }
-  /// False once a log could not be written, e.g. on a full disk.
+  /// Whether all logs could be written so far; a full disk is one reason for false.
   bool good() const;
 
  private:

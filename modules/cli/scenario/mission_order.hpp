@@ -35,7 +35,7 @@ std::string_view Text(OrderOutcome outcome);
 /// those of arrival, for the two may have different clocks. Pure: time and messages are given.
 class MissionOrder {
  public:
-  /// With `to_the_end` the order is open until the mission is over, else until the planner carries it out.
+  /// Order that stays open until the planner carries it out; with `to_the_end` until the mission is over.
   MissionOrder(const mission_command_t& order, bool to_the_end) : order_(order), to_the_end_(to_the_end) {}
 
   /// A status that arrived at `now`. Returns what is new in it for a person, in words.

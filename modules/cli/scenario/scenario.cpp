@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "cli/scenario/story_registry.hpp"
+#include "common/data_folders.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -33,6 +34,20 @@ std::string StoryMeanings() {
   return fmt::format("{}", fmt::join(meanings, "; "));
 }
 
+/// "none; sim has some", for a deployment without any.
+[[noreturn]] void RefuseWithoutScenarios(const std::filesystem::path& folder, const std::string& name) {
+  std::vector<std::string> others;
+  const ProgramPlace place = ThisProgram();
+  for (const std::string& other : KnownDeployments(place))
+    if (!KnownScenarios(std::filesystem::path(FindDeployment(other, place)) / "scenarios").empty())
+      others.push_back(other);
+  const std::string next =
+      others.empty() ? "" : fmt::format("; next: --deployment {}, which has some", fmt::join(others, " or "));
+  throw ConfigError(
+      fmt::format("scenario: expected one of the deployment {}, got \"{}\": it has no scenarios{}",
+                  folder.string(), name, next));
+}
+
 }  // namespace
 
 void Scenario::Describe(Archive& a) {
@@ -55,6 +70,7 @@ void Scenario::Describe(Archive& a) {
 Scenario LoadScenario(const std::string& folder, const std::string& name) {
   const auto scenarios = std::filesystem::path(folder) / "scenarios";
   const auto known = KnownScenarios(scenarios);
+  if (known.empty()) RefuseWithoutScenarios(folder, name);
   if (std::find(known.begin(), known.end(), name) == known.end()) {
     throw ConfigError(fmt::format("{}: expected a scenario ({}), got \"{}\"{}", scenarios.string(),
                                   fmt::join(known, ", "), name, NearestText(name, known)));

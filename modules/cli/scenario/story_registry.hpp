@@ -38,7 +38,7 @@ struct StoryKind {
 /// Every story that a scenario can name.
 const std::vector<StoryKind>& Stories();
 
-/// Throws std::invalid_argument for a name that no story has; a scenario that was loaded names none of those.
+/// Story of this name. Throws std::invalid_argument for an unknown name, which no loaded scenario has.
 const StoryKind& FindStory(std::string_view name);
 
 /// The kind that a story class describes. Defined in scenario_story.hpp and instantiated by the story's own

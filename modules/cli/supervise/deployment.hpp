@@ -9,7 +9,7 @@
 
 namespace priamos::cli {
 
-/// `config/<deployment>/deployment.toml`: the processes of a robot, for `priamos up`.
+/// Contents of `config/<deployment>/deployment.toml`: the processes of a robot, for `priamos up`.
 struct Deployment {
   std::string title;
   std::string robot{bus::kDefaultRobot};  ///< its ports follow from its name

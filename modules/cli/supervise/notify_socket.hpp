@@ -16,7 +16,7 @@ class NotifySocket {
     bool ready = false, alive = false;
   };
 
-  /// Throws std::system_error.
+  /// Opens the socket. Throws std::system_error when that fails.
   NotifySocket();
   ~NotifySocket();
   NotifySocket(const NotifySocket&) = delete;

@@ -43,7 +43,7 @@ class ProcessWatch {
   /// Whether the process is stopped by a signal, as the kernel reports it.
   void SeenStopped(bool stopped, Time now);
   void Exited(const std::string& how, Time now);
-  /// From now on it is to end, and is not started again.
+  /// Orders that the process ends and is not started again.
   void Stop() { stopping_ = true; }
 
   ProcessState state() const { return state_; }

@@ -19,7 +19,7 @@ inline constexpr const char* kSupervisorRole = "supervisor";
 /// alarms of its buses meanwhile.
 class RobotOwner {
  public:
-  /// Called with one line for each alarm.
+  /// Function that is called with one line of text for each alarm.
   using Announce = std::function<void(const std::string&)>;
 
   /// Asks for 0.3 s on every bus on which `deployment` starts a process. Throws BusError that names who has

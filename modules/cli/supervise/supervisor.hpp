@@ -42,7 +42,7 @@ struct ProcessReport {
 /// so nothing is ever orphaned. Used by one thread; that thread must be the one that ends last.
 class Supervisor {
  public:
-  /// Called with a sentence for each change that a person should know of.
+  /// Function that is called with a sentence for each change that a person should know of.
   using Announce = std::function<void(const std::string& sentence)>;
 
   /// Each process writes to `output_folder`/NAME.txt. Throws std::invalid_argument when a name in `after`
@@ -53,7 +53,7 @@ class Supervisor {
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// Becomes readable when a process has sent a notification.
+  /// File descriptor that becomes readable when a process has sent a notification.
   int fd() const { return notify_.fd(); }
   /// Checks all processes once; call it whenever fd() is readable, and every 50 ms.
   void Step(Time now);

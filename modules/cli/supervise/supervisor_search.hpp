@@ -16,7 +16,7 @@ struct FoundSupervisor {
 /// computer has no route for multicast.
 std::optional<FoundSupervisor> FindSupervisor(const std::string& robot);
 
-/// For a person: where it is, and what to type.
+/// Text for a person: where the supervisor runs, and what to type.
 std::string Describe(const FoundSupervisor& found, const std::string& robot);
 
 }  // namespace priamos::cli

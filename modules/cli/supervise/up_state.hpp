@@ -16,7 +16,8 @@ namespace priamos::cli {
 /// `up` per folder: a lock shows whether one runs, so a dead one is never taken for alive.
 class UpLock {
  public:
-  /// Throws std::runtime_error with one sentence when another `up` has the folder, or it cannot be written.
+  /// Takes the lock of the log folder `log_root`. Throws std::runtime_error with one sentence when another
+  /// `up` has the folder, or it cannot be written.
   explicit UpLock(const std::string& log_root);
   ~UpLock();
   UpLock(const UpLock&) = delete;
@@ -44,11 +45,11 @@ struct UpState {
   std::vector<std::string> alarms;  ///< heard on the buses, newest last
 };
 
-/// As it is written to up.json.
+/// State in the form in which up.json holds it.
 nlohmann::ordered_json ToJson(const UpState& state);
 
 void WriteUpState(const std::string& log_root, const UpState& state);
-/// nullopt when there is none that can be read.
+/// State in the up.json of a log folder; nullopt when there is none that can be read.
 std::optional<UpState> ReadUpState(const std::string& log_root);
 /// The table of `priamos status`, and below it why processes last ended. With a size, lines fit its width.
 std::string FormatUpState(const UpState& state, std::optional<ScreenSize> size);

@@ -15,13 +15,13 @@ namespace priamos::cli {
 /// when what it waits for does not come.
 class BusSession {
  public:
-  /// `who` is the verb, "priamos where". `channel`: what is waited for.
+  /// Session of the verb `who`, e.g. "priamos where". `channel`: what is waited for.
   BusSession(std::string who, const BusOptions& options, std::string_view channel);
 
   bus::Node& node() { return node_; }
   const bus::Schema& schema() const { return schema_; }
   Time now() const { return clock_.Now(); }
-  /// Something came: there is no silence to explain.
+  /// Notes that a message came, so that there is no silence to explain.
   void Heard() { silence_.Heard(); }
 
   /// Listens until `until`, a signal or `done`; calls `every` ten times a second.

@@ -22,7 +22,7 @@ const bus::Field& Find(const bus::Struct& type, const std::string& name) {
                                       type.full_name, name, NearestText(name, known), type.name));
 }
 
-/// `[0] to [23]`: what may stand behind a field at one of its dimensions.
+/// Text of what may stand behind a field at one of its dimensions: `[0] to [23]`.
 std::string Indices(const bus::Dimension& dimension) {
   return dimension.variable ? "a whole number in brackets like [0]"
                             : fmt::format("[0] to [{}]", dimension.size - 1);
@@ -38,7 +38,8 @@ std::string Indices(const bus::Dimension& dimension) {
       fmt::format("field {}: bad index behind {}: expected {}, got \"{}\"", path, field.name, expected, got));
 }
 
-/// `[3]` or `[3][0]` behind the name of `field`, appended to `pointer`. Throws MessageError.
+/// Appends indices, `[3]` or `[3][0]`, behind the name of `field`, appended to `pointer`. Throws
+/// MessageError.
 void AppendIndices(std::string_view text, const std::string& path, const bus::Field& field,
                    bus::Json::json_pointer& pointer) {
   for (std::size_t depth = 0; !text.empty(); ++depth) {

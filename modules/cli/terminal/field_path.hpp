@@ -10,11 +10,12 @@ namespace priamos::cli {
 /// A field of a message as a person names it: `x_m`, `ranges_m[3]`, `channels[0].bytes`.
 class FieldPath {
  public:
-  /// Throws MessageError that names the part which `type` does not have, and the nearest one it has.
+  /// Path `text` to a field of messages of `type`. Throws MessageError that names the part which `type` does
+  /// not have, and the nearest one it has.
   FieldPath(const bus::Struct& type, const std::string& text);
 
   const std::string& text() const { return text_; }
-  /// Its value in a message of that type; null when an array of this message is too short.
+  /// Value of the field in a message of the type; null when an array of this message is too short.
   bus::Json In(const bus::Json& message) const;
 
  private:

@@ -21,7 +21,7 @@ class LinkTopView {
   /// The screen as lines of text. With a size they fit: columns of the table go by worth, then the lines on
   /// quality, then channels, which are counted. Before the first report it shows what is missing.
   std::string Render(Time now, std::optional<ScreenSize> size) const;
-  /// The same content as JSON.
+  /// Content of the screen as JSON.
   nlohmann::ordered_json Json(Time now) const;
   bool empty() const { return !last_.has_value(); }
   /// Every channel was reported twice: its rates are known.

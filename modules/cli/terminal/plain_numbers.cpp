@@ -10,7 +10,7 @@
 namespace priamos::cli {
 namespace {
 
-/// Of a product or a sum, relative to the number.
+/// Rounding error of a product or a sum, relative to its value.
 constexpr double kRoundingError = 4 * std::numeric_limits<double>::epsilon();
 
 double Plain(double value) {

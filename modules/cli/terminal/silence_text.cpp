@@ -23,7 +23,7 @@ std::string Rate(const BusSound::Channel& channel) {
   return channel.rate_hz > 0 ? fmt::format("{:.1f} Hz", channel.rate_hz) : "now and then";
 }
 
-/// Of what is heard if something is near, else of what there can be.
+/// Names of channels near to `channel`: of what is heard if something is near, else of what there can be.
 std::string Nearest(const std::string& channel, const BusSound& here, const std::vector<std::string>& known) {
   std::vector<std::string> heard;
   for (const auto& c : here.channels) heard.push_back(c.name);

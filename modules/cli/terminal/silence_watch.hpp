@@ -17,16 +17,16 @@ std::vector<std::string> ChannelNames(bool events);
 /// patience is over, then writes one sentence to standard error, once.
 class SilenceWatch {
  public:
-  /// `who` is the verb, "priamos topic echo". `channel`: what is waited for; empty: anything.
+  /// Watch for the verb `who`, e.g. "priamos topic echo". `channel`: what is waited for; empty: anything.
   SilenceWatch(std::string who, const BusOptions& options, std::string channel, Time now,
                Duration patience = std::chrono::seconds(1));
   ~SilenceWatch();
   SilenceWatch(const SilenceWatch&) = delete;
   SilenceWatch& operator=(const SilenceWatch&) = delete;
 
-  /// Something came: there is nothing to explain.
+  /// Notes that a message came, so that there is no silence to explain.
   void Heard();
-  /// To be called often.
+  /// Listens, and writes the sentence when the patience is over. Call it often.
   void Step(Time now);
   /// Writes the sentence now if nothing came.
   void Explain(Time now);

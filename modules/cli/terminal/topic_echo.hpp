@@ -6,7 +6,7 @@ class App;
 
 namespace priamos::cli {
 
-/// `topic echo CHANNEL [FIELD...]`.
+/// Adds the verb `topic echo CHANNEL [FIELD...]`.
 void AddTopicEchoVerb(CLI::App& topic, int& exit_code);
 
 }  // namespace priamos::cli

@@ -31,7 +31,7 @@ class TopicStatistics {
   static constexpr std::size_t kMaxChannels = 1000;  ///< what comes on further ones is counted in kOthers
   static constexpr std::string_view kOthers = "(other channels)";
 
-  /// `schema` must outlive this.
+  /// Statistics over the last `window`; `schema` must outlive them.
   TopicStatistics(const bus::Schema& schema, Duration window) : schema_(schema), window_(window) {}
 
   void Add(Time now, std::string_view channel, std::span<const std::byte> bytes);

@@ -71,7 +71,11 @@ std::string FloorText(const obstacle_line_t& line, double age_s, int columns) {
 }
 
 std::string ViewTitle(const landmark_view_t& view, const landmark_fix_t* fix) {
-  std::string text = fmt::format("look {}: landmark {}{}: {}", view.request_id, view.landmark_id,
+  return fmt::format("look {}: {}", view.request_id, ViewFinding(view, fix));
+}
+
+std::string ViewFinding(const landmark_view_t& view, const landmark_fix_t* fix) {
+  std::string text = fmt::format("landmark {}{}: {}", view.landmark_id,
                                  kSides[static_cast<std::size_t>(std::clamp<int>(view.side, 0, 2))],
                                  view.verdict == landmark_fix_t::FOUND
                                      ? "FOUND"

@@ -30,12 +30,14 @@ class ViewScreen {
   std::optional<obstacle_line_t> line_;
 };
 
-/// In one line: which landmark, found or why not, and how well if the fix of the same look is known.
+/// Title of a view in one line: the look, by its number on the bus, and its finding.
 std::string ViewTitle(const landmark_view_t& view, const landmark_fix_t* fix);
+/// Which landmark, found or why not, and how well if the fix of the same look is known.
+std::string ViewFinding(const landmark_view_t& view, const landmark_fix_t* fix);
 /// What the laser's line shows, in words and as a strip from 1 m left to 1 m right; lines of at most
 /// `columns`.
 std::string FloorText(const obstacle_line_t& line, double age_s, int columns);
-/// In one line: camera and number of edges of each kind.
+/// Legend of a view in one line: camera and number of edges of each kind.
 std::string ViewLegend(const landmark_view_t& view);
 /// The edges of the picture.
 Braille DrawView(const landmark_view_t& view, ScreenSize size);

@@ -22,7 +22,7 @@ struct Whereabouts {
 /// limits it, the mission. Ages are against `now`, the clock of this machine.
 std::string WhereText(const Whereabouts& where, Time now);
 
-/// The same as JSON; what was not heard is null.
+/// Pose, motion and mission as JSON; what was not heard is null.
 nlohmann::ordered_json WhereJson(const Whereabouts& where, Time now);
 
 }  // namespace priamos::cli

@@ -8,7 +8,7 @@ namespace priamos::cli {
 /// largest size on LCM and packed for the radio. lcmtypes/README.md holds it; a test compares.
 std::string ChannelTable();
 
-/// The same as a JSON array.
+/// Every channel of lcmtypes/channels.hpp as a JSON array, with the columns of ChannelTable.
 std::string ChannelsAsJson();
 
 }  // namespace priamos::cli

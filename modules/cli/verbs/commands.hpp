@@ -23,12 +23,12 @@ void AddLinkCommand(CLI::App& cli, int& exit_code);
 void AddViewCommand(CLI::App& cli, int& exit_code);
 void AddUpCommands(CLI::App& cli, int& exit_code);  ///< up, down, status, logs
 void AddHelpCommand(CLI::App& cli, int& exit_code);
-/// After all others: it completes their names.
+/// Adds the verb that completes names of verbs; called after the functions of all verbs that it completes.
 void AddCompletionCommand(CLI::App& cli, int& exit_code);
-/// After all others: it describes them.
+/// Adds the verb that prints the manual; called after the functions of all verbs that it describes.
 void AddManualCommand(CLI::App& cli, int& exit_code);
 
-/// All of them.
+/// Adds all verbs of `priamos`.
 void AddCommands(CLI::App& cli, int& exit_code);
 
 }  // namespace priamos::cli

@@ -9,7 +9,7 @@ namespace priamos::cli {
 
 /// One thing PRIAMOS needs of a machine, as it was found.
 struct Finding {
-  /// kNotNeededYet: missing, and only some verbs need it.
+  /// Result of one check; kNotNeededYet: missing, and only some verbs need it.
   enum class Verdict { kGood, kNotNeededYet, kBad };
   std::string what;  ///< "multicast route"
   Verdict verdict = Verdict::kGood;

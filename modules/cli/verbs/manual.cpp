@@ -21,7 +21,7 @@ std::vector<const CLI::App*> VisibleVerbs(const CLI::App& app) {
   return verbs;
 }
 
-/// `[OPTION...] log [out]`
+/// Options and arguments of a verb as a line, e.g. `[OPTION...] log [out]`.
 std::string Usage(const CLI::App& app) {
   std::string usage = "[OPTION...]";
   for (const auto* option : app.get_options()) {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -12,6 +12,7 @@
 #include "bus/schema/json.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/udp_receiver.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/terminal/silence_watch.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "cli/terminal/topic_echo.hpp"
@@ -76,7 +77,7 @@ void PrintJson(const std::vector<TopicRow>& rows, const bus::LcmBus& bus) {
             << std::endl;
 }
 
-/// `list`, and with a channel `hz` and `bw`: the same table of all or of one.
+/// Verb `list`, and with a channel `hz` and `bw`: a table of all channels or of one.
 int List(const TopicOptions& options, const std::string& verb) {
   const bus::Schema schema = LoadTypes(options);
   const bus::MonotonicClock clock;
@@ -153,19 +154,21 @@ int PrintUrl(const TopicOptions& options) {
   return 0;
 }
 
-CLI::App* AddVerb(CLI::App& topic, const char* name, const char* help, const char* example,
-                  TopicOptions& options) {
-  auto* verb = topic.add_subcommand(name, help);
+/// Adds a verb of `topic`. `options` are the verb's own: CLI11 fills in what $PRIAMOS_BUS says for every verb
+/// that was not typed, and would overwrite the --bus of the one that was.
+CLI::App* AddTopicVerb(CLI::App& topic, const char* name, const char* help, const char* example,
+                       TopicOptions& options) {
+  auto* verb = AddVerb(topic, name, help);
   verb->footer(std::string("Example: ") + example);
   AddBusOption(*verb, options);
   AddTypesOption(*verb, options);
   return verb;
 }
 
-void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_channel,
-                  const std::shared_ptr<TopicOptions>& options, int& exit_code) {
+void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_channel, int& exit_code) {
+  auto options = std::make_shared<TopicOptions>();
   const std::string example = fmt::format("priamos topic {} {}", name, one_channel ? "POSE" : "--watch");
-  auto* verb = AddVerb(topic, name, help, example.c_str(), *options);
+  auto* verb = AddTopicVerb(topic, name, help, example.c_str(), *options);
   if (one_channel) AddChannelArgument(*verb, options->channel);
   verb->add_option("--seconds", options->seconds, "how long to listen")
       ->capture_default_str()
@@ -175,31 +178,38 @@ void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_
   verb->callback([options, &exit_code, name] { exit_code = List(*options, name); });
 }
 
+void AddUrlVerb(CLI::App& topic, int& exit_code) {
+  auto options = std::make_shared<TopicOptions>();
+  auto* verb = AddTopicVerb(topic, "url", "Print the URL of a bus, for LCM's own programs.",
+                            "priamos topic url --bus onboard", *options);
+  verb->add_flag("--json", options->json, "machine-readable");
+  verb->callback([options, &exit_code] { exit_code = PrintUrl(*options); });
+}
+
+void AddPubVerb(CLI::App& topic, int& exit_code) {
+  auto options = std::make_shared<TopicOptions>();
+  auto* verb = AddTopicVerb(topic, "pub", "Send one message, given as JSON.",
+                            "priamos topic pub LINK_REQUEST link_request_t "
+                            "'{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":5}'",
+                            *options);
+  AddChannelArgument(*verb, options->channel);
+  verb->add_option("type", options->type, "message type")->required();
+  verb->add_option("message", options->message, "the message as JSON")->required();
+  verb->add_flag("--json", options->json, "print what was sent as JSON");
+  verb->callback([options, &exit_code] { exit_code = Pub(*options); });
+}
+
 }  // namespace
 
 void AddTopicCommand(CLI::App& cli, int& exit_code) {
-  auto options = std::make_shared<TopicOptions>();
-  auto* topic =
-      cli.add_subcommand("topic", "See and send what is on a bus, of any type, without compiling it.");
+  auto* topic = AddVerb(cli, "topic", "See and send what is on a bus, of any type, without compiling it.");
   topic->require_subcommand(1);
-  AddTableVerb(*topic, "list", "Every channel: type, rate, jitter, bandwidth, age.", false, options,
-               exit_code);
-  AddTableVerb(*topic, "hz", "Rate and jitter of one channel.", true, options, exit_code);
-  AddTableVerb(*topic, "bw", "Bandwidth of one channel.", true, options, exit_code);
+  AddTableVerb(*topic, "list", "Every channel: type, rate, jitter, bandwidth, age.", false, exit_code);
+  AddTableVerb(*topic, "hz", "Rate and jitter of one channel.", true, exit_code);
+  AddTableVerb(*topic, "bw", "Bandwidth of one channel.", true, exit_code);
   AddTopicEchoVerb(*topic, exit_code);
-  auto* url = AddVerb(*topic, "url", "Print the URL of a bus, for LCM's own programs.",
-                      "priamos topic url --bus onboard", *options);
-  url->add_flag("--json", options->json, "machine-readable");
-  url->callback([options, &exit_code] { exit_code = PrintUrl(*options); });
-  auto* pub = AddVerb(*topic, "pub", "Send one message, given as JSON.",
-                      "priamos topic pub LINK_REQUEST link_request_t "
-                      "'{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":5}'",
-                      *options);
-  AddChannelArgument(*pub, options->channel);
-  pub->add_option("type", options->type, "message type")->required();
-  pub->add_option("message", options->message, "the message as JSON")->required();
-  pub->add_flag("--json", options->json, "print what was sent as JSON");
-  pub->callback([options, &exit_code] { exit_code = Pub(*options); });
+  AddUrlVerb(*topic, exit_code);
+  AddPubVerb(*topic, exit_code);
 }
 
 }  // namespace priamos::cli

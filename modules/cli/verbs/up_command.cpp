@@ -6,7 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -22,6 +22,7 @@
 #include "bus/schema/schema.hpp"
 #include "bus/wire/multicast.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/supervise/deployment.hpp"
 #include "cli/supervise/robot_owner.hpp"
 #include "cli/supervise/supervisor.hpp"
@@ -57,7 +58,7 @@ std::string MakeRunFolder(const UpOptions& options) {
   return fs::absolute(folder).string();
 }
 
-/// `priamos up` in the foreground.
+/// Run of `priamos up` in the foreground.
 class UpRun {
  public:
   UpRun(const UpOptions& options, const std::string& folder, const Deployment& deployment)
@@ -129,7 +130,8 @@ class UpRun {
   Supervisor supervisor_;
 };
 
-/// Throws, before any process is started, if there is no route for multicast, without which none can run.
+/// Checks the buses before any process is started: throws if there is no route for multicast, without which
+/// none can run.
 void RequireBuses(const Deployment& deployment) {
   if (deployment.group != "offboard") bus::RequireMulticastRoute(deployment.OnboardUrl());
   if (deployment.group != "onboard") bus::RequireMulticastRoute(deployment.OffboardUrl());
@@ -148,7 +150,7 @@ bool HasAlarm(const UpState& state) {
   return std::any_of(state.processes.begin(), state.processes.end(), [](const auto& p) { return p.alarm; });
 }
 
-/// `: onboard-robot: exit code 2: ...` for the first process that ended.
+/// Reason of the first process that ended, as `: onboard-robot: exit code 2: ...`; empty if there is none.
 std::string Reasons(const std::optional<UpState>& state) {
   if (!state) return "";
   for (const ProcessReport& p : state->processes)
@@ -201,8 +203,7 @@ int UpDetached(const UpOptions& options) {
 
 void AddUpCommands(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<UpOptions>();
-  auto* up =
-      cli.add_subcommand("up", "Start the processes of a deployment, and start again what dies or hangs.");
+  auto* up = AddVerb(cli, "up", "Start the processes of a deployment, and start again what dies or hangs.");
   up->footer("Example: priamos up sim, Ctrl-C ends it; or priamos up sim --detach, later priamos down");
   up->add_option("deployment", options->deployment,
                  "sim, robot, or a folder with a deployment.toml, with a slash")

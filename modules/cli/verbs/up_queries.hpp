@@ -10,14 +10,14 @@ class App;
 
 namespace priamos::cli {
 
-/// `down`, `status` and `logs`: what one asks of a deployment that is up.
+/// Adds the verbs `down`, `status` and `logs`: what one asks of a deployment that is up.
 void AddUpQueries(CLI::App& cli, int& exit_code);
 
-/// `--logs`, the folder in which the state of an `up` is; left out it becomes the default one when the
-/// command line was read. `log_root` must outlive `verb`.
+/// Adds the option `--logs`, the folder in which the state of an `up` is; left out it becomes the default one
+/// when the command line was read. `log_root` must outlive `verb`.
 void AddUpLogsOption(CLI::App& verb, std::string& log_root);
 
-/// As a table, or as JSON, to standard output.
+/// Prints the state of a deployment to standard output, as a table or as JSON.
 void Show(const UpState& state, bool json);
 
 }  // namespace priamos::cli

@@ -7,10 +7,10 @@ namespace priamos::drawing {
 namespace {
 
 /// Far outside every page, and far inside what a painter can hold.
-constexpr double kFarPx = 1e5;
+constexpr double kFar_px = 1e5;
 
 bool Drawable(const Eigen::Vector2d& point) {
-  return point.allFinite() && point.cwiseAbs().maxCoeff() < kFarPx;
+  return point.allFinite() && point.cwiseAbs().maxCoeff() < kFar_px;
 }
 
 bool Drawable(const Path& path) {
@@ -18,7 +18,7 @@ bool Drawable(const Path& path) {
          std::all_of(path.points.begin(), path.points.end(), [](const auto& p) { return Drawable(p); });
 }
 bool Drawable(const Circle& circle) {
-  return Drawable(circle.centre) && std::isfinite(circle.radius) && circle.radius < kFarPx;
+  return Drawable(circle.centre) && std::isfinite(circle.radius) && circle.radius < kFar_px;
 }
 bool Drawable(const Text& text) {
   return Drawable(text.at) && !text.text.empty();

@@ -26,7 +26,7 @@ json ToJson(const CalibrationExposure& exposure) {
           {"zoom_step", s.zoom_step}, {"focus_step", s.focus_step}, {"discs", cameras}};
 }
 
-/// Throws json::exception or std::out_of_range for what is no such line.
+/// Exposure in a line of the journal. Throws json::exception or std::out_of_range for what is no such line.
 CalibrationExposure FromJson(const json& line, int discs) {
   CalibrationExposure exposure;
   HeadSetting& s = exposure.setting;

@@ -27,15 +27,15 @@ struct CalibrationExposure {
 /// begins anew.
 class CalibrationJournal {
  public:
-  /// `fingerprint` stands for everything that must not change between two runs.
+  /// Journal in the file `path`; `fingerprint` stands for everything that must not change between two runs.
   CalibrationJournal(std::string path, std::string fingerprint, int discs);
 
   /// The finished settings of the run before, in order; a line that was cut off ends them. Rewrites the file
   /// to just these, so that Add can go on. Throws std::runtime_error if it cannot be written.
   std::vector<CalibrationExposure> Resume();
-  /// Throws std::runtime_error if the line cannot be written.
+  /// Adds a finished setting. Throws std::runtime_error if its line cannot be written.
   void Add(const CalibrationExposure& exposure);
-  /// The calibration is complete.
+  /// Removes the file, because the calibration is complete.
   void Remove();
 
  private:

@@ -26,9 +26,9 @@ struct LaserPictures {
   void Describe(Archive& a);
 };
 
-/// `priamos calibrate --laser PICTURES --table TABLE`: reads pictures and table, fits the plane of light,
-/// writes it into the table (as a whole or not at all; to `output` if that is not empty) and describes it as
-/// JSON. Throws ConfigError with one sentence; then no file has changed.
+/// Work of `priamos calibrate --laser PICTURES --table TABLE`: reads pictures and table, fits the plane of
+/// light, writes it into the table (as a whole or not at all; to `output` if that is not empty) and describes
+/// it as JSON. Throws ConfigError with one sentence; then no file has changed.
 std::string CalibrateLaserFromFiles(const std::string& pictures, const std::string& table,
                                     const std::string& output);
 

@@ -30,7 +30,7 @@ cv::FileStorage Open(const std::string& file) {
   Fail(file, "expected a camera as YAML (first line %YAML:1.0), got none");
 }
 
-/// `key`.data; none where `key` holds something else than a matrix.
+/// Node `key`.data of a file; none where `key` holds something else than a matrix.
 cv::FileNode DataOf(const cv::FileStorage& storage, const char* key) {
   const cv::FileNode node = storage[key];
   return node.isMap() ? node["data"] : cv::FileNode();

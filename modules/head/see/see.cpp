@@ -16,7 +16,7 @@
 namespace priamos::head {
 namespace {
 
-/// As the name of the list: whoever asked prints it.
+/// Name of the list that stands for no file: whoever asked prints the list.
 constexpr std::string_view kNoFile = "-";
 
 /// All that `options` ask for.

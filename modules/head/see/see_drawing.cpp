@@ -19,7 +19,7 @@ constexpr Layer kCorner{"corner", "corner", {.line = Colour{0xff4040}, .width = 
 constexpr Layer kUnmatched{"unmatched", "edge without a match", {.line = Colour{0x969696}, .width = 0.8}};
 constexpr Layer kAlong{"epipolar", "matched, distance unknown", {.line = Colour{0xffffff}, .width = 1.6}};
 
-/// What lies nearer than `up_to_m`, and farther than the one before.
+/// Class of distances below `up_to_m` [m] that are not in the class before.
 struct DistanceClass {
   double up_to_m;
   Layer layer;
@@ -33,7 +33,7 @@ constexpr std::array<DistanceClass, 6> kDistances{{
     {INFINITY, {"beyond-8m", "farther than 8 m", {.line = Colour{0x5080ff}, .width = 1.6}}},
 }};
 
-/// A door shows at a glance.
+/// Layer of a segment by its direction in the image, so that a door is seen at a glance.
 const Layer& LayerOf(const EdgeSegment& segment) {
   const Eigen::Vector2d d = segment.direction().cwiseAbs();
   constexpr double kNearlyAxis = 0.1;
@@ -41,7 +41,7 @@ const Layer& LayerOf(const EdgeSegment& segment) {
   return d.y() < kNearlyAxis ? kLevel : kOther;
 }
 
-/// Infinite where nobody knows it.
+/// Depth [m] of the middle of a matched edge before a camera; infinite if it is not known.
 double DepthOf(const StereoMatch& match, const CameraModel& camera) {
   if (!match.space) return INFINITY;
   return MetricDepth(camera, 0.5 * (match.space->from + match.space->to));

@@ -17,7 +17,7 @@ SeePage DrawLandmark(const cv::Mat& grey, std::span<const CameraView> views, con
 /// Verdict, and if it was found pose, standard deviations and matches.
 nlohmann::ordered_json LandmarkToJson(std::span<const CameraView> views, const FreeModelFix& fix);
 
-/// x, y, z [m], roll, pitch, yaw [deg] about fixed axes, in the frame that the cameras share. Throws
+/// Pose of x, y, z [m], roll, pitch, yaw [deg] about fixed axes, in the frame that the cameras share. Throws
 /// std::runtime_error unless these are six finite numbers.
 Eigen::Isometry3d PoseFromSix(const std::vector<double>& numbers);
 std::array<double, 6> SixFromPose(const Eigen::Isometry3d& pose);

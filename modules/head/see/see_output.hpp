@@ -39,8 +39,8 @@ class SeeOutput {
   std::vector<std::pair<std::string, std::string>> finished_;  ///< file and bytes
 };
 
-/// Throws std::runtime_error when `file` may not be written: it is one of `inputs`, or, unless `force`,
-/// there.
+/// Checks that `file` may be written. Throws std::runtime_error when it is one of `inputs`, or, unless
+/// `force`, there.
 void RefuseToReplace(const std::filesystem::path& file, const std::vector<std::string>& inputs, bool force);
 
 /// Writes a file as a whole. Throws std::runtime_error naming it and the reason when that fails.

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 constexpr drawing::Colour kPaper{0x22282e}, kInk{0xf4f4f4};
 constexpr drawing::Layer kLabels{"label", ""};
 constexpr double kThinnest_px = 0.8, kSmallestText_px = 11;
-/// Of the page's width: read also on a telephone.
+/// Size of text as a share of the page's width, so that it can be read on a telephone.
 constexpr double kTextShare = 0.024;
 
 double WidthOf(std::span<const cv::Mat> greys) {

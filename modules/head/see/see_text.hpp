@@ -9,7 +9,7 @@ namespace priamos::head {
 
 /// What was found, in lines for a person. `drawing` is the file where it is drawn.
 
-/// Of one image: how many segments, corners and parallelograms, and why nothing can be seen if so.
+/// Findings in one image: how many segments, corners and parallelograms, and why nothing can be seen if so.
 std::string EdgesText(const SeenPhotograph& photograph, const std::string& drawing);
 
 /// How many edges two or three images have in common, and how many of them have a place in space.

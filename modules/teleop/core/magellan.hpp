@@ -30,7 +30,7 @@ struct MagellanPacket {
 /// Cuts a stream into packets. Bytes that are no packet are skipped and counted.
 class MagellanParser {
  public:
-  /// nullopt until a packet ends with `byte`.
+  /// Takes the next byte; returns the packet that ends with it, nullopt if none does.
   std::optional<MagellanPacket> Add(char byte);
   int skipped() const { return skipped_; }
 

@@ -11,7 +11,7 @@ constexpr Duration kStopAgain = std::chrono::seconds(1);
 /// The robot keeps a lease for some seconds after the last command; within this it surely still has ours.
 constexpr Duration kSurelyKept = std::chrono::milliseconds(1500);
 
-/// Of the full deflection.
+/// Change of a wish that counts as a jump, as a share of the wish at full deflection.
 constexpr double kJump = 0.15;
 
 double Deflection(const Stick& stick, const AxisUse& use) {

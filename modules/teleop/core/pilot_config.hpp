@@ -16,7 +16,8 @@ struct AxisUse {
   void Describe(Archive& a);
 };
 
-/// From deflection to wish: nothing inside the dead band, then a straight line blended with a cubic one.
+/// Curve from deflection to wish: nothing inside the dead band, then a straight line blended with a cubic
+/// one.
 struct AxisShape {
   double dead_band = 0.08;  ///< share of the full deflection
   double expo = 0.4;        ///< 0 straight, 1 purely cubic: fine near the middle

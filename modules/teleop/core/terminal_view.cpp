@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kHalfBar = 20;
 
-/// `-------####|----------`: the bar grows from the middle, to the left for negative values.
+/// Bar of characters, `.......####|..........`: it grows from the middle, to the left for negative values.
 std::string Bar(double value) {
   std::string bar(2 * kHalfBar + 1, '.');
   bar[kHalfBar] = '|';

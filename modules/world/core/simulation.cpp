@@ -7,17 +7,17 @@
 namespace priamos::world {
 namespace {
 
-constexpr double kGapLimitM = 10;
+constexpr double kGapLimit_m = 10;
 /// A touch begins below half a millimetre and ends beyond a centimetre.
-constexpr double kContactBeginM = 0.0005, kContactEndM = 0.01;
+constexpr double kContactBegin_m = 0.0005, kContactEnd_m = 0.01;
 /// What is lower is rolled over.
-constexpr double kFloorClearanceM = 0.02;
-constexpr double kSonarHalfBandM = 0.05;
+constexpr double kFloorClearance_m = 0.02;
+constexpr double kSonarHalfBand_m = 0.05;
 
 }  // namespace
 
 Body BodyOf(const RobotModel& model) {
-  return {{model.length_m, model.width_m}, kFloorClearanceM, model.height_m};
+  return {{model.length_m, model.width_m}, kFloorClearance_m, model.height_m};
 }
 
 void RobotModel::Describe(Archive& a) {
@@ -37,14 +37,14 @@ Simulation::Simulation(const RobotModel& model, const std::vector<Solid>& solids
       drive_(model.drive, Rng::Stream(seed, "encoders")),
       base_(model.base, Rng::Stream(seed, "wheels")),
       ring_(model.sonar, body_.size_m,
-            AcousticScene(solids, model.sonar.height_m, kSonarHalfBandM, model.sonar.materials),
+            AcousticScene(solids, model.sonar.height_m, kSonarHalfBand_m, model.sonar.materials),
             Rng::Stream(seed, "sonar")),
       motors_(model.head_motors, Rng::Stream(seed, "head motors")),
       cameras_(cameras),
       clearance_(body_, solids),
-      contacts_(kContactBeginM, kContactEndM),
+      contacts_(kContactBegin_m, kContactEnd_m),
       pose_(start) {
-  gap_m_ = clearance_.Gap(pose_, kGapLimitM);
+  gap_m_ = clearance_.Gap(pose_, kGapLimit_m);
   if (gap_m_ <= 0) throw std::invalid_argument("the robot starts inside a solid");
   contacts_.Update(gap_m_);
 }
@@ -74,7 +74,7 @@ void Simulation::Step() {
   ExposeUntil(end, from);
   now_ = end;
   // A motion changes the gap by at most its length, so nothing farther needs to be examined.
-  gap_m_ = clearance_.Gap(pose_, std::min(kGapLimitM, gap_m_ + Reach(Seconds(kStep))));
+  gap_m_ = clearance_.Gap(pose_, std::min(kGapLimit_m, gap_m_ + Reach(Seconds(kStep))));
   contacts_.Update(gap_m_);
   SampleDevices();
 }

@@ -31,7 +31,7 @@ struct RobotModel {
   void Describe(Archive& a);
 };
 
-/// What of it can touch things.
+/// Body of a robot that can touch things: a rectangle between two heights.
 Body BodyOf(const RobotModel& model);
 
 /// The encoders at one time.
@@ -53,7 +53,7 @@ struct HeadSample {
   bool moving;
 };
 
-/// What really happens.
+/// True state of the robot at one time: pose, velocity, distances to solids, head.
 struct Truth {
   Time time;
   Pose2 map_from_base;
@@ -74,7 +74,8 @@ class Simulation {
   /// then.
   static constexpr Duration kMaxAdvance{500000};
 
-  /// `cameras` must outlive it. Throws std::invalid_argument when the robot would start inside a solid.
+  /// World with the robot at `start`; `cameras` must outlive it. Throws std::invalid_argument when the robot
+  /// would start inside a solid.
   Simulation(const RobotModel& model, const std::vector<Solid>& solids, const Pose2& start,
              CameraServer& cameras, std::uint64_t seed);
 

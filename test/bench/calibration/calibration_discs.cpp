@@ -40,8 +40,11 @@ std::optional<Vector2d> Centroid(const GreyImage& image) {
 
 std::optional<Vector2d> OpenCv(const GreyImage& image) {
   cv::SimpleBlobDetector::Params params;
-  params.filterByColor = true, params.blobColor = 255;
-  params.filterByArea = true, params.minArea = 50, params.maxArea = 5000;
+  params.filterByColor = true;
+  params.blobColor = 255;
+  params.filterByArea = true;
+  params.minArea = 50;
+  params.maxArea = 5000;
   params.filterByCircularity = params.filterByConvexity = params.filterByInertia = false;
   const cv::Mat view(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()));
   std::vector<cv::KeyPoint> found;

@@ -37,16 +37,20 @@ double LineError(double amplitude, double noise, int images, Rng rng, double& sh
   seconds = 0;
   for (int i = 0; i < images; ++i) {
     support::StripeScene scene = RandomScene({Vector3d::UnitZ(), 0.0}, rng);
-    scene.amplitude = amplitude, scene.noise = noise;
+    scene.amplitude = amplitude;
+    scene.noise = noise;
     const GreyImage image = support::Render(scene, rng);
     const double start = CpuSeconds();
     const auto points = finder.Find(image);
     seconds += CpuSeconds() - start;
     columns += image.width;
-    for (const StripePoint& p : points)
-      squares += std::pow(p.at.y() - support::StripeRow(scene, p.at.x()), 2), ++n;
+    for (const StripePoint& p : points) {
+      squares += std::pow(p.at.y() - support::StripeRow(scene, p.at.x()), 2);
+      ++n;
+    }
   }
-  seconds /= images, share = double(n) / columns;
+  seconds /= images;
+  share = double(n) / columns;
   return std::sqrt(squares / n);
 }
 
@@ -85,7 +89,9 @@ int PointsWithoutLaser(int images, Rng rng) {
   int points = 0;
   for (int i = 0; i < images; ++i) {
     support::StripeScene scene = RandomScene({Vector3d::UnitZ(), 0.0}, rng);
-    scene.amplitude = 0, scene.noise = rng.Uniform(1, 6), scene.blur_px = 0;
+    scene.amplitude = 0;
+    scene.noise = rng.Uniform(1, 6);
+    scene.blur_px = 0;
     points += static_cast<int>(finder.Find(support::Render(scene, rng)).size());
   }
   return points;

@@ -18,7 +18,8 @@ void BenchTable(const CalibrationOptions& options, Figures& figures) {
     const CalibrationPlan plan;
     const std::uint64_t seed = seeds.Below(1'000'000);
     PositionerConfig direct;
-    direct.approach_rad = 0, direct.approach_steps = 0;
+    direct.approach_rad = 0;
+    direct.approach_steps = 0;
     for (const PositionerConfig& motors : {PositionerConfig(), direct}) {
       support::SimulatedHead simulated(seed);
       const auto calibrated = SolveHead(support::Sweep(simulated, plan.Settings(), motors, seed));
@@ -27,7 +28,8 @@ void BenchTable(const CalibrationOptions& options, Figures& figures) {
       if (motors.approach_steps == 0) {
         best_spoilt = std::min(best_spoilt, error.between_px);
       } else {
-        nodes = std::max(nodes, error.at_nodes_px), between = std::max(between, error.between_px);
+        nodes = std::max(nodes, error.at_nodes_px);
+        between = std::max(between, error.between_px);
         worst_ratio = std::max(worst_ratio, error.between_px / error.at_nodes_px);
       }
     }

@@ -99,7 +99,10 @@ class CrashStudy {
   /// Returns whether everything has been seen.
   bool Step(Watch& w) {
     const Time now = rig_.Now();
-    if (w.hand_is_on && now - w.when > kHandOn) rig_.LetGo(), w.hand_is_on = false;
+    if (w.hand_is_on && now - w.when > kHandOn) {
+      rig_.LetGo();
+      w.hand_is_on = false;
+    }
     const auto& t = rig_.truth;
     if (w.stands == Time{} && t.at > w.when && std::hypot(t.message.vx_m_s, t.message.vy_m_s) < kStands_m_s)
       w.stands = now;

@@ -55,10 +55,12 @@ world::HeadAxes RestAfter(const head::HeadSetting& setting, Rng& rng) {
   const auto angle = [&](double counter, double play) { return counter - play / 2 + rng.Normal(0.00003); };
   const auto step = [&](double counter) { return counter - kStepPlay / 2 + rng.Normal(0.4); };
   world::HeadAxes axes;
-  axes.pan_rad = angle(setting.pan_rad, kAnglePlay), axes.tilt_rad = angle(setting.tilt_rad, kAnglePlay);
+  axes.pan_rad = angle(setting.pan_rad, kAnglePlay);
+  axes.tilt_rad = angle(setting.tilt_rad, kAnglePlay);
   for (int c = 0; c < 2; ++c) {
     axes.vergence_rad[c] = angle(setting.vergence_rad[c], kVergencePlay);
-    axes.zoom_step[c] = step(setting.zoom_step[c]), axes.focus_step[c] = step(setting.focus_step[c]);
+    axes.zoom_step[c] = step(setting.zoom_step[c]);
+    axes.focus_step[c] = step(setting.focus_step[c]);
   }
   return axes;
 }

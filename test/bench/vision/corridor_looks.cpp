@@ -27,8 +27,8 @@ struct Eyes {
     return std::all_of(cameras.begin(), cameras.end(), [&](const head::CameraModel& camera) {
       if (camera.Depth(in_base) <= 0) return false;
       const Eigen::Vector2d px = camera.Distort(camera.Project(in_base));
-      return px.x() > border && px.x() < world::kImageWidthPx - 1 - border && px.y() > border &&
-             px.y() < world::kImageHeightPx - 1 - border;
+      return px.x() > border && px.x() < world::kImageWidth_px - 1 - border && px.y() > border &&
+             px.y() < world::kImageHeight_px - 1 - border;
     });
   }
   bool Visible(const Eigen::Vector3d& in_base) const {
@@ -66,7 +66,8 @@ bool JambIsSeen(const Face& face, double side, const Eyes& eyes, const ToBeFound
   for (double z = kStep_m; z < face.height; z += kStep_m) {
     const Eigen::Vector3d at = face.At(side * face.half, z);
     if (!eyes.InPicture(at, 0)) continue;
-    ++in_picture, visible += eyes.Visible(at);
+    ++in_picture;
+    visible += eyes.Visible(at);
   }
   return visible * kStep_m >= rule.jamb_m && visible >= rule.jamb_share * in_picture;
 }
@@ -95,10 +96,14 @@ TrueDoor AsSeen(const DoorPlan& plan, const world::DoorWork& work, const Eyes& e
   const bool front = door_from_base.x < 0;
   const Face face = FaceOf(plan, base_from_map, front);
   TrueDoor door;
-  door.name = plan.name, door.open_deg = work.open_deg, door.opens_to_us = !front;
-  door.height_m = face.height, door.frame_m = face.outer - face.half;
+  door.name = plan.name;
+  door.open_deg = work.open_deg;
+  door.opens_to_us = !front;
+  door.height_m = face.height;
+  door.frame_m = face.outer - face.half;
   const double left = front ? 1 : -1;
-  door.left = face.At(left * face.half, 0).head<2>(), door.right = face.At(-left * face.half, 0).head<2>();
+  door.left = face.At(left * face.half, 0).head<2>();
+  door.right = face.At(-left * face.half, 0).head<2>();
   const Eigen::Vector2d eye =
       head::OpticalCentre(eyes.cameras[0]).head<2>() / 2 + head::OpticalCentre(eyes.cameras[1]).head<2>() / 2;
   const Eigen::Vector2d sight = door.middle() - eye, across = (door.left - door.right).normalized();
@@ -166,7 +171,8 @@ std::vector<CorridorLook> CorridorPhotographer::Take(std::uint64_t seed, int loo
   const CorridorPlan plan = DrawCorridor(seed);
   const std::vector<world::Solid> solids = world::BuildSolids(plan.map, plan.world, seed);
   world::RendererConfig config;
-  config.scene = plan.light, config.head = head.build;
+  config.scene = plan.light;
+  config.head = head.build;
   world::Renderer renderer(config, solids, seed);
   const world::Lighting scene(config.scene, solids);
   std::vector<CorridorLook> all(looks);

@@ -32,7 +32,8 @@ class Draughtsman {
   explicit Draughtsman(std::uint64_t seed) : rng_(Rng::Stream(seed, "corridor")) {}
 
   CorridorPlan Draw(std::uint64_t seed) {
-    plan_.length_m = rng_.Uniform(10, 14), plan_.width_m = rng_.Uniform(1.8, 3.4);
+    plan_.length_m = rng_.Uniform(10, 14);
+    plan_.width_m = rng_.Uniform(1.8, 3.4);
     DrawSurfaces();
     for (const Side& side : Sides()) {
       AddWall(kWalls[side.number], side.At(0, 0), side.At(side.length_m, 0), side.thickness_m);
@@ -53,9 +54,12 @@ class Draughtsman {
     world.skirting.height_m = rng_.Chance(0.8) ? rng_.Uniform(0.05, 0.1) : 0;
     world.light.floor = OneOf(std::array<std::string, 3>{"lino", "tiles", "carpet"}, rng_);
     world.light.ceiling_m = rng_.Uniform(2.5, 3.0);
-    world.light.x_min_m = -1, world.light.x_max_m = plan_.length_m + kRoomDepth_m + 1;
-    world.light.y_max_m = plan_.width_m / 2 + kRoomDepth_m + 1, world.light.y_min_m = -world.light.y_max_m;
-    world.brightness_spread = 0.25, world.window_spread_deg = 180;
+    world.light.x_min_m = -1;
+    world.light.x_max_m = plan_.length_m + kRoomDepth_m + 1;
+    world.light.y_max_m = plan_.width_m / 2 + kRoomDepth_m + 1;
+    world.light.y_min_m = -world.light.y_max_m;
+    world.brightness_spread = 0.25;
+    world.window_spread_deg = 180;
   }
 
   std::array<Side, 3> Sides() {
@@ -98,10 +102,12 @@ class Draughtsman {
     door.opening_width_m = OneOf(std::array{0.76, 0.86, 0.90, 0.96, 1.01}, rng_);
     door.opening_height_m = OneOf(std::array{1.98, 2.00, 2.05, 2.10}, rng_);
     door.wall_thickness_m = side.thickness_m;
-    door.frame_width_m = rng_.Uniform(0.04, 0.08), door.frame_protrusion_m = rng_.Uniform(0.005, 0.02);
+    door.frame_width_m = rng_.Uniform(0.04, 0.08);
+    door.frame_protrusion_m = rng_.Uniform(0.005, 0.02);
     const bool opens_to_corridor = rng_.Chance(0.2);
     const Eigen::Vector2d at = side.At(s, 0);
-    door.x_m = at.x(), door.y_m = at.y();
+    door.x_m = at.x();
+    door.y_m = at.y();
     door.yaw_deg = Degrees(WrapAngle(side.YawThrough() + (opens_to_corridor ? kPi : 0)));
     plan_.map.doors.push_back(door);
     plan_.world.doors.push_back(
@@ -167,8 +173,14 @@ class Draughtsman {
               double height, const std::string& material) {
     const Eigen::Vector2d at = side.At(s + along / 2, depth);
     world::BoxPlan box;
-    box.name = material, box.x_m = at.x(), box.y_m = at.y(), box.yaw_deg = Degrees(side.YawThrough());
-    box.length_m = deep, box.width_m = along, box.bottom_m = bottom, box.height_m = height;
+    box.name = material;
+    box.x_m = at.x();
+    box.y_m = at.y();
+    box.yaw_deg = Degrees(side.YawThrough());
+    box.length_m = deep;
+    box.width_m = along;
+    box.bottom_m = bottom;
+    box.height_m = height;
     box.material = material;
     plan_.world.boxes.push_back(box);
   }
@@ -176,7 +188,8 @@ class Draughtsman {
   /// What is seen through an open door.
   void AddRooms() {
     const double y = plan_.width_m / 2 + kRoomDepth_m, x = plan_.length_m + kRoomDepth_m;
-    AddWall("room left", {-1, y}, {x, y}, 0.1), AddWall("room right", {-1, -y}, {x, -y}, 0.1);
+    AddWall("room left", {-1, y}, {x, y}, 0.1);
+    AddWall("room right", {-1, -y}, {x, -y}, 0.1);
     AddWall("room end", {x, -y}, {x, y}, 0.1);
     for (double at = 2; at < plan_.length_m; at += rng_.Uniform(1.5, 3)) {
       const bool left = rng_.Chance(0.5);

@@ -14,10 +14,13 @@ constexpr double kPlinthShare = 0.05, kGrooveShare = 6.5 / 512;
 
 CupboardPlan DrawCupboard(Rng& rng) {
   CupboardPlan cupboard;
-  cupboard.width_m = rng.Uniform(0.8, 1.2), cupboard.depth_m = rng.Uniform(0.35, 0.5);
-  cupboard.height_m = rng.Uniform(1.6, 2.0), cupboard.plinth_m = kPlinthShare * cupboard.height_m;
+  cupboard.width_m = rng.Uniform(0.8, 1.2);
+  cupboard.depth_m = rng.Uniform(0.35, 0.5);
+  cupboard.height_m = rng.Uniform(1.6, 2.0);
+  cupboard.plinth_m = kPlinthShare * cupboard.height_m;
   cupboard.gap_m = kGrooveShare * cupboard.width_m;
-  cupboard.x_m = rng.Uniform(2.0, 4.0), cupboard.y_m = kWall_m - 0.03 - cupboard.depth_m;
+  cupboard.x_m = rng.Uniform(2.0, 4.0);
+  cupboard.y_m = kWall_m - 0.03 - cupboard.depth_m;
   cupboard.yaw_deg = 90;
   return cupboard;
 }
@@ -25,8 +28,11 @@ CupboardPlan DrawCupboard(Rng& rng) {
 world::BoxPlan BoxOf(const CupboardPlan& cupboard, const char* material) {
   world::BoxPlan box;
   box.name = "cupboard " + std::to_string(cupboard.id);
-  box.x_m = cupboard.x_m, box.y_m = cupboard.y_m + cupboard.depth_m / 2;
-  box.length_m = cupboard.width_m, box.width_m = cupboard.depth_m, box.height_m = cupboard.height_m;
+  box.x_m = cupboard.x_m;
+  box.y_m = cupboard.y_m + cupboard.depth_m / 2;
+  box.length_m = cupboard.width_m;
+  box.width_m = cupboard.depth_m;
+  box.height_m = cupboard.height_m;
   box.material = material;
   return box;
 }
@@ -53,17 +59,22 @@ world::BoxPlan InTheWay(const CupboardPlan& cupboard, Rng& rng) {
   box.name = "in the way";
   box.x_m = cupboard.x_m + (rng.Chance(0.5) ? 1 : -1) * rng.Uniform(0.25, 0.6);
   box.y_m = cupboard.y_m - rng.Uniform(0.3, 1.0);
-  box.length_m = rng.Uniform(0.4, 0.9), box.width_m = rng.Uniform(0.2, 0.5);
-  box.height_m = rng.Uniform(1.4, 2.1), box.yaw_deg = rng.Uniform(-20, 20);
+  box.length_m = rng.Uniform(0.4, 0.9);
+  box.width_m = rng.Uniform(0.2, 0.5);
+  box.height_m = rng.Uniform(1.4, 2.1);
+  box.yaw_deg = rng.Uniform(-20, 20);
   box.material = rng.Chance(0.5) ? "furniture" : "cardboard";
   return box;
 }
 
 void AddPoster(LookStage& stage, Rng& rng) {
   world::PosterPlan& poster = stage.plan.posters.emplace_back();
-  poster.wall = "north", poster.face = "right";
-  poster.along_m = rng.Uniform(1, 5.5), poster.bottom_m = rng.Uniform(0.9, 1.6);
-  poster.width_m = rng.Uniform(0.2, 0.9), poster.height_m = rng.Uniform(0.3, 0.9);
+  poster.wall = "north";
+  poster.face = "right";
+  poster.along_m = rng.Uniform(1, 5.5);
+  poster.bottom_m = rng.Uniform(0.9, 1.6);
+  poster.width_m = rng.Uniform(0.2, 0.9);
+  poster.height_m = rng.Uniform(0.3, 0.9);
 }
 
 LookStage MakeStage(std::uint64_t seed, CupboardTrouble trouble) {

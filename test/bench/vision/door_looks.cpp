@@ -11,7 +11,8 @@ constexpr double kDistance_m = 2.4;  // of the head
 constexpr int kDoor = 1;
 
 void RemoveDoor(LookStage& stage) {
-  stage.map.doors.clear(), stage.plan.doors.clear();
+  stage.map.doors.clear();
+  stage.plan.doors.clear();
   for (WallPlan& wall : stage.map.walls)
     if (wall.name == "right of the door")
       wall.to_m = {6.0, 2.4};
@@ -24,7 +25,8 @@ void HideHalf(LookStage& stage, Rng& rng) {
   world::BoxPlan box;
   box.name = "in the way";
   const double side = rng.Chance(0.5) ? 1 : -1;
-  box.x_m = 6.0 - rng.Uniform(0.3, 1.2), box.y_m = 2.4 + side * rng.Uniform(0.25, 0.6);
+  box.x_m = 6.0 - rng.Uniform(0.3, 1.2);
+  box.y_m = 2.4 + side * rng.Uniform(0.25, 0.6);
   box.length_m = rng.Uniform(0.2, 0.5), box.width_m = rng.Uniform(0.4, 0.9),
   box.height_m = rng.Uniform(1.4, 2.1);
   box.yaw_deg = rng.Uniform(-20, 20);
@@ -72,7 +74,8 @@ const char* Describe(Trouble trouble) {
 head::LandmarkModel ModelWithLeaf(double open_deg) {
   static const auto kMap = LoadConfig<GroundPlan>(InSim("maps/door.toml"));
   DoorPlan door = *kMap.FindDoor(kDoor);
-  door.leaf = "left", door.leaf_open_deg = open_deg;
+  door.leaf = "left";
+  door.leaf_open_deg = open_deg;
   return ToHead(planner::MakeDoorLandmark(door));
 }
 

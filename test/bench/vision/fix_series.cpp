@@ -12,7 +12,8 @@ void FixSeries::Add(const Eigen::Vector3d& error, double seconds_taken) {
   const bool is_good = IsGood(error);
   (is_good ? good : wrong)++;
   if (!is_good) return;
-  depth.push_back(1000 * std::abs(error.x())), lateral.push_back(1000 * std::abs(error.y()));
+  depth.push_back(1000 * std::abs(error.x()));
+  lateral.push_back(1000 * std::abs(error.y()));
   yaw.push_back(Degrees(std::abs(error.z())));
   seconds.push_back(seconds_taken);
 }

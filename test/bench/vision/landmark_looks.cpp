@@ -18,7 +18,8 @@ head::LandmarkModel Tolerated(head::LandmarkModel model, const LookTolerances& t
                           b = along.cross(a);
     const Eigen::Vector3d shift = rng.Normal(t.model_sigma_m) * a + rng.Normal(t.model_sigma_m) * b;
     const Eigen::Vector3d tilt = rng.Normal(t.tilt_sigma_m) * a + rng.Normal(t.tilt_sigma_m) * b;
-    e.from += shift - tilt, e.to += shift + tilt;
+    e.from += shift - tilt;
+    e.to += shift + tilt;
   }
   return model;
 }
@@ -40,7 +41,8 @@ void DrawPoses(double distance_m, Rng& rng, LandmarkLook& look) {
   const double radius = 0.2 * std::sqrt(rng.Uniform(0, 1)), bearing = rng.Uniform(-kPi, kPi);
   const Pose2 truth{believed.x + radius * std::cos(bearing), radius * std::sin(bearing),
                     Radians(rng.Uniform(-5, 5))};
-  look.believed = believed.Inverse(), look.truth = truth.Inverse();
+  look.believed = believed.Inverse();
+  look.truth = truth.Inverse();
 }
 
 std::string NameOf(int side, int visit) {
@@ -73,7 +75,8 @@ LandmarkLook TakeLook(const LookStage& stage, const CalibratedHead& head, const 
 
   const head::HeadSetting setting = look.setting = LookAt(head.model, look.exact_model, look.believed, side);
   world::RendererConfig config;
-  config.scene = stage.light, config.head = head.build;
+  config.scene = stage.light;
+  config.head = head.build;
   world::Renderer renderer(config, world::BuildSolids(stage.map, stage.plan, seed), seed);
   Rng motors = Rng::Stream(seed, "motors " + NameOf(side, stage.visit));
   const world::HeadAxes axes = RestAfter(setting, motors);

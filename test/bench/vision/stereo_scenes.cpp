@@ -39,7 +39,10 @@ void HitSolid(const world::Solid& solid, const Vector3d& eye, const Vector3d& ra
   int axis = -1;
   for (int k = 0; k < 3; ++k) {
     const double a = (low[k] - e[k]) / r[k], b = (high[k] - e[k]) / r[k];
-    if (std::min(a, b) > begin) begin = std::min(a, b), axis = k;
+    if (std::min(a, b) > begin) {
+      begin = std::min(a, b);
+      axis = k;
+    }
     end = std::min(end, std::max(a, b));
   }
   if (axis < 0 || begin >= end || begin >= nearest.distance) return;
@@ -55,8 +58,13 @@ struct Room {
 world::BoxPlan Box(const std::string& name, double x, double y, const Vector3d& size, double yaw_deg,
                    const std::string& material) {
   world::BoxPlan box;
-  box.name = name, box.x_m = x, box.y_m = y, box.yaw_deg = yaw_deg;
-  box.length_m = size.x(), box.width_m = size.y(), box.height_m = size.z();
+  box.name = name;
+  box.x_m = x;
+  box.y_m = y;
+  box.yaw_deg = yaw_deg;
+  box.length_m = size.x();
+  box.width_m = size.y();
+  box.height_m = size.z();
   box.material = material;
   return box;
 }
@@ -72,18 +80,28 @@ Room DoorRoom(Rng& rng) {
 Room Corridor(Rng& rng) {
   Room room;
   room.plan = LoadConfig<world::WorldPlan>(InSim("worlds/door.toml"));
-  room.plan.posters.clear(), room.plan.boxes.clear(), room.plan.doors.clear();
+  room.plan.posters.clear();
+  room.plan.boxes.clear();
+  room.plan.doors.clear();
   const auto wall = [&](const char* name, double x1, double y1, double x2, double y2) {
     WallPlan& w = room.map.walls.emplace_back();
-    w.name = name, w.from_m = {x1, y1}, w.to_m = {x2, y2};
+    w.name = name;
+    w.from_m = {x1, y1};
+    w.to_m = {x2, y2};
   };
-  wall("left", 0, 1.2, 10, 1.2), wall("right", 0, -1.2, 10, -1.2), wall("end", 9.93, -1.2, 9.93, 1.2);
+  wall("left", 0, 1.2, 10, 1.2);
+  wall("right", 0, -1.2, 10, -1.2);
+  wall("end", 9.93, -1.2, 9.93, 1.2);
   for (int i = 0; i < 6; ++i) {
     DoorPlan& door = room.map.doors.emplace_back();
-    door.id = i + 1, door.name = "door " + std::to_string(i + 1);
-    door.x_m = 2.6 + 2.0 * (i / 2), door.y_m = i % 2 ? -1.2 : 1.2, door.yaw_deg = i % 2 ? -90 : 90;
+    door.id = i + 1;
+    door.name = "door " + std::to_string(i + 1);
+    door.x_m = 2.6 + 2.0 * (i / 2);
+    door.y_m = i % 2 ? -1.2 : 1.2;
+    door.yaw_deg = i % 2 ? -90 : 90;
     world::DoorWork& work = room.plan.doors.emplace_back();
-    work.id = i + 1, work.open_deg = rng.Chance(0.6) ? 0 : rng.Uniform(5, 90);
+    work.id = i + 1;
+    work.open_deg = rng.Chance(0.6) ? 0 : rng.Uniform(5, 90);
   }
   room.map_from_base = {rng.Uniform(0.8, 2.5), rng.Uniform(-0.5, 0.5), Radians(rng.Uniform(-35, 35))};
   return room;
@@ -94,7 +112,8 @@ Room Boxes(Rng& rng) {
   Room room;
   room.plan = LoadConfig<world::WorldPlan>(InSim("worlds/door.toml"));
   room.map = LoadConfig<GroundPlan>(InSim(room.plan.map));
-  room.plan.boxes.clear(), room.plan.posters.clear();
+  room.plan.boxes.clear();
+  room.plan.posters.clear();
   const double x = rng.Uniform(4.2, 5.2), pitch = rng.Uniform(0.08, 0.25);
   for (int i = 0; i < 8; ++i)
     room.plan.boxes.push_back(Box("post", x, 1.2 + pitch * i, {0.03, 0.03, 1.7}, 0, "wood"));
@@ -131,7 +150,8 @@ std::optional<Vector3d> PlaceOf(const StereoTriple& triple, const head::CameraMo
   for (const double side : {-kBeside_px, kBeside_px}) {
     const Vector3d r = ray(at + side * normal);
     Hit hit;
-    HitPlane(0, eye, r, hit), HitPlane(triple.ceiling_m, eye, r, hit);
+    HitPlane(0, eye, r, hit);
+    HitPlane(triple.ceiling_m, eye, r, hit);
     for (const world::Solid& solid : triple.solids) HitSolid(solid, eye, r, hit);
     if (hit.distance < best.distance) best = hit;
   }
@@ -174,10 +194,12 @@ StereoTriple StereoStage::Take(StereoScene scene, std::uint64_t seed) {
   Rng rng = Rng::Stream(seed, "stereo"), noise = Rng::Stream(seed, "noise");
   const Room room = MakeRoom(scene, rng);
   world::RendererConfig config;
-  config.scene = world::DrawLight(room.plan, seed), config.head = world::HeadBuild::Specimen(seed);
+  config.scene = world::DrawLight(room.plan, seed);
+  config.head = world::HeadBuild::Specimen(seed);
   StereoTriple triple;
   triple.solids = world::BuildSolids(room.map, room.plan, seed);
-  triple.map_from_base = room.map_from_base, triple.ceiling_m = config.scene.ceiling_m;
+  triple.map_from_base = room.map_from_base;
+  triple.ceiling_m = config.scene.ceiling_m;
   world::Renderer renderer(config, triple.solids, seed);
   const world::HeadAxes axes;
   const world::Viewpoint still{room.map_from_base, axes};

@@ -125,7 +125,9 @@ struct Row {
                  Degrees(v.z()));
     };
     fmt::print("  {}: depth, lateral, heading of {} fixes\n", name, found);
-    line("root mean square error", e), line("standard deviation told", t), line("Cramer-Rao bound", b);
+    line("root mean square error", e);
+    line("standard deviation told", t);
+    line("Cramer-Rao bound", b);
     constexpr const char* kAxes[] = {"depth", "lateral", "heading"};
     for (int k = 0; k < 3; ++k)
       figures.AtMost(fmt::format("    error over Cramer-Rao bound, {}", kAxes[k]), e[k] / b[k], 1.5, "");
@@ -161,7 +163,8 @@ void BenchBudget(const VisionOptions& options, Figures& figures) {
       const Eigen::Vector3d error = ErrorOf(fix.base_from_landmark, look.truth);
       if (fix.verdict != head::Verdict::kFound || !IsGood(error)) continue;
       ++rows[s].found;
-      rows[s].error += error.cwiseAbs2(), rows[s].told += fix.covariance.diagonal();
+      rows[s].error += error.cwiseAbs2();
+      rows[s].told += fix.covariance.diagonal();
       rows[s].bound += Bound(look, OptionsOf(samples[i], kSources[s]).solver, sigma_px);
     }
     rows[s].Print(kSources[s].name, figures);

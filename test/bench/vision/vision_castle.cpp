@@ -29,7 +29,8 @@ std::optional<Eigen::Isometry3d> Truth(int frame) {
 head::CameraModel Camera() {
   head::CameraModel camera;
   camera.image_from_base << 700, 0, 320, 0, 0, 700, 240, 0, 0, 0, 1, 0;
-  camera.centre_px = {320, 240}, camera.scale_px = 700;
+  camera.centre_px = {320, 240};
+  camera.scale_px = 700;
   return camera;
 }
 
@@ -59,7 +60,8 @@ void BenchCastle(const VisionOptions& options, Figures& figures) {
   head::EdgeOperator edge_operator;
   head::FreeModelOptions free_model;
   // The corners in chateau.cao are rounded and in places some tenths of a millimetre beside each other.
-  free_model.solver.model_sigma_m = 0.0002, free_model.solver.tilt_sigma_m = 0.0001;
+  free_model.solver.model_sigma_m = 0.0002;
+  free_model.solver.tilt_sigma_m = 0.0001;
   Rng rng(options.seed);
   double shift = 0, turn = 0, seconds = 0;
   int frames = 0, found = 0;
@@ -84,7 +86,9 @@ void BenchCastle(const VisionOptions& options, Figures& figures) {
         fmt::print("  frame {} {}: {}, {:.2f} mm {:.3f} deg, {} edges, {:.2f} px, misfit {:.2f}\n", frame, k,
                    head::Describe(fix.verdict), e_mm, e_deg, fix.n_matched, fix.residual_px, fix.misfit);
       if (fix.verdict != head::Verdict::kFound) continue;
-      ++found, shift += e_mm, turn += e_deg;
+      ++found;
+      shift += e_mm;
+      turn += e_deg;
     }
   }
   figures.AtLeast("  found", 100.0 * found / std::max(1, frames), 90, "%");

@@ -77,7 +77,8 @@ std::vector<std::string> KindsOf(const TrueDoor& door) {
 void Add(const CorridorLook& look, const std::vector<head::DetectedDoor>& detected, bool verbose,
          Count& count) {
   std::vector<const TrueDoor*> found;
-  ++count.looks, count.reported += static_cast<int>(detected.size());
+  ++count.looks;
+  count.reported += static_cast<int>(detected.size());
   for (const head::DetectedDoor& d : detected) {
     const TrueDoor* door = Nearest(look, d);
     if (!door) {
@@ -91,10 +92,13 @@ void Add(const CorridorLook& look, const std::vector<head::DetectedDoor>& detect
     if (!door->is_to_be_found) continue;
     const double middle = (door->middle() - d.base_from_door.translation()).norm(),
                  jamb = JambError(*door, d);
-    count.middle_m.push_back(middle), count.jamb_m.push_back(jamb);
+    count.middle_m.push_back(middle);
+    count.jamb_m.push_back(jamb);
     const bool is_sure = Sigma(d) < kSure_m;
-    count.sure += is_sure, count.sure_but_off += is_sure && middle > kWellPlaced_m;
-    count.off += middle > kWellPlaced_m, count.jamb_off += jamb > kWellPlaced_m;
+    count.sure += is_sure;
+    count.sure_but_off += is_sure && middle > kWellPlaced_m;
+    count.off += middle > kWellPlaced_m;
+    count.jamb_off += jamb > kWellPlaced_m;
     if (verbose && jamb > kWellPlaced_m) PrintMisplaced(count.looks, *door, d, middle, jamb);
   }
   for (const TrueDoor& door : look.doors) {

@@ -15,7 +15,8 @@ struct Count {
 
 void Add(const LandmarkLook& look, const std::vector<head::DetectedDoor>& doors, Count& count) {
   const Eigen::Vector2d front = look.truth * Eigen::Vector2d(-0.085, 0);
-  ++count.looks, count.with_door += look.is_there;
+  ++count.looks;
+  count.with_door += look.is_there;
   bool found = false;
   for (const head::DetectedDoor& door : doors) {
     const double error = (door.base_from_door.translation() - front).norm();

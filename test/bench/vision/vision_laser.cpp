@@ -28,14 +28,16 @@ struct Belief {
 Belief CalibratedWrongly(const LaserFloor& scene, Rng& rng) {
   Belief belief{scene.camera, scene.laser};
   Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
-  shift(0, 2) = rng.Normal(kCameraSigma_px), shift(1, 2) = rng.Normal(kCameraSigma_px);
+  shift(0, 2) = rng.Normal(kCameraSigma_px);
+  shift(1, 2) = rng.Normal(kCameraSigma_px);
   belief.camera.image_from_base = shift * scene.camera.image_from_base;
   const Vector3d turn(rng.Normal(kTurnSigma_rad), rng.Normal(kTurnSigma_rad), rng.Normal(kTurnSigma_rad));
   LaserPlane& laser = belief.laser;
   laser.normal = (laser.normal + turn.cross(laser.normal)).normalized();
   laser.offset_m = -laser.normal.dot(laser.pivot_m) + scene.laser.Plane().signedDistance(laser.pivot_m) +
                    rng.Normal(kShiftSigma_m);
-  laser.sigma_turn_rad = kTurnSigma_rad, laser.sigma_shift_m = kShiftSigma_m;
+  laser.sigma_turn_rad = kTurnSigma_rad;
+  laser.sigma_shift_m = kShiftSigma_m;
   return belief;
 }
 
@@ -57,9 +59,12 @@ LaserFloor FloorAt(double distance_m) {
 void Vary(LaserFloor& scene, const std::vector<cv::Mat>& textures, Rng& rng) {
   const FloorTolerance tolerance;
   scene.heave_m = rng.Normal(tolerance.heave_m);
-  scene.pitch_rad = rng.Normal(tolerance.pitch_rad), scene.roll_rad = rng.Normal(tolerance.roll_rad);
-  scene.amplitude = rng.Uniform(60, 150), scene.speckle = rng.Uniform(0.05, 0.35);
-  scene.background = rng.Uniform(25, 90), scene.noise = rng.Uniform(1, 3);
+  scene.pitch_rad = rng.Normal(tolerance.pitch_rad);
+  scene.roll_rad = rng.Normal(tolerance.roll_rad);
+  scene.amplitude = rng.Uniform(60, 150);
+  scene.speckle = rng.Uniform(0.05, 0.35);
+  scene.background = rng.Uniform(25, 90);
+  scene.noise = rng.Uniform(1, 3);
   scene.texture = &textures[rng.Below(textures.size())];
 }
 
@@ -116,7 +121,8 @@ double Found(const Sizes& what, int frames, const std::vector<cv::Mat>& textures
     for (const ObstaclePiece& p : lines.pieces) {
       const double middle = (p.right.y() + p.left.y()) / 2;
       if (p.height_m * what.height_m <= 0 || middle < from || middle > from + width) continue;
-      ++found, squares += std::pow(p.height_m - what.height_m, 2);
+      ++found;
+      squares += std::pow(p.height_m - what.height_m, 2);
       break;
     }
   }
@@ -148,7 +154,10 @@ double RowError(int frames, const std::vector<cv::Mat>& textures, Rng rng) {
     scene.heave_m = scene.pitch_rad = scene.roll_rad = 0;
     for (const StripePoint& p : finder.Find(Render(scene, rng))) {
       const double error = p.at.y() - TrueRow(scene, p.at.x());
-      if (std::abs(error) < 3) squares += error * error, ++n;
+      if (std::abs(error) < 3) {
+        squares += error * error;
+        ++n;
+      }
     }
   }
   return std::sqrt(squares / n);
@@ -165,7 +174,10 @@ Rendered RenderedFloors(int frames, const std::vector<world::Solid>& solids, dou
   const char* kFloors[] = {"lino", "tiles", "carpet", "wood"};
   for (int scene = 0; tally.frames < frames; ++scene) {
     world::RendererConfig config;
-    config.scene.x_min_m = -2, config.scene.x_max_m = 9, config.scene.y_min_m = -4, config.scene.y_max_m = 4;
+    config.scene.x_min_m = -2;
+    config.scene.x_max_m = 9;
+    config.scene.y_min_m = -4;
+    config.scene.y_max_m = 4;
     config.scene.floor = kFloors[scene % 4];
     config.head = world::HeadBuild::Specimen(5);
     world::Renderer renderer(config, solids, rng.Below(1000));
@@ -178,7 +190,8 @@ Rendered RenderedFloors(int frames, const std::vector<world::Solid>& solids, dou
       const world::TrueCamera lens = world::CameraAt(config.head, world::kThirdCamera, at.head);
       const CameraModel camera{lens.ImageFromBase(), lens.centre_px, lens.focal_px, lens.k1, lens.k2};
       LaserPlane laser;
-      laser.normal = config.laser.Plane().normal(), laser.offset_m = config.laser.Plane().offset();
+      laser.normal = config.laser.Plane().normal();
+      laser.offset_m = config.laser.Plane().offset();
       laser.pivot_m = {2.1, 0, 0.05};
       const GreyImage picture = renderer.Expose(world::kThirdCamera, at, after, {0.008, 1, 0, 0.7}, rng);
       const ObstacleLines lines = dut.Find(picture, camera, laser);
@@ -206,7 +219,10 @@ void BenchLaser(const VisionOptions& options, Figures& figures) {
     const Tally t =
         PlainFloors(5000 / scale, distance, textures,
                     Rng::Stream(options.seed, fmt::format("plain {}", distance)), options.verbose);
-    plain.frames += t.frames, plain.alarms += t.alarms, plain.blind += t.blind, plain.seconds += t.seconds;
+    plain.frames += t.frames;
+    plain.alarms += t.alarms;
+    plain.blind += t.blind;
+    plain.seconds += t.seconds;
   }
   figures.AtMost(fmt::format("  false alarms in {} frames of plain floor", plain.frames), plain.alarms, 0,
                  "");

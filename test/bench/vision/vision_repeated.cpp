@@ -59,7 +59,8 @@ struct Sums {
     const Eigen::Vector3d error = Error(state, truth);
     ++n;
     nees += error.dot(state.pose_covariance().inverse() * error) / 3;
-    squares += error.cwiseAbs2(), told += state.pose_covariance().diagonal();
+    squares += error.cwiseAbs2();
+    told += state.pose_covariance().diagonal();
   }
 };
 

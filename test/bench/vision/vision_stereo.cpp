@@ -47,8 +47,10 @@ void SimulatedEdges(const VisionOptions& options, Figures& figures) {
     const auto pairs = head::MatchBinocular(scene.views[0], scene.views[1], {});
     const double middle = CpuSeconds();
     const auto triples = head::MatchTrinocular(scene.views[0], scene.views[1], scene.views[2], {});
-    two.seconds += middle - start, three.seconds += CpuSeconds() - middle;
-    add(pairs, two), add(triples, three);
+    two.seconds += middle - start;
+    three.seconds += CpuSeconds() - middle;
+    add(pairs, two);
+    add(triples, three);
   }
   Report(two, three, figures);
 }
@@ -92,8 +94,10 @@ void RenderedEdges(StereoScene scene, const VisionOptions& options, Figures& fig
     const auto pairs = head::MatchBinocular(views[0], views[1], {});
     const double middle = CpuSeconds();
     const auto triples = head::MatchTrinocular(views[0], views[1], views[2], {});
-    two.seconds += middle - start, three.seconds += CpuSeconds() - middle;
-    add(pairs, two), add(triples, three);
+    two.seconds += middle - start;
+    three.seconds += CpuSeconds() - middle;
+    add(pairs, two);
+    add(triples, three);
   }
   Report(two, three, figures);
 }

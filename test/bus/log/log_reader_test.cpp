@@ -61,7 +61,10 @@ void FlipEveryByte(std::vector<std::byte> bytes, std::byte mask) {
     LogReader dut(bytes);
     std::size_t missed = 0, at = 0;
     for (auto event = dut.Next(); event; event = dut.Next()) {
-      while (at < whole.size() && whole[at].offset < event->offset) ++missed, ++at;
+      while (at < whole.size() && whole[at].offset < event->offset) {
+        ++missed;
+        ++at;
+      }
       if (at == whole.size() || whole[at].offset != event->offset) continue;  // not one that was written
       const bool hit = flip >= event->offset && (at + 1 == whole.size() || flip < whole[at + 1].offset);
       const bool same = event->number == whole[at].number && event->utime == whole[at].utime &&

@@ -32,14 +32,20 @@ struct SyntheticDrive {
       const double t_s = i / 50.0;
       const Twist2 twist = motion(t_s), wanted = wish(t_s);
       world_truth_t truth{};
-      truth.x_m = pose.x, truth.y_m = pose.y, truth.yaw_rad = pose.yaw;
-      truth.vx_m_s = twist.vx, truth.vy_m_s = twist.vy, truth.wz_rad_s = twist.wz;
+      truth.x_m = pose.x;
+      truth.y_m = pose.y;
+      truth.yaw_rad = pose.yaw;
+      truth.vx_m_s = twist.vx;
+      truth.vy_m_s = twist.vy;
+      truth.wz_rad_s = twist.wz;
       Feed(record, Side::kOnboard, t_s, "WORLD_TRUTH", truth);
       pose = Integrate(pose, twist, 0.02);
       if (i % 2 != 0) continue;
       drive_command_t command{};
       command.time_to_live_s = 0.2;
-      command.vx_m_s = wanted.vx, command.vy_m_s = wanted.vy, command.wz_rad_s = wanted.wz;
+      command.vx_m_s = wanted.vx;
+      command.vy_m_s = wanted.vy;
+      command.wz_rad_s = wanted.wz;
       Feed(record, Side::kOnboard, t_s, "DRIVE_COMMAND", command);
     }
     return record;

@@ -26,7 +26,8 @@ landmark_view_t View() {
   for (std::int8_t kind = 0; kind < 3; ++kind) {
     view_edge_t edge{};
     edge.kind = kind;
-    edge.u1_px = 10.0F * kind, edge.v2_px = 576;
+    edge.u1_px = 10.0F * kind;
+    edge.v2_px = 576;
     view.edges.push_back(edge);
   }
   view.n_edges = 3;
@@ -46,6 +47,19 @@ TEST(ReportLooksTest, DrawsEveryEdgeByItsKindAndNamesTheVerdict) {
   EXPECT_THAT(html, HasSubstr("<line class=\"matched\" x1=\"10.0\""));
   EXPECT_THAT(html, HasSubstr("<line class=\"rejected\" x1=\"20.0\""));
   EXPECT_THAT(html, HasSubstr("FOUND; 15 edges"));
+}
+
+TEST(ReportLooksTest, LooksAreCountedFromOneAndKeepTheirNumberInTheLog) {
+  RunRecord record;
+  for (const std::int32_t id : {1003, 1003, 1007}) {
+    landmark_view_t view = View();
+    view.request_id = id;
+    record.Add(Side::kOnboard, 1, "LANDMARK_VIEW", bus::Encode(view));
+  }
+  const std::string html = LookDrawings(record);
+  EXPECT_THAT(html, HasSubstr("<figcaption>look 1 (1003 in the log): landmark "));
+  EXPECT_THAT(html, HasSubstr("<figcaption>look 2 (1007 in the log): landmark "));
+  EXPECT_THAT(html, Not(HasSubstr("look 3")));
 }
 
 TEST(ReportLooksTest, AnEdgeThatIsNoneIsLeftOut) {

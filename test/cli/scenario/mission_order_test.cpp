@@ -136,8 +136,10 @@ TEST(MissionOrder, AnAbortOfNothingIsToldSo) {
 TEST(DoorNamed, KnowsNamesAndNumbersAndTheNearestName) {
   GroundPlan plan;
   plan.doors.resize(2);
-  plan.doors[0].id = 4, plan.doors[0].name = "laboratory";
-  plan.doors[1].id = 5, plan.doors[1].name = "office";
+  plan.doors[0].id = 4;
+  plan.doors[0].name = "laboratory";
+  plan.doors[1].id = 5;
+  plan.doors[1].name = "office";
   EXPECT_EQ(DoorNamed(plan, "laboratory", "map.toml"), 4);
   EXPECT_EQ(DoorNamed(plan, "7", "map.toml"), 7) << "the planner says whether its map has it";
   try {

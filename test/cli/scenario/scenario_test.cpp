@@ -51,9 +51,11 @@ TEST_F(ScenarioFolder, NoNameLeadsOutOfTheFolder) {
   EXPECT_THAT(Refusal([&] { LoadScenario(folder_.path(), "../outside"); }), HasSubstr("got \"../outside\""));
 }
 
-TEST_F(ScenarioFolder, AFolderWithoutScenariosIsRefusedInTheSameWords) {
-  EXPECT_THAT(Refusal([] { LoadScenario("/no/such/folder", "door"); }),
-              HasSubstr("/no/such/folder/scenarios: expected a scenario (), got \"door\""));
+TEST_F(ScenarioFolder, AFolderWithoutScenariosNamesTheDeploymentsThatHaveSome) {
+  EXPECT_EQ(
+      Refusal([] { LoadScenario("/no/such/folder", "door"); }),
+      "scenario: expected one of the deployment /no/such/folder, got \"door\": it has no scenarios; next: "
+      "--deployment sim, which has some");
 }
 
 TEST_F(ScenarioFolder, TheMapIsThatOfTheDeployment) {

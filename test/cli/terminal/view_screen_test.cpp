@@ -37,7 +37,8 @@ landmark_fix_t Fix() {
   fix.request_id = 7;
   fix.n_matched = 12;
   fix.residual_px = 0.25;
-  fix.sigma_x_m = 0.003, fix.sigma_y_m = 0.004;
+  fix.sigma_x_m = 0.003;
+  fix.sigma_y_m = 0.004;
   return fix;
 }
 
@@ -96,7 +97,8 @@ TEST(ViewScreenTest, TellsWhatTheLaserShowsOfTheFloor) {
   line.segments.resize(1);
   line.segments[0].kind = obstacle_segment_t::UP;
   line.segments[0].x1_m = line.segments[0].x2_m = 2;
-  line.segments[0].y1_m = -1, line.segments[0].y2_m = -0.5;
+  line.segments[0].y1_m = -1;
+  line.segments[0].y2_m = -0.5;
   line.segments[0].height_m = 0.03F;
   ViewScreen dut;
   dut.Add(line);
@@ -111,7 +113,8 @@ TEST(ViewScreenTest, AShortLineShowsTheWholeFloor) {
   line.n_segments = 1;
   line.segments.resize(1);
   line.segments[0].kind = obstacle_segment_t::UP;
-  line.segments[0].y1_m = 1, line.segments[0].y2_m = 0;
+  line.segments[0].y1_m = 1;
+  line.segments[0].y2_m = 0;
   EXPECT_THAT(FloorText(line, 0.4, 40), HasSubstr("left |^^^^^^^^^^^^^^-------------| right"));
 }
 

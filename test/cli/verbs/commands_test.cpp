@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <functional>
 
 #include "bus/command_line.hpp"
+#include "cli/front/run_cli.hpp"
 #include "test/cli/priamos_answer.hpp"
 
 namespace priamos::cli {
@@ -136,6 +138,30 @@ TEST_F(Commands, HelpOnNoVerbIsRefusedWithTheNearest) {
   const auto answer = Priamos({"help", "topic", "ecko"});
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("nearest: \"echo\""));
+}
+
+/// CLI11 also fills in the environment for the verbs that were not typed.
+TEST(BusOfAVerb, TheOneThatIsTypedWinsOverTheEnvironment) {
+  for (const Words& words :
+       {Words{"topic", "url"}, Words{"topic", "list"}, Words{"topic", "hz", "POSE"},
+        Words{"topic", "bw", "POSE"}, Words{"topic", "pub", "POSE", "pose_t", "{}"},
+        Words{"topic", "echo", "POSE"}, Words{"mission", "status"}, Words{"mission", "abort"}, Words{"where"},
+        Words{"view"}, Words{"link", "top"}, Words{"estop"}}) {
+    CLI::App cli("all verbs", "priamos");
+    int exit_code = 0;
+    AddCommands(cli, exit_code);
+    setenv("PRIAMOS_BUS", "file:///dev/null?mode=r", 1);
+    Words line = words;
+    line.insert(line.begin(), "priamos");
+    line.insert(line.end(), {"--bus", "typed"});
+    std::vector<char*> argv;
+    for (std::string& word : line) argv.push_back(word.data());
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(RunCli(cli, static_cast<int>(argv.size()), argv.data(), exit_code), 2)
+        << line[1] << " " << line[2];
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("typed")) << line[1] << " " << line[2];
+    unsetenv("PRIAMOS_BUS");
+  }
 }
 
 }  // namespace

@@ -193,6 +193,9 @@ TEST_F(LogCommand, WhereNothingIsToBeCopiedTheFileThatIsThereStays) {
       {"log", "filter", log_, good, "--force", "--to", "-1"},
       {"log", "filter", log_, good, "--force", "--from", "1", "--to", "1"},
       {"log", "filter", log_, good, "--force", "--rename", "POSE"},
+      {"log", "filter", log_, good, "--force", "--rename", "POZE=P"},
+      {"log", "filter", log_, good, "--force", "--rename", "POSE=FOREIGN"},
+      {"log", "filter", log_, good, "--force", "--rename", "POSE=P\xc3\xb6SE"},
       {"log", "repair", text, good, "--force"}};
   for (const auto& words : wrong) {
     EXPECT_EQ(Priamos(words).exit_code, 2) << testing::PrintToString(words);

@@ -133,6 +133,17 @@ TEST_F(LogMerge, LogsOfDifferentRunsAreRefusedWithTheWayOut) {
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
+TEST_F(LogMerge, OneLogIsNotMergedWithItself) {
+  const std::string link = folder_ / "link.lcmlog";
+  std::filesystem::create_symlink(onboard_, link);
+  for (const std::string& second : {onboard_, link}) {
+    const auto answer = Priamos({"log", "merge", onboard_, second, out_, "--offset", "0"});
+    EXPECT_EQ(answer.exit_code, 2) << second;
+    EXPECT_THAT(answer.err, HasSubstr("expected the logs of two buses, got the same file twice")) << second;
+    EXPECT_FALSE(std::filesystem::exists(out_)) << second;
+  }
+}
+
 TEST_F(LogMerge, TheSecondLogIsNotOverwrittenEither) {
   const std::string before = FileContent(offboard_);
   EXPECT_EQ(Priamos({"log", "merge", onboard_, offboard_, offboard_, "--offset", "0", "--force"}).exit_code,

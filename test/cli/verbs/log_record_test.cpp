@@ -70,6 +70,7 @@ TEST_F(LogRecord, ItsSignOfLifeIsOnTheBusUnlessItIsTold) {
   ASSERT_GT(health.decode(events[0].bytes.data(), 0, static_cast<int>(events[0].bytes.size())), 0);
   EXPECT_EQ(health.process, "recorder");
   EXPECT_EQ(health.state, health_t::OK);
+  EXPECT_EQ(health.messages_lost, 0);
   auto silent = words;
   silent[2] = folder_ / "silent.lcmlog";
   silent.push_back("--no-health");

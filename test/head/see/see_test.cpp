@@ -256,7 +256,8 @@ class SeeDoorTest : public SeeTest {
       cv::rectangle(image, px(-half, top), px(half, bottom), cv::Scalar(grey), cv::FILLED);
     };
     box(10, 0, -1, 100);
-    box(0.51, 2.06, 0, 90), box(0.45, 2.0, 0, 140);
+    box(0.51, 2.06, 0, 90);
+    box(0.45, 2.0, 0, 140);
     cv::resize(image, image, {640, 480}, 0, 0, cv::INTER_AREA);
     cv::GaussianBlur(image, image, {}, 0.7);
     cv::imwrite(folder_ / name, image);
@@ -304,7 +305,8 @@ TEST_F(SeeDoorTest, DoorsNeedTwoCamerasAboveTheFloor) {
   SeeOptions options = Options();
   options.stand = {-1.0};
   EXPECT_THAT(ErrorOf(options), HasSubstr("height [m]"));
-  options.stand = {1.2}, options.cameras.clear();
+  options.stand = {1.2};
+  options.cameras.clear();
   EXPECT_THAT(ErrorOf(options), HasSubstr("two images"));
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kStep{2};
 constexpr std::chrono::milliseconds kDeadline{200};
-constexpr double kSlope = 15, kLagS = 0.04, kTicksPerTurn = 4096;
+constexpr double kSlope = 15, kLag_s = 0.04, kTicksPerTurn = 4096;
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void SimulatedBase::Step(double dt) {
   WheelSpeeds contact{};
   for (std::size_t i = 0; i < 4; ++i) {
     ramp_[i] += std::clamp((silent ? 0 : set_[i]) - ramp_[i], -kSlope * dt, kSlope * dt);
-    speed_[i] += (ramp_[i] - speed_[i]) * (1 - std::exp(-dt / kLagS));
+    speed_[i] += (ramp_[i] - speed_[i]) * (1 - std::exp(-dt / kLag_s));
     turned_[i] += speed_[i] * dt;
     const double rolled = radius_m_[i] * speed_[i];
     const double travel = std::min(1.0, std::abs(rolled) * dt / errors_.slip_length_m);

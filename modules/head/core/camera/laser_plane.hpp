@@ -17,7 +17,7 @@ struct LaserPlane {
   double sigma_turn_rad = 0, sigma_shift_m = 0;
 
   Eigen::Hyperplane<double, 3> Plane() const { return {normal, offset_m}; }
-  /// The same plane in the frame of a camera (x right, y down, z forward) at this pose.
+  /// Light plane in the frame of a camera (x right, y down, z forward) at this pose.
   Eigen::Hyperplane<double, 3> InCamera(const Eigen::Isometry3d& base_from_camera) const;
 };
 

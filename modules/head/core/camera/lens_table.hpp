@@ -24,8 +24,8 @@ struct LensState {
 class LensTable {
  public:
   LensTable() = default;
-  /// `nodes[i * focus_steps.size() + j]` belongs to zoom_steps[i], focus_steps[j]; both ascending.
-  /// Throws std::invalid_argument for sizes or orders that do not fit.
+  /// Table over zoom and focus [motor steps]; `nodes[i * focus_steps.size() + j]` belongs to zoom_steps[i],
+  /// focus_steps[j]; both ascending. Throws std::invalid_argument for sizes or orders that do not fit.
   LensTable(std::vector<int> zoom_steps, std::vector<int> focus_steps, std::vector<LensState> nodes);
 
   /// The lens at a setting. Refuses one outside the calibrated interval. A direction

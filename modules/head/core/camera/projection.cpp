@@ -7,7 +7,7 @@ namespace priamos::head {
 namespace {
 
 constexpr double kNearDepth = 0.1;  ///< [m] nothing nearer is imaged
-constexpr double kMinLengthPx = 8;
+constexpr double kMinLength_px = 8;
 
 /// Cuts the segment from + f * (to - from), f in [begin, end], to where a value that is
 /// linear along it, `at_from` at its beginning and `at_to` at its end, is positive. False if nothing is left.
@@ -56,7 +56,7 @@ std::optional<ProjectedEdge> ProjectEdge(const CameraModel& camera, const ImageS
   edge.q_is_end = end == 1;
   edge.in_base_p = from_in_base + begin * (to_in_base - from_in_base);
   edge.in_base_q = from_in_base + end * (to_in_base - from_in_base);
-  if (edge.length_px() < kMinLengthPx) return std::nullopt;
+  if (edge.length_px() < kMinLength_px) return std::nullopt;
   return edge;
 }
 

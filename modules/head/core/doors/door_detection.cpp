@@ -214,8 +214,8 @@ class Detector {
     return c;
   }
 
-  /// The same edges cannot be two doors: one behind the other, mostly, from edges that do not belong
-  /// together.
+  /// Whether two candidates are one door. The same edges cannot be two doors; mostly one is behind the other
+  /// and made of edges that do not belong together.
   bool IsSame(const Candidate& a, const Candidate& b) const {
     const Eigen::Vector2d away = a.door.base_from_door.translation() - b.door.base_from_door.translation();
     if (away.norm() < options_.same_door_m) return true;

@@ -41,7 +41,7 @@ std::optional<StereoDrift> MeasureDrift(const LandmarkModel& model,
                                         const CameraModel& left, const CameraModel& right,
                                         const Eigen::Isometry3d& base_from_landmark,
                                         const StereoDriftOptions& options = {});
-/// c/du of a DLT matrix [px].
+/// Focal length c/du of a DLT matrix [px].
 double FocalLength(const CameraModel& camera);
 
 }  // namespace priamos::head

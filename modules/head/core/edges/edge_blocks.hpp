@@ -15,7 +15,7 @@ class EdgeBlocks {
   static constexpr double kMaxShift_px = 1.5;  ///< an edge farther beside the line is another one
   static constexpr std::size_t kMaxBlocks = 1024;
 
-  /// Refers to `image` (CV_8UC1) until the next call.
+  /// Sets the image to measure (CV_8UC1), which is referred to until the next call.
   void SetImage(const cv::Mat& image) { profile_.SetImage(image); }
 
   /// Chooses the number of rows per block for lines of about `n_rows`.

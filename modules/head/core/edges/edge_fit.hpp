@@ -24,7 +24,8 @@ struct EdgeOffset {
 /// lose weight. All of it runs over four blocks at a time.
 class EdgeFitter {
  public:
-  /// `blocks` were measured along `line`, in an image whose pixels have noise of `noise_sigma`.
+  /// Takes the blocks to fit; `blocks` were measured along `line`, in an image whose pixels have noise of
+  /// `noise_sigma`.
   void Load(const EdgeBlocks& blocks, const AxisLine& line, double noise_sigma);
   /// Fits the edge once with equal weights, then with robust ones. False if the blocks do not determine it.
   bool Solve(KernelWidth width, int rounds, EdgeOffset& fit);

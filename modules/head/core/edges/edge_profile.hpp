@@ -60,7 +60,7 @@ struct EdgeSums {
 /// Measures a raw image across lines.
 class EdgeProfile {
  public:
-  /// Refers to `image` (CV_8UC1) until the next call.
+  /// Sets the image to measure (CV_8UC1), which is referred to until the next call.
   void SetImage(const cv::Mat& image);
 
   /// The sums over rows (or columns) from `first` to `last`; those too near the border are left out.

@@ -10,11 +10,11 @@ namespace {
 
 /// Sharp edges that run along the pixel grid are sampled too coarsely for a narrow kernel: so much between
 /// the two widths means nothing.
-constexpr double kToleratedGapPx = 0.05;
-constexpr double kNearPx = 0.8;  ///< distance from the edge below which its ends are searched
+constexpr double kToleratedGap_px = 0.05;
+constexpr double kNear_px = 0.8;  ///< distance from the edge below which its ends are searched
 /// So near one linear step is exact: for wide kernels, and for narrow ones.
 constexpr double kSettledPx[] = {0.8, 0.5};
-constexpr double kLostPx = 5;
+constexpr double kLost_px = 5;
 constexpr double kPixelsBeyond = 1;     ///< an edge reaches about so far beyond the pixels that were linked
 constexpr double kTypicalSpread = 1.4;  ///< wide kernel and lens together [px]
 
@@ -72,8 +72,8 @@ bool EdgeRefiner::Choose(EdgeOffset& fit) {
   // The same rows seen through narrower kernels are noisier in this proportion.
   const double noisier = 1 + fitter_.noise(KernelWidth::kNarrow) / fitter_.noise(KernelWidth::kWide) *
                                  Square(fit.kappa / narrow.kappa);
-  const double tolerated_turn = 2 * kToleratedGapPx / (blocks_.last() - blocks_.first());
-  if (Square(std::max(0.0, std::abs(gap) - kToleratedGapPx)) > 9 * noisier * fit.variance_offset ||
+  const double tolerated_turn = 2 * kToleratedGap_px / (blocks_.last() - blocks_.first());
+  if (Square(std::max(0.0, std::abs(gap) - kToleratedGap_px)) > 9 * noisier * fit.variance_offset ||
       Square(std::max(0.0, std::abs(turn) - tolerated_turn)) > 9 * noisier * fit.variance_slope) {
     if (!fitter_.Solve(KernelWidth::kNarrow, 3, fit)) return false;
     fitter_.AddVariance(fit);
@@ -94,8 +94,8 @@ bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeIma
     fitter_.Load(blocks_, line, noise_sigma_);
     if (!fitter_.Solve(KernelWidth::kWide, 1, fit)) return false;
     const double move = fit.Move((last - first) / 2.0);
-    if (move > kLostPx) return false;
-    if (move < kNearPx) {
+    if (move > kLost_px) return false;
+    if (move < kNear_px) {
       if (!IsClear(line, options) || !blocks_.FindEnds(line)) return false;
       const double extent = blocks_.last() - blocks_.first();
       if (extent * line.Stretch() < options.min_length_px) return false;

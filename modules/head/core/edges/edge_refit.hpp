@@ -26,7 +26,8 @@ class EdgeRefiner {
     double floor_px = 0.005;      ///< systematic part of sigma_normal_px: sampling, shading
   };
 
-  /// Refers to `image` (CV_8UC1) until the next call.
+  /// Sets the image to measure (CV_8UC1), which is referred to until the next call, and its noise [grey
+  /// values].
   void SetImage(const cv::Mat& image, double noise_sigma);
 
   /// Appends to `out` the segment near `rough` and its points; false if there is none.

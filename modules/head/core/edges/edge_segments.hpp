@@ -32,7 +32,7 @@ class EdgeOperator {
   EdgeOperator() = default;
   explicit EdgeOperator(const Options& options) : options_(options) {}
 
-  /// `image` is CV_8UC1, at least 32x32, else std::invalid_argument.
+  /// Extracts the edges of an image. Throws std::invalid_argument unless it is CV_8UC1, at least 32x32.
   void Extract(const cv::Mat& image, EdgeImage& out);
 
  private:

@@ -7,7 +7,7 @@ namespace priamos::head {
 /// Smoothed Sobel gradients of one grey image. The buffers are reused from image to image.
 class GradientMap {
  public:
-  /// `image` is CV_8UC1, at least 16x16.
+  /// Computes the gradients of an image, which is CV_8UC1, at least 16x16.
   void Compute(const cv::Mat& image);
 
   int width() const { return gx_.cols; }
@@ -15,7 +15,7 @@ class GradientMap {
   /// Sobel sums of the smoothed image: 8 times the slope in grey values per pixel.
   const short* gx(int row) const { return gx_.ptr<short>(row); }
   const short* gy(int row) const { return gy_.ptr<short>(row); }
-  /// |gx| + |gy|.
+  /// Magnitude of the gradients of one row: |gx| + |gy|.
   const unsigned short* magnitude(int row) const { return magnitude_.ptr<unsigned short>(row); }
 
   double noise_sigma() const { return noise_sigma_; }  ///< noise of a pixel of the raw image [grey values]

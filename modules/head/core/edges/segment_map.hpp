@@ -13,7 +13,7 @@ namespace priamos::head {
 class SegmentMap {
  public:
   void Clear(int width_px, int height_px);
-  /// `index` of the segment in EdgeImage::segments; beyond 65 534 it is not drawn.
+  /// Draws a segment; `index` is that of the segment in EdgeImage::segments; beyond 65 534 it is not drawn.
   void Draw(const EdgeSegment& segment, int index);
   /// True if nearly all of `line` runs on one of `segments`, with the same contrast sign.
   bool Covers(const RoughLine& line, const std::vector<EdgeSegment>& segments) const;

@@ -52,7 +52,7 @@ struct ObstaclePiece {
 
 /// The floor in one picture of the line; the verdicts are those of obstacle_line_t.
 struct ObstacleLines {
-  /// kBlind: too little of the line was seen to judge the floor.
+  /// Verdict on the floor ahead; kBlind: too little of the line was seen to judge the floor.
   enum Verdict { kClear = 0, kObstacle = 1, kBlind = 2 };
   Verdict verdict = kBlind;
   double seen_share = 0;              ///< columns with a line

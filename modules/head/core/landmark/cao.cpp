@@ -65,7 +65,7 @@ class Reader {
     return lines;
   }
 
-  /// `here`: at the next line, else at the one just read.
+  /// Throws `sentence` with file and line. `here`: at the next line, else at the one just read.
   [[noreturn]] void Fail(const std::string& sentence, bool here = false) const {
     const std::size_t at = here ? next_ : next_ - (next_ > 0);
     const int number = lines_.empty() ? 1 : lines_[std::min(at, lines_.size() - 1)].number;

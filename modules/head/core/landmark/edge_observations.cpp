@@ -9,7 +9,7 @@ namespace priamos::head {
 std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Association& association,
                                           std::span<const CameraView> views,
                                           const Eigen::Isometry3d& base_from_landmark, bool coarse) {
-  constexpr double kBeyondPx = 3;
+  constexpr double kBeyond_px = 3;
   std::vector<EdgeObservation> observations;
   for (const EdgeMatch& match : association.matches) {
     const CameraView& view = views[match.camera];
@@ -34,7 +34,7 @@ std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Asso
         const EdgePoint& point = view.edges->points[segment.first_point + i];
         const Eigen::Vector2d& at = view.points[segment.first_point + i];
         const double along = direction.dot(at - predicted->p);
-        if (along < -kBeyondPx || along > length + kBeyondPx) continue;
+        if (along < -kBeyond_px || along > length + kBeyond_px) continue;
         observations.push_back({match.edge, match.camera, at, point.sigma_normal_px});
       }
     }

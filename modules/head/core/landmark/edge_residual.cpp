@@ -87,7 +87,7 @@ std::optional<EdgeResidual> ResidualOf(const CameraModel& camera, const Eigen::I
   residual.distance_px = normal.dot(at - view->p);
   residual.by_pose = in_space * PoseJacobian(base_from_landmark, point);
   residual.by_base = in_space * PoseJacobian(Eigen::Isometry3d::Identity(), point);
-  const Eigen::Vector2d arm = (at - camera.centre_px) / kCameraLeverPx;
+  const Eigen::Vector2d arm = (at - camera.centre_px) / kCameraLever_px;
   residual.by_camera << normal, normal.dot(Eigen::Vector2d(-arm.y(), arm.x())), normal.dot(arm);
   residual.across = in_space.transpose() - along * in_space.dot(along);
   residual.lever = 2 * along.dot(point - from) / (to - from).norm() - 1;

@@ -36,13 +36,13 @@ struct EdgeResidual {
   double variance = 0;                  ///< variance of the measurement [px^2]
   Eigen::Matrix<double, 1, 6> by_pose;  ///< Jacobian by (x, y, z, roll, pitch, yaw) as in PoseJacobian
   Eigen::Matrix<double, 1, 6> by_base;  ///< Jacobian by a motion of space about the origin of base
-  /// Jacobian by shift (u, v), roll and scale of the image [px at kCameraLeverPx].
+  /// Jacobian by shift (u, v), roll and scale of the image [px at kCameraLever_px].
   Eigen::Vector4d by_camera;
   Eigen::Vector3d across;  ///< Jacobian by a shift of the model edge; its part along the edge is 0
   double lever = 0;        ///< place on the model edge: -1 at one end, 1 at the other
 };
 
-inline constexpr double kCameraLeverPx =
+inline constexpr double kCameraLever_px =
     300;  ///< roll and scale are counted in pixels that far from the centre
 
 /// The residual of the image point `at` [undistorted px] for the model edge at `base_from_landmark`; nullopt

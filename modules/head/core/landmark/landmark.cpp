@@ -5,7 +5,7 @@
 namespace priamos::head {
 namespace {
 
-/// `rad` as a turn counter-clockwise in [0, 2 pi).
+/// Angle `rad` as a turn counter-clockwise in [0, 2 pi).
 double Turn(double rad) {
   const double turn = std::fmod(rad, 2 * kPi);
   return turn < 0 ? turn + 2 * kPi : turn;

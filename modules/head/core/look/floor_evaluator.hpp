@@ -34,7 +34,7 @@ class FloorEvaluator {
 /// The piece that is farthest above or below the floor; nullopt if there is none.
 std::optional<ObstaclePiece> WorstPiece(const ObstacleLines& lines);
 
-/// For a log: how far ahead of the base, and how high [m].
+/// Text for a log: how far ahead of the base a piece is, and how high [m].
 std::string Describe(const ObstaclePiece& piece);
 
 }  // namespace priamos::head

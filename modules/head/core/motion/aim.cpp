@@ -10,8 +10,8 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kWidthPx = ImageSize{}.width;
-constexpr double kStepRad = 0.005;
+constexpr double kWidth_px = ImageSize{}.width;
+constexpr double kStep_rad = 0.005;
 
 /// Where an upright edge is expected: half way up to the height of the cameras, so that it is in every
 /// picture that shows its bearing.
@@ -50,7 +50,7 @@ double Missing(const std::array<CameraModel, 2>& cameras, const std::vector<Targ
       if (!(camera.Depth(t.in_base) > 0.1)) return 1e6;
       const double u = camera.Project(t.in_base).x();
       const double margin = config.margin_px + config.sigmas * t.bearing_sigma_rad * camera.scale_px;
-      worst = std::max({worst, margin - u, u - (kWidthPx - 1 - margin)});
+      worst = std::max({worst, margin - u, u - (kWidth_px - 1 - margin)});
     }
   }
   return worst;
@@ -92,7 +92,7 @@ double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkMode
   const double wanted = std::clamp(middle + config.side_share * WrapAngle(at_side - middle), -limit, limit);
   double best = wanted, best_cost = 1e18;
   // From the wanted angle outwards: of equal ones the nearest stays.
-  for (double off = 0; off < Radians(40); off += kStepRad) {
+  for (double off = 0; off < Radians(40); off += kStep_rad) {
     for (const double pan : {wanted + off, wanted - off}) {
       const auto cameras = CamerasAt(head, base, pan);
       if (!cameras || std::abs(pan) > limit) continue;

@@ -24,7 +24,7 @@ class HeadJog {
   bool Take(const HeadWish& wish, Time now);
   /// The setting to command, every 50 ms while an order is valid. `here`: where the motors are.
   std::optional<HeadSetting> Step(const HeadSetting& here, Time now);
-  /// Somebody else moves the head now.
+  /// Drops the current order, because somebody else moves the head now.
   void Stop() {
     target_.reset();
     wish_.reset();

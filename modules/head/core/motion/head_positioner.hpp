@@ -37,10 +37,10 @@ class HeadPositioner {
   /// A new goal; the one before is given up.
   void MoveTo(const HeadSetting& goal, Time now);
 
-  /// Somebody else moves the head: no goal until the next MoveTo.
+  /// Drops the goal until the next MoveTo, because somebody else moves the head.
   void Release() { phase_ = Phase::kIdle; }
 
-  /// Call at every tick with the newest report, null before the first. Returns what to command, if anything.
+  /// Setting to command now, if any. Call it at every tick with the newest report, null before the first.
   std::optional<HeadSetting> Step(const HeadReport* report, Time now);
 
   /// The head rests at the goal, and did so for the settling time.

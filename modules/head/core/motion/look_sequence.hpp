@@ -24,7 +24,7 @@ struct LookConfig {
 /// arrive. It always ends, with pictures or without.
 class LookSequence {
  public:
-  /// `cameras` is 2 for the stereo pair, 3 for all.
+  /// Sequence without a look. `cameras` is 2 for the stereo pair, 3 for all.
   explicit LookSequence(const LookConfig& config, int cameras = 2) : config_(config), cameras_(cameras) {}
 
   void Begin(Time now);

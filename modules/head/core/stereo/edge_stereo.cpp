@@ -13,12 +13,12 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kCollinearPx = 1.5;
+constexpr double kCollinear_px = 1.5;
 constexpr double kMaxChi2 = 16;  ///< 2 degrees of freedom
 
 /// Whether `b` continues `a`: on the same line, without a common part.
 bool Continues(const ViewLine& a, const ViewLine& b) {
-  if (std::abs(a.normal.dot(b.p - a.p)) > kCollinearPx || std::abs(a.normal.dot(b.q - a.p)) > kCollinearPx)
+  if (std::abs(a.normal.dot(b.p - a.p)) > kCollinear_px || std::abs(a.normal.dot(b.q - a.p)) > kCollinear_px)
     return false;
   const Eigen::Vector2d d = (a.q - a.p) / a.length_px;
   const double s = d.dot(b.p - a.p), t = d.dot(b.q - a.p);

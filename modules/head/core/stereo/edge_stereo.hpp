@@ -28,8 +28,8 @@ struct StereoMatch {
 std::vector<StereoMatch> MatchBinocular(const CameraView& left, const CameraView& right,
                                         const StereoOptions& options);
 
-/// With a third camera the corresponding point is where the epipolar lines of the two others cross, so only
-/// matches that all three images confirm are returned; edges along one pair's epipolar lines are
+/// Matches the lines of three views. The corresponding point is where the epipolar lines of two others cross,
+/// so only matches that all three images confirm are returned; edges along one pair's epipolar lines are
 /// reconstructed from another pair.
 std::vector<StereoMatch> MatchTrinocular(const CameraView& left, const CameraView& right,
                                          const CameraView& third, const StereoOptions& options);

@@ -46,11 +46,11 @@ double Overlap(const Pairing& pairing, const ViewLine& a, const ViewLine& b) {
 
 /// Along the epipolar line the ends do not count: the lines must be the same one.
 bool LieOnOneEpipolarLine(const Pairing& pairing, const ViewLine& a, const ViewLine& b) {
-  constexpr double kReachPx = 2.5;
+  constexpr double kReach_px = 2.5;
   const Eigen::Vector3d epipolar = pairing.fundamental * ((a.p + a.q) / 2).homogeneous();
   const double scale = epipolar.head<2>().norm();
   return std::abs(epipolar.dot(((b.p + b.q) / 2).homogeneous())) / scale <
-         kReachPx + 0.15 * (a.length_px + b.length_px) / 2;
+         kReach_px + 0.15 * (a.length_px + b.length_px) / 2;
 }
 
 /// Sign of contrast: the planes' normals point to the bright side, as seen from either camera.

@@ -10,29 +10,29 @@ namespace priamos::planner {
 namespace {
 
 /// From where a door is looked at; sectors of edges in the depth of the wall are exact for this distance.
-constexpr double kViewingDistanceM = 2.5;
+constexpr double kViewingDistance_m = 2.5;
 /// How far inside the line of a jamb a viewer must stand for its depth to be seen as two separate edges: at
 /// the viewing distance the two arrises of a 12 cm deep jamb are then about 4 of 768 pixels apart.
-constexpr double kJambViewM = 0.2;
+constexpr double kJambView_m = 0.2;
 /// Faces seen under a flatter angle than this give no usable edge.
-constexpr double kGrazingRad = Radians(15);
+constexpr double kGrazing_rad = Radians(15);
 
 struct Sector {
   double from_rad, to_rad;
 };
 
 /// Everybody before the wall.
-constexpr Sector kApproachSide{kPi / 2 + kGrazingRad, -kPi / 2 - kGrazingRad};
+constexpr Sector kApproachSide{kPi / 2 + kGrazing_rad, -kPi / 2 - kGrazing_rad};
 
 /// Viewers who see the depth of the left jamb: not from behind its face, not through the right jamb.
 Sector LeftJambSector(const DoorPlan& door) {
   const double half_m = door.opening_width_m / 2;
-  const double behind_face = std::atan2(half_m - kJambViewM, kViewingDistanceM);
+  const double behind_face = std::atan2(half_m - kJambView_m, kViewingDistance_m);
   const double past_right_jamb = std::atan2(door.opening_width_m, door.StopX() - door.FrontX());
-  return {WrapAngle(kPi - behind_face), WrapAngle(kPi + past_right_jamb - kGrazingRad)};
+  return {WrapAngle(kPi - behind_face), WrapAngle(kPi + past_right_jamb - kGrazing_rad)};
 }
 
-/// The same edge at y and mirrored at -y; the sector is mirrored with it.
+/// Adds an upright edge at y and its mirror image at -y [m]; the sector is mirrored with it.
 void AddJambEdge(std::vector<LandmarkEdge>& edges, double x, double y, double height, const Sector& sector) {
   edges.push_back({{x, y, 0}, {x, y, height}, sector.from_rad, sector.to_rad, Side::kLeft});
   edges.push_back({{x, -y, 0}, {x, -y, height}, -sector.to_rad, -sector.from_rad, Side::kRight});

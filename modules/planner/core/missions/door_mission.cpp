@@ -9,21 +9,21 @@ namespace priamos::planner {
 namespace {
 
 /// A pose older than this is not planned with.
-constexpr double kFreshPoseS = 1.0;
+constexpr double kFreshPose_s = 1.0;
 /// The robot's stamps are rounded to 10 ms on the radio: a pose must be this much younger than a correction
 /// to surely contain it.
 constexpr Duration kStampRounding = std::chrono::milliseconds(30);
 /// Share of the ordered speed from which on the base counts as driving.
 constexpr double kAtSpeed = 0.8;
 /// Waiting longer for the speed than this would cost more distance than it is worth.
-constexpr double kStartS = 3.0;
+constexpr double kStart_s = 3.0;
 
 double Speed(const RobotPose& pose) {
   return std::hypot(pose.velocity.vx, pose.velocity.vy);
 }
 
 bool IsFresh(const RobotPose& pose, Time now) {
-  return Seconds(now - pose.stamp) <= kFreshPoseS;
+  return Seconds(now - pose.stamp) <= kFreshPose_s;
 }
 
 /// Whether the newest pose is fresh and surely contains the newest correction.
@@ -106,7 +106,7 @@ void DoorMission::Approach(MissionControl& control) {
   if (DistanceToDoor(control) > config_.look_from_m) return;
   // A robot that stands sees just as well, but the point of one stereo pair is not to stand: let it get
   // going.
-  const bool waited = Seconds(control.now() - entered_) > kStartS;
+  const bool waited = Seconds(control.now() - entered_) > kStart_s;
   if (Speed(*control.heard().pose) < kAtSpeed * control.path().speed_m_s && !waited) return;
   AskLook(control);
 }
@@ -171,7 +171,7 @@ void DoorMission::Pass(MissionControl& control) {
                                                    Seconds(control.now() - control.started())));
   // The pose may be older than the report of the arrival; once it is fresh it must be behind the door.
   const RobotPose& pose = *control.heard().pose;
-  if (pose.stamp > control.path_sent() && Seconds(control.now() - pose.stamp) < kFreshPoseS &&
+  if (pose.stamp > control.path_sent() && Seconds(control.now() - pose.stamp) < kFreshPose_s &&
       Speed(pose) < 0.02)
     control.Fail(fmt::format("the path ended {:.2f} m before the door was passed",
                              planner_.PastX(*door_) + distance_m));
@@ -180,7 +180,7 @@ void DoorMission::Pass(MissionControl& control) {
 Pose2 DoorMission::PredictedPose(const MissionControl& control) const {
   const RobotPose& pose = *control.heard().pose;
   const double ahead_s =
-      std::clamp(Seconds(control.now() - pose.stamp), 0.0, kFreshPoseS) + config_.command_delay_s;
+      std::clamp(Seconds(control.now() - pose.stamp), 0.0, kFreshPose_s) + config_.command_delay_s;
   return Integrate(pose.map_from_base, pose.velocity, ahead_s);
 }
 

@@ -15,7 +15,7 @@ namespace priamos::planner {
 /// brake.
 class MissionTable {
  public:
-  /// `kind` identifies the mission in an order. The first one added is shown before the first order.
+  /// Adds a mission; `kind` identifies it in an order. The first one added is shown before the first order.
   void Add(int kind, std::unique_ptr<Mission> mission);
   bool Knows(int kind) const { return missions_.contains(kind); }
 

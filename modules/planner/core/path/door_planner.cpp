@@ -9,12 +9,12 @@ namespace priamos::planner {
 namespace {
 
 /// Sweep steps: no corner of a 1 m body moves more than about 1 cm between two checked poses.
-constexpr double kStepM = 0.005;
-constexpr double kStepRad = Radians(0.5);
+constexpr double kStep_m = 0.005;
+constexpr double kStep_rad = Radians(0.5);
 /// Steeper approaches to the axis than this are driven only when there is no longer run-in.
 constexpr double kSteepestRunIn = 0.7;
 /// A place on the axis this near to the start is where the start is.
-constexpr double kHereM = 0.2;
+constexpr double kHere_m = 0.2;
 
 Pose2 Between(const Pose2& from, const Pose2& to, double part) {
   return {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
@@ -50,7 +50,7 @@ DoorPlanner::Sweep DoorPlanner::SweepAlong(const Pose2& from, const Pose2& to) c
   const double length_m = (to.translation() - from.translation()).norm();
   const double turn_rad = std::abs(WrapAngle(to.yaw - from.yaw));
   const int steps =
-      std::max(1, static_cast<int>(std::ceil(std::max(length_m / kStepM, turn_rad / kStepRad))));
+      std::max(1, static_cast<int>(std::ceil(std::max(length_m / kStep_m, turn_rad / kStep_rad))));
   Sweep sweep{std::numeric_limits<double>::infinity(), ""};
   for (int i = 0; i <= steps; ++i) {
     const auto nearest = obstacles_.NearestTo(footprint_.At(Between(from, to, double(i) / steps)));
@@ -92,7 +92,7 @@ std::vector<std::vector<Pose2>> DoorPlanner::PassageCandidates(const DoorPlan& d
   for (int i = 0; i < kPlaces; ++i) {
     const double x = -config_.align_m + i * (config_.align_m - config_.align_least_m) / (kPlaces - 1);
     const double run_in_m = x - start.x;
-    if (run_in_m >= kHereM && std::abs(start.y) <= kSteepestRunIn * run_in_m) add({{x, 0, 0}});
+    if (run_in_m >= kHere_m && std::abs(start.y) <= kSteepestRunIn * run_in_m) add({{x, 0, 0}});
   }
   add({{std::min(start.x, -config_.align_least_m), 0, 0}});
   for (const double x : {-config_.align_m, -config_.align_m - 0.5}) {
@@ -139,7 +139,7 @@ Outcome<DoorPath> DoorPlanner::PlanApproach(const DoorPlan& door, const Pose2& m
   const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
   const double hold_x = HoldX(door), approach_x = std::min(-config_.approach_m, hold_x);
   std::vector<Pose2> points;
-  if (approach_x - door_from_start.x >= kHereM)
+  if (approach_x - door_from_start.x >= kHere_m)
     points.push_back(door.map_from_door() * Pose2{approach_x, 0, 0});
   points.push_back(door.map_from_door() * Pose2{hold_x, 0, 0});
   return CheckPath(map_from_start, std::move(points), 0);

@@ -52,9 +52,9 @@ class DoorPlanner {
   /// its pose well: over the axis at approach_m if that is ahead, and to the hold point.
   Outcome<DoorPath> PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const;
 
-  /// x of the hold point in the door's frame [m], negative.
+  /// Coordinate x of the hold point in the door's frame [m], negative.
   double HoldX(const DoorPlan& door) const;
-  /// x in the door's frame from which on the whole footprint is behind the wall [m].
+  /// Coordinate x in the door's frame from which on the whole footprint is behind the wall [m].
   double PastX(const DoorPlan& door) const;
   /// Width that the footprint needs at least [m].
   double NeededWidth() const { return footprint_.width_m + 2 * config_.door_margin_m; }

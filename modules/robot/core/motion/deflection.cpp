@@ -8,8 +8,8 @@ namespace {
 /// Parts of the components of a wish, each 0 to 1: vx, vy, wz.
 using Parts = Eigen::Vector3d;
 
-/// Of the parts: first all combinations in coarse steps, in denser ones where next to nothing was found, for
-/// coarse ones miss a narrow passage; then ever smaller steps from the best.
+/// Steps of the parts in the search: first all combinations in coarse steps, in denser ones where next to
+/// nothing was found, for coarse ones miss a narrow passage; then ever smaller steps from the best.
 constexpr double kCoarse = 1.0 / 4, kDense = 1.0 / 8, kLeast = 1.0 / 32;
 constexpr double kNextToNothing = 0.1;
 

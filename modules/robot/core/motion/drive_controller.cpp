@@ -257,7 +257,8 @@ void DriveController::SetCommanded(const Twist2& twist) {
   brake_.SetCommanded(twist);
 }
 
-/// Of an operator's wish counts what deflection leaves of it; of a path, what the collision stop does.
+/// Notes how much of the wanted motion is left: of an operator's wish what deflection leaves, of a path what
+/// the collision stop leaves.
 void DriveController::NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
                                 const CollisionStop::Result& result) {
   const bool operated = state_.mode == DriveMode::kOperated;

@@ -95,13 +95,14 @@ class DriveController {
   void PressEstop() { authority_.PressEstop(); }
   void Rearm() { authority_.Rearm(); }
   bool estop() const { return authority_.estop(); }
-  /// Before the first step: see Authority.
+  /// Sets the first number of e-stop changes, before the first step: see Authority.
   void CountEstopChangesFrom(int n) { authority_.CountEstopChangesFrom(n); }
-  /// `odom_from_base` when the picture was taken. False: refused, see FloorMemory.
+  /// Takes a line of the laser; returns false when FloorMemory refused it. `odom_from_base`: pose when the
+  /// picture was taken.
   bool AddFloorLine(const FloorLine& line, const Pose2& odom_from_base, Time now) {
     return floor_.Add(line, odom_from_base, now);
   }
-  /// `odom_from_base` when the cycle ended.
+  /// Takes a cycle of the sonars. `odom_from_base`: pose when the cycle ended.
   void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) { echoes_.Add(cycle, odom_from_base); }
 
   /// Wheel speeds for now; nullopt while nothing was ever commanded.

@@ -46,8 +46,8 @@ class PathFollower {
   void Drop();
   bool has_path() const { return shape_.has_value(); }
 
-  /// `pose` and `twist` are the newest estimate, `age_s` its age, `dt_s` the time since the last call. Once
-  /// arrived it stays arrived until the next path, whatever corrections come.
+  /// Computes the wanted velocity. `pose` and `twist` are the newest estimate, `age_s` its age, `dt_s` the
+  /// time since the last call. Once arrived it stays arrived until the next path, whatever corrections come.
   Wanted Step(const Pose2& pose, const Twist2& twist, double age_s, double dt_s);
 
  private:

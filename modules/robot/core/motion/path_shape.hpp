@@ -49,7 +49,7 @@ class PathShape {
   PathShape(const PathShapeConfig& config, const Pose2& start, const Path& path);
 
   double length() const { return length_; }
-  /// s is clamped to 0..length().
+  /// Point at the arc length s [m], which is clamped to 0..length().
   Point At(double s) const;
   /// Fastest ds/dt at s from which every later limit, and the stop at the end, is still reached by braking.
   double SpeedAt(double s) const;

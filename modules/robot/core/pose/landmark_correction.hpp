@@ -14,10 +14,10 @@ struct LandmarkCorrection {
                                  0};  ///< equation 9, map frame: to be subtracted from the estimated position
 };
 
-/// `base_from_landmark` is X_rec, `map_from_landmark` X_mod. Equation 8 takes the angle between the modelled
-/// and the reconstructed direction of the landmark from its cosine; here from both components, which keeps
-/// the sign and loses no digits near 0. Equation 9 turns X_rec, seen from the estimated position, by that
-/// angle and subtracts X_mod.
+/// Correction of the pose by one landmark. `base_from_landmark` is X_rec, `map_from_landmark` X_mod. Equation
+/// 8 takes the angle between the modelled and the reconstructed direction of the landmark from its cosine;
+/// here from both components, which keeps the sign and loses no digits near 0. Equation 9 turns X_rec, seen
+/// from the estimated position, by that angle and subtracts X_mod.
 LandmarkCorrection CorrectionFrom(const Pose2& map_from_base, const Pose2& base_from_landmark,
                                   const Pose2& map_from_landmark);
 

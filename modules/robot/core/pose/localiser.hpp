@@ -29,7 +29,7 @@ class Localiser {
 
   Localiser(const LocaliserConfig& config, const MecanumGeometry& geometry);
 
-  /// False when the sample was refused (see Odometry::counters).
+  /// Takes a sample of the wheels; returns false when it was refused (see Odometry::counters).
   bool AddWheels(const WheelSample& sample, Time now);
   void AddFix(const LandmarkFix& fix, Time now);
   /// Applies the fixes that can be applied. Returns one answer per fix that no longer waits.

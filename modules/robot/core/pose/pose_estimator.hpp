@@ -79,7 +79,8 @@ class PoseEstimator {
 
   void Move(const OdometryStep& step);
 
-  /// kTooNew: taken after the newest odometry; give it again when odometry has got there.
+  /// Applies a fix and returns what became of it. kTooNew: taken after the newest odometry; give it again
+  /// when odometry has got there.
   FixResult Apply(const LandmarkFix& fix);
 
   /// The estimate at the time of the newest odometry; nullopt before the first step.

@@ -56,7 +56,7 @@ struct Fusion {
   }
 };
 
-/// `weight` of the estimate, in (0, 1); the measurement has the rest.
+/// Fusion with a fixed `weight` of the estimate, in (0, 1); the measurement has the rest.
 Fusion Weighed(const PoseState& prior, const LandmarkMeasurement& measurement, double weight) {
   return {prior.covariance + (1 / weight - 1) * prior.repeated,
           (measurement.own_share + (1 - measurement.own_share) / (1 - weight)) * measurement.covariance};

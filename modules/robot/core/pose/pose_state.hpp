@@ -35,7 +35,7 @@ struct PoseState {
   Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
 
-/// `twist` as measured by the wheels, cleared of the estimated constant errors.
+/// Velocity `twist` as measured by the wheels, cleared of the estimated constant errors.
 Twist2 Unbiased(const PoseState& state, const Twist2& twist);
 
 /// The state after `step`.

@@ -4,7 +4,7 @@ namespace priamos::robot {
 namespace {
 
 const LeaseHolder kPlanner{Driver::kPlanner, 0};
-/// As many as the messages tell apart.
+/// Number of values that the counter of e-stop changes has in messages.
 constexpr int kEstopChanges = 256;
 
 }  // namespace

@@ -35,7 +35,8 @@ class Authority {
   /// order of before stands.
   void CountEstopChangesFrom(int n) { estop_changes_ = n; }
 
-  /// Once per step, before anything is asked. `path_is_driven` renews the planner's lease.
+  /// Advances time to `now`; called once per step, before anything is asked. `path_is_driven` renews the
+  /// planner's lease.
   void Tick(Time now, bool path_is_driven);
 
   const LeaseHolder& holder() const { return lease_.holder(); }
@@ -47,7 +48,7 @@ class Authority {
   bool OperatorFellSilent(Time now) const { return operator_.FellSilent(now); }
   /// Whether the lease was taken from the driver in motion; true until Forget.
   bool lease_lost() const { return lease_lost_; }
-  /// After a halt: drops the operator's command and the note of a lost lease.
+  /// Drops the operator's command and the note of a lost lease, after a halt.
   void Forget();
   const OperatorInput& input() const { return operator_; }
 

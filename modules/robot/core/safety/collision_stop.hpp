@@ -42,7 +42,7 @@ class CollisionStop {
 
   /// Speed of the fastest point of the footprint [m/s].
   double SpeedOf(const Twist2& twist) const;
-  /// `seen` and `remembered` are obstacles in the base frame.
+  /// Limits a wanted motion. `seen` and `remembered` are obstacles in the base frame [m].
   Result Limit(const Twist2& wanted, std::span<const Eigen::Vector2d> seen,
                std::span<const Eigen::Vector2d> remembered = {}) const;
   /// The scale for a search among many motions: at most that of Limit. What is farther away than the base

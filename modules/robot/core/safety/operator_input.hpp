@@ -20,7 +20,7 @@ struct DriveCommand {
   Twist2 twist;  ///< base frame
 };
 
-/// False for a stick at rest.
+/// Whether a velocity is not zero; it is zero for a stick at rest.
 bool WantsMotion(const Twist2& twist);
 
 /// Whether a command was accepted, or why not; kNotAtRest: the stick must be let go first.
@@ -44,7 +44,7 @@ class OperatorInput {
  public:
   explicit OperatorInput(const OperatorConfig& config) : config_(config) {}
 
-  /// `has_lease`: whether the sender holds the lease.
+  /// Takes a command and returns the verdict. `has_lease`: whether the sender holds the lease.
   CommandVerdict Take(const DriveCommand& command, bool has_lease, Time now);
   /// Forgets the command being obeyed; its sequence number still counts.
   void Drop() { command_.reset(); }

@@ -18,7 +18,7 @@ namespace priamos::robot {
 /// One cycle of the ring.
 struct SonarCycle {
   Time time{};
-  /// First echo of each sensor; anything outside 0..kSonarMaxM is no echo.
+  /// First echo of each sensor; anything outside 0..kSonarMax_m is no echo.
   std::array<double, kSonars> range_m{};
 };
 
@@ -46,7 +46,7 @@ class EchoMemory {
  public:
   EchoMemory(const EchoMemoryConfig& config, const Footprint& footprint);
 
-  /// `odom_from_base` at the end of the cycle.
+  /// Adds a cycle of the sonars. `odom_from_base`: pose at the end of the cycle.
   void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
   /// Forgets what is too old at `now`; `waits` as in NearMap::Forget.
   void Forget(const Pose2& odom_from_base, Time now, bool waits = false);

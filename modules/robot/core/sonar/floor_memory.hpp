@@ -40,8 +40,8 @@ class FloorMemory {
  public:
   explicit FloorMemory(const FloorMemoryConfig& config) : config_(config), map_(config.kept) {}
 
-  /// `odom_from_base` at the time of the picture. False if it is too old, from the future, or not newer than
-  /// the one before.
+  /// Adds a line of the laser. `odom_from_base`: pose at the time of the picture. Returns false if it is too
+  /// old, from the future, or not newer than the one before.
   bool Add(const FloorLine& line, const Pose2& odom_from_base, Time now);
   void Forget(const Pose2& odom_from_base, Time now) { map_.Forget(odom_from_base, now); }
   /// The points that are kept, in the frame of `odom_from_base` [m].

@@ -33,10 +33,10 @@ class NearMap {
 
   /// A believed echo at `range_m` of a sensor at `odom_from_sonar`.
   void Add(const Pose2& odom_from_sonar, double range_m);
-  /// The same echo clears what lies well before it.
+  /// Removes the points that lie well before an echo at `range_m` [m], near the axis of its sensor.
   void Clear(const Pose2& odom_from_sonar, double range_m);
-  /// Time goes on to `now`; call it often. `waits`: the base stands before an obstacle that blocks its
-  /// path, so that standing does not keep points for longer.
+  /// Advances time to `now` and forgets what is too old; call it often. `waits`: the base stands before an
+  /// obstacle that blocks its path, so that standing does not keep points for longer.
   void Forget(const Pose2& odom_from_base, Time now, bool waits = false);
 
   std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;

@@ -32,7 +32,7 @@ class LensTable {
  public:
   LensTable(const TrueCamera& camera, double vignetting) {
     const double loss = (1 / std::sqrt(1 - vignetting) - 1) / kCornerRadius2;
-    const double largest = 2 * std::max(kImageWidthPx, kImageHeightPx) / camera.focal_px;
+    const double largest = 2 * std::max(kImageWidth_px, kImageHeight_px) / camera.focal_px;
     step_ = largest * largest / (kEntries - 2);
     for (int i = 0; i < kEntries; ++i) {
       const double r2 = i * step_, r = std::sqrt(r2);
@@ -94,10 +94,10 @@ GreyImage FormImage(const ImagingConfig& config, const TrueCamera& camera, doubl
       (config.white_level - config.black_level) * exposure.gain * exposure.exposure_s / kNominalExposure_s;
   const double read_variance = exposure.gain * exposure.gain * config.read_noise * config.read_noise;
   NormalTable normal(rng);
-  GreyImage image{kImageWidthPx, kImageHeightPx, {}};
-  image.pixels.reserve(std::size_t(kImageWidthPx) * kImageHeightPx);
-  for (int v = 0; v < kImageHeightPx; ++v) {
-    for (int u = 0; u < kImageWidthPx; ++u) {
+  GreyImage image{kImageWidth_px, kImageHeight_px, {}};
+  image.pixels.reserve(std::size_t(kImageWidth_px) * kImageHeight_px);
+  for (int v = 0; v < kImageHeight_px; ++v) {
+    for (int u = 0; u < kImageWidth_px; ++u) {
       const Eigen::Vector2d from_centre = Eigen::Vector2d(u, v) - camera.centre_px;
       const double r2 = from_centre.squaredNorm() / (camera.focal_px * camera.focal_px);
       const Eigen::Vector2d cell = FineGrid::FromImage(camera.centre_px + from_centre * lens.Stretch(r2));

@@ -14,13 +14,13 @@ namespace priamos::world {
 /// needs, free of distortion itself.
 struct FineGrid {
   static constexpr int kScale = 2;
-  static constexpr int kMarginPx = 24;
-  static constexpr int kWidth = (kImageWidthPx + 2 * kMarginPx) * kScale;
-  static constexpr int kHeight = (kImageHeightPx + 2 * kMarginPx) * kScale;
+  static constexpr int kMargin_px = 24;
+  static constexpr int kWidth = (kImageWidth_px + 2 * kMargin_px) * kScale;
+  static constexpr int kHeight = (kImageHeight_px + 2 * kMargin_px) * kScale;
 
   /// Place of an undistorted image point on the grid; (0,0) is the corner of its first cell.
   static Eigen::Vector2d FromImage(const Eigen::Vector2d& px) {
-    return kScale * (px + Eigen::Vector2d::Constant(0.5 + kMarginPx));
+    return kScale * (px + Eigen::Vector2d::Constant(0.5 + kMargin_px));
   }
 };
 

@@ -10,7 +10,7 @@
 
 namespace priamos::world {
 
-inline constexpr int kImageWidthPx = ImageSize{}.width, kImageHeightPx = ImageSize{}.height;
+inline constexpr int kImageWidth_px = ImageSize{}.width, kImageHeight_px = ImageSize{}.height;
 inline constexpr int kCameras = 3;
 /// The cameras by their numbers in messages.
 enum Camera : int { kLeftCamera = 0, kRightCamera = 1, kThirdCamera = 2 };
@@ -54,7 +54,7 @@ struct HeadBuild {
 
   void Describe(Archive& a);
   static std::array<CameraBuild, kCameras> NominalCameras();
-  /// The same head as another specimen: every dimension off by a few tenths of a millimetre and
+  /// Head as another specimen would be built: every dimension off by a few tenths of a millimetre and
   /// milliradians, every lens off by a percent and some pixels.
   static HeadBuild Specimen(std::uint64_t seed);
 };
@@ -66,7 +66,8 @@ struct TrueCamera {
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   double focal_px = 1000;
   Eigen::Vector2d centre_px = ImageSize{}.Centre();
-  /// distorted - centre = (undistorted - centre) (1 + k1 r^2 + k2 r^4), r = |undistorted - centre| / focal_px
+  /// Radial distortion: distorted - centre = (undistorted - centre) (1 + k1 r^2 + k2 r^4), r = |undistorted -
+  /// centre| / focal_px
   double k1 = 0, k2 = 0;
   double focus_dioptre = 0;  ///< inverse of the distance that is sharp [1/m]
 
@@ -83,7 +84,7 @@ struct TrueCamera {
 /// Pose and intrinsics of one camera for a state of the axes.
 TrueCamera CameraAt(const HeadBuild& build, Camera camera, const HeadAxes& axes);
 
-/// map_from_base as a transform in space.
+/// Pose in the plane, such as map_from_base, as a transform in space.
 Eigen::Isometry3d Lift(const Pose2& a_from_b);
 
 }  // namespace priamos::world

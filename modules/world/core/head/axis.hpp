@@ -31,7 +31,7 @@ struct LensAxisConfig : AxisConfig {
 /// always from the same side; Wilson 1993).
 class Axis {
  public:
-  /// At rest at `start`, the axis anywhere within the play.
+  /// Axis at rest; the motor stands at `start` [unit of the axis], the axis anywhere within the play.
   Axis(const AxisConfig& config, double start, Rng rng);
 
   /// New set value, clamped to the end stops and rounded to a step. Must be finite.

@@ -89,7 +89,7 @@ struct Frame {
 /// world only through the viewpoints it is given at the moments it asks for.
 class CameraServer {
  public:
-  /// `executor` must outlive it; `seed` decides the noise of every picture.
+  /// Server of the cameras; `executor` must outlive it; `seed` decides the noise of every picture.
   CameraServer(const CameraConfig& config, double camera_light, RenderExecutor& executor, std::uint64_t seed);
 
   /// Bits of `cameras`: 1 left, 2 right, 4 third; 8 with the line laser on. Refused (false) while too many

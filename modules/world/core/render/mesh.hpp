@@ -24,7 +24,7 @@ struct MeshVertex {
 /// Triangles, three vertices each, counter-clockwise seen from outside.
 using Mesh = std::vector<std::array<MeshVertex, 3>>;
 
-/// `most_light` is the value of Lighting that becomes 1 in the mesh.
+/// Appends a solid to a mesh. `most_light` is the value of Lighting that becomes 1 in the mesh.
 void AppendSolid(const Solid& solid, const Surface& surface, const Lighting& lighting, double most_light,
                  Mesh& mesh);
 /// Floor and ceiling.

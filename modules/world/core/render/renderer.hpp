@@ -38,7 +38,8 @@ struct Viewpoint {
 /// to be had.
 class Renderer {
  public:
-  /// `seed` decides textures; materials must be among MaterialNames(), else std::invalid_argument.
+  /// Renderer of the solids; `seed` decides textures; materials must be among MaterialNames(), else
+  /// std::invalid_argument.
   Renderer(const RendererConfig& config, const std::vector<Solid>& solids, std::uint64_t seed);
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -51,14 +52,15 @@ class Renderer {
   /// Puts the calibration body somewhere, or takes it away.
   void PlaceReference(const std::optional<PlacedReference>& reference);
 
-  /// One picture of kImageWidthPx x kImageHeightPx, exposed while base and head move evenly from `opening` to
-  /// `closing`. The same arguments give the same bytes; `rng` draws the noise.
+  /// One picture of kImageWidth_px x kImageHeight_px, exposed while base and head move evenly from `opening`
+  /// to `closing`. The same arguments give the same bytes; `rng` draws the noise.
   GreyImage Expose(Camera camera, const Viewpoint& opening, const Viewpoint& closing,
                    const Exposure& exposure, Rng& rng);
 
   const RendererConfig& config() const;
 
-  /// While this is held, Renderers made one after the other in this thread need not set OpenGL up again.
+  /// Handle on OpenGL of this thread: while it is held, Renderers made one after the other in this thread
+  /// need not set OpenGL up again.
   static std::shared_ptr<void> HoldGraphics();
 
  private:

@@ -11,7 +11,7 @@
 namespace priamos::world {
 namespace {
 
-constexpr double kPosterThicknessM = 0.004;
+constexpr double kPosterThickness_m = 0.004;
 
 /// Part of a wall; distances along it from its `from_m`.
 struct Piece {
@@ -177,10 +177,10 @@ void Builder::AddPoster(const PosterPlan& poster) {
   const WallPlan& wall = FindWall(poster.wall, "posters");
   const double side = poster.face == "left" ? 1 : -1;
   // Front of the poster is its +y side, whichever face of the wall it hangs on.
-  const Pose2 in_wall{poster.along_m, side * (wall.thickness_m + kPosterThicknessM) / 2, side > 0 ? 0 : kPi};
+  const Pose2 in_wall{poster.along_m, side * (wall.thickness_m + kPosterThickness_m) / 2, side > 0 ? 0 : kPi};
   solids_.push_back({"poster on " + wall.name,
                      WallLine(wall).map_from_line * in_wall,
-                     {poster.width_m, kPosterThicknessM},
+                     {poster.width_m, kPosterThickness_m},
                      poster.bottom_m,
                      poster.bottom_m + poster.height_m,
                      poster.material});

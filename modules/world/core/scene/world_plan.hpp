@@ -54,7 +54,7 @@ struct SkirtingPlan {
   void Describe(Archive& a);
 };
 
-/// Another surface for one wall than the usual one.
+/// Material of one wall whose surface is not the usual one.
 struct WallSurface {
   std::string wall, material = "concrete";
 

@@ -6,7 +6,7 @@ namespace priamos::world {
 namespace {
 
 /// Edges nearer than this to another solid are joints, not edges (a wave length).
-constexpr double kJointM = 0.007;
+constexpr double kJoint_m = 0.007;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void AcousticScene::FindEdges() {
   for (const auto& obstacle : obstacles_) {
     for (const auto& corner : obstacle.outline.Corners()) {
       const bool covered = std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& other) {
-        return &other != &obstacle && Distance(other.outline, corner) < kJointM;
+        return &other != &obstacle && Distance(other.outline, corner) < kJoint_m;
       });
       if (!covered) edges_.push_back({corner});
     }
@@ -67,7 +67,7 @@ std::optional<AcousticScene::Hit> AcousticScene::Nearest(const Eigen::Vector2d& 
 bool AcousticScene::Visible(const Eigen::Vector2d& from, const Eigen::Vector2d& point) const {
   const Eigen::Vector2d delta = point - from;
   const double distance = delta.norm();
-  return distance > kJointM && !Nearest(from, delta / distance, distance - kJointM);
+  return distance > kJoint_m && !Nearest(from, delta / distance, distance - kJoint_m);
 }
 
 }  // namespace priamos::world

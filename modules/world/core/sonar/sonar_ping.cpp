@@ -7,8 +7,8 @@ namespace priamos::world {
 namespace {
 
 constexpr int kMirrors = 2;
-constexpr double kRayStepDeg = 1.5;
-constexpr double kMembraneM = 0.02;  ///< radius of the sensor's membrane
+constexpr double kRayStep_deg = 1.5;
+constexpr double kMembrane_m = 0.02;  ///< radius of the sensor's membrane
 
 /// Level of the beam, out and back together, `off_axis_deg` beside its axis [dB]: -6 dB at its edge.
 double BeamDb(const SonarConfig& config, double off_axis_deg) {
@@ -18,7 +18,7 @@ double BeamDb(const SonarConfig& config, double off_axis_deg) {
 
 /// Spreading (`decades` dB per factor 10 of distance) and absorption, against 1 m.
 double PathDb(const SonarConfig& config, double range_m, double decades) {
-  const double r = std::max(range_m, kSonarMinM);
+  const double r = std::max(range_m, kSonarMin_m);
   return -decades * std::log10(r) - 2 * config.absorption_db_m * (r - 1);
 }
 
@@ -56,7 +56,7 @@ class Listener {
     if (level_db >= threshold_db_ && range_m <= Limit()) nearest_ = Echo{range_m, point};
   }
   /// Farther echoes cannot become the first one.
-  double Limit() const { return nearest_ ? nearest_->range_m : kSonarMaxM; }
+  double Limit() const { return nearest_ ? nearest_->range_m : kSonarMax_m; }
   void HearReturn(const AcousticScene::Hit& mirror, const Eigen::Vector2d& direction, double path_m,
                   double level_db, double free_m);
 
@@ -76,7 +76,7 @@ void Listener::HearRay(double off_axis_deg) {
   for (int bounce = 0; bounce <= kMirrors; ++bounce) {
     // A ray that comes back needs at most the distance out again; a ray in the open is no longer of interest.
     const auto hit = scene_.Nearest(origin, direction, 2 * Limit() - path_m);
-    const double free_m = hit ? hit->distance_m : 2 * kSonarMaxM;
+    const double free_m = hit ? hit->distance_m : 2 * kSonarMax_m;
     if (bounce == kMirrors) HearReturn(*mirror, direction, path_m, beam_db / 2 + mirror_db, free_m);
     if (!hit) return;
     path_m += hit->distance_m;
@@ -99,7 +99,7 @@ void Listener::HearReturn(const AcousticScene::Hit& mirror, const Eigen::Vector2
   if (back_m <= 0 || back_m > free_m) return;
   const double range_m = (path_m + back_m) / 2;
   // Neighbouring rays are this far apart at their end; between them they cover the membrane.
-  const double reach_m = kMembraneM + range_m * Radians(kRayStepDeg);
+  const double reach_m = kMembrane_m + range_m * Radians(kRayStep_deg);
   if ((to_sensor - direction * back_m).norm() > reach_m) return;
   const double arrival_db = BeamDb(config_, AngleDeg(-direction, axis_)) / 2;
   Hear(range_m, level_db + arrival_db + PathDb(config_, range_m, 20), mirror.point);
@@ -124,10 +124,10 @@ std::optional<Echo> Ping(const AcousticScene& scene, const SonarConfig& config, 
   Listener listener(scene, config, map_from_sonar, threshold_db);
   listener.HearRay(0);
   // Twice the half width: out to -24 dB.
-  const int rays_beside = static_cast<int>(config.beam_deg / kRayStepDeg);
+  const int rays_beside = static_cast<int>(config.beam_deg / kRayStep_deg);
   for (int i = 1; i <= rays_beside; ++i) {
-    listener.HearRay(i * kRayStepDeg);
-    listener.HearRay(-i * kRayStepDeg);
+    listener.HearRay(i * kRayStep_deg);
+    listener.HearRay(-i * kRayStep_deg);
   }
   listener.HearEdges();
   return listener.nearest();

@@ -61,8 +61,8 @@ double SonarRing::Measured(const std::optional<double>& range_m) {
   if (!range_m) return kNoEcho;
   const double noise_m = rng_.Normal(config_.noise_m + config_.noise_per_m * *range_m);
   const double measured = *range_m * sound_speed_ratio_ + noise_m;
-  if (measured > kSonarMaxM) return kNoEcho;
-  return std::max(std::round(measured / kSonarResolutionM) * kSonarResolutionM, kSonarMinM);
+  if (measured > kSonarMax_m) return kNoEcho;
+  return std::max(std::round(measured / kSonarResolution_m) * kSonarResolution_m, kSonarMin_m);
 }
 
 }  // namespace priamos::world

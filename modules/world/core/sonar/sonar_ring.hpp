@@ -32,7 +32,7 @@ struct SonarConfig {
   void Describe(Archive& a);
 };
 
-inline constexpr double kSonarResolutionM = 0.01, kNoEcho = -1;
+inline constexpr double kSonarResolution_m = 0.01, kNoEcho = -1;
 
 /// The first echo of one ping.
 struct Echo {

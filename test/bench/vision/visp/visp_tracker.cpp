@@ -51,7 +51,8 @@ vpMe Edges() {
   me.setMaskNumber(180);
   me.setRange(12);
   me.setThreshold(2000);
-  me.setMu1(0.5), me.setMu2(0.5);
+  me.setMu1(0.5);
+  me.setMu2(0.5);
   me.setSampleStep(4);
   return me;
 }

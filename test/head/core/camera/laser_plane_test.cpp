@@ -24,7 +24,8 @@ Vector3d AnyDirection() {
 
 RC_GTEST_PROP(LaserPlaneTest, InTheCameraItIsAsFarFromEveryPoint, ()) {
   LaserPlane dut;
-  dut.normal = AnyDirection(), dut.offset_m = Between(-1, 1);
+  dut.normal = AnyDirection();
+  dut.offset_m = Between(-1, 1);
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   base_from_camera.translation() = Vector3d(Between(-1, 1), Between(-1, 1), Between(0, 2));
   base_from_camera.linear() = Eigen::AngleAxisd(Between(-3, 3), AnyDirection()).toRotationMatrix();

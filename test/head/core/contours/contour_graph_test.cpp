@@ -22,9 +22,13 @@ class Drawing {
   Drawing() { image_.width = 768, image_.height = 576; }
   Drawing& Line(const Vector2d& begin, const Vector2d& end) {
     EdgeSegment s;
-    s.begin = begin, s.end = end, s.centre = (begin + end) / 2;
-    s.sigma_normal_px = 0.02, s.sigma_angle_rad = 0.07 / s.length_px();
-    s.grey_left = 80, s.grey_right = 140;
+    s.begin = begin;
+    s.end = end;
+    s.centre = (begin + end) / 2;
+    s.sigma_normal_px = 0.02;
+    s.sigma_angle_rad = 0.07 / s.length_px();
+    s.grey_left = 80;
+    s.grey_right = 140;
     image_.segments.push_back(s);
     return *this;
   }
@@ -143,9 +147,15 @@ TEST(ContourGraphTest, ABoxHasThreeFaces) {
     const Vector2d d = (b - a).normalized();
     cube.Line(a + 4 * d, b - 4 * d);
   };
-  side(o, o + x), side(o, o + y), side(o, o + z);
-  side(o + x, o + x + z), side(o + y, o + y + z), side(o + x, o + x + y), side(o + y, o + x + y);
-  side(o + z, o + z + x), side(o + z, o + z + y);
+  side(o, o + x);
+  side(o, o + y);
+  side(o, o + z);
+  side(o + x, o + x + z);
+  side(o + y, o + y + z);
+  side(o + x, o + x + y);
+  side(o + y, o + x + y);
+  side(o + z, o + z + x);
+  side(o + z, o + z + y);
   const auto dut = cube.Graph();
   int n_parallelograms = 0;
   for (const Polygon& p : dut.polygons()) n_parallelograms += p.is_parallelogram;
@@ -181,7 +191,8 @@ TEST(ContourGraphTest, FindsTheRectanglesOfAPictureWithCredibleCorners) {
       for (const auto& line : scene.lines) {
         const Vector2d error = corner.at - line.begin;
         if (error.norm() > 1) continue;
-        ++n_corners, nees += error.dot(corner.covariance.inverse() * error) / 2;
+        ++n_corners;
+        nees += error.dot(corner.covariance.inverse() * error) / 2;
       }
     }
   }

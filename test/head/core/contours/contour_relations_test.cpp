@@ -19,15 +19,20 @@ constexpr double kSigma_px = 1e-3;  ///< so exact that tolerances are those of t
 
 EdgeSegment Segment(const Vector2d& begin, const Vector2d& end, double sigma_px = kSigma_px) {
   EdgeSegment s;
-  s.begin = begin, s.end = end, s.centre = (begin + end) / 2;
-  s.sigma_normal_px = sigma_px, s.sigma_angle_rad = sigma_px / s.length_px();
-  s.grey_left = 80, s.grey_right = 140;
+  s.begin = begin;
+  s.end = end;
+  s.centre = (begin + end) / 2;
+  s.sigma_normal_px = sigma_px;
+  s.sigma_angle_rad = sigma_px / s.length_px();
+  s.grey_left = 80;
+  s.grey_right = 140;
   return s;
 }
 
 EdgeImage Image(std::vector<EdgeSegment> segments) {
   EdgeImage image;
-  image.width = 768, image.height = 576;
+  image.width = 768;
+  image.height = 576;
   image.segments = std::move(segments);
   return image;
 }

@@ -29,7 +29,8 @@ std::vector<test::Quad> Moved(std::vector<test::Quad> quads, const Pose2& there)
   const Eigen::Isometry3d motion = Lift(there);
   for (test::Quad& q : quads) {
     q.corner = motion * q.corner;
-    q.u = motion.linear() * q.u, q.v = motion.linear() * q.v;
+    q.u = motion.linear() * q.u;
+    q.v = motion.linear() * q.v;
   }
   return quads;
 }
@@ -86,7 +87,11 @@ TEST_F(DoorDetectionTest, APanelWithoutAFrameIsNoDoor) {
 
 TEST_F(DoorDetectionTest, ALowerLintelIsNotADoors) {
   auto quads = test::DoorQuads();
-  for (test::Quad& q : quads) q.corner.z() *= 0.8, q.u.z() *= 0.8, q.v.z() *= 0.8;
+  for (test::Quad& q : quads) {
+    q.corner.z() *= 0.8;
+    q.u.z() *= 0.8;
+    q.v.z() *= 0.8;
+  }
   EXPECT_TRUE(Detect(quads, {3.2, 0.1, 0.05}).empty());
 }
 

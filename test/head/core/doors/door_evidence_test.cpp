@@ -64,7 +64,8 @@ class DrawnDoorTest : public testing::Test {
 };
 
 TEST_F(DrawnDoorTest, AllThreeEdgesAreCoveredFromEndToEnd) {
-  DrawUprights(), DrawLintel();
+  DrawUprights();
+  DrawLintel();
   const DoorEvidence dut = Weigh();
   EXPECT_NEAR(dut.lintel.share, 1, 1e-6);
   EXPECT_EQ(dut.lintel.line, 2);
@@ -78,7 +79,8 @@ TEST_F(DrawnDoorTest, AllThreeEdgesAreCoveredFromEndToEnd) {
 }
 
 TEST_F(DrawnDoorTest, EveryEdgeThatIsMissingCountsAgainstIt) {
-  DrawUprights(), DrawLintel();
+  DrawUprights();
+  DrawLintel();
   const double all = Weigh().log_odds;
   for (int missing = 0; missing < 3; ++missing) {
     test::ExactView part(scene_.camera());
@@ -92,7 +94,9 @@ TEST_F(DrawnDoorTest, EveryEdgeThatIsMissingCountsAgainstIt) {
 }
 
 TEST_F(DrawnDoorTest, PiecesAddUpAndSmallGapsAreBridged) {
-  scene_.See(OnLintel(0), OnLintel(0.4)), scene_.See(OnLintel(0.43), OnLintel(0.8));  // a gap of 5 px
+  // a gap of 5 px
+  scene_.See(OnLintel(0), OnLintel(0.4));
+  scene_.See(OnLintel(0.43), OnLintel(0.8));
   const DoorEvidence dut = Weigh();
   EXPECT_NEAR(dut.lintel.share, 0.8, 0.01);
   EXPECT_EQ(dut.lintel.line, 0) << "the longer piece";
@@ -103,7 +107,8 @@ TEST_F(DrawnDoorTest, PiecesAddUpAndSmallGapsAreBridged) {
 }
 
 TEST_F(DrawnDoorTest, LargeGapsAreNotCovered) {
-  scene_.See(OnLintel(0.1), OnLintel(0.4)), scene_.See(OnLintel(0.6), OnLintel(1.2));
+  scene_.See(OnLintel(0.1), OnLintel(0.4));
+  scene_.See(OnLintel(0.6), OnLintel(1.2));
   const DoorEvidence dut = Weigh();
   EXPECT_NEAR(dut.lintel.share, 0.3 + 0.4, 0.01);
   EXPECT_GT(dut.lintel.first_px, 10) << "it begins late";
@@ -111,7 +116,8 @@ TEST_F(DrawnDoorTest, LargeGapsAreNotCovered) {
 }
 
 TEST_F(DrawnDoorTest, PiecesOfBothContrastsAreNotOneEdge) {
-  scene_.See(OnLintel(0), OnLintel(0.6)), scene_.See(OnLintel(1), OnLintel(0.6));
+  scene_.See(OnLintel(0), OnLintel(0.6));
+  scene_.See(OnLintel(1), OnLintel(0.6));
   EXPECT_NEAR(Weigh().lintel.share, 0.6, 0.01) << "the better of both";
 }
 
@@ -129,14 +135,18 @@ TEST_F(DrawnDoorTest, LinesBesideOrTurnedAreNotTheLintel) {
 }
 
 TEST_F(DrawnDoorTest, UprightsThatEndAboveTheFloorHang) {
-  scene_.See(Left(kHeight), Left(0.5)), scene_.See(Right(kHeight), Right(0.7)), DrawLintel();
+  scene_.See(Left(kHeight), Left(0.5));
+  scene_.See(Right(kHeight), Right(0.7));
+  DrawLintel();
   const DoorEvidence dut = Weigh();
   EXPECT_NEAR(dut.hangs_m[0], 0.5, 0.02);
   EXPECT_NEAR(dut.hangs_m[1], 0.7, 0.02);
 }
 
 TEST_F(DrawnDoorTest, ALevelEdgeBelowHangingUprightsIsAWindow) {
-  scene_.See(Left(kHeight), Left(0.8)), scene_.See(Right(kHeight), Right(0.8)), DrawLintel();
+  scene_.See(Left(kHeight), Left(0.8));
+  scene_.See(Right(kHeight), Right(0.8));
+  DrawLintel();
   const DoorEvidence open = Weigh();
   EXPECT_EQ(open.sill, 0);
   scene_.See(Left(0.8), Right(0.8));
@@ -146,7 +156,8 @@ TEST_F(DrawnDoorTest, ALevelEdgeBelowHangingUprightsIsAWindow) {
 }
 
 TEST_F(DrawnDoorTest, AFrameHasASecondLineInsideOfEachEdge) {
-  DrawUprights(), DrawLintel();
+  DrawUprights();
+  DrawLintel();
   const DoorEvidence bare = Weigh();
   EXPECT_EQ(bare.frame_lintel, 0);
   scene_.See(OnLintel(0, kHeight - 0.06), OnLintel(1, kHeight - 0.06));
@@ -159,7 +170,8 @@ TEST_F(DrawnDoorTest, AFrameHasASecondLineInsideOfEachEdge) {
 }
 
 TEST_F(DrawnDoorTest, ALineOutsideOfTheDoorIsNoFrame) {
-  DrawUprights(), DrawLintel();
+  DrawUprights();
+  DrawLintel();
   scene_.See(OnLintel(0, kHeight + 0.06), OnLintel(1, kHeight + 0.06));
   scene_.See(OnLintel(0, kHeight - 0.5), OnLintel(1, kHeight - 0.5));  // and one much too far inside
   EXPECT_EQ(Weigh().frame_lintel, 0);

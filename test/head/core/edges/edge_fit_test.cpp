@@ -25,7 +25,9 @@ cv::Mat Edge(double at, double slope) {
 
 AxisLine Line(double at, double slope) {
   AxisLine line;
-  line.origin = 100, line.offset = at, line.slope = slope;
+  line.origin = 100;
+  line.offset = at;
+  line.slope = slope;
   line.ChooseKernels();
   return line;
 }

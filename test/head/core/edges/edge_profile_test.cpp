@@ -144,7 +144,8 @@ TEST(EdgeProfileTest, ASlantingLineIsMeasuredWhereItIsInside) {
   for (int y = 0; y < 80; ++y) {
     const double x = std::floor(24 + 0.7 * (y - 40));
     if (x < EdgeKernel::kCentre || x + EdgeKernel::kTaps - EdgeKernel::kCentre > 48) continue;
-    ++rows, sum += y;
+    ++rows;
+    sum += y;
   }
   const EdgeSums sums = Sum(image, line, 0, 79);
   EXPECT_NEAR(sums.rows, rows, 1);

@@ -110,7 +110,8 @@ TEST(EdgeRefinerTest, SoftShadowsAreRefused) {
 
 TEST(EdgeRefinerTest, AnEdgeOfTheOtherContrastIsRefused) {
   RoughLine back = Near(0.2);
-  std::swap(back.x1, back.x2), std::swap(back.y1, back.y2);
+  std::swap(back.x1, back.x2);
+  std::swap(back.y1, back.y2);
   EdgeImage out;
   EXPECT_FALSE(Refine(Step(0.2), back, out));
 }

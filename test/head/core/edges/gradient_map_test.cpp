@@ -99,7 +99,8 @@ TEST(GradientMapTest, TheNoiseOfGradientsIsWhatThePixelsMake) {
   double squares_x = 0, squares_y = 0;
   int n = 0;
   ForEachInside(dut, [&](int x, int y) {
-    squares_x += std::pow(dut.gx(y)[x], 2), squares_y += std::pow(dut.gy(y)[x], 2);
+    squares_x += std::pow(dut.gx(y)[x], 2);
+    squares_y += std::pow(dut.gy(y)[x], 2);
     ++n;
   });
   EXPECT_NEAR(std::sqrt(squares_x / n), dut.GradientNoise(), 0.1 * dut.GradientNoise());

@@ -19,18 +19,23 @@ class LineFit {
     double w = 0, wt = 0, ws = 0;
     for (const EdgePoint& p : points_) {
       const double weight = 1 / (p.sigma_normal_px * p.sigma_normal_px);
-      w += weight, wt += weight * p.at.x(), ws += weight * p.at.y();
+      w += weight;
+      wt += weight * p.at.x();
+      ws += weight * p.at.y();
     }
     const double mean = wt / w, offset = ws / w;
     double spread = 0, moment = 0;
     for (const EdgePoint& p : points_) {
       const double weight = 1 / (p.sigma_normal_px * p.sigma_normal_px), t = p.at.x() - mean;
-      spread += weight * t * t, moment += weight * t * (p.at.y() - offset);
+      spread += weight * t * t;
+      moment += weight * t * (p.at.y() - offset);
     }
     const double slope = moment / spread, cosine = 1 / std::hypot(1, slope);
     const auto at = [&](double x) { return Eigen::Vector2d(x, offset + slope * (x - mean)); };
     EdgeSegment s;
-    s.begin = at(points_.front().at.x()), s.end = at(points_.back().at.x()), s.centre = at(mean);
+    s.begin = at(points_.front().at.x());
+    s.end = at(points_.back().at.x());
+    s.centre = at(mean);
     s.sigma_normal_px = cosine / std::sqrt(w);
     s.sigma_angle_rad = cosine * cosine / std::sqrt(spread);
     return s;
@@ -46,9 +51,13 @@ class Pieces {
   Pieces() { image_.width = 768, image_.height = 576; }
   Pieces& Add(Eigen::Vector2d begin, Eigen::Vector2d end, double contrast = 60) {
     EdgeSegment s;
-    s.begin = begin, s.end = end, s.centre = (begin + end) / 2;
-    s.sigma_normal_px = 0.03, s.sigma_angle_rad = 0.1 / s.length_px();
-    s.grey_left = 80, s.grey_right = 80 + contrast;
+    s.begin = begin;
+    s.end = end;
+    s.centre = (begin + end) / 2;
+    s.sigma_normal_px = 0.03;
+    s.sigma_angle_rad = 0.1 / s.length_px();
+    s.grey_left = 80;
+    s.grey_right = 80 + contrast;
     s.first_point = int(image_.points.size());
     s.n_points = std::max(3, int(s.length_px() / 8));
     for (int i = 0; i < s.n_points; ++i) {

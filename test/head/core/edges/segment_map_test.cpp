@@ -11,7 +11,8 @@ namespace {
 
 EdgeSegment Segment(double x1, double y1, double x2, double y2) {
   EdgeSegment segment;
-  segment.begin = {x1, y1}, segment.end = {x2, y2};
+  segment.begin = {x1, y1};
+  segment.end = {x2, y2};
   return segment;
 }
 
@@ -31,7 +32,8 @@ class SegmentMapTest : public testing::Test {
 TEST_F(SegmentMapTest, APieceOfASegmentIsCoveredInEveryDirection) {
   for (int degrees = 0; degrees < 360; degrees += 7) {
     const double c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
-    map_.Clear(200, 100), segments_.clear();
+    map_.Clear(200, 100);
+    segments_.clear();
     Draw(Segment(100 - 45 * c, 50 - 45 * s, 100 + 45 * c, 50 + 45 * s));
     EXPECT_TRUE(map_.Covers({100 - 10 * c, 50 - 10 * s, 100 + 8 * c, 50 + 8 * s}, segments_)) << degrees;
     EXPECT_FALSE(map_.Covers({100 + 10 * c, 50 + 10 * s, 100 - 8 * c, 50 - 8 * s}, segments_))

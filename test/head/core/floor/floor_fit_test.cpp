@@ -85,7 +85,8 @@ TEST(FloorFitTest, MostPointsDecideWhatTheFloorIs) {
   auto points = Line(Vector3d::Zero());
   Raise(points, 0, 119, 0.02);  // either could be the floor
   EXPECT_NEAR(FitFloor(points, kPrior).HeightOf({1.5, -0.5, 0}), 0, 0.002);
-  Raise(points, 120, 299, 0.02), Raise(points, 0, 119, -0.02);
+  Raise(points, 120, 299, 0.02);
+  Raise(points, 0, 119, -0.02);
   EXPECT_NEAR(FitFloor(points, kPrior).HeightOf({1.5, -0.5, 0.02}), 0, 0.002);
 }
 

@@ -40,10 +40,13 @@ Errors Measure(const support::StripeScene& scene, int images) {
   for (int i = 0; i < images; ++i) {
     for (const StripePoint& p : dut.Find(support::Render(scene, rng))) {
       const double error = p.at.y() - support::StripeRow(scene, p.at.x());
-      e.rms_px += error * error, e.nees += std::pow(error / p.sigma_px, 2), ++e.points;
+      e.rms_px += error * error;
+      e.nees += std::pow(error / p.sigma_px, 2);
+      ++e.points;
     }
   }
-  e.rms_px = std::sqrt(e.rms_px / e.points), e.nees /= e.points;
+  e.rms_px = std::sqrt(e.rms_px / e.points);
+  e.nees /= e.points;
   return e;
 }
 
@@ -73,7 +76,8 @@ TEST(LaserStripeTest, ASlantedLineOnASlopingGround) {
 
 TEST(LaserStripeTest, NoLaserNoLine) {
   support::StripeScene scene = Floor();
-  scene.amplitude = 0, scene.noise = 6;
+  scene.amplitude = 0;
+  scene.noise = 6;
   Rng rng(4);
   StripeFinder dut;
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(dut.Find(support::Render(scene, rng)).empty());
@@ -100,7 +104,8 @@ TEST(LaserStripeTest, AnyReachStaysWithinTheImage) {
     GreyImage image{width, height, std::vector<std::uint8_t>(std::size_t(width) * height)};
     for (auto& p : image.pixels) p = static_cast<std::uint8_t>(rng.Below(256));
     StripeOptions options;
-    options.reach_px = 1 + static_cast<int>(rng.Below(9)), options.min_length_px = 1;
+    options.reach_px = 1 + static_cast<int>(rng.Below(9));
+    options.min_length_px = 1;
     for (const StripePoint& p : StripeFinder(options).Find(image)) {
       EXPECT_GE(p.at.y(), 0);
       EXPECT_LE(p.at.y(), height - 1);

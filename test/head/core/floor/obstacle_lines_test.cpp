@@ -124,8 +124,10 @@ TEST_F(ObstacleLinesTest, TheHeightsErrorIsWhatItsSigmaSays) {
     scene.roll_rad = rng_.Normal(0.002);
     const double y = rng_.Uniform(-0.6, 0.3), height = rng_.Uniform(0.03, 0.06);
     scene.steps = {{1.8, 2.5, y, y + 0.25, height}};
-    for (const ObstaclePiece& p : Of(Look(scene), ObstaclePiece::kUp))
-      squares += std::pow((p.height_m - height) / p.sigma_height_m, 2), ++n;
+    for (const ObstaclePiece& p : Of(Look(scene), ObstaclePiece::kUp)) {
+      squares += std::pow((p.height_m - height) / p.sigma_height_m, 2);
+      ++n;
+    }
   }
   EXPECT_GE(n, 39);
   EXPECT_LT(squares / n, 2);

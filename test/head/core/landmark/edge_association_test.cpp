@@ -16,7 +16,8 @@ class EdgeAssociationTest : public testing::Test {
   EdgeAssociationTest() {
     model_.edges.push_back({{3, 0, 0.8}, {3, 0, 1.6}, -kPi, kPi, 0});
     model_.edges.push_back({{3, 0, 1.6}, {3, 0.7, 1.6}, -kPi, kPi, 0});
-    edges_.width = 768, edges_.height = 576;
+    edges_.width = 768;
+    edges_.height = 576;
   }
 
   /// Draws model edge `index`, `beside_px` to its right hand, its end at the corner cut by `cut_px`, with
@@ -29,9 +30,13 @@ class EdgeAssociationTest : public testing::Test {
     Eigen::Vector2d p = seen->p + shift, q = seen->q + shift;
     (index == 0 ? q : p) += (index == 0 ? -cut_px : cut_px) * along;
     EdgeSegment segment;
-    segment.begin = grey_right > grey_left ? p : q, segment.end = grey_right > grey_left ? q : p;
-    segment.centre = (p + q) / 2, segment.sigma_normal_px = 0.05, segment.sigma_angle_rad = 0.001;
-    segment.grey_left = std::min(grey_left, grey_right), segment.grey_right = std::max(grey_left, grey_right);
+    segment.begin = grey_right > grey_left ? p : q;
+    segment.end = grey_right > grey_left ? q : p;
+    segment.centre = (p + q) / 2;
+    segment.sigma_normal_px = 0.05;
+    segment.sigma_angle_rad = 0.001;
+    segment.grey_left = std::min(grey_left, grey_right);
+    segment.grey_right = std::max(grey_left, grey_right);
     edges_.segments.push_back(segment);
   }
 
@@ -81,12 +86,15 @@ TEST_F(EdgeAssociationTest, LightThatChangesBothSidesChangesNothing) {
 }
 
 TEST_F(EdgeAssociationTest, EdgesThatEndInTheirCornerSpeakForIt) {
-  Draw(0, 0, 3, 100, 180), Draw(1, 0, 3, 100, 180);
+  Draw(0, 0, 3, 100, 180);
+  Draw(1, 0, 3, 100, 180);
   const Association ends = Look();
   ASSERT_EQ(ends.corners.size(), 1u);
   EXPECT_GT(ends.corners[0].log_odds, 1);
   edges_.segments.clear();
-  Draw(0, 0, 25, 100, 180), Draw(1, 0, 3, 100, 180);  // as the edge of something beside it
+  // as the edge of something beside it
+  Draw(0, 0, 25, 100, 180);
+  Draw(1, 0, 3, 100, 180);
   const Association short_of_it = Look();
   ASSERT_EQ(short_of_it.corners.size(), 1u);
   EXPECT_LT(short_of_it.corners[0].log_odds, 0);
@@ -97,7 +105,8 @@ TEST_F(EdgeAssociationTest, ACornerNeedsBothEdges) {
   Draw(0, 0, 0, 100, 180);
   EXPECT_TRUE(Look().corners.empty());
   edges_.segments.clear();
-  Draw(0, 0, 0, 100, 180), Draw(1, 0, 0, 100, 180);
+  Draw(0, 0, 0, 100, 180);
+  Draw(1, 0, 0, 100, 180);
   model_.edges[1].side = 3;  // what may stand elsewhere is nobody's neighbour
   EXPECT_TRUE(Look().corners.empty());
 }

@@ -15,7 +15,8 @@ using support::Between;
 
 PredictedEdge Predicted(const Vector2d& p, const Vector2d& q) {
   PredictedEdge edge;
-  edge.p = p, edge.q = q;
+  edge.p = p;
+  edge.q = q;
   return edge;
 }
 
@@ -68,7 +69,8 @@ TEST_F(EdgeCandidatesTest, WhatRunsOnBeyondTheEndsIsTold) {
 }
 
 TEST_F(EdgeCandidatesTest, DistanceIsPositiveOnTheSideOfTheNormal) {
-  Draw({20, 3}, {60, 3}), Draw({20, -2}, {60, -2});
+  Draw({20, 3}, {60, 3});
+  Draw({20, -2}, {60, -2});
   const auto found = Find();
   ASSERT_EQ(found.size(), 2u);
   EXPECT_NEAR(found[0].distance, 3, 1e-6);
@@ -85,7 +87,8 @@ TEST_F(EdgeCandidatesTest, DistanceIsThatAtTheMiddleOfTheCommonPart) {
 }
 
 TEST_F(EdgeCandidatesTest, ALineMayComeFromFarBeside) {
-  Draw({-100, -7}, {100, 1}), Draw({-100, 7}, {100, -1});
+  Draw({-100, -7}, {100, 1});
+  Draw({-100, 7}, {100, -1});
   const auto found = Find();
   ASSERT_EQ(found.size(), 2u) << "7 px beside where the prediction does not reach";
   EXPECT_NEAR(found[0].distance, -1, 1e-4);
@@ -93,21 +96,27 @@ TEST_F(EdgeCandidatesTest, ALineMayComeFromFarBeside) {
 }
 
 TEST_F(EdgeCandidatesTest, TheReachHasABound) {
-  Draw({0, 4.9}, {100, 4.9}), Draw({0, 5.1}, {100, 5.1}), Draw({0, -5.1}, {100, -5.1});
+  Draw({0, 4.9}, {100, 4.9});
+  Draw({0, 5.1}, {100, 5.1});
+  Draw({0, -5.1}, {100, -5.1});
   ASSERT_EQ(Find().size(), 1u);
   EXPECT_EQ(Find()[0].line, 0);
   EXPECT_EQ(Find(5.2).size(), 3u);
 }
 
 TEST_F(EdgeCandidatesTest, TurnedLinesAreAcceptedUpToAnAngleAndAPixel) {
-  Draw({0, -3}, {100, 2.9}), Draw({0, -3}, {100, 3.1});  // 100 px allow 5 + 1 px
+  // 100 px allow 5 + 1 px
+  Draw({0, -3}, {100, 2.9});
+  Draw({0, -3}, {100, 3.1});
   ASSERT_EQ(Find().size(), 1u);
   EXPECT_EQ(Find()[0].line, 0);
   EXPECT_EQ(Find(5, 0.06).size(), 2u);
 }
 
 TEST_F(EdgeCandidatesTest, ALineThatTouchesOnlyTheEndIsNoCandidate) {
-  Draw({-50, 0}, {3, 0}), Draw({97, 0}, {150, 0}), Draw({120, 0}, {150, 0});
+  Draw({-50, 0}, {3, 0});
+  Draw({97, 0}, {150, 0});
+  Draw({120, 0}, {150, 0});
   EXPECT_TRUE(Find().empty());
   Draw({-50, 0}, {5, 0});
   ASSERT_EQ(Find().size(), 1u);

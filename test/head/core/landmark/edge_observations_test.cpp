@@ -31,7 +31,8 @@ class EdgeObservationsTest : public testing::Test {
   }
   static EdgeMatch Match(int camera, std::vector<int> lines = {0}) {
     EdgeMatch match;
-    match.camera = camera, match.lines = std::move(lines);
+    match.camera = camera;
+    match.lines = std::move(lines);
     return match;
   }
   double DistanceFromEdge(const EdgeObservation& o) const {

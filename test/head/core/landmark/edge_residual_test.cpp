@@ -81,7 +81,7 @@ RC_GTEST_PROP(EdgeResidualTest, MovingSpaceAboutTheOriginOfBaseMovesTheEdgeAsPro
 
 /// The camera whose image is shifted, rolled and scaled by so many pixels at the lever.
 CameraModel Disturbed(CameraModel camera, const Eigen::Vector4d& by) {
-  const double roll = by[2] / kCameraLeverPx, scale = 1 + by[3] / kCameraLeverPx;
+  const double roll = by[2] / kCameraLever_px, scale = 1 + by[3] / kCameraLever_px;
   const Eigen::Rotation2Dd turn(roll);
   Eigen::Matrix3d image = Eigen::Matrix3d::Identity();
   image.topLeftCorner<2, 2>() = scale * turn.toRotationMatrix();
@@ -110,7 +110,8 @@ RC_GTEST_PROP(EdgeResidualTest, AShiftOfTheModelEdgeCountsOnlyAcrossIt, ()) {
   for (int k = 0; k < 3; ++k) {
     const Vector3d shift = kStep * (setup.pose.linear().transpose() * Vector3d::Unit(k));
     LandmarkEdge moved = setup.edge;
-    moved.from += shift, moved.to += shift;
+    moved.from += shift;
+    moved.to += shift;
     const double fallen = (dut->distance_px - setup.Distance(setup.camera, setup.pose, moved)) / kStep;
     RC_ASSERT(std::abs(fallen - dut->across[k]) < 1e-2 + 1e-4 * std::abs(fallen));
   }
@@ -200,7 +201,8 @@ TEST(ObservedLinesTest, EveryEdgeInEveryImageIsALineOfItsOwn) {
   std::vector<EdgeObservation> all;
   for (const auto& [edge, camera] : {std::pair(3, 0), std::pair(3, 1), std::pair(5, 1)}) {
     for (EdgeObservation o : Points({10.0 * edge, 20.0 * camera}, {5, 1}, 6, 0.1)) {
-      o.edge = edge, o.camera = camera;
+      o.edge = edge;
+      o.camera = camera;
       all.push_back(o);
     }
   }

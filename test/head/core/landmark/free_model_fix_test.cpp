@@ -21,7 +21,11 @@ struct Cupboard {
       const auto& p = body.points;
       quads.push_back({p[corner], p[u] - p[corner], p[v] - p[corner], grey});
     };
-    quad(0, 1, 3, 180), quad(4, 5, 7, 180), quad(0, 4, 3, 120), quad(1, 5, 2, 140), quad(3, 7, 2, 210);
+    quad(0, 1, 3, 180);
+    quad(4, 5, 7, 180);
+    quad(0, 4, 3, 120);
+    quad(1, 5, 2, 140);
+    quad(3, 7, 2, 210);
   }
 };
 

@@ -61,7 +61,8 @@ TEST(Polyhedron, ABoxBeforeAnotherHidesPartOfItsEdges) {
 
 TEST(Polyhedron, ALineIsSeenUnlessAFaceIsBeforeIt) {
   Polyhedron body = Cube();
-  body.points.push_back({-1, 0.5, 0.4}), body.points.push_back({-1, 0.5, 0.6});
+  body.points.push_back({-1, 0.5, 0.4});
+  body.points.push_back({-1, 0.5, 0.6});
   body.lines.push_back({8, 9});
   EXPECT_EQ(VisibleSkeleton(body, {5, 0.5, 0.5}).edges.size(), 4u);
   EXPECT_EQ(VisibleSkeleton(body, {-5, 0.5, 0.5}).edges.size(), 5u);

@@ -118,7 +118,10 @@ TEST_F(PoseProposalsTest, OneImageEdgeIsNotTwoEdgesOfTheModel) {
 }
 
 TEST_F(PoseProposalsTest, HeightsMustBeThoseOfTheModel) {
-  for (VerticalEdge& v : verticals_) v.z_min_m = 1.9, v.z_max_m = 2.15;
+  for (VerticalEdge& v : verticals_) {
+    v.z_min_m = 1.9;
+    v.z_max_m = 2.15;
+  }
   EXPECT_TRUE(Propose().poses.empty()) << "0.1 of 0.25 m is less than half";
   for (VerticalEdge& v : verticals_) v.z_min_m = 1.8;
   EXPECT_EQ(Propose().n_tested, 3);
@@ -159,7 +162,8 @@ TEST_F(PoseProposalsTest, TheMostSupportedComesFirstAndTheRestIsLeftOut) {
 
 TEST_F(PoseProposalsTest, PosesThatHardlyDifferAreOne) {
   verticals_[2].at.x() += 0.02;
-  options_.merge_m = 0.001, options_.merge_rad = 0.001;
+  options_.merge_m = 0.001;
+  options_.merge_rad = 0.001;
   EXPECT_EQ(Propose().poses.size(), 3u);
   options_.merge_m = options_.merge_rad = 0.1;
   EXPECT_EQ(Propose().poses.size(), 1u);

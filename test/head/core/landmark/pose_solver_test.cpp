@@ -77,7 +77,9 @@ TEST_F(PoseSolverTest, CovarianceIsHonest) {
   // Noise, shifted cameras and misplaced edges as large as the options say: the normalised error is chi
   // squared.
   PoseSolverOptions options;
-  options.model_sigma_m = 0.001, options.tilt_sigma_m = 0.0005, options.camera_sigma_px = 0.2;
+  options.model_sigma_m = 0.001;
+  options.tilt_sigma_m = 0.0005;
+  options.camera_sigma_px = 0.2;
   options.base_covariance = PlacementCovariance({2.05, 0, 1.2}, 0.0005, 0.001);
   const Eigen::Matrix<double, 6, 6> common_root = options.base_covariance.llt().matrixL();
   Rng rng(4);
@@ -91,7 +93,8 @@ TEST_F(PoseSolverTest, CovarianceIsHonest) {
                             b = along.cross(a);
       const Eigen::Vector3d shift = rng.Normal(0.001) * a + rng.Normal(0.001) * b;
       const Eigen::Vector3d tilt = rng.Normal(0.0005) * a + rng.Normal(0.0005) * b;
-      e.from += shift - tilt, e.to += shift + tilt;
+      e.from += shift - tilt;
+      e.to += shift + tilt;
     }
     // All cameras are wrong together: as if the landmark had moved the other way.
     Eigen::Matrix<double, 6, 1> common;

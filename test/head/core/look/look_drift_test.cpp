@@ -43,13 +43,15 @@ class LookDriftTest : public testing::Test {
       if (!seen || !edge.IsSeenFrom(kTruth.Inverse().translation())) continue;
       const Vector2d cut = is_right ? Vector2d(0.04 * (e + 1) * (seen->q - seen->p)) : Vector2d(0, 0);
       EdgeMatch match;
-      match.edge = e, match.camera = is_right;
+      match.edge = e;
+      match.camera = is_right;
       match.lines = {scene.Draw(seen->p + cut + shift, seen->q - cut + shift)};
       fix_.matches.push_back(match);
     }
   }
   std::optional<StereoDrift> Measure(Verdict verdict) {
-    fix_.verdict = verdict, fix_.base_from_landmark = kTruth;
+    fix_.verdict = verdict;
+    fix_.base_from_landmark = kTruth;
     const StereoViews views{left_.View(), right_.View()};
     return MeasureLookDrift(model_, fix_, views, {});
   }

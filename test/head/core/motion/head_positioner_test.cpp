@@ -9,7 +9,8 @@ namespace {
 class FakeMotors {
  public:
   void Command(const HeadSetting& setting, Time now) {
-    target_ = setting, arrival_ = now + std::chrono::milliseconds(200);
+    target_ = setting;
+    arrival_ = now + std::chrono::milliseconds(200);
     if (commands_.empty() || !IsSameSetting(commands_.back(), setting, 1e-9)) commands_.push_back(setting);
   }
   HeadReport Report(Time now) {
@@ -60,6 +61,22 @@ TEST_F(HeadPositionerTest, ArrivesFromBelow) {
   EXPECT_LT(motors_.commands_[0].pan_rad, Left().pan_rad - 0.003);
   EXPECT_LT(motors_.commands_[0].focus_step[1], Left().focus_step[1]);
   EXPECT_TRUE(IsSameSetting(motors_.commands_[1], Left(), 1e-9));
+}
+
+TEST_F(HeadPositionerTest, EveryMotorArrivesFromBelow) {
+  const HeadSetting goal = Left();
+  const PositionerConfig config;
+  dut_.MoveTo(goal, now_);
+  Run(3);
+  ASSERT_EQ(motors_.commands_.size(), 2u);
+  const HeadSetting& below = motors_.commands_[0];
+  EXPECT_NEAR(below.pan_rad, goal.pan_rad - config.approach_rad, 1e-12);
+  EXPECT_NEAR(below.tilt_rad, goal.tilt_rad - config.approach_rad, 1e-12);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(below.vergence_rad[i], goal.vergence_rad[i] - config.approach_rad, 1e-12) << i;
+    EXPECT_EQ(below.zoom_step[i], goal.zoom_step[i] - config.approach_steps) << i;
+    EXPECT_EQ(below.focus_step[i], goal.focus_step[i] - config.approach_steps) << i;
+  }
 }
 
 TEST_F(HeadPositionerTest, ApproachesFromBelowAlsoWhenItComesFromAbove) {

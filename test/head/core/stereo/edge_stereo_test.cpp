@@ -14,7 +14,10 @@ using test::SpaceScene;
 
 SpaceScene::Options Clean(int n_edges) {
   SpaceScene::Options options;
-  options.n_edges = n_edges, options.missing = 0, options.broken = 0, options.n_clutter = 0;
+  options.n_edges = n_edges;
+  options.missing = 0;
+  options.broken = 0;
+  options.n_clutter = 0;
   return options;
 }
 
@@ -22,7 +25,8 @@ SpaceScene::Options Clean(int n_edges) {
 double Nees(const SpaceEdge& found, const SpaceScene::Edge& truth) {
   const Eigen::Vector3d along = (truth.to - truth.from).normalized();
   Eigen::Matrix<double, 3, 2> across;
-  across.col(0) = along.unitOrthogonal(), across.col(1) = along.cross(across.col(0));
+  across.col(0) = along.unitOrthogonal();
+  across.col(1) = along.cross(across.col(0));
   Eigen::Matrix<double, 4, 6> project = Eigen::Matrix<double, 4, 6>::Zero();
   project.topLeftCorner<2, 3>() = across.transpose();
   project.bottomRightCorner<2, 3>() = across.transpose();
@@ -52,7 +56,8 @@ TEST(ReconstructTest, ErrorsAreWhatTheCovarianceSays) {
           continue;
         const auto edge = Reconstruct(sightings, 0);
         if (!edge) continue;
-        sum += Nees(*edge, scene.edges[scene.truth[0][i]]), ++n;
+        sum += Nees(*edge, scene.edges[scene.truth[0][i]]);
+        ++n;
       }
     }
     EXPECT_GT(n, 100);

@@ -53,7 +53,8 @@ TEST_F(SpaceEdgeTest, AnEdgeThatTwoImagesShowIsWhereItIs) {
 
 TEST_F(SpaceEdgeTest, ItRunsAsTheFirstImageHasIt) {
   const Vector3d low(3, 0.2, 0.9), high(3, 0.2, 1.6);
-  left_.See(high, low), right_.See(low, high);
+  left_.See(high, low);
+  right_.See(low, high);
   const auto dut = FromTwo();
   ASSERT_TRUE(dut);
   EXPECT_LT((dut->from - high).norm(), 1e-6);
@@ -62,7 +63,8 @@ TEST_F(SpaceEdgeTest, ItRunsAsTheFirstImageHasIt) {
 
 TEST_F(SpaceEdgeTest, OnlyThePartThatAllImagesShowIsGiven) {
   const auto on_edge = [](double z) { return Vector3d(3, 0.2, z); };
-  left_.See(on_edge(0.9), on_edge(1.6)), right_.See(on_edge(1.1), on_edge(1.8));
+  left_.See(on_edge(0.9), on_edge(1.6));
+  right_.See(on_edge(1.1), on_edge(1.8));
   const auto two = FromTwo();
   ASSERT_TRUE(two);
   EXPECT_NEAR(two->from.z(), 1.1, 1e-5);
@@ -75,12 +77,14 @@ TEST_F(SpaceEdgeTest, OnlyThePartThatAllImagesShowIsGiven) {
 }
 
 TEST_F(SpaceEdgeTest, WithoutACommonPartThereIsNoEdge) {
-  left_.See({3, 0.2, 0.7}, {3, 0.2, 1.0}), right_.See({3, 0.2, 1.1}, {3, 0.2, 1.6});
+  left_.See({3, 0.2, 0.7}, {3, 0.2, 1.0});
+  right_.See({3, 0.2, 1.1}, {3, 0.2, 1.6});
   EXPECT_FALSE(FromTwo());
 }
 
 TEST_F(SpaceEdgeTest, LinesOfSightThatMeetBehindTheCamerasAreNoEdge) {
-  left_.See({3, 0.5, 0.9}, {3, 0.5, 1.6}), right_.See({3, -0.5, 0.9}, {3, -0.5, 1.6});
+  left_.See({3, 0.5, 0.9}, {3, 0.5, 1.6});
+  right_.See({3, -0.5, 0.9}, {3, -0.5, 1.6});
   EXPECT_FALSE(FromTwo());
 }
 
@@ -163,7 +167,9 @@ RC_GTEST_PROP(EpipoleTest, EpipolarLinesPassThroughTheEpipole, ()) {
 
 ViewLine LineThrough(const Vector2d& p, const Vector2d& q) {
   ViewLine line;
-  line.p = p, line.q = q, line.length_px = (q - p).norm();
+  line.p = p;
+  line.q = q;
+  line.length_px = (q - p).norm();
   line.normal = Vector2d(p.y() - q.y(), q.x() - p.x()) / line.length_px;
   return line;
 }

@@ -43,12 +43,14 @@ TEST_F(StereoPairsTest, OneEdgeInBothImagesIsAPair) {
 }
 
 TEST_F(StereoPairsTest, AllThatCouldBeOneEdgeArePairs) {
-  SeeBoth(At(0.9, 0), At(1.6, 0)), SeeBoth(At(0.9, 0.1), At(1.6, 0.1));
+  SeeBoth(At(0.9, 0), At(1.6, 0));
+  SeeBoth(At(0.9, 0.1), At(1.6, 0.1));
   EXPECT_EQ(Pairs().size(), 4u) << "nothing but their depth tells the four apart";
 }
 
 TEST_F(StereoPairsTest, TheImagesMayChangePlaces) {
-  SeeBoth(At(0.9), At(1.6)), SeeBoth(At(0.9, 0.4), At(1.5, 0.2));
+  SeeBoth(At(0.9), At(1.6));
+  SeeBoth(At(0.9, 0.4), At(1.5, 0.2));
   const auto there = Pairs(), back = FindPairs(right_.View(), left_.View(), {});
   ASSERT_EQ(there.size(), back.size());
   for (const StereoPair& pair : there) {
@@ -61,7 +63,8 @@ TEST_F(StereoPairsTest, TheImagesMayChangePlaces) {
 }
 
 TEST_F(StereoPairsTest, OppositeContrastIsAnotherEdge) {
-  left_.See(At(0.9), At(1.6)), right_.See(At(1.6), At(0.9));
+  left_.See(At(0.9), At(1.6));
+  right_.See(At(1.6), At(0.9));
   EXPECT_TRUE(Pairs().empty());
 }
 
@@ -74,12 +77,14 @@ TEST_F(StereoPairsTest, DepthHasBounds) {
 }
 
 TEST_F(StereoPairsTest, LinesOfSightThatMeetBehindTheCamerasAreNoPair) {
-  left_.See(At(0.9, 0.4), At(1.6, 0.4)), right_.See(At(0.9, -0.4), At(1.6, -0.4));
+  left_.See(At(0.9, 0.4), At(1.6, 0.4));
+  right_.See(At(0.9, -0.4), At(1.6, -0.4));
   EXPECT_TRUE(Pairs().empty());
 }
 
 TEST_F(StereoPairsTest, TheCommonExtentCounts) {
-  left_.See(At(0.9), At(1.5)), right_.See(At(1.2), At(1.8));
+  left_.See(At(0.9), At(1.5));
+  right_.See(At(1.2), At(1.8));
   EXPECT_TRUE(Pairs({.min_overlap = 0.55}).empty());
   const auto half = Pairs({.min_overlap = 0.45});
   ASSERT_EQ(half.size(), 1u);
@@ -87,14 +92,16 @@ TEST_F(StereoPairsTest, TheCommonExtentCounts) {
 }
 
 TEST_F(StereoPairsTest, AShortLineIsAllOfTheLongOneThatItShows) {
-  left_.See(At(0.8), At(1.6)), right_.See(At(1.0), At(1.2));
+  left_.See(At(0.8), At(1.6));
+  right_.See(At(1.0), At(1.2));
   const auto dut = Pairs();
   ASSERT_EQ(dut.size(), 1u);
   EXPECT_NEAR(dut[0].similarity, std::sqrt(0.2 / 0.8), 0.02);
 }
 
 TEST_F(StereoPairsTest, WithoutACommonExtentTheyAreNoPair) {
-  left_.See(At(0.6), At(1.0)), right_.See(At(1.1), At(1.5));
+  left_.See(At(0.6), At(1.0));
+  right_.See(At(1.1), At(1.5));
   EXPECT_TRUE(Pairs().empty());
 }
 
@@ -106,11 +113,13 @@ TEST_F(StereoPairsTest, NoCameraSeesAnEdgeVeryDifferently) {
 }
 
 TEST_F(StereoPairsTest, AlongTheEpipolarLineOnlyTheLineMustBeTheSame) {
-  left_.See({3, 0.3, 1.6}, {3, 0.0, 1.6}), right_.See({3, 0.1, 1.6}, {3, -0.3, 1.6});
+  left_.See({3, 0.3, 1.6}, {3, 0.0, 1.6});
+  right_.See({3, 0.1, 1.6}, {3, -0.3, 1.6});
   const auto dut = Pairs();
   ASSERT_EQ(dut.size(), 1u);
   EXPECT_LT(dut[0].epipolar_rad, StereoOptions().min_epipolar_rad);
-  right_.edges().segments.clear(), right_.edges().points.clear();
+  right_.edges().segments.clear();
+  right_.edges().points.clear();
   right_.See({3, 0.1, 1.7}, {3, -0.3, 1.7});  // 36 px higher
   EXPECT_TRUE(Pairs().empty());
 }
@@ -125,7 +134,8 @@ TEST_F(StereoPairsTest, NothingSeenNoPairs) {
 double Similarity(double left_a, double right_a, double left_b, double right_b,
                   const StereoOptions& options = {}) {
   ExactView a(test::HeadCamera(0, 1)), b(test::HeadCamera(0, -1));
-  a.See(At(0.9), At(1.6), left_a, right_a), b.See(At(0.9), At(1.6), left_b, right_b);
+  a.See(At(0.9), At(1.6), left_a, right_a);
+  b.See(At(0.9), At(1.6), left_b, right_b);
   return GreySimilarity(a.View(), 0, b.View(), 0, options);
 }
 

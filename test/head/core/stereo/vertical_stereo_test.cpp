@@ -56,7 +56,8 @@ TEST_F(VerticalStereoTest, SwappedImagesGiveNoDoor) {
 
 TEST_F(VerticalStereoTest, NothingSeenNothingFound) {
   EdgeImage empty;
-  empty.width = 768, empty.height = 576;
+  empty.width = 768;
+  empty.height = 576;
   EXPECT_TRUE(MatchVerticals(MakeView(left_, left_edges_), MakeView(right_, empty), {}).empty());
 }
 
@@ -84,7 +85,8 @@ TEST_F(MatchVerticalsTest, AnEdgeOfBothImagesIsWhereItStands) {
 }
 
 TEST_F(MatchVerticalsTest, OnlyTheHeightThatBothSeeIsTold) {
-  left_.See({3, 0.4, 0.9}, {3, 0.4, 1.5}), right_.See({3, 0.4, 1.2}, {3, 0.4, 1.7});
+  left_.See({3, 0.4, 0.9}, {3, 0.4, 1.5});
+  right_.See({3, 0.4, 1.2}, {3, 0.4, 1.7});
   const auto dut = Match();
   ASSERT_EQ(dut.size(), 1u);
   EXPECT_NEAR(dut[0].z_min_m, 1.2, 1e-6);
@@ -112,7 +114,8 @@ TEST_F(MatchVerticalsTest, ContrastMustAgreeInSignAndSize) {
   left_.See({3, 0.4, 0.9}, {3, 0.4, 1.5}, 80, 140);
   right_.See({3, 0.4, 1.5}, {3, 0.4, 0.9}, 80, 140);
   EXPECT_TRUE(Match().empty()) << "bright on the other side";
-  right_.edges().segments.clear(), right_.edges().points.clear();
+  right_.edges().segments.clear();
+  right_.edges().points.clear();
   right_.See({3, 0.4, 0.9}, {3, 0.4, 1.5}, 80, 80 + 60 / 3.1);
   EXPECT_TRUE(Match().empty()) << "3.1 times weaker";
   EXPECT_FALSE(Match({.max_contrast_ratio = 3.2}).empty());
@@ -131,7 +134,8 @@ TEST_F(MatchVerticalsTest, TheCovarianceIsThatOfTriangulation) {
 }
 
 TEST_F(MatchVerticalsTest, AllPairsThatCouldBeAreGiven) {
-  SeeBoth({3, 0.4, 0.9}, {3, 0.4, 1.5}), SeeBoth({3, 0.3, 0.9}, {3, 0.3, 1.5});
+  SeeBoth({3, 0.4, 0.9}, {3, 0.4, 1.5});
+  SeeBoth({3, 0.3, 0.9}, {3, 0.3, 1.5});
   const auto dut = Match();
   EXPECT_EQ(dut.size(), 4u);
   for (const VerticalEdge& edge : dut) {

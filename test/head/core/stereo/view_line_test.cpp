@@ -84,7 +84,8 @@ TEST(MakeViewTest, TheLineIsLaidThroughThePointsNotTheEnds) {
   scene.Draw({100, 100}, {300, 150});
   EdgeSegment& segment = scene.edges().segments[0];
   const Vector2d aside = 0.5 * segment.normal();
-  segment.begin += aside, segment.end -= aside;
+  segment.begin += aside;
+  segment.end -= aside;
   const CameraView dut = scene.View();
   EXPECT_LT((dut.lines[0].p - Vector2d(100, 100)).norm(), 0.01);
   EXPECT_LT((dut.lines[0].q - Vector2d(300, 150)).norm(), 0.01);

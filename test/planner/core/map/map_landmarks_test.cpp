@@ -14,7 +14,8 @@ namespace {
 
 DoorPlan DoorWithLeaf(const std::string& hinge, double open_deg) {
   DoorPlan door;
-  door.leaf = hinge, door.leaf_open_deg = open_deg;
+  door.leaf = hinge;
+  door.leaf_open_deg = open_deg;
   return door;
 }
 
@@ -94,7 +95,9 @@ TEST(CupboardLandmark, ItsFrontHasTwoUprightsATopAPlinthAndBothSidesOfTheGap) {
 
 TEST(CupboardLandmark, ThreeDoorsHaveTwoGapsAtTheirPlaces) {
   CupboardPlan plan;
-  plan.n_doors = 3, plan.width_m = 1.2, plan.gap_m = 0.01;
+  plan.n_doors = 3;
+  plan.width_m = 1.2;
+  plan.gap_m = 0.01;
   int gaps = 0;
   for (const LandmarkEdge& e : MakeCupboardLandmark(plan).edges) {
     if (e.side != Side::kBoth || std::abs(e.from.y() - e.to.y()) > 1e-9 || std::abs(e.from.x()) > 1e-9)

@@ -31,7 +31,10 @@ struct Statistics {
 Statistics Middle(const GreyImage& image) {
   double sum = 0, squares = 0, n = 0;
   for (int v = 188; v < 388; ++v) {
-    for (int u = 284; u < 484; ++u, ++n) sum += At(image, u, v), squares += At(image, u, v) * At(image, u, v);
+    for (int u = 284; u < 484; ++u, ++n) {
+      sum += At(image, u, v);
+      squares += At(image, u, v) * At(image, u, v);
+    }
   }
   return {sum / n, std::sqrt(squares / n - sum * sum / n / n)};
 }

@@ -15,7 +15,9 @@ TEST(NormalTable, DrawsFromTheStandardNormalDistribution) {
   int beyond_two = 0;
   for (int i = 0; i < kDraws; ++i) {
     const double x = dut.Draw();
-    sum += x, squares += x * x, fourth += x * x * x * x;
+    sum += x;
+    squares += x * x;
+    fourth += x * x * x * x;
     beyond_two += std::abs(x) > 2;
   }
   EXPECT_NEAR(sum / kDraws, 0, 0.008);

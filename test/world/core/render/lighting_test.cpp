@@ -29,7 +29,9 @@ TEST(Lighting, DistanceKnowsTheYawOfABox) {
 
 TEST(Lighting, WhatFacesTheWindowsIsBrighter) {
   SceneConfig config;
-  config.ambient = 0.4, config.window = 0.6, config.window_yaw_deg = 90;
+  config.ambient = 0.4;
+  config.window = 0.6;
+  config.window_yaw_deg = 90;
   const Lighting dut(config, {});
   EXPECT_GT(dut.At({0, 0, 1}, Vector3d::UnitY()), 1.5 * dut.At({0, 0, 1}, -Vector3d::UnitY()));
 }
@@ -45,7 +47,8 @@ TEST(Lighting, AShelfShadesTheLampsAbove) {
 
 TEST(Lighting, CornersGetLessAmbientLight) {
   SceneConfig config;
-  config.ambient = 1, config.window = 0;
+  config.ambient = 1;
+  config.window = 0;
   const Lighting dut(config, OneBox());
   const double beside_box = dut.At({1.45, 0, 0.001}, Vector3d::UnitZ());
   EXPECT_LT(beside_box, 0.85 * dut.At({-2, 0, 0.001}, Vector3d::UnitZ()));

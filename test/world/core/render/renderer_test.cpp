@@ -16,8 +16,13 @@ using Eigen::Vector2d, Eigen::Vector3d;
 /// Even light, no noise, nothing around: only the geometry is left.
 RendererConfig Plain() {
   RendererConfig config;
-  config.scene.ambient = 1, config.scene.window = 0, config.scene.brightness = 1.5;
-  config.scene.x_min_m = 19, config.scene.x_max_m = 20, config.scene.y_min_m = 19, config.scene.y_max_m = 20;
+  config.scene.ambient = 1;
+  config.scene.window = 0;
+  config.scene.brightness = 1.5;
+  config.scene.x_min_m = 19;
+  config.scene.x_max_m = 20;
+  config.scene.y_min_m = 19;
+  config.scene.y_max_m = 20;
   config.imaging.read_noise = config.imaging.photon_noise = config.imaging.vignetting =
       config.imaging.defocus_px = 0;
   return config;
@@ -51,7 +56,9 @@ Step MeasureStep(const GreyImage& image, const Vector2d& at, const Vector2d& nor
   for (double s = -kReach; s < kReach; s += kStep) {
     const double slope = Grey(image, at + (s + kStep) * normal) - Grey(image, at + s * normal);
     const double middle = s + kStep / 2;
-    weight += slope, first += slope * middle, second += slope * middle * middle;
+    weight += slope;
+    first += slope * middle;
+    second += slope * middle * middle;
   }
   const double offset = first / weight;
   return {offset, std::sqrt(std::max(0.0, second / weight - offset * offset))};
@@ -263,7 +270,10 @@ TEST_F(RendererTest, AnUnknownMaterialIsRefusedAndTheOldWorldStays) {
 
 TEST_F(RendererTest, TheLaserLineIsWhereItsPlaneMeetsTheFloor) {
   RendererConfig config = Plain();
-  config.scene.x_min_m = -1, config.scene.x_max_m = 8, config.scene.y_min_m = -3, config.scene.y_max_m = 3;
+  config.scene.x_min_m = -1;
+  config.scene.x_max_m = 8;
+  config.scene.y_min_m = -3;
+  config.scene.y_max_m = 3;
   dut_->SetScene(config, {}, 1);
   Viewpoint at;
   at.head.tilt_rad = 0.45;
@@ -276,7 +286,8 @@ TEST_F(RendererTest, TheLaserLineIsWhereItsPlaneMeetsTheFloor) {
     for (int v = -8; v <= 8; ++v) {
       const double row = std::round(place.y()) + v;
       const double light = std::max(0.0, Grey(image, {place.x(), row}) - 60);
-      weight += light, moment += light * row;
+      weight += light;
+      moment += light * row;
     }
     ASSERT_GT(weight, 100);
     EXPECT_NEAR(moment / weight, place.y(), 0.1);

@@ -122,7 +122,7 @@ RC_GTEST_PROP(PingProperty, NoEchoIsNearerThanTheNearestSolid, ()) {
   for (int i = 0; i < kSonars; ++i) {
     const auto range = Range(SceneOf(solids), {0, 0, 2 * kPi * i / kSonars});
     if (range) RC_ASSERT(*range > nearest - 1e-6);
-    if (range) RC_ASSERT(*range <= kSonarMaxM);
+    if (range) RC_ASSERT(*range <= kSonarMax_m);
   }
 }
 

@@ -18,7 +18,7 @@ namespace priamos::head {
 /// of the same image does as well.
 class DiscLabeller {
  public:
-  /// `object` in its own frame, its z axis roughly upwards in the images.
+  /// Labeller for the discs of `object`, given in its own frame, its z axis roughly upwards in the images.
   explicit DiscLabeller(const ReferenceObject& object, const LabellerOptions& options = {});
 
   /// The right labelling, or a refusal with the reason.
@@ -26,7 +26,7 @@ class DiscLabeller {
 
  private:
   class Search;
-  /// Another disc as one disc sees it.
+  /// Position of another disc relative to a disc, and its size.
   struct Neighbour {
     Eigen::Vector3d offset_m;  ///< along that disc's normal, upwards across it, and the third axis
     double spacing_m;          ///< from the other disc to the one nearest to it

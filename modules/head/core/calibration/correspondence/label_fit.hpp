@@ -15,7 +15,8 @@ class LabelFit {
   static constexpr double kLoose = 0.3;       ///< first tolerance, as a share of the spacing of the discs
   static constexpr double kSizeLoose = 1.35;  ///< ratio of predicted and measured radius at first
 
-  /// `spacing_m`: from every disc to the nearest other. Keeps references to all.
+  /// Fit of a camera to labels. `spacing_m`: distance of every disc to the nearest other [m]. Keeps
+  /// references to all.
   LabelFit(const ReferenceObject& object, const LabellerOptions& options,
            const std::vector<double>& spacing_m, const std::vector<DetectedDisc>& detections);
 

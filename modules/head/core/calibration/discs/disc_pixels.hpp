@@ -32,7 +32,7 @@ struct FlatPixels {
     yy += dy * dy;
     squares += residual * residual;
   }
-  /// As pixels with the model's amplitude (inside) or none (outside).
+  /// Adds the pixels to the normal equations; `amplitude` is that of the model inside the rim, 0 outside.
   void AddTo(NormalEquations& eq, double amplitude) const;
 };
 

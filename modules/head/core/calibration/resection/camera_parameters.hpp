@@ -18,7 +18,7 @@ struct CameraParameters {
 
   /// Rotations about x, y and z (in this order, radians) that make up camera_from_base.
   Eigen::Vector3d OmegaPhiKappa() const;
-  /// c/du, c/dv, skew and H as an upper triangular matrix.
+  /// Camera matrix: c/du, c/dv, skew and principal point H as an upper triangular matrix [px].
   Eigen::Matrix3d Intrinsics() const;
   /// The DLT matrix again, third row of direction length 1.
   Eigen::Matrix<double, 3, 4> Matrix() const;

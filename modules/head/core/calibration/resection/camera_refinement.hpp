@@ -41,7 +41,8 @@ struct RefinementView {
 Outcome<std::vector<CameraModel>> RefineViews(std::span<const RefinementView> views,
                                               const LensKnowledge& lens = {});
 
-/// The same for a single picture: all 11 parameters of the camera and two of radial distortion.
+/// Minimises the reprojection error of a single picture as RefineViews does: all 11 parameters of the camera
+/// and two of radial distortion.
 Outcome<CameraModel> RefineCamera(std::span<const DiscObservation> observations,
                                   std::span<const Eigen::Vector2d> bias, const CameraModel& start,
                                   const LensKnowledge& lens = {});

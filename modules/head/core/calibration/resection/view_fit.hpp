@@ -42,7 +42,7 @@ struct LensPrior {
 double FitView(PinholeView& view, std::span<const PointPair> pairs, const LensPrior& prior, int steps,
                double sigma_px);
 
-/// The same from nothing but the points: scaled orthography first, perspective after. For points whose
+/// Fits a view without a start value: scaled orthography first, perspective after. For points whose
 /// perspective is too weak for a DLT matrix. Refuses when no camera comes near the points.
 Outcome<PinholeView> FitViewFromPoints(std::span<const PointPair> pairs);
 

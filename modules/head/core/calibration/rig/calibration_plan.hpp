@@ -30,8 +30,8 @@ struct CalibrationPlan {
   StepInterval focus{.first = 1000, .last = 2000, .nodes = 4};
 
   void Describe(Archive& a);
-  /// In the order in which they are visited: mechanics first, at the shortest focal length, then the grid
-  /// from the largest zoom down, as motors move least.
+  /// All settings in the order in which they are visited: mechanics first, at the shortest focal length, then
+  /// the grid from the largest zoom down, as motors move least.
   std::vector<HeadSetting> Settings() const;
 };
 

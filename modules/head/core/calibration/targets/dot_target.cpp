@@ -30,8 +30,8 @@ const DetectedDisc& Nearest(const std::vector<DetectedDisc>& discs, const cv::Po
   });
 }
 
-/// With y to the left of x as seen, z comes out of the dots towards the camera; else rows are counted the
-/// other way round.
+/// Whether rows are to be counted the other way round: only with y to the left of x as seen does z come out
+/// of the dots towards the camera.
 bool IsMirrored(const std::vector<cv::Point2f>& centres, const DotTarget& target) {
   const cv::Point2f x = centres[target.columns - 1] - centres[0];
   const cv::Point2f y = centres[target.columns * (target.rows - 1)] - centres[0];

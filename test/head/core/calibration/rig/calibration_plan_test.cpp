@@ -49,8 +49,10 @@ TEST(CalibrationPlanTest, TheMechanicsComeFirstAtTheShortestFocalLength) {
   std::set<double> pans, tilts, left, right;
   for (std::size_t i = 0; i < 17; ++i) {
     EXPECT_EQ(settings[i].zoom_step[0], dut.zoom.first);
-    pans.insert(settings[i].pan_rad), tilts.insert(settings[i].tilt_rad);
-    left.insert(settings[i].vergence_rad[0]), right.insert(settings[i].vergence_rad[1]);
+    pans.insert(settings[i].pan_rad);
+    tilts.insert(settings[i].tilt_rad);
+    left.insert(settings[i].vergence_rad[0]);
+    right.insert(settings[i].vergence_rad[1]);
   }
   EXPECT_TRUE(pans.contains(Radians(dut.pan_deg)) && pans.contains(-Radians(dut.pan_deg)));
   EXPECT_TRUE(tilts.contains(Radians(dut.tilt_deg)) && tilts.contains(-Radians(dut.tilt_deg)));
@@ -71,7 +73,8 @@ TEST(CalibrationPlanTest, ZoomGoesDownAndTheObjectStaysInTheNarrowPicture) {
 
 TEST(CalibrationPlanTest, OneNodeIsAPlan) {
   CalibrationPlan dut;
-  dut.zoom = {400, 400, 1}, dut.focus = {1500, 1500, 1};
+  dut.zoom = {400, 400, 1};
+  dut.focus = {1500, 1500, 1};
   EXPECT_EQ(dut.Settings().size(), 17u + 2);
 }
 

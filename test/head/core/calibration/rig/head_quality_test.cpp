@@ -13,7 +13,8 @@ class HeadQualityTest : public testing::Test {
  protected:
   HeadQualityTest() {
     CalibrationPlan plan;
-    plan.zoom.nodes = 2, plan.focus.nodes = 2;
+    plan.zoom.nodes = 2;
+    plan.focus.nodes = 2;
     support::SimulatedHead simulated(12);
     views_ = support::Sweep(simulated, plan.Settings(), {}, 12);
     const auto solved = SolveHead(views_);

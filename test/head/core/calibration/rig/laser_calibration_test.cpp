@@ -18,7 +18,8 @@ using testing::HasSubstr;
 /// The third camera of the drawing, tilted down.
 CameraModel ThirdCamera(double pan_deg, double tilt_deg) {
   HeadSetting setting;
-  setting.pan_rad = Radians(pan_deg), setting.tilt_rad = Radians(tilt_deg);
+  setting.pan_rad = Radians(pan_deg);
+  setting.tilt_rad = Radians(tilt_deg);
   return MakeCameraModel({850, {386, 285}, -0.05, 0, 0.02},
                          HeadGeometry().BaseFromCamera(setting, kThird, 0.02));
 }
@@ -36,7 +37,8 @@ class LaserCalibrationTest : public testing::Test {
   support::StripeScene Scene(double tilt_deg, const support::Plane& board) const {
     support::StripeScene scene;
     scene.camera = ThirdCamera(0, tilt_deg);
-    scene.laser = Laser(), scene.board = board;
+    scene.laser = Laser();
+    scene.board = board;
     return scene;
   }
   StripeView View(const support::StripeScene& scene) {
@@ -143,7 +145,8 @@ TEST_F(LaserCalibrationTest, TheSamePlaneInTheCamera) {
   const auto dut = CalibrateLaserPlane(Views());
   ASSERT_TRUE(dut) << dut.reason();
   HeadSetting setting;
-  setting.pan_rad = 0.2, setting.tilt_rad = 0.4;
+  setting.pan_rad = 0.2;
+  setting.tilt_rad = 0.4;
   const Eigen::Isometry3d base_from_camera = HeadGeometry().BaseFromCamera(setting, kThird, 0.02);
   const Vector3d in_light = dut->plane.Plane().projection(Vector3d(1.7, 0.4, 0.3));
   EXPECT_NEAR(dut->plane.InCamera(base_from_camera).signedDistance(base_from_camera.inverse() * in_light), 0,

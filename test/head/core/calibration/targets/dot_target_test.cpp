@@ -27,7 +27,9 @@ support::CameraView View(double azimuth, double elevation, double roll) {
   support::CameraView view;
   view.focal_px = 900;
   view.distance_m = 0.4;
-  view.azimuth_rad = azimuth, view.elevation_rad = elevation, view.roll_rad = roll;
+  view.azimuth_rad = azimuth;
+  view.elevation_rad = elevation;
+  view.roll_rad = roll;
   view.target_m = {0, 0, 0};
   view.centre_px = {390, 280};
   view.k1 = -0.08;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace priamos {
+
+/// What a `path` that leads to no file probably means, as the end of a sentence: `; nearest:
+/// "logs/a.lcmlog"`. Of the first of its components that does not exist, those that are near in its folder;
+/// of a name whose ending alone is wrong, those with another ending. Of a folder, the logs in it. Empty if
+/// nothing is near.
+std::string NearestFileText(const std::string& path);
+
+}  // namespace priamos
