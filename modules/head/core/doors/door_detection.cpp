@@ -238,6 +238,7 @@ class Detector {
       if (std::none_of(best.begin(), best.end(), [&](const Candidate* d) { return IsSame(*d, c); }))
         best.push_back(&c);
     std::vector<DetectedDoor> doors;
+    doors.reserve(best.size());
     for (const Candidate* c : best) doors.push_back(c->door);
     return doors;
   }

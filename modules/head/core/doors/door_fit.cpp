@@ -18,8 +18,8 @@ constexpr double kFar_m = 0.4;    ///< farther from the start it is something el
 struct Observation {
   const CameraView* view;
   const ViewLine* line;
-  int side;        ///< 0 left, 1 right
-  bool is_corner;  ///< the lintel's end; else a point of the upright at height z
+  Eigen::Index side;  ///< 0 left, 1 right
+  bool is_corner;     ///< the lintel's end; else a point of the upright at height z
   double z = 0;
   double sigma_px = 1;
 

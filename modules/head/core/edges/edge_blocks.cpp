@@ -1,6 +1,7 @@
 #include "head/core/edges/edge_blocks.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace priamos::head {
 
@@ -35,7 +36,7 @@ void EdgeBlocks::Extend(const AxisLine& line) {
   const auto ahead = [&](const EdgeSums& last, int step) {
     const float at = last.along + 0.5F * float(step) * (last.rows + 1);  // a whole number
     if (at < 0) return EdgeSums{};
-    const int next = static_cast<int>(at + 0.5F), far = next + step * (block_rows_ - 1);
+    const int next = static_cast<int>(std::lround(at)), far = next + step * (block_rows_ - 1);
     return next < extent ? profile_.Sum(line, std::min(next, far), std::max(next, far)) : EdgeSums{};
   };
   const auto room = [&] { return blocks_.size() + front_.size() < kMaxBlocks; };

@@ -81,7 +81,7 @@ void ChainTracer::SeedColumns(const GradientMap& gradients, const Options& optio
   for (int y = 0; y < gradients.height(); ++y) {
     const unsigned short* const row = gradients.magnitude(y) + kGrid;
     unsigned short* const out = columns_.data() + std::ptrdiff_t(y) * step;
-    for (int i = 0; i < n; ++i) out[i] = row[i * kGrid];
+    for (std::ptrdiff_t i = 0; i < n; ++i) out[i] = row[i * kGrid];
   }
   for (int y = 2; y < gradients.height() - 2; ++y) {
     const short *const gx = gradients.gx(y), *const gy = gradients.gy(y);

@@ -64,8 +64,8 @@ void TransposeTile(const std::uint8_t* from, std::size_t from_step, std::uint8_t
   cv::v_uint8x16 a[kTile], b[kTile];
   for (int i = 0; i < kTile; ++i) a[i] = cv::v_load(from + i * from_step);
   for (int round = 0; round < 2; ++round) {
-    for (int i = 0; i < kTile / 2; ++i) cv::v_zip(a[i], a[i + 8], b[2 * i], b[2 * i + 1]);
-    for (int i = 0; i < kTile / 2; ++i) cv::v_zip(b[i], b[i + 8], a[2 * i], a[2 * i + 1]);
+    for (std::size_t i = 0; i < kTile / 2; ++i) cv::v_zip(a[i], a[i + 8], b[2 * i], b[2 * i + 1]);
+    for (std::size_t i = 0; i < kTile / 2; ++i) cv::v_zip(b[i], b[i + 8], a[2 * i], a[2 * i + 1]);
   }
   for (int i = 0; i < kTile; ++i) cv::v_store(to + i * to_step, a[i]);
 }

@@ -168,9 +168,10 @@ void StripeFinder::FindRidges(const GreyImage& image) {
   rows_per_group_ = image.height / 256 + 1;  // so that their number fits into a byte
   strength_.assign(width, 0);
   row_group_.assign(width, 0);
+  const std::ptrdiff_t reach_bytes = std::ptrdiff_t{reach} * width;
   for (int v = margin; v < image.height - margin; ++v) {
     const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(v) * width;
-    KeepRidges({row, row - width, row + width, row - reach * width, row + reach * width},
+    KeepRidges({row, row - width, row + width, row - reach_bytes, row + reach_bytes},
                static_cast<std::uint8_t>(v / rows_per_group_), width, strength_.data(), row_group_.data());
   }
 }

@@ -22,7 +22,7 @@ std::optional<StereoDrift> DriftOfLandmark(const LandmarkModel& model, const Lan
 std::optional<StereoDrift> MeasureLookDrift(const LandmarkModel& model, const LandmarkFix& fix,
                                             const StereoViews& views, const StereoDriftOptions& options) {
   if (IsBlind(*views[0].edges) || IsBlind(*views[1].edges)) return std::nullopt;
-  const auto drift = DriftOfLandmark(model, fix, views, options);
+  auto drift = DriftOfLandmark(model, fix, views, options);
   const auto shift = MeasureEpipolarShift(views[0], views[1], MatchBinocular(views[0], views[1], {}));
   if (!shift) return drift;
   return Fuse(drift.value_or(UnknownDrift()), *shift, *views[1].camera);

@@ -101,7 +101,7 @@ class TripleSearch {
     const ViewLine& line = view.lines[index];
     const EdgeSegment& segment = view.edges->segments[line.segment];
     const Eigen::Vector2d ends[2] = {a, b};
-    for (int end = 0; end < 2; ++end) {
+    for (Eigen::Index end = 0; end < 2; ++end) {
       const Eigen::RowVector3d across =
           line.normal.transpose() * ProjectionJacobian(*view.camera, end == 0 ? edge.from : edge.to);
       const double variance = across * edge.covariance.block<3, 3>(3 * end, 3 * end) * across.transpose();

@@ -90,6 +90,7 @@ std::vector<int> DiscLabeller::Search::Anchors() const {
   }
   std::sort(ranked.begin(), ranked.end());
   std::vector<int> anchors;
+  anchors.reserve(ranked.size());
   for (const auto& [alike, i] : ranked) anchors.push_back(i);
   return anchors;
 }

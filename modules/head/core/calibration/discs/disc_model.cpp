@@ -28,7 +28,8 @@ class NormalTable {
   static constexpr double kReach = 3.3;
   NormalTable() {
     for (int i = 0; i <= kSteps; ++i) {
-      const double z = (i - kSteps / 2) / kPerUnit;
+      const int from_middle = i - kSteps / 2;
+      const double z = from_middle / kPerUnit;
       cdf_[i] = 0.5 * std::erfc(-z / std::sqrt(2.0));
       pdf_[i] = std::exp(-z * z / 2) / std::sqrt(2 * kPi);
     }

@@ -135,7 +135,7 @@ void ReadCamera(const cv::FileNode& node, CameraMount& mount, LensTable& table) 
 Eigen::Matrix<double, 6, 6> ReadCovariance(const cv::FileNode& root) {
   const std::vector<double> values = Numbers(root, "base_covariance", 100);
   if (values.size() != 36) throw Damage{"'base_covariance' is not a list of 36 numbers"};
-  const Eigen::Matrix<double, 6, 6> c = Eigen::Map<const Eigen::Matrix<double, 6, 6>>(values.data());
+  Eigen::Matrix<double, 6, 6> c = Eigen::Map<const Eigen::Matrix<double, 6, 6>>(values.data());
   const auto variances = PrincipalAxesOf(c).values;
   if ((c - c.transpose()).norm() > 1e-9 * c.norm() || !(variances(0) >= -1e-9 * variances(5))) {
     throw Damage{"'base_covariance' is no covariance"};

@@ -26,6 +26,7 @@ std::vector<PointPair> StraightPairs(const std::vector<DiscObservation>& observa
 
 std::vector<Vector2d> Biases(const std::vector<DiscObservation>& observations, const CameraModel& model) {
   std::vector<Vector2d> biases;
+  biases.reserve(observations.size());
   for (const DiscObservation& o : observations) biases.push_back(CentroidBias(model, o.disc));
   return biases;
 }
@@ -96,6 +97,7 @@ Outcome<CameraCalibration> CalibrateCamera(const GreyImage& image, const Referen
 Outcome<std::vector<CameraCalibration>> ShareLens(std::vector<CameraCalibration> calibrations,
                                                   const LensKnowledge& lens) {
   std::vector<std::vector<Vector2d>> biases;
+  biases.reserve(calibrations.size());
   std::vector<RefinementView> views;
   for (const CameraCalibration& c : calibrations) biases.push_back(Biases(c.observations, c.model));
   for (std::size_t i = 0; i < calibrations.size(); ++i)

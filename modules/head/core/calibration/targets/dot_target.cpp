@@ -34,7 +34,7 @@ const DetectedDisc& Nearest(const std::vector<DetectedDisc>& discs, const cv::Po
 /// of the dots towards the camera.
 bool IsMirrored(const std::vector<cv::Point2f>& centres, const DotTarget& target) {
   const cv::Point2f x = centres[target.columns - 1] - centres[0];
-  const cv::Point2f y = centres[target.columns * (target.rows - 1)] - centres[0];
+  const cv::Point2f y = centres[centres.size() - static_cast<std::size_t>(target.columns)] - centres[0];
   return x.cross(y) > 0;  // image axes: v points down
 }
 
