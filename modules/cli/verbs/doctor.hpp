@@ -31,7 +31,7 @@ struct Machine {
 /// Machine on which the program runs.
 Machine ThisMachine();
 
-/// Results of all checks, in the order in which a person would mend it.
+/// Results of all checks, in the order in which a person would mend them.
 std::vector<Finding> Examine(const Machine& machine, const std::string& bus);
 
 }  // namespace priamos::cli
