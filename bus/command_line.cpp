@@ -145,7 +145,7 @@ std::string Expected(const CLI::Option& option) {
 
 std::string BadValue(const CLI::App& app, const CLI::Option& option) {
   const std::string got = fmt::format("{}", fmt::join(option.results(), " "));
-  if (got.empty() && option.get_type_name() == "TEXT")
+  if (got.empty() && option.get_positional())
     return fmt::format("{}: expected {} ({}), got \"\"{}", FullName(app), option.get_name(),
                        option.get_description(), Hint(app));
   const std::string type = option.get_type_name();
@@ -198,23 +198,24 @@ std::string CheckFinite(std::string& text) {
   return whole && std::isfinite(number) ? "" : "not a number";
 }
 
-/// Adds the check of numbers to all options of a program, in one place, so that no verb can forget it.
-void GuardNumbers(CLI::App& app) {
+std::string CheckNotEmpty(const std::string& text) {
+  return text.empty() ? "nothing" : "";
+}
+
+/// Adds the checks of values to all options of a program, in one place, so that no verb can forget them.
+void GuardValues(CLI::App& app) {
   for (auto* option : app.get_options()) {
     const std::string type = option->get_type_name();
     if (option->get_items_expected_max() == 0) continue;  // a flag
     if (type.starts_with("UINT")) option->transform(CLI::Validator(CheckUnsigned, ""));
     if (type.starts_with("INT")) option->transform(CLI::Validator(CheckSigned, ""));
     if (type.starts_with("FLOAT")) option->transform(CLI::Validator(CheckFinite, ""));
+    if (type.starts_with("TEXT")) option->check(CheckNotEmpty);
   }
-  for (auto* verb : app.get_subcommands([](CLI::App*) { return true; })) GuardNumbers(*verb);
+  for (auto* verb : app.get_subcommands([](CLI::App*) { return true; })) GuardValues(*verb);
 }
 
 }  // namespace
-
-CLI::Validator NotEmpty() {
-  return {[](std::string& text) { return text.empty() ? std::string("nothing") : std::string(); }, ""};
-}
 
 const CLI::App& ChosenVerb(const CLI::App& cli) {
   return *Chain(cli).back();
@@ -246,7 +247,7 @@ std::string Explain(const CLI::App& cli, const CLI::Error& error) {
 std::optional<int> ParseCommandLine(CLI::App& cli, int argc, char** argv) {
   cli.set_version_flag("--version", fmt::format("{} {}", cli.get_name(), Version()),
                        "print the version and exit");
-  GuardNumbers(cli);
+  GuardValues(cli);
   try {
     cli.parse(argc, argv);
     return std::nullopt;

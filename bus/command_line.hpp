@@ -6,20 +6,16 @@
 namespace CLI {
 class App;
 class Error;
-class Validator;
 }  // namespace CLI
 
 namespace priamos::bus {
 
 /// Parses the arguments of a program and runs the callbacks of the verb they name. Adds `--version`, and to
-/// every option that takes a number the check that it is one: no negative or overflowing count, no nan.
+/// every option that takes a number the check that it is one: no negative or overflowing count, no nan. Text
+/// must not be empty, as `"$FILE"` is of a variable that is not set.
 /// Returns the exit code when the command line was answered (0: help, version) or refused (2, with one
 /// sentence on standard error); nothing when the program may go on.
 std::optional<int> ParseCommandLine(CLI::App& cli, int argc, char** argv);
-
-/// Check that the text of an option or an argument is not empty, as `"$FILE"` is of a variable that is not
-/// set.
-CLI::Validator NotEmpty();
 
 /// What was wrong, as one sentence: `priamos topic: unknown verb "lst"; nearest: "list" (priamos topic --help
 /// lists all)`. `cli` is the app whose parsing threw `error`.

@@ -123,6 +123,8 @@ class Node {
   const std::vector<Endpoint>& inputs() const { return inputs_; }
   const std::vector<Endpoint>& outputs() const { return outputs_; }
   const Schema& schema() const { return schema_; }
+  /// The time at this moment. That of a tick was taken before it began: too early for what is read in it.
+  Time Now() const { return clock_.Now(); }
 
  private:
   /// Stores one message; throws when it cannot be decoded.

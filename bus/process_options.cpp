@@ -2,8 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bus/command_line.hpp"
-
 namespace priamos::bus {
 namespace {
 
@@ -21,8 +19,7 @@ void AddAlias(CLI::App& cli, const OptionAlias& alias, ConfigSource& config) {
 }  // namespace
 
 void AddProcessOptions(CLI::App& cli, const AppFactory& factory, ProcessOptions& options) {
-  cli.add_option("--config", options.config.path, "TOML file; without it every key keeps its default")
-      ->check(NotEmpty());
+  cli.add_option("--config", options.config.path, "TOML file; without it every key keeps its default");
   cli.add_option("--set", options.config.overrides, "KEY=VALUE on top of the file");
   options.choice.bus = factory.default_bus;
   AddBusChoice(cli, options.choice);

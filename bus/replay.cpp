@@ -44,7 +44,7 @@ Time StartOf(LogReader reader, const std::string& process, const Schema& schema)
 }  // namespace
 
 Replay::Replay(const AppFactory& factory, const ConfigSource& source, const Schema& schema,
-               const std::string& log_path, Options options)
+               const std::string& log_path, const Options& options)
     : name_(factory.name.substr(0, 16)),
       schema_(schema),
       reader_(log_path),

@@ -38,7 +38,7 @@ class Replay {
   /// Replay of one App from the log `log_path`, which is read twice. Throws what the reader and the App's
   /// start throw.
   Replay(const AppFactory& factory, const ConfigSource& source, const Schema& schema,
-         const std::string& log_path, Options options);
+         const std::string& log_path, const Options& options);
   ~Replay();
 
   /// Feeds the whole log; `send` gets what the App sends. An App that asks to stop ends it.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bus/radio/budget_analysis.hpp"
@@ -10,8 +11,20 @@
 namespace priamos::bus::radio {
 namespace {
 
+FreshnessProof ProofOf(const LinkChannel& channel, double next_s, const DirectionAnalysis& other,
+                       Duration line_delay) {
+  constexpr int kSteps = 32;
+  const Duration step = channel.ttl / kSteps + Duration(1);
+  return {.next = FromSeconds(next_s),
+          .delay = line_delay,
+          .ahead = FromSeconds(other.AheadSeconds()),
+          .step = step,
+          .silence = std::max(Duration::zero(), FromSeconds(other.SilenceSeconds()) - (channel.ttl - step))};
+}
+
 DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, Direction direction) {
   const DirectionAnalysis analysis(table, options, direction);
+  const DirectionAnalysis other(table, options, Opposite(direction));
   DirectionBudget budget;
   budget.direction = direction;
   budget.control_bytes_per_s = analysis.ControlBytesPerSecond();
@@ -25,6 +38,8 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, D
     row.bytes_per_s = load.bits / 8 * analysis.overhead() * row.rate_hz;
     row.share = row.bytes_per_s / budget.capacity_bytes_per_s;
     if (std::isfinite(load.latency_s)) row.worst_latency = FromSeconds(load.latency_s);
+    if (const LinkChannel& c = table.at(load.channel); c.channel_class == ChannelClass::kCommand)
+      row.proof = ProofOf(c, analysis.NextSeconds(load), other, options.line_delay);
     budget.bytes_per_s += row.bytes_per_s;
     budget.channels.push_back(row);
   }
@@ -34,6 +49,17 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, D
 
 const char* NameOf(Direction d) {
   return d == Direction::kUp ? "up" : "down";
+}
+
+void CheckProof(const LinkChannel& c, const FreshnessProof& proof, std::vector<std::string>& problems) {
+  if (proof.age() <= c.ttl) return;
+  problems.push_back(fmt::format(
+      "radio channel {}: expected a ttl_s of at least {:.3f} s, in which a command can be proven fresh, got "
+      "{:.3f} s: {:.3f} s until it is sent, {:.3f} s of line_delay_s, {:.3f} s written ahead, {:.3f} s of "
+      "rounding, {:.3f} s of silence of the other end beyond what can be counted: lower max_bundle_bytes or "
+      "keep_alive_s, or measure line_delay_s",
+      c.name, Seconds(proof.age()), Seconds(c.ttl), Seconds(proof.next), Seconds(proof.delay),
+      Seconds(proof.ahead), Seconds(proof.step), Seconds(proof.silence)));
 }
 
 void CheckDirection(const ChannelTable& table, const DirectionBudget& budget,
@@ -51,6 +77,7 @@ void CheckDirection(const ChannelTable& table, const DirectionBudget& budget,
   }
   for (const ChannelBudget& row : budget.channels) {
     const LinkChannel& c = table.at(row.channel);
+    if (row.proof) CheckProof(c, *row.proof, problems);
     if (c.deadline <= Duration::zero() || (row.worst_latency && *row.worst_latency <= c.deadline)) continue;
     problems.push_back(fmt::format(
         "radio channel {}: expected delivery within its deadline_s of {:.3f} s, got {} in the worst case: "
@@ -100,6 +127,11 @@ std::string FormatBudget(const ChannelTable& table, const Budget& budget) {
     for (const ChannelBudget& row : d->channels) text += FormatRow(table, row);
     text += fmt::format("  {:<24} {:>36.1f} {:>6.1f} %\n", "acknowledgements", d->control_bytes_per_s,
                         100 * d->control_bytes_per_s / d->capacity_bytes_per_s);
+    for (const ChannelBudget& row : d->channels)
+      if (row.proof)
+        text += fmt::format("  {}: proven to be at most {:.3f} s old, of a time-to-live of {:.3f} s\n",
+                            table.at(row.channel).name, Seconds(row.proof->age()),
+                            Seconds(table.at(row.channel).ttl));
   }
   for (const std::string& problem : budget.problems) text += problem + "\n";
   return text;

@@ -12,6 +12,17 @@
 /// sent.
 namespace priamos::bus::radio {
 
+/// What the time-to-live of a command that is the next to go is spent on before the receiver may obey it.
+struct FreshnessProof {
+  Duration next{};     ///< from its offer to its last byte at the receiver, without the line's delay
+  Duration delay{};    ///< of the line, there and back
+  Duration ahead{};    ///< the frame that it echoes was handed over so long before it left
+  Duration step{};     ///< lost by the rounding of its offset
+  Duration silence{};  ///< by which the frame that it echoes may be older than the offset can say
+  /// Largest age that the receiver must assume.
+  Duration age() const { return next + delay + ahead + step + silence; }
+};
+
 /// Load of one channel at its configured rate.
 struct ChannelBudget {
   std::size_t channel = 0;
@@ -22,6 +33,7 @@ struct ChannelBudget {
   /// Longest time from Offer() to the last byte at the receiver, without the line's own latency, on an
   /// error-free line whose channels keep their rates; nullopt: not bounded within a minute.
   std::optional<Duration> worst_latency;
+  std::optional<FreshnessProof> proof{};  ///< commands only
 };
 
 /// Load of one direction of the line.
@@ -46,6 +58,12 @@ struct Budget {
 /// that overtake by ageing are counted among those. On a half-duplex radio an end may only talk in its turns:
 /// the other end's longest turn is added for every own turn that the transmission needs (periodic resource
 /// model, Shin and Lee, Real-Time Systems Symposium 2003).
+///
+/// A command is proven fresh by an echo of the receiver's own frames, so that its age counts from the other
+/// direction as well. Its time-to-live must hold what a command takes that is the next to go, the delay of
+/// the line there and back, what is written ahead, what the offset loses, and what the other direction's
+/// silence exceeds the range of the offset by. Emergency stops and bursts are left out, other than for a
+/// deadline: the one that comes too late behind them is refused, and the next one obeyed.
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options);
 
 /// Checks that the link can keep its deadlines. Throws ConfigError with the first problem of ComputeBudget.

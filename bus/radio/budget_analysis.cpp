@@ -37,8 +37,10 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
       direction_(direction),
       byte_s_(1 / options.bytes_per_s),
       ageing_s_(Seconds(options.ageing)),
-      frame_bytes_(kFrameOverhead + (options.datagrams ? kDatagramHead : kLeadingDelimiter)),
-      ahead_s_((options.ahead_bytes + 4) * byte_s_) {
+      frame_bytes_(kFrameOverhead + (options.datagrams ? kDatagramHead : kLeadingDelimiter) +
+                   (table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0)),
+      ahead_s_((options.ahead_bytes + 4) * byte_s_),
+      keep_alive_s_(Seconds(options.keep_alive)) {
   const auto bundle_bytes = static_cast<double>(options.max_bundle_bytes);
   double largest = bundle_bytes;
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -120,6 +122,14 @@ void DirectionAnalysis::ShareTheAir(const LinkOptions& options) {
   gap_s_ = Seconds(options.half_duplex.turn) + alone_s +
            2 * (Seconds(options.half_duplex.turnaround) + kHandOver_s);
   control_bits_ += table_.id_bits() + kControlKindBits;  // "over"
+}
+
+double DirectionAnalysis::NextSeconds(const ChannelLoad& load) const {
+  return InTurns(frame_s_ + FrameSeconds(load.bits) + ahead_s_ + kTick_s);
+}
+
+double DirectionAnalysis::AheadSeconds() const {
+  return ahead_s_ + kTick_s;
 }
 
 /// When work that takes `work_s` on the line is done.

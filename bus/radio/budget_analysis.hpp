@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -43,6 +44,13 @@ class DirectionAnalysis {
   double overhead() const { return overhead_; }
   /// Load of the acknowledgements.
   double ControlBytesPerSecond() const;
+  /// Time from the offer of a message that is the next to go, to its last byte at the receiver: it waits for
+  /// the longest frame (half-duplex: and turn), and no emergency stop comes in between.
+  double NextSeconds(const ChannelLoad& load) const;
+  /// Longest time from the end of a frame to the end of the next one.
+  double SilenceSeconds() const { return std::max(keep_alive_s_, gap_s_) + frame_s_; }
+  /// Time by which a byte may be handed over before it leaves.
+  double AheadSeconds() const;
 
  private:
   ChannelLoad LoadOf(std::size_t index) const;
@@ -64,6 +72,7 @@ class DirectionAnalysis {
   double ageing_s_;
   std::size_t frame_bytes_;  ///< bytes of a frame besides its bundle
   double ahead_s_;
+  double keep_alive_s_;
   double control_bits_ = 0;
   double capacity_bits_ = 0;
   double frame_s_ = 0;

@@ -25,10 +25,12 @@ std::size_t BestBundleBytes(std::size_t max_bytes, double loss) {
   return std::min(max_bytes, std::max(kSmallestBundle, static_cast<std::size_t>(best)));
 }
 
-BundleBuilder::BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow)
+BundleBuilder::BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow,
+                             std::size_t frame_overhead)
     : table_(table),
       target_bytes_(target_bytes),
-      reserved_bits_(over_may_follow ? EntryBits(table, OverEntry{}) : 0) {}
+      reserved_bits_(over_may_follow ? EntryBits(table, OverEntry{}) : 0),
+      frame_overhead_(frame_overhead) {}
 
 bool BundleBuilder::Add(const BundleEntry& entry) {
   const std::size_t bits = out_.bits() + EntryBits(table_, entry) + reserved_bits_;
@@ -38,12 +40,16 @@ bool BundleBuilder::Add(const BundleEntry& entry) {
   return true;
 }
 
+void BundleBuilder::LimitTo(std::size_t bytes) {
+  if (out_.bits() + reserved_bits_ <= 8 * bytes) target_bytes_ = std::min(target_bytes_, bytes);
+}
+
 void BundleBuilder::AddOver() {
   WriteEntry(table_, OverEntry{}, out_);
 }
 
 std::size_t BundleBuilder::FrameBytes() const {
-  return (out_.bits() + 7) / 8 + kFrameOverhead;
+  return (out_.bits() + 7) / 8 + frame_overhead_;
 }
 
 std::vector<std::byte> BundleBuilder::Finish() {

@@ -15,11 +15,16 @@ std::size_t BestBundleBytes(std::size_t max_bytes, double loss);
 class BundleBuilder {
  public:
   /// Empty bundle; `table` must outlive the builder. `over_may_follow`: leaves room for AddOver().
-  BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow);
+  /// `frame_overhead`: bytes of a short frame beside its bundle.
+  BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow,
+                std::size_t frame_overhead = kFrameOverhead);
 
   /// Adds an entry. Returns false, and adds nothing, if it does not fit. The first message may exceed the
   /// target up to the longest bundle, or a long one would never be sent.
   bool Add(const BundleEntry& entry);
+  /// From now on messages are added only as long as the bundle has at most so many bytes; nothing changes
+  /// when it has more already.
+  void LimitTo(std::size_t bytes);
   /// Adds the entry that ends this end's turn on a half-duplex radio. It always fits.
   void AddOver();
 
@@ -34,6 +39,7 @@ class BundleBuilder {
   BitWriter out_;
   std::size_t target_bytes_;
   std::size_t reserved_bits_;
+  std::size_t frame_overhead_;
   bool has_message_ = false;
 };
 

@@ -10,8 +10,9 @@ constexpr Duration kAckGap{250'000};
 constexpr std::uint64_t kFramesPerAck = 24;
 constexpr std::size_t kRememberedFrames = 64;
 constexpr std::uint64_t kLowBitsReach = 64;
-/// Acknowledgements of frames come a few times per second, and get lost now and then.
-constexpr Duration kProofSlack{1'000'000};
+/// Of a slow line far more than an echo names; of a fast one still those of a second, when frames are not
+/// tiny.
+constexpr std::size_t kEchoedFrames = 4096;
 
 }  // namespace
 
@@ -61,7 +62,7 @@ std::vector<std::uint64_t> SentFrames::OnAck(const FrameAckEntry& ack, Time bega
     named.push_back(frame.counter);
     if (back > 0) continue;
     confirmed_ = std::max(confirmed_.value_or(0), frame.counter);
-    proven_ = std::max(proven_.value_or(frame.end), frame.end);
+    last_round_trip_ = std::max(began - frame.end - ack.hold, Duration::zero());
     latency_.Sample(began - frame.end - ack.hold);
   }
   return named;
@@ -71,14 +72,22 @@ CounterForm SentFrames::FormOf(std::uint64_t counter) const {
   return confirmed_ && counter <= *confirmed_ + kLowBitsReach ? CounterForm::kLowBits : CounterForm::kWhole;
 }
 
-bool SentFrames::ProvesFresh(Duration ttl, Time now) const {
-  return proven_ && now - *proven_ <= ttl + kProofSlack;
+void SentFrames::OnHandedOver(std::uint64_t counter, Time now) {
+  handed_over_.push_back({counter, now});
+  if (handed_over_.size() > kEchoedFrames) handed_over_.pop_front();
+}
+
+std::optional<Time> SentFrames::HandedOver(std::uint64_t counter) const {
+  const auto found = std::lower_bound(handed_over_.begin(), handed_over_.end(), counter,
+                                      [](const Frame& f, std::uint64_t c) { return f.counter < c; });
+  if (found == handed_over_.end() || found->counter != counter) return std::nullopt;
+  return found->end;
 }
 
 void SentFrames::OnEpochChanged() {
   frames_.clear();
+  handed_over_.clear();
   confirmed_ = 0;
-  proven_.reset();
 }
 
 }  // namespace priamos::bus::radio

@@ -10,8 +10,8 @@
 #include "bus/radio/line/link_quality.hpp"
 #include "common/time.hpp"
 
-/// Acknowledgements of frames. They cause no repetition: they prove that commands are fresh, name the frames
-/// that differences may refer to, and measure delay and loss.
+/// Acknowledgements of frames. They cause no repetition: they name the frames that differences may refer to
+/// and that short counters may count from, and measure delay and loss.
 namespace priamos::bus::radio {
 
 /// The frames of the other end that this end has to acknowledge, and when.
@@ -29,8 +29,8 @@ class FrameAckSender {
   FrameAckEntry Take(std::uint64_t highest, Time heard_at, double loss, Time now);
   /// Makes the acknowledgement due again, because the frame with it was cut off.
   void Return();
-  /// Makes an acknowledgement due, because the link is up again: the other end waits for an acknowledgement,
-  /// to know that commands are fresh.
+  /// Makes an acknowledgement due, because the link is up again: the other end waits for it, to write its
+  /// counters short.
   void MakeDue() { last_.reset(); }
   /// Notes that counters begin anew.
   void OnEpochChanged();
@@ -51,10 +51,12 @@ class SentFrames {
   std::vector<std::uint64_t> OnAck(const FrameAckEntry& ack, Time began);
   /// The shortest form of a counter that the other end can complete.
   CounterForm FormOf(std::uint64_t counter) const;
-  /// Whether a command that was received now and lives for `ttl` is fresh. A modem, or an attacker, may have
-  /// held the frame back; it is not older than the newest frame from here that the other end had received
-  /// when it was made.
-  bool ProvesFresh(Duration ttl, Time now) const;
+  /// Notes that the last byte of the frame's content is handed to the line now.
+  void OnHandedOver(std::uint64_t counter, Time now);
+  /// Time before which the other end cannot have had the frame: who echoes its counter did so later,
+  /// however long a modem, or an attacker, has held either frame. nullopt: a frame of before a restart, or an
+  /// old one.
+  std::optional<Time> HandedOver(std::uint64_t counter) const;
   /// Notes that the other end sent a FloorEntry: it no longer knows the highest counter that it accepted.
   void OnFloor() { confirmed_.reset(); }
   /// Notes that counters begin anew.
@@ -62,6 +64,8 @@ class SentFrames {
 
   /// Delay of the line, one way, estimated.
   Duration one_way() const { return latency_.one_way(); }
+  /// Delay of both directions together, as measured last.
+  Duration last_round_trip() const { return last_round_trip_; }
   /// Share of this end's frames that the other end lost lately, 0..1.
   double peer_loss() const { return peer_loss_; }
 
@@ -71,9 +75,10 @@ class SentFrames {
     Time end;
   };
   std::deque<Frame> frames_;                ///< the last ones
+  std::deque<Frame> handed_over_;           ///< more of them; `end`: when they were handed over
   std::optional<std::uint64_t> confirmed_;  ///< highest counter that the other end reported
-  std::optional<Time> proven_;              ///< end of the newest frame that the other end had received
   LatencyMeter latency_;
+  Duration last_round_trip_{};
   double peer_loss_ = 0;
 };
 

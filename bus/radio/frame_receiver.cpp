@@ -22,14 +22,15 @@ FrameReceiver::FrameReceiver(const FrameKeys& keys, Direction incoming, FrameSco
 
 void FrameReceiver::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
   opener_.SetEpoch(epoch, floor);
+  newest_.reset();
 }
 
-FrameReceiver::Result FrameReceiver::Push(std::byte byte, Time now) {
+FrameReceiver::Result FrameReceiver::Push(std::byte byte, Time now, std::uint64_t newest_sent) {
   ++counters_.bytes;
   if (splitter_.between_frames()) first_byte_ = now;
   switch (splitter_.Push(byte)) {
     case FrameSplitter::Event::kFrame:
-      return OnFrame(now);
+      return OnFrame(now, newest_sent);
     case FrameSplitter::Event::kOversize:
       return OnReject(Reject::kOversize, now);
     case FrameSplitter::Event::kNone:
@@ -38,10 +39,10 @@ FrameReceiver::Result FrameReceiver::Push(std::byte byte, Time now) {
   return {};
 }
 
-FrameReceiver::Result FrameReceiver::OnFrame(Time now) {
+FrameReceiver::Result FrameReceiver::OnFrame(Time now, std::uint64_t newest_sent) {
   if (!guard_.MayTry(now)) return OnReject(Reject::kFlood, now);
   const std::uint64_t highest_before = opener_.highest();
-  Opened opened = opener_.Open(splitter_.frame());
+  Opened opened = opener_.Open(splitter_.frame(), newest_sent);
   if (const auto* reject = std::get_if<Reject>(&opened)) return OnReject(*reject, now);
   if (const auto* hello = std::get_if<Hello>(&opened)) return *hello;
   return Accept(std::get<DataFrame>(std::move(opened)), highest_before, now);
@@ -61,6 +62,7 @@ AcceptedFrame FrameReceiver::Accept(DataFrame frame, std::uint64_t highest_befor
   guard_.OnMissed(missed);
   loss_.OnFrame(missed, accepted.wire_bytes);
   heard_at_ = now;
+  if (accepted.ahead > 0) newest_ = HeardFrame{accepted.frame.counter, now};
   unusable_ = 0;
   return accepted;
 }

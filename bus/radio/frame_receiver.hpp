@@ -23,6 +23,12 @@ struct AcceptedFrame {
   bool link_back = false;      ///< the link was down before this frame
 };
 
+/// A frame of the other end, for its echo.
+struct HeardFrame {
+  std::uint64_t counter = 0;
+  Time at{};  ///< arrival of its last byte
+};
+
 /// Counters of what came from the line.
 struct ReceptionCounters {
   std::uint64_t bytes = 0;
@@ -45,8 +51,8 @@ class FrameReceiver {
 
   /// Accepts from now on data frames of `epoch` with counters above `floor`. Epoch 0: no data frames.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
-  /// The next byte of the line.
-  Result Push(std::byte byte, Time now);
+  /// The next byte of the line. `newest_sent`: see FrameOpener::Open.
+  Result Push(std::byte byte, Time now, std::uint64_t newest_sent = 0);
 
   Reception reception(Time now) const;
   /// Whether no data frame was accepted of late.
@@ -57,11 +63,13 @@ class FrameReceiver {
   std::uint64_t highest() const { return opener_.highest(); }
   /// Arrival of the last data frame accepted; the beginning of time before the first.
   Time heard_at() const { return heard_at_.value_or(Time{}); }
+  /// The frame with the highest counter that was accepted in this epoch and in this life.
+  const std::optional<HeardFrame>& newest() const { return newest_; }
   const LossMeter& loss() const { return loss_; }
   const ReceptionCounters& counters() const { return counters_; }
 
  private:
-  Result OnFrame(Time now);
+  Result OnFrame(Time now, std::uint64_t newest_sent);
   AcceptedFrame Accept(DataFrame frame, std::uint64_t highest_before, Time now);
   Result OnReject(Reject reject, Time now);
 
@@ -72,7 +80,8 @@ class FrameReceiver {
   Duration silence_;
   Time first_byte_;               ///< arrival of the first byte of the frame that is coming in
   std::optional<Time> heard_at_;  ///< arrival of the last accepted data frame
-  std::uint64_t unusable_ = 0;    ///< frames with a wrong code or a used counter since then
+  std::optional<HeardFrame> newest_;
+  std::uint64_t unusable_ = 0;  ///< frames with a wrong code or a used counter since then
   ReceptionCounters counters_;
 };
 

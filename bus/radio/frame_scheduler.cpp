@@ -1,8 +1,24 @@
 #include "bus/radio/frame_scheduler.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace priamos::bus::radio {
+namespace {
+
+/// Time in which the other end can send half of the frames that an echo tells apart: the other half is for a
+/// line that grows slower. One that it cannot complete would cost the whole frame, also an emergency stop.
+Duration EchoReach(const LinkOptions& options, std::size_t echo_bytes) {
+  const double frames = std::ldexp(0.5, static_cast<int>(8 * echo_bytes));
+  const std::size_t smallest = kFrameOverhead + 1 + (options.datagrams ? kDatagramHead : 0);
+  return FromSeconds(frames * static_cast<double>(smallest) / options.bytes_per_s);
+}
+
+/// What a proof takes beside the delays of the line: bytes written ahead, and ticks of both ends.
+constexpr Duration kProofMargin{10'000};
+
+}  // namespace
 
 FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sealer,
                                const LinkOptions& options, bool onboard, Time now)
@@ -16,13 +32,31 @@ FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sea
 std::vector<std::byte> FrameScheduler::Step(FrameSources from, Time now) {
   std::vector<std::byte> out;
   turns_.Step(now, from.peer.sent.one_way());
+  ChooseForm(from, now);
   if (MustCut(from, now)) Cut(from, now, out);
   while (MaySend(from, now)) {
     if (!flight_ && (!turns_.MayTalk(now) || !Build(from, now))) break;
     transmitter_.Emit(now, out);
-    if (!transmitter_.busy()) Finish(from);
+    if (transmitter_.ContentHandedOver() && flight_->counter != 0)
+      from.peer.sent.OnHandedOver(flight_->counter, now);
+    if (transmitter_.busy()) continue;
+    Finish(from);
+    ChooseForm(from, now);
   }
   return out;
+}
+
+/// The short form, unless the other end could not complete the counter or the echo. Only short frames carry
+/// commands.
+void FrameScheduler::ChooseForm(const FrameSources& from, Time now) {
+  form_ = from.peer.sent.FormOf(from.memory.last_counter() + 1);
+  if (sealer_.echo_bytes() > 0) {
+    const auto& newest = from.receiver.newest();
+    const bool completes = newest && now - newest->at + from.peer.sent.last_round_trip() <=
+                                         EchoReach(options_, sealer_.echo_bytes());
+    if (!completes) form_ = CounterForm::kWhole;
+  }
+  from.outbox.queue().HoldCommands(form_ == CounterForm::kWhole);
 }
 
 bool FrameScheduler::MustCut(const FrameSources& from, Time now) const {
@@ -61,15 +95,15 @@ void FrameScheduler::BuildHello(FrameSources from, Time now) {
 
 bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   const std::size_t target = BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss());
-  BundleBuilder builder(*table_, target, turns_.enabled());
+  BundleBuilder builder(*table_, target, turns_.enabled(), sealer_.overhead());
   FrameInFlight flight = Fill(builder, from, urgent_only, now);
   // Nothing that is ready could be packed: no frame for nothing.
   if (builder.empty() && now - last_data_ < options_.keep_alive) return false;
   const std::vector<std::byte> bundle = builder.Finish();
   flight.bundle_bytes = bundle.size();
   flight.counter = from.memory.TakeCounter();
-  auto wire =
-      sealer_.Seal(from.memory.epoch(), flight.counter, from.peer.sent.FormOf(flight.counter), bundle);
+  const auto& newest = from.receiver.newest();
+  auto wire = sealer_.Seal(from.memory.epoch(), flight.counter, form_, bundle, newest ? newest->counter : 0);
   last_data_ = now;
   from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
   flight_ = std::move(flight);
@@ -95,16 +129,34 @@ FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, boo
       bundle, {.now = now,
                .counter = from.memory.last_counter() + 1,
                .urgent_only = urgent_only,
-               .leaves_at = [&](std::size_t bytes) { return transmitter_.LeavesAt(bytes, now); }});
+               .leaves_at = [&](std::size_t bytes) { return transmitter_.LeavesAt(bytes, now); },
+               .echoed_at = EchoedAt(from),
+               .bytes_until = [&](Time until) { return BytesUntil(until, from, now); }});
   flight.over = EndsTurn(from, bundle.FrameBytes(), now);
   if (flight.over) bundle.AddOver();
   return flight;
 }
 
+std::optional<Time> FrameScheduler::EchoedAt(const FrameSources& from) const {
+  const auto& newest = from.receiver.newest();
+  if (form_ == CounterForm::kWhole || !newest) return std::nullopt;
+  return newest->at;
+}
+
+/// A longer frame with a command in it would come too late for it, on a line that is as slow as it was last.
+std::size_t FrameScheduler::BytesUntil(Time until, const FrameSources& from, Time now) const {
+  if (options_.datagrams) return kMaxBundleBytes;  // they go whole
+  const Pacer& pacer = transmitter_.pacer();
+  const Duration left =
+      until - std::max(pacer.free_at(), now) - from.peer.sent.last_round_trip() - kProofMargin;
+  const std::int64_t bytes = left / pacer.WireTime(1) - static_cast<std::int64_t>(sealer_.overhead());
+  return static_cast<std::size_t>(std::max<std::int64_t>(bytes, 0));
+}
+
 bool FrameScheduler::EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const {
   if (!turns_.enabled()) return false;
   const Pacer& pacer = transmitter_.pacer();
-  const Duration longest = pacer.WireTime(options_.max_bundle_bytes + kFrameOverhead);
+  const Duration longest = pacer.WireTime(options_.max_bundle_bytes + sealer_.overhead());
   if (turns_.MustEnd(pacer.LeavesAt(frame_bytes, now), longest)) return true;
   return !from.inbox.AckDue() && from.outbox.queue().Ready(now).empty();
 }

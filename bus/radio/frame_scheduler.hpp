@@ -63,6 +63,7 @@ class FrameScheduler {
   std::uint64_t bytes_sent() const { return transmitter_.bytes_sent(); }
 
  private:
+  void ChooseForm(const FrameSources& from, Time now);
   bool MustCut(const FrameSources& from, Time now) const;
   bool MaySend(const FrameSources& from, Time now) const;
   bool Build(FrameSources from, Time now);
@@ -70,6 +71,8 @@ class FrameScheduler {
   void BuildHello(FrameSources from, Time now);
   bool BuildData(FrameSources from, bool urgent_only, Time now);
   FrameInFlight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, Time now) const;
+  std::optional<Time> EchoedAt(const FrameSources& from) const;
+  std::size_t BytesUntil(Time until, const FrameSources& from, Time now) const;
   bool EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const;
   void Cut(FrameSources from, Time now, std::vector<std::byte>& out);
   void Finish(FrameSources from);
@@ -80,7 +83,8 @@ class FrameScheduler {
   Transmitter transmitter_;
   TurnTaking turns_;
   std::optional<FrameInFlight> flight_;
-  Time last_data_;  ///< begin of the last data frame sent
+  CounterForm form_ = CounterForm::kWhole;  ///< of the next frame
+  Time last_data_;                          ///< begin of the last data frame sent
   SendCounters counters_;
 };
 

@@ -13,8 +13,10 @@ struct Overloaded : Handlers... {
 template <class... Handlers>
 Overloaded(Handlers...) -> Overloaded<Handlers...>;
 
-FrameScope ScopeOf(const ChannelTable& table) {
-  return {table.hash(), table.encrypted()};
+FrameScope ScopeOf(const ChannelTable& table, Direction direction, const LinkOptions& options) {
+  return {.table_hash = table.hash(),
+          .encrypted = table.encrypted(),
+          .echo_bytes = table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0};
 }
 
 /// Whether the other end must skip counters: this end does not know which of those reserved were used.
@@ -31,12 +33,13 @@ LinkEndpoint::LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey
       outgoing_(outgoing),
       keys_(key),
       memory_(store, *table_, nonces),
-      receiver_(keys_, Opposite(outgoing), ScopeOf(*table_), options.bytes_per_s, options.silence, now),
+      receiver_(keys_, Opposite(outgoing), ScopeOf(*table_, Opposite(outgoing), options), options.bytes_per_s,
+                options.silence, now),
       inbox_(*table_),
       peer_{.handshake = Handshake(table_->hash(), std::move(nonces), FloorDue(memory_), now)},
       outbox_(*table_, outgoing, options.ageing, std::move(pack)),
-      scheduler_(*table_, FrameSealer(keys_, outgoing, ScopeOf(*table_)), options, outgoing == Direction::kUp,
-                 now) {
+      scheduler_(*table_, FrameSealer(keys_, outgoing, ScopeOf(*table_, outgoing, options)), options,
+                 outgoing == Direction::kUp, now) {
   receiver_.SetEpoch(memory_.epoch(), memory_.receive_floor());
   memory_.RestoreEvents(outbox_.queue(), inbox_.events());
 }
@@ -65,7 +68,7 @@ std::vector<Delivery> LinkEndpoint::Receive(std::span<const std::byte> bytes, Ti
   std::vector<Delivery> deliveries;
   if (!bytes.empty()) scheduler_.OnBytes(now);
   for (const std::byte byte : bytes) {
-    const FrameReceiver::Result result = receiver_.Push(byte, now);
+    const FrameReceiver::Result result = receiver_.Push(byte, now, memory_.last_counter());
     if (const auto* hello = std::get_if<Hello>(&result)) OnHello(*hello, now);
     if (const auto* accepted = std::get_if<AcceptedFrame>(&result)) OnFrame(*accepted, now, deliveries);
   }
@@ -105,16 +108,13 @@ Arrival LinkEndpoint::ArrivalOf(const AcceptedFrame& accepted, Time now) const {
           .newest = accepted.ahead > 0,
           .sent_at = std::min(began, first_byte) - peer_.sent.one_way(),
           .began = began,
-          .now = now};
+          .now = now,
+          .echoed = accepted.frame.echo ? peer_.sent.HandedOver(*accepted.frame.echo) : std::nullopt};
 }
 
 void LinkEndpoint::OnEntry(BundleEntry entry, const Arrival& arrival, std::vector<Delivery>& out) {
   std::visit(Overloaded{[&](StateEntry& e) { inbox_.OnState(std::move(e), arrival, out); },
-                        [&](CommandEntry& e) {
-                          const Duration ttl = table_->at(e.channel).ttl;
-                          inbox_.OnCommand(std::move(e), arrival, peer_.sent.ProvesFresh(ttl, arrival.now),
-                                           out);
-                        },
+                        [&](CommandEntry& e) { inbox_.OnCommand(std::move(e), arrival, out); },
                         [&](EventEntry& e) {
                           if (inbox_.OnEvent(e, arrival, out)) StoreEvents();
                         },

@@ -52,8 +52,10 @@ struct LinkStatus {
 /// One end of the radio link: pure, time is an argument, bytes in and bytes out.
 ///
 /// Pass messages to Offer(), call Step() every 1 or 2 ms and write what it returns to the line at once, and
-/// pass the bytes from the line to Receive(). After a restart frames can be used at once; only an end that
-/// lost its state waits for about 0.15 s (see EpochAgreement).
+/// pass the bytes from the line to Receive(). That commands are fresh is counted from these times: that of
+/// Step() must not be after its bytes are written, that of Receive() not before its bytes were read. After a
+/// restart frames can be used at once; only an end that lost its state waits for about 0.15 s (see
+/// EpochAgreement).
 ///
 /// It only joins its parts, each of which can be read alone: FrameReceiver (bytes to frames), MessageReceiver
 /// (frames to messages), Peer (what the ends report to each other), MessageSender (messages to bundles),

@@ -131,6 +131,11 @@ void LinkConfig::Describe(Archive& a) {
       "half_duplex_turn_s", half_duplex_turn_s,
       {"s", 0, 10, "one radio channel for both directions: longest time one end talks; 0: two directions"});
   a.Number("turnaround_s", turnaround_s, {"s", 0, 1, "half-duplex: from sending to hearing"});
+  a.Number(
+      "line_delay_s", line_delay_s,
+      {"s", 0, 60,
+       "delay of the line, there and back, in which the budget must prove commands fresh; on a slower one "
+       "they are refused"});
   a.Flag("datagrams", datagrams,
          "an IP link: one frame per UDP datagram, whose 28 bytes of head count as sent");
   a.Flag("encrypted", encrypted, "hides what is sent; it is authenticated in any case");
@@ -156,6 +161,7 @@ LinkOptions LinkConfig::Options() const {
           .silence = FromSeconds(silence_s),
           .ageing = FromSeconds(ageing_s),
           .half_duplex = {FromSeconds(half_duplex_turn_s), FromSeconds(turnaround_s)},
+          .line_delay = FromSeconds(line_delay_s),
           .datagrams = datagrams};
 }
 

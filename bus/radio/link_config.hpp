@@ -42,7 +42,8 @@ struct LinkConfig {
   bool encrypted = false;       ///< contents are encrypted; they are authenticated in any case
   double half_duplex_turn_s = 0;  ///< [s] 0..10: half-duplex: longest turn of an end; 0: full duplex
   double turnaround_s = 0.02;     ///< [s] 0..1: half-duplex: time from sending to hearing
-  bool datagrams = false;  ///< IP link: one frame per UDP datagram, whose 28 bytes of header count as sent
+  double line_delay_s = 0.1;  ///< [s] 0..60: delay of the line, there and back, in which commands are proven
+  bool datagrams = false;     ///< IP link: one frame per UDP datagram, whose 28 bytes of header count as sent
   std::string key_file = "link.key";  ///< secret key of the link, made by `priamos link keygen`, mode 0600
   bool simulation_key = false;        ///< uses a key that everybody knows: only for emulated lines
   std::vector<LinkChannelConfig> channels;  ///< channels of the link, at both ends in the same order

@@ -19,7 +19,9 @@ namespace priamos::bus::radio {
 class LinkMemory {
  public:
   /// Reads the store. If the state is missing, damaged or of another channel table, this end begins without
-  /// one.
+  /// one. If it may be an older one, as after a loss of power, its events are numbered anew, in a new epoch:
+  /// the other end would take new ones for those that it has heard. The events that waited in it are dropped,
+  /// because they may have arrived; RestoreEvents() counts them as refused.
   LinkMemory(StateStore& store, const ChannelTable& table, const NonceSource& nonces);
 
   std::uint64_t epoch() const { return state_.epoch; }
@@ -46,6 +48,8 @@ class LinkMemory {
   void Close(std::uint64_t highest_accepted);
 
  private:
+  void BeginAnew(const ChannelTable& table, const NonceSource& nonces);
+  void NumberEventsAnew(const NonceSource& nonces);
   void Save() { store_->Save(Serialise(state_)); }
   void Reserve();
   void StartSync();
@@ -54,6 +58,7 @@ class LinkMemory {
   StateStore* store_;
   std::size_t channels_;
   LinkState state_;
+  bool events_dropped_ = false;  ///< those of state_, until they are stored again
   std::uint64_t next_counter_ = 1;
   /// Bounds of state_ that survive a loss of power.
   struct Bounds {

@@ -16,7 +16,9 @@ struct LinkOptions {
   Duration silence{1'500'000};         ///< the link is down after so long without a frame
   Duration ageing{1'000'000};          ///< waiting time for which a message gains one priority level
   HalfDuplex half_duplex{};  ///< turns of a radio with one channel; by default there are two directions
-  bool datagrams = false;    ///< a frame goes whole, in one datagram, whose head counts as sent
+  /// Delay of both directions of the line together, which the budget reckons with.
+  Duration line_delay{100'000};
+  bool datagrams = false;  ///< a frame goes whole, in one datagram, whose head counts as sent
 };
 
 }  // namespace priamos::bus::radio

@@ -8,12 +8,20 @@
 
 namespace priamos::bus::radio {
 
+/// What a store held when it was read.
+struct SavedState {
+  std::vector<std::byte> bytes;
+  /// Nothing was saved after it. After a loss of power a disk may hold an older state.
+  bool latest = true;
+  friend bool operator==(const SavedState&, const SavedState&) = default;
+};
+
 /// Place where an end of the link keeps what must outlive the process: a file on a robot, memory in a test.
 class StateStore {
  public:
   virtual ~StateStore() = default;
-  /// The state saved last; nullopt if there is none.
-  virtual std::optional<std::vector<std::byte>> Load() = 0;
+  /// The newest state that is left; nullopt if there is none.
+  virtual std::optional<SavedState> Load() = 0;
   /// Replaces the saved state as a whole. It survives a restart of the process at once, and one of the
   /// machine after a sync. Does not wait for the disk: an emergency stop must not.
   virtual void Save(std::span<const std::byte> state) = 0;
@@ -26,14 +34,16 @@ class StateStore {
 /// A store that lives as long as the process. After each start the ends agree on a new epoch.
 class MemoryStore : public StateStore {
  public:
-  std::optional<std::vector<std::byte>> Load() override { return state_; }
-  void Save(std::span<const std::byte> state) override { state_.emplace(state.begin(), state.end()); }
+  std::optional<SavedState> Load() override { return state_; }
+  void Save(std::span<const std::byte> state) override {
+    state_.emplace(SavedState{{state.begin(), state.end()}});
+  }
   void StartSync() override {}
   void AwaitSync() override {}
   void Lose() { state_.reset(); }
 
  private:
-  std::optional<std::vector<std::byte>> state_;
+  std::optional<SavedState> state_;
 };
 
 /// An event accepted for sending and not yet acknowledged.
@@ -53,6 +63,7 @@ struct LinkState {
   std::uint64_t send_next = 1;              ///< first counter from which on none was ever sent in this epoch
   std::uint64_t receive_floor = 0;          ///< counter above which none was ever accepted in this epoch
   bool floor_exact = true;                  ///< false: receive_floor was reserved ahead
+  bool closed = false;                      ///< the process ended in order: nothing was sent after it
   std::uint32_t stream = 0;                 ///< names this end's numbering of events
   std::uint32_t peer_stream = 0;            ///< names the other end's numbering of events
   std::vector<std::uint8_t> send_event;     ///< per channel: number of the next new segment

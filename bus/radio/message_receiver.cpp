@@ -27,14 +27,14 @@ void MessageReceiver::OnState(StateEntry entry, const Arrival& arrival, std::vec
   Deliver({entry.channel, std::move(entry.packed), arrival.sent_at}, entry.bits, out);
 }
 
-void MessageReceiver::OnCommand(CommandEntry entry, const Arrival& arrival, bool fresh,
-                                std::vector<Delivery>& out) {
-  const Time valid_until = arrival.sent_at - entry.age + table_->at(entry.channel).ttl;
-  if (!arrival.newest || !fresh || valid_until < arrival.now) {
+void MessageReceiver::OnCommand(CommandEntry entry, const Arrival& arrival, std::vector<Delivery>& out) {
+  const Time offered = arrival.echoed.value_or(Time{}) + entry.offset;
+  const Time valid_until = offered + table_->at(entry.channel).ttl;
+  if (!arrival.newest || !arrival.echoed || valid_until < arrival.now) {
     ++counters_[entry.channel].late;
     return;
   }
-  Deliver({entry.channel, std::move(entry.packed), arrival.sent_at, valid_until}, entry.bits, out);
+  Deliver({entry.channel, std::move(entry.packed), offered, valid_until}, entry.bits, out);
 }
 
 bool MessageReceiver::OnEvent(const EventEntry& entry, const Arrival& arrival, std::vector<Delivery>& out) {

@@ -15,7 +15,9 @@ namespace priamos::bus::radio {
 struct Delivery {
   std::size_t channel = 0;
   std::vector<std::byte> packed;
-  Time packed_at{};                   ///< when it was packed, in this end's clock: its ages count from here
+  /// When it was packed, in this end's clock: its ages count from here. A command was packed when it was
+  /// offered, which was at this time or later.
+  Time packed_at{};
   std::optional<Time> valid_until{};  ///< commands only: they must not be obeyed later
 };
 
@@ -35,6 +37,9 @@ struct Arrival {
   Time sent_at{};      ///< when its first byte was sent, in this end's clock
   Time began{};        ///< arrival of its first byte, had its bytes come one after the other
   Time now{};          ///< arrival of its last byte
+  /// When the frame of this end that it echoes was handed over; nullopt: it has no echo, or one of a frame
+  /// from before a restart.
+  std::optional<Time> echoed{};
 };
 
 /// Turns the entries of accepted bundles into messages: refuses late ones, applies differences, puts events
@@ -46,8 +51,10 @@ class MessageReceiver {
 
   /// Takes a state; appends the message to `out` unless it is refused.
   void OnState(StateEntry entry, const Arrival& arrival, std::vector<Delivery>& out);
-  /// Takes a command; `fresh`: it is proven that the frame was not held back in transit.
-  void OnCommand(CommandEntry entry, const Arrival& arrival, bool fresh, std::vector<Delivery>& out);
+  /// Takes a command; appends it to `out` if it is certainly not older than its time-to-live. It was offered
+  /// by its offset after the echoed frame had arrived over there, which cannot have been before that frame
+  /// was handed over here: no delay of either direction can make it older than that.
+  void OnCommand(CommandEntry entry, const Arrival& arrival, std::vector<Delivery>& out);
   /// Takes a segment of an event. Returns whether the numbers of events() have changed: they must be
   /// remembered before the acknowledgement leaves, or a restarted end would deliver events again.
   bool OnEvent(const EventEntry& entry, const Arrival& arrival, std::vector<Delivery>& out);

@@ -32,6 +32,7 @@ MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure
   Loaded loaded;
   for (const SendQueue::Candidate& candidate : queue_.Ready(departure.now)) {
     if (departure.urgent_only && !candidate.urgent) break;
+    if (!MayLoad(candidate, departure)) continue;
     if (table_->at(candidate.channel).channel_class == ChannelClass::kEvent) {
       LoadSegments(candidate.channel, bundle, departure, loaded);
     } else {
@@ -39,6 +40,13 @@ MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure
     }
   }
   return loaded;
+}
+
+/// A command needs an echo to count from, and must not be older than the smallest offset can say.
+bool MessageSender::MayLoad(const SendQueue::Candidate& candidate, const Departure& departure) const {
+  const LinkChannel& channel = table_->at(candidate.channel);
+  return channel.channel_class != ChannelClass::kCommand ||
+         (departure.echoed_at && departure.now - queue_.OfferedAt(candidate) <= channel.ttl);
 }
 
 void MessageSender::LoadSegments(std::size_t channel, BundleBuilder& bundle, const Departure& departure,
@@ -62,7 +70,8 @@ bool MessageSender::LoadSegment(std::size_t channel, BundleBuilder& bundle, cons
 void MessageSender::LoadNewest(const SendQueue::Candidate& candidate, BundleBuilder& bundle,
                                const Departure& departure, Loaded& loaded) {
   const std::size_t channel = candidate.channel;
-  auto packed = pack_(channel, queue_.Peek(candidate), departure.now);
+  const bool command = table_->at(channel).channel_class == ChannelClass::kCommand;
+  auto packed = pack_(channel, queue_.Peek(candidate), command ? queue_.OfferedAt(candidate) : departure.now);
   if (!packed) {
     queue_.Take(candidate);
     queue_.CountRefused(channel);
@@ -70,6 +79,8 @@ void MessageSender::LoadNewest(const SendQueue::Candidate& candidate, BundleBuil
   }
   const BundleEntry entry = EntryOf(candidate, *packed, departure);
   if (!bundle.Add(entry)) return;
+  if (command && departure.bytes_until)
+    bundle.LimitTo(departure.bytes_until(queue_.OfferedAt(candidate) + table_->at(channel).ttl * 31 / 32));
   if (packed->saturated) ++queue_.counters(channel).saturated;
   const auto* state = std::get_if<StateEntry>(&entry);
   if (table_->at(channel).delta.empty()) packed->bytes.clear();
@@ -82,7 +93,7 @@ BundleEntry MessageSender::EntryOf(const SendQueue::Candidate& candidate, const 
                                    const Departure& departure) const {
   const LinkChannel& channel = table_->at(candidate.channel);
   if (channel.channel_class == ChannelClass::kCommand)
-    return CommandEntry{candidate.channel, departure.now - queue_.OfferedAt(candidate), packed.bits,
+    return CommandEntry{candidate.channel, queue_.OfferedAt(candidate) - *departure.echoed_at, packed.bits,
                         packed.bytes};
   StateEntry entry{candidate.channel, packed.bits, packed.bytes};
   if (channel.delta.empty()) return entry;

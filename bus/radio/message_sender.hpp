@@ -21,8 +21,8 @@ struct Packed {
   bool saturated = false;  ///< a field was outside its range
 };
 
-/// Packs the encoded message of a channel. It is called when the message is sent, because time stamps are
-/// sent as ages; nullopt if it is no message of the channel's type.
+/// Packs the encoded message of a channel. Time stamps are sent as ages at `now`: of a command when it was
+/// offered, of any other message when it is sent. nullopt if it is no message of the channel's type.
 using PackFunction =
     std::function<std::optional<Packed>(std::size_t channel, std::span<const std::byte> encoded, Time now)>;
 
@@ -36,6 +36,11 @@ struct Departure {
   bool urgent_only = false;
   /// Time at which a frame of so many bytes, begun now, will have left.
   std::function<Time(std::size_t bytes)> leaves_at;
+  /// Arrival of the frame that this one echoes; nullopt: it has no echo, and no commands.
+  std::optional<Time> echoed_at{};
+  /// Bytes of a bundle, begun now, that the other end has and can prove fresh until a time; 0: none, none
+  /// given: any.
+  std::function<std::size_t(Time until)> bytes_until{};
 };
 
 /// Puts messages into bundles: it packs them, sends states as differences where that is shorter, and
@@ -94,6 +99,7 @@ class MessageSender {
  private:
   void LoadSegments(std::size_t channel, BundleBuilder& bundle, const Departure& departure, Loaded& loaded);
   bool LoadSegment(std::size_t channel, BundleBuilder& bundle, const Departure& departure, Loaded& loaded);
+  bool MayLoad(const SendQueue::Candidate& candidate, const Departure& departure) const;
   void LoadNewest(const SendQueue::Candidate& candidate, BundleBuilder& bundle, const Departure& departure,
                   Loaded& loaded);
   BundleEntry EntryOf(const SendQueue::Candidate& candidate, const Packed& packed,

@@ -17,6 +17,9 @@ class Transmitter {
 
   /// Whether a frame has bytes left to send.
   bool busy() const { return next_ < wire_.size(); }
+  /// True once per frame: after the Emit() that hands over the last byte of its content. What is left is the
+  /// delimiter, which noise can stand in for.
+  bool ContentHandedOver() const { return wire_.size() - next_ == (datagrams_ ? 0U : 1U); }
   /// Whether cutting the frame off now gains time over finishing it.
   bool WorthCutting() const;
   /// Whether the line can take a byte (a datagram) now.

@@ -15,15 +15,6 @@
 namespace priamos::radio {
 namespace {
 
-std::optional<std::vector<std::byte>> Read(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::vector<std::byte> bytes;
-  for (auto at = std::istreambuf_iterator<char>(in); at != std::istreambuf_iterator<char>(); ++at)
-    bytes.push_back(static_cast<std::byte>(*at));
-  return bytes;
-}
-
 [[noreturn]] void Fail(const std::string& path) {
   throw std::runtime_error(
       fmt::format("{}: the radio's state cannot be saved: {}", path, std::strerror(errno)));
@@ -36,8 +27,18 @@ void Replace(const std::string& path, std::span<const std::byte> state, bool dur
 
 }  // namespace
 
-FileStore::FileStore(std::string path, std::string fast_path)
-    : path_(std::move(path)), fast_path_(std::move(fast_path)), thread_([this] { SyncThread(); }) {}
+std::string BootId() {
+  std::string id;
+  std::ifstream in("/proc/sys/kernel/random/boot_id");
+  std::getline(in, id);
+  return id;
+}
+
+FileStore::FileStore(std::string path, std::string fast_path, std::string boot)
+    : path_(std::move(path)),
+      fast_path_(std::move(fast_path)),
+      boot_(std::move(boot)),
+      thread_([this] { SyncThread(); }) {}
 
 FileStore::~FileStore() {
   {
@@ -48,23 +49,39 @@ FileStore::~FileStore() {
   thread_.join();
 }
 
-std::optional<std::vector<std::byte>> FileStore::Load() {
+/// The first line names the boot, the rest is the state. Only what this boot has saved is surely the latest.
+std::optional<bus::radio::SavedState> FileStore::Read(const std::string& path) const {
+  std::ifstream in(path, std::ios::binary);
+  std::string boot;
+  if (!in || !std::getline(in, boot)) return std::nullopt;
+  bus::radio::SavedState state{.bytes = {}, .latest = !boot_.empty() && boot == boot_};
+  for (auto at = std::istreambuf_iterator<char>(in); at != std::istreambuf_iterator<char>(); ++at)
+    state.bytes.push_back(static_cast<std::byte>(*at));
+  return state;
+}
+
+std::optional<bus::radio::SavedState> FileStore::Load() {
+  if (fast_path_.empty()) return Read(path_);
   // The RAM disk is empty after a boot, and else newer.
-  auto state = fast_path_.empty() ? std::nullopt : Read(fast_path_);
-  return state ? state : Read(path_);
+  if (auto state = Read(fast_path_)) return state;
+  auto state = Read(path_);
+  if (state) state->latest = false;
+  return state;
 }
 
 void FileStore::Save(std::span<const std::byte> state) {
   ThrowFailure();
-  state_.assign(state.begin(), state.end());
-  Replace(fast_path_.empty() ? path_ : fast_path_, state, false);
+  content_.clear();
+  for (const char c : boot_ + "\n") content_.push_back(static_cast<std::byte>(c));
+  content_.insert(content_.end(), state.begin(), state.end());
+  Replace(fast_path_.empty() ? path_ : fast_path_, content_, false);
 }
 
 void FileStore::StartSync() {
   ThrowFailure();
   {
     const std::lock_guard lock(mutex_);
-    to_sync_ = state_;
+    to_sync_ = content_;
     ++wanted_;
   }
   changed_.notify_all();

@@ -11,6 +11,9 @@
 
 namespace priamos::radio {
 
+/// Identifies the time since this machine was started, as the kernel does; empty when it does not.
+std::string BootId();
+
 /// Keeps an end's state in a file, which is replaced as a whole: a crash at any moment leaves the old or the
 /// new state. A thread of its own waits for the disk. With a second file on a RAM disk (/run) no other thread
 /// does: the state survives the process there at once, and the file on the disk follows with each sync. Every
@@ -18,13 +21,15 @@ namespace priamos::radio {
 /// link that cannot store its counters must not go on.
 class FileStore : public bus::radio::StateStore {
  public:
-  /// Store in the file `path` and the file `fast_path`; when that is empty, `path` holds everything.
-  explicit FileStore(std::string path, std::string fast_path = "");
+  /// Store in the file `path` and the file `fast_path`; when that is empty, `path` holds everything. `boot`
+  /// names the time since the machine was started: what another one wrote to a disk need not be the last that
+  /// it saved.
+  explicit FileStore(std::string path, std::string fast_path = "", std::string boot = BootId());
   ~FileStore() override;
   FileStore(const FileStore&) = delete;
   FileStore& operator=(const FileStore&) = delete;
 
-  std::optional<std::vector<std::byte>> Load() override;
+  std::optional<bus::radio::SavedState> Load() override;
   void Save(std::span<const std::byte> state) override;
   void StartSync() override;
   void AwaitSync() override;
@@ -33,8 +38,10 @@ class FileStore : public bus::radio::StateStore {
   void SyncThread();
   void ThrowFailure();
 
-  const std::string path_, fast_path_;
-  std::vector<std::byte> state_;  ///< the state saved last
+  std::optional<bus::radio::SavedState> Read(const std::string& path) const;
+
+  const std::string path_, fast_path_, boot_;
+  std::vector<std::byte> content_;  ///< of the file: the boot, and the state saved last
 
   std::mutex mutex_;
   std::condition_variable changed_;

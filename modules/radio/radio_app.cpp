@@ -144,7 +144,7 @@ void RadioApp::StartLink(Time now) {
 
 void RadioApp::Tick(Time now) {
   if (!link_) StartLink(now);
-  ReadLine(now);
+  ReadLine();
   ServeListeners(now);
   FeedLine(now);
   if (now >= *next_report_) Report(now);
@@ -159,11 +159,13 @@ void RadioApp::ServeListeners(Time now) {
   std::erase_if(listening_until_, [&](const auto& l) { return now >= l.second; });
 }
 
-void RadioApp::ReadLine(Time now) {
+void RadioApp::ReadLine() {
   std::array<std::byte, 256> buffer;
   for (;;) {
     const std::size_t n = port_->Read(buffer);
     if (n == 0) return;
+    // Taken after the reading: bytes must never seem to have arrived before they did.
+    const Time now = context_.node().Now();
     for (const bus::radio::Delivery& d : link_->Receive(std::span(buffer).first(n), now)) Publish(d, now);
   }
 }

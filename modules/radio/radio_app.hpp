@@ -53,7 +53,7 @@ class RadioApp {
   void SubscribeAll();
   void StartLink(Time now);
   void ServeListeners(Time now);
-  void ReadLine(Time now);
+  void ReadLine();
   void FeedLine(Time now);
   void Publish(const bus::radio::Delivery& delivery, Time now);
   void Report(Time now);

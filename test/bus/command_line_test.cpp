@@ -21,7 +21,7 @@ struct Fixture {
   std::size_t keep = 0;
   int count = 0;
   double seconds = 2;
-  std::string channel, format;
+  std::string channel, format, logs;
   std::vector<int> dots;
 
   Fixture() {
@@ -34,6 +34,7 @@ struct Fixture {
     echo->add_option("--count", count, "how many");
     auto* run = cli.add_subcommand("run", "a run");
     run->add_option("--seed", seed, "noise");
+    run->add_option("--logs", logs, "a folder");
     run->add_option("--keep", keep, "files");
     run->add_option("--seconds", seconds, "how long")->check(CLI::Range(0.1, 60.0));
     run->add_option("--format", format, "how")->check(CLI::IsMember({"csv", "jsonl", "mcap"}));
@@ -129,6 +130,13 @@ TEST(CommandLine, ANumberBeyondWhatAnOptionCanHoldIsToldItsRange) {
   EXPECT_EQ(
       Refusal({"topic", "echo", "POSE", "--count", "99999999999"}),
       "prog topic echo: --count: expected a whole number, -2147483648 to 2147483647, got \"99999999999\"");
+}
+
+TEST(CommandLine, TextIsNeverEmpty) {
+  EXPECT_EQ(Refusal({"topic", "echo", ""}),
+            "prog topic echo: expected channel (LCM channel), got \"\" (prog topic echo --help lists all)");
+  EXPECT_EQ(Refusal({"run", "--logs", ""}), "prog run: --logs: expected a value, got \"\"");
+  EXPECT_EQ(Refusal({"run", "--logs", "a"}), "");
 }
 
 TEST(CommandLine, AnOptionIsGivenOnce) {

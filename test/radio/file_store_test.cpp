@@ -12,7 +12,13 @@ namespace priamos::radio {
 namespace {
 
 std::vector<std::byte> State(int number) {
-  return {std::byte{0}, static_cast<std::byte>(number), std::byte{255}};
+  return {std::byte{0}, static_cast<std::byte>(number), std::byte{255}, std::byte{'\n'}};
+}
+bus::radio::SavedState Latest(int number) {
+  return {.bytes = State(number), .latest = true};
+}
+bus::radio::SavedState Older(int number) {
+  return {.bytes = State(number), .latest = false};
 }
 
 struct FileStoreTest : testing::Test {
@@ -33,7 +39,7 @@ TEST_F(FileStoreTest, LastSavedStateIsLoadedSyncedOrNot) {
       dut.Save(State(i));
       if (i > 0) dut.StartSync();
       if (i > 1) dut.AwaitSync();
-      EXPECT_EQ(FileStore(path, second).Load(), State(i));
+      EXPECT_EQ(FileStore(path, second).Load(), Latest(i));
     }
   }
 }
@@ -45,7 +51,14 @@ TEST_F(FileStoreTest, ALossOfPowerLeavesTheSyncedState) {
   dut.AwaitSync();
   dut.Save(State(2));
   std::filesystem::remove(fast);
-  EXPECT_EQ(FileStore(path, fast).Load(), State(1));
+  EXPECT_EQ(FileStore(path, fast).Load(), Older(1));
+}
+
+TEST_F(FileStoreTest, WhatAnotherBootLeftOnTheDiskNeedNotBeTheLatest) {
+  FileStore(path, "", "boot 1").Save(State(1));
+  EXPECT_EQ(FileStore(path, "", "boot 1").Load(), Latest(1));
+  EXPECT_EQ(FileStore(path, "", "boot 2").Load(), Older(1));
+  EXPECT_EQ(FileStore(path, "", "").Load(), Older(1)) << "a machine that names no boot";
 }
 
 TEST_F(FileStoreTest, ASyncThatNobodyWaitedForIsFinishedBeforeTheEnd) {
@@ -54,7 +67,7 @@ TEST_F(FileStoreTest, ASyncThatNobodyWaitedForIsFinishedBeforeTheEnd) {
     dut.Save(State(1));
     dut.StartSync();
   }
-  EXPECT_EQ(FileStore(path).Load(), State(1));
+  EXPECT_EQ(FileStore(path).Load(), Latest(1));
 }
 
 TEST_F(FileStoreTest, WithoutARamDiskASyncNeverBringsBackAnOlderState) {
@@ -64,7 +77,7 @@ TEST_F(FileStoreTest, WithoutARamDiskASyncNeverBringsBackAnOlderState) {
     if (i % 2 == 0) dut.StartSync();
   }
   dut.AwaitSync();
-  EXPECT_EQ(FileStore(path).Load(), State(199));
+  EXPECT_EQ(FileStore(path).Load(), Latest(199));
 }
 
 TEST_F(FileStoreTest, AnUnwritablePlaceIsReported) {

@@ -22,6 +22,8 @@ inline std::string WriteSaturatedLink(const std::string& deployment, const std::
     channel.clear();
   };
   for (std::string line; std::getline(in, line);) {
+    // An emulated line, and longer frames on it.
+    if (line.starts_with("line_delay_s")) line = "line_delay_s = 0.02";
     if (line == "[[channel]]") flush();
     // Deadlines that the load breaks; that of the e-stop stays.
     const bool estop = channel.find("\"ESTOP\"") != std::string::npos;

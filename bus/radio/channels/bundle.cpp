@@ -19,9 +19,25 @@ constexpr int kControlKindBits = 3;
 constexpr int kLengthBits = 8;
 constexpr int kSegmentLengthBits = 5;
 constexpr int kPrefixBits = 6;
-constexpr std::uint64_t kAgeSteps = 63;
+constexpr std::int64_t kOffsetSteps = 32;  // per time-to-live, and as many below zero
+constexpr int kOffsetBits = 6;
 constexpr int kFloorBits = 40;
 constexpr int kLossSteps = 15;
+
+/// Quotient rounded down, also below zero.
+constexpr std::int64_t FloorDivide(std::int64_t a, std::int64_t b) {
+  return a / b - (a % b < 0 ? 1 : 0);
+}
+
+std::uint64_t EncodeOffset(Duration offset, Duration ttl) {
+  const std::int64_t steps = FloorDivide(offset.count() * kOffsetSteps, ttl.count());
+  return static_cast<std::uint64_t>(std::clamp(steps, -kOffsetSteps, kOffsetSteps - 1) + kOffsetSteps);
+}
+
+/// The least number of microseconds that has this code.
+Duration DecodeOffset(std::uint64_t code, Duration ttl) {
+  return Duration(-FloorDivide((kOffsetSteps - static_cast<std::int64_t>(code)) * ttl.count(), kOffsetSteps));
+}
 
 /// Writes one kind of entry after its channel number.
 class EntryWriter {
@@ -40,9 +56,7 @@ class EntryWriter {
   }
   void operator()(const CommandEntry& e) {
     Id(e.channel);
-    const auto ttl = static_cast<std::uint64_t>(table_.at(e.channel).ttl.count());
-    const auto age = static_cast<std::uint64_t>(std::max<std::int64_t>(0, e.age.count()));
-    out_.Put(std::min((age * kAgeSteps + ttl - 1) / ttl, kAgeSteps), 6);
+    out_.Put(EncodeOffset(e.offset, table_.at(e.channel).ttl), kOffsetBits);
     Body(e.channel, e.bits, e.packed);
   }
   void operator()(const EventEntry& e) {
@@ -132,9 +146,9 @@ class BundleReader {
       case ChannelClass::kState:
         return State(channel, c);
       case ChannelClass::kCommand: {
-        const Duration age(in_.Get(6) * static_cast<std::uint64_t>(c.ttl.count()) / kAgeSteps);
+        const Duration offset = DecodeOffset(in_.Get(kOffsetBits), c.ttl);
         Packed body = Body(c);
-        return CommandEntry{channel, age, body.bits, std::move(body.bytes)};
+        return CommandEntry{channel, offset, body.bits, std::move(body.bytes)};
       }
       case ChannelClass::kEvent:
         return EventEntry{channel, Segment(c)};

@@ -24,10 +24,11 @@ struct StateEntry {
   std::optional<std::uint8_t> baseline{};
 };
 
-/// Entry of a command message. Its age is counted in 1/63 of the channel's time-to-live, rounded up.
+/// Entry of a command message. Its offset travels in steps of 1/32 of the channel's time-to-live, from -32 to
+/// 31 of them, rounded down: what is lost makes the command older, never younger.
 struct CommandEntry {
   std::size_t channel = 0;
-  Duration age{};
+  Duration offset{};  ///< from the arrival of the frame that this one echoes to the offer; may be negative
   std::size_t bits = 0;
   std::vector<std::byte> packed;
 };

@@ -78,4 +78,10 @@ ChannelTable::ChannelTable(std::vector<LinkChannel> channels, bool encrypted)
   id_bits_ = static_cast<int>(std::bit_width(channels_.size() + 1));
 }
 
+bool ChannelTable::HasCommands(Direction direction) const {
+  return std::any_of(channels_.begin(), channels_.end(), [&](const LinkChannel& c) {
+    return c.direction == direction && c.channel_class == ChannelClass::kCommand;
+  });
+}
+
 }  // namespace priamos::bus::radio

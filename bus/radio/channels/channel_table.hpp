@@ -54,6 +54,8 @@ class ChannelTable {
   /// priorities concern the sender alone and are not part of it.
   std::uint32_t hash() const { return hash_; }
   bool encrypted() const { return encrypted_; }
+  /// Whether a channel of this direction is a command.
+  bool HasCommands(Direction direction) const;
   /// Bits of a channel number in a bundle: 0 ends it, 1..size() are channels, size()+1 is a control entry.
   int id_bits() const { return id_bits_; }
 

@@ -98,6 +98,7 @@ bool SendQueue::EventReady(const Lane& lane, Time now) {
 
 void SendQueue::AddReady(const Lane& lane, std::size_t index, Time now, std::vector<Candidate>& ready) const {
   const LinkChannel& c = *lane.channel;
+  if (commands_held_ && c.channel_class == ChannelClass::kCommand) return;
   const auto add = [&](std::size_t slot, Time since) {
     ready.push_back({.channel = index,
                      .slot = slot,

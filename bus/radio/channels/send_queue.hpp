@@ -84,6 +84,9 @@ class SendQueue {
   void SetWanted(std::size_t channel, bool wanted) { lanes_[channel].wanted = wanted; }
   bool wanted(std::size_t channel) const { return lanes_[channel].wanted; }
 
+  /// Commands are not ready while `hold`: a frame of now could not prove that they are fresh.
+  void HoldCommands(bool hold) { commands_held_ = hold; }
+
   /// Drops messages that are older than their time-to-live.
   void Expire(Time now);
   /// The messages that may be sent now, in order of priority.
@@ -137,6 +140,7 @@ class SendQueue {
 
   Direction outgoing_;
   Duration ageing_;
+  bool commands_held_ = false;
   std::vector<Lane> lanes_;
 };
 

@@ -31,22 +31,30 @@ std::uint64_t GetLittleEndian(std::span<const std::byte> bytes) {
   return value;
 }
 
-/// Fixed length, so that no two frames have the same hash input.
-using AuthenticatedHeader = std::array<std::uint8_t, 22>;
+constexpr std::size_t kHeaderBytes = 22;
+/// The first byte, the kind, determines the length, so that no two frames have the same hash input.
+using AuthenticatedHeader = std::vector<std::uint8_t>;
 
 AuthenticatedHeader DataHeader(Direction direction, FrameScope scope, std::uint64_t epoch,
-                               std::uint64_t counter) {
-  AuthenticatedHeader header{};
-  header[0] = scope.encrypted ? 3 : 1;
+                               std::uint64_t counter, std::optional<std::uint64_t> echo) {
+  AuthenticatedHeader header(kHeaderBytes + (echo ? 8 : 0));
+  header[0] = static_cast<std::uint8_t>((scope.encrypted ? 3 : 1) + (echo ? 4 : 0));
   header[1] = static_cast<std::uint8_t>(direction);
   PutLittleEndian(epoch, std::span(header).subspan(2, 8));
   PutLittleEndian(counter, std::span(header).subspan(10, 8));
   PutLittleEndian(scope.table_hash, std::span(header).subspan(18, 4));
+  if (echo) PutLittleEndian(*echo, std::span(header).subspan(kHeaderBytes, 8));
   return header;
 }
 
+/// The one number with these lowest bytes that is at most `newest`, and less than all of them hold below it.
+std::uint64_t CompleteEcho(std::span<const std::byte> low, std::uint64_t newest) {
+  const std::uint64_t mask = (std::uint64_t{1} << (8 * low.size())) - 1;
+  return newest - ((newest - GetLittleEndian(low)) & mask);
+}
+
 AuthenticatedHeader HelloHeader(Direction direction) {
-  AuthenticatedHeader header{};
+  AuthenticatedHeader header(kHeaderBytes);
   header[0] = 2;
   header[1] = static_cast<std::uint8_t>(direction);
   return header;
@@ -130,13 +138,16 @@ std::uint64_t FrameKeys::EpochOf(std::uint64_t onboard_nonce, std::uint64_t offb
 }
 
 std::vector<std::byte> FrameSealer::Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
-                                         std::span<const std::byte> bundle) const {
+                                         std::span<const std::byte> bundle, std::uint64_t echo) const {
   if (bundle.size() > kMaxBundleBytes || counter > kMaxCounter || epoch == 0)
     throw std::invalid_argument("radio frame: bundle too long, counter used up or no epoch");
   std::vector<std::byte> content;
   content.reserve(bundle.size() + 10);
+  const bool echoes = form == CounterForm::kLowBits && scope_.echo_bytes > 0;
   if (form == CounterForm::kLowBits) {
-    content.push_back(static_cast<std::byte>(counter & 0x7F));
+    content.resize(1 + scope_.echo_bytes);
+    content[0] = static_cast<std::byte>(counter & 0x7F);
+    PutLittleEndian(echo, std::span(content).subspan(1));
   } else {
     content.resize(1 + kWholeCounterBytes);
     content[0] = kWholeCounterTag;
@@ -146,8 +157,9 @@ std::vector<std::byte> FrameSealer::Seal(std::uint64_t epoch, std::uint64_t coun
   content.insert(content.end(), bundle.begin(), bundle.end());
   if (scope_.encrypted) keys_.Crypt(direction_, epoch, counter, std::span(content).subspan(body_at));
   std::array<std::byte, kDataCodeBytes> code{};
-  keys_.Authenticate(DataHeader(direction_, scope_, epoch, counter), std::span(content).subspan(body_at),
-                     code);
+  keys_.Authenticate(
+      DataHeader(direction_, scope_, epoch, counter, echoes ? std::optional(echo) : std::nullopt),
+      std::span(content).subspan(body_at), code);
   content.insert(content.end(), code.begin(), code.end());
   return Delimited(content);
 }
@@ -167,14 +179,15 @@ void FrameOpener::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
   window_ = ReplayWindow(floor);
 }
 
-Opened FrameOpener::Open(std::span<const std::byte> encoded) {
+Opened FrameOpener::Open(std::span<const std::byte> encoded, std::uint64_t newest_sent) {
   const auto content = CobsDecode(encoded);
   if (!content || content->size() < 1 + kDataCodeBytes) return Reject::kMalformed;
-  return content->front() == kHelloTag ? OpenHello(*content) : OpenData(*content);
+  return content->front() == kHelloTag ? OpenHello(*content) : OpenData(*content, newest_sent);
 }
 
-Opened FrameOpener::OpenData(std::span<const std::byte> content) {
+Opened FrameOpener::OpenData(std::span<const std::byte> content, std::uint64_t newest_sent) {
   std::size_t body_at = 1;
+  std::optional<std::uint64_t> echo;
   std::uint64_t counter = window_.Reconstruct(std::to_integer<std::uint8_t>(content[0]));
   if (content[0] == kWholeCounterTag) {
     body_at += kWholeCounterBytes;
@@ -182,16 +195,20 @@ Opened FrameOpener::OpenData(std::span<const std::byte> content) {
     counter = GetLittleEndian(content.subspan(1, kWholeCounterBytes));
   } else if (content[0] > kWholeCounterTag) {
     return Reject::kMalformed;
+  } else if (scope_.echo_bytes > 0) {
+    body_at += scope_.echo_bytes;
+    if (content.size() < body_at + kDataCodeBytes) return Reject::kMalformed;
+    echo = CompleteEcho(content.subspan(1, scope_.echo_bytes), newest_sent);
   }
   if (epoch_ == 0) return Reject::kNoEpoch;
   const auto body = content.subspan(body_at, content.size() - body_at - kDataCodeBytes);
   std::array<std::byte, kDataCodeBytes> code{};
-  keys_.Authenticate(DataHeader(direction_, scope_, epoch_, counter), body, code);
+  keys_.Authenticate(DataHeader(direction_, scope_, epoch_, counter, echo), body, code);
   if (sodium_memcmp(code.data(), content.last(kDataCodeBytes).data(), code.size()) != 0)
     return Reject::kBadCode;
   if (!window_.Fresh(counter)) return Reject::kReplayed;
   window_.Use(counter);
-  DataFrame frame{counter, {body.begin(), body.end()}};
+  DataFrame frame{counter, {body.begin(), body.end()}, echo};
   if (scope_.encrypted) keys_.Crypt(direction_, epoch_, counter, frame.bundle);
   return frame;
 }

@@ -12,12 +12,14 @@
 
 /// Frames on the line; bus/radio/PROTOCOL.md is the byte-exact specification.
 ///
-///     data   COBS( counter:1 | bundle | code:4 ) 0x00         7 bytes beside the bundle
-///     data   COBS( 0x80 | counter:5 | bundle | code:4 ) 0x00  the same with the whole counter
-///     hello  COBS( 0x81 | body:25 | code:8 ) 0x00             agreement on an epoch, see epoch.hpp
+///     data   COBS( counter:1 | echo:0-2 | bundle | code:4 ) 0x00  7 bytes and the echo beside the bundle
+///     data   COBS( 0x80 | counter:5 | bundle | code:4 ) 0x00      the same with the whole counter
+///     hello  COBS( 0x81 | body:25 | code:8 ) 0x00                 agreement on an epoch, see epoch.hpp
 ///
 /// The code is a keyed BLAKE2b hash over direction, epoch, whole counter, channel table and bundle, so that a
-/// frame of another direction, epoch, counter or table never passes, although none of them is sent.
+/// frame of another direction, epoch, counter or table never passes, although none of them is sent. The echo
+/// is the counter of the newest frame that the sender has accepted, of which the whole is in the code and the
+/// lowest bytes are sent: the receiver learns how old the frame can be at most, by its own clock.
 namespace priamos::bus::radio {
 
 /// Which end sends.
@@ -55,7 +57,13 @@ class FrameKeys {
 struct FrameScope {
   std::uint32_t table_hash = 0;  ///< hash of the channel table, see channel_table.hpp
   bool encrypted = false;
+  std::size_t echo_bytes = 0;  ///< bytes of the echo in a short frame; 0: the direction has no commands
 };
+
+/// Bytes of the echo in the short frames of a direction with commands, on a line of this rate.
+constexpr std::size_t EchoBytes(double bytes_per_s) {
+  return bytes_per_s <= 2000 ? 1 : 2;
+}
 
 /// Body of a hello frame; epoch.hpp defines how it is used.
 struct Hello {
@@ -69,7 +77,7 @@ struct Hello {
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 
-/// Bytes of a data frame beside its bundle, delimiter included.
+/// Bytes of a short data frame beside its bundle and its echo, delimiter included.
 inline constexpr std::size_t kFrameOverhead = 7;
 /// Bytes by which the whole counter is longer than its lowest bits.
 inline constexpr std::size_t kWholeCounterBytes = 5;
@@ -92,10 +100,15 @@ class FrameSealer {
       : keys_(keys), direction_(direction), scope_(scope) {}
 
   /// Makes a data frame. `counter` is below 2^40 and used once per epoch; `bundle` at most kMaxBundleBytes.
-  /// The lowest bits are enough if the receiver has accepted a counter at most 64 below this one.
+  /// The lowest bits are enough if the receiver has accepted a counter at most 64 below this one. `echo`:
+  /// counter of the newest frame accepted from the receiver; the short frames of a direction with commands
+  /// carry it.
   std::vector<std::byte> Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
-                              std::span<const std::byte> bundle) const;
+                              std::span<const std::byte> bundle, std::uint64_t echo = 0) const;
   std::vector<std::byte> Seal(const Hello& hello) const;
+  std::size_t echo_bytes() const { return scope_.echo_bytes; }
+  /// Bytes of a short frame beside its bundle, delimiter included.
+  std::size_t overhead() const { return kFrameOverhead + scope_.echo_bytes; }
 
  private:
   FrameKeys keys_;
@@ -118,6 +131,8 @@ inline constexpr std::size_t kRejects = 6;
 struct DataFrame {
   std::uint64_t counter = 0;
   std::vector<std::byte> bundle;
+  /// Counter of the newest frame that its sender had accepted from here when it was made, if it says so.
+  std::optional<std::uint64_t> echo{};
 };
 /// What lay between two delimiters.
 using Opened = std::variant<DataFrame, Hello, Reject>;
@@ -132,15 +147,16 @@ class FrameOpener {
   /// Accepts from now on data frames of `epoch` with counters above `floor`. Epoch 0: no data frames.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
   /// Checks and decodes the bytes between two delimiters. Exactly one code is computed per frame, so that the
-  /// chance of a forged data frame is 2^-32, of a hello 2^-64.
-  Opened Open(std::span<const std::byte> encoded);
+  /// chance of a forged data frame is 2^-32, of a hello 2^-64. `newest_sent`: the newest counter that this
+  /// end has sent in the epoch. An echo of one 256 (with 2 bytes: 65536) or more below it is a wrong code.
+  Opened Open(std::span<const std::byte> encoded, std::uint64_t newest_sent = 0);
   /// Epoch of the frames that are accepted; 0: none.
   std::uint64_t epoch() const { return epoch_; }
   /// Highest counter accepted, or the floor.
   std::uint64_t highest() const { return window_.highest(); }
 
  private:
-  Opened OpenData(std::span<const std::byte> content);
+  Opened OpenData(std::span<const std::byte> content, std::uint64_t newest_sent);
   Opened OpenHello(std::span<const std::byte> content) const;
 
   FrameKeys keys_;

@@ -22,6 +22,15 @@ void LineCut::Describe(Archive& a) {
   if (to_s < from_s) a.Refuse("to_s", "a time not before from_s");
 }
 
+void LineDelay::Describe(Archive& a) {
+  a.Choice("way", way, {"a_to_b", "b_to_a", "both"}, "which direction");
+  a.Number("from_s", from_s, {"s", 0, 1e6, "from so long after the start of the line"});
+  a.Number("to_s", to_s, {"s", 0, 1e6, "until then"});
+  a.Number("first_s", first_s, {"s", 0, 1000, "added to the latency in the beginning"});
+  a.Number("last_s", last_s, {"s", 0, 1000, "and in the end; in between it changes evenly"});
+  if (to_s <= from_s) a.Refuse("to_s", "a time after from_s");
+}
+
 void LineConfig::Describe(Archive& a) {
   a.Integer("baud", baud, {"baud", 300, 1000000, "10 bits per byte"});
   a.Number("air_rate_bytes_s", air_rate_bytes_s,
@@ -36,6 +45,7 @@ void LineConfig::Describe(Archive& a) {
   a.Flag("half_duplex", half_duplex, "a modem hears nothing while it sends");
   a.Number("turnaround_s", turnaround_s, {"s", 0, 1, "half-duplex: nor for so long afterwards"});
   a.List("cut", cuts, "times without a line");
+  a.List("delay", delays, "times with more delay: steps, ramps and stalls");
 }
 
 void SharedAir::Sends(int side, std::int64_t from_ns, std::int64_t to_ns) {
@@ -56,10 +66,10 @@ bool SharedAir::IsDeaf(int side, std::int64_t from_ns, std::int64_t to_ns) const
 
 LinePair::LinePair(const LineConfig& config, Rng rng_a, Rng rng_b, Time start)
     : air(config.half_duplex ? std::make_shared<SharedAir>(config.turnaround_s) : nullptr),
-      a_to_b(config, std::move(rng_a), start, air, 0),
-      b_to_a(config, std::move(rng_b), start, air, 1) {}
+      a_to_b(config, rng_a, start, air, 0),
+      b_to_a(config, rng_b, start, air, 1) {}
 
-Line::Line(const LineConfig& config, Rng rng, Time start) : Line(config, std::move(rng), start, nullptr, 0) {}
+Line::Line(const LineConfig& config, Rng rng, Time start) : Line(config, rng, start, nullptr, 0) {}
 
 Line::Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side)
     : config_(config),
@@ -72,6 +82,8 @@ Line::Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<Shared
       last_arrival_ns_(start_ns_),
       air_(std::move(air)),
       side_(side) {
+  std::erase_if(config_.delays,
+                [&](const LineDelay& d) { return d.way == (side_ == 0 ? "b_to_a" : "a_to_b"); });
   std::sort(config_.cuts.begin(), config_.cuts.end(),
             [](const LineCut& a, const LineCut& b) { return a.from_s < b.from_s; });
   if (config_.burst_rate_hz > 0)
@@ -136,9 +148,19 @@ double Line::BitErrorRate(std::int64_t at_ns) {
   return at_ns >= burst_start_ns_ ? config_.burst_error_rate : config_.bit_error_rate;
 }
 
+std::int64_t Line::AddedDelay(std::int64_t at_ns) const {
+  const double at_s = static_cast<double>(at_ns - start_ns_) / 1e9;
+  double added_s = 0;
+  for (const LineDelay& d : config_.delays)
+    if (at_s >= d.from_s && at_s < d.to_s)
+      added_s += d.first_s + (d.last_s - d.first_s) * (at_s - d.from_s) / (d.to_s - d.from_s);
+  return SecondsToNs(added_s);
+}
+
 void Line::Arrive(std::byte byte, std::int64_t end_ns) {
   const double jitter_s = config_.jitter_s > 0 ? rng_.Uniform(0, config_.jitter_s) : 0;
-  last_arrival_ns_ = std::max(last_arrival_ns_, end_ns + SecondsToNs(config_.latency_s + jitter_s));
+  last_arrival_ns_ =
+      std::max(last_arrival_ns_, end_ns + SecondsToNs(config_.latency_s + jitter_s) + AddedDelay(end_ns));
   arrivals_.push_back({last_arrival_ns_, byte});
 }
 

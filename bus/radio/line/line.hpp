@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/config.hpp"
@@ -19,6 +20,18 @@ namespace priamos::bus::radio {
 struct LineCut {
   double from_s = 0;
   double to_s = 0;
+  void Describe(Archive& a);
+};
+
+/// An addition to the delay of one direction or both, in an interval in seconds after the start of the line.
+/// It goes evenly from `first_s` to `last_s`: the same twice is a step, 0 and more is a ramp, the length of
+/// the interval and 0 is a stall that ends with the release of everything that was held.
+struct LineDelay {
+  std::string way = "both";  ///< "a_to_b", "b_to_a" or "both"
+  double from_s = 0;
+  double to_s = 0;
+  double first_s = 0;  ///< addition to a byte that leaves at from_s
+  double last_s = 0;   ///< addition to one that leaves at to_s
   void Describe(Archive& a);
 };
 
@@ -36,6 +49,7 @@ struct LineConfig {
   bool half_duplex = false;          ///< a modem receives nothing while it sends
   double turnaround_s = 0.02;        ///< time after sending in which a modem receives nothing either
   std::vector<LineCut> cuts{};       ///< in order of time
+  std::vector<LineDelay> delays{};   ///< those of one time add up
   void Describe(Archive& a);
 };
 
@@ -61,7 +75,7 @@ class SharedAir {
 class Line {
  public:
   Line(const LineConfig& config, Rng rng, Time start);
-  /// On a half-duplex radio both directions share the air; `side` (0 or 1) sends into this one.
+  /// `side` sends into this line: 0 is a to b, 1 is b to a. On a half-duplex radio both share the air.
   Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side);
 
   /// Sends bytes; calls must come in the order of `now`.
@@ -83,6 +97,7 @@ class Line {
   void Transmit(std::byte byte, std::int64_t end_ns);
   bool Cut(std::int64_t at_ns);
   double BitErrorRate(std::int64_t at_ns);
+  std::int64_t AddedDelay(std::int64_t at_ns) const;
   void Arrive(std::byte byte, std::int64_t end_ns);
 
   LineConfig config_;

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
-#include "bus/command_line.hpp"
 #include "bus/own_types.hpp"
 #include "bus/type_files.hpp"
 #include "common/nearest_word.hpp"
@@ -23,7 +22,7 @@ void AddTypesOption(CLI::App& verb, BusOptions& options) {
 }
 
 void AddChannelArgument(CLI::App& verb, std::string& channel) {
-  verb.add_option("channel", channel, "LCM channel")->required()->check(bus::NotEmpty());
+  verb.add_option("channel", channel, "LCM channel")->required();
 }
 
 bus::Schema LoadTypes(const BusOptions& options) {

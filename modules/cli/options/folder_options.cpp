@@ -1,6 +1,6 @@
 #include "cli/options/folder_options.hpp"
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include "common/data_folders.hpp"
 

@@ -1,11 +1,16 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 #include <utility>
 
 namespace priamos::cli {
+
+/// A verb below `parent`, which owns it. A verb's file includes CLI/App.hpp and uses this instead of
+/// App::add_subcommand: whoever makes an App compiles the formatter and the reader of configurations of
+/// CLI11, seconds of work.
+CLI::App* AddVerb(CLI::App& parent, const std::string& name, const std::string& description);
 
 /// Completes a verb whose `options` have a flag `json`: the option --json, and `run`, which leaves its exit
 /// code in `exit_code`, when the verb is chosen.

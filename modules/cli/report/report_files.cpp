@@ -29,12 +29,20 @@ DoorPlan LoadDoor(const std::string& map_file, int id) {
   return *door;
 }
 
+std::string SummariesAsJson(const std::vector<Summary>& runs, JsonForm form) {
+  const int indent = form == JsonForm::kIndented ? 2 : -1;
+  if (runs.size() == 1) return ToJson(runs.front()).dump(indent);
+  auto all = nlohmann::ordered_json::array();
+  for (const Summary& run : runs) all.push_back(ToJson(run));
+  return all.dump(indent);
+}
+
 void WriteReport(const RunRecord& record, const Summary& summary, const RunInfo& info,
                  const std::string& map_file, const std::filesystem::path& folder) {
   const auto plan = LoadConfig<GroundPlan>(map_file);
   const drawing::Drawing picture = DrawRun(record, summary, info, plan);
   const std::string svg = drawing::ToSvg(picture);
-  WriteFile(folder / "summary.json", ToJson(summary).dump(2) + "\n");
+  WriteFile(folder / "summary.json", SummariesAsJson({summary}, JsonForm::kIndented) + "\n");
   WriteFile(folder / "run.svg", svg);
   WriteFile(folder / "run.png", drawing::ToPng(drawing::Paint(picture)));
   WriteFile(folder / "report.html", ReportPage(record, summary, svg));

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/report/report_record.hpp"
 #include "cli/report/report_summary.hpp"
@@ -11,6 +12,11 @@ namespace priamos::cli {
 
 /// The door `id` of a ground plan file. Throws ConfigError when the plan cannot be used or has no such door.
 DoorPlan LoadDoor(const std::string& map_file, int id);
+
+enum class JsonForm { kOneLine, kIndented };
+
+/// summary.json of one run, of several an array of them; without the end of the last line.
+std::string SummariesAsJson(const std::vector<Summary>& runs, JsonForm form);
 
 /// Writes summary.json, run.svg and run.png (the same picture) and report.html into `folder`. Throws
 /// ConfigError for a ground plan that cannot be used, std::runtime_error naming a file that cannot be

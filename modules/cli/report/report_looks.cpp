@@ -30,10 +30,11 @@ std::string Drawing(const landmark_view_t& view) {
   std::string svg =
       fmt::format("<svg class=\"look\" viewBox=\"0 0 {} {}\">", kPicture.width, kPicture.height);
   for (const view_edge_t& e : view.edges) {
-    if (e.kind < 0 || e.kind >= static_cast<int>(kClasses.size())) continue;
+    const auto kind = static_cast<std::uint8_t>(e.kind);  // a negative one is too large
+    if (kind >= kClasses.size()) continue;
     if (!std::isfinite(e.u1_px + e.v1_px + e.u2_px + e.v2_px)) continue;
     svg += fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
-                       kClasses[static_cast<std::size_t>(e.kind)], e.u1_px, e.v1_px, e.u2_px, e.v2_px);
+                       kClasses[kind], e.u1_px, e.v1_px, e.u2_px, e.v2_px);
   }
   return svg + "</svg>";
 }

@@ -1,10 +1,11 @@
 #include "cli/report/report_map_view.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "common/principal_axes.hpp"
 
 namespace priamos::cli {
 
@@ -150,9 +151,8 @@ void MapView::SetLabels() {
 
 std::vector<Vector2d> EllipseOutline(const Vector2d& centre, const Eigen::Matrix2d& covariance,
                                      double sigmas) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
-  const Eigen::Matrix2d axes =
-      solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * sigmas;
+  const PrincipalAxes<2> ellipse = PrincipalAxesOf(covariance);
+  const Eigen::Matrix2d axes = ellipse.axes * ellipse.values.cwiseMax(0).cwiseSqrt().asDiagonal() * sigmas;
   constexpr int kCorners = 48;
   std::vector<Vector2d> outline;
   for (int i = 0; i < kCorners; ++i) {

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <filesystem>
 
 #include "common/nearest_word.hpp"
+#include "planner/planner_config.hpp"
 
 namespace priamos::cli {
 
@@ -21,6 +23,13 @@ int DoorNamed(const GroundPlan& plan, const std::string& name, const std::string
     return id;
   throw ConfigError(fmt::format("unknown door \"{}\"{}; {} has {}", name, NearestText(name, known), map,
                                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+}
+
+int DoorOfDeployment(const std::string& folder, const std::string& name) {
+  const auto file = std::filesystem::path(folder) / "planner.toml";
+  const auto config = LoadConfig<planner::PlannerConfig>(file.string());
+  const std::string map = (file.parent_path() / config.map).lexically_normal().string();
+  return DoorNamed(LoadConfig<GroundPlan>(map), name, map);
 }
 
 }  // namespace priamos::cli

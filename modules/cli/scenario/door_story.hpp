@@ -47,7 +47,7 @@ class DoorStory : public ScenarioStory {
   bus::Inbox<landmark_fix_t> looks_;
   bus::Publisher<mission_command_t> order_;
   std::optional<Time> start_, ordered_, ended_;
-  int phase_ = -1;
+  std::int8_t phase_ = -1;
   bool succeeded_ = false;
   std::string text_;
 };

@@ -30,17 +30,30 @@ namespace fs = std::filesystem;
 using bus::radio::Line;
 using bus::radio::LineConfig;
 using bus::radio::LineCut;
+using bus::radio::LineDelay;
 
 /// What a tty's own buffer holds: who writes more has to wait.
 constexpr Duration kTtyBuffer{4'000'000};
 constexpr std::size_t kReadAtOnce = 256;
 constexpr Duration kLongestIdle = std::chrono::milliseconds(100);
 
-LineConfig WithBlackouts(const LinkEmulateOptions& options) {
+LineConfig WithSchedules(const LinkEmulateOptions& options) {
   LineConfig line = options.line;
-  if (options.blackouts.empty()) return line;
-  for (const LineCut& cut : ReadBlackouts(options.blackouts)) line.cuts.push_back(cut);
+  if (!options.blackouts.empty())
+    for (const LineCut& cut : ReadBlackouts(options.blackouts)) line.cuts.push_back(cut);
+  if (!options.delays.empty())
+    for (LineDelay& delay : ReadDelays(options.delays)) line.delays.push_back(std::move(delay));
   return line;
+}
+
+/// Calls `take` with every line of a CSV file and its number, but for comments and a heading.
+template <class Take>
+void ForEachRow(const std::string& path, const std::string& what, const std::string& heading, Take take) {
+  std::ifstream in(path);
+  if (!in) throw ConfigError(fmt::format("{}: expected a {} schedule, got none", path, what));
+  std::string text;
+  for (int line = 1; std::getline(in, text); ++line)
+    if (!text.empty() && text[0] != '#' && (line > 1 || text.rfind(heading, 0) != 0)) take(line, text);
 }
 
 void MakeRaw(int fd) {
@@ -66,12 +79,8 @@ void MoveIn(PseudoTerminal& from, Line& line, Time now) {
 }  // namespace
 
 std::vector<LineCut> ReadBlackouts(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) throw ConfigError(fmt::format("{}: expected a blackout schedule, got none", path));
   std::vector<LineCut> cuts;
-  std::string text;
-  for (int line = 1; std::getline(in, text); ++line) {
-    if (text.empty() || text[0] == '#' || (line == 1 && text.rfind("from_s", 0) == 0)) continue;
+  ForEachRow(path, "blackout", "from_s", [&](int line, const std::string& text) {
     LineCut cut;
     char rest = 0;
     if (std::sscanf(text.c_str(), "%lf,%lf %c", &cut.from_s, &cut.to_s, &rest) != 2 || cut.from_s < 0 ||
@@ -79,8 +88,29 @@ std::vector<LineCut> ReadBlackouts(const std::string& path) {
       throw ConfigError(
           fmt::format("{}:{}: expected from_s,to_s with 0 <= from_s <= to_s, got \"{}\"", path, line, text));
     cuts.push_back(cut);
-  }
+  });
   return cuts;
+}
+
+std::vector<LineDelay> ReadDelays(const std::string& path) {
+  std::vector<LineDelay> delays;
+  ForEachRow(path, "delay", "way", [&](int line, const std::string& text) {
+    LineDelay d;
+    std::array<char, 8> way{};
+    char rest = 0;
+    const int n = std::sscanf(text.c_str(), "%7[a-z_],%lf,%lf,%lf,%lf %c", way.data(), &d.from_s, &d.to_s,
+                              &d.first_s, &d.last_s, &rest);
+    d.way = way.data();
+    const bool known = d.way == "a_to_b" || d.way == "b_to_a" || d.way == "both";
+    if (n != 5 || !known || !(d.from_s >= 0 && d.from_s < d.to_s && d.to_s <= 1e6) ||
+        !(std::min(d.first_s, d.last_s) >= 0 && std::max(d.first_s, d.last_s) <= 1000))
+      throw ConfigError(
+          fmt::format("{}:{}: expected way,from_s,to_s,first_s,last_s with a way of a_to_b, b_to_a or both, "
+                      "0 <= from_s < to_s and delays of 0 to 1000 s, got \"{}\"",
+                      path, line, text));
+    delays.push_back(d);
+  });
+  return delays;
 }
 
 PseudoTerminal::PseudoTerminal(std::string link) : link_(std::move(link)) {
@@ -129,7 +159,7 @@ void PseudoTerminal::Write(std::span<const std::byte> bytes) {
 EmulatedLine::EmulatedLine(const LinkEmulateOptions& options, Time start)
     : a_(options.a),
       b_(options.b),
-      lines_(WithBlackouts(options), Rng::Stream(options.seed, "a to b"), Rng::Stream(options.seed, "b to a"),
+      lines_(WithSchedules(options), Rng::Stream(options.seed, "a to b"), Rng::Stream(options.seed, "b to a"),
              start) {}
 
 void EmulatedLine::Step(Time now) {

@@ -15,6 +15,7 @@ struct LinkEmulateOptions {
   std::string b = "tty-b";
   bus::radio::LineConfig line;
   std::string blackouts;  ///< CSV file, `from_s,to_s` per line: more times without a line
+  std::string delays;     ///< CSV file, `way,from_s,to_s,first_s,last_s` per line: times with more delay
   std::uint64_t seed = 1;
   bool json = false;  ///< print the ttys that were made as JSON
 };
@@ -22,6 +23,9 @@ struct LinkEmulateOptions {
 /// Reads a blackout schedule; lines that begin with # and a heading are passed over. Throws ConfigError,
 /// `file:line: expected ..., got ...`.
 std::vector<bus::radio::LineCut> ReadBlackouts(const std::string& path);
+
+/// Reads a schedule of delays, as ReadBlackouts; `way` is a_to_b, b_to_a or both.
+std::vector<bus::radio::LineDelay> ReadDelays(const std::string& path);
 
 /// One pseudo terminal, found under the name of a symbolic link. What a program writes to the link's target
 /// comes out of Read().

@@ -55,6 +55,7 @@ struct Launch {
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
   for (std::string& t : texts) pointers.push_back(t.data());
   pointers.push_back(nullptr);
   return pointers;
@@ -127,9 +128,11 @@ void Supervisor::CheckOrder() const {
 Supervisor::~Supervisor() {
   const bus::MonotonicClock clock;
   StopAll();
-  for (;;) {
-    Step(clock.Now());
-    if (AllStopped()) return;
+  while (!AllStopped()) {
+    try {
+      Step(clock.Now());
+    } catch (const std::exception&) {  // what cannot be written now; the processes end all the same
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }

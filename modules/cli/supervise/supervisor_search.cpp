@@ -50,7 +50,7 @@ std::optional<bus::ClaimWord> Hear(const std::string& robot, const bus::Clock& c
   Ear offboard(choice, schema, clock);
   for (const Time until = clock.Now() + kListenFor; clock.Now() < until;)
     for (Ear* ear : {&onboard, &offboard})
-      if (const auto word = ear->Listen(robot)) return word;
+      if (auto word = ear->Listen(robot)) return word;
   return std::nullopt;
 }
 

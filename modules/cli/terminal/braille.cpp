@@ -49,7 +49,7 @@ void Braille::Line(double x0, double y0, double x1, double y1, Ink ink, int pace
     const double share = steps == 0 ? 0 : static_cast<double>(i) / steps;
     const auto x = std::clamp(static_cast<int>(std::lround(x0 + share * (x1 - x0))), 0, width() - 1);
     const auto y = std::clamp(static_cast<int>(std::lround(y0 + share * (y1 - y0))), 0, height() - 1);
-    const auto cell = static_cast<std::size_t>(y / 4 * columns_ + x / 2);
+    const auto cell = CellAt(x / 2, y / 4);
     dots_[cell] |= kBits[y % 4][x % 2];
     inks_[cell] = std::max<std::uint8_t>(inks_[cell], ink);
   }
@@ -60,7 +60,7 @@ std::string Braille::Text(bool colour) const {
   for (int row = 0; row < rows_; ++row) {
     std::uint8_t ink = kNone;
     for (int column = 0; column < columns_; ++column) {
-      const auto cell = static_cast<std::size_t>(row * columns_ + column);
+      const auto cell = CellAt(column, row);
       if (colour && inks_[cell] != ink) {
         text += kPlain;
         text += kColours[ink = inks_[cell]];

@@ -25,6 +25,11 @@ class Braille {
   std::string Text(bool colour) const;
 
  private:
+  std::size_t CellAt(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+
   int columns_, rows_;
   std::vector<std::uint8_t> dots_, inks_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -24,7 +25,7 @@ constexpr Duration kStale{3'000'000}, kPeriod{500'000};
 constexpr double kOnceWaits_s = 10;  // two rounds of reports of the largest link
 
 std::string Bar(double share) {
-  const int full = std::clamp(static_cast<int>(share * kBarWidth + 0.5), 0, kBarWidth);
+  const int full = std::clamp(static_cast<int>(std::lround(share * kBarWidth)), 0, kBarWidth);
   return fmt::format("[{:#<{}}{:.<{}}] {:>3.0f} %", "", full, "", kBarWidth - full, share * 100);
 }
 

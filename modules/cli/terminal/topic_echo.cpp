@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <exception>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "cli/options/verb_setup.hpp"
 #include "cli/terminal/bus_watch.hpp"
-#include "cli/terminal/field_path.hpp"
-#include "cli/terminal/plain_numbers.hpp"
+#include "cli/terminal/echo_text.hpp"
 #include "cli/terminal/silence_watch.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -78,20 +77,12 @@ class Echo {
     try {
       if (type == nullptr)
         throw bus::MessageError("no known type has this fingerprint; name its .lcm folder with --types");
-      Print(bus::ToJson(*type, bytes));
+      std::cout << EchoText(bus::ToJson(*type, bytes), fields_,
+                            options_.json ? EchoForm::kOneLine : EchoForm::kForPeople)
+                << std::endl;
     } catch (const bus::MessageError& error) {
       std::cerr << fmt::format("{}: {} bytes: {}\n", options_.channel, bytes.size(), error.what());
     }
-  }
-
-  void Print(const bus::Json& exact) const {
-    const bus::Json message = WithPlainNumbers(exact);
-    if (fields_.empty()) return void(std::cout << message.dump(options_.json ? -1 : 2) << std::endl);
-    if (!options_.json && fields_.size() == 1)
-      return void(std::cout << fields_[0].In(message).dump() << std::endl);
-    auto some = bus::Json::object();
-    for (const FieldPath& field : fields_) some[field.text()] = field.In(message);
-    std::cout << some.dump() << std::endl;
   }
 
   EchoOptions options_;
@@ -106,8 +97,7 @@ class Echo {
 
 void AddTopicEchoVerb(CLI::App& topic, int& exit_code) {
   auto options = std::make_shared<EchoOptions>();
-  auto* verb =
-      topic.add_subcommand("echo", "Print the messages of one channel, or some of their fields, as JSON.");
+  auto* verb = AddVerb(topic, "echo", "Print the messages of one channel, or some of their fields, as JSON.");
   verb->footer(
       "Examples: priamos topic echo POSE --count 1\n          priamos topic echo POSE x_m y_m\n"
       "          priamos topic echo SONAR_RANGES range_m[3] --bus onboard");

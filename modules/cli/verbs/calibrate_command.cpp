@@ -1,15 +1,16 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
 #include "cli/lockstep/factories.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
+#include "cli/terminal/json_line.hpp"
 #include "cli/verbs/commands.hpp"
 #include "head/files/laser_files.hpp"
 #include "head/files/offline_calibration.hpp"
@@ -124,9 +125,9 @@ int Calibrate(const CalibrateOptions& options) {
   lockstep.AddApp(FactoryFor("head"), "onboard", head);
   const bool finished = lockstep.RunUntil(start + kTimeLimit);
   if (options.json)
-    std::cout << nlohmann::ordered_json{{"finished", finished},
-                                        {"exit_code", finished ? lockstep.exit_code() : 1},
-                                        {"simulated_s", Seconds(lockstep.now() - start)}}
+    std::cout << JsonLine({{"finished", finished},
+                           {"exit_code", finished ? lockstep.exit_code() : 1},
+                           {"simulated_s", Seconds(lockstep.now() - start)}})
               << std::endl;
   if (finished) return lockstep.exit_code();
   std::cerr << "priamos calibrate: the head did not finish within 10 simulated minutes\n";
@@ -137,9 +138,9 @@ int Calibrate(const CalibrateOptions& options) {
 
 void AddCalibrateCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<CalibrateOptions>();
-  auto* verb = cli.add_subcommand("calibrate",
-                                  "Calibrate the simulated KASTOR head before its reference object (a real "
-                                  "one: priamos-head --calibrate), or cameras from files.");
+  auto* verb = AddVerb(cli, "calibrate",
+                       "Calibrate the simulated KASTOR head before its reference object (a real "
+                       "one: priamos-head --calibrate), or cameras from files.");
   verb->footer(
       "Examples: priamos calibrate --output kastor.yaml\n"
       "          priamos calibrate --points left.txt --points right.txt\n"

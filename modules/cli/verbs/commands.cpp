@@ -1,6 +1,6 @@
 #include "cli/verbs/commands.hpp"
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include "cli/front/estop_command.hpp"
 

@@ -1,11 +1,12 @@
 #include "cli/verbs/completion.hpp"
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <iostream>
 #include <tuple>
 
 #include "bus/own_types.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/verbs/commands.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -51,7 +52,7 @@ std::vector<std::string> Members(const CLI::Option& option) {
 }
 
 std::vector<std::string> ValuesOf(const CLI::Option& option) {
-  const std::string name = option.get_single_name();
+  const std::string& name = option.get_single_name();
   if (name == "channel" || name == "channels" || name == "without") return ChannelNames();
   if (name == "type") return TypeNames();
   return Members(option);
@@ -154,8 +155,8 @@ namespace {
 
 void AddShell(CLI::App& verb, const std::string& shell, std::string (*script)(), const std::string& example,
               int& exit_code) {
-  auto* sub = verb.add_subcommand(
-      shell, "Print what makes " + shell + " complete verbs, options, channels and types.");
+  auto* sub =
+      AddVerb(verb, shell, "Print what makes " + shell + " complete verbs, options, channels and types.");
   sub->footer("Example: " + example);
   sub->callback([script, &exit_code] {
     std::cout << script();
@@ -166,14 +167,14 @@ void AddShell(CLI::App& verb, const std::string& shell, std::string (*script)(),
 }  // namespace
 
 void AddCompletionCommand(CLI::App& cli, int& exit_code) {
-  auto* verb = cli.add_subcommand("completion", "Completion for a shell.");
+  auto* verb = AddVerb(cli, "completion", "Completion for a shell.");
   verb->require_subcommand(1);
   AddShell(*verb, "bash", BashCompletion, "priamos completion bash >> ~/.bashrc", exit_code);
   AddShell(*verb, "zsh", ZshCompletion, "priamos completion zsh >> ~/.zshrc, below compinit", exit_code);
   AddShell(*verb, "fish", FishCompletion, "priamos completion fish > ~/.config/fish/completions/priamos.fish",
            exit_code);
   auto words = std::make_shared<std::vector<std::string>>();
-  auto* ask = verb->add_subcommand("words", "What the shells ask.");
+  auto* ask = AddVerb(*verb, "words", "What the shells ask.");
   ask->group("");
   ask->add_option("words", *words, "the command line so far");
   ask->callback([&cli, words, &exit_code] {

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "cli/options/bus_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/verbs/commands.hpp"
 #include "cli/verbs/doctor.hpp"
 
@@ -45,8 +46,8 @@ void AddDoctorCommand(CLI::App& cli, int& exit_code) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  auto* verb = cli.add_subcommand(
-      "doctor",
+  auto* verb = AddVerb(
+      cli, "doctor",
       "What this machine lacks, each with the command that mends it (exit code 1 when something is bad).");
   verb->footer("Example: priamos doctor --bus onboard --ttl 1");
   bus::AddBusChoice(*verb, options->bus);

@@ -1,9 +1,10 @@
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
 #include "bus/command_line.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/verbs/commands.hpp"
 #include "common/nearest_word.hpp"
 
@@ -23,7 +24,7 @@ const CLI::App& Find(const CLI::App& app, const std::string& name) {
 
 void AddHelpCommand(CLI::App& cli, int& exit_code) {
   auto words = std::make_shared<std::vector<std::string>>();
-  auto* verb = cli.add_subcommand("help", "Help on a verb, or on all of them.");
+  auto* verb = AddVerb(cli, "help", "Help on a verb, or on all of them.");
   verb->footer("Example: priamos help topic list");
   verb->add_option("verb", *words, "the verb, and the verb of that");
   verb->callback([&cli, words, &exit_code] {

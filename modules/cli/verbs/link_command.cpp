@@ -1,4 +1,4 @@
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -6,6 +6,7 @@
 #include "bus/radio/budget.hpp"
 #include "bus/radio/link_config.hpp"
 #include "bus/schema/packing.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/supervise/link_emulate.hpp"
 #include "cli/terminal/link_top.hpp"
 #include "cli/verbs/commands.hpp"
@@ -49,7 +50,8 @@ nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
          {"share", c.share},
          {"worst_latency_s", seconds(c.worst_latency)},
          {"deadline_s",
-          seconds(channel.deadline > Duration{} ? std::optional(channel.deadline) : std::nullopt)}});
+          seconds(channel.deadline > Duration{} ? std::optional(channel.deadline) : std::nullopt)},
+         {"proven_age_s", seconds(c.proof ? std::optional(c.proof->age()) : std::nullopt)}});
   }
   return json;
 }
@@ -62,7 +64,7 @@ nlohmann::ordered_json BudgetAsJson(const bus::radio::ChannelTable& table, const
 
 void AddEmulate(CLI::App& link, int& exit_code) {
   auto options = std::make_shared<LinkEmulateOptions>();
-  auto* verb = link.add_subcommand("emulate", "A pair of radio modems: two ttys joined by an emulated line.");
+  auto* verb = AddVerb(link, "emulate", "A pair of radio modems: two ttys joined by an emulated line.");
   verb->footer("Example: priamos link emulate --a /tmp/tty-robot --b /tmp/tty-desk --bit-error-rate 1e-4");
   verb->add_option("--a", options->a, "name of the first tty")->capture_default_str();
   verb->add_option("--b", options->b, "name of the second tty")->capture_default_str();
@@ -98,6 +100,8 @@ void AddEmulate(CLI::App& link, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--blackouts", options->blackouts,
                    "CSV file with from_s,to_s per line: no line in between");
+  verb->add_option("--delays", options->delays,
+                   "CSV file with way,from_s,to_s,first_s,last_s per line: more delay of one way for a time");
   verb->add_option("--seed", options->seed, "seed of the errors")->capture_default_str();
   verb->add_flag("--json", options->json, "print the ttys as JSON");
   verb->callback([options, &exit_code] { exit_code = RunLinkEmulate(*options); });
@@ -105,8 +109,7 @@ void AddEmulate(CLI::App& link, int& exit_code) {
 
 void AddKeygen(CLI::App& link, int& exit_code) {
   auto path = std::make_shared<std::string>();
-  auto* verb =
-      link.add_subcommand("keygen", "Make a secret key for a radio link; both ends need the same file.");
+  auto* verb = AddVerb(link, "keygen", "Make a secret key for a radio link; both ends need the same file.");
   verb->footer("Example: priamos link keygen /etc/priamos/link.key");
   verb->add_option("file", *path, "where to; an existing file is kept")->required();
   auto json = std::make_shared<bool>(false);
@@ -122,7 +125,7 @@ void AddKeygen(CLI::App& link, int& exit_code) {
 
 void AddBits(CLI::App& link, int& exit_code) {
   auto type = std::make_shared<std::string>(), types = std::make_shared<std::string>();
-  auto* verb = link.add_subcommand("bits", "How many bits a message takes on the radio, field by field.");
+  auto* verb = AddVerb(link, "bits", "How many bits a message takes on the radio, field by field.");
   verb->footer("Example: priamos link bits pose_t");
   verb->add_option("type", *type, "message type")->required();
   verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
@@ -140,8 +143,8 @@ void AddBits(CLI::App& link, int& exit_code) {
 
 void AddBudget(CLI::App& link, int& exit_code) {
   auto config = std::make_shared<std::string>(), types = std::make_shared<std::string>();
-  auto* verb = link.add_subcommand("budget",
-                                   "What a link.toml asks of the line: bytes, shares, worst-case latencies.");
+  auto* verb =
+      AddVerb(link, "budget", "What a link.toml asks of the line: bytes, shares, worst-case latencies.");
   verb->footer("Example: priamos link budget config/sim/link.toml");
   verb->add_option("config", *config, "link.toml")->required();
   verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
@@ -159,7 +162,7 @@ void AddBudget(CLI::App& link, int& exit_code) {
 
 void AddTop(CLI::App& link, int& exit_code) {
   auto options = std::make_shared<LinkTopOptions>();
-  auto* verb = link.add_subcommand("top", "The link as it is now: load, quality, every channel.");
+  auto* verb = AddVerb(link, "top", "The link as it is now: load, quality, every channel.");
   verb->footer("Example: priamos link top --bus onboard");
   bus::AddBusChoice(*verb, options->bus.bus);
   verb->add_flag("--once", options->once, "one screen, then end");
@@ -169,8 +172,7 @@ void AddTop(CLI::App& link, int& exit_code) {
 
 void AddListen(CLI::App& link, int& exit_code) {
   auto options = std::make_shared<LinkTopOptions>();
-  auto* verb =
-      link.add_subcommand("listen", "Have an on-request channel sent over the radio while this runs.");
+  auto* verb = AddVerb(link, "listen", "Have an on-request channel sent over the radio while this runs.");
   verb->footer("Example: priamos link listen SONAR_RANGES --for 10");
   verb->add_option("channel", options->channel, "LCM channel of the other side")->required();
   verb->add_option("--for", options->seconds, "s; 0: until Ctrl-C")
@@ -183,8 +185,8 @@ void AddListen(CLI::App& link, int& exit_code) {
 }  // namespace
 
 void AddLinkCommand(CLI::App& cli, int& exit_code) {
-  auto* link = cli.add_subcommand(
-      "link", "The radio link: emulate one, make keys, see what it costs and what it does.");
+  auto* link =
+      AddVerb(cli, "link", "The radio link: emulate one, make keys, see what it costs and what it does.");
   link->require_subcommand(1);
   AddEmulate(*link, exit_code);
   AddKeygen(*link, exit_code);

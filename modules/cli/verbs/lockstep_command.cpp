@@ -1,19 +1,19 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "bus/own_types.hpp"
 #include "cli/lockstep/factories.hpp"
 #include "cli/lockstep/lockstep_run.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/report/report_files.hpp"
 #include "cli/verbs/commands.hpp"
 
@@ -71,10 +71,10 @@ std::string Line(const LockstepResult& result) {
                      s.passed ? "" : s.reason);
 }
 
-void WriteJson(const std::string& file, const nlohmann::ordered_json& json) {
-  if (file.empty()) return void(std::cout << json.dump() << std::endl);
+void WriteJson(const std::string& file, const std::vector<Summary>& all) {
+  if (file.empty()) return void(std::cout << SummariesAsJson(all, JsonForm::kOneLine) << std::endl);
   std::ofstream out(file);
-  out << json.dump(2) << "\n";
+  out << SummariesAsJson(all, JsonForm::kIndented) << "\n";
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
@@ -96,17 +96,17 @@ int Run(const LockstepOptions& options) {
   RequireWritable(options);
   const bus::Schema schema = bus::OwnTypes();
   const auto shared = HoldShared();
-  auto all = nlohmann::ordered_json::array();
+  std::vector<Summary> all;
   int passed = 0, contacts = 0;
   for (int i = 0; i < options.runs; ++i) {
     const auto result = RunOne(schema, options, options.request.seed + static_cast<std::uint64_t>(i));
     passed += result.summary.passed;
     contacts += result.summary.contacts;
-    all.push_back(ToJson(result.summary));
+    all.push_back(result.summary);
     People(options) << Line(result) << std::endl;
     if (options.runs == 1) PrintSummary(People(options), result.summary);
   }
-  if (options.json) WriteJson(options.json_file, options.runs == 1 ? all.front() : all);
+  if (options.json) WriteJson(options.json_file, all);
   if (options.runs > 1)
     People(options) << fmt::format("{} of {} passed, {} contacts\n", passed, options.runs, contacts);
   return passed == options.runs && contacts == 0 ? 0 : 1;
@@ -116,8 +116,8 @@ int Run(const LockstepOptions& options) {
 
 void AddLockstepCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<LockstepOptions>();
-  auto* verb = cli.add_subcommand(
-      "lockstep",
+  auto* verb = AddVerb(
+      cli, "lockstep",
       "Run a scenario in one process on simulated time: same seed, same bytes, faster than real time.");
   verb->footer("Example: priamos lockstep --scenario door --seed 1 --runs 100 --json runs.json");
   verb->add_option("--scenario", options->request.scenario, "a file of the deployment's scenarios/")

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +15,7 @@
 #include "bus/log/log_survey.hpp"
 #include "bus/log/log_writer.hpp"
 #include "cli/options/log_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
@@ -234,10 +235,10 @@ int Merge(const LogOptions& options) {
 
 using Run = int (*)(const LogOptions&);
 
-CLI::App* AddVerb(CLI::App& log, const char* name, const char* help, const char* example, Run run,
-                  int& exit_code) {
+CLI::App* AddLogVerb(CLI::App& log, const char* name, const char* help, const char* example, Run run,
+                     int& exit_code) {
   auto options = std::make_shared<LogOptions>();
-  auto* verb = log.add_subcommand(name, help);
+  auto* verb = AddVerb(log, name, help);
   verb->footer(std::string("Example: ") + example);
   verb->add_option("log", options->log, "LCM log")->required()->check(CLI::ExistingFile);
   const std::string which = name;
@@ -278,23 +279,25 @@ CLI::App* AddVerb(CLI::App& log, const char* name, const char* help, const char*
 }  // namespace
 
 void AddLogCommand(CLI::App& cli, int& exit_code) {
-  auto* log = cli.add_subcommand("log", "Record, play, look into, mend and convert LCM logs.");
+  auto* log = AddVerb(cli, "log", "Record, play, look into, mend and convert LCM logs.");
   log->require_subcommand(1);
-  AddVerb(*log, "info", "What is in a log, and what it lost (exit code 1 when damaged).",
-          "priamos log info logs/run/onboard.lcmlog", Info, exit_code);
-  AddVerb(*log, "index", "A line per event: where it is in the file, number, time, channel, type.",
-          "priamos log index onboard.lcmlog --out onboard.csv", Index, exit_code);
-  AddVerb(*log, "filter", "Some channels or some time of a log into another one.",
-          "priamos log filter onboard.lcmlog drive.lcmlog --channels 'POSE,WHEEL_*' --from 10 --to 20", Copy,
-          exit_code);
-  AddVerb(*log, "export", "Decoded messages as tables, lines of JSON, or MCAP for Foxglove and Lichtblick.",
-          "priamos log export onboard.lcmlog mcap --out onboard.mcap", Export, exit_code);
-  AddVerb(*log, "repair", "All whole events of a damaged log into another one.",
-          "priamos log repair damaged.lcmlog mended.lcmlog", Copy, exit_code);
-  AddVerb(*log, "merge",
-          "An onboard and an offboard log of one run as one, in the onboard clock: messages that crossed the "
-          "radio show how the two clocks differ.",
-          "priamos log merge onboard.lcmlog offboard.lcmlog run.lcmlog", Merge, exit_code);
+  AddLogVerb(*log, "info", "What is in a log, and what it lost (exit code 1 when damaged).",
+             "priamos log info logs/run/onboard.lcmlog", Info, exit_code);
+  AddLogVerb(*log, "index", "A line per event: where it is in the file, number, time, channel, type.",
+             "priamos log index onboard.lcmlog --out onboard.csv", Index, exit_code);
+  AddLogVerb(*log, "filter", "Some channels or some time of a log into another one.",
+             "priamos log filter onboard.lcmlog drive.lcmlog --channels 'POSE,WHEEL_*' --from 10 --to 20",
+             Copy, exit_code);
+  AddLogVerb(*log, "export",
+             "Decoded messages as tables, lines of JSON, or MCAP for Foxglove and Lichtblick.",
+             "priamos log export onboard.lcmlog mcap --out onboard.mcap", Export, exit_code);
+  AddLogVerb(*log, "repair", "All whole events of a damaged log into another one.",
+             "priamos log repair damaged.lcmlog mended.lcmlog", Copy, exit_code);
+  AddLogVerb(
+      *log, "merge",
+      "An onboard and an offboard log of one run as one, in the onboard clock: messages that crossed the "
+      "radio show how the two clocks differ.",
+      "priamos log merge onboard.lcmlog offboard.lcmlog run.lcmlog", Merge, exit_code);
   AddLogRecordVerb(*log, exit_code);
   AddLogPlayVerb(*log, exit_code);
 }

@@ -2,7 +2,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -11,6 +11,7 @@
 #include "bus/log/log_player.hpp"
 #include "bus/real_time_loop.hpp"
 #include "cli/options/log_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/terminal/play_keyboard.hpp"
 #include "cli/terminal/play_keys.hpp"
 #include "lcmtypes/channels.hpp"
@@ -110,7 +111,7 @@ class Playing {
 
 void AddLogPlayVerb(CLI::App& log, int& exit_code) {
   auto options = std::make_shared<PlayOptions>();
-  auto* verb = log.add_subcommand("play", "Play a log onto a bus.");
+  auto* verb = AddVerb(log, "play", "Play a log onto a bus.");
   verb->footer(
       std::string(kPlayKeysHelp) +
       "\nExample: priamos log play onboard.lcmlog --speed 1/4 --without 'WHEEL_*' --rename POSE=POSE_OLD");

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -15,6 +15,7 @@
 #include "bus/real_time_loop.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/options/log_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
@@ -141,7 +142,7 @@ class Recording {
 
 void AddLogRecordVerb(CLI::App& log, int& exit_code) {
   auto options = std::make_shared<RecordOptions>();
-  auto* verb = log.add_subcommand("record", "Record a bus, until Ctrl-C.");
+  auto* verb = AddVerb(log, "record", "Record a bus, until Ctrl-C.");
   verb->footer(
       "A full or read-only disk is reported on the terminal and as HEALTH of \"recorder\" within a second; "
       "the "

@@ -1,8 +1,9 @@
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
+#include "cli/options/verb_setup.hpp"
 #include "cli/verbs/commands.hpp"
 #include "cli/verbs/manual.hpp"
 
@@ -26,7 +27,7 @@ void Write(const std::filesystem::path& file, const std::string& text) {
 
 void AddManualCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<ManualOptions>();
-  auto* verb = cli.add_subcommand("manual", "Write the pages of the manual for man(1).");
+  auto* verb = AddVerb(cli, "manual", "Write the pages of the manual for man(1).");
   verb->group("");  // what the build calls
   verb->add_option("folder", options->folder, "becomes man1/ and man5/ in it")->required();
   verb->add_option("--date", options->issue.date, "YYYY-MM-DD")->required();

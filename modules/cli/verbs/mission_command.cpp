@@ -1,18 +1,16 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <filesystem>
+#include <CLI/App.hpp>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "cli/options/folder_options.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/scenario/door_name.hpp"
 #include "cli/scenario/mission_order.hpp"
 #include "cli/terminal/bus_session.hpp"
+#include "cli/terminal/json_line.hpp"
 #include "cli/verbs/commands.hpp"
 #include "lcmtypes/channels.hpp"
-#include "planner/planner_config.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -50,9 +48,8 @@ int Give(const MissionOptions& options, const mission_command_t& command, const 
       Time::max(), [&] { return order.outcome() != OrderOutcome::kOpen; }, step);
   const OrderOutcome outcome = order.outcome();
   if (options.json)
-    std::cout
-        << nlohmann::ordered_json{{"order", verb}, {"outcome", Text(outcome)}, {"text", order.text()}}.dump()
-        << "\n";
+    std::cout << JsonLine({{"order", verb}, {"outcome", std::string(Text(outcome))}, {"text", order.text()}})
+              << "\n";
   if (outcome == OrderOutcome::kDone || outcome == OrderOutcome::kAccepted) {
     People(options) << fmt::format("{}: {}\n", Text(outcome), order.text());
     return 0;
@@ -62,18 +59,11 @@ int Give(const MissionOptions& options, const mission_command_t& command, const 
   return kNotDone;
 }
 
-/// The map that the planner of the deployment has.
-int DoorOf(const MissionOptions& options) {
-  const auto file = std::filesystem::path(FolderOfDeployment(options.deployment)) / "planner.toml";
-  const auto config = LoadConfig<planner::PlannerConfig>(file.string());
-  const std::string map = (file.parent_path() / config.map).lexically_normal().string();
-  return DoorNamed(LoadConfig<GroundPlan>(map), options.door, map);
-}
-
 int PassDoor(const MissionOptions& options) {
   mission_command_t command{};
   command.mission = mission_command_t::PASS_DOOR;
-  command.landmark_id = static_cast<std::int16_t>(DoorOf(options));
+  command.landmark_id =
+      static_cast<std::int16_t>(DoorOfDeployment(FolderOfDeployment(options.deployment), options.door));
   return Give(options, command, "door");
 }
 
@@ -85,7 +75,7 @@ int Abort(const MissionOptions& options) {
 
 void Print(const MissionOptions& options, const mission_status_t& status) {
   if (options.json)
-    std::cout << nlohmann::ordered_json{{"phase", PhaseName(status.phase)}, {"text", status.text}}.dump()
+    std::cout << JsonLine({{"phase", std::string(PhaseName(status.phase))}, {"text", status.text}})
               << std::endl;
   else
     std::cout << fmt::format("{}: {}", PhaseName(status.phase), status.text) << std::endl;
@@ -111,7 +101,7 @@ int Status(const MissionOptions& options) {
     return last && (!options.wait || IsOver(*last));
   };
   session.Watch(Time::max(), over, step);
-  if (!last && options.json) std::cout << nlohmann::ordered_json{{"phase", nullptr}}.dump() << "\n";
+  if (!last && options.json) std::cout << JsonLine({{"phase", nullptr}}) << "\n";
   const bool good = last && last->phase != mission_status_t::FAILED && (!options.wait || IsOver(*last));
   return good ? 0 : kNotDone;
 }
@@ -129,8 +119,8 @@ void Complete(CLI::App& verb, const std::shared_ptr<MissionOptions>& options, Ru
 
 void AddDoorVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
-  auto* verb = mission.add_subcommand(
-      "door",
+  auto* verb = AddVerb(
+      mission, "door",
       "Pass a door; ends when the robot is under way, with --wait when it is through (exit code 1: not).");
   verb->footer("Example: priamos mission door laboratory --wait");
   verb->add_option("door", options->door, "its name in the map, or its number")->required();
@@ -141,15 +131,14 @@ void AddDoorVerb(CLI::App& mission, int& exit_code) {
 
 void AddAbortVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
-  auto* verb = mission.add_subcommand("abort", "End the mission that is under way; the robot brakes.");
+  auto* verb = AddVerb(mission, "abort", "End the mission that is under way; the robot brakes.");
   verb->footer("Example: priamos mission abort");
   Complete(*verb, options, Abort, exit_code);
 }
 
 void AddStatusVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
-  auto* verb =
-      mission.add_subcommand("status", "What the planner does (exit code 1: it failed or is silent).");
+  auto* verb = AddVerb(mission, "status", "What the planner does (exit code 1: it failed or is silent).");
   verb->footer("Example: priamos mission status --wait");
   verb->add_flag("--wait", options->wait, "follow it until it is over");
   Complete(*verb, options, Status, exit_code);
@@ -158,7 +147,7 @@ void AddStatusVerb(CLI::App& mission, int& exit_code) {
 }  // namespace
 
 void AddMissionCommand(CLI::App& cli, int& exit_code) {
-  auto* mission = cli.add_subcommand("mission", "Order the planner, and ask how its mission stands.");
+  auto* mission = AddVerb(cli, "mission", "Order the planner, and ask how its mission stands.");
   mission->require_subcommand(1);
   AddDoorVerb(*mission, exit_code);
   AddAbortVerb(*mission, exit_code);

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "bus/output_comparison.hpp"
 #include "bus/own_types.hpp"
@@ -11,6 +10,7 @@
 #include "cli/lockstep/factories.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/options/verb_setup.hpp"
+#include "cli/terminal/replay_verdict.hpp"
 #include "cli/verbs/commands.hpp"
 
 namespace priamos::cli {
@@ -56,21 +56,6 @@ void Print(const VerifyOptions& options, const bus::Replay& replay, const bus::O
   }
 }
 
-nlohmann::ordered_json ToJson(const VerifyOptions& options, const bus::Replay& replay,
-                              const bus::OutputComparison& comparison) {
-  auto channels = nlohmann::ordered_json::array();
-  for (const auto& [name, c] : comparison.channels)
-    channels.push_back(
-        {{"channel", name}, {"recorded", c.recorded}, {"replayed", c.replayed}, {"equal", c.equal}});
-  return {{"log", options.log},
-          {"module", options.module},
-          {"fed", replay.fed()},
-          {"skipped_bytes", replay.skipped_bytes()},
-          {"equal", comparison.equal},
-          {"channels", channels},
-          {"differences", comparison.differences}};
-}
-
 int Verify(const VerifyOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const ConfigSource source = SourceOf(options);
@@ -82,7 +67,12 @@ int Verify(const VerifyOptions& options) {
         fmt::format("{}: expected messages that {} sent, got none", options.log, options.module));
   const auto comparison = bus::CompareOutputs(replay.recorded(), replayed, schema);
   if (options.json) {
-    std::cout << ToJson(options, replay, comparison).dump() << "\n";
+    std::cout << JsonLine(ReplayVerdict{.log = options.log,
+                                        .module = options.module,
+                                        .fed = replay.fed(),
+                                        .skipped_bytes = replay.skipped_bytes(),
+                                        .comparison = comparison})
+              << "\n";
   } else {
     Print(options, replay, comparison);
   }
@@ -93,10 +83,10 @@ int Verify(const VerifyOptions& options) {
 
 void AddReplayCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<VerifyOptions>();
-  auto* replay = cli.add_subcommand("replay", "Run a module from a log (see also --bus file://LOG).");
+  auto* replay = AddVerb(cli, "replay", "Run a module from a log (see also --bus file://LOG).");
   replay->require_subcommand(1);
-  auto* verb = replay->add_subcommand(
-      "verify",
+  auto* verb = AddVerb(
+      *replay, "verify",
       "Feed a module what a log recorded and compare what it sends with what it sent then, byte for byte.");
   verb->footer(
       "Exact for robot and planner in logs of lockstep runs; the log of a live bus has the recorder's "

@@ -3,16 +3,16 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/report/report_files.hpp"
 #include "cli/report/run_recorder.hpp"
 #include "cli/report/story_verdict.hpp"
@@ -21,6 +21,7 @@
 #include "cli/supervise/link_emulate.hpp"
 #include "cli/supervise/robot_owner.hpp"
 #include "cli/supervise/supervisor.hpp"
+#include "cli/terminal/json_line.hpp"
 #include "cli/verbs/commands.hpp"
 #include "common/data_folders.hpp"
 
@@ -208,8 +209,7 @@ class RealTimeRun {
 };
 
 int FailedStart(const RealTimeRun& run, bool json) {
-  if (json)
-    std::cout << nlohmann::ordered_json{{"started", false}, {"reason", run.Reason()}}.dump() << std::endl;
+  if (json) std::cout << JsonLine({{"started", false}, {"reason", run.Reason()}}) << std::endl;
   std::cerr << fmt::format("priamos run: not started: {}\noutput of every process:  {}/*.txt\n", run.Reason(),
                            ShownFrom(std::filesystem::current_path(), run.folder()));
   return 2;
@@ -236,7 +236,7 @@ int Run(RunOptions options) {
   summary.reason = whole ? verdict : run.Reason();
   WriteReport(run.recorder().record(), summary, info, map_file, run.folder());
   PrintSummary(People(options), summary);
-  if (options.json) std::cout << ToJson(summary).dump() << std::endl;
+  if (options.json) std::cout << SummariesAsJson({summary}, JsonForm::kOneLine) << std::endl;
   if (!run.recorder().good())
     People(options) << "a log is incomplete: the disk is full or cannot be written\n";
   if (!summary.passed) People(options) << "not passed: " << summary.reason << "\n";
@@ -250,7 +250,7 @@ int Run(RunOptions options) {
 void AddRunCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
   auto* verb =
-      cli.add_subcommand("run", "Run a scenario in real time: all processes, two buses, a 9600-baud line.");
+      AddVerb(cli, "run", "Run a scenario in real time: all processes, two buses, a 9600-baud line.");
   verb->footer("Example: priamos run --scenario door --seed 7");
   verb->add_option("--scenario", options->scenario, "a file of the deployment's scenarios/")
       ->capture_default_str();

@@ -1,6 +1,7 @@
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <iostream>
 
+#include "cli/options/verb_setup.hpp"
 #include "cli/verbs/commands.hpp"
 #include "head/see/see.hpp"
 
@@ -8,8 +9,9 @@ namespace priamos::cli {
 
 void AddSeeCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<head::SeeOptions>();
-  auto* verb = cli.add_subcommand(
-      "see", "Draw edges, corners and parallelograms of photographs, and what a stereo pair has in common.");
+  auto* verb =
+      AddVerb(cli, "see",
+              "Draw edges, corners and parallelograms of photographs, and what a stereo pair has in common.");
   verb->footer(
       "Examples: priamos see photo.jpg --json edges.json\n"
       "          priamos see left.jpg right.jpg --cameras left.yaml right.yaml\n"

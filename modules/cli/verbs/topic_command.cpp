@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -12,6 +12,7 @@
 #include "bus/schema/json.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/udp_receiver.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/terminal/silence_watch.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "cli/terminal/topic_echo.hpp"
@@ -155,9 +156,9 @@ int PrintUrl(const TopicOptions& options) {
 
 /// Adds a verb of `topic`. `options` are the verb's own: CLI11 fills in what $PRIAMOS_BUS says for every verb
 /// that was not typed, and would overwrite the --bus of the one that was.
-CLI::App* AddVerb(CLI::App& topic, const char* name, const char* help, const char* example,
-                  TopicOptions& options) {
-  auto* verb = topic.add_subcommand(name, help);
+CLI::App* AddTopicVerb(CLI::App& topic, const char* name, const char* help, const char* example,
+                       TopicOptions& options) {
+  auto* verb = AddVerb(topic, name, help);
   verb->footer(std::string("Example: ") + example);
   AddBusOption(*verb, options);
   AddTypesOption(*verb, options);
@@ -167,7 +168,7 @@ CLI::App* AddVerb(CLI::App& topic, const char* name, const char* help, const cha
 void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_channel, int& exit_code) {
   auto options = std::make_shared<TopicOptions>();
   const std::string example = fmt::format("priamos topic {} {}", name, one_channel ? "POSE" : "--watch");
-  auto* verb = AddVerb(topic, name, help, example.c_str(), *options);
+  auto* verb = AddTopicVerb(topic, name, help, example.c_str(), *options);
   if (one_channel) AddChannelArgument(*verb, options->channel);
   verb->add_option("--seconds", options->seconds, "how long to listen")
       ->capture_default_str()
@@ -179,18 +180,18 @@ void AddTableVerb(CLI::App& topic, const char* name, const char* help, bool one_
 
 void AddUrlVerb(CLI::App& topic, int& exit_code) {
   auto options = std::make_shared<TopicOptions>();
-  auto* verb = AddVerb(topic, "url", "Print the URL of a bus, for LCM's own programs.",
-                       "priamos topic url --bus onboard", *options);
+  auto* verb = AddTopicVerb(topic, "url", "Print the URL of a bus, for LCM's own programs.",
+                            "priamos topic url --bus onboard", *options);
   verb->add_flag("--json", options->json, "machine-readable");
   verb->callback([options, &exit_code] { exit_code = PrintUrl(*options); });
 }
 
 void AddPubVerb(CLI::App& topic, int& exit_code) {
   auto options = std::make_shared<TopicOptions>();
-  auto* verb = AddVerb(topic, "pub", "Send one message, given as JSON.",
-                       "priamos topic pub LINK_REQUEST link_request_t "
-                       "'{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":5}'",
-                       *options);
+  auto* verb = AddTopicVerb(topic, "pub", "Send one message, given as JSON.",
+                            "priamos topic pub LINK_REQUEST link_request_t "
+                            "'{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":5}'",
+                            *options);
   AddChannelArgument(*verb, options->channel);
   verb->add_option("type", options->type, "message type")->required();
   verb->add_option("message", options->message, "the message as JSON")->required();
@@ -201,8 +202,7 @@ void AddPubVerb(CLI::App& topic, int& exit_code) {
 }  // namespace
 
 void AddTopicCommand(CLI::App& cli, int& exit_code) {
-  auto* topic =
-      cli.add_subcommand("topic", "See and send what is on a bus, of any type, without compiling it.");
+  auto* topic = AddVerb(cli, "topic", "See and send what is on a bus, of any type, without compiling it.");
   topic->require_subcommand(1);
   AddTableVerb(*topic, "list", "Every channel: type, rate, jitter, bandwidth, age.", false, exit_code);
   AddTableVerb(*topic, "hz", "Rate and jitter of one channel.", true, exit_code);

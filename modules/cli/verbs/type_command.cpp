@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "bus/schema/json_schema.hpp"
 #include "bus/schema/packing.hpp"
 #include "cli/options/bus_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/verbs/channel_table.hpp"
 #include "cli/verbs/commands.hpp"
 
@@ -81,19 +82,19 @@ int Hash(const TypeOptions& options) {
 
 void AddTypeCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<TypeOptions>();
-  auto* type = cli.add_subcommand("type", "Message types, ours or those of any folder of .lcm files.");
+  auto* type = AddVerb(cli, "type", "Message types, ours or those of any folder of .lcm files.");
   type->require_subcommand(1);
-  auto* show = type->add_subcommand("show", "A type with every field: unit, range, meaning, sizes.");
+  auto* show = AddVerb(*type, "show", "A type with every field: unit, range, meaning, sizes.");
   show->footer("Example: priamos type show pose_t\n         priamos type show my_t --types ~/their/lcmtypes");
   show->add_option("type", options->type, "message type")->required();
   show->add_flag("--json", options->json, "print a JSON schema");
   show->callback([options, &exit_code] { exit_code = Show(*options); });
-  auto* hash = type->add_subcommand("hash", "LCM's fingerprint of a type, or of all; equal to lcm-gen's.");
+  auto* hash = AddVerb(*type, "hash", "LCM's fingerprint of a type, or of all; equal to lcm-gen's.");
   hash->footer("Example: priamos type hash pose_t");
   hash->add_option("type", options->type, "message type; none: all");
   hash->add_flag("--json", options->json, "machine-readable");
   hash->callback([options, &exit_code] { exit_code = Hash(*options); });
-  auto* table = type->add_subcommand("channels", "Every channel of PRIAMOS: type, rate, life span, sizes.");
+  auto* table = AddVerb(*type, "channels", "Every channel of PRIAMOS: type, rate, life span, sizes.");
   table->footer("Example: priamos type channels");
   table->add_flag("--json", options->json, "machine-readable");
   table->callback([options, &exit_code] {

@@ -6,7 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -22,6 +22,7 @@
 #include "bus/schema/schema.hpp"
 #include "bus/wire/multicast.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/supervise/deployment.hpp"
 #include "cli/supervise/robot_owner.hpp"
 #include "cli/supervise/supervisor.hpp"
@@ -202,8 +203,7 @@ int UpDetached(const UpOptions& options) {
 
 void AddUpCommands(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<UpOptions>();
-  auto* up =
-      cli.add_subcommand("up", "Start the processes of a deployment, and start again what dies or hangs.");
+  auto* up = AddVerb(cli, "up", "Start the processes of a deployment, and start again what dies or hangs.");
   up->footer("Example: priamos up sim, Ctrl-C ends it; or priamos up sim --detach, later priamos down");
   up->add_option("deployment", options->deployment,
                  "sim, robot, or a folder with a deployment.toml, with a slash")

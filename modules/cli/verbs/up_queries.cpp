@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +13,7 @@
 
 #include "bus/wire/bus_address.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/supervise/supervisor_search.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "common/nearest_word.hpp"
@@ -143,20 +144,20 @@ void Show(const UpState& state, bool json) {
 
 void AddUpQueries(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<QueryOptions>();
-  auto* down = cli.add_subcommand("down", "End what `priamos up` started, in order.");
+  auto* down = AddVerb(cli, "down", "End what `priamos up` started, in order.");
   down->footer("Example: priamos down");
   AddShared(*down, *options);
   AddRobot(*down, *options);
   down->callback([options, &exit_code] { exit_code = Down(*options); });
 
-  auto* status = cli.add_subcommand(
-      "status", "What is up, how it is, and why it last ended; exit code 0 when all is ready.");
+  auto* status =
+      AddVerb(cli, "status", "What is up, how it is, and why it last ended; exit code 0 when all is ready.");
   status->footer("Example: priamos status --json");
   AddShared(*status, *options);
   AddRobot(*status, *options);
   status->callback([options, &exit_code] { exit_code = Status(*options); });
 
-  auto* logs = cli.add_subcommand("logs", "The consoles of the processes.");
+  auto* logs = AddVerb(cli, "logs", "The consoles of the processes.");
   logs->footer("Example: priamos logs onboard-robot -n 50");
   logs->add_option("process", options->process, "one process; without it all");
   logs->add_option("-n", options->lines, "lines per process")->capture_default_str();

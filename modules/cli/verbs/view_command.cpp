@@ -1,10 +1,11 @@
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bus/schema/json.hpp"
 #include "cli/options/bus_options.hpp"
+#include "cli/options/verb_setup.hpp"
 #include "cli/terminal/bus_session.hpp"
 #include "cli/terminal/bus_watch.hpp"
 #include "cli/terminal/terminal_screen.hpp"
@@ -79,8 +80,8 @@ int RunView(const ViewOptions& options) {
 
 void AddViewCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<ViewOptions>();
-  auto* verb = cli.add_subcommand(
-      "view",
+  auto* verb = AddVerb(
+      cli, "view",
       "What the head sees, as lines in the terminal: also over the radio, which sends it while this runs.");
   verb->footer("Example: priamos view --once --for 60");
   verb->add_flag("--once", options->once, "print what comes first and end");

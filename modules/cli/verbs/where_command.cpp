@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/options/verb_setup.hpp"
 #include "cli/terminal/bus_session.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "cli/terminal/where_text.hpp"
@@ -64,8 +65,8 @@ int Run(const WhereOptions& options) {
 
 void AddWhereCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<WhereOptions>();
-  auto* verb = cli.add_subcommand(
-      "where",
+  auto* verb = AddVerb(
+      cli, "where",
       "Where the robot believes to be, what it does, what limits it (exit code 1: no pose is heard).");
   verb->footer("Example: priamos where --watch");
   verb->add_flag("--watch", options->watch, "twice a second, until Ctrl-C");

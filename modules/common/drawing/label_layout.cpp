@@ -63,6 +63,7 @@ std::vector<std::optional<Box>> PlaceLabels(const std::vector<LabelWish>& wishes
                                             const Surroundings& around) {
   Placer placer(around);
   std::vector<std::optional<Box>> places;
+  places.reserve(wishes.size());
   for (const LabelWish& wish : wishes)
     places.push_back(wish.at.allFinite() ? placer.Place(wish) : std::nullopt);
   return places;

@@ -66,7 +66,8 @@ double WriteLegend(Drawing& drawing, double x, double y, double width, const Leg
   const int columns = std::max(1, static_cast<int>((width + between) / (widest + between)));
   const int n = static_cast<int>(layers.size()), rows = (n + columns - 1) / columns;
   for (int i = 0; i < n; ++i) {
-    const double left = x + i / rows * (widest + between), top = y + i % rows * row;
+    const int column = i / rows;
+    const double left = x + column * (widest + between), top = y + i % rows * row;
     DrawSample(drawing, *layers[static_cast<std::size_t>(i)], look.widen,
                {left, top + row / 2 - size * 0.35, size * kSample, size * 0.7});
     drawing.Write(kText, {left + indent, top + row / 2 + size * 0.36},

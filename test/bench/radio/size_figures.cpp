@@ -83,7 +83,8 @@ std::size_t BundleOfThree(const std::vector<LinkChannel>& channels) {
       WriteEntry(table, StateEntry{i, channels[i].fixed_bits, packed}, bundle);
     }
   }
-  const FrameSealer sealer(FrameKeys(LinkKey{1}), Direction::kUp, {table.hash(), false});
+  const FrameSealer sealer(FrameKeys(LinkKey{1}), Direction::kUp,
+                           {table.hash(), false, EchoBytes(kLine_bytes_s)});
   return sealer.Seal(1, 5, CounterForm::kLowBits, bundle.bytes()).size();
 }
 

@@ -13,6 +13,7 @@
 namespace priamos::bus::radio {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -42,6 +43,7 @@ TEST(Budget, RefusesMoreThanTheLine) {
 TEST(Budget, RefusesADeadlineThatCannotBeKept) {
   std::vector<LinkChannel> channels = TestChannels();
   for (LinkChannel& c : channels) c.rate_hz = 0.5;
+  channels[kDriveDown].ttl = Duration(1'000'000);
   channels[kEventUp].max_bits = 8 * 40;
   channels[kSlowUp].deadline = Duration(450'000);
   EXPECT_THAT(Of(channels).problems, IsEmpty());
@@ -49,6 +51,51 @@ TEST(Budget, RefusesADeadlineThatCannotBeKept) {
   ASSERT_FALSE(Of(channels).problems.empty());
   EXPECT_THAT(Of(channels).problems.front(),
               HasSubstr("SLOW: expected delivery within its deadline_s of 0.100 s"));
+}
+
+/// Problems of a link with the drive command and the pose.
+std::vector<std::string> ProblemsOf(double ttl_s, const LinkOptions& options) {
+  std::vector<LinkChannel> channels{TestChannels()[kPoseUp], TestChannels()[kDriveDown]};
+  channels[1].ttl = FromSeconds(ttl_s);
+  return Of(channels, options).problems;
+}
+
+TEST(Budget, RefusesACommandThatCannotBeProvenFresh) {
+  const LinkOptions options{.max_bundle_bytes = 60, .keep_alive = Duration(100'000)};
+  EXPECT_THAT(ProblemsOf(0.25, options), IsEmpty());
+  LinkOptions slower = options;
+  slower.line_delay = Duration(200'000);
+  ASSERT_FALSE(ProblemsOf(0.25, slower).empty());
+  EXPECT_THAT(ProblemsOf(0.25, slower).front(),
+              AllOf(HasSubstr("DRIVE: expected a ttl_s of at least 0.3"), HasSubstr("got 0.250 s"),
+                    HasSubstr("0.200 s of line_delay_s")));
+  EXPECT_THAT(ProblemsOf(0.4, slower), IsEmpty());
+}
+
+TEST(Budget, TheProofCountsFramesSilenceDelayAndRounding) {
+  // 960 bytes per second: a command of 42 bits goes behind a frame of 60 bytes and what is in it beside them.
+  const LinkOptions options{.max_bundle_bytes = 60, .keep_alive = Duration(100'000)};
+  const std::vector<LinkChannel> channels{TestChannels()[kPoseUp], TestChannels()[kDriveDown]};
+  const Budget budget = Of(channels, options);
+  ASSERT_EQ(budget.down.channels.size(), 1U);
+  ASSERT_TRUE(budget.down.channels[0].proof);
+  const FreshnessProof& dut = *budget.down.channels[0].proof;
+  EXPECT_EQ(dut.delay, Duration(100'000));
+  EXPECT_NEAR(Seconds(dut.step), 0.25 / 32, 1e-5);
+  EXPECT_NEAR(Seconds(dut.next), (60 + 5 + 9 + 6 + 9 + 6 + 9) / 960.0, 0.012);
+  EXPECT_EQ(dut.silence, Duration(0));
+  EXPECT_EQ(dut.age(), dut.next + dut.delay + dut.ahead + dut.step);
+  EXPECT_FALSE(budget.up.channels[0].proof) << "a state proves nothing";
+  LinkOptions silent = options;
+  silent.keep_alive = Duration(1'000'000);
+  EXPECT_NEAR(Seconds(Of(channels, silent).down.channels[0].proof->silence), 1 + 0.075 - 0.242, 0.01);
+}
+
+TEST(Budget, AHalfDuplexTurnIsSilenceOfTheOtherEnd) {
+  LinkOptions options{.max_bundle_bytes = 60, .keep_alive = Duration(100'000)};
+  options.half_duplex = {.turn = Duration(400'000), .turnaround = Duration(20'000)};
+  EXPECT_FALSE(ProblemsOf(0.25, options).empty());
+  EXPECT_THAT(ProblemsOf(2, options), IsEmpty());
 }
 
 TEST(Budget, UrgentWaitsForAFewBytes) {

@@ -32,6 +32,18 @@ TEST(BundleBuilder, WhatWasAddedIsRead) {
   EXPECT_EQ(ToText(std::get<StateEntry>(parsed.entries[1]).packed), "0123456789");
 }
 
+TEST(BundleBuilder, ALimitKeepsOutWhatFollowsAndNotWhatIsThere) {
+  const StateEntry pose{kPoseUp, 80, Text("0123456789")};  // 83 bits
+  BundleBuilder dut(Table(), 120, false);
+  EXPECT_TRUE(dut.Add(pose));
+  dut.LimitTo(10);  // it has 11 already: too late for a limit
+  EXPECT_TRUE(dut.Add(pose));
+  dut.LimitTo(31);
+  EXPECT_FALSE(dut.Add(pose));
+  dut.LimitTo(120);
+  EXPECT_FALSE(dut.Add(pose)) << "a limit is not lifted";
+}
+
 TEST(BundleBuilder, ALongMessageGoesAlone) {
   BundleBuilder dut(Table(), 60, false);
   EXPECT_TRUE(dut.Add(Slow()));

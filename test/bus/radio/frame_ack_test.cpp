@@ -80,15 +80,35 @@ TEST(SentFrames, AShortCounterNeedsAReportNearby) {
   EXPECT_EQ(dut.FormOf(64), CounterForm::kLowBits);  // both begin with 1
 }
 
-TEST(SentFrames, AnAckProvesFreshnessForAWhile) {
+TEST(SentFrames, KnowsWhenAFrameWasHandedOverButNotOneThatNeverWas) {
   SentFrames dut;
-  EXPECT_FALSE(dut.ProvesFresh(FromSeconds(0.25), kStart));
-  dut.OnSent(10, kStart);
-  dut.OnAck({.counter = 10}, After(0.1));
-  EXPECT_TRUE(dut.ProvesFresh(FromSeconds(0.25), After(1.25)));
-  EXPECT_FALSE(dut.ProvesFresh(FromSeconds(0.25), After(1.26)));
+  dut.OnHandedOver(10, After(1));
+  dut.OnHandedOver(12, After(2));  // 11 was cut off
+  EXPECT_EQ(dut.HandedOver(10), After(1));
+  EXPECT_EQ(dut.HandedOver(12), After(2));
+  for (const std::uint64_t counter : {9U, 11U, 13U}) EXPECT_FALSE(dut.HandedOver(counter)) << counter;
   dut.OnEpochChanged();
-  EXPECT_FALSE(dut.ProvesFresh(FromSeconds(0.25), After(0.1)));
+  EXPECT_FALSE(dut.HandedOver(10));
+}
+
+TEST(SentFrames, RemembersAllThatOneByteCanName) {
+  SentFrames dut;
+  for (std::uint64_t i = 1; i <= 10'000; ++i) dut.OnHandedOver(i, After(static_cast<double>(i)));
+  EXPECT_EQ(dut.HandedOver(10'000 - 255), After(10'000 - 255));
+  EXPECT_FALSE(dut.HandedOver(1));
+}
+
+TEST(SentFrames, TheLastRoundTripMayGrowAndIsNeverBelowZero) {
+  SentFrames dut;
+  dut.OnSent(10, kStart);
+  dut.OnAck({.counter = 10, .hold = Duration(20'000)}, After(0.1));
+  EXPECT_EQ(dut.last_round_trip(), Duration(80'000));
+  dut.OnSent(11, After(1));
+  dut.OnAck({.counter = 11}, After(3));
+  EXPECT_EQ(dut.last_round_trip(), Duration(2'000'000));
+  dut.OnSent(12, After(4));
+  dut.OnAck({.counter = 12, .hold = Duration(500'000)}, After(4.1));
+  EXPECT_EQ(dut.last_round_trip(), Duration(0));
 }
 
 TEST(SentFrames, EarlierFramesAreNamedButProveNothing) {

@@ -62,6 +62,17 @@ TEST_F(FrameReceiverTest, WhatWasMissedCountsOnlyBetweenFramesOfThisLife) {
   EXPECT_GT(dut.loss().loss(), 0);
 }
 
+TEST_F(FrameReceiverTest, TheNewestFrameIsThatOfTheHighestCounterInThisEpoch) {
+  EXPECT_FALSE(dut.newest());
+  Push(Sealed(10, "a"), After(1));
+  Push(Sealed(9, "b"), After(1.1));  // overtaken
+  ASSERT_TRUE(dut.newest());
+  EXPECT_EQ(dut.newest()->counter, 10U);
+  EXPECT_EQ(dut.newest()->at, After(1));
+  dut.SetEpoch(kEpoch + 1, 0);
+  EXPECT_FALSE(dut.newest());
+}
+
 TEST_F(FrameReceiverTest, SilenceIsDownUntilAFrameComes) {
   EXPECT_EQ(dut.reception(kStart), Reception::kSilent);
   Push(Sealed(1, "a"), After(0));

@@ -45,10 +45,10 @@ struct FrameSchedulerTest : testing::Test {
   LinkOptions options;
   Time now = FromUtime(1'000'000'000);
   const ChannelTable table{TestChannels(), false};
-  const FrameScope scope{table.hash(), false};
+  const FrameScope scope{table.hash(), false, 1};  // the direction down has a command
   MemoryStore store;
   LinkMemory memory{store, table, Nonces()};
-  FrameReceiver receiver{FrameKeys(kKey), Direction::kUp, scope, 960, FromSeconds(1.5), now};
+  FrameReceiver receiver{FrameKeys(kKey), Direction::kUp, {table.hash(), false}, 960, FromSeconds(1.5), now};
   Peer peer{.handshake = Handshake(table.hash(), Nonces(), false, now)};
   MessageReceiver inbox{table};
   MessageSender outbox{table, Direction::kDown, FromSeconds(1), [](std::size_t, auto encoded, Time) {
@@ -121,6 +121,51 @@ TEST_F(FrameSchedulerTest, CountersAreUsedOnceAlsoByFramesThatAreCut) {
   }
   EXPECT_GT(dut.counters().aborted, 5U);
   EXPECT_GE(memory.last_counter(), dut.counters().frames + dut.counters().aborted);
+}
+
+TEST_F(FrameSchedulerTest, CommandsWaitUntilTheOtherEndIsHeardAndHasConfirmedACounter) {
+  const auto sent = [&] { return outbox.queue().counters(kDriveDown).sent; };
+  Offer(kDriveDown, "abcde");
+  Run(60);
+  EXPECT_EQ(sent(), 0U) << "nothing to echo";
+  Hear(1);
+  Run(60);
+  EXPECT_EQ(sent(), 0U) << "the whole counter has no echo";
+  peer.sent.OnEpochChanged();  // both count from 1
+  Run(60);
+  EXPECT_EQ(sent(), 1U);
+}
+
+TEST_F(FrameSchedulerTest, AnEchoTooOldToBeCompletedIsNotSent) {
+  peer.sent.OnEpochChanged();
+  Hear(1);
+  Run(1200);  // 128 of the smallest frames take 1.07 s
+  Offer(kDriveDown, "abcde");
+  Run(60);
+  EXPECT_EQ(outbox.queue().counters(kDriveDown).sent, 0U);
+  Hear(2);
+  Run(60);
+  EXPECT_EQ(outbox.queue().counters(kDriveDown).sent, 1U);
+}
+
+TEST_F(FrameSchedulerTest, AFrameCountsAsHandedOverWithTheLastByteOfItsContentUnlessItIsCut) {
+  Hear(1);
+  const Time begin = now;
+  Run(1);
+  ASSERT_EQ(memory.last_counter(), 1U);
+  EXPECT_FALSE(peer.sent.HandedOver(1));
+  Run(60);
+  ASSERT_TRUE(peer.sent.HandedOver(1));
+  EXPECT_GT(*peer.sent.HandedOver(1), begin + Duration(10'000));
+  EXPECT_LT(*peer.sent.HandedOver(1), begin + Duration(30'000));
+  Offer(kEventDown, std::string(500, 'x'));
+  Run(5);
+  Offer(kStopDown, "!");
+  const std::uint64_t cut = memory.last_counter();
+  Run(20);
+  ASSERT_EQ(dut.counters().aborted, 1U);
+  EXPECT_FALSE(peer.sent.HandedOver(cut));
+  EXPECT_TRUE(peer.sent.HandedOver(cut + 1));
 }
 
 struct HalfDuplexSchedulerTest : FrameSchedulerTest {

@@ -42,26 +42,26 @@ const LinkOptions kDatagrams{.bytes_per_s = 3000, .datagrams = true};
 
 const std::vector<Scenario>& Scenarios() {
   static const std::vector<Scenario> scenarios{
-      {"Clean", {}, "ce82351beb18a38f"},
-      {"Loss", {.frame_loss = 0.3}, "8566694507150a6e"},
-      {"HeavyLoss", {.stops_hz = 2, .frame_loss = 0.7}, "82287b6edc9316c3"},
-      {"BitErrors", {.line = Noisy(1e-3)}, "2a2f6fd97a344478"},
-      {"ManyBitErrors", {.line = Noisy(2e-3), .stops_hz = 3}, "5a343e811b07400a"},
-      {"Delay", {.line = {.latency_s = 0.12, .jitter_s = 0.03}, .frame_loss = 0.05}, "e21ba725eef4b863"},
-      {"LongDelay", {.line = {.latency_s = 0.6, .jitter_s = 0.2}}, "9a252186ef4cb042"},
-      {"Blackouts", {.line = WithCuts(7), .frame_loss = 0.05, .seconds = 60}, "843a2e377ab3859f"},
-      {"ShortBlackouts", {.line = WithCuts(2), .stops_hz = 2}, "d12c3e516bc6eb36"},
-      {"Restarts", {.frame_loss = 0.1, .restarts_hz = 0.3, .orderly = 0.5}, "56a6d2a1a783784b"},
+      {"Clean", {}, "46d7b80818e5dcdc"},
+      {"Loss", {.frame_loss = 0.3}, "3cb31f8d6a1b7566"},
+      {"HeavyLoss", {.stops_hz = 2, .frame_loss = 0.7}, "44671941987341ce"},
+      {"BitErrors", {.line = Noisy(1e-3)}, "f067508dd37509a5"},
+      {"ManyBitErrors", {.line = Noisy(2e-3), .stops_hz = 3}, "e03e1cc7d839ba54"},
+      {"Delay", {.line = {.latency_s = 0.12, .jitter_s = 0.03}, .frame_loss = 0.05}, "e1b4ea2e179aeac3"},
+      {"LongDelay", {.line = {.latency_s = 0.6, .jitter_s = 0.2}}, "bd6c41f086330b25"},
+      {"Blackouts", {.line = WithCuts(7), .frame_loss = 0.05, .seconds = 60}, "bf3c484ad3907578"},
+      {"ShortBlackouts", {.line = WithCuts(2), .stops_hz = 2}, "fa4a9965b20ead45"},
+      {"Restarts", {.frame_loss = 0.1, .restarts_hz = 0.3, .orderly = 0.5}, "b91a1cf4225e9c3e"},
       {"LostMemory",
        {.frame_loss = 0.1, .restarts_hz = 0.2, .forgets = 0.6, .orderly = 0.3},
-       "9a734706b829be65"},
-      {"OldMemory", {.restarts_hz = 0.2, .rollbacks = 0.6}, "9f9ca0f3a831b622"},
-      {"Stops", {.load = 2, .stops_hz = 8, .frame_loss = 0.1}, "dc2f029be3d947d6"},
-      {"Overload", {.load = 6, .stops_hz = 1}, "7874c778a8c72181"},
+       "200fc5e2c9be57df"},
+      {"OldMemory", {.restarts_hz = 0.2, .rollbacks = 0.6}, "6a588c98c4712371"},
+      {"Stops", {.load = 2, .stops_hz = 8, .frame_loss = 0.1}, "b8f6b7cd830e4e31"},
+      {"Overload", {.load = 6, .stops_hz = 1}, "700a0845029b6840"},
       {"SlowAir",
        {.line = {.air_rate_bytes_s = 480}, .options = {.bytes_per_s = 480}, .load = 2},
-       "b9231688027e65af"},
-      {"HalfDuplex", {.line = SharedAirLine(0), .options = kTurns}, "8582bcd7a6e70d35"},
+       "c1e5f27c612d266d"},
+      {"HalfDuplex", {.line = SharedAirLine(0), .options = kTurns}, "1c63bb826182db55"},
       {"HalfDuplexDisturbed",
        {.line = SharedAirLine(1e-3),
         .options = kTurns,
@@ -69,10 +69,10 @@ const std::vector<Scenario>& Scenarios() {
         .frame_loss = 0.1,
         .restarts_hz = 0.1,
         .forgets = 0.3},
-       "3770123385f54ddd"},
+       "6647739d4322acaf"},
       {"Datagrams",
        {.options = kDatagrams, .load = 2, .frame_loss = 0.05, .datagram_jitter_s = 0.08},
-       "c44450521722be62"},
+       "a4a638d0d5c3b064"},
       {"DatagramsDisturbed",
        {.options = kDatagrams,
         .load = 3,
@@ -82,18 +82,18 @@ const std::vector<Scenario>& Scenarios() {
         .restarts_hz = 0.1,
         .forgets = 0.3,
         .hostile_hz = 5},
-       "6beaa9eb8bd800fe"},
-      {"Hostile", {.hostile_hz = 30}, "f0fb54c65cc5af5f"},
+       "0a0392e50e9aa1fa"},
+      {"Hostile", {.hostile_hz = 30}, "aebe7b59f83147e4"},
       {"HostileFlood",
        {.frame_loss = 0.1, .restarts_hz = 0.1, .forgets = 0.4, .hostile_hz = 100},
-       "76339e1f2a8b5d7b"},
-      {"Insider", {.restarts_hz = 0.05, .insider_hz = 5}, "eb8750b6025e9d4b"},
+       "53a968fdfe299951"},
+      {"Insider", {.restarts_hz = 0.05, .insider_hz = 5}, "b50702ef3dcb0dd6"},
       {"Encrypted",
        {.frame_loss = 0.1, .restarts_hz = 0.05, .hostile_hz = 3, .encrypted = true},
-       "23bef12c213df3bc"},
-      {"OtherTable", {.tables_differ = true, .seconds = 10}, "0a47bb14841bd996"},
-      {"OtherKey", {.keys_differ = true, .seconds = 10}, "b5254885de1dbd1a"},
-      {"Stalls", {.load = 2, .stalls_hz = 2}, "c580132329731e40"},
+       "189e11a6940ffb39"},
+      {"OtherTable", {.tables_differ = true, .seconds = 10}, "45dd9144505fc8bf"},
+      {"OtherKey", {.keys_differ = true, .seconds = 10}, "355a79be8ccc8842"},
+      {"Stalls", {.load = 2, .stalls_hz = 2}, "7314f1827ca6cab9"},
       {"Everything",
        {.line = Noisy(3e-4),
         .load = 2,
@@ -107,7 +107,7 @@ const std::vector<Scenario>& Scenarios() {
         .stalls_hz = 0.5,
         .encrypted = true,
         .seconds = 60},
-       "30795d967039c216"},
+       "0d951094d37291bc"},
   };
   return scenarios;
 }
@@ -124,8 +124,10 @@ TEST_P(LinkGolden, DoesWhatItDid) {
     all.Number(dut.digest());
     classes = std::max(classes, dut.delivered().size());
   }
-  // A world in which nothing happens would prove nothing.
-  EXPECT_EQ(classes, s.world.tables_differ || s.world.keys_differ ? 0U : 3U);
+  // A world in which nothing happens would prove nothing. On a line that is slower there and back than every
+  // time-to-live no command can be proven fresh.
+  const std::size_t alive = s.world.line.latency_s > 0.5 ? 2 : 3;
+  EXPECT_EQ(classes, s.world.tables_differ || s.world.keys_differ ? 0U : alive);
   EXPECT_EQ(fmt::format("{:016x}", all.digest()), s.digest);
 }
 

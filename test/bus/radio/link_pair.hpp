@@ -65,6 +65,7 @@ class LinkPair {
     explicit End(Direction direction) : outgoing(direction) {}
     Direction outgoing;
     MemoryStore store;
+    StateStore* other_store = nullptr;  ///< used instead of `store`
     std::vector<LinkChannel> channels = TestChannels();
     LinkKey key{1, 2, 3};
     LinkOptions options;
@@ -93,7 +94,8 @@ class LinkPair {
   /// Starts an end, as a new process would, from what its store holds.
   void Start(End& end) {
     end.link = std::make_unique<LinkEndpoint>(
-        ChannelTable(end.channels, encrypted), end.outgoing, end.key, end.options, end.store,
+        ChannelTable(end.channels, encrypted), end.outgoing, end.key, end.options,
+        end.other_store != nullptr ? *end.other_store : end.store,
         [](std::size_t, std::span<const std::byte> encoded, Time) {
           return std::optional(Packed{{encoded.begin(), encoded.end()}, encoded.size() * 8});
         },

@@ -15,9 +15,9 @@ void Trace::Bytes(std::span<const std::byte> bytes) {
   for (const std::byte b : bytes) Add(std::to_integer<std::uint8_t>(b));
 }
 
-std::optional<std::vector<std::byte>> TracedStore::Load() {
+std::optional<SavedState> TracedStore::Load() {
   if (states_.empty()) return std::nullopt;
-  return states_.back();
+  return SavedState{.bytes = states_.back()};
 }
 
 void TracedStore::Save(std::span<const std::byte> state) {

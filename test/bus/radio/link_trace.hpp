@@ -28,7 +28,7 @@ class Trace {
 class TracedStore : public StateStore {
  public:
   explicit TracedStore(Trace& trace) : trace_(trace) {}
-  std::optional<std::vector<std::byte>> Load() override;
+  std::optional<SavedState> Load() override;
   void Save(std::span<const std::byte> state) override;
   void StartSync() override { trace_.Number('Y'); }
   void AwaitSync() override { trace_.Number('A'); }

@@ -243,7 +243,7 @@ std::vector<std::byte> WorldRun::Forged(const End& end) {
 }
 
 std::vector<std::byte> WorldRun::Nonsense(End& sender) {
-  const auto state = ParseLinkState(sender.store.Load().value_or(std::vector<std::byte>{}));
+  const auto state = ParseLinkState(sender.store.Load().value_or(SavedState{}).bytes);
   if (!state || state->epoch == 0) return {};
   std::vector<std::byte> bundle(1 + attacks_.Below(60));
   for (std::byte& b : bundle) b = static_cast<std::byte>(attacks_.Below(256));

@@ -19,6 +19,12 @@ struct MessageReceiverTest : testing::Test {
   static Arrival Of(std::uint64_t counter, double age_s = 0.05) {
     return {.counter = counter, .sent_at = kStart - FromSeconds(age_s), .began = kStart, .now = kStart};
   }
+  /// A frame that echoes one that left here so long ago.
+  static Arrival Echoing(std::uint64_t counter, double ago_s) {
+    Arrival arrival = Of(counter);
+    arrival.echoed = kStart - FromSeconds(ago_s);
+    return arrival;
+  }
   static Arrival Overtaken(std::uint64_t counter) {
     Arrival arrival = Of(counter);
     arrival.newest = false;
@@ -55,7 +61,9 @@ TEST_F(MessageReceiverTest, AStateIsAsOldAsItsFrame) {
 
 TEST_F(MessageReceiverTest, WhatWasOvertakenIsLate) {
   dut.OnState({kSlowUp, 800, Text("slow")}, Overtaken(1), out);
-  dut.OnCommand({kDriveDown, {}, 40, Text("abcde")}, Overtaken(1), true, out);
+  Arrival overtaken = Overtaken(1);
+  overtaken.echoed = kStart;
+  dut.OnCommand({kDriveDown, {}, 40, Text("abcde")}, overtaken, out);
   EXPECT_TRUE(out.empty());
   EXPECT_EQ(dut.counters(kSlowUp).late + dut.counters(kDriveDown).late, 2U);
 }
@@ -90,17 +98,21 @@ TEST_F(MessageReceiverTest, NoDifferenceReachesAcrossEpochs) {
   EXPECT_EQ(out.size(), 1U);
 }
 
-TEST_F(MessageReceiverTest, ACommandHoldsForTheRestOfItsTime) {
-  dut.OnCommand({kDriveDown, FromSeconds(0.1), 40, Text("abcde")}, Of(1), true, out);
-  ASSERT_EQ(out.size(), 1U);
-  EXPECT_EQ(*out[0].valid_until, kStart + FromSeconds(0.1));  // 0.25 - 0.1 - 0.05
+TEST_F(MessageReceiverTest, ACommandCountsFromTheFrameThatItEchoes) {
+  dut.OnCommand({kDriveDown, FromSeconds(0.04), 40, Text("abcde")}, Echoing(1, 0.1), out);
+  dut.OnCommand({kDriveDown, FromSeconds(-0.04), 40, Text("abcde")}, Echoing(2, 0.1), out);
+  ASSERT_EQ(out.size(), 2U);
+  EXPECT_EQ(out[0].packed_at, kStart - FromSeconds(0.06));
+  EXPECT_EQ(*out[0].valid_until, kStart + FromSeconds(0.19));
+  EXPECT_EQ(out[1].packed_at, kStart - FromSeconds(0.14));
+  EXPECT_EQ(*out[1].valid_until, kStart + FromSeconds(0.11));
 }
 
 TEST_F(MessageReceiverTest, ACommandThatIsTooOldOrUnprovenIsLate) {
-  dut.OnCommand({kDriveDown, FromSeconds(0.1), 40, Text("abcde")}, Of(1, 0.15), true, out);
+  dut.OnCommand({kDriveDown, FromSeconds(-0.1), 40, Text("abcde")}, Echoing(1, 0.15), out);
   EXPECT_EQ(out.size(), 1U);  // just in time
-  dut.OnCommand({kDriveDown, FromSeconds(0.1), 40, Text("abcde")}, Of(2, 0.151), true, out);
-  dut.OnCommand({kDriveDown, FromSeconds(0.1), 40, Text("abcde")}, Of(3), false, out);
+  dut.OnCommand({kDriveDown, FromSeconds(-0.1), 40, Text("abcde")}, Echoing(2, 0.151), out);
+  dut.OnCommand({kDriveDown, FromSeconds(0.1), 40, Text("abcde")}, Of(3), out);
   EXPECT_EQ(out.size(), 1U);
   EXPECT_EQ(dut.counters(kDriveDown).late, 2U);
 }

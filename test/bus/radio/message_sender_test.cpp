@@ -30,11 +30,12 @@ struct Fixture {
 
   MessageSender::Loaded Load(Time now, std::uint64_t counter, bool urgent_only = false) {
     BundleBuilder bundle(table, 120, false);
-    auto loaded = dut.Load(
-        bundle,
-        {.now = now, .counter = counter, .urgent_only = urgent_only, .leaves_at = [now](std::size_t bytes) {
-           return now + Duration(1000 * bytes);
-         }});
+    auto loaded =
+        dut.Load(bundle, {.now = now,
+                          .counter = counter,
+                          .urgent_only = urgent_only,
+                          .leaves_at = [now](std::size_t bytes) { return now + Duration(1000 * bytes); },
+                          .echoed_at = echoed_at});
     entries = ParseBundle(table, direction, bundle.Finish()).entries;
     return loaded;
   }
@@ -49,6 +50,7 @@ struct Fixture {
   const ChannelTable table{WithDeltas(), false};
   MessageSender dut;
   std::vector<BundleEntry> entries;
+  std::optional<Time> echoed_at;
 };
 
 TEST(MessageSender, TakesWhatIsOutgoingAndCanBePacked) {
@@ -133,11 +135,42 @@ TEST(MessageSender, ALongerDifferenceIsNotSent) {
   EXPECT_FALSE(f.State().baseline);
 }
 
-TEST(MessageSender, ACommandTravelsWithItsAge) {
+TEST(MessageSender, ACommandSaysHowLongBeforeOrAfterTheEchoedFrameItWasOffered) {
+  for (const double heard_s : {-0.2, -0.1, 0.0, 0.05, 0.1}) {
+    Fixture f(Direction::kDown);
+    f.echoed_at = After(heard_s);
+    f.dut.Offer(kDriveDown, Text("abcde"), kStart, "");
+    f.Load(After(0.1), 1);
+    const double offset_s = Seconds(std::get<CommandEntry>(f.entries.at(0)).offset);
+    EXPECT_LE(offset_s, -heard_s);
+    EXPECT_GT(offset_s, -heard_s - 0.25 / 32 - 1e-6);
+  }
+}
+
+TEST(MessageSender, ACommandWaitsForAnEchoAndOneTooOldStays) {
   Fixture f(Direction::kDown);
   f.dut.Offer(kDriveDown, Text("abcde"), kStart, "");
-  f.Load(After(0.1), 1);
-  EXPECT_NEAR(Seconds(std::get<CommandEntry>(f.entries.at(0)).age), 0.1, 0.25 / 63);
+  f.Load(kStart, 1);
+  EXPECT_TRUE(f.entries.empty());
+  f.echoed_at = After(0.3);
+  f.Load(After(0.3), 2);
+  EXPECT_TRUE(f.entries.empty()) << "no offset could say how old it is";
+  f.dut.Offer(kDriveDown, Text("fresh"), After(0.3), "");
+  f.Load(After(0.3), 3);
+  EXPECT_EQ(f.entries.size(), 1U);
+}
+
+TEST(MessageSender, ACommandIsPackedWithTheTimeOfItsOffer) {
+  const ChannelTable table(TestChannels(), false);
+  std::vector<Time> packed_with;
+  MessageSender dut(table, Direction::kDown, FromSeconds(1), [&](std::size_t, auto encoded, Time now) {
+    packed_with.push_back(now);
+    return std::optional(Packed{{encoded.begin(), encoded.end()}, encoded.size() * 8});
+  });
+  dut.Offer(kDriveDown, Text("abcde"), kStart, "");
+  BundleBuilder bundle(table, 120, false);
+  dut.Load(bundle, {.now = After(0.1), .counter = 1, .leaves_at = {}, .echoed_at = After(0.05)});
+  EXPECT_EQ(packed_with, std::vector{kStart});
 }
 
 TEST(MessageSender, EventsAreSentAgainAfterTheirTimeoutOrWhenTheLinkIsBack) {

@@ -87,11 +87,15 @@ struct ProtocolVectors : testing::Test {
     BitWriter out;
     WriteEntry(table, EventAckEntry{2, {.next = 255, .prefix = 2, .held = 0b1001}}, out);
     WriteEntry(table, ListenEntry{0b100}, out);
-    WriteEntry(table, CommandEntry{1, std::chrono::milliseconds(100), 40, FromHex("deadbeef42")}, out);
+    WriteEntry(table, CommandEntry{1, std::chrono::milliseconds(-100), 40, FromHex("deadbeef42")}, out);
     return out.bytes();
   }
-  FrameSealer Sealer(Direction direction, bool encrypted = false) const {
-    return {FrameKeys(key), direction, {Table(encrypted).hash(), encrypted}};
+  /// Only the direction down has a command, and an echo.
+  FrameScope Scope(Direction direction, bool encrypted, std::size_t echo_bytes = 1) const {
+    return {Table(encrypted).hash(), encrypted, direction == Direction::kDown ? echo_bytes : 0};
+  }
+  FrameSealer Sealer(Direction direction, bool encrypted = false, std::size_t echo_bytes = 1) const {
+    return {FrameKeys(key), direction, Scope(direction, encrypted, echo_bytes)};
   }
 
   std::map<std::string, std::string> values;
@@ -155,24 +159,29 @@ TEST_F(ProtocolVectors, Differences) {
 }
 
 TEST_F(ProtocolVectors, DataFrames) {
-  const auto wire = [&](Direction direction, std::uint64_t counter, CounterForm form, bool encrypted) {
+  const auto wire = [&](Direction direction, std::uint64_t counter, CounterForm form, bool encrypted,
+                        std::size_t echo_bytes = 1) {
     const auto bundle = direction == Direction::kUp ? BundleUp() : BundleDown();
-    return ToHex(Sealer(direction, encrypted).Seal(Number("epoch"), counter, form, bundle));
+    return ToHex(Sealer(direction, encrypted, echo_bytes).Seal(Number("epoch"), counter, form, bundle, 300));
   };
   EXPECT_EQ(wire(Direction::kUp, 300, CounterForm::kLowBits, false), values.at("frame_up_counter_300"));
   EXPECT_EQ(wire(Direction::kUp, 300, CounterForm::kWhole, false), values.at("frame_up_counter_300_whole"));
   EXPECT_EQ(wire(Direction::kDown, 7, CounterForm::kLowBits, false), values.at("frame_down_counter_7"));
   EXPECT_EQ(wire(Direction::kDown, 7, CounterForm::kLowBits, true),
             values.at("frame_down_counter_7_encrypted"));
+  EXPECT_EQ(wire(Direction::kDown, 7, CounterForm::kLowBits, false, 2),
+            values.at("frame_down_counter_7_fast"));
+  EXPECT_EQ(wire(Direction::kDown, 7, CounterForm::kWhole, false), values.at("frame_down_counter_7_whole"));
 }
 
 TEST_F(ProtocolVectors, FramesOpen) {
-  FrameOpener dut(FrameKeys(key), Direction::kDown, {Table(true).hash(), true});
+  FrameOpener dut(FrameKeys(key), Direction::kDown, Scope(Direction::kDown, true));
   dut.SetEpoch(Number("epoch"), 0);
   auto wire = FromHex(values.at("frame_down_counter_7_encrypted"));
   wire.pop_back();
-  const Opened opened = dut.Open(wire);
+  const Opened opened = dut.Open(wire, 310);
   ASSERT_TRUE(std::holds_alternative<DataFrame>(opened));
+  EXPECT_EQ(std::get<DataFrame>(opened).echo, 300U);
   EXPECT_EQ(ToHex(std::get<DataFrame>(opened).bundle), values.at("bundle_down"));
 }
 

@@ -1,8 +1,13 @@
 #include "cli/scenario/door_name.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+
+#include <fstream>
+
+#include "test/support/temporary_folder.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -52,6 +57,17 @@ TEST(DoorName, WhatIsNoNumberFromOneTo999IsRefused) {
 
 TEST(DoorName, AMapWithoutDoorsSaysSo) {
   EXPECT_EQ(Refusal({}, "laboratory"), "unknown door \"laboratory\"; hall.toml has none");
+}
+
+TEST(DoorName, OfADeploymentIsThatOfItsPlannersMap) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "planner.toml") << "map = \"maps/hall.toml\"\n";
+  try {
+    DoorOfDeployment(folder.path(), "laboratory");
+    FAIL() << "the deployment has no such map";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr((folder / "maps/hall.toml").string()));
+  }
 }
 
 }  // namespace

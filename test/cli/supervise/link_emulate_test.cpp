@@ -93,6 +93,38 @@ TEST_F(LinkEmulateTest, BlackoutScheduleCutsTheLine) {
   EXPECT_EQ(b->Read(got), 1U);
 }
 
+TEST_F(LinkEmulateTest, DelayScheduleHoldsOneWayAndLetsGo) {
+  options.delays = (folder / "delays.csv").string();
+  std::ofstream(options.delays) << "way,from_s,to_s,first_s,last_s\n# a stall\na_to_b,0,1.0,1.0,0\n";
+  EmulatedLine dut(options, kStart);
+  const auto a = OpenSerialPort(options.a, 9600), b = OpenSerialPort(options.b, 9600);
+  const std::array<std::byte, 1> sent{std::byte{1}};
+  std::array<std::byte, 8> got{};
+  a->Write(sent);
+  b->Write(sent);
+  dut.Step(kStart + std::chrono::milliseconds(500));
+  a->Write(sent);
+  dut.Step(kStart + std::chrono::milliseconds(900));
+  EXPECT_EQ(a->Read(got), 1U);
+  EXPECT_EQ(b->Read(got), 0U);
+  dut.Step(kStart + std::chrono::milliseconds(1010));
+  EXPECT_EQ(b->Read(got), 2U);
+}
+
+TEST_F(LinkEmulateTest, AWrongDelayNamesItsLine) {
+  const std::string file = (folder / "delays.csv").string();
+  for (const char* wrong :
+       {"up,0,1,0.5,0.5", "both,1,1,0.5,0.5", "both,0,1,-1,0", "both,0,1,0.5", "both,0,1,0,0,0"}) {
+    std::ofstream(file) << "# fine\n" << wrong << "\n";
+    try {
+      ReadDelays(file);
+      ADD_FAILURE() << wrong;
+    } catch (const ConfigError& e) {
+      EXPECT_THAT(e.what(), HasSubstr("delays.csv:2: expected way,from_s,to_s,first_s,last_s"));
+    }
+  }
+}
+
 TEST_F(LinkEmulateTest, AWrongScheduleNamesItsLine) {
   options.blackouts = (folder / "blackouts.csv").string();
   std::ofstream(options.blackouts) << "0,1\n3,2\n";

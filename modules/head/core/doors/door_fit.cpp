@@ -1,6 +1,7 @@
 #include "head/core/doors/door_fit.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
@@ -76,7 +77,7 @@ std::optional<DoorFit> FitDoor(const std::array<const CameraView*, 2>& views, co
   const Unknowns first = x;
   Eigen::VectorXd r(n);
   Eigen::Matrix<double, Eigen::Dynamic, 5> j(n, 5);
-  Eigen::Matrix<double, 5, 5> information;
+  Eigen::LDLT<Eigen::Matrix<double, 5, 5>> solver;
   for (int round = 0; round < kRounds; ++round) {
     for (int i = 0; i < n; ++i) {
       r[i] = observations[i].Residual(x);
@@ -86,15 +87,16 @@ std::optional<DoorFit> FitDoor(const std::array<const CameraView*, 2>& views, co
         j(i, k) = (observations[i].Residual(moved) - r[i]) / kStep_m;
       }
     }
-    information = j.transpose() * j;
-    const Eigen::LDLT<Eigen::Matrix<double, 5, 5>> solver(information);
+    const Eigen::Matrix<double, 5, 5> information = j.transpose() * j;
+    solver.compute(information);
     if (solver.info() != Eigen::Success || solver.rcond() < 1e-9) return std::nullopt;
-    x -= solver.solve(j.transpose() * r);
+    const Unknowns right = j.transpose() * r;
+    x -= solver.solve(right);
     if (!x.allFinite() || (x - first).head<4>().cwiseAbs().maxCoeff() > kFar_m) return std::nullopt;
   }
   DoorFit fit;
   fit.shape = {x.head<2>(), x.segment<2>(2), x[4]};
-  fit.covariance = information.inverse();
+  fit.covariance = solver.solve(Eigen::Matrix<double, 5, 5>::Identity());
   for (const Observation& o : observations) fit.chi2 += std::pow(o.Residual(x), 2);
   fit.freedom = n - 5;
   return fit;

@@ -1,10 +1,12 @@
 #include "head/core/landmark/pose_solver.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "common/principal_axes.hpp"
+#include "head/core/landmark/correlated_least_squares.hpp"
 #include "head/core/landmark/edge_residual.hpp"
+#include "head/core/landmark/left_out.hpp"
 
 namespace priamos::head {
 namespace {
@@ -18,8 +20,8 @@ double Square(double x) {
 
 /// c = L * L.transpose(), also where c is singular.
 Matrix6 SquareRoot(const Matrix6& c) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(c);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const PrincipalAxes<6> ellipsoid = PrincipalAxesOf(c);
+  return ellipsoid.axes * ellipsoid.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
 /// A residual with the error that all cameras share, in standard deviations.
@@ -53,11 +55,10 @@ class Problem {
     for (int i = 0; i < options_.max_iterations; ++i) {
       if (!Linearise()) return solution;
       // Covariance changes little between the iterations; the last step of Finish takes it where it belongs.
-      if (i == 0 && !Whiten()) return solution;
-      Eigen::VectorXd step;
-      if (!Solve(step)) return solution;
-      Apply(free_ * step);
-      const double size = step.norm();
+      if (i == 0 && !squares_.SetCovariance(CovarianceOfAll())) return solution;
+      if (!squares_.Solve(jacobian_, distance_)) return solution;
+      Apply(free_ * squares_.step());
+      const double size = squares_.step().norm();
       if (!std::isfinite(size) || size > 2) return solution;
       if (size < 1e-6 || (i > 3 && size < 1e-5 && size > 0.5 * previous_step)) break;
       previous_step = size;
@@ -102,7 +103,7 @@ class Problem {
     return c;
   }
 
-  bool Whiten() {
+  Eigen::MatrixXd CovarianceOfAll() const {
     const int n = static_cast<int>(residuals_.size());
     Eigen::MatrixXd covariance(n, n);
     for (int i = 0; i < n; ++i) {
@@ -110,20 +111,7 @@ class Problem {
         covariance(i, j) = covariance(j, i) = Covariance(residuals_[i], residuals_[j]);
       covariance(i, i) += residuals_[i].variance;
     }
-    whitening_.compute(covariance);
-    return whitening_.info() == Eigen::Success;
-  }
-
-  /// Least squares step of the free directions.
-  bool Solve(Eigen::VectorXd& step) {
-    white_jacobian_ = jacobian_;
-    white_distance_ = distance_;
-    whitening_.matrixL().solveInPlace(white_jacobian_);
-    whitening_.matrixL().solveInPlace(white_distance_);
-    information_.compute(white_jacobian_.transpose() * white_jacobian_);
-    if (information_.info() != Eigen::Success || information_.rcond() < 1e-12) return false;
-    step = information_.solve(white_jacobian_.transpose() * white_distance_);
-    return true;
+    return covariance;
   }
 
   void Apply(const Vector6& step) {
@@ -135,14 +123,13 @@ class Problem {
   }
 
   void Finish(PoseSolution& solution) {
-    Eigen::VectorXd step;
-    if (!Linearise() || !Whiten() || !Solve(step)) return;
+    if (!Linearise() || !squares_.SetCovariance(CovarianceOfAll())) return;
+    if (!squares_.Solve(jacobian_, distance_)) return;
     const Eigen::Index d = free_.cols(), n = distance_.size();
-    solution.covariance = free_ * information_.solve(Eigen::MatrixXd::Identity(d, d)) * free_.transpose();
+    solution.covariance = free_ * squares_.StepCovariance() * free_.transpose();
     if (!solution.covariance.allFinite()) return;
     solution.own_share = OwnShare();
-    const double chi_squared = (white_distance_ - white_jacobian_ * step).squaredNorm();
-    solution.misfit = chi_squared / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
+    solution.misfit = squares_.ChiSquared() / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
     if (options_.find_suspect) solution.suspect = FindSuspect();
     double sum = 0;
     for (const Row& s : residuals_) sum += Square(s.distance_px);
@@ -151,38 +138,22 @@ class Problem {
     solution.ok = true;
   }
 
-  /// The estimate moves by P J' V^-1 times the errors of the distances. So a part C of their covariance V
-  /// makes P (A' C A) P of P, where A = V^-1 J: as a share of it trace(A' C A P) / d, and all parts
-  /// together 1.
   double OwnShare() const {
-    const Eigen::Index d = free_.cols();
-    const Eigen::MatrixXd a = whitening_.matrixU().solve(white_jacobian_);
-    const Eigen::MatrixXd weighted = information_.solve(a.transpose());
-    double share = 0;
-    for (Eigen::Index i = 0; i < a.rows(); ++i)
-      share += residuals_[i].variance * a.row(i).dot(weighted.col(i)) / static_cast<double>(d);
-    return share;
+    Eigen::VectorXd variance(distance_.size());
+    for (std::size_t i = 0; i < residuals_.size(); ++i) variance[i] = residuals_[i].variance;
+    return squares_.ShareOf(variance);
   }
 
-  /// Leaving some of the residuals out takes r' (P_ss)^-1 r from chi squared, where P projects out what the
-  /// pose explains and r = P * distances: exact, and without solving anew.
-  EdgeSuspect FindSuspect() {
-    const Eigen::Index n = distance_.size();
-    const Eigen::MatrixXd inverse = whitening_.solve(Eigen::MatrixXd::Identity(n, n));
-    const Eigen::MatrixXd to_pose = inverse * jacobian_;
-    const Eigen::MatrixXd projector = inverse - to_pose * information_.solve(to_pose.transpose());
-    const Eigen::VectorXd rest = projector * distance_;
+  EdgeSuspect FindSuspect() const {
+    const LeftOut left_out(squares_);
     EdgeSuspect worst;
     const auto examine = [&](int edge, int camera) {
       std::vector<int> rows;
-      for (int i = 0; i < n; ++i)
-        if (residuals_[i].edge == edge && (camera < 0 || residuals_[i].camera == camera)) rows.push_back(i);
-      const Eigen::MatrixXd block = projector(rows, rows);
-      const Eigen::LDLT<Eigen::MatrixXd> ldlt(block);
-      if (ldlt.rcond() < 1e-9) return;  // without it there would be no pose
-      const Eigen::VectorXd own = rest(rows);
-      const double misfit = own.dot(ldlt.solve(own)) / static_cast<double>(rows.size());
-      if (misfit > worst.misfit) worst = {edge, camera, misfit};
+      for (std::size_t i = 0; i < residuals_.size(); ++i)
+        if (residuals_[i].edge == edge && (camera < 0 || residuals_[i].camera == camera))
+          rows.push_back(static_cast<int>(i));
+      const auto misfit = left_out.Misfit(rows);
+      if (misfit && *misfit > worst.misfit) worst = {edge, camera, *misfit};
     };
     for (const ObservedLine& line : lines_) {
       examine(line.edge, line.camera);
@@ -201,10 +172,9 @@ class Problem {
   Matrix6 common_root_;
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> free_;  ///< directions in which the pose may move
   std::vector<Row> residuals_;
-  Eigen::MatrixXd jacobian_, white_jacobian_;
-  Eigen::VectorXd distance_, white_distance_;
-  Eigen::LLT<Eigen::MatrixXd> whitening_;
-  Eigen::LDLT<Eigen::MatrixXd> information_;
+  Eigen::MatrixXd jacobian_;
+  Eigen::VectorXd distance_;
+  CorrelatedLeastSquares squares_;
 };
 
 }  // namespace

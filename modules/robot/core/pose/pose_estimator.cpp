@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "common/principal_axes.hpp"
 
 namespace priamos::robot {
 namespace {
@@ -48,9 +49,7 @@ void PoseEstimatorConfig::Describe(Archive& a) {
 }
 
 double PoseEstimate::PositionSigma() const {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance.topLeftCorner<2, 2>(),
-                                                              Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues()(1)));
+  return std::sqrt(std::max(0.0, PrincipalAxesOf<2>(covariance.topLeftCorner<2, 2>()).values(1)));
 }
 
 double PoseEstimate::YawSigma() const {

@@ -1,11 +1,21 @@
 #include "world/core/render/graphics_context.hpp"
 
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
 #include "world/core/render/graphics_mesh.hpp"
 
 namespace priamos::world {
+namespace {
+
+/// Mesa keeps compiled shaders below the home folder and complains where there is none. Ours compile in no
+/// time. Who has set the variable is left alone.
+void KeepNoShaders() {
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+}
+
+}  // namespace
 
 GraphicsContext::GraphicsContext(int width_px, int height_px)
     : width_px_(width_px),
@@ -21,6 +31,7 @@ std::shared_ptr<GraphicsContext> GraphicsContext::Hold(int width_px, int height_
     }
     return context;
   }
+  KeepNoShaders();
   try {
     const auto context = std::make_shared<GraphicsContext>(width_px, height_px);
     living = context;

@@ -73,11 +73,18 @@ TEST_F(BundleTest, FixedSizesCostOnlyTheirBitsAndANumber) {
   EXPECT_EQ(EntryBits(table, CommandEntry{kDriveDown, {}, 40, Text("abcde")}), 49U);
 }
 
-TEST_F(BundleTest, AgeOfACommandIsRoundedUp) {
-  const auto parsed = Parse({CommandEntry{kDriveDown, Duration(1), 40, Text("abcde")}}, Direction::kDown);
-  const Duration age = std::get<CommandEntry>(parsed.entries.at(0)).age;
-  EXPECT_GE(age, Duration(1));
-  EXPECT_LE(age, Duration(250'000 / 63 + 1));
+TEST_F(BundleTest, OffsetOfACommandIsRoundedDown) {
+  for (const int us : {-250'000, -249'999, -7'813, -7'812, -1, 0, 1, 7'812, 7'813, 100'000, 242'187}) {
+    const auto parsed = Parse({CommandEntry{kDriveDown, Duration(us), 40, Text("abcde")}}, Direction::kDown);
+    const Duration offset = std::get<CommandEntry>(parsed.entries.at(0)).offset;
+    EXPECT_LE(offset, Duration(us));
+    EXPECT_GT(offset, Duration(us - 250'000 / 32 - 1)) << us;
+  }
+}
+
+TEST_F(BundleTest, AnOffsetBeyondTheRangeMakesACommandOlder) {
+  const auto parsed = Parse({CommandEntry{kDriveDown, FromSeconds(3), 40, Text("abcde")}}, Direction::kDown);
+  EXPECT_EQ(std::get<CommandEntry>(parsed.entries.at(0)).offset, Duration(242'188));  // 31/32 of 0.25 s
 }
 
 TEST_F(BundleTest, MessagesOfTheOwnDirectionAreRefused) {

@@ -126,6 +126,21 @@ TEST_F(SendQueueTest, RateIsKept) {
   EXPECT_NEAR(sent, 100, 1);  // 10 Hz for 10 s
 }
 
+TEST_F(SendQueueTest, HeldCommandsAreNotReadyAlsoUrgentOnes) {
+  channels[kDriveDown].urgent = true;
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kDown, kAgeing);
+  dut.Offer(kDriveDown, "", Text("abcde"), kStart);
+  dut.OfferEvent(kEventDown, Text("event"), 40, kStart);
+  dut.HoldCommands(true);
+  ASSERT_EQ(dut.Ready(kStart).size(), 1U);
+  EXPECT_EQ(dut.Ready(kStart)[0].channel, kEventDown);
+  EXPECT_FALSE(dut.UrgentReady(kStart));
+  dut.HoldCommands(false);
+  EXPECT_EQ(dut.Ready(kStart).size(), 2U);
+  EXPECT_TRUE(dut.UrgentReady(kStart));
+}
+
 TEST_F(SendQueueTest, ExpiredIsDroppedAndCounted) {
   const ChannelTable table = Table();
   SendQueue dut(table, Direction::kUp, kAgeing);

@@ -149,6 +149,51 @@ TEST_F(FrameTest, EncryptedBundleIsNotReadable) {
   EXPECT_EQ(ToText(std::get<DataFrame>(opener.Open(Content(first))).bundle), "attack at dawn");
 }
 
+/// A direction with commands: what its short frames echo is authenticated, but for the most part not sent.
+struct EchoTest : testing::TestWithParam<std::size_t> {
+  static FrameScope Scope() { return {.table_hash = 1, .encrypted = false, .echo_bytes = GetParam()}; }
+  static std::uint64_t Range() { return std::uint64_t{1} << (8 * GetParam()); }
+  Opened Open(std::uint64_t echo, std::uint64_t newest_sent, CounterForm form = CounterForm::kLowBits) {
+    dut.SetEpoch(kEpoch, 0);
+    return dut.Open(Content(sealer.Seal(kEpoch, 1, form, Text("bundle"), echo)), newest_sent);
+  }
+  const FrameKeys keys{Key()};
+  const FrameSealer sealer{keys, Direction::kUp, Scope()};
+  FrameOpener dut{keys, Direction::kUp, Scope()};
+};
+
+TEST_P(EchoTest, IsCompletedBelowTheNewestFrameSent) {
+  const std::uint64_t newest = 123'456'789;
+  for (const std::uint64_t back : {std::uint64_t{0}, std::uint64_t{1}, Range() / 2, Range() - 1})
+    EXPECT_EQ(std::get<DataFrame>(Open(newest - back, newest)).echo, newest - back) << back;
+}
+
+TEST_P(EchoTest, OfAFrameTooLongAgoOrNeverSentIsAWrongCode) {
+  const std::uint64_t newest = 123'456'789;
+  for (const std::uint64_t echo : {newest - Range(), newest - 5 * Range(), newest + 1, newest + Range()})
+    EXPECT_EQ(std::get<Reject>(Open(echo, newest)), Reject::kBadCode) << echo;
+  EXPECT_EQ(std::get<Reject>(Open(5, 4)), Reject::kBadCode) << "nor below the first counter";
+}
+
+TEST_P(EchoTest, CostsItsBytesAndOnlyInShortFrames) {
+  EXPECT_EQ(sealer.Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"), 7).size(),
+            6 + kFrameOverhead + GetParam());
+  EXPECT_EQ(sealer.overhead(), kFrameOverhead + GetParam());
+  const FrameSealer plain(keys, Direction::kUp, {.table_hash = 1});
+  EXPECT_EQ(sealer.Seal(kEpoch, 1, CounterForm::kWhole, Text("bundle"), 7),
+            plain.Seal(kEpoch, 1, CounterForm::kWhole, Text("bundle")));
+  EXPECT_FALSE(std::get<DataFrame>(Open(7, 9, CounterForm::kWhole)).echo);
+}
+
+TEST_P(EchoTest, AnOpenerThatExpectsNoneRefusesIt) {
+  FrameOpener plain(keys, Direction::kUp, {.table_hash = 1});
+  plain.SetEpoch(kEpoch, 0);
+  const auto wire = sealer.Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"), 7);
+  EXPECT_EQ(std::get<Reject>(plain.Open(Content(wire), 9)), Reject::kBadCode);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bytes, EchoTest, testing::Values(std::size_t{1}, std::size_t{2}));
+
 TEST_F(FrameTest, RandomBytesNeverPass) {
   Rng rng(4);
   for (int i = 0; i < 100000; ++i) {

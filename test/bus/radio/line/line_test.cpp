@@ -55,6 +55,30 @@ TEST(Line, LatencyDelaysEveryByte) {
   EXPECT_EQ(dut.Read(After(0.102)).size(), 1U);
 }
 
+/// When each of a number of bytes arrives that are written 0.1 s apart, in milliseconds after that.
+std::vector<int> DelaysOf(const LineDelay& delay, int side, int bytes) {
+  LineConfig config{.baud = 1'000'000, .latency_s = 0.01};
+  config.delays = {delay};
+  Line dut(config, Rng(1), kStart, nullptr, side);
+  for (int i = 0; i < bytes; ++i) dut.Write(Bytes(1), After(0.1 * i));
+  std::vector<int> delays;
+  for (int ms = 0; ms < 5000; ++ms)
+    for (std::size_t n = dut.Read(After(0.001 * ms)).size(); n > 0; --n)
+      delays.push_back(ms - 100 * static_cast<int>(delays.size()) - 1);
+  return delays;
+}
+
+TEST(Line, DelaysStepRampAndStall) {
+  const std::vector<int> none{10, 10, 10, 10, 10, 10};
+  EXPECT_EQ(DelaysOf({"both", 0.2, 0.4, 0.05, 0.05}, 0, 6), (std::vector<int>{10, 10, 60, 60, 10, 10}));
+  EXPECT_EQ(DelaysOf({"both", 0.1, 0.5, 0, 0.04}, 0, 6), (std::vector<int>{10, 10, 20, 30, 40, 10}));
+  // A stall: all come together when it ends, in their order.
+  EXPECT_EQ(DelaysOf({"both", 0.15, 0.5, 0.3505, 0}, 0, 6), (std::vector<int>{10, 10, 310, 210, 110, 10}));
+  EXPECT_EQ(DelaysOf({"a_to_b", 0, 9, 1, 1}, 1, 6), none);
+  EXPECT_EQ(DelaysOf({"b_to_a", 0, 9, 1, 1}, 0, 6), none);
+  EXPECT_EQ(DelaysOf({"b_to_a", 0, 9, 1, 1}, 1, 2), (std::vector<int>{1010, 1010}));
+}
+
 TEST(Line, JitterKeepsTheOrder) {
   Line dut({.baud = 9600, .latency_s = 0, .jitter_s = 0.05}, Rng(1), kStart);
   std::vector<std::byte> sent;

@@ -1,11 +1,11 @@
 #include "head/core/calibration/correspondence/disc_sighting.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "common/principal_axes.hpp"
 
 namespace priamos::head {
 
@@ -25,12 +25,10 @@ Sighting SightDisc(const Ellipse& e, double focal_px, const Vector2d& centre_px)
   Eigen::Matrix2d across;
   across << e1.head<2>().transpose(), e2.head<2>().transpose();
   across /= direction.norm() * focal_px;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(across * e.shape_px2 * across.transpose());
-  s.angular_radius = std::sqrt(solver.eigenvalues()(1));
-  const double ratio = std::sqrt(std::max(0.0, solver.eigenvalues()(0))) / s.angular_radius;
-  const auto axis = [&](int i) -> Vector3d {
-    return solver.eigenvectors()(0, i) * e1 + solver.eigenvectors()(1, i) * e2;
-  };
+  const PrincipalAxes<2> outline = PrincipalAxesOf<2>(across * e.shape_px2 * across.transpose());
+  s.angular_radius = std::sqrt(outline.values(1));
+  const double ratio = std::sqrt(std::max(0.0, outline.values(0))) / s.angular_radius;
+  const auto axis = [&](int i) -> Vector3d { return outline.axes(0, i) * e1 + outline.axes(1, i) * e2; };
   const auto tilted = [&](double tilt, const Vector3d& towards) -> Vector3d {
     return -std::cos(tilt) * s.ray + std::sin(tilt) * towards;
   };

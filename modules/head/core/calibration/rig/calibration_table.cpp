@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <optional>
+
+#include "common/principal_axes.hpp"
 
 namespace priamos::head {
 
@@ -135,9 +136,8 @@ Eigen::Matrix<double, 6, 6> ReadCovariance(const cv::FileNode& root) {
   const std::vector<double> values = Numbers(root, "base_covariance", 100);
   if (values.size() != 36) throw Damage{"'base_covariance' is not a list of 36 numbers"};
   const Eigen::Matrix<double, 6, 6> c = Eigen::Map<const Eigen::Matrix<double, 6, 6>>(values.data());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(c);
-  if ((c - c.transpose()).norm() > 1e-9 * c.norm() ||
-      !(solver.eigenvalues()(0) >= -1e-9 * solver.eigenvalues()(5))) {
+  const auto variances = PrincipalAxesOf(c).values;
+  if ((c - c.transpose()).norm() > 1e-9 * c.norm() || !(variances(0) >= -1e-9 * variances(5))) {
     throw Damage{"'base_covariance' is no covariance"};
   }
   return c;

@@ -1,6 +1,7 @@
 #include "head/core/calibration/rig/head_solver.hpp"
 
-#include <ceres/ceres.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <set>
 
 #include "head/core/calibration/resection/camera_parameters.hpp"
+#include "head/core/calibration/rig/head_costs.hpp"
 #include "head/core/calibration/rig/head_residuals.hpp"
 #include "head/core/calibration/targets/camera_calibration.hpp"
 
@@ -24,8 +26,7 @@ constexpr double kSigmaFloor_px = 0.02;  // of what the model leaves out
 template <int N>
 void AddNear(ceres::Problem& problem, double* block, const std::array<double, N>& mean,
              const std::array<double, N>& sigma) {
-  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Near<N>, N, N>(new Near<N>{mean, sigma}), nullptr,
-                           block);
+  problem.AddResidualBlock(NewCost(Near<N>{mean, sigma}), nullptr, block);
 }
 
 std::array<double, kHead> HeadBlock(const HeadGeometry& g) {
@@ -130,9 +131,7 @@ void AddSmoothness(Unknowns& x, int direction, ceres::Problem& problem) {
   }
   for (const auto& [row, nodes] : rows) {
     for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
-      problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<Smooth, kLens - 1, kLens, kLens, kLens>(new Smooth), nullptr,
-          nodes[i - 1], nodes[i], nodes[i + 1]);
+      problem.AddResidualBlock(NewCost(Smooth{}), nullptr, nodes[i - 1], nodes[i], nodes[i + 1]);
     }
   }
 }
@@ -163,8 +162,7 @@ std::string Minimise(const std::vector<HeadView>& views, const HeadKnowledge& kn
     for (const DiscObservation& o : view.discs) {
       const Vector2d bias = use_bias ? CentroidBias(camera, o.disc) : Vector2d::Zero();
       problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<HeadReprojection, 2, kHead, kMount, kLens, kJitter>(
-              new HeadReprojection{view.setting, view.camera, o.disc.centre_m, o.centroid_px - bias,
+          NewCost(HeadReprojection{view.setting, view.camera, o.disc.centre_m, o.centroid_px - bias,
                                    std::max(kSigmaFloor_px, o.sigma_px)}),
           nullptr, x.head.data(), x.mounts[view.camera].data(), x.lenses.at(KeyOf(view)).data(),
           x.jitter.at(view.exposure).data());

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "common/principal_axes.hpp"
 
 namespace priamos::head {
 
@@ -120,7 +121,7 @@ Spread SpreadOf(const std::vector<Point>& points, const std::vector<bool>& used)
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (used[i]) scatter += (points[i].at - s.middle) * (points[i].at - s.middle).transpose() / n;
   }
-  s.rms_m = Eigen::SelfAdjointEigenSolver<Matrix3d>(scatter).eigenvalues().cwiseMax(0).cwiseSqrt();
+  s.rms_m = PrincipalAxesOf(scatter).values.cwiseMax(0).cwiseSqrt();
   return s;
 }
 
@@ -193,8 +194,8 @@ void FillSigmas(const std::vector<Point>& points, const std::vector<bool>& used,
     information += v.motion / v.n / variance;
   }
   const Matrix3d covariance = information.inverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> turns(covariance.topLeftCorner<2, 2>());
-  laser.sigma_turn_rad = std::sqrt(std::max(0.0, turns.eigenvalues()(1)));
+  const PrincipalAxes<2> turns = PrincipalAxesOf<2>(covariance.topLeftCorner<2, 2>());
+  laser.sigma_turn_rad = std::sqrt(std::max(0.0, turns.values(1)));
   laser.sigma_shift_m = std::sqrt(std::max(0.0, covariance(2, 2)));
 }
 
