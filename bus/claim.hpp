@@ -63,7 +63,7 @@ class Claim {
   void Hear(const ClaimWord& word, Time now);
   /// The message that is to be sent now, if any; asking ends here.
   std::optional<ClaimWord> Step(Time now);
-  /// When Step is to be called next, unless a message arrives before.
+  /// Time at which Step is to be called next, unless a message arrives before.
   Time next_step() const { return say_at_; }
 
   State state() const { return state_; }

@@ -52,7 +52,7 @@ class InboxQueue {
     return act_ ? Displaced::kRepeated : Displaced::kLost;
   }
 
-  /// Everything that waits, each message with its arrival by the receiver's own clock; nothing waits after.
+  /// Messages that wait, each with its arrival by the receiver's own clock; nothing waits after.
   std::vector<Entry> TakeAll() {
     std::vector<Entry> all(std::make_move_iterator(entries_.begin()),
                            std::make_move_iterator(entries_.end()));

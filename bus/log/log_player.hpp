@@ -39,7 +39,7 @@ class LogPlayer {
   std::uint64_t skipped_bytes() const { return reader_.skipped_bytes(); }
   bool done() const { return next_ >= index_.size(); }
 
-  /// When the next event is due; Time::max() while paused or at the end.
+  /// Time at which the next event is due; Time::max() while paused or at the end.
   Time NextDue() const;
   /// Sends the events that are due at `now`, at most `at_most`. Returns their number.
   int Play(Time now, const Send& send, int at_most = 1000);

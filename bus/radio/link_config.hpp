@@ -40,15 +40,13 @@ struct LinkConfig {
   double silence_s = 1.5;       ///< [s] 0.1..60, above `keep_alive_s`: silence after which the link is down
   double ageing_s = 1;          ///< [s] 0.05..600: waiting time for which a message gains one priority level
   bool encrypted = false;       ///< contents are encrypted; they are authenticated in any case
-  double half_duplex_turn_s =
-      0;                       ///< [s] 0..10: longest turn on a half-duplex radio; 0: two directions at once
-  double turnaround_s = 0.02;  ///< [s] 0..1: half-duplex: time from sending to hearing
-  double line_delay_s = 0.1;   ///< [s] 0..60: delay of the line, there and back, in which commands are proven
-  bool datagrams = false;  ///< IP link: one frame per UDP datagram, whose 28 bytes of header count as sent
+  double half_duplex_turn_s = 0;  ///< [s] 0..10: half-duplex: longest turn of an end; 0: full duplex
+  double turnaround_s = 0.02;     ///< [s] 0..1: half-duplex: time from sending to hearing
+  double line_delay_s = 0.1;  ///< [s] 0..60: delay of the line, there and back, in which commands are proven
+  bool datagrams = false;     ///< IP link: one frame per UDP datagram, whose 28 bytes of header count as sent
   std::string key_file = "link.key";  ///< secret key of the link, made by `priamos link keygen`, mode 0600
   bool simulation_key = false;        ///< uses a key that everybody knows: only for emulated lines
-  std::vector<LinkChannelConfig>
-      channels;  ///< channels that cross the link; both ends must have the same order
+  std::vector<LinkChannelConfig> channels;  ///< channels of the link, at both ends in the same order
 
   void Describe(Archive& a);
   /// Bytes per second of the slower of line and radio.

@@ -34,7 +34,7 @@ struct Departure {
   Time now{};
   std::uint64_t counter = 0;
   bool urgent_only = false;
-  /// When a frame of so many bytes, begun now, will have left.
+  /// Time at which a frame of so many bytes, begun now, will have left.
   std::function<Time(std::size_t bytes)> leaves_at;
   /// Arrival of the frame that this one echoes; nullopt: it has no echo, and no commands.
   std::optional<Time> echoed_at{};

@@ -34,7 +34,7 @@ class Transmitter {
 
   /// Time that `bytes` take on the line; 0 for a datagram.
   Duration OnTheWay(std::size_t bytes) const;
-  /// When `bytes` of a frame begun now will have left.
+  /// Time at which `bytes` of a frame begun now will have left.
   Time LeavesAt(std::size_t bytes, Time now) const;
   /// Pace of the line.
   const Pacer& pacer() const { return pacer_; }

@@ -50,7 +50,7 @@ class LcmBus {
   bool Publish(std::string_view channel, std::span<const std::byte> bytes);
   /// Subscribes to one channel, whose name is taken literally. The handler must not throw.
   void Subscribe(std::string_view channel, Handler handler);
-  /// Every channel, for recorders.
+  /// Subscribes to every channel, for recorders.
   void SubscribeEverything(Handler handler);
   /// True when a message of this size may be on this bus.
   bool Fits(std::size_t bytes) const { return messages_ == Messages::kAnySize || bytes <= kMaxMessageBytes; }

@@ -70,7 +70,7 @@ std::string Named(std::string text, const std::string& name) {
   return std::regex_replace(text, std::regex("<NAME>"), upper);
 }
 
-/// Of a folder: the texts of the files that lie directly in it.
+/// Text of a file; of a folder, the texts of the files that lie directly in it.
 std::string TextOf(const fs::path& place) {
   if (!fs::is_directory(place)) return Read(place);
   std::string text;

@@ -31,7 +31,8 @@ std::string Database() {
   return answer.text;
 }
 
-/// As dpkg may know a file: Debian moved /lib into /usr/lib, and dpkg still knows it by its old name.
+/// Names by which dpkg may know a file: Debian moved /lib into /usr/lib, and dpkg still knows it by its old
+/// name.
 std::set<std::string> NamesOf(const std::string& path) {
   std::error_code none;
   std::set<std::string> names{path, std::filesystem::canonical(path, none)};

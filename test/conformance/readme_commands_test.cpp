@@ -32,7 +32,7 @@ std::vector<fs::path> Readmes() {
   return found;
 }
 
-/// Of the blocks.
+/// Commands in the blocks of a README.
 std::vector<Command> ShownCommands(const fs::path& readme) {
   std::vector<Command> found;
   for (const ReadmeBlock& block : BlocksOf(fs::relative(readme, PRIAMOS_SOURCE_DIR)))

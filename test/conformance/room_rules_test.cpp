@@ -99,7 +99,7 @@ std::vector<std::string> FullFolders(const fs::path& root) {
   return found;
 }
 
-/// Of every unit (a header and its .cpp, named without extension) those that it includes.
+/// Units that each unit includes; a unit is a header and its .cpp, named without extension.
 std::map<std::string, std::set<std::string>> UnitGraph(const fs::path& root) {
   std::map<std::string, std::set<std::string>> graph;
   for (const fs::path& source : SourcesIn(root, {"lcmtypes", "bus", "modules"})) {

@@ -328,7 +328,7 @@ TEST(RobotApp, ThePlannersPathIsDrivenWithTheLeaseAndEndsWhenItIsTaken) {
 class RestartTest : public testing::Test {
  protected:
   RestartTest() { config_.state_file = (folder_ / "robot-state").string(); }
-  /// As kill -9 or a loss of power leaves the file.
+  /// Ends the robot so that the file is left as by kill -9 or a loss of power.
   void Crash(std::unique_ptr<Onboard> robot) {
     std::filesystem::copy_file(config_.state_file, folder_ / "kept");
     robot.reset();

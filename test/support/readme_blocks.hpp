@@ -18,7 +18,7 @@ struct ReadmeBlock {
   int line = 0;                ///< of the first command, from 1
   std::vector<std::string> commands;
 };
-/// As googletest names a block.
+/// Name of a block in reports of googletest.
 inline void PrintTo(const ReadmeBlock& block, std::ostream* out) {
   *out << block.file.string() << ':' << block.line;
 }
@@ -63,7 +63,7 @@ inline std::vector<ReadmeBlock> BlocksOf(const std::filesystem::path& readme) {
   return blocks;
 }
 
-/// Of every README of the project.
+/// Blocks of every README of the project.
 inline std::vector<ReadmeBlock> ReadmeBlocks() {
   std::vector<ReadmeBlock> all;
   for (const auto& file : ProjectFiles()) {

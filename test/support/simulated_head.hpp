@@ -24,7 +24,7 @@ class SimulatedHead {
 
   /// Turns the motors to a setting; the axes stop on the side they came from.
   void MoveTo(const HeadSetting& setting);
-  /// As calibration prescribes: from below.
+  /// Moves to a setting from below, as calibration prescribes.
   void ApproachFromBelow(const HeadSetting& setting);
 
   const HeadSetting& counters() const { return counters_; }

@@ -25,7 +25,7 @@ namespace priamos {
 class HandRig {
  public:
   static constexpr std::uint32_t kDeadMan = 1u << 0, kEstopKey = 1u << 2, kRangeKey = 1u << 4;
-  /// Of the wheels in the fast range. [rad/s]
+  /// Speed of the wheels in the fast range [rad/s].
   static constexpr double kFullSpeed = 6.0;
 
   struct Options {

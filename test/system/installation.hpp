@@ -23,7 +23,7 @@ class Installation {
   ShellAnswer Install() const {
     return Build(R"(umask 077; cmake --install "$BUILD" --strip --prefix "$PREFIX")");
   }
-  /// The same while an editor has files of config/ and of the manual open.
+  /// Installs while an editor has files of config/ and of the manual open.
   ShellAnswer InstallWhileEditing() const {
     return Build(R"(
       for folder in config modules/cli/spy; do

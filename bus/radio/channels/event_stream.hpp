@@ -86,7 +86,7 @@ class EventSender {
   bool NextIsFresh(Time now, bool fresh_first) const;
   /// Whether the segment of Next() begins an event of which nothing was sent.
   bool NextIsNew(Time now, bool fresh_first = false) const;
-  /// When the event of the segment of Next() was packed.
+  /// Time at which the event of the segment of Next() was packed.
   Time NextPackedAt(Time now, bool fresh_first = false) const;
   /// Notes that a segment is sent; `at`: when its last byte will have left.
   void MarkSent(std::uint8_t number, Time at);
@@ -101,7 +101,7 @@ class EventSender {
 
   const std::deque<Event>& events() const { return events_; }
   std::uint8_t next() const { return next_; }
-  /// When the oldest event was packed; nullopt when there is none.
+  /// Time at which the oldest event was packed; nullopt when there is none.
   std::optional<Time> oldest() const;
   std::uint64_t resent() const { return resent_; }
 

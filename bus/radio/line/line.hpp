@@ -80,13 +80,13 @@ class Line {
 
   /// Sends bytes; calls must come in the order of `now`.
   void Write(std::span<const std::byte> bytes, Time now);
-  /// Everything that has arrived until `now`.
+  /// Bytes that have arrived until `now`.
   std::vector<std::byte> Read(Time now);
-  /// When the byte written last has left the port.
+  /// Time at which the byte written last has left the port.
   Time free_at() const { return Time(Duration(free_at_ns_ / 1000)); }
-  /// When the byte written last has left the radio: the age of the backlog.
+  /// Time at which the byte written last has left the radio: the age of the backlog.
   Time sent_at() const { return Time(Duration(std::max(free_at_ns_, air_free_at_ns_) / 1000)); }
-  /// When the next byte can be read; Time::max() when none is under way.
+  /// Time at which the next byte can be read; Time::max() when none is under way.
   Time next_arrival() const;
 
  private:

@@ -24,7 +24,7 @@ class Pacer {
   Duration WireTime(std::size_t bytes) const {
     return Duration(byte_ns_ * static_cast<std::int64_t>(bytes) / 1000);
   }
-  /// When `bytes` more will have left if they are written from `now` on.
+  /// Time at which `bytes` more will have left if they are written from `now` on.
   Time LeavesAt(std::size_t bytes, Time now) const { return std::max(free_at(), now) + WireTime(bytes); }
   Time free_at() const { return Time(Duration(free_at_ns_ / 1000)); }
   /// Time since the last byte left.

@@ -5,9 +5,9 @@
 
 namespace priamos::cli {
 
-/// Into `window`: believed minus true position just before and after every fix that corrected the pose, with
-/// the ellipse of 2 sigma that the belief then claims; rings in centimetres around no error. The scale is
-/// that of the largest error.
+/// Draws into `window`: believed minus true position just before and after every fix that corrected the pose,
+/// with the ellipse of 2 sigma that the belief then claims; rings in centimetres around no error. The scale
+/// is that of the largest error.
 void DrawFixErrors(drawing::Drawing& page, const drawing::Box& window, const RunRecord& record);
 
 }  // namespace priamos::cli

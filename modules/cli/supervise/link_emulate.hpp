@@ -56,7 +56,7 @@ class EmulatedLine {
 
   /// Moves the bytes that are due at `now`.
   void Step(Time now);
-  /// When the next byte is due; Time::max() when none is under way.
+  /// Time at which the next byte is due; Time::max() when none is under way.
   Time NextArrival() const;
   const PseudoTerminal& a() const { return a_; }
   const PseudoTerminal& b() const { return b_; }

@@ -24,7 +24,7 @@ class LinkTopView {
   /// Content of the screen as JSON.
   nlohmann::ordered_json Json(Time now) const;
   bool empty() const { return !last_.has_value(); }
-  /// Every channel was reported twice: its rates are known.
+  /// Whether every channel was reported twice, so that its rates are known.
   bool complete() const;
 
  private:

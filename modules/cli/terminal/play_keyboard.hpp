@@ -16,11 +16,11 @@ class PlayKeyboard {
   PlayKeyboard(const PlayKeyboard&) = delete;
   PlayKeyboard& operator=(const PlayKeyboard&) = delete;
 
-  /// The terminal for poll(); -1 while there are no keys to be had.
+  /// File descriptor of the terminal for poll(); -1 while there are no keys to be had.
   int fd() const { return taken_ ? 0 : -1; }
   /// Takes the terminal when this process came to its foreground: at the start, or by `fg` after Ctrl-Z.
   void Keep();
-  /// What was pressed.
+  /// Keys that were pressed.
   std::string Read() const;
 
  private:

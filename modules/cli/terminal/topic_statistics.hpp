@@ -37,7 +37,7 @@ class TopicStatistics {
   void Add(Time now, std::string_view channel, std::span<const std::byte> bytes);
   /// One row per channel, by name.
   std::vector<TopicRow> Rows(Time now) const;
-  /// Nothing came yet.
+  /// Whether nothing has come yet.
   bool empty() const { return topics_.empty(); }
 
  private:

@@ -28,10 +28,10 @@ struct Machine {
   std::function<bool(const std::filesystem::path&)> may_write;
 };
 
-/// This machine.
+/// Machine on which the program runs.
 Machine ThisMachine();
 
-/// Everything, in the order in which a person would mend it.
+/// Results of all checks, in the order in which a person would mend them.
 std::vector<Finding> Examine(const Machine& machine, const std::string& bus);
 
 }  // namespace priamos::cli

@@ -11,7 +11,7 @@ struct Box {
   double right() const { return x + width; }
   double bottom() const { return y + height; }
   Eigen::Vector2d middle() const { return {x + width / 2, y + height / 2}; }
-  /// Touching is not overlapping.
+  /// Whether two boxes overlap; boxes that only touch do not.
   bool Overlaps(const Box& other) const {
     return x < other.right() && other.x < right() && y < other.bottom() && other.y < bottom();
   }

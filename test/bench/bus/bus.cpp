@@ -73,7 +73,7 @@ class RawPeer : public Peer {
   bool Handle() override { return lcm_handle_timeout(lcm_, 1000) > 0; }
 
  private:
-  /// As generated subscribe functions do it.
+  /// Handler of a message that decodes it as generated subscribe functions do.
   static void OnMessage(const lcm_recv_buf_t* buffer, const char*, void* self) {
     odometry_t message;
     if (message.decode(buffer->data, 0, static_cast<int>(buffer->data_size)) < 0) return;

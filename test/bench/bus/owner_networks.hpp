@@ -14,7 +14,7 @@ class TwoNetworks {
  public:
   enum class Side { kLeft, kRight };
 
-  /// Throws std::runtime_error when the kernel refuses.
+  /// Makes the networks. Throws std::runtime_error when the kernel refuses.
   TwoNetworks();
   ~TwoNetworks();
   TwoNetworks(const TwoNetworks&) = delete;

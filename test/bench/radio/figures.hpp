@@ -36,7 +36,7 @@ class Figures {
   bool all_met_ = true;
 };
 
-/// Of unsorted values, `share` in 0..1; 0 when there are none.
+/// Quantile of unsorted values, `share` in 0..1; 0 when there are none.
 inline double Quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());

@@ -25,7 +25,8 @@ head::CalibrationPlan PlanAroundLooks() {
   return plan;
 }
 
-/// As a person places it: a little beside where it should be. The motion of space from there to here.
+/// Placement of the object by a person, a little beside where it should be, as the motion of space from there
+/// to here.
 Eigen::Isometry3d Misplaced(Rng& rng) {
   Eigen::Isometry3d motion(Eigen::Translation3d(
       kStand + Eigen::Vector3d(rng.Normal(kPlace_m), rng.Normal(kPlace_m), rng.Normal(kPlace_m))));

@@ -137,7 +137,7 @@ class Draughtsman {
     return AddPicture(side, s, width, height, material, rng_.Uniform(0.9, 1.3));
   }
 
-  /// As wide and as high up as a door, but it does not stand on the floor.
+  /// Adds a panel as wide and as high up as a door that does not stand on the floor.
   double AddPanel(const Side& side, double s) {
     const double bottom = rng_.Uniform(0.2, 0.6), top = rng_.Uniform(1.8, 2.2);
     const std::string material = OneOf(std::array<std::string, 3>{"wood", "metal", "poster"}, rng_);

@@ -34,7 +34,7 @@ void HideHalf(LookStage& stage, Rng& rng) {
   stage.plan.boxes.push_back(box);
 }
 
-/// Of another width by 6 cm to 15 cm: not the one that is looked for.
+/// Makes the door wider or narrower by 6 cm to 15 cm, so that it is not the one that is looked for.
 void OtherDoor(LookStage& stage, Rng& rng) {
   const double wider = (rng.Chance(0.5) ? 1 : -1) * rng.Uniform(0.06, 0.15);
   stage.plan.doors[0].built_dwidth_m = wider;

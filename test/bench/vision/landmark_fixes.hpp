@@ -14,13 +14,13 @@ Eigen::Matrix3d LookBelief();
 /// Error of a pose of the landmark in the base frame, seen along its x axis: depth, lateral, heading.
 Eigen::Vector3d ErrorOf(const Pose2& found, const Pose2& truth);
 
-/// Within 3 cm and 1 degree.
+/// Whether an error is within 3 cm and 1 degree.
 bool IsGood(const Eigen::Vector3d& error);
 
-/// 1e9 of no values at all.
+/// Quantile of values, `share` in 0..1; 1e9 when there are none.
 double Quantile(std::vector<double> values, double share);
 
-/// As priamos-head tells its finder, with this head's calibration.
+/// Options that priamos-head gives its finder, with this head's calibration.
 head::LandmarkFixOptions Told(const LandmarkLook& look);
 
 /// From the images to the fix, and the time it takes.

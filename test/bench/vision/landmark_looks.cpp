@@ -24,7 +24,7 @@ head::LandmarkModel Tolerated(head::LandmarkModel model, const LookTolerances& t
   return model;
 }
 
-/// As the shipped configuration of the simulated head has it.
+/// Setting of the head for a look, with the shipped configuration of the simulated head.
 head::HeadSetting LookAt(const head::HeadModel& head, const head::LandmarkModel& model, const Pose2& believed,
                          int side) {
   static const auto kConfig = LoadConfig<head::HeadConfig>(InSim("head.toml"));

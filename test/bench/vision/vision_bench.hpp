@@ -26,7 +26,7 @@ void BenchStereo(const VisionOptions& options, Figures& figures);
 /// Fixes at the door from rendered stereo pairs, beside ViSP's edge tracker where it is installed.
 void BenchDoor(const VisionOptions& options, Figures& figures);
 
-/// The same for cupboards of the map, and scenes that deceive: absent, another one, half hidden, nearly dark.
+/// Finding cupboards of the map, and scenes that deceive: absent, another one, half hidden, nearly dark.
 void BenchCupboard(const VisionOptions& options, Figures& figures);
 
 /// Several looks at one door, combined by the robot's filter: is its covariance honest?

@@ -21,7 +21,7 @@ struct TrueFix {
   Pose2 map_from_base;
 };
 
-/// Of nothing known, near `pose`.
+/// State of which nothing is known, near `pose`.
 PoseState Nowhere(const Pose2& pose) {
   PoseState state;
   state.mean.head<3>() << pose.x + 0.1, pose.y - 0.1, pose.yaw + 0.05;

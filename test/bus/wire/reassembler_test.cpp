@@ -34,7 +34,7 @@ Bytes Data(std::size_t n) {
   return data;
 }
 
-/// As liblcm cuts a message on channel "BIG".
+/// Fragments of a message on channel "BIG", cut as liblcm does.
 std::vector<Bytes> Cut(std::uint32_t number, const Bytes& data, std::size_t piece) {
   std::vector<Bytes> fragments;
   const auto n = static_cast<std::uint16_t>((data.size() + piece - 1) / piece);

@@ -9,7 +9,7 @@
 
 namespace priamos::head {
 
-/// When the cameras are no longer believed to be where the calibration has them.
+/// Limits beyond which the cameras are no longer believed to be where the calibration has them.
 struct DriftConfig {
   int looks = 3;                       ///< number of looks whose median is judged, odd; fewer are not judged
   double false_alarm = 1e-4;           ///< highest probability of a false alarm per judgement

@@ -15,7 +15,7 @@ struct RoughLine {
 /// fit, and ends when several in a row have left it.
 class ChainSplitter {
  public:
-  /// When a straight piece begins and ends.
+  /// Limits at which a straight piece begins and ends.
   struct Options {
     int min_pixels = 10;           ///< a line begins with so many pixels and is never shorter
     double begin_rms_px = 0.5;     ///< largest RMS distance of these pixels from their line

@@ -15,7 +15,7 @@ struct StripePoint {
   double sigma_px = 0;  ///< standard deviation of v, from the noise of the image
 };
 
-/// When a ridge of brightness counts as the line of the laser.
+/// Limits within which a ridge of brightness counts as the line of the laser.
 struct StripeOptions {
   double min_contrast = 18;  ///< least contrast [grey levels]
   int reach_px = 7;          ///< distance from the middle of the line to where it has faded

@@ -12,7 +12,7 @@
 
 namespace priamos::head {
 
-/// When the third camera watches the laser's line.
+/// Settings of when the third camera watches the laser's line.
 struct LaserWatchConfig {
   double rate_hz = 0;    ///< pictures of the line; 0: none, the head stays where it was
   double tilt_deg = 36;  ///< tilt of the head meanwhile: the third camera must see the line

@@ -43,9 +43,9 @@ class HeadPositioner {
   /// Setting to command now, if any. Call it at every tick with the newest report, null before the first.
   std::optional<HeadSetting> Step(const HeadReport* report, Time now);
 
-  /// The head rests at the goal, and did so for the settling time.
+  /// Whether the head rests at the goal, and did so for the settling time.
   bool settled() const { return phase_ == Phase::kSettled; }
-  /// The goal was not reached in time, or no report came.
+  /// Whether the goal was not reached in time, or no report came.
   bool failed() const { return phase_ == Phase::kFailed; }
 
  private:

@@ -41,7 +41,7 @@ class DoorMission : public Mission {
   DoorMission(const DoorMission&) = delete;
   DoorMission& operator=(const DoorMission&) = delete;
 
-  /// The order's landmark is a door of the plan.
+  /// Begins the mission; it is refused unless the order's landmark is a door of the plan.
   std::optional<Refusal> Start(const MissionOrder& order) override;
   void Step(MissionControl& control) override;
   const MissionLimits& limits() const override { return config_.limits; }

@@ -38,9 +38,9 @@ class LookSequence {
   /// The outcome of the look under way, returned once: its answer, or none within the time limit.
   std::optional<LookResult> Settle(Time now);
 
-  /// Both sides were seen, or one of them three times while the other could not be.
+  /// Whether both sides were seen, or one of them three times while the other could not be.
   bool Enough() const;
-  /// Too many looks failed, or too many succeeded without being good enough.
+  /// Whether too many looks failed, or too many succeeded without being good enough.
   bool Exhausted() const { return failures_ >= config_.failures || good_[0] + good_[1] >= config_.looks; }
   int failures() const { return failures_; }
   /// Side and reason of the last failure, in words.

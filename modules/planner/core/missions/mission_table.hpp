@@ -27,7 +27,7 @@ class MissionTable {
   void OnPose(const RobotPose& pose);
   void OnDrive(const DriveReport& drive, Time now);
   void OnLook(const LookResult& result) { control_.heard_.looks.push_back(result); }
-  /// The robot's pose was corrected at `stamp`: older poses are not used for planning any more.
+  /// Notes that the robot's pose was corrected at `stamp`: older poses are not used for planning any more.
   void OnCorrected(Time stamp);
   void OnLink(bool up) { control_.heard_.link_up = up; }
 

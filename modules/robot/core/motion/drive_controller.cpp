@@ -257,8 +257,7 @@ void DriveController::SetCommanded(const Twist2& twist) {
   brake_.SetCommanded(twist);
 }
 
-/// Notes how much of the wanted motion is left: of an operator's wish what deflection leaves, of a path what
-/// the collision stop leaves.
+/// Notes the share that deflection leaves of an operator's wish, or the collision stop of a path's velocity.
 void DriveController::NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
                                 const CollisionStop::Result& result) {
   const bool operated = state_.mode == DriveMode::kOperated;

@@ -18,7 +18,7 @@ struct LeaseHolder {
   friend bool operator==(const LeaseHolder&, const LeaseHolder&) = default;
 };
 
-/// When a silent holder loses the lease.
+/// Times after which a silent holder loses the lease.
 struct LeaseConfig {
   double keep_s = 3;  ///< a holder that is silent for this long loses the lease
 

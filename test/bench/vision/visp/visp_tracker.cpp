@@ -43,8 +43,8 @@ Eigen::Isometry3d FromVisp(const vpHomogeneousMatrix& m) {
   return t;
 }
 
-/// Of the settings tried (thresholds 2000 and 10000; ranges 12, 25, 40, 60 and from wide to narrow; 3 and 8
-/// steps) those that found the door most often. Wider ranges follow the clutter.
+/// Settings of the edge search: of those tried (thresholds 2000 and 10000; ranges 12, 25, 40, 60 and from
+/// wide to narrow; 3 and 8 steps) those that found the door most often. Wider ranges follow the clutter.
 vpMe Edges() {
   vpMe me;
   me.setMaskSize(5);

@@ -24,7 +24,7 @@ class DoorDetectionTest : public testing::Test {
   EdgeImage edges_[2];
 };
 
-/// The same things elsewhere.
+/// Quads moved to another place.
 std::vector<test::Quad> Moved(std::vector<test::Quad> quads, const Pose2& there) {
   const Eigen::Isometry3d motion = Lift(there);
   for (test::Quad& q : quads) {

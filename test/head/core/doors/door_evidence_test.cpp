@@ -15,7 +15,7 @@ class DoorEvidenceTest : public testing::Test {
     EdgeOperator op;
     op.Extract(test::RenderQuads(test::DoorQuads(), Lift(truth_), camera_, 2, rng_), edges_);
   }
-  /// Of the outer edges of the frame, moved along the wall and up.
+  /// Evidence of the outer edges of the frame, moved along the wall and up [m].
   DoorEvidence Weigh(double aside_m, double up_m) {
     const DoorShape shape{truth_ * Eigen::Vector2d(-0.085, 0.51 + aside_m),
                           truth_ * Eigen::Vector2d(-0.085, -0.51 + aside_m), 2.06 + up_m};

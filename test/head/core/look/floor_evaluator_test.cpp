@@ -20,7 +20,7 @@ class FloorEvaluatorTest : public testing::Test {
     head.laser = support::NominalLaserFloor().laser;
     return head;
   }
-  /// With a box of so many metres 2 m ahead; negative: a pit.
+  /// Picture of a box `height_m` high 2 m ahead; negative: a pit.
   GreyImage Picture(double height_m) {
     scene_.steps.clear();
     if (height_m != 0) scene_.steps = {{1.9, 2.4, -0.1, 0.25, height_m, 0.8}};

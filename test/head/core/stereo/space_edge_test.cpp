@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using support::Between;
 
-/// The same camera with its optical centre elsewhere.
+/// Camera with its optical centre at `centre` [m].
 CameraModel MovedTo(CameraModel camera, const Vector3d& centre) {
   camera.image_from_base.col(3) = -camera.image_from_base.leftCols<3>() * centre;
   return camera;

@@ -42,8 +42,8 @@ void ForEveryPlaceWithin(double reach_m, const Look& look) {
     }
 }
 
-/// Of the places where a post of this diameter stands at most 13 cm beside the base, the part where no sonar
-/// hears it.
+/// Share of the places at which no sonar hears a post of this diameter, among those at most 13 cm beside the
+/// base.
 double Unheard(double diameter_m) {
   int all = 0, unheard = 0;
   ForEveryPlaceWithin(0.25, [&](double radius, double gap) {

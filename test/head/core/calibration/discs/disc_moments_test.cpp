@@ -27,7 +27,7 @@ class DiscMoments : public testing::Test {
     scene.AddEllipse(truth_, 160);
     return scene.Expose({blur_sigma_px, 0}, rng_);
   }
-  /// As a box of bright pixels would give it: upright, a pixel beside the truth.
+  /// Start value as a box of bright pixels would give it: upright, a pixel beside the truth.
   Ellipse Guess() const {
     const double half_u = std::sqrt(truth_.shape_px2(0, 0)), half_v = std::sqrt(truth_.shape_px2(1, 1));
     return {truth_.centre_px + Vector2d(0.7, -0.6),

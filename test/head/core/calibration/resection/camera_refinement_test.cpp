@@ -34,7 +34,7 @@ class CameraRefinement : public testing::Test {
     }
     return observations;
   }
-  /// The same camera without distortion, a little elsewhere.
+  /// Camera of a view without distortion, a little elsewhere.
   static CameraModel StartNear(CameraView view) {
     view.k1 = 0;
     view.focal_px *= 1.03;
