@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "head/core/calibration/rig/laser_calibration.hpp"
+#include "test/support/image_from_base.hpp"
 #include "world/core/render/renderer.hpp"
 
 // The simulated laser and its calibration share no code: do they mean the same plane?
@@ -28,7 +29,7 @@ TEST(LaserInTheWorld, IsCalibratedToWhereItIs) {
   world::Viewpoint at;
   at.head.tilt_rad = 0.62;
   const world::TrueCamera camera = world::CameraAt(config.head, world::kThirdCamera, at.head);
-  const head::CameraModel model{camera.ImageFromBase(), camera.centre_px, camera.focal_px, camera.k1,
+  const head::CameraModel model{world::ImageFromBase(camera), camera.centre_px, camera.focal_px, camera.k1,
                                 camera.k2};
   world::Renderer renderer(config, {}, 1);
   Rng rng(2);

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "robot/core/safety/failsafe.hpp"
+#include "test/support/failsafe_table.hpp"
 
 namespace priamos::robot {
 namespace {

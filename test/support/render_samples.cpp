@@ -12,6 +12,7 @@
 
 #include "common/config.hpp"
 #include "test/support/door_scene.hpp"
+#include "test/support/image_from_base.hpp"
 #include "world/core/render/renderer.hpp"
 
 namespace {
@@ -41,7 +42,7 @@ json ToJson(const Pose2& p) {
 }
 
 json CameraTruth(const TrueCamera& c) {
-  return {{"image_from_base", ToJson(c.ImageFromBase())},
+  return {{"image_from_base", ToJson(ImageFromBase(c))},
           {"base_from_camera", ToJson(c.base_from_camera.matrix())},
           {"focal_px", c.focal_px},
           {"centre_px", {c.centre_px.x(), c.centre_px.y()}},

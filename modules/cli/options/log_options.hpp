@@ -48,8 +48,4 @@ class OutputFile {
 /// 1/64..1000.
 double ParseSpeed(const std::string& text);
 
-/// The verbs of `log` that need a bus.
-void AddLogRecordVerb(CLI::App& log, int& exit_code);
-void AddLogPlayVerb(CLI::App& log, int& exit_code);
-
 }  // namespace priamos::cli

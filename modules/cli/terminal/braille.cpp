@@ -9,7 +9,7 @@ namespace {
 
 /// Bit of the dot at (x, y) in U+2800: the first six go down the columns, the lowest row came later.
 constexpr std::uint8_t kBits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
-constexpr std::array<const char*, 5> kColours{"", "\x1b[2m", "\x1b[31m", "\x1b[33m", "\x1b[1;32m"};
+constexpr std::array<const char*, 4> kColours{"", "\x1b[2m", "\x1b[31m", "\x1b[1;32m"};
 constexpr const char* kPlain = "\x1b[0m";
 
 std::string Utf8(std::uint8_t dots) {

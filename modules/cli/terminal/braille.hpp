@@ -11,7 +11,7 @@ namespace priamos::cli {
 class Braille {
  public:
   /// Colour of a dot, from the lowest to the highest.
-  enum Ink : std::uint8_t { kNone = 0, kDim, kRed, kYellow, kGreen };
+  enum Ink : std::uint8_t { kNone = 0, kDim, kRed, kGreen };
 
   /// Empty picture; its size is given in characters.
   Braille(int columns, int rows);

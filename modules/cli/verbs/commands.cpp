@@ -3,6 +3,13 @@
 #include <CLI/App.hpp>
 
 #include "cli/front/estop_command.hpp"
+#include "cli/verbs/deployment/commands.hpp"
+#include "cli/verbs/help/commands.hpp"
+#include "cli/verbs/log/commands.hpp"
+#include "cli/verbs/pictures/commands.hpp"
+#include "cli/verbs/robot/commands.hpp"
+#include "cli/verbs/run/commands.hpp"
+#include "cli/verbs/wire/commands.hpp"
 
 namespace priamos::cli {
 

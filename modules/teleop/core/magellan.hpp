@@ -19,8 +19,6 @@
 /// Each nibble is sent as the character 0x30 + nibble. While the cap is deflected the mouse keeps sending.
 namespace priamos::teleop {
 
-inline constexpr int kMagellanKeys = 12;
-
 /// One packet of a mouse: raw values as on the line.
 struct MagellanPacket {
   std::optional<std::array<int, 6>> motion{};

@@ -9,6 +9,7 @@
 #include "test/bench/vision/landmark_looks.hpp"
 #include "test/bench/vision/true_axes.hpp"
 #include "test/support/calibration_scene.hpp"
+#include "test/support/image_from_base.hpp"
 
 namespace priamos::bench {
 namespace {
@@ -68,7 +69,7 @@ world::HeadAxes RestAfter(const head::HeadSetting& setting, Rng& rng) {
 
 head::CameraModel ExactCamera(const world::HeadBuild& build, int camera, const world::HeadAxes& axes) {
   const world::TrueCamera real = world::CameraAt(build, static_cast<world::Camera>(camera), axes);
-  return {real.ImageFromBase(), real.centre_px, real.focal_px, real.k1, real.k2};
+  return {world::ImageFromBase(real), real.centre_px, real.focal_px, real.k1, real.k2};
 }
 
 CalibratedHead CalibrateSpecimen(std::uint64_t seed, bool exactly_placed) {

@@ -7,6 +7,7 @@
 #include "head/core/camera/head_model.hpp"
 #include "head/core/floor/obstacle_lines.hpp"
 #include "test/bench/vision/vision_bench.hpp"
+#include "test/support/image_from_base.hpp"
 #include "test/support/laser_floor.hpp"
 #include "world/core/render/renderer.hpp"
 
@@ -188,7 +189,7 @@ Rendered RenderedFloors(int frames, const std::vector<world::Solid>& solids, dou
       world::Viewpoint after = at;
       after.map_from_base.x += 0.008 * speed_m_s;
       const world::TrueCamera lens = world::CameraAt(config.head, world::kThirdCamera, at.head);
-      const CameraModel camera{lens.ImageFromBase(), lens.centre_px, lens.focal_px, lens.k1, lens.k2};
+      const CameraModel camera{world::ImageFromBase(lens), lens.centre_px, lens.focal_px, lens.k1, lens.k2};
       LaserPlane laser;
       laser.normal = config.laser.Plane().normal();
       laser.offset_m = config.laser.Plane().offset();

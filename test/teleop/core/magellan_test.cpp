@@ -29,7 +29,7 @@ TEST(Magellan, MotionIsTwentyFourNibblesAroundTheMiddle) {
 RC_GTEST_PROP(Magellan, AStickComesBack, ()) {
   Stick stick;
   for (double& a : stick.axis) a = *rc::gen::inRange(-kFull, kFull + 1) / double(kFull);
-  const auto keys = *rc::gen::inRange<std::uint32_t>(0, 1u << kMagellanKeys);
+  const auto keys = *rc::gen::inRange<std::uint32_t>(0, 1u << 12);  // as many keys as it has
   const auto packets = Parse(MagellanMotion(stick, kFull) + MagellanKeys(keys));
   RC_ASSERT(packets.size() == 2u);
   const auto axes = StickAxes(packets[0].motion.value(), kFull);

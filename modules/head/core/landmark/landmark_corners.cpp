@@ -16,13 +16,4 @@ std::optional<Meeting> MeetingOf(const LandmarkEdge& a, const LandmarkEdge& b, d
   return std::nullopt;
 }
 
-std::vector<LandmarkCorner> CornersOf(const LandmarkModel& model) {
-  std::vector<LandmarkCorner> corners;
-  const int n = static_cast<int>(model.edges.size());
-  for (int a = 0; a < n; ++a)
-    for (int b = a + 1; b < n; ++b)
-      if (const auto meeting = MeetingOf(model.edges[a], model.edges[b])) corners.push_back({a, b, *meeting});
-  return corners;
-}
-
 }  // namespace priamos::head

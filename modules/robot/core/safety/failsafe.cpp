@@ -1,23 +1,6 @@
 #include "robot/core/safety/failsafe.hpp"
 
-#include <fmt/format.h>
-
 namespace priamos::robot {
-namespace {
-
-std::string_view SourceText(DriveSource source) {
-  switch (source) {
-    case DriveSource::kPath:
-      return "a path";
-    case DriveSource::kOperator:
-      return "an operator";
-    case DriveSource::kNone:
-      break;
-  }
-  return "anybody";
-}
-
-}  // namespace
 
 void FailsafeConfig::Describe(Archive& a) {
   a.Number("wheels_silent_s", wheels_silent_s, {"s", 0.04, 5, "no credible encoder sample"});
@@ -49,18 +32,6 @@ std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& c) 
        "itself"},
       {kLinkLost, DriveSource::kPath, kHold, c.link_lost_path_s, 0.5, "radio link down", "itself"},
   }};
-}
-
-std::string FailsafeTable(const FailsafeConfig& config) {
-  std::string table =
-      "| Condition | While driven by | After | Action | Gone for | Cleared by |\n"
-      "|---|---|---|---|---|---|\n";
-  for (const FailsafeRule& rule : FailsafeRules(config)) {
-    table += fmt::format("| {} | {} | {} s | {} | {} s | {} |\n", rule.meaning, SourceText(rule.source),
-                         rule.after_s, rule.action == FailsafeAction::kHalt ? "halt" : "hold", rule.clear_s,
-                         rule.cleared_by);
-  }
-  return table;
 }
 
 FailsafeDecision Failsafe::Update(const FailsafeInputs& inputs, Time now) {

@@ -62,8 +62,6 @@ struct FailsafeConfig {
 inline constexpr std::size_t kFailsafeRules = 10;
 /// All rules, highest precedence first.
 std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& config);
-/// The rules as the table of README.md (Markdown).
-std::string FailsafeTable(const FailsafeConfig& config);
 
 /// The conditions present, for how long, and the source of motion.
 struct FailsafeInputs {

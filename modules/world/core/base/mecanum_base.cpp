@@ -45,7 +45,6 @@ Twist2 MecanumBase::Step(const PerWheel& speed_rad_s, double dt_s) {
   twist.vx = (c[0] + c[1] + c[2] + c[3]) / 4;
   twist.vy = (-c[0] + c[1] + c[2] - c[3]) / 4 * (1 - lateral_loss_);
   twist.wz = (-c[0] + c[1] - c[2] + c[3]) / (4 * lever_m_);
-  scrub_m_s_ = (c[0] + c[1] - c[2] - c[3]) / 4;
   return twist;
 }
 

@@ -37,16 +37,12 @@ class MecanumBase {
   /// True body velocity while the wheels turn so; slip wanders with the distance that each wheel rolls.
   Twist2 Step(const PerWheel& speed_rad_s, double dt_s);
 
-  /// Residual of the contact speeds that no body motion explains [m/s]: slip of the rollers.
-  double scrub_m_s() const { return scrub_m_s_; }
-
  private:
   MecanumConfig config_;
   Rng rng_;
   double lever_m_;
   double lateral_loss_;
   PerWheel radius_m_, slip_{}, previous_m_s_{};
-  double scrub_m_s_ = 0;
 };
 
 }  // namespace priamos::world

@@ -101,12 +101,6 @@ Eigen::Vector2d TrueCamera::Project(const Eigen::Vector3d& in_base) const {
   return Distort(ProjectPinhole(base_from_camera.inverse() * in_base));
 }
 
-Eigen::Matrix<double, 3, 4> TrueCamera::ImageFromBase() const {
-  Eigen::Matrix3d k;
-  k << focal_px, 0, centre_px.x(), 0, focal_px, centre_px.y(), 0, 0, 1;
-  return k * base_from_camera.inverse().matrix().topRows<3>();
-}
-
 Eigen::Isometry3d Lift(const Pose2& a_from_b) {
   return Translate(a_from_b.x, a_from_b.y, 0) * Turn(0, 0, a_from_b.yaw);
 }

@@ -77,8 +77,6 @@ struct TrueCamera {
   Eigen::Vector2d Undistort(const Eigen::Vector2d& distorted_px) const;
   /// The exact image of a point of the base frame [distorted px].
   Eigen::Vector2d Project(const Eigen::Vector3d& in_base) const;
-  /// Homogeneous pinhole matrix (before distortion), third row a unit vector: image_from_base.
-  Eigen::Matrix<double, 3, 4> ImageFromBase() const;
 };
 
 /// Pose and intrinsics of one camera for a state of the axes.

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "test/support/failsafe_table.hpp"
+
 namespace priamos::robot {
 namespace {
 

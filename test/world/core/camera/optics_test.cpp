@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/random.hpp"
+#include "test/support/image_from_base.hpp"
 
 namespace priamos::world {
 namespace {
@@ -93,9 +94,9 @@ TEST(TrueCamera, TheMatrixIsTheProjectionWithoutDistortion) {
   TrueCamera dut = CameraAt(HeadBuild::Specimen(3), kRightCamera, {});
   dut.k1 = dut.k2 = 0;
   const Vector3d point(2.7, -0.4, 1.9);
-  const Vector3d h = dut.ImageFromBase() * point.homogeneous();
+  const Vector3d h = ImageFromBase(dut) * point.homogeneous();
   EXPECT_LT((h.hnormalized() - dut.Project(point)).norm(), 1e-9);
-  EXPECT_NEAR(dut.ImageFromBase().row(2).head<3>().norm(), 1, 1e-12);
+  EXPECT_NEAR(ImageFromBase(dut).row(2).head<3>().norm(), 1, 1e-12);
 }
 
 TEST(HeadBuild, SpecimensDifferAndCanBeHadAgain) {

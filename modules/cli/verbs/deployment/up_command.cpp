@@ -1,0 +1,225 @@
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bus/clock.hpp"
+#include "bus/own_types.hpp"
+#include "bus/real_time_loop.hpp"
+#include "bus/schema/schema.hpp"
+#include "bus/wire/multicast.hpp"
+#include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
+#include "cli/supervise/deployment.hpp"
+#include "cli/supervise/robot_owner.hpp"
+#include "cli/supervise/supervisor.hpp"
+#include "cli/supervise/up_state.hpp"
+#include "cli/verbs/deployment/commands.hpp"
+#include "cli/verbs/deployment/up_queries.hpp"
+#include "common/data_folders.hpp"
+
+namespace priamos::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using std::chrono::milliseconds;
+
+constexpr int kNotThere = 1;
+constexpr auto kReadyWithin = std::chrono::seconds(20);
+
+struct UpOptions {
+  std::string deployment = "sim";
+  std::string log_root;
+  std::string group, robot;
+  std::uint64_t seed = 1;
+  bool detach = false, json = false;
+};
+
+std::string MakeRunFolder(const UpOptions& options) {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  const auto folder =
+      fs::path(options.log_root) / fmt::format("{:%Y%m%d-%H%M%S}-up-{}", fmt::localtime(now),
+                                               fs::path(options.deployment).filename().string());
+  fs::create_directories(folder);
+  return fs::absolute(folder).string();
+}
+
+/// Run of `priamos up` in the foreground.
+class UpRun {
+ public:
+  UpRun(const UpOptions& options, const std::string& folder, const Deployment& deployment)
+      : options_(options),
+        lock_(options.log_root),
+        schema_(bus::OwnTypes()),
+        start_(clock_.Now()),
+        owner_(deployment, schema_, clock_, [this](const std::string& text) { Say(text); }),
+        place_{ThisProgram().program_folder.string(), folder, MakeRunFolder(options), options.seed},
+        supervisor_(PlanOf(deployment, place_), place_.run_folder,
+                    [this](const std::string& text) { Say(text); }) {}
+
+  int Run() {
+    bool ready = false;
+    Time written{};
+    while (!Signalled() && !owner_.lost()) {
+      const Time now = clock_.Now();
+      owner_.Listen();
+      supervisor_.Step(now);
+      if (!ready && supervisor_.AllReady()) Say("all processes are ready");
+      const bool changed = ready != supervisor_.AllReady();
+      ready = supervisor_.AllReady();
+      if (!changed && now - written < milliseconds(250)) continue;
+      written = now;
+      Write(now);
+    }
+    const auto lost = owner_.lost();
+    Say(lost ? "going down: " + *lost : "going down");
+    supervisor_.StopAll();
+    while (!supervisor_.AllStopped()) {
+      supervisor_.Step(clock_.Now());
+      std::this_thread::sleep_for(milliseconds(5));
+    }
+    supervisor_.Step(clock_.Now());
+    Write(clock_.Now());
+    Say("everything is down");
+    return lost ? kNotThere : 0;
+  }
+
+ private:
+  /// Waits for something to do, at most 20 ms.
+  bool Signalled() {
+    pollfd fds[] = {{signals_.fd(), POLLIN, 0}, {supervisor_.fd(), POLLIN, 0}};
+    poll(fds, std::size(fds), 20);
+    return fds[0].revents != 0;
+  }
+  void Say(const std::string& text) {
+    const double t_s = Seconds(clock_.Now() - start_);
+    if (options_.json) return void(std::cout << ordered_json{{"t_s", t_s}, {"text", text}} << std::endl);
+    std::cout << fmt::format("{:6.1f} s  {}", t_s, text) << std::endl;
+  }
+  void Write(Time now) {
+    UpState state{options_.deployment,   place_.run_folder,    supervisor_.AllReady(),
+                  Seconds(now - start_), supervisor_.Report(), {},
+                  owner_.alarms()};
+    for (const ProcessReport& p : state.processes)
+      state.ages_s.push_back(p.since == Time{} ? state.up_s : Seconds(now - p.since));
+    WriteUpState(options_.log_root, state);
+  }
+
+  UpOptions options_;
+  bus::SignalWatch signals_;
+  UpLock lock_;
+  bus::Schema schema_;
+  bus::MonotonicClock clock_;
+  Time start_;
+  RobotOwner owner_;
+  LaunchPlace place_;
+  Supervisor supervisor_;
+};
+
+/// Checks the buses before any process is started: throws if there is no route for multicast, without which
+/// none can run.
+void RequireBuses(const Deployment& deployment) {
+  if (deployment.group != "offboard") bus::RequireMulticastRoute(deployment.OnboardUrl());
+  if (deployment.group != "onboard") bus::RequireMulticastRoute(deployment.OffboardUrl());
+}
+
+int UpNow(const UpOptions& options) {
+  const std::string folder = FolderOfDeployment(options.deployment);
+  auto deployment = LoadConfig<Deployment>((fs::path(folder) / "deployment.toml").string());
+  if (!options.group.empty()) deployment.group = options.group;
+  if (!options.robot.empty()) deployment.robot = options.robot;
+  RequireBuses(deployment);
+  return UpRun(options, folder, deployment).Run();
+}
+
+bool HasAlarm(const UpState& state) {
+  return std::any_of(state.processes.begin(), state.processes.end(), [](const auto& p) { return p.alarm; });
+}
+
+/// Reason of the first process that ended, as `: onboard-robot: exit code 2: ...`; empty if there is none.
+std::string Reasons(const std::optional<UpState>& state) {
+  if (!state) return "";
+  for (const ProcessReport& p : state->processes)
+    if (!p.reason.empty()) return fmt::format(": {}: {}", p.name, p.reason);
+  return "";
+}
+
+/// The one in the background is a child that this process waits for until everything is ready.
+int UpDetached(const UpOptions& options) {
+  fs::create_directories(options.log_root);
+  const std::string console = (fs::path(options.log_root) / "up.txt").string();
+  const pid_t pid = fork();
+  if (pid == 0) {
+    setsid();
+    const int output = open(console.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    const int nothing = open("/dev/null", O_RDONLY);
+    dup2(nothing, STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    try {
+      _exit(UpNow(options));
+    } catch (const std::exception& error) {
+      std::cerr << "priamos: " << error.what() << std::endl;
+      _exit(2);
+    }
+  }
+  const auto give_up = std::chrono::steady_clock::now() + kReadyWithin;
+  while (std::chrono::steady_clock::now() < give_up) {
+    int status = 0;
+    if (waitpid(pid, &status, WNOHANG) == pid) {
+      std::cerr << std::ifstream(console).rdbuf();
+      return WIFEXITED(status) ? WEXITSTATUS(status) : kNotThere;
+    }
+    const auto state = ReadUpState(options.log_root);
+    const bool its = UpLock::Holder(options.log_root) == pid && state;
+    if (its && state->ready) {
+      Show(*state, options.json);
+      return 0;
+    }
+    if (its && HasAlarm(*state)) break;
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  if (const auto state = ReadUpState(options.log_root)) Show(*state, options.json);
+  std::cerr << fmt::format("priamos up: not everything became ready{}; `priamos down` ends it\n",
+                           Reasons(ReadUpState(options.log_root)));
+  return kNotThere;
+}
+
+}  // namespace
+
+void AddUpCommands(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<UpOptions>();
+  auto* up = AddVerb(cli, "up", "Start the processes of a deployment, and start again what dies or hangs.");
+  up->footer("Example: priamos up sim, Ctrl-C ends it; or priamos up sim --detach, later priamos down");
+  up->add_option("deployment", options->deployment,
+                 "sim, robot, or a folder with a deployment.toml, with a slash")
+      ->capture_default_str();
+  up->add_option("--group", options->group, "only these processes; default: as in the deployment")
+      ->check(CLI::IsMember({"all", "onboard", "offboard"}));
+  up->add_option("--robot", options->robot,
+                 "its name, from which its ports follow; default: as in the deployment")
+      ->envname(bus::kRobotVariable);
+  up->add_option("--seed", options->seed, "seed of simulated hardware")->capture_default_str();
+  up->add_flag("--detach", options->detach, "return when everything is ready");
+  up->add_flag("--json", options->json, "machine-readable");
+  AddUpLogsOption(*up, options->log_root);
+  up->callback(
+      [options, &exit_code] { exit_code = options->detach ? UpDetached(*options) : UpNow(*options); });
+  AddUpQueries(cli, exit_code);
+}
+
+}  // namespace priamos::cli

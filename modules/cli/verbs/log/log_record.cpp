@@ -1,0 +1,182 @@
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <CLI/App.hpp>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "bus/log/log_recorder.hpp"
+#include "bus/log/log_selection.hpp"
+#include "bus/node.hpp"
+#include "bus/own_types.hpp"
+#include "bus/real_time_loop.hpp"
+#include "cli/options/folder_options.hpp"
+#include "cli/options/log_options.hpp"
+#include "cli/options/verb_setup.hpp"
+#include "cli/verbs/log/commands.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr int kIncomplete = 1;
+constexpr double kMost = 1e9;  ///< MB, minutes, seconds: more than any machine has
+constexpr auto kHealthPeriod = std::chrono::seconds(1);
+
+struct RecordOptions {
+  BusOptions bus;
+  std::string file;
+  std::vector<std::string> only, without;
+  double split_mb = 0, split_minutes = 0, keep_free_mb = 100, seconds = 0;
+  std::size_t keep = 0;
+  bool no_health = false, json = false;
+};
+
+std::string DefaultFile() {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  const std::filesystem::path folder = LogRoot("");
+  std::filesystem::create_directories(folder);
+  return folder / fmt::format("{:%Y%m%d-%H%M%S}.lcmlog", fmt::localtime(now));
+}
+
+bus::RecorderLimits LimitsOf(const RecordOptions& options) {
+  return {static_cast<std::uint64_t>(options.split_mb * 1e6), FromSeconds(60 * options.split_minutes),
+          options.keep, static_cast<std::uint64_t>(options.keep_free_mb * 1e6)};
+}
+
+/// A recording of one bus, with its sign of life on that bus.
+class Recording {
+ public:
+  explicit Recording(const RecordOptions& options)
+      : options_(options),
+        schema_(bus::OwnTypes()),
+        bus_(options.bus.bus.Url(), options.bus.messages()),
+        node_(bus_, schema_, clock_),
+        health_(node_.Advertise(channels::kHealth)),
+        recorder_(options.file, LimitsOf(options), clock_.Now()),
+        start_(clock_.Now()) {
+    wanted_.only = options.only;
+    wanted_.without = options.without;
+    bus_.SubscribeEverything([this](std::string_view channel, std::span<const std::byte> bytes) {
+      const Time now = clock_.Now();
+      if (wanted_.Wants(ToUtime(now), channel)) recorder_.Add(now, channel, bytes);
+    });
+  }
+
+  int Run() {
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a failed write, not the end
+    if (!options_.json) std::cout << recorder_.file().string() << std::endl;
+    const auto end = options_.seconds > 0 ? start_ + FromSeconds(options_.seconds) : Time::max();
+    while (clock_.Now() < end) {
+      pollfd fds[] = {{bus_.fd(), POLLIN, 0}, {signals_.fd(), POLLIN, 0}};
+      poll(fds, std::size(fds), 50);
+      if (fds[1].revents != 0) break;
+      bus_.Drain();
+      recorder_.Tick(clock_.Now());
+      ReportAlarm();
+      SendHealth();
+    }
+    return End();
+  }
+
+ private:
+  void ReportAlarm() {
+    if (recorder_.alarm() == reported_) return;
+    reported_ = recorder_.alarm();
+    if (reported_.empty()) {
+      std::cerr << "recording again: " << recorder_.file().string() << std::endl;
+    } else {
+      std::cerr << "ALARM: " << reported_ << std::endl;
+    }
+    next_health_ = {};
+  }
+
+  /// The alarm goes where an operator looks: on the bus, at once.
+  void SendHealth() {
+    const Time now = clock_.Now();
+    if (options_.no_health || now < next_health_) return;
+    next_health_ = now + kHealthPeriod;
+    health_t message{};
+    message.utime = ToUtime(now);
+    message.process = "recorder";
+    message.state = reported_.empty() ? health_t::OK : health_t::FAILED;
+    message.messages_lost =
+        static_cast<std::int32_t>(std::min<std::uint64_t>(bus_.lost() + recorder_.lost(), 1'000'000));
+    message.text = reported_.substr(0, 100);
+    health_.Publish(message);
+  }
+
+  int End() {
+    recorder_.Tick(clock_.Now() + std::chrono::seconds(1));
+    if (options_.json) {
+      std::cout << nlohmann::ordered_json{{"events", recorder_.recorded()},
+                                          {"bytes", recorder_.bytes()},
+                                          {"lost_network", bus_.lost()},
+                                          {"lost_disk", recorder_.lost()},
+                                          {"alarm", recorder_.alarm()}}
+                << "\n";
+      return Code();
+    }
+    std::cout << fmt::format("{} events, {} bytes; lost: {} on the network, {} on the disk\n",
+                             recorder_.recorded(), recorder_.bytes(), bus_.lost(), recorder_.lost());
+    return Code();
+  }
+  int Code() const { return recorder_.alarm().empty() && recorder_.lost() == 0 ? 0 : kIncomplete; }
+
+  RecordOptions options_;
+  bus::SignalWatch signals_;
+  bus::MonotonicClock clock_;
+  bus::Schema schema_;
+  bus::LcmBus bus_;
+  bus::Node node_;
+  bus::Publisher<health_t> health_;
+  bus::LogRecorder recorder_;
+  bus::LogSelection wanted_;
+  Time start_, next_health_{};
+  std::string reported_;
+};
+
+}  // namespace
+
+void AddLogRecordVerb(CLI::App& log, int& exit_code) {
+  auto options = std::make_shared<RecordOptions>();
+  auto* verb = AddVerb(log, "record", "Record a bus, until Ctrl-C.");
+  verb->footer(
+      "A full or read-only disk is reported on the terminal and as HEALTH of \"recorder\" within a second; "
+      "the "
+      "file "
+      "ends with\nits last whole event, and recording goes on when there is room again.\n"
+      "Example: priamos log record logs/day.lcmlog --split-mb 100 --keep 20");
+  verb->add_option("file", options->file,
+                   "log to write; none: <time>.lcmlog in ~/.local/state/priamos, or logs of a clone");
+  AddBusOption(*verb, options->bus);
+  verb->add_option("--channels", options->only, "only these, A,B or with a star: 'WHEEL_*'")->delimiter(',');
+  verb->add_option("--without", options->without, "not these")->delimiter(',');
+  verb->add_option("--split-mb", options->split_mb, "begin another file (.1, .2 ...) after so many megabytes")
+      ->check(CLI::Range(0.0, kMost));
+  verb->add_option("--split-minutes", options->split_minutes, "... or after so many minutes")
+      ->check(CLI::Range(0.0, kMost));
+  verb->add_option("--keep", options->keep, "keep the newest so many files of this recording; 0: all");
+  verb->add_option("--keep-free-mb", options->keep_free_mb,
+                   "stop before less of the disk is free (with --keep the oldest files go first)")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, kMost));
+  verb->add_option("--seconds", options->seconds, "stop after so long; 0: at Ctrl-C")
+      ->check(CLI::Range(0.0, kMost));
+  verb->add_flag("--no-health", options->no_health, "send nothing on the bus");
+  verb->add_flag("--json", options->json, "the count at the end machine-readable");
+  verb->callback([options, &exit_code] {
+    if (options->file == "-")
+      throw std::runtime_error(
+          "expected the name of a new log, got \"-\": a log cannot go to standard output");
+    if (options->file.empty()) options->file = DefaultFile();
+    if (std::filesystem::exists(options->file))
+      throw std::runtime_error(options->file + ": expected a new file, got an existing one");
+    exit_code = Recording(*options).Run();
+  });
+}
+
+}  // namespace priamos::cli

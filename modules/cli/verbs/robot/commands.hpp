@@ -1,0 +1,14 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace priamos::cli {
+
+/// The verbs `mission`, `where` and `view`, with the rules of verbs/commands.hpp.
+void AddMissionCommand(CLI::App& cli, int& exit_code);
+void AddWhereCommand(CLI::App& cli, int& exit_code);
+void AddViewCommand(CLI::App& cli, int& exit_code);
+
+}  // namespace priamos::cli

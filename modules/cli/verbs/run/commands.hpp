@@ -1,0 +1,14 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace priamos::cli {
+
+/// The verbs `run`, `lockstep` and `replay`, with the rules of verbs/commands.hpp.
+void AddRunCommand(CLI::App& cli, int& exit_code);
+void AddLockstepCommand(CLI::App& cli, int& exit_code);
+void AddReplayCommand(CLI::App& cli, int& exit_code);
+
+}  // namespace priamos::cli

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/App.hpp>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "bus/own_types.hpp"
+#include "cli/lockstep/factories.hpp"
+#include "cli/lockstep/lockstep_run.hpp"
+#include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
+#include "cli/report/report_files.hpp"
+#include "cli/verbs/run/commands.hpp"
+
+namespace priamos::cli {
+namespace {
+
+struct LockstepOptions {
+  LockstepRequest request;
+  std::string deployment = "sim";
+  int runs = 1;
+  bool json = false;
+  std::string json_file;  ///< none: standard output
+  std::string log_root;
+  bool verbose = false;
+};
+
+/// What a person reads; without a file standard output belongs to the JSON.
+std::ostream& People(const LockstepOptions& options) {
+  return options.json && options.json_file.empty() ? std::cerr : std::cout;
+}
+
+LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options, std::uint64_t seed) {
+  LockstepRequest request = options.request;
+  request.deployment = FolderOfDeployment(options.deployment);
+  request.seed = seed;
+  if (!options.log_root.empty())
+    request.log_folder = (std::filesystem::path(options.log_root) / fmt::format("seed-{}", seed)).string();
+  if (options.verbose)
+    request.progress = [&options](Time t, const std::string& text) {
+      People(options) << fmt::format("{:6.1f} s  {}", Seconds(t.time_since_epoch()), text) << std::endl;
+    };
+  if (request.log_folder) std::filesystem::create_directories(*request.log_folder);
+  auto result = RunLockstep(schema, request);
+  if (request.log_folder)
+    WriteReport(result.record, result.summary, result.info, result.map_file, *request.log_folder);
+  return result;
+}
+
+std::string Text(const HandSummary& hand) {
+  const std::string honoured =
+      hand.honoured() ? fmt::format("honoured {:.1f} %", 100 * *hand.honoured()) : "nothing to honour";
+  return hand.longest_stop_s ? fmt::format("{}  longest stop {:.1f} s", honoured, *hand.longest_stop_s)
+                             : honoured;
+}
+
+std::string Line(const LockstepResult& result) {
+  const Summary& s = result.summary;
+  if (s.hand)
+    return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  {}  {:.0f} s  {:4.1f}x  {}", s.seed,
+                       s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m, Text(*s.hand),
+                       Seconds(result.duration), s.realtime_factor, s.passed ? "" : s.reason);
+  return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  lateral {:+.3f} m  {:5.1f} s  {:4.1f}x  {}",
+                     s.seed, s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m,
+                     s.lateral_at_door_m.value_or(NAN), s.duration_s, s.realtime_factor,
+                     s.passed ? "" : s.reason);
+}
+
+void WriteJson(const std::string& file, const std::vector<Summary>& all) {
+  if (file.empty()) return void(std::cout << SummariesAsJson(all, JsonForm::kOneLine) << std::endl);
+  std::ofstream out(file);
+  out << SummariesAsJson(all, JsonForm::kIndented) << "\n";
+  if (!out) throw std::runtime_error(file + ": cannot be written");
+}
+
+/// Checks that the files can be written: throws before the first run what would otherwise be found out after
+/// the last one. Leaves the file that is there as it is.
+void RequireWritable(const LockstepOptions& options) {
+  if (!options.log_root.empty()) {
+    std::filesystem::create_directories(options.log_root);
+    if (access(options.log_root.c_str(), W_OK | X_OK) != 0)
+      throw std::runtime_error(fmt::format("--logs: expected a folder that can be written, got \"{}\": {}",
+                                           options.log_root, std::strerror(errno)));
+  }
+  if (!options.json_file.empty() && !std::ofstream(options.json_file, std::ios::app))
+    throw std::runtime_error(fmt::format("--json: expected a file that can be written, got \"{}\": {}",
+                                         options.json_file, std::strerror(errno)));
+}
+
+int Run(const LockstepOptions& options) {
+  RequireWritable(options);
+  const bus::Schema schema = bus::OwnTypes();
+  const auto shared = HoldShared();
+  std::vector<Summary> all;
+  int passed = 0, contacts = 0;
+  for (int i = 0; i < options.runs; ++i) {
+    const auto result = RunOne(schema, options, options.request.seed + static_cast<std::uint64_t>(i));
+    passed += result.summary.passed;
+    contacts += result.summary.contacts;
+    all.push_back(result.summary);
+    People(options) << Line(result) << std::endl;
+    if (options.runs == 1) PrintSummary(People(options), result.summary);
+  }
+  if (options.json) WriteJson(options.json_file, all);
+  if (options.runs > 1)
+    People(options) << fmt::format("{} of {} passed, {} contacts\n", passed, options.runs, contacts);
+  return passed == options.runs && contacts == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void AddLockstepCommand(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<LockstepOptions>();
+  auto* verb = AddVerb(
+      cli, "lockstep",
+      "Run a scenario in one process on simulated time: same seed, same bytes, faster than real time.");
+  verb->footer("Example: priamos lockstep --scenario door --seed 1 --runs 100 --json runs.json");
+  verb->add_option("--scenario", options->request.scenario, "a file of the deployment's scenarios/")
+      ->capture_default_str();
+  verb->add_option("--seed", options->request.seed, "first seed")->capture_default_str();
+  verb->add_option("--runs", options->runs, "number of runs, each with the next seed")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  auto* json =
+      verb->add_option("--json", options->json_file,
+                       "the summary (an array of them for several runs) into that file; without one, or "
+                       "with -, to standard output");
+  json->expected(0, 1);
+  verb->add_option("--logs", options->log_root,
+                   "write logs and report of each run into a folder per seed there");
+  AddDeploymentOption(*verb, options->deployment);
+  verb->add_flag("--verbose", options->verbose, "one line per phase");
+  verb->callback([options, json, &exit_code] {
+    options->json = json->count() > 0;
+    if (options->json_file == "-") options->json_file.clear();
+    exit_code = Run(*options);
+  });
+}
+
+}  // namespace priamos::cli

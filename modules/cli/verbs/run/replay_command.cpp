@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "bus/output_comparison.hpp"
+#include "bus/own_types.hpp"
+#include "bus/replay.hpp"
+#include "cli/lockstep/factories.hpp"
+#include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
+#include "cli/terminal/replay_verdict.hpp"
+#include "cli/verbs/run/commands.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr int kDifferent = 1;
+
+struct VerifyOptions {
+  std::string log, module, config;
+  std::string deployment = "sim";
+  std::vector<std::string> set;
+  bool json = false;
+};
+
+ConfigSource SourceOf(const VerifyOptions& options) {
+  if (!options.config.empty()) return {options.config, options.set};
+  const std::filesystem::path folder = FolderOfDeployment(options.deployment);
+  return {(folder / (options.module + ".toml")).string(), options.set};
+}
+
+/// What else than messages a module's outputs come from; empty when it is nothing.
+std::string UnrecordedInput(const std::string& module) {
+  if (module == "head") return "its pictures are in no log";
+  if (module == "radio") return "what came over the line is in no log";
+  if (module == "teleop") return "what the hand did is in no log";
+  if (module == "world") return "its scenario and seed are in no log: give them with --set";
+  return "";
+}
+
+void Print(const VerifyOptions& options, const bus::Replay& replay, const bus::OutputComparison& comparison) {
+  std::cout << fmt::format("{}: {} messages fed to {}\n", options.log, replay.fed(), options.module);
+  std::cout << fmt::format("{:<20} {:>9} {:>9} {:>9}\n", "channel", "recorded", "replayed", "equal");
+  for (const auto& [name, c] : comparison.channels)
+    std::cout << fmt::format("{:<20} {:>9} {:>9} {:>9}\n", name, c.recorded, c.replayed, c.equal);
+  for (const auto& line : comparison.differences) std::cout << line << "\n";
+  const std::string unrecorded = UnrecordedInput(options.module);
+  if (comparison.equal) {
+    std::cout << "every byte is as it was recorded\n";
+  } else {
+    std::cout << (unrecorded.empty()
+                      ? "DIFFERENT\n"
+                      : fmt::format("DIFFERENT, which {} may be: {}\n", options.module, unrecorded));
+  }
+}
+
+int Verify(const VerifyOptions& options) {
+  const bus::Schema schema = bus::OwnTypes();
+  const ConfigSource source = SourceOf(options);
+  bus::Replay replay(FactoryFor(options.module), source, schema, options.log, {source.Folder()});
+  std::vector<bus::Output> replayed;
+  replay.Run([&](const bus::Output& output) { replayed.push_back(output); });
+  if (replay.recorded().empty())
+    throw std::runtime_error(
+        fmt::format("{}: expected messages that {} sent, got none", options.log, options.module));
+  const auto comparison = bus::CompareOutputs(replay.recorded(), replayed, schema);
+  if (options.json) {
+    std::cout << JsonLine(ReplayVerdict{.log = options.log,
+                                        .module = options.module,
+                                        .fed = replay.fed(),
+                                        .skipped_bytes = replay.skipped_bytes(),
+                                        .comparison = comparison})
+              << "\n";
+  } else {
+    Print(options, replay, comparison);
+  }
+  return comparison.equal ? 0 : kDifferent;
+}
+
+}  // namespace
+
+void AddReplayCommand(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<VerifyOptions>();
+  auto* replay = AddVerb(cli, "replay", "Run a module from a log (see also --bus file://LOG).");
+  replay->require_subcommand(1);
+  auto* verb = AddVerb(
+      *replay, "verify",
+      "Feed a module what a log recorded and compare what it sends with what it sent then, byte for byte.");
+  verb->footer(
+      "Exact for robot and planner in logs of lockstep runs; the log of a live bus has the recorder's "
+      "times,\n"
+      "and what head, world, radio and teleop send comes from more than messages.\n"
+      "Example: priamos replay verify logs/recorded/door-onboard.lcmlog --module robot");
+  verb->add_option("log", options->log, "LCM log")->required()->check(CLI::ExistingFile);
+  verb->add_option("--module", options->module, "whose messages to compare")
+      ->required()
+      ->check(CLI::IsMember({"robot", "planner", "head", "teleop", "radio", "world"}));
+  verb->add_option("--config", options->config, "its configuration; none: <deployment>/<module>.toml");
+  AddDeploymentOption(*verb, options->deployment);
+  verb->add_option("--set", options->set, "KEY=VALUE on top of the file");
+  CompleteVerb(*verb, options, Verify, exit_code);
+}
+
+}  // namespace priamos::cli

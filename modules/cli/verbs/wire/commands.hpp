@@ -1,0 +1,14 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace priamos::cli {
+
+/// The verbs `topic`, `type` and `link`, with the rules of verbs/commands.hpp.
+void AddTopicCommand(CLI::App& cli, int& exit_code);
+void AddTypeCommand(CLI::App& cli, int& exit_code);
+void AddLinkCommand(CLI::App& cli, int& exit_code);
+
+}  // namespace priamos::cli

@@ -1,0 +1,199 @@
+#include <CLI/App.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bus/radio/budget.hpp"
+#include "bus/radio/link_config.hpp"
+#include "bus/schema/packing.hpp"
+#include "cli/options/verb_setup.hpp"
+#include "cli/supervise/link_emulate.hpp"
+#include "cli/terminal/link_top.hpp"
+#include "cli/verbs/wire/commands.hpp"
+#include "radio/key_file.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr int kDoesNotHold = 1;
+
+nlohmann::ordered_json BitsAsJson(const bus::Packer& packer) {
+  nlohmann::ordered_json json{
+      {"type", packer.type().full_name}, {"max_bits", packer.MaxBits()}, {"fields", nlohmann::json::array()}};
+  for (const bus::PackedField& field : packer.fields())
+    json["fields"].push_back({{"name", field.name},
+                              {"bits", field.bits},
+                              {"values", field.values},
+                              {"unit", field.unit},
+                              {"codes", field.codes}});
+  return json;
+}
+
+nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
+                                       const bus::radio::DirectionBudget& budget) {
+  nlohmann::ordered_json json{{"bytes_per_s", budget.bytes_per_s},
+                              {"capacity_bytes_per_s", budget.capacity_bytes_per_s},
+                              {"utilisation", budget.utilisation},
+                              {"control_bytes_per_s", budget.control_bytes_per_s},
+                              {"channels", nlohmann::json::array()}};
+  for (const bus::radio::ChannelBudget& c : budget.channels) {
+    const bus::radio::LinkChannel& channel = table.at(c.channel);
+    const auto seconds = [](const std::optional<Duration>& d) {
+      return d ? nlohmann::json(Seconds(*d)) : nlohmann::json();
+    };
+    json["channels"].push_back(
+        {{"channel", channel.name},
+         {"priority", channel.priority},
+         {"bits", c.bits},
+         {"rate_hz", c.rate_hz},
+         {"bytes_per_s", c.bytes_per_s},
+         {"share", c.share},
+         {"worst_latency_s", seconds(c.worst_latency)},
+         {"deadline_s",
+          seconds(channel.deadline > Duration{} ? std::optional(channel.deadline) : std::nullopt)},
+         {"proven_age_s", seconds(c.proof ? std::optional(c.proof->age()) : std::nullopt)}});
+  }
+  return json;
+}
+
+nlohmann::ordered_json BudgetAsJson(const bus::radio::ChannelTable& table, const bus::radio::Budget& budget) {
+  return {{"up", DirectionAsJson(table, budget.up)},
+          {"down", DirectionAsJson(table, budget.down)},
+          {"problems", budget.problems}};
+}
+
+void AddEmulate(CLI::App& link, int& exit_code) {
+  auto options = std::make_shared<LinkEmulateOptions>();
+  auto* verb = AddVerb(link, "emulate", "A pair of radio modems: two ttys joined by an emulated line.");
+  verb->footer("Example: priamos link emulate --a /tmp/tty-robot --b /tmp/tty-desk --bit-error-rate 1e-4");
+  verb->add_option("--a", options->a, "name of the first tty")->capture_default_str();
+  verb->add_option("--b", options->b, "name of the second tty")->capture_default_str();
+  auto& line = options->line;
+  verb->add_option("--baud", line.baud, "10 bits per byte")
+      ->check(CLI::Range(300, 1000000))
+      ->capture_default_str();
+  verb->add_option("--air-rate", line.air_rate_bytes_s, "byte/s of the radio itself; 0: as much as the port")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  verb->add_option("--latency", line.latency_s, "s")->check(CLI::Range(0.0, 10.0))->capture_default_str();
+  verb->add_option("--jitter", line.jitter_s, "s, on top of the latency")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  verb->add_option("--bit-error-rate", line.bit_error_rate, "probability of a flip per bit")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  verb->add_option("--burst-rate", line.burst_rate_hz, "error bursts per second")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  verb->add_option("--burst-length", line.burst_length_s, "s")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  verb->add_option("--burst-error-rate", line.burst_error_rate, "probability of a flip per bit in a burst")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  verb->add_option("--duplicate", line.duplicate_probability, "probability that a byte arrives twice")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb->add_flag("--half-duplex", line.half_duplex, "a modem hears nothing while it sends");
+  verb->add_option("--turnaround", line.turnaround_s, "s, half-duplex: nor for so long afterwards")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb->add_option("--blackouts", options->blackouts,
+                   "CSV file with from_s,to_s per line: no line in between");
+  verb->add_option("--delays", options->delays,
+                   "CSV file with way,from_s,to_s,first_s,last_s per line: more delay of one way for a time");
+  verb->add_option("--seed", options->seed, "seed of the errors")->capture_default_str();
+  verb->add_flag("--json", options->json, "print the ttys as JSON");
+  verb->callback([options, &exit_code] { exit_code = RunLinkEmulate(*options); });
+}
+
+void AddKeygen(CLI::App& link, int& exit_code) {
+  auto path = std::make_shared<std::string>();
+  auto* verb = AddVerb(link, "keygen", "Make a secret key for a radio link; both ends need the same file.");
+  verb->footer("Example: priamos link keygen /etc/priamos/link.key");
+  verb->add_option("file", *path, "where to; an existing file is kept")->required();
+  auto json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "machine-readable");
+  verb->callback([=, &exit_code] {
+    radio::WriteNewKeyFile(*path);
+    if (*json) std::cout << nlohmann::ordered_json{{"file", *path}}.dump() << "\n";
+    if (!*json)
+      std::cout << *path << ": new key; copy it to the other end over a secure channel, mode 0600\n";
+    exit_code = 0;
+  });
+}
+
+void AddBits(CLI::App& link, int& exit_code) {
+  auto type = std::make_shared<std::string>(), types = std::make_shared<std::string>();
+  auto* verb = AddVerb(link, "bits", "How many bits a message takes on the radio, field by field.");
+  verb->footer("Example: priamos link bits pose_t");
+  verb->add_option("type", *type, "message type")->required();
+  verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  auto json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "machine-readable");
+  verb->callback([=, &exit_code] {
+    const bus::Schema schema = LoadTypes(*types);
+    const bus::Struct* found = schema.Find(*type);
+    if (found == nullptr) throw UnknownType(schema, *type);
+    const bus::Packer packer(*found);
+    std::cout << (*json ? BitsAsJson(packer).dump(2) + "\n" : bus::FormatBitTable(packer));
+    exit_code = 0;
+  });
+}
+
+void AddBudget(CLI::App& link, int& exit_code) {
+  auto config = std::make_shared<std::string>(), types = std::make_shared<std::string>();
+  auto* verb =
+      AddVerb(link, "budget", "What a link.toml asks of the line: bytes, shares, worst-case latencies.");
+  verb->footer("Example: priamos link budget config/sim/link.toml");
+  verb->add_option("config", *config, "link.toml")->required();
+  verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  auto json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "machine-readable");
+  verb->callback([=, &exit_code] {
+    const auto link_config = LoadConfig<bus::radio::LinkConfig>(*config);
+    const bus::Schema schema = LoadTypes(*types);
+    const auto table = link_config.Table(schema);
+    const auto budget = ComputeBudget(table, link_config.Options());
+    std::cout << (*json ? BudgetAsJson(table, budget).dump(2) + "\n" : FormatBudget(table, budget));
+    exit_code = budget.problems.empty() ? 0 : kDoesNotHold;
+  });
+}
+
+void AddTop(CLI::App& link, int& exit_code) {
+  auto options = std::make_shared<LinkTopOptions>();
+  auto* verb = AddVerb(link, "top", "The link as it is now: load, quality, every channel.");
+  verb->footer("Example: priamos link top --bus onboard");
+  bus::AddBusChoice(*verb, options->bus.bus);
+  verb->add_flag("--once", options->once, "one screen, then end");
+  verb->add_flag("--json", options->json, "machine-readable, one line instead of a screen");
+  verb->callback([options, &exit_code] { exit_code = RunLinkTop(*options); });
+}
+
+void AddListen(CLI::App& link, int& exit_code) {
+  auto options = std::make_shared<LinkTopOptions>();
+  auto* verb = AddVerb(link, "listen", "Have an on-request channel sent over the radio while this runs.");
+  verb->footer("Example: priamos link listen SONAR_RANGES --for 10");
+  verb->add_option("channel", options->channel, "LCM channel of the other side")->required();
+  verb->add_option("--for", options->seconds, "s; 0: until Ctrl-C")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str();
+  bus::AddBusChoice(*verb, options->bus.bus);
+  verb->callback([options, &exit_code] { exit_code = RunLinkListen(*options); });
+}
+
+}  // namespace
+
+void AddLinkCommand(CLI::App& cli, int& exit_code) {
+  auto* link =
+      AddVerb(cli, "link", "The radio link: emulate one, make keys, see what it costs and what it does.");
+  link->require_subcommand(1);
+  AddEmulate(*link, exit_code);
+  AddKeygen(*link, exit_code);
+  AddBits(*link, exit_code);
+  AddBudget(*link, exit_code);
+  AddTop(*link, exit_code);
+  AddListen(*link, exit_code);
+}
+
+}  // namespace priamos::cli
