@@ -80,7 +80,7 @@ struct PowerLossRun {
   std::size_t heard_before = 0;
 };
 
-TEST(PowerLoss, NewEventsAreNeverTakenForOldOnesWhereverThePowerIsCut) {
+TEST(PowerLossRunTest, NewEventsAreNeverTakenForOldOnesWhereverThePowerIsCut) {
   for (const bool finished : {false, true}) {
     for (int writes = 1; writes <= 40; ++writes) {
       const PowerLossRun dut(writes, finished);
@@ -94,55 +94,52 @@ TEST(PowerLoss, NewEventsAreNeverTakenForOldOnesWhereverThePowerIsCut) {
   }
 }
 
-TEST(PowerLoss, EventsThatWaitedAreCountedAsRefused) {
+struct PowerLoss : testing::Test {
+  PowerLoss() {
+    pair.offboard.other_store = &store;
+    pair.Start(pair.offboard);
+    pair.Run(0.5);
+  }
+  /// An event that is offered while nothing arrives.
+  void OfferInSilence(const std::string& text) {
+    pair.lose_down = [](auto) { return true; };
+    pair.offboard.link->Offer(kEventDown, Text(text), pair.now);
+    pair.Run(0.1);
+    pair.lose_down = nullptr;
+  }
+  void StartAfterLoss() {
+    store.LosePower(false);
+    pair.Start(pair.offboard);
+  }
   PoweredStore store;
   LinkPair pair;
-  pair.offboard.other_store = &store;
-  pair.Start(pair.offboard);
-  pair.Run(0.5);
-  pair.lose_down = [](auto) { return true; };
-  pair.offboard.link->Offer(kEventDown, Text("waits"), pair.now);
-  pair.Run(0.1);
+};
+
+TEST_F(PowerLoss, EventsThatWaitedAreCountedAsRefused) {
+  OfferInSilence("waits");
   store.StartSync();
   store.AwaitSync();
-  store.LosePower(false);
-  pair.lose_down = nullptr;
-  pair.Start(pair.offboard);
+  StartAfterLoss();
   EXPECT_EQ(pair.offboard.link->sent(kEventDown).refused, 1U);
   pair.offboard.link->Offer(kEventDown, Text("new"), pair.now);
   pair.Run(1);
   EXPECT_THAT(pair.onboard.TextsOf(kEventDown), ElementsAre("new"));
 }
 
-TEST(PowerLoss, AfterAnOrderlyEndTheDiskIsEnough) {
-  PoweredStore store;
-  LinkPair pair;
-  pair.offboard.other_store = &store;
-  pair.Start(pair.offboard);
-  pair.Run(0.5);
-  pair.lose_down = [](auto) { return true; };
-  pair.offboard.link->Offer(kEventDown, Text("waits"), pair.now);
-  pair.Run(0.1);
+TEST_F(PowerLoss, AfterAnOrderlyEndTheDiskIsEnough) {
+  OfferInSilence("waits");
   pair.offboard.link->Close();
-  store.LosePower(false);
-  pair.lose_down = nullptr;
-  pair.Start(pair.offboard);
+  StartAfterLoss();
   pair.Run(1);
   EXPECT_THAT(pair.onboard.TextsOf(kEventDown), ElementsAre("waits"));
 }
 
-TEST(PowerLoss, AnOrderlyEndIsForgottenBeforeTheFirstFrameAfterIt) {
-  PoweredStore store;
-  LinkPair pair;
-  pair.offboard.other_store = &store;
-  pair.Start(pair.offboard);
-  pair.Run(0.5);
+TEST_F(PowerLoss, AnOrderlyEndIsForgottenBeforeTheFirstFrameAfterIt) {
   pair.offboard.link->Close();
   pair.Start(pair.offboard);
   pair.offboard.link->Offer(kStopDown, Text("1"), pair.now);
   pair.Run(0.3);
-  store.LosePower(false);
-  pair.Start(pair.offboard);
+  StartAfterLoss();
   pair.offboard.link->Offer(kStopDown, Text("2"), pair.now);
   pair.Run(0.5);
   EXPECT_THAT(pair.onboard.TextsOf(kStopDown), ElementsAre("1", "2"));
