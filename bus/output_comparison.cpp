@@ -25,7 +25,8 @@ void Compare(const std::string& name, const Json& recorded, const Json& replayed
   if (recorded == replayed) return;
   if (recorded.is_object() && replayed.is_object()) {
     for (const auto& [key, value] : recorded.items())
-      Compare(name.empty() ? key : fmt::format("{}.{}", name, key), value, replayed.value(key, Json()), differences);
+      Compare(name.empty() ? key : fmt::format("{}.{}", name, key), value, replayed.value(key, Json()),
+              differences);
   } else if (recorded.is_array() && replayed.is_array() && recorded.size() == replayed.size()) {
     for (std::size_t i = 0; i < recorded.size(); ++i)
       Compare(fmt::format("{}[{}]", name, i), recorded[i], replayed[i], differences);
