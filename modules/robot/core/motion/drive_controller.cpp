@@ -46,27 +46,6 @@ CollisionStopConfig WithMargin(CollisionStopConfig config, double more_m) {
 
 }  // namespace
 
-void DriveConfig::Describe(Archive& a) {
-  a.Number("lost_position_m", lost_position_m,
-           {"m", 0.05, 5, "no path is driven by a pose with a larger sigma"});
-  a.Number("lost_yaw_deg", lost_yaw_deg,
-           {"deg", 1, 90, "no path is driven by a pose with a larger sigma of the heading"});
-  a.Number("blocked_s", blocked_s, {"s", 0, 60, "standing before an obstacle for this long is BLOCKED"});
-  a.Number("operator_margin_m", operator_margin_m,
-           {"m", 0, 0.5, "added to the margins of collision while an operator drives"});
-  a.Number("fix_needed_m", fix_needed_m, {"m", 0.01, 5, "a silent head matters when sigma is larger"});
-  a.Section("footprint", footprint, "the body of the base");
-  a.Section("follower", follower, "how a path is driven");
-  a.Section("acceleration", acceleration, "limits while a path is driven");
-  a.Section("operator_acceleration", operator_acceleration, "limits while an operator drives");
-  a.Section("braking", braking, "limits while a hold brakes the base");
-  a.Section("echoes", echoes, "which sonar echoes are believed");
-  a.Section("floor", floor, "what the laser's line showed of the floor");
-  a.Section("collision", collision, "the last filter before the wheels");
-  a.Section("authority", authority, "who may drive");
-  a.Section("failsafe", failsafe, "when silence is too long");
-}
-
 DriveController::DriveController(const DriveConfig& config, const MecanumGeometry& geometry)
     : config_(config),
       geometry_(geometry),

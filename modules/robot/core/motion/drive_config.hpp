@@ -1,0 +1,35 @@
+#pragma once
+
+#include "common/config.hpp"
+#include "robot/core/base/twist_slew.hpp"
+#include "robot/core/motion/path_follower.hpp"
+#include "robot/core/safety/authority.hpp"
+#include "robot/core/safety/collision_stop.hpp"
+#include "robot/core/safety/failsafe.hpp"
+#include "robot/core/sonar/echo_memory.hpp"
+#include "robot/core/sonar/floor_memory.hpp"
+
+namespace priamos::robot {
+
+/// Everything that decides about motion: a section of `config/<deployment>/robot.toml`.
+struct DriveConfig {
+  Footprint footprint;
+  PathFollowerConfig follower;
+  AccelerationLimits acceleration;
+  AccelerationLimits operator_acceleration{.acceleration_m_s2 = 0.8, .turn_acceleration_rad_s2 = 1.5};
+  AccelerationLimits braking{.acceleration_m_s2 = 1.0, .turn_acceleration_rad_s2 = 2.0};
+  EchoMemoryConfig echoes;
+  FloorMemoryConfig floor;
+  CollisionStopConfig collision;
+  double operator_margin_m = 0.04;  ///< added to the margins of collision while an operator drives
+  AuthorityConfig authority;
+  FailsafeConfig failsafe;
+  double lost_position_m = 0.5;  ///< sigma of the position beyond which no path is driven
+  double lost_yaw_deg = 12;
+  double blocked_s = 0.5;
+  double fix_needed_m = 0.25;  ///< sigma beyond which a silent head matters
+
+  void Describe(Archive& a);
+};
+
+}  // namespace priamos::robot
