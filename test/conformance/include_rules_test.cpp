@@ -19,21 +19,15 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::vector<std::string> kModules{"robot", "head",   "planner", "radio",
-                                        "world", "teleop", "console", "cli"};
-
-bool IsModule(const std::string& name) {
-  return std::find(kModules.begin(), kModules.end(), name) != kModules.end();
-}
-
 /// The room a file or an include belongs to: "lcmtypes", "common", "bus", "robot/core", "robot" ...
+/// Every other first folder is a module, so that a new one is under the rules from its first file on.
 std::optional<std::string> RoomOf(const std::string& path) {
-  static const std::regex kModuleFile(R"((?:modules/)?([a-z]+)/(core/)?.*)");
+  static const std::regex kModuleFile(R"((?:modules/)?([a-z_0-9]+)/(core/)?.*)");
   if (path.starts_with("lcmtypes/") || path.starts_with("priamos/")) return "lcmtypes";
   if (path.starts_with("bus/")) return "bus";
   if (path.starts_with("common/") || path.starts_with("modules/common/")) return "common";
   std::smatch m;
-  if (!std::regex_match(path, m, kModuleFile) || !IsModule(m[1])) return std::nullopt;
+  if (!std::regex_match(path, m, kModuleFile)) return std::nullopt;
   return m[2].matched ? m[1].str() + "/core" : m[1].str();
 }
 
@@ -44,7 +38,8 @@ bool Allowed(const std::string& from, const std::string& to) {
   if (from.ends_with("/core")) return false;
   if (to == "bus" || to == "lcmtypes") return true;
   if (to == from + "/core") return true;
-  // The command line is where modules come together: it may start any module's App, and nothing else of it.
+  // The command line is where modules come together: it starts their Apps and reads their files and
+  // configurations. Their cores stay theirs.
   return from == "cli" && !to.ends_with("/core");
 }
 
@@ -112,6 +107,17 @@ TEST(IncludeRules, ACoreMayNotIncludeTheBusOrMessages) {
   EXPECT_EQ(Violations("modules/robot/core/x.hpp", "#include \"bus/node.hpp\"\n").size(), 1u);
   EXPECT_EQ(Violations("modules/robot/core/x.hpp", "#include \"lcmtypes/channels.hpp\"\n").size(), 1u);
   EXPECT_EQ(Violations("modules/robot/core/x.hpp", "#include \"priamos/pose_t.hpp\"\n").size(), 1u);
+}
+
+TEST(IncludeRules, ANewModuleIsUnderTheRulesFromItsFirstFileOn) {
+  EXPECT_EQ(Violations("modules/battery/core/x.hpp", "#include \"bus/node.hpp\"\n").size(), 1u);
+  EXPECT_EQ(Violations("modules/battery/x.hpp", "#include \"robot/robot_app.hpp\"\n").size(), 1u);
+  EXPECT_EQ(Violations("modules/robot/x.hpp", "#include \"battery/x.hpp\"\n").size(), 1u);
+}
+
+TEST(IncludeRules, TheCommandLineMayIncludeAModulesShellButNotItsCore) {
+  EXPECT_THAT(Violations("modules/cli/verbs/x.cpp", "#include \"robot/robot_app.hpp\"\n"), IsEmpty());
+  EXPECT_EQ(Violations("modules/cli/verbs/x.cpp", "#include \"robot/core/base/x.hpp\"\n").size(), 1u);
 }
 
 TEST(IncludeRules, TheBusKnowsNoRobot) {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace priamos {
+
+/// Content of a file; empty when there is none.
+std::string TextOf(const std::filesystem::path& file);
+
+/// Folders, relative to `root`, in the order in which the CMakeLists.txt files name them; a parent comes
+/// after its rooms.
+std::vector<std::string> FolderOrder(const std::filesystem::path& root);
+
+/// Sources of every language below `folders`, relative to `root`, sorted.
+std::vector<std::filesystem::path> SourcesIn(const std::filesystem::path& root,
+                                             std::initializer_list<const char*> folders);
+
+/// Headers that a text includes in quotes.
+std::vector<std::string> QuotedIncludes(const std::string& text);
+
+/// Folder of the tree that an include means, from the root or from modules/; "lcmtypes" for what lcm-gen
+/// makes. Empty for an include that is spelled in any other way.
+std::string FolderOf(const std::filesystem::path& root, const std::string& header);
+
+}  // namespace priamos
