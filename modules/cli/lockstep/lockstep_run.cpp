@@ -29,6 +29,38 @@ ConfigSource SourceOf(const LockstepRequest& request, const ScenarioProcess& pro
   return source;
 }
 
+void AddHosts(bus::Lockstep& lockstep, const bus::radio::LineConfig& line) {
+  lockstep.AddBus("onboard");
+  lockstep.AddBus("offboard");
+  lockstep.AddSerialLine(TtyOf("onboard"), TtyOf("offboard"), line);
+}
+
+bus::Lockstep::Tap TapOf(RunRecorder& recorder, const LockstepRequest& request) {
+  return [&](std::string_view bus, Time now, std::string_view channel, std::span<const std::byte> bytes) {
+    recorder.OnMessage(bus, now, channel, bytes);
+    if (request.tap) request.tap(bus, now, channel, bytes);
+  };
+}
+
+/// Adds the mouse's line and the processes of a scenario; no daemon runs in simulated time.
+void Populate(bus::Lockstep& lockstep, const LockstepRequest& request, const Scenario& scenario) {
+  if (FindStory(scenario.story).moves_mouse)
+    lockstep.AddSerialLine(std::string(kMouseTty), std::string(kHandTty), {});
+  for (const auto& process : scenario.processes)
+    if (process.module != "spacenavd")
+      lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
+}
+
+/// Lets the story happen; returns how long it took [s of real time].
+double RunStory(bus::Lockstep& lockstep, ScenarioStory& story) {
+  const auto start = std::chrono::steady_clock::now();
+  lockstep.RunUntil(Time::max(), [&] {
+    story.Tick(lockstep.now());
+    return story.Done(lockstep.now());
+  });
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace
 
 LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& request) {
@@ -36,20 +68,10 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
   const std::string map_file = MapFile(request.deployment, scenario);
   const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
   bus::Lockstep lockstep(schema, {.seed = request.seed});
-  lockstep.AddBus("onboard");
-  lockstep.AddBus("offboard");
-  lockstep.AddSerialLine(TtyOf("onboard"), TtyOf("offboard"), scenario.line);
+  AddHosts(lockstep, scenario.line);
   RunRecorder recorder(request.log_folder);
-  lockstep.SetTap(
-      [&](std::string_view bus, Time now, std::string_view channel, std::span<const std::byte> bytes) {
-        recorder.OnMessage(bus, now, channel, bytes);
-        if (request.tap) request.tap(bus, now, channel, bytes);
-      });
-  const StoryKind& story_kind = FindStory(scenario.story);
-  if (story_kind.moves_mouse) lockstep.AddSerialLine(std::string(kMouseTty), std::string(kHandTty), {});
-  for (const auto& process : scenario.processes)
-    if (process.module != "spacenavd")
-      lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
+  lockstep.SetTap(TapOf(recorder, request));
+  Populate(lockstep, request, scenario);
 
   const Time start = lockstep.now();
   std::vector<StoryLine> lines;
@@ -57,15 +79,11 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
     lines.push_back({Seconds(now - start), text});
     if (request.progress) request.progress(Time(now - start), text);
   };
-  const auto story = story_kind.make({scenario, request.seed, lockstep.DriverNode("onboard"),
-                                      lockstep.DriverNode("offboard"),
-                                      [&] { return lockstep.OpenSerial(std::string(kHandTty)); }, progress});
-  const auto wall_start = std::chrono::steady_clock::now();
-  lockstep.RunUntil(Time::max(), [&] {
-    story->Tick(lockstep.now());
-    return story->Done(lockstep.now());
-  });
-  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
+  const auto story =
+      FindStory(scenario.story)
+          .make({scenario, request.seed, lockstep.DriverNode("onboard"), lockstep.DriverNode("offboard"),
+                 [&] { return lockstep.OpenSerial(std::string(kHandTty)); }, progress});
+  const double wall_s = RunStory(lockstep, *story);
   recorder.Flush();
   const double factor = Seconds(lockstep.now() - start) / wall_s;
   const RunInfo info{request.scenario,

@@ -158,41 +158,50 @@ std::string Reasons(const std::optional<UpState>& state) {
   return "";
 }
 
+/// The child in the background, which writes into `console`; never returns.
+[[noreturn]] void RunInBackground(const UpOptions& options, const std::string& console) {
+  setsid();
+  const int output = open(console.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+  try {
+    _exit(UpNow(options));
+  } catch (const std::exception& error) {
+    std::cerr << "priamos: " << error.what() << std::endl;
+    _exit(2);
+  }
+}
+
+/// Exit code once everything is ready or the child has ended; nullopt for an alarm or at the end of the time.
+std::optional<int> WaitUntilReady(const UpOptions& options, pid_t child, const std::string& console) {
+  const auto give_up = std::chrono::steady_clock::now() + kReadyWithin;
+  while (std::chrono::steady_clock::now() < give_up) {
+    int status = 0;
+    if (waitpid(child, &status, WNOHANG) == child) {
+      std::cerr << std::ifstream(console).rdbuf();
+      return WIFEXITED(status) ? WEXITSTATUS(status) : kNotThere;
+    }
+    const auto state = ReadUpState(options.log_root);
+    const bool its = UpLock::Holder(options.log_root) == child && state;
+    if (its && state->ready) {
+      Show(*state, options.json);
+      return 0;
+    }
+    if (its && HasAlarm(*state)) return std::nullopt;
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  return std::nullopt;
+}
+
 /// The one in the background is a child that this process waits for until everything is ready.
 int UpDetached(const UpOptions& options) {
   fs::create_directories(options.log_root);
   const std::string console = (fs::path(options.log_root) / "up.txt").string();
   const pid_t pid = fork();
-  if (pid == 0) {
-    setsid();
-    const int output = open(console.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    const int nothing = open("/dev/null", O_RDONLY);
-    dup2(nothing, STDIN_FILENO);
-    dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
-    try {
-      _exit(UpNow(options));
-    } catch (const std::exception& error) {
-      std::cerr << "priamos: " << error.what() << std::endl;
-      _exit(2);
-    }
-  }
-  const auto give_up = std::chrono::steady_clock::now() + kReadyWithin;
-  while (std::chrono::steady_clock::now() < give_up) {
-    int status = 0;
-    if (waitpid(pid, &status, WNOHANG) == pid) {
-      std::cerr << std::ifstream(console).rdbuf();
-      return WIFEXITED(status) ? WEXITSTATUS(status) : kNotThere;
-    }
-    const auto state = ReadUpState(options.log_root);
-    const bool its = UpLock::Holder(options.log_root) == pid && state;
-    if (its && state->ready) {
-      Show(*state, options.json);
-      return 0;
-    }
-    if (its && HasAlarm(*state)) break;
-    std::this_thread::sleep_for(milliseconds(20));
-  }
+  if (pid == 0) RunInBackground(options, console);
+  if (const auto code = WaitUntilReady(options, pid, console)) return *code;
   if (const auto state = ReadUpState(options.log_root)) Show(*state, options.json);
   std::cerr << fmt::format("priamos up: not everything became ready{}; `priamos down` ends it\n",
                            Reasons(ReadUpState(options.log_root)));

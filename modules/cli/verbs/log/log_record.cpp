@@ -139,6 +139,18 @@ class Recording {
   std::string reported_;
 };
 
+void AddFileLimits(CLI::App& verb, RecordOptions& options) {
+  verb.add_option("--split-mb", options.split_mb, "begin another file (.1, .2 ...) after so many megabytes")
+      ->check(CLI::Range(0.0, kMost));
+  verb.add_option("--split-minutes", options.split_minutes, "... or after so many minutes")
+      ->check(CLI::Range(0.0, kMost));
+  verb.add_option("--keep", options.keep, "keep the newest so many files of this recording; 0: all");
+  verb.add_option("--keep-free-mb", options.keep_free_mb,
+                  "stop before less of the disk is free (with --keep the oldest files go first)")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, kMost));
+}
+
 }  // namespace
 
 void AddLogRecordVerb(CLI::App& log, int& exit_code) {
@@ -146,24 +158,14 @@ void AddLogRecordVerb(CLI::App& log, int& exit_code) {
   auto* verb = AddVerb(log, "record", "Record a bus, until Ctrl-C.");
   verb->footer(
       "A full or read-only disk is reported on the terminal and as HEALTH of \"recorder\" within a second; "
-      "the "
-      "file "
-      "ends with\nits last whole event, and recording goes on when there is room again.\n"
+      "the file ends with\nits last whole event, and recording goes on when there is room again.\n"
       "Example: priamos log record logs/day.lcmlog --split-mb 100 --keep 20");
   verb->add_option("file", options->file,
                    "log to write; none: <time>.lcmlog in ~/.local/state/priamos, or logs of a clone");
   AddBusOption(*verb, options->bus);
   verb->add_option("--channels", options->only, "only these, A,B or with a star: 'WHEEL_*'")->delimiter(',');
   verb->add_option("--without", options->without, "not these")->delimiter(',');
-  verb->add_option("--split-mb", options->split_mb, "begin another file (.1, .2 ...) after so many megabytes")
-      ->check(CLI::Range(0.0, kMost));
-  verb->add_option("--split-minutes", options->split_minutes, "... or after so many minutes")
-      ->check(CLI::Range(0.0, kMost));
-  verb->add_option("--keep", options->keep, "keep the newest so many files of this recording; 0: all");
-  verb->add_option("--keep-free-mb", options->keep_free_mb,
-                   "stop before less of the disk is free (with --keep the oldest files go first)")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, kMost));
+  AddFileLimits(*verb, *options);
   verb->add_option("--seconds", options->seconds, "stop after so long; 0: at Ctrl-C")
       ->check(CLI::Range(0.0, kMost));
   verb->add_flag("--no-health", options->no_health, "send nothing on the bus");

@@ -7,6 +7,43 @@
 
 namespace priamos::cli {
 
+namespace {
+
+void AddImageOptions(CLI::App& verb, head::SeeOptions& options) {
+  verb.add_option("image", options.images, "image files")->required();
+  verb.add_option(
+          "--cameras", options.cameras,
+          "rectified cameras of two or three images: YAML with projection_matrix, in the images' order")
+      ->expected(1, 3);
+  verb.add_option("--stand", options.stand,
+                  "look for doors in two images: height of the left camera above the floor [m], its tilt and "
+                  "roll [deg, down and to the right are positive]")
+      ->expected(1, 3);
+  verb.add_option("--max-door-width", options.max_door_width_m, "wider openings are no doors [m]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.5, 5.0));
+  auto* at =
+      verb.add_option("--at", options.at,
+                      "where the landmark is believed to be, in the first camera's frame: x y z [m] roll "
+                      "pitch yaw [deg]")
+          ->expected(6);
+  verb.add_option(
+          "--landmark", options.landmark,
+          "a body of flat faces to look for, .toml or ViSP's .cao; one image with its camera is enough")
+      ->needs(at);
+}
+
+void AddResultOptions(CLI::App& verb, head::SeeOptions& options) {
+  verb.add_option("--output", options.output,
+                  "folder, or for a single drawing file, of the drawings; without it they lie beside their "
+                  "images as IMAGE-edges.png");
+  verb.add_flag("--force", options.force, "replace drawings and lists that are there already");
+  verb.add_option("--json", options.json,
+                  "write segments, corners, outlines and matches there; -: to standard output");
+}
+
+}  // namespace
+
 void AddSeeCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<head::SeeOptions>();
   auto* verb =
@@ -17,34 +54,8 @@ void AddSeeCommand(CLI::App& cli, int& exit_code) {
       "          priamos see left.jpg right.jpg --cameras left.yaml right.yaml\n"
       "          priamos see left.jpg right.jpg --cameras left.yaml right.yaml --stand 1.2 -5\n"
       "          priamos see photo.png --cameras camera.yaml --landmark body.cao --at 0.05 0.1 0.6 115 0 0");
-  verb->add_option("image", options->images, "image files")->required();
-  verb->add_option(
-          "--cameras", options->cameras,
-          "rectified cameras of two or three images: YAML with projection_matrix, in the images' order")
-      ->expected(1, 3);
-  verb->add_option(
-          "--stand", options->stand,
-          "look for doors in two images: height of the left camera above the floor [m], its tilt and "
-          "roll [deg, down and to the right are positive]")
-      ->expected(1, 3);
-  verb->add_option("--max-door-width", options->max_door_width_m, "wider openings are no doors [m]")
-      ->capture_default_str()
-      ->check(CLI::Range(0.5, 5.0));
-  auto* at =
-      verb->add_option("--at", options->at,
-                       "where the landmark is believed to be, in the first camera's frame: x y z [m] roll "
-                       "pitch yaw [deg]")
-          ->expected(6);
-  verb->add_option(
-          "--landmark", options->landmark,
-          "a body of flat faces to look for, .toml or ViSP's .cao; one image with its camera is enough")
-      ->needs(at);
-  verb->add_option("--output", options->output,
-                   "folder, or for a single drawing file, of the drawings; without it they lie beside their "
-                   "images as IMAGE-edges.png");
-  verb->add_flag("--force", options->force, "replace drawings and lists that are there already");
-  verb->add_option("--json", options->json,
-                   "write segments, corners, outlines and matches there; -: to standard output");
+  AddImageOptions(*verb, *options);
+  AddResultOptions(*verb, *options);
   verb->callback([options, &exit_code] {
     const head::SeeReport report = head::See(*options);
     std::cout << report.json;

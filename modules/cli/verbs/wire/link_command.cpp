@@ -62,42 +62,45 @@ nlohmann::ordered_json BudgetAsJson(const bus::radio::ChannelTable& table, const
           {"problems", budget.problems}};
 }
 
+void AddLineOptions(CLI::App& verb, bus::radio::LineConfig& line) {
+  verb.add_option("--baud", line.baud, "10 bits per byte")
+      ->check(CLI::Range(300, 1000000))
+      ->capture_default_str();
+  verb.add_option("--air-rate", line.air_rate_bytes_s, "byte/s of the radio itself; 0: as much as the port")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  verb.add_option("--latency", line.latency_s, "s")->check(CLI::Range(0.0, 10.0))->capture_default_str();
+  verb.add_option("--jitter", line.jitter_s, "s, on top of the latency")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  verb.add_option("--bit-error-rate", line.bit_error_rate, "probability of a flip per bit")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  verb.add_option("--burst-rate", line.burst_rate_hz, "error bursts per second")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  verb.add_option("--burst-length", line.burst_length_s, "s")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  verb.add_option("--burst-error-rate", line.burst_error_rate, "probability of a flip per bit in a burst")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  verb.add_option("--duplicate", line.duplicate_probability, "probability that a byte arrives twice")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb.add_flag("--half-duplex", line.half_duplex, "a modem hears nothing while it sends");
+  verb.add_option("--turnaround", line.turnaround_s, "s, half-duplex: nor for so long afterwards")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+}
+
 void AddEmulate(CLI::App& link, int& exit_code) {
   auto options = std::make_shared<LinkEmulateOptions>();
   auto* verb = AddVerb(link, "emulate", "A pair of radio modems: two ttys joined by an emulated line.");
   verb->footer("Example: priamos link emulate --a /tmp/tty-robot --b /tmp/tty-desk --bit-error-rate 1e-4");
   verb->add_option("--a", options->a, "name of the first tty")->capture_default_str();
   verb->add_option("--b", options->b, "name of the second tty")->capture_default_str();
-  auto& line = options->line;
-  verb->add_option("--baud", line.baud, "10 bits per byte")
-      ->check(CLI::Range(300, 1000000))
-      ->capture_default_str();
-  verb->add_option("--air-rate", line.air_rate_bytes_s, "byte/s of the radio itself; 0: as much as the port")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  verb->add_option("--latency", line.latency_s, "s")->check(CLI::Range(0.0, 10.0))->capture_default_str();
-  verb->add_option("--jitter", line.jitter_s, "s, on top of the latency")
-      ->check(CLI::Range(0.0, 10.0))
-      ->capture_default_str();
-  verb->add_option("--bit-error-rate", line.bit_error_rate, "probability of a flip per bit")
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
-  verb->add_option("--burst-rate", line.burst_rate_hz, "error bursts per second")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  verb->add_option("--burst-length", line.burst_length_s, "s")
-      ->check(CLI::Range(0.0, 10.0))
-      ->capture_default_str();
-  verb->add_option("--burst-error-rate", line.burst_error_rate, "probability of a flip per bit in a burst")
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
-  verb->add_option("--duplicate", line.duplicate_probability, "probability that a byte arrives twice")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  verb->add_flag("--half-duplex", line.half_duplex, "a modem hears nothing while it sends");
-  verb->add_option("--turnaround", line.turnaround_s, "s, half-duplex: nor for so long afterwards")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  AddLineOptions(*verb, options->line);
   verb->add_option("--blackouts", options->blackouts,
                    "CSV file with from_s,to_s per line: no line in between");
   verb->add_option("--delays", options->delays,

@@ -119,6 +119,36 @@ double Cost(const Corner& c) {
   return std::hypot(c.extension_px[0], c.extension_px[1]);
 }
 
+/// The corners at one end of segment `i`, those that needed the least repair first.
+std::vector<Corner> CornersAt(const EdgeImage& edges, int i, int end, const std::vector<int>& near,
+                              const ContourOptions& options) {
+  std::vector<Corner> here;
+  for (const int other : near) {
+    if (other == i) continue;
+    if (const auto corner = Meet(edges.segments, i, end, other, options)) here.push_back(*corner);
+  }
+  std::sort(here.begin(), here.end(), [](const Corner& a, const Corner& b) { return Cost(a) < Cost(b); });
+  return here;
+}
+
+/// A corner was found from both of its sides, unless one of them knew too many better ones: kept once.
+void KeepOnce(std::vector<Corner>& corners) {
+  for (Corner& c : corners) {
+    if (c.segments[0] < c.segments[1]) continue;
+    std::swap(c.segments[0], c.segments[1]);
+    std::swap(c.ends[0], c.ends[1]);
+    std::swap(c.extension_px[0], c.extension_px[1]);
+  }
+  const auto key = [](const Corner& c) {
+    return std::tuple(c.segments[0], c.ends[0], c.segments[1], c.ends[1]);
+  };
+  std::sort(corners.begin(), corners.end(),
+            [&](const Corner& a, const Corner& b) { return key(a) < key(b); });
+  corners.erase(std::unique(corners.begin(), corners.end(),
+                            [&](const Corner& a, const Corner& b) { return key(a) == key(b); }),
+                corners.end());
+}
+
 }  // namespace
 
 std::vector<Relation> FindRelations(const EdgeImage& edges, const ContourOptions& options) {
@@ -145,41 +175,22 @@ std::vector<Corner> FindCorners(const EdgeImage& edges, const ContourOptions& op
   SegmentIndex index(edges.width, edges.height, kCellPx);
   for (std::size_t i = 0; i < edges.segments.size(); ++i)
     index.Insert(static_cast<int>(i), edges.segments[i].begin, edges.segments[i].end);
-  std::vector<Corner> corners, here;
+  std::vector<Corner> corners;
   std::vector<int> near;
   for (int i = 0; i < static_cast<int>(edges.segments.size()); ++i) {
     for (const int end : {0, 1}) {
       const Eigen::Vector2d at = end == 1 ? edges.segments[i].end : edges.segments[i].begin;
       near.clear();
-      here.clear();
       // Both sides may have to be extended, at a sharp angle.
       index.Near(at, 2 * options.max_extension_px, near);
       std::sort(near.begin(), near.end());
       near.erase(std::unique(near.begin(), near.end()), near.end());
-      for (const int other : near) {
-        if (other == i) continue;
-        if (const auto corner = Meet(edges.segments, i, end, other, options)) here.push_back(*corner);
-      }
-      std::sort(here.begin(), here.end(), [](const Corner& a, const Corner& b) { return Cost(a) < Cost(b); });
+      const std::vector<Corner> here = CornersAt(edges, i, end, near, options);
       const auto kept = std::min(here.size(), std::size_t(options.max_corners_per_end));
       corners.insert(corners.end(), here.begin(), here.begin() + kept);
     }
   }
-  // A corner was found from both of its sides, unless one of them knew too many better ones.
-  for (Corner& c : corners) {
-    if (c.segments[0] < c.segments[1]) continue;
-    std::swap(c.segments[0], c.segments[1]);
-    std::swap(c.ends[0], c.ends[1]);
-    std::swap(c.extension_px[0], c.extension_px[1]);
-  }
-  const auto key = [](const Corner& c) {
-    return std::tuple(c.segments[0], c.ends[0], c.segments[1], c.ends[1]);
-  };
-  std::sort(corners.begin(), corners.end(),
-            [&](const Corner& a, const Corner& b) { return key(a) < key(b); });
-  corners.erase(std::unique(corners.begin(), corners.end(),
-                            [&](const Corner& a, const Corner& b) { return key(a) == key(b); }),
-                corners.end());
+  KeepOnce(corners);
   return corners;
 }
 

@@ -19,6 +19,22 @@ void SortByExtent(const std::vector<RoughLine>& lines, std::vector<std::pair<flo
   std::sort(order.begin(), order.end());
 }
 
+ChainTracer::Options TraceOptions(const EdgeOperator::Options& options, double gradient_noise) {
+  ChainTracer::Options trace;
+  trace.link_threshold =
+      std::max(options.min_contrast * kSobelPerGrey, options.noise_factor * gradient_noise);
+  trace.seed_threshold = 1.5 * trace.link_threshold;
+  trace.min_pixels = options.split.min_pixels;
+  return trace;
+}
+
+EdgeRefiner::Options RefitOptions(const EdgeOperator::Options& options) {
+  EdgeRefiner::Options refit = options.refit;
+  refit.min_contrast = options.min_contrast;
+  refit.min_length_px = options.min_length_px;
+  return refit;
+}
+
 }  // namespace
 
 void EdgeOperator::Extract(const cv::Mat& image, EdgeImage& out) {
@@ -27,12 +43,7 @@ void EdgeOperator::Extract(const cv::Mat& image, EdgeImage& out) {
     throw std::invalid_argument("the edge operator needs a grey image of 32x32 to 16384x16384 pixels");
   }
   gradients_.Compute(image);
-  ChainTracer::Options trace;
-  trace.link_threshold =
-      std::max(options_.min_contrast * kSobelPerGrey, options_.noise_factor * gradients_.GradientNoise());
-  trace.seed_threshold = 1.5 * trace.link_threshold;
-  trace.min_pixels = options_.split.min_pixels;
-  tracer_.Trace(gradients_, trace, chains_);
+  tracer_.Trace(gradients_, TraceOptions(options_, gradients_.GradientNoise()), chains_);
   splitter_.Split(gradients_, chains_, options_.split, rough_);
 
   out.width = image.cols;
@@ -43,9 +54,7 @@ void EdgeOperator::Extract(const cv::Mat& image, EdgeImage& out) {
   out.segments.clear();
   out.points.clear();
   refiner_.SetImage(image, gradients_.noise_sigma());
-  EdgeRefiner::Options refit = options_.refit;
-  refit.min_contrast = options_.min_contrast;
-  refit.min_length_px = options_.min_length_px;
+  const EdgeRefiner::Options refit = RefitOptions(options_);
   // The longest first: they run on over their own broken pieces, which need not be looked at any more.
   SortByExtent(rough_, order_);
   found_.Clear(image.cols, image.rows);

@@ -178,48 +178,72 @@ class Fuser {
   std::vector<int> near_;
 };
 
+/// Two fits in the frame of the line that joins them: along it and beside it [px].
+struct PairOfFits {
+  double w[2], t[2], y[2], spread[2], slope[2];  ///< weight, place along, beside, weight of the slope, slope
+  double from = 1e9, to = -1e9;                  ///< ends along the line
+};
+
+PairOfFits InFrame(const EdgeSegment& first, const EdgeSegment& second, const Eigen::Vector2d& d,
+                   const Eigen::Vector2d& n) {
+  const EdgeSegment* const parts[2] = {&first, &second};
+  const Eigen::Vector2d origin = first.centre;
+  PairOfFits p;
+  for (int i = 0; i < 2; ++i) {
+    const EdgeSegment& s = *parts[i];
+    p.w[i] = 1 / (s.sigma_normal_px * s.sigma_normal_px);
+    p.spread[i] = 1 / (s.sigma_angle_rad * s.sigma_angle_rad);
+    p.t[i] = d.dot(s.centre - origin);
+    p.y[i] = n.dot(s.centre - origin);
+    p.slope[i] = n.dot(s.direction()) / d.dot(s.direction());
+    p.from = std::min(p.from, d.dot(s.begin - origin));
+    p.to = std::max(p.to, d.dot(s.end - origin));
+  }
+  return p;
+}
+
+/// The line through both: its middle along, its offset there and slope, with their weights and the residual.
+struct JoinedFit {
+  double mean = 0, offset = 0, turn = 0, weight = 0, total = 0, chi2 = 0;
+};
+
+JoinedFit Fit(const PairOfFits& p) {
+  JoinedFit fit;
+  fit.weight = p.w[0] + p.w[1];
+  fit.mean = (p.w[0] * p.t[0] + p.w[1] * p.t[1]) / fit.weight;
+  fit.offset = (p.w[0] * p.y[0] + p.w[1] * p.y[1]) / fit.weight;
+  fit.total = p.spread[0] + p.spread[1];
+  double moment = p.spread[0] * p.slope[0] + p.spread[1] * p.slope[1];
+  for (int i = 0; i < 2; ++i) {
+    fit.total += p.w[i] * (p.t[i] - fit.mean) * (p.t[i] - fit.mean);
+    moment += p.w[i] * (p.t[i] - fit.mean) * (p.y[i] - fit.offset);
+  }
+  fit.turn = moment / fit.total;
+  for (int i = 0; i < 2; ++i) {
+    const double error = p.y[i] - fit.offset - fit.turn * (p.t[i] - fit.mean);
+    fit.chi2 += p.w[i] * error * error + p.spread[i] * (p.slope[i] - fit.turn) * (p.slope[i] - fit.turn);
+  }
+  return fit;
+}
+
 }  // namespace
 
 EdgeSegment JoinFits(const EdgeSegment& first, const EdgeSegment& second) {
-  const EdgeSegment* const parts[2] = {&first, &second};
-  const Eigen::Vector2d origin = first.centre;
   const Eigen::Vector2d d =
       (first.length_px() * first.direction() + second.length_px() * second.direction()).normalized();
   const Eigen::Vector2d n(-d.y(), d.x());
-  double w[2], t[2], y[2], spread[2], slope[2], from = 1e9, to = -1e9;
-  for (int i = 0; i < 2; ++i) {
-    const EdgeSegment& s = *parts[i];
-    w[i] = 1 / (s.sigma_normal_px * s.sigma_normal_px);
-    spread[i] = 1 / (s.sigma_angle_rad * s.sigma_angle_rad);
-    t[i] = d.dot(s.centre - origin);
-    y[i] = n.dot(s.centre - origin);
-    slope[i] = n.dot(s.direction()) / d.dot(s.direction());
-    from = std::min(from, d.dot(s.begin - origin));
-    to = std::max(to, d.dot(s.end - origin));
-  }
-  const double weight = w[0] + w[1], mean = (w[0] * t[0] + w[1] * t[1]) / weight;
-  const double offset = (w[0] * y[0] + w[1] * y[1]) / weight;
-  double total = spread[0] + spread[1], moment = spread[0] * slope[0] + spread[1] * slope[1];
-  for (int i = 0; i < 2; ++i) {
-    total += w[i] * (t[i] - mean) * (t[i] - mean);
-    moment += w[i] * (t[i] - mean) * (y[i] - offset);
-  }
-  const double turn = moment / total;
-  double chi2 = 0;
-  for (int i = 0; i < 2; ++i) {
-    const double error = y[i] - offset - turn * (t[i] - mean);
-    chi2 += w[i] * error * error + spread[i] * (slope[i] - turn) * (slope[i] - turn);
-  }
-  const double inflation = std::sqrt(std::max(1.0, chi2 / 2));  // four numbers for two unknowns
+  const PairOfFits pair = InFrame(first, second, d, n);
+  const JoinedFit fit = Fit(pair);
+  const double inflation = std::sqrt(std::max(1.0, fit.chi2 / 2));  // four numbers for two unknowns
   const auto at = [&](double along) -> Eigen::Vector2d {
-    return origin + along * d + (offset + turn * (along - mean)) * n;
+    return first.centre + along * d + (fit.offset + fit.turn * (along - fit.mean)) * n;
   };
   EdgeSegment joined;
-  joined.begin = at(from);
-  joined.end = at(to);
-  joined.centre = at(mean);
-  joined.sigma_normal_px = inflation / std::sqrt(weight);
-  joined.sigma_angle_rad = inflation / std::sqrt(total);
+  joined.begin = at(pair.from);
+  joined.end = at(pair.to);
+  joined.centre = at(fit.mean);
+  joined.sigma_normal_px = inflation / std::sqrt(fit.weight);
+  joined.sigma_angle_rad = inflation / std::sqrt(fit.total);
   const double share = first.length_px() / (first.length_px() + second.length_px());
   joined.grey_left = share * first.grey_left + (1 - share) * second.grey_left;
   joined.grey_right = share * first.grey_right + (1 - share) * second.grey_right;

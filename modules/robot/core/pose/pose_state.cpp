@@ -136,6 +136,15 @@ PoseState Propagated(const PoseState& state, const OdometryStep& step) {
   return next;
 }
 
+namespace {
+
+/// Measured minus expected pose of the landmark in the base frame.
+Eigen::Vector3d Residual(const Pose2& measured, const Pose2& expected) {
+  return {measured.x - expected.x, measured.y - expected.y, WrapAngle(measured.yaw - expected.yaw)};
+}
+
+}  // namespace
+
 MeasurementUpdate Updated(const PoseState& prior, const LandmarkMeasurement& measurement) {
   constexpr int kIterations = 6;
   const Pose2 start = Corrected(prior.pose(), CorrectionFrom(prior.pose(), measurement.base_from_landmark,
@@ -152,10 +161,7 @@ MeasurementUpdate Updated(const PoseState& prior, const LandmarkMeasurement& mea
     const ExpectedMeasurement expected =
         PredictMeasurement({at(0), at(1), at(2)}, measurement.map_from_landmark);
     h.leftCols<3>() = expected.by_pose;
-    const Eigen::Vector3d residual(
-        measurement.base_from_landmark.x - expected.base_from_landmark.x,
-        measurement.base_from_landmark.y - expected.base_from_landmark.y,
-        WrapAngle(measurement.base_from_landmark.yaw - expected.base_from_landmark.yaw));
+    const Eigen::Vector3d residual = Residual(measurement.base_from_landmark, expected.base_from_landmark);
     const Eigen::Vector3d innovation = residual - h * Minus(prior.mean, at);
     gain = fusion.GainFor(h);
     const Eigen::Matrix3d spread = h * prior.covariance * h.transpose() + measurement.covariance;

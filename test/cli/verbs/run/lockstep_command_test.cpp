@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "test/cli/priamos_answer.hpp"
+#include "test/cli/small_deployment.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos::cli {
@@ -11,6 +12,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 TEST(LockstepCommand, WhatCannotBeWrittenIsFoundOutBeforeTheFirstRun) {
@@ -35,6 +37,19 @@ TEST(LockstepCommand, ADeploymentWithoutScenariosNamesOneThatHasSome) {
   const auto answer = Priamos({"lockstep", "--deployment", "robot"});
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, AllOf(HasSubstr("it has no scenarios"), HasSubstr("--deployment sim")));
+}
+
+TEST(LockstepCommand, SeveralRunsAreCountedAndOneIsNot) {
+  const SmallDeployment deployment;
+  const auto run = [&](const char* runs) {
+    return Priamos(
+        {"lockstep", "--deployment", deployment.name(), "--scenario", "wait", "--runs", runs, "--seed", "7"});
+  };
+  const auto one = run("1"), two = run("2");
+  EXPECT_EQ(one.exit_code, 1);
+  EXPECT_THAT(one.out, AllOf(StartsWith("seed 7 "), Not(HasSubstr("of 1 passed"))));
+  EXPECT_EQ(two.exit_code, 1);
+  EXPECT_THAT(two.out, AllOf(HasSubstr("\nseed 8 "), HasSubstr("\n0 of 2 passed, 0 contacts\n")));
 }
 
 }  // namespace

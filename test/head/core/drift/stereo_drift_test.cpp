@@ -41,6 +41,19 @@ TEST(StereoDriftTest, MeasuresTheTurnThatThereIs) {
   }
 }
 
+TEST(StereoDriftTest, MeasuresATurnOfManyPixelsAsWell) {
+  Rng rng(9);
+  for (int axis = 0; axis < 3; ++axis) {
+    DriftScene scene(kNone, rng);
+    Vector3d turn = Vector3d::Zero();
+    turn(axis) = 0.01;  // nine pixels: no residual is small before the first solution
+    scene.TurnRight(turn);
+    const auto dut = Measure(scene, rng);
+    ASSERT_TRUE(dut);
+    EXPECT_LT((dut->turn_rad - turn).norm(), 3e-4) << dut->turn_rad.transpose();
+  }
+}
+
 TEST(StereoDriftTest, ItsCovarianceIsHonest) {
   Rng rng(2);
   Vector3d squares = Vector3d::Zero();

@@ -230,6 +230,36 @@ std::string WhyNarrow(const Spread& spread) {
       1e3 * across);
 }
 
+/// A plane, the points that lie in it, and how these are spread.
+struct Consensus {
+  Plane plane;
+  std::vector<bool> used;
+  Spread spread;
+};
+
+Consensus Settle(const std::vector<Point>& points, const Plane& first) {
+  Consensus found{first, Inliers(points, first, kConsensus_px), {}};
+  found.spread = SpreadOf(points, found.used);
+  for (const double limit_px : {kConsensus_px, kOutlier_px, kOutlier_px}) {
+    found.plane = Refine(points, found.used, found.spread.middle, found.plane);
+    found.used = Inliers(points, found.plane, limit_px);
+    found.spread = SpreadOf(points, found.used);
+  }
+  return found;
+}
+
+/// Empty if the plane is that of most points, and these are wide enough to fix it.
+std::string WhyDoubtful(const Consensus& found) {
+  const auto inliers = static_cast<double>(std::count(found.used.begin(), found.used.end(), true));
+  const auto all = static_cast<double>(found.used.size());
+  if (inliers < kFewestInliers * all)
+    return fmt::format(
+        "only {:.0f} % of the points lie in one plane: boards or cameras are not where the files place them",
+        100 * inliers / all);
+  // Judged again: what gave the lines their width may have been another light.
+  return WhyNarrow(found.spread);
+}
+
 }  // namespace
 
 Outcome<LaserCalibration> CalibrateLaserPlane(std::span<const StripeView> views) {
@@ -239,33 +269,19 @@ Outcome<LaserCalibration> CalibrateLaserPlane(std::span<const StripeView> views)
   if (std::string reason = WhyNarrow(all); !reason.empty()) return Refusal{reason};
   const std::optional<Plane> first = PlaneOfMost(*points);
   if (!first) return Refusal{"the points of the line coincide"};
-  Plane plane = *first;
-  std::vector<bool> used = Inliers(*points, plane, kConsensus_px);
-  Spread spread = SpreadOf(*points, used);
-  for (const double limit_px : {kConsensus_px, kOutlier_px, kOutlier_px}) {
-    plane = Refine(*points, used, spread.middle, plane);
-    used = Inliers(*points, plane, limit_px);
-    spread = SpreadOf(*points, used);
-  }
-  const auto inliers = static_cast<double>(std::count(used.begin(), used.end(), true));
-  if (inliers < kFewestInliers * static_cast<double>(points->size()))
-    return Refusal{
-        fmt::format("only {:.0f} % of the points lie in one plane: boards or cameras are not where "
-                    "the files place them",
-                    100 * inliers / static_cast<double>(points->size()))};
-  // Judged again: what gave the lines their width may have been another light.
-  if (std::string reason = WhyNarrow(spread); !reason.empty()) return Refusal{reason};
-  plane = Refine(*points, used, spread.middle, plane);
+  const Consensus found = Settle(*points, *first);
+  if (std::string reason = WhyDoubtful(found); !reason.empty()) return Refusal{reason};
+  const Plane plane = Refine(*points, found.used, found.spread.middle, found.plane);
   LaserCalibration result;
   const double sign = plane.normal().z() < 0 ? -1 : 1;
   result.plane.normal = sign * plane.normal();
   result.plane.offset_m = sign * plane.offset();
-  const Motion motion(result.plane.Plane(), spread.middle);
+  const Motion motion(result.plane.Plane(), found.spread.middle);
   result.plane.pivot_m = motion.pivot;
-  FillErrors(*points, used, views.size(), result);
+  FillErrors(*points, found.used, views.size(), result);
   if (!(result.rms_px < kWorst_px))
     return Refusal{fmt::format("the lines are {:.2f} px from where the best plane puts them", result.rms_px)};
-  FillSigmas(*points, used, views, result.rms_px, motion, result.plane);
+  FillSigmas(*points, found.used, views, result.rms_px, motion, result.plane);
   return result;
 }
 

@@ -112,6 +112,19 @@ TEST_F(DiscFitPrecision, TellsHowFarItsCentresScatter) {
   EXPECT_NEAR(std::sqrt(squares) / told, 1, 0.25);
 }
 
+TEST_F(DiscFitPrecision, TheResidualIsTheNoiseAlsoOfFewPixels) {
+  double squares = 0;
+  for (int i = 0; i < kTimes; ++i) {
+    const Ellipse small = CircleAt(20 + rng_.Uniform(-0.5, 0.5), 20 + rng_.Uniform(-0.5, 0.5), 3);
+    DiscRenderer scene(40, 40, kGround, 2);
+    scene.AddEllipse(small, kAmplitude);
+    const auto dut = FitDisc(scene.Expose({0.7, 4}, rng_), Start(small, {0.2, 0.1}));
+    ASSERT_TRUE(dut);
+    squares += dut->residual * dut->residual / kTimes;
+  }
+  EXPECT_NEAR(squares / (4 * 4), 1, 0.08);  // twelve unknowns take a tenth of the pixels
+}
+
 TEST_F(DiscFitPrecision, IsMorePreciseThanTheCentroid) {
   double fitted = 0, centroid = 0;
   for (int i = 0; i < kTimes; ++i) {
