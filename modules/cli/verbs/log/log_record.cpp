@@ -70,7 +70,7 @@ class Recording {
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a failed write, not the end
     if (!options_.json) std::cout << recorder_.file().string() << std::endl;
     const auto end = options_.seconds > 0 ? start_ + FromSeconds(options_.seconds) : Time::max();
-    while (clock_.Now() < end) {
+    do {
       pollfd fds[] = {{bus_.fd(), POLLIN, 0}, {signals_.fd(), POLLIN, 0}};
       poll(fds, std::size(fds), 50);
       if (fds[1].revents != 0) break;
@@ -78,7 +78,8 @@ class Recording {
       recorder_.Tick(clock_.Now());
       ReportAlarm();
       SendHealth();
-    }
+    } while (clock_.Now() < end);
+    bus_.Drain();  // what came in the last round
     return End();
   }
 

@@ -17,7 +17,9 @@ bool CorrelatedLeastSquares::Solve(const MatrixXd& jacobian, const VectorXd& dis
   whitening_.matrixL().solveInPlace(white_distance_);
   const MatrixXd information = white_jacobian_.transpose() * white_jacobian_;
   information_.compute(information);
-  if (information_.info() != Eigen::Success || information_.rcond() < 1e-12) return false;
+  // A pivot of exactly zero is left out by Eigen's inverse, and by its condition number.
+  const bool regular = information_.info() == Eigen::Success && information_.vectorD().minCoeff() > 0;
+  if (!regular || information_.rcond() < 1e-12) return false;
   const VectorXd right = white_jacobian_.transpose() * white_distance_;
   step_ = information_.solve(right);
   return true;
