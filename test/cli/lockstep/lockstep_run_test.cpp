@@ -11,7 +11,10 @@ namespace {
 TEST(LockstepRun, ADaemonOfTheScenarioIsNotStarted) {
   SmallDeployment deployment;
   deployment.AddScenario("mouse", "[[process]]\nmodule = \"spacenavd\"\nbus = \"offboard\"\n");
-  const auto dut = RunLockstep(bus::OwnTypes(), {.deployment = deployment.name(), .scenario = "mouse"});
+  LockstepRequest request;
+  request.deployment = deployment.name();
+  request.scenario = "mouse";
+  const auto dut = RunLockstep(bus::OwnTypes(), request);
   EXPECT_NEAR(Seconds(dut.duration), 1, 0.1);
   EXPECT_FALSE(dut.summary.passed);
 }

@@ -4,7 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/verbs/commands.hpp"
+#include "cli/verbs/help/commands.hpp"
+#include "cli/verbs/log/commands.hpp"
+#include "cli/verbs/run/commands.hpp"
+#include "cli/verbs/wire/commands.hpp"
 #include "test/cli/priamos_answer.hpp"
 
 namespace priamos::cli {

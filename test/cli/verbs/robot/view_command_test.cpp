@@ -22,7 +22,7 @@ class ViewCommand : public testing::Test {
 TEST_F(ViewCommand, EndsAfterTheTimeGivenHoweverShort) {
   log_.Add(0, "POSE", pose_t{});
   EXPECT_EQ(ViewFor("0.1").exit_code, 1) << "nothing was seen";
-  log_.Add(0, "LANDMARK_VIEW", landmark_view_t{});
+  log_.AddBytes(0, "LANDMARK_VIEW", bus::Encode(landmark_view_t{}));
   EXPECT_EQ(ViewFor("0.1").exit_code, 0);
 }
 
