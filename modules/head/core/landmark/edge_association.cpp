@@ -4,19 +4,182 @@
 #include <cmath>
 #include <iterator>
 
-#include "head/core/landmark/edge_odds.hpp"
-#include "head/core/landmark/edge_search.hpp"
+#include "head/core/landmark/edge_candidates.hpp"
 #include "head/core/landmark/landmark_corners.hpp"
 
 namespace priamos::head {
 namespace {
 
+constexpr std::size_t kUsualCandidates = 16;
 constexpr int kSides = 4;                  ///< values of LandmarkEdge::side
 constexpr double kFullLengthPx = 40;       ///< shorter predictions count less
+constexpr double kMinDensity = 0.01;       ///< similar edges per pixel: even a bare wall may hide one
 constexpr double kFreeOvershootPx = 6;     ///< ends are not found better than that
 constexpr double kOvershootPenalty = 0.2;  ///< log odds lost per pixel beyond
+constexpr double kNearlyWhole = 0.6;       ///< covered share that counts as a whole edge
 
-void Account(const EdgeSearch& search, const LandmarkEdge& edge, double density, int camera,
+double Union(std::vector<std::pair<double, double>>& parts) {
+  std::sort(parts.begin(), parts.end());
+  double covered = 0, end = -1e9;
+  for (const auto& [from, to] : parts) {
+    covered += std::max(0.0, to - std::max(from, end));
+    end = std::max(end, to);
+  }
+  return covered;
+}
+
+/// EdgeMatch::grey_ratio of a candidate: its sign follows the direction of the prediction.
+double GreyRatio(const CameraView& view, const EdgeCandidate& c) {
+  constexpr double kBlack = 4;  // darker than that a ratio means nothing
+  const EdgeSegment& segment = view.edges->segments[view.lines[c.line].segment];
+  const double ratio = std::log(std::max(segment.grey_right, kBlack) / std::max(segment.grey_left, kBlack));
+  return c.same_sign ? ratio : -ratio;
+}
+
+/// The candidates of one contrast sign within the gate, as one match.
+EdgeMatch Collect(const std::vector<EdgeCandidate>& candidates, bool sign, const PredictedEdge& predicted,
+                  const CameraView& view, const AssociationOptions& options) {
+  const double length = predicted.length_px();
+  EdgeMatch match;
+  // The nearest long one decides where the edge is; others must continue it, not lie beside it.
+  const EdgeCandidate* best = nullptr;
+  double best_value = 0;
+  for (const EdgeCandidate& c : candidates) {
+    if (c.same_sign != sign || std::abs(c.distance) > options.gate_px) continue;
+    const double value =
+        (c.to - c.from) * std::exp(-0.5 * c.distance * c.distance / (options.sigma_px * options.sigma_px));
+    if (value > best_value) {
+      best = &c;
+      best_value = value;
+    }
+  }
+  if (!best) return match;
+  std::vector<std::pair<double, double>> parts;
+  double sum = 0, weight = 0, ratio = 0, before = 0, after = 0, first = length, last = 0;
+  for (const EdgeCandidate& c : candidates) {
+    if (c.same_sign != sign || std::abs(c.distance) > options.gate_px) continue;
+    if (std::abs(c.distance - best->distance) > 2 * options.sigma_px) continue;
+    match.lines.push_back(c.line);
+    parts.emplace_back(c.from, c.to);
+    sum += c.distance * (c.to - c.from);
+    weight += c.to - c.from;
+    ratio += GreyRatio(view, c) * (c.to - c.from);
+    before = std::max(before, c.before);
+    after = std::max(after, c.after);
+    first = std::min(first, c.from);
+    last = std::max(last, c.to);
+  }
+  match.overshoot_px = (predicted.p_is_end ? before : 0) + (predicted.q_is_end ? after : 0);
+  match.covered = std::min(1.0, Union(parts) / length);
+  match.gap_px = {before > 0 ? -before : first, after > 0 ? -after : length - last};
+  match.distance_px = sum / weight;
+  match.grey_ratio = ratio / weight;
+  match.predicted_px = length;
+  return match;
+}
+
+struct Odds {
+  double found = 0, missed = 0;
+};
+
+/// Log odds of a whole edge at `distance`, and of one that is not there.
+Odds EdgeOdds(double distance, double density, const AssociationOptions& options) {
+  const double gauss = std::exp(-0.5 * distance * distance / (options.sigma_px * options.sigma_px)) /
+                       (options.sigma_px * std::sqrt(2 * kPi));
+  const double missed = std::log(1 - options.detection);
+  return {std::max(missed, std::log(options.detection * gauss / density + (1 - options.detection))), missed};
+}
+
+/// Log odds of the grey values beside an edge: those of the model but for lighting, or, once in a while,
+/// those of something before or behind it; against those of any edge. 0 if the model has none.
+double GreyOdds(const LandmarkEdge& edge, double measured, const AssociationOptions& options) {
+  if (!edge.grey_ratio) return 0;
+  const auto gauss = [](double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)) / sigma; };
+  const double modelled = gauss(measured - *edge.grey_ratio, options.grey_sigma);
+  const double any = gauss(measured, options.any_grey_sigma);
+  return std::log((1 - options.grey_surprise) * modelled / any + options.grey_surprise);
+}
+
+Odds CornerOdds(const AssociationOptions& options) {
+  return {std::log(options.corner_detection / options.corner_chance),
+          std::log((1 - options.corner_detection) / (1 - options.corner_chance))};
+}
+
+/// A model edge in one image, its candidates and its match.
+struct Search {
+  PredictedEdge predicted;
+  std::vector<EdgeCandidate> candidates;
+  EdgeMatch match;
+  double nearest_px = 1e9;  ///< distance of the next model edge beside it
+
+  bool EndIsInView(bool from) const { return from ? predicted.p_is_end : predicted.q_is_end; }
+};
+
+std::vector<Search> Predict(const LandmarkModel& model, std::span<const int> visible, const CameraView& view,
+                            const Eigen::Isometry3d& base_from_landmark) {
+  std::vector<Search> searches;
+  searches.reserve(visible.size());
+  for (const int index : visible) {
+    const LandmarkEdge& edge = model.edges[index];
+    const auto predicted =
+        ProjectEdge(*view.camera, view.size, base_from_landmark * edge.from, base_from_landmark * edge.to);
+    if (!predicted) continue;
+    searches.push_back({{*predicted, index}, {}, {}, 1e9});
+    searches.back().candidates.reserve(kUsualCandidates);
+  }
+  return searches;
+}
+
+/// How far beside `a` the edge `b` runs, if they run beside each other.
+double Separation(const ProjectedEdge& a, const ProjectedEdge& b) {
+  const Eigen::Vector2d direction = a.direction(), normal = a.normal();
+  if (std::abs(normal.dot(b.direction())) > 0.1) return 1e9;
+  double s = direction.dot(b.p - a.p), t = direction.dot(b.q - a.p);
+  if (s > t) std::swap(s, t);
+  if (std::min(t, a.length_px()) - std::max(s, 0.0) < 0.2 * a.length_px()) return 1e9;
+  return std::abs(normal.dot((b.p + b.q) / 2 - a.p));
+}
+
+/// Drops edges that lie nearer to each other than the kernels of the edge operator are wide.
+void DropCrowded(std::vector<Search>& searches, double min_separation_px) {
+  for (Search& a : searches) {
+    for (const Search& b : searches) {
+      if (&a != &b) a.nearest_px = std::min(a.nearest_px, Separation(a.predicted, b.predicted));
+    }
+  }
+  std::erase_if(searches, [&](const Search& s) { return s.nearest_px < min_separation_px; });
+}
+
+/// An image edge belongs to one model edge only: the one it fits best.
+void MakeExclusive(std::vector<Search>& searches) {
+  for (Search& a : searches) {
+    for (Search& b : searches) {
+      if (&a == &b) continue;
+      const bool shared = std::any_of(a.match.lines.begin(), a.match.lines.end(), [&](int line) {
+        return std::find(b.match.lines.begin(), b.match.lines.end(), line) != b.match.lines.end();
+      });
+      if (!shared) continue;
+      const auto worth = [](const EdgeMatch& m) { return m.covered * std::exp(-std::abs(m.distance_px)); };
+      (worth(a.match) < worth(b.match) ? a : b).match = EdgeMatch{};
+    }
+  }
+}
+
+/// Similar edges per pixel beside the prediction that no model edge explains: the chance rate of a false
+/// match.
+double Density(const Search& search, const std::vector<Search>& all, double window_px) {
+  const double length = search.predicted.length_px();
+  double n = 0;
+  for (const EdgeCandidate& c : search.candidates) {
+    const bool explained = std::any_of(all.begin(), all.end(), [&](const Search& s) {
+      return std::find(s.match.lines.begin(), s.match.lines.end(), c.line) != s.match.lines.end();
+    });
+    if (!explained) n += std::min(1.0, (c.to - c.from) / (kNearlyWhole * length));
+  }
+  return std::max(kMinDensity, n / (2 * window_px));
+}
+
+void Account(const Search& search, const LandmarkEdge& edge, double density, int camera,
              const AssociationOptions& options, Association& association) {
   const EdgeMatch& match = search.match;
   const double importance = std::min(1.0, search.predicted.length_px() / kFullLengthPx);
@@ -58,14 +221,25 @@ void JoinMovable(Association&& part, Association& all) {
   std::move(part.corners.begin(), part.corners.end(), std::back_inserter(all.corners));
 }
 
+/// The contrast sign that is more likely makes the match.
+void Match(Search& search, const LandmarkEdge& edge, const CameraView& view,
+           const AssociationOptions& options) {
+  search.match = Collect(search.candidates, true, search.predicted, view, options);
+  EdgeMatch other = Collect(search.candidates, false, search.predicted, view, options);
+  const auto worth = [&](const EdgeMatch& m) {
+    return m.covered * std::exp(GreyOdds(edge, m.grey_ratio, options) - std::abs(m.distance_px));
+  };
+  if (worth(other) > worth(search.match)) search.match = std::move(other);
+}
+
 /// Where two matched edges of the model meet, the image edges should end, too: edges that merely lie beside
 /// the right ones do not know where those end. At a corner the operator sees little, so "there" is some
 /// pixels wide.
-void AccountCorners(const std::vector<EdgeSearch>& searches, const LandmarkModel& model, int camera,
+void AccountCorners(const std::vector<Search>& searches, const LandmarkModel& model, int camera,
                     const AssociationOptions& options, Association& all, Association& movable) {
   for (std::size_t i = 0; i < searches.size(); ++i) {
     for (std::size_t j = i + 1; j < searches.size(); ++j) {
-      const EdgeSearch &s = searches[i], &t = searches[j];
+      const Search &s = searches[i], &t = searches[j];
       if (std::min(s.match.covered, t.match.covered) < options.min_covered) continue;
       const LandmarkEdge &a = model.edges[s.predicted.edge], &b = model.edges[t.predicted.edge];
       if (a.IsMovable() != b.IsMovable()) continue;
@@ -91,16 +265,16 @@ Association Associate(const LandmarkModel& model, std::span<const int> visible,
   Association association, movable;
   association.missed_log_odds = std::log(1 - options.detection);
   for (std::size_t c = 0; c < views.size(); ++c) {
-    std::vector<EdgeSearch> searches = PredictSearches(model, visible, views[c], base_from_landmark);
+    std::vector<Search> searches = Predict(model, visible, views[c], base_from_landmark);
     DropCrowded(searches, options.min_separation_px);
     CandidateSearch near(views[c], options.clutter_window_px, options.max_angle_rad);
-    for (EdgeSearch& search : searches) {
+    for (Search& search : searches) {
       near.Find(search.predicted, search.candidates);
-      MatchCandidates(search, model.edges[search.predicted.edge], views[c], options);
+      Match(search, model.edges[search.predicted.edge], views[c], options);
     }
     MakeExclusive(searches);
-    for (const EdgeSearch& search : searches) {
-      const double density = ClutterDensity(search, searches, options.clutter_window_px);
+    for (const Search& search : searches) {
+      const double density = Density(search, searches, options.clutter_window_px);
       const LandmarkEdge& edge = model.edges[search.predicted.edge];
       Account(search, edge, density, static_cast<int>(c), options, edge.IsMovable() ? movable : association);
     }
