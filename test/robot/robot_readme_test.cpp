@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "test/support/failsafe_table.hpp"
+#include "test/robot/failsafe_table.hpp"
 
 namespace priamos::robot {
 namespace {

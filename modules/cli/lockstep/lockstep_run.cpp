@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
@@ -42,12 +43,23 @@ bus::Lockstep::Tap TapOf(RunRecorder& recorder, const LockstepRequest& request) 
   };
 }
 
+bool RunsInSimulatedTime(const ScenarioProcess& process) {
+  return process.module != "spacenavd";
+}
+
+/// Throws when nothing would make the time pass.
+void RequireProcess(const LockstepRequest& request, const Scenario& scenario) {
+  if (std::none_of(scenario.processes.begin(), scenario.processes.end(), RunsInSimulatedTime))
+    throw ConfigError(fmt::format("scenario {}: expected a [[process]] that runs in simulated time, got none",
+                                  request.scenario));
+}
+
 /// Adds the mouse's line and the processes of a scenario; no daemon runs in simulated time.
 void Populate(bus::Lockstep& lockstep, const LockstepRequest& request, const Scenario& scenario) {
   if (FindStory(scenario.story).moves_mouse)
     lockstep.AddSerialLine(std::string(kMouseTty), std::string(kHandTty), {});
   for (const auto& process : scenario.processes)
-    if (process.module != "spacenavd")
+    if (RunsInSimulatedTime(process))
       lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
 }
 
@@ -65,6 +77,7 @@ double RunStory(bus::Lockstep& lockstep, ScenarioStory& story) {
 
 LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& request) {
   const Scenario scenario = LoadScenario(request.deployment, request.scenario);
+  RequireProcess(request, scenario);
   const std::string map_file = MapFile(request.deployment, scenario);
   const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
   bus::Lockstep lockstep(schema, {.seed = request.seed});

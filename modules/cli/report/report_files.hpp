@@ -13,6 +13,7 @@ namespace priamos::cli {
 /// The door `id` of a ground plan file. Throws ConfigError when the plan cannot be used or has no such door.
 DoorPlan LoadDoor(const std::string& map_file, int id);
 
+/// How JSON is written: on one line for programs, indented for people.
 enum class JsonForm { kOneLine, kIndented };
 
 /// summary.json of one run, of several an array of them; without the end of the last line.

@@ -7,6 +7,7 @@
 
 namespace priamos::cli {
 
+/// How a message is printed: indented, or as JSON on one line.
 enum class EchoForm { kForPeople, kOneLine };
 
 /// A message as `priamos topic echo` prints it, without the end of the last line: its `fields`, all when

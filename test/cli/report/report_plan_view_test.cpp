@@ -94,17 +94,5 @@ TEST(ReportPlanView, ThingsHaveTheirNamesUnlessTheyAreTooSmall) {
   EXPECT_EQ(dut["label"], 1);
 }
 
-TEST(ReportPlanView, RobotsStandAMetreAndAHalfApartAndAtTheEnd) {
-  RunRecord record;
-  for (int i = 0; i <= 48; ++i) {
-    world_truth_t truth{};
-    truth.x_m = 1 + 0.1 * i;
-    truth.y_m = 5;
-    Feed(record, Side::kOnboard, i, "WORLD_TRUTH", truth);
-  }
-  auto dut = Drawn([&](MapView& view) { DrawRobots(view, record, {0.95, 0.78}); });
-  EXPECT_EQ(dut["footprint"], 2 * 4);  // at 0, 1.5, 3.0 and 4.8 m: 4.5 m is too near to the end
-}
-
 }  // namespace
 }  // namespace priamos::cli

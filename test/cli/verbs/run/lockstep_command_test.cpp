@@ -12,7 +12,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 using testing::StartsWith;
 
 TEST(LockstepCommand, WhatCannotBeWrittenIsFoundOutBeforeTheFirstRun) {
@@ -39,17 +38,11 @@ TEST(LockstepCommand, ADeploymentWithoutScenariosNamesOneThatHasSome) {
   EXPECT_THAT(answer.err, AllOf(HasSubstr("it has no scenarios"), HasSubstr("--deployment sim")));
 }
 
-TEST(LockstepCommand, SeveralRunsAreCountedAndOneIsNot) {
+TEST(LockstepCommand, AScenarioWithoutProcessesIsRefused) {
   const SmallDeployment deployment;
-  const auto run = [&](const char* runs) {
-    return Priamos(
-        {"lockstep", "--deployment", deployment.name(), "--scenario", "wait", "--runs", runs, "--seed", "7"});
-  };
-  const auto one = run("1"), two = run("2");
-  EXPECT_EQ(one.exit_code, 1);
-  EXPECT_THAT(one.out, AllOf(StartsWith("seed 7 "), Not(HasSubstr("of 1 passed"))));
-  EXPECT_EQ(two.exit_code, 1);
-  EXPECT_THAT(two.out, AllOf(HasSubstr("\nseed 8 "), HasSubstr("\n0 of 2 passed, 0 contacts\n")));
+  const auto answer = Priamos({"lockstep", "--deployment", deployment.name(), "--scenario", "wait"});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("scenario wait: expected a [[process]] that runs in simulated time"));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "test/support/failsafe_table.hpp"
+#include "test/robot/failsafe_table.hpp"
 
 namespace priamos::robot {
 namespace {

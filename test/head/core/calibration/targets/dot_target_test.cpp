@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-
 #include "test/support/calibration_scene.hpp"
 #include "test/support/disc_renderer.hpp"
 
@@ -105,33 +103,6 @@ TEST_F(DotTargetTest, RefusesAPhotographWithoutTheGrid) {
   DotTarget larger = kTarget;
   larger.columns = 8;
   EXPECT_FALSE(FindDots(Photograph(kViews[0], rng_), larger));
-}
-
-/// From the first dot to the one that is a row or a column of the target away, in the image.
-Eigen::Vector2d Along(const std::vector<DiscObservation>& dots, int axis) {
-  for (const DiscObservation& dot : dots)
-    if (std::abs(dot.disc.centre_m(axis)) > kTarget.spacing_m && std::abs(dot.disc.centre_m(1 - axis)) < 1e-9)
-      return dot.centroid_px - dots.front().centroid_px;
-  ADD_FAILURE() << "no dot along axis " << axis;
-  return {0, 0};
-}
-
-GreyImage FromBehind(GreyImage image) {
-  for (int v = 0; v < image.height; ++v)
-    std::reverse(image.pixels.begin() + v * image.width, image.pixels.begin() + (v + 1) * image.width);
-  return image;
-}
-
-TEST_F(DotTargetTest, YLiesLeftOfXAlsoWhereTheGridIsCountedTheOtherWayRound) {
-  for (const support::CameraView& view : kViews) {
-    const GreyImage photograph = Photograph(view, rng_);
-    for (const GreyImage& image : {photograph, FromBehind(photograph)}) {
-      const auto dots = FindDots(image, kTarget);
-      ASSERT_TRUE(dots) << dots.reason();
-      const Eigen::Vector2d x = Along(*dots, 0), y = Along(*dots, 1);
-      EXPECT_LT(x.x() * y.y() - x.y() * y.x(), 0) << "v points down: z would point away from the camera";
-    }
-  }
 }
 
 }  // namespace
