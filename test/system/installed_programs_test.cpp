@@ -44,7 +44,7 @@ TEST_F(InstalledProgramsTest, TheUsersDeploymentGoesFirst) {
     priamos lockstep --deployment robto)",
                                      30);
   EXPECT_THAT(answer.text, HasSubstr("home/.config/priamos/sim/deployment.toml:1:title: expected a string"));
-  EXPECT_THAT(answer.text, HasSubstr("home/data/config/sim/scenarios: "));
+  EXPECT_THAT(answer.text, HasSubstr("home/data/config/sim, got \"door\""));
   EXPECT_THAT(answer.text, HasSubstr("\"robto\""));
   EXPECT_THAT(answer.text, HasSubstr((installed_.prefix() / "share/priamos/config").string()));
 }
