@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bus/radio/budget_analysis.hpp"
+#include "bus/radio/channels/bundle.hpp"
 #include "common/config.hpp"
 
 namespace priamos::bus::radio {
@@ -13,8 +14,7 @@ namespace {
 
 FreshnessProof ProofOf(const LinkChannel& channel, double next_s, const DirectionAnalysis& other,
                        Duration line_delay) {
-  constexpr int kSteps = 32;
-  const Duration step = channel.ttl / kSteps + Duration(1);
+  const Duration step = channel.ttl / kOffsetSteps + Duration(1);
   return {.next = FromSeconds(next_s),
           .delay = line_delay,
           .ahead = FromSeconds(other.AheadSeconds()),

@@ -79,8 +79,10 @@ void MessageSender::LoadNewest(const SendQueue::Candidate& candidate, BundleBuil
   }
   const BundleEntry entry = EntryOf(candidate, *packed, departure);
   if (!bundle.Add(entry)) return;
-  if (command && departure.bytes_until)
-    bundle.LimitTo(departure.bytes_until(queue_.OfferedAt(candidate) + table_->at(channel).ttl * 31 / 32));
+  if (command && departure.bytes_until) {
+    const Duration largest_offset = table_->at(channel).ttl * (kOffsetSteps - 1) / kOffsetSteps;
+    bundle.LimitTo(departure.bytes_until(queue_.OfferedAt(candidate) + largest_offset));
+  }
   if (packed->saturated) ++queue_.counters(channel).saturated;
   const auto* state = std::get_if<StateEntry>(&entry);
   if (table_->at(channel).delta.empty()) packed->bytes.clear();

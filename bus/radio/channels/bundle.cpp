@@ -19,7 +19,6 @@ constexpr int kControlKindBits = 3;
 constexpr int kLengthBits = 8;
 constexpr int kSegmentLengthBits = 5;
 constexpr int kPrefixBits = 6;
-constexpr std::int64_t kOffsetSteps = 32;  // per time-to-live, and as many below zero
 constexpr int kOffsetBits = 6;
 constexpr int kFloorBits = 40;
 constexpr int kLossSteps = 15;

@@ -24,8 +24,11 @@ struct StateEntry {
   std::optional<std::uint8_t> baseline{};
 };
 
-/// Entry of a command message. Its offset travels in steps of 1/32 of the channel's time-to-live, from -32 to
-/// 31 of them, rounded down: what is lost makes the command older, never younger.
+/// Steps of a command's offset in one time-to-live of its channel.
+inline constexpr std::int64_t kOffsetSteps = 32;
+
+/// Entry of a command message. Its offset travels in steps of the channel's time-to-live / kOffsetSteps, from
+/// -32 to 31 of them, rounded down: what is lost makes the command older, never younger.
 struct CommandEntry {
   std::size_t channel = 0;
   Duration offset{};  ///< from the arrival of the frame that this one echoes to the offer; may be negative
