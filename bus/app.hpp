@@ -9,6 +9,7 @@
 
 #include "bus/context.hpp"
 #include "common/config.hpp"
+#include "common/config_printer.hpp"
 #include "common/time.hpp"
 
 namespace priamos::bus {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "common/config.hpp"
+
 namespace priamos::bus {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bus/app.hpp"
+#include "common/config.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::bus {

@@ -151,7 +151,7 @@ std::string BadValue(const CLI::App& app, const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const bool is_path = type.find("FILE") != std::string::npos || type.find("DIR") != std::string::npos;
   return fmt::format("{}: {}: expected {}, got \"{}\"{}", FullName(app), option.get_name(), Expected(option),
-                     got, is_path ? NearestFileText(got) : NearestText(got, Members(option)));
+                     got, is_path ? NearestFileText(got, ".lcmlog") : NearestText(got, Members(option)));
 }
 
 std::string WrongCount(const CLI::App& app, const CLI::Option& option) {

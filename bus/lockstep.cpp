@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/config.hpp"
 #include "common/serial_port.hpp"
 
 namespace priamos::bus {

@@ -8,6 +8,7 @@
 
 #include "bus/app_host.hpp"
 #include "bus/radio/line/line.hpp"
+#include "common/config.hpp"
 
 namespace priamos::bus {
 

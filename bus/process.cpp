@@ -19,6 +19,7 @@
 #include "bus/replay.hpp"
 #include "bus/schema/schema.hpp"
 #include "bus/wire/socket_filter.hpp"
+#include "common/config.hpp"
 #include "common/serial_port.hpp"
 
 namespace priamos::bus {

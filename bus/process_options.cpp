@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/config.hpp"
+
 namespace priamos::bus {
 namespace {
 

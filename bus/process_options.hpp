@@ -4,6 +4,7 @@
 
 #include "bus/app.hpp"
 #include "bus/bus_choice.hpp"
+#include "common/config.hpp"
 
 namespace CLI {
 class App;

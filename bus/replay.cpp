@@ -4,6 +4,7 @@
 
 #include "bus/schema/schema.hpp"
 #include "bus/schema/walk.hpp"
+#include "common/config.hpp"
 #include "common/serial_port.hpp"
 
 namespace priamos::bus {

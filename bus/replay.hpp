@@ -8,6 +8,7 @@
 
 #include "bus/app_host.hpp"
 #include "bus/log/log_reader.hpp"
+#include "common/config.hpp"
 
 namespace priamos::bus {
 

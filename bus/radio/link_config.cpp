@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bus/schema/packing.hpp"
+#include "common/archive.hpp"
 
 namespace priamos::bus::radio {
 namespace {

@@ -6,7 +6,7 @@
 #include "bus/radio/channels/channel_table.hpp"
 #include "bus/radio/link_options.hpp"
 #include "bus/schema/schema.hpp"
-#include "common/config.hpp"
+#include "common/archive.hpp"
 
 namespace priamos::bus::radio {
 

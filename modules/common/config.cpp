@@ -1,21 +1,18 @@
 #include "common/config.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <ostream>
 #include <set>
 
+#include "common/config_toml.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos {
 namespace {
 
 constexpr std::size_t kMostKeys = 4;  ///< keys named in the answer to a wrong one
-/// Stands for the file in what `--set` gave; no file is called so.
-constexpr std::string_view kSetName = "--set ";
 
 std::string Shown(const toml::node& node) {
   std::string text;
@@ -216,142 +213,21 @@ class ConfigFile::Reader : public Archive {
   std::vector<std::string> sections_;  ///< those of them that are tables
 };
 
-namespace {
-
-toml::table ParseOrThrow(const std::string& name, std::string_view text) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", name, error.source().begin.line,
-                                  std::string(error.description())));
-  }
-}
-
-std::string NearestFiles(const std::filesystem::path& wanted) {
-  std::vector<std::string> names;
-  std::error_code none;
-  const auto folder = wanted.has_parent_path() ? wanted.parent_path() : ".";
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename());
-  return NearestText(wanted.filename().string(), names);
-}
-
-toml::table ParseFileOrThrow(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw ConfigError(fmt::format("{}: expected a configuration file, got none{}", path, NearestFiles(path)));
-  try {
-    return toml::parse_file(path);
-  } catch (const toml::parse_error& error) {
-    throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", path, error.source().begin.line,
-                                  std::string(error.description())));
-  }
-}
-
-void Merge(toml::table& into, toml::table&& from) {
-  for (auto&& [key, node] : from) {
-    auto* inner = into[key].as_table();
-    if (inner && node.is_table()) {
-      Merge(*inner, std::move(*node.as_table()));
-    } else {
-      into.insert_or_assign(key, std::move(node));
-    }
-  }
-}
-
-toml::table ParseOverride(const std::string& text) {
-  const std::string name = std::string(kSetName) + text;
-  try {
-    toml::table table = toml::parse(text, std::string_view(name));
-    if (table.empty()) throw ConfigError(fmt::format("{}\"{}\": expected KEY=VALUE", kSetName, text));
-    return table;
-  } catch (const toml::parse_error&) {
-    // `port=/dev/ttyS0` is what people type; TOML wants the quotes.
-    const auto equals = text.find('=');
-    if (equals == std::string::npos) throw ConfigError(fmt::format("{}: expected KEY=VALUE", name));
-    return ParseOrThrow(name, fmt::format("{} = '{}'", text.substr(0, equals), text.substr(equals + 1)));
-  }
-}
-
-toml::table ParseSource(const ConfigSource& source) {
-  toml::table table = source.path.empty() ? toml::table{} : ParseFileOrThrow(source.path);
-  for (const auto& text : source.overrides) Merge(table, ParseOverride(text));
-  return table;
-}
-
-class Printer : public Archive {
- public:
-  explicit Printer(std::ostream& out) : out_(out) {}
-
-  void Number(std::string_view key, double& value, const ValueSpec& spec) override {
-    Line(key, fmt::format("{}", value), fmt::format("[{}] {}; {}", spec.unit, spec.doc, RangeText(spec)));
-  }
-  void Integer(std::string_view key, int& value, const ValueSpec& spec) override {
-    Line(key, fmt::format("{}", value), fmt::format("[{}] {}; {}", spec.unit, spec.doc, RangeText(spec)));
-  }
-  void Flag(std::string_view key, bool& value, std::string_view doc) override {
-    Line(key, value ? "true" : "false", doc);
-  }
-  void Text(std::string_view key, std::string& value, std::string_view doc) override {
-    Line(key, fmt::format("\"{}\"", value), doc);
-  }
-  void Choice(std::string_view key, std::string& value, const std::vector<std::string>& choices,
-              std::string_view doc) override {
-    Line(key, fmt::format("\"{}\"", value), fmt::format("{}; one of {}", doc, fmt::join(choices, ", ")));
-  }
-  void Numbers(std::string_view key, std::vector<double>& values, const ValueSpec& spec) override {
-    Line(key, fmt::format("[{}]", fmt::join(values, ", ")),
-         fmt::format("[{}] {}; {}", spec.unit, spec.doc, RangeText(spec)));
-  }
-  void Refuse(std::string_view, std::string_view) override {}
-
- protected:
-  bool Enter(std::string_view key, std::string_view doc) override {
-    prefixes_.push_back(prefixes_.back() + std::string(key));
-    out_ << "\n# " << doc << "\n[" << prefixes_.back() << "]\n";
-    prefixes_.back() += ".";
-    return true;
-  }
-  void Leave() override { prefixes_.pop_back(); }
-  std::size_t BeginList(std::string_view key, std::size_t default_size, std::string_view doc) override {
-    out_ << "\n# [[" << prefixes_.back() << key << "]]: " << doc << "\n";
-    return default_size;
-  }
-  void EnterItem(std::string_view key, std::size_t) override {
-    prefixes_.push_back(prefixes_.back() + std::string(key));
-    out_ << "[[" << prefixes_.back() << "]]\n";
-    prefixes_.back() += ".";
-  }
-
- private:
-  void Line(std::string_view key, const std::string& value, std::string_view comment) {
-    out_ << fmt::format("{:<40} # {}\n", fmt::format("{} = {}", key, value), comment);
-  }
-
-  std::ostream& out_;
-  std::vector<std::string> prefixes_{""};
-};
-
-}  // namespace
-
 std::string ConfigSource::Folder() const {
   return path.empty() ? "." : std::filesystem::absolute(path).parent_path().string();
 }
 
 ConfigFile::ConfigFile(const ConfigSource& source)
     : reader_(std::make_unique<Reader>(source.path.empty() ? "command line" : source.path,
-                                       ParseSource(source))) {}
+                                       ParseToml(source.path, source.overrides))) {}
 ConfigFile::ConfigFile(const std::string& name, std::string_view text)
-    : reader_(std::make_unique<Reader>(name, ParseOrThrow(name, text))) {}
+    : reader_(std::make_unique<Reader>(name, ParseToml(name, text))) {}
 ConfigFile::~ConfigFile() = default;
 Archive& ConfigFile::archive() {
   return *reader_;
 }
 void ConfigFile::RefuseUnknownKeys() const {
   reader_->RefuseUnknownKeys();
-}
-
-std::unique_ptr<Archive> MakeConfigPrinter(std::ostream& out) {
-  return std::make_unique<Printer>(out);
 }
 
 }  // namespace priamos

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 
 namespace priamos {
 

@@ -31,7 +31,7 @@ Rectangle WallPlan::Shape() const {
 }
 
 void DoorPlan::Describe(Archive& a) {
-  a.Integer("id", id, {"-", 1, 999, "number of the landmark"});
+  a.Integer("id", id, {"-", kFirstLandmarkId, kLastLandmarkId, "number of the landmark"});
   a.Text("name", name, "for messages");
   a.Number("x_m", x_m, {"m", -100, 100, "map, middle of the opening, half way through the wall"});
   a.Number("y_m", y_m, {"m", -100, 100, "map, middle of the opening, half way through the wall"});
@@ -67,7 +67,7 @@ LeafShape LeafOf(const DoorPlan& door, const std::string& hinge, double open_deg
 }
 
 void CupboardPlan::Describe(Archive& a) {
-  a.Integer("id", id, {"-", 1, 999, "number of the landmark"});
+  a.Integer("id", id, {"-", kFirstLandmarkId, kLastLandmarkId, "number of the landmark"});
   a.Text("name", name, "for messages");
   a.Number("x_m", x_m, {"m", -100, 100, "map, middle of its front"});
   a.Number("y_m", y_m, {"m", -100, 100, "map, middle of its front"});

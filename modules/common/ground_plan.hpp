@@ -3,11 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/rectangle.hpp"
 
 namespace priamos {
+
+/// Numbers that landmarks of a map can have; in a message 0 means none.
+inline constexpr int kFirstLandmarkId = 1, kLastLandmarkId = 999;
 
 /// A straight wall: a rectangle around its centre line.
 struct WallPlan {

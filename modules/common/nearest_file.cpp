@@ -32,9 +32,9 @@ std::vector<std::string> WithTheStemOf(const std::string& name, const std::vecto
   return same;
 }
 
-std::vector<std::string> LogsIn(const fs::path& folder) {
+std::vector<std::string> NamesIn(const fs::path& folder, std::string_view ending) {
   auto names = NamesIn(folder);
-  std::erase_if(names, [](const std::string& name) { return !name.ends_with(".lcmlog"); });
+  std::erase_if(names, [&](const std::string& name) { return !name.ends_with(ending); });
   return names;
 }
 
@@ -52,10 +52,10 @@ std::string Text(const char* begin, const fs::path& folder, std::vector<std::str
 
 }  // namespace
 
-std::string NearestFileText(const std::string& path) {
+std::string NearestFileText(const std::string& path, std::string_view ending) {
   std::error_code unreadable;
   if (path.empty()) return "";
-  if (fs::is_directory(path, unreadable)) return Text("; in that folder: ", path, LogsIn(path), {});
+  if (fs::is_directory(path, unreadable)) return Text("; in that folder: ", path, NamesIn(path, ending), {});
   fs::path folder = fs::path(path).parent_path(), wrong = fs::path(path).filename(), rest;
   while (!folder.empty() && folder.has_relative_path() && !fs::is_directory(folder, unreadable)) {
     rest = rest.empty() ? wrong : wrong / rest;

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 
 namespace priamos {
 

@@ -4,6 +4,8 @@
 
 #include <sstream>
 
+#include "common/config.hpp"
+#include "common/config_printer.hpp"
 #include "head/calibration_report.hpp"
 #include "head/core/calibration/discs/disc_detection.hpp"
 #include "head/core/calibration/rig/progress_bar.hpp"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/archive.hpp"
 #include "common/image_size.hpp"
 #include "head/files/calibration_file.hpp"
 #include "head/vision_options.hpp"

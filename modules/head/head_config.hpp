@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "head/core/calibration/rig/calibration_plan.hpp"
 #include "head/core/camera/head_model.hpp"
 #include "head/core/drift/drift_monitor.hpp"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/config.hpp"
 #include "planner/core/map/map_landmarks.hpp"
 #include "planner/planner_messages.hpp"
 

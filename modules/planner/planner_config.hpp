@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "planner/core/missions/door_mission.hpp"
 #include "planner/core/path/door_planner.hpp"
 #include "planner/core/path/footprint.hpp"

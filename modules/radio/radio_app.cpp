@@ -9,6 +9,7 @@
 
 #include "bus/radio/budget.hpp"
 #include "bus/type_files.hpp"
+#include "common/config.hpp"
 #include "common/random.hpp"
 #include "radio/file_store.hpp"
 #include "radio/key_file.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "bus/radio/link_config.hpp"
-#include "common/config.hpp"
+#include "common/archive.hpp"
 
 namespace priamos::radio {
 

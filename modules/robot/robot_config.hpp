@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "robot/core/base/mecanum.hpp"
 #include "robot/core/motion/drive_controller.hpp"
 #include "robot/core/pose/localiser.hpp"

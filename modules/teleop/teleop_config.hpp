@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "teleop/core/pilot_config.hpp"
 
 namespace priamos::teleop {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "world/core/camera/imaging.hpp"
 #include "world/core/camera/optics.hpp"
 #include "world/core/simulation.hpp"

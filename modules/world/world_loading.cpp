@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "common/config.hpp"
+
 namespace priamos::world {
 namespace {
 

@@ -8,6 +8,7 @@
 #include "bus/log/log_writer.hpp"
 #include "bus/output_comparison.hpp"
 #include "bus/own_types.hpp"
+#include "common/config.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos::bus {

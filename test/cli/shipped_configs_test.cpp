@@ -10,6 +10,7 @@
 #include "cli/lockstep/factories.hpp"
 #include "cli/scenario/scenario.hpp"
 #include "cli/supervise/deployment.hpp"
+#include "common/config.hpp"
 #include "head/files/landmark_file.hpp"
 #include "test/support/project_files.hpp"
 

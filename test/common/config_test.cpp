@@ -1,10 +1,12 @@
 #include "common/config.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <sstream>
 
+#include "common/config_printer.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos {
@@ -163,7 +165,8 @@ TEST(Config, AMissingFileIsAnsweredWithTheNearestOne) {
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("robto.toml: expected a configuration file, got none; nearest: \"robot.toml\""));
+                HasSubstr(fmt::format("robto.toml: expected a configuration file, got none; nearest: \"{}\"",
+                                      (folder / "robot.toml").string())));
   }
 }
 

@@ -24,20 +24,21 @@ class NearestFileTest : public testing::Test {
 };
 
 TEST_F(NearestFileTest, AMistypedNameOrEnding) {
-  EXPECT_EQ(NearestFileText(folder_ / "dya.lcmlog"), "; nearest: " + At("day.lcmlog"));
-  EXPECT_EQ(NearestFileText(folder_ / "day.lgo"), "; nearest: " + At("day.lcmlog"));
-  EXPECT_EQ(NearestFileText(folder_ / "elephant"), "");
-  EXPECT_EQ(NearestFileText(""), "");
+  EXPECT_EQ(NearestFileText(folder_ / "dya.lcmlog", ".lcmlog"), "; nearest: " + At("day.lcmlog"));
+  EXPECT_EQ(NearestFileText(folder_ / "day.lgo", ".lcmlog"), "; nearest: " + At("day.lcmlog"));
+  EXPECT_EQ(NearestFileText(folder_ / "elephant", ".lcmlog"), "");
+  EXPECT_EQ(NearestFileText("", ".lcmlog"), "");
 }
 
 TEST_F(NearestFileTest, AMistypedFolderIsFoundTogetherWithWhatIsBehindIt) {
-  EXPECT_EQ(NearestFileText(folder_ / "20261122-dor/onboard.lcmlog"),
+  EXPECT_EQ(NearestFileText(folder_ / "20261122-dor/onboard.lcmlog", ".lcmlog"),
             "; nearest: " + At("20261122-door/onboard.lcmlog"));
-  EXPECT_EQ(NearestFileText(folder_ / "20261122-dor/x.lcmlog"), "; nearest: " + At("20261122-door"));
+  EXPECT_EQ(NearestFileText(folder_ / "20261122-dor/x.lcmlog", ".lcmlog"),
+            "; nearest: " + At("20261122-door"));
 }
 
 TEST_F(NearestFileTest, AFolderInsteadOfALogNamesTheLogsInIt) {
-  EXPECT_EQ(NearestFileText(folder_ / "20261122-door"),
+  EXPECT_EQ(NearestFileText(folder_ / "20261122-door", ".lcmlog"),
             "; in that folder: " + At("20261122-door/offboard.lcmlog") + " or " +
                 At("20261122-door/onboard.lcmlog"));
 }

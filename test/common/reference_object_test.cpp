@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "common/config.hpp"
 #include "common/geometry.hpp"
 
 namespace priamos {

@@ -10,6 +10,7 @@
 #include "bus/radio/budget.hpp"
 #include "bus/radio/link_config.hpp"
 #include "bus/type_files.hpp"
+#include "common/config.hpp"
 #include "lcm_rules.hpp"
 #include "test/support/shell.hpp"
 #include "test/support/temporary_folder.hpp"

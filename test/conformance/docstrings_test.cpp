@@ -53,8 +53,10 @@ TEST(PublicTypes, AreFoundWithTheirDocstrings) {
                     "enum class Two : int { kA };  ///< behind it is too late for Doxygen\n"
                     "/// Said.\n"
                     "template <class T>\n"
-                    "class Three final : public Base<T> {\n"),
-              ElementsAre("3 One", "5 Two silent", "7 Three"));
+                    "class Three final : public Base<T> {};\n"
+                    "///\n"
+                    "struct Four {};\n"),
+              ElementsAre("3 One", "5 Two silent", "7 Three", "10 Four silent"));
 }
 
 TEST(PublicTypes, OfAClassAreThoseInItsPublicPart) {

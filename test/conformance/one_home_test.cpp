@@ -1,8 +1,13 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <regex>
 
+#include "common/body_size.hpp"
+#include "common/ground_plan.hpp"
+#include "common/sonar_ring.hpp"
 #include "test/support/project_files.hpp"
 
 // What the drawing and the data sheets say of the robot is written in one header each; everything else takes
@@ -47,6 +52,34 @@ TEST(OneHome, OfEveryFactOfTheDrawnRobot) {
     const auto places = Places(fact.pattern);
     EXPECT_FALSE(places.empty()) << fact.home << ": expected " << fact.pattern;
     EXPECT_THAT(places, testing::Each(testing::StartsWith(fact.home + ":")));
+  }
+}
+
+/// The number that `name` is in a Java source; NaN if it is none.
+double JavaNumber(const std::string& source, const std::string& name) {
+  std::smatch found;
+  const std::regex expression("\\b" + name + R"( = ([0-9.]+)[,;])");
+  return std::regex_search(source, found, expression) ? std::stod(found[1]) : NAN;
+}
+
+// Java cannot include a header.
+TEST(OneHome, TheSpyDrawsTheSameRobot) {
+  std::ifstream in(PRIAMOS_SOURCE_DIR "/modules/cli/spy/SonarRing.java");
+  const std::string source{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(JavaNumber(source, "SENSORS"), kSonars);
+  EXPECT_EQ(JavaNumber(source, "LENGTH_M"), kDrawnBody.length_m);
+  EXPECT_EQ(JavaNumber(source, "WIDTH_M"), kDrawnBody.width_m);
+  EXPECT_EQ(JavaNumber(source, "RANGE_M"), kSonarMax_m);
+}
+
+TEST(OneHome, TheMessagesCarryEveryLandmarkOfAMap) {
+  for (const fs::path& file : ProjectFiles()) {
+    if (file.extension() != ".lcm" || file.string().starts_with("test/")) continue;
+    std::ifstream in(fs::path(PRIAMOS_SOURCE_DIR) / file);
+    for (std::string line; std::getline(in, line);) {
+      if (line.find(" landmark_id;") == std::string::npos) continue;
+      EXPECT_THAT(line, testing::HasSubstr(fmt::format("@range 0,{} ", kLastLandmarkId))) << file;
+    }
   }
 }
 

@@ -1,5 +1,7 @@
 #include "public_types.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <regex>
 #include <sstream>
 
@@ -80,10 +82,14 @@ class Reader {
     return {true, shown, m[1] != "class"};
   }
   bool DocumentedBefore(int line) const {
-    if (line < 2) return false;
-    const std::string& before = lines_[line - 2];
-    const auto text = before.find_first_not_of(' ');
-    return text != std::string::npos && before.compare(text, 3, "///") == 0;
+    for (int i = line - 2; i >= 0; --i) {
+      const std::string& before = lines_[i];
+      const auto text = before.find_first_not_of(' ');
+      if (text == std::string::npos || before.compare(text, 3, "///") != 0) return false;
+      if (std::any_of(before.begin(), before.end(), [](unsigned char c) { return std::isalpha(c) != 0; }))
+        return true;
+    }
+    return false;
   }
 
   std::vector<std::string> lines_;

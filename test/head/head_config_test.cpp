@@ -4,6 +4,8 @@
 
 #include <sstream>
 
+#include "common/config.hpp"
+#include "common/config_printer.hpp"
 #include "common/geometry.hpp"
 #include "head/vision_options.hpp"
 #include "test/support/thrown_reason.hpp"

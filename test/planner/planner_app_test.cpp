@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "common/archive.hpp"
 #include "test/support/temporary_folder.hpp"
 #include "workstation.hpp"
 

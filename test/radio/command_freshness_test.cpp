@@ -8,6 +8,7 @@
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
 #include "bus/radio/link_config.hpp"
+#include "common/config.hpp"
 #include "radio/radio_app.hpp"
 #include "test/bus/radio/measurement/numbered_message.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "bus/own_types.hpp"
 #include "bus/radio/budget.hpp"
+#include "common/config.hpp"
 #include "lcmtypes/channels.hpp"
 
 // The shipped link against the channels of the robot.

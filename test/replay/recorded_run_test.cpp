@@ -11,6 +11,7 @@
 #include "cli/lockstep/factories.hpp"
 #include "cli/report/report_files.hpp"
 #include "cli/report/report_picture.hpp"
+#include "common/config.hpp"
 #include "common/drawing/svg.hpp"
 #include "test/support/shell.hpp"
 #include "test/support/svg_content.hpp"

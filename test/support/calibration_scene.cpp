@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "test/support/disc_renderer.hpp"
 

@@ -11,6 +11,7 @@
 #include "bus/lockstep.hpp"
 #include "bus/own_types.hpp"
 #include "cli/lockstep/factories.hpp"
+#include "common/config.hpp"
 #include "common/random.hpp"
 #include "common/serial_port.hpp"
 #include "teleop/emulated_mouse.hpp"

@@ -83,7 +83,7 @@ const std::vector<WrongLine> kLines{
      "--set speed.max_sped_m_s=1: speed.max_sped_m_s:", "\"drive.follower.shape.max_speed_m_s\""},
     {"priamos-planner --set mission.sped_m_s=1", "--set mission.sped_m_s=1:", "\"mission.speed_m_s\""},
     {"priamos-robot --config $SOURCE/config/sim/robto.toml", "robto.toml: expected a configuration file",
-     "\"robot.toml\""},
+     "/config/sim/robot.toml\""},
     {"priamos-radio --set side=onbord", "got \"onbord\"", "\"onboard\""},
     {"priamos-teleop --set device=joystik", "got \"joystik\"", "\"joystick\""},
 };

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "bus/own_types.hpp"
+#include "common/archive.hpp"
 #include "world/world_messages.hpp"
 
 namespace priamos::world {

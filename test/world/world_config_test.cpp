@@ -4,6 +4,9 @@
 
 #include <sstream>
 
+#include "common/config.hpp"
+#include "common/config_printer.hpp"
+
 namespace priamos::world {
 namespace {
 

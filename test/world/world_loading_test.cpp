@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/archive.hpp"
 #include "test/support/temporary_folder.hpp"
 #include "world/core/scene/outline.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/random.hpp"
 #include "common/time.hpp"
 

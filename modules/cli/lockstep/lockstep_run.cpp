@@ -11,6 +11,7 @@
 #include "cli/report/report_files.hpp"
 #include "cli/report/story_verdict.hpp"
 #include "cli/scenario/scenario_story.hpp"
+#include "common/config.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "cli/report/report_html.hpp"
 #include "cli/report/report_picture.hpp"
+#include "common/config.hpp"
 #include "common/drawing/raster.hpp"
 #include "common/drawing/svg.hpp"
 

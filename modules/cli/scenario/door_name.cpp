@@ -6,6 +6,8 @@
 #include <charconv>
 #include <filesystem>
 
+#include "common/config.hpp"
+#include "common/ground_plan.hpp"
 #include "common/nearest_word.hpp"
 #include "planner/planner_config.hpp"
 
@@ -19,8 +21,8 @@ int DoorNamed(const GroundPlan& plan, const std::string& name, const std::string
   }
   int id = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
-  if (!name.empty() && error == std::errc() && end == name.data() + name.size() && id >= 1 && id <= 999)
-    return id;
+  const bool is_number = !name.empty() && error == std::errc() && end == name.data() + name.size();
+  if (is_number && id >= kFirstLandmarkId && id <= kLastLandmarkId) return id;
   throw ConfigError(fmt::format("unknown door \"{}\"{}; {} has {}", name, NearestText(name, known), map,
                                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
 }

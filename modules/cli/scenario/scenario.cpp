@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "cli/scenario/story_registry.hpp"
+#include "common/config.hpp"
 #include "common/data_folders.hpp"
+#include "common/ground_plan.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -53,7 +55,7 @@ std::string StoryMeanings() {
 void Scenario::Describe(Archive& a) {
   a.Text("title", title, "what happens, in a few words");
   a.Choice("story", story, StoryNames(), StoryMeanings());
-  a.Integer("landmark_id", landmark_id, {"-", 0, 999, "the door of the map to pass"});
+  a.Integer("landmark_id", landmark_id, {"-", 0, kLastLandmarkId, "the door of the map to pass"});
   a.Number("time_limit_s", time_limit_s, {"s", 1, 100000, "the run is ended after that"});
   a.Text("map", map, "ground plan drawn in the report, relative to the deployment's folder");
   a.Section("line", line, "the serial line between the two radios");

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bus/radio/line/line.hpp"
-#include "common/config.hpp"
+#include "common/archive.hpp"
 
 namespace priamos::cli {
 

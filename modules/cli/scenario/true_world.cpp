@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/config.hpp"
 #include "world/world_config.hpp"
 #include "world/world_loading.hpp"
 

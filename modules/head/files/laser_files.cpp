@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "common/vector_key.hpp"
 #include "head/files/calibration_file.hpp"

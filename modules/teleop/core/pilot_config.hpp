@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "teleop/core/stick.hpp"
 
 namespace priamos::teleop {

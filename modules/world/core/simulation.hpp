@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/archive.hpp"
 #include "common/body_size.hpp"
-#include "common/config.hpp"
 #include "world/core/base/contact.hpp"
 #include "world/core/base/drive_board.hpp"
 #include "world/core/base/mecanum_base.hpp"

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "common/config.hpp"
 #include "test/support/saturated_link.hpp"
 
 namespace priamos::bench {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/config.hpp"
 #include "head/head_config.hpp"
 #include "test/bench/vision/true_axes.hpp"
 #include "world/core/render/lighting.hpp"

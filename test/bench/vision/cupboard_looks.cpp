@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/config.hpp"
 #include "planner/core/map/cupboard_landmark.hpp"
 
 namespace priamos::bench {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/config.hpp"
 #include "planner/core/map/door_landmark.hpp"
 
 namespace priamos::bench {

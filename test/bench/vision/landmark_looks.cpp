@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/config.hpp"
 #include "head/core/motion/aim.hpp"
 #include "head/head_config.hpp"
 #include "test/bench/vision/true_axes.hpp"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "common/config.hpp"
 #include "head/core/stereo/space_edge.hpp"
 #include "test/bench/vision/true_axes.hpp"
 #include "world/world_loading.hpp"

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/archive.hpp"
 #include "report_synthetic_run.hpp"
 #include "test/support/temporary_folder.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "common/config.hpp"
 #include "common/drawing/svg.hpp"
 #include "report_synthetic_run.hpp"
 

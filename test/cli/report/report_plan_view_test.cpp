@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "common/config.hpp"
 #include "report_synthetic_run.hpp"
 
 namespace priamos::cli {

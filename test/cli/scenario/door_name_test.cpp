@@ -7,6 +7,7 @@
 
 #include <fstream>
 
+#include "common/archive.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos::cli {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "cli/scenario/door_name.hpp"
+#include "common/archive.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/config.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos::cli {

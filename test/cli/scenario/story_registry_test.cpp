@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "common/config.hpp"
 #include "stage.hpp"
 
 namespace priamos::cli {

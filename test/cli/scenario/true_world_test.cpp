@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "common/archive.hpp"
+
 namespace priamos::cli {
 namespace {
 

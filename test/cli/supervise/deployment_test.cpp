@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "common/config.hpp"
+
 namespace priamos::cli {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "head/files/calibration_file.hpp"
 #include "test/support/stripe_renderer.hpp"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/config.hpp"
 #include "common/ground_plan.hpp"
 
 namespace priamos::planner {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/config.hpp"
+
 namespace priamos::teleop {
 namespace {
 

@@ -29,6 +29,7 @@
 #include "cli/supervise/up_state.hpp"
 #include "cli/verbs/deployment/commands.hpp"
 #include "cli/verbs/deployment/up_queries.hpp"
+#include "common/config.hpp"
 #include "common/data_folders.hpp"
 
 namespace priamos::cli {

@@ -12,6 +12,7 @@
 #include "cli/options/verb_setup.hpp"
 #include "cli/terminal/json_line.hpp"
 #include "cli/verbs/pictures/commands.hpp"
+#include "common/config.hpp"
 #include "head/files/laser_files.hpp"
 #include "head/files/offline_calibration.hpp"
 

@@ -12,6 +12,7 @@
 #include "cli/options/verb_setup.hpp"
 #include "cli/terminal/replay_verdict.hpp"
 #include "cli/verbs/run/commands.hpp"
+#include "common/config.hpp"
 
 namespace priamos::cli {
 namespace {

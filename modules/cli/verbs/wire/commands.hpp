@@ -11,4 +11,8 @@ void AddTopicCommand(CLI::App& cli, int& exit_code);
 void AddTypeCommand(CLI::App& cli, int& exit_code);
 void AddLinkCommand(CLI::App& cli, int& exit_code);
 
+/// The verbs `list`, `hz` and `bw` of `topic`, and its `pub`.
+void AddTopicTableVerbs(CLI::App& topic, int& exit_code);
+void AddTopicPubVerb(CLI::App& topic, int& exit_code);
+
 }  // namespace priamos::cli

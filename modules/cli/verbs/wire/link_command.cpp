@@ -10,6 +10,7 @@
 #include "cli/supervise/link_emulate.hpp"
 #include "cli/terminal/link_top.hpp"
 #include "cli/verbs/wire/commands.hpp"
+#include "common/config.hpp"
 #include "radio/key_file.hpp"
 
 namespace priamos::cli {

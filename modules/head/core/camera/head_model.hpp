@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "head/core/camera/camera_model.hpp"
 #include "head/core/camera/head_setting.hpp"
 #include "head/core/camera/laser_plane.hpp"

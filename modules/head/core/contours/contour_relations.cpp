@@ -11,8 +11,8 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kCellPx = 32, kSigmas = 3;
-constexpr double kMaxNoiseRad = 0.05;  ///< no segment is so uncertain that anything would be parallel to it
+constexpr double kCell_px = 32, kSigmas = 3;
+constexpr double kMaxNoise_rad = 0.05;  ///< no segment is so uncertain that anything would be parallel to it
 
 /// Where the lines of `a` and `b` cross; nullopt if they hardly do.
 std::optional<Eigen::Vector2d> Crossing(const EdgeSegment& a, const EdgeSegment& b, double min_angle_rad) {
@@ -29,7 +29,7 @@ double Beyond(const EdgeSegment& s, const Eigen::Vector2d& at) {
 }
 
 double AngleNoise(const EdgeSegment& a, const EdgeSegment& b) {
-  return std::min(kSigmas * std::hypot(a.sigma_angle_rad, b.sigma_angle_rad), kMaxNoiseRad);
+  return std::min(kSigmas * std::hypot(a.sigma_angle_rad, b.sigma_angle_rad), kMaxNoise_rad);
 }
 
 /// Signed distance of the middle of `s` from the line of `other`, and its standard deviation.
@@ -152,7 +152,7 @@ void KeepOnce(std::vector<Corner>& corners) {
 }  // namespace
 
 std::vector<Relation> FindRelations(const EdgeImage& edges, const ContourOptions& options) {
-  SegmentIndex index(edges.width, edges.height, kCellPx);
+  SegmentIndex index(edges.width, edges.height, kCell_px);
   std::vector<Relation> relations;
   std::vector<int> near;
   for (std::size_t i = 0; i < edges.segments.size(); ++i) {
@@ -172,7 +172,7 @@ std::vector<Relation> FindRelations(const EdgeImage& edges, const ContourOptions
 }
 
 std::vector<Corner> FindCorners(const EdgeImage& edges, const ContourOptions& options) {
-  SegmentIndex index(edges.width, edges.height, kCellPx);
+  SegmentIndex index(edges.width, edges.height, kCell_px);
   for (std::size_t i = 0; i < edges.segments.size(); ++i)
     index.Insert(static_cast<int>(i), edges.segments[i].begin, edges.segments[i].end);
   std::vector<Corner> corners;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "head/core/drift/stereo_drift.hpp"
 
 namespace priamos::head {

@@ -13,7 +13,7 @@ namespace {
 constexpr double kToleratedGap_px = 0.05;
 constexpr double kNear_px = 0.8;  ///< distance from the edge below which its ends are searched
 /// So near one linear step is exact: for wide kernels, and for narrow ones.
-constexpr double kSettledPx[] = {0.8, 0.5};
+constexpr double kSettled_px[] = {0.8, 0.5};
 constexpr double kLost_px = 5;
 constexpr double kPixelsBeyond = 1;     ///< an edge reaches about so far beyond the pixels that were linked
 constexpr double kTypicalSpread = 1.4;  ///< wide kernel and lens together [px]
@@ -101,7 +101,7 @@ bool EdgeRefiner::Refine(const RoughLine& rough, const Options& options, EdgeIma
       if (extent * line.Stretch() < options.min_length_px) return false;
       fitter_.Load(blocks_, line, noise_sigma_);
       if (!Choose(fit)) return false;
-      if (fit.Move(extent / 2) < kSettledPx[int(fit.width)]) {
+      if (fit.Move(extent / 2) < kSettled_px[int(fit.width)]) {
         Append(line, fit, options, out);
         return true;
       }

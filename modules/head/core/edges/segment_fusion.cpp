@@ -11,7 +11,7 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kCellPx = 64;
+constexpr double kCell_px = 64;
 constexpr double kSigmas = 3;
 constexpr double kMaxAngleNoise = 0.03;  ///< largest error of a direction that is searched for [rad]
 /// Lines are looked up among those of about their direction.
@@ -68,7 +68,7 @@ class Fuser {
  public:
   Fuser(const FusionOptions& options, const EdgeImage& edges)
       : options_(options),
-        index_(kSectors, SegmentIndex(edges.width, edges.height, kCellPx)),
+        index_(kSectors, SegmentIndex(edges.width, edges.height, kCell_px)),
         pieces_(edges.segments) {
     lines_.reserve(2 * pieces_.size());
     for (const EdgeSegment& s : pieces_) Add({s, int(lines_.size()), int(lines_.size())});
@@ -139,7 +139,7 @@ class Fuser {
     index.Near(line.segment.begin, options_.max_gap_px, near_);
     index.Near(line.segment.end, options_.max_gap_px, near_);
     // A long line may run past a short one without an end near it.
-    for (double at = kCellPx; at < line.length_px; at += kCellPx) {
+    for (double at = kCell_px; at < line.length_px; at += kCell_px) {
       index.Near(line.segment.begin + at * line.direction, 1, near_);
     }
   }

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/time.hpp"
 #include "head/core/camera/camera_model.hpp"
 #include "head/core/camera/frame_notice.hpp"

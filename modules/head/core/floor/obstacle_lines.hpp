@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/frame_store.hpp"
 #include "head/core/camera/camera_model.hpp"
 #include "head/core/camera/laser_plane.hpp"

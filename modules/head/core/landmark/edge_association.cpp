@@ -12,98 +12,11 @@ namespace {
 
 constexpr std::size_t kUsualCandidates = 16;
 constexpr int kSides = 4;                  ///< values of LandmarkEdge::side
-constexpr double kFullLengthPx = 40;       ///< shorter predictions count less
+constexpr double kFullLength_px = 40;      ///< shorter predictions count less
 constexpr double kMinDensity = 0.01;       ///< similar edges per pixel: even a bare wall may hide one
-constexpr double kFreeOvershootPx = 6;     ///< ends are not found better than that
+constexpr double kFreeOvershoot_px = 6;    ///< ends are not found better than that
 constexpr double kOvershootPenalty = 0.2;  ///< log odds lost per pixel beyond
 constexpr double kNearlyWhole = 0.6;       ///< covered share that counts as a whole edge
-
-double Union(std::vector<std::pair<double, double>>& parts) {
-  std::sort(parts.begin(), parts.end());
-  double covered = 0, end = -1e9;
-  for (const auto& [from, to] : parts) {
-    covered += std::max(0.0, to - std::max(from, end));
-    end = std::max(end, to);
-  }
-  return covered;
-}
-
-/// EdgeMatch::grey_ratio of a candidate: its sign follows the direction of the prediction.
-double GreyRatio(const CameraView& view, const EdgeCandidate& c) {
-  constexpr double kBlack = 4;  // darker than that a ratio means nothing
-  const EdgeSegment& segment = view.edges->segments[view.lines[c.line].segment];
-  const double ratio = std::log(std::max(segment.grey_right, kBlack) / std::max(segment.grey_left, kBlack));
-  return c.same_sign ? ratio : -ratio;
-}
-
-/// The candidates of one contrast sign within the gate, as one match.
-EdgeMatch Collect(const std::vector<EdgeCandidate>& candidates, bool sign, const PredictedEdge& predicted,
-                  const CameraView& view, const AssociationOptions& options) {
-  const double length = predicted.length_px();
-  EdgeMatch match;
-  // The nearest long one decides where the edge is; others must continue it, not lie beside it.
-  const EdgeCandidate* best = nullptr;
-  double best_value = 0;
-  for (const EdgeCandidate& c : candidates) {
-    if (c.same_sign != sign || std::abs(c.distance) > options.gate_px) continue;
-    const double value =
-        (c.to - c.from) * std::exp(-0.5 * c.distance * c.distance / (options.sigma_px * options.sigma_px));
-    if (value > best_value) {
-      best = &c;
-      best_value = value;
-    }
-  }
-  if (!best) return match;
-  std::vector<std::pair<double, double>> parts;
-  double sum = 0, weight = 0, ratio = 0, before = 0, after = 0, first = length, last = 0;
-  for (const EdgeCandidate& c : candidates) {
-    if (c.same_sign != sign || std::abs(c.distance) > options.gate_px) continue;
-    if (std::abs(c.distance - best->distance) > 2 * options.sigma_px) continue;
-    match.lines.push_back(c.line);
-    parts.emplace_back(c.from, c.to);
-    sum += c.distance * (c.to - c.from);
-    weight += c.to - c.from;
-    ratio += GreyRatio(view, c) * (c.to - c.from);
-    before = std::max(before, c.before);
-    after = std::max(after, c.after);
-    first = std::min(first, c.from);
-    last = std::max(last, c.to);
-  }
-  match.overshoot_px = (predicted.p_is_end ? before : 0) + (predicted.q_is_end ? after : 0);
-  match.covered = std::min(1.0, Union(parts) / length);
-  match.gap_px = {before > 0 ? -before : first, after > 0 ? -after : length - last};
-  match.distance_px = sum / weight;
-  match.grey_ratio = ratio / weight;
-  match.predicted_px = length;
-  return match;
-}
-
-struct Odds {
-  double found = 0, missed = 0;
-};
-
-/// Log odds of a whole edge at `distance`, and of one that is not there.
-Odds EdgeOdds(double distance, double density, const AssociationOptions& options) {
-  const double gauss = std::exp(-0.5 * distance * distance / (options.sigma_px * options.sigma_px)) /
-                       (options.sigma_px * std::sqrt(2 * kPi));
-  const double missed = std::log(1 - options.detection);
-  return {std::max(missed, std::log(options.detection * gauss / density + (1 - options.detection))), missed};
-}
-
-/// Log odds of the grey values beside an edge: those of the model but for lighting, or, once in a while,
-/// those of something before or behind it; against those of any edge. 0 if the model has none.
-double GreyOdds(const LandmarkEdge& edge, double measured, const AssociationOptions& options) {
-  if (!edge.grey_ratio) return 0;
-  const auto gauss = [](double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)) / sigma; };
-  const double modelled = gauss(measured - *edge.grey_ratio, options.grey_sigma);
-  const double any = gauss(measured, options.any_grey_sigma);
-  return std::log((1 - options.grey_surprise) * modelled / any + options.grey_surprise);
-}
-
-Odds CornerOdds(const AssociationOptions& options) {
-  return {std::log(options.corner_detection / options.corner_chance),
-          std::log((1 - options.corner_detection) / (1 - options.corner_chance))};
-}
 
 /// A model edge in one image, its candidates and its match.
 struct Search {
@@ -182,14 +95,14 @@ double Density(const Search& search, const std::vector<Search>& all, double wind
 void Account(const Search& search, const LandmarkEdge& edge, double density, int camera,
              const AssociationOptions& options, Association& association) {
   const EdgeMatch& match = search.match;
-  const double importance = std::min(1.0, search.predicted.length_px() / kFullLengthPx);
+  const double importance = std::min(1.0, search.predicted.length_px() / kFullLength_px);
   const int side = std::clamp(edge.side, 0, kSides - 1);
   Odds odds = EdgeOdds(match.distance_px, density, options);
   odds.found += GreyOdds(edge, match.grey_ratio, options);
   odds.found = std::max(
-      odds.missed, odds.found - kOvershootPenalty * std::max(0.0, match.overshoot_px - kFreeOvershootPx));
+      odds.missed, odds.found - kOvershootPenalty * std::max(0.0, match.overshoot_px - kFreeOvershoot_px));
   ++association.n_predicted;
-  association.side_predicted_px[side] += importance * kFullLengthPx;
+  association.side_predicted_px[side] += importance * kFullLength_px;
   association.best_log_odds += importance * (EdgeOdds(0, density, options).found +
                                              GreyOdds(edge, edge.grey_ratio.value_or(0), options));
   if (match.covered < options.min_covered) {
@@ -199,7 +112,7 @@ void Account(const Search& search, const LandmarkEdge& edge, double density, int
   const double part = std::min(1.0, match.covered / kNearlyWhole);
   const double log_odds = importance * (part * odds.found + (1 - part) * odds.missed);
   association.log_odds += log_odds;
-  association.side_found_px[side] += importance * kFullLengthPx * part * (odds.found > 0 ? 1 : 0);
+  association.side_found_px[side] += importance * kFullLength_px * part * (odds.found > 0 ? 1 : 0);
   association.matches.push_back(match);
   association.matches.back().edge = search.predicted.edge;
   association.matches.back().camera = camera;
@@ -219,17 +132,6 @@ void JoinMovable(Association&& part, Association& all) {
   }
   std::move(part.matches.begin(), part.matches.end(), std::back_inserter(all.matches));
   std::move(part.corners.begin(), part.corners.end(), std::back_inserter(all.corners));
-}
-
-/// The contrast sign that is more likely makes the match.
-void Match(Search& search, const LandmarkEdge& edge, const CameraView& view,
-           const AssociationOptions& options) {
-  search.match = Collect(search.candidates, true, search.predicted, view, options);
-  EdgeMatch other = Collect(search.candidates, false, search.predicted, view, options);
-  const auto worth = [&](const EdgeMatch& m) {
-    return m.covered * std::exp(GreyOdds(edge, m.grey_ratio, options) - std::abs(m.distance_px));
-  };
-  if (worth(other) > worth(search.match)) search.match = std::move(other);
 }
 
 /// Where two matched edges of the model meet, the image edges should end, too: edges that merely lie beside
@@ -270,7 +172,8 @@ Association Associate(const LandmarkModel& model, std::span<const int> visible,
     CandidateSearch near(views[c], options.clutter_window_px, options.max_angle_rad);
     for (Search& search : searches) {
       near.Find(search.predicted, search.candidates);
-      Match(search, model.edges[search.predicted.edge], views[c], options);
+      search.match = MatchEdge(search.candidates, search.predicted, model.edges[search.predicted.edge],
+                               views[c], options);
     }
     MakeExclusive(searches);
     for (const Search& search : searches) {
@@ -289,9 +192,9 @@ void Association::Withdraw(const LandmarkModel& model, int edge, int camera) {
   const int side = std::clamp(model.edges[edge].side, 0, kSides - 1);
   for (const EdgeMatch& m : matches) {
     if (!is_it(m)) continue;
-    const double importance = std::min(1.0, m.predicted_px / kFullLengthPx);
+    const double importance = std::min(1.0, m.predicted_px / kFullLength_px);
     log_odds += importance * missed_log_odds - m.log_odds;
-    side_found_px[side] -= importance * kFullLengthPx * std::min(1.0, m.covered / kNearlyWhole);
+    side_found_px[side] -= importance * kFullLength_px * std::min(1.0, m.covered / kNearlyWhole);
   }
   side_found_px[side] = std::max(0.0, side_found_px[side]);
   std::erase_if(matches, is_it);

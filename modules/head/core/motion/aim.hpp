@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "head/core/camera/head_model.hpp"
 #include "head/core/landmark/landmark.hpp"
 #include "head/core/landmark/landmark_fix.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/time.hpp"
 #include "head/core/camera/frame_notice.hpp"
 

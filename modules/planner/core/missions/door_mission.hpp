@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/time.hpp"
 #include "planner/core/missions/look_sequence.hpp"
 #include "planner/core/missions/mission.hpp"

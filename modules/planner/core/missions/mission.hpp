@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/outcome.hpp"
 #include "planner/core/missions/mission_control.hpp"
 #include "planner/core/missions/mission_types.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/ground_plan.hpp"
 #include "common/outcome.hpp"

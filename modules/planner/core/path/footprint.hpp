@@ -1,7 +1,7 @@
 #pragma once
 
+#include "common/archive.hpp"
 #include "common/body_size.hpp"
-#include "common/config.hpp"
 #include "common/rectangle.hpp"
 
 namespace priamos::planner {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/ground_plan.hpp"
 #include "planner/core/path/footprint.hpp"

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "common/archive.hpp"
 #include "common/body_size.hpp"
-#include "common/config.hpp"
 #include "common/geometry.hpp"
 
 namespace priamos::robot {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "robot/core/base/mecanum.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "robot/core/base/twist_slew.hpp"
 #include "robot/core/motion/path_follower.hpp"
 #include "robot/core/safety/authority.hpp"

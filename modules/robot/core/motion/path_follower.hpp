@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "robot/core/motion/path_shape.hpp"
 

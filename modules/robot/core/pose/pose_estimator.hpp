@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "robot/core/base/odometry.hpp"

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "robot/core/base/odometry.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/time.hpp"
 #include "robot/core/safety/lease.hpp"
 #include "robot/core/safety/operator_input.hpp"

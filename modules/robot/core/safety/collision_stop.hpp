@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
+#include "common/archive.hpp"
 #include "common/braking_law.hpp"
-#include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "robot/core/base/footprint.hpp"
 

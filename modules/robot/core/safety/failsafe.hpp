@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/time.hpp"
 
 namespace priamos::robot {

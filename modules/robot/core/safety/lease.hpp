@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/time.hpp"
 
 namespace priamos::robot {

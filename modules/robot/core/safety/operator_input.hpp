@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "robot/core/safety/lease.hpp"

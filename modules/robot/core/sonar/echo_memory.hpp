@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/sonar_ring.hpp"
 #include "common/time.hpp"

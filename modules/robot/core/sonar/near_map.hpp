@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 

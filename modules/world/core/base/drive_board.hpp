@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/random.hpp"
 #include "common/time.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 
 namespace priamos::world {
 

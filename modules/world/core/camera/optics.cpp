@@ -10,6 +10,7 @@ namespace priamos::world {
 namespace {
 
 constexpr double kMotorRange = 2000;  // steps of zoom and focus
+constexpr double kFarOff_px = 200;    // a principal point farther from the middle is a mistake in the file
 
 Eigen::Isometry3d Translate(double x, double y, double z) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
@@ -115,8 +116,12 @@ void CameraBuild::Describe(Archive& a) {
   a.Number("pupil_m", pupil_m, {"m", -0.2, 0.2, "entrance pupil before the vergence axis at middle zoom"});
   a.Number("focal_min_px", focal_min_px, {"px", 200, 5000, "focal length at zoom step 0"});
   a.Number("focal_max_px", focal_max_px, {"px", 200, 5000, "focal length at zoom step 2000"});
-  a.Number("centre_u_px", centre_u_px, {"px", 184, 584, "principal point at middle zoom, column"});
-  a.Number("centre_v_px", centre_v_px, {"px", 88, 488, "principal point at middle zoom, row"});
+  a.Number("centre_u_px", centre_u_px,
+           {"px", kImageWidth_px / 2 - kFarOff_px, kImageWidth_px / 2 + kFarOff_px,
+            "principal point at middle zoom, column"});
+  a.Number("centre_v_px", centre_v_px,
+           {"px", kImageHeight_px / 2 - kFarOff_px, kImageHeight_px / 2 + kFarOff_px,
+            "principal point at middle zoom, row"});
   a.Number("centre_walk_u_px", centre_walk_u_px, {"px", -50, 50, "how far it moves over the zoom range"});
   a.Number("centre_walk_v_px", centre_walk_v_px, {"px", -50, 50, "how far it moves over the zoom range"});
   a.Number("k1_wide", k1_wide, {"-", -0.15, 0.15, "radial distortion at zoom step 0"});

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/image_size.hpp"
 

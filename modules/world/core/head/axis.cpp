@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/braking_law.hpp"
+
 namespace priamos::world {
 namespace {
 
@@ -60,9 +62,9 @@ void Axis::Step(Duration step) {
   if (!moving_) return;
   const double dt = Seconds(step), change = config_.acceleration * dt;
   const double travel = target_ - motor_;
-  // The fastest speed from which braking step by step still ends at the target.
-  const double brakable =
-      std::sqrt(change * change / 4 + 2 * config_.acceleration * std::abs(travel)) - change / 2;
+  // Braking step by step takes half a step longer. The law holds for angles as it does for distances.
+  const BrakingLaw braking{.deceleration_m_s2 = config_.acceleration, .latency_s = dt / 2};
+  const double brakable = braking.SpeedWithin(std::abs(travel));
   const double wanted = std::copysign(std::min(config_.speed, brakable), travel);
   speed_ += std::clamp(wanted - speed_, -change, change);
   motor_ += speed_ * dt;

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/frame_store.hpp"
 #include "common/time.hpp"
 #include "world/core/camera/imaging.hpp"

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "world/core/camera/optics.hpp"
 #include "world/core/head/axis.hpp"

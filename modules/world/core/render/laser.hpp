@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 
 namespace priamos::world {
 

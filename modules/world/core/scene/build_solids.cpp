@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "common/archive.hpp"
 #include "common/random.hpp"
 
 namespace priamos::world {

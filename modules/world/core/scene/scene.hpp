@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 
 namespace priamos::world {
 

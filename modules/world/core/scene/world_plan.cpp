@@ -8,7 +8,7 @@
 namespace priamos::world {
 
 void DoorWork::Describe(Archive& a) {
-  a.Integer("id", id, {"-", 1, 999, "the door's id in the map"});
+  a.Integer("id", id, {"-", kFirstLandmarkId, kLastLandmarkId, "the door's id in the map"});
   a.Choice("hinge", hinge, {"left", "right"}, "side of the hinges, seen in driving direction");
   a.Number("open_deg", open_deg, {"deg", 0, 175, "opening angle of the leaf into the far room, 0 is closed"});
   a.Number("open_spread_deg", open_spread_deg,

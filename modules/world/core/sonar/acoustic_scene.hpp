@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "world/core/scene/outline.hpp"
 #include "world/core/scene/solid.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/random.hpp"
 #include "common/sonar_ring.hpp"

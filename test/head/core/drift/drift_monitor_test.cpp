@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/config.hpp"
 #include "test/support/generated_numbers.hpp"
 
 namespace priamos::head {

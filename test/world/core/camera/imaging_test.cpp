@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/config.hpp"
+
 namespace priamos::world {
 namespace {
 

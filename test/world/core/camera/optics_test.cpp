@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/config.hpp"
 #include "common/random.hpp"
 #include "test/support/image_from_base.hpp"
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/config.hpp"
+
 namespace priamos::world {
 namespace {
 

@@ -5,6 +5,9 @@
 #include <limits>
 #include <sstream>
 
+#include "common/config.hpp"
+#include "common/config_printer.hpp"
+
 namespace priamos::world {
 namespace {
 

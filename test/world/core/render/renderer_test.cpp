@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "common/config.hpp"
 #include "test/support/door_scene.hpp"
 
 namespace priamos::world {

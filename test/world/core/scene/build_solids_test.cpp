@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "common/archive.hpp"
 #include "common/rectangle.hpp"
 #include "world/core/scene/outline.hpp"
 

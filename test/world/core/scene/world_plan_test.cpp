@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/config.hpp"
+#include "common/config_printer.hpp"
 #include "world/core/camera/optics.hpp"
 
 namespace priamos::world {

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "common/config.hpp"
+
 namespace priamos::world {
 namespace {
 

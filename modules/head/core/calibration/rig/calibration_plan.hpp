@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/archive.hpp"
 #include "head/core/camera/head_setting.hpp"
 
 namespace priamos::head {

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "common/config.hpp"
 #include "common/geometry.hpp"
 
 namespace priamos::head {

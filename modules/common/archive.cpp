@@ -1,4 +1,4 @@
-#include "common/value_spec.hpp"
+#include "common/archive.hpp"
 
 #include <fmt/format.h>
 

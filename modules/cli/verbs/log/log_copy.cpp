@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "bus/log/log_export.hpp"
+#include "bus/log/log_reader.hpp"
+#include "bus/log/log_writer.hpp"
+#include "cli/options/log_options.hpp"
+#include "cli/verbs/log/commands.hpp"
+#include "cli/verbs/log/log_verb.hpp"
+
+namespace priamos::cli {
+namespace {
+
+struct CopyOptions : LogOptions {
+  SelectionOptions selection;
+};
+
+/// Checks the selection. Throws std::runtime_error when no event is selected: then nothing is to be written.
+void RequireEvents(const CopyOptions& options, const bus::LogSelection& selection) {
+  bus::LogReader reader(options.log);
+  while (const auto event = reader.Next())
+    if (selection.Wants(event->utime, event->channel)) return;
+  throw std::runtime_error(
+      fmt::format("{}: expected events to copy, got none; {} is not written", options.log, options.out));
+}
+
+/// Verb `filter`, and without any selection `repair`: copies whole events into another log.
+int Copy(const CopyOptions& options) {
+  bus::LogReader reader(options.log);
+  RequireNewFile(options.out, options.log, options.force);
+  // Before the writer, which empties the file: a refusal leaves it as it was.
+  const auto selection = SelectionOf(options.selection, options.log);
+  RequireEvents(options, selection);
+  bus::LogWriter writer(options.out);
+  const auto copied = bus::CopyEvents(reader, selection, writer);
+  writer.Flush();
+  if (!writer.good()) throw std::runtime_error(options.out + ": cannot be written: is the disk full?");
+  if (options.json) {
+    std::cout << nlohmann::ordered_json{{"events", copied},
+                                        {"damaged_places", reader.damaged_places()},
+                                        {"skipped_bytes", reader.skipped_bytes()}}
+              << "\n";
+    return 0;
+  }
+  std::cout << fmt::format("{}: {} events; {} damaged places with {} bytes left out\n", options.out, copied,
+                           reader.damaged_places(), reader.skipped_bytes());
+  return 0;
+}
+
+}  // namespace
+
+void AddLogFilterVerb(CLI::App& log, int& exit_code) {
+  auto options = std::make_shared<CopyOptions>();
+  auto* verb = AddLogVerb(
+      log,
+      {.name = "filter",
+       .help = "Some channels or some time of a log into another one.",
+       .example =
+           "priamos log filter onboard.lcmlog drive.lcmlog --channels 'POSE,WHEEL_*' --from 10 --to 20"},
+      *options);
+  verb->add_option("out", options->out, "new LCM log")->required();
+  AddSelectionOptions(*verb, options->selection);
+  AddOutputFlags(*verb, *options);
+  verb->callback([options, &exit_code] { exit_code = Copy(*options); });
+}
+
+void AddLogRepairVerb(CLI::App& log, int& exit_code) {
+  auto options = std::make_shared<CopyOptions>();
+  auto* verb = AddLogVerb(log,
+                          {.name = "repair",
+                           .help = "All whole events of a damaged log into another one.",
+                           .example = "priamos log repair damaged.lcmlog mended.lcmlog"},
+                          *options);
+  verb->add_option("out", options->out, "new LCM log")->required();
+  AddOutputFlags(*verb, *options);
+  verb->callback([options, &exit_code] { exit_code = Copy(*options); });
+}
+
+}  // namespace priamos::cli

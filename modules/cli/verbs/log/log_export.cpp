@@ -1,0 +1,83 @@
+#include "bus/log/log_export.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "bus/log/log_reader.hpp"
+#include "cli/options/log_options.hpp"
+#include "cli/verbs/log/commands.hpp"
+#include "cli/verbs/log/log_verb.hpp"
+
+namespace priamos::cli {
+namespace {
+
+struct ExportOptions : LogOptions {
+  SelectionOptions selection;
+  std::string format;
+};
+
+int ReportExport(const ExportOptions& options, const bus::ExportCount& count, const bus::LogReader& reader) {
+  // Standard output may be taken by the messages themselves.
+  const bool taken = options.out.empty() && options.format != "csv";
+  if (options.json)
+    (taken ? std::cerr : std::cout) << nlohmann::ordered_json{{"messages", count.written},
+                                                              {"undecodable", count.undecodable},
+                                                              {"damaged_places", reader.damaged_places()},
+                                                              {"skipped_bytes", reader.skipped_bytes()}}
+                                    << "\n";
+  else
+    std::cerr << fmt::format("{} messages; left out: {} undecodable, {} damaged places with {} bytes\n",
+                             count.written, count.undecodable, reader.damaged_places(),
+                             reader.skipped_bytes());
+  if (count.written > 0 || count.undecodable == 0) return 0;
+  std::cerr << options.log << ": no message could be decoded; name its .lcm folder with --types\n";
+  return 1;
+}
+
+int Export(const ExportOptions& options) {
+  const bus::Schema schema = LoadTypes(options.bus);
+  bus::LogReader reader(options.log);
+  const auto selection = SelectionOf(options.selection, options.log);
+  if (options.format == "csv") {
+    if (options.out == "-") throw std::runtime_error("--out: expected a folder for csv, got \"-\"");
+    const std::string folder =
+        options.out.empty() ? std::filesystem::path(options.log).stem().string() + "-csv" : options.out;
+    if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder) && !options.force)
+      throw std::runtime_error(folder + ": expected a new folder, got one with files in it; --force uses it");
+    return ReportExport(options, bus::ExportCsv(reader, schema, selection, folder), reader);
+  }
+  OutputFile out(options.out, options.log, options.force);
+  const auto count = options.format == "mcap" ? bus::ExportMcap(reader, schema, selection, out.stream())
+                                              : bus::ExportJsonLines(reader, schema, selection, out.stream());
+  out.Close();
+  return ReportExport(options, count, reader);
+}
+
+}  // namespace
+
+void AddLogExportVerb(CLI::App& log, int& exit_code) {
+  auto options = std::make_shared<ExportOptions>();
+  auto* verb =
+      AddLogVerb(log,
+                 {.name = "export",
+                  .help = "Decoded messages as tables, lines of JSON, or MCAP for Foxglove and Lichtblick.",
+                  .example = "priamos log export onboard.lcmlog mcap --out onboard.mcap"},
+                 *options);
+  verb->add_option("format", options->format, "csv, jsonl or mcap")
+      ->required()
+      ->check(CLI::IsMember({"csv", "jsonl", "mcap"}));
+  verb->add_option("--out", options->out, "file (csv: folder); none: standard output (csv: LOG-csv)");
+  AddSelectionOptions(*verb, options->selection);
+  AddTypesOption(*verb, options->bus);
+  AddOutputFlags(*verb, *options,
+                 "the count machine-readable, on standard error when the messages go to standard output");
+  verb->callback([options, &exit_code] {
+    if (options->out == "-" && options->format != "csv") options->out.clear();
+    exit_code = Export(*options);
+  });
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,107 @@
+#include "bus/log/log_merge.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "bus/log/log_reader.hpp"
+#include "bus/log/log_writer.hpp"
+#include "cli/options/log_options.hpp"
+#include "cli/verbs/log/commands.hpp"
+#include "cli/verbs/log/log_verb.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr double kMostOffset_s = 1e10;  ///< three centuries
+
+struct MergeOptions : LogOptions {
+  std::string second;
+  std::string prefix = "OFFBOARD_";
+  double offset_s = NAN;
+};
+
+bus::ClockFit Clocks(const MergeOptions& options, bus::LogReader& onboard, bus::LogReader& offboard) {
+  if (!std::isnan(options.offset_s)) return {.offset_us = options.offset_s * 1e6};
+  const bus::Schema schema = LoadTypes(options.bus);
+  const auto fit = bus::FitClocks(bus::FindStampPairs(onboard, offboard, schema));
+  if (!fit)
+    throw std::runtime_error(
+        fmt::format("{} and {}: expected messages that crossed the radio, got none that are in both; are "
+                    "they logs of one "
+                    "run? --offset SECONDS joins them anyway",
+                    options.log, options.second));
+  return *fit;
+}
+
+/// Two names may lead to one file.
+void RequireTwoLogs(const MergeOptions& options) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(options.log, options.second, none)) return;
+  throw std::runtime_error(fmt::format(
+      "{} and {}: expected the logs of two buses, got the same file twice; next: name the log of the "
+      "other bus",
+      options.log, options.second));
+}
+
+int Merge(const MergeOptions& options) {
+  RequireTwoLogs(options);
+  bus::LogReader onboard(options.log), offboard(options.second);
+  RequireNewFile(options.out, options.log, options.force);
+  RequireNewFile(options.out, options.second, options.force);
+  const auto fit = Clocks(options, onboard, offboard);
+  bus::LogWriter writer(options.out);
+  const auto events = bus::MergeLogs(onboard, offboard, fit, options.prefix, writer);
+  writer.Flush();
+  if (!writer.good()) throw std::runtime_error(options.out + ": cannot be written: is the disk full?");
+  const nlohmann::ordered_json json{{"events", events},
+                                    {"offset_s", fit.offset_us * 1e-6},
+                                    {"drift_ppm", fit.drift * 1e6},
+                                    {"messages_in_both", fit.pairs},
+                                    {"outliers", fit.outliers},
+                                    {"spread_s", fit.spread_us * 1e-6},
+                                    {"both_directions", fit.both_ways},
+                                    {"asymmetry_s", fit.asymmetry_us * 1e-6}};
+  if (options.json) {
+    std::cout << json.dump() << "\n";
+    return 0;
+  }
+  std::cout << fmt::format(
+      "{}: {} events. Onboard clock = offboard clock {:+.6f} s {:+.1f} ppm, from {} messages in both logs "
+      "({} outliers), median distance {:.1f} ms, {}\n",
+      options.out, events, fit.offset_us * 1e-6, fit.drift * 1e6, fit.pairs, fit.outliers,
+      fit.spread_us * 1e-3,
+      fit.both_ways ? fmt::format("directions differ by {:.1f} ms", 2e-3 * std::abs(fit.asymmetry_us))
+                    : "one direction only");
+  return 0;
+}
+
+}  // namespace
+
+void AddLogMergeVerb(CLI::App& log, int& exit_code) {
+  auto options = std::make_shared<MergeOptions>();
+  auto* verb = AddLogVerb(log,
+                          {.name = "merge",
+                           .help = "An onboard and an offboard log of one run as one, in the onboard clock: "
+                                   "messages that crossed the "
+                                   "radio show how the two clocks differ.",
+                           .example = "priamos log merge onboard.lcmlog offboard.lcmlog run.lcmlog"},
+                          *options);
+  verb->add_option("offboard", options->second, "LCM log of the other bus")
+      ->required()
+      ->check(CLI::ExistingFile);
+  verb->add_option("out", options->out, "new LCM log")->required();
+  verb->add_option("--prefix", options->prefix, "before the names of the offboard channels")
+      ->capture_default_str();
+  verb->add_option("--offset", options->offset_s,
+                   "[s] onboard clock minus offboard clock, instead of an estimate")
+      ->check(CLI::Range(-kMostOffset_s, kMostOffset_s));
+  AddTypesOption(*verb, options->bus);
+  AddOutputFlags(*verb, *options);
+  verb->callback([options, &exit_code] { exit_code = Merge(*options); });
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <string>
+
+#include "cli/options/bus_options.hpp"
+#include "cli/options/verb_setup.hpp"
+
+namespace priamos::cli {
+
+/// Options that several verbs of `log` have.
+struct LogOptions {
+  BusOptions bus;  ///< only its types
+  std::string log, out;
+  bool json = false, force = false;
+};
+
+/// Name of a verb of `log`, one sentence of what it does, and a command line as an example.
+struct LogVerb {
+  const char* name;
+  const char* help;
+  const char* example;
+};
+
+/// A new verb of `log` with the log that it reads as its first argument.
+inline CLI::App* AddLogVerb(CLI::App& log, const LogVerb& names, LogOptions& options) {
+  auto* verb = AddVerb(log, names.name, names.help);
+  verb->footer(std::string("Example: ") + names.example);
+  verb->add_option("log", options.log, "LCM log")->required()->check(CLI::ExistingFile);
+  return verb;
+}
+
+/// The options `--json` and `--force` of a verb that writes a file.
+inline void AddOutputFlags(CLI::App& verb, LogOptions& options, const char* json_help = "machine-readable") {
+  verb.add_flag("--json", options.json, json_help);
+  verb.add_flag("--force", options.force, "replace an existing file");
+}
+
+}  // namespace priamos::cli
