@@ -23,8 +23,9 @@ FreshnessProof ProofOf(const LinkChannel& channel, double next_s, const Directio
 }
 
 DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, Direction direction) {
-  const DirectionAnalysis analysis(table, options, direction);
+  DirectionAnalysis analysis(table, options, direction);
   const DirectionAnalysis other(table, options, Opposite(direction));
+  analysis.Solve(other, Seconds(options.line_delay));
   DirectionBudget budget;
   budget.direction = direction;
   budget.control_bytes_per_s = analysis.ControlBytesPerSecond();
@@ -35,7 +36,7 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, D
     row.channel = load.channel;
     row.bits = static_cast<std::size_t>(load.bits);
     row.rate_hz = load.keys / load.period_s;
-    row.bytes_per_s = load.bits / 8 * analysis.overhead() * row.rate_hz;
+    row.bytes_per_s = analysis.BytesPerSecond(load);
     row.share = row.bytes_per_s / budget.capacity_bytes_per_s;
     if (std::isfinite(load.latency_s)) row.worst_latency = FromSeconds(load.latency_s);
     if (const LinkChannel& c = table.at(load.channel); c.channel_class == ChannelClass::kCommand)

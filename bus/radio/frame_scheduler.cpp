@@ -27,6 +27,7 @@ FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sea
       options_(options),
       transmitter_(options, now),
       turns_(options.half_duplex, onboard, now),
+      repetition_(now),
       last_data_(now - options.keep_alive) {}
 
 std::vector<std::byte> FrameScheduler::Step(FrameSources from, Time now) {
@@ -60,19 +61,39 @@ void FrameScheduler::ChooseForm(const FrameSources& from, Time now) {
 }
 
 bool FrameScheduler::MustCut(const FrameSources& from, Time now) const {
-  return flight_ && !flight_->urgent && transmitter_.WorthCutting() && from.memory.epoch() != 0 &&
-         from.outbox.queue().UrgentReady(now, flight_->repeats);
+  if (!flight_ || flight_->urgent || !transmitter_.WorthCutting() || from.memory.epoch() == 0) return false;
+  return from.outbox.queue().UrgentReady(now) || (from.inbox.UrgentNews() && !flight_->repeats);
 }
 
 bool FrameScheduler::MaySend(const FrameSources& from, Time now) const {
   if (transmitter_.Allows(now)) return true;
   // A datagram cannot be cut off by an urgent one, which therefore does not wait for what is charged to it.
-  return options_.datagrams && from.memory.epoch() != 0 && from.outbox.queue().UrgentReady(now);
+  return options_.datagrams && from.memory.epoch() != 0 &&
+         (from.outbox.queue().UrgentReady(now) || from.inbox.UrgentNews());
 }
 
 bool FrameScheduler::Build(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
-  if (agreed && from.outbox.queue().UrgentReady(now) && BuildData(from, true, now)) return true;
+  repetition_.Step(agreed && from.outbox.queue().RepetitionReady(now), now);
+  if (agreed && BuildUrgent(from, now)) return true;
+  repetition_.OnOthersTurn(now);
+  acknowledged_last_ = false;
+  return BuildOther(from, now);
+}
+
+/// What is new, then what is repeated. Between two acknowledgements that are only repeated, others have a
+/// turn.
+bool FrameScheduler::BuildUrgent(FrameSources from, Time now) {
+  if ((from.outbox.queue().UrgentReady(now) || from.inbox.UrgentNews()) && BuildData(from, true, now))
+    return true;
+  if (repetition_.GoesFirst(now) && BuildData(from, true, now)) return true;
+  if (acknowledged_last_ || !from.inbox.UrgentAckDue() || !BuildData(from, true, now)) return false;
+  acknowledged_last_ = true;
+  return true;
+}
+
+bool FrameScheduler::BuildOther(FrameSources from, Time now) {
+  const bool agreed = from.memory.epoch() != 0;
   if (from.peer.handshake.HelloDue(from.receiver.reception(now), now)) {
     BuildHello(from, now);
     return true;
@@ -106,6 +127,7 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   auto wire = sealer_.Seal(from.memory.epoch(), flight.counter, form_, bundle, newest ? newest->counter : 0);
   last_data_ = now;
   from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
+  if (flight.repeats) repetition_.OnRepeated(now, transmitter_.pacer().WireTime(wire.size()));
   flight_ = std::move(flight);
   transmitter_.Begin(std::move(wire), now);
   return true;
@@ -114,17 +136,18 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
 FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only,
                                    Time now) const {
   FrameInFlight flight;
-  flight.urgent = urgent_only && from.outbox.queue().UrgentReady(now, true);
+  flight.urgent = urgent_only && (from.outbox.queue().UrgentReady(now) || from.inbox.UrgentNews());
   flight.repeats = urgent_only && !flight.urgent;
-  if (!urgent_only) {
+  // Without acknowledgements of frames the other end would write the counters of its repetitions in full.
+  if (!urgent_only || (flight.repeats && from.inbox.UrgentAckDue())) {
     flight.peer = from.peer.Load(bundle,
                                  {.highest = from.receiver.highest(),
                                   .at = from.receiver.heard_at(),
                                   .loss = from.receiver.loss().loss(),
                                   .floor = from.memory.receive_floor()},
-                                 now);
-    flight.inbox = from.inbox.Load(bundle);
+                                 urgent_only, now);
   }
+  flight.inbox = from.inbox.Load(bundle, urgent_only);
   flight.outbox = from.outbox.Load(
       bundle, {.now = now,
                .counter = from.memory.last_counter() + 1,
