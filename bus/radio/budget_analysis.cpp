@@ -68,7 +68,7 @@ double DirectionAnalysis::ControlBytesPerSecond() const {
     bits += frames / incoming.period_s * (2 * table_.id_bits() + kEventAckBits);
   }
   double bytes = bits / 8 * overhead_;
-  for (const Answer& answer : answers_) bytes += answer.seconds / byte_s_ / answer.incoming.period_s;
+  for (const ChannelLoad& incoming : answered_) bytes += AckFrameSeconds() / byte_s_ / incoming.period_s;
   return bytes;
 }
 
@@ -159,13 +159,13 @@ double DirectionAnalysis::AckFrameSeconds() const {
   return FrameSeconds(bits);
 }
 
-/// Longest time from the arrival of an urgent event to the end of the frame with its acknowledgement, which
-/// cuts off any frame but an urgent one.
+/// Longest time from the arrival of an urgent event to the end of the frame with its acknowledgement: the
+/// next one.
 double DirectionAnalysis::AnswerSeconds() const {
   double urgent_s = 0;
   for (const ChannelLoad& load : loads_)
     if (load.urgent) urgent_s = std::max(urgent_s, FrameSeconds(load.bits));
-  return InTurns(ahead_s_ + kTick_s + byte_s_ + urgent_s + AckFrameSeconds());
+  return InTurns(ahead_s_ + kTick_s + frame_s_ + urgent_s + AckFrameSeconds());
 }
 
 /// Frames with the same urgent event: the first, those until it is acknowledged, and the one that is on the
@@ -179,10 +179,8 @@ double DirectionAnalysis::Copies(const ChannelLoad& load) const {
 
 void DirectionAnalysis::Solve(const DirectionAnalysis& other, double line_delay_s) {
   repeat_s_ = line_delay_s + other.AnswerSeconds() + kTick_s;
-  DirectionAnalysis theirs = other;
-  theirs.repeat_s_ = line_delay_s + AnswerSeconds() + kTick_s;
   for (const ChannelLoad& incoming : other.loads_)
-    if (incoming.repeated) answers_.push_back({incoming, theirs.Copies(incoming) * AckFrameSeconds()});
+    if (incoming.repeated) answered_.push_back(incoming);
   // Latencies only grow when more overtake, so this ends.
   for (bool changed = true; changed;) {
     std::vector<double> latencies;
@@ -211,8 +209,7 @@ double DirectionAnalysis::Urgent(const ChannelLoad& load) const {
     for (const ChannelLoad& other : loads_)
       if (other.urgent && &other != &load && other.priority <= load.priority)
         s += other.Arrivals(window_s) * FrameSeconds(other.bits);
-    // Only the first acknowledgement of an event goes before an urgent message; the others are cut off.
-    for (const Answer& answer : answers_) s += answer.incoming.Arrivals(window_s) * AckFrameSeconds();
+    for (const ChannelLoad& incoming : answered_) s += incoming.Arrivals(window_s) * AckFrameSeconds();
     return s + FrameSeconds(load.bits);
   });
 }
@@ -252,7 +249,7 @@ double DirectionAnalysis::UrgentIn(double window_s, const ChannelLoad& load) con
   for (const ChannelLoad& other : loads_)
     if (other.urgent && &other != &load)
       s += other.Arrivals(window_s) * (Copies(other) * FrameSeconds(other.bits) + cut_s);
-  for (const Answer& answer : answers_) s += answer.incoming.Arrivals(window_s) * (answer.seconds + cut_s);
+  for (const ChannelLoad& incoming : answered_) s += incoming.Arrivals(window_s) * AckFrameSeconds();
   return s;
 }
 

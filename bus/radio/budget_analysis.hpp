@@ -57,11 +57,6 @@ class DirectionAnalysis {
   double AheadSeconds() const;
 
  private:
-  /// An urgent event of the other direction, and the time that its acknowledgements take.
-  struct Answer {
-    ChannelLoad incoming;
-    double seconds = 0;
-  };
   double AnswerSeconds() const;
   double AckFrameSeconds() const;
   double Copies(const ChannelLoad& load) const;
@@ -90,8 +85,8 @@ class DirectionAnalysis {
   double frame_s_ = 0;
   double turn_s_ = 1;  ///< length of a turn; without turns 1, with gap_s_ = 0
   double gap_s_ = 0;
-  double repeat_s_ = 0;  ///< time until an urgent event of this direction is acknowledged
-  std::vector<Answer> answers_;
+  double repeat_s_ = 0;                ///< time until an urgent event of this direction is acknowledged
+  std::vector<ChannelLoad> answered_;  ///< urgent events of the other direction
   double overhead_ = 1;
   bool solved_once_ = false;
   std::vector<ChannelLoad> loads_;

@@ -7,13 +7,8 @@
 namespace priamos::bus::radio {
 namespace {
 
-/// Time in which the other end can send half of the frames that an echo tells apart: the other half is for a
-/// line that grows slower. One that it cannot complete would cost the whole frame, also an emergency stop.
-Duration EchoReach(const LinkOptions& options, std::size_t echo_bytes) {
-  const double frames = std::ldexp(0.5, static_cast<int>(8 * echo_bytes));
-  const std::size_t smallest = kFrameOverhead + 1 + (options.datagrams ? kDatagramHead : 0);
-  return FromSeconds(frames * static_cast<double>(smallest) / options.bytes_per_s);
-}
+/// Beside the round trip: time for the frames of an urgent event and of its acknowledgement.
+constexpr Duration kAnswered{30'000};
 
 /// What a proof takes beside the delays of the line: bytes written ahead, and ticks of both ends.
 constexpr Duration kProofMargin{10'000};
@@ -62,14 +57,13 @@ void FrameScheduler::ChooseForm(const FrameSources& from, Time now) {
 
 bool FrameScheduler::MustCut(const FrameSources& from, Time now) const {
   if (!flight_ || flight_->urgent || !transmitter_.WorthCutting() || from.memory.epoch() == 0) return false;
-  return from.outbox.queue().UrgentReady(now) || (from.inbox.UrgentNews() && !flight_->repeats);
+  return from.outbox.queue().UrgentReady(now);
 }
 
 bool FrameScheduler::MaySend(const FrameSources& from, Time now) const {
   if (transmitter_.Allows(now)) return true;
   // A datagram cannot be cut off by an urgent one, which therefore does not wait for what is charged to it.
-  return options_.datagrams && from.memory.epoch() != 0 &&
-         (from.outbox.queue().UrgentReady(now) || from.inbox.UrgentNews());
+  return options_.datagrams && from.memory.epoch() != 0 && from.outbox.queue().UrgentReady(now);
 }
 
 bool FrameScheduler::Build(FrameSources from, Time now) {
@@ -77,19 +71,19 @@ bool FrameScheduler::Build(FrameSources from, Time now) {
   repetition_.Step(agreed && from.outbox.queue().RepetitionReady(now), now);
   if (agreed && BuildUrgent(from, now)) return true;
   repetition_.OnOthersTurn(now);
-  acknowledged_last_ = false;
   return BuildOther(from, now);
 }
 
-/// What is new, then what is repeated. Between two acknowledgements that are only repeated, others have a
-/// turn.
+/// What is new, then what is repeated. An acknowledgement does not cut a frame off: the other end repeats
+/// meanwhile, which costs less than the frame.
 bool FrameScheduler::BuildUrgent(FrameSources from, Time now) {
-  if ((from.outbox.queue().UrgentReady(now) || from.inbox.UrgentNews()) && BuildData(from, true, now))
-    return true;
-  if (repetition_.GoesFirst(now) && BuildData(from, true, now)) return true;
-  if (acknowledged_last_ || !from.inbox.UrgentAckDue() || !BuildData(from, true, now)) return false;
-  acknowledged_last_ = true;
-  return true;
+  const bool is_new = from.outbox.queue().UrgentReady(now) || from.inbox.UrgentNews();
+  return (is_new || repetition_.GoesFirst(now) || AckAgain(from, now)) && BuildData(from, true, now);
+}
+
+/// Whether an acknowledgement of urgent events was lost: they still come when it should long have arrived.
+bool FrameScheduler::AckAgain(const FrameSources& from, Time now) const {
+  return from.inbox.UrgentAckDue() && now - acknowledged_at_ >= from.peer.sent.last_round_trip() + kAnswered;
 }
 
 bool FrameScheduler::BuildOther(FrameSources from, Time now) {
@@ -127,6 +121,7 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   auto wire = sealer_.Seal(from.memory.epoch(), flight.counter, form_, bundle, newest ? newest->counter : 0);
   last_data_ = now;
   from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
+  if (urgent_only && !flight.inbox.acks.empty()) acknowledged_at_ = now;
   if (flight.repeats) repetition_.OnRepeated(now, transmitter_.pacer().WireTime(wire.size()));
   flight_ = std::move(flight);
   transmitter_.Begin(std::move(wire), now);
@@ -136,7 +131,7 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
 FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only,
                                    Time now) const {
   FrameInFlight flight;
-  flight.urgent = urgent_only && (from.outbox.queue().UrgentReady(now) || from.inbox.UrgentNews());
+  flight.urgent = urgent_only && from.outbox.queue().UrgentReady(now);
   flight.repeats = urgent_only && !flight.urgent;
   // Without acknowledgements of frames the other end would write the counters of its repetitions in full.
   if (!urgent_only || (flight.repeats && from.inbox.UrgentAckDue())) {

@@ -70,6 +70,7 @@ class FrameScheduler {
   bool Build(FrameSources from, Time now);
   bool BuildUrgent(FrameSources from, Time now);
   bool BuildOther(FrameSources from, Time now);
+  bool AckAgain(const FrameSources& from, Time now) const;
   bool DataDue(const FrameSources& from, Time now) const;
   void BuildHello(FrameSources from, Time now);
   bool BuildData(FrameSources from, bool urgent_only, Time now);
@@ -86,7 +87,7 @@ class FrameScheduler {
   Transmitter transmitter_;
   TurnTaking turns_;
   Repetition repetition_;
-  bool acknowledged_last_ = false;  ///< the last frame was only to acknowledge urgent events again
+  Time acknowledged_at_{};  ///< when urgent events were last acknowledged in a frame of their own
   std::optional<FrameInFlight> flight_;
   CounterForm form_ = CounterForm::kWhole;  ///< of the next frame
   Time last_data_;                          ///< begin of the last data frame sent

