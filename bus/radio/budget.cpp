@@ -13,18 +13,21 @@ namespace priamos::bus::radio {
 namespace {
 
 FreshnessProof ProofOf(const LinkChannel& channel, double next_s, const DirectionAnalysis& other,
-                       Duration line_delay) {
+                       const LinkOptions& options) {
   const Duration step = channel.ttl / kOffsetSteps + Duration(1);
   return {.next = FromSeconds(next_s),
-          .delay = line_delay,
+          .delay = options.line_delay,
           .ahead = FromSeconds(other.AheadSeconds()),
           .step = step,
-          .silence = std::max(Duration::zero(), FromSeconds(other.SilenceSeconds()) - (channel.ttl - step))};
+          .silence = std::max(Duration::zero(), FromSeconds(other.SilenceSeconds()) - (channel.ttl - step)),
+          .reach = EchoReach(options, EchoBytes(options.bytes_per_s)),
+          .echo_age = FromSeconds(other.SilenceSeconds()) + options.line_delay};
 }
 
 DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, Direction direction) {
-  const DirectionAnalysis analysis(table, options, direction);
+  DirectionAnalysis analysis(table, options, direction);
   const DirectionAnalysis other(table, options, Opposite(direction));
+  analysis.Solve(other, Seconds(options.line_delay));
   DirectionBudget budget;
   budget.direction = direction;
   budget.control_bytes_per_s = analysis.ControlBytesPerSecond();
@@ -35,11 +38,11 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, D
     row.channel = load.channel;
     row.bits = static_cast<std::size_t>(load.bits);
     row.rate_hz = load.keys / load.period_s;
-    row.bytes_per_s = load.bits / 8 * analysis.overhead() * row.rate_hz;
+    row.bytes_per_s = analysis.BytesPerSecond(load);
     row.share = row.bytes_per_s / budget.capacity_bytes_per_s;
     if (std::isfinite(load.latency_s)) row.worst_latency = FromSeconds(load.latency_s);
     if (const LinkChannel& c = table.at(load.channel); c.channel_class == ChannelClass::kCommand)
-      row.proof = ProofOf(c, analysis.NextSeconds(load), other, options.line_delay);
+      row.proof = ProofOf(c, analysis.NextSeconds(load), other, options);
     budget.bytes_per_s += row.bytes_per_s;
     budget.channels.push_back(row);
   }
@@ -52,6 +55,13 @@ const char* NameOf(Direction d) {
 }
 
 void CheckProof(const LinkChannel& c, const FreshnessProof& proof, std::vector<std::string>& problems) {
+  if (proof.echo_age > proof.reach)
+    problems.push_back(
+        fmt::format("radio channel {}: expected a line_delay_s and a silence of the other end of at most "
+                    "{:.3f} s together, "
+                    "within which an echo names one frame, got {:.3f} s: lower keep_alive_s, "
+                    "max_bundle_bytes or line_delay_s",
+                    c.name, Seconds(proof.reach), Seconds(proof.echo_age)));
   if (proof.age() <= c.ttl) return;
   problems.push_back(fmt::format(
       "radio channel {}: expected a ttl_s of at least {:.3f} s, in which a command can be proven fresh, got "

@@ -19,6 +19,10 @@ struct FreshnessProof {
   Duration ahead{};    ///< the frame that it echoes was handed over so long before it left
   Duration step{};     ///< lost by the rounding of its offset
   Duration silence{};  ///< by which the frame that it echoes may be older than the offset can say
+  /// Longest time for which an echo can be counted on: on a slower or more silent line no command is sent.
+  Duration reach{};
+  /// Longest age of the newest frame of the other end, and the delay of the line.
+  Duration echo_age{};
   /// Largest age that the receiver must assume.
   Duration age() const { return next + delay + ahead + step + silence; }
 };

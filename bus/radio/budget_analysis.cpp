@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bus/radio/channels/bundle.hpp"
+#include "bus/radio/repetition.hpp"
 
 namespace priamos::bus::radio {
 namespace {
@@ -54,20 +55,27 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
   frame_s_ = FrameSeconds(8 * largest + control_bits_);
   overhead_ =
       1 + static_cast<double>(frame_bytes_ - (options.datagrams ? 0 : kLeadingDelimiter)) / bundle_bytes;
-  Solve();
 }
 
 double DirectionAnalysis::ControlBytesPerSecond() const {
   double bits = kFrameAcks_hz * (table_.id_bits() + kFrameAckBits);
   for (std::size_t i = 0; i < table_.size(); ++i) {
     const LinkChannel& c = table_.at(i);
-    if (c.direction == direction_ || c.channel_class != ChannelClass::kEvent) continue;
+    if (c.direction == direction_ || c.channel_class != ChannelClass::kEvent || c.urgent) continue;
     const ChannelLoad incoming = LoadOf(i);
     // One per frame that brings some of the event.
     const double frames = std::ceil(incoming.bits / capacity_bits_);
     bits += frames / incoming.period_s * (2 * table_.id_bits() + kEventAckBits);
   }
-  return bits / 8 * overhead_;
+  double bytes = bits / 8 * overhead_;
+  for (const ChannelLoad& incoming : answered_) bytes += AckFrameSeconds() / byte_s_ / incoming.period_s;
+  return bytes;
+}
+
+double DirectionAnalysis::BytesPerSecond(const ChannelLoad& load) const {
+  const double bytes =
+      load.repeated ? Copies(load) * FrameSeconds(load.bits) / byte_s_ : load.bits / 8 * overhead_;
+  return bytes * load.keys / load.period_s;
 }
 
 ChannelLoad DirectionAnalysis::LoadOf(std::size_t index) const {
@@ -75,6 +83,7 @@ ChannelLoad DirectionAnalysis::LoadOf(std::size_t index) const {
   ChannelLoad load;
   load.channel = index;
   load.urgent = c.urgent;
+  load.repeated = c.urgent && c.channel_class == ChannelClass::kEvent;
   load.priority = c.priority;
   load.period_s = c.rate_hz > 0 ? 1 / c.rate_hz : std::numeric_limits<double>::infinity();
   load.burst = c.burst;
@@ -141,7 +150,37 @@ double DirectionAnalysis::FrameSeconds(double bits) const {
   return (static_cast<double>(frame_bytes_) + std::ceil(bits / 8)) * byte_s_;
 }
 
-void DirectionAnalysis::Solve() {
+/// A frame that only acknowledges urgent events.
+double DirectionAnalysis::AckFrameSeconds() const {
+  double bits = 0;
+  for (const LinkChannel& c : table_.channels())
+    if (c.direction != direction_ && c.urgent && c.channel_class == ChannelClass::kEvent)
+      bits += 2 * table_.id_bits() + kEventAckBits;
+  return FrameSeconds(bits);
+}
+
+/// Longest time from the arrival of an urgent event to the end of the frame with its acknowledgement: the
+/// next one.
+double DirectionAnalysis::AnswerSeconds() const {
+  double urgent_s = 0;
+  for (const ChannelLoad& load : loads_)
+    if (load.urgent) urgent_s = std::max(urgent_s, FrameSeconds(load.bits));
+  return InTurns(ahead_s_ + kTick_s + frame_s_ + urgent_s + AckFrameSeconds());
+}
+
+/// Frames with the same urgent event: the first, those until it is acknowledged, and the one that is on the
+/// line then. After kRepeatAtOnce they take half of the line.
+double DirectionAnalysis::Copies(const ChannelLoad& load) const {
+  if (!load.repeated) return 1;
+  constexpr double at_once_s = 1e-6 * static_cast<double>(kRepeatAtOnce.count());
+  const double busy_s = std::min(repeat_s_, at_once_s) + std::max(0.0, repeat_s_ - at_once_s) / 2;
+  return 2 + std::floor(busy_s / FrameSeconds(load.bits));
+}
+
+void DirectionAnalysis::Solve(const DirectionAnalysis& other, double line_delay_s) {
+  repeat_s_ = line_delay_s + other.AnswerSeconds() + kTick_s;
+  for (const ChannelLoad& incoming : other.loads_)
+    if (incoming.repeated) answered_.push_back(incoming);
   // Latencies only grow when more overtake, so this ends.
   for (bool changed = true; changed;) {
     std::vector<double> latencies;
@@ -170,6 +209,7 @@ double DirectionAnalysis::Urgent(const ChannelLoad& load) const {
     for (const ChannelLoad& other : loads_)
       if (other.urgent && &other != &load && other.priority <= load.priority)
         s += other.Arrivals(window_s) * FrameSeconds(other.bits);
+    for (const ChannelLoad& incoming : answered_) s += incoming.Arrivals(window_s) * AckFrameSeconds();
     return s + FrameSeconds(load.bits);
   });
 }
@@ -182,14 +222,10 @@ double DirectionAnalysis::OrdinaryIn(double window_s, const ChannelLoad& load) c
   double bits = load.bits - load.entry_bits + load.OwnBefore(window_s) * load.bits;
   double entries = load.entries - 1 + load.OwnBefore(window_s) * load.entries;
   double other_bits = 0;  // goes after it, but may fill its frames
-  double urgent_s = 0;
   for (const ChannelLoad& other : loads_) {
-    if (&other == &load) continue;
+    if (&other == &load || other.urgent) continue;
     const double arrivals = other.Arrivals(window_s);
-    if (other.urgent) {
-      // It takes its own frame, and the frame it cuts off is sent again.
-      urgent_s += arrivals * (FrameSeconds(other.bits) + frame_s_ + byte_s_);
-    } else if (!GoesBefore(other, load)) {
+    if (!GoesBefore(other, load)) {
       other_bits += arrivals * other.bits;
     } else {
       bits += arrivals * other.bits;
@@ -202,7 +238,19 @@ double DirectionAnalysis::OrdinaryIn(double window_s, const ChannelLoad& load) c
   const double everything_s =
       ((bits + other_bits + frames * control_bits_) / 8 + frames * static_cast<double>(frame_bytes_ + 1)) *
       byte_s_;
-  return frame_s_ + urgent_s + std::min(frames * frame_s_, everything_s) + frame_s_ + kTick_s;
+  return frame_s_ + UrgentIn(window_s, load) + std::min(frames * frame_s_, everything_s) + frame_s_ + kTick_s;
+}
+
+/// What urgent messages take of the line: their frames and those of the acknowledgements; and the frame that
+/// each first one cuts off is sent again.
+double DirectionAnalysis::UrgentIn(double window_s, const ChannelLoad& load) const {
+  const double cut_s = frame_s_ + byte_s_;
+  double s = 0;
+  for (const ChannelLoad& other : loads_)
+    if (other.urgent && &other != &load)
+      s += other.Arrivals(window_s) * (Copies(other) * FrameSeconds(other.bits) + cut_s);
+  for (const ChannelLoad& incoming : answered_) s += incoming.Arrivals(window_s) * AckFrameSeconds();
+  return s;
 }
 
 double DirectionAnalysis::Converge(const std::function<double(double window_s)>& latency) const {

@@ -16,6 +16,7 @@ namespace priamos::bus::radio {
 struct ChannelLoad {
   std::size_t channel = 0;
   bool urgent = false;
+  bool repeated = false;  ///< an urgent event: repeated until it is acknowledged
   int priority = 0;
   double period_s = 0;
   double burst = 1;
@@ -37,13 +38,16 @@ class DirectionAnalysis {
   /// Analysis of the channels of one direction; `table` must outlive it.
   DirectionAnalysis(const ChannelTable& table, const LinkOptions& options, Direction direction);
 
+  /// Computes the latencies of loads(). Urgent events of both directions are repeated and acknowledged at
+  /// once, over a line that delays both directions together by `line_delay_s`.
+  void Solve(const DirectionAnalysis& other, double line_delay_s);
   const std::vector<ChannelLoad>& loads() const { return loads_; }
   /// Guaranteed share of the line for this direction, 0..1.
   double share() const { return turn_s_ / (turn_s_ + gap_s_); }
-  /// Bytes of a frame per byte of its bundle.
-  double overhead() const { return overhead_; }
   /// Load of the acknowledgements.
   double ControlBytesPerSecond() const;
+  /// Load of a channel at its rate.
+  double BytesPerSecond(const ChannelLoad& load) const;
   /// Time from the offer of a message that is the next to go, to its last byte at the receiver: it waits for
   /// the longest frame (half-duplex: and turn), and no emergency stop comes in between.
   double NextSeconds(const ChannelLoad& load) const;
@@ -53,13 +57,16 @@ class DirectionAnalysis {
   double AheadSeconds() const;
 
  private:
+  double AnswerSeconds() const;
+  double AckFrameSeconds() const;
+  double Copies(const ChannelLoad& load) const;
+  double UrgentIn(double window_s, const ChannelLoad& load) const;
   ChannelLoad LoadOf(std::size_t index) const;
   void SetEntries(const LinkChannel& channel, ChannelLoad& load) const;
   double ControlBits() const;
   void ShareTheAir(const LinkOptions& options);
   double InTurns(double work_s) const;
   double FrameSeconds(double bits) const;
-  void Solve();
   bool GoesBefore(const ChannelLoad& other, const ChannelLoad& load) const;
   double Urgent(const ChannelLoad& load) const;
   double Ordinary(const ChannelLoad& load) const;
@@ -78,6 +85,8 @@ class DirectionAnalysis {
   double frame_s_ = 0;
   double turn_s_ = 1;  ///< length of a turn; without turns 1, with gap_s_ = 0
   double gap_s_ = 0;
+  double repeat_s_ = 0;                ///< time until an urgent event of this direction is acknowledged
+  std::vector<ChannelLoad> answered_;  ///< urgent events of the other direction
   double overhead_ = 1;
   bool solved_once_ = false;
   std::vector<ChannelLoad> loads_;

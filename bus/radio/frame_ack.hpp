@@ -22,6 +22,8 @@ class FrameAckSender {
   void OnFrame(std::uint64_t ahead);
   /// Whether an acknowledgement goes into the next frame that carries control entries.
   bool Due(Time now) const;
+  /// Whether a frame is not acknowledged.
+  bool Any() const { return frames_ > 0; }
   /// Whether so many frames are unacknowledged that a frame is sent for the acknowledgement alone.
   bool Pressing() const;
   /// The acknowledgement; it counts as sent. `highest`: highest counter accepted; `heard_at`: arrival of that

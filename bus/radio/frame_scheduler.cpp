@@ -7,13 +7,8 @@
 namespace priamos::bus::radio {
 namespace {
 
-/// Time in which the other end can send half of the frames that an echo tells apart: the other half is for a
-/// line that grows slower. One that it cannot complete would cost the whole frame, also an emergency stop.
-Duration EchoReach(const LinkOptions& options, std::size_t echo_bytes) {
-  const double frames = std::ldexp(0.5, static_cast<int>(8 * echo_bytes));
-  const std::size_t smallest = kFrameOverhead + 1 + (options.datagrams ? kDatagramHead : 0);
-  return FromSeconds(frames * static_cast<double>(smallest) / options.bytes_per_s);
-}
+/// Beside the round trip: time for the frames of an urgent event and of its acknowledgement.
+constexpr Duration kAnswered{30'000};
 
 /// What a proof takes beside the delays of the line: bytes written ahead, and ticks of both ends.
 constexpr Duration kProofMargin{10'000};
@@ -27,6 +22,7 @@ FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sea
       options_(options),
       transmitter_(options, now),
       turns_(options.half_duplex, onboard, now),
+      repetition_(now),
       last_data_(now - options.keep_alive) {}
 
 std::vector<std::byte> FrameScheduler::Step(FrameSources from, Time now) {
@@ -60,8 +56,8 @@ void FrameScheduler::ChooseForm(const FrameSources& from, Time now) {
 }
 
 bool FrameScheduler::MustCut(const FrameSources& from, Time now) const {
-  return flight_ && !flight_->urgent && transmitter_.WorthCutting() && from.memory.epoch() != 0 &&
-         from.outbox.queue().UrgentReady(now, flight_->repeats);
+  if (!flight_ || flight_->urgent || !transmitter_.WorthCutting() || from.memory.epoch() == 0) return false;
+  return from.outbox.queue().UrgentReady(now);
 }
 
 bool FrameScheduler::MaySend(const FrameSources& from, Time now) const {
@@ -72,7 +68,26 @@ bool FrameScheduler::MaySend(const FrameSources& from, Time now) const {
 
 bool FrameScheduler::Build(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
-  if (agreed && from.outbox.queue().UrgentReady(now) && BuildData(from, true, now)) return true;
+  repetition_.Step(agreed && from.outbox.queue().RepetitionReady(now), now);
+  if (agreed && BuildUrgent(from, now)) return true;
+  repetition_.OnOthersTurn(now);
+  return BuildOther(from, now);
+}
+
+/// What is new, then what is repeated. An acknowledgement does not cut a frame off: the other end repeats
+/// meanwhile, which costs less than the frame.
+bool FrameScheduler::BuildUrgent(FrameSources from, Time now) {
+  const bool is_new = from.outbox.queue().UrgentReady(now) || from.inbox.UrgentNews();
+  return (is_new || repetition_.GoesFirst(now) || AckAgain(from, now)) && BuildData(from, true, now);
+}
+
+/// Whether an acknowledgement of urgent events was lost: they still come when it should long have arrived.
+bool FrameScheduler::AckAgain(const FrameSources& from, Time now) const {
+  return from.inbox.UrgentAckDue() && now - acknowledged_at_ >= from.peer.sent.last_round_trip() + kAnswered;
+}
+
+bool FrameScheduler::BuildOther(FrameSources from, Time now) {
+  const bool agreed = from.memory.epoch() != 0;
   if (from.peer.handshake.HelloDue(from.receiver.reception(now), now)) {
     BuildHello(from, now);
     return true;
@@ -106,6 +121,8 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   auto wire = sealer_.Seal(from.memory.epoch(), flight.counter, form_, bundle, newest ? newest->counter : 0);
   last_data_ = now;
   from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
+  if (urgent_only && !flight.inbox.acks.empty()) acknowledged_at_ = now;
+  if (flight.repeats) repetition_.OnRepeated(now, transmitter_.pacer().WireTime(wire.size()));
   flight_ = std::move(flight);
   transmitter_.Begin(std::move(wire), now);
   return true;
@@ -114,17 +131,18 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
 FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only,
                                    Time now) const {
   FrameInFlight flight;
-  flight.urgent = urgent_only && from.outbox.queue().UrgentReady(now, true);
+  flight.urgent = urgent_only && from.outbox.queue().UrgentReady(now);
   flight.repeats = urgent_only && !flight.urgent;
-  if (!urgent_only) {
+  // Without acknowledgements of frames the other end would write the counters of its repetitions in full.
+  if (!urgent_only || (flight.repeats && from.inbox.UrgentAckDue())) {
     flight.peer = from.peer.Load(bundle,
                                  {.highest = from.receiver.highest(),
                                   .at = from.receiver.heard_at(),
                                   .loss = from.receiver.loss().loss(),
                                   .floor = from.memory.receive_floor()},
-                                 now);
-    flight.inbox = from.inbox.Load(bundle);
+                                 urgent_only, now);
   }
+  flight.inbox = from.inbox.Load(bundle, urgent_only);
   flight.outbox = from.outbox.Load(
       bundle, {.now = now,
                .counter = from.memory.last_counter() + 1,

@@ -11,6 +11,7 @@
 #include "bus/radio/message_receiver.hpp"
 #include "bus/radio/message_sender.hpp"
 #include "bus/radio/peer.hpp"
+#include "bus/radio/repetition.hpp"
 #include "bus/radio/transmitter.hpp"
 
 namespace priamos::bus::radio {
@@ -35,7 +36,7 @@ struct SendCounters {
 struct FrameInFlight {
   std::uint64_t counter = 0;  ///< 0: a hello
   bool urgent = false;        ///< never cut off
-  bool repeats = false;       ///< only repetitions of urgent events: cut off by a new urgent message
+  bool repeats = false;       ///< repetitions and acknowledgements of urgent events: cut off by a new one
   bool over = false;          ///< ends the turn
   std::size_t bundle_bytes = 0;
   Peer::Loaded peer{};
@@ -67,6 +68,9 @@ class FrameScheduler {
   bool MustCut(const FrameSources& from, Time now) const;
   bool MaySend(const FrameSources& from, Time now) const;
   bool Build(FrameSources from, Time now);
+  bool BuildUrgent(FrameSources from, Time now);
+  bool BuildOther(FrameSources from, Time now);
+  bool AckAgain(const FrameSources& from, Time now) const;
   bool DataDue(const FrameSources& from, Time now) const;
   void BuildHello(FrameSources from, Time now);
   bool BuildData(FrameSources from, bool urgent_only, Time now);
@@ -82,6 +86,8 @@ class FrameScheduler {
   LinkOptions options_;
   Transmitter transmitter_;
   TurnTaking turns_;
+  Repetition repetition_;
+  Time acknowledged_at_{};  ///< when urgent events were last acknowledged in a frame of their own
   std::optional<FrameInFlight> flight_;
   CounterForm form_ = CounterForm::kWhole;  ///< of the next frame
   Time last_data_;                          ///< begin of the last data frame sent

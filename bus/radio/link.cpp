@@ -59,6 +59,9 @@ OfferResult LinkEndpoint::Offer(std::size_t channel, std::span<const std::byte> 
 }
 
 std::vector<std::byte> LinkEndpoint::Step(Time now) {
+  // Before an acknowledgement leaves, and after the events of Receive() were handed on: if the process ends
+  // in between, they come a second time, and none is lost.
+  if (std::exchange(events_changed_, false)) StoreEvents();
   outbox_.queue().Expire(now);
   if (peer_.listeners.TakeExpiry(now)) SetWanted(0);
   return scheduler_.Step({memory_, receiver_, peer_, inbox_, outbox_}, now);
@@ -116,10 +119,10 @@ void LinkEndpoint::OnEntry(BundleEntry entry, const Arrival& arrival, std::vecto
   std::visit(Overloaded{[&](StateEntry& e) { inbox_.OnState(std::move(e), arrival, out); },
                         [&](CommandEntry& e) { inbox_.OnCommand(std::move(e), arrival, out); },
                         [&](EventEntry& e) {
-                          if (inbox_.OnEvent(e, arrival, out)) StoreEvents();
+                          if (inbox_.OnEvent(e, arrival, out)) events_changed_ = true;
                         },
                         [&](EventAckEntry& e) {
-                          if (outbox_.OnEventAck(e, arrival.now) > 0) StoreEvents();
+                          if (outbox_.OnEventAck(e, arrival.now) > 0) events_changed_ = true;
                         },
                         [&](FrameAckEntry& e) { OnFrameAck(e, arrival.began); },
                         [&](FloorEntry& e) {

@@ -115,6 +115,7 @@ class LinkEndpoint {
   Peer peer_;
   MessageSender outbox_;
   FrameScheduler scheduler_;
+  bool events_changed_ = false;  ///< since they were stored
   std::uint64_t bundles_damaged_ = 0;
 };
 

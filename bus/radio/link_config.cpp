@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "bus/schema/packing.hpp"
@@ -12,6 +13,9 @@
 
 namespace priamos::bus::radio {
 namespace {
+
+/// The line is fed once per millisecond, not always in time.
+constexpr double kFeedGap_s = 0.0015;
 
 /// Whether all messages of a type have the same packed size.
 bool HasFixedSize(const Struct& type) {
@@ -155,8 +159,10 @@ double LinkConfig::BytesPerSecond() const {
 }
 
 LinkOptions LinkConfig::Options() const {
+  // A faster line sends many bytes between two ticks of the process, and must not stand idle.
+  const int between_ticks = static_cast<int>(std::ceil(kFeedGap_s * BytesPerSecond()));
   return {.bytes_per_s = BytesPerSecond(),
-          .ahead_bytes = ahead_bytes,
+          .ahead_bytes = std::max(ahead_bytes, between_ticks),
           .max_bundle_bytes = static_cast<std::size_t>(max_bundle_bytes),
           .keep_alive = FromSeconds(keep_alive_s),
           .silence = FromSeconds(silence_s),

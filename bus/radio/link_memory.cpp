@@ -15,40 +15,29 @@ constexpr std::uint64_t kFarthestSkip = std::uint64_t{1} << 24;
 
 LinkMemory::LinkMemory(StateStore& store, const ChannelTable& table, const NonceSource& nonces)
     : store_(&store), channels_(table.size()) {
-  bool latest = true;
-  if (const auto saved = store.Load())
-    if (auto state = ParseLinkState(saved->bytes)) {
-      state_ = std::move(*state);
-      latest = saved->latest || state_.closed;
-    }
-  if (state_.table_hash != table.hash() || state_.send_event.size() != channels_ ||
-      state_.receive_event.size() != channels_ || state_.receive_known.size() != channels_) {
+  const auto saved = store.Load();
+  if (auto state = saved ? ParseLinkState(saved->bytes) : std::nullopt) state_ = std::move(*state);
+  const bool fits = state_.table_hash == table.hash() && state_.send_event.size() == channels_ &&
+                    state_.receive_event.size() == channels_ && state_.receive_known.size() == channels_;
+  if (!fits || !saved->latest) {
+    std::vector<StoredEvent> dropped = fits ? std::move(state_.events) : std::vector<StoredEvent>{};
     BeginAnew(table, nonces);
-  } else if (!latest) {
-    NumberEventsAnew(nonces);
+    state_.events = std::move(dropped);
+    events_dropped_ = true;
   }
-  state_.closed = false;  // on the disk before the first counter is used
   next_counter_ = state_.send_next;
 }
 
-/// Nothing to go on with: a new epoch is needed, and with it the other end learns of the new numbers.
+/// Nothing to go on with: a new epoch is needed, and with it the other end learns of the new numbers. Those
+/// of the other end's events are forgotten: of one byte each, they could be behind by so much that new ones
+/// look old.
 void LinkMemory::BeginAnew(const ChannelTable& table, const NonceSource& nonces) {
   state_ = LinkState{};
   state_.table_hash = table.hash();
   state_.receive_event.assign(channels_, 0);
   state_.receive_known.assign(channels_, 0);
-  NumberEventsAnew(nonces);
-}
-
-/// What was received stays known, so that little of it is delivered a second time.
-void LinkMemory::NumberEventsAnew(const NonceSource& nonces) {
-  state_.epoch = 0;
-  state_.send_next = 1;
-  state_.receive_floor = 0;
-  state_.floor_exact = true;
-  state_.stream = static_cast<std::uint32_t>(nonces());
   state_.send_event.assign(channels_, 0);
-  events_dropped_ = true;
+  state_.stream = static_cast<std::uint32_t>(nonces());
 }
 
 std::uint64_t LinkMemory::TakeCounter() {
@@ -142,7 +131,6 @@ void LinkMemory::StoreEvents(const SendQueue& queue, const std::vector<EventRece
 
 void LinkMemory::Close(std::uint64_t highest_accepted) {
   state_.send_next = next_counter_;
-  state_.closed = true;
   if (accepted_) {
     state_.receive_floor = highest_accepted;
     state_.floor_exact = true;

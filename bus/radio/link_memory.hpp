@@ -19,9 +19,9 @@ namespace priamos::bus::radio {
 class LinkMemory {
  public:
   /// Reads the store. If the state is missing, damaged or of another channel table, this end begins without
-  /// one. If it may be an older one, as after a loss of power, its events are numbered anew, in a new epoch:
-  /// the other end would take new ones for those that it has heard. The events that waited in it are dropped,
-  /// because they may have arrived; RestoreEvents() counts them as refused.
+  /// one, in a new epoch and with new numbers of events. So it does if the state may be an older one, as
+  /// after a loss of power: each end would take new events for those that it has heard or sent. The events
+  /// that waited in it are dropped, because they may have arrived; RestoreEvents() counts them as refused.
   LinkMemory(StateStore& store, const ChannelTable& table, const NonceSource& nonces);
 
   std::uint64_t epoch() const { return state_.epoch; }
@@ -49,7 +49,6 @@ class LinkMemory {
 
  private:
   void BeginAnew(const ChannelTable& table, const NonceSource& nonces);
-  void NumberEventsAnew(const NonceSource& nonces);
   void Save() { store_->Save(Serialise(state_)); }
   void Reserve();
   void StartSync();

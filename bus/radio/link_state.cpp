@@ -8,7 +8,7 @@
 namespace priamos::bus::radio {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x324B4C50;  // "PLK2"
+constexpr std::uint32_t kMagic = 0x334B4C50;  // "PLK3"
 constexpr std::size_t kChecksumBytes = 16;
 
 class Writer {
@@ -82,7 +82,6 @@ std::vector<std::byte> Serialise(const LinkState& state) {
   w.Number(state.send_next, 8);
   w.Number(state.receive_floor, 8);
   w.Number(state.floor_exact ? 1 : 0, 1);
-  w.Number(state.closed ? 1 : 0, 1);
   w.Number(state.stream, 4);
   w.Number(state.peer_stream, 4);
   w.Numbers(state.send_event);
@@ -115,7 +114,6 @@ std::optional<LinkState> ParseLinkState(std::span<const std::byte> bytes) {
   state.send_next = r.Number(8);
   state.receive_floor = r.Number(8);
   state.floor_exact = r.Number(1) != 0;
-  state.closed = r.Number(1) != 0;
   state.stream = static_cast<std::uint32_t>(r.Number(4));
   state.peer_stream = static_cast<std::uint32_t>(r.Number(4));
   state.send_event = r.Numbers();

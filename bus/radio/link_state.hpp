@@ -63,7 +63,6 @@ struct LinkState {
   std::uint64_t send_next = 1;              ///< first counter from which on none was ever sent in this epoch
   std::uint64_t receive_floor = 0;          ///< counter above which none was ever accepted in this epoch
   bool floor_exact = true;                  ///< false: receive_floor was reserved ahead
-  bool closed = false;                      ///< the process ended in order: nothing was sent after it
   std::uint32_t stream = 0;                 ///< names this end's numbering of events
   std::uint32_t peer_stream = 0;            ///< names the other end's numbering of events
   std::vector<std::uint8_t> send_event;     ///< per channel: number of the next new segment

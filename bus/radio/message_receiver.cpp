@@ -43,7 +43,9 @@ bool MessageReceiver::OnEvent(const EventEntry& entry, const Arrival& arrival, s
   auto events = receiver.OnSegment(entry.segment, arrival.sent_at);
   for (EventReceiver::Event& event : events)
     Deliver({entry.channel, std::move(event.packed), event.packed_at}, event.bits, out);
-  return !events.empty() || receiver.known() != known;
+  const bool news = !events.empty() || receiver.known() != known;
+  urgent_news_ = urgent_news_ || (news && table_->at(entry.channel).urgent);
+  return news;
 }
 
 void MessageReceiver::Deliver(Delivery delivery, std::size_t bits, std::vector<Delivery>& out) {
@@ -64,11 +66,19 @@ bool MessageReceiver::AckDue() const {
   return std::any_of(events_.begin(), events_.end(), [](const EventReceiver& r) { return r.ack_due(); });
 }
 
-MessageReceiver::Loaded MessageReceiver::Load(BundleBuilder& bundle) {
-  Loaded loaded{.forget = std::exchange(forget_due_, false), .acks = {}};
+bool MessageReceiver::UrgentAckDue() const {
+  for (std::size_t i = 0; i < events_.size(); ++i)
+    if (events_[i].ack_due() && table_->at(i).urgent) return true;
+  return false;
+}
+
+MessageReceiver::Loaded MessageReceiver::Load(BundleBuilder& bundle, bool urgent_only) {
+  Loaded loaded{.forget = !urgent_only && std::exchange(forget_due_, false),
+                .news = std::exchange(urgent_news_, false),
+                .acks = {}};
   if (loaded.forget) bundle.Add(ForgetEntry{});
   for (std::size_t i = 0; i < events_.size(); ++i) {
-    if (!events_[i].ack_due()) continue;
+    if (!events_[i].ack_due() || (urgent_only && !table_->at(i).urgent)) continue;
     if (!bundle.Add(EventAckEntry{i, events_[i].ack()})) break;
     events_[i].set_ack_due(false);
     loaded.acks.push_back(i);
@@ -78,6 +88,7 @@ MessageReceiver::Loaded MessageReceiver::Load(BundleBuilder& bundle) {
 
 void MessageReceiver::Return(const Loaded& loaded) {
   forget_due_ = forget_due_ || loaded.forget;
+  urgent_news_ = urgent_news_ || loaded.news;
   for (const std::size_t channel : loaded.acks) events_[channel].set_ack_due(true);
 }
 

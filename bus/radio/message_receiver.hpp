@@ -66,13 +66,19 @@ class MessageReceiver {
   /// Which entries a frame carries, to be given back when it is cut off.
   struct Loaded {
     bool forget = false;
+    bool news = false;              ///< the first acknowledgement of an urgent event
     std::vector<std::size_t> acks;  ///< channels whose acknowledgements are in it
   };
   bool AckDue() const;
+  /// Whether an acknowledgement of urgent events is due, first or repeated: until it arrives, the other end
+  /// repeats them.
+  bool UrgentAckDue() const;
+  /// Whether an urgent event is not acknowledged yet.
+  bool UrgentNews() const { return urgent_news_; }
   /// Whether an entry of Load() is so urgent that a frame is sent for it alone.
   bool Due() const { return forget_due_ || AckDue(); }
-  /// Adds the entries that are due; they count as sent.
-  Loaded Load(BundleBuilder& bundle);
+  /// Adds the entries that are due, or those of urgent events alone; they count as sent.
+  Loaded Load(BundleBuilder& bundle, bool urgent_only = false);
   void Return(const Loaded& loaded);
 
   const DeliveryCounters& counters(std::size_t channel) const { return counters_[channel]; }
@@ -86,6 +92,7 @@ class MessageReceiver {
   std::vector<EventReceiver> events_;       ///< by channel
   std::vector<MessageHistory> histories_;   ///< by channel: the baselines of differences
   std::vector<DeliveryCounters> counters_;  ///< by channel
+  bool urgent_news_ = false;                ///< an urgent event came that is not acknowledged yet
   bool forget_due_ = false;                 ///< the other end uses a baseline that is not known here
 };
 

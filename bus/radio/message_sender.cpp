@@ -32,6 +32,8 @@ MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure
   Loaded loaded;
   for (const SendQueue::Candidate& candidate : queue_.Ready(departure.now)) {
     if (departure.urgent_only && !candidate.urgent) break;
+    // Repetitions have frames of their own, as short as can be.
+    if (!departure.urgent_only && queue_.IsRepetition(candidate.channel, departure.now)) continue;
     if (!MayLoad(candidate, departure)) continue;
     if (table_->at(candidate.channel).channel_class == ChannelClass::kEvent) {
       LoadSegments(candidate.channel, bundle, departure, loaded);
@@ -51,10 +53,12 @@ bool MessageSender::MayLoad(const SendQueue::Candidate& candidate, const Departu
 
 void MessageSender::LoadSegments(std::size_t channel, BundleBuilder& bundle, const Departure& departure,
                                  Loaded& loaded) {
-  // What is urgent now is not made longer by repetitions of what was urgent before.
+  // What is urgent now is not made longer by repetitions of what was urgent before, and of these one goes at
+  // a time: of a short frame more come through.
   const bool fresh_only = departure.urgent_only && queue_.NextIsFresh(channel, departure.now);
+  const bool one_only = departure.urgent_only && !fresh_only;
   while (!fresh_only || queue_.NextIsFresh(channel, departure.now))
-    if (!LoadSegment(channel, bundle, departure, loaded)) return;
+    if (!LoadSegment(channel, bundle, departure, loaded) || one_only) return;
 }
 
 bool MessageSender::LoadSegment(std::size_t channel, BundleBuilder& bundle, const Departure& departure,

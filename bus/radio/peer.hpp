@@ -30,8 +30,8 @@ struct Peer {
   };
   /// Whether an entry of Load() is so urgent that a frame is sent for it alone.
   bool Due() const { return acks.Pressing() || listeners.changed(); }
-  /// Adds the entries that are due; they count as sent.
-  Loaded Load(BundleBuilder& bundle, const Heard& heard, Time now);
+  /// Adds the entries that are due, or the acknowledgement of frames alone; they count as sent.
+  Loaded Load(BundleBuilder& bundle, const Heard& heard, bool ack_only, Time now);
   void Return(const Loaded& loaded);
   /// Notes that counters begin anew.
   void OnEpochChanged();

@@ -6,7 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <set>
@@ -46,9 +48,15 @@ void RefuseOpenMode(const std::string& path, int fd) {
                     path, info.st_mode & 0777U, path));
 }
 
-/// Whether a key looks random: of 10^16 random keys one has fewer than 16 different bytes.
+/// Whether a key looks random: of 10^16 random keys not one has fewer than 16 different bytes, is a text,
+/// repeats itself, or counts in equal steps.
 bool LooksRandom(const LinkKey& key) {
-  return key != SimulationKey() && std::set(key.begin(), key.end()).size() >= 16;
+  const auto printable = [](unsigned char c) { return std::isprint(c) != 0 || c == 0; };
+  std::set<unsigned char> steps;
+  for (std::size_t i = 1; i < key.size(); ++i) steps.insert(static_cast<unsigned char>(key[i] - key[i - 1]));
+  const auto half = key.begin() + key.size() / 2;
+  return std::set(key.begin(), key.end()).size() >= 16 && steps.size() >= 12 &&
+         !std::all_of(key.begin(), key.end(), printable) && !std::equal(key.begin(), half, half);
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ void RadioApp::SubscribeAll() {
         waiting_.push_back({i, {encoded.begin(), encoded.end()}});
         return;
       }
-      link_->Offer(i, encoded, now, codecs_.KeyOf(i, encoded));
+      link_->Offer(i, encoded, pauses_->CameAt(now), codecs_.KeyOf(i, encoded));
     };
     context_.node().SubscribeRaw(table.at(i).name, types(), offer);
   }
@@ -139,12 +139,14 @@ void RadioApp::StartLink(Time now) {
   for (const Waiting& w : waiting_)
     link_->Offer(w.channel, w.encoded, now, codecs_.KeyOf(w.channel, w.encoded));
   waiting_.clear();
+  pauses_.emplace(TickPeriod(), now);
   last_report_ = now;
   next_report_ = now + kReportPeriod;
 }
 
 void RadioApp::Tick(Time now) {
   if (!link_) StartLink(now);
+  pauses_->Tick(now);
   ReadLine();
   ServeListeners(now);
   FeedLine(now);

@@ -16,6 +16,7 @@
 #include "common/serial_port.hpp"
 #include "lcmtypes/channels.hpp"
 #include "radio/echo_filter.hpp"
+#include "radio/pause_watch.hpp"
 #include "radio/radio_config.hpp"
 #include "radio/radio_messages.hpp"
 
@@ -72,6 +73,7 @@ class RadioApp {
   std::unique_ptr<bus::radio::StateStore> store_;
   std::unique_ptr<bus::radio::LinkEndpoint> link_;  ///< since the first tick, which brings the time
   EchoFilter echo_;
+  std::optional<PauseWatch> pauses_;  ///< since the first tick
   bus::Inbox<link_request_t> requests_;
   std::map<std::size_t, Time> listening_until_;  ///< on-request channels of the other end
   std::vector<Waiting> waiting_;                 ///< messages that came before the first tick

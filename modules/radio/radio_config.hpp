@@ -33,7 +33,7 @@ struct RadioConfig {
            "agree anew");
     a.Text("fast_state_file", fast_state_file,
            "the same on a RAM disk, so that no message waits for the disk of state_file; empty: none");
-    a.Number("tick_s", tick_s, {"s", 0.0005, 0.02, "how often the line is fed"});
+    a.Number("tick_s", tick_s, {"s", 0.0005, 0.001, "how often the line is fed; the budget counts on 0.001"});
     // A link.toml may be given as this file; then `link` is not read.
     own_link.Describe(a);
     if (!HasOwnLink() && own_link != bus::radio::LinkConfig{})

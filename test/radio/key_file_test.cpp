@@ -74,7 +74,16 @@ TEST_F(KeyFileTest, AKeyThatCanBeGuessedIsRefused) {
   for (const auto byte : SimulationKey()) simulation += fmt::format("{:02x}", byte);
   std::string pattern;
   while (pattern.size() < 64) pattern += "0123456789abcdef";
-  for (const std::string& text : {std::string(64, '0'), std::string(64, 'f'), pattern, simulation}) {
+  const auto hex = [](const std::string& bytes) {
+    std::string text;
+    for (const unsigned char c : bytes) text += fmt::format("{:02x}", c);
+    return text;
+  };
+  std::string counted, half;
+  for (int i = 0; i < 32; ++i) counted += static_cast<char>(i);
+  for (int i = 0; i < 32; ++i) half += static_cast<char>(i % 16 * 37 + i % 16 * i % 16);
+  for (const std::string& text : {std::string(64, '0'), std::string(64, 'f'), pattern, simulation,
+                                  hex(counted), hex(half), hex("correct horse battery staple 123")}) {
     std::ofstream(path) << text;
     chmod(path.c_str(), 0600);
     EXPECT_THAT(ErrorOfReading(), HasSubstr("expected a random key")) << text;

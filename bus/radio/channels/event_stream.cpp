@@ -51,42 +51,44 @@ void EventSender::Cut(const Event& event) {
                          .offset = i * kSegmentBytes});
 }
 
-bool EventSender::Due(const Segment& segment, Time now) const {
-  return !segment.held && (!segment.sent || now >= segment.sent_at + timeout_);
+bool EventSender::Due(const Segment& segment, Time now, bool urgent) const {
+  if (segment.held) return false;
+  if (!segment.sent) return true;
+  return urgent ? now > segment.begun_at : now >= segment.sent_at + timeout_;
 }
 
-const EventSender::Segment* EventSender::NextDue(Time now, bool fresh_first) const {
+const EventSender::Segment* EventSender::NextDue(Time now, bool urgent) const {
   const std::size_t n = std::min(segments_.size(), kEventWindow);
   const Segment* overdue = nullptr;
   for (std::size_t i = 0; i < n; ++i) {
-    if (!Due(segments_[i], now)) continue;
-    if (!fresh_first || segments_[i].times == 0) return &segments_[i];
-    if (overdue == nullptr) overdue = &segments_[i];
+    if (!Due(segments_[i], now, urgent)) continue;
+    if (!urgent || segments_[i].times == 0) return &segments_[i];
+    if (overdue == nullptr || segments_[i].begun_at < overdue->begun_at) overdue = &segments_[i];
   }
   return overdue;
 }
 
-bool EventSender::Ready(Time now) const {
-  return NextDue(now, false) != nullptr;
+bool EventSender::Ready(Time now, bool urgent) const {
+  return NextDue(now, urgent) != nullptr;
 }
 
-bool EventSender::NextIsFresh(Time now, bool fresh_first) const {
-  const Segment* s = NextDue(now, fresh_first);
+bool EventSender::NextIsFresh(Time now, bool urgent) const {
+  const Segment* s = NextDue(now, urgent);
   return s != nullptr && s->times == 0;
 }
 
-bool EventSender::NextIsNew(Time now, bool fresh_first) const {
-  const Segment* s = NextDue(now, fresh_first);
+bool EventSender::NextIsNew(Time now, bool urgent) const {
+  const Segment* s = NextDue(now, urgent);
   return s != nullptr && !events_[s->event - first_event_].released;
 }
 
-Time EventSender::NextPackedAt(Time now, bool fresh_first) const {
-  const Segment* s = NextDue(now, fresh_first);
+Time EventSender::NextPackedAt(Time now, bool urgent) const {
+  const Segment* s = NextDue(now, urgent);
   return s == nullptr ? now : events_[s->event - first_event_].packed_at;
 }
 
-std::optional<EventSegment> EventSender::Next(Time now, bool fresh_first) const {
-  const Segment* s = NextDue(now, fresh_first);
+std::optional<EventSegment> EventSender::Next(Time now, bool urgent) const {
+  const Segment* s = NextDue(now, urgent);
   if (s == nullptr) return std::nullopt;
   const Event& event = events_[s->event - first_event_];
   EventSegment out;
@@ -108,12 +110,13 @@ EventSender::Segment* EventSender::Find(std::uint8_t number) {
   return index < segments_.size() && index < kEventWindow ? &segments_[index] : nullptr;
 }
 
-void EventSender::MarkSent(std::uint8_t number, Time at) {
+void EventSender::MarkSent(std::uint8_t number, Time now, Time leaves_at) {
   Segment* s = Find(number);
   if (s == nullptr) return;
   events_[s->event - first_event_].released = true;
   s->sent = true;
-  s->sent_at = at;
+  s->begun_at = now;
+  s->sent_at = leaves_at;
   if (++s->times > 1) ++resent_;
 }
 

@@ -55,7 +55,10 @@ struct EventAck {
   std::uint16_t held = 0;   ///< bit i: segment next + prefix + 1 + i is there, too
 };
 
-/// Sender's side of one channel: events that wait, and segments that are sent but not acknowledged.
+/// Sender's side of one channel: events that wait, and segments that are sent but not acknowledged. The
+/// functions that say what goes next take `urgent`: then what was never sent goes before repetitions, so that
+/// an event does not travel with repetitions of the one before, and these are due in every frame, without a
+/// timeout, in turn.
 class EventSender {
  public:
   static constexpr std::size_t kCapacity = 64;
@@ -78,18 +81,17 @@ class EventSender {
   void Restore(Event event);
 
   /// Whether a segment is to be sent now: new, or its acknowledgement overdue.
-  bool Ready(Time now) const;
-  /// The segment to be sent next, nullopt when there is none. `fresh_first`: what was never sent goes before
-  /// what is only overdue, so that an urgent event does not travel with repetitions of the one before.
-  std::optional<EventSegment> Next(Time now, bool fresh_first = false) const;
+  bool Ready(Time now, bool urgent = false) const;
+  /// The segment to be sent next, nullopt when there is none.
+  std::optional<EventSegment> Next(Time now, bool urgent = false) const;
   /// Whether the segment of Next() was never sent.
-  bool NextIsFresh(Time now, bool fresh_first) const;
+  bool NextIsFresh(Time now, bool urgent) const;
   /// Whether the segment of Next() begins an event of which nothing was sent.
-  bool NextIsNew(Time now, bool fresh_first = false) const;
+  bool NextIsNew(Time now, bool urgent = false) const;
   /// Time at which the event of the segment of Next() was packed.
-  Time NextPackedAt(Time now, bool fresh_first = false) const;
-  /// Notes that a segment is sent; `at`: when its last byte will have left.
-  void MarkSent(std::uint8_t number, Time at);
+  Time NextPackedAt(Time now, bool urgent = false) const;
+  /// Notes that a segment is sent in a frame that begins at `now`, and whose last byte leaves at `leaves_at`.
+  void MarkSent(std::uint8_t number, Time now, Time leaves_at);
   /// Marks the segment as not sent, because its frame was aborted.
   void MarkUnsent(std::uint8_t number);
   /// Takes an acknowledgement. Returns how many events were acknowledged for the first time.
@@ -113,11 +115,12 @@ class EventSender {
     bool held = false;
     bool sent = false;
     int times = 0;
+    Time begun_at{};
     Time sent_at{};
   };
   void Cut(const Event& event);
-  bool Due(const Segment& segment, Time now) const;
-  const Segment* NextDue(Time now, bool fresh_first) const;
+  bool Due(const Segment& segment, Time now, bool urgent) const;
+  const Segment* NextDue(Time now, bool urgent) const;
   Segment* Find(std::uint8_t number);
 
   std::uint8_t next_;

@@ -92,7 +92,7 @@ double SendQueue::Effective(const LinkChannel& channel, Time since, Time now) co
 /// The rate of an urgent event is what the budget reckons with, and no limit: it goes at once, and before
 /// repetitions of those before it.
 bool SendQueue::EventReady(const Lane& lane, Time now) {
-  return lane.events.Ready(now) &&
+  return lane.events.Ready(now, lane.channel->urgent) &&
          (lane.channel->urgent || !lane.events.NextIsNew(now) || lane.event_rate.Allows(now));
 }
 
@@ -128,15 +128,26 @@ std::vector<SendQueue::Candidate> SendQueue::Ready(Time now) const {
   return ready;
 }
 
-bool SendQueue::UrgentReady(Time now, bool fresh) const {
+bool SendQueue::UrgentReady(Time now) const {
   std::vector<Candidate> ready;
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     const Lane& lane = lanes_[i];
-    if (!lane.channel->urgent || lane.channel->direction != outgoing_) continue;
-    const bool event = lane.channel->channel_class == ChannelClass::kEvent;
-    if (!fresh || !event || NextIsFresh(i, now)) AddReady(lane, i, now, ready);
+    if (lane.channel->urgent && lane.channel->direction == outgoing_ && !IsRepetition(i, now))
+      AddReady(lane, i, now, ready);
   }
   return !ready.empty();
+}
+
+bool SendQueue::RepetitionReady(Time now) const {
+  for (std::size_t i = 0; i < lanes_.size(); ++i)
+    if (lanes_[i].channel->direction == outgoing_ && IsRepetition(i, now)) return true;
+  return false;
+}
+
+bool SendQueue::IsRepetition(std::size_t channel, Time now) const {
+  const Lane& lane = lanes_[channel];
+  return lane.channel->urgent && lane.channel->channel_class == ChannelClass::kEvent &&
+         EventReady(lane, now) && !NextIsFresh(channel, now);
 }
 
 const std::vector<std::byte>& SendQueue::Peek(const Candidate& candidate) const {
@@ -159,11 +170,11 @@ bool SendQueue::NextIsFresh(std::size_t channel, Time now) const {
 
 void SendQueue::TakeEvent(std::size_t channel, std::uint8_t number, Time now, Time leaves_at) {
   Lane& lane = lanes_[channel];
-  const bool fresh_first = lane.channel->urgent;
-  if (lane.events.NextIsNew(now, fresh_first))
-    lane.event_rate.Use(std::max(lane.events.NextPackedAt(now, fresh_first), lane.event_rate.next()));
+  const bool urgent = lane.channel->urgent;
+  if (lane.events.NextIsNew(now, urgent))
+    lane.event_rate.Use(std::max(lane.events.NextPackedAt(now, urgent), lane.event_rate.next()));
   lane.event_served = now;
-  lane.events.MarkSent(number, leaves_at);
+  lane.events.MarkSent(number, now, leaves_at);
 }
 
 QueuedMessage SendQueue::Take(const Candidate& candidate) {

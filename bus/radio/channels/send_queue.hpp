@@ -91,8 +91,12 @@ class SendQueue {
   void Expire(Time now);
   /// The messages that may be sent now, in order of priority.
   std::vector<Candidate> Ready(Time now) const;
-  /// Whether an urgent channel has something; `fresh`: something that was never sent.
-  bool UrgentReady(Time now, bool fresh = false) const;
+  /// Whether an urgent channel has something that was never sent.
+  bool UrgentReady(Time now) const;
+  /// Whether an urgent event was sent and is not acknowledged.
+  bool RepetitionReady(Time now) const;
+  /// Whether a channel has only urgent events that were sent and are not acknowledged.
+  bool IsRepetition(std::size_t channel, Time now) const;
 
   const std::vector<std::byte>& Peek(const Candidate& candidate) const;
   Time OfferedAt(const Candidate& candidate) const;

@@ -50,10 +50,16 @@ LineConfig WithSchedules(const LinkEmulateOptions& options) {
 template <class Take>
 void ForEachRow(const std::string& path, const std::string& what, const std::string& heading, Take take) {
   std::ifstream in(path);
-  if (!in) throw ConfigError(fmt::format("{}: expected a {} schedule, got none", path, what));
+  if (!in || !fs::is_regular_file(path))
+    throw ConfigError(fmt::format("{}: expected a {} schedule, got none", path, what));
+  bool empty = true;
   std::string text;
-  for (int line = 1; std::getline(in, text); ++line)
-    if (!text.empty() && text[0] != '#' && (line > 1 || text.rfind(heading, 0) != 0)) take(line, text);
+  for (int line = 1; std::getline(in, text); ++line) {
+    if (text.empty() || text[0] == '#' || (line == 1 && text.starts_with(heading))) continue;
+    take(line, text);
+    empty = false;
+  }
+  if (empty) throw ConfigError(fmt::format("{}: expected a {} schedule, got one without rows", path, what));
 }
 
 void MakeRaw(int fd) {

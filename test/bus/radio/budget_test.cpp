@@ -42,7 +42,7 @@ TEST(Budget, RefusesMoreThanTheLine) {
 
 TEST(Budget, RefusesADeadlineThatCannotBeKept) {
   std::vector<LinkChannel> channels = TestChannels();
-  for (LinkChannel& c : channels) c.rate_hz = 0.5;
+  for (LinkChannel& c : channels) c.rate_hz = 0.4;
   channels[kDriveDown].ttl = Duration(1'000'000);
   channels[kEventUp].max_bits = 8 * 40;
   channels[kSlowUp].deadline = Duration(450'000);

@@ -25,7 +25,7 @@ bool Offer(EventSender& sender, const std::string& text, Time now = kStart) {
 std::vector<std::string> Exchange(EventSender& sender, EventReceiver& receiver, Time now) {
   std::vector<std::string> texts;
   while (const auto segment = sender.Next(now)) {
-    sender.MarkSent(segment->number, now);
+    sender.MarkSent(segment->number, now, now);
     for (const auto& event : receiver.OnSegment(*segment, now)) texts.push_back(ToText(event.packed));
   }
   return texts;
@@ -58,7 +58,7 @@ TEST(EventStream, TooLargeOrTooManyIsRefused) {
 TEST(EventStream, NothingIsSentTwiceBeforeItIsOverdue) {
   EventSender sender;
   Offer(sender, "abc");
-  sender.MarkSent(0, kStart);
+  sender.MarkSent(0, kStart, kStart);
   EXPECT_FALSE(sender.Ready(kStart + Duration(100'000)));
   EXPECT_TRUE(sender.Ready(kStart + Duration(600'000)));
 }
@@ -82,7 +82,7 @@ TEST(EventStream, BeforeTheBaseArrivesNothingIsAcknowledged) {
   for (const char* text : {"a", "b", "c"}) Offer(sender, text);
   for (int i = 0; i < 3; ++i) {
     const auto segment = sender.Next(kStart);
-    sender.MarkSent(segment->number, kStart + Duration(i));
+    sender.MarkSent(segment->number, kStart + Duration(i), kStart + Duration(i));
     if (i != 0) receiver.OnSegment(*segment, kStart);
   }
   // The receiver has not seen the base yet and cannot know where to begin.
@@ -99,9 +99,9 @@ TEST(EventStream, HoleIsFilledBeforeItsTime) {
   Exchange(sender, receiver, kStart);
   sender.OnAck(receiver.ack(), kStart, round_trip);
   for (const char* text : {"a", "b"}) Offer(sender, text);
-  sender.MarkSent(1, kStart);  // lost
+  sender.MarkSent(1, kStart, kStart);  // lost
   const auto second = sender.Next(kStart);
-  sender.MarkSent(second->number, kStart + Duration(1));
+  sender.MarkSent(second->number, kStart + Duration(1), kStart + Duration(1));
   EXPECT_TRUE(receiver.OnSegment(*second, kStart).empty());
   sender.OnAck(receiver.ack(), kStart + Duration(2), round_trip);
   ASSERT_TRUE(sender.Next(kStart + Duration(3)));
@@ -143,7 +143,7 @@ TEST(EventStream, RestartedReceiverMakesTheSenderRepeatWhatItHeld) {
   Offer(sender, std::string(3 * kSegmentBytes, 'x'));
   for (int i = 0; i < 2; ++i) {
     const auto segment = sender.Next(kStart);
-    sender.MarkSent(segment->number, kStart);
+    sender.MarkSent(segment->number, kStart, kStart);
     receiver.OnSegment(*segment, kStart);
   }
   sender.OnAck(receiver.ack(), kStart, round_trip);
@@ -179,7 +179,7 @@ TEST(EventStream, ExactlyOnceInOrderUnderLossAndRestarts) {
         if (Offer(sender, text, now)) sent.push_back(text);
       }
       if (const auto segment = sender.Next(now)) {
-        sender.MarkSent(segment->number, now);
+        sender.MarkSent(segment->number, now, now);
         if (!rng.Chance(0.3))
           for (const auto& event : receiver.OnSegment(*segment, now)) got.push_back(ToText(event.packed));
       }

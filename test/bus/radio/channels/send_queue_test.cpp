@@ -94,12 +94,26 @@ TEST_F(SendQueueTest, UrgentGoesBeforeTheRepetitionOfAnother) {
   SendQueue dut(table, Direction::kDown, kAgeing);
   dut.OfferEvent(kStopDown, Text("1"), 8, kStart);
   EXPECT_EQ(SendAll(dut, kStopDown, kStart), std::vector({0}));
-  EXPECT_FALSE(dut.UrgentReady(After(0.1)));
-  EXPECT_TRUE(dut.UrgentReady(After(1)));  // its acknowledgement is overdue
-  EXPECT_FALSE(dut.UrgentReady(After(1), true));
-  dut.OfferEvent(kStopDown, Text("2"), 8, After(1));
-  EXPECT_TRUE(dut.UrgentReady(After(1), true));
-  EXPECT_EQ(SendAll(dut, kStopDown, After(1)), std::vector({1, 0}));
+  EXPECT_FALSE(dut.RepetitionReady(kStart)) << "once per frame";
+  EXPECT_TRUE(dut.RepetitionReady(After(0.01)));
+  EXPECT_FALSE(dut.UrgentReady(After(0.01)));
+  dut.OfferEvent(kStopDown, Text("2"), 8, After(0.01));
+  EXPECT_FALSE(dut.IsRepetition(kStopDown, After(0.01)));
+  EXPECT_TRUE(dut.UrgentReady(After(0.01)));
+  EXPECT_EQ(SendAll(dut, kStopDown, After(0.01)), std::vector({1, 0}));
+}
+
+TEST_F(SendQueueTest, AnAcknowledgedEventIsNotRepeated) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kDown, kAgeing);
+  RoundTrip round_trip;
+  dut.OfferEvent(kStopDown, Text("1"), 8, kStart);
+  dut.OfferEvent(kEventDown, Text("event"), 40, kStart);
+  SendAll(dut, kStopDown, kStart);
+  SendAll(dut, kEventDown, kStart);
+  EXPECT_FALSE(dut.IsRepetition(kEventDown, After(9))) << "its timeout is over, but it is not urgent";
+  dut.events(kStopDown).OnAck({.next = 1}, After(0.02), round_trip);
+  EXPECT_FALSE(dut.RepetitionReady(After(9)));
 }
 
 TEST_F(SendQueueTest, UrgentEventIsNeverHeldBackByItsRate) {
@@ -107,7 +121,7 @@ TEST_F(SendQueueTest, UrgentEventIsNeverHeldBackByItsRate) {
   const ChannelTable table = Table();
   SendQueue dut(table, Direction::kDown, kAgeing);
   for (const char* text : {"1", "2", "3"}) dut.OfferEvent(kStopDown, Text(text), 8, kStart);
-  EXPECT_TRUE(dut.UrgentReady(kStart, true));
+  EXPECT_TRUE(dut.UrgentReady(kStart));
   EXPECT_EQ(SendAll(dut, kStopDown, kStart), std::vector({0, 1, 2}));
 }
 

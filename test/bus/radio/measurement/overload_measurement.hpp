@@ -30,7 +30,7 @@ inline std::vector<LinkChannel> OverloadChannels() {
   set(kEventUp, 200, 1.2, 0);
   set(kSlowUp, 100, 2, 2);
   set(kDriveDown, 5, 20, 0.5);
-  set(kStopDown, 4, 1, 0);
+  set(kStopDown, 4, 0.2, 0);
   set(kEventDown, 150, 1, 0);
   LinkChannel more = channels[kSlowUp];
   more.name = "MORE";
@@ -42,7 +42,7 @@ inline std::vector<LinkChannel> OverloadChannels() {
 class OverloadRun {
  public:
   explicit OverloadRun(std::uint64_t seed)
-      : pair_(LineConfig{.latency_s = 0}, seed),
+      : pair_(LineConfig{.latency_s = 0}, seed, {.line_delay = Duration(10'000)}),
         table_(OverloadChannels(), false),
         rng_(Rng::Stream(seed, "offers")) {
     pair_.onboard.channels = pair_.offboard.channels = OverloadChannels();
