@@ -118,8 +118,14 @@ void RequireEvents(const LogOptions& options, const bus::LogSelection& selection
       fmt::format("{}: expected events to copy, got none; {} is not written", options.log, options.out));
 }
 
-/// Verb `filter`, and without any selection `repair`: copies whole events into another log.
-int Copy(const LogOptions& options) {
+/// Ends the writing. Throws std::runtime_error when not all of it could be written.
+void Finish(bus::LogWriter& writer, const std::string& file) {
+  writer.Flush();
+  if (!writer.good()) throw std::runtime_error(file + ": cannot be written: is the disk full?");
+}
+
+/// Verb `filter`: copies chosen events into another log.
+int Filter(const LogOptions& options) {
   bus::LogReader reader(options.log);
   RequireNewFile(options.out, options.log, options.force);
   // Before the writer, which empties the file: a refusal leaves it as it was.
@@ -127,8 +133,7 @@ int Copy(const LogOptions& options) {
   RequireEvents(options, selection);
   bus::LogWriter writer(options.out);
   const auto copied = bus::CopyEvents(reader, selection, writer);
-  writer.Flush();
-  if (!writer.good()) throw std::runtime_error(options.out + ": cannot be written: is the disk full?");
+  Finish(writer, options.out);
   if (options.json) {
     std::cout << nlohmann::ordered_json{{"events", copied},
                                         {"damaged_places", reader.damaged_places()},
@@ -138,6 +143,31 @@ int Copy(const LogOptions& options) {
   }
   std::cout << fmt::format("{}: {} events; {} damaged places with {} bytes left out\n", options.out, copied,
                            reader.damaged_places(), reader.skipped_bytes());
+  return 0;
+}
+
+/// Verb `repair`: copies all whole events, with their numbers, into another log.
+int Repair(const LogOptions& options) {
+  bus::LogReader reader(options.log);
+  RequireNewFile(options.out, options.log, options.force);
+  RequireEvents(options, {});
+  bus::LogWriter writer(options.out);
+  const auto count = bus::RepairLog(reader, writer);
+  Finish(writer, options.out);
+  if (options.json) {
+    std::cout << nlohmann::ordered_json{{"events", count.events},
+                                        {"damaged_places", reader.damaged_places()},
+                                        {"skipped_bytes", reader.skipped_bytes()},
+                                        {"numbers_not_increasing", count.not_increasing}}
+              << "\n";
+    return 0;
+  }
+  std::cout << fmt::format("{}: {} events with their numbers; {} damaged places with {} bytes left out\n",
+                           options.out, count.events, reader.damaged_places(), reader.skipped_bytes());
+  if (count.not_increasing > 0)
+    std::cout << fmt::format(
+        "{}: the numbers do not increase at {} events: damaged numbers, or joined logs\n", options.out,
+        count.not_increasing);
   return 0;
 }
 
@@ -209,8 +239,7 @@ int Merge(const LogOptions& options) {
   const auto fit = Clocks(options, onboard, offboard);
   bus::LogWriter writer(options.out);
   const auto events = bus::MergeLogs(onboard, offboard, fit, options.prefix, writer);
-  writer.Flush();
-  if (!writer.good()) throw std::runtime_error(options.out + ": cannot be written: is the disk full?");
+  Finish(writer, options.out);
   const nlohmann::ordered_json json{{"events", events},
                                     {"offset_s", fit.offset_us * 1e-6},
                                     {"drift_ppm", fit.drift * 1e6},
@@ -287,12 +316,14 @@ void AddLogCommand(CLI::App& cli, int& exit_code) {
              "priamos log index onboard.lcmlog --out onboard.csv", Index, exit_code);
   AddLogVerb(*log, "filter", "Some channels or some time of a log into another one.",
              "priamos log filter onboard.lcmlog drive.lcmlog --channels 'POSE,WHEEL_*' --from 10 --to 20",
-             Copy, exit_code);
+             Filter, exit_code);
   AddLogVerb(*log, "export",
              "Decoded messages as tables, lines of JSON, or MCAP for Foxglove and Lichtblick.",
              "priamos log export onboard.lcmlog mcap --out onboard.mcap", Export, exit_code);
-  AddLogVerb(*log, "repair", "All whole events of a damaged log into another one.",
-             "priamos log repair damaged.lcmlog mended.lcmlog", Copy, exit_code);
+  AddLogVerb(*log, "repair",
+             "All whole events of a damaged log into another one, with their numbers: what is missing stays "
+             "visible.",
+             "priamos log repair damaged.lcmlog mended.lcmlog", Repair, exit_code);
   AddLogVerb(
       *log, "merge",
       "An onboard and an offboard log of one run as one, in the onboard clock: messages that crossed the "
