@@ -132,7 +132,9 @@ void RadioApp::StartLink(Time now) {
   link_ = std::make_unique<bus::radio::LinkEndpoint>(
       link_config_.Table(types()), outgoing_, key_, link_config_.Options(), *store_,
       [this](std::size_t channel, std::span<const std::byte> encoded, Time at) {
-        return codecs_.Pack(channel, encoded, at);
+        auto packed = codecs_.Pack(channel, encoded, at);
+        if (!packed) LogRefusal(channel, encoded, at);
+        return packed;
       },
       Nonces(), now);
   for (const Waiting& w : waiting_)
@@ -140,6 +142,13 @@ void RadioApp::StartLink(Time now) {
   waiting_.clear();
   last_report_ = now;
   next_report_ = now + kReportPeriod;
+}
+
+/// Each reason once: a sender that is wrong is so at its rate.
+void RadioApp::LogRefusal(std::size_t channel, std::span<const std::byte> encoded, Time at) {
+  const std::string sentence =
+      link_config_.channels[channel].name + ": " + codecs_.RefusalOf(channel, encoded, at);
+  if (refusals_.insert(sentence).second) context_.Log(bus::Level::kWarning, sentence);
 }
 
 void RadioApp::Tick(Time now) {

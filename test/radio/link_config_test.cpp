@@ -93,6 +93,12 @@ TEST(LinkConfigTable, EndsWithOtherAnnotationsAreToldApart) {
   EXPECT_EQ(one.hash(), TableOf(kTank, Channel("tank_t", false)).hash());
 }
 
+TEST(LinkConfigTable, RefusingValuesOutOfRangeIsTheSendersAffair) {
+  std::string other = kTank;
+  other.replace(other.find("0,5: of"), 7, "0,5 @refuse: of");
+  EXPECT_EQ(TableOf(kTank, Channel("tank_t", false)).hash(), TableOf(other, Channel("tank_t", false)).hash());
+}
+
 TEST(LinkConfigTable, DifferencesAreBetweenValuesInTheirOrder) {
   EXPECT_THAT(TableOf(kTank, Channel("tank_t", true)).at(0).delta,
               testing::ElementsAre(7, 10, 10, 10, 1, 3, 1, 3));

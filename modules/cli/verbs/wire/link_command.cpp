@@ -25,6 +25,7 @@ nlohmann::ordered_json BitsAsJson(const bus::Packer& packer) {
                               {"bits", field.bits},
                               {"values", field.values},
                               {"unit", field.unit},
+                              {"outside", field.refuse ? "refused" : "nearest"},
                               {"codes", field.codes}});
   return json;
 }

@@ -63,6 +63,9 @@ TEST_F(LinkCommand, BitsForAPersonNameEveryField) {
   const auto answer = Priamos({"link", "bits", "estop_t"});
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_THAT(answer.out, AllOf(HasSubstr("utime"), HasSubstr("action"), HasSubstr("driver")));
+  const auto lines = LinesOf(answer.out);
+  EXPECT_THAT(lines.at(1), AllOf(StartsWith("utime "), HasSubstr(" nearest ")));
+  EXPECT_THAT(lines.at(2), AllOf(StartsWith("action "), HasSubstr(" refused ")));
 }
 
 TEST_F(LinkCommand, BitsOfAnUnknownTypeAreRefusedWithTheNearest) {
