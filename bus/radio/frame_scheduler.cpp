@@ -9,9 +9,10 @@ namespace {
 
 /// Time in which the other end can send half of the frames that an echo tells apart: the other half is for a
 /// line that grows slower. One that it cannot complete would cost the whole frame, also an emergency stop.
-Duration EchoReach(const LinkOptions& options, std::size_t echo_bytes) {
-  const double frames = std::ldexp(0.5, static_cast<int>(8 * echo_bytes));
-  const std::size_t smallest = kFrameOverhead + 1 + (options.datagrams ? kDatagramHead : 0);
+Duration EchoReach(const LinkOptions& options, const FrameSealer& sealer) {
+  const double frames = std::ldexp(0.5, static_cast<int>(8 * sealer.echo_bytes()));
+  const std::size_t smallest =
+      FrameOverhead(sealer.code_bytes()) + 1 + (options.datagrams ? kDatagramHead : 0);
   return FromSeconds(frames * static_cast<double>(smallest) / options.bytes_per_s);
 }
 
@@ -52,8 +53,8 @@ void FrameScheduler::ChooseForm(const FrameSources& from, Time now) {
   form_ = from.peer.sent.FormOf(from.memory.last_counter() + 1);
   if (sealer_.echo_bytes() > 0) {
     const auto& newest = from.receiver.newest();
-    const bool completes = newest && now - newest->at + from.peer.sent.last_round_trip() <=
-                                         EchoReach(options_, sealer_.echo_bytes());
+    const bool completes =
+        newest && now - newest->at + from.peer.sent.last_round_trip() <= EchoReach(options_, sealer_);
     if (!completes) form_ = CounterForm::kWhole;
   }
   from.outbox.queue().HoldCommands(form_ == CounterForm::kWhole);
@@ -94,7 +95,8 @@ void FrameScheduler::BuildHello(FrameSources from, Time now) {
 }
 
 bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
-  const std::size_t target = BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss());
+  const std::size_t target = BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss(),
+                                             FrameOverhead(sealer_.code_bytes()));
   BundleBuilder builder(*table_, target, turns_.enabled(), sealer_.overhead());
   FrameInFlight flight = Fill(builder, from, urgent_only, now);
   // Nothing that is ready could be packed: no frame for nothing.

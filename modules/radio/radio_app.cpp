@@ -204,7 +204,14 @@ void RadioApp::Report(Time now) {
   status_.Publish(message);
   last_report_ = now;
   next_report_ = now + kReportPeriod;
-  if (message.table_mismatch) {
+  if (const std::size_t code_bytes = link_->table().code_bytes(), theirs = link_->Status(now).peer_code_bytes;
+      message.table_mismatch && theirs != code_bytes) {
+    context_.SetHealth(
+        bus::Health::kFailed,
+        fmt::format("the other end has codes of {} bytes, this one of {}: set code_bytes alike "
+                    "in both link.toml",
+                    theirs, code_bytes));
+  } else if (message.table_mismatch) {
     context_.SetHealth(bus::Health::kFailed,
                        "the other end has another channel table: compare link.toml and lcmtypes");
   } else if (message.alarm) {

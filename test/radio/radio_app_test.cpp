@@ -397,6 +397,36 @@ TEST(GateReceiver, CodesOfNoStateAreABadMessageAndCounted) {
   EXPECT_EQ(status.get()->frames_rejected, 0);
 }
 
+/// The text of HEALTH of the robot's end when the ends have codes of these lengths.
+std::string HealthWithCodes(int onboard_bytes, int offboard_bytes) {
+  const bus::Schema schema = bus::OwnTypes();
+  bus::Lockstep lockstep(schema, {.seed = 1, .start = FromUtime(1'000'000'000), .log = {}});
+  lockstep.AddBus("onboard");
+  lockstep.AddBus("offboard");
+  lockstep.AddSerialLine("tty-onboard", "tty-offboard", {});
+  const TemporaryFolder folder;
+  for (const std::string side : {"onboard", "offboard"}) {
+    const std::string link = folder / (side + ".toml");
+    std::ofstream(link) << "code_bytes = " << (side == "onboard" ? onboard_bytes : offboard_bytes)
+                        << kPoseLink;
+    lockstep.AddApp(bus::FactoryOf<RadioApp>(), side, {link, {"side=" + side, "port=tty-" + side}});
+  }
+  auto health = lockstep.DriverNode("onboard").SubscribeAll(channels::kHealth);
+  lockstep.RunUntil(lockstep.now() + FromSeconds(5));
+  std::string text = "no HEALTH";
+  for (const health_t& message : health.Drain()) text = message.text;
+  return text;
+}
+
+TEST(RadioAppCodes, EndsWithOtherLengthsSayWhichAndWhereToChangeThem) {
+  EXPECT_EQ(HealthWithCodes(4, 8),
+            "the other end has codes of 8 bytes, this one of 4: set code_bytes alike in both link.toml");
+  EXPECT_EQ(HealthWithCodes(6, 4),
+            "the other end has codes of 4 bytes, this one of 6: set code_bytes alike in both link.toml");
+  EXPECT_EQ(HealthWithCodes(8, 8), "");
+  EXPECT_EQ(HealthWithCodes(4, 0), "") << "4 is the default at 9600 baud";
+}
+
 TEST(RadioAppStart, KeysOfALinkWithoutChannelsAreRefused) {
   EXPECT_THAT(StartError("port = 'a'\nbaud = 1200", kPoseLink), HasSubstr("channel"));
 }

@@ -60,6 +60,8 @@ nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
 nlohmann::ordered_json BudgetAsJson(const bus::radio::ChannelTable& table, const bus::radio::Budget& budget) {
   return {{"up", DirectionAsJson(table, budget.up)},
           {"down", DirectionAsJson(table, budget.down)},
+          {"code_bytes", budget.code_bytes},
+          {"forgery_s", budget.forgery_s},
           {"problems", budget.problems}};
 }
 
