@@ -168,4 +168,16 @@ std::uint64_t CopyEvents(LogReader& reader, const LogSelection& selection, LogWr
   return copied;
 }
 
+RepairCount RepairLog(LogReader& reader, LogWriter& writer) {
+  RepairCount count;
+  std::int64_t before = 0;
+  while (const auto event = reader.Next()) {
+    count.not_increasing += count.events > 0 && event->number <= before;
+    before = event->number;
+    writer.WriteAsNumbered(*event);
+    ++count.events;
+  }
+  return count;
+}
+
 }  // namespace priamos::bus

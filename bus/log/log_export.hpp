@@ -31,8 +31,17 @@ ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelectio
 ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelection& selection,
                        std::ostream& out);
 
-/// Copies the wanted events, undecoded and with their new channel names, into another log. Returns their
-/// number.
+/// Copies the wanted events, undecoded and with their new channel names, into another log, numbered anew:
+/// what was not wanted is no loss. Returns how many they are.
 std::uint64_t CopyEvents(LogReader& reader, const LogSelection& selection, LogWriter& writer);
+
+/// What RepairLog copied.
+struct RepairCount {
+  std::uint64_t events = 0;
+  std::uint64_t not_increasing = 0;  ///< events with a number that is not above the one before
+};
+
+/// Copies all whole events with the numbers of their recorder: the gaps between them show what is lost.
+RepairCount RepairLog(LogReader& reader, LogWriter& writer);
 
 }  // namespace priamos::bus

@@ -56,6 +56,7 @@ class Identifier {
     const auto stamp = json.at(StampOf(*type)->name).get<std::int64_t>();
     ClearStamps(*type, json);
     const auto packed = packer->Pack(FromJson(*type, json), 0);
+    if (!packed->refused.empty()) return;  // it never crossed
     std::string key = event.channel + '\0';
     key.append(reinterpret_cast<const char*>(packed->bytes.data()), packed->bytes.size());
     const auto [at, added] = sightings.try_emplace(std::move(key), Sighting{stamp, event.utime, true});

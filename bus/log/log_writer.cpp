@@ -13,8 +13,18 @@ LogWriter::LogWriter(const std::string& path) : file_(path, std::ios::binary | s
 }
 
 void LogWriter::Write(std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes) {
+  Write(next_number_++, utime, channel, bytes);
+}
+
+void LogWriter::WriteAsNumbered(const LogEvent& event) {
+  Write(event.number, event.utime, event.channel, event.bytes);
+  next_number_ = event.number + 1;
+}
+
+void LogWriter::Write(std::int64_t number, std::int64_t utime, std::string_view channel,
+                      std::span<const std::byte> bytes) {
   std::string event;
-  AppendEvent(event, next_number_++, utime, channel, bytes);
+  AppendEvent(event, number, utime, channel, bytes);
   file_.write(event.data(), static_cast<std::streamsize>(event.size()));
 }
 

@@ -11,14 +11,19 @@ class LogWriter {
  public:
   /// Creates the log file `path`. Throws std::runtime_error when it cannot be made.
   explicit LogWriter(const std::string& path);
+  /// Writes the next event; they are numbered from 0.
   void Write(std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes);
+  /// Writes an event with the number that it has.
+  void WriteAsNumbered(const LogEvent& event);
   /// Puts everything written so far where a reader sees it.
   void Flush() { file_.flush(); }
   /// Whether every write has succeeded so far; a full disk is one reason for false.
   bool good() const { return file_.good(); }
-  std::int64_t written() const { return next_number_; }
 
  private:
+  void Write(std::int64_t number, std::int64_t utime, std::string_view channel,
+             std::span<const std::byte> bytes);
+
   std::ofstream file_;
   std::int64_t next_number_ = 0;
 };

@@ -7,20 +7,21 @@
 
 #include "bus/radio/budget_analysis.hpp"
 #include "bus/radio/channels/bundle.hpp"
+#include "bus/radio/frame/forgery.hpp"
 #include "common/config.hpp"
 
 namespace priamos::bus::radio {
 namespace {
 
 FreshnessProof ProofOf(const LinkChannel& channel, double next_s, const DirectionAnalysis& other,
-                       const LinkOptions& options) {
+                       const LinkOptions& options, std::size_t code_bytes) {
   const Duration step = channel.ttl / kOffsetSteps + Duration(1);
   return {.next = FromSeconds(next_s),
           .delay = options.line_delay,
           .ahead = FromSeconds(other.AheadSeconds()),
           .step = step,
           .silence = std::max(Duration::zero(), FromSeconds(other.SilenceSeconds()) - (channel.ttl - step)),
-          .reach = EchoReach(options, EchoBytes(options.bytes_per_s)),
+          .reach = EchoReach(options, EchoBytes(options.bytes_per_s), code_bytes),
           .echo_age = FromSeconds(other.SilenceSeconds()) + options.line_delay};
 }
 
@@ -42,7 +43,7 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, D
     row.share = row.bytes_per_s / budget.capacity_bytes_per_s;
     if (std::isfinite(load.latency_s)) row.worst_latency = FromSeconds(load.latency_s);
     if (const LinkChannel& c = table.at(load.channel); c.channel_class == ChannelClass::kCommand)
-      row.proof = ProofOf(c, analysis.NextSeconds(load), other, options);
+      row.proof = ProofOf(c, analysis.NextSeconds(load), other, options, table.code_bytes());
     budget.bytes_per_s += row.bytes_per_s;
     budget.channels.push_back(row);
   }
@@ -98,6 +99,15 @@ void CheckDirection(const ChannelTable& table, const DirectionBudget& budget,
   }
 }
 
+/// In the largest unit of which there is at least one.
+std::string FormatLongTime(double seconds) {
+  constexpr double kDay_s = 86400, kYear_s = 365.25 * kDay_s;
+  if (seconds < kDay_s) return fmt::format("{:.1f} hours", seconds / 3600);
+  if (seconds < kYear_s) return fmt::format("{:.0f} days", seconds / kDay_s);
+  if (seconds > 1e6 * kYear_s) return "millions of years";
+  return fmt::format("{:.0f} years", seconds / kYear_s);
+}
+
 std::string FormatRow(const ChannelTable& table, const ChannelBudget& row) {
   constexpr const char* kClasses[] = {"state", "event", "command"};
   const LinkChannel& c = table.at(row.channel);
@@ -115,7 +125,11 @@ std::string FormatRow(const ChannelTable& table, const ChannelBudget& row) {
 }  // namespace
 
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options) {
-  Budget budget{Analyse(table, options, Direction::kUp), Analyse(table, options, Direction::kDown), {}};
+  Budget budget{.up = Analyse(table, options, Direction::kUp),
+                .down = Analyse(table, options, Direction::kDown),
+                .problems = {},
+                .code_bytes = table.code_bytes(),
+                .forgery_s = ForgerySeconds(options.bytes_per_s, table.code_bytes())};
   CheckDirection(table, budget.up, budget.problems);
   CheckDirection(table, budget.down, budget.problems);
   return budget;
@@ -143,6 +157,9 @@ std::string FormatBudget(const ChannelTable& table, const Budget& budget) {
                             table.at(row.channel).name, Seconds(row.proof->age()),
                             Seconds(table.at(row.channel).ttl));
   }
+  text +=
+      fmt::format("codes of {} bytes: of a line full of forged frames, one is accepted within {} with 50 %\n",
+                  budget.code_bytes, FormatLongTime(budget.forgery_s));
   for (const std::string& problem : budget.problems) text += problem + "\n";
   return text;
 }

@@ -54,6 +54,8 @@ struct DirectionBudget {
 struct Budget {
   DirectionBudget up, down;
   std::vector<std::string> problems;  ///< one sentence each; empty when the configuration holds
+  std::size_t code_bytes = 0;         ///< length of the codes of data frames
+  double forgery_s = 0;               ///< ForgerySeconds of this line with such codes
 };
 
 /// Worst-case latencies by response-time analysis as for CAN (Davis, Burns, Bril, Lukkien, Real-Time Systems

@@ -38,7 +38,8 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
       direction_(direction),
       byte_s_(1 / options.bytes_per_s),
       ageing_s_(Seconds(options.ageing)),
-      frame_bytes_(kFrameOverhead + (options.datagrams ? kDatagramHead : kLeadingDelimiter) +
+      frame_bytes_(FrameOverhead(table.code_bytes()) +
+                   (options.datagrams ? kDatagramHead : kLeadingDelimiter) +
                    (table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0)),
       ahead_s_((options.ahead_bytes + 4) * byte_s_),
       keep_alive_s_(Seconds(options.keep_alive)) {

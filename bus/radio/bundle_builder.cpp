@@ -16,12 +16,12 @@ bool IsMessage(const BundleEntry& entry) {
 
 }  // namespace
 
-std::size_t BestBundleBytes(std::size_t max_bytes, double loss) {
+std::size_t BestBundleBytes(std::size_t max_bytes, double loss, std::size_t frame_overhead) {
   if (loss <= 0) return max_bytes;
   // Goodput (1 - h / n) (1 - p)^(10 n) of n bytes with h of overhead is largest near n = sqrt(h / (10 p)).
   const double mean = static_cast<double>(max_bytes) / 2;
   const double p = -std::log(1 - std::min(loss, 0.95)) / (10 * mean);
-  const double best = std::sqrt(static_cast<double>(kFrameOverhead) / (10 * p));
+  const double best = std::sqrt(static_cast<double>(frame_overhead) / (10 * p));
   return std::min(max_bytes, std::max(kSmallestBundle, static_cast<std::size_t>(best)));
 }
 

@@ -8,8 +8,8 @@
 namespace priamos::bus::radio {
 
 /// The bundle size in bytes with the highest throughput over a line that loses the share `loss` (0..1) of its
-/// frames; at most `max_bytes`.
-std::size_t BestBundleBytes(std::size_t max_bytes, double loss);
+/// frames; at most `max_bytes`. `frame_overhead`: bytes of a frame beside its bundle.
+std::size_t BestBundleBytes(std::size_t max_bytes, double loss, std::size_t frame_overhead = kFrameOverhead);
 
 /// Builds a bundle: takes entries as long as they fit.
 class BundleBuilder {

@@ -2,11 +2,13 @@
 
 #include <utility>
 
+#include "bus/radio/frame/forgery.hpp"
+
 namespace priamos::bus::radio {
 namespace {
 
-/// One COBS code byte before the longest content.
-constexpr std::size_t kMaxEncodedBytes = 1 + 1 + kWholeCounterBytes + kMaxBundleBytes + 4;
+/// One COBS code byte before the longest content but its code.
+constexpr std::size_t kMaxEncodedBytes = 1 + 1 + kWholeCounterBytes + kMaxBundleBytes;
 /// Number of unusable frames in a row that noise alone does not explain.
 constexpr std::uint64_t kUnusableAfter = 3;
 
@@ -14,9 +16,9 @@ constexpr std::uint64_t kUnusableAfter = 3;
 
 FrameReceiver::FrameReceiver(const FrameKeys& keys, Direction incoming, FrameScope scope, double bytes_per_s,
                              Duration silence, Time now)
-    : splitter_(kMaxEncodedBytes),
+    : splitter_(kMaxEncodedBytes + scope.code_bytes),
       opener_(keys, incoming, scope),
-      guard_(bytes_per_s / kFrameOverhead, now),
+      guard_(TriesPerSecond(bytes_per_s, scope.code_bytes), now),
       silence_(silence),
       first_byte_(now) {}
 

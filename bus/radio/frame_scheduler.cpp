@@ -49,7 +49,7 @@ void FrameScheduler::ChooseForm(const FrameSources& from, Time now) {
   if (sealer_.echo_bytes() > 0) {
     const auto& newest = from.receiver.newest();
     const bool completes = newest && now - newest->at + from.peer.sent.last_round_trip() <=
-                                         EchoReach(options_, sealer_.echo_bytes());
+                                         EchoReach(options_, sealer_.echo_bytes(), sealer_.code_bytes());
     if (!completes) form_ = CounterForm::kWhole;
   }
   from.outbox.queue().HoldCommands(form_ == CounterForm::kWhole);
@@ -109,7 +109,8 @@ void FrameScheduler::BuildHello(FrameSources from, Time now) {
 }
 
 bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
-  const std::size_t target = BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss());
+  const std::size_t target = BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss(),
+                                             FrameOverhead(sealer_.code_bytes()));
   BundleBuilder builder(*table_, target, turns_.enabled(), sealer_.overhead());
   FrameInFlight flight = Fill(builder, from, urgent_only, now);
   // Nothing that is ready could be packed: no frame for nothing.

@@ -12,8 +12,10 @@ constexpr Duration kAnnounce{1'000'000};
 
 }  // namespace
 
-Handshake::Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_due, Time now)
+Handshake::Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_due, Time now,
+                     std::size_t code_bytes)
     : table_hash_(table_hash),
+      code_bytes_(code_bytes),
       agreement_(std::move(nonces)),
       limit_(now),
       // An end without an epoch asks at once; one with an epoch first gives its frames a chance.
@@ -22,6 +24,7 @@ Handshake::Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_du
 
 std::optional<EpochAgreement::Pair> Handshake::OnHello(const Hello& hello) {
   ++received_;
+  peer_code_bytes_ = hello.code_bytes;
   table_mismatch_ = hello.table_hash != table_hash_;
   if (table_mismatch_) return std::nullopt;
   const EpochAgreement::Change change = agreement_.OnHello(hello);
@@ -50,6 +53,7 @@ bool Handshake::HelloDue(Reception reception, Time now) const {
 Hello Handshake::Take(std::uint32_t stream, Reception reception, Time now) {
   Hello hello = agreement_.Compose(reception == Reception::kUnusable);
   hello.table_hash = table_hash_;
+  hello.code_bytes = code_bytes_;
   hello.stream = stream;
   reply_due_ = false;
   last_ = now;

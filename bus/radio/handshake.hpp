@@ -23,7 +23,8 @@ class Handshake {
  public:
   /// Handshake that begins now. `floor_due`: this end's memory of accepted counters was reserved ahead, so
   /// that the other end may still send counters that count as used here.
-  Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_due, Time now);
+  Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_due, Time now,
+            std::size_t code_bytes = kShortCodeBytes);
 
   /// Takes a hello. Returns the pair of nonces whose epoch is to be used from now on, nullopt for no change.
   std::optional<EpochAgreement::Pair> OnHello(const Hello& hello);
@@ -45,11 +46,14 @@ class Handshake {
   bool floor_due() const { return floor_due_; }
   /// Whether the other end's last hello had another channel table.
   bool table_mismatch() const { return table_mismatch_; }
+  /// Length of the other end's codes by its last hello; 0 before. Another one than here is a table mismatch.
+  std::size_t peer_code_bytes() const { return peer_code_bytes_; }
   std::uint64_t received() const { return received_; }
   std::uint64_t sent() const { return sent_; }
 
  private:
   std::uint32_t table_hash_;
+  std::size_t code_bytes_;
   EpochAgreement agreement_;
   AnswerLimit limit_;
   Time last_;  ///< time of the last hello from here
@@ -57,6 +61,7 @@ class Handshake {
   bool switched_ = false;  ///< this end uses a new epoch, of which no frame has come yet
   bool floor_due_;
   bool table_mismatch_ = false;
+  std::size_t peer_code_bytes_ = 0;
   std::uint64_t received_ = 0;
   std::uint64_t sent_ = 0;
 };

@@ -16,7 +16,8 @@ Overloaded(Handlers...) -> Overloaded<Handlers...>;
 FrameScope ScopeOf(const ChannelTable& table, Direction direction, const LinkOptions& options) {
   return {.table_hash = table.hash(),
           .encrypted = table.encrypted(),
-          .echo_bytes = table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0};
+          .echo_bytes = table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0,
+          .code_bytes = table.code_bytes()};
 }
 
 /// Whether the other end must skip counters: this end does not know which of those reserved were used.
@@ -36,7 +37,8 @@ LinkEndpoint::LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey
       receiver_(keys_, Opposite(outgoing), ScopeOf(*table_, Opposite(outgoing), options), options.bytes_per_s,
                 options.silence, now),
       inbox_(*table_),
-      peer_{.handshake = Handshake(table_->hash(), std::move(nonces), FloorDue(memory_), now)},
+      peer_{.handshake =
+                Handshake(table_->hash(), std::move(nonces), FloorDue(memory_), now, table_->code_bytes())},
       outbox_(*table_, outgoing, options.ageing, std::move(pack)),
       scheduler_(*table_, FrameSealer(keys_, outgoing, ScopeOf(*table_, outgoing, options)), options,
                  outgoing == Direction::kUp, now) {
@@ -167,6 +169,7 @@ LinkStatus LinkEndpoint::Status(Time now) const {
           .agreed = memory_.epoch() != 0,
           .alarm = receiver_.alarm(now),
           .table_mismatch = peer_.handshake.table_mismatch(),
+          .peer_code_bytes = peer_.handshake.peer_code_bytes(),
           .round_trip = outbox_.round_trip(),
           .latency = peer_.sent.one_way(),
           .loss = receiver_.loss().loss(),

@@ -37,15 +37,16 @@ struct LinkCounters {
 /// State of the link.
 struct LinkStatus {
   bool up = false;
-  bool agreed = false;          ///< both ends have agreed on an epoch
-  bool alarm = false;           ///< frames came that the other end cannot have sent: see ForgeryGuard
-  bool table_mismatch = false;  ///< the other end has another channel table: nothing is exchanged
-  Duration round_trip{-1};      ///< from event to acknowledgement, smoothed; negative before the first
-  Duration latency{};           ///< delay of the line, one way, estimated
-  double loss = 0;              ///< share of the other end's frames that did not arrive, lately
-  double peer_loss = 0;         ///< share of this end's frames that did not arrive there, lately
-  double bit_error_rate = 0;    ///< probability per bit that explains `loss`
-  std::uint64_t resent = 0;     ///< segments of events that were sent again
+  bool agreed = false;              ///< both ends have agreed on an epoch
+  bool alarm = false;               ///< frames came that the other end cannot have sent: see ForgeryGuard
+  bool table_mismatch = false;      ///< the other end has another channel table: nothing is exchanged
+  std::size_t peer_code_bytes = 0;  ///< length of the other end's codes by its last hello; 0 before
+  Duration round_trip{-1};          ///< from event to acknowledgement, smoothed; negative before the first
+  Duration latency{};               ///< delay of the line, one way, estimated
+  double loss = 0;                  ///< share of the other end's frames that did not arrive, lately
+  double peer_loss = 0;             ///< share of this end's frames that did not arrive there, lately
+  double bit_error_rate = 0;        ///< probability per bit that explains `loss`
+  std::uint64_t resent = 0;         ///< segments of events that were sent again
   LinkCounters counters;
 };
 

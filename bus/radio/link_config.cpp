@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bus/radio/frame/forgery.hpp"
 #include "bus/schema/packing.hpp"
 #include "common/archive.hpp"
 
@@ -143,12 +144,18 @@ void LinkConfig::Describe(Archive& a) {
        "they are refused"});
   a.Flag("datagrams", datagrams,
          "an IP link: one frame per UDP datagram, whose 28 bytes of head count as sent");
+  a.Integer("code_bytes", code_bytes,
+            {"byte", 0, 8,
+             "4, 6 or 8: authentication code of a frame; 0: the shortest that keeps a line full of forgeries "
+             "out for 180 days"});
   a.Flag("encrypted", encrypted, "hides what is sent; it is authenticated in any case");
   a.Text("key_file", key_file, "secret key of the link, made by `priamos link keygen`, mode 0600");
   a.Flag("simulation_key", simulation_key, "use a key that everybody knows: only for emulated lines");
   a.List("channel", channels,
          "the channels that cross the link; their order is part of what both ends agree on");
-  if (half_duplex_turn_s > 0 && half_duplex_turn_s < 2 * (max_bundle_bytes + 8) / BytesPerSecond())
+  if (code_bytes % 2 != 0 || code_bytes == 2) a.Refuse("code_bytes", "4, 6, 8, or 0 for the default");
+  const double longest_bytes = max_bundle_bytes + 1 + static_cast<double>(FrameOverhead(CodeBytes()));
+  if (half_duplex_turn_s > 0 && half_duplex_turn_s < 2 * longest_bytes / BytesPerSecond())
     a.Refuse("half_duplex_turn_s", "0, or time for at least two frames of max_bundle_bytes");
   if (silence_s <= keep_alive_s) a.Refuse("silence_s", "more than keep_alive_s");
 }
@@ -156,6 +163,10 @@ void LinkConfig::Describe(Archive& a) {
 double LinkConfig::BytesPerSecond() const {
   const double port = baud / 10.0;
   return air_rate_bytes_s > 0 ? std::min(air_rate_bytes_s, port) : port;
+}
+
+std::size_t LinkConfig::CodeBytes() const {
+  return code_bytes > 0 ? static_cast<std::size_t>(code_bytes) : DefaultCodeBytes(BytesPerSecond());
 }
 
 LinkOptions LinkConfig::Options() const {
@@ -176,7 +187,7 @@ ChannelTable LinkConfig::Table(const Schema& schema) const {
   std::vector<LinkChannel> table;
   for (const LinkChannelConfig& c : channels) table.push_back(ToChannel(c, schema));
   try {
-    return {std::move(table), encrypted};
+    return {std::move(table), encrypted, CodeBytes()};
   } catch (const std::invalid_argument& error) {
     throw ConfigError(error.what());
   }

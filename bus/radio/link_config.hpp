@@ -39,7 +39,8 @@ struct LinkConfig {
   double keep_alive_s = 0.25;   ///< [s] 0.05..10: longest silence of an end
   double silence_s = 1.5;       ///< [s] 0.1..60, above `keep_alive_s`: silence after which the link is down
   double ageing_s = 1;          ///< [s] 0.05..600: waiting time for which a message gains one priority level
-  bool encrypted = false;       ///< contents are encrypted; they are authenticated in any case
+  int code_bytes = 0;      ///< [byte] 4, 6 or 8: authentication code of a frame; 0: as the line's rate asks
+  bool encrypted = false;  ///< contents are encrypted; they are authenticated in any case
   double half_duplex_turn_s = 0;  ///< [s] 0..10: half-duplex: longest turn of an end; 0: full duplex
   double turnaround_s = 0.02;     ///< [s] 0..1: half-duplex: time from sending to hearing
   double line_delay_s = 0.1;  ///< [s] 0..60: delay of the line, there and back, in which commands are proven
@@ -51,6 +52,9 @@ struct LinkConfig {
   void Describe(Archive& a);
   /// Bytes per second of the slower of line and radio.
   double BytesPerSecond() const;
+  /// Bytes of the authentication code of a data frame, 4, 6 or 8: `code_bytes`, or by the rule of
+  /// forgery.hpp.
+  std::size_t CodeBytes() const;
   LinkOptions Options() const;
   /// The channels with their packed sizes. Throws ConfigError with one sentence for a type that is unknown
   /// or cannot be packed, or a key that is no text field of it.

@@ -21,9 +21,9 @@ struct LinkOptions {
   bool datagrams = false;  ///< a frame goes whole, in one datagram, whose head counts as sent
 };
 
-/// Time in which the other end can send half of the frames that an echo of so many bytes tells apart: the
-/// other half is for a line that grows slower. One that it cannot complete would cost the whole frame, also
-/// an emergency stop.
-Duration EchoReach(const LinkOptions& options, std::size_t echo_bytes);
+/// Time in which the other end, whose frames have codes of `code_bytes`, can send half of the frames that an
+/// echo of `echo_bytes` tells apart: the other half is for a line that grows slower. One that it cannot
+/// complete would cost the whole frame, also an emergency stop.
+Duration EchoReach(const LinkOptions& options, std::size_t echo_bytes, std::size_t code_bytes);
 
 }  // namespace priamos::bus::radio

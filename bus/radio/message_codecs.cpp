@@ -1,5 +1,7 @@
 #include "bus/radio/message_codecs.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "bus/schema/json.hpp"
@@ -18,9 +20,20 @@ std::optional<Packed> MessageCodecs::Pack(std::size_t channel, std::span<const s
                                           Time now) const {
   const Codec& codec = codecs_[channel];
   auto result = codec.packer.Pack(encoded, ToUtime(now));
-  if (!result) return std::nullopt;
+  if (!result || !result->refused.empty()) return std::nullopt;
   const std::size_t bits = codec.fixed ? codec.packer.MaxBits() : result->bytes.size() * 8;
   return Packed{std::move(result->bytes), bits, !result->saturated.empty()};
+}
+
+std::string MessageCodecs::RefusalOf(std::size_t channel, std::span<const std::byte> encoded,
+                                     Time now) const {
+  const Codec& codec = codecs_[channel];
+  const auto result = codec.packer.Pack(encoded, ToUtime(now));
+  if (!result) return fmt::format("expected a {}, got other bytes: not sent", codec.type->full_name);
+  if (result->refused.empty()) return {};
+  const PackedField& field = codec.packer.fields()[result->refused.front()];
+  return fmt::format("{}.{}: expected {}, got a value outside: not sent", codec.type->full_name, field.name,
+                     field.codes);
 }
 
 std::optional<std::vector<std::byte>> MessageCodecs::Unpack(const Delivery& delivery) const {

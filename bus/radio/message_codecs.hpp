@@ -21,8 +21,10 @@ class MessageCodecs {
   MessageCodecs(const LinkConfig& config, const Schema& schema);
 
   /// Packs an encoded message of a channel at the time of sending `now`; nullopt if it is no message of the
-  /// channel's type.
+  /// channel's type, or has a value out of range in a field that refuses such values.
   std::optional<Packed> Pack(std::size_t channel, std::span<const std::byte> encoded, Time now) const;
+  /// Why Pack refuses a message, one sentence; empty when it does not.
+  std::string RefusalOf(std::size_t channel, std::span<const std::byte> encoded, Time now) const;
   /// The LCM message; nullopt when the other end sent something else.
   std::optional<std::vector<std::byte>> Unpack(const Delivery& delivery) const;
   /// Value of the key field: messages with different keys do not replace each other. Empty without a key

@@ -22,7 +22,8 @@ struct Packed {
 };
 
 /// Packs the encoded message of a channel. Time stamps are sent as ages at `now`: of a command when it was
-/// offered, of any other message when it is sent. nullopt if it is no message of the channel's type.
+/// offered, of any other message when it is sent. nullopt if the message must not be sent: it is none of the
+/// channel's type, or has a value that is refused.
 using PackFunction =
     std::function<std::optional<Packed>(std::size_t channel, std::span<const std::byte> encoded, Time now)>;
 

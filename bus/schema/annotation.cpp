@@ -60,6 +60,10 @@ class Reader {
       Tag tag;
       tag.name = TakeUntil(text, " \t:");
       text = Trim(text);
+      if (tag.name == "refuse") {  // the one tag without a value
+        Refuse();
+        continue;
+      }
       tag.value = TakeUntil(text, " \t:");
       Apply(tag);
     }
@@ -75,6 +79,11 @@ class Reader {
     if (tag.name == "max") return Sizes(tag);
     if (tag.name == "age") return Age(tag);
     Fail(fmt::format("the tag @{} is not known", tag.name));
+  }
+
+  void Refuse() {
+    if (result_.refuse) Fail("@refuse is there twice");
+    result_.refuse = true;
   }
 
   void Word(const Tag& tag, std::string& word) {

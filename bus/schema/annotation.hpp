@@ -11,7 +11,7 @@ std::optional<Number> ParseNumber(std::string_view text);
 
 /// Reads the comment of a field,
 ///
-///     [unit] @frame F @range A,B @step S @invalid V @max N[,N..] @age US: meaning
+///     [unit] @frame F @range A,B @step S @invalid V @max N[,N..] @age US @refuse: meaning
 ///
 /// every tag optional, in any order, each once. A comment that does not begin with a bracket is somebody
 /// else's comment: all of it becomes the meaning. One that begins with a bracket but cannot be read sets

@@ -48,8 +48,8 @@ struct Number {
   std::optional<std::int64_t> integer;
 };
 
-/// The annotation in the comment of a field: `[unit] @frame F @range A,B @step S @invalid V @max N @age US:
-/// meaning`.
+/// The annotation in the comment of a field: `[unit] @frame F @range A,B @step S @invalid V @max N @age US
+/// @refuse: meaning`.
 struct Annotation {
   std::string unit;               ///< text in the brackets; "-" for plain numbers; empty when there is none
   std::string frame;              ///< `@frame`: the coordinate frame, empty when it has none
@@ -60,6 +60,7 @@ struct Annotation {
   /// Numbers of `@max`: largest counts of the variable dimensions, then largest text length.
   std::vector<std::int64_t> sizes;
   std::optional<std::int64_t> age_us;  ///< `@age`: a time stamp [us] that is at most this old when it is sent
+  bool refuse = false;                 ///< `@refuse`: a message with a value out of range is not sent
   std::string meaning;                 ///< the sentence after the colon
   std::string problem;  ///< why the comment, though it begins with a bracket, cannot be read; else empty
 };
@@ -112,6 +113,9 @@ struct Struct {
 
   /// Begin of every error message about this struct: "file:line: type.field: ".
   std::string Where(const Field& field) const;
+  /// Whether `field` is an enumeration: an integer whose meaning names a constant of this struct, "IDLE" or
+  /// with "LIMIT_..." all that begin so.
+  bool IsEnumeration(const Field& field) const;
 };
 
 }  // namespace priamos::bus

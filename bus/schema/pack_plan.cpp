@@ -57,11 +57,14 @@ class Planner {
       name += "[]";
     }
     if (field.kind == Kind::kStruct) {
+      if (field.annotation.refuse) Fail(field, "@refuse belongs to the fields of the struct");
       step.code = StructPack{Planner(*field.type, name + ".", values, rows_).Run()};
     } else {
-      rows_.push_back({name, field.annotation.unit, 0, values, ""});
+      rows_.push_back({.name = name, .unit = field.annotation.unit, .values = values, .codes = ""});
       Code(field, step);
       if (rows_.back().bits == 0) rows_.back().bits = step.bits;
+      step.refuse = Refuses(field, step);
+      rows_.back().refuse = step.refuse;
     }
     plan_.steps.push_back(std::move(step));
   }
@@ -79,6 +82,15 @@ class Planner {
         Fail(field, fmt::format("packing needs @max here or @range at {}", field.dims[i].text));
       }
     }
+  }
+
+  /// Whether a value outside its range keeps the message from being sent. The nearest value of an enumeration
+  /// means something else; a count is none, whatever its comment names.
+  bool Refuses(const Field& field, const PackStep& step) const {
+    if (field.annotation.refuse && field.kind == Kind::kBoolean)
+      Fail(field, "@refuse is for fields with a range, and a boolean has none");
+    const bool counts = std::holds_alternative<CountPack>(step.code);
+    return field.annotation.refuse || (!counts && type_.IsEnumeration(field));
   }
 
   void Code(const Field& field, PackStep& step) {

@@ -18,6 +18,7 @@ struct PackedField {
   int bits = 0;             ///< size of one value; the largest size of a text
   std::int64_t values = 1;  ///< in a message, at most
   std::string codes;        ///< "-100..100 by 0.01", "age 0..5 s by 10 ms", "7 bit x 24" ...
+  bool refuse = false;      ///< a message with a value outside them is not sent
 };
 
 struct PackPlan;
@@ -50,6 +51,7 @@ struct PackStep {
   std::vector<std::int64_t> dims;  ///< >= 0: constant; < 0: count number -1 - dim
   std::variant<BooleanPack, RealCode, IntegerCode, AgePack, TextPack, StructPack, CountPack> code;
   int bits = 0;         ///< size of one value's code; of a text's length
+  bool refuse = false;  ///< no nearest value: the message is refused
   std::size_t row = 0;  ///< index into the bit table
 };
 

@@ -57,7 +57,10 @@ class PackTraversal : public Traversal<PackTraversal> {
   PackTraversal(const std::byte* body, std::int64_t now_us, std::size_t max_bytes)
       : at_(body), now_us_(now_us), bits_(max_bytes) {}
 
-  PackResult Finish() { return {bits_.Finish(), std::move(saturated_)}; }
+  PackResult Finish() {
+    if (!refused_.empty()) return {{}, std::move(saturated_), std::move(refused_)};
+    return {bits_.Finish(), std::move(saturated_), {}};
+  }
 
   bool Value(const PackStep& step, std::size_t first, bool kept) {
     if (const auto* real = std::get_if<RealCode>(&step.code)) {
@@ -90,7 +93,8 @@ class PackTraversal : public Traversal<PackTraversal> {
 
   void Report(const PackStep& step) {
     const auto row = static_cast<std::uint16_t>(step.row);
-    if (std::find(saturated_.begin(), saturated_.end(), row) == saturated_.end()) saturated_.push_back(row);
+    auto& rows = step.refuse ? refused_ : saturated_;
+    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
   }
 
   void PutText(const PackStep& step, const TextPack& text, bool kept) {
@@ -140,6 +144,7 @@ class PackTraversal : public Traversal<PackTraversal> {
   std::int64_t now_us_;
   BitWriter bits_;
   std::vector<std::uint16_t> saturated_;
+  std::vector<std::uint16_t> refused_;
 };
 
 class UnpackTraversal : public Traversal<UnpackTraversal> {
@@ -272,11 +277,12 @@ std::optional<std::vector<std::byte>> Packer::Unpack(std::span<const std::byte> 
 std::string FormatBitTable(const Packer& packer) {
   std::size_t width = 5;
   for (const PackedField& field : packer.fields()) width = std::max(width, field.name.size());
-  std::string text = fmt::format("{:<{}}  {:>5}  {:>6}  {:>6}  {:<8}  {}\n", "field", width, "bits", "values",
-                                 "total", "unit", "codes");
+  std::string text = fmt::format("{:<{}}  {:>5}  {:>6}  {:>6}  {:<8}  {:<7}  {}\n", "field", width, "bits",
+                                 "values", "total", "unit", "outside", "codes");
   for (const PackedField& field : packer.fields()) {
-    text += fmt::format("{:<{}}  {:>5}  {:>6}  {:>6}  {:<8}  {}\n", field.name, width, field.bits,
-                        field.values, field.bits * field.values, field.unit, field.codes);
+    text += fmt::format("{:<{}}  {:>5}  {:>6}  {:>6}  {:<8}  {:<7}  {}\n", field.name, width, field.bits,
+                        field.values, field.bits * field.values, field.unit,
+                        field.refuse ? "refused" : "nearest", field.codes);
   }
   return text + fmt::format("{}: at most {} bits, {} bytes\n", packer.type().full_name, packer.MaxBits(),
                             packer.MaxBytes());

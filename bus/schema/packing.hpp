@@ -14,10 +14,13 @@ namespace priamos::bus {
 
 /// A packed message, and which values could not be represented.
 struct PackResult {
-  std::vector<std::byte> bytes;
+  std::vector<std::byte> bytes;  ///< empty when `refused` is not
   /// Fields with a value that was outside its `@range`, too old, too long or too many, each once: rows of
   /// Packer::fields(). Such a value is sent as the nearest one that can be represented.
   std::vector<std::uint16_t> saturated;
+  /// The same of fields marked `@refuse` and of enumerations, for which there is no nearest value: with one
+  /// of them the message must not be sent.
+  std::vector<std::uint16_t> refused;
 };
 
 /// Turns encoded messages of one annotated type into as few bits as the annotations allow, and back. Byte

@@ -133,7 +133,9 @@ void RadioApp::StartLink(Time now) {
   link_ = std::make_unique<bus::radio::LinkEndpoint>(
       link_config_.Table(types()), outgoing_, key_, link_config_.Options(), *store_,
       [this](std::size_t channel, std::span<const std::byte> encoded, Time at) {
-        return codecs_.Pack(channel, encoded, at);
+        auto packed = codecs_.Pack(channel, encoded, at);
+        if (!packed) LogRefusal(channel, encoded, at);
+        return packed;
       },
       Nonces(), now);
   for (const Waiting& w : waiting_)
@@ -142,6 +144,13 @@ void RadioApp::StartLink(Time now) {
   pauses_.emplace(TickPeriod(), now);
   last_report_ = now;
   next_report_ = now + kReportPeriod;
+}
+
+/// Each reason once: a sender that is wrong is so at its rate.
+void RadioApp::LogRefusal(std::size_t channel, std::span<const std::byte> encoded, Time at) {
+  const std::string sentence =
+      link_config_.channels[channel].name + ": " + codecs_.RefusalOf(channel, encoded, at);
+  if (refusals_.insert(sentence).second) context_.Log(bus::Level::kWarning, sentence);
 }
 
 void RadioApp::Tick(Time now) {
@@ -198,7 +207,14 @@ void RadioApp::Report(Time now) {
   status_.Publish(message);
   last_report_ = now;
   next_report_ = now + kReportPeriod;
-  if (message.table_mismatch) {
+  if (const std::size_t code_bytes = link_->table().code_bytes(), theirs = link_->Status(now).peer_code_bytes;
+      message.table_mismatch && theirs != code_bytes) {
+    context_.SetHealth(
+        bus::Health::kFailed,
+        fmt::format("the other end has codes of {} bytes, this one of {}: set code_bytes alike "
+                    "in both link.toml",
+                    theirs, code_bytes));
+  } else if (message.table_mismatch) {
     context_.SetHealth(bus::Health::kFailed,
                        "the other end has another channel table: compare link.toml and lcmtypes");
   } else if (message.alarm) {

@@ -4,6 +4,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -53,6 +55,7 @@ class RadioApp {
   std::unique_ptr<ByteStream> OpenLine() const;
   void SubscribeAll();
   void StartLink(Time now);
+  void LogRefusal(std::size_t channel, std::span<const std::byte> encoded, Time at);
   void ServeListeners(Time now);
   void ReadLine();
   void FeedLine(Time now);
@@ -83,6 +86,7 @@ class RadioApp {
   Time last_report_{};
   ReportState reported_;
   std::uint64_t undecodable_ = 0;
+  std::set<std::string> refusals_;  ///< reasons for which a message was not sent, already in the log
   bool was_up_ = false;
 };
 

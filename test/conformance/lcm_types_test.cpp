@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "bus/schema/packing.hpp"
 #include "bus/type_files.hpp"
 #include "lcm_rules.hpp"
 #include "lcmtypes/channels.hpp"
@@ -127,6 +128,28 @@ TEST(LcmTypes, EmbeddedTextsAreTheFiles) {
   for (const TypeText& text : EmbeddedTypes())
     embedded.emplace(std::filesystem::path(text.file).filename(), text.text);
   EXPECT_EQ(embedded, files);
+}
+
+/// Of every field that says which of several things it is, another value would be another thing.
+TEST(LcmTypes, RefuseOutsideTheRangeOfAnEnumeration) {
+  const Schema schema(ProjectsOwn());
+  std::set<std::string> refusing;
+  for (const Struct* type : schema.All()) {
+    const Packer packer(*type);
+    for (const PackedField& field : packer.fields())
+      if (field.refuse && field.name.find('.') == std::string::npos)
+        refusing.insert(type->name + "." + field.name);
+  }
+  EXPECT_THAT(refusing,
+              ElementsAre("alarm_t.severity", "camera_frame_t.camera", "camera_trigger_t.cameras",
+                          "claim_t.state", "drive_command_t.driver", "drive_status_t.driver",
+                          "drive_status_t.limit", "drive_status_t.mode", "drive_status_t.refusal",
+                          "estop_t.action", "estop_t.driver", "health_t.state", "landmark_edge_t.side",
+                          "landmark_fix_t.side", "landmark_fix_t.verdict", "landmark_view_t.camera",
+                          "landmark_view_t.side", "landmark_view_t.verdict", "lease_request_t.action",
+                          "lease_request_t.driver", "look_request_t.side", "mission_command_t.mission",
+                          "mission_status_t.mission", "mission_status_t.phase", "obstacle_line_t.verdict",
+                          "obstacle_segment_t.kind", "pose_correction_t.verdict", "view_edge_t.kind"));
 }
 
 // ---- lcmtypes/channels.hpp

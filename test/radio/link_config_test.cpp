@@ -94,6 +94,31 @@ TEST(LinkConfigTable, EndsWithOtherAnnotationsAreToldApart) {
   EXPECT_EQ(one.hash(), TableOf(kTank, Channel("tank_t", false)).hash());
 }
 
+TEST(LinkConfigTable, RefusingValuesOutOfRangeIsTheSendersAffair) {
+  std::string other = kTank;
+  other.replace(other.find("0,5: of"), 7, "0,5 @refuse: of");
+  EXPECT_EQ(TableOf(kTank, Channel("tank_t", false)).hash(), TableOf(other, Channel("tank_t", false)).hash());
+}
+
+TEST(LinkConfigTable, CodesAreAsLongAsConfiguredOrAsTheRateAsks) {
+  const auto table = [](int baud, int code_bytes) {
+    const bus::Schema schema(std::vector<bus::Schema::Source>{{"a.lcm", kText}});
+    LinkConfig config;
+    config.baud = baud;
+    config.code_bytes = code_bytes;
+    config.channels.push_back(Channel("text_t", false));
+    return config.Table(schema);
+  };
+  EXPECT_EQ(table(9600, 0).code_bytes(), 4U);
+  EXPECT_EQ(table(9600, 0).hash(), table(9600, 4).hash());
+  EXPECT_EQ(table(19200, 0).code_bytes(), 6U);
+  EXPECT_EQ(table(115200, 0).hash(), table(9600, 6).hash()) << "the rate itself is no part of it";
+  EXPECT_EQ(table(115200, 8).code_bytes(), 8U);
+  EXPECT_NE(table(9600, 4).hash(), table(9600, 6).hash());
+  EXPECT_NE(table(9600, 6).hash(), table(9600, 8).hash());
+  EXPECT_THROW(table(9600, 5), ConfigError);
+}
+
 TEST(LinkConfigTable, DifferencesAreBetweenValuesInTheirOrder) {
   EXPECT_THAT(TableOf(kTank, Channel("tank_t", true)).at(0).delta,
               testing::ElementsAre(7, 10, 10, 10, 1, 3, 1, 3));

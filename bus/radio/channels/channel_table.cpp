@@ -16,8 +16,10 @@ namespace {
 constexpr int kStateWithDeltas = 3;
 
 /// A text that determines the meaning of every frame; both ends compare its hash.
-std::string Meaning(const std::vector<LinkChannel>& channels, bool encrypted) {
-  std::string text = fmt::format("priamos radio 1 table {}\n", encrypted ? "encrypted" : "clear");
+std::string Meaning(const std::vector<LinkChannel>& channels, bool encrypted, std::size_t code_bytes) {
+  std::string text = fmt::format("priamos radio 1 table {}", encrypted ? "encrypted" : "clear");
+  if (code_bytes != kShortCodeBytes) text += fmt::format(" code {}", code_bytes);
+  text += "\n";
   for (const LinkChannel& c : channels) {
     text += fmt::format("{} {:016x} {} {} {} {} {}", c.name, c.fingerprint, static_cast<int>(c.direction),
                         c.delta.empty() ? static_cast<int>(c.channel_class) : kStateWithDeltas, c.fixed_bits,
@@ -61,8 +63,11 @@ void Check(const LinkChannel& c) {
 
 }  // namespace
 
-ChannelTable::ChannelTable(std::vector<LinkChannel> channels, bool encrypted)
-    : channels_(std::move(channels)), encrypted_(encrypted) {
+ChannelTable::ChannelTable(std::vector<LinkChannel> channels, bool encrypted, std::size_t code_bytes)
+    : channels_(std::move(channels)), encrypted_(encrypted), code_bytes_(code_bytes) {
+  if (code_bytes_ != kShortCodeBytes && code_bytes_ != 6 && code_bytes_ != 8)
+    throw std::invalid_argument(
+        fmt::format("a radio link has codes of 4, 6 or 8 bytes, not of {}", code_bytes_));
   if (channels_.empty() || channels_.size() > kMaxChannels)
     throw std::invalid_argument(
         fmt::format("a radio link has 1 to {} channels, not {}", kMaxChannels, channels_.size()));
@@ -74,7 +79,7 @@ ChannelTable::ChannelTable(std::vector<LinkChannel> channels, bool encrypted)
       if (channels_[j].name == c.name && channels_[j].direction == c.direction)
         throw std::invalid_argument(fmt::format("radio channel {} is listed twice", c.name));
   }
-  hash_ = Hash(Meaning(channels_, encrypted_));
+  hash_ = Hash(Meaning(channels_, encrypted_, code_bytes_));
   id_bits_ = static_cast<int>(std::bit_width(channels_.size() + 1));
 }
 

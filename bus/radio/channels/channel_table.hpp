@@ -44,8 +44,9 @@ class ChannelTable {
  public:
   static constexpr std::size_t kMaxChannels = 62;
 
-  /// Table of `channels` in this order. Throws std::invalid_argument with a sentence if it cannot be used.
-  ChannelTable(std::vector<LinkChannel> channels, bool encrypted);
+  /// Table of `channels` in this order. `code_bytes`: length of the codes of data frames, 4, 6 or 8. Throws
+  /// std::invalid_argument with a sentence if it cannot be used.
+  ChannelTable(std::vector<LinkChannel> channels, bool encrypted, std::size_t code_bytes = kShortCodeBytes);
 
   const LinkChannel& at(std::size_t index) const { return channels_[index]; }
   std::size_t size() const { return channels_.size(); }
@@ -54,6 +55,8 @@ class ChannelTable {
   /// priorities concern the sender alone and are not part of it.
   std::uint32_t hash() const { return hash_; }
   bool encrypted() const { return encrypted_; }
+  /// Bytes of the code of a data frame.
+  std::size_t code_bytes() const { return code_bytes_; }
   /// Whether a channel of this direction is a command.
   bool HasCommands(Direction direction) const;
   /// Bits of a channel number in a bundle: 0 ends it, 1..size() are channels, size()+1 is a control entry.
@@ -62,6 +65,7 @@ class ChannelTable {
  private:
   std::vector<LinkChannel> channels_;
   bool encrypted_;
+  std::size_t code_bytes_;
   std::uint32_t hash_;
   int id_bits_;
 };

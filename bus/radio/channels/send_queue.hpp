@@ -20,7 +20,7 @@ struct QueueCounters {
   std::uint64_t sent = 0;       ///< state, command: left the line whole; event: acknowledged
   std::uint64_t replaced = 0;   ///< a newer one came before it was sent
   std::uint64_t expired = 0;    ///< older than its time-to-live before it was sent
-  std::uint64_t refused = 0;    ///< queue full, too many keys, not packable
+  std::uint64_t refused = 0;    ///< queue full, too many keys, not packable, a refused value
   std::uint64_t unwanted = 0;   ///< channel on request, without a listener
   std::uint64_t saturated = 0;  ///< sent with a field outside its range set to the limit
   std::uint64_t bits = 0;       ///< packed bits handed to the line, repetitions included

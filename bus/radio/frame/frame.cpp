@@ -10,7 +10,6 @@
 namespace priamos::bus::radio {
 namespace {
 
-constexpr std::size_t kDataCodeBytes = 4;
 constexpr std::size_t kHelloCodeBytes = 8;
 constexpr std::size_t kHelloBodyBytes = 25;
 constexpr std::byte kWholeCounterTag{0x80};
@@ -76,7 +75,8 @@ std::array<std::byte, kHelloBodyBytes> EncodeHello(const Hello& hello) {
   PutLittleEndian(hello.stream, out.subspan(4, 4));
   PutLittleEndian(hello.nonce, out.subspan(8, 8));
   PutLittleEndian(hello.echo, out.subspan(16, 8));
-  body[24] = static_cast<std::byte>((hello.need ? 1 : 0) | (hello.agreed ? 2 : 0) | (hello.over ? 4 : 0));
+  body[24] = static_cast<std::byte>((hello.need ? 1U : 0U) | (hello.agreed ? 2U : 0U) |
+                                    (hello.over ? 4U : 0U) | (hello.code_bytes - kShortCodeBytes) / 2 << 3);
   return body;
 }
 
@@ -87,7 +87,8 @@ Hello DecodeHello(std::span<const std::byte> body) {
           .echo = GetLittleEndian(body.subspan(16, 8)),
           .need = (body[24] & std::byte{1}) != std::byte{0},
           .agreed = (body[24] & std::byte{2}) != std::byte{0},
-          .over = (body[24] & std::byte{4}) != std::byte{0}};
+          .over = (body[24] & std::byte{4}) != std::byte{0},
+          .code_bytes = kShortCodeBytes + 2 * (std::to_integer<std::size_t>(body[24]) >> 3 & 3)};
 }
 
 std::vector<std::byte> Delimited(std::span<const std::byte> content) {
@@ -142,7 +143,7 @@ std::vector<std::byte> FrameSealer::Seal(std::uint64_t epoch, std::uint64_t coun
   if (bundle.size() > kMaxBundleBytes || counter > kMaxCounter || epoch == 0)
     throw std::invalid_argument("radio frame: bundle too long, counter used up or no epoch");
   std::vector<std::byte> content;
-  content.reserve(bundle.size() + 10);
+  content.reserve(bundle.size() + 1 + kWholeCounterBytes + scope_.code_bytes);
   const bool echoes = form == CounterForm::kLowBits && scope_.echo_bytes > 0;
   if (form == CounterForm::kLowBits) {
     content.resize(1 + scope_.echo_bytes);
@@ -156,7 +157,7 @@ std::vector<std::byte> FrameSealer::Seal(std::uint64_t epoch, std::uint64_t coun
   const std::size_t body_at = content.size();
   content.insert(content.end(), bundle.begin(), bundle.end());
   if (scope_.encrypted) keys_.Crypt(direction_, epoch, counter, std::span(content).subspan(body_at));
-  std::array<std::byte, kDataCodeBytes> code{};
+  std::vector<std::byte> code(scope_.code_bytes);
   keys_.Authenticate(
       DataHeader(direction_, scope_, epoch, counter, echoes ? std::optional(echo) : std::nullopt),
       std::span(content).subspan(body_at), code);
@@ -181,7 +182,7 @@ void FrameOpener::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
 
 Opened FrameOpener::Open(std::span<const std::byte> encoded, std::uint64_t newest_sent) {
   const auto content = CobsDecode(encoded);
-  if (!content || content->size() < 1 + kDataCodeBytes) return Reject::kMalformed;
+  if (!content || content->size() < 1 + scope_.code_bytes) return Reject::kMalformed;
   return content->front() == kHelloTag ? OpenHello(*content) : OpenData(*content, newest_sent);
 }
 
@@ -191,20 +192,20 @@ Opened FrameOpener::OpenData(std::span<const std::byte> content, std::uint64_t n
   std::uint64_t counter = window_.Reconstruct(std::to_integer<std::uint8_t>(content[0]));
   if (content[0] == kWholeCounterTag) {
     body_at += kWholeCounterBytes;
-    if (content.size() < body_at + kDataCodeBytes) return Reject::kMalformed;
+    if (content.size() < body_at + scope_.code_bytes) return Reject::kMalformed;
     counter = GetLittleEndian(content.subspan(1, kWholeCounterBytes));
   } else if (content[0] > kWholeCounterTag) {
     return Reject::kMalformed;
   } else if (scope_.echo_bytes > 0) {
     body_at += scope_.echo_bytes;
-    if (content.size() < body_at + kDataCodeBytes) return Reject::kMalformed;
+    if (content.size() < body_at + scope_.code_bytes) return Reject::kMalformed;
     echo = CompleteEcho(content.subspan(1, scope_.echo_bytes), newest_sent);
   }
   if (epoch_ == 0) return Reject::kNoEpoch;
-  const auto body = content.subspan(body_at, content.size() - body_at - kDataCodeBytes);
-  std::array<std::byte, kDataCodeBytes> code{};
+  const auto body = content.subspan(body_at, content.size() - body_at - scope_.code_bytes);
+  std::vector<std::byte> code(scope_.code_bytes);
   keys_.Authenticate(DataHeader(direction_, scope_, epoch_, counter, echo), body, code);
-  if (sodium_memcmp(code.data(), content.last(kDataCodeBytes).data(), code.size()) != 0)
+  if (sodium_memcmp(code.data(), content.last(scope_.code_bytes).data(), code.size()) != 0)
     return Reject::kBadCode;
   if (!window_.Fresh(counter)) return Reject::kReplayed;
   window_.Use(counter);

@@ -12,8 +12,8 @@
 
 /// Frames on the line; bus/radio/PROTOCOL.md is the byte-exact specification.
 ///
-///     data   COBS( counter:1 | echo:0-2 | bundle | code:4 ) 0x00  7 bytes and the echo beside the bundle
-///     data   COBS( 0x80 | counter:5 | bundle | code:4 ) 0x00      the same with the whole counter
+///     data   COBS( counter:1 | echo:0-2 | bundle | code:4, 6 or 8 ) 0x00  the shortest form
+///     data   COBS( 0x80 | counter:5 | bundle | code:4, 6 or 8 ) 0x00      the same with the whole counter
 ///     hello  COBS( 0x81 | body:25 | code:8 ) 0x00                 agreement on an epoch, see epoch.hpp
 ///
 /// The code is a keyed BLAKE2b hash over direction, epoch, whole counter, channel table and bundle, so that a
@@ -53,11 +53,15 @@ class FrameKeys {
   LinkKey encryption_key_;
 };
 
+/// Bytes of the shortest code of a data frame; forgery.hpp says which line needs a longer one.
+inline constexpr std::size_t kShortCodeBytes = 4;
+
 /// What both ends must have in common, besides the key, for a data frame to be accepted.
 struct FrameScope {
   std::uint32_t table_hash = 0;  ///< hash of the channel table, see channel_table.hpp
   bool encrypted = false;
   std::size_t echo_bytes = 0;  ///< bytes of the echo in a short frame; 0: the direction has no commands
+  std::size_t code_bytes = kShortCodeBytes;  ///< bytes of the code of a data frame: 4, 6 or 8
 };
 
 /// Bytes of the echo in the short frames of a direction with commands, on a line of this rate.
@@ -74,16 +78,21 @@ struct Hello {
   bool need = false;         ///< the sender cannot use the receiver's frames and asks for an answer
   bool agreed = false;       ///< the sender uses the epoch of (nonce, echo)
   bool over = false;         ///< half-duplex: the sender falls silent and listens
+  std::size_t code_bytes = kShortCodeBytes;  ///< of the sender's data frames
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 
 /// Bytes of a short data frame beside its bundle and its echo, delimiter included.
-inline constexpr std::size_t kFrameOverhead = 7;
+constexpr std::size_t FrameOverhead(std::size_t code_bytes) {
+  return 3 + code_bytes;
+}
+/// The same with the shortest code.
+inline constexpr std::size_t kFrameOverhead = FrameOverhead(kShortCodeBytes);
 /// Bytes by which the whole counter is longer than its lowest bits.
 inline constexpr std::size_t kWholeCounterBytes = 5;
 /// Bytes of a hello frame, delimiter included.
 inline constexpr std::size_t kHelloFrameBytes = 36;
-/// Bytes of the longest bundle: a frame must fit one COBS block.
+/// Bytes of the longest bundle: a frame with the longest code must fit one COBS block.
 inline constexpr std::size_t kMaxBundleBytes = 240;
 /// The byte that ends a frame and occurs nowhere else.
 inline constexpr std::byte kDelimiter{0};
@@ -108,7 +117,8 @@ class FrameSealer {
   std::vector<std::byte> Seal(const Hello& hello) const;
   std::size_t echo_bytes() const { return scope_.echo_bytes; }
   /// Bytes of a short frame beside its bundle, delimiter included.
-  std::size_t overhead() const { return kFrameOverhead + scope_.echo_bytes; }
+  std::size_t overhead() const { return FrameOverhead(scope_.code_bytes) + scope_.echo_bytes; }
+  std::size_t code_bytes() const { return scope_.code_bytes; }
 
  private:
   FrameKeys keys_;
@@ -147,8 +157,9 @@ class FrameOpener {
   /// Accepts from now on data frames of `epoch` with counters above `floor`. Epoch 0: no data frames.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
   /// Checks and decodes the bytes between two delimiters. Exactly one code is computed per frame, so that the
-  /// chance of a forged data frame is 2^-32, of a hello 2^-64. `newest_sent`: the newest counter that this
-  /// end has sent in the epoch. An echo of one 256 (with 2 bytes: 65536) or more below it is a wrong code.
+  /// chance of a forged data frame is 2^-32 with the shortest code, of a hello 2^-64. `newest_sent`: the
+  /// newest counter that this end has sent in the epoch. An echo of one 256 (with 2 bytes: 65536) or more
+  /// below it is a wrong code.
   Opened Open(std::span<const std::byte> encoded, std::uint64_t newest_sent = 0);
   /// Epoch of the frames that are accepted; 0: none.
   std::uint64_t epoch() const { return epoch_; }

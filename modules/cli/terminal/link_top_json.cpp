@@ -33,6 +33,7 @@ nlohmann::ordered_json LinkTopView::Json(Time now) const {
                                 {"replaced", c.replaced},
                                 {"dropped", c.dropped},
                                 {"expired", c.expired},
+                                {"refused", c.dropped - c.expired},
                                 {"unwanted", c.unwanted},
                                 {"late", c.late},
                                 {"saturated", c.saturated},

@@ -1,5 +1,6 @@
 #include "bus/radio/budget.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -108,6 +109,39 @@ TEST(Budget, UrgentWaitsForAFewBytes) {
     }
 }
 
+TEST(Budget, LongerCodesCostTheirBytesPerFrame) {
+  std::vector<LinkChannel> channels = TestChannels();
+  channels.resize(1);
+  const auto of = [&](std::size_t code_bytes) {
+    return ComputeBudget(ChannelTable(channels, false, code_bytes), {}).up.channels.at(0);
+  };
+  EXPECT_NEAR(of(8).bytes_per_s, 82.0 / 8 * 10 * (120 + 11) / 120, 0.1);
+  EXPECT_NEAR(of(8).bytes_per_s - of(4).bytes_per_s, 82.0 / 8 * 10 * 4 / 120, 1e-9);
+  EXPECT_GT(*of(8).worst_latency, *of(4).worst_latency);
+}
+
+TEST(Budget, TheProofCountsTheBytesOfTheCodesInBothFrames) {
+  const LinkOptions options{.max_bundle_bytes = 60, .keep_alive = Duration(100'000)};
+  const std::vector<LinkChannel> channels{TestChannels()[kPoseUp], TestChannels()[kDriveDown]};
+  const auto proof = [&](std::size_t code_bytes) {
+    return *ComputeBudget(ChannelTable(channels, false, code_bytes), options).down.channels.at(0).proof;
+  };
+  EXPECT_NEAR(Seconds(proof(8).next - proof(4).next), 2 * 4 / 960.0, 1e-5)
+      << "of the frame before and of its own";
+}
+
+TEST(Budget, SaysHowLongTheLineResistsForgery) {
+  const auto text = [](double bytes_per_s, std::size_t code_bytes) {
+    const ChannelTable table(TestChannels(), false, code_bytes);
+    return FormatBudget(table, ComputeBudget(table, {.bytes_per_s = bytes_per_s}));
+  };
+  EXPECT_THAT(text(960, 4), HasSubstr("codes of 4 bytes: of a line full of forged frames, one is accepted "
+                                      "within 251 days with 50 %\n"));
+  EXPECT_THAT(text(100'000, 4), HasSubstr("within 2 days"));
+  EXPECT_THAT(text(1'000'000, 4), HasSubstr("within 5.8 hours"));
+  EXPECT_THAT(text(100'000, 6), AllOf(HasSubstr("codes of 6 bytes"), HasSubstr("within 556 years")));
+}
+
 TEST(Budget, TableNamesEveryChannel) {
   const ChannelTable table(TestChannels(), false);
   const std::string text = FormatBudget(table, ComputeBudget(table, {}));
@@ -123,7 +157,7 @@ std::vector<LinkChannel> RandomChannels(Rng& rng) {
   const std::size_t n = 2 + rng.Below(8);
   for (std::size_t i = 0; i < n; ++i) {
     LinkChannel c;
-    c.name = "C" + std::to_string(i);
+    c.name = fmt::format("C{}", i);
     c.direction = rng.Chance(0.7) ? Direction::kUp : Direction::kDown;
     c.channel_class = static_cast<ChannelClass>(rng.Below(3));
     c.priority = static_cast<int>(rng.Below(6));

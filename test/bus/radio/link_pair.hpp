@@ -69,6 +69,7 @@ class LinkPair {
     std::vector<LinkChannel> channels = TestChannels();
     LinkKey key{1, 2, 3};
     LinkOptions options;
+    std::size_t code_bytes = kShortCodeBytes;
     std::unique_ptr<LinkEndpoint> link;
     std::vector<Received> received;
     std::vector<std::string> TextsOf(std::size_t channel) const {
@@ -94,7 +95,7 @@ class LinkPair {
   /// Starts an end, as a new process would, from what its store holds.
   void Start(End& end) {
     end.link = std::make_unique<LinkEndpoint>(
-        ChannelTable(end.channels, encrypted), end.outgoing, end.key, end.options,
+        ChannelTable(end.channels, encrypted, end.code_bytes), end.outgoing, end.key, end.options,
         end.other_store != nullptr ? *end.other_store : end.store,
         [](std::size_t, std::span<const std::byte> encoded, Time) {
           return std::optional(Packed{{encoded.begin(), encoded.end()}, encoded.size() * 8});

@@ -195,6 +195,42 @@ TEST(Link, AnotherTableIsReportedAndNothingIsDelivered) {
   EXPECT_TRUE(dut.offboard.received.empty());
 }
 
+TEST(Link, CarriesMessagesWithEveryLengthOfItsCodes) {
+  for (const std::size_t code_bytes : {4U, 6U, 8U}) {
+    LinkPair dut;
+    for (LinkPair::End* end : {&dut.onboard, &dut.offboard}) {
+      end->code_bytes = code_bytes;
+      dut.Start(*end);
+    }
+    dut.each_step = [&] {
+      dut.onboard.link->Offer(kPoseUp, Text("0123456789"), dut.now);
+      dut.offboard.link->Offer(kDriveDown, Text("abcde"), dut.now);
+    };
+    dut.Run(5);
+    EXPECT_THAT(dut.offboard.TextsOf(kPoseUp).size(), Gt(35U)) << code_bytes;
+    EXPECT_THAT(dut.onboard.TextsOf(kDriveDown).size(), Gt(60U)) << code_bytes;
+    EXPECT_EQ(dut.onboard.link->Status(dut.now).peer_code_bytes, code_bytes);
+    EXPECT_EQ(dut.onboard.link->Status(dut.now).counters.rejected, (std::array<std::uint64_t, kRejects>{}));
+  }
+}
+
+TEST(Link, EndsWithOtherLengthsOfTheirCodesTellEachOtherAndExchangeNothing) {
+  LinkPair dut;
+  dut.offboard.code_bytes = 8;
+  dut.Start(dut.offboard);
+  dut.each_step = [&] {
+    dut.onboard.link->Offer(kPoseUp, Text("0123456789"), dut.now);
+    dut.offboard.link->Offer(kDriveDown, Text("abcde"), dut.now);
+  };
+  dut.Run(5);
+  EXPECT_TRUE(dut.onboard.link->Status(dut.now).table_mismatch);
+  EXPECT_EQ(dut.onboard.link->Status(dut.now).peer_code_bytes, 8U);
+  EXPECT_TRUE(dut.offboard.link->Status(dut.now).table_mismatch);
+  EXPECT_EQ(dut.offboard.link->Status(dut.now).peer_code_bytes, 4U);
+  EXPECT_TRUE(dut.onboard.received.empty());
+  EXPECT_TRUE(dut.offboard.received.empty());
+}
+
 TEST(Link, AnotherKeyGetsNothing) {
   LinkPair dut;
   dut.offboard.key[7] = 1;

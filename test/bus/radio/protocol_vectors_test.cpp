@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sodium.h>
@@ -9,6 +10,7 @@
 
 #include "bus/radio/channels/bundle.hpp"
 #include "bus/radio/frame/cobs.hpp"
+#include "bus/radio/frame/forgery.hpp"
 #include "bus/radio/frame/frame.hpp"
 
 // The specification is a promise to whoever writes another implementation: bus/radio/PROTOCOL.md is read
@@ -51,7 +53,7 @@ struct ProtocolVectors : testing::Test {
     for (std::size_t i = 0; i < key.size(); ++i) key[i] = std::to_integer<std::uint8_t>(bytes.at(i));
   }
   std::uint64_t Number(const std::string& name) const { return std::stoull(values.at(name), nullptr, 16); }
-  ChannelTable Table(bool encrypted = false) const {
+  ChannelTable Table(bool encrypted = false, std::size_t code_bytes = kShortCodeBytes) const {
     std::istringstream in(ProtocolBlock("table"));
     std::vector<LinkChannel> channels;
     LinkChannel c;
@@ -64,7 +66,7 @@ struct ProtocolVectors : testing::Test {
       c.ttl = Duration(ttl_us);
       channels.push_back(c);
     }
-    return {channels, encrypted};
+    return {channels, encrypted, code_bytes};
   }
   std::vector<std::byte> BundleUp() const {
     const ChannelTable table = Table();
@@ -89,6 +91,15 @@ struct ProtocolVectors : testing::Test {
     WriteEntry(table, ListenEntry{0b100}, out);
     WriteEntry(table, CommandEntry{1, std::chrono::milliseconds(-100), 40, FromHex("deadbeef42")}, out);
     return out.bytes();
+  }
+  Hello HelloDown() const {
+    Hello hello;
+    hello.table_hash = Table().hash();
+    hello.stream = 0xcafe0001;
+    hello.nonce = Number("offboard_nonce");
+    hello.echo = Number("onboard_nonce");
+    hello.agreed = hello.over = true;
+    return hello;
   }
   /// Only the direction down has a command, and an echo.
   FrameScope Scope(Direction direction, bool encrypted, std::size_t echo_bytes = 1) const {
@@ -174,6 +185,30 @@ TEST_F(ProtocolVectors, DataFrames) {
   EXPECT_EQ(wire(Direction::kDown, 7, CounterForm::kWhole, false), values.at("frame_down_counter_7_whole"));
 }
 
+TEST_F(ProtocolVectors, LongerCodes) {
+  for (const std::size_t code_bytes : {6U, 8U}) {
+    const auto name = [&](const char* what) { return fmt::format("{}_code_{}", what, code_bytes); };
+    const std::uint32_t hash = Table(false, code_bytes).hash();
+    EXPECT_EQ(hash, Number(name("table_hash")));
+    const FrameSealer sealer(
+        FrameKeys(key), Direction::kDown,
+        {.table_hash = hash, .encrypted = false, .echo_bytes = 1, .code_bytes = code_bytes});
+    EXPECT_EQ(ToHex(sealer.Seal(Number("epoch"), 7, CounterForm::kLowBits, BundleDown(), 300)),
+              values.at(name("frame_down_counter_7")));
+    Hello hello = HelloDown();
+    hello.table_hash = hash;
+    hello.code_bytes = code_bytes;
+    EXPECT_EQ(ToHex(sealer.Seal(hello)), values.at(name("hello_down")));
+  }
+}
+
+TEST_F(ProtocolVectors, TheFigureOfTheDefaultLength) {
+  EXPECT_NEAR(ForgerySeconds(960, 4) / 86400, 251, 1);
+  EXPECT_NEAR(ForgerySeconds(100'000, 6) / (365.25 * 86400), 556, 1);
+  EXPECT_EQ(DefaultCodeBytes(1339), 4U);
+  EXPECT_EQ(DefaultCodeBytes(1341), 6U);
+}
+
 TEST_F(ProtocolVectors, FramesOpen) {
   FrameOpener dut(FrameKeys(key), Direction::kDown, Scope(Direction::kDown, true));
   dut.SetEpoch(Number("epoch"), 0);
@@ -186,13 +221,7 @@ TEST_F(ProtocolVectors, FramesOpen) {
 }
 
 TEST_F(ProtocolVectors, HelloFrame) {
-  Hello hello;
-  hello.table_hash = Table().hash();
-  hello.stream = 0xcafe0001;
-  hello.nonce = Number("offboard_nonce");
-  hello.echo = Number("onboard_nonce");
-  hello.agreed = hello.over = true;
-  EXPECT_EQ(ToHex(Sealer(Direction::kDown).Seal(hello)), values.at("hello_down"));
+  EXPECT_EQ(ToHex(Sealer(Direction::kDown).Seal(HelloDown())), values.at("hello_down"));
 }
 
 }  // namespace

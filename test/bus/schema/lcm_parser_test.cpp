@@ -94,6 +94,38 @@ TEST(LcmParser, ReadsAnnotation) {
   EXPECT_EQ(a.meaning, "how far");
 }
 
+TEST(LcmParser, RefuseIsATagWithoutValueInAnyPlace) {
+  const Struct dut = ParseOne(
+      "struct s { int8_t a; // [-] @range 0,5 @refuse: mode\n"
+      "int8_t b; // [-] @refuse @range 0,5 @step 1\n"
+      "int8_t c; // [-] @refuse @range 0,5 @refuse: twice\n"
+      "int8_t d; // [-] @range 0,5: mode\n }");
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(dut.fields[i].annotation.problem, "");
+    EXPECT_TRUE(dut.fields[i].annotation.refuse);
+    EXPECT_EQ(dut.fields[i].annotation.max->integer, 5);
+  }
+  EXPECT_EQ(dut.fields[0].annotation.meaning, "mode");
+  EXPECT_EQ(dut.fields[2].annotation.problem, "@refuse is there twice");
+  EXPECT_FALSE(dut.fields[3].annotation.refuse);
+}
+
+TEST(LcmParser, AnEnumerationIsAnIntegerWhoseMeaningNamesAConstantOfItsMessage) {
+  const Struct dut = ParseOne(
+      "struct s { const int8_t IDLE = 0, LIMIT_NONE = 0, LIMIT_SONAR = 1;\n"
+      "int8_t mode; // [-] @range 0,5: IDLE, ...\n"
+      "int8_t limit; // [-] @range 0,5: what limits it, LIMIT_...\n"
+      "int8_t idle; // [-] @range 0,5: how often IDLES or idle\n"
+      "int8_t other; // [-] @range 0,5: constant of other_t\n"
+      "double part; // [-] @range 0,1 @step 0.1: part of the time in IDLE\n"
+      "int64_t utime; // [us] @age 1000 @step 1: since IDLE\n"
+      "int8_t named_limit_; // [-] @range 0,5: limit_\n }");
+  std::vector<std::string> names;
+  for (const Field& field : dut.fields)
+    if (dut.IsEnumeration(field)) names.push_back(field.name);
+  EXPECT_THAT(names, ElementsAre("mode", "limit"));
+}
+
 TEST(LcmParser, ReadsAgeAndSizes) {
   const Struct dut = ParseOne(
       "struct s { int64_t utime; // [us] @age 5000000 @step 100: when\n"

@@ -116,6 +116,99 @@ TEST(Packing, OutOfRangeSaturatesAndIsReportedOncePerField) {
   EXPECT_EQ(back.range_m[3], -1);
 }
 
+/// Fields 0 and 1 refuse what is out of range: the one is an enumeration, the other is marked.
+constexpr const char* kModes =
+    "struct s { const int8_t IDLE = 0, FAILED = 5;\n"
+    "int8_t mode; // [-] @range 0,5: IDLE, ...\n"
+    "double part; // [-] @range 0,1 @step 0.25 @refuse: of it\n"
+    "int8_t level; // [-] @range 0,5: how high\n }";
+
+TEST(Packing, AValueOutOfRangeIsRefusedWhereTheNearestOneMeansSomethingElse) {
+  const Schema schema = SchemaOf(kModes);
+  const Packer dut(*schema.Find("s"));
+  const auto pack = [&](int mode, double part, int level) {
+    return dut
+        .Pack(MessageBuilder(dut.type())
+                  .Put(static_cast<std::int8_t>(mode))
+                  .Put(part)
+                  .Put(static_cast<std::int8_t>(level))
+                  .bytes(),
+              0)
+        .value();
+  };
+  EXPECT_THAT(pack(5, 1, 5).refused, IsEmpty());
+  for (const int mode : {6, 9, -1, 127}) {
+    EXPECT_THAT(pack(mode, 1, 5).refused, ElementsAre(0)) << mode;
+    EXPECT_THAT(pack(mode, 1, 5).bytes, IsEmpty()) << mode;
+  }
+  EXPECT_THAT(pack(9, 1.2, 9).refused, ElementsAre(0, 1));
+  EXPECT_THAT(pack(0, std::nan(""), 0).refused, ElementsAre(1));
+  EXPECT_THAT(pack(0, 1.1, 0).refused, IsEmpty()) << "within half a step";
+  EXPECT_THAT(pack(0, 0, 9).refused, IsEmpty()) << "a level has a nearest value";
+  EXPECT_THAT(pack(0, 0, 9).saturated, ElementsAre(2));
+  EXPECT_FALSE(pack(0, 0, 9).bytes.empty());
+}
+
+TEST(Packing, RefusedAreAlsoTextsCountsStampsAndElementsOfNestedArrays) {
+  const Schema schema = SchemaOf(
+      "struct s { int64_t utime; // [us] @age 1000 @step 1 @refuse: when\n"
+      "string name; // [ascii] @max 3 @refuse: who\n"
+      "int8_t n; // [-] @range 0,2 @refuse: how many\n"
+      "part p[n]; // [-] @max 2: parts\n }\n"
+      "struct part { int8_t kind; // [-] @range 0,2 @refuse: which\n }");
+  const Packer dut(*schema.Find("s"));
+  const auto refused = [&](std::int64_t stamp, const std::string& name, std::vector<int> kinds) {
+    MessageBuilder message(dut.type());
+    message.Put(stamp).Text(name).Put(static_cast<std::int8_t>(kinds.size()));
+    for (const int kind : kinds) message.Put(static_cast<std::int8_t>(kind));
+    return dut.Pack(message.bytes(), 5000).value().refused;
+  };
+  EXPECT_THAT(refused(4500, "abc", {0, 2}), IsEmpty());
+  EXPECT_THAT(refused(3000, "abc", {}), ElementsAre(0));
+  EXPECT_THAT(refused(4500, "abcd", {}), ElementsAre(1));
+  EXPECT_THAT(refused(4500, "\xe4", {}), ElementsAre(1));
+  EXPECT_THAT(refused(4500, "abc", {0, 1, 2}), ElementsAre(2));
+  EXPECT_THAT(refused(4500, "abc", {0, 3}), ElementsAre(3));
+}
+
+TEST(Packing, ACountIsNoEnumerationWhateverItsCommentNames) {
+  const Schema schema = SchemaOf(
+      "struct s { const int8_t MOST = 2;\n int8_t n; // [-] @range 0,2: at most MOST\n byte b[n]; // [-] "
+      "@max 2: b\n }");
+  const Packer dut(*schema.Find("s"));
+  const auto packed =
+      dut.Pack(MessageBuilder(dut.type()).Put(std::int8_t{3}).Put('a').Put('b').Put('c').bytes(), 0);
+  EXPECT_THAT(packed->refused, IsEmpty());
+  EXPECT_THAT(packed->saturated, ElementsAre(0));
+}
+
+TEST(Packing, CodesBeyondTheRangeOfAnEnumerationAreRefusedNotClamped) {
+  const Schema schema = SchemaOf(
+      "struct s { const int8_t IDLE = 0;\n int8_t mode; // [-] @range 0,5: IDLE, ...\n byte rest; // [-] "
+      "@range 0,31: rest\n }");
+  const Packer dut(*schema.Find("s"));
+  ASSERT_EQ(dut.MaxBits(), 8U);
+  for (int code = 0; code < 8; ++code) {
+    const auto back = dut.Unpack(Bytes{static_cast<std::byte>(code << 5)}, 0);
+    ASSERT_EQ(back.has_value(), code <= 5) << code;
+    if (!back) continue;
+    EXPECT_EQ(ToJson(dut.type(), *back).at("mode"), code);
+  }
+}
+
+TEST(Packing, RefusingChangesNeitherBitsNorCodes) {
+  std::string without = kModes;
+  without.erase(without.find(" @refuse"), 8);
+  const Schema one = SchemaOf(kModes), other = SchemaOf(without);
+  const Packer a(*one.Find("s")), b(*other.Find("s"));
+  for (std::size_t i = 0; i < a.fields().size(); ++i) {
+    EXPECT_EQ(a.fields()[i].codes, b.fields()[i].codes);
+    EXPECT_EQ(a.fields()[i].bits, b.fields()[i].bits);
+  }
+  EXPECT_TRUE(a.fields()[1].refuse);
+  EXPECT_FALSE(b.fields()[1].refuse);
+}
+
 TEST(Packing, TimeStampsTravelAsAgeAndNeverWrap) {
   const Schema schema = SchemaOf("struct s { int64_t utime; // [us] @age 1000000 @step 1000: t\n }");
   const Packer dut(*schema.Find("s"));
@@ -276,6 +369,7 @@ TEST(PackingProperty, MessagesOfEveryTypeComeBackWithinHalfAStep) {
       const auto packed = dut.Pack(bytes, kNow);
       RC_ASSERT(packed.has_value());
       RC_ASSERT(packed->saturated.empty());
+      RC_ASSERT(packed->refused.empty());
       RC_ASSERT(packed->bytes.size() <= dut.MaxBytes());
       const auto back = dut.Unpack(packed->bytes, kNow);
       RC_ASSERT(back.has_value());
@@ -292,6 +386,7 @@ TEST(PackingProperty, AnyMessageGivesOneWithinItsRanges) {
       Rng rng(seed);
       const auto packed = dut.Pack(RandomMessage(*type, Values::kAny, rng), kNow);
       RC_ASSERT(packed.has_value());
+      if (!packed->refused.empty()) return RC_ASSERT(packed->bytes.empty());
       const auto back = dut.Unpack(packed->bytes, kNow);
       RC_ASSERT(back.has_value());
       const auto again = dut.Pack(*back, kNow);
@@ -387,6 +482,10 @@ TEST(Packing, RefusesTypesWithFileLineAndField) {
             "t.lcm:1: s may have more than 65535 bytes, which cannot be packed");
   EXPECT_EQ(ErrorOf("struct s { e x[2147483647][2147483647][2147483647]; } struct e { }"),
             "no error");  // sorted by name: `e` comes first, and an empty type is packed in no bits
+  EXPECT_EQ(ErrorOf("struct s { boolean x; // [-] @refuse: x\n }"),
+            "t.lcm:1: s.x: @refuse is for fields with a range, and a boolean has none");
+  EXPECT_EQ(ErrorOf("struct a { e x; // [-] @refuse: x\n } struct e { }"),
+            "t.lcm:1: a.x: @refuse belongs to the fields of the struct");
   EXPECT_EQ(ErrorOf("struct a { e x[2147483647][2147483647][2147483647]; } struct e { }"),
             "t.lcm:1: a.x: more than 65535 values cannot be packed");
 }

@@ -26,8 +26,8 @@ void RequireEvents(const CopyOptions& options, const bus::LogSelection& selectio
       fmt::format("{}: expected events to copy, got none; {} is not written", options.log, options.out));
 }
 
-/// Verb `filter`, and without any selection `repair`: copies whole events into another log.
-int Copy(const CopyOptions& options) {
+/// Verb `filter`: copies chosen events into another log.
+int Filter(const CopyOptions& options) {
   bus::LogReader reader(options.log);
   RequireNewFile(options.out, options.log, options.force);
   // Before the writer, which empties the file: a refusal leaves it as it was.
@@ -35,8 +35,7 @@ int Copy(const CopyOptions& options) {
   RequireEvents(options, selection);
   bus::LogWriter writer(options.out);
   const auto copied = bus::CopyEvents(reader, selection, writer);
-  writer.Flush();
-  if (!writer.good()) throw std::runtime_error(options.out + ": cannot be written: is the disk full?");
+  Finish(writer, options.out);
   if (options.json) {
     std::cout << nlohmann::ordered_json{{"events", copied},
                                         {"damaged_places", reader.damaged_places()},
@@ -46,6 +45,31 @@ int Copy(const CopyOptions& options) {
   }
   std::cout << fmt::format("{}: {} events; {} damaged places with {} bytes left out\n", options.out, copied,
                            reader.damaged_places(), reader.skipped_bytes());
+  return 0;
+}
+
+/// Verb `repair`: copies all whole events, with their numbers, into another log.
+int Repair(const CopyOptions& options) {
+  bus::LogReader reader(options.log);
+  RequireNewFile(options.out, options.log, options.force);
+  RequireEvents(options, {});
+  bus::LogWriter writer(options.out);
+  const auto count = bus::RepairLog(reader, writer);
+  Finish(writer, options.out);
+  if (options.json) {
+    std::cout << nlohmann::ordered_json{{"events", count.events},
+                                        {"damaged_places", reader.damaged_places()},
+                                        {"skipped_bytes", reader.skipped_bytes()},
+                                        {"numbers_not_increasing", count.not_increasing}}
+              << "\n";
+    return 0;
+  }
+  std::cout << fmt::format("{}: {} events with their numbers; {} damaged places with {} bytes left out\n",
+                           options.out, count.events, reader.damaged_places(), reader.skipped_bytes());
+  if (count.not_increasing > 0)
+    std::cout << fmt::format(
+        "{}: the numbers do not increase at {} events: damaged numbers, or joined logs\n", options.out,
+        count.not_increasing);
   return 0;
 }
 
@@ -63,19 +87,22 @@ void AddLogFilterVerb(CLI::App& log, int& exit_code) {
   verb->add_option("out", options->out, "new LCM log")->required();
   AddSelectionOptions(*verb, options->selection);
   AddOutputFlags(*verb, *options);
-  verb->callback([options, &exit_code] { exit_code = Copy(*options); });
+  verb->callback([options, &exit_code] { exit_code = Filter(*options); });
 }
 
 void AddLogRepairVerb(CLI::App& log, int& exit_code) {
   auto options = std::make_shared<CopyOptions>();
-  auto* verb = AddLogVerb(log,
-                          {.name = "repair",
-                           .help = "All whole events of a damaged log into another one.",
-                           .example = "priamos log repair damaged.lcmlog mended.lcmlog"},
-                          *options);
+  auto* verb = AddLogVerb(
+      log,
+      {.name = "repair",
+       .help =
+           "All whole events of a damaged log into another one, with their numbers: what is missing stays "
+           "visible.",
+       .example = "priamos log repair damaged.lcmlog mended.lcmlog"},
+      *options);
   verb->add_option("out", options->out, "new LCM log")->required();
   AddOutputFlags(*verb, *options);
-  verb->callback([options, &exit_code] { exit_code = Copy(*options); });
+  verb->callback([options, &exit_code] { exit_code = Repair(*options); });
 }
 
 }  // namespace priamos::cli

@@ -55,8 +55,7 @@ int Merge(const MergeOptions& options) {
   const auto fit = Clocks(options, onboard, offboard);
   bus::LogWriter writer(options.out);
   const auto events = bus::MergeLogs(onboard, offboard, fit, options.prefix, writer);
-  writer.Flush();
-  if (!writer.good()) throw std::runtime_error(options.out + ": cannot be written: is the disk full?");
+  Finish(writer, options.out);
   const nlohmann::ordered_json json{{"events", events},
                                     {"offset_s", fit.offset_us * 1e-6},
                                     {"drift_ppm", fit.drift * 1e6},

@@ -2,8 +2,10 @@
 
 #include <CLI/App.hpp>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
+#include "bus/log/log_writer.hpp"
 #include "cli/options/bus_options.hpp"
 #include "cli/options/verb_setup.hpp"
 
@@ -35,6 +37,12 @@ inline CLI::App* AddLogVerb(CLI::App& log, const LogVerb& names, LogOptions& opt
 inline void AddOutputFlags(CLI::App& verb, LogOptions& options, const char* json_help = "machine-readable") {
   verb.add_flag("--json", options.json, json_help);
   verb.add_flag("--force", options.force, "replace an existing file");
+}
+
+/// Ends the writing of a log. Throws std::runtime_error when not all of it could be written.
+inline void Finish(bus::LogWriter& writer, const std::string& file) {
+  writer.Flush();
+  if (!writer.good()) throw std::runtime_error(file + ": cannot be written: is the disk full?");
 }
 
 }  // namespace priamos::cli

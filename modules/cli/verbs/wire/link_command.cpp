@@ -26,6 +26,7 @@ nlohmann::ordered_json BitsAsJson(const bus::Packer& packer) {
                               {"bits", field.bits},
                               {"values", field.values},
                               {"unit", field.unit},
+                              {"outside", field.refuse ? "refused" : "nearest"},
                               {"codes", field.codes}});
   return json;
 }
@@ -60,6 +61,8 @@ nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
 nlohmann::ordered_json BudgetAsJson(const bus::radio::ChannelTable& table, const bus::radio::Budget& budget) {
   return {{"up", DirectionAsJson(table, budget.up)},
           {"down", DirectionAsJson(table, budget.down)},
+          {"code_bytes", budget.code_bytes},
+          {"forgery_s", budget.forgery_s},
           {"problems", budget.problems}};
 }
 

@@ -130,12 +130,57 @@ TEST_F(FrameTest, CutShortIsMalformed) {
 }
 
 TEST_F(FrameTest, HelloRoundTrip) {
-  const Hello hello{
-      .table_hash = 5, .stream = 6, .nonce = 0x123456789ABCDEF0, .echo = 8, .need = true, .agreed = false};
-  const auto wire = sealer.Seal(hello);
-  EXPECT_EQ(wire.size(), kHelloFrameBytes);
-  EXPECT_EQ(std::get<Hello>(dut.Open(Content(wire))), hello);
+  for (const std::size_t code_bytes : {4U, 6U, 8U}) {
+    const Hello hello{.table_hash = 5,
+                      .stream = 6,
+                      .nonce = 0x123456789ABCDEF0,
+                      .echo = 8,
+                      .need = true,
+                      .agreed = false,
+                      .over = code_bytes == 6,
+                      .code_bytes = code_bytes};
+    const auto wire = sealer.Seal(hello);
+    EXPECT_EQ(wire.size(), kHelloFrameBytes);
+    EXPECT_EQ(std::get<Hello>(dut.Open(Content(wire))), hello);
+  }
 }
+
+struct CodeTest : testing::TestWithParam<std::size_t> {
+  const FrameScope scope{.table_hash = 1, .encrypted = false, .echo_bytes = 0, .code_bytes = GetParam()};
+  const FrameKeys keys{Key()};
+  const FrameSealer sealer{keys, Direction::kUp, scope};
+  FrameOpener dut{keys, Direction::kUp, scope};
+  void SetUp() override { dut.SetEpoch(kEpoch, 0); }
+};
+
+TEST_P(CodeTest, CostsItsBytes) {
+  const auto wire = sealer.Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"));
+  EXPECT_EQ(wire.size(), 6 + 3 + GetParam());
+  EXPECT_EQ(sealer.overhead(), 3 + GetParam());
+  EXPECT_EQ(ToText(std::get<DataFrame>(dut.Open(Content(wire))).bundle), "bundle");
+}
+
+TEST_P(CodeTest, EveryBitOfItIsChecked) {
+  const auto wire = sealer.Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"));
+  const auto content = CobsDecode(Content(wire)).value();
+  for (std::size_t bit = 0; bit < 8 * GetParam(); ++bit) {
+    auto forged = content;
+    forged[forged.size() - 1 - bit / 8] ^= std::byte{1} << (bit % 8);
+    EXPECT_EQ(std::get<Reject>(dut.Open(CobsEncode(forged))), Reject::kBadCode) << bit;
+  }
+}
+
+TEST_P(CodeTest, TheLongestFrameIsOneBlock) {
+  const auto wire = sealer.Seal(kEpoch, 1 << 20, CounterForm::kWhole, Text(std::string(240, 'x')));
+  EXPECT_EQ(wire.size(), 1 + 1 + 5 + 240 + GetParam() + 1);
+  EXPECT_EQ(std::get<DataFrame>(dut.Open(Content(wire))).counter, 1U << 20);
+}
+
+TEST_P(CodeTest, AFrameWithoutRoomForItIsMalformed) {
+  EXPECT_EQ(std::get<Reject>(dut.Open(CobsEncode(Text(std::string(GetParam(), '\1'))))), Reject::kMalformed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bytes, CodeTest, testing::Values(4, 6, 8));
 
 TEST_F(FrameTest, EncryptedBundleIsNotReadable) {
   const FrameScope scope{.table_hash = 1, .encrypted = true};

@@ -37,6 +37,11 @@ class LogCommand : public testing::Test {
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
   }
+  static std::vector<std::int64_t> NumbersOf(const std::string& file) {
+    std::vector<std::int64_t> numbers;
+    for (const bus::LogEvent& event : EventsOf(file)) numbers.push_back(event.number);
+    return numbers;
+  }
   TemporaryFolder folder_;
   std::string log_ = folder_ / "run.lcmlog";
 };
@@ -134,13 +139,46 @@ TEST_F(LogCommand, ARefusedFilterLeavesTheFileThatItWouldHaveReplaced) {
   EXPECT_EQ(FileContent(out), "precious");
 }
 
-TEST_F(LogCommand, RepairKeepsEveryWholeEvent) {
+TEST_F(LogCommand, RepairKeepsEveryWholeEventAndItsNumber) {
   const std::string out = folder_ / "mended.lcmlog";
   const auto answer = Priamos({"log", "repair", Damaged(144, 144), out});
   EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_EQ(answer.out, out + ": 5 events; 1 damaged places with 144 bytes left out\n");
-  EXPECT_EQ(EventsOf(out).size(), 5u);
-  EXPECT_EQ(Priamos({"log", "info", out}).exit_code, 0) << "what was mended is whole";
+  EXPECT_EQ(answer.out, out + ": 5 events with their numbers; 1 damaged places with 144 bytes left out\n");
+  EXPECT_THAT(NumbersOf(out), ElementsAre(0, 2, 3, 4, 5)) << "the lost one leaves a gap";
+}
+
+TEST_F(LogCommand, WhatADamagedLogLostStaysVisibleInTheMendedOne) {
+  const std::string out = folder_ / "mended.lcmlog";
+  EXPECT_EQ(Priamos({"log", "repair", Damaged(144, 144), out}).exit_code, 0);
+  const auto mended = Priamos({"log", "info", out, "--json"});
+  EXPECT_EQ(mended.exit_code, 1);
+  EXPECT_EQ(json::parse(mended.out).at("damaged_places"), 0);
+  EXPECT_EQ(json::parse(mended.out).at("missing_events"), 1);
+}
+
+TEST_F(LogCommand, RepairOfAWholeLogIsACopyToTheByte) {
+  const std::string out = folder_ / "copy.lcmlog";
+  EXPECT_EQ(Priamos({"log", "repair", log_, out}).exit_code, 0);
+  EXPECT_EQ(FileContent(out), FileContent(log_));
+}
+
+TEST_F(LogCommand, RepairReportsNumbersThatDoNotIncreaseAndKeepsThem) {
+  const std::string joined = folder_ / "joined.lcmlog", out = folder_ / "mended.lcmlog";
+  std::ofstream(joined, std::ios::binary) << FileContent(log_) << FileContent(log_);
+  const auto answer = Priamos({"log", "repair", joined, out});
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.out, HasSubstr(out + ": the numbers do not increase at 1 events: damaged numbers, or "
+                                          "joined logs\n"));
+  EXPECT_THAT(NumbersOf(out), ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5));
+  const auto in_json = json::parse(Priamos({"log", "repair", joined, out, "--force", "--json"}).out);
+  EXPECT_EQ(in_json.at("numbers_not_increasing"), 1);
+  EXPECT_EQ(in_json.at("events"), 12);
+}
+
+TEST_F(LogCommand, FilterNumbersAnewBecauseWhatIsLeftOutIsNoLoss) {
+  const std::string out = folder_ / "some.lcmlog";
+  EXPECT_EQ(Priamos({"log", "filter", log_, out, "--from", "0.5"}).exit_code, 0);
+  EXPECT_THAT(NumbersOf(out), ElementsAre(0, 1, 2, 3));
 }
 
 TEST_F(LogCommand, WhatIsThereIsReplacedOnlyByForce) {

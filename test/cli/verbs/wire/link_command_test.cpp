@@ -63,6 +63,9 @@ TEST_F(LinkCommand, BitsForAPersonNameEveryField) {
   const auto answer = Priamos({"link", "bits", "estop_t"});
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_THAT(answer.out, AllOf(HasSubstr("utime"), HasSubstr("action"), HasSubstr("driver")));
+  const auto lines = LinesOf(answer.out);
+  EXPECT_THAT(lines.at(1), AllOf(StartsWith("utime "), HasSubstr(" nearest ")));
+  EXPECT_THAT(lines.at(2), AllOf(StartsWith("action "), HasSubstr(" refused ")));
 }
 
 TEST_F(LinkCommand, BitsOfAnUnknownTypeAreRefusedWithTheNearest) {
@@ -107,6 +110,26 @@ TEST_F(LinkCommand, ABudgetThatDoesNotHoldIsExitCodeOneWithTheReason) {
   EXPECT_GT(dut.at("up").at("utilisation"), 1);
   EXPECT_EQ(dut.at("up").at("channels").at(0).at("deadline_s"), nullptr) << "none was asked for";
   EXPECT_EQ(Priamos({"link", "budget", Write("slow.toml", LinkToml(1))}).exit_code, 0);
+}
+
+TEST_F(LinkCommand, TheBudgetSaysHowLongForgeriesAreKeptOut) {
+  const auto dut = json::parse(Priamos({"link", "budget", kLink, "--json"}).out);
+  EXPECT_EQ(dut.at("code_bytes"), 4);
+  EXPECT_NEAR(dut.at("forgery_s").get<double>() / 86400, 251, 1);
+  const std::string longer = Write("link.toml", "code_bytes = 8\n" + LinkToml(1));
+  EXPECT_EQ(json::parse(Priamos({"link", "budget", longer, "--json"}).out).at("code_bytes"), 8);
+  EXPECT_THAT(Priamos({"link", "budget", longer}).out,
+              AllOf(HasSubstr("codes of 8 bytes: of a line full of forged frames"),
+                    HasSubstr("millions of years with 50 %")));
+}
+
+TEST_F(LinkCommand, CodesOfAnotherLengthAreRefused) {
+  for (const int code_bytes : {1, 2, 3, 5, 7, 9}) {
+    const std::string file = Write("link.toml", fmt::format("code_bytes = {}\n", code_bytes) + LinkToml(1));
+    const auto answer = Priamos({"link", "budget", file});
+    EXPECT_EQ(answer.exit_code, 2) << code_bytes;
+    EXPECT_THAT(answer.err, AllOf(HasSubstr("link.toml:1"), HasSubstr("code_bytes"))) << code_bytes;
+  }
 }
 
 TEST_F(LinkCommand, ALinkTomlThatIsWrongIsNamedWithLineAndKey) {
