@@ -25,8 +25,13 @@ class Handshake {
   /// that the other end may still send counters that count as used here.
   Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_due, Time now);
 
-  /// Takes a hello. Returns the pair of nonces whose epoch is to be used from now on, nullopt for no change.
-  std::optional<EpochAgreement::Pair> OnHello(const Hello& hello);
+  /// What a hello proves.
+  struct Proof {
+    bool fresh = false;                            ///< no replay: what it says may be believed
+    std::optional<EpochAgreement::Pair> agreed{};  ///< the nonces whose epoch is to be used from now on
+  };
+  /// Takes a hello. One that is not fresh is at most answered. `heard`: data frames are accepted of late.
+  Proof OnHello(const Hello& hello, bool heard = false);
   /// Notes that a data frame was accepted: both ends use the same table, epoch and counters.
   void OnData();
   /// Notes that this end uses a new epoch.
@@ -43,7 +48,7 @@ class Handshake {
 
   /// Whether a FloorEntry is to be sent: the counters that the other end must skip.
   bool floor_due() const { return floor_due_; }
-  /// Whether the other end's last hello had another channel table.
+  /// Whether the other end's last fresh hello had another channel table.
   bool table_mismatch() const { return table_mismatch_; }
   std::uint64_t received() const { return received_; }
   std::uint64_t sent() const { return sent_; }

@@ -81,12 +81,16 @@ void LinkEndpoint::Close() {
 }
 
 void LinkEndpoint::OnHello(const Hello& hello, Time now) {
+  const Handshake::Proof proof = peer_.handshake.OnHello(hello, !receiver_.Down(now));
+  if (!proof.fresh) return;
+  scheduler_.OnFrame(now);
   if (hello.over) scheduler_.OnOver(now);
-  if (const auto agreed = peer_.handshake.OnHello(hello)) ChangeEpoch(*agreed, hello.stream);
+  if (proof.agreed) ChangeEpoch(*proof.agreed, hello.stream);
 }
 
 void LinkEndpoint::OnFrame(const AcceptedFrame& accepted, Time now, std::vector<Delivery>& out) {
   memory_.NoteAccepted(receiver_.highest());
+  scheduler_.OnFrame(now);
   if (accepted.link_back) {
     outbox_.OnLinkBack();
     peer_.acks.MakeDue();
