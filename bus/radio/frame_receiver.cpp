@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kMaxEncodedBytes = 1 + 1 + kWholeCounterBytes + kMaxBundleBytes;
 /// Number of unusable frames in a row that noise alone does not explain.
 constexpr std::uint64_t kUnusableAfter = 3;
+/// A counter may be so much further than the line can have carried frames: what was cut off has one, too.
+constexpr double kCountersAhead = 8;
 
 }  // namespace
 
@@ -20,11 +22,13 @@ FrameReceiver::FrameReceiver(const FrameKeys& keys, Direction incoming, FrameSco
       opener_(keys, incoming, scope),
       guard_(TriesPerSecond(bytes_per_s, scope.code_bytes), now),
       silence_(silence),
-      first_byte_(now) {}
+      first_byte_(now),
+      frames_per_s_(bytes_per_s / kFrameOverhead) {}
 
 void FrameReceiver::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
   opener_.SetEpoch(epoch, floor);
   newest_.reset();
+  newest_echo_.reset();
 }
 
 FrameReceiver::Result FrameReceiver::Push(std::byte byte, Time now, std::uint64_t newest_sent) {
@@ -32,7 +36,7 @@ FrameReceiver::Result FrameReceiver::Push(std::byte byte, Time now, std::uint64_
   if (splitter_.between_frames()) first_byte_ = now;
   switch (splitter_.Push(byte)) {
     case FrameSplitter::Event::kFrame:
-      return OnFrame(now, newest_sent);
+      return OnFrame(splitter_.frame(), first_byte_, now, newest_sent, false);
     case FrameSplitter::Event::kOversize:
       return OnReject(Reject::kOversize, now);
     case FrameSplitter::Event::kNone:
@@ -41,30 +45,55 @@ FrameReceiver::Result FrameReceiver::Push(std::byte byte, Time now, std::uint64_
   return {};
 }
 
-FrameReceiver::Result FrameReceiver::OnFrame(Time now, std::uint64_t newest_sent) {
-  if (!guard_.MayTry(now)) return OnReject(Reject::kFlood, now);
-  const std::uint64_t highest_before = opener_.highest();
-  Opened opened = opener_.Open(splitter_.frame(), newest_sent);
-  if (const auto* reject = std::get_if<Reject>(&opened)) return OnReject(*reject, now);
-  if (const auto* hello = std::get_if<Hello>(&opened)) return *hello;
-  return Accept(std::get<DataFrame>(std::move(opened)), highest_before, now);
+FrameReceiver::Result FrameReceiver::Take(std::span<const std::byte> frame, Time first_byte, Time now,
+                                          std::uint64_t newest_sent, bool stranger) {
+  if (!stranger) counters_.bytes += frame.size() + 1;
+  if (frame.size() > kMaxEncodedBytes) return OnReject(Reject::kOversize, now);
+  return OnFrame(frame, first_byte, now, newest_sent, stranger);
 }
 
-AcceptedFrame FrameReceiver::Accept(DataFrame frame, std::uint64_t highest_before, Time now) {
-  AcceptedFrame accepted{.frame = std::move(frame),
-                         .ahead = 0,
-                         .wire_bytes = splitter_.frame().size() + 1,
-                         .first_byte = first_byte_,
-                         .link_back = Down(now)};
+/// What can be seen without a code is looked at first: garbage costs no check of the other end's frames.
+FrameReceiver::Result FrameReceiver::OnFrame(std::span<const std::byte> encoded, Time first_byte, Time now,
+                                             std::uint64_t newest_sent, bool stranger) {
+  const auto head = opener_.Look(encoded, newest_sent);
+  if (!head) return OnReject(Reject::kMalformed, now);
+  const Claim claim = stranger && !Down(now) ? Claim::kStranger
+                      : Expected(*head, now) ? Claim::kExpected
+                                             : Claim::kOther;
+  if (!guard_.MayTry(claim, now)) return OnReject(Reject::kFlood, now);
+  const std::uint64_t highest_before = opener_.highest();
+  Opened opened = opener_.Open(encoded, newest_sent);
+  if (const auto* reject = std::get_if<Reject>(&opened)) return OnReject(*reject, now);
+  if (const auto* hello = std::get_if<Hello>(&opened)) return *hello;
+  AcceptedFrame accepted =
+      Accept(std::get<DataFrame>(std::move(opened)), encoded.size() + 1, highest_before, now);
+  accepted.first_byte = first_byte;
+  return accepted;
+}
+
+/// Whether the other end can send this next: no further ahead than the line carries, and no echo older than
+/// the last one. A hello has a code that nobody guesses.
+bool FrameReceiver::Expected(const FrameHead& head, Time now) const {
+  if (head.hello || !heard_at_) return true;
+  if (head.counter <= opener_.highest()) return false;
+  const double reach = kCountersAhead + Seconds(now - *heard_at_) * frames_per_s_;
+  if (static_cast<double>(head.counter - opener_.highest()) > reach) return false;
+  return !head.echo || !newest_echo_ || *head.echo >= *newest_echo_;
+}
+
+AcceptedFrame FrameReceiver::Accept(DataFrame frame, std::size_t wire_bytes, std::uint64_t highest_before,
+                                    Time now) {
+  AcceptedFrame accepted{.frame = std::move(frame), .wire_bytes = wire_bytes, .link_back = Down(now)};
   if (accepted.frame.counter > highest_before) accepted.ahead = accepted.frame.counter - highest_before;
   // After its own start an end cannot know what it missed.
   const std::uint64_t missed = heard_at_ && accepted.ahead > 0 ? accepted.ahead - 1 : 0;
   counters_.missed += missed;
   ++counters_.frames;
   guard_.OnMissed(missed);
-  loss_.OnFrame(missed, accepted.wire_bytes);
+  loss_.OnFrame(missed, wire_bytes);
   heard_at_ = now;
   if (accepted.ahead > 0) newest_ = HeardFrame{accepted.frame.counter, now};
+  if (accepted.ahead > 0 && accepted.frame.echo) newest_echo_ = accepted.frame.echo;
   unusable_ = 0;
   return accepted;
 }

@@ -53,6 +53,11 @@ class FrameReceiver {
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
   /// The next byte of the line. `newest_sent`: see FrameOpener::Open.
   Result Push(std::byte byte, Time now, std::uint64_t newest_sent = 0);
+  /// A whole frame without its delimiter, beside the bytes of Push(), as IP brings it. `stranger`: it does
+  /// not come from where the other end is known to be; as long as that one is heard, few of these are
+  /// checked.
+  Result Take(std::span<const std::byte> frame, Time first_byte, Time now, std::uint64_t newest_sent,
+              bool stranger);
 
   Reception reception(Time now) const;
   /// Whether no data frame was accepted of late.
@@ -69,8 +74,10 @@ class FrameReceiver {
   const ReceptionCounters& counters() const { return counters_; }
 
  private:
-  Result OnFrame(Time now, std::uint64_t newest_sent);
-  AcceptedFrame Accept(DataFrame frame, std::uint64_t highest_before, Time now);
+  Result OnFrame(std::span<const std::byte> encoded, Time first_byte, Time now, std::uint64_t newest_sent,
+                 bool stranger);
+  bool Expected(const FrameHead& head, Time now) const;
+  AcceptedFrame Accept(DataFrame frame, std::size_t wire_bytes, std::uint64_t highest_before, Time now);
   Result OnReject(Reject reject, Time now);
 
   FrameSplitter splitter_;
@@ -80,8 +87,10 @@ class FrameReceiver {
   Duration silence_;
   Time first_byte_;               ///< arrival of the first byte of the frame that is coming in
   std::optional<Time> heard_at_;  ///< arrival of the last accepted data frame
+  double frames_per_s_;           ///< what the line can carry
   std::optional<HeardFrame> newest_;
-  std::uint64_t unusable_ = 0;  ///< frames with a wrong code or a used counter since then
+  std::optional<std::uint64_t> newest_echo_;  ///< of the newest frame that had one
+  std::uint64_t unusable_ = 0;                ///< frames with a wrong code or a used counter since then
   ReceptionCounters counters_;
 };
 

@@ -101,8 +101,11 @@ bool FrameScheduler::DataDue(const FrameSources& from, Time now) const {
 }
 
 void FrameScheduler::BuildHello(FrameSources from, Time now) {
-  Hello hello = from.peer.handshake.Take(from.memory.stream(), from.receiver.reception(now), now);
-  hello.over = turns_.enabled();  // the answer is what is needed
+  const Reception reception = from.receiver.reception(now);
+  Hello hello = from.peer.handshake.Take(from.memory.stream(), reception, now);
+  // The answer is what is needed. On a link that works it answers a hello that may be a replay: that must not
+  // cost the turn.
+  hello.over = turns_.enabled() && reception != Reception::kHeard;
   flight_.emplace();
   flight_->over = hello.over;
   transmitter_.Begin(sealer_.Seal(hello), now);

@@ -53,8 +53,10 @@ class FrameScheduler {
 
   /// The bytes that may be written to the line now.
   std::vector<std::byte> Step(FrameSources from, Time now);
-  /// Notes the time at which bytes came from the other end.
+  /// Notes the time at which bytes came, of whomever.
   void OnBytes(Time now) { turns_.OnBytes(now); }
+  /// Notes the time at which a frame came that the other end has just sent.
+  void OnFrame(Time now) { turns_.OnFrame(now); }
   /// Notes that the other end announced the end of its turn (half-duplex).
   void OnOver(Time now) { turns_.OnOverReceived(now); }
 

@@ -22,17 +22,23 @@ Handshake::Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_du
       last_(now - kRepeat),
       floor_due_(floor_due) {}
 
-std::optional<EpochAgreement::Pair> Handshake::OnHello(const Hello& hello) {
+Handshake::Proof Handshake::OnHello(const Hello& hello, bool heard) {
   ++received_;
-  peer_code_bytes_ = hello.code_bytes;
-  table_mismatch_ = hello.table_hash != table_hash_;
-  if (table_mismatch_) return std::nullopt;
-  const EpochAgreement::Change change = agreement_.OnHello(hello);
-  reply_due_ = reply_due_ || change.reply;
-  return change.agreed;
+  const bool same_table = hello.table_hash == table_hash_;
+  const EpochAgreement::Change change = agreement_.OnHello(hello, same_table, heard);
+  // The end that this one agreed with has the epoch when its data has come: its hello is an old one.
+  const bool late = change.known && !switched_;
+  const bool wanted = same_table || hello.need || !table_mismatch_;
+  reply_due_ = reply_due_ || (change.reply && wanted && !late);
+  if (change.fresh) {
+    table_mismatch_ = !same_table;
+    peer_code_bytes_ = hello.code_bytes;
+  }
+  return {.fresh = change.fresh, .agreed = change.agreed};
 }
 
 void Handshake::OnData() {
+  agreement_.OnData();
   switched_ = false;
   floor_due_ = false;
   table_mismatch_ = false;

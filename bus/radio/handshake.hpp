@@ -26,8 +26,13 @@ class Handshake {
   Handshake(std::uint32_t table_hash, NonceSource nonces, bool floor_due, Time now,
             std::size_t code_bytes = kShortCodeBytes);
 
-  /// Takes a hello. Returns the pair of nonces whose epoch is to be used from now on, nullopt for no change.
-  std::optional<EpochAgreement::Pair> OnHello(const Hello& hello);
+  /// What a hello proves.
+  struct Proof {
+    bool fresh = false;                            ///< no replay: what it says may be believed
+    std::optional<EpochAgreement::Pair> agreed{};  ///< the nonces whose epoch is to be used from now on
+  };
+  /// Takes a hello. One that is not fresh is at most answered. `heard`: data frames are accepted of late.
+  Proof OnHello(const Hello& hello, bool heard = false);
   /// Notes that a data frame was accepted: both ends use the same table, epoch and counters.
   void OnData();
   /// Notes that this end uses a new epoch.
@@ -44,7 +49,7 @@ class Handshake {
 
   /// Whether a FloorEntry is to be sent: the counters that the other end must skip.
   bool floor_due() const { return floor_due_; }
-  /// Whether the other end's last hello had another channel table.
+  /// Whether the other end's last fresh hello had another channel table.
   bool table_mismatch() const { return table_mismatch_; }
   /// Length of the other end's codes by its last hello; 0 before. Another one than here is a table mismatch.
   std::size_t peer_code_bytes() const { return peer_code_bytes_; }

@@ -72,12 +72,27 @@ std::vector<std::byte> LinkEndpoint::Step(Time now) {
 std::vector<Delivery> LinkEndpoint::Receive(std::span<const std::byte> bytes, Time now) {
   std::vector<Delivery> deliveries;
   if (!bytes.empty()) scheduler_.OnBytes(now);
-  for (const std::byte byte : bytes) {
-    const FrameReceiver::Result result = receiver_.Push(byte, now, memory_.last_counter());
-    if (const auto* hello = std::get_if<Hello>(&result)) OnHello(*hello, now);
-    if (const auto* accepted = std::get_if<AcceptedFrame>(&result)) OnFrame(*accepted, now, deliveries);
-  }
+  for (const std::byte byte : bytes)
+    OnResult(receiver_.Push(byte, now, memory_.last_counter()), now, deliveries);
   return deliveries;
+}
+
+Received LinkEndpoint::ReceiveFrame(std::span<const std::byte> frame, Time first_byte, Time now,
+                                    bool stranger) {
+  if (!stranger) scheduler_.OnBytes(now);
+  Received received;
+  const FrameReceiver::Result result =
+      receiver_.Take(frame, first_byte, now, memory_.last_counter(), stranger);
+  received.proof = OnResult(result, now, received.deliveries);
+  return received;
+}
+
+Proof LinkEndpoint::OnResult(const FrameReceiver::Result& result, Time now, std::vector<Delivery>& out) {
+  if (const auto* hello = std::get_if<Hello>(&result)) return OnHello(*hello, now);
+  const auto* accepted = std::get_if<AcceptedFrame>(&result);
+  if (accepted == nullptr) return Proof::kNone;
+  OnFrame(*accepted, now, out);
+  return accepted->ahead > 0 ? Proof::kFresh : Proof::kGenuine;
 }
 
 void LinkEndpoint::Close() {
@@ -85,13 +100,18 @@ void LinkEndpoint::Close() {
   memory_.Close(receiver_.highest());
 }
 
-void LinkEndpoint::OnHello(const Hello& hello, Time now) {
+Proof LinkEndpoint::OnHello(const Hello& hello, Time now) {
+  const Handshake::Proof proof = peer_.handshake.OnHello(hello, !receiver_.Down(now));
+  if (!proof.fresh) return Proof::kGenuine;
+  scheduler_.OnFrame(now);
   if (hello.over) scheduler_.OnOver(now);
-  if (const auto agreed = peer_.handshake.OnHello(hello)) ChangeEpoch(*agreed, hello.stream);
+  if (proof.agreed) ChangeEpoch(*proof.agreed, hello.stream);
+  return Proof::kFresh;
 }
 
 void LinkEndpoint::OnFrame(const AcceptedFrame& accepted, Time now, std::vector<Delivery>& out) {
   memory_.NoteAccepted(receiver_.highest());
+  scheduler_.OnFrame(now);
   if (accepted.link_back) {
     outbox_.OnLinkBack();
     peer_.acks.MakeDue();

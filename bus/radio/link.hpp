@@ -34,6 +34,19 @@ struct LinkCounters {
   std::array<std::uint64_t, kRejects> rejected{};
 };
 
+/// What a frame proves of the place that it came from.
+enum class Proof : std::uint8_t {
+  kNone,     ///< nothing
+  kGenuine,  ///< the other end made it, and anybody may have kept and repeated it
+  kFresh     ///< the other end made it just now: it is there, or somebody who passes its frames on
+};
+
+/// What came of a frame.
+struct Received {
+  std::vector<Delivery> deliveries;
+  Proof proof = Proof::kNone;
+};
+
 /// State of the link.
 struct LinkStatus {
   bool up = false;
@@ -83,6 +96,9 @@ class LinkEndpoint {
   std::vector<std::byte> Step(Time now);
   /// The messages that the bytes from the line make complete.
   std::vector<Delivery> Receive(std::span<const std::byte> bytes, Time now);
+  /// The same for a whole frame, without its delimiter, which came beside the others: see
+  /// FrameReceiver::Take.
+  Received ReceiveFrame(std::span<const std::byte> frame, Time first_byte, Time now, bool stranger);
   /// Ends in order: saves the exact counters, so that the next start need not skip any.
   void Close();
 
@@ -98,7 +114,8 @@ class LinkEndpoint {
  private:
   LinkEndpoint(const LinkEndpoint&) = default;  // for Fork: a plain copy would share the store
 
-  void OnHello(const Hello& hello, Time now);
+  Proof OnResult(const FrameReceiver::Result& result, Time now, std::vector<Delivery>& out);
+  Proof OnHello(const Hello& hello, Time now);
   void OnFrame(const AcceptedFrame& accepted, Time now, std::vector<Delivery>& out);
   Arrival ArrivalOf(const AcceptedFrame& accepted, Time now) const;
   void OnEntry(BundleEntry entry, const Arrival& arrival, std::vector<Delivery>& out);

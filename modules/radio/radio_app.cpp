@@ -44,7 +44,7 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
       requests_(context.node().SubscribeAll(channels::kLinkRequest)),
       status_(context.node().Advertise(channels::kLinkStatus)) {
   bus::radio::RequireBudget(link_config_.Table(types()), link_config_.Options());
-  port_ = OpenLine();
+  OpenLine();
   if (link_config_.simulation_key && !context.lockstep())
     context.Log(bus::Level::kInfo, "the link has the simulation key, which everybody knows");
   if (config.state_file.empty()) {
@@ -77,14 +77,17 @@ bus::radio::LinkConfig RadioApp::LoadLink() const {
   return link;
 }
 
-std::unique_ptr<ByteStream> RadioApp::OpenLine() const {
-  if (!IsNetPort(config_.port)) return context_.OpenSerial(config_.port, link_config_.baud);
+void RadioApp::OpenLine() {
+  if (!IsNetPort(config_.port)) {
+    port_ = context_.OpenSerial(config_.port, link_config_.baud);
+    return;
+  }
   NetAddress address = ParseNetAddress(config_.port);
   address.loopback_only = link_config_.simulation_key;
   if (address.datagrams != link_config_.datagrams)
     throw ConfigError(fmt::format("radio link: datagrams: expected {} with port {}, got {}",
                                   address.datagrams, config_.port, link_config_.datagrams));
-  return OpenNetPort(address);
+  net_ = OpenNetPort(address);
 }
 
 bus::radio::LinkKey RadioApp::LoadKey() const {
@@ -172,6 +175,7 @@ void RadioApp::ServeListeners(Time now) {
 }
 
 void RadioApp::ReadLine() {
+  if (net_) return ReadFrames();
   std::array<std::byte, 256> buffer;
   for (;;) {
     const std::size_t n = port_->Read(buffer);
@@ -182,11 +186,19 @@ void RadioApp::ReadLine() {
   }
 }
 
+void RadioApp::ReadFrames() {
+  for (const NetFrame& frame : net_->Read([this] { return context_.node().Now(); })) {
+    const auto received = link_->ReceiveFrame(frame.bytes, frame.first_byte, frame.arrived, frame.stranger);
+    if (received.proof != bus::radio::Proof::kNone) net_->Judge(frame, received.proof);
+    for (const bus::radio::Delivery& d : received.deliveries) Publish(d, frame.arrived);
+  }
+}
+
 void RadioApp::FeedLine(Time now) {
   const auto bytes = link_->Step(now);
   unwritten_.insert(unwritten_.end(), bytes.begin(), bytes.end());
   if (unwritten_.empty()) return;
-  const std::size_t n = port_->Write(unwritten_);
+  const std::size_t n = net_ ? net_->Write(unwritten_, now) : port_->Write(unwritten_);
   unwritten_.erase(unwritten_.begin(), unwritten_.begin() + static_cast<std::ptrdiff_t>(n));
   if (unwritten_.size() > kMostUnwritten) unwritten_.clear();
 }
@@ -202,6 +214,7 @@ void RadioApp::Publish(const bus::radio::Delivery& delivery, Time now) {
 }
 
 void RadioApp::Report(Time now) {
+  if (net_) reported_.turned_away = net_->turned_away();
   const link_status_t message =
       ToMessage(*link_, link_config_.BytesPerSecond(), undecodable_, now - last_report_, now, reported_);
   status_.Publish(message);

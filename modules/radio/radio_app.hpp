@@ -18,6 +18,7 @@
 #include "common/serial_port.hpp"
 #include "lcmtypes/channels.hpp"
 #include "radio/echo_filter.hpp"
+#include "radio/net_frame.hpp"
 #include "radio/pause_watch.hpp"
 #include "radio/radio_config.hpp"
 #include "radio/radio_messages.hpp"
@@ -52,12 +53,13 @@ class RadioApp {
     std::vector<std::byte> encoded;
   };
   bus::radio::LinkConfig LoadLink() const;
-  std::unique_ptr<ByteStream> OpenLine() const;
+  void OpenLine();
   void SubscribeAll();
   void StartLink(Time now);
   void LogRefusal(std::size_t channel, std::span<const std::byte> encoded, Time at);
   void ServeListeners(Time now);
   void ReadLine();
+  void ReadFrames();
   void FeedLine(Time now);
   void Publish(const bus::radio::Delivery& delivery, Time now);
   void Report(Time now);
@@ -72,7 +74,8 @@ class RadioApp {
   bus::radio::Direction outgoing_;
   bus::radio::MessageCodecs codecs_;
   bus::radio::LinkKey key_;
-  std::unique_ptr<ByteStream> port_;
+  std::unique_ptr<ByteStream> port_;  ///< of a serial line
+  std::unique_ptr<NetPort> net_;      ///< of a link over IP
   std::unique_ptr<bus::radio::StateStore> store_;
   std::unique_ptr<bus::radio::LinkEndpoint> link_;  ///< since the first tick, which brings the time
   EchoFilter echo_;

@@ -82,7 +82,8 @@ link_status_t ToMessage(const LinkEndpoint& link, double bytes_per_s, std::uint6
   message.rejected_malformed = Count(rejected(Reject::kMalformed) + rejected(Reject::kOversize));
   message.rejected_code = Count(rejected(Reject::kBadCode) + rejected(Reject::kNoEpoch));
   message.rejected_replayed = Count(rejected(Reject::kReplayed));
-  message.rejected_flood = Count(rejected(Reject::kFlood));
+  message.rejected_flood = Count(rejected(Reject::kFlood) + state.turned_away);
+  message.frames_rejected = Count(state.turned_away);
   for (const std::uint64_t n : counters.rejected)
     message.frames_rejected = Count(static_cast<std::uint64_t>(message.frames_rejected) + n);
   message.resent = Count(status.resent);

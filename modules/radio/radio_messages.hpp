@@ -13,6 +13,7 @@ namespace priamos::radio {
 struct ReportState {
   std::uint64_t bytes_sent = 0;      ///< count at the last report, for the utilisation
   std::uint64_t bytes_received = 0;  ///< count at the last report
+  std::uint64_t turned_away = 0;     ///< datagrams and connections that the port did not even read
   std::size_t first_channel = 0;     ///< where the next report begins if not all channels fit one
 };
 

@@ -6,29 +6,55 @@ namespace priamos::bus::radio {
 
 EpochAgreement::EpochAgreement(NonceSource nonces) : nonces_(std::move(nonces)), own_(nonces_()) {}
 
-EpochAgreement::Change EpochAgreement::OnHello(const Hello& hello) {
-  const bool known = agreed_ && peer_ == hello.nonce;
-  if (hello.echo != own_ && !hello.need) return {};  // an announcement
-  if (agreed_ && !known) {
-    // The other end has forgotten the epoch, or this is a replay: what was used must not be used again.
-    own_ = nonces_();
-    agreed_ = false;
-  } else if (hello.echo == own_ && !known) {
-    peer_ = hello.nonce;
-    agreed_ = true;
-    return {.agreed = Pair{own_, hello.nonce}, .reply = !hello.agreed};
+EpochAgreement::Change EpochAgreement::OnHello(const Hello& hello, bool same_table, bool heard) {
+  if (!used_ && hello.echo == own_) return Prove(hello, same_table);
+  const bool answers = hello.echo == own_ || (agreed_ && hello.echo == agreed_->own);
+  // An announcement; one of another table is answered, because only an exchange can prove it.
+  if (!answers && !hello.need && same_table) return {};
+  if (same_table && agreed_ && agreed_->peer == hello.nonce) {
+    const bool reply = hello.need || !hello.agreed;
+    if (reply) asking_.reset();
+    return {.known = true, .reply = reply};
   }
-  peer_ = hello.nonce;
-  return {.agreed = {}, .reply = !known || hello.need || !hello.agreed};
+  // The other end has forgotten the epoch, or this is a replay: what was used must not be used again.
+  if (heard && refuted_.Has(hello.nonce)) return {};
+  if (asking_ && !answered_.Has(*asking_) && answered_.Has(hello.nonce)) return {};
+  DrawIfUsed();
+  asking_ = hello.nonce;
+  return {.reply = true};
 }
 
-Hello EpochAgreement::Compose(bool need) const {
+EpochAgreement::Change EpochAgreement::Prove(const Hello& hello, bool same_table) {
+  used_ = true;
+  if (!same_table) {
+    DrawIfUsed();
+    asking_ = hello.nonce;
+    return {.fresh = true, .reply = true};
+  }
+  agreed_ = Pair{own_, hello.nonce};
+  asking_.reset();
+  return {.agreed = agreed_, .fresh = true, .reply = !hello.agreed};
+}
+
+void EpochAgreement::DrawIfUsed() {
+  if (used_) own_ = nonces_();
+  used_ = false;
+}
+
+void EpochAgreement::OnData() {
+  if (asking_ && answered_.Has(*asking_)) refuted_.Add(*asking_);
+  asking_.reset();
+}
+
+Hello EpochAgreement::Compose(bool need) {
+  const bool agreed = agreed_ && !asking_;
+  if (asking_) answered_.Add(*asking_);
   return {.table_hash = 0,
           .stream = 0,
-          .nonce = own_,
-          .echo = peer_.value_or(0),
+          .nonce = agreed ? agreed_->own : own_,
+          .echo = agreed ? agreed_->peer : asking_.value_or(0),
           .need = need,
-          .agreed = agreed_};
+          .agreed = agreed};
 }
 
 }  // namespace priamos::bus::radio

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -11,14 +14,27 @@ namespace priamos::bus::radio {
 /// Source of fresh random numbers: unpredictable on a robot, seeded in a simulation.
 using NonceSource = std::function<std::uint64_t()>;
 
+/// The last random numbers that something was noted of.
+class LastNonces {
+ public:
+  bool Has(std::uint64_t nonce) const { return std::find(all_.begin(), all_.end(), nonce) != all_.end(); }
+  void Add(std::uint64_t nonce) {
+    if (!Has(nonce)) all_[next_++ % all_.size()] = nonce;
+  }
+
+ private:
+  std::array<std::uint64_t, 32> all_{};
+  std::size_t next_ = 0;
+};
+
 /// Agreement on an epoch after an end has lost its state. Counters protect against old frames only while
 /// both ends remember them; an end that has forgotten asks for a new epoch, whose name is made of a fresh
 /// random number of each end. No frame of any earlier epoch passes in it, so neither end needs to remember
 /// anything. Three hello frames, about 0.12 s at 9600 baud; both ends that kept their state need none.
 ///
-/// Why an old hello does no harm: an end changes its epoch only for a hello that echoes its own random
-/// number, and a number that has made an epoch never makes another. A replayed hello therefore costs an
-/// answer (which the link limits in rate) and nothing else.
+/// Why an old hello does no harm: only a hello that echoes the random number drawn last here, before that
+/// number has proven another one, is fresh, and nothing but a fresh hello changes what is agreed. A replayed
+/// one therefore costs an answer (which the link limits in rate) and nothing else.
 class EpochAgreement {
  public:
   /// The random numbers that an epoch is made of, one drawn by each end.
@@ -28,21 +44,35 @@ class EpochAgreement {
   };
   /// What follows from a hello.
   struct Change {
-    std::optional<Pair> agreed;  ///< change to the epoch of this pair now
-    bool reply = false;          ///< send Compose() soon
+    std::optional<Pair> agreed{};  ///< change to the epoch of this pair now
+    bool fresh = false;            ///< it was made after the number that it echoes, and came the first time
+    bool known = false;            ///< it comes from the end that the epoch was agreed with
+    bool reply = false;            ///< send Compose() soon
   };
 
   explicit EpochAgreement(NonceSource nonces);
 
-  Change OnHello(const Hello& hello);
-  /// The next hello to send, table hash and stream left to the caller.
-  Hello Compose(bool need) const;
+  /// Takes a hello. `same_table`: its sender has the channel table of this end; else there is nothing to
+  /// agree on, and the exchange only proves that the hello is fresh. `heard`: the other end's data comes, so
+  /// that what asked before it is not the other end and gets no second answer.
+  Change OnHello(const Hello& hello, bool same_table = true, bool heard = false);
+  /// Notes a data frame in the epoch in use: who asked before it is not the other end.
+  void OnData();
+  /// The next hello to send, table hash and stream left to the caller. It answers whoever asks.
+  Hello Compose(bool need);
 
  private:
+  Change Prove(const Hello& hello, bool same_table);
+  void DrawIfUsed();
+
   NonceSource nonces_;
   std::uint64_t own_;
-  std::optional<std::uint64_t> peer_;
-  bool agreed_ = false;
+  bool used_ = false;                    ///< own_ has proven a hello: it proves no other
+  std::optional<Pair> agreed_;           ///< of the epoch in use, when it was agreed on in this life
+  std::optional<std::uint64_t> asking_;  ///< number of an end that asked since; not proven
+  /// Those answered last: a replay does not keep one from its answer that was never heard before.
+  LastNonces answered_;
+  LastNonces refuted_;  ///< those of them after which data of the epoch in use came
 };
 
 }  // namespace priamos::bus::radio

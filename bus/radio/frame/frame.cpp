@@ -186,21 +186,38 @@ Opened FrameOpener::Open(std::span<const std::byte> encoded, std::uint64_t newes
   return content->front() == kHelloTag ? OpenHello(*content) : OpenData(*content, newest_sent);
 }
 
-Opened FrameOpener::OpenData(std::span<const std::byte> content, std::uint64_t newest_sent) {
-  std::size_t body_at = 1;
-  std::optional<std::uint64_t> echo;
-  std::uint64_t counter = window_.Reconstruct(std::to_integer<std::uint8_t>(content[0]));
-  if (content[0] == kWholeCounterTag) {
-    body_at += kWholeCounterBytes;
-    if (content.size() < body_at + scope_.code_bytes) return Reject::kMalformed;
-    counter = GetLittleEndian(content.subspan(1, kWholeCounterBytes));
-  } else if (content[0] > kWholeCounterTag) {
-    return Reject::kMalformed;
-  } else if (scope_.echo_bytes > 0) {
-    body_at += scope_.echo_bytes;
-    if (content.size() < body_at + scope_.code_bytes) return Reject::kMalformed;
-    echo = CompleteEcho(content.subspan(1, scope_.echo_bytes), newest_sent);
+std::optional<FrameHead> FrameOpener::Look(std::span<const std::byte> encoded,
+                                           std::uint64_t newest_sent) const {
+  const auto content = CobsDecode(encoded);
+  if (!content || content->size() < 1 + scope_.code_bytes) return std::nullopt;
+  if (content->front() == kHelloTag) {
+    if (content->size() != 1 + kHelloBodyBytes + kHelloCodeBytes) return std::nullopt;
+    return FrameHead{.hello = true};
   }
+  const auto head = HeadOf(*content, newest_sent);
+  if (!head) return std::nullopt;
+  return FrameHead{.counter = head->counter, .echo = head->echo};
+}
+
+std::optional<FrameOpener::DataHead> FrameOpener::HeadOf(std::span<const std::byte> content,
+                                                         std::uint64_t newest_sent) const {
+  if (content[0] > kWholeCounterTag) return std::nullopt;
+  DataHead head{.body_at = 1,
+                .counter = window_.Reconstruct(std::to_integer<std::uint8_t>(content[0])),
+                .echo = std::nullopt};
+  const bool whole = content[0] == kWholeCounterTag;
+  head.body_at += whole ? kWholeCounterBytes : scope_.echo_bytes;
+  if (content.size() < head.body_at + scope_.code_bytes) return std::nullopt;
+  if (whole) head.counter = GetLittleEndian(content.subspan(1, kWholeCounterBytes));
+  if (!whole && scope_.echo_bytes > 0)
+    head.echo = CompleteEcho(content.subspan(1, scope_.echo_bytes), newest_sent);
+  return head;
+}
+
+Opened FrameOpener::OpenData(std::span<const std::byte> content, std::uint64_t newest_sent) {
+  const auto head = HeadOf(content, newest_sent);
+  if (!head) return Reject::kMalformed;
+  const auto& [body_at, counter, echo] = *head;
   if (epoch_ == 0) return Reject::kNoEpoch;
   const auto body = content.subspan(body_at, content.size() - body_at - scope_.code_bytes);
   std::vector<std::byte> code(scope_.code_bytes);

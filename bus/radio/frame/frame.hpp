@@ -144,6 +144,12 @@ struct DataFrame {
   /// Counter of the newest frame that its sender had accepted from here when it was made, if it says so.
   std::optional<std::uint64_t> echo{};
 };
+/// What a frame says of itself before its code is checked: nothing of it is proven.
+struct FrameHead {
+  bool hello = false;
+  std::uint64_t counter = 0;            ///< of a data frame, completed
+  std::optional<std::uint64_t> echo{};  ///< the same
+};
 /// What lay between two delimiters.
 using Opened = std::variant<DataFrame, Hello, Reject>;
 
@@ -161,12 +167,21 @@ class FrameOpener {
   /// newest counter that this end has sent in the epoch. An echo of one 256 (with 2 bytes: 65536) or more
   /// below it is a wrong code.
   Opened Open(std::span<const std::byte> encoded, std::uint64_t newest_sent = 0);
+  /// Head of the bytes between two delimiters, which costs no code; nullopt when they have not the form of a
+  /// frame.
+  std::optional<FrameHead> Look(std::span<const std::byte> encoded, std::uint64_t newest_sent = 0) const;
   /// Epoch of the frames that are accepted; 0: none.
   std::uint64_t epoch() const { return epoch_; }
   /// Highest counter accepted, or the floor.
   std::uint64_t highest() const { return window_.highest(); }
 
  private:
+  struct DataHead {
+    std::size_t body_at;
+    std::uint64_t counter;
+    std::optional<std::uint64_t> echo;
+  };
+  std::optional<DataHead> HeadOf(std::span<const std::byte> content, std::uint64_t newest_sent) const;
   Opened OpenData(std::span<const std::byte> content, std::uint64_t newest_sent);
   Opened OpenHello(std::span<const std::byte> content) const;
 

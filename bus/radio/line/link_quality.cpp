@@ -9,6 +9,11 @@ namespace {
 constexpr double kMemoryFrames = 32;
 constexpr std::uint64_t kMostMissed = 256;
 constexpr double kBurstOfTries = 256;  // a tty's buffer after a pause of this process
+/// Expected frames: bounds the processor time (1 us each) of a flood whose frames look right.
+constexpr double kExpectedPerSecond = 30'000;
+constexpr double kBurstOfExpected = 5'000;
+/// Those of strangers: few, for a true other end that has moved proves itself within a few frames.
+constexpr double kStrangersPerSecond = 50;
 constexpr double kAlarmLevel = 20;
 constexpr double kMaxLevel = 200;
 constexpr double kDecayPerSecond = 1;
@@ -28,16 +33,20 @@ double LossMeter::BitErrorRate() const {
 }
 
 ForgeryGuard::ForgeryGuard(double tries_per_s, Time start)
-    : tries_per_s_(tries_per_s), tries_(kBurstOfTries), tries_at_(start), level_at_(start) {}
+    : bounds_{{{kExpectedPerSecond, kBurstOfExpected, kBurstOfExpected, start},
+               {tries_per_s, kBurstOfTries, kBurstOfTries, start},
+               {kStrangersPerSecond, kStrangersPerSecond, kStrangersPerSecond, start}}},
+      level_at_(start) {}
 
-bool ForgeryGuard::MayTry(Time now) {
-  tries_ = std::min(kBurstOfTries, tries_ + Seconds(now - tries_at_) * tries_per_s_);
-  tries_at_ = now;
-  if (tries_ < 1) {
+bool ForgeryGuard::MayTry(Claim claim, Time now) {
+  Bound& bound = bounds_[static_cast<std::size_t>(claim)];
+  bound.left = std::min(bound.burst, bound.left + Seconds(now - bound.at) * bound.per_s);
+  bound.at = now;
+  if (bound.left < 1) {
     Raise(1, now);
     return false;
   }
-  tries_ -= 1;
+  bound.left -= 1;
   return true;
 }
 

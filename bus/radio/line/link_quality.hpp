@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,16 +21,25 @@ class LossMeter {
   double mean_bytes_ = 40;
 };
 
+/// What a frame looks like before its code is checked.
+enum class Claim : std::uint8_t {
+  kExpected,  ///< a hello, or what the other end can send next: counter and echo fit
+  kOther,     ///< the form of a frame, but not what is expected
+  kStranger   ///< from a place where the other end is not, while it is heard where it is
+};
+inline constexpr std::size_t kClaims = 3;
+
 /// Guard against forged frames: it bounds how many codes are checked per second, and detects frames that the
 /// other end cannot have sent. Noise damages frames of the other end, whose counters are missed later; more
-/// refused frames than that are forged.
+/// refused frames than that are forged. Each claim has a bound of its own, so that a flood of one does not
+/// use up the checks of the others.
 class ForgeryGuard {
  public:
   /// Guard with `tries_per_s`, the number of smallest frames that the line can carry [1/s].
   ForgeryGuard(double tries_per_s, Time start);
 
-  /// Whether this frame may be checked; false if there were too many.
-  bool MayTry(Time now);
+  /// Whether this frame may be checked; false if there were too many of its claim.
+  bool MayTry(Claim claim, Time now);
   void OnBadCode(Time now) { Raise(1, now); }
   void OnReplay(Time now) { Raise(kReplayWeight, now); }
   void OnMissed(std::uint64_t frames);
@@ -39,9 +49,11 @@ class ForgeryGuard {
   static constexpr double kReplayWeight = 25;
   void Raise(double weight, Time now);
 
-  double tries_per_s_;
-  double tries_;
-  Time tries_at_;
+  struct Bound {
+    double per_s, burst, left;
+    Time at;
+  };
+  std::array<Bound, kClaims> bounds_;  ///< by Claim
   double level_ = 0;
   Time level_at_;
 };

@@ -19,7 +19,7 @@ struct HalfDuplex {
 class TurnTaking {
  public:
   TurnTaking(HalfDuplex mode, bool onboard, Time now)
-      : mode_(mode), onboard_(onboard), mine_(onboard), began_(now), heard_(now) {}
+      : mode_(mode), onboard_(onboard), mine_(onboard), began_(now), heard_(now), proven_(now) {}
 
   bool enabled() const { return mode_.turn > Duration::zero(); }
   bool MayTalk(Time now) const { return !enabled() || (mine_ && now >= began_); }
@@ -40,14 +40,16 @@ class TurnTaking {
     missed_ = std::min(missed_ + 1, kMostMissed);
     Begin(now);
   }
-  void OnBytes(Time now) { heard_ = std::max(heard_, now); }
+  /// Bytes keep this end silent no longer than a turn can last: nobody knows yet whose they are.
+  void OnBytes(Time now) { heard_ = std::max(heard_, std::min(now, proven_ + mode_.turn)); }
+  void OnFrame(Time now) { proven_ = heard_ = std::max(heard_, now); }
   void OnOverReceived(Time now) {
     missed_ = 0;
     if (enabled()) Begin(now + mode_.turnaround);
   }
   void OnOverSent(Time frame_end) {
     mine_ = false;
-    heard_ = std::max(heard_, frame_end);
+    proven_ = heard_ = std::max(heard_, frame_end);
   }
 
  private:
@@ -64,6 +66,7 @@ class TurnTaking {
   bool mine_;
   Time began_;      ///< beginning of the own turn
   Time heard_;      ///< last sign that the other end has the turn
+  Time proven_;     ///< last one that cannot be anybody else's
   int missed_ = 0;  ///< turns taken since the last "over": the line may be slower than it seems
 };
 

@@ -111,9 +111,50 @@ TEST_F(FrameReceiverTest, EveryRefusalIsCountedByItsReason) {
   dut.SetEpoch(0, 0);
   Push(Sealed(3, "a"), kStart);
   EXPECT_EQ(rejected(Reject::kNoEpoch), 1U);
-  for (int i = 0; i < 300; ++i) Push(Sealed(4, "a"), kStart);
+  for (int i = 0; i < 300; ++i) Push(Sealed(200, "a"), kStart);
   EXPECT_GT(rejected(Reject::kFlood), 0U);
   EXPECT_TRUE(dut.alarm(kStart));
+}
+
+/// A frame with a wrong code, as it lies between two delimiters.
+std::vector<std::byte> Garbage(std::uint64_t counter) {
+  auto wire = Sealed(counter, "bundle", LinkKey{7});
+  wire.pop_back();
+  return wire;
+}
+
+TEST_F(FrameReceiverTest, AFloodOfUnexpectedCountersDoesNotUseUpTheChecksOfTheNextFrame) {
+  Push(Sealed(1000, "a"), kStart);
+  for (int i = 0; i < 10'000; ++i) dut.Take(Garbage(i % 2 == 0 ? 5 : 5000), kStart, kStart, 0, false);
+  EXPECT_GT(dut.counters().rejected[static_cast<std::size_t>(Reject::kFlood)], 9000U);
+  EXPECT_TRUE(std::holds_alternative<AcceptedFrame>(Push(Sealed(1001, "b"), kStart)));
+}
+
+TEST_F(FrameReceiverTest, AFloodThatLooksRightDoesNotEither) {
+  Time now = After(1);
+  Push(Sealed(1, "a"), now);
+  int accepted = 0;
+  for (std::uint64_t counter = 2; counter < 22; ++counter) {  // 20 frames and 10 000 forged ones in a second
+    for (int i = 0; i < 500; ++i) {
+      now += Duration(100);
+      dut.Take(Garbage(counter), now, now, 0, false);
+    }
+    const auto result = Push(Sealed(counter, "b"), now);
+    accepted += std::holds_alternative<AcceptedFrame>(result) ? 1 : 0;
+  }
+  EXPECT_EQ(accepted, 20);
+  EXPECT_TRUE(dut.alarm(now));
+}
+
+TEST_F(FrameReceiverTest, StrangersAreCheckedSeldomUntilTheOtherEndIsSilent) {
+  Push(Sealed(1, "a"), kStart);
+  for (int i = 0; i < 1000; ++i) dut.Take(Garbage(2), kStart, kStart, 0, true);
+  EXPECT_EQ(dut.counters().rejected[static_cast<std::size_t>(Reject::kBadCode)], 50U);
+  auto moved = Sealed(2, "b");
+  moved.pop_back();
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(dut.Take(moved, kStart, kStart, 0, true)));
+  for (int i = 0; i < 1000; ++i) dut.Take(Garbage(2), After(2), After(2), 0, true);
+  EXPECT_TRUE(std::holds_alternative<AcceptedFrame>(dut.Take(moved, After(2), After(2), 0, true)));
 }
 
 TEST_F(FrameReceiverTest, AHelloIsPassedOnAndProvesNoReception) {

@@ -19,12 +19,12 @@ Handshake Make(std::uint64_t first_nonce, bool floor_due = false) {
 TEST(Handshake, ThreeHellosMakeAnEpoch) {
   Handshake a = Make(100), b = Make(200);
   Hello hello = a.Take(1, Reception::kUnusable, kStart);
-  EXPECT_FALSE(b.OnHello(hello));
+  EXPECT_FALSE(b.OnHello(hello).fresh);
   ASSERT_TRUE(b.HelloDue(Reception::kHeard, kStart));
-  const auto agreed_a = a.OnHello(b.Take(2, Reception::kUnusable, kStart));
+  const auto agreed_a = a.OnHello(b.Take(2, Reception::kUnusable, kStart)).agreed;
   ASSERT_TRUE(agreed_a);
   ASSERT_TRUE(a.HelloDue(Reception::kHeard, kStart));
-  const auto agreed_b = b.OnHello(a.Take(1, Reception::kHeard, kStart));
+  const auto agreed_b = b.OnHello(a.Take(1, Reception::kHeard, kStart)).agreed;
   ASSERT_TRUE(agreed_b);
   EXPECT_EQ(agreed_a->own, agreed_b->peer);
   EXPECT_EQ(agreed_a->peer, agreed_b->own);
@@ -69,13 +69,33 @@ TEST(Handshake, ProvokedAnswersAreLimited) {
   EXPECT_GE(answers, 20);
 }
 
-TEST(Handshake, AnotherTableIsNotedAndNotAnswered) {
-  Handshake dut = Make(1);
-  EXPECT_FALSE(dut.OnHello({.table_hash = kTable + 1, .nonce = 5, .need = true}));
-  EXPECT_TRUE(dut.table_mismatch());
-  EXPECT_FALSE(dut.HelloDue(Reception::kHeard, kStart));
-  dut.OnData();
+TEST(Handshake, AnotherTableIsNotedWhenItsHelloIsFreshAndAnsweredUntilThen) {
+  Handshake dut = Make(100);
+  Hello other{.table_hash = kTable + 1, .nonce = 5, .need = true};
+  EXPECT_FALSE(dut.OnHello(other).fresh);
   EXPECT_FALSE(dut.table_mismatch());
+  ASSERT_TRUE(dut.HelloDue(Reception::kHeard, kStart));
+  other.echo = dut.Take(9, Reception::kHeard, kStart).nonce;
+  EXPECT_TRUE(dut.OnHello(other).fresh);
+  EXPECT_TRUE(dut.table_mismatch());
+  dut.OnData();
+  EXPECT_FALSE(dut.OnHello(other).fresh);  // what it echoes has proven it once
+  EXPECT_FALSE(dut.table_mismatch());
+}
+
+TEST(Handshake, AHelloOfAnAgreementThatIsDoneIsNotAnswered) {
+  Handshake a = Make(100), b = Make(200);
+  b.OnHello(a.Take(1, Reception::kUnusable, kStart));
+  const Hello old = b.Take(2, Reception::kUnusable, kStart);
+  ASSERT_TRUE(a.OnHello(old).agreed);
+  a.OnEpochChanged();
+  a.Take(1, Reception::kHeard, kStart);
+  EXPECT_FALSE(a.OnHello(old).fresh);
+  EXPECT_TRUE(a.HelloDue(Reception::kHeard, kStart));  // the answer may have been lost
+  a.Take(1, Reception::kHeard, kStart);
+  a.OnData();
+  EXPECT_FALSE(a.OnHello(old).fresh);
+  EXPECT_FALSE(a.HelloDue(Reception::kHeard, kStart));
 }
 
 TEST(Handshake, TheFloorIsDueUntilAFrameShowsThatItIsKnown) {

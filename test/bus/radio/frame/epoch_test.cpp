@@ -90,6 +90,38 @@ TEST_F(EpochTest, ANumberMakesOneEpoch) {
   EXPECT_NE(b.Compose(false).nonce, first);
 }
 
+TEST_F(EpochTest, AReplayedHelloDoesNotTakeTheAnswerOfANewEnd) {
+  const Hello old{.nonce = 7, .need = true};
+  ASSERT_TRUE(b.OnHello(old).reply);
+  EXPECT_EQ(b.Compose(false).echo, old.nonce);
+  const Hello ask = a.Compose(true);
+  b.OnHello(ask);
+  EXPECT_FALSE(b.OnHello(old).reply);
+  EXPECT_EQ(b.Compose(false).echo, ask.nonce);
+}
+
+TEST_F(EpochTest, WhoAskedBeforeDataCameGetsNoSecondAnswerWhileItComes) {
+  b.OnHello(a.Compose(true));
+  a.OnHello(b.Compose(false));
+  b.OnHello(a.Compose(false));
+  const Hello old{.nonce = 7, .need = true};
+  EXPECT_TRUE(b.OnHello(old, true, true).reply);
+  b.Compose(false);
+  b.OnData();
+  EXPECT_FALSE(b.OnHello(old, true, true).reply);
+  EXPECT_TRUE(b.OnHello(old, true, false).reply);  // in silence it may be true after all
+}
+
+TEST_F(EpochTest, AReplayLeavesWhatIsAgreed) {
+  b.OnHello(a.Compose(true));
+  a.OnHello(b.Compose(false));
+  b.OnHello(a.Compose(false));
+  const Hello before = b.Compose(false);
+  b.OnHello({.nonce = 7, .need = true});
+  b.OnData();
+  EXPECT_EQ(b.Compose(false), before);
+}
+
 TEST_F(EpochTest, AnAnnouncementIsNotAnswered) {
   EXPECT_FALSE(b.OnHello(a.Compose(false)).reply);
 }

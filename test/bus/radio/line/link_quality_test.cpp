@@ -42,7 +42,7 @@ TEST(ForgeryGuard, NoiseIsNoForgery) {
   Time now = kStart;
   for (int i = 0; i < 10000; ++i) {
     now += Duration(100'000);
-    EXPECT_TRUE(dut.MayTry(now));
+    EXPECT_TRUE(dut.MayTry(Claim::kOther, now));
     if (rng.Chance(0.5)) {
       dut.OnBadCode(now);
       dut.OnMissed(1);
@@ -71,7 +71,7 @@ TEST(ForgeryGuard, OneReplayIsEnough) {
 TEST(ForgeryGuard, TriesAreBounded) {
   ForgeryGuard dut(100, kStart);
   int tries = 0;
-  for (int i = 0; i < 100000; ++i) tries += dut.MayTry(kStart + Duration(i * 100)) ? 1 : 0;
+  for (int i = 0; i < 100000; ++i) tries += dut.MayTry(Claim::kOther, kStart + Duration(i * 100)) ? 1 : 0;
   EXPECT_NEAR(tries, 1000 + 256, 2);
   EXPECT_TRUE(dut.alarm(kStart + Duration(10'000'000)));
 }

@@ -52,6 +52,19 @@ TEST(TurnTaking, ALostOverIsMadeGoodOneAfterTheOther) {
   EXPECT_TRUE(onboard.MayTalk(now + Duration(200'000)));
 }
 
+TEST(TurnTaking, BytesOfSomebodyElseDelayTheTurnByOneTurnAtMost) {
+  TurnTaking dut(kMode, false, kStart);
+  dut.OnOverSent(kStart);
+  Time now = kStart;
+  while (!dut.MayTalk(now) && now < kStart + Duration(5'000'000)) {
+    now += Duration(1000);
+    dut.OnBytes(now);
+    dut.Step(now, Duration(0));
+  }
+  EXPECT_GT(now - kStart, kMode.turn);
+  EXPECT_LT(now - kStart, kMode.turn + Duration(100'000));
+}
+
 LinkPair HalfDuplexPair(LineConfig line = {}, std::uint64_t seed = 1) {
   line.half_duplex = true;
   return LinkPair(line, seed, LinkOptions{.half_duplex = kMode});

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <netdb.h>
+#include <unistd.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "radio/net_frame.hpp"
+
+namespace priamos::radio {
+
+/// A file descriptor that is closed when it is let go.
+class Fd {
+ public:
+  explicit Fd(int fd = -1) : fd_(fd) {}
+  Fd(Fd&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
+  Fd& operator=(Fd&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  ~Fd() {
+    if (fd_ >= 0) close(fd_);
+  }
+  int get() const { return fd_; }
+  bool open() const { return fd_ >= 0; }
+
+ private:
+  int fd_;
+};
+
+/// Frees what getaddrinfo() has found.
+struct AddressInfoCloser {
+  void operator()(addrinfo* info) const { freeaddrinfo(info); }
+};
+using AddressInfo = std::unique_ptr<addrinfo, AddressInfoCloser>;
+
+/// Address of a host; an empty `host` means any address of this machine.
+AddressInfo LookUp(const std::string& host, const std::string& port, int type);
+/// A socket that never blocks.
+Fd Socket(const addrinfo& info);
+void Bind(const Fd& fd, const addrinfo& info, const std::string& port);
+
+std::unique_ptr<NetPort> OpenUdpPort(const NetAddress& address);
+std::unique_ptr<NetPort> OpenTcpPort(const NetAddress& address);
+
+}  // namespace priamos::radio
