@@ -147,7 +147,7 @@ void LinkConfig::Describe(Archive& a) {
   a.Integer("code_bytes", code_bytes,
             {"byte", 0, 8,
              "4, 6 or 8: authentication code of a frame; 0: the shortest that keeps a line full of forgeries "
-             "out for 180 days"});
+             "out for 180 days, 8 for datagrams"});
   a.Flag("encrypted", encrypted, "hides what is sent; it is authenticated in any case");
   a.Text("key_file", key_file, "secret key of the link, made by `priamos link keygen`, mode 0600");
   a.Flag("simulation_key", simulation_key, "use a key that everybody knows: only for emulated lines");
@@ -166,7 +166,9 @@ double LinkConfig::BytesPerSecond() const {
 }
 
 std::size_t LinkConfig::CodeBytes() const {
-  return code_bytes > 0 ? static_cast<std::size_t>(code_bytes) : DefaultCodeBytes(BytesPerSecond());
+  if (code_bytes > 0) return static_cast<std::size_t>(code_bytes);
+  // Over IP a stranger's tries are not limited by the rate of the link.
+  return datagrams ? kLongCodeBytes : DefaultCodeBytes(BytesPerSecond());
 }
 
 LinkOptions LinkConfig::Options() const {

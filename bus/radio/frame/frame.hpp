@@ -55,6 +55,8 @@ class FrameKeys {
 
 /// Bytes of the shortest code of a data frame; forgery.hpp says which line needs a longer one.
 inline constexpr std::size_t kShortCodeBytes = 4;
+/// Bytes of the longest one.
+inline constexpr std::size_t kLongCodeBytes = 8;
 
 /// What both ends must have in common, besides the key, for a data frame to be accepted.
 struct FrameScope {
