@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bus/radio/channels/bundle.hpp"
-#include "bus/radio/repetition.hpp"
+#include "bus/radio/line/repetition.hpp"
 
 namespace priamos::bus::radio {
 namespace {

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "bus/radio/frame_receiver.hpp"
+#include "bus/radio/line/repetition.hpp"
 #include "bus/radio/line/turn_taking.hpp"
 #include "bus/radio/link_memory.hpp"
 #include "bus/radio/message_receiver.hpp"
 #include "bus/radio/message_sender.hpp"
 #include "bus/radio/peer.hpp"
-#include "bus/radio/repetition.hpp"
 #include "bus/radio/transmitter.hpp"
 
 namespace priamos::bus::radio {

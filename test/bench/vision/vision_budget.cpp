@@ -75,9 +75,9 @@ void AddEdgeNoise(const LandmarkLook& look, const std::array<head::EdgeImage, 2>
   for (const head::ObservedLine& line :
        head::ObservedLines(head::Observations(look.exact_model, found, views, truth, false))) {
     for (int end = 0; end < line.n; ++end) {
-      const auto sight =
-          head::See(look.exact[line.camera], truth, look.exact_model.edges[line.edge], line.at[end]);
-      if (sight) distances.push_back(std::abs(sight->distance_px));
+      const auto residual =
+          head::ResidualOf(look.exact[line.camera], truth, look.exact_model.edges[line.edge], line.at[end]);
+      if (residual) distances.push_back(std::abs(residual->distance_px));
     }
   }
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bus/radio/repetition.hpp"
+#include "bus/radio/line/repetition.hpp"
 #include "link_pair.hpp"
 
 // An emergency stop on a line that damages most frames, with as much else to send as the line carries.

@@ -1,4 +1,4 @@
-#include "bus/radio/repetition.hpp"
+#include "bus/radio/line/repetition.hpp"
 
 #include <gtest/gtest.h>
 
