@@ -32,11 +32,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto message = packer->Unpack(input.rest, kNow)) {
     Require(static_cast<bool>(Walk(*input.type, *message)));
     const auto again = packer->Pack(*message, kNow);
+    Require(again.has_value() && again->refused.empty());
     Require(std::equal(again->bytes.begin(), again->bytes.end(), input.rest.begin(), input.rest.end()));
   }
   if (const auto packed = packer->Pack(WithFingerprint(*input.type, input.rest), kNow)) {
     Require(packed->bytes.size() <= packer->MaxBytes());
-    Require(packer->Unpack(packed->bytes, kNow).has_value());
+    Require(packer->Unpack(packed->bytes, kNow).has_value() == packed->refused.empty());
   }
   return 0;
 }
