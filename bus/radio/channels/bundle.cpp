@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace priamos::bus::radio {
 namespace {
@@ -13,7 +14,8 @@ enum ControlKind : std::uint8_t {
   kFloor = 2,
   kListen = 3,
   kOver = 4,
-  kForget = 5
+  kForget = 5,
+  kNextKey = 6
 };
 constexpr int kControlKindBits = 3;
 constexpr int kLengthBits = 8;
@@ -21,6 +23,7 @@ constexpr int kSegmentLengthBits = 5;
 constexpr int kPrefixBits = 6;
 constexpr int kOffsetBits = 6;
 constexpr int kFloorBits = 40;
+constexpr int kKeyCheckBits = 32;
 constexpr int kLossSteps = 15;
 
 /// Quotient rounded down, also below zero.
@@ -38,10 +41,23 @@ Duration DecodeOffset(std::uint64_t code, Duration ttl) {
   return Duration(-FloorDivide((kOffsetSteps - static_cast<std::int64_t>(code)) * ttl.count(), kOffsetSteps));
 }
 
-/// Writes one kind of entry after its channel number.
+/// Whether all events of a channel have one segment, and one size.
+bool AlwaysOneSegment(const LinkChannel& c) {
+  return c.fixed_bits > 0 && c.fixed_bits <= 8 * kSegmentBytes;
+}
+
+/// The run that a segment begins or goes on; nullopt for an urgent one.
+std::optional<EventRun> RunAfter(const ChannelTable& table, const EventEntry& e) {
+  if (table.at(e.channel).urgent) return std::nullopt;
+  return EventRun{e.channel, static_cast<std::uint8_t>(e.segment.number + 1)};
+}
+
+/// Writes one kind of entry.
 class EntryWriter {
  public:
-  EntryWriter(const ChannelTable& table, BitWriter& out) : table_(table), out_(out) {}
+  /// Writer to `out`. `follows`: the entry is a segment that goes on a run.
+  EntryWriter(const ChannelTable& table, BitWriter& out, bool follows)
+      : table_(table), out_(out), follows_(follows) {}
 
   void operator()(const StateEntry& e) {
     Id(e.channel);
@@ -59,17 +75,20 @@ class EntryWriter {
     Body(e.channel, e.bits, e.packed);
   }
   void operator()(const EventEntry& e) {
-    Id(e.channel);
     const EventSegment& s = e.segment;
-    out_.Put(s.number, 8);
-    out_.Put(s.base ? 1 : 0, 1);
-    out_.Put(s.first ? 1 : 0, 1);
-    out_.Put(s.last ? 1 : 0, 1);
-    if (s.first) out_.Put(EncodeDuration12(s.age), 12);
-    if (s.first && s.last && table_.at(e.channel).fixed_bits > 0) {
+    if (!follows_) {
+      Id(e.channel);
+      out_.Put(s.number, 8);
+      out_.Put(s.base ? 1 : 0, 1);
+    }
+    if (AlwaysOneSegment(table_.at(e.channel))) {
+      out_.Put(EncodeDuration12(s.age), 12);
       out_.Append(s.bytes, s.bits);
       return;
     }
+    out_.Put(s.first ? 1 : 0, 1);
+    out_.Put(s.last ? 1 : 0, 1);
+    if (s.first) out_.Put(EncodeDuration12(s.age), 12);
     if (s.last) out_.Put(s.bytes.size(), kSegmentLengthBits);
     out_.Append(s.bytes, s.bytes.size() * 8);
   }
@@ -88,22 +107,21 @@ class EntryWriter {
     out_.Put(EncodeDuration12(e.hold), 12);
     out_.Put(static_cast<std::uint64_t>(std::lround(std::clamp(e.loss, 0.0, 1.0) * kLossSteps)), 4);
   }
-  void operator()(const FloorEntry& e) {
-    Control(kFloor);
-    out_.Put(e.counter, kFloorBits);
-  }
-  void operator()(const ListenEntry& e) {
-    Control(kListen);
-    out_.Put(e.channels, static_cast<int>(table_.size()));
-  }
+  void operator()(const FloorEntry& e) { Control(kFloor, e.counter, kFloorBits); }
+  void operator()(const ListenEntry& e) { Control(kListen, e.channels, static_cast<int>(table_.size())); }
   void operator()(const OverEntry&) { Control(kOver); }
   void operator()(const ForgetEntry&) { Control(kForget); }
+  void operator()(const NextKeyEntry& e) { Control(kNextKey, e.check, kKeyCheckBits); }
 
  private:
   void Id(std::size_t channel) { out_.Put(channel + 1, table_.id_bits()); }
   void Control(ControlKind kind) {
     out_.Put(table_.size() + 1, table_.id_bits());
     out_.Put(kind, kControlKindBits);
+  }
+  void Control(ControlKind kind, std::uint64_t value, int bits) {
+    Control(kind);
+    out_.Put(value, bits);
   }
   void Body(std::size_t channel, std::size_t bits, std::span<const std::byte> packed) {
     if (table_.at(channel).fixed_bits > 0) {
@@ -115,6 +133,7 @@ class EntryWriter {
   }
   const ChannelTable& table_;
   BitWriter& out_;
+  bool follows_;
 };
 
 class BundleReader {
@@ -124,12 +143,12 @@ class BundleReader {
 
   /// The next entry; nullopt at the end (ok() is true) or where reading cannot go on (false).
   std::optional<BundleEntry> Next() {
+    if (const auto run = std::exchange(run_, std::nullopt); run && in_.left() > 0 && in_.Get(1) != 0)
+      return Whole(Event(run->channel, run->number, false));
     if (in_.left() < static_cast<std::size_t>(table_.id_bits())) return std::nullopt;
     const std::uint64_t id = in_.Get(table_.id_bits());
     if (id == 0) return std::nullopt;
-    const std::optional<BundleEntry> entry = id == table_.size() + 1 ? Control() : Message(id - 1);
-    ok_ = ok_ && entry && in_.ok();
-    return ok_ ? entry : std::nullopt;
+    return Whole(id == table_.size() + 1 ? Control() : Message(id - 1));
   }
   bool ok() const { return ok_; }
 
@@ -138,6 +157,11 @@ class BundleReader {
     std::size_t bits = 0;
     std::vector<std::byte> bytes;
   };
+  /// The entry, unless it could not be read.
+  std::optional<BundleEntry> Whole(std::optional<BundleEntry> entry) {
+    ok_ = ok_ && entry && in_.ok();
+    return ok_ ? std::move(entry) : std::nullopt;
+  }
   std::optional<BundleEntry> Message(std::size_t channel) {
     if (channel >= table_.size() || table_.at(channel).direction != incoming_) return std::nullopt;
     const LinkChannel& c = table_.at(channel);
@@ -150,7 +174,7 @@ class BundleReader {
         return CommandEntry{channel, offset, body.bits, std::move(body.bytes)};
       }
       case ChannelClass::kEvent:
-        return EventEntry{channel, Segment(c)};
+        return FirstEvent(channel);
     }
     return std::nullopt;
   }
@@ -168,20 +192,26 @@ class BundleReader {
     const std::size_t bits = c.fixed_bits > 0 ? c.fixed_bits : in_.Get(kLengthBits) * 8;
     return {bits, in_.Take(bits)};
   }
-  EventSegment Segment(const LinkChannel& c) {
-    EventSegment s;
-    s.number = static_cast<std::uint8_t>(in_.Get(8));
-    s.base = in_.Get(1) != 0;
-    s.first = in_.Get(1) != 0;
-    s.last = in_.Get(1) != 0;
+  EventEntry FirstEvent(std::size_t channel) {
+    const auto number = static_cast<std::uint8_t>(in_.Get(8));
+    const bool base = in_.Get(1) != 0;
+    return Event(channel, number, base);
+  }
+  /// The rest of a segment.
+  EventEntry Event(std::size_t channel, std::uint8_t number, bool base) {
+    const LinkChannel& c = table_.at(channel);
+    EventEntry entry{channel, {}};
+    EventSegment& s = entry.segment;
+    s.number = number;
+    s.base = base;
+    const bool one = AlwaysOneSegment(c);
+    s.first = one || in_.Get(1) != 0;
+    s.last = one || in_.Get(1) != 0;
     if (s.first) s.age = DecodeDuration12(static_cast<std::uint16_t>(in_.Get(12)));
-    if (s.first && s.last && c.fixed_bits > 0) {
-      s.bits = c.fixed_bits;
-    } else {
-      s.bits = 8 * (s.last ? in_.Get(kSegmentLengthBits) : kSegmentBytes);
-    }
+    s.bits = one ? c.fixed_bits : 8 * (s.last ? in_.Get(kSegmentLengthBits) : kSegmentBytes);
     s.bytes = in_.Take(s.bits);
-    return s;
+    run_ = RunAfter(table_, entry);
+    return entry;
   }
   std::optional<BundleEntry> Control() {
     switch (in_.Get(kControlKindBits)) {
@@ -203,6 +233,8 @@ class BundleReader {
         return OverEntry{};
       case kForget:
         return ForgetEntry{};
+      case kNextKey:
+        return NextKeyEntry{static_cast<std::uint32_t>(in_.Get(kKeyCheckBits))};
       default:
         return std::nullopt;
     }
@@ -222,6 +254,7 @@ class BundleReader {
   const ChannelTable& table_;
   Direction incoming_;
   BitReader in_;
+  std::optional<EventRun> run_;
   bool ok_ = true;
 };
 
@@ -241,14 +274,20 @@ Duration DecodeDuration12(std::uint16_t code) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(code & 0x1FF) << (2 * (code >> 9 & 7)));
 }
 
-std::size_t EntryBits(const ChannelTable& table, const BundleEntry& entry) {
-  BitWriter out;
-  WriteEntry(table, entry, out);
-  return out.bits();
+void BundleWriter::Write(const BundleEntry& entry) {
+  const auto* event = std::get_if<EventEntry>(&entry);
+  const bool follows = run_ && event != nullptr && event->channel == run_->channel &&
+                       event->segment.number == run_->number && !event->segment.base;
+  if (run_) out_.Put(follows ? 1 : 0, 1);
+  std::visit(EntryWriter(*table_, out_, follows), entry);
+  run_ = event != nullptr ? RunAfter(*table_, *event) : std::nullopt;
 }
 
-void WriteEntry(const ChannelTable& table, const BundleEntry& entry, BitWriter& out) {
-  std::visit(EntryWriter(table, out), entry);
+std::size_t BundleWriter::BitsWith(const BundleEntry& entry) const {
+  BundleWriter added(*table_);
+  added.run_ = run_;
+  added.Write(entry);
+  return bits() + added.bits();
 }
 
 ParsedBundle ParseBundle(const ChannelTable& table, Direction incoming, std::span<const std::byte> bundle) {

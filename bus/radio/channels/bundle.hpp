@@ -42,6 +42,12 @@ struct EventEntry {
   EventSegment segment;
 };
 
+/// The segment that a run of segments can go on with.
+struct EventRun {
+  std::size_t channel = 0;
+  std::uint8_t number = 0;
+};
+
 /// Acknowledgement of the events of one channel.
 struct EventAckEntry {
   std::size_t channel = 0;
@@ -72,22 +78,43 @@ struct ListenEntry {
 /// Request to forget baselines: the sender does not have a message that a difference referred to.
 struct ForgetEntry {};
 
+/// Announcement of the key that the sender is ready to change to, see NextKey.
+struct NextKeyEntry {
+  std::uint32_t check = 0;  ///< see KeyCheck
+};
+
 /// End of a turn of a half-duplex radio: the sender falls silent after this frame and listens.
 struct OverEntry {};
 
 using BundleEntry = std::variant<StateEntry, CommandEntry, EventEntry, EventAckEntry, FrameAckEntry,
-                                 FloorEntry, ListenEntry, OverEntry, ForgetEntry>;
+                                 FloorEntry, ListenEntry, OverEntry, ForgetEntry, NextKeyEntry>;
 
 /// Code of a duration, 3 bits exponent and 9 bits mantissa. Resolution: 1 ms up to 0.5 s, then 4, 16, 64 ms
 /// ...; range: 2.3 hours.
 std::uint16_t EncodeDuration12(Duration d);
 Duration DecodeDuration12(std::uint16_t code);
 
-/// Number of bits that an entry takes in a bundle.
-std::size_t EntryBits(const ChannelTable& table, const BundleEntry& entry);
+/// A bundle in the making. Segments of one channel that follow each other, as those of many events do, are
+/// written as a run: without their channel and number. Urgent ones travel alone, and are spared the bit that
+/// says whether a run goes on.
+class BundleWriter {
+ public:
+  /// Empty bundle; `table` must outlive the writer.
+  explicit BundleWriter(const ChannelTable& table) : table_(&table) {}
 
-/// Appends one entry.
-void WriteEntry(const ChannelTable& table, const BundleEntry& entry, BitWriter& out);
+  void Write(const BundleEntry& entry);
+  std::size_t bits() const { return out_.bits(); }
+  /// Number of bits that the bundle would have with this entry.
+  std::size_t BitsWith(const BundleEntry& entry) const;
+  std::vector<std::byte> bytes() const { return out_.bytes(); }
+  /// The bundle; the writer is used up.
+  std::vector<std::byte> Finish() { return out_.Finish(); }
+
+ private:
+  const ChannelTable* table_;
+  BitWriter out_;
+  std::optional<EventRun> run_;  ///< ended by the next entry, or by the end of the bundle
+};
 
 /// Entries of a received bundle, in their order.
 struct ParsedBundle {

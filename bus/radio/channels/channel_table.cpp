@@ -17,7 +17,7 @@ constexpr int kStateWithDeltas = 3;
 
 /// A text that determines the meaning of every frame; both ends compare its hash.
 std::string Meaning(const std::vector<LinkChannel>& channels, bool encrypted, std::size_t code_bytes) {
-  std::string text = fmt::format("priamos radio 1 table {}", encrypted ? "encrypted" : "clear");
+  std::string text = fmt::format("priamos radio 1 table {}", encrypted ? "sealed" : "clear");
   if (code_bytes != kShortCodeBytes) text += fmt::format(" code {}", code_bytes);
   text += "\n";
   for (const LinkChannel& c : channels) {

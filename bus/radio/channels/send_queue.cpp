@@ -144,6 +144,12 @@ bool SendQueue::RepetitionReady(Time now) const {
   return false;
 }
 
+bool SendQueue::UrgentUnanswered() const {
+  return std::any_of(lanes_.begin(), lanes_.end(), [](const Lane& lane) {
+    return lane.channel->urgent && !lane.events.events().empty() && lane.events.events().front().released;
+  });
+}
+
 bool SendQueue::IsRepetition(std::size_t channel, Time now) const {
   const Lane& lane = lanes_[channel];
   return lane.channel->urgent && lane.channel->channel_class == ChannelClass::kEvent &&

@@ -93,7 +93,9 @@ class SendQueue {
   std::vector<Candidate> Ready(Time now) const;
   /// Whether an urgent channel has something that was never sent.
   bool UrgentReady(Time now) const;
-  /// Whether an urgent event was sent and is not acknowledged.
+  /// Whether some of an urgent event was sent, and it is not acknowledged.
+  bool UrgentUnanswered() const;
+  /// Whether a repetition of an urgent event can be sent.
   bool RepetitionReady(Time now) const;
   /// Whether a channel has only urgent events that were sent and are not acknowledged.
   bool IsRepetition(std::size_t channel, Time now) const;

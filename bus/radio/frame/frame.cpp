@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "bus/radio/frame/cobs.hpp"
+#include "bus/radio/frame/coded_block.hpp"
 
 namespace priamos::bus::radio {
 namespace {
@@ -91,13 +92,18 @@ Hello DecodeHello(std::span<const std::byte> body) {
           .code_bytes = kShortCodeBytes + 2 * (std::to_integer<std::size_t>(body[24]) >> 3 & 3)};
 }
 
-std::vector<std::byte> Delimited(std::span<const std::byte> content) {
-  std::vector<std::byte> wire = CobsEncode(content);
+std::vector<std::byte> Delimited(std::vector<std::byte> wire) {
   wire.push_back(kDelimiter);
   return wire;
 }
 
 }  // namespace
+
+std::uint32_t KeyCheck(const LinkKey& link_key) {
+  const LinkKey derived = Derive(link_key, "priamos radio 1 key check");
+  const auto check = GetLittleEndian(std::as_bytes(std::span(derived).first(4)));
+  return check != 0 ? static_cast<std::uint32_t>(check) : 1;
+}
 
 FrameKeys::FrameKeys(const LinkKey& link_key)
     : authentication_key_(Derive(link_key, "priamos radio 1 authentication")),
@@ -118,13 +124,15 @@ void FrameKeys::Authenticate(std::span<const std::uint8_t> header, std::span<con
 }
 
 void FrameKeys::Crypt(Direction direction, std::uint64_t epoch, std::uint64_t counter,
-                      std::span<std::byte> body) const {
-  std::array<std::uint8_t, 9> scope{};
+                      std::span<const std::byte> code, std::span<std::byte> body) const {
+  std::vector<std::uint8_t> scope(17);
   scope[0] = static_cast<std::uint8_t>(direction);
   PutLittleEndian(epoch, std::span(scope).subspan(1, 8));
+  PutLittleEndian(counter, std::span(scope).subspan(9, 8));
+  for (const std::byte b : code) scope.push_back(std::to_integer<std::uint8_t>(b));
+  // A key of its own for each frame: its nonce is always the same.
   const LinkKey key = Derive(encryption_key_, "", scope);
-  std::array<std::uint8_t, crypto_stream_chacha20_ietf_NONCEBYTES> nonce{};
-  PutLittleEndian(counter, std::span(nonce).subspan(0, 8));
+  const std::array<std::uint8_t, crypto_stream_chacha20_ietf_NONCEBYTES> nonce{};
   auto* data = reinterpret_cast<unsigned char*>(body.data());
   crypto_stream_chacha20_ietf_xor(data, data, body.size(), nonce.data(), key.data());
 }
@@ -138,41 +146,63 @@ std::uint64_t FrameKeys::EpochOf(std::uint64_t onboard_nonce, std::uint64_t offb
   return epoch == 0 ? 1 : epoch;
 }
 
-std::vector<std::byte> FrameSealer::Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
-                                         std::span<const std::byte> bundle, std::uint64_t echo) const {
-  if (bundle.size() > kMaxBundleBytes || counter > kMaxCounter || epoch == 0)
-    throw std::invalid_argument("radio frame: bundle too long, counter used up or no epoch");
-  std::vector<std::byte> content;
-  content.reserve(bundle.size() + 1 + kWholeCounterBytes + scope_.code_bytes);
-  const bool echoes = form == CounterForm::kLowBits && scope_.echo_bytes > 0;
-  if (form == CounterForm::kLowBits) {
-    content.resize(1 + scope_.echo_bytes);
-    content[0] = static_cast<std::byte>(counter & 0x7F);
-    PutLittleEndian(echo, std::span(content).subspan(1));
-  } else {
-    content.resize(1 + kWholeCounterBytes);
-    content[0] = kWholeCounterTag;
-    PutLittleEndian(counter, std::span(content).subspan(1));
-  }
-  const std::size_t body_at = content.size();
-  content.insert(content.end(), bundle.begin(), bundle.end());
-  if (scope_.encrypted) keys_.Crypt(direction_, epoch, counter, std::span(content).subspan(body_at));
-  std::vector<std::byte> code(scope_.code_bytes);
-  keys_.Authenticate(
-      DataHeader(direction_, scope_, epoch, counter, echoes ? std::optional(echo) : std::nullopt),
-      std::span(content).subspan(body_at), code);
-  content.insert(content.end(), code.begin(), code.end());
-  return Delimited(content);
+std::size_t FrameSealer::HeadBytes(CounterForm form) const {
+  return 1 + (form == CounterForm::kWhole ? kWholeCounterBytes : scope_.echo_bytes);
 }
 
-std::vector<std::byte> FrameSealer::Seal(const Hello& hello) const {
+std::vector<std::byte> FrameSealer::HeadOf(CounterForm form, std::uint64_t counter,
+                                           std::uint64_t echo) const {
+  std::vector<std::byte> head(HeadBytes(form));
+  if (form == CounterForm::kLowBits) {
+    head[0] = static_cast<std::byte>(counter & 0x7F);
+    PutLittleEndian(echo, std::span(head).subspan(1));
+  } else {
+    head[0] = kWholeCounterTag;
+    PutLittleEndian(counter, std::span(head).subspan(1));
+  }
+  return head;
+}
+
+std::size_t FrameSealer::MaxBlockBundle(CounterForm form) const {
+  return kMaxBlockBytes - HeadBytes(form) - scope_.code_bytes;
+}
+
+std::size_t FrameSealer::WireBytes(CounterForm form, std::size_t bundle_bytes, LineCode line_code) const {
+  const std::size_t content = HeadBytes(form) + bundle_bytes + scope_.code_bytes;
+  const std::size_t block = line_code == LineCode::kBlock ? BlockBytes(content) : 0;
+  return block > 0 ? EncodedBlockBytes(block) + 1 : content + 2;
+}
+
+std::vector<std::byte> FrameSealer::Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
+                                         std::span<const std::byte> bundle, std::uint64_t echo,
+                                         LineCode line_code) const {
+  if (bundle.size() > kMaxBundleBytes || counter > kMaxCounter || epoch == 0)
+    throw std::invalid_argument("radio frame: bundle too long, counter used up or no epoch");
+  const bool echoes = form == CounterForm::kLowBits && scope_.echo_bytes > 0;
+  std::vector<std::byte> content = HeadOf(form, counter, echo);
+  const std::size_t body_at = content.size();
+  content.insert(content.end(), bundle.begin(), bundle.end());
+  const std::size_t block_bytes =
+      line_code == LineCode::kBlock ? BlockBytes(content.size() + scope_.code_bytes) : 0;
+  if (block_bytes > 0) content.resize(block_bytes - scope_.code_bytes);
+  const auto body = std::span(content).subspan(body_at);
+  std::vector<std::byte> code(scope_.code_bytes);
+  keys_.Authenticate(
+      DataHeader(direction_, scope_, epoch, counter, echoes ? std::optional(echo) : std::nullopt), body,
+      code);
+  if (scope_.encrypted) keys_.Crypt(direction_, epoch, counter, code, body);
+  content.insert(content.end(), code.begin(), code.end());
+  return Delimited(block_bytes > 0 ? EncodeBlock(content) : CobsEncode(content));
+}
+
+std::vector<std::byte> FrameSealer::Seal(const Hello& hello, LineCode line_code) const {
   const auto body = EncodeHello(hello);
   std::array<std::byte, kHelloCodeBytes> code{};
   keys_.Authenticate(HelloHeader(direction_), body, code);
   std::vector<std::byte> content{kHelloTag};
   content.insert(content.end(), body.begin(), body.end());
   content.insert(content.end(), code.begin(), code.end());
-  return Delimited(content);
+  return Delimited(line_code == LineCode::kBlock ? EncodeBlock(content) : CobsEncode(content));
 }
 
 void FrameOpener::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
@@ -180,21 +210,19 @@ void FrameOpener::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
   window_ = ReplayWindow(floor);
 }
 
-Opened FrameOpener::Open(std::span<const std::byte> encoded, std::uint64_t newest_sent) {
-  const auto content = CobsDecode(encoded);
-  if (!content || content->size() < 1 + scope_.code_bytes) return Reject::kMalformed;
-  return content->front() == kHelloTag ? OpenHello(*content) : OpenData(*content, newest_sent);
+Opened FrameOpener::Open(std::span<const std::byte> content, std::uint64_t newest_sent) {
+  if (content.size() < 1 + scope_.code_bytes) return Reject::kMalformed;
+  return content.front() == kHelloTag ? OpenHello(content) : OpenData(content, newest_sent);
 }
 
-std::optional<FrameHead> FrameOpener::Look(std::span<const std::byte> encoded,
+std::optional<FrameHead> FrameOpener::Look(std::span<const std::byte> content,
                                            std::uint64_t newest_sent) const {
-  const auto content = CobsDecode(encoded);
-  if (!content || content->size() < 1 + scope_.code_bytes) return std::nullopt;
-  if (content->front() == kHelloTag) {
-    if (content->size() != 1 + kHelloBodyBytes + kHelloCodeBytes) return std::nullopt;
+  if (content.size() < 1 + scope_.code_bytes) return std::nullopt;
+  if (content.front() == kHelloTag) {
+    if (content.size() != 1 + kHelloBodyBytes + kHelloCodeBytes) return std::nullopt;
     return FrameHead{.hello = true};
   }
-  const auto head = HeadOf(*content, newest_sent);
+  const auto head = HeadOf(content, newest_sent);
   if (!head) return std::nullopt;
   return FrameHead{.counter = head->counter, .echo = head->echo};
 }
@@ -217,18 +245,22 @@ std::optional<FrameOpener::DataHead> FrameOpener::HeadOf(std::span<const std::by
 Opened FrameOpener::OpenData(std::span<const std::byte> content, std::uint64_t newest_sent) {
   const auto head = HeadOf(content, newest_sent);
   if (!head) return Reject::kMalformed;
-  const auto& [body_at, counter, echo] = *head;
   if (epoch_ == 0) return Reject::kNoEpoch;
-  const auto body = content.subspan(body_at, content.size() - body_at - scope_.code_bytes);
-  std::vector<std::byte> code(scope_.code_bytes);
-  keys_.Authenticate(DataHeader(direction_, scope_, epoch_, counter, echo), body, code);
-  if (sodium_memcmp(code.data(), content.last(scope_.code_bytes).data(), code.size()) != 0)
-    return Reject::kBadCode;
-  if (!window_.Fresh(counter)) return Reject::kReplayed;
-  window_.Use(counter);
-  DataFrame frame{counter, {body.begin(), body.end()}, echo};
-  if (scope_.encrypted) keys_.Crypt(direction_, epoch_, counter, frame.bundle);
+  const auto body = content.subspan(head->body_at, content.size() - head->body_at - scope_.code_bytes);
+  const auto code = content.last(scope_.code_bytes);
+  DataFrame frame{head->counter, {body.begin(), body.end()}, head->echo};
+  if (scope_.encrypted) keys_.Crypt(direction_, epoch_, head->counter, code, frame.bundle);
+  if (!Proves(code, *head, frame.bundle)) return Reject::kBadCode;
+  if (!window_.Fresh(head->counter)) return Reject::kReplayed;
+  window_.Use(head->counter);
   return frame;
+}
+
+bool FrameOpener::Proves(std::span<const std::byte> code, const DataHead& head,
+                         std::span<const std::byte> bundle) const {
+  std::vector<std::byte> right(code.size());
+  keys_.Authenticate(DataHeader(direction_, scope_, epoch_, head.counter, head.echo), bundle, right);
+  return sodium_memcmp(right.data(), code.data(), code.size()) == 0;
 }
 
 Opened FrameOpener::OpenHello(std::span<const std::byte> content) const {

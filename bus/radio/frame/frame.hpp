@@ -16,10 +16,14 @@
 ///     data   COBS( 0x80 | counter:5 | bundle | code:4, 6 or 8 ) 0x00      the same with the whole counter
 ///     hello  COBS( 0x81 | body:25 | code:8 ) 0x00                 agreement on an epoch, see epoch.hpp
 ///
-/// The code is a keyed BLAKE2b hash over direction, epoch, whole counter, channel table and bundle, so that a
-/// frame of another direction, epoch, counter or table never passes, although none of them is sent. The echo
-/// is the counter of the newest frame that the sender has accepted, of which the whole is in the code and the
-/// lowest bytes are sent: the receiver learns how old the frame can be at most, by its own clock.
+/// On a line that damages frames, what is urgent travels in blocks that correct errors instead of COBS, see
+/// coded_block.hpp.
+///
+/// The code is a keyed BLAKE2b hash over direction, epoch, whole counter, channel table and clear bundle, so
+/// that a frame of another direction, epoch, counter or table never passes, although none of them is sent.
+/// The echo is the counter of the newest frame that the sender has accepted, of which the whole is in the
+/// code and the lowest bytes are sent: the receiver learns how old the frame can be at most, by its own
+/// clock.
 namespace priamos::bus::radio {
 
 /// Which end sends.
@@ -34,6 +38,9 @@ constexpr Direction Opposite(Direction d) {
 /// Secret key that both ends have.
 using LinkKey = std::array<std::uint8_t, 32>;
 
+/// Number that names a link key and says nothing else of it; never 0.
+std::uint32_t KeyCheck(const LinkKey& link_key);
+
 /// Keys for one purpose each, derived from the key in the file.
 class FrameKeys {
  public:
@@ -42,8 +49,10 @@ class FrameKeys {
   /// Authentication code of a frame: the first `out.size()` bytes, at most 16.
   void Authenticate(std::span<const std::uint8_t> header, std::span<const std::byte> body,
                     std::span<std::byte> out) const;
-  /// Adds or removes the key stream of one frame (ChaCha20, RFC 8439).
-  void Crypt(Direction direction, std::uint64_t epoch, std::uint64_t counter,
+  /// Adds or removes the key stream of one frame (ChaCha20, RFC 8439). It depends on the code, which depends
+  /// on the text: two texts have two key streams even when a counter is used twice, because somebody set an
+  /// end's memory back (a synthetic initial vector: Rogaway, Shrimpton: Eurocrypt 2006).
+  void Crypt(Direction direction, std::uint64_t epoch, std::uint64_t counter, std::span<const std::byte> code,
              std::span<std::byte> body) const;
   /// Name of the epoch that two fresh random numbers make; never 0.
   std::uint64_t EpochOf(std::uint64_t onboard_nonce, std::uint64_t offboard_nonce) const;
@@ -103,6 +112,8 @@ inline constexpr std::size_t kDatagramHead = 28;
 
 /// How a counter is written in a frame: its lowest bits, or all of it.
 enum class CounterForm { kLowBits, kWhole };
+/// What a content is written as: COBS, or where it fits one a block that corrects errors.
+enum class LineCode { kCobs, kBlock };
 
 /// Makes the frames of one direction, delimiter included.
 class FrameSealer {
@@ -113,16 +124,24 @@ class FrameSealer {
   /// Makes a data frame. `counter` is below 2^40 and used once per epoch; `bundle` at most kMaxBundleBytes.
   /// The lowest bits are enough if the receiver has accepted a counter at most 64 below this one. `echo`:
   /// counter of the newest frame accepted from the receiver; the short frames of a direction with commands
-  /// carry it.
+  /// carry it. For a block the bundle is filled up with zeros.
   std::vector<std::byte> Seal(std::uint64_t epoch, std::uint64_t counter, CounterForm form,
-                              std::span<const std::byte> bundle, std::uint64_t echo = 0) const;
-  std::vector<std::byte> Seal(const Hello& hello) const;
+                              std::span<const std::byte> bundle, std::uint64_t echo = 0,
+                              LineCode line_code = LineCode::kCobs) const;
+  std::vector<std::byte> Seal(const Hello& hello, LineCode line_code = LineCode::kCobs) const;
   std::size_t echo_bytes() const { return scope_.echo_bytes; }
   /// Bytes of a short frame beside its bundle, delimiter included.
   std::size_t overhead() const { return FrameOverhead(scope_.code_bytes) + scope_.echo_bytes; }
   std::size_t code_bytes() const { return scope_.code_bytes; }
+  /// Bytes of the longest bundle of a frame that can be a block.
+  std::size_t MaxBlockBundle(CounterForm form) const;
+  /// Bytes on the line of a frame with such a bundle, delimiter included.
+  std::size_t WireBytes(CounterForm form, std::size_t bundle_bytes, LineCode line_code) const;
 
  private:
+  std::size_t HeadBytes(CounterForm form) const;
+  std::vector<std::byte> HeadOf(CounterForm form, std::uint64_t counter, std::uint64_t echo) const;
+
   FrameKeys keys_;
   Direction direction_;
   FrameScope scope_;
@@ -164,14 +183,13 @@ class FrameOpener {
 
   /// Accepts from now on data frames of `epoch` with counters above `floor`. Epoch 0: no data frames.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
-  /// Checks and decodes the bytes between two delimiters. Exactly one code is computed per frame, so that the
-  /// chance of a forged data frame is 2^-32 with the shortest code, of a hello 2^-64. `newest_sent`: the
-  /// newest counter that this end has sent in the epoch. An echo of one 256 (with 2 bytes: 65536) or more
-  /// below it is a wrong code.
-  Opened Open(std::span<const std::byte> encoded, std::uint64_t newest_sent = 0);
-  /// Head of the bytes between two delimiters, which costs no code; nullopt when they have not the form of a
-  /// frame.
-  std::optional<FrameHead> Look(std::span<const std::byte> encoded, std::uint64_t newest_sent = 0) const;
+  /// Checks and decodes the content of a frame. Exactly one code is computed per frame, so that the chance of
+  /// a forged data frame is 2^-32 with the shortest code, of a hello 2^-64. `newest_sent`: the newest counter
+  /// that this end has sent in the epoch. An echo of one 256 (with 2 bytes: 65536) or more below it is a
+  /// wrong code.
+  Opened Open(std::span<const std::byte> content, std::uint64_t newest_sent = 0);
+  /// Head of a content, which costs no code; nullopt when it has not the form of a frame.
+  std::optional<FrameHead> Look(std::span<const std::byte> content, std::uint64_t newest_sent = 0) const;
   /// Epoch of the frames that are accepted; 0: none.
   std::uint64_t epoch() const { return epoch_; }
   /// Highest counter accepted, or the floor.
@@ -183,6 +201,7 @@ class FrameOpener {
     std::uint64_t counter;
     std::optional<std::uint64_t> echo;
   };
+  bool Proves(std::span<const std::byte> code, const DataHead& head, std::span<const std::byte> bundle) const;
   std::optional<DataHead> HeadOf(std::span<const std::byte> content, std::uint64_t newest_sent) const;
   Opened OpenData(std::span<const std::byte> content, std::uint64_t newest_sent);
   Opened OpenHello(std::span<const std::byte> content) const;

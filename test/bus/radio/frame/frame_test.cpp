@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bus/radio/frame/cobs.hpp"
+#include "bus/radio/frame/coded_block.hpp"
 #include "common/random.hpp"
 #include "test/bus/radio/link_pair.hpp"
 
@@ -22,8 +23,13 @@ LinkKey Key(std::uint8_t first = 1) {
 }
 
 /// What lies between the delimiters.
-std::span<const std::byte> Content(const std::vector<std::byte>& wire) {
+std::span<const std::byte> Encoded(const std::vector<std::byte>& wire) {
   return std::span(wire).first(wire.size() - 1);
+}
+
+Opened OpenEncoded(FrameOpener& dut, std::span<const std::byte> encoded, std::uint64_t newest_sent = 0) {
+  const auto content = CobsDecode(encoded);
+  return content ? dut.Open(*content, newest_sent) : Opened(Reject::kMalformed);
 }
 
 struct FrameTest : testing::Test {
@@ -36,12 +42,12 @@ struct FrameTest : testing::Test {
     return sealer.Seal(kEpoch, counter, form, Text(text));
   }
   Reject RejectOf(const std::vector<std::byte>& wire) {
-    const Opened opened = dut.Open(Content(wire));
+    const Opened opened = OpenEncoded(dut, Encoded(wire));
     EXPECT_TRUE(std::holds_alternative<Reject>(opened));
     return std::get<Reject>(opened);
   }
   std::string TextOf(const std::vector<std::byte>& wire) {
-    const Opened opened = dut.Open(Content(wire));
+    const Opened opened = OpenEncoded(dut, Encoded(wire));
     const auto* data = std::get_if<DataFrame>(&opened);
     return data == nullptr ? "(refused)" : ToText(data->bundle);
   }
@@ -118,7 +124,7 @@ TEST_F(FrameTest, EveryFlippedBitIsNoticed) {
   for (std::size_t bit = 0; bit < 8 * (wire.size() - 1); ++bit) {
     auto damaged = wire;
     damaged[bit / 8] ^= std::byte{1} << static_cast<int>(bit % 8);
-    EXPECT_TRUE(std::holds_alternative<Reject>(dut.Open(Content(damaged)))) << bit;
+    EXPECT_TRUE(std::holds_alternative<Reject>(OpenEncoded(dut, Encoded(damaged)))) << bit;
   }
   EXPECT_EQ(TextOf(wire), "a bundle of some length");  // none of them has used up the counter
 }
@@ -126,7 +132,7 @@ TEST_F(FrameTest, EveryFlippedBitIsNoticed) {
 TEST_F(FrameTest, CutShortIsMalformed) {
   const auto wire = Frame(1);
   for (std::size_t n = 1; n + 1 < wire.size(); ++n)
-    EXPECT_EQ(std::get<Reject>(dut.Open(std::span(wire).first(n))), Reject::kMalformed) << n;
+    EXPECT_EQ(std::get<Reject>(OpenEncoded(dut, std::span(wire).first(n))), Reject::kMalformed) << n;
 }
 
 TEST_F(FrameTest, HelloRoundTrip) {
@@ -141,7 +147,7 @@ TEST_F(FrameTest, HelloRoundTrip) {
                       .code_bytes = code_bytes};
     const auto wire = sealer.Seal(hello);
     EXPECT_EQ(wire.size(), kHelloFrameBytes);
-    EXPECT_EQ(std::get<Hello>(dut.Open(Content(wire))), hello);
+    EXPECT_EQ(std::get<Hello>(OpenEncoded(dut, Encoded(wire))), hello);
   }
 }
 
@@ -157,30 +163,74 @@ TEST_P(CodeTest, CostsItsBytes) {
   const auto wire = sealer.Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"));
   EXPECT_EQ(wire.size(), 6 + 3 + GetParam());
   EXPECT_EQ(sealer.overhead(), 3 + GetParam());
-  EXPECT_EQ(ToText(std::get<DataFrame>(dut.Open(Content(wire))).bundle), "bundle");
+  EXPECT_EQ(ToText(std::get<DataFrame>(OpenEncoded(dut, Encoded(wire))).bundle), "bundle");
 }
 
 TEST_P(CodeTest, EveryBitOfItIsChecked) {
   const auto wire = sealer.Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"));
-  const auto content = CobsDecode(Content(wire)).value();
+  const auto content = CobsDecode(Encoded(wire)).value();
   for (std::size_t bit = 0; bit < 8 * GetParam(); ++bit) {
     auto forged = content;
     forged[forged.size() - 1 - bit / 8] ^= std::byte{1} << (bit % 8);
-    EXPECT_EQ(std::get<Reject>(dut.Open(CobsEncode(forged))), Reject::kBadCode) << bit;
+    EXPECT_EQ(std::get<Reject>(OpenEncoded(dut, CobsEncode(forged))), Reject::kBadCode) << bit;
   }
 }
 
 TEST_P(CodeTest, TheLongestFrameIsOneBlock) {
   const auto wire = sealer.Seal(kEpoch, 1 << 20, CounterForm::kWhole, Text(std::string(240, 'x')));
   EXPECT_EQ(wire.size(), 1 + 1 + 5 + 240 + GetParam() + 1);
-  EXPECT_EQ(std::get<DataFrame>(dut.Open(Content(wire))).counter, 1U << 20);
+  EXPECT_EQ(std::get<DataFrame>(OpenEncoded(dut, Encoded(wire))).counter, 1U << 20);
 }
 
 TEST_P(CodeTest, AFrameWithoutRoomForItIsMalformed) {
-  EXPECT_EQ(std::get<Reject>(dut.Open(CobsEncode(Text(std::string(GetParam(), '\1'))))), Reject::kMalformed);
+  EXPECT_EQ(std::get<Reject>(OpenEncoded(dut, CobsEncode(Text(std::string(GetParam(), '\1'))))),
+            Reject::kMalformed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bytes, CodeTest, testing::Values(4, 6, 8));
+
+TEST_F(FrameTest, AsABlockItHasTheSameContentFilledUp) {
+  const auto wire = sealer.Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"), 0, LineCode::kBlock);
+  EXPECT_EQ(wire.size(), sealer.WireBytes(CounterForm::kLowBits, 6, LineCode::kBlock));
+  const auto content = DecodeBlock(Encoded(wire));
+  ASSERT_TRUE(content);
+  EXPECT_EQ(ToText(std::get<DataFrame>(dut.Open(*content)).bundle), std::string("bundle"));
+  EXPECT_EQ(
+      ToText(std::get<DataFrame>(dut.Open(*DecodeBlock(Encoded(sealer.Seal(
+                                     kEpoch, 2, CounterForm::kWhole, Text("bundle"), 0, LineCode::kBlock)))))
+                 .bundle),
+      std::string("bundle") + std::string(1, '\0'));
+}
+
+TEST_F(FrameTest, WhatFitsNoBlockIsNone) {
+  const std::size_t most = sealer.MaxBlockBundle(CounterForm::kLowBits);
+  const auto is_block = [&](std::size_t bytes) {
+    const std::vector<std::byte> bundle(bytes);
+    const auto wire = sealer.Seal(kEpoch, 1, CounterForm::kLowBits, bundle, 0, LineCode::kBlock);
+    EXPECT_EQ(wire.size(), sealer.WireBytes(CounterForm::kLowBits, bytes, LineCode::kBlock));
+    return DecodeBlock(Encoded(wire)).has_value();
+  };
+  EXPECT_TRUE(is_block(most));
+  EXPECT_FALSE(is_block(most + 1));
+}
+
+// A memory that is set back makes an end use a counter twice.
+TEST_F(FrameTest, TwoTextsWithOneCounterHaveTwoKeyStreams) {
+  const FrameSealer sealed(keys, Direction::kUp, {.table_hash = 1, .encrypted = true});
+  const auto encrypted = [&](const std::string& text) {
+    auto content = CobsDecode(Encoded(sealed.Seal(kEpoch, 9, CounterForm::kWhole, Text(text)))).value();
+    content.erase(content.begin(), content.begin() + 1 + kWholeCounterBytes);
+    content.resize(text.size());
+    return content;
+  };
+  const std::string first = "attack at dawn", second = "retreat at one";
+  const auto a = encrypted(first), b = encrypted(second);
+  int same = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    same += (a[i] ^ b[i]) == static_cast<std::byte>(first[i] ^ second[i]) ? 1 : 0;
+  EXPECT_LE(same, 2);
+  EXPECT_EQ(encrypted(first), a);
+}
 
 TEST_F(FrameTest, EncryptedBundleIsNotReadable) {
   const FrameScope scope{.table_hash = 1, .encrypted = true};
@@ -191,7 +241,7 @@ TEST_F(FrameTest, EncryptedBundleIsNotReadable) {
   const auto second = hidden.Seal(kEpoch, 2, CounterForm::kLowBits, Text("attack at dawn"));
   EXPECT_EQ(ToText(first).find("attack"), std::string::npos);
   EXPECT_NE(ToText(first).substr(2, 10), ToText(second).substr(2, 10));
-  EXPECT_EQ(ToText(std::get<DataFrame>(opener.Open(Content(first))).bundle), "attack at dawn");
+  EXPECT_EQ(ToText(std::get<DataFrame>(OpenEncoded(opener, Encoded(first))).bundle), "attack at dawn");
 }
 
 /// A direction with commands: what its short frames echo is authenticated, but for the most part not sent.
@@ -200,7 +250,7 @@ struct EchoTest : testing::TestWithParam<std::size_t> {
   static std::uint64_t Range() { return std::uint64_t{1} << (8 * GetParam()); }
   Opened Open(std::uint64_t echo, std::uint64_t newest_sent, CounterForm form = CounterForm::kLowBits) {
     dut.SetEpoch(kEpoch, 0);
-    return dut.Open(Content(sealer.Seal(kEpoch, 1, form, Text("bundle"), echo)), newest_sent);
+    return OpenEncoded(dut, Encoded(sealer.Seal(kEpoch, 1, form, Text("bundle"), echo)), newest_sent);
   }
   const FrameKeys keys{Key()};
   const FrameSealer sealer{keys, Direction::kUp, Scope()};
@@ -234,7 +284,7 @@ TEST_P(EchoTest, AnOpenerThatExpectsNoneRefusesIt) {
   FrameOpener plain(keys, Direction::kUp, {.table_hash = 1});
   plain.SetEpoch(kEpoch, 0);
   const auto wire = sealer.Seal(kEpoch, 1, CounterForm::kLowBits, Text("bundle"), 7);
-  EXPECT_EQ(std::get<Reject>(plain.Open(Content(wire), 9)), Reject::kBadCode);
+  EXPECT_EQ(std::get<Reject>(OpenEncoded(plain, Encoded(wire), 9)), Reject::kBadCode);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bytes, EchoTest, testing::Values(std::size_t{1}, std::size_t{2}));
