@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bus/radio/channels/bundle.hpp"
+#include "bus/radio/frame/coded_block.hpp"
 #include "bus/radio/line/repetition.hpp"
 
 namespace priamos::bus::radio {
@@ -37,6 +38,7 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
     : table_(table),
       direction_(direction),
       byte_s_(1 / options.bytes_per_s),
+      datagrams_(options.datagrams),
       ageing_s_(Seconds(options.ageing)),
       frame_bytes_(FrameOverhead(table.code_bytes()) +
                    (options.datagrams ? kDatagramHead : kLeadingDelimiter) +
@@ -74,8 +76,7 @@ double DirectionAnalysis::ControlBytesPerSecond() const {
 }
 
 double DirectionAnalysis::BytesPerSecond(const ChannelLoad& load) const {
-  const double bytes =
-      load.repeated ? Copies(load) * FrameSeconds(load.bits) / byte_s_ : load.bits / 8 * overhead_;
+  const double bytes = load.repeated ? AllFramesSeconds(load) / byte_s_ : load.bits / 8 * overhead_;
   return bytes * load.keys / load.period_s;
 }
 
@@ -102,7 +103,9 @@ void DirectionAnalysis::SetEntries(const LinkChannel& c, ChannelLoad& load) cons
     return;
   }
   load.entries = std::max(1.0, std::ceil(body_bytes / kSegmentBytes));
-  const double head_bits = table_.id_bits() + 8 + 3;
+  const bool one_segment = c.fixed_bits > 0 && load.entries == 1;
+  // Each as if it began a run, and with the bit that ends it.
+  const double head_bits = table_.id_bits() + 8 + (one_segment ? 1 : 3) + (c.urgent ? 0 : 1);
   load.bits =
       load.entries == 1 ? head_bits + 12 + body_bits : load.entries * head_bits + 12 + 5 + 8 * body_bytes;
   load.entry_bits = std::min(load.bits, head_bits + 12 + 5 + 8.0 * kSegmentBytes);
@@ -169,13 +172,24 @@ double DirectionAnalysis::AnswerSeconds() const {
   return InTurns(ahead_s_ + kTick_s + frame_s_ + urgent_s + AckFrameSeconds());
 }
 
-/// Frames with the same urgent event: the first, those until it is acknowledged, and the one that is on the
-/// line then. After kRepeatAtOnce they take half of the line.
-double DirectionAnalysis::Copies(const ChannelLoad& load) const {
-  if (!load.repeated) return 1;
+/// A repetition of an urgent event: a block that corrects errors, where it fits one.
+double DirectionAnalysis::RepeatedFrameSeconds(double bits) const {
+  // Two bytes beside the content: COBS's code byte and the delimiter.
+  const std::size_t content =
+      frame_bytes_ - kLeadingDelimiter - 2 + static_cast<std::size_t>(std::ceil(bits / 8));
+  const std::size_t block = datagrams_ ? 0 : BlockBytes(content);
+  if (block == 0) return FrameSeconds(bits);
+  return static_cast<double>(EncodedBlockBytes(block) + 1 + kLeadingDelimiter) * byte_s_;
+}
+
+/// All frames with the same urgent event: the first, repetitions until it is acknowledged, and the one that
+/// is on the line then. After kRepeatAtOnce they take half of the line.
+double DirectionAnalysis::AllFramesSeconds(const ChannelLoad& load) const {
+  if (!load.repeated) return FrameSeconds(load.bits);
   constexpr double at_once_s = 1e-6 * static_cast<double>(kRepeatAtOnce.count());
   const double busy_s = std::min(repeat_s_, at_once_s) + std::max(0.0, repeat_s_ - at_once_s) / 2;
-  return 2 + std::floor(busy_s / FrameSeconds(load.bits));
+  const double repeated_s = RepeatedFrameSeconds(load.bits);
+  return FrameSeconds(load.bits) + (1 + std::floor(busy_s / repeated_s)) * repeated_s;
 }
 
 void DirectionAnalysis::Solve(const DirectionAnalysis& other, double line_delay_s) {
@@ -248,8 +262,7 @@ double DirectionAnalysis::UrgentIn(double window_s, const ChannelLoad& load) con
   const double cut_s = frame_s_ + byte_s_;
   double s = 0;
   for (const ChannelLoad& other : loads_)
-    if (other.urgent && &other != &load)
-      s += other.Arrivals(window_s) * (Copies(other) * FrameSeconds(other.bits) + cut_s);
+    if (other.urgent && &other != &load) s += other.Arrivals(window_s) * (AllFramesSeconds(other) + cut_s);
   for (const ChannelLoad& incoming : answered_) s += incoming.Arrivals(window_s) * AckFrameSeconds();
   return s;
 }

@@ -59,7 +59,8 @@ class DirectionAnalysis {
  private:
   double AnswerSeconds() const;
   double AckFrameSeconds() const;
-  double Copies(const ChannelLoad& load) const;
+  double RepeatedFrameSeconds(double bits) const;
+  double AllFramesSeconds(const ChannelLoad& load) const;
   double UrgentIn(double window_s, const ChannelLoad& load) const;
   ChannelLoad LoadOf(std::size_t index) const;
   void SetEntries(const LinkChannel& channel, ChannelLoad& load) const;
@@ -76,6 +77,7 @@ class DirectionAnalysis {
   const ChannelTable& table_;
   Direction direction_;
   double byte_s_;
+  bool datagrams_;
   double ageing_s_;
   std::size_t frame_bytes_;  ///< bytes of a frame besides its bundle
   double ahead_s_;

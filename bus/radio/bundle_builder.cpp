@@ -27,15 +27,16 @@ std::size_t BestBundleBytes(std::size_t max_bytes, double loss, std::size_t fram
 
 BundleBuilder::BundleBuilder(const ChannelTable& table, std::size_t target_bytes, bool over_may_follow,
                              std::size_t frame_overhead)
-    : table_(table),
+    : out_(table),
       target_bytes_(target_bytes),
-      reserved_bits_(over_may_follow ? EntryBits(table, OverEntry{}) : 0),
+      // And the bit that ends a run of segments.
+      reserved_bits_(over_may_follow ? BundleWriter(table).BitsWith(OverEntry{}) + 1 : 0),
       frame_overhead_(frame_overhead) {}
 
 bool BundleBuilder::Add(const BundleEntry& entry) {
-  const std::size_t bits = out_.bits() + EntryBits(table_, entry) + reserved_bits_;
+  const std::size_t bits = out_.BitsWith(entry) + reserved_bits_;
   if (bits > 8 * (has_message_ ? target_bytes_ : kMaxBundleBytes)) return false;
-  WriteEntry(table_, entry, out_);
+  out_.Write(entry);
   has_message_ = has_message_ || IsMessage(entry);
   return true;
 }
@@ -45,11 +46,15 @@ void BundleBuilder::LimitTo(std::size_t bytes) {
 }
 
 void BundleBuilder::AddOver() {
-  WriteEntry(table_, OverEntry{}, out_);
+  out_.Write(OverEntry{});
+}
+
+std::size_t BundleBuilder::Bytes() const {
+  return (out_.bits() + 7) / 8;
 }
 
 std::size_t BundleBuilder::FrameBytes() const {
-  return (out_.bits() + 7) / 8 + frame_overhead_;
+  return Bytes() + frame_overhead_;
 }
 
 std::vector<std::byte> BundleBuilder::Finish() {

@@ -29,14 +29,15 @@ class BundleBuilder {
   void AddOver();
 
   bool empty() const { return out_.bits() == 0; }
+  /// Bytes of the bundle as it is now.
+  std::size_t Bytes() const;
   /// Bytes of the frame that this bundle would make now, with the short form of the counter.
   std::size_t FrameBytes() const;
   /// The bundle; the builder is used up.
   std::vector<std::byte> Finish();
 
  private:
-  const ChannelTable& table_;
-  BitWriter out_;
+  BundleWriter out_;
   std::size_t target_bytes_;
   std::size_t reserved_bits_;
   std::size_t frame_overhead_;

@@ -31,17 +31,26 @@ void FrameReceiver::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
   newest_echo_.reset();
 }
 
+void FrameReceiver::UseNextKey() {
+  opener_ = *next_opener_;
+  next_opener_.reset();
+}
+
 FrameReceiver::Result FrameReceiver::Push(std::byte byte, Time now, std::uint64_t newest_sent) {
   ++counters_.bytes;
   if (splitter_.between_frames()) first_byte_ = now;
-  switch (splitter_.Push(byte)) {
-    case FrameSplitter::Event::kFrame:
-      return OnFrame(splitter_.frame(), first_byte_, now, newest_sent, false);
-    case FrameSplitter::Event::kOversize:
-      return OnReject(Reject::kOversize, now);
-    case FrameSplitter::Event::kNone:
-      break;
+  auto block = blocks_.Push(byte, now);
+  const FrameSplitter::Event event = splitter_.Push(byte);
+  if (block) {
+    return OnFrame({.content = std::move(block->content),
+                    .wire_bytes = block->wire_bytes,
+                    .first_byte = block->first_byte,
+                    .line_code = LineCode::kBlock},
+                   now, newest_sent);
   }
+  if (event == FrameSplitter::Event::kFrame)
+    return OnEncoded(splitter_.frame(), first_byte_, now, newest_sent, false);
+  if (event == FrameSplitter::Event::kOversize) return OnReject(Reject::kOversize, now);
   return {};
 }
 
@@ -49,26 +58,37 @@ FrameReceiver::Result FrameReceiver::Take(std::span<const std::byte> frame, Time
                                           std::uint64_t newest_sent, bool stranger) {
   if (!stranger) counters_.bytes += frame.size() + 1;
   if (frame.size() > kMaxEncodedBytes) return OnReject(Reject::kOversize, now);
-  return OnFrame(frame, first_byte, now, newest_sent, stranger);
+  return OnEncoded(frame, first_byte, now, newest_sent, stranger);
+}
+
+FrameReceiver::Result FrameReceiver::OnEncoded(std::span<const std::byte> encoded, Time first_byte, Time now,
+                                               std::uint64_t newest_sent, bool stranger) {
+  auto content = CobsDecode(encoded);
+  if (!content) return OnReject(Reject::kMalformed, now);
+  return OnFrame({.content = std::move(*content),
+                  .wire_bytes = encoded.size() + 1,
+                  .first_byte = first_byte,
+                  .stranger = stranger},
+                 now, newest_sent);
 }
 
 /// What can be seen without a code is looked at first: garbage costs no check of the other end's frames.
-FrameReceiver::Result FrameReceiver::OnFrame(std::span<const std::byte> encoded, Time first_byte, Time now,
-                                             std::uint64_t newest_sent, bool stranger) {
-  const auto head = opener_.Look(encoded, newest_sent);
+FrameReceiver::Result FrameReceiver::OnFrame(const Incoming& incoming, Time now, std::uint64_t newest_sent) {
+  const auto head = opener_.Look(incoming.content, newest_sent);
   if (!head) return OnReject(Reject::kMalformed, now);
-  const Claim claim = stranger && !Down(now) ? Claim::kStranger
-                      : Expected(*head, now) ? Claim::kExpected
-                                             : Claim::kOther;
+  const Claim claim = incoming.stranger && !Down(now) ? Claim::kStranger
+                      : Expected(*head, now)          ? Claim::kExpected
+                                                      : Claim::kOther;
   if (!guard_.MayTry(claim, now)) return OnReject(Reject::kFlood, now);
   const std::uint64_t highest_before = opener_.highest();
-  Opened opened = opener_.Open(encoded, newest_sent);
+  Opened opened = opener_.Open(incoming.content, newest_sent);
+  if (head->hello && next_opener_ && std::holds_alternative<Reject>(opened)) {
+    const Opened under_next = next_opener_->Open(incoming.content);
+    if (const auto* hello = std::get_if<Hello>(&under_next)) return NextKeyHello{*hello};
+  }
   if (const auto* reject = std::get_if<Reject>(&opened)) return OnReject(*reject, now);
   if (const auto* hello = std::get_if<Hello>(&opened)) return *hello;
-  AcceptedFrame accepted =
-      Accept(std::get<DataFrame>(std::move(opened)), encoded.size() + 1, highest_before, now);
-  accepted.first_byte = first_byte;
-  return accepted;
+  return Accept(std::get<DataFrame>(std::move(opened)), incoming, highest_before, now);
 }
 
 /// Whether the other end can send this next: no further ahead than the line carries, and no echo older than
@@ -81,26 +101,30 @@ bool FrameReceiver::Expected(const FrameHead& head, Time now) const {
   return !head.echo || !newest_echo_ || *head.echo >= *newest_echo_;
 }
 
-AcceptedFrame FrameReceiver::Accept(DataFrame frame, std::size_t wire_bytes, std::uint64_t highest_before,
+AcceptedFrame FrameReceiver::Accept(DataFrame frame, const Incoming& incoming, std::uint64_t highest_before,
                                     Time now) {
-  AcceptedFrame accepted{.frame = std::move(frame), .wire_bytes = wire_bytes, .link_back = Down(now)};
+  AcceptedFrame accepted{.frame = std::move(frame),
+                         .wire_bytes = incoming.wire_bytes,
+                         .first_byte = incoming.first_byte,
+                         .link_back = Down(now)};
   if (accepted.frame.counter > highest_before) accepted.ahead = accepted.frame.counter - highest_before;
   // After its own start an end cannot know what it missed.
   const std::uint64_t missed = heard_at_ && accepted.ahead > 0 ? accepted.ahead - 1 : 0;
   counters_.missed += missed;
   ++counters_.frames;
   guard_.OnMissed(missed);
-  loss_.OnFrame(missed, wire_bytes);
+  loss_.OnFrame(missed, incoming.wire_bytes);
   heard_at_ = now;
-  if (accepted.ahead > 0) newest_ = HeardFrame{accepted.frame.counter, now};
+  if (accepted.ahead > 0) newest_ = HeardFrame{accepted.frame.counter, now, incoming.line_code};
   if (accepted.ahead > 0 && accepted.frame.echo) newest_echo_ = accepted.frame.echo;
-  unusable_ = 0;
+  unusable_ = malformed_ = 0;
   return accepted;
 }
 
 FrameReceiver::Result FrameReceiver::OnReject(Reject reject, Time now) {
   ++counters_.rejected[static_cast<std::size_t>(reject)];
   if (reject == Reject::kBadCode || reject == Reject::kReplayed) ++unusable_;
+  if (reject == Reject::kMalformed) ++malformed_;
   if (reject == Reject::kBadCode) guard_.OnBadCode(now);
   if (reject == Reject::kReplayed) guard_.OnReplay(now);
   return {};
@@ -108,7 +132,9 @@ FrameReceiver::Result FrameReceiver::OnReject(Reject reject, Time now) {
 
 Reception FrameReceiver::reception(Time now) const {
   const bool down = Down(now);
-  if (opener_.epoch() == 0 || (down && unusable_ >= kUnusableAfter)) return Reception::kUnusable;
+  // Noise damages the form of more frames than it leaves.
+  const bool unusable = unusable_ >= kUnusableAfter && unusable_ > malformed_;
+  if (opener_.epoch() == 0 || (down && unusable)) return Reception::kUnusable;
   return down ? Reception::kSilent : Reception::kHeard;
 }
 

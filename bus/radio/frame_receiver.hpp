@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "bus/radio/frame/cobs.hpp"
+#include "bus/radio/frame/coded_block.hpp"
 #include "bus/radio/frame/frame.hpp"
 #include "bus/radio/handshake.hpp"
 #include "bus/radio/line/link_quality.hpp"
@@ -23,10 +25,16 @@ struct AcceptedFrame {
   bool link_back = false;      ///< the link was down before this frame
 };
 
+/// A hello under the next key.
+struct NextKeyHello {
+  Hello hello;
+};
+
 /// A frame of the other end, for its echo.
 struct HeardFrame {
   std::uint64_t counter = 0;
   Time at{};  ///< arrival of its last byte
+  LineCode line_code = LineCode::kCobs;
 };
 
 /// Counters of what came from the line.
@@ -41,7 +49,7 @@ struct ReceptionCounters {
 class FrameReceiver {
  public:
   /// The frame that a byte completed: none, a hello or data.
-  using Result = std::variant<std::monostate, Hello, AcceptedFrame>;
+  using Result = std::variant<std::monostate, Hello, NextKeyHello, AcceptedFrame>;
 
   /// Receiver of frames that travel in the direction `incoming`. `bytes_per_s`: what the line can carry;
   /// frames that come faster are not checked. `silence`: the link is down when nothing was accepted for so
@@ -51,6 +59,10 @@ class FrameReceiver {
 
   /// Accepts from now on data frames of `epoch` with counters above `floor`. Epoch 0: no data frames.
   void SetEpoch(std::uint64_t epoch, std::uint64_t floor);
+  /// Opens hellos under the next key, too: the code of a data frame is still computed once.
+  void SetNextKey(FrameOpener next) { next_opener_ = next; }
+  /// Opens from now on what is under the next key, and nothing else.
+  void UseNextKey();
   /// The next byte of the line. `newest_sent`: see FrameOpener::Open.
   Result Push(std::byte byte, Time now, std::uint64_t newest_sent = 0);
   /// A whole frame without its delimiter, beside the bytes of Push(), as IP brings it. `stranger`: it does
@@ -74,14 +86,25 @@ class FrameReceiver {
   const ReceptionCounters& counters() const { return counters_; }
 
  private:
-  Result OnFrame(std::span<const std::byte> encoded, Time first_byte, Time now, std::uint64_t newest_sent,
-                 bool stranger);
+  /// What came between two delimiters.
+  struct Incoming {
+    std::vector<std::byte> content;
+    std::size_t wire_bytes;  ///< on the line, delimiter included
+    Time first_byte;         ///< arrival of its first byte
+    LineCode line_code = LineCode::kCobs;
+    bool stranger = false;
+  };
+  Result OnEncoded(std::span<const std::byte> encoded, Time first_byte, Time now, std::uint64_t newest_sent,
+                   bool stranger);
+  Result OnFrame(const Incoming& incoming, Time now, std::uint64_t newest_sent);
   bool Expected(const FrameHead& head, Time now) const;
-  AcceptedFrame Accept(DataFrame frame, std::size_t wire_bytes, std::uint64_t highest_before, Time now);
+  AcceptedFrame Accept(DataFrame frame, const Incoming& incoming, std::uint64_t highest_before, Time now);
   Result OnReject(Reject reject, Time now);
 
   FrameSplitter splitter_;
+  BlockFinder blocks_;
   FrameOpener opener_;
+  std::optional<FrameOpener> next_opener_;  ///< of hellos under the next key
   ForgeryGuard guard_;
   LossMeter loss_;
   Duration silence_;
@@ -90,7 +113,8 @@ class FrameReceiver {
   double frames_per_s_;           ///< what the line can carry
   std::optional<HeardFrame> newest_;
   std::optional<std::uint64_t> newest_echo_;  ///< of the newest frame that had one
-  std::uint64_t unusable_ = 0;                ///< frames with a wrong code or a used counter since then
+  std::uint64_t unusable_ = 0;   ///< frames with a wrong code or a used counter since `heard_at_`
+  std::uint64_t malformed_ = 0;  ///< pieces without the form of a frame since then
   ReceptionCounters counters_;
 };
 

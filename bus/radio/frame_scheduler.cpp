@@ -13,6 +13,11 @@ constexpr Duration kAnswered{30'000};
 /// What a proof takes beside the delays of the line: bytes written ahead, and ticks of both ends.
 constexpr Duration kProofMargin{10'000};
 
+/// The handshake that a hello belongs to; that under the next key may have become the only one meanwhile.
+Handshake& HandshakeOf(const FrameInFlight& flight, const FrameSources& from) {
+  return flight.next_key && from.peer.next_key ? from.peer.next_key->handshake : from.peer.handshake;
+}
+
 }  // namespace
 
 FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sealer,
@@ -68,6 +73,7 @@ bool FrameScheduler::MaySend(const FrameSources& from, Time now) const {
 
 bool FrameScheduler::Build(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
+  repetition_.NoteUnanswered(from.outbox.queue().UrgentUnanswered(), now);
   repetition_.Step(agreed && from.outbox.queue().RepetitionReady(now), now);
   if (agreed && BuildUrgent(from, now)) return true;
   repetition_.OnOthersTurn(now);
@@ -86,12 +92,21 @@ bool FrameScheduler::AckAgain(const FrameSources& from, Time now) const {
   return from.inbox.UrgentAckDue() && now - acknowledged_at_ >= from.peer.sent.last_round_trip() + kAnswered;
 }
 
+/// The first frame of an urgent event is short, which is best on a line that carries it. What follows can
+/// come through where hardly any frame does: repetitions, acknowledgements of such, and what is new while the
+/// line has not answered for longer than it should take.
+LineCode FrameScheduler::LineCodeOf(const FrameSources& from, Time now) const {
+  if (options_.datagrams) return LineCode::kCobs;
+  const bool unanswered = repetition_.UnansweredFor(from.peer.sent.last_round_trip() + kAnswered, now);
+  if (from.outbox.queue().UrgentReady(now)) return unanswered ? LineCode::kBlock : LineCode::kCobs;
+  const auto& newest = from.receiver.newest();
+  const bool first_answer = from.inbox.UrgentNews() && newest && newest->line_code == LineCode::kCobs;
+  return first_answer ? LineCode::kCobs : LineCode::kBlock;
+}
+
 bool FrameScheduler::BuildOther(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
-  if (from.peer.handshake.HelloDue(from.receiver.reception(now), now)) {
-    BuildHello(from, now);
-    return true;
-  }
+  if (BuildAnyHello(from, now)) return true;
   return agreed && (DataDue(from, now) || turns_.MayPass(now)) && BuildData(from, false, now);
 }
 
@@ -100,29 +115,53 @@ bool FrameScheduler::DataDue(const FrameSources& from, Time now) const {
          !from.outbox.queue().Ready(now).empty();
 }
 
-void FrameScheduler::BuildHello(FrameSources from, Time now) {
+/// Under both keys in turn: where urgent events leave few turns, the one would keep the other back for ever.
+bool FrameScheduler::BuildAnyHello(FrameSources from, Time now) {
   const Reception reception = from.receiver.reception(now);
-  Hello hello = from.peer.handshake.Take(from.memory.stream(), reception, now);
+  Handshake& own = from.peer.handshake;
+  const bool due = own.HelloDue(reception, now);
+  if (from.peer.next_key) {
+    NextKey& next = *from.peer.next_key;
+    const Reception under_next = next.ReceptionOf(reception, now);
+    if (next.handshake.HelloDue(under_next, now) && (!due || next.handshake.last() < own.last())) {
+      BuildHello(from, next.handshake, next.sealer(), under_next, now);
+      return true;
+    }
+  }
+  if (due) BuildHello(from, own, sealer_, reception, now);
+  return due;
+}
+
+void FrameScheduler::BuildHello(FrameSources from, Handshake& handshake, const FrameSealer& sealer,
+                                Reception reception, Time now) {
+  Hello hello = handshake.Take(from.memory.stream(), reception, now);
   // The answer is what is needed. On a link that works it answers a hello that may be a replay: that must not
   // cost the turn.
-  hello.over = turns_.enabled() && reception != Reception::kHeard;
+  hello.over = turns_.enabled() && from.receiver.reception(now) != Reception::kHeard;
   flight_.emplace();
   flight_->over = hello.over;
-  transmitter_.Begin(sealer_.Seal(hello), now);
+  // Where no frame arrives, every second one may.
+  const bool block = !options_.datagrams && handshake.sent() % 2 == 1;
+  flight_->next_key = &sealer != &sealer_;
+  transmitter_.Begin(sealer.Seal(hello, block ? LineCode::kBlock : LineCode::kCobs), now);
 }
 
 bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
-  const std::size_t target = BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss(),
-                                             FrameOverhead(sealer_.code_bytes()));
+  const LineCode line_code = urgent_only ? LineCodeOf(from, now) : LineCode::kCobs;
+  const std::size_t target = line_code == LineCode::kBlock
+                                 ? sealer_.MaxBlockBundle(form_)
+                                 : BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss(),
+                                                   FrameOverhead(sealer_.code_bytes()));
   BundleBuilder builder(*table_, target, turns_.enabled(), sealer_.overhead());
-  FrameInFlight flight = Fill(builder, from, urgent_only, now);
+  FrameInFlight flight = Fill(builder, from, urgent_only, line_code, now);
   // Nothing that is ready could be packed: no frame for nothing.
   if (builder.empty() && now - last_data_ < options_.keep_alive) return false;
   const std::vector<std::byte> bundle = builder.Finish();
   flight.bundle_bytes = bundle.size();
   flight.counter = from.memory.TakeCounter();
   const auto& newest = from.receiver.newest();
-  auto wire = sealer_.Seal(from.memory.epoch(), flight.counter, form_, bundle, newest ? newest->counter : 0);
+  auto wire = sealer_.Seal(from.memory.epoch(), flight.counter, form_, bundle, newest ? newest->counter : 0,
+                           line_code);
   last_data_ = now;
   from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
   if (urgent_only && !flight.inbox.acks.empty()) acknowledged_at_ = now;
@@ -133,7 +172,7 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
 }
 
 FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only,
-                                   Time now) const {
+                                   LineCode line_code, Time now) const {
   FrameInFlight flight;
   flight.urgent = urgent_only && from.outbox.queue().UrgentReady(now);
   flight.repeats = urgent_only && !flight.urgent;
@@ -154,7 +193,7 @@ FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, boo
                .leaves_at = [&](std::size_t bytes) { return transmitter_.LeavesAt(bytes, now); },
                .echoed_at = EchoedAt(from),
                .bytes_until = [&](Time until) { return BytesUntil(until, from, now); }});
-  flight.over = EndsTurn(from, bundle.FrameBytes(), now);
+  flight.over = EndsTurn(from, sealer_.WireBytes(form_, bundle.Bytes(), line_code), now);
   if (flight.over) bundle.AddOver();
   return flight;
 }
@@ -191,7 +230,7 @@ void FrameScheduler::Cut(FrameSources from, Time now, std::vector<std::byte>& ou
   from.outbox.Return(std::move(flight.outbox));
   from.inbox.Return(flight.inbox);
   from.peer.Return(flight.peer);
-  if (flight.counter == 0) from.peer.handshake.Return();
+  if (flight.counter == 0) HandshakeOf(flight, from).Return();
 }
 
 void FrameScheduler::Finish(FrameSources from) {
@@ -199,7 +238,7 @@ void FrameScheduler::Finish(FrameSources from) {
   flight_.reset();
   if (flight.over) turns_.OnOverSent(transmitter_.pacer().free_at());
   from.outbox.OnSent(std::move(flight.outbox), flight.counter);
-  if (flight.counter == 0) return from.peer.handshake.OnSent();
+  if (flight.counter == 0) return HandshakeOf(flight, from).OnSent();
   ++counters_.frames;
   counters_.bundle_bytes += flight.bundle_bytes;
 }

@@ -38,6 +38,7 @@ struct FrameInFlight {
   bool urgent = false;        ///< never cut off
   bool repeats = false;       ///< repetitions and acknowledgements of urgent events: cut off by a new one
   bool over = false;          ///< ends the turn
+  bool next_key = false;      ///< a hello under the next key
   std::size_t bundle_bytes = 0;
   Peer::Loaded peer{};
   MessageReceiver::Loaded inbox{};
@@ -60,6 +61,9 @@ class FrameScheduler {
   /// Notes that the other end announced the end of its turn (half-duplex).
   void OnOver(Time now) { turns_.OnOverReceived(now); }
 
+  /// Seals from now on under another key.
+  void SetSealer(const FrameSealer& sealer) { sealer_ = sealer; }
+
   /// Time that bytes of a frame take on the line.
   Duration OnTheWay(std::size_t bytes) const { return transmitter_.OnTheWay(bytes); }
   const SendCounters& counters() const { return counters_; }
@@ -73,10 +77,14 @@ class FrameScheduler {
   bool BuildUrgent(FrameSources from, Time now);
   bool BuildOther(FrameSources from, Time now);
   bool AckAgain(const FrameSources& from, Time now) const;
+  LineCode LineCodeOf(const FrameSources& from, Time now) const;
   bool DataDue(const FrameSources& from, Time now) const;
-  void BuildHello(FrameSources from, Time now);
+  bool BuildAnyHello(FrameSources from, Time now);
+  void BuildHello(FrameSources from, Handshake& handshake, const FrameSealer& sealer, Reception reception,
+                  Time now);
   bool BuildData(FrameSources from, bool urgent_only, Time now);
-  FrameInFlight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, Time now) const;
+  FrameInFlight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, LineCode line_code,
+                     Time now) const;
   std::optional<Time> EchoedAt(const FrameSources& from) const;
   std::size_t BytesUntil(Time until, const FrameSources& from, Time now) const;
   bool EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const;

@@ -67,4 +67,9 @@ Hello Handshake::Take(std::uint32_t stream, Reception reception, Time now) {
   return hello;
 }
 
+void Handshake::CountOn(const Handshake& before) {
+  received_ += before.received_;
+  sent_ += before.sent_;
+}
+
 }  // namespace priamos::bus::radio

@@ -53,6 +53,10 @@ class Handshake {
   bool table_mismatch() const { return table_mismatch_; }
   /// Length of the other end's codes by its last hello; 0 before. Another one than here is a table mismatch.
   std::size_t peer_code_bytes() const { return peer_code_bytes_; }
+  /// Time of the last hello from here.
+  Time last() const { return last_; }
+  /// Goes on with the counters of the handshake that this one replaces.
+  void CountOn(const Handshake& before);
   std::uint64_t received() const { return received_; }
   std::uint64_t sent() const { return sent_; }
 

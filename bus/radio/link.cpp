@@ -25,25 +25,40 @@ bool FloorDue(const LinkMemory& memory) {
   return memory.epoch() != 0 && !memory.floor_exact();
 }
 
+KeyChecks ChecksOf(const LinkKey& key, const std::optional<LinkKey>& next_key) {
+  return {.current = KeyCheck(key), .next = next_key ? KeyCheck(*next_key) : 0};
+}
+
 }  // namespace
 
 LinkEndpoint::LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey& key,
                            const LinkOptions& options, StateStore& store, PackFunction pack,
-                           NonceSource nonces, Time now)
+                           NonceSource nonces, Time now, const std::optional<LinkKey>& next_key)
     : table_(std::make_shared<const ChannelTable>(std::move(table))),
       outgoing_(outgoing),
-      keys_(key),
-      memory_(store, *table_, nonces),
+      memory_(store, *table_, nonces, ChecksOf(key, next_key)),
+      keys_(memory_.under_next_key() ? *next_key : key),
+      key_changed_(memory_.under_next_key()),
       receiver_(keys_, Opposite(outgoing), ScopeOf(*table_, Opposite(outgoing), options), options.bytes_per_s,
                 options.silence, now),
       inbox_(*table_),
-      peer_{.handshake =
-                Handshake(table_->hash(), std::move(nonces), FloorDue(memory_), now, table_->code_bytes())},
+      peer_{.handshake = Handshake(table_->hash(), nonces, FloorDue(memory_), now, table_->code_bytes())},
       outbox_(*table_, outgoing, options.ageing, std::move(pack)),
       scheduler_(*table_, FrameSealer(keys_, outgoing, ScopeOf(*table_, outgoing, options)), options,
                  outgoing == Direction::kUp, now) {
   receiver_.SetEpoch(memory_.epoch(), memory_.receive_floor());
   memory_.RestoreEvents(outbox_.queue(), inbox_.events());
+  if (next_key && !key_changed_) AwaitNextKey(*next_key, options, std::move(nonces), now);
+}
+
+void LinkEndpoint::AwaitNextKey(const LinkKey& key, const LinkOptions& options, NonceSource nonces,
+                                Time now) {
+  const FrameKeys keys(key);
+  const Direction incoming = Opposite(outgoing_);
+  receiver_.SetNextKey(FrameOpener(keys, incoming, ScopeOf(*table_, incoming, options)));
+  peer_.next_key.emplace(KeyCheck(key), keys,
+                         FrameSealer(keys, outgoing_, ScopeOf(*table_, outgoing_, options)),
+                         Handshake(table_->hash(), std::move(nonces), false, now, table_->code_bytes()));
 }
 
 LinkEndpoint LinkEndpoint::Fork(StateStore& store) const {
@@ -89,6 +104,7 @@ Received LinkEndpoint::ReceiveFrame(std::span<const std::byte> frame, Time first
 
 Proof LinkEndpoint::OnResult(const FrameReceiver::Result& result, Time now, std::vector<Delivery>& out) {
   if (const auto* hello = std::get_if<Hello>(&result)) return OnHello(*hello, now);
+  if (const auto* next = std::get_if<NextKeyHello>(&result)) return OnNextKeyHello(next->hello, now);
   const auto* accepted = std::get_if<AcceptedFrame>(&result);
   if (accepted == nullptr) return Proof::kNone;
   OnFrame(*accepted, now, out);
@@ -103,10 +119,43 @@ void LinkEndpoint::Close() {
 Proof LinkEndpoint::OnHello(const Hello& hello, Time now) {
   const Handshake::Proof proof = peer_.handshake.OnHello(hello, !receiver_.Down(now));
   if (!proof.fresh) return Proof::kGenuine;
-  scheduler_.OnFrame(now);
-  if (hello.over) scheduler_.OnOver(now);
+  OnFresh(hello, now);
   if (proof.agreed) ChangeEpoch(*proof.agreed, hello.stream);
   return Proof::kFresh;
+}
+
+/// Data goes on under the current key until this hello proves that the other end agrees on an epoch under
+/// the next one. The other end follows with the answer.
+Proof LinkEndpoint::OnNextKeyHello(const Hello& hello, Time now) {
+  const Handshake::Proof proof = peer_.next_key->OnHello(hello, now);
+  if (!proof.fresh) return Proof::kGenuine;
+  OnFresh(hello, now);
+  if (!proof.agreed) return Proof::kFresh;
+  UseNextKey();
+  ChangeEpoch(*proof.agreed, hello.stream);
+  return Proof::kFresh;
+}
+
+void LinkEndpoint::OnFresh(const Hello& hello, Time now) {
+  scheduler_.OnFrame(now);
+  if (hello.over) scheduler_.OnOver(now);
+}
+
+void LinkEndpoint::UseNextKey() {
+  keys_ = peer_.next_key->keys();
+  memory_.UseKey(peer_.next_key->check());
+  receiver_.UseNextKey();
+  scheduler_.SetSealer(peer_.next_key->sealer());
+  peer_.UseNextKey();
+  key_changed_ = true;
+}
+
+KeyChange LinkEndpoint::key_change() const {
+  if (key_changed_) return KeyChange::kDone;
+  const auto& announced = peer_.announced_key;
+  if (!peer_.next_key) return announced ? KeyChange::kOffered : KeyChange::kNone;
+  const bool differs = announced && *announced != peer_.next_key->check();
+  return differs ? KeyChange::kDiffers : KeyChange::kWaiting;
 }
 
 void LinkEndpoint::OnFrame(const AcceptedFrame& accepted, Time now, std::vector<Delivery>& out) {
@@ -158,7 +207,8 @@ void LinkEndpoint::OnEntry(BundleEntry entry, const Arrival& arrival, std::vecto
                         [&](OverEntry&) {
                           if (arrival.newest) scheduler_.OnOver(arrival.now);
                         },
-                        [&](ForgetEntry&) { outbox_.ForgetBaselines(); }},
+                        [&](ForgetEntry&) { outbox_.ForgetBaselines(); },
+                        [&](NextKeyEntry& e) { peer_.OnNextKey(e, arrival.now); }},
              entry);
 }
 
@@ -185,28 +235,33 @@ void LinkEndpoint::ChangeEpoch(const EpochAgreement::Pair& pair, std::uint32_t p
 LinkStatus LinkEndpoint::Status(Time now) const {
   const ReceptionCounters& received = receiver_.counters();
   const SendCounters& sent = scheduler_.counters();
-  return {.up = !receiver_.Down(now),
-          .agreed = memory_.epoch() != 0,
-          .alarm = receiver_.alarm(now),
-          .table_mismatch = peer_.handshake.table_mismatch(),
-          .peer_code_bytes = peer_.handshake.peer_code_bytes(),
-          .round_trip = outbox_.round_trip(),
-          .latency = peer_.sent.one_way(),
-          .loss = receiver_.loss().loss(),
-          .peer_loss = peer_.sent.peer_loss(),
-          .bit_error_rate = receiver_.loss().BitErrorRate(),
-          .resent = outbox_.resent(),
-          .counters = {.bytes_sent = scheduler_.bytes_sent(),
-                       .bytes_received = received.bytes,
-                       .bundle_bytes_sent = sent.bundle_bytes,
-                       .frames_sent = sent.frames,
-                       .frames_aborted = sent.aborted,
-                       .frames_received = received.frames,
-                       .frames_missed = received.missed,
-                       .hellos_sent = peer_.handshake.sent(),
-                       .hellos_received = peer_.handshake.received(),
-                       .bundles_damaged = bundles_damaged_,
-                       .rejected = received.rejected}};
+  const Handshake* const next = peer_.next_key ? &peer_.next_key->handshake : nullptr;
+  // The other end may have changed its key before this one lost its table.
+  const bool other_table = next != nullptr && receiver_.Down(now) && next->table_mismatch();
+  return {
+      .up = !receiver_.Down(now),
+      .agreed = memory_.epoch() != 0,
+      .alarm = receiver_.alarm(now),
+      .table_mismatch = peer_.handshake.table_mismatch() || other_table,
+      .key_change = key_change(),
+      .peer_code_bytes = (other_table ? *next : peer_.handshake).peer_code_bytes(),
+      .round_trip = outbox_.round_trip(),
+      .latency = peer_.sent.one_way(),
+      .loss = receiver_.loss().loss(),
+      .peer_loss = peer_.sent.peer_loss(),
+      .bit_error_rate = receiver_.loss().BitErrorRate(),
+      .resent = outbox_.resent(),
+      .counters = {.bytes_sent = scheduler_.bytes_sent(),
+                   .bytes_received = received.bytes,
+                   .bundle_bytes_sent = sent.bundle_bytes,
+                   .frames_sent = sent.frames,
+                   .frames_aborted = sent.aborted,
+                   .frames_received = received.frames,
+                   .frames_missed = received.missed,
+                   .hellos_sent = peer_.handshake.sent() + (next != nullptr ? next->sent() : 0),
+                   .hellos_received = peer_.handshake.received() + (next != nullptr ? next->received() : 0),
+                   .bundles_damaged = bundles_damaged_,
+                   .rejected = received.rejected}};
 }
 
 }  // namespace priamos::bus::radio

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -47,12 +48,22 @@ struct Received {
   Proof proof = Proof::kNone;
 };
 
+/// How far the link's change to the next key is.
+enum class KeyChange : std::uint8_t {
+  kNone,     ///< neither end has said that it has a next key
+  kWaiting,  ///< this end has one, and has not heard that the other end has it
+  kOffered,  ///< the other end has one, this one has none
+  kDiffers,  ///< the ends have different ones: nothing changes
+  kDone      ///< the next key is in use, and the one before it opens nothing
+};
+
 /// State of the link.
 struct LinkStatus {
   bool up = false;
-  bool agreed = false;              ///< both ends have agreed on an epoch
-  bool alarm = false;               ///< frames came that the other end cannot have sent: see ForgeryGuard
-  bool table_mismatch = false;      ///< the other end has another channel table: nothing is exchanged
+  bool agreed = false;          ///< both ends have agreed on an epoch
+  bool alarm = false;           ///< frames came that the other end cannot have sent: see ForgeryGuard
+  bool table_mismatch = false;  ///< the other end has another channel table: nothing is exchanged
+  KeyChange key_change = KeyChange::kNone;
   std::size_t peer_code_bytes = 0;  ///< length of the other end's codes by its last hello; 0 before
   Duration round_trip{-1};          ///< from event to acknowledgement, smoothed; negative before the first
   Duration latency{};               ///< delay of the line, one way, estimated
@@ -77,8 +88,10 @@ struct LinkStatus {
 class LinkEndpoint {
  public:
   /// End of a link; `store` must outlive it. `outgoing` is kUp at the onboard end, kDown at the other one.
+  /// `next_key`: the key that it is ready to change to, together with the other end, see NextKey.
   LinkEndpoint(ChannelTable table, Direction outgoing, const LinkKey& key, const LinkOptions& options,
-               StateStore& store, PackFunction pack, NonceSource nonces, Time now);
+               StateStore& store, PackFunction pack, NonceSource nonces, Time now,
+               const std::optional<LinkKey>& next_key = {});
   LinkEndpoint& operator=(const LinkEndpoint&) = delete;
   /// An independent copy of this end in the same state, with its own memory, for a search over possible
   /// futures. What `store` holds must be a copy of what the store of this end holds.
@@ -116,6 +129,11 @@ class LinkEndpoint {
 
   Proof OnResult(const FrameReceiver::Result& result, Time now, std::vector<Delivery>& out);
   Proof OnHello(const Hello& hello, Time now);
+  Proof OnNextKeyHello(const Hello& hello, Time now);
+  void OnFresh(const Hello& hello, Time now);
+  void AwaitNextKey(const LinkKey& key, const LinkOptions& options, NonceSource nonces, Time now);
+  void UseNextKey();
+  KeyChange key_change() const;
   void OnFrame(const AcceptedFrame& accepted, Time now, std::vector<Delivery>& out);
   Arrival ArrivalOf(const AcceptedFrame& accepted, Time now) const;
   void OnEntry(BundleEntry entry, const Arrival& arrival, std::vector<Delivery>& out);
@@ -126,8 +144,9 @@ class LinkEndpoint {
 
   std::shared_ptr<const ChannelTable> table_;  ///< shared with forks, whose parts refer to it, too
   Direction outgoing_;
-  FrameKeys keys_;
   LinkMemory memory_;
+  FrameKeys keys_;    ///< in use
+  bool key_changed_;  ///< to the next one, in this life or before
   FrameReceiver receiver_;
   MessageReceiver inbox_;
   Peer peer_;

@@ -13,7 +13,8 @@ constexpr std::uint64_t kFarthestSkip = std::uint64_t{1} << 24;
 
 }  // namespace
 
-LinkMemory::LinkMemory(StateStore& store, const ChannelTable& table, const NonceSource& nonces)
+LinkMemory::LinkMemory(StateStore& store, const ChannelTable& table, const NonceSource& nonces,
+                       const KeyChecks& keys)
     : store_(&store), channels_(table.size()) {
   const auto saved = store.Load();
   if (auto state = saved ? ParseLinkState(saved->bytes) : std::nullopt) state_ = std::move(*state);
@@ -25,7 +26,24 @@ LinkMemory::LinkMemory(StateStore& store, const ChannelTable& table, const Nonce
     state_.events = std::move(dropped);
     events_dropped_ = true;
   }
+  ChooseKey(keys);
   next_counter_ = state_.send_next;
+}
+
+/// The key of the epoch is noted as soon as there is a choice; a state without it is one of the only key that
+/// there was.
+void LinkMemory::ChooseKey(const KeyChecks& keys) {
+  const std::uint32_t noted = state_.key_check != 0 ? state_.key_check : keys.current;
+  under_next_key_ = keys.next != 0 && noted == keys.next;
+  if (!under_next_key_ && noted != keys.current) ForgetEpoch();
+  if (keys.next != 0 || state_.key_check != 0) state_.key_check = under_next_key_ ? keys.next : keys.current;
+}
+
+void LinkMemory::ForgetEpoch() {
+  state_.epoch = 0;
+  state_.send_next = 1;
+  state_.receive_floor = 0;
+  state_.floor_exact = true;
 }
 
 /// Nothing to go on with: a new epoch is needed, and with it the other end learns of the new numbers. Those

@@ -8,7 +8,8 @@
 namespace priamos::bus::radio {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x334B4C50;  // "PLK3"
+constexpr std::uint32_t kMagic = 0x334B4C50;         // "PLK3"
+constexpr std::uint32_t kMagicWithKey = 0x344B4C50;  // "PLK4": the same with the key of the epoch behind
 constexpr std::size_t kChecksumBytes = 16;
 
 class Writer {
@@ -76,7 +77,7 @@ std::array<std::byte, kChecksumBytes> Checksum(std::span<const std::byte> bytes)
 
 std::vector<std::byte> Serialise(const LinkState& state) {
   Writer w;
-  w.Number(kMagic, 4);
+  w.Number(state.key_check != 0 ? kMagicWithKey : kMagic, 4);
   w.Number(state.table_hash, 4);
   w.Number(state.epoch, 8);
   w.Number(state.send_next, 8);
@@ -95,6 +96,7 @@ std::vector<std::byte> Serialise(const LinkState& state) {
     w.Number(e.bits, 4);
     w.Bytes(e.packed);
   }
+  if (state.key_check != 0) w.Number(state.key_check, 4);
   const auto sum = Checksum(w.bytes());
   w.bytes().insert(w.bytes().end(), sum.begin(), sum.end());
   return std::move(w.bytes());
@@ -108,7 +110,8 @@ std::optional<LinkState> ParseLinkState(std::span<const std::byte> bytes) {
 
   Reader r(body);
   LinkState state;
-  if (r.Number(4) != kMagic) return std::nullopt;
+  const std::uint64_t magic = r.Number(4);
+  if (magic != kMagic && magic != kMagicWithKey) return std::nullopt;
   state.table_hash = static_cast<std::uint32_t>(r.Number(4));
   state.epoch = r.Number(8);
   state.send_next = r.Number(8);
@@ -130,6 +133,7 @@ std::optional<LinkState> ParseLinkState(std::span<const std::byte> bytes) {
     if (e.bits > e.packed.size() * 8) return std::nullopt;
     state.events.push_back(std::move(e));
   }
+  if (magic == kMagicWithKey) state.key_check = static_cast<std::uint32_t>(r.Number(4));
   if (!r.ok() || !r.at_end()) return std::nullopt;
   return state;
 }

@@ -69,6 +69,7 @@ struct LinkState {
   std::vector<std::uint8_t> receive_event;  ///< per channel: number of the next segment expected
   std::vector<std::uint8_t> receive_known;  ///< per channel: 1 when receive_event is valid
   std::vector<StoredEvent> events;          ///< per channel in order
+  std::uint32_t key_check = 0;              ///< the key of the epoch, see KeyCheck; 0: not noted
   friend bool operator==(const LinkState&, const LinkState&) = default;
 };
 

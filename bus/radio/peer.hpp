@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "bus/radio/bundle_builder.hpp"
 #include "bus/radio/frame_ack.hpp"
 #include "bus/radio/handshake.hpp"
 #include "bus/radio/listeners.hpp"
+#include "bus/radio/next_key.hpp"
 
 namespace priamos::bus::radio {
 
@@ -15,6 +17,8 @@ struct Peer {
   FrameAckSender acks{};  ///< acknowledgements of the other end's frames
   SentFrames sent{};      ///< frames of this end, and their acknowledgements
   Listeners listeners{};
+  std::optional<NextKey> next_key{};             ///< until it is in use
+  std::optional<std::uint32_t> announced_key{};  ///< next key of the other end, while it is not in use
 
   /// State of reception at the time at which this end makes a frame.
   struct Heard {
@@ -27,6 +31,7 @@ struct Peer {
   struct Loaded {
     bool frame_ack = false;
     bool listeners = false;
+    bool next_key = false;
   };
   /// Whether an entry of Load() is so urgent that a frame is sent for it alone.
   bool Due() const { return acks.Pressing() || listeners.changed(); }
@@ -35,6 +40,10 @@ struct Peer {
   void Return(const Loaded& loaded);
   /// Notes that counters begin anew.
   void OnEpochChanged();
+  /// Takes the other end's announcement of its next key.
+  void OnNextKey(const NextKeyEntry& entry, Time now);
+  /// Goes on with the agreement under the next key, which is no longer the next one.
+  void UseNextKey();
 };
 
 }  // namespace priamos::bus::radio

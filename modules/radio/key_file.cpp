@@ -10,7 +10,9 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -46,6 +48,21 @@ void RefuseOpenMode(const std::string& path, int fd) {
         fmt::format("{}: expected a key that only its owner can read, got mode {:o}: if nobody else has read "
                     "it, `chmod 600 {}`",
                     path, info.st_mode & 0777U, path));
+}
+
+/// Whether there is anything of this name, also a link that leads nowhere.
+bool IsThere(const std::string& path) {
+  struct stat info {};
+  return lstat(path.c_str(), &info) == 0 || errno != ENOENT;
+}
+
+/// The process that reads the one must be able to read the other, also when root made it.
+void GiveToOwnerOf(const std::string& path, const std::string& other) {
+  struct stat info {};
+  if (stat(path.c_str(), &info) != 0 || info.st_uid == geteuid()) return;
+  if (chown(other.c_str(), info.st_uid, info.st_gid) != 0)
+    throw std::runtime_error(
+        fmt::format("{}: cannot be given to the owner of {}: {}", other, path, std::strerror(errno)));
 }
 
 /// Whether a key looks random: of 10^16 random keys not one has fewer than 16 different bytes, is a text,
@@ -107,6 +124,44 @@ void WriteNewKeyFile(const std::string& path) {
   sodium_memzero(key.data(), key.size());
   if (!written)
     throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+}
+
+std::string NextKeyFile(const std::string& path) {
+  return path + ".next";
+}
+
+std::optional<LinkKey> ReadNextKeyFile(const std::string& path, const LinkKey& current) {
+  const std::string next = NextKeyFile(path);
+  if (!IsThere(next)) return std::nullopt;
+  const LinkKey key = ReadKeyFile(next);
+  if (key == current)
+    throw std::runtime_error(
+        fmt::format("{}: expected another key than {}, got the same: remove it", next, path));
+  return key;
+}
+
+void WriteNextKeyFile(const std::string& path) {
+  ReadKeyFile(path);
+  const std::string next = NextKeyFile(path);
+  if (IsThere(next))
+    throw std::runtime_error(fmt::format(
+        "{}: exists and is kept: go on with it (`priamos link rekey --help`), or remove it at both ends",
+        next));
+  WriteNewKeyFile(next);
+  GiveToOwnerOf(path, next);
+}
+
+void FinishKeyChange(const std::string& path) {
+  const std::string next = NextKeyFile(path);
+  if (!IsThere(next))
+    throw std::runtime_error(fmt::format(
+        "{}: expected the next key, got none: make one with `priamos link rekey {}`", next, path));
+  ReadNextKeyFile(path, ReadKeyFile(path));
+  if (std::rename(next.c_str(), path.c_str()) != 0)
+    throw std::runtime_error(fmt::format("{}: cannot be replaced: {}", path, std::strerror(errno)));
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const File directory(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+  if (directory.fd() >= 0) fsync(directory.fd());  // else a loss of power may bring the old key back
 }
 
 LinkKey SimulationKey() {

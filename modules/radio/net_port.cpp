@@ -2,15 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 #include "common/config.hpp"
+#include "common/number_text.hpp"
 #include "radio/net_socket.hpp"
 
 namespace priamos::radio {
 namespace {
 
 bool IsPortNumber(const std::string& text) {
-  return !text.empty() && text.size() <= 5 && text.find_first_not_of("0123456789") == std::string::npos &&
-         std::stoul(text) <= 65535;
+  return text.size() <= 5 && NumberOf<std::uint16_t>(text);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "common/random.hpp"
 #include "radio/file_store.hpp"
 #include "radio/key_file.hpp"
+#include "radio/link_health.hpp"
 #include "radio/net_port.hpp"
 #include "radio/private_line.hpp"
 
@@ -23,7 +24,7 @@ using bus::radio::Direction;
 
 constexpr Duration kReportPeriod{1'000'000};
 constexpr double kLongestHold_s = 600;
-/// A port that takes nothing for so long is not fed any more: what it gets late is worth nothing.
+/// Bytes that may wait for a port that takes none; more are dropped, because late bytes are worth nothing.
 constexpr std::size_t kMostUnwritten = 64;
 
 std::optional<bus::Schema> TypesIn(const std::string& folder) {
@@ -41,6 +42,7 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
       outgoing_(config.side == "onboard" ? Direction::kUp : Direction::kDown),
       codecs_(link_config_, types()),
       key_(LoadKey()),
+      next_key_(LoadNextKey()),
       requests_(context.node().SubscribeAll(channels::kLinkRequest)),
       status_(context.node().Advertise(channels::kLinkStatus)) {
   bus::radio::RequireBudget(link_config_.Table(types()), link_config_.Options());
@@ -103,6 +105,11 @@ bus::radio::LinkKey RadioApp::LoadKey() const {
   return SimulationKey();
 }
 
+std::optional<bus::radio::LinkKey> RadioApp::LoadNextKey() const {
+  if (link_config_.simulation_key) return std::nullopt;
+  return ReadNextKeyFile(context_.ResolvePath(link_config_.key_file), key_);
+}
+
 bus::radio::NonceSource RadioApp::Nonces() const {
   if (context_.lockstep())
     return [rng = Rng::Stream(context_.seed(), "radio " + config_.side)]() mutable { return rng.engine()(); };
@@ -140,7 +147,7 @@ void RadioApp::StartLink(Time now) {
         if (!packed) LogRefusal(channel, encoded, at);
         return packed;
       },
-      Nonces(), now);
+      Nonces(), now, next_key_);
   for (const Waiting& w : waiting_)
     link_->Offer(w.channel, w.encoded, now, codecs_.KeyOf(w.channel, w.encoded));
   waiting_.clear();
@@ -213,6 +220,30 @@ void RadioApp::Publish(const bus::radio::Delivery& delivery, Time now) {
   context_.node().PublishRaw(link_->table().at(delivery.channel).name, *message);
 }
 
+/// Each stage once.
+void RadioApp::LogKeyChange(bus::radio::KeyChange change) {
+  using bus::radio::KeyChange;
+  if (change == logged_change_) return;
+  logged_change_ = change;
+  const std::string file = link_config_.simulation_key ? "" : context_.ResolvePath(link_config_.key_file);
+  const std::string next = NextKeyFile(file);
+  if (change == KeyChange::kWaiting)
+    context_.Log(bus::Level::kInfo,
+                 fmt::format("{}: the link changes to it when the other end has it", next));
+  if (change == KeyChange::kOffered)
+    context_.Log(
+        bus::Level::kInfo,
+        fmt::format("the other end has a next key: copy it to {} and start this process again", next));
+  if (change == KeyChange::kDiffers)
+    context_.Log(bus::Level::kWarning,
+                 fmt::format("{}: the other end has another next key: copy one over the other and start that "
+                             "end's process again",
+                             next));
+  if (change == KeyChange::kDone)
+    context_.Log(bus::Level::kInfo,
+                 fmt::format("the link uses the next key: `priamos link rekey --finish {}`", file));
+}
+
 void RadioApp::Report(Time now) {
   if (net_) reported_.turned_away = net_->turned_away();
   const link_status_t message =
@@ -220,23 +251,10 @@ void RadioApp::Report(Time now) {
   status_.Publish(message);
   last_report_ = now;
   next_report_ = now + kReportPeriod;
-  if (const std::size_t code_bytes = link_->table().code_bytes(), theirs = link_->Status(now).peer_code_bytes;
-      message.table_mismatch && theirs != code_bytes) {
-    context_.SetHealth(
-        bus::Health::kFailed,
-        fmt::format("the other end has codes of {} bytes, this one of {}: set code_bytes alike "
-                    "in both link.toml",
-                    theirs, code_bytes));
-  } else if (message.table_mismatch) {
-    context_.SetHealth(bus::Health::kFailed,
-                       "the other end has another channel table: compare link.toml and lcmtypes");
-  } else if (message.alarm) {
-    context_.SetHealth(bus::Health::kDegraded, "frames arrive that the other end did not send");
-  } else if (!message.up) {
-    context_.SetHealth(bus::Health::kDegraded, "nothing is heard from the other end");
-  } else {
-    context_.SetHealth(bus::Health::kOk);
-  }
+  const auto [health, why] =
+      HealthOf(message, link_->table().code_bytes(), link_->Status(now).peer_code_bytes);
+  context_.SetHealth(health, why);
+  LogKeyChange(link_->Status(now).key_change);
   if (was_up_ != static_cast<bool>(message.up)) {
     was_up_ = message.up;
     context_.Log(was_up_ ? bus::Level::kInfo : bus::Level::kWarning, was_up_ ? "link is up" : "link is down");

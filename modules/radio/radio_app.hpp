@@ -65,6 +65,8 @@ class RadioApp {
   void Report(Time now);
   const bus::Schema& types() const { return own_types_ ? *own_types_ : context_.node().schema(); }
   bus::radio::LinkKey LoadKey() const;
+  std::optional<bus::radio::LinkKey> LoadNextKey() const;
+  void LogKeyChange(bus::radio::KeyChange change);
   bus::radio::NonceSource Nonces() const;
 
   RadioConfig config_;
@@ -74,8 +76,9 @@ class RadioApp {
   bus::radio::Direction outgoing_;
   bus::radio::MessageCodecs codecs_;
   bus::radio::LinkKey key_;
-  std::unique_ptr<ByteStream> port_;  ///< of a serial line
-  std::unique_ptr<NetPort> net_;      ///< of a link over IP
+  std::optional<bus::radio::LinkKey> next_key_;  ///< that the link is to change to
+  std::unique_ptr<ByteStream> port_;             ///< of a serial line
+  std::unique_ptr<NetPort> net_;                 ///< of a link over IP
   std::unique_ptr<bus::radio::StateStore> store_;
   std::unique_ptr<bus::radio::LinkEndpoint> link_;  ///< since the first tick, which brings the time
   EchoFilter echo_;
@@ -91,6 +94,7 @@ class RadioApp {
   std::uint64_t undecodable_ = 0;
   std::set<std::string> refusals_;  ///< reasons for which a message was not sent, already in the log
   bool was_up_ = false;
+  bus::radio::KeyChange logged_change_ = bus::radio::KeyChange::kNone;
 };
 
 }  // namespace priamos::radio

@@ -13,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "common/number_text.hpp"
 #include "radio/net_socket.hpp"
 
 namespace priamos::radio {
@@ -102,7 +103,7 @@ class UdpPort : public NetPort {
     setsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
     sockaddr_storage local{};
     local.ss_family = static_cast<sa_family_t>(peer.ai_family);
-    const auto port = htons(static_cast<std::uint16_t>(std::stoul(local_port_)));
+    const auto port = htons(NumberOf<std::uint16_t>(local_port_).value());
     if (peer.ai_family == AF_INET) {
       auto& in = reinterpret_cast<sockaddr_in&>(local);
       in.sin_port = port;

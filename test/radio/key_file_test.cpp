@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -88,6 +89,67 @@ TEST_F(KeyFileTest, AKeyThatCanBeGuessedIsRefused) {
     chmod(path.c_str(), 0600);
     EXPECT_THAT(ErrorOfReading(), HasSubstr("expected a random key")) << text;
   }
+}
+
+TEST_F(KeyFileTest, TheNextKeyLiesBesideTheKeyAndReplacesIt) {
+  WriteNewKeyFile(path);
+  const auto first = ReadKeyFile(path);
+  EXPECT_EQ(ReadNextKeyFile(path, first), std::nullopt);
+  WriteNextKeyFile(path);
+  struct stat info {};
+  ASSERT_EQ(stat((path + ".next").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777U, 0600U);
+  const auto next = ReadNextKeyFile(path, first);
+  ASSERT_TRUE(next);
+  EXPECT_NE(*next, first);
+  EXPECT_EQ(ReadKeyFile(path), first) << "unchanged so far";
+  FinishKeyChange(path);
+  EXPECT_EQ(ReadKeyFile(path), *next);
+  EXPECT_FALSE(std::filesystem::exists(path + ".next"));
+}
+
+TEST_F(KeyFileTest, ANextKeyThatIsThereIsKept) {
+  WriteNewKeyFile(path);
+  WriteNextKeyFile(path);
+  const auto next = ReadNextKeyFile(path, {});
+  EXPECT_THROW(WriteNextKeyFile(path), std::runtime_error);
+  EXPECT_EQ(ReadNextKeyFile(path, {}), next);
+}
+
+TEST_F(KeyFileTest, ANextKeyThatRootMakesBelongsToTheOwnerOfTheKey) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root gives files away";
+  WriteNewKeyFile(path);
+  ASSERT_EQ(chown(path.c_str(), 1234, 1234), 0);
+  WriteNextKeyFile(path);
+  struct stat info {};
+  ASSERT_EQ(stat((path + ".next").c_str(), &info), 0);
+  EXPECT_EQ(info.st_uid, 1234U);
+  EXPECT_EQ(info.st_mode & 0777U, 0600U);
+}
+
+TEST_F(KeyFileTest, ANextKeyNeedsAKey) {
+  EXPECT_THROW(WriteNextKeyFile(path), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(path + ".next"));
+}
+
+TEST_F(KeyFileTest, ANextKeyThatOthersCanReadOrThatIsTheSameIsRefused) {
+  WriteNewKeyFile(path);
+  std::filesystem::copy_file(path, path + ".next");
+  EXPECT_THROW(ReadNextKeyFile(path, ReadKeyFile(path)), std::runtime_error);
+  EXPECT_THROW(FinishKeyChange(path), std::runtime_error);
+  std::filesystem::remove(path + ".next");
+  WriteNextKeyFile(path);
+  ASSERT_EQ(chmod((path + ".next").c_str(), 0640), 0);
+  EXPECT_THROW(ReadNextKeyFile(path, ReadKeyFile(path)), std::runtime_error);
+  EXPECT_THROW(FinishKeyChange(path), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::exists(path + ".next"));
+}
+
+TEST_F(KeyFileTest, WithoutANextKeyNothingIsFinished) {
+  WriteNewKeyFile(path);
+  const auto key = ReadKeyFile(path);
+  EXPECT_THROW(FinishKeyChange(path), std::runtime_error);
+  EXPECT_EQ(ReadKeyFile(path), key);
 }
 
 }  // namespace

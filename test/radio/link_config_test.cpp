@@ -1,5 +1,6 @@
 #include "bus/radio/link_config.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,11 +20,15 @@ namespace {
 
 using bus::radio::LinkConfig;
 
-LinkConfig Shipped() {
-  return LoadConfig<LinkConfig>(std::string(PRIAMOS_SOURCE_DIR) + "/config/sim/link.toml");
-}
+/// The link of one deployment, "sim" or "robot".
+class ShippedLink : public testing::TestWithParam<const char*> {
+ protected:
+  LinkConfig Shipped() const {
+    return LoadConfig<LinkConfig>(fmt::format("{}/config/{}/link.toml", PRIAMOS_SOURCE_DIR, GetParam()));
+  }
+};
 
-TEST(ShippedLink, ChannelsAreThoseOfTheRobotWithTheirTypes) {
+TEST_P(ShippedLink, ChannelsAreThoseOfTheRobotWithTheirTypes) {
   for (const auto& channel : Shipped().channels) {
     bool found = false;
     std::apply(
@@ -37,7 +42,7 @@ TEST(ShippedLink, ChannelsAreThoseOfTheRobotWithTheirTypes) {
   }
 }
 
-TEST(ShippedLink, WhatIsASafetyChannelOnTheBusIsUrgentOnTheLine) {
+TEST_P(ShippedLink, WhatIsASafetyChannelOnTheBusIsUrgentOnTheLine) {
   for (const auto& channel : Shipped().channels) {
     const auto is_this_safety = [&](const auto& c) {
       return c.name == channel.name && c.safety_act != nullptr;
@@ -48,13 +53,15 @@ TEST(ShippedLink, WhatIsASafetyChannelOnTheBusIsUrgentOnTheLine) {
   }
 }
 
-TEST(ShippedLink, BudgetHolds) {
+TEST_P(ShippedLink, BudgetHolds) {
   const bus::Schema schema = bus::OwnTypes();
   const auto budget = ComputeBudget(Shipped().Table(schema), Shipped().Options());
   EXPECT_THAT(budget.problems, testing::IsEmpty());
   EXPECT_LT(budget.up.utilisation, 0.5);
   EXPECT_LT(budget.down.utilisation, 0.5);
 }
+
+INSTANTIATE_TEST_SUITE_P(OfEveryDeployment, ShippedLink, testing::Values("sim", "robot"));
 
 // ---- What both ends must agree on.
 

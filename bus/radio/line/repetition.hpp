@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "common/time.hpp"
 
 namespace priamos::bus::radio {
@@ -15,12 +17,21 @@ class Repetition {
   explicit Repetition(Time now) : others_at_(now) {}
 
   /// Notes whether an urgent event was sent and is not acknowledged.
+  void NoteUnanswered(bool unanswered, Time now) {
+    if (!unanswered) unanswered_since_.reset();
+    if (unanswered && !unanswered_since_) unanswered_since_ = now;
+  }
+  /// Notes whether a repetition waits to be sent; none does behind a new event of its channel.
   void Step(bool waiting, Time now) {
     if (waiting && !waiting_) {
       since_ = now;
       taken_ = Duration::zero();
     }
     waiting_ = waiting;
+  }
+  /// Whether an urgent event has been without acknowledgement for so long.
+  bool UnansweredFor(Duration time, Time now) const {
+    return unanswered_since_ && now - *unanswered_since_ >= time;
   }
   /// Whether a repetition goes before the other frames.
   bool GoesFirst(Time now) const {
@@ -36,6 +47,7 @@ class Repetition {
   void OnOthersTurn(Time now) { others_at_ = now; }
 
  private:
+  std::optional<Time> unanswered_since_;
   bool waiting_ = false;
   Time since_{};  ///< begin of the first repetition
   Time others_at_;

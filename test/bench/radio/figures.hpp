@@ -54,7 +54,12 @@ void Hostile(Figures& figures, const Effort& effort);        // attack_figures.c
 void Stops(Figures& figures, const Effort& effort);          // stop_figures.cpp
 void SideBySide(Figures& figures);                           // size_figures.cpp
 void Differences(Figures& figures);                          // delta_figures.cpp
+/// A run with real processes.
+struct RealTimeOptions {
+  double seconds = 60;
+  double bit_error_rate = 0;  ///< of the emulated line; stops follow each other more slowly then
+};
 /// Real processes on real ptys; `programs`: folder of priamos and priamos-radio.
-void RealTime(Figures& figures, const std::string& programs, double seconds);  // real_time_figures.cpp
+void RealTime(Figures& figures, const std::string& programs, const RealTimeOptions& options);
 
 }  // namespace priamos::bench

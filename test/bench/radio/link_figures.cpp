@@ -68,6 +68,8 @@ void SimulatedLink(Figures& figures, const Effort& effort) {
   const Saturation saturation = Saturate(300);
   figures.Note("line used", 100 * saturation.line_used, "%");
   figures.AtLeast("bundle bytes of the bytes on the line", 93, 100 * saturation.bundle_share, "%");
+  figures.AtLeast("bytes of messages, of events of 10 bytes each", 75, 100 * GoodputShare(10, 300), "%");
+  figures.AtLeast("bytes of messages, of events of 26 bytes each", 85, 100 * GoodputShare(26, 300), "%");
   Errors(figures, effort);
   Events(figures, effort);
   Load(figures, effort);

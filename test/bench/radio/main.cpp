@@ -10,16 +10,18 @@ int main(int argc, char** argv) {
   CLI::App cli("Figures of the radio link, in simulated time; with --real-time over ptys.");
   Effort effort;
   bool real_time = false;
-  double seconds = 60;
+  RealTimeOptions options;
   cli.add_flag("--long", effort.long_run, "10^7 damaged frames, and more runs: about ten minutes");
   cli.add_flag("--real-time", real_time,
                "two priamos-radio on an emulated line; run it with scripts/in-private-network");
-  cli.add_option("--seconds", seconds, "length of the real-time run")->capture_default_str();
+  cli.add_option("--seconds", options.seconds, "length of the real-time run")->capture_default_str();
+  cli.add_option("--bit-error-rate", options.bit_error_rate, "of the line of the real-time run")
+      ->capture_default_str();
   CLI11_PARSE(cli, argc, argv);
   Figures figures;
   try {
     if (real_time) {
-      RealTime(figures, std::filesystem::read_symlink("/proc/self/exe").parent_path().string(), seconds);
+      RealTime(figures, std::filesystem::read_symlink("/proc/self/exe").parent_path().string(), options);
     } else {
       SideBySide(figures);
       Differences(figures);

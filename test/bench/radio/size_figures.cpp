@@ -74,13 +74,13 @@ std::size_t LcmSize(const bus::Struct& type) {
 /// The three messages in one authenticated frame, delimiter and all.
 std::size_t BundleOfThree(const std::vector<LinkChannel>& channels) {
   const ChannelTable table(channels, false);
-  bus::BitWriter bundle;
+  BundleWriter bundle(table);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     std::vector<std::byte> packed((channels[i].fixed_bits + 7) / 8);
     if (channels[i].channel_class == ChannelClass::kCommand) {
-      WriteEntry(table, CommandEntry{i, {}, channels[i].fixed_bits, packed}, bundle);
+      bundle.Write(CommandEntry{i, {}, channels[i].fixed_bits, packed});
     } else {
-      WriteEntry(table, StateEntry{i, channels[i].fixed_bits, packed}, bundle);
+      bundle.Write(StateEntry{i, channels[i].fixed_bits, packed});
     }
   }
   const FrameSealer sealer(FrameKeys(LinkKey{1}), Direction::kUp,

@@ -299,7 +299,8 @@ TEST(Budget, NorDoesAHalfDuplexLink) {
   const double tightest =
       Tightest(BudgetRuns() / 4, 6, {.turn = Duration(400'000), .turnaround = Duration(20'000)});
   RecordProperty("tightest", std::to_string(tightest));
-  EXPECT_GT(tightest, 0.4);
+  // Less near than with two directions: segments that travel as runs take less than is reckoned with.
+  EXPECT_GT(tightest, 0.35);
 }
 
 TEST(Budget, HalfDuplexLeavesLessThanHalfOfTheLine) {

@@ -50,6 +50,52 @@ TEST_F(FrameReceiverTest, AFrameComesWithWhereAndWhenItCame) {
   EXPECT_EQ(dut.counters().bytes, wire.size());
 }
 
+TEST_F(FrameReceiverTest, ABlockIsAFrameLikeAnother) {
+  const auto wire = FrameSealer(FrameKeys(kKey), Direction::kUp, kScope)
+                        .Seal(kEpoch, 3, CounterForm::kWhole, Text("x"), 0, LineCode::kBlock);
+  Push(std::span(wire).first(4), After(1));
+  const auto result = Push(std::span(wire).subspan(4), After(1.1));
+  const auto& accepted = std::get<AcceptedFrame>(result);
+  EXPECT_EQ(accepted.frame.counter, 3U);
+  EXPECT_EQ(accepted.wire_bytes, wire.size());
+  EXPECT_EQ(accepted.first_byte, After(1));
+  EXPECT_EQ(dut.newest()->line_code, LineCode::kBlock);
+  EXPECT_EQ(dut.counters().rejected, ReceptionCounters{}.rejected);
+  Push(wire, After(1.2));
+  EXPECT_EQ(dut.counters().rejected[static_cast<std::size_t>(Reject::kReplayed)], 1U);
+}
+
+TEST_F(FrameReceiverTest, ABlockOfAnotherKeyIsAForgery) {
+  const auto wire = FrameSealer(FrameKeys(LinkKey{9}), Direction::kUp, kScope)
+                        .Seal(kEpoch, 3, CounterForm::kWhole, Text("x"), 0, LineCode::kBlock);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(Push(wire, After(1))));
+  EXPECT_EQ(dut.counters().rejected[static_cast<std::size_t>(Reject::kBadCode)], 1U);
+}
+
+TEST_F(FrameReceiverTest, UnderTheNextKeyHellosAreOpenedAndNoData) {
+  const LinkKey next{9};
+  const FrameSealer sealer(FrameKeys(next), Direction::kUp, kScope);
+  const auto hello = sealer.Seal(Hello{.nonce = 5}), data = Sealed(3, "x", next);
+  Push(hello, After(1));
+  EXPECT_EQ(dut.counters().rejected[static_cast<std::size_t>(Reject::kBadCode)], 1U) << "no next key yet";
+  dut.SetNextKey(FrameOpener(FrameKeys(next), Direction::kUp, kScope));
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(Push(data, After(2))));
+  EXPECT_EQ(dut.counters().rejected[static_cast<std::size_t>(Reject::kBadCode)], 2U);
+  EXPECT_EQ(std::get<NextKeyHello>(Push(hello, After(3))).hello.nonce, 5U);
+  EXPECT_EQ(dut.counters().rejected[static_cast<std::size_t>(Reject::kBadCode)], 2U);
+}
+
+TEST_F(FrameReceiverTest, OnceTheNextKeyIsUsedTheOneBeforeOpensNothing) {
+  const LinkKey next{9};
+  dut.SetNextKey(FrameOpener(FrameKeys(next), Direction::kUp, kScope));
+  dut.UseNextKey();
+  dut.SetEpoch(kEpoch, 0);
+  const auto hello = FrameSealer(FrameKeys(kKey), Direction::kUp, kScope).Seal(Hello{.nonce = 5});
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(Push(hello, After(1))));
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(Push(Sealed(3, "x"), After(2))));
+  EXPECT_TRUE(std::holds_alternative<AcceptedFrame>(Push(Sealed(3, "x", next), After(3))));
+}
+
 TEST_F(FrameReceiverTest, WhatWasMissedCountsOnlyBetweenFramesOfThisLife) {
   Push(Sealed(10, "a"), After(0));
   EXPECT_EQ(dut.counters().missed, 0U);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bus/radio/frame/coded_block.hpp"
 #include "link_pair.hpp"
 
 namespace priamos::bus::radio {
@@ -119,7 +120,7 @@ TEST_F(FrameSchedulerTest, CountersAreUsedOnceAlsoByFramesThatAreCut) {
     Offer(kStopDown, "!");
     Run(15);
   }
-  EXPECT_GT(dut.counters().aborted, 5U);
+  EXPECT_GT(dut.counters().aborted, 2U);
   EXPECT_GE(memory.last_counter(), dut.counters().frames + dut.counters().aborted);
 }
 
@@ -166,6 +167,59 @@ TEST_F(FrameSchedulerTest, AFrameCountsAsHandedOverWithTheLastByteOfItsContentUn
   ASSERT_EQ(dut.counters().aborted, 1U);
   EXPECT_FALSE(peer.sent.HandedOver(cut));
   EXPECT_TRUE(peer.sent.HandedOver(cut + 1));
+}
+
+/// Numbers of frames that are blocks, and that are not, among what went on the line. Pieces of blocks that
+/// were cut off are neither.
+std::pair<int, int> BlocksAndOthers(const std::vector<std::byte>& wire) {
+  std::pair<int, int> count;
+  for (auto begin = wire.begin(); begin != wire.end();) {
+    const auto end = std::find(begin, wire.end(), kDelimiter);
+    if (end == wire.end()) break;
+    if (DecodeBlock({begin, end})) ++count.first;
+    if (end != begin && CobsDecode({begin, end})) ++count.second;
+    begin = end + 1;
+  }
+  return count;
+}
+
+TEST_F(FrameSchedulerTest, AnUrgentEventGoesAsAShortFrameAndIsRepeatedInBlocks) {
+  Hear(1);
+  Run(300);
+  Offer(kStopDown, "!");
+  const auto [blocks, others] = BlocksAndOthers(Run(120));
+  EXPECT_GE(blocks, 2);
+  EXPECT_EQ(others, 1);
+}
+
+TEST_F(FrameSchedulerTest, ANewUrgentEventIsAShortFrameWhenTheLineMayStillAnswer) {
+  Hear(1);
+  Run(300);
+  Offer(kStopDown, "!");
+  auto wire = Run(17);
+  Offer(kStopDown, "?");
+  for (const std::byte b : Run(30)) wire.push_back(b);
+  EXPECT_EQ(BlocksAndOthers(wire), std::pair(0, 2));
+}
+
+TEST_F(FrameSchedulerTest, ANewUrgentEventIsABlockWhenTheLineDoesNotAnswer) {
+  Hear(1);
+  Run(300);
+  Offer(kStopDown, "!");
+  auto wire = Run(170);
+  Offer(kStopDown, "?");
+  for (const std::byte b : Run(60)) wire.push_back(b);
+  EXPECT_EQ(BlocksAndOthers(wire).second, 1);
+}
+
+TEST_F(FrameSchedulerTest, DatagramsAreNoBlocks) {
+  options.datagrams = true;
+  dut = FrameScheduler(table, FrameSealer(FrameKeys(kKey), Direction::kDown, scope), options, false, now);
+  Hear(1);
+  Offer(kStopDown, "!");
+  const auto [blocks, others] = BlocksAndOthers(Run(100));
+  EXPECT_EQ(blocks, 0);
+  EXPECT_GE(others, 2);
 }
 
 struct HalfDuplexSchedulerTest : FrameSchedulerTest {

@@ -18,6 +18,11 @@ TEST(LinkMeasurements, SaturatedLineCarriesBundles) {
   EXPECT_GT(dut.bundle_share, 0.93);
 }
 
+TEST(LinkMeasurements, MostOfTheLineIsMessages) {
+  EXPECT_GE(GoodputShare(10, 30), 0.75);
+  EXPECT_GE(GoodputShare(26, 30), 0.85);
+}
+
 TEST(LinkMeasurements, BitErrorsCostNoMoreThanTheyMust) {
   const double clean = EventGoodput(0, 1, 60).bytes_per_s;
   for (const auto& [rate, share] : {std::pair{1e-5, 0.95}, {1e-4, 0.80}, {1e-3, 0.25}}) {

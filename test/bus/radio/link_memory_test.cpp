@@ -71,6 +71,39 @@ TEST_F(LinkMemoryTest, NobodyWaitsForADiskThatIsFasterThanTheReserve) {
   EXPECT_EQ(disk.waits, before);
 }
 
+TEST_F(LinkMemoryTest, TheKeyOfTheEpochIsKnownAfterARestart) {
+  const auto nonces = [] { return std::uint64_t{7}; };
+  SlowDisk disk(1);
+  Start(disk).ChangeEpoch(1, 2);
+  {
+    LinkMemory dut(disk, table, nonces, {.current = 5, .next = 6});
+    EXPECT_FALSE(dut.under_next_key()) << "before there was a choice";
+    EXPECT_EQ(dut.epoch(), 1U);
+    dut.UseKey(6);
+    dut.ChangeEpoch(3, 2);
+  }
+  const LinkMemory both(disk, table, nonces, {.current = 5, .next = 6});
+  EXPECT_TRUE(both.under_next_key());
+  EXPECT_EQ(both.epoch(), 3U);
+  const LinkMemory finished(disk, table, nonces, {.current = 6});
+  EXPECT_FALSE(finished.under_next_key());
+  EXPECT_EQ(finished.epoch(), 3U);
+}
+
+TEST_F(LinkMemoryTest, OfAnotherKeyOnlyTheEpochIsForgotten) {
+  const auto nonces = [stream = std::uint64_t{7}]() mutable { return stream++; };
+  SlowDisk disk(1);
+  LinkMemory before(disk, table, nonces, {.current = 5, .next = 6});
+  before.ChangeEpoch(1, 2);
+  before.TakeCounter();
+  before.NoteAccepted(9);
+  const LinkMemory dut(disk, table, nonces, {.current = 8, .next = 9});
+  EXPECT_EQ(dut.epoch(), 0U);
+  EXPECT_EQ(dut.receive_floor(), 0U);
+  EXPECT_EQ(dut.last_counter(), 0U);
+  EXPECT_EQ(dut.stream(), before.stream()) << "numbers of events go on";
+}
+
 /// Whatever the disk does and whenever the process or the power goes: no counter is sent twice in an epoch,
 /// and none that was accepted is below what the next start believes.
 RC_GTEST_FIXTURE_PROP(LinkMemoryTest, NoCounterIsUsedTwiceHoweverItEnds, ()) {

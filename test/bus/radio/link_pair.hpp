@@ -68,6 +68,7 @@ class LinkPair {
     StateStore* other_store = nullptr;  ///< used instead of `store`
     std::vector<LinkChannel> channels = TestChannels();
     LinkKey key{1, 2, 3};
+    std::optional<LinkKey> next_key;
     LinkOptions options;
     std::size_t code_bytes = kShortCodeBytes;
     std::unique_ptr<LinkEndpoint> link;
@@ -100,7 +101,7 @@ class LinkPair {
         [](std::size_t, std::span<const std::byte> encoded, Time) {
           return std::optional(Packed{{encoded.begin(), encoded.end()}, encoded.size() * 8});
         },
-        [this] { return rng.engine()(); }, now);
+        [this] { return rng.engine()(); }, now, end.next_key);
   }
 
   void StepOnce() {

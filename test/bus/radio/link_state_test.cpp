@@ -26,8 +26,18 @@ TEST(LinkState, RoundTrip) {
   EXPECT_EQ(ParseLinkState(Serialise(Example())), Example());
 }
 
+TEST(LinkState, TheKeyTakesRoomOnlyWhenItIsNoted) {
+  LinkState state = Example();
+  const std::size_t without = Serialise(state).size();
+  state.key_check = 0x01020304;
+  EXPECT_EQ(Serialise(state).size(), without + 4);
+  EXPECT_EQ(ParseLinkState(Serialise(state)), state);
+}
+
 TEST(LinkState, DamageAnywhereIsNoticed) {
-  const auto bytes = Serialise(Example());
+  LinkState state = Example();
+  state.key_check = 7;
+  const auto bytes = Serialise(state);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     auto damaged = bytes;
     damaged[i] ^= std::byte{0x10};

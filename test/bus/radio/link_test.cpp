@@ -114,7 +114,7 @@ TEST(Link, UrgentAbortsTheRepetitionOfAnotherUrgent) {
     ASSERT_TRUE(dut.RunUntil(5, [&] { return dut.offboard.link->Status(dut.now).resent > resent; }));
     dut.Run(0.003);  // in the midst of the repetition
     dut.offboard.link->Offer(kStopDown, Text(std::string(1, c)), dut.now);
-    dut.Run(0.025);  // 19 bytes: in the silence of the other end counters are written whole
+    dut.Run(0.035);  // 29 bytes, a block: in the silence of the other end counters are written whole
     ASSERT_EQ(dut.onboard.TextsOf(kStopDown).size(), static_cast<std::size_t>(c - '0'));
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "explorer/powered_store.hpp"
 #include "link_pair.hpp"
 
 // The machine of one end loses its power: of what the end saved, its disk has what was synced. Cut at every
@@ -13,40 +14,6 @@ namespace priamos::bus::radio {
 namespace {
 
 using testing::ElementsAre;
-
-/// A disk, and before it a memory that forgets without power.
-class PoweredStore : public StateStore {
- public:
-  std::optional<SavedState> Load() override {
-    if (memory_) return SavedState{.bytes = *memory_, .latest = true};
-    if (disk_) return SavedState{.bytes = *disk_, .latest = false};
-    return std::nullopt;
-  }
-  void Save(std::span<const std::byte> state) override {
-    memory_.emplace(state.begin(), state.end());
-    OnWrite();
-  }
-  void StartSync() override {
-    syncing_ = memory_;
-    OnWrite();
-  }
-  void AwaitSync() override {
-    disk_ = syncing_;
-    OnWrite();
-  }
-  /// `finished`: the disk still got what was being synced.
-  void LosePower(bool finished) {
-    if (finished && syncing_) disk_ = syncing_;
-    memory_.reset();
-    syncing_.reset();
-  }
-  int writes() const { return writes_; }
-
- private:
-  void OnWrite() { ++writes_; }
-  std::optional<std::vector<std::byte>> memory_, syncing_, disk_;
-  int writes_ = 0;
-};
 
 /// Stops from the workstation and events of the robot; the power of the workstation is lost after so many
 /// writes.

@@ -1,5 +1,4 @@
 #include <fcntl.h>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -8,8 +7,10 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -50,15 +51,6 @@ struct UpOptions {
   bool detach = false, json = false;
 };
 
-std::string MakeRunFolder(const UpOptions& options) {
-  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  const auto folder =
-      fs::path(options.log_root) / fmt::format("{:%Y%m%d-%H%M%S}-up-{}", fmt::localtime(now),
-                                               fs::path(options.deployment).filename().string());
-  fs::create_directories(folder);
-  return fs::absolute(folder).string();
-}
-
 /// Run of `priamos up` in the foreground.
 class UpRun {
  public:
@@ -68,7 +60,9 @@ class UpRun {
         schema_(bus::OwnTypes()),
         start_(clock_.Now()),
         owner_(deployment, schema_, clock_, [this](const std::string& text) { Say(text); }),
-        place_{ThisProgram().program_folder.string(), folder, MakeRunFolder(options), options.seed},
+        place_{ThisProgram().program_folder.string(), folder,
+               MakeRunFolder(options.log_root, "up-" + fs::path(options.deployment).filename().string()),
+               options.seed},
         supervisor_(PlanOf(deployment, place_), place_.run_folder,
                     [this](const std::string& text) { Say(text); }) {}
 
@@ -117,7 +111,11 @@ class UpRun {
                   owner_.alarms()};
     for (const ProcessReport& p : state.processes)
       state.ages_s.push_back(p.since == Time{} ? state.up_s : Seconds(now - p.since));
-    WriteUpState(options_.log_root, state);
+    const bool written = WriteUpState(options_.log_root, state);
+    if (!written && state_written_)
+      Say(fmt::format("{}: `priamos status` cannot be kept up to date: {}", options_.log_root,
+                      std::strerror(errno)));
+    state_written_ = written;
   }
 
   UpOptions options_;
@@ -129,6 +127,7 @@ class UpRun {
   RobotOwner owner_;
   LaunchPlace place_;
   Supervisor supervisor_;
+  bool state_written_ = true;  ///< up.json holds the newest state
 };
 
 /// Checks the buses before any process is started: throws if there is no route for multicast, without which

@@ -1,4 +1,3 @@
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <poll.h>
 
@@ -36,10 +35,9 @@ struct RecordOptions {
 };
 
 std::string DefaultFile() {
-  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   const std::filesystem::path folder = LogRoot("");
   std::filesystem::create_directories(folder);
-  return folder / fmt::format("{:%Y%m%d-%H%M%S}.lcmlog", fmt::localtime(now));
+  return folder / (NameByTime() + ".lcmlog");
 }
 
 bus::RecorderLimits LimitsOf(const RecordOptions& options) {

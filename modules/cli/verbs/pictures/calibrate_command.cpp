@@ -2,7 +2,6 @@
 
 #include <CLI/App.hpp>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
 #include "bus/lockstep.hpp"
@@ -13,6 +12,7 @@
 #include "cli/terminal/json_line.hpp"
 #include "cli/verbs/pictures/commands.hpp"
 #include "common/config.hpp"
+#include "common/replace_file.hpp"
 #include "head/files/laser_files.hpp"
 #include "head/files/offline_calibration.hpp"
 
@@ -38,11 +38,8 @@ std::string FileOf(const CalibrateOptions& options, const char* name) {
 
 /// Replaces `path` as a whole or not at all.
 void WriteWhole(const std::string& path, const std::string& text) {
-  std::ofstream file(path + ".new", std::ios::trunc);
-  file << text << '\n';
-  file.close();
-  if (!file) throw ConfigError(fmt::format("{}: expected a file that can be written, got none", path));
-  std::filesystem::rename(path + ".new", path);
+  if (!ReplaceFile(path, text + '\n', false, 0644))
+    throw ConfigError(fmt::format("{}: expected a file that can be written, got none", path));
 }
 
 /// From photographs or lists of points: JSON to the output file or, without one, to standard output.

@@ -1,10 +1,8 @@
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
 #include <CLI/App.hpp>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <random>
@@ -46,14 +44,6 @@ std::string RobotOf(const RunOptions& options) {
 /// What a person reads; standard output belongs to the JSON.
 std::ostream& People(const RunOptions& options) {
   return options.json ? std::cerr : std::cout;
-}
-
-std::filesystem::path MakeRunFolder(const RunOptions& options) {
-  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  const auto folder = std::filesystem::path(options.log_root) /
-                      fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(now), options.scenario);
-  std::filesystem::create_directories(folder);
-  return std::filesystem::absolute(folder);
 }
 
 /// A scenario is a deployment with an emulated line, and a story.
@@ -100,7 +90,7 @@ class RealTimeRun {
         start_(clock_.Now()),
         owner_(deployment_, schema_, clock_,
                [this](const std::string& text) { Progress(clock_.Now(), text); }),
-        folder_(MakeRunFolder(options)),
+        folder_(MakeRunFolder(options.log_root, options.scenario)),
         recorder_(folder_.string()),
         place_{ThisProgram().program_folder.string(), options.deployment, folder_.string(), options.seed},
         story_(MakeStory()),

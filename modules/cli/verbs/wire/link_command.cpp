@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <iostream>
 #include <memory>
@@ -130,6 +132,36 @@ void AddKeygen(CLI::App& link, int& exit_code) {
   });
 }
 
+constexpr const char* kRekeySteps =
+    "{0}: next key of {1}. Next:\n"
+    "  1. copy it over a secure channel beside the key of the other machine, under the name of that key and\n"
+    "     .next, with the same owner and mode\n"
+    "  2. start one priamos-radio again, then the other: the link changes the key without a pause\n"
+    "  3. when both say that the link uses the next key, on each machine: priamos link rekey --finish {1}\n";
+
+void AddRekey(CLI::App& link, int& exit_code) {
+  auto path = std::make_shared<std::string>();
+  auto* verb = AddVerb(link, "rekey",
+                       "Change the key of a running radio link: make the next one, or put it in place.");
+  verb->footer("Example: priamos link rekey /etc/priamos/link.key");
+  verb->add_option("file", *path, "the key in use; the next one is in FILE.next")->required();
+  auto finish = std::make_shared<bool>(false), json = std::make_shared<bool>(false);
+  verb->add_flag("--finish", *finish, "FILE.next replaces FILE");
+  verb->add_flag("--json", *json, "machine-readable");
+  verb->callback([=, &exit_code] {
+    const std::string made = *finish ? *path : radio::NextKeyFile(*path);
+    if (*finish) radio::FinishKeyChange(*path);
+    if (!*finish) radio::WriteNextKeyFile(*path);
+    if (*json)
+      std::cout << nlohmann::ordered_json{{"file", made}}.dump() << "\n";
+    else if (*finish)
+      std::cout << *path << ": is the key that was the next one; the one before is gone\n";
+    else
+      std::cout << fmt::format(kRekeySteps, made, *path);
+    exit_code = 0;
+  });
+}
+
 void AddBits(CLI::App& link, int& exit_code) {
   auto type = std::make_shared<std::string>(), types = std::make_shared<std::string>();
   auto* verb = AddVerb(link, "bits", "How many bits a message takes on the radio, field by field.");
@@ -197,6 +229,7 @@ void AddLinkCommand(CLI::App& cli, int& exit_code) {
   link->require_subcommand(1);
   AddEmulate(*link, exit_code);
   AddKeygen(*link, exit_code);
+  AddRekey(*link, exit_code);
   AddBits(*link, exit_code);
   AddBudget(*link, exit_code);
   AddTop(*link, exit_code);

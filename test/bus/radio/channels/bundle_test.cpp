@@ -11,8 +11,8 @@ namespace {
 struct BundleTest : testing::Test {
   ChannelTable table{TestChannels(), false};
   std::vector<std::byte> Write(const std::vector<BundleEntry>& entries) const {
-    BitWriter out;
-    for (const BundleEntry& entry : entries) WriteEntry(table, entry, out);
+    BundleWriter out(table);
+    for (const BundleEntry& entry : entries) out.Write(entry);
     return out.bytes();
   }
   ParsedBundle Parse(const std::vector<BundleEntry>& entries, Direction incoming = Direction::kUp) const {
@@ -52,6 +52,70 @@ TEST_F(BundleTest, EverythingComesBack) {
   EXPECT_EQ(std::get<ListenEntry>(parsed.entries[5]).channels, 0x2AU);
 }
 
+EventEntry WholeEvent(std::size_t channel, std::uint8_t number, const std::string& text) {
+  EventEntry entry{channel, {}};
+  entry.segment.number = number;
+  entry.segment.first = entry.segment.last = true;
+  entry.segment.bits = 8 * text.size();
+  entry.segment.bytes = Text(text);
+  return entry;
+}
+
+TEST_F(BundleTest, SegmentsThatFollowEachOtherAreARun) {
+  const std::vector<BundleEntry> run{WholeEvent(kEventUp, 255, "a"), WholeEvent(kEventUp, 0, "bc"),
+                                     WholeEvent(kEventUp, 1, ""), FloorEntry{5},
+                                     WholeEvent(kEventUp, 2, "d")};
+  const auto parsed = Parse(run);
+  ASSERT_TRUE(parsed.whole);
+  ASSERT_EQ(parsed.entries.size(), 5U);
+  for (const std::size_t i : {0U, 1U, 2U, 4U}) {
+    EXPECT_EQ(std::get<EventEntry>(parsed.entries[i]).segment.number,
+              std::get<EventEntry>(run[i]).segment.number);
+    EXPECT_EQ(std::get<EventEntry>(parsed.entries[i]).segment.bytes,
+              std::get<EventEntry>(run[i]).segment.bytes);
+  }
+  BundleWriter dut(table);
+  dut.Write(run[0]);
+  const std::size_t first = dut.bits();
+  EXPECT_EQ(dut.BitsWith(run[1]) - first, 1 + 2 + 12 + 5 + 16U);
+  dut.Write(run[1]);
+  EXPECT_EQ(dut.bits() - first, 1 + 2 + 12 + 5 + 16U);
+}
+
+TEST_F(BundleTest, WhatDoesNotFollowBeginsAnew) {
+  const std::size_t first = BundleWriter(table).BitsWith(WholeEvent(kEventUp, 7, "a"));
+  EventEntry base = WholeEvent(kEventUp, 8, "a");
+  base.segment.base = true;
+  for (const EventEntry& next : {WholeEvent(kEventUp, 9, "a"), WholeEvent(kEventUp, 7, "a"), base}) {
+    BundleWriter dut(table);
+    dut.Write(WholeEvent(kEventUp, 7, "a"));
+    EXPECT_EQ(dut.BitsWith(next), 2 * first + 1);
+  }
+}
+
+TEST_F(BundleTest, UrgentSegmentsAreNoRun) {
+  auto stop = [](std::uint8_t number) {
+    EventEntry entry = WholeEvent(kStopDown, number, "!");
+    entry.segment.bits = 8;
+    return entry;
+  };
+  BundleWriter dut(table);
+  dut.Write(stop(1));
+  const std::size_t first = dut.bits();
+  dut.Write(stop(2));
+  EXPECT_EQ(dut.bits(), 2 * first);
+  EXPECT_EQ(ParseBundle(table, Direction::kDown, dut.bytes()).entries.size(), 2U);
+}
+
+TEST_F(BundleTest, ARunThatTheBundleCutsOffIsDamaged) {
+  auto bytes = Write({WholeEvent(kEventUp, 7, "abc"), WholeEvent(kEventUp, 8, "defgh")});
+  bytes.pop_back();
+  bytes.pop_back();
+  const auto parsed = ParseBundle(table, Direction::kUp, bytes);
+  EXPECT_FALSE(parsed.whole);
+  EXPECT_EQ(parsed.entries.size(), 1U);
+}
+
 TEST_F(BundleTest, DifferencesComeBackBetweenOthers) {
   auto channels = TestChannels();
   channels[kPoseUp].delta = {16, 64};
@@ -69,8 +133,8 @@ TEST_F(BundleTest, DifferencesComeBackBetweenOthers) {
 }
 
 TEST_F(BundleTest, FixedSizesCostOnlyTheirBitsAndANumber) {
-  EXPECT_EQ(EntryBits(table, StateEntry{kPoseUp, 80, Text("0123456789")}), 83U);
-  EXPECT_EQ(EntryBits(table, CommandEntry{kDriveDown, {}, 40, Text("abcde")}), 49U);
+  EXPECT_EQ(BundleWriter(table).BitsWith(StateEntry{kPoseUp, 80, Text("0123456789")}), 83U);
+  EXPECT_EQ(BundleWriter(table).BitsWith(CommandEntry{kDriveDown, {}, 40, Text("abcde")}), 49U);
 }
 
 TEST_F(BundleTest, OffsetOfACommandIsRoundedDown) {

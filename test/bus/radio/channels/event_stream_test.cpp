@@ -127,6 +127,15 @@ TEST(EventStream, StaleReceiverCatchesUpWithTheBase) {
   EXPECT_THAT(Exchange(sender, receiver, kStart), ElementsAre("abc"));
 }
 
+TEST(EventStream, HalfOfTheNumbersAwayIsOld) {
+  const EventSegment base{
+      .number = 200, .base = true, .first = true, .last = true, .bits = 8, .bytes = Text("a")};
+  EventReceiver stale(200 - 127, true), ahead(200 - 128, true);
+  EXPECT_EQ(stale.OnSegment(base, kStart).size(), 1U);
+  EXPECT_TRUE(ahead.OnSegment(base, kStart).empty());
+  EXPECT_EQ(ahead.next(), 200 - 128);
+}
+
 TEST(EventStream, OldAcknowledgementIsIgnored) {
   EventSender sender(10);
   RoundTrip round_trip;
@@ -198,6 +207,15 @@ TEST(EventStream, ExactlyOnceInOrderUnderLossAndRestarts) {
     }
     ASSERT_EQ(got, sent) << seed;
   }
+}
+
+TEST(RoundTrip, TakesAnEighthOfAnErrorAndAllowsFourDeviations) {
+  RoundTrip dut;
+  dut.Sample(Duration(200'000));
+  EXPECT_EQ(dut.timeout(), Duration(200'000 + 4 * 100'000));
+  dut.Sample(Duration(280'000));
+  EXPECT_EQ(dut.smoothed(), Duration(210'000));
+  EXPECT_EQ(dut.timeout(), Duration(210'000 + 4 * 95'000));
 }
 
 TEST(RoundTrip, TimeoutFollowsTheMeasurements) {

@@ -51,6 +51,15 @@ TEST(ForgeryGuard, NoiseIsNoForgery) {
   }
 }
 
+TEST(ForgeryGuard, TwoMissedFramesExplainThreeDamagedOnes) {
+  ForgeryGuard dut(137, kStart);
+  for (int i = 0; i < 40; ++i) {
+    for (int piece = 0; piece < 3; ++piece) dut.OnBadCode(kStart);
+    dut.OnMissed(2);
+  }
+  EXPECT_FALSE(dut.alarm(kStart));
+}
+
 TEST(ForgeryGuard, FramesBeyondTheOtherEndsRaiseTheAlarm) {
   ForgeryGuard dut(137, kStart);
   Time now = kStart;

@@ -23,6 +23,19 @@ TEST(Repetition, NothingGoesFirstThatDoesNotWait) {
   EXPECT_FALSE(dut.GoesFirst(After(kTick)));
 }
 
+TEST(Repetition, CountsTheTimeWithoutAnAnswerAlsoWhenNewEventsComeBetween) {
+  Repetition dut(kStart);
+  dut.NoteUnanswered(true, After(kTick));
+  dut.Step(true, After(kTick));
+  dut.Step(false, After(2 * kTick));
+  dut.NoteUnanswered(true, After(5 * kTick));
+  EXPECT_TRUE(dut.UnansweredFor(4 * kTick, After(5 * kTick)));
+  EXPECT_FALSE(dut.UnansweredFor(5 * kTick, After(5 * kTick)));
+  dut.NoteUnanswered(false, After(6 * kTick));
+  dut.NoteUnanswered(true, After(7 * kTick));
+  EXPECT_FALSE(dut.UnansweredFor(kTick, After(7 * kTick)));
+}
+
 /// Share of the line that repetitions take from `from` to `until` when the other frames always have
 /// something.
 double Share(Repetition& dut, Duration from, Duration until) {
