@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "bus/version.hpp"
 #include "common/nearest_file.hpp"
 #include "common/nearest_word.hpp"
+#include "common/number_text.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -175,27 +175,17 @@ std::string Missing(const CLI::App& app) {
 }
 
 /// CLI11 takes -1 for the largest number, 010 for eight, and 0x for nothing.
-std::string CheckUnsigned(std::string& text) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return "not a whole number";
-  text = std::to_string(number);
-  return "";
-}
-
-std::string CheckSigned(std::string& text) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return "not a whole number";
-  text = std::to_string(number);
+template <class T>
+std::string CheckWhole(std::string& text) {
+  const auto number = NumberOf<T>(text);
+  if (!number) return "not a whole number";
+  text = std::to_string(*number);
   return "";
 }
 
 std::string CheckFinite(std::string& text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = !text.empty() && error == std::errc() && end == text.data() + text.size();
-  return whole && std::isfinite(number) ? "" : "not a number";
+  const auto number = NumberOf<double>(text);
+  return number && std::isfinite(*number) ? "" : "not a number";
 }
 
 std::string CheckNotEmpty(const std::string& text) {
@@ -207,8 +197,8 @@ void GuardValues(CLI::App& app) {
   for (auto* option : app.get_options()) {
     const std::string type = option->get_type_name();
     if (option->get_items_expected_max() == 0) continue;  // a flag
-    if (type.starts_with("UINT")) option->transform(CLI::Validator(CheckUnsigned, ""));
-    if (type.starts_with("INT")) option->transform(CLI::Validator(CheckSigned, ""));
+    if (type.starts_with("UINT")) option->transform(CLI::Validator(CheckWhole<std::uint64_t>, ""));
+    if (type.starts_with("INT")) option->transform(CLI::Validator(CheckWhole<std::int64_t>, ""));
     if (type.starts_with("FLOAT")) option->transform(CLI::Validator(CheckFinite, ""));
     if (type.starts_with("TEXT")) option->check(CheckNotEmpty);
   }

@@ -18,7 +18,7 @@
 #include "bus/real_time_loop.hpp"
 #include "bus/replay.hpp"
 #include "bus/schema/schema.hpp"
-#include "bus/wire/socket_filter.hpp"
+#include "bus/wire/multicast.hpp"
 #include "common/config.hpp"
 #include "common/serial_port.hpp"
 
@@ -106,9 +106,7 @@ int RunFromLog(const AppFactory& factory, const Options& options) {
     ++sent;
     if (out) out->Write(output.utime, output.channel, output.bytes);
   });
-  std::cout << fmt::format(
-      "{} messages heard, {} sent{}\n", replay.fed(), sent,
-      replay.skipped_bytes() > 0 ? fmt::format(", {} damaged bytes skipped", replay.skipped_bytes()) : "");
+  std::cout << replay.Summary(sent) << '\n';
   if (out) out->Flush();
   return out && !out->good() ? kFailedWhileRunning : 0;
 }

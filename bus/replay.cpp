@@ -1,5 +1,7 @@
 #include "bus/replay.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "bus/schema/schema.hpp"
@@ -113,6 +115,13 @@ void Replay::Run(const std::function<void(const Output&)>& send) {
       Feed(*event);
     }
   }
+}
+
+std::string Replay::Summary(std::uint64_t sent) const {
+  std::string text = fmt::format("{} messages heard, {} sent", fed(), sent);
+  if (skipped_bytes() > 0) text += fmt::format(", {} damaged bytes skipped", skipped_bytes());
+  if (implausible_ > 0) text += fmt::format(", {} of an impossible time left out", implausible_);
+  return text;
 }
 
 }  // namespace priamos::bus

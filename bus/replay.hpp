@@ -50,6 +50,8 @@ class Replay {
   std::uint64_t fed() const { return fed_; }
   /// Number of events left out because of an impossible time.
   std::uint64_t implausible() const { return implausible_; }
+  /// What was heard, `sent` and left out, as a sentence for people.
+  std::string Summary(std::uint64_t sent) const;
   std::uint64_t skipped_bytes() const { return reader_.skipped_bytes(); }
   const Node& node() const { return host_->node(); }
 

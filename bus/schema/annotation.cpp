@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
+
+#include "common/number_text.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -146,15 +147,11 @@ class Reader {
 }  // namespace
 
 std::optional<Number> ParseNumber(std::string_view text) {
+  const auto value = NumberOf<double>(text);
+  if (!value || !std::isfinite(*value)) return std::nullopt;
   Number number;
-  const char* const end = text.data() + text.size();
-  const auto as_double = std::from_chars(text.data(), end, number.value);
-  if (as_double.ec != std::errc() || as_double.ptr != end || !std::isfinite(number.value)) {
-    return std::nullopt;
-  }
-  std::int64_t integer = 0;
-  const auto as_integer = std::from_chars(text.data(), end, integer);
-  if (as_integer.ec == std::errc() && as_integer.ptr == end) number.integer = integer;
+  number.value = *value;
+  number.integer = NumberOf<std::int64_t>(text);
   return number;
 }
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "bus/schema/annotation.hpp"
 #include "bus/schema/lcm_lexer.hpp"
+#include "common/number_text.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -24,12 +24,11 @@ std::optional<std::int64_t> ParseCInteger(std::string_view text) {
   } else if (text.size() > 1 && text.front() == '0') {
     base = 8;
   }
-  std::uint64_t magnitude = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), magnitude, base);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  const auto magnitude = NumberOf<std::uint64_t>(text, base);
+  if (!magnitude) return std::nullopt;
   constexpr auto kMax = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  if (magnitude > kMax + (negative ? 1 : 0)) return std::nullopt;
-  return static_cast<std::int64_t>(negative ? 0 - magnitude : magnitude);
+  if (*magnitude > kMax + (negative ? 1 : 0)) return std::nullopt;
+  return static_cast<std::int64_t>(negative ? 0 - *magnitude : *magnitude);
 }
 
 bool FitsInto(Kind kind, std::int64_t value) {

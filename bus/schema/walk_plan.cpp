@@ -9,7 +9,8 @@
 namespace priamos::bus {
 namespace {
 
-/// No message is that large: sums and products stop here, and the comparison with the bytes refuses it.
+/// Largest size that is counted [bytes]; larger than any message. Sums and products stop here, and the
+/// comparison with the bytes refuses it.
 constexpr std::size_t kHuge = std::numeric_limits<std::size_t>::max() / 4;
 
 std::size_t Times(std::size_t a, std::size_t b) {
@@ -17,7 +18,7 @@ std::size_t Times(std::size_t a, std::size_t b) {
   return __builtin_mul_overflow(a, b, &result) ? kHuge : std::min(result, kHuge);
 }
 
-/// Encoded bytes of types that contain neither strings nor variable arrays.
+/// Encoded sizes [bytes] of fields, values and types; nullopt for what contains a string or a variable array.
 class FixedSizes {
  public:
   std::optional<std::size_t> OfField(const Field& field) {

@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 8;
 constexpr std::size_t kLongestChannel = 63;
-constexpr std::uint32_t kShortMagic = 0x4c433032;  // "LC02"
 
 }  // namespace
 

@@ -7,23 +7,42 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <string_view>
 
 #include "bus/wire/bus_error.hpp"
-#include "bus/wire/socket_filter.hpp"
 
 namespace priamos::bus {
 namespace {
 
 constexpr const char* kLcmDefaultGroup = "239.255.76.67";
+constexpr std::uint16_t kLcmDefaultPort = 7667;
+
+/// Group and port of a URL, "239.255.76.67:7667" of "udpm://239.255.76.67:7667?ttl=0".
+std::string_view AddressOf(std::string_view url) {
+  const auto scheme = url.find("://");
+  if (scheme == std::string_view::npos) return {};
+  const std::string_view address = url.substr(scheme + 3);
+  return address.substr(0, address.find('?'));
+}
 
 }  // namespace
 
 std::string GroupOf(const std::string& url) {
-  const auto begin = url.find("://") + 3;
-  const auto end = url.find_first_of(":?", begin);
-  const std::string group = url.substr(begin, end == std::string::npos ? end : end - begin);
-  return group.empty() ? kLcmDefaultGroup : group;
+  const std::string_view address = AddressOf(url);
+  const std::string_view group = address.substr(0, address.find(':'));
+  return std::string(group.empty() ? kLcmDefaultGroup : group);
+}
+
+std::uint16_t PortOf(const std::string& url) {
+  const std::string_view address = AddressOf(url);
+  const auto colon = address.find(':');
+  if (colon == std::string_view::npos) return kLcmDefaultPort;
+  std::uint16_t port = kLcmDefaultPort;
+  // What follows the digits is left out, as liblcm does.
+  std::from_chars(address.data() + colon + 1, address.data() + address.size(), port);
+  return port;
 }
 
 void RequireMulticastRoute(const std::string& url) {

@@ -6,29 +6,17 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <stdexcept>
+
+#include "bus/wire/datagram.hpp"
 
 namespace priamos::bus {
 namespace {
 
-constexpr std::uint32_t kShortMagic = 0x4c433032;  // "LC02"
-constexpr int kUdpHeaderBytes = 8;                 // a socket filter on UDP sees the UDP header first
+constexpr int kUdpHeaderBytes = 8;  // a socket filter on UDP sees the UDP header first
 
 }  // namespace
-
-std::uint16_t PortOf(const std::string& url) {
-  constexpr std::uint16_t kLcmDefault = 7667;
-  const auto authority = url.find("://");
-  if (authority == std::string::npos) return kLcmDefault;
-  const auto end = url.find('?');
-  const auto colon = url.find(':', authority + 3);
-  if (colon == std::string::npos || colon > end) return kLcmDefault;
-  std::uint16_t port = kLcmDefault;
-  std::from_chars(url.data() + colon + 1, url.data() + std::min(end, url.size()), port);
-  return port;
-}
 
 void FilterSocket(int fd) {
   std::array<sock_filter, 4> code{{

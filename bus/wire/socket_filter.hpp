@@ -1,12 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-
 namespace priamos::bus {
-
-/// UDP port of a `udpm://address:port?...` URL; LCM's default 7667 when it names none.
-std::uint16_t PortOf(const std::string& url);
 
 /// Attaches a BPF filter to a UDP socket that passes only datagrams beginning with `LC02` (unfragmented LCM
 /// messages); the kernel drops the others before anybody sees a byte.

@@ -79,7 +79,7 @@ TEST(CommandLine, AnUnknownOptionIsNamedWithTheNearestOne) {
   EXPECT_THAT(Refusal({"run", "--sed=3"}), HasSubstr("unknown option \"--sed\"; nearest: \"--seed\""));
 }
 
-TEST(CommandLine, AnOptionBeforeItsVerbIsToldWhereItBelongs) {
+TEST(CommandLine, AnOptionBeforeItsVerbIsRefusedWithWhereItBelongs) {
   EXPECT_EQ(Refusal({"--seed", "run"}).substr(0, 20), "prog: unknown option");
   EXPECT_THAT(Refusal({"--json", "topic", "list"}), HasSubstr("behind the verb: prog topic list --json"));
 }
@@ -126,7 +126,7 @@ TEST(CommandLine, CountsAreNeitherNegativeNorTooLargeNorSomethingElse) {
   EXPECT_EQ(good.seed, 10u) << "no octal";
 }
 
-TEST(CommandLine, ANumberBeyondWhatAnOptionCanHoldIsToldItsRange) {
+TEST(CommandLine, ANumberBeyondWhatAnOptionCanHoldIsRefusedWithTheRange) {
   EXPECT_EQ(
       Refusal({"topic", "echo", "POSE", "--count", "99999999999"}),
       "prog topic echo: --count: expected a whole number, -2147483648 to 2147483647, got \"99999999999\"");

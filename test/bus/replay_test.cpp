@@ -132,6 +132,7 @@ TEST_F(ReplayTest, ATimeThatCannotBeIsLeftOut) {
   dut.Run([](const Output&) {});
   EXPECT_EQ(dut.implausible(), 1u);
   EXPECT_EQ(dut.fed(), 2u);
+  EXPECT_EQ(dut.Summary(7), "2 messages heard, 7 sent, 1 of an impossible time left out");
 }
 
 TEST_F(ReplayTest, AnEmptyLogIsASentence) {

@@ -44,12 +44,12 @@ const Time kStart = FromUtime(1'000'000'000);
 /// What is read can be written, and read as the same.
 void Bundle(std::span<const std::byte> bytes) {
   const ParsedBundle parsed = ParseBundle(Table(), Direction::kUp, bytes);
-  BitWriter once;
-  for (const BundleEntry& entry : parsed.entries) WriteEntry(Table(), entry, once);
+  BundleWriter once(Table());
+  for (const BundleEntry& entry : parsed.entries) once.Write(entry);
   const ParsedBundle again = ParseBundle(Table(), Direction::kUp, once.bytes());
   Require(again.whole && again.entries.size() == parsed.entries.size());
-  BitWriter twice;
-  for (const BundleEntry& entry : again.entries) WriteEntry(Table(), entry, twice);
+  BundleWriter twice(Table());
+  for (const BundleEntry& entry : again.entries) twice.Write(entry);
   Require(once.bytes() == twice.bytes());
 }
 

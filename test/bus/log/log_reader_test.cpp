@@ -116,6 +116,17 @@ TEST_F(Log, AMessageMayHoldTheMagicEvenInTheLastEvent) {
   EXPECT_EQ(dut.skipped_bytes(), 0u);
 }
 
+TEST_F(Log, AMessageThatAnotherFollowsMayHoldAWholeEvent) {
+  std::string inner, bytes;
+  AppendEvent(inner, 7, 7, "INNER", {});
+  AppendEvent(bytes, 0, 0, "RAW", std::as_bytes(std::span(inner)));
+  AppendEvent(bytes, 1, 1, "POSE", {});
+  LogReader dut(std::as_bytes(std::span(bytes)));
+  EXPECT_EQ(dut.Next()->channel, "RAW");
+  EXPECT_EQ(dut.Next()->channel, "POSE");
+  EXPECT_EQ(dut.skipped_bytes(), 0u);
+}
+
 TEST_F(Log, ATimeThatCannotBeIsDamage) {
   for (const std::int64_t utime : {INT64_MAX, INT64_MIN, LogReader::kLargestNumber + 1}) {
     std::string bytes;

@@ -96,6 +96,16 @@ TEST_F(RecorderTest, SplitsByTime) {
   EXPECT_EQ(Files().size(), 3u);
 }
 
+TEST_F(RecorderTest, AFileInWhichNothingIsIsNotSplit) {
+  {
+    LogRecorder dut(file_, {.split_time = std::chrono::milliseconds(105)}, now_);
+    now_ += std::chrono::seconds(1);
+    Record(dut, 1);
+  }
+  EXPECT_EQ(Files(), std::set<std::string>{"run.lcmlog"});
+  EXPECT_EQ(EventsIn(file_), 1);
+}
+
 TEST_F(RecorderTest, KeepsTheNewestFiles) {
   {
     LogRecorder dut(file_, {.split_bytes = 5'000, .keep_files = 2}, now_);
@@ -109,6 +119,13 @@ TEST_F(RecorderTest, TooLittleFreeSpaceIsAnAlarmAndTheFileStaysWhole) {
   Record(dut, 100);  // one second
   EXPECT_NE(dut.alarm().find("are free"), std::string::npos) << dut.alarm();
   EXPECT_EQ(dut.recorded() + dut.lost(), 100u);
+}
+
+TEST_F(RecorderTest, TooLittleFreeSpaceDoesNotCostTheFileThatIsOpen) {
+  LogRecorder dut(file_, {.keep_files = 2, .keep_free_bytes = std::uint64_t{1} << 60}, now_);
+  Record(dut, 1);
+  EXPECT_EQ(dut.recorded(), 1u);
+  EXPECT_EQ(EventsIn(file_), 1);
 }
 
 TEST_F(RecorderTest, AFolderThatCannotBeWrittenIsASentenceAtTheStart) {
@@ -130,7 +147,7 @@ class FullDisk {
   rlimit before_{};
 };
 
-TEST_F(RecorderTest, FullDiskLeavesOnlyWholeEventsAndIsToldWithinASecond) {
+TEST_F(RecorderTest, FullDiskLeavesOnlyWholeEventsAndIsReportedWithinASecond) {
   LogRecorder dut(file_, {}, now_);
   {
     const FullDisk full(20'500);
@@ -154,6 +171,22 @@ TEST_F(RecorderTest, GoesOnInANewFileWhenThereIsRoomAgain) {
   EXPECT_EQ(dut.file().filename(), "run.1.lcmlog");
   EXPECT_EQ(EventsIn(dut.file()), static_cast<int>(dut.recorded()) - EventsIn(file_));
   EXPECT_GT(EventsIn(dut.file()), 80);
+}
+
+TEST_F(RecorderTest, NoNewFileIsBegunWhereItWouldEndAtOnce) {
+  const auto logs = folder_ / "logs";
+  std::filesystem::create_directory(logs);
+  LogRecorder dut(logs / "run.lcmlog", {}, now_);
+  {
+    const FullDisk full(20'500);
+    Record(dut, 40);
+  }
+  const std::string alarm = dut.alarm();
+  EXPECT_NE(alarm.find("recording stopped"), std::string::npos) << alarm;
+  std::filesystem::remove_all(logs);
+  std::filesystem::create_symlink("/proc", logs);  // where 0 bytes are free
+  Record(dut, 200);
+  EXPECT_EQ(dut.alarm(), alarm) << "it was tried";
 }
 
 }  // namespace

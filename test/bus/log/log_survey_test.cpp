@@ -53,7 +53,7 @@ TEST_F(SurveyTest, JoinedLogsAreNoLoss) {
   EXPECT_EQ(Dut().missing_numbers, 0u);
 }
 
-TEST_F(SurveyTest, DamageIsTold) {
+TEST_F(SurveyTest, DamageIsReported) {
   for (int i = 0; i < 3; ++i) Add(i, 1000, "POSE", pose_);
   text_[text_.size() / 2] = '\x01';
   text_.insert(text_.size() / 3 * 2, "garbage");

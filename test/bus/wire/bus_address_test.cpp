@@ -6,7 +6,6 @@
 
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/multicast.hpp"
-#include "bus/wire/socket_filter.hpp"
 
 namespace priamos::bus {
 namespace {

@@ -12,13 +12,6 @@
 namespace priamos::bus {
 namespace {
 
-TEST(PortOf, ReadsThePortOfAnLcmUrl) {
-  EXPECT_EQ(PortOf("udpm://239.255.76.67:7700?ttl=0"), 7700);
-  EXPECT_EQ(PortOf("udpm://239.255.76.67:7701"), 7701);
-  EXPECT_EQ(PortOf("udpm://"), 7667);
-  EXPECT_EQ(PortOf("udpm://239.255.76.67?ttl=1"), 7667);
-}
-
 /// A receive socket on loopback, on a port the kernel chooses.
 class FilterTest : public testing::Test {
  protected:

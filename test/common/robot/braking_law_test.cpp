@@ -1,4 +1,4 @@
-#include "common/braking_law.hpp"
+#include "common/robot/braking_law.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -18,6 +18,13 @@ TEST(BrakingLaw, WhereNothingIsFreeNothingMoves) {
   const BrakingLaw dut;
   EXPECT_EQ(dut.SpeedWithin(0), 0);
   EXPECT_EQ(dut.SpeedWithin(-0.3), 0);
+}
+
+TEST(BrakingLaw, AfterTheLatencyItSlowsDownToAnySpeed) {
+  const BrakingLaw dut{.deceleration_m_s2 = 0.5, .latency_s = 0.2};
+  EXPECT_NEAR(dut.SpeedBefore(0, 1), 1, 1e-12);
+  EXPECT_NEAR(dut.SpeedBefore(0.6, 0.64), 1, 1e-12);
+  EXPECT_EQ(dut.SpeedBefore(0.3, -0.1), 0.3);
 }
 
 /// In steps of 0.1 ms, as a base would do it.

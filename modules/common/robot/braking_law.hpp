@@ -17,8 +17,13 @@ struct BrakingLaw {
   /// Fastest speed from which the base stands within `free_m` [m/s]: the inverse of Distance(); 0 where
   /// nothing is free.
   double SpeedWithin(double free_m) const {
-    const double a = deceleration_m_s2, lost = a * latency_s;
-    return std::sqrt(lost * lost + 2 * a * std::max(0.0, free_m)) - lost;
+    const double lost_m_s = deceleration_m_s2 * latency_s;
+    return SpeedBefore(lost_m_s, free_m) - lost_m_s;
+  }
+  /// Fastest speed from which a base that already slows down has come to `end_m_s` after `distance_m` [m/s]:
+  /// the latency is over; `end_m_s` where no distance is left.
+  double SpeedBefore(double end_m_s, double distance_m) const {
+    return std::sqrt(end_m_s * end_m_s + 2 * deceleration_m_s2 * std::max(0.0, distance_m));
   }
 };
 
