@@ -4,6 +4,7 @@
 
 #include "lcmtypes/channel.hpp"
 #include "priamos/alarm_t.hpp"
+#include "priamos/bumper_t.hpp"
 #include "priamos/camera_frame_t.hpp"
 #include "priamos/camera_trigger_t.hpp"
 #include "priamos/claim_t.hpp"
@@ -23,8 +24,10 @@
 #include "priamos/look_request_t.hpp"
 #include "priamos/mission_command_t.hpp"
 #include "priamos/mission_status_t.hpp"
+#include "priamos/motor_current_t.hpp"
 #include "priamos/obstacle_line_t.hpp"
 #include "priamos/odometry_t.hpp"
+#include "priamos/opening_t.hpp"
 #include "priamos/path_t.hpp"
 #include "priamos/pose_correction_t.hpp"
 #include "priamos/pose_t.hpp"
@@ -42,6 +45,8 @@ using std::chrono::milliseconds;
 // Device channels, onboard only.
 inline constexpr Channel<wheel_command_t> kWheelCommand{"WHEEL_COMMAND", 50, milliseconds(200)};
 inline constexpr Channel<wheel_state_t> kWheelState{"WHEEL_STATE", 50, milliseconds(200)};
+inline constexpr Channel<motor_current_t> kMotorCurrent{"MOTOR_CURRENT", 50, milliseconds(200)};
+inline constexpr Channel<bumper_t> kBumper{"BUMPER", 50, milliseconds(200)};
 inline constexpr Channel<sonar_ranges_t> kSonarRanges{"SONAR_RANGES", 10, milliseconds(500)};
 inline constexpr Channel<head_command_t> kHeadCommand{"HEAD_COMMAND", 0, milliseconds(0)};
 inline constexpr Channel<head_state_t> kHeadState{"HEAD_STATE", 50, milliseconds(200)};
@@ -53,6 +58,7 @@ inline constexpr Channel<odometry_t> kOdometry{"ODOMETRY", 50, milliseconds(200)
 inline constexpr Channel<pose_t> kPose{"POSE", 50, milliseconds(1000)};
 inline constexpr Channel<path_t> kPath{"PATH", 0, milliseconds(0)};
 inline constexpr Channel<drive_status_t> kDriveStatus{"DRIVE_STATUS", 10, milliseconds(2000)};
+inline constexpr Channel<opening_t> kOpening{"OPENING", 1, milliseconds(3000)};
 inline constexpr Channel<pose_correction_t> kPoseCorrection{"POSE_CORRECTION", 0, milliseconds(0)};
 
 // Driving by hand.
@@ -83,11 +89,12 @@ inline constexpr Channel<claim_t> kClaim{"CLAIM", 5, milliseconds(1000)};
 /// For reports and tests; a test checks that no module subscribes to it.
 inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseconds(200)};
 
-inline constexpr std::tuple kAll{kWheelCommand,   kWheelState,     kSonarRanges,   kHeadCommand, kHeadState,
-                                 kCameraTrigger,  kCameraFrame,    kOdometry,      kPose,        kPath,
-                                 kDriveStatus,    kPoseCorrection, kLandmarkModel, kLookRequest, kLandmarkFix,
-                                 kMissionCommand, kMissionStatus,  kHealth,        kLinkStatus,  kWorldTruth,
-                                 kDriveCommand,   kHeadDrive,      kLeaseRequest,  kEstop,       kLinkRequest,
-                                 kLandmarkView,   kObstacleLine,   kAlarm,         kClaim};
+inline constexpr std::tuple kAll{
+    kWheelCommand,  kWheelState,   kSonarRanges,  kHeadCommand,    kHeadState,     kCameraTrigger,
+    kCameraFrame,   kOdometry,     kPose,         kPath,           kDriveStatus,   kPoseCorrection,
+    kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
+    kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
+    kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
+    kBumper,        kOpening};
 
 }  // namespace priamos::channels
