@@ -33,6 +33,8 @@ WorldApp::WorldApp(const WorldConfig& config, bus::Context& context)
       head_commands_(context.node().SubscribeAll(channels::kHeadCommand)),
       triggers_(context.node().SubscribeAll(channels::kCameraTrigger)),
       wheels_(context.node().Advertise(channels::kWheelState)),
+      currents_(context.node().Advertise(channels::kMotorCurrent)),
+      bumper_(context.node().Advertise(channels::kBumper)),
       sonars_(context.node().Advertise(channels::kSonarRanges)),
       head_(context.node().Advertise(channels::kHeadState)),
       frames_(context.node().Advertise(channels::kCameraFrame)),
@@ -67,6 +69,10 @@ void WorldApp::PublishSamples() {
   if (const auto wheels = simulation_.TakeWheels()) {
     ReportContest(wheels->reading);
     wheels_.Publish(ToMessage(*wheels));
+  }
+  if (const auto touch = simulation_.TakeTouch()) {
+    currents_.Publish(CurrentsOf(*touch));
+    bumper_.Publish(BumperOf(*touch));
   }
   if (const auto head = simulation_.TakeHead()) head_.Publish(ToMessage(*head));
   if (const auto sonars = simulation_.TakeSonars()) sonars_.Publish(ToMessage(*sonars));

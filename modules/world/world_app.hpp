@@ -23,8 +23,9 @@ class WorldApp {
   static constexpr bus::OptionAlias kOptions[] = {{"--world", "world", "", "world file to simulate"}};
   static constexpr bool kOneOwner = true;
   /// Channels of devices: where their drivers send, nothing may stand in for them.
-  static constexpr std::array kSpeaksAlone{channels::kWheelState.name, channels::kSonarRanges.name,
-                                           channels::kHeadState.name, channels::kCameraFrame.name};
+  static constexpr std::array kSpeaksAlone{channels::kWheelState.name, channels::kMotorCurrent.name,
+                                           channels::kBumper.name,     channels::kSonarRanges.name,
+                                           channels::kHeadState.name,  channels::kCameraFrame.name};
   using Config = WorldConfig;
 
   /// Builds the world. Throws ConfigError when the world cannot be used, std::runtime_error without
@@ -53,6 +54,8 @@ class WorldApp {
   bus::Inbox<head_command_t> head_commands_;
   bus::Inbox<camera_trigger_t> triggers_;
   bus::Publisher<wheel_state_t> wheels_;
+  bus::Publisher<motor_current_t> currents_;
+  bus::Publisher<bumper_t> bumper_;
   bus::Publisher<sonar_ranges_t> sonars_;
   bus::Publisher<head_state_t> head_;
   bus::Publisher<camera_frame_t> frames_;

@@ -79,6 +79,20 @@ WheelSample FromMessage(const wheel_state_t& message) {
   return sample;
 }
 
+motor_current_t CurrentsOf(const TouchSample& sample) {
+  motor_current_t message;
+  message.utime = ToUtime(sample.time);
+  std::copy_n(sample.current_a.begin(), 4, message.current_a);
+  return message;
+}
+
+bumper_t BumperOf(const TouchSample& sample) {
+  bumper_t message;
+  message.utime = ToUtime(sample.time);
+  message.pressed = sample.pressed;
+  return message;
+}
+
 sonar_ranges_t ToMessage(const SonarSample& sample) {
   sonar_ranges_t message;
   message.utime = ToUtime(sample.time);

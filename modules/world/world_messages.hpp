@@ -9,6 +9,8 @@ PerWheel FromMessage(const wheel_command_t& message);
 HeadSetting FromMessage(const head_command_t& message);
 
 wheel_state_t ToMessage(const WheelSample& sample);
+motor_current_t CurrentsOf(const TouchSample& sample);
+bumper_t BumperOf(const TouchSample& sample);
 sonar_ranges_t ToMessage(const SonarSample& sample);
 head_state_t ToMessage(const HeadSample& sample);
 /// Gaps beyond the message's range (nothing near) are sent as its end, 10 m.

@@ -26,6 +26,8 @@ void RobotModel::Describe(Archive& a) {
   a.Number("height_m", height_m, {"m", 0.1, 5, "top of the robot"});
   a.Section("base", base, "Mecanum wheels");
   a.Section("drive", drive, "drive board: speed control, encoders, dead-line");
+  a.Section("motors", motors, "forces of the motors, and their currents");
+  a.Section("bumper", bumper, "rubber strip with contact switches");
   a.Section("sonar", sonar, "ring of 24 ultrasonic sensors");
   a.Section("head_motors", head_motors, "motors of KASTOR");
   a.Section("camera", camera, "shutters and readout of the cameras");
@@ -36,6 +38,8 @@ Simulation::Simulation(const RobotModel& model, const std::vector<Solid>& solids
     : body_(BodyOf(model)),
       drive_(model.drive, Rng::Stream(seed, "encoders")),
       base_(model.base, Rng::Stream(seed, "wheels")),
+      motor_load_(model.motors, Rng::Stream(seed, "motor load")),
+      bumper_(model.bumper, body_.size_m, solids),
       ring_(model.sonar, body_.size_m,
             AcousticScene(solids, model.sonar.height_m, kSonarHalfBand_m, model.sonar.materials),
             Rng::Stream(seed, "sonar")),
@@ -76,17 +80,28 @@ void Simulation::Step() {
   // A motion changes the gap by at most its length, so nothing farther needs to be examined.
   gap_m_ = clearance_.Gap(pose_, std::min(kGapLimit_m, gap_m_ + Reach(Seconds(kStep))));
   contacts_.Update(gap_m_);
+  Touch();
   SampleDevices();
 }
 
 /// The wheels turn as they are driven; where a solid blocks the base it stays before it and they slip.
 void Simulation::Move(double dt_s) {
-  velocity_ = base_.Step(drive_.speed_rad_s(), dt_s);
+  const Twist2 driven = base_.Step(drive_.speed_rad_s(), dt_s);
+  velocity_ = driven;
   const Pose2 wanted = Integrate(pose_, velocity_, dt_s);
   // What is farther away than a step is long cannot block it.
   const double part = gap_m_ > Reach(dt_s) ? 1 : clearance_.FreePart(pose_, wanted);
   if (part < 1) velocity_ = {part * velocity_.vx, part * velocity_.vy, part * velocity_.wz};
   pose_ = part < 1 ? Integrate(pose_, velocity_, dt_s) : wanted;
+  const PerWheel rolled = base_.ContactSpeeds(driven), moved = base_.ContactSpeeds(velocity_);
+  PerWheel slid;
+  for (std::size_t i = 0; i < 4; ++i) slid[i] = rolled[i] - moved[i];
+  motor_load_.Step(rolled, slid, dt_s);
+}
+
+/// Far from everything no switch is pressed.
+void Simulation::Touch() {
+  if (gap_m_ < kContactEnd_m) pressed_ |= bumper_.Pressed(pose_);
 }
 
 /// Upper bound of the distance that any point of the footprint moves in that time.
@@ -106,6 +121,7 @@ void Simulation::ExposeUntil(Time end, const Pose2& from) {
 void Simulation::SampleDevices() {
   if (*now_ >= next_sample_) {
     wheels_ = WheelSample{*now_, drive_.Read()};
+    touch_ = TouchSample{*now_, motor_load_.Read(), std::exchange(pressed_, std::uint8_t{0})};
     head_ = HeadSample{*now_, motors_.Counters(), motors_.moving()};
     truth_ = CurrentTruth();
     next_sample_ += kSamplePeriod;

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "common/archive.hpp"
-#include "common/body_size.hpp"
+#include "common/robot/body_size.hpp"
+#include "world/core/base/bumper.hpp"
 #include "world/core/base/contact.hpp"
 #include "world/core/base/drive_board.hpp"
 #include "world/core/base/mecanum_base.hpp"
+#include "world/core/base/motor_load.hpp"
 #include "world/core/head/camera_server.hpp"
 #include "world/core/head/head_motors.hpp"
 #include "world/core/scene/solid.hpp"
@@ -24,6 +26,8 @@ struct RobotModel {
   double length_m = kDrawnBody.length_m, width_m = kDrawnBody.width_m, height_m = kDrawnBody.height_m;
   MecanumConfig base;
   DriveBoardConfig drive;
+  MotorLoadConfig motors;
+  BumperConfig bumper;
   SonarConfig sonar;
   HeadMotorsConfig head_motors;
   CameraConfig camera;
@@ -38,6 +42,13 @@ Body BodyOf(const RobotModel& model);
 struct WheelSample {
   Time time;
   WheelReading reading;
+};
+
+/// The currents of the four drives [A], and the switches of the bumper, at one time.
+struct TouchSample {
+  Time time;
+  PerWheel current_a;
+  std::uint8_t pressed;  ///< see Bumper; also those that were pressed since the sample before
 };
 
 /// A whole cycle of the sonars, complete at `time`; first echoes [m], -1 for none.
@@ -91,6 +102,7 @@ class Simulation {
   Duration Advance(Time now);
 
   std::optional<WheelSample> TakeWheels() { return std::exchange(wheels_, {}); }
+  std::optional<TouchSample> TakeTouch() { return std::exchange(touch_, {}); }
   std::optional<SonarSample> TakeSonars() { return std::exchange(sonars_, {}); }
   std::optional<HeadSample> TakeHead() { return std::exchange(head_, {}); }
   std::optional<Truth> TakeTruth() { return std::exchange(truth_, {}); }
@@ -98,6 +110,7 @@ class Simulation {
  private:
   void Step();
   void Move(double dt_s);
+  void Touch();
   double Reach(double dt_s) const;
   void ExposeUntil(Time end, const Pose2& from);
   void SampleDevices();
@@ -106,6 +119,8 @@ class Simulation {
   Body body_;
   DriveBoard drive_;
   MecanumBase base_;
+  MotorLoad motor_load_;
+  Bumper bumper_;
   SonarRing ring_;
   HeadMotors motors_;
   CameraServer& cameras_;
@@ -115,11 +130,13 @@ class Simulation {
   Pose2 pose_;
   Twist2 velocity_;
   double gap_m_ = 0;
+  std::uint8_t pressed_ = 0;  ///< since the last sample
   std::optional<Time> now_;
   Time next_sample_, next_ping_;
   int next_group_ = 0;
 
   std::optional<WheelSample> wheels_;
+  std::optional<TouchSample> touch_;
   std::optional<SonarSample> sonars_;
   std::optional<HeadSample> head_;
   std::optional<Truth> truth_;

@@ -51,6 +51,20 @@ class SimulationTest : public ::testing::Test {
   const PerWheel forward_{5, 5, 5, 5};
 };
 
+TEST_F(SimulationTest, ABaseThatDrivesAgainstAWallPressesItsBumperAndItsMotorsPush) {
+  model_.motors.noise_a = model_.motors.offset_a = model_.motors.mass_error = 0;
+  Start();
+  Run(3, &forward_);
+  auto touch = dut_->TakeTouch();
+  ASSERT_TRUE(touch);
+  EXPECT_EQ(touch->pressed, 0);
+  EXPECT_LT(touch->current_a[0], 0.5);
+  Run(8, &forward_);
+  touch = dut_->TakeTouch();
+  EXPECT_EQ(touch->pressed, 0xC3) << "the front, and the sides at its corners";
+  EXPECT_NEAR(touch->current_a[0], 0.615 * 180 * 9.81 / 4 / 20, 0.1);
+}
+
 TEST_F(SimulationTest, DrivesAsCommanded) {
   Start();
   const Truth truth = Run(3, &forward_);

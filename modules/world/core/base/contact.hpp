@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
-#include "common/body_size.hpp"
 #include "common/geometry.hpp"
 #include "common/rectangle.hpp"
+#include "common/robot/body_size.hpp"
 #include "world/core/scene/solid.hpp"
 
 namespace priamos::world {

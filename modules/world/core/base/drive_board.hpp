@@ -6,6 +6,7 @@
 
 #include "common/archive.hpp"
 #include "common/random.hpp"
+#include "common/robot/robot_drawing.hpp"
 #include "common/time.hpp"
 
 namespace priamos::world {
@@ -15,12 +16,12 @@ using PerWheel = std::array<double, 4>;
 
 /// The board with the four speed controllers, gears and encoders.
 struct DriveBoardConfig {
-  double max_speed_rad_s = 12;
+  double max_speed_rad_s = kDrawnWheels.max_rad_s;
   double acceleration_rad_s2 = 15;
   double braking_rad_s2 = 30;
   double lag_s = 0.04;
   double deadline_s = 0.2;
-  int ticks_per_turn = 4096;
+  int ticks_per_turn = kDrawnWheels.ticks_per_turn;
   double encoder_noise_ticks = 0.7;
 
   void Describe(Archive& a);

@@ -48,4 +48,10 @@ Twist2 MecanumBase::Step(const PerWheel& speed_rad_s, double dt_s) {
   return twist;
 }
 
+PerWheel MecanumBase::ContactSpeeds(const Twist2& twist) const {
+  const double turn = lever_m_ * twist.wz;
+  return {twist.vx - twist.vy - turn, twist.vx + twist.vy + turn, twist.vx + twist.vy - turn,
+          twist.vx - twist.vy + turn};
+}
+
 }  // namespace priamos::world

@@ -3,6 +3,7 @@
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/random.hpp"
+#include "common/robot/robot_drawing.hpp"
 #include "world/core/base/drive_board.hpp"
 
 namespace priamos::world {
@@ -10,9 +11,9 @@ namespace priamos::world {
 /// The base and the errors of its construction. The nominal values are known to `robot`; the
 /// errors are drawn once per run from the seed.
 struct MecanumConfig {
-  double wheel_radius_m = 0.10;
-  double half_wheelbase_m = 0.30;
-  double half_track_m = 0.32;
+  double wheel_radius_m = kDrawnWheels.radius_m;
+  double half_wheelbase_m = kDrawnWheels.half_wheelbase_m;
+  double half_track_m = kDrawnWheels.half_track_m;
   double radius_error = 0.008;
   double lever_error = 0.01;
   double lateral_loss = 0.03;
@@ -36,6 +37,8 @@ class MecanumBase {
 
   /// True body velocity while the wheels turn so; slip wanders with the distance that each wheel rolls.
   Twist2 Step(const PerWheel& speed_rad_s, double dt_s);
+  /// Speeds of the floor below the four contacts, along their rolling directions, while the base moves so.
+  PerWheel ContactSpeeds(const Twist2& twist) const;
 
  private:
   MecanumConfig config_;

@@ -134,9 +134,9 @@ void CameraBuild::Describe(Archive& a) {
 
 std::array<CameraBuild, kCameras> HeadBuild::NominalCameras() {
   std::array<CameraBuild, kCameras> cameras;
-  cameras[kLeftCamera].y_m = 0.15;
-  cameras[kRightCamera].y_m = -0.15;
-  cameras[kThirdCamera].z_m = 0.12;
+  cameras[kLeftCamera].y_m = kDrawnHead.half_stereo_base_m;
+  cameras[kRightCamera].y_m = -kDrawnHead.half_stereo_base_m;
+  cameras[kThirdCamera].z_m = kDrawnHead.third_above_m;
   cameras[kThirdCamera].focal_min_px = cameras[kThirdCamera].focal_max_px = 900;
   return cameras;
 }

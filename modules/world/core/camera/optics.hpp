@@ -7,6 +7,7 @@
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/image_size.hpp"
+#include "common/robot/robot_drawing.hpp"
 
 namespace priamos::world {
 
@@ -42,10 +43,9 @@ struct CameraBuild {
   void Describe(Archive& a);
 };
 
-/// The mechanics of KASTOR with their manufacturing errors. Nominally pan and tilt axis meet at
-/// (0.25, 0, 1.20) of the base frame, the cameras sit at y = +-0.15 m and the third 0.12 m above them.
+/// The mechanics of KASTOR with their manufacturing errors; without them it is kDrawnHead.
 struct HeadBuild {
-  double x_m = 0.25, y_m = 0, z_m = 1.20;           ///< pan axis in the base frame
+  double x_m = kDrawnHead.x_m, y_m = kDrawnHead.y_m, z_m = kDrawnHead.z_m;  ///< pan axis in the base frame
   double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< orientation of the pan axis, base frame
   double tilt_axis_x_m = 0, tilt_axis_z_m = 0;      ///< tilt axis on the pan platform
   double tilt_axis_roll_rad = 0,

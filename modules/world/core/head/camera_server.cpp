@@ -6,12 +6,9 @@
 #include <bit>
 #include <utility>
 
+#include "common/robot/camera_bits.hpp"
+
 namespace priamos::world {
-namespace {
-
-constexpr int kLaserBit = 8;  // of camera_trigger_t
-
-}  // namespace
 
 void CameraConfig::Describe(Archive& a) {
   a.Number("trigger_delay_s", trigger_delay_s,
@@ -53,7 +50,7 @@ CameraServer::CameraServer(const CameraConfig& config, double camera_light, Rend
 
 bool CameraServer::Trigger(Time now, std::int32_t frame_id, int cameras) {
   const bool laser = (cameras & kLaserBit) != 0;
-  cameras &= (1 << kCameras) - 1;
+  cameras &= CameraBits(kCameras);
   auto count = static_cast<std::size_t>(std::popcount(static_cast<unsigned>(cameras))) + pending_.size();
   for (const auto& shot : shots_)
     count += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(shot.cameras)));

@@ -4,6 +4,7 @@
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
+#include "common/robot/robot_drawing.hpp"
 #include "world/core/camera/optics.hpp"
 #include "world/core/head/axis.hpp"
 
@@ -12,36 +13,36 @@ namespace priamos::world {
 /// The motors of KASTOR. Play and repeatability are those of stepper motors with spur or worm gears; at a
 /// focal length of 1000 px, 0.0001 rad is 0.1 px.
 struct HeadMotorsConfig {
-  AngleAxisConfig pan{{.min = -2,
-                       .max = 2,
+  AngleAxisConfig pan{{.min = -kDrawnHead.most_pan_rad,
+                       .max = kDrawnHead.most_pan_rad,
                        .step = 0.0001,
                        .speed = 1.5,
                        .acceleration = 6,
                        .backlash = 0.0004,
                        .repeatability = 0.00003}};
-  AngleAxisConfig tilt{{.min = -0.8,
-                        .max = 0.8,
+  AngleAxisConfig tilt{{.min = -kDrawnHead.most_tilt_rad,
+                        .max = kDrawnHead.most_tilt_rad,
                         .step = 0.0001,
                         .speed = 1,
                         .acceleration = 4,
                         .backlash = 0.0004,
                         .repeatability = 0.00003}};
-  AngleAxisConfig vergence{{.min = -0.4,
-                            .max = 0.4,
+  AngleAxisConfig vergence{{.min = -kDrawnHead.most_vergence_rad,
+                            .max = kDrawnHead.most_vergence_rad,
                             .step = 0.0001,
                             .speed = 0.8,
                             .acceleration = 4,
                             .backlash = 0.0003,
                             .repeatability = 0.00002}};
   LensAxisConfig zoom{{.min = 0,
-                       .max = 2000,
+                       .max = kDrawnHead.most_step,
                        .step = 1,
                        .speed = 800,
                        .acceleration = 4000,
                        .backlash = 6,
                        .repeatability = 0.4}};
   LensAxisConfig focus{{.min = 0,
-                        .max = 2000,
+                        .max = kDrawnHead.most_step,
                         .step = 1,
                         .speed = 800,
                         .acceleration = 4000,

@@ -52,6 +52,10 @@ DoorPlan AsBuilt(DoorPlan door, const DoorWork& work) {
   door.y_m = built.y;
   door.yaw_deg = Degrees(built.yaw);
   door.opening_width_m += work.built_dwidth_m;
+  door.opening_height_m += work.built_dheight_m;
+  door.frame_width_m += work.built_dframe_m;
+  door.frame_protrusion_m += work.built_dprotrusion_m;
+  door.wall_thickness_m += work.built_dthickness_m;
   return door;
 }
 

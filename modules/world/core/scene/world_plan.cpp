@@ -21,6 +21,12 @@ void DoorWork::Describe(Archive& a) {
            {"m", -0.5, 0.5, "true door against the map, along the map's door frame"});
   a.Number("built_dyaw_deg", built_dyaw_deg, {"deg", -20, 20, "true door against the map"});
   a.Number("built_dwidth_m", built_dwidth_m, {"m", -0.5, 0.5, "true clear width against the map"});
+  a.Number("built_dheight_m", built_dheight_m, {"m", -0.5, 0.5, "true clear height against the map"});
+  a.Number("built_dframe_m", built_dframe_m, {"m", -0.1, 0.1, "true breadth of the frame against the map"});
+  a.Number("built_dprotrusion_m", built_dprotrusion_m,
+           {"m", -0.1, 0.1, "how far the frame stands before the wall, against the map"});
+  a.Number("built_dthickness_m", built_dthickness_m,
+           {"m", -0.1, 0.1, "true thickness of the wall at the door against the map"});
 }
 
 void BoxPlan::Describe(Archive& a) {

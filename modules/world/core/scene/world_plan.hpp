@@ -21,6 +21,7 @@ struct DoorWork {
   double leaf_thickness_m = 0.04;
   double threshold_m = 0.008;
   double built_dx_m = 0, built_dy_m = 0, built_dyaw_deg = 0, built_dwidth_m = 0;
+  double built_dheight_m = 0, built_dframe_m = 0, built_dprotrusion_m = 0, built_dthickness_m = 0;
 
   void Describe(Archive& a);
 };

@@ -109,6 +109,19 @@ TEST_F(DriveBoardTest, EncodersCountTheTurn) {
   EXPECT_NEAR(dut_.Read().position_ticks[3], turned / (2 * kPi) * config_.ticks_per_turn, 10);
 }
 
+TEST_F(DriveBoardTest, AWheelTurnsByTheMeanSpeedOfEachStep) {
+  config_.encoder_noise_ticks = 0;
+  config_.ticks_per_turn = 100'000;
+  DriveBoard dut(config_, Rng(1));
+  double turned = 0;
+  Time now = start_;
+  for (double before = 0; now < start_ + std::chrono::milliseconds(200); before = dut.speed_rad_s()[0]) {
+    now = Elapse(dut, now, Seconds(kStep), &forward_);
+    turned += Seconds(kStep) * (before + dut.speed_rad_s()[0]) / 2;
+  }
+  EXPECT_NEAR(dut.Read().position_ticks[0], turned / (2 * kPi) * config_.ticks_per_turn, 1);
+}
+
 TEST_F(DriveBoardTest, EncodersJitterWhileTurningAndAreQuietAtRest) {
   Time now = Elapse(dut_, start_, 1, &forward_);
   const auto spread = [&] {

@@ -78,7 +78,7 @@ TEST(MecanumBaseTest, ThreeMetresStraightDriftInTheStatedBand) {
   EXPECT_LT(*std::max_element(lateral.begin(), lateral.end()), 0.15);
 }
 
-TEST(MecanumBaseTest, SidewaysMotionLosesWay) {
+TEST(MecanumBaseTest, SidewaysMotionIsShortByTheLateralLoss) {
   MecanumConfig config = Ideal();
   config.lateral_loss = 0.05;
   double mean = 0;
@@ -96,6 +96,29 @@ TEST(MecanumBaseTest, AcceleratingWheelsSlipForward) {
   dut.Step({5, 5, 5, 5}, 0.0025);
   // 5.0375 - 5 rad/s within 2.5 ms is 1.5 m/s^2 at the rim: 3 % slip.
   EXPECT_NEAR(dut.Step({5.0375, 5.0375, 5.0375, 5.0375}, 0.0025).vx, 0.50375 * 0.97, 1e-6);
+}
+
+TEST(MecanumBaseTest, WheelsThatAccelerateBackwardSlipBackward) {
+  MecanumConfig config = Ideal();
+  config.acceleration_slip_s2_m = 0.02;
+  MecanumBase dut(config, Rng(1));
+  dut.Step({-5, -5, -5, -5}, 0.0025);
+  EXPECT_NEAR(dut.Step({-5.0375, -5.0375, -5.0375, -5.0375}, 0.0025).vx, -0.50375 * 0.97, 1e-6);
+}
+
+TEST(MecanumBaseTest, TheSlipKeepsItsSpreadHoweverFarItWanders) {
+  MecanumConfig config = Ideal();
+  config.roller_slip = 0.02;
+  config.slip_length_m = 0.05;
+  MecanumBase dut(config, Rng(3));
+  double squares = 0;
+  constexpr int kSteps = 40'000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double slip = 1 - dut.Step({5, 5, 5, 5}, 0.0025).vx / 0.5;
+    squares += slip * slip / kSteps;
+  }
+  // The mean of four wheels spreads half as much as one.
+  EXPECT_NEAR(std::sqrt(squares), 0.02 / 2, 0.001);
 }
 
 TEST(MecanumBaseTest, SlipWandersWithTheWayNotWithTime) {

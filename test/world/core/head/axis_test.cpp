@@ -36,7 +36,15 @@ TEST(AxisTest, TenDegreesTakeAccelerationAndBraking) {
   EXPECT_NEAR(Settle(dut), 2 * std::sqrt(0.1745 / 6), 0.02);
 }
 
-TEST(AxisTest, LongWaysRunAtTheSpeedLimitAndDoNotOvershoot) {
+TEST(AxisTest, BrakesAtItsFullAccelerationDownToTheEnd) {
+  for (const double turn : {0.1745, 0.3}) {
+    Axis dut(kConfig, 0, Rng(1));
+    dut.MoveTo(turn);
+    EXPECT_LE(Settle(dut), 2 * std::sqrt(turn / 6)) << turn;
+  }
+}
+
+TEST(AxisTest, LongMovesRunAtTheSpeedLimitAndDoNotOvershoot) {
   Axis dut(kConfig, -2, Rng(1));
   dut.MoveTo(2);
   double before = dut.counter(), fastest = 0;

@@ -101,6 +101,15 @@ TEST(PingTest, EdgesAreWeakerThanWalls) {
   EXPECT_TRUE(Range(SceneOf({Box({4.0, 0, 0}, {0.2, 0.2})})));
 }
 
+TEST(PingTest, TheEchoOfAnEdgeIsLostBeyondTwoAndAHalfMetres) {
+  // -30 dB at the edge, 30 dB per factor 10 of distance, 2.6 dB per metre, against 45 dB of sensitivity.
+  const auto edge_at = [](double distance) {
+    return SceneOf({Box({distance + 0.1 * std::sqrt(2.0), 0, Radians(45)}, {0.2, 0.2})});
+  };
+  EXPECT_TRUE(Range(edge_at(2.35)));
+  EXPECT_FALSE(Range(edge_at(2.5)));
+}
+
 TEST(PingTest, TheBeamIsAboutFifteenDegreesWide) {
   // A rough post of 4 cm at 2 m, moved sideways: heard on the axis and 7 degrees off, not 20 degrees off.
   const auto post = [](double off_deg) {
