@@ -84,6 +84,10 @@ std::int8_t LimitCode(Condition condition) {
   switch (condition) {
     case Condition::kEstop:
       return drive_status_t::LIMIT_ESTOP;
+    case Condition::kTouched:
+      return drive_status_t::LIMIT_TOUCHED;
+    case Condition::kBumperSilent:
+      return drive_status_t::LIMIT_BUMPER_SILENT;
     case Condition::kLeaseLost:
       return drive_status_t::LIMIT_LEASE_LOST;
     case Condition::kOperatorSilent:

@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace priamos::robot {
 namespace {
+
+/// Longest time in which a touch is noticed, and the least that is added to the pose's uncertainty by one.
+constexpr double kTouchNoticed_s = 0.25, kLeastSlip_m = 0.02, kLeastSlip_rad = Radians(1.0);
+
+/// How often and how long the newest opening is repeated.
+constexpr double kOpeningRate_hz = 1;
+constexpr Duration kOpeningRepeated = std::chrono::seconds(60);
 
 /// Why a path is not driven; empty when it is.
 std::string_view Refusal(PathVerdict verdict) {
@@ -29,10 +35,15 @@ std::string_view Refusal(PathVerdict verdict) {
 RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
     : config_(config),
       context_(context),
-      last_word_(config.state_file.empty() ? "" : context.ResolvePath(config.state_file)),
+      estop_memory_(config.state_file.empty() ? "" : context.ResolvePath(config.state_file)),
+      status_rate_(config.status_rate_hz),
+      opening_rate_(kOpeningRate_hz),
       localiser_(config.localiser, config.base),
       drive_(config.drive, config.base),
+      opening_watch_(config.opening, config.drive.footprint),
       wheels_(context.node().SubscribeAll(channels::kWheelState)),
+      currents_(context.node().SubscribeAll(channels::kMotorCurrent)),
+      bumper_(context.node().SubscribeAll(channels::kBumper)),
       sonars_(context.node().Subscribe(channels::kSonarRanges)),
       floor_lines_(context.node().SubscribeAll(channels::kObstacleLine)),
       paths_(context.node().SubscribeAll(channels::kPath)),
@@ -46,15 +57,15 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       odometry_(context.node().Advertise(channels::kOdometry)),
       pose_(context.node().Advertise(channels::kPose)),
       status_(context.node().Advertise(channels::kDriveStatus)),
-      correction_(context.node().Advertise(channels::kPoseCorrection)) {
-  why_latched_ = WhyLatched(last_word_.Load());
-  if (!why_latched_.empty()) drive_.PressEstop();
+      correction_(context.node().Advertise(channels::kPoseCorrection)),
+      opening_(context.node().Advertise(channels::kOpening)) {
+  if (!estop_memory_.why_latched().empty()) drive_.PressEstop();
 }
 
 RobotApp::~RobotApp() {
   if (!running_) return;
   try {
-    last_word_.Save(drive_.estop() ? LastWord::kEstop : LastWord::kEnded);
+    estop_memory_.End(drive_.estop());
   } catch (const std::exception& error) {
     context_.Log(bus::Level::kError, error.what());
   }
@@ -63,16 +74,17 @@ RobotApp::~RobotApp() {
 /// Begins the work with the first tick: an App that is only asked for its interface writes nothing.
 void RobotApp::Begin(Time now) {
   running_ = true;
-  drive_.CountEstopChangesFrom(static_cast<int>(ToUtime(now) / 1'000'000 % 256));
-  last_word_.Save(drive_.estop() ? LastWord::kEstop : LastWord::kRunning);
-  if (why_latched_.empty()) return;
-  context_.Log(bus::Level::kWarning, fmt::format("the e-stop is latched: {}; re-arm to drive", why_latched_));
+  drive_.CountEstopChangesFrom(now);
+  estop_memory_.Begin(drive_.estop());
+  if (const auto& why = estop_memory_.why_latched(); !why.empty())
+    context_.Log(bus::Level::kWarning, fmt::format("the e-stop is latched: {}; re-arm to drive", why));
 }
 
 void RobotApp::Tick(Time now) {
   if (!running_) Begin(now);
   TakeEstops(now);
   TakeWheels(now);
+  TakeTouchSensors(now);
   TakeSonars();
   TakeFloorLines(now);
   TakeFixes(now);
@@ -84,6 +96,7 @@ void RobotApp::Tick(Time now) {
   Drive(now);
   KeepEstop(now);
   SendStatus(now);
+  SendOpening(now);
 }
 
 void RobotApp::Yield(Time now) {
@@ -96,17 +109,41 @@ void RobotApp::TakeWheels(Time now) {
     if (bool(message.contested) != contested_) ReportContest(message);
     if (!localiser_.AddWheels(FromMessage(message), now)) continue;
     wheels_heard_ = now;
+    drive_.touch_watch().AddMotion(*localiser_.odometry().time(), localiser_.odometry().twist());
     moved = true;
   }
   if (moved) odometry_.Publish(ToMessage(localiser_.odometry()));
 }
 
-void RobotApp::TakeSonars() {
-  if (const auto message = sonars_.Take())
-    drive_.AddSonar(FromMessage(*message), localiser_.odometry().pose());
+void RobotApp::TakeTouchSensors(Time now) {
+  for (const motor_current_t& message : currents_.Drain())
+    if (const auto currents = FromMessage(message)) drive_.touch_watch().AddCurrents(*currents);
+  for (const bumper_t& message : bumper_.Drain())
+    drive_.touch_watch().AddBumper(static_cast<std::uint8_t>(message.pressed), now);
 }
 
-/// The base has moved on since the picture.
+void RobotApp::TakeSonars() {
+  const auto message = sonars_.Take();
+  if (!message) return;
+  const SonarCycle cycle = FromMessage(*message);
+  const Pose2& odom_from_base = localiser_.odometry().pose();
+  drive_.AddSonar(cycle, odom_from_base);
+  const auto estimate = localiser_.estimate();
+  if (!estimate) return;
+  if (const auto opening = opening_watch_.Add(cycle, odom_from_base, estimate->pose)) {
+    passed_ = *opening;
+    opening_rate_ = RateLimit(kOpeningRate_hz);
+  }
+}
+
+/// Adds each line at the pose that the base had when its picture was taken.
+/// Repeated, because on the radio it is a state: it gets there after a blackout, too.
+void RobotApp::SendOpening(Time now) {
+  if (!passed_ || now - passed_->time > kOpeningRepeated || !opening_rate_.Due(now)) return;
+  opening_rate_.Mark(now);
+  opening_.Publish(ToMessage(*passed_));
+}
+
 void RobotApp::TakeFloorLines(Time now) {
   for (const obstacle_line_t& message : floor_lines_.Drain()) {
     const auto line = FromMessage(message);
@@ -161,26 +198,18 @@ void RobotApp::TakeEstops(Time now) {
   }
 }
 
-/// First the file, then the drive: a re-arming that is forgotten is better than one too many.
 void RobotApp::Rearm() {
-  try {
-    last_word_.Save(LastWord::kRunning);
-  } catch (const std::exception& error) {
-    return context_.Log(bus::Level::kError, fmt::format("not re-armed: {}", error.what()));
-  }
+  if (const std::string why = estop_memory_.Forget(); !why.empty())
+    return context_.Log(bus::Level::kError, fmt::format("not re-armed: {}", why));
   drive_.Rearm();
   context_.Log(bus::Level::kInfo, "re-armed; a new order is needed to move");
 }
 
-/// After the order to stand was sent to the wheels: a slow disk delays nothing.
+/// Writes a latched e-stop down, after the order to stand was sent to the wheels: a slow disk delays nothing.
 void RobotApp::KeepEstop(Time now) {
-  if (!drive_.estop() || (keep_again_ && now < *keep_again_)) return;
-  try {
-    last_word_.Save(LastWord::kEstop);
-  } catch (const std::exception& error) {
-    keep_again_ = now + std::chrono::seconds(1);
-    context_.Log(bus::Level::kError, fmt::format("a restart would forget the e-stop: {}", error.what()));
-  }
+  if (!drive_.estop()) return;
+  if (const std::string why = estop_memory_.Keep(now); !why.empty())
+    context_.Log(bus::Level::kError, fmt::format("a restart would forget the e-stop: {}", why));
 }
 
 void RobotApp::TakeLeaseRequests(Time now) {
@@ -204,8 +233,7 @@ void RobotApp::TakeSignsOfLife(Time now) {
   // A robot without a radio hears of no link, and has none to lose.
   const link_status_t* link = link_.get();
   const bool down = link && (!link->up || link_.Age(now) > channels::kLinkStatus.stale_after);
-  if (!down) link_down_since_.reset();
-  if (down && !link_down_since_) link_down_since_ = now;
+  link_watch_.Update(down, now);
 }
 
 void RobotApp::TakePaths(Time now) {
@@ -226,10 +254,9 @@ void RobotApp::TakePaths(Time now) {
 
 void RobotApp::Drive(Time now) {
   const auto estimate = localiser_.estimate();
-  const Duration link_down =
-      link_down_since_ ? std::max(now - *link_down_since_, Duration(1)) : Duration::zero();
-  const auto speeds =
-      drive_.Step({estimate, localiser_.odometry().pose(), wheels_heard_, head_heard_, link_down}, now);
+  const auto speeds = drive_.Step(
+      {estimate, localiser_.odometry().pose(), wheels_heard_, head_heard_, link_watch_.DownFor(now)}, now);
+  ReportTouch(now);
   commands_wheels_ = speeds.has_value();
   if (speeds) wheel_command_.Publish(ToMessage(*speeds, context_.claimant(), now));
   if (estimate) pose_.Publish(ToMessage(*estimate));
@@ -237,8 +264,8 @@ void RobotApp::Drive(Time now) {
 }
 
 void RobotApp::SendStatus(Time now) {
-  if (status_sent_ && Seconds(now - *status_sent_) < 1 / config_.status_rate_hz - 1e-6) return;
-  status_sent_ = now;
+  if (!status_rate_.Due(now)) return;
+  status_rate_.Mark(now);
   const auto estimate = localiser_.estimate();
   const double speed_m_s = estimate ? std::hypot(estimate->twist.vx, estimate->twist.vy) : 0;
   status_.Publish(ToMessage(drive_.state(), speed_m_s, now));
@@ -252,6 +279,18 @@ void RobotApp::ReportContest(const wheel_state_t& message) {
                                  "{} of its commands were not obeyed",
                                  message.foreign_commands)
                    : "the wheels are commanded by one process again");
+}
+
+/// The wheels turned on while the base was held: as far as they went before it was noticed.
+void RobotApp::ReportTouch(Time now) {
+  const auto& touch = drive_.state().touch;
+  if (!touch || touch->time != now) return;
+  const Twist2 twist = localiser_.odometry().twist();
+  localiser_.AddSlip(kLeastSlip_m + std::hypot(twist.vx, twist.vy) * kTouchNoticed_s,
+                     kLeastSlip_rad + std::abs(twist.wz) * kTouchNoticed_s);
+  context_.Log(bus::Level::kWarning,
+               fmt::format("the base touched something at {}{}", SegmentsText(touch->segments),
+                           touch->push_n > 0 ? fmt::format(", {:.0f} N", touch->push_n) : ""));
 }
 
 void RobotApp::Report(const DriveState& state) {

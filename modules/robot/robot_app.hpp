@@ -5,8 +5,10 @@
 #include <string_view>
 
 #include "bus/context.hpp"
+#include "common/rate_limit.hpp"
 #include "lcmtypes/channels.hpp"
-#include "robot/last_word.hpp"
+#include "robot/core/safety/link_watch.hpp"
+#include "robot/estop_memory.hpp"
 #include "robot/robot_config.hpp"
 #include "robot/robot_messages.hpp"
 
@@ -34,6 +36,7 @@ class RobotApp {
 
  private:
   void TakeWheels(Time now);
+  void TakeTouchSensors(Time now);
   void TakeSonars();
   void TakeFloorLines(Time now);
   void TakeFixes(Time now);
@@ -49,18 +52,25 @@ class RobotApp {
   void AnswerFixes(Time now);
   void Drive(Time now);
   void SendStatus(Time now);
+  void SendOpening(Time now);
   void Report(const DriveState& state);
+  void ReportTouch(Time now);
   void ReportContest(const wheel_state_t& message);
 
   RobotConfig config_;
   bus::Context& context_;
-  LastWordFile last_word_;
-  std::string why_latched_;
+  EstopMemory estop_memory_;
   bool running_ = false, commands_wheels_ = false, contested_ = false;
+  LinkWatch link_watch_;
+  RateLimit status_rate_, opening_rate_;
   Localiser localiser_;
   DriveController drive_;
+  OpeningWatch opening_watch_;
+  std::optional<Opening> passed_;  ///< newest
 
   bus::Inbox<wheel_state_t> wheels_;
+  bus::Inbox<motor_current_t> currents_;
+  bus::Inbox<bumper_t> bumper_;
   bus::Latest<sonar_ranges_t> sonars_;
   bus::Inbox<obstacle_line_t> floor_lines_;
   bus::Inbox<path_t> paths_;
@@ -75,8 +85,9 @@ class RobotApp {
   bus::Publisher<pose_t> pose_;
   bus::Publisher<drive_status_t> status_;
   bus::Publisher<pose_correction_t> correction_;
+  bus::Publisher<opening_t> opening_;
 
-  std::optional<Time> wheels_heard_, head_heard_, link_down_since_, status_sent_, keep_again_;
+  std::optional<Time> wheels_heard_, head_heard_;
   LeaseHolder reported_holder_;
   int floor_lines_refused_ = 0;
   std::optional<Condition> reported_cause_;

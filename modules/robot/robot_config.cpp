@@ -12,6 +12,7 @@ void RobotConfig::Describe(Archive& a) {
          "keeps a latched e-stop over a restart, and latches it after a crash; empty: neither");
   a.Section("base", base, "the four Mecanum wheels");
   a.Section("localiser", localiser, "where the base is");
+  a.Section("opening", opening, "when sonars show that an opening was passed");
   a.Section("drive", drive, "how the base moves, and what stops it");
 }
 

@@ -6,6 +6,7 @@
 #include "robot/core/base/mecanum.hpp"
 #include "robot/core/motion/drive_controller.hpp"
 #include "robot/core/pose/localiser.hpp"
+#include "robot/core/sonar/opening_watch.hpp"
 
 namespace priamos::robot {
 
@@ -18,6 +19,7 @@ struct RobotConfig {
   std::string state_file;      ///< the e-stop survives a restart here; empty: it does not
   MecanumGeometry base;
   LocaliserConfig localiser;
+  OpeningConfig opening;
   DriveConfig drive;
 
   void Describe(Archive& a);

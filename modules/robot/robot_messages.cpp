@@ -43,6 +43,14 @@ WheelSample FromMessage(const wheel_state_t& message) {
   return sample;
 }
 
+std::optional<MotorCurrents> FromMessage(const motor_current_t& message) {
+  for (const double current : message.current_a)
+    if (!std::isfinite(current)) return std::nullopt;
+  MotorCurrents currents{.time = FromUtime(message.utime)};
+  std::copy(std::begin(message.current_a), std::end(message.current_a), currents.current_a.begin());
+  return currents;
+}
+
 SonarCycle FromMessage(const sonar_ranges_t& message) {
   SonarCycle cycle{.time = FromUtime(message.utime)};
   std::copy(std::begin(message.range_m), std::end(message.range_m), cycle.range_m.begin());
@@ -181,6 +189,16 @@ pose_correction_t ToMessage(const Localiser::Answer& answer, Time now) {
   message.sigma_m = result.at_picture.PositionSigma();
   message.sigma_yaw_rad = result.at_picture.YawSigma();
   message.distance = result.distance;
+  return message;
+}
+
+opening_t ToMessage(const Opening& opening) {
+  opening_t message{};
+  message.utime = ToUtime(opening.time);
+  message.x_m = opening.map_from_base.x;
+  message.y_m = opening.map_from_base.y;
+  message.yaw_rad = opening.map_from_base.yaw;
+  message.width_m = opening.width_m;
   return message;
 }
 

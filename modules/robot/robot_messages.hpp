@@ -6,10 +6,13 @@
 #include "lcmtypes/channels.hpp"
 #include "robot/core/motion/drive_controller.hpp"
 #include "robot/core/pose/localiser.hpp"
+#include "robot/core/sonar/opening_watch.hpp"
 
 namespace priamos::robot {
 
 WheelSample FromMessage(const wheel_state_t& message);
+/// Nullopt when a value is not a number.
+std::optional<MotorCurrents> FromMessage(const motor_current_t& message);
 SonarCycle FromMessage(const sonar_ranges_t& message);
 /// Path in the map frame; nullopt if it cannot be driven: points that are not finite or outside the map's 100
 /// m, or a speed that is not above 0 while there are points.
@@ -37,6 +40,7 @@ drive_status_t ToMessage(const DriveState& state, double speed_m_s, Time now);
 /// What the robot made of a fix that it used, or refused.
 pose_correction_t ToMessage(const Localiser::Answer& answer, Time now);
 /// What it made of one that the head could not give.
+opening_t ToMessage(const Opening& opening);
 pose_correction_t NotFound(const landmark_fix_t& message, Time now);
 
 /// A condition in words, for logs and HEALTH.

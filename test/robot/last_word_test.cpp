@@ -43,7 +43,7 @@ TEST_F(LastWordTest, WhatCannotBeUnderstoodIsAnEstop) {
   }
 }
 
-TEST_F(LastWordTest, AWordThatCannotBeWrittenIsToldAndSaidAgain) {
+TEST_F(LastWordTest, AWordThatCannotBeWrittenThrowsAndIsWrittenNextTime) {
   LastWordFile file(path());
   std::filesystem::create_directory(path() + ".new");
   EXPECT_THROW(file.Save(LastWord::kEstop), std::runtime_error);

@@ -54,6 +54,7 @@ struct Onboard {
     sonar_ranges_t message{};
     message.utime = ToUtime(clock.Now());
     std::fill(std::begin(message.range_m), std::end(message.range_m), -1);
+    for (const int i : {5, 6, 7, 17, 18, 19}) message.range_m[i] = beside_m;
     sonars.Publish(message);
   }
   void SendPath(int id, double x_m, double speed_m_s = 0.4) {
@@ -113,6 +114,7 @@ struct Onboard {
   }
 
   bool wheels_answer = true;
+  double beside_m = -1;  ///< range of the sonars abeam
   int ticks = 0, statuses = 0, sequence = 0;
   SimulatedBase base{1, {0.05, 0.1, 0.02}};
   bus::Schema schema = bus::OwnTypes();
@@ -128,6 +130,8 @@ struct Onboard {
                        }()};
   RobotApp dut;
   bus::Publisher<wheel_state_t> wheels = other.Advertise(channels::kWheelState);
+  bus::Publisher<motor_current_t> currents = other.Advertise(channels::kMotorCurrent);
+  bus::Publisher<bumper_t> bumper = other.Advertise(channels::kBumper);
   bus::Publisher<sonar_ranges_t> sonars = other.Advertise(channels::kSonarRanges);
   bus::Publisher<path_t> paths = other.Advertise(channels::kPath);
   bus::Publisher<landmark_fix_t> fixes = other.Advertise(channels::kLandmarkFix);
@@ -136,6 +140,7 @@ struct Onboard {
   bus::Publisher<estop_t> estops = other.Advertise(channels::kEstop);
   bus::Publisher<link_status_t> links = other.Advertise(channels::kLinkStatus);
   bus::Latest<wheel_command_t> command = other.Subscribe(channels::kWheelCommand);
+  bus::Inbox<opening_t> openings = other.SubscribeAll(channels::kOpening);
   bus::Latest<odometry_t> odometry = other.Subscribe(channels::kOdometry);
   bus::Latest<pose_t> pose = other.Subscribe(channels::kPose);
   bus::Latest<drive_status_t> status = other.Subscribe(channels::kDriveStatus);
@@ -203,6 +208,55 @@ TEST(RobotApp, SaysThatTheBoardHoldsTheWheelsBecauseOfAnother) {
   EXPECT_THAT(robot.log, Contains(HasSubstr("another process commands them, too; 3 of its commands")));
   robot.Run(0.1);
   EXPECT_THAT(robot.log, Contains(HasSubstr("by one process again")));
+}
+
+TEST(RobotApp, ATouchHaltsItWidensItsPoseAndIsReported) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendPath(4, 3);
+  robot.Run(2);
+  const double sigma_m = robot.pose.get()->sigma_x_m;
+  bumper_t message{};
+  message.utime = ToUtime(robot.clock.Now());
+  message.pressed = bumper_t::FRONT_LEFT;
+  robot.bumper.Publish(message);
+  robot.Run(0.3);
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+  EXPECT_EQ(robot.last_status.limit, drive_status_t::LIMIT_TOUCHED);
+  EXPECT_THAT(robot.log, Contains(HasSubstr("touched something at the front's left half")));
+  // It may have slipped by 0.02 m + 0.25 s * 0.4 m/s.
+  EXPECT_GT(robot.pose.get()->sigma_x_m, std::hypot(sigma_m, 0.1));
+}
+
+TEST(RobotApp, CurrentsThatAreNoNumbersAreNoTouch) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendPath(4, 3);
+  for (int i = 0; i < 50; ++i) {
+    motor_current_t message{};
+    message.utime = ToUtime(robot.clock.Now());
+    for (double& current : message.current_a) current = std::nan("");
+    robot.currents.Publish(message);
+    robot.Step();
+  }
+  EXPECT_EQ(robot.last_status.limit, drive_status_t::LIMIT_NONE);
+}
+
+TEST(RobotApp, RepeatsTheOpeningItDroveThrough) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendPath(4, 3);
+  robot.Run(1);
+  robot.beside_m = 0.12;
+  robot.Run(2);
+  robot.beside_m = -1;
+  EXPECT_TRUE(robot.openings.Drain().empty());
+  robot.Run(4);
+  const auto openings = robot.openings.Drain();
+  EXPECT_NEAR(double(openings.size()), 4, 1);
+  ASSERT_FALSE(openings.empty());
+  EXPECT_NEAR(openings[0].width_m, 0.78 + 0.24, 1e-6);
+  EXPECT_EQ(openings[0].utime, openings.back().utime) << "of the same opening";
 }
 
 TEST(RobotApp, AnswersAFixAndMovesItsPose) {

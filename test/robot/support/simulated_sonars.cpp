@@ -6,7 +6,8 @@
 namespace priamos::robot {
 namespace {
 
-// Sound is heard well beside the nominal 7.5 degrees; the robot does not know that.
+// Half the cone of sound and the largest angle of incidence that reflects [rad], range [m]. Sound is heard
+// well beside the nominal 7.5 degrees; the robot does not know that.
 constexpr double kHalfCone = Radians(12), kSpecularLimit = Radians(30), kReach = 5, kLeast = 0.1;
 
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "common/archive.hpp"
-#include "common/body_size.hpp"
 #include "common/geometry.hpp"
+#include "common/robot/body_size.hpp"
 
 namespace priamos::robot {
 

@@ -4,6 +4,7 @@
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
+#include "common/robot/robot_drawing.hpp"
 
 namespace priamos::robot {
 
@@ -13,9 +14,10 @@ using WheelSpeeds = std::array<double, 4>;
 /// A base on four Mecanum wheels whose rollers form an X seen from above (ground contact: an O), so that the
 /// front left and rear right wheel push to the right when driving forward.
 struct MecanumGeometry {
-  double wheel_radius_m = 0.10;
-  double lever_m = 0.62;  ///< half wheelbase + half track: the lever of a wheel's rim speed about the centre
-  double max_wheel_rad_s = 12;
+  double wheel_radius_m = kDrawnWheels.radius_m;
+  /// Half wheelbase + half track: the lever of a wheel's rim speed about the centre.
+  double lever_m = kDrawnWheels.half_wheelbase_m + kDrawnWheels.half_track_m;
+  double max_wheel_rad_s = kDrawnWheels.max_rad_s;
 
   void Describe(Archive& a);
 };

@@ -7,6 +7,7 @@
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
+#include "common/robot/robot_drawing.hpp"
 #include "common/time.hpp"
 #include "robot/core/base/mecanum.hpp"
 
@@ -34,7 +35,7 @@ struct OdometryNoise {
 
 /// Resolution of the encoders, and how far odometry is trusted.
 struct OdometryConfig {
-  double ticks_per_turn = 4096;
+  double ticks_per_turn = kDrawnWheels.ticks_per_turn;
   double unknown_speed_m_s = 0.5;  ///< speed assumed as sigma for a time without credible encoders
   OdometryNoise noise;
 

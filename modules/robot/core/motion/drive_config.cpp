@@ -19,6 +19,7 @@ void DriveConfig::Describe(Archive& a) {
   a.Section("echoes", echoes, "which sonar echoes are believed");
   a.Section("floor", floor, "what the laser's line showed of the floor");
   a.Section("collision", collision, "the last filter before the wheels");
+  a.Section("touch", touch, "how a touch is noticed");
   a.Section("authority", authority, "who may drive");
   a.Section("failsafe", failsafe, "when silence is too long");
 }

@@ -6,6 +6,7 @@
 #include "robot/core/safety/authority.hpp"
 #include "robot/core/safety/collision_stop.hpp"
 #include "robot/core/safety/failsafe.hpp"
+#include "robot/core/safety/touch_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
 
@@ -21,6 +22,7 @@ struct DriveConfig {
   EchoMemoryConfig echoes;
   FloorMemoryConfig floor;
   CollisionStopConfig collision;
+  TouchConfig touch;
   double operator_margin_m = 0.04;  ///< added to the margins of collision while an operator drives
   AuthorityConfig authority;
   FailsafeConfig failsafe;

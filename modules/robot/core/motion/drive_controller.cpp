@@ -11,6 +11,7 @@ using std::chrono::milliseconds;
 // Two and a half periods: a late message is not yet silence.
 constexpr milliseconds kWheelsDue{50};
 constexpr milliseconds kSonarDue{250};
+constexpr milliseconds kBumperDue{100};
 constexpr milliseconds kHeadDue{1500};
 constexpr double kStanding = 0.01;     ///< [m/s] slower is standing
 constexpr double kWantsToMove = 0.03;  ///< [m/s]
@@ -57,6 +58,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       floor_(config.floor),
       collision_(config.collision, config.footprint),
       operator_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
+      touch_(config.touch, config.footprint, geometry),
       authority_(config.authority),
       failsafe_(config.failsafe) {}
 
@@ -101,6 +103,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   floor_.Forget(situation.odom_from_base, now);
   authority_.Tick(now, HasPathToGo());
   if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
+  NoteTouch(situation.odom_from_base, now);
   const DriveSource source = Source(now);
   state_.failsafe = Watch(situation, now);
   if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause);
@@ -127,6 +130,7 @@ DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) 
   };
   if (state_.mode == DriveMode::kOperated) add(echoes_.Bridges(odom_from_base));
   add(floor_.Points(odom_from_base));
+  add(touch_.Points(odom_from_base));
   return around;
 }
 
@@ -158,6 +162,7 @@ FailsafeDecision DriveController::Watch(const DriveSituation& situation, Time no
   FailsafeInputs inputs;
   inputs.source = Source(now);
   inputs[Condition::kEstop] = when(authority_.estop());
+  inputs[Condition::kTouched] = when(state_.touch && state_.touch->time == now);
   inputs[Condition::kLeaseLost] = when(authority_.lease_lost());
   inputs[Condition::kOperatorSilent] = when(authority_.OperatorFellSilent(now));
   inputs[Condition::kWheelsSilent] = Silence(situation.wheels_heard, *first_step_, now, kWheelsDue);
@@ -165,6 +170,8 @@ FailsafeDecision DriveController::Watch(const DriveSituation& situation, Time no
   inputs[Condition::kSonarSilent] = Silence(sonar_heard_, *first_step_, now, kSonarDue);
   inputs[Condition::kPoseLost] = Lasting(pose_lost_since_, now);
   if (needs_fix) inputs[Condition::kHeadSilent] = Silence(situation.head_heard, *first_step_, now, kHeadDue);
+  if (config_.touch.bumper)
+    inputs[Condition::kBumperSilent] = Silence(touch_.bumper_heard(), *first_step_, now, kBumperDue);
   inputs[Condition::kLinkLost] = situation.link_down;
   state_.holder = authority_.holder();
   state_.estop = authority_.estop();
@@ -255,6 +262,10 @@ void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Tim
   if (stopped && !blocked_since_) blocked_since_ = now;
   const bool blocked = blocked_since_ && now - *blocked_since_ >= FromSeconds(config_.blocked_s);
   state_.mode = blocked ? DriveMode::kBlocked : DriveMode::kFollowing;
+}
+
+void DriveController::NoteTouch(const Pose2& odom_from_base, Time now) {
+  if (const auto touch = touch_.Update(odom_from_base, now)) state_.touch = touch;
 }
 
 void DriveController::NoteStuck(const DriveSituation& situation, Time now) {

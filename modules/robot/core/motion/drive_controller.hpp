@@ -13,6 +13,7 @@
 #include "robot/core/safety/authority.hpp"
 #include "robot/core/safety/collision_stop.hpp"
 #include "robot/core/safety/failsafe.hpp"
+#include "robot/core/safety/touch_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
 
@@ -40,6 +41,7 @@ struct DriveState {
   DriveMode mode = DriveMode::kIdle;
   FailsafeDecision failsafe;
   std::optional<Condition> halted_by;  ///< what ended the last motion for good; until a new one begins
+  std::optional<Touch> touch;          ///< newest touch that was noticed
   bool slowed_by_sonar = false;
   int path_id = 0;  ///< 0 before the first path
   double remaining_m = 0;
@@ -75,7 +77,7 @@ class DriveController {
   void Rearm() { authority_.Rearm(); }
   bool estop() const { return authority_.estop(); }
   /// Sets the first number of e-stop changes, before the first step: see Authority.
-  void CountEstopChangesFrom(int n) { authority_.CountEstopChangesFrom(n); }
+  void CountEstopChangesFrom(Time start) { authority_.CountEstopChangesFrom(start); }
   /// Takes a line of the laser; returns false when FloorMemory refused it. `odom_from_base`: pose when the
   /// picture was taken.
   bool AddFloorLine(const FloorLine& line, const Pose2& odom_from_base, Time now) {
@@ -83,6 +85,9 @@ class DriveController {
   }
   /// Takes a cycle of the sonars. `odom_from_base`: pose when the cycle ended.
   void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) { echoes_.Add(cycle, odom_from_base); }
+
+  /// What shows touches: the bumper, motor currents, and the velocity by the encoders.
+  TouchWatch& touch_watch() { return touch_; }
 
   /// Wheel speeds for now; nullopt while nothing was ever commanded.
   std::optional<WheelSpeeds> Step(const DriveSituation& situation, Time now);
@@ -110,6 +115,7 @@ class DriveController {
   void NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
                  const CollisionStop::Result& result);
   void NoteBlocked(const Twist2& wanted, const Twist2& given, Time now);
+  void NoteTouch(const Pose2& odom_from_base, Time now);
   void NoteStuck(const DriveSituation& situation, Time now);
   void NoteEnd(DriveSource source);
   void Halt(Condition cause);
@@ -121,6 +127,7 @@ class DriveController {
   EchoMemory echoes_;
   FloorMemory floor_;
   CollisionStop collision_, operator_collision_;
+  TouchWatch touch_;
   Authority authority_;
   Failsafe failsafe_;
   DriveState state_;

@@ -6,7 +6,7 @@
 namespace priamos::robot {
 namespace {
 
-// As far as the base drives while a path comes over the radio.
+// Distance [m] that the base drives at most while a path comes over the radio.
 constexpr double kPassedAtMost = 0.3;
 constexpr double kBeside = 0.3;
 

@@ -25,7 +25,7 @@ void PathShapeConfig::Describe(Archive& a) {
 }
 
 PathShape::PathShape(const PathShapeConfig& config, const Pose2& start, const Path& path)
-    : braking_m_s2_(config.braking_m_s2), end_(start) {
+    : braking_{.deceleration_m_s2 = config.braking_m_s2}, end_(start) {
   for (const Pose2& point : path.points) AddSegment(point);
   Blend(config);
   LimitSpeeds(config, path.speed_m_s);
@@ -101,13 +101,10 @@ PathShape::Point PathShape::At(double s) const {
 }
 
 double PathShape::SpeedAt(double s) const {
-  double squared = 2 * braking_m_s2_ * std::max(0.0, length_ - s);
-  for (const SpeedLimit& limit : limits_) {
-    if (limit.end < s) continue;
-    const double travel = std::max(0.0, limit.begin - s);
-    squared = std::min(squared, limit.speed * limit.speed + 2 * braking_m_s2_ * travel);
-  }
-  return std::sqrt(squared);
+  double fastest = braking_.SpeedBefore(0, length_ - s);
+  for (const SpeedLimit& limit : limits_)
+    if (limit.end >= s) fastest = std::min(fastest, braking_.SpeedBefore(limit.speed, limit.begin - s));
+  return fastest;
 }
 
 double PathShape::RemainingDistance(double s) const {

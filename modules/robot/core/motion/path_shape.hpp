@@ -5,6 +5,7 @@
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
+#include "common/robot/braking_law.hpp"
 
 namespace priamos::robot {
 
@@ -77,7 +78,7 @@ class PathShape {
   Point OnBlend(const Segment& before, const Segment& after, double s) const;
   std::size_t SegmentAt(double s) const;
 
-  double braking_m_s2_;
+  BrakingLaw braking_;
   Pose2 end_;  ///< last pose taken in, yaw not wrapped
   std::vector<Segment> segments_;
   std::vector<SpeedLimit> limits_;

@@ -1,6 +1,7 @@
 #include "robot/core/pose/localiser.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace priamos::robot {
 namespace {
@@ -23,8 +24,16 @@ Localiser::Localiser(const LocaliserConfig& config, const MecanumGeometry& geome
 
 bool Localiser::AddWheels(const WheelSample& sample, Time now) {
   const int accepted = odometry_.counters().accepted;
-  if (const auto step = odometry_.Add(sample, now)) estimator_.Move(*step);
+  if (auto step = odometry_.Add(sample, now)) {
+    step->noise += std::exchange(slipped_, Eigen::Matrix3d::Zero());
+    estimator_.Move(*step);
+  }
   return odometry_.counters().accepted > accepted;
+}
+
+void Localiser::AddSlip(double position_m, double yaw_rad) {
+  slipped_ +=
+      Eigen::Vector3d(position_m * position_m, position_m * position_m, yaw_rad * yaw_rad).asDiagonal();
 }
 
 void Localiser::AddFix(const LandmarkFix& fix, Time now) {

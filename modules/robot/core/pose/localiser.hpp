@@ -31,6 +31,9 @@ class Localiser {
 
   /// Takes a sample of the wheels; returns false when it was refused (see Odometry::counters).
   bool AddWheels(const WheelSample& sample, Time now);
+  /// The base slipped by up to so much without the encoders knowing, one sigma: the next step of the odometry
+  /// carries it.
+  void AddSlip(double position_m, double yaw_rad);
   void AddFix(const LandmarkFix& fix, Time now);
   /// Applies the fixes that can be applied. Returns one answer per fix that no longer waits.
   std::vector<Answer> Step(Time now);
@@ -51,6 +54,7 @@ class Localiser {
   Odometry odometry_;
   PoseEstimator estimator_;
   std::vector<Waiting> waiting_;
+  Eigen::Matrix3d slipped_ = Eigen::Matrix3d::Zero();  ///< added to the noise of the next step
 };
 
 }  // namespace priamos::robot

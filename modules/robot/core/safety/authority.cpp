@@ -38,6 +38,10 @@ CommandVerdict Authority::Admit(const DriveCommand& command, Time now) {
   return verdict;
 }
 
+void Authority::CountEstopChangesFrom(Time start) {
+  estop_changes_ = static_cast<int>(ToUtime(start) / 1'000'000 % kEstopChanges);
+}
+
 void Authority::PressEstop() {
   SetEstop(true);
   operator_.RequireRest();

@@ -31,9 +31,9 @@ class Authority {
   /// Sets the e-stop, which stays set until Rearm.
   void PressEstop();
   void Rearm();
-  /// Counts the e-stop's changes from `n` on, 0..255. A robot that starts again must not count from where an
-  /// order of before stands.
-  void CountEstopChangesFrom(int n) { estop_changes_ = n; }
+  /// Counts the e-stop's changes, 0..255, from a number that depends on the second of `start`: a robot that
+  /// starts again must not count from where an order of before stands.
+  void CountEstopChangesFrom(Time start);
 
   /// Advances time to `now`; called once per step, before anything is asked. `path_is_driven` renews the
   /// planner's lease.

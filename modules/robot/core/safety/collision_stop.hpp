@@ -5,8 +5,8 @@
 #include <span>
 
 #include "common/archive.hpp"
-#include "common/braking_law.hpp"
 #include "common/geometry.hpp"
+#include "common/robot/braking_law.hpp"
 #include "robot/core/base/footprint.hpp"
 
 namespace priamos::robot {

@@ -6,6 +6,7 @@ void FailsafeConfig::Describe(Archive& a) {
   a.Number("wheels_silent_s", wheels_silent_s, {"s", 0.04, 5, "no credible encoder sample"});
   a.Number("wheels_stuck_s", wheels_stuck_s, {"s", 0.2, 10, "commanded to turn, encoders stand"});
   a.Number("sonar_silent_s", sonar_silent_s, {"s", 0.1, 5, "no cycle of the sonar ring"});
+  a.Number("bumper_silent_s", bumper_silent_s, {"s", 0.1, 5, "no message of the bumper"});
   a.Number("pose_lost_s", pose_lost_s, {"s", 0, 5, "no pose, or one too uncertain to drive by"});
   a.Number("head_silent_s", head_silent_s, {"s", 0.2, 60, "no sign of the head while a fix is needed"});
   a.Number("link_lost_operator_s", link_lost_operator_s, {"s", 0, 5, "radio link down, operator drives"});
@@ -18,6 +19,7 @@ std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& c) 
   constexpr auto kAnybody = DriveSource::kNone;
   return {{
       {kEstop, kAnybody, kHalt, 0, 0, "e-stop pressed", "re-arming, then a new command"},
+      {kTouched, kAnybody, kHalt, 0, 0, "the base touched something", "a new command"},
       {kLeaseLost, kAnybody, kHalt, 0, 0, "the one who drives lost the lease", "a new command by its holder"},
       {kOperatorSilent, DriveSource::kOperator, kHalt, 0, 0, "time-to-live of the drive command ran out",
        "a new command"},
@@ -27,6 +29,7 @@ std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& c) 
        "a new command"},
       {kWheelsSilent, kAnybody, kHold, c.wheels_silent_s, 0.2, "no credible encoder sample", "itself"},
       {kSonarSilent, kAnybody, kHold, c.sonar_silent_s, 0.3, "no cycle of the sonar ring", "itself"},
+      {kBumperSilent, kAnybody, kHold, c.bumper_silent_s, 0.3, "no message of the bumper", "itself"},
       {kPoseLost, DriveSource::kPath, kHold, c.pose_lost_s, 0.2, "no pose, or one too uncertain", "itself"},
       {kHeadSilent, DriveSource::kPath, kHold, c.head_silent_s, 0.5, "head silent while a fix is needed",
        "itself"},

@@ -14,6 +14,7 @@ namespace priamos::robot {
 /// Conditions that stop the base. The order is that of precedence among equal actions.
 enum class Condition {
   kEstop,
+  kTouched,
   kLeaseLost,
   kOperatorSilent,
   kWheelsSilent,
@@ -22,8 +23,9 @@ enum class Condition {
   kPoseLost,
   kHeadSilent,
   kLinkLost,
+  kBumperSilent,
 };
-inline constexpr std::size_t kConditions = 9;
+inline constexpr std::size_t kConditions = 11;
 
 /// Who moves the base.
 enum class DriveSource { kNone, kPath, kOperator };
@@ -51,6 +53,7 @@ struct FailsafeConfig {
   double wheels_silent_s = 0.2;
   double wheels_stuck_s = 1.0;
   double sonar_silent_s = 0.5;
+  double bumper_silent_s = 0.5;
   double pose_lost_s = 0.2;
   double head_silent_s = 3.0;
   double link_lost_operator_s = 0.25;
@@ -59,7 +62,7 @@ struct FailsafeConfig {
   void Describe(Archive& a);
 };
 
-inline constexpr std::size_t kFailsafeRules = 10;
+inline constexpr std::size_t kFailsafeRules = 12;
 /// All rules, highest precedence first.
 std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& config);
 

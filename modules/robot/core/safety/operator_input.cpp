@@ -2,18 +2,14 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdint>
+
+#include "common/robot/sequence_number.hpp"
 
 namespace priamos::robot {
 namespace {
 
 // The radio restores times to a few milliseconds; a command from further ahead has a wrong clock.
 constexpr std::chrono::milliseconds kAheadAllowed{50};
-
-/// Whether 16-bit sequence number `a` comes after `b`.
-bool IsAfter(int a, int b) {
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(a) - static_cast<std::uint16_t>(b)) > 0;
-}
 
 Time EndOf(const DriveCommand& command) {
   return command.time + command.time_to_live;

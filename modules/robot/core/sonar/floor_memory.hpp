@@ -5,6 +5,7 @@
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
+#include "common/robot/robot_drawing.hpp"
 #include "common/time.hpp"
 #include "robot/core/sonar/near_map.hpp"
 
@@ -25,7 +26,7 @@ struct FloorLine {
 
 /// Where the line laser sits (base frame), and how long its lines count.
 struct FloorMemoryConfig {
-  double laser_x_m = 0.46, laser_height_m = 0.60;
+  double laser_x_m = kDrawnLaser.x_m, laser_height_m = kDrawnLaser.z_m;
   double max_age_s = 1;   ///< largest age of a picture when it arrives
   double unseen_m = 0.3;  ///< the floor so far before the first line is unknown
   NearMapConfig kept{.keep_m = 1, .keep_s = 60, .keep_standing_s = 600, .forget_m = 4};

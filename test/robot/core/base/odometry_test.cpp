@@ -174,6 +174,14 @@ TEST_F(OdometryTest, VarianceGrowsWithTheWayHoweverItIsCut) {
   EXPECT_NEAR(fine(2, 2) / coarse(2, 2), 1, 0.02);
 }
 
+TEST_F(OdometryTest, ATurnOnTheSpotMovesTheBaseByChanceInXAndYAlike) {
+  Wheels wheels;
+  Add(wheels.Sample());
+  const Eigen::Matrix3d noise = Add(wheels.Roll({0, 0, 1}, milliseconds(500)))->noise;
+  EXPECT_NEAR(std::sqrt(noise(0, 0)), OdometryNoise().drift_m_per_sqrt_m * std::sqrt(0.5), 1e-5);
+  EXPECT_NEAR(std::sqrt(noise(1, 1)), OdometryNoise().drift_m_per_sqrt_m * std::sqrt(0.5), 1e-5);
+}
+
 TEST_F(OdometryTest, WheelsThatSlipAgainstEachOtherRaiseTheUncertainty) {
   Wheels straight, slipping;
   Odometry other{OdometryConfig{}, kGeometry};

@@ -105,6 +105,55 @@ TEST_F(DriveControllerTest, SonarsFallSilentTheBaseBrakes) {
   EXPECT_LT(Speed(), 1e-3);
 }
 
+TEST_F(DriveControllerTest, ATouchEndsThePathAtOnceAndSaysWhere) {
+  rig_.SetPath(Straight());
+  rig_.Run(3);
+  rig_.drive().touch_watch().AddBumper(1, rig_.now());
+  rig_.Tick();
+  EXPECT_EQ(rig_.state().failsafe.cause, Condition::kTouched);
+  EXPECT_THAT(*rig_.command(), Each(0.0));
+  ASSERT_TRUE(rig_.state().touch);
+  EXPECT_EQ(rig_.state().touch->segments, 1);
+  rig_.Run(1);
+  EXPECT_EQ(rig_.state().mode, DriveMode::kHolding);
+  EXPECT_EQ(rig_.state().halted_by, Condition::kTouched);
+}
+
+TEST_F(DriveControllerTest, AfterATouchNothingMovesTowardsThePlaceAndAnOperatorCanBackOff) {
+  const LeaseHolder teleop{Driver::kTeleop, 1};
+  rig_.SetPath(Straight());
+  rig_.Run(3);
+  rig_.drive().touch_watch().AddBumper(1, rig_.now());
+  rig_.Run(1);
+  const double x = rig_.base().truth().x;
+  rig_.TakeOver(teleop);
+  rig_.Hold(teleop, {0.2, 0, 0}, 1);
+  EXPECT_LT(rig_.base().truth().x, x + 0.01);
+  rig_.Hold(teleop, {-0.2, 0, 0}, 2);
+  EXPECT_LT(rig_.base().truth().x, x - 0.2);
+}
+
+TEST(DriveControllerWithBumper, HoldsWhileItsBumperIsSilent) {
+  DriveConfig config;
+  config.touch.bumper = true;
+  RobotRig rig(1, {0, 0, 0}, LocaliserConfig(), config);
+  const auto run = [&rig](double seconds, bool bumper_answers) {
+    for (int i = 0; i < seconds * 50; ++i) {
+      if (bumper_answers) rig.drive().touch_watch().AddBumper(0, rig.now());
+      rig.Tick();
+    }
+  };
+  run(0.5, true);
+  rig.SetPath(Straight());
+  run(3, true);
+  EXPECT_EQ(rig.state().failsafe.action, FailsafeAction::kNone);
+  run(1.5, false);
+  EXPECT_EQ(rig.state().failsafe.cause, Condition::kBumperSilent);
+  EXPECT_LT(std::abs(rig.base().twist().vx), 1e-3);
+  run(3, true);
+  EXPECT_EQ(rig.state().mode, DriveMode::kFollowing);
+}
+
 TEST_F(DriveControllerTest, WheelsThatDoNotTurnEndThePath) {
   rig_.Run(0.2);
   rig_.wheels_turn = false;

@@ -82,6 +82,12 @@ TEST(PathShape, SpeedTimesTurnStaysBelowTheTurnLimit) {
   }));
 }
 
+TEST(PathShape, TheSharperSideOfACornerLimitsTheSpeedOnAllOfIt) {
+  const Path turn_slackens{.id = 1, .speed_m_s = 0.4, .points = {{0, 0, 1}, {1, 0, 1.8}}};
+  const PathShape dut({.max_turn_rad_s = 0.3}, {}, turn_slackens);
+  for (double s = 0; s < dut.length(); s += 0.01) EXPECT_LE(dut.SpeedAt(s) * dut.At(s).turn, 0.3 + 1e-9) << s;
+}
+
 TEST(PathShape, AStraightPathIsDrivenAtFullSpeedUntilTheEnd) {
   const PathShape dut({.braking_m_s2 = 0.4}, {},
                       {.id = 1, .speed_m_s = 0.4, .points = {{1, 0, 0}, {2, 0, 0}, {4, 0, 0}}});

@@ -105,6 +105,18 @@ TEST_F(LocaliserTest, AnExposureOfLongAgoIsFollowedBackForFiveSecondsOnly) {
   EXPECT_GT(x_ago(4'900), x_ago(5'000) + 0.01);
 }
 
+TEST_F(LocaliserTest, SlipWidensThePoseOnceWithTheNextSample) {
+  Drive(50);
+  const auto variance = [&] { return dut_.estimate()->covariance(0, 0); };
+  const double before = variance();
+  dut_.AddSlip(0.3, Radians(2));
+  EXPECT_EQ(variance(), before);
+  Drive(1);
+  EXPECT_NEAR(variance(), before + 0.09, 0.001);
+  Drive(1);
+  EXPECT_NEAR(variance(), before + 0.09, 0.001) << "once";
+}
+
 TEST_F(LocaliserTest, BeforeTheFirstSampleTheBaseHasNotMoved) {
   const Pose2 dut = dut_.OdometryPoseAt(base_.now() - milliseconds(100));
   EXPECT_EQ(dut.x, 0);

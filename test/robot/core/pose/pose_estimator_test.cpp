@@ -105,6 +105,22 @@ TEST_F(PoseEstimatorTest, APictureBetweenTwoSamplesIsUsedAtItsOwnTime) {
   EXPECT_NEAR(dut_.newest()->pose.yaw, before, 1e-6);
 }
 
+TEST_F(PoseEstimatorTest, AStepThatAPictureCutsHasTheSameNoiseInAll) {
+  PoseEstimator in_parts{Config()};
+  const OdometryStep whole = Step(0);
+  OdometryStep first = whole, second = whole;
+  first.to = second.from = kStart + milliseconds(5);
+  first.noise *= 0.25;
+  second.noise *= 0.75;
+  dut_.Move(whole);
+  in_parts.Move(first);
+  in_parts.Move(second);
+  const LandmarkFix fix = Fix(first.to, {1, 0.5, 0});
+  EXPECT_EQ(dut_.Apply(fix).verdict, FixVerdict::kApplied);
+  EXPECT_EQ(in_parts.Apply(fix).verdict, FixVerdict::kApplied);
+  ExpectSame(*dut_.newest(), *in_parts.newest());
+}
+
 TEST_F(PoseEstimatorTest, TheChangeIsThatAtTheTimeOfThePicture) {
   Drive(dut_, 0, 100);
   const Pose2 truth{1.45, 0.65, 0.12};

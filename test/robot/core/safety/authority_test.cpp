@@ -42,6 +42,12 @@ TEST_F(AuthorityTest, APathTakesAFreeLeaseForThePlannerAndKeepsItWhileDriven) {
   EXPECT_FALSE(dut_.lease_lost()) << "nobody drove";
 }
 
+TEST_F(AuthorityTest, ADrivenPathDoesNotKeepTheLeaseOfAnOperator) {
+  Take(kTeleop);
+  Wait(milliseconds(4'000), true);
+  EXPECT_EQ(dut_.holder().driver, Driver::kNobody);
+}
+
 TEST_F(AuthorityTest, APathIsRefusedWhileAnOperatorHoldsTheLease) {
   Take(kTeleop);
   EXPECT_FALSE(dut_.AdmitPath(now_));
@@ -77,6 +83,17 @@ TEST_F(AuthorityTest, TheNewHoldersStickMustHaveRestedOnce) {
   EXPECT_EQ(Send(kTeleop, 0), CommandVerdict::kAccepted);
   EXPECT_EQ(Send(kTeleop, 0.3), CommandVerdict::kAccepted);
   EXPECT_EQ(dut_.Wish(now_)->vx, 0.3);
+}
+
+TEST_F(AuthorityTest, EstopChangesAreCountedFromTheSecondOfTheStart) {
+  dut_.CountEstopChangesFrom(FromUtime(511'900'000));
+  EXPECT_EQ(dut_.estop_changes(), 255);
+  dut_.PressEstop();
+  EXPECT_EQ(dut_.estop_changes(), 0);
+  dut_.CountEstopChangesFrom(FromUtime(512'000'000));
+  EXPECT_EQ(dut_.estop_changes(), 0);
+  dut_.Rearm();
+  EXPECT_EQ(dut_.estop_changes(), 1);
 }
 
 TEST_F(AuthorityTest, EstopLatchesAndAsksForRestAfterRearming) {

@@ -85,6 +85,12 @@ TEST(CollisionStop, LetsTheBaseDriveAwayFromAPointThatIsTooNear) {
   EXPECT_EQ(kDut.Limit({0, 0.3, 0}, touching).scale, 1) << "sliding along";
 }
 
+TEST(CollisionStop, NothingThatClosesInCountsAsSlidingAlongOnceHalfOfTheMarginIsUsedUp) {
+  const Twist2 nearly_along{0.006, 0.3, 0};
+  EXPECT_EQ(kDut.Scale(nearly_along, Points{{0.475 + 0.0195, 0}}, {}), 1);
+  EXPECT_EQ(kDut.Scale(nearly_along, Points{{0.475 + 0.0099, 0}}, {}), 0);
+}
+
 TEST(CollisionStop, NoMotionThatItAllowsAtStandstillDrivesIntoAPoint) {
   EXPECT_TRUE(rc::check([] {
     const auto part = [](double most) { return *rc::gen::inRange(-1000, 1001) / 1000.0 * most; };
