@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/archive.hpp"
-#include "common/image_size.hpp"
+#include "common/robot/camera_bits.hpp"
 #include "head/files/calibration_file.hpp"
 #include "head/vision_options.hpp"
 
@@ -11,9 +11,6 @@ namespace priamos::head {
 namespace {
 
 constexpr std::size_t kMaxOrders = 16;
-constexpr int kThirdWithLaser = 4 + 8;  // of a camera trigger
-constexpr ImageSize kPicture{};
-constexpr double kByHand_s = 0.5;  // an operator who paused for less still holds the head
 
 LookAnswer NotFound(Verdict verdict, Time exposure) {
   LookAnswer answer;
@@ -69,11 +66,9 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
 /// Straight ahead while model or pose are unknown, which the answer reports.
 double HeadApp::PanFor(const LookOrder& order, Time now) const {
   const auto model = models_.find(order.landmark_id);
-  auto robot = poses_.At(now);
+  const auto robot = poses_.At(now);
   if (model == models_.end() || !robot) return 0;
-  robot->map_from_base = Integrate(robot->map_from_base, robot->twist, config_.aim.lead_s);
-  return AimPan(head_, config_.LookSetting(), model->second, Predict(*robot, model->second.map_from_landmark),
-                order.side, config_.aim);
+  return AimPan(head_, config_.LookSetting(), model->second, *robot, order.side, config_.aim);
 }
 
 void HeadApp::Tick(Time now) {
@@ -129,7 +124,6 @@ void HeadApp::MoveByHand(Time now) {
   const auto setting = jog_.Step(report_->setting, now);
   if (!setting) return;
   positioner_.Release();
-  by_hand_ = now;
   head_command_.Publish(ToMessage(*setting, now));
 }
 
@@ -154,23 +148,18 @@ void HeadApp::Look(Time now) {
   }
 }
 
-bool HeadApp::SeesLaser() const {
-  if (!head_.laser || !report_ || report_->moving) return false;
-  const auto camera = head_.CameraAt(report_->setting, kThird);
-  return camera && SeesLine(*camera, *head_.laser, kPicture.width, kPicture.height);
-}
-
 /// Between looks the third camera watches the laser's line.
 void HeadApp::WatchFloor(Time now) {
   if (config_.laser.rate_hz <= 0) return;
-  const bool by_hand = by_hand_ && Seconds(now - *by_hand_) < kByHand_s;
-  switch (watch_.Step(look_.active() || !orders_.empty() || by_hand, SeesLaser(), now)) {
+  const bool needed = look_.active() || !orders_.empty() || jog_.IsHeld(now);
+  const bool sees = report_ && !report_->moving && SeesLine(head_, report_->setting);
+  switch (watch_.Step(needed, sees, now)) {
     case LaserWatch::Action::kWait:
       return;
     case LaserWatch::Action::kLower:
       return positioner_.MoveTo(config_.WatchSetting(), now);
     case LaserWatch::Action::kTrigger:
-      trigger_.Publish(TriggerMessage(watch_.frame_id(), kThirdWithLaser, now));
+      trigger_.Publish(TriggerMessage(watch_.frame_id(), CameraBit(kThird) | kLaserBit, now));
   }
 }
 

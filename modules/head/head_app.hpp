@@ -47,7 +47,6 @@ class HeadApp {
   void MoveByHand(Time now);
   void Look(Time now);
   void WatchFloor(Time now);
-  bool SeesLaser() const;
   void ReportFloor(const FrameNotice& frame);
   LookAnswer Evaluate(const Frames& frames);
   void Judge(const StereoDrift& drift);
@@ -70,7 +69,6 @@ class HeadApp {
   std::deque<LookOrder> orders_;
   CameraReader cameras_;
   std::optional<HeadReport> report_;
-  std::optional<Time> by_hand_;  ///< when an operator moved the head last
 
   bus::Latest<head_state_t> head_state_;
   bus::Inbox<camera_frame_t> frames_;

@@ -5,6 +5,7 @@ namespace priamos::head {
 LandmarkFixOptions FinderOptions(const VisionConfig& vision, const HeadModel& head) {
   LandmarkFixOptions options;
   options.solver.model_sigma_m = vision.model_sigma_m;
+  options.solver.breadth_sigma_m = vision.breadth_sigma_m;
   options.solver.camera_sigma_px = vision.camera_sigma_px;
   options.solver.base_covariance = head.base_covariance;
   options.stereo.camera_sigma_px = vision.camera_sigma_px;

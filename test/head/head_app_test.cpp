@@ -85,7 +85,7 @@ TEST(HeadApp, TheHeadTurnsToWhereTheLandmarkIsExpected) {
     head.SendLook(8, 3);
     head.Run(1);
     ASSERT_FALSE(head.commands.empty());
-    // As seen from the pan axis, which stands before the robot's centre.
+    // The angle at the pan axis, which stands before the robot's centre.
     const double expected = std::atan2(2 * side, 2.5 - HeadGeometry().x_m);
     EXPECT_NEAR(head.commands.back().pan_rad, expected, 0.25) << side;
   }

@@ -4,7 +4,10 @@
 
 #include <limits>
 
+#include "bus/own_types.hpp"
+#include "bus/schema/schema.hpp"
 #include "common/covariance.hpp"
+#include "common/robot/robot_drawing.hpp"
 
 namespace priamos::head {
 namespace {
@@ -281,6 +284,20 @@ TEST(HeadMessagesTest, OnlyAFoundLandmarkHasAPlace) {
   EXPECT_NEAR(dut.sigma_x_m, 0.01, 1e-12);
   EXPECT_NEAR(dut.sigma_y_m, 0.02, 1e-12);
   EXPECT_NEAR(dut.sigma_yaw_rad, 0.001, 1e-12);
+}
+
+TEST(HeadMessagesTest, TheMessageGoesAsFarAsTheMotorsOfTheDrawing) {
+  const bus::Schema schema = bus::OwnTypes();
+  const auto most = [&](const std::string& field) {
+    for (const bus::Field& f : schema.Find("head_command_t")->fields)
+      if (f.name == field) return f.annotation.max.value().value;
+    return 0.0;
+  };
+  EXPECT_EQ(most("pan_rad"), kDrawnHead.most_pan_rad);
+  EXPECT_EQ(most("tilt_rad"), kDrawnHead.most_tilt_rad);
+  EXPECT_EQ(most("vergence_rad"), kDrawnHead.most_vergence_rad);
+  EXPECT_EQ(most("zoom_step"), kDrawnHead.most_step);
+  EXPECT_EQ(most("focus_step"), kDrawnHead.most_step);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ class Tracer {
   double Floor(const Vector3d& p) const {
     return scene_.heave_m + scene_.pitch_rad * p.x() + scene_.roll_rad * p.y();
   }
-  /// Way along the ray to so far above the floor.
+  /// Distance along `ray`, in its lengths, to `height` [m] above the floor.
   double ToLevel(const Vector3d& ray, double height) const {
     const double slope = ray.z() - scene_.pitch_rad * ray.x() - scene_.roll_rad * ray.y();
     return (Floor(scene_.source) + height - scene_.source.z()) / slope;
@@ -65,7 +65,8 @@ class Tracer {
   static bool Within(const FloorStep& s, const Vector3d& p) {
     return p.x() >= s.x_from && p.x() <= s.x_to && p.y() >= s.y_from && p.y() <= s.y_to;
   }
-  /// On the ground of a pit or on its far wall, unless its near edge hides that from the camera.
+  /// The point of the ray on the ground of a pit or on its far wall; none where its near edge hides that from
+  /// the camera.
   std::optional<Spot> Bottom(const FloorStep& step, const Vector3d& ray, int surface) const {
     const double travel = std::min(ToLevel(ray, step.height_m), (step.x_to - scene_.source.x()) / ray.x());
     const Vector3d at = scene_.source + travel * ray;

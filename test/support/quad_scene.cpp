@@ -90,8 +90,8 @@ cv::Mat RenderQuads(const std::vector<Quad>& quads, const Eigen::Isometry3d& bas
   return image;
 }
 
-std::vector<Quad> DoorQuads(double width_m) {
-  const double half = width_m / 2, outer = half + kFrame, otop = kTop + kFrame;
+std::vector<Quad> DoorQuads(double width_m, double frame_m) {
+  const double half = width_m / 2, outer = half + frame_m, otop = kTop + frame_m;
   std::vector<Quad> quads;
   AddWallAround(quads, outer);
   AddFloor(quads);

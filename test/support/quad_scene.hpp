@@ -23,7 +23,7 @@ cv::Mat RenderQuads(const std::vector<Quad>& quads, const Eigen::Isometry3d& bas
                     const head::CameraModel& camera, double noise, Rng& rng, double background = 60);
 
 /// A door in a wall as config/sim/maps/door.toml has it, in the landmark frame, with what lies behind.
-std::vector<Quad> DoorQuads(double width_m = 0.90);
+std::vector<Quad> DoorQuads(double width_m = 0.90, double frame_m = 0.06);
 /// Its edge skeleton, as the planner's map models it.
 head::LandmarkModel DoorModel(double width_m = 0.90);
 /// The wall alone.

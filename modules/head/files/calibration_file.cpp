@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
 #include "common/config.hpp"
+#include "common/replace_file.hpp"
 #include "head/core/calibration/rig/calibration_table.hpp"
 
 namespace priamos::head {
@@ -29,12 +31,8 @@ HeadModel LoadHeadModel(const std::string& path) {
 }
 
 void SaveHeadModel(const std::string& path, const HeadModel& model) {
-  const std::string temporary = path + ".new";
-  std::ofstream file(temporary, std::ios::trunc);
-  file << ToYaml(model);
-  file.close();
-  if (!file) throw std::runtime_error(fmt::format("{}: cannot be written", temporary));
-  std::filesystem::rename(temporary, path);
+  if (!ReplaceFile(path, ToYaml(model), false, 0644))
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
 }
 
 }  // namespace priamos::head

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "common/replace_file.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -76,12 +78,11 @@ std::vector<CalibrationExposure> CalibrationJournal::Read() const {
 
 std::vector<CalibrationExposure> CalibrationJournal::Resume() {
   const auto exposures = Read();
-  const std::string temporary = path_ + ".new";
-  file_.open(temporary, std::ios::trunc);
-  file_ << json{{"kind", kKind}, {"fingerprint", fingerprint_}}.dump() << '\n';
-  for (const CalibrationExposure& e : exposures) file_ << ToJson(e).dump() << '\n';
-  if (!file_.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", temporary));
-  std::filesystem::rename(temporary, path_);
+  std::string text = json{{"kind", kKind}, {"fingerprint", fingerprint_}}.dump() + '\n';
+  for (const CalibrationExposure& e : exposures) text += ToJson(e).dump() + '\n';
+  const bool replaced = ReplaceFile(path_, text, false, 0644);
+  file_.open(path_, std::ios::app);
+  if (!replaced || !file_) throw std::runtime_error(fmt::format("{}: cannot be written", path_));
   return exposures;
 }
 

@@ -15,7 +15,7 @@ namespace {
 using namespace head;
 using Eigen::Vector3d;
 
-/// The third camera of the drawing looks down at a fan of light.
+/// The third camera of the drawing [m, px], looking down at a fan of light on `board`.
 support::StripeScene RandomScene(const support::Plane& board, Rng& rng) {
   HeadSetting setting;
   setting.tilt_rad = Radians(rng.Uniform(34, 38));
@@ -64,7 +64,8 @@ double PlaneError(const LaserPlane& dut, const support::Plane& truth) {
   return worst;
 }
 
-/// From the floor and a box top 0.15 m high, both placed to `board_sigma_m`.
+/// Error of the plane [m], root mean square of `runs`, that was calibrated from the floor and a box top 0.15
+/// m high, both placed to `board_sigma_m`.
 double CalibratedPlane(double board_sigma_m, int runs, Rng rng) {
   double squares = 0;
   for (int run = 0; run < runs; ++run) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDistance_m = 2.0;  // of the head
 constexpr double kWall_m = 4.8;      // the north wall, map
-// As the picture of the front has it, of its height and of its width.
+// Shares of height and of width, measured in the picture of the front.
 constexpr double kPlinthShare = 0.05, kGrooveShare = 6.5 / 512;
 
 CupboardPlan DrawCupboard(Rng& rng) {

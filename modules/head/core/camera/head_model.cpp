@@ -44,9 +44,9 @@ void CameraMount::Describe(Archive& a) {
 
 std::array<CameraMount, kCameras> HeadGeometry::NominalMounts() {
   std::array<CameraMount, kCameras> mounts;
-  mounts[kLeft].y_m = 0.15;
-  mounts[kRight].y_m = -0.15;
-  mounts[kThird].z_m = 0.12;
+  mounts[kLeft].y_m = kDrawnHead.half_stereo_base_m;
+  mounts[kRight].y_m = -kDrawnHead.half_stereo_base_m;
+  mounts[kThird].z_m = kDrawnHead.third_above_m;
   return mounts;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/archive.hpp"
+#include "common/robot/robot_drawing.hpp"
 #include "head/core/camera/camera_model.hpp"
 #include "head/core/camera/head_setting.hpp"
 #include "head/core/camera/laser_plane.hpp"
@@ -34,7 +35,7 @@ struct CameraMount {
 struct HeadGeometry {
   /// The pan axis, and on it the point nearest to the tilt axis: the origin of the head (section 3.1.3 of
   /// the paper: the intersection of both axes).
-  double x_m = 0.25, y_m = 0, z_m = 1.20;
+  double x_m = kDrawnHead.x_m, y_m = kDrawnHead.y_m, z_m = kDrawnHead.z_m;
   /// Orientation of the pan axis; yaw is the zero of the pan.
   double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
   double tilt_axis_x_m = 0;       ///< offset of the tilt axis along x of the pan platform

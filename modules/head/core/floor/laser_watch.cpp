@@ -1,11 +1,12 @@
 #include "head/core/floor/laser_watch.hpp"
 
+#include "common/image_size.hpp"
+
 namespace priamos::head {
 namespace {
 
 constexpr std::int32_t kFirstFrame = 0x40000000;  // looks count from 1
 constexpr double kLowerAgain_s = 5;
-constexpr int kThirdCamera = 2;
 constexpr double kMargin = 0.15;  // of the picture's height
 
 }  // namespace
@@ -42,7 +43,7 @@ LaserWatch::Action LaserWatch::Step(bool needed, bool sees, Time now) {
 }
 
 bool LaserWatch::Takes(const FrameNotice& frame) {
-  if (!waiting_ || frame.frame_id != frame_id_ || frame.camera != kThirdCamera) return false;
+  if (!waiting_ || frame.frame_id != frame_id_ || frame.camera != kThird) return false;
   waiting_ = false;
   return true;
 }
@@ -52,6 +53,13 @@ bool SeesLine(const CameraModel& camera, const LaserPlane& laser, int width, int
   if (!at.allFinite() || at.x() < 0.2 || camera.Depth(at) < 0.1) return false;
   const Eigen::Vector2d px = camera.Project(at);
   return px.x() > 0 && px.x() < width - 1 && px.y() > kMargin * height && px.y() < (1 - kMargin) * height;
+}
+
+bool SeesLine(const HeadModel& head, const HeadSetting& setting) {
+  constexpr ImageSize kPicture{};
+  if (!head.laser) return false;
+  const auto camera = head.CameraAt(setting, kThird);
+  return camera && SeesLine(*camera, *head.laser, kPicture.width, kPicture.height);
 }
 
 }  // namespace priamos::head

@@ -7,6 +7,7 @@
 #include "common/time.hpp"
 #include "head/core/camera/camera_model.hpp"
 #include "head/core/camera/frame_notice.hpp"
+#include "head/core/camera/head_model.hpp"
 #include "head/core/camera/laser_plane.hpp"
 #include "head/core/floor/obstacle_lines.hpp"
 
@@ -47,5 +48,7 @@ class LaserWatch {
 
 /// Whether the camera shows the middle of the line on a level floor, well inside its picture.
 bool SeesLine(const CameraModel& camera, const LaserPlane& laser, int width, int height);
+/// Whether the third camera does at a setting; not without a calibrated laser or camera.
+bool SeesLine(const HeadModel& head, const HeadSetting& setting);
 
 }  // namespace priamos::head

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <sstream>
+
+#include "common/number_text.hpp"
 
 namespace priamos::head {
 namespace {
@@ -83,11 +84,10 @@ class Reader {
   }
 
   int Whole(const std::string& word, const std::string& what) const {
-    char* end = nullptr;
-    const long value = std::strtol(word.c_str(), &end, 10);
-    if (*end != '\0' || value < 0 || value > kMaxCount)
+    const auto value = NumberOf<int>(WithoutPlus(word));
+    if (!value || *value < 0 || *value > kMaxCount)
       Fail(fmt::format("expected {} (0 to {}), got \"{}\"", what, kMaxCount, word));
-    return static_cast<int>(value);
+    return *value;
   }
 
   int Count(const std::string& what) {
@@ -99,10 +99,10 @@ class Reader {
     if (line.words.size() < 3) Fail("expected a point X Y Z");
     Eigen::Vector3d point;
     for (int k = 0; k < 3; ++k) {
-      char* end = nullptr;
-      point[k] = std::strtod(line.words[k].c_str(), &end);
-      if (*end != '\0' || !std::isfinite(point[k]))
+      const auto value = NumberOf<double>(WithoutPlus(line.words[k]));
+      if (!value || !std::isfinite(*value))
         Fail(fmt::format("expected a coordinate [m], got \"{}\"", line.words[k]));
+      point[k] = *value;
     }
     body_.points.push_back(point);
   }

@@ -30,6 +30,11 @@ MatrixXd CorrelatedLeastSquares::StepCovariance() const {
   return information_.solve(identity);
 }
 
+VectorXd CorrelatedLeastSquares::WeightedResiduals() const {
+  const VectorXd left = distance_ - jacobian_ * step_;
+  return whitening_.solve(left);
+}
+
 double CorrelatedLeastSquares::ChiSquared() const {
   const VectorXd left = white_distance_ - white_jacobian_ * step_;
   return left.squaredNorm();

@@ -17,6 +17,9 @@ class CorrelatedLeastSquares {
   const Eigen::VectorXd& step() const { return step_; }
   /// Covariance of the step.
   Eigen::MatrixXd StepCovariance() const;
+  /// What the step leaves of the measurements, times the inverse of the covariance of their errors: an error
+  /// with the covariance c to the measurements is, as far as these tell, c times this.
+  Eigen::VectorXd WeightedResiduals() const;
   /// What the step leaves of the sum of squares, in standard deviations.
   double ChiSquared() const;
   /// Share of the step's covariance that comes from errors of variance `variance` which are independent of

@@ -56,6 +56,54 @@ bool IsDistinct(const Pose2& a, const Pose2& b, const LandmarkFixOptions& option
          std::abs(WrapAngle(a.yaw - b.yaw)) > options.distinct_rad;
 }
 
+/// Edges that should be seen of a landmark near its prediction, in all pictures together.
+std::size_t CountPredicted(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                           const Eigen::Matrix3d& search, const StereoViews& views) {
+  std::size_t n = 0;
+  for (const CameraView& view : views)
+    n += PredictEdges(model, prediction.base_from_landmark, search, *view.camera, view.size).size();
+  return n;
+}
+
+/// Poses near `expected` at which upright edges of the model meet those that both pictures show.
+Proposals Propose(const LandmarkModel& model, const Pose2& expected, const Eigen::Matrix3d& search,
+                  const StereoViews& views, const LandmarkFixOptions& options) {
+  const auto verticals = MatchVerticals(views[0], views[1], options.stereo);
+  ProposalOptions proposal_options = options.proposals;
+  proposal_options.gate = options.gate_elsewhere;
+  const double margin_rad = 3 * std::sqrt(search(2, 2)) + 0.1;
+  return ProposePoses(model, VisibleAt(model, expected, margin_rad), verticals, expected, search,
+                      proposal_options);
+}
+
+/// The proposed poses that explain the pictures best, best first; the others are not refined.
+std::vector<Pose2> BestStarts(const LandmarkModel& model, std::span<const PoseProposal> proposals,
+                              const StereoViews& views) {
+  std::vector<std::pair<double, Pose2>> judged;
+  for (const PoseProposal& p : proposals) {
+    const auto visible = VisibleAt(model, p.base_from_landmark);
+    const auto a = Associate(model, visible, views, Lift(p.base_from_landmark), kProposed);
+    judged.emplace_back(a.log_odds, p.base_from_landmark);
+  }
+  std::stable_sort(judged.begin(), judged.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (judged.size() > kRefineBest) judged.resize(kRefineBest);
+  std::vector<Pose2> starts;
+  starts.reserve(judged.size());
+  for (const auto& [odds, start] : judged) starts.push_back(start);
+  return starts;
+}
+
+/// The model with its edges where an earlier solution found them: what was measured with a tape is
+/// millimetres off, and the next association is to be sharper than that.
+LandmarkModel AsSeen(LandmarkModel model, const PoseSolution& solution) {
+  for (std::size_t i = 0; i < solution.edge_shifts.size(); ++i) {
+    model.edges[i].from += solution.edge_shifts[i];
+    model.edges[i].to += solution.edge_shifts[i];
+  }
+  return model;
+}
+
 }  // namespace
 
 struct LandmarkFinder::Pose {
@@ -63,6 +111,10 @@ struct LandmarkFinder::Pose {
   Association association;
   PoseSolution solution;
   double rival_log_odds = -1e9;
+
+  /// With what the model had to be bent for it: any pose a little beside the right one explains the images
+  /// when every edge may be where it is found.
+  double LogOdds() const { return association.log_odds - solution.chi_squared / 2; }
 };
 
 const char* Describe(Verdict verdict) {
@@ -100,7 +152,8 @@ std::string_view WhyBlind(const EdgeImage& edges) {
 bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const CameraView> views,
                               const AssociationOptions& gate, bool coarse, Pose& pose) const {
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, gate);
+  const LandmarkModel seen = AsSeen(model, pose.solution);
+  pose.association = Associate(seen, VisibleAt(model, pose.base_from_landmark), views, at, gate);
   const auto observations = Observations(model, pose.association, views, at, coarse);
   PoseSolverOptions solver = options_.solver;
   solver.find_suspect = false;
@@ -114,7 +167,8 @@ void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraVi
   if (!Approach(model, views, kApproached, true, pose) || !Approach(model, views, kRefined, false, pose))
     return;
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  pose.association = Associate(model, VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
+  pose.association =
+      Associate(AsSeen(model, pose.solution), VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
   DropOutliers(model, views, pose);
 }
 
@@ -170,43 +224,19 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   }
   if (IsBlind(*views[0].edges) || IsBlind(*views[1].edges)) return fix;
   const Eigen::Matrix3d search = options_.SearchCovariance(prediction);
-  std::size_t n_predicted = 0;
-  for (const CameraView& view : views)
-    n_predicted += PredictEdges(model, prediction.base_from_landmark, search, *view.camera, view.size).size();
-  if (n_predicted < std::size_t(options_.min_predicted)) {
+  if (CountPredicted(model, prediction, search, views) < std::size_t(options_.min_predicted)) {
     fix.verdict = Verdict::kNotVisible;
     return fix;
   }
-
-  const auto verticals = MatchVerticals(views[0], views[1], options_.stereo);
-  ProposalOptions proposal_options = options_.proposals;
-  proposal_options.gate = options_.gate_elsewhere;
-  const double margin = 3 * std::sqrt(search(2, 2)) + 0.1;
-  const Proposals proposals =
-      ProposePoses(model, VisibleAt(model, prediction.base_from_landmark, margin), verticals,
-                   prediction.base_from_landmark, search, proposal_options);
-
-  std::vector<std::pair<double, Pose2>> judged;
-  for (const PoseProposal& p : proposals.poses) {
-    const auto visible = VisibleAt(model, p.base_from_landmark);
-    const auto a = Associate(model, visible, views, Lift(p.base_from_landmark), kProposed);
-    judged.emplace_back(a.log_odds, p.base_from_landmark);
-  }
-  std::stable_sort(judged.begin(), judged.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (judged.size() > kRefineBest) judged.resize(kRefineBest);
-
-  std::vector<Pose2> starts;
-  for (const auto& [odds, start] : judged) starts.push_back(start);
-  std::vector<Pose> poses = RefineAll(model, views, starts);
+  const Proposals proposals = Propose(model, prediction.base_from_landmark, search, views, options_);
+  std::vector<Pose> poses = RefineAll(model, views, BestStarts(model, proposals.poses, views));
   fix.verdict = Verdict::kTooFewEdges;
   if (poses.empty()) return fix;
-  const auto best = std::max_element(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) {
-    return a.association.log_odds < b.association.log_odds;
-  });
+  const auto best = std::max_element(poses.begin(), poses.end(),
+                                     [](const Pose& a, const Pose& b) { return a.LogOdds() < b.LogOdds(); });
   for (const Pose& p : poses) {
     if (IsDistinct(p.base_from_landmark, best->base_from_landmark, options_)) {
-      best->rival_log_odds = std::max(best->rival_log_odds, p.association.log_odds);
+      best->rival_log_odds = std::max(best->rival_log_odds, p.LogOdds() + best->solution.chi_squared / 2);
     }
   }
   Judge(prediction, search, static_cast<int>(proposals.poses.size()), *best, fix);

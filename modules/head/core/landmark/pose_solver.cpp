@@ -24,6 +24,11 @@ Matrix6 SquareRoot(const Matrix6& c) {
   return ellipsoid.axes * ellipsoid.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
+/// Shift of an edge along y for an error of the breadth of 1.
+double HalfBreadth(const LandmarkEdge& edge) {
+  return edge.side == 1 ? 0.5 : edge.side == 2 ? -0.5 : 0;
+}
+
 /// A residual with the error that all cameras share, in standard deviations.
 struct Row : EdgeResidual {
   Vector6 by_common = Vector6::Zero();
@@ -100,7 +105,28 @@ class Problem {
           model_.edges[a.edge].IsMovable() ? options_.movable_sigma_m : options_.model_sigma_m;
       c += a.across.dot(b.across) * (Square(shift_m) + Square(options_.tilt_sigma_m) * a.lever * b.lever);
     }
-    return c;
+    return c + Square(options_.breadth_sigma_m) * ByBreadth(a) * ByBreadth(b);
+  }
+
+  /// How a residual grows with the breadth of the landmark, whose sides lie half of it beside the middle.
+  double ByBreadth(const Row& row) const {
+    return row.across.dot(pose_.linear().col(1)) * HalfBreadth(model_.edges[row.edge]);
+  }
+
+  /// Mean of the errors of the model's edges under the condition of the residuals.
+  std::vector<Eigen::Vector3d> EdgeShifts() const {
+    const Eigen::VectorXd weighted = squares_.WeightedResiduals();
+    std::vector<Eigen::Vector3d> shifts(model_.edges.size(), Eigen::Vector3d::Zero());
+    double breadth = 0;
+    for (std::size_t i = 0; i < residuals_.size(); ++i) {
+      const Row& row = residuals_[i];
+      const double sigma_m =
+          model_.edges[row.edge].IsMovable() ? options_.movable_sigma_m : options_.model_sigma_m;
+      shifts[row.edge] += Square(sigma_m) * weighted[i] * (pose_.linear().transpose() * row.across);
+      breadth += Square(options_.breadth_sigma_m) * ByBreadth(row) * weighted[i];
+    }
+    for (std::size_t e = 0; e < shifts.size(); ++e) shifts[e].y() += breadth * HalfBreadth(model_.edges[e]);
+    return shifts;
   }
 
   Eigen::MatrixXd CovarianceOfAll() const {
@@ -129,10 +155,13 @@ class Problem {
     solution.covariance = free_ * squares_.StepCovariance() * free_.transpose();
     if (!solution.covariance.allFinite()) return;
     solution.own_share = OwnShare();
-    solution.misfit = squares_.ChiSquared() / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
+    solution.chi_squared = squares_.ChiSquared();
+    solution.misfit = solution.chi_squared / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
+    solution.edge_shifts = EdgeShifts();
     if (options_.find_suspect) solution.suspect = FindSuspect();
     double sum = 0;
-    for (const Row& s : residuals_) sum += Square(s.distance_px);
+    for (const Row& s : residuals_)
+      sum += Square(s.distance_px - s.across.dot(pose_.linear() * solution.edge_shifts[s.edge]));
     solution.rms_px = std::sqrt(sum / static_cast<double>(n));
     solution.base_from_landmark = pose_;
     solution.ok = true;

@@ -16,6 +16,7 @@ struct PoseSolverOptions {
   bool on_floor = true;           ///< 3 degrees of freedom (x, y, yaw), else all 6
   double edge_sigma_px = 0.01;    ///< systematic error of an edge at either end: light, lens, neighbours
   double model_sigma_m = 0.0008;  ///< position error of a model edge, each axis
+  double breadth_sigma_m = 0;     ///< error of the landmark's breadth: its left and its right side are apart
   double tilt_sigma_m = 0.00025;  ///< alignment error of a model edge: at its ends, against its middle
   double movable_sigma_m = 0.01;  ///< position error of a movable part's edge, each axis
   double camera_sigma_px = 0.05;  ///< calibration error of a camera: shift, roll and scale of the image
@@ -41,11 +42,14 @@ struct PoseSolution {
   /// Share of the covariance that comes from the noise of edges, as a mean over all directions, 0..1. The
   /// rest comes from the model and the calibration and is the same in other looks.
   double own_share = 0;
-  double rms_px = 0;  ///< RMS of the edges' mean distances from the model, all images
+  double rms_px = 0;  ///< RMS of the edges' distances from the model with edge_shifts, all images
+  double chi_squared = 0;
   /// Chi squared per degree of freedom under all errors that are expected: about 1 for the right edges, large
   /// for wrong ones.
   double misfit = 0;
   EdgeSuspect suspect;
+  /// Where each edge of the model lies, against the model, as far as the images tell; landmark frame [m].
+  std::vector<Eigen::Vector3d> edge_shifts;
 };
 
 /// Least squares pose from points on edges, in any number of images, starting at `initial`, without any prior

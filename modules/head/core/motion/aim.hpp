@@ -4,6 +4,7 @@
 #include "head/core/camera/head_model.hpp"
 #include "head/core/landmark/landmark.hpp"
 #include "head/core/landmark/landmark_fix.hpp"
+#include "head/core/landmark/pose_history.hpp"
 
 namespace priamos::head {
 
@@ -24,5 +25,9 @@ struct AimConfig {
 /// landmark has no upright edges. `base` gives all axes but the pan.
 double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model,
               const LandmarkPrediction& prediction, int side, const AimConfig& config);
+
+/// The same for a robot that was at `robot` and drives on for the lead time.
+double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model, PoseSample robot,
+              int side, const AimConfig& config);
 
 }  // namespace priamos::head

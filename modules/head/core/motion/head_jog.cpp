@@ -2,23 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+
+#include "common/robot/robot_drawing.hpp"
+#include "common/robot/sequence_number.hpp"
 
 namespace priamos::head {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds(50);
 constexpr Duration kLongestLife = std::chrono::milliseconds(500);
-// Ranges of head_command_t.
-constexpr double kMostPan = 2.0, kMostTilt = 0.8, kMostVergence = 0.4, kMostStep = 2000;
+constexpr Duration kLongestPause = std::chrono::milliseconds(500);
 
 bool IsCredible(const HeadWish& w) {
   const double sum = w.pan_rad_s + w.tilt_rad_s + w.vergence_rad_s + w.zoom_step_s + w.focus_step_s;
   return std::isfinite(sum) && w.time_to_live > Duration::zero() && w.time_to_live <= kLongestLife;
-}
-
-bool IsAfter(int a, int b) {
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(a) - static_cast<std::uint16_t>(b)) > 0;
 }
 
 bool Moves(const HeadWish& w) {
@@ -29,7 +26,7 @@ bool Moves(const HeadWish& w) {
 }
 
 int Added(int step, double change) {
-  return static_cast<int>(std::clamp(step + std::round(change), 0.0, kMostStep));
+  return static_cast<int>(std::clamp(step + std::round(change), 0.0, double(kDrawnHead.most_step)));
 }
 
 }  // namespace
@@ -57,18 +54,25 @@ std::optional<HeadSetting> HeadJog::Step(const HeadSetting& here, Time now) {
   if (now - stepped_ < kPeriod) return std::nullopt;
   const double dt = Seconds(kPeriod);
   stepped_ = now;
+  moved_ = now;
   HeadSetting& t = *target_;
-  t.pan_rad = std::clamp(t.pan_rad + wish_->pan_rad_s * dt, -kMostPan, kMostPan);
-  t.tilt_rad = std::clamp(t.tilt_rad + wish_->tilt_rad_s * dt, -kMostTilt, kMostTilt);
+  t.pan_rad =
+      std::clamp(t.pan_rad + wish_->pan_rad_s * dt, -kDrawnHead.most_pan_rad, kDrawnHead.most_pan_rad);
+  t.tilt_rad =
+      std::clamp(t.tilt_rad + wish_->tilt_rad_s * dt, -kDrawnHead.most_tilt_rad, kDrawnHead.most_tilt_rad);
   for (std::size_t i = 0; i < 2; ++i) {
     // Towards each other: the left camera turns right, the right one left.
     const double inward = i == 0 ? -1 : 1;
-    t.vergence_rad[i] =
-        std::clamp(t.vergence_rad[i] + inward * wish_->vergence_rad_s * dt, -kMostVergence, kMostVergence);
+    t.vergence_rad[i] = std::clamp(t.vergence_rad[i] + inward * wish_->vergence_rad_s * dt,
+                                   -kDrawnHead.most_vergence_rad, kDrawnHead.most_vergence_rad);
     t.zoom_step[i] = Added(t.zoom_step[i], wish_->zoom_step_s * dt);
     t.focus_step[i] = Added(t.focus_step[i], wish_->focus_step_s * dt);
   }
   return t;
+}
+
+bool HeadJog::IsHeld(Time now) const {
+  return moved_ && now - *moved_ < kLongestPause;
 }
 
 }  // namespace priamos::head

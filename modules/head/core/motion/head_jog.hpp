@@ -29,11 +29,14 @@ class HeadJog {
     target_.reset();
     wish_.reset();
   }
+  /// Whether an operator moves the head; one who paused for less than half a second still does.
+  bool IsHeld(Time now) const;
   int refused() const { return refused_; }
 
  private:
   std::optional<HeadWish> wish_, newest_;
   std::optional<HeadSetting> target_;
+  std::optional<Time> moved_;  ///< when a setting was commanded last
   Time stepped_{};
   int refused_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/archive.hpp"
+#include "common/robot/camera_bits.hpp"
 #include "common/time.hpp"
 #include "head/core/camera/frame_notice.hpp"
 
@@ -41,7 +42,7 @@ class LookSequence {
 
   std::int32_t frame_id() const { return frame_id_; }
   /// Bits of the cameras to expose.
-  int camera_mask() const { return (1 << cameras_) - 1; }
+  int camera_mask() const { return CameraBits(cameras_); }
   /// The pictures, after kUseFrames.
   Frames frames() const;
 

@@ -21,7 +21,7 @@ Pose2 SomePose(Rng& rng, double nearest_m) {
 
 std::optional<StereoDrift> Measure(const DriftScene& scene, Rng& rng, double nearest_m = 2.4) {
   const Pose2 pose = SomePose(rng, nearest_m);
-  // As exactly as a fix finds it.
+  // A fix is so exact.
   const Pose2 found{pose.x + rng.Normal(0.003), pose.y + rng.Normal(0.001), pose.yaw + rng.Normal(0.001)};
   return MeasureDrift(scene.model(), scene.Look(pose, rng), scene.camera(0), scene.camera(1), Lift(found));
 }

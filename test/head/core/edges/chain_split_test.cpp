@@ -75,8 +75,8 @@ RC_GTEST_PROP(ChainSplitterTest, ALineOfAnySlopeIsFoundToPixelAccuracy, ()) {
   const auto lines = pencil.Up().Split();
   RC_ASSERT(lines.size() == 1u);
   const double x2 = 100 + (n - 1) * ux / step, y2 = 100 + (n - 1) * uy / step;
-  // Half a pixel across by rounding, and one along: a last pixel to the side ends a line.
-  const double most = std::hypot(1, 0.5) + 1e-6;
+  // Half a pixel across by rounding, and one step along: a last pixel to the side ends a line.
+  const double most = std::hypot(1 / step, 0.5) + 1e-6;
   RC_ASSERT(std::hypot(lines[0].x1 - 100, lines[0].y1 - 100) < most);
   RC_ASSERT(std::hypot(lines[0].x2 - x2, lines[0].y2 - y2) < most);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/geometry.hpp"
 #include "head/core/camera/head_model.hpp"
 #include "test/support/laser_floor.hpp"
 
@@ -64,6 +65,15 @@ TEST_F(LaserWatchTest, TakesPicturesAtItsRateAndEachOnce) {
   EXPECT_NE(dut_.frame_id(), first);
 }
 
+TEST_F(LaserWatchTest, ItsPicturesNeverHaveTheNumberOfALook) {
+  dut_.Step(false, true, At(0));
+  for (int i = 0; i < 0x10002; ++i) {
+    ASSERT_EQ(dut_.Step(false, true, At(1 + i)), Action::kTrigger);
+    ASSERT_GE(dut_.frame_id(), 0x40000000);
+    ASSERT_LE(dut_.frame_id(), 0x4000FFFF);
+  }
+}
+
 TEST_F(LaserWatchTest, APictureOfAHeadThatHasMovedIsNotTaken) {
   dut_.Step(false, true, At(0));
   ASSERT_EQ(dut_.Step(false, true, At(1.1)), Action::kTrigger);
@@ -78,6 +88,33 @@ TEST(SeesLineTest, OnlyACameraThatLooksDownDoes) {
   const CameraModel up = MakeCameraModel({900, {383.5, 287.5}, -0.05, 0, 0.02},
                                          HeadGeometry().BaseFromCamera(level, kThird, 0.02));
   EXPECT_FALSE(SeesLine(up, scene.laser, 768, 576));
+}
+
+TEST(SeesLineTest, TheLineIsNotNearTheUpperOrLowerBorder) {
+  HeadModel head;
+  head.lenses[kThird] = LensTable({0}, {0}, {LensState{900, {383.5, 287.5}, -0.05, 0, 0.02}});
+  head.laser = support::NominalLaserFloor().laser;
+  const Eigen::Vector3d line_ahead(-head.laser->offset_m / head.laser->normal.x(), 0, 0);
+  int above = 0, below = 0;
+  for (double tilt_deg = 20; tilt_deg < 60; tilt_deg += 0.25) {
+    const HeadSetting setting{.tilt_rad = Radians(tilt_deg)};
+    const double row = head.CameraAt(setting, kThird)->Project(line_ahead).y() / 576;
+    EXPECT_EQ(SeesLine(head, setting), row > 0.15 && row < 0.85) << tilt_deg << " deg, row " << row;
+    above += row > 0 && row < 0.15;
+    below += row > 0.85 && row < 1;
+  }
+  EXPECT_GT(above, 5);
+  EXPECT_GT(below, 5);
+}
+
+TEST(SeesLineTest, AHeadDoesWithItsThirdCameraAndAKnownLaser) {
+  HeadModel head;
+  head.lenses[kThird] = LensTable({0}, {0}, {LensState{900, {383.5, 287.5}, -0.05, 0, 0.02}});
+  const HeadSetting down{.tilt_rad = Radians(36)};
+  EXPECT_FALSE(SeesLine(head, down)) << "no laser is calibrated";
+  head.laser = support::NominalLaserFloor().laser;
+  EXPECT_TRUE(SeesLine(head, down));
+  EXPECT_FALSE(SeesLine(head, HeadSetting{}));
 }
 
 }  // namespace

@@ -73,6 +73,45 @@ TEST_F(LandmarkFixTest, CovarianceIsCredible) {
   EXPECT_GT(std::sqrt(fix.covariance(0, 0)), 0.0003);
 }
 
+/// Finds doors that are not as drawn with the errors that a tape measure leaves.
+TEST_F(LandmarkFixTest, ADoorThatIsNotAsDrawnIsFoundWhereItsMiddleIs) {
+  LandmarkFixOptions options;
+  options.solver.model_sigma_m = 0.005;
+  options.solver.breadth_sigma_m = 0.008;
+  const LandmarkFinder finder(options);
+  const Pose2 truth{2.8, 0.05, 0.02};
+  for (const auto& [width_m, frame_m] : {std::pair{0.90, 0.063},
+                                         {0.90, 0.065},
+                                         {0.895, 0.06},
+                                         {0.89, 0.06},
+                                         {0.88, 0.06},
+                                         {0.91, 0.055},
+                                         {0.885, 0.066}}) {
+    Find(test::DoorQuads(width_m, frame_m), truth, truth);
+    const LandmarkFix fix = finder.Find(model_, {{2.9, 0, 0.05}, kTwentyCentimetresFiveDegrees},
+                                        {MakeView(left_, left_edges_), MakeView(right_, right_edges_)});
+    ASSERT_EQ(fix.verdict, Verdict::kFound) << Describe(fix.verdict) << ' ' << width_m << ' ' << frame_m;
+    EXPECT_NEAR(fix.base_from_landmark.y, truth.y, 0.004) << width_m << ' ' << frame_m;
+    const Eigen::Vector3d error(fix.base_from_landmark.x - truth.x, fix.base_from_landmark.y - truth.y,
+                                fix.base_from_landmark.yaw - truth.yaw);
+    EXPECT_LT(error.dot(fix.covariance.inverse() * error), 16);
+  }
+}
+
+TEST_F(LandmarkFixTest, ADoorOfAnotherWidthIsAnotherDoor) {
+  LandmarkFixOptions options;
+  options.solver.model_sigma_m = 0.005;
+  options.solver.breadth_sigma_m = 0.008;
+  const Pose2 truth{2.8, 0.05, 0.02};
+  for (const double width_m : {0.80, 1.00}) {
+    Find(test::DoorQuads(width_m), truth, truth);
+    const LandmarkFix fix =
+        LandmarkFinder(options).Find(model_, {truth, kTwentyCentimetresFiveDegrees},
+                                     {MakeView(left_, left_edges_), MakeView(right_, right_edges_)});
+    EXPECT_NE(fix.verdict, Verdict::kFound) << width_m;
+  }
+}
+
 TEST_F(LandmarkFixTest, ABareWallIsNoDoor) {
   const LandmarkFix fix = Find(test::WallQuads(), {3.2, 0, 0}, {3.2, 0, 0});
   EXPECT_NE(fix.verdict, Verdict::kFound);

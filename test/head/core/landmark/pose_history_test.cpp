@@ -36,7 +36,8 @@ TEST(PoseHistoryTest, ReachesALittleBeyondTheNewest) {
   PoseHistory dut;
   dut.Add(Sample(1000, 0));
   EXPECT_NEAR(dut.At(Time(milliseconds(1100)))->map_from_base.x, 0.05, 1e-9);
-  EXPECT_FALSE(dut.At(Time(milliseconds(1400))));
+  EXPECT_TRUE(dut.At(Time(milliseconds(1300))));
+  EXPECT_FALSE(dut.At(Time(milliseconds(1301))));
   EXPECT_FALSE(dut.At(Time(milliseconds(999))));
 }
 

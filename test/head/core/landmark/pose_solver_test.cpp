@@ -49,6 +49,24 @@ TEST_F(PoseSolverTest, RecoversThePoseFromExactPoints) {
   EXPECT_LT(dut.misfit, 0.01);
 }
 
+TEST_F(PoseSolverTest, TellsWhereTheEdgesOfABroaderDoorLie) {
+  Rng rng(1);
+  const Eigen::Isometry3d truth = Lift({3.2, 0.1, 0.05});
+  const auto observations = Observe(test::DoorModel(0.912), cameras_, truth, 0, rng);
+  PoseSolverOptions options;
+  options.model_sigma_m = 0.002;
+  options.breadth_sigma_m = 0.01;
+  const PoseSolution dut = SolvePose(door_, cameras_, observations, truth, options);
+  ASSERT_TRUE(dut.ok);
+  EXPECT_NEAR(dut.base_from_landmark.translation().y(), 0.1, 5e-4);
+  for (std::size_t i = 0; i < door_.edges.size(); ++i) {
+    const double side = door_.edges[i].side == 1 ? 1 : door_.edges[i].side == 2 ? -1 : 0;
+    EXPECT_NEAR(dut.edge_shifts[i].y(), side * 0.006, 0.0015) << i;
+  }
+  EXPECT_LT(dut.rms_px, 0.3) << "against the model with these shifts";
+  EXPECT_LT(dut.misfit, 1);
+}
+
 TEST_F(PoseSolverTest, StaysOnTheFloor) {
   Rng rng(2);
   const auto observations = Observe(door_, cameras_, Lift({3.2, 0.1, 0.05}), 0.3, rng);

@@ -57,6 +57,16 @@ TEST(Aim, KeepsTheOtherSideInThePictureIfItCan) {
   EXPECT_LT(unsure, AimPan(Head(), kLooks, Door(), At(3, 0), 1, {}) - 0.01);
 }
 
+TEST(Aim, HowADoorThatFacesTheHeadIsTurnedDoesNotMatter) {
+  const HeadGeometry head;
+  const LandmarkPrediction known{{head.x_m + 2, head.y_m + 2, Radians(45)}, Eigen::Matrix3d::Zero()};
+  LandmarkPrediction turned = known;
+  turned.covariance(2, 2) = 0.5 * 0.5;
+  for (const int side : {1, 2})
+    EXPECT_NEAR(AimPan(Head(), kLooks, Door(), turned, side, {}),
+                AimPan(Head(), kLooks, Door(), known, side, {}), 0.006);
+}
+
 TEST(Aim, NearTheDoorTheSideAskedForIsInThePicture) {
   for (const double x : {1.2, 1.5, 2.0}) {
     for (const int side : {1, 2}) {
@@ -74,6 +84,17 @@ TEST(Aim, ALandmarkBehindIsNotChased) {
 
 TEST(Aim, StraightAheadWithoutEdges) {
   EXPECT_EQ(AimPan(Head(), kLooks, LandmarkModel{}, At(3, 0), 1, {}), 0);
+}
+
+TEST(Aim, ARobotThatDrivesOnLooksFromWhereItWillBe) {
+  LandmarkModel door = Door();
+  door.map_from_landmark = {3, 0, 0};
+  const AimConfig config{.lead_s = 0.5};
+  PoseSample robot;
+  robot.twist = {0, -0.8, 0};
+  const double dut = AimPan(Head(), kLooks, door, robot, 0, config);
+  EXPECT_EQ(dut, AimPan(Head(), kLooks, door, LandmarkPrediction{{3, 0.4, 0}, robot.covariance}, 0, config));
+  EXPECT_GT(dut, 0.1);
 }
 
 }  // namespace

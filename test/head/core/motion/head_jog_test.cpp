@@ -56,6 +56,14 @@ TEST_F(HeadJogTest, StopsAtTheEndOfTheAxes) {
   EXPECT_EQ(here.pan_rad, 2.0);
 }
 
+TEST_F(HeadJogTest, WhoPausesForLessThanHalfASecondStillHoldsTheHead) {
+  EXPECT_FALSE(dut.IsHeld(now));
+  Hold(0.4, 60);  // its last step is 10 ms ago
+  dut.Stop();
+  EXPECT_TRUE(dut.IsHeld(now + milliseconds(489)));
+  EXPECT_FALSE(dut.IsHeld(now + milliseconds(490)));
+}
+
 TEST_F(HeadJogTest, VergenceTurnsTheCamerasTowardsEachOther) {
   HeadWish wish = Wish(0);
   wish.vergence_rad_s = 0.1;

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
+#include <string_view>
+
+#include "common/number_text.hpp"
 
 namespace priamos::head {
 namespace {
@@ -26,10 +29,9 @@ std::string Shortened(const std::string& text) {
 }
 
 /// A finite number of sensible size that is the whole word.
-bool ParseNumber(const std::string& word, double& value) {
-  const char* begin = word.data() + (word.front() == '+');
-  const auto [end, error] = std::from_chars(begin, word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::abs(value) <= kLargest;
+std::optional<double> ParseNumber(std::string_view word) {
+  const auto value = NumberOf<double>(WithoutPlus(word));
+  return value && std::abs(*value) <= kLargest ? value : std::nullopt;
 }
 
 }  // namespace
@@ -42,11 +44,11 @@ Outcome<std::vector<PointPair>> ParsePointList(const std::string& text) {
     std::istringstream words(Plain(line));
     std::vector<double> values;
     for (std::string word; words >> word;) {
-      double value = 0;
-      if (!ParseNumber(word, value))
+      const auto value = ParseNumber(word);
+      if (!value)
         return Refusal{
             fmt::format("{}: expected five finite numbers X Y Z u v, got \"{}\"", number, Shortened(word))};
-      values.push_back(value);
+      values.push_back(*value);
     }
     if (values.empty()) continue;
     if (values.size() != 5)

@@ -9,12 +9,12 @@ namespace priamos::head {
 // The residuals with their derivatives, which take seconds to compile. The problem that a cost is added to
 // owns it.
 
-/// Of the blocks head, mount, lens and jitter.
+/// Cost of an observed disc; its blocks are head, mount, lens and jitter.
 ceres::CostFunction* NewCost(const HeadReprojection& residual);
-/// For N = kHead, kMount, kLens and kJitter.
+/// Cost of a block of N = kHead, kMount, kLens or kJitter numbers that is off its expected value.
 template <int N>
 ceres::CostFunction* NewCost(const Near<N>& residual);
-/// Of the lenses of three nodes in a row.
+/// Cost of a bend in the lenses of three nodes in a row, which are its blocks.
 ceres::CostFunction* NewCost(const Smooth& residual);
 
 }  // namespace priamos::head
