@@ -18,11 +18,13 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       drive_(context.node().Subscribe(channels::kDriveStatus)),
       fixes_(context.node().SubscribeAll(channels::kLandmarkFix)),
       corrections_(context.node().SubscribeAll(channels::kPoseCorrection)),
+      openings_(context.node().SubscribeAll(channels::kOpening)),
       link_(context.node().Subscribe(channels::kLinkStatus)),
       model_(context.node().Advertise(channels::kLandmarkModel)),
       look_(context.node().Advertise(channels::kLookRequest)),
       path_(context.node().Advertise(channels::kPath)),
-      status_(context.node().Advertise(channels::kMissionStatus)) {}
+      status_(context.node().Advertise(channels::kMissionStatus)),
+      status_rate_(config.status_rate_hz) {}
 
 void PlannerApp::Tick(Time now) {
   TakeReports(now);
@@ -48,6 +50,7 @@ void PlannerApp::TakeReports(Time now) {
   missions_.OnLink(link && link->up && link_.Age(now) < channels::kLinkStatus.stale_after);
   if (const auto pose = poses_.Take()) missions_.OnPose(FromMessage(*pose));
   if (const auto drive = drive_.Take()) missions_.OnDrive(FromMessage(*drive), now);
+  for (const auto& opening : openings_.Drain()) missions_.OnOpening(FromMessage(opening));
   for (const auto& fix : fixes_.Drain()) {
     if (const auto failure = FromMessage(fix)) missions_.OnLook(*failure);
     if (fix.verdict == landmark_fix_t::NO_MODEL) TeachLandmark(fix.landmark_id);
@@ -58,7 +61,7 @@ void PlannerApp::TakeReports(Time now) {
   }
 }
 
-/// Somebody has the head look at a landmark that only the map knows. A mission sends its own.
+/// Sends the head the model of a landmark, because somebody else has it look there. A mission sends its own.
 void PlannerApp::TeachLandmark(int id) {
   if (missions_.running()) return;
   if (const auto landmark = MakeLandmark(plan_, id)) model_.Publish(ToMessage(*landmark));
@@ -72,12 +75,11 @@ void PlannerApp::Send(const MissionActions& actions, Time now) {
 
 void PlannerApp::SendStatus(Time now) {
   const bool changed = !(missions_.state() == sent_state_);
-  const bool due = !status_sent_ || Seconds(now - *status_sent_) >= 1 / config_.status_rate_hz;
-  if (!changed && !due) return;
+  if (!changed && !status_rate_.Due(now)) return;
   if (changed) context_.Log(bus::Level::kInfo, missions_.state().text);
   status_.Publish(ToMessage(missions_.state(), missions_.kind(), now));
   sent_state_ = missions_.state();
-  status_sent_ = now;
+  status_rate_.Mark(now);
 }
 
 }  // namespace priamos::planner

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string_view>
 
 #include "bus/context.hpp"
+#include "common/rate_limit.hpp"
 #include "lcmtypes/channels.hpp"
 #include "planner/planner_config.hpp"
 #include "planner/planner_missions.hpp"
@@ -44,6 +44,7 @@ class PlannerApp {
   bus::Latest<drive_status_t> drive_;
   bus::Inbox<landmark_fix_t> fixes_;
   bus::Inbox<pose_correction_t> corrections_;
+  bus::Inbox<opening_t> openings_;
   bus::Latest<link_status_t> link_;
   bus::Publisher<landmark_model_t> model_;
   bus::Publisher<look_request_t> look_;
@@ -51,7 +52,7 @@ class PlannerApp {
   bus::Publisher<mission_status_t> status_;
 
   MissionState sent_state_;
-  std::optional<Time> status_sent_;
+  RateLimit status_rate_;
 };
 
 }  // namespace priamos::planner

@@ -74,8 +74,12 @@ RobotPose FromMessage(const pose_t& message) {
 }
 
 DriveReport FromMessage(const drive_status_t& message) {
-  return {ModeOf(message.mode), message.path_id, std::string(DriveLimitText(message.limit)),
-          message.estop != 0, message.estop_changes};
+  return {ModeOf(message.mode), message.path_id,       std::string(DriveLimitText(message.limit)),
+          message.estop != 0,   message.estop_changes, message.limit == drive_status_t::LIMIT_TOUCHED};
+}
+
+PassedOpening FromMessage(const opening_t& message) {
+  return {FromUtime(message.utime), {message.x_m, message.y_m, message.yaw_rad}, message.width_m};
 }
 
 std::optional<LookResult> FromMessage(const landmark_fix_t& message) {
@@ -203,6 +207,10 @@ std::string_view DriveLimitText(int limit) {
       return "the lease is lost";
     case drive_status_t::LIMIT_ESTOP:
       return "the emergency stop was pressed";
+    case drive_status_t::LIMIT_TOUCHED:
+      return "the robot touched something";
+    case drive_status_t::LIMIT_BUMPER_SILENT:
+      return "the bumper is silent";
     default:
       return "unknown limit";
   }

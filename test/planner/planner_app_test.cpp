@@ -68,6 +68,9 @@ TEST(PlannerApp, PassesTheDoorOnTheBus) {
   w.SendPose(7.5);
   w.SendDrive(paths[0].path_id, drive_status_t::ARRIVED);
   w.Run(2);
+  EXPECT_EQ(w.phase(), mission_status_t::PASSING) << "by its pose alone";
+  w.SendOpening(6.05);
+  w.Run(2);
   EXPECT_EQ(w.phase(), mission_status_t::DONE);
 }
 

@@ -38,6 +38,14 @@ struct Workstation {
     message.sigma_yaw_rad = 0.002;
     pose.Publish(message);
   }
+  void SendOpening(double x_m) {
+    opening_t message{};
+    message.utime = ToUtime(clock.Now());
+    message.x_m = x_m;
+    message.y_m = 2.4;
+    message.width_m = 0.95;
+    opening.Publish(message);
+  }
   void SendCorrection(int request_id) {
     pose_correction_t message{};
     message.utime = ToUtime(clock.Now());
@@ -77,6 +85,7 @@ struct Workstation {
                        }()};
   PlannerApp dut;
   bus::Publisher<link_status_t> link = other.Advertise(channels::kLinkStatus);
+  bus::Publisher<opening_t> opening = other.Advertise(channels::kOpening);
   bus::Publisher<pose_t> pose = other.Advertise(channels::kPose);
   bus::Publisher<pose_correction_t> correction = other.Advertise(channels::kPoseCorrection);
   bus::Publisher<landmark_fix_t> fix = other.Advertise(channels::kLandmarkFix);

@@ -18,6 +18,11 @@ constexpr double kAtSpeed = 0.8;
 /// Waiting longer for the speed than this would cost more distance than it is worth.
 constexpr double kStart_s = 3.0;
 
+/// The sonars see the sides of an opening as near up to this distance from the base each.
+constexpr double kBothNear_m = 0.30;
+/// An opening that was passed so near to the door is the door.
+constexpr double kAtDoor_m = 0.5;
+
 double Speed(const RobotPose& pose) {
   return std::hypot(pose.velocity.vx, pose.velocity.vy);
 }
@@ -48,6 +53,8 @@ void DoorMissionConfig::Describe(Archive& a) {
            {"m", 0, 10, "distance to the door down to which looks go on while passing"});
   a.Number("tracking_m", tracking_m, {"m", 0, 0.1, "what the path following may deviate in the door"});
   a.Number("command_delay_s", command_delay_s, {"s", 0, 2, "from a decision here to the wheels there"});
+  a.Number("evidence_s", evidence_s,
+           {"s", 0, 60, "wait behind the door for the sonars' report of an opening"});
   limits.Describe(a);
   a.Section("look", look, "looks at the sides of the door");
   a.Section("drift", drift, "what the wheels add on the way to the door");
@@ -64,6 +71,7 @@ DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfi
 std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
   door_ = plan_.FindDoor(order.landmark_id);
   judge_ = false;
+  arrived_.reset();
   looks_.Reset();
   if (!door_) return Refusal{fmt::format("the map has no door {}", order.landmark_id)};
   return std::nullopt;
@@ -166,15 +174,33 @@ void DoorMission::Pass(MissionControl& control) {
   if (distance_m > config_.confirm_to_m && looks_.Ready(control.now()) && !looks_.Exhausted())
     AskLook(control);
   if (!control.OnPath() || control.heard().drive->mode != DriveMode::kArrived) return;
-  if (-distance_m >= planner_.PastX(*door_))
-    return control.Enter(Phase::kDone, fmt::format("through the door after {:.1f} s",
-                                                   Seconds(control.now() - control.started())));
+  if (-distance_m >= planner_.PastX(*door_)) return Arrive(control);
   // The pose may be older than the report of the arrival; once it is fresh it must be behind the door.
   const RobotPose& pose = *control.heard().pose;
   if (pose.stamp > control.path_sent() && Seconds(control.now() - pose.stamp) < kFreshPose_s &&
       Speed(pose) < 0.02)
     control.Fail(fmt::format("the path ended {:.2f} m before the door was passed",
                              planner_.PastX(*door_) + distance_m));
+}
+
+/// Behind the door by its pose; done when the sonars noticed the door as well, for which the message may be
+/// on its way.
+void DoorMission::Arrive(MissionControl& control) {
+  if (!arrived_) arrived_ = control.now();
+  if (DoorWasNoticed(control))
+    return control.Enter(Phase::kDone, fmt::format("through the door after {:.1f} s",
+                                                   Seconds(control.now() - control.started())));
+  if (Seconds(control.now() - *arrived_) > config_.evidence_s)
+    control.Fail("the robot believes to be behind the door, but its sonars noticed no opening there");
+}
+
+/// A door so wide that the sonars do not see both sides as near is passed by pose alone.
+bool DoorMission::DoorWasNoticed(const MissionControl& control) const {
+  if (door_->opening_width_m > footprint_.width_m + 2 * kBothNear_m) return true;
+  const auto& opening = control.heard().opening;
+  if (!opening || opening->stamp < control.started()) return false;
+  const Pose2 there = door_->map_from_door().Inverse() * opening->map_from_base;
+  return there.translation().norm() < kAtDoor_m;
 }
 
 Pose2 DoorMission::PredictedPose(const MissionControl& control) const {

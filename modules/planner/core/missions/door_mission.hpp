@@ -22,6 +22,7 @@ struct DoorMissionConfig {
   double confirm_to_m = 1.6;     ///< looks go on to here while passing; nearer, the jambs leave the picture
   double tracking_m = 0.01;      ///< largest deviation of the path following in the door
   double command_delay_s = 0.2;  ///< from a decision here to the wheels there
+  double evidence_s = 4;         ///< how long the sonars' report of the opening may be on its way
   MissionLimits limits;
   LookConfig look;
   DriftModel drift;
@@ -53,6 +54,8 @@ class DoorMission : public Mission {
   void LookAtDoor(MissionControl& control);
   void EvaluatePose(MissionControl& control);
   void Pass(MissionControl& control);
+  void Arrive(MissionControl& control);
+  bool DoorWasNoticed(const MissionControl& control) const;
   /// Takes the outcome of a look; true when it succeeded.
   bool SettleLook(MissionControl& control);
   void AskLook(MissionControl& control);
@@ -69,7 +72,8 @@ class DoorMission : public Mission {
   const DoorPlan* door_ = nullptr;
   Time entered_{};  ///< when the approach began
   LookSequence looks_;
-  bool judge_ = false;  ///< enough looks have succeeded: the next pose is to be judged
+  std::optional<Time> arrived_;  ///< when it was behind the door by its pose
+  bool judge_ = false;           ///< enough looks have succeeded: the next pose is to be judged
 };
 
 }  // namespace priamos::planner

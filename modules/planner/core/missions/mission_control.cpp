@@ -15,6 +15,7 @@ void MissionControl::Begin(Time now) {
   running_ = true;
   path_sent_.reset();
   heard_.corrected.reset();
+  heard_.opening.reset();
   heard_.looks.clear();
   // The order stands on what its operator could know: a stop that is not reported yet came after it.
   estop_changes_.reset();

@@ -12,10 +12,11 @@ namespace priamos::planner {
 /// State of the robot as the planner knows it at a time step. All stamps are in the planner's clock.
 struct Heard {
   bool link_up = false;
-  std::optional<RobotPose> pose;     ///< newest
-  std::optional<DriveReport> drive;  ///< newest
-  std::optional<Time> corrected;     ///< stamp of the newest pose correction since the mission's start
-  std::vector<LookResult> looks;     ///< answers to looks since the last time step, in order
+  std::optional<RobotPose> pose;         ///< newest
+  std::optional<DriveReport> drive;      ///< newest
+  std::optional<Time> corrected;         ///< stamp of the newest pose correction since the mission's start
+  std::optional<PassedOpening> opening;  ///< newest since the mission's start
+  std::vector<LookResult> looks;         ///< answers to looks since the last time step, in order
 };
 
 /// A mission's view of the robot: its state, and the orders and the state that leave in this time

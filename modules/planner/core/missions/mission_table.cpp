@@ -75,6 +75,8 @@ std::optional<std::string> MissionTable::ReasonToEnd(const Mission& mission) con
     return "the emergency stop is latched; next: priamos estop --rearm, and a new order";
   if (control_.EstopChanged())
     return "the emergency stop was pressed or lifted since the order; next: order it again";
+  if (control_.OnPath() && heard.drive->touched)
+    return "the robot touched something; next: look what it is, back off by hand, and order it again";
   if (Seconds(now - (heard.pose ? std::max(heard.pose->stamp, started) : started)) > limits.silent_s)
     return fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", limits.silent_s,
                        heard.link_up ? "up, is the robot running?" : "down");

@@ -37,6 +37,15 @@ struct DriveReport {
   std::string limit;      ///< what limits the speed, in words; empty when nothing does
   bool estop = false;     ///< the emergency stop is latched
   int estop_changes = 0;  ///< how often it was latched or lifted, modulo 256
+  bool touched = false;   ///< the last motion ended because the base touched something
+};
+
+/// A narrow opening that the robot drove through, by its sonars: evidence that does not rest on its pose
+/// alone.
+struct PassedOpening {
+  Time stamp;           ///< when its middle was in the opening
+  Pose2 map_from_base;  ///< where it believed to be then
+  double width_m = 0;   ///< at most
 };
 
 /// Outcome of a look: from the head (not found) or from the robot (applied or refused).

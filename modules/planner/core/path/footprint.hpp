@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/archive.hpp"
-#include "common/body_size.hpp"
 #include "common/rectangle.hpp"
+#include "common/robot/body_size.hpp"
 
 namespace priamos::planner {
 

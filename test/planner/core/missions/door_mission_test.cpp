@@ -52,6 +52,40 @@ TEST(DoorMission, PassesTheDoor) {
   EXPECT_EQ(s.robot.models_received, 1);
 }
 
+TEST(DoorMission, ItIsNotDoneByThePoseAlone) {
+  Story s;
+  s.robot.deaf = true;
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_EQ(s.dut.state().text,
+            "the robot believes to be behind the door, but its sonars noticed no opening there");
+}
+
+TEST(DoorMission, AnOpeningElsewhereOrOfAnEarlierMissionIsNotThisDoor) {
+  for (const PassedOpening& other : {PassedOpening{FromUtime(1'020'000'000), {5.0, 2.4, 0}, 0.95},
+                                     PassedOpening{FromUtime(999'000'000), {6.05, 2.4, 0}, 0.95}}) {
+    Story s;
+    s.robot.deaf = true;
+    s.Start();
+    s.robot.RunUntil(Phase::kPassing);
+    s.dut.OnOpening(other);
+    s.robot.RunFor(60);
+    EXPECT_EQ(s.dut.state().phase, Phase::kFailed) << other.map_from_base.x;
+  }
+}
+
+TEST(DoorMission, ATouchEndsItAtOnce) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  s.robot.RunFor(2);
+  s.robot.touched = true;
+  s.robot.RunFor(1);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("the robot touched something"));
+}
+
 TEST(DoorMission, LooksAtTheLeftSideFirstThenAtTheRightSide) {
   Story s;
   s.Start();
@@ -240,6 +274,42 @@ TEST(DoorMission, DoesNotPlanWithAPoseFromBeforeTheCorrection) {
   EXPECT_GT(s.robot.now(), corrected);
 }
 
+TEST(DoorMission, APoseHardlyYoungerThanTheCorrectionMayBeFromBeforeIt) {
+  DoorMissionConfig config;
+  config.drift = {0, 0, 0};
+  Story s({2.0, 2.4, 0}, ShippedPlan(), config);
+  s.Start();
+  s.robot.RunUntil(Phase::kLookingRight);
+  const Time corrected = s.robot.now() + FromSeconds(0.1), now = corrected + FromSeconds(0.1);
+  s.dut.OnCorrected(corrected);
+  s.dut.OnLook({s.robot.looks.back().request_id + 1, true, "", false});
+  const auto tick_with_pose_of = [&](Time stamp) {
+    s.dut.OnPose({stamp, {3.5, 2.4, 0}, {}, Eigen::Matrix3d::Zero()});
+    s.dut.Tick(now);
+    return s.dut.state().phase;
+  };
+  EXPECT_NE(tick_with_pose_of(corrected + FromSeconds(0.02)), Phase::kPassing);
+  EXPECT_EQ(tick_with_pose_of(corrected + FromSeconds(0.03)), Phase::kPassing);
+}
+
+TEST(DoorMission, APathThatEndsTooEarlyIsReportedOnceTheRobotStands) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  s.robot.RunFor(1);
+  Time now = s.robot.now();
+  s.dut.OnDrive({DriveMode::kArrived, s.robot.paths.back().path_id, ""}, now);
+  const auto tick_at_speed = [&](double vx) {
+    now += FromSeconds(0.1);
+    s.dut.OnPose({now, {5.5, 2.4, 0}, {vx, 0, 0}, Eigen::Matrix3d::Zero()});
+    s.dut.Tick(now);
+    return s.dut.state().phase;
+  };
+  EXPECT_EQ(tick_at_speed(0.03), Phase::kPassing);
+  EXPECT_EQ(tick_at_speed(0.01), Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("the path ended 1.04 m before the door was passed"));
+}
+
 TEST(DoorMission, BlockedOnTheWayEndsInASentence) {
   Story s;
   s.Start();
@@ -341,6 +411,7 @@ TEST(DoorMission, ShortApproachIsSlowLongApproachIsNot) {
 TEST(DoorMission, WorksAtADoorInAnyPoseOfTheMap) {
   const Pose2 turned{-7, 11, 2.3};
   Story s(turned * Pose2{2.0, 2.2, 0.1}, Moved(ShippedPlan(), turned));
+  s.robot.map_from_door = turned * s.robot.map_from_door;
   s.Start();
   s.robot.RunFor(60);
   EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;

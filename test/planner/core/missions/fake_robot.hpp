@@ -27,6 +27,9 @@ class FakeRobot {
   };
   bool silent = false;   ///< nothing comes through in either direction
   bool blocked = false;  ///< stands before an obstacle
+  bool touched = false;  ///< stands because it touched something
+  bool deaf = false;     ///< its sonars notice no opening
+  Pose2 map_from_door{6, 2.4, 0};
 
   /// One step of 50 ms: robot, radio, mission.
   void Step() {
@@ -89,13 +92,17 @@ class FakeRobot {
   /// Moves the truth by what brings the belief along the path.
   void Drive() {
     velocity_ = {};
-    if (route_.empty() || blocked) return;
+    if (route_.empty() || blocked || touched) return;
     const Pose2 believed = Believed();
     Pose2 next = believed;
     for (double left_m = paths.back().speed_m_s * Seconds(kStep); left_m > 0 && !route_.empty();)
       left_m = MoveTowards(route_.front(), left_m, next);
     velocity_ = believed.Inverse() * next;
+    const Pose2 before = map_from_door.Inverse() * truth_;
     truth_ = truth_ * error * velocity_ * error.Inverse();
+    const Pose2 after = map_from_door.Inverse() * truth_;
+    if (!deaf && before.x < 0 && after.x >= 0 && std::abs(after.y) < 0.5)
+      Later([this, opening = PassedOpening{now_, Believed(), 0.95}] { mission_.OnOpening(opening); });
     if (good_looks_ < 2) nearest_before_fix_m = std::min(nearest_before_fix_m, 6.0 - truth_.x);
   }
 
@@ -140,8 +147,13 @@ class FakeRobot {
     DriveReport drive{paths.empty()    ? DriveMode::kIdle
                       : route_.empty() ? DriveMode::kArrived
                                        : DriveMode::kFollowing,
-                      path_id_, blocked ? "sonar" : ""};
+                      path_id_,
+                      blocked ? "sonar" : "",
+                      false,
+                      0,
+                      touched};
     if (blocked) drive.mode = DriveMode::kBlocked;
+    if (touched) drive.mode = DriveMode::kHolding;
     Later([this, pose, drive] {
       mission_.OnPose(pose);
       mission_.OnDrive(drive, now_);

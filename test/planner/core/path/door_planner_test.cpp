@@ -62,6 +62,24 @@ TEST(DoorPlanner, BacksOffWhenItStandsTooNearToTheWall) {
   EXPECT_LT(path->points[0].x, 6 - 1.1);
 }
 
+TEST(DoorPlanner, BacksOffFartherWhereThePreferredPlaceIsNotFree) {
+  Fixture f;
+  f.plan.walls.push_back({"post", {6 - 1.35, 2.4 + 0.49}, {6 - 1.25, 2.4 + 0.49}, 0.1});
+  const auto path = f.Make().PlanPassage(f.door(), {6 - 1.9, 2.4 - 0.3, 0});
+  ASSERT_TRUE(path) << path.reason();
+  EXPECT_NEAR(path->points[0].x, 6 - 2.1, 1e-9);
+}
+
+TEST(DoorPlanner, WhoStandsNearAWallKeepsNineTenthsOfThatDistance) {
+  Fixture f;
+  const double left_side = 2.4 + f.footprint.width_m / 2;
+  f.plan.walls.push_back({"here", {1.9, left_side + 0.06 + 0.05}, {2.1, left_side + 0.06 + 0.05}, 0.1});
+  EXPECT_TRUE(f.Make().PlanApproach(f.door(), {2.0, 2.4, 0}));
+  f.plan.walls.push_back({"ahead", {3.4, left_side + 0.04 + 0.05}, {3.6, left_side + 0.04 + 0.05}, 0.1});
+  EXPECT_THAT(f.Make().PlanApproach(f.door(), {2.0, 2.4, 0}).reason(),
+              HasSubstr("within 0.04 m of wall 'ahead', it needs 0.05 m"));
+}
+
 TEST(DoorPlanner, RefusesADoorThatIsTooNarrow) {
   Fixture f;
   f.plan.doors[0].opening_width_m = 0.75;

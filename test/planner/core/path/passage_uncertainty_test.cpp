@@ -77,6 +77,13 @@ TEST(PassageUncertainty, DriftMatchesASampledDrive) {
   EXPECT_NEAR(dut.heading_sigma_rad, std::sqrt(heading_sum / kRuns), 0.05 * dut.heading_sigma_rad);
 }
 
+TEST(PassageUncertainty, AConstantTurnLeadsOffTheAxisByHalfTheSquareOfTheDistance) {
+  const DoorPlan door = ShippedPlan().doors[0];
+  const auto dut = AtDoor(door, {4.0, 2.4, 0}, Eigen::Matrix3d::Zero(), {0, 0, 0.003});
+  EXPECT_NEAR(dut.lateral_sigma_m, 0.003 * 2 * 2 / 2, 1e-12);
+  EXPECT_NEAR(dut.heading_sigma_rad, 0.003 * 2, 1e-12);
+}
+
 TEST(PassageUncertainty, PerfectFixFromAfarIsNotGoodEnoughFromNearItIs) {
   const DoorPlan door = ShippedPlan().doors[0];
   const auto gap = [&](double way_m) {
