@@ -30,7 +30,8 @@ std::string EmulatedMouse::Hear(std::string_view bytes) {
   return answer;
 }
 
-/// A hand is never quite still, and spacenavd passes on only what changes.
+/// The deflection with every second packet one count smaller: a hand is never quite still, and spacenavd
+/// passes on only what changes.
 Stick EmulatedMouse::Trembling(Stick hand) {
   trembles_ = !trembles_;
   for (double& a : hand.axis)

@@ -102,7 +102,7 @@ TEST(Contributing, EveryRecipeIsTrueOfWhatItNamesAsItsLike) {
     EXPECT_THAT(Untrue(recipe, PRIAMOS_SOURCE_DIR), IsEmpty());
   }
   EXPECT_THAT(titles, ElementsAre("A message", "A channel to the radio", "A module", "A room",
-                                  "A landmark kind", "A verb", "A scenario"));
+                                  "A landmark kind", "A verb", "A mission", "A scenario"));
 }
 
 TEST(Contributing, AnUntrueStepIsFound) {

@@ -35,7 +35,7 @@ TEST(Docstrings, EveryPublicTypeHasOne) {
   }
   EXPECT_GT(types, 500u);
   EXPECT_THAT(silent, IsEmpty())
-      << "a line that begins with /// belongs before each: what it is, unit, frame";
+      << "next: write before each, behind ///, in two words at least what it is, with unit and frame";
 }
 
 std::vector<std::string> Names(std::string_view header) {
@@ -47,16 +47,29 @@ std::vector<std::string> Names(std::string_view header) {
 
 TEST(PublicTypes, AreFoundWithTheirDocstrings) {
   EXPECT_THAT(Names("namespace a {\n"
-                    "/// Said.\n"
+                    "/// Is said.\n"
                     "struct One {};\n"
                     "\n"
                     "enum class Two : int { kA };  ///< behind it is too late for Doxygen\n"
-                    "/// Said.\n"
+                    "/// Is said.\n"
                     "template <class T>\n"
                     "class Three final : public Base<T> {};\n"
                     "///\n"
                     "struct Four {};\n"),
               ElementsAre("3 One", "5 Two silent", "7 Three", "10 Four silent"));
+}
+
+TEST(PublicTypes, WithAttributesAndSpecialisationsAreFound) {
+  EXPECT_THAT(Names("struct alignas(8) A {};\n"
+                    "class [[nodiscard]] B {};\n"
+                    "template <>\nstruct C<int> {};\n"
+                    "template <class T>\nclass D<std::vector<T>> final : public Base<T> {};\n"
+                    "enum class [[nodiscard]] E : int { kA };\n"),
+              ElementsAre("1 A silent", "2 B silent", "3 C silent", "5 D silent", "7 E silent"));
+}
+
+TEST(PublicTypes, OneWordIsNoDocstring) {
+  EXPECT_THAT(Names("/// x\nstruct A {};\n/// Two words.\nstruct B {};\n"), ElementsAre("2 A silent", "4 B"));
 }
 
 TEST(PublicTypes, OfAClassAreThoseInItsPublicPart) {
@@ -76,7 +89,7 @@ TEST(PublicTypes, OfAClassAreThoseInItsPublicPart) {
 
 TEST(PublicTypes, AreNeitherDetailsNorDeclarationsNorPartsOfFunctions) {
   EXPECT_THAT(Names("class Declared;\n"
-                    "namespace detail {\nstruct A {};\n}\n"
+                    "namespace detail {\nstruct A {};\n}\nnamespace a::internal {\nstruct A {};\n}\n"
                     "namespace {\nstruct B {};\n}\n"
                     "inline void F(struct Declared* d) {\n  struct C {};\n}\n"
                     "// struct D {\n"

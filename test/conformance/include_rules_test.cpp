@@ -59,6 +59,13 @@ bool LibraryAllowed(const std::string& from, const std::string& file, const std:
   return true;
 }
 
+/// Whether an include in angle brackets means a header of the project: those of messages are found that way
+/// too.
+bool IsOwnHeader(const std::string& header) {
+  static const std::regex kOwn("(?:priamos|lcmtypes|bus|common|modules)/.*");
+  return std::regex_match(header, kOwn);
+}
+
 std::vector<std::string> Violations(const std::string& file, const std::string& text) {
   static const std::regex kInclude(R"re(#include\s+(["<])([^">]+)[">])re");
   std::vector<std::string> found;
@@ -67,7 +74,7 @@ std::vector<std::string> Violations(const std::string& file, const std::string& 
   for (auto it = std::sregex_iterator(text.begin(), text.end(), kInclude); it != std::sregex_iterator();
        ++it) {
     const std::string header = (*it)[2];
-    const auto to = (*it)[1] == "\"" ? RoomOf(header) : std::nullopt;
+    const auto to = (*it)[1] == "\"" || IsOwnHeader(header) ? RoomOf(header) : std::nullopt;
     if (to && !Allowed(*from, *to))
       found.push_back(fmt::format("{}: {} must not include {}", file, *from, header));
     if (!to && !LibraryAllowed(*from, file, header))
@@ -107,6 +114,13 @@ TEST(IncludeRules, ACoreMayNotIncludeTheBusOrMessages) {
   EXPECT_EQ(Violations("modules/robot/core/x.hpp", "#include \"bus/node.hpp\"\n").size(), 1u);
   EXPECT_EQ(Violations("modules/robot/core/x.hpp", "#include \"lcmtypes/channels.hpp\"\n").size(), 1u);
   EXPECT_EQ(Violations("modules/robot/core/x.hpp", "#include \"priamos/pose_t.hpp\"\n").size(), 1u);
+}
+
+TEST(IncludeRules, AngleBracketsHideNoMessage) {
+  EXPECT_THAT(
+      Violations("modules/robot/core/x.hpp", "#include <priamos/pose_t.hpp>\n"),
+      testing::ElementsAre("modules/robot/core/x.hpp: robot/core must not include priamos/pose_t.hpp"));
+  EXPECT_THAT(Violations("modules/robot/x.hpp", "#include <priamos/pose_t.hpp>\n"), IsEmpty());
 }
 
 TEST(IncludeRules, ANewModuleIsUnderTheRulesFromItsFirstFileOn) {

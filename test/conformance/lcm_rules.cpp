@@ -12,7 +12,7 @@ namespace priamos::bus {
 namespace {
 
 /// Units and the end of the names of their fields.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kUnits{{{"m", "_m"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kUnits{{{"m", "_m"},
                                                                                 {"m/s", "_m_s"},
                                                                                 {"rad", "_rad"},
                                                                                 {"rad/s", "_rad_s"},
@@ -23,7 +23,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kUnits{{
                                                                                 {"step", "_step"},
                                                                                 {"tick", "_ticks"},
                                                                                 {"us", "_us"},
-                                                                                {"V", "_v"}}};
+                                                                                {"V", "_v"},
+                                                                                {"A", "_a"}}};
 
 /// The unit whose suffix the name has; of several the longest ("_rad_s" ends in "_s" too).
 std::string_view UnitToldBy(std::string_view name) {

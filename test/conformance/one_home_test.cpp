@@ -5,8 +5,8 @@
 #include <fstream>
 #include <regex>
 
-#include "common/body_size.hpp"
 #include "common/ground_plan.hpp"
+#include "common/robot/body_size.hpp"
 #include "common/sonar_ring.hpp"
 #include "test/support/project_files.hpp"
 
@@ -23,11 +23,11 @@ struct Fact {
 };
 
 const std::vector<Fact> kFacts{
-    {"modules/common/body_size.hpp",
+    {"modules/common/robot/body_size.hpp",
      R"(\b0\.95, 0\.78\b|\b(length|width|height)_m( = |\{)(0\.95|0\.78|1\.35|1\.40?)\b|\bhalf_(width|length)_m( = |\{)(0\.39|0\.475)\b|\bkBody\w*( = |\{)0\.(78|95)\b)"},
     {"modules/common/image_size.hpp", R"(\b768\b.*\b576\b|\b(383\.5|384), *(287\.5|288)\b)"},
     {"modules/common/sonar_ring.hpp", R"(\bkSonars = |\bkSonarM(in|ax)_m = )"},
-    {"modules/common/braking_law.hpp", R"(/ \(2 \* deceleration|sqrt\(.*2 \* a\b)"},
+    {"modules/common/robot/braking_law.hpp", R"(/ \(2 \* deceleration|sqrt\(.*2 \* a\b)"},
     {"modules/common/sonar_ring.cpp", R"(^Pose2 BaseFromSonar\(.*\{$)"},
 };
 

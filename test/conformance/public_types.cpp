@@ -1,7 +1,6 @@
 #include "public_types.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include <iterator>
 #include <regex>
 #include <sstream>
 
@@ -70,26 +69,29 @@ class Reader {
   Scope Opened(const std::string& statement) {
     static const std::regex kNamespace(R"((?:inline )?namespace ?([\w:]*) ?)");
     static const std::regex kType(
-        R"((class|struct|union|enum(?: class| struct)?) (\w+)(?: final)?(?: ?:.*| ?))");
+        R"((class|struct|union|enum(?: class| struct)?) ?(?:(?:alignas ?\([^()]*\)|\[\[[^\]]*\]\]|__attribute__ ?\(\(.*?\)\)) ?)*(\b\w+)(?: ?<.*>)?(?: final)?(?: ?:.*| ?))");
     const bool shown = scopes_.back().ShowsMembers();
     std::smatch m;
     if (std::regex_match(statement, m, kNamespace)) {
       const std::string name = m[1];
-      return {true, shown && !name.empty() && name != "detail" && !name.ends_with("::detail"), true};
+      static const std::regex kPrivate("(?:.*::)?(?:detail|internal)");
+      return {true, shown && !name.empty() && !std::regex_match(name, kPrivate), true};
     }
     if (!std::regex_match(statement, m, kType)) return {};
     if (shown) found_.push_back({m[2], began_, DocumentedBefore(began_)});
     return {true, shown, m[1] != "class"};
   }
+  /// Whether the lines before say something: two words at least.
   bool DocumentedBefore(int line) const {
+    static const std::regex kWord(R"([A-Za-z][\w-]*)");
+    std::ptrdiff_t words = 0;
     for (int i = line - 2; i >= 0; --i) {
       const std::string& before = lines_[i];
       const auto text = before.find_first_not_of(' ');
-      if (text == std::string::npos || before.compare(text, 3, "///") != 0) return false;
-      if (std::any_of(before.begin(), before.end(), [](unsigned char c) { return std::isalpha(c) != 0; }))
-        return true;
+      if (text == std::string::npos || before.compare(text, 3, "///") != 0) break;
+      words += std::distance(std::sregex_iterator(before.begin(), before.end(), kWord), {});
     }
-    return false;
+    return words >= 2;
   }
 
   std::vector<std::string> lines_;

@@ -107,6 +107,16 @@ TEST_F(ScriptsTest, WhoIsNotRootAndHasNoSudoIsToldWhatRootMayType) {
   }
 }
 
+TEST_F(ScriptsTest, FormatInstallsItsToolWhereItIsMissing) {
+  Script("setup", "echo \"asked for $*\"; exit 2");
+  for (const char* command : {"scripts/format --check", "scripts/format"}) {
+    const auto answer = Run(command);
+    EXPECT_EQ(answer.exit_code, 2) << command;
+    EXPECT_THAT(answer.text, HasSubstr("asked for scripts/packages-test.txt"))
+        << command << ": next: let scripts/format call scripts/setup before clang-format-14";
+  }
+}
+
 TEST_F(ScriptsTest, WithoutDebianThePackagesAreToBeInstalledByHand) {
   fs::remove(bin() / "dpkg-query");
   const auto answer = Run("scripts/setup");

@@ -44,6 +44,7 @@ const std::vector<Call> kCalls{
     {"link top", "--once"},
     {"link emulate", "--a $O/a --b $O/b", true},
     {"link keygen", "$O/key"},
+    {"link rekey", "$O/key"},
     {"link bits", "pose_t"},
     {"link budget", "$SOURCE/config/sim/link.toml"},
     {"log record", "$O/record.lcmlog --seconds 1"},

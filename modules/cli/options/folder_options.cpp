@@ -1,6 +1,10 @@
 #include "cli/options/folder_options.hpp"
 
+#include <fmt/chrono.h>
+
 #include <CLI/App.hpp>
+#include <chrono>
+#include <filesystem>
 
 #include "common/data_folders.hpp"
 
@@ -22,6 +26,17 @@ void AddLogsOption(CLI::App& verb, std::string& log_root, const std::string& wha
 
 std::string LogRoot(const std::string& log_root) {
   return log_root.empty() ? LogFolder(ThisProgram()) : log_root;
+}
+
+std::string NameByTime() {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("{:%Y%m%d-%H%M%S}", fmt::localtime(now));
+}
+
+std::string MakeRunFolder(const std::string& log_root, const std::string& what) {
+  const auto folder = std::filesystem::path(log_root) / fmt::format("{}-{}", NameByTime(), what);
+  std::filesystem::create_directories(folder);
+  return std::filesystem::absolute(folder).string();
 }
 
 }  // namespace priamos::cli

@@ -20,5 +20,10 @@ void AddLogsOption(CLI::App& verb, std::string& log_root, const std::string& wha
 /// Folder for logs: `log_root`, or the default one when that is empty. Throws ConfigError when there is no
 /// default.
 std::string LogRoot(const std::string& log_root);
+/// Name for what begins now, by local time: "20260412-153000". Names sort as the times do.
+std::string NameByTime();
+/// Makes the folder of a run, "20260412-153000-<what>", in the folder for logs `log_root`. Returns its
+/// absolute path.
+std::string MakeRunFolder(const std::string& log_root, const std::string& what);
 
 }  // namespace priamos::cli

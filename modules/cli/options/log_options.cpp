@@ -5,7 +5,6 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -15,19 +14,13 @@
 #include "bus/log/log_reader.hpp"
 #include "cli/options/channel_renames.hpp"
 #include "common/nearest_word.hpp"
+#include "common/number_text.hpp"
 
 namespace priamos::cli {
 namespace {
 
 constexpr double kLongest_s = 1e10;  ///< three centuries: as microseconds still a whole number
 constexpr double kSlowest = 1.0 / 64, kFastest = 1000;
-
-std::optional<double> Number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 std::set<std::string> ChannelsOf(const std::string& log) {
   std::set<std::string> channels;
@@ -119,8 +112,9 @@ int OutputFile::Close() {
 double ParseSpeed(const std::string& text) {
   if (text == "max") return 0;
   const auto slash = text.find('/');
-  const auto above = Number(std::string_view(text).substr(0, slash));
-  const auto below = slash == std::string::npos ? 1.0 : Number(std::string_view(text).substr(slash + 1));
+  const auto above = NumberOf<double>(std::string_view(text).substr(0, slash));
+  const auto below =
+      slash == std::string::npos ? 1.0 : NumberOf<double>(std::string_view(text).substr(slash + 1));
   const double speed = above && below ? *above / *below : 0;
   if (speed >= kSlowest && speed <= kFastest) return speed;
   throw std::runtime_error(fmt::format("--speed: expected 1/64 to 1000 or max, got \"{}\"", text));

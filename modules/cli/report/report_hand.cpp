@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kStep_us = 100'000;
 constexpr double kStanding_m_s = 0.02, kStanding_rad_s = 0.03;
-/// From the hand to the floor: radio, tick of the robot, drive board.
+/// Time from a motion of the hand to one of the base: radio, tick of the robot, drive board.
 constexpr std::int64_t kReaction_us = 100'000;
 constexpr double kBesidePassage_m = 0.3;
 
@@ -30,11 +30,12 @@ bool Stands(const world_truth_t& truth) {
   return std::hypot(truth.vx_m_s, truth.vy_m_s) < kStanding_m_s && std::abs(truth.wz_rad_s) < kStanding_rad_s;
 }
 
-/// The command for motion that is alive at a time; times are asked in order.
+/// The velocities that an operator wished, base frame. Times are asked in order.
 class Wishes {
  public:
   explicit Wishes(const std::vector<drive_command_t>& commands) : commands_(commands) {}
 
+  /// The wish that counts at `utime`; nullopt when there is none, or it is to stand.
   std::optional<Twist2> At(std::int64_t utime) {
     while (next_ < commands_.size() && commands_[next_].utime <= utime) ++next_;
     if (next_ == 0) return std::nullopt;

@@ -19,7 +19,8 @@ bool IsInside(const Rectangle& inner, const Rectangle& outer) {
                      [&](const auto& corner) { return Distance(outer, corner) < kSame_m; });
 }
 
-/// "laboratory: leaf" is a leaf: which door it belongs to shows.
+/// Label of a thing: its name without the door that it belongs to ("leaf" of "laboratory: leaf"), which the
+/// plan shows.
 std::string ShortName(const std::string& name) {
   const auto colon = name.find(": ");
   return colon == std::string::npos ? name : name.substr(colon + 2);

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <filesystem>
 
 #include "common/config.hpp"
 #include "common/ground_plan.hpp"
 #include "common/nearest_word.hpp"
+#include "common/number_text.hpp"
 #include "planner/planner_config.hpp"
 
 namespace priamos::cli {
@@ -19,10 +19,8 @@ int DoorNamed(const GroundPlan& plan, const std::string& name, const std::string
     if (door.name == name) return door.id;
     known.push_back(door.name);
   }
-  int id = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
-  const bool is_number = !name.empty() && error == std::errc() && end == name.data() + name.size();
-  if (is_number && id >= kFirstLandmarkId && id <= kLastLandmarkId) return id;
+  const auto id = NumberOf<int>(name);
+  if (id && *id >= kFirstLandmarkId && *id <= kLastLandmarkId) return *id;
   throw ConfigError(fmt::format("unknown door \"{}\"{}; {} has {}", name, NearestText(name, known), map,
                                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
 }

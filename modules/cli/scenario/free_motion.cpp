@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/braking_law.hpp"
+#include "common/robot/braking_law.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -51,11 +51,12 @@ double FreeMotion::FreeDistance(const Pose2& map_from_base, const Twist2& per_me
     };
     return bare_gap(kProbe) < bare_gap(0) - kSliding * kProbe ? 0 : farthest;
   }
-  for (double travel = std::max(gap, kLeastStep); travel < farthest; travel += std::max(gap, kLeastStep)) {
+  double travel = 0;
+  while (gap >= kTouch && travel < farthest) {
+    travel += std::max(gap, kLeastStep);
     gap = guarded_.Gap(Integrate(map_from_base, per_metre, travel), farthest + kTouch);
-    if (gap < kTouch) return travel;
   }
-  return farthest;
+  return std::min(travel, farthest);
 }
 
 /// The part of `motion` from which the base can stand in time.

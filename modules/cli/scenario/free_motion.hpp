@@ -6,8 +6,8 @@
 namespace priamos::cli {
 
 /// What a robot that knew the world exactly could do with an operator's wish. It is the measure of a drive by
-/// hand and no part of one: it uses the exact rectangles of the world, not echoes, and shares only
-/// the form of the braking law with the robot.
+/// hand and no part of one: it uses the exact rectangles of the world, not echoes. It shares the form of the
+/// braking law with the robot; the report also gives it the robot's limit of acceleration.
 ///
 /// The margin: 6 cm are kept free beside the path, and the base comes to stand 20 cm before what it would
 /// touch, braking with 1 m/s^2 after 0.2 s. The robot itself means to keep 5.5 and 18.5 cm.

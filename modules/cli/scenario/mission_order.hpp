@@ -11,11 +11,11 @@
 
 namespace priamos::cli {
 
-/// "APPROACHING" and the like, the constants of mission_status_t.
+/// Name of a phase, as the constant of mission_status_t has it: "APPROACHING".
 std::string_view PhaseName(int phase);
-/// The robot is under way.
+/// Whether a mission is being carried out.
 bool IsRunning(const mission_status_t& status);
-/// DONE or FAILED.
+/// Whether a mission has ended, DONE or FAILED.
 bool IsOver(const mission_status_t& status);
 
 /// Outcome of an order.

@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -13,6 +14,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
+
+#include "common/number_text.hpp"
+#include "common/replace_file.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -69,8 +74,9 @@ std::optional<pid_t> UpLock::Holder(const std::string& log_root) {
   std::array<char, 32> text{};
   const ssize_t n = read(fd, text.data(), text.size() - 1);
   close(fd);
-  const int pid = n > 0 ? std::atoi(text.data()) : 0;
-  return free || pid <= 0 ? std::nullopt : std::optional<pid_t>(pid);
+  const std::string_view line(text.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  const auto pid = NumberOf<pid_t>(line.substr(0, line.find('\n')));
+  return !free && pid > 0 ? pid : std::nullopt;
 }
 
 std::optional<std::string> UpLock::FolderOf(pid_t pid) {
@@ -100,12 +106,9 @@ ordered_json ToJson(const UpState& state) {
   return json;
 }
 
-void WriteUpState(const std::string& log_root, const UpState& state) {
-  // Written aside and renamed, so that a reader never sees half of it.
-  const std::string file = StateFile(log_root), aside = file + ".new";
-  std::ofstream(aside) << ToJson(state).dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
-  std::error_code ignored;
-  fs::rename(aside, file, ignored);
+bool WriteUpState(const std::string& log_root, const UpState& state) {
+  const std::string text = ToJson(state).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return ReplaceFile(StateFile(log_root), text, false, 0644);
 }
 
 std::optional<UpState> ReadUpState(const std::string& log_root) {

@@ -48,7 +48,8 @@ struct UpState {
 /// State in the form in which up.json holds it.
 nlohmann::ordered_json ToJson(const UpState& state);
 
-void WriteUpState(const std::string& log_root, const UpState& state);
+/// Replaces the up.json of a log folder. Returns false with errno set when it failed.
+bool WriteUpState(const std::string& log_root, const UpState& state);
 /// State in the up.json of a log folder; nullopt when there is none that can be read.
 std::optional<UpState> ReadUpState(const std::string& log_root);
 /// The table of `priamos status`, and below it why processes last ended. With a size, lines fit its width.

@@ -126,7 +126,7 @@ std::string LinkTopView::Render(Time now, std::optional<ScreenSize> size) const 
   if (!last_) return Wrapped("no LINK_STATUS yet: is priamos-radio running on this bus?", columns);
   const std::string head = Head(now, columns), quality = Quality(columns);
   if (!size) return head + quality + Table().Render();
-  // Of the table its header, three channels and the count of the others are worth more than the quality.
+  // The table's header, three channels and the count of the others are worth more than the quality.
   const int least = 1 + std::min(4, static_cast<int>(rows_.size()));
   int room = size->rows - Lines(head);
   const bool has_room = room - Lines(quality) >= least;

@@ -60,5 +60,13 @@ TEST(FolderOptions, RunsAreWrittenWhereTheWordSaysElseTheEnvironment) {
   unsetenv("PRIAMOS_LOGS");
 }
 
+TEST(FolderOptions, AFolderOfARunIsNamedByItsTimeAndWhatItIs) {
+  TemporaryFolder logs;
+  const std::filesystem::path dut = MakeRunFolder(logs.path() / "new", "up-sim");
+  EXPECT_TRUE(std::filesystem::is_directory(dut));
+  EXPECT_EQ(dut.parent_path(), logs.path() / "new");
+  EXPECT_THAT(dut.filename().string(), testing::MatchesRegex("[0-9]{8}-[0-9]{6}-up-sim"));
+}
+
 }  // namespace
 }  // namespace priamos::cli

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "cli/scenario/free_motion.hpp"
@@ -120,6 +121,14 @@ TEST(ReportHand, ANormalDriveIsHonouredThroughItsAcceleration) {
   EXPECT_GT(*dut, 0.97);
 }
 
+TEST(ReportHand, TheBaseMayFollowTheHandATenthOfASecondLater) {
+  const auto pushes = [](double t_s) { return Twist2{std::fmod(t_s + 1e-6, 0.8) < 0.4 ? 0.4 : 0, 0, 0}; };
+  const auto dut = HonouredIn(
+      {}, {.wish = pushes, .motion = [&](double t_s) { return t_s < 0.1 ? Twist2{} : pushes(t_s - 0.1); }});
+  ASSERT_TRUE(dut);
+  EXPECT_GT(*dut, 0.97);
+}
+
 TEST(ReportHand, ALongStopInThePassageIsAFault) {
   SyntheticDrive drive{.wish = Always({0.4, 0, 0}), .motion = [](double t_s) {
                          return Twist2{t_s > 2 && t_s < 5 ? 0 : 0.4, 0, 0};
@@ -138,6 +147,11 @@ TEST(ReportHand, AStopThatWasWishedOrIsElsewhereIsNone) {
   EXPECT_LT(*HandSummaryOf(rested.Record(), {}, PassageAt(1))->longest_stop_s, 0.5);
   const SyntheticDrive elsewhere{.wish = Always({0.4, 0, 0}), .motion = stops};
   EXPECT_FALSE(HandSummaryOf(elsewhere.Record(), {}, PassageAt(50))->longest_stop_s);
+}
+
+TEST(ReportHand, AStopBesideThePassageIsNone) {
+  const SyntheticDrive beside{.start = {1, 0.7, 0}, .wish = Always({0.4, 0, 0}), .motion = Always({})};
+  EXPECT_FALSE(HandSummaryOf(beside.Record(), {}, PassageAt(1))->longest_stop_s);
 }
 
 TEST(FreeMotion, KeepsItsMarginsBesideAndAhead) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "report_synthetic_run.hpp"
@@ -30,6 +32,29 @@ TEST(ReportSummary, FixesAreJudgedByTheTruth) {
   EXPECT_NEAR(dut.fixes[1].error_after_m, 0.01, 1e-9);
   EXPECT_NEAR(dut.fixes[1].error_after_deg, 0.2, 1e-9);
   EXPECT_NEAR(dut.fixes[1].sigma_m, 0.010, 1e-9);
+}
+
+TEST(ReportSummary, PosesWithinFortyMillisecondsOfACorrectionAreNotJudged) {
+  RunRecord record = SyntheticRun{}.Record();
+  const std::int64_t corrected = kRunBegin + 5'000'000;
+  int changed = 0;
+  for (pose_t& pose : record.poses) {
+    if (std::abs(pose.utime - corrected) >= 40'000) continue;
+    pose.x_m += 1;
+    ++changed;
+  }
+  EXPECT_EQ(changed, 3);
+  const FixSummary second = Summarise(record, TestInfo()).fixes.at(1);
+  EXPECT_NEAR(second.error_before_m, std::hypot(0.02, 0.03), 1e-9);
+  EXPECT_NEAR(second.error_after_m, 0.01, 1e-9);
+}
+
+TEST(ReportSummary, CreepingBeforeTheDriveIsNotInTheMeanSpeed) {
+  RunRecord record = SyntheticRun{}.Record();
+  for (world_truth_t& truth : record.truth)
+    if (truth.vx_m_s == 0) truth.vx_m_s = 0.01;
+  EXPECT_NEAR(Summarise(record, TestInfo()).mean_speed_m_s,
+              Summarise(SyntheticRun{}.Record(), TestInfo()).mean_speed_m_s, 1e-9);
 }
 
 TEST(ReportSummary, UpIsFromTheRobotDownFromTheWorkstation) {

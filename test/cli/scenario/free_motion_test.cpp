@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "common/braking_law.hpp"
+#include "common/robot/braking_law.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -70,6 +70,15 @@ TEST(MissionOrder, IsAcceptedWhenTheRobotIsUnderWay) {
   EXPECT_EQ(talk.orders, 1);
 }
 
+TEST(MissionOrder, IsAcceptedWhenThePlannerWaitsForTheRobotForThreeSeconds) {
+  Talk talk;
+  talk.For(0.6, kIdle);
+  talk.For(2.4, Says(Status::WAITING, "waiting for the robot's pose"));
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
+  talk.For(1.2, Says(Status::WAITING, "waiting for the robot's pose"));
+  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kAccepted, "waiting for the robot's pose"));
+}
+
 TEST(MissionOrder, IsFollowedToItsEnd) {
   Talk done(mission_command_t::PASS_DOOR, true), failed(mission_command_t::PASS_DOOR, true);
   for (Talk* talk : {&done, &failed}) {

@@ -148,5 +148,14 @@ TEST_F(UpStateTest, AnUnknownProcessHoldsNoFolder) {
   EXPECT_FALSE(UpLock::FolderOf(1 << 22));
 }
 
+TEST_F(UpStateTest, AStateThatCannotBeWrittenLeavesTheOldOne) {
+  ASSERT_TRUE(WriteUpState(folder_.path(), TwoProcesses()));
+  std::filesystem::create_directory(folder_ / "up.json.new");  // in the way of the write
+  UpState next = TwoProcesses();
+  next.up_s = 99;
+  EXPECT_FALSE(WriteUpState(folder_.path(), next));
+  EXPECT_EQ(ReadUpState(folder_.path()).value().up_s, 61.4);
+}
+
 }  // namespace
 }  // namespace priamos::cli

@@ -151,6 +151,24 @@ TEST_F(LinkCommand, ANewKeyIsForItsOwnerAloneAndNeverTwiceTheSame) {
   EXPECT_NE(FileContent(first), FileContent(second));
 }
 
+TEST_F(LinkCommand, ANextKeyIsMadeBesideTheKeyAndThenPutInItsPlace) {
+  const std::string file = folder_ / "a.key";
+  EXPECT_EQ(Priamos({"link", "rekey", file}).exit_code, 2) << "no key yet";
+  Priamos({"link", "keygen", file});
+  EXPECT_EQ(Priamos({"link", "rekey", "--finish", file}).exit_code, 2) << "no next key yet";
+  EXPECT_THAT(Priamos({"link", "rekey", file}).out,
+              AllOf(StartsWith(file + ".next: next key"), HasSubstr("priamos link rekey --finish " + file)));
+  EXPECT_EQ(Priamos({"link", "rekey", file}).exit_code, 2) << "there is one";
+  struct stat info {};
+  ASSERT_EQ(stat((file + ".next").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0600u);
+  const std::string next = FileContent(file + ".next");
+  EXPECT_NE(next, FileContent(file));
+  EXPECT_EQ(json::parse(Priamos({"link", "rekey", "--finish", file, "--json"}).out), json({{"file", file}}));
+  EXPECT_EQ(FileContent(file), next);
+  EXPECT_NE(stat((file + ".next").c_str(), &info), 0);
+}
+
 TEST_F(LinkCommand, AKeyThatIsThereIsKept) {
   const std::string file = Write("a.key", "precious");
   EXPECT_EQ(Priamos({"link", "keygen", file}).exit_code, 2);
