@@ -111,8 +111,8 @@ bool FrameScheduler::BuildOther(FrameSources from, Time now) {
 }
 
 bool FrameScheduler::DataDue(const FrameSources& from, Time now) const {
-  return now - last_data_ >= options_.keep_alive || from.peer.Due() || from.inbox.Due() ||
-         !from.outbox.queue().Ready(now).empty();
+  return now - last_data_ >= options_.keep_alive || from.peer.Due() || from.peer.handshake.floor_waits() ||
+         from.inbox.Due() || !from.outbox.queue().Ready(now).empty();
 }
 
 /// Under both keys in turn: where urgent events leave few turns, the one would keep the other back for ever.
@@ -165,7 +165,7 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   last_data_ = now;
   from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
   if (urgent_only && !flight.inbox.acks.empty()) acknowledged_at_ = now;
-  if (flight.repeats) repetition_.OnRepeated(now, transmitter_.pacer().WireTime(wire.size()));
+  if (flight.repeats) repetition_.OnRepeated(now, transmitter_.Occupies(wire.size()));
   flight_ = std::move(flight);
   transmitter_.Begin(std::move(wire), now);
   return true;

@@ -40,18 +40,19 @@ Handshake::Proof Handshake::OnHello(const Hello& hello, bool heard) {
 void Handshake::OnData() {
   agreement_.OnData();
   switched_ = false;
-  floor_due_ = false;
+  floor_due_ = floor_waits_ = false;
   table_mismatch_ = false;
 }
 
 void Handshake::OnEpochChanged() {
   switched_ = true;
-  floor_due_ = false;
+  floor_due_ = floor_waits_ = false;
 }
 
 bool Handshake::HelloDue(Reception reception, Time now) const {
   if (!limit_.Allows(now)) return false;
   if (reply_due_) return true;
+  if (floor_waits_) return false;
   if (reception == Reception::kUnusable || switched_) return now - last_ >= kRepeat;
   return reception == Reception::kSilent && now - last_ >= kAnnounce;
 }
@@ -62,6 +63,7 @@ Hello Handshake::Take(std::uint32_t stream, Reception reception, Time now) {
   hello.code_bytes = code_bytes_;
   hello.stream = stream;
   reply_due_ = false;
+  floor_waits_ = floor_due_;
   last_ = now;
   limit_.Use(now);
   return hello;

@@ -49,6 +49,11 @@ class Handshake {
 
   /// Whether a FloorEntry is to be sent: the counters that the other end must skip.
   bool floor_due() const { return floor_due_; }
+  /// Whether the next turn is that of a frame with a FloorEntry, as a hello had the last one. Where urgent
+  /// events leave few turns, the one would keep the other back for ever.
+  bool floor_waits() const { return floor_waits_; }
+  /// Notes that a FloorEntry is sent.
+  void OnFloorSent() { floor_waits_ = false; }
   /// Whether the other end's last fresh hello had another channel table.
   bool table_mismatch() const { return table_mismatch_; }
   /// Length of the other end's codes by its last hello; 0 before. Another one than here is a table mismatch.
@@ -69,6 +74,7 @@ class Handshake {
   bool reply_due_ = false;
   bool switched_ = false;  ///< this end uses a new epoch, of which no frame has come yet
   bool floor_due_;
+  bool floor_waits_ = false;
   bool table_mismatch_ = false;
   std::size_t peer_code_bytes_ = 0;
   std::uint64_t received_ = 0;

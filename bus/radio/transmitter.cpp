@@ -45,6 +45,10 @@ Duration Transmitter::OnTheWay(std::size_t bytes) const {
   return datagrams_ ? Duration::zero() : pacer_.WireTime(bytes);
 }
 
+Duration Transmitter::Occupies(std::size_t bytes) const {
+  return pacer_.WireTime(bytes + (datagrams_ ? kDatagramHead : 0));
+}
+
 Time Transmitter::LeavesAt(std::size_t bytes, Time now) const {
   return datagrams_ ? now : pacer_.LeavesAt(bytes, now);
 }

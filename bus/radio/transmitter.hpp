@@ -34,6 +34,8 @@ class Transmitter {
 
   /// Time that `bytes` take on the line; 0 for a datagram.
   Duration OnTheWay(std::size_t bytes) const;
+  /// Time for which a frame of so many bytes occupies the line, head of a datagram included.
+  Duration Occupies(std::size_t bytes) const;
   /// Time at which `bytes` of a frame begun now will have left.
   Time LeavesAt(std::size_t bytes, Time now) const;
   /// Pace of the line.

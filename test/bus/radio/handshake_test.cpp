@@ -105,6 +105,20 @@ TEST(Handshake, TheFloorIsDueUntilAFrameShowsThatItIsKnown) {
   EXPECT_FALSE(dut.floor_due());
 }
 
+TEST(Handshake, AfterAHelloTheFloorHasItsTurn) {
+  Handshake dut = Make(1, true);
+  EXPECT_FALSE(dut.floor_waits());
+  ASSERT_TRUE(dut.HelloDue(Reception::kUnusable, kStart));
+  dut.Take(9, Reception::kUnusable, kStart);
+  EXPECT_TRUE(dut.floor_waits());
+  EXPECT_FALSE(dut.HelloDue(Reception::kUnusable, After(5)));
+  dut.OnFloorSent();
+  EXPECT_TRUE(dut.HelloDue(Reception::kUnusable, After(5)));
+  dut.Take(9, Reception::kUnusable, After(5));
+  dut.OnData();
+  EXPECT_FALSE(dut.floor_waits());
+}
+
 TEST(Handshake, AfterASwitchItRepeatsUntilAFrameComes) {
   Handshake dut = Make(1);
   dut.Take(9, Reception::kHeard, kStart);

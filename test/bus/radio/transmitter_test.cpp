@@ -36,6 +36,14 @@ TEST(Transmitter, KeepsThePaceOfTheLine) {
   EXPECT_EQ(dut.bytes_sent(), sent);
 }
 
+TEST(Transmitter, AFrameOccupiesTheLineWithTheHeadOfItsDatagram) {
+  LinkOptions datagrams = kThousandBytes;
+  datagrams.datagrams = true;
+  EXPECT_EQ(Transmitter(kThousandBytes, kStart).Occupies(100), Duration(100'000));
+  EXPECT_EQ(Transmitter(datagrams, kStart).Occupies(100),
+            Duration(1000 * static_cast<std::int64_t>(100 + kDatagramHead)));
+}
+
 TEST(Transmitter, ADelimiterLeadsAfterSilence) {
   Transmitter dut(kThousandBytes, kStart);
   dut.Begin(Frame(2), kStart);

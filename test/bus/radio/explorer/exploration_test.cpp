@@ -61,6 +61,14 @@ TEST(ExploredRun, AnEndThatIsKilledWhileTheOtherChangesTheKeyFollows) {
   EXPECT_THAT(ExploredRun({.datagrams = true, .rekey = true}, mishaps).Run(), IsEmpty());
 }
 
+/// Over datagrams, whose heads were not counted, repetitions of urgent events took the whole line, and hellos
+/// every turn that was left: the other end never heard which counters to skip.
+TEST(ExploredRun, TheFloorOfAKilledEndIsNotKeptBackByUrgentEvents) {
+  const std::vector<Mishap> mishaps{{.place = 5, .accident = Accident::kKilled},
+                                    {.place = 106, .accident = Accident::kLost}};
+  EXPECT_THAT(ExploredRun({.datagrams = true}, mishaps).Run(), IsEmpty());
+}
+
 class ExplorationOfSeveralAccidents : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(ExplorationOfSeveralAccidents, KeepsEveryPromise) {
