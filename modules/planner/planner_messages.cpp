@@ -37,6 +37,8 @@ std::int8_t PhaseOf(Phase phase) {
       return mission_status_t::LOOKING_RIGHT;
     case Phase::kPassing:
       return mission_status_t::PASSING;
+    case Phase::kRetreating:
+      return mission_status_t::RETREATING;
     case Phase::kDone:
       return mission_status_t::DONE;
     case Phase::kFailed:

@@ -31,6 +31,10 @@ bool IsFresh(const RobotPose& pose, Time now) {
   return Seconds(now - pose.stamp) <= kFreshPose_s;
 }
 
+std::string Advised(const std::string& reason) {
+  return reason + "; next: look what it is, and order it again";
+}
+
 /// Whether the newest pose is fresh and surely contains the newest correction.
 bool PoseIsCorrected(const MissionControl& control) {
   const Heard& heard = control.heard();
@@ -55,6 +59,7 @@ void DoorMissionConfig::Describe(Archive& a) {
   a.Number("command_delay_s", command_delay_s, {"s", 0, 2, "from a decision here to the wheels there"});
   a.Number("evidence_s", evidence_s,
            {"s", 0, 60, "wait behind the door for the sonars' report of an opening"});
+  a.Integer("retries", retries, {"-", 0, 10, "tries after an obstacle in the door"});
   limits.Describe(a);
   a.Section("look", look, "looks at the sides of the door");
   a.Section("drift", drift, "what the wheels add on the way to the door");
@@ -72,6 +77,7 @@ std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
   door_ = plan_.FindDoor(order.landmark_id);
   judge_ = false;
   arrived_.reset();
+  blocked_ = 0;
   looks_.Reset();
   if (!door_) return Refusal{fmt::format("the map has no door {}", order.landmark_id)};
   return std::nullopt;
@@ -89,6 +95,8 @@ void DoorMission::Step(MissionControl& control) {
       return LookAtDoor(control);
     case Phase::kPassing:
       return Pass(control);
+    case Phase::kRetreating:
+      return Retreat(control);
     case Phase::kDone:
     case Phase::kFailed:
       break;
@@ -116,13 +124,16 @@ void DoorMission::Approach(MissionControl& control) {
   // going.
   const bool waited = Seconds(control.now() - entered_) > kStart_s;
   if (Speed(*control.heard().pose) < kAtSpeed * control.path().speed_m_s && !waited) return;
-  AskLook(control);
+  LookFromHere(control);
 }
 
 void DoorMission::AskLook(MissionControl& control) {
+  looks_.Asked(control.OrderLook(door_->id, looks_.next()), control.now());
+}
+
+void DoorMission::LookFromHere(MissionControl& control) {
   const Side side = looks_.next();
-  looks_.Asked(control.OrderLook(door_->id, side), control.now());
-  if (control.state().phase == Phase::kPassing) return;
+  AskLook(control);
   control.Enter(side == Side::kLeft ? Phase::kLookingLeft : Phase::kLookingRight,
                 fmt::format("looking at the {} side of the door, {:.1f} m away", NameOf(side),
                             DistanceToDoor(control)));
@@ -146,7 +157,7 @@ void DoorMission::LookAtDoor(MissionControl& control) {
   const Phase phase = control.state().phase;
   const bool looking = phase == Phase::kLookingLeft || phase == Phase::kLookingRight;
   if (!looking || !looks_.Ready(control.now())) return;
-  if (!looks_.Exhausted()) return AskLook(control);
+  if (!looks_.Exhausted()) return LookFromHere(control);
   if (!judge_)
     control.Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()));
 }
@@ -181,6 +192,34 @@ void DoorMission::Pass(MissionControl& control) {
       Speed(pose) < 0.02)
     control.Fail(fmt::format("the path ended {:.2f} m before the door was passed",
                              planner_.PastX(*door_) + distance_m));
+}
+
+/// A robot that stands in the door goes back first, so that the doorway is free.
+void DoorMission::OnStop(MissionControl& control, const Stop& stop) {
+  const Phase phase = control.state().phase;
+  if (phase == Phase::kRetreating)
+    return control.Fail(fmt::format("{}, and on its way back {}", stopped_by_, Advised(stop.reason)));
+  if (phase != Phase::kPassing) return control.Fail(Advised(stop.reason));
+  stopped_by_ = stop.reason;
+  give_up_ = stop.cause == Stop::Cause::kTouched || ++blocked_ > config_.retries;
+  if (-DistanceToDoor(control) <= planner_.HoldX(*door_)) return TryAgain(control);
+  const auto path = planner_.PlanRetreat(*door_, control.heard().pose->map_from_base);
+  if (!path) return control.Fail(Advised(stop.reason));
+  control.OrderPath(path->points, config_.slowest_m_s);
+  control.Enter(Phase::kRetreating, stop.reason + ": back to the place before the door");
+}
+
+void DoorMission::Retreat(MissionControl& control) {
+  SettleLook(control);
+  if (control.OnPath() && control.heard().drive->mode == DriveMode::kArrived) TryAgain(control);
+}
+
+/// What stood in the door may have gone.
+void DoorMission::TryAgain(MissionControl& control) {
+  if (give_up_) return control.Fail(Advised(stopped_by_));
+  looks_.Reset();
+  judge_ = false;
+  LookFromHere(control);
 }
 
 /// Behind the door by its pose; done when the sonars noticed the door as well, for which the message may be

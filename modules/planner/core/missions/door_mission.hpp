@@ -23,6 +23,7 @@ struct DoorMissionConfig {
   double tracking_m = 0.01;      ///< largest deviation of the path following in the door
   double command_delay_s = 0.2;  ///< from a decision here to the wheels there
   double evidence_s = 4;         ///< how long the sonars' report of the opening may be on its way
+  int retries = 1;               ///< how often it tries again after an obstacle in the door
   MissionLimits limits;
   LookConfig look;
   DriftModel drift;
@@ -34,7 +35,9 @@ struct DoorMissionConfig {
 /// driving, and only when both sides have corrected the pose and what is left of its uncertainty, with the
 /// drift of the distance still to go, fits the gap, plan through the door and go. Until then look again, in
 /// turn left and right, while the robot comes nearer; at the hold point it stops by itself. On the first part
-/// of the passage the looks go on: each one sharpens the pose with which the robot follows its path.
+/// of the passage the looks go on: each one sharpens the pose with which the robot follows its path. A robot
+/// that is stopped in the door goes back to the hold point, and tries again unless it touched something: the
+/// doorway is left free.
 class DoorMission : public Mission {
  public:
   DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner, const Footprint& footprint,
@@ -45,6 +48,7 @@ class DoorMission : public Mission {
   /// Begins the mission; it is refused unless the order's landmark is a door of the plan.
   std::optional<Refusal> Start(const MissionOrder& order) override;
   void Step(MissionControl& control) override;
+  void OnStop(MissionControl& control, const Stop& stop) override;
   const MissionLimits& limits() const override { return config_.limits; }
   std::string Unfinished() const override { return "not through the door"; }
 
@@ -55,10 +59,13 @@ class DoorMission : public Mission {
   void EvaluatePose(MissionControl& control);
   void Pass(MissionControl& control);
   void Arrive(MissionControl& control);
+  void Retreat(MissionControl& control);
+  void TryAgain(MissionControl& control);
   bool DoorWasNoticed(const MissionControl& control) const;
   /// Takes the outcome of a look; true when it succeeded.
   bool SettleLook(MissionControl& control);
   void AskLook(MissionControl& control);
+  void LookFromHere(MissionControl& control);
   Pose2 PredictedPose(const MissionControl& control) const;
   /// Distance from the robot to the plane of the door along the door's axis [m]; negative behind it.
   double DistanceToDoor(const MissionControl& control) const;
@@ -73,6 +80,9 @@ class DoorMission : public Mission {
   Time entered_{};  ///< when the approach began
   LookSequence looks_;
   std::optional<Time> arrived_;  ///< when it was behind the door by its pose
+  int blocked_ = 0;              ///< how often it was blocked in the door
+  std::string stopped_by_;       ///< why it was stopped in the door
+  bool give_up_ = false;         ///< it does not try again
   bool judge_ = false;           ///< enough looks have succeeded: the next pose is to be judged
 };
 

@@ -13,7 +13,7 @@ namespace priamos::planner {
 /// Limits that end any mission, and how patient it is with a path that the robot does not confirm.
 struct MissionLimits {
   double resend_path_s = 4;  ///< [s] time after which a path the robot does not confirm is sent again
-  double blocked_s = 8;      ///< [s] standing before an obstacle that ends the mission
+  double blocked_s = 8;      ///< [s] standing before an obstacle that stops the mission
   double silent_s = 8;       ///< [s] silence of the robot that ends the mission
   double limit_s = 120;      ///< [s] time for the whole mission
 
@@ -34,6 +34,10 @@ class Mission {
   /// Decides one time step. The phase is kWaiting at first; the mission enters every other one itself, and
   /// ends with kDone or with MissionControl::Fail().
   virtual void Step(MissionControl& control) = 0;
+
+  /// The robot stands and will not go on by itself: it touched something, or an obstacle has been before it
+  /// for limits().blocked_s. The mission fails, unless it orders another path.
+  virtual void OnStop(MissionControl& control, const Stop& stop) { control.Fail(stop.reason); }
 
   virtual const MissionLimits& limits() const = 0;
   /// Reason when the time for the mission is over, e.g. "not through the door".

@@ -7,10 +7,17 @@
 #include <utility>
 
 namespace priamos::planner {
+namespace {
+
+std::string Because(const DriveReport& drive) {
+  return drive.limit.empty() ? "" : ": " + drive.limit;
+}
+
+}  // namespace
 
 void MissionLimits::Describe(Archive& a) {
   a.Number("resend_path_s", resend_path_s, {"s", 1, 60, "a path not confirmed by then is sent again"});
-  a.Number("blocked_s", blocked_s, {"s", 1, 600, "standing before an obstacle that ends the mission"});
+  a.Number("blocked_s", blocked_s, {"s", 1, 600, "standing before an obstacle that stops the mission"});
   a.Number("silent_s", silent_s, {"s", 1, 600, "silence of the robot that ends the mission"});
   a.Number("limit_s", limit_s, {"s", 5, 3600, "time for the whole mission"});
 }
@@ -61,7 +68,12 @@ MissionActions MissionTable::Tick(Time now) {
 
 void MissionTable::Step(Mission& mission) {
   if (const auto reason = ReasonToEnd(mission)) return control_.Fail(*reason);
-  mission.Step(control_);
+  if (const auto stop = StopOf(mission)) {
+    blocked_since_.reset();
+    mission.OnStop(control_, *stop);
+  } else {
+    mission.Step(control_);
+  }
   if (running()) control_.RepeatUnconfirmedPath(mission.limits().resend_path_s);
 }
 
@@ -75,18 +87,27 @@ std::optional<std::string> MissionTable::ReasonToEnd(const Mission& mission) con
     return "the emergency stop is latched; next: priamos estop --rearm, and a new order";
   if (control_.EstopChanged())
     return "the emergency stop was pressed or lifted since the order; next: order it again";
-  if (control_.OnPath() && heard.drive->touched)
-    return "the robot touched something; next: look what it is, back off by hand, and order it again";
   if (Seconds(now - (heard.pose ? std::max(heard.pose->stamp, started) : started)) > limits.silent_s)
     return fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", limits.silent_s,
                        heard.link_up ? "up, is the robot running?" : "down");
   if (Seconds(now - started) > limits.limit_s)
     return fmt::format("{} after {:.0f} s", mission.Unfinished(), limits.limit_s);
-  if (blocked_since_ && Seconds(now - *blocked_since_) > limits.blocked_s)
-    return fmt::format("the robot {} for {:.0f} s{}",
-                       heard.drive->mode == DriveMode::kBlocked ? "was blocked" : "held its place",
-                       limits.blocked_s, heard.drive->limit.empty() ? "" : ": " + heard.drive->limit);
+  if (StoodTooLong(mission) && heard.drive->mode == DriveMode::kHolding)
+    return fmt::format("the robot held its place for {:.0f} s{}", limits.blocked_s, Because(*heard.drive));
   return std::nullopt;
+}
+
+/// Why the robot stands where the mission may find another way.
+std::optional<Stop> MissionTable::StopOf(const Mission& mission) const {
+  const auto& drive = control_.heard().drive;
+  if (control_.OnPath() && drive->touched) return Stop{Stop::Cause::kTouched, "the robot touched something"};
+  if (!StoodTooLong(mission)) return std::nullopt;
+  return Stop{Stop::Cause::kBlocked, fmt::format("the robot was blocked for {:.0f} s{}",
+                                                 mission.limits().blocked_s, Because(*drive))};
+}
+
+bool MissionTable::StoodTooLong(const Mission& mission) const {
+  return blocked_since_ && Seconds(control_.now() - *blocked_since_) > mission.limits().blocked_s;
 }
 
 }  // namespace priamos::planner

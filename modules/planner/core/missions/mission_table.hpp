@@ -43,6 +43,8 @@ class MissionTable {
  private:
   void Step(Mission& mission);
   std::optional<std::string> ReasonToEnd(const Mission& mission) const;
+  std::optional<Stop> StopOf(const Mission& mission) const;
+  bool StoodTooLong(const Mission& mission) const;
 
   std::map<int, std::unique_ptr<Mission>> missions_;
   MissionControl control_;

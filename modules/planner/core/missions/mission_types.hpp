@@ -79,7 +79,23 @@ struct MissionActions {
 };
 
 /// How far a mission has come; kDone and kFailed are its ends.
-enum class Phase { kWaiting, kApproaching, kLookingLeft, kLookingRight, kPassing, kDone, kFailed };
+enum class Phase {
+  kWaiting,
+  kApproaching,
+  kLookingLeft,
+  kLookingRight,
+  kPassing,
+  kRetreating,
+  kDone,
+  kFailed
+};
+
+/// Why the robot stands on its path and does not go on by itself.
+struct Stop {
+  enum class Cause { kBlocked, kTouched };
+  Cause cause = Cause::kBlocked;
+  std::string reason;  ///< a sentence
+};
 
 /// Phase of the mission, and a sentence for a person.
 struct MissionState {

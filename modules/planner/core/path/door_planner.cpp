@@ -134,6 +134,15 @@ Outcome<DoorPath> DoorPlanner::PlanPassage(const DoorPlan& door, const Pose2& ma
   return *first_refusal;
 }
 
+Outcome<DoorPath> DoorPlanner::PlanRetreat(const DoorPlan& door, const Pose2& map_from_start) const {
+  const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
+  if (door_from_start.x >= PastX(door))
+    return Refusal{fmt::format("the robot is behind door '{}', not in it", door.name)};
+  const double hold_x = std::min(HoldX(door), door_from_start.x);
+  // Wherever it may touch, it has come from the hold point: there is no better way.
+  return DoorPath{{door.map_from_door() * Pose2{hold_x, 0, 0}}, 0};
+}
+
 Outcome<DoorPath> DoorPlanner::PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const {
   if (const auto refusal = CheckStart(door, map_from_start)) return *refusal;
   const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;

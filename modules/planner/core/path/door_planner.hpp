@@ -52,6 +52,10 @@ class DoorPlanner {
   /// its pose well: over the axis at approach_m if that is ahead, and to the hold point.
   Outcome<DoorPath> PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const;
 
+  /// Path from `map_from_start`, between the hold point and the plane behind the door, straight back to the
+  /// hold point: over what the robot has just left free.
+  Outcome<DoorPath> PlanRetreat(const DoorPlan& door, const Pose2& map_from_start) const;
+
   /// Coordinate x of the hold point in the door's frame [m], negative.
   double HoldX(const DoorPlan& door) const;
   /// Coordinate x in the door's frame from which on the whole footprint is behind the wall [m].

@@ -75,15 +75,62 @@ TEST(DoorMission, AnOpeningElsewhereOrOfAnEarlierMissionIsNotThisDoor) {
   }
 }
 
-TEST(DoorMission, ATouchEndsItAtOnce) {
+TEST(DoorMission, AfterATouchItGoesBackAndEnds) {
   Story s;
   s.Start();
   s.robot.RunUntil(Phase::kPassing);
-  s.robot.RunFor(2);
+  s.robot.RunUntilX(5.8);
   s.robot.touched = true;
   s.robot.RunFor(1);
+  EXPECT_EQ(s.dut.state().phase, Phase::kRetreating);
+  EXPECT_EQ(s.dut.state().text, "the robot touched something: back to the place before the door");
+  s.robot.RunFor(30);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
-  EXPECT_THAT(s.dut.state().text, HasSubstr("the robot touched something"));
+  EXPECT_THAT(s.dut.state().text, HasSubstr("the robot touched something; next: look what it is"));
+  EXPECT_LT(s.robot.truth().x, 6 - 0.085 - 0.475 - 1);
+}
+
+TEST(DoorMission, WhatStoodInTheDoorMayHaveGoneWhenItComesAgain) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  s.robot.RunUntilX(5.4);
+  s.robot.blocked = true;
+  s.robot.RunUntil(Phase::kRetreating, 10);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("blocked for 8 s: sonar"));
+  s.robot.blocked = false;
+  const std::size_t looks = s.robot.looks.size();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_GT(s.robot.looks.size(), looks + 1) << "it looked again";
+}
+
+TEST(DoorMission, BlockedTwiceInTheDoorItEndsBeforeIt) {
+  Story s;
+  s.Start();
+  for (int i = 0; i < 2; ++i) {
+    s.robot.RunUntil(Phase::kPassing);
+    s.robot.RunUntilX(5.4);
+    s.robot.blocked = true;
+    s.robot.RunUntil(Phase::kRetreating, 10);
+    s.robot.RunFor(1);
+    s.robot.blocked = false;
+  }
+  s.robot.RunFor(30);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("was blocked for 8 s: sonar; next:"));
+  EXPECT_LT(s.robot.truth().x, 6 - 0.085 - 0.475 - 1);
+}
+
+TEST(DoorMission, BlockedBeforeAndBehindItStays) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  s.robot.RunUntilX(5.4);
+  s.robot.blocked = true;
+  s.robot.RunFor(30);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("and on its way back the robot was blocked for 8 s"));
 }
 
 TEST(DoorMission, LooksAtTheLeftSideFirstThenAtTheRightSide) {
@@ -310,15 +357,18 @@ TEST(DoorMission, APathThatEndsTooEarlyIsReportedOnceTheRobotStands) {
   EXPECT_THAT(s.dut.state().text, HasSubstr("the path ended 1.04 m before the door was passed"));
 }
 
-TEST(DoorMission, BlockedOnTheWayEndsInASentence) {
+TEST(DoorMission, BlockedOnTheWayItTriesAgainWhereItStands) {
   Story s;
   s.Start();
   s.robot.RunUntil(Phase::kPassing);
-  s.robot.RunFor(1);
+  s.robot.RunFor(0.3);
+  const double x_m = s.robot.truth().x;
   s.robot.blocked = true;
-  s.robot.RunFor(30);
+  s.robot.RunFor(40);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
-  EXPECT_EQ(s.dut.state().text, "the robot was blocked for 8 s: sonar");
+  EXPECT_EQ(s.dut.state().text,
+            "the robot was blocked for 8 s: sonar; next: look what it is, and order it again");
+  EXPECT_EQ(s.robot.truth().x, x_m);
 }
 
 TEST(DoorMission, ShortBlockadeIsWaitedOut) {

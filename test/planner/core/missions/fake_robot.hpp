@@ -51,6 +51,10 @@ class FakeRobot {
     for (const Time end = now_ + FromSeconds(limit_s); now_ < end && mission_.state().phase != phase;) Step();
   }
 
+  void RunUntilX(double x_m, double limit_s = 60) {
+    for (const Time end = now_ + FromSeconds(limit_s); now_ < end && truth_.x < x_m;) Step();
+  }
+
   Time now() const { return now_; }
   const Pose2& truth() const { return truth_; }
   double speed_m_s() const { return velocity_.translation().norm() / Seconds(kStep); }
@@ -87,6 +91,7 @@ class FakeRobot {
     paths.push_back(path);
     route_.assign(path.points.begin(), path.points.end());
     path_id_ = path.path_id;
+    touched = false;  // reported of the motion that it ended
   }
 
   /// Moves the truth by what brings the belief along the path.
