@@ -13,6 +13,8 @@ namespace priamos::world {
 namespace {
 
 constexpr double kPosterThickness_m = 0.004;
+/// A wall that the map ends so near to a door's frame goes on to it.
+constexpr double kJoint_m = 0.15;
 
 /// Part of a wall; distances along it from its `from_m`.
 struct Piece {
@@ -25,9 +27,20 @@ struct WallLine {
         map_from_line{wall.from_m[0], wall.from_m[1],
                       std::atan2(wall.to_m[1] - wall.from_m[1], wall.to_m[0] - wall.from_m[0])} {}
 
+  /// Whether the door stands in the wall, or beside one of its ends within `beside_m`.
+  bool Holds(const DoorPlan& door, const WallPlan& wall, double beside_m) const {
+    const Pose2 in_wall = map_from_line.Inverse() * door.map_from_door();
+    return std::abs(std::cos(in_wall.yaw)) < 0.5 && std::abs(in_wall.y) <= wall.thickness_m &&
+           in_wall.x > -beside_m && in_wall.x < length_m + beside_m;
+  }
+
   double length_m;
   Pose2 map_from_line;  ///< x along the wall from its `from_m`
 };
+
+double Reach(const DoorPlan& door) {
+  return door.opening_width_m / 2 + door.frame_width_m;
+}
 
 class Builder {
  public:
@@ -52,6 +65,7 @@ class Builder {
       if (work.id == door.id) return work;
     return {};
   }
+  WallLine LineOf(const WallPlan& wall) const;
   const WallPlan& FindWall(const std::string& name, std::string_view asked_by) const;
   void CheckNames() const;
   std::string MaterialOf(const WallPlan& wall) const;
@@ -69,6 +83,22 @@ class Builder {
   std::vector<DoorPlan> doors_;
   std::vector<Solid> solids_;
 };
+
+/// The line of the wall as it was built: where the plan has a door elsewhere, it has the wall around it
+/// elsewhere, too.
+WallLine Builder::LineOf(const WallPlan& wall) const {
+  WallLine line(wall);
+  for (std::size_t i = 0; i < doors_.size(); ++i) {
+    const DoorPlan& planned = map_.doors[i];
+    if (!line.Holds(planned, wall, Reach(planned) + kJoint_m)) continue;
+    const Pose2 moved = planned.map_from_door().Inverse() * doors_[i].map_from_door();
+    if (moved.x == 0 && moved.yaw == 0) continue;
+    line.map_from_line = doors_[i].map_from_door() * Pose2{0, -moved.y, 0} *
+                         planned.map_from_door().Inverse() * line.map_from_line;
+    break;
+  }
+  return line;
+}
 
 const WallPlan& Builder::FindWall(const std::string& name, std::string_view asked_by) const {
   const auto it = std::find_if(map_.walls.begin(), map_.walls.end(),
@@ -95,18 +125,18 @@ std::string Builder::MaterialOf(const WallPlan& wall) const {
 
 /// A map may draw a wall through the door or end it at the opening: either way it ends at the frame.
 std::vector<Piece> Builder::PiecesBesideDoors(const WallPlan& wall) {
-  const WallLine line(wall);
+  const WallLine line = LineOf(wall);
   std::vector<Piece> pieces{{0, line.length_m}};
   for (const auto& door : doors_) {
-    const Pose2 in_wall = line.map_from_line.Inverse() * door.map_from_door();
-    const double reach = door.opening_width_m / 2 + door.frame_width_m;
-    const bool across = std::abs(std::cos(in_wall.yaw)) < 0.5;
-    const bool beside = in_wall.x < -reach || in_wall.x > line.length_m + reach;
-    if (!across || beside || std::abs(in_wall.y) > wall.thickness_m) continue;
+    if (!line.Holds(door, wall, Reach(door) + kJoint_m)) continue;
+    const double middle_m = (line.map_from_line.Inverse() * door.map_from_door()).x;
+    const Piece frame{middle_m - Reach(door), middle_m + Reach(door)};
     std::vector<Piece> cut;
     for (const auto& piece : pieces) {
-      cut.push_back({piece.begin_m, std::min(piece.end_m, in_wall.x - reach)});
-      cut.push_back({std::max(piece.begin_m, in_wall.x + reach), piece.end_m});
+      const double end_m = piece.end_m > frame.begin_m - kJoint_m ? frame.begin_m : piece.end_m;
+      const double begin_m = piece.begin_m < frame.end_m + kJoint_m ? frame.end_m : piece.begin_m;
+      cut.push_back({piece.begin_m, end_m});
+      cut.push_back({begin_m, piece.end_m});
     }
     pieces = cut;
   }
@@ -115,7 +145,7 @@ std::vector<Piece> Builder::PiecesBesideDoors(const WallPlan& wall) {
 }
 
 void Builder::AddWall(const WallPlan& wall) {
-  const WallLine line(wall);
+  const WallLine line = LineOf(wall);
   for (const auto& piece : PiecesBesideDoors(wall)) {
     const double length = piece.end_m - piece.begin_m;
     solids_.push_back({"wall " + wall.name,
@@ -129,7 +159,7 @@ void Builder::AddWall(const WallPlan& wall) {
 }
 
 void Builder::AddSkirting(const WallPlan& wall, const Piece& piece) {
-  const WallLine line(wall);
+  const WallLine line = LineOf(wall);
   const double length = piece.end_m - piece.begin_m;
   for (const double side : {1.0, -1.0}) {
     const double beside = side * (wall.thickness_m + plan_.skirting.thickness_m) / 2;
@@ -152,23 +182,18 @@ void Builder::AddDoor(const DoorPlan& door) {
   solids_.insert(solids_.end(), parts.begin(), parts.end());
 
   // The wall goes on above the frame, in the material of a wall that the door is in.
-  const double outer = door.opening_width_m / 2 + door.frame_width_m;
+  const double outer = Reach(door);
   const double top = door.opening_height_m + door.frame_width_m;
   const WallPlan* host = nullptr;
-  for (const auto& wall : map_.walls) {
-    const WallLine line(wall);
-    const Pose2 in_wall = line.map_from_line.Inverse() * door.map_from_door();
-    if (std::abs(std::cos(in_wall.yaw)) < 0.5 && std::abs(in_wall.y) <= wall.thickness_m &&
-        in_wall.x > -outer - 0.05 && in_wall.x < line.length_m + outer + 0.05)
-      host = &wall;
-  }
+  for (const auto& wall : map_.walls)
+    if (LineOf(wall).Holds(door, wall, outer + kJoint_m)) host = &wall;
   if (!host)
     throw ConfigError(
         fmt::format("{}: doors: expected door \"{}\" to stand in or between walls", plan_.map, door.name));
   if (plan_.light.ceiling_m > top)
     solids_.push_back({door.name + ": wall above",
                        door.map_from_door(),
-                       {door.wall_thickness_m, 2 * outer},
+                       {host->thickness_m, 2 * outer},
                        top,
                        plan_.light.ceiling_m,
                        MaterialOf(*host)});
@@ -180,7 +205,7 @@ void Builder::AddPoster(const PosterPlan& poster) {
   // Front of the poster is its +y side, whichever face of the wall it hangs on.
   const Pose2 in_wall{poster.along_m, side * (wall.thickness_m + kPosterThickness_m) / 2, side > 0 ? 0 : kPi};
   solids_.push_back({"poster on " + wall.name,
-                     WallLine(wall).map_from_line * in_wall,
+                     LineOf(wall).map_from_line * in_wall,
                      {poster.width_m, kPosterThickness_m},
                      poster.bottom_m,
                      poster.bottom_m + poster.height_m,

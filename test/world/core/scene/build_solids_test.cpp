@@ -123,6 +123,29 @@ TEST(BuildSolidsTest, ADoorBuiltElsewhereTakesTheWallWithIt) {
   EXPECT_NEAR(FreeHalfWidth(solids, {6, 0}), 0.25, 1e-9);
 }
 
+/// Nothing shows where the plan is wrong: no gap beside the frame, and no crease in the wall above it.
+TEST(BuildSolidsTest, TheWallOfADoorBuiltElsewhereGoesStraightOn) {
+  for (const double dy_m : {-0.09, 0.09}) {
+    GroundPlan map = OneWallOneDoor();
+    map.walls[0] = {"right", {6, -3}, {6, -0.45}, 0.14};
+    map.walls.push_back({"left", {6, 0.45}, {6, 3}, 0.14});
+    WorldPlan plan = WithLeaf(100);
+    plan.doors[0].built_dx_m = 0.08;
+    plan.doors[0].built_dy_m = dy_m;
+    plan.doors[0].built_dyaw_deg = 3;
+    const auto solids = BuildSolids(map, plan, 1);
+    const Pose2 door{6.08, dy_m, Radians(3)};
+    for (const char* name : {"wall right", "wall left"}) {
+      const Solid* wall = Find(solids, name);
+      ASSERT_TRUE(wall);
+      const Pose2 in_door = door.Inverse() * wall->map_from_solid;
+      EXPECT_NEAR(in_door.x, 0, 1e-9) << "in the plane of the door";
+      EXPECT_NEAR(std::abs(std::sin(in_door.yaw)), 1, 1e-9);
+      EXPECT_NEAR(std::abs(in_door.y) - wall->size_m.x() / 2, 0.51, 1e-9) << "up to the frame";
+    }
+  }
+}
+
 TEST(BuildSolidsTest, TheThresholdIsLowEnoughToRollOver) {
   const auto solids = BuildSolids(OneWallOneDoor(), WithLeaf(100), 1);
   ASSERT_TRUE(Find(solids, "lab: threshold"));
