@@ -21,6 +21,9 @@ struct LandmarkEdge {
 
   /// Part of something that may stand elsewhere, such as a door's leaf.
   bool IsMovable() const { return side == 3; }
+  /// Shift along y when the landmark is broader than the model by 1: its sides lie half of it beside its
+  /// middle.
+  double ByBreadth() const { return side == 1 ? 0.5 : side == 2 ? -0.5 : 0; }
   bool IsVertical() const { return (to - from).head<2>().norm() < 0.01 * std::abs(to.z() - from.z()); }
   /// Whether a viewer at `in_landmark` is in the sector widened by `margin_rad` at both ends.
   bool IsSeenFrom(const Eigen::Vector2d& in_landmark, double margin_rad = 0) const;

@@ -76,35 +76,32 @@ Proposals Propose(const LandmarkModel& model, const Pose2& expected, const Eigen
                       proposal_options);
 }
 
-/// The proposed poses that explain the pictures best, best first; the others are not refined.
-std::vector<Pose2> BestStarts(const LandmarkModel& model, std::span<const PoseProposal> proposals,
-                              const StereoViews& views) {
-  std::vector<std::pair<double, Pose2>> judged;
-  for (const PoseProposal& p : proposals) {
-    const auto visible = VisibleAt(model, p.base_from_landmark);
-    const auto a = Associate(model, visible, views, Lift(p.base_from_landmark), kProposed);
-    judged.emplace_back(a.log_odds, p.base_from_landmark);
-  }
-  std::stable_sort(judged.begin(), judged.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (judged.size() > kRefineBest) judged.resize(kRefineBest);
-  std::vector<Pose2> starts;
-  starts.reserve(judged.size());
-  for (const auto& [odds, start] : judged) starts.push_back(start);
-  return starts;
-}
-
 /// The model with its edges where an earlier solution found them: what was measured with a tape is
 /// millimetres off, and the next association is to be sharper than that.
-LandmarkModel AsSeen(LandmarkModel model, const PoseSolution& solution) {
-  for (std::size_t i = 0; i < solution.edge_shifts.size(); ++i) {
-    model.edges[i].from += solution.edge_shifts[i];
-    model.edges[i].to += solution.edge_shifts[i];
+LandmarkModel AsSeen(LandmarkModel model, const EdgeShifts& shifts) {
+  for (std::size_t i = 0; i < shifts.size(); ++i) {
+    model.edges[i].from += shifts[i];
+    model.edges[i].to += shifts[i];
   }
   return model;
 }
 
+/// Shifts of the edges of a landmark that is broader than its model by so much.
+EdgeShifts ShiftsOfBreadth(const LandmarkModel& model, double broader_m) {
+  EdgeShifts shifts;
+  shifts.reserve(model.edges.size());
+  for (const LandmarkEdge& edge : model.edges) shifts.emplace_back(0, broader_m * edge.ByBreadth(), 0);
+  return shifts;
+}
+
 }  // namespace
+
+/// Where the refinement begins: a pose, and how far the edges are off their places in the model.
+struct LandmarkFinder::Start {
+  double log_odds = 0;
+  Pose2 base_from_landmark;
+  EdgeShifts shifts;
+};
 
 struct LandmarkFinder::Pose {
   Pose2 base_from_landmark;
@@ -152,7 +149,7 @@ std::string_view WhyBlind(const EdgeImage& edges) {
 bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const CameraView> views,
                               const AssociationOptions& gate, bool coarse, Pose& pose) const {
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  const LandmarkModel seen = AsSeen(model, pose.solution);
+  const LandmarkModel seen = AsSeen(model, pose.solution.edge_shifts);
   pose.association = Associate(seen, VisibleAt(model, pose.base_from_landmark), views, at, gate);
   const auto observations = Observations(model, pose.association, views, at, coarse);
   PoseSolverOptions solver = options_.solver;
@@ -162,24 +159,52 @@ bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const Camera
   return pose.solution.ok;
 }
 
+/// The proposed poses that explain the pictures best, best first; the others are not refined. A landmark that
+/// is broader or narrower than its model is tried as well, as both of its sides would be beyond the gates,
+/// and one that is as it was seen before.
+std::vector<LandmarkFinder::Start> LandmarkFinder::BestStarts(const LandmarkModel& model,
+                                                              std::span<const PoseProposal> proposals,
+                                                              const StereoViews& views,
+                                                              const EdgeShifts& seen) const {
+  std::vector<Start> starts;
+  const auto suppose = [&](const EdgeShifts& shifts, double log_prior) {
+    const LandmarkModel supposed = AsSeen(model, shifts);
+    for (const PoseProposal& p : proposals) {
+      const auto visible = VisibleAt(supposed, p.base_from_landmark);
+      const auto a = Associate(supposed, visible, views, Lift(p.base_from_landmark), kProposed);
+      starts.push_back({a.log_odds + log_prior, p.base_from_landmark, shifts});
+    }
+  };
+  suppose({}, 0);
+  if (seen.size() == model.edges.size()) suppose(seen, 0);
+  const double breadth_sigma_m = options_.solver.breadth_sigma_m;
+  for (const double sigmas : {-1.0, 1.0})
+    if (breadth_sigma_m > 0) suppose(ShiftsOfBreadth(model, sigmas * breadth_sigma_m), -sigmas * sigmas / 2);
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& a, const Start& b) { return a.log_odds > b.log_odds; });
+  if (starts.size() > kRefineBest) starts.resize(kRefineBest);
+  return starts;
+}
+
 /// Refines a pose that was approached once.
 void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const {
   if (!Approach(model, views, kApproached, true, pose) || !Approach(model, views, kRefined, false, pose))
     return;
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  pose.association =
-      Associate(AsSeen(model, pose.solution), VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
+  pose.association = Associate(AsSeen(model, pose.solution.edge_shifts),
+                               VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
   DropOutliers(model, views, pose);
 }
 
 /// Refines all starts; many lead to the same pose, which is refined only once.
 std::vector<LandmarkFinder::Pose> LandmarkFinder::RefineAll(const LandmarkModel& model,
                                                             std::span<const CameraView> views,
-                                                            std::span<const Pose2> starts) const {
+                                                            std::span<const Start> starts) const {
   std::vector<Pose> approached, refined;
-  for (const Pose2& start : starts) {
+  for (const Start& start : starts) {
     Pose pose;
-    pose.base_from_landmark = start;
+    pose.base_from_landmark = start.base_from_landmark;
+    pose.solution.edge_shifts = start.shifts;
     if (!Approach(model, views, kProposed, true, pose)) continue;
     const bool known = std::any_of(approached.begin(), approached.end(), [&](const Pose& other) {
       return IsSame(other.base_from_landmark, pose.base_from_landmark);
@@ -216,7 +241,7 @@ Eigen::Matrix3d LandmarkFixOptions::SearchCovariance(const LandmarkPrediction& p
 }
 
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                                 const StereoViews& views) const {
+                                 const StereoViews& views, const EdgeShifts& seen) const {
   LandmarkFix fix;
   if (model.edges.empty()) {
     fix.verdict = Verdict::kNoModel;
@@ -229,7 +254,8 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
     return fix;
   }
   const Proposals proposals = Propose(model, prediction.base_from_landmark, search, views, options_);
-  std::vector<Pose> poses = RefineAll(model, views, BestStarts(model, proposals.poses, views));
+  const auto starts = BestStarts(model, proposals.poses, views, seen);
+  std::vector<Pose> poses = RefineAll(model, views, starts);
   fix.verdict = Verdict::kTooFewEdges;
   if (poses.empty()) return fix;
   const auto best = std::max_element(poses.begin(), poses.end(),
@@ -252,6 +278,7 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   fix.residual_px = best.solution.rms_px;
   fix.misfit = best.solution.misfit;
   fix.matches = best.association.matches;
+  fix.edge_shifts = best.solution.edge_shifts;
   fix.log_odds = best.association.log_odds;
   fix.rival_log_odds = best.rival_log_odds;
   const double left = best.association.side_predicted_px[1], right = best.association.side_predicted_px[2];

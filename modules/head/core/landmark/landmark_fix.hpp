@@ -50,6 +50,7 @@ struct LandmarkFix {
   double log_odds = 0;        ///< Association::log_odds
   double rival_log_odds = 0;  ///< log_odds of the best different pose
   std::vector<EdgeMatch> matches;
+  EdgeShifts edge_shifts;  ///< PoseSolution::edge_shifts
 };
 
 /// Where a landmark is looked for, and what evidence a fix needs.
@@ -90,17 +91,21 @@ class LandmarkFinder {
   explicit LandmarkFinder(const LandmarkFixOptions& options) : options_(options) {}
 
   /// The fix from the undistorted edges of both images, in the frame of their cameras (base). An image in
-  /// which nothing can be seen gives kNoImage.
-  LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                   const StereoViews& views) const;
+  /// which nothing can be seen gives kNoImage. `seen`: shifts of the edges by earlier fixes, or empty. They
+  /// only say where edges are looked for; the result is that of this look alone.
+  LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction, const StereoViews& views,
+                   const EdgeShifts& seen = {}) const;
 
  private:
   struct Pose;
+  struct Start;
   bool Approach(const LandmarkModel& model, std::span<const CameraView> views, const AssociationOptions& gate,
                 bool coarse, Pose& pose) const;
   void Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  std::vector<Start> BestStarts(const LandmarkModel& model, std::span<const PoseProposal> proposals,
+                                const StereoViews& views, const EdgeShifts& seen) const;
   std::vector<Pose> RefineAll(const LandmarkModel& model, std::span<const CameraView> views,
-                              std::span<const Pose2> starts) const;
+                              std::span<const Start> starts) const;
   void DropOutliers(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
   void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
              const Pose& best, LandmarkFix& fix) const;

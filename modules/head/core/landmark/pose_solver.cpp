@@ -24,11 +24,6 @@ Matrix6 SquareRoot(const Matrix6& c) {
   return ellipsoid.axes * ellipsoid.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-/// Shift of an edge along y for an error of the breadth of 1.
-double HalfBreadth(const LandmarkEdge& edge) {
-  return edge.side == 1 ? 0.5 : edge.side == 2 ? -0.5 : 0;
-}
-
 /// A residual with the error that all cameras share, in standard deviations.
 struct Row : EdgeResidual {
   Vector6 by_common = Vector6::Zero();
@@ -110,13 +105,13 @@ class Problem {
 
   /// How a residual grows with the breadth of the landmark, whose sides lie half of it beside the middle.
   double ByBreadth(const Row& row) const {
-    return row.across.dot(pose_.linear().col(1)) * HalfBreadth(model_.edges[row.edge]);
+    return row.across.dot(pose_.linear().col(1)) * model_.edges[row.edge].ByBreadth();
   }
 
   /// Mean of the errors of the model's edges under the condition of the residuals.
-  std::vector<Eigen::Vector3d> EdgeShifts() const {
+  EdgeShifts ErrorsOfEdges() const {
     const Eigen::VectorXd weighted = squares_.WeightedResiduals();
-    std::vector<Eigen::Vector3d> shifts(model_.edges.size(), Eigen::Vector3d::Zero());
+    EdgeShifts shifts(model_.edges.size(), Eigen::Vector3d::Zero());
     double breadth = 0;
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
       const Row& row = residuals_[i];
@@ -125,7 +120,7 @@ class Problem {
       shifts[row.edge] += Square(sigma_m) * weighted[i] * (pose_.linear().transpose() * row.across);
       breadth += Square(options_.breadth_sigma_m) * ByBreadth(row) * weighted[i];
     }
-    for (std::size_t e = 0; e < shifts.size(); ++e) shifts[e].y() += breadth * HalfBreadth(model_.edges[e]);
+    for (std::size_t e = 0; e < shifts.size(); ++e) shifts[e].y() += breadth * model_.edges[e].ByBreadth();
     return shifts;
   }
 
@@ -157,7 +152,7 @@ class Problem {
     solution.own_share = OwnShare();
     solution.chi_squared = squares_.ChiSquared();
     solution.misfit = solution.chi_squared / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
-    solution.edge_shifts = EdgeShifts();
+    solution.edge_shifts = ErrorsOfEdges();
     if (options_.find_suspect) solution.suspect = FindSuspect();
     double sum = 0;
     for (const Row& s : residuals_)

@@ -27,6 +27,9 @@ struct PoseSolverOptions {
   bool find_suspect = true;  ///< compute PoseSolution::suspect, which takes as long as all the rest
 };
 
+/// How far each edge of a model lies off its place there, landmark frame [m].
+using EdgeShifts = std::vector<Eigen::Vector3d>;
+
 /// The worst outlier: the edge, in one image or in all, without which the others fit best.
 struct EdgeSuspect {
   int edge = -1, camera = -1;  ///< camera -1: in all of them
@@ -48,8 +51,8 @@ struct PoseSolution {
   /// for wrong ones.
   double misfit = 0;
   EdgeSuspect suspect;
-  /// Where each edge of the model lies, against the model, as far as the images tell; landmark frame [m].
-  std::vector<Eigen::Vector3d> edge_shifts;
+  /// Errors of the model's edges, as far as the images show them.
+  EdgeShifts edge_shifts;
 };
 
 /// Least squares pose from points on edges, in any number of images, starting at `initial`, without any prior

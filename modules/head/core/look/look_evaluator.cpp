@@ -30,6 +30,13 @@ LookResult Without(Verdict verdict) {
 LookEvaluator::LookEvaluator(const HeadModel& head, const LookOptions& options)
     : head_(head), drift_options_(options.drift), edge_operator_(options.edges), finder_(options.finder) {}
 
+/// Edges that this look did not show stay where an earlier one saw them.
+void LookEvaluator::Remember(const LandmarkModel& model, const LandmarkFix& fix) {
+  EdgeShifts& seen = seen_[model.id];
+  if (seen.size() != model.edges.size()) seen = fix.edge_shifts;
+  for (const EdgeMatch& match : fix.matches) seen[match.edge] = fix.edge_shifts[match.edge];
+}
+
 LookResult LookEvaluator::Evaluate(const LookInput& input) {
   if (!input.model) return Without(Verdict::kNoModel);
   if (!input.robot) return Without(Verdict::kNoPose);
@@ -41,7 +48,8 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   const StereoViews views{MakeView(*left, edges_[0]), MakeView(*right, edges_[1])};
   const LandmarkPrediction expected = Predict(*input.robot, input.model->map_from_landmark);
   LookResult result;
-  result.fix = finder_.Find(*input.model, expected, views);
+  result.fix = finder_.Find(*input.model, expected, views, seen_[input.model->id]);
+  if (result.fix.verdict == Verdict::kFound) Remember(*input.model, result.fix);
   const int camera = CameraToShow(result.fix);
   result.view = ViewLandmark(*input.model, expected, result.fix, views[camera], camera);
   result.drift = MeasureLookDrift(*input.model, result.fix, views, drift_options_);

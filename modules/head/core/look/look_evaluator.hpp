@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 
 #include "common/frame_store.hpp"
@@ -36,7 +37,8 @@ struct LookOptions {
 };
 
 /// Evaluates looks: edges of both images, undistorted once, then the landmark, its view and the drift from
-/// the same views. Keeps its buffers, but nothing of earlier looks.
+/// the same views. Of earlier looks it keeps its buffers, and how far the edges of each landmark that was
+/// found lay off its model: where they are looked for.
 class LookEvaluator {
  public:
   LookEvaluator(const HeadModel& head, const LookOptions& options);
@@ -46,11 +48,14 @@ class LookEvaluator {
   LookResult Evaluate(const LookInput& input);
 
  private:
+  void Remember(const LandmarkModel& model, const LandmarkFix& fix);
+
   HeadModel head_;
   StereoDriftOptions drift_options_;
   EdgeOperator edge_operator_;
   LandmarkFinder finder_;
   std::array<EdgeImage, 2> edges_;
+  std::map<int, EdgeShifts> seen_;  ///< by the landmark's id
 };
 
 }  // namespace priamos::head

@@ -77,7 +77,7 @@ TEST_F(LandmarkFixTest, CovarianceIsCredible) {
 TEST_F(LandmarkFixTest, ADoorThatIsNotAsDrawnIsFoundWhereItsMiddleIs) {
   LandmarkFixOptions options;
   options.solver.model_sigma_m = 0.005;
-  options.solver.breadth_sigma_m = 0.008;
+  options.solver.breadth_sigma_m = 0.012;
   const LandmarkFinder finder(options);
   const Pose2 truth{2.8, 0.05, 0.02};
   for (const auto& [width_m, frame_m] : {std::pair{0.90, 0.063},
@@ -85,6 +85,7 @@ TEST_F(LandmarkFixTest, ADoorThatIsNotAsDrawnIsFoundWhereItsMiddleIs) {
                                          {0.895, 0.06},
                                          {0.89, 0.06},
                                          {0.88, 0.06},
+                                         {0.875, 0.06},
                                          {0.91, 0.055},
                                          {0.885, 0.066}}) {
     Find(test::DoorQuads(width_m, frame_m), truth, truth);
@@ -98,10 +99,31 @@ TEST_F(LandmarkFixTest, ADoorThatIsNotAsDrawnIsFoundWhereItsMiddleIs) {
   }
 }
 
+/// What is off by millimetres is off by more pixels from near, where fewer edges are in the pictures.
+TEST_F(LandmarkFixTest, WhereAnEarlierFixSawTheEdgesTheyAreFoundFromNearer) {
+  LandmarkFixOptions options;
+  options.solver.model_sigma_m = 0.005;
+  options.solver.breadth_sigma_m = 0.012;
+  const LandmarkFinder finder(options);
+  const auto look = [&](const Pose2& truth, const EdgeShifts& seen) {
+    Find(test::DoorQuads(0.872, 0.07), truth, truth);
+    return finder.Find(model_, {truth, kTwentyCentimetresFiveDegrees},
+                       {MakeView(left_, left_edges_), MakeView(right_, right_edges_)}, seen);
+  };
+  const LandmarkFix far = look({3.2, 0.05, 0.02}, {});
+  ASSERT_EQ(far.verdict, Verdict::kFound) << Describe(far.verdict);
+  ASSERT_EQ(far.edge_shifts.size(), model_.edges.size());
+  const Pose2 truth{2.3, 0.1, 0.04};
+  const LandmarkFix near = look(truth, far.edge_shifts);
+  ASSERT_EQ(near.verdict, Verdict::kFound) << Describe(near.verdict);
+  EXPECT_NEAR(near.base_from_landmark.y, truth.y, 0.005);
+  EXPECT_EQ(look(truth, EdgeShifts(3)).verdict, look(truth, {}).verdict) << "of another model";
+}
+
 TEST_F(LandmarkFixTest, ADoorOfAnotherWidthIsAnotherDoor) {
   LandmarkFixOptions options;
   options.solver.model_sigma_m = 0.005;
-  options.solver.breadth_sigma_m = 0.008;
+  options.solver.breadth_sigma_m = 0.012;
   const Pose2 truth{2.8, 0.05, 0.02};
   for (const double width_m : {0.80, 1.00}) {
     Find(test::DoorQuads(width_m), truth, truth);
