@@ -18,10 +18,10 @@ void KeepNoShaders() {
 }  // namespace
 
 GraphicsContext::GraphicsContext(int width_px, int height_px)
-    : width_px_(width_px),
-      height_px_(height_px),
-      frame_buffer_(static_cast<unsigned>(width_px), static_cast<unsigned>(height_px)),
-      program_(GraphicsMesh::CompileProgram()) {}
+    : frame_buffer_(static_cast<unsigned>(width_px), static_cast<unsigned>(height_px)),
+      program_(GraphicsMesh::CompileProgram()),
+      width_px_(width_px),
+      height_px_(height_px) {}
 
 std::shared_ptr<GraphicsContext> GraphicsContext::Hold(int width_px, int height_px) {
   thread_local std::weak_ptr<GraphicsContext> living;

@@ -23,9 +23,9 @@ class GraphicsContext {
   GraphicsContext(int width_px, int height_px);
 
  private:
-  int width_px_, height_px_;
   mrpt::opengl::CFBORender frame_buffer_;  // makes the context, so it is first to come and last to go
   mrpt::opengl::Program::Ptr program_;
+  int width_px_, height_px_;
 };
 
 }  // namespace priamos::world
