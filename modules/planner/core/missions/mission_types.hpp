@@ -92,6 +92,7 @@ enum class Phase {
 
 /// Why the robot stands on its path and does not go on by itself.
 struct Stop {
+  /// What stopped it: an obstacle before it, or something that it touched.
   enum class Cause { kBlocked, kTouched };
   Cause cause = Cause::kBlocked;
   std::string reason;  ///< a sentence
