@@ -31,6 +31,7 @@ LoadedWorld LoadWorld(const std::string& name, const std::function<std::string(c
   const std::string file = resolve(name);
   world.plan = LoadConfig<WorldPlan>(file);
   world.map = LoadConfig<GroundPlan>(resolve(world.plan.map));
+  world.doors = BuiltDoors(world.map, world.plan, seed);
   world.solids = BuildSolids(world.map, world.plan, seed);
   world.start = DrawStart(world.plan.start, seed);
   world.light = DrawLight(world.plan, seed);

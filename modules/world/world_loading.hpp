@@ -16,6 +16,7 @@ namespace priamos::world {
 struct LoadedWorld {
   WorldPlan plan;
   GroundPlan map;
+  std::vector<DoorPlan> doors;  ///< as they were built, in the order of the map
   std::vector<Solid> solids;
   Start start;
   SceneConfig light;

@@ -20,7 +20,8 @@ TrueWorld LoadTrueWorld(const std::string& folder, const Scenario& scenario, std
   const auto resolve = [&](const std::string& name) {
     return (std::filesystem::path(source.Folder()) / name).lexically_normal().string();
   };
-  return {body, world::LoadWorld(config.world, resolve, body, seed).solids};
+  auto loaded = world::LoadWorld(config.world, resolve, body, seed);
+  return {body, std::move(loaded.solids), std::move(loaded.doors)};
 }
 
 }  // namespace priamos::cli

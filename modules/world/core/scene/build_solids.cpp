@@ -45,9 +45,7 @@ double Reach(const DoorPlan& door) {
 class Builder {
  public:
   Builder(const GroundPlan& map, const WorldPlan& plan, std::uint64_t seed)
-      : map_(map), plan_(plan), rng_(Rng::Stream(seed, "furniture")) {
-    for (const auto& door : map.doors) doors_.push_back(AsBuilt(door, WorkOf(door)));
-  }
+      : map_(map), plan_(plan), rng_(Rng::Stream(seed, "furniture")), doors_(BuiltDoors(map, plan, seed)) {}
 
   std::vector<Solid> Build() {
     CheckNames();

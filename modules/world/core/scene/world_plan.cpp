@@ -122,6 +122,7 @@ void WorldPlan::Describe(Archive& a) {
            {"-", 0, 4, "lamps beside the lenses, 1 makes reference discs white"});
   a.List("surfaces", surfaces, "walls of another material");
   a.Section("skirting", skirting, "boards along the foot of every wall");
+  a.Section("survey", survey, "how wrong the map is, drawn from the seed");
   a.List("doors", doors, "leaf and true dimensions of the map's doors; a door not listed has no leaf");
   a.List("posters", posters, "flat things on walls");
   a.List("boxes", boxes, "furniture, columns, clutter");

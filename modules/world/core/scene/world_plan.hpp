@@ -9,6 +9,7 @@
 #include "world/core/scene/placed_reference.hpp"
 #include "world/core/scene/scene.hpp"
 #include "world/core/scene/solid.hpp"
+#include "world/core/scene/survey.hpp"
 
 namespace priamos::world {
 
@@ -102,6 +103,7 @@ struct WorldPlan {
   std::string wall_material = "plaster";
   std::vector<WallSurface> surfaces;
   SkirtingPlan skirting;
+  SurveyPlan survey;
   std::vector<DoorWork> doors;
   std::vector<PosterPlan> posters;
   std::vector<BoxPlan> boxes;
