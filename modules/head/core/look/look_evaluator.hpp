@@ -5,6 +5,7 @@
 
 #include "common/frame_store.hpp"
 #include "head/core/camera/head_model.hpp"
+#include "head/core/doors/leaf_sight.hpp"
 #include "head/core/drift/stereo_drift.hpp"
 #include "head/core/edges/edge_segments.hpp"
 #include "head/core/landmark/landmark_fix.hpp"
@@ -25,6 +26,7 @@ struct LookInput {
 struct LookResult {
   LandmarkFix fix;                   ///< the fix, base frame; its verdict gives the reason if there is none
   LandmarkView view;                 ///< edges that led to the verdict; empty without two usable images
+  std::optional<LeafSight> leaf;     ///< leaf of the door found; nullopt: no door was found
   std::optional<StereoDrift> drift;  ///< turn of the right camera; nullopt: this look does not determine it
 };
 
@@ -32,11 +34,12 @@ struct LookResult {
 struct LookOptions {
   EdgeOperator::Options edges;
   LandmarkFixOptions finder;
+  LeafOptions leaf;
   StereoDriftOptions drift;
 };
 
-/// Evaluates looks: edges of both images, undistorted once, then the landmark, its view and the drift from
-/// the same views. Keeps its buffers, but nothing of earlier looks.
+/// Evaluates looks: edges of both images, undistorted once, then the landmark, a door's leaf, its view and
+/// the drift from the same views. Keeps its buffers, but nothing of earlier looks.
 class LookEvaluator {
  public:
   LookEvaluator(const HeadModel& head, const LookOptions& options);
@@ -47,6 +50,7 @@ class LookEvaluator {
 
  private:
   HeadModel head_;
+  LeafOptions leaf_options_;
   StereoDriftOptions drift_options_;
   EdgeOperator edge_operator_;
   LandmarkFinder finder_;
