@@ -110,9 +110,11 @@ std::optional<Hypothesis> LeafOn(const Scene& scene, const Upright& edge, int hi
   return Hypothesis{hinge, open_rad, sigma_rad, -chi2 / 2};
 }
 
-/// Log odds of the covered share of an edge that should be seen: linear from none to nearly all.
+/// Log odds of the covered share of an edge that should be seen. A leaf may be as bright as what is behind
+/// it, so a part is missing often; the whole hardly ever.
 double OfShare(double share, double none, double all) {
-  return none + (all - none) * std::clamp((share - 0.2) / 0.65, 0.0, 1.0);
+  constexpr double kSome = 0.05, kMost = 0.6;
+  return none + (all - none) * std::clamp((share - kSome) / (kMost - kSome), 0.0, 1.0);
 }
 
 /// The expected image of an edge, as far as it is seen through the opening; nullopt: too little.
@@ -132,7 +134,7 @@ std::optional<Cover> BestCover(const Scene& scene, int camera, const std::vector
   for (const DoorEdge& edge : edges) {
     const auto expected = Expect(scene, camera, edge);
     if (!expected) continue;
-    const Cover cover = CoverOf(scene.views[camera], *expected);
+    const Cover cover = CoverOfAnyContrast(scene.views[camera], *expected);
     if (!best || cover.share > best->share) best = cover;
   }
   return best;

@@ -51,9 +51,8 @@ Cover Union(std::vector<Interval> pieces, double length_px) {
   return cover;
 }
 
-}  // namespace
-
-Cover CoverOf(const CameraView& view, const ExpectedLine& e, double beside_px) {
+/// What lines cover of `e`, by the sign of their contrast.
+std::array<std::vector<Interval>, 2> Pieces(const CameraView& view, const ExpectedLine& e, double beside_px) {
   std::array<std::vector<Interval>, 2> pieces;
   for (std::size_t i = 0; i < view.lines.size(); ++i) {
     auto piece = Along(view.lines[i], e, beside_px);
@@ -61,8 +60,21 @@ Cover CoverOf(const CameraView& view, const ExpectedLine& e, double beside_px) {
     piece->line = static_cast<int>(i);
     pieces[view.lines[i].normal.dot(e.normal) > 0].push_back(*piece);
   }
+  return pieces;
+}
+
+}  // namespace
+
+Cover CoverOf(const CameraView& view, const ExpectedLine& e, double beside_px) {
+  auto pieces = Pieces(view, e, beside_px);
   const Cover a = Union(std::move(pieces[0]), e.length_px), b = Union(std::move(pieces[1]), e.length_px);
   return a.share > b.share ? a : b;
+}
+
+Cover CoverOfAnyContrast(const CameraView& view, const ExpectedLine& e, double beside_px) {
+  auto pieces = Pieces(view, e, beside_px);
+  pieces[0].insert(pieces[0].end(), pieces[1].begin(), pieces[1].end());
+  return Union(std::move(pieces[0]), e.length_px);
 }
 
 }  // namespace priamos::head

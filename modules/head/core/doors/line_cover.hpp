@@ -18,7 +18,7 @@ struct ExpectedLine {
   }
 };
 
-/// The part of an expected image segment that image lines of one contrast sign cover.
+/// The part of an expected image segment that image lines cover.
 struct Cover {
   double share = 0;     ///< covered share of the segment
   double first_px = 0;  ///< where the cover begins, from the segment's beginning; negative: before it
@@ -29,5 +29,8 @@ struct Cover {
 /// The cover of `e` by image lines of the contrast sign that covers more; lines may lie `beside_px` beside
 /// it.
 Cover CoverOf(const CameraView& view, const ExpectedLine& e, double beside_px = 2.0);
+
+/// The same for an edge before things of any brightness: its contrast may change along it.
+Cover CoverOfAnyContrast(const CameraView& view, const ExpectedLine& e, double beside_px = 2.0);
 
 }  // namespace priamos::head
