@@ -25,7 +25,7 @@ struct LeafOptions {
   double least_rad = Radians(8), most_rad = Radians(118);  ///< angles beyond show nothing of the leaf
   double pin_sigma_m = 0.012;        ///< how well hinges and breadth of the leaf are known, each axis
   double gate = 3;                   ///< of the free edge from its circle about the hinges, in sigmas
-  double min_log_odds = 3;           ///< least log odds of a leaf that is seen
+  double min_log_odds = 1;           ///< least log odds of a leaf that is seen
   double min_lead = 2;               ///< log odds wanted over the best leaf at another angle
   double distinct_rad = Radians(4);  ///< angles farther apart are different
   VerticalStereoOptions stereo;

@@ -9,7 +9,7 @@ namespace {
 constexpr double kGate = 3;                  ///< sightings of one leaf differ by less, in sigmas ...
 constexpr double kBesides_rad = Radians(1);  ///< ... and this
 constexpr int kLeastLooks = 2;
-constexpr double kLeastLogOdds = 8;
+constexpr double kLeastLogOdds = 6;
 constexpr double kUnseenLogOdds = 1;  ///< of a look that shows no leaf, against there being one to see
 
 bool Agree(const LeafSighting& a, const LeafSighting& b) {

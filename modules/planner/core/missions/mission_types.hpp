@@ -101,6 +101,7 @@ enum class Phase {
 
 /// Why the robot stands on its path and does not go on by itself.
 struct Stop {
+  /// What made it stand.
   enum class Cause { kBlocked, kTouched };
   Cause cause = Cause::kBlocked;
   std::string reason;  ///< a sentence
