@@ -120,8 +120,8 @@ bool DoorMission::JudgeLeaf(MissionControl& control) {
       phase == Phase::kLookingLeft || phase == Phase::kLookingRight ||
       (phase == Phase::kPassing && -DistanceToDoor(control) < planner_.HoldX(*door_) + kTurnBack_m);
   if (!before) return false;
-  auto reason = LeafInTheWay();
-  if (reason) control.Fail(*std::move(reason));
+  const auto reason = LeafInTheWay();
+  if (reason) control.Fail(*reason);
   return reason.has_value();
 }
 
