@@ -8,6 +8,7 @@
 #include "priamos/camera_frame_t.hpp"
 #include "priamos/camera_trigger_t.hpp"
 #include "priamos/claim_t.hpp"
+#include "priamos/door_seen_t.hpp"
 #include "priamos/drive_command_t.hpp"
 #include "priamos/drive_status_t.hpp"
 #include "priamos/estop_t.hpp"
@@ -72,6 +73,7 @@ inline constexpr Channel<estop_t> kEstop{.name = "ESTOP",
 inline constexpr Channel<landmark_model_t> kLandmarkModel{"LANDMARK_MODEL", 0, milliseconds(0)};
 inline constexpr Channel<look_request_t> kLookRequest{"LOOK_REQUEST", 0, milliseconds(0)};
 inline constexpr Channel<landmark_fix_t> kLandmarkFix{"LANDMARK_FIX", 0, milliseconds(0)};
+inline constexpr Channel<door_seen_t> kDoorSeen{"DOOR_SEEN", 0, milliseconds(0)};
 inline constexpr Channel<landmark_view_t> kLandmarkView{"LANDMARK_VIEW", 0, milliseconds(0)};
 inline constexpr Channel<obstacle_line_t> kObstacleLine{"OBSTACLE_LINE", 5, milliseconds(1000)};
 
@@ -95,6 +97,6 @@ inline constexpr std::tuple kAll{
     kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
     kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
-    kBumper,        kOpening};
+    kBumper,        kOpening,      kDoorSeen};
 
 }  // namespace priamos::channels

@@ -42,6 +42,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       head_command_(context.node().Advertise(channels::kHeadCommand)),
       trigger_(context.node().Advertise(channels::kCameraTrigger)),
       fix_(context.node().Advertise(channels::kLandmarkFix)),
+      door_seen_(context.node().Advertise(channels::kDoorSeen)),
       view_(context.node().Advertise(channels::kLandmarkView)),
       obstacle_(context.node().Advertise(channels::kObstacleLine)) {
   if (config.mode == "calibrate") {
@@ -180,6 +181,7 @@ LookAnswer HeadApp::Evaluate(const Frames& frames) {
                                            report_->setting});
   answer.fix = std::move(result.fix);
   answer.view = std::move(result.view);
+  answer.leaf = result.leaf;
   if (result.drift) Judge(*result.drift);
   return answer;
 }
@@ -200,6 +202,7 @@ void HeadApp::Answer(LookAnswer answer) {
   if (const auto model = models_.find(order.landmark_id); model != models_.end())
     answer.map_from_landmark = model->second.map_from_landmark;
   fix_.Publish(ToMessage(answer));
+  if (const auto seen = DoorSeenMessage(answer)) door_seen_.Publish(*seen);
   view_.Publish(ViewMessage(answer));
   if (fix.verdict != Verdict::kFound) {
     context_.Log(bus::Level::kWarning, fmt::format("look {}: landmark {} not found: {}", order.request_id,

@@ -79,6 +79,7 @@ class HeadApp {
   bus::Publisher<head_command_t> head_command_;
   bus::Publisher<camera_trigger_t> trigger_;
   bus::Publisher<landmark_fix_t> fix_;
+  bus::Publisher<door_seen_t> door_seen_;
   bus::Publisher<landmark_view_t> view_;
   bus::Publisher<obstacle_line_t> obstacle_;
 };

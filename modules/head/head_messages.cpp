@@ -172,6 +172,19 @@ landmark_fix_t ToMessage(const LookAnswer& answer) {
   return message;
 }
 
+std::optional<door_seen_t> DoorSeenMessage(const LookAnswer& answer) {
+  if (!answer.leaf) return std::nullopt;
+  door_seen_t message{};
+  message.utime_exposure = ToUtime(answer.exposure);
+  message.request_id = answer.order.request_id;
+  message.landmark_id = static_cast<std::int16_t>(answer.order.landmark_id);
+  message.hinge = static_cast<std::int8_t>(answer.leaf->hinge);
+  message.open_rad = answer.leaf->open_rad;
+  message.sigma_rad = std::min(answer.leaf->sigma_rad, 0.5);
+  message.log_odds = std::clamp(answer.leaf->log_odds, -40.0, 40.0);
+  return message;
+}
+
 landmark_view_t ViewMessage(const LookAnswer& answer) {
   landmark_view_t message{};
   message.utime_exposure = ToUtime(answer.exposure);

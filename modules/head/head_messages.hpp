@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "head/core/doors/leaf_sight.hpp"
 #include "head/core/floor/obstacle_lines.hpp"
 #include "head/core/landmark/landmark.hpp"
 #include "head/core/landmark/landmark_fix.hpp"
@@ -28,8 +29,9 @@ struct LookAnswer {
   LookOrder order;
   Time exposure;
   LandmarkFix fix;
-  Pose2 map_from_landmark;  ///< pose of the landmark in its model, map frame
-  LandmarkView view;        ///< edges that led to the verdict
+  Pose2 map_from_landmark;        ///< pose of the landmark in its model, map frame
+  LandmarkView view;              ///< edges that led to the verdict
+  std::optional<LeafSight> leaf;  ///< leaf of the door found; nullopt: no door was found
 };
 
 HeadReport FromMessage(const head_state_t& message);
@@ -45,6 +47,8 @@ head_command_t ToMessage(const HeadSetting& setting, Time now);
 /// Order to expose `cameras`, given as bits: 1 left, 2 right, 4 third; 8 with the line laser on.
 camera_trigger_t TriggerMessage(std::int32_t frame_id, int cameras, Time now);
 landmark_fix_t ToMessage(const LookAnswer& answer);
+/// What the look shows of the door's leaf; nullopt unless it found a door.
+std::optional<door_seen_t> DoorSeenMessage(const LookAnswer& answer);
 /// The view as a message; edges that do not fit it, the last ones, are left out and counted.
 landmark_view_t ViewMessage(const LookAnswer& answer);
 /// The pieces as a message; of those that do not fit, kMissing ones are left out first, then the lowest. They

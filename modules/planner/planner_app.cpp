@@ -19,6 +19,7 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       fixes_(context.node().SubscribeAll(channels::kLandmarkFix)),
       corrections_(context.node().SubscribeAll(channels::kPoseCorrection)),
       openings_(context.node().SubscribeAll(channels::kOpening)),
+      leaves_(context.node().SubscribeAll(channels::kDoorSeen)),
       link_(context.node().Subscribe(channels::kLinkStatus)),
       model_(context.node().Advertise(channels::kLandmarkModel)),
       look_(context.node().Advertise(channels::kLookRequest)),
@@ -51,6 +52,7 @@ void PlannerApp::TakeReports(Time now) {
   if (const auto pose = poses_.Take()) missions_.OnPose(FromMessage(*pose));
   if (const auto drive = drive_.Take()) missions_.OnDrive(FromMessage(*drive), now);
   for (const auto& opening : openings_.Drain()) missions_.OnOpening(FromMessage(opening));
+  for (const auto& leaf : leaves_.Drain()) missions_.OnLeaf(FromMessage(leaf));
   for (const auto& fix : fixes_.Drain()) {
     if (const auto failure = FromMessage(fix)) missions_.OnLook(*failure);
     if (fix.verdict == landmark_fix_t::NO_MODEL) TeachLandmark(fix.landmark_id);

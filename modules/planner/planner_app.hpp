@@ -45,6 +45,7 @@ class PlannerApp {
   bus::Inbox<landmark_fix_t> fixes_;
   bus::Inbox<pose_correction_t> corrections_;
   bus::Inbox<opening_t> openings_;
+  bus::Inbox<door_seen_t> leaves_;
   bus::Latest<link_status_t> link_;
   bus::Publisher<landmark_model_t> model_;
   bus::Publisher<look_request_t> look_;

@@ -84,6 +84,18 @@ PassedOpening FromMessage(const opening_t& message) {
   return {FromUtime(message.utime), {message.x_m, message.y_m, message.yaw_rad}, message.width_m};
 }
 
+LeafSighting FromMessage(const door_seen_t& message) {
+  LeafSighting leaf{FromUtime(message.utime_exposure),
+                    message.landmark_id,
+                    "",
+                    message.open_rad,
+                    message.sigma_rad,
+                    message.log_odds};
+  if (message.hinge == door_seen_t::LEFT) leaf.hinge = "left";
+  if (message.hinge == door_seen_t::RIGHT) leaf.hinge = "right";
+  return leaf;
+}
+
 std::optional<LookResult> FromMessage(const landmark_fix_t& message) {
   if (message.verdict == landmark_fix_t::FOUND) return std::nullopt;
   return LookResult{message.request_id, false, std::string(FixVerdictText(message.verdict)),

@@ -12,6 +12,7 @@ MissionOrder FromMessage(const mission_command_t& message);
 RobotPose FromMessage(const pose_t& message);
 DriveReport FromMessage(const drive_status_t& message);
 PassedOpening FromMessage(const opening_t& message);
+LeafSighting FromMessage(const door_seen_t& message);
 
 /// What follows for a look from its fix alone: nothing yet when the landmark was found, because only the
 /// robot knows whether the pose could be corrected with it; a failure otherwise.

@@ -45,6 +45,24 @@ TEST(HeadMessagesTest, AViewComesBackAsItWas) {
   }
 }
 
+TEST(HeadMessagesTest, ALookThatFoundNoDoorSaysNothingOfALeaf) {
+  EXPECT_FALSE(DoorSeenMessage(Answer(1)));
+}
+
+TEST(HeadMessagesTest, ALeafIsToldWithItsLook) {
+  LookAnswer answer = Answer(1);
+  answer.leaf = LeafSight{LeafSight::Hinge::kRight, 0.8, 0.7, 55};
+  const auto message = DoorSeenMessage(answer);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->utime_exposure, 5'000'000);
+  EXPECT_EQ(message->request_id, 12);
+  EXPECT_EQ(message->landmark_id, 3);
+  EXPECT_EQ(message->hinge, door_seen_t::RIGHT);
+  EXPECT_EQ(message->open_rad, 0.8);
+  EXPECT_EQ(message->sigma_rad, 0.5) << "its bound";
+  EXPECT_EQ(message->log_odds, 40) << "its bound";
+}
+
 TEST(HeadMessagesTest, AFixTellsWhatOfItsCovarianceIsItsOwn) {
   LookAnswer answer = Answer(1);
   answer.fix.verdict = Verdict::kFound;

@@ -47,6 +47,26 @@ TEST(PlannerMessages, EveryDriveModeHasItsOwnMeaning) {
   EXPECT_EQ(FromMessage(message).mode, DriveMode::kIdle);
 }
 
+TEST(PlannerMessages, ALeafHangsWhereTheHeadSawItOrWasNotSeen) {
+  door_seen_t message{};
+  message.utime_exposure = 7'000'000;
+  message.landmark_id = 3;
+  message.open_rad = 0.8;
+  message.sigma_rad = 0.02;
+  message.log_odds = 6;
+  EXPECT_EQ(FromMessage(message).hinge, "");
+  message.hinge = door_seen_t::LEFT;
+  const LeafSighting left = FromMessage(message);
+  EXPECT_EQ(left.hinge, "left");
+  EXPECT_EQ(left.stamp, FromUtime(7'000'000));
+  EXPECT_EQ(left.landmark_id, 3);
+  EXPECT_EQ(left.open_rad, 0.8);
+  EXPECT_EQ(left.sigma_rad, 0.02);
+  EXPECT_EQ(left.log_odds, 6);
+  message.hinge = door_seen_t::RIGHT;
+  EXPECT_EQ(FromMessage(message).hinge, "right");
+}
+
 TEST(PlannerMessages, FoundLandmarkIsNotYetACorrectedPose) {
   landmark_fix_t message{};
   message.verdict = landmark_fix_t::FOUND;

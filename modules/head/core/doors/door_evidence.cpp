@@ -8,76 +8,10 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kBeside_px = 2.0;  ///< a line may lie so far beside where it is expected ...
-constexpr double kTurned = 0.04;    ///< ... and be so much turned [rad]
-constexpr double kBridge_px = 8;    ///< gaps in a line that count as covered
-constexpr double kBorder_px = 8;    ///< what ends here may go on outside of the picture
-constexpr double kHangs_m = 0.15;   ///< skirting and threshold hide no more than that of an upright
+constexpr double kBorder_px = 8;   ///< what ends here may go on outside of the picture
+constexpr double kHangs_m = 0.15;  ///< skirting and threshold hide no more than that of an upright
 constexpr double kSill_px = 4;
 constexpr double kNearestFrame_m = 0.025, kFarthestFrame_m = 0.25;
-
-/// A segment of the image that is expected.
-struct Expected {
-  Eigen::Vector2d p, direction, normal;
-  double length_px = 0;
-
-  Expected(const Eigen::Vector2d& from, const Eigen::Vector2d& to) : p(from), length_px((to - from).norm()) {
-    direction = (to - from) / length_px;
-    normal = {-direction.y(), direction.x()};
-  }
-};
-
-struct Interval {
-  double from, to;
-  int line = -1;
-};
-
-/// Where `line` runs along `e`, if it lies on it.
-std::optional<Interval> Along(const ViewLine& line, const Expected& e, double beside_px) {
-  const Eigen::Vector2d a = line.p - e.p, b = line.q - e.p;
-  const double s = e.direction.dot(a), t = e.direction.dot(b);
-  const Interval piece{std::min(s, t), std::max(s, t)};
-  if (piece.from > e.length_px || piece.to < 0) return std::nullopt;
-  const double da = e.normal.dot(a), db = e.normal.dot(b);
-  // Only what lies on the segment counts: a long line may go on beyond it.
-  if (std::abs(db - da) > kTurned * (piece.to - piece.from) + 0.5) return std::nullopt;
-  if (std::abs(da + db) / 2 > beside_px) return std::nullopt;
-  return piece;
-}
-
-Cover Union(std::vector<Interval> pieces, double length_px) {
-  if (pieces.empty()) return {};
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Interval& a, const Interval& b) { return a.from < b.from; });
-  double covered = 0, until = 0, longest = 0;
-  Cover cover{0, pieces[0].from, pieces[0].to};
-  for (const Interval& piece : pieces) {
-    const double from = std::max(piece.from - until < kBridge_px ? until : piece.from, until);
-    covered += std::max(0.0, std::min(piece.to, length_px) - from);
-    until = std::max(until, std::min(piece.to, length_px));
-    cover.last_px = std::max(cover.last_px, piece.to);
-    if (piece.to - piece.from > longest) {
-      longest = piece.to - piece.from;
-      cover.line = piece.line;
-    }
-  }
-  cover.share = covered / length_px;
-  cover.last_px -= length_px;
-  return cover;
-}
-
-/// The cover of `e` by image lines of the contrast sign that covers more.
-Cover CoverOf(const CameraView& view, const Expected& e, double beside_px = kBeside_px) {
-  std::array<std::vector<Interval>, 2> pieces;
-  for (std::size_t i = 0; i < view.lines.size(); ++i) {
-    auto piece = Along(view.lines[i], e, beside_px);
-    if (!piece) continue;
-    piece->line = static_cast<int>(i);
-    pieces[view.lines[i].normal.dot(e.normal) > 0].push_back(*piece);
-  }
-  const Cover a = Union(std::move(pieces[0]), e.length_px), b = Union(std::move(pieces[1]), e.length_px);
-  return a.share > b.share ? a : b;
-}
 
 Eigen::Vector2d Image(const CameraView& view, const Eigen::Vector2d& at, double z) {
   return view.camera->Project({at.x(), at.y(), z});
@@ -89,7 +23,7 @@ bool Inside(const CameraView& view, const Eigen::Vector2d& px) {
 }
 
 /// From the corner down as far as the picture goes.
-Expected UprightIn(const CameraView& view, const Eigen::Vector2d& corner, const Eigen::Vector2d& foot) {
+ExpectedLine UprightIn(const CameraView& view, const Eigen::Vector2d& corner, const Eigen::Vector2d& foot) {
   const Eigen::Vector2d direction = foot - corner, low = Eigen::Vector2d::Constant(kBorder_px),
                         high(view.size.width - 1 - kBorder_px, view.size.height - 1 - kBorder_px);
   double t = 1;
@@ -101,7 +35,7 @@ Expected UprightIn(const CameraView& view, const Eigen::Vector2d& corner, const 
 }
 
 /// The best second line parallel to `e`, between two distances to its `inner` side.
-double Nested(const CameraView& view, const Expected& e, const Eigen::Vector2d& inner, double near_px,
+double Nested(const CameraView& view, const ExpectedLine& e, const Eigen::Vector2d& inner, double near_px,
               double far_px) {
   double best = 0;
   const double side = inner.dot(e.normal) > 0 ? 1 : -1;
@@ -162,7 +96,7 @@ DoorEvidence WeighDoor(const CameraView& view, const DoorShape& door) {
     foot[i] = Image(view, *at[i], 0);
     metre_px[i] = (corner[i] - foot[i]).norm() / door.height_m;
   }
-  const Expected lintel(corner[0], corner[1]);
+  const ExpectedLine lintel(corner[0], corner[1]);
   e.lintel = CoverOf(view, lintel);
   e.frame_lintel =
       Nested(view, lintel, foot[0] - corner[0], kNearestFrame_m * std::min(metre_px[0], metre_px[1]),
@@ -170,7 +104,7 @@ DoorEvidence WeighDoor(const CameraView& view, const DoorShape& door) {
   const double slant = lintel.length_px / (door.left - door.right).norm();  // px per metre of width
   std::array<Eigen::Vector2d, 2> end;
   for (int i = 0; i < 2; ++i) {
-    const Expected upright = UprightIn(view, corner[i], foot[i]);
+    const ExpectedLine upright = UprightIn(view, corner[i], foot[i]);
     e.foot_inside[i] = Inside(view, foot[i]);
     e.uprights[i] = CoverOf(view, upright);
     e.hangs_m[i] = -e.uprights[i].last_px / metre_px[i];

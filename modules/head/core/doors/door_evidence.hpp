@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "head/core/doors/line_cover.hpp"
 #include "head/core/stereo/view_line.hpp"
 
 namespace priamos::head {
@@ -11,14 +12,6 @@ namespace priamos::head {
 struct DoorShape {
   Eigen::Vector2d left, right;  ///< uprights, base frame, as seen from the robot [m]
   double height_m = 0;
-};
-
-/// The part of an expected image segment that image lines of one contrast sign cover.
-struct Cover {
-  double share = 0;     ///< covered share of the segment
-  double first_px = 0;  ///< where the cover begins, from the segment's beginning; negative: before it
-  double last_px = 0;   ///< where the cover ends, from the segment's end; positive: beyond it
-  int line = -1;        ///< index in CameraView::lines of the one that covers most of it; -1: none
 };
 
 /// Evidence of one camera for or against a door.

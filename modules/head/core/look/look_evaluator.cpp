@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 
+#include "head/core/doors/model_door.hpp"
 #include "head/core/look/look_drift.hpp"
 
 namespace priamos::head {
@@ -28,7 +29,11 @@ LookResult Without(Verdict verdict) {
 }  // namespace
 
 LookEvaluator::LookEvaluator(const HeadModel& head, const LookOptions& options)
-    : head_(head), drift_options_(options.drift), edge_operator_(options.edges), finder_(options.finder) {}
+    : head_(head),
+      leaf_options_(options.leaf),
+      drift_options_(options.drift),
+      edge_operator_(options.edges),
+      finder_(options.finder) {}
 
 /// Edges that this look did not show stay where an earlier one saw them.
 void LookEvaluator::Remember(const LandmarkModel& model, const LandmarkFix& fix) {
@@ -49,7 +54,11 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   const LandmarkPrediction expected = Predict(*input.robot, input.model->map_from_landmark);
   LookResult result;
   result.fix = finder_.Find(*input.model, expected, views, seen_[input.model->id]);
-  if (result.fix.verdict == Verdict::kFound) Remember(*input.model, result.fix);
+  if (result.fix.verdict == Verdict::kFound) {
+    Remember(*input.model, result.fix);
+    if (const auto door = DoorOf(*input.model))
+      result.leaf = SeeLeaf(*door, result.fix.base_from_landmark, views, leaf_options_);
+  }
   const int camera = CameraToShow(result.fix);
   result.view = ViewLandmark(*input.model, expected, result.fix, views[camera], camera);
   result.drift = MeasureLookDrift(*input.model, result.fix, views, drift_options_);

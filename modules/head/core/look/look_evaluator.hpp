@@ -6,6 +6,7 @@
 
 #include "common/frame_store.hpp"
 #include "head/core/camera/head_model.hpp"
+#include "head/core/doors/leaf_sight.hpp"
 #include "head/core/drift/stereo_drift.hpp"
 #include "head/core/edges/edge_segments.hpp"
 #include "head/core/landmark/landmark_fix.hpp"
@@ -26,6 +27,7 @@ struct LookInput {
 struct LookResult {
   LandmarkFix fix;                   ///< the fix, base frame; its verdict gives the reason if there is none
   LandmarkView view;                 ///< edges that led to the verdict; empty without two usable images
+  std::optional<LeafSight> leaf;     ///< leaf of the door found; nullopt: no door was found
   std::optional<StereoDrift> drift;  ///< turn of the right camera; nullopt: this look does not determine it
 };
 
@@ -33,12 +35,13 @@ struct LookResult {
 struct LookOptions {
   EdgeOperator::Options edges;
   LandmarkFixOptions finder;
+  LeafOptions leaf;
   StereoDriftOptions drift;
 };
 
-/// Evaluates looks: edges of both images, undistorted once, then the landmark, its view and the drift from
-/// the same views. Of earlier looks it keeps its buffers, and how far the edges of each landmark that was
-/// found lay off its model: where they are looked for.
+/// Evaluates looks: edges of both images, undistorted once, then the landmark, a door's leaf, its view and
+/// the drift from the same views. Of earlier looks it keeps its buffers, and how far the edges of each
+/// landmark that was found lay off its model: where they are looked for.
 class LookEvaluator {
  public:
   LookEvaluator(const HeadModel& head, const LookOptions& options);
@@ -51,6 +54,7 @@ class LookEvaluator {
   void Remember(const LandmarkModel& model, const LandmarkFix& fix);
 
   HeadModel head_;
+  LeafOptions leaf_options_;
   StereoDriftOptions drift_options_;
   EdgeOperator edge_operator_;
   LandmarkFinder finder_;

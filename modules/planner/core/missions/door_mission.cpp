@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/core/path/leaf_clearance.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -22,6 +24,11 @@ constexpr double kStart_s = 3.0;
 constexpr double kBothNear_m = 0.30;
 /// An opening that was passed so near to the door is the door.
 constexpr double kAtDoor_m = 0.5;
+
+/// A leaf is refused when it would be too narrow even if it stood open so many sigmas wider.
+constexpr double kSure = 2;
+/// Up to this far beyond the hold point the robot can still end before the door; then it goes on.
+constexpr double kTurnBack_m = 0.5;
 
 double Speed(const RobotPose& pose) {
   return std::hypot(pose.velocity.vx, pose.velocity.vy);
@@ -79,12 +86,14 @@ std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
   arrived_.reset();
   blocked_ = 0;
   looks_.Reset();
+  leaf_.Reset();
   if (!door_) return Refusal{fmt::format("the map has no door {}", order.landmark_id)};
   return std::nullopt;
 }
 
 void DoorMission::Step(MissionControl& control) {
   for (const LookResult& result : control.heard().looks) looks_.OnResult(result);
+  if (JudgeLeaf(control)) return;
   switch (control.state().phase) {
     case Phase::kWaiting:
       return Wait(control);
@@ -101,6 +110,29 @@ void DoorMission::Step(MissionControl& control) {
     case Phase::kFailed:
       break;
   }
+}
+
+bool DoorMission::JudgeLeaf(MissionControl& control) {
+  for (const LeafSighting& leaf : control.heard().leaves)
+    if (leaf.landmark_id == door_->id && leaf.stamp >= control.started()) leaf_.Add(leaf);
+  const Phase phase = control.state().phase;
+  const bool before =
+      phase == Phase::kLookingLeft || phase == Phase::kLookingRight ||
+      (phase == Phase::kPassing && -DistanceToDoor(control) < planner_.HoldX(*door_) + kTurnBack_m);
+  if (!before) return false;
+  const auto reason = LeafInTheWay();
+  if (reason) control.Fail(*reason);
+  return reason.has_value();
+}
+
+std::optional<std::string> DoorMission::LeafInTheWay() const {
+  const auto leaf = leaf_.Estimate();
+  if (!leaf) return std::nullopt;
+  const double widest_m = FreeWidth(*door_, leaf->hinge, leaf->open_rad + kSure * leaf->sigma_rad);
+  if (widest_m >= planner_.NeededWidth()) return std::nullopt;
+  return fmt::format("door '{}' stands open only {:.0f} degrees: {:.2f} m are free, {:.2f} m needed",
+                     door_->name, Degrees(leaf->open_rad), FreeWidth(*door_, leaf->hinge, leaf->open_rad),
+                     planner_.NeededWidth());
 }
 
 void DoorMission::Wait(MissionControl& control) {
@@ -218,6 +250,7 @@ void DoorMission::Retreat(MissionControl& control) {
 void DoorMission::TryAgain(MissionControl& control) {
   if (give_up_) return control.Fail(Advised(stopped_by_));
   looks_.Reset();
+  leaf_.Reset();
   judge_ = false;
   LookFromHere(control);
 }

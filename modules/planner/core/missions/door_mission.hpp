@@ -5,6 +5,7 @@
 
 #include "common/archive.hpp"
 #include "common/time.hpp"
+#include "planner/core/missions/leaf_belief.hpp"
 #include "planner/core/missions/look_sequence.hpp"
 #include "planner/core/missions/mission.hpp"
 #include "planner/core/path/door_planner.hpp"
@@ -37,7 +38,8 @@ struct DoorMissionConfig {
 /// turn left and right, while the robot comes nearer; at the hold point it stops by itself. On the first part
 /// of the passage the looks go on: each one sharpens the pose with which the robot follows its path. A robot
 /// that is stopped in the door goes back to the hold point, and tries again unless it touched something: the
-/// doorway is left free.
+/// doorway is left free. When the looks agree that the leaf leaves too narrow a way, the mission ends before
+/// the door.
 class DoorMission : public Mission {
  public:
   DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner, const Footprint& footprint,
@@ -61,6 +63,10 @@ class DoorMission : public Mission {
   void Arrive(MissionControl& control);
   void Retreat(MissionControl& control);
   void TryAgain(MissionControl& control);
+  /// Why the leaf leaves no way for the base; nullopt: it does, or nobody knows.
+  std::optional<std::string> LeafInTheWay() const;
+  /// Takes what the looks show of the leaf; true when the mission has ended because of it.
+  bool JudgeLeaf(MissionControl& control);
   bool DoorWasNoticed(const MissionControl& control) const;
   /// Takes the outcome of a look; true when it succeeded.
   bool SettleLook(MissionControl& control);
@@ -79,6 +85,7 @@ class DoorMission : public Mission {
   const DoorPlan* door_ = nullptr;
   Time entered_{};  ///< when the approach began
   LookSequence looks_;
+  LeafBelief leaf_;
   std::optional<Time> arrived_;  ///< when it was behind the door by its pose
   int blocked_ = 0;              ///< how often it was blocked in the door
   std::string stopped_by_;       ///< why it was stopped in the door

@@ -16,6 +16,7 @@ struct Heard {
   std::optional<DriveReport> drive;      ///< newest
   std::optional<Time> corrected;         ///< stamp of the newest pose correction since the mission's start
   std::optional<PassedOpening> opening;  ///< newest since the mission's start
+  std::vector<LeafSighting> leaves;      ///< leaves of doors seen since the last time step, in order
   std::vector<LookResult> looks;         ///< answers to looks since the last time step, in order
 };
 

@@ -63,6 +63,7 @@ MissionActions MissionTable::Tick(Time now) {
   control_.now_ = now;
   if (running()) Step(*missions_.at(kind_));
   control_.heard_.looks.clear();
+  control_.heard_.leaves.clear();
   return std::exchange(control_.actions_, {});
 }
 

@@ -29,6 +29,7 @@ class MissionTable {
   void OnLook(const LookResult& result) { control_.heard_.looks.push_back(result); }
   /// Notes that the robot's pose was corrected at `stamp`: older poses are not used for planning any more.
   void OnCorrected(Time stamp);
+  void OnLeaf(const LeafSighting& leaf) { control_.heard_.leaves.push_back(leaf); }
   void OnOpening(const PassedOpening& opening) { control_.heard_.opening = opening; }
   void OnLink(bool up) { control_.heard_.link_up = up; }
 

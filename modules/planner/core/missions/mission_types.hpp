@@ -48,6 +48,15 @@ struct PassedOpening {
   double width_m = 0;   ///< at most
 };
 
+/// What one look showed of a door's leaf.
+struct LeafSighting {
+  Time stamp;  ///< exposure
+  int landmark_id = 0;
+  std::string hinge;  ///< "left" or "right"; empty: the look showed no leaf
+  double open_rad = 0, sigma_rad = 0;
+  double log_odds = 0;  ///< of this leaf against other things
+};
+
 /// Outcome of a look: from the head (not found) or from the robot (applied or refused).
 struct LookResult {
   int request_id = 0;

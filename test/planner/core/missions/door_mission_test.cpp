@@ -75,6 +75,44 @@ TEST(DoorMission, AnOpeningElsewhereOrOfAnEarlierMissionIsNotThisDoor) {
   }
 }
 
+LeafSighting Leaf(double open_deg) {
+  return {Time{}, 1, "left", Radians(open_deg), Radians(0.7), 6};
+}
+
+TEST(DoorMission, ALeafInTheWayIsRefusedBeforeTheDoor) {
+  Story s;
+  s.robot.leaf = Leaf(45);
+  s.Start();
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_EQ(s.dut.state().text,
+            "door 'laboratory' stands open only 45 degrees: 0.24 m are free, 0.80 m needed");
+  EXPECT_LT(s.robot.truth().x, 6 - 0.085 - 0.475 - 1);
+}
+
+TEST(DoorMission, ALeafThatLeavesTheWayFreeOrMayDoSoIsNoReasonToRefuse) {
+  for (const double deg : {92.0, 84.0}) {
+    Story s;
+    s.robot.leaf = Leaf(deg);
+    s.Start();
+    s.robot.RunFor(60);
+    EXPECT_EQ(s.dut.state().phase, Phase::kDone) << deg << ": " << s.dut.state().text;
+  }
+}
+
+TEST(DoorMission, TheLeafOfAnotherDoorOrOfAnEarlierMissionIsNotThisOne) {
+  for (LeafSighting other : {LeafSighting{FromUtime(1'020'000'000), 2, "left", Radians(45), 0.01, 9},
+                             LeafSighting{FromUtime(999'000'000), 1, "left", Radians(45), 0.01, 9}}) {
+    Story s;
+    s.Start();
+    s.robot.RunUntil(Phase::kLookingRight);
+    s.dut.OnLeaf(other);
+    s.dut.OnLeaf(other);
+    s.robot.RunFor(60);
+    EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  }
+}
+
 TEST(DoorMission, AfterATouchItGoesBackAndEnds) {
   Story s;
   s.Start();

@@ -25,6 +25,8 @@ class FakeRobot {
   std::function<LookResult(const LookOrder&, int n)> answer = [](const LookOrder& look, int) {
     return LookResult{look.request_id, true, "", false};
   };
+  /// The leaf that every look shows; none by default.
+  std::optional<LeafSighting> leaf;
   bool silent = false;   ///< nothing comes through in either direction
   bool blocked = false;  ///< stands before an obstacle
   bool touched = false;  ///< stands because it touched something
@@ -138,6 +140,10 @@ class FakeRobot {
       error = {};
       sigma_m = sigma_after_m;
       sigma_yaw_rad = sigma_yaw_after_rad;
+    }
+    if (result.ok && leaf) {
+      leaf->stamp = now_;
+      Later([this, leaf = *leaf] { mission_.OnLeaf(leaf); });
     }
     Later([this, result, stamp = now_] {
       mission_.OnLook(result);
