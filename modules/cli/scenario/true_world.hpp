@@ -13,7 +13,7 @@ namespace priamos::cli {
 struct TrueWorld {
   world::Body body;
   std::vector<world::Solid> solids;
-  std::vector<DoorPlan> doors;  ///< as they were built
+  std::vector<DoorPlan> doors{};  ///< as they were built
 };
 
 /// The world as the scenario's process `world` draws it from `seed`; empty if the scenario has none. `folder`
