@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/report/report_door.hpp"
 #include "cli/report/report_fix_panel.hpp"
 #include "cli/report/report_plan_view.hpp"
 #include "cli/report/report_table.hpp"
@@ -103,7 +104,7 @@ Box BeginPanel(Drawing& page, const Box& panel, const std::string& title) {
 void DrawPassage(Drawing& page, const Box& panel, const RunRecord& record, const RunInfo& info,
                  const Scene& scene) {
   constexpr double kScale = 210, kEvery_m = 0.06, kNear_m = 2, kOpacity = 0.04;
-  const Pose2 map_from_door = info.door.map_from_door();
+  const Pose2 map_from_door = BuiltDoor(info).map_from_door();
   MapView view(page, BeginPanel(page, panel, "in the door"), map_from_door.translation(), kScale);
   const Vector2d reach(3, 3);
   DrawFloor(view, {map_from_door.translation() - reach, map_from_door.translation() + reach});
@@ -175,7 +176,7 @@ Drawing DrawRun(const RunRecord& record, const Summary& summary, const RunInfo& 
   DrawFixErrors(page,
                 BeginPanel(page, {kMargin + width + kMargin, panels, width, kPanelHeight},
                            "belief − truth at the fixes"),
-                record);
+                OnPlan(record, info));
   // After all that it explains.
   const Box legend = BeginPanel(page, {kMargin, panels + kPanelHeight + 30, kInner, 60}, "legend");
   const double height = drawing::WriteLegend(page, legend.x, legend.y, kInner, {kBodyFont, kInk});

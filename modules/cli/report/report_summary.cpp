@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/report/report_door.hpp"
 #include "cli/report/report_timeline.hpp"
 #include "common/time.hpp"
 
@@ -105,26 +106,6 @@ bool EndsBehind(const RunRecord& record, const DoorPlan& door) {
   return (door.map_from_door().Inverse() * Eigen::Vector2d(last.x_m, last.y_m)).x() > door.BackX();
 }
 
-/// The door that was to be passed, as it was built.
-DoorPlan BuiltDoor(const RunInfo& info) {
-  const auto built = std::find_if(info.world.doors.begin(), info.world.doors.end(),
-                                  [&](const DoorPlan& door) { return door.id == info.door.id; });
-  return built == info.world.doors.end() ? info.door : *built;
-}
-
-/// The record with the truth as the robot sees it, whose place is that of the door on the plan: where the
-/// plan is wrong, a pose that is right at the door is off on the plan.
-RunRecord OnPlan(RunRecord record, const DoorPlan& planned, const DoorPlan& built) {
-  const Pose2 plan_from_map = planned.map_from_door() * built.map_from_door().Inverse();
-  for (world_truth_t& truth : record.truth) {
-    const Pose2 pose = plan_from_map * Pose2{truth.x_m, truth.y_m, truth.yaw_rad};
-    truth.x_m = pose.x;
-    truth.y_m = pose.y;
-    truth.yaw_rad = pose.yaw;
-  }
-  return record;
-}
-
 template <class T>
 nlohmann::ordered_json Json(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
@@ -157,7 +138,6 @@ nlohmann::ordered_json ToJson(const HandSummary& hand) {
 
 Summary Summarise(const RunRecord& record, const RunInfo& info) {
   const DoorPlan built = BuiltDoor(info);
-  const RunRecord on_plan = OnPlan(record, info.door, built);
   const MissionSpan span = SpanOf(record);
   const auto crossing = CrossingOf(record, built.map_from_door());
   Summary summary;
@@ -178,7 +158,7 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   summary.duration_s = Seconds(Duration(span.end_utime - span.begin_utime));
   summary.mean_speed_m_s = MeanSpeed(record);
   summary.min_speed_during_fix_m_s = SlowestDuringFixes(record);
-  summary.fixes = FixesOf(on_plan, span.begin_utime);
+  summary.fixes = FixesOf(OnPlan(record, info), span.begin_utime);
   summary.hand = HandSummaryOf(record, info.world, built);
   summary.up = RadioOf(record.onboard_link);
   summary.down = RadioOf(record.offboard_link);

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "cli/report/report_record.hpp"
+#include "cli/report/report_summary.hpp"
+#include "common/ground_plan.hpp"
+
+namespace priamos::cli {
+
+/// The door that was to be passed, as it was built; as drawn when the world of the run is not known.
+DoorPlan BuiltDoor(const RunInfo& info);
+
+/// The record with the truth as the robot knows it: by its place at the door. Where the plan is wrong, a pose
+/// that is right at the door is off in the map.
+RunRecord OnPlan(RunRecord record, const RunInfo& info);
+
+}  // namespace priamos::cli
