@@ -34,13 +34,14 @@ LinkOptions Packets(double bytes_per_s, Duration overhead, std::size_t packet, s
           .packet_bytes = packet};
 }
 
-/// Channels of all classes but commands, which a slow radio cannot prove fresh.
+constexpr Duration kTtl{3'000'000};
+
+/// Channels of all classes, at rates of about one message per `unit_s`.
 std::vector<LinkChannel> ChannelsFor(double unit_s) {
   std::vector<LinkChannel> channels = TestChannels();
-  channels.erase(channels.begin() + kDriveDown);
   for (LinkChannel& c : channels) {
     c.rate_hz = 1 / unit_s;
-    c.ttl = Duration::zero();
+    c.ttl = c.channel_class == ChannelClass::kCommand ? kTtl : Duration::zero();
     if (c.max_bits > 8 * 100) c.max_bits = 8 * 40;
     if (c.fixed_bits > 8 * 20) c.fixed_bits = c.max_bits = 8 * 20;
   }
@@ -158,6 +159,9 @@ class PacketWorld {
     std::size_t number = 0;
     for (std::size_t b = 0; b < 4; ++b) number |= std::to_integer<std::size_t>(d.packed.at(b)) << 8 * b;
     ++received[d.channel];
+    if (channels_[d.channel].channel_class == ChannelClass::kCommand) {
+      EXPECT_LE(now_ - at_[d.channel].at(number), kTtl);
+    }
     Measure(d.channel, at_[d.channel].at(number));
   }
 
