@@ -31,6 +31,7 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, D
   analysis.Solve(other, Seconds(options.line_delay));
   DirectionBudget budget;
   budget.direction = direction;
+  budget.longest_frame_bytes = analysis.LongestFrameBytes();
   budget.control_bytes_per_s = analysis.ControlBytesPerSecond();
   budget.bytes_per_s = budget.control_bytes_per_s;
   budget.capacity_bytes_per_s = options.bytes_per_s * analysis.share();
@@ -99,6 +100,16 @@ void CheckDirection(const ChannelTable& table, const DirectionBudget& budget,
   }
 }
 
+void CheckPackets(const DirectionBudget& budget, std::size_t packet_bytes,
+                  std::vector<std::string>& problems) {
+  if (packet_bytes == 0 || budget.longest_frame_bytes <= packet_bytes) return;
+  problems.push_back(
+      fmt::format("radio link {}: expected frames of at most {} byte, the mtu_bytes, got {} byte: lower "
+                  "max_bundle_bytes, or send the longest messages of class state or command as events, which "
+                  "go in segments",
+                  NameOf(budget.direction), packet_bytes, budget.longest_frame_bytes));
+}
+
 /// In the largest unit of which there is at least one.
 std::string FormatLongTime(double seconds) {
   constexpr double kDay_s = 86400, kYear_s = 365.25 * kDay_s;
@@ -132,6 +143,8 @@ Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options) {
                 .forgery_s = ForgerySeconds(options.bytes_per_s, table.code_bytes())};
   CheckDirection(table, budget.up, budget.problems);
   CheckDirection(table, budget.down, budget.problems);
+  for (const DirectionBudget* d : {&budget.up, &budget.down})
+    CheckPackets(*d, options.packet_bytes, budget.problems);
   return budget;
 }
 

@@ -47,7 +47,8 @@ struct DirectionBudget {
   double control_bytes_per_s = 0;   ///< load of the acknowledgements
   double bytes_per_s = 0;           ///< load of everything
   double capacity_bytes_per_s = 0;  ///< capacity of the line; half-duplex: what the other end leaves of it
-  double utilisation = 0;           ///< `bytes_per_s` over `capacity_bytes_per_s`
+  std::size_t longest_frame_bytes = 0;  ///< with the whole counter
+  double utilisation = 0;               ///< `bytes_per_s` over `capacity_bytes_per_s`
 };
 
 /// Load of both directions, and why the configuration cannot be used.

@@ -39,9 +39,10 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
       direction_(direction),
       byte_s_(1 / options.bytes_per_s),
       datagrams_(options.datagrams),
+      packets_(options.packets()),
       ageing_s_(Seconds(options.ageing)),
       frame_bytes_(FrameOverhead(table.code_bytes()) +
-                   (options.datagrams ? kDatagramHead : kLeadingDelimiter) +
+                   (options.datagrams ? options.HeadBytes() : kLeadingDelimiter) +
                    (table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0)),
       ahead_s_((options.ahead_bytes + 4) * byte_s_),
       keep_alive_s_(Seconds(options.keep_alive)) {
@@ -56,6 +57,10 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
   if (options.half_duplex.turn > Duration::zero()) ShareTheAir(options);
   capacity_bits_ = 8 * bundle_bytes - control_bits_;
   frame_s_ = FrameSeconds(8 * largest + control_bits_);
+  const double longest_bits = std::min(8 * largest + control_bits_, 8.0 * kMaxBundleBytes);
+  const std::size_t beside = frame_bytes_ - (options.datagrams ? options.HeadBytes() : kLeadingDelimiter);
+  longest_bytes_ = std::max(
+      kHelloFrameBytes, beside + kWholeCounterBytes + static_cast<std::size_t>(std::ceil(longest_bits / 8)));
   overhead_ =
       1 + static_cast<double>(frame_bytes_ - (options.datagrams ? 0 : kLeadingDelimiter)) / bundle_bytes;
 }
@@ -142,7 +147,7 @@ double DirectionAnalysis::NextSeconds(const ChannelLoad& load) const {
 }
 
 double DirectionAnalysis::AheadSeconds() const {
-  return ahead_s_ + kTick_s;
+  return ahead_s_ + kTick_s + (packets_ ? frame_s_ : 0);
 }
 
 /// When work that takes `work_s` on the line is done.
@@ -216,7 +221,7 @@ bool DirectionAnalysis::GoesBefore(const ChannelLoad& other, const ChannelLoad& 
 }
 
 double DirectionAnalysis::Urgent(const ChannelLoad& load) const {
-  double blocking_s = 0;
+  double blocking_s = packets_ ? frame_s_ : 0;
   for (const ChannelLoad& other : loads_)
     if (other.urgent && &other != &load) blocking_s = std::max(blocking_s, FrameSeconds(other.bits));
   return Converge([&](double window_s) {

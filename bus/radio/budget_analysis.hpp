@@ -53,7 +53,9 @@ class DirectionAnalysis {
   double NextSeconds(const ChannelLoad& load) const;
   /// Longest time from the end of a frame to the end of the next one.
   double SilenceSeconds() const { return std::max(keep_alive_s_, gap_s_) + frame_s_; }
-  /// Time by which a byte may be handed over before it leaves.
+  /// Bytes of the longest frame, with the whole counter, as a packet must hold it.
+  std::size_t LongestFrameBytes() const { return longest_bytes_; }
+  /// Time by which a byte may be handed over before it leaves; of a packet, before all of it has left.
   double AheadSeconds() const;
 
  private:
@@ -78,6 +80,7 @@ class DirectionAnalysis {
   Direction direction_;
   double byte_s_;
   bool datagrams_;
+  bool packets_;  ///< an urgent frame waits for the end of the one on the air
   double ageing_s_;
   std::size_t frame_bytes_;  ///< bytes of a frame besides its bundle
   double ahead_s_;
@@ -85,6 +88,7 @@ class DirectionAnalysis {
   double control_bits_ = 0;
   double capacity_bits_ = 0;
   double frame_s_ = 0;
+  std::size_t longest_bytes_ = 0;
   double turn_s_ = 1;  ///< length of a turn; without turns 1, with gap_s_ = 0
   double gap_s_ = 0;
   double repeat_s_ = 0;                ///< time until an urgent event of this direction is acknowledged

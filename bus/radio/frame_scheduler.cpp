@@ -26,7 +26,7 @@ FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sea
       sealer_(sealer),
       options_(options),
       transmitter_(options, now),
-      turns_(options.half_duplex, onboard, now),
+      turns_(options.Turns(), onboard, now),
       repetition_(now),
       last_data_(now - options.keep_alive) {}
 
@@ -68,7 +68,7 @@ bool FrameScheduler::MustCut(const FrameSources& from, Time now) const {
 bool FrameScheduler::MaySend(const FrameSources& from, Time now) const {
   if (transmitter_.Allows(now)) return true;
   // A datagram cannot be cut off by an urgent one, which therefore does not wait for what is charged to it.
-  return options_.datagrams && from.memory.epoch() != 0 && from.outbox.queue().UrgentReady(now);
+  return options_.instant() && from.memory.epoch() != 0 && from.outbox.queue().UrgentReady(now);
 }
 
 bool FrameScheduler::Build(FrameSources from, Time now) {
@@ -206,19 +206,21 @@ std::optional<Time> FrameScheduler::EchoedAt(const FrameSources& from) const {
 
 /// A longer frame with a command in it would come too late for it, on a line that is as slow as it was last.
 std::size_t FrameScheduler::BytesUntil(Time until, const FrameSources& from, Time now) const {
-  if (options_.datagrams) return kMaxBundleBytes;  // they go whole
+  if (options_.instant()) return kMaxBundleBytes;  // they go whole
   const Pacer& pacer = transmitter_.pacer();
   const Duration left =
       until - std::max(pacer.free_at(), now) - from.peer.sent.last_round_trip() - kProofMargin;
-  const std::int64_t bytes = left / pacer.WireTime(1) - static_cast<std::int64_t>(sealer_.overhead());
+  const std::int64_t bytes =
+      left / pacer.WireTime(1) - static_cast<std::int64_t>(options_.HeadBytes() + sealer_.overhead());
   return static_cast<std::size_t>(std::max<std::int64_t>(bytes, 0));
 }
 
 bool FrameScheduler::EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const {
   if (!turns_.enabled()) return false;
   const Pacer& pacer = transmitter_.pacer();
-  const Duration longest = pacer.WireTime(options_.max_bundle_bytes + sealer_.overhead());
-  if (turns_.MustEnd(pacer.LeavesAt(frame_bytes, now), longest)) return true;
+  const Duration longest =
+      pacer.WireTime(options_.HeadBytes() + options_.max_bundle_bytes + sealer_.overhead());
+  if (turns_.MustEnd(pacer.LeavesAt(options_.HeadBytes() + frame_bytes, now), longest)) return true;
   return !from.inbox.AckDue() && from.outbox.queue().Ready(now).empty();
 }
 

@@ -129,7 +129,7 @@ void LinkConfig::Describe(Archive& a) {
             {"byte", 0, 16,
              "written ahead of the line: more fills gaps of a busy computer, less lets urgent messages pass "
              "sooner"});
-  a.Integer("max_bundle_bytes", max_bundle_bytes, {"byte", 60, 240, "messages sent together in one frame"});
+  a.Integer("max_bundle_bytes", max_bundle_bytes, {"byte", 30, 240, "messages sent together in one frame"});
   a.Number("keep_alive_s", keep_alive_s, {"s", 0.05, 10, "longest silence of an end"});
   a.Number("silence_s", silence_s, {"s", 0.1, 60, "the link is down when nothing came for so long"});
   a.Number("ageing_s", ageing_s, {"s", 0.05, 600, "a waiting message gains one level of priority per this"});
@@ -144,6 +144,11 @@ void LinkConfig::Describe(Archive& a) {
        "they are refused"});
   a.Flag("datagrams", datagrams,
          "an IP link: one frame per UDP datagram, whose 28 bytes of head count as sent");
+  a.Choice("medium", medium, {"bytes", "packet"},
+           "packet: a radio that sends packets, through a bridge that takes one per UDP datagram");
+  a.Number("packet_overhead_s", packet_overhead_s,
+           {"s", 0, 5, "packet: time on air of a packet beside its frame: preamble and header"});
+  a.Integer("mtu_bytes", mtu_bytes, {"byte", 50, 255, "packet: largest packet of the radio, a frame in it"});
   a.Integer("code_bytes", code_bytes,
             {"byte", 0, 8,
              "4, 6 or 8: authentication code of a frame; 0: the shortest that keeps a line full of forgeries "
@@ -154,9 +159,16 @@ void LinkConfig::Describe(Archive& a) {
   a.List("channel", channels,
          "the channels that cross the link; their order is part of what both ends agree on");
   if (code_bytes % 2 != 0 || code_bytes == 2) a.Refuse("code_bytes", "4, 6, 8, or 0 for the default");
-  const double longest_bytes = max_bundle_bytes + 1 + static_cast<double>(FrameOverhead(CodeBytes()));
+  const double longest_bytes = max_bundle_bytes + 1 + static_cast<double>(FrameOverhead(CodeBytes())) +
+                               packet_overhead_s * BytesPerSecond();
   if (half_duplex_turn_s > 0 && half_duplex_turn_s < 2 * longest_bytes / BytesPerSecond())
     a.Refuse("half_duplex_turn_s", "0, or time for at least two frames of max_bundle_bytes");
+  if (medium == "packet" && packet_overhead_s <= 0)
+    a.Refuse("packet_overhead_s", "more than 0 with medium \"packet\"");
+  if (medium == "packet" && datagrams)
+    a.Refuse("datagrams", "false: with medium \"packet\" a frame goes whole in any case");
+  if (medium != "packet" && packet_overhead_s > 0)
+    a.Refuse("packet_overhead_s", "0, other than with medium \"packet\"");
   if (silence_s <= keep_alive_s) a.Refuse("silence_s", "more than keep_alive_s");
 }
 
@@ -167,8 +179,8 @@ double LinkConfig::BytesPerSecond() const {
 
 std::size_t LinkConfig::CodeBytes() const {
   if (code_bytes > 0) return static_cast<std::size_t>(code_bytes);
-  // Over IP a stranger's tries are not limited by the rate of the link.
-  return datagrams ? kLongCodeBytes : DefaultCodeBytes(BytesPerSecond());
+  // Over IP, also to the bridge of a radio, a stranger's tries are not limited by the rate of the link.
+  return Options().datagrams ? kLongCodeBytes : DefaultCodeBytes(BytesPerSecond());
 }
 
 LinkOptions LinkConfig::Options() const {
@@ -182,7 +194,9 @@ LinkOptions LinkConfig::Options() const {
           .ageing = FromSeconds(ageing_s),
           .half_duplex = {FromSeconds(half_duplex_turn_s), FromSeconds(turnaround_s)},
           .line_delay = FromSeconds(line_delay_s),
-          .datagrams = datagrams};
+          .datagrams = datagrams || medium == "packet",
+          .packet_overhead = FromSeconds(packet_overhead_s),
+          .packet_bytes = medium == "packet" ? static_cast<std::size_t>(mtu_bytes) : 0};
 }
 
 ChannelTable LinkConfig::Table(const Schema& schema) const {

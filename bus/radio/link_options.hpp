@@ -19,6 +19,21 @@ struct LinkOptions {
   /// Delay of both directions of the line together, which the budget reckons with.
   Duration line_delay{100'000};
   bool datagrams = false;  ///< a frame goes whole, in one datagram, whose head counts as sent
+  /// Time on air of a packet beside its frame: preamble and header. Above 0 the datagrams are packets of a
+  /// radio: a packet occupies the air until it has ended, also for what is urgent.
+  Duration packet_overhead{};
+  /// Largest packet of the radio, a frame in it whole; 0: as long as any frame.
+  std::size_t packet_bytes = 0;
+
+  /// Whether a frame goes in a packet of a radio, which nothing can cut off.
+  bool packets() const { return datagrams && packet_overhead > Duration::zero(); }
+  /// Whether a frame leaves at the time it is handed over: a datagram of an IP link.
+  bool instant() const { return datagrams && !packets(); }
+  /// Bytes that a datagram takes on the line beside its frame; 0 where frames are no datagrams.
+  std::size_t HeadBytes() const;
+  /// The turns of the radio. A receiver hears nothing of a packet before it has ended, and must not take the
+  /// turn meanwhile.
+  HalfDuplex Turns() const;
 };
 
 /// Time in which the other end, whose frames have codes of `code_bytes`, can send half of the frames that an

@@ -15,7 +15,10 @@ constexpr std::size_t kIdleBytes = 16;
 }  // namespace
 
 Transmitter::Transmitter(const LinkOptions& options, Time now)
-    : pacer_(options.bytes_per_s, options.ahead_bytes, now), datagrams_(options.datagrams) {}
+    : pacer_(options.bytes_per_s, options.ahead_bytes, now),
+      datagrams_(options.datagrams),
+      instant_(options.instant()),
+      head_bytes_(options.HeadBytes()) {}
 
 bool Transmitter::WorthCutting() const {
   return busy() && wire_.size() - next_ > kNotWorthCutting;
@@ -24,7 +27,7 @@ bool Transmitter::WorthCutting() const {
 void Transmitter::Begin(std::vector<std::byte> wire, Time now) {
   wire_ = std::move(wire);
   next_ = 0;
-  for (std::size_t i = 0; datagrams_ && i < kDatagramHead; ++i) pacer_.Use(now);
+  for (std::size_t i = 0; i < head_bytes_; ++i) pacer_.Use(now);
   if (!datagrams_ && pacer_.Idle(now) >= pacer_.WireTime(kIdleBytes)) wire_.insert(wire_.begin(), kDelimiter);
 }
 
@@ -42,7 +45,7 @@ void Transmitter::Cut(Time now, std::vector<std::byte>& out) {
 }
 
 Duration Transmitter::OnTheWay(std::size_t bytes) const {
-  return datagrams_ ? Duration::zero() : pacer_.WireTime(bytes);
+  return instant_ ? Duration::zero() : pacer_.WireTime(head_bytes_ + bytes);
 }
 
 Duration Transmitter::Occupies(std::size_t bytes) const {
@@ -50,7 +53,7 @@ Duration Transmitter::Occupies(std::size_t bytes) const {
 }
 
 Time Transmitter::LeavesAt(std::size_t bytes, Time now) const {
-  return datagrams_ ? now : pacer_.LeavesAt(bytes, now);
+  return instant_ ? now : pacer_.LeavesAt(head_bytes_ + bytes, now);
 }
 
 void Transmitter::Put(std::byte byte, Time now, std::vector<std::byte>& out) {

@@ -32,7 +32,7 @@ class Transmitter {
   /// Aborts the frame. The part that has left is ended by a delimiter, so that the receiver discards it.
   void Cut(Time now, std::vector<std::byte>& out);
 
-  /// Time that `bytes` take on the line; 0 for a datagram.
+  /// Time that the `bytes` of a frame take on the line, a packet's overhead included; 0 for a datagram of IP.
   Duration OnTheWay(std::size_t bytes) const;
   /// Time for which a frame of so many bytes occupies the line, head of a datagram included.
   Duration Occupies(std::size_t bytes) const;
@@ -47,6 +47,8 @@ class Transmitter {
 
   Pacer pacer_;
   bool datagrams_;
+  bool instant_;                 ///< a datagram leaves when it is handed over
+  std::size_t head_bytes_;       ///< charged to a datagram beside its bytes
   std::vector<std::byte> wire_;  ///< the frame, delimiter included
   std::size_t next_ = 0;         ///< first byte of `wire_` that has not left
   std::uint64_t bytes_sent_ = 0;

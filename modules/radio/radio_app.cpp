@@ -86,9 +86,9 @@ void RadioApp::OpenLine() {
   }
   NetAddress address = ParseNetAddress(config_.port);
   address.loopback_only = link_config_.simulation_key;
-  if (address.datagrams != link_config_.datagrams)
+  if (address.datagrams != link_config_.Options().datagrams)
     throw ConfigError(fmt::format("radio link: datagrams: expected {} with port {}, got {}",
-                                  address.datagrams, config_.port, link_config_.datagrams));
+                                  address.datagrams, config_.port, link_config_.Options().datagrams));
   net_ = OpenNetPort(address);
 }
 

@@ -10,6 +10,7 @@ namespace priamos::bus::radio {
 struct HalfDuplex {
   Duration turn{};        ///< longest time that an end sends; 0: full duplex
   Duration turnaround{};  ///< time after its own last byte in which an end cannot receive
+  Duration unheard{};     ///< longest time that an end sends before anything of it is heard: a packet
 };
 
 /// Turns on a half-duplex radio: which end may send, and until when. An end sends "over" in its last frame;
@@ -33,8 +34,8 @@ class TurnTaking {
   /// Takes the turn when the other end has been silent for too long; `latency` is that of the line.
   void Step(Time now, Duration latency) {
     if (!enabled() || mine_) return;
-    const Duration patience = 2 * mode_.turnaround + 2 * latency + kSilence;
-    const Duration first_byte = mode_.turnaround + 2 * latency + kSilence;
+    const Duration patience = 2 * mode_.turnaround + 2 * latency + kSilence + mode_.unheard;
+    const Duration first_byte = mode_.turnaround + 2 * latency + kSilence + mode_.unheard;
     const Duration wait = patience + (onboard_ ? first_byte : Duration::zero());
     if (now < heard_ + (1 + missed_) * wait) return;
     missed_ = std::min(missed_ + 1, kMostMissed);

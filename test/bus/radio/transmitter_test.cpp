@@ -98,6 +98,23 @@ TEST(Transmitter, ADatagramGoesWholeAndPaysForItsHead) {
   EXPECT_EQ(dut.LeavesAt(50, kStart), kStart);
 }
 
+TEST(Transmitter, APacketOccupiesTheAirUntilItEnds) {
+  Transmitter dut({.bytes_per_s = 1000,
+                   .ahead_bytes = 2,
+                   .datagrams = true,
+                   .packet_overhead = Duration(40'000),
+                   .packet_bytes = 100},
+                  kStart);
+  dut.Begin(Frame(50), kStart);
+  std::vector<std::byte> out;
+  dut.Emit(kStart, out);
+  EXPECT_EQ(out, Frame(50));
+  EXPECT_FALSE(dut.Allows(kStart + Duration(87'000)));
+  EXPECT_TRUE(dut.Allows(kStart + Duration(88'000)));
+  EXPECT_EQ(dut.OnTheWay(50), Duration(90'000));
+  EXPECT_EQ(dut.LeavesAt(50, kStart), kStart + Duration(180'000));
+}
+
 RC_GTEST_PROP(Transmitter, NeverMoreThanTheLineCarries, (std::uint64_t seed)) {
   Rng rng(seed);
   const LinkOptions options{.bytes_per_s = rng.Uniform(100, 10'000),

@@ -42,6 +42,17 @@ TEST_P(ExplorationOfOneAccident, KeepsEveryPromise) {
 INSTANTIATE_TEST_SUITE_P(Parts, ExplorationOfOneAccident,
                          testing::Combine(testing::Bool(), testing::Range(std::size_t{0}, kParts)));
 
+class ExplorationOfAPacketRadio : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(ExplorationOfAPacketRadio, KeepsEveryPromise) {
+  const ExploredWorld world{.datagrams = true, .packet_overhead = Duration(5000)};
+  const Explored explored = Explore(world, 1, GetParam(), kParts);
+  EXPECT_GE(explored.runs, 100U);
+  EXPECT_THAT(explored.findings, IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Parts, ExplorationOfAPacketRadio, testing::Range(std::size_t{0}, kParts));
+
 class ExplorationOfARekey : public testing::TestWithParam<std::tuple<bool, std::size_t>> {};
 
 TEST_P(ExplorationOfARekey, KeepsEveryPromiseAndChangesTheKeyWhateverHappensOnce) {

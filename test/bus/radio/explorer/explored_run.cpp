@@ -62,6 +62,7 @@ bool ExploredRun::Exploring() const {
 void ExploredRun::Start(End& end) {
   LinkOptions options;
   options.datagrams = world_.datagrams;
+  options.packet_overhead = world_.packet_overhead;
   end.link = std::make_unique<LinkEndpoint>(
       ChannelTable(TestChannels(), false), end.outgoing, kKey, options, end.store,
       [](std::size_t, std::span<const std::byte> encoded, Time) {
@@ -132,7 +133,11 @@ void ExploredRun::EndFrame(End& from, End& to) {
                     changed ? kNextKey : kKey);
   const Accident* accident = AccidentHere(PlaceKind::kFrame);
   if (accident != nullptr && *accident == Accident::kLost) return;
-  Time arrival = now_ + kLatency + (accident != nullptr ? DelayBy(*accident) : Duration{});
+  const Duration air = world_.packet_overhead > Duration::zero()
+                           ? world_.packet_overhead +
+                                 FromSeconds(static_cast<double>(frame.size()) / LinkOptions{}.bytes_per_s)
+                           : Duration::zero();
+  Time arrival = now_ + air + kLatency + (accident != nullptr ? DelayBy(*accident) : Duration{});
   if (!world_.datagrams) arrival = to.last_arrival = std::max(to.last_arrival, arrival);
   to.arriving.emplace(arrival, frame);
   if (accident != nullptr && *accident == Accident::kTwice) to.arriving.emplace(arrival + kAgainAfter, frame);

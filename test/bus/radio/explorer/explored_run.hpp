@@ -46,6 +46,7 @@ struct Mishap {
 /// The world that is explored.
 struct ExploredWorld {
   bool datagrams = false;             ///< a network that reorders, not a serial line
+  Duration packet_overhead{};         ///< with datagrams: packets of a radio, with so much time on air beside
   Duration end_places_every{20'000};  ///< distance of the places at which an end can fail
   bool rekey = false;  ///< the offboard end begins with a next key, the onboard end is started again with it
 };
