@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/report/report_record.hpp"
-#include "cli/report/report_summary.hpp"
+#include "cli/report/run_info.hpp"
 #include "common/ground_plan.hpp"
 
 namespace priamos::cli {

@@ -8,8 +8,7 @@
 
 #include "cli/report/report_hand.hpp"
 #include "cli/report/report_record.hpp"
-#include "cli/scenario/true_world.hpp"
-#include "common/ground_plan.hpp"
+#include "cli/report/run_info.hpp"
 
 namespace priamos::cli {
 
@@ -38,12 +37,6 @@ struct RadioSummary {
   std::vector<ChannelSummary> channels;  ///< for the table; not in summary.json
 };
 
-/// A line that was shown while the run went on.
-struct StoryLine {
-  double t_s = 0;  ///< since the start of the run
-  std::string text;
-};
-
 /// Result of one run: summary.json, the same from the demo and from lockstep.
 struct Summary {
   std::string scenario;
@@ -66,17 +59,6 @@ struct Summary {
   // Not in summary.json.
   double pose_age_s = 0;         ///< median age of a pose at the workstation
   std::vector<StoryLine> story;  ///< in order of time
-};
-
-/// What the record itself does not contain about a run.
-struct RunInfo {
-  std::string scenario;
-  std::uint64_t seed = 0;
-  double realtime_factor = 1;
-  DoorPlan door;                 ///< the door that was to be passed, from the ground plan
-  std::string reason;            ///< last line of the story
-  std::vector<StoryLine> story;  ///< the lines shown meanwhile
-  TrueWorld world;               ///< the simulated world of the run
 };
 
 /// An empty record gives a summary that has not passed.
