@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/config.hpp"
+#include "world/core/scene/built_doors.hpp"
 
 namespace priamos::world {
 namespace {

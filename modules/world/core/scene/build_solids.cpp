@@ -8,6 +8,7 @@
 
 #include "common/archive.hpp"
 #include "common/random.hpp"
+#include "world/core/scene/built_doors.hpp"
 
 namespace priamos::world {
 namespace {

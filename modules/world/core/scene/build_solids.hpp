@@ -14,9 +14,6 @@ namespace priamos::world {
 /// when the world names a wall or door that the map does not have, or a door stands in no wall.
 std::vector<Solid> BuildSolids(const GroundPlan& map, const WorldPlan& plan, std::uint64_t seed);
 
-/// The door as it was built.
-DoorPlan AsBuilt(DoorPlan door, const DoorWork& work);
-
 /// Frame, leaf and threshold of one door, from its landmark frame. Names begin with the door's name.
 std::vector<Solid> DoorSolids(const DoorPlan& built, const DoorWork& work, double open_deg);
 

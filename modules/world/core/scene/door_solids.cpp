@@ -45,20 +45,6 @@ Solid Leaf(const DoorPlan& door, const DoorWork& work, double open_deg) {
 
 }  // namespace
 
-DoorPlan AsBuilt(DoorPlan door, const DoorWork& work) {
-  const Pose2 built =
-      door.map_from_door() * Pose2{work.built_dx_m, work.built_dy_m, Radians(work.built_dyaw_deg)};
-  door.x_m = built.x;
-  door.y_m = built.y;
-  door.yaw_deg = Degrees(built.yaw);
-  door.opening_width_m += work.built_dwidth_m;
-  door.opening_height_m += work.built_dheight_m;
-  door.frame_width_m += work.built_dframe_m;
-  door.frame_protrusion_m += work.built_dprotrusion_m;
-  door.wall_thickness_m += work.built_dthickness_m;
-  return door;
-}
-
 std::vector<Solid> DoorSolids(const DoorPlan& built, const DoorWork& work, double open_deg) {
   std::vector<Solid> solids;
   AddFrame(solids, built);

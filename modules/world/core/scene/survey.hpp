@@ -1,14 +1,8 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "common/archive.hpp"
-#include "common/ground_plan.hpp"
 
 namespace priamos::world {
-
-struct WorldPlan;
 
 /// How wrong the map is: whoever measured the building had a tape and a few hours. Drawn from the seed for
 /// each door, and told to nobody.
@@ -20,9 +14,5 @@ struct SurveyPlan {
 
   void Describe(Archive& a);
 };
-
-/// The doors of the map as they were built, in its order: with the errors of the world's survey and what the
-/// world says of each door.
-std::vector<DoorPlan> BuiltDoors(const GroundPlan& map, const WorldPlan& plan, std::uint64_t seed);
 
 }  // namespace priamos::world

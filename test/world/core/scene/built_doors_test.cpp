@@ -1,10 +1,8 @@
-#include "world/core/scene/survey.hpp"
+#include "world/core/scene/built_doors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "world/core/scene/world_plan.hpp"
 
 namespace priamos::world {
 namespace {
@@ -27,7 +25,7 @@ WorldPlan Surveyed() {
   return plan;
 }
 
-TEST(Survey, WithoutErrorsTheDoorsAreAsDrawn) {
+TEST(BuiltDoors, WithoutErrorsTheDoorsAreAsDrawn) {
   const GroundPlan map = TwoDoors();
   const auto built = BuiltDoors(map, {}, 7);
   ASSERT_EQ(built.size(), 2U);
@@ -35,7 +33,7 @@ TEST(Survey, WithoutErrorsTheDoorsAreAsDrawn) {
   EXPECT_EQ(built[1].opening_width_m, map.doors[1].opening_width_m);
 }
 
-TEST(Survey, EveryDoorIsOffByItsOwnErrorsWithinTheBounds) {
+TEST(BuiltDoors, EveryDoorIsOffByItsOwnErrorsWithinTheBounds) {
   const GroundPlan map = TwoDoors();
   double narrowest_m = 1, off_m = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -56,7 +54,7 @@ TEST(Survey, EveryDoorIsOffByItsOwnErrorsWithinTheBounds) {
   EXPECT_LT(narrowest_m, -0.02);
 }
 
-TEST(Survey, WhatTheWorldSaysOfADoorIsAddedAndTheSeedDecidesTheRest) {
+TEST(BuiltDoors, WhatTheWorldSaysOfADoorIsAddedAndTheSeedDecidesTheRest) {
   WorldPlan plan = Surveyed();
   const double drawn_m = BuiltDoors(TwoDoors(), plan, 3)[1].opening_width_m;
   plan.doors.emplace_back();
@@ -66,7 +64,7 @@ TEST(Survey, WhatTheWorldSaysOfADoorIsAddedAndTheSeedDecidesTheRest) {
   EXPECT_NE(BuiltDoors(TwoDoors(), plan, 4)[1].opening_width_m, drawn_m - 0.1);
 }
 
-TEST(Survey, AFrameKeepsSomeBreadth) {
+TEST(BuiltDoors, AFrameKeepsSomeBreadth) {
   GroundPlan map = TwoDoors();
   map.doors[0].frame_width_m = 0.004;
   map.doors[0].frame_protrusion_m = 0.004;
