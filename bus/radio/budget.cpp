@@ -8,6 +8,7 @@
 #include "bus/radio/budget_analysis.hpp"
 #include "bus/radio/channels/bundle.hpp"
 #include "bus/radio/frame/forgery.hpp"
+#include "bus/radio/shared_budget.hpp"
 #include "common/config.hpp"
 
 namespace priamos::bus::radio {
@@ -27,7 +28,12 @@ FreshnessProof ProofOf(const LinkChannel& channel, double next_s, const Directio
 
 DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, Direction direction) {
   DirectionAnalysis analysis(table, options, direction);
-  const DirectionAnalysis other(table, options, Opposite(direction));
+  DirectionAnalysis other(table, options, Opposite(direction));
+  if (options.robots > 0) {
+    const PollBounds bounds = PollBoundsOf(table, options);
+    analysis.SetPolled(bounds, options.robots);
+    other.SetPolled(bounds, options.robots);
+  }
   analysis.Solve(other, Seconds(options.line_delay));
   DirectionBudget budget;
   budget.direction = direction;
@@ -139,8 +145,14 @@ Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options) {
   Budget budget{.up = Analyse(table, options, Direction::kUp),
                 .down = Analyse(table, options, Direction::kDown),
                 .problems = {},
+                .polls = {},
                 .code_bytes = table.code_bytes(),
                 .forgery_s = ForgerySeconds(options.bytes_per_s, table.code_bytes())};
+  if (options.robots > 0) {
+    budget.polls = PollBoundsOf(table, options);
+    budget.robots = options.robots;
+    budget.problems = SharedProblems(table, options);
+  }
   CheckDirection(table, budget.up, budget.problems);
   CheckDirection(table, budget.down, budget.problems);
   for (const DirectionBudget* d : {&budget.up, &budget.down})
@@ -170,6 +182,7 @@ std::string FormatBudget(const ChannelTable& table, const Budget& budget) {
                             table.at(row.channel).name, Seconds(row.proof->age()),
                             Seconds(table.at(row.channel).ttl));
   }
+  if (budget.robots > 0) text += FormatPollBounds(budget.polls, budget.robots);
   text +=
       fmt::format("codes of {} bytes: of a line full of forged frames, one is accepted within {} with 50 %\n",
                   budget.code_bytes, FormatLongTime(budget.forgery_s));

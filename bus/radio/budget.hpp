@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bus/radio/channels/channel_table.hpp"
+#include "bus/radio/line/polling.hpp"
 #include "bus/radio/link_options.hpp"
 
 /// Load and worst-case latencies that a link's configuration asks of the line, computed before anything is
@@ -55,6 +56,8 @@ struct DirectionBudget {
 struct Budget {
   DirectionBudget up, down;
   std::vector<std::string> problems;  ///< one sentence each; empty when the configuration holds
+  int robots = 0;                     ///< on a channel that they share; 0: a link of two ends
+  PollBounds polls{};                 ///< of a shared channel
   std::size_t code_bytes = 0;         ///< length of the codes of data frames
   double forgery_s = 0;               ///< ForgerySeconds of this line with such codes
 };
@@ -65,6 +68,9 @@ struct Budget {
 /// that overtake by ageing are counted among those. On a half-duplex radio an end may only talk in its turns:
 /// the other end's longest turn is added for every own turn that the transmission needs (periodic resource
 /// model, Shin and Lee, Real-Time Systems Symposium 2003).
+///
+/// On a channel that several robots share, each turn is one frame: a message takes as many cycles of polls as
+/// frames go before it.
 ///
 /// A command is proven fresh by an echo of the receiver's own frames, so that its age counts from the other
 /// direction as well. Its time-to-live must hold what a command takes that is the next to go, the delay of

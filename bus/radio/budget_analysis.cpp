@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bus/radio/channels/bundle.hpp"
+#include "bus/radio/channels/entry_sizes.hpp"
 #include "bus/radio/frame/coded_block.hpp"
 #include "bus/radio/line/repetition.hpp"
 
@@ -41,9 +42,9 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
       datagrams_(options.datagrams),
       packets_(options.packets()),
       ageing_s_(Seconds(options.ageing)),
-      frame_bytes_(FrameOverhead(table.code_bytes()) +
-                   (options.datagrams ? options.HeadBytes() : kLeadingDelimiter) +
-                   (table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0)),
+      frame_bytes_(
+          FrameOverhead(table.code_bytes()) + (options.datagrams ? options.HeadBytes() : kLeadingDelimiter) +
+          (table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0) + (options.robots > 0 ? 1 : 0)),
       ahead_s_((options.ahead_bytes + 4) * byte_s_),
       keep_alive_s_(Seconds(options.keep_alive)) {
   const auto bundle_bytes = static_cast<double>(options.max_bundle_bytes);
@@ -51,22 +52,26 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (table.at(i).direction != direction) continue;
     loads_.push_back(LoadOf(i));
-    largest = std::max(largest, std::ceil(loads_.back().entry_bits / 8));
+    largest_bits_ = std::max(largest_bits_, loads_.back().entry_bits);
   }
+  largest = std::max(largest, std::ceil(largest_bits_ / 8));
   control_bits_ = ControlBits();
+  if (options.robots > 0) ConfineTo(options.max_bundle_bytes, largest);
   if (options.half_duplex.turn > Duration::zero()) ShareTheAir(options);
   capacity_bits_ = 8 * bundle_bytes - control_bits_;
   frame_s_ = FrameSeconds(8 * largest + control_bits_);
   const double longest_bits = std::min(8 * largest + control_bits_, 8.0 * kMaxBundleBytes);
   const std::size_t beside = frame_bytes_ - (options.datagrams ? options.HeadBytes() : kLeadingDelimiter);
-  longest_bytes_ = std::max(
-      kHelloFrameBytes, beside + kWholeCounterBytes + static_cast<std::size_t>(std::ceil(longest_bits / 8)));
+  longest_bytes_ =
+      std::max(kHelloFrameBytes + (options.robots > 0 ? 1 : 0),
+               beside + kWholeCounterBytes + static_cast<std::size_t>(std::ceil(longest_bits / 8)));
   overhead_ =
       1 + static_cast<double>(frame_bytes_ - (options.datagrams ? 0 : kLeadingDelimiter)) / bundle_bytes;
 }
 
 double DirectionAnalysis::ControlBytesPerSecond() const {
-  double bits = kFrameAcks_hz * (table_.id_bits() + kFrameAckBits);
+  const double acks_hz = robots_ > 0 ? std::min(kFrameAcks_hz, 1 / Seconds(polled_.cycle)) : kFrameAcks_hz;
+  double bits = acks_hz * (table_.id_bits() + kFrameAckBits);
   for (std::size_t i = 0; i < table_.size(); ++i) {
     const LinkChannel& c = table_.at(i);
     if (c.direction == direction_ || c.channel_class != ChannelClass::kEvent || c.urgent) continue;
@@ -81,6 +86,8 @@ double DirectionAnalysis::ControlBytesPerSecond() const {
 }
 
 double DirectionAnalysis::BytesPerSecond(const ChannelLoad& load) const {
+  if (robots_ > 0 && load.command) return 0;  // the newest, in frames that a robot gets beside its share
+  if (robots_ > 0) return load.bits / 8 * overhead_ * load.keys / load.period_s;
   const double bytes = load.repeated ? AllFramesSeconds(load) / byte_s_ : load.bits / 8 * overhead_;
   return bytes * load.keys / load.period_s;
 }
@@ -90,30 +97,18 @@ ChannelLoad DirectionAnalysis::LoadOf(std::size_t index) const {
   ChannelLoad load;
   load.channel = index;
   load.urgent = c.urgent;
+  load.newest_only = c.channel_class != ChannelClass::kEvent;
+  load.command = c.channel_class == ChannelClass::kCommand;
   load.repeated = c.urgent && c.channel_class == ChannelClass::kEvent;
   load.priority = c.priority;
   load.period_s = c.rate_hz > 0 ? 1 / c.rate_hz : std::numeric_limits<double>::infinity();
   load.burst = c.burst;
   load.keys = c.max_keys;
-  SetEntries(c, load);
+  const EntrySizes sizes = SizesOf(table_, index);
+  load.entries = sizes.entries;
+  load.entry_bits = sizes.entry_bits;
+  load.bits = sizes.bits;
   return load;
-}
-
-void DirectionAnalysis::SetEntries(const LinkChannel& c, ChannelLoad& load) const {
-  const double body_bytes = std::ceil(c.max_bits / 8.0);
-  const double body_bits = c.fixed_bits > 0 ? c.fixed_bits + (c.delta.empty() ? 0 : 1) : 8 + 8 * body_bytes;
-  if (c.channel_class != ChannelClass::kEvent) {
-    const int age_bits = c.channel_class == ChannelClass::kCommand ? 6 : 0;
-    load.bits = load.entry_bits = table_.id_bits() + age_bits + body_bits;
-    return;
-  }
-  load.entries = std::max(1.0, std::ceil(body_bytes / kSegmentBytes));
-  const bool one_segment = c.fixed_bits > 0 && load.entries == 1;
-  // Each as if it began a run, and with the bit that ends it.
-  const double head_bits = table_.id_bits() + 8 + (one_segment ? 1 : 3) + (c.urgent ? 0 : 1);
-  load.bits =
-      load.entries == 1 ? head_bits + 12 + body_bits : load.entries * head_bits + 12 + 5 + 8 * body_bytes;
-  load.entry_bits = std::min(load.bits, head_bits + 12 + 5 + 8.0 * kSegmentBytes);
 }
 
 /// Acknowledgements that can be in one frame before the messages.
@@ -142,7 +137,45 @@ void DirectionAnalysis::ShareTheAir(const LinkOptions& options) {
   control_bits_ += table_.id_bits() + kControlKindBits;  // "over"
 }
 
+/// On a shared channel no message makes a frame longer, and acknowledgements leave room for one.
+void DirectionAnalysis::ConfineTo(std::size_t bundle_bytes, double& largest_bytes) {
+  const double over_bits = table_.id_bits() + kControlKindBits + 1;
+  const double bits = 8 * static_cast<double>(bundle_bytes);
+  control_bits_ = std::min(control_bits_ + over_bits, std::max(0.0, bits - largest_bits_));
+  largest_bytes = (bits - control_bits_) / 8;
+}
+
+void DirectionAnalysis::SetPolled(const PollBounds& bounds, int robots) {
+  polled_ = bounds;
+  robots_ = robots;
+  turn_s_ = Seconds(LongestFrameTime());
+  gap_s_ = Seconds(bounds.cycle) - turn_s_;
+}
+
+std::size_t DirectionAnalysis::SmallestBundleBytes() const {
+  const double over_bits = table_.id_bits() + kControlKindBits + 1;
+  const double ack_bits = table_.id_bits() + kFrameAckBits + 2 * table_.id_bits() + kEventAckBits;
+  return static_cast<std::size_t>(std::ceil((largest_bits_ + ack_bits + over_bits) / 8));
+}
+
+Duration DirectionAnalysis::LongestFrameTime() const {
+  return FromSeconds(static_cast<double>(longest_bytes_ + kLeadingDelimiter) * byte_s_);
+}
+
+Duration DirectionAnalysis::UrgentFrameTime() const {
+  double longest_s = 0;
+  for (const ChannelLoad& load : loads_)
+    if (load.urgent) longest_s = std::max(longest_s, FrameSeconds(load.bits));
+  return FromSeconds(longest_s);
+}
+
+double DirectionAnalysis::SilenceSeconds() const {
+  if (robots_ > 0) return Seconds(polled_.asked) + frame_s_;
+  return std::max(keep_alive_s_, gap_s_) + frame_s_;
+}
+
 double DirectionAnalysis::NextSeconds(const ChannelLoad& load) const {
+  if (robots_ > 0) return Seconds(polled_.asked) + FrameSeconds(load.bits) + kTick_s;
   return InTurns(frame_s_ + FrameSeconds(load.bits) + ahead_s_ + kTick_s);
 }
 
@@ -220,7 +253,46 @@ bool DirectionAnalysis::GoesBefore(const ChannelLoad& other, const ChannelLoad& 
   return solved_once_ && other.latency_s >= (other.priority - load.priority) * ageing_s_;
 }
 
+/// The station's urgent messages wait for one slot and for those to the other robots; a robot's for its turn.
+double DirectionAnalysis::PolledUrgent(const ChannelLoad& load) const {
+  const bool down = direction_ == Direction::kDown;
+  return Converge([&](double window_s) {
+    double s = 0;
+    for (const ChannelLoad& other : loads_) {
+      if (!other.urgent) continue;
+      const double frames = &other == &load ? 1 + load.OwnBefore(window_s) : other.Arrivals(window_s);
+      s += frames * (down ? robots_ * (FrameSeconds(other.bits) + kTick_s) : Seconds(polled_.cycle));
+    }
+    return s + Seconds(polled_.slot) + kTick_s;
+  });
+}
+
+/// One frame goes per cycle; to each urgent event one may be lost, for its repetition or acknowledgement.
+/// Commands are no load on that: a robot that gets them is polled more often.
+double DirectionAnalysis::PolledIn(double window_s, const ChannelLoad& load) const {
+  double turns = 1 + FramesBefore(window_s, load);
+  double urgent_s = 0;
+  for (const ChannelLoad& other : loads_) {
+    if (!other.urgent) continue;
+    turns += other.Arrivals(window_s);
+    urgent_s += robots_ * other.Arrivals(window_s) * (FrameSeconds(other.bits) + Seconds(polled_.slot));
+  }
+  for (const ChannelLoad& incoming : answered_) turns += incoming.Arrivals(window_s);
+  return turns * Seconds(polled_.cycle) + urgent_s + CrowdedOutSeconds(load) + Seconds(polled_.slot) +
+         kTick_s;
+}
+
+/// How long a message waits that has no room beside a command: until its age lets it go before.
+double DirectionAnalysis::CrowdedOutSeconds(const ChannelLoad& load) const {
+  double s = 0;
+  for (const ChannelLoad& other : loads_)
+    if (other.command && other.entry_bits + load.entry_bits > capacity_bits_)
+      s = std::max(s, (1 + std::max(0, load.priority - other.priority)) * ageing_s_);
+  return s;
+}
+
 double DirectionAnalysis::Urgent(const ChannelLoad& load) const {
+  if (robots_ > 0) return PolledUrgent(load);
   double blocking_s = packets_ ? frame_s_ : 0;
   for (const ChannelLoad& other : loads_)
     if (other.urgent && &other != &load) blocking_s = std::max(blocking_s, FrameSeconds(other.bits));
@@ -235,15 +307,21 @@ double DirectionAnalysis::Urgent(const ChannelLoad& load) const {
 }
 
 double DirectionAnalysis::Ordinary(const ChannelLoad& load) const {
-  return Converge([&](double window_s) { return OrdinaryIn(window_s, load); });
+  if (robots_ > 0 && load.command) return NextSeconds(load);
+  return Converge(
+      [&](double window_s) { return robots_ > 0 ? PolledIn(window_s, load) : OrdinaryIn(window_s, load); });
 }
 
-double DirectionAnalysis::OrdinaryIn(double window_s, const ChannelLoad& load) const {
-  double bits = load.bits - load.entry_bits + load.OwnBefore(window_s) * load.bits;
-  double entries = load.entries - 1 + load.OwnBefore(window_s) * load.entries;
+/// Frames that the messages before this one, and those of it but the last, take at most; `all_bits`, if not
+/// null, gets what all messages of the direction take.
+double DirectionAnalysis::FramesBefore(double window_s, const ChannelLoad& load, double* all_bits) const {
+  // On a shared channel a state that waits is replaced by the newer one.
+  const double own = robots_ > 0 && load.newest_only ? load.keys - 1 : load.OwnBefore(window_s);
+  double bits = load.bits - load.entry_bits + own * load.bits;
+  double entries = load.entries - 1 + own * load.entries;
   double other_bits = 0;  // goes after it, but may fill its frames
   for (const ChannelLoad& other : loads_) {
-    if (&other == &load || other.urgent) continue;
+    if (&other == &load || other.urgent || (robots_ > 0 && other.command)) continue;
     const double arrivals = other.Arrivals(window_s);
     if (!GoesBefore(other, load)) {
       other_bits += arrivals * other.bits;
@@ -253,11 +331,16 @@ double DirectionAnalysis::OrdinaryIn(double window_s, const ChannelLoad& load) c
     }
   }
   const double room_bits = capacity_bits_ - load.entry_bits + 1;
-  const double frames = room_bits > 0 ? std::min(entries, std::floor(bits / room_bits)) : entries;
+  if (all_bits != nullptr) *all_bits = bits + other_bits;
+  return room_bits > 0 ? std::min(entries, std::floor(bits / room_bits)) : entries;
+}
+
+double DirectionAnalysis::OrdinaryIn(double window_s, const ChannelLoad& load) const {
+  double bits = 0;
+  const double frames = FramesBefore(window_s, load, &bits);
   // Either all of them are as long as can be, or everything there is has been sent.
   const double everything_s =
-      ((bits + other_bits + frames * control_bits_) / 8 + frames * static_cast<double>(frame_bytes_ + 1)) *
-      byte_s_;
+      ((bits + frames * control_bits_) / 8 + frames * static_cast<double>(frame_bytes_ + 1)) * byte_s_;
   return frame_s_ + UrgentIn(window_s, load) + std::min(frames * frame_s_, everything_s) + frame_s_ + kTick_s;
 }
 
@@ -275,7 +358,7 @@ double DirectionAnalysis::UrgentIn(double window_s, const ChannelLoad& load) con
 double DirectionAnalysis::Converge(const std::function<double(double window_s)>& latency) const {
   double window_s = 0;
   while (window_s < kNotBounded_s) {
-    const double next_s = InTurns(latency(window_s));
+    const double next_s = robots_ > 0 ? latency(window_s) : InTurns(latency(window_s));
     if (next_s <= window_s) return next_s;
     window_s = next_s;
   }

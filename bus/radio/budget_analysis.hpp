@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bus/radio/channels/channel_table.hpp"
+#include "bus/radio/line/polling.hpp"
 #include "bus/radio/link_options.hpp"
 
 /// Response times of the channels of one direction. The method and its sources: budget.hpp.
@@ -16,6 +17,8 @@ namespace priamos::bus::radio {
 struct ChannelLoad {
   std::size_t channel = 0;
   bool urgent = false;
+  bool newest_only = false;  ///< a newer message replaces one that waits
+  bool command = false;
   bool repeated = false;  ///< an urgent event: repeated until it is acknowledged
   int priority = 0;
   double period_s = 0;
@@ -38,6 +41,8 @@ class DirectionAnalysis {
   /// Analysis of the channels of one direction; `table` must outlive it.
   DirectionAnalysis(const ChannelTable& table, const LinkOptions& options, Direction direction);
 
+  /// Counts from now on with the polls of a shared channel: one frame of this direction per turn of a robot.
+  void SetPolled(const PollBounds& bounds, int robots);
   /// Computes the latencies of loads(). Urgent events of both directions are repeated and acknowledged at
   /// once, over a line that delays both directions together by `line_delay_s`.
   void Solve(const DirectionAnalysis& other, double line_delay_s);
@@ -52,9 +57,15 @@ class DirectionAnalysis {
   /// the longest frame (half-duplex: and turn), and no emergency stop comes in between.
   double NextSeconds(const ChannelLoad& load) const;
   /// Longest time from the end of a frame to the end of the next one.
-  double SilenceSeconds() const { return std::max(keep_alive_s_, gap_s_) + frame_s_; }
+  double SilenceSeconds() const;
   /// Bytes of the longest frame, with the whole counter, as a packet must hold it.
   std::size_t LongestFrameBytes() const { return longest_bytes_; }
+  /// The same as a time on the line, with the delimiter that leads after silence.
+  Duration LongestFrameTime() const;
+  /// Time on the line of the longest frame with an urgent event; 0 without such a channel.
+  Duration UrgentFrameTime() const;
+  /// Bytes of the smallest bundle that always has room for a message beside acknowledgements.
+  std::size_t SmallestBundleBytes() const;
   /// Time by which a byte may be handed over before it leaves; of a packet, before all of it has left.
   double AheadSeconds() const;
 
@@ -65,8 +76,8 @@ class DirectionAnalysis {
   double AllFramesSeconds(const ChannelLoad& load) const;
   double UrgentIn(double window_s, const ChannelLoad& load) const;
   ChannelLoad LoadOf(std::size_t index) const;
-  void SetEntries(const LinkChannel& channel, ChannelLoad& load) const;
   double ControlBits() const;
+  void ConfineTo(std::size_t bundle_bytes, double& largest_bytes);
   void ShareTheAir(const LinkOptions& options);
   double InTurns(double work_s) const;
   double FrameSeconds(double bits) const;
@@ -74,6 +85,10 @@ class DirectionAnalysis {
   double Urgent(const ChannelLoad& load) const;
   double Ordinary(const ChannelLoad& load) const;
   double OrdinaryIn(double window_s, const ChannelLoad& load) const;
+  double FramesBefore(double window_s, const ChannelLoad& load, double* all_bits = nullptr) const;
+  double PolledUrgent(const ChannelLoad& load) const;
+  double CrowdedOutSeconds(const ChannelLoad& load) const;
+  double PolledIn(double window_s, const ChannelLoad& load) const;
   double Converge(const std::function<double(double window_s)>& latency) const;
 
   const ChannelTable& table_;
@@ -89,6 +104,9 @@ class DirectionAnalysis {
   double capacity_bits_ = 0;
   double frame_s_ = 0;
   std::size_t longest_bytes_ = 0;
+  double largest_bits_ = 0;  ///< of an entry of a message
+  int robots_ = 0;           ///< on a shared channel; 0: a link of two ends
+  PollBounds polled_{};
   double turn_s_ = 1;  ///< length of a turn; without turns 1, with gap_s_ = 0
   double gap_s_ = 0;
   double repeat_s_ = 0;                ///< time until an urgent event of this direction is acknowledged

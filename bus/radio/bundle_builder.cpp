@@ -35,10 +35,16 @@ BundleBuilder::BundleBuilder(const ChannelTable& table, std::size_t target_bytes
 
 bool BundleBuilder::Add(const BundleEntry& entry) {
   const std::size_t bits = out_.BitsWith(entry) + reserved_bits_;
-  if (bits > 8 * (has_message_ ? target_bytes_ : kMaxBundleBytes)) return false;
+  const std::size_t alone_bits = IsMessage(entry) ? most_bits_ : control_bits_;
+  if (bits > (has_message_ ? 8 * target_bytes_ : alone_bits)) return false;
   out_.Write(entry);
   has_message_ = has_message_ || IsMessage(entry);
   return true;
+}
+
+void BundleBuilder::Confine(std::size_t message_bits) {
+  most_bits_ = 8 * target_bytes_;
+  control_bits_ = most_bits_ - std::min(most_bits_, message_bits);
 }
 
 void BundleBuilder::LimitTo(std::size_t bytes) {

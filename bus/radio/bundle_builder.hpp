@@ -22,6 +22,9 @@ class BundleBuilder {
   /// Adds an entry. Returns false, and adds nothing, if it does not fit. The first message may exceed the
   /// target up to the longest bundle, or a long one would never be sent.
   bool Add(const BundleEntry& entry);
+  /// Makes the target hold for every message, and leaves room in it for one entry of `message_bits`: on a
+  /// shared channel a longer frame would exceed the turn.
+  void Confine(std::size_t message_bits);
   /// From now on messages are added only as long as the bundle has at most so many bytes; nothing changes
   /// when it has more already.
   void LimitTo(std::size_t bytes);
@@ -41,6 +44,8 @@ class BundleBuilder {
   std::size_t target_bytes_;
   std::size_t reserved_bits_;
   std::size_t frame_overhead_;
+  std::size_t most_bits_ = 8 * kMaxBundleBytes;     ///< of a bundle with one message
+  std::size_t control_bits_ = 8 * kMaxBundleBytes;  ///< of a bundle without
   bool has_message_ = false;
 };
 

@@ -18,7 +18,7 @@ constexpr double kCountersAhead = 8;
 
 FrameReceiver::FrameReceiver(const FrameKeys& keys, Direction incoming, FrameScope scope, double bytes_per_s,
                              Duration silence, Time now)
-    : splitter_(kMaxEncodedBytes + scope.code_bytes),
+    : splitter_(kMaxEncodedBytes + scope.address_bytes() + scope.code_bytes),
       opener_(keys, incoming, scope),
       guard_(TriesPerSecond(bytes_per_s, scope.code_bytes), now),
       silence_(silence),
@@ -42,11 +42,11 @@ FrameReceiver::Result FrameReceiver::Push(std::byte byte, Time now, std::uint64_
   auto block = blocks_.Push(byte, now);
   const FrameSplitter::Event event = splitter_.Push(byte);
   if (block) {
-    return OnFrame({.content = std::move(block->content),
-                    .wire_bytes = block->wire_bytes,
-                    .first_byte = block->first_byte,
-                    .line_code = LineCode::kBlock},
-                   now, newest_sent);
+    return OnContent({.content = std::move(block->content),
+                      .wire_bytes = block->wire_bytes,
+                      .first_byte = block->first_byte,
+                      .line_code = LineCode::kBlock},
+                     now, newest_sent);
   }
   if (event == FrameSplitter::Event::kFrame)
     return OnEncoded(splitter_.frame(), first_byte_, now, newest_sent, false);
@@ -65,11 +65,19 @@ FrameReceiver::Result FrameReceiver::OnEncoded(std::span<const std::byte> encode
                                                std::uint64_t newest_sent, bool stranger) {
   auto content = CobsDecode(encoded);
   if (!content) return OnReject(Reject::kMalformed, now);
-  return OnFrame({.content = std::move(*content),
-                  .wire_bytes = encoded.size() + 1,
-                  .first_byte = first_byte,
-                  .stranger = stranger},
-                 now, newest_sent);
+  return OnContent({.content = std::move(*content),
+                    .wire_bytes = encoded.size() + 1,
+                    .first_byte = first_byte,
+                    .stranger = stranger},
+                   now, newest_sent);
+}
+
+/// Frames of another robot are none of this end's business, and no sign of noise.
+FrameReceiver::Result FrameReceiver::OnContent(Incoming incoming, Time now, std::uint64_t newest_sent) {
+  if (!opener_.Addressed(incoming.content)) return {};
+  incoming.content.erase(incoming.content.begin(),
+                         incoming.content.begin() + static_cast<std::ptrdiff_t>(opener_.address_bytes()));
+  return OnFrame(incoming, now, newest_sent);
 }
 
 /// What can be seen without a code is looked at first: garbage costs no check of the other end's frames.

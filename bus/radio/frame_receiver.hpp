@@ -96,6 +96,7 @@ class FrameReceiver {
   };
   Result OnEncoded(std::span<const std::byte> encoded, Time first_byte, Time now, std::uint64_t newest_sent,
                    bool stranger);
+  Result OnContent(Incoming incoming, Time now, std::uint64_t newest_sent);
   Result OnFrame(const Incoming& incoming, Time now, std::uint64_t newest_sent);
   bool Expected(const FrameHead& head, Time now) const;
   AcceptedFrame Accept(DataFrame frame, const Incoming& incoming, std::uint64_t highest_before, Time now);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "bus/radio/channels/entry_sizes.hpp"
+
 namespace priamos::bus::radio {
 namespace {
 
@@ -25,8 +27,9 @@ FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sea
     : table_(&table),
       sealer_(sealer),
       options_(options),
+      message_bits_(LargestEntryBits(table, onboard ? Direction::kUp : Direction::kDown)),
       transmitter_(options, now),
-      turns_(options.Turns(), onboard, now),
+      turns_(options.Turns(onboard), onboard, now),
       repetition_(now),
       last_data_(now - options.keep_alive) {}
 
@@ -61,7 +64,9 @@ void FrameScheduler::ChooseForm(const FrameSources& from, Time now) {
 }
 
 bool FrameScheduler::MustCut(const FrameSources& from, Time now) const {
-  if (!flight_ || flight_->urgent || !transmitter_.WorthCutting() || from.memory.epoch() == 0) return false;
+  // On a shared channel the bound of every other robot counts on the length of the frame.
+  if (turns_.shared() || !flight_ || flight_->urgent || !transmitter_.WorthCutting()) return false;
+  if (from.memory.epoch() == 0) return false;
   return from.outbox.queue().UrgentReady(now);
 }
 
@@ -76,6 +81,7 @@ bool FrameScheduler::Build(FrameSources from, Time now) {
   repetition_.NoteUnanswered(from.outbox.queue().UrgentUnanswered(), now);
   repetition_.Step(agreed && from.outbox.queue().RepetitionReady(now), now);
   if (agreed && BuildUrgent(from, now)) return true;
+  if (turns_.shared() && !turns_.MayPass(now)) return false;  // granted for urgent messages alone
   repetition_.OnOthersTurn(now);
   return BuildOther(from, now);
 }
@@ -96,7 +102,7 @@ bool FrameScheduler::AckAgain(const FrameSources& from, Time now) const {
 /// come through where hardly any frame does: repetitions, acknowledgements of such, and what is new while the
 /// line has not answered for longer than it should take.
 LineCode FrameScheduler::LineCodeOf(const FrameSources& from, Time now) const {
-  if (options_.datagrams) return LineCode::kCobs;
+  if (options_.datagrams || turns_.shared()) return LineCode::kCobs;
   const bool unanswered = repetition_.UnansweredFor(from.peer.sent.last_round_trip() + kAnswered, now);
   if (from.outbox.queue().UrgentReady(now)) return unanswered ? LineCode::kBlock : LineCode::kCobs;
   const auto& newest = from.receiver.newest();
@@ -106,7 +112,9 @@ LineCode FrameScheduler::LineCodeOf(const FrameSources& from, Time now) const {
 
 bool FrameScheduler::BuildOther(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
-  if (BuildAnyHello(from, now)) return true;
+  // Of turns of one frame hellos would take all.
+  const bool turn_of_data = agreed && turns_.shared() && hello_last_;
+  if (!turn_of_data && BuildAnyHello(from, now)) return true;
   return agreed && (DataDue(from, now) || turns_.MayPass(now)) && BuildData(from, false, now);
 }
 
@@ -135,13 +143,12 @@ bool FrameScheduler::BuildAnyHello(FrameSources from, Time now) {
 void FrameScheduler::BuildHello(FrameSources from, Handshake& handshake, const FrameSealer& sealer,
                                 Reception reception, Time now) {
   Hello hello = handshake.Take(from.memory.stream(), reception, now);
-  // The answer is what is needed. On a link that works it answers a hello that may be a replay: that must not
-  // cost the turn.
-  hello.over = turns_.enabled() && from.receiver.reception(now) != Reception::kHeard;
+  hello.over = EndsTurn(from, now);
   flight_.emplace();
+  hello_last_ = true;
   flight_->over = hello.over;
   // Where no frame arrives, every second one may.
-  const bool block = !options_.datagrams && handshake.sent() % 2 == 1;
+  const bool block = !options_.datagrams && !turns_.shared() && handshake.sent() % 2 == 1;
   flight_->next_key = &sealer != &sealer_;
   transmitter_.Begin(sealer.Seal(hello, block ? LineCode::kBlock : LineCode::kCobs), now);
 }
@@ -153,6 +160,7 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
                                  : BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss(),
                                                    FrameOverhead(sealer_.code_bytes()));
   BundleBuilder builder(*table_, target, turns_.enabled(), sealer_.overhead());
+  if (turns_.shared()) builder.Confine(message_bits_);
   FrameInFlight flight = Fill(builder, from, urgent_only, line_code, now);
   // Nothing that is ready could be packed: no frame for nothing.
   if (builder.empty() && now - last_data_ < options_.keep_alive) return false;
@@ -163,9 +171,12 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   auto wire = sealer_.Seal(from.memory.epoch(), flight.counter, form_, bundle, newest ? newest->counter : 0,
                            line_code);
   last_data_ = now;
+  hello_last_ = false;
   from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
   if (urgent_only && !flight.inbox.acks.empty()) acknowledged_at_ = now;
-  if (flight.repeats) repetition_.OnRepeated(now, transmitter_.Occupies(wire.size()));
+  // Of a shared channel a repetition takes a turn, whatever its length.
+  if (flight.repeats)
+    repetition_.OnRepeated(now, turns_.shared() ? turns_.period() : transmitter_.Occupies(wire.size()));
   flight_ = std::move(flight);
   transmitter_.Begin(std::move(wire), now);
   return true;
@@ -215,12 +226,20 @@ std::size_t FrameScheduler::BytesUntil(Time until, const FrameSources& from, Tim
   return static_cast<std::size_t>(std::max<std::int64_t>(bytes, 0));
 }
 
+/// Whether a hello ends the turn. Its answer is what is needed. On a link that works it answers one that may
+/// be a replay: that must not cost the turn, other than one that is no longer than this frame.
+bool FrameScheduler::EndsTurn(const FrameSources& from, Time now) const {
+  if (turns_.shared()) return turns_.MayPass(now);
+  return turns_.enabled() && from.receiver.reception(now) != Reception::kHeard;
+}
+
 bool FrameScheduler::EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const {
   if (!turns_.enabled()) return false;
   const Pacer& pacer = transmitter_.pacer();
   const Duration longest =
       pacer.WireTime(options_.HeadBytes() + options_.max_bundle_bytes + sealer_.overhead());
   if (turns_.MustEnd(pacer.LeavesAt(options_.HeadBytes() + frame_bytes, now), longest)) return true;
+  if (turns_.shared()) return false;
   return !from.inbox.AckDue() && from.outbox.queue().Ready(now).empty();
 }
 
@@ -238,6 +257,7 @@ void FrameScheduler::Cut(FrameSources from, Time now, std::vector<std::byte>& ou
 void FrameScheduler::Finish(FrameSources from) {
   FrameInFlight flight = std::move(*flight_);
   flight_.reset();
+  turns_.OnFrameSent();
   if (flight.over) turns_.OnOverSent(transmitter_.pacer().free_at());
   from.outbox.OnSent(std::move(flight.outbox), flight.counter);
   if (flight.counter == 0) return HandshakeOf(flight, from).OnSent();

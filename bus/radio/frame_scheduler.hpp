@@ -60,6 +60,11 @@ class FrameScheduler {
   void OnFrame(Time now) { turns_.OnFrame(now); }
   /// Notes that the other end announced the end of its turn (half-duplex).
   void OnOver(Time now) { turns_.OnOverReceived(now); }
+  /// The turns of this end, which the station of a shared channel grants.
+  TurnTaking& turns() { return turns_; }
+  const TurnTaking& turns() const { return turns_; }
+  /// When the bytes handed over have left.
+  Time line_free() const { return transmitter_.pacer().free_at(); }
 
   /// Seals from now on under another key.
   void SetSealer(const FrameSealer& sealer) { sealer_ = sealer; }
@@ -87,6 +92,7 @@ class FrameScheduler {
                      Time now) const;
   std::optional<Time> EchoedAt(const FrameSources& from) const;
   std::size_t BytesUntil(Time until, const FrameSources& from, Time now) const;
+  bool EndsTurn(const FrameSources& from, Time now) const;
   bool EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const;
   void Cut(FrameSources from, Time now, std::vector<std::byte>& out);
   void Finish(FrameSources from);
@@ -94,12 +100,14 @@ class FrameScheduler {
   const ChannelTable* table_;
   FrameSealer sealer_;
   LinkOptions options_;
+  std::size_t message_bits_;  ///< of the largest entry of a message
   Transmitter transmitter_;
   TurnTaking turns_;
   Repetition repetition_;
   Time acknowledged_at_{};  ///< when urgent events were last acknowledged in a frame of their own
   std::optional<FrameInFlight> flight_;
   CounterForm form_ = CounterForm::kWhole;  ///< of the next frame
+  bool hello_last_ = false;                 ///< the last frame was a hello
   Time last_data_;                          ///< begin of the last data frame sent
   SendCounters counters_;
 };

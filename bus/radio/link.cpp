@@ -17,7 +17,8 @@ FrameScope ScopeOf(const ChannelTable& table, Direction direction, const LinkOpt
   return {.table_hash = table.hash(),
           .encrypted = table.encrypted(),
           .echo_bytes = table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0,
-          .code_bytes = table.code_bytes()};
+          .code_bytes = table.code_bytes(),
+          .address = options.address};
 }
 
 /// Whether the other end must skip counters: this end does not know which of those reserved were used.
@@ -111,6 +112,18 @@ Proof LinkEndpoint::OnResult(const FrameReceiver::Result& result, Time now, std:
   return accepted->ahead > 0 ? Proof::kFresh : Proof::kGenuine;
 }
 
+Need LinkEndpoint::need(Time now) const {
+  const SendQueue& queue = outbox_.queue();
+  if (memory_.epoch() == 0) return Need::kNothing;
+  if (queue.UrgentReady(now)) return Need::kUrgent;
+  if (queue.UrgentUnanswered()) return Need::kAnswer;
+  const auto ready = queue.Ready(now);
+  const bool command = std::any_of(ready.begin(), ready.end(), [&](const SendQueue::Candidate& c) {
+    return table_->at(c.channel).channel_class == ChannelClass::kCommand;
+  });
+  return command ? Need::kCommand : Need::kNothing;
+}
+
 void LinkEndpoint::Close() {
   StoreEvents();
   memory_.Close(receiver_.highest());
@@ -118,6 +131,8 @@ void LinkEndpoint::Close() {
 
 Proof LinkEndpoint::OnHello(const Hello& hello, Time now) {
   const Handshake::Proof proof = peer_.handshake.OnHello(hello, !receiver_.Down(now));
+  // A robot without an epoch can prove nothing fresh before it was let speak: a replay may make it answer.
+  if (!proof.fresh && hello.over && scheduler_.turns().shared()) scheduler_.OnOver(now);
   if (!proof.fresh) return Proof::kGenuine;
   OnFresh(hello, now);
   if (proof.agreed) ChangeEpoch(*proof.agreed, hello.stream);
@@ -128,6 +143,7 @@ Proof LinkEndpoint::OnHello(const Hello& hello, Time now) {
 /// the next one. The other end follows with the answer.
 Proof LinkEndpoint::OnNextKeyHello(const Hello& hello, Time now) {
   const Handshake::Proof proof = peer_.next_key->OnHello(hello, now);
+  if (!proof.fresh && hello.over && scheduler_.turns().shared()) scheduler_.OnOver(now);
   if (!proof.fresh) return Proof::kGenuine;
   OnFresh(hello, now);
   if (!proof.agreed) return Proof::kFresh;

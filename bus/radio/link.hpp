@@ -57,6 +57,14 @@ enum class KeyChange : std::uint8_t {
   kDone      ///< the next key is in use, and the one before it opens nothing
 };
 
+/// What an end of a shared channel has to say that should not wait for its next poll.
+enum class Need : std::uint8_t {
+  kNothing,
+  kCommand,  ///< a command waits, which a recent frame of the robot has to prove fresh
+  kAnswer,   ///< an urgent event was sent and is not acknowledged
+  kUrgent    ///< an urgent event waits
+};
+
 /// State of the link.
 struct LinkStatus {
   bool up = false;
@@ -114,6 +122,13 @@ class LinkEndpoint {
   Received ReceiveFrame(std::span<const std::byte> frame, Time first_byte, Time now, bool stranger);
   /// Ends in order: saves the exact counters, so that the next start need not skip any.
   void Close();
+
+  /// What a station should know before it grants this end a turn.
+  Need need(Time now) const;
+  /// The turns of this end, which its station grants, on a channel that several robots share.
+  TurnTaking& turns() { return scheduler_.turns(); }
+  /// When the bytes of Step() have left.
+  Time line_free() const { return scheduler_.line_free(); }
 
   LinkStatus Status(Time now) const;
   const QueueCounters& sent(std::size_t channel) const { return outbox_.queue().counters(channel); }

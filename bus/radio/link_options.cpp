@@ -11,8 +11,12 @@ std::size_t LinkOptions::HeadBytes() const {
   return static_cast<std::size_t>(packets() ? std::ceil(Seconds(packet_overhead) * bytes_per_s) : 0);
 }
 
-HalfDuplex LinkOptions::Turns() const {
+HalfDuplex LinkOptions::Turns(bool onboard) const {
   HalfDuplex turns = half_duplex;
+  if (address != 0) {
+    turns.rule = onboard ? TurnRule::kPolled : TurnRule::kGranted;
+    turns.grace = grace;
+  }
   if (packets()) turns.unheard = FromSeconds(static_cast<double>(HeadBytes() + packet_bytes) / bytes_per_s);
   return turns;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "bus/radio/line/turn_taking.hpp"
 #include "common/time.hpp"
@@ -25,15 +26,22 @@ struct LinkOptions {
   /// Largest packet of the radio, a frame in it whole; 0: as long as any frame.
   std::size_t packet_bytes = 0;
 
+  /// Robots on the channel, each with its address and key, which a station polls; 0: a link of two ends.
+  std::uint8_t robots = 0;
+  /// Of the robot of this end, 1 to `robots`; 0 on a link of two ends.
+  std::uint8_t address = 0;
+  /// A polled robot begins at most so late; what its process needs to notice the poll.
+  Duration grace{5'000};
+
   /// Whether a frame goes in a packet of a radio, which nothing can cut off.
   bool packets() const { return datagrams && packet_overhead > Duration::zero(); }
   /// Whether a frame leaves at the time it is handed over: a datagram of an IP link.
   bool instant() const { return datagrams && !packets(); }
   /// Bytes that a datagram takes on the line beside its frame; 0 where frames are no datagrams.
   std::size_t HeadBytes() const;
-  /// The turns of the radio. A receiver hears nothing of a packet before it has ended, and must not take the
-  /// turn meanwhile.
-  HalfDuplex Turns() const;
+  /// The turns of an end on the radio. A receiver hears nothing of a packet before it has ended, and must not
+  /// take the turn meanwhile.
+  HalfDuplex Turns(bool onboard) const;
 };
 
 /// Time in which the other end, whose frames have codes of `code_bytes`, can send half of the frames that an

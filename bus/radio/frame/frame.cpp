@@ -35,15 +35,26 @@ constexpr std::size_t kHeaderBytes = 22;
 /// The first byte, the kind, determines the length, so that no two frames have the same hash input.
 using AuthenticatedHeader = std::vector<std::uint8_t>;
 
+constexpr std::uint8_t kOfSharedChannel = 8;
+
+std::uint8_t SharedKind(FrameScope scope) {
+  return scope.address != 0 ? kOfSharedChannel : 0;
+}
+
+void PutAddress(FrameScope scope, AuthenticatedHeader& header) {
+  if (scope.address != 0) header.push_back(scope.address);
+}
+
 AuthenticatedHeader DataHeader(Direction direction, FrameScope scope, std::uint64_t epoch,
                                std::uint64_t counter, std::optional<std::uint64_t> echo) {
   AuthenticatedHeader header(kHeaderBytes + (echo ? 8 : 0));
-  header[0] = static_cast<std::uint8_t>((scope.encrypted ? 3 : 1) + (echo ? 4 : 0));
+  header[0] = static_cast<std::uint8_t>((scope.encrypted ? 3 : 1) + (echo ? 4 : 0) + SharedKind(scope));
   header[1] = static_cast<std::uint8_t>(direction);
   PutLittleEndian(epoch, std::span(header).subspan(2, 8));
   PutLittleEndian(counter, std::span(header).subspan(10, 8));
   PutLittleEndian(scope.table_hash, std::span(header).subspan(18, 4));
   if (echo) PutLittleEndian(*echo, std::span(header).subspan(kHeaderBytes, 8));
+  PutAddress(scope, header);
   return header;
 }
 
@@ -53,10 +64,11 @@ std::uint64_t CompleteEcho(std::span<const std::byte> low, std::uint64_t newest)
   return newest - ((newest - GetLittleEndian(low)) & mask);
 }
 
-AuthenticatedHeader HelloHeader(Direction direction) {
+AuthenticatedHeader HelloHeader(Direction direction, FrameScope scope) {
   AuthenticatedHeader header(kHeaderBytes);
-  header[0] = 2;
+  header[0] = static_cast<std::uint8_t>(2 + SharedKind(scope));
   header[1] = static_cast<std::uint8_t>(direction);
+  PutAddress(scope, header);
   return header;
 }
 
@@ -147,18 +159,20 @@ std::uint64_t FrameKeys::EpochOf(std::uint64_t onboard_nonce, std::uint64_t offb
 }
 
 std::size_t FrameSealer::HeadBytes(CounterForm form) const {
-  return 1 + (form == CounterForm::kWhole ? kWholeCounterBytes : scope_.echo_bytes);
+  return scope_.address_bytes() + 1 + (form == CounterForm::kWhole ? kWholeCounterBytes : scope_.echo_bytes);
 }
 
 std::vector<std::byte> FrameSealer::HeadOf(CounterForm form, std::uint64_t counter,
                                            std::uint64_t echo) const {
   std::vector<std::byte> head(HeadBytes(form));
+  const auto rest = std::span(head).subspan(scope_.address_bytes());
+  if (scope_.address != 0) head[0] = std::byte{scope_.address};
   if (form == CounterForm::kLowBits) {
-    head[0] = static_cast<std::byte>(counter & 0x7F);
-    PutLittleEndian(echo, std::span(head).subspan(1));
+    rest[0] = static_cast<std::byte>(counter & 0x7F);
+    PutLittleEndian(echo, rest.subspan(1));
   } else {
-    head[0] = kWholeCounterTag;
-    PutLittleEndian(counter, std::span(head).subspan(1));
+    rest[0] = kWholeCounterTag;
+    PutLittleEndian(counter, rest.subspan(1));
   }
   return head;
 }
@@ -198,16 +212,23 @@ std::vector<std::byte> FrameSealer::Seal(std::uint64_t epoch, std::uint64_t coun
 std::vector<std::byte> FrameSealer::Seal(const Hello& hello, LineCode line_code) const {
   const auto body = EncodeHello(hello);
   std::array<std::byte, kHelloCodeBytes> code{};
-  keys_.Authenticate(HelloHeader(direction_), body, code);
-  std::vector<std::byte> content{kHelloTag};
-  content.insert(content.end(), body.begin(), body.end());
-  content.insert(content.end(), code.begin(), code.end());
+  keys_.Authenticate(HelloHeader(direction_, scope_), body, code);
+  std::vector<std::byte> content(scope_.address_bytes() + 1 + body.size() + code.size());
+  content.front() = std::byte{scope_.address};
+  content[scope_.address_bytes()] = kHelloTag;
+  std::copy(code.begin(), code.end(),
+            std::copy(body.begin(), body.end(),
+                      content.begin() + static_cast<std::ptrdiff_t>(scope_.address_bytes() + 1)));
   return Delimited(line_code == LineCode::kBlock ? EncodeBlock(content) : CobsEncode(content));
 }
 
 void FrameOpener::SetEpoch(std::uint64_t epoch, std::uint64_t floor) {
   epoch_ = epoch;
   window_ = ReplayWindow(floor);
+}
+
+bool FrameOpener::Addressed(std::span<const std::byte> content) const {
+  return scope_.address == 0 || (!content.empty() && content.front() == std::byte{scope_.address});
 }
 
 Opened FrameOpener::Open(std::span<const std::byte> content, std::uint64_t newest_sent) {
@@ -267,7 +288,7 @@ Opened FrameOpener::OpenHello(std::span<const std::byte> content) const {
   if (content.size() != 1 + kHelloBodyBytes + kHelloCodeBytes) return Reject::kMalformed;
   const auto body = content.subspan(1, kHelloBodyBytes);
   std::array<std::byte, kHelloCodeBytes> code{};
-  keys_.Authenticate(HelloHeader(direction_), body, code);
+  keys_.Authenticate(HelloHeader(direction_, scope_), body, code);
   if (sodium_memcmp(code.data(), content.last(kHelloCodeBytes).data(), code.size()) != 0)
     return Reject::kBadCode;
   return DecodeHello(body);

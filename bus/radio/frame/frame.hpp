@@ -16,6 +16,8 @@
 ///     data   COBS( 0x80 | counter:5 | bundle | code:4, 6 or 8 ) 0x00      the same with the whole counter
 ///     hello  COBS( 0x81 | body:25 | code:8 ) 0x00                 agreement on an epoch, see epoch.hpp
 ///
+/// On a channel that several robots share, the address of the robot precedes each content.
+///
 /// On a line that damages frames, what is urgent travels in blocks that correct errors instead of COBS, see
 /// coded_block.hpp.
 ///
@@ -73,6 +75,10 @@ struct FrameScope {
   bool encrypted = false;
   std::size_t echo_bytes = 0;  ///< bytes of the echo in a short frame; 0: the direction has no commands
   std::size_t code_bytes = kShortCodeBytes;  ///< bytes of the code of a data frame: 4, 6 or 8
+  std::uint8_t address = 0;  ///< of the robot on a channel that several share; 0: a link of two ends
+
+  /// Bytes of the address in a frame.
+  std::size_t address_bytes() const { return address != 0 ? 1 : 0; }
 };
 
 /// Bytes of the echo in the short frames of a direction with commands, on a line of this rate.
@@ -131,7 +137,9 @@ class FrameSealer {
   std::vector<std::byte> Seal(const Hello& hello, LineCode line_code = LineCode::kCobs) const;
   std::size_t echo_bytes() const { return scope_.echo_bytes; }
   /// Bytes of a short frame beside its bundle, delimiter included.
-  std::size_t overhead() const { return FrameOverhead(scope_.code_bytes) + scope_.echo_bytes; }
+  std::size_t overhead() const {
+    return FrameOverhead(scope_.code_bytes) + scope_.echo_bytes + scope_.address_bytes();
+  }
   std::size_t code_bytes() const { return scope_.code_bytes; }
   /// Bytes of the longest bundle of a frame that can be a block.
   std::size_t MaxBlockBundle(CounterForm form) const;
@@ -188,6 +196,11 @@ class FrameOpener {
   /// that this end has sent in the epoch. An echo of one 256 (with 2 bytes: 65536) or more below it is a
   /// wrong code.
   Opened Open(std::span<const std::byte> content, std::uint64_t newest_sent = 0);
+  /// Whether a content is for this end, or of its robot: always so on a link of two ends. The other members
+  /// take the content from behind the address on.
+  bool Addressed(std::span<const std::byte> content) const;
+  /// Bytes of the address before a content.
+  std::size_t address_bytes() const { return scope_.address_bytes(); }
   /// Head of a content, which costs no code; nullopt when it has not the form of a frame.
   std::optional<FrameHead> Look(std::span<const std::byte> content, std::uint64_t newest_sent = 0) const;
   /// Epoch of the frames that are accepted; 0: none.

@@ -60,8 +60,18 @@ void SharedAir::Sends(int side, std::int64_t from_ns, std::int64_t to_ns) {
 }
 
 bool SharedAir::IsDeaf(int side, std::int64_t from_ns, std::int64_t to_ns) const {
-  return std::any_of(spans_[side].begin(), spans_[side].end(),
+  const auto& spans = spans_[static_cast<std::size_t>(side)];
+  return std::any_of(spans.begin(), spans.end(),
                      [&](const Span& s) { return from_ns < s.to_ns + turnaround_ns_ && to_ns > s.from_ns; });
+}
+
+bool SharedAir::IsJammed(int sender, int receiver, std::int64_t from_ns, std::int64_t to_ns) const {
+  for (int side = 0; side < static_cast<int>(spans_.size()); ++side) {
+    if (side == sender || side == receiver) continue;
+    for (const Span& s : spans_[static_cast<std::size_t>(side)])
+      if (from_ns < s.to_ns && to_ns > s.from_ns) return true;
+  }
+  return false;
 }
 
 LinePair::LinePair(const LineConfig& config, Rng rng_a, Rng rng_b, Time start)
@@ -72,6 +82,10 @@ LinePair::LinePair(const LineConfig& config, Rng rng_a, Rng rng_b, Time start)
 Line::Line(const LineConfig& config, Rng rng, Time start) : Line(config, rng, start, nullptr, 0) {}
 
 Line::Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side)
+    : Line(config, rng, start, std::move(air), side, 1 - side) {}
+
+Line::Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side,
+           int receiver)
     : config_(config),
       rng_(rng),
       start_ns_(ToNs(start)),
@@ -81,7 +95,8 @@ Line::Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<Shared
       air_free_at_ns_(start_ns_),
       last_arrival_ns_(start_ns_),
       air_(std::move(air)),
-      side_(side) {
+      side_(side),
+      receiver_(receiver) {
   std::erase_if(config_.delays,
                 [&](const LineDelay& d) { return d.way == (side_ == 0 ? "b_to_a" : "a_to_b"); });
   std::sort(config_.cuts.begin(), config_.cuts.end(),
@@ -107,8 +122,14 @@ std::vector<std::byte> Line::Read(Time now) {
   std::vector<std::byte> bytes;
   while (!arrivals_.empty() && arrivals_.front().at_ns <= ToNs(now)) {
     const std::int64_t at_ns = arrivals_.front().at_ns;
-    if (!air_ || !air_->IsDeaf(1 - side_, at_ns - byte_ns_, at_ns)) bytes.push_back(arrivals_.front().byte);
+    std::byte byte = arrivals_.front().byte;
     arrivals_.pop_front();
+    if (air_ && air_->IsDeaf(receiver_, at_ns - byte_ns_, at_ns)) continue;
+    // Two at once: what arrives is neither.
+    const std::int64_t sent_ns = at_ns - SecondsToNs(config_.latency_s);
+    if (air_ && air_->IsJammed(side_, receiver_, sent_ns - byte_ns_, sent_ns))
+      byte ^= static_cast<std::byte>(1 + rng_.engine()() % 255);
+    bytes.push_back(byte);
   }
   return bytes;
 }

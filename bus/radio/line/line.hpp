@@ -56,16 +56,19 @@ struct LineConfig {
 /// The times at which the modems of a half-duplex radio send and cannot receive.
 class SharedAir {
  public:
-  explicit SharedAir(double turnaround_s) : turnaround_ns_(static_cast<std::int64_t>(turnaround_s * 1e9)) {}
+  explicit SharedAir(double turnaround_s, std::size_t sides = 2)
+      : turnaround_ns_(static_cast<std::int64_t>(turnaround_s * 1e9)), spans_(sides) {}
   void Sends(int side, std::int64_t from_ns, std::int64_t to_ns);
   bool IsDeaf(int side, std::int64_t from_ns, std::int64_t to_ns) const;
+  /// Whether somebody else than these two sides sends.
+  bool IsJammed(int sender, int receiver, std::int64_t from_ns, std::int64_t to_ns) const;
 
  private:
   struct Span {
     std::int64_t from_ns, to_ns;
   };
   std::int64_t turnaround_ns_;
-  std::deque<Span> spans_[2];
+  std::vector<std::deque<Span>> spans_;
 };
 
 /// One direction of a serial line in simulated time. Bytes leave one after the other at the baud rate,
@@ -77,6 +80,8 @@ class Line {
   Line(const LineConfig& config, Rng rng, Time start);
   /// `side` sends into this line: 0 is a to b, 1 is b to a. On a half-duplex radio both share the air.
   Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side);
+  /// The same on an air of more than two sides, as `receiver` hears it.
+  Line(const LineConfig& config, Rng rng, Time start, std::shared_ptr<SharedAir> air, int side, int receiver);
 
   /// Sends bytes; calls must come in the order of `now`.
   void Write(std::span<const std::byte> bytes, Time now);
@@ -111,6 +116,7 @@ class Line {
   std::int64_t burst_start_ns_ = std::numeric_limits<std::int64_t>::max();
   std::shared_ptr<SharedAir> air_;
   int side_ = 0;
+  int receiver_ = 1;
   std::size_t next_cut_ = 0;
   std::deque<Arrival> arrivals_;
 };

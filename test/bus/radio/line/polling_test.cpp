@@ -7,40 +7,16 @@ namespace {
 
 const Time kStart = FromUtime(1'000'000'000);
 constexpr Duration kMs{1000};
-constexpr SharedChannel kChannel{.turnaround = 20 * kMs, .latency = kMs, .grace = 5 * kMs, .turn = 50 * kMs};
-constexpr StationFrames kFrames{.poll = 15 * kMs, .urgent = 25 * kMs};
+constexpr SharedChannel kChannel{
+    .turnaround = 20 * kMs, .latency = kMs, .grace = 5 * kMs, .answer = 50 * kMs};
+constexpr SharedFrames kFrames{.poll = 15 * kMs, .urgent = 25 * kMs};
 
-TEST(PolledTurn, ARobotIsSilentWithoutAPoll) {
-  const PolledTurn dut(kChannel);
-  EXPECT_FALSE(dut.MaySend(kStart, kMs));
-}
-
-TEST(PolledTurn, BeginsAfterTheTurnaroundWithinTheGrace) {
-  PolledTurn dut(kChannel);
-  dut.OnPoll(kStart);
-  EXPECT_FALSE(dut.MaySend(kStart + 19 * kMs, kMs));
-  EXPECT_TRUE(dut.MaySend(kStart + 20 * kMs, kMs));
-  EXPECT_TRUE(dut.MaySend(kStart + 25 * kMs, kMs));
-  EXPECT_FALSE(dut.MaySend(kStart + 26 * kMs, kMs));
-}
-
-TEST(PolledTurn, NoFrameReachesBeyondTheTurnAndNoneFollowsAnOver) {
-  PolledTurn dut(kChannel);
-  dut.OnPoll(kStart);
-  EXPECT_FALSE(dut.MaySend(kStart + 20 * kMs, 51 * kMs));
-  dut.OnSent(kStart + 20 * kMs, false);
-  EXPECT_TRUE(dut.MaySend(kStart + 40 * kMs, 30 * kMs));
-  EXPECT_FALSE(dut.MaySend(kStart + 41 * kMs, 30 * kMs));
-  dut.OnSent(kStart + 40 * kMs, true);
-  EXPECT_FALSE(dut.MaySend(kStart + 42 * kMs, kMs));
-}
-
-TEST(PollCycle, AForeignFrameDoesNotEndTheTurn) {
+TEST(PollCycle, TheStationWaitsForTheTurnaroundAfterAnAnswer) {
   PollCycle dut(kChannel, 4);
   dut.OnPollSent(dut.Next(), kStart);
-  dut.OnFrame(2, kStart + 30 * kMs, true);
+  EXPECT_EQ(dut.polled(), 1);
   EXPECT_FALSE(dut.MayTalk(kStart + 60 * kMs));
-  dut.OnFrame(1, kStart + 40 * kMs, true);
+  dut.OnAnswer(kStart + 40 * kMs);
   EXPECT_FALSE(dut.MayTalk(kStart + 59 * kMs));
   EXPECT_TRUE(dut.MayTalk(kStart + 60 * kMs));
 }
@@ -62,7 +38,7 @@ int PollsOfRobotTwo(PollCycle& dut, Time& now, int polls, bool present) {
     const std::uint8_t address = dut.Next();
     count += address == 2 ? 1 : 0;
     dut.OnPollSent(address, now);
-    if (address != 2 || present) dut.OnFrame(address, now + 30 * kMs, true);
+    if (address != 2 || present) dut.OnAnswer(now + 30 * kMs);
     for (; !dut.MayTalk(now); now += kMs) dut.Step(now);
   }
   return count;
@@ -79,39 +55,12 @@ TEST(PollCycle, AnAbsentRobotIsPolledLessOftenAndComesBack) {
   EXPECT_EQ(PollsOfRobotTwo(dut, now, 40, true), 10);
 }
 
-TEST(PollBounds, AreNeverExceededAndNobodyTalksAtOnce) {
-  const PollBounds bounds = ComputePollBounds(kChannel, kFrames, 4);
-  PollCycle dut(kChannel, 4);
-  Time now = kStart, poll_began = kStart;
-  for (int i = 0; i < 400; ++i) {
-    const std::uint8_t address = dut.Next();
-    PolledTurn robot(kChannel);
-    const Time poll_end = poll_began + kFrames.poll;
-    dut.OnPollSent(address, poll_end);
-    robot.OnPoll(poll_end + kChannel.latency);
-    // Lost polls, late beginnings and lost overs in all combinations.
-    const bool lost = i % 7 == 0, over_lost = i % 5 == 0;
-    const Time begin = poll_end + kChannel.latency + kChannel.turnaround + (i % 6) * kMs;
-    ASSERT_TRUE(robot.MaySend(begin, kChannel.turn));
-    const Time end = begin + kChannel.turn + kChannel.latency;
-    for (now = poll_end; !dut.MayTalk(now); now += kMs / 4) {
-      if (!lost && now >= begin + kChannel.latency) dut.OnBytes();
-      if (!lost && !over_lost && now == end) dut.OnFrame(address, now, true);
-      dut.Step(now);
-    }
-    if (!lost) {
-      ASSERT_GE(now, end + kChannel.turnaround);
-    }
-    ASSERT_LE(now + kFrames.urgent + kChannel.latency - poll_began, bounds.urgent_one);
-    poll_began = now;
-  }
-}
-
 TEST(PollBounds, GrowWithTheRobots) {
-  const PollBounds four = ComputePollBounds(kChannel, kFrames, 4);
-  EXPECT_EQ(four.cycle, 448 * kMs);
-  EXPECT_EQ(four.urgent_one, 138 * kMs);
-  EXPECT_EQ(four.urgent_all, 213 * kMs);
+  const PollBounds four = ComputePollBounds(kChannel, kFrames, 4, kMs);
+  EXPECT_EQ(four.slot, 114 * kMs);
+  EXPECT_EQ(four.cycle, 684 * kMs);
+  EXPECT_EQ(four.urgent_one, 141 * kMs);
+  EXPECT_EQ(four.urgent_all, 219 * kMs);
 }
 
 }  // namespace

@@ -1,0 +1,146 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/radio/line/shared_line.hpp"
+#include "bus/radio/shared_budget.hpp"
+#include "bus/radio/station.hpp"
+#include "link_pair.hpp"
+
+namespace priamos::bus::radio {
+
+/// Channels of each robot: a pose, a fault, driving, stops and an order.
+enum SharedTestChannel : std::size_t { kSharedPose, kSharedFault, kSharedDrive, kSharedStop, kSharedOrder };
+
+inline std::vector<LinkChannel> SharedTestChannels() {
+  const auto channel = [](std::string name, Direction direction, ChannelClass channel_class,
+                          std::uint32_t bits, int priority, double rate_hz) {
+    LinkChannel c;
+    c.name = std::move(name);
+    c.direction = direction;
+    c.channel_class = channel_class;
+    c.fixed_bits = c.max_bits = bits;
+    c.priority = priority;
+    c.rate_hz = rate_hz;
+    return c;
+  };
+  std::vector<LinkChannel> channels{channel("POSE", Direction::kUp, ChannelClass::kState, 80, 2, 1),
+                                    channel("FAULT", Direction::kUp, ChannelClass::kEvent, 32, 1, 0.05),
+                                    channel("DRIVE", Direction::kDown, ChannelClass::kCommand, 40, 1, 20),
+                                    channel("STOP", Direction::kDown, ChannelClass::kEvent, 32, 0, 0.05),
+                                    channel("ORDER", Direction::kDown, ChannelClass::kEvent, 48, 3, 0.05)};
+  channels[kSharedDrive].ttl = std::chrono::milliseconds(600);
+  channels[kSharedStop].urgent = true;
+  return channels;
+}
+
+inline LinkOptions SharedTestOptions(std::uint8_t robots) {
+  return {.max_bundle_bytes = 23,
+          .half_duplex = {.turnaround = Duration(20'000)},
+          .line_delay = Duration(2'000),
+          .robots = robots,
+          .grace = Duration(3'000)};
+}
+
+/// A station and robots on one emulated channel, in simulated time.
+class SharedWorld {
+ public:
+  struct Received {
+    Time at;
+    std::size_t robot;
+    Delivery delivery;
+  };
+  struct End {
+    MemoryStore store;
+    std::unique_ptr<LinkEndpoint> link;
+  };
+
+  explicit SharedWorld(std::uint8_t robots, std::uint64_t seed = 1, LineConfig line = {.latency_s = 0.001})
+      : options(SharedTestOptions(robots)),
+        air(line, robots + std::size_t{1}, seed, now),
+        robots_(robots),
+        at_station_(robots),
+        nonces_(Rng::Stream(seed, "nonces")) {
+    for (std::size_t i = 0; i < robots; ++i) {
+      Start(robots_[i], Direction::kUp, i);
+      Start(at_station_[i], Direction::kDown, i);
+    }
+    StartStation();
+  }
+
+  /// Starts the robot's end, as a new process would.
+  void StartRobot(std::size_t robot) { Start(robots_[robot], Direction::kUp, robot); }
+  void StopRobot(std::size_t robot) { robots_[robot].link.reset(); }
+  MemoryStore& StoreOf(std::size_t robot) { return robots_[robot].store; }
+  LinkEndpoint* robot(std::size_t i) { return robots_[i].link.get(); }
+  LinkEndpoint& at_station(std::size_t i) { return *at_station_[i].link; }
+
+  void StepOnce() {
+    now += Duration(1000);
+    air.Write(0, station_->Step(now), now);
+    station_->Receive(air.Read(0, now), now, [&](std::size_t robot, Delivery d) {
+      up.push_back({now, robot, std::move(d)});
+    });
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      const std::vector<std::byte> heard = air.Read(i + 1, now);
+      if (!robots_[i].link) continue;
+      air.Write(i + 1, robots_[i].link->Step(now), now);
+      for (Delivery& d : robots_[i].link->Receive(heard, now)) down.push_back({now, i, std::move(d)});
+    }
+  }
+  void Run(double seconds, const std::function<void()>& each = {}) {
+    for (const Time end = now + FromSeconds(seconds); now < end;) {
+      if (each) each();
+      StepOnce();
+    }
+  }
+
+  Time now = FromUtime(1'000'000'000);
+  LinkOptions options;
+  SharedLine air;
+  std::vector<Received> up, down;
+
+ private:
+  void Start(End& end, Direction outgoing, std::size_t robot) {
+    LinkOptions own = options;
+    own.address = static_cast<std::uint8_t>(robot + 1);
+    end.link = std::make_unique<LinkEndpoint>(
+        ChannelTable(SharedTestChannels(), false), outgoing, LinkKey{static_cast<std::uint8_t>(robot + 1)},
+        own, end.store,
+        [](std::size_t channel, std::span<const std::byte> encoded, Time) {
+          return std::optional(
+              Packed{{encoded.begin(), encoded.end()}, SharedTestChannels()[channel].fixed_bits});
+        },
+        [this] { return nonces_.engine()(); }, now);
+  }
+  void StartStation() {
+    std::vector<LinkEndpoint*> ends;
+    for (End& end : at_station_) ends.push_back(end.link.get());
+    station_.emplace(SharedChannelOf(ChannelTable(SharedTestChannels(), false), options), ends);
+  }
+
+  std::vector<End> robots_, at_station_;
+  std::optional<Station> station_;
+  Rng nonces_;
+};
+
+/// A message of so many bytes that holds a number.
+inline std::vector<std::byte> Numbered(std::size_t bytes, std::uint64_t number) {
+  std::vector<std::byte> message(bytes);
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, bytes); ++i)
+    message[i] = static_cast<std::byte>(number >> 8 * i);
+  return message;
+}
+inline std::uint64_t NumberOf(std::span<const std::byte> message) {
+  std::uint64_t number = 0;
+  for (std::size_t i = std::min<std::size_t>(4, message.size()); i-- > 0;)
+    number = number << 8 | std::to_integer<std::uint64_t>(message[i]);
+  return number;
+}
+
+}  // namespace priamos::bus::radio
