@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "bus/other_bus.hpp"
 #include "common/serial_port.hpp"
 
 namespace priamos::bus {
@@ -12,6 +13,11 @@ std::string Context::ResolvePath(const std::string& name) const {
 
 std::unique_ptr<ByteStream> Context::OpenSerial(const std::string& path, int baud) {
   return around_.open_serial(path, baud);
+}
+
+std::unique_ptr<OtherBus> Context::OpenBus(const std::string& robot) {
+  if (!around_.open_bus) throw BusError(robot + ": expected a process in real time to join its bus");
+  return around_.open_bus(robot);
 }
 
 void Context::SetHealth(Health health, std::string_view text) {

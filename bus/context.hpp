@@ -15,6 +15,8 @@ class ByteStream;
 
 namespace priamos::bus {
 
+class OtherBus;
+
 /// Severity of a line of the log; kError needs action by a person.
 enum class Level { kInfo, kWarning, kError };
 /// State of a process in HEALTH: it works; works with less than it wants; does not work.
@@ -30,6 +32,8 @@ struct Surroundings {
   std::function<void(Level, std::string_view)> log;
   /// Opens a serial port; throws std::runtime_error with one sentence.
   std::function<std::unique_ptr<ByteStream>(const std::string& path, int baud)> open_serial;
+  /// Opens the offboard bus of another robot; empty where there is none (lockstep, a log). Throws BusError.
+  std::function<std::unique_ptr<OtherBus>(const std::string& robot)> open_bus{};
 };
 
 /// Everything an App may ask of the process it lives in.
@@ -46,6 +50,8 @@ class Context {
   std::string ResolvePath(const std::string& name) const;
 
   std::unique_ptr<ByteStream> OpenSerial(const std::string& path, int baud);
+  /// Opens the offboard bus of another robot, for a process that joins several. Throws BusError.
+  std::unique_ptr<OtherBus> OpenBus(const std::string& robot);
   void Log(Level level, std::string_view text) { around_.log(level, text); }
 
   /// Sets the state that goes into the next HEALTH message; `text` gives the reason if it is not OK.

@@ -13,6 +13,7 @@
 #include "bus/claim_messages.hpp"
 #include "bus/command_line.hpp"
 #include "bus/log/log_writer.hpp"
+#include "bus/other_bus.hpp"
 #include "bus/own_types.hpp"
 #include "bus/process_options.hpp"
 #include "bus/real_time_loop.hpp"
@@ -81,6 +82,7 @@ int PrintInterface(const AppFactory& factory, const Options& options) {
   auto around = MakeSurroundings(factory, options);
   around.open_serial = [](const std::string&, int) { return std::make_unique<UnconnectedPort>(); };
   around.instance = "interface";
+  around.open_bus = [&](const std::string&) { return std::make_unique<OtherBus>("memq://", schema, clock); };
   const AppHost host(factory, options.config, bus, schema, clock, std::move(around));
   for (const auto& e : host.node().inputs()) std::cout << fmt::format("in   {:<18} {}\n", e.channel, e.type);
   for (const auto& e : host.node().outputs()) std::cout << fmt::format("out  {:<18} {}\n", e.channel, e.type);
@@ -139,8 +141,11 @@ int Run(const AppFactory& factory, const Options& options, bool& running) {
   LcmBus bus(options.bus);
   const Claimant self = MakeClaimant(options.choice.robot, factory.name);
   const auto claim = ClaimRole(factory, bus, schema, clock, self);
-  AppHost host(factory, options.config, bus, schema, clock,
-               MakeSurroundings(factory, options, self.instance));
+  Surroundings around = MakeSurroundings(factory, options, self.instance);
+  around.open_bus = [&](const std::string& robot) {
+    return std::make_unique<OtherBus>(ResolveBus("offboard", robot, options.choice.ttl), schema, clock);
+  };
+  AppHost host(factory, options.config, bus, schema, clock, std::move(around));
   running = true;
   return RunRealTime(host, bus, clock, signals, claim.get());
 }

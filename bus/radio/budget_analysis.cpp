@@ -154,7 +154,7 @@ void DirectionAnalysis::SetPolled(const PollBounds& bounds, int robots) {
 
 std::size_t DirectionAnalysis::SmallestBundleBytes() const {
   const double over_bits = table_.id_bits() + kControlKindBits + 1;
-  const double ack_bits = table_.id_bits() + kFrameAckBits + 2 * table_.id_bits() + kEventAckBits;
+  const double ack_bits = std::max(table_.id_bits() + kFrameAckBits, 2 * table_.id_bits() + kEventAckBits);
   return static_cast<std::size_t>(std::ceil((largest_bits_ + ack_bits + over_bits) / 8));
 }
 

@@ -187,6 +187,8 @@ FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, boo
   FrameInFlight flight;
   flight.urgent = urgent_only && from.outbox.queue().UrgentReady(now);
   flight.repeats = urgent_only && !flight.urgent;
+  // In a short frame what waits for an acknowledgement goes before the acknowledgement of frames.
+  if (turns_.shared()) flight.inbox = from.inbox.Load(bundle, urgent_only);
   // Without acknowledgements of frames the other end would write the counters of its repetitions in full.
   if (!urgent_only || (flight.repeats && from.inbox.UrgentAckDue())) {
     flight.peer = from.peer.Load(bundle,
@@ -196,7 +198,7 @@ FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, boo
                                   .floor = from.memory.receive_floor()},
                                  urgent_only, now);
   }
-  flight.inbox = from.inbox.Load(bundle, urgent_only);
+  if (!turns_.shared()) flight.inbox = from.inbox.Load(bundle, urgent_only);
   flight.outbox = from.outbox.Load(
       bundle, {.now = now,
                .counter = from.memory.last_counter() + 1,

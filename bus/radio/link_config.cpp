@@ -129,7 +129,8 @@ void LinkConfig::Describe(Archive& a) {
             {"byte", 0, 16,
              "written ahead of the line: more fills gaps of a busy computer, less lets urgent messages pass "
              "sooner"});
-  a.Integer("max_bundle_bytes", max_bundle_bytes, {"byte", 30, 240, "messages sent together in one frame"});
+  a.Integer("max_bundle_bytes", max_bundle_bytes,
+            {"byte", 16, 240, "messages sent together in one frame; 30 at least without robots"});
   a.Number("keep_alive_s", keep_alive_s, {"s", 0.05, 10, "longest silence of an end"});
   a.Number("silence_s", silence_s, {"s", 0.1, 60, "the link is down when nothing came for so long"});
   a.Number("ageing_s", ageing_s, {"s", 0.05, 600, "a waiting message gains one level of priority per this"});
@@ -149,6 +150,13 @@ void LinkConfig::Describe(Archive& a) {
   a.Number("packet_overhead_s", packet_overhead_s,
            {"s", 0, 5, "packet: time on air of a packet beside its frame: preamble and header"});
   a.Integer("mtu_bytes", mtu_bytes, {"byte", 50, 255, "packet: largest packet of the radio, a frame in it"});
+  a.Integer("robots", robots,
+            {"-", 0, 8,
+             "robots on one half-duplex channel, each with its address and key, which a station polls; 0: a "
+             "link of two ends"});
+  a.Number("grace_s", grace_s,
+           {"s", 0.001, 0.1,
+            "robots: a polled one begins at most so late, or keeps silent: its process's delays"});
   a.Integer("code_bytes", code_bytes,
             {"byte", 0, 8,
              "4, 6 or 8: authentication code of a frame; 0: the shortest that keeps a line full of forgeries "
@@ -169,6 +177,11 @@ void LinkConfig::Describe(Archive& a) {
     a.Refuse("datagrams", "false: with medium \"packet\" a frame goes whole in any case");
   if (medium != "packet" && packet_overhead_s > 0)
     a.Refuse("packet_overhead_s", "0, other than with medium \"packet\"");
+  if (robots == 0 && max_bundle_bytes < 30) a.Refuse("max_bundle_bytes", "30 or more on a link of two ends");
+  if (robots > 0 && (datagrams || medium == "packet"))
+    a.Refuse("robots", "0 with datagrams or packets: robots share a radio channel of bytes");
+  if (robots > 0 && half_duplex_turn_s > 0)
+    a.Refuse("half_duplex_turn_s", "0 with robots: each turn is one frame of max_bundle_bytes");
   if (silence_s <= keep_alive_s) a.Refuse("silence_s", "more than keep_alive_s");
 }
 
@@ -196,7 +209,9 @@ LinkOptions LinkConfig::Options() const {
           .line_delay = FromSeconds(line_delay_s),
           .datagrams = datagrams || medium == "packet",
           .packet_overhead = FromSeconds(packet_overhead_s),
-          .packet_bytes = medium == "packet" ? static_cast<std::size_t>(mtu_bytes) : 0};
+          .packet_bytes = medium == "packet" ? static_cast<std::size_t>(mtu_bytes) : 0,
+          .robots = static_cast<std::uint8_t>(robots),
+          .grace = FromSeconds(grace_s)};
 }
 
 ChannelTable LinkConfig::Table(const Schema& schema) const {

@@ -35,7 +35,7 @@ struct LinkConfig {
   int baud = 9600;              ///< [baud] 300..1000000: rate of the serial port, 10 bits per byte
   double air_rate_bytes_s = 0;  ///< [byte/s] 0..1e6: rate of the radio if it is slower; 0: as the port
   int ahead_bytes = 2;          ///< [byte] 0..16: bytes written ahead of the line
-  int max_bundle_bytes = 120;   ///< [byte] 30..240: size of a bundle of several messages in one frame
+  int max_bundle_bytes = 120;   ///< [byte] 30..240, with robots 16..240: size of a bundle of several messages
   double keep_alive_s = 0.25;   ///< [s] 0.05..10: longest silence of an end
   double silence_s = 1.5;       ///< [s] 0.1..60, above `keep_alive_s`: silence after which the link is down
   double ageing_s = 1;          ///< [s] 0.05..600: waiting time for which a message gains one priority level
@@ -47,8 +47,10 @@ struct LinkConfig {
   bool datagrams = false;     ///< IP link: one frame per UDP datagram, whose 28 bytes of header count as sent
   /// "bytes": a line or an IP link; "packet": a radio that sends packets, which nothing can cut off.
   std::string medium = "bytes";
-  double packet_overhead_s = 0;       ///< [s] 0..5: packet: time on air of a packet beside its frame, above 0
-  int mtu_bytes = 222;                ///< [byte] 50..255: packet: largest packet of the radio
+  double packet_overhead_s = 0;  ///< [s] 0..5: packet: time on air of a packet beside its frame, above 0
+  int mtu_bytes = 222;           ///< [byte] 50..255: packet: largest packet of the radio
+  int robots = 0;          ///< [-] 0..8: robots on the channel, which a station polls; 0: a link of two ends
+  double grace_s = 0.005;  ///< [s] 0.001..0.1: robots: so late a polled robot begins at most
   std::string key_file = "link.key";  ///< secret key of the link, made by `priamos link keygen`, mode 0600
   bool simulation_key = false;        ///< uses a key that everybody knows: only for emulated lines
   std::vector<LinkChannelConfig> channels;  ///< channels of the link, at both ends in the same order

@@ -8,7 +8,10 @@ Peer::Loaded Peer::Load(BundleBuilder& bundle, const Heard& heard, bool ack_only
   Loaded loaded{.frame_ack = acks.Due(now) || (ack_only && acks.Any()),
                 .listeners = !ack_only && listeners.Due(now),
                 .next_key = !ack_only && next_key && next_key->Due(now)};
-  if (loaded.frame_ack) bundle.Add(acks.Take(heard.highest, heard.at, heard.loss, now));
+  if (loaded.frame_ack && !bundle.Add(acks.Take(heard.highest, heard.at, heard.loss, now))) {
+    acks.Return();
+    loaded.frame_ack = false;
+  }
   if (handshake.floor_due() && !ack_only && bundle.Add(FloorEntry{heard.floor})) handshake.OnFloorSent();
   if (loaded.listeners) bundle.Add(listeners.Take(now));
   if (loaded.next_key) bundle.Add(next_key->Take(now));

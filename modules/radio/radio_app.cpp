@@ -8,13 +8,13 @@
 #include <stdexcept>
 
 #include "bus/radio/budget.hpp"
+#include "bus/radio/shared_budget.hpp"
 #include "bus/type_files.hpp"
 #include "common/config.hpp"
 #include "common/random.hpp"
 #include "radio/file_store.hpp"
 #include "radio/key_file.hpp"
 #include "radio/link_health.hpp"
-#include "radio/net_port.hpp"
 #include "radio/private_line.hpp"
 
 namespace priamos::radio {
@@ -23,7 +23,6 @@ namespace {
 using bus::radio::Direction;
 
 constexpr Duration kReportPeriod{1'000'000};
-constexpr double kLongestHold_s = 600;
 /// Bytes that may wait for a port that takes none; more are dropped, because late bytes are worth nothing.
 constexpr std::size_t kMostUnwritten = 64;
 
@@ -39,32 +38,85 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
       context_(context),
       link_config_(LoadLink()),
       own_types_(TypesIn(config.types)),
-      outgoing_(config.side == "onboard" ? Direction::kUp : Direction::kDown),
-      codecs_(link_config_, types()),
-      key_(LoadKey()),
-      next_key_(LoadNextKey()),
-      requests_(context.node().SubscribeAll(channels::kLinkRequest)),
-      status_(context.node().Advertise(channels::kLinkStatus)) {
+      outgoing_(config.side == "onboard" ? Direction::kUp : Direction::kDown) {
+  CheckRobots();
   bus::radio::RequireBudget(link_config_.Table(types()), link_config_.Options());
+  if (link_config_.robots > 0 && outgoing_ == Direction::kDown) {
+    AddRobots();
+  } else {
+    AddEnd({.name = "",
+            .key_file = link_config_.key_file,
+            .state_file = config.state_file,
+            .fast_state_file = config.fast_state_file},
+           static_cast<std::uint8_t>(config.address), context.node());
+  }
   OpenLine();
   if (link_config_.simulation_key && !context.lockstep())
     context.Log(bus::Level::kInfo, "the link has the simulation key, which everybody knows");
-  if (config.state_file.empty()) {
-    store_ = std::make_unique<bus::radio::MemoryStore>();
-  } else {
-    store_ = std::make_unique<FileStore>(
-        context.ResolvePath(config.state_file),
-        config.fast_state_file.empty() ? "" : context.ResolvePath(config.fast_state_file));
-  }
-  SubscribeAll();
 }
 
 RadioApp::~RadioApp() {
-  try {
-    if (link_) link_->Close();
-  } catch (const std::exception& error) {
-    context_.Log(bus::Level::kError, error.what());
+  for (const auto& end : ends_) {
+    try {
+      end->Close();
+    } catch (const std::exception& error) {
+      context_.Log(bus::Level::kError, error.what());
+    }
   }
+}
+
+/// Both files say how many robots there are; each says it for its reader.
+void RadioApp::CheckRobots() const {
+  const std::string file = context_.ResolvePath(config_.link);
+  const int robots = link_config_.robots;
+  if (outgoing_ == Direction::kUp && (config_.address == 0) != (robots == 0))
+    throw ConfigError(fmt::format("radio: address: expected {} with robots = {} in {}, got {}",
+                                  robots == 0 ? "0" : fmt::format("1 to {}", robots), robots, file,
+                                  config_.address));
+  if (config_.address > robots)
+    throw ConfigError(fmt::format("radio: address: expected at most {}, the robots of {}, got {}", robots,
+                                  file, config_.address));
+  if (outgoing_ == Direction::kDown && static_cast<int>(config_.robots.size()) != robots)
+    throw ConfigError(fmt::format("radio: robot: expected {} [[robot]] tables, the robots of {}, got {}",
+                                  robots, file, config_.robots.size()));
+}
+
+void RadioApp::AddRobots() {
+  for (std::size_t i = 0; i < config_.robots.size(); ++i) {
+    const StationRobot& robot = config_.robots[i];
+    for (std::size_t k = 0; k < i; ++k)
+      if (config_.robots[k].name == robot.name)
+        throw ConfigError(
+            fmt::format("radio: robot: expected different names, got \"{}\" twice", robot.name));
+    buses_.push_back(context_.OpenBus(robot.name));
+    AddEnd(robot, static_cast<std::uint8_t>(i + 1), buses_.back()->node());
+  }
+}
+
+void RadioApp::AddEnd(const StationRobot& robot, std::uint8_t address, bus::Node& node) {
+  const std::string key_file = link_config_.simulation_key ? "" : context_.ResolvePath(robot.key_file);
+  const bus::radio::LinkKey key = LoadKey(key_file);
+  const auto next_key = key_file.empty() ? std::nullopt : ReadNextKeyFile(key_file, key);
+  ends_.push_back(std::make_unique<BusEnd>(
+      BusEndParts{.link = link_config_,
+                  .types = types(),
+                  .outgoing = outgoing_,
+                  .address = address,
+                  .name = robot.name,
+                  .key = key,
+                  .next_key = next_key,
+                  .key_file = key_file,
+                  .store = OpenStore(robot.state_file, robot.fast_state_file),
+                  .nonces = Nonces(),
+                  .tick = TickPeriod()},
+      node, [this](bus::Level level, std::string_view text) { context_.Log(level, text); }));
+}
+
+std::unique_ptr<bus::radio::StateStore> RadioApp::OpenStore(const std::string& file,
+                                                            const std::string& fast) const {
+  if (file.empty()) return std::make_unique<bus::radio::MemoryStore>();
+  return std::make_unique<FileStore>(context_.ResolvePath(file),
+                                     fast.empty() ? "" : context_.ResolvePath(fast));
 }
 
 bus::radio::LinkConfig RadioApp::LoadLink() const {
@@ -92,8 +144,8 @@ void RadioApp::OpenLine() {
   net_ = OpenNetPort(address);
 }
 
-bus::radio::LinkKey RadioApp::LoadKey() const {
-  if (!link_config_.simulation_key) return ReadKeyFile(context_.ResolvePath(link_config_.key_file));
+bus::radio::LinkKey RadioApp::LoadKey(const std::string& file) const {
+  if (!link_config_.simulation_key) return ReadKeyFile(file);
   if (context_.lockstep()) return SimulationKey();
   const bool is_there =
       IsNetPort(config_.port) || std::filesystem::exists(config_.port);  // else see OpenLine
@@ -103,11 +155,6 @@ bus::radio::LinkKey RadioApp::LoadKey() const {
                     "with `priamos link keygen`",
                     context_.ResolvePath(config_.link), config_.port));
   return SimulationKey();
-}
-
-std::optional<bus::radio::LinkKey> RadioApp::LoadNextKey() const {
-  if (link_config_.simulation_key) return std::nullopt;
-  return ReadNextKeyFile(context_.ResolvePath(link_config_.key_file), key_);
 }
 
 bus::radio::NonceSource RadioApp::Nonces() const {
@@ -120,65 +167,25 @@ bus::radio::NonceSource RadioApp::Nonces() const {
   };
 }
 
-void RadioApp::SubscribeAll() {
-  const bus::radio::ChannelTable table = link_config_.Table(types());
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    if (table.at(i).direction != outgoing_) {
-      context_.node().AdvertiseRaw(table.at(i).name);
-      continue;
-    }
-    const auto offer = [this, i](std::span<const std::byte> encoded, Time now) {
-      if (echo_.IsEcho(i, encoded, now)) return;
-      if (!link_) {
-        waiting_.push_back({i, {encoded.begin(), encoded.end()}});
-        return;
-      }
-      link_->Offer(i, encoded, pauses_->CameAt(now), codecs_.KeyOf(i, encoded));
-    };
-    context_.node().SubscribeRaw(table.at(i).name, types(), offer);
+void RadioApp::Start(Time now) {
+  std::vector<bus::radio::LinkEndpoint*> links;
+  for (const auto& end : ends_) {
+    end->Start(now);
+    links.push_back(&end->link());
   }
-}
-
-void RadioApp::StartLink(Time now) {
-  link_ = std::make_unique<bus::radio::LinkEndpoint>(
-      link_config_.Table(types()), outgoing_, key_, link_config_.Options(), *store_,
-      [this](std::size_t channel, std::span<const std::byte> encoded, Time at) {
-        auto packed = codecs_.Pack(channel, encoded, at);
-        if (!packed) LogRefusal(channel, encoded, at);
-        return packed;
-      },
-      Nonces(), now, next_key_);
-  for (const Waiting& w : waiting_)
-    link_->Offer(w.channel, w.encoded, now, codecs_.KeyOf(w.channel, w.encoded));
-  waiting_.clear();
-  pauses_.emplace(TickPeriod(), now);
-  last_report_ = now;
+  if (!buses_.empty())
+    station_.emplace(bus::radio::SharedChannelOf(link_config_.Table(types()), link_config_.Options()),
+                     std::move(links));
   next_report_ = now + kReportPeriod;
 }
 
-/// Each reason once: a sender that is wrong is so at its rate.
-void RadioApp::LogRefusal(std::size_t channel, std::span<const std::byte> encoded, Time at) {
-  const std::string sentence =
-      link_config_.channels[channel].name + ": " + codecs_.RefusalOf(channel, encoded, at);
-  if (refusals_.insert(sentence).second) context_.Log(bus::Level::kWarning, sentence);
-}
-
 void RadioApp::Tick(Time now) {
-  if (!link_) StartLink(now);
-  pauses_->Tick(now);
+  for (const auto& bus : buses_) bus->Drain();
+  if (!next_report_) Start(now);
+  for (const auto& end : ends_) end->Tick(now);
   ReadLine();
-  ServeListeners(now);
   FeedLine(now);
   if (now >= *next_report_) Report(now);
-}
-
-void RadioApp::ServeListeners(Time now) {
-  for (const link_request_t& request : requests_.Drain())
-    for (std::size_t i = 0; i < link_->table().size(); ++i)
-      if (link_->table().at(i).name == request.channel && link_->table().at(i).direction != outgoing_)
-        listening_until_[i] = now + FromSeconds(std::clamp(request.hold_s, 0.0, kLongestHold_s));
-  for (const auto& [channel, until] : listening_until_) link_->Listen(channel, now < until);
-  std::erase_if(listening_until_, [&](const auto& l) { return now >= l.second; });
 }
 
 void RadioApp::ReadLine() {
@@ -189,20 +196,28 @@ void RadioApp::ReadLine() {
     if (n == 0) return;
     // Taken after the reading: bytes must never seem to have arrived before they did.
     const Time now = context_.node().Now();
-    for (const bus::radio::Delivery& d : link_->Receive(std::span(buffer).first(n), now)) Publish(d, now);
+    const auto bytes = std::span(buffer).first(n);
+    if (station_) {
+      station_->Receive(bytes, now, [&](std::size_t robot, const bus::radio::Delivery& delivery) {
+        ends_[robot]->Publish(delivery, now);
+      });
+      continue;
+    }
+    for (const bus::radio::Delivery& d : ends_[0]->link().Receive(bytes, now)) ends_[0]->Publish(d, now);
   }
 }
 
 void RadioApp::ReadFrames() {
   for (const NetFrame& frame : net_->Read([this] { return context_.node().Now(); })) {
-    const auto received = link_->ReceiveFrame(frame.bytes, frame.first_byte, frame.arrived, frame.stranger);
+    const auto received =
+        ends_[0]->link().ReceiveFrame(frame.bytes, frame.first_byte, frame.arrived, frame.stranger);
     if (received.proof != bus::radio::Proof::kNone) net_->Judge(frame, received.proof);
-    for (const bus::radio::Delivery& d : received.deliveries) Publish(d, frame.arrived);
+    for (const bus::radio::Delivery& d : received.deliveries) ends_[0]->Publish(d, frame.arrived);
   }
 }
 
 void RadioApp::FeedLine(Time now) {
-  const auto bytes = link_->Step(now);
+  const auto bytes = station_ ? station_->Step(now) : ends_[0]->link().Step(now);
   unwritten_.insert(unwritten_.end(), bytes.begin(), bytes.end());
   if (unwritten_.empty()) return;
   const std::size_t n = net_ ? net_->Write(unwritten_, now) : port_->Write(unwritten_);
@@ -210,55 +225,18 @@ void RadioApp::FeedLine(Time now) {
   if (unwritten_.size() > kMostUnwritten) unwritten_.clear();
 }
 
-void RadioApp::Publish(const bus::radio::Delivery& delivery, Time now) {
-  const auto message = codecs_.Unpack(delivery);
-  if (!message) {
-    ++undecodable_;
-    return;
-  }
-  echo_.Published(delivery.channel, *message, now);
-  context_.node().PublishRaw(link_->table().at(delivery.channel).name, *message);
-}
-
-/// Each stage once.
-void RadioApp::LogKeyChange(bus::radio::KeyChange change) {
-  using bus::radio::KeyChange;
-  if (change == logged_change_) return;
-  logged_change_ = change;
-  const std::string file = link_config_.simulation_key ? "" : context_.ResolvePath(link_config_.key_file);
-  const std::string next = NextKeyFile(file);
-  if (change == KeyChange::kWaiting)
-    context_.Log(bus::Level::kInfo,
-                 fmt::format("{}: the link changes to it when the other end has it", next));
-  if (change == KeyChange::kOffered)
-    context_.Log(
-        bus::Level::kInfo,
-        fmt::format("the other end has a next key: copy it to {} and start this process again", next));
-  if (change == KeyChange::kDiffers)
-    context_.Log(bus::Level::kWarning,
-                 fmt::format("{}: the other end has another next key: copy one over the other and start that "
-                             "end's process again",
-                             next));
-  if (change == KeyChange::kDone)
-    context_.Log(bus::Level::kInfo,
-                 fmt::format("the link uses the next key: `priamos link rekey --finish {}`", file));
-}
-
+/// Of several robots' links the worst one is the health of the process.
 void RadioApp::Report(Time now) {
-  if (net_) reported_.turned_away = net_->turned_away();
-  const link_status_t message =
-      ToMessage(*link_, link_config_.BytesPerSecond(), undecodable_, now - last_report_, now, reported_);
-  status_.Publish(message);
-  last_report_ = now;
   next_report_ = now + kReportPeriod;
-  const auto [health, why] =
-      HealthOf(message, link_->table().code_bytes(), link_->Status(now).peer_code_bytes);
-  context_.SetHealth(health, why);
-  LogKeyChange(link_->Status(now).key_change);
-  if (was_up_ != static_cast<bool>(message.up)) {
-    was_up_ = message.up;
-    context_.Log(was_up_ ? bus::Level::kInfo : bus::Level::kWarning, was_up_ ? "link is up" : "link is down");
+  LinkHealth worst;
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    const link_status_t message = ends_[i]->Report(net_ ? net_->turned_away() : 0, now);
+    const bus::radio::LinkEndpoint& link = ends_[i]->link();
+    LinkHealth health = HealthOf(message, link.table().code_bytes(), link.Status(now).peer_code_bytes);
+    if (!health.why.empty() && station_) health.why = config_.robots[i].name + ": " + health.why;
+    if (health.health > worst.health) worst = health;
   }
+  context_.SetHealth(worst.health, worst.why);
 }
 
 }  // namespace priamos::radio

@@ -1,38 +1,34 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bus/app.hpp"
 #include "bus/context.hpp"
-#include "bus/radio/link.hpp"
+#include "bus/other_bus.hpp"
 #include "bus/radio/link_config.hpp"
-#include "bus/radio/message_codecs.hpp"
+#include "bus/radio/station.hpp"
 #include "bus/schema/schema.hpp"
 #include "common/serial_port.hpp"
-#include "lcmtypes/channels.hpp"
-#include "radio/echo_filter.hpp"
-#include "radio/net_frame.hpp"
-#include "radio/pause_watch.hpp"
+#include "radio/bus_end.hpp"
+#include "radio/net_port.hpp"
 #include "radio/radio_config.hpp"
-#include "radio/radio_messages.hpp"
 
 namespace priamos::radio {
 
-/// One end of the radio link on one LCM bus. Carries every channel of link.toml, also of types it was never
-/// compiled with. See README.md.
+/// One end of the radio link on one LCM bus; or the station of several robots that share a channel, with a
+/// bus for each. Carries every channel of link.toml, also of types it was never compiled with. See README.md.
 class RadioApp {
  public:
   static constexpr std::string_view kName = "radio";
   static constexpr std::string_view kSummary = "One end of the radio link between two LCM buses.";
-  static constexpr std::array<bus::OptionAlias, 4> kOptions{
+  static constexpr std::array<bus::OptionAlias, 5> kOptions{
       {{"--port", "port", "", "serial port of the modem, or udp:HOST:PORT, tcp:HOST:PORT, tcp::PORT"},
+       {"--address", "address", "", "of this robot, on a channel that several share"},
        {"--types", "types", "", "folder of .lcm files: carry your own types"},
        {"--onboard", "side", "\"onboard\"", "this is the robot's end"},
        {"--offboard", "side", "\"offboard\"", "this is the workstation's end"}}};
@@ -48,25 +44,19 @@ class RadioApp {
   void Tick(Time now);
 
  private:
-  struct Waiting {
-    std::size_t channel;
-    std::vector<std::byte> encoded;
-  };
   bus::radio::LinkConfig LoadLink() const;
+  void CheckRobots() const;
   void OpenLine();
-  void SubscribeAll();
-  void StartLink(Time now);
-  void LogRefusal(std::size_t channel, std::span<const std::byte> encoded, Time at);
-  void ServeListeners(Time now);
+  void AddEnd(const StationRobot& robot, std::uint8_t address, bus::Node& node);
+  void AddRobots();
+  void Start(Time now);
   void ReadLine();
   void ReadFrames();
   void FeedLine(Time now);
-  void Publish(const bus::radio::Delivery& delivery, Time now);
   void Report(Time now);
   const bus::Schema& types() const { return own_types_ ? *own_types_ : context_.node().schema(); }
-  bus::radio::LinkKey LoadKey() const;
-  std::optional<bus::radio::LinkKey> LoadNextKey() const;
-  void LogKeyChange(bus::radio::KeyChange change);
+  bus::radio::LinkKey LoadKey(const std::string& file) const;
+  std::unique_ptr<bus::radio::StateStore> OpenStore(const std::string& file, const std::string& fast) const;
   bus::radio::NonceSource Nonces() const;
 
   RadioConfig config_;
@@ -74,27 +64,13 @@ class RadioApp {
   bus::radio::LinkConfig link_config_;
   std::optional<bus::Schema> own_types_;  ///< message types in the folder config.types
   bus::radio::Direction outgoing_;
-  bus::radio::MessageCodecs codecs_;
-  bus::radio::LinkKey key_;
-  std::optional<bus::radio::LinkKey> next_key_;  ///< that the link is to change to
-  std::unique_ptr<ByteStream> port_;             ///< of a serial line
-  std::unique_ptr<NetPort> net_;                 ///< of a link over IP
-  std::unique_ptr<bus::radio::StateStore> store_;
-  std::unique_ptr<bus::radio::LinkEndpoint> link_;  ///< since the first tick, which brings the time
-  EchoFilter echo_;
-  std::optional<PauseWatch> pauses_;  ///< since the first tick
-  bus::Inbox<link_request_t> requests_;
-  std::map<std::size_t, Time> listening_until_;  ///< on-request channels of the other end
-  std::vector<Waiting> waiting_;                 ///< messages that came before the first tick
-  std::vector<std::byte> unwritten_;             ///< bytes that the port has not taken yet
-  bus::Publisher<link_status_t> status_;
-  std::optional<Time> next_report_;
-  Time last_report_{};
-  ReportState reported_;
-  std::uint64_t undecodable_ = 0;
-  std::set<std::string> refusals_;  ///< reasons for which a message was not sent, already in the log
-  bool was_up_ = false;
-  bus::radio::KeyChange logged_change_ = bus::radio::KeyChange::kNone;
+  std::unique_ptr<ByteStream> port_;                   ///< of a serial line
+  std::unique_ptr<NetPort> net_;                       ///< of a link over IP
+  std::vector<std::unique_ptr<bus::OtherBus>> buses_;  ///< at a station: the robots' buses
+  std::vector<std::unique_ptr<BusEnd>> ends_;          ///< one; at a station one for each robot
+  std::optional<bus::radio::Station> station_;         ///< since the first tick
+  std::vector<std::byte> unwritten_;                   ///< bytes that the port has not taken yet
+  std::optional<Time> next_report_;                    ///< since the first tick
 };
 
 }  // namespace priamos::radio

@@ -1,11 +1,27 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bus/radio/link_config.hpp"
 #include "common/archive.hpp"
 
 namespace priamos::radio {
+
+/// One of several robots of a station: a `[[robot]]` of its radio.toml. The first has address 1.
+struct StationRobot {
+  std::string name;  ///< as with --robot: its offboard bus has that name
+  std::string key_file;
+  std::string state_file, fast_state_file;
+  void Describe(Archive& a) {
+    a.Text("name", name, "robot, as with --robot: its messages are on the offboard bus of that name");
+    a.Text("key_file", key_file, "secret key of the link to this robot");
+    a.Text("state_file", state_file, "as above, for this robot");
+    a.Text("fast_state_file", fast_state_file, "as above, for this robot");
+    if (name.empty()) a.Refuse("name", "the name of a robot");
+  }
+  friend bool operator==(const StationRobot&, const StationRobot&) = default;
+};
 
 /// Contents of `config/<deployment>/radio.toml`.
 struct RadioConfig {
@@ -15,6 +31,8 @@ struct RadioConfig {
   std::string types;
   std::string state_file, fast_state_file;
   double tick_s = 0.001;
+  int address = 0;
+  std::vector<StationRobot> robots;
   bus::radio::LinkConfig own_link;  ///< used when it has channels
 
   bool HasOwnLink() const { return !own_link.channels.empty(); }
@@ -34,6 +52,12 @@ struct RadioConfig {
     a.Text("fast_state_file", fast_state_file,
            "the same on a RAM disk, so that no message waits for the disk of state_file; empty: none");
     a.Number("tick_s", tick_s, {"s", 0.0005, 0.001, "how often the line is fed; the budget counts on 0.001"});
+    a.Integer("address", address,
+              {"-", 0, 8,
+               "of this robot on a channel that several share (link.toml: robots); 0: a link of two ends"});
+    a.List("robot", robots,
+           "at the station of several robots: each of them, in the order of their addresses");
+    if (!robots.empty() && side != "offboard") a.Refuse("robot", "none onboard: a robot has one link");
     // A link.toml may be given as this file; then `link` is not read.
     own_link.Describe(a);
     if (!HasOwnLink() && own_link != bus::radio::LinkConfig{})

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace priamos::bus::radio {
 
 SharedLine::SharedLine(const LineConfig& config, std::size_t sides, std::uint64_t seed, Time start)
@@ -30,6 +32,18 @@ std::vector<std::byte> SharedLine::Read(std::size_t side, Time now) {
     heard.insert(heard.end(), bytes.begin(), bytes.end());
   }
   return heard;
+}
+
+Time SharedLine::free_at(std::size_t side) const {
+  return lines_[side][side == 0 ? 1 : 0]->free_at();
+}
+
+Time SharedLine::next_arrival() const {
+  Time next = Time::max();
+  for (const auto& from : lines_)
+    for (const auto& line : from)
+      if (line) next = std::min(next, line->next_arrival());
+  return next;
 }
 
 }  // namespace priamos::bus::radio

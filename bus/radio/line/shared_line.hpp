@@ -21,6 +21,10 @@ class SharedLine {
   void Write(std::size_t side, std::span<const std::byte> bytes, Time now);
   /// What a modem has heard until `now`.
   std::vector<std::byte> Read(std::size_t side, Time now);
+  /// Time at which the byte that a modem was given last has left its port.
+  Time free_at(std::size_t side) const;
+  /// Time at which the next byte can be read; Time::max() when none is under way.
+  Time next_arrival() const;
   std::size_t sides() const { return lines_.size(); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
@@ -80,6 +81,22 @@ void MoveIn(PseudoTerminal& from, Line& line, Time now) {
     if (bytes.empty()) return;
     line.Write(bytes, now);
   }
+}
+
+std::unique_ptr<EmulatedMedium> MakeMedium(const LinkEmulateOptions& options, Time start) {
+  if (options.robots > 0) return std::make_unique<EmulatedChannel>(options, start);
+  return std::make_unique<EmulatedLine>(options, start);
+}
+
+void Announce(const LinkEmulateOptions& options, const std::vector<std::string>& ttys) {
+  if (options.json && options.robots > 0)
+    std::cout << nlohmann::ordered_json{{"ttys", ttys}, {"baud", options.line.baud}} << std::endl;
+  else if (options.json)
+    std::cout << nlohmann::ordered_json{{"a", options.a}, {"b", options.b}, {"baud", options.line.baud}}
+              << std::endl;
+  else
+    std::cout << fmt::format("{}: {} baud; Ctrl-C ends it\n", fmt::join(ttys, " <-> "), options.line.baud)
+              << std::flush;
 }
 
 }  // namespace
@@ -179,29 +196,54 @@ Time EmulatedLine::NextArrival() const {
   return std::min(lines_.a_to_b.next_arrival(), lines_.b_to_a.next_arrival());
 }
 
+EmulatedChannel::EmulatedChannel(const LinkEmulateOptions& options, Time start)
+    : air_(WithSchedules(options), static_cast<std::size_t>(options.robots) + 1, options.seed, start) {
+  for (const std::string& link : TtysOf(options)) ttys_.push_back(std::make_unique<PseudoTerminal>(link));
+}
+
+void EmulatedChannel::Step(Time now) {
+  for (std::size_t i = 0; i < ttys_.size(); ++i) {
+    while (air_.free_at(i) < now + kTtyBuffer) {
+      const auto bytes = ttys_[i]->Read(kReadAtOnce);
+      if (bytes.empty()) break;
+      air_.Write(i, bytes, now);
+    }
+  }
+  for (std::size_t i = 0; i < ttys_.size(); ++i) ttys_[i]->Write(air_.Read(i, now));
+}
+
+std::vector<int> EmulatedChannel::fds() const {
+  std::vector<int> fds;
+  for (const auto& tty : ttys_) fds.push_back(tty->fd());
+  return fds;
+}
+
+std::vector<std::string> TtysOf(const LinkEmulateOptions& options) {
+  std::vector<std::string> ttys{options.a};
+  if (options.robots == 0) ttys.push_back(options.b);
+  for (int i = 1; i <= options.robots; ++i) ttys.push_back(fmt::format("{}-{}", options.b, i));
+  return ttys;
+}
+
 int RunLinkEmulate(const LinkEmulateOptions& options) {
   const bus::SignalWatch signals;
   const bus::MonotonicClock clock;
-  // Both at once: the new tty of one end may have the number that a link left behind at the other end names.
-  RemoveDeadLink(options.a);
-  RemoveDeadLink(options.b);
-  EmulatedLine line(options, clock.Now());
-  if (options.json)
-    std::cout << nlohmann::ordered_json{{"a", options.a}, {"b", options.b}, {"baud", options.line.baud}}
-              << std::endl;
-  else
-    std::cout << fmt::format("{} <-> {}: {} baud; Ctrl-C ends it\n", options.a, options.b, options.line.baud)
-              << std::flush;
+  const std::vector<std::string> ttys = TtysOf(options);
+  // All at once: the new tty of one end may have the number that a link left behind at another one names.
+  for (const std::string& tty : ttys) RemoveDeadLink(tty);
+  const std::unique_ptr<EmulatedMedium> medium = MakeMedium(options, clock.Now());
+  Announce(options, ttys);
   bus::ServiceNotifier notifier;
+  std::vector<pollfd> fds{{signals.fd(), POLLIN, 0}};
+  for (const int fd : medium->fds()) fds.push_back({fd, POLLIN, 0});
   for (;;) {
     notifier.Beat(clock.Now());
-    const Duration idle = std::min<Duration>(line.NextArrival() - clock.Now(), kLongestIdle);
+    const Duration idle = std::min<Duration>(medium->NextArrival() - clock.Now(), kLongestIdle);
     const auto us = std::max<Duration::rep>(0, idle.count());
     const timespec wait{static_cast<time_t>(us / 1'000'000), static_cast<long>(us % 1'000'000 * 1000)};
-    pollfd fds[] = {{line.a().fd(), POLLIN, 0}, {line.b().fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
-    ppoll(fds, std::size(fds), &wait, nullptr);
-    if (fds[2].revents != 0) return 0;
-    line.Step(clock.Now());
+    ppoll(fds.data(), fds.size(), &wait, nullptr);
+    if (fds[0].revents != 0) return 0;
+    medium->Step(clock.Now());
   }
 }
 

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "bus/radio/line/line.hpp"
+#include "bus/radio/line/shared_line.hpp"
 #include "common/time.hpp"
 
 namespace priamos::cli {
 
-/// An emulated pair of radio modems: two pseudo terminals joined by an emulated line.
+/// An emulated pair of radio modems: two pseudo terminals joined by an emulated line. With robots a channel
+/// that they share with a station.
 struct LinkEmulateOptions {
   std::string a = "tty-a";  ///< links to the ttys are made here and removed at the end
   std::string b = "tty-b";
@@ -17,6 +20,7 @@ struct LinkEmulateOptions {
   std::string blackouts;  ///< CSV file, `from_s,to_s` per line: more times without a line
   std::string delays;     ///< CSV file, `way,from_s,to_s,first_s,last_s` per line: times with more delay
   std::uint64_t seed = 1;
+  int robots = 0;     ///< with more than 0, `a` is the station's tty and `b`-1, `b`-2, ... are theirs
   bool json = false;  ///< print the ttys that were made as JSON
 };
 
@@ -49,15 +53,26 @@ class PseudoTerminal {
   int slave_ = -1;  ///< kept open, so that the line survives the programs at its ends
 };
 
-/// Both directions between two pseudo terminals; time is given, so that a test need not wait.
-class EmulatedLine {
+/// What joins pseudo terminals; time is given, so that a test need not wait.
+class EmulatedMedium {
+ public:
+  virtual ~EmulatedMedium() = default;
+  /// Moves the bytes that are due at `now`.
+  virtual void Step(Time now) = 0;
+  /// Time at which the next byte is due; Time::max() when none is under way.
+  virtual Time NextArrival() const = 0;
+  /// File descriptors that become readable when a program writes.
+  virtual std::vector<int> fds() const = 0;
+};
+
+/// Both directions between two pseudo terminals.
+class EmulatedLine : public EmulatedMedium {
  public:
   EmulatedLine(const LinkEmulateOptions& options, Time start);
 
-  /// Moves the bytes that are due at `now`.
-  void Step(Time now);
-  /// Time at which the next byte is due; Time::max() when none is under way.
-  Time NextArrival() const;
+  void Step(Time now) override;
+  Time NextArrival() const override;
+  std::vector<int> fds() const override { return {a_.fd(), b_.fd()}; }
   const PseudoTerminal& a() const { return a_; }
   const PseudoTerminal& b() const { return b_; }
 
@@ -65,6 +80,24 @@ class EmulatedLine {
   PseudoTerminal a_, b_;
   bus::radio::LinePair lines_;
 };
+
+/// One radio channel that a station and several robots share: everybody hears everybody, who sends is deaf,
+/// and of two that send at once nobody is understood.
+class EmulatedChannel : public EmulatedMedium {
+ public:
+  EmulatedChannel(const LinkEmulateOptions& options, Time start);
+
+  void Step(Time now) override;
+  Time NextArrival() const override { return air_.next_arrival(); }
+  std::vector<int> fds() const override;
+
+ private:
+  std::vector<std::unique_ptr<PseudoTerminal>> ttys_;  ///< the station's, then the robots'
+  bus::radio::SharedLine air_;
+};
+
+/// Names of the ttys that are made, the station's first.
+std::vector<std::string> TtysOf(const LinkEmulateOptions& options);
 
 /// Emulates until SIGINT or SIGTERM and returns 0. Throws ConfigError or std::runtime_error.
 int RunLinkEmulate(const LinkEmulateOptions& options);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -47,11 +48,13 @@ inline double Quantile(std::vector<double> values, double share) {
 /// How much to do: 1 takes about a minute, `--long` more.
 struct Effort {
   bool long_run = false;
+  std::uint64_t seed = 1;  ///< of several robots' messages
 };
 
 void SimulatedLink(Figures& figures, const Effort& effort);  // sections of link_figures.cpp
 void Hostile(Figures& figures, const Effort& effort);        // attack_figures.cpp
 void Stops(Figures& figures, const Effort& effort);          // stop_figures.cpp
+void SharedChannel(Figures& figures, const Effort& effort);  // shared_figures.cpp
 void SideBySide(Figures& figures);                           // size_figures.cpp
 void Differences(Figures& figures);                          // delta_figures.cpp
 /// A run with real processes.

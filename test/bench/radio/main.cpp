@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   bool real_time = false;
   RealTimeOptions options;
   cli.add_flag("--long", effort.long_run, "10^7 damaged frames, and more runs: about ten minutes");
+  cli.add_option("--seed", effort.seed, "of several robots' messages")->capture_default_str();
   cli.add_flag("--real-time", real_time,
                "two priamos-radio on an emulated line; run it with scripts/in-private-network");
   cli.add_option("--seconds", options.seconds, "length of the real-time run")->capture_default_str();
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
       SimulatedLink(figures, effort);
       Stops(figures, effort);
       Hostile(figures, effort);
+      SharedChannel(figures, effort);
     }
   } catch (const std::exception& error) {
     std::cerr << "bench_radio: " << error.what() << "\n";

@@ -242,6 +242,22 @@ TEST_F(ProtocolVectors, LongerCodes) {
   }
 }
 
+TEST_F(ProtocolVectors, FramesOfASharedChannel) {
+  const auto sealer = [&](Direction direction) {
+    FrameScope scope = Scope(direction, false);
+    scope.address = 3;
+    return FrameSealer(FrameKeys(key), direction, scope);
+  };
+  const FrameSealer down = sealer(Direction::kDown);
+  EXPECT_EQ(ToHex(sealer(Direction::kUp).Seal(Number("epoch"), 300, CounterForm::kLowBits, BundleUp())),
+            values.at("frame_up_counter_300_address_3"));
+  EXPECT_EQ(ToHex(down.Seal(Number("epoch"), 7, CounterForm::kLowBits, BundleDown(), 300)),
+            values.at("frame_down_counter_7_address_3"));
+  EXPECT_EQ(ToHex(down.Seal(Number("epoch"), 7, CounterForm::kWhole, BundleDown(), 300)),
+            values.at("frame_down_counter_7_whole_address_3"));
+  EXPECT_EQ(ToHex(down.Seal(HelloDown())), values.at("hello_down_address_3"));
+}
+
 TEST_F(ProtocolVectors, TheFigureOfTheDefaultLength) {
   EXPECT_NEAR(ForgerySeconds(960, 4) / 86400, 251, 1);
   EXPECT_NEAR(ForgerySeconds(100'000, 6) / (365.25 * 86400), 556, 1);

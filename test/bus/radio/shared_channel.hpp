@@ -29,10 +29,10 @@ inline std::vector<LinkChannel> SharedTestChannels() {
     c.rate_hz = rate_hz;
     return c;
   };
-  std::vector<LinkChannel> channels{channel("POSE", Direction::kUp, ChannelClass::kState, 80, 2, 1),
+  std::vector<LinkChannel> channels{channel("POSE", Direction::kUp, ChannelClass::kState, 132, 2, 1),
                                     channel("FAULT", Direction::kUp, ChannelClass::kEvent, 32, 1, 0.05),
                                     channel("DRIVE", Direction::kDown, ChannelClass::kCommand, 40, 1, 20),
-                                    channel("STOP", Direction::kDown, ChannelClass::kEvent, 32, 0, 0.05),
+                                    channel("STOP", Direction::kDown, ChannelClass::kEvent, 14, 0, 0.05),
                                     channel("ORDER", Direction::kDown, ChannelClass::kEvent, 48, 3, 0.05)};
   channels[kSharedDrive].ttl = std::chrono::milliseconds(600);
   channels[kSharedStop].urgent = true;

@@ -64,13 +64,15 @@ class SharedTraffic {
     LinkEndpoint* const end =
         channel == kSharedPose || channel == kSharedFault ? world_.robot(robot) : &world_.at_station(robot);
     if (end == nullptr) return;
-    const std::uint64_t number = ++number_;
-    if (end->Offer(channel, Numbered(SharedTestChannels()[channel].max_bits / 8, number), world_.now) !=
+    const std::uint64_t number = channel == kSharedStop ? StopNumber(++stops_) : ++number_;
+    if (end->Offer(channel, Numbered((SharedTestChannels()[channel].max_bits + 7) / 8, number), world_.now) !=
         OfferResult::kAccepted)
       return;
     ++kinds_[kind].offered;
-    offers_[number] = {kind, world_.now};
+    offers_[{channel, number}] = {kind, world_.now};
   }
+  /// A number whose bits are among the 14 of a stop that are sent.
+  static std::uint64_t StopNumber(std::uint64_t n) { return (n & 0xFF) | (n >> 8 << 10 & 0xFC00); }
   void Collect() {
     for (auto* received : {&world_.up, &world_.down}) {
       for (const SharedWorld::Received& r : *received) Note(r);
@@ -79,12 +81,12 @@ class SharedTraffic {
   }
   void Note(const SharedWorld::Received& r) {
     const std::uint64_t number = NumberOf(r.delivery.packed);
-    const auto offer = offers_.find(number);
+    const auto offer = offers_.find({r.delivery.channel, number});
     if (offer == offers_.end()) return;
     Kind& kind = kinds_[offer->second.first];
     const Duration age = r.at - offer->second.second;
     const bool is_event = r.delivery.channel != kSharedPose && r.delivery.channel != kSharedDrive;
-    if (is_event && !came_.insert(number).second) ++kind.repeated;
+    if (is_event && !came_.insert({r.delivery.channel, number}).second) ++kind.repeated;
     auto& last = last_[{r.robot, r.delivery.channel}];
     if (number < last) ++kind.disordered;
     last = std::max(last, number);
@@ -96,11 +98,11 @@ class SharedTraffic {
   std::size_t robots_;
   Rng rng_;
   std::size_t driven_ = 0;
-  std::uint64_t number_ = 0;
+  std::uint64_t number_ = 0, stops_ = 0;
   std::map<std::size_t, Kind> kinds_;
   std::map<std::size_t, Time> next_;
-  std::map<std::uint64_t, std::pair<std::size_t, Time>> offers_;
-  std::set<std::uint64_t> came_;
+  std::map<std::pair<std::size_t, std::uint64_t>, std::pair<std::size_t, Time>> offers_;
+  std::set<std::pair<std::size_t, std::uint64_t>> came_;
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> last_;
 };
 

@@ -25,7 +25,7 @@ TEST(Station, EveryRobotAgreesAndSendsItsPose) {
   std::uint64_t number = 0;
   dut.Run(20, [&] {
     if (ToUtime(dut.now) % 200'000 == 0)
-      for (std::size_t i = 0; i < 4; ++i) dut.robot(i)->Offer(kSharedPose, Numbered(10, ++number), dut.now);
+      for (std::size_t i = 0; i < 4; ++i) dut.robot(i)->Offer(kSharedPose, Numbered(17, ++number), dut.now);
   });
   for (std::size_t i = 0; i < 4; ++i) EXPECT_GE(Count(dut.up, i, kSharedPose), 20U) << i;
 }
@@ -33,7 +33,7 @@ TEST(Station, EveryRobotAgreesAndSendsItsPose) {
 TEST(Station, WhatIsForOneRobotReachesNoOther) {
   SharedWorld dut(3);
   dut.Run(5);
-  dut.at_station(1).Offer(kSharedStop, Numbered(4, 7), dut.now);
+  dut.at_station(1).Offer(kSharedStop, Numbered(2, 7), dut.now);
   dut.Run(2);
   EXPECT_EQ(Count(dut.down, 0, kSharedStop), 0U);
   ASSERT_EQ(Count(dut.down, 1, kSharedStop), 1U);
@@ -91,12 +91,12 @@ TEST(Station, AbsentRobotsDelayTheOthersLessThanPresentOnesAndComeBack) {
   SharedWorld dut(4, 13);
   dut.Run(5);
   dut.StopRobot(2);
-  dut.at_station(2).Offer(kSharedStop, Numbered(4, 1), dut.now);  // which nobody acknowledges
+  dut.at_station(2).Offer(kSharedStop, Numbered(2, 1), dut.now);  // which nobody acknowledges
   dut.Run(20);
   dut.up.clear();
   std::uint64_t number = 0;
   dut.Run(10, [&] {
-    if (ToUtime(dut.now) % 100'000 == 0) dut.robot(0)->Offer(kSharedPose, Numbered(10, ++number), dut.now);
+    if (ToUtime(dut.now) % 100'000 == 0) dut.robot(0)->Offer(kSharedPose, Numbered(17, ++number), dut.now);
   });
   EXPECT_GE(Count(dut.up, 0, kSharedPose), 10U);
   dut.StartRobot(2);
@@ -107,7 +107,7 @@ TEST(Station, AbsentRobotsDelayTheOthersLessThanPresentOnesAndComeBack) {
 TEST(Station, ARobotThatLostItsMemoryComesBack) {
   SharedWorld dut(2, 14);
   dut.Run(5);
-  dut.at_station(1).Offer(kSharedStop, Numbered(4, 1), dut.now);
+  dut.at_station(1).Offer(kSharedStop, Numbered(2, 1), dut.now);
   dut.StopRobot(1);
   dut.StoreOf(1) = {};
   dut.Run(3);

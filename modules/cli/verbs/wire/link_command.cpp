@@ -61,11 +61,18 @@ nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
 }
 
 nlohmann::ordered_json BudgetAsJson(const bus::radio::ChannelTable& table, const bus::radio::Budget& budget) {
-  return {{"up", DirectionAsJson(table, budget.up)},
-          {"down", DirectionAsJson(table, budget.down)},
-          {"code_bytes", budget.code_bytes},
-          {"forgery_s", budget.forgery_s},
-          {"problems", budget.problems}};
+  nlohmann::ordered_json json{{"up", DirectionAsJson(table, budget.up)},
+                              {"down", DirectionAsJson(table, budget.down)},
+                              {"code_bytes", budget.code_bytes},
+                              {"forgery_s", budget.forgery_s},
+                              {"problems", budget.problems}};
+  if (budget.robots > 0)
+    json["polls"] = {{"robots", budget.robots},
+                     {"cycle_s", Seconds(budget.polls.cycle)},
+                     {"driven_s", Seconds(budget.polls.asked)},
+                     {"urgent_one_s", Seconds(budget.polls.urgent_one)},
+                     {"urgent_all_s", Seconds(budget.polls.urgent_all)}};
+  return json;
 }
 
 void AddLineOptions(CLI::App& verb, bus::radio::LineConfig& line) {
@@ -106,6 +113,10 @@ void AddEmulate(CLI::App& link, int& exit_code) {
   verb->footer("Example: priamos link emulate --a /tmp/tty-robot --b /tmp/tty-desk --bit-error-rate 1e-4");
   verb->add_option("--a", options->a, "name of the first tty")->capture_default_str();
   verb->add_option("--b", options->b, "name of the second tty")->capture_default_str();
+  verb->add_option("--robots", options->robots,
+                   "a half-duplex channel that so many robots share: --a is the station, --b gives the names "
+                   "of theirs, B-1, B-2, ...")
+      ->check(CLI::Range(1, 8));
   AddLineOptions(*verb, options->line);
   verb->add_option("--blackouts", options->blackouts,
                    "CSV file with from_s,to_s per line: no line in between");
