@@ -9,8 +9,7 @@ template <int N>
 PrincipalAxes<N> PrincipalAxesOf(const Eigen::Matrix<double, N, N>& symmetric) {
   // Eigen has shorter code for 3 by 3. All other sizes share the code for any size, with the same results.
   using Solved = std::conditional_t<N == 3, Eigen::Matrix3d, Eigen::MatrixXd>;
-  const Solved copy = symmetric;
-  const Eigen::SelfAdjointEigenSolver<Solved> solver(copy);
+  const Eigen::SelfAdjointEigenSolver<Solved> solver{Solved(symmetric)};
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 

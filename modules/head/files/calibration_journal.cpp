@@ -77,7 +77,7 @@ std::vector<CalibrationExposure> CalibrationJournal::Read() const {
 }
 
 std::vector<CalibrationExposure> CalibrationJournal::Resume() {
-  const auto exposures = Read();
+  auto exposures = Read();
   std::string text = json{{"kind", kKind}, {"fingerprint", fingerprint_}}.dump() + '\n';
   for (const CalibrationExposure& e : exposures) text += ToJson(e).dump() + '\n';
   const bool replaced = ReplaceFile(path_, text, false, 0644);

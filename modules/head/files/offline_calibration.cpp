@@ -52,6 +52,7 @@ T Must(const std::string& path, Outcome<T> outcome) {
 
 std::vector<DiscObservation> ToObservations(const std::vector<PointPair>& pairs, double sigma_px) {
   std::vector<DiscObservation> observations;
+  observations.reserve(pairs.size());
   // Points: discs without extent, which have no bias.
   for (const PointPair& p : pairs)
     observations.push_back({{p.point_m, Eigen::Vector3d::UnitX(), 0}, p.image_px, sigma_px});

@@ -18,7 +18,7 @@ constexpr int kSmallest_px = 32;
 constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may be uncertain
 
 cv::Mat ReadLargeEnough(const std::string& file) {
-  const cv::Mat image = ReadGrey(file);
+  cv::Mat image = ReadGrey(file);
   if (image.empty())
     throw std::runtime_error(fmt::format("{}: expected an image (PNG, JPEG, PGM ...), got none", file));
   if (image.cols < kSmallest_px || image.rows < kSmallest_px)
@@ -31,7 +31,9 @@ std::vector<SeenPhotograph> ReadPhotographs(const std::vector<std::string>& file
   std::vector<SeenPhotograph> photographs;
   EdgeOperator edge_operator;
   for (const std::string& file : files) {
-    SeenPhotograph& photograph = photographs.emplace_back(file, ReadLargeEnough(file));
+    SeenPhotograph& photograph = photographs.emplace_back();
+    photograph.file = file;
+    photograph.grey = ReadLargeEnough(file);
     edge_operator.Extract(photograph.grey, photograph.edges);
   }
   for (SeenPhotograph& photograph : photographs) photograph.contours = {photograph.edges, {}};
@@ -73,8 +75,8 @@ void RefuseExchanged(const SeeFindings& findings, int n_as_given) {
 
 std::vector<StereoMatch> MatchViews(const SeeFindings& findings) {
   const auto& views = findings.views;
-  const auto matches = views.size() == 2 ? MatchBinocular(views[0], views[1], {})
-                                         : MatchTrinocular(views[0], views[1], views[2], {});
+  auto matches = views.size() == 2 ? MatchBinocular(views[0], views[1], {})
+                                   : MatchTrinocular(views[0], views[1], views[2], {});
   RefuseExchanged(findings, CountInSpace(matches));
   return matches;
 }

@@ -66,7 +66,7 @@ std::string SeeOutput::FileOf(const std::string& image, std::string_view what) c
 }
 
 std::string SeeOutput::Add(const std::string& image, std::string_view what, std::string bytes) {
-  const std::string file = FileOf(image, what);
+  std::string file = FileOf(image, what);
   finished_.emplace_back(file, std::move(bytes));
   return file;
 }

@@ -20,6 +20,7 @@ double Deviations(const StereoDrift& look, int axis) {
 /// The look in the middle of all, as one axis ranks them.
 const StereoDrift& Median(const std::deque<StereoDrift>& looks, int axis) {
   std::vector<const StereoDrift*> ranked;
+  ranked.reserve(looks.size());
   for (const StereoDrift& look : looks) ranked.push_back(&look);
   std::sort(ranked.begin(), ranked.end(),
             [&](const auto* a, const auto* b) { return Deviations(*a, axis) < Deviations(*b, axis); });

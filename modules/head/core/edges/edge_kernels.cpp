@@ -56,6 +56,7 @@ double Gain(const std::array<std::int16_t, EdgeKernel::kTaps>& weights) {
 
 std::vector<EdgeKernelSet> MakeAll(double sigma) {
   std::vector<EdgeKernelSet> sets;
+  sets.reserve(kSlopes);
   for (int i = 0; i < kSlopes; ++i) {
     sets.emplace_back(sigma * (1 + (std::sqrt(2.0) - 1) * (i + 0.5) / kSlopes));
   }

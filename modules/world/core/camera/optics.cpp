@@ -117,10 +117,10 @@ void CameraBuild::Describe(Archive& a) {
   a.Number("focal_min_px", focal_min_px, {"px", 200, 5000, "focal length at zoom step 0"});
   a.Number("focal_max_px", focal_max_px, {"px", 200, 5000, "focal length at zoom step 2000"});
   a.Number("centre_u_px", centre_u_px,
-           {"px", kImageWidth_px / 2 - kFarOff_px, kImageWidth_px / 2 + kFarOff_px,
+           {"px", kImageWidth_px / 2.0 - kFarOff_px, kImageWidth_px / 2.0 + kFarOff_px,
             "principal point at middle zoom, column"});
   a.Number("centre_v_px", centre_v_px,
-           {"px", kImageHeight_px / 2 - kFarOff_px, kImageHeight_px / 2 + kFarOff_px,
+           {"px", kImageHeight_px / 2.0 - kFarOff_px, kImageHeight_px / 2.0 + kFarOff_px,
             "principal point at middle zoom, row"});
   a.Number("centre_walk_u_px", centre_walk_u_px, {"px", -50, 50, "how far it moves over the zoom range"});
   a.Number("centre_walk_v_px", centre_walk_v_px, {"px", -50, 50, "how far it moves over the zoom range"});

@@ -152,7 +152,7 @@ class Renderer::Impl {
     for (int y = 0; y < picture.rows; ++y) {
       const std::uint8_t* from = picture.ptr<std::uint8_t>(y) + channel;
       float* to = light_.ptr<float>(y);
-      for (int x = 0; x < picture.cols; ++x) to[x] += w * from[3 * x];
+      for (int x = 0; x < picture.cols; ++x) to[x] += w * from[std::ptrdiff_t{3} * x];
     }
   }
 

@@ -82,7 +82,7 @@ cv::Mat PosterPicture(Rng& rng) {
   return ToAlbedo(image);
 }
 
-cv::Mat LeafPicture(cv::Mat surface) {
+cv::Mat LeafPicture(const cv::Mat& surface) {
   cv::Mat image = ToBytes(surface);
   const int lock = static_cast<int>(kSide * (1 - 1.05 / 2.0));
   const int column = static_cast<int>(kSide * 0.93);
@@ -93,7 +93,7 @@ cv::Mat LeafPicture(cv::Mat surface) {
   return ToAlbedo(image);
 }
 
-cv::Mat CupboardPicture(cv::Mat surface) {
+cv::Mat CupboardPicture(const cv::Mat& surface) {
   cv::Mat image = ToBytes(surface);
   const int plinth = static_cast<int>(kSide * 0.95);
   cv::rectangle(image, cv::Rect(0, plinth, kSide, kSide - plinth), cv::Scalar(45), cv::FILLED);

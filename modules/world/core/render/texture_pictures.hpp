@@ -15,9 +15,9 @@ inline constexpr int kTextureSide = 512;
 cv::Mat PosterPicture(Rng& rng);
 
 /// A door leaf with handle and lock plate (at 1.05 m of 2 m) on `surface`.
-cv::Mat LeafPicture(cv::Mat surface);
+cv::Mat LeafPicture(const cv::Mat& surface);
 
 /// Two doors with a gap, handles and a plinth on `surface`.
-cv::Mat CupboardPicture(cv::Mat surface);
+cv::Mat CupboardPicture(const cv::Mat& surface);
 
 }  // namespace priamos::world

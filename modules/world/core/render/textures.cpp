@@ -91,7 +91,7 @@ Textures::Textures(std::uint64_t seed) {
   for (int i = 0; i < kPosters; ++i) Add(PosterPicture(rng));
 }
 
-int Textures::Add(cv::Mat layer) {
+int Textures::Add(const cv::Mat& layer) {
   cv::Mat bytes;
   layer.convertTo(bytes, CV_8U, 255);
   layers_.push_back(bytes);

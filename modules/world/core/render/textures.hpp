@@ -27,7 +27,7 @@ class Textures {
   const std::vector<cv::Mat>& layers() const { return layers_; }
 
  private:
-  int Add(cv::Mat layer);
+  int Add(const cv::Mat& layer);
 
   std::vector<cv::Mat> layers_;
   int first_poster_ = 0, posters_ = 0;

@@ -15,6 +15,7 @@ void StepInterval::Describe(Archive& a) {
 
 std::vector<int> StepInterval::Steps() const {
   std::vector<int> steps;
+  steps.reserve(static_cast<std::size_t>(nodes));
   for (int i = 0; i < nodes; ++i) {
     steps.push_back(nodes == 1 ? (first + last) / 2 : first + (last - first) * i / (nodes - 1));
   }

@@ -97,6 +97,7 @@ std::optional<Plane> PlaneOfMost(const std::vector<Point>& points) {
 /// Marks what lies in the plane.
 std::vector<bool> Inliers(const std::vector<Point>& points, const Plane& plane, double at_least_px) {
   std::vector<bool> inside;
+  inside.reserve(points.size());
   for (const Point& p : points)
     inside.push_back(std::abs(RowsFrom(plane, p)) < std::max(at_least_px, 4 * p.sigma_px));
   return inside;
