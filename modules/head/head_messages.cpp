@@ -52,6 +52,7 @@ std::vector<ObstaclePiece> MostImportant(const std::vector<ObstaclePiece>& piece
   order.resize(std::min(n, order.size()));
   std::sort(order.begin(), order.end());
   std::vector<ObstaclePiece> chosen;
+  chosen.reserve(order.size());
   for (const std::size_t i : order) chosen.push_back(pieces[i]);
   return chosen;
 }
@@ -231,7 +232,7 @@ ObstacleLines FromMessage(const obstacle_line_t& message) {
 
 LandmarkView FromMessage(const landmark_view_t& message) {
   LandmarkView view;
-  view.camera = message.camera;
+  view.camera = message.camera == 1 ? 1 : 0;
   view.n_left_out = message.n_left_out;
   for (const view_edge_t& e : message.edges) {
     if (e.kind < view_edge_t::PREDICTED || e.kind > view_edge_t::REJECTED) continue;

@@ -41,7 +41,7 @@ std::string RunScript(const std::string& script) {
 TEST(SharedChannel, AStopReachesTheRobotItIsFor) {
   const std::string text = RunScript(Example());
   EXPECT_THAT(text, HasSubstr("2 robots on one channel")) << text;
-  EXPECT_THAT(text, HasSubstr("\"source\":\"desk\"")) << text;
+  EXPECT_THAT(text, HasSubstr("\"driver\":2")) << text;
   EXPECT_THAT(text, HasSubstr("offboard end: up")) << text;
 }
 

@@ -33,7 +33,7 @@ std::shared_ptr<GraphicsContext> GraphicsContext::Hold(int width_px, int height_
   }
   KeepNoShaders();
   try {
-    const auto context = std::make_shared<GraphicsContext>(width_px, height_px);
+    auto context = std::make_shared<GraphicsContext>(width_px, height_px);
     living = context;
     return context;
   } catch (const std::exception& e) {
