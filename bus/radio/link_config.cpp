@@ -122,6 +122,22 @@ void LinkChannelConfig::Describe(Archive& a) {
 }
 
 void LinkConfig::Describe(Archive& a) {
+  DescribeLine(a);
+  DescribeMedium(a);
+  a.Integer("code_bytes", code_bytes,
+            {"byte", 0, 8,
+             "4, 6 or 8: authentication code of a frame; 0: the shortest that keeps a line full of forgeries "
+             "out for 180 days, 8 for datagrams"});
+  a.Flag("encrypted", encrypted, "hides what is sent; it is authenticated in any case");
+  a.Text("key_file", key_file, "secret key of the link, made by `priamos link keygen`, mode 0600");
+  a.Flag("simulation_key", simulation_key, "use a key that everybody knows: only for emulated lines");
+  a.List("channel", channels,
+         "the channels that cross the link; their order is part of what both ends agree on");
+  if (code_bytes % 2 != 0 || code_bytes == 2) a.Refuse("code_bytes", "4, 6, 8, or 0 for the default");
+  RefuseContradictions(a);
+}
+
+void LinkConfig::DescribeLine(Archive& a) {
   a.Integer("baud", baud, {"baud", 300, 1000000, "baud rate of the serial port, 10 bits per byte"});
   a.Number("air_rate_bytes_s", air_rate_bytes_s,
            {"byte/s", 0, 1e6, "what the radio itself carries when that is less; 0: as much as the port"});
@@ -134,6 +150,10 @@ void LinkConfig::Describe(Archive& a) {
   a.Number("keep_alive_s", keep_alive_s, {"s", 0.05, 10, "longest silence of an end"});
   a.Number("silence_s", silence_s, {"s", 0.1, 60, "the link is down when nothing came for so long"});
   a.Number("ageing_s", ageing_s, {"s", 0.05, 600, "a waiting message gains one level of priority per this"});
+}
+
+/// What the radio is like, if it is no line of two directions.
+void LinkConfig::DescribeMedium(Archive& a) {
   a.Number(
       "half_duplex_turn_s", half_duplex_turn_s,
       {"s", 0, 10, "one radio channel for both directions: longest time one end talks; 0: two directions"});
@@ -157,16 +177,9 @@ void LinkConfig::Describe(Archive& a) {
   a.Number("grace_s", grace_s,
            {"s", 0.001, 0.1,
             "robots: a polled one begins at most so late, or keeps silent: its process's delays"});
-  a.Integer("code_bytes", code_bytes,
-            {"byte", 0, 8,
-             "4, 6 or 8: authentication code of a frame; 0: the shortest that keeps a line full of forgeries "
-             "out for 180 days, 8 for datagrams"});
-  a.Flag("encrypted", encrypted, "hides what is sent; it is authenticated in any case");
-  a.Text("key_file", key_file, "secret key of the link, made by `priamos link keygen`, mode 0600");
-  a.Flag("simulation_key", simulation_key, "use a key that everybody knows: only for emulated lines");
-  a.List("channel", channels,
-         "the channels that cross the link; their order is part of what both ends agree on");
-  if (code_bytes % 2 != 0 || code_bytes == 2) a.Refuse("code_bytes", "4, 6, 8, or 0 for the default");
+}
+
+void LinkConfig::RefuseContradictions(Archive& a) const {
   const double longest_bytes = max_bundle_bytes + 1 + static_cast<double>(FrameOverhead(CodeBytes())) +
                                packet_overhead_s * BytesPerSecond();
   if (half_duplex_turn_s > 0 && half_duplex_turn_s < 2 * longest_bytes / BytesPerSecond())

@@ -66,6 +66,11 @@ struct LinkConfig {
   /// or cannot be packed, or a key that is no text field of it.
   ChannelTable Table(const Schema& schema) const;
   friend bool operator==(const LinkConfig&, const LinkConfig&) = default;
+
+ private:
+  void DescribeLine(Archive& a);
+  void DescribeMedium(Archive& a);
+  void RefuseContradictions(Archive& a) const;
 };
 
 }  // namespace priamos::bus::radio
