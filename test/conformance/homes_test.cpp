@@ -37,7 +37,11 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/bus/radio/power_loss_test", "an accident of both ends"},
     {"test/bus/radio/protocol_vectors_test", "the vectors of the protocol's document"},
     {"test/bus/radio/rekey_test", "a change of the key between both ends"},
+    {"test/bus/radio/shared/station_test", "several robots and their station on one channel"},
     {"test/bus/radio/stop_on_bad_line_test", "an accident of both ends"},
+    {"test/bus/radio/tiny/tiny_end_test", "the end in C beside one in C++"},
+    {"test/bus/radio/tiny/tiny_frame_test", "the end in C against the vectors of the protocol's document"},
+    {"test/bus/radio/tiny/tiny_size_test", "the end in C as a microcontroller has it"},
     {"test/bus/schema/mutation_test", "damaged bytes in every decoder of the room"},
     {"test/cli/laser_in_the_world_test", "head and world together"},
     {"test/cli/shipped_configs_test", "every file of config/"},
@@ -111,7 +115,7 @@ std::string Homeless(const std::string& file) {
   static const std::regex kSource(R"(.*\.(?:[hc]pp|[ht]?cc|hh?|c|[ch]xx|[it]pp|inl|ixx|C|H))");
   static const std::regex kName(R"((?:.*/)?[a-z][a-z0-9_]*\.[hc]pp)");
   static const std::regex kHome(R"((?:lcmtypes|bus|test|modules/[a-z0-9_]+)/.*)");
-  if (!std::regex_match(file, kSource)) return "";
+  if (!std::regex_match(file, kSource) || fs::path(file).parent_path() == kStandalone) return "";
   if (!std::regex_match(file, kName)) return "expected a name like small_words.cpp or .hpp; next: rename it";
   if (!std::regex_match(file, kHome))
     return "no library builds it; next: move it into bus/, modules/ or test/";

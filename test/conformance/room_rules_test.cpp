@@ -131,6 +131,18 @@ TEST(RoomRules, NoTwoUnitsIncludeEachOther) {
   EXPECT_THAT(Circles(PRIAMOS_SOURCE_DIR), IsEmpty());
 }
 
+TEST(RoomRules, TheRoomForOtherProjectsIncludesNothingElse) {
+  const fs::path folder = fs::path(PRIAMOS_SOURCE_DIR) / kStandalone;
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".c" && entry.path().extension() != ".h") continue;
+    ++files;
+    for (const std::string& header : QuotedIncludes(TextOf(entry.path())))
+      EXPECT_TRUE(fs::path(header).parent_path().empty() && fs::exists(folder / header)) << entry << header;
+  }
+  EXPECT_GT(files, 10U);
+}
+
 TEST(RoomRules, NoFolderIsCrowded) {
   EXPECT_THAT(FullFolders(PRIAMOS_SOURCE_DIR), IsEmpty());
 }

@@ -41,7 +41,9 @@ std::vector<fs::path> SourcesIn(const fs::path& root, std::initializer_list<cons
   for (const char* folder : folders) {
     if (!fs::exists(root / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (kExtensions.contains(entry.path().extension())) sources.push_back(fs::relative(entry.path(), root));
+      const fs::path source = fs::relative(entry.path(), root);
+      if (kExtensions.contains(source.extension()) && source.parent_path() != kStandalone)
+        sources.push_back(source);
     }
   }
   std::sort(sources.begin(), sources.end());

@@ -14,7 +14,10 @@ std::string TextOf(const std::filesystem::path& file);
 /// after its rooms.
 std::vector<std::string> FolderOrder(const std::filesystem::path& root);
 
-/// Sources of every language below `folders`, relative to `root`, sorted.
+/// A room in C for other projects, which copy it: it stands beside the rules of the house, and alone.
+inline constexpr const char* kStandalone = "bus/radio/tiny";
+
+/// Sources of every language below `folders`, relative to `root`, sorted; none of kStandalone.
 std::vector<std::filesystem::path> SourcesIn(const std::filesystem::path& root,
                                              std::initializer_list<const char*> folders);
 

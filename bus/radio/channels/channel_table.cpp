@@ -15,21 +15,6 @@ namespace {
 
 constexpr int kStateWithDeltas = 3;
 
-/// A text that determines the meaning of every frame; both ends compare its hash.
-std::string Meaning(const std::vector<LinkChannel>& channels, bool encrypted, std::size_t code_bytes) {
-  std::string text = fmt::format("priamos radio 1 table {}", encrypted ? "sealed" : "clear");
-  if (code_bytes != kShortCodeBytes) text += fmt::format(" code {}", code_bytes);
-  text += "\n";
-  for (const LinkChannel& c : channels) {
-    text += fmt::format("{} {:016x} {} {} {} {} {}", c.name, c.fingerprint, static_cast<int>(c.direction),
-                        c.delta.empty() ? static_cast<int>(c.channel_class) : kStateWithDeltas, c.fixed_bits,
-                        c.max_bits, c.channel_class == ChannelClass::kCommand ? c.ttl.count() : 0);
-    if (!c.delta.empty()) text += fmt::format(" {}", fmt::join(c.delta, ","));
-    text += "\n";
-  }
-  return text;
-}
-
 std::uint32_t Hash(const std::string& text) {
   std::array<unsigned char, 16> hash{};
   crypto_generichash(hash.data(), hash.size(), reinterpret_cast<const unsigned char*>(text.data()),
@@ -79,7 +64,7 @@ ChannelTable::ChannelTable(std::vector<LinkChannel> channels, bool encrypted, st
       if (channels_[j].name == c.name && channels_[j].direction == c.direction)
         throw std::invalid_argument(fmt::format("radio channel {} is listed twice", c.name));
   }
-  hash_ = Hash(Meaning(channels_, encrypted_, code_bytes_));
+  hash_ = Hash(Text());
   id_bits_ = static_cast<int>(std::bit_width(channels_.size() + 1));
 }
 
@@ -87,6 +72,20 @@ bool ChannelTable::HasCommands(Direction direction) const {
   return std::any_of(channels_.begin(), channels_.end(), [&](const LinkChannel& c) {
     return c.direction == direction && c.channel_class == ChannelClass::kCommand;
   });
+}
+
+std::string ChannelTable::Text() const {
+  std::string text = fmt::format("priamos radio 1 table {}", encrypted_ ? "sealed" : "clear");
+  if (code_bytes_ != kShortCodeBytes) text += fmt::format(" code {}", code_bytes_);
+  text += "\n";
+  for (const LinkChannel& c : channels_) {
+    text += fmt::format("{} {:016x} {} {} {} {} {}", c.name, c.fingerprint, static_cast<int>(c.direction),
+                        c.delta.empty() ? static_cast<int>(c.channel_class) : kStateWithDeltas, c.fixed_bits,
+                        c.max_bits, c.channel_class == ChannelClass::kCommand ? c.ttl.count() : 0);
+    if (!c.delta.empty()) text += fmt::format(" {}", fmt::join(c.delta, ","));
+    text += "\n";
+  }
+  return text;
 }
 
 }  // namespace priamos::bus::radio

@@ -54,6 +54,8 @@ class ChannelTable {
   /// Hash of everything that changes the meaning of a frame: both ends must have the same. Rates and
   /// priorities concern the sender alone and are not part of it.
   std::uint32_t hash() const { return hash_; }
+  /// The text of which hash() is the hash: see PROTOCOL.md.
+  std::string Text() const;
   bool encrypted() const { return encrypted_; }
   /// Bytes of the code of a data frame.
   std::size_t code_bytes() const { return code_bytes_; }

@@ -1,6 +1,6 @@
 #include "bus/radio/budget.hpp"
 #include "figures.hpp"
-#include "shared_traffic.hpp"
+#include "test/bus/radio/shared/shared_traffic.hpp"
 
 // Four robots on one channel of 9600 baud, 20 ms turnaround: every message timed beside its bound.
 

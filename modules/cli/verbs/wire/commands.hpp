@@ -15,4 +15,7 @@ void AddLinkCommand(CLI::App& cli, int& exit_code);
 void AddTopicTableVerbs(CLI::App& topic, int& exit_code);
 void AddTopicPubVerb(CLI::App& topic, int& exit_code);
 
+/// The verb `table` of `link`.
+void AddLinkTableVerb(CLI::App& link);
+
 }  // namespace priamos::cli

@@ -243,6 +243,7 @@ void AddLinkCommand(CLI::App& cli, int& exit_code) {
   AddRekey(*link, exit_code);
   AddBits(*link, exit_code);
   AddBudget(*link, exit_code);
+  AddLinkTableVerb(*link);
   AddTop(*link, exit_code);
   AddListen(*link, exit_code);
 }

@@ -10,7 +10,7 @@
 #include "bus/radio/line/shared_line.hpp"
 #include "bus/radio/shared_budget.hpp"
 #include "bus/radio/station.hpp"
-#include "link_pair.hpp"
+#include "test/bus/radio/link_pair.hpp"
 
 namespace priamos::bus::radio {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "shared_channel.hpp"
+#include "test/bus/radio/shared/shared_channel.hpp"
 
 namespace priamos::bus::radio {
 

@@ -6,7 +6,7 @@
 
 #include "bus/radio/budget.hpp"
 #include "bus/radio/frame/cobs.hpp"
-#include "shared_traffic.hpp"
+#include "test/bus/radio/shared/shared_traffic.hpp"
 
 namespace priamos::bus::radio {
 namespace {

@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/App.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bus/radio/link_config.hpp"
+#include "cli/options/bus_options.hpp"
+#include "cli/options/verb_setup.hpp"
+#include "cli/verbs/wire/commands.hpp"
+#include "common/config.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using bus::radio::ChannelClass;
+using bus::radio::ChannelTable;
+using bus::radio::Direction;
+using bus::radio::LinkChannel;
+
+std::int64_t TtlOf(const LinkChannel& c) {
+  return c.channel_class == ChannelClass::kCommand ? c.ttl.count() : 0;
+}
+
+/// The initialisers of a `pr_channel` array of bus/radio/tiny.
+std::string AsC(const ChannelTable& table) {
+  constexpr const char* kClasses[] = {"PR_STATE", "PR_EVENT", "PR_COMMAND"};
+  std::string text;
+  for (const LinkChannel& c : table.channels()) {
+    const bool delta = !c.delta.empty();
+    text += fmt::format("{{\"{}\", 0x{:016x}, {}, {}, {}, {}, {}, {}, {}}},\n", c.name, c.fingerprint,
+                        c.direction == Direction::kUp ? "PR_UP" : "PR_DOWN",
+                        delta ? "PR_DELTA_STATE" : kClasses[static_cast<int>(c.channel_class)], c.fixed_bits,
+                        c.max_bits, TtlOf(c), c.urgent ? "true" : "false",
+                        delta ? fmt::format("\"{}\"", fmt::join(c.delta, ",")) : "0");
+  }
+  return text;
+}
+
+nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const ChannelTable& table) {
+  constexpr const char* kClasses[] = {"state", "event", "command"};
+  nlohmann::ordered_json json{{"table_hash", fmt::format("{:08x}", table.hash())},
+                              {"encrypted", table.encrypted()},
+                              {"code_bytes", table.code_bytes()},
+                              {"baud", config.baud},
+                              {"bytes_per_s", config.BytesPerSecond()},
+                              {"channels", nlohmann::json::array()}};
+  for (const LinkChannel& c : table.channels())
+    json["channels"].push_back({{"name", c.name},
+                                {"meaning", fmt::format("{:016x}", c.fingerprint)},
+                                {"direction", c.direction == Direction::kUp ? "up" : "down"},
+                                {"class", kClasses[static_cast<int>(c.channel_class)]},
+                                {"fixed_bits", c.fixed_bits},
+                                {"max_bits", c.max_bits},
+                                {"ttl_us", TtlOf(c)},
+                                {"urgent", c.urgent},
+                                {"on_request", c.on_request},
+                                {"delta", c.delta}});
+  return json;
+}
+
+}  // namespace
+
+void AddLinkTableVerb(CLI::App& link) {
+  auto config = std::make_shared<std::string>(), types = std::make_shared<std::string>();
+  auto c = std::make_shared<bool>(false), json = std::make_shared<bool>(false);
+  auto* verb = AddVerb(link, "table", "The channel table of a link.toml, for another end of the link.");
+  verb->footer("Example: priamos link table config/sim/link.toml --c > channels.inc");
+  verb->add_option("config", *config, "link.toml")->required();
+  verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  auto* as_c = verb->add_flag("--c", *c, "as pr_channel initialisers of bus/radio/tiny");
+  verb->add_flag("--json", *json, "machine-readable, as `python3 -m priamos_link` takes it")->excludes(as_c);
+  verb->callback([=] {
+    const auto link_config = LoadConfig<bus::radio::LinkConfig>(*config);
+    const ChannelTable table = link_config.Table(LoadTypes(*types));
+    if (*json)
+      std::cout << AsJson(link_config, table).dump(2) << "\n";
+    else
+      std::cout << (*c ? AsC(table) : fmt::format("{}hash {:08x}\n", table.Text(), table.hash()));
+  });
+}
+
+}  // namespace priamos::cli
