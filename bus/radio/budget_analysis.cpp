@@ -267,19 +267,27 @@ double DirectionAnalysis::PolledUrgent(const ChannelLoad& load) const {
   });
 }
 
+/// What urgent events to every robot take of the channel: their frames, and the polls that follow at once.
+double DirectionAnalysis::PolledUrgentIn(double window_s) const {
+  double s = 0;
+  const auto add = [&](const ChannelLoad& urgent) {
+    s += robots_ * urgent.Arrivals(window_s) * (FrameSeconds(urgent.bits) + Seconds(polled_.slot));
+  };
+  for (const ChannelLoad& other : loads_)
+    if (other.urgent) add(other);
+  for (const ChannelLoad& incoming : answered_) add(incoming);
+  return s;
+}
+
 /// One frame goes per cycle; to each urgent event one may be lost, for its repetition or acknowledgement.
 /// Commands are no load on that: a robot that gets them is polled more often.
 double DirectionAnalysis::PolledIn(double window_s, const ChannelLoad& load) const {
   double turns = 1 + FramesBefore(window_s, load);
-  double urgent_s = 0;
-  for (const ChannelLoad& other : loads_) {
-    if (!other.urgent) continue;
-    turns += other.Arrivals(window_s);
-    urgent_s += robots_ * other.Arrivals(window_s) * (FrameSeconds(other.bits) + Seconds(polled_.slot));
-  }
+  for (const ChannelLoad& other : loads_)
+    if (other.urgent) turns += other.Arrivals(window_s);
   for (const ChannelLoad& incoming : answered_) turns += incoming.Arrivals(window_s);
-  return turns * Seconds(polled_.cycle) + urgent_s + CrowdedOutSeconds(load) + Seconds(polled_.slot) +
-         kTick_s;
+  return turns * Seconds(polled_.cycle) + PolledUrgentIn(window_s) + CrowdedOutSeconds(load) +
+         Seconds(polled_.slot) + kTick_s;
 }
 
 /// How long a message waits that has no room beside a command: until its age lets it go before.
@@ -307,7 +315,8 @@ double DirectionAnalysis::Urgent(const ChannelLoad& load) const {
 }
 
 double DirectionAnalysis::Ordinary(const ChannelLoad& load) const {
-  if (robots_ > 0 && load.command) return NextSeconds(load);
+  if (robots_ > 0 && load.command)
+    return Converge([&](double window_s) { return NextSeconds(load) + PolledUrgentIn(window_s); });
   return Converge(
       [&](double window_s) { return robots_ > 0 ? PolledIn(window_s, load) : OrdinaryIn(window_s, load); });
 }

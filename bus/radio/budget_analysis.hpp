@@ -88,6 +88,7 @@ class DirectionAnalysis {
   double FramesBefore(double window_s, const ChannelLoad& load, double* all_bits = nullptr) const;
   double PolledUrgent(const ChannelLoad& load) const;
   double CrowdedOutSeconds(const ChannelLoad& load) const;
+  double PolledUrgentIn(double window_s) const;
   double PolledIn(double window_s, const ChannelLoad& load) const;
   double Converge(const std::function<double(double window_s)>& latency) const;
 

@@ -111,6 +111,29 @@ TEST_F(LinkEmulateTest, DelayScheduleHoldsOneWayAndLetsGo) {
   EXPECT_EQ(b->Read(got), 2U);
 }
 
+TEST_F(LinkEmulateTest, RobotsOnAChannelHearEverybodyAndNothingWhileTheySend) {
+  options.robots = 2;
+  EmulatedChannel dut(options, kStart);
+  const auto station = OpenSerialPort(options.a, 9600);
+  const auto first = OpenSerialPort(options.b + "-1", 9600), second = OpenSerialPort(options.b + "-2", 9600);
+  const std::array<std::byte, 1> sent{std::byte{0x55}};
+  std::array<std::byte, 8> got{};
+  station->Write(sent);
+  dut.Step(kStart);
+  dut.Step(kStart + std::chrono::milliseconds(5));
+  EXPECT_EQ(first->Read(got), 1U);
+  EXPECT_EQ(second->Read(got), 1U);
+  EXPECT_EQ(got[0], sent[0]);
+  // Both robots at once: neither is understood.
+  first->Write(sent);
+  second->Write(sent);
+  dut.Step(kStart + std::chrono::milliseconds(100));
+  dut.Step(kStart + std::chrono::milliseconds(105));
+  const std::size_t n = station->Read(got);
+  for (std::size_t i = 0; i < n; ++i) EXPECT_NE(got[i], sent[0]);
+  EXPECT_EQ(first->Read(got), 0U);
+}
+
 TEST_F(LinkEmulateTest, AWrongDelayNamesItsLine) {
   const std::string file = (folder / "delays.csv").string();
   for (const char* wrong :

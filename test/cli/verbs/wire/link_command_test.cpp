@@ -59,6 +59,28 @@ TEST_F(LinkCommand, AFieldTakesTheBitsThatItsRangeAndStepNeed) {
   }
 }
 
+TEST_F(LinkCommand, TheTableOfALinkHasItsHashAndEveryChannel) {
+  const auto text = Priamos({"link", "table", kLink});
+  EXPECT_EQ(text.exit_code, 0);
+  EXPECT_THAT(text.out, StartsWith("priamos radio 1 table clear\n"));
+  const auto dut = json::parse(Priamos({"link", "table", kLink, "--json"}).out);
+  EXPECT_THAT(text.out, HasSubstr("\nhash " + dut.at("table_hash").get<std::string>()));
+  const auto c = LinesOf(Priamos({"link", "table", kLink, "--c"}).out);
+  ASSERT_EQ(c.size(), dut.at("channels").size());
+  for (std::size_t i = 0; i < c.size(); ++i)
+    EXPECT_THAT(c[i], StartsWith("{\"" + dut.at("channels")[i].at("name").get<std::string>() + "\", 0x"));
+}
+
+TEST_F(LinkCommand, ABudgetOfSeveralRobotsShowsTheirTurns) {
+  const auto dut = json::parse(
+      Priamos({"link", "budget", PRIAMOS_SOURCE_DIR "/modules/radio/tutorial/robots/link.toml", "--json"})
+          .out);
+  EXPECT_EQ(dut.at("polls").at("robots"), 2);
+  EXPECT_LE(dut.at("polls").at("urgent_one_s"), 0.15);
+  EXPECT_GT(dut.at("polls").at("urgent_all_s"), dut.at("polls").at("urgent_one_s"));
+  EXPECT_EQ(dut.at("problems").size(), 0U);
+}
+
 TEST_F(LinkCommand, BitsForAPersonNameEveryField) {
   const auto answer = Priamos({"link", "bits", "estop_t"});
   EXPECT_EQ(answer.exit_code, 0);

@@ -1,0 +1,59 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "bus/lockstep.hpp"
+#include "bus/own_types.hpp"
+#include "common/config.hpp"
+#include "radio/radio_app.hpp"
+#include "test/support/thrown_reason.hpp"
+
+// What the files of several robots on one channel say together: modules/radio/tutorial/robots.
+
+namespace priamos::radio {
+namespace {
+
+using support::ThrownReason;
+using testing::HasSubstr;
+
+const std::string kFolder = std::string(PRIAMOS_SOURCE_DIR) + "/modules/radio/tutorial/robots/";
+
+/// Why the process does not start with one of the files and some keys changed.
+std::string Refusal(const std::string& file, const std::vector<std::string>& overrides) {
+  const bus::Schema schema = bus::OwnTypes();
+  bus::Lockstep lockstep{schema, {.seed = 1, .start = FromUtime(1'000'000'000), .log = {}}};
+  lockstep.AddBus("onboard");
+  lockstep.AddSerialLine("tty-a", "tty-b", {});
+  std::vector<std::string> all{"port=tty-a"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return ThrownReason([&] { lockstep.AddApp(bus::FactoryOf<RadioApp>(), "onboard", {kFolder + file, all}); });
+}
+
+TEST(RobotsConfig, ARobotNeedsAnAddressOfItsChannel) {
+  EXPECT_THAT(Refusal("robot.toml", {}), HasSubstr("address: expected 1 to 2 with robots = 2"));
+  EXPECT_THAT(Refusal("robot.toml", {"address=3"}), HasSubstr("address: expected at most 2"));
+  EXPECT_THAT(Refusal("robot.toml", {"address=-1"}), HasSubstr("address: expected"));
+  EXPECT_EQ(Refusal("robot.toml", {"address=2"}), "");
+}
+
+TEST(RobotsConfig, AStationKnowsEachRobotOnce) {
+  EXPECT_THAT(Refusal("station.toml", {"side=onboard"}), HasSubstr("robot: expected none onboard"));
+  EXPECT_THAT(Refusal("robot.toml", {"side=offboard"}), HasSubstr("robot: expected 2 [[robot]] tables"));
+}
+
+TEST(RobotsConfig, WhatContradictsASharedChannelIsRefused) {
+  const auto refusal = [](const std::string& key) {
+    return ThrownReason([&] { LoadConfig<bus::radio::LinkConfig>({kFolder + "link.toml", {key}}); });
+  };
+  EXPECT_EQ(refusal("robots=8"), "");
+  EXPECT_THAT(refusal("robots=9"), HasSubstr("robots: expected"));
+  EXPECT_THAT(refusal("datagrams=true"), HasSubstr("robots: expected 0 with datagrams"));
+  EXPECT_THAT(refusal("half_duplex_turn_s=0.5"), HasSubstr("half_duplex_turn_s: expected 0 with robots"));
+  EXPECT_THAT(refusal("max_bundle_bytes=15"), HasSubstr("max_bundle_bytes: expected"));
+  EXPECT_THAT(refusal("robots=0"), HasSubstr("max_bundle_bytes: expected 30 or more"));
+}
+
+}  // namespace
+}  // namespace priamos::radio
