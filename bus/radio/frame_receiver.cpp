@@ -1,5 +1,6 @@
 #include "bus/radio/frame_receiver.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "bus/radio/frame/forgery.hpp"
@@ -13,6 +14,12 @@ constexpr std::size_t kMaxEncodedBytes = 1 + 1 + kWholeCounterBytes + kMaxBundle
 constexpr std::uint64_t kUnusableAfter = 3;
 /// A counter may be so much further than the line can have carried frames: what was cut off has one, too.
 constexpr double kCountersAhead = 8;
+
+/// Whether all bytes are symbols of a block. No frame in COBS is: its first byte is small.
+bool IsBlock(std::span<const std::byte> encoded) {
+  return !encoded.empty() && std::all_of(encoded.begin(), encoded.end(),
+                                         [](std::byte b) { return (b & std::byte{0x80}) != std::byte{0}; });
+}
 
 }  // namespace
 
@@ -58,7 +65,16 @@ FrameReceiver::Result FrameReceiver::Take(std::span<const std::byte> frame, Time
                                           std::uint64_t newest_sent, bool stranger) {
   if (!stranger) counters_.bytes += frame.size() + 1;
   if (frame.size() > kMaxEncodedBytes) return OnReject(Reject::kOversize, now);
-  return OnEncoded(frame, first_byte, now, newest_sent, stranger);
+  if (!IsBlock(frame)) return OnEncoded(frame, first_byte, now, newest_sent, stranger);
+  // A stream over TCP is a line that was cut at its delimiters: what travels in blocks comes here, too.
+  auto content = DecodeBlock(frame);
+  if (!content) return OnReject(Reject::kMalformed, now);
+  return OnContent({.content = std::move(*content),
+                    .wire_bytes = frame.size() + 1,
+                    .first_byte = first_byte,
+                    .line_code = LineCode::kBlock,
+                    .stranger = stranger},
+                   now, newest_sent);
 }
 
 FrameReceiver::Result FrameReceiver::OnEncoded(std::span<const std::byte> encoded, Time first_byte, Time now,

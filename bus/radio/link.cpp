@@ -196,6 +196,7 @@ Arrival LinkEndpoint::ArrivalOf(const AcceptedFrame& accepted, Time now) const {
   const Time first_byte = accepted.first_byte - scheduler_.OnTheWay(1);
   return {.counter = accepted.frame.counter,
           .newest = accepted.ahead > 0,
+          .behind = receiver_.highest() - accepted.frame.counter,
           .sent_at = std::min(began, first_byte) - peer_.sent.one_way(),
           .began = began,
           .now = now,
@@ -206,9 +207,12 @@ void LinkEndpoint::OnEntry(BundleEntry entry, const Arrival& arrival, std::vecto
   std::visit(Overloaded{[&](StateEntry& e) { inbox_.OnState(std::move(e), arrival, out); },
                         [&](CommandEntry& e) { inbox_.OnCommand(std::move(e), arrival, out); },
                         [&](EventEntry& e) {
+                          // The sender repeats it: a number of long ago may name another segment.
+                          if (arrival.behind > kFramesApart) return;
                           if (inbox_.OnEvent(e, arrival, out)) events_changed_ = true;
                         },
                         [&](EventAckEntry& e) {
+                          if (arrival.behind > kFramesApart) return;
                           if (outbox_.OnEventAck(e, arrival.now) > 0) events_changed_ = true;
                         },
                         [&](FrameAckEntry& e) { OnFrameAck(e, arrival.began); },

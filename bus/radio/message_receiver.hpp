@@ -30,13 +30,20 @@ struct DeliveryCounters {
   std::uint64_t bits = 0;  ///< packed bits of the messages delivered
 };
 
+/// Of two frames that follow each other the numbers of events are at most 112 apart: what one may have in
+/// flight beyond what the other has.
+inline constexpr std::uint64_t kFramesApart = 1;
+
 /// The frame that brought a message.
 struct Arrival {
   std::uint64_t counter = 0;
   bool newest = true;  ///< false: a frame that was sent later arrived before
-  Time sent_at{};      ///< when its first byte was sent, in this end's clock
-  Time began{};        ///< arrival of its first byte, had its bytes come one after the other
-  Time now{};          ///< arrival of its last byte
+  /// Counters by which it was overtaken; 0 when it is the newest. Numbers of events are modulo 256, and
+  /// unambiguous only for a frame that was overtaken by no more than kFramesApart.
+  std::uint64_t behind = 0;
+  Time sent_at{};  ///< when its first byte was sent, in this end's clock
+  Time began{};    ///< arrival of its first byte, had its bytes come one after the other
+  Time now{};      ///< arrival of its last byte
   /// When the frame of this end that it echoes was handed over; nullopt: it has no echo, or one of a frame
   /// from before a restart.
   std::optional<Time> echoed{};

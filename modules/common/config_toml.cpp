@@ -2,14 +2,41 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "common/archive.hpp"
 #include "common/nearest_file.hpp"
 
 namespace priamos {
 
+namespace {
+
+/// Parts of a dotted key; each is a table within the last, and what walks through them does so by recursion.
+constexpr std::ptrdiff_t kMostParts = 32;
+
+void RefuseDeepKeys(const std::string& name, std::string_view text) {
+  int line = 1;
+  for (std::size_t at = 0; at < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view row = text.substr(at, end - at);
+    const std::size_t first = row.find_first_not_of(" \t");
+    const bool header = first != row.npos && row[first] == '[' && row.find(',') == row.npos;
+    const std::string_view key = header ? row.substr(0, row.find('#')) : row.substr(0, row.find('='));
+    const bool has_key = header || row.find('=') != row.npos;
+    if (const auto parts = 1 + std::count(key.begin(), key.end(), '.'); has_key && parts > kMostParts)
+      throw ConfigError(
+          fmt::format("{}:{}: expected a key of at most {} parts, got {}", name, line, kMostParts, parts));
+    at = end + 1;
+  }
+}
+
+}  // namespace
+
 toml::table ParseToml(const std::string& name, std::string_view text) {
+  RefuseDeepKeys(name, text);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -24,12 +51,10 @@ toml::table ParseFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
     throw ConfigError(
         fmt::format("{}: expected a configuration file, got none{}", path, NearestFileText(path, ".toml")));
-  try {
-    return toml::parse_file(path);
-  } catch (const toml::parse_error& error) {
-    throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", path, error.source().begin.line,
-                                  std::string(error.description())));
-  }
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw ConfigError(fmt::format("{}: expected a file that can be read, got one that cannot", path));
+  return ParseToml(path, std::string_view(text));
 }
 
 void Merge(toml::table& into, toml::table&& from) {
@@ -45,6 +70,7 @@ void Merge(toml::table& into, toml::table&& from) {
 
 toml::table ParseOverride(const std::string& text) {
   const std::string name = std::string(kSetName) + text;
+  RefuseDeepKeys(name, text);
   try {
     toml::table table = toml::parse(text, std::string_view(name));
     if (table.empty()) throw ConfigError(fmt::format("{}\"{}\": expected KEY=VALUE", kSetName, text));

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -62,10 +63,12 @@ std::optional<bus::radio::SavedState> FileStore::Read(const std::string& path) c
 
 std::optional<bus::radio::SavedState> FileStore::Load() {
   if (fast_path_.empty()) return Read(path_);
-  // The RAM disk is empty after a boot, and else newer.
-  if (auto state = Read(fast_path_)) return state;
   auto state = Read(path_);
-  if (state) state->latest = false;
+  // Then the last process of this boot had no RAM disk, and what lies there is older.
+  const bool was_alone = state && state->latest;
+  // The RAM disk is empty after a boot, and else newer.
+  if (auto fast = Read(fast_path_)) state = std::move(fast);
+  if (state && (was_alone || !std::filesystem::exists(fast_path_))) state->latest = false;
   return state;
 }
 
@@ -114,7 +117,8 @@ void FileStore::SyncThread() {
     try {
       // Without a RAM disk the file holds this state, or one that is newer.
       if (!fast_path_.empty()) {
-        Replace(path_, state, true);
+        // Without a boot: what follows the RAM disk is never surely the latest, should that be given up.
+        Replace(path_, std::span(state).subspan(boot_.size()), true);
       } else if (!SyncFile(path_)) {
         Fail(path_);
       }

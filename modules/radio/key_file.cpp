@@ -104,15 +104,13 @@ LinkKey ReadKeyFile(const std::string& path) {
   return key;
 }
 
-void WriteNewKeyFile(const std::string& path) {
-  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be started");
-  const File file(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
-  if (file.fd() < 0)
-    throw std::runtime_error(
-        errno == EEXIST ? fmt::format("{}: exists and is kept: a link whose key changes must get the new "
-                                      "one at both ends; remove it first if that is meant",
-                                      path)
-                        : fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+namespace {
+
+/// Beside `path`, under which it appears as a whole or not at all. Returns whether all of it is on the disk.
+bool WriteKey(const std::string& aside) {
+  std::remove(aside.c_str());  // of a process that was ended in the middle
+  const File file(aside, O_WRONLY | O_CREAT | O_EXCL, 0600);
+  if (file.fd() < 0) return false;
   LinkKey key{};
   randombytes_buf(key.data(), key.size());
   std::array<char, kHexDigits + 1> text{};
@@ -122,8 +120,24 @@ void WriteNewKeyFile(const std::string& path) {
                        fsync(file.fd()) == 0;
   sodium_memzero(text.data(), text.size());
   sodium_memzero(key.data(), key.size());
-  if (!written)
-    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  return written;
+}
+
+}  // namespace
+
+void WriteNewKeyFile(const std::string& path) {
+  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be started");
+  if (IsThere(path))
+    throw std::runtime_error(
+        fmt::format("{}: exists and is kept: a link whose key changes must get the new one at both ends; "
+                    "remove it first if that is meant",
+                    path));
+  const std::string aside = path + ".part";
+  if (WriteKey(aside) && renameat2(AT_FDCWD, aside.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0)
+    return;
+  const int why = errno;
+  std::remove(aside.c_str());
+  throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(why)));
 }
 
 std::string NextKeyFile(const std::string& path) {

@@ -96,7 +96,7 @@ void RadioApp::AddRobots() {
 void RadioApp::AddEnd(const StationRobot& robot, std::uint8_t address, bus::Node& node) {
   const std::string key_file = link_config_.simulation_key ? "" : context_.ResolvePath(robot.key_file);
   const bus::radio::LinkKey key = LoadKey(key_file);
-  const auto next_key = key_file.empty() ? std::nullopt : ReadNextKeyFile(key_file, key);
+  const auto next_key = key_file.empty() ? std::nullopt : LoadNextKey(key_file, key);
   ends_.push_back(std::make_unique<BusEnd>(
       BusEndParts{.link = link_config_,
                   .types = types(),
@@ -155,6 +155,17 @@ bus::radio::LinkKey RadioApp::LoadKey(const std::string& file) const {
                     "with `priamos link keygen`",
                     context_.ResolvePath(config_.link), config_.port));
   return SimulationKey();
+}
+
+/// A next key that cannot be used, as a copy that was cut off, must not take the link away.
+std::optional<bus::radio::LinkKey> RadioApp::LoadNextKey(const std::string& file,
+                                                         const bus::radio::LinkKey& key) const {
+  try {
+    return ReadNextKeyFile(file, key);
+  } catch (const std::runtime_error& error) {
+    context_.Log(bus::Level::kError, fmt::format("{}; the link goes on under its key", error.what()));
+    return std::nullopt;
+  }
 }
 
 bus::radio::NonceSource RadioApp::Nonces() const {

@@ -56,6 +56,8 @@ class RadioApp {
   void Report(Time now);
   const bus::Schema& types() const { return own_types_ ? *own_types_ : context_.node().schema(); }
   bus::radio::LinkKey LoadKey(const std::string& file) const;
+  std::optional<bus::radio::LinkKey> LoadNextKey(const std::string& file,
+                                                 const bus::radio::LinkKey& key) const;
   std::unique_ptr<bus::radio::StateStore> OpenStore(const std::string& file, const std::string& fast) const;
   bus::radio::NonceSource Nonces() const;
 

@@ -97,6 +97,13 @@ TEST(Config, BrokenTomlNamesTheLine) {
   EXPECT_THAT(ErrorOf("count = 1\ncount ="), HasSubstr("x.toml:2: expected TOML"));
 }
 
+TEST(Config, AKeyOfThousandsOfPartsIsRefused) {
+  std::string deep = "a";
+  for (int i = 0; i < 40'000; ++i) deep += ".a";
+  for (const std::string& line : {"[" + deep + "]", deep + " = 1"})
+    EXPECT_THAT(ErrorOf("\n" + line + "\n"), HasSubstr(":2: expected a key of at most 32 parts"));
+}
+
 TEST(Config, MissingFileIsNamed) {
   try {
     LoadConfig<Outer>("/nowhere/x.toml");

@@ -34,6 +34,7 @@ TEST_F(FileStoreTest, NothingBeforeTheFirstSave) {
 
 TEST_F(FileStoreTest, LastSavedStateIsLoadedSyncedOrNot) {
   for (const std::string& second : {std::string(), fast}) {
+    std::filesystem::remove(path);
     FileStore dut(path, second);
     for (int i = 0; i < 4; ++i) {
       dut.Save(State(i));
@@ -67,7 +68,7 @@ TEST_F(FileStoreTest, ASyncThatNobodyWaitedForIsFinishedBeforeTheEnd) {
     dut.Save(State(1));
     dut.StartSync();
   }
-  EXPECT_EQ(FileStore(path).Load(), Latest(1));
+  EXPECT_EQ(FileStore(path).Load(), Older(1));
 }
 
 TEST_F(FileStoreTest, WithoutARamDiskASyncNeverBringsBackAnOlderState) {
@@ -100,6 +101,29 @@ TEST_F(FileStoreTest, AFailureThatNobodyWaitedForIsReportedWithTheNextCall) {
         }
       },
       std::runtime_error);
+}
+
+TEST_F(FileStoreTest, WithoutTheRamDiskOfBeforeTheDiskIsNotTheLatest) {
+  {
+    FileStore dut(path, fast);
+    dut.Save(State(1));
+    dut.StartSync();
+    dut.AwaitSync();
+    dut.Save(State(2));
+  }
+  EXPECT_EQ(FileStore(path).Load(), Older(1));
+}
+
+TEST_F(FileStoreTest, ARamDiskOfBeforeTheDiskWasAloneIsNotTheLatest) {
+  {
+    FileStore dut(path, fast);
+    dut.Save(State(1));
+  }
+  {
+    FileStore dut(path);
+    dut.Save(State(2));
+  }
+  EXPECT_FALSE(FileStore(path, fast).Load()->latest);
 }
 
 }  // namespace

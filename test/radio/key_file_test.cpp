@@ -152,5 +152,15 @@ TEST_F(KeyFileTest, WithoutANextKeyNothingIsFinished) {
   EXPECT_EQ(ReadKeyFile(path), key);
 }
 
+TEST_F(KeyFileTest, AKeyAppearsWholeOrNotAtAll) {
+  // What a process left behind that was ended in the middle.
+  std::ofstream(path + ".part") << "half";
+  WriteNewKeyFile(path);
+  EXPECT_NO_THROW(ReadKeyFile(path));
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  const std::string nowhere = (folder / "none" / "link.key").string();
+  EXPECT_THROW(WriteNewKeyFile(nowhere), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace priamos::radio

@@ -17,6 +17,7 @@
 namespace priamos::radio {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -107,12 +108,16 @@ TEST_F(RadioRekey, DifferentNextKeysAreNamedOnceAtEachEnd) {
   EXPECT_THAT(log, Contains(HasSubstr("the other end has another next key")).Times(2));
 }
 
-TEST_F(RadioRekey, ANextKeyThatIsWrongIsRefusedAtTheStart) {
-  Copy(Key("onboard"), NextKeyFile(Key("onboard")));
-  EXPECT_THROW(RunBoth(1), std::runtime_error);
-  std::filesystem::remove(NextKeyFile(Key("onboard")));
-  std::ofstream(NextKeyFile(Key("onboard"))) << "no key";
-  EXPECT_THROW(RunBoth(1), std::runtime_error);
+TEST_F(RadioRekey, ANextKeyThatIsWrongIsNamedAndTheLinkGoesOnUnderItsKey) {
+  std::ofstream(NextKeyFile(Key("onboard"))) << "cut o";
+  std::filesystem::permissions(NextKeyFile(Key("onboard")),
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  EXPECT_THAT(RunBoth(2), ElementsAre(1, 2));
+  EXPECT_THAT(log, Contains(AllOf(HasSubstr("link.key.next: expected 64 hexadecimal digits"),
+                                  HasSubstr("the link goes on under its key"))));
+  Copy(Key("offboard"), NextKeyFile(Key("offboard")));  // the same key
+  EXPECT_THAT(RunBoth(1), ElementsAre(3));
+  EXPECT_THAT(log, Contains(HasSubstr("expected another key than")));
 }
 
 }  // namespace

@@ -50,6 +50,17 @@ TEST_F(FrameReceiverTest, AFrameComesWithWhereAndWhenItCame) {
   EXPECT_EQ(dut.counters().bytes, wire.size());
 }
 
+TEST_F(FrameReceiverTest, ABlockIsAFrameAlsoWhereTheStreamIsCutAtDelimiters) {
+  auto wire = FrameSealer(FrameKeys(kKey), Direction::kUp, kScope)
+                  .Seal(kEpoch, 3, CounterForm::kWhole, Text("x"), 0, LineCode::kBlock);
+  wire.pop_back();
+  wire[2] ^= std::byte{0x10};
+  const auto result = dut.Take(wire, After(1), After(1.1), 0, false);
+  ASSERT_TRUE(std::holds_alternative<AcceptedFrame>(result));
+  EXPECT_EQ(std::get<AcceptedFrame>(result).frame.counter, 3U);
+  EXPECT_EQ(dut.counters().rejected[static_cast<std::size_t>(Reject::kMalformed)], 0U);
+}
+
 TEST_F(FrameReceiverTest, ABlockIsAFrameLikeAnother) {
   const auto wire = FrameSealer(FrameKeys(kKey), Direction::kUp, kScope)
                         .Seal(kEpoch, 3, CounterForm::kWhole, Text("x"), 0, LineCode::kBlock);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "link_pair.hpp"
 #include "test/bus/radio/measurement/numbered_message.hpp"
 
 // What the link must hold when it is busy, disturbed or attacked. Simulated time.
@@ -76,6 +77,77 @@ TEST(LinkStress, ReplayedHellosDoNotBreakARunningLink) {
   // Every replayed hello may spoil the frame it falls into, and costs an answer now and then.
   EXPECT_GT(dut.offboard.TextsOf(kPoseUp).size(), 60U);
   EXPECT_LT(dut.offboard.link->Status(dut.now).counters.hellos_sent, 60U);
+}
+
+/// A line so fast that hundreds of segments pass in the frames that a late one may be behind.
+struct FastLine {
+  LinkPair pair{{.baud = 115200}, 21, {.bytes_per_s = 11520, .max_bundle_bytes = 240}};
+  std::uint64_t offered = 0;
+  /// Offers as many events as the queue takes, and runs until so many frames more have gone down (up).
+  void Run(std::size_t frames, std::vector<std::byte>& wire) {
+    const std::size_t begin = wire.size();
+    const auto count = [&] {
+      return static_cast<std::size_t>(
+          std::count(wire.begin() + static_cast<std::ptrdiff_t>(begin), wire.end(), kDelimiter));
+    };
+    pair.RunUntil(20, [&] {
+      for (int i = 0; i < 8; ++i) {
+        const std::string name = std::to_string(offered);
+        if (pair.offboard.link->Offer(kEventDown, Text(name), pair.now) == OfferResult::kAccepted) ++offered;
+      }
+      return count() >= frames;
+    });
+  }
+  static std::vector<std::byte> LastFrame(const std::vector<std::byte>& wire) {
+    const auto end = std::find(wire.rbegin(), wire.rend(), kDelimiter);
+    const auto begin = std::find_if(std::next(end), wire.rend(), [](std::byte b) { return b == kDelimiter; });
+    return {begin.base(), end.base()};
+  }
+  void ExpectEachEventOnceInOrder() {
+    pair.Run(10);
+    const auto came = pair.onboard.TextsOf(kEventDown);
+    ASSERT_EQ(came.size(), offered);
+    for (std::size_t i = 0; i < came.size(); ++i) ASSERT_EQ(came[i], std::to_string(i));
+    EXPECT_EQ(pair.offboard.link->waiting(kEventDown), 0U);
+  }
+};
+
+TEST(LinkStress, AFrameThatComesHundredsOfEventsLateMovesNoNumber) {
+  for (std::size_t late = 1; late < 60; late += 3) {
+    FastLine dut;
+    dut.pair.Run(1);
+    dut.Run(5, dut.pair.wire_down);
+    // Lost on its way, and kept by somebody; the one before it had begun.
+    dut.pair.lose_down = [](auto) { return true; };
+    dut.Run(2, dut.pair.wire_down);
+    const std::vector<std::byte> kept = FastLine::LastFrame(dut.pair.wire_down);
+    dut.pair.lose_down = {};
+    dut.Run(late, dut.pair.wire_down);
+    dut.pair.onboard.link->Receive(std::vector<std::byte>{kDelimiter}, dut.pair.now);
+    for (Delivery& d : dut.pair.onboard.link->Receive(kept, dut.pair.now))
+      dut.pair.onboard.received.push_back({dut.pair.now, std::move(d)});
+    dut.Run(3, dut.pair.wire_down);
+    dut.ExpectEachEventOnceInOrder();
+    if (testing::Test::HasFatalFailure()) FAIL() << late << " frames late";
+  }
+}
+
+TEST(LinkStress, AnAcknowledgementThatComesLateAcknowledgesNothingNew) {
+  for (std::size_t late = 1; late < 60; late += 3) {
+    FastLine dut;
+    dut.pair.Run(1);
+    dut.Run(5, dut.pair.wire_down);
+    dut.pair.lose_up = [](auto) { return true; };
+    dut.Run(2, dut.pair.wire_up);
+    const std::vector<std::byte> kept = FastLine::LastFrame(dut.pair.wire_up);
+    dut.pair.lose_up = {};
+    dut.Run(late, dut.pair.wire_up);
+    dut.pair.offboard.link->Receive(std::vector<std::byte>{kDelimiter}, dut.pair.now);
+    dut.pair.offboard.link->Receive(kept, dut.pair.now);
+    dut.Run(3, dut.pair.wire_down);
+    dut.ExpectEachEventOnceInOrder();
+    if (testing::Test::HasFatalFailure()) FAIL() << late << " frames late";
+  }
 }
 
 }  // namespace
