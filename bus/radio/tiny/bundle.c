@@ -80,7 +80,8 @@ static bool TakeEvents(pr_end* end, pr_bit_reader* in, size_t channel, const pr_
     if (bits > 8 * sizeof packed || in->at + bits > in->size) return false;
     pr_get_bytes(in, packed, bits);
     const uint64_t time_us = arrival->now_us > age_us ? arrival->now_us - age_us : 0;
-    if (first && last) OnEvent(end, channel, number, base, packed, bits, time_us);
+    /* A number of long ago may name another event; this one is repeated. */
+    if (first && last && arrival->behind <= 1) OnEvent(end, channel, number, base, packed, bits, time_us);
     if (c->urgent || in->at >= in->size || pr_get(in, 1) == 0) return true;
   }
 }

@@ -68,7 +68,8 @@ static void OnData(pr_end* end, const pr_data* data, uint64_t highest_before, ui
   if (end->ack.unacknowledged < 255) ++end->ack.unacknowledged;
   if (link_back) end->ack.ever = false;
   pr_on_data(end);
-  const pr_arrival arrival = {now_us, ahead, data->has_echo, data->echo};
+  const uint64_t behind = end->in.window.highest - data->counter;
+  const pr_arrival arrival = {now_us, ahead, behind, data->has_echo, data->echo};
   pr_take_bundle(end, data->bundle, data->bundle_bytes, &arrival);
 }
 

@@ -25,10 +25,12 @@ pr_hello pr_take_hello(pr_end* end, uint64_t now_us);
 
 pr_reception pr_reception_of(const pr_end* end, uint64_t now_us);
 
-/* A frame that was accepted; `ahead`: by how much its counter is the highest so far, 0 when it is not. */
+/* A frame that was accepted; `ahead`: by how much its counter is the highest so far, 0 when it is not;
+   `behind`: by how much it was overtaken. */
 typedef struct {
   uint64_t now_us;
   uint64_t ahead;
+  uint64_t behind;
   bool has_echo;
   uint64_t echo;
 } pr_arrival;
