@@ -9,9 +9,9 @@
 
 namespace priamos {
 
-/// The first shell block behind a line of modules/radio/README.md.
-inline std::string ScriptOfRadioReadme(const std::string& heading) {
-  std::ifstream in(std::string(PRIAMOS_SOURCE_DIR) + "/modules/radio/README.md");
+/// The first shell block behind a line of a README.
+inline std::string ScriptOfReadme(const std::string& readme, const std::string& heading) {
+  std::ifstream in(std::string(PRIAMOS_SOURCE_DIR) + "/" + readme);
   std::string line, script;
   while (std::getline(in, line) && line != heading) {
   }

@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(LinkTutorial, BridgesTheExampleTypeOfLcmInTenLines) {
-  const std::string script = ScriptOfRadioReadme("## Your own types, in ten lines");
+  const std::string script = ScriptOfReadme("modules/radio/README.md", "## Your own types, in ten lines");
   EXPECT_LE(std::count(script.begin(), script.end(), '\n'), 10);
   const std::string text = RunInPrivateNetwork(script, 30);
   EXPECT_THAT(text, HasSubstr("EXAMPLE"));

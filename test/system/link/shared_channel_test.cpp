@@ -14,7 +14,8 @@ namespace {
 using testing::HasSubstr;
 
 TEST(SharedChannel, AStopReachesTheRobotItIsFor) {
-  const std::string text = RunInPrivateNetwork(ScriptOfRadioReadme("## Several robots on one channel"), 60);
+  const std::string text =
+      RunInPrivateNetwork(ScriptOfReadme("modules/radio/README.md", "## Several robots on one channel"), 60);
   EXPECT_THAT(text, HasSubstr("2 robots on one channel")) << text;
   EXPECT_THAT(text, HasSubstr("\"driver\":2")) << text;
   EXPECT_THAT(text, HasSubstr("offboard end: up")) << text;

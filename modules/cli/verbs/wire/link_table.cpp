@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/radio/link_config.hpp"
+#include "bus/schema/packing.hpp"
 #include "cli/options/bus_options.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/verbs/wire/commands.hpp"
@@ -39,7 +40,16 @@ std::string AsC(const ChannelTable& table) {
   return text;
 }
 
-nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const ChannelTable& table) {
+nlohmann::ordered_json FieldsOf(const bus::Schema& types, const std::string& type) {
+  nlohmann::ordered_json fields = nlohmann::json::array();
+  const bus::Packer packer(*types.Find(type));
+  for (const bus::PackedField& f : packer.fields())
+    fields.push_back({{"name", f.name}, {"bits", f.bits}, {"values", f.values}, {"codes", f.codes}});
+  return fields;
+}
+
+nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const ChannelTable& table,
+                              const bus::Schema& types) {
   constexpr const char* kClasses[] = {"state", "event", "command"};
   nlohmann::ordered_json json{{"table_hash", fmt::format("{:08x}", table.hash())},
                               {"encrypted", table.encrypted()},
@@ -47,7 +57,8 @@ nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const Channe
                               {"baud", config.baud},
                               {"bytes_per_s", config.BytesPerSecond()},
                               {"channels", nlohmann::json::array()}};
-  for (const LinkChannel& c : table.channels())
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const LinkChannel& c = table.at(i);
     json["channels"].push_back({{"name", c.name},
                                 {"meaning", fmt::format("{:016x}", c.fingerprint)},
                                 {"direction", c.direction == Direction::kUp ? "up" : "down"},
@@ -57,7 +68,9 @@ nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const Channe
                                 {"ttl_us", TtlOf(c)},
                                 {"urgent", c.urgent},
                                 {"on_request", c.on_request},
-                                {"delta", c.delta}});
+                                {"delta", c.delta},
+                                {"fields", FieldsOf(types, config.channels[i].type)}});
+  }
   return json;
 }
 
@@ -74,9 +87,10 @@ void AddLinkTableVerb(CLI::App& link) {
   verb->add_flag("--json", *json, "machine-readable, as `python3 -m priamos_link` takes it")->excludes(as_c);
   verb->callback([=] {
     const auto link_config = LoadConfig<bus::radio::LinkConfig>(*config);
-    const ChannelTable table = link_config.Table(LoadTypes(*types));
+    const bus::Schema schema = LoadTypes(*types);
+    const ChannelTable table = link_config.Table(schema);
     if (*json)
-      std::cout << AsJson(link_config, table).dump(2) << "\n";
+      std::cout << AsJson(link_config, table, schema).dump(2) << "\n";
     else
       std::cout << (*c ? AsC(table) : fmt::format("{}hash {:08x}\n", table.Text(), table.hash()));
   });
