@@ -47,6 +47,7 @@ const std::vector<Call> kCalls{
     {"link rekey", "$O/key"},
     {"link bits", "pose_t"},
     {"link budget", "$SOURCE/config/sim/link.toml"},
+    {"link table", "$SOURCE/config/sim/link.toml"},
     {"log record", "$O/record.lcmlog --seconds 1"},
     {"log info", "$LOG"},
     {"log index", "$LOG"},
