@@ -87,7 +87,7 @@ void BusEnd::Publish(const bus::radio::Delivery& delivery, Time now) {
 
 link_status_t BusEnd::Report(std::uint64_t turned_away, Time now) {
   reported_.turned_away = turned_away;
-  const link_status_t message =
+  link_status_t message =
       ToMessage(*link_, parts_.link.BytesPerSecond(), undecodable_, now - last_report_, now, reported_);
   status_.Publish(message);
   last_report_ = now;

@@ -29,6 +29,7 @@ def parse(arguments):
     parser.add_argument("--port", required=True, help="serial port, or a tty of `priamos link emulate`")
     parser.add_argument("--table", required=True, help="what `priamos link table link.toml --json` printed")
     parser.add_argument("--key", help="the link's key file; without it the simulation key, on a pseudo terminal only")
+    parser.add_argument("--seconds", type=float, default=0, help="end after so long; 0: with Ctrl-C")
     parser.add_argument("--onboard", action="store_true", help="be the robot's end; else the workstation's")
     return parser.parse_args(arguments)
 
@@ -118,9 +119,10 @@ class Lines:
         return [line.decode(errors="replace") for line in lines if line.strip()]
 
 
-def run(end, port, ended):
+def run(end, port, ended, seconds):
     lines, up, waiting = Lines(), False, b""
-    while not ended:
+    until = time.monotonic() + (seconds or float("inf"))
+    while not ended and time.monotonic() < until:
         sources = [port] + ([0] if lines.open else [])
         ready, _, _ = select.select(sources, [], [], TICK_S)
         if port in ready:
@@ -163,7 +165,7 @@ def main(arguments=None):
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: ended.append(True))
     try:
-        run(end, port, ended)
+        run(end, port, ended, options.seconds)
     except (OSError, BrokenPipeError) as error:
         complain(f"{options.port}: {error}")
         return 1
