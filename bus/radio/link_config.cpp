@@ -15,6 +15,14 @@
 namespace priamos::bus::radio {
 namespace {
 
+/// LCM's own limit; and a name goes to terminals as it is.
+constexpr std::size_t kLongestName = 63;
+
+bool IsChannelName(const std::string& name) {
+  return !name.empty() && name.size() <= kLongestName &&
+         std::all_of(name.begin(), name.end(), [](unsigned char c) { return c > 0x20 && c < 0x7F; });
+}
+
 /// The line is fed once per millisecond, not always in time.
 constexpr double kFeedGap_s = 0.0015;
 
@@ -112,7 +120,7 @@ void LinkChannelConfig::Describe(Archive& a) {
          "sent as difference to one that the other end is known to have, whenever that is shorter");
   a.Text("key", key, "text field of the type: newest wins per value of it; empty: newest of all");
   a.Integer("keys", keys, {"-", 1, 64, "values of `key` at most"});
-  if (name.empty()) a.Refuse("name", "the name of an LCM channel");
+  if (!IsChannelName(name)) a.Refuse("name", "the name of an LCM channel: 1 to 63 printable characters");
   if (channel_class == "command" && ttl_s <= 0)
     a.Refuse("ttl_s", "a time-to-live above 0, as every command needs");
   if (channel_class == "event" && ttl_s > 0) a.Refuse("ttl_s", "none: an event is delivered, however late");

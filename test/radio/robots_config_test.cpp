@@ -43,6 +43,16 @@ TEST(RobotsConfig, AStationKnowsEachRobotOnce) {
   EXPECT_THAT(Refusal("robot.toml", {"side=offboard"}), HasSubstr("robot: expected 2 [[robot]] tables"));
 }
 
+TEST(RobotsConfig, ANameThatIsNoneOfAChannelIsRefused) {
+  const std::vector<std::string> names{"", std::string(64, 'A'), "A\\u001bB", "A B"};
+  for (const std::string& name : names) {
+    const std::string channel =
+        "channel=[{name=\"" + name + "\",type=\"pose_t\",direction=\"up\",class=\"state\"}]";
+    const std::string why = ThrownReason([&] { LoadConfig<bus::radio::LinkConfig>({"", {channel}}); });
+    EXPECT_THAT(why, HasSubstr("the name of an LCM channel")) << name;
+  }
+}
+
 TEST(RobotsConfig, WhatContradictsASharedChannelIsRefused) {
   const auto refusal = [](const std::string& key) {
     return ThrownReason([&] { LoadConfig<bus::radio::LinkConfig>({kFolder + "link.toml", {key}}); });
