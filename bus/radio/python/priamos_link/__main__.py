@@ -62,6 +62,14 @@ def read_key(path, port):
     return bytes.fromhex(text)
 
 
+def check_cipher(table):
+    try:
+        if table.encrypted:
+            import cryptography.hazmat.primitives.ciphers  # noqa: F401
+    except ImportError:
+        raise Refusal("expected python3-cryptography for an encrypted link, got none: install it") from None
+
+
 def open_port(path, baud):
     speed = getattr(termios, f"B{baud}", None)
     if speed is None:
@@ -82,14 +90,20 @@ def show(table, delivery, now):
     wall_us = int(time.time() * 1e6)
     stamp_us = wall_us - round((now - delivery.time) * 1e6)
     message = {"channel": channel.name, "utime": stamp_us}
-    fields = unpack(channel, delivery.packed, delivery.bits, stamp_us)
+    try:
+        fields = unpack(channel, delivery.packed, delivery.bits, stamp_us)
+    except ValueError as error:
+        return complain(f"{channel.name}: {error}")
     message.update({"message": fields} if fields is not None else {"hex": delivery.packed.hex(), "bits": delivery.bits})
     print(json.dumps(message), flush=True)
 
 
 def offer(end, line, now):
     """Takes a line as show() prints it. Raises ValueError with one sentence."""
-    data = json.loads(line)
+    try:
+        data = json.loads(line)
+    except RecursionError:
+        raise ValueError("expected a message, got one nested too deeply") from None
     if not isinstance(data, dict) or end.table.index(data.get("channel")) is None:
         raise ValueError(f"expected {{\"channel\": NAME, ...}} with a channel of the link, got {line.strip()[:60]}")
     index = end.table.index(data["channel"])
@@ -114,7 +128,8 @@ class Lines:
     def read(self):
         data = os.read(0, 65536)
         self.open = bool(data)
-        *lines, self.rest = (self.rest + data).split(b"\n")
+        # What is typed in may end without a line feed.
+        *lines, self.rest = (self.rest + (data or b"\n")).split(b"\n")
         self.rest = self.rest[:65536]
         return [line.decode(errors="replace") for line in lines if line.strip()]
 
@@ -157,6 +172,7 @@ def main(arguments=None):
         table = read_table(options.table)
         key = read_key(options.key, options.port)
         port = open_port(options.port, table.baud)
+        check_cipher(table)
     except Refusal as refusal:
         complain(refusal)
         return 2

@@ -46,6 +46,8 @@ class End:
     def offer(self, channel, packed, bits, now):
         """A message for an outgoing channel; False when it cannot wait. Of states and commands the newest goes."""
         c = self.table.channels[channel]
+        if bits < 0 or len(packed) != -(-bits // 8):
+            return False
         if c.direction != self.outgoing or bits > c.max_bits or (c.fixed_bits and bits != c.fixed_bits):
             return False
         if c.kind == "event":
@@ -69,14 +71,15 @@ class End:
         return out
 
     def _on_frame(self, encoded, now, out):
-        for content in (block_decode(encoded), cobs_decode(encoded)):
-            if not content:
-                continue
-            frame = self.codec.open(content, self.epoch, self.window, self.counter - 1)
-            if isinstance(frame, Hello):
-                return self._on_hello(frame)
-            if isinstance(frame, Data):
-                return self._on_data(frame, now, out)
+        # All bytes of a block are above 127, the first one of COBS is not: one code per frame.
+        content = block_decode(encoded) or cobs_decode(encoded)
+        if not content:
+            return
+        frame = self.codec.open(content, self.epoch, self.window, self.counter - 1)
+        if isinstance(frame, Hello):
+            self._on_hello(frame)
+        elif isinstance(frame, Data):
+            self._on_data(frame, now, out)
 
     def _on_hello(self, hello):
         if not self.used and hello.echo == self.own:
@@ -115,17 +118,19 @@ class End:
             self.in_turn = (self.in_turn << min(ahead, 8) | 1) & 0xFF
         self.heard_at, self.asking = now, None
         self.unacknowledged += 1
+        # Of a frame overtaken by more than one other the numbers of events may mean others by now.
+        late = self.newest - frame.counter > 1
         reader = b.Reader(frame.bundle)
         try:
             while reader.left >= self.table.id_bits and (number := reader.get(self.table.id_bits)):
                 if number == len(self.table.channels) + 1:
-                    self._control(reader)
+                    self._control(reader, late)
                 else:
-                    self._message(reader, number - 1, frame, ahead > 0, now, out)
+                    self._message(reader, number - 1, frame, late, now, out)
         except (b.Ended, IndexError):
             pass  # what was read before counts
 
-    def _control(self, reader):
+    def _control(self, reader, late):
         kind = reader.get(3)
         if kind == b.FRAME_ACK:
             low = reader.get(12)
@@ -137,7 +142,7 @@ class End:
             reader.get(6)
             if reader.get(1):
                 reader.get(16)
-            if channel in self.senders:
+            if channel in self.senders and not late:
                 self.senders[channel].on_ack(number)
         elif kind == b.FLOOR:
             floor = reader.get(40)
@@ -155,12 +160,13 @@ class End:
         bits = c.fixed_bits or 8 * reader.get(8)
         return reader.take(bits), bits
 
-    def _message(self, reader, channel, frame, newest, now, out):
+    def _message(self, reader, channel, frame, late, now, out):
+        newest = frame.counter == self.newest
         c = self.table.channels[channel]
         if c.direction == self.outgoing:
             raise b.Ended
         if c.kind == "event":
-            return self._events(reader, channel, c, now, out)
+            return self._events(reader, channel, c, now, [] if late else out, late)
         if c.kind == "command":
             offset = (reader.get(6) - 32) * c.ttl_us / OFFSET_STEPS / 1e6
             packed, bits = self._body(reader, c)
@@ -179,11 +185,12 @@ class End:
         if newest:
             if c.delta:
                 self.history[channel, frame.counter] = packed
-                self.history.pop((channel, frame.counter - 64), None)
+                # A difference refers to one of the 63 frames before it.
+                self.history = {k: v for k, v in self.history.items() if frame.counter - k[1] < 64}
             out.append(Delivery(channel, packed, bits, now))
         return None
 
-    def _events(self, reader, channel, c, now, out):
+    def _events(self, reader, channel, c, now, out, late):
         number, base = reader.get(8), bool(reader.get(1))
         while True:
             first = c.one_segment or bool(reader.get(1))
@@ -191,7 +198,7 @@ class End:
             age = b.decode_duration(reader.get(12)) if first else 0
             bits = c.fixed_bits if c.one_segment else 8 * (reader.get(5) if last else b.SEGMENT)
             segment = Segment(number, base, first, last, now - age, bits, reader.take(bits))
-            for data, size, at in self.receivers[channel].on_segment(segment):
+            for data, size, at in [] if late else self.receivers[channel].on_segment(segment):
                 out.append(Delivery(channel, data, size, at))
             if c.urgent or not reader.left or not reader.get(1):
                 return
@@ -224,14 +231,26 @@ class End:
             self.reply_due, self.last_hello = False, now
             self.out = list(idle + self.codec.seal_hello(hello))
             return True
-        if not self.epoch or not self._data_due(now):
+        whole = self._whole(now)
+        if not self.epoch or not self._data_due(now, whole):
             return False
         self.sending, self.counter, self.last_data = self.counter, self.counter + 1, now
-        size = self.table.echo_bytes(self.outgoing)
-        echoes = not size or (self.heard_at is not None and now - self.newest_at < (0.5, 30)[size - 1])
-        whole = self.sending > self.confirmed + 64 or not echoes
         self.out = list(idle + self.codec.seal(self.epoch, self.sending, self._bundle(now, whole), whole, self.newest))
         return True
+
+    def _whole(self, now):
+        size = self.table.echo_bytes(self.outgoing)
+        # Half of the frames that the bytes tell apart, as short as they can be: the rest is for a slower line.
+        reach = 2**(8 * size - 1) * (4 + self.table.code_bytes) / self.table.bytes_per_s / 2
+        echoes = not size or (self.heard_at is not None and now - self.newest_at < reach)
+        return self.counter > self.confirmed + 64 or not echoes
+
+    def _sendable(self, now, whole):
+        """Channels whose newest message may go; commands that are too old are forgotten."""
+        command = lambda i: self.table.channels[i].kind == "command"
+        self.waiting = {i: w for i, w in self.waiting.items()
+                        if not command(i) or now - w[2] <= self.table.channels[i].ttl_us / 1e6}
+        return [i for i in self.waiting if not (whole and command(i))]
 
     def _hello_due(self, now):
         gap = HELLO_REPEAT_S if self.epoch == 0 or self.heard_at is None else HELLO_ANNOUNCE_S
@@ -242,8 +261,8 @@ class End:
     def _ack_due(self, now):
         return self.unacknowledged and (self.unacknowledged >= 24 or now - self.last_ack >= ACK_GAP_S)
 
-    def _data_due(self, now):
-        return (now - self.last_data >= KEEP_ALIVE_S or self._ack_due(now) or bool(self.waiting)
+    def _data_due(self, now, whole):
+        return (now - self.last_data >= KEEP_ALIVE_S or self._ack_due(now) or bool(self._sendable(now, whole))
                 or any(r.ack_due for r in self.receivers.values())
                 or any(s.due(now) for s in self.senders.values()))
 
@@ -269,7 +288,7 @@ class End:
                 receiver.ack_due = False
         for channel in sorted(self.senders, key=lambda i: not self.table.channels[i].urgent):
             self._put_events(w, channel, now)
-        for channel in [i for i in self.waiting if not (whole and self.table.channels[i].kind == "command")]:
+        for channel in self._sendable(now, whole):
             self._put_newest(w, channel, now)
         return w.bytes()
 

@@ -80,10 +80,13 @@ class FieldCode:
             self.last = round((float(last) - self.first) / self.step)
 
     def value(self, code, now_us):
+        """Raises ValueError for a code that the field does not have."""
         if self.boolean:
             return bool(code)
         if self.none is not None and code == self.last + 1:
             return self.none
+        if code > self.last:
+            raise ValueError(f"expected a code up to {self.last}, got {code}")
         value = self.first + code * self.step
         return now_us - round(value) if self.age else round(value, 9)
 
@@ -97,7 +100,7 @@ class FieldCode:
 
 
 def unpack(channel, packed, bits, now_us):
-    """Fields of a message by name, or None when its type has more than numbers."""
+    """Fields by name, or None when the type has more than numbers. Raises ValueError for a code it does not have."""
     values, at, text = {}, 0, f"{int.from_bytes(packed, 'big'):0{8 * len(packed)}b}" if packed else ""
     for f in channel.fields:
         code = FieldCode(f["codes"])

@@ -11,6 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[4]
 sys.path.insert(0, str(ROOT / "bus/radio/python"))
 
 from priamos_link import bundle, frames  # noqa: E402
+from priamos_link.__main__ import offer  # noqa: E402
 from priamos_link.end import End  # noqa: E402
 from priamos_link.table import Channel, FieldCode, Table, pack, unpack  # noqa: E402
 
@@ -58,6 +59,14 @@ class Vectors(unittest.TestCase):
         block = dut.open(frames.block_decode(vector("block_down_counter_7")[:-1]), EPOCH, frames.Window(), 310)
         self.assertTrue(block.bundle.startswith(vector("bundle_down")))
 
+    def test_longer_codes_and_echoes(self):
+        for name, scope in (("code_6", ("table_hash_code_6", False, 6)), ("code_8", ("table_hash_code_8", False, 8)),
+                            ("fast", ("table_hash", False, 4, 2))):
+            wire = vector(f"frame_down_counter_7_{name}")
+            self.assertEqual(codec(frames.DOWN, *scope).seal(EPOCH, 7, vector("bundle_down"), False, 300), wire)
+            opened = codec(frames.UP, *scope).open(frames.cobs_decode(wire[:-1]), EPOCH, frames.Window(), 310)
+            self.assertEqual((opened.bundle, opened.echo), (vector("bundle_down"), 300))
+
     def test_a_changed_bit_is_refused(self):
         content = bytearray(frames.cobs_decode(vector("frame_down_counter_7")[:-1]))
         for i in range(8 * len(content)):
@@ -88,6 +97,14 @@ class Fields(unittest.TestCase):
         self.assertFalse(FieldCode("length 0..16, 7 bits each").known)
         with self.assertRaises(ValueError):
             pack(channel, {"near_m": [1]}, 0)
+
+    def test_a_code_that_the_field_does_not_have_is_refused(self):
+        field = [{"name": "mode", "bits": 3, "values": 1, "codes": "0..5 by 1"}]
+        channel = Channel("X", "0" * 16, frames.UP, "state", 3, 3, 0, False, [], field)
+        self.assertEqual(unpack(channel, b"\xa0", 3, 0), {"mode": 5.0})
+        for packed in (b"\xc0", b"\xe0"):
+            with self.assertRaises(ValueError):
+                unpack(channel, packed, 3, 0)
 
 
 def table_of_two():
@@ -139,6 +156,50 @@ class TwoEnds(unittest.TestCase):
             self.assertGreaterEqual(len(ages), least)
             if delay > 0.25:
                 self.assertEqual(ages, [])
+
+    def agree(self):
+        rng, table, now = random.Random(1), table_of_two(), 100.0
+        ends = [End(table, bytes(range(32)), onboard, lambda: rng.getrandbits(64), now) for onboard in (True, False)]
+        for _ in range(2000):
+            now += 0.001
+            ends[1].receive(ends[0].step(now), now)
+            ends[0].receive(ends[1].step(now), now)
+        return ends, now
+
+    def test_events_of_a_frame_overtaken_by_many_are_passed_over(self):
+        (up, down), now = self.agree()
+
+        def sealed(counter, numbers):
+            w = bundle.Writer()
+            for n in numbers:
+                for value, bits in ((2, up.table.id_bits), (n, 8), (n == numbers[0], 1), (3, 2), (0, 12), (1, 5), (n, 8),
+                                    (0, 1)):
+                    w.put(value, bits)
+            return down.codec.seal(down.epoch, counter, w.bytes(), True, 0)
+
+        first = up.window.highest + 1
+        held = sealed(first, [0])
+        for k in range(60):
+            self.assertEqual(len(up.receive(sealed(first + 1 + k, range(3 * k, 3 * k + 3)), now)), 3)
+        self.assertEqual(up.receive(held, now), [])
+        self.assertEqual(len(up.receive(sealed(first + 61, [180]), now)), 1)
+
+    def test_an_old_command_does_not_fill_the_line(self):
+        (_, down), now = self.agree()
+        now += 3  # the other end has gone silent
+        down.offer(2, bytes(5), 40, now)
+        sent = 0
+        for _ in range(10000):
+            now += 0.001
+            sent += len(down.step(now))
+        self.assertLess(sent, 3000)
+
+    def test_typed_messages_of_wrong_size_are_refused(self):
+        (_, down), now = self.agree()
+        for line in ("[" * 60000, '{"channel": "PATH", "hex": "00", "bits": -5}',
+                     '{"channel": "PATH", "hex": "%s", "bits": 8}' % ("00" * 1400)):
+            with self.assertRaises(ValueError):
+                offer(down, line, now)
 
     def test_garbage_is_refused(self):
         rng, table = random.Random(3), table_of_two()
