@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from . import bundle as b
 from .events import EventReceiver, EventSender, Segment
 from .frames import DOWN, UP, Codec, Data, Hello, Window, block_decode, cobs_decode
+from .handshake import Handshake
 
 KEEP_ALIVE_S, SILENCE_S, ACK_GAP_S = 0.2, 1.5, 0.25
-HELLO_REPEAT_S, HELLO_ANNOUNCE_S = 0.3, 1.0
 LONGEST_INPUT, BUNDLE_BITS, OFFSET_STEPS = 300, 8 * 120, 32
 
 
@@ -25,11 +25,9 @@ class End:
 
     def __init__(self, table, link_key, onboard, nonce, now):
         self.table, self.outgoing = table, UP if onboard else DOWN
-        self.codec, self.nonce = Codec(link_key, table, self.outgoing), nonce
-        self.stream, self.peer_stream = nonce() & 0xFFFFFFFF, None
+        self.codec, self.handshake = Codec(link_key, table, self.outgoing), Handshake(table, nonce, now)
+        self.peer_stream = None
         self.epoch, self.counter, self.window = 0, 1, Window()
-        self.own, self.used, self.agreed, self.asking = nonce(), False, None, None
-        self.reply_due, self.last_hello = False, now - 1
         self.input, self.heard_at, self.newest, self.newest_at = bytearray(), None, 0, now
         self.unacknowledged, self.last_ack, self.in_turn, self.confirmed = 0, now - 1, 0, 0
         self.handed, self.last_data, self.free_at, self.out = {}, now - 1, now, []
@@ -82,27 +80,10 @@ class End:
             self._on_data(frame, now, out)
 
     def _on_hello(self, hello):
-        if not self.used and hello.echo == self.own:
-            return self._agree(hello)
-        answers = hello.echo == self.own or (self.agreed and hello.echo == self.agreed[0])
-        if not answers and not hello.need and hello.table_hash == self.table.hash:
-            return None
-        if self.agreed and self.agreed[1] == hello.nonce:
-            self.reply_due = self.reply_due or (self.heard_at is None and (hello.need or not hello.agreed))
-            return None
-        if self.used:
-            self.own, self.used = self.nonce(), False
-        self.asking, self.reply_due = hello.nonce, True
-
-    def _agree(self, hello):
-        if hello.table_hash != self.table.hash:
-            self.own, self.asking, self.reply_due = self.nonce(), hello.nonce, True
-            raise ValueError(f"expected the channel table {self.table.hash:08x} at the other end, got "
-                             f"{hello.table_hash:08x}: print the table of its link.toml")
-        self.used, self.asking, self.agreed = True, None, (self.own, hello.nonce)
-        self.reply_due = self.reply_due or not hello.agreed
-        onboard = self.outgoing == UP
-        self.epoch = self.codec.epoch_of(*(self.agreed if onboard else reversed(self.agreed)))
+        pair = self.handshake.on_hello(hello, self.heard_at is not None)
+        if pair is None:
+            return
+        self.epoch = self.codec.epoch_of(*(pair if self.outgoing == UP else reversed(pair)))
         self.counter, self.window, self.heard_at, self.confirmed, self.newest = 1, Window(), None, 0, 0
         self.handed.clear()
         self.history.clear()
@@ -116,7 +97,8 @@ class End:
         if ahead:
             self.newest, self.newest_at = frame.counter, now
             self.in_turn = (self.in_turn << min(ahead, 8) | 1) & 0xFF
-        self.heard_at, self.asking = now, None
+        self.heard_at = now
+        self.handshake.on_data()
         self.unacknowledged += 1
         # Of a frame overtaken by more than one other the numbers of events may mean others by now.
         late = self.newest - frame.counter > 1
@@ -223,13 +205,8 @@ class End:
     def _build(self, now):
         idle = b"\0" if now - self.free_at >= 16 / self.table.bytes_per_s else b""
         self.sending = 0
-        if self._hello_due(now):
-            agreed = self.agreed is not None and self.asking is None
-            own, peer = self.agreed if agreed else (self.own, self.asking or 0)
-            hello = Hello(self.table.hash, self.stream, own, peer, self.epoch == 0, agreed, False,
-                          self.table.code_bytes)
-            self.reply_due, self.last_hello = False, now
-            self.out = list(idle + self.codec.seal_hello(hello))
+        if self.handshake.due(now, self.up(now), self.heard_at is not None, self.epoch != 0):
+            self.out = list(idle + self.codec.seal_hello(self.handshake.take(now, self.epoch != 0)))
             return True
         whole = self._whole(now)
         if not self.epoch or not self._data_due(now, whole):
@@ -251,12 +228,6 @@ class End:
         self.waiting = {i: w for i, w in self.waiting.items()
                         if not command(i) or now - w[2] <= self.table.channels[i].ttl_us / 1e6}
         return [i for i in self.waiting if not (whole and command(i))]
-
-    def _hello_due(self, now):
-        gap = HELLO_REPEAT_S if self.epoch == 0 or self.heard_at is None else HELLO_ANNOUNCE_S
-        if self.reply_due:
-            return now - self.last_hello >= 0.1
-        return not self.up(now) and now - self.last_hello >= gap
 
     def _ack_due(self, now):
         return self.unacknowledged and (self.unacknowledged >= 24 or now - self.last_ack >= ACK_GAP_S)
