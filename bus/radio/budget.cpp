@@ -26,13 +26,13 @@ FreshnessProof ProofOf(const LinkChannel& channel, double next_s, const Directio
           .echo_age = FromSeconds(other.SilenceSeconds()) + options.line_delay};
 }
 
-DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, Direction direction) {
+DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, const PollBounds& polls,
+                        Direction direction) {
   DirectionAnalysis analysis(table, options, direction);
   DirectionAnalysis other(table, options, Opposite(direction));
   if (options.robots > 0) {
-    const PollBounds bounds = PollBoundsOf(table, options);
-    analysis.SetPolled(bounds, options.robots);
-    other.SetPolled(bounds, options.robots);
+    analysis.SetPolled(polls, options.robots);
+    other.SetPolled(polls, options.robots);
   }
   analysis.Solve(other, Seconds(options.line_delay));
   DirectionBudget budget;
@@ -142,17 +142,15 @@ std::string FormatRow(const ChannelTable& table, const ChannelBudget& row) {
 }  // namespace
 
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options) {
-  Budget budget{.up = Analyse(table, options, Direction::kUp),
-                .down = Analyse(table, options, Direction::kDown),
+  const PollBounds polls = options.robots > 0 ? PollBoundsOf(table, options) : PollBounds{};
+  Budget budget{.up = Analyse(table, options, polls, Direction::kUp),
+                .down = Analyse(table, options, polls, Direction::kDown),
                 .problems = {},
-                .polls = {},
+                .robots = options.robots,
+                .polls = polls,
                 .code_bytes = table.code_bytes(),
                 .forgery_s = ForgerySeconds(options.bytes_per_s, table.code_bytes())};
-  if (options.robots > 0) {
-    budget.polls = PollBoundsOf(table, options);
-    budget.robots = options.robots;
-    budget.problems = SharedProblems(table, options);
-  }
+  if (options.robots > 0) budget.problems = SharedProblems(table, options);
   CheckDirection(table, budget.up, budget.problems);
   CheckDirection(table, budget.down, budget.problems);
   for (const DirectionBudget* d : {&budget.up, &budget.down})

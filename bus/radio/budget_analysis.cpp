@@ -137,11 +137,15 @@ void DirectionAnalysis::ShareTheAir(const LinkOptions& options) {
   control_bits_ += table_.id_bits() + kControlKindBits;  // "over"
 }
 
+/// "Over", and the bit that ends a run of segments before it.
+double DirectionAnalysis::OverBits() const {
+  return table_.id_bits() + kControlKindBits + 1;
+}
+
 /// On a shared channel no message makes a frame longer, and acknowledgements leave room for one.
 void DirectionAnalysis::ConfineTo(std::size_t bundle_bytes, double& largest_bytes) {
-  const double over_bits = table_.id_bits() + kControlKindBits + 1;
   const double bits = 8 * static_cast<double>(bundle_bytes);
-  control_bits_ = std::min(control_bits_ + over_bits, std::max(0.0, bits - largest_bits_));
+  control_bits_ = std::min(control_bits_ + OverBits(), std::max(0.0, bits - largest_bits_));
   largest_bytes = (bits - control_bits_) / 8;
 }
 
@@ -153,20 +157,19 @@ void DirectionAnalysis::SetPolled(const PollBounds& bounds, int robots) {
 }
 
 std::size_t DirectionAnalysis::SmallestBundleBytes() const {
-  const double over_bits = table_.id_bits() + kControlKindBits + 1;
   const double ack_bits = std::max(table_.id_bits() + kFrameAckBits, 2 * table_.id_bits() + kEventAckBits);
-  return static_cast<std::size_t>(std::ceil((largest_bits_ + ack_bits + over_bits) / 8));
+  return static_cast<std::size_t>(std::ceil((largest_bits_ + ack_bits + OverBits()) / 8));
 }
 
 Duration DirectionAnalysis::LongestFrameTime() const {
   return FromSeconds(static_cast<double>(longest_bytes_ + kLeadingDelimiter) * byte_s_);
 }
 
-Duration DirectionAnalysis::UrgentFrameTime() const {
+double DirectionAnalysis::UrgentFrameSeconds() const {
   double longest_s = 0;
   for (const ChannelLoad& load : loads_)
     if (load.urgent) longest_s = std::max(longest_s, FrameSeconds(load.bits));
-  return FromSeconds(longest_s);
+  return longest_s;
 }
 
 double DirectionAnalysis::SilenceSeconds() const {
@@ -204,10 +207,7 @@ double DirectionAnalysis::AckFrameSeconds() const {
 /// Longest time from the arrival of an urgent event to the end of the frame with its acknowledgement: the
 /// next one.
 double DirectionAnalysis::AnswerSeconds() const {
-  double urgent_s = 0;
-  for (const ChannelLoad& load : loads_)
-    if (load.urgent) urgent_s = std::max(urgent_s, FrameSeconds(load.bits));
-  return InTurns(ahead_s_ + kTick_s + frame_s_ + urgent_s + AckFrameSeconds());
+  return InTurns(ahead_s_ + kTick_s + frame_s_ + UrgentFrameSeconds() + AckFrameSeconds());
 }
 
 /// A repetition of an urgent event: a block that corrects errors, where it fits one.

@@ -63,7 +63,7 @@ class DirectionAnalysis {
   /// The same as a time on the line, with the delimiter that leads after silence.
   Duration LongestFrameTime() const;
   /// Time on the line of the longest frame with an urgent event; 0 without such a channel.
-  Duration UrgentFrameTime() const;
+  double UrgentFrameSeconds() const;
   /// Bytes of the smallest bundle that always has room for a message beside acknowledgements.
   std::size_t SmallestBundleBytes() const;
   /// Time by which a byte may be handed over before it leaves; of a packet, before all of it has left.
@@ -71,6 +71,7 @@ class DirectionAnalysis {
 
  private:
   double AnswerSeconds() const;
+  double OverBits() const;
   double AckFrameSeconds() const;
   double RepeatedFrameSeconds(double bits) const;
   double AllFramesSeconds(const ChannelLoad& load) const;

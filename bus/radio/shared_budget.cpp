@@ -22,9 +22,10 @@ SharedChannel SharedChannelOf(const ChannelTable& table, const LinkOptions& opti
 
 PollBounds PollBoundsOf(const ChannelTable& table, const LinkOptions& options) {
   const DirectionAnalysis down(table, options, Direction::kDown);
-  return ComputePollBounds(SharedChannelOf(table, options),
-                           {.poll = down.LongestFrameTime(), .urgent = down.UrgentFrameTime()},
-                           options.robots, kTick);
+  return ComputePollBounds(
+      SharedChannelOf(table, options),
+      {.poll = down.LongestFrameTime(), .urgent = FromSeconds(down.UrgentFrameSeconds())}, options.robots,
+      kTick);
 }
 
 std::vector<std::string> SharedProblems(const ChannelTable& table, const LinkOptions& options) {

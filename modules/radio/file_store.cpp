@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -63,13 +62,12 @@ std::optional<bus::radio::SavedState> FileStore::Read(const std::string& path) c
 
 std::optional<bus::radio::SavedState> FileStore::Load() {
   if (fast_path_.empty()) return Read(path_);
-  auto state = Read(path_);
-  // Then the last process of this boot had no RAM disk, and what lies there is older.
-  const bool was_alone = state && state->latest;
-  // The RAM disk is empty after a boot, and else newer.
-  if (auto fast = Read(fast_path_)) state = std::move(fast);
-  if (state && (was_alone || !std::filesystem::exists(fast_path_))) state->latest = false;
-  return state;
+  auto disk = Read(path_);
+  auto fast = Read(fast_path_);
+  // The RAM disk is empty after a boot, and else newer; unless the last process of this boot had none.
+  if (fast) fast->latest = fast->latest && !(disk && disk->latest);
+  if (disk) disk->latest = false;
+  return fast ? std::move(fast) : std::move(disk);
 }
 
 void FileStore::Save(std::span<const std::byte> state) {

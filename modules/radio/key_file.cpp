@@ -76,6 +76,23 @@ bool LooksRandom(const LinkKey& key) {
          !std::all_of(key.begin(), key.end(), printable) && !std::equal(key.begin(), half, half);
 }
 
+/// Beside `path`, under which it appears as a whole or not at all. Returns whether all of it is on the disk.
+bool WriteKey(const std::string& aside) {
+  std::remove(aside.c_str());  // of a process that was ended in the middle
+  const File file(aside, O_WRONLY | O_CREAT | O_EXCL, 0600);
+  if (file.fd() < 0) return false;
+  LinkKey key{};
+  randombytes_buf(key.data(), key.size());
+  std::array<char, kHexDigits + 1> text{};
+  sodium_bin2hex(text.data(), text.size(), key.data(), key.size());
+  text[kHexDigits] = '\n';
+  const bool written = write(file.fd(), text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+                       fsync(file.fd()) == 0;
+  sodium_memzero(text.data(), text.size());
+  sodium_memzero(key.data(), key.size());
+  return written;
+}
+
 }  // namespace
 
 LinkKey ReadKeyFile(const std::string& path) {
@@ -103,27 +120,6 @@ LinkKey ReadKeyFile(const std::string& path) {
         "{}: expected a random key, got one that can be guessed: make one with `priamos link keygen`", path));
   return key;
 }
-
-namespace {
-
-/// Beside `path`, under which it appears as a whole or not at all. Returns whether all of it is on the disk.
-bool WriteKey(const std::string& aside) {
-  std::remove(aside.c_str());  // of a process that was ended in the middle
-  const File file(aside, O_WRONLY | O_CREAT | O_EXCL, 0600);
-  if (file.fd() < 0) return false;
-  LinkKey key{};
-  randombytes_buf(key.data(), key.size());
-  std::array<char, kHexDigits + 1> text{};
-  sodium_bin2hex(text.data(), text.size(), key.data(), key.size());
-  text[kHexDigits] = '\n';
-  const bool written = write(file.fd(), text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-                       fsync(file.fd()) == 0;
-  sodium_memzero(text.data(), text.size());
-  sodium_memzero(key.data(), key.size());
-  return written;
-}
-
-}  // namespace
 
 void WriteNewKeyFile(const std::string& path) {
   if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be started");

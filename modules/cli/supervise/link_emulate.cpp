@@ -75,12 +75,19 @@ void RemoveDeadLink(const std::string& link) {
   if (fs::is_symlink(link, ignored)) fs::remove(link, ignored);
 }
 
-void MoveIn(PseudoTerminal& from, Line& line, Time now) {
-  while (line.free_at() < now + kTtyBuffer) {
+/// Moves what a program wrote to `write`, as long as `free_at` says that a tty's buffer would take it.
+template <class FreeAt, class Write>
+void MoveIn(PseudoTerminal& from, Time now, FreeAt free_at, Write write) {
+  while (free_at() < now + kTtyBuffer) {
     const auto bytes = from.Read(kReadAtOnce);
     if (bytes.empty()) return;
-    line.Write(bytes, now);
+    write(bytes);
   }
+}
+
+void MoveIn(PseudoTerminal& from, Line& line, Time now) {
+  MoveIn(
+      from, now, [&] { return line.free_at(); }, [&](const auto& bytes) { line.Write(bytes, now); });
 }
 
 std::unique_ptr<EmulatedMedium> MakeMedium(const LinkEmulateOptions& options, Time start) {
@@ -202,13 +209,10 @@ EmulatedChannel::EmulatedChannel(const LinkEmulateOptions& options, Time start)
 }
 
 void EmulatedChannel::Step(Time now) {
-  for (std::size_t i = 0; i < ttys_.size(); ++i) {
-    while (air_.free_at(i) < now + kTtyBuffer) {
-      const auto bytes = ttys_[i]->Read(kReadAtOnce);
-      if (bytes.empty()) break;
-      air_.Write(i, bytes, now);
-    }
-  }
+  for (std::size_t i = 0; i < ttys_.size(); ++i)
+    MoveIn(
+        *ttys_[i], now, [&] { return air_.free_at(i); },
+        [&](const auto& bytes) { air_.Write(i, bytes, now); });
   for (std::size_t i = 0; i < ttys_.size(); ++i) ttys_[i]->Write(air_.Read(i, now));
 }
 

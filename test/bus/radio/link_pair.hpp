@@ -28,18 +28,24 @@ inline std::string ToText(std::span<const std::byte> bytes) {
 /// Channels of the tests; the packed form of a message is the message.
 enum TestChannel : std::size_t { kPoseUp, kEventUp, kSlowUp, kDriveDown, kStopDown, kEventDown };
 
+/// A channel whose messages have so many bits, or with 0 any up to 1400 bytes.
+inline LinkChannel TestChannelOf(std::string name, Direction direction, ChannelClass channel_class,
+                                 std::uint32_t fixed_bits, int priority, double rate_hz) {
+  LinkChannel c;
+  c.name = std::move(name);
+  c.direction = direction;
+  c.channel_class = channel_class;
+  c.fixed_bits = fixed_bits;
+  c.max_bits = fixed_bits > 0 ? fixed_bits : 8 * 1400;
+  c.priority = priority;
+  c.rate_hz = rate_hz;
+  return c;
+}
+
 inline std::vector<LinkChannel> TestChannels() {
   const auto channel = [](std::string name, Direction direction, ChannelClass channel_class,
                           std::uint32_t fixed_bytes, int priority, double rate_hz) {
-    LinkChannel c;
-    c.name = std::move(name);
-    c.direction = direction;
-    c.channel_class = channel_class;
-    c.fixed_bits = 8 * fixed_bytes;
-    c.max_bits = fixed_bytes > 0 ? c.fixed_bits : 8 * 1400;
-    c.priority = priority;
-    c.rate_hz = rate_hz;
-    return c;
+    return TestChannelOf(std::move(name), direction, channel_class, 8 * fixed_bytes, priority, rate_hz);
   };
   std::vector<LinkChannel> channels{channel("POSE", Direction::kUp, ChannelClass::kState, 10, 2, 10),
                                     channel("EVENT_UP", Direction::kUp, ChannelClass::kEvent, 0, 3, 0),

@@ -98,11 +98,6 @@ struct FastLine {
       return count() >= frames;
     });
   }
-  static std::vector<std::byte> LastFrame(const std::vector<std::byte>& wire) {
-    const auto end = std::find(wire.rbegin(), wire.rend(), kDelimiter);
-    const auto begin = std::find_if(std::next(end), wire.rend(), [](std::byte b) { return b == kDelimiter; });
-    return {begin.base(), end.base()};
-  }
   void ExpectEachEventOnceInOrder() {
     pair.Run(10);
     const auto came = pair.onboard.TextsOf(kEventDown);
@@ -120,7 +115,7 @@ TEST(LinkStress, AFrameThatComesHundredsOfEventsLateMovesNoNumber) {
     // Lost on its way, and kept by somebody; the one before it had begun.
     dut.pair.lose_down = [](auto) { return true; };
     dut.Run(2, dut.pair.wire_down);
-    const std::vector<std::byte> kept = FastLine::LastFrame(dut.pair.wire_down);
+    const std::vector<std::byte> kept = FramesOf(dut.pair.wire_down).back();
     dut.pair.lose_down = {};
     dut.Run(late, dut.pair.wire_down);
     dut.pair.onboard.link->Receive(std::vector<std::byte>{kDelimiter}, dut.pair.now);
@@ -139,7 +134,7 @@ TEST(LinkStress, AnAcknowledgementThatComesLateAcknowledgesNothingNew) {
     dut.Run(5, dut.pair.wire_down);
     dut.pair.lose_up = [](auto) { return true; };
     dut.Run(2, dut.pair.wire_up);
-    const std::vector<std::byte> kept = FastLine::LastFrame(dut.pair.wire_up);
+    const std::vector<std::byte> kept = FramesOf(dut.pair.wire_up).back();
     dut.pair.lose_up = {};
     dut.Run(late, dut.pair.wire_up);
     dut.pair.offboard.link->Receive(std::vector<std::byte>{kDelimiter}, dut.pair.now);

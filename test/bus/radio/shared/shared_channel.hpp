@@ -18,22 +18,12 @@ namespace priamos::bus::radio {
 enum SharedTestChannel : std::size_t { kSharedPose, kSharedFault, kSharedDrive, kSharedStop, kSharedOrder };
 
 inline std::vector<LinkChannel> SharedTestChannels() {
-  const auto channel = [](std::string name, Direction direction, ChannelClass channel_class,
-                          std::uint32_t bits, int priority, double rate_hz) {
-    LinkChannel c;
-    c.name = std::move(name);
-    c.direction = direction;
-    c.channel_class = channel_class;
-    c.fixed_bits = c.max_bits = bits;
-    c.priority = priority;
-    c.rate_hz = rate_hz;
-    return c;
-  };
-  std::vector<LinkChannel> channels{channel("POSE", Direction::kUp, ChannelClass::kState, 132, 2, 1),
-                                    channel("FAULT", Direction::kUp, ChannelClass::kEvent, 32, 1, 0.05),
-                                    channel("DRIVE", Direction::kDown, ChannelClass::kCommand, 40, 1, 20),
-                                    channel("STOP", Direction::kDown, ChannelClass::kEvent, 14, 0, 0.05),
-                                    channel("ORDER", Direction::kDown, ChannelClass::kEvent, 48, 3, 0.05)};
+  std::vector<LinkChannel> channels{
+      TestChannelOf("POSE", Direction::kUp, ChannelClass::kState, 132, 2, 1),
+      TestChannelOf("FAULT", Direction::kUp, ChannelClass::kEvent, 32, 1, 0.05),
+      TestChannelOf("DRIVE", Direction::kDown, ChannelClass::kCommand, 40, 1, 20),
+      TestChannelOf("STOP", Direction::kDown, ChannelClass::kEvent, 14, 0, 0.05),
+      TestChannelOf("ORDER", Direction::kDown, ChannelClass::kEvent, 48, 3, 0.05)};
   channels[kSharedDrive].ttl = std::chrono::milliseconds(600);
   channels[kSharedStop].urgent = true;
   return channels;
@@ -136,11 +126,4 @@ inline std::vector<std::byte> Numbered(std::size_t bytes, std::uint64_t number) 
     message[i] = static_cast<std::byte>(number >> 8 * i);
   return message;
 }
-inline std::uint64_t NumberOf(std::span<const std::byte> message) {
-  std::uint64_t number = 0;
-  for (std::size_t i = std::min<std::size_t>(4, message.size()); i-- > 0;)
-    number = number << 8 | std::to_integer<std::uint64_t>(message[i]);
-  return number;
-}
-
 }  // namespace priamos::bus::radio

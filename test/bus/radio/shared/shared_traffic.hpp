@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "test/bus/radio/measurement/numbered_message.hpp"
 #include "test/bus/radio/shared/shared_channel.hpp"
 
 namespace priamos::bus::radio {
