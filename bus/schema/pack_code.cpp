@@ -74,6 +74,12 @@ Coded IntegerCode::Encode(std::int64_t value) const {
   return {std::min(RoundedQuotient(above, step_), last_), false};
 }
 
+Coded IntegerCode::EncodeUp(std::int64_t value) const {
+  const Coded nearest = Encode(value);
+  if (Decode(nearest.code) >= value) return nearest;
+  return nearest.code < last_ ? Coded{nearest.code + 1, false} : Coded{last_, true};
+}
+
 std::int64_t IntegerCode::Decode(std::uint64_t code) const {
   if (code > last_) return *invalid_;
   std::uint64_t above = 0;

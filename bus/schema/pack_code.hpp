@@ -47,6 +47,8 @@ class IntegerCode {
   IntegerCode(std::int64_t min, std::int64_t max, std::uint64_t step, std::optional<std::int64_t> invalid);
 
   Coded Encode(std::int64_t value) const;
+  /// The first code that stands for no less than the value: an age that is never too small.
+  Coded EncodeUp(std::int64_t value) const;
   std::int64_t Decode(std::uint64_t code) const;
   /// Largest code that stands for a value.
   std::uint64_t last() const { return last_ + (invalid_ ? 1 : 0); }

@@ -68,7 +68,7 @@ class PackTraversal : public Traversal<PackTraversal> {
     } else if (const auto* integer = std::get_if<IntegerCode>(&step.code)) {
       Put(step, integer->Encode(TakeInteger(step.kind)), kept);
     } else if (const auto* age = std::get_if<AgePack>(&step.code)) {
-      Put(step, age->code.Encode(AgeOf(TakeInteger(step.kind))), kept);
+      Put(step, age->code.EncodeUp(AgeOf(TakeInteger(step.kind))), kept);
     } else if (const auto* count = std::get_if<CountPack>(&step.code)) {
       const std::int64_t present = TakeInteger(step.kind);
       const Coded coded = count->code.Encode(present);

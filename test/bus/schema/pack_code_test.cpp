@@ -119,6 +119,17 @@ TEST(IntegerCode, SaturatesAndSaysSo) {
   EXPECT_EQ(dut.last(), 16u);
 }
 
+TEST(IntegerCode, RoundsUpWhenAskedTo) {
+  const IntegerCode dut(0, 500, 100, std::nullopt);
+  EXPECT_EQ(dut.EncodeUp(-1).code, 0u);
+  EXPECT_EQ(dut.EncodeUp(0).code, 0u);
+  EXPECT_EQ(dut.EncodeUp(1).code, 1u);
+  EXPECT_EQ(dut.EncodeUp(100).code, 1u);
+  EXPECT_EQ(dut.EncodeUp(499).code, 5u);
+  EXPECT_FALSE(dut.EncodeUp(500).saturated);
+  EXPECT_TRUE(dut.EncodeUp(501).saturated) << "comes back smaller";
+}
+
 TEST(IntegerCode, KeepsHalfAStepForAnyRange) {
   EXPECT_TRUE(rc::check([](std::int64_t a, std::int64_t b, std::uint64_t step, std::uint64_t where) {
     RC_PRE(a != b && step != 0);

@@ -95,8 +95,9 @@ class FieldCode:
             return int(bool(value))
         if self.none is not None and value == self.none:
             return self.last + 1
-        number = now_us - value if self.age else value
-        return min(self.last, max(0, round((number - self.first) / self.step)))
+        if self.age:  # never younger than the truth
+            return min(self.last, max(0, -int((value - now_us) // round(self.step))))
+        return min(self.last, max(0, round((value - self.first) / self.step)))
 
 
 def unpack(channel, packed, bits, now_us):
