@@ -95,9 +95,25 @@ class ConfigFile::Reader : public Archive {
   }
 
   void Refuse(std::string_view key, std::string_view expected) override {
-    const auto* node = levels_.back().table ? levels_.back().table->get(key) : nullptr;
+    const auto* table = levels_.back().table;
+    const auto* node = table ? table->get(key) : nullptr;
     if (node) Fail(*node, key, std::string(expected));
-    throw ConfigError(fmt::format("{}: {}{}: expected {}", name_, Prefix(), key, expected));
+    const auto path = Prefix() + std::string(key);
+    throw ConfigError(fmt::format("{}: expected {}, got none",
+                                  table ? PlaceOf(*table, path) : fmt::format("{}: {}", name_, path),
+                                  expected));
+  }
+
+  void Require(std::string_view key, std::string_view expected) override {
+    const auto* table = levels_.back().table;
+    if (table && !table->get(key)) Refuse(key, expected);
+  }
+
+  std::string Place() const override {
+    const auto* table = levels_.back().table;
+    if (!table) return {};
+    const std::string& source = table->source().path ? *table->source().path : name_;
+    return source.starts_with(kSetName) ? "" : fmt::format("{}:{}: ", source, table->source().begin.line);
   }
 
   void RefuseUnknownKeys() const { RefuseUnknown(table_, ""); }
@@ -145,7 +161,7 @@ class ConfigFile::Reader : public Archive {
   }
 
   /// Place of a value, `file:line:key`, or `--set KEY=VALUE: key` for what came from there.
-  std::string Place(const toml::node& node, std::string_view key) const {
+  std::string PlaceOf(const toml::node& node, std::string_view key) const {
     const std::string& source = node.source().path ? *node.source().path : name_;
     if (source.starts_with(kSetName)) return fmt::format("{}: {}", source, key);
     return fmt::format("{}:{}:{}", source, node.source().begin.line, key);
@@ -161,7 +177,7 @@ class ConfigFile::Reader : public Archive {
 
   [[noreturn]] void Fail(const toml::node& node, std::string_view key, const std::string& expected,
                          const std::string& hint = "") const {
-    throw ConfigError(fmt::format("{}: expected {}, got {}{}", Place(node, Prefix() + std::string(key)),
+    throw ConfigError(fmt::format("{}: expected {}, got {}{}", PlaceOf(node, Prefix() + std::string(key)),
                                   expected, Shown(node), hint));
   }
 
@@ -190,7 +206,7 @@ class ConfigFile::Reader : public Archive {
       FailUnknown(first.second, fmt::format("{}.{}", path, first.first.str()));
     }
     throw ConfigError(fmt::format("{}: expected a known key (--print-config lists them), got this one{}",
-                                  Place(node, path), hint));
+                                  PlaceOf(node, path), hint));
   }
 
   void RefuseUnknown(const toml::table& table, const std::string& prefix) const {

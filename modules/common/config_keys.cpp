@@ -35,6 +35,7 @@ class KeyList : public Archive {
     Add(key, fmt::format("[{}]", fmt::join(values, ", ")), Meaning(spec));
   }
   void Refuse(std::string_view, std::string_view) override {}
+  void Require(std::string_view, std::string_view) override {}
 
  protected:
   bool Enter(std::string_view key, std::string_view doc) override {

@@ -33,6 +33,7 @@ class Printer : public Archive {
          fmt::format("[{}] {}; {}", spec.unit, spec.doc, RangeText(spec)));
   }
   void Refuse(std::string_view, std::string_view) override {}
+  void Require(std::string_view, std::string_view) override {}
 
  protected:
   bool Enter(std::string_view key, std::string_view doc) override {

@@ -119,7 +119,7 @@ TEST_F(RadioAppTest, StatusSaysWhatWasSent) {
   for (const auto& channel : status.get()->channels) {
     if (channel.channel != "POSE") continue;
     EXPECT_TRUE(channel.outgoing);
-    EXPECT_NEAR(channel.messages, 20, 5);
+    EXPECT_NEAR(channel.messages, 40, 8);
   }
 }
 
@@ -156,11 +156,15 @@ std::string StartError(const std::string& text, const std::string& link = "") {
   return "";
 }
 
+constexpr const char* kWhither = "direction='up'\nclass='state'\n";
+
 constexpr const char* kPoseLink = R"(
 simulation_key = true
 [[channel]]
 name = "POSE"
 type = "pose_t"
+direction = "up"
+class = "state"
 )";
 
 // ---- Types the program was never compiled with, and channels that are sent on request.
@@ -176,10 +180,14 @@ simulation_key = true
 [[channel]]
 name = "TANK"
 type = "tank_t"
+direction = "up"
+class = "state"
 rate_hz = 10
 [[channel]]
 name = "DETAILS"
 type = "tank_t"
+direction = "up"
+class = "state"
 rate_hz = 10
 on_request = true
 )";
@@ -275,7 +283,7 @@ struct Gates : testing::Test {
     std::filesystem::create_directories(folder / "types");
     std::ofstream(folder / "types" / "gate_t.lcm") << kGateType;
     std::ofstream(folder / "link.toml") << "simulation_key = true\n[[channel]]\nname = \"GATE\"\ntype = "
-                                           "\"gate_t\"\nrate_hz = 10\nclass = \""
+                                           "\"gate_t\"\ndirection = \"up\"\nrate_hz = 10\nclass = \""
                                         << channel_class << "\"\n";
     lockstep.AddBus("onboard");
     lockstep.AddBus("offboard");
@@ -373,7 +381,8 @@ TEST(GateReceiver, CodesOfNoStateAreABadMessageAndCounted) {
   std::filesystem::create_directories(folder / "types");
   std::ofstream(folder / "types" / "gate_t.lcm") << kGateType;
   std::ofstream(folder / "link.toml")
-      << "simulation_key = true\n[[channel]]\nname = \"GATE\"\ntype = \"gate_t\"\nrate_hz = 10\n";
+      << "simulation_key = true\n[[channel]]\nname = \"GATE\"\ntype = \"gate_t\"\ndirection = "
+         "\"up\"\nclass = \"state\"\nrate_hz = 10\n";
   const bus::Schema schema = bus::OwnTypes();
   const bus::Schema types(std::vector<bus::Schema::Source>{{"gate_t.lcm", kGateType}});
   bus::Lockstep lockstep(schema, {.seed = 1, .start = FromUtime(1'000'000'000), .log = {}});
@@ -448,18 +457,35 @@ TEST(RadioAppStart, RefusesALinkThatCannotHold) {
 
 TEST(RadioAppStart, RefusesWhatMustNeverCrossTheRadio) {
   for (const char* channel : {"name='CLAIM'\ntype='claim_t'", "name='WHEEL_COMMAND'\ntype='wheel_command_t'"})
-    EXPECT_THAT(StartError("port = 'a'", std::string("simulation_key=true\n[[channel]]\n") + channel),
-                HasSubstr("expected one that may cross the radio"));
+    EXPECT_THAT(
+        StartError("port = 'a'", std::string("simulation_key=true\n[[channel]]\n") + kWhither + channel),
+        HasSubstr("expected one that may cross the radio"));
 }
 
 TEST(RadioAppStart, RefusesAMissingKey) {
-  EXPECT_THAT(StartError("port = 'a'", "[[channel]]\nname='POSE'\ntype='pose_t'"),
+  EXPECT_THAT(StartError("port = 'a'", std::string("[[channel]]\nname='POSE'\ntype='pose_t'\n") + kWhither),
               HasSubstr("priamos link keygen"));
 }
 
 TEST(RadioAppStart, RefusesUnknownTypes) {
-  EXPECT_THAT(StartError("port = 'a'", "simulation_key=true\n[[channel]]\nname='POSE'\ntype='pos_t'"),
-              HasSubstr("got \"pos_t\""));
+  EXPECT_THAT(
+      StartError("port = 'a'",
+                 std::string("simulation_key=true\n[[channel]]\nname='POSE'\ntype='pos_t'\n") + kWhither),
+      AllOf(HasSubstr("link.toml:2: radio channel POSE: type: "), HasSubstr("got \"pos_t\"")));
+}
+
+TEST(RadioAppStart, RefusesAChannelThatDoesNotSayWhatItIs) {
+  const std::string channel = "simulation_key=true\n[[channel]]\nname='POSE'\ntype='pose_t'\n";
+  EXPECT_THAT(StartError("port = 'a'", channel + "class='state'\n"),
+              HasSubstr("link.toml:2:channel[0].direction: expected up or down, got none"));
+  EXPECT_THAT(StartError("port = 'a'", channel + "direction='up'\n"),
+              HasSubstr("link.toml:2:channel[0].class: expected state, event or command, got none"));
+}
+
+TEST(RadioAppStart, NamesThePlaceOfAChannelThatIsListedTwice) {
+  const std::string channel = std::string("[[channel]]\nname='POSE'\ntype='pose_t'\n") + kWhither;
+  EXPECT_THAT(StartError("port = 'a'", "simulation_key=true\n" + channel + channel),
+              HasSubstr("link.toml:7: radio channel POSE: expected a channel once"));
 }
 
 }  // namespace

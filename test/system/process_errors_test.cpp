@@ -99,7 +99,8 @@ TEST(RadioProcess, AbsentTtyNamesTheNextStep) {
 TEST(RadioProcess, TheKeyThatEverybodyKnowsStaysOnThisMachine) {
   const TemporaryFolder folder;
   std::ofstream(folder / "link.toml") << "simulation_key = true\ndatagrams = true\n"
-                                         "[[channel]]\nname = \"POSE\"\ntype = \"pose_t\"\n";
+                                         "[[channel]]\nname = \"POSE\"\ntype = \"pose_t\"\ndirection = "
+                                         "\"up\"\nclass = \"state\"\n";
   const auto answer = RunCommand(Binary("priamos-radio") + " --config " + (folder / "link.toml").string() +
                                  " --port udp:192.0.2.1:9000");
   ExpectOneSentence(answer);

@@ -33,16 +33,16 @@ bool DeltaFits(const LinkChannel& c) {
 void Check(const LinkChannel& c) {
   if (!c.delta.empty() && !DeltaFits(c))
     throw std::invalid_argument(
-        fmt::format("radio channel {}: differences are for a state of fixed size without keys", c.name));
+        fmt::format("{}: differences are for a state of fixed size without keys", c.Title()));
   if (c.fixed_bits == 0 && c.max_bits == 0)
-    throw std::invalid_argument(fmt::format("radio channel {}: its packed size is unknown", c.name));
+    throw std::invalid_argument(fmt::format("{}: its packed size is unknown", c.Title()));
   if (c.channel_class == ChannelClass::kCommand && c.ttl <= Duration::zero())
-    throw std::invalid_argument(fmt::format("radio channel {}: a command needs a time-to-live", c.name));
+    throw std::invalid_argument(fmt::format("{}: a command needs a time-to-live", c.Title()));
   if (c.channel_class == ChannelClass::kEvent && c.max_bits > 8 * 1400)
-    throw std::invalid_argument(fmt::format("radio channel {}: larger than 1400 bytes", c.name));
+    throw std::invalid_argument(fmt::format("{}: larger than 1400 bytes", c.Title()));
   if (c.channel_class != ChannelClass::kEvent && c.max_bits > 8 * 200)
     throw std::invalid_argument(
-        fmt::format("radio channel {}: a {} of {} bits does not fit one frame, make it an event", c.name,
+        fmt::format("{}: a {} of {} bits does not fit one frame, make it an event", c.Title(),
                     c.channel_class == ChannelClass::kState ? "state" : "command", c.max_bits));
 }
 
@@ -62,7 +62,8 @@ ChannelTable::ChannelTable(std::vector<LinkChannel> channels, bool encrypted, st
     Check(c);
     for (std::size_t j = 0; j < i; ++j)
       if (channels_[j].name == c.name && channels_[j].direction == c.direction)
-        throw std::invalid_argument(fmt::format("radio channel {} is listed twice", c.name));
+        throw std::invalid_argument(
+            fmt::format("{}: expected a channel once in a direction, got it twice", c.Title()));
   }
   hash_ = Hash(Text());
   id_bits_ = static_cast<int>(std::bit_width(channels_.size() + 1));

@@ -37,6 +37,10 @@ struct LinkChannel {
   bool on_request = false;  ///< sent only while the other side has a listener
   int max_keys = 1;         ///< state: newest wins per key, for so many keys
   Duration deadline{};      ///< latest delivery after it was offered, for the budget; 0: any
+  std::string place{};      ///< where it is configured, for errors: `file:line: `, or empty
+
+  /// What an error about the channel begins with.
+  std::string Title() const { return place + "radio channel " + name; }
 };
 
 /// All channels of a link. The index is the channel's name on the wire.
