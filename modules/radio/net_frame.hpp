@@ -23,7 +23,7 @@ struct NetAddress {
   std::string host;  ///< empty: wait for a connection
   std::string port;
   std::string local_port;
-  bool loopback_only = false;  ///< who waits is heard by this machine alone
+  bool loopback_only = false;  ///< for this machine alone, whatever a name stands for
 };
 
 /// Time of this process, asked after bytes were read.

@@ -36,8 +36,12 @@ struct AddressInfoCloser {
 };
 using AddressInfo = std::unique_ptr<addrinfo, AddressInfoCloser>;
 
-/// Address of a host; an empty `host` means any address of this machine.
-AddressInfo LookUp(const std::string& host, const std::string& port, int type);
+/// Whether only this machine has the address.
+bool IsLoopback(const addrinfo& info);
+/// Address of the other end, or to wait at when no host is named. A name may have another address now than
+/// when it was looked up before: with `loopback_only` one that others can reach is refused. Throws
+/// std::runtime_error with one sentence.
+AddressInfo LookUp(const NetAddress& address);
 /// A socket that never blocks.
 Fd Socket(const addrinfo& info);
 void Bind(const Fd& fd, const addrinfo& info, const std::string& port);

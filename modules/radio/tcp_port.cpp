@@ -70,9 +70,7 @@ struct Connection {
 
 class TcpPort : public NetPort {
  public:
-  explicit TcpPort(const NetAddress& address)
-      : address_(LookUp(address.host.empty() && address.loopback_only ? "127.0.0.1" : address.host,
-                        address.port, SOCK_STREAM)) {
+  explicit TcpPort(const NetAddress& address) : address_(LookUp(address)) {
     if (!address.host.empty()) return;
     listener_ = Socket(*address_);
     Bind(listener_, *address_, address.port);

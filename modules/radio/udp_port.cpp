@@ -56,9 +56,9 @@ struct Place {
 class UdpPort : public NetPort {
  public:
   explicit UdpPort(const NetAddress& address) : local_port_(address.local_port) {
-    const AddressInfo peer = LookUp(address.host, address.port, SOCK_DGRAM);
+    const AddressInfo peer = LookUp(address);
     strangers_ = Bound(*peer, address.loopback_only);
-    peer_ = Bound(*peer, false);
+    peer_ = Bound(*peer, address.loopback_only);
     // From now on the kernel passes to this one nothing but what comes from there.
     if (connect(peer_.get(), peer->ai_addr, peer->ai_addrlen) != 0)
       throw std::runtime_error(
