@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bus/radio/budget_analysis.hpp"
 #include "bus/radio/channels/bundle.hpp"
@@ -26,8 +27,31 @@ FreshnessProof ProofOf(const LinkChannel& channel, double next_s, const Directio
           .echo_age = FromSeconds(other.SilenceSeconds()) + options.line_delay};
 }
 
+void CheckDuty(const DirectionAnalysis& analysis, const LinkOptions& options,
+               std::vector<std::string>& problems) {
+  if (!options.duty.limited()) return;
+  const double longest_s = Seconds(analysis.LongestFrameTime());
+  if (longest_s > Seconds(options.duty.longest()))
+    problems.push_back(
+        fmt::format("radio link: duty_cycle: expected packets of at most {:.3f} s, of which the "
+                    "duty_window_s holds many, "
+                    "got {:.3f} s: lower max_bundle_bytes or packet_overhead_s",
+                    Seconds(options.duty.longest()), longest_s));
+  if (analysis.CreditSeconds() > Seconds(options.duty.credit()))
+    problems.push_back(
+        fmt::format("radio link: duty_cycle: expected urgent messages that take at most {:.3f} s of air at "
+                    "once, with all "
+                    "their repetitions, got {:.3f} s: lower their burst, or line_delay_s",
+                    Seconds(options.duty.credit()), analysis.CreditSeconds()));
+  if (analysis.SilenceSeconds() > Seconds(options.silence))
+    problems.push_back(fmt::format(
+        "radio link: silence_s: expected at least {:.3f} s, for which the duty_cycle can keep an end silent, "
+        "got {:.3f} s",
+        analysis.SilenceSeconds(), Seconds(options.silence)));
+}
+
 DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, const PollBounds& polls,
-                        Direction direction) {
+                        Direction direction, std::vector<std::string>& problems) {
   DirectionAnalysis analysis(table, options, direction);
   DirectionAnalysis other(table, options, Opposite(direction));
   if (options.robots > 0) {
@@ -35,6 +59,7 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, c
     other.SetPolled(polls, options.robots);
   }
   analysis.Solve(other, Seconds(options.line_delay));
+  CheckDuty(analysis, options, problems);
   DirectionBudget budget;
   budget.direction = direction;
   budget.longest_frame_bytes = analysis.LongestFrameBytes();
@@ -65,18 +90,18 @@ const char* NameOf(Direction d) {
 void CheckProof(const LinkChannel& c, const FreshnessProof& proof, std::vector<std::string>& problems) {
   if (proof.echo_age > proof.reach)
     problems.push_back(
-        fmt::format("radio channel {}: expected a line_delay_s and a silence of the other end of at most "
+        fmt::format("{}: expected a line_delay_s and a silence of the other end of at most "
                     "{:.3f} s together, "
                     "within which an echo names one frame, got {:.3f} s: lower keep_alive_s, "
                     "max_bundle_bytes or line_delay_s",
-                    c.name, Seconds(proof.reach), Seconds(proof.echo_age)));
+                    c.Title(), Seconds(proof.reach), Seconds(proof.echo_age)));
   if (proof.age() <= c.ttl) return;
   problems.push_back(fmt::format(
-      "radio channel {}: expected a ttl_s of at least {:.3f} s, in which a command can be proven fresh, got "
+      "{}: expected a ttl_s of at least {:.3f} s, in which a command can be proven fresh, got "
       "{:.3f} s: {:.3f} s until it is sent, {:.3f} s of line_delay_s, {:.3f} s written ahead, {:.3f} s of "
       "rounding, {:.3f} s of silence of the other end beyond what can be counted: lower max_bundle_bytes or "
       "keep_alive_s, or measure line_delay_s",
-      c.name, Seconds(proof.age()), Seconds(c.ttl), Seconds(proof.next), Seconds(proof.delay),
+      c.Title(), Seconds(proof.age()), Seconds(c.ttl), Seconds(proof.next), Seconds(proof.delay),
       Seconds(proof.ahead), Seconds(proof.step), Seconds(proof.silence)));
 }
 
@@ -98,10 +123,10 @@ void CheckDirection(const ChannelTable& table, const DirectionBudget& budget,
     if (row.proof) CheckProof(c, *row.proof, problems);
     if (c.deadline <= Duration::zero() || (row.worst_latency && *row.worst_latency <= c.deadline)) continue;
     problems.push_back(fmt::format(
-        "radio channel {}: expected delivery within its deadline_s of {:.3f} s, got {} in the worst case: "
+        "{}: expected delivery within its deadline_s of {:.3f} s, got {} in the worst case: "
         "give it a "
         "smaller priority number, lower the rate_hz of others, or lower max_bundle_bytes",
-        c.name, Seconds(c.deadline),
+        c.Title(), Seconds(c.deadline),
         row.worst_latency ? fmt::format("{:.3f} s", Seconds(*row.worst_latency)) : "no bound at all"));
   }
 }
@@ -143,14 +168,15 @@ std::string FormatRow(const ChannelTable& table, const ChannelBudget& row) {
 
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options) {
   const PollBounds polls = options.robots > 0 ? PollBoundsOf(table, options) : PollBounds{};
-  Budget budget{.up = Analyse(table, options, polls, Direction::kUp),
-                .down = Analyse(table, options, polls, Direction::kDown),
-                .problems = {},
+  std::vector<std::string> problems;
+  if (options.robots > 0) problems = SharedProblems(table, options);
+  Budget budget{.up = Analyse(table, options, polls, Direction::kUp, problems),
+                .down = Analyse(table, options, polls, Direction::kDown, problems),
+                .problems = std::move(problems),
                 .robots = options.robots,
                 .polls = polls,
                 .code_bytes = table.code_bytes(),
                 .forgery_s = ForgerySeconds(options.bytes_per_s, table.code_bytes())};
-  if (options.robots > 0) budget.problems = SharedProblems(table, options);
   CheckDirection(table, budget.up, budget.problems);
   CheckDirection(table, budget.down, budget.problems);
   for (const DirectionBudget* d : {&budget.up, &budget.down})

@@ -20,6 +20,8 @@ constexpr double kTick_s = 0.001;
 constexpr double kHandOver_s = 2 * kTick_s;
 /// Acknowledgements of frames per second, at most.
 constexpr double kFrameAcks_hz = 4;
+/// Announcements of listeners per second, at most.
+constexpr double kAnnouncements_hz = 1;
 constexpr int kFrameAckBits = 3 + 12 + kEarlierFrames + 12 + 4;
 constexpr int kEventAckBits = 3 + 8 + 6 + 1 + static_cast<int>(kAckWindow);
 constexpr int kControlKindBits = 3;
@@ -40,6 +42,7 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
       direction_(direction),
       byte_s_(1 / options.bytes_per_s),
       datagrams_(options.datagrams),
+      duty_(options.duty),
       packets_(options.packets()),
       ageing_s_(Seconds(options.ageing)),
       frame_bytes_(
@@ -127,6 +130,19 @@ double DirectionAnalysis::ControlBits() const {
   return bits;
 }
 
+/// Acknowledgements and announcements of listeners that can be in the frames of a window.
+double DirectionAnalysis::ControlBitsIn(double window_s) const {
+  double bits = (1 + std::floor(window_s * kFrameAcks_hz)) * (table_.id_bits() + kFrameAckBits);
+  for (std::size_t i = 0; i < table_.size(); ++i) {
+    const LinkChannel& c = table_.at(i);
+    if (c.direction == direction_ || c.channel_class != ChannelClass::kEvent) continue;
+    const ChannelLoad incoming = LoadOf(i);
+    bits += incoming.Arrivals(window_s) * incoming.entries * (2 * table_.id_bits() + kEventAckBits);
+  }
+  const double announcement_bits = table_.id_bits() + kControlKindBits + static_cast<double>(table_.size());
+  return bits + (1 + std::floor(window_s * kAnnouncements_hz)) * announcement_bits;
+}
+
 /// Turns that end a frame early, and the time in between when the other end uses all of its turn.
 void DirectionAnalysis::ShareTheAir(const LinkOptions& options) {
   const double longest_s = FrameSeconds(8.0 * static_cast<double>(options.max_bundle_bytes));
@@ -174,12 +190,20 @@ double DirectionAnalysis::UrgentFrameSeconds() const {
 
 double DirectionAnalysis::SilenceSeconds() const {
   if (robots_ > 0) return Seconds(polled_.asked) + frame_s_;
-  return std::max(keep_alive_s_, gap_s_) + frame_s_;
+  return std::max({keep_alive_s_, gap_s_, duty_.limited() ? frame_s_ / duty_.rate() : 0}) + frame_s_;
+}
+
+double DirectionAnalysis::CreditSeconds() const {
+  double s = frame_s_;
+  for (const ChannelLoad& load : loads_)
+    if (load.urgent) s += load.Arrivals(0) * AllFramesSeconds(load);
+  for (const ChannelLoad& incoming : answered_) s += incoming.Arrivals(0) * AckFrameSeconds();
+  return s;
 }
 
 double DirectionAnalysis::NextSeconds(const ChannelLoad& load) const {
   if (robots_ > 0) return Seconds(polled_.asked) + FrameSeconds(load.bits) + kTick_s;
-  return InTurns(frame_s_ + FrameSeconds(load.bits) + ahead_s_ + kTick_s);
+  return InTurns(frame_s_ / duty_.rate() + FrameSeconds(load.bits) + ahead_s_ + kTick_s);
 }
 
 double DirectionAnalysis::AheadSeconds() const {
@@ -324,8 +348,8 @@ double DirectionAnalysis::Ordinary(const ChannelLoad& load) const {
 /// Frames that the messages before this one, and those of it but the last, take at most; `all_bits`, if not
 /// null, gets what all messages of the direction take.
 double DirectionAnalysis::FramesBefore(double window_s, const ChannelLoad& load, double* all_bits) const {
-  // On a shared channel a state that waits is replaced by the newer one.
-  const double own = robots_ > 0 && load.newest_only ? load.keys - 1 : load.OwnBefore(window_s);
+  // A state that waits is replaced by the newer one.
+  const double own = load.newest_only ? load.keys - 1 : load.OwnBefore(window_s);
   double bits = load.bits - load.entry_bits + own * load.bits;
   double entries = load.entries - 1 + own * load.entries;
   double other_bits = 0;  // goes after it, but may fill its frames
@@ -348,9 +372,11 @@ double DirectionAnalysis::OrdinaryIn(double window_s, const ChannelLoad& load) c
   double bits = 0;
   const double frames = FramesBefore(window_s, load, &bits);
   // Either all of them are as long as can be, or everything there is has been sent.
+  const double control_bits = std::min(frames * control_bits_, ControlBitsIn(window_s));
   const double everything_s =
-      ((bits + frames * control_bits_) / 8 + frames * static_cast<double>(frame_bytes_ + 1)) * byte_s_;
-  return frame_s_ + UrgentIn(window_s, load) + std::min(frames * frame_s_, everything_s) + frame_s_ + kTick_s;
+      ((bits + control_bits) / 8 + frames * static_cast<double>(frame_bytes_ + 1)) * byte_s_;
+  const double before_s = frame_s_ + UrgentIn(window_s, load) + std::min(frames * frame_s_, everything_s);
+  return before_s / duty_.rate() + frame_s_ + kTick_s;
 }
 
 /// What urgent messages take of the line: their frames and those of the acknowledgements; and the frame that

@@ -48,7 +48,7 @@ class DirectionAnalysis {
   void Solve(const DirectionAnalysis& other, double line_delay_s);
   const std::vector<ChannelLoad>& loads() const { return loads_; }
   /// Guaranteed share of the line for this direction, 0..1.
-  double share() const { return turn_s_ / (turn_s_ + gap_s_); }
+  double share() const { return duty_.rate() * turn_s_ / (turn_s_ + gap_s_); }
   /// Load of the acknowledgements.
   double ControlBytesPerSecond() const;
   /// Load of a channel at its rate.
@@ -58,6 +58,9 @@ class DirectionAnalysis {
   double NextSeconds(const ChannelLoad& load) const;
   /// Longest time from the end of a frame to the end of the next one.
   double SilenceSeconds() const;
+  /// Time on air that urgent frames take at most beyond what is paid for: with bursts of all of them, and an
+  /// ordinary frame before.
+  double CreditSeconds() const;
   /// Bytes of the longest frame, with the whole counter, as a packet must hold it.
   std::size_t LongestFrameBytes() const { return longest_bytes_; }
   /// The same as a time on the line, with the delimiter that leads after silence.
@@ -78,6 +81,7 @@ class DirectionAnalysis {
   double UrgentIn(double window_s, const ChannelLoad& load) const;
   ChannelLoad LoadOf(std::size_t index) const;
   double ControlBits() const;
+  double ControlBitsIn(double window_s) const;
   void ConfineTo(std::size_t bundle_bytes, double& largest_bytes);
   void ShareTheAir(const LinkOptions& options);
   double InTurns(double work_s) const;
@@ -97,6 +101,7 @@ class DirectionAnalysis {
   Direction direction_;
   double byte_s_;
   bool datagrams_;
+  DutyCycle duty_;
   bool packets_;  ///< an urgent frame waits for the end of the one on the air
   double ageing_s_;
   std::size_t frame_bytes_;  ///< bytes of a frame besides its bundle

@@ -80,7 +80,8 @@ bool FrameScheduler::Build(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
   repetition_.NoteUnanswered(from.outbox.queue().UrgentUnanswered(), now);
   repetition_.Step(agreed && from.outbox.queue().RepetitionReady(now), now);
-  if (agreed && BuildUrgent(from, now)) return true;
+  if (agreed && transmitter_.MayBegin(now, true) && BuildUrgent(from, now)) return true;
+  if (!transmitter_.MayBegin(now, false)) return false;
   if (turns_.shared() && !turns_.MayPass(now)) return false;  // granted for urgent messages alone
   repetition_.OnOthersTurn(now);
   return BuildOther(from, now);
@@ -112,8 +113,9 @@ LineCode FrameScheduler::LineCodeOf(const FrameSources& from, Time now) const {
 
 bool FrameScheduler::BuildOther(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
-  // Of turns of one frame hellos would take all.
-  const bool turn_of_data = agreed && turns_.shared() && hello_last_;
+  // Of turns of one frame, or frames that a duty cycle keeps apart, hellos would take all.
+  const bool one_at_a_time = turns_.shared() || options_.duty.limited();
+  const bool turn_of_data = agreed && one_at_a_time && hello_last_;
   if (!turn_of_data && BuildAnyHello(from, now)) return true;
   return agreed && (DataDue(from, now) || turns_.MayPass(now)) && BuildData(from, false, now);
 }
@@ -155,11 +157,7 @@ void FrameScheduler::BuildHello(FrameSources from, Handshake& handshake, const F
 
 bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   const LineCode line_code = urgent_only ? LineCodeOf(from, now) : LineCode::kCobs;
-  const std::size_t target = line_code == LineCode::kBlock
-                                 ? sealer_.MaxBlockBundle(form_)
-                                 : BestBundleBytes(options_.max_bundle_bytes, from.peer.sent.peer_loss(),
-                                                   FrameOverhead(sealer_.code_bytes()));
-  BundleBuilder builder(*table_, target, turns_.enabled(), sealer_.overhead());
+  BundleBuilder builder(*table_, TargetBytes(from, line_code, now), turns_.enabled(), sealer_.overhead());
   if (turns_.shared()) builder.Confine(message_bits_);
   FrameInFlight flight = Fill(builder, from, urgent_only, line_code, now);
   // Nothing that is ready could be packed: no frame for nothing.
@@ -180,6 +178,16 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   flight_ = std::move(flight);
   transmitter_.Begin(std::move(wire), now);
   return true;
+}
+
+/// The budget of a radio that takes turns counts with frames of full length; acknowledgements may be rare
+/// there.
+std::size_t FrameScheduler::TargetBytes(const FrameSources& from, LineCode line_code, Time now) const {
+  if (line_code == LineCode::kBlock) return sealer_.MaxBlockBundle(form_);
+  const SentFrames& sent = from.peer.sent;
+  return BestBundleBytes(options_.max_bundle_bytes,
+                         turns_.enabled() ? sent.peer_loss() : sent.ExpectedLoss(now),
+                         FrameOverhead(sealer_.code_bytes()));
 }
 
 FrameInFlight FrameScheduler::Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only,

@@ -88,6 +88,7 @@ class FrameScheduler {
   void BuildHello(FrameSources from, Handshake& handshake, const FrameSealer& sealer, Reception reception,
                   Time now);
   bool BuildData(FrameSources from, bool urgent_only, Time now);
+  std::size_t TargetBytes(const FrameSources& from, LineCode line_code, Time now) const;
   FrameInFlight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, LineCode line_code,
                      Time now) const;
   std::optional<Time> EchoedAt(const FrameSources& from) const;

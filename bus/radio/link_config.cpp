@@ -49,9 +49,9 @@ std::uint64_t CodesHash(const Packer& packer) {
 
 ValueWidths DeltaWidths(const LinkChannelConfig& c, const Struct& type) {
   if (!HasFixedSize(type))
-    throw ConfigError(fmt::format(
-        "radio channel {}: delta: expected false with {}, whose messages differ in size, got true", c.name,
-        type.full_name));
+    throw ConfigError(
+        fmt::format("{}: delta: expected false with {}, whose messages differ in size, got true", c.Title(),
+                    type.full_name));
   return Packer(type).ValueWidths();
 }
 
@@ -65,15 +65,15 @@ void CheckKey(const LinkChannelConfig& c, const Struct& type) {
   const auto field =
       std::find_if(type.fields.begin(), type.fields.end(), [&](const Field& f) { return f.name == c.key; });
   if (field == type.fields.end() || field->kind != Kind::kString || !field->dims.empty())
-    throw ConfigError(fmt::format("radio channel {}: key: expected a text field of {}, got \"{}\"", c.name,
-                                  type.full_name, c.key));
+    throw ConfigError(
+        fmt::format("{}: key: expected a text field of {}, got \"{}\"", c.Title(), type.full_name, c.key));
 }
 
 LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
   const Struct* type = schema.Find(c.type);
   if (type == nullptr)
-    throw ConfigError(fmt::format(
-        "radio channel {}: type: expected the name of a known .lcm type, got \"{}\"", c.name, c.type));
+    throw ConfigError(
+        fmt::format("{}: type: expected the name of a known .lcm type, got \"{}\"", c.Title(), c.type));
   CheckKey(c, *type);
   LinkChannel channel;
   channel.name = c.name;
@@ -84,7 +84,7 @@ LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
     channel.fingerprint = type->fingerprint ^ CodesHash(packer);
     channel.max_bits = static_cast<std::uint32_t>(packer.MaxBits());
   } catch (const SchemaError& error) {
-    throw ConfigError(fmt::format("radio channel {} cannot be packed: {}", c.name, error.what()));
+    throw ConfigError(fmt::format("{} cannot be packed: {}", c.Title(), error.what()));
   }
   channel.fixed_bits = HasFixedSize(*type) ? channel.max_bits : 0;
   if (c.delta) channel.delta = DeltaWidths(c, *type);
@@ -96,6 +96,7 @@ LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
   channel.urgent = c.urgent;
   channel.on_request = c.on_request;
   channel.max_keys = c.key.empty() ? 1 : c.keys;
+  channel.place = c.place;
   return channel;
 }
 
@@ -120,6 +121,9 @@ void LinkChannelConfig::Describe(Archive& a) {
          "sent as difference to one that the other end is known to have, whenever that is shorter");
   a.Text("key", key, "text field of the type: newest wins per value of it; empty: newest of all");
   a.Integer("keys", keys, {"-", 1, 64, "values of `key` at most"});
+  place = a.Place();
+  a.Require("direction", "up or down");
+  a.Require("class", "state, event or command");
   if (!IsChannelName(name)) a.Refuse("name", "the name of an LCM channel: 1 to 63 printable characters");
   if (channel_class == "command" && ttl_s <= 0)
     a.Refuse("ttl_s", "a time-to-live above 0, as every command needs");
@@ -178,6 +182,10 @@ void LinkConfig::DescribeMedium(Archive& a) {
   a.Number("packet_overhead_s", packet_overhead_s,
            {"s", 0, 5, "packet: time on air of a packet beside its frame: preamble and header"});
   a.Integer("mtu_bytes", mtu_bytes, {"byte", 50, 255, "packet: largest packet of the radio, a frame in it"});
+  a.Number("duty_cycle", duty_cycle,
+           {"-", 0.001, 1, "packet: share of duty_window_s that an end may be on the air; 1: no limit"});
+  a.Number("duty_window_s", duty_window_s,
+           {"s", 1, 86400, "packet: any window of so long, in which duty_cycle holds"});
   a.Integer("robots", robots,
             {"-", 0, 8,
              "robots on one half-duplex channel, each with its address and key, which a station polls; 0: a "
@@ -198,6 +206,9 @@ void LinkConfig::RefuseContradictions(Archive& a) const {
     a.Refuse("datagrams", "false: with medium \"packet\" a frame goes whole in any case");
   if (medium != "packet" && packet_overhead_s > 0)
     a.Refuse("packet_overhead_s", "0, other than with medium \"packet\"");
+  if (medium != "packet" && duty_cycle < 1) a.Refuse("duty_cycle", "1, other than with medium \"packet\"");
+  if (half_duplex_turn_s > 0 && duty_cycle < 1)
+    a.Refuse("duty_cycle", "1 with half_duplex_turn_s: ends that take turns are always on the air");
   if (robots == 0 && max_bundle_bytes < 30) a.Refuse("max_bundle_bytes", "30 or more on a link of two ends");
   if (robots > 0 && (datagrams || medium == "packet"))
     a.Refuse("robots", "0 with datagrams or packets: robots share a radio channel of bytes");
@@ -231,6 +242,7 @@ LinkOptions LinkConfig::Options() const {
           .datagrams = datagrams || medium == "packet",
           .packet_overhead = FromSeconds(packet_overhead_s),
           .packet_bytes = medium == "packet" ? static_cast<std::size_t>(mtu_bytes) : 0,
+          .duty = DutyCycle(duty_cycle, FromSeconds(duty_window_s)),
           .robots = static_cast<std::uint8_t>(robots),
           .grace = FromSeconds(grace_s)};
 }

@@ -24,8 +24,12 @@ struct LinkChannelConfig {
   bool urgent = false;    ///< may cut off the frame being sent; as an event not limited by `rate_hz`
   bool on_request = false;  ///< sent only while somebody listens on the other side
   bool delta = false;       ///< sent as a difference to an acknowledged message whenever that is shorter
-  std::string key;  ///< text field of the type: the newest message per value of it is kept; empty: no key
-  int keys = 1;     ///< [-] 1..64: largest number of values of `key`
+  std::string key;      ///< text field of the type: the newest message per value of it is kept; empty: no key
+  int keys = 1;         ///< [-] 1..64: largest number of values of `key`
+  std::string place{};  ///< where it was read, for errors: `file:line: `, or empty
+
+  /// What an error about the channel begins with.
+  std::string Title() const { return place + "radio channel " + name; }
   void Describe(Archive& a);
   friend bool operator==(const LinkChannelConfig&, const LinkChannelConfig&) = default;
 };
@@ -49,6 +53,8 @@ struct LinkConfig {
   std::string medium = "bytes";
   double packet_overhead_s = 0;  ///< [s] 0..5: packet: time on air of a packet beside its frame, above 0
   int mtu_bytes = 222;           ///< [byte] 50..255: packet: largest packet of the radio
+  double duty_cycle = 1;         ///< 0.001..1: packet: share of `duty_window_s` that an end may be on the air
+  double duty_window_s = 3600;   ///< [s] 1..86400: packet: window of any place in which `duty_cycle` holds
   int robots = 0;          ///< [-] 0..8: robots on the channel, which a station polls; 0: a link of two ends
   double grace_s = 0.005;  ///< [s] 0.001..0.1: robots: so late a polled robot begins at most
   std::string key_file = "link.key";  ///< secret key of the link, made by `priamos link keygen`, mode 0600

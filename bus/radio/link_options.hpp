@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bus/radio/line/duty_cycle.hpp"
 #include "bus/radio/line/turn_taking.hpp"
 #include "common/time.hpp"
 
@@ -25,6 +26,8 @@ struct LinkOptions {
   Duration packet_overhead{};
   /// Largest packet of the radio, a frame in it whole; 0: as long as any frame.
   std::size_t packet_bytes = 0;
+  /// Share of the time, in any window of this length, that each end may be on the air with its packets.
+  DutyCycle duty{};
 
   /// Robots on the channel, each with its address and key, which a station polls; 0: a link of two ends.
   std::uint8_t robots = 0;

@@ -16,6 +16,7 @@ constexpr std::size_t kIdleBytes = 16;
 
 Transmitter::Transmitter(const LinkOptions& options, Time now)
     : pacer_(options.bytes_per_s, options.ahead_bytes, now),
+      duty_(options.duty),
       datagrams_(options.datagrams),
       instant_(options.instant()),
       head_bytes_(options.HeadBytes()) {}
@@ -27,6 +28,7 @@ bool Transmitter::WorthCutting() const {
 void Transmitter::Begin(std::vector<std::byte> wire, Time now) {
   wire_ = std::move(wire);
   next_ = 0;
+  duty_.Use(now, pacer_.WireTime(head_bytes_ + wire_.size()));
   for (std::size_t i = 0; i < head_bytes_; ++i) pacer_.Use(now);
   if (!datagrams_ && pacer_.Idle(now) >= pacer_.WireTime(kIdleBytes)) wire_.insert(wire_.begin(), kDelimiter);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bus/radio/line/duty_cycle.hpp"
 #include "bus/radio/line/pacer.hpp"
 #include "bus/radio/link_options.hpp"
 
@@ -24,6 +25,8 @@ class Transmitter {
   bool WorthCutting() const;
   /// Whether the line can take a byte (a datagram) now.
   bool Allows(Time now) const { return pacer_.Allows(now); }
+  /// Whether the duty cycle of the radio lets a frame begin.
+  bool MayBegin(Time now, bool urgent) const { return duty_.Allows(now, urgent); }
 
   /// Begins a frame, delimiter included; not while busy().
   void Begin(std::vector<std::byte> wire, Time now);
@@ -46,6 +49,7 @@ class Transmitter {
   void Put(std::byte byte, Time now, std::vector<std::byte>& out);
 
   Pacer pacer_;
+  DutyCycle duty_;
   bool datagrams_;
   bool instant_;                 ///< a datagram leaves when it is handed over
   std::size_t head_bytes_;       ///< charged to a datagram beside its bytes

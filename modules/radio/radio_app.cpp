@@ -14,6 +14,7 @@
 #include "common/random.hpp"
 #include "radio/file_store.hpp"
 #include "radio/key_file.hpp"
+#include "radio/kiss_port.hpp"
 #include "radio/link_health.hpp"
 #include "radio/private_line.hpp"
 
@@ -132,6 +133,13 @@ bus::radio::LinkConfig RadioApp::LoadLink() const {
 }
 
 void RadioApp::OpenLine() {
+  if (IsKissPort(config_.port)) {
+    if (link_config_.medium != "packet")
+      throw ConfigError(fmt::format("{}: medium: expected \"packet\" with port {}, got \"{}\"",
+                                    context_.ResolvePath(config_.link), config_.port, link_config_.medium));
+    net_ = OpenKissPort(context_.OpenSerial(TtyOf(config_.port), link_config_.baud));
+    return;
+  }
   if (!IsNetPort(config_.port)) {
     port_ = context_.OpenSerial(config_.port, link_config_.baud);
     return;
@@ -147,8 +155,8 @@ void RadioApp::OpenLine() {
 bus::radio::LinkKey RadioApp::LoadKey(const std::string& file) const {
   if (!link_config_.simulation_key) return ReadKeyFile(file);
   if (context_.lockstep()) return SimulationKey();
-  const bool is_there =
-      IsNetPort(config_.port) || std::filesystem::exists(config_.port);  // else see OpenLine
+  const std::string tty = IsKissPort(config_.port) ? TtyOf(config_.port) : config_.port;
+  const bool is_there = IsNetPort(config_.port) || std::filesystem::exists(tty);  // else see OpenLine
   if (is_there && !IsPrivateLine(config_.port))
     throw ConfigError(
         fmt::format("{}: simulation_key: expected false on {}, which others can reach, got true: make a key "

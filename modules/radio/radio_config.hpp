@@ -40,7 +40,10 @@ struct RadioConfig {
   void Describe(Archive& a) {
     a.Choice("side", side, {"onboard", "offboard"},
              "which end of the link this is: the robot's or the workstation's");
-    a.Text("port", port, "serial port of the modem; or udp:HOST:PORT, tcp:HOST:PORT, tcp::PORT to wait");
+    a.Text(
+        "port", port,
+        "serial port of the modem; kiss:TTY of a packet radio; or udp:HOST:PORT, tcp:HOST:PORT, tcp::PORT to "
+        "wait");
     a.Text("link", link,
            "channels, rates and key, the same for both ends; relative to the folder of this file");
     a.Text("types", types,

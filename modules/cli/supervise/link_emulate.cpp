@@ -1,18 +1,11 @@
 #include "cli/supervise/link_emulate.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <poll.h>
-#include <stdlib.h>
-#include <sys/ioctl.h>
-#include <termios.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -32,6 +25,7 @@ using bus::radio::Line;
 using bus::radio::LineConfig;
 using bus::radio::LineCut;
 using bus::radio::LineDelay;
+using bus::radio::PacketAirConfig;
 
 /// What a tty's own buffer holds: who writes more has to wait.
 constexpr Duration kTtyBuffer{4'000'000};
@@ -45,6 +39,15 @@ LineConfig WithSchedules(const LinkEmulateOptions& options) {
   if (!options.delays.empty())
     for (LineDelay& delay : ReadDelays(options.delays)) line.delays.push_back(std::move(delay));
   return line;
+}
+
+PacketAirConfig WithBlackouts(const LinkEmulateOptions& options) {
+  PacketAirConfig air = *options.packets;
+  air.bytes_per_s = options.line.air_rate_bytes_s;
+  air.latency_s = options.line.latency_s;
+  air.half_duplex = options.line.half_duplex;
+  if (!options.blackouts.empty()) air.cuts = ReadBlackouts(options.blackouts);
+  return air;
 }
 
 /// Calls `take` with every line of a CSV file and its number, but for comments and a heading.
@@ -61,13 +64,6 @@ void ForEachRow(const std::string& path, const std::string& what, const std::str
     empty = false;
   }
   if (empty) throw ConfigError(fmt::format("{}: expected a {} schedule, got one without rows", path, what));
-}
-
-void MakeRaw(int fd) {
-  termios settings{};
-  tcgetattr(fd, &settings);
-  cfmakeraw(&settings);
-  tcsetattr(fd, TCSANOW, &settings);
 }
 
 void RemoveDeadLink(const std::string& link) {
@@ -92,6 +88,7 @@ void MoveIn(PseudoTerminal& from, Line& line, Time now) {
 
 std::unique_ptr<EmulatedMedium> MakeMedium(const LinkEmulateOptions& options, Time start) {
   if (options.robots > 0) return std::make_unique<EmulatedChannel>(options, start);
+  if (options.packets) return std::make_unique<EmulatedPacketRadios>(options, start);
   return std::make_unique<EmulatedLine>(options, start);
 }
 
@@ -143,49 +140,6 @@ std::vector<LineDelay> ReadDelays(const std::string& path) {
   return delays;
 }
 
-PseudoTerminal::PseudoTerminal(std::string link) : link_(std::move(link)) {
-  if (fs::exists(fs::symlink_status(link_)) && !fs::is_symlink(fs::symlink_status(link_)))
-    throw std::runtime_error(
-        fmt::format("{}: expected a free name for an emulated tty, got something else there", link_));
-  master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  std::array<char, 128> name{};
-  if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0 ||
-      ptsname_r(master_, name.data(), name.size()) != 0)
-    throw std::runtime_error(fmt::format("no pseudo terminal can be had: {}", std::strerror(errno)));
-  target_ = name.data();
-  slave_ = open(target_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  MakeRaw(slave_);
-  std::error_code error;
-  fs::remove(link_, error);
-  fs::create_symlink(target_, link_, error);
-  if (error) {
-    close(slave_);
-    close(master_);
-    throw std::runtime_error(fmt::format("{}: the link cannot be made: {}", link_, error.message()));
-  }
-}
-
-PseudoTerminal::~PseudoTerminal() {
-  std::error_code error;
-  if (fs::read_symlink(link_, error) == target_) fs::remove(link_, error);
-  close(slave_);
-  close(master_);
-}
-
-std::vector<std::byte> PseudoTerminal::Read(std::size_t most) {
-  // This process keeps the tty open: the exclusive use of a program that was killed would never end.
-  ioctl(slave_, TIOCNXCL);
-  std::vector<std::byte> bytes(most);
-  const ssize_t n = read(master_, bytes.data(), bytes.size());
-  bytes.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
-  return bytes;
-}
-
-void PseudoTerminal::Write(std::span<const std::byte> bytes) {
-  if (!bytes.empty() && write(master_, bytes.data(), bytes.size()) < 0 && errno != EAGAIN)
-    throw std::runtime_error(fmt::format("{}: cannot be written: {}", link_, std::strerror(errno)));
-}
-
 EmulatedLine::EmulatedLine(const LinkEmulateOptions& options, Time start)
     : a_(options.a),
       b_(options.b),
@@ -220,6 +174,24 @@ std::vector<int> EmulatedChannel::fds() const {
   std::vector<int> fds;
   for (const auto& tty : ttys_) fds.push_back(tty->fd());
   return fds;
+}
+
+EmulatedPacketRadios::EmulatedPacketRadios(const LinkEmulateOptions& options, Time start)
+    : ttys_{PseudoTerminal(options.a), PseudoTerminal(options.b)},
+      decoders_{bus::radio::KissDecoder(options.packets->mtu_bytes),
+                bus::radio::KissDecoder(options.packets->mtu_bytes)},
+      air_(WithBlackouts(options), Rng::Stream(options.seed, "packets"), start) {}
+
+void EmulatedPacketRadios::Step(Time now) {
+  for (std::size_t side = 0; side < 2; ++side)
+    MoveIn(
+        ttys_[side], now, [&] { return air_.free_at(side); },
+        [&](const auto& bytes) {
+          for (const std::byte byte : bytes)
+            if (auto packet = decoders_[side].Push(byte)) air_.Send(side, std::move(*packet), now);
+        });
+  for (std::size_t side = 0; side < 2; ++side)
+    for (const auto& packet : air_.Receive(side, now)) ttys_[side].Write(bus::radio::EncodeKiss(packet));
 }
 
 std::vector<std::string> TtysOf(const LinkEmulateOptions& options) {

@@ -2,11 +2,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bus/radio/frame/kiss.hpp"
 #include "bus/radio/line/line.hpp"
+#include "bus/radio/line/packet_air.hpp"
 #include "bus/radio/line/shared_line.hpp"
+#include "cli/supervise/pseudo_terminal.hpp"
 #include "common/time.hpp"
 
 namespace priamos::cli {
@@ -20,6 +24,9 @@ struct LinkEmulateOptions {
   std::string blackouts;  ///< CSV file, `from_s,to_s` per line: more times without a line
   std::string delays;     ///< CSV file, `way,from_s,to_s,first_s,last_s` per line: times with more delay
   std::uint64_t seed = 1;
+  /// With it, packet radios instead of a line: each tty speaks KISS. `line` gives their half-duplex,
+  /// latency_s and, as air_rate_bytes_s, their rate.
+  std::optional<bus::radio::PacketAirConfig> packets{};
   int robots = 0;     ///< with more than 0, `a` is the station's tty and `b`-1, `b`-2, ... are theirs
   bool json = false;  ///< print the ttys that were made as JSON
 };
@@ -30,28 +37,6 @@ std::vector<bus::radio::LineCut> ReadBlackouts(const std::string& path);
 
 /// Reads a schedule of delays, as ReadBlackouts; `way` is a_to_b, b_to_a or both.
 std::vector<bus::radio::LineDelay> ReadDelays(const std::string& path);
-
-/// One pseudo terminal, found under the name of a symbolic link. What a program writes to the link's target
-/// comes out of Read().
-class PseudoTerminal {
- public:
-  /// Replaces a link left behind; throws std::runtime_error when something else has the name.
-  explicit PseudoTerminal(std::string link);
-  PseudoTerminal(const PseudoTerminal&) = delete;
-  PseudoTerminal& operator=(const PseudoTerminal&) = delete;
-  ~PseudoTerminal();
-
-  int fd() const { return master_; }
-  std::vector<std::byte> Read(std::size_t most);
-  /// Writes bytes; those that no program reads are lost, as on a modem.
-  void Write(std::span<const std::byte> bytes);
-
- private:
-  std::string link_;
-  std::string target_;
-  int master_ = -1;
-  int slave_ = -1;  ///< kept open, so that the line survives the programs at its ends
-};
 
 /// What joins pseudo terminals; time is given, so that a test need not wait.
 class EmulatedMedium {
@@ -94,6 +79,22 @@ class EmulatedChannel : public EmulatedMedium {
  private:
   std::vector<std::unique_ptr<PseudoTerminal>> ttys_;  ///< the station's, then the robots'
   bus::radio::SharedLine air_;
+};
+
+/// Two packet radios, each at a tty that speaks KISS.
+class EmulatedPacketRadios : public EmulatedMedium {
+ public:
+  /// `options.packets` must be given.
+  EmulatedPacketRadios(const LinkEmulateOptions& options, Time start);
+
+  void Step(Time now) override;
+  Time NextArrival() const override { return air_.next_arrival(); }
+  std::vector<int> fds() const override { return {ttys_[0].fd(), ttys_[1].fd()}; }
+
+ private:
+  PseudoTerminal ttys_[2];
+  bus::radio::KissDecoder decoders_[2];
+  bus::radio::PacketAir air_;
 };
 
 /// Names of the ttys that are made, the station's first.

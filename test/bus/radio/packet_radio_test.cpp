@@ -19,6 +19,7 @@ struct Radio {
   LinkOptions options;
   double hours;
   double unit_s;  ///< mean time between the messages of the slowest channel
+  Duration ttl{3'000'000};
 };
 
 LinkOptions Packets(double bytes_per_s, Duration overhead, std::size_t packet, std::size_t bundle,
@@ -34,14 +35,12 @@ LinkOptions Packets(double bytes_per_s, Duration overhead, std::size_t packet, s
           .packet_bytes = packet};
 }
 
-constexpr Duration kTtl{3'000'000};
-
 /// Channels of all classes, at rates of about one message per `unit_s`.
-std::vector<LinkChannel> ChannelsFor(double unit_s) {
+std::vector<LinkChannel> ChannelsFor(double unit_s, Duration ttl) {
   std::vector<LinkChannel> channels = TestChannels();
   for (LinkChannel& c : channels) {
     c.rate_hz = 1 / unit_s;
-    c.ttl = c.channel_class == ChannelClass::kCommand ? kTtl : Duration::zero();
+    c.ttl = c.channel_class == ChannelClass::kCommand ? ttl : Duration::zero();
     if (c.max_bits > 8 * 100) c.max_bits = 8 * 40;
     if (c.fixed_bits > 8 * 20) c.fixed_bits = c.max_bits = 8 * 20;
   }
@@ -54,7 +53,7 @@ class PacketWorld {
  public:
   PacketWorld(const Radio& radio, double loss, std::uint64_t seed)
       : radio_(radio), loss_(loss), rng_(Rng::Stream(seed, "packets")) {
-    channels_ = ChannelsFor(radio.unit_s);
+    channels_ = ChannelsFor(radio.unit_s, radio.ttl);
     for (End& end : ends_)
       end.link = std::make_unique<LinkEndpoint>(
           ChannelTable(channels_, false), end.outgoing, LinkKey{1, 2, 3}, radio.options, end.store,
@@ -73,6 +72,21 @@ class PacketWorld {
   }
   const std::vector<LinkChannel>& channels() const { return channels_; }
 
+  /// Largest share of a window of this length that one end was on the air.
+  double LargestShare(Duration window) const {
+    double largest = 0;
+    for (const End& end : ends_) {
+      Duration inside{};
+      for (std::size_t first = 0, last = 0; last < end.on_air.size(); ++last) {
+        inside += end.on_air[last].second - end.on_air[last].first;
+        for (; end.on_air[last].second - end.on_air[first].first > window; ++first)
+          inside -= end.on_air[first].second - end.on_air[first].first;
+        largest = std::max(largest, Seconds(inside) / Seconds(window));
+      }
+    }
+    return largest;
+  }
+
   std::map<std::size_t, Duration> worst;
   std::map<std::size_t, std::size_t> offered, received;
   std::size_t longest_packet = 0, collisions = 0, overlaps = 0;
@@ -90,6 +104,7 @@ class PacketWorld {
     std::vector<Packet> arriving{};
     Time free = kStart;
     Time talks_from = kStart;
+    std::vector<std::pair<Time, Time>> on_air{};  ///< its packets
   };
 
   void Offer() {
@@ -127,6 +142,7 @@ class PacketWorld {
     const Time begin = std::max(from.free, now_);
     overlaps += from.free > now_ + Duration(4000) + FromSeconds(4 / radio_.options.bytes_per_s);
     from.free = begin + radio_.options.packet_overhead + FromSeconds(air_s);
+    from.on_air.push_back({begin, from.free});
     from.talks_from = begin;
     bool lost = rng_.Uniform(0, 1) < loss_;
     if (radio_.options.half_duplex.turn > Duration::zero() && to.free > begin) {
@@ -160,7 +176,7 @@ class PacketWorld {
     for (std::size_t b = 0; b < 4; ++b) number |= std::to_integer<std::size_t>(d.packed.at(b)) << 8 * b;
     ++received[d.channel];
     if (channels_[d.channel].channel_class == ChannelClass::kCommand) {
-      EXPECT_LE(now_ - at_[d.channel].at(number), kTtl);
+      EXPECT_LE(now_ - at_[d.channel].at(number), radio_.ttl);
     }
     Measure(d.channel, at_[d.channel].at(number));
   }
@@ -180,6 +196,13 @@ class PacketWorld {
   std::map<std::size_t, std::vector<Time>> at_;
 };
 
+Radio DutyCycleRadio() {
+  Radio radio{"TwoChannelsDuty10", Packets(684, Duration(20'000), 222, 80, {}, Duration(2'000'000)), 3, 60,
+              Duration(20'000'000)};
+  radio.options.duty = DutyCycle(0.1, FromSeconds(600));
+  return radio;
+}
+
 std::vector<Radio> Radios() {
   return {
       {"LoRaSF7",
@@ -188,7 +211,8 @@ std::vector<Radio> Radios() {
       {"TwoChannelsSF7", Packets(684, Duration(20'000), 222, 120, {}, Duration(500'000)), 1, 8},
       {"Fast20k",
        Packets(2500, Duration(5'000), 250, 120, {Duration(400'000), Duration(5'000)}, Duration(500'000)), 0.7,
-       8}};
+       8},
+      DutyCycleRadio()};
 }
 
 class PacketRadio : public testing::TestWithParam<Radio> {};
@@ -213,11 +237,14 @@ TEST_P(PacketRadio, NoMessageIsLaterThanItsBound) {
   }
   EXPECT_EQ(dut.overlaps, 0U);
   EXPECT_EQ(dut.collisions, 0U);
+  if (GetParam().options.duty.limited()) {
+    EXPECT_LE(dut.LargestShare(FromSeconds(600)), 0.1);
+  }
 }
 
 TEST_P(PacketRadio, EventsComeExactlyOnceWhereOnePacketInFiveIsLost) {
   PacketWorld dut(GetParam(), 0.2, 11);
-  dut.Run(600, true);
+  dut.Run(std::max(600.0, 30 * GetParam().unit_s), true);
   dut.Run(300, false);
   for (std::size_t i = 0; i < dut.channels().size(); ++i)
     if (dut.channels()[i].channel_class == ChannelClass::kEvent) {
@@ -229,10 +256,42 @@ TEST_P(PacketRadio, EventsComeExactlyOnceWhereOnePacketInFiveIsLost) {
 INSTANTIATE_TEST_SUITE_P(Radios, PacketRadio, testing::ValuesIn(Radios()),
                          [](const auto& radio) { return std::string(radio.param.name); });
 
+/// An operator who hits the stop again and again, and nobody who answers: the law holds all the same.
+TEST(PacketRadioDuty, HoldsHoweverManyStopsWait) {
+  Radio radio = DutyCycleRadio();
+  PacketWorld dut(radio, 0.9, 3);
+  for (int i = 0; i < 20; ++i) {
+    dut.Run(60, true);
+    dut.Run(60, false);
+  }
+  EXPECT_GT(dut.LargestShare(FromSeconds(600)), 0.05) << "nothing was tried";
+  EXPECT_LE(dut.LargestShare(FromSeconds(600)), 0.1);
+}
+
+TEST(PacketBudget, RefusesWhatTheDutyCycleCannotCarry) {
+  LinkOptions options = DutyCycleRadio().options;
+  const auto problem_of = [&] {
+    const Budget budget = ComputeBudget(ChannelTable(ChannelsFor(60, Duration(20'000'000)), false), options);
+    return budget.problems.empty() ? "" : budget.problems.front();
+  };
+  EXPECT_EQ(problem_of(), "");
+  options.duty = DutyCycle(0.1, FromSeconds(10));
+  EXPECT_NE(problem_of().find("duty_cycle: expected packets of at most"), std::string::npos) << problem_of();
+  options.duty = DutyCycle(0.1, FromSeconds(24));
+  EXPECT_NE(problem_of().find("expected urgent messages that take at most"), std::string::npos)
+      << problem_of();
+  options = DutyCycleRadio().options;
+  options.silence = Duration(1'000'000);
+  EXPECT_NE(problem_of().find("silence_s: expected at least"), std::string::npos) << problem_of();
+  options = DutyCycleRadio().options;
+  options.duty = DutyCycle(0.01, FromSeconds(6000));
+  EXPECT_NE(problem_of(), "") << "a tenth of the air for the same messages";
+}
+
 TEST(PacketBudget, RefusesAFrameThatNoPacketHolds) {
   LinkOptions options = Radios().front().options;
   options.packet_bytes = 100;
-  const Budget budget = ComputeBudget(ChannelTable(ChannelsFor(20), false), options);
+  const Budget budget = ComputeBudget(ChannelTable(ChannelsFor(20, Duration(3'000'000)), false), options);
   ASSERT_FALSE(budget.problems.empty());
   EXPECT_NE(budget.problems.front().find("expected frames of at most 100 byte, the mtu_bytes"),
             std::string::npos)

@@ -107,6 +107,32 @@ void AddLineOptions(CLI::App& verb, bus::radio::LineConfig& line) {
       ->capture_default_str();
 }
 
+void AddPacketOptions(CLI::App& verb, std::optional<bus::radio::PacketAirConfig>& packets) {
+  auto* flag = verb.add_flag_callback(
+      "--packets", [&packets] { packets = packets.value_or(bus::radio::PacketAirConfig{}); },
+      "packet radios of --air-rate instead of a line: each tty speaks KISS");
+  flag->needs(verb.get_option("--air-rate"))->excludes(verb.get_option("--robots"));
+  const auto option = [&](const char* name, auto bus::radio::PacketAirConfig::*member, auto range,
+                          const char* text) {
+    using Value = std::remove_reference_t<decltype(bus::radio::PacketAirConfig{}.*member)>;
+    verb.add_option_function<Value>(
+            name,
+            [&packets, member](const Value& value) {
+              if (!packets) packets.emplace();
+              (*packets).*member = value;
+            },
+            text)
+        ->check(range)
+        ->needs(flag);
+  };
+  option("--packet-overhead", &bus::radio::PacketAirConfig::overhead_s, CLI::Range(0.0, 5.0),
+         "s, packets: time on air beside the bytes; without it 0.02");
+  option("--packet-loss", &bus::radio::PacketAirConfig::loss, CLI::Range(0.0, 1.0),
+         "packets: probability that one is lost; without it 0");
+  option("--mtu", &bus::radio::PacketAirConfig::mtu_bytes, CLI::Range(1, 255),
+         "byte, packets: a longer one is not sent; without it 255");
+}
+
 void AddEmulate(CLI::App& link, int& exit_code) {
   auto options = std::make_shared<LinkEmulateOptions>();
   auto* verb = AddVerb(link, "emulate", "A pair of radio modems: two ttys joined by an emulated line.");
@@ -118,6 +144,7 @@ void AddEmulate(CLI::App& link, int& exit_code) {
                    "of theirs, B-1, B-2, ...")
       ->check(CLI::Range(1, 8));
   AddLineOptions(*verb, options->line);
+  AddPacketOptions(*verb, options->packets);
   verb->add_option("--blackouts", options->blackouts,
                    "CSV file with from_s,to_s per line: no line in between");
   verb->add_option("--delays", options->delays,
