@@ -10,6 +10,8 @@ constexpr Duration kAckGap{250'000};
 constexpr std::uint64_t kFramesPerAck = 24;
 constexpr std::size_t kRememberedFrames = 64;
 constexpr std::uint64_t kLowBitsReach = 64;
+/// Without an acknowledgement for so long, beside two round trips, nothing gets through.
+constexpr Duration kUnanswered = 3 * kAckGap;
 /// Of a slow line far more than an echo names; of a fast one still those of a second, when frames are not
 /// tiny.
 constexpr std::size_t kEchoedFrames = 4096;
@@ -55,6 +57,7 @@ void SentFrames::OnSent(std::uint64_t counter, Time end) {
 
 std::vector<std::uint64_t> SentFrames::OnAck(const FrameAckEntry& ack, Time began) {
   peer_loss_ = ack.loss;
+  acknowledged_at_ = began;
   std::vector<std::uint64_t> named;
   for (const Frame& frame : frames_) {
     const std::uint64_t back = (ack.counter - frame.counter) & 0xFFFU;
@@ -70,6 +73,11 @@ std::vector<std::uint64_t> SentFrames::OnAck(const FrameAckEntry& ack, Time bega
 
 CounterForm SentFrames::FormOf(std::uint64_t counter) const {
   return confirmed_ && counter <= *confirmed_ + kLowBitsReach ? CounterForm::kLowBits : CounterForm::kWhole;
+}
+
+double SentFrames::ExpectedLoss(Time now) const {
+  const bool unanswered = acknowledged_at_ && now - *acknowledged_at_ > kUnanswered + 2 * last_round_trip_;
+  return unanswered ? 1 : peer_loss_;
 }
 
 void SentFrames::OnHandedOver(std::uint64_t counter, Time now) {

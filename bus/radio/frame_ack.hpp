@@ -70,6 +70,9 @@ class SentFrames {
   Duration last_round_trip() const { return last_round_trip_; }
   /// Share of this end's frames that the other end lost lately, 0..1.
   double peer_loss() const { return peer_loss_; }
+  /// Share that is to be expected of a frame of now: all, while the other end has not answered for longer
+  /// than it ever should. What goes first when the line is back is then short.
+  double ExpectedLoss(Time now) const;
 
  private:
   struct Frame {
@@ -82,6 +85,7 @@ class SentFrames {
   LatencyMeter latency_;
   Duration last_round_trip_{};
   double peer_loss_ = 0;
+  std::optional<Time> acknowledged_at_;  ///< when the last acknowledgement came
 };
 
 }  // namespace priamos::bus::radio

@@ -1,6 +1,7 @@
 // Efficiency, bit errors, loss, overload, blackouts.
 #include "figures.hpp"
 #include "test/bus/radio/measurement/blackout_measurement.hpp"
+#include "test/bus/radio/measurement/first_pose_measurement.hpp"
 #include "test/bus/radio/measurement/goodput_measurement.hpp"
 #include "test/bus/radio/measurement/overload_measurement.hpp"
 
@@ -61,6 +62,21 @@ void Dark(Figures& figures, const Effort& effort) {
   figures.Exactly("events all delivered, once and in order", 1, result.events_once_in_order ? 1 : 0, "");
 }
 
+void FirstPose(Figures& figures, const Effort& effort) {
+  Figures::Section(
+      "The shipped link, every channel at its rate: from the end of a blackout of 0.05 to 8 s to a pose of "
+      "after it");
+  const std::size_t returns = effort.long_run ? 10000 : 2500;
+  const auto note = [&](const char* cut, bool up, bool down) {
+    const FirstPoses poses = FirstPoseRun(1, up, down, 1).Run(returns);
+    figures.AtLeast(fmt::format("{}: within 0.3 s", cut), 99.9, 100 * poses.ShareWithin(0.3), "%");
+    figures.Note("  slowest", poses.worst_s(), "s");
+  };
+  note("both directions cut", true, true);
+  note("up cut", true, false);
+  note("down cut", false, true);
+}
+
 }  // namespace
 
 void SimulatedLink(Figures& figures, const Effort& effort) {
@@ -74,6 +90,7 @@ void SimulatedLink(Figures& figures, const Effort& effort) {
   Events(figures, effort);
   Load(figures, effort);
   Dark(figures, effort);
+  FirstPose(figures, effort);
 }
 
 }  // namespace priamos::bench

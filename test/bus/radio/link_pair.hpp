@@ -133,6 +133,7 @@ class LinkPair {
   bool encrypted = false;
   std::function<void()> each_step;
   std::function<bool(std::span<const std::byte>)> lose_up, lose_down;  ///< true: the frame is lost
+  std::function<bool(bool up)> line_cut;  ///< true: a byte that leaves now is lost
   End onboard, offboard;
   LinePair lines;
   Line &line_up = lines.a_to_b, &line_down = lines.b_to_a;
@@ -150,7 +151,8 @@ class LinkPair {
       // A frame is lost or not when its first byte leaves.
       if (frame.empty()) lost = lose && lose({});
       frame.push_back(b);
-      if (!lost) line.Write(std::span(&b, 1), now);
+      const bool cut = line_cut && line_cut(&end == &onboard);
+      if (!lost && !cut) line.Write(std::span(&b, 1), now);
       if (b == kDelimiter) frame.clear();
     }
   }

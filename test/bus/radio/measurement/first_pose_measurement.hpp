@@ -1,0 +1,106 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/own_types.hpp"
+#include "bus/radio/link_config.hpp"
+#include "common/config.hpp"
+#include "numbered_message.hpp"
+
+namespace priamos::bus::radio {
+
+/// Times from the end of a blackout to the arrival of the first POSE that was offered after it, in s.
+struct FirstPoses {
+  std::vector<double> after_s;
+  double worst_s() const { return *std::max_element(after_s.begin(), after_s.end()); }
+  double ShareWithin(double limit_s) const {
+    const auto n = std::count_if(after_s.begin(), after_s.end(), [&](double s) { return s <= limit_s; });
+    return static_cast<double>(n) / static_cast<double>(after_s.size());
+  }
+};
+
+/// The shipped link in blackouts of 0.05 to 8 s, up to 2.3 s apart. All other channels are offered their
+/// `load` times their rates, each message as large as it can be.
+class FirstPoseRun {
+ public:
+  FirstPoseRun(std::uint64_t seed, bool up, bool down, double load)
+      : up_dark_(up), down_dark_(down), load_(load), rng_(Rng::Stream(seed, "first pose")), pair_({}, seed) {
+    const auto config = LoadConfig<LinkConfig>(std::string(PRIAMOS_SOURCE_DIR) + "/config/sim/link.toml");
+    for (LinkPair::End* end : {&pair_.onboard, &pair_.offboard}) {
+      end->options = config.Options();
+      end->channels = InWholeBytes(config.Table(OwnTypes()).channels());
+      end->store.Lose();
+      pair_.Start(*end);
+    }
+    pair_.each_step = [this] { Step(); };
+    pair_.line_cut = [this](bool up_line) { return Dark() && (up_line ? up_dark_ : down_dark_); };
+  }
+
+  FirstPoses Run(std::size_t returns) {
+    while (result_.after_s.size() < returns) pair_.StepOnce();
+    return result_;
+  }
+
+ private:
+  /// The pair packs a message as its bytes; differences would need its bits.
+  static std::vector<LinkChannel> InWholeBytes(std::vector<LinkChannel> channels) {
+    for (LinkChannel& c : channels) {
+      c.max_bits = (c.max_bits + 7) / 8 * 8;
+      if (c.fixed_bits > 0) c.fixed_bits = c.max_bits;
+      c.delta.clear();
+    }
+    return channels;
+  }
+  double now_s() const { return Seconds(pair_.now - start_); }
+  bool Dark() const { return now_s() >= from_s_ && now_s() < to_s_; }
+
+  void Step() {
+    const auto& channels = pair_.onboard.channels;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const LinkChannel& c = channels[i];
+      if (c.name == "POSE") OfferPose(i);
+      const bool offered = c.name != "POSE" && !c.urgent && !c.on_request;
+      if (offered && rng_.Uniform(0, 1) < 0.001 * load_ * c.rate_hz * c.max_keys) Offer(c, i);
+    }
+    std::erase_if(pair_.offboard.received, [&](const LinkPair::Received& r) { return Take(r), true; });
+    pair_.onboard.received.clear();
+  }
+  void OfferPose(std::size_t channel) {
+    if (ToUtime(pair_.now) % 20'000 != 0) return;
+    pose_ = channel;
+    pair_.onboard.link->Offer(
+        channel, NumberedMessage(number_++, pair_.onboard.channels[channel].max_bits / 8), pair_.now);
+    offered_s_.push_back(now_s());
+  }
+  void Offer(const LinkChannel& c, std::size_t channel) {
+    LinkPair::End& end = c.direction == Direction::kUp ? pair_.onboard : pair_.offboard;
+    const std::string key = c.max_keys > 1 ? fmt::format("{:.0f}", rng_.Uniform(0, c.max_keys - 1)) : "";
+    end.link->Offer(channel, std::vector<std::byte>(c.max_bits / 8, std::byte{7}), pair_.now, key);
+  }
+  void Take(const LinkPair::Received& r) {
+    if (r.delivery.channel != pose_ || now_s() < to_s_) return;
+    if (offered_s_.at(NumberOf(r.delivery.packed)) < to_s_) return;
+    result_.after_s.push_back(now_s() - to_s_);
+    from_s_ = now_s() + rng_.Uniform(0.3, 2.3);
+    to_s_ = from_s_ + 0.05 * std::pow(160, rng_.Uniform(0, 1));
+  }
+
+  bool up_dark_, down_dark_;
+  double load_;
+  Rng rng_;
+  LinkPair pair_;
+  Time start_ = pair_.now;
+  double from_s_ = 3, to_s_ = 3.5;
+  std::size_t pose_ = 0;
+  std::uint32_t number_ = 0;
+  std::vector<double> offered_s_;
+  FirstPoses result_;
+};
+
+}  // namespace priamos::bus::radio
