@@ -12,6 +12,9 @@ namespace {
 /// Beside the round trip: time for the frames of an urgent event and of its acknowledgement.
 constexpr Duration kAnswered{30'000};
 
+/// From so many polls without an answer on, every second one is a hello.
+constexpr int kUnansweredPolls = 2;
+
 /// What a proof takes beside the delays of the line: bytes written ahead, and ticks of both ends.
 constexpr Duration kProofMargin{10'000};
 
@@ -80,11 +83,20 @@ bool FrameScheduler::Build(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
   repetition_.NoteUnanswered(from.outbox.queue().UrgentUnanswered(), now);
   repetition_.Step(agreed && from.outbox.queue().RepetitionReady(now), now);
+  if (urgent_last_ && BuildHandshake(from, now)) return true;
   if (agreed && transmitter_.MayBegin(now, true) && BuildUrgent(from, now)) return true;
   if (!transmitter_.MayBegin(now, false)) return false;
   if (turns_.shared() && !turns_.MayPass(now)) return false;  // granted for urgent messages alone
   repetition_.OnOthersTurn(now);
   return BuildOther(from, now);
+}
+
+/// Where ends take turns, a turn may be one frame, and repetitions of an urgent event would take all: what
+/// the other end needs to understand them goes in between.
+bool FrameScheduler::BuildHandshake(FrameSources from, Time now) {
+  if (!turns_.enabled() || turns_.shared() || !transmitter_.MayBegin(now, false)) return false;
+  if (BuildAnyHello(from, now)) return true;
+  return from.memory.epoch() != 0 && from.peer.handshake.floor_due() && BuildData(from, false, now);
 }
 
 /// What is new, then what is repeated. An acknowledgement does not cut a frame off: the other end repeats
@@ -116,6 +128,11 @@ bool FrameScheduler::BuildOther(FrameSources from, Time now) {
   // Of turns of one frame, or frames that a duty cycle keeps apart, hellos would take all.
   const bool one_at_a_time = turns_.shared() || options_.duty.limited();
   const bool turn_of_data = agreed && one_at_a_time && hello_last_;
+  // A robot that has started again may not be able to open data, and says nothing before it is asked.
+  if (agreed && !turn_of_data && turns_.unanswered() >= kUnansweredPolls) {
+    BuildHello(from, from.peer.handshake, sealer_, from.receiver.reception(now), now);
+    return true;
+  }
   if (!turn_of_data && BuildAnyHello(from, now)) return true;
   return agreed && (DataDue(from, now) || turns_.MayPass(now)) && BuildData(from, false, now);
 }
@@ -148,6 +165,7 @@ void FrameScheduler::BuildHello(FrameSources from, Handshake& handshake, const F
   hello.over = EndsTurn(from, now);
   flight_.emplace();
   hello_last_ = true;
+  urgent_last_ = false;
   flight_->over = hello.over;
   // Where no frame arrives, every second one may.
   const bool block = !options_.datagrams && !turns_.shared() && handshake.sent() % 2 == 1;
@@ -170,6 +188,7 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
                            line_code);
   last_data_ = now;
   hello_last_ = false;
+  urgent_last_ = urgent_only;
   from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
   if (urgent_only && !flight.inbox.acks.empty()) acknowledged_at_ = now;
   // Of a shared channel a repetition takes a turn, whatever its length.

@@ -79,6 +79,7 @@ class FrameScheduler {
   bool MustCut(const FrameSources& from, Time now) const;
   bool MaySend(const FrameSources& from, Time now) const;
   bool Build(FrameSources from, Time now);
+  bool BuildHandshake(FrameSources from, Time now);
   bool BuildUrgent(FrameSources from, Time now);
   bool BuildOther(FrameSources from, Time now);
   bool AckAgain(const FrameSources& from, Time now) const;
@@ -109,6 +110,7 @@ class FrameScheduler {
   std::optional<FrameInFlight> flight_;
   CounterForm form_ = CounterForm::kWhole;  ///< of the next frame
   bool hello_last_ = false;                 ///< the last frame was a hello
+  bool urgent_last_ = false;                ///< the last frame was one of urgent messages alone
   Time last_data_;                          ///< begin of the last data frame sent
   SendCounters counters_;
 };

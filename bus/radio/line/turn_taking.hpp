@@ -63,6 +63,7 @@ class TurnTaking {
   /// The station gives its end for one robot the time for one frame, which hands the turn to the robot when
   /// it is a poll.
   void Grant(Time now, bool poll) {
+    if (hands_over_ && mode_.rule == TurnRule::kGranted) unanswered_ = answered_ ? 0 : unanswered_ + 1;
     Begin(now);
     hands_over_ = poll;
     answered_ = false;
@@ -73,6 +74,8 @@ class TurnTaking {
   bool mine() const { return mine_; }
   /// Whether the robot has handed the turn back since Grant().
   bool answered() const { return answered_; }
+  /// Polls in succession that the robot has not answered.
+  int unanswered() const { return unanswered_; }
   /// Time from the last turn but one to the last one.
   Duration period() const { return period_; }
 
@@ -120,7 +123,8 @@ class TurnTaking {
   Time heard_;              ///< last sign that the other end has the turn
   Time proven_;             ///< last one that cannot be anybody else's
   bool hands_over_ = true;  ///< shared: the frame of this turn ends with "over"
-  bool answered_ = false;
+  bool answered_ = true;
+  int unanswered_ = 0;
   Duration period_{};
   int missed_ = 0;  ///< turns taken since the last "over": the line may be slower than it seems
 };

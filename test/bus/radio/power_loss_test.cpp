@@ -155,5 +155,31 @@ TEST(LinkCrash, AnEventIsNotLostBetweenItsDeliveryAndTheDisk) {
   EXPECT_THAT(pair.onboard.TextsOf(kStopDown), ElementsAre("!"));
 }
 
+/// Of a half-duplex radio a turn may be one frame: repetitions of a stop must not take all of them.
+TEST(HalfDuplexRestart, AStopThatWaitsKeepsNobodyFromAgreeing) {
+  for (const bool remembers : {false, true}) {
+    for (const double turn_s : {0.3, 0.9}) {
+      for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        LinkOptions options;
+        options.half_duplex = {FromSeconds(turn_s), FromSeconds(0.02)};
+        LinkPair pair({.half_duplex = true}, seed, options);
+        pair.Run(3 + 0.1 * static_cast<double>(seed));
+        LinkPair::End& end = seed % 2 == 0 ? pair.onboard : pair.offboard;
+        if (!remembers) end.store.Lose();
+        pair.Start(end);
+        pair.offboard.link->Offer(kStopDown, Text("!"), pair.now);
+        EXPECT_TRUE(pair.RunUntil(4, [&] { return !pair.onboard.TextsOf(kStopDown).empty(); }))
+            << remembers << " " << turn_s << " " << seed;
+        pair.each_step = [&] {
+          if (ToUtime(pair.now) % 100'000 == 0)
+            pair.onboard.link->Offer(kPoseUp, Text("0123456789"), pair.now);
+        };
+        EXPECT_TRUE(pair.RunUntil(4, [&] { return !pair.offboard.TextsOf(kPoseUp).empty(); }))
+            << remembers << " " << turn_s << " " << seed;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace priamos::bus::radio
