@@ -43,14 +43,24 @@ std::vector<std::byte> Station::Step(Time now) {
 /// Whether an end may send a frame from now on.
 bool Station::Choose(Time now) {
   if (!cycle_.MayTalk(now) || now < line_free_) return false;
-  std::size_t robot = 0;
-  while (robot < ends_.size() && !MaySpeak(robot, now)) ++robot;
+  std::size_t robot = FirstToSpeak(now);
   const bool poll = robot == ends_.size();
   if (poll) robot = NextPoll(now);
   granted_ = {.robot = robot, .poll = poll};
   urgency_[robot].spoken = true;
   ends_[robot]->turns().Grant(now, poll);
   return true;
+}
+
+/// What is new goes before what is repeated, maybe to a robot that is not there.
+std::size_t Station::FirstToSpeak(Time now) const {
+  std::size_t first = ends_.size();
+  for (std::size_t i = ends_.size(); i-- > 0;) {
+    if (!MaySpeak(i, now)) continue;
+    if (ends_[i]->need(now) == Need::kUrgent) return i;
+    first = i;
+  }
+  return first;
 }
 
 bool Station::MaySpeak(std::size_t robot, Time now) const {

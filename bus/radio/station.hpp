@@ -44,6 +44,7 @@ class Station {
     int asks = 0;
   };
   bool Choose(Time now);
+  std::size_t FirstToSpeak(Time now) const;
   bool MaySpeak(std::size_t robot, Time now) const;
   std::size_t NextPoll(Time now);
   std::optional<std::size_t> FindAsked(Time now);

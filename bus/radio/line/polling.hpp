@@ -25,7 +25,7 @@ inline constexpr int kAskEvery = 3;
 /// up to kMostSkipped cycles, so that absent robots cost little and come back within a bounded time.
 class PollCycle {
  public:
-  static constexpr int kMostSkipped = 7;
+  static constexpr int kMostSkipped = 3;
 
   /// Robots have the addresses 1 to `robots`, at least one.
   PollCycle(SharedChannel channel, std::uint8_t robots);

@@ -118,6 +118,46 @@ TEST(Station, ARobotThatLostItsMemoryComesBack) {
   EXPECT_LE(Count(dut.down, 1, kSharedStop), 1U);
 }
 
+TEST(Station, AStopReachesARobotThatWasStartedAgainWithinThreeSeconds) {
+  for (const bool remembers : {true, false}) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      SharedWorld dut(4, seed);
+      dut.Run(6);
+      dut.StopRobot(2);
+      dut.Run(0.4 * static_cast<double>(seed));
+      if (!remembers) dut.StoreOf(2).Lose();
+      dut.StartRobot(2);
+      dut.down.clear();
+      dut.at_station(2).Offer(kSharedStop, std::vector<std::byte>(2, std::byte{1}), dut.now);
+      dut.Run(3);
+      const bool came = std::any_of(dut.down.begin(), dut.down.end(), [](const SharedWorld::Received& r) {
+        return r.robot == 2 && r.delivery.channel == kSharedStop;
+      });
+      EXPECT_TRUE(came) << remembers << " " << seed;
+    }
+  }
+}
+
+/// Robots that do not answer have stops that wait: those to others are not held back by their repetitions.
+TEST(Station, ANewStopGoesBeforeTheRepetitionsToAbsentRobots) {
+  SharedWorld dut(8, 3);
+  dut.Run(6);
+  for (std::size_t i = 0; i < 7; ++i) dut.StopRobot(i);
+  const double bound_s =
+      Seconds(PollBoundsOf(ChannelTable(SharedTestChannels(), false), dut.options).urgent_one);
+  for (int n = 0; n < 20; ++n) {
+    for (std::size_t i = 0; i < 7; ++i)
+      dut.at_station(i).Offer(kSharedStop, std::vector<std::byte>(2, std::byte{1}), dut.now);
+    dut.Run(0.31 + 0.01 * n);
+    dut.down.clear();
+    const Time offered = dut.now;
+    dut.at_station(7).Offer(kSharedStop, std::vector<std::byte>(2, std::byte{1}), dut.now);
+    dut.Run(1);
+    ASSERT_FALSE(dut.down.empty());
+    EXPECT_LE(Seconds(dut.down.front().at - offered), bound_s + 0.02) << n;
+  }
+}
+
 TEST(Station, ARobotWithTheKeyOfAnotherTakesNoneOfItsFrames) {
   const LinkKey key{1};
   const FrameScope scope_1{.table_hash = 7, .address = 1}, scope_2{.table_hash = 7, .address = 2};
