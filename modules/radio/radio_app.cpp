@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 
 #include "bus/radio/budget.hpp"
@@ -82,7 +83,31 @@ void RadioApp::CheckRobots() const {
                                   robots, file, config_.robots.size()));
 }
 
+/// Two links in one memory would take each other's events for their own.
+void RadioApp::CheckFiles() const {
+  std::map<std::string, std::string> used;
+  for (std::size_t i = 0; i < config_.robots.size(); ++i) {
+    const StationRobot& robot = config_.robots[i];
+    if (!link_config_.simulation_key && robot.key_file.empty())
+      throw ConfigError(
+          fmt::format("radio: robot[{}].key_file: expected the key of \"{}\", got none", i, robot.name));
+    const auto add = [&](const char* key, const std::string& file) {
+      if (file.empty()) return;
+      const std::string path = std::filesystem::weakly_canonical(context_.ResolvePath(file)).string();
+      const std::string place = fmt::format("robot[{}].{}", i, key);
+      const auto [at, is_new] = used.emplace(path, place);
+      if (!is_new)
+        throw ConfigError(fmt::format("radio: {}: expected a file of its own, got that of {}, \"{}\"", place,
+                                      at->second, file));
+    };
+    if (!link_config_.simulation_key) add("key_file", robot.key_file);
+    add("state_file", robot.state_file);
+    add("fast_state_file", robot.fast_state_file);
+  }
+}
+
 void RadioApp::AddRobots() {
+  CheckFiles();
   for (std::size_t i = 0; i < config_.robots.size(); ++i) {
     const StationRobot& robot = config_.robots[i];
     for (std::size_t k = 0; k < i; ++k)
@@ -97,6 +122,13 @@ void RadioApp::AddRobots() {
 void RadioApp::AddEnd(const StationRobot& robot, std::uint8_t address, bus::Node& node) {
   const std::string key_file = link_config_.simulation_key ? "" : context_.ResolvePath(robot.key_file);
   const bus::radio::LinkKey key = LoadKey(key_file);
+  // A key that two robots share lets each read and make the frames of the other.
+  if (!link_config_.simulation_key && std::find(keys_.begin(), keys_.end(), key) != keys_.end())
+    throw ConfigError(
+        fmt::format("radio: robot \"{}\": expected a key of its own in {}, got that of another robot: make "
+                    "one with `priamos link keygen`",
+                    robot.name, key_file));
+  keys_.push_back(key);
   const auto next_key = key_file.empty() ? std::nullopt : LoadNextKey(key_file, key);
   ends_.push_back(std::make_unique<BusEnd>(
       BusEndParts{.link = link_config_,

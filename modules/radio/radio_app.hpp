@@ -49,6 +49,7 @@ class RadioApp {
   void OpenLine();
   void AddEnd(const StationRobot& robot, std::uint8_t address, bus::Node& node);
   void AddRobots();
+  void CheckFiles() const;
   void Start(Time now);
   void ReadLine();
   void ReadFrames();
@@ -69,6 +70,7 @@ class RadioApp {
   std::unique_ptr<ByteStream> port_;                   ///< of a serial line
   std::unique_ptr<NetPort> net_;                       ///< of a link over IP
   std::vector<std::unique_ptr<bus::OtherBus>> buses_;  ///< at a station: the robots' buses
+  std::vector<bus::radio::LinkKey> keys_;              ///< of the ends
   std::vector<std::unique_ptr<BusEnd>> ends_;          ///< one; at a station one for each robot
   std::optional<bus::radio::Station> station_;         ///< since the first tick
   std::vector<std::byte> unwritten_;                   ///< bytes that the port has not taken yet

@@ -61,6 +61,11 @@ struct RadioConfig {
     a.List("robot", robots,
            "at the station of several robots: each of them, in the order of their addresses");
     if (!robots.empty() && side != "offboard") a.Refuse("robot", "none onboard: a robot has one link");
+    if (!robots.empty() && address != 0) a.Refuse("address", "0 at a station, whose robots have addresses");
+    if (!robots.empty() && !state_file.empty())
+      a.Refuse("state_file", "none beside [[robot]]: each of them names its own");
+    if (!robots.empty() && !fast_state_file.empty())
+      a.Refuse("fast_state_file", "none beside [[robot]]: each of them names its own");
     // A link.toml may be given as this file; then `link` is not read.
     own_link.Describe(a);
     if (!HasOwnLink() && own_link != bus::radio::LinkConfig{})

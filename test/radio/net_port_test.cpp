@@ -189,6 +189,20 @@ TEST(NetPort, WhoWaitsForThisMachineAloneIsNotFoundElsewhere) {
   }
 }
 
+/// A name may be looked up as another address than when it was judged: then it is not used.
+TEST(NetPort, AnAddressOfOthersIsRefusedForThisMachineAlone) {
+  for (const char* port : {"udp:192.0.2.1:9000", "tcp:192.0.2.1:9000", "udp:[2001:db8::1]:9000"}) {
+    NetAddress address = ParseNetAddress(port);
+    address.loopback_only = true;
+    try {
+      OpenNetPort(address);
+      FAIL() << port;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("expected an address of this machine")) << port;
+    }
+  }
+}
+
 TEST(NetPort, ATakenPortIsASentence) {
   const auto holder = OpenNetPort(ParseNetAddress(fmt::format("tcp::{}", Port(3))));
   try {

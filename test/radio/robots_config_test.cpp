@@ -43,6 +43,21 @@ TEST(RobotsConfig, AStationKnowsEachRobotOnce) {
   EXPECT_THAT(Refusal("robot.toml", {"side=offboard"}), HasSubstr("robot: expected 2 [[robot]] tables"));
 }
 
+/// Two links in one memory take each other's events for their own: a stop would reach the other robot.
+TEST(RobotsConfig, RobotsShareNoMemory) {
+  const auto robots = [](const std::string& alpha, const std::string& beta) {
+    return std::vector<std::string>{"side=offboard",
+                                    "robot=[{name=\"alpha\"," + alpha + "},{name=\"beta\"," + beta + "}]"};
+  };
+  EXPECT_THAT(Refusal("station.toml", robots("state_file=\"x\"", "state_file=\"./x\"")),
+              HasSubstr("robot[1].state_file: expected a file of its own, got that of robot[0].state_file"));
+  EXPECT_THAT(Refusal("station.toml", robots("state_file=\"x\"", "fast_state_file=\"x\"")),
+              HasSubstr("robot[1].fast_state_file: expected a file of its own"));
+  EXPECT_THAT(Refusal("station.toml", {"state_file=x"}),
+              HasSubstr("state_file: expected none beside [[robot]]"));
+  EXPECT_THAT(Refusal("station.toml", {"address=1"}), HasSubstr("address: expected 0 at a station"));
+}
+
 TEST(RobotsConfig, ANameThatIsNoneOfAChannelIsRefused) {
   const std::vector<std::string> names{"", std::string(64, 'A'), "A\\u001bB", "A B"};
   for (const std::string& name : names) {
