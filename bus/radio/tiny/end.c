@@ -5,7 +5,7 @@
 /* The end itself: bytes of the line to frames, and what waits to frames for the line. */
 
 enum { kFrameAckGap_us = 250000, kFramesPerAck = 24, kAhead = 2, kIdleBytes = 16, kTriesBurst = 8 };
-enum { kUnusableAfter = 3, kLongGap_us = 60000000 };
+enum { kUnusableAfter = 3, kLongGap_us = 60000000, kSaveAgain_us = 100000 };
 
 static uint64_t ByteTime(const pr_end* end) {
   return (1000000 + end->config->bytes_per_s - 1) / end->config->bytes_per_s;
@@ -189,8 +189,7 @@ static void BuildData(pr_end* end, uint64_t now_us) {
 
 /* The next frame, behind a zero when the line was idle; false when nothing is to be said. */
 static bool Build(pr_end* end, uint64_t now_us) {
-  /* Before an acknowledgement leaves, and after the events were handed on. */
-  if (end->memory_dirty && !pr_memory_save(end)) return false;
+  if (end->memory_dirty) return false; /* no acknowledgement leaves before what it says is kept */
   end->out_n = 0;
   end->out[0] = 0;
   if (pr_hello_due(end, now_us)) {
@@ -211,6 +210,9 @@ size_t pr_step(pr_end* end, uint64_t now_us, uint8_t* out, size_t room) {
   /* 32 bits of time would not tell a frame of before so long a pause from a new one. */
   if (now_us - end->last_step_us > kLongGap_us) end->handed_from = end->next_counter;
   end->last_step_us = now_us;
+  /* At once after events were handed on, whatever is on the line: a reset in between would double them. */
+  if (end->memory_dirty && now_us >= end->save_at_us && !pr_memory_save(end))
+    end->save_at_us = now_us + kSaveAgain_us;
   size_t n = 0;
   while (n < room && end->line_free_us <= now_us + kAhead * ByteTime(end)) {
     if (end->out_at >= end->out_n && !Build(end, now_us)) break;

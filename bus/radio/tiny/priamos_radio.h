@@ -20,6 +20,9 @@
 #ifndef PR_STATE_BYTES /* longest of them, packed */
 #define PR_STATE_BYTES 64
 #endif
+#if PR_STATE_BYTES > 112
+#error "PR_STATE_BYTES: expected at most 112, what fits a frame"
+#endif
 
 enum { PR_STATE = 0, PR_EVENT = 1, PR_COMMAND = 2, PR_DELTA_STATE = 3 };
 
@@ -52,7 +55,7 @@ typedef struct {
   bool encrypted;
   uint8_t code_bytes;            /* 4, 6 or 8, as at the other end */
   uint32_t bytes_per_s;          /* of the line */
-  uint32_t keep_alive_us;        /* longest silence of this end; 250000 */
+  uint32_t keep_alive_us;        /* longest silence of this end; 250000, at most 8000000 */
   uint32_t silence_us;           /* the link is down after so long without a frame; 1500000 */
   void* user;                    /* first argument of the functions */
   uint64_t (*nonce)(void* user); /* an unpredictable number */
@@ -114,6 +117,7 @@ typedef struct {
   bool event_ack_due[PR_MAX_CHANNELS];
   uint64_t wanted; /* bit i: somebody listens to channel i */
 
+  uint64_t save_at_us; /* not before, after it failed */
   uint32_t handed_us[PR_HANDED]; /* when the frame of a counter, modulo PR_HANDED, was handed over */
   uint64_t handed_from;          /* counters before it are not remembered */
   uint64_t last_step_us;

@@ -59,6 +59,9 @@ static bool Serves(const pr_channel* c) {
   return c->channel_class != PR_EVENT || c->direction == PR_UP || c->max_bits <= 8 * PR_SEGMENT;
 }
 
+/* Of so many frames, 32 bits of time tell when each was handed over. */
+static const uint32_t kLongestKeepAlive_us = 8000000;
+
 static bool HasCommands(const pr_config* config) {
   for (size_t i = 0; i < config->n_channels; ++i)
     if (config->channels[i].channel_class == PR_COMMAND) return true;
@@ -67,7 +70,8 @@ static bool HasCommands(const pr_config* config) {
 
 pr_status pr_init(pr_end* end, const pr_config* config, uint64_t now_us) {
   const bool code = config->code_bytes == 4 || config->code_bytes == 6 || config->code_bytes == 8;
-  if (!code || config->bytes_per_s == 0 || config->key == 0 || config->nonce == 0 || config->load == 0 ||
+  if (!code || config->channels == 0 || config->bytes_per_s == 0 || config->keep_alive_us > kLongestKeepAlive_us ||
+      config->key == 0 || config->nonce == 0 || config->load == 0 ||
       config->save == 0 || config->deliver == 0)
     return PR_BAD_CONFIG;
   if (config->n_channels == 0 || config->n_channels > PR_MAX_CHANNELS) return PR_BAD_TABLE;
