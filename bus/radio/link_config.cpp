@@ -23,6 +23,9 @@ bool IsChannelName(const std::string& name) {
          std::all_of(name.begin(), name.end(), [](unsigned char c) { return c > 0x20 && c < 0x7F; });
 }
 
+/// Nothing is shorter than a tick of the process.
+constexpr double kShortest_s = 0.001;
+
 /// The line is fed once per millisecond, not always in time.
 constexpr double kFeedGap_s = 0.0015;
 
@@ -125,8 +128,9 @@ void LinkChannelConfig::Describe(Archive& a) {
   a.Require("direction", "up or down");
   a.Require("class", "state, event or command");
   if (!IsChannelName(name)) a.Refuse("name", "the name of an LCM channel: 1 to 63 printable characters");
-  if (channel_class == "command" && ttl_s <= 0)
-    a.Refuse("ttl_s", "a time-to-live above 0, as every command needs");
+  if (channel_class == "command" && ttl_s < kShortest_s)
+    a.Refuse("ttl_s", "a time-to-live of at least 0.001, as every command needs");
+  if (deadline_s > 0 && deadline_s < kShortest_s) a.Refuse("deadline_s", "0 for any, or at least 0.001");
   if (channel_class == "event" && ttl_s > 0) a.Refuse("ttl_s", "none: an event is delivered, however late");
   if (delta && (channel_class != "state" || !key.empty()))
     a.Refuse("delta", "false: differences are for channels of class state without a key");

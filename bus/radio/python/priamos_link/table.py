@@ -41,12 +41,25 @@ class Table:
                                      c["fixed_bits"], c["max_bits"], c["ttl_us"], c["urgent"], c["delta"],
                                      c.get("fields", [])) for c in data["channels"]]
             claimed = int(data["table_hash"], 16)
-        except (KeyError, TypeError, ValueError) as error:
+            self._check()
+            self.hash = self._hash()
+        except (ArithmeticError, AttributeError, KeyError, RecursionError, TypeError, ValueError) as error:
             raise ValueError(f"expected what `priamos link table link.toml --json` prints, got {error}") from None
-        self.hash = self._hash()
         if self.hash != claimed:
             raise ValueError(f"expected a table with hash {self.hash:08x}, got {claimed:08x}: print it anew")
         self.id_bits = (len(self.channels) + 1).bit_length()
+
+    def _check(self):
+        """What the hash does not cover, and what would make the process busy for ever."""
+        if not (30 <= self.bytes_per_s <= 1e6 and 300 <= self.baud <= 1_000_000):
+            raise ValueError(f"baud {self.baud} and {self.bytes_per_s} byte/s")
+        for c in self.channels:
+            if not all(isinstance(width, int) and width > 0 for width in c.delta):
+                raise ValueError(f"channel {c.name}: delta {c.delta}")
+            for f in c.fields:
+                if not (0 <= int(f["bits"]) <= 65535 and 0 <= int(f["values"]) <= 65535):
+                    raise ValueError(f"channel {c.name}: a field of {f['bits']} bits, {f['values']} times")
+                FieldCode(f["codes"])
 
     def echo_bytes(self, direction):
         if not any(c.kind == "command" and c.direction == direction for c in self.channels):
@@ -76,6 +89,8 @@ class FieldCode:
         if match:
             age, first, last, step, none = match.groups()
             self.age, self.first, self.step = age is not None, float(first), float(step)
+            if self.step <= 0 or (self.age and self.step < 1):
+                raise ValueError(f"codes {codes}")
             self.none = None if none is None else float(none)
             self.last = round((float(last) - self.first) / self.step)
 
