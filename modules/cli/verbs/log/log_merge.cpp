@@ -26,7 +26,7 @@ struct MergeOptions : LogOptions {
 
 bus::ClockFit Clocks(const MergeOptions& options, bus::LogReader& onboard, bus::LogReader& offboard) {
   if (!std::isnan(options.offset_s)) return {.offset_us = options.offset_s * 1e6};
-  const bus::Schema schema = LoadTypes(options.bus);
+  const bus::Schema schema = LoadTypes(options.bus.types);
   const auto fit = bus::FitClocks(bus::FindStampPairs(onboard, offboard, schema));
   if (!fit)
     throw std::runtime_error(
@@ -98,7 +98,7 @@ void AddLogMergeVerb(CLI::App& log, int& exit_code) {
   verb->add_option("--offset", options->offset_s,
                    "[s] onboard clock minus offboard clock, instead of an estimate")
       ->check(CLI::Range(-kMostOffset_s, kMostOffset_s));
-  AddTypesOption(*verb, options->bus);
+  AddTypesOption(*verb, options->bus.types);
   AddOutputFlags(*verb, *options);
   verb->callback([options, &exit_code] { exit_code = Merge(*options); });
 }
