@@ -19,6 +19,9 @@ namespace {
 using log_format::kHeaderBytes;
 using log_format::kMagic;
 
+/// What is given back at once: a multiple of every page, and so much that the calls cost nothing.
+constexpr std::size_t kBlock = std::size_t{8} << 20;
+
 [[noreturn]] void CannotRead(const std::string& path, int error) {
   throw std::runtime_error(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
 }
@@ -97,8 +100,24 @@ std::optional<LogEvent> LogReader::ParseAt(std::size_t offset, std::size_t& end)
   return event;
 }
 
+void LogReader::Seek(std::size_t offset) {
+  offset_ = offset;
+  given_back_ = std::min(given_back_, offset / kBlock * kBlock);
+}
+
+/// Pages of the file that were read stay in the memory of the process until somebody needs the room. They are
+/// read from the file again when the reader goes back.
+void LogReader::GiveBack() {
+  const std::size_t end = offset_ / kBlock * kBlock;
+  if (!mapping_ || end <= given_back_) return;
+  auto* memory = const_cast<std::byte*>(bytes_.data());
+  madvise(memory + given_back_, end - given_back_, MADV_DONTNEED);  // refused: they stay, as they did before
+  given_back_ = end;
+}
+
 std::optional<LogEvent> LogReader::Next() {
   for (bool skipping = false; offset_ < bytes_.size(); ++offset_, ++skipped_) {
+    GiveBack();
     std::size_t end = 0;
     if (auto event = ParseAt(offset_, end)) {
       offset_ = end;

@@ -9,7 +9,8 @@
 namespace priamos::bus {
 
 /// Reads LCM's log format. Damage does not end the reading: the reader goes on at the next credible event
-/// and counts what it skipped. A file is mapped, not loaded, so a log may be larger than the memory.
+/// and counts what it skipped. A file is mapped, and what has been read is given back: a log may be larger
+/// than the memory, and reading it takes 30 MB at most.
 class LogReader {
  public:
   static constexpr std::size_t kMaxChannelBytes = 255;
@@ -31,7 +32,7 @@ class LogReader {
   std::uint64_t damaged_places() const { return damaged_places_; }
   std::size_t size() const { return bytes_.size(); }
   /// Continues reading at LogEvent::offset of an event read before; what was skipped stays counted.
-  void Seek(std::size_t offset) { offset_ = offset; }
+  void Seek(std::size_t offset);
 
  private:
   std::optional<LogEvent> ParseAt(std::size_t offset, std::size_t& end) const;
@@ -39,10 +40,12 @@ class LogReader {
   /// End of the event at `offset` by its header; 0 if the header is not plausible.
   std::size_t EndOfEvent(std::size_t offset) const;
   bool HoldsEvent(std::size_t begin, std::size_t end) const;
+  void GiveBack();
 
   std::shared_ptr<const void> mapping_;  ///< keeps the mapped file
   std::span<const std::byte> bytes_;
   std::size_t offset_ = 0;
+  std::size_t given_back_ = 0;  ///< up to here the mapped file is not in memory
   std::uint64_t skipped_ = 0;
   std::uint64_t damaged_places_ = 0;
 };

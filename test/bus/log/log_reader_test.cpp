@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 
@@ -150,6 +151,41 @@ TEST_F(Log, SeekGoesBackToAnEvent) {
   }
   dut.Seek(second->offset);
   EXPECT_EQ(dut.Next()->number, 1);
+}
+
+/// Pages of files in the memory of this process [bytes].
+std::size_t FilePagesInMemory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (std::size_t kilobytes = 0; word == "RssFile:" && status >> kilobytes) return kilobytes * 1024;
+  return 0;
+}
+
+TEST_F(Log, ALargeLogDoesNotStayInMemory) {
+  constexpr int kEvents = 100;
+  const std::vector<std::byte> message(std::size_t{1} << 20, std::byte{7});
+  {
+    LogWriter writer(path_);
+    for (int i = 0; i < kEvents; ++i) writer.Write(i, "LARGE", message);
+    std::ofstream(path_, std::ios::app) << std::string(std::size_t{50} << 20, '?');
+  }
+  LogReader dut(path_);
+  const std::size_t before = FilePagesInMemory();
+  std::size_t most = before, first = 1;
+  int events = 0;
+  for (; const auto event = dut.Next(); ++events) {
+    most = std::max(most, FilePagesInMemory());
+    if (events == 1) first = event->offset;
+  }
+  most = std::max(most, FilePagesInMemory());  // after the damage at the end
+  EXPECT_EQ(events, kEvents);
+  EXPECT_EQ(dut.skipped_bytes(), std::size_t{50} << 20);
+  EXPECT_LT(most - before, std::size_t{30} << 20);
+  dut.Seek(first);
+  const auto again = dut.Next();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->number, 1);
+  EXPECT_EQ(again->bytes, message) << "given back is not lost";
 }
 
 TEST_F(Log, EmptyFileHoldsNothing) {
