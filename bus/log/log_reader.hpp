@@ -9,15 +9,16 @@
 namespace priamos::bus {
 
 /// Reads LCM's log format. Damage does not end the reading: the reader goes on at the next credible event
-/// and counts what it skipped. A file is mapped, and what has been read is given back: a log may be larger
-/// than the memory, and reading it takes 30 MB at most.
+/// and counts what it skipped. What a message carries is never taken for an event of the log, also when the
+/// event around it is torn, as far as its length reaches. A file is mapped, and what has been read is given
+/// back: a log may be larger than the memory, and reading it takes 30 MB at most.
 class LogReader {
  public:
   static constexpr std::size_t kMaxChannelBytes = 255;
   static constexpr std::size_t kMaxDataBytes = 1 << 24;
-  /// Largest time [us] (the year 2255) and number of an event; a larger one is damage. Sums of such numbers
-  /// do not overflow.
-  static constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
+  /// Largest time of an event [us] (the year 2255); a larger one is damage. Sums of such times do not
+  /// overflow. Numbers may be any.
+  static constexpr std::int64_t kLargestTime = std::int64_t{1} << 53;
 
   /// Opens the log file `path`. Throws std::runtime_error when it cannot be read.
   explicit LogReader(const std::string& path);
@@ -35,11 +36,19 @@ class LogReader {
   void Seek(std::size_t offset);
 
  private:
-  std::optional<LogEvent> ParseAt(std::size_t offset, std::size_t& end) const;
+  /// What is at an offset: a whole event or none, and where the reading goes on.
+  struct Place {
+    bool event = false;
+    std::size_t next = 0;
+  };
+  Place PlaceAt(std::size_t offset) const;
+  LogEvent EventAt(std::size_t offset) const;
   bool MagicAt(std::size_t offset) const;
-  /// End of the event at `offset` by its header; 0 if the header is not plausible.
-  std::size_t EndOfEvent(std::size_t offset) const;
-  bool HoldsEvent(std::size_t begin, std::size_t end) const;
+  std::int64_t NumberAt(std::size_t offset) const;
+  /// End of the event at `offset` by its header, perhaps beyond the file; nullopt if the header is not
+  /// plausible.
+  std::optional<std::size_t> EndOfEvent(std::size_t offset) const;
+  std::size_t FindFollower(std::size_t begin, std::size_t end, std::int64_t number) const;
   void GiveBack();
 
   std::shared_ptr<const void> mapping_;  ///< keeps the mapped file
