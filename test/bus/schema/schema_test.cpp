@@ -121,7 +121,10 @@ TEST(Schema, ManyTypesThatShareTypesAreHashedOnce) {
   std::string text;
   for (int i = 0; i < 100; ++i) {
     const std::string next = std::to_string(i + 1);
-    text += "struct t" + std::to_string(i) + " { t" + next + " a; t" + next + " b; }\n";
+    text.append("struct t" + std::to_string(i))
+        .append(" { t" + next)
+        .append(" a; t" + next)
+        .append(" b; }\n");
   }
   EXPECT_EQ(ErrorOf(text + "struct t100 { }"), "no error");  // 2^100 paths
 }
