@@ -19,6 +19,9 @@ namespace {
 using log_format::kHeaderBytes;
 using log_format::kMagic;
 
+/// What is given back at once: a multiple of every page, and so much that the calls cost nothing.
+constexpr std::size_t kBlock = std::size_t{8} << 20;
+
 [[noreturn]] void CannotRead(const std::string& path, int error) {
   throw std::runtime_error(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
 }
@@ -54,42 +57,59 @@ bool LogReader::MagicAt(std::size_t offset) const {
   return offset + 4 <= bytes_.size() && ReadBigEndian<std::uint32_t>(&bytes_[offset]) == kMagic;
 }
 
-/// True when an event begins between the two: magic and a plausible length are there.
-bool LogReader::HoldsEvent(std::size_t begin, std::size_t end) const {
-  for (std::size_t at = begin; at + 4 <= end; ++at)
-    if (MagicAt(at) && EndOfEvent(at)) return true;
-  return false;
+/// Where in [begin, end) the events go on that an event with a wrong length, or a torn one, seems to hold: at
+/// an event that another magic or the end of the file follows. An event in the middle of other data, as a
+/// message may carry one, is no such place. Before the end of the file it must have the next number: the file
+/// may have been cut behind an event in a message as well. Returns `end` when there is none.
+std::size_t LogReader::FindFollower(std::size_t begin, std::size_t end, std::int64_t number) const {
+  const auto next_number = static_cast<std::int64_t>(static_cast<std::uint64_t>(number) + 1);
+  for (std::size_t at = begin; at < end; ++at) {
+    const std::size_t behind = MagicAt(at) ? EndOfEvent(at).value_or(0) : 0;
+    if (behind == 0 || behind > bytes_.size()) continue;
+    const bool last = behind == bytes_.size() && NumberAt(at) == next_number;
+    if (last || MagicAt(behind)) return at;
+  }
+  return end;
 }
 
-std::size_t LogReader::EndOfEvent(std::size_t offset) const {
-  if (bytes_.size() - offset < kHeaderBytes) return 0;
-  for (const std::size_t at : {offset + 4, offset + 12}) {
-    const auto number_or_utime = ReadBigEndian<std::int64_t>(&bytes_[at]);
-    if (number_or_utime < -kLargestNumber || number_or_utime > kLargestNumber) return 0;
-  }
+std::int64_t LogReader::NumberAt(std::size_t offset) const {
+  return ReadBigEndian<std::int64_t>(&bytes_[offset + 4]);
+}
+
+std::optional<std::size_t> LogReader::EndOfEvent(std::size_t offset) const {
+  if (bytes_.size() - offset < kHeaderBytes) return std::nullopt;
+  const auto utime = ReadBigEndian<std::int64_t>(&bytes_[offset + 12]);
+  if (utime < -kLargestTime || utime > kLargestTime) return std::nullopt;
   const auto channel_bytes = ReadBigEndian<std::uint32_t>(&bytes_[offset + 20]);
   const auto data_bytes = ReadBigEndian<std::uint32_t>(&bytes_[offset + 24]);
-  if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxDataBytes) return 0;
-  const std::size_t end = offset + kHeaderBytes + channel_bytes + data_bytes;
-  if (end > bytes_.size()) return 0;
-  const auto* name = reinterpret_cast<const char*>(&bytes_[offset + kHeaderBytes]);
-  return IsLogChannel({name, channel_bytes}) ? end : 0;
+  if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxDataBytes)
+    return std::nullopt;
+  const std::size_t name = offset + kHeaderBytes;
+  const auto there = std::min<std::size_t>(channel_bytes, bytes_.size() - name);
+  if (there > 0 && !IsLogChannel({reinterpret_cast<const char*>(&bytes_[name]), there})) return std::nullopt;
+  return name + channel_bytes + data_bytes;
 }
 
-std::optional<LogEvent> LogReader::ParseAt(std::size_t offset, std::size_t& end) const {
-  if (!MagicAt(offset)) return std::nullopt;
-  end = EndOfEvent(offset);
-  if (end == 0) return std::nullopt;
-  // A damaged length that still fits shows by swallowing the next event. (An event followed by something else
-  // is whole: then the damage is in its successor. What only looks like a magic may be in any message.)
-  if (!MagicAt(end) && HoldsEvent(offset + 4, end)) return std::nullopt;
+LogReader::Place LogReader::PlaceAt(std::size_t offset) const {
+  const auto end = MagicAt(offset) ? EndOfEvent(offset) : std::nullopt;
+  if (!end) return {false, offset + 1};
+  const bool whole = *end <= bytes_.size();
+  // The end of the file is a good end. Elsewhere a magic follows, or the length is wrong and the event would
+  // swallow the next ones, or else the next one is damaged.
+  if (whole && (*end == bytes_.size() || MagicAt(*end))) return {true, *end};
+  const std::size_t limit = std::min(*end, bytes_.size());
+  const std::size_t follower = FindFollower(offset + 4, limit, NumberAt(offset));
+  return {whole && follower == limit, follower};
+}
+
+LogEvent LogReader::EventAt(std::size_t offset) const {
   const std::byte* header = &bytes_[offset];
   const auto channel_bytes = ReadBigEndian<std::uint32_t>(header + 20);
   const auto* name = reinterpret_cast<const char*>(header + kHeaderBytes);
   const auto data =
       bytes_.subspan(offset + kHeaderBytes + channel_bytes, ReadBigEndian<std::uint32_t>(header + 24));
   LogEvent event;
-  event.number = ReadBigEndian<std::int64_t>(header + 4);
+  event.number = NumberAt(offset);
   event.utime = ReadBigEndian<std::int64_t>(header + 12);
   event.channel.assign(name, channel_bytes);
   event.bytes.assign(data.begin(), data.end());
@@ -97,15 +117,30 @@ std::optional<LogEvent> LogReader::ParseAt(std::size_t offset, std::size_t& end)
   return event;
 }
 
+void LogReader::Seek(std::size_t offset) {
+  offset_ = offset;
+  given_back_ = std::min(given_back_, offset / kBlock * kBlock);
+}
+
+/// Pages of the file that were read stay in the memory of the process until somebody needs the room. They are
+/// read from the file again when the reader goes back.
+void LogReader::GiveBack() {
+  const std::size_t end = offset_ / kBlock * kBlock;
+  if (!mapping_ || end <= given_back_) return;
+  auto* memory = const_cast<std::byte*>(bytes_.data());
+  madvise(memory + given_back_, end - given_back_, MADV_DONTNEED);  // refused: they stay, as they did before
+  given_back_ = end;
+}
+
 std::optional<LogEvent> LogReader::Next() {
-  for (bool skipping = false; offset_ < bytes_.size(); ++offset_, ++skipped_) {
-    std::size_t end = 0;
-    if (auto event = ParseAt(offset_, end)) {
-      offset_ = end;
-      return event;
-    }
-    if (!skipping) ++damaged_places_;
-    skipping = true;
+  for (bool skipping = false; offset_ < bytes_.size(); skipping = true) {
+    GiveBack();
+    const std::size_t offset = offset_;
+    const Place place = PlaceAt(offset);
+    offset_ = place.next;
+    if (place.event) return EventAt(offset);
+    damaged_places_ += skipping ? 0 : 1;
+    skipped_ += offset_ - offset;
   }
   return std::nullopt;
 }

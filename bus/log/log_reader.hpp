@@ -9,14 +9,16 @@
 namespace priamos::bus {
 
 /// Reads LCM's log format. Damage does not end the reading: the reader goes on at the next credible event
-/// and counts what it skipped. A file is mapped, not loaded, so a log may be larger than the memory.
+/// and counts what it skipped. What a message carries is never taken for an event of the log, also when the
+/// event around it is torn, as far as its length reaches. A file is mapped, and what has been read is given
+/// back: a log may be larger than the memory, and reading it takes 30 MB at most.
 class LogReader {
  public:
   static constexpr std::size_t kMaxChannelBytes = 255;
   static constexpr std::size_t kMaxDataBytes = 1 << 24;
-  /// Largest time [us] (the year 2255) and number of an event; a larger one is damage. Sums of such numbers
-  /// do not overflow.
-  static constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
+  /// Largest time of an event [us] (the year 2255); a larger one is damage. Sums of such times do not
+  /// overflow. Numbers may be any.
+  static constexpr std::int64_t kLargestTime = std::int64_t{1} << 53;
 
   /// Opens the log file `path`. Throws std::runtime_error when it cannot be read.
   explicit LogReader(const std::string& path);
@@ -31,18 +33,28 @@ class LogReader {
   std::uint64_t damaged_places() const { return damaged_places_; }
   std::size_t size() const { return bytes_.size(); }
   /// Continues reading at LogEvent::offset of an event read before; what was skipped stays counted.
-  void Seek(std::size_t offset) { offset_ = offset; }
+  void Seek(std::size_t offset);
 
  private:
-  std::optional<LogEvent> ParseAt(std::size_t offset, std::size_t& end) const;
+  /// What is at an offset: a whole event or none, and where the reading goes on.
+  struct Place {
+    bool event = false;
+    std::size_t next = 0;
+  };
+  Place PlaceAt(std::size_t offset) const;
+  LogEvent EventAt(std::size_t offset) const;
   bool MagicAt(std::size_t offset) const;
-  /// End of the event at `offset` by its header; 0 if the header is not plausible.
-  std::size_t EndOfEvent(std::size_t offset) const;
-  bool HoldsEvent(std::size_t begin, std::size_t end) const;
+  std::int64_t NumberAt(std::size_t offset) const;
+  /// End of the event at `offset` by its header, perhaps beyond the file; nullopt if the header is not
+  /// plausible.
+  std::optional<std::size_t> EndOfEvent(std::size_t offset) const;
+  std::size_t FindFollower(std::size_t begin, std::size_t end, std::int64_t number) const;
+  void GiveBack();
 
   std::shared_ptr<const void> mapping_;  ///< keeps the mapped file
   std::span<const std::byte> bytes_;
   std::size_t offset_ = 0;
+  std::size_t given_back_ = 0;  ///< up to here the mapped file is not in memory
   std::uint64_t skipped_ = 0;
   std::uint64_t damaged_places_ = 0;
 };

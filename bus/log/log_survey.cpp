@@ -9,7 +9,12 @@ namespace priamos::bus {
 namespace {
 
 /// A jump by more than this is a damaged number or a joined log, not a loss.
-constexpr std::int64_t kLargestGap = 1'000'000;
+constexpr std::uint64_t kLargestGap = 1'000'000;
+
+/// Number `n` behind another one. A log may hold any number, so this wraps.
+std::int64_t Behind(std::int64_t number, std::uint64_t n) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(number) + n);
+}
 
 /// Events missing from the recorder's numbers. A gap counts when the event behind it goes on from there: one
 /// damaged number is no loss.
@@ -17,24 +22,25 @@ class NumberSequence {
  public:
   void Add(std::int64_t number) {
     const bool proves_gap = gap_ > 0 && number == gap_end_;
-    const bool disproves_gap = gap_ > 0 && number == expected_ + 1;  // only the number before was wrong
+    const bool disproves_gap =
+        gap_ > 0 && number == Behind(expected_, 1);  // only the number before was wrong
     if (proves_gap) missing_ += gap_;
     gap_ = 0;
-    if (started_ && !proves_gap && !disproves_gap && number > expected_ &&
-        number - expected_ <= kLargestGap) {
-      gap_ = number - expected_;
-      gap_end_ = number + 1;
+    const auto ahead = static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(expected_);
+    if (started_ && !proves_gap && !disproves_gap && number > expected_ && ahead <= kLargestGap) {
+      gap_ = ahead;
+      gap_end_ = Behind(number, 1);
       return;  // the next event decides which number was wrong
     }
     started_ = true;
-    expected_ = number + 1;
+    expected_ = Behind(number, 1);
   }
-  std::uint64_t Missing() const { return static_cast<std::uint64_t>(missing_ + gap_); }
+  std::uint64_t Missing() const { return missing_ + gap_; }
 
  private:
   bool started_ = false;
   std::int64_t expected_ = 0;
-  std::int64_t missing_ = 0, gap_ = 0;
+  std::uint64_t missing_ = 0, gap_ = 0;
   std::int64_t gap_end_ = 0;  ///< the number that proves the gap
 };
 

@@ -18,7 +18,7 @@ void LogWriter::Write(std::int64_t utime, std::string_view channel, std::span<co
 
 void LogWriter::WriteAsNumbered(const LogEvent& event) {
   Write(event.number, event.utime, event.channel, event.bytes);
-  next_number_ = event.number + 1;
+  next_number_ = static_cast<std::int64_t>(static_cast<std::uint64_t>(event.number) + 1);
 }
 
 void LogWriter::Write(std::int64_t number, std::int64_t utime, std::string_view channel,

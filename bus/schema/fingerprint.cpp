@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
+#include <vector>
 
 namespace priamos::bus {
 namespace {
@@ -89,18 +89,18 @@ std::uint64_t Fingerprints::Of(const Struct& type) {
 }
 
 std::uint64_t Fingerprints::Sum(const Struct& type) {
-  if (std::find(parents_.begin(), parents_.end(), &type) != parents_.end()) return 0;
+  if (parents_.contains(&type)) return 0;
   if (const auto known = known_.find(&type); known != known_.end()) return known->second;
   if (parents_.size() > 256 || ++terms_ > 1'000'000) {
     throw SchemaError(
         fmt::format("{}:{}: the types around {} nest too deeply", type.file, type.line, type.full_name));
   }
-  parents_.push_back(&type);
+  parents_.insert(&type);
   std::uint64_t hash = OwnHash(type);
   for (const Field& field : type.fields) {
     if (field.type != nullptr) hash += Sum(*field.type);
   }
-  parents_.pop_back();
+  parents_.erase(&type);
   hash = (hash << 1) + (hash >> 63);
   // Only a type that reaches no recursion has the same hash under every parent.
   if (!ReachesRecursion(type)) known_.emplace(&type, hash);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <map>
-#include <vector>
+#include <set>
 
 #include "bus/schema/model.hpp"
 
@@ -20,7 +20,7 @@ class Fingerprints {
  private:
   std::uint64_t Sum(const Struct& type);
 
-  std::vector<const Struct*> parents_;
+  std::set<const Struct*> parents_;
   std::map<const Struct*, std::uint64_t> known_;
   int terms_ = 0;
 };

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bus/schema/model.hpp"
+#include <algorithm>
 
 namespace priamos::bus {
 namespace {
@@ -15,12 +15,16 @@ bool IsLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 bool IsBlank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+  return c == ' ' || (c >= '\t' && c <= '\r');
 }
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 class Lexer {
  public:
-  Lexer(std::string_view file, std::string_view text) : file_(file), text_(text) {}
+  explicit Lexer(std::string_view text) : text_(text) {
+    if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+  }
 
   std::vector<Token> Run() {
     while (SkipBlanks()) {
@@ -37,8 +41,9 @@ class Lexer {
       } else if (std::string_view("{}[];,=").find(c) != std::string_view::npos) {
         Take(Token::Type::kSymbol, [this](char) { return token_.text.empty(); });
       } else {
-        Fail(fmt::format("this character (code {}) has no place in a .lcm file",
-                         static_cast<int>(static_cast<unsigned char>(c))));
+        Wrong(fmt::format("this character (code {}) has no place in a .lcm file",
+                          static_cast<int>(static_cast<unsigned char>(c))),
+              pos_ + 1);
       }
     }
     Begin();
@@ -101,7 +106,7 @@ class Lexer {
 
   void BlockComment() {
     const std::size_t end = text_.find("*/", pos_ + 2);
-    if (end == std::string_view::npos) Fail("the comment is not closed");
+    if (end == std::string_view::npos) return Wrong("the comment is not closed", text_.size());
     token_.type = Token::Type::kComment;
     std::string line;
     const auto flush = [&] {
@@ -130,11 +135,14 @@ class Lexer {
     return std::string(text);
   }
 
-  [[noreturn]] void Fail(std::string_view sentence) const {
-    throw SchemaError(fmt::format("{}:{}: {}", file_, line_, sentence));
+  /// What stands here is no token; the text goes on at `end`.
+  void Wrong(std::string sentence, std::size_t end) {
+    token_.type = Token::Type::kWrong;
+    token_.text = std::move(sentence);
+    tokens_.push_back(token_);
+    pos_ = end;
   }
 
-  std::string_view file_;
   std::string_view text_;
   std::size_t pos_ = 0;
   std::size_t line_begin_ = 0;
@@ -146,8 +154,8 @@ class Lexer {
 
 }  // namespace
 
-std::vector<Token> TokenizeLcm(std::string_view file, std::string_view text) {
-  return Lexer(file, text).Run();
+std::vector<Token> TokenizeLcm(std::string_view text) {
+  return Lexer(text).Run();
 }
 
 }  // namespace priamos::bus

@@ -7,60 +7,65 @@
 #include <limits>
 
 #include "bus/schema/annotation.hpp"
-#include "bus/schema/lcm_lexer.hpp"
-#include "common/number_text.hpp"
+#include "bus/schema/c_integer.hpp"
+#include "bus/schema/lcm_tokens.hpp"
 
 namespace priamos::bus {
 namespace {
-
-/// A whole number in C notation, decimal, 0x.. or 0.. (octal): lcm-gen copies it into C++ as it is.
-std::optional<std::int64_t> ParseCInteger(std::string_view text) {
-  const bool negative = text.starts_with('-');
-  if (negative || text.starts_with('+')) text.remove_prefix(1);
-  int base = 10;
-  if (text.starts_with("0x") || text.starts_with("0X")) {
-    base = 16;
-    text.remove_prefix(2);
-  } else if (text.size() > 1 && text.front() == '0') {
-    base = 8;
-  }
-  const auto magnitude = NumberOf<std::uint64_t>(text, base);
-  if (!magnitude) return std::nullopt;
-  constexpr auto kMax = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  if (*magnitude > kMax + (negative ? 1 : 0)) return std::nullopt;
-  return static_cast<std::int64_t>(negative ? 0 - *magnitude : *magnitude);
-}
 
 bool FitsInto(Kind kind, std::int64_t value) {
   const int bits = static_cast<int>(8 * WireSize(kind));
   return bits == 64 || (value >= -(std::int64_t{1} << (bits - 1)) && value < (std::int64_t{1} << (bits - 1)));
 }
 
-/// Recursive descent; one function per rule of the grammar.
-class Parser {
- public:
-  Parser(std::string_view file, std::string_view text) : file_(file), tokens_(TokenizeLcm(file, text)) {}
+/// More than anybody writes. What walks an array calls itself once per dimension.
+constexpr std::size_t kMostDimensions = 32;
 
-  std::vector<Struct> Run() {
-    while (true) {
-      const std::string doc = LeadingComment();
-      const Token& token = Next();
-      if (token.type == Token::Type::kEnd) return std::move(structs_);
-      if (token.text == ";") continue;
-      if (token.text == "package") {
-        package_ = Word("the name of the package");
-        Expect(";");
-      } else if (token.text == "struct") {
-        ParseStruct(doc);
-      } else if (token.text == "enum") {
-        Fail(token, "enum types are not supported, use constants in a struct");
-      } else {
-        Fail(token, fmt::format("expected 'package' or 'struct', got '{}'", token.text));
+/// Recursive descent; one function per rule of the grammar.
+class Parser : private LcmTokens {
+ public:
+  Parser(std::string_view file, std::string_view text) : LcmTokens(file, text), file_(file) {}
+
+  /// All types that can be read. One that cannot does not hinder those behind it.
+  std::vector<Struct> Run(std::vector<TypeProblem>& problems) {
+    for (bool strange = false;;) {
+      current_.clear();
+      try {
+        if (!ParseDeclaration()) return std::move(structs_);
+      } catch (const SchemaError& error) {
+        // What is no type at all may go on for a whole file: its first line says enough.
+        if (!current_.empty() || !strange) problems.push_back({current_, error.what()});
+        strange = strange || current_.empty();
+        SkipDeclaration();
       }
     }
   }
 
  private:
+  /// Returns false at the end of the text.
+  bool ParseDeclaration() {
+    const std::string doc = LeadingComment();
+    const Token& token = Next();
+    if (token.type == Token::Type::kEnd) return false;
+    if (token.text == "package") {
+      package_ = Word("the name of the package");
+      Expect(";");
+    } else if (token.text == "struct") {
+      ParseStruct(doc);
+    } else if (token.text == "enum") {
+      const Token keyword = token;
+      current_ = FullName(Word("the name of the enum"));
+      Fail(keyword, "enum types are not supported, use constants in a struct");
+    } else if (token.text != ";") {
+      Fail(token, fmt::format("expected 'package' or 'struct', got '{}'", token.text));
+    }
+    return true;
+  }
+
+  std::string FullName(const std::string& name) const {
+    return package_.empty() ? name : package_ + "." + name;
+  }
+
   void ParseStruct(const std::string& doc) {
     Struct type;
     type.line = Peek().line;
@@ -68,12 +73,15 @@ class Parser {
     type.package = package_;
     type.doc = doc;
     type.name = Word("the name of the struct");
-    if (PrimitiveKind(type.name)) Fail(last_, fmt::format("'{}' is a primitive type of LCM", type.name));
-    type.full_name = package_.empty() ? type.name : package_ + "." + type.name;
+    if (PrimitiveKind(type.name)) Fail(last(), fmt::format("'{}' is a primitive type of LCM", type.name));
+    type.full_name = current_ = FullName(type.name);
     Expect("{");
     while (true) {
       const std::string leading = LeadingComment();
       if (Peek().text == "}") break;
+      if (BeginsType())
+        Fail(Peek(),
+             fmt::format("expected a field or '}}', got '{}': LCM has no types within types", Peek().text));
       if (Peek().text == "const") {
         ParseConstants(type);
       } else {
@@ -89,7 +97,8 @@ class Parser {
     const std::string kind_name = Word("the type of the constant");
     const auto kind = PrimitiveKind(kind_name);
     if (!kind || *kind > Kind::kDouble) {
-      Fail(last_, fmt::format("a constant cannot be of type {}, only integers, float and double", kind_name));
+      Fail(last(),
+           fmt::format("a constant cannot be of type {}, only integers, float and double", kind_name));
     }
     do {
       Constant constant;
@@ -124,8 +133,8 @@ class Parser {
     prototype.type_name = Word("the type of a field");
     const auto kind = PrimitiveKind(prototype.type_name);
     prototype.kind = kind.value_or(Kind::kStruct);
-    if (!kind && prototype.type_name.find('.') == std::string::npos && !package_.empty()) {
-      prototype.type_name = package_ + "." + prototype.type_name;
+    if (!kind && prototype.type_name.find('.') == std::string::npos) {
+      prototype.type_name = FullName(prototype.type_name);
     }
     const std::size_t first = type.fields.size();
     std::vector<std::string> own_comments;
@@ -150,6 +159,8 @@ class Parser {
   void ParseDimension(const Struct& type, Field& field) {
     Expect("[");
     const Token& token = Next();
+    if (field.dims.size() == kMostDimensions)
+      Fail(token, fmt::format("expected at most {} dimensions of an array, got more", kMostDimensions));
     Dimension dimension;
     dimension.text = token.text;
     if (token.type == Token::Type::kNumber) {
@@ -158,6 +169,9 @@ class Parser {
         Fail(token, fmt::format("the array size '{}' is not a whole number above 0", token.text));
       }
       dimension.size = *size;
+    } else if (const Constant* constant = ConstantOf(type, token)) {
+      dimension.text = constant->text;  // as if it stood there: LCM's fingerprint does not know the name
+      dimension.size = SizeOf(*constant, token);
     } else if (token.type == Token::Type::kWord) {
       dimension.variable = true;
       dimension.count_field = CountField(type, token);
@@ -166,6 +180,21 @@ class Parser {
     }
     Expect("]");
     field.dims.push_back(std::move(dimension));
+  }
+
+  static const Constant* ConstantOf(const Struct& type, const Token& token) {
+    const auto found = std::find_if(type.constants.begin(), type.constants.end(),
+                                    [&](const Constant& c) { return c.name == token.text; });
+    return found == type.constants.end() ? nullptr : &*found;
+  }
+
+  std::int64_t SizeOf(const Constant& constant, const Token& token) const {
+    const auto size = IsInteger(constant.kind) ? constant.value.integer.value_or(0) : 0;
+    if (size <= 0 || size > std::numeric_limits<std::int32_t>::max()) {
+      Fail(token, fmt::format("the array size '{}' is {}, not a whole number above 0", constant.name,
+                              constant.text));
+    }
+    return size;
   }
 
   std::size_t CountField(const Struct& type, const Token& token) const {
@@ -195,71 +224,28 @@ class Parser {
     const auto same = [&](const auto& member) { return member.name == name; };
     if (std::any_of(type.fields.begin(), type.fields.end(), same) ||
         std::any_of(type.constants.begin(), type.constants.end(), same)) {
-      Fail(last_, fmt::format("the name '{}' is used twice in {}", name, type.full_name));
+      Fail(last(), fmt::format("the name '{}' is used twice in {}", name, type.full_name));
     }
-  }
-
-  /// Skips the comments here; returns the last one when what follows begins on the next line at the latest.
-  std::string LeadingComment() {
-    std::string text;
-    for (; tokens_[pos_].type == Token::Type::kComment; ++pos_) {
-      const Token& comment = tokens_[pos_];
-      text = comment.last_line + 1 >= tokens_[pos_ + 1].line ? comment.text : "";
-    }
-    return text;
-  }
-
-  /// The comment on the line of the token read last, with the lines below it in the same column.
-  std::string TrailingComment() {
-    if (tokens_[pos_].type != Token::Type::kComment || tokens_[pos_].line != last_.last_line) return "";
-    return tokens_[pos_++].text;
-  }
-
-  const Token& Peek() {
-    while (tokens_[pos_].type == Token::Type::kComment) ++pos_;
-    return tokens_[pos_];
-  }
-
-  const Token& Next() {
-    last_ = Peek();
-    if (last_.type != Token::Type::kEnd) ++pos_;
-    return last_;
-  }
-
-  void Expect(std::string_view symbol) {
-    const Token& token = Next();
-    if (token.text != symbol) Fail(token, fmt::format("expected '{}', got '{}'", symbol, token.text));
-  }
-
-  std::string Separator() {
-    const Token& token = Next();
-    if (token.text != ";" && token.text != ",")
-      Fail(token, fmt::format("expected ';', got '{}'", token.text));
-    return token.text;
-  }
-
-  std::string Word(std::string_view what) {
-    const Token& token = Next();
-    if (token.type != Token::Type::kWord) Fail(token, fmt::format("expected {}, got '{}'", what, token.text));
-    return token.text;
-  }
-
-  [[noreturn]] void Fail(const Token& token, std::string_view sentence) const {
-    throw SchemaError(fmt::format("{}:{}: {}", file_, token.line, sentence));
   }
 
   std::string file_;
-  std::vector<Token> tokens_;
-  std::size_t pos_ = 0;
-  Token last_;
   std::string package_;
+  std::string current_;  ///< full name of the type that is being read
   std::vector<Struct> structs_;
 };
 
 }  // namespace
 
+std::vector<Struct> ParseLcm(std::string_view file, std::string_view text,
+                             std::vector<TypeProblem>& problems) {
+  return Parser(file, text).Run(problems);
+}
+
 std::vector<Struct> ParseLcm(std::string_view file, std::string_view text) {
-  return Parser(file, text).Run();
+  std::vector<TypeProblem> problems;
+  std::vector<Struct> types = ParseLcm(file, text, problems);
+  if (!problems.empty()) throw SchemaError(problems.front().sentence);
+  return types;
 }
 
 }  // namespace priamos::bus

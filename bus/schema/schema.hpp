@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -23,9 +24,10 @@ class Schema {
   };
 
   /// Reads all types of `sources`. Throws SchemaError for the first type that cannot be taken: unreadable,
-  /// defined twice, or with a nested type that nobody defines.
+  /// defined twice in different ways, or with a nested type that nobody defines.
   explicit Schema(const std::vector<Source>& sources);
-  /// Reads the types of `sources` that can be taken; each refused file or type adds a sentence to `problems`.
+  /// Reads the types of `sources` that can be taken; each refused type adds one sentence to `problems`, the
+  /// cause before what follows from it.
   Schema(const std::vector<Source>& sources, std::vector<std::string>& problems);
 
   /// Schema from a range of elements with members `file` and `text`, such as priamos::EmbeddedTypes().
@@ -43,14 +45,20 @@ class Schema {
   const Struct* Find(std::string_view name) const;
   /// All types, ordered by full name.
   std::vector<const Struct*> All() const;
+  /// Whether a type of this name, full or without package, was read and refused.
+  bool Refused(std::string_view name) const;
 
  private:
+  using Types = std::map<std::string, std::unique_ptr<Struct>, std::less<>>;
   void Build(const std::vector<Source>& sources, std::vector<std::string>* problems);
-  void Insert(Struct type);
-  void Resolve(std::vector<std::string>* problems);
+  void Insert(Struct type, std::vector<std::string>* problems);
+  void Refuse(const std::string& name, const std::string& sentence, std::vector<std::string>* problems);
+  void RemoveIncomplete(std::vector<std::string>* problems);
   void ComputeFingerprints(std::vector<std::string>* problems);
 
-  std::map<std::string, std::unique_ptr<Struct>, std::less<>> types_;
+  Types types_;
+  std::set<std::string, std::less<>> refused_;  ///< full names
+  std::set<std::string> ambiguous_;             ///< those defined in different ways
   std::unordered_map<std::uint64_t, const Struct*> by_fingerprint_;
 };
 

@@ -34,6 +34,7 @@ TEST_F(InstallTest, EverythingIsBelowThePrefix) {
   const auto files = Files();
   for (const char* file : {"bin/priamos",
                            "bin/priamos-verbs",
+                           "bin/priamos-log",
                            "bin/priamos-world",
                            "bin/priamos-robot",
                            "bin/priamos-head",

@@ -63,7 +63,7 @@ SilenceWatch::SilenceWatch(std::string who, const BusOptions& options, std::stri
                            Duration patience)
     : who_(std::move(who)),
       channel_(std::move(channel)),
-      schema_(std::make_unique<bus::Schema>(LoadTypes(options))),
+      schema_(std::make_unique<bus::Schema>(bus::OwnTypes())),
       until_(now + patience) {
   here_ = std::make_unique<Ear>(options.bus.bus, options.bus.Url(), options.messages(), *schema_);
   if (const auto other = OtherBus(options.bus)) {

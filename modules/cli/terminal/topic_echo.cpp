@@ -36,7 +36,7 @@ const bus::Struct* TypeOf(const bus::Schema& schema, const std::string& name) {
 /// Prints messages, or some of their fields.
 class Echo {
  public:
-  explicit Echo(const EchoOptions& options) : options_(options), schema_(LoadTypes(options)) {
+  explicit Echo(const EchoOptions& options) : options_(options), schema_(LoadTypes(options.types)) {
     if (const auto* type = TypeOf(schema_, options.channel)) Resolve(*type);
   }
 
@@ -104,7 +104,7 @@ void AddTopicEchoVerb(CLI::App& topic, int& exit_code) {
   AddChannelArgument(*verb, options->channel);
   verb->add_option("field", options->fields, "only these fields, e.g. x_m, range_m[3], channels[0].bytes");
   AddBusOption(*verb, *options);
-  AddTypesOption(*verb, *options);
+  AddTypesOption(*verb, options->types);
   verb->add_option("--count", options->count, "stop after so many messages; 0: at Ctrl-C")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 
@@ -127,11 +128,98 @@ TEST_F(Log, AMessageThatAnotherFollowsMayHoldAWholeEvent) {
   EXPECT_EQ(dut.skipped_bytes(), 0u);
 }
 
+/// Channels and numbers of all events that are read from `bytes`, "POSE 3".
+std::vector<std::string> EventsIn(const std::string& bytes) {
+  std::vector<std::string> events;
+  LogReader dut(std::as_bytes(std::span(bytes)));
+  std::size_t in_events = 0;
+  while (const auto event = dut.Next()) {
+    events.push_back(event->channel + " " + std::to_string(event->number));
+    in_events += log_format::kHeaderBytes + event->channel.size() + event->bytes.size();
+  }
+  EXPECT_EQ(in_events + dut.skipped_bytes(), bytes.size());
+  return events;
+}
+
+std::string EventOf(std::int64_t number, const std::string& channel, const std::string& data) {
+  std::string bytes;
+  AppendEvent(bytes, number, 1000 + number, channel, std::as_bytes(std::span(data)));
+  return bytes;
+}
+
+using Events = std::vector<std::string>;
+
+/// Whether a length that reaches to `end` looks right: nobody can tell then that the event is torn.
+bool EndsWell(const std::string& log, std::size_t end) {
+  return end == log.size() || log.substr(std::min(end, log.size()), 4) == EventOf(0, "A", "").substr(0, 4);
+}
+
+TEST_F(Log, ALastEventMayHoldAWholeOneAlsoBehindATornOne) {
+  const std::string inner = EventOf(7, "INNER", "abc");
+  for (const std::string& around : {inner, "12345" + inner, inner + "12345", inner + inner}) {
+    const std::string last = EventOf(4, "RAW", around);
+    EXPECT_EQ(EventsIn(last), (Events{"RAW 4"}));
+    const std::string first = EventOf(3, "POSE", std::string(300, 'x'));
+    for (std::size_t there = 1; there < first.size(); ++there) {
+      const std::string log = first.substr(0, there) + last;
+      if (EndsWell(log, first.size())) continue;
+      ASSERT_EQ(EventsIn(log), (Events{"RAW 4"})) << there << " bytes of the first";
+    }
+  }
+}
+
+TEST_F(Log, WhatATornEventHoldsIsNotPromoted) {
+  const std::string inner = EventOf(7, "INNER", "abc"), before = EventOf(3, "POSE", "x");
+  for (const std::string& around : {inner + "0123456789", "12345" + inner + "0123456789"}) {
+    const std::string torn = EventOf(4, "RAW", around);
+    for (std::size_t there = log_format::kHeaderBytes; there < torn.size(); ++there) {
+      ASSERT_EQ(EventsIn(before + torn.substr(0, there)), (Events{"POSE 3"})) << there;
+      ASSERT_EQ(EventsIn(torn.substr(0, there)), (Events{})) << there;
+    }
+  }
+}
+
+TEST_F(Log, BehindATornEventThatHoldsOneTheRecordingGoesOn) {
+  const std::string inner = EventOf(7, "INNER", "abc");
+  const std::string torn = EventOf(4, "RAW", "12345" + inner + std::string(200, 'y'));
+  const std::string next = EventOf(0, "POSE", "x") + EventOf(1, "POSE", "x");
+  for (std::size_t there = log_format::kHeaderBytes; there < torn.size(); ++there) {
+    const std::string log = torn.substr(0, there) + next;
+    const bool behind_inner = there == 28 + 3 + 5 + inner.size();  // as if the inner one began the recording
+    if (behind_inner || EndsWell(log, torn.size())) continue;
+    ASSERT_EQ(EventsIn(log), (Events{"POSE 0", "POSE 1"})) << there;
+  }
+}
+
+TEST_F(Log, AnEventBeforeADamagedOneMayHoldAWholeOne) {
+  const std::string inner = EventOf(7, "INNER", "abc");
+  std::string damaged = EventOf(5, "POSE", "x");
+  damaged[0] = '?';
+  EXPECT_EQ(EventsIn(EventOf(4, "RAW", inner + "1") + damaged + EventOf(6, "POSE", "x")),
+            (Events{"RAW 4", "POSE 6"}));
+}
+
+TEST_F(Log, ALengthThatReachesIntoTheNextMagicDoesNotSwallowIt) {
+  for (char more = 1; more < 33; ++more) {  // 33: to the end of the next one
+    std::string bytes = EventOf(4, "RAW", "0123456789");
+    bytes[27] = static_cast<char>(bytes[27] + more);
+    EXPECT_EQ(EventsIn(bytes + EventOf(5, "POSE", "x") + EventOf(6, "POSE", "y")),
+              (Events{"POSE 5", "POSE 6"}))
+        << int{more};
+  }
+}
+
+TEST_F(Log, ANumberMayBeAny) {
+  for (const std::int64_t number : {std::int64_t{1} << 62, INT64_MAX, INT64_MIN, std::int64_t{-1}})
+    EXPECT_EQ(EventsIn(EventOf(0, "A", "") + EventOf(number, "POSE", "x").replace(12, 8, 8, '\0')),
+              (Events{"A 0", "POSE " + std::to_string(number)}));
+}
+
 TEST_F(Log, ATimeThatCannotBeIsDamage) {
-  for (const std::int64_t utime : {INT64_MAX, INT64_MIN, LogReader::kLargestNumber + 1}) {
+  for (const std::int64_t utime : {INT64_MAX, INT64_MIN, LogReader::kLargestTime + 1}) {
     std::string bytes;
     AppendEvent(bytes, 0, utime, "POSE", {});
-    AppendEvent(bytes, 1, LogReader::kLargestNumber, "POSE", {});
+    AppendEvent(bytes, 1, LogReader::kLargestTime, "POSE", {});
     LogReader dut(std::as_bytes(std::span(bytes)));
     const auto event = dut.Next();
     ASSERT_TRUE(event);
@@ -150,6 +238,41 @@ TEST_F(Log, SeekGoesBackToAnEvent) {
   }
   dut.Seek(second->offset);
   EXPECT_EQ(dut.Next()->number, 1);
+}
+
+/// Pages of files in the memory of this process [bytes].
+std::size_t FilePagesInMemory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (std::size_t kilobytes = 0; word == "RssFile:" && status >> kilobytes) return kilobytes * 1024;
+  return 0;
+}
+
+TEST_F(Log, ALargeLogDoesNotStayInMemory) {
+  constexpr int kEvents = 100;
+  const std::vector<std::byte> message(std::size_t{1} << 20, std::byte{7});
+  {
+    LogWriter writer(path_);
+    for (int i = 0; i < kEvents; ++i) writer.Write(i, "LARGE", message);
+    std::ofstream(path_, std::ios::app) << std::string(std::size_t{50} << 20, '?');
+  }
+  LogReader dut(path_);
+  const std::size_t before = FilePagesInMemory();
+  std::size_t most = before, first = 1;
+  int events = 0;
+  for (; const auto event = dut.Next(); ++events) {
+    most = std::max(most, FilePagesInMemory());
+    if (events == 1) first = event->offset;
+  }
+  most = std::max(most, FilePagesInMemory());  // after the damage at the end
+  EXPECT_EQ(events, kEvents);
+  EXPECT_EQ(dut.skipped_bytes(), std::size_t{50} << 20);
+  EXPECT_LT(most - before, std::size_t{30} << 20);
+  dut.Seek(first);
+  const auto again = dut.Next();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->number, 1);
+  EXPECT_EQ(again->bytes, message) << "given back is not lost";
 }
 
 TEST_F(Log, EmptyFileHoldsNothing) {

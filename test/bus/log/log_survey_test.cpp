@@ -48,6 +48,14 @@ TEST_F(SurveyTest, OneDamagedNumberIsNoLoss) {
   EXPECT_EQ(Dut().missing_numbers, 0u);
 }
 
+TEST_F(SurveyTest, AnyNumberIsTakenAndGapsBetweenLargeOnesAreLosses) {
+  for (const std::int64_t number :
+       {INT64_MAX - 5, INT64_MAX - 2, INT64_MAX - 1, INT64_MAX, INT64_MIN, INT64_MIN + 1})
+    Add(number, 1000, "POSE", pose_);
+  EXPECT_EQ(Dut().events, 6u);
+  EXPECT_EQ(Dut().missing_numbers, 2u);
+}
+
 TEST_F(SurveyTest, JoinedLogsAreNoLoss) {
   for (const int number : {0, 1, 2, 0, 1, 2}) Add(number, 1000, "POSE", pose_);
   EXPECT_EQ(Dut().missing_numbers, 0u);

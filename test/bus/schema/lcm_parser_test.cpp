@@ -194,7 +194,8 @@ TEST(LcmParser, UnreadableAnnotationIsNoError) {
 }
 
 TEST(LcmParser, RefusesWithFileLineAndASentence) {
-  EXPECT_EQ(ErrorOf("struct s {\n enum e {A} x; }"), "t.lcm:2: expected ';', got '{'");
+  EXPECT_EQ(ErrorOf("struct s {\n enum e {A} x; }"),
+            "t.lcm:2: expected a field or '}', got 'enum': LCM has no types within types");
   EXPECT_EQ(ErrorOf("enum e_t { A }"), "t.lcm:1: enum types are not supported, use constants in a struct");
   EXPECT_EQ(ErrorOf("struct s { int8_t a;\n int8_t a; }"), "t.lcm:2: the name 'a' is used twice in s");
   EXPECT_EQ(ErrorOf("struct s { const int8_t a = 1; int8_t a; }"),
@@ -212,11 +213,96 @@ TEST(LcmParser, RefusesWithFileLineAndASentence) {
   EXPECT_EQ(ErrorOf("struct s { const string A = 1; }"),
             "t.lcm:1: a constant cannot be of type string, only integers, float and double");
   EXPECT_EQ(ErrorOf("struct int8_t { }"), "t.lcm:1: 'int8_t' is a primitive type of LCM");
-  EXPECT_EQ(ErrorOf("struct s { int8_t a;"), "t.lcm:1: expected the type of a field, got ''");
+  EXPECT_EQ(ErrorOf("struct s { int8_t a;"),
+            "t.lcm:1: expected the type of a field, got the end of the file");
   EXPECT_EQ(ErrorOf("\n/* open"), "t.lcm:2: the comment is not closed");
   EXPECT_EQ(ErrorOf("# what"), "t.lcm:1: this character (code 35) has no place in a .lcm file");
   EXPECT_THAT(ErrorOf("struct s { int8_t 3a; }"),
               StartsWith("t.lcm:1: expected the name of the field, got '3a'"));
+}
+
+TEST(LcmParser, ASizeMayBeAConstantOfTheSameStruct) {
+  const Struct dut = ParseOne("struct s { const int32_t N = 0x3, M = 2; string a[N][M]; }");
+  ASSERT_EQ(dut.fields[0].dims.size(), 2u);
+  EXPECT_FALSE(dut.fields[0].dims[0].variable);
+  EXPECT_EQ(dut.fields[0].dims[0].size, 3);
+  EXPECT_EQ(dut.fields[0].dims[0].text, "0x3") << "as if it stood there";
+  EXPECT_EQ(ErrorOf("struct s { const int8_t N = 0; int8_t a[N]; }"),
+            "t.lcm:1: the array size 'N' is 0, not a whole number above 0");
+  EXPECT_EQ(ErrorOf("struct s { const double N = 2; int8_t a[N]; }"),
+            "t.lcm:1: the array size 'N' is 2, not a whole number above 0");
+}
+
+TEST(LcmParser, CommentsMayStandBetweenAnyTwoWords) {
+  const Struct dut = ParseOne(
+      "/* of\n the file */\npackage // a\n p // b\n; /// the type\nstruct // c\n s_t // d\n{\n//\n"
+      "int8_t // e\n n // f\n /**/ ; const // g\n int8_t // h\n C // i\n = // j\n 5 // k\n ;\n"
+      "double a[ // l\n n // m\n ] // n\n ;\n}");
+  EXPECT_EQ(dut.full_name, "p.s_t");
+  ASSERT_EQ(dut.fields.size(), 2u);
+  EXPECT_EQ(dut.fields[1].dims[0].text, "n");
+  EXPECT_EQ(dut.constants[0].value.integer, 5);
+}
+
+TEST(LcmParser, AByteOrderMarkAndDosLinesChangeNothing) {
+  const Struct dut =
+      ParseOne("\xEF\xBB\xBFpackage p;\r\n// About it.\r\nstruct s {\r\n\tint8_t a; // one\r\n\f}\r\n");
+  EXPECT_EQ(dut.full_name, "p.s");
+  EXPECT_EQ(dut.line, 3);
+  EXPECT_EQ(dut.doc, "About it.");
+  EXPECT_EQ(dut.fields[0].comment, "one");
+  EXPECT_EQ(ErrorOf("\xFF\xFEs"), "t.lcm:1: this character (code 255) has no place in a .lcm file");
+}
+
+TEST(LcmParser, WordsOfTheLanguageAreNamesWhereANameIsExpected) {
+  const Struct dut =
+      ParseOne("struct package { int8_t struct; int16_t const2, enum; double int8_t; string class; }");
+  EXPECT_EQ(dut.name, "package");
+  EXPECT_EQ(dut.fields.size(), 5u);
+  EXPECT_EQ(ErrorOf("struct s { struct t { int8_t a; } b; }"),
+            "t.lcm:1: expected a field or '}', got 'struct': LCM has no types within types");
+  EXPECT_EQ(ErrorOf("struct s { const struct; }"),
+            "t.lcm:1: a constant cannot be of type struct, only integers, float and double");
+  EXPECT_EQ(ErrorOf("import x;"), "t.lcm:1: expected 'package' or 'struct', got 'import'");
+}
+
+TEST(LcmParser, MoreDimensionsThanAnybodyWritesAreRefused) {
+  const auto text = [](int n) {
+    std::string sizes;
+    for (int i = 0; i < n; ++i) sizes += "[1]";
+    return "struct s { int8_t a" + sizes + "; }";
+  };
+  EXPECT_EQ(ErrorOf(text(32)), "no error");
+  EXPECT_EQ(ErrorOf(text(100000)), "t.lcm:1: expected at most 32 dimensions of an array, got more");
+}
+
+std::vector<std::string> ProblemsOf(std::string_view text, std::vector<std::string>& names) {
+  std::vector<TypeProblem> problems;
+  for (const Struct& type : ParseLcm("t.lcm", text, problems)) names.push_back(type.full_name);
+  std::vector<std::string> lines;
+  for (const TypeProblem& problem : problems) lines.push_back(problem.type + " " + problem.sentence);
+  return lines;
+}
+
+TEST(LcmParser, ATypeThatCannotBeReadDoesNotHinderTheOthers) {
+  std::vector<std::string> names;
+  EXPECT_THAT(ProblemsOf("package p;\nstruct a { int8_t 3; }\nstruct b { int8_t x; }\n"
+                         "struct c { # ? }\nenum d { A, B }\nstruct e { int8_t x;\nstruct f { }\n"
+                         "package q; struct g { int8_t x; }\nstruct h { int8_t",
+                         names),
+              ElementsAre("p.a t.lcm:2: expected the name of the field, got '3'",
+                          "p.c t.lcm:4: this character (code 35) has no place in a .lcm file",
+                          "p.d t.lcm:5: enum types are not supported, use constants in a struct",
+                          "p.e t.lcm:7: expected a field or '}', got 'struct': LCM has no types within types",
+                          "q.h t.lcm:9: expected the name of the field, got the end of the file"));
+  EXPECT_THAT(names, ElementsAre("p.b", "p.f", "q.g"));
+}
+
+TEST(LcmParser, WhatIsNoTypeAtAllIsNamedOncePerFile) {
+  std::vector<std::string> names;
+  EXPECT_THAT(ProblemsOf("import a; ? import b; } x } struct s { } y }", names),
+              ElementsAre(" t.lcm:1: expected 'package' or 'struct', got 'import'"));
+  EXPECT_THAT(names, ElementsAre("s"));
 }
 
 TEST(LcmParser, EmptyTextHasNoTypes) {

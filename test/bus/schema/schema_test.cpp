@@ -102,9 +102,11 @@ TEST(Schema, FieldsKeepTheirAddressWhenTheSchemaMoves) {
 }
 
 TEST(Schema, RefusesUnknownAndDoubleTypes) {
-  EXPECT_EQ(ErrorOf("package p; struct a {\n b x; }"), "t.lcm:2: p.a.x: the type p.b is not defined");
-  EXPECT_EQ(ErrorOf("struct a { uint8_t x; }"), "t.lcm:1: a.x: the type uint8_t is not defined");
-  EXPECT_EQ(ErrorOf("struct a { }\nstruct a { }"), "t.lcm:2: the type a is already defined in t.lcm:1");
+  EXPECT_EQ(ErrorOf("package p; struct a {\n b x; }"),
+            "t.lcm:2: p.a.x: expected a type that is defined, got p.b");
+  EXPECT_EQ(ErrorOf("struct a { uint8_t x; }"), "t.lcm:1: a.x: expected a type that is defined, got uint8_t");
+  EXPECT_EQ(ErrorOf("struct a { int8_t x; }\nstruct a { int8_t y; }"),
+            "t.lcm:2: expected one definition of a, got another one than in t.lcm:1");
 }
 
 TEST(Schema, RefusesNestingThatIsTooDeep) {
@@ -119,7 +121,10 @@ TEST(Schema, ManyTypesThatShareTypesAreHashedOnce) {
   std::string text;
   for (int i = 0; i < 100; ++i) {
     const std::string next = std::to_string(i + 1);
-    text += "struct t" + std::to_string(i) + " { t" + next + " a; t" + next + " b; }\n";
+    text.append("struct t" + std::to_string(i))
+        .append(" { t" + next)
+        .append(" a; t" + next)
+        .append(" b; }\n");
   }
   EXPECT_EQ(ErrorOf(text + "struct t100 { }"), "no error");  // 2^100 paths
 }
@@ -132,8 +137,58 @@ TEST(Schema, TakesWhatItCanWhenAskedTo) {
   EXPECT_NE(dut.Find("good"), nullptr);
   EXPECT_EQ(dut.All().size(), 1u);
   EXPECT_THAT(problems, ElementsAre("b.lcm:1: enum types are not supported, use constants in a struct",
-                                    "a.lcm:1: a.x: the type missing_t is not defined",
-                                    "a.lcm:1: uses_a.y: the type a is not defined"));
+                                    "a.lcm:1: a.x: expected a type that is defined, got missing_t",
+                                    "a.lcm:1: uses_a.y: expected a type that can be used, got a"));
+  for (const char* name : {"a", "uses_a", "e"}) EXPECT_TRUE(dut.Refused(name)) << name;
+  for (const char* name : {"good", "missing_t", ""}) EXPECT_FALSE(dut.Refused(name)) << name;
+}
+
+TEST(Schema, TheSameDefinitionInTwoPlacesIsOne) {
+  EXPECT_EQ(ErrorOf("struct a { const int8_t C = 1; int8_t n; double x[n][3]; }\n"
+                    "struct a { const int8_t C = 1; int8_t n; // how many\n double x[n][3]; }"),
+            "no error");
+}
+
+TEST(Schema, OfDifferentDefinitionsNoneIsTaken) {
+  for (const char* other : {"int8_t n; double x[n][4];", "int8_t n; float x[n][3];", "int8_t n;",
+                            "const int8_t C = 1; int8_t n; double x[n][3];",
+                            "int8_t n; double x[n][3]; /* [m] @range 0,1 @step 1: packed */"}) {
+    std::vector<std::string> problems;
+    const Schema dut({{"a.lcm", "package p; struct s { int8_t n; double x[n][3]; } struct good { }"},
+                      {"b.lcm", "package p; struct s { " + std::string(other) + " } struct uses { s x; }"}},
+                     problems);
+    EXPECT_EQ(dut.Find("s"), nullptr);
+    EXPECT_TRUE(dut.Refused("p.s"));
+    EXPECT_NE(dut.Find("good"), nullptr);
+    EXPECT_THAT(problems,
+                ElementsAre("b.lcm:1: expected one definition of p.s, got another one than in a.lcm:1",
+                            "b.lcm:1: p.uses.x: expected a type that can be used, got p.s"))
+        << other;
+  }
+}
+
+TEST(Schema, FingerprintOfASizeThatIsAConstantIsThatOfItsValue) {
+  EXPECT_EQ(FromText("struct c { const int32_t N = 0x3, M = 2; double a[N][M]; string s[N]; }")
+                .Find("c")
+                ->fingerprint,
+            FromText("struct c { double a[0x3][2]; string s[0x3]; }").Find("c")->fingerprint);
+}
+
+TEST(Schema, AChainOfManyTypesIsRefusedSoonWithoutACrash) {
+  const auto chain = [](const std::string& end) {
+    std::string text;
+    for (int i = 0; i < 5000; ++i)
+      text += "struct t" + std::to_string(i) + " { t" + std::to_string(i + 1) + " x; }\n";
+    return text + end;
+  };
+  std::vector<std::string> problems;
+  const Schema deep({{"t.lcm", chain("struct t5000 { int8_t x; }")}}, problems);
+  EXPECT_EQ(problems.size() + deep.All().size(), 5001u);
+  EXPECT_NE(deep.Find("t5000"), nullptr);
+  problems.clear();
+  const Schema open({{"t.lcm", chain("")}}, problems);
+  EXPECT_EQ(problems.size(), 5000u);
+  EXPECT_TRUE(open.All().empty());
 }
 
 TEST(Schema, FingerprintOfReadsBigEndian) {

@@ -19,7 +19,7 @@ class BusOptionsTest : public testing::Test {
   BusOptionsTest() {
     for (const char* variable : {"PRIAMOS_BUS", "PRIAMOS_ROBOT", "PRIAMOS_TTL"}) unsetenv(variable);
     AddBusOption(verb_, options_);
-    AddTypesOption(verb_, options_);
+    AddTypesOption(verb_, options_.types);
   }
   void Parse(std::vector<std::string> words) {
     std::reverse(words.begin(), words.end());
@@ -61,6 +61,14 @@ TEST_F(BusOptionsTest, TypesAreAFolderThatIsThere) {
   EXPECT_THROW(Parse({"--types", "/no/such/folder"}), CLI::ValidationError);
 }
 
+TEST_F(BusOptionsTest, TypesMayBeSeveralFoldersAndLeaveTheOtherWordsAlone) {
+  std::string channel;
+  AddChannelArgument(verb_, channel);
+  Parse({"--types", "/", "--types", "/tmp", "POSE"});
+  EXPECT_EQ(options_.types, (std::vector<std::string>{"/", "/tmp"}));
+  EXPECT_EQ(channel, "POSE");
+}
+
 TEST_F(BusOptionsTest, AChannelIsWanted) {
   std::string channel;
   AddChannelArgument(verb_, channel);
@@ -70,15 +78,15 @@ TEST_F(BusOptionsTest, AChannelIsWanted) {
 }
 
 TEST(LoadTypes, WithoutAFolderTheyAreOurOwn) {
-  EXPECT_EQ(LoadTypes(std::string()).All().size(), bus::OwnTypes().All().size());
+  EXPECT_EQ(LoadTypes({}).All().size(), bus::OwnTypes().All().size());
 }
 
 TEST(LoadTypes, FromAFolderTheyAreThoseAlone) {
   TemporaryFolder folder;
   std::ofstream(folder / "a_t.lcm") << "package a;\nstruct a_t {\n  int32_t n;\n}\n";
   BusOptions options;
-  options.types = folder.path();
-  const bus::Schema dut = LoadTypes(options);
+  options.types = {folder.path()};
+  const bus::Schema dut = LoadTypes(options.types);
   ASSERT_EQ(dut.All().size(), 1u);
   EXPECT_EQ(dut.All()[0]->full_name, "a.a_t");
 }

@@ -8,12 +8,7 @@ namespace priamos::cli {
 void AddLogCommand(CLI::App& cli, int& exit_code) {
   auto* log = AddVerb(cli, "log", "Record, play, look into, mend and convert LCM logs.");
   log->require_subcommand(1);
-  AddLogInfoVerb(*log, exit_code);
-  AddLogIndexVerb(*log, exit_code);
-  AddLogFilterVerb(*log, exit_code);
-  AddLogExportVerb(*log, exit_code);
-  AddLogRepairVerb(*log, exit_code);
-  AddLogMergeVerb(*log, exit_code);
+  AddLogFileVerbs(*log, exit_code);
   AddLogRecordVerb(*log, exit_code);
   AddLogPlayVerb(*log, exit_code);
 }

@@ -38,7 +38,7 @@ int ReportExport(const ExportOptions& options, const bus::ExportCount& count, co
 }
 
 int Export(const ExportOptions& options) {
-  const bus::Schema schema = LoadTypes(options.bus);
+  const bus::Schema schema = LoadTypes(options.bus.types);
   bus::LogReader reader(options.log);
   const auto selection = SelectionOf(options.selection, options.log);
   if (options.format == "csv") {
@@ -71,7 +71,7 @@ void AddLogExportVerb(CLI::App& log, int& exit_code) {
       ->check(CLI::IsMember({"csv", "jsonl", "mcap"}));
   verb->add_option("--out", options->out, "file (csv: folder); none: standard output (csv: LOG-csv)");
   AddSelectionOptions(*verb, options->selection);
-  AddTypesOption(*verb, options->bus);
+  AddTypesOption(*verb, options->bus.types);
   AddOutputFlags(*verb, *options,
                  "the count machine-readable, on standard error when the messages go to standard output");
   verb->callback([options, &exit_code] {

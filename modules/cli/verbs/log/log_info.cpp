@@ -61,7 +61,7 @@ void PrintSurvey(const std::string& file, const bus::LogSurvey& s) {
 }
 
 int Info(const LogOptions& options) {
-  const bus::Schema schema = LoadTypes(options.bus);
+  const bus::Schema schema = LoadTypes(options.bus.types);
   bus::LogReader reader(options.log);
   const auto survey = bus::Survey(reader, schema);
   if (options.json) {
@@ -73,7 +73,7 @@ int Info(const LogOptions& options) {
 }
 
 int Index(const LogOptions& options) {
-  const bus::Schema schema = LoadTypes(options.bus);
+  const bus::Schema schema = LoadTypes(options.bus.types);
   bus::LogReader reader(options.log);
   OutputFile out(options.out, options.log, options.force);
   if (!options.json) out.stream() << "offset,number,utime,channel,bytes,type\r\n";
@@ -102,7 +102,7 @@ void AddLogInfoVerb(CLI::App& log, int& exit_code) {
                            .help = "What is in a log, and what it lost (exit code 1 when damaged).",
                            .example = "priamos log info logs/run/onboard.lcmlog"},
                           *options);
-  AddTypesOption(*verb, options->bus);
+  AddTypesOption(*verb, options->bus.types);
   verb->add_flag("--json", options->json, "machine-readable");
   verb->callback([options, &exit_code] { exit_code = Info(*options); });
 }
@@ -115,7 +115,7 @@ void AddLogIndexVerb(CLI::App& log, int& exit_code) {
                            .example = "priamos log index onboard.lcmlog --out onboard.csv"},
                           *options);
   verb->add_option("--out", options->out, "file; none: standard output");
-  AddTypesOption(*verb, options->bus);
+  AddTypesOption(*verb, options->bus.types);
   AddOutputFlags(*verb, *options);
   verb->callback([options, &exit_code] {
     if (options->out == "-") options->out.clear();

@@ -26,7 +26,7 @@ struct MergeOptions : LogOptions {
 
 bus::ClockFit Clocks(const MergeOptions& options, bus::LogReader& onboard, bus::LogReader& offboard) {
   if (!std::isnan(options.offset_s)) return {.offset_us = options.offset_s * 1e6};
-  const bus::Schema schema = LoadTypes(options.bus);
+  const bus::Schema schema = LoadTypes(options.bus.types);
   const auto fit = bus::FitClocks(bus::FindStampPairs(onboard, offboard, schema));
   if (!fit)
     throw std::runtime_error(
@@ -47,11 +47,24 @@ void RequireTwoLogs(const MergeOptions& options) {
       options.log, options.second));
 }
 
+/// What no reader takes for a channel would be lost in the new log.
+void RequireNamesFit(const MergeOptions& options) {
+  for (bus::LogReader reader(options.second); const auto event = reader.Next();) {
+    const std::string name = options.prefix + event->channel;
+    if (!bus::IsLogChannel(name))
+      throw std::runtime_error(fmt::format(
+          "--prefix {}: expected a name of 1 to 255 printable ASCII characters, got one of {} for "
+          "{} of {}",
+          options.prefix, name.size(), event->channel, options.second));
+  }
+}
+
 int Merge(const MergeOptions& options) {
   RequireTwoLogs(options);
   bus::LogReader onboard(options.log), offboard(options.second);
   RequireNewFile(options.out, options.log, options.force);
   RequireNewFile(options.out, options.second, options.force);
+  RequireNamesFit(options);
   const auto fit = Clocks(options, onboard, offboard);
   bus::LogWriter writer(options.out);
   const auto events = bus::MergeLogs(onboard, offboard, fit, options.prefix, writer);
@@ -98,7 +111,7 @@ void AddLogMergeVerb(CLI::App& log, int& exit_code) {
   verb->add_option("--offset", options->offset_s,
                    "[s] onboard clock minus offboard clock, instead of an estimate")
       ->check(CLI::Range(-kMostOffset_s, kMostOffset_s));
-  AddTypesOption(*verb, options->bus);
+  AddTypesOption(*verb, options->bus.types);
   AddOutputFlags(*verb, *options);
   verb->callback([options, &exit_code] { exit_code = Merge(*options); });
 }

@@ -10,6 +10,7 @@
 #include "bus/clock.hpp"
 #include "bus/log/log_player.hpp"
 #include "bus/real_time_loop.hpp"
+#include "bus/schema/schema.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/terminal/play_keyboard.hpp"
@@ -31,6 +32,13 @@ struct PlayOptions {
   bool loop = false, paused = false, json = false;
 };
 
+/// A foreign log may have a channel of that name.
+bool IsClaim(const bus::LogEvent& event) {
+  return event.channel == channels::kClaim.name &&
+         bus::FingerprintOf(event.bytes.data(), event.bytes.size()) ==
+             static_cast<std::uint64_t>(claim_t::getHash());
+}
+
 class Playing {
  public:
   explicit Playing(const PlayOptions& options)
@@ -50,7 +58,7 @@ class Playing {
           clock_.Now(),
           [this](const std::string& channel, const bus::LogEvent& event) {
             // Claims belong to processes, and those of the log do not run.
-            if (event.channel == channels::kClaim.name) return;
+            if (IsClaim(event)) return;
             ++(bus_.Publish(channel, event.bytes) ? sent_ : refused_);
           },
           kBurst);

@@ -201,11 +201,12 @@ void AddRekey(CLI::App& link, int& exit_code) {
 }
 
 void AddBits(CLI::App& link, int& exit_code) {
-  auto type = std::make_shared<std::string>(), types = std::make_shared<std::string>();
+  auto type = std::make_shared<std::string>();
+  auto types = std::make_shared<std::vector<std::string>>();
   auto* verb = AddVerb(link, "bits", "How many bits a message takes on the radio, field by field.");
   verb->footer("Example: priamos link bits pose_t");
   verb->add_option("type", *type, "message type")->required();
-  verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  AddTypesOption(*verb, *types);
   auto json = std::make_shared<bool>(false);
   verb->add_flag("--json", *json, "machine-readable");
   verb->callback([=, &exit_code] {
@@ -219,12 +220,13 @@ void AddBits(CLI::App& link, int& exit_code) {
 }
 
 void AddBudget(CLI::App& link, int& exit_code) {
-  auto config = std::make_shared<std::string>(), types = std::make_shared<std::string>();
+  auto config = std::make_shared<std::string>();
+  auto types = std::make_shared<std::vector<std::string>>();
   auto* verb =
       AddVerb(link, "budget", "What a link.toml asks of the line: bytes, shares, worst-case latencies.");
   verb->footer("Example: priamos link budget config/sim/link.toml");
   verb->add_option("config", *config, "link.toml")->required();
-  verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  AddTypesOption(*verb, *types);
   auto json = std::make_shared<bool>(false);
   verb->add_flag("--json", *json, "machine-readable");
   verb->callback([=, &exit_code] {

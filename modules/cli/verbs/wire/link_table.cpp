@@ -90,12 +90,13 @@ void RefuseOtherRadios(const std::string& file, const bus::radio::LinkConfig& co
 }  // namespace
 
 void AddLinkTableVerb(CLI::App& link) {
-  auto config = std::make_shared<std::string>(), types = std::make_shared<std::string>();
+  auto config = std::make_shared<std::string>();
+  auto types = std::make_shared<std::vector<std::string>>();
   auto c = std::make_shared<bool>(false), json = std::make_shared<bool>(false);
   auto* verb = AddVerb(link, "table", "The channel table of a link.toml, for another end of the link.");
   verb->footer("Example: priamos link table config/sim/link.toml --c > channels.inc");
   verb->add_option("config", *config, "link.toml")->required();
-  verb->add_option("--types", *types, "folder of .lcm files; without it those of PRIAMOS");
+  AddTypesOption(*verb, *types);
   auto* as_c = verb->add_flag("--c", *c, "as pr_channel initialisers of bus/radio/tiny");
   verb->add_flag("--json", *json, "machine-readable, as `python3 -m priamos_link` takes it")->excludes(as_c);
   verb->callback([=] {

@@ -41,7 +41,7 @@ void WarnOfUnknownChannel(const PubOptions& options, const std::string& channel)
 }
 
 int Pub(const PubOptions& options) {
-  const bus::Schema schema = LoadTypes(options);
+  const bus::Schema schema = LoadTypes(options.types);
   const auto* type = schema.Find(options.type);
   if (!type) throw UnknownType(schema, options.type);
   bus::LcmBus bus(options.bus.Url(), options.messages());

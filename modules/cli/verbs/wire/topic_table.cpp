@@ -73,7 +73,7 @@ void PrintJson(const std::vector<TopicRow>& rows, const bus::LcmBus& bus) {
 
 /// Verb `list`, and with a channel `hz` and `bw`: a table of all channels or of one.
 int List(const TableOptions& options, const std::string& verb) {
-  const bus::Schema schema = LoadTypes(options);
+  const bus::Schema schema = LoadTypes(options.types);
   const bus::MonotonicClock clock;
   bus::LcmBus bus(options.bus.Url(), options.messages());
   TopicStatistics statistics(schema, FromSeconds(std::max(2.0, options.seconds)));

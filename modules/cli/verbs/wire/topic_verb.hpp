@@ -16,7 +16,7 @@ inline CLI::App* AddTopicVerb(CLI::App& topic, const char* name, const char* hel
   auto* verb = AddVerb(topic, name, help);
   verb->footer(std::string("Example: ") + example);
   AddBusOption(*verb, options);
-  AddTypesOption(*verb, options);
+  AddTypesOption(*verb, options.types);
   return verb;
 }
 

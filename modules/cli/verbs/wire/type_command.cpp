@@ -55,7 +55,7 @@ void PrintType(const bus::Struct& type) {
 }
 
 int Show(const TypeOptions& options) {
-  const bus::Schema schema = LoadTypes(options);
+  const bus::Schema schema = LoadTypes(options.types);
   const bus::Struct& type = Find(schema, options.type);
   if (options.json) {
     std::cout << bus::JsonSchemaOf(type).dump(2) << "\n";
@@ -66,7 +66,7 @@ int Show(const TypeOptions& options) {
 }
 
 int Hash(const TypeOptions& options) {
-  const bus::Schema schema = LoadTypes(options);
+  const bus::Schema schema = LoadTypes(options.types);
   const auto types = options.type.empty() ? schema.All() : std::vector{&Find(schema, options.type)};
   auto json = nlohmann::ordered_json::object();
   for (const auto* type : types) {
@@ -101,7 +101,7 @@ void AddTypeCommand(CLI::App& cli, int& exit_code) {
     std::cout << (options->json ? ChannelsAsJson() + "\n" : ChannelTable());
     exit_code = 0;
   });
-  for (auto* verb : {show, hash}) AddTypesOption(*verb, *options);
+  for (auto* verb : {show, hash}) AddTypesOption(*verb, options->types);
 }
 
 }  // namespace priamos::cli

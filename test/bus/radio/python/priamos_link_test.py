@@ -201,6 +201,26 @@ class TwoEnds(unittest.TestCase):
             with self.assertRaises(ValueError):
                 offer(down, line, now)
 
+    def test_odd_tables_are_refused_in_a_sentence(self):
+        good = {
+            "encrypted": False, "code_bytes": 4, "baud": 9600, "bytes_per_s": 960, "table_hash": "0", "channels": [
+                {"name": "A", "meaning": "0", "direction": "up", "class": "state", "fixed_bits": 8, "max_bits": 8,
+                 "ttl_us": 0, "urgent": False, "delta": [],
+                 "fields": [{"name": "x", "bits": 8, "values": 1, "codes": "0..255 by 1"}]}]}
+        odd = [{**good, key: value} for key, value in (
+            ("bytes_per_s", 0), ("bytes_per_s", -1), ("bytes_per_s", float("nan")), ("bytes_per_s", float("inf")),
+            ("baud", 0), ("baud", float("inf")), ("code_bytes", float("inf")), ("channels", 5))]
+        channel = good["channels"][0]
+        odd += [{**good, "channels": [{**channel, key: value}]} for key, value in (
+            ("delta", 5), ("delta", [0]), ("fields", [{"name": "x", "bits": 1e9, "values": 1, "codes": "0..1 by 1"}]),
+            ("fields", [{"name": "x", "bits": 8, "values": 1, "codes": "0..5 by 0"}]),
+            ("fields", [{"name": "x", "bits": 8, "values": 1, "codes": "age 0..5 by 0.1"}]))]
+        for data in odd:
+            with self.assertRaisesRegex(ValueError, "expected what `priamos link table"):
+                Table(json.dumps(data))
+        with self.assertRaisesRegex(ValueError, "expected what"):
+            Table("[" * 100_000)
+
     def test_garbage_is_refused(self):
         rng, table = random.Random(3), table_of_two()
         end = End(table, bytes(range(32)), True, lambda: rng.getrandbits(64), 0.0)

@@ -162,6 +162,32 @@ TEST_F(LogCommand, RepairOfAWholeLogIsACopyToTheByte) {
   EXPECT_EQ(FileContent(out), FileContent(log_));
 }
 
+TEST_F(LogCommand, RepairOfAWholeLogWithLargeNumbersIsACopyToTheByte) {
+  const std::string large = folder_ / "large.lcmlog", out = folder_ / "copy.lcmlog";
+  std::string bytes;
+  for (const std::int64_t number :
+       {std::int64_t{1} << 62, (std::int64_t{1} << 62) + 1, INT64_MAX - 1, INT64_MAX})
+    bus::AppendEvent(bytes, number, 1000, "POSE", {});
+  std::ofstream(large, std::ios::binary) << bytes;
+  EXPECT_EQ(Priamos({"log", "repair", large, out}).exit_code, 0);
+  EXPECT_EQ(FileContent(out), bytes);
+  EXPECT_EQ(Priamos({"log", "info", large}).exit_code, 0);
+}
+
+TEST_F(LogCommand, RepairKeepsTheEventAroundAnotherOne) {
+  const std::string torn = folder_ / "torn.lcmlog", out = folder_ / "mended.lcmlog";
+  std::string inner, last, first;
+  bus::AppendEvent(inner, 7, 7, "INNER", {});
+  bus::AppendEvent(first, 0, 1000, "POSE", std::vector<std::byte>(100));
+  bus::AppendEvent(last, 1, 1001, "RAW", std::as_bytes(std::span(inner)));
+  std::ofstream(torn, std::ios::binary) << first.substr(0, 90) << last;
+  EXPECT_EQ(Priamos({"log", "repair", torn, out}).exit_code, 0);
+  EXPECT_EQ(FileContent(out), last);
+  std::ofstream(torn, std::ios::binary) << first << last.substr(0, last.size() - 1);
+  EXPECT_EQ(Priamos({"log", "repair", torn, out, "--force"}).exit_code, 0);
+  EXPECT_EQ(FileContent(out), first);
+}
+
 TEST_F(LogCommand, RepairReportsNumbersThatDoNotIncreaseAndKeepsThem) {
   const std::string joined = folder_ / "joined.lcmlog", out = folder_ / "mended.lcmlog";
   std::ofstream(joined, std::ios::binary) << FileContent(log_) << FileContent(log_);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -97,11 +98,45 @@ TEST_F(ForeignTypes, HideOurOwn) {
   EXPECT_THAT(answer.err, HasSubstr("unknown type \"pose_t\""));
 }
 
-TEST_F(ForeignTypes, ThatAreNoneAreRefusedWithFileAndLine) {
-  std::ofstream(folder_ / "wrong_t.lcm") << "struct wrong_t {\n  int32_t\n}\n";
-  const auto answer = Priamos({"type", "hash", "--types", folder_.path()});
-  EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("wrong_t.lcm:"));
+TEST_F(ForeignTypes, OneThatCannotBeReadIsNamedOnceAndTheOthersWork) {
+  std::ofstream(folder_ / "wrong_t.lcm") << "struct wrong_t {\n  int32_t\n}\nstruct open_t { none_t x; }\n";
+  const std::string file = folder_ / "wrong_t.lcm";
+  const std::string named = file + ":3: expected the name of the field, got '}'\n" + file +
+                            ":4: open_t.x: expected a type that is defined, got none_t\n";
+  const auto good = Priamos({"type", "hash", "--types", folder_.path()});
+  EXPECT_EQ(good.exit_code, 0);
+  EXPECT_THAT(good.out, HasSubstr("their.their_t"));
+  EXPECT_EQ(good.err, named);
+  for (const char* verb : {"show", "hash"})
+    for (const std::string name : {"wrong_t", "open_t"}) {
+      const auto answer = Priamos({"type", verb, name, "--types", folder_.path()});
+      EXPECT_EQ(answer.exit_code, 2);
+      EXPECT_EQ(answer.err, named + "priamos type " + verb + ": expected a type that can be used, got \"" +
+                                name + "\"; the reason stands above\n");
+    }
+}
+
+TEST_F(ForeignTypes, OfWhichNoneCanBeUsedAreRefused) {
+  TemporaryFolder wrong;
+  std::ofstream(wrong / "a.lcm") << "struct a {\n  int32_t\n}\n";
+  const auto one = Priamos({"type", "hash", "--types", wrong.path()});
+  EXPECT_EQ(one.exit_code, 2);
+  EXPECT_EQ(one.err, "priamos type hash: " + (wrong / "a.lcm").string() +
+                         ":3: expected the name of the field, got '}'\n");
+  std::ofstream(wrong / "b.lcm") << "enum b { A }\n";
+  const auto two = Priamos({"type", "hash", "--types", wrong.path()});
+  EXPECT_EQ(two.exit_code, 2);
+  EXPECT_THAT(two.err, HasSubstr("--types: expected types that can be used, got none"));
+}
+
+TEST_F(ForeignTypes, MayComeFromSeveralFolders) {
+  TemporaryFolder other;
+  std::filesystem::create_directories(other / "deep/er");
+  std::ofstream(other / "deep/er/other_t.lcm") << "package other;\nstruct other_t {\n  their.their_t t;\n}\n";
+  const auto answer = Priamos({"type", "hash", "--types", folder_.path(), "--types", other.path()});
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("their.their_t"), HasSubstr("other.other_t")));
+  EXPECT_EQ(answer.err, "");
 }
 
 TEST_F(ForeignTypes, FromAFolderThatIsNotThereAreRefused) {
