@@ -128,6 +128,14 @@ nlohmann::ordered_json ToJson(const FixSummary& fix) {
           {"sigma_deg", fix.sigma_deg}};
 }
 
+nlohmann::ordered_json ToJson(const BeliefAtDoor& belief) {
+  return {{"lateral_m", belief.lateral_m},
+          {"along_m", belief.along_m},
+          {"heading_deg", Degrees(belief.heading_rad)},
+          {"lateral_sigma_m", belief.lateral_sigma_m},
+          {"nees", belief.nees}};
+}
+
 nlohmann::ordered_json ToJson(const HandSummary& hand) {
   return {{"wished_s", hand.wished_s},
           {"honoured", Json(hand.honoured())},
@@ -155,10 +163,12 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
     summary.lateral_at_door_m = crossing->lateral_m;
     summary.heading_at_door_deg = Degrees(crossing->heading_rad);
   }
+  const RunRecord on_plan = OnPlan(record, info);
+  if (crossing) summary.belief_at_door = BeliefAt(on_plan, info.door, crossing->utime);
   summary.duration_s = Seconds(Duration(span.end_utime - span.begin_utime));
   summary.mean_speed_m_s = MeanSpeed(record);
   summary.min_speed_during_fix_m_s = SlowestDuringFixes(record);
-  summary.fixes = FixesOf(OnPlan(record, info), span.begin_utime);
+  summary.fixes = FixesOf(on_plan, span.begin_utime);
   summary.hand = HandSummaryOf(record, info.world, built);
   summary.up = RadioOf(record.onboard_link);
   summary.down = RadioOf(record.offboard_link);
@@ -181,6 +191,8 @@ nlohmann::ordered_json ToJson(const Summary& summary) {
           {"min_gap_m", summary.min_gap_m},
           {"lateral_at_door_m", Json(summary.lateral_at_door_m)},
           {"heading_at_door_deg", Json(summary.heading_at_door_deg)},
+          {"belief_at_door",
+           summary.belief_at_door ? ToJson(*summary.belief_at_door) : nlohmann::ordered_json(nullptr)},
           {"duration_s", summary.duration_s},
           {"mean_speed_m_s", summary.mean_speed_m_s},
           {"min_speed_during_fix_m_s", Json(summary.min_speed_during_fix_m_s)},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/report/report_belief.hpp"
 #include "cli/report/report_hand.hpp"
 #include "cli/report/report_record.hpp"
 #include "cli/report/run_info.hpp"
@@ -47,6 +48,7 @@ struct Summary {
   double min_gap_m = 0;                     ///< smallest true distance of the footprint to anything
   std::optional<double> lateral_at_door_m;  ///< none when the door was not crossed
   std::optional<double> heading_at_door_deg;
+  std::optional<BeliefAtDoor> belief_at_door;      ///< when it crossed the door
   double duration_s = 0;                           ///< from the order to the end of the mission
   double mean_speed_m_s = 0;                       ///< true distance over the time from first to last motion
   std::optional<double> min_speed_during_fix_m_s;  ///< true speed from look request to correction

@@ -1,0 +1,54 @@
+#include "cli/report/report_belief.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "cli/report/report_timeline.hpp"
+#include "common/covariance.hpp"
+
+namespace priamos::cli {
+namespace {
+
+/// A pose farther from the crossing in time says nothing of it: poses come at 50 Hz.
+constexpr std::int64_t kNear_us = 100'000;
+
+const pose_t* NearestPose(const RunRecord& record, std::int64_t utime) {
+  const auto distance = [&](const pose_t& pose) { return std::abs(pose.utime - utime); };
+  const auto nearest =
+      std::min_element(record.poses.begin(), record.poses.end(),
+                       [&](const pose_t& a, const pose_t& b) { return distance(a) < distance(b); });
+  return nearest != record.poses.end() && distance(*nearest) <= kNear_us ? &*nearest : nullptr;
+}
+
+Eigen::Matrix3d CovarianceOf(const pose_t& pose) {
+  return ToCovariance({.sigma_x = pose.sigma_x_m,
+                       .sigma_y = pose.sigma_y_m,
+                       .sigma_yaw = pose.sigma_yaw_rad,
+                       .rho_x_y = pose.rho_x_y,
+                       .rho_x_yaw = pose.rho_x_yaw,
+                       .rho_y_yaw = pose.rho_y_yaw});
+}
+
+}  // namespace
+
+std::optional<BeliefAtDoor> BeliefAt(const RunRecord& record, const DoorPlan& door, std::int64_t utime) {
+  const pose_t* pose = NearestPose(record, utime);
+  const auto truth = pose ? TruthAt(record, pose->utime) : std::nullopt;
+  if (!truth) return std::nullopt;
+  const Eigen::Matrix3d covariance = CovarianceOf(*pose);
+  const Eigen::LLT<Eigen::Matrix3d> root(covariance);
+  if (root.info() != Eigen::Success) return std::nullopt;
+  const Eigen::Vector3d error(pose->x_m - truth->x, pose->y_m - truth->y,
+                              WrapAngle(pose->yaw_rad - truth->yaw));
+  const double yaw = door.map_from_door().yaw;
+  const Eigen::Vector3d across(-std::sin(yaw), std::cos(yaw), 0), along(std::cos(yaw), std::sin(yaw), 0);
+  return BeliefAtDoor{.lateral_m = across.dot(error),
+                      .along_m = along.dot(error),
+                      .heading_rad = error.z(),
+                      .lateral_sigma_m = std::sqrt(across.dot(covariance * across)),
+                      .nees = error.dot(root.solve(error))};
+}
+
+}  // namespace priamos::cli
