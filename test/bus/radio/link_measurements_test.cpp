@@ -51,8 +51,8 @@ TEST(LinkMeasurements, BlackoutsReturnFreshAndLoseNoEvent) {
   EXPECT_TRUE(dut.events_once_in_order);
 }
 
-/// Whatever the blackout cuts, beside all other channels at their rates. Of 2500 returns each, 3 of 10 000
-/// take longer than 0.3 s: an answer to a hello goes first.
+/// Whatever the blackout cuts, beside all other channels at their rates. Of 4000 returns each, 2 of 1000 take
+/// longer than 0.3 s: an answer to a hello goes first.
 TEST(LinkMeasurements, AFreshPoseIsThereSoonAfterAnyBlackout) {
   for (const auto& [up, down] : {std::pair{true, true}, {true, false}, {false, true}}) {
     const FirstPoses dut = FirstPoseRun(5, up, down, 1).Run(200);
