@@ -41,8 +41,8 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
     : table_(table),
       direction_(direction),
       byte_s_(1 / options.bytes_per_s),
-      datagrams_(options.datagrams),
       duty_(options.duty),
+      datagrams_(options.datagrams),
       packets_(options.packets()),
       ageing_s_(Seconds(options.ageing)),
       frame_bytes_(

@@ -100,8 +100,8 @@ class DirectionAnalysis {
   const ChannelTable& table_;
   Direction direction_;
   double byte_s_;
-  bool datagrams_;
   DutyCycle duty_;
+  bool datagrams_;
   bool packets_;  ///< an urgent frame waits for the end of the one on the air
   double ageing_s_;
   std::size_t frame_bytes_;  ///< bytes of a frame besides its bundle

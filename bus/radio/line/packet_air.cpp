@@ -6,7 +6,7 @@
 namespace priamos::bus::radio {
 
 PacketAir::PacketAir(PacketAirConfig config, Rng rng, Time start)
-    : config_(std::move(config)), rng_(std::move(rng)), start_(start), free_at_{start, start} {}
+    : config_(std::move(config)), rng_(rng), start_(start), free_at_{start, start} {}
 
 void PacketAir::Send(std::size_t side, std::vector<std::byte> packet, Time now) {
   if (packet.empty() || packet.size() > config_.mtu_bytes) return;
