@@ -83,7 +83,7 @@ bool FrameScheduler::Build(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
   repetition_.NoteUnanswered(from.outbox.queue().UrgentUnanswered(), now);
   repetition_.Step(agreed && from.outbox.queue().RepetitionReady(now), now);
-  if (urgent_last_ && BuildHandshake(from, now)) return true;
+  if (last_ == FrameKind::kUrgent && BuildHandshake(from, now)) return true;
   if (agreed && transmitter_.MayBegin(now, true) && BuildUrgent(from, now)) return true;
   if (!transmitter_.MayBegin(now, false)) return false;
   if (turns_.shared() && !turns_.MayPass(now)) return false;  // granted for urgent messages alone
@@ -127,7 +127,7 @@ bool FrameScheduler::BuildOther(FrameSources from, Time now) {
   const bool agreed = from.memory.epoch() != 0;
   // Of turns of one frame, or frames that a duty cycle keeps apart, hellos would take all.
   const bool one_at_a_time = turns_.shared() || options_.duty.limited();
-  const bool turn_of_data = agreed && one_at_a_time && hello_last_;
+  const bool turn_of_data = agreed && one_at_a_time && last_ == FrameKind::kHello;
   // A robot that has started again may not be able to open data, and says nothing before it is asked.
   if (agreed && !turn_of_data && turns_.unanswered() >= kUnansweredPolls) {
     BuildHello(from, from.peer.handshake, sealer_, from.receiver.reception(now), now);
@@ -164,8 +164,7 @@ void FrameScheduler::BuildHello(FrameSources from, Handshake& handshake, const F
   Hello hello = handshake.Take(from.memory.stream(), reception, now);
   hello.over = EndsTurn(from, now);
   flight_.emplace();
-  hello_last_ = true;
-  urgent_last_ = false;
+  last_ = FrameKind::kHello;
   flight_->over = hello.over;
   // Where no frame arrives, every second one may.
   const bool block = !options_.datagrams && !turns_.shared() && handshake.sent() % 2 == 1;
@@ -187,8 +186,7 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   auto wire = sealer_.Seal(from.memory.epoch(), flight.counter, form_, bundle, newest ? newest->counter : 0,
                            line_code);
   last_data_ = now;
-  hello_last_ = false;
-  urgent_last_ = urgent_only;
+  last_ = urgent_only ? FrameKind::kUrgent : FrameKind::kMixed;
   from.peer.sent.OnSent(flight.counter, transmitter_.LeavesAt(wire.size(), now));
   if (urgent_only && !flight.inbox.acks.empty()) acknowledged_at_ = now;
   // Of a shared channel a repetition takes a turn, whatever its length.

@@ -32,6 +32,9 @@ struct SendCounters {
   std::uint64_t bundle_bytes = 0;  ///< bytes of the bundles of these frames
 };
 
+/// What a frame is for. Where turns are one frame, no kind may take all of them.
+enum class FrameKind { kHello, kUrgent, kMixed };
+
 /// The frame that is being sent: what must be noted when it has left, or undone when it is cut off.
 struct FrameInFlight {
   std::uint64_t counter = 0;  ///< 0: a hello
@@ -109,8 +112,7 @@ class FrameScheduler {
   Time acknowledged_at_{};  ///< when urgent events were last acknowledged in a frame of their own
   std::optional<FrameInFlight> flight_;
   CounterForm form_ = CounterForm::kWhole;  ///< of the next frame
-  bool hello_last_ = false;                 ///< the last frame was a hello
-  bool urgent_last_ = false;                ///< the last frame was one of urgent messages alone
+  FrameKind last_ = FrameKind::kMixed;      ///< of the last frame
   Time last_data_;                          ///< begin of the last data frame sent
   SendCounters counters_;
 };

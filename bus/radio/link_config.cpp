@@ -50,11 +50,10 @@ std::uint64_t CodesHash(const Packer& packer) {
   return value;
 }
 
-ValueWidths DeltaWidths(const LinkChannelConfig& c, const Struct& type) {
+ValueWidths DeltaWidths(const std::string& title, const Struct& type) {
   if (!HasFixedSize(type))
-    throw ConfigError(
-        fmt::format("{}: delta: expected false with {}, whose messages differ in size, got true", c.Title(),
-                    type.full_name));
+    throw ConfigError(fmt::format(
+        "{}: delta: expected false with {}, whose messages differ in size, got true", title, type.full_name));
   return Packer(type).ValueWidths();
 }
 
@@ -63,23 +62,24 @@ ChannelClass ClassOf(const std::string& name) {
   return name == "command" ? ChannelClass::kCommand : ChannelClass::kState;
 }
 
-void CheckKey(const LinkChannelConfig& c, const Struct& type) {
-  if (c.key.empty()) return;
+void CheckKey(const std::string& title, const std::string& key, const Struct& type) {
+  if (key.empty()) return;
   const auto field =
-      std::find_if(type.fields.begin(), type.fields.end(), [&](const Field& f) { return f.name == c.key; });
+      std::find_if(type.fields.begin(), type.fields.end(), [&](const Field& f) { return f.name == key; });
   if (field == type.fields.end() || field->kind != Kind::kString || !field->dims.empty())
     throw ConfigError(
-        fmt::format("{}: key: expected a text field of {}, got \"{}\"", c.Title(), type.full_name, c.key));
+        fmt::format("{}: key: expected a text field of {}, got \"{}\"", title, type.full_name, key));
 }
 
 LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
+  LinkChannel channel;
+  channel.name = c.name;
+  channel.place = c.place;
   const Struct* type = schema.Find(c.type);
   if (type == nullptr)
     throw ConfigError(
-        fmt::format("{}: type: expected the name of a known .lcm type, got \"{}\"", c.Title(), c.type));
-  CheckKey(c, *type);
-  LinkChannel channel;
-  channel.name = c.name;
+        fmt::format("{}: type: expected the name of a known .lcm type, got \"{}\"", channel.Title(), c.type));
+  CheckKey(channel.Title(), c.key, *type);
   channel.direction = c.direction == "up" ? Direction::kUp : Direction::kDown;
   channel.channel_class = ClassOf(c.channel_class);
   try {
@@ -87,10 +87,10 @@ LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
     channel.fingerprint = type->fingerprint ^ CodesHash(packer);
     channel.max_bits = static_cast<std::uint32_t>(packer.MaxBits());
   } catch (const SchemaError& error) {
-    throw ConfigError(fmt::format("{} cannot be packed: {}", c.Title(), error.what()));
+    throw ConfigError(fmt::format("{} cannot be packed: {}", channel.Title(), error.what()));
   }
   channel.fixed_bits = HasFixedSize(*type) ? channel.max_bits : 0;
-  if (c.delta) channel.delta = DeltaWidths(c, *type);
+  if (c.delta) channel.delta = DeltaWidths(channel.Title(), *type);
   channel.priority = c.priority;
   channel.rate_hz = c.rate_hz;
   channel.burst = c.burst;
@@ -99,7 +99,6 @@ LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
   channel.urgent = c.urgent;
   channel.on_request = c.on_request;
   channel.max_keys = c.key.empty() ? 1 : c.keys;
-  channel.place = c.place;
   return channel;
 }
 

@@ -27,9 +27,6 @@ struct LinkChannelConfig {
   std::string key;      ///< text field of the type: the newest message per value of it is kept; empty: no key
   int keys = 1;         ///< [-] 1..64: largest number of values of `key`
   std::string place{};  ///< where it was read, for errors: `file:line: `, or empty
-
-  /// What an error about the channel begins with.
-  std::string Title() const { return place + "radio channel " + name; }
   void Describe(Archive& a);
   friend bool operator==(const LinkChannelConfig&, const LinkChannelConfig&) = default;
 };

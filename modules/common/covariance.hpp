@@ -17,4 +17,10 @@ SigmaRho ToSigmaRho(const Eigen::Matrix3d& covariance);
 /// towards 0 as far as necessary.
 Eigen::Matrix3d ToCovariance(const SigmaRho& sigma_rho);
 
+/// The covariance of a message that carries it in fields of these names, as pose_t does.
+template <class Message>
+Eigen::Matrix3d CovarianceIn(const Message& m) {
+  return ToCovariance({m.sigma_x_m, m.sigma_y_m, m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw});
+}
+
 }  // namespace priamos

@@ -89,11 +89,10 @@ std::optional<PoseSample> FromMessage(const pose_t& m) {
                   m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw})) {
     return std::nullopt;
   }
-  return PoseSample{
-      FromUtime(m.utime),
-      {m.x_m, m.y_m, WrapAngle(m.yaw_rad)},
-      {m.vx_m_s, m.vy_m_s, m.wz_rad_s},
-      ToCovariance({m.sigma_x_m, m.sigma_y_m, m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw})};
+  return PoseSample{FromUtime(m.utime),
+                    {m.x_m, m.y_m, WrapAngle(m.yaw_rad)},
+                    {m.vx_m_s, m.vy_m_s, m.wz_rad_s},
+                    CovarianceIn(m)};
 }
 
 std::optional<LandmarkModel> FromMessage(const landmark_model_t& message) {

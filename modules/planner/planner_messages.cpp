@@ -71,8 +71,7 @@ RobotPose FromMessage(const pose_t& message) {
   return {FromUtime(message.utime),
           {message.x_m, message.y_m, message.yaw_rad},
           {message.vx_m_s, message.vy_m_s, message.wz_rad_s},
-          ToCovariance({message.sigma_x_m, message.sigma_y_m, message.sigma_yaw_rad, message.rho_x_y,
-                        message.rho_x_yaw, message.rho_y_yaw})};
+          CovarianceIn(message)};
 }
 
 DriveReport FromMessage(const drive_status_t& message) {

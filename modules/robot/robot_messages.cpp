@@ -23,7 +23,7 @@ Eigen::Matrix3d CovarianceOf(const landmark_fix_t& m) {
   const bool credible = is_sigma(m.sigma_x_m) && is_sigma(m.sigma_y_m) && is_sigma(m.sigma_yaw_rad) &&
                         is_rho(m.rho_x_y) && is_rho(m.rho_x_yaw) && is_rho(m.rho_y_yaw);
   if (!credible) return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  return ToCovariance({m.sigma_x_m, m.sigma_y_m, m.sigma_yaw_rad, m.rho_x_y, m.rho_x_yaw, m.rho_y_yaw});
+  return CovarianceIn(m);
 }
 
 /// Whether a segment is within the bounds of obstacle_segment_t.lcm; written so that NaN is refused.

@@ -6,17 +6,14 @@
 #include <deque>
 
 #include "bus/radio/frame/kiss.hpp"
+#include "test/support/radio/bytes.hpp"
 
 namespace priamos::radio {
 namespace {
 
-using testing::IsEmpty;
+using support::Bytes;
 
-std::vector<std::byte> B(std::initializer_list<int> values) {
-  std::vector<std::byte> bytes;
-  for (const int v : values) bytes.push_back(static_cast<std::byte>(v));
-  return bytes;
-}
+using testing::IsEmpty;
 
 /// What the test and the port have written to each other.
 struct Wire {
@@ -58,33 +55,33 @@ struct KissPort : testing::Test {
 };
 
 TEST_F(KissPort, AFrameIsAPacketWithoutItsDelimiter) {
-  EXPECT_EQ(dut->Write(B({1, 0xC0, 2}), now), 3U);
+  EXPECT_EQ(dut->Write(Bytes({1, 0xC0, 2}), now), 3U);
   EXPECT_THAT(wire.from_port, IsEmpty()) << "not whole yet";
-  dut->Write(B({3, 0}), now);
-  EXPECT_EQ(wire.from_port, bus::radio::EncodeKiss(B({1, 0xC0, 2, 3})));
+  dut->Write(Bytes({3, 0}), now);
+  EXPECT_EQ(wire.from_port, bus::radio::EncodeKiss(Bytes({1, 0xC0, 2, 3})));
   wire.from_port.clear();
-  dut->Write(B({0}), now);
+  dut->Write(Bytes({0}), now);
   EXPECT_THAT(wire.from_port, IsEmpty()) << "a lone delimiter is nothing";
 }
 
 TEST_F(KissPort, WhatTheSerialPortDoesNotTakeFollowsAndAPacketBehindItIsLost) {
   wire.takes = 3;
-  dut->Write(B({1, 2, 3, 0}), now);
-  dut->Write(B({9, 0}), now);
+  dut->Write(Bytes({1, 2, 3, 0}), now);
+  dut->Write(Bytes({9, 0}), now);
   for (int i = 0; i < 5; ++i) Read();
-  EXPECT_EQ(wire.from_port, bus::radio::EncodeKiss(B({1, 2, 3})));
+  EXPECT_EQ(wire.from_port, bus::radio::EncodeKiss(Bytes({1, 2, 3})));
 }
 
 TEST_F(KissPort, PacketsComeWithTheTimesOfTheirFirstAndLastByte) {
-  auto packet = bus::radio::EncodeKiss(B({4, 5}));
+  auto packet = bus::radio::EncodeKiss(Bytes({4, 5}));
   packet.erase(packet.begin(), packet.begin() + 2);  // its second half comes later
-  Feed(B({0xC0, 0}));
+  Feed(Bytes({0xC0, 0}));
   EXPECT_THAT(Read(), IsEmpty());
   now += Duration(700);
   Feed(packet);
   const auto frames = Read();
   ASSERT_EQ(frames.size(), 1U);
-  EXPECT_EQ(frames[0].bytes, B({4, 5}));
+  EXPECT_EQ(frames[0].bytes, Bytes({4, 5}));
   EXPECT_EQ(frames[0].first_byte, now - Duration(700));
   EXPECT_EQ(frames[0].arrived, now);
   EXPECT_FALSE(frames[0].stranger);

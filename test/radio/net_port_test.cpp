@@ -9,9 +9,12 @@
 
 #include "bus/clock.hpp"
 #include "common/config.hpp"
+#include "test/support/radio/bytes.hpp"
 
 namespace priamos::radio {
 namespace {
+
+using support::Bytes;
 
 using testing::HasSubstr;
 
@@ -22,12 +25,6 @@ int Port(int which) {
 
 Time Now() {
   return bus::MonotonicClock().Now();
-}
-
-std::vector<std::byte> Bytes(std::initializer_list<int> values) {
-  std::vector<std::byte> bytes;
-  for (const int v : values) bytes.push_back(static_cast<std::byte>(v));
-  return bytes;
 }
 
 /// Frames that arrive within two seconds, at least `n` if they come.

@@ -15,8 +15,8 @@
 #include "common/random.hpp"
 #include "common/serial_port.hpp"
 #include "teleop/emulated_mouse.hpp"
-#include "test/support/drive_freshness.hpp"
-#include "test/support/saturated_link.hpp"
+#include "test/support/radio/drive_freshness.hpp"
+#include "test/support/radio/saturated_link.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos {

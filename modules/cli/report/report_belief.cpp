@@ -22,22 +22,13 @@ const pose_t* NearestPose(const RunRecord& record, std::int64_t utime) {
   return nearest != record.poses.end() && distance(*nearest) <= kNear_us ? &*nearest : nullptr;
 }
 
-Eigen::Matrix3d CovarianceOf(const pose_t& pose) {
-  return ToCovariance({.sigma_x = pose.sigma_x_m,
-                       .sigma_y = pose.sigma_y_m,
-                       .sigma_yaw = pose.sigma_yaw_rad,
-                       .rho_x_y = pose.rho_x_y,
-                       .rho_x_yaw = pose.rho_x_yaw,
-                       .rho_y_yaw = pose.rho_y_yaw});
-}
-
 }  // namespace
 
 std::optional<BeliefAtDoor> BeliefAt(const RunRecord& record, const DoorPlan& door, std::int64_t utime) {
   const pose_t* pose = NearestPose(record, utime);
   const auto truth = pose ? TruthAt(record, pose->utime) : std::nullopt;
   if (!truth) return std::nullopt;
-  const Eigen::Matrix3d covariance = CovarianceOf(*pose);
+  const Eigen::Matrix3d covariance = CovarianceIn(*pose);
   const Eigen::LLT<Eigen::Matrix3d> root(covariance);
   if (root.info() != Eigen::Success) return std::nullopt;
   const Eigen::Vector3d error(pose->x_m - truth->x, pose->y_m - truth->y,

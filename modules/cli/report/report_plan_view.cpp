@@ -47,9 +47,7 @@ Vector2d PositionOf(const world_truth_t& truth) {
 }
 
 Eigen::Matrix2d CovarianceOf(const pose_t& pose) {
-  return ToCovariance({pose.sigma_x_m, pose.sigma_y_m, pose.sigma_yaw_rad, pose.rho_x_y, pose.rho_x_yaw,
-                       pose.rho_y_yaw})
-      .topLeftCorner<2, 2>();
+  return CovarianceIn(pose).topLeftCorner<2, 2>();
 }
 
 Extent ExtentOf(const GroundPlan& plan) {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "common/config.hpp"
-#include "test/support/saturated_link.hpp"
+#include "test/support/radio/saturated_link.hpp"
 
 namespace priamos::bench {
 namespace {

@@ -20,7 +20,7 @@
 #include "common/random.hpp"
 #include "lcmtypes/channels.hpp"
 #include "teleop/emulated_mouse.hpp"
-#include "test/support/drive_freshness.hpp"
+#include "test/support/radio/drive_freshness.hpp"
 
 namespace priamos::bench {
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "bus/radio/budget.hpp"
+#include "bus/radio/line/packet_air.hpp"
 #include "link_pair.hpp"
 
 namespace priamos::bus::radio {
@@ -47,12 +48,18 @@ std::vector<LinkChannel> ChannelsFor(double unit_s, Duration ttl) {
   return channels;
 }
 
-/// Two ends and the air between them: a packet arrives whole when it has ended, one that its receiver talks
-/// into is lost.
+/// Two ends and the air between them.
 class PacketWorld {
  public:
   PacketWorld(const Radio& radio, double loss, std::uint64_t seed)
-      : radio_(radio), loss_(loss), rng_(Rng::Stream(seed, "packets")) {
+      : radio_(radio),
+        rng_(Rng::Stream(seed, "packets")),
+        air_({.bytes_per_s = radio.options.bytes_per_s,
+              .overhead_s = Seconds(radio.options.packet_overhead),
+              .latency_s = kLatency_s,
+              .loss = loss,
+              .half_duplex = radio.options.half_duplex.turn > Duration::zero()},
+             Rng::Stream(seed, "air"), kStart) {
     channels_ = ChannelsFor(radio.unit_s, radio.ttl);
     for (End& end : ends_)
       end.link = std::make_unique<LinkEndpoint>(
@@ -66,11 +73,12 @@ class PacketWorld {
   void Run(double seconds, bool offer) {
     for (const Time end = now_ + FromSeconds(seconds); now_ < end; now_ += kTick) {
       if (offer) Offer();
-      for (End& from : ends_) Send(from, &from == &ends_[0] ? ends_[1] : ends_[0]);
-      for (End& to : ends_) Receive(to);
+      for (std::size_t side = 0; side < 2; ++side) Send(side);
+      for (std::size_t side = 0; side < 2; ++side) Receive(side);
     }
   }
   const std::vector<LinkChannel>& channels() const { return channels_; }
+  std::size_t collisions() const { return air_.collisions(); }
 
   /// Largest share of a window of this length that one end was on the air.
   double LargestShare(Duration window) const {
@@ -89,21 +97,13 @@ class PacketWorld {
 
   std::map<std::size_t, Duration> worst;
   std::map<std::size_t, std::size_t> offered, received;
-  std::size_t longest_packet = 0, collisions = 0, overlaps = 0;
+  std::size_t longest_packet = 0, overlaps = 0;
 
  private:
-  struct Packet {
-    Time from, to;
-    std::vector<std::byte> bytes;
-    bool lost;
-  };
   struct End {
     Direction outgoing;
     MemoryStore store{};
     std::unique_ptr<LinkEndpoint> link{};
-    std::vector<Packet> arriving{};
-    Time free = kStart;
-    Time talks_from = kStart;
     std::vector<std::pair<Time, Time>> on_air{};  ///< its packets
   };
 
@@ -125,41 +125,27 @@ class PacketWorld {
     }
   }
 
-  void Send(End& from, End& to) {
-    const std::vector<std::byte> out = from.link->Step(now_);
-    if (out.empty()) return;
+  void Send(std::size_t side) {
     std::vector<std::byte> frame;
-    for (const std::byte b : out) {
+    for (const std::byte b : ends_[side].link->Step(now_)) {
       frame.push_back(b);
-      if (b == kDelimiter) Transmit(from, to, std::exchange(frame, {}));
+      if (b == kDelimiter) Transmit(side, std::exchange(frame, {}));
     }
     ASSERT_TRUE(frame.empty()) << "a frame was left half sent";
   }
 
-  void Transmit(End& from, End& to, std::vector<std::byte> frame) {
+  void Transmit(std::size_t side, std::vector<std::byte> frame) {
     longest_packet = std::max(longest_packet, frame.size());
-    const double air_s = static_cast<double>(frame.size()) / radio_.options.bytes_per_s;
-    const Time begin = std::max(from.free, now_);
-    overlaps += from.free > now_ + Duration(4000) + FromSeconds(4 / radio_.options.bytes_per_s);
-    from.free = begin + radio_.options.packet_overhead + FromSeconds(air_s);
-    from.on_air.push_back({begin, from.free});
-    from.talks_from = begin;
-    bool lost = rng_.Uniform(0, 1) < loss_;
-    if (radio_.options.half_duplex.turn > Duration::zero() && to.free > begin) {
-      ++collisions;
-      lost = true;
-      for (Packet& p : from.arriving) p.lost = p.lost || p.to > begin;
-    }
-    to.arriving.push_back({begin, from.free, std::move(frame), lost});
+    const Time free = air_.free_at(side);
+    overlaps += free > now_ + Duration(4000) + FromSeconds(4 / radio_.options.bytes_per_s);
+    air_.Send(side, std::move(frame), now_);
+    ends_[side].on_air.push_back({std::max(free, now_), air_.free_at(side)});
   }
 
-  void Receive(End& to) {
-    while (!to.arriving.empty() && to.arriving.front().to + FromSeconds(kLatency_s) <= now_) {
-      const Packet packet = to.arriving.front();
-      to.arriving.erase(to.arriving.begin());
-      if (packet.lost) continue;
-      const auto content = std::span(packet.bytes).first(packet.bytes.size() - 1);
-      for (const Delivery& d : to.link->ReceiveFrame(content, now_, now_, false).deliveries) Note(d);
+  void Receive(std::size_t side) {
+    for (const std::vector<std::byte>& packet : air_.Receive(side, now_)) {
+      const auto content = std::span(packet).first(packet.size() - 1);
+      for (const Delivery& d : ends_[side].link->ReceiveFrame(content, now_, now_, false).deliveries) Note(d);
     }
   }
 
@@ -187,8 +173,8 @@ class PacketWorld {
   }
 
   Radio radio_;
-  double loss_;
   Rng rng_;
+  PacketAir air_;
   Time now_ = kStart;
   std::vector<LinkChannel> channels_;
   End ends_[2] = {{.outgoing = Direction::kUp}, {.outgoing = Direction::kDown}};
@@ -220,7 +206,7 @@ class PacketRadio : public testing::TestWithParam<Radio> {};
 TEST_P(PacketRadio, NoMessageIsLaterThanItsBound) {
   PacketWorld dut(GetParam(), 0, 7);
   dut.Run(20, false);
-  dut.collisions = 0;
+  const std::size_t collisions = dut.collisions();
   dut.Run(GetParam().hours * 3600, true);
   dut.Run(60, false);
   const Budget budget = ComputeBudget(ChannelTable(dut.channels(), false), GetParam().options);
@@ -236,7 +222,7 @@ TEST_P(PacketRadio, NoMessageIsLaterThanItsBound) {
     }
   }
   EXPECT_EQ(dut.overlaps, 0U);
-  EXPECT_EQ(dut.collisions, 0U);
+  EXPECT_EQ(dut.collisions(), collisions);
   if (GetParam().options.duty.limited()) {
     EXPECT_LE(dut.LargestShare(FromSeconds(600)), 0.1);
   }

@@ -6,19 +6,17 @@
 #include <algorithm>
 #include <vector>
 
+#include "test/support/radio/bytes.hpp"
+
 namespace priamos::bus::radio {
 namespace {
 
-std::vector<std::byte> B(std::initializer_list<int> values) {
-  std::vector<std::byte> bytes;
-  for (const int v : values) bytes.push_back(static_cast<std::byte>(v));
-  return bytes;
-}
+using support::Bytes;
 
 TEST(Cobs, ExamplesOfThePublication) {
-  EXPECT_EQ(CobsEncode(B({})), B({1}));
-  EXPECT_EQ(CobsEncode(B({0})), B({1, 1}));
-  EXPECT_EQ(CobsEncode(B({0x11, 0x22, 0, 0x33})), B({3, 0x11, 0x22, 2, 0x33}));
+  EXPECT_EQ(CobsEncode(Bytes({})), Bytes({1}));
+  EXPECT_EQ(CobsEncode(Bytes({0})), Bytes({1, 1}));
+  EXPECT_EQ(CobsEncode(Bytes({0x11, 0x22, 0, 0x33})), Bytes({3, 0x11, 0x22, 2, 0x33}));
 }
 
 TEST(Cobs, OneByteOfOverheadUpTo254) {
@@ -35,12 +33,12 @@ RC_GTEST_PROP(Cobs, RoundTripWithoutZeros, (const std::vector<std::uint8_t>& val
 }
 
 TEST(Cobs, CutShortIsRefused) {
-  const auto encoded = CobsEncode(B({1, 2, 3, 4}));
+  const auto encoded = CobsEncode(Bytes({1, 2, 3, 4}));
   for (std::size_t n = 1; n < encoded.size(); ++n) EXPECT_FALSE(CobsDecode(std::span(encoded).first(n))) << n;
 }
 
 TEST(Cobs, AZeroInsideIsRefused) {
-  EXPECT_FALSE(CobsDecode(B({3, 1, 0})));
+  EXPECT_FALSE(CobsDecode(Bytes({3, 1, 0})));
 }
 
 TEST(FrameSplitter, ResynchronisesAtTheNextDelimiter) {
@@ -49,7 +47,7 @@ TEST(FrameSplitter, ResynchronisesAtTheNextDelimiter) {
   EXPECT_EQ(dut.Push(std::byte{0}), FrameSplitter::Event::kFrame);
   EXPECT_EQ(dut.Push(std::byte{5}), FrameSplitter::Event::kNone);
   EXPECT_EQ(dut.Push(std::byte{0}), FrameSplitter::Event::kFrame);
-  EXPECT_EQ(std::vector(dut.frame().begin(), dut.frame().end()), B({5}));
+  EXPECT_EQ(std::vector(dut.frame().begin(), dut.frame().end()), Bytes({5}));
 }
 
 TEST(FrameSplitter, OversizeIsThrownAwayWhole) {
