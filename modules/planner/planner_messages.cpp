@@ -128,11 +128,16 @@ path_t ToMessage(const PathOrder& path, Time now) {
   message.estop_changes = static_cast<std::int16_t>(path.estop_changes);
   message.speed_m_s = path.speed_m_s;
   message.n_points = static_cast<std::int8_t>(path.points.size());
-  for (const Pose2& point : path.points) {
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const Pose2& point = path.points[i];
     path_point_t corner{};
     corner.x_m = point.x;
     corner.y_m = point.y;
     corner.yaw_rad = point.yaw;
+    if (i < path.leeway.size()) {
+      corner.left_m = path.leeway[i].left_m;
+      corner.right_m = path.leeway[i].right_m;
+    }
     message.points.push_back(corner);
   }
   return message;

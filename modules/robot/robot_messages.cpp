@@ -17,6 +17,11 @@ bool IsOnMap(const path_point_t& point) {
   return std::abs(point.x_m) <= kMapReach && std::abs(point.y_m) <= kMapReach && std::isfinite(point.yaw_rad);
 }
 
+/// Within the bounds of path_point_t.lcm; written so that NaN is refused.
+bool IsLeeway(double metres) {
+  return metres >= 0 && metres <= 3.1;
+}
+
 Eigen::Matrix3d CovarianceOf(const landmark_fix_t& m) {
   const auto is_sigma = [](double s) { return s >= 0 && std::isfinite(s); };
   const auto is_rho = [](double r) { return std::abs(r) <= 1; };
@@ -63,10 +68,12 @@ std::optional<Path> FromMessage(const path_t& message) {
   Path path{.id = message.path_id,
             .speed_m_s = message.speed_m_s,
             .points = {},
+            .leeway = {},
             .estop_changes = message.estop_changes};
   for (const path_point_t& point : message.points) {
-    if (!IsOnMap(point)) return std::nullopt;
+    if (!IsOnMap(point) || !IsLeeway(point.left_m) || !IsLeeway(point.right_m)) return std::nullopt;
     path.points.push_back({point.x_m, point.y_m, WrapAngle(point.yaw_rad)});
+    path.leeway.push_back({point.left_m, point.right_m});
   }
   return path;
 }

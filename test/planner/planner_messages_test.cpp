@@ -116,8 +116,11 @@ TEST(PlannerMessages, LandmarkSurvivesTheWire) {
 }
 
 TEST(PlannerMessages, PathSurvivesTheWire) {
-  const PathOrder path{
-      .path_id = 7, .speed_m_s = 0.3, .points = {{1, 2, 0.1}, {3, 4, -0.2}}, .estop_changes = 201};
+  const PathOrder path{.path_id = 7,
+                       .speed_m_s = 0.3,
+                       .points = {{1, 2, 0.1}, {3, 4, -0.2}},
+                       .leeway = {{1.5, 0.3}},
+                       .estop_changes = 201};
   const auto message = bus::Decode<path_t>(bus::Encode(ToMessage(path, kNow)));
   EXPECT_EQ(message.utime, ToUtime(kNow));
   EXPECT_EQ(message.path_id, 7);
@@ -127,6 +130,9 @@ TEST(PlannerMessages, PathSurvivesTheWire) {
   EXPECT_EQ(message.points[1].x_m, 3);
   EXPECT_EQ(message.points[1].y_m, 4);
   EXPECT_EQ(message.points[1].yaw_rad, -0.2);
+  EXPECT_EQ(message.points[0].left_m, 1.5);
+  EXPECT_EQ(message.points[0].right_m, 0.3);
+  EXPECT_EQ(message.points[1].left_m, 0);
 }
 
 TEST(PlannerMessages, WhatDoesNotFitIsRefused) {

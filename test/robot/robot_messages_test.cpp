@@ -81,6 +81,18 @@ TEST(PathMessages, PointsAndSpeedAreKept) {
   EXPECT_EQ(dut->points[1].yaw, 0.5);
 }
 
+TEST(PathMessages, LeewayBelongsToTheLineToItsPoint) {
+  path_t message = SomePath();
+  message.points[0].left_m = 1.2;
+  message.points[1].right_m = 0.4;
+  const auto dut = FromMessage(message);
+  ASSERT_TRUE(dut);
+  ASSERT_EQ(dut->leeway.size(), 2u);
+  EXPECT_EQ(dut->leeway[0].left_m, 1.2);
+  EXPECT_EQ(dut->leeway[0].right_m, 0);
+  EXPECT_EQ(dut->leeway[1].right_m, 0.4);
+}
+
 TEST(PathMessages, NoPointsIsAnOrderToHoldWhateverTheSpeed) {
   path_t message{};
   message.path_id = 8;
@@ -91,11 +103,15 @@ TEST(PathMessages, NoPointsIsAnOrderToHoldWhateverTheSpeed) {
 
 TEST(PathMessages, WhatCannotBeDrivenIsRefused) {
   path_t slow = SomePath(), infinite = SomePath(), outside = SomePath(), odd = SomePath();
+  path_t vague = SomePath(), inside_out = SomePath();
   slow.speed_m_s = 0;
   infinite.points[0].x_m = kNaN;
   outside.points[1].y_m = 1e6;
   odd.speed_m_s = kNaN;
-  for (const path_t& message : {slow, infinite, outside, odd}) EXPECT_FALSE(FromMessage(message));
+  vague.points[0].left_m = kNaN;
+  inside_out.points[1].right_m = -1;
+  for (const path_t& message : {slow, infinite, outside, odd, vague, inside_out})
+    EXPECT_FALSE(FromMessage(message));
 }
 
 TEST(FixMessages, FoundGivesSightModelAndCovariance) {

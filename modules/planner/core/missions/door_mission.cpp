@@ -83,6 +83,7 @@ DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfi
 std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
   door_ = plan_.FindDoor(order.landmark_id);
   judge_ = false;
+  at_hold_ = false;
   arrived_.reset();
   blocked_ = 0;
   looks_.Reset();
@@ -144,7 +145,7 @@ void DoorMission::Wait(MissionControl& control) {
   control.SendModel(MakeDoorLandmark(*door_));
   const double distance_m = DistanceToDoor(control);
   const double speed_m_s = ApproachSpeed(distance_m);
-  control.OrderPath(path->points, speed_m_s);
+  control.OrderPath(*path, speed_m_s);
   entered_ = control.now();
   control.Enter(Phase::kApproaching, fmt::format("approaching door '{}', {:.1f} m away, at {:.2f} m/s",
                                                  door_->name, distance_m, speed_m_s));
@@ -178,7 +179,15 @@ bool DoorMission::SettleLook(MissionControl& control) {
   return result->ok;
 }
 
+/// Looks that failed on the way say little about those from the hold point.
+void DoorMission::NoteArrivalAtHold(const MissionControl& control) {
+  const bool arrived = control.OnPath() && control.heard().drive->mode == DriveMode::kArrived;
+  if (arrived && !at_hold_) looks_.ForgetFailures();
+  at_hold_ = arrived;
+}
+
 void DoorMission::LookAtDoor(MissionControl& control) {
+  NoteArrivalAtHold(control);
   const int failures = looks_.failures();
   if (SettleLook(control)) judge_ = looks_.Enough();
   if (looks_.failures() > failures) control.Enter(control.state().phase, looks_.trouble());
@@ -189,7 +198,7 @@ void DoorMission::LookAtDoor(MissionControl& control) {
   const Phase phase = control.state().phase;
   const bool looking = phase == Phase::kLookingLeft || phase == Phase::kLookingRight;
   if (!looking || !looks_.Ready(control.now())) return;
-  if (!looks_.Exhausted()) return LookFromHere(control);
+  if (!LooksUsedUp()) return LookFromHere(control);
   if (!judge_)
     control.Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()));
 }
@@ -202,12 +211,12 @@ void DoorMission::EvaluatePose(MissionControl& control) {
       fmt::format("2 sigma at the door {:.3f} m and {:.1f} degrees", 2 * uncertainty.lateral_sigma_m,
                   Degrees(2 * uncertainty.heading_sigma_rad));
   if (gap_m < 0) {
-    if (looks_.Exhausted()) control.Fail("the pose is too uncertain for the gap: " + figures);
+    if (LooksUsedUp()) control.Fail("the pose is too uncertain for the gap: " + figures);
     return;
   }
   const auto path = planner_.PlanPassage(*door_, PredictedPose(control));
   if (!path) return control.Fail(path.reason());
-  control.OrderPath(path->points, config_.speed_m_s);
+  control.OrderPath(*path, config_.speed_m_s);
   control.Enter(Phase::kPassing, "passing the door: " + figures);
 }
 
@@ -229,6 +238,9 @@ void DoorMission::Pass(MissionControl& control) {
 /// A robot that stands in the door goes back first, so that the doorway is free.
 void DoorMission::OnStop(MissionControl& control, const Stop& stop) {
   const Phase phase = control.state().phase;
+  const bool doorway_is_free = DistanceToDoor(control) > footprint_.length_m / 2 - door_->FrontX();
+  if (phase == Phase::kRetreating && stop.cause == Stop::Cause::kBlocked && doorway_is_free)
+    return TryAgain(control);
   if (phase == Phase::kRetreating)
     return control.Fail(fmt::format("{}, and on its way back {}", stopped_by_, Advised(stop.reason)));
   if (phase != Phase::kPassing) return control.Fail(Advised(stop.reason));
@@ -237,7 +249,7 @@ void DoorMission::OnStop(MissionControl& control, const Stop& stop) {
   if (-DistanceToDoor(control) <= planner_.HoldX(*door_)) return TryAgain(control);
   const auto path = planner_.PlanRetreat(*door_, control.heard().pose->map_from_base);
   if (!path) return control.Fail(Advised(stop.reason));
-  control.OrderPath(path->points, config_.slowest_m_s);
+  control.OrderPath(*path, config_.slowest_m_s);
   control.Enter(Phase::kRetreating, stop.reason + ": back to the place before the door");
 }
 

@@ -20,7 +20,7 @@ struct DoorMissionConfig {
   double look_from_m = 3.4;      ///< distance to the door from which on the head may look
   double look_to_m = 2.0;        ///< distance at which both sides should have been seen ...
   double looks_take_s = 3.5;     ///< ... and how long that takes, starting and radio included
-  double confirm_to_m = 1.6;     ///< looks go on to here while passing; nearer, the jambs leave the picture
+  double confirm_to_m = 1.3;     ///< looks go on to here while passing; nearer, the jambs leave the picture
   double tracking_m = 0.01;      ///< largest deviation of the path following in the door
   double command_delay_s = 0.2;  ///< from a decision here to the wheels there
   double evidence_s = 4;         ///< how long the sonars' report of the opening may be on its way
@@ -70,6 +70,9 @@ class DoorMission : public Mission {
   bool DoorWasNoticed(const MissionControl& control) const;
   /// Takes the outcome of a look; true when it succeeded.
   bool SettleLook(MissionControl& control);
+  void NoteArrivalAtHold(const MissionControl& control);
+  /// Whether looking is given up: not while the base drives, for it sees from elsewhere soon.
+  bool LooksUsedUp() const { return at_hold_ && looks_.Exhausted(); }
   void AskLook(MissionControl& control);
   void LookFromHere(MissionControl& control);
   Pose2 PredictedPose(const MissionControl& control) const;
@@ -90,6 +93,7 @@ class DoorMission : public Mission {
   int blocked_ = 0;              ///< how often it was blocked in the door
   std::string stopped_by_;       ///< why it was stopped in the door
   bool give_up_ = false;         ///< it does not try again
+  bool at_hold_ = false;         ///< it waits at the hold point: a look from there is not like those before
   bool judge_ = false;           ///< enough looks have succeeded: the next pose is to be judged
 };
 

@@ -43,6 +43,8 @@ class LookSequence {
   /// Whether too many looks failed, or too many succeeded without being good enough.
   bool Exhausted() const { return failures_ >= config_.failures || good_[0] + good_[1] >= config_.looks; }
   int failures() const { return failures_; }
+  /// Counts anew: what was tried so far says nothing about the next looks.
+  void ForgetFailures() { failures_ = 0; }
   /// Side and reason of the last failure, in words.
   const std::string& trouble() const { return trouble_; }
 

@@ -41,8 +41,11 @@ void MissionControl::Fail(std::string reason) {
   OrderPath({}, 0);
 }
 
-void MissionControl::OrderPath(std::vector<Pose2> points, double speed_m_s) {
-  path_ = {.path_id = NextNumber(), .speed_m_s = speed_m_s, .points = std::move(points)};
+void MissionControl::OrderPath(PlannedPath path, double speed_m_s) {
+  path_ = {.path_id = NextNumber(),
+           .speed_m_s = speed_m_s,
+           .points = std::move(path.points),
+           .leeway = std::move(path.leeway)};
   SendPath();
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/time.hpp"
 #include "planner/core/missions/mission_types.hpp"
+#include "planner/core/path/planned_path.hpp"
 
 namespace priamos::planner {
 
@@ -38,7 +39,7 @@ class MissionControl {
   bool running() const { return running_ && state_.phase != Phase::kDone && state_.phase != Phase::kFailed; }
 
   /// Orders a path at `speed_m_s`; it is sent again until the robot confirms it.
-  void OrderPath(std::vector<Pose2> points, double speed_m_s);
+  void OrderPath(PlannedPath path, double speed_m_s);
   /// The path ordered last, and when it was sent last (none: not in this mission).
   const PathOrder& path() const { return path_; }
   const std::optional<Time>& path_sent() const { return path_sent_; }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/geometry.hpp"
+#include "common/robot/leeway.hpp"
 #include "common/time.hpp"
 #include "planner/core/map/door_landmark.hpp"
 
@@ -69,8 +70,9 @@ struct LookResult {
 struct PathOrder {
   int path_id = 0;
   double speed_m_s = 0;
-  std::vector<Pose2> points;  ///< none: brake and hold
-  int estop_changes = 0;      ///< DriveReport::estop_changes when the mission was ordered
+  std::vector<Pose2> points;     ///< none: brake and hold
+  std::vector<Leeway> leeway{};  ///< of the line to each point; missing ones are 0
+  int estop_changes = 0;         ///< DriveReport::estop_changes when the mission was ordered
 };
 
 /// A look that the head is to take.

@@ -15,6 +15,8 @@ constexpr double kStep_rad = Radians(0.5);
 constexpr double kSteepestRunIn = 0.7;
 /// A place on the axis this near to the start is where the start is.
 constexpr double kHere_m = 0.2;
+/// Leeway is looked for in such steps up to this; checked by coarser sweeps, for it is wide.
+constexpr double kLeewayStep_m = 0.1, kMostLeeway_m = 2.0, kCoarse = 10;
 
 Pose2 Between(const Pose2& from, const Pose2& to, double part) {
   return {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
@@ -46,11 +48,11 @@ double DoorPlanner::PastX(const DoorPlan& door) const {
   return door.BackX() + footprint_.length_m / 2;
 }
 
-DoorPlanner::Sweep DoorPlanner::SweepAlong(const Pose2& from, const Pose2& to) const {
+DoorPlanner::Sweep DoorPlanner::SweepAlong(const Pose2& from, const Pose2& to, double coarser) const {
   const double length_m = (to.translation() - from.translation()).norm();
   const double turn_rad = std::abs(WrapAngle(to.yaw - from.yaw));
   const int steps =
-      std::max(1, static_cast<int>(std::ceil(std::max(length_m / kStep_m, turn_rad / kStep_rad))));
+      std::max(1, static_cast<int>(std::ceil(std::max(length_m / kStep_m, turn_rad / kStep_rad) / coarser)));
   Sweep sweep{std::numeric_limits<double>::infinity(), ""};
   for (int i = 0; i <= steps; ++i) {
     const auto nearest = obstacles_.NearestTo(footprint_.At(Between(from, to, double(i) / steps)));
@@ -59,10 +61,28 @@ DoorPlanner::Sweep DoorPlanner::SweepAlong(const Pose2& from, const Pose2& to) c
   return sweep;
 }
 
-Outcome<DoorPath> DoorPlanner::CheckPath(const Pose2& start, std::vector<Pose2> points,
-                                         std::size_t n_tight) const {
+/// How far the base may be moved to a side (1: left, -1: right) on its whole line, walls kept off by the
+/// margin.
+double DoorPlanner::FreeBeside(const Pose2& from, const Pose2& to, double side, double margin_m) const {
+  const Eigen::Vector2d line = to.translation() - from.translation();
+  if (line.norm() < kHere_m) return 0;
+  const Eigen::Vector2d across = Eigen::Vector2d(-line.y(), line.x()) * (side / line.norm());
+  const auto moved = [&](const Pose2& pose, double by_m) {
+    return Pose2{pose.x + across.x() * by_m, pose.y + across.y() * by_m, pose.yaw};
+  };
+  int steps = 0;
+  while ((steps + 1) * kLeewayStep_m <= kMostLeeway_m) {
+    const double by_m = (steps + 1) * kLeewayStep_m;
+    if (SweepAlong(moved(from, by_m), moved(to, by_m), kCoarse).min_gap_m < margin_m) break;
+    ++steps;
+  }
+  return steps * kLeewayStep_m;
+}
+
+Outcome<PlannedPath> DoorPlanner::CheckPath(const Pose2& start, std::vector<Pose2> points,
+                                            std::size_t n_tight) const {
   const double start_gap_m = obstacles_.NearestTo(footprint_.At(start)).distance_m;
-  DoorPath path{{}, start_gap_m};
+  PlannedPath path{.points = {}, .min_gap_m = start_gap_m};
   Pose2 from = start;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool tight = i + n_tight >= points.size();
@@ -74,6 +94,9 @@ Outcome<DoorPath> DoorPlanner::CheckPath(const Pose2& start, std::vector<Pose2> 
       return Refusal{fmt::format("the path to the door comes within {:.2f} m of {}, it needs {:.2f} m",
                                  sweep.min_gap_m, sweep.obstacle, margin_m)};
     path.min_gap_m = std::min(path.min_gap_m, sweep.min_gap_m);
+    path.leeway.push_back(tight ? Leeway{}
+                                : Leeway{FreeBeside(from, points[i], 1, config_.wall_margin_m),
+                                         FreeBeside(from, points[i], -1, config_.wall_margin_m)});
     from = points[i];
   }
   path.points = std::move(points);
@@ -94,6 +117,7 @@ std::vector<std::vector<Pose2>> DoorPlanner::PassageCandidates(const DoorPlan& d
     const double run_in_m = x - start.x;
     if (run_in_m >= kHere_m && std::abs(start.y) <= kSteepestRunIn * run_in_m) add({{x, 0, 0}});
   }
+  if (-config_.align_least_m - start.x >= kHere_m) add({{-config_.align_least_m, 0, 0}});
   add({{std::min(start.x, -config_.align_least_m), 0, 0}});
   for (const double x : {-config_.align_m, -config_.align_m - 0.5}) {
     add({{x, 0, 0}});
@@ -122,28 +146,28 @@ std::optional<Refusal> DoorPlanner::CheckStart(const DoorPlan& door, const Pose2
   return std::nullopt;
 }
 
-Outcome<DoorPath> DoorPlanner::PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const {
+Outcome<PlannedPath> DoorPlanner::PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const {
   if (const auto refusal = CheckDoor(door)) return *refusal;
   if (const auto refusal = CheckStart(door, map_from_start)) return *refusal;
   std::optional<Refusal> first_refusal;
   for (auto& candidate : PassageCandidates(door, door.map_from_door().Inverse() * map_from_start)) {
-    Outcome<DoorPath> path = CheckPath(map_from_start, std::move(candidate), 1);
+    Outcome<PlannedPath> path = CheckPath(map_from_start, std::move(candidate), 1);
     if (path) return path;
     if (!first_refusal) first_refusal = Refusal{path.reason()};
   }
   return *first_refusal;
 }
 
-Outcome<DoorPath> DoorPlanner::PlanRetreat(const DoorPlan& door, const Pose2& map_from_start) const {
+Outcome<PlannedPath> DoorPlanner::PlanRetreat(const DoorPlan& door, const Pose2& map_from_start) const {
   const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
   if (door_from_start.x >= PastX(door))
     return Refusal{fmt::format("the robot is behind door '{}', not in it", door.name)};
   const double hold_x = std::min(HoldX(door), door_from_start.x);
   // Wherever it may touch, it has come from the hold point: there is no better way.
-  return DoorPath{{door.map_from_door() * Pose2{hold_x, 0, 0}}, 0};
+  return PlannedPath{.points = {door.map_from_door() * Pose2{hold_x, 0, 0}}};
 }
 
-Outcome<DoorPath> DoorPlanner::PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const {
+Outcome<PlannedPath> DoorPlanner::PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const {
   if (const auto refusal = CheckStart(door, map_from_start)) return *refusal;
   const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
   const double hold_x = HoldX(door), approach_x = std::min(-config_.approach_m, hold_x);

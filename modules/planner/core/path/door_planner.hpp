@@ -10,6 +10,7 @@
 #include "common/outcome.hpp"
 #include "planner/core/map/obstacle_map.hpp"
 #include "planner/core/path/footprint.hpp"
+#include "planner/core/path/planned_path.hpp"
 
 namespace priamos::planner {
 
@@ -28,12 +29,6 @@ struct DoorPlannerConfig {
   void Describe(Archive& a);
 };
 
-/// A path in the map frame, the start left out.
-struct DoorPath {
-  std::vector<Pose2> points;
-  double min_gap_m = 0;  ///< smallest planned distance to an obstacle, start to end
-};
-
 /// Plans paths for a holonomic rectangular base: straight lines along which the heading turns evenly, every
 /// one checked by sweeping the true footprint along it. A circle around the 78 cm wide footprint would not
 /// fit a 90 cm door.
@@ -46,15 +41,15 @@ class DoorPlanner {
 
   /// Path from `map_from_start` through the door. Tried in this order: straight to a place on the axis before
   /// the door (the farther from it the better), a side-step, backing off first.
-  Outcome<DoorPath> PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const;
+  Outcome<PlannedPath> PlanPassage(const DoorPlan& door, const Pose2& map_from_start) const;
 
   /// Path from `map_from_start` to the place before the door where the robot may wait while it does not know
   /// its pose well: over the axis at approach_m if that is ahead, and to the hold point.
-  Outcome<DoorPath> PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const;
+  Outcome<PlannedPath> PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const;
 
   /// Path from `map_from_start`, between the hold point and the plane behind the door, straight back to the
   /// hold point: over what the robot has just left free.
-  Outcome<DoorPath> PlanRetreat(const DoorPlan& door, const Pose2& map_from_start) const;
+  Outcome<PlannedPath> PlanRetreat(const DoorPlan& door, const Pose2& map_from_start) const;
 
   /// Coordinate x of the hold point in the door's frame [m], negative.
   double HoldX(const DoorPlan& door) const;
@@ -69,9 +64,10 @@ class DoorPlanner {
     double min_gap_m = 0;
     std::string obstacle;
   };
-  Sweep SweepAlong(const Pose2& from, const Pose2& to) const;
-  /// Checks start -> points; all but the last `n_tight` legs with the wall margin.
-  Outcome<DoorPath> CheckPath(const Pose2& start, std::vector<Pose2> points, std::size_t n_tight) const;
+  Sweep SweepAlong(const Pose2& from, const Pose2& to, double coarser = 1) const;
+  double FreeBeside(const Pose2& from, const Pose2& to, double side, double margin_m) const;
+  /// Checks start -> points; all but the last `n_tight` legs with the wall margin, and with leeway.
+  Outcome<PlannedPath> CheckPath(const Pose2& start, std::vector<Pose2> points, std::size_t n_tight) const;
   std::vector<std::vector<Pose2>> PassageCandidates(const DoorPlan& door, const Pose2& door_from_start) const;
 
   DoorPlannerConfig config_;

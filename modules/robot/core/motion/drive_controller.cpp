@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace priamos::robot {
 namespace {
@@ -16,16 +17,11 @@ constexpr milliseconds kHeadDue{1500};
 constexpr double kStanding = 0.01;     ///< [m/s] slower is standing
 constexpr double kWantsToMove = 0.03;  ///< [m/s]
 constexpr double kCreeping = 0.05;     ///< [m/s] before an obstacle this is standing, too
+constexpr double kBeside = 0.5;        ///< [m] from the base: so near, an arc is narrow enough for a place
 constexpr double kSlowed = 0.98;       ///< a scale below this is reported as a limit
 
 double SpeedOf(const Twist2& twist) {
   return std::hypot(twist.vx, twist.vy) + std::abs(twist.wz) * PathShape::kTurnLever;
-}
-
-bool SamePath(const Path& a, const Path& b) {
-  const auto same = [](const Pose2& p, const Pose2& q) { return p.x == q.x && p.y == q.y && p.yaw == q.yaw; };
-  return a.id == b.id && a.speed_m_s == b.speed_m_s &&
-         std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same);
 }
 
 /// How long something that should have come by now has been missing.
@@ -50,7 +46,7 @@ CollisionStopConfig WithMargin(CollisionStopConfig config, double more_m) {
 DriveController::DriveController(const DriveConfig& config, const MecanumGeometry& geometry)
     : config_(config),
       geometry_(geometry),
-      follower_(config.follower),
+      follower_(config.follower, config.footprint),
       slew_(config.acceleration),
       operator_slew_(config.operator_acceleration),
       brake_(config.braking),
@@ -64,7 +60,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
 
 PathVerdict DriveController::SetPath(const Path& path, Time now) {
   const bool driving_it = path_is_new_ || follower_.has_path();
-  if (driving_it && path_ && SamePath(*path_, path)) return PathVerdict::kSame;
+  if (driving_it && path_ && SameCourse(*path_, path)) return PathVerdict::kSame;
   if (!authority_.AdmitPath(now))
     return authority_.estop() ? PathVerdict::kEstop : PathVerdict::kWithoutLease;
   if (!path.points.empty() && path.estop_changes != authority_.estop_changes()) return PathVerdict::kStale;
@@ -109,7 +105,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause);
 
   const Obstacles around = Around(situation.odom_from_base);
-  const Twist2 wanted = Wanted(situation, now, dt_s), free = FreeOf(wanted, around);
+  const Twist2 wanted = Wanted(situation, around, now, dt_s), free = FreeOf(wanted, around);
   // Once more: between two free motions the slewed motion may pass through one that is not.
   const Twist2 next = FreeOf(Slewed(free, dt_s), around);
   const CollisionStop::Result result = Guard().Limit(next, around.seen, around.remembered);
@@ -186,15 +182,17 @@ bool DriveController::IsLost(const DriveSituation& situation) const {
          !(situation.estimate->YawSigma() < Radians(config_.lost_yaw_deg));
 }
 
-Twist2 DriveController::Wanted(const DriveSituation& situation, Time now, double dt_s) {
+Twist2 DriveController::Wanted(const DriveSituation& situation, const Obstacles& around, Time now,
+                               double dt_s) {
   const bool by_path = follower_.has_path() || path_is_new_;
   if (!by_path) StandIfLetGo(now);
   if (state_.failsafe.action != FailsafeAction::kNone) return {};
-  if (by_path) return WantedByPath(situation, now, dt_s);
+  if (by_path) return WantedByPath(situation, around, now, dt_s);
   return WantedByOperator(now);
 }
 
-Twist2 DriveController::WantedByPath(const DriveSituation& situation, Time now, double dt_s) {
+Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obstacles& around, Time now,
+                                     double dt_s) {
   if (!situation.estimate) return {};
   const PoseEstimate& estimate = *situation.estimate;
   // What lasts too short to stop a drive is enough not to begin one.
@@ -204,12 +202,24 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, Time now, 
     state_.mode = DriveMode::kFollowing;
   }
   if (!follower_.has_path()) return {};
+  follower_.Avoid(ThingsInMap(situation, around, now), estimate.pose, now);
   const double age_s = std::clamp(Seconds(now - estimate.time), 0.0, config_.failsafe.wheels_silent_s);
   const PathFollower::Wanted wanted = follower_.Step(estimate.pose, estimate.twist, age_s, dt_s);
   state_.remaining_m = wanted.remaining_m;
   state_.cross_track_m = wanted.cross_track_m;
   if (wanted.arrived) state_.mode = DriveMode::kArrived;
   return wanted.twist;
+}
+
+/// What a path is to be led around. What stops the base is among it also before there is evidence.
+std::vector<Eigen::Vector2d> DriveController::ThingsInMap(const DriveSituation& situation,
+                                                          const Obstacles& around, Time now) const {
+  std::vector<Eigen::Vector2d> things = echoes_.Evidence(situation.odom_from_base, now);
+  things.insert(things.end(), around.remembered.begin(), around.remembered.end());
+  std::copy_if(around.seen.begin(), around.seen.end(), std::back_inserter(things),
+               [&](const Eigen::Vector2d& p) { return config_.footprint.Distance(p) < kBeside; });
+  for (Eigen::Vector2d& thing : things) thing = situation.estimate->pose * thing;
+  return things;
 }
 
 /// A stick that was let go stops the wheels now, also those that a hold is braking; the drive board's own

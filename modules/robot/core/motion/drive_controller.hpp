@@ -105,8 +105,10 @@ class DriveController {
   FailsafeDecision Watch(const DriveSituation& situation, Time now);
   bool IsLost(const DriveSituation& situation) const;
   Obstacles Around(const Pose2& odom_from_base) const;
-  Twist2 Wanted(const DriveSituation& situation, Time now, double dt_s);
-  Twist2 WantedByPath(const DriveSituation& situation, Time now, double dt_s);
+  Twist2 Wanted(const DriveSituation& situation, const Obstacles& around, Time now, double dt_s);
+  std::vector<Eigen::Vector2d> ThingsInMap(const DriveSituation& situation, const Obstacles& around,
+                                           Time now) const;
+  Twist2 WantedByPath(const DriveSituation& situation, const Obstacles& around, Time now, double dt_s);
   void StandIfLetGo(Time now);
   Twist2 WantedByOperator(Time now) const;
   Twist2 FreeOf(const Twist2& motion, const Obstacles& around) const;

@@ -32,6 +32,7 @@ Begin WithoutPassedPoint(const Path& path, const Pose2& pose) {
   const Eigen::Vector2d foot = first.translation() + line * part;
   Begin begin{{foot.x(), foot.y(), WrapAngle(first.yaw + part * WrapAngle(second.yaw - first.yaw))}, path};
   begin.path.points.erase(begin.path.points.begin());
+  if (!begin.path.leeway.empty()) begin.path.leeway.erase(begin.path.leeway.begin());
   return begin;
 }
 
@@ -46,15 +47,26 @@ void PathFollowerConfig::Describe(Archive& a) {
   a.Number("arrival_m", arrival_m, {"m", 0.001, 0.2, "arrived when this near to the last point"});
   a.Number("arrival_deg", arrival_deg, {"deg", 0.05, 10, "and the heading is this near"});
   a.Number("latency_s", latency_s, {"s", 0, 0.5, "from a pose to wheels that obey it"});
+  a.Number("aside_speed_m_s", aside_speed_m_s, {"m/s", 0.01, 1, "fastest velocity towards a detour"});
+  a.Number("aside_m", aside_m, {"m", 0.01, 1, "so far from its detour the base does not go ahead"});
+  a.Section("detour", detour, "how a path is left around things");
   a.Section("shape", shape, "how the points of a path become a curve with speeds");
 }
 
 void PathFollower::Follow(const Path& path, const Pose2& pose) {
   const Begin begin = WithoutPassedPoint(path, pose);
   shape_.emplace(config_.shape, begin.start, begin.path);
+  detour_ = {};
   s_ = 0;
   speed_ = 0;
   arrived_ = false;
+}
+
+void PathFollower::Avoid(std::span<const Eigen::Vector2d> things, const Pose2& pose, Time now) {
+  if (!shape_ || (searched_ && now - *searched_ < FromSeconds(config_.detour.replan_s))) return;
+  searched_ = now;
+  if (const auto detour = FindDetour(config_.detour, footprint_, *shape_, PlaceOf(pose), things, detour_))
+    detour_ = *detour;
 }
 
 void PathFollower::Drop() {
@@ -67,8 +79,8 @@ PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, 
   // Act on where the base will be when the wheels obey.
   const Pose2 ahead = Integrate(pose, twist, age_s + config_.latency_s);
   MoveReference(ahead, dt_s);
-  const PathShape::Point reference = shape_->At(s_);
-  Wanted wanted = Report(pose, reference);
+  Wanted wanted = Report(pose, shape_->At(s_));
+  const PathShape::Point reference = ReferenceAt(s_);
   const double left = shape_->length() - s_;
   const Eigen::Vector2d error = reference.pose.translation() - ahead.translation();
   const double heading_error = WrapAngle(reference.pose.yaw - ahead.yaw);
@@ -78,9 +90,10 @@ PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, 
 
   // The last centimetres decay with the gain instead of following the braking parabola into its steep end.
   speed_ = std::min(shape_->SpeedAt(s_), config_.turn_gain_per_s * left);
+  if (detour_.leaves()) speed_ *= std::max(0.0, 1 - error.norm() / config_.aside_m);
   Eigen::Vector2d correction = error * config_.gain_per_s;
-  if (correction.norm() > config_.correction_speed_m_s)
-    correction *= config_.correction_speed_m_s / correction.norm();
+  const double fastest = detour_.leaves() ? config_.aside_speed_m_s : config_.correction_speed_m_s;
+  if (correction.norm() > fastest) correction *= fastest / correction.norm();
   const Eigen::Vector2d velocity =
       Pose2{0, 0, -ahead.yaw} * Eigen::Vector2d(reference.direction * speed_ + correction);
   const double turn = std::clamp(heading_error * config_.turn_gain_per_s, -config_.correction_turn_rad_s,
@@ -92,7 +105,7 @@ PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, 
 bool PathFollower::IsAtGoal(const Pose2& pose) const {
   if (shape_->length() - s_ > PathShape::kTurnLever * Radians(config_.arrival_deg) + config_.arrival_m)
     return false;
-  const Pose2 goal = shape_->At(shape_->length()).pose;
+  const Pose2 goal = ReferenceAt(shape_->length()).pose;
   return (goal.translation() - pose.translation()).norm() < config_.arrival_m &&
          std::abs(WrapAngle(goal.yaw - pose.yaw)) < Radians(config_.arrival_deg);
 }
@@ -103,6 +116,25 @@ void PathFollower::MoveReference(const Pose2& pose, double dt_s) {
   // At the point of a sharp reversal the base hardly moves, so its pose does not show how far it has got.
   constexpr double kMeasurablePace = 0.4;
   s_ = pace < kMeasurablePace ? std::min(s_ + speed_ * dt_s, shape_->length()) : shape_->Project(pose, s_);
+}
+
+/// The point of the path, or of the detour beside it, where the base should be.
+PathShape::Point PathFollower::ReferenceAt(double s) const {
+  PathShape::Point point = shape_->At(s);
+  if (!detour_.leaves()) return point;
+  const Eigen::Vector2d left = point.left();
+  const double slope = detour_.SlopeAt(s), longer = std::hypot(1, slope);
+  const Eigen::Vector2d aside = left * detour_.At(s);
+  point.pose.x += aside.x();
+  point.pose.y += aside.y();
+  point.direction = (point.direction + left * (slope * point.direction.norm())) / longer;
+  point.turn /= longer;
+  return point;
+}
+
+PathPlace PathFollower::PlaceOf(const Pose2& pose) const {
+  const PathShape::Point point = shape_->At(s_);
+  return {s_, point.left().dot(pose.translation() - point.pose.translation())};
 }
 
 PathFollower::Wanted PathFollower::Report(const Pose2& pose, const PathShape::Point& reference) const {

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
+#include <span>
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "robot/core/base/footprint.hpp"
+#include "robot/core/motion/detour.hpp"
 #include "robot/core/motion/path_shape.hpp"
 
 namespace priamos::robot {
@@ -11,13 +16,16 @@ namespace priamos::robot {
 /// Gains and limits of following a path, and when the goal counts as reached.
 struct PathFollowerConfig {
   PathShapeConfig shape;
+  DetourConfig detour;
   double gain_per_s = 1.5;              ///< velocity towards the path per distance from it
   double turn_gain_per_s = 2.0;         ///< turn rate per heading error
   double correction_speed_m_s = 0.15;   ///< fastest velocity towards the path
   double correction_turn_rad_s = 0.25;  ///< fastest turn towards the heading
   double arrival_m = 0.005;
   double arrival_deg = 0.2;
-  double latency_s = 0.06;  ///< from a pose to wheels that obey it
+  double latency_s = 0.06;        ///< from a pose to wheels that obey it
+  double aside_speed_m_s = 0.25;  ///< fastest velocity towards a detour
+  double aside_m = 0.15;          ///< this far from its detour the base does not go ahead
 
   void Describe(Archive& a);
 };
@@ -37,11 +45,16 @@ class PathFollower {
     bool arrived = false;
   };
 
-  explicit PathFollower(const PathFollowerConfig& config) : config_(config) {}
+  /// `footprint`: of the base that has to fit between things.
+  explicit PathFollower(const PathFollowerConfig& config, const Footprint& footprint = {})
+      : config_(config), footprint_(footprint) {}
 
   /// Takes a path; replaces the one before. It begins at `pose`, or beside it on its own first line when the
   /// first point has just been passed.
   void Follow(const Path& path, const Pose2& pose);
+  /// Looks, a few times per second, for a way around `things` (map frame [m]) within the leeway of the path,
+  /// and goes by it. A way that was found stays until there is a better one.
+  void Avoid(std::span<const Eigen::Vector2d> things, const Pose2& pose, Time now);
   /// Drops the path; Step then returns a velocity of 0.
   void Drop();
   bool has_path() const { return shape_.has_value(); }
@@ -53,12 +66,17 @@ class PathFollower {
  private:
   bool IsAtGoal(const Pose2& pose) const;
   void MoveReference(const Pose2& pose, double dt_s);
+  PathShape::Point ReferenceAt(double s) const;
+  PathPlace PlaceOf(const Pose2& pose) const;
   Wanted Report(const Pose2& pose, const PathShape::Point& reference) const;
 
   PathFollowerConfig config_;
+  Footprint footprint_;
   std::optional<PathShape> shape_;
-  double s_ = 0;      ///< arc length of the reference point on the path [m]
-  double speed_ = 0;  ///< last wanted ds/dt [m/s]
+  Detour detour_;
+  std::optional<Time> searched_;  ///< when a way around things was looked for
+  double s_ = 0;                  ///< arc length of the reference point on the path [m]
+  double speed_ = 0;              ///< last wanted ds/dt [m/s]
   bool arrived_ = false;
 };
 

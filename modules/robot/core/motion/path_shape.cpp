@@ -8,8 +8,16 @@ namespace {
 
 // Points closer than this to the one before carry no shape; only the last one must be met.
 constexpr double kLeastSegment = 0.02;
+// Below this share of its arc length a path turns on the spot rather than leads somewhere.
+constexpr double kLeastPace = 0.1;
 
 }  // namespace
+
+bool SameCourse(const Path& a, const Path& b) {
+  const auto same = [](const Pose2& p, const Pose2& q) { return p.x == q.x && p.y == q.y && p.yaw == q.yaw; };
+  return a.id == b.id && a.speed_m_s == b.speed_m_s &&
+         std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same);
+}
 
 void PathShapeConfig::Describe(Archive& a) {
   a.Number("corner_deviation_m", corner_deviation_m, {"m", 0.001, 0.5, "a rounded corner passes beside it"});
@@ -26,12 +34,13 @@ void PathShapeConfig::Describe(Archive& a) {
 
 PathShape::PathShape(const PathShapeConfig& config, const Pose2& start, const Path& path)
     : braking_{.deceleration_m_s2 = config.braking_m_s2}, end_(start) {
-  for (const Pose2& point : path.points) AddSegment(point);
+  for (std::size_t i = 0; i < path.points.size(); ++i)
+    AddSegment(path.points[i], i < path.leeway.size() ? path.leeway[i] : Leeway{});
   Blend(config);
   LimitSpeeds(config, path.speed_m_s);
 }
 
-void PathShape::AddSegment(const Pose2& to) {
+void PathShape::AddSegment(const Pose2& to, const Leeway& leeway) {
   const auto extent = [&](const Pose2& from) {
     return std::max((to.translation() - from.translation()).norm(),
                     kTurnLever * std::abs(WrapAngle(to.yaw - from.yaw)));
@@ -49,6 +58,7 @@ void PathShape::AddSegment(const Pose2& to) {
   segment.direction = (to.translation() - segment.from) / segment.length;
   segment.yaw = end_.yaw;
   segment.turn = WrapAngle(to.yaw - end_.yaw) / segment.length;
+  segment.leeway = leeway;
   length_ += segment.length;
   end_ = {to.x, to.y, segment.yaw + segment.turn * segment.length};
   segments_.push_back(segment);
@@ -86,6 +96,16 @@ void PathShape::LimitSpeeds(const PathShapeConfig& config, double path_speed) {
     limits_.push_back(
         {end - segment.blend, end + segment.blend, std::min({speed, std::sqrt(squared), turning})});
   }
+}
+
+Eigen::Vector2d PathShape::Point::left() const {
+  const double pace = direction.norm();
+  if (pace < kLeastPace) return {0, 0};
+  return Eigen::Vector2d(-direction.y(), direction.x()) / pace;
+}
+
+Leeway PathShape::LeewayAt(double s) const {
+  return segments_.empty() ? Leeway{} : segments_[SegmentAt(std::clamp(s, 0.0, length_))].leeway;
 }
 
 PathShape::Point PathShape::At(double s) const {

@@ -6,6 +6,7 @@
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/robot/braking_law.hpp"
+#include "common/robot/leeway.hpp"
 
 namespace priamos::robot {
 
@@ -13,9 +14,13 @@ namespace priamos::robot {
 struct Path {
   int id = 0;
   double speed_m_s = 0;
-  std::vector<Pose2> points{};  ///< from the next one to the goal; none: brake and hold
-  int estop_changes = 0;        ///< Authority::estop_changes() as who ordered the path knew it
+  std::vector<Pose2> points{};   ///< from the next one to the goal; none: brake and hold
+  std::vector<Leeway> leeway{};  ///< of the line to each point; missing ones are 0
+  int estop_changes = 0;         ///< Authority::estop_changes() as who ordered the path knew it
 };
+
+/// Whether two orders are to drive the same path: number, speed and points.
+bool SameCourse(const Path& a, const Path& b);
 
 /// How a path is rounded, and how fast its parts may be driven.
 struct PathShapeConfig {
@@ -44,6 +49,9 @@ class PathShape {
     Pose2 pose;
     Eigen::Vector2d direction{0, 0};  ///< d position / d s; shorter than 1 while turning or in a corner
     double turn = 0;                  ///< d yaw / d s [rad/m]
+
+    /// Unit vector to the left of the path; 0 while turning on the spot.
+    Eigen::Vector2d left() const;
   };
 
   /// The curve from `start` through path.points.
@@ -54,6 +62,8 @@ class PathShape {
   Point At(double s) const;
   /// Fastest ds/dt at s from which every later limit, and the stop at the end, is still reached by braking.
   double SpeedAt(double s) const;
+  /// How far the path may be left at s.
+  Leeway LeewayAt(double s) const;
   /// Distance of the base centre from s to the end [m], turns on the spot not counted.
   double RemainingDistance(double s) const;
   /// The s near `guess` where the curve is closest to `pose`, position and heading together. Searches
@@ -66,12 +76,13 @@ class PathShape {
     Eigen::Vector2d from{0, 0}, direction{0, 0};
     double yaw = 0, turn = 0;  ///< yaw at begin, not wrapped
     double blend = 0;          ///< half length of the blend into the next segment [m of s]
+    Leeway leeway{};
   };
   struct SpeedLimit {
     double begin = 0, end = 0, speed = 0;
   };
 
-  void AddSegment(const Pose2& to);
+  void AddSegment(const Pose2& to, const Leeway& leeway);
   void Blend(const PathShapeConfig& config);
   void LimitSpeeds(const PathShapeConfig& config, double path_speed);
   Point OnSegment(const Segment& segment, double s) const;

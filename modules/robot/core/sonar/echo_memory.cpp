@@ -25,11 +25,12 @@ void EchoMemoryConfig::Describe(Archive& a) {
   a.Number("keep_s", keep_s, {"s", 0.05, 2, "how long an echo counts"});
   a.Number("bridge_from_m", bridge_from_m, {"m", 0, 2, "nearer echoes of neighbours are bridged"});
   a.Number("bridge_m", bridge_m, {"m", 0, 0.7, "if they are not farther apart than this"});
+  a.Section("evidence", evidence, "a grid in which many echoes agree on places");
   a.Section("near_map", near_map, "places of near things that no beam sees any more");
 }
 
 EchoMemory::EchoMemory(const EchoMemoryConfig& config, const Footprint& footprint)
-    : config_(config), near_map_(config.near_map) {
+    : config_(config), near_map_(config.near_map), evidence_(config.evidence) {
   for (int i = 0; i < kSonars; ++i)
     base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, footprint.Size());
 }
@@ -51,6 +52,7 @@ void EchoMemory::NoteNearThings() {
           kept_[newest].odom_from_base * base_from_sonar_[static_cast<std::size_t>(i)];
       if (add) {
         near_map_.Add(odom_from_sonar, RangeOf(newest, i));
+        evidence_.Add(odom_from_sonar, RangeOf(newest, i), kept_[newest].cycle.time);
       } else {
         near_map_.Clear(odom_from_sonar, RangeOf(newest, i));
       }

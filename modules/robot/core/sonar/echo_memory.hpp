@@ -11,6 +11,7 @@
 #include "common/sonar_ring.hpp"
 #include "common/time.hpp"
 #include "robot/core/base/footprint.hpp"
+#include "robot/core/sonar/evidence_grid.hpp"
 #include "robot/core/sonar/near_map.hpp"
 
 namespace priamos::robot {
@@ -33,6 +34,7 @@ struct EchoMemoryConfig {
   double bridge_from_m = 0.5;  ///< range of neighbouring echoes up to which they may be one thing
   double bridge_m = 0.4;       ///< largest distance between the two echoes of one thing, see Bridges
   NearMapConfig near_map;
+  EvidenceGridConfig evidence;
 
   void Describe(Archive& a);
 };
@@ -59,6 +61,10 @@ class EchoMemory {
   /// the base, and the corner of a box gets through them unseen while its faces are seen on both sides: two
   /// echoes so near to each other are taken for one convex thing, whose inside holds the line between them.
   std::vector<Eigen::Vector2d> Bridges(const Pose2& odom_from_base) const;
+  /// Places of things by the evidence of many echoes, base frame of `odom_from_base`.
+  std::vector<Eigen::Vector2d> Evidence(const Pose2& odom_from_base, Time now) const {
+    return evidence_.Things(odom_from_base, now);
+  }
   /// Places of near things that no beam sees any more, base frame of `odom_from_base`.
   std::vector<Eigen::Vector2d> Remembered(const Pose2& odom_from_base) const {
     return near_map_.Points(odom_from_base);
@@ -79,6 +85,7 @@ class EchoMemory {
   std::array<Pose2, kSonars> base_from_sonar_;
   std::deque<Kept> kept_;  ///< oldest first
   NearMap near_map_;
+  EvidenceGrid evidence_;
 };
 
 }  // namespace priamos::robot

@@ -41,7 +41,7 @@ class DriveAheadMission : public Mission {
     for (const LookResult& look : control.heard().looks) {
       if (look.request_id != request_id_) continue;
       if (!look.ok) return control.Fail("nothing seen: " + look.reason);
-      control.OrderPath({control.heard().pose->map_from_base * Pose2{1, 0, 0}}, 0.2);
+      control.OrderPath({.points = {control.heard().pose->map_from_base * Pose2{1, 0, 0}}}, 0.2);
       control.Enter(Phase::kPassing, "driving ahead");
     }
   }

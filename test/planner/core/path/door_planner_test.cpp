@@ -122,6 +122,31 @@ TEST(DoorPlanner, ApproachLeadsOverTheAxisToTheHoldPoint) {
   EXPECT_NEAR(path->points[1].y, 2.4, 1e-9);
 }
 
+TEST(DoorPlanner, TheWayToTheDoorMayBeLeftAsFarAsWallsAllowTheDoorNot) {
+  const GroundPlan plan = ShippedPlan();
+  const DoorPlanner dut({}, {}, plan);
+  const DoorPlan& door = plan.doors.front();
+  const auto path = dut.PlanPassage(door, door.map_from_door() * Pose2{-4, 0.3, 0});
+  ASSERT_TRUE(path) << path.reason();
+  ASSERT_EQ(path->leeway.size(), 2u);
+  EXPECT_GT(path->leeway[0].left_m, 1);
+  EXPECT_GT(path->leeway[0].right_m, 1);
+  EXPECT_EQ(path->leeway[1].left_m, 0);
+  EXPECT_EQ(path->leeway[1].right_m, 0);
+  // 2.4 m from the door's axis there is a wall.
+  EXPECT_LT(path->leeway[0].left_m + Footprint().width_m / 2 + 0.3, 2.4);
+}
+
+TEST(DoorPlanner, SteepRunInBeforeASideStep) {
+  const GroundPlan plan = ShippedPlan();
+  const DoorPlanner dut({}, {}, plan);
+  const DoorPlan& door = plan.doors.front();
+  const auto path = dut.PlanPassage(door, door.map_from_door() * Pose2{-1.8, 0.8, 0});
+  ASSERT_TRUE(path) << path.reason();
+  EXPECT_NEAR((door.map_from_door().Inverse() * path->points.front()).x, -DoorPlannerConfig().align_least_m,
+              1e-9);
+}
+
 TEST(DoorPlanner, ApproachFromBeyondTheHoldPointBacksOff) {
   const Fixture f;
   const auto path = f.Make().PlanApproach(f.door(), {5.2, 2.4, 0});

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace priamos {
+
+/// How far a line of a path may be left to either side, around obstacles that the plan does not know [m].
+struct Leeway {
+  double left_m = 0, right_m = 0;
+};
+
+}  // namespace priamos

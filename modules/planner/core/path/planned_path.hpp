@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "common/robot/leeway.hpp"
+
+namespace priamos::planner {
+
+/// A path in the map frame, the start left out.
+struct PlannedPath {
+  std::vector<Pose2> points;
+  std::vector<Leeway> leeway{};  ///< of the line to each point: what the plan leaves free; missing ones are 0
+  double min_gap_m = 0;          ///< smallest planned distance to an obstacle, start to end
+};
+
+}  // namespace priamos::planner

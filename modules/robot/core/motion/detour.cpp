@@ -1,0 +1,255 @@
+#include "robot/core/motion/detour.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace priamos::robot {
+namespace {
+
+constexpr double kStep_m = 0.05;  ///< between two places, along the path and beside it
+constexpr int kLanes = 81, kMiddle = kLanes / 2;
+constexpr double kOnPath_m = 0.1;
+constexpr int kSteepest = 2;  ///< lanes per step
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
+// Costs per metre of the path, the path itself being 1.
+constexpr double kSteep = 0.5;   ///< times the squared slope
+constexpr double kAside = 0.3;   ///< per metre beside the path
+constexpr double kOther = 0.3;   ///< per metre beside the last detour
+constexpr double kTooNear = 40;  ///< nearer to a thing than it stops
+constexpr double kNear = 8;      ///< nearer to a thing than wished
+constexpr double kOutside = 20;  ///< per metre beyond the leeway
+constexpr double kMissed = 5;    ///< per metre beside the end of the path, once
+constexpr double kSideways = 3;  ///< straight to the side
+
+using Lanes = std::array<double, kLanes>;
+
+double OffsetOf(int lane) {
+  return (lane - kMiddle) * kStep_m;
+}
+
+/// The base on the path at one arc length, and where offsets move it.
+struct Station {
+  double s = 0;
+  Pose2 pose;
+  Eigen::Vector2d left{0, 0};  ///< unit vector across the path, map frame; 0 where the base turns on the spot
+  Leeway leeway;
+};
+
+std::vector<Station> StationsFrom(const PathShape& path, double s, double horizon_m) {
+  std::vector<Station> stations;
+  const int steps = static_cast<int>(std::min(horizon_m, path.length() - s) / kStep_m);
+  for (int k = 0; k <= std::max(steps, 0); ++k) {
+    const double at = s + k * kStep_m;
+    const PathShape::Point point = path.At(at);
+    stations.push_back({at, point.pose, point.left(), path.LeewayAt(at)});
+  }
+  return stations;
+}
+
+/// Offsets for which a thing is within a rectangle of the half size `half` around the base; none: first >
+/// last.
+std::pair<double, double> OffsetsThatMeet(const Station& station, const Eigen::Vector2d& thing,
+                                          const Eigen::Vector2d& half) {
+  const Eigen::Vector2d seen = station.pose.Inverse() * thing;
+  const Eigen::Vector2d across = Pose2{0, 0, -station.pose.yaw} * station.left;
+  std::pair<double, double> meets{-kNowhere, kNowhere};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (std::abs(across(axis)) < 1e-9) {
+      if (std::abs(seen(axis)) > half(axis)) return {1, 0};
+      continue;
+    }
+    const double a = (seen(axis) - half(axis)) / across(axis), b = (seen(axis) + half(axis)) / across(axis);
+    meets = {std::max(meets.first, std::min(a, b)), std::min(meets.second, std::max(a, b))};
+  }
+  return meets;
+}
+
+void Raise(Lanes& cost, const std::pair<double, double>& offsets, double to) {
+  const double first = std::max(std::ceil(offsets.first / kStep_m), -double(kMiddle));
+  const double last = std::min(std::floor(offsets.second / kStep_m), double(kMiddle));
+  for (int lane = kMiddle + static_cast<int>(first); lane <= kMiddle + static_cast<int>(last); ++lane)
+    cost[static_cast<std::size_t>(lane)] = std::max(cost[static_cast<std::size_t>(lane)], to);
+}
+
+/// What a search is given: see FindDetour.
+struct Search {
+  const DetourConfig& config;
+  const Footprint& footprint;
+  std::span<const Eigen::Vector2d> things;
+  const Detour& last;
+  double start_m;  ///< offset where it begins; between it and the path the base may be, to get back
+};
+
+/// How far an offset is beyond the leeway.
+double OutsideOf(const Leeway& leeway, double offset_m) {
+  return std::max({0.0, offset_m - leeway.left_m, -offset_m - leeway.right_m});
+}
+
+/// What a metre of the path costs beside a station, per lane; kNowhere where the base may not be.
+Lanes CostsAt(const Search& search, const Station& station) {
+  const DetourConfig& config = search.config;
+  Lanes near{};
+  const Eigen::Vector2d half = search.footprint.Size() / 2;
+  for (const Eigen::Vector2d& thing : search.things) {
+    for (const auto& [margin_m, cost] :
+         {std::pair{config.wish_m, kNear}, {config.stop_m, kTooNear}, {config.least_m, kNowhere}})
+      Raise(near, OffsetsThatMeet(station, thing, half + Eigen::Vector2d::Constant(margin_m)), cost);
+  }
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const double offset = OffsetOf(lane);
+    double& cost = near[static_cast<std::size_t>(lane)];
+    cost += 1 + kAside * std::abs(offset) + kOther * std::abs(offset - search.last.At(station.s)) +
+            kOutside * OutsideOf(station.leeway, offset);
+    if (offset > std::max(station.leeway.left_m, search.start_m) ||
+        -offset > std::max(station.leeway.right_m, -search.start_m))
+      cost = kNowhere;
+  }
+  return near;
+}
+
+/// Whether the path itself leads near nothing.
+bool IsFree(const Search& search, const std::vector<Station>& stations) {
+  const Eigen::Vector2d half = search.footprint.Size() / 2 + Eigen::Vector2d::Constant(search.config.wish_m);
+  return std::none_of(search.things.begin(), search.things.end(), [&](const Eigen::Vector2d& thing) {
+    return std::any_of(stations.begin(), stations.end(), [&](const Station& station) {
+      const Eigen::Vector2d seen = (station.pose.Inverse() * thing).cwiseAbs();
+      return seen.x() <= half.x() && seen.y() <= half.y();
+    });
+  });
+}
+
+/// Costs to reach every lane of a station, and from which lane of the station before (of the same one, where
+/// the base goes straight to the side).
+struct Reached {
+  Lanes cost{};
+  std::array<int, kLanes> from{};
+  std::array<bool, kLanes> sideways{};
+
+  Reached() { cost.fill(kNowhere); }
+  void Offer(int lane, double offered, int from_lane, bool is_sideways) {
+    const auto at = static_cast<std::size_t>(lane);
+    if (offered >= cost[at]) return;
+    cost[at] = offered;
+    from[at] = from_lane;
+    sideways[at] = is_sideways;
+  }
+};
+
+void GoSideways(Reached& reached, const Lanes& costs) {
+  const auto offer = [&](int lane, int neighbour) {
+    const auto to = static_cast<std::size_t>(neighbour);
+    if (neighbour < 0 || neighbour >= kLanes || costs[to] == kNowhere) return;
+    reached.Offer(neighbour, reached.cost[static_cast<std::size_t>(lane)] + kStep_m * (kSideways + costs[to]),
+                  lane, true);
+  };
+  for (int lane = 0; lane < kLanes; ++lane) offer(lane, lane + 1);
+  for (int lane = kLanes - 1; lane >= 0; --lane) offer(lane, lane - 1);
+}
+
+Reached GoAhead(const Reached& before, const Lanes& costs) {
+  Reached reached;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const double so_far = before.cost[static_cast<std::size_t>(lane)];
+    if (so_far == kNowhere) continue;
+    for (int to = std::max(lane - kSteepest, 0); to <= std::min(lane + kSteepest, kLanes - 1); ++to) {
+      const double slope = to - lane, cost = costs[static_cast<std::size_t>(to)];
+      if (cost != kNowhere)
+        reached.Offer(to, so_far + kStep_m * (cost + kSteep * slope * slope), lane, false);
+    }
+  }
+  GoSideways(reached, costs);
+  return reached;
+}
+
+bool IsUnreachable(const Reached& reached) {
+  return std::all_of(reached.cost.begin(), reached.cost.end(), [](double cost) { return cost == kNowhere; });
+}
+
+int CheapestLane(const Lanes& costs, double per_metre_aside) {
+  int best = kMiddle;
+  double least = kNowhere;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const double cost = costs[static_cast<std::size_t>(lane)] + per_metre_aside * std::abs(OffsetOf(lane));
+    if (cost < least) least = cost, best = lane;
+  }
+  return best;
+}
+
+/// Offsets from the last station's `lane` back to the first.
+std::vector<double> Backwards(const std::vector<Reached>& reached, int lane) {
+  std::vector<double> offsets(reached.size());
+  for (std::size_t k = reached.size(); k-- > 0;) {
+    offsets[k] = OffsetOf(lane);
+    while (reached[k].sideways[static_cast<std::size_t>(lane)])
+      lane = reached[k].from[static_cast<std::size_t>(lane)];
+    lane = reached[k].from[static_cast<std::size_t>(lane)];
+  }
+  return offsets;
+}
+
+/// A base that has not left its path is on it: what it is off is an error, which the follower corrects.
+int StartLane(double offset_m, const Leeway& leeway, const Detour& last) {
+  const bool may_leave = leeway.left_m > 0 || leeway.right_m > 0;
+  if (!last.leaves() && (!may_leave || std::abs(offset_m) < kOnPath_m)) return kMiddle;
+  return kMiddle + std::clamp(static_cast<int>(std::lround(offset_m / kStep_m)), -kMiddle, kMiddle);
+}
+
+std::vector<double> Smoothed(const std::vector<double>& offsets) {
+  std::vector<double> smooth = offsets;
+  for (std::size_t k = 1; k + 1 < offsets.size(); ++k)
+    smooth[k] = (offsets[k - 1] + 2 * offsets[k] + offsets[k + 1]) / 4;
+  return smooth;
+}
+
+}  // namespace
+
+void DetourConfig::Describe(Archive& a) {
+  a.Number("horizon_m", horizon_m, {"m", 0.5, 5, "distance ahead on the path"});
+  a.Number("least_m", least_m, {"m", 0, 0.5, "nearer to a thing no detour leads"});
+  a.Number("stop_m", stop_m, {"m", 0, 0.5, "nearer it leads only to get away"});
+  a.Number("wish_m", wish_m, {"m", 0, 1, "nearer to a thing only where there is no room"});
+  a.Number("replan_s", replan_s, {"s", 0.02, 5, "time between two searches"});
+  if (least_m > stop_m || stop_m > wish_m) a.Refuse("stop_m", "between least_m and wish_m");
+}
+
+Detour::Detour(double from, double step, std::vector<double> offsets_m)
+    : from_(from), step_(step), offsets_m_(std::move(offsets_m)) {
+  leaves_ = std::any_of(offsets_m_.begin(), offsets_m_.end(), [](double offset) { return offset != 0; });
+}
+
+double Detour::At(double s) const {
+  if (offsets_m_.empty()) return 0;
+  const double place = std::clamp((s - from_) / step_, 0.0, static_cast<double>(offsets_m_.size() - 1));
+  const auto k = static_cast<std::size_t>(place);
+  if (k + 1 == offsets_m_.size()) return offsets_m_.back();
+  return offsets_m_[k] + (place - static_cast<double>(k)) * (offsets_m_[k + 1] - offsets_m_[k]);
+}
+
+double Detour::SlopeAt(double s) const {
+  return (At(s + step_ / 2) - At(s - step_ / 2)) / step_;
+}
+
+std::optional<Detour> FindDetour(const DetourConfig& config, const Footprint& footprint,
+                                 const PathShape& path, const PathPlace& here,
+                                 std::span<const Eigen::Vector2d> things, const Detour& last) {
+  const std::vector<Station> stations = StationsFrom(path, here.s, config.horizon_m);
+  const int start = StartLane(here.offset_m, stations.front().leeway, last);
+  const Search search{config, footprint, things, last, OffsetOf(start)};
+  if (start == kMiddle && IsFree(search, stations)) return Detour();
+  std::vector<Reached> reached(1);
+  reached[0].Offer(start, 0, start, false);
+  GoSideways(reached[0], CostsAt(search, stations.front()));
+  for (std::size_t k = 1; k < stations.size(); ++k)
+    reached.push_back(GoAhead(reached.back(), CostsAt(search, stations[k])));
+  while (IsUnreachable(reached.back())) reached.pop_back();
+  if (reached.size() < 2) return std::nullopt;
+  const bool to_the_end = path.length() - here.s <= config.horizon_m && reached.size() == stations.size();
+  const int best = CheapestLane(reached.back().cost, to_the_end ? kMissed : 0);
+  return Detour(here.s, kStep_m, Smoothed(Smoothed(Backwards(reached, best))));
+}
+
+}  // namespace priamos::robot

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/archive.hpp"
+#include "robot/core/base/footprint.hpp"
+#include "robot/core/motion/path_shape.hpp"
+
+namespace priamos::robot {
+
+/// How far ahead a way around things is looked for, and how far off them it keeps.
+struct DetourConfig {
+  double horizon_m = 2.5;  ///< distance ahead on the path
+  double least_m = 0.02;   ///< nearer to a thing than this no detour leads
+  double stop_m = 0.11;  ///< nearer than this the collision stop brakes who drives towards it: only a way out
+  double wish_m = 0.20;  ///< nearer than this only where there is no room
+  double replan_s = 0.2;  ///< time between two searches
+
+  void Describe(Archive& a);
+};
+
+/// A way beside a path: the distance to its left (negative: right) over its arc length. The one that is made
+/// without arguments stays on the path.
+class Detour {
+ public:
+  Detour() = default;
+  /// Distances [m] at `from`, `from + step`, ... [m of arc length].
+  Detour(double from, double step, std::vector<double> offsets_m);
+
+  /// Distance from the path at the arc length `s` [m]; beyond its end that of the end.
+  double At(double s) const;
+  /// Change of the distance per metre of the path.
+  double SlopeAt(double s) const;
+  /// Whether it leaves the path anywhere.
+  bool leaves() const { return leaves_; }
+
+ private:
+  double from_ = 0, step_ = 1;
+  std::vector<double> offsets_m_;
+  bool leaves_ = false;
+};
+
+/// A place on a path: arc length, and how far the base stands to its left [m].
+struct PathPlace {
+  double s = 0, offset_m = 0;
+};
+
+/// The best way along `path` from `here`, around `things` (map frame [m]), within the leeway of each line: a
+/// search over distances along the path and beside it, the base with the heading that the path has there. Of
+/// two ways, the shorter one that keeps more off things and nearer to the path and to `last`. nullopt: there
+/// is none.
+std::optional<Detour> FindDetour(const DetourConfig& config, const Footprint& footprint,
+                                 const PathShape& path, const PathPlace& here,
+                                 std::span<const Eigen::Vector2d> things, const Detour& last);
+
+}  // namespace priamos::robot

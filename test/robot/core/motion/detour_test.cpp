@@ -1,0 +1,145 @@
+#include "robot/core/motion/detour.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "common/random.hpp"
+
+namespace priamos::robot {
+namespace {
+
+constexpr Leeway kWide{1.5, 1.5};
+
+PathShape Straight(const Leeway& leeway, double length_m = 4) {
+  return {
+      PathShapeConfig{}, {}, {.id = 1, .speed_m_s = 0.3, .points = {{length_m, 0, 0}}, .leeway = {leeway}}};
+}
+
+/// Points along the outline of an upright square.
+std::vector<Eigen::Vector2d> Square(double x, double y, double half) {
+  std::vector<Eigen::Vector2d> points;
+  for (double t = -half; t <= half + 1e-9; t += 0.05)
+    for (const double side : {-half, half}) {
+      points.emplace_back(x + t, y + side);
+      points.emplace_back(x + side, y + t);
+    }
+  return points;
+}
+
+class DetourTest : public testing::Test {
+ protected:
+  std::optional<Detour> Find(const PathShape& path, const std::vector<Eigen::Vector2d>& things,
+                             const PathPlace& here = {}, const Detour& last = {}) const {
+    return FindDetour(config_, footprint_, path, here, things, last);
+  }
+  double GapAt(const PathShape& path, const Detour& detour, double s,
+               const std::vector<Eigen::Vector2d>& things) const {
+    const PathShape::Point point = path.At(s);
+    const Eigen::Vector2d at = point.pose.translation() + point.left() * detour.At(s);
+    double gap = 9;
+    for (const auto& thing : things)
+      gap = std::min(gap, footprint_.Distance(Pose2{at.x(), at.y(), point.pose.yaw}.Inverse() * thing));
+    return gap;
+  }
+
+  DetourConfig config_;
+  Footprint footprint_;
+};
+
+TEST_F(DetourTest, StaysOnAFreePath) {
+  const auto detour = Find(Straight(kWide), Square(2, 1.5, 0.2));
+  ASSERT_TRUE(detour);
+  EXPECT_FALSE(detour->leaves());
+}
+
+TEST_F(DetourTest, GoesAroundABoxAndComesBack) {
+  const PathShape path = Straight(kWide);
+  const auto box = Square(1.4, 0.05, 0.15);
+  const auto detour = Find(path, box);
+  ASSERT_TRUE(detour);
+  EXPECT_LT(detour->At(1.4), -0.6) << "to the right, where it is nearer";
+  EXPECT_NEAR(detour->At(0), 0, 1e-9);
+  for (double s = 0.3; s < 2.4; s += 0.05) EXPECT_GT(GapAt(path, *detour, s, box), 0.1) << s;
+}
+
+TEST_F(DetourTest, GoesWhereThereIsLeeway) {
+  const auto detour = Find(Straight({1.5, 0.3}), Square(1.4, 0.05, 0.15));
+  ASSERT_TRUE(detour);
+  EXPECT_GT(detour->At(1.4), 0.6);
+}
+
+TEST_F(DetourTest, EndsBeforeABoxWhereThereIsNoRoom) {
+  const auto detour = Find(Straight({0.3, 0.3}), Square(1.4, 0, 0.15));
+  EXPECT_LE(std::abs(detour.value_or(Detour()).At(2.5)), 0.3);
+}
+
+TEST_F(DetourTest, WithoutLeewayItStaysOnThePath) {
+  const auto detour = Find(Straight({}), Square(1.4, 0.3, 0.15));
+  EXPECT_FALSE(detour.value_or(Detour()).leaves());
+}
+
+TEST_F(DetourTest, GoesStraightToTheSideFromRightBeforeABox) {
+  const double x = footprint_.length_m / 2 + 0.13 + 0.15;
+  const auto detour = Find(Straight(kWide), Square(x, 0.05, 0.15));
+  ASSERT_TRUE(detour);
+  EXPECT_LT(detour->At(0), -0.4) << "at once, before it goes on";
+}
+
+TEST_F(DetourTest, KeepsTheSideThatItHasChosen) {
+  const PathShape path = Straight(kWide);
+  const auto first = Find(path, Square(1.4, 0.05, 0.15));
+  ASSERT_TRUE(first);
+  const auto second = Find(path, Square(1.4, -0.05, 0.15), {0.3, first->At(0.3)}, *first);
+  ASSERT_TRUE(second);
+  EXPECT_LT(second->At(1.4), -0.6);
+}
+
+TEST_F(DetourTest, ComesBackWhereTheLeewayEnds) {
+  const PathShape path(PathShapeConfig{}, {},
+                       {.id = 1, .speed_m_s = 0.3, .points = {{1, 0, 0}, {4, 0, 0}}, .leeway = {kWide, {}}});
+  const Detour last(0, 0.05, std::vector<double>(60, 0.5));
+  const auto detour = Find(path, Square(0.2, -0.5, 0.2), {0.9, 0.5}, last);
+  ASSERT_TRUE(detour);
+  EXPECT_NEAR(detour->At(1.5), 0, 0.06);
+}
+
+TEST_F(DetourTest, MissesAnEndThatIsNotFree) {
+  const PathShape path = Straight(kWide, 2);
+  const auto detour = Find(path, Square(2, 0, 0.2));
+  ASSERT_TRUE(detour);
+  EXPECT_GT(std::abs(detour->At(2)), 0.6);
+}
+
+RC_GTEST_PROP(Detour, StaysWithinItsLeeway, (const unsigned seed)) {
+  Rng rng(seed);
+  const Leeway leeway{rng.Uniform(0, 2), rng.Uniform(0, 2)};
+  const PathShape path = Straight(leeway);
+  std::vector<Eigen::Vector2d> things;
+  for (int i = 0; i < 3; ++i)
+    for (const auto& p : Square(rng.Uniform(0.9, 3), rng.Uniform(-1, 1), rng.Uniform(0.02, 0.3)))
+      things.push_back(p);
+  const DetourConfig config;
+  const Footprint footprint;
+  const auto detour = FindDetour(config, footprint, path, {}, things, {});
+  RC_PRE(detour.has_value());
+  for (double s = 0; s < 2.4; s += 0.05) {
+    RC_ASSERT(detour->At(s) <= leeway.left_m + 1e-9);
+    RC_ASSERT(detour->At(s) >= -leeway.right_m - 1e-9);
+  }
+}
+
+TEST(Detour, BetweenItsPlacesItIsStraight) {
+  const Detour detour(1, 0.5, {0, 0.5, 0.5});
+  EXPECT_DOUBLE_EQ(detour.At(0), 0);
+  EXPECT_DOUBLE_EQ(detour.At(1.25), 0.25);
+  EXPECT_DOUBLE_EQ(detour.At(9), 0.5);
+  EXPECT_NEAR(detour.SlopeAt(1.25), 1, 1e-9);
+  EXPECT_TRUE(detour.leaves());
+  EXPECT_FALSE(Detour().leaves());
+}
+
+}  // namespace
+}  // namespace priamos::robot
