@@ -114,7 +114,7 @@ Drive DriveAtTheDuct(const bus::Schema& schema, std::uint64_t seed, double laser
   path.path_id = 1;
   path.estop_changes = status.get()->estop_changes;
   path.speed_m_s = 0.3;
-  path.points = {{2.0, 2.4, 0}, {5.0, 2.4, 0}};
+  path.points = {{2.0, 2.4, 0, 0, 0}, {5.0, 2.4, 0, 0, 0}};
   path.n_points = 2;
   paths.Publish(path);
   lockstep.RunUntil(begin + FromSeconds(14));
