@@ -260,10 +260,15 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   if (poses.empty()) return fix;
   const auto best = std::max_element(poses.begin(), poses.end(),
                                      [](const Pose& a, const Pose& b) { return a.LogOdds() < b.LogOdds(); });
+  const auto surprise = [&](const Pose& p) {
+    return SquaredDistance(p.base_from_landmark, prediction.base_from_landmark, search) / 2;
+  };
   for (const Pose& p : poses) {
-    if (IsDistinct(p.base_from_landmark, best->base_from_landmark, options_)) {
-      best->rival_log_odds = std::max(best->rival_log_odds, p.LogOdds() + best->solution.chi_squared / 2);
-    }
+    if (!IsDistinct(p.base_from_landmark, best->base_from_landmark, options_)) continue;
+    // Which of two poses it is, the prediction says as well.
+    const double of_prediction = surprise(*best) - surprise(p);
+    best->rival_log_odds =
+        std::max(best->rival_log_odds, p.LogOdds() + best->solution.chi_squared / 2 + of_prediction);
   }
   Judge(prediction, search, static_cast<int>(proposals.poses.size()), *best, fix);
   return fix;
@@ -288,9 +293,12 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   if (left > 0) fix.side_share = std::min(fix.side_share, found_left / left);
   if (right > 0) fix.side_share = std::min(fix.side_share, found_right / right);
   const bool side_missing = fix.side_share < options_.min_side_share;
-  const double wanted =
-      options_.min_log_odds + std::log(std::max(n_tested, 1)) + (one_sided ? options_.one_sided_log_odds : 0);
-  if (fix.n_matched < options_.min_matched || fix.log_odds < wanted || side_missing ||
+  // Where the prediction leaves no room for another landmark, one side tells as much as if it were alone in
+  // view.
+  const bool may_miss = search(0, 0) + search(1, 1) < options_.sharp_m * options_.sharp_m;
+  const double wanted = options_.min_log_odds + std::log(std::max(n_tested, 1)) +
+                        (one_sided || side_missing ? options_.one_sided_log_odds : 0);
+  if (fix.n_matched < options_.min_matched || fix.log_odds < wanted || (side_missing && !may_miss) ||
       fix.log_odds < options_.min_share * best.association.best_log_odds) {
     fix.verdict = Verdict::kTooFewEdges;
   } else if (fix.rival_log_odds > fix.log_odds - options_.min_lead) {

@@ -64,6 +64,8 @@ struct LandmarkFixOptions {
   double min_log_odds = 7;  ///< log odds wanted beyond the logarithm of the number of poses tried
   double min_share = 0.5;   ///< share of the log odds that a perfect match would give
   double min_side_share = 0.45;  ///< least side_share of a fix
+  double sharp_m =
+      0.08;  ///< a prediction with a smaller sigma of the place leaves no room for another landmark
   double one_sided_log_odds =
       5;  ///< log odds wanted in addition if only one side is in view: it could be another landmark's
   double min_lead = 6;  ///< log odds wanted over the best different pose

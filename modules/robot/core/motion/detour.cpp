@@ -69,9 +69,13 @@ std::pair<double, double> OffsetsThatMeet(const Station& station, const Eigen::V
 }
 
 void Raise(Lanes& cost, const std::pair<double, double>& offsets, double to) {
-  const double first = std::max(std::ceil(offsets.first / kStep_m), -double(kMiddle));
-  const double last = std::min(std::floor(offsets.second / kStep_m), double(kMiddle));
-  for (int lane = kMiddle + static_cast<int>(first); lane <= kMiddle + static_cast<int>(last); ++lane)
+  constexpr double kOutmost =
+      kMiddle + 1;  // offsets may be anything where a thing moves almost along the path
+  const auto first =
+      static_cast<int>(std::clamp(std::ceil(offsets.first / kStep_m), -double(kMiddle), kOutmost));
+  const auto last =
+      static_cast<int>(std::clamp(std::floor(offsets.second / kStep_m), -kOutmost, double(kMiddle)));
+  for (int lane = kMiddle + first; lane <= kMiddle + last; ++lane)
     cost[static_cast<std::size_t>(lane)] = std::max(cost[static_cast<std::size_t>(lane)], to);
 }
 

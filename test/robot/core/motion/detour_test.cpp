@@ -113,6 +113,19 @@ TEST_F(DetourTest, MissesAnEndThatIsNotFree) {
   EXPECT_GT(std::abs(detour->At(2)), 0.6);
 }
 
+RC_GTEST_PROP(Detour, TakesThingsAnywhereAndHeadingsAlmostStraight, (const unsigned seed)) {
+  Rng rng(seed);
+  const double turn = std::pow(10.0, rng.Uniform(-12, 0));
+  const PathShape path(
+      PathShapeConfig{}, {0, 0, turn},
+      {.id = 1, .speed_m_s = 0.3, .points = {{4, 0, turn * rng.Uniform(-1, 1)}}, .leeway = {kWide}});
+  std::vector<Eigen::Vector2d> things;
+  for (int i = 0; i < 50; ++i)
+    things.emplace_back(rng.Uniform(-1, 1) * std::pow(10.0, rng.Uniform(-2, 9)), rng.Uniform(-3, 3));
+  const auto detour = FindDetour({}, {}, path, {rng.Uniform(0, 4), rng.Uniform(-9, 9)}, things, {});
+  RC_ASSERT(!detour || std::isfinite(detour->At(rng.Uniform(0, 4))));
+}
+
 RC_GTEST_PROP(Detour, StaysWithinItsLeeway, (const unsigned seed)) {
   Rng rng(seed);
   const Leeway leeway{rng.Uniform(0, 2), rng.Uniform(0, 2)};
