@@ -240,6 +240,10 @@ Eigen::Matrix3d LandmarkFixOptions::SearchCovariance(const LandmarkPrediction& p
   return search;
 }
 
+bool LandmarkFixOptions::IsSharp(const Eigen::Matrix3d& search) const {
+  return search(0, 0) + search(1, 1) < sharp_m * sharp_m;
+}
+
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
                                  const StereoViews& views, const EdgeShifts& seen) const {
   LandmarkFix fix;
@@ -260,18 +264,24 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   if (poses.empty()) return fix;
   const auto best = std::max_element(poses.begin(), poses.end(),
                                      [](const Pose& a, const Pose& b) { return a.LogOdds() < b.LogOdds(); });
-  const auto surprise = [&](const Pose& p) {
-    return SquaredDistance(p.base_from_landmark, prediction.base_from_landmark, search) / 2;
-  };
-  for (const Pose& p : poses) {
-    if (!IsDistinct(p.base_from_landmark, best->base_from_landmark, options_)) continue;
-    // Which of two poses it is, the prediction says as well.
-    const double of_prediction = surprise(*best) - surprise(p);
-    best->rival_log_odds =
-        std::max(best->rival_log_odds, p.LogOdds() + best->solution.chi_squared / 2 + of_prediction);
-  }
+  best->rival_log_odds = RivalLogOdds(prediction, search, poses, *best);
   Judge(prediction, search, static_cast<int>(proposals.poses.size()), *best, fix);
   return fix;
+}
+
+double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
+                                    const std::vector<Pose>& poses, const Pose& best) const {
+  // Where the prediction is sharp, it has a say in which of two poses it is.
+  const double weight = options_.IsSharp(search) ? 0.5 : 0;
+  const auto surprise = [&](const Pose& p) {
+    return weight * SquaredDistance(p.base_from_landmark, prediction.base_from_landmark, search);
+  };
+  double rival = best.rival_log_odds;
+  for (const Pose& p : poses) {
+    if (!IsDistinct(p.base_from_landmark, best.base_from_landmark, options_)) continue;
+    rival = std::max(rival, p.LogOdds() + best.solution.chi_squared / 2 + surprise(best) - surprise(p));
+  }
+  return rival;
 }
 
 void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
@@ -293,9 +303,8 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   if (left > 0) fix.side_share = std::min(fix.side_share, found_left / left);
   if (right > 0) fix.side_share = std::min(fix.side_share, found_right / right);
   const bool side_missing = fix.side_share < options_.min_side_share;
-  // Where the prediction leaves no room for another landmark, one side tells as much as if it were alone in
-  // view.
-  const bool may_miss = search(0, 0) + search(1, 1) < options_.sharp_m * options_.sharp_m;
+  // Then one side tells as much as if it were alone in view.
+  const bool may_miss = options_.IsSharp(search);
   const double wanted = options_.min_log_odds + std::log(std::max(n_tested, 1)) +
                         (one_sided || side_missing ? options_.one_sided_log_odds : 0);
   if (fix.n_matched < options_.min_matched || fix.log_odds < wanted || (side_missing && !may_miss) ||

@@ -81,6 +81,8 @@ struct LandmarkFixOptions {
 
   /// The prediction's covariance of (x, y, yaw), widened by the minimum sigmas [m, rad].
   Eigen::Matrix3d SearchCovariance(const LandmarkPrediction& prediction) const;
+  /// Whether a search with this covariance leaves no room for another landmark.
+  bool IsSharp(const Eigen::Matrix3d& search) const;
 };
 
 /// Finds the landmark in one stereo pair: vertical edges are reconstructed, pairs of them laid onto pairs of
@@ -109,6 +111,8 @@ class LandmarkFinder {
   std::vector<Pose> RefineAll(const LandmarkModel& model, std::span<const CameraView> views,
                               std::span<const Start> starts) const;
   void DropOutliers(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  double RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
+                      const std::vector<Pose>& poses, const Pose& best) const;
   void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
              const Pose& best, LandmarkFix& fix) const;
 

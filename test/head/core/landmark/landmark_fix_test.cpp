@@ -146,6 +146,21 @@ TEST_F(LandmarkFixTest, ADoorOfAnotherWidthIsNotThisDoor) {
   }
 }
 
+/// Something as grey as the wall stands before the right jamb.
+TEST_F(LandmarkFixTest, OneHiddenSideIsBelievedOnlyWhereThePlaceIsKnown) {
+  std::vector<test::Quad> quads = test::DoorQuads();
+  quads.push_back({{-0.4, -1.3, 0}, {0, 0.94, 0}, {0, 0, 2.4}, quads.front().grey});
+  const Pose2 truth{2.6, 0.02, 0.01};
+  const LandmarkFix vague = Find(quads, truth, truth);
+  const Eigen::Matrix3d sharp = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
+  const LandmarkFix known = dut_.Find(model_, {{2.605, 0.015, 0.012}, sharp},
+                                      {MakeView(left_, left_edges_), MakeView(right_, right_edges_)});
+  EXPECT_NE(vague.verdict, Verdict::kFound);
+  ASSERT_EQ(known.verdict, Verdict::kFound) << Describe(known.verdict);
+  EXPECT_LT(known.side_share, LandmarkFixOptions().min_side_share);
+  EXPECT_NEAR(known.base_from_landmark.y, truth.y, 0.005);
+}
+
 TEST_F(LandmarkFixTest, ADoorElsewhereIsRefused) {
   const LandmarkFix fix = Find(test::DoorQuads(), {3.6, 0.1, 0}, {3.6, -0.55, 0});
   EXPECT_EQ(fix.verdict, Verdict::kElsewhere);
