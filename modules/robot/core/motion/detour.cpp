@@ -1,5 +1,6 @@
 #include "robot/core/motion/detour.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,8 +35,9 @@ double OffsetOf(int lane) {
 /// The base on the path at one arc length, and where offsets move it.
 struct Station {
   double s = 0;
-  Pose2 pose;
-  Eigen::Vector2d left{0, 0};  ///< unit vector across the path, map frame; 0 where the base turns on the spot
+  Eigen::Isometry2d base_from_map;
+  Eigen::Vector2d across{
+      0, 0};  ///< unit vector to the left of the path, base frame; 0 while turning on the spot
   Leeway leeway;
 };
 
@@ -45,17 +47,17 @@ std::vector<Station> StationsFrom(const PathShape& path, double s, double horizo
   for (int k = 0; k <= std::max(steps, 0); ++k) {
     const double at = s + k * kStep_m;
     const PathShape::Point point = path.At(at);
-    stations.push_back({at, point.pose, point.left(), path.LeewayAt(at)});
+    const Eigen::Isometry2d base_from_map =
+        (Eigen::Translation2d(point.pose.translation()) * Eigen::Rotation2Dd(point.pose.yaw)).inverse();
+    stations.push_back({at, base_from_map, base_from_map.linear() * point.left(), path.LeewayAt(at)});
   }
   return stations;
 }
 
-/// Offsets for which a thing is within a rectangle of the half size `half` around the base; none: first >
-/// last.
-std::pair<double, double> OffsetsThatMeet(const Station& station, const Eigen::Vector2d& thing,
+/// Offsets for which a thing that is `seen` from the base is within a rectangle of the half size `half`
+/// around it; none: first > last.
+std::pair<double, double> OffsetsThatMeet(const Eigen::Vector2d& across, const Eigen::Vector2d& seen,
                                           const Eigen::Vector2d& half) {
-  const Eigen::Vector2d seen = station.pose.Inverse() * thing;
-  const Eigen::Vector2d across = Pose2{0, 0, -station.pose.yaw} * station.left;
   std::pair<double, double> meets{-kNowhere, kNowhere};
   for (int axis = 0; axis < 2; ++axis) {
     if (std::abs(across(axis)) < 1e-9) {
@@ -99,9 +101,13 @@ Lanes CostsAt(const Search& search, const Station& station) {
   Lanes near{};
   const Eigen::Vector2d half = search.footprint.Size() / 2;
   for (const Eigen::Vector2d& thing : search.things) {
+    const Eigen::Vector2d seen = station.base_from_map * thing;
     for (const auto& [margin_m, cost] :
-         {std::pair{config.wish_m, kNear}, {config.stop_m, kTooNear}, {config.least_m, kNowhere}})
-      Raise(near, OffsetsThatMeet(station, thing, half + Eigen::Vector2d::Constant(margin_m)), cost);
+         {std::pair{config.wish_m, kNear}, {config.stop_m, kTooNear}, {config.least_m, kNowhere}}) {
+      const auto offsets = OffsetsThatMeet(station.across, seen, half + Eigen::Vector2d::Constant(margin_m));
+      if (offsets.first > offsets.second) break;  // with smaller margins neither
+      Raise(near, offsets, cost);
+    }
   }
   for (int lane = 0; lane < kLanes; ++lane) {
     const double offset = OffsetOf(lane);
@@ -120,7 +126,7 @@ bool IsFree(const Search& search, const std::vector<Station>& stations) {
   const Eigen::Vector2d half = search.footprint.Size() / 2 + Eigen::Vector2d::Constant(search.config.wish_m);
   return std::none_of(search.things.begin(), search.things.end(), [&](const Eigen::Vector2d& thing) {
     return std::any_of(stations.begin(), stations.end(), [&](const Station& station) {
-      const Eigen::Vector2d seen = (station.pose.Inverse() * thing).cwiseAbs();
+      const Eigen::Vector2d seen = (station.base_from_map * thing).cwiseAbs();
       return seen.x() <= half.x() && seen.y() <= half.y();
     });
   });
