@@ -7,6 +7,7 @@
 #include <opencv2/ximgproc/edge_drawing.hpp>
 
 #include "head/core/edges/edge_segments.hpp"
+#include "head/core/edges/scale_edges.hpp"
 #include "test/bench/vision/vision_bench.hpp"
 #include "test/support/line_scene.hpp"
 
@@ -36,6 +37,13 @@ Rival Ours() {
   auto edges = std::make_shared<head::EdgeImage>();
   return {"ours", [op, edges](const cv::Mat& image) { op->Extract(image, *edges); },
           [edges] { return edges->segments; }};
+}
+
+Rival OverScales() {
+  auto op = std::make_shared<head::ScaleEdgeOperator>();
+  auto found = std::make_shared<head::BlurredEdges>();
+  return {"over scales", [op, found](const cv::Mat& image) { op->Extract(image, *found); },
+          [found] { return found->edges.segments; }};
 }
 
 Rival Lsd(bool repaired) {
@@ -90,6 +98,27 @@ void Times(const std::string& photo, const VisionOptions& options, Figures& figu
   figures.AtLeast("  times faster than LSD", Median(times[1]) / ours, 10, "");
 }
 
+/// Total length of what each operator finds as the photograph is blurred more and more.
+void Lengths(const std::string& photo, Figures& figures) {
+  const cv::Mat sharp = cv::imread(photo, cv::IMREAD_GRAYSCALE);
+  for (const double blur_px : {0.0, 1.0, 2.0, 3.0, 5.0}) {
+    cv::Mat image = sharp.clone();  // each blur by itself: none of them adds to the one before
+    if (blur_px > 0) cv::GaussianBlur(sharp, image, {}, blur_px);
+    std::vector<double> lengths;
+    for (const Rival& rival : {OverScales(), Ours(), Lsd(false), EdgeDrawing()}) {
+      rival.detect(image);
+      double sum = 0;
+      for (const EdgeSegment& segment : rival.segments()) sum += segment.length_px();
+      lengths.push_back(sum);
+    }
+    fmt::print(
+        "{} blurred by {} px: over scales {:.0f}, one scale {:.0f}, LSD {:.0f}, EdgeDrawing {:.0f} px\n",
+        photo, blur_px, lengths[0], lengths[1], lengths[2], lengths[3]);
+    figures.AtLeast("  length over that of the better rival",
+                    lengths[0] / std::max({lengths[2], lengths[3], 1.0}), 0.95, "");
+  }
+}
+
 struct Bounds {
   double contrast, noise, error_px, coverage;
 };
@@ -125,6 +154,7 @@ void Accuracy(const Bounds& bounds, const VisionOptions& options, Figures& figur
 
 void BenchEdges(const VisionOptions& options, Figures& figures) {
   for (const std::string& photo : options.photos) Times(photo, options, figures);
+  for (const std::string& photo : options.photos) Lengths(photo, figures);
   Accuracy({100, 5, 0.025, 0.98}, options, figures);
   Accuracy({30, 10, 0.12, 0.98}, options, figures);
 }
