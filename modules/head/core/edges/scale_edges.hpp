@@ -19,7 +19,9 @@ struct BlurredEdges {
 
 /// The edge operator over scales (Lindeberg 1998): it runs on the image, then on its half and its quarter. A
 /// coarse edge counts only where it is so wide that the finer operator may have missed it, and where no finer
-/// edge runs. So sharp edges stay as EdgeOperator finds them, and no edge is there twice.
+/// edge runs. So sharp edges stay as EdgeOperator finds them, unless they are joined with a softer piece.
+/// Where photographs are blurred by 3 px and more, 1 to 5 % of the length lies beside another edge. From 5 px
+/// on the standard deviations are too small.
 class ScaleEdgeOperator {
  public:
   ScaleEdgeOperator() : ScaleEdgeOperator(EdgeOperator::Options()) {}
