@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "head/core/edges/scale_edges.hpp"
 #include "head/files/image_file.hpp"
 #include "head/files/landmark_file.hpp"
 #include "head/files/projection_file.hpp"
@@ -15,6 +17,8 @@ namespace priamos::head {
 namespace {
 
 constexpr int kSmallest_px = 32;
+constexpr double kBlurred =
+    0.75;  // a sharp photograph shows at half its size less than this part of its edges
 constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may be uncertain
 
 cv::Mat ReadLargeEnough(const std::string& file) {
@@ -27,14 +31,35 @@ cv::Mat ReadLargeEnough(const std::string& file) {
   return image;
 }
 
+double LengthOf(const EdgeImage& image) {
+  double length_px = 0;
+  for (const EdgeSegment& segment : image.segments) length_px += segment.length_px();
+  return length_px;
+}
+
+/// An image that at half its size shows nearly all of its edges, or more, is soft and is seen over scales.
+EdgeImage EdgesOf(const cv::Mat& grey) {
+  EdgeOperator edge_operator;
+  EdgeImage edges, of_half;
+  edge_operator.Extract(grey, edges);
+  if (std::min(grey.cols, grey.rows) < 2 * kSmallest_px) return edges;
+  cv::Mat half;
+  cv::resize(grey, half, {}, 0.5, 0.5, cv::INTER_AREA);
+  edge_operator.Extract(half, of_half);
+  const double length_px = LengthOf(edges);
+  if (length_px > 0 && 2 * LengthOf(of_half) <= kBlurred * length_px) return edges;
+  BlurredEdges blurred;
+  ScaleEdgeOperator().Extract(grey, blurred);
+  return blurred.edges;
+}
+
 std::vector<SeenPhotograph> ReadPhotographs(const std::vector<std::string>& files) {
   std::vector<SeenPhotograph> photographs;
-  EdgeOperator edge_operator;
   for (const std::string& file : files) {
     SeenPhotograph& photograph = photographs.emplace_back();
     photograph.file = file;
     photograph.grey = ReadLargeEnough(file);
-    edge_operator.Extract(photograph.grey, photograph.edges);
+    photograph.edges = EdgesOf(photograph.grey);
   }
   for (SeenPhotograph& photograph : photographs) photograph.contours = {photograph.edges, {}};
   return photographs;

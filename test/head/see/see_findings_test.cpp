@@ -19,11 +19,12 @@ constexpr double kFocal_px = 150, kBaseline_m = 0.12, kDepth_m = 2;
 class SeeFindingsTest : public testing::Test {
  protected:
   /// A bright board 2 m before the cameras, as one sees it that stands so far to the right.
-  std::string Photograph(const std::string& name, double right_m, cv::Size size = {160, 120}) const {
+  std::string Photograph(const std::string& name, double right_m, cv::Size size = {160, 120},
+                         double blur_px = 0.8) const {
     cv::Mat image(size, CV_8UC1, cv::Scalar(60));
     const int left = static_cast<int>(60 - std::lround(kFocal_px * right_m / kDepth_m));
     cv::rectangle(image, {left, 30}, {left + 50, 80}, cv::Scalar(180), cv::FILLED);
-    cv::GaussianBlur(image, image, {}, 0.8);
+    cv::GaussianBlur(image, image, {}, blur_px);
     cv::imwrite(folder_ / name, image);
     return folder_ / name;
   }
@@ -59,6 +60,16 @@ TEST_F(SeeFindingsTest, OnlyWhatIsAskedForIsLookedFor) {
   EXPECT_FALSE(dut.matches);
   EXPECT_FALSE(dut.doors);
   EXPECT_FALSE(dut.landmark);
+}
+
+TEST_F(SeeFindingsTest, ABlurredPhotographHasItsEdges) {
+  for (const double blur_px : {3.0, 4.0}) {
+    const SeeFindings dut = FindAll({.images = {Photograph("soft.png", 0, {160, 120}, blur_px)}});
+    double length_px = 0;
+    for (const EdgeSegment& segment : dut.photographs[0].edges.segments) length_px += segment.length_px();
+    EXPECT_GT(length_px, 0.6 * 4 * 50) << blur_px;
+    EXPECT_LT(length_px, 1.2 * 4 * 50) << blur_px;
+  }
 }
 
 TEST_F(SeeFindingsTest, AViewBelongsToItsPhotographAndCamera) {
