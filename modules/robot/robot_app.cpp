@@ -38,7 +38,7 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       estop_memory_(config.state_file.empty() ? "" : context.ResolvePath(config.state_file)),
       status_rate_(config.status_rate_hz),
       opening_rate_(kOpeningRate_hz),
-      localiser_(config.localiser, config.base),
+      localiser_(config.localiser, config.base, config.drive.footprint),
       drive_(config.drive, config.base),
       opening_watch_(config.opening, config.drive.footprint),
       wheels_(context.node().SubscribeAll(channels::kWheelState)),
@@ -128,6 +128,7 @@ void RobotApp::TakeSonars() {
   const SonarCycle cycle = FromMessage(*message);
   const Pose2& odom_from_base = localiser_.odometry().pose();
   drive_.AddSonar(cycle, odom_from_base);
+  localiser_.AddSonar(cycle);
   const auto estimate = localiser_.estimate();
   if (!estimate) return;
   if (const auto opening = opening_watch_.Add(cycle, odom_from_base, estimate->pose)) {

@@ -141,7 +141,7 @@ TEST(FixMessages, NumbersThatMakeNoSenseBecomeAFixThatIsRefused) {
   odd.sigma_yaw_rad = kNaN;
   correlated.rho_x_y = 3;
   shared.own_share = 2;
-  Localiser localiser{LocaliserConfig{}, MecanumGeometry{}};
+  Localiser localiser{LocaliserConfig{}, MecanumGeometry{}, Footprint{}};
   for (int i = 0; i < 5; ++i) {
     const Time time = FromUtime(980'000 + i * 20'000);
     localiser.AddWheels({.time = time}, time);

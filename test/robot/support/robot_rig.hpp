@@ -17,7 +17,7 @@ class RobotRig {
            const DriveConfig& drive = DriveConfig(), std::vector<Surface> surfaces = {})
       : base_(seed, truth),
         sonars_(seed, std::move(surfaces)),
-        localiser_(localiser, MecanumGeometry()),
+        localiser_(localiser, MecanumGeometry(), drive.footprint),
         drive_(drive, MecanumGeometry()) {}
 
   bool wheels_answer = true, sonars_answer = true, wheels_turn = true, head_answers = true;
@@ -56,8 +56,11 @@ class RobotRig {
     base_.Advance(std::chrono::milliseconds(20));
     const WheelSample sample = base_.Read();
     if (wheels_answer && localiser_.AddWheels(sample, now())) heard_ = now();
-    if (sonars_answer && tick_ % 5 == 0)
-      drive_.AddSonar(sonars_.Listen(now(), base_.truth()), localiser_.odometry().pose());
+    if (sonars_answer && tick_ % 5 == 0) {
+      const SonarCycle cycle = sonars_.Listen(now(), base_.truth());
+      drive_.AddSonar(cycle, localiser_.odometry().pose());
+      localiser_.AddSonar(cycle);
+    }
     answers_ = localiser_.Step(now());
     command_ = drive_.Step({localiser_.estimate(), localiser_.odometry().pose(), heard_,
                             head_answers ? std::optional(now()) : std::nullopt, link_down},

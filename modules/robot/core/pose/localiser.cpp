@@ -1,6 +1,7 @@
 #include "robot/core/pose/localiser.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace priamos::robot {
@@ -9,6 +10,9 @@ namespace {
 // More than any head sends; a flood of fixes with times in the future must not grow without bound.
 constexpr std::size_t kMostWaiting = 16;
 
+// The sensors of a cycle fire one group after the other; which one when is not told.
+constexpr double kFiredBefore_s = 0.05;
+
 constexpr double kLongestBack_s = 5;  // a velocity is not extrapolated back any further
 
 }  // namespace
@@ -16,11 +20,19 @@ constexpr double kLongestBack_s = 5;  // a velocity is not extrapolated back any
 void LocaliserConfig::Describe(Archive& a) {
   a.Number("fix_wait_s", fix_wait_s, {"s", 0, 5, "how long a fix waits for odometry of its time"});
   a.Section("odometry", odometry, "dead reckoning of the four wheels");
+  a.Section("walls", walls, "straight walls as the sonars show them");
   a.Section("estimator", estimator, "pose in the map");
 }
 
-Localiser::Localiser(const LocaliserConfig& config, const MecanumGeometry& geometry)
-    : config_(config), odometry_(config.odometry, geometry), estimator_(config.estimator) {}
+Localiser::Localiser(const LocaliserConfig& config, const MecanumGeometry& geometry,
+                     const Footprint& footprint)
+    : config_(config),
+      odometry_(config.odometry, geometry),
+      estimator_(config.estimator),
+      walls_(config.walls, footprint) {
+  for (int i = 0; i < kSonars; ++i)
+    base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, {footprint.length_m, footprint.width_m});
+}
 
 bool Localiser::AddWheels(const WheelSample& sample, Time now) {
   const int accepted = odometry_.counters().accepted;
@@ -38,6 +50,20 @@ void Localiser::AddSlip(double position_m, double yaw_rad) {
 
 void Localiser::AddFix(const LandmarkFix& fix, Time now) {
   if (waiting_.size() < kMostWaiting) waiting_.push_back({fix, now});
+}
+
+void Localiser::AddSonar(const SonarCycle& cycle) {
+  RingHeard heard{cycle.time, {}, walls_.Add(cycle, OdometryPoseAt(cycle.time))};
+  const Twist2 twist = odometry_.twist();
+  for (std::size_t i = 0; i < base_from_sonar_.size(); ++i) {
+    const double range = cycle.range_m[i];
+    if (!(range > kSonarMin_m && range <= kSonarMax_m)) continue;
+    const Pose2& at = base_from_sonar_[i];
+    const Eigen::Vector2d speed(twist.vx - twist.wz * at.y, twist.vy + twist.wz * at.x);
+    const double stale_m = at.rotation().col(0).dot(speed) * kFiredBefore_s;
+    heard.ranges.push_back({at, range, std::hypot(config_.walls.fit.SigmaOf(range), stale_m)});
+  }
+  estimator_.Hear(heard);
 }
 
 std::vector<Localiser::Answer> Localiser::Step(Time now) {

@@ -5,13 +5,15 @@
 
 #include "robot/core/base/odometry.hpp"
 #include "robot/core/pose/pose_estimator.hpp"
+#include "robot/core/sonar/wall_finder.hpp"
 
 namespace priamos::robot {
 
-/// Odometry, pose filter, and how long a fix may wait.
+/// Odometry, pose filter, walls beside the way, and how long a fix may wait.
 struct LocaliserConfig {
   OdometryConfig odometry;
   PoseEstimatorConfig estimator;
+  WallFinderConfig walls;
   double fix_wait_s = 0.5;  ///< how long a fix waits for odometry of its picture's time
 
   void Describe(Archive& a);
@@ -27,7 +29,7 @@ class Localiser {
     FixResult result;
   };
 
-  Localiser(const LocaliserConfig& config, const MecanumGeometry& geometry);
+  Localiser(const LocaliserConfig& config, const MecanumGeometry& geometry, const Footprint& footprint);
 
   /// Takes a sample of the wheels; returns false when it was refused (see Odometry::counters).
   bool AddWheels(const WheelSample& sample, Time now);
@@ -35,6 +37,8 @@ class Localiser {
   /// carries it.
   void AddSlip(double position_m, double yaw_rad);
   void AddFix(const LandmarkFix& fix, Time now);
+  /// Takes a cycle of the sonars: ranges of straight walls hold the pose, their heading above all.
+  void AddSonar(const SonarCycle& cycle);
   /// Applies the fixes that can be applied. Returns one answer per fix that no longer waits.
   std::vector<Answer> Step(Time now);
 
@@ -53,6 +57,8 @@ class Localiser {
   LocaliserConfig config_;
   Odometry odometry_;
   PoseEstimator estimator_;
+  WallFinder walls_;
+  std::array<Pose2, kSonars> base_from_sonar_;
   std::vector<Waiting> waiting_;
   Eigen::Matrix3d slipped_ = Eigen::Matrix3d::Zero();  ///< added to the noise of the next step
 };

@@ -11,6 +11,9 @@
 namespace priamos::robot {
 namespace {
 
+/// A wall that was not heard for so long may be another one by now.
+constexpr Duration kUnheard = std::chrono::seconds(2);
+
 /// The part of `step` between two times.
 OdometryStep Part(const OdometryStep& step, Time from, Time to) {
   OdometryStep part = step;
@@ -45,6 +48,7 @@ void PoseEstimatorConfig::Describe(Archive& a) {
   a.Number("least_fix_sigma_m", least_fix_sigma_m, {"m", 1e-5, 0.5, "no fix is believed to be better"});
   a.Number("least_fix_sigma_deg", least_fix_sigma_deg, {"deg", 1e-4, 10, "no fix is believed to be better"});
   a.Section("initial", initial, "where the robot starts; errors are bounds, not sigmas");
+  a.Section("walls", walls, "which ranges of the sonars count as those of a straight wall");
   a.Section("bias", bias, "constant errors of the odometry, sigma before the first fix");
 }
 
@@ -60,7 +64,7 @@ PoseEstimator::PoseEstimator(const PoseEstimatorConfig& config) : config_(config
   const InitialPose& initial = config.initial;
   initial_.mean.head<3>() << initial.x_m, initial.y_m, WrapAngle(Radians(initial.yaw_deg));
   const OdometryBias& b = config.bias;
-  PoseState::Vector sigma;
+  PoseState::Vector sigma(PoseState::kOwn);
   sigma << initial.position_error_m / std::sqrt(3), initial.position_error_m / std::sqrt(3),
       Radians(initial.yaw_error_deg) / std::sqrt(3), b.forward, b.sideways, b.yaw, b.yaw_rad_per_m,
       b.drift_m_per_m;
@@ -72,9 +76,9 @@ void PoseEstimator::Move(const OdometryStep& step) {
   if (!continues) {
     const PoseState state = history_.empty() ? initial_ : history_.back().state;
     history_.clear();
-    history_.push_back({{.from = step.from, .to = step.from}, state, std::nullopt});
+    history_.push_back({.step = {.from = step.from, .to = step.from}, .state = state});
   }
-  history_.push_back({step, Propagated(history_.back().state, step), std::nullopt});
+  history_.push_back({.step = step, .state = Propagated(history_.back().state, step)});
   Forget();
 }
 
@@ -101,7 +105,8 @@ FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
     OdometryStep standing = entry.step;
     standing.from = standing.to;
     standing.noise.setZero();
-    history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(index) + 1, {standing, update.state, fix});
+    history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(index) + 1,
+                    {.step = standing, .state = update.state, .fix = fix});
     result.at_picture = EstimateAt(history_[index + 1]);
     Replay(index + 2);
   } else {
@@ -111,6 +116,37 @@ FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
     Replay(index + 1);
   }
   return result;
+}
+
+/// At the last entry of that time: within one step of the odometry the base does not come nearer to a wall.
+void PoseEstimator::Hear(const RingHeard& heard) {
+  if (history_.empty() || heard.time < history_.front().step.to || heard.time <= newest_cycle_) return;
+  newest_cycle_ = heard.time;
+  const auto after = std::upper_bound(history_.begin(), history_.end(), heard.time,
+                                      [](Time t, const Entry& entry) { return t < entry.step.to; });
+  const auto index = static_cast<std::size_t>(after - history_.begin()) - 1;
+  Entry& entry = history_[index];
+  if (index == 0 || !entry.ranges.empty()) return;
+  entry.ranges = heard.ranges;
+  const CycleUpdate update = Updated(entry.state, entry.ranges, config_.walls);
+  for (std::size_t i = 0; i < heard_.size(); ++i)
+    if (update.heard[i]) heard_[i] = heard.time;
+  for (const WallSeen& wall : heard.walls) TakeUp(update.state, wall, entry);
+  Replay(index);
+}
+
+/// A wall that is known and heard is not taken up again, one that is no longer heard gives way.
+void PoseEstimator::TakeUp(const PoseState& state, const WallSeen& seen, Entry& entry) {
+  if (entry.found) return;
+  const auto same = SameWall(state, seen);
+  if (same && entry.step.to - heard_[static_cast<std::size_t>(*same)] < kUnheard) return;
+  if (same || state.walls() == PoseState::kMostWalls) {
+    const auto longest = std::min_element(heard_.begin(), heard_.end());
+    entry.lost = same.value_or(static_cast<int>(longest - heard_.begin()));
+    heard_.erase(heard_.begin() + *entry.lost);
+  }
+  entry.found = seen;
+  heard_.push_back(entry.step.to);
 }
 
 std::optional<PoseEstimate> PoseEstimator::newest() const {
@@ -165,14 +201,16 @@ std::size_t PoseEstimator::EntryAt(Time time) {
   const OdometryStep first = Part(whole, whole.from, std::max(time, whole.from));
   const OdometryStep second = Part(whole, first.to, whole.to);
   after->step = second;
-  history_.insert(after, {first, Propagated(history_[index - 1].state, first), std::nullopt});
+  history_.insert(after, {.step = first, .state = Propagated(history_[index - 1].state, first)});
   return index;
 }
 
 void PoseEstimator::Replay(std::size_t from) {
   for (std::size_t i = from; i < history_.size(); ++i) {
     Entry& entry = history_[i];
-    entry.state = Propagated(history_[i - 1].state, entry.step);
+    entry.state = Updated(Propagated(history_[i - 1].state, entry.step), entry.ranges, config_.walls).state;
+    if (entry.lost) entry.state = WithoutWall(entry.state, *entry.lost);
+    if (entry.found) entry.state = WithWall(entry.state, *entry.found);
     if (!entry.fix) continue;
     entry.state = Updated(entry.state, MeasurementOf(*entry.fix)).state;
   }

@@ -3,12 +3,14 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "robot/core/base/odometry.hpp"
-#include "robot/core/pose/pose_state.hpp"
+#include "robot/core/pose/landmark_update.hpp"
+#include "robot/core/pose/wall_update.hpp"
 
 namespace priamos::robot {
 
@@ -32,8 +34,16 @@ struct PoseEstimatorConfig {
   double least_fix_sigma_m =
       0.0003;  ///< least sigma of a fix: 1 ms at 0.3 m/s, the error of the picture's time
   double least_fix_sigma_deg = 0.01;
+  WallRangeConfig walls;
 
   void Describe(Archive& a);
+};
+
+/// What the ring heard in one cycle: what may be ranges of walls, and the walls that came to light.
+struct RingHeard {
+  Time time{};
+  std::vector<RangeSeen> ranges;
+  std::vector<WallSeen> walls;  ///< frame of the base at `time`
 };
 
 /// A landmark as the head reconstructed it from one stereo pair.
@@ -83,26 +93,37 @@ class PoseEstimator {
   /// when odometry has got there.
   FixResult Apply(const LandmarkFix& fix);
 
+  /// Corrects the pose by the ranges of walls that it knows, and takes up walls that it does not.
+  void Hear(const RingHeard& heard);
+  /// How many straight walls hold the pose now.
+  int walls() const { return history_.empty() ? 0 : history_.back().state.walls(); }
+
   /// The estimate at the time of the newest odometry; nullopt before the first step.
   std::optional<PoseEstimate> newest() const;
 
  private:
   struct Entry {
-    OdometryStep step;               ///< odometry step to this entry
-    PoseState state;                 ///< after step and fix
-    std::optional<LandmarkFix> fix;  ///< the fix that was applied at this entry
+    OdometryStep step;                 ///< odometry step to this entry
+    PoseState state{};                 ///< after step, ranges, changes of walls, and fix
+    std::optional<LandmarkFix> fix{};  ///< the fix that was applied at this entry
+    std::vector<RangeSeen> ranges{};   ///< what the ring heard at this entry
+    std::optional<int> lost{};         ///< the wall that was given up after these ranges
+    std::optional<WallSeen> found{};   ///< the wall that was taken up then
   };
 
   std::optional<FixResult> RefuseByForm(const LandmarkFix& fix) const;
   LandmarkMeasurement MeasurementOf(const LandmarkFix& fix) const;
   std::size_t EntryAt(Time time);
   void Replay(std::size_t from);
+  void TakeUp(const PoseState& state, const WallSeen& seen, Entry& entry);
   PoseEstimate EstimateAt(const Entry& entry) const;
   void Forget();
 
   PoseEstimatorConfig config_;
   PoseState initial_;
   std::deque<Entry> history_;  ///< ascending in time; front() is where replay may start
+  std::vector<Time> heard_;    ///< when each wall of the newest state was heard last
+  Time newest_cycle_{};
 };
 
 }  // namespace priamos::robot

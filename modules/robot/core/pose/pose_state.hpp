@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
@@ -21,16 +22,24 @@ struct OdometryBias {
   void Describe(Archive& a);
 };
 
-/// Pose of the base in the map with the constant errors of the odometry, and their joint covariance.
+/// Pose of the base in the map, the constant errors of the odometry, the straight walls that the sonars hear
+/// (none known before), and the joint covariance of all that.
 struct PoseState {
-  static constexpr int kSize = 8;  ///< x, y, yaw, then the five of OdometryBias
-  using Vector = Eigen::Matrix<double, kSize, 1>;
-  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+  static constexpr int kOwn = 8;  ///< x, y, yaw, then the five of OdometryBias
+  static constexpr int kMostWalls = 4;
+  static constexpr int kMost = kOwn + 2 * kMostWalls;  ///< each wall adds its angle and its distance
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
 
-  Vector mean = Vector::Zero();
-  Matrix covariance = Matrix::Zero();
-  Matrix repeated = Matrix::Zero();  ///< part of `covariance` from errors that later looks may repeat
+  Vector mean = Vector::Zero(kOwn);
+  Matrix covariance = Matrix::Zero(kOwn, kOwn);
+  Matrix repeated =
+      Matrix::Zero(kOwn, kOwn);  ///< part of `covariance` from errors that later looks may repeat
+  /// Points of the map from which the distances of the walls count: where the base was when it found each.
+  std::array<Eigen::Vector2d, kMostWalls> anchors{};
 
+  int size() const { return static_cast<int>(mean.size()); }
+  int walls() const { return (size() - kOwn) / 2; }
   Pose2 pose() const { return {mean(0), mean(1), mean(2)}; }
   Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
@@ -40,29 +49,5 @@ Twist2 Unbiased(const PoseState& state, const Twist2& twist);
 
 /// The state after `step`.
 PoseState Propagated(const PoseState& state, const OdometryStep& step);
-
-/// One measurement of a landmark. Looks repeat the errors of its model and of the head's calibration, each
-/// time from elsewhere and with other edges: that they are correlated is known, but not how.
-struct LandmarkMeasurement {
-  Pose2 base_from_landmark;
-  Eigen::Matrix3d covariance =
-      Eigen::Matrix3d::Zero();  ///< covariance of (x, y, yaw) [m, rad]; positive definite
-  Pose2 map_from_landmark;
-  double own_share = 1;  ///< share of the covariance that is independent of other looks
-};
-
-/// Covariance-weighted update with one measurement of a landmark.
-struct MeasurementUpdate {
-  PoseState state;
-  double distance = 0;  ///< Mahalanobis distance of the measurement from the estimate, 3 degrees of freedom
-};
-
-/// Iterated Kalman update (the maximum a posteriori estimate: Bell and Cathey, "The iterated Kalman filter
-/// update as a Gauss-Newton method", IEEE Trans. Automatic Control 1993), started at the pose that equations
-/// 8 and 9 give. Errors that looks share are treated by split covariance intersection (Julier and Uhlmann,
-/// "General decentralized data fusion with covariance intersection", Handbook of Multisensor Data Fusion
-/// 2001): the covariance is consistent whatever the correlation, two looks with the same error count no more
-/// than one.
-MeasurementUpdate Updated(const PoseState& prior, const LandmarkMeasurement& measurement);
 
 }  // namespace priamos::robot

@@ -13,15 +13,9 @@
 #include "robot/core/base/footprint.hpp"
 #include "robot/core/sonar/evidence_grid.hpp"
 #include "robot/core/sonar/near_map.hpp"
+#include "robot/core/sonar/sonar_cycle.hpp"
 
 namespace priamos::robot {
-
-/// One cycle of the ring.
-struct SonarCycle {
-  Time time{};
-  /// First echo of each sensor; anything outside 0..kSonarMax_m is no echo.
-  std::array<double, kSonars> range_m{};
-};
 
 /// How echoes become points in the base frame, and how long they count.
 struct EchoMemoryConfig {

@@ -5,7 +5,7 @@
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "robot/core/base/footprint.hpp"
-#include "robot/core/sonar/echo_memory.hpp"
+#include "robot/core/sonar/sonar_cycle.hpp"
 
 namespace priamos::robot {
 

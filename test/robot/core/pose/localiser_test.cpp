@@ -28,7 +28,7 @@ class LocaliserTest : public testing::Test {
   }
 
   SimulatedBase base_{1, {0.1, -0.1, 0.05}};
-  Localiser dut_{LocaliserConfig{}, MecanumGeometry{}};
+  Localiser dut_{LocaliserConfig{}, MecanumGeometry{}, Footprint{}};
 };
 
 TEST_F(LocaliserTest, HasNoEstimateBeforeTheWheelsHaveSpokenTwice) {

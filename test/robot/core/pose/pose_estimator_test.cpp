@@ -223,5 +223,80 @@ TEST_F(PoseEstimatorTest, DrivingWithoutFixesWidensTheEstimateAndAFixNarrowsIt) 
   EXPECT_LT(dut_.newest()->PositionSigma(), 0.03);
 }
 
+/// A wall to the left, y = 3 of the map, and what a sensor abeam hears of it.
+class WallsTest : public PoseEstimatorTest {
+ protected:
+  static RingHeard Heard(int index, double y_m, bool found = false) {
+    const Pose2 sonar{0, 0.39, kPi / 2};
+    RingHeard heard{At(index), {{sonar, 3 - y_m - 0.39, 0.01}}, {}};
+    if (found) heard.walls.push_back({kPi / 2, 3 - y_m, Eigen::Vector2d(4e-6, 1e-6).asDiagonal()});
+    return heard;
+  }
+  static OdometryStep Ahead(int index) {
+    OdometryStep step = Step(index, {0.4, 0, 0});
+    step.noise.diagonal() << 1e-6, 1e-6, 1e-5;
+    return step;
+  }
+  /// 4 s along the wall, found after one; ranges at 10 Hz while `hears`.
+  static void DriveAlong(PoseEstimator& estimator, bool hears, const LandmarkFix* prompt = nullptr) {
+    for (int i = 0; i < 200; ++i) {
+      estimator.Move(Ahead(i));
+      if (hears && i % 5 == 4) estimator.Hear(Heard(i + 1, 0.5, i == 49));
+      if (prompt && prompt->exposure == At(i + 1)) {
+        EXPECT_EQ(estimator.Apply(*prompt).verdict, FixVerdict::kApplied);
+      }
+    }
+  }
+};
+
+TEST_F(WallsTest, RangesOfAWallHoldTheHeading) {
+  PoseEstimator deaf{Config()};
+  const LandmarkFix fix = Fix(At(45), {1 + 0.008 * 45, 0.5, 0});
+  DriveAlong(dut_, true, &fix);
+  DriveAlong(deaf, false, &fix);
+  EXPECT_EQ(dut_.walls(), 1);
+  EXPECT_EQ(deaf.walls(), 0);
+  EXPECT_LT(dut_.newest()->YawSigma(), 0.7 * deaf.newest()->YawSigma());
+}
+
+TEST_F(WallsTest, ALateFixGivesTheSameAsOneThatCameAtOnceThoughWallsCameToLightSince) {
+  PoseEstimator prompt{Config()};
+  const LandmarkFix fix = Fix(At(40), {1.3, 0.55, 0.03});
+  DriveAlong(prompt, true, &fix);
+  DriveAlong(dut_, true);
+  EXPECT_EQ(dut_.Apply(fix).verdict, FixVerdict::kApplied);
+  ExpectSame(*dut_.newest(), *prompt.newest());
+}
+
+TEST_F(WallsTest, AKnownWallIsNotTakenUpTwiceUnlessItWasNotHeardForLong) {
+  DriveAlong(dut_, true);
+  dut_.Hear(Heard(200, 0.5, true));
+  EXPECT_EQ(dut_.walls(), 1);
+  // Nothing for 4 s, then a wall 10 cm nearer.
+  for (int i = 200; i < 400; ++i) dut_.Move(Ahead(i));
+  dut_.Hear(Heard(400, 0.6, true));
+  EXPECT_EQ(dut_.walls(), 1);
+}
+
+TEST_F(WallsTest, TheOneNotHeardForLongestGivesWayToANewOne) {
+  DriveAlong(dut_, false);
+  for (int i = 0; i < 6; ++i) {
+    dut_.Move(Ahead(200 + i));
+    const double bearing = Radians(30.0 * i);
+    dut_.Hear({At(201 + i), {}, {{bearing, 2, Eigen::Matrix2d::Identity() * 1e-6}}});
+  }
+  EXPECT_EQ(dut_.walls(), PoseState::kMostWalls);
+}
+
+TEST_F(WallsTest, CyclesOfThePastAndBeforeTheFirstStepAreIgnored) {
+  dut_.Hear(Heard(0, 0.5, true));
+  DriveAlong(dut_, true);
+  const PoseEstimate before = *dut_.newest();
+  dut_.Hear(Heard(100, 0.3, true));
+  dut_.Hear({FromUtime(0), {}, {{0, 1, Eigen::Matrix2d::Identity()}}});
+  ExpectSame(*dut_.newest(), before);
+  EXPECT_EQ(dut_.walls(), 1);
+}
+
 }  // namespace
 }  // namespace priamos::robot
