@@ -40,6 +40,12 @@ double CorrelatedLeastSquares::ChiSquared() const {
   return left.squaredNorm();
 }
 
+double CorrelatedLeastSquares::InformationAbout(const VectorXd& by_unknown) const {
+  const VectorXd white = whitening_.matrixL().solve(by_unknown);
+  const VectorXd shared = white_jacobian_.transpose() * white;
+  return white.squaredNorm() - shared.dot(information_.solve(shared));
+}
+
 /// The step is P J' V^-1 times the errors of the distances. So a part C of their covariance V makes
 /// P (A' C A) P of P, where A = V^-1 J: as a share of it trace(A' C A P) / d, and all parts together 1.
 double CorrelatedLeastSquares::ShareOf(const VectorXd& variance) const {

@@ -16,6 +16,7 @@ constexpr AssociationOptions kProposed{.sigma_px = 2.0, .gate_px = 5.0, .max_ang
 constexpr AssociationOptions kApproached{.sigma_px = 1.0, .gate_px = 3.0, .max_angle_rad = 0.04};
 constexpr AssociationOptions kRefined{.sigma_px = 0.5, .gate_px = 1.6, .max_angle_rad = 0.03};
 constexpr int kRefineBest = 8;
+constexpr double kSameAnswer = 9;  ///< squared Mahalanobis distance, 3 degrees of freedom
 
 std::vector<int> VisibleAt(const LandmarkModel& model, const Pose2& base_from_landmark,
                            double margin_rad = 0) {
@@ -74,6 +75,15 @@ Proposals Propose(const LandmarkModel& model, const Pose2& expected, const Eigen
   const double margin_rad = 3 * std::sqrt(search(2, 2)) + 0.1;
   return ProposePoses(model, VisibleAt(model, expected, margin_rad), verticals, expected, search,
                       proposal_options);
+}
+
+/// Poses beside the prediction, so densely that one lies within the first gate: from near a picture holds too
+/// little of a landmark to propose one.
+void AddPredicted(const Pose2& predicted, const Eigen::Matrix3d& search, std::vector<PoseProposal>& poses) {
+  constexpr double kStep_m = 0.008;
+  const int steps = static_cast<int>(2 * std::sqrt(search(1, 1)) / kStep_m);
+  for (int k = -steps; k <= steps; ++k)
+    poses.push_back({{predicted.x, predicted.y + k * kStep_m, predicted.yaw}});
 }
 
 /// The model with its edges where an earlier solution found them: what was measured with a tape is
@@ -245,7 +255,8 @@ bool LandmarkFixOptions::IsSharp(const Eigen::Matrix3d& search) const {
 }
 
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                                 const StereoViews& views, const EdgeShifts& seen) const {
+                                 const StereoViews& views, const LandmarkMemory& memory) const {
+  if (memory.breadth) return FindBroader(model, prediction, views, memory);
   LandmarkFix fix;
   if (model.edges.empty()) {
     fix.verdict = Verdict::kNoModel;
@@ -257,8 +268,9 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
     fix.verdict = Verdict::kNotVisible;
     return fix;
   }
-  const Proposals proposals = Propose(model, prediction.base_from_landmark, search, views, options_);
-  const auto starts = BestStarts(model, proposals.poses, views, seen);
+  Proposals proposals = Propose(model, prediction.base_from_landmark, search, views, options_);
+  if (options_.IsSharp(search)) AddPredicted(prediction.base_from_landmark, search, proposals.poses);
+  const auto starts = BestStarts(model, proposals.poses, views, memory.shifts);
   std::vector<Pose> poses = RefineAll(model, views, starts);
   fix.verdict = Verdict::kTooFewEdges;
   if (poses.empty()) return fix;
@@ -269,6 +281,20 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   return fix;
 }
 
+/// Finds a landmark of known breadth: the model is made so broad, and what is reported is of the model again.
+LandmarkFix LandmarkFinder::FindBroader(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                                        const StereoViews& views, const LandmarkMemory& memory) const {
+  LandmarkFixOptions options = options_;
+  options.solver.breadth_sigma_m = memory.breadth->sigma_m;
+  const EdgeShifts broader = ShiftsOfBreadth(model, memory.breadth->broader_m);
+  EdgeShifts shifts = memory.shifts;
+  for (std::size_t i = 0; i < shifts.size(); ++i) shifts[i] -= broader[i];
+  LandmarkFix fix = LandmarkFinder(options).Find(AsSeen(model, broader), prediction, views, {shifts, {}});
+  for (std::size_t i = 0; i < fix.edge_shifts.size(); ++i) fix.edge_shifts[i] += broader[i];
+  fix.breadth.broader_m += memory.breadth->broader_m;
+  return fix;
+}
+
 double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
                                     const std::vector<Pose>& poses, const Pose& best) const {
   // Where the prediction is sharp, it has a say in which of two poses it is.
@@ -276,9 +302,12 @@ double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const 
   const auto surprise = [&](const Pose& p) {
     return weight * SquaredDistance(p.base_from_landmark, prediction.base_from_landmark, search);
   };
+  const Eigen::Matrix3d uncertainty = OnFloor(best.solution.covariance);
   double rival = best.rival_log_odds;
   for (const Pose& p : poses) {
     if (!IsDistinct(p.base_from_landmark, best.base_from_landmark, options_)) continue;
+    // One side alone leaves the heading open: what lies within that uncertainty is the same answer.
+    if (SquaredDistance(p.base_from_landmark, best.base_from_landmark, uncertainty) < kSameAnswer) continue;
     rival = std::max(rival, p.LogOdds() + best.solution.chi_squared / 2 + surprise(best) - surprise(p));
   }
   return rival;
@@ -294,6 +323,7 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   fix.misfit = best.solution.misfit;
   fix.matches = best.association.matches;
   fix.edge_shifts = best.solution.edge_shifts;
+  fix.breadth = best.solution.breadth;
   fix.log_odds = best.association.log_odds;
   fix.rival_log_odds = best.rival_log_odds;
   const double left = best.association.side_predicted_px[1], right = best.association.side_predicted_px[2];
@@ -303,18 +333,19 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   if (left > 0) fix.side_share = std::min(fix.side_share, found_left / left);
   if (right > 0) fix.side_share = std::min(fix.side_share, found_right / right);
   const bool side_missing = fix.side_share < options_.min_side_share;
-  // Then one side tells as much as if it were alone in view.
+  // Where it can be no other landmark a side in view may be lost, and one alone is enough.
   const bool may_miss = options_.IsSharp(search);
   const double wanted = options_.min_log_odds + std::log(std::max(n_tested, 1)) +
-                        (one_sided || side_missing ? options_.one_sided_log_odds : 0);
-  if (fix.n_matched < options_.min_matched || fix.log_odds < wanted || (side_missing && !may_miss) ||
+                        ((one_sided && !may_miss) || side_missing ? options_.one_sided_log_odds : 0);
+  if (fix.n_matched < (may_miss ? options_.min_matched_sharp : options_.min_matched) ||
+      fix.log_odds < wanted || (side_missing && !may_miss) ||
       fix.log_odds < options_.min_share * best.association.best_log_odds) {
     fix.verdict = Verdict::kTooFewEdges;
   } else if (fix.rival_log_odds > fix.log_odds - options_.min_lead) {
     fix.verdict = Verdict::kAmbiguous;
   } else if (fix.residual_px > options_.max_residual_px || fix.misfit > options_.max_misfit) {
     fix.verdict = Verdict::kResidualTooLarge;
-  } else if (SquaredDistance(fix.base_from_landmark, prediction.base_from_landmark, search) >
+  } else if (SquaredDistance(fix.base_from_landmark, prediction.base_from_landmark, search + fix.covariance) >
              options_.gate * options_.gate) {
     fix.verdict = Verdict::kElsewhere;
   } else {

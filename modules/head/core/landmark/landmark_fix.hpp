@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,14 @@ struct LandmarkFix {
   double rival_log_odds = 0;  ///< log_odds of the best different pose
   std::vector<EdgeMatch> matches;
   EdgeShifts edge_shifts;  ///< PoseSolution::edge_shifts
+  Breadth breadth;         ///< PoseSolution::breadth
+};
+
+/// What earlier looks showed of a landmark.
+struct LandmarkMemory {
+  EdgeShifts shifts;  ///< where edges are looked for; empty: at their places in the model
+  /// The breadth as it was measured when both sides were in view: it places the landmark when only one is.
+  std::optional<Breadth> breadth;
 };
 
 /// Where a landmark is looked for, and what evidence a fix needs.
@@ -58,11 +67,13 @@ struct LandmarkFixOptions {
   double min_sigma_m = 0.02, min_sigma_rad = 0.01;  ///< added to the prediction's covariance
   double gate = 4;  ///< Mahalanobis distance from the prediction, 3 degrees of freedom
   double gate_elsewhere =
-      7;                    ///< Mahalanobis distance up to which it is searched; beyond `gate` it is refused
-  int min_predicted = 4;    ///< edges that must be predicted, all images together
-  int min_matched = 6;      ///< edges that must be found, all images together
-  double min_log_odds = 7;  ///< log odds wanted beyond the logarithm of the number of poses tried
-  double min_share = 0.5;   ///< share of the log odds that a perfect match would give
+      7;                  ///< Mahalanobis distance up to which it is searched; beyond `gate` it is refused
+  int min_predicted = 4;  ///< edges that must be predicted, all images together
+  int min_matched = 6;    ///< edges that must be found, all images together
+  int min_matched_sharp =
+      4;  ///< and that many where the prediction is sharp: one jamb's, when the base is near
+  double min_log_odds = 7;       ///< log odds wanted beyond the logarithm of the number of poses tried
+  double min_share = 0.5;        ///< share of the log odds that a perfect match would give
   double min_side_share = 0.45;  ///< least side_share of a fix
   double sharp_m =
       0.08;  ///< a prediction with a smaller sigma of the place leaves no room for another landmark
@@ -95,14 +106,15 @@ class LandmarkFinder {
   explicit LandmarkFinder(const LandmarkFixOptions& options) : options_(options) {}
 
   /// The fix from the undistorted edges of both images, in the frame of their cameras (base). An image in
-  /// which nothing can be seen gives kNoImage. `seen`: shifts of the edges by earlier fixes, or empty. They
-  /// only say where edges are looked for; the result is that of this look alone.
+  /// which nothing can be seen gives kNoImage.
   LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction, const StereoViews& views,
-                   const EdgeShifts& seen = {}) const;
+                   const LandmarkMemory& memory = {}) const;
 
  private:
   struct Pose;
   struct Start;
+  LandmarkFix FindBroader(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                          const StereoViews& views, const LandmarkMemory& memory) const;
   bool Approach(const LandmarkModel& model, std::span<const CameraView> views, const AssociationOptions& gate,
                 bool coarse, Pose& pose) const;
   void Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;

@@ -109,19 +109,27 @@ class Problem {
   }
 
   /// Mean of the errors of the model's edges under the condition of the residuals.
-  EdgeShifts ErrorsOfEdges() const {
+  EdgeShifts ErrorsOfEdges(const Breadth& breadth) const {
     const Eigen::VectorXd weighted = squares_.WeightedResiduals();
     EdgeShifts shifts(model_.edges.size(), Eigen::Vector3d::Zero());
-    double breadth = 0;
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
       const Row& row = residuals_[i];
       const double sigma_m =
           model_.edges[row.edge].IsMovable() ? options_.movable_sigma_m : options_.model_sigma_m;
       shifts[row.edge] += Square(sigma_m) * weighted[i] * (pose_.linear().transpose() * row.across);
-      breadth += Square(options_.breadth_sigma_m) * ByBreadth(row) * weighted[i];
     }
-    for (std::size_t e = 0; e < shifts.size(); ++e) shifts[e].y() += breadth * model_.edges[e].ByBreadth();
+    for (std::size_t e = 0; e < shifts.size(); ++e)
+      shifts[e].y() += breadth.broader_m * model_.edges[e].ByBreadth();
     return shifts;
+  }
+
+  /// The breadth under the condition of the residuals.
+  Breadth BreadthSeen() const {
+    Eigen::VectorXd by_breadth(distance_.size());
+    for (std::size_t i = 0; i < residuals_.size(); ++i) by_breadth[i] = ByBreadth(residuals_[i]);
+    const double prior = Square(options_.breadth_sigma_m);
+    const double left = 1 - prior * squares_.InformationAbout(by_breadth);
+    return {prior * by_breadth.dot(squares_.WeightedResiduals()), std::sqrt(prior * std::max(left, 0.0))};
   }
 
   Eigen::MatrixXd CovarianceOfAll() const {
@@ -152,7 +160,8 @@ class Problem {
     solution.own_share = OwnShare();
     solution.chi_squared = squares_.ChiSquared();
     solution.misfit = solution.chi_squared / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
-    solution.edge_shifts = ErrorsOfEdges();
+    solution.breadth = BreadthSeen();
+    solution.edge_shifts = ErrorsOfEdges(solution.breadth);
     if (options_.find_suspect) solution.suspect = FindSuspect();
     double sum = 0;
     for (const Row& s : residuals_)

@@ -30,6 +30,12 @@ struct PoseSolverOptions {
 /// How far each edge of a model lies off its place there, landmark frame [m].
 using EdgeShifts = std::vector<Eigen::Vector3d>;
 
+/// How much broader a landmark is than its model, and how well that is known [m].
+struct Breadth {
+  double broader_m = 0;
+  double sigma_m = 0;
+};
+
 /// The worst outlier: the edge, in one image or in all, without which the others fit best.
 struct EdgeSuspect {
   int edge = -1, camera = -1;  ///< camera -1: in all of them
@@ -53,6 +59,8 @@ struct PoseSolution {
   EdgeSuspect suspect;
   /// Errors of the model's edges, as far as the images show them.
   EdgeShifts edge_shifts;
+  Breadth
+      breadth;  ///< part of edge_shifts; its sigma falls from breadth_sigma_m as far as both sides are seen
 };
 
 /// Least squares pose from points on edges, in any number of images, starting at `initial`, without any prior

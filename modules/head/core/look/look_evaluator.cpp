@@ -10,6 +10,7 @@ namespace priamos::head {
 namespace {
 
 constexpr int kSmallest_px = 64;
+constexpr double kLeastBreadthSigma_m = 0.001;
 
 bool IsUsable(const std::optional<GreyImage>& image) {
   return image && image->width >= kSmallest_px && image->height >= kSmallest_px;
@@ -37,9 +38,12 @@ LookEvaluator::LookEvaluator(const HeadModel& head, const LookOptions& options)
 
 /// Edges that this look did not show stay where an earlier one saw them.
 void LookEvaluator::Remember(const LandmarkModel& model, const LandmarkFix& fix) {
-  EdgeShifts& seen = seen_[model.id];
-  if (seen.size() != model.edges.size()) seen = fix.edge_shifts;
-  for (const EdgeMatch& match : fix.matches) seen[match.edge] = fix.edge_shifts[match.edge];
+  LandmarkMemory& seen = seen_[model.id];
+  if (seen.shifts.size() != model.edges.size()) seen.shifts = fix.edge_shifts;
+  for (const EdgeMatch& match : fix.matches) seen.shifts[match.edge] = fix.edge_shifts[match.edge];
+  // The calibration's error is the same in every look. A breadth that is exact by the options stays so.
+  if (fix.breadth.sigma_m > 0)
+    seen.breadth = Breadth{fix.breadth.broader_m, std::max(fix.breadth.sigma_m, kLeastBreadthSigma_m)};
 }
 
 LookResult LookEvaluator::Evaluate(const LookInput& input) {

@@ -40,8 +40,8 @@ struct LookOptions {
 };
 
 /// Evaluates looks: edges of both images, undistorted once, then the landmark, a door's leaf, its view and
-/// the drift from the same views. Of earlier looks it keeps its buffers, and how far the edges of each
-/// landmark that was found lay off its model: where they are looked for.
+/// the drift from the same views. Of earlier looks it keeps its buffers, and what they showed of each
+/// landmark.
 class LookEvaluator {
  public:
   LookEvaluator(const HeadModel& head, const LookOptions& options);
@@ -59,7 +59,7 @@ class LookEvaluator {
   EdgeOperator edge_operator_;
   LandmarkFinder finder_;
   std::array<EdgeImage, 2> edges_;
-  std::map<int, EdgeShifts> seen_;  ///< by the landmark's id
+  std::map<int, LandmarkMemory> seen_;  ///< by the landmark's id
 };
 
 }  // namespace priamos::head

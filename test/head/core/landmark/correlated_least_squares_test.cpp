@@ -32,6 +32,15 @@ TEST(CorrelatedLeastSquaresTest, CommonErrorsDoNotAverageOut) {
   EXPECT_NEAR(dut.ShareOf(VectorXd::Zero(n)), 0, 1e-12);
 }
 
+TEST(CorrelatedLeastSquaresTest, InformationAboutAnotherUnknownIsWhatTheStepLeavesOfIt) {
+  CorrelatedLeastSquares dut;
+  ASSERT_TRUE(dut.SetCovariance(Eigen::Vector3d(4, 4, 4).asDiagonal()));
+  ASSERT_TRUE(dut.Solve(VectorXd::Ones(3), Eigen::Vector3d(1, 2, 3)));
+  EXPECT_NEAR(dut.InformationAbout(VectorXd::Ones(3)), 0, 1e-12) << "the same as the unknown of the step";
+  EXPECT_NEAR(dut.InformationAbout(Eigen::Vector3d(-1, 0, 1)), 2 / 4.0, 1e-12);
+  EXPECT_NEAR(dut.InformationAbout(Eigen::Vector3d(0, 0, 1)), (1 - 1 / 3.0) / 4.0, 1e-12);
+}
+
 TEST(CorrelatedLeastSquaresTest, AgreesWithTheNormalEquations) {
   Rng rng(1);
   for (int round = 0; round < 20; ++round) {

@@ -108,7 +108,7 @@ TEST_F(LandmarkFixTest, WhereAnEarlierFixSawTheEdgesTheyAreFoundFromNearer) {
   const auto look = [&](const Pose2& truth, const EdgeShifts& seen) {
     Find(test::DoorQuads(0.872, 0.07), truth, truth);
     return finder.Find(model_, {truth, kTwentyCentimetresFiveDegrees},
-                       {MakeView(left_, left_edges_), MakeView(right_, right_edges_)}, seen);
+                       {MakeView(left_, left_edges_), MakeView(right_, right_edges_)}, {seen, {}});
   };
   const LandmarkFix far = look({3.2, 0.05, 0.02}, {});
   ASSERT_EQ(far.verdict, Verdict::kFound) << Describe(far.verdict);
@@ -159,6 +159,48 @@ TEST_F(LandmarkFixTest, OneHiddenSideIsBelievedOnlyWhereThePlaceIsKnown) {
   ASSERT_EQ(known.verdict, Verdict::kFound) << Describe(known.verdict);
   EXPECT_LT(known.side_share, LandmarkFixOptions().min_side_share);
   EXPECT_NEAR(known.base_from_landmark.y, truth.y, 0.005);
+}
+
+TEST_F(LandmarkFixTest, TheBreadthOfEarlierLooksPlacesALandmarkOfWhichOneSideIsSeen) {
+  std::vector<test::Quad> quads = test::DoorQuads();
+  quads.push_back({{-0.4, -1.3, 0}, {0, 0.94, 0}, {0, 0, 2.4}, quads.front().grey});
+  const Pose2 truth{2.6, 0.02, 0.01};
+  Find(quads, truth, truth);
+  const Eigen::Matrix3d sharp = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
+  LandmarkFixOptions options;
+  options.solver.breadth_sigma_m = 0.012;
+  const LandmarkFinder dut(options);
+  const auto find = [&](const std::optional<Breadth>& known) {
+    return dut.Find(model_, {{2.605, 0.015, 0.012}, sharp},
+                    {MakeView(left_, left_edges_), MakeView(right_, right_edges_)}, {{}, known});
+  };
+  const LandmarkFix unknown = find({}), known = find(Breadth{0, 0.001}),
+                    broader = find(Breadth{0.003, 0.001});
+  ASSERT_EQ(unknown.verdict, Verdict::kFound) << Describe(unknown.verdict);
+  ASSERT_EQ(known.verdict, Verdict::kFound) << Describe(known.verdict);
+  ASSERT_EQ(broader.verdict, Verdict::kFound) << Describe(broader.verdict);
+  EXPECT_LT(std::sqrt(known.covariance(1, 1)), 0.6 * std::sqrt(unknown.covariance(1, 1)));
+  EXPECT_NEAR(known.base_from_landmark.y, truth.y, 0.003);
+  // The left side is where it is: the middle of a broader door lies farther to the right.
+  EXPECT_NEAR(broader.base_from_landmark.y, known.base_from_landmark.y - 0.0015, 0.0008);
+  EXPECT_NEAR(broader.breadth.broader_m, 0.003, 0.001);
+}
+
+TEST_F(LandmarkFixTest, FromNearOneJambIsEnoughWhereThePlaceIsKnown) {
+  const Pose2 truth{1.35, 0.02, 0.01};
+  const CameraModel left = test::HeadCamera(0.3, 1, 890, -0.05),
+                    right = test::HeadCamera(0.3, -1, 890, -0.05);
+  EdgeOperator op;
+  op.Extract(test::RenderQuads(test::DoorQuads(), Lift(truth), left, 2, rng_, 60), left_edges_);
+  op.Extract(test::RenderQuads(test::DoorQuads(), Lift(truth), right, 2, rng_, 60), right_edges_);
+  const StereoViews views{MakeView(left, left_edges_), MakeView(right, right_edges_)};
+  const Eigen::Matrix3d sharp = Eigen::Vector3d(1e-4, 1e-4, 5e-5).asDiagonal();
+  const LandmarkFix fix = dut_.Find(model_, {{1.345, 0.03, 0.015}, sharp}, views, {{}, Breadth{0, 0.001}});
+  ASSERT_EQ(fix.verdict, Verdict::kFound) << Describe(fix.verdict);
+  // The heading is open, and with it x; what a heading tells makes y sharp.
+  const double by_yaw = fix.covariance(1, 2) / fix.covariance(2, 2);
+  const double y = fix.base_from_landmark.y - by_yaw * (fix.base_from_landmark.yaw - truth.yaw);
+  EXPECT_NEAR(y, truth.y, 0.004);
 }
 
 TEST_F(LandmarkFixTest, ADoorElsewhereIsRefused) {

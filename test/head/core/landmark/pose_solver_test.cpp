@@ -67,6 +67,30 @@ TEST_F(PoseSolverTest, TellsWhereTheEdgesOfABroaderDoorLie) {
   EXPECT_LT(dut.misfit, 1);
 }
 
+TEST_F(PoseSolverTest, BothSidesTellTheBreadthOneSideAloneDoesNot) {
+  PoseSolverOptions options;
+  options.breadth_sigma_m = 0.01;
+  double sum = 0, squared = 0;
+  constexpr int kRuns = 60;
+  for (int run = 0; run < kRuns; ++run) {
+    Rng rng(static_cast<std::uint64_t>(run));
+    const double broader = rng.Normal(0.01);
+    const auto observations =
+        Observe(test::DoorModel(0.9 + broader), cameras_, Lift({3.2, 0.1, 0.05}), 0.2, rng);
+    const PoseSolution dut = SolvePose(door_, cameras_, observations, Lift({3.2, 0.1, 0.05}), options);
+    ASSERT_TRUE(dut.ok);
+    EXPECT_LT(dut.breadth.sigma_m, 0.002);
+    sum += std::pow((dut.breadth.broader_m - broader) / dut.breadth.sigma_m, 2) / kRuns;
+    squared += std::pow(dut.breadth.broader_m - broader, 2) / kRuns;
+  }
+  EXPECT_LT(std::sqrt(squared), 0.0015);
+  EXPECT_LT(sum, 1.5) << "its sigma is honest";
+  Rng rng(1);
+  auto observations = Observe(door_, cameras_, Lift({3.2, 0.1, 0.05}), 0.2, rng);
+  std::erase_if(observations, [&](const EdgeObservation& o) { return door_.edges[o.edge].side != 1; });
+  EXPECT_GT(SolvePose(door_, cameras_, observations, Lift({3.2, 0.1, 0.05}), options).breadth.sigma_m, 0.008);
+}
+
 TEST_F(PoseSolverTest, StaysOnTheFloor) {
   Rng rng(2);
   const auto observations = Observe(door_, cameras_, Lift({3.2, 0.1, 0.05}), 0.3, rng);
