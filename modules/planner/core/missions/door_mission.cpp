@@ -20,6 +20,8 @@ constexpr double kAtSpeed = 0.8;
 /// Waiting longer for the speed than this would cost more distance than it is worth.
 constexpr double kStart_s = 3.0;
 
+const std::string kTooUncertain = "the pose is too uncertain for the gap: ";
+
 /// The sonars see the sides of an opening as near up to this distance from the base each.
 constexpr double kBothNear_m = 0.30;
 /// An opening that was passed so near to the door is the door.
@@ -38,8 +40,9 @@ bool IsFresh(const RobotPose& pose, Time now) {
   return Seconds(now - pose.stamp) <= kFreshPose_s;
 }
 
-std::string Advised(const std::string& reason) {
-  return reason + "; next: look what it is, and order it again";
+std::string Advised(const Stop& stop) {
+  if (stop.cause == Stop::Cause::kUncertain) return stop.reason;
+  return stop.reason + "; next: look what it is, and order it again";
 }
 
 /// Whether the newest pose is fresh and surely contains the newest correction.
@@ -60,8 +63,14 @@ void DoorMissionConfig::Describe(Archive& a) {
   a.Number("look_to_m", look_to_m, {"m", 1, 10, "distance to the door at which both looks should be done"});
   if (look_to_m > look_from_m) a.Refuse("look_to_m", "at most look_from_m");
   a.Number("looks_take_s", looks_take_s, {"s", 0.5, 60, "both looks, starting and radio included"});
+  a.Number("one_side_m", one_side_m,
+           {"m", 0, 10, "distance to the door up to which looks while passing stay on one side"});
   a.Number("confirm_to_m", confirm_to_m,
            {"m", 0, 10, "distance to the door down to which looks go on while passing"});
+  a.Number("last_look_m", last_look_m,
+           {"m", 0, 10, "distance to the door from which the last look is expected"});
+  a.Number("commit_m", commit_m,
+           {"m", 0, 10, "distance to the door at which the pose is judged for the last time"});
   a.Number("tracking_m", tracking_m, {"m", 0, 0.1, "what the path following may deviate in the door"});
   a.Number("command_delay_s", command_delay_s, {"s", 0, 2, "from a decision here to the wheels there"});
   a.Number("evidence_s", evidence_s,
@@ -203,28 +212,48 @@ void DoorMission::LookAtDoor(MissionControl& control) {
     control.Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()));
 }
 
-void DoorMission::EvaluatePose(MissionControl& control) {
+std::string DoorMission::Prospect::Text() const {
+  return fmt::format("2 sigma at the door {:.3f} m and {:.1f} degrees", 2 * uncertainty.lateral_sigma_m,
+                     Degrees(2 * uncertainty.heading_sigma_rad));
+}
+
+DoorMission::Prospect DoorMission::ProspectFrom(const MissionControl& control, double last_look_m) const {
   const RobotPose& pose = *control.heard().pose;
-  const auto uncertainty = AtDoor(*door_, pose.map_from_base, pose.covariance, config_.drift);
-  const double gap_m = GapLeft(*door_, footprint_, uncertainty) - config_.tracking_m;
-  const std::string figures =
-      fmt::format("2 sigma at the door {:.3f} m and {:.1f} degrees", 2 * uncertainty.lateral_sigma_m,
-                  Degrees(2 * uncertainty.heading_sigma_rad));
-  if (gap_m < 0) {
-    if (LooksUsedUp()) control.Fail("the pose is too uncertain for the gap: " + figures);
+  const double distance_m = std::clamp(DistanceToDoor(control), 0.0, last_look_m);
+  const Pose2 there = door_->map_from_door() * Pose2{-distance_m, 0, 0};
+  const auto uncertainty = AtDoor(*door_, there, pose.covariance, config_.drift);
+  return {uncertainty, GapLeft(*door_, footprint_, uncertainty) - config_.tracking_m};
+}
+
+void DoorMission::EvaluatePose(MissionControl& control) {
+  const Prospect prospect = ProspectFrom(control, config_.last_look_m);
+  if (prospect.gap_m < 0) {
+    if (LooksUsedUp()) control.Fail(kTooUncertain + prospect.Text());
     return;
   }
   const auto path = planner_.PlanPassage(*door_, PredictedPose(control));
   if (!path) return control.Fail(path.reason());
   control.OrderPath(*path, config_.speed_m_s);
-  control.Enter(Phase::kPassing, "passing the door: " + figures);
+  control.Enter(Phase::kPassing, "passing the door: " + prospect.Text());
+  committed_ = false;
+}
+
+/// The looks on the way may have been worse than expected; the last place from which it can go back.
+void DoorMission::Commit(MissionControl& control, double distance_m) {
+  if (committed_ || distance_m > config_.commit_m) return;
+  committed_ = true;
+  const Prospect prospect = ProspectFrom(control, distance_m);
+  if (prospect.gap_m < 0) OnStop(control, {Stop::Cause::kUncertain, kTooUncertain + prospect.Text()});
 }
 
 void DoorMission::Pass(MissionControl& control) {
   SettleLook(control);
   const double distance_m = DistanceToDoor(control);
-  if (distance_m > config_.confirm_to_m && looks_.Ready(control.now()) && !looks_.Exhausted())
+  if (distance_m > config_.confirm_to_m && looks_.Ready(control.now()) && !looks_.Exhausted()) {
+    if (distance_m < config_.one_side_m) looks_.StayOnSide();
     AskLook(control);
+  }
+  Commit(control, distance_m);
   if (!control.OnPath() || control.heard().drive->mode != DriveMode::kArrived) return;
   if (-distance_m >= planner_.PastX(*door_)) return Arrive(control);
   // The pose may be older than the report of the arrival; once it is fresh it must be behind the door.
@@ -242,13 +271,13 @@ void DoorMission::OnStop(MissionControl& control, const Stop& stop) {
   if (phase == Phase::kRetreating && stop.cause == Stop::Cause::kBlocked && doorway_is_free)
     return TryAgain(control);
   if (phase == Phase::kRetreating)
-    return control.Fail(fmt::format("{}, and on its way back {}", stopped_by_, Advised(stop.reason)));
-  if (phase != Phase::kPassing) return control.Fail(Advised(stop.reason));
-  stopped_by_ = stop.reason;
+    return control.Fail(fmt::format("{}, and on its way back {}", stopped_by_.reason, Advised(stop)));
+  if (phase != Phase::kPassing) return control.Fail(Advised(stop));
+  stopped_by_ = stop;
   give_up_ = stop.cause == Stop::Cause::kTouched || ++blocked_ > config_.retries;
   if (-DistanceToDoor(control) <= planner_.HoldX(*door_)) return TryAgain(control);
   const auto path = planner_.PlanRetreat(*door_, control.heard().pose->map_from_base);
-  if (!path) return control.Fail(Advised(stop.reason));
+  if (!path) return control.Fail(Advised(stop));
   control.OrderPath(*path, config_.slowest_m_s);
   control.Enter(Phase::kRetreating, stop.reason + ": back to the place before the door");
 }

@@ -15,13 +15,16 @@ namespace priamos::planner {
 
 /// Speeds, distances to the door, and time limits of a mission through a door.
 struct DoorMissionConfig {
-  double speed_m_s = 0.30;       ///< on the approach and through the door
-  double slowest_m_s = 0.12;     ///< on a short approach
-  double look_from_m = 3.4;      ///< distance to the door from which on the head may look
-  double look_to_m = 2.0;        ///< distance at which both sides should have been seen ...
-  double looks_take_s = 3.5;     ///< ... and how long that takes, starting and radio included
-  double confirm_to_m = 1.3;     ///< looks go on to here while passing; nearer, the jambs leave the picture
-  double tracking_m = 0.01;      ///< largest deviation of the path following in the door
+  double speed_m_s = 0.30;    ///< on the approach and through the door
+  double slowest_m_s = 0.12;  ///< on a short approach
+  double look_from_m = 3.4;   ///< distance to the door from which on the head may look
+  double look_to_m = 2.0;     ///< distance at which both sides should have been seen ...
+  double looks_take_s = 3.5;  ///< ... and how long that takes, starting and radio included
+  double one_side_m = 1.8;    ///< nearer, a picture holds one side only: looks stay on one
+  double confirm_to_m = 0.9;  ///< looks go on to here while passing; nearer, the jambs leave the picture
+  double last_look_m = 1.0;   ///< from here the last look is expected: what the wheels add counts from there
+  double commit_m = 0.85;  ///< here the pose is judged for the last time, before the base is in the opening
+  double tracking_m = 0.005;     ///< largest deviation of the path following in the door
   double command_delay_s = 0.2;  ///< from a decision here to the wheels there
   double evidence_s = 4;         ///< how long the sonars' report of the opening may be on its way
   int retries = 1;               ///< how often it tries again after an obstacle in the door
@@ -58,7 +61,17 @@ class DoorMission : public Mission {
   void Wait(MissionControl& control);
   void Approach(MissionControl& control);
   void LookAtDoor(MissionControl& control);
+  /// The pose's uncertainty in the plane of the door, and what it leaves of the gap there.
+  struct Prospect {
+    PassageUncertainty uncertainty;
+    double gap_m = 0;
+
+    std::string Text() const;
+  };
+  /// The prospect if looks go on to `last_look_m` before the door.
+  Prospect ProspectFrom(const MissionControl& control, double last_look_m) const;
   void EvaluatePose(MissionControl& control);
+  void Commit(MissionControl& control, double distance_m);
   void Pass(MissionControl& control);
   void Arrive(MissionControl& control);
   void Retreat(MissionControl& control);
@@ -91,8 +104,9 @@ class DoorMission : public Mission {
   LeafBelief leaf_;
   std::optional<Time> arrived_;  ///< when it was behind the door by its pose
   int blocked_ = 0;              ///< how often it was blocked in the door
-  std::string stopped_by_;       ///< why it was stopped in the door
+  Stop stopped_by_;              ///< what stopped it in the door
   bool give_up_ = false;         ///< it does not try again
+  bool committed_ = false;       ///< the base may enter the opening
   bool at_hold_ = false;         ///< it waits at the hold point: a look from there is not like those before
   bool judge_ = false;           ///< enough looks have succeeded: the next pose is to be judged
 };

@@ -30,6 +30,10 @@ void LookSequence::Reset() {
   *this = LookSequence(config_);
 }
 
+void LookSequence::StayOnSide() {
+  if (found_) next_ = current_;
+}
+
 void LookSequence::Asked(int request_id, Time now) {
   current_ = next_;
   next_ = current_ == Side::kLeft ? Side::kRight : Side::kLeft;
@@ -49,7 +53,8 @@ std::optional<LookResult> LookSequence::Settle(Time now) {
   if (silent) result_ = LookResult{*request_id_, false, "no answer", true};
   if (!result_) return std::nullopt;
   request_id_.reset();
-  if (result_->ok) {
+  found_ = result_->ok;
+  if (found_) {
     ++good_[current_ == Side::kRight];
   } else {
     failures_ += silent ? kSilenceWeight : 1;

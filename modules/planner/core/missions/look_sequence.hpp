@@ -30,6 +30,8 @@ class LookSequence {
   /// Whether a look may be asked for now: none is under way and the pause after a failed one is over.
   bool Ready(Time now) const { return !request_id_ && now >= not_before_; }
   Side next() const { return next_; }
+  /// Looks at the same side again, for which the head need not turn, when the last look found it.
+  void StayOnSide();
   /// A look at next() was asked for.
   void Asked(int request_id, Time now);
 
@@ -55,6 +57,7 @@ class LookSequence {
   std::optional<LookResult> result_;
   Time asked_{}, not_before_{};
   int good_[2] = {0, 0};  ///< left, right
+  bool found_ = false;    ///< by the last look
   int failures_ = 0;
   std::string trouble_;
 };

@@ -103,8 +103,8 @@ enum class Phase {
 
 /// Why the robot stands on its path and does not go on by itself.
 struct Stop {
-  /// What stopped it: an obstacle before it, or something that it touched.
-  enum class Cause { kBlocked, kTouched };
+  /// What stopped it: an obstacle before it, something that it touched, or a pose too uncertain to go on.
+  enum class Cause { kBlocked, kTouched, kUncertain };
   Cause cause = Cause::kBlocked;
   std::string reason;  ///< a sentence
 };

@@ -30,6 +30,17 @@ TEST(LookSequence, SidesComeInTurnWhateverBecomesOfThem) {
   EXPECT_EQ(s.dut.next(), Side::kLeft);
 }
 
+TEST(LookSequence, StaysOnASideUntilItIsNotFound) {
+  Looks s;
+  s.dut.StayOnSide();
+  EXPECT_EQ(s.dut.next(), Side::kLeft);
+  for (const bool ok : {true, true, false}) {
+    s.Look(ok);
+    s.dut.StayOnSide();
+    EXPECT_EQ(s.dut.next(), ok ? Side::kLeft : Side::kRight);
+  }
+}
+
 TEST(LookSequence, OneAtATime) {
   Looks s;
   EXPECT_TRUE(s.dut.Ready(s.now));
