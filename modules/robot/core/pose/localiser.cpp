@@ -10,6 +10,9 @@ namespace {
 // More than any head sends; a flood of fixes with times in the future must not grow without bound.
 constexpr std::size_t kMostWaiting = 16;
 
+// Ranges of a wall that is not quite flat do not err independently of each other.
+constexpr double kDependent = 1.5;
+
 // The sensors of a cycle fire one group after the other; which one when is not told.
 constexpr double kFiredBefore_s = 0.05;
 
@@ -53,15 +56,16 @@ void Localiser::AddFix(const LandmarkFix& fix, Time now) {
 }
 
 void Localiser::AddSonar(const SonarCycle& cycle) {
-  RingHeard heard{cycle.time, {}, walls_.Add(cycle, OdometryPoseAt(cycle.time))};
+  const WallsHeard walls = walls_.Add(cycle, OdometryPoseAt(cycle.time));
+  RingHeard heard{cycle.time, {}, walls.walls};
   const Twist2 twist = odometry_.twist();
   for (std::size_t i = 0; i < base_from_sonar_.size(); ++i) {
+    if (!walls.sensors[i]) continue;
     const double range = cycle.range_m[i];
-    if (!(range > kSonarMin_m && range <= kSonarMax_m)) continue;
     const Pose2& at = base_from_sonar_[i];
     const Eigen::Vector2d speed(twist.vx - twist.wz * at.y, twist.vy + twist.wz * at.x);
     const double stale_m = at.rotation().col(0).dot(speed) * kFiredBefore_s;
-    heard.ranges.push_back({at, range, std::hypot(config_.walls.fit.SigmaOf(range), stale_m)});
+    heard.ranges.push_back({at, range, std::hypot(kDependent * config_.walls.fit.SigmaOf(range), stale_m)});
   }
   estimator_.Hear(heard);
 }

@@ -39,7 +39,7 @@ struct PoseEstimatorConfig {
   void Describe(Archive& a);
 };
 
-/// What the ring heard in one cycle: what may be ranges of walls, and the walls that came to light.
+/// What the ring heard in one cycle: ranges of walls, and the walls as the last ranges show them.
 struct RingHeard {
   Time time{};
   std::vector<RangeSeen> ranges;

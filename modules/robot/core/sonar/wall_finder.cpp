@@ -21,27 +21,31 @@ WallFinder::WallFinder(const WallFinderConfig& config, const Footprint& footprin
     base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, {footprint.length_m, footprint.width_m});
 }
 
-std::vector<WallSeen> WallFinder::Add(const SonarCycle& cycle, const Pose2& odom_from_base) {
-  std::vector<WallSeen> found;
+WallsHeard WallFinder::Add(const SonarCycle& cycle, const Pose2& odom_from_base) {
+  WallsHeard heard;
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
     while (!series.empty() && cycle.time - series.front().time > FromSeconds(config_.most_s))
       series.pop_front();
     if (!(cycle.range_m[i] > kSonarMin_m && cycle.range_m[i] <= kSonarMax_m)) continue;
     series.push_back({cycle.time, odom_from_base * base_from_sonar_[i], cycle.range_m[i]});
-    if (LengthOf(series) < config_.window_m) continue;
     while (LengthOf(series) > config_.most_m) series.pop_front();
-
-    const Pose2 base_from_odom = odom_from_base.Inverse();
-    std::vector<RangeAt> ranges;
-    for (const Sample& sample : series)
-      ranges.push_back({base_from_odom * sample.odom_from_sonar, sample.range_m});
-    if (const auto wall = FitWall(ranges, config_.fit)) {
-      found.push_back(*wall);
-      series.clear();
+    if (LengthOf(series) < config_.window_m) continue;
+    if (const auto wall = WallOf(series, odom_from_base)) {
+      heard.walls.push_back(*wall);
+      heard.sensors.set(i);
     }
   }
-  return found;
+  return heard;
+}
+
+std::optional<WallSeen> WallFinder::WallOf(const Series& series, const Pose2& odom_from_base) const {
+  const Pose2 base_from_odom = odom_from_base.Inverse();
+  std::vector<RangeAt> ranges;
+  ranges.reserve(series.size());
+  for (const Sample& sample : series)
+    ranges.push_back({base_from_odom * sample.odom_from_sonar, sample.range_m});
+  return FitWall(ranges, config_.fit);
 }
 
 /// How far the sensor went across its axis; 0 when it went along it, too. What a sensor hears at a slant is

@@ -76,6 +76,8 @@ void WallFitConfig::Describe(Archive& a) {
            {"deg", 1, 20, "angle between a sensor's axis and the normal of a wall it hears"});
   a.Number("range_sigma_m", range_sigma_m, {"m", 0.001, 0.1, "noise and rounding of a range, sigma"});
   a.Number("range_sigma_per_m", range_sigma_per_m, {"-", 0, 0.1, "growth of the noise with the range"});
+  a.Number("most_rms", most_rms, {"-", 1, 10, "largest RMS of the residuals, in sigmas of a range"});
+  a.Number("most_bent", most_bent, {"-", 1, 10, "largest curvature of a wall, in its sigmas"});
   a.Number("sure_sigmas", sure_sigmas,
            {"-", 1, 10, "how sure it must be that a series is no edge's or corner's"});
   a.Number("drift_deg", drift_deg, {"deg", 0, 5, "what the wheels lose of the heading within a series"});
@@ -95,9 +97,10 @@ std::optional<WallSeen> FitWall(const std::vector<RangeAt>& series, const WallFi
     bearing = std::asin(-line.coefficients(1));
   }
   const double distance = line.coefficients(0);
-  if (distance <= 0 || line.rms_m > 2 * config.SigmaOf(distance)) return std::nullopt;
+  if (distance <= 0 || line.rms_m > config.most_rms * config.SigmaOf(distance)) return std::nullopt;
   const Polynomial curve = FitOf(profile, 2);
   const double curve_sigma = config.SigmaOf(distance) * std::sqrt(curve.cofactors(2, 2));
+  if (std::abs(curve.coefficients(2)) > config.most_bent * curve_sigma) return std::nullopt;
   if (curve.coefficients(2) + config.sure_sigmas * curve_sigma > 1 / (2 * distance)) return std::nullopt;
   return WallOf(line, profile, series.back().base_from_sonar, config);
 }
