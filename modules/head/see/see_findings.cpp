@@ -85,6 +85,17 @@ std::vector<CameraModel> ReadCameras(const SeeOptions& options,
   return cameras;
 }
 
+/// Two cameras never agree in every pixel; of one image seen twice, chance matches would pass for edges in
+/// space.
+void RefuseSameImage(const std::vector<SeenPhotograph>& photographs) {
+  for (std::size_t i = 0; i < photographs.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (cv::norm(photographs[i].grey, photographs[j].grey, cv::NORM_INF) == 0)
+        throw std::runtime_error(
+            fmt::format("{} and {}: expected an image of each camera, got the same image twice",
+                        photographs[j].file, photographs[i].file));
+}
+
 /// Seen from the wrong side everything lies behind the cameras, or nothing fits.
 void RefuseExchanged(const SeeFindings& findings, int n_as_given) {
   const SeenPhotograph &first = findings.photographs[0], &second = findings.photographs[1];
@@ -151,7 +162,10 @@ SeeFindings FindAll(const SeeOptions& options) {
   findings.cameras = ReadCameras(options, findings.photographs);
   for (std::size_t i = 0; i < findings.cameras.size(); ++i)
     findings.views.push_back(MakeView(findings.cameras[i], findings.photographs[i].edges));
-  if (findings.cameras.size() > 1) findings.matches = MatchViews(findings);
+  if (findings.cameras.size() > 1) {
+    RefuseSameImage(findings.photographs);
+    findings.matches = MatchViews(findings);
+  }
   if (!options.stand.empty()) findings.doors = FindDoors(options, findings);
   if (!options.landmark.empty()) findings.landmark = FindLandmark(options, findings.views);
   return findings;

@@ -159,6 +159,15 @@ TEST_F(SeeFindingsTest, ExchangedImagesAreNamed) {
                 "2 if the images are exchanged");
 }
 
+TEST_F(SeeFindingsTest, OneImageForTwoCamerasIsRefused) {
+  SeeOptions options = Pair();
+  options.images[1] = Photograph("copy.png", 0);
+  EXPECT_EQ(ReasonOf(options), options.images[0] + " and " + options.images[1] +
+                                   ": expected an image of each camera, got the same image twice");
+  options.cameras.clear();
+  EXPECT_EQ(ReasonOf(options), "") << "without cameras each is seen alone";
+}
+
 TEST_F(SeeFindingsTest, DoorsNeedTwoCameras) {
   SeeOptions options = Pair();
   options.cameras.clear();
