@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bus/context.hpp"
-#include "teleop/core/stick.hpp"
+#include "common/pilot/stick.hpp"
 #include "teleop/teleop_config.hpp"
 
 namespace priamos::teleop {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "teleop/core/stick.hpp"
+#include "common/pilot/stick.hpp"
 
 namespace priamos::teleop {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/archive.hpp"
-#include "teleop/core/pilot_config.hpp"
+#include "common/pilot/pilot_config.hpp"
 
 namespace priamos::teleop {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "common/pilot/pilot.hpp"
 #include "lcmtypes/channels.hpp"
-#include "teleop/core/pilot.hpp"
 #include "teleop/core/terminal_view.hpp"
 
 namespace priamos::teleop {

@@ -131,7 +131,7 @@ class HandRig {
   }
   double speed() const { return std::hypot(truth.vx_m_s, truth.vy_m_s); }
 
-  teleop::Stick hand;
+  Stick hand;
   bool mouse_plugged = true;
   /// Seen on the robot's bus since the start.
   std::vector<Seen<wheel_command_t>> wheels;

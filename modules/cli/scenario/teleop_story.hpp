@@ -49,7 +49,7 @@ class TeleopStory : public ScenarioStory {
   std::unique_ptr<ByteStream> line_;
   teleop::EmulatedMouse mouse_;
   Rng rng_;
-  teleop::Stick hand_;
+  Stick hand_;
   bus::Latest<world_truth_t> truth_;
   AliveProcesses alive_;
   bus::Latest<drive_status_t> status_;

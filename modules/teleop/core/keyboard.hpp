@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "common/pilot/pilot_config.hpp"
+#include "common/pilot/stick.hpp"
 #include "common/time.hpp"
-#include "teleop/core/pilot_config.hpp"
-#include "teleop/core/stick.hpp"
 
 namespace priamos::teleop {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "teleop/core/stick.hpp"
+#include "common/pilot/stick.hpp"
 
 /// The serial protocol of the Magellan / SPACE MOUSE: lines of ASCII that end with a carriage return.
 ///

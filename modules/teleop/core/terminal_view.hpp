@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "teleop/core/pilot.hpp"
+#include "common/pilot/pilot.hpp"
 
 namespace priamos::teleop {
 

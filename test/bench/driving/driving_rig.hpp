@@ -91,7 +91,7 @@ class DrivingRig {
   /// Starts everything; throws std::runtime_error with what did not come.
   void Start();
 
-  teleop::Stick hand;  ///< what the hand does from now on
+  Stick hand;  ///< what the hand does from now on
   bool mouse_plugged = true;
   bool supervisor_frozen = false;  ///< as if it were stopped: it reads nothing and does nothing
   /// When the mouse last told of a change of the hand.
@@ -170,7 +170,7 @@ class DrivingRig {
   bus::Publisher<health_t> bulk_;
   cli::PseudoTerminal mouse_tty_;
   teleop::EmulatedMouse mouse_;
-  teleop::Stick told_;
+  Stick told_;
   Time mouse_spoke_{}, next_bulk_{};
   bool fast_ = false;
   int head_wishes_ = 0;

@@ -4,7 +4,7 @@
 
 #include "common/time.hpp"
 
-namespace priamos::teleop {
+namespace priamos {
 
 /// When to send on one stream of wishes: at once when the stick leaves rest or jumps, else periodically;
 /// three explicit zeros when it comes to rest, the first one at once; then silence, or a slow repetition
@@ -30,4 +30,4 @@ class WishSender {
   std::optional<Time> last_;
 };
 
-}  // namespace priamos::teleop
+}  // namespace priamos

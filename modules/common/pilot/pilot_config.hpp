@@ -3,9 +3,9 @@
 #include <string>
 
 #include "common/archive.hpp"
-#include "teleop/core/stick.hpp"
+#include "common/pilot/stick.hpp"
 
-namespace priamos::teleop {
+namespace priamos {
 
 /// Which axis of the stick moves one degree of freedom.
 struct AxisUse {
@@ -81,4 +81,4 @@ struct PilotConfig {
   void Describe(Archive& a);
 };
 
-}  // namespace priamos::teleop
+}  // namespace priamos

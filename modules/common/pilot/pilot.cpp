@@ -1,13 +1,12 @@
-#include "teleop/core/pilot.hpp"
+#include "common/pilot/pilot.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace priamos::teleop {
+namespace priamos {
 namespace {
 
 constexpr Duration kAskAgain = std::chrono::seconds(1);
-constexpr Duration kStopAgain = std::chrono::seconds(1);
 /// The robot keeps a lease for some seconds after the last command; within this it surely still has ours.
 constexpr Duration kSurelyKept = std::chrono::milliseconds(1500);
 
@@ -59,15 +58,10 @@ void Pilot::UseButtons(const Stick& stick, const RobotView& robot, Time now, Pil
 void Pilot::UseEstopButtons(const Stick& stick, const RobotView& robot, Time now, PilotOutput& output) {
   const ButtonUse& buttons = config_.buttons;
   if (Pressed(stick, buttons.estop)) {
-    output.estop = PilotOutput::Estop::kStop;
-    stopped_ = now;
+    stop_.Order();
     phase_ = PilotPhase::kMustLetGo;
-  } else if (stopped_ && robot.estop) {
-    stopped_.reset();
-  } else if (stopped_ && now - *stopped_ >= kStopAgain) {
-    output.estop = PilotOutput::Estop::kStop;  // until the robot reports that it stands
-    stopped_ = now;
   }
+  if (stop_.Step(robot.estop, now)) output.estop = PilotOutput::Estop::kStop;
   const bool rearming = stick.connected && IsPressed(stick, buttons.rearm) && AtRest(stick) &&
                         !IsPressed(stick, buttons.dead_man) && !IsPressed(stick, buttons.estop);
   if (!rearming) rearm_since_.reset();
@@ -76,7 +70,7 @@ void Pilot::UseEstopButtons(const Stick& stick, const RobotView& robot, Time now
   if (!rearm_since_ || now - *rearm_since_ < FromSeconds(config_.rearm_hold_s)) return;
   output.estop = PilotOutput::Estop::kRearm;
   rearm_since_.reset();
-  stopped_.reset();
+  stop_.Forget();
 }
 
 bool Pilot::LeaseIsOurs(const RobotView& robot, Time now) const {
@@ -94,7 +88,7 @@ PilotPhase Pilot::NextPhase(const Stick& stick, const RobotView& robot, Time now
   if (phase_ == kMustLetGo || phase_ == kNoDevice) return kMustLetGo;
   if (phase_ == kIdle) {
     // What is held while the e-stop is latched must be let go after it was lifted.
-    if (robot.estop || stopped_ || !AtRest(before_)) return kMustLetGo;
+    if (robot.estop || stop_.pending() || !AtRest(before_)) return kMustLetGo;
     asked_ = now;
     asked_again_.reset();
     return LeaseIsOurs(robot, now) ? kDriving : kAsking;
@@ -160,4 +154,4 @@ bool Pilot::Jumped() const {
          std::abs(wish_.wz - sent_.wz) > kJump * range.turn_rad_s;
 }
 
-}  // namespace priamos::teleop
+}  // namespace priamos

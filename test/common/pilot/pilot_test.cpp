@@ -1,6 +1,6 @@
 // Stories of an operator: what he does with stick and buttons, and what the robot is told.
 
-#include "teleop/core/pilot.hpp"
+#include "common/pilot/pilot.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace priamos::teleop {
+namespace priamos {
 namespace {
 
 using std::chrono::milliseconds;
@@ -298,4 +298,4 @@ TEST_F(PilotTest, FullDeflectionAlongBothAxesIsNotFaster) {
 }
 
 }  // namespace
-}  // namespace priamos::teleop
+}  // namespace priamos

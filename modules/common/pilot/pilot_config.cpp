@@ -1,9 +1,9 @@
-#include "teleop/core/pilot_config.hpp"
+#include "common/pilot/pilot_config.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace priamos::teleop {
+namespace priamos {
 
 void AxisUse::Describe(Archive& a) {
   a.Choice("axis", axis, kAxisNames, "axis of the stick");
@@ -78,4 +78,4 @@ void PilotConfig::Describe(Archive& a) {
     a.Refuse("time_to_live_s", "two periods of rate_hz at least: one command may be lost");
 }
 
-}  // namespace priamos::teleop
+}  // namespace priamos

@@ -1,9 +1,9 @@
-#include "teleop/core/wish_sender.hpp"
+#include "common/pilot/wish_sender.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-namespace priamos::teleop {
+namespace priamos {
 namespace {
 
 using std::chrono::milliseconds;
@@ -51,4 +51,4 @@ RC_GTEST_PROP(WishSender, AShakyStickDoesNotFloodTheRadio, ()) {
 }
 
 }  // namespace
-}  // namespace priamos::teleop
+}  // namespace priamos

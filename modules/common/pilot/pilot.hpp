@@ -3,12 +3,13 @@
 #include <optional>
 
 #include "common/geometry.hpp"
+#include "common/pilot/pilot_config.hpp"
+#include "common/pilot/stick.hpp"
+#include "common/pilot/stop_keeper.hpp"
+#include "common/pilot/wish_sender.hpp"
 #include "common/time.hpp"
-#include "teleop/core/pilot_config.hpp"
-#include "teleop/core/stick.hpp"
-#include "teleop/core/wish_sender.hpp"
 
-namespace priamos::teleop {
+namespace priamos {
 
 /// The part of the robot's last status that the pilot needs.
 struct RobotView {
@@ -88,7 +89,8 @@ class Pilot {
   HeadRates head_wish_;
   Stick before_;
   WishSender base_sender_, head_sender_;
-  std::optional<Time> asked_, asked_again_, stopped_, rearm_since_;
+  StopKeeper stop_;
+  std::optional<Time> asked_, asked_again_, rearm_since_;
 };
 
-}  // namespace priamos::teleop
+}  // namespace priamos

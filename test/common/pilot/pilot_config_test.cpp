@@ -1,4 +1,4 @@
-#include "teleop/core/pilot_config.hpp"
+#include "common/pilot/pilot_config.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +8,7 @@
 
 #include "common/config.hpp"
 
-namespace priamos::teleop {
+namespace priamos {
 namespace {
 
 double Between(double low, double high) {
@@ -44,4 +44,4 @@ TEST(PilotConfig, ADeadManIsNeeded) {
 }
 
 }  // namespace
-}  // namespace priamos::teleop
+}  // namespace priamos

@@ -1,6 +1,6 @@
-#include "teleop/core/wish_sender.hpp"
+#include "common/pilot/wish_sender.hpp"
 
-namespace priamos::teleop {
+namespace priamos {
 
 bool WishSender::Step(Stick stick, bool jumped, Time now) {
   if (stick == Stick::kDeflected) {
@@ -24,4 +24,4 @@ bool WishSender::Sent(Time now) {
   return true;
 }
 
-}  // namespace priamos::teleop
+}  // namespace priamos

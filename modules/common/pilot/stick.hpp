@@ -8,7 +8,7 @@
 
 #include "common/time.hpp"
 
-namespace priamos::teleop {
+namespace priamos {
 
 inline constexpr std::size_t kAxes = 6;
 
@@ -30,4 +30,4 @@ inline bool IsPressed(const Stick& stick, int button) {
   return button >= 0 && button < 32 && (stick.buttons >> button & 1u) != 0;
 }
 
-}  // namespace priamos::teleop
+}  // namespace priamos
