@@ -25,6 +25,7 @@ class AppHost {
   /// The App's last act when another process has its role.
   void Yield(Time now) { app_->Yield(now); }
   std::optional<int> exit_code() const { return context_.exit_code(); }
+  const std::string& status() const { return context_.status(); }
   const Node& node() const { return node_; }
 
  private:

@@ -59,6 +59,11 @@ class Context {
   Health health() const { return health_; }
   const std::string& health_text() const { return health_text_; }
 
+  /// One line for whoever started the process, where it can be found say; shown by `priamos up` and
+  /// systemctl.
+  void SetStatus(std::string text) { status_ = std::move(text); }
+  const std::string& status() const { return status_; }
+
   /// Ends the process after this tick.
   void RequestStop(int exit_code = 0) { exit_code_ = exit_code; }
   std::optional<int> exit_code() const { return exit_code_; }
@@ -68,6 +73,7 @@ class Context {
   Surroundings around_;
   Health health_ = Health::kOk;
   std::string health_text_;
+  std::string status_;
   std::optional<int> exit_code_;
 };
 

@@ -59,7 +59,7 @@ int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatc
     const Time now = clock.Now();
     if (now < host.next_tick()) continue;
     host.Step(now);
-    notifier.Beat(now);
+    notifier.Beat(now, host.status());
   }
   return *host.exit_code();
 }

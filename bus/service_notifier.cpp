@@ -36,10 +36,13 @@ bool ServiceNotifier::Say(std::string_view text) {
 }
 
 /// What could not be sent is sent again at the next call.
-void ServiceNotifier::Beat(Time now) {
+void ServiceNotifier::Beat(Time now, std::string_view status) {
   if (fd_ < 0 || now < next_) return;
-  if (!Say(ready_sent_ ? "WATCHDOG=1" : "READY=1\nWATCHDOG=1")) return;
+  std::string text = ready_sent_ ? "WATCHDOG=1" : "READY=1\nWATCHDOG=1";
+  if (status != status_) text.append("\nSTATUS=").append(status);
+  if (!Say(text)) return;
   ready_sent_ = true;
+  status_ = status;
   next_ = now + kPeriod;
 }
 

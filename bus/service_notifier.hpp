@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 
+#include <string>
 #include <string_view>
 
 #include "common/time.hpp"
@@ -23,8 +24,8 @@ class ServiceNotifier {
   ServiceNotifier& operator=(const ServiceNotifier&) = delete;
 
   /// Sends READY and WATCHDOG at the first call, afterwards WATCHDOG every 0.2 s. Call it after every useful
-  /// piece of work.
-  void Beat(Time now);
+  /// piece of work. `status`: a line for a person, sent along whenever it changes; empty: none.
+  void Beat(Time now, std::string_view status = "");
 
  private:
   bool Say(std::string_view text);
@@ -33,6 +34,7 @@ class ServiceNotifier {
   sockaddr_un address_{};
   socklen_t length_ = 0;
   bool ready_sent_ = false;
+  std::string status_;  ///< as sent
   Time next_{};
 };
 

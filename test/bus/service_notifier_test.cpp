@@ -56,6 +56,19 @@ TEST_F(ServiceNotifierTest, ReadyOnceThenAliveFiveTimesASecond) {
   EXPECT_EQ(said[4], "WATCHDOG=1");
 }
 
+TEST_F(ServiceNotifierTest, AStatusIsSentWheneverItChanges) {
+  Listener listener(path_);
+  ServiceNotifier dut(path_.c_str());
+  dut.Beat(t0_, "at home");
+  dut.Beat(t0_ + milliseconds(200), "at home");
+  dut.Beat(t0_ + milliseconds(400), "away");
+  const auto said = listener.Read();
+  ASSERT_EQ(said.size(), 3u);
+  EXPECT_EQ(said[0], "READY=1\nWATCHDOG=1\nSTATUS=at home");
+  EXPECT_EQ(said[1], "WATCHDOG=1");
+  EXPECT_EQ(said[2], "WATCHDOG=1\nSTATUS=away");
+}
+
 /// A stopped supervisor: sd_notify of libsystemd waits here for ever, and the robot's loop with it.
 TEST_F(ServiceNotifierTest, NeverWaitsForASupervisorThatDoesNotRead) {
   Listener listener(path_);

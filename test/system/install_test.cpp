@@ -39,6 +39,7 @@ TEST_F(InstallTest, EverythingIsBelowThePrefix) {
                            "bin/priamos-robot",
                            "bin/priamos-head",
                            "bin/priamos-planner",
+                           "bin/priamos-console",
                            "bin/priamos-teleop",
                            "bin/priamos-radio",
                            "bin/priamos-spy",

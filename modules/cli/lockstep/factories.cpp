@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "console/console_app.hpp"
 #include "head/head_app.hpp"
 #include "planner/planner_app.hpp"
 #include "radio/radio_app.hpp"
@@ -22,6 +23,7 @@ auto WithApp(const std::string& module, Visit visit) {
   if (module == "head") return visit(std::type_identity<head::HeadApp>());
   if (module == "planner") return visit(std::type_identity<planner::PlannerApp>());
   if (module == "teleop") return visit(std::type_identity<teleop::TeleopApp>());
+  if (module == "console") return visit(std::type_identity<console::ConsoleApp>());
   if (module == "radio") return visit(std::type_identity<radio::RadioApp>());
   throw std::invalid_argument("no module named " + module);
 }

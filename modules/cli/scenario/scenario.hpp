@@ -18,7 +18,8 @@ struct ScenarioProcess {
   double watchdog_s = 1.0;
 
   void Describe(Archive& a) {
-    a.Choice("module", module, {"world", "robot", "head", "planner", "teleop", "radio", "spacenavd"},
+    a.Choice("module", module,
+             {"world", "robot", "head", "planner", "teleop", "console", "radio", "spacenavd"},
              "which program");
     a.Choice("bus", bus, {"onboard", "offboard"}, "the LCM bus it lives on");
     a.Text("config", config, "its configuration file, relative to the deployment's folder");

@@ -13,6 +13,14 @@
 namespace priamos::cli {
 namespace {
 
+std::string StatusIn(std::string_view text) {
+  constexpr std::string_view kKey = "STATUS=";
+  const auto at = text.starts_with(kKey) ? 0 : text.find("\nSTATUS=");
+  if (at == std::string_view::npos) return "";
+  text.remove_prefix(at + kKey.size() + (at == 0 ? 0 : 1));
+  return std::string(text.substr(0, text.find('\n')));
+}
+
 bool HasLine(std::string_view text, std::string_view line) {
   while (!text.empty()) {
     const auto end = text.find('\n');
@@ -68,7 +76,8 @@ std::vector<NotifySocket::Message> NotifySocket::Read() {
     const ssize_t n = recvmsg(fd_, &header, MSG_CMSG_CLOEXEC);
     if (n < 0) return messages;
     const std::string_view lines(text.data(), static_cast<std::size_t>(n));
-    messages.push_back({SenderOf(header), HasLine(lines, "READY=1"), HasLine(lines, "WATCHDOG=1")});
+    messages.push_back(
+        {SenderOf(header), HasLine(lines, "READY=1"), HasLine(lines, "WATCHDOG=1"), StatusIn(lines)});
   }
 }
 

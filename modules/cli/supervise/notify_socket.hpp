@@ -10,10 +10,12 @@ namespace priamos::cli {
 /// The receiving end of sd_notify(3): what systemd is to a service, for processes that `priamos` starts.
 class NotifySocket {
  public:
-  /// One datagram of a process: READY=1 sets `ready`, WATCHDOG=1 sets `alive`.
+  /// One datagram of a process: READY=1 sets `ready`, WATCHDOG=1 sets `alive`, STATUS=... is a line for a
+  /// person.
   struct Message {
     pid_t pid = 0;  ///< who sent it, by the kernel
     bool ready = false, alive = false;
+    std::string status{};
   };
 
   /// Opens the socket. Throws std::system_error when that fails.

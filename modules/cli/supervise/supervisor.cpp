@@ -166,6 +166,7 @@ void Supervisor::Listen(Time now) {
     for (Child& child : children_) {
       if (child.pid == 0 || child.pid != message.pid) continue;
       if (message.alive) child.watch.SaidAlive(now);
+      if (!message.status.empty()) announce_(fmt::format("{}: {}", child.spec.name, message.status));
       if (!message.ready || child.watch.state() != ProcessState::kStarting) continue;
       child.watch.SaidReady(now);
       announce_(fmt::format("{} is ready", child.spec.name));

@@ -9,7 +9,7 @@
 namespace priamos::cli {
 namespace {
 
-const std::vector<std::string> kModules{"head", "planner", "radio", "robot", "teleop", "world"};
+const std::vector<std::string> kModules{"console", "head", "planner", "radio", "robot", "teleop", "world"};
 
 TEST(Factories, EveryModuleIsMadeUnderItsOwnName) {
   for (const std::string& module : kModules) {

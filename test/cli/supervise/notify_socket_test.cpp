@@ -45,6 +45,8 @@ TEST(NotifySocket, ReadyAndWatchdogAreTold) {
   EXPECT_TRUE(messages[0].ready && !messages[0].alive);
   EXPECT_TRUE(!messages[1].ready && messages[1].alive);
   EXPECT_TRUE(messages[2].ready && messages[2].alive);
+  EXPECT_EQ(messages[0].status + messages[1].status, "");
+  EXPECT_EQ(messages[2].status, "busy");
   EXPECT_TRUE(dut.Read().empty()) << "each is read once";
 }
 

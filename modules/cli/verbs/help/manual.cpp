@@ -88,7 +88,7 @@ ManualPage VerbPage(const CLI::App& verb, const ManualIssue& issue) {
   return page;
 }
 
-const std::vector<std::string> kModules{"head", "planner", "radio", "robot", "teleop", "world"};
+const std::vector<std::string> kModules{"console", "head", "planner", "radio", "robot", "teleop", "world"};
 
 void AddPlaces(ManualPage& page) {
   page.Section("ENVIRONMENT");

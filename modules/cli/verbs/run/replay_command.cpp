@@ -34,6 +34,7 @@ ConfigSource SourceOf(const VerifyOptions& options) {
 
 /// What else than messages a module's outputs come from; empty when it is nothing.
 std::string UnrecordedInput(const std::string& module) {
+  if (module == "console") return "what people did on its page is in no log";
   if (module == "head") return "its pictures are in no log";
   if (module == "radio") return "what came over the line is in no log";
   if (module == "teleop") return "what the hand did is in no log";
@@ -92,12 +93,12 @@ void AddReplayCommand(CLI::App& cli, int& exit_code) {
   verb->footer(
       "Exact for robot and planner in logs of lockstep runs; the log of a live bus has the recorder's "
       "times,\n"
-      "and what head, world, radio and teleop send comes from more than messages.\n"
+      "and what console, head, world, radio and teleop send comes from more than messages.\n"
       "Example: priamos replay verify logs/recorded/door-onboard.lcmlog --module robot");
   verb->add_option("log", options->log, "LCM log")->required()->check(CLI::ExistingFile);
   verb->add_option("--module", options->module, "whose messages to compare")
       ->required()
-      ->check(CLI::IsMember({"robot", "planner", "head", "teleop", "radio", "world"}));
+      ->check(CLI::IsMember({"robot", "planner", "head", "teleop", "console", "radio", "world"}));
   verb->add_option("--config", options->config, "its configuration; none: <deployment>/<module>.toml");
   AddDeploymentOption(*verb, options->deployment);
   verb->add_option("--set", options->set, "KEY=VALUE on top of the file");

@@ -1,0 +1,233 @@
+#include "console/console_app.hpp"
+
+#include <fmt/format.h>
+
+#include <random>
+#include <utility>
+#include <variant>
+
+#include "bus/schema/json.hpp"
+#include "bus/schema/schema.hpp"
+#include "common/config.hpp"
+#include "common/ground_plan.hpp"
+#include "common/random.hpp"
+#include "console/greeting.hpp"
+#include "console/page_files.hpp"
+#include "console/token_file.hpp"
+
+namespace priamos::console {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Stamps that are further away than the longest age of a message on the radio say nothing.
+constexpr Duration kLongestAge = std::chrono::seconds(120);
+
+int DrawSession(const bus::Context& context) {
+  if (context.lockstep()) return static_cast<int>(Rng::Stream(context.seed(), "console session").Below(256));
+  return static_cast<int>(std::random_device{}() % 256);
+}
+
+WebServerOptions ServerOptions(const ConsoleConfig& config, const bus::Context& context) {
+  WebServerOptions options;
+  options.address = config.address;
+  options.port = config.port;
+  options.ports = config.port == 0 ? 1 : config.ports;
+  options.max_sockets = config.pages;
+  options.max_connections = 4 * config.pages;
+  options.max_message = kMaxBrowserMessage;
+  options.access =
+      LoadAccess(config.address, config.token_file.empty() ? "" : context.ResolvePath(config.token_file));
+  return options;
+}
+
+std::string_view PhaseName(PilotPhase phase) {
+  using enum PilotPhase;
+  switch (phase) {
+    case kNoDevice:
+      return "no_device";
+    case kIdle:
+      return "idle";
+    case kMustLetGo:
+      return "must_let_go";
+    case kAsking:
+      return "asking";
+    case kDriving:
+      return "driving";
+  }
+  return "idle";
+}
+
+std::string Text(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
+    : config_(config),
+      context_(context),
+      link_(LoadConfig<bus::radio::LinkConfig>(context.ResolvePath(config.link))),
+      greeting_(Greeting(config, LoadConfig<GroundPlan>(context.ResolvePath(config.map)), link_)),
+      seat_(config.pilot, FromSeconds(config.freshness_s)),
+      pilot_(config.pilot),
+      wanted_(OnRequest(link_)),
+      beat_(config.beat_hz),
+      status_(context.node().Subscribe(channels::kDriveStatus)),
+      drive_(context.node().Advertise(channels::kDriveCommand)),
+      head_drive_(context.node().Advertise(channels::kHeadDrive)),
+      lease_(context.node().Advertise(channels::kLeaseRequest)),
+      estop_(context.node().Advertise(channels::kEstop)),
+      mission_(context.node().Advertise(channels::kMissionCommand)),
+      request_(context.node().Advertise(channels::kLinkRequest)) {
+  base_.session = head_.session = DrawSession(context);
+  for (const std::string_view channel : kShownChannels) Show(channel);
+  if (context.lockstep()) return;
+  server_ = std::make_unique<WebServer>(ServerOptions(config, context), PageFiles(), *this);
+  context.SetStatus(fmt::format("the station is at {}", server_->address()));
+  context.Log(bus::Level::kInfo, context.status());
+}
+
+void ConsoleApp::Show(std::string_view channel) {
+  const std::string name(channel);
+  context_.node().SubscribeRaw(
+      name, [this, name](std::span<const std::byte> bytes, Time arrival) { Heard(name, bytes, arrival); });
+}
+
+void ConsoleApp::Heard(const std::string& channel, std::span<const std::byte> bytes, Time arrival) {
+  const bus::Struct* type = context_.node().schema().Find(bus::FingerprintOf(bytes.data(), bytes.size()));
+  if (type == nullptr) return;
+  Json message = bus::ToJson(*type, bytes);
+  const std::string key = KeyOf(channel, message, heard_[channel]++);
+  const Time valid = ValidTime(message, arrival, kLongestAge);
+  news_.Put(key, channel, valid, std::move(message));
+}
+
+void ConsoleApp::Tick(Time now) {
+  now_ = now;
+  if (server_) server_->Poll(now);
+  if (const auto status = status_.Take()) robot_ = FromMessage(*status, base_.session);
+  Drive(now);
+  for (const auto& request : wanted_.Step(now)) request_.Publish(ToMessage(request, now));
+  if (beat_.Due(now)) {
+    beat_.Mark(now);
+    Tell(now);
+  }
+  if (count_.Due(now)) Count(now);
+}
+
+void ConsoleApp::Drive(Time now) {
+  if (stop_.Step(robot_.estop, now)) estop_.Publish(ToMessage(PilotOutput::Estop::kStop, now));
+  Send(pilot_.Step(seat_.Look(now), robot_, now), now);
+}
+
+void ConsoleApp::Send(const PilotOutput& output, Time now) {
+  const auto next = [](Sender& sender) -> const Sender& {
+    sender.sequence = (sender.sequence + 1) & 0xffff;
+    return sender;
+  };
+  const double time_to_live_s = config_.pilot.time_to_live_s;
+  // A stop goes first, and a lease is asked for before it is used.
+  if (output.estop) {
+    stop_.Forget();
+    estop_.Publish(ToMessage(*output.estop, now));
+  }
+  if (output.lease) lease_.Publish(ToMessage(*output.lease, base_, now));
+  if (output.drive) drive_.Publish(ToMessage(*output.drive, next(base_), time_to_live_s, now));
+  if (output.head) head_drive_.Publish(ToMessage(*output.head, next(head_), time_to_live_s, now));
+}
+
+void ConsoleApp::Joined(std::uint64_t client, Role role) {
+  pages_[client] = {role, 0, false};
+  if (role == Role::kDriver) seat_.Join(client);
+}
+
+void ConsoleApp::Left(std::uint64_t client) {
+  pages_.erase(client);
+  seat_.Leave(client);
+  wanted_.Leave(client);
+}
+
+bool ConsoleApp::Said(std::uint64_t client, std::string_view text) {
+  const auto message = ReadBrowserMessage(text);
+  if (!message) {
+    context_.Log(bus::Level::kWarning, fmt::format("a page was cut off: {}", message.reason()));
+    return false;
+  }
+  return std::visit([&](const auto& m) { return Take(client, m); }, *message);
+}
+
+/// A viewer's hand is on nothing: his reports are refused, which ends his connection.
+bool ConsoleApp::Take(std::uint64_t client, const StickReport& report) {
+  if (pages_[client].role != Role::kDriver) return false;
+  if (!seat_.Take(client, report, beats_.AgeOf(report.beat, now_), now_)) ++late_;
+  return true;
+}
+
+/// Anybody may stop the robot, who only looks on too.
+bool ConsoleApp::Take(std::uint64_t, const StopOrder&) {
+  seat_.End();
+  stop_.Order();
+  return true;
+}
+
+bool ConsoleApp::Take(std::uint64_t client, const MissionOrder& order) {
+  if (pages_[client].role != Role::kDriver) return false;
+  mission_.Publish(ToMessage(order, now_));
+  return true;
+}
+
+bool ConsoleApp::Take(std::uint64_t client, const ListenWish& wish) {
+  return wanted_.Wish(client, wish.channel, wish.on);
+}
+
+void ConsoleApp::Tell(Time now) {
+  const std::int64_t beat = beats_.Next(now);
+  for (auto& [client, page] : pages_) {
+    if (!page.greeted) {
+      page.greeted = server_->Send(client, greeting_);
+      continue;
+    }
+    Json items = Json::array();
+    for (const News::Item* item : news_.Since(page.seen))
+      items.push_back({{"key", item->key},
+                       {"channel", item->channel},
+                       {"age_s", Seconds(now - item->valid)},
+                       {"message", item->message}});
+    const Json text = {
+        {"type", "news"}, {"beat", beat}, {"station", Station(client, page.role)}, {"items", items}};
+    if (server_->Send(client, Text(text))) page.seen = news_.newest();
+  }
+}
+
+Json ConsoleApp::Station(std::uint64_t client, Role role) const {
+  const auto holder = seat_.holder();
+  const WebCounters& refused = server_->counters();
+  return {{"role", role == Role::kDriver ? "driver" : "viewer"},
+          {"seat", !holder             ? "free"
+                   : *holder == client ? "yours"
+                                       : "other"},
+          {"session", base_.session},
+          {"phase", PhaseName(pilot_.phase())},
+          {"mode", pilot_.mode() == PilotMode::kBase ? "base" : "head"},
+          {"fast", pilot_.fast()},
+          {"pages", pages_.size()},
+          {"refused", refused.requests + refused.messages + refused.crowded + refused.slow},
+          {"late", late_}};
+}
+
+/// Who is refused is counted in the log, once a second at most.
+void ConsoleApp::Count(Time now) {
+  count_.Mark(now);
+  if (!server_) return;
+  const WebCounters& c = server_->counters();
+  const std::uint64_t all = c.requests + c.messages + c.crowded + c.slow;
+  if (all != counted_)
+    context_.Log(
+        bus::Level::kWarning,
+        fmt::format("refused so far: {} requests, {} pages for what they sent, {} of too many, {} too slow",
+                    c.requests, c.messages, c.crowded, c.slow));
+  counted_ = all;
+}
+
+}  // namespace priamos::console

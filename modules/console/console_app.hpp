@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "bus/app.hpp"
+#include "bus/context.hpp"
+#include "bus/radio/link_config.hpp"
+#include "common/pilot/pilot.hpp"
+#include "common/pilot/stop_keeper.hpp"
+#include "common/rate_limit.hpp"
+#include "console/console_config.hpp"
+#include "console/console_messages.hpp"
+#include "console/core/beats.hpp"
+#include "console/core/news.hpp"
+#include "console/core/seat.hpp"
+#include "console/core/wanted_channels.hpp"
+#include "console/web/web_server.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::console {
+
+/// The station: serves a page that shows what comes over the radio, and drives from it. See README.md.
+class ConsoleApp : public WebListener {
+ public:
+  static constexpr std::string_view kName = "console";
+  static constexpr std::string_view kDefaultBus = "offboard";
+  static constexpr std::string_view kSummary =
+      "The station: a page for a browser that shows what comes over the radio, and drives.";
+  static constexpr std::array<bus::OptionAlias, 1> kOptions{
+      {{"--port", "port", "", "first TCP port that is tried"}}};
+  using Config = ConsoleConfig;
+
+  ConsoleApp(const ConsoleConfig& config, bus::Context& context);
+
+  Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
+  void Tick(Time now);
+
+ private:
+  struct Page {
+    Role role = Role::kViewer;
+    std::uint64_t seen = 0;  ///< number of the news up to which it knows everything
+    bool greeted = false;
+  };
+
+  void Joined(std::uint64_t client, Role role) override;
+  bool Said(std::uint64_t client, std::string_view text) override;
+  void Left(std::uint64_t client) override;
+  bool Take(std::uint64_t client, const StickReport& report);
+  bool Take(std::uint64_t client, const StopOrder& order);
+  bool Take(std::uint64_t client, const MissionOrder& order);
+  bool Take(std::uint64_t client, const ListenWish& wish);
+
+  void Show(std::string_view channel);
+  void Heard(const std::string& channel, std::span<const std::byte> bytes, Time arrival);
+  void Drive(Time now);
+  void Send(const PilotOutput& output, Time now);
+  void Tell(Time now);
+  nlohmann::ordered_json Station(std::uint64_t client, Role role) const;
+  void Count(Time now);
+
+  ConsoleConfig config_;
+  bus::Context& context_;
+  bus::radio::LinkConfig link_;
+  std::string greeting_;  ///< first text for every page
+  News news_;
+  std::map<std::string, std::uint64_t, std::less<>> heard_;  ///< messages so far, by channel
+  Beats beats_;
+  Seat seat_;
+  Pilot pilot_;
+  StopKeeper stop_;
+  WantedChannels wanted_;
+  Sender base_, head_;
+  RobotView robot_;
+  std::map<std::uint64_t, Page> pages_;
+  RateLimit beat_, count_{1};
+  Time now_{};
+  std::uint64_t late_ = 0;  ///< wishes of pages that came too late
+  std::uint64_t counted_ = 0;
+
+  bus::Latest<drive_status_t> status_;
+  bus::Publisher<drive_command_t> drive_;
+  bus::Publisher<head_drive_t> head_drive_;
+  bus::Publisher<lease_request_t> lease_;
+  bus::Publisher<estop_t> estop_;
+  bus::Publisher<mission_command_t> mission_;
+  bus::Publisher<link_request_t> request_;
+  std::unique_ptr<WebServer> server_;  ///< none in lockstep
+};
+
+}  // namespace priamos::console

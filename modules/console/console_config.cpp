@@ -1,0 +1,29 @@
+#include "console/console_config.hpp"
+
+namespace priamos::console {
+
+void DrawnBody::Describe(Archive& a) {
+  a.Number("length_m", length_m, {"m", 0.1, 3, "along the base's x axis"});
+  a.Number("width_m", width_m, {"m", 0.1, 3, "along the base's y axis"});
+}
+
+void ConsoleConfig::Describe(Archive& a) {
+  a.Text("map", map, "ground plan that the page draws: the planner's");
+  a.Text("link", link, "channels of the radio: which come only on request, and how old each may be");
+  a.Text("address", address,
+         "numeric address of this host to listen on; all but 127.0.0.1 and ::1 need a token_file");
+  a.Integer("port", port, {"-", 0, 65535, "first TCP port that is tried; 0: any"});
+  a.Integer("ports", ports, {"-", 1, 100, "how many ports are tried, for several robots on one host"});
+  a.Text(
+      "token_file", token_file,
+      "file with lines `driver TOKEN` and `viewer TOKEN`, mode 0600; empty: everybody on this host drives");
+  a.Integer("pages", pages, {"-", 1, 100, "most pages at once"});
+  a.Number("rate_hz", rate_hz, {"Hz", 50, 500, "how often connections and bus are looked at"});
+  a.Number("beat_hz", beat_hz, {"Hz", 10, 50, "how often pages are sent what is new"});
+  a.Number("freshness_s", freshness_s,
+           {"s", 0.1, 0.5, "a page's wish that is proven no younger than this is not obeyed"});
+  a.Section("body", body, "the robot as it is drawn");
+  a.Section("pilot", pilot, "from the page's stick to wishes");
+}
+
+}  // namespace priamos::console

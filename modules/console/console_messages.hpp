@@ -1,0 +1,32 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "common/pilot/pilot.hpp"
+#include "console/core/browser_message.hpp"
+#include "console/core/wanted_channels.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::console {
+
+/// Who this process is in its commands.
+struct Sender {
+  int session = 0;   ///< 0..255
+  int sequence = 0;  ///< number of the newest command, 0..65535
+};
+
+drive_command_t ToMessage(const Twist2& wish, const Sender& sender, double time_to_live_s, Time now);
+head_drive_t ToMessage(const HeadRates& wish, const Sender& sender, double time_to_live_s, Time now);
+lease_request_t ToMessage(PilotOutput::Lease wish, const Sender& sender, Time now);
+estop_t ToMessage(PilotOutput::Estop action, Time now);
+mission_command_t ToMessage(const MissionOrder& order, Time now);
+link_request_t ToMessage(const WantedChannels::Request& request, Time now);
+
+/// What DRIVE_STATUS means to the console of `session`.
+RobotView FromMessage(const drive_status_t& message, int session);
+
+/// The moment a message speaks of: its utime or utime_exposure when that lies within the last `longest`, else
+/// `arrival`.
+Time ValidTime(const nlohmann::ordered_json& message, Time arrival, Duration longest);
+
+}  // namespace priamos::console

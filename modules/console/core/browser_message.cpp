@@ -1,0 +1,121 @@
+#include "console/core/browser_message.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "common/ground_plan.hpp"
+
+namespace priamos::console {
+namespace {
+
+using nlohmann::json;
+
+/// Ends the reading of a message; what() becomes the refusal.
+using Wrong = std::runtime_error;
+
+constexpr std::int64_t kMaxBeat = std::int64_t{1} << 53;  // JavaScript counts so far
+
+void RefuseOtherKeys(const json& object, std::initializer_list<std::string_view> known) {
+  for (const auto& [key, value] : object.items())
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      throw Wrong(fmt::format("key \"{}\" is not known", key.substr(0, 40)));
+}
+
+const json& Field(const json& object, const char* key) {
+  const auto it = object.find(key);
+  if (it == object.end()) throw Wrong(fmt::format("key \"{}\" is missing", key));
+  return *it;
+}
+
+bool Flag(const json& object, const char* key) {
+  const auto it = object.find(key);
+  if (it == object.end()) return false;
+  if (!it->is_boolean()) throw Wrong(fmt::format("{}: expected true or false", key));
+  return it->get<bool>();
+}
+
+std::int64_t Whole(const json& value, const char* key, std::int64_t least, std::int64_t most) {
+  const bool fits = value.is_number_integer() &&
+                    !(value.is_number_unsigned() && value.get<std::uint64_t>() > std::uint64_t(most)) &&
+                    value.get<std::int64_t>() >= least && value.get<std::int64_t>() <= most;
+  if (!fits) throw Wrong(fmt::format("{}: expected a whole number from {} to {}", key, least, most));
+  return value.get<std::int64_t>();
+}
+
+std::string Word(const json& object, const char* key, std::size_t longest) {
+  const json& value = Field(object, key);
+  if (!value.is_string() || value.get_ref<const std::string&>().size() > longest)
+    throw Wrong(fmt::format("{}: expected a text of at most {} bytes", key, longest));
+  return value.get<std::string>();
+}
+
+std::array<double, kAxes> Axes(const json& object) {
+  const json& values = Field(object, "axis");
+  if (!values.is_array() || values.size() != kAxes)
+    throw Wrong(fmt::format("axis: expected {} numbers", kAxes));
+  std::array<double, kAxes> axes{};
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const double value = values[i].is_number() ? values[i].get<double>() : 2;
+    if (!(value >= -1 && value <= 1)) throw Wrong(fmt::format("axis[{}]: expected -1 to 1", i));
+    axes[i] = value;
+  }
+  return axes;
+}
+
+StickReport ReadStick(const json& object) {
+  RefuseOtherKeys(object, {"type", "beat", "axis", "hold", "rearm", "take_over", "mode", "range"});
+  StickReport report;
+  report.beat = Whole(Field(object, "beat"), "beat", 0, kMaxBeat);
+  report.axis = Axes(object);
+  report.hold = Flag(object, "hold");
+  report.rearm = Flag(object, "rearm");
+  report.take_over = Flag(object, "take_over");
+  report.mode = Flag(object, "mode");
+  report.range = Flag(object, "range");
+  return report;
+}
+
+MissionOrder ReadMission(const json& object) {
+  RefuseOtherKeys(object, {"type", "order", "landmark"});
+  const std::string order = Word(object, "order", 20);
+  if (order == "abort") return {true, 0};
+  if (order != "pass_door") throw Wrong("order: expected abort or pass_door");
+  return {false,
+          static_cast<int>(Whole(Field(object, "landmark"), "landmark", kFirstLandmarkId, kLastLandmarkId))};
+}
+
+ListenWish ReadListen(const json& object) {
+  RefuseOtherKeys(object, {"type", "channel", "on"});
+  return {Word(object, "channel", 63), Flag(object, "on")};
+}
+
+BrowserMessage ReadObject(const json& object) {
+  if (!object.is_object()) throw Wrong("expected a JSON object");
+  const std::string type = Word(object, "type", 20);
+  if (type == "stick") return ReadStick(object);
+  if (type == "mission") return ReadMission(object);
+  if (type == "listen") return ReadListen(object);
+  if (type != "stop") throw Wrong("type: expected stick, stop, mission or listen");
+  RefuseOtherKeys(object, {"type"});
+  return StopOrder{};
+}
+
+}  // namespace
+
+Outcome<BrowserMessage> ReadBrowserMessage(std::string_view text) {
+  if (text.size() > kMaxBrowserMessage)
+    return Refusal{fmt::format("expected at most {} bytes, got {}", kMaxBrowserMessage, text.size())};
+  try {
+    return ReadObject(json::parse(text));
+  } catch (const json::exception&) {
+    return Refusal{"expected JSON"};
+  } catch (const Wrong& wrong) {
+    return Refusal{wrong.what()};
+  }
+}
+
+}  // namespace priamos::console

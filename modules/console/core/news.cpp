@@ -1,0 +1,41 @@
+#include "console/core/news.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace priamos::console {
+namespace {
+
+constexpr std::uint64_t kKeptAlarms = 50;
+
+std::string TextOf(const News::Json& message, const char* field) {
+  const auto it = message.find(field);
+  return it == message.end() ? "" : it->dump(-1, ' ', false, News::Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+void News::Put(const std::string& key, const std::string& channel, Time valid, Json message) {
+  if (!items_.contains(key) && items_.size() >= kMostKeys) return;
+  items_[key] = {key, channel, valid, std::move(message), ++newest_};
+}
+
+std::vector<const News::Item*> News::Since(std::uint64_t number) const {
+  std::vector<const Item*> found;
+  for (const auto& [key, item] : items_)
+    if (item.number > number) found.push_back(&item);
+  std::sort(found.begin(), found.end(), [](const Item* a, const Item* b) { return a->number < b->number; });
+  return found;
+}
+
+std::string KeyOf(const std::string& channel, const News::Json& message, std::uint64_t count) {
+  if (channel == "HEALTH") return fmt::format("{} {}", channel, TextOf(message, "process"));
+  if (channel == "LINK_STATUS")
+    return fmt::format("{} {} {}", channel, TextOf(message, "onboard"), TextOf(message, "first_channel"));
+  if (channel == "ALARM") return fmt::format("{} {}", channel, count % kKeptAlarms);
+  return channel;
+}
+
+}  // namespace priamos::console

@@ -1,0 +1,65 @@
+#include "console/greeting.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "bus/version.hpp"
+#include "console/plan_json.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::console {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double StaleAfter(std::string_view name, const bus::radio::LinkConfig& link) {
+  double longest_s = 0;
+  std::apply(
+      [&](const auto&... channel) {
+        ((channel.name == name ? void(longest_s = std::chrono::duration<double>(channel.stale_after).count())
+                               : void()),
+         ...);
+      },
+      channels::kAll);
+  if (longest_s == 0) return 0;
+  for (const auto& channel : link.channels)
+    if (channel.name == name) longest_s = std::max(longest_s, channel.ttl_s);
+  return longest_s;
+}
+
+Json Channels(const bus::radio::LinkConfig& link) {
+  const std::set<std::string> on_request = OnRequest(link);
+  Json all = Json::object();
+  for (const std::string_view name : kShownChannels)
+    all[std::string(name)] = {{"stale_after_s", StaleAfter(name, link)},
+                              {"on_request", on_request.contains(std::string(name))}};
+  return all;
+}
+
+Json Speed(const SpeedRange& range) {
+  return {{"speed_m_s", range.speed_m_s}, {"turn_rad_s", range.turn_rad_s}};
+}
+
+}  // namespace
+
+std::set<std::string> OnRequest(const bus::radio::LinkConfig& link) {
+  std::set<std::string> names;
+  for (const auto& channel : link.channels)
+    if (channel.on_request) names.insert(channel.name);
+  return names;
+}
+
+std::string Greeting(const ConsoleConfig& config, const GroundPlan& plan,
+                     const bus::radio::LinkConfig& link) {
+  const Json hello = {{"type", "hello"},
+                      {"version", bus::Version()},
+                      {"plan", ToJson(plan)},
+                      {"body", {{"length_m", config.body.length_m}, {"width_m", config.body.width_m}}},
+                      {"link", {{"bytes_per_s", link.BytesPerSecond()}}},
+                      {"speed", {{"slow", Speed(config.pilot.slow)}, {"fast", Speed(config.pilot.fast)}}},
+                      {"channels", Channels(link)}};
+  return hello.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace priamos::console

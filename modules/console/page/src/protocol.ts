@@ -1,0 +1,114 @@
+// What station and page say to each other; the station's side is console_app.cpp.
+
+export type Point = [number, number];
+
+export interface Door {
+  id: number; name: string;
+  x_m: number; y_m: number; yaw_rad: number;
+  width_m: number; depth_m: number;
+}
+
+export interface Plan {
+  walls: Point[][];
+  doors: Door[];
+  cupboards: { id: number; name: string; corners: Point[] }[];
+}
+
+export interface Hello {
+  type: "hello";
+  version: string;
+  plan: Plan;
+  body: { length_m: number; width_m: number };
+  link: { bytes_per_s: number };
+  speed: Record<"slow" | "fast", { speed_m_s: number; turn_rad_s: number }>;
+  channels: Record<string, { stale_after_s: number; on_request: boolean }>;
+}
+
+export interface StationState {
+  role: "driver" | "viewer";
+  seat: "free" | "yours" | "other";
+  session: number;
+  phase: "no_device" | "idle" | "must_let_go" | "asking" | "driving";
+  mode: "base" | "head";
+  fast: boolean;
+  pages: number;
+  refused: number;
+  late: number;
+}
+
+export interface Item<T = Record<string, unknown>> {
+  key: string;
+  channel: string;
+  age_s: number;
+  message: T;
+}
+
+export interface News {
+  type: "news";
+  beat: number;
+  station: StationState;
+  items: Item[];
+}
+
+export interface StickReport {
+  axis: number[];  // forward, left, up, roll, pitch, turn
+  hold: boolean;
+  rearm: boolean;
+  take_over: boolean;
+  mode: boolean;
+  range: boolean;
+}
+
+// Messages of the bus, as far as the page reads them (lcmtypes/).
+
+export interface Pose {
+  x_m: number; y_m: number; yaw_rad: number;
+  vx_m_s: number; vy_m_s: number; wz_rad_s: number;
+  sigma_x_m: number; sigma_y_m: number; sigma_yaw_rad: number;
+  rho_x_y: number;
+}
+
+export interface DriveStatus {
+  mode: number; limit: number; remaining_m: number; speed_m_s: number; nearest_m: number;
+  allowed: number; driver: number; session: number; estop: boolean; refused: number; refusal: number;
+}
+
+export interface MissionStatus { mission: number; phase: number; text: string }
+
+export interface Path { path_id: number; points: { x_m: number; y_m: number; yaw_rad: number }[] }
+
+export interface LinkChannel {
+  channel: string; outgoing: boolean; messages: number; bytes: number; dropped: number; expired: number;
+  unwanted: number; late: number; queue_age_s: number;
+}
+
+export interface LinkStatus {
+  up: boolean; alarm: boolean; table_mismatch: boolean; onboard: boolean;
+  utilisation: number; utilisation_in: number;
+  frames_rejected: number; dropped: number; resent: number;
+  loss: number; peer_loss: number; latency_s: number; round_trip_s: number;
+  channels: LinkChannel[];
+}
+
+export interface Health { process: string; state: number; text: string; messages_lost: number }
+
+export interface Alarm { utime: number; severity: number; source: string; text: string }
+
+export interface LandmarkFix {
+  landmark_id: number; side: number; verdict: number; n_matched: number; residual_px: number;
+  x_m: number; y_m: number;
+}
+
+export interface DoorSeen { landmark_id: number; hinge: number; open_rad: number; sigma_rad: number }
+
+export interface SonarRanges { range_m: number[] }
+
+export interface LandmarkView {
+  camera: number;
+  edges: { kind: number; u1_px: number; v1_px: number; u2_px: number; v2_px: number }[];
+}
+
+export interface ObstacleLine {
+  verdict: number;
+  segments: { kind: number; x1_m: number; y1_m: number; x2_m: number; y2_m: number }[];
+}

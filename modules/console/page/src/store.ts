@@ -1,0 +1,43 @@
+// The newest message of every channel, and how old it is now.
+
+import { Hello, Item } from "./protocol";
+
+interface Kept { item: Item; at_ms: number }
+
+export class Store {
+  private readonly kept = new Map<string, Kept>();
+  private stale: Hello["channels"] = {};
+
+  greet(hello: Hello): void {
+    this.stale = hello.channels;
+  }
+
+  put(item: Item, now_ms: number): void {
+    this.kept.set(item.key, { item, at_ms: now_ms });
+  }
+
+  get<T>(key: string): T | undefined {
+    return this.kept.get(key)?.item.message as T | undefined;
+  }
+
+  /** Items of a channel that keeps several, in the order of their keys. */
+  all<T>(channel: string): Item<T>[] {
+    const found: Item[] = [];
+    for (const { item } of this.kept.values()) if (item.channel === channel) found.push(item);
+    return found.sort((a, b) => a.key.localeCompare(b.key)) as Item<T>[];
+  }
+
+  /** Age of what the message speaks of [s]; infinite before the first one. */
+  age(key: string): number {
+    const kept = this.kept.get(key);
+    return kept === undefined ? Infinity : kept.item.age_s + (performance.now() - kept.at_ms) / 1000;
+  }
+
+  /** Whether a state is too old to be believed. An event does not age. */
+  isStale(key: string): boolean {
+    const kept = this.kept.get(key);
+    if (kept === undefined) return true;
+    const limit_s = this.stale[kept.item.channel]?.stale_after_s ?? 0;
+    return limit_s > 0 && this.age(key) > limit_s;
+  }
+}

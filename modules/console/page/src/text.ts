@@ -1,0 +1,141 @@
+// All words of the page, in English and German.
+
+export type Language = "en" | "de";
+
+const WORDS = {
+  stop: ["STOP", "HALT"],
+  stopKey: ["space bar", "Leertaste"],
+  stopped: ["Emergency stop: the robot stands until it is re-armed.", "Not-Halt: der Roboter steht, bis er freigegeben wird."],
+  rearm: ["Hold to re-arm", "Halten zum Freigeben"],
+  plan: ["Ground plan", "Grundriss"],
+  planHelp: [
+    "Ground plan with the robot. Drag to move, wheel or + and - to zoom, shift and drag to measure.",
+    "Grundriss mit Roboter. Ziehen verschiebt, Mausrad oder + und - vergrößert, Umschalt und Ziehen misst."],
+  follow: ["follow the robot", "dem Roboter folgen"],
+  sonars: ["sonars", "Ultraschall"],
+  fit: ["Whole plan", "Ganzer Plan"],
+  drive: ["Drive", "Fahren"],
+  turn: ["Turn", "Drehen"],
+  driveKeys: [
+    "Hold W A S D or the arrows to drive, Q E to turn; or drag the stick. Let go: it stands.",
+    "W A S D oder Pfeile halten zum Fahren, Q E zum Drehen; oder den Knüppel ziehen. Loslassen: er steht."],
+  stickHelp: ["Stick: drag to drive", "Knüppel: ziehen zum Fahren"],
+  moveBase: ["moves: base", "bewegt: Fahrwerk"],
+  moveHead: ["moves: head", "bewegt: Kopf"],
+  slow: ["range: slow", "Bereich: langsam"],
+  fast: ["range: fast", "Bereich: schnell"],
+  takeOver: ["Take over", "Übernehmen"],
+  mission: ["Mission", "Auftrag"],
+  door: ["Door", "Tür"],
+  pass: ["Pass the door", "Tür durchfahren"],
+  abort: ["Abort", "Abbrechen"],
+  robot: ["Robot", "Roboter"],
+  link: ["Radio link", "Funkstrecke"],
+  channels: ["Channels", "Kanäle"],
+  head: ["What the head sees", "Was der Kopf sieht"],
+  showView: ["show edges (asks the radio for them)", "Kanten zeigen (fordert sie über Funk an)"],
+  viewHelp: ["Edges of the last look: expected, used, rejected", "Kanten des letzten Blicks: erwartet, verwendet, verworfen"],
+  alarms: ["Alarms", "Alarme"],
+  noAlarms: ["none", "keine"],
+  processes: ["Processes", "Prozesse"],
+  connected: ["station connected", "Station verbunden"],
+  lost: ["no connection to the station", "keine Verbindung zur Station"],
+  viewer: ["you watch only", "nur Zuschauer"],
+  linkUp: ["radio up", "Funk steht"],
+  linkDown: ["radio down", "Funk unterbrochen"],
+  linkMismatch: ["the two ends of the radio have different channel tables", "die Enden der Funkstrecke haben verschiedene Kanaltabellen"],
+  down: ["to robot", "zum Roboter"],
+  up: ["from robot", "vom Roboter"],
+  roundTrip: ["round trip", "Umlaufzeit"],
+  loss: ["frames lost", "Rahmen verloren"],
+  rejected: ["frames refused", "Rahmen abgelehnt"],
+  pages: ["pages open", "offene Seiten"],
+  refusedPages: ["requests refused", "Anfragen abgelehnt"],
+  pose: ["pose", "Pose"],
+  sigma: ["uncertainty (1 σ)", "Unsicherheit (1 σ)"],
+  speed: ["speed", "Tempo"],
+  doing: ["does", "tut"],
+  limit: ["held back by", "gebremst durch"],
+  nearest: ["free ahead", "frei voraus"],
+  driver: ["driver", "Fahrer"],
+  refusal: ["last refusal", "zuletzt abgelehnt"],
+  age: ["age", "Alter"],
+  never: ["not heard yet", "noch nichts gehört"],
+  message: ["messages", "Meldungen"],
+  bytes: ["bytes", "Bytes"],
+  dropped: ["dropped", "verworfen"],
+  expired: ["expired", "abgelaufen"],
+  waiting: ["waiting", "wartet"],
+  yours: ["you", "Sie"],
+  otherPage: ["another page drives", "eine andere Seite fährt"],
+  looked: ["look at", "Blick auf"],
+  edgesUsed: ["edges used", "Kanten verwendet"],
+} as const;
+
+const LISTS = {
+  doing: [["idle", "follows a path", "arrived", "holds", "blocked", "driven by hand"],
+    ["ruht", "folgt einem Pfad", "angekommen", "hält", "blockiert", "von Hand gefahren"]],
+  limit: [["nothing", "sonars", "pose too old", "encoders silent", "sonars silent", "wheels stuck", "head silent",
+    "radio link lost", "operator silent", "lease lost", "emergency stop", "touched something", "bumper silent"],
+  ["nichts", "Ultraschall", "Pose zu alt", "Radgeber stumm", "Ultraschall stumm", "Räder blockiert", "Kopf stumm",
+    "Funk unterbrochen", "Bediener stumm", "Fahrrecht verloren", "Not-Halt", "Berührung", "Stoßleiste stumm"]],
+  refusal: [["nothing", "no lease", "out of order", "too old", "out of range", "let the stick go first"],
+    ["nichts", "kein Fahrrecht", "falsche Reihenfolge", "zu alt", "außerhalb des Bereichs", "erst den Knüppel loslassen"]],
+  driver: [["nobody", "planner", "console", "teleop"], ["niemand", "Planer", "Station", "Teleoperation"]],
+  phase: [["waiting", "approaching", "looking left", "looking right", "passing", "done", "failed", "retreating"],
+    ["wartet", "nähert sich", "blickt links", "blickt rechts", "durchfährt", "fertig", "gescheitert", "zieht sich zurück"]],
+  health: [["starting", "good", "degraded", "failed"], ["startet", "gut", "eingeschränkt", "ausgefallen"]],
+  verdict: [["found", "no model of it", "no pose", "no image", "not visible", "too few edges", "ambiguous",
+    "residual too large", "elsewhere"],
+  ["gefunden", "kein Modell", "keine Pose", "kein Bild", "nicht sichtbar", "zu wenige Kanten", "mehrdeutig",
+    "Abweichung zu groß", "woanders"]],
+  severity: [["caution", "warning", "critical"], ["Vorsicht", "Warnung", "kritisch"]],
+} as const;
+
+const PHASES = {
+  no_device: ["stick is free", "Knüppel ist frei"],
+  idle: ["stick is free", "Knüppel ist frei"],
+  must_let_go: ["let go of stick and keys first", "erst Knüppel und Tasten loslassen"],
+  asking: ["asks for the robot ...", "fordert den Roboter an ..."],
+  driving: ["you drive", "Sie fahren"],
+} as const;
+
+let language: Language = navigator.language.startsWith("de") ? "de" : "en";
+
+function index(): 0 | 1 {
+  return language === "en" ? 0 : 1;
+}
+
+export function currentLanguage(): Language {
+  return language;
+}
+
+export function setLanguage(next: Language): void {
+  language = next;
+  document.documentElement.lang = next;
+  for (const element of document.querySelectorAll<HTMLElement>("[data-text]"))
+    element.textContent = text(element.dataset.text as keyof typeof WORDS);
+}
+
+export function text(word: keyof typeof WORDS): string {
+  return WORDS[word][index()];
+}
+
+/** The word for a constant of a message; its number when nobody has named it yet. */
+export function named(list: keyof typeof LISTS, code: number): string {
+  return LISTS[list][index()][code] ?? String(code);
+}
+
+export function phaseText(phase: keyof typeof PHASES): string {
+  return PHASES[phase][index()];
+}
+
+/** A number with the decimal sign of the language. */
+export function number(value: number, digits: number): string {
+  return value.toLocaleString(language, { minimumFractionDigits: digits, maximumFractionDigits: digits });
+}
+
+export function ageText(age_s: number): string {
+  if (age_s === Infinity) return text("never");
+  return age_s < 10 ? `${number(age_s, 1)} s` : age_s < 120 ? `${number(age_s, 0)} s` : `${number(age_s / 60, 0)} min`;
+}

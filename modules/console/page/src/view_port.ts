@@ -1,0 +1,75 @@
+// Which part of the plan the canvas shows: dragging, zooming, measuring.
+
+import { Point } from "./protocol";
+
+const LEAST = 8, MOST = 1200;  // pixels per metre
+
+export class ViewPort {
+  scale = 60;  // pixels per metre
+  centre: Point = [0, 0];
+  measured: [Point, Point] | undefined;
+  onUserMove: () => void = () => undefined;
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      this.zoomAt(Math.exp(-event.deltaY / 400), event.offsetX, event.offsetY);
+    }, { passive: false });
+    canvas.addEventListener("pointerdown", (event) => this.drag(event));
+    canvas.addEventListener("keydown", (event) => {
+      if (event.key === "+") this.zoom(1.25);
+      if (event.key === "-") this.zoom(0.8);
+    });
+  }
+
+  toScreen([x, y]: Point): Point {
+    return [this.canvas.clientWidth / 2 + (x - this.centre[0]) * this.scale,
+      this.canvas.clientHeight / 2 - (y - this.centre[1]) * this.scale];
+  }
+
+  toMap(u: number, v: number): Point {
+    return [this.centre[0] + (u - this.canvas.clientWidth / 2) / this.scale,
+      this.centre[1] - (v - this.canvas.clientHeight / 2) / this.scale];
+  }
+
+  zoom(factor: number): void {
+    this.zoomAt(factor, this.canvas.clientWidth / 2, this.canvas.clientHeight / 2);
+  }
+
+  fit(points: Point[]): void {
+    if (points.length === 0) return;
+    const xs = points.map((p) => p[0]), ys = points.map((p) => p[1]);
+    const [left, right] = [Math.min(...xs), Math.max(...xs)], [low, high] = [Math.min(...ys), Math.max(...ys)];
+    this.centre = [(left + right) / 2, (low + high) / 2];
+    const fits = Math.min(this.canvas.clientWidth / (right - left + 0.6), this.canvas.clientHeight / (high - low + 0.6));
+    this.scale = Math.min(MOST, Math.max(LEAST, fits));
+  }
+
+  private zoomAt(factor: number, u: number, v: number): void {
+    const before = this.toMap(u, v);
+    this.scale = Math.min(MOST, Math.max(LEAST, this.scale * factor));
+    const after = this.toMap(u, v);
+    this.centre = [this.centre[0] + before[0] - after[0], this.centre[1] + before[1] - after[1]];
+  }
+
+  private drag(start: PointerEvent): void {
+    const from = this.toMap(start.offsetX, start.offsetY);
+    const measures = start.shiftKey;
+    this.measured = measures ? [from, from] : undefined;
+    this.canvas.setPointerCapture(start.pointerId);
+    const move = (event: PointerEvent): void => {
+      const here = this.toMap(event.offsetX, event.offsetY);
+      if (measures) this.measured = [from, here];
+      else this.centre = [this.centre[0] + from[0] - here[0], this.centre[1] + from[1] - here[1]];
+      if (!measures) this.onUserMove();
+    };
+    const end = (): void => {
+      this.canvas.removeEventListener("pointermove", move);
+      this.canvas.removeEventListener("pointerup", end);
+      this.canvas.removeEventListener("pointercancel", end);
+    };
+    this.canvas.addEventListener("pointermove", move);
+    this.canvas.addEventListener("pointerup", end);
+    this.canvas.addEventListener("pointercancel", end);
+  }
+}

@@ -1,0 +1,71 @@
+#include "console/token_file.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace priamos::console {
+namespace {
+
+constexpr std::size_t kShortest = 16, kLongest = 64;
+
+bool IsLoopback(const std::string& address) {
+  return address.starts_with("127.") || address == "::1";
+}
+
+bool IsToken(const std::string& text) {
+  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+  return text.size() >= kShortest && text.size() <= kLongest && std::all_of(text.begin(), text.end(), fits);
+}
+
+void RefuseOpenMode(const std::string& file) {
+  struct stat info {};
+  if (stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode))
+    throw std::runtime_error(fmt::format("{}: expected a file of tokens, which is not there", file));
+  if ((info.st_mode & 0077) != 0)
+    throw std::runtime_error(
+        fmt::format("{}: expected tokens that only their owner can read, got mode {:o}; next: chmod 600 {}",
+                    file, info.st_mode & 0777U, file));
+}
+
+void ReadLine(const std::string& line, const std::string& place, WebAccess& access) {
+  std::istringstream words(line.substr(0, line.find('#')));
+  std::string role, token, more;
+  if (!(words >> role)) return;
+  const bool known = role == "driver" || role == "viewer";
+  if (!known || !(words >> token) || words >> more || !IsToken(token))
+    throw std::runtime_error(fmt::format(
+        "{}: expected `driver TOKEN` or `viewer TOKEN`, the token {} to {} letters, digits, - and _", place,
+        kShortest, kLongest));
+  (role == "driver" ? access.driver_token : access.viewer_token) = token;
+}
+
+}  // namespace
+
+WebAccess LoadAccess(const std::string& address, const std::string& file) {
+  WebAccess access;
+  access.loopback_only = IsLoopback(address);
+  if (file.empty() && !access.loopback_only)
+    throw std::runtime_error(
+        fmt::format("address {}: expected a token_file, because others than this host reach it; next: "
+                    "127.0.0.1 and ssh -L, or a "
+                    "token_file",
+                    address));
+  if (file.empty()) return access;
+  RefuseOpenMode(file);
+  std::ifstream in(file);
+  int number = 0;
+  for (std::string line; std::getline(in, line);)
+    ReadLine(line, fmt::format("{}:{}", file, ++number), access);
+  if (access.driver_token.empty() && access.viewer_token.empty())
+    throw std::runtime_error(fmt::format("{}: expected at least one token, got none", file));
+  if (access.driver_token == access.viewer_token)
+    throw std::runtime_error(fmt::format("{}: expected different tokens for driver and viewer", file));
+  return access;
+}
+
+}  // namespace priamos::console

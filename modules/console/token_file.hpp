@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "console/web/web_request.hpp"
+
+namespace priamos::console {
+
+/// Who may connect to a server on `address`: anybody on loopback without a token file, else who knows a token
+/// of `file`. Its lines are `driver TOKEN` or `viewer TOKEN`, tokens of 16 to 64 letters, digits, - and _;
+/// empty lines and comments with #. Throws std::runtime_error, `file:line: expected ...`, when it says
+/// something else or others than its owner can read it, or when there is none and `address` is not of the
+/// loopback.
+WebAccess LoadAccess(const std::string& address, const std::string& file);
+
+}  // namespace priamos::console

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "console/web/web_request.hpp"
+
+namespace priamos::console {
+
+/// Where a server listens and what it allows.
+struct WebServerOptions {
+  std::string address = "127.0.0.1";
+  int port = 0;   ///< first one that is tried; 0: any
+  int ports = 1;  ///< how many are tried
+  int max_connections = 64, max_sockets = 16;
+  std::size_t max_message = 512;  ///< longest message of a page [byte]
+  double messages_per_s = 100;    ///< of one page, for long
+  double head_timeout_s = 5;      ///< a request must have come whole within that
+  double write_timeout_s = 5;     ///< a page that takes nothing for so long is gone
+  WebAccess access{};
+};
+
+}  // namespace priamos::console

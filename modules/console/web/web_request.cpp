@@ -1,0 +1,63 @@
+#include "console/web/web_request.hpp"
+
+#include <algorithm>
+
+namespace priamos::console {
+namespace {
+
+constexpr std::string_view kSocket = "/socket";
+
+/// "localhost:8080" -> "localhost", "[::1]:8080" -> "[::1]".
+std::string_view NameOf(std::string_view host) {
+  if (host.starts_with('[')) return host.substr(0, host.find(']') + 1);
+  return host.substr(0, host.rfind(':'));
+}
+
+bool IsLoopback(std::string_view name) {
+  return name == "localhost" || name == "127.0.0.1" || name == "[::1]";
+}
+
+/// Takes as long for every wrong text of one length.
+bool SameSecret(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  unsigned char differs = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) differs |= static_cast<unsigned char>(a[i] ^ b[i]);
+  return differs == 0;
+}
+
+std::string_view TokenOf(std::string_view target) {
+  constexpr std::string_view kKey = "?token=";
+  const auto at = target.find(kKey);
+  return at == std::string_view::npos ? "" : target.substr(at + kKey.size());
+}
+
+std::optional<Role> RoleOf(std::string_view token, const WebAccess& access) {
+  if (access.driver_token.empty() && access.viewer_token.empty()) return Role::kDriver;
+  if (!access.driver_token.empty() && SameSecret(token, access.driver_token)) return Role::kDriver;
+  if (!access.viewer_token.empty() && SameSecret(token, access.viewer_token)) return Role::kViewer;
+  return std::nullopt;
+}
+
+WebAnswer AnswerSocket(const WebRequest& request, const WebAccess& access) {
+  if (!request.upgrade) return RefuseRequest{426, "expected a WebSocket"};
+  if (request.origin != "http://" + request.host && request.origin != "https://" + request.host)
+    return RefuseRequest{403, "expected the origin of this server's own page"};
+  if (const auto role = RoleOf(TokenOf(request.target), access)) return OpenSocket{*role};
+  return RefuseRequest{401, "expected a token; it is on the station's console: http://.../?token=..."};
+}
+
+}  // namespace
+
+WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAccess& access) {
+  if (request.host.empty()) return RefuseRequest{400, "expected a Host"};
+  if (access.loopback_only && !IsLoopback(NameOf(request.host)))
+    return RefuseRequest{403, "expected localhost or 127.0.0.1 as the address"};
+  if (request.method != "GET" && request.method != "HEAD") return RefuseRequest{405, "expected GET"};
+  const std::string_view path = std::string_view(request.target).substr(0, request.target.find('?'));
+  if (path == kSocket) return AnswerSocket(request, access);
+  const auto file = files.find(path);
+  if (file == files.end()) return RefuseRequest{404, "there is no such page; the station is at /"};
+  return ServeFile{&file->second, request.method == "HEAD"};
+}
+
+}  // namespace priamos::console

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace priamos::console {
+
+/// A file of the page, compiled in.
+struct WebFile {
+  std::string_view type;  ///< MIME
+  std::string_view text;
+};
+/// By target, "/app.js".
+using WebFiles = std::map<std::string, WebFile, std::less<>>;
+
+/// What somebody may do who is connected.
+enum class Role { kViewer, kDriver };
+
+/// Who may connect.
+struct WebAccess {
+  bool loopback_only = true;               ///< names of this machine's loopback alone are taken for the Host
+  std::string driver_token, viewer_token;  ///< empty: nobody needs one (loopback), or nobody has the role
+};
+
+/// The parts of a request's head that decide.
+struct WebRequest {
+  std::string method, target, host, origin;
+  bool upgrade = false;  ///< asks for a WebSocket
+};
+
+/// The answer is a file.
+struct ServeFile {
+  const WebFile* file = nullptr;
+  bool head_only = false;
+};
+/// The answer is a WebSocket.
+struct OpenSocket {
+  Role role = Role::kViewer;
+};
+/// The answer is a refusal, with the status of HTTP and a sentence.
+struct RefuseRequest {
+  int status = 400;
+  std::string reason;
+};
+using WebAnswer = std::variant<ServeFile, OpenSocket, RefuseRequest>;
+
+/// What becomes of a request. A page of another origin gets no socket, nor does one that reached this server
+/// by a foreign name (DNS rebinding). The page itself is public; its socket needs the token, as
+/// /socket?token=..., when there is one.
+WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAccess& access);
+
+}  // namespace priamos::console

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/span_body.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/time.hpp"
+#include "console/web/web_listener.hpp"
+#include "console/web/web_options.hpp"
+
+namespace priamos::console {
+
+/// What the connections of one server share.
+struct WebShared {
+  const WebServerOptions& options;
+  const WebFiles& files;
+  WebListener& listener;
+  WebCounters counters{};
+  int sockets = 0;  ///< open WebSockets
+  Time now{};       ///< of the Poll that runs
+};
+
+/// One connection: a request, and then a file, a refusal, or a WebSocket until somebody closes it.
+class WebSession : public std::enable_shared_from_this<WebSession> {
+ public:
+  /// What the connection is used for now.
+  enum class Phase { kHead, kReply, kSocket, kDone };
+
+  WebSession(boost::asio::ip::tcp::socket socket, std::uint64_t id, WebShared& shared);
+
+  void Start();
+  /// Sends a text over its WebSocket; false when it has not taken the one before.
+  bool Send(std::string text);
+  /// Ends it when it is overdue.
+  void CheckTime();
+  void Close();
+
+  Phase phase() const { return phase_; }
+
+ private:
+  using Socket = boost::beast::websocket::stream<boost::asio::ip::tcp::socket>;
+
+  void OnHead(boost::beast::error_code error);
+  void OnHead(const ServeFile& answer);
+  void OnHead(const OpenSocket& answer);
+  void OnHead(const RefuseRequest& answer);
+  void Reply(unsigned status, std::string_view type, std::string_view text, bool head_only);
+  void Read();
+  void OnMessage(boost::beast::error_code error);
+  bool MaySay();
+  boost::asio::ip::tcp::socket& tcp() { return socket_.next_layer(); }
+
+  const std::uint64_t id_;
+  WebShared& shared_;
+  Socket socket_;
+  boost::beast::flat_buffer buffer_;
+  std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> head_;
+  std::optional<boost::beast::http::response<boost::beast::http::span_body<const char>>> reply_;
+  std::string refusal_;
+  std::optional<std::string> writing_;  ///< what the WebSocket is sending
+  Phase phase_ = Phase::kHead;
+  bool joined_ = false;
+  Time since_{};          ///< when the connection came, or what is being sent was begun
+  double allowance_ = 0;  ///< messages that the page may still send at once
+  Time counted_{};
+};
+
+}  // namespace priamos::console

@@ -1,0 +1,64 @@
+#include "console/token_file.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "test/support/temporary_folder.hpp"
+#include "test/support/thrown_reason.hpp"
+
+namespace priamos::console {
+namespace {
+
+using support::ThrownReason;
+using testing::HasSubstr;
+
+class TokenFile : public testing::Test {
+ protected:
+  std::string Write(const std::string& text, mode_t mode = 0600) {
+    std::ofstream(file_) << text;
+    chmod(file_.c_str(), mode);
+    return file_;
+  }
+  std::string ReasonOf(const std::string& text, mode_t mode = 0600) {
+    Write(text, mode);
+    return ThrownReason([&] { LoadAccess("127.0.0.1", file_); });
+  }
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_ / "tokens";
+};
+
+TEST_F(TokenFile, IsNotNeededOnLoopback) {
+  EXPECT_TRUE(LoadAccess("127.0.0.1", "").loopback_only);
+  EXPECT_TRUE(LoadAccess("::1", "").loopback_only);
+  EXPECT_THAT(ThrownReason([] { LoadAccess("0.0.0.0", ""); }), HasSubstr("expected a token_file"));
+  EXPECT_THAT(ThrownReason([] { LoadAccess("192.168.1.5", ""); }), HasSubstr("expected a token_file"));
+}
+
+TEST_F(TokenFile, HasATokenPerRole) {
+  const auto access =
+      LoadAccess("0.0.0.0", Write("# who may\n\ndriver abcdefghijklmnop # me\nviewer 0123456789-_ABCDEF\n"));
+  EXPECT_FALSE(access.loopback_only);
+  EXPECT_EQ(access.driver_token, "abcdefghijklmnop");
+  EXPECT_EQ(access.viewer_token, "0123456789-_ABCDEF");
+}
+
+TEST_F(TokenFile, ThatSaysSomethingElseIsRefusedByItsLine) {
+  for (const char* line : {"driver", "driver short", "driver abcdefghijklmnop more", "admin abcdefghijklmnop",
+                           "driver abcdefgh?jklmnop"})
+    EXPECT_THAT(ReasonOf(std::string("# first\n") + line + "\n"),
+                HasSubstr("tokens:2: expected `driver TOKEN`"))
+        << line;
+  EXPECT_THAT(ReasonOf("# nobody\n"), HasSubstr("expected at least one token"));
+  EXPECT_THAT(ReasonOf("driver abcdefghijklmnop\nviewer abcdefghijklmnop\n"), HasSubstr("different tokens"));
+}
+
+TEST_F(TokenFile, ThatOthersCanReadIsRefused) {
+  EXPECT_THAT(ReasonOf("driver abcdefghijklmnop\n", 0644), HasSubstr("got mode 644; next: chmod 600"));
+  EXPECT_THAT(ThrownReason([&] { LoadAccess("127.0.0.1", folder_ / "none"); }),
+              HasSubstr("which is not there"));
+}
+
+}  // namespace
+}  // namespace priamos::console

@@ -1,0 +1,106 @@
+"""Looks at the station as a person does: loads it, drives, stops, and leaves a picture of every view.
+
+usage: station_views.py URL FOLDER
+"""
+import sys
+import time
+
+from browser import Browser
+from station_page import wait_for
+
+URL, FOLDER = sys.argv[1], sys.argv[2]
+
+
+def middle(browser, element):
+    return browser.run(f"(() => {{ const r = document.getElementById('{element}').getBoundingClientRect();"
+                       " return [r.x + r.width / 2, r.y + r.height / 2]; })()")
+
+
+def load(browser):
+    browser.call("Page.navigate", url=URL)
+    wait_for(lambda: "m" in (browser.text("robot") or ""), 8)
+    paint = "performance.getEntriesByName('first-contentful-paint')"
+    wait_for(lambda: browser.run(paint + ".length > 0"), 5)
+    return browser.run(paint + "[0].startTime")
+
+
+def drives(browser):
+    return "you drive" in browser.text("phase")
+
+
+def report(name, value):
+    print(f"{name}: {value}", flush=True)
+
+
+def keyboard(browser):
+    browser.key("down", "KeyW", "w")
+    report("key drives", wait_for(lambda: drives(browser), 5))
+    browser.picture(FOLDER + "/drive.png")
+    browser.run("window.dispatchEvent(new Event('blur'))")
+    report("blur ends the drive", wait_for(lambda: not drives(browser), 1))
+    time.sleep(0.5)
+    report("held key goes on after it", drives(browser))
+    browser.key("up", "KeyW", "w")
+
+
+def stick(browser):
+    x, y = middle(browser, "stick")
+    browser.mouse("mousePressed", x, y)
+    browser.mouse("mouseMoved", x, y - 40)
+    report("stick drives", wait_for(lambda: drives(browser), 5))
+    browser.mouse("mouseReleased", x, y - 40)
+    report("released stick ends the drive", wait_for(lambda: not drives(browser), 1))
+
+
+def stop_and_rearm(browser):
+    browser.key("down", "Space", " ")
+    browser.key("up", "Space", " ")
+    report("space bar stops", wait_for(lambda: not browser.run("document.getElementById('stopped').hidden"), 2))
+    browser.picture(FOLDER + "/stopped.png")
+    x, y = middle(browser, "rearm")
+    browser.mouse("mousePressed", x, y)
+    report("held button re-arms", wait_for(lambda: browser.run("document.getElementById('stopped').hidden"), 4))
+    browser.mouse("mouseReleased", x, y)
+
+
+def mission(browser):
+    browser.click("sonars")
+    browser.click("view")
+    browser.click("pass")
+    report("mission starts", wait_for(lambda: "approaching" in browser.text("mission-text"), 5))
+    report("edges are seen", wait_for(lambda: "px" in browser.text("look"), 30))
+    time.sleep(2)
+    browser.picture(FOLDER + "/mission.png")
+    browser.click("abort")
+    report("mission is aborted", wait_for(lambda: "aborted" in browser.text("mission-text"), 5))
+
+
+def other_screens():
+    for name, width, height, scheme, language in (("dark", 1366, 768, "dark", "en-US"), ("phone", 390, 844, "light", "de-DE"),
+                                                  ("tablet", 820, 1180, "dark", "de-DE")):
+        browser = Browser(width, height, scheme, language)
+        load(browser)
+        wide = browser.run("document.documentElement.scrollWidth")
+        report(f"{name} fits", wide <= width)
+        browser.picture(f"{FOLDER}/{name}.png")
+        browser.close()
+
+
+def main():
+    browser = Browser()
+    paint_ms = load(browser)
+    report("first paint within 1 s", paint_ms < 1000)
+    report("connected", browser.text("connection"))
+    browser.picture(FOLDER + "/start.png")
+    keyboard(browser)
+    stick(browser)
+    stop_and_rearm(browser)
+    mission(browser)
+    browser.click("language")
+    report("German", "Fahren" in browser.text("drive-title"))
+    report("complaints", browser.complaints)
+    browser.close()
+    other_screens()
+
+
+main()

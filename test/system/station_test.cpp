@@ -1,0 +1,98 @@
+// The station with the whole robot behind the radio: driven from pages, and looked at in Chromium.
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "test/system/robot_shell.hpp"
+
+namespace priamos {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+// `up`: everything of config/sim; `down`; both quiet.
+const std::string kHelpers = R"sh(
+export PYTHONPATH=$SOURCE/test/support PYTHONDONTWRITEBYTECODE=1
+up() {
+  $BIN/priamos up $SOURCE/config/sim --logs $LOGS --detach > /dev/null || echo failed
+  for i in $(seq 200); do $BIN/priamos status --logs $LOGS > /dev/null && return; sleep 0.1; done
+}
+down() { $BIN/priamos down --logs $LOGS > /dev/null; }
+)sh";
+
+class Station : public RobotShell {
+ protected:
+  Station() : RobotShell(kHelpers) {}
+};
+
+TEST_F(Station, HoweverADriveEndsTheWheelsStandWithinThreeTenthsOfASecond) {
+  const auto answer = RunScript(R"sh(
+    up; python3 $SOURCE/test/support/station_driving.py $BIN priamos 8080 2 $LOGS/up.json; down
+  )sh",
+                                180);
+  for (const char* how : {"released", "tab closed", "silent", "stop", "delayed", "station killed"})
+    EXPECT_THAT(answer.text, HasSubstr(std::string(how) + ": 2 of 2 within 0.300 s"));
+  EXPECT_THAT(answer.text, HasSubstr("key held while a page connects: wheels stand"));
+}
+
+/// The pictures of every view stay in build/station-views.
+TEST_F(Station, IsSeenAndUsedInABrowser) {
+  const std::string views = PRIAMOS_BINARY_DIR "/station-views";
+  std::filesystem::create_directories(views);
+  const auto answer = RunScript("VIEWS=" + views + R"sh(
+    up; python3 $SOURCE/test/support/station_views.py http://127.0.0.1:8080/ $VIEWS; down
+  )sh",
+                                150);
+  for (const char* seen :
+       {"first paint within 1 s: True", "connected: station connected", "key drives: True",
+        "blur ends the drive: True", "held key goes on after it: False", "stick drives: True",
+        "released stick ends the drive: True", "space bar stops: True", "held button re-arms: True",
+        "mission starts: True", "edges are seen: True", "mission is aborted: True", "German: True",
+        "complaints: []", "dark fits: True", "phone fits: True", "tablet fits: True"})
+    EXPECT_THAT(answer.text, HasSubstr(seen));
+  EXPECT_GT(std::filesystem::file_size(views + "/mission.png"), 20'000u);
+}
+
+TEST_F(Station, EverythingOnThePageComesOverTheRadio) {
+  const auto answer = RunScript(R"sh(
+    up
+    kill -STOP $(pid_of offboard-radio)
+    python3 - <<'PY'
+import time
+from station_page import Page, wait_for
+page = Page(8080)
+time.sleep(1)
+before = dict(page.messages)
+time.sleep(2)
+came = sorted(c for c, m in page.messages.items() if before.get(c) != m)
+print("came without the radio:", came)
+PY
+    kill -CONT $(pid_of offboard-radio); down
+  )sh",
+                                60);
+  // Of the workstation itself: its processes, and what its planner does.
+  EXPECT_THAT(answer.text,
+              ContainsRegex("came without the radio: \\[('ALARM', )?'HEALTH', 'MISSION_STATUS'\\]"));
+}
+
+TEST_F(Station, StrangersOnTheNetworkAreKeptOut) {
+  const auto answer = RunScript(R"sh(
+    console() { $BIN/priamos-console --config $SOURCE/config/sim/console.toml "$@"; }
+    console --set 'address="0.0.0.0"'; echo "without tokens: $?"
+    echo "driver shared" > $LOGS.tokens; chmod 600 $LOGS.tokens
+    console --set 'address="0.0.0.0"' --set "token_file=\"$LOGS.tokens\""; echo "bad token: $?"
+    console --set port=1 --set ports=1 --set 'address="127.0.0.77"'; echo "no port: $?"
+  )sh",
+                                30);
+  EXPECT_THAT(answer.text, HasSubstr("address 0.0.0.0: expected a token_file"));
+  EXPECT_THAT(answer.text, HasSubstr("without tokens: 2"));
+  EXPECT_THAT(answer.text, HasSubstr("tokens:1: expected `driver TOKEN`"));
+  EXPECT_THAT(answer.text, HasSubstr("bad token: 2"));
+}
+
+}  // namespace
+}  // namespace priamos
