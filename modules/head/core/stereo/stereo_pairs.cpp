@@ -129,7 +129,7 @@ double GreySimilarity(const CameraView& a, int line_a, const CameraView& b, int 
   const bool is_white = s.grey_right > kWhite;
   if (ratio > options.max_contrast_ratio || (ratio * options.max_contrast_ratio < 1 && !is_white)) return 0;
   // What lies behind an edge changes with the viewpoint, so one side may differ.
-  const double scale = std::sqrt(relation.Slope(far_a, far_b));
+  const double scale = std::min(1.0, relation.Slope(far_a, far_b));  // grey values of the brighter image
   const double left = GreyDistance(dark, t.grey_left, s.grey_left > kWhite) / scale,
                right = GreyDistance(bright, t.grey_right, is_white) / scale;
   const double better = std::min(left, right), worse = std::max(left, right);

@@ -34,6 +34,8 @@ std::span<const OtherLight> AllLights() {
       {"gamma 1.6", 1, 1.6},
       {"half the light in the corners", 1, 1, 0, 0.5},
       {"all: 0.7, gamma 0.8, 15, falloff 0.4", 0.7, 0.8, 15, 0.4},
+      {"the first image: gain 0.5", 0.5, 1, 0, 0, true},
+      {"the first image: gamma 1.6", 1, 1.6, 0, 0, true},
   };
   return kLights;
 }

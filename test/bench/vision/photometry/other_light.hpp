@@ -10,7 +10,8 @@ namespace priamos::bench {
 struct OtherLight {
   std::string name;
   double gain = 1, gamma = 1, offset = 0;
-  double falloff = 0;  ///< share of the light that is lost in the corners
+  double falloff = 0;     ///< share of the light that is lost in the corners
+  bool of_first = false;  ///< the first camera sees in it, not the others
 
   cv::Mat Of(const cv::Mat& image) const;
 };

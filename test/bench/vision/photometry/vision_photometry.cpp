@@ -5,6 +5,7 @@
 #include <set>
 
 #include "head/core/edges/edge_segments.hpp"
+#include "head/core/edges/equal_contrast.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
 #include "head/files/projection_file.hpp"
 #include "test/bench/vision/photometry/other_light.hpp"
@@ -29,14 +30,17 @@ struct Count {
   double seconds = 0;
 };
 
-/// Matches of a scene when all images but the first one are seen in another light.
+/// Matches of a scene when the first image, or all others, are seen in another light.
 void Add(const Scene& scene, const OtherLight& light, Count& count) {
   const std::size_t n = scene.images.size();
   std::vector<head::EdgeImage> edges(n);
   std::vector<head::CameraView> views;
-  head::EdgeOperator edge_operator;
+  std::vector<cv::Mat> images = scene.images;
+  for (std::size_t c = 0; c < n; ++c)
+    if ((c == 0) == light.of_first) images[c] = light.Of(images[c]);
+  const auto options = head::ForOneScene(images, {});
   for (std::size_t c = 0; c < n; ++c) {
-    edge_operator.Extract(c == 0 ? scene.images[c] : light.Of(scene.images[c]), edges[c]);
+    head::EdgeOperator(options[c]).Extract(images[c], edges[c]);
     views.push_back(head::MakeView(scene.cameras[c], edges[c]));
   }
   count.lines += views[1].lines.size();
