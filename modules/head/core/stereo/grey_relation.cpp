@@ -13,7 +13,7 @@ constexpr double kWhite = 255, kMiddle = 128, kDarkest = 1;
 constexpr double kReach = 16;           ///< difference of grey values that explains nothing any more
 constexpr std::size_t kMaxLines = 150;  ///< the longest ones are enough
 /// Another relation than "no change" has to explain so much more: lines, and share of the lines.
-constexpr double kMoreLines = 2.5, kMoreShare = 0.08;
+constexpr double kMoreLines = 1.5, kMoreShare = 0.04;
 
 /// What a pair of lines says: the grey values on both sides in both images.
 struct Observation {
