@@ -8,6 +8,7 @@
 #include "head/core/edges/equal_contrast.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
 #include "head/files/projection_file.hpp"
+#include "test/bench/vision/photometry/door_light.hpp"
 #include "test/bench/vision/photometry/other_light.hpp"
 #include "test/bench/vision/stereo_scenes.hpp"
 #include "test/bench/vision/vision_bench.hpp"
@@ -134,6 +135,7 @@ std::vector<Scene> Rendered(StereoScene kind, int n_cameras, const VisionOptions
 }  // namespace
 
 void BenchPhotometry(const VisionOptions& options, Figures& figures) {
+  BenchDoorLight(options, figures);
   if (!options.pairs.empty()) {
     fmt::print("photographs, judged by semi-global matching of the pair as it is\n");
     Report(Photographs(options), figures);
