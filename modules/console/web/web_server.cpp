@@ -20,7 +20,7 @@ constexpr int kMostSteps = 400;
 
 asio::ip::address AddressOf(const std::string& text) {
   boost::system::error_code error;
-  const auto address = asio::ip::make_address(text, error);
+  auto address = asio::ip::make_address(text, error);
   if (error)
     throw std::runtime_error(
         fmt::format("address: expected a numeric address of this host, got \"{}\"", text));

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "head/core/edges/equal_contrast.hpp"
 #include "head/core/edges/scale_edges.hpp"
 #include "head/files/image_file.hpp"
 #include "head/files/landmark_file.hpp"
@@ -38,8 +39,8 @@ double LengthOf(const EdgeImage& image) {
 }
 
 /// An image that at half its size shows nearly all of its edges, or more, is soft and is seen over scales.
-EdgeImage EdgesOf(const cv::Mat& grey) {
-  EdgeOperator edge_operator;
+EdgeImage EdgesOf(const cv::Mat& grey, const EdgeOperator::Options& options) {
+  EdgeOperator edge_operator(options);
   EdgeImage edges, of_half;
   edge_operator.Extract(grey, edges);
   if (std::min(grey.cols, grey.rows) < 2 * kSmallest_px) return edges;
@@ -49,19 +50,34 @@ EdgeImage EdgesOf(const cv::Mat& grey) {
   const double length_px = LengthOf(edges);
   if (length_px > 0 && 2 * LengthOf(of_half) <= kBlurred * length_px) return edges;
   BlurredEdges blurred;
-  ScaleEdgeOperator().Extract(grey, blurred);
+  ScaleEdgeOperator(options).Extract(grey, blurred);
   return blurred.edges;
 }
 
-std::vector<SeenPhotograph> ReadPhotographs(const std::vector<std::string>& files) {
+std::vector<cv::Mat> GreysOf(const std::vector<SeenPhotograph>& photographs) {
+  std::vector<cv::Mat> greys;
+  greys.reserve(photographs.size());
+  for (const SeenPhotograph& photograph : photographs) greys.push_back(photograph.grey);
+  return greys;
+}
+
+/// With cameras all show one scene, and one that is darker is searched for weaker edges.
+void FindEdges(bool of_one_scene, std::vector<SeenPhotograph>& photographs) {
+  std::vector<EdgeOperator::Options> options(photographs.size());
+  if (of_one_scene) options = ForOneScene(GreysOf(photographs), {});
+  for (std::size_t i = 0; i < photographs.size(); ++i)
+    photographs[i].edges = EdgesOf(photographs[i].grey, options[i]);
+  for (SeenPhotograph& photograph : photographs) photograph.contours = {photograph.edges, {}};
+}
+
+std::vector<SeenPhotograph> ReadPhotographs(const SeeOptions& options) {
   std::vector<SeenPhotograph> photographs;
-  for (const std::string& file : files) {
+  for (const std::string& file : options.images) {
     SeenPhotograph& photograph = photographs.emplace_back();
     photograph.file = file;
     photograph.grey = ReadLargeEnough(file);
-    photograph.edges = EdgesOf(photograph.grey);
   }
-  for (SeenPhotograph& photograph : photographs) photograph.contours = {photograph.edges, {}};
+  FindEdges(!options.cameras.empty(), photographs);
   return photographs;
 }
 
@@ -133,9 +149,9 @@ SeenDoors FindDoors(const SeeOptions& options, const SeeFindings& findings) {
     throw std::runtime_error(fmt::format("expected two images and their cameras to look for doors, got {}",
                                          findings.cameras.size()));
   SeenDoors seen{OnTheFloor(findings.cameras, options.stand), std::vector<EdgeImage>(2), {}, {}};
-  EdgeOperator edge_operator(DoorEdges());
+  const auto edge_options = ForOneScene(findings.Greys(), DoorEdges());
   for (int c = 0; c < 2; ++c) {
-    edge_operator.Extract(findings.photographs[c].grey, seen.edges[c]);
+    EdgeOperator(edge_options[c]).Extract(findings.photographs[c].grey, seen.edges[c]);
     seen.views.push_back(MakeView(seen.cameras[c], seen.edges[c]));
   }
   seen.doors = DetectDoors(seen.views[0], seen.views[1], DoorOptions(options.max_door_width_m));
@@ -151,14 +167,12 @@ SeenLandmark FindLandmark(const SeeOptions& options, const std::vector<CameraVie
 }  // namespace
 
 std::vector<cv::Mat> SeeFindings::Greys() const {
-  std::vector<cv::Mat> greys;
-  for (const SeenPhotograph& photograph : photographs) greys.push_back(photograph.grey);
-  return greys;
+  return GreysOf(photographs);
 }
 
 SeeFindings FindAll(const SeeOptions& options) {
   SeeFindings findings;
-  findings.photographs = ReadPhotographs(options.images);
+  findings.photographs = ReadPhotographs(options);
   findings.cameras = ReadCameras(options, findings.photographs);
   for (std::size_t i = 0; i < findings.cameras.size(); ++i)
     findings.views.push_back(MakeView(findings.cameras[i], findings.photographs[i].edges));

@@ -27,7 +27,10 @@ Json SegmentsToJson(const EdgeImage& edges) {
 Json CornersToJson(const ContourGraph& contours) {
   Json list = Json::array();
   for (const Corner& c : contours.corners())
-    list.push_back({{"at_px", Numbers(c.at)}, {"segments", c.segments}});
+    list.push_back({{"at_px", Numbers(c.at)},
+                    {"covariance_px2",
+                     {{c.covariance(0, 0), c.covariance(0, 1)}, {c.covariance(1, 0), c.covariance(1, 1)}}},
+                    {"segments", c.segments}});
   return list;
 }
 

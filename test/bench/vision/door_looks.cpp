@@ -51,6 +51,7 @@ void OtherDoor(LookStage& stage, Rng& rng) {
 LookStage MakeStage(std::uint64_t seed, Trouble trouble) {
   Rng rng = Rng::Stream(seed, "trouble");
   LookStage stage{LoadConfig<world::WorldPlan>(InSim("worlds/door.toml")), {}, {}, {}, kDistance_m};
+  stage.plan.survey = {};  // the truth is taken from the map
   stage.map = LoadConfig<GroundPlan>(InSim(stage.plan.map));
   stage.landmark = planner::MakeDoorLandmark(*stage.map.FindDoor(kDoor));
   stage.light = world::DrawLight(stage.plan, seed);

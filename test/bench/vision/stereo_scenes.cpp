@@ -81,6 +81,7 @@ Room DoorRoom(Rng& rng) {
 Room Corridor(Rng& rng) {
   Room room;
   room.plan = LoadConfig<world::WorldPlan>(InSim("worlds/door.toml"));
+  room.plan.survey = {};  // the doors stand as they are put here
   room.plan.posters.clear();
   room.plan.boxes.clear();
   room.plan.doors.clear();

@@ -1,8 +1,8 @@
 // How well the head sees: every figure that is promised, beside the public state of the art on the same
 // images in the same run.
-//   bench_vision [--quick] [--photo FILE]... [--only PART]...
-// PART: edges, stereo, door, repeated, cupboard, budget, deceptions, leaves, castle, detection, corridor,
-// laser. Prints one line per figure with its bound; exit 1 if one is missed.
+//   bench_vision [--quick] [--photo FILE]... [--pair LEFT RIGHT CAMERA CAMERA]... [--only PART]...
+// PART: edges, stereo, photometry, door, repeated, cupboard, budget, deceptions, leaves, castle, detection,
+// corridor, laser. Prints one line per figure with its bound; exit 1 if one is missed.
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
@@ -17,9 +17,12 @@ int main(int argc, char** argv) {
   app.add_flag("--verbose", options.verbose, "a line per look at the door");
   app.add_option("--seed", options.seed, "of the first look at the door");
   app.add_option("--photo", options.photos, "photographs to take times on")->check(CLI::ExistingFile);
+  app.add_option("--pair", options.pairs, "rectified photographs and their cameras: left, right")
+      ->check(CLI::ExistingFile)
+      ->expected(4, 400);
   app.add_option("--only", only, "these parts only")
-      ->check(CLI::IsMember({"edges", "stereo", "door", "repeated", "cupboard", "budget", "deceptions",
-                             "leaves", "castle", "detection", "corridor", "laser"}));
+      ->check(CLI::IsMember({"edges", "stereo", "photometry", "door", "repeated", "cupboard", "budget",
+                             "deceptions", "leaves", "castle", "detection", "corridor", "laser"}));
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   const auto wanted = [&](std::string_view part) {
@@ -28,6 +31,7 @@ int main(int argc, char** argv) {
   Figures figures;
   if (wanted("edges")) BenchEdges(options, figures);
   if (wanted("stereo")) BenchStereo(options, figures);
+  if (wanted("photometry")) BenchPhotometry(options, figures);
   if (wanted("door")) BenchDoor(options, figures);
   if (wanted("repeated")) BenchRepeated(options, figures);
   if (wanted("cupboard")) BenchCupboard(options, figures);

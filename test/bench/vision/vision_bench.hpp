@@ -14,6 +14,7 @@ struct VisionOptions {
   bool verbose = false;             ///< a line per look
   std::uint64_t seed = 1000;        ///< of the first look at a door
   std::vector<std::string> photos;  ///< for times; scaled to 768 x 576
+  std::vector<std::string> pairs;   ///< left, right, camera of the left, of the right: rectified photographs
 };
 
 /// Time, accuracy and completeness of the edge operator, beside OpenCV's LSD and EdgeDrawing.
@@ -22,6 +23,9 @@ void BenchEdges(const VisionOptions& options, Figures& figures);
 /// Wrong matches of edges with three cameras against two: simulated edges, and rendered rooms with the truth
 /// from their geometry.
 void BenchStereo(const VisionOptions& options, Figures& figures);
+
+/// Stereo matches when one camera is brighter, darker, has another tone curve or loses light in the corners.
+void BenchPhotometry(const VisionOptions& options, Figures& figures);
 
 /// Fixes at the door from rendered stereo pairs, beside ViSP's edge tracker where it is installed.
 void BenchDoor(const VisionOptions& options, Figures& figures);

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "robot/core/pose/landmark_update.hpp"
 #include "robot/core/pose/pose_state.hpp"
 #include "test/bench/vision/door_looks.hpp"
 #include "test/bench/vision/landmark_fixes.hpp"

@@ -100,6 +100,30 @@ TEST_F(SeeFindingsTest, APairHasItsUprightEdgesInSpace) {
   }
 }
 
+TEST_F(SeeFindingsTest, OneOfThePairMayBeDarkerOrBrighter) {
+  for (const double gain : {0.5, 0.7, 1.4}) {
+    const SeeOptions options = Pair();
+    const cv::Mat right = cv::imread(options.images[1], cv::IMREAD_GRAYSCALE);
+    cv::imwrite(options.images[1], right * gain);
+    const SeeFindings dut = FindAll(options);
+    EXPECT_EQ(CountInSpace(*dut.matches), 2) << gain;
+  }
+}
+
+TEST_F(SeeFindingsTest, ADarkImageOfAPairShowsTheEdgesOfTheOther) {
+  const SeeOptions options = Pair();
+  for (const std::string& file : options.images) {  // a faint mark on the board
+    cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE);
+    cv::Mat mark = image({90, 95, 30, 15});
+    mark += cv::Scalar(14);
+    cv::imwrite(file, image);
+  }
+  cv::imwrite(options.images[1], cv::imread(options.images[1], cv::IMREAD_GRAYSCALE) * 0.5);
+  const SeeFindings dut = FindAll(options);
+  EXPECT_GT(dut.photographs[0].edges.segments.size(), 4u);
+  EXPECT_EQ(dut.photographs[1].edges.segments.size(), dut.photographs[0].edges.segments.size());
+}
+
 TEST_F(SeeFindingsTest, GreysAreThePhotographsInTheirOrder) {
   const SeeFindings dut = FindAll(Pair());
   const auto greys = dut.Greys();

@@ -59,6 +59,12 @@ TEST(EdgesToJson, NumbersInCornersAndOutlinesLeadToSegmentsAndCorners) {
     const double u = corner["at_px"][0], v = corner["at_px"][1];
     EXPECT_NEAR(std::min(std::abs(u - 119.5), std::abs(u - 220.5)), 0, 0.3);
     EXPECT_NEAR(std::min(std::abs(v - 69.5), std::abs(v - 150.5)), 0, 0.3);
+    ASSERT_EQ(corner["covariance_px2"].size(), 2u);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_GT(corner["covariance_px2"][k][k], 0);
+      EXPECT_LT(corner["covariance_px2"][k][k], 0.01);
+    }
+    EXPECT_EQ(corner["covariance_px2"][0][1], corner["covariance_px2"][1][0]);
     for (const std::size_t segment : corner["segments"]) EXPECT_LT(segment, dut["segments"].size());
   }
   ASSERT_EQ(dut["outlines"].size(), 1u);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "head/core/contours/repeated_outlines.hpp"
 
 namespace priamos::head {
 namespace {
@@ -112,7 +113,7 @@ ContourGraph::ContourGraph(const EdgeImage& edges, const ContourOptions& options
   for (int i = 0; i < static_cast<int>(corners_.size()); ++i) {
     for (int k = 0; k < 2; ++k) corners_of[2 * corners_[i].segments[k] + corners_[i].ends[k]].push_back(i);
   }
-  polygons_ = FindPolygons(edges, corners_, corners_of, options);
+  polygons_ = WithoutRepeated(FindPolygons(edges, corners_, corners_of, options), corners_);
 }
 
 std::vector<Eigen::Vector2d> ContourGraph::Outline(const Polygon& polygon) const {

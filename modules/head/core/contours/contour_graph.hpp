@@ -76,7 +76,8 @@ std::vector<Relation> FindRelations(const EdgeImage& edges, const ContourOptions
 /// All corners.
 std::vector<Corner> FindCorners(const EdgeImage& edges, const ContourOptions& options);
 
-/// Convex outlines made of `corners`; `corners_of` lists them by 2 * segment + end.
+/// Convex outlines made of `corners`, many of them in one place where sides are doubled; `corners_of` lists
+/// them by 2 * segment + end.
 std::vector<Polygon> FindPolygons(const EdgeImage& edges, std::span<const Corner> corners,
                                   std::span<const std::vector<int>> corners_of,
                                   const ContourOptions& options);

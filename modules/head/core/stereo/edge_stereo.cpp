@@ -68,6 +68,7 @@ class TripleSearch {
 
   /// All pairs of views i, j, confirmed in view k.
   void Search(int i, int j, int k) {
+    relation_ = RelationOf(*views_[i], *views_[k], options_);
     for (const StereoPair& pair : FindPairs(*views_[i], *views_[j], options_)) {
       if (pair.epipolar_rad <= options_.min_epipolar_rad) continue;
       const std::array<LineSighting, 2> two{{{views_[i], pair.first}, {views_[j], pair.second}}};
@@ -85,7 +86,7 @@ class TripleSearch {
     indices_[k].Along(a, b, 8, near_);
     for (const int line : near_) {
       if (!Agrees(view, line, edge, a, b)) continue;
-      const double grey = GreySimilarity(*views_[i], pair.first, view, line, options_);
+      const double grey = GreySimilarity(*views_[i], pair.first, view, line, relation_, options_);
       if (grey <= 0) continue;
       std::array<int, 3> lines{};
       lines[i] = pair.first;
@@ -130,6 +131,7 @@ class TripleSearch {
   std::array<const CameraView*, 3> views_;
   const StereoOptions& options_;
   std::vector<SegmentIndex> indices_;
+  GreyRelation relation_;  ///< of the first and the confirming view
   std::vector<int> near_;
   std::vector<Triple> triples_;
 };

@@ -72,23 +72,9 @@ bool IsInRange(const Pairing& pairing, const ViewLine& a, const ViewLine& b, con
   return true;
 }
 
-}  // namespace
-
-double GreySimilarity(const CameraView& a, int line_a, const CameraView& b, int line_b,
-                      const StereoOptions& options) {
-  const EdgeSegment &s = a.edges->segments[a.lines[line_a].segment],
-                    &t = b.edges->segments[b.lines[line_b].segment];
-  const double ratio = s.contrast() / t.contrast();
-  if (ratio > options.max_contrast_ratio || ratio * options.max_contrast_ratio < 1) return 0;
-  // What lies behind an edge changes with the viewpoint, so one side may differ.
-  const double left = std::abs(s.grey_left - t.grey_left), right = std::abs(s.grey_right - t.grey_right);
-  const double better = std::min(left, right), worse = std::max(left, right);
-  if (better > options.max_grey_difference) return 0;
-  return std::exp(-(better + 0.3 * worse) / options.max_grey_difference);
-}
-
-std::vector<StereoPair> FindPairs(const CameraView& first, const CameraView& second,
-                                  const StereoOptions& options) {
+/// Pairs of lines whose places allow that they are one edge; `similarity` is that of their extents.
+std::vector<StereoPair> PairsByPlace(const CameraView& first, const CameraView& second,
+                                     const StereoOptions& options) {
   const Pairing pairing(first, second);
   std::vector<double> angle_in_second(second.lines.size());
   for (std::size_t j = 0; j < second.lines.size(); ++j)
@@ -108,13 +94,60 @@ std::vector<StereoPair> FindPairs(const CameraView& first, const CameraView& sec
       } else if (!LieOnOneEpipolarLine(pairing, a, b)) {
         continue;
       }
-      const double grey = GreySimilarity(first, pair.first, second, pair.second, options);
-      if (grey <= 0) continue;
       const double shorter = std::min(a.length_px, b.length_px), longer = std::max(a.length_px, b.length_px);
-      pair.similarity = grey * overlap * std::sqrt(shorter / longer);
+      pair.similarity = overlap * std::sqrt(shorter / longer);
       pairs.push_back(pair);
     }
   }
+  return pairs;
+}
+
+GreyRelation RelationOf(const CameraView& first, const CameraView& second,
+                        const std::vector<StereoPair>& pairs) {
+  std::vector<LinePair> lines;
+  lines.reserve(pairs.size());
+  for (const StereoPair& pair : pairs) lines.push_back({pair.first, pair.second});
+  return EstimateGreyRelation(first, second, lines);
+}
+
+/// Distance of two grey values; one that is white may have been brighter.
+double GreyDistance(double related, double seen, bool from_white) {
+  return from_white && seen > related ? 0 : std::abs(seen - related);
+}
+
+}  // namespace
+
+double GreySimilarity(const CameraView& a, int line_a, const CameraView& b, int line_b,
+                      const GreyRelation& relation, const StereoOptions& options) {
+  constexpr double kWhite = 252;
+  const ViewLine &in_a = a.lines[line_a], &in_b = b.lines[line_b];
+  const EdgeSegment &s = a.edges->segments[in_a.segment], &t = b.edges->segments[in_b.segment];
+  const double far_a = FarFromCentre(a, in_a), far_b = FarFromCentre(b, in_b);
+  const double dark = relation.Of(s.grey_left, far_a, far_b),
+               bright = relation.Of(s.grey_right, far_a, far_b);
+  const double ratio = (bright - dark) / t.contrast();
+  const bool is_white = s.grey_right > kWhite;
+  if (ratio > options.max_contrast_ratio || (ratio * options.max_contrast_ratio < 1 && !is_white)) return 0;
+  // What lies behind an edge changes with the viewpoint, so one side may differ.
+  const double scale = std::min(1.0, relation.Slope(far_a, far_b));  // grey values of the brighter image
+  const double left = GreyDistance(dark, t.grey_left, s.grey_left > kWhite) / scale,
+               right = GreyDistance(bright, t.grey_right, is_white) / scale;
+  const double better = std::min(left, right), worse = std::max(left, right);
+  if (better > options.max_grey_difference) return 0;
+  return std::exp(-(better + 0.3 * worse) / options.max_grey_difference);
+}
+
+GreyRelation RelationOf(const CameraView& first, const CameraView& second, const StereoOptions& options) {
+  return RelationOf(first, second, PairsByPlace(first, second, options));
+}
+
+std::vector<StereoPair> FindPairs(const CameraView& first, const CameraView& second,
+                                  const StereoOptions& options) {
+  std::vector<StereoPair> pairs = PairsByPlace(first, second, options);
+  const GreyRelation relation = RelationOf(first, second, pairs);
+  for (StereoPair& pair : pairs)
+    pair.similarity *= GreySimilarity(first, pair.first, second, pair.second, relation, options);
+  std::erase_if(pairs, [](const StereoPair& pair) { return pair.similarity <= 0; });
   return pairs;
 }
 

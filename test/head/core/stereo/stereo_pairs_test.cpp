@@ -136,7 +136,7 @@ double Similarity(double left_a, double right_a, double left_b, double right_b,
   ExactView a(test::HeadCamera(0, 1)), b(test::HeadCamera(0, -1));
   a.See(At(0.9), At(1.6), left_a, right_a);
   b.See(At(0.9), At(1.6), left_b, right_b);
-  return GreySimilarity(a.View(), 0, b.View(), 0, options);
+  return GreySimilarity(a.View(), 0, b.View(), 0, {}, options);
 }
 
 TEST(GreySimilarityTest, TheSameGreyValuesAreAsAlikeAsCanBe) {
