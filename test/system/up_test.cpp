@@ -53,7 +53,7 @@ TEST_F(UpTest, BringsEverythingUpStartsAgainWhatDiedTellsWhyAndEndsWithoutOrphan
     verb status; echo "status: $?"
     verb down; echo "down: $?"
   )sh");
-  EXPECT_THAT(answer.text, HasSubstr("processes: 8, running: 8\n"));
+  EXPECT_THAT(answer.text, HasSubstr("processes: 9, running: 9\n"));
   EXPECT_THAT(answer.text, HasSubstr("expected nothing up, got `priamos up` with pid"));
   EXPECT_THAT(answer.text, Not(HasSubstr("a second one")));
   EXPECT_THAT(answer.text, ContainsRegex("onboard-robot +onboard +ready +[0-9]+ +[0-9.]+ s +2\n"));

@@ -1,3 +1,5 @@
+#include "head/core/contours/contour_relations.hpp"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <tuple>
 
 #include "common/geometry.hpp"
-#include "head/core/contours/contour_graph.hpp"
 #include "head/core/edges/segment_index.hpp"
 
 namespace priamos::head {

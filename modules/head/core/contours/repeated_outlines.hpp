@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "head/core/contours/contour_graph.hpp"
+#include "head/core/contours/polygon_search.hpp"
 
 namespace priamos::head {
 

@@ -1,3 +1,5 @@
+#include "head/core/contours/contour_relations.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -6,7 +8,6 @@
 #include <optional>
 
 #include "common/geometry.hpp"
-#include "head/core/contours/contour_graph.hpp"
 #include "test/support/generated_numbers.hpp"
 
 namespace priamos::head {
