@@ -31,6 +31,7 @@
 #include "priamos/opening_t.hpp"
 #include "priamos/path_t.hpp"
 #include "priamos/pose_correction_t.hpp"
+#include "priamos/pose_reset_t.hpp"
 #include "priamos/pose_t.hpp"
 #include "priamos/sonar_ranges_t.hpp"
 #include "priamos/wheel_command_t.hpp"
@@ -61,6 +62,7 @@ inline constexpr Channel<path_t> kPath{"PATH", 0, milliseconds(0)};
 inline constexpr Channel<drive_status_t> kDriveStatus{"DRIVE_STATUS", 10, milliseconds(2000)};
 inline constexpr Channel<opening_t> kOpening{"OPENING", 1, milliseconds(3000)};
 inline constexpr Channel<pose_correction_t> kPoseCorrection{"POSE_CORRECTION", 0, milliseconds(0)};
+inline constexpr Channel<pose_reset_t> kPoseReset{"POSE_RESET", 0, milliseconds(0)};
 
 // Driving by hand.
 inline constexpr Channel<drive_command_t> kDriveCommand{"DRIVE_COMMAND", 20, milliseconds(250)};
@@ -97,6 +99,6 @@ inline constexpr std::tuple kAll{
     kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
     kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
-    kBumper,        kOpening,      kDoorSeen};
+    kBumper,        kOpening,      kDoorSeen,     kPoseReset};
 
 }  // namespace priamos::channels

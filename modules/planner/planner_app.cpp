@@ -59,7 +59,9 @@ void PlannerApp::TakeReports(Time now) {
   }
   for (const auto& correction : corrections_.Drain()) {
     missions_.OnLook(FromMessage(correction));
-    if (correction.verdict == pose_correction_t::APPLIED) missions_.OnCorrected(FromUtime(correction.utime));
+    const bool changed =
+        correction.verdict == pose_correction_t::APPLIED || correction.verdict == pose_correction_t::RESET;
+    if (changed) missions_.OnCorrected(FromUtime(correction.utime));
   }
 }
 

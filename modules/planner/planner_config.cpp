@@ -8,7 +8,8 @@ void PlannerConfig::Describe(Archive& a) {
   a.Number("status_rate_hz", status_rate_hz, {"Hz", 0.2, 20, "MISSION_STATUS while nothing changes"});
   a.Section("footprint", footprint, "the robot's body");
   a.Section("passage", passage, "paths to a door and through it");
-  a.Section("mission", mission, "how the mission goes");
+  a.Section("mission", mission, "how the mission through a door goes");
+  a.Section("goto", go, "how the mission to a place goes");
 }
 
 }  // namespace priamos::planner

@@ -4,6 +4,7 @@
 
 #include "common/archive.hpp"
 #include "planner/core/missions/door_mission.hpp"
+#include "planner/core/missions/goto_mission.hpp"
 #include "planner/core/path/door_planner.hpp"
 #include "planner/core/path/footprint.hpp"
 
@@ -17,6 +18,7 @@ struct PlannerConfig {
   Footprint footprint;
   DoorPlannerConfig passage;
   DoorMissionConfig mission;
+  GotoMissionConfig go;
 
   void Describe(Archive& a);
 };

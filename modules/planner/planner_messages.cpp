@@ -39,6 +39,8 @@ std::int8_t PhaseOf(Phase phase) {
       return mission_status_t::PASSING;
     case Phase::kRetreating:
       return mission_status_t::RETREATING;
+    case Phase::kDriving:
+      return mission_status_t::DRIVING;
     case Phase::kDone:
       return mission_status_t::DONE;
     case Phase::kFailed:
@@ -64,7 +66,9 @@ landmark_edge_t ToMessage(const LandmarkEdge& edge) {
 }  // namespace
 
 MissionOrder FromMessage(const mission_command_t& message) {
-  return {message.mission, message.landmark_id};
+  return {message.mission,
+          message.landmark_id,
+          {{message.x_m, message.y_m, WrapAngle(message.yaw_rad)}, message.turn != 0}};
 }
 
 RobotPose FromMessage(const pose_t& message) {
@@ -75,8 +79,14 @@ RobotPose FromMessage(const pose_t& message) {
 }
 
 DriveReport FromMessage(const drive_status_t& message) {
-  return {ModeOf(message.mode), message.path_id,       std::string(DriveLimitText(message.limit)),
-          message.estop != 0,   message.estop_changes, message.limit == drive_status_t::LIMIT_TOUCHED};
+  return {ModeOf(message.mode),
+          message.path_id,
+          std::string(DriveLimitText(message.limit)),
+          message.estop != 0,
+          message.estop_changes,
+          message.limit == drive_status_t::LIMIT_TOUCHED,
+          message.remaining_m,
+          message.nearest_m >= 0 ? std::optional(message.nearest_m) : std::nullopt};
 }
 
 PassedOpening FromMessage(const opening_t& message) {
@@ -196,6 +206,10 @@ std::string_view CorrectionVerdictText(int verdict) {
       return "the fix came too late for the robot";
     case pose_correction_t::IMPLAUSIBLE:
       return "the robot found the fix implausible";
+    case pose_correction_t::RESET:
+      return "the pose was set by a person";
+    case pose_correction_t::MOVING:
+      return "the base was moving";
     default:
       return "unknown verdict";
   }

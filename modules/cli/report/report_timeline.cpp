@@ -58,11 +58,13 @@ MissionSpan SpanOf(const RunRecord& record) {
   MissionSpan span;
   if (!record.truth.empty()) span = {record.truth.front().utime, record.truth.back().utime, false};
   if (!record.orders.empty()) span.begin_utime = record.orders.front().utime;
+  bool over = false;
   for (const mission_status_t& status : record.mission) {
-    if (status.phase != mission_status_t::DONE && status.phase != mission_status_t::FAILED) continue;
+    const bool was_over = over;
+    over = status.phase == mission_status_t::DONE || status.phase == mission_status_t::FAILED;
+    if (!over || was_over) continue;
     span.end_utime = status.utime;
     span.done = status.phase == mission_status_t::DONE;
-    break;
   }
   return span;
 }

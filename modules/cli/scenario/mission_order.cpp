@@ -21,8 +21,9 @@ bool SameWords(const mission_status_t& a, const mission_status_t& b) {
 }  // namespace
 
 std::string_view PhaseName(int phase) {
-  constexpr std::array<std::string_view, 8> kNames{"WAITING", "APPROACHING", "LOOKING_LEFT", "LOOKING_RIGHT",
-                                                   "PASSING", "DONE",        "FAILED",       "RETREATING"};
+  constexpr std::array<std::string_view, 9> kNames{"WAITING",       "APPROACHING", "LOOKING_LEFT",
+                                                   "LOOKING_RIGHT", "PASSING",     "DONE",
+                                                   "FAILED",        "RETREATING",  "DRIVING"};
   return phase >= 0 && phase < int(kNames.size()) ? kNames[std::size_t(phase)] : "UNKNOWN";
 }
 

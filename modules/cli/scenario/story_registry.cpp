@@ -15,6 +15,7 @@ struct StoryList {
 /// One line per story: its class, which its own file defines.
 using AllStories = StoryList<  //
     class DoorStory,           //
+    class GotoStory,           //
     class TeleopStory>;
 
 const std::vector<StoryKind>& Stories() {

@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <iostream>
+#include <optional>
 
 #include "cli/options/folder_options.hpp"
 #include "cli/options/verb_setup.hpp"
@@ -10,6 +11,7 @@
 #include "cli/terminal/bus_session.hpp"
 #include "cli/terminal/json_line.hpp"
 #include "cli/verbs/robot/commands.hpp"
+#include "common/geometry.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
@@ -20,6 +22,8 @@ constexpr int kNotDone = 1;
 struct MissionOptions {
   BusOptions bus;
   std::string door;
+  double x_m = 0, y_m = 0;
+  std::optional<double> yaw_deg;
   std::string deployment = "sim";
   bool wait = false, json = false;
 };
@@ -65,6 +69,16 @@ int PassDoor(const MissionOptions& options) {
   command.landmark_id =
       static_cast<std::int16_t>(DoorOfDeployment(FolderOfDeployment(options.deployment), options.door));
   return Give(options, command, "door");
+}
+
+int GoTo(const MissionOptions& options) {
+  mission_command_t command{};
+  command.mission = mission_command_t::GOTO;
+  command.x_m = options.x_m;
+  command.y_m = options.y_m;
+  command.turn = options.yaw_deg.has_value();
+  command.yaw_rad = WrapAngle(Radians(options.yaw_deg.value_or(0)));
+  return Give(options, command, "goto");
 }
 
 int Abort(const MissionOptions& options) {
@@ -129,6 +143,26 @@ void AddDoorVerb(CLI::App& mission, int& exit_code) {
   Complete(*verb, options, PassDoor, exit_code);
 }
 
+void AddGotoVerb(CLI::App& mission, int& exit_code) {
+  constexpr double kFarthest_m = 100, kTurn_deg = 360;
+  auto options = std::make_shared<MissionOptions>();
+  auto* verb = AddVerb(
+      mission, "goto",
+      "Drive to a place; ends when the robot is under way, with --wait when it is there (exit code 1: not).");
+  verb->footer("Example: priamos mission goto 4.5 1.2 --yaw 90 --wait");
+  verb->add_option("x", options->x_m, "[m] map frame")
+      ->required()
+      ->check(CLI::Range(-kFarthest_m, kFarthest_m));
+  verb->add_option("y", options->y_m, "[m] map frame")
+      ->required()
+      ->check(CLI::Range(-kFarthest_m, kFarthest_m));
+  verb->add_option("--yaw", options->yaw_deg,
+                   "[deg] heading to have there; as it suits the path if not given")
+      ->check(CLI::Range(-kTurn_deg, kTurn_deg));
+  verb->add_flag("--wait", options->wait, "until the mission is over");
+  Complete(*verb, options, GoTo, exit_code);
+}
+
 void AddAbortVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
   auto* verb = AddVerb(mission, "abort", "End the mission that is under way; the robot brakes.");
@@ -150,6 +184,7 @@ void AddMissionCommand(CLI::App& cli, int& exit_code) {
   auto* mission = AddVerb(cli, "mission", "Order the planner, and ask how its mission stands.");
   mission->require_subcommand(1);
   AddDoorVerb(*mission, exit_code);
+  AddGotoVerb(*mission, exit_code);
   AddAbortVerb(*mission, exit_code);
   AddStatusVerb(*mission, exit_code);
 }

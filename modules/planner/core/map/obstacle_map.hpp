@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/ground_plan.hpp"
@@ -16,17 +18,23 @@ class ObstacleMap {
   /// The obstacle nearest to a footprint.
   struct Nearest {
     double distance_m = std::numeric_limits<double>::infinity();
-    std::string name;  ///< name of the obstacle, for messages; empty if there is none
+    std::string_view name;  ///< name of the obstacle, for messages; empty if there is none. The map owns it
   };
 
   explicit ObstacleMap(const GroundPlan& plan);
+  /// Adds what else must not be touched.
+  void Add(std::string name, const Rectangle& shape);
 
   Nearest NearestTo(const Rectangle& footprint) const;
+  /// The smallest box that holds all obstacles [m]; empty without any.
+  Eigen::AlignedBox2d Bounds() const;
 
  private:
   struct Obstacle {
     std::string name;
     Rectangle shape;
+    Eigen::Matrix2d own_from_map;  ///< rotation into its own axes
+    double DistanceTo(const Eigen::Vector2d& in_map) const;
   };
   void AddFrame(const DoorPlan& door);
 

@@ -116,6 +116,7 @@ void DoorMission::Step(MissionControl& control) {
       return Pass(control);
     case Phase::kRetreating:
       return Retreat(control);
+    case Phase::kDriving:
     case Phase::kDone:
     case Phase::kFailed:
       break;

@@ -9,6 +9,7 @@
 #include "common/robot/leeway.hpp"
 #include "common/time.hpp"
 #include "planner/core/map/door_landmark.hpp"
+#include "planner/core/path/planned_path.hpp"
 
 /// Inputs and outputs of a mission. Everything it receives from the robot has crossed a slow radio: stamps
 /// are the times of the events, in the planner's clock, and lie some hundred milliseconds back.
@@ -18,6 +19,7 @@ namespace priamos::planner {
 struct MissionOrder {
   int kind = 0;         ///< index of the mission in the mission table
   int landmark_id = 0;  ///< landmark of the map that the mission concerns
+  Goal goal{};          ///< place that it leads to
 };
 
 /// Where the robot was at `stamp` and how it moved (base frame), as in POSE.
@@ -35,10 +37,12 @@ enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked };
 struct DriveReport {
   DriveMode mode = DriveMode::kIdle;
   int path_id = 0;
-  std::string limit;      ///< what limits the speed, in words; empty when nothing does
-  bool estop = false;     ///< the emergency stop is latched
-  int estop_changes = 0;  ///< how often it was latched or lifted, modulo 256
-  bool touched = false;   ///< the last motion ended because the base touched something
+  std::string limit;                  ///< what limits the speed, in words; empty when nothing does
+  bool estop = false;                 ///< the emergency stop is latched
+  int estop_changes = 0;              ///< how often it was latched or lifted, modulo 256
+  bool touched = false;               ///< the last motion ended because the base touched something
+  double remaining_m = 0;             ///< distance left on the path
+  std::optional<double> nearest_m{};  ///< free distance in the direction of driving, if there is an echo
 };
 
 /// A narrow opening that the robot drove through, by its sonars: evidence that does not rest on its pose
@@ -97,6 +101,7 @@ enum class Phase {
   kLookingRight,
   kPassing,
   kRetreating,
+  kDriving,
   kDone,
   kFailed
 };

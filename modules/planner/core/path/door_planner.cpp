@@ -8,20 +8,10 @@
 namespace priamos::planner {
 namespace {
 
-/// Sweep steps: no corner of a 1 m body moves more than about 1 cm between two checked poses.
-constexpr double kStep_m = 0.005;
-constexpr double kStep_rad = Radians(0.5);
 /// Steeper approaches to the axis than this are driven only when there is no longer run-in.
 constexpr double kSteepestRunIn = 0.7;
 /// A place on the axis this near to the start is where the start is.
 constexpr double kHere_m = 0.2;
-/// Leeway is looked for in such steps up to this; checked by coarser sweeps, for it is wide.
-constexpr double kLeewayStep_m = 0.1, kMostLeeway_m = 2.0, kCoarse = 10;
-
-Pose2 Between(const Pose2& from, const Pose2& to, double part) {
-  return {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
-          WrapAngle(from.yaw + part * WrapAngle(to.yaw - from.yaw))};
-}
 
 }  // namespace
 
@@ -38,50 +28,19 @@ void DoorPlannerConfig::Describe(Archive& a) {
 }
 
 DoorPlanner::DoorPlanner(const DoorPlannerConfig& config, const Footprint& footprint, const GroundPlan& plan)
-    : config_(config), footprint_(footprint), obstacles_(plan) {}
+    : config_(config), space_(footprint, ObstacleMap(plan)) {}
 
 double DoorPlanner::HoldX(const DoorPlan& door) const {
-  return door.FrontX() - config_.hold_m - footprint_.length_m / 2;
+  return door.FrontX() - config_.hold_m - space_.footprint().length_m / 2;
 }
 
 double DoorPlanner::PastX(const DoorPlan& door) const {
-  return door.BackX() + footprint_.length_m / 2;
-}
-
-DoorPlanner::Sweep DoorPlanner::SweepAlong(const Pose2& from, const Pose2& to, double coarser) const {
-  const double length_m = (to.translation() - from.translation()).norm();
-  const double turn_rad = std::abs(WrapAngle(to.yaw - from.yaw));
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil(std::max(length_m / kStep_m, turn_rad / kStep_rad) / coarser)));
-  Sweep sweep{std::numeric_limits<double>::infinity(), ""};
-  for (int i = 0; i <= steps; ++i) {
-    const auto nearest = obstacles_.NearestTo(footprint_.At(Between(from, to, double(i) / steps)));
-    if (nearest.distance_m < sweep.min_gap_m) sweep = {nearest.distance_m, nearest.name};
-  }
-  return sweep;
-}
-
-/// How far the base may be moved to a side (1: left, -1: right) on its whole line, walls kept off by the
-/// margin.
-double DoorPlanner::FreeBeside(const Pose2& from, const Pose2& to, double side, double margin_m) const {
-  const Eigen::Vector2d line = to.translation() - from.translation();
-  if (line.norm() < kHere_m) return 0;
-  const Eigen::Vector2d across = Eigen::Vector2d(-line.y(), line.x()) * (side / line.norm());
-  const auto moved = [&](const Pose2& pose, double by_m) {
-    return Pose2{pose.x + across.x() * by_m, pose.y + across.y() * by_m, pose.yaw};
-  };
-  int steps = 0;
-  while ((steps + 1) * kLeewayStep_m <= kMostLeeway_m) {
-    const double by_m = (steps + 1) * kLeewayStep_m;
-    if (SweepAlong(moved(from, by_m), moved(to, by_m), kCoarse).min_gap_m < margin_m) break;
-    ++steps;
-  }
-  return steps * kLeewayStep_m;
+  return door.BackX() + space_.footprint().length_m / 2;
 }
 
 Outcome<PlannedPath> DoorPlanner::CheckPath(const Pose2& start, std::vector<Pose2> points,
                                             std::size_t n_tight) const {
-  const double start_gap_m = obstacles_.NearestTo(footprint_.At(start)).distance_m;
+  const double start_gap_m = space_.At(start).distance_m;
   PlannedPath path{.points = {}, .min_gap_m = start_gap_m};
   Pose2 from = start;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -89,14 +48,12 @@ Outcome<PlannedPath> DoorPlanner::CheckPath(const Pose2& start, std::vector<Pose
     // Who stands nearer to a wall than the margin may leave, but not come nearer still.
     const double margin_m =
         tight ? config_.door_margin_m : std::min(config_.wall_margin_m, start_gap_m * 0.9);
-    const Sweep sweep = SweepAlong(from, points[i]);
-    if (sweep.min_gap_m < margin_m)
+    const auto gap = space_.Along(from, points[i]);
+    if (gap.distance_m < margin_m)
       return Refusal{fmt::format("the path to the door comes within {:.2f} m of {}, it needs {:.2f} m",
-                                 sweep.min_gap_m, sweep.obstacle, margin_m)};
-    path.min_gap_m = std::min(path.min_gap_m, sweep.min_gap_m);
-    path.leeway.push_back(tight ? Leeway{}
-                                : Leeway{FreeBeside(from, points[i], 1, config_.wall_margin_m),
-                                         FreeBeside(from, points[i], -1, config_.wall_margin_m)});
+                                 gap.distance_m, gap.obstacle, margin_m)};
+    path.min_gap_m = std::min(path.min_gap_m, gap.distance_m);
+    path.leeway.push_back(tight ? Leeway{} : space_.LeewayOf(from, points[i], config_.wall_margin_m));
     from = points[i];
   }
   path.points = std::move(points);
@@ -131,9 +88,9 @@ std::optional<Refusal> DoorPlanner::CheckDoor(const DoorPlan& door) const {
   if (door.opening_width_m < NeededWidth())
     return Refusal{fmt::format("door '{}' is too narrow: needs {:.2f} m, opening is {:.2f} m", door.name,
                                NeededWidth(), door.opening_width_m)};
-  if (door.opening_height_m < footprint_.height_m)
+  if (door.opening_height_m < space_.footprint().height_m)
     return Refusal{fmt::format("door '{}' is too low: needs {:.2f} m, opening is {:.2f} m", door.name,
-                               footprint_.height_m, door.opening_height_m)};
+                               space_.footprint().height_m, door.opening_height_m)};
   return std::nullopt;
 }
 
@@ -141,8 +98,8 @@ std::optional<Refusal> DoorPlanner::CheckStart(const DoorPlan& door, const Pose2
   const double beyond_m = (door.map_from_door().Inverse() * map_from_start).x - door.FrontX();
   if (beyond_m >= 0)
     return Refusal{fmt::format("the robot is {:.2f} m behind door '{}', not before it", beyond_m, door.name)};
-  const auto nearest = obstacles_.NearestTo(footprint_.At(map_from_start));
-  if (nearest.distance_m <= 0) return Refusal{"the robot would already be in " + nearest.name};
+  const auto gap = space_.At(map_from_start);
+  if (gap.distance_m <= 0) return Refusal{"the robot would already be in " + gap.obstacle};
   return std::nullopt;
 }
 

@@ -8,9 +8,9 @@
 #include "common/geometry.hpp"
 #include "common/ground_plan.hpp"
 #include "common/outcome.hpp"
-#include "planner/core/map/obstacle_map.hpp"
 #include "planner/core/path/footprint.hpp"
 #include "planner/core/path/planned_path.hpp"
+#include "planner/core/path/swept_footprint.hpp"
 
 namespace priamos::planner {
 
@@ -56,23 +56,16 @@ class DoorPlanner {
   /// Coordinate x in the door's frame from which on the whole footprint is behind the wall [m].
   double PastX(const DoorPlan& door) const;
   /// Width that the footprint needs at least [m].
-  double NeededWidth() const { return footprint_.width_m + 2 * config_.door_margin_m; }
+  double NeededWidth() const { return space_.footprint().width_m + 2 * config_.door_margin_m; }
 
  private:
   std::optional<Refusal> CheckStart(const DoorPlan& door, const Pose2& map_from_start) const;
-  struct Sweep {
-    double min_gap_m = 0;
-    std::string obstacle;
-  };
-  Sweep SweepAlong(const Pose2& from, const Pose2& to, double coarser = 1) const;
-  double FreeBeside(const Pose2& from, const Pose2& to, double side, double margin_m) const;
   /// Checks start -> points; all but the last `n_tight` legs with the wall margin, and with leeway.
   Outcome<PlannedPath> CheckPath(const Pose2& start, std::vector<Pose2> points, std::size_t n_tight) const;
   std::vector<std::vector<Pose2>> PassageCandidates(const DoorPlan& door, const Pose2& door_from_start) const;
 
   DoorPlannerConfig config_;
-  Footprint footprint_;
-  ObstacleMap obstacles_;
+  SweptFootprint space_;
 };
 
 }  // namespace priamos::planner

@@ -7,6 +7,12 @@
 
 namespace priamos::planner {
 
+/// Where a base is to go, map frame.
+struct Goal {
+  Pose2 map_from_base;
+  bool turn = true;  ///< the heading counts; else it arrives as suits its path
+};
+
 /// A path in the map frame, the start left out.
 struct PlannedPath {
   std::vector<Pose2> points;

@@ -48,8 +48,9 @@ TEST_F(Completion, Options) {
 }
 
 TEST_F(Completion, ChannelsAndTypes) {
-  EXPECT_THAT(Of({"topic", "echo", "POSE"}), ElementsAre("POSE", "POSE_CORRECTION"));
-  EXPECT_THAT(Of({"topic", "pub", "POSE", "pos"}), ElementsAre("pose_correction_t", "pose_t"));
+  EXPECT_THAT(Of({"topic", "echo", "POSE"}), ElementsAre("POSE", "POSE_CORRECTION", "POSE_RESET"));
+  EXPECT_THAT(Of({"topic", "pub", "POSE", "pos"}),
+              ElementsAre("pose_correction_t", "pose_reset_t", "pose_t"));
   EXPECT_THAT(Of({"log", "filter", "a", "b", "--channels", "SON"}), ElementsAre("SONAR_RANGES"));
 }
 
@@ -63,7 +64,7 @@ TEST_F(Completion, AnOptionBeforeAnArgumentTakesNoneOfItsPlaces) {
     Words words{"topic", "echo"};
     words.insert(words.end(), option.begin(), option.end());
     words.emplace_back("POSE_");
-    EXPECT_THAT(Of(words), ElementsAre("POSE_CORRECTION")) << option.front();
+    EXPECT_THAT(Of(words), ElementsAre("POSE_CORRECTION", "POSE_RESET")) << option.front();
   }
 }
 

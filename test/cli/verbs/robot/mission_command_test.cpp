@@ -92,10 +92,10 @@ TEST_F(MissionCommand, ADoorHasToBeNamed) {
               HasSubstr("priamos mission door: expected door (its name in the map, or its number)"));
 }
 
-TEST_F(MissionCommand, WithoutAVerbTheThreeAreNamed) {
+TEST_F(MissionCommand, WithoutAVerbTheyAreNamed) {
   const auto answer = Priamos({"mission"});
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("expected a verb, got none; one of abort, door, status"));
+  EXPECT_THAT(answer.err, HasSubstr("expected a verb, got none; one of abort, door, goto, status"));
 }
 
 }  // namespace

@@ -127,6 +127,16 @@ class FakeRobot {
     return 0;
   }
 
+  double Remaining() const {
+    double remaining_m = 0;
+    Eigen::Vector2d from = Believed().translation();
+    for (const Pose2& to : route_) {
+      remaining_m += (to.translation() - from).norm();
+      from = to.translation();
+    }
+    return remaining_m;
+  }
+
   void AnswerLooks() {
     if (looks_.empty() || looks_.front().done > now_) return;
     const LookOrder look = looks_.front().look;
@@ -162,7 +172,9 @@ class FakeRobot {
                       blocked ? "sonar" : "",
                       false,
                       0,
-                      touched};
+                      touched,
+                      Remaining(),
+                      std::nullopt};
     if (blocked) drive.mode = DriveMode::kBlocked;
     if (touched) drive.mode = DriveMode::kHolding;
     Later([this, pose, drive] {

@@ -1,0 +1,147 @@
+#include "planner/core/missions/goto_mission.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::planner {
+namespace {
+
+/// A pose older than this is not planned with.
+constexpr double kFreshPose_s = 1.0;
+/// The most lines that a PATH holds.
+constexpr std::size_t kMostLines = 16;
+
+std::string Text(const Pose2& pose) {
+  return fmt::format("({:.2f}, {:.2f})", pose.x, pose.y);
+}
+
+double LengthOf(const Pose2& start, const std::vector<Pose2>& points) {
+  double length_m = 0;
+  Eigen::Vector2d from = start.translation();
+  for (const Pose2& to : points) {
+    length_m += (to.translation() - from).norm();
+    from = to.translation();
+  }
+  return length_m;
+}
+
+/// Direction, of length 1, of the line on which a base is that has `remaining_m` of its path before it; zero
+/// for a path without length.
+Eigen::Vector2d DirectionLeft(const Pose2& base, const std::vector<Pose2>& points, double remaining_m) {
+  for (std::size_t i = points.size(); i-- > 0;) {
+    const Eigen::Vector2d from = i > 0 ? points[i - 1].translation() : base.translation();
+    const Eigen::Vector2d line = points[i].translation() - from;
+    remaining_m -= line.norm();
+    if ((remaining_m <= 0 || i == 0) && line.norm() > 1e-6) return line.normalized();
+  }
+  return Eigen::Vector2d::Zero();
+}
+
+/// Distance from the middle of the footprint to its edge in a direction of the base frame [m].
+double Reach(const Footprint& footprint, const Eigen::Vector2d& direction) {
+  const double along_x = footprint.length_m / 2 / std::max(1e-9, std::abs(direction.x()));
+  const double along_y = footprint.width_m / 2 / std::max(1e-9, std::abs(direction.y()));
+  return std::min(along_x, along_y);
+}
+
+}  // namespace
+
+void GotoMissionConfig::Describe(Archive& a) {
+  a.Number("speed_m_s", speed_m_s, {"m/s", 0.05, 1, "on the way"});
+  a.Number("near_m", near_m, {"m", 0.01, 1, "distance to the goal at which the mission is done"});
+  a.Number("turned_deg", turned_deg, {"deg", 0.5, 45, "difference in heading at which it is done"});
+  a.Integer("retries", retries, {"-", 0, 20, "other ways that are tried after something was in the way"});
+  a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
+  limits.Describe(a);
+  a.Section("route", route, "the way through the room");
+  a.Section("keep", keep, "looks on the way that keep the pose known");
+}
+
+GotoMission::GotoMission(const GotoMissionConfig& config, const Footprint& footprint, const GroundPlan& plan)
+    : config_(config),
+      footprint_(footprint),
+      planner_(config.route, footprint, plan),
+      keeper_(config.keep, plan) {}
+
+std::optional<Refusal> GotoMission::Start(const MissionOrder& order) {
+  goal_ = order.goal;
+  departures_ = 0;
+  planner_.Forget();
+  keeper_.Reset();
+  const Pose2& there = goal_.map_from_base;
+  if (!std::isfinite(there.x) || !std::isfinite(there.y) || !std::isfinite(there.yaw))
+    return Refusal{"the goal is no place: its numbers are not finite"};
+  return std::nullopt;
+}
+
+void GotoMission::Step(MissionControl& control) {
+  const Heard& heard = control.heard();
+  if (control.state().phase == Phase::kWaiting) {
+    if (heard.link_up && heard.pose && Seconds(control.now() - heard.pose->stamp) <= kFreshPose_s)
+      Depart(control, "");
+    return;
+  }
+  keeper_.Step(control);
+  const bool is_new = heard.pose->stamp > *control.path_sent();
+  if (is_new && control.OnPath() && heard.drive->mode == DriveMode::kArrived) Arrive(control);
+}
+
+void GotoMission::Depart(MissionControl& control, const std::string& why) {
+  const Pose2& start = control.heard().pose->map_from_base;
+  Outcome<PlannedPath> path = planner_.Plan(start, goal_);
+  if (!path) return control.Fail(why.empty() ? path.reason() : why + ", and " + path.reason());
+  whole_ = path->points.size() <= kMostLines;
+  if (!whole_) {
+    path->points.resize(kMostLines);
+    path->leeway.resize(kMostLines);
+  }
+  const double length_m = LengthOf(start, path->points);
+  control.OrderPath(std::move(*path), config_.speed_m_s);
+  control.Enter(Phase::kDriving,
+                fmt::format("{}driving to {}, {:.1f} m{}", why.empty() ? "" : why + "; another way: ",
+                            Text(goal_.map_from_base), length_m, whole_ ? "" : " and more"));
+}
+
+void GotoMission::Arrive(MissionControl& control) {
+  const RobotPose& pose = *control.heard().pose;
+  if (AtGoal(pose.map_from_base)) {
+    const double sigma_m = std::sqrt(std::max(pose.covariance(0, 0), pose.covariance(1, 1)));
+    return control.Enter(Phase::kDone,
+                         fmt::format("at {} after {:.1f} s, known to {:.2f} m", Text(pose.map_from_base),
+                                     Seconds(control.now() - control.started()), sigma_m));
+  }
+  // The first part of a long way; or the pose was corrected, and the goal is elsewhere by now.
+  if (whole_ && ++departures_ > config_.retries)
+    return control.Fail(fmt::format("the path ended at {}, not at the goal", Text(pose.map_from_base)));
+  Depart(control, "");
+}
+
+bool GotoMission::AtGoal(const Pose2& map_from_base) const {
+  const Pose2 off = goal_.map_from_base.Inverse() * map_from_base;
+  const bool turned = !goal_.turn || std::abs(off.yaw) <= Radians(config_.turned_deg);
+  return turned && off.translation().norm() <= config_.near_m;
+}
+
+void GotoMission::OnStop(MissionControl& control, const Stop& stop) {
+  if (stop.cause != Stop::Cause::kBlocked || ++departures_ > config_.retries)
+    return control.Fail(stop.reason + "; next: look what it is, and order it again");
+  NoteThingAhead(control);
+  Depart(control, stop.reason);
+}
+
+/// What stops the base stands in the direction of its line, as far away as the nearest echo there.
+void GotoMission::NoteThingAhead(const MissionControl& control) {
+  const DriveReport& drive = *control.heard().drive;
+  const Pose2& base = control.heard().pose->map_from_base;
+  const Eigen::Vector2d ahead = DirectionLeft(base, control.path().points, drive.remaining_m);
+  if (ahead.norm() < 0.5) return;
+  const double distance_m = Reach(footprint_, base.rotation().transpose() * ahead) +
+                            drive.nearest_m.value_or(0) + config_.thing_m / 2;
+  const Eigen::Vector2d at = base.translation() + distance_m * ahead;
+  planner_.Add("what stopped the robot", {{at.x(), at.y(), std::atan2(ahead.y(), ahead.x())},
+                                          Eigen::Vector2d::Constant(config_.thing_m / 2)});
+}
+
+}  // namespace priamos::planner

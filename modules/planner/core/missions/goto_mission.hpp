@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/archive.hpp"
+#include "common/ground_plan.hpp"
+#include "planner/core/missions/mission.hpp"
+#include "planner/core/missions/pose_keeper.hpp"
+#include "planner/core/path/route_planner.hpp"
+
+namespace priamos::planner {
+
+/// Speed, tolerances and limits of a mission to a place.
+struct GotoMissionConfig {
+  double speed_m_s = 0.30;
+  double near_m = 0.10;   ///< distance to the goal at which the mission is done ...
+  double turned_deg = 5;  ///< ... and the difference in heading, if the heading counts
+  int retries = 3;        ///< other ways that are tried after something was in the way
+  double thing_m = 0.5;   ///< size of what is in the way, of which one side is known only
+  MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 600};
+  RoutePlannerConfig route;
+  PoseKeeperConfig keep;
+
+  void Describe(Archive& a);
+};
+
+/// The mission "go there": a route through the room, driven in pieces of as many lines as a PATH holds. What
+/// stops the robot on the way is put on the map where it stands, for the length of the mission, and another
+/// way is looked for; the robot itself goes around what leaves room beside its line. Looks at doors in sight
+/// keep the pose known.
+class GotoMission : public Mission {
+ public:
+  GotoMission(const GotoMissionConfig& config, const Footprint& footprint, const GroundPlan& plan);
+
+  /// Begins the mission; it is refused when the goal is not finite.
+  std::optional<Refusal> Start(const MissionOrder& order) override;
+  void Step(MissionControl& control) override;
+  void OnStop(MissionControl& control, const Stop& stop) override;
+  const MissionLimits& limits() const override { return config_.limits; }
+  std::string Unfinished() const override { return "not at the goal"; }
+
+ private:
+  void Depart(MissionControl& control, const std::string& why);
+  void Arrive(MissionControl& control);
+  bool AtGoal(const Pose2& map_from_base) const;
+  void NoteThingAhead(const MissionControl& control);
+
+  GotoMissionConfig config_;
+  Footprint footprint_;
+  RoutePlanner planner_;
+  PoseKeeper keeper_;
+  Goal goal_;
+  int departures_ = 0;  ///< after a stop
+  bool whole_ = true;   ///< the path ordered last leads to the goal
+};
+
+}  // namespace priamos::planner

@@ -1,0 +1,75 @@
+#include "planner/core/missions/pose_keeper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/principal_axes.hpp"
+#include "planner/core/map/door_landmark.hpp"
+
+namespace priamos::planner {
+namespace {
+
+/// An older pose says too little about where the robot is now.
+constexpr double kFresh_s = 1.0;
+
+double PositionSigma(const RobotPose& pose) {
+  return std::sqrt(std::max(0.0, PrincipalAxesOf<2>(pose.covariance.topLeftCorner<2, 2>()).values(1)));
+}
+
+}  // namespace
+
+void PoseKeeperConfig::Describe(Archive& a) {
+  a.Number("sigma_m", sigma_m, {"m", 0.005, 2, "standard deviation of the position that asks for a look"});
+  a.Number("nearest_m", nearest_m, {"m", 0.5, 10, "distance to a door from which on it is looked at"});
+  a.Number("farthest_m", farthest_m, {"m", 0.5, 20, "distance to a door up to which it is looked at"});
+  if (nearest_m > farthest_m) a.Refuse("nearest_m", "at most farthest_m");
+  a.Number("most_slant_deg", most_slant_deg, {"deg", 5, 80, "between the door's axis and the line to it"});
+  a.Number("most_bearing_deg", most_bearing_deg, {"deg", 5, 180, "between the base's heading and that line"});
+  a.Number("pause_s", pause_s, {"s", 1, 600, "after looks that failed"});
+}
+
+PoseKeeper::PoseKeeper(const PoseKeeperConfig& config, const GroundPlan& plan)
+    : config_(config), plan_(plan), looks_(LookConfig{}) {}
+
+void PoseKeeper::Reset() {
+  looks_.Reset();
+  door_ = nullptr;
+  gave_up_.reset();
+}
+
+void PoseKeeper::Step(MissionControl& control) {
+  for (const LookResult& result : control.heard().looks) looks_.OnResult(result);
+  const auto result = looks_.Settle(control.now());
+  if (result && !result->ok && result->no_model) control.SendModel(MakeDoorLandmark(*door_));
+  if (looks_.Exhausted() && !gave_up_) gave_up_ = control.now();
+  if (gave_up_ && Seconds(control.now() - *gave_up_) > config_.pause_s) Reset();
+  if (gave_up_ || !looks_.Ready(control.now()) || !IsNeeded(control)) return;
+  const DoorPlan* door = DoorInSight(control.heard().pose->map_from_base);
+  if (!door) return;
+  door_ = door;
+  looks_.Asked(control.OrderLook(door->id, looks_.next()), control.now());
+}
+
+bool PoseKeeper::IsNeeded(const MissionControl& control) const {
+  const auto& pose = control.heard().pose;
+  return pose && Seconds(control.now() - pose->stamp) < kFresh_s && PositionSigma(*pose) > config_.sigma_m;
+}
+
+const DoorPlan* PoseKeeper::DoorInSight(const Pose2& map_from_base) const {
+  const DoorPlan* nearest = nullptr;
+  double nearest_m = config_.farthest_m;
+  for (const DoorPlan& door : plan_.doors) {
+    const Eigen::Vector2d there = (door.map_from_door().Inverse() * map_from_base).translation();
+    const Eigen::Vector2d here = (map_from_base.Inverse() * door.map_from_door()).translation();
+    const double distance_m = there.norm();
+    const bool in_sight = distance_m >= config_.nearest_m && distance_m <= nearest_m &&
+                          std::atan2(std::abs(there.y()), -there.x()) <= Radians(config_.most_slant_deg) &&
+                          std::abs(std::atan2(here.y(), here.x())) <= Radians(config_.most_bearing_deg);
+    if (!in_sight) continue;
+    nearest = &door;
+    nearest_m = distance_m;
+  }
+  return nearest;
+}
+
+}  // namespace priamos::planner

@@ -1,0 +1,67 @@
+#include "planner/core/path/distance_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+
+namespace priamos::planner {
+namespace {
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+}  // namespace
+
+DistanceField::DistanceField(const SweptFootprint& space, const Eigen::Vector2d& start,
+                             const Eigen::Vector2d& goal, double margin_m, double beyond_m)
+    : goal_(goal) {
+  Eigen::AlignedBox2d box = space.obstacles().Bounds();
+  box.extend(start).extend(goal);
+  const Eigen::Vector2d low = (box.min() - goal).array() - beyond_m,
+                        high = (box.max() - goal).array() + beyond_m;
+  x_min_ = static_cast<int>(std::floor(low.x() / kStep_m));
+  y_min_ = static_cast<int>(std::floor(low.y() / kStep_m));
+  nx_ = static_cast<int>(std::ceil(high.x() / kStep_m)) - x_min_ + 1;
+  ny_ = static_cast<int>(std::ceil(high.y() / kStep_m)) - y_min_ + 1;
+  const Footprint& body = space.footprint();
+  surely_m_ = std::hypot(body.length_m, body.width_m) / 2 + margin_m + std::numbers::sqrt2 * kStep_m;
+  Measure(space.obstacles());
+  Spread(std::min(body.length_m, body.width_m) / 2 + margin_m);
+}
+
+void DistanceField::Measure(const ObstacleMap& obstacles) {
+  clearance_m_.resize(std::size_t(nx_) * std::size_t(ny_));
+  for (std::size_t i = 0; i < clearance_m_.size(); ++i) {
+    const auto [x, y] = CellAt(i);
+    const Eigen::Vector2d at = PlaceOf(x, y);
+    clearance_m_[i] = static_cast<float>(obstacles.NearestTo({{at.x(), at.y(), 0}, {0, 0}}).distance_m);
+  }
+}
+
+/// Dijkstra from the goal; the goal itself counts as open.
+void DistanceField::Spread(double closed_m) {
+  to_goal_m_.assign(clearance_m_.size(), kInfinite);
+  using Open = std::pair<float, std::size_t>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  to_goal_m_[IndexOf(0, 0)] = 0;
+  open.push({0, IndexOf(0, 0)});
+  while (!open.empty()) {
+    const auto [distance_m, index] = open.top();
+    open.pop();
+    if (distance_m > to_goal_m_[index]) continue;
+    const auto [x, y] = CellAt(index);
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        if (!Holds(x + dx, y + dy)) continue;
+        const std::size_t next = IndexOf(x + dx, y + dy);
+        const auto total = static_cast<float>(distance_m + kStep_m * std::hypot(dx, dy));
+        if (clearance_m_[next] < closed_m || total >= to_goal_m_[next]) continue;
+        to_goal_m_[next] = total;
+        open.push({total, next});
+      }
+    }
+  }
+}
+
+}  // namespace priamos::planner

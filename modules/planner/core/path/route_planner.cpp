@@ -1,0 +1,158 @@
+#include "planner/core/path/route_planner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/core/path/route_search.hpp"
+
+namespace priamos::planner {
+namespace {
+
+/// Share of its size that a body keeps with which the reason is looked for why there is no way.
+constexpr double kSlim = 0.6;
+/// Share of the easy margin that straight lines keep.
+constexpr double kLines = 0.9;
+
+ObstacleMap MapOf(const GroundPlan& plan, bool unknown_leaves) {
+  ObstacleMap map(plan);
+  for (const CupboardPlan& c : plan.cupboards)
+    map.Add("cupboard '" + c.name + "'",
+            {c.map_from_cupboard() * Pose2{c.depth_m / 2, 0, 0}, {c.depth_m / 2, c.width_m / 2}});
+  for (const DoorPlan& door : plan.doors) {
+    if (door.leaf == "none" || (door.leaf == "unknown" && !unknown_leaves)) continue;
+    const std::string name = "the leaf of door '" + door.name + "'";
+    if (door.leaf == "unknown") {
+      map.Add(name, {door.map_from_door() * Pose2{door.BackX(), 0, 0},
+                     {door.leaf_thickness_m / 2, door.opening_width_m / 2}});
+    } else {
+      const LeafShape leaf = LeafOf(door, door.leaf, door.leaf_open_deg, door.leaf_thickness_m);
+      map.Add(name, {door.map_from_door() * leaf.door_from_leaf, leaf.size_m / 2});
+    }
+  }
+  return map;
+}
+
+std::vector<DoorPlan> ClosedDoors(const GroundPlan& plan) {
+  std::vector<DoorPlan> closed;
+  for (const DoorPlan& door : plan.doors)
+    if (door.leaf == "unknown") closed.push_back(door);
+  return closed;
+}
+
+Footprint Slim(Footprint body) {
+  body.length_m *= kSlim;
+  body.width_m *= kSlim;
+  return body;
+}
+
+/// Who stands nearer to a wall than the margin may leave, but not come nearer still.
+double LeavingMargin(double margin_m, double start_gap_m) {
+  return start_gap_m >= margin_m ? margin_m : 0.9 * start_gap_m;
+}
+
+}  // namespace
+
+void RoutePlannerConfig::Describe(Archive& a) {
+  a.Number("easy_margin_m", easy_margin_m, {"m", 0, 2, "preferred clearance of a route to everything"});
+  a.Number("least_margin_m", least_margin_m, {"m", 0, 1, "clearance where there is no such route"});
+  if (least_margin_m > easy_margin_m) a.Refuse("least_margin_m", "at most easy_margin_m");
+}
+
+RoutePlanner::RoutePlanner(const RoutePlannerConfig& config, const Footprint& footprint,
+                           const GroundPlan& plan)
+    : config_(config),
+      closed_(ClosedDoors(plan)),
+      known_(footprint, MapOf(plan, true)),
+      space_(known_),
+      slim_(Slim(footprint), MapOf(plan, false)) {}
+
+void RoutePlanner::Add(std::string name, const Rectangle& shape) {
+  space_.Add(std::move(name), shape);
+}
+
+void RoutePlanner::Forget() {
+  space_ = known_;
+}
+
+Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal& goal) const {
+  if (const auto refusal = CheckEnds(map_from_start, goal)) return *refusal;
+  const double start_gap_m = space_.At(map_from_start).distance_m;
+  const double goal_gap_m = goal.turn ? space_.At(goal.map_from_base).distance_m : config_.easy_margin_m;
+  for (const double wanted_m : {config_.easy_margin_m, config_.least_margin_m}) {
+    const double margin_m = std::min(wanted_m, goal_gap_m);
+    const auto route = SearchRoute(space_, {.start = map_from_start,
+                                            .goal = goal.map_from_base,
+                                            .turn = goal.turn,
+                                            .margin_m = margin_m,
+                                            .leaving_m = LeavingMargin(margin_m, start_gap_m)});
+    // Lines that had to keep as much as the lattice would have a corner wherever that is all there is.
+    const double lines_m = std::max(std::min(margin_m, config_.least_margin_m), kLines * margin_m);
+    if (route) return PathAlong(map_from_start, Straightened(*route, lines_m));
+  }
+  return NoWay(map_from_start, goal);
+}
+
+std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& goal) const {
+  if (const auto gap = space_.At(start); gap.distance_m <= 0)
+    return Refusal{"the robot would already be in " + gap.obstacle};
+  const Pose2& there = goal.map_from_base;
+  const auto gap = space_.At(there);
+  if (goal.turn && gap.distance_m < config_.least_margin_m)
+    return Refusal{fmt::format("at ({:.2f}, {:.2f}) the base comes within {:.2f} m of {}, it needs {:.2f} m",
+                               there.x, there.y, gap.distance_m, gap.obstacle, config_.least_margin_m)};
+  const auto nearest = space_.obstacles().NearestTo({there, {0, 0}});
+  const double needed_m = space_.footprint().width_m / 2 + config_.least_margin_m;
+  if (nearest.distance_m < needed_m)
+    return Refusal{fmt::format("the goal ({:.2f}, {:.2f}) is {:.2f} m from {}, its middle needs {:.2f} m",
+                               there.x, there.y, nearest.distance_m, nearest.name, needed_m)};
+  return std::nullopt;
+}
+
+/// From corner to corner, each the farthest that a straight line reaches.
+std::vector<Pose2> RoutePlanner::Straightened(const std::vector<Pose2>& route, double margin_m) const {
+  std::vector<Pose2> corners;
+  for (std::size_t at = 0; at + 1 < route.size();) {
+    std::size_t next = at + 1;
+    for (std::size_t to = route.size() - 1; to > next; --to) {
+      if (space_.IsFree(route[at], route[to], margin_m)) next = to;
+    }
+    corners.push_back(route[next]);
+    at = next;
+  }
+  return corners;
+}
+
+PlannedPath RoutePlanner::PathAlong(const Pose2& start, std::vector<Pose2> corners) const {
+  PlannedPath path;
+  path.min_gap_m = space_.At(start).distance_m;
+  Pose2 from = start;
+  for (const Pose2& to : corners) {
+    path.min_gap_m = std::min(path.min_gap_m, space_.Along(from, to).distance_m);
+    path.leeway.push_back(space_.LeewayOf(from, to, config_.least_margin_m));
+    from = to;
+  }
+  path.points = std::move(corners);
+  return path;
+}
+
+/// Looks for a door on the way that a slim body would take.
+Refusal RoutePlanner::NoWay(const Pose2& start, const Goal& goal) const {
+  const auto route = SearchRoute(
+      slim_, {.start = start, .goal = goal.map_from_base, .turn = false, .margin_m = 0.02, .leaving_m = 0});
+  for (std::size_t i = 0; route && i < route->size(); ++i) {
+    for (const DoorPlan& door : closed_) {
+      const Pose2 there = door.map_from_door().Inverse() * (*route)[i];
+      if (std::abs(there.x) < door.wall_thickness_m && std::abs(there.y) < door.opening_width_m / 2)
+        return {
+            fmt::format("the way to ({:.2f}, {:.2f}) leads through door '{}'; next: priamos mission door {}",
+                        goal.map_from_base.x, goal.map_from_base.y, door.name, door.name)};
+    }
+  }
+  return {fmt::format("no way of {:.2f} m width leads to ({:.2f}, {:.2f})",
+                      space_.footprint().width_m + 2 * config_.least_margin_m, goal.map_from_base.x,
+                      goal.map_from_base.y)};
+}
+
+}  // namespace priamos::planner

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/archive.hpp"
+#include "common/ground_plan.hpp"
+#include "common/outcome.hpp"
+#include "planner/core/path/planned_path.hpp"
+#include "planner/core/path/swept_footprint.hpp"
+
+namespace priamos::planner {
+
+/// Clearances of routes.
+struct RoutePlannerConfig {
+  double easy_margin_m = 0.30;   ///< preferred clearance to everything
+  double least_margin_m = 0.10;  ///< clearance where there is no such route
+
+  void Describe(Archive& a);
+};
+
+/// The way through a room for a holonomic rectangular base: among walls, door frames, cupboards, leaves that
+/// the plan gives, and what else is known. A doorway whose leaf is not known counts as closed: passing one is
+/// a mission of its own.
+class RoutePlanner {
+ public:
+  RoutePlanner(const RoutePlannerConfig& config, const Footprint& footprint, const GroundPlan& plan);
+
+  /// Takes something into account that is not on the plan, until Forget().
+  void Add(std::string name, const Rectangle& shape);
+  void Forget();
+
+  /// Straight lines with evenly turning heading to the goal, as few as there may be; each with its leeway.
+  /// Refuses with the reason.
+  Outcome<PlannedPath> Plan(const Pose2& map_from_start, const Goal& goal) const;
+
+ private:
+  std::optional<Refusal> CheckEnds(const Pose2& start, const Goal& goal) const;
+  std::vector<Pose2> Straightened(const std::vector<Pose2>& route, double margin_m) const;
+  PlannedPath PathAlong(const Pose2& start, std::vector<Pose2> corners) const;
+  Refusal NoWay(const Pose2& start, const Goal& goal) const;
+
+  RoutePlannerConfig config_;
+  std::vector<DoorPlan> closed_;  ///< doors whose leaf is not known
+  SweptFootprint known_;          ///< the plan
+  SweptFootprint space_;          ///< and what was added
+  SweptFootprint slim_;           ///< a body that fits through every door, all of them open
+};
+
+}  // namespace priamos::planner

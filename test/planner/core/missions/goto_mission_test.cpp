@@ -1,0 +1,142 @@
+#include "planner/core/missions/goto_mission.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "fake_robot.hpp"
+#include "test/planner/core/plans.hpp"
+
+namespace priamos::planner {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr int kGoto = 2;
+
+/// The mission in its frame, and the robot that it drives.
+struct Story {
+  explicit Story(const Pose2& truth = {1.0, 2.4, 0}, const GroundPlan& plan = ShippedPlan())
+      : robot(dut, truth) {
+    dut.Add(kGoto, std::make_unique<GotoMission>(GotoMissionConfig{}, Footprint{}, plan));
+  }
+  void Start(const Goal& goal) { EXPECT_TRUE(dut.Start(robot.now(), {kGoto, 0, goal})); }
+  /// Lets it drive until x, and puts something before it that goes away with the next path.
+  void BlockAtX(double x_m) {
+    robot.RunUntilX(x_m);
+    robot.blocked = true;
+    const std::size_t paths = robot.paths.size();
+    for (int i = 0; i < 400 && dut.running() && robot.paths.size() == paths; ++i) robot.Step();
+    robot.blocked = false;
+  }
+
+  MissionTable dut;
+  FakeRobot robot;
+};
+
+TEST(GotoMissionTest, DrivesToTheGoal) {
+  Story s;
+  s.Start({{4.6, 1.3, kPi / 2}});
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone);
+  EXPECT_THAT(s.dut.state().text, AllOf(StartsWith("at (4.60, 1.30) after"), HasSubstr("known to 0.01 m")));
+  EXPECT_NEAR(s.robot.truth().x, 4.6, 0.01);
+  EXPECT_NEAR(s.robot.truth().y, 1.3, 0.01);
+  EXPECT_NEAR(s.robot.truth().yaw, kPi / 2, 0.01);
+  EXPECT_EQ(s.robot.paths.size(), 1u);
+}
+
+TEST(GotoMissionTest, SaysWhereItGoesAndHowFarItIs) {
+  Story s;
+  s.Start({{4.0, 2.4, 0}});
+  s.robot.RunUntil(Phase::kDriving, 5);
+  EXPECT_EQ(s.dut.state().text, "driving to (4.00, 2.40), 3.0 m");
+}
+
+TEST(GotoMissionTest, WithoutAHeadingAnyWillDo) {
+  Story s({1.0, 2.4, 0.7});
+  s.Start({{4.0, 1.0, 3.0}, false});
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_LT(std::abs(s.robot.truth().yaw), 1.5);
+}
+
+TEST(GotoMissionTest, ABoxOnTheWayIsPutOnTheMapAndAnotherWayIsDriven) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.BlockAtX(2.0);
+  ASSERT_EQ(s.robot.paths.size(), 2u);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("the robot was blocked for 3 s: sonar; another way: driving to"));
+  EXPECT_GE(s.robot.paths[1].points.size(), 2u) << "around it";
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
+TEST(GotoMissionTest, ANewMissionForgetsWhatStopped) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.BlockAtX(2.0);
+  s.robot.RunFor(60);
+  s.Start({{2.0, 2.4, 0}});
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.robot.paths.back().points.size(), 1u);
+}
+
+TEST(GotoMissionTest, AfterThreeOtherWaysItGivesUp) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(2.0);
+  s.robot.blocked = true;
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  for (int i = 0; i < 10; ++i) s.robot.Step();  // the radio's delay
+  EXPECT_TRUE(s.robot.paths.back().points.empty()) << "it brakes";
+}
+
+TEST(GotoMissionTest, ATouchEndsIt) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(2.0);
+  s.robot.touched = true;
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("touched something; next: look what it is"));
+}
+
+TEST(GotoMissionTest, AGoalInAWallIsRefusedAndNothingMoves) {
+  Story s;
+  s.Start({{4.0, 0.2, 0}});
+  s.robot.RunFor(10);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("wall 'south'"));
+  EXPECT_EQ(s.robot.truth().x, 1.0);
+}
+
+TEST(GotoMissionTest, AGoalThatIsNoNumberIsRefused) {
+  Story s;
+  s.Start({{std::numeric_limits<double>::quiet_NaN(), 0.2, 0}});
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+}
+
+TEST(GotoMissionTest, ALongWayIsDrivenInPieces) {
+  GroundPlan plan;
+  for (int i = 0; i < 20; ++i) {  // a zigzag between screens, 2 m apart
+    const double x = 2.0 * i + 2, low = i % 2 == 0 ? 0 : 1.6;
+    plan.walls.push_back({"screen", {x, low}, {x, low + 2.4}, 0.1});
+  }
+  plan.walls.push_back({"south", {-1, -0.05}, {44, -0.05}, 0.1});
+  plan.walls.push_back({"north", {-1, 4.05}, {44, 4.05}, 0.1});
+  plan.walls.push_back({"west", {-1, -0.05}, {-1, 4.05}, 0.1});
+  plan.walls.push_back({"east", {44, -0.05}, {44, 4.05}, 0.1});
+  Story s({1, 2, 0}, plan);
+  s.Start({{41, 2, 0}});
+  s.robot.RunFor(590);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_GE(s.robot.paths.size(), 2u);
+  for (const PathOrder& path : s.robot.paths) EXPECT_LE(path.points.size(), 16u);
+}
+
+}  // namespace
+}  // namespace priamos::planner

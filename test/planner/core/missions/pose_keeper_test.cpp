@@ -1,0 +1,81 @@
+#include "planner/core/missions/pose_keeper.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fake_robot.hpp"
+#include "planner/core/missions/goto_mission.hpp"
+#include "test/planner/core/plans.hpp"
+
+namespace priamos::planner {
+namespace {
+
+const DoorPlan* InSight(const Pose2& map_from_base) {
+  static const GroundPlan plan = ShippedPlan();
+  static const PoseKeeper dut({}, plan);
+  return dut.DoorInSight(map_from_base);
+}
+
+TEST(PoseKeeperTest, ADoorIsInSightFromItsFrontAtTheRightDistance) {
+  EXPECT_TRUE(InSight({3.5, 2.4, 0}));
+  EXPECT_EQ(InSight({3.5, 2.4, 0})->name, "laboratory");
+  EXPECT_TRUE(InSight({3.5, 3.5, 0}));
+  EXPECT_FALSE(InSight({2.4, 2.4, 0})) << "too far";
+  EXPECT_FALSE(InSight({5.0, 2.4, 0})) << "too near";
+  EXPECT_FALSE(InSight({5.0, 4.2, 0})) << "at a slant";
+  EXPECT_FALSE(InSight({8.5, 2.4, kPi})) << "from behind";
+}
+
+TEST(PoseKeeperTest, TheHeadTurnsSoFarAndNoFarther) {
+  EXPECT_TRUE(InSight({3.5, 2.4, kPi / 2}));
+  EXPECT_FALSE(InSight({3.5, 2.4, Radians(120)}));
+}
+
+/// A drive from (2.6, 2.4) to (4.2, 2.4) with a pose known to `sigma_m`.
+struct Drive {
+  explicit Drive(double sigma_m) : robot(missions, {2.6, 2.4, 0}) {
+    missions.Add(2, std::make_unique<GotoMission>(GotoMissionConfig{}, Footprint{}, ShippedPlan()));
+    robot.sigma_m = sigma_m;
+    missions.Start(robot.now(), {2, 0, {{4.2, 2.4, 0}}});
+  }
+  MissionTable missions;
+  FakeRobot robot;
+};
+
+TEST(PoseKeeperTest, AnUncertainPoseIsCorrectedOnTheWay) {
+  Drive drive(0.12);
+  drive.robot.error = {0.05, -0.1, 0};
+  drive.robot.RunFor(60);
+  EXPECT_EQ(drive.missions.state().phase, Phase::kDone) << drive.missions.state().text;
+  EXPECT_EQ(drive.robot.looks.size(), 2u) << "after them it is known well";
+  EXPECT_GT(drive.robot.look_speed_m_s.back(), 0.2) << "it does not stand for them";
+  EXPECT_NEAR(drive.robot.truth().y, 2.4, 0.02);
+}
+
+TEST(PoseKeeperTest, AKnownPoseIsLeftAlone) {
+  Drive drive(0.05);
+  drive.robot.RunFor(60);
+  EXPECT_TRUE(drive.robot.looks.empty());
+}
+
+TEST(PoseKeeperTest, AHeadWithoutTheModelGetsIt) {
+  Drive drive(0.12);
+  drive.robot.answer = [&](const LookOrder& look, int n) {
+    return LookResult{look.request_id, n > 0, "the head has no model of it", n == 0};
+  };
+  drive.robot.RunFor(60);
+  EXPECT_EQ(drive.robot.models_received, 1);
+  EXPECT_GE(drive.robot.looks.size(), 2u);
+}
+
+TEST(PoseKeeperTest, LooksThatFailEndAfterAWhileAndTheDriveGoesOn) {
+  Drive drive(0.12);
+  drive.robot.answer = [](const LookOrder& look, int) {
+    return LookResult{look.request_id, false, "not visible from there", false};
+  };
+  drive.robot.RunFor(60);
+  EXPECT_EQ(drive.missions.state().phase, Phase::kDone) << drive.missions.state().text;
+  EXPECT_LE(drive.robot.looks.size(), 9u);
+}
+
+}  // namespace
+}  // namespace priamos::planner

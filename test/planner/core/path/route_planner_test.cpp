@@ -1,0 +1,136 @@
+#include "planner/core/path/route_planner.hpp"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "test/planner/core/plans.hpp"
+#include "test/support/generated_numbers.hpp"
+
+namespace priamos::planner {
+namespace {
+
+using ::testing::HasSubstr;
+
+RoutePlanner PlannerOf(const GroundPlan& plan) {
+  return RoutePlanner({}, Footprint{}, plan);
+}
+
+TEST(RoutePlannerTest, AcrossAFreeRoomOneLineIsEnough) {
+  const auto path = PlannerOf(ShippedPlan()).Plan({1, 2.4, 0}, {{4.6, 1.3, 1.2}});
+  ASSERT_TRUE(path) << path.reason();
+  ASSERT_EQ(path->points.size(), 1u);
+  EXPECT_NEAR(path->points[0].yaw, 1.2, 1e-12);
+  ASSERT_EQ(path->leeway.size(), 1u);
+  EXPECT_GT(path->leeway[0].left_m, 0.5);
+}
+
+TEST(RoutePlannerTest, AroundAScreenItKeepsTheEasyMargin) {
+  GroundPlan plan = ShippedPlan();
+  plan.walls.push_back({"screen", {3, 0}, {3, 2.4}, 0.1});
+  const auto path = PlannerOf(plan).Plan({1, 1, 0}, {{5, 1, 0}});
+  ASSERT_TRUE(path) << path.reason();
+  EXPECT_GE(path->points.size(), 2u);
+  EXPECT_LE(path->points.size(), 6u);
+  EXPECT_GE(path->min_gap_m, 0.27 - 1e-3);
+}
+
+TEST(RoutePlannerTest, WhereTheEasyMarginLeadsNowhereTheLeastOneDoes) {
+  GroundPlan plan = ShippedPlan();
+  plan.walls.push_back({"screen", {3, 0}, {3, 3.6}, 0.1});  // 1.15 m are left
+  const auto path = PlannerOf(plan).Plan({1, 1, 0}, {{5, 1, 0}});
+  ASSERT_TRUE(path) << path.reason();
+  EXPECT_GE(path->min_gap_m, 0.1 - 1e-3);
+}
+
+TEST(RoutePlannerTest, CupboardsAreInTheWay) {
+  GroundPlan plan = ShippedPlan();
+  CupboardPlan cupboard;
+  cupboard.name = "tools";
+  cupboard.x_m = 3;
+  cupboard.y_m = 2.4;
+  plan.cupboards.push_back(cupboard);
+  const auto path = PlannerOf(plan).Plan({1, 2.4, 0}, {{5, 2.4, 0}});
+  ASSERT_TRUE(path) << path.reason();
+  EXPECT_GE(path->points.size(), 2u);
+  EXPECT_THAT(PlannerOf(plan).Plan({1, 2.4, 0}, {{2.6, 2.4, 0}}).reason(), HasSubstr("cupboard 'tools'"));
+}
+
+TEST(RoutePlannerTest, WhatWasAddedIsAvoidedUntilItIsForgotten) {
+  RoutePlanner dut = PlannerOf(ShippedPlan());
+  dut.Add("box", {{3, 2.4, 0}, {0.3, 0.3}});
+  EXPECT_GE(dut.Plan({1, 2.4, 0}, {{5, 2.4, 0}})->points.size(), 2u);
+  dut.Forget();
+  EXPECT_EQ(dut.Plan({1, 2.4, 0}, {{5, 2.4, 0}})->points.size(), 1u);
+}
+
+TEST(RoutePlannerTest, ADoorOnTheWayIsNamed) {
+  EXPECT_EQ(PlannerOf(ShippedPlan()).Plan({1, 2.4, 0}, {{8, 2.4, 0}}).reason(),
+            "the way to (8.00, 2.40) leads through door 'laboratory'; next: priamos mission door laboratory");
+}
+
+TEST(RoutePlannerTest, AWideDoorWithoutALeafIsAWayLikeAnyOther) {
+  GroundPlan plan = ShippedPlan();
+  plan.doors[0].opening_width_m = 1.3;
+  plan.walls[4].to_m[1] = 1.75;
+  plan.walls[5].from_m[1] = 3.05;
+  EXPECT_FALSE(PlannerOf(plan).Plan({1, 2.4, 0}, {{8, 2.4, 0}})) << "its leaf may be closed";
+  plan.doors[0].leaf = "none";
+  const auto path = PlannerOf(plan).Plan({1, 2.4, 0}, {{8, 2.4, 0}});
+  ASSERT_TRUE(path) << path.reason();
+  plan.doors[0].leaf = "left";
+  plan.doors[0].leaf_open_deg = 10;
+  EXPECT_FALSE(PlannerOf(plan).Plan({1, 2.4, 0}, {{8, 2.4, 0}})) << "the plan has it ajar";
+}
+
+TEST(RoutePlannerTest, RefusalsSayWhy) {
+  const RoutePlanner dut = PlannerOf(ShippedPlan());
+  EXPECT_EQ(dut.Plan({1, 2.4, 0}, {{4, 0.45, 0}}).reason(),
+            "at (4.00, 0.45) the base comes within 0.06 m of wall 'south', it needs 0.10 m");
+  EXPECT_EQ(dut.Plan({1, 2.4, 0}, {{4, 0.3, 0}, false}).reason(),
+            "the goal (4.00, 0.30) is 0.30 m from wall 'south', its middle needs 0.49 m");
+  EXPECT_EQ(dut.Plan({1, 0.2, 0}, {{4, 2.4, 0}}).reason(), "the robot would already be in wall 'south'");
+  EXPECT_EQ(dut.Plan({1, 2.4, 0}, {{20, 2.4, 0}}).reason(), "no way of 0.98 m width leads to (20.00, 2.40)");
+}
+
+/// The shipped rooms with five boxes in the first one.
+GroundPlan Furnished() {
+  GroundPlan plan = ShippedPlan();
+  for (int i = 0; i < 5; ++i) {
+    const double x = support::Between(0.3, 5.5), y = support::Between(0.3, 4.5);
+    const double direction = support::Between(0, kPi), half_m = support::Between(0.05, 0.4);
+    const Eigen::Vector2d along(half_m * std::cos(direction), half_m * std::sin(direction));
+    plan.walls.push_back(
+        {"box", {x - along.x(), y - along.y()}, {x + along.x(), y + along.y()}, support::Between(0.05, 0.8)});
+  }
+  return plan;
+}
+
+RC_GTEST_PROP(RoutePlannerTest, AmongBoxesItNeverComesNearerThanTheLeastMargin, ()) {
+  const GroundPlan plan = Furnished();
+  const SweptFootprint space(Footprint{}, ObstacleMap(plan));
+  const Pose2 start{support::Between(0.6, 5.4), support::Between(0.6, 4.2), support::Between(-kPi, kPi)};
+  const Goal goal{{support::Between(0.6, 5.4), support::Between(0.6, 4.2), support::Between(-kPi, kPi)},
+                  *rc::gen::arbitrary<bool>()};
+  const auto path = PlannerOf(plan).Plan(start, goal);
+  RC_CLASSIFY(bool(path), "found");
+  if (!path) {
+    RC_ASSERT(!path.reason().empty());
+    return;
+  }
+  const Pose2& end = path->points.back();
+  RC_ASSERT((end.translation() - goal.map_from_base.translation()).norm() < 1e-9);
+  if (goal.turn) RC_ASSERT(std::abs(WrapAngle(end.yaw - goal.map_from_base.yaw)) < 1e-9);
+  const double start_gap_m = space.DistanceAt(start);
+  Pose2 from = start;
+  for (const Pose2& to : path->points) {
+    for (int i = 0; i <= 100; ++i) {
+      const Pose2 pose = Between(from, to, i / 100.0);
+      const bool leaving = (pose.translation() - start.translation()).norm() < 0.45;
+      RC_ASSERT(space.DistanceAt(pose) > (leaving ? std::min(0.1, 0.9 * start_gap_m) : 0.1) - 2e-3);
+    }
+    from = to;
+  }
+}
+
+}  // namespace
+}  // namespace priamos::planner
