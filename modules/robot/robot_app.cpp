@@ -14,6 +14,9 @@ constexpr double kTouchNoticed_s = 0.25, kLeastSlip_m = 0.02, kLeastSlip_rad = R
 constexpr double kOpeningRate_hz = 1;
 constexpr Duration kOpeningRepeated = std::chrono::seconds(60);
 
+/// Slower than this the base stands: encoders tell no less.
+constexpr double kStands_m_s = 0.01, kStands_rad_s = 0.01;
+
 /// Why a path is not driven; empty when it is.
 std::string_view Refusal(PathVerdict verdict) {
   switch (verdict) {
@@ -48,6 +51,7 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       floor_lines_(context.node().SubscribeAll(channels::kObstacleLine)),
       paths_(context.node().SubscribeAll(channels::kPath)),
       fixes_(context.node().SubscribeAll(channels::kLandmarkFix)),
+      pose_resets_(context.node().SubscribeAll(channels::kPoseReset)),
       commands_(context.node().SubscribeAll(channels::kDriveCommand)),
       lease_requests_(context.node().SubscribeAll(channels::kLeaseRequest)),
       estops_(context.node().SubscribeAll(channels::kEstop)),
@@ -89,6 +93,7 @@ void RobotApp::Tick(Time now) {
   TakeFloorLines(now);
   TakeFixes(now);
   AnswerFixes(now);
+  TakePoseResets(now);
   TakeSignsOfLife(now);
   TakeLeaseRequests(now);
   TakePaths(now);
@@ -181,6 +186,41 @@ void RobotApp::AnswerFixes(Time now) {
     // A repeated message has had its answer.
     if (result.verdict != FixVerdict::kDouble) correction_.Publish(ToMessage(answer, now));
   }
+}
+
+/// An order is repeated until its answer has got through; it is obeyed once.
+void RobotApp::TakePoseResets(Time now) {
+  for (const pose_reset_t& order : pose_resets_.Drain()) {
+    if (!placed_ || placed_->request_id != order.request_id) {
+      Pose2 change;
+      const int verdict = SetPose(order, now, change);
+      placed_ = AnswerTo(order, verdict, change, now);
+    }
+    correction_.Publish(*placed_);
+  }
+}
+
+/// Obeys an order to set the pose. Returns its verdict, as in pose_correction_t, and the change of the pose.
+int RobotApp::SetPose(const pose_reset_t& order, Time now, Pose2& change) {
+  const auto refuse = [&](int verdict, std::string_view why) {
+    context_.Log(bus::Level::kWarning, fmt::format("pose {} not set: {}", order.request_id, why));
+    return verdict;
+  };
+  const auto known = FromMessage(order);
+  if (!known) return refuse(pose_correction_t::IMPLAUSIBLE, "numbers out of range");
+  if (IsOlder(order.utime, config_.path_max_age_s, now))
+    return refuse(pose_correction_t::TOO_OLD, "the order is too old");
+  const Twist2 twist = localiser_.odometry().twist();
+  const bool moves = std::hypot(twist.vx, twist.vy) > kStands_m_s || std::abs(twist.wz) > kStands_rad_s;
+  if (moves || !drive_.ForgetDrivenPath())
+    return refuse(pose_correction_t::MOVING,
+                  "the base drives; next: abort the mission or let go, and set it again");
+  change = localiser_.Reset(*known);
+  context_.Log(bus::Level::kInfo,
+               fmt::format("pose {} set by a person: ({:.2f}, {:.2f}), {:.0f} deg, known to {:.2f} m",
+                           order.request_id, known->map_from_base.x, known->map_from_base.y,
+                           Degrees(known->map_from_base.yaw), known->sigma_m));
+  return pose_correction_t::RESET;
 }
 
 bool RobotApp::IsOlder(std::int64_t utime, double most_s, Time now) const {

@@ -40,6 +40,8 @@ class RobotApp {
   void TakeSonars();
   void TakeFloorLines(Time now);
   void TakeFixes(Time now);
+  void TakePoseResets(Time now);
+  int SetPose(const pose_reset_t& order, Time now, Pose2& change);
   void TakePaths(Time now);
   void Begin(Time now);
   void TakeEstops(Time now);
@@ -66,7 +68,8 @@ class RobotApp {
   Localiser localiser_;
   DriveController drive_;
   OpeningWatch opening_watch_;
-  std::optional<Opening> passed_;  ///< newest
+  std::optional<Opening> passed_;            ///< newest
+  std::optional<pose_correction_t> placed_;  ///< the answer to the newest order to set the pose
 
   bus::Inbox<wheel_state_t> wheels_;
   bus::Inbox<motor_current_t> currents_;
@@ -75,6 +78,7 @@ class RobotApp {
   bus::Inbox<obstacle_line_t> floor_lines_;
   bus::Inbox<path_t> paths_;
   bus::Inbox<landmark_fix_t> fixes_;
+  bus::Inbox<pose_reset_t> pose_resets_;
   bus::Inbox<drive_command_t> commands_;
   bus::Inbox<lease_request_t> lease_requests_;
   bus::Inbox<estop_t> estops_;

@@ -218,6 +218,30 @@ pose_correction_t NotFound(const landmark_fix_t& fix, Time now) {
   return message;
 }
 
+std::optional<KnownPose> FromMessage(const pose_reset_t& message) {
+  constexpr double kMap_m = 100, kMost_m = 2, kMost_rad = 1.6;
+  const auto within = [](double value, double least, double most) { return value >= least && value <= most; };
+  const bool good = within(message.x_m, -kMap_m, kMap_m) && within(message.y_m, -kMap_m, kMap_m) &&
+                    within(message.yaw_rad, -3.15, 3.15) && within(message.sigma_m, 0.001, kMost_m) &&
+                    within(message.sigma_yaw_rad, 0.001, kMost_rad);
+  if (!good) return std::nullopt;
+  return KnownPose{
+      {message.x_m, message.y_m, WrapAngle(message.yaw_rad)}, message.sigma_m, message.sigma_yaw_rad};
+}
+
+pose_correction_t AnswerTo(const pose_reset_t& order, int verdict, const Pose2& change, Time now) {
+  pose_correction_t message{};
+  message.utime = message.utime_exposure = ToUtime(now);
+  message.request_id = order.request_id;
+  message.verdict = static_cast<std::int8_t>(verdict);
+  message.dx_m = change.x;
+  message.dy_m = change.y;
+  message.dyaw_rad = change.yaw;
+  message.sigma_m = order.sigma_m;
+  message.sigma_yaw_rad = order.sigma_yaw_rad;
+  return message;
+}
+
 std::string_view Text(Condition condition) {
   for (const FailsafeRule& rule : FailsafeRules({}))
     if (rule.condition == condition) return rule.meaning;

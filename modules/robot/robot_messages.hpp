@@ -32,6 +32,9 @@ struct LeaseRequest {
 /// Request for the lease; nullopt for a driver or an action that does not exist.
 std::optional<LeaseRequest> FromMessage(const lease_request_t& message);
 
+/// Pose that a person knows; nullopt when a number is not finite or outside its range.
+std::optional<KnownPose> FromMessage(const pose_reset_t& message);
+
 /// Set values of the wheels as a message; `instance` names the process that commands.
 wheel_command_t ToMessage(const WheelSpeeds& speeds, std::int32_t instance, Time now);
 odometry_t ToMessage(const Odometry& odometry);
@@ -39,9 +42,11 @@ pose_t ToMessage(const PoseEstimate& estimate);
 drive_status_t ToMessage(const DriveState& state, double speed_m_s, Time now);
 /// What the robot made of a fix that it used, or refused.
 pose_correction_t ToMessage(const Localiser::Answer& answer, Time now);
-/// What it made of one that the head could not give.
 opening_t ToMessage(const Opening& opening);
+/// What it made of one that the head could not give.
 pose_correction_t NotFound(const landmark_fix_t& message, Time now);
+/// The answer to an order to set the pose: `verdict` as in pose_correction_t, `change` of the pose.
+pose_correction_t AnswerTo(const pose_reset_t& order, int verdict, const Pose2& change, Time now);
 
 /// A condition in words, for logs and HEALTH.
 std::string_view Text(Condition condition);

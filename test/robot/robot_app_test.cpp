@@ -99,6 +99,23 @@ struct Onboard {
       Step();
     }
   }
+  /// The verdict on an order to set the pose to (4, 1), heading 1.
+  int VerdictOnPose(double x_m = 4, double age_s = 0) {
+    pose_reset_t message{};
+    message.utime = ToUtime(clock.Now() - FromSeconds(age_s));
+    message.request_id = ++poses;
+    message.x_m = x_m;
+    message.y_m = 1;
+    message.yaw_rad = 1;
+    message.sigma_m = 0.1;
+    message.sigma_yaw_rad = 0.05;
+    corrections.Drain();
+    for (int i = 0; i < 2; ++i) pose_resets.Publish(message);  // said again, before the answer was there
+    Step();
+    const auto answers = corrections.Drain();
+    const bool same = answers.size() == 2 && answers[0].utime == answers[1].utime;
+    return same && answers[0].request_id == poses ? answers[0].verdict : -1;
+  }
   landmark_fix_t Fix(int id) {
     const Pose2 seen = base.truth().Inverse() * Pose2{6, 0, 0};
     landmark_fix_t message{};
@@ -115,7 +132,7 @@ struct Onboard {
 
   bool wheels_answer = true;
   double beside_m = -1;  ///< range of the sonars abeam
-  int ticks = 0, statuses = 0, sequence = 0;
+  int ticks = 0, statuses = 0, sequence = 0, poses = 8;
   SimulatedBase base{1, {0.05, 0.1, 0.02}};
   bus::Schema schema = bus::OwnTypes();
   bus::SimulatedClock clock{base.now()};
@@ -135,6 +152,7 @@ struct Onboard {
   bus::Publisher<sonar_ranges_t> sonars = other.Advertise(channels::kSonarRanges);
   bus::Publisher<path_t> paths = other.Advertise(channels::kPath);
   bus::Publisher<landmark_fix_t> fixes = other.Advertise(channels::kLandmarkFix);
+  bus::Publisher<pose_reset_t> pose_resets = other.Advertise(channels::kPoseReset);
   bus::Publisher<lease_request_t> leases = other.Advertise(channels::kLeaseRequest);
   bus::Publisher<drive_command_t> commands = other.Advertise(channels::kDriveCommand);
   bus::Publisher<estop_t> estops = other.Advertise(channels::kEstop);
@@ -176,6 +194,41 @@ TEST(RobotApp, DrivesAPathAndReportsIt) {
   robot.Run(10);
   EXPECT_EQ(robot.last_status.mode, drive_status_t::ARRIVED);
   EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+}
+
+TEST(RobotApp, APersonSetsItsPoseWhileItStands) {
+  Onboard robot;
+  robot.Run(0.5);
+  EXPECT_EQ(robot.VerdictOnPose(), pose_correction_t::RESET);
+  robot.Run(0.1);
+  EXPECT_NEAR(robot.pose.get()->x_m, 4, 0.01);
+  EXPECT_NEAR(robot.pose.get()->yaw_rad, 1, 0.01);
+  EXPECT_NEAR(robot.pose.get()->sigma_x_m, 0.1, 0.01);
+  EXPECT_THAT(robot.log, Contains(HasSubstr("pose 9 set by a person: (4.00, 1.00), 57 deg")));
+}
+
+TEST(RobotApp, AfterAPathItsNewPoseDoesNotLeadItBack) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.SendPath(4, 1);
+  robot.Run(8);
+  ASSERT_EQ(robot.last_status.mode, drive_status_t::ARRIVED);
+  EXPECT_EQ(robot.VerdictOnPose(), pose_correction_t::RESET);
+  robot.Run(2);
+  EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+  EXPECT_NEAR(robot.pose.get()->x_m, 4, 0.02);
+}
+
+TEST(RobotApp, APoseIsNotSetWhileItDrivesNorTooLateNorOutsideTheMap) {
+  Onboard robot;
+  robot.Run(0.5);
+  EXPECT_EQ(robot.VerdictOnPose(4, 11), pose_correction_t::TOO_OLD);
+  EXPECT_EQ(robot.VerdictOnPose(101), pose_correction_t::IMPLAUSIBLE);
+  EXPECT_EQ(robot.VerdictOnPose(std::nan("")), pose_correction_t::IMPLAUSIBLE);
+  robot.SendPath(4, 3);
+  robot.Run(1);
+  EXPECT_EQ(robot.VerdictOnPose(), pose_correction_t::MOVING);
+  EXPECT_LT(robot.pose.get()->x_m, 1);
 }
 
 TEST(RobotApp, YieldingItCommandsItsWheelsToStandAndNobodyElses) {

@@ -76,6 +76,12 @@ PathVerdict DriveController::SetPath(const Path& path, Time now) {
   return PathVerdict::kTaken;
 }
 
+bool DriveController::ForgetDrivenPath() {
+  if (HasPathToGo()) return false;
+  DropPath();
+  return true;
+}
+
 CommandVerdict DriveController::SetCommand(const DriveCommand& command, Time now) {
   const CommandVerdict verdict = authority_.Admit(command, now);
   if (verdict != CommandVerdict::kAccepted) return verdict;

@@ -71,6 +71,9 @@ class DriveController {
   /// Replaces the path being driven; one without points brakes and holds. The very path that is being driven
   /// is ignored: a repeated message must not lead the base back to points it has passed.
   PathVerdict SetPath(const Path& path, Time now);
+  /// Forgets a path that has been driven, so that a new pose does not lead the base back to its end. False,
+  /// and nothing is forgotten, while a path is being driven.
+  bool ForgetDrivenPath();
   CommandVerdict SetCommand(const DriveCommand& command, Time now);
   Lease::Answer RequestLease(const LeaseHolder& who, Lease::Wish wish, Time now);
   void PressEstop() { authority_.PressEstop(); }

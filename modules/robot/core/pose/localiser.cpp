@@ -55,6 +55,11 @@ void Localiser::AddFix(const LandmarkFix& fix, Time now) {
   if (waiting_.size() < kMostWaiting) waiting_.push_back({fix, now});
 }
 
+Pose2 Localiser::Reset(const KnownPose& known) {
+  waiting_.clear();
+  return estimator_.Reset(known);
+}
+
 void Localiser::AddSonar(const SonarCycle& cycle) {
   const WallsHeard walls = walls_.Add(cycle, OdometryPoseAt(cycle.time));
   RingHeard heard{cycle.time, {}, walls.walls};

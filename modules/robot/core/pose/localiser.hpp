@@ -37,6 +37,8 @@ class Localiser {
   /// carries it.
   void AddSlip(double position_m, double yaw_rad);
   void AddFix(const LandmarkFix& fix, Time now);
+  /// Sets the pose as it is now, and forgets the fixes that wait. Returns the change.
+  Pose2 Reset(const KnownPose& known);
   /// Takes a cycle of the sonars: ranges of straight walls hold the pose, their heading above all.
   void AddSonar(const SonarCycle& cycle);
   /// Applies the fixes that can be applied. Returns one answer per fix that no longer waits.

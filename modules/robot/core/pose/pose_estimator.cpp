@@ -82,6 +82,28 @@ void PoseEstimator::Move(const OdometryStep& step) {
   Forget();
 }
 
+Pose2 PoseEstimator::Reset(const KnownPose& known) {
+  PoseState state = history_.empty() ? initial_ : history_.back().state;
+  while (state.walls() > 0) state = WithoutWall(state, 0);
+  const Pose2 before = state.pose();
+  state.mean.head<3>() << known.map_from_base.x, known.map_from_base.y, known.map_from_base.yaw;
+  for (PoseState::Matrix* matrix : {&state.covariance, &state.repeated}) {
+    matrix->topRows<3>().setZero();
+    matrix->leftCols<3>().setZero();
+  }
+  state.covariance.diagonal().head<3>() =
+      Eigen::Vector3d(known.sigma_m, known.sigma_m, known.sigma_yaw_rad).cwiseAbs2();
+  heard_.clear();
+  if (history_.empty()) {
+    initial_ = state;
+  } else {
+    const Time now = history_.back().step.to;
+    history_.clear();
+    history_.push_back({.step = {.from = now, .to = now}, .state = state});
+  }
+  return ChangeOf(before, known.map_from_base);
+}
+
 FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
   if (const auto refused = RefuseByForm(fix)) return *refused;
   const std::size_t index = EntryAt(fix.exposure);

@@ -39,6 +39,13 @@ struct PoseEstimatorConfig {
   void Describe(Archive& a);
 };
 
+/// A pose that somebody knows, map frame, and how well.
+struct KnownPose {
+  Pose2 map_from_base;
+  double sigma_m = 0.1;  ///< of x and of y
+  double sigma_yaw_rad = 0.05;
+};
+
 /// What the ring heard in one cycle: ranges of walls, and the walls as the last ranges show them.
 struct RingHeard {
   Time time{};
@@ -88,6 +95,10 @@ class PoseEstimator {
   explicit PoseEstimator(const PoseEstimatorConfig& config);
 
   void Move(const OdometryStep& step);
+
+  /// Sets the pose as it is now. What was learnt of the wheels stays; walls, and fixes of pictures from
+  /// before, do not count any more. Returns the change.
+  Pose2 Reset(const KnownPose& known);
 
   /// Applies a fix and returns what became of it. kTooNew: taken after the newest odometry; give it again
   /// when odometry has got there.

@@ -224,6 +224,34 @@ TEST_F(PoseEstimatorTest, DrivingWithoutFixesWidensTheEstimateAndAFixNarrowsIt) 
 }
 
 /// A wall to the left, y = 3 of the map, and what a sensor abeam hears of it.
+TEST_F(PoseEstimatorTest, APoseThatSomebodyKnowsReplacesTheEstimate) {
+  Drive(dut_, 0, 50);
+  const Pose2 before = dut_.newest()->pose;
+  const Pose2 change = dut_.Reset({{4, -2, 1.5}, 0.2, 0.1});
+  EXPECT_NEAR(change.x, 4 - before.x, 1e-12);
+  const PoseEstimate estimate = *dut_.newest();
+  EXPECT_EQ(estimate.time, At(50));
+  EXPECT_NEAR(estimate.pose.y, -2, 1e-12);
+  EXPECT_NEAR(estimate.PositionSigma(), 0.2, 1e-12);
+  EXPECT_NEAR(estimate.YawSigma(), 0.1, 1e-12);
+  Drive(dut_, 50, 100);
+  EXPECT_NEAR((dut_.newest()->pose.translation() - Eigen::Vector2d(4, -2)).norm(), 0.4, 0.03);
+}
+
+TEST_F(PoseEstimatorTest, FixesOfPicturesFromBeforeThatAreRefused) {
+  Drive(dut_, 0, 50);
+  dut_.Reset({{4, -2, 1.5}, 0.2, 0.1});
+  Drive(dut_, 50, 60);
+  EXPECT_EQ(dut_.Apply(Fix(At(45), {1.4, 0.6, 0.1})).verdict, FixVerdict::kTooOld);
+  EXPECT_EQ(dut_.Apply(Fix(At(55), {4, -1.96, 1.51})).verdict, FixVerdict::kApplied);
+}
+
+TEST_F(PoseEstimatorTest, APoseThatIsKnownBeforeTheFirstStepIsWhereItStarts) {
+  dut_.Reset({{4, -2, 1.5}, 0.2, 0.1});
+  dut_.Move(Step(0, {}));
+  EXPECT_NEAR(dut_.newest()->pose.x, 4, 1e-9);
+}
+
 class WallsTest : public PoseEstimatorTest {
  protected:
   static RingHeard Heard(int index, double y_m, bool found = false) {
