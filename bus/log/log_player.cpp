@@ -20,6 +20,10 @@ void LogPlayer::Anchor(Time now) {
   if (!index_.empty()) anchor_utime_ = index_[std::min(next_, index_.size() - 1)].utime;
 }
 
+Time LogPlayer::begin() const {
+  return index_.empty() ? Time() : FromUtime(index_.front().utime);
+}
+
 Duration LogPlayer::position() const {
   if (index_.empty()) return {};
   return Duration(index_[std::min(next_, index_.size() - 1)].utime - index_.front().utime);

@@ -32,6 +32,8 @@ class LogPlayer {
   /// Moves the playback to `position` since the log's beginning, cut to the log's length.
   void Seek(Duration position, Time now);
 
+  /// Time of recording of the first event.
+  Time begin() const;
   Duration position() const;
   Duration length() const;
   std::size_t events() const { return index_.size(); }

@@ -6,7 +6,6 @@
 #include <utility>
 #include <variant>
 
-#include "bus/schema/json.hpp"
 #include "bus/schema/schema.hpp"
 #include "common/config.hpp"
 #include "common/ground_plan.hpp"
@@ -19,9 +18,6 @@ namespace priamos::console {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Stamps that are further away than the longest age of a message on the radio say nothing.
-constexpr Duration kLongestAge = std::chrono::seconds(120);
 
 int DrawSession(const bus::Context& context) {
   if (context.lockstep()) return static_cast<int>(Rng::Stream(context.seed(), "console session").Below(256));
@@ -58,10 +54,6 @@ std::string_view PhaseName(PilotPhase phase) {
   return "idle";
 }
 
-std::string Text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace
 
 ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
@@ -69,18 +61,23 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
       context_(context),
       link_(LoadConfig<bus::radio::LinkConfig>(context.ResolvePath(config.link))),
       greeting_(Greeting(config, LoadConfig<GroundPlan>(context.ResolvePath(config.map)), link_)),
+      feed_(context.node().schema()),
       seat_(config.pilot, FromSeconds(config.freshness_s)),
       pilot_(config.pilot),
       wanted_(OnRequest(link_)),
       beat_(config.beat_hz),
       status_(context.node().Subscribe(channels::kDriveStatus)),
+      corrections_(context.node().SubscribeAll(channels::kPoseCorrection)),
       drive_(context.node().Advertise(channels::kDriveCommand)),
       head_drive_(context.node().Advertise(channels::kHeadDrive)),
       lease_(context.node().Advertise(channels::kLeaseRequest)),
       estop_(context.node().Advertise(channels::kEstop)),
       mission_(context.node().Advertise(channels::kMissionCommand)),
+      place_(context.node().Advertise(channels::kPoseReset)),
       request_(context.node().Advertise(channels::kLinkRequest)) {
   base_.session = head_.session = DrawSession(context);
+  places_ =
+      256 * base_.session;  // so that a robot does not take the first order for one of an earlier station
   for (const std::string_view channel : kShownChannels) Show(channel);
   if (context.lockstep()) return;
   server_ = std::make_unique<WebServer>(ServerOptions(config, context), PageFiles(), *this);
@@ -90,17 +87,9 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
 
 void ConsoleApp::Show(std::string_view channel) {
   const std::string name(channel);
-  context_.node().SubscribeRaw(
-      name, [this, name](std::span<const std::byte> bytes, Time arrival) { Heard(name, bytes, arrival); });
-}
-
-void ConsoleApp::Heard(const std::string& channel, std::span<const std::byte> bytes, Time arrival) {
-  const bus::Struct* type = context_.node().schema().Find(bus::FingerprintOf(bytes.data(), bytes.size()));
-  if (type == nullptr) return;
-  Json message = bus::ToJson(*type, bytes);
-  const std::string key = KeyOf(channel, message, heard_[channel]++);
-  const Time valid = ValidTime(message, arrival, kLongestAge);
-  news_.Put(key, channel, valid, std::move(message));
+  context_.node().SubscribeRaw(name, [this, name](std::span<const std::byte> bytes, Time arrival) {
+    feed_.Hear(name, bytes, arrival);
+  });
 }
 
 void ConsoleApp::Tick(Time now) {
@@ -108,10 +97,14 @@ void ConsoleApp::Tick(Time now) {
   if (server_) server_->Poll(now);
   if (const auto status = status_.Take()) robot_ = FromMessage(*status, base_.session);
   Drive(now);
+  Place(now);
   for (const auto& request : wanted_.Step(now)) request_.Publish(ToMessage(request, now));
   if (beat_.Due(now)) {
     beat_.Mark(now);
-    Tell(now);
+    const std::int64_t beat = beats_.Next(now);
+    if (server_)
+      audience_.Tell(*server_, greeting_, feed_.news(), beat, now,
+                     [this](ClientId client, Role role) { return Station(client, role); });
   }
   if (count_.Due(now)) Count(now);
 }
@@ -119,6 +112,12 @@ void ConsoleApp::Tick(Time now) {
 void ConsoleApp::Drive(Time now) {
   if (stop_.Step(robot_.estop, now)) estop_.Publish(ToMessage(PilotOutput::Estop::kStop, now));
   Send(pilot_.Step(seat_.Look(now), robot_, now), now);
+}
+
+/// The radio does not repeat what it loses of this: an answer of the robot ends it.
+void ConsoleApp::Place(Time now) {
+  for (const pose_correction_t& answer : corrections_.Drain()) placing_.Answered(answer.request_id);
+  if (const auto order = placing_.Step(now)) place_.Publish(*order);
 }
 
 void ConsoleApp::Send(const PilotOutput& output, Time now) {
@@ -138,12 +137,12 @@ void ConsoleApp::Send(const PilotOutput& output, Time now) {
 }
 
 void ConsoleApp::Joined(std::uint64_t client, Role role) {
-  pages_[client] = {role, 0, false};
+  audience_.Join(client, role);
   if (role == Role::kDriver) seat_.Join(client);
 }
 
 void ConsoleApp::Left(std::uint64_t client) {
-  pages_.erase(client);
+  audience_.Leave(client);
   seat_.Leave(client);
   wanted_.Leave(client);
 }
@@ -159,7 +158,7 @@ bool ConsoleApp::Said(std::uint64_t client, std::string_view text) {
 
 /// A viewer's hand is on nothing: his reports are refused, which ends his connection.
 bool ConsoleApp::Take(std::uint64_t client, const StickReport& report) {
-  if (pages_[client].role != Role::kDriver) return false;
+  if (audience_.RoleOf(client) != Role::kDriver) return false;
   if (!seat_.Take(client, report, beats_.AgeOf(report.beat, now_), now_)) ++late_;
   return true;
 }
@@ -172,32 +171,20 @@ bool ConsoleApp::Take(std::uint64_t, const StopOrder&) {
 }
 
 bool ConsoleApp::Take(std::uint64_t client, const MissionOrder& order) {
-  if (pages_[client].role != Role::kDriver) return false;
+  if (audience_.RoleOf(client) != Role::kDriver) return false;
   mission_.Publish(ToMessage(order, now_));
+  return true;
+}
+
+bool ConsoleApp::Take(std::uint64_t client, const PlaceOrder& order) {
+  if (audience_.RoleOf(client) != Role::kDriver) return false;
+  places_ = places_ % 65535 + 1;
+  placing_.Give(ToMessage(order, places_, {config_.place_sigma_m, config_.place_sigma_deg}, now_), now_);
   return true;
 }
 
 bool ConsoleApp::Take(std::uint64_t client, const ListenWish& wish) {
   return wanted_.Wish(client, wish.channel, wish.on);
-}
-
-void ConsoleApp::Tell(Time now) {
-  const std::int64_t beat = beats_.Next(now);
-  for (auto& [client, page] : pages_) {
-    if (!page.greeted) {
-      page.greeted = server_->Send(client, greeting_);
-      continue;
-    }
-    Json items = Json::array();
-    for (const News::Item* item : news_.Since(page.seen))
-      items.push_back({{"key", item->key},
-                       {"channel", item->channel},
-                       {"age_s", Seconds(now - item->valid)},
-                       {"message", item->message}});
-    const Json text = {
-        {"type", "news"}, {"beat", beat}, {"station", Station(client, page.role)}, {"items", items}};
-    if (server_->Send(client, Text(text))) page.seen = news_.newest();
-  }
 }
 
 Json ConsoleApp::Station(std::uint64_t client, Role role) const {
@@ -211,7 +198,7 @@ Json ConsoleApp::Station(std::uint64_t client, Role role) const {
           {"phase", PhaseName(pilot_.phase())},
           {"mode", pilot_.mode() == PilotMode::kBase ? "base" : "head"},
           {"fast", pilot_.fast()},
-          {"pages", pages_.size()},
+          {"pages", audience_.size()},
           {"refused", refused.requests + refused.messages + refused.crowded + refused.slow},
           {"late", late_}};
 }

@@ -2,11 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,14 +11,16 @@
 #include "bus/context.hpp"
 #include "bus/radio/link_config.hpp"
 #include "common/pilot/pilot.hpp"
+#include "common/pilot/repeated_order.hpp"
 #include "common/pilot/stop_keeper.hpp"
 #include "common/rate_limit.hpp"
+#include "console/audience.hpp"
 #include "console/console_config.hpp"
 #include "console/console_messages.hpp"
 #include "console/core/beats.hpp"
-#include "console/core/news.hpp"
 #include "console/core/seat.hpp"
 #include "console/core/wanted_channels.hpp"
+#include "console/news_feed.hpp"
 #include "console/web/web_server.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -44,25 +43,20 @@ class ConsoleApp : public WebListener {
   void Tick(Time now);
 
  private:
-  struct Page {
-    Role role = Role::kViewer;
-    std::uint64_t seen = 0;  ///< number of the news up to which it knows everything
-    bool greeted = false;
-  };
-
   void Joined(std::uint64_t client, Role role) override;
   bool Said(std::uint64_t client, std::string_view text) override;
   void Left(std::uint64_t client) override;
   bool Take(std::uint64_t client, const StickReport& report);
   bool Take(std::uint64_t client, const StopOrder& order);
   bool Take(std::uint64_t client, const MissionOrder& order);
+  bool Take(std::uint64_t client, const PlaceOrder& order);
   bool Take(std::uint64_t client, const ListenWish& wish);
+  bool Take(std::uint64_t, const ReplayOrder&) { return false; }  // there is no log
 
   void Show(std::string_view channel);
-  void Heard(const std::string& channel, std::span<const std::byte> bytes, Time arrival);
   void Drive(Time now);
+  void Place(Time now);
   void Send(const PilotOutput& output, Time now);
-  void Tell(Time now);
   nlohmann::ordered_json Station(std::uint64_t client, Role role) const;
   void Count(Time now);
 
@@ -70,8 +64,8 @@ class ConsoleApp : public WebListener {
   bus::Context& context_;
   bus::radio::LinkConfig link_;
   std::string greeting_;  ///< first text for every page
-  News news_;
-  std::map<std::string, std::uint64_t, std::less<>> heard_;  ///< messages so far, by channel
+  NewsFeed feed_;
+  Audience audience_;
   Beats beats_;
   Seat seat_;
   Pilot pilot_;
@@ -79,18 +73,21 @@ class ConsoleApp : public WebListener {
   WantedChannels wanted_;
   Sender base_, head_;
   RobotView robot_;
-  std::map<std::uint64_t, Page> pages_;
   RateLimit beat_, count_{1};
   Time now_{};
   std::uint64_t late_ = 0;  ///< wishes of pages that came too late
   std::uint64_t counted_ = 0;
+  int places_ = 0;  ///< number of the newest order that says where the robot stands
+  RepeatedOrder<pose_reset_t> placing_;
 
   bus::Latest<drive_status_t> status_;
+  bus::Inbox<pose_correction_t> corrections_;
   bus::Publisher<drive_command_t> drive_;
   bus::Publisher<head_drive_t> head_drive_;
   bus::Publisher<lease_request_t> lease_;
   bus::Publisher<estop_t> estop_;
   bus::Publisher<mission_command_t> mission_;
+  bus::Publisher<pose_reset_t> place_;
   bus::Publisher<link_request_t> request_;
   std::unique_ptr<WebServer> server_;  ///< none in lockstep
 };

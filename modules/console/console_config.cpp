@@ -22,6 +22,9 @@ void ConsoleConfig::Describe(Archive& a) {
   a.Number("beat_hz", beat_hz, {"Hz", 10, 50, "how often pages are sent what is new"});
   a.Number("freshness_s", freshness_s,
            {"s", 0.1, 0.5, "a page's wish that is proven no younger than this is not obeyed"});
+  a.Number("place_sigma_m", place_sigma_m,
+           {"m", 0.01, 2, "how well a person tells on the plan where the robot stands, one sigma"});
+  a.Number("place_sigma_deg", place_sigma_deg, {"deg", 0.3, 90, "how well he tells its heading, one sigma"});
   a.Section("body", body, "the robot as it is drawn");
   a.Section("pilot", pilot, "from the page's stick to wishes");
 }

@@ -26,6 +26,8 @@ struct ConsoleConfig {
   double rate_hz = 200;
   double beat_hz = 20;
   double freshness_s = 0.25;
+  double place_sigma_m = 0.15;
+  double place_sigma_deg = 5;
   DrawnBody body;
   PilotConfig pilot;
 

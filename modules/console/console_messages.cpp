@@ -53,10 +53,29 @@ estop_t ToMessage(PilotOutput::Estop action, Time now) {
 }
 
 mission_command_t ToMessage(const MissionOrder& order, Time now) {
+  using enum MissionOrder::Kind;
   mission_command_t message{};
   message.utime = ToUtime(now);
-  message.mission = order.abort ? mission_command_t::ABORT : mission_command_t::PASS_DOOR;
+  message.mission = order.kind == kAbort      ? mission_command_t::ABORT
+                    : order.kind == kPassDoor ? mission_command_t::PASS_DOOR
+                                              : mission_command_t::GOTO;
   message.landmark_id = static_cast<std::int16_t>(order.landmark_id);
+  message.x_m = order.goal.map_from_base.x;
+  message.y_m = order.goal.map_from_base.y;
+  message.yaw_rad = order.goal.map_from_base.yaw;
+  message.turn = order.kind == kGoto && order.goal.turn;
+  return message;
+}
+
+pose_reset_t ToMessage(const PlaceOrder& order, int request_id, const PlaceSigma& known, Time now) {
+  pose_reset_t message{};
+  message.utime = ToUtime(now);
+  message.request_id = request_id;
+  message.x_m = order.map_from_base.x;
+  message.y_m = order.map_from_base.y;
+  message.yaw_rad = order.map_from_base.yaw;
+  message.sigma_m = known.position_m;
+  message.sigma_yaw_rad = Radians(known.yaw_deg);
   return message;
 }
 

@@ -50,15 +50,16 @@ std::set<std::string> OnRequest(const bus::radio::LinkConfig& link) {
   return names;
 }
 
-std::string Greeting(const ConsoleConfig& config, const GroundPlan& plan,
-                     const bus::radio::LinkConfig& link) {
-  const Json hello = {{"type", "hello"},
-                      {"version", bus::Version()},
-                      {"plan", ToJson(plan)},
-                      {"body", {{"length_m", config.body.length_m}, {"width_m", config.body.width_m}}},
-                      {"link", {{"bytes_per_s", link.BytesPerSecond()}}},
-                      {"speed", {{"slow", Speed(config.pilot.slow)}, {"fast", Speed(config.pilot.fast)}}},
-                      {"channels", Channels(link)}};
+std::string Greeting(const ConsoleConfig& config, const GroundPlan& plan, const bus::radio::LinkConfig& link,
+                     std::optional<double> replay_s) {
+  Json hello = {{"type", "hello"},
+                {"version", bus::Version()},
+                {"plan", ToJson(plan)},
+                {"body", {{"length_m", config.body.length_m}, {"width_m", config.body.width_m}}},
+                {"link", {{"bytes_per_s", link.BytesPerSecond()}}},
+                {"speed", {{"slow", Speed(config.pilot.slow)}, {"fast", Speed(config.pilot.fast)}}},
+                {"channels", Channels(link)}};
+  if (replay_s) hello["replay"] = {{"length_s", *replay_s}};
   return hello.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -75,6 +75,30 @@ def mission(browser):
     report("mission is aborted", wait_for(lambda: "aborted" in browser.text("mission-text"), 5))
 
 
+def place(browser):
+    """Chooses a place on the plan by a drag, drives there, and at last says that the robot stands there."""
+    browser.click("pick")
+    x, y = browser.run("(() => { const r = document.getElementById('plan').getBoundingClientRect();"
+                       " return [r.x + 0.33 * r.width, r.y + 0.55 * r.height]; })()")
+    browser.mouse("mousePressed", x, y)
+    browser.mouse("mouseMoved", x + 30, y - 30)
+    browser.mouse("mouseReleased", x + 30, y - 30)
+    report("heading by a drag", browser.run("document.getElementById('target-yaw').value"))
+    report("chosen once", browser.run("document.getElementById('pick').getAttribute('aria-pressed')"))
+    browser.click("goto")
+    report("drives to a place", wait_for(lambda: "driving to" in browser.text("mission-text"), 5))
+    report("mission", browser.text("mission-text"))
+    time.sleep(1.5)
+    browser.click("place")
+    report("a pose is not set on the way", wait_for(lambda: "not set" in browser.text("placed"), 4))
+    browser.picture(FOLDER + "/place.png")
+    browser.click("abort")
+    wait_for(lambda: "aborted" in browser.text("mission-text"), 5)
+    time.sleep(1.5)
+    browser.click("place")
+    report("a robot at rest is told its pose", wait_for(lambda: "knows its new pose" in browser.text("placed"), 4))
+
+
 def other_screens():
     for name, width, height, scheme, language in (("dark", 1366, 768, "dark", "en-US"), ("phone", 390, 844, "light", "de-DE"),
                                                   ("tablet", 820, 1180, "dark", "de-DE")):
@@ -96,6 +120,7 @@ def main():
     stick(browser)
     stop_and_rearm(browser)
     mission(browser)
+    place(browser)
     browser.click("language")
     report("German", "Fahren" in browser.text("drive-title"))
     report("complaints", browser.complaints)

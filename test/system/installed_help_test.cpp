@@ -16,7 +16,7 @@ TEST_F(InstalledHelpTest, BashCompletes) {
     . "$PREFIX/share/bash-completion/completions/priamos"
     ask() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _priamos; echo "${COMPREPLY[*]}"; }
     complete -p priamos
-    ask priamos topic ec; ask priamos topic echo POSE_; ask priamos run --sc)",
+    ask priamos topic ec; ask priamos topic echo POSE_C; ask priamos run --sc)",
                                      20);
   EXPECT_EQ(answer.text, "complete -o default -F _priamos priamos\necho\nPOSE_CORRECTION\n--scenario\n");
 }
@@ -25,7 +25,7 @@ TEST_F(InstalledHelpTest, BashCompletes) {
 TEST_F(InstalledHelpTest, FishCompletes) {
   const auto answer = installed_.Run(R"(
     export XDG_DATA_DIRS="$PREFIX/share:/usr/share"
-    fish -c 'complete -C "priamos topic ec"; complete -C "priamos topic echo POSE_"; complete -C "priamos run --sc"'
+    fish -c 'complete -C "priamos topic ec"; complete -C "priamos topic echo POSE_C"; complete -C "priamos run --sc"'
     : > a.lcmlog; fish -c 'complete -C "priamos log info a.l"')",
                                      20);
   EXPECT_EQ(answer.text, "echo\nPOSE_CORRECTION\n--scenario\na.lcmlog\n");
@@ -39,7 +39,7 @@ TEST_F(InstalledHelpTest, ZshCompletes) {
     zpty shell zsh -f -i
     zpty -w shell "PS1='ready>'; fpath=('$PREFIX/share/zsh/site-functions' \$fpath); autoload -Uz compinit; compinit -u -D; echo be''gin"
     zpty -r -m shell text '*begin*ready>*' || exit 1
-    zpty -w -n shell $'priamos topic echo POSE_\t'
+    zpty -w -n shell $'priamos topic echo POSE_C\t'
     zpty -r -m shell text '*POSE_CORRECTION*' && echo "completed"
     zpty -d shell
 END

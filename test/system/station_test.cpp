@@ -47,12 +47,28 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
     up; python3 $SOURCE/test/support/station_views.py http://127.0.0.1:8080/ $VIEWS; down
   )sh",
                                 150);
-  for (const char* seen :
-       {"first paint within 1 s: True", "connected: station connected", "key drives: True",
-        "blur ends the drive: True", "held key goes on after it: False", "stick drives: True",
-        "released stick ends the drive: True", "space bar stops: True", "held button re-arms: True",
-        "mission starts: True", "edges are seen: True", "mission is aborted: True", "German: True",
-        "complaints: []", "dark fits: True", "phone fits: True", "tablet fits: True"})
+  for (const char* seen : {"first paint within 1 s: True",
+                           "connected: station connected",
+                           "key drives: True",
+                           "blur ends the drive: True",
+                           "held key goes on after it: False",
+                           "stick drives: True",
+                           "released stick ends the drive: True",
+                           "space bar stops: True",
+                           "held button re-arms: True",
+                           "mission starts: True",
+                           "edges are seen: True",
+                           "mission is aborted: True",
+                           "heading by a drag: 45",
+                           "chosen once: false",
+                           "drives to a place: True",
+                           "a pose is not set on the way: True",
+                           "a robot at rest is told its pose: True",
+                           "German: True",
+                           "complaints: []",
+                           "dark fits: True",
+                           "phone fits: True",
+                           "tablet fits: True"})
     EXPECT_THAT(answer.text, HasSubstr(seen));
   EXPECT_GT(std::filesystem::file_size(views + "/mission.png"), 20'000u);
 }
@@ -60,6 +76,7 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
 TEST_F(Station, EverythingOnThePageComesOverTheRadio) {
   const auto answer = RunScript(R"sh(
     up
+    kill -STOP $(head -1 $LOGS/up.lock)  # which would start a silent radio again
     kill -STOP $(pid_of offboard-radio)
     python3 - <<'PY'
 import time
@@ -71,7 +88,7 @@ time.sleep(2)
 came = sorted(c for c, m in page.messages.items() if before.get(c) != m)
 print("came without the radio:", came)
 PY
-    kill -CONT $(pid_of offboard-radio); down
+    kill -CONT $(pid_of offboard-radio) $(head -1 $LOGS/up.lock); down
   )sh",
                                 60);
   // Of the workstation itself: its processes, and what its planner does.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -79,13 +80,40 @@ StickReport ReadStick(const json& object) {
   return report;
 }
 
+double Number(const json& object, const char* key, double least, double most) {
+  const json& value = Field(object, key);
+  const double number = value.is_number() ? value.get<double>() : most + 1;
+  if (!(number >= least && number <= most))
+    throw Wrong(fmt::format("{}: expected a number from {} to {}", key, least, most));
+  return number;
+}
+
+Pose2 Place(const json& object) {
+  constexpr double kMap_m = 100, kTurn_rad = 3.15;
+  return {Number(object, "x_m", -kMap_m, kMap_m), Number(object, "y_m", -kMap_m, kMap_m),
+          WrapAngle(Number(object, "yaw_rad", -kTurn_rad, kTurn_rad))};
+}
+
 MissionOrder ReadMission(const json& object) {
-  RefuseOtherKeys(object, {"type", "order", "landmark"});
+  using enum MissionOrder::Kind;
   const std::string order = Word(object, "order", 20);
-  if (order == "abort") return {true, 0};
-  if (order != "pass_door") throw Wrong("order: expected abort or pass_door");
-  return {false,
-          static_cast<int>(Whole(Field(object, "landmark"), "landmark", kFirstLandmarkId, kLastLandmarkId))};
+  if (order == "abort") {
+    RefuseOtherKeys(object, {"type", "order"});
+    return {};
+  }
+  if (order == "pass_door") {
+    RefuseOtherKeys(object, {"type", "order", "landmark"});
+    const auto id = Whole(Field(object, "landmark"), "landmark", kFirstLandmarkId, kLastLandmarkId);
+    return {kPassDoor, static_cast<int>(id), {}};
+  }
+  if (order != "goto") throw Wrong("order: expected abort, pass_door or goto");
+  RefuseOtherKeys(object, {"type", "order", "x_m", "y_m", "yaw_rad", "turn"});
+  return {kGoto, 0, {Place(object), Flag(object, "turn")}};
+}
+
+PlaceOrder ReadPlace(const json& object) {
+  RefuseOtherKeys(object, {"type", "x_m", "y_m", "yaw_rad"});
+  return {Place(object)};
 }
 
 ListenWish ReadListen(const json& object) {
@@ -93,13 +121,32 @@ ListenWish ReadListen(const json& object) {
   return {Word(object, "channel", 63), Flag(object, "on")};
 }
 
+ReplayOrder ReadReplay(const json& object) {
+  using enum ReplayOrder::Kind;
+  constexpr double kLongest_s = 1e7;
+  const std::string action = Word(object, "action", 20);
+  const bool has_value = action == "seek" || action == "speed";
+  if (has_value) {
+    RefuseOtherKeys(object, {"type", "action", "value"});
+    if (action == "seek") return {kSeek, Number(object, "value", 0, kLongest_s)};
+    return {kSpeed, Number(object, "value", kSlowestReplay, kFastestReplay)};
+  }
+  RefuseOtherKeys(object, {"type", "action"});
+  if (action == "play") return {kPlay};
+  if (action == "pause") return {kPause};
+  if (action == "step") return {kStep};
+  throw Wrong("action: expected play, pause, step, seek or speed");
+}
+
 BrowserMessage ReadObject(const json& object) {
   if (!object.is_object()) throw Wrong("expected a JSON object");
   const std::string type = Word(object, "type", 20);
   if (type == "stick") return ReadStick(object);
   if (type == "mission") return ReadMission(object);
+  if (type == "place") return ReadPlace(object);
   if (type == "listen") return ReadListen(object);
-  if (type != "stop") throw Wrong("type: expected stick, stop, mission or listen");
+  if (type == "replay") return ReadReplay(object);
+  if (type != "stop") throw Wrong("type: expected stick, stop, mission, place, listen or replay");
   RefuseOtherKeys(object, {"type"});
   return StopOrder{};
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <variant>
 
+#include "common/geometry.hpp"
 #include "common/outcome.hpp"
 #include "common/pilot/stick.hpp"
 
@@ -25,10 +26,24 @@ struct StickReport {
 /// The emergency stop, from anybody and in any state.
 struct StopOrder {};
 
+/// A place on the plan, map frame.
+struct Target {
+  Pose2 map_from_base;
+  bool turn = true;  ///< the heading counts
+};
+
 /// An order to the planner.
 struct MissionOrder {
-  bool abort = false;
+  /// What the planner is to do.
+  enum class Kind { kAbort, kPassDoor, kGoto };
+  Kind kind = Kind::kAbort;
   int landmark_id = 0;  ///< door to pass
+  Target goal{};        ///< place to drive to
+};
+
+/// A person says where the robot stands.
+struct PlaceOrder {
+  Pose2 map_from_base;
 };
 
 /// The page shows, or no longer shows, a channel that the radio carries only on request.
@@ -37,8 +52,20 @@ struct ListenWish {
   bool on = false;
 };
 
+/// Speeds at which a log can be shown, times its own.
+inline constexpr double kSlowestReplay = 0.1, kFastestReplay = 32;
+
+/// How a log is to be shown on.
+struct ReplayOrder {
+  /// What becomes of the playback.
+  enum class Kind { kPlay, kPause, kStep, kSeek, kSpeed };
+  Kind kind = Kind::kPlay;
+  double value = 0;  ///< kSeek: [s] since the log's beginning; kSpeed: times its own speed
+};
+
 /// One message of a page.
-using BrowserMessage = std::variant<StickReport, StopOrder, MissionOrder, ListenWish>;
+using BrowserMessage =
+    std::variant<StickReport, StopOrder, MissionOrder, PlaceOrder, ListenWish, ReplayOrder>;
 
 /// Reads one message: JSON, UTF-8, at most kMaxBrowserMessage bytes, with the keys of README.md and no other.
 /// Numbers out of range, NaN among them, are refused, not clipped.

@@ -29,10 +29,28 @@ TEST(BrowserMessage, AStickReportIsRead) {
 TEST(BrowserMessage, OrdersAreRead) {
   ReadAs<StopOrder>(R"({"type":"stop"})");
   EXPECT_EQ(ReadAs<MissionOrder>(R"({"type":"mission","order":"pass_door","landmark":3})").landmark_id, 3);
-  EXPECT_TRUE(ReadAs<MissionOrder>(R"({"type":"mission","order":"abort"})").abort);
+  EXPECT_EQ(ReadAs<MissionOrder>(R"({"type":"mission","order":"abort"})").kind, MissionOrder::Kind::kAbort);
   const auto wish = ReadAs<ListenWish>(R"({"type":"listen","channel":"SONAR_RANGES","on":true})");
   EXPECT_EQ(wish.channel, "SONAR_RANGES");
   EXPECT_TRUE(wish.on);
+}
+
+TEST(BrowserMessage, PlacesAreRead) {
+  const auto order = ReadAs<MissionOrder>(
+      R"({"type":"mission","order":"goto","x_m":4.5,"y_m":-1,"yaw_rad":3.15,"turn":true})");
+  EXPECT_EQ(order.kind, MissionOrder::Kind::kGoto);
+  EXPECT_EQ(order.goal.map_from_base.x, 4.5);
+  EXPECT_EQ(order.goal.map_from_base.y, -1);
+  EXPECT_NEAR(order.goal.map_from_base.yaw, 3.15 - 2 * kPi, 1e-12) << "a slider's rounding";
+  EXPECT_TRUE(order.goal.turn);
+  EXPECT_FALSE(
+      ReadAs<MissionOrder>(R"({"type":"mission","order":"goto","x_m":4.5,"y_m":-1,"yaw_rad":0})").goal.turn);
+  EXPECT_EQ(ReadAs<PlaceOrder>(R"({"type":"place","x_m":1,"y_m":2,"yaw_rad":0.5})").map_from_base.yaw, 0.5);
+}
+
+TEST(BrowserMessage, WhatALogIsToDoIsRead) {
+  EXPECT_EQ(ReadAs<ReplayOrder>(R"({"type":"replay","action":"step"})").kind, ReplayOrder::Kind::kStep);
+  EXPECT_EQ(ReadAs<ReplayOrder>(R"({"type":"replay","action":"seek","value":12.5})").value, 12.5);
 }
 
 struct Wrong {
@@ -52,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[]", "expected a JSON object"}, Wrong{"null", "expected a JSON object"},
         Wrong{std::string(600, '['), "at most 512 bytes, got 600"},
         Wrong{std::string(500, '['), "expected JSON"},
-        Wrong{R"({"type":"fly"})", "expected stick, stop, mission or listen"},
+        Wrong{R"({"type":"fly"})", "expected stick, stop, mission, place, listen or replay"},
         Wrong{R"({"type":3})", "type: expected a text"}, Wrong{R"({})", "\"type\" is missing"},
         Wrong{R"({"type":"stop","now":true})", "\"now\" is not known"},
         Wrong{R"({"type":"stick","axis":[0,0,0,0,0,0]})", "\"beat\" is missing"},
@@ -64,11 +82,22 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{R"({"type":"stick","beat":1,"axis":[1e999,0,0,0,0,0]})", "expected"},
         Wrong{R"({"type":"stick","beat":1,"axis":[null,0,0,0,0,0]})", "axis[0]: expected -1 to 1"},
         Wrong{R"({"type":"stick","beat":1,"axis":[0,0,0,0,0,0],"hold":1})", "hold: expected true or false"},
-        Wrong{R"({"type":"mission","order":"fly"})", "order: expected abort or pass_door"},
+        Wrong{R"({"type":"mission","order":"fly"})", "order: expected abort, pass_door or goto"},
         Wrong{R"({"type":"mission","order":"pass_door"})", "\"landmark\" is missing"},
         Wrong{R"({"type":"mission","order":"pass_door","landmark":0})",
               "landmark: expected a whole number from 1"},
         Wrong{R"({"type":"mission","order":"pass_door","landmark":1000})", "from 1 to 999"},
+        Wrong{R"({"type":"mission","order":"goto","x_m":1,"y_m":2})", "\"yaw_rad\" is missing"},
+        Wrong{R"({"type":"mission","order":"goto","x_m":101,"y_m":2,"yaw_rad":0})",
+              "x_m: expected a number from"},
+        Wrong{R"({"type":"mission","order":"goto","x_m":"1","y_m":2,"yaw_rad":0})", "x_m: expected a number"},
+        Wrong{R"({"type":"mission","order":"abort","x_m":1})", "\"x_m\" is not known"},
+        Wrong{R"({"type":"place","x_m":1,"y_m":2,"yaw_rad":0,"turn":true})", "\"turn\" is not known"},
+        Wrong{R"({"type":"place","x_m":1,"y_m":null,"yaw_rad":0})", "y_m: expected a number"},
+        Wrong{R"({"type":"replay","action":"fly"})", "action: expected play, pause, step, seek or speed"},
+        Wrong{R"({"type":"replay","action":"seek","value":-1})", "value: expected a number from 0"},
+        Wrong{R"({"type":"replay","action":"speed","value":0})", "value: expected a number from 0.1 to 32"},
+        Wrong{R"({"type":"replay","action":"play","value":1})", "\"value\" is not known"},
         Wrong{R"({"type":"listen","channel":7,"on":true})", "channel: expected a text"}));
 
 RC_GTEST_PROP(BrowserMessageProperty, AnyBytesAreAMessageOrASentence, (const std::string& text)) {

@@ -10,5 +10,7 @@ namespace priamos::cli {
 void AddRunCommand(CLI::App& cli, int& exit_code);
 void AddLockstepCommand(CLI::App& cli, int& exit_code);
 void AddReplayCommand(CLI::App& cli, int& exit_code);
+/// The verb `show` of `replay`.
+void AddReplayShowVerb(CLI::App& replay, int& exit_code);
 
 }  // namespace priamos::cli

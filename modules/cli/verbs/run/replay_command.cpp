@@ -85,8 +85,11 @@ int Verify(const VerifyOptions& options) {
 
 void AddReplayCommand(CLI::App& cli, int& exit_code) {
   auto options = std::make_shared<VerifyOptions>();
-  auto* replay = AddVerb(cli, "replay", "Run a module from a log (see also --bus file://LOG).");
+  auto* replay =
+      AddVerb(cli, "replay",
+              "Show a log as the station would have; run a module from it (see also --bus file://LOG).");
   replay->require_subcommand(1);
+  AddReplayShowVerb(*replay, exit_code);
   auto* verb = AddVerb(
       *replay, "verify",
       "Feed a module what a log recorded and compare what it sends with what it sent then, byte for byte.");

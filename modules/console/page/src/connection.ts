@@ -1,6 +1,8 @@
 // The WebSocket to the station: opened again when it breaks. Nothing is ever queued: what cannot be sent now is not sent.
 
 import { Hello, News, StickReport } from "./protocol";
+import { ReplayAction } from "./replay";
+import { Place } from "./target";
 
 const RETRY_MS = 500;
 const SILENCE_MS = 1000;  // the station sends 20 times a second
@@ -37,6 +39,24 @@ export class Connection {
 
   passDoor(landmark: number): void {
     this.send({ type: "mission", order: "pass_door", landmark });
+  }
+
+  goTo(place: Place): void {
+    this.send({ type: "mission", order: "goto", x_m: place.x, y_m: place.y, yaw_rad: place.yaw ?? 0,
+      turn: place.yaw !== undefined });
+  }
+
+  /** The robot stands there. */
+  place(place: Place): void {
+    this.send({ type: "place", x_m: place.x, y_m: place.y, yaw_rad: place.yaw ?? 0 });
+  }
+
+  replay(action: ReplayAction): void {
+    this.send({ type: "replay", action });
+  }
+
+  setReplay(action: "seek" | "speed", value: number): void {
+    this.send({ type: "replay", action, value });
   }
 
   abort(): void {

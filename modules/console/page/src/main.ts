@@ -7,18 +7,27 @@ import { drawHeadView } from "./head_view";
 import { Panels } from "./panels";
 import { PlanView } from "./plan_view";
 import { Hello, News } from "./protocol";
+import { Replay } from "./replay";
 import { Store } from "./store";
+import { Place, Target } from "./target";
 import { currentLanguage, number, setLanguage, text } from "./text";
 
 const PANEL_PERIOD_MS = 200;
 
-const store = new Store();
+const replay = new Replay({
+  act: (action) => connection.replay(action),
+  set: (what, value) => connection.setReplay(what, value),
+});
+const store = new Store(() => replay.now());
 const panels = new Panels(store);
 const plan = new PlanView(byId<HTMLCanvasElement>("plan"), store);
+const target = new Target(plan.port);
+plan.target = () => target.place();
 const wanted = new Map<string, boolean>();
 
 const connection: Connection = new Connection({
   hello(hello: Hello): void {
+    replay.greet(hello);
     store.greet(hello);
     plan.greet(hello);
     panels.hello = hello;
@@ -26,8 +35,8 @@ const connection: Connection = new Connection({
     for (const [channel, on] of wanted) if (on) connection.listen(channel, true);
   },
   news(news: News): void {
-    const now_ms = performance.now();
-    for (const item of news.items) store.put(item, now_ms);
+    replay.hear(news.station.replay);
+    for (const item of news.items) store.put(item);
     panels.station = news.station;
     hand.mode = news.station.mode;
   },
@@ -38,7 +47,9 @@ const connection: Connection = new Connection({
   },
 });
 
-const hand = new Hand(byId<HTMLCanvasElement>("stick"), byId<HTMLInputElement>("turn"), (report) => connection.stick(report));
+const hand = new Hand(byId<HTMLCanvasElement>("stick"), byId<HTMLInputElement>("turn"), (report) => {
+  if (panels.mayOrder()) connection.stick(report);
+});
 
 function showDoors(hello: Hello): void {
   byId<HTMLSelectElement>("door").replaceChildren(...hello.plan.doors.map((door) => {
@@ -75,6 +86,8 @@ function label(): void {
   setText(byId("language"), currentLanguage() === "en" ? "Deutsch" : "English");
   byId("plan").setAttribute("aria-label", text("planHelp"));
   byId("plan").title = text("planHelp");
+  byId("position").setAttribute("aria-label", text("position"));
+  byId("pick").title = text("pickHelp");
   byId("stick").setAttribute("aria-label", text("stickHelp"));
   byId("edges").setAttribute("aria-label", text("viewHelp"));
 }
@@ -88,6 +101,8 @@ function bindButtons(): void {
   hand.bind(byId("take-over"), "take_over");
   byId("pass").addEventListener("click", () => connection.passDoor(Number(byId<HTMLSelectElement>("door").value)));
   byId("abort").addEventListener("click", () => connection.abort());
+  bindTarget("goto", (place) => connection.goTo(place));
+  bindTarget("place", (place) => connection.place(place));
   byId("zoom-in").addEventListener("click", () => plan.port.zoom(1.25));
   byId("zoom-out").addEventListener("click", () => plan.port.zoom(0.8));
   byId("fit").addEventListener("click", () => plan.fit());
@@ -96,6 +111,20 @@ function bindButtons(): void {
     label();
     panels.draw();
   });
+}
+
+function bindTarget(id: string, order: (place: Place) => void): void {
+  byId(id).addEventListener("click", () => {
+    const place = target.place();
+    if (place !== undefined) order(place);
+  });
+}
+
+/** To say where the robot stands, its heading has to be said, too. */
+function enableTarget(): void {
+  const place = target.place(), may = panels.mayOrder();
+  byId<HTMLButtonElement>("goto").disabled = !may || place === undefined;
+  byId<HTMLButtonElement>("place").disabled = !may || place?.yaw === undefined;
 }
 
 function bindSwitches(): void {
@@ -125,6 +154,8 @@ bindButtons();
 bindSwitches();
 window.setInterval(() => {
   panels.draw();
+  enableTarget();
+  replay.draw();
   drawHeadView(byId<HTMLCanvasElement>("edges"), store);
 }, PANEL_PERIOD_MS);
 drawFrame();

@@ -1,13 +1,14 @@
 // The texts and tables beside the plan.
 
 import { byId, fillTable, Row, setText } from "./dom";
-import { Alarm, DriveStatus, Health, Hello, LandmarkFix, LinkStatus, MissionStatus, Pose, StationState } from "./protocol";
+import { Alarm, DriveStatus, Health, Hello, LandmarkFix, LinkStatus, MissionStatus, Pose, PoseCorrection, StationState } from "./protocol";
 import { Store } from "./store";
 import { ageText, named, number, phaseText, text } from "./text";
 
 const HEALTH_OK = 1;
 const CONSOLE = 2;
 const MOST_ALARMS = 50;
+const POSE_SET = 4, POSE_MOVING = 5, SHOWN_S = 20;
 
 function degrees(rad: number): string {
   return `${number(rad * 180 / Math.PI, 1)}°`;
@@ -29,6 +30,11 @@ export class Panels {
     this.drawLook();
     this.drawAlarms();
     this.drawProcesses();
+  }
+
+  /** Whether this page may give orders now. */
+  mayOrder(): boolean {
+    return this.connected && this.station?.role === "driver";
   }
 
   private offboardLink(): LinkStatus | undefined {
@@ -69,7 +75,7 @@ export class Panels {
     byId("mode").setAttribute("aria-pressed", String(station.mode === "head"));
     byId("range").setAttribute("aria-pressed", String(station.fast));
     for (const id of ["mode", "range", "take-over", "pass", "abort", "rearm"])
-      byId<HTMLButtonElement>(id).disabled = station.role === "viewer" || !this.connected;
+      byId<HTMLButtonElement>(id).disabled = !this.mayOrder();
   }
 
   private drawMission(): void {
@@ -79,6 +85,15 @@ export class Panels {
     setText(element, status === undefined ? text("never") :
       `${named("phase", status.phase)}: ${status.text} (${ageText(age_s)})`);
     element.classList.toggle("stale", this.store.isStale("MISSION_STATUS"));
+    this.drawPlaced();
+  }
+
+  /** What the robot answered to the newest order that said where it stands. */
+  private drawPlaced(): void {
+    const answer = this.store.get<PoseCorrection>("POSE_CORRECTION");
+    const ours = answer !== undefined && (answer.verdict === POSE_SET || answer.verdict === POSE_MOVING);
+    setText(byId("placed"), !ours || this.store.age("POSE_CORRECTION") > SHOWN_S ? "" :
+      text(answer.verdict === POSE_SET ? "placed" : "notPlaced"));
   }
 
   private drawRobot(): void {

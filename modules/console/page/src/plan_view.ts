@@ -4,6 +4,7 @@ import { colour, prepare } from "./dom";
 import { deadReckoned, ellipse, place, Pose2, sonarPose } from "./geometry";
 import { DoorSeen, Hello, ObstacleLine, Path, Point, Pose, SonarRanges } from "./protocol";
 import { Store } from "./store";
+import { Place } from "./target";
 import { ViewPort } from "./view_port";
 
 const TRAIL_STEP_M = 0.03, LONGEST_TRAIL = 4000;
@@ -14,6 +15,7 @@ export class PlanView {
   readonly port: ViewPort;
   follows = false;
   showsSonars = false;
+  target: () => Place | undefined = () => undefined;
   private hello: Hello | undefined;
   private trail: Point[] = [];
   private context!: CanvasRenderingContext2D;
@@ -25,6 +27,7 @@ export class PlanView {
   greet(hello: Hello): void {
     const first = this.hello === undefined;
     this.hello = hello;
+    if (hello.replay !== undefined) this.trail = [];
     if (first) this.fit();
   }
 
@@ -46,6 +49,7 @@ export class PlanView {
       this.drawObstacles(robot);
       this.drawRobot(robot, this.hello.body);
     }
+    this.drawTarget(this.hello.body);
     this.drawMeasure();
   }
 
@@ -175,6 +179,21 @@ export class PlanView {
     this.context.beginPath();
     this.context.ellipse(u, v, a * this.port.scale, b * this.port.scale, -direction, 0, 2 * Math.PI);
     this.context.stroke();
+  }
+
+  /** Where a person wants the robot, or says that it stands: its outline, or a cross when any heading will do. */
+  private drawTarget(body: Hello["body"]): void {
+    const target = this.target();
+    if (target === undefined) return;
+    const style = colour("accent"), pose = { x: target.x, y: target.y, yaw: target.yaw ?? 0 };
+    const l = body.length_m / 2, w = body.width_m / 2;
+    this.stroke([place(pose, -0.12, 0), place(pose, 0.12, 0)], style, 2);
+    this.stroke([place(pose, 0, -0.12), place(pose, 0, 0.12)], style, 2);
+    if (target.yaw === undefined) return;
+    this.context.setLineDash([4, 4]);
+    this.stroke([place(pose, l, w), place(pose, -l, w), place(pose, -l, -w), place(pose, l, -w)], style, 2, true);
+    this.context.setLineDash([]);
+    this.stroke([place(pose, l * 0.5, w * 0.4), place(pose, l * 0.9, 0), place(pose, l * 0.5, -w * 0.4)], style, 2);
   }
 
   private drawMeasure(): void {

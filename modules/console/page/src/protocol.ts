@@ -22,6 +22,7 @@ export interface Hello {
   link: { bytes_per_s: number };
   speed: Record<"slow" | "fast", { speed_m_s: number; turn_rad_s: number }>;
   channels: Record<string, { stale_after_s: number; on_request: boolean }>;
+  replay?: { length_s: number };
 }
 
 export interface StationState {
@@ -34,7 +35,11 @@ export interface StationState {
   pages: number;
   refused: number;
   late: number;
+  replay?: ReplayState;
 }
+
+/** How far a log has been shown. */
+export interface ReplayState { position_s: number; speed: number; paused: boolean }
 
 export interface Item<T = Record<string, unknown>> {
   key: string;
@@ -74,6 +79,8 @@ export interface DriveStatus {
 }
 
 export interface MissionStatus { mission: number; phase: number; text: string }
+
+export interface PoseCorrection { request_id: number; verdict: number }
 
 export interface Path { path_id: number; points: { x_m: number; y_m: number; yaw_rad: number }[] }
 

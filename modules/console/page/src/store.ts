@@ -2,18 +2,23 @@
 
 import { Hello, Item } from "./protocol";
 
-interface Kept { item: Item; at_ms: number }
+interface Kept { item: Item; valid_s: number }  // of the clock
 
 export class Store {
   private readonly kept = new Map<string, Kept>();
   private stale: Hello["channels"] = {};
 
+  /** `clock`: the time in which messages age [s]. */
+  constructor(private readonly clock: () => number) {}
+
   greet(hello: Hello): void {
     this.stale = hello.channels;
+    // After a jump in a log nothing is known but what follows.
+    if (hello.replay !== undefined) this.kept.clear();
   }
 
-  put(item: Item, now_ms: number): void {
-    this.kept.set(item.key, { item, at_ms: now_ms });
+  put(item: Item): void {
+    this.kept.set(item.key, { item, valid_s: this.clock() - item.age_s });
   }
 
   get<T>(key: string): T | undefined {
@@ -30,7 +35,7 @@ export class Store {
   /** Age of what the message speaks of [s]; infinite before the first one. */
   age(key: string): number {
     const kept = this.kept.get(key);
-    return kept === undefined ? Infinity : kept.item.age_s + (performance.now() - kept.at_ms) / 1000;
+    return kept === undefined ? Infinity : this.clock() - kept.valid_s;
   }
 
   /** Whether a state is too old to be believed. An event does not age. */

@@ -9,6 +9,8 @@ export class ViewPort {
   centre: Point = [0, 0];
   measured: [Point, Point] | undefined;
   onUserMove: () => void = () => undefined;
+  /** While set, a drag chooses a place instead of moving the plan: where it began, where it is, whether it ended. */
+  pick: ((from: Point, to: Point, done: boolean) => void) | undefined;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     canvas.addEventListener("wheel", (event) => {
@@ -54,16 +56,18 @@ export class ViewPort {
 
   private drag(start: PointerEvent): void {
     const from = this.toMap(start.offsetX, start.offsetY);
-    const measures = start.shiftKey;
+    const pick = this.pick, measures = pick === undefined && start.shiftKey;
     this.measured = measures ? [from, from] : undefined;
     this.canvas.setPointerCapture(start.pointerId);
     const move = (event: PointerEvent): void => {
       const here = this.toMap(event.offsetX, event.offsetY);
+      if (pick !== undefined) return pick(from, here, false);
       if (measures) this.measured = [from, here];
       else this.centre = [this.centre[0] + from[0] - here[0], this.centre[1] + from[1] - here[1]];
       if (!measures) this.onUserMove();
     };
-    const end = (): void => {
+    const end = (event: PointerEvent): void => {
+      if (pick !== undefined) pick(from, this.toMap(event.offsetX, event.offsetY), true);
       this.canvas.removeEventListener("pointermove", move);
       this.canvas.removeEventListener("pointerup", end);
       this.canvas.removeEventListener("pointercancel", end);

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace priamos::head {
 namespace {
 
-constexpr double kBeside_px = 8;       ///< corners so near to each other are one, but for small outlines:
-constexpr double kBesideShare = 0.15;  ///< of the shortest side
+/// Corners so near to each other are one: both of its sides may lie 8 px beside the other's, ...
+constexpr double kBeside_px = 8 * std::numbers::sqrt2;
+/// ... in small outlines this share of the shortest side.
+constexpr double kBesideShare = 0.15;
 
 /// An outline with what decides which of several is kept.
 struct Candidate {
