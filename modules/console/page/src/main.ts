@@ -37,7 +37,9 @@ const connection: Connection = new Connection({
   news(news: News): void {
     replay.hear(news.station.replay);
     for (const item of news.items) store.put(item);
+    const could = panels.mayOrder();
     panels.station = news.station;
+    if (!could && panels.mayOrder()) hand.letGo();  // says that it rests: the station obeys no other
     hand.mode = news.station.mode;
   },
   connected(up: boolean): void {
@@ -101,6 +103,8 @@ function bindButtons(): void {
   hand.bind(byId("take-over"), "take_over");
   byId("pass").addEventListener("click", () => connection.passDoor(Number(byId<HTMLSelectElement>("door").value)));
   byId("abort").addEventListener("click", () => connection.abort());
+  plan.port.onPicked = enableTarget;
+  byId("orders").addEventListener("input", enableTarget);
   bindTarget("goto", (place) => connection.goTo(place));
   bindTarget("place", (place) => connection.place(place));
   byId("zoom-in").addEventListener("click", () => plan.port.zoom(1.25));

@@ -9,6 +9,7 @@ export class ViewPort {
   centre: Point = [0, 0];
   measured: [Point, Point] | undefined;
   onUserMove: () => void = () => undefined;
+  onPicked: () => void = () => undefined;
   /** While set, a drag chooses a place instead of moving the plan: where it began, where it is, whether it ended. */
   pick: ((from: Point, to: Point, done: boolean) => void) | undefined;
 
@@ -67,7 +68,10 @@ export class ViewPort {
       if (!measures) this.onUserMove();
     };
     const end = (event: PointerEvent): void => {
-      if (pick !== undefined) pick(from, this.toMap(event.offsetX, event.offsetY), true);
+      if (pick !== undefined) {
+        pick(from, this.toMap(event.offsetX, event.offsetY), true);
+        this.onPicked();
+      }
       this.canvas.removeEventListener("pointermove", move);
       this.canvas.removeEventListener("pointerup", end);
       this.canvas.removeEventListener("pointercancel", end);
