@@ -73,6 +73,22 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
   EXPECT_GT(std::filesystem::file_size(views + "/mission.png"), 20'000u);
 }
 
+TEST_F(Station, ShowsALogInABrowser) {
+  const std::string views = PRIAMOS_BINARY_DIR "/station-views";
+  std::filesystem::create_directories(views);
+  const auto answer = RunScript("VIEWS=" + views + R"sh(
+    $BIN/priamos replay show $SOURCE/logs/recorded/door-offboard.lcmlog --deployment $SOURCE/config/sim \
+      --paused --port 0 --json > $LOGS.address & SHOW=$!
+    for i in $(seq 100); do [ -s $LOGS.address ] && break; sleep 0.05; done
+    python3 $SOURCE/test/support/replay_views.py $(grep -o 'http[^"]*' $LOGS.address) $VIEWS
+    kill -INT $SHOW; wait $SHOW; echo "ended: $?"
+  )sh",
+                                60);
+  for (const char* seen : {"paused at the beginning: True", "plays: True", "seeks: True",
+                           "states after a seek: True", "complaints: []", "ended: 0"})
+    EXPECT_THAT(answer.text, HasSubstr(seen));
+}
+
 TEST_F(Station, EverythingOnThePageComesOverTheRadio) {
   const auto answer = RunScript(R"sh(
     up

@@ -42,7 +42,7 @@ std::string LogIn(const std::string& path) {
   return log.string();
 }
 
-bus::LogPlayer PlayerOf(const ShowOptions& options) {
+bus::LogPlayer PlayerOf(const ShowOptions& options, Time now) {
   bus::LogSelection selection;
   for (const std::string_view channel : console::kShownChannels) selection.only.emplace_back(channel);
   const std::string path = LogIn(options.log);
@@ -51,8 +51,8 @@ bus::LogPlayer PlayerOf(const ShowOptions& options) {
     throw std::runtime_error(fmt::format(
         "{}: expected messages of a robot, got none that the page shows; next: priamos log info {}", path,
         path));
-  player.SetSpeed(ParseSpeed(options.speed), {});
-  player.Pause(options.paused, {});
+  player.SetSpeed(ParseSpeed(options.speed), now);
+  player.Pause(options.paused, now);
   return player;
 }
 
@@ -69,10 +69,10 @@ int Show(const ShowOptions& options) {
   const auto plan = LoadConfig<GroundPlan>((folder / config.map).string());
   const auto link = LoadConfig<bus::radio::LinkConfig>((folder / config.link).string());
   const bus::Schema schema = bus::OwnTypes();
-  bus::LogPlayer player = PlayerOf(options);
+  const bus::MonotonicClock clock;
+  bus::LogPlayer player = PlayerOf(options, clock.Now());
   const std::string greeting = console::Greeting(config, plan, link, Seconds(player.length()));
   const bus::SignalWatch signals;
-  const bus::MonotonicClock clock;
   console::ReplayStation station(std::move(player), schema, greeting, ServerOptions(options));
   if (options.json)
     std::cout << JsonLine({{"address", station.address()},

@@ -70,6 +70,7 @@ export class Hand {
   }
 
   draw(): void {
+    if (this.canvas.clientWidth === 0) return;  // not shown
     const context = prepare(this.canvas);
     const size = this.canvas.clientWidth, middle = size / 2, reach = middle - 22;
     context.beginPath();
