@@ -54,11 +54,11 @@ std::function<void(Level, std::string_view)> MakeLog(const std::string& name) {
   };
 }
 
-/// Two buses on one machine differ in their port, or in the network namespace they live in.
+/// Two buses on one machine differ in their address, or in the network namespace they live in.
 std::string InstanceOf(const std::string& bus) {
   struct stat network {};
   stat("/proc/self/ns/net", &network);
-  return fmt::format("{}-{}", PortOf(bus), network.st_ino);
+  return fmt::format("{}-{}-{}", GroupOf(bus), PortOf(bus), network.st_ino);
 }
 
 Surroundings MakeSurroundings(const AppFactory& factory, const Options& options, std::int32_t claimant = 0) {
