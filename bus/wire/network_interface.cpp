@@ -35,6 +35,7 @@ NetworkInterface& Entry(std::vector<NetworkInterface>& all, const ifaddrs& from)
 
 std::string Listed(const std::vector<NetworkInterface>& all) {
   std::vector<std::string> texts;
+  texts.reserve(all.size());
   for (const NetworkInterface& one : all)
     texts.push_back(one.addresses.empty() ? one.name
                                           : fmt::format("{} ({})", one.name, fmt::join(one.addresses, ", ")));

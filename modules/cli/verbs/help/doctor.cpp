@@ -56,6 +56,7 @@ std::vector<bus::NetworkInterface> Outward(const Machine& machine) {
 
 std::string Listed(const std::vector<bus::NetworkInterface>& interfaces) {
   std::vector<std::string> texts;
+  texts.reserve(interfaces.size());
   for (const auto& one : interfaces)
     texts.push_back(fmt::format("{} ({})", one.name, fmt::join(one.addresses, ", ")));
   return fmt::format("{}", fmt::join(texts, ", "));
