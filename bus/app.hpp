@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bus/context.hpp"
+#include "bus/process_config.hpp"
 #include "common/config.hpp"
 #include "common/config_printer.hpp"
 #include "common/time.hpp"
@@ -62,7 +63,7 @@ template <App T>
 AppFactory FactoryOf() {
   struct Erased : AnyApp {
     Erased(const ConfigSource& source, Context& context)
-        : app(LoadConfig<typename T::Config>(source), context) {}
+        : app(LoadAppConfig<typename T::Config>(source), context) {}
     Duration TickPeriod() const override { return app.TickPeriod(); }
     void Tick(Time now) override { app.Tick(now); }
     void Yield(Time now) override {
@@ -83,7 +84,7 @@ AppFactory FactoryOf() {
     return std::make_unique<Erased>(source, context);
   };
   factory.print_config = [](std::ostream& out, const ConfigSource& source) {
-    PrintConfig(out, LoadConfig<typename T::Config>(source));
+    PrintConfig(out, LoadAppConfig<typename T::Config>(source));
   };
   return factory;
 }

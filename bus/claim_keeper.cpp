@@ -126,7 +126,8 @@ std::string ClaimKeeper::WhyRefused() const {
   const ClaimWord& winner = *claim_.winner();
   if (winner.who.robot != self.robot)
     return fmt::format(
-        "bus {}: expected no robot but {}, got {}: both names lead to the same port; take another name with "
+        "bus {}: expected no robot but {}, got {}: both names lead to the same address; take another name "
+        "with "
         "--robot",
         bus_.url(), self.robot, Describe(winner, clock_.Now()));
   return fmt::format(

@@ -4,19 +4,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <random>
+
+#include "bus/host/host_identity.hpp"
 
 namespace priamos::bus {
 namespace {
 
 // @max of claim_t
 constexpr std::size_t kRobotBytes = 32, kRoleBytes = 16, kHostBytes = 64;
-
-std::string HostName() {
-  std::array<char, kHostBytes + 1> name{};
-  return gethostname(name.data(), kHostBytes) == 0 ? name.data() : "?";
-}
 
 }  // namespace
 
@@ -42,7 +38,7 @@ ClaimWord FromMessage(const claim_t& message) {
 Claimant MakeClaimant(const std::string& robot, const std::string& role) {
   std::random_device source;
   std::uniform_int_distribution<std::int32_t> any(1, std::numeric_limits<std::int32_t>::max());
-  return {robot, role, any(source), HostName(), getpid()};
+  return {robot, role, any(source), ThisHost().name, getpid()};
 }
 
 std::string Whereabouts(const ClaimWord& word, Time now) {

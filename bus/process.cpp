@@ -12,15 +12,19 @@
 #include "bus/claim_keeper.hpp"
 #include "bus/claim_messages.hpp"
 #include "bus/command_line.hpp"
+#include "bus/host_clock.hpp"
 #include "bus/log/log_writer.hpp"
 #include "bus/other_bus.hpp"
 #include "bus/own_types.hpp"
+#include "bus/probe_answerer.hpp"
+#include "bus/process_config.hpp"
 #include "bus/process_options.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/replay.hpp"
 #include "bus/schema/schema.hpp"
 #include "bus/wire/multicast.hpp"
 #include "common/config.hpp"
+#include "common/config_printer.hpp"
 #include "common/serial_port.hpp"
 
 namespace priamos::bus {
@@ -50,11 +54,11 @@ std::function<void(Level, std::string_view)> MakeLog(const std::string& name) {
   };
 }
 
-/// Two buses on one machine differ in their port, or in the network namespace they live in.
+/// Two buses on one machine differ in their address, or in the network namespace they live in.
 std::string InstanceOf(const std::string& bus) {
   struct stat network {};
   stat("/proc/self/ns/net", &network);
-  return fmt::format("{}-{}", PortOf(bus), network.st_ino);
+  return fmt::format("{}-{}-{}", GroupOf(bus), PortOf(bus), network.st_ino);
 }
 
 Surroundings MakeSurroundings(const AppFactory& factory, const Options& options, std::int32_t claimant = 0) {
@@ -127,23 +131,49 @@ std::unique_ptr<ClaimKeeper> ClaimRole(const AppFactory& factory, LcmBus& bus, c
                                        MakeLog(factory.name));
 }
 
+/// The keys of the App, and the bus as it was chosen: what it would use.
+int PrintConfiguration(const AppFactory& factory, const Options& options) {
+  factory.print_config(std::cout, options.config);
+  BusChoice choice = options.choice;
+  DescribeBus(*MakeConfigPrinter(std::cout), choice);
+  return 0;
+}
+
+/// What a person should know of clock and bus before the process begins.
+void WarnOf(const AppFactory& factory, const std::string& url, const ClockAnchor& anchor) {
+  const auto log = MakeLog(factory.name);
+  if (!anchor.problem.empty())
+    log(Level::kWarning,
+        "clock: " + anchor.problem +
+            "; until that is mended, a wall clock that is set between the starts of two processes "
+            "separates their stamps");
+  if (url.starts_with("udpm://") && GroupOf(url) == kLcmDefaultGroup && PortOf(url) == kLcmDefaultPort)
+    log(Level::kWarning,
+        fmt::format("bus {}: every LCM program that was told no address uses this one: they hear this "
+                    "process, and can command it; next: --bus onboard or offboard, with a name "
+                    "by --robot",
+                    url));
+}
+
 int Run(const AppFactory& factory, const Options& options, bool& running) {
-  if (options.print_config) {
-    factory.print_config(std::cout, options.config);
-    return 0;
-  }
+  if (options.print_config) return PrintConfiguration(factory, options);
   if (options.interface) return PrintInterface(factory, options);
   if (options.bus.starts_with(kFileUrl)) return RunFromLog(factory, options);
   RequireConfiguration(factory, options.config);
   const SignalWatch signals;
   const Schema schema = OwnTypes();
-  const MonotonicClock clock;
+  const HostClock clock;
+  WarnOf(factory, options.bus, clock.anchor());
   LcmBus bus(options.bus);
+  const ProbeAnswerer answerer(bus, schema, clock, factory.name);
   const Claimant self = MakeClaimant(options.choice.robot, factory.name);
   const auto claim = ClaimRole(factory, bus, schema, clock, self);
   Surroundings around = MakeSurroundings(factory, options, self.instance);
   around.open_bus = [&](const std::string& robot) {
-    return std::make_unique<OtherBus>(ResolveBus("offboard", robot, options.choice.ttl), schema, clock);
+    BusChoice choice = options.choice;
+    choice.bus = "offboard";
+    choice.robot = robot;
+    return std::make_unique<OtherBus>(choice.Url(), schema, clock);
   };
   AppHost host(factory, options.config, bus, schema, clock, std::move(around));
   running = true;
@@ -157,7 +187,7 @@ int RunProcess(const AppFactory& factory, int argc, char** argv) {
   if (const auto code = ParseCommandLine(factory, argc, argv, options)) return *code;
   bool running = false;
   try {
-    options.bus = options.choice.Url();
+    ChooseBus(factory, options);
     return Run(factory, options, running);
   } catch (const std::exception& error) {
     std::cerr << "priamos-" << factory.name << ": " << error.what() << "\n";

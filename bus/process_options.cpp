@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/config.hpp"
+#include "bus/process_config.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -32,6 +32,24 @@ void AddProcessOptions(CLI::App& cli, const AppFactory& factory, ProcessOptions&
                "print every key with value, unit and meaning, and exit");
   cli.add_flag("--interface", options.interface, "print the channels read and written, and exit");
   for (const auto& alias : factory.aliases) AddAlias(cli, alias, options.config);
+  cli.parse_complete_callback([&cli, &options] {
+    for (const char* name : {"--bus", "--robot", "--ttl", "--network"})
+      if (!cli.get_option(name)->empty()) options.typed.emplace_back(name);
+  });
+}
+
+void ChooseBus(const AppFactory& factory, ProcessOptions& options) {
+  BusChoice choice;
+  choice.bus = factory.default_bus;
+  choice = LoadBusChoice(options.config, choice);
+  for (const std::string& name : options.typed) {
+    if (name == "--bus") choice.bus = options.choice.bus;
+    if (name == "--robot") choice.robot = options.choice.robot;
+    if (name == "--ttl") choice.ttl = options.choice.ttl;
+    if (name == "--network") choice.network = options.choice.network;
+  }
+  options.choice = choice;
+  options.bus = choice.Url();
 }
 
 }  // namespace priamos::bus

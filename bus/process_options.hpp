@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bus/app.hpp"
 #include "bus/bus_choice.hpp"
@@ -16,7 +17,8 @@ namespace priamos::bus {
 struct ProcessOptions {
   ConfigSource config;
   BusChoice choice;
-  std::string bus;  ///< URL
+  std::string bus;                 ///< URL
+  std::vector<std::string> typed;  ///< which of --bus, --robot, --ttl and --network were given
   std::uint64_t seed = 0;
   bool print_config = false;
   bool interface = false;
@@ -24,5 +26,9 @@ struct ProcessOptions {
 
 /// Adds the options of the process that `factory` starts to `cli`; parsing fills `options`.
 void AddProcessOptions(CLI::App& cli, const AppFactory& factory, ProcessOptions& options);
+
+/// Fills in what the command line and the environment left open: from `[bus]` of the configuration, else the
+/// defaults of `factory`. Throws ConfigError, and BusError for a bus that is none.
+void ChooseBus(const AppFactory& factory, ProcessOptions& options);
 
 }  // namespace priamos::bus

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "bus/claim_keeper.hpp"
-#include "bus/service_notifier.hpp"
+#include "bus/host/service_notifier.hpp"
 
 namespace priamos::bus {
 namespace {

@@ -33,6 +33,7 @@
 #include "priamos/pose_correction_t.hpp"
 #include "priamos/pose_reset_t.hpp"
 #include "priamos/pose_t.hpp"
+#include "priamos/probe_t.hpp"
 #include "priamos/sonar_ranges_t.hpp"
 #include "priamos/wheel_command_t.hpp"
 #include "priamos/wheel_state_t.hpp"
@@ -89,6 +90,7 @@ inline constexpr Channel<link_status_t> kLinkStatus{"LINK_STATUS", 1, millisecon
 inline constexpr Channel<link_request_t> kLinkRequest{"LINK_REQUEST", 0, milliseconds(0)};
 inline constexpr Channel<alarm_t> kAlarm{"ALARM", 0, milliseconds(0)};
 inline constexpr Channel<claim_t> kClaim{"CLAIM", 5, milliseconds(1000)};
+inline constexpr Channel<probe_t> kProbe{"PROBE", 0, milliseconds(0)};
 
 /// For reports and tests; a test checks that no module subscribes to it.
 inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseconds(200)};
@@ -99,6 +101,6 @@ inline constexpr std::tuple kAll{
     kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
     kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
-    kBumper,        kOpening,      kDoorSeen,     kPoseReset};
+    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe};
 
 }  // namespace priamos::channels

@@ -14,6 +14,9 @@ namespace {
 // Below the ports that Linux gives to clients (32768 and up), above those of services. Even: onboard.
 constexpr std::uint32_t kFirstPort = 20000;
 constexpr std::uint32_t kPortPairs = 6000;
+// The third byte of the group, 1 to 254: a switch that looks at groups keeps one robot's messages from
+// another's cable.
+constexpr std::uint32_t kGroups = 254;
 
 constexpr std::size_t kLongestName = 32;
 
@@ -37,8 +40,10 @@ std::string BusUrl(std::string_view robot, BusSide side, int ttl) {
   RequireName(robot);
   if (ttl < 0 || ttl > 255) throw BusError(fmt::format("ttl: expected 0 to 255, got {}", ttl));
   const bool onboard = side == BusSide::kOnboard;
-  const auto port = kFirstPort + 2 * (HashOf(robot) % kPortPairs) + (onboard ? 0 : 1);
-  return fmt::format("udpm://239.255.76.{}:{}?ttl={}", onboard ? 67 : 68, port, ttl);
+  const std::uint32_t hash = HashOf(robot);
+  const auto port = kFirstPort + 2 * (hash % kPortPairs) + (onboard ? 0 : 1);
+  return fmt::format("udpm://239.255.{}.{}:{}?ttl={}", 1 + hash / kPortPairs % kGroups, onboard ? 67 : 68,
+                     port, ttl);
 }
 
 std::string ResolveBus(std::string_view bus, std::string_view robot, int ttl) {

@@ -8,7 +8,6 @@ namespace priamos::bus {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 8;
-constexpr std::size_t kLongestChannel = 63;
 
 }  // namespace
 

@@ -10,6 +10,9 @@ namespace priamos::bus {
 /// The first four bytes of an unfragmented LCM datagram, "LC02" (big endian).
 inline constexpr std::uint32_t kShortMagic = 0x4c433032;
 
+/// Longest name of a channel [bytes].
+inline constexpr std::size_t kLongestChannel = 63;
+
 /// One unfragmented LCM datagram: magic `LC02`, number (big endian, counted by the sender over all its
 /// channels), channel (1 to 63 printable ASCII characters) with a zero behind it, message. False when it is
 /// none; `channel` and `bytes` point into it.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <lcm/lcm.h>
 
-#include "bus/wire/multicast.hpp"
 #include "bus/wire/udp_receiver.hpp"
+#include "bus/wire/udp_sender.hpp"
 
 namespace priamos::bus {
 
@@ -25,8 +25,11 @@ namespace {
 
 constexpr const char* kEverything = ".*";
 
+bool IsMulticast(const std::string& url) {
+  return url.starts_with("udpm://");
+}
+
 lcm_t* Open(const std::string& url) {
-  if (url.starts_with("udpm://")) RequireMulticastRoute(url);
   lcm_t* lcm = lcm_create(url.c_str());
   if (!lcm)
     throw BusError(
@@ -36,18 +39,27 @@ lcm_t* Open(const std::string& url) {
 
 }  // namespace
 
-LcmBus::LcmBus(const std::string& url, Messages messages) : url_(url), messages_(messages), lcm_(Open(url)) {}
+LcmBus::LcmBus(const std::string& url, Messages messages)
+    : url_(url),
+      messages_(messages),
+      lcm_(IsMulticast(url) ? nullptr : Open(url)),
+      sender_(IsMulticast(url) ? std::make_unique<UdpSender>(url) : nullptr) {}
 
 LcmBus::~LcmBus() = default;
 
 bool LcmBus::Publish(std::string_view channel, std::span<const std::byte> bytes) {
   if (!Fits(bytes.size())) return false;
+  if (sender_) return sender_->Send(channel, bytes);
   return lcm_publish(lcm_.get(), std::string(channel).c_str(), bytes.data(),
                      static_cast<unsigned>(bytes.size())) == 0;
 }
 
+bool LcmBus::Answer(std::string_view channel, std::span<const std::byte> bytes) {
+  return sender_ && answered_ != 0 && Fits(bytes.size()) && sender_->SendTo(answered_, channel, bytes);
+}
+
 void LcmBus::Subscribe(std::string_view channel, Handler handler) {
-  if (url_.starts_with("udpm://")) {
+  if (sender_) {
     if (!receiver_) receiver_ = std::make_unique<UdpReceiver>(url_, messages_ == Messages::kAnySize);
     auto& handlers = channel == kEverything ? of_everything_ : by_channel_[std::string(channel)];
     handlers.push_back(std::move(handler));
@@ -90,8 +102,10 @@ int LcmBus::fd() const {
 int LcmBus::Drain(int at_most) {
   if (receiver_)
     return receiver_->Receive(
-        at_most, [this](std::uint64_t, std::string_view channel, std::span<const std::byte> bytes) {
+        at_most, [this](std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes) {
+          answered_ = sender;
           Dispatch(channel, bytes);
+          answered_ = 0;
         });
   int handled = 0;
   if (subscriptions_.empty()) return handled;

@@ -18,12 +18,13 @@ struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): the name that LCM gave 
 namespace priamos::bus {
 
 class UdpReceiver;
+class UdpSender;
 
 /// One LCM bus (`udpm://`, `memq://`, `file://`): the only place that calls liblcm. Messages are bytes here.
 ///
-/// liblcm sends, and it receives from `memq://` and `file://`. UDP multicast is received by UdpReceiver,
-/// which liblcm's weaknesses cannot reach and which counts losses. A foreign bus whose messages come in
-/// fragments needs `Messages::kAnySize`.
+/// liblcm does `memq://` and `file://`. UDP multicast is sent by UdpSender, which can name a network
+/// interface, and received by UdpReceiver, which liblcm's weaknesses cannot reach and which counts losses. A
+/// foreign bus whose messages come in fragments needs `Messages::kAnySize`.
 ///
 /// Not thread safe but for Publish(); handlers run inside Drain(), on the caller's thread.
 class LcmBus {
@@ -48,6 +49,9 @@ class LcmBus {
 
   /// Sends a message; returns false when it is too long or the network refused it.
   bool Publish(std::string_view channel, std::span<const std::byte> bytes);
+  /// Sends a message to the sender of the one that is being handled, and to nobody else; for handlers.
+  /// Returns false where senders are not known: on other buses than UDP multicast.
+  bool Answer(std::string_view channel, std::span<const std::byte> bytes);
   /// Subscribes to one channel, whose name is taken literally. The handler must not throw.
   void Subscribe(std::string_view channel, Handler handler);
   /// Subscribes to every channel, for recorders.
@@ -83,11 +87,13 @@ class LcmBus {
   struct Closer {
     void operator()(_lcm_t* lcm) const;
   };
-  std::unique_ptr<_lcm_t, Closer> lcm_;
+  std::unique_ptr<_lcm_t, Closer> lcm_;    ///< null for UDP multicast
+  std::unique_ptr<UdpSender> sender_;      ///< for UDP multicast
   std::unique_ptr<UdpReceiver> receiver_;  ///< receives UDP multicast, from the first subscription on
   std::map<std::string, std::vector<Handler>, std::less<>> by_channel_;
   std::vector<Handler> of_everything_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
+  std::uint64_t answered_ = 0;  ///< sender of the message that is being handled; 0: none is
 };
 
 }  // namespace priamos::bus

@@ -6,9 +6,13 @@
 #include "bus/wire/datagram.hpp"
 
 namespace priamos::bus {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x4c433033;  // "LC03"
+
+}  // namespace
 
 std::optional<FragmentHeader> FragmentHeader::Read(std::span<const std::byte> datagram) {
-  constexpr std::uint32_t kMagic = 0x4c433033;  // "LC03"
   if (datagram.size() <= kBytes || ReadBigEndian<std::uint32_t>(datagram.data()) != kMagic)
     return std::nullopt;
   const std::byte* at = datagram.data();
@@ -19,6 +23,17 @@ std::optional<FragmentHeader> FragmentHeader::Read(std::span<const std::byte> da
                         header.offset <= header.message_bytes &&
                         header.message_bytes <= Reassembler::kMostBytes;
   return possible ? std::optional(header) : std::nullopt;
+}
+
+std::array<std::byte, FragmentHeader::kBytes> FragmentHeader::Write() const {
+  std::array<std::byte, kBytes> header;
+  WriteBigEndian(header.data(), kMagic);
+  WriteBigEndian(header.data() + 4, number);
+  WriteBigEndian(header.data() + 8, message_bytes);
+  WriteBigEndian(header.data() + 12, offset);
+  WriteBigEndian(header.data() + 16, fragment);
+  WriteBigEndian(header.data() + 18, fragments);
+  return header;
 }
 
 Reassembler::Partial& Reassembler::PartialOf(std::uint64_t sender) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -22,6 +23,8 @@ struct FragmentHeader {
   static constexpr std::size_t kBytes = 20;
   /// Header at the beginning of a datagram; nullopt when there is none, or its numbers are impossible.
   static std::optional<FragmentHeader> Read(std::span<const std::byte> datagram);
+  /// The header as a datagram begins with it.
+  std::array<std::byte, kBytes> Write() const;
 };
 
 /// Puts the fragments of large messages together, for foreign buses that have such.

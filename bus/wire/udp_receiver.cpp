@@ -16,6 +16,7 @@
 #include "bus/wire/bus_error.hpp"
 #include "bus/wire/datagram.hpp"
 #include "bus/wire/multicast.hpp"
+#include "bus/wire/network_interface.hpp"
 #include "bus/wire/socket_filter.hpp"
 
 namespace priamos::bus {
@@ -37,10 +38,12 @@ void Join(int fd, const std::string& url) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(PortOf(url));
-  ip_mreq group{};
+  ip_mreqn group{};
   if (inet_pton(AF_INET, GroupOf(url).c_str(), &group.imr_multiaddr) != 1)
     throw BusError(fmt::format("bus {}: expected a multicast address, got \"{}\"", url, GroupOf(url)));
   address.sin_addr = group.imr_multiaddr;
+  if (const std::string network = NetworkOf(url); !network.empty())
+    group.imr_ifindex = static_cast<int>(FindInterface(network).index);
   setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
   setsockopt(fd, IPPROTO_IP, IP_MULTICAST_ALL, &no, sizeof no);

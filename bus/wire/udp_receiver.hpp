@@ -26,8 +26,8 @@ class UdpReceiver {
   using Handler =
       std::function<void(std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes)>;
 
-  /// Joins the multicast group of an LCM URL. Throws BusError with a sentence when the group cannot be
-  /// joined. Without `fragments` a filter stops them.
+  /// Joins the multicast group of an LCM URL, on the interface that the URL names. Throws BusError with a
+  /// sentence when the group cannot be joined. Without `fragments` a filter stops them.
   explicit UdpReceiver(const std::string& url, bool fragments = false);
   ~UdpReceiver();
   UdpReceiver(const UdpReceiver&) = delete;

@@ -158,7 +158,8 @@ bus::radio::LinkConfig RadioApp::LoadLink() const {
                                     : LoadConfig<bus::radio::LinkConfig>(context_.ResolvePath(config_.link));
   // Who owns what is settled on each bus: an owner beyond the radio is none here.
   for (const auto& channel : link.channels)
-    if (channel.name == channels::kClaim.name || channel.name == channels::kWheelCommand.name)
+    if (channel.name == channels::kClaim.name || channel.name == channels::kProbe.name ||
+        channel.name == channels::kWheelCommand.name)
       throw ConfigError(fmt::format("{}: channel: expected one that may cross the radio, got {}",
                                     context_.ResolvePath(config_.link), channel.name));
   return link;

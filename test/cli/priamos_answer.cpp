@@ -13,7 +13,8 @@
 namespace priamos::cli {
 
 PriamosAnswer Priamos(const std::vector<std::string>& words) {
-  for (const char* variable : {"PRIAMOS_BUS", "PRIAMOS_ROBOT", "PRIAMOS_TTL"}) unsetenv(variable);
+  for (const char* variable : {"PRIAMOS_BUS", "PRIAMOS_ROBOT", "PRIAMOS_TTL", "PRIAMOS_NETWORK"})
+    unsetenv(variable);
   std::vector<std::string> line{"priamos"};
   line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> argv;

@@ -150,7 +150,7 @@ TEST(LcmTypes, RefuseOutsideTheRangeOfAnEnumeration) {
                   "landmark_view_t.verdict", "lease_request_t.action", "lease_request_t.driver",
                   "look_request_t.side", "mission_command_t.mission", "mission_status_t.mission",
                   "mission_status_t.phase", "obstacle_line_t.verdict", "obstacle_segment_t.kind",
-                  "pose_correction_t.verdict", "view_edge_t.kind"));
+                  "pose_correction_t.verdict", "probe_t.kind", "view_edge_t.kind"));
 }
 
 // ---- lcmtypes/channels.hpp

@@ -456,7 +456,8 @@ TEST(RadioAppStart, RefusesALinkThatCannotHold) {
 }
 
 TEST(RadioAppStart, RefusesWhatMustNeverCrossTheRadio) {
-  for (const char* channel : {"name='CLAIM'\ntype='claim_t'", "name='WHEEL_COMMAND'\ntype='wheel_command_t'"})
+  for (const char* channel : {"name='CLAIM'\ntype='claim_t'", "name='PROBE'\ntype='probe_t'",
+                              "name='WHEEL_COMMAND'\ntype='wheel_command_t'"})
     EXPECT_THAT(
         StartError("port = 'a'", std::string("simulation_key=true\n[[channel]]\n") + kWhither + channel),
         HasSubstr("expected one that may cross the radio"));

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "bus/bus_choice.hpp"
-#include "bus/clock.hpp"
+#include "bus/host_clock.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/wire/lcm_bus.hpp"
@@ -48,7 +48,7 @@ int Report(const EstopOptions& options, std::optional<Duration> after, const std
 /// Sends the order at once, and again until the robot's status shows its effect.
 int Run(const EstopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
-  const bus::MonotonicClock clock;
+  const bus::HostClock clock;
   bus::LcmBus bus(options.bus.Url());
   bus::Node node(bus, schema, clock);
   auto estop = node.Advertise(channels::kEstop);

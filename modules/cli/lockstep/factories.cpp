@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "bus/process_config.hpp"
 #include "console/console_app.hpp"
 #include "head/head_app.hpp"
 #include "planner/planner_app.hpp"
@@ -28,6 +29,12 @@ auto WithApp(const std::string& module, Visit visit) {
   throw std::invalid_argument("no module named " + module);
 }
 
+/// What the configuration of every process may have beside the keys of its App.
+struct BusSection {
+  bus::BusChoice choice;
+  void Describe(Archive& a) { bus::DescribeBus(a, choice); }
+};
+
 }  // namespace
 
 bus::AppFactory FactoryFor(const std::string& module) {
@@ -35,7 +42,12 @@ bus::AppFactory FactoryFor(const std::string& module) {
 }
 
 std::vector<ConfigKey> ConfigKeysOf(const std::string& module) {
-  return WithApp(module, []<class T>(std::type_identity<T>) { return KeysOf<typename T::Config>(); });
+  auto keys = WithApp(module, []<class T>(std::type_identity<T>) { return KeysOf<typename T::Config>(); });
+  auto of_bus = KeysOf<BusSection>();
+  for (ConfigKey& key : of_bus)
+    if (key.name == "bus.name") key.value = '"' + FactoryFor(module).default_bus + '"';
+  keys.insert(keys.end(), of_bus.begin(), of_bus.end());
+  return keys;
 }
 
 std::shared_ptr<void> HoldShared() {

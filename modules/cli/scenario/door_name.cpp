@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "bus/process_config.hpp"
 #include "common/config.hpp"
 #include "common/ground_plan.hpp"
 #include "common/nearest_word.hpp"
@@ -27,7 +28,7 @@ int DoorNamed(const GroundPlan& plan, const std::string& name, const std::string
 
 int DoorOfDeployment(const std::string& folder, const std::string& name) {
   const auto file = std::filesystem::path(folder) / "planner.toml";
-  const auto config = LoadConfig<planner::PlannerConfig>(file.string());
+  const auto config = bus::LoadAppConfig<planner::PlannerConfig>({file.string(), {}});
   const std::string map = (file.parent_path() / config.map).lexically_normal().string();
   return DoorNamed(LoadConfig<GroundPlan>(map), name, map);
 }

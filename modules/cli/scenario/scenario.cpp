@@ -52,6 +52,11 @@ std::string StoryMeanings() {
 
 }  // namespace
 
+bool IsHostName(std::string_view name) {
+  const auto allowed = [](char c) { return c == '-' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'); };
+  return !name.empty() && name.size() <= kLongestHostName && std::all_of(name.begin(), name.end(), allowed);
+}
+
 void Scenario::Describe(Archive& a) {
   a.Text("title", title, "what happens, in a few words");
   a.Choice("story", story, StoryNames(), StoryMeanings());

@@ -1,12 +1,21 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bus/radio/line/line.hpp"
 #include "common/archive.hpp"
 
 namespace priamos::cli {
+
+/// Longest name of a host in a deployment: the role of its supervisor has room for so much.
+inline constexpr std::size_t kLongestHostName = 13;
+
+/// Whether a deployment may call a host so: a-z, 0-9 and "-".
+bool IsHostName(std::string_view name);
 
 /// One process of a scenario or a deployment.
 struct ScenarioProcess {
@@ -16,6 +25,7 @@ struct ScenarioProcess {
   std::string set;     ///< KEY=VALUE on top of it, may be empty
   std::string after;   ///< processes that must be ready before, e.g. "onboard-world, line"
   double watchdog_s = 1.0;
+  std::string host;  ///< of a deployment over several hosts; empty: every one
 
   void Describe(Archive& a) {
     a.Choice("module", module,
@@ -26,6 +36,9 @@ struct ScenarioProcess {
     a.Text("set", set, "KEY=VALUE on top of that file");
     a.Text("after", after, "processes that must be ready before, BUS-MODULE, with commas between them");
     a.Number("watchdog_s", watchdog_s, {"s", 0.5, 60, "a process that is silent for so long hangs"});
+    a.Text("host", host, "the host on which `priamos up --host` starts it; empty: on every one");
+    if (!host.empty() && !IsHostName(host))
+      a.Refuse("host", fmt::format("a name of 1 to {} of a-z, 0-9 and \"-\"", kLongestHostName));
   }
 };
 

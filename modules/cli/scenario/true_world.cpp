@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "common/config.hpp"
+#include "bus/process_config.hpp"
 #include "world/world_config.hpp"
 #include "world/world_loading.hpp"
 
@@ -15,7 +15,7 @@ TrueWorld LoadTrueWorld(const std::string& folder, const Scenario& scenario, std
   if (process == scenario.processes.end()) return {};
   ConfigSource source{(std::filesystem::path(folder) / process->config).string(), {}};
   if (!process->set.empty()) source.overrides.push_back(process->set);
-  const auto config = LoadConfig<world::WorldConfig>(source);
+  const auto config = bus::LoadAppConfig<world::WorldConfig>(source);
   const world::Body body = world::BodyOf(config.robot);
   const auto resolve = [&](const std::string& name) {
     return (std::filesystem::path(source.Folder()) / name).lexically_normal().string();

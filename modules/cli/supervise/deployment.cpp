@@ -1,13 +1,16 @@
 #include "cli/supervise/deployment.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "cli/supervise/supervisor.hpp"
+#include "common/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -75,6 +78,7 @@ ProcessSpec SpacenavdSpec(const LaunchPlace& place) {
 
 ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& process, const LaunchPlace& place,
                        bool has_mouse) {
+  const bool onboard = process.bus == "onboard";
   ProcessSpec spec;
   spec.name = NameOf(process);
   spec.group = process.bus;
@@ -84,11 +88,15 @@ ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& proc
                     "--config",
                     (fs::path(place.config_folder) / process.config).string(),
                     "--bus",
-                    process.bus == "onboard" ? deployment.OnboardUrl() : deployment.OffboardUrl(),
+                    onboard ? deployment.OnboardUrl() : deployment.OffboardUrl(),
                     "--robot",
                     deployment.robot,
+                    "--ttl",
+                    std::to_string(onboard ? deployment.onboard_ttl : deployment.offboard_ttl),
                     "--seed",
                     std::to_string(place.seed)};
+  const std::string& network = onboard ? deployment.onboard_network : deployment.offboard_network;
+  if (!network.empty()) spec.arguments.insert(spec.arguments.end(), {"--network", network});
   const auto set = [&](const std::string& text) {
     spec.arguments.insert(spec.arguments.end(), {"--set", text});
   };
@@ -104,7 +112,43 @@ ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& proc
   return spec;
 }
 
+/// The emulated line is where a radio is.
+bool NeedsLine(const Deployment& deployment) {
+  const auto& all = deployment.processes;
+  return deployment.emulated_line &&
+         (deployment.host.empty() || std::any_of(all.begin(), all.end(), [&](const ScenarioProcess& process) {
+            return process.module == "radio" && StartsHere(deployment, process);
+          }));
+}
+
 }  // namespace
+
+std::vector<std::string> HostsOf(const Deployment& deployment) {
+  std::set<std::string> hosts;
+  for (const ScenarioProcess& process : deployment.processes)
+    if (!process.host.empty()) hosts.insert(process.host);
+  return {hosts.begin(), hosts.end()};
+}
+
+void RequireHost(const Deployment& deployment) {
+  if (deployment.host.empty()) return;
+  const auto hosts = HostsOf(deployment);
+  if (std::find(hosts.begin(), hosts.end(), deployment.host) != hosts.end()) return;
+  if (hosts.empty())
+    throw ConfigError(fmt::format(
+        "--host: expected none, because this deployment names no hosts, got \"{}\"; next: give its processes "
+        "host = \"{}\" in deployment.toml",
+        deployment.host, deployment.host));
+  throw ConfigError(fmt::format("--host: expected a host of the deployment ({}), got \"{}\"{}",
+                                fmt::join(hosts, ", "), deployment.host,
+                                NearestText(deployment.host, hosts)));
+}
+
+bool StartsHere(const Deployment& deployment, const ScenarioProcess& process) {
+  const bool of_group = deployment.group == "all" || process.bus == deployment.group;
+  const bool of_host = deployment.host.empty() || process.host.empty() || process.host == deployment.host;
+  return of_group && of_host;
+}
 
 std::string MouseTty(const LaunchPlace& place) {
   return Tty(place, "mouse");
@@ -119,14 +163,14 @@ std::vector<ProcessSpec> PlanOf(const Deployment& deployment, const LaunchPlace&
   const bool has_mouse =
       std::any_of(all.begin(), all.end(), [](const ScenarioProcess& p) { return p.module == "spacenavd"; });
   std::vector<ProcessSpec> plan;
-  if (deployment.emulated_line) plan.push_back(LineSpec(deployment, place));
+  if (NeedsLine(deployment)) plan.push_back(LineSpec(deployment, place));
   for (const ScenarioProcess& process : all) {
-    if (deployment.group != "all" && process.bus != deployment.group) continue;
+    if (!StartsHere(deployment, process)) continue;
     plan.push_back(process.module == "spacenavd" ? SpacenavdSpec(place)
                                                  : ModuleSpec(deployment, process, place, has_mouse));
   }
   for (ProcessSpec& spec : plan) {
-    // A process of the other group is another machine's business.
+    // A process of the other group or host is another machine's business.
     std::erase_if(spec.after, [&](const std::string& name) {
       const bool here =
           std::any_of(plan.begin(), plan.end(), [&](const ProcessSpec& s) { return s.name == name; });

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bus/wire/bus_address.hpp"
+#include "bus/wire/multicast.hpp"
 #include "cli/scenario/scenario.hpp"
 #include "cli/supervise/supervisor.hpp"
 
@@ -12,28 +13,47 @@ namespace priamos::cli {
 /// Contents of `config/<deployment>/deployment.toml`: the processes of a robot, for `priamos up`.
 struct Deployment {
   std::string title;
-  std::string robot{bus::kDefaultRobot};  ///< its ports follow from its name
+  std::string robot{bus::kDefaultRobot};  ///< groups and ports of its buses follow from its name
   int onboard_ttl = 0, offboard_ttl = 0;
+  std::string onboard_network, offboard_network;  ///< interface or its address; empty: as the route leads
   std::string group = "all";   ///< which ones `priamos up` starts: onboard, offboard or all
+  std::string host;            ///< which ones of those: the host's name, not of the file; empty: every host's
   bool emulated_line = false;  ///< join the radios by an emulated serial line
   bus::radio::LineConfig line;
   std::vector<ScenarioProcess> processes;
 
-  std::string OnboardUrl() const { return bus::BusUrl(robot, bus::BusSide::kOnboard, onboard_ttl); }
-  std::string OffboardUrl() const { return bus::BusUrl(robot, bus::BusSide::kOffboard, offboard_ttl); }
+  std::string OnboardUrl() const {
+    return bus::WithNetwork(bus::BusUrl(robot, bus::BusSide::kOnboard, onboard_ttl), onboard_network);
+  }
+  std::string OffboardUrl() const {
+    return bus::WithNetwork(bus::BusUrl(robot, bus::BusSide::kOffboard, offboard_ttl), offboard_network);
+  }
 
   void Describe(Archive& a) {
     a.Text("title", title, "what runs, in a few words");
-    a.Text("robot", robot, "name of the robot: a-z, 0-9 and \"-\"; the ports of its buses follow from it");
+    a.Text("robot", robot,
+           "name of the robot: a-z, 0-9 and \"-\"; groups and ports of its buses follow from it");
     a.Integer("onboard_ttl", onboard_ttl,
               {"", 0, 255, "routers a message on the robot's bus may pass; 0: this host"});
     a.Integer("offboard_ttl", offboard_ttl, {"", 0, 255, "TTL of datagrams on the workstation's bus"});
+    a.Text("onboard_network", onboard_network,
+           "interface (eth1) or its address for the robot's bus; empty: as the route for multicast leads");
+    a.Text("offboard_network", offboard_network, "the same for the workstation's bus");
     a.Choice("group", group, {"all", "onboard", "offboard"}, "what runs on this machine");
     a.Flag("emulated_line", emulated_line, "join the two radios by an emulated serial line");
     a.Section("line", line, "that line");
     a.List("process", processes, "the processes");
   }
 };
+
+/// The hosts that a deployment names, sorted; empty when it is for one host.
+std::vector<std::string> HostsOf(const Deployment& deployment);
+
+/// Checks that the chosen host is one of the deployment's. Throws ConfigError that names those there are.
+void RequireHost(const Deployment& deployment);
+
+/// Whether `process` belongs to the chosen group and host.
+bool StartsHere(const Deployment& deployment, const ScenarioProcess& process);
 
 /// Folders and seed of a plan of processes.
 struct LaunchPlace {

@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "bus/clock.hpp"
+#include "bus/host/service_notifier.hpp"
+#include "bus/host_clock.hpp"
 #include "bus/real_time_loop.hpp"
-#include "bus/service_notifier.hpp"
 #include "common/config.hpp"
 
 namespace priamos::cli {
@@ -203,7 +203,7 @@ std::vector<std::string> TtysOf(const LinkEmulateOptions& options) {
 
 int RunLinkEmulate(const LinkEmulateOptions& options) {
   const bus::SignalWatch signals;
-  const bus::MonotonicClock clock;
+  const bus::HostClock clock;
   const std::vector<std::string> ttys = TtysOf(options);
   // All at once: the new tty of one end may have the number that a link left behind at another one names.
   for (const std::string& tty : ttys) RemoveDeadLink(tty);

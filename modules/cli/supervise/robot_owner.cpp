@@ -14,11 +14,11 @@ namespace {
 /// Long enough to hear everybody who holds a role, also when one word is lost.
 constexpr Duration kAskFor{300'000};
 constexpr std::size_t kMostAlarms = 20;
+constexpr const char* kHostRole = "up-";
 
 bool Starts(const Deployment& deployment, const std::string& side, const std::string& role) {
-  if (deployment.group != "all" && deployment.group != side) return false;
   return std::any_of(deployment.processes.begin(), deployment.processes.end(), [&](const auto& process) {
-    return process.bus == side && (role.empty() || process.module == role);
+    return process.bus == side && StartsHere(deployment, process) && (role.empty() || process.module == role);
   });
 }
 
@@ -36,17 +36,26 @@ void RefuseOthers(const std::vector<bus::ClaimWord>& others, const Deployment& d
 }  // namespace
 
 struct RobotOwner::Side {
-  Side(const std::string& url, const bus::Schema& schema, const bus::Clock& clock, const std::string& robot)
+  Side(const std::string& url, const bus::Schema& schema, const bus::Clock& clock,
+       const Deployment& deployment)
       : bus(url),
         node(bus, schema, clock),
         alarms(node.SubscribeAll(channels::kAlarm)),
-        claim(bus, schema, clock, bus::MakeClaimant(robot, kSupervisorRole), {{}, kAskFor},
-              [](bus::Level, std::string_view) {}) {}
+        claim(bus, schema, clock, bus::MakeClaimant(deployment.robot, SupervisorRole(deployment.host)),
+              {{}, kAskFor}, [](bus::Level, std::string_view) {}) {}
   bus::LcmBus bus;
   bus::Node node;
   bus::Inbox<alarm_t> alarms;
   bus::ClaimKeeper claim;
 };
+
+std::string SupervisorRole(const std::string& host) {
+  return host.empty() ? kSupervisorRole : kHostRole + host;
+}
+
+bool IsSupervisorRole(std::string_view role) {
+  return role == kSupervisorRole || role.starts_with(kHostRole);
+}
 
 std::string AlarmText(const alarm_t& alarm) {
   constexpr std::array<std::string_view, 3> kSeverity{"caution", "warning", "critical"};
@@ -66,7 +75,7 @@ RobotOwner::~RobotOwner() = default;
 void RobotOwner::Add(const std::string& side, const Deployment& deployment, const bus::Schema& schema,
                      const bus::Clock& clock) {
   const std::string url = side == "onboard" ? deployment.OnboardUrl() : deployment.OffboardUrl();
-  sides_.push_back(std::make_unique<Side>(url, schema, clock, deployment.robot));
+  sides_.push_back(std::make_unique<Side>(url, schema, clock, deployment));
   RefuseOthers(sides_.back()->claim.others(), deployment, side, clock.Now());
 }
 

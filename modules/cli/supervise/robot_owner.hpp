@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bus/claim_keeper.hpp"
@@ -14,6 +15,9 @@ namespace priamos::cli {
 
 /// The role of the supervisor of a robot's processes, on one of its buses.
 inline constexpr const char* kSupervisorRole = "supervisor";
+/// The same for one host of several, "up-vision": each host has a supervisor. `host` empty: kSupervisorRole.
+std::string SupervisorRole(const std::string& host);
+bool IsSupervisorRole(std::string_view role);
 
 /// Holds a robot for as long as its processes are supervised: nobody else starts them beside it. Hears the
 /// alarms of its buses meanwhile.

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <thread>
 
-#include "bus/clock.hpp"
+#include "bus/host_clock.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -126,7 +126,7 @@ void Supervisor::CheckOrder() const {
 }
 
 Supervisor::~Supervisor() {
-  const bus::MonotonicClock clock;
+  const bus::HostClock clock;
   StopAll();
   while (!AllStopped()) {
     try {

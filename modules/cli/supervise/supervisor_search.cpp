@@ -5,7 +5,7 @@
 
 #include "bus/bus_choice.hpp"
 #include "bus/claim_messages.hpp"
-#include "bus/clock.hpp"
+#include "bus/host_clock.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/wire/bus_error.hpp"
@@ -30,7 +30,7 @@ struct Ear {
     poll(&fd, 1, 10);
     bus.Drain();
     for (const claim_t& message : claims.Drain())
-      if (message.role == kSupervisorRole && message.robot == robot && message.state == claim_t::HOLDS)
+      if (IsSupervisorRole(message.role) && message.robot == robot && message.state == claim_t::HOLDS)
         return bus::FromMessage(message);
     return std::nullopt;
   }
@@ -40,10 +40,12 @@ struct Ear {
   bus::Inbox<claim_t> claims;
 };
 
-std::optional<bus::ClaimWord> Hear(const std::string& robot, const bus::Clock& clock) {
+std::optional<bus::ClaimWord> Hear(const std::string& robot, const std::string& network,
+                                   const bus::Clock& clock) {
   const bus::Schema schema = bus::OwnTypes();
   bus::BusChoice choice;
   choice.robot = robot;
+  choice.network = network;
   choice.bus = "onboard";
   Ear onboard(choice, schema, clock);
   choice.bus = "offboard";
@@ -56,10 +58,10 @@ std::optional<bus::ClaimWord> Hear(const std::string& robot, const bus::Clock& c
 
 }  // namespace
 
-std::optional<FoundSupervisor> FindSupervisor(const std::string& robot) {
-  const bus::MonotonicClock clock;
+std::optional<FoundSupervisor> FindSupervisor(const std::string& robot, const std::string& network) {
+  const bus::HostClock clock;
   try {
-    const auto word = Hear(robot, clock);
+    const auto word = Hear(robot, network, clock);
     if (!word) return std::nullopt;
     FoundSupervisor found{bus::Whereabouts(*word, clock.Now()), std::nullopt};
     if (word->who.host == bus::MakeClaimant(robot, kSupervisorRole).host)

@@ -12,9 +12,9 @@ struct FoundSupervisor {
   std::optional<std::string> log_root;
 };
 
-/// Listens for half a second for the supervisor of `robot` on both buses. Nothing if none is heard, or if the
-/// computer has no route for multicast.
-std::optional<FoundSupervisor> FindSupervisor(const std::string& robot);
+/// Listens for half a second for the supervisor of `robot` on both buses, by the interface `network` (empty:
+/// as the route leads). Nothing if none is heard, or if the computer has no way for multicast.
+std::optional<FoundSupervisor> FindSupervisor(const std::string& robot, const std::string& network);
 
 /// Text for a person: where the supervisor runs, and what to type.
 std::string Describe(const FoundSupervisor& found, const std::string& robot);

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "bus/clock.hpp"
+#include "bus/host_clock.hpp"
 #include "bus/node.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "cli/options/bus_options.hpp"
@@ -29,7 +29,7 @@ class BusSession {
 
  private:
   const bus::Schema schema_;
-  const bus::MonotonicClock clock_;
+  const bus::HostClock clock_;
   bus::LcmBus bus_;
   bus::Node node_;
   SilenceWatch silence_;

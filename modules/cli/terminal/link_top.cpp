@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "bus/clock.hpp"
+#include "bus/host_clock.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/wire/lcm_bus.hpp"
@@ -144,7 +144,7 @@ void PrintJson(const LinkTopView& view, Time now) {
 
 int RunLinkTop(const LinkTopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
-  const bus::MonotonicClock clock;
+  const bus::HostClock clock;
   bus::LcmBus bus(options.bus.bus.Url());
   bus::Node node(bus, schema, clock);
   // A radio reports once a second.
@@ -175,7 +175,7 @@ int RunLinkTop(const LinkTopOptions& options) {
 
 int RunLinkListen(const LinkTopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
-  const bus::MonotonicClock clock;
+  const bus::HostClock clock;
   bus::LcmBus bus(options.bus.bus.Url());
   bus::Node node(bus, schema, clock);
   SilenceWatch silence("priamos link listen", options.bus, options.channel, clock.Now(),

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <tuple>
 
+#include "bus/host_clock.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/terminal/bus_watch.hpp"
 #include "cli/terminal/echo_text.hpp"
@@ -41,7 +42,7 @@ class Echo {
   }
 
   int Run() {
-    const bus::MonotonicClock clock;
+    const bus::HostClock clock;
     bus::LcmBus bus(options_.bus.Url(), options_.messages());
     SilenceWatch silence("priamos topic echo", options_, options_.channel, clock.Now());
     bus.Subscribe(options_.channel, [&](std::string_view, std::span<const std::byte> bytes) {

@@ -10,9 +10,27 @@
 namespace priamos::bus {
 namespace {
 
-TEST(BusAddress, APortFollowsFromTheNameAndIsTheSameOnEveryMachine) {
-  EXPECT_EQ(BusUrl("priamos", BusSide::kOnboard, 0), "udpm://239.255.76.67:21932?ttl=0");
-  EXPECT_EQ(BusUrl("priamos", BusSide::kOffboard, 1), "udpm://239.255.76.68:21933?ttl=1");
+TEST(BusAddress, GroupAndPortFollowFromTheNameAndAreTheSameOnEveryMachine) {
+  EXPECT_EQ(BusUrl("priamos", BusSide::kOnboard, 0), "udpm://239.255.234.67:21932?ttl=0");
+  EXPECT_EQ(BusUrl("priamos", BusSide::kOffboard, 1), "udpm://239.255.234.68:21933?ttl=1");
+}
+
+TEST(BusAddress, LcmsDefaultIsNobodys) {
+  std::set<std::string> groups;
+  for (int i = 0; i < 20000; ++i) {
+    const std::string url =
+        BusUrl("r" + std::to_string(i), i % 2 ? BusSide::kOnboard : BusSide::kOffboard, 1);
+    ASSERT_NE(PortOf(url), kLcmDefaultPort) << url;
+    groups.insert(GroupOf(url));
+  }
+  EXPECT_EQ(groups.size(), 2U * 254U);
+}
+
+/// A name leads to one of 1.5 million addresses: a fleet of 100 has two of one address once in 300 fleets.
+TEST(BusAddress, NamesRarelyLeadToOneAddress) {
+  std::set<std::string> urls;
+  for (int i = 0; i < 1000; ++i) urls.insert(BusUrl("robot-" + std::to_string(i), BusSide::kOnboard, 0));
+  EXPECT_GE(urls.size(), 998U);
 }
 
 TEST(BusAddress, RobotsAndSidesDifferInTheirPort) {

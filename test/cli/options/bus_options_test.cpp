@@ -17,7 +17,8 @@ using testing::HasSubstr;
 class BusOptionsTest : public testing::Test {
  protected:
   BusOptionsTest() {
-    for (const char* variable : {"PRIAMOS_BUS", "PRIAMOS_ROBOT", "PRIAMOS_TTL"}) unsetenv(variable);
+    for (const char* variable : {"PRIAMOS_BUS", "PRIAMOS_ROBOT", "PRIAMOS_TTL", "PRIAMOS_NETWORK"})
+      unsetenv(variable);
     AddBusOption(verb_, options_);
     AddTypesOption(verb_, options_.types);
   }

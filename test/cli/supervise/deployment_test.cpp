@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "common/config.hpp"
+#include "test/support/thrown_reason.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -67,6 +68,91 @@ TEST(Deployment, AGroupStartsOnlyItsProcessesAndWaitsForNoOthers) {
   const auto plan = PlanOf(deployment, kPlace);
   for (const ProcessSpec& spec : plan) EXPECT_EQ(spec.group, "offboard");
   EXPECT_THAT(plan.back().after, IsEmpty());
+}
+
+/// The robot's two computers: one drives, the other sees.
+Deployment OverTwoHosts() {
+  Deployment deployment = Shipped("robot");
+  for (ScenarioProcess& process : deployment.processes)
+    if (process.bus == "onboard") process.host = process.module == "head" ? "vision" : "base";
+  deployment.processes[1].after = "onboard-robot";
+  return deployment;
+}
+
+std::vector<std::string> NamesOf(const std::vector<ProcessSpec>& plan) {
+  std::vector<std::string> names;
+  for (const ProcessSpec& spec : plan) names.push_back(spec.name);
+  return names;
+}
+
+TEST(Deployment, AHostStartsOnlyItsProcessesAndWaitsForNoOthers) {
+  Deployment deployment = OverTwoHosts();
+  deployment.host = "vision";
+  const auto plan = PlanOf(deployment, kPlace);
+  EXPECT_THAT(NamesOf(plan), testing::ElementsAre("onboard-head"));
+  EXPECT_THAT(plan[0].after, IsEmpty());
+  deployment.host = "base";
+  EXPECT_THAT(NamesOf(PlanOf(deployment, kPlace)), testing::ElementsAre("onboard-robot", "onboard-radio"));
+  deployment.host = "";
+  EXPECT_EQ(PlanOf(deployment, kPlace).size(), 3U) << "without a host those of every host";
+}
+
+TEST(Deployment, AProcessWithoutAHostRunsOnEveryOne) {
+  Deployment deployment = OverTwoHosts();
+  deployment.processes[0].host = "";
+  deployment.host = "vision";
+  EXPECT_THAT(NamesOf(PlanOf(deployment, kPlace)), testing::ElementsAre("onboard-robot", "onboard-head"));
+}
+
+TEST(Deployment, TheEmulatedLineIsWhereTheRadiosAre) {
+  Deployment deployment = Shipped("sim");
+  for (ScenarioProcess& process : deployment.processes)
+    process.host = process.module == "head" ? "vision" : "base";
+  deployment.host = "vision";
+  EXPECT_THAT(NamesOf(PlanOf(deployment, kPlace)), testing::ElementsAre("onboard-head"));
+  deployment.host = "base";
+  EXPECT_THAT(NamesOf(PlanOf(deployment, kPlace)), Contains("line"));
+}
+
+TEST(Deployment, AWrongHostIsAnsweredWithThoseThereAre) {
+  Deployment deployment = OverTwoHosts();
+  deployment.host = "visoin";
+  EXPECT_EQ(support::ThrownReason([&] { RequireHost(deployment); }),
+            "--host: expected a host of the deployment (base, vision), got \"visoin\"; nearest: \"vision\"");
+  deployment.host = "vision";
+  EXPECT_NO_THROW(RequireHost(deployment));
+  deployment = Shipped("robot");
+  EXPECT_NO_THROW(RequireHost(deployment));
+  deployment.host = "vision";
+  EXPECT_THAT(support::ThrownReason([&] { RequireHost(deployment); }),
+              testing::HasSubstr("this deployment names no hosts, got \"vision\"; next: "));
+}
+
+TEST(Deployment, AHostHasAPlainName) {
+  const auto load = [](const std::string& host) {
+    ParseConfig<Deployment>(
+        "a.toml",
+        "[[process]]\nmodule = \"head\"\nbus = \"onboard\"\nconfig = \"h.toml\"\nhost = \"" + host + "\"\n");
+  };
+  EXPECT_NO_THROW(load("vision-2"));
+  for (const char* wrong : {"Vision", "a b", "a-name-too-long", "b/c", "\\n"})
+    EXPECT_THAT(support::ThrownReason([&] { load(wrong); }),
+                testing::HasSubstr("a.toml:5:process[0].host: expected a name"))
+        << wrong;
+}
+
+TEST(Deployment, RobotTtlAndNetworkReachEveryProcess) {
+  const auto deployment = ParseConfig<Deployment>(
+      "a.toml",
+      "robot = \"hektor\"\nonboard_ttl = 1\nonboard_network = \"eth1\"\n"
+      "[[process]]\nmodule = \"head\"\nbus = \"onboard\"\nconfig = \"head.toml\"\n"
+      "[[process]]\nmodule = \"planner\"\nbus = \"offboard\"\nconfig = \"planner.toml\"\n");
+  const auto plan = PlanOf(deployment, kPlace);
+  EXPECT_EQ(deployment.OnboardUrl(), bus::BusUrl("hektor", bus::BusSide::kOnboard, 1) + "&network=eth1");
+  EXPECT_THAT(plan[0].arguments, testing::IsSupersetOf({deployment.OnboardUrl(), std::string("--network"),
+                                                        std::string("eth1")}));
+  EXPECT_EQ(deployment.OffboardUrl(), bus::BusUrl("hektor", bus::BusSide::kOffboard, 0));
+  EXPECT_THAT(plan[1].arguments, testing::Not(Contains("--network")));
 }
 
 TEST(Deployment, AnUnknownNameInAfterIsRefused) {

@@ -17,7 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "bus/clock.hpp"
+#include "bus/host_clock.hpp"
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/schema.hpp"
@@ -46,7 +46,7 @@ constexpr auto kReadyWithin = std::chrono::seconds(20);
 struct UpOptions {
   std::string deployment = "sim";
   std::string log_root;
-  std::string group, robot;
+  std::string group, robot, host, network;
   std::uint64_t seed = 1;
   bool detach = false, json = false;
 };
@@ -122,7 +122,7 @@ class UpRun {
   bus::SignalWatch signals_;
   UpLock lock_;
   bus::Schema schema_;
-  bus::MonotonicClock clock_;
+  bus::HostClock clock_;
   Time start_;
   RobotOwner owner_;
   LaunchPlace place_;
@@ -142,6 +142,9 @@ int UpNow(const UpOptions& options) {
   auto deployment = LoadConfig<Deployment>((fs::path(folder) / "deployment.toml").string());
   if (!options.group.empty()) deployment.group = options.group;
   if (!options.robot.empty()) deployment.robot = options.robot;
+  deployment.host = options.host;
+  if (!options.network.empty()) deployment.onboard_network = deployment.offboard_network = options.network;
+  RequireHost(deployment);
   RequireBuses(deployment);
   return UpRun(options, folder, deployment).Run();
 }
@@ -220,8 +223,13 @@ void AddUpCommands(CLI::App& cli, int& exit_code) {
   up->add_option("--group", options->group, "only these processes; default: as in the deployment")
       ->check(CLI::IsMember({"all", "onboard", "offboard"}));
   up->add_option("--robot", options->robot,
-                 "its name, from which its ports follow; default: as in the deployment")
+                 "its name, from which groups and ports follow; default: as in the deployment")
       ->envname(bus::kRobotVariable);
+  up->add_option("--host", options->host,
+                 "only the processes of this host of the deployment, and those of every host; default: all");
+  up->add_option("--network", options->network,
+                 "interface (eth1) or its address for the buses; default: as in the deployment")
+      ->envname(bus::kNetworkVariable);
   up->add_option("--seed", options->seed, "seed of simulated hardware")->capture_default_str();
   up->add_flag("--detach", options->detach, "return when everything is ready");
   up->add_flag("--json", options->json, "machine-readable");

@@ -30,6 +30,7 @@ constexpr auto kDownWithin = std::chrono::seconds(15);
 struct QueryOptions {
   std::string log_root;
   std::string robot{bus::kDefaultRobot};
+  std::string network;
   std::string process;  ///< `logs`: empty: all
   std::size_t lines = 20;
   bool json = false;
@@ -46,7 +47,7 @@ int SayDown(bool was_up, bool json) {
 
 /// Says where the robot is up if it is up from another folder of logs; returns false if it is not.
 bool SayWhereItIsUp(const QueryOptions& options) {
-  const auto found = FindSupervisor(options.robot);
+  const auto found = FindSupervisor(options.robot, options.network);
   if (!found) return false;
   std::cerr << Describe(*found, options.robot) << "\n";
   if (options.json)
@@ -124,6 +125,8 @@ void AddRobot(CLI::App& verb, QueryOptions& options) {
   verb.add_option("--robot", options.robot, "whom to look for on the buses when nothing is up from --logs")
       ->envname(bus::kRobotVariable)
       ->capture_default_str();
+  verb.add_option("--network", options.network, "interface or its address, by which to look for it")
+      ->envname(bus::kNetworkVariable);
 }
 
 void AddShared(CLI::App& verb, QueryOptions& options) {

@@ -9,11 +9,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
+#include "bus/host_clock.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/multicast.hpp"
 #include "cli/options/folder_options.hpp"
@@ -36,8 +38,71 @@ std::string ReadWord(const std::filesystem::path& file) {
 Finding Route(const Machine& machine, const std::string& bus) {
   const std::string problem = machine.route_problem(bus);
   if (problem.empty()) return {"multicast route", Verdict::kGood, "there is one for " + bus, ""};
+  if (!bus::NetworkOf(bus).empty())
+    return {"multicast route", Verdict::kBad, problem,
+            "ip -brief address   # lists the interfaces of this machine"};
   return {"multicast route", Verdict::kBad, problem,
           "sudo ip link set lo up multicast on && sudo ip route add 224.0.0.0/4 dev lo"};
+}
+
+/// The interfaces by which another host could be reached.
+std::vector<bus::NetworkInterface> Outward(const Machine& machine) {
+  auto all = machine.interfaces();
+  std::erase_if(all, [](const auto& one) {
+    return one.loopback || !one.up || !one.carrier || !one.multicast || one.addresses.empty();
+  });
+  return all;
+}
+
+std::string Listed(const std::vector<bus::NetworkInterface>& interfaces) {
+  std::vector<std::string> texts;
+  texts.reserve(interfaces.size());
+  for (const auto& one : interfaces)
+    texts.push_back(fmt::format("{} ({})", one.name, fmt::join(one.addresses, ", ")));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// Messages of the bus leave by `way`, which the URL named or the route.
+Finding ReachBy(const std::string& way, const Machine& machine, const std::string& bus, bool other_hosts) {
+  constexpr const char* kWhat = "other hosts";
+  auto outward = Outward(machine);
+  const auto is_way = [&](const auto& one) { return one.name == way; };
+  const bool leads_out = std::any_of(outward.begin(), outward.end(), is_way);
+  const std::string name_one =
+      fmt::format("export PRIAMOS_NETWORK={}   # or onboard_network in deployment.toml",
+                  outward.empty() ? "eth0" : outward.front().name);
+  if (!leads_out)
+    return {kWhat, other_hosts || !outward.empty() ? Verdict::kBad : Verdict::kNotNeededYet,
+            fmt::format("messages leave by {}, which reaches none; those that could: {}", way,
+                        outward.empty() ? "none has cable and address" : Listed(outward)),
+            name_one};
+  if (const bool named = !bus::NetworkOf(bus).empty(); named || outward.size() == 1)
+    return {kWhat, Verdict::kGood, fmt::format("messages leave by {}, ttl {}", way, bus::TtlOf(bus)), ""};
+  std::erase_if(outward, is_way);
+  return {kWhat, Verdict::kNotNeededYet,
+          fmt::format("messages leave by {}, because the route for multicast leads there, and are heard only "
+                      "there; also here: {}",
+                      way, Listed(outward)),
+          fmt::format("export PRIAMOS_NETWORK={}   # if the other hosts are there; or onboard_network in "
+                      "deployment.toml",
+                      outward.front().name)};
+}
+
+/// Whether what this host sends can reach another one.
+Finding Reach(const Machine& machine, const std::string& bus, bool other_hosts) {
+  constexpr const char* kWhat = "other hosts";
+  if (!bus.starts_with("udpm://")) return {kWhat, Verdict::kGood, bus + " is no bus of several", ""};
+  if (bus::TtlOf(bus) == 0)
+    return {kWhat, other_hosts ? Verdict::kBad : Verdict::kNotNeededYet,
+            "with ttl 0 messages stay on this host, and no other one hears them",
+            "export PRIAMOS_TTL=1   # or --ttl 1, or onboard_ttl = 1 in deployment.toml"};
+  const std::string network = bus::NetworkOf(bus);
+  if (network.empty()) return ReachBy(machine.route_interface(bus::GroupOf(bus)), machine, bus, other_hosts);
+  for (const auto& one : machine.interfaces())
+    if (one.name == network ||
+        std::find(one.addresses.begin(), one.addresses.end(), network) != one.addresses.end())
+      return ReachBy(one.name, machine, bus, other_hosts);
+  return ReachBy(network, machine, bus, other_hosts);
 }
 
 /// Only needed when the route leads to loopback, as on a machine without a network.
@@ -130,6 +195,24 @@ Finding ClockSync(const Machine& machine) {
           "sudo timedatectl set-ntp true"};
 }
 
+/// Whether the stamps of this host's processes are those of its wall clock.
+Finding Anchor(const Machine& machine) {
+  constexpr double kClose_s = 1;
+  const ClockState state = machine.host_clock();
+  if (!state.problem.empty())
+    return {"clock of processes", Verdict::kBad,
+            "each has its own, and a wall clock that is set separates them: " + state.problem,
+            "ls -ld /run/priamos /tmp/priamos-*   # remove what is no folder of yours, and start all again"};
+  if (std::abs(state.wall_ahead_s) < kClose_s)
+    return {"clock of processes", Verdict::kGood, "all agree, with the wall clock too", ""};
+  return {"clock of processes", Verdict::kNotNeededYet,
+          fmt::format(
+              "all agree, but the wall clock was set since the first one started: it is {:.1f} s {}, which "
+              "dates of logs show",
+              std::abs(state.wall_ahead_s), state.wall_ahead_s > 0 ? "ahead" : "behind"),
+          fmt::format("rm {}   # and start all processes of this host again", state.file)};
+}
+
 /// Asks the kernel about the network this process is in; /sys shows the one it was mounted in.
 bool LoopbackHasMulticast() {
   ifreq request{};
@@ -155,6 +238,7 @@ Machine ThisMachine() {
   machine.disk = LogRoot("");
   machine.route_problem = [](const std::string& bus) -> std::string {
     try {
+      if (bus.starts_with("udpm://")) bus::RequireMulticastUrl(bus);
       if (bus.starts_with("udpm://")) bus::RequireMulticastRoute(bus);
       return "";
     } catch (const bus::BusError& error) {
@@ -169,15 +253,24 @@ Machine ThisMachine() {
     const int clock = adjtimex(&state);
     return clock >= 0 && clock != TIME_ERROR && !(state.status & STA_UNSYNC);
   };
+  machine.interfaces = bus::NetworkInterfaces;
+  machine.route_interface = bus::InterfaceOfRoute;
+  machine.host_clock = [] {
+    const bus::HostClock clock;
+    return ClockState{Seconds(clock.WallAhead()), clock.anchor().file, clock.anchor().problem};
+  };
   machine.may_write = [](const std::filesystem::path& path) {
     return access(path.c_str(), R_OK | W_OK) == 0;
   };
   return machine;
 }
 
-std::vector<Finding> Examine(const Machine& machine, const std::string& bus) {
-  return {Route(machine, bus),   LoopbackFlag(machine), ReceiveBuffer(machine), Disk(machine),
-          SerialRights(machine), ClockSync(machine),    Java(machine),          SpaceMouse(machine)};
+std::vector<Finding> Examine(const Machine& machine, const std::string& bus, bool other_hosts) {
+  return {Route(machine, bus),   Reach(machine, bus, other_hosts),
+          LoopbackFlag(machine), ReceiveBuffer(machine),
+          Disk(machine),         SerialRights(machine),
+          ClockSync(machine),    Anchor(machine),
+          Java(machine),         SpaceMouse(machine)};
 }
 
 }  // namespace priamos::cli

@@ -99,6 +99,12 @@ void AddPlaces(ManualPage& page) {
   page.Term("PRIAMOS_LOGS", "", "A folder that runs are written to.");
   page.Term("XDG_STATE_HOME", "",
             "Runs are written to priamos/ there, without it to ~/.local/state/priamos.");
+  page.Term("PRIAMOS_BUS, PRIAMOS_ROBOT, PRIAMOS_TTL, PRIAMOS_NETWORK", "",
+            "Defaults of --bus, --robot, --ttl and --network.");
+  page.Term(
+      "PRIAMOS_RUNTIME", "",
+      "The folder in which the processes of this computer agree on their clock, in place of /run/priamos and "
+      "/tmp/priamos-UID.");
   page.Section("FILES");
   page.Term("share/priamos/config/NAME", "",
             "The installed deployments, below the folder of the installation.");

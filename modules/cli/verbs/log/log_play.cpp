@@ -7,7 +7,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "bus/clock.hpp"
+#include "bus/host_clock.hpp"
 #include "bus/log/log_player.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/schema.hpp"
@@ -32,11 +32,11 @@ struct PlayOptions {
   bool loop = false, paused = false, json = false;
 };
 
-/// A foreign log may have a channel of that name.
-bool IsClaim(const bus::LogEvent& event) {
-  return event.channel == channels::kClaim.name &&
-         bus::FingerprintOf(event.bytes.data(), event.bytes.size()) ==
-             static_cast<std::uint64_t>(claim_t::getHash());
+/// A foreign log may have channels of those names.
+template <class T>
+bool IsOf(const Channel<T>& channel, const bus::LogEvent& event) {
+  return event.channel == channel.name && bus::FingerprintOf(event.bytes.data(), event.bytes.size()) ==
+                                              static_cast<std::uint64_t>(T::getHash());
 }
 
 class Playing {
@@ -57,8 +57,9 @@ class Playing {
       const int sent = player_.Play(
           clock_.Now(),
           [this](const std::string& channel, const bus::LogEvent& event) {
-            // Claims belong to processes, and those of the log do not run.
-            if (IsClaim(event)) return;
+            // Claims belong to processes, and those of the log do not run; nor does anybody ask its
+            // questions.
+            if (IsOf(channels::kClaim, event) || IsOf(channels::kProbe, event)) return;
             ++(bus_.Publish(channel, event.bytes) ? sent_ : refused_);
           },
           kBurst);
@@ -106,7 +107,7 @@ class Playing {
   static constexpr Duration kLongest = std::chrono::milliseconds(100);
   bool json_;
   bus::SignalWatch signals_;
-  bus::MonotonicClock clock_;
+  bus::HostClock clock_;
   bus::LcmBus bus_;
   bus::LogPlayer player_;
   StatusLine status_;

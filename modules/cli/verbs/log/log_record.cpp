@@ -7,6 +7,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "bus/host_clock.hpp"
 #include "bus/log/log_recorder.hpp"
 #include "bus/log/log_selection.hpp"
 #include "bus/node.hpp"
@@ -127,7 +128,7 @@ class Recording {
 
   RecordOptions options_;
   bus::SignalWatch signals_;
-  bus::MonotonicClock clock_;
+  bus::HostClock clock_;
   bus::Schema schema_;
   bus::LcmBus bus_;
   bus::Node node_;

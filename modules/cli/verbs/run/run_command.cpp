@@ -7,6 +7,7 @@
 #include <iostream>
 #include <random>
 
+#include "bus/host_clock.hpp"
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
 #include "cli/options/folder_options.hpp"
@@ -31,7 +32,8 @@ struct RunOptions {
   std::string scenario = "door";
   std::uint64_t seed = 1;
   std::string log_root;
-  std::string robot;  ///< empty: a name of its own, so that it meets nobody
+  std::string robot;    ///< empty: a name of its own, so that it meets nobody
+  std::string network;  ///< interface or its address; empty: as the route leads
   bool restart = false, json = false;
 };
 
@@ -51,6 +53,7 @@ Deployment DeploymentOf(const Scenario& scenario, const RunOptions& options) {
   Deployment deployment;
   deployment.robot = RobotOf(options);
   deployment.title = scenario.title;
+  deployment.onboard_network = deployment.offboard_network = options.network;
   deployment.emulated_line = true;
   deployment.line = scenario.line;
   deployment.processes = scenario.processes;
@@ -184,7 +187,7 @@ class RealTimeRun {
   Deployment deployment_;
   bus::SignalWatch signals_;
   bus::Schema schema_;
-  bus::MonotonicClock clock_;
+  bus::HostClock clock_;
   bus::LcmBus onboard_, offboard_;
   bus::Node onboard_node_, offboard_node_;
   Time start_;
@@ -249,6 +252,9 @@ void AddRunCommand(CLI::App& cli, int& exit_code) {
   AddLogsOption(*verb, options->log_root, "a folder per run is made in it");
   verb->add_option("--robot", options->robot,
                    "name of the robot; without it one that nobody has, so that the run meets nobody");
+  verb->add_option("--network", options->network,
+                   "interface (eth1) or its address for the buses; default: as the route for multicast leads")
+      ->envname(bus::kNetworkVariable);
   verb->add_flag("--restart", options->restart, "start again what died or hung, as `priamos up` does");
   verb->add_flag("--json", options->json, "summary.json on standard output, all else on standard error");
   verb->callback([options, &exit_code] { exit_code = Run(*options); });

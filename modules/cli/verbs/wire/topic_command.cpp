@@ -1,6 +1,10 @@
+#include <fmt/format.h>
+
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "bus/wire/multicast.hpp"
+#include "bus/wire/network_interface.hpp"
 #include "cli/terminal/topic_echo.hpp"
 #include "cli/verbs/wire/commands.hpp"
 #include "cli/verbs/wire/topic_verb.hpp"
@@ -12,8 +16,20 @@ struct UrlOptions : BusOptions {
   bool json = false;
 };
 
+/// LCM's own programs know group, port and ttl; by which interface they send and listen is the route's
+/// decision.
+void ExplainNetwork(const std::string& url) {
+  if (const std::string network = bus::NetworkOf(url); !network.empty())
+    std::cerr << fmt::format(
+        "priamos topic url: LCM's own programs cannot be told the network {}, they follow the route; next: "
+        "sudo ip "
+        "route add {}/32 dev {}\n",
+        network, bus::GroupOf(url), bus::FindInterface(network).name);
+}
+
 int PrintUrl(const UrlOptions& options) {
-  const std::string url = options.bus.Url();
+  const std::string with_network = options.bus.Url(), url = bus::WithoutNetwork(with_network);
+  ExplainNetwork(with_network);
   std::cout << (options.json ? nlohmann::ordered_json{{"url", url}}.dump() : url) << "\n";
   return 0;
 }

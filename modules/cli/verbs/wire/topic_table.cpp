@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bus/host_clock.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/udp_receiver.hpp"
@@ -74,7 +75,7 @@ void PrintJson(const std::vector<TopicRow>& rows, const bus::LcmBus& bus) {
 /// Verb `list`, and with a channel `hz` and `bw`: a table of all channels or of one.
 int List(const TableOptions& options, const std::string& verb) {
   const bus::Schema schema = LoadTypes(options.types);
-  const bus::MonotonicClock clock;
+  const bus::HostClock clock;
   bus::LcmBus bus(options.bus.Url(), options.messages());
   TopicStatistics statistics(schema, FromSeconds(std::max(2.0, options.seconds)));
   // With a time limit the sentence comes at the end, once.

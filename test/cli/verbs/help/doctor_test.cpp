@@ -23,6 +23,9 @@ class Doctor : public testing::Test {
     machine_.clock_synchronised = [] { return true; };
     machine_.may_write = [](const std::filesystem::path&) { return true; };
     machine_.loopback_has_multicast = [] { return true; };
+    machine_.interfaces = [this] { return interfaces_; };
+    machine_.route_interface = [this](const std::string&) { return route_; };
+    machine_.host_clock = [] { return ClockState{0.01, "/run/priamos/clock-1", ""}; };
     Write("proc/sys/net/core/rmem_max", "4194304");
     Write("dev/ttyUSB0", "");
     Write("usr/share/java/lcm.jar", "");
@@ -35,18 +38,27 @@ class Doctor : public testing::Test {
     std::ofstream(path) << text;
   }
   void Remove(const std::string& file) { std::filesystem::remove(folder_.path() / file); }
-  Finding Of(const std::string& what) {
-    for (const auto& finding : Examine(machine_, "udpm://239.255.76.67:7667"))
+  Finding Of(const std::string& what, const std::string& bus = "udpm://239.255.76.67:7667?ttl=1",
+             bool other_hosts = false) {
+    for (const auto& finding : Examine(machine_, bus, other_hosts))
       if (finding.what == what) return finding;
     ADD_FAILURE() << "nothing about " << what;
     return {};
   }
+  Finding Reach(const std::string& parameters, bool other_hosts = false) {
+    return Of("other hosts", "udpm://239.255.1.67:20000?" + parameters, other_hosts);
+  }
   TemporaryFolder folder_;
   Machine machine_;
+  bus::NetworkInterface lo_{1, "lo", {"127.0.0.1"}, true, true, false, true};
+  bus::NetworkInterface eth0_{2, "eth0", {"10.0.0.5"}, true, true, true, false};
+  bus::NetworkInterface eth1_{3, "eth1", {"10.77.0.1"}, true, true, true, false};
+  std::vector<bus::NetworkInterface> interfaces_{lo_, eth0_};
+  std::string route_ = "eth0";
 };
 
 TEST_F(Doctor, AMachineThatHasEverythingIsGood) {
-  for (const auto& finding : Examine(machine_, "udpm://")) {
+  for (const auto& finding : Examine(machine_, "udpm://?ttl=1", true)) {
     if (finding.what == "disk") continue;  // this machine's own
     EXPECT_EQ(finding.verdict, Verdict::kGood) << finding.what << ": " << finding.found;
     EXPECT_EQ(finding.command, "") << finding.what;
@@ -106,6 +118,54 @@ TEST_F(Doctor, ADiskThatCannotBeWritten) {
 TEST_F(Doctor, UnsynchronisedClock) {
   machine_.clock_synchronised = [] { return false; };
   EXPECT_THAT(Of("clock").command, HasSubstr("set-ntp true"));
+}
+
+TEST_F(Doctor, WithTtl0NoOtherHostHears) {
+  EXPECT_EQ(Reach("ttl=0").verdict, Verdict::kNotNeededYet);
+  EXPECT_EQ(Reach("ttl=0", true).verdict, Verdict::kBad) << "another host is expected";
+  EXPECT_THAT(Reach("ttl=0").found, HasSubstr("stay on this host"));
+  EXPECT_THAT(Reach("ttl=0").command, HasSubstr("export PRIAMOS_TTL=1"));
+}
+
+TEST_F(Doctor, WhereSeveralInterfacesAreTheOneOfTheRouteIsNamed) {
+  interfaces_.push_back(eth1_);
+  const Finding finding = Reach("ttl=1");
+  EXPECT_EQ(finding.verdict, Verdict::kNotNeededYet);
+  EXPECT_THAT(finding.found, HasSubstr("leave by eth0, because the route for multicast leads there"));
+  EXPECT_THAT(finding.found, HasSubstr("also here: eth1 (10.77.0.1)"));
+  EXPECT_THAT(finding.command, HasSubstr("export PRIAMOS_NETWORK=eth1"));
+  EXPECT_EQ(Reach("ttl=1&network=eth1").verdict, Verdict::kGood);
+  EXPECT_EQ(Reach("ttl=1&network=10.77.0.1").verdict, Verdict::kGood);
+}
+
+TEST_F(Doctor, ARouteToLoopbackReachesNobody) {
+  route_ = "lo";
+  EXPECT_EQ(Reach("ttl=1").verdict, Verdict::kBad);
+  EXPECT_THAT(Reach("ttl=1").found,
+              HasSubstr("leave by lo, which reaches none; those that could: eth0 (10.0.0.5)"));
+  EXPECT_THAT(Reach("ttl=1").command, HasSubstr("PRIAMOS_NETWORK=eth0"));
+  interfaces_ = {lo_};
+  EXPECT_EQ(Reach("ttl=1").verdict, Verdict::kNotNeededYet) << "a machine without a network";
+  EXPECT_EQ(Reach("ttl=1", true).verdict, Verdict::kBad);
+}
+
+TEST_F(Doctor, AnInterfaceWithoutCableOrAddressReachesNobody) {
+  eth1_.carrier = false;
+  interfaces_.push_back(eth1_);
+  EXPECT_EQ(Reach("ttl=1&network=eth1").verdict, Verdict::kBad);
+  EXPECT_EQ(Reach("ttl=1").verdict, Verdict::kGood) << "it is no other way";
+  EXPECT_EQ(Reach("ttl=1&network=eth7").verdict, Verdict::kBad);
+}
+
+TEST_F(Doctor, AWallClockThatWasSetIsSeen) {
+  machine_.host_clock = [] { return ClockState{3600, "/run/priamos/clock-1", ""}; };
+  EXPECT_EQ(Of("clock of processes").verdict, Verdict::kNotNeededYet);
+  EXPECT_THAT(Of("clock of processes").found, HasSubstr("3600.0 s ahead"));
+  EXPECT_THAT(Of("clock of processes").command, HasSubstr("rm /run/priamos/clock-1"));
+  machine_.host_clock = [] {
+    return ClockState{0, "", "/tmp/priamos-0: expected a folder, got something else"};
+  };
+  EXPECT_EQ(Of("clock of processes").verdict, Verdict::kBad);
 }
 
 }  // namespace

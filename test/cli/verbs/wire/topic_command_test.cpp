@@ -83,11 +83,17 @@ TEST_F(TopicCommand, SecondsHaveBounds) {
 TEST_F(TopicCommand, UrlIsThatOfTheChosenBus) {
   EXPECT_EQ(Priamos({"topic", "url", "--bus", "memq://"}).out, "memq://\n");
   const auto onboard = Priamos({"topic", "url", "--bus", "onboard", "--robot", "hall9", "--ttl", "3"});
-  EXPECT_THAT(onboard.out, AllOf(StartsWith("udpm://239.255.76."), HasSubstr("?ttl=3\n")));
+  EXPECT_THAT(onboard.out, AllOf(StartsWith("udpm://239.255."), HasSubstr("?ttl=3\n")));
   const auto offboard = Priamos({"topic", "url", "--robot", "hall9", "--ttl", "3"});
   EXPECT_NE(onboard.out, offboard.out) << "offboard is the default, and another port";
   const auto dut = json::parse(Priamos({"topic", "url", "--bus", "memq://", "--json"}).out);
   EXPECT_EQ(dut, json({{"url", "memq://"}}));
+}
+
+TEST_F(TopicCommand, LcmsOwnProgramsAreToldNoNetworkButTheRouteThatDoesTheSame) {
+  const auto answer = Priamos({"topic", "url", "--robot", "hall9", "--network", "127.0.0.1"});
+  EXPECT_EQ(answer.out, Priamos({"topic", "url", "--robot", "hall9"}).out);
+  EXPECT_THAT(answer.err, testing::ContainsRegex("next: sudo ip route add 239.255.[0-9]+.68/32 dev lo\n"));
 }
 
 TEST_F(TopicCommand, ATtlBeyondAByteIsRefused) {

@@ -1,4 +1,4 @@
-#include "bus/service_notifier.hpp"
+#include "bus/host/service_notifier.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,0 +1,46 @@
+#include "bus/host/host_identity.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <fstream>
+#include <string_view>
+
+namespace priamos::bus {
+namespace {
+
+constexpr std::size_t kNameBytes = 64;  // @max of the messages that carry it
+
+/// FNV-1a (Fowler, Noll, Vo), 32 bits.
+std::uint32_t HashOf(std::string_view text) {
+  std::uint32_t hash = 2166136261U;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  return hash;
+}
+
+std::string BootId() {
+  std::ifstream in("/proc/sys/kernel/random/boot_id");
+  std::string id;
+  in >> id;
+  const auto allowed = [](char c) { return c == '-' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  return id.size() <= 36 && std::all_of(id.begin(), id.end(), allowed) ? id : "";
+}
+
+}  // namespace
+
+HostIdentity ThisHost() {
+  HostIdentity host;
+  std::array<char, kNameBytes + 1> name{};
+  host.name = gethostname(name.data(), kNameBytes) == 0 ? name.data() : "?";
+  host.boot = BootId();
+  struct stat network {};
+  stat("/proc/self/ns/net", &network);
+  host.id = std::bit_cast<std::int32_t>(HashOf(fmt::format("{} {}", host.boot, network.st_ino)));
+  return host;
+}
+
+}  // namespace priamos::bus

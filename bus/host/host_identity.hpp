@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace priamos::bus {
+
+/// Which computer this is, as far as a bus is concerned.
+struct HostIdentity {
+  std::string name;  ///< as people call it; two computers may have the same
+  std::string boot;  ///< drawn by the kernel when the computer was switched on; empty when it cannot be read
+  std::int32_t id =
+      0;  ///< from `boot` and the network namespace: the same in all processes that share a network
+};
+
+/// The computer, and the network namespace, in which this process runs.
+HostIdentity ThisHost();
+
+}  // namespace priamos::bus

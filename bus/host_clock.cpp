@@ -1,0 +1,31 @@
+#include "bus/host_clock.hpp"
+
+#include <ctime>
+
+namespace priamos::bus {
+namespace {
+
+Duration Read(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return std::chrono::seconds(time.tv_sec) +
+         std::chrono::duration_cast<Duration>(std::chrono::nanoseconds(time.tv_nsec));
+}
+
+Duration UnixMinusBoot() {
+  return Read(CLOCK_REALTIME) - Read(CLOCK_BOOTTIME);
+}
+
+}  // namespace
+
+HostClock::HostClock() : HostClock(AgreeOnAnchor(AnchorFolders(), AnchorName(), UnixMinusBoot())) {}
+
+Time HostClock::Now() const {
+  return Time(Read(CLOCK_BOOTTIME) + anchor_.unix_minus_boot);
+}
+
+Duration HostClock::WallAhead() const {
+  return UnixMinusBoot() - anchor_.unix_minus_boot;
+}
+
+}  // namespace priamos::bus

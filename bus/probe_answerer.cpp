@@ -1,0 +1,84 @@
+#include "bus/probe_answerer.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "bus/node.hpp"
+#include "bus/schema/schema.hpp"
+#include "bus/schema/walk.hpp"
+#include "bus/wire/lcm_bus.hpp"
+#include "bus/wire/multicast.hpp"
+#include "bus/wire/network_interface.hpp"
+
+namespace priamos::bus {
+namespace {
+
+constexpr std::size_t kHostBytes = 64, kProcessBytes = 16, kNetworkBytes = 16;  // @max of probe_t
+
+/// The interface by which messages of the bus leave this host.
+std::string InterfaceOf(const std::string& url) {
+  if (!url.starts_with("udpm://")) return "";
+  const std::string network = NetworkOf(url);
+  if (network.empty()) return InterfaceOfRoute(GroupOf(url));
+  try {
+    return FindInterface(network).name;
+  } catch (const BusError&) {
+    return "";  // it was unplugged
+  }
+}
+
+}  // namespace
+
+probe_t MakeProbe(const HostIdentity& host, const std::string& process, const std::string& url, Time now) {
+  probe_t message{};
+  message.utime = ToUtime(now);
+  message.host_id = host.id;
+  message.host = host.name.substr(0, kHostBytes);
+  message.process = process.substr(0, kProcessBytes);
+  message.network = InterfaceOf(url).substr(0, kNetworkBytes);
+  message.ttl = static_cast<std::int16_t>(TtlOf(url));
+  return message;
+}
+
+probe_t ReadProbe(const Schema& schema, std::span<const std::byte> bytes) {
+  const Struct* type = schema.Find(static_cast<std::uint64_t>(probe_t::getHash()));
+  if (type == nullptr || FingerprintOf(bytes.data(), bytes.size()) != type->fingerprint ||
+      !Walk(*type, bytes))
+    throw std::runtime_error("expected a message of type probe_t");
+  return Decode<probe_t>(bytes);
+}
+
+ProbeAnswerer::ProbeAnswerer(LcmBus& bus, const Schema& schema, const Clock& clock, std::string process)
+    : bus_(bus), schema_(schema), clock_(clock), process_(std::move(process)), host_(ThisHost()) {
+  bus.Subscribe(channels::kProbe.name,
+                [this](std::string_view, std::span<const std::byte> bytes) { OnMessage(bytes); });
+}
+
+bool ProbeAnswerer::MayAnswer(Time now) {
+  if (now - second_ >= std::chrono::seconds(1)) {
+    second_ = now;
+    in_second_ = 0;
+  }
+  return ++in_second_ <= kMostAnswers;
+}
+
+/// Handlers must not throw.
+void ProbeAnswerer::OnMessage(std::span<const std::byte> bytes) {
+  try {
+    const probe_t question = ReadProbe(schema_, bytes);
+    const Time now = clock_.Now();
+    if (question.kind != probe_t::ASKS || !MayAnswer(now)) return;
+    probe_t answer = MakeProbe(host_, process_, bus_.url(), now);
+    answer.kind = probe_t::ANSWERS;
+    answer.instance = question.instance;
+    answer.number = question.number;
+    bus_.Publish(channels::kProbe.name, Encode(answer));
+    answer.alone = 1;
+    bus_.Answer(channels::kProbe.name, Encode(answer));
+    ++answers_;
+  } catch (const std::exception&) {
+    // Not a question: a foreign or damaged message, which a process on the bus has to live with.
+  }
+}
+
+}  // namespace priamos::bus

@@ -1,0 +1,135 @@
+#include "cli/verbs/help/host_probe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bus/wire/multicast.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using Verdict = Finding::Verdict;
+
+/// Words of another computer end up in a terminal: only what a name or an address has.
+std::string Plain(const std::string& text) {
+  std::string plain;
+  for (const char c : text)
+    plain += (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
+                     c == '.' || c == '_'
+                 ? c
+                 : '?';
+  return plain;
+}
+
+/// "vision (10.77.0.2)"
+std::string Named(const std::string& name, const std::string& address) {
+  return name.empty() ? address : fmt::format("{} ({})", Plain(name), address);
+}
+
+std::string Way(const std::string& network, int ttl) {
+  return fmt::format("by {} with ttl {}", network.empty() ? "no interface" : Plain(network), ttl);
+}
+
+}  // namespace
+
+bool HostProbe::IsOwn(const std::string& address) const {
+  return address == "localhost" || self_.addresses.contains(address);
+}
+
+void HostProbe::HearProbe(const probe_t& message, const std::string& address, bool alone) {
+  if (message.host_id == self_.host_id) return;
+  Host& host = hosts_[message.host_id];
+  host.name = message.host;
+  if (!alone || host.address.empty()) host.address = address;
+  host.network = message.network;
+  host.ttl = message.ttl;
+  host.processes.insert(message.process);
+  if (!alone) host.heard = true;
+  if (message.kind != probe_t::ANSWERS || message.instance != self_.instance) return;
+  (alone ? host.alone : host.on_bus).insert(message.number);
+}
+
+void HostProbe::HearOther(const std::string& address, const std::string& host) {
+  if (IsOwn(address)) return;
+  std::string& name = others_[address];
+  if (!host.empty()) name = host;
+}
+
+Finding HostProbe::Works(const Host& host) const {
+  const std::string who = Named(host.name, host.address);
+  const auto answered = static_cast<int>(host.on_bus.size());
+  const std::string found =
+      fmt::format("both ways work: {} of {} questions answered, by {} process{}, {}", answered, asked_,
+                  host.processes.size(), host.processes.size() == 1 ? "" : "es", Way(host.network, host.ttl));
+  if (answered == asked_) return {"host " + who, Verdict::kGood, found, ""};
+  return {"host " + who, Verdict::kNotNeededYet, found + "; some were lost",
+          "priamos topic list --watch   # shows who loses messages"};
+}
+
+/// It heard the question, and what it sends to the bus does not arrive.
+Finding HostProbe::CutFrom(const Host& host) const {
+  const std::string who = Named(host.name, host.address);
+  const std::string command =
+      host.ttl == 0
+          ? "export PRIAMOS_TTL=1   # there, or onboard_ttl in its deployment.toml; then start it again"
+          : fmt::format(
+                "ip -4 route get {}   # there: it sends {}; if that is another cable: export "
+                "PRIAMOS_NETWORK=...",
+                bus::GroupOf(self_.bus), Plain(host.network));
+  return {fmt::format("way from {} to here", who), Verdict::kBad,
+          fmt::format(
+              "cut: it answers {} of {} questions, but nothing that it sends to the bus ({}) arrives here",
+              host.alone.size(), asked_, Way(host.network, host.ttl)),
+          command};
+}
+
+/// It is heard, and answers nothing.
+Finding HostProbe::CutTo(const std::string& who) const {
+  const std::string command =
+      self_.ttl == 0
+          ? "export PRIAMOS_TTL=1   # or --ttl 1, or onboard_ttl in deployment.toml"
+          : fmt::format("sudo tcpdump -ni any udp port {}   # there, while this runs here: does it arrive?",
+                        bus::PortOf(self_.bus));
+  return {
+      fmt::format("way from here to {}", who), Verdict::kBad,
+      fmt::format("cut: it is heard, but answered none of {} questions: what this host sends ({}) does not "
+                  "arrive there, or it is no host of PRIAMOS",
+                  asked_, Way(self_.network, self_.ttl)),
+      command};
+}
+
+Finding HostProbe::Legs(const Host& host) const {
+  if (!host.on_bus.empty() || (!host.alone.empty() && host.heard)) return Works(host);
+  if (!host.alone.empty()) return CutFrom(host);
+  return CutTo(Named(host.name, host.address));
+}
+
+std::vector<Finding> HostProbe::Findings(const std::vector<std::string>& expected) const {
+  std::vector<Finding> findings;
+  std::set<std::string> addresses, names;
+  for (const auto& [id, host] : hosts_) {
+    findings.push_back(Legs(host));
+    addresses.insert(host.address);
+    names.insert(host.name);
+  }
+  for (const auto& [address, name] : others_) {
+    if (addresses.contains(address)) continue;
+    findings.push_back(CutTo(Named(name, address)));
+    names.insert(name);
+  }
+  const std::string ask_there = fmt::format("priamos doctor --probe --bus '{}'   # there, at the same time",
+                                            bus::WithoutNetwork(self_.bus));
+  for (const std::string& name : expected)
+    if (!names.contains(name))
+      findings.push_back({fmt::format("way from {} to here", Plain(name)), Verdict::kBad,
+                          "cut, or it is off: nothing of it arrives here", ask_there});
+  if (findings.empty())
+    findings.push_back({"other hosts", Verdict::kBad,
+                        fmt::format("none is heard, and none answered {} questions sent {}", asked_,
+                                    Way(self_.network, self_.ttl)),
+                        ask_there});
+  return findings;
+}
+
+}  // namespace priamos::cli

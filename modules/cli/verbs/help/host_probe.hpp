@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cli/verbs/help/doctor.hpp"
+#include "lcmtypes/channels.hpp"
+
+namespace priamos::cli {
+
+/// What `priamos doctor --probe` heard while it asked: from it follows which hosts hear each other. Pure.
+///
+/// A question goes to the bus. Whoever hears it answers twice: to the bus, and to the asking socket alone. An
+/// answer to the bus: both ways work. Only one to the socket: that host hears this one, and its own way to
+/// the bus is cut. None, while other messages of that host arrive: this host's way is cut.
+class HostProbe {
+ public:
+  /// Which host and network this is, and the instance that its questions carry.
+  struct Self {
+    std::int32_t host_id = 0, instance = 0;
+    std::set<std::string> addresses;  ///< of its interfaces; what comes from there is its own
+    std::string network;              ///< interface by which it sends
+    int ttl = 0;
+    std::string bus;  ///< URL, for the commands
+  };
+  explicit HostProbe(Self self) : self_(std::move(self)) {}
+
+  void Asked() { ++asked_; }
+  /// Takes a PROBE, whoever meant it; `alone`: it came to the asking socket.
+  void HearProbe(const probe_t& message, const std::string& address, bool alone);
+  /// Takes notice of any other message on the bus. `host`: the sender's name if the message has it.
+  void HearOther(const std::string& address, const std::string& host = "");
+
+  /// A line per way that works or is cut; `expected`: names of hosts that have to be there.
+  std::vector<Finding> Findings(const std::vector<std::string>& expected) const;
+
+ private:
+  struct Host {
+    std::string name, address, network;
+    int ttl = 0;
+    std::set<std::string> processes;
+    std::set<std::int32_t> on_bus, alone;  ///< numbers of the questions that were answered so
+    bool heard = false;                    ///< something of it came over the bus
+  };
+  bool IsOwn(const std::string& address) const;
+  Finding Legs(const Host& host) const;
+  Finding Works(const Host& host) const;
+  Finding CutFrom(const Host& host) const;
+  Finding CutTo(const std::string& who) const;
+
+  Self self_;
+  int asked_ = 0;
+  std::map<std::int32_t, Host> hosts_;
+  std::map<std::string, std::string> others_;  ///< heard on the bus: address, and name if known
+};
+
+}  // namespace priamos::cli

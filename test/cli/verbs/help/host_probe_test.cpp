@@ -1,0 +1,137 @@
+#include "cli/verbs/help/host_probe.hpp"
+
+#include <gmock/gmock.h>
+
+namespace priamos::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+using Verdict = Finding::Verdict;
+
+constexpr std::int32_t kOwn = 1, kVision = 2, kInstance = 77;
+constexpr const char* kTheirs = "10.77.0.2";
+
+/// Three questions were asked on the robot's bus.
+class HostProbeTest : public testing::Test {
+ protected:
+  static HostProbe::Self Self(int ttl = 1) {
+    return {kOwn, kInstance, {"127.0.0.1", "10.77.0.1"}, "eth1", ttl, "udpm://239.255.1.67:20000?ttl=1"};
+  }
+  explicit HostProbeTest(int ttl = 1) : dut_(Self(ttl)) {
+    for (int i = 0; i < 3; ++i) dut_.Asked();
+  }
+  static probe_t Answer(std::int32_t number, std::int32_t host = kVision) {
+    probe_t message{};
+    message.kind = probe_t::ANSWERS;
+    message.instance = kInstance;
+    message.number = number;
+    message.host_id = host;
+    message.host = "vision";
+    message.process = "head";
+    message.network = "eth0";
+    message.ttl = 1;
+    return message;
+  }
+  void Answered(bool alone, int count = 3) {
+    for (int i = 1; i <= count; ++i) dut_.HearProbe(Answer(i), kTheirs, alone);
+  }
+  Finding Only(const std::vector<std::string>& expected = {}) const {
+    const auto findings = dut_.Findings(expected);
+    EXPECT_EQ(findings.size(), 1U);
+    return findings.front();
+  }
+  HostProbe dut_;
+};
+
+TEST_F(HostProbeTest, WhoAnswersToTheBusIsReachedBothWays) {
+  Answered(false);
+  Answered(true);
+  EXPECT_EQ(Only().verdict, Verdict::kGood);
+  EXPECT_EQ(Only().what, "host vision (10.77.0.2)");
+  EXPECT_THAT(Only().found, HasSubstr("3 of 3 questions answered, by 1 process, by eth0 with ttl 1"));
+}
+
+TEST_F(HostProbeTest, LostAnswersAreCounted) {
+  Answered(false, 2);
+  EXPECT_EQ(Only().verdict, Verdict::kNotNeededYet);
+  EXPECT_THAT(Only().found, HasSubstr("2 of 3 questions answered"));
+}
+
+TEST_F(HostProbeTest, WhoAnswersToTheSocketAloneDoesNotReachTheBus) {
+  Answered(true);
+  EXPECT_EQ(Only().verdict, Verdict::kBad);
+  EXPECT_EQ(Only().what, "way from vision (10.77.0.2) to here");
+  EXPECT_THAT(Only().found, HasSubstr("nothing that it sends to the bus (by eth0 with ttl 1) arrives here"));
+}
+
+TEST_F(HostProbeTest, ATtlOf0ThereIsNamed) {
+  probe_t answer = Answer(1);
+  answer.ttl = 0;
+  dut_.HearProbe(answer, kTheirs, true);
+  EXPECT_THAT(Only().command, StartsWith("export PRIAMOS_TTL=1   # there"));
+}
+
+TEST_F(HostProbeTest, WhoIsHeardAndDoesNotAnswerIsNotReached) {
+  dut_.HearOther(kTheirs);
+  dut_.HearOther(kTheirs, "vision");
+  dut_.HearOther(kTheirs);
+  EXPECT_EQ(Only().verdict, Verdict::kBad);
+  EXPECT_EQ(Only().what, "way from here to vision (10.77.0.2)");
+  EXPECT_THAT(Only().found, HasSubstr("answered none of 3 questions"));
+  EXPECT_THAT(Only().command, HasSubstr("udp port 20000"));
+}
+
+TEST_F(HostProbeTest, AQuestionFromThereIsAMessageFromThere) {
+  probe_t question = Answer(1);
+  question.kind = probe_t::ASKS;
+  question.instance = 5;
+  dut_.HearProbe(question, kTheirs, false);
+  EXPECT_EQ(Only().what, "way from here to vision (10.77.0.2)");
+}
+
+TEST_F(HostProbeTest, AnswersToAnotherAskerAreNoAnswers) {
+  probe_t answer = Answer(1);
+  answer.instance = 5;
+  dut_.HearProbe(answer, kTheirs, false);
+  EXPECT_EQ(Only().what, "way from here to vision (10.77.0.2)");
+}
+
+TEST_F(HostProbeTest, ItsOwnProcessesAreNoOtherHost) {
+  dut_.HearProbe(Answer(1, kOwn), "10.77.0.1", false);
+  dut_.HearOther("10.77.0.1", "base");
+  dut_.HearOther("localhost");
+  EXPECT_EQ(Only().what, "other hosts");
+  EXPECT_EQ(Only().verdict, Verdict::kBad);
+  EXPECT_THAT(Only().found,
+              HasSubstr("none is heard, and none answered 3 questions sent by eth1 with ttl 1"));
+}
+
+TEST_F(HostProbeTest, WhoIsExpectedAndNotThereIsNamed) {
+  Answered(false);
+  EXPECT_EQ(dut_.Findings({"vision"}).size(), 1U);
+  const auto findings = dut_.Findings({"vision", "arm"});
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_EQ(findings[1].what, "way from arm to here");
+  EXPECT_EQ(findings[1].verdict, Verdict::kBad);
+  EXPECT_THAT(findings[1].command,
+              HasSubstr("priamos doctor --probe --bus 'udpm://239.255.1.67:20000?ttl=1'"));
+}
+
+TEST_F(HostProbeTest, TwoHostsOfOneNameAreTwo) {
+  Answered(false);
+  dut_.HearProbe(Answer(1, 3), "10.77.0.3", true);
+  EXPECT_EQ(dut_.Findings({}).size(), 2U);
+}
+
+TEST_F(HostProbeTest, WordsOfOthersDoNoHarmToATerminal) {
+  probe_t answer = Answer(1);
+  answer.host = "\x1b[2Jvi\nsion";
+  answer.network = "\x1b]0;x\x07";
+  dut_.HearProbe(answer, kTheirs, true);
+  for (const std::string& text : {Only().what, Only().found, Only().command})
+    EXPECT_EQ(text.find_first_of("\x1b\n\x07"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace priamos::cli
