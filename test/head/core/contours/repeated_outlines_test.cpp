@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "head/core/contours/contour_graph.hpp"
 #include "head/core/edges/edge_segments.hpp"
 
 namespace priamos::head {
