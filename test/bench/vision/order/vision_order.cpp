@@ -92,7 +92,7 @@ class Rates {
 
   void Add(const std::string& what, const head::PairOrder& order, bool good) {
     const std::string of_all =
-        "all: " + what.substr(0, what.find(','));  // accepted, or refused for which reason
+        "all: " + what.substr(0, what.find_first_of(",:"));  // accepted, or refused for which reason
     for (const std::string& name : {what, of_all}) {
       ++rates_[name].all;
       rates_[name].good += good;
@@ -137,7 +137,7 @@ void BenchOrder(const VisionOptions& options, Figures& figures) {
   Rates rates(options.verbose);
   cv::RNG rng(options.seed);
   for (const auto& [kind, pair] : PhotographedPairs(options)) Try(kind, pair, rng, rates);
-  ForEachRendered(options, options.quick ? 20 : 120,
+  ForEachRendered(options, options.quick ? 20 : 60,
                   [&](const char* kind, const OrderPair& pair) { Try(kind, pair, rng, rates); });
   rates.Report(figures);
 }
