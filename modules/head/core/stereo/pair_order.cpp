@@ -15,6 +15,7 @@ constexpr double kStillReach_px = 2.5;  ///< what is moved by less stands still
 constexpr double kLeastReach_px = 0.8;
 constexpr double kLeastOverlap = 0.5;
 constexpr int kFewestLines = 3;
+constexpr double kSurelyStill = 0.7;
 constexpr double kStillShare = 0.4;  // right pairs: up to 0.27; one image twice: 0.5 and more
 
 struct Evidence {
@@ -78,8 +79,9 @@ void CountStill(const CameraView& first, const CameraView& second, const StereoO
   }
 }
 
-/// Nothing moves, and what stands still explains more than what fits. Of very few lines all must stand still.
+/// Nothing moves. What also fits as it is must nearly all stand still; of very few lines all.
 bool IsSameView(const PairOrder& order) {
+  if (order.n_should_move >= kFewestLines && order.n_still > kSurelyStill * order.n_should_move) return true;
   if (order.n_still <= order.n_as_given) return false;
   if (order.n_should_move >= kFewestLines) return order.n_still > kStillShare * order.n_should_move;
   return order.n_still == order.n_should_move && order.n_as_given == 0;
