@@ -20,7 +20,7 @@ TEST(RealPhotographsTest, AGridOfPrintedDots) {
   for (const char* name : {"grid36-01.pgm", "grid36-02.pgm", "grid36-03.pgm", "grid36-04.pgm"})
     input.photographs.push_back(std::string(kVisp) + "/" + name);
   input.target = {6, 6, 0.03, 0.0105, true};
-  const json dut = json::parse(CalibrateFromFiles(input));
+  const json dut = json::parse(CalibrateFromFiles(input).json);
   EXPECT_EQ(dut["photographs"].size(), 4u);
   // A compressing, sharpening camera and a bent sheet of paper: 0.26 px.
   EXPECT_LT(dut["F_px"], 0.35);
@@ -39,7 +39,7 @@ TEST(RealPhotographsTest, AChessboard) {
       input.photographs.push_back(name);
     }
     input.chessboard = Chessboard{9, 6, 0.025};
-    const json dut = json::parse(CalibrateFromFiles(input));
+    const json dut = json::parse(CalibrateFromFiles(input).json);
     EXPECT_EQ(dut["photographs"].size(), 13u);
     EXPECT_LT(dut["F_px"], 0.2) << side;
     EXPECT_LT(dut["leave_one_photograph_out_F_px"], 0.25) << side;

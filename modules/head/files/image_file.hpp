@@ -2,16 +2,26 @@
 
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 #include "common/frame_store.hpp"
 
 namespace priamos::head {
 
-/// An image file as grey values; empty for what cannot be read or is no image. A file that is not there never
-/// reaches OpenCV, which would print its own message on standard error.
-cv::Mat ReadGrey(const std::string& path);
+/// Image files of one scene or one camera.
+struct ImageFiles {
+  std::vector<cv::Mat> grey;  ///< CV_8UC1, in the order of the files
+  std::string note;  ///< a sentence for a person, where images of more than 8 bits were scaled; or empty
+};
 
-/// An image file as grey values. Throws ConfigError for what is no image of at least 64 by 64 pixels.
-GreyImage ReadImage(const std::string& path);
+/// Reads image files (PNG, JPEG, TIFF, PGM, PPM, BMP) as grey values. Every image of the project is read
+/// here. Images of 10 to 16 bits get one scale for all (ScaleToBytes). Throws ConfigError with one sentence
+/// that names the file for one that cannot be read as a whole and undamaged, for one that is smaller than
+/// `smallest_px` in either direction, and for one that would be enormous.
+ImageFiles ReadImageFiles(const std::vector<std::string>& paths, int smallest_px);
+
+/// The same of one image for calibration, which needs at least 64 by 64 pixels. Adds the note, if any, to
+/// `notes`, as a line.
+GreyImage ReadImage(const std::string& path, std::string& notes);
 
 }  // namespace priamos::head

@@ -22,12 +22,13 @@ HeadSetting SettingOf(const LaserPicture& picture) {
   return setting;
 }
 
-StripeView ViewOf(const LaserPicture& picture, const std::string& path, const HeadModel& head) {
+StripeView ViewOf(const LaserPicture& picture, const std::string& path, const HeadModel& head,
+                  std::string& notes) {
   const auto camera = head.CameraAt(SettingOf(picture), kThird);
   if (!camera) throw ConfigError("third camera: " + camera.reason() + "; calibrate it first");
   StripeView view{*camera,
                   {picture.normal.normalized(), picture.board_m},
-                  StripeFinder().Find(ReadImage(path)),
+                  StripeFinder().Find(ReadImage(path, notes)),
                   picture.error_m};
   if (view.points.empty())
     throw ConfigError(fmt::format("{}: expected a line of laser light, got none", path));
@@ -75,19 +76,21 @@ void LaserPictures::Describe(Archive& a) {
   if (views.empty()) a.Refuse("view", "at least one picture");
 }
 
-std::string CalibrateLaserFromFiles(const std::string& pictures_path, const std::string& table,
-                                    const std::string& output) {
+OfflineReport CalibrateLaserFromFiles(const std::string& pictures_path, const std::string& table,
+                                      const std::string& output) {
   const ConfigSource source{pictures_path, {}};
   const auto pictures = LoadConfig<LaserPictures>(source);
   HeadModel head = LoadHeadModel(table);
+  OfflineReport report;
   std::vector<StripeView> views;
   for (const LaserPicture& picture : pictures.views)
-    views.push_back(ViewOf(picture, source.Folder() + "/" + picture.image, head));
+    views.push_back(ViewOf(picture, source.Folder() + "/" + picture.image, head, report.notes));
   const auto result = CalibrateLaserPlane(views);
   if (!result) throw ConfigError(fmt::format("{}: {}", pictures_path, result.reason()));
   head.laser = result->plane;
   SaveHeadModel(output.empty() ? table : output, head);
-  return Describe(*result, pictures, head);
+  report.json = Describe(*result, pictures, head);
+  return report;
 }
 
 }  // namespace priamos::head

@@ -5,6 +5,7 @@
 
 #include "common/archive.hpp"
 #include "head/core/calibration/rig/laser_calibration.hpp"
+#include "head/files/offline_calibration.hpp"
 
 namespace priamos::head {
 
@@ -29,7 +30,7 @@ struct LaserPictures {
 /// Work of `priamos calibrate --laser PICTURES --table TABLE`: reads pictures and table, fits the plane of
 /// light, writes it into the table (as a whole or not at all; to `output` if that is not empty) and describes
 /// it as JSON. Throws ConfigError with one sentence; then no file has changed.
-std::string CalibrateLaserFromFiles(const std::string& pictures, const std::string& table,
-                                    const std::string& output);
+OfflineReport CalibrateLaserFromFiles(const std::string& pictures, const std::string& table,
+                                      const std::string& output);
 
 }  // namespace priamos::head

@@ -85,7 +85,17 @@ ordered_json LensJson(const CameraModel& model) {
           {"axes_angle_deg", Degrees(p->axes_angle_rad)}};
 }
 
-ordered_json CameraJson(const std::string& name, const CameraCalibration& camera, const LensKnowledge& lens) {
+/// Size of the images of a camera [px], for who reads the file; 0: not known.
+struct SizeOfImages {
+  int width = 0, height = 0;
+
+  void AddTo(ordered_json& json) const {
+    if (width > 0) json.update({{"image_width", width}, {"image_height", height}});
+  }
+};
+
+ordered_json CameraJson(const std::string& name, const CameraCalibration& camera, const LensKnowledge& lens,
+                        const SizeOfImages& size) {
   const PredictionErrors errors = PredictHeldOut(camera.observations, lens);
   ordered_json json{{"name", name},
                     {"points", camera.discs},
@@ -94,6 +104,7 @@ ordered_json CameraJson(const std::string& name, const CameraCalibration& camera
                     {"leave_one_out_F_px", errors.leave_one_out_px},
                     {"held_out_F_px", errors.held_out_px},
                     {"recalibrations_failed", errors.failed}};
+  size.AddTo(json);
   json.update(LensJson(camera.model));
   json["image_from_points"] = ToJson(camera.model.image_from_base);
   return json;
@@ -106,10 +117,10 @@ ordered_json StereoJson(const std::vector<CameraCalibration>& cameras) {
 }
 
 std::string Several(const std::vector<std::string>& names, const std::vector<CameraCalibration>& cameras,
-                    const std::vector<LensKnowledge>& lenses) {
+                    const std::vector<LensKnowledge>& lenses, const std::vector<SizeOfImages>& sizes) {
   ordered_json list = ordered_json::array();
   for (std::size_t i = 0; i < cameras.size(); ++i)
-    list.push_back(CameraJson(names[i], cameras[i], lenses[i]));
+    list.push_back(CameraJson(names[i], cameras[i], lenses[i], sizes[i]));
   return ordered_json{{"cameras", list}, {"stereo", StereoJson(cameras)}}.dump(2);
 }
 
@@ -122,16 +133,19 @@ std::string FromPoints(const OfflineCalibration& input) {
     const auto dlt = Must(path, SolveDlt(*parsed));
     cameras.push_back(Must(path, CalibrateFromDiscs(ToObservations(*parsed, NoiseOf(*parsed, dlt)), lens)));
   }
-  return Several(input.points, cameras, std::vector<LensKnowledge>(cameras.size(), lens));
+  return Several(input.points, cameras, std::vector<LensKnowledge>(cameras.size(), lens),
+                 std::vector<SizeOfImages>(cameras.size(), {input.width_px, input.height_px}));
 }
 
 /// One photograph per camera.
-std::string FromObject(const OfflineCalibration& input) {
+std::string FromObject(const OfflineCalibration& input, std::string& notes) {
   const auto object = LoadConfig<ReferenceObject>(input.object);
   std::vector<CameraCalibration> cameras;
   std::vector<LensKnowledge> lenses;
+  std::vector<SizeOfImages> sizes;
   for (const std::string& path : input.photographs) {
-    const GreyImage image = ReadImage(path);
+    const GreyImage image = ReadImage(path, notes);
+    sizes.push_back({image.width, image.height});
     lenses.push_back({});
     lenses.back().centre_px = {(image.width - 1) / 2.0, (image.height - 1) / 2.0};
     LabellerOptions options;
@@ -139,7 +153,7 @@ std::string FromObject(const OfflineCalibration& input) {
     cameras.push_back(Must(path, CalibrateCamera(image, object, DiscLabeller(object, options),
                                                  Eigen::Isometry3d::Identity(), lenses.back())));
   }
-  return Several(input.photographs, cameras, lenses);
+  return Several(input.photographs, cameras, lenses, sizes);
 }
 
 /// Mean F of the photographs when the lens comes from all others and only the pose from itself; -1: not to be
@@ -162,11 +176,11 @@ double LeaveOneViewOut(const std::vector<std::vector<DiscObservation>>& views, i
 }
 
 /// All photographs by one camera.
-std::string FromFlatTarget(const OfflineCalibration& input) {
+std::string FromFlatTarget(const OfflineCalibration& input, std::string& notes) {
   std::vector<std::vector<DiscObservation>> views;
   int width = 0, height = 0;
   for (const std::string& path : input.photographs) {
-    const GreyImage image = ReadImage(path);
+    const GreyImage image = ReadImage(path, notes);
     if (!views.empty() && (image.width != width || image.height != height))
       throw ConfigError(fmt::format("{}: expected {} by {} pixels like the others, got {} by {}", path, width,
                                     height, image.width, image.height));
@@ -187,16 +201,23 @@ std::string FromFlatTarget(const OfflineCalibration& input) {
   ordered_json json{{"photographs", list},
                     {"F_px", sum},
                     {"leave_one_photograph_out_F_px", LeaveOneViewOut(views, width, height, lens)}};
+  SizeOfImages{width, height}.AddTo(json);
   json.update(LensJson(cameras.front().model));
   return json.dump(2);
 }
 
 }  // namespace
 
-std::string CalibrateFromFiles(const OfflineCalibration& input) {
-  if (!input.points.empty()) return FromPoints(input);
-  if (input.photographs.empty()) throw ConfigError("calibrate: expected points or photographs, got none");
-  return input.object.empty() ? FromFlatTarget(input) : FromObject(input);
+OfflineReport CalibrateFromFiles(const OfflineCalibration& input) {
+  OfflineReport report;
+  if (!input.points.empty())
+    report.json = FromPoints(input);
+  else if (input.photographs.empty())
+    throw ConfigError("calibrate: expected points or photographs, got none");
+  else
+    report.json =
+        input.object.empty() ? FromFlatTarget(input, report.notes) : FromObject(input, report.notes);
+  return report;
 }
 
 }  // namespace priamos::head

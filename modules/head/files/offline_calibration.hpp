@@ -19,10 +19,16 @@ struct OfflineCalibration {
   int width_px = 0, height_px = 0;       ///< size of the images of `points`; 0: the centre is not constrained
 };
 
+/// What a calibration from files says.
+struct OfflineReport {
+  std::string json;   ///< the result, for programs
+  std::string notes;  ///< what was done to the images, for a person; whole lines, mostly none
+};
+
 /// Calibrates and describes the result as JSON: per camera F (equation 7) of the plain DLT matrix and after
 /// refinement, leave-one-out and held-out F, K, distortion, the 11 physical parameters, the matrix; and the
 /// 3-D error of reconstructing the points that several cameras saw. Throws ConfigError with one sentence,
 /// which names file and line, for what cannot be read or does not determine a camera.
-std::string CalibrateFromFiles(const OfflineCalibration& input);
+OfflineReport CalibrateFromFiles(const OfflineCalibration& input);
 
 }  // namespace priamos::head

@@ -78,8 +78,6 @@ std::string ToText(const SeeFindings& findings, const std::string& model_file, c
 }  // namespace
 
 SeeReport See(const SeeOptions& options) {
-  for (const std::string& image : options.images)
-    if (image.empty()) throw std::runtime_error("\"\": expected an image (PNG, JPEG, PGM ...), got none");
   if (!options.landmark.empty() && options.cameras.empty())
     throw std::runtime_error(
         fmt::format("{}: expected a camera for each image to look for it", options.landmark));
@@ -89,6 +87,7 @@ SeeReport See(const SeeOptions& options) {
   output.Write();
   SeeReport report;
   report.found = !findings.landmark || findings.landmark->fix.verdict == Verdict::kFound;
+  if (!findings.note.empty()) report.notes = findings.note + "\n";
   report.text = ToText(findings, options.landmark, output);
   if (options.json.empty()) return report;
   const std::string json = ToJson(findings).dump(1) + "\n";

@@ -8,9 +8,10 @@
 
 #include "head/core/edges/equal_contrast.hpp"
 #include "head/core/edges/scale_edges.hpp"
+#include "head/core/stereo/pair_order.hpp"
+#include "head/files/camera_file.hpp"
 #include "head/files/image_file.hpp"
 #include "head/files/landmark_file.hpp"
-#include "head/files/projection_file.hpp"
 #include "head/see/see_doors.hpp"
 #include "head/see/see_landmark.hpp"
 
@@ -21,16 +22,6 @@ constexpr int kSmallest_px = 32;
 constexpr double kBlurred =
     0.75;  // a sharp photograph shows at half its size less than this part of its edges
 constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may be uncertain
-
-cv::Mat ReadLargeEnough(const std::string& file) {
-  cv::Mat image = ReadGrey(file);
-  if (image.empty())
-    throw std::runtime_error(fmt::format("{}: expected an image (PNG, JPEG, PGM ...), got none", file));
-  if (image.cols < kSmallest_px || image.rows < kSmallest_px)
-    throw std::runtime_error(fmt::format("{}: expected at least {}x{} pixels, got {}x{}", file, kSmallest_px,
-                                         kSmallest_px, image.cols, image.rows));
-  return image;
-}
 
 double LengthOf(const EdgeImage& image) {
   double length_px = 0;
@@ -70,15 +61,27 @@ void FindEdges(bool of_one_scene, std::vector<SeenPhotograph>& photographs) {
   for (SeenPhotograph& photograph : photographs) photograph.contours = {photograph.edges, {}};
 }
 
-std::vector<SeenPhotograph> ReadPhotographs(const SeeOptions& options) {
-  std::vector<SeenPhotograph> photographs;
-  for (const std::string& file : options.images) {
-    SeenPhotograph& photograph = photographs.emplace_back();
-    photograph.file = file;
-    photograph.grey = ReadLargeEnough(file);
+void ReadPhotographs(const SeeOptions& options, SeeFindings& findings) {
+  ImageFiles files = ReadImageFiles(options.images, kSmallest_px);
+  findings.note = std::move(files.note);
+  for (std::size_t i = 0; i < options.images.size(); ++i) {
+    SeenPhotograph& photograph = findings.photographs.emplace_back();
+    photograph.file = options.images[i];
+    photograph.grey = files.grey[i];
   }
-  FindEdges(!options.cameras.empty(), photographs);
-  return photographs;
+  FindEdges(!options.cameras.empty(), findings.photographs);
+}
+
+/// From one place nothing has a distance: a file was given twice, or does not say where its camera stands.
+void RefuseOnePlace(const std::vector<std::string>& files, const std::vector<CameraModel>& cameras) {
+  constexpr double kApart_m = 1e-4;
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if ((OpticalCentre(cameras[i]) - OpticalCentre(cameras[j])).norm() < kApart_m)
+        throw std::runtime_error(
+            fmt::format("{}: expected cameras at different places, got two at one; say in projection_matrix "
+                        "where each stands",
+                        fmt::join(files, ", ")));
 }
 
 std::vector<CameraModel> ReadCameras(const SeeOptions& options,
@@ -86,18 +89,20 @@ std::vector<CameraModel> ReadCameras(const SeeOptions& options,
   if (options.cameras.empty()) return {};
   const std::size_t n = photographs.size();
   const std::size_t fewest = options.landmark.empty() ? 2 : 1;
-  if (options.cameras.size() != n || n < fewest || n > 3)
-    throw std::runtime_error(fmt::format("expected {} images and a camera for each, got {} and {}",
-                                         fewest == 1 ? "one to three" : "two or three", n,
-                                         options.cameras.size()));
-  std::vector<CameraModel> cameras;
-  for (std::size_t i = 0; i < n; ++i) {
-    const cv::Mat& grey = photographs[i].grey;
-    if (grey.size() != photographs[0].grey.size())
-      throw std::runtime_error(fmt::format("{}: expected the size of {}, got {}x{}", photographs[i].file,
-                                           photographs[0].file, grey.cols, grey.rows));
-    cameras.push_back(LoadProjection(options.cameras[i], grey.cols, grey.rows));
-  }
+  const auto check_number = [&](std::size_t n_cameras) {
+    if (n_cameras != n || n < fewest || n > 3)
+      throw std::runtime_error(fmt::format("expected {} images and a camera for each, got {} and {}",
+                                           fewest == 1 ? "one to three" : "two or three", n, n_cameras));
+  };
+  if (options.cameras.size() != 1) check_number(options.cameras.size());
+  const cv::Size size = photographs[0].grey.size();
+  for (const SeenPhotograph& photograph : photographs)
+    if (photograph.grey.size() != size)
+      throw std::runtime_error(fmt::format("{}: expected the size of {}, got {}x{}", photograph.file,
+                                           photographs[0].file, photograph.grey.cols, photograph.grey.rows));
+  auto cameras = LoadCameras(options.cameras, n, {{size.width, size.height}, options.are_rectified});
+  check_number(cameras.size());
+  RefuseOnePlace(options.cameras, cameras);
   return cameras;
 }
 
@@ -112,25 +117,47 @@ void RefuseSameImage(const std::vector<SeenPhotograph>& photographs) {
                         photographs[j].file, photographs[i].file));
 }
 
-/// Seen from the wrong side everything lies behind the cameras, or nothing fits.
-void RefuseExchanged(const SeeFindings& findings, int n_as_given) {
-  const SeenPhotograph &first = findings.photographs[0], &second = findings.photographs[1];
-  const int exchanged =
-      CountInSpace(MatchBinocular(MakeView(findings.cameras[0], second.edges),
-                                  MakeView(findings.cameras[1], first.edges), StereoOptions()));
-  if (exchanged >= 2 && exchanged > 3 * n_as_given)
-    throw std::runtime_error(
-        fmt::format("{} and {}: expected the images in the order of their cameras: {} edges fit as they "
-                    "are, {} if the images are exchanged",
-                    first.file, second.file, n_as_given, exchanged));
+/// Why a pair cannot be used, without the names of its files; empty if it can be, or shows nothing at all.
+std::string WhyNoPair(const PairOrder& order, const CameraView& first, const CameraView& second) {
+  switch (order.verdict) {
+    case PairVerdict::kRight:
+      return "";
+    case PairVerdict::kUnknown:
+      if (first.lines.empty() || second.lines.empty()) return "";
+      return fmt::format("expected images of one scene, got {} and {} edges, none of which is in both",
+                         first.lines.size(), second.lines.size());
+    case PairVerdict::kSameView:
+      return fmt::format(
+          "expected an image of each camera, got nearly the same image twice: {} of {} edges that should "
+          "have "
+          "moved stand still",
+          order.n_still, order.n_should_move);
+    case PairVerdict::kExchanged:
+      break;
+  }
+  return fmt::format(
+      "expected the images in the order of their cameras: {} edges fit as they are, {} if the images are "
+      "exchanged",
+      order.n_as_given, order.n_exchanged);
+}
+
+/// Seen from the wrong side everything lies behind the cameras; seen twice nothing moves.
+void RefuseWrongOrder(const SeeFindings& findings) {
+  const auto& views = findings.views;
+  for (std::size_t j = 1; j < views.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      const auto why = WhyNoPair(JudgeOrder(views[i], views[j], StereoOptions()), views[i], views[j]);
+      if (!why.empty())
+        throw std::runtime_error(
+            fmt::format("{} and {}: {}", findings.photographs[i].file, findings.photographs[j].file, why));
+    }
 }
 
 std::vector<StereoMatch> MatchViews(const SeeFindings& findings) {
   const auto& views = findings.views;
-  auto matches = views.size() == 2 ? MatchBinocular(views[0], views[1], {})
-                                   : MatchTrinocular(views[0], views[1], views[2], {});
-  RefuseExchanged(findings, CountInSpace(matches));
-  return matches;
+  RefuseWrongOrder(findings);
+  return views.size() == 2 ? MatchBinocular(views[0], views[1], {})
+                           : MatchTrinocular(views[0], views[1], views[2], {});
 }
 
 DoorDetectionOptions DoorOptions(double max_width_m) {
@@ -172,7 +199,7 @@ std::vector<cv::Mat> SeeFindings::Greys() const {
 
 SeeFindings FindAll(const SeeOptions& options) {
   SeeFindings findings;
-  findings.photographs = ReadPhotographs(options);
+  ReadPhotographs(options, findings);
   findings.cameras = ReadCameras(options, findings.photographs);
   for (std::size_t i = 0; i < findings.cameras.size(); ++i)
     findings.views.push_back(MakeView(findings.cameras[i], findings.photographs[i].edges));

@@ -42,8 +42,9 @@ struct SeenLandmark {
 /// All that was found. `views` refer to `photographs` and `cameras`: it is moved, never copied.
 struct SeeFindings {
   std::vector<SeenPhotograph> photographs;
-  std::vector<CameraModel> cameras;                 ///< cameras of the photographs, or none
-  std::vector<CameraView> views;                    ///< by camera
+  std::string note;                  ///< how images of more than 8 bits were scaled, if any was
+  std::vector<CameraModel> cameras;  ///< cameras of the photographs, or none
+  std::vector<CameraView> views;     ///< by camera
   std::optional<std::vector<StereoMatch>> matches;  ///< with two or three cameras
   std::optional<SeenDoors> doors;                   ///< with SeeOptions::stand
   std::optional<SeenLandmark> landmark;             ///< with SeeOptions::landmark

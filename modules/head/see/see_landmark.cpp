@@ -19,11 +19,20 @@ constexpr Layer kBelieved{"believed", "model where it is believed", {.line = Col
 constexpr Layer kMatched{"matched", "edge taken for the model", {.line = Colour{0x3cdc3c}, .width = 2}};
 constexpr Layer kFound{"found", "model where it was found", {.line = Colour{0xff40ff}, .width = 1}};
 
+/// Draws a straight edge as the lens bends it; `p` and `q` are undistorted [px].
+void DrawBent(SeePage& page, const CameraModel& camera, const Layer& layer, const Eigen::Vector2d& p,
+              const Eigen::Vector2d& q) {
+  const bool is_straight = camera.IsRadial() && camera.k1 == 0 && camera.k2 == 0;
+  const int pieces = is_straight ? 1 : 12;
+  const auto at = [&](int i) { return camera.Distort(p + static_cast<double>(i) / pieces * (q - p)); };
+  for (int i = 0; i < pieces; ++i) page.Line(layer, 0, at(i), at(i + 1));
+}
+
 void DrawModel(SeePage& page, const CameraView& view, const LandmarkModel& seen, const Eigen::Isometry3d& at,
                const Layer& layer) {
   for (const LandmarkEdge& edge : seen.edges)
     if (const auto p = ProjectEdge(*view.camera, view.size, at * edge.from, at * edge.to))
-      page.Line(layer, 0, p->p, p->q);
+      DrawBent(page, *view.camera, layer, p->p, p->q);
 }
 
 void DrawFound(SeePage& page, const CameraView& view, const FreeModelFix& fix) {

@@ -8,8 +8,9 @@ namespace priamos::head {
 /// Which photographs to look at, and for what; no robot needed.
 struct SeeOptions {
   std::vector<std::string> images;  ///< files OpenCV can read
-  /// Projection files (LoadProjection) of two or three images of one scene.
+  /// Files of the cameras (LoadCameras) of two or three images of one scene: one for each, or one for all.
   std::vector<std::string> cameras{};
+  bool are_rectified = false;  ///< the images were rectified by the projection matrices of `cameras`
   /// A free landmark model (LoadPolyhedron) to look for; needs cameras, one is enough.
   std::string landmark{};
   std::vector<double> at{};        ///< where it is believed to be (PoseFromSix)

@@ -1,8 +1,8 @@
 // How well the head sees: every figure that is promised, beside the public state of the art on the same
 // images in the same run.
 //   bench_vision [--quick] [--photo FILE]... [--pair LEFT RIGHT CAMERA CAMERA]... [--only PART]...
-// PART: edges, stereo, photometry, door, repeated, cupboard, budget, deceptions, leaves, castle, detection,
-// corridor, laser. Prints one line per figure with its bound; exit 1 if one is missed.
+// PART: edges, stereo, photometry, order, door, repeated, cupboard, budget, deceptions, leaves, castle,
+// detection, corridor, laser. Prints one line per figure with its bound; exit 1 if one is missed.
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
@@ -21,8 +21,8 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile)
       ->expected(4, 400);
   app.add_option("--only", only, "these parts only")
-      ->check(CLI::IsMember({"edges", "stereo", "photometry", "door", "repeated", "cupboard", "budget",
-                             "deceptions", "leaves", "castle", "detection", "corridor", "laser"}));
+      ->check(CLI::IsMember({"edges", "stereo", "photometry", "order", "door", "repeated", "cupboard",
+                             "budget", "deceptions", "leaves", "castle", "detection", "corridor", "laser"}));
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   const auto wanted = [&](std::string_view part) {
@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   if (wanted("edges")) BenchEdges(options, figures);
   if (wanted("stereo")) BenchStereo(options, figures);
   if (wanted("photometry")) BenchPhotometry(options, figures);
+  if (wanted("order")) BenchOrder(options, figures);
   if (wanted("door")) BenchDoor(options, figures);
   if (wanted("repeated")) BenchRepeated(options, figures);
   if (wanted("cupboard")) BenchCupboard(options, figures);

@@ -27,6 +27,9 @@ void BenchStereo(const VisionOptions& options, Figures& figures);
 /// Stereo matches when one camera is brighter, darker, has another tone curve or loses light in the corners.
 void BenchPhotometry(const VisionOptions& options, Figures& figures);
 
+/// Pairs that are exchanged, or one image twice, or nearly so, and right ones: which are refused.
+void BenchOrder(const VisionOptions& options, Figures& figures);
+
 /// Fixes at the door from rendered stereo pairs, beside ViSP's edge tracker where it is installed.
 void BenchDoor(const VisionOptions& options, Figures& figures);
 

@@ -71,7 +71,7 @@ class LaserFilesTest : public testing::Test {
 };
 
 TEST_F(LaserFilesTest, ThePlaneGoesIntoTheTable) {
-  const json dut = json::parse(CalibrateLaserFromFiles(Write(kViews), table_, ""));
+  const json dut = json::parse(CalibrateLaserFromFiles(Write(kViews), table_, "").json);
   EXPECT_LT(dut["rms_px"], 0.1);
   EXPECT_EQ(dut["views"].size(), 2u);
   EXPECT_NEAR(dut["base"]["normal"][0], std::sin(0.35), 1e-3);

@@ -68,7 +68,7 @@ class OfflineCalibrationTest : public testing::Test {
 TEST_F(OfflineCalibrationTest, TwoListsOfPointsGiveTwoCamerasAndTheObject) {
   OfflineCalibration input;
   input.points = {Write("left.txt", Points(Camera(-0.1), 0.1)), Write("right.txt", Points(Camera(0.1), 0.1))};
-  const json dut = json::parse(CalibrateFromFiles(input));
+  const json dut = json::parse(CalibrateFromFiles(input).json);
   ASSERT_EQ(dut["cameras"].size(), 2u);
   const json& left = dut["cameras"][0];
   EXPECT_EQ(left["points"], 16);
@@ -82,7 +82,7 @@ TEST_F(OfflineCalibrationTest, TwoListsOfPointsGiveTwoCamerasAndTheObject) {
 TEST_F(OfflineCalibrationTest, OneCameraHasNoStereo) {
   OfflineCalibration input;
   input.points = {Write("left.txt", Points(Camera(0), 0.1))};
-  EXPECT_TRUE(json::parse(CalibrateFromFiles(input))["stereo"].is_null());
+  EXPECT_TRUE(json::parse(CalibrateFromFiles(input).json)["stereo"].is_null());
 }
 
 TEST_F(OfflineCalibrationTest, PhotographsOfTheObjectGiveACameraEach) {
@@ -97,7 +97,7 @@ TEST_F(OfflineCalibrationTest, PhotographsOfTheObjectGiveACameraEach) {
                 cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())));
     input.photographs.push_back(path);
   }
-  const json dut = json::parse(CalibrateFromFiles(input));
+  const json dut = json::parse(CalibrateFromFiles(input).json);
   EXPECT_LT(dut["cameras"][1]["F_px"], 0.03);
   EXPECT_LT(dut["stereo"]["rms_m"], 0.0002);
 }

@@ -170,7 +170,7 @@ TEST_F(SeeFindingsTest, ImagesOfOneSceneHaveOneSize) {
 TEST_F(SeeFindingsTest, AnImageOf32By32PixelsIsLargeEnough) {
   EXPECT_EQ(ReasonOf({.images = {Photograph("just.png", 0, {32, 32})}}), "");
   EXPECT_THAT(ReasonOf({.images = {Photograph("small.png", 0, {31, 40})}}),
-              HasSubstr("small.png: expected at least 32x32 pixels, got 31x40"));
+              HasSubstr("small.png: expected an image of at least 32x32 pixels, got 31x40"));
   EXPECT_THAT(ReasonOf({.images = {folder_ / "none.png"}}), HasSubstr("none.png: expected an image"));
 }
 
@@ -190,6 +190,45 @@ TEST_F(SeeFindingsTest, OneImageForTwoCamerasIsRefused) {
                                    ": expected an image of each camera, got the same image twice");
   options.cameras.clear();
   EXPECT_EQ(ReasonOf(options), "") << "without cameras each is seen alone";
+}
+
+TEST_F(SeeFindingsTest, NearlyOneImageForTwoCamerasIsRefused) {
+  SeeOptions options = Pair();
+  const cv::Mat left = cv::imread(options.images[0], cv::IMREAD_GRAYSCALE);
+  options.images[1] = folder_ / "again.jpg";
+  cv::imwrite(options.images[1], left * 0.8);
+  EXPECT_EQ(ReasonOf(options),
+            options.images[0] + " and " + options.images[1] +
+                ": expected an image of each camera, got nearly the same image twice: 2 of 2 "
+                "edges that should have moved stand still");
+}
+
+TEST_F(SeeFindingsTest, ImagesOfDifferentScenesAreRefused) {
+  SeeOptions options = Pair();
+  cv::Mat other(120, 160, CV_8UC1, cv::Scalar(60));
+  cv::circle(other, {110, 90}, 15, cv::Scalar(200), cv::FILLED);
+  cv::line(other, {10, 110}, {150, 100}, cv::Scalar(180), 3);
+  options.images[1] = folder_ / "other.png";
+  cv::imwrite(options.images[1], other);
+  EXPECT_THAT(ReasonOf(options), HasSubstr("none of which is in both"));
+}
+
+TEST_F(SeeFindingsTest, CamerasAtOnePlaceAreRefused) {
+  SeeOptions options = Pair();
+  options.cameras[1] = options.cameras[0];
+  EXPECT_EQ(ReasonOf(options), options.cameras[0] + ", " + options.cameras[0] +
+                                   ": expected cameras at different places, got two at one; say in "
+                                   "projection_matrix where each stands");
+}
+
+TEST_F(SeeFindingsTest, TwelveBitsAreNotBlackAndItIsSaid) {
+  const std::string file = Photograph("deep.png", 0);
+  cv::Mat deep;
+  cv::imread(file, cv::IMREAD_GRAYSCALE).convertTo(deep, CV_16U, 4095.0 / 255);
+  cv::imwrite(file, deep);
+  const SeeFindings dut = FindAll({.images = {file}});
+  EXPECT_EQ(dut.photographs[0].edges.segments.size(), 4u);
+  EXPECT_EQ(dut.note, file + ": 16 bits a pixel, of which 12 are in use: 4095 is taken for white");
 }
 
 TEST_F(SeeFindingsTest, DoorsNeedTwoCameras) {

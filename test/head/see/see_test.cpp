@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "head/core/landmark/landmark_fix.hpp"
-#include "head/files/projection_file.hpp"
+#include "head/files/camera_file.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos::head {
@@ -238,8 +238,8 @@ TEST_F(SeeTest, MistakesInALandmarkFileAreNamed) {
 
 TEST_F(SeeTest, ACameraOfAnotherImageIsRefused) {
   const std::string camera = Camera("left.yaml", 0);
-  EXPECT_NO_THROW(LoadProjection(camera, kWidth, kHeight));
-  EXPECT_THROW(LoadProjection(camera, kWidth + 1, kHeight), std::runtime_error);
+  EXPECT_NO_THROW(LoadCameras({camera}, 1, {{kWidth, kHeight}}));
+  EXPECT_THROW(LoadCameras({camera}, 1, {{kWidth + 1, kHeight}}), std::runtime_error);
 }
 
 /// A framed door 3 m before the cameras, which stand 1.2 m above the floor.

@@ -54,9 +54,10 @@ int CalibrateFiles(const CalibrateOptions& options) {
     files.width_px = options.image_size[0];
     files.height_px = options.image_size[1];
   }
-  const std::string json = head::CalibrateFromFiles(files);
+  const head::OfflineReport report = head::CalibrateFromFiles(files);
+  std::cerr << report.notes;
   const bool to_pipe = options.output.empty() || options.output == "-";
-  to_pipe ? void(std::cout << json << std::endl) : WriteWhole(options.output, json);
+  to_pipe ? void(std::cout << report.json << std::endl) : WriteWhole(options.output, report.json);
   return 0;
 }
 
@@ -92,7 +93,9 @@ void AddFileOptions(CLI::App& verb, CalibrateOptions& options) {
 /// The plane of the line laser into a table; JSON to standard output.
 int CalibrateLaser(const CalibrateOptions& options) {
   const std::string table = options.table.empty() ? FileOf(options, "kastor.yaml") : options.table;
-  std::cout << head::CalibrateLaserFromFiles(options.laser, table, options.output) << std::endl;
+  const head::OfflineReport report = head::CalibrateLaserFromFiles(options.laser, table, options.output);
+  std::cerr << report.notes;
+  std::cout << report.json << std::endl;
   return 0;
 }
 

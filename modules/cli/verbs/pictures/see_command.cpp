@@ -13,8 +13,11 @@ void AddImageOptions(CLI::App& verb, head::SeeOptions& options) {
   verb.add_option("image", options.images, "image files")->required();
   verb.add_option(
           "--cameras", options.cameras,
-          "rectified cameras of two or three images: YAML with projection_matrix, in the images' order")
+          "cameras of the images, in their order, or one file with all: camera_info of ROS, YAML or XML of "
+          "OpenCV, XML of ViSP, or what `priamos calibrate` wrote")
       ->expected(1, 3);
+  verb.add_flag("--rectified", options.are_rectified,
+                "the images were rectified by the cameras' projection_matrix; without it they are as taken");
   verb.add_option("--stand", options.stand,
                   "look for doors in two images: height of the left camera above the floor [m], its tilt and "
                   "roll [deg, down and to the right are positive]")
@@ -58,6 +61,7 @@ void AddSeeCommand(CLI::App& cli, int& exit_code) {
   AddResultOptions(*verb, *options);
   verb->callback([options, &exit_code] {
     const head::SeeReport report = head::See(*options);
+    std::cerr << report.notes;
     std::cout << report.json;
     (report.json.empty() ? std::cout : std::cerr) << report.text;
     exit_code = report.found ? 0 : 1;

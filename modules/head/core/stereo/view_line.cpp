@@ -8,10 +8,12 @@
 namespace priamos::head {
 namespace {
 
-/// CameraModel::Undistort for thousands of points: the radial factor from a table.
+/// CameraModel::Undistort for thousands of points: the radial factor from a table, where there is one.
 class FastUndistort {
  public:
-  FastUndistort(const CameraModel& camera, const ImageSize& size) : camera_(camera) {
+  FastUndistort(const CameraModel& camera, const ImageSize& size)
+      : camera_(camera), is_radial_(camera.IsRadial()) {
+    if (!is_radial_) return;
     const double reach = std::hypot(std::max(camera.centre_px.x(), size.width - camera.centre_px.x()),
                                     std::max(camera.centre_px.y(), size.height - camera.centre_px.y()));
     per_squared_px_ = (kSize - 1) / (reach * reach);
@@ -22,6 +24,7 @@ class FastUndistort {
     }
   }
   Eigen::Vector2d operator()(const Eigen::Vector2d& distorted_px) const {
+    if (!is_radial_) return camera_.Undistort(distorted_px);
     const Eigen::Vector2d d = distorted_px - camera_.centre_px;
     const double at = std::min(d.squaredNorm() * per_squared_px_, kSize - 1e-9);
     const int i = static_cast<int>(at);
@@ -31,8 +34,9 @@ class FastUndistort {
  private:
   static constexpr int kSize = 128;
   const CameraModel& camera_;
-  double per_squared_px_;
-  std::array<double, kSize + 1> factor_;
+  bool is_radial_;
+  double per_squared_px_ = 0;
+  std::array<double, kSize + 1> factor_{};
 };
 
 /// Moves p and q onto the least squares line through `points`.

@@ -7,7 +7,7 @@
 #include "head/core/edges/edge_segments.hpp"
 #include "head/core/edges/equal_contrast.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
-#include "head/files/projection_file.hpp"
+#include "head/files/camera_file.hpp"
 #include "test/bench/vision/photometry/door_light.hpp"
 #include "test/bench/vision/photometry/other_light.hpp"
 #include "test/bench/vision/stereo_scenes.hpp"
@@ -106,8 +106,9 @@ std::vector<Scene> Photographs(const VisionOptions& options) {
     Scene& scene = scenes.emplace_back();
     for (std::size_t c = 0; c < 2; ++c) {
       scene.images.push_back(cv::imread(options.pairs[i + c], cv::IMREAD_GRAYSCALE));
-      scene.cameras.push_back(
-          head::LoadProjection(options.pairs[i + 2 + c], scene.images[c].cols, scene.images[c].rows));
+      scene.cameras.push_back(head::LoadCameras({options.pairs[i + 2 + c]}, 1,
+                                                {{scene.images[c].cols, scene.images[c].rows}, true})
+                                  .front());
     }
     const cv::Mat disparity = Disparity(scene.images[0], scene.images[1]);
     scene.is_right = [disparity](const head::CameraView& left, int a, const head::CameraView& right, int b) {
