@@ -77,6 +77,7 @@ def cause(summary):
 
 
 def line(name, values, unit, scale=1.0):
+    values = [v for v in values if v is not None]  # a drive that leads through no door has none
     if not values:
         return f"{name:<36} none"
     scaled = [abs(v) * scale for v in values]
@@ -130,7 +131,7 @@ def histogram(values, title, unit, width=520, height=240):
 
 def write_plots(folder, runs):
     passed = [r for r in runs.values() if r["passed"]]
-    lateral = [100 * r["lateral_at_door_m"] for r in passed]
+    lateral = [100 * r["lateral_at_door_m"] for r in passed if r["lateral_at_door_m"] is not None]
     nees = [r["belief_at_door"]["nees"] for r in passed if r.get("belief_at_door")]
     for name, values, title, unit in (("lateral", lateral, "lateral in the door", "cm"),
                                       ("nees", nees, "NEES in the door", "")):

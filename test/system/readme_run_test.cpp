@@ -41,7 +41,7 @@ const std::vector<Rule> kUntilStopped{
     {"priamos (view|where)\\b", "."},
     {"priamos link top(?!.*--once)", "LINK_STATUS|CHANNEL|channel"},
     {"(build/bin/)?priamos-teleop .*--show", "PRIAMOS teleop"},
-    {"(build/bin/)?priamos-(robot|head|planner|radio|world) "
+    {"(build/bin/)?priamos-(robot|head|planner|radio|world|console) "
      "(?!.*--(print-config|interface|calibrate|help)\\b)(?!.*&$)",
      "."},
 };

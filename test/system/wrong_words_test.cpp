@@ -31,7 +31,7 @@ const std::vector<WrongLine> kLines{
     {"priamos echo POSE", "unknown verb \"echo\"", "\"topic echo\""},
     {"priamos wehre", "unknown verb \"wehre\"", "\"where\""},
     {"priamos mission dor laboratory", "unknown verb \"dor\"", "\"door\""},
-    {"priamos mission", "got none", "abort, door, status"},
+    {"priamos mission", "got none", "abort, door, goto, status"},
     {"priamos log inof x.lcmlog", "unknown verb \"inof\"", "\"info\""},
     {"priamos link bugdet", "unknown verb \"bugdet\"", "\"budget\""},
     {"priamos completion bahs", "unknown verb \"bahs\"", "\"bash\""},

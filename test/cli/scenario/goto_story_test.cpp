@@ -72,10 +72,10 @@ TEST(GotoStory, APlannerThatOnlyBelievesToBeThereHasNotSucceeded) {
   GotoStage stage;
   stage.Begin();
   stage.Say(mission_status_t::DRIVING, "driving");
-  stage.Stand(4.5, 1);
+  stage.Stand(4.6, 1);
   stage.Say(mission_status_t::DONE, "at (4, 1)");
   EXPECT_FALSE(stage.story->Succeeded());
-  EXPECT_EQ(stage.story->Reason(), "the base is 0.50 m from waypoint 1");
+  EXPECT_EQ(stage.story->Reason(), "the base is 0.60 m from waypoint 1");
   stage.Run(2);
   EXPECT_TRUE(stage.Done());
 }

@@ -14,6 +14,8 @@ namespace {
 constexpr double kSlim = 0.6;
 /// Share of the easy margin that straight lines keep.
 constexpr double kLines = 0.9;
+/// Length of the last line to the goal, which has no leeway.
+constexpr double kExact_m = 0.6;
 
 ObstacleMap MapOf(const GroundPlan& plan, bool unknown_leaves) {
   ObstacleMap map(plan);
@@ -127,12 +129,18 @@ std::vector<Pose2> RoutePlanner::Straightened(const std::vector<Pose2>& route, d
 PlannedPath RoutePlanner::PathAlong(const Pose2& start, std::vector<Pose2> corners) const {
   PlannedPath path;
   path.min_gap_m = space_.At(start).distance_m;
+  // Around things beside it the base would end beside the goal: the last bit is driven as it is planned.
+  const Pose2 before = corners.size() > 1 ? corners[corners.size() - 2] : start;
+  const double last_m = (corners.back().translation() - before.translation()).norm();
+  if (last_m > kExact_m)
+    corners.insert(corners.end() - 1, Between(before, corners.back(), 1 - kExact_m / last_m));
   Pose2 from = start;
   for (const Pose2& to : corners) {
     path.min_gap_m = std::min(path.min_gap_m, space_.Along(from, to).distance_m);
     path.leeway.push_back(space_.LeewayOf(from, to, config_.least_margin_m));
     from = to;
   }
+  path.leeway.back() = {};
   path.points = std::move(corners);
   return path;
 }

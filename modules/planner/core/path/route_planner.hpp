@@ -31,8 +31,8 @@ class RoutePlanner {
   void Add(std::string name, const Rectangle& shape);
   void Forget();
 
-  /// Straight lines with evenly turning heading to the goal, as few as there may be; each with its leeway.
-  /// Refuses with the reason.
+  /// Straight lines with evenly turning heading to the goal, as few as there may be; each but the last 60 cm
+  /// with its leeway. Refuses with the reason.
   Outcome<PlannedPath> Plan(const Pose2& map_from_start, const Goal& goal) const;
 
  private:

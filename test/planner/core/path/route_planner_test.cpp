@@ -18,10 +18,12 @@ RoutePlanner PlannerOf(const GroundPlan& plan) {
 TEST(RoutePlannerTest, AcrossAFreeRoomOneLineIsEnough) {
   const auto path = PlannerOf(ShippedPlan()).Plan({1, 2.4, 0}, {{4.6, 1.3, 1.2}});
   ASSERT_TRUE(path) << path.reason();
-  ASSERT_EQ(path->points.size(), 1u);
-  EXPECT_NEAR(path->points[0].yaw, 1.2, 1e-12);
-  ASSERT_EQ(path->leeway.size(), 1u);
+  ASSERT_EQ(path->points.size(), 2u) << "its last bit apart";
+  EXPECT_NEAR((path->points[0].translation() - Eigen::Vector2d(4.6, 1.3)).norm(), 0.6, 1e-9);
+  EXPECT_NEAR(path->points[1].yaw, 1.2, 1e-12);
+  ASSERT_EQ(path->leeway.size(), 2u);
   EXPECT_GT(path->leeway[0].left_m, 0.5);
+  EXPECT_EQ(path->leeway[1].left_m, 0) << "the goal is not left";
 }
 
 TEST(RoutePlannerTest, AroundAScreenItKeepsTheEasyMargin) {
@@ -29,8 +31,8 @@ TEST(RoutePlannerTest, AroundAScreenItKeepsTheEasyMargin) {
   plan.walls.push_back({"screen", {3, 0}, {3, 2.4}, 0.1});
   const auto path = PlannerOf(plan).Plan({1, 1, 0}, {{5, 1, 0}});
   ASSERT_TRUE(path) << path.reason();
-  EXPECT_GE(path->points.size(), 2u);
-  EXPECT_LE(path->points.size(), 6u);
+  EXPECT_GE(path->points.size(), 3u);
+  EXPECT_LE(path->points.size(), 7u);
   EXPECT_GE(path->min_gap_m, 0.27 - 1e-3);
 }
 
@@ -51,16 +53,16 @@ TEST(RoutePlannerTest, CupboardsAreInTheWay) {
   plan.cupboards.push_back(cupboard);
   const auto path = PlannerOf(plan).Plan({1, 2.4, 0}, {{5, 2.4, 0}});
   ASSERT_TRUE(path) << path.reason();
-  EXPECT_GE(path->points.size(), 2u);
+  EXPECT_GE(path->points.size(), 3u);
   EXPECT_THAT(PlannerOf(plan).Plan({1, 2.4, 0}, {{2.6, 2.4, 0}}).reason(), HasSubstr("cupboard 'tools'"));
 }
 
 TEST(RoutePlannerTest, WhatWasAddedIsAvoidedUntilItIsForgotten) {
   RoutePlanner dut = PlannerOf(ShippedPlan());
   dut.Add("box", {{3, 2.4, 0}, {0.3, 0.3}});
-  EXPECT_GE(dut.Plan({1, 2.4, 0}, {{5, 2.4, 0}})->points.size(), 2u);
+  EXPECT_GE(dut.Plan({1, 2.4, 0}, {{5, 2.4, 0}})->points.size(), 3u);
   dut.Forget();
-  EXPECT_EQ(dut.Plan({1, 2.4, 0}, {{5, 2.4, 0}})->points.size(), 1u);
+  EXPECT_EQ(dut.Plan({1, 2.4, 0}, {{5, 2.4, 0}})->points.size(), 2u);
 }
 
 TEST(RoutePlannerTest, ADoorOnTheWayIsNamed) {
