@@ -125,6 +125,10 @@ bool GotoMission::AtGoal(const Pose2& map_from_base) const {
 }
 
 void GotoMission::OnStop(MissionControl& control, const Stop& stop) {
+  if (stop.cause == Stop::Cause::kBlocked && AtGoal(control.heard().pose->map_from_base)) {
+    control.OrderPath({}, 0);  // what is left of the path is not to be driven later
+    return Arrive(control);
+  }
   if (stop.cause != Stop::Cause::kBlocked || ++departures_ > config_.retries)
     return control.Fail(stop.reason + "; next: look what it is, and order it again");
   NoteThingAhead(control);

@@ -74,6 +74,17 @@ TEST(GotoMissionTest, ABoxOnTheWayIsPutOnTheMapAndAnotherWayIsDriven) {
   EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
 }
 
+TEST(GotoMissionTest, WhoIsStoppedAtTheGoalIsThere) {
+  Story s;
+  s.Start({{3.0, 2.4, 0}});
+  s.robot.RunUntilX(2.93);
+  s.robot.blocked = true;
+  s.robot.RunFor(10);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  for (int i = 0; i < 10; ++i) s.robot.Step();  // the radio's delay
+  EXPECT_TRUE(s.robot.paths.back().points.empty()) << "it does not go on when the way is free again";
+}
+
 TEST(GotoMissionTest, ANewMissionForgetsWhatStopped) {
   Story s;
   s.Start({{5.0, 2.4, 0}});
