@@ -1,6 +1,8 @@
 #include "common/principal_axes.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace priamos {
@@ -16,5 +18,9 @@ PrincipalAxes<N> PrincipalAxesOf(const Eigen::Matrix<double, N, N>& symmetric) {
 template PrincipalAxes<2> PrincipalAxesOf(const Eigen::Matrix2d&);
 template PrincipalAxes<3> PrincipalAxesOf(const Eigen::Matrix3d&);
 template PrincipalAxes<6> PrincipalAxesOf(const Eigen::Matrix<double, 6, 6>&);
+
+double PositionSigma(const Eigen::Matrix3d& covariance) {
+  return std::sqrt(std::max(0.0, PrincipalAxesOf<2>(covariance.topLeftCorner<2, 2>()).values(1)));
+}
 
 }  // namespace priamos

@@ -16,4 +16,8 @@ struct PrincipalAxes {
 template <int N>
 PrincipalAxes<N> PrincipalAxesOf(const Eigen::Matrix<double, N, N>& symmetric);
 
+/// Standard deviation [m] of a position in the direction where it is known worst; `covariance` of (x, y, yaw)
+/// [m, rad].
+double PositionSigma(const Eigen::Matrix3d& covariance);
+
 }  // namespace priamos

@@ -28,7 +28,7 @@ WebServerOptions ServerOptions(const ConsoleConfig& config, const bus::Context& 
   WebServerOptions options;
   options.address = config.address;
   options.port = config.port;
-  options.ports = config.port == 0 ? 1 : config.ports;
+  options.ports = config.ports;
   options.max_sockets = config.pages;
   options.max_connections = 4 * config.pages;
   options.max_message = kMaxBrowserMessage;

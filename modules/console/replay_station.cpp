@@ -29,18 +29,18 @@ ReplayStation::ReplayStation(bus::LogPlayer log, const bus::Schema& schema, std:
 void ReplayStation::Tick(Time now) {
   now_ = now;
   server_.Poll(now);
-  Play();
+  Play(kAtMost);
   if (!beat_.Due(now)) return;
   beat_.Mark(now);
   audience_.Tell(server_, greeting_, feed_.news(), beats_.Next(now), LogTime(),
                  [this](ClientId, Role) { return Station(); });
 }
 
-void ReplayStation::Play() {
+void ReplayStation::Play(int at_most) {
   const auto hear = [this](const std::string& channel, const bus::LogEvent& event) {
     feed_.Hear(channel, event.bytes, FromUtime(event.utime));
   };
-  log_.Play(now_, hear, kAtMost);
+  log_.Play(now_, hear, at_most);
 }
 
 bool ReplayStation::Said(std::uint64_t, std::string_view text) {
@@ -76,13 +76,7 @@ void ReplayStation::Seek(Duration position) {
   log_.Seek(std::max(position - kBefore, Duration::zero()), now_);
   log_.Pause(false, now_);
   log_.SetSpeed(bus::LogPlayer::kFlatOut, now_);
-  while (!log_.done() && log_.position() < std::min(position, log_.length()))
-    log_.Play(
-        now_,
-        [this](const std::string& channel, const bus::LogEvent& event) {
-          feed_.Hear(channel, event.bytes, FromUtime(event.utime));
-        },
-        1);
+  while (!log_.done() && log_.position() < std::min(position, log_.length())) Play(1);
   log_.SetSpeed(speed, now_);
   log_.Pause(paused, now_);
 }

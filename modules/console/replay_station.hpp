@@ -41,7 +41,8 @@ class ReplayStation : public WebListener {
   void Left(std::uint64_t client) override { audience_.Leave(client); }
   void Obey(const ReplayOrder& order);
   void Seek(Duration position);
-  void Play();
+  /// Plays what is due, so many events at most.
+  void Play(int at_most);
   /// The log's own time.
   Time LogTime() const;
   nlohmann::ordered_json Station() const;

@@ -8,7 +8,7 @@
 namespace priamos::planner {
 namespace {
 
-constexpr std::size_t kMaxPoints = 16, kMaxText = 100;
+constexpr std::size_t kMaxText = 100;
 
 DriveMode ModeOf(int mode) {
   switch (mode) {
@@ -131,7 +131,7 @@ landmark_model_t ToMessage(const Landmark& landmark) {
 }
 
 path_t ToMessage(const PathOrder& path, Time now) {
-  if (path.points.size() > kMaxPoints) throw std::invalid_argument("a path has more than 16 points");
+  if (path.points.size() > kMostPathPoints) throw std::invalid_argument("a path has more than 16 points");
   path_t message{};
   message.utime = ToUtime(now);
   message.path_id = path.path_id;

@@ -11,7 +11,7 @@ namespace priamos::console {
 struct WebServerOptions {
   std::string address = "127.0.0.1";
   int port = 0;   ///< first one that is tried; 0: any
-  int ports = 1;  ///< how many are tried
+  int ports = 1;  ///< how many are tried; of port 0 one
   int max_connections = 64, max_sockets = 16;
   std::size_t max_message = 512;  ///< longest message of a page [byte]
   double messages_per_s = 100;    ///< of one page, for long

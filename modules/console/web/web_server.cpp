@@ -62,7 +62,8 @@ class WebServer::Impl {
  private:
   void Listen(const asio::ip::address& address) {
     boost::system::error_code error;
-    for (int port = options_.port; port < options_.port + std::max(1, options_.ports); ++port) {
+    const int ports = options_.port == 0 ? 1 : std::max(1, options_.ports);
+    for (int port = options_.port; port < options_.port + ports; ++port) {
       acceptor_.close(error);
       const tcp::endpoint at(address, static_cast<unsigned short>(port));
       acceptor_.open(at.protocol(), error);
@@ -72,7 +73,7 @@ class WebServer::Impl {
       if (!error) return;
     }
     throw std::runtime_error(fmt::format("no port from {} to {} of {} can be had: {}; next: another port",
-                                         options_.port, options_.port + options_.ports - 1, options_.address,
+                                         options_.port, options_.port + ports - 1, options_.address,
                                          error.message()));
   }
 

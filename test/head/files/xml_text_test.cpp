@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "test/head/files/entry_text.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -9,15 +11,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 std::string Told(std::string_view xml) {
-  const auto entries = ParseXml(xml);
-  if (!entries) return entries.reason();
-  std::string told;
-  for (const CameraEntry& entry : *entries) {
-    told += entry.key + "@" + std::to_string(entry.line) + ":";
-    for (const std::string& word : entry.words) told += " " + word;
-    told += "\n";
-  }
-  return told;
+  return EntryText(ParseXml(xml));
 }
 
 TEST(ParseXml, ElementsWithinElements) {

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "test/head/files/entry_text.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -9,17 +11,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Keys, lines and words as one text, an entry a line.
 std::string Told(std::string_view yaml) {
-  const auto entries = ParseYaml(yaml);
-  if (!entries) return entries.reason();
-  std::string told;
-  for (const CameraEntry& entry : *entries) {
-    told += entry.key + "@" + std::to_string(entry.line) + ":";
-    for (const std::string& word : entry.words) told += " " + word;
-    told += "\n";
-  }
-  return told;
+  return EntryText(ParseYaml(yaml));
 }
 
 TEST(ParseYaml, KeysWithinKeysAndListsOverLines) {

@@ -1,7 +1,4 @@
-#include <gtest/gtest.h>
-
-#include "bus/own_types.hpp"
-#include "cli/lockstep/lockstep_run.hpp"
+#include "test/system/lockstep/shipped_scenario.hpp"
 
 // The shipped scenario with a box on the way to the door, from the sonars to the end of the mission.
 
@@ -9,16 +6,7 @@ namespace priamos::cli {
 namespace {
 
 TEST(DetourScenario, TheRobotDrivesAroundTheBoxAndThroughTheDoor) {
-  const bus::Schema schema = bus::OwnTypes();
-  for (const std::uint64_t seed : {3, 7, 12}) {
-    LockstepRequest request;
-    request.deployment = PRIAMOS_SOURCE_DIR "/config/sim";
-    request.scenario = "detour";
-    request.seed = seed;
-    const Summary dut = RunLockstep(schema, request).summary;
-    EXPECT_TRUE(dut.passed) << "seed " << seed << ": " << dut.reason;
-    EXPECT_EQ(dut.contacts, 0) << "seed " << seed;
-  }
+  ExpectPasses("detour", {3, 7, 12});
 }
 
 }  // namespace

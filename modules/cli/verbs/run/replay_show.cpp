@@ -9,6 +9,7 @@
 #include "bus/clock.hpp"
 #include "bus/log/log_player.hpp"
 #include "bus/own_types.hpp"
+#include "bus/process_config.hpp"
 #include "bus/real_time_loop.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/options/log_options.hpp"
@@ -56,16 +57,9 @@ bus::LogPlayer PlayerOf(const ShowOptions& options, Time now) {
   return player;
 }
 
-console::WebServerOptions ServerOptions(const ShowOptions& options) {
-  console::WebServerOptions server;
-  server.port = options.port;
-  server.ports = options.port == 0 ? 1 : 10;
-  return server;
-}
-
 int Show(const ShowOptions& options) {
   const fs::path folder = FolderOfDeployment(options.deployment);
-  const auto config = LoadConfig<console::ConsoleConfig>((folder / "console.toml").string());
+  const auto config = bus::LoadAppConfig<console::ConsoleConfig>({(folder / "console.toml").string(), {}});
   const auto plan = LoadConfig<GroundPlan>((folder / config.map).string());
   const auto link = LoadConfig<bus::radio::LinkConfig>((folder / config.link).string());
   const bus::Schema schema = bus::OwnTypes();
@@ -73,7 +67,10 @@ int Show(const ShowOptions& options) {
   bus::LogPlayer player = PlayerOf(options, clock.Now());
   const std::string greeting = console::Greeting(config, plan, link, Seconds(player.length()));
   const bus::SignalWatch signals;
-  console::ReplayStation station(std::move(player), schema, greeting, ServerOptions(options));
+  console::WebServerOptions server;
+  server.port = options.port;
+  server.ports = config.ports;
+  console::ReplayStation station(std::move(player), schema, greeting, server);
   if (options.json)
     std::cout << JsonLine({{"address", station.address()},
                            {"events", static_cast<std::int64_t>(station.log().events())}})

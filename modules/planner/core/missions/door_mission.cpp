@@ -10,8 +10,6 @@
 namespace priamos::planner {
 namespace {
 
-/// A pose older than this is not planned with.
-constexpr double kFreshPose_s = 1.0;
 /// The robot's stamps are rounded to 10 ms on the radio: a pose must be this much younger than a correction
 /// to surely contain it.
 constexpr Duration kStampRounding = std::chrono::milliseconds(30);
@@ -34,10 +32,6 @@ constexpr double kTurnBack_m = 0.5;
 
 double Speed(const RobotPose& pose) {
   return std::hypot(pose.velocity.vx, pose.velocity.vy);
-}
-
-bool IsFresh(const RobotPose& pose, Time now) {
-  return Seconds(now - pose.stamp) <= kFreshPose_s;
 }
 
 std::string Advised(const Stop& stop) {

@@ -8,11 +8,6 @@
 namespace priamos::planner {
 namespace {
 
-/// A pose older than this is not planned with.
-constexpr double kFreshPose_s = 1.0;
-/// The most lines that a PATH holds.
-constexpr std::size_t kMostLines = 16;
-
 std::string Text(const Pose2& pose) {
   return fmt::format("({:.2f}, {:.2f})", pose.x, pose.y);
 }
@@ -79,8 +74,7 @@ std::optional<Refusal> GotoMission::Start(const MissionOrder& order) {
 void GotoMission::Step(MissionControl& control) {
   const Heard& heard = control.heard();
   if (control.state().phase == Phase::kWaiting) {
-    if (heard.link_up && heard.pose && Seconds(control.now() - heard.pose->stamp) <= kFreshPose_s)
-      Depart(control, "");
+    if (heard.link_up && heard.pose && IsFresh(*heard.pose, control.now())) Depart(control, "");
     return;
   }
   keeper_.Step(control);
@@ -92,10 +86,10 @@ void GotoMission::Depart(MissionControl& control, const std::string& why) {
   const Pose2& start = control.heard().pose->map_from_base;
   Outcome<PlannedPath> path = planner_.Plan(start, goal_);
   if (!path) return control.Fail(why.empty() ? path.reason() : why + ", and " + path.reason());
-  whole_ = path->points.size() <= kMostLines;
+  whole_ = path->points.size() <= kMostPathPoints;
   if (!whole_) {
-    path->points.resize(kMostLines);
-    path->leeway.resize(kMostLines);
+    path->points.resize(kMostPathPoints);
+    path->leeway.resize(kMostPathPoints);
   }
   const double length_m = LengthOf(start, path->points);
   control.OrderPath(std::move(*path), config_.speed_m_s);

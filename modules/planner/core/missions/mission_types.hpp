@@ -30,6 +30,14 @@ struct RobotPose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of (x, y, yaw), map frame [m, rad]
 };
 
+/// A pose older than this is not planned with.
+inline constexpr double kFreshPose_s = 1.0;
+
+/// Whether a pose is young enough to be planned with.
+inline bool IsFresh(const RobotPose& pose, Time now) {
+  return Seconds(now - pose.stamp) <= kFreshPose_s;
+}
+
 /// State of the base; kHolding: ordered to stand, kBlocked: an obstacle stops it.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked };
 

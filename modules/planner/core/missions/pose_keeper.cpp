@@ -7,17 +7,6 @@
 #include "planner/core/map/door_landmark.hpp"
 
 namespace priamos::planner {
-namespace {
-
-/// An older pose says too little about where the robot is now.
-constexpr double kFresh_s = 1.0;
-
-double PositionSigma(const RobotPose& pose) {
-  return std::sqrt(std::max(0.0, PrincipalAxesOf<2>(pose.covariance.topLeftCorner<2, 2>()).values(1)));
-}
-
-}  // namespace
-
 void PoseKeeperConfig::Describe(Archive& a) {
   a.Number("sigma_m", sigma_m, {"m", 0.005, 2, "standard deviation of the position that asks for a look"});
   a.Number("nearest_m", nearest_m, {"m", 0.5, 10, "distance to a door from which on it is looked at"});
@@ -52,7 +41,7 @@ void PoseKeeper::Step(MissionControl& control) {
 
 bool PoseKeeper::IsNeeded(const MissionControl& control) const {
   const auto& pose = control.heard().pose;
-  return pose && Seconds(control.now() - pose->stamp) < kFresh_s && PositionSigma(*pose) > config_.sigma_m;
+  return pose && IsFresh(*pose, control.now()) && PositionSigma(pose->covariance) > config_.sigma_m;
 }
 
 const DoorPlan* PoseKeeper::DoorInSight(const Pose2& map_from_base) const {

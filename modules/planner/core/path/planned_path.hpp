@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -12,6 +13,9 @@ struct Goal {
   Pose2 map_from_base;
   bool turn = true;  ///< the heading counts; else it arrives as suits its path
 };
+
+/// The most points that the robot takes in one PATH.
+inline constexpr std::size_t kMostPathPoints = 16;
 
 /// A path in the map frame, the start left out.
 struct PlannedPath {

@@ -53,7 +53,7 @@ void PoseEstimatorConfig::Describe(Archive& a) {
 }
 
 double PoseEstimate::PositionSigma() const {
-  return std::sqrt(std::max(0.0, PrincipalAxesOf<2>(covariance.topLeftCorner<2, 2>()).values(1)));
+  return priamos::PositionSigma(covariance);
 }
 
 double PoseEstimate::YawSigma() const {
