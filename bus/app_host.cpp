@@ -67,6 +67,8 @@ std::string AppHost::HealthText() const {
   std::string problems = node_.Problems();
   if (const auto n = bus_.turned_away(); n > 0)
     problems += (problems.empty() ? "" : "; ") + std::to_string(n) + " datagrams turned away by the kernel";
+  if (const std::string more = further_problems_ ? further_problems_() : ""; !more.empty())
+    problems = problems.empty() ? more : more + "; " + problems;
   if (!text.empty() && !problems.empty()) text += "; ";
   return CutUtf8(text + problems, kHealthTextBytes);
 }

@@ -24,6 +24,8 @@ class AppHost {
   void Step(Time now);
   /// The App's last act when another process has its role.
   void Yield(Time now) { app_->Yield(now); }
+  /// Has HEALTH tell, beside the App's own problems, what `problems` says; empty text: nothing.
+  void ReportProblemsOf(std::function<std::string()> problems) { further_problems_ = std::move(problems); }
   std::optional<int> exit_code() const { return context_.exit_code(); }
   const std::string& status() const { return context_.status(); }
   const Node& node() const { return node_; }
@@ -39,6 +41,7 @@ class AppHost {
   Context context_;
   Publisher<health_t> health_;
   std::unique_ptr<AnyApp> app_;
+  std::function<std::string()> further_problems_;
   Duration period_;
   Time next_tick_;
   Time next_health_;

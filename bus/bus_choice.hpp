@@ -24,6 +24,8 @@ struct BusChoice {
   /// A URL that names one keeps its own.
   std::string network;
 
+  /// Whether it is a robot's bus, not any LCM URL.
+  bool IsNamed() const { return bus == "onboard" || bus == "offboard"; }
   /// LCM URL of the chosen bus. Throws BusError for a name or a ttl that ResolveBus refuses.
   std::string Url() const;
   /// As a section of a configuration.

@@ -108,9 +108,9 @@ void ClaimKeeper::OnMessage(std::uint64_t sender, std::string_view channel,
 }
 
 void ClaimKeeper::OnClaim(std::uint64_t sender, std::span<const std::byte> bytes) {
-  const Struct* type = schema_.Find(static_cast<std::uint64_t>(claim_t::getHash()));
-  if (FingerprintOf(bytes.data(), bytes.size()) != type->fingerprint || !Walk(*type, bytes)) return;
-  const ClaimWord word = FromMessage(Decode<claim_t>(bytes));
+  const auto message = DecodeChecked<claim_t>(schema_, bytes);
+  if (!message) return;
+  const ClaimWord word = FromMessage(*message);
   if (word.who.role == claim_.self().role) alone_.Excuse(sender, clock_.Now());
   if (word.holds && claim_.state() == Claim::State::kAsking) others_.push_back(word);
   claim_.Hear(word, clock_.Now());

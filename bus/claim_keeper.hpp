@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bus/claim.hpp"
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "bus/context.hpp"
 #include "bus/sole_speaker.hpp"
 #include "bus/wire/udp_receiver.hpp"

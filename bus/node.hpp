@@ -11,9 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "bus/inbox.hpp"
 #include "bus/wire/lcm_bus.hpp"
+#include "bus/wire/typed_message.hpp"
 #include "common/time.hpp"
 #include "lcmtypes/channel.hpp"
 
@@ -141,22 +142,6 @@ class Node {
   std::map<std::string, ChannelCounters, std::less<>> counters_;
   std::vector<Endpoint> inputs_, outputs_;
 };
-
-/// Decodes an LCM message of type T. Throws std::runtime_error when `bytes` is not exactly one T.
-template <class T>
-T Decode(std::span<const std::byte> bytes) {
-  T message{};
-  if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) != static_cast<int>(bytes.size()))
-    throw std::runtime_error("not decodable");
-  return message;
-}
-
-template <class T>
-std::vector<std::byte> Encode(const T& message) {
-  std::vector<std::byte> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
 
 template <class T>
 Latest<T> Node::Subscribe(const Channel<T>& channel) {

@@ -40,14 +40,6 @@ probe_t MakeProbe(const HostIdentity& host, const std::string& process, const st
   return message;
 }
 
-probe_t ReadProbe(const Schema& schema, std::span<const std::byte> bytes) {
-  const Struct* type = schema.Find(static_cast<std::uint64_t>(probe_t::getHash()));
-  if (type == nullptr || FingerprintOf(bytes.data(), bytes.size()) != type->fingerprint ||
-      !Walk(*type, bytes))
-    throw std::runtime_error("expected a message of type probe_t");
-  return Decode<probe_t>(bytes);
-}
-
 ProbeAnswerer::ProbeAnswerer(LcmBus& bus, const Schema& schema, const Clock& clock, std::string process)
     : bus_(bus), schema_(schema), clock_(clock), process_(std::move(process)), host_(ThisHost()) {
   bus.Subscribe(channels::kProbe.name,
@@ -65,13 +57,13 @@ bool ProbeAnswerer::MayAnswer(Time now) {
 /// Handlers must not throw.
 void ProbeAnswerer::OnMessage(std::span<const std::byte> bytes) {
   try {
-    const probe_t question = ReadProbe(schema_, bytes);
+    const auto question = DecodeChecked<probe_t>(schema_, bytes);
     const Time now = clock_.Now();
-    if (question.kind != probe_t::ASKS || !MayAnswer(now)) return;
+    if (!question || question->kind != probe_t::ASKS || !MayAnswer(now)) return;
     probe_t answer = MakeProbe(host_, process_, bus_.url(), now);
     answer.kind = probe_t::ANSWERS;
-    answer.instance = question.instance;
-    answer.number = question.number;
+    answer.instance = question->instance;
+    answer.number = question->number;
     bus_.Publish(channels::kProbe.name, Encode(answer));
     answer.alone = 1;
     bus_.Answer(channels::kProbe.name, Encode(answer));

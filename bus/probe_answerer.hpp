@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "bus/host/host_identity.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -43,8 +43,5 @@ class ProbeAnswerer {
 
 /// A question or answer of this process on the bus at `url`, all but kind, instance and number.
 probe_t MakeProbe(const HostIdentity& host, const std::string& process, const std::string& url, Time now);
-
-/// The message in `bytes`. Throws std::runtime_error when it is none of type probe_t.
-probe_t ReadProbe(const Schema& schema, std::span<const std::byte> bytes);
 
 }  // namespace priamos::bus

@@ -11,8 +11,9 @@
 #include "bus/app_host.hpp"
 #include "bus/claim_keeper.hpp"
 #include "bus/claim_messages.hpp"
+#include "bus/clocks/clock_exchange.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/command_line.hpp"
-#include "bus/host_clock.hpp"
 #include "bus/log/log_writer.hpp"
 #include "bus/other_bus.hpp"
 #include "bus/own_types.hpp"
@@ -82,7 +83,7 @@ class UnconnectedPort : public ByteStream {
 int PrintInterface(const AppFactory& factory, const Options& options) {
   const Schema schema = OwnTypes();
   LcmBus bus("memq://");
-  const MonotonicClock clock;
+  const HostClock clock;
   auto around = MakeSurroundings(factory, options);
   around.open_serial = [](const std::string&, int) { return std::make_unique<UnconnectedPort>(); };
   around.instance = "interface";
@@ -166,6 +167,7 @@ int Run(const AppFactory& factory, const Options& options, bool& running) {
   WarnOf(factory, options.bus, clock.anchor());
   LcmBus bus(options.bus);
   const ProbeAnswerer answerer(bus, schema, clock, factory.name);
+  const auto clocks = ExchangeWhereNeeded(bus, schema, clock);
   const Claimant self = MakeClaimant(options.choice.robot, factory.name);
   const auto claim = ClaimRole(factory, bus, schema, clock, self);
   Surroundings around = MakeSurroundings(factory, options, self.instance);
@@ -176,8 +178,9 @@ int Run(const AppFactory& factory, const Options& options, bool& running) {
     return std::make_unique<OtherBus>(choice.Url(), schema, clock);
   };
   AppHost host(factory, options.config, bus, schema, clock, std::move(around));
+  if (clocks) host.ReportProblemsOf([&] { return clocks->Problems(clock.Now()); });
   running = true;
-  return RunRealTime(host, bus, clock, signals, claim.get());
+  return RunRealTime(host, bus, clock, signals, {claim.get(), clocks.get()});
 }
 
 }  // namespace

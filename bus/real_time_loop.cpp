@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "bus/claim_keeper.hpp"
+#include "bus/clocks/clock_exchange.hpp"
 #include "bus/host/service_notifier.hpp"
 
 namespace priamos::bus {
@@ -43,9 +44,10 @@ SignalWatch::~SignalWatch() {
 }
 
 int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals,
-                const ClaimKeeper* claim) {
+                const BesideTheApp& beside) {
   ServiceNotifier notifier;
   while (!host.exit_code()) {
+    const ClaimKeeper* claim = beside.claim;
     pollfd fds[] = {
         {bus.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}, {claim != nullptr ? claim->fd() : -1, POLLIN, 0}};
     const timespec wait = ToTimespec(host.next_tick() - clock.Now());
@@ -57,6 +59,7 @@ int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatc
     }
     if (fds[0].revents != 0) bus.Drain();
     const Time now = clock.Now();
+    if (beside.clocks != nullptr) beside.clocks->Tick(now);
     if (now < host.next_tick()) continue;
     host.Step(now);
     notifier.Beat(now, host.status());

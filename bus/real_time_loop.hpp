@@ -5,6 +5,13 @@
 namespace priamos::bus {
 
 class ClaimKeeper;
+class ClockExchange;
+
+/// What a process does on its bus beside its App; null: it does not.
+struct BesideTheApp {
+  const ClaimKeeper* claim = nullptr;  ///< when it is lost, the App yields and BusError gives the reason
+  ClockExchange* clocks = nullptr;
+};
 
 /// Turns SIGINT, SIGTERM and SIGHUP (unless it is ignored) into something a loop can look at. Create it
 /// before the first thread, so that every thread inherits the blocked signals.
@@ -23,9 +30,8 @@ class SignalWatch {
 };
 
 /// Ticks the host at its period and drains the bus in between, until a signal or RequestStop. Reports to
-/// systemd (or whoever set NOTIFY_SOCKET) READY after the first tick and WATCHDOG with every later one. When
-/// `claim` is lost (null: the App claims nothing), the App yields and BusError gives the reason.
+/// systemd (or whoever set NOTIFY_SOCKET) READY after the first tick and WATCHDOG with every later one.
 int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals,
-                const ClaimKeeper* claim);
+                const BesideTheApp& beside);
 
 }  // namespace priamos::bus

@@ -8,6 +8,7 @@
 #include "priamos/camera_frame_t.hpp"
 #include "priamos/camera_trigger_t.hpp"
 #include "priamos/claim_t.hpp"
+#include "priamos/clock_report_t.hpp"
 #include "priamos/door_seen_t.hpp"
 #include "priamos/drive_command_t.hpp"
 #include "priamos/drive_status_t.hpp"
@@ -91,6 +92,7 @@ inline constexpr Channel<link_request_t> kLinkRequest{"LINK_REQUEST", 0, millise
 inline constexpr Channel<alarm_t> kAlarm{"ALARM", 0, milliseconds(0)};
 inline constexpr Channel<claim_t> kClaim{"CLAIM", 5, milliseconds(1000)};
 inline constexpr Channel<probe_t> kProbe{"PROBE", 0, milliseconds(0)};
+inline constexpr Channel<clock_report_t> kClock{"CLOCK", 1, milliseconds(3000)};
 
 /// For reports and tests; a test checks that no module subscribes to it.
 inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseconds(200)};
@@ -101,6 +103,6 @@ inline constexpr std::tuple kAll{
     kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
     kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
-    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe};
+    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock};
 
 }  // namespace priamos::channels

@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::size_t kNameBytes = 64;  // @max of the messages that carry it
 
-/// FNV-1a (Fowler, Noll, Vo), 32 bits.
-std::uint32_t HashOf(std::string_view text) {
-  std::uint32_t hash = 2166136261U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
-  return hash;
-}
-
 std::string BootId() {
   std::ifstream in("/proc/sys/kernel/random/boot_id");
   std::string id;
@@ -32,6 +25,12 @@ std::string BootId() {
 
 }  // namespace
 
+std::int32_t IdentityOf(std::string_view text) {
+  std::uint32_t hash = 2166136261U;  // FNV-1a (Fowler, Noll, Vo), 32 bits
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  return std::bit_cast<std::int32_t>(hash);
+}
+
 HostIdentity ThisHost() {
   HostIdentity host;
   std::array<char, kNameBytes + 1> name{};
@@ -39,7 +38,7 @@ HostIdentity ThisHost() {
   host.boot = BootId();
   struct stat network {};
   stat("/proc/self/ns/net", &network);
-  host.id = std::bit_cast<std::int32_t>(HashOf(fmt::format("{} {}", host.boot, network.st_ino)));
+  host.id = IdentityOf(fmt::format("{} {}", host.boot, network.st_ino));
   return host;
 }
 

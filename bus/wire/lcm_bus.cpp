@@ -94,6 +94,14 @@ void LcmBus::Dispatch(std::string_view channel, std::span<const std::byte> bytes
   for (const Handler& handler : found->second) handler(channel, bytes);
 }
 
+void LcmBus::Receive(std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes) {
+  const auto translated = translator_ ? translator_(sender, channel, bytes) : bytes;
+  if (!translated) return;
+  answered_ = sender;
+  Dispatch(channel, *translated);
+  answered_ = 0;
+}
+
 int LcmBus::fd() const {
   if (receiver_) return receiver_->fd();
   return subscriptions_.empty() ? -1 : lcm_get_fileno(lcm_.get());
@@ -103,9 +111,7 @@ int LcmBus::Drain(int at_most) {
   if (receiver_)
     return receiver_->Receive(
         at_most, [this](std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes) {
-          answered_ = sender;
-          Dispatch(channel, bytes);
-          answered_ = 0;
+          Receive(sender, channel, bytes);
         });
   int handled = 0;
   if (subscriptions_.empty()) return handled;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,6 +31,10 @@ class UdpSender;
 class LcmBus {
  public:
   using Handler = std::function<void(std::string_view channel, std::span<const std::byte> bytes)>;
+  /// Looks at a message of UDP multicast before its handlers do; `sender` as SenderAddress has it. Returns
+  /// what they get, valid until the next message, or nullopt to keep it from them.
+  using Translator = std::function<std::optional<std::span<const std::byte>>(
+      std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes)>;
   /// Which messages are received.
   enum class Messages {
     kParametric,  ///< at most kMaxMessageBytes, never in fragments
@@ -56,6 +61,8 @@ class LcmBus {
   void Subscribe(std::string_view channel, Handler handler);
   /// Subscribes to every channel, for recorders.
   void SubscribeEverything(Handler handler);
+  /// From now on every message passes through `translator`; an empty one takes it away.
+  void TranslateBy(Translator translator) { translator_ = std::move(translator); }
   /// True when a message of this size may be on this bus.
   bool Fits(std::size_t bytes) const { return messages_ == Messages::kAnySize || bytes <= kMaxMessageBytes; }
 
@@ -80,6 +87,7 @@ class LcmBus {
  private:
   struct Subscription;
   void ListenThroughLiblcm(const std::string& channel, Handler handler);
+  void Receive(std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes);
   void Dispatch(std::string_view channel, std::span<const std::byte> bytes) const;
 
   std::string url_;
@@ -92,6 +100,7 @@ class LcmBus {
   std::unique_ptr<UdpReceiver> receiver_;  ///< receives UDP multicast, from the first subscription on
   std::map<std::string, std::vector<Handler>, std::less<>> by_channel_;
   std::vector<Handler> of_everything_;
+  Translator translator_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   std::uint64_t answered_ = 0;  ///< sender of the message that is being handled; 0: none is
 };

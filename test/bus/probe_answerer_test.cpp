@@ -81,12 +81,5 @@ TEST(MakeProbe, TellsByWhichWayItSends) {
   EXPECT_EQ(probe.process.size(), 16U);
 }
 
-TEST(ReadProbe, ThrowsForAnythingElse) {
-  const Schema schema = OwnTypes();
-  EXPECT_EQ(ReadProbe(schema, Encode(probe_t{})).number, 0);
-  EXPECT_THROW(ReadProbe(schema, Encode(claim_t{})), std::runtime_error);
-  EXPECT_THROW(ReadProbe(schema, {}), std::runtime_error);
-}
-
 }  // namespace
 }  // namespace priamos::bus

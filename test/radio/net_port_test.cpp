@@ -7,7 +7,7 @@
 
 #include <thread>
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "common/config.hpp"
 #include "test/support/radio/bytes.hpp"
 

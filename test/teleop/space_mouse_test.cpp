@@ -13,7 +13,7 @@
 #include <fstream>
 #include <functional>
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "teleop/device.hpp"
 #include "teleop/emulated_mouse.hpp"
 

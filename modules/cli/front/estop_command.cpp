@@ -8,7 +8,8 @@
 #include <optional>
 
 #include "bus/bus_choice.hpp"
-#include "bus/host_clock.hpp"
+#include "bus/clocks/clock_exchange.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/wire/lcm_bus.hpp"
@@ -50,6 +51,7 @@ int Run(const EstopOptions& options) {
   const bus::Schema schema = bus::OwnTypes();
   const bus::HostClock clock;
   bus::LcmBus bus(options.bus.Url());
+  const auto clocks = bus::ExchangeWhereNeeded(bus, schema, clock);
   bus::Node node(bus, schema, clock);
   auto estop = node.Advertise(channels::kEstop);
   const auto status = node.Subscribe(channels::kDriveStatus);
@@ -67,6 +69,7 @@ int Run(const EstopOptions& options) {
     pollfd fd{bus.fd(), POLLIN, 0};
     poll(&fd, 1, 20);
     bus.Drain();
+    if (clocks) clocks->Tick(clock.Now());
     // A status from before the order proves nothing.
     if (status.get() && FromUtime(status.get()->utime) > begin && bool(status.get()->estop) != options.rearm)
       return Report(options, clock.Now() - begin);

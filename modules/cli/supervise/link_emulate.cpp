@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "bus/clocks/host_clock.hpp"
 #include "bus/host/service_notifier.hpp"
-#include "bus/host_clock.hpp"
 #include "bus/real_time_loop.hpp"
 #include "common/config.hpp"
 

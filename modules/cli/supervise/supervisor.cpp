@@ -16,7 +16,7 @@
 #include <system_error>
 #include <thread>
 
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {

@@ -5,7 +5,7 @@
 
 #include "bus/bus_choice.hpp"
 #include "bus/claim_messages.hpp"
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/wire/bus_error.hpp"

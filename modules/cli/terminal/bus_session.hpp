@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
-#include "bus/host_clock.hpp"
+#include "bus/clocks/clock_exchange.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/node.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "cli/options/bus_options.hpp"
@@ -31,6 +33,7 @@ class BusSession {
   const bus::Schema schema_;
   const bus::HostClock clock_;
   bus::LcmBus bus_;
+  std::unique_ptr<bus::ClockExchange> clocks_;
   bus::Node node_;
   SilenceWatch silence_;
 };

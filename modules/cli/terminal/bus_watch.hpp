@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "bus/node.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "lcmtypes/channels.hpp"

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <tuple>
 
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/terminal/bus_watch.hpp"
 #include "cli/terminal/echo_text.hpp"

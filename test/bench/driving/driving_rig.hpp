@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/radio/line/line.hpp"

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <thread>
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 
 namespace priamos::cli {
 namespace {

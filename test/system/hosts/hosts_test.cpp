@@ -10,7 +10,6 @@
 #include <regex>
 
 #include "test/support/temporary_folder.hpp"
-#include "test/system/hosts/computers.hpp"
 #include "test/system/private_network.hpp"
 
 namespace priamos {
@@ -28,7 +27,7 @@ class Hosts : public testing::Test {
                                folder_ / "script.sh", seconds, "unshare -rnu");
   }
   ShellAnswer RunOnHosts(const std::string& script, int seconds = 60) const {
-    return Run(kComputers + script, seconds);
+    return Run("source $SOURCE/test/support/computers.sh\n" + script, seconds);
   }
 
   const TemporaryFolder folder_;
@@ -127,6 +126,43 @@ TEST_F(Hosts, AProbeNamesTheWayThatIsCut) {
   EXPECT_THAT(Part(answer, "to"),
               ContainsRegex("BAD +way from here to vision \\(10.77.0.2\\) cut: it is heard, but"));
   EXPECT_THAT(Part(answer, "to"), ContainsRegex("exit 1 after [0-4][0-9]{3} ms")) << "within 5 s";
+}
+
+/// One process on each of two computers whose clocks are a second apart.
+TEST_F(Hosts, AClockThatIsASecondAheadIsMeasuredAndItsStampsAreTranslated) {
+  const auto answer = RunOnHosts(R"sh(
+    host base 10.77.0.1 0; host vision 10.77.0.2 1000000
+    export PRIAMOS_BUS=onboard PRIAMOS_TTL=1 PRIAMOS_NETWORK=eth9
+    start base timeout 30 $BIN/priamos topic echo CLOCK host ahead_s uncertainty_s --json > $DIR/clocks 2> /dev/null
+    start base timeout 30 $BIN/priamos topic echo ODOMETRY utime --count 100 > $DIR/odometry 2> /dev/null; EAR=$STARTED
+    start vision timeout 30 $BIN/priamos topic echo WHEEL_STATE utime --count 100 > $DIR/wheels 2> /dev/null; OTHER=$STARTED
+    start vision $BIN/priamos-world --config $SIM/world.toml 2> /dev/null
+    start base $BIN/priamos-robot --config $SIM/robot.toml 2> /dev/null
+    wait $EAR $OTHER
+    echo "--- odometry"; tail -1 $DIR/odometry; echo "--- wheels"; tail -1 $DIR/wheels
+    echo "--- probe"; on base $BIN/priamos doctor --probe --seconds 1 | grep 'host vision'
+    echo "--- clocks"; grep '"base"' $DIR/clocks | tail -1
+  )sh");
+  EXPECT_THAT(Part(answer, "probe"),
+              ContainsRegex("its clock is (1.0000|0.9[0-9]*|1.00[0-9]*) s ahead, to [0-9]"));
+  EXPECT_THAT(Part(answer, "clocks"), ContainsRegex("\"ahead_s\":\\[(1.0|0.99|1.00)"));
+  const double odometry_s = std::stod(Part(answer, "odometry")) / 1e6,
+               wheels_s = std::stod(Part(answer, "wheels")) / 1e6;
+  EXPECT_NEAR(wheels_s - odometry_s, 1, 0.9)
+      << "odometry has the stamp of the wheels, by the clock of its own host";
+  EXPECT_GT(std::stod(Part(answer, "odometry")), 1e15) << answer.text;
+}
+
+TEST_F(Hosts, TheDoorIsPassedWithProcessesOnThreeComputersOfDifferentClocks) {
+  const auto answer =
+      RunShell("timeout 120 " PRIAMOS_SOURCE_DIR "/scripts/door-over-hosts --clocks 1 --seed 3 --into '" +
+               folder_.path().string() + "/door' --programs " PRIAMOS_BINARY_DIR "/bin");
+  std::ifstream runs(folder_ / "door/runs.jsonl");
+  const auto run = nlohmann::json::parse(runs, nullptr, false);
+  ASSERT_TRUE(run.is_object()) << answer.text;
+  EXPECT_TRUE(run["passed"]) << run["reason"] << answer.text;
+  EXPECT_EQ(run["contacts"], 0);
+  EXPECT_LT(std::abs(run["lateral_at_door_m"].get<double>()), 0.05);
 }
 
 /// A deployment over two computers; the planner stands for any process, and needs the least.
@@ -235,20 +271,20 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-/// The wall clock cannot be set by a test, so the second process is shown another one: libstepped_clock.
+/// The wall clock cannot be set by a test, so the second process is shown another one: libother_clock.
 TEST_F(Hosts, AWallClockThatIsSetBetweenTwoStartsLeavesStampsAligned) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer takes no library that is loaded before it";
   const auto answer = Run(R"sh(
-    SHIM=)sh" PRIAMOS_BINARY_DIR R"sh(/test/libstepped_clock.so
+    SHIM=)sh" PRIAMOS_BINARY_DIR R"sh(/test/libother_clock.so
     timeout 20 $BIN/priamos topic echo HEALTH process utime --bus onboard --count 5 --json & EAR=$!
     listening
     $BIN/priamos-robot --config $SIM/robot.toml --bus onboard & FIRST=$!
     until [ -e $DIR/runtime ]; do sleep 0.02; done
-    LD_PRELOAD=$SHIM $BIN/priamos-teleop --config $SIM/teleop.toml --bus onboard & SECOND=$!
-    PRIAMOS_RUNTIME=$DIR/own LD_PRELOAD=$SHIM $BIN/priamos-planner --config $SIM/planner.toml --bus onboard & OTHER=$!
+    OTHER_CLOCK_STEP_S=3600 LD_PRELOAD=$SHIM $BIN/priamos-teleop --config $SIM/teleop.toml --bus onboard & SECOND=$!
+    PRIAMOS_RUNTIME=$DIR/own OTHER_CLOCK_STEP_S=3600 LD_PRELOAD=$SHIM $BIN/priamos-planner --config $SIM/planner.toml --bus onboard & OTHER=$!
     wait $EAR
     kill $FIRST $SECOND $OTHER; wait $FIRST $SECOND $OTHER
-    echo "--- doctor"; LD_PRELOAD=$SHIM $BIN/priamos doctor --bus onboard | grep -A1 'clock of processes'
+    echo "--- doctor"; OTHER_CLOCK_STEP_S=3600 LD_PRELOAD=$SHIM $BIN/priamos doctor --bus onboard | grep -A1 'clock of processes'
     ls $DIR/runtime
   )sh");
   std::map<std::string, double> stamp_s;

@@ -17,7 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/schema.hpp"

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/multicast.hpp"
 #include "cli/options/folder_options.hpp"

@@ -11,6 +11,8 @@ namespace {
 
 using Verdict = Finding::Verdict;
 
+constexpr std::int64_t kLatest_us = 7'258'118'400'000'000;  // the year 2200
+
 /// Words of another computer end up in a terminal: only what a name or an address has.
 std::string Plain(const std::string& text) {
   std::string plain;
@@ -31,13 +33,23 @@ std::string Way(const std::string& network, int ttl) {
   return fmt::format("by {} with ttl {}", network.empty() ? "no interface" : Plain(network), ttl);
 }
 
+/// "; its clock is 0.1000 s ahead, to 0.2 ms: stamps are translated"
+std::string ClockOf(const std::optional<bus::ClockDifference>& clock) {
+  if (!clock) return "";
+  const double ahead_s = Seconds(clock->ahead), uncertainty_ms = 1000 * Seconds(clock->uncertainty);
+  if (std::chrono::abs(clock->ahead) <= clock->uncertainty)
+    return fmt::format("; its clock agrees to {:.1f} ms", uncertainty_ms);
+  return fmt::format("; its clock is {:.4f} s {}, to {:.1f} ms: processes translate its stamps",
+                     std::abs(ahead_s), ahead_s > 0 ? "ahead" : "behind", uncertainty_ms);
+}
+
 }  // namespace
 
 bool HostProbe::IsOwn(const std::string& address) const {
   return address == "localhost" || self_.addresses.contains(address);
 }
 
-void HostProbe::HearProbe(const probe_t& message, const std::string& address, bool alone) {
+void HostProbe::HearProbe(const probe_t& message, const std::string& address, bool alone, Time now) {
   if (message.host_id == self_.host_id) return;
   Host& host = hosts_[message.host_id];
   host.name = message.host;
@@ -47,7 +59,10 @@ void HostProbe::HearProbe(const probe_t& message, const std::string& address, bo
   host.processes.insert(message.process);
   if (!alone) host.heard = true;
   if (message.kind != probe_t::ANSWERS || message.instance != self_.instance) return;
+  if (message.number < 1 || static_cast<std::size_t>(message.number) > asked_.size()) return;
   (alone ? host.alone : host.on_bus).insert(message.number);
+  const Time there = FromUtime(std::clamp<std::int64_t>(message.utime, 0, kLatest_us));
+  host.clock.Add({asked_[static_cast<std::size_t>(message.number) - 1], there, there, now});
 }
 
 void HostProbe::HearOther(const std::string& address, const std::string& host) {
@@ -58,11 +73,12 @@ void HostProbe::HearOther(const std::string& address, const std::string& host) {
 
 Finding HostProbe::Works(const Host& host) const {
   const std::string who = Named(host.name, host.address);
-  const auto answered = static_cast<int>(host.on_bus.size());
+  const std::size_t answered = host.on_bus.size();
   const std::string found =
-      fmt::format("both ways work: {} of {} questions answered, by {} process{}, {}", answered, asked_,
-                  host.processes.size(), host.processes.size() == 1 ? "" : "es", Way(host.network, host.ttl));
-  if (answered == asked_) return {"host " + who, Verdict::kGood, found, ""};
+      fmt::format("both ways work: {} of {} questions answered, by {} process{}, {}{}", answered,
+                  asked_.size(), host.processes.size(), host.processes.size() == 1 ? "" : "es",
+                  Way(host.network, host.ttl), ClockOf(host.clock.At(asked_.back())));
+  if (answered == asked_.size()) return {"host " + who, Verdict::kGood, found, ""};
   return {"host " + who, Verdict::kNotNeededYet, found + "; some were lost",
           "priamos topic list --watch   # shows who loses messages"};
 }
@@ -80,7 +96,7 @@ Finding HostProbe::CutFrom(const Host& host) const {
   return {fmt::format("way from {} to here", who), Verdict::kBad,
           fmt::format(
               "cut: it answers {} of {} questions, but nothing that it sends to the bus ({}) arrives here",
-              host.alone.size(), asked_, Way(host.network, host.ttl)),
+              host.alone.size(), asked_.size(), Way(host.network, host.ttl)),
           command};
 }
 
@@ -95,7 +111,7 @@ Finding HostProbe::CutTo(const std::string& who) const {
       fmt::format("way from here to {}", who), Verdict::kBad,
       fmt::format("cut: it is heard, but answered none of {} questions: what this host sends ({}) does not "
                   "arrive there, or it is no host of PRIAMOS",
-                  asked_, Way(self_.network, self_.ttl)),
+                  asked_.size(), Way(self_.network, self_.ttl)),
       command};
 }
 
@@ -126,7 +142,7 @@ std::vector<Finding> HostProbe::Findings(const std::vector<std::string>& expecte
                           "cut, or it is off: nothing of it arrives here", ask_there});
   if (findings.empty())
     findings.push_back({"other hosts", Verdict::kBad,
-                        fmt::format("none is heard, and none answered {} questions sent {}", asked_,
+                        fmt::format("none is heard, and none answered {} questions sent {}", asked_.size(),
                                     Way(self_.network, self_.ttl)),
                         ask_there});
   return findings;

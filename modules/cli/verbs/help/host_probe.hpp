@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/clocks/clock_offset.hpp"
 #include "cli/verbs/help/doctor.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -28,9 +29,10 @@ class HostProbe {
   };
   explicit HostProbe(Self self) : self_(std::move(self)) {}
 
-  void Asked() { ++asked_; }
-  /// Takes a PROBE, whoever meant it; `alone`: it came to the asking socket.
-  void HearProbe(const probe_t& message, const std::string& address, bool alone);
+  /// Takes notice of a question sent at `now`; they are numbered from 1.
+  void Asked(Time now) { asked_.push_back(now); }
+  /// Takes a PROBE that arrived at `now`, whoever meant it; `alone`: it came to the asking socket.
+  void HearProbe(const probe_t& message, const std::string& address, bool alone, Time now);
   /// Takes notice of any other message on the bus. `host`: the sender's name if the message has it.
   void HearOther(const std::string& address, const std::string& host = "");
 
@@ -44,6 +46,7 @@ class HostProbe {
     std::set<std::string> processes;
     std::set<std::int32_t> on_bus, alone;  ///< numbers of the questions that were answered so
     bool heard = false;                    ///< something of it came over the bus
+    bus::ClockOffset clock;
   };
   bool IsOwn(const std::string& address) const;
   Finding Legs(const Host& host) const;
@@ -52,7 +55,7 @@ class HostProbe {
   Finding CutTo(const std::string& who) const;
 
   Self self_;
-  int asked_ = 0;
+  std::vector<Time> asked_;  ///< when
   std::map<std::int32_t, Host> hosts_;
   std::map<std::string, std::string> others_;  ///< heard on the bus: address, and name if known
 };

@@ -9,11 +9,10 @@
 #include <stdexcept>
 
 #include "bus/claim_messages.hpp"
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/probe_answerer.hpp"
-#include "bus/schema/walk.hpp"
 #include "bus/wire/bus_error.hpp"
 #include "bus/wire/datagram.hpp"
 #include "bus/wire/multicast.hpp"
@@ -82,8 +81,8 @@ class Asker {
     question.kind = probe_t::ASKS;
     question.instance = instance_;
     question.number = ++number_;
+    probe_.Asked(now);
     sender_.Send(channels::kProbe.name, bus::Encode(question));
-    probe_.Asked();
   }
 
   void OnBus(const std::string& address, std::string_view channel, Bytes bytes) {
@@ -111,20 +110,15 @@ class Asker {
 
   /// Returns false for what is no probe.
   bool TakeProbe(const std::string& address, Bytes bytes, bool alone) {
-    try {
-      probe_.HearProbe(bus::ReadProbe(schema_, bytes), address, alone);
-      return true;
-    } catch (const std::runtime_error&) {
-      return false;
-    }
+    const auto message = bus::DecodeChecked<probe_t>(schema_, bytes);
+    if (message) probe_.HearProbe(*message, address, alone, clock_.Now());
+    return message.has_value();
   }
 
   /// The computer's name in a claim; empty when it is none.
   std::string HostOfClaim(Bytes bytes) const {
-    const auto* type = schema_.Find(static_cast<std::uint64_t>(claim_t::getHash()));
-    const bool is_claim =
-        bus::FingerprintOf(bytes.data(), bytes.size()) == type->fingerprint && bus::Walk(*type, bytes);
-    return is_claim ? bus::Decode<claim_t>(bytes).host : "";
+    const auto claim = bus::DecodeChecked<claim_t>(schema_, bytes);
+    return claim ? claim->host : "";
   }
 
   const bus::Schema& schema_;

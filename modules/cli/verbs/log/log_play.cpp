@@ -7,7 +7,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/log/log_player.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/schema.hpp"

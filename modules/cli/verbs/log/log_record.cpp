@@ -7,7 +7,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "bus/host_clock.hpp"
+#include "bus/clocks/clock_exchange.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/log/log_recorder.hpp"
 #include "bus/log/log_selection.hpp"
 #include "bus/node.hpp"
@@ -53,6 +54,7 @@ class Recording {
       : options_(options),
         schema_(bus::OwnTypes()),
         bus_(options.bus.bus.Url(), options.bus.messages()),
+        clocks_(options.bus.bus.IsNamed() ? bus::ExchangeWhereNeeded(bus_, schema_, clock_) : nullptr),
         node_(bus_, schema_, clock_),
         health_(node_.Advertise(channels::kHealth)),
         recorder_(options.file, LimitsOf(options), clock_.Now()),
@@ -74,6 +76,7 @@ class Recording {
       poll(fds, std::size(fds), 50);
       if (fds[1].revents != 0) break;
       bus_.Drain();
+      if (clocks_) clocks_->Tick(clock_.Now());
       recorder_.Tick(clock_.Now());
       ReportAlarm();
       SendHealth();
@@ -131,6 +134,8 @@ class Recording {
   bus::HostClock clock_;
   bus::Schema schema_;
   bus::LcmBus bus_;
+  /// Of a robot of several computers the log has stamps of one clock.
+  std::unique_ptr<bus::ClockExchange> clocks_;
   bus::Node node_;
   bus::Publisher<health_t> health_;
   bus::LogRecorder recorder_;

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <memory>
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "bus/log/log_player.hpp"
 #include "bus/own_types.hpp"
 #include "bus/process_config.hpp"

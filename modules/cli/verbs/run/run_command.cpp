@@ -7,7 +7,8 @@
 #include <iostream>
 #include <random>
 
-#include "bus/host_clock.hpp"
+#include "bus/clocks/clock_exchange.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
 #include "cli/options/folder_options.hpp"
@@ -34,6 +35,8 @@ struct RunOptions {
   std::string log_root;
   std::string robot;    ///< empty: a name of its own, so that it meets nobody
   std::string network;  ///< interface or its address; empty: as the route leads
+  int ttl = 0;
+  bool elsewhere = false;  ///< its processes are up already
   bool restart = false, json = false;
 };
 
@@ -54,6 +57,8 @@ Deployment DeploymentOf(const Scenario& scenario, const RunOptions& options) {
   deployment.robot = RobotOf(options);
   deployment.title = scenario.title;
   deployment.onboard_network = deployment.offboard_network = options.network;
+  deployment.onboard_ttl = deployment.offboard_ttl = options.ttl;
+  if (options.elsewhere) return deployment;
   deployment.emulated_line = true;
   deployment.line = scenario.line;
   deployment.processes = scenario.processes;
@@ -90,9 +95,10 @@ class RealTimeRun {
         offboard_(deployment_.OffboardUrl()),
         onboard_node_(onboard_, schema_, clock_),
         offboard_node_(offboard_, schema_, clock_),
+        onboard_clocks_(bus::ExchangeWhereNeeded(onboard_, schema_, clock_)),
+        offboard_clocks_(bus::ExchangeWhereNeeded(offboard_, schema_, clock_)),
         start_(clock_.Now()),
-        owner_(deployment_, schema_, clock_,
-               [this](const std::string& text) { Progress(clock_.Now(), text); }),
+        owner_(OwnRobot()),
         folder_(MakeRunFolder(options.log_root, options.scenario)),
         recorder_(folder_.string()),
         place_{ThisProgram().program_folder.string(), options.deployment, folder_.string(), options.seed},
@@ -129,6 +135,13 @@ class RealTimeRun {
   const std::vector<StoryLine>& lines() const { return lines_; }
 
  private:
+  /// Whoever started the processes owns the robot.
+  std::unique_ptr<RobotOwner> OwnRobot() {
+    if (options_.elsewhere) return nullptr;
+    return std::make_unique<RobotOwner>(deployment_, schema_, clock_,
+                                        [this](const std::string& text) { Progress(clock_.Now(), text); });
+  }
+
   void Record(bus::LcmBus& bus, const char* name) {
     bus.SubscribeEverything([this, name](std::string_view channel, std::span<const std::byte> bytes) {
       recorder_.OnMessage(name, clock_.Now(), channel, bytes);
@@ -158,13 +171,15 @@ class RealTimeRun {
         End("stopped by a signal");
         return false;
       }
-      owner_.Listen();
-      if (const auto lost = owner_.lost()) {
+      if (owner_) owner_->Listen();
+      if (const auto lost = owner_ ? owner_->lost() : std::nullopt) {
         End(*lost);
         return false;
       }
       onboard_.Drain();
       offboard_.Drain();
+      for (bus::ClockExchange* clocks : {onboard_clocks_.get(), offboard_clocks_.get()})
+        if (clocks != nullptr) clocks->Tick(clock_.Now());
       story_->Tick(clock_.Now());
       supervisor_.Step(clock_.Now());
       // What cannot start now will not start later: a scenario ends with the first failure, a robot goes on.
@@ -190,8 +205,9 @@ class RealTimeRun {
   bus::HostClock clock_;
   bus::LcmBus onboard_, offboard_;
   bus::Node onboard_node_, offboard_node_;
+  std::unique_ptr<bus::ClockExchange> onboard_clocks_, offboard_clocks_;
   Time start_;
-  RobotOwner owner_;
+  std::unique_ptr<RobotOwner> owner_;
   std::filesystem::path folder_;
   RunRecorder recorder_;
   LaunchPlace place_;
@@ -250,11 +266,18 @@ void AddRunCommand(CLI::App& cli, int& exit_code) {
   verb->add_option("--seed", options->seed, "start pose, textures, noise, slip")->capture_default_str();
   AddDeploymentOption(*verb, options->deployment);
   AddLogsOption(*verb, options->log_root, "a folder per run is made in it");
-  verb->add_option("--robot", options->robot,
-                   "name of the robot; without it one that nobody has, so that the run meets nobody");
+  auto* robot =
+      verb->add_option("--robot", options->robot,
+                       "name of the robot; without it one that nobody has, so that the run meets nobody");
   verb->add_option("--network", options->network,
                    "interface (eth1) or its address for the buses; default: as the route for multicast leads")
       ->envname(bus::kNetworkVariable);
+  verb->add_option("--ttl", options->ttl, "routers a message may pass; 0: this host")
+      ->envname(bus::kTtlVariable)
+      ->check(CLI::Range(0, 255));
+  verb->add_flag("--elsewhere", options->elsewhere,
+                 "start no process: those of the scenario are up already, here or on other hosts")
+      ->needs(robot);
   verb->add_flag("--restart", options->restart, "start again what died or hung, as `priamos up` does");
   verb->add_flag("--json", options->json, "summary.json on standard output, all else on standard error");
   verb->callback([options, &exit_code] { exit_code = Run(*options); });

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/udp_receiver.hpp"

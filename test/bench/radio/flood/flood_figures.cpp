@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "bus/schema/json.hpp"
 #include "bus/schema/schema.hpp"
 #include "bus/type_files.hpp"

@@ -11,6 +11,7 @@ using Verdict = Finding::Verdict;
 
 constexpr std::int32_t kOwn = 1, kVision = 2, kInstance = 77;
 constexpr const char* kTheirs = "10.77.0.2";
+constexpr Time kBegin{std::chrono::hours(400000)};
 
 /// Three questions were asked on the robot's bus.
 class HostProbeTest : public testing::Test {
@@ -19,7 +20,7 @@ class HostProbeTest : public testing::Test {
     return {kOwn, kInstance, {"127.0.0.1", "10.77.0.1"}, "eth1", ttl, "udpm://239.255.1.67:20000?ttl=1"};
   }
   explicit HostProbeTest(int ttl = 1) : dut_(Self(ttl)) {
-    for (int i = 0; i < 3; ++i) dut_.Asked();
+    for (int i = 0; i < 3; ++i) dut_.Asked(kBegin + i * std::chrono::milliseconds(400));
   }
   static probe_t Answer(std::int32_t number, std::int32_t host = kVision) {
     probe_t message{};
@@ -34,7 +35,7 @@ class HostProbeTest : public testing::Test {
     return message;
   }
   void Answered(bool alone, int count = 3) {
-    for (int i = 1; i <= count; ++i) dut_.HearProbe(Answer(i), kTheirs, alone);
+    for (int i = 1; i <= count; ++i) dut_.HearProbe(Answer(i), kTheirs, alone, kBegin);
   }
   Finding Only(const std::vector<std::string>& expected = {}) const {
     const auto findings = dut_.Findings(expected);
@@ -50,6 +51,23 @@ TEST_F(HostProbeTest, WhoAnswersToTheBusIsReachedBothWays) {
   EXPECT_EQ(Only().verdict, Verdict::kGood);
   EXPECT_EQ(Only().what, "host vision (10.77.0.2)");
   EXPECT_THAT(Only().found, HasSubstr("3 of 3 questions answered, by 1 process, by eth0 with ttl 1"));
+}
+
+TEST_F(HostProbeTest, TheClockOfAHostIsMeasured) {
+  probe_t answer = Answer(2);
+  const Time asked = kBegin + std::chrono::milliseconds(400);
+  answer.utime = ToUtime(asked + std::chrono::milliseconds(1) - std::chrono::seconds(3));
+  dut_.HearProbe(answer, kTheirs, false, asked + std::chrono::milliseconds(2));
+  EXPECT_THAT(Only().found, HasSubstr("its clock is 3.0000 s behind, to 1.0 ms"));
+  answer.utime = ToUtime(asked + std::chrono::microseconds(300));
+  dut_.HearProbe(answer, kTheirs, false, asked + std::chrono::microseconds(500));
+  EXPECT_THAT(Only().found, HasSubstr("its clock agrees to 0.3 ms"));
+}
+
+TEST_F(HostProbeTest, AnAnswerToNoQuestionTellsNothing) {
+  dut_.HearProbe(Answer(0), kTheirs, false, kBegin);
+  dut_.HearProbe(Answer(4), kTheirs, false, kBegin);
+  EXPECT_EQ(Only().verdict, Verdict::kBad);
 }
 
 TEST_F(HostProbeTest, LostAnswersAreCounted) {
@@ -68,7 +86,7 @@ TEST_F(HostProbeTest, WhoAnswersToTheSocketAloneDoesNotReachTheBus) {
 TEST_F(HostProbeTest, ATtlOf0ThereIsNamed) {
   probe_t answer = Answer(1);
   answer.ttl = 0;
-  dut_.HearProbe(answer, kTheirs, true);
+  dut_.HearProbe(answer, kTheirs, true, kBegin);
   EXPECT_THAT(Only().command, StartsWith("export PRIAMOS_TTL=1   # there"));
 }
 
@@ -86,19 +104,19 @@ TEST_F(HostProbeTest, AQuestionFromThereIsAMessageFromThere) {
   probe_t question = Answer(1);
   question.kind = probe_t::ASKS;
   question.instance = 5;
-  dut_.HearProbe(question, kTheirs, false);
+  dut_.HearProbe(question, kTheirs, false, kBegin);
   EXPECT_EQ(Only().what, "way from here to vision (10.77.0.2)");
 }
 
 TEST_F(HostProbeTest, AnswersToAnotherAskerAreNoAnswers) {
   probe_t answer = Answer(1);
   answer.instance = 5;
-  dut_.HearProbe(answer, kTheirs, false);
+  dut_.HearProbe(answer, kTheirs, false, kBegin);
   EXPECT_EQ(Only().what, "way from here to vision (10.77.0.2)");
 }
 
 TEST_F(HostProbeTest, ItsOwnProcessesAreNoOtherHost) {
-  dut_.HearProbe(Answer(1, kOwn), "10.77.0.1", false);
+  dut_.HearProbe(Answer(1, kOwn), "10.77.0.1", false, kBegin);
   dut_.HearOther("10.77.0.1", "base");
   dut_.HearOther("localhost");
   EXPECT_EQ(Only().what, "other hosts");
@@ -120,7 +138,7 @@ TEST_F(HostProbeTest, WhoIsExpectedAndNotThereIsNamed) {
 
 TEST_F(HostProbeTest, TwoHostsOfOneNameAreTwo) {
   Answered(false);
-  dut_.HearProbe(Answer(1, 3), "10.77.0.3", true);
+  dut_.HearProbe(Answer(1, 3), "10.77.0.3", true, kBegin);
   EXPECT_EQ(dut_.Findings({}).size(), 2U);
 }
 
@@ -128,7 +146,7 @@ TEST_F(HostProbeTest, WordsOfOthersDoNoHarmToATerminal) {
   probe_t answer = Answer(1);
   answer.host = "\x1b[2Jvi\nsion";
   answer.network = "\x1b]0;x\x07";
-  dut_.HearProbe(answer, kTheirs, true);
+  dut_.HearProbe(answer, kTheirs, true, kBegin);
   for (const std::string& text : {Only().what, Only().found, Only().command})
     EXPECT_EQ(text.find_first_of("\x1b\n\x07"), std::string::npos) << text;
 }

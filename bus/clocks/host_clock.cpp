@@ -1,6 +1,10 @@
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
+
+#include <fmt/format.h>
 
 #include <ctime>
+
+#include "bus/host/host_identity.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -22,6 +26,10 @@ HostClock::HostClock() : HostClock(AgreeOnAnchor(AnchorFolders(), AnchorName(), 
 
 Time HostClock::Now() const {
   return Time(Read(CLOCK_BOOTTIME) + anchor_.unix_minus_boot);
+}
+
+std::int32_t HostClock::id() const {
+  return IdentityOf(fmt::format("{} {}", AnchorName(), anchor_.unix_minus_boot.count()));
 }
 
 Duration HostClock::WallAhead() const {

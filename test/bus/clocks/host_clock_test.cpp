@@ -1,4 +1,4 @@
-#include "bus/host_clock.hpp"
+#include "bus/clocks/host_clock.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 
 namespace priamos::bus {
 namespace {

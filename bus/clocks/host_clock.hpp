@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bus/clock.hpp"
+#include "bus/clocks/clock.hpp"
 #include "bus/host/clock_anchor.hpp"
 
 namespace priamos::bus {
@@ -17,6 +17,8 @@ class HostClock : public Clock {
 
   Time Now() const override;
   const ClockAnchor& anchor() const { return anchor_; }
+  /// Names this clock: the same in all processes that share it, on a host or in a container.
+  std::int32_t id() const;
   /// How far the wall clock is ahead of the stamps now.
   Duration WallAhead() const;
 

@@ -1,0 +1,141 @@
+#include "bus/clocks/clock_exchange.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "bus/clocks/host_clock.hpp"
+#include "bus/host/host_identity.hpp"
+#include "bus/schema/stamps.hpp"
+#include "bus/wire/lcm_bus.hpp"
+#include "bus/wire/multicast.hpp"
+#include "bus/wire/network_interface.hpp"
+#include "bus/wire/typed_message.hpp"
+
+namespace priamos::bus {
+namespace {
+
+constexpr Duration kEvery{1'000'000};
+constexpr Duration kBetweenAnswers{50'000};
+constexpr Duration kNews{10'000'000};
+constexpr std::size_t kHostBytes = 64;  // @max of clock_report_t.host
+
+std::set<std::uint32_t> AddressesOfThisHost() {
+  std::set<std::uint32_t> addresses;
+  for (const NetworkInterface& interface : NetworkInterfaces())
+    for (const std::string& text : interface.addresses)
+      if (in_addr address{}; inet_pton(AF_INET, text.c_str(), &address) == 1)
+        addresses.insert(address.s_addr);
+  return addresses;
+}
+
+/// An order to stop is obeyed whatever its stamp says.
+bool IsSafetyChannel(std::string_view name) {
+  return std::apply(
+      [name](const auto&... channel) {
+        return ((channel.safety_act != nullptr && channel.name == name) || ...);
+      },
+      channels::kAll);
+}
+
+}  // namespace
+
+std::unique_ptr<ClockExchange> ExchangeWhereNeeded(LcmBus& bus, const Schema& schema,
+                                                   const HostClock& clock) {
+  const bool leaves = bus.url().starts_with("udpm://") && TtlOf(bus.url()) > 0;
+  return leaves ? std::make_unique<ClockExchange>(bus, schema, clock, clock.id()) : nullptr;
+}
+
+ClockExchange::ClockExchange(LcmBus& bus, const Schema& schema, const Clock& clock, std::int32_t own_id)
+    : bus_(bus),
+      schema_(schema),
+      clock_(clock),
+      host_(ThisHost().name.substr(0, kHostBytes)),
+      peers_(own_id, AddressesOfThisHost()),
+      begin_(clock.Now()) {
+  bus.Subscribe(channels::kClock.name, [](std::string_view, std::span<const std::byte>) {});
+  bus.TranslateBy([this](std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes) {
+    return Translate(sender, channel, bytes);
+  });
+  Tick(begin_);
+}
+
+ClockExchange::~ClockExchange() {
+  bus_.TranslateBy(nullptr);
+}
+
+void ClockExchange::Tick(Time now) {
+  const bool answers = answer_asked_ && now - answered_ >= kBetweenAnswers;
+  if (now < next_ && !answers) return;
+  if (answers) answered_ = now;
+  answer_asked_ = answer_asked_ && !answers;
+  if (now >= next_) next_ = now + kEvery;
+  Send(now);
+}
+
+void ClockExchange::Send(Time now) {
+  clock_report_t message = peers_.Report(now);
+  message.host = host_;
+  bus_.Publish(channels::kClock.name, Encode(message));
+}
+
+void ClockExchange::Hear(std::uint64_t sender, std::span<const std::byte> bytes) {
+  const auto message = DecodeChecked<clock_report_t>(schema_, bytes);
+  const Time now = clock_.Now();
+  if (!message || !peers_.Hear(sender, *message, now)) return;
+  answer_asked_ = true;
+  Tick(now);
+}
+
+std::span<const std::byte> ClockExchange::Shifted(std::span<const std::byte> bytes, Duration by) {
+  const Struct* type = schema_.Find(FingerprintOf(bytes.data(), bytes.size()));
+  if (type == nullptr) return bytes;
+  shifted_.assign(bytes.begin(), bytes.end());
+  return ShiftStamps(*type, shifted_, by.count()) ? std::span<const std::byte>(shifted_) : bytes;
+}
+
+std::optional<std::span<const std::byte>> ClockExchange::Translate(std::uint64_t sender,
+                                                                   std::string_view channel,
+                                                                   std::span<const std::byte> bytes) {
+  if (channel == channels::kClock.name) {
+    Hear(sender, bytes);
+    return bytes;
+  }
+  const Time now = clock_.Now();
+  const SenderClock clock = peers_.ClockOf(sender, now);
+  if (clock.kind == SenderClock::Kind::kOurs) return bytes;
+  if (IsTooUncertain(clock, now) && !IsSafetyChannel(channel)) {
+    ++refused_;
+    refused_at_ = now;
+    refused_clock_ = clock;
+    return std::nullopt;
+  }
+  if (clock.kind == SenderClock::Kind::kKnown) return Shifted(bytes, -clock.difference.ahead);
+  ++unknown_;
+  unknown_at_ = now;
+  return bytes;
+}
+
+bool ClockExchange::IsTooUncertain(const SenderClock& clock, Time now) const {
+  if (clock.kind == SenderClock::Kind::kKnown) return clock.difference.uncertainty > kMostUncertain;
+  return !clock.host.empty() || now - begin_ < kGreeting;
+}
+
+std::string ClockExchange::Problems(Time now) const {
+  std::string text;
+  const bool known = refused_clock_.kind == SenderClock::Kind::kKnown;
+  if (refused_ > 0 && now - refused_at_ < kNews)
+    text = fmt::format(
+        "{} messages of {} refused: its clock is {}", refused_,
+        refused_clock_.host.empty() ? "other hosts" : refused_clock_.host,
+        known ? fmt::format("known to {:.0f} ms only", 1000 * Seconds(refused_clock_.difference.uncertainty))
+              : "not known yet");
+  if (unknown_ > 0 && now - unknown_at_ < kNews)
+    text += fmt::format("{}{} messages of hosts of unknown clock", text.empty() ? "" : "; ", unknown_);
+  return text;
+}
+
+}  // namespace priamos::bus

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/clocks/clock.hpp"
+#include "bus/clocks/peer_clocks.hpp"
+
+namespace priamos::bus {
+
+class HostClock;
+class LcmBus;
+class Schema;
+
+/// Makes the clocks of a bus's hosts comparable, for one process: exchanges CLOCK messages with the others,
+/// and gives every message that arrives stamps of this process's clock. Every process of RunProcess on a bus
+/// that leaves its host has one.
+///
+/// A message of a host whose clock is known less exactly than kMostUncertain is refused and counted, but for
+/// those of safety channels. What comes from a sender who never spoke of its clock (a foreign program) is
+/// handed on as it is, from kGreeting after the start on.
+class ClockExchange {
+ public:
+  /// 20 ms are 6 mm at the 0.3 m/s at which the robot looks at a door.
+  static constexpr Duration kMostUncertain{20'000};
+
+  /// Until then everybody who speaks of his clock has answered the first message.
+  static constexpr Duration kGreeting{500'000};
+
+  /// Subscribes to CLOCK, translates what `bus` receives from now on, and sends the first message. `own_id`
+  /// names `clock` (HostClock::id). All of them must outlive it.
+  ClockExchange(LcmBus& bus, const Schema& schema, const Clock& clock, std::int32_t own_id);
+  ~ClockExchange();
+  ClockExchange(const ClockExchange&) = delete;
+  ClockExchange& operator=(const ClockExchange&) = delete;
+
+  /// Sends when it is time to; call it about every 50 ms.
+  void Tick(Time now);
+
+  /// Messages refused because the clock of their host was not known exactly enough.
+  std::uint64_t refused() const { return refused_; }
+  /// What was wrong with the clocks in the last 10 s, as a clause; empty when nothing was.
+  std::string Problems(Time now) const;
+
+ private:
+  std::optional<std::span<const std::byte>> Translate(std::uint64_t sender, std::string_view channel,
+                                                      std::span<const std::byte> bytes);
+  std::span<const std::byte> Shifted(std::span<const std::byte> bytes, Duration by);
+  /// Whether stamps of that clock are known too badly to be used.
+  bool IsTooUncertain(const SenderClock& clock, Time now) const;
+  void Hear(std::uint64_t sender, std::span<const std::byte> bytes);
+  void Send(Time now);
+
+  LcmBus& bus_;
+  const Schema& schema_;
+  const Clock& clock_;
+  std::string host_;
+  PeerClocks peers_;
+  Time next_{};      ///< of the messages once a second
+  Time answered_{};  ///< when the last answer out of turn was sent
+  bool answer_asked_ = false;
+  std::vector<std::byte> shifted_;
+  std::uint64_t refused_ = 0, unknown_ = 0;
+  Time begin_, refused_at_{}, unknown_at_{};
+  SenderClock refused_clock_;  ///< of the newest refused message
+};
+
+/// An exchange on a bus that other hosts may hear; null on one that stays on this host. All of them must
+/// outlive it.
+std::unique_ptr<ClockExchange> ExchangeWhereNeeded(LcmBus& bus, const Schema& schema, const HostClock& clock);
+
+}  // namespace priamos::bus
