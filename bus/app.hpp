@@ -20,6 +20,7 @@ namespace priamos::bus {
 ///
 ///     static constexpr bool kOneOwner = true;     a second one of the same robot does not start on its bus
 ///     static constexpr auto kSpeaksAlone = ...;   channels: it does not run beside other senders on them
+///     static constexpr bool kFollowsLogs = true;  it may run on the time of a bus onto which a log is played
 ///     void Yield(Time now);                       its last act when another process has its role
 template <class T>
 concept App = requires(T app, const typename T::Config& config, Context& context, Time now) {
@@ -54,6 +55,7 @@ struct AppFactory {
   std::string default_bus = "onboard";  ///< or "offboard"
   std::vector<OptionAlias> aliases;
   bool one_owner = false;                 ///< only one such process may own its role on one robot's bus
+  bool follows_logs = false;              ///< may run with `--clock bus`
   std::vector<std::string> speaks_alone;  ///< channels on which nobody but the owner may send
   std::function<std::unique_ptr<AnyApp>(const ConfigSource&, Context&)> start;
   std::function<void(std::ostream&, const ConfigSource&)> print_config;
@@ -78,6 +80,7 @@ AppFactory FactoryOf() {
   if constexpr (requires { T::kOptions; })
     factory.aliases.assign(std::begin(T::kOptions), std::end(T::kOptions));
   if constexpr (requires { T::kOneOwner; }) factory.one_owner = T::kOneOwner;
+  if constexpr (requires { T::kFollowsLogs; }) factory.follows_logs = T::kFollowsLogs;
   if constexpr (requires { T::kSpeaksAlone; })
     factory.speaks_alone.assign(std::begin(T::kSpeaksAlone), std::end(T::kSpeaksAlone));
   factory.start = [](const ConfigSource& source, Context& context) {

@@ -61,6 +61,10 @@ void AppHost::Step(Time now) {
   if (now >= next_health_) PublishHealth(now);
 }
 
+void AppHost::TickNextAt(Time time) {
+  if (std::chrono::abs(time - next_tick_) < period_) next_tick_ = time;
+}
+
 /// The App's own state comes first; after it, per channel, what went wrong on the bus.
 std::string AppHost::HealthText() const {
   std::string text = context_.health_text();

@@ -22,6 +22,8 @@ class AppHost {
   /// Ticks if a tick is due at `now`. A tick more than a period late is counted; those missed are not
   /// repeated.
   void Step(Time now);
+  /// Moves the schedule by less than a period, so that a tick falls on `time`; further away it stays.
+  void TickNextAt(Time time);
   /// The App's last act when another process has its role.
   void Yield(Time now) { app_->Yield(now); }
   /// Has HEALTH tell, beside the App's own problems, what `problems` says; empty text: nothing.

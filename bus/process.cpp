@@ -15,6 +15,7 @@
 #include "bus/clocks/host_clock.hpp"
 #include "bus/command_line.hpp"
 #include "bus/log/log_writer.hpp"
+#include "bus/log_follower.hpp"
 #include "bus/other_bus.hpp"
 #include "bus/own_types.hpp"
 #include "bus/probe_answerer.hpp"
@@ -118,6 +119,27 @@ int RunFromLog(const AppFactory& factory, const Options& options) {
   return out && !out->good() ? kFailedWhileRunning : 0;
 }
 
+/// Runs the App on a log that is being played onto the bus.
+int FollowLog(const AppFactory& factory, const Options& options) {
+  if (!options.bus.starts_with("udpm://"))
+    throw BusError(
+        fmt::format("--clock bus: expected a bus onto which a log is played (udpm://), got {}", options.bus));
+  const SignalWatch signals;
+  const Schema schema = OwnTypes();
+  const auto log = MakeLog(factory.name);
+  while (true) {
+    LcmBus bus(options.bus);
+    LogFollower follower(bus, schema, factory.name, [&](const Clock& clock) {
+      log(Level::kInfo,
+          fmt::format("time is that of {}; what this sends goes to {}...", bus.url(), LogFollower::kPrefix));
+      return std::make_unique<AppHost>(factory, options.config, bus, schema, clock,
+                                       MakeSurroundings(factory, options));
+    });
+    if (const auto code = follower.Run(signals)) return *code;
+    log(Level::kInfo, "the log went back: beginning anew");
+  }
+}
+
 /// Reports a configuration that cannot be used before the role is claimed.
 void RequireConfiguration(const AppFactory& factory, const ConfigSource& source) {
   std::ostream nowhere(nullptr);
@@ -161,6 +183,7 @@ int Run(const AppFactory& factory, const Options& options, bool& running) {
   if (options.interface) return PrintInterface(factory, options);
   if (options.bus.starts_with(kFileUrl)) return RunFromLog(factory, options);
   RequireConfiguration(factory, options.config);
+  if (options.follows_log) return FollowLog(factory, options);
   const SignalWatch signals;
   const Schema schema = OwnTypes();
   const HostClock clock;

@@ -31,6 +31,14 @@ void AddProcessOptions(CLI::App& cli, const AppFactory& factory, ProcessOptions&
   cli.add_flag("--print-config", options.print_config,
                "print every key with value, unit and meaning, and exit");
   cli.add_flag("--interface", options.interface, "print the channels read and written, and exit");
+  if (factory.follows_logs)
+    cli.add_option_function<std::string>(
+           "--clock", [&options](const std::string& clock) { options.follows_log = clock == "bus"; },
+           "host; or bus: time is that of the newest message, for a log that is played onto the bus; what it "
+           "sends "
+           "goes to REPLAYED_...")
+        ->check(CLI::IsMember({"host", "bus"}))
+        ->default_str("host");
   for (const auto& alias : factory.aliases) AddAlias(cli, alias, options.config);
   cli.parse_complete_callback([&cli, &options] {
     for (const char* name : {"--bus", "--robot", "--ttl", "--network"})

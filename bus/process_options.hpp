@@ -20,6 +20,7 @@ struct ProcessOptions {
   std::string bus;                 ///< URL
   std::vector<std::string> typed;  ///< which of --bus, --robot, --ttl and --network were given
   std::uint64_t seed = 0;
+  bool follows_log = false;  ///< `--clock bus`
   bool print_config = false;
   bool interface = false;
 };

@@ -51,16 +51,19 @@ bool PeerClocks::Hear(std::uint64_t sender, const clock_report_t& message, Time 
   if (message.clock_id == own_id_) return false;
   Peer* peer = PeerWithRoom(message.clock_id, now);
   if (peer == nullptr) return false;
+  if (peer->newest_utime == 0) peer->first_heard = now;
   peer->host = message.host;
   peer->newest_utime = message.utime;
   peer->arrived = now;
-  bool knows_us = false;
+  double their_uncertainty_s = kNotKnown_s;
   for (std::size_t i = 0; i < static_cast<std::size_t>(message.count); ++i) {
     if (message.heard_id[i] != own_id_) continue;
     TakeExchange(*peer, message, i, now);
-    knows_us = message.uncertainty_s[i] < static_cast<float>(kNotKnown_s);
+    their_uncertainty_s = message.uncertainty_s[i];
   }
-  return !knows_us || !peer->offset.At(now);
+  const auto ours = peer->offset.At(now);
+  const Duration enough = now - peer->first_heard < kAcquaintance ? kWell : FromSeconds(kNotKnown_s / 2);
+  return !(their_uncertainty_s <= Seconds(enough)) || !ours || ours->uncertainty > enough;
 }
 
 std::optional<std::int32_t> PeerClocks::IdOf(std::uint64_t sender) const {

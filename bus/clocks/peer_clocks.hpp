@@ -42,8 +42,12 @@ class PeerClocks {
   PeerClocks(std::int32_t own_id, std::set<std::uint32_t> own_addresses)
       : own_id_(own_id), own_addresses_(std::move(own_addresses)) {}
 
-  /// Takes a CLOCK message that arrived at `now`. Returns true when its sender waits for an answer: it, or
-  /// we, cannot translate yet.
+  /// A clock is known well when it is known so exactly. Processes are busy when they start, and a message
+  /// that waits makes an exchange inexact: during kAcquaintance there are as many exchanges as that takes.
+  static constexpr Duration kWell{2'000}, kAcquaintance{3'000'000};
+
+  /// Takes a CLOCK message that arrived at `now`. Returns true when its sender should get an answer at once:
+  /// it, or we, do not know the other's clock well yet.
   bool Hear(std::uint64_t sender, const clock_report_t& message, Time now);
 
   SenderClock ClockOf(std::uint64_t sender, Time now) const;
@@ -56,6 +60,7 @@ class PeerClocks {
     std::string host;
     std::int64_t newest_utime = 0;  ///< of its CLOCK messages, by its clock
     Time arrived{};
+    Time first_heard{};
     ClockOffset offset;
   };
   Peer* PeerWithRoom(std::int32_t id, Time now);

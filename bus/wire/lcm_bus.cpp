@@ -49,9 +49,10 @@ LcmBus::~LcmBus() = default;
 
 bool LcmBus::Publish(std::string_view channel, std::span<const std::byte> bytes) {
   if (!Fits(bytes.size())) return false;
-  if (sender_) return sender_->Send(channel, bytes);
-  return lcm_publish(lcm_.get(), std::string(channel).c_str(), bytes.data(),
-                     static_cast<unsigned>(bytes.size())) == 0;
+  if (sender_ && prefix_.empty()) return sender_->Send(channel, bytes);
+  const std::string name = prefix_ + std::string(channel);
+  if (sender_) return sender_->Send(name, bytes);
+  return lcm_publish(lcm_.get(), name.c_str(), bytes.data(), static_cast<unsigned>(bytes.size())) == 0;
 }
 
 bool LcmBus::Answer(std::string_view channel, std::span<const std::byte> bytes) {

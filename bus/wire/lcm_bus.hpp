@@ -63,6 +63,8 @@ class LcmBus {
   void SubscribeEverything(Handler handler);
   /// From now on every message passes through `translator`; an empty one takes it away.
   void TranslateBy(Translator translator) { translator_ = std::move(translator); }
+  /// From now on Publish puts `prefix` before the name of every channel.
+  void PublishUnder(std::string_view prefix) { prefix_ = prefix; }
   /// True when a message of this size may be on this bus.
   bool Fits(std::size_t bytes) const { return messages_ == Messages::kAnySize || bytes <= kMaxMessageBytes; }
 
@@ -101,6 +103,7 @@ class LcmBus {
   std::map<std::string, std::vector<Handler>, std::less<>> by_channel_;
   std::vector<Handler> of_everything_;
   Translator translator_;
+  std::string prefix_;  ///< of the channels it publishes
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   std::uint64_t answered_ = 0;  ///< sender of the message that is being handled; 0: none is
 };

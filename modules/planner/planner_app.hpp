@@ -18,6 +18,7 @@ class PlannerApp {
   static constexpr std::string_view kSummary =
       "The robot's workstation: the building's map, and missions such as passing a door.";
   static constexpr bool kOneOwner = true;
+  static constexpr bool kFollowsLogs = true;
   using Config = PlannerConfig;
 
   /// App of the planner; `missions` makes the table of what the planner can carry out. Throws ConfigError

@@ -54,8 +54,8 @@ TEST_F(HostProbeTest, WhoAnswersToTheBusIsReachedBothWays) {
 }
 
 TEST_F(HostProbeTest, TheClockOfAHostIsMeasured) {
-  probe_t answer = Answer(2);
-  const Time asked = kBegin + std::chrono::milliseconds(400);
+  probe_t answer = Answer(3);
+  const Time asked = kBegin + std::chrono::milliseconds(800);
   answer.utime = ToUtime(asked + std::chrono::milliseconds(1) - std::chrono::seconds(3));
   dut_.HearProbe(answer, kTheirs, false, asked + std::chrono::milliseconds(2));
   EXPECT_THAT(Only().found, HasSubstr("its clock is 3.0000 s behind, to 1.0 ms"));

@@ -1,0 +1,27 @@
+#include "bus/clocks/log_time.hpp"
+
+#include <algorithm>
+
+namespace priamos::bus {
+namespace {
+
+constexpr Time kLatest{Duration(7'258'118'400'000'000)};  // the year 2200
+
+}  // namespace
+
+bool LogTime::IsWitnessed(Time stamp) {
+  const bool agrees = witnesses_ > 0 && std::chrono::abs(stamp - leap_) <= kLeap;
+  witnesses_ = agrees ? witnesses_ + 1 : 1;
+  leap_ = stamp;
+  return witnesses_ >= kWitnesses;
+}
+
+void LogTime::Hear(Time stamp) {
+  if (stamp <= Time{} || stamp >= kLatest) return;
+  behind_ = now_ && *now_ - stamp > kBack ? behind_ + 1 : 0;
+  if (now_ && stamp - *now_ > kLeap && !IsWitnessed(stamp)) return;
+  witnesses_ = 0;
+  now_ = std::max(stamp, now_.value_or(stamp));
+}
+
+}  // namespace priamos::bus

@@ -1,0 +1,89 @@
+// A recorded door run, played by LCM's own player into a live planner: it decides what it decided then.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "bus/log/log_reader.hpp"
+#include "bus/log_follower.hpp"
+#include "bus/node.hpp"
+#include "bus/own_types.hpp"
+#include "test/support/temporary_folder.hpp"
+#include "test/system/private_network.hpp"
+
+namespace priamos {
+namespace {
+
+/// Messages of one type by their channel, in their order.
+template <class T>
+std::vector<T> MessagesOf(const std::string& log, const std::string& channel) {
+  const bus::Schema schema = bus::OwnTypes();
+  std::vector<T> messages;
+  bus::LogReader reader(log);
+  while (const auto event = reader.Next())
+    if (event->channel == channel)
+      if (const auto message = bus::DecodeChecked<T>(schema, event->bytes)) messages.push_back(*message);
+  return messages;
+}
+
+class FollowedLog : public testing::TestWithParam<int> {
+ protected:
+  FollowedLog() {
+    answer_ =
+        RunInPrivateNetwork("DIR=" + folder_.path().string() + "\nSPEED=" + std::to_string(GetParam()) + R"sh(
+      export PRIAMOS_BUS=offboard PRIAMOS_ROBOT=replay
+      $BIN/priamos log record $DIR/again.lcmlog --no-health > /dev/null & RECORDER=$!
+      $BIN/priamos-planner --config $SOURCE/config/sim/planner.toml --clock bus & PLANNER=$!
+      listening; until [ $(grep -cE ' 44..FFEF:' /proc/net/udp) -ge 2 ]; do sleep 0.05; done
+      lcm-logplayer -l "$($BIN/priamos topic url)" -s $SPEED $SOURCE/logs/recorded/door-udp-offboard.lcmlog > /dev/null
+      sleep 0.5; kill $PLANNER $RECORDER; wait $PLANNER; echo "planner $?"; wait $RECORDER
+    )sh",
+                            folder_ / "script.sh", 60);
+  }
+  template <class T>
+  void ExpectSame(const std::string& channel,
+                  const std::function<void(const T& then, const T& now)>& compare) const {
+    const std::string log = folder_ / "again.lcmlog";
+    const auto then = MessagesOf<T>(log, channel);
+    const auto now = MessagesOf<T>(log, std::string(bus::LogFollower::kPrefix) + channel);
+    ASSERT_GT(then.size(), 0U) << answer_.text;
+    ASSERT_EQ(now.size(), then.size()) << channel << "\n" << answer_.text;
+    for (std::size_t i = 0; i < then.size(); ++i) compare(then[i], now[i]);
+  }
+
+  const TemporaryFolder folder_;
+  ShellAnswer answer_;
+};
+
+TEST_P(FollowedLog, ThePlannerDecidesAsItDidThen) {
+  ExpectSame<path_t>("PATH", [](const path_t& then, const path_t& now) {
+    EXPECT_NEAR(static_cast<double>(now.utime), static_cast<double>(then.utime), 3e5);
+    ASSERT_EQ(now.points.size(), then.points.size());
+    for (std::size_t i = 0; i < then.points.size(); ++i) {
+      EXPECT_NEAR(now.points[i].x_m, then.points[i].x_m, 0.02);
+      EXPECT_NEAR(now.points[i].y_m, then.points[i].y_m, 0.02);
+    }
+  });
+  ExpectSame<look_request_t>("LOOK_REQUEST", [](const look_request_t& then, const look_request_t& now) {
+    EXPECT_EQ(now.landmark_id, then.landmark_id);
+    EXPECT_EQ(now.side, then.side);
+  });
+  ExpectSame<landmark_model_t>("LANDMARK_MODEL",
+                               [](const landmark_model_t& then, const landmark_model_t& now) {
+                                 EXPECT_EQ(now.landmark_id, then.landmark_id);
+                               });
+  EXPECT_NE(answer_.text.find("planner 0"), std::string::npos) << answer_.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(AtSpeed, FollowedLog, testing::Values(4, 8));
+
+/// Only what commands nobody may follow a log.
+TEST(FollowsLogs, ARobotDoesNot) {
+  const auto answer = RunShell("'" PRIAMOS_BINARY_DIR "/bin/priamos-robot' --clock bus");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.text.find("--clock"), std::string::npos) << answer.text;
+}
+
+}  // namespace
+}  // namespace priamos
