@@ -12,6 +12,7 @@
 #include "common/config.hpp"
 #include "common/config_printer.hpp"
 #include "common/time.hpp"
+#include "lcmtypes/embedded_types.hpp"
 
 namespace priamos::bus {
 
@@ -21,6 +22,7 @@ namespace priamos::bus {
 ///     static constexpr bool kOneOwner = true;     a second one of the same robot does not start on its bus
 ///     static constexpr auto kSpeaksAlone = ...;   channels: it does not run beside other senders on them
 ///     static constexpr bool kFollowsLogs = true;  it may run on the time of a bus onto which a log is played
+///     static std::vector<TypeText> Types();       .lcm texts of its messages, beside those of lcmtypes/
 ///     void Yield(Time now);                       its last act when another process has its role
 template <class T>
 concept App = requires(T app, const typename T::Config& config, Context& context, Time now) {
@@ -56,6 +58,7 @@ struct AppFactory {
   std::vector<OptionAlias> aliases;
   bool one_owner = false;                 ///< only one such process may own its role on one robot's bus
   bool follows_logs = false;              ///< may run with `--clock bus`
+  std::vector<TypeText> types;            ///< of its messages, beside those of lcmtypes/
   std::vector<std::string> speaks_alone;  ///< channels on which nobody but the owner may send
   std::function<std::unique_ptr<AnyApp>(const ConfigSource&, Context&)> start;
   std::function<void(std::ostream&, const ConfigSource&)> print_config;
@@ -81,6 +84,7 @@ AppFactory FactoryOf() {
     factory.aliases.assign(std::begin(T::kOptions), std::end(T::kOptions));
   if constexpr (requires { T::kOneOwner; }) factory.one_owner = T::kOneOwner;
   if constexpr (requires { T::kFollowsLogs; }) factory.follows_logs = T::kFollowsLogs;
+  if constexpr (requires { T::Types(); }) factory.types = T::Types();
   if constexpr (requires { T::kSpeaksAlone; })
     factory.speaks_alone.assign(std::begin(T::kSpeaksAlone), std::end(T::kSpeaksAlone));
   factory.start = [](const ConfigSource& source, Context& context) {

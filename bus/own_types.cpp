@@ -1,11 +1,11 @@
 #include "bus/own_types.hpp"
 
-#include "lcmtypes/embedded_types.hpp"
-
 namespace priamos::bus {
 
-Schema OwnTypes() {
-  return Schema::FromTexts(EmbeddedTypes());
+Schema OwnTypes(const std::vector<TypeText>& further) {
+  std::vector<TypeText> texts = EmbeddedTypes();
+  texts.insert(texts.end(), further.begin(), further.end());
+  return Schema::FromTexts(texts);
 }
 
 }  // namespace priamos::bus

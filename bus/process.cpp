@@ -82,7 +82,7 @@ class UnconnectedPort : public ByteStream {
 };
 
 int PrintInterface(const AppFactory& factory, const Options& options) {
-  const Schema schema = OwnTypes();
+  const Schema schema = OwnTypes(factory.types);
   LcmBus bus("memq://");
   const HostClock clock;
   auto around = MakeSurroundings(factory, options);
@@ -106,7 +106,7 @@ int RunFromLog(const AppFactory& factory, const Options& options) {
         fmt::format("bus {}: expected file://LOG or file://LOG?out=LOG, got \"?{}\"", options.bus, query));
   std::optional<LogWriter> out;
   if (!query.empty()) out.emplace(query.substr(4));
-  const Schema schema = OwnTypes();
+  const Schema schema = OwnTypes(factory.types);
   Replay replay(factory, options.config, schema, rest.substr(0, question),
                 {options.config.Folder(), options.seed, MakeLog(factory.name)});
   std::uint64_t sent = 0;
@@ -125,7 +125,7 @@ int FollowLog(const AppFactory& factory, const Options& options) {
     throw BusError(
         fmt::format("--clock bus: expected a bus onto which a log is played (udpm://), got {}", options.bus));
   const SignalWatch signals;
-  const Schema schema = OwnTypes();
+  const Schema schema = OwnTypes(factory.types);
   const auto log = MakeLog(factory.name);
   while (true) {
     LcmBus bus(options.bus);
@@ -185,7 +185,7 @@ int Run(const AppFactory& factory, const Options& options, bool& running) {
   RequireConfiguration(factory, options.config);
   if (options.follows_log) return FollowLog(factory, options);
   const SignalWatch signals;
-  const Schema schema = OwnTypes();
+  const Schema schema = OwnTypes(factory.types);
   const HostClock clock;
   WarnOf(factory, options.bus, clock.anchor());
   LcmBus bus(options.bus);

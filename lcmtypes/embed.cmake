@@ -1,8 +1,12 @@
-# Writes OUTPUT, a .cpp that holds the text of FILES (see embedded_types.hpp).
-set(code "#include \"lcmtypes/embedded_types.hpp\"\n\nnamespace priamos {\n\nstd::vector<TypeText> EmbeddedTypes() {\n  return {\n")
+# Writes OUTPUT, a .cpp that holds the texts of FILES: the function FUNCTION, declared in HEADER.
+if(NOT DEFINED FUNCTION)
+  set(FUNCTION priamos::EmbeddedTypes)
+  set(HEADER lcmtypes/embedded_types.hpp)
+endif()
+set(code "#include \"${HEADER}\"\n\nstd::vector<priamos::TypeText> ${FUNCTION}() {\n  return {\n")
 foreach(file ${FILES})
   get_filename_component(name ${file} NAME)
   file(READ ${file} text)
   string(APPEND code "      {\"lcmtypes/${name}\", R\"lcm(${text})lcm\"},\n")
 endforeach()
-file(WRITE ${OUTPUT} "${code}  };\n}\n\n}  // namespace priamos\n")
+file(WRITE ${OUTPUT} "${code}  };\n}\n")

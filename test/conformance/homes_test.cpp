@@ -118,7 +118,7 @@ std::string Homeless(const std::string& file) {
   static const std::regex kSource(R"(.*\.(?:[hc]pp|[ht]?cc|hh?|c|[ch]xx|[it]pp|inl|ixx|C|H))");
   static const std::regex kName(R"((?:.*/)?[a-z][a-z0-9_]*\.[hc]pp)");
   static const std::regex kHome(R"((?:lcmtypes|bus|test|modules/[a-z0-9_]+)/.*)");
-  if (!std::regex_match(file, kSource) || fs::path(file).parent_path() == kStandalone) return "";
+  if (!std::regex_match(file, kSource) || IsStandalone(fs::path(file).parent_path())) return "";
   if (!std::regex_match(file, kName)) return "expected a name like small_words.cpp or .hpp; next: rename it";
   if (!std::regex_match(file, kHome))
     return "no library builds it; next: move it into bus/, modules/ or test/";

@@ -23,6 +23,10 @@ void AddInOrder(const fs::path& root, const fs::path& folder, std::vector<std::s
 
 }  // namespace
 
+bool IsStandalone(const fs::path& folder) {
+  return folder == kStandalone || folder == kExample;
+}
+
 std::string TextOf(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
@@ -42,7 +46,7 @@ std::vector<fs::path> SourcesIn(const fs::path& root, std::initializer_list<cons
     if (!fs::exists(root / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const fs::path source = fs::relative(entry.path(), root);
-      if (kExtensions.contains(source.extension()) && source.parent_path() != kStandalone)
+      if (kExtensions.contains(source.extension()) && !IsStandalone(source.parent_path()))
         sources.push_back(source);
     }
   }

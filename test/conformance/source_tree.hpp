@@ -16,8 +16,12 @@ std::vector<std::string> FolderOrder(const std::filesystem::path& root);
 
 /// A room in C for other projects, which copy it: it stands beside the rules of the house, and alone.
 inline constexpr const char* kStandalone = "bus/radio/tiny";
+/// The folder of a project that has the installed bus and nothing else.
+inline constexpr const char* kExample = "bus/package/example";
+/// Whether the rules of the tree do not hold in a folder.
+bool IsStandalone(const std::filesystem::path& folder);
 
-/// Sources of every language below `folders`, relative to `root`, sorted; none of kStandalone.
+/// Sources of every language below `folders`, relative to `root`, sorted; none of standalone folders.
 std::vector<std::filesystem::path> SourcesIn(const std::filesystem::path& root,
                                              std::initializer_list<const char*> folders);
 
