@@ -1,22 +1,29 @@
-// What the bus costs beside raw liblcm, in one run: round trip of a small message, `priamos topic list` on a
-// busy bus, reading a log. Prints one line per figure with its bound; exit 1 if one is missed.
+// What the bus costs beside raw liblcm and raw sockets, in one run: round trip of a small message, `priamos
+// topic list` on a busy bus, reading a log. Prints one line per figure with its bound; exit 1 if one is
+// missed.
 //   scripts/in-private-network build/bin/bench_bus [--quick]
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <lcm/lcm.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <tuple>
 
 #include "bus/log/log_reader.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
+#include "bus/schema/big_endian.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::bench {
@@ -62,6 +69,46 @@ class Peer {
 };
 
 constexpr const char* kChannels[] = {"PING", "PONG"};
+
+/// The least that a bus on UDP multicast can be: a datagram to a group, and nobody looks into it.
+template <std::size_t kBytes>
+class SocketPeer : public Peer {
+ public:
+  SocketPeer(int out, bool echo) : out_(static_cast<char>(out)), echo_(echo) {
+    inet_pton(AF_INET, "239.255.76.67", &group_.sin_addr);
+    group_.sin_family = AF_INET;
+    group_.sin_port = htons(7704);
+    const int on = 1;
+    const ip_mreq membership{group_.sin_addr, {htonl(INADDR_ANY)}};
+    const bool open = setsockopt(in_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
+                      bind(in_, reinterpret_cast<const sockaddr*>(&group_), sizeof group_) == 0 &&
+                      setsockopt(in_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) == 0;
+    if (!open) throw std::runtime_error("no multicast; next: scripts/in-private-network");
+  }
+  ~SocketPeer() override {
+    close(in_);
+    close(send_);
+  }
+  void Send() override {
+    std::array<char, kBytes> bytes{out_};
+    sendto(send_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&group_), sizeof group_);
+  }
+  bool Handle() override {
+    pollfd waiting{in_, POLLIN, 0};
+    std::array<char, kBytes> bytes{};
+    do {  // its own messages wake it, too
+      if (poll(&waiting, 1, 1000) != 1) return false;
+    } while (recv(in_, bytes.data(), bytes.size(), 0) != kBytes || bytes[0] == out_);
+    if (echo_) Send();
+    return true;
+  }
+
+ private:
+  char out_;
+  bool echo_;
+  sockaddr_in group_{};
+  int in_ = socket(AF_INET, SOCK_DGRAM, 0), send_ = socket(AF_INET, SOCK_DGRAM, 0);
+};
 
 class RawPeer : public Peer {
  public:
@@ -113,6 +160,34 @@ class WrappedPeer : public Peer {
   bus::Latest<odometry_t> in_;
 };
 
+/// Large messages, of a type read at run time.
+class LargePeer : public Peer {
+ public:
+  LargePeer(int out, bool echo) : echo_(echo), out_(kChannels[out]) {
+    node_.SubscribeRaw(kChannels[1 - out], schema_,
+                       [this](std::span<const std::byte>, Time) { heard_ = true; });
+    bus::WriteBigEndian(bytes_.data(), schema_.Find("bench.large_t")->fingerprint);
+    bus::WriteBigEndian(bytes_.data() + 8, static_cast<std::int32_t>(bytes_.size() - 12));
+  }
+  void Send() override { node_.PublishRaw(out_, bytes_); }
+  bool Handle() override {
+    pollfd waiting{bus_.fd(), POLLIN, 0};
+    for (heard_ = false; !heard_; bus_.Drain())
+      if (poll(&waiting, 1, 1000) != 1) return false;
+    if (echo_) Send();
+    return true;
+  }
+
+ private:
+  bus::Schema schema_{{{"large_t.lcm", "package bench; struct large_t { int32_t n; byte data[n]; }"}}};
+  bus::MonotonicClock clock_;
+  bus::LcmBus bus_{"udpm://239.255.76.67:7705?ttl=0"};
+  bus::Node node_{bus_, schema_, clock_};
+  bool echo_, heard_ = false;
+  const char* out_;
+  std::vector<std::byte> bytes_ = std::vector<std::byte>(bus::LcmBus::kMaxMessageBytes);
+};
+
 /// A sender here, and its echo in another thread.
 template <class P>
 class PingPong {
@@ -143,24 +218,41 @@ class PingPong {
   std::thread thread_;
 };
 
+/// Medians of round trips measured by turns, in microseconds.
+template <class... Peers>
+std::array<std::vector<double>, sizeof...(Peers)> ByTurns(bool quick) {
+  std::tuple<PingPong<Peers>...> pairs;
+  std::array<std::vector<double>, sizeof...(Peers)> times;
+  const auto round = [&](int n) {
+    std::apply(
+        [&](auto&... pair) {
+          std::size_t i = 0;
+          (pair.Measure(n, times[i++]), ...);
+        },
+        pairs);
+  };
+  round(200);
+  for (auto& warm_up : times) warm_up.clear();
+  for (int block = 0; block < (quick ? 20 : 200); ++block) round(100);
+  return times;
+}
+
 void RoundTrip(bool quick) {
-  std::vector<double> raw_us, wrapped_us;
-  {
-    PingPong<RawPeer> raw;
-    PingPong<WrappedPeer> wrapped;
-    std::vector<double> warm_up;
-    raw.Measure(200, warm_up);
-    wrapped.Measure(200, warm_up);
-    for (int block = 0; block < (quick ? 20 : 200); ++block) {
-      raw.Measure(100, raw_us);
-      wrapped.Measure(100, wrapped_us);
-    }
-  }
-  Report("round trip of 64 bytes, raw liblcm: median", Quantile(raw_us, 0.5), 0, "us");
-  Report("round trip of 64 bytes, raw liblcm: 99 %", Quantile(raw_us, 0.99), 0, "us");
-  Report("round trip of 64 bytes, bus: median", Quantile(wrapped_us, 0.5), 0, "us");
-  Report("round trip of 64 bytes, bus: 99 %", Quantile(wrapped_us, 0.99), 0, "us");
-  Report("median of bus / median of raw liblcm", Quantile(wrapped_us, 0.5) / Quantile(raw_us, 0.5), 1.1, "");
+  constexpr std::size_t kHeader = 8 + sizeof "PING";  // of LCM's datagrams
+  const auto [socket, liblcm, bus] = ByTurns<SocketPeer<72 + kHeader>, RawPeer, WrappedPeer>(quick);
+  Report("round trip of 64 bytes, raw sockets: median", Quantile(socket, 0.5), 0, "us");
+  Report("round trip of 64 bytes, raw liblcm: median", Quantile(liblcm, 0.5), 0, "us");
+  Report("round trip of 64 bytes, raw liblcm: 99 %", Quantile(liblcm, 0.99), 0, "us");
+  Report("round trip of 64 bytes, bus: median", Quantile(bus, 0.5), 0, "us");
+  Report("round trip of 64 bytes, bus: 99 %", Quantile(bus, 0.99), 0, "us");
+  Report("median of bus / median of raw liblcm", Quantile(bus, 0.5) / Quantile(liblcm, 0.5), 1.1, "");
+  Report("median of bus / median of raw sockets", Quantile(bus, 0.5) / Quantile(socket, 0.5), 1.3, "");
+  const auto [large_socket, large_bus] =
+      ByTurns<SocketPeer<bus::LcmBus::kMaxMessageBytes + kHeader>, LargePeer>(quick);
+  Report("round trip of 1400 bytes, raw sockets: median", Quantile(large_socket, 0.5), 0, "us");
+  Report("round trip of 1400 bytes, bus: median", Quantile(large_bus, 0.5), 0, "us");
+  Report("1400 bytes: median of bus / median of raw sockets",
+         Quantile(large_bus, 0.5) / Quantile(large_socket, 0.5), 1.2, "");
 }
 
 constexpr int kMessagesPerSecond = 10'000;
