@@ -94,10 +94,10 @@ clock_report_t PeerClocks::Report(Time now) const {
     message.heard_id.push_back(id);
     message.utime_heard.push_back(peer.newest_utime);
     message.utime_arrived.push_back(ToUtime(peer.arrived));
-    message.ahead_s.push_back(static_cast<float>(
-        difference ? std::clamp(Seconds(difference->ahead), -kFurthest_s, kFurthest_s) : 0));
-    message.uncertainty_s.push_back(static_cast<float>(
-        difference ? std::min(Seconds(difference->uncertainty), kNotKnown_s) : kNotKnown_s));
+    message.ahead_s.push_back(difference ? std::clamp(Seconds(difference->ahead), -kFurthest_s, kFurthest_s)
+                                         : 0);
+    message.uncertainty_s.push_back(difference ? std::min(Seconds(difference->uncertainty), kNotKnown_s)
+                                               : kNotKnown_s);
   }
   message.count = static_cast<std::int8_t>(peers_.size());
   return message;

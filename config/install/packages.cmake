@@ -18,6 +18,7 @@ set(CPACK_COMPONENT_TOOLS_DESCRIPTION "tools for any LCM bus and log
  priamos topic, log, type, doctor and link: what is on a bus, of any type, without
  compiling it; recording, playing, mending and converting logs; a radio link of 960
  bytes per second.")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/config/install/postrm)
 set(CPACK_DEBIAN_ROBOT_PACKAGE_NAME priamos-robot)
 set(CPACK_COMPONENT_ROBOT_DESCRIPTION "processes on board of a PRIAMOS robot
  The mobile base and the stereo head, with their configuration and systemd units.")
