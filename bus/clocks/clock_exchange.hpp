@@ -23,7 +23,7 @@ class Schema;
 /// that leaves its host has one.
 ///
 /// A message of a host whose clock is known less exactly than kMostUncertain is refused and counted, but for
-/// those of safety channels. What comes from a sender who never spoke of its clock (a foreign program) is
+/// those of safety channels and PROBE. What comes from a sender who never spoke of its clock (a foreign program) is
 /// handed on as it is, from kGreeting after the start on.
 class ClockExchange {
  public:
