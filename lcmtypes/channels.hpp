@@ -38,6 +38,7 @@
 #include "priamos/sonar_ranges_t.hpp"
 #include "priamos/wheel_command_t.hpp"
 #include "priamos/wheel_state_t.hpp"
+#include "priamos/world_touch_t.hpp"
 #include "priamos/world_truth_t.hpp"
 
 /// Every channel of PRIAMOS. Device channels join drivers (or `world`) with `robot` and `head`; the others
@@ -94,8 +95,9 @@ inline constexpr Channel<claim_t> kClaim{"CLAIM", 5, milliseconds(1000)};
 inline constexpr Channel<probe_t> kProbe{"PROBE", 0, milliseconds(0)};
 inline constexpr Channel<clock_report_t> kClock{"CLOCK", 1, milliseconds(3000)};
 
-/// For reports and tests; a test checks that no module subscribes to it.
+/// For reports and tests; a test checks that no module subscribes to them.
 inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseconds(200)};
+inline constexpr Channel<world_touch_t> kWorldTouch{"WORLD_TOUCH", 0, milliseconds(0)};
 
 inline constexpr std::tuple kAll{
     kWheelCommand,  kWheelState,   kSonarRanges,  kHeadCommand,    kHeadState,     kCameraTrigger,
@@ -103,6 +105,7 @@ inline constexpr std::tuple kAll{
     kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
     kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
-    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock};
+    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
+    kWorldTouch};
 
 }  // namespace priamos::channels

@@ -63,6 +63,7 @@ const std::vector<Call> kCalls{
     {"type show", "pose_t"},
     {"type hash", "pose_t"},
     {"type channels", ""},
+    {"world generate", "--into $O/generated --deployment $SOURCE/config/sim"},
     {"calibrate", "--points $O/points.txt"},
     {"down", "--logs $O/up"},
     {"up", "$SOURCE/config/sim --detach --logs $O/up2"},
@@ -74,6 +75,7 @@ const std::vector<Call> kCalls{
 const std::map<std::string, std::string> kWithout{
     {"link listen", "prints nothing"},
     {"help", "text for people"},
+    {"world keys", "TOML"},
     {"see", "writes files: the drawings, and JSON into the file that is named"},
     {"completion bash", "a script for the shell"},
     {"completion zsh", "a script for the shell"},

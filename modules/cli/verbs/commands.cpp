@@ -10,6 +10,7 @@
 #include "cli/verbs/robot/commands.hpp"
 #include "cli/verbs/run/commands.hpp"
 #include "cli/verbs/wire/commands.hpp"
+#include "cli/verbs/world/commands.hpp"
 
 namespace priamos::cli {
 
@@ -28,6 +29,7 @@ void AddCommands(CLI::App& cli, int& exit_code) {
   AddDoctorCommand(cli, exit_code);
   AddSeeCommand(cli, exit_code);
   AddLinkCommand(cli, exit_code);
+  AddWorldCommand(cli, exit_code);
   AddViewCommand(cli, exit_code);
   AddUpCommands(cli, exit_code);
   AddEstopCommand(cli, exit_code);
