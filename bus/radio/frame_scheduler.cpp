@@ -30,6 +30,7 @@ FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sea
     : table_(&table),
       sealer_(sealer),
       options_(options),
+      length_(FrameLengthOf(table, options, onboard ? Direction::kUp : Direction::kDown)),
       message_bits_(LargestEntryBits(table, onboard ? Direction::kUp : Direction::kDown)),
       transmitter_(options, now),
       turns_(options.Turns(onboard), onboard, now),
@@ -174,8 +175,7 @@ void FrameScheduler::BuildHello(FrameSources from, Handshake& handshake, const F
 
 bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   const LineCode line_code = urgent_only ? LineCodeOf(from, now) : LineCode::kCobs;
-  BundleBuilder builder(*table_, TargetBytes(from, line_code, now), turns_.enabled(), sealer_.overhead());
-  if (turns_.shared()) builder.Confine(message_bits_);
+  BundleBuilder builder = NewBundle(from, urgent_only, line_code, now);
   FrameInFlight flight = Fill(builder, from, urgent_only, line_code, now);
   // Nothing that is ready could be packed: no frame for nothing.
   if (builder.empty() && now - last_data_ < options_.keep_alive) return false;
@@ -197,13 +197,19 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   return true;
 }
 
+BundleBuilder FrameScheduler::NewBundle(const FrameSources& from, bool urgent_only, LineCode line_code,
+                                        Time now) const {
+  BundleBuilder bundle(*table_, TargetBytes(from, line_code, now), turns_.enabled(), sealer_.overhead());
+  if (length_.strict && (turns_.shared() || !urgent_only)) bundle.Confine(message_bits_);
+  return bundle;
+}
+
 /// The budget of a radio that takes turns counts with frames of full length; acknowledgements may be rare
 /// there.
 std::size_t FrameScheduler::TargetBytes(const FrameSources& from, LineCode line_code, Time now) const {
   if (line_code == LineCode::kBlock) return sealer_.MaxBlockBundle(form_);
   const SentFrames& sent = from.peer.sent;
-  return BestBundleBytes(options_.max_bundle_bytes,
-                         turns_.enabled() ? sent.peer_loss() : sent.ExpectedLoss(now),
+  return BestBundleBytes(length_.bundle_bytes, turns_.enabled() ? sent.peer_loss() : sent.ExpectedLoss(now),
                          FrameOverhead(sealer_.code_bytes()));
 }
 
@@ -263,8 +269,7 @@ bool FrameScheduler::EndsTurn(const FrameSources& from, Time now) const {
 bool FrameScheduler::EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const {
   if (!turns_.enabled()) return false;
   const Pacer& pacer = transmitter_.pacer();
-  const Duration longest =
-      pacer.WireTime(options_.HeadBytes() + options_.max_bundle_bytes + sealer_.overhead());
+  const Duration longest = pacer.WireTime(options_.HeadBytes() + length_.bundle_bytes + sealer_.overhead());
   if (turns_.MustEnd(pacer.LeavesAt(options_.HeadBytes() + frame_bytes, now), longest)) return true;
   if (turns_.shared()) return false;
   return !from.inbox.AckDue() && from.outbox.queue().Ready(now).empty();

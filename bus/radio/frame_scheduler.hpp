@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "bus/radio/frame_length.hpp"
 #include "bus/radio/frame_receiver.hpp"
 #include "bus/radio/line/repetition.hpp"
 #include "bus/radio/line/turn_taking.hpp"
@@ -92,6 +93,7 @@ class FrameScheduler {
   void BuildHello(FrameSources from, Handshake& handshake, const FrameSealer& sealer, Reception reception,
                   Time now);
   bool BuildData(FrameSources from, bool urgent_only, Time now);
+  BundleBuilder NewBundle(const FrameSources& from, bool urgent_only, LineCode line_code, Time now) const;
   std::size_t TargetBytes(const FrameSources& from, LineCode line_code, Time now) const;
   FrameInFlight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, LineCode line_code,
                      Time now) const;
@@ -105,6 +107,7 @@ class FrameScheduler {
   const ChannelTable* table_;
   FrameSealer sealer_;
   LinkOptions options_;
+  FrameLength length_;        ///< of the longest frames
   std::size_t message_bits_;  ///< of the largest entry of a message
   Transmitter transmitter_;
   TurnTaking turns_;
