@@ -102,20 +102,24 @@ class McapIds {
   explicit McapIds(McapWriter& writer) : writer_(writer) {}
 
   std::uint16_t ChannelOf(const std::string& channel, const Struct& type) {
-    const auto [at, added] = channels_.try_emplace({channel, &type});
-    if (added) at->second = writer_.AddChannel(channel, SchemaOf(type));
+    return ChannelOf(channel, type.full_name, [&] { return SchemaText(type); });
+  }
+  std::uint16_t ChannelOf(const std::string& channel, const std::string& schema_name,
+                          const std::function<std::string()>& schema) {
+    const auto [at, added] = channels_.try_emplace({channel, schema_name});
+    if (added) at->second = writer_.AddChannel(channel, SchemaOf(schema_name, schema));
     return at->second;
   }
 
  private:
-  std::uint16_t SchemaOf(const Struct& type) {
-    const auto [at, added] = schemas_.try_emplace(&type);
-    if (added) at->second = writer_.AddSchema(type.full_name, SchemaText(type));
+  std::uint16_t SchemaOf(const std::string& name, const std::function<std::string()>& text) {
+    const auto [at, added] = schemas_.try_emplace(name);
+    if (added) at->second = writer_.AddSchema(name, text());
     return at->second;
   }
   McapWriter& writer_;
-  std::map<std::pair<std::string, const Struct*>, std::uint16_t> channels_;
-  std::map<const Struct*, std::uint16_t> schemas_;
+  std::map<std::pair<std::string, std::string>, std::uint16_t> channels_;
+  std::map<std::string, std::uint16_t> schemas_;
 };
 
 }  // namespace
@@ -145,14 +149,20 @@ ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelectio
 }
 
 ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelection& selection,
-                       std::ostream& out) {
+                       std::ostream& out, const Derivation& derivation) {
   McapWriter writer(out);
   McapIds ids(writer);
   const auto count = ForEachMessage(
       reader, schema, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
+        const auto number = static_cast<std::uint32_t>(event.number);
         const auto time_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(event.utime, 0)) * 1000;
-        writer.AddMessage(ids.ChannelOf(channel, type), static_cast<std::uint32_t>(event.number), time_ns,
-                          ToJson(type, event.bytes).dump());
+        const Json message = ToJson(type, event.bytes);
+        writer.AddMessage(ids.ChannelOf(channel, type), number, time_ns, message.dump());
+        if (!derivation.derive) return;
+        for (const DerivedMessage& more : derivation.derive(channel, message, event.utime))
+          writer.AddMessage(ids.ChannelOf(more.topic, more.schema_name,
+                                          [&] { return derivation.schema(more.schema_name); }),
+                            number, time_ns, more.json);
       });
   writer.Finish();
   return count;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "bus/version.hpp"
+#include "common/robot/robot_drawing.hpp"
 #include "console/plan_json.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -56,6 +57,7 @@ std::string Greeting(const ConsoleConfig& config, const GroundPlan& plan, const 
                 {"version", bus::Version()},
                 {"plan", ToJson(plan)},
                 {"body", {{"length_m", config.body.length_m}, {"width_m", config.body.width_m}}},
+                {"head", {{"x_m", kDrawnHead.x_m}, {"y_m", kDrawnHead.y_m}, {"z_m", kDrawnHead.z_m}}},
                 {"link", {{"bytes_per_s", link.BytesPerSecond()}}},
                 {"speed", {{"slow", Speed(config.pilot.slow)}, {"fast", Speed(config.pilot.fast)}}},
                 {"channels", Channels(link)}};

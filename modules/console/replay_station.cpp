@@ -4,8 +4,9 @@
 #include <utility>
 #include <variant>
 
+#include "bus/schema/schema.hpp"
+#include "bus/schema/walk.hpp"
 #include "console/greeting.hpp"
-#include "console/page_files.hpp"
 
 namespace priamos::console {
 namespace {
@@ -19,17 +20,37 @@ constexpr int kAtMost = 2000;
 
 }  // namespace
 
-ReplayStation::ReplayStation(bus::LogPlayer log, const bus::Schema& schema, std::string greeting,
-                             const WebServerOptions& options)
+ReplayStation::ReplayStation(bus::LogPlayer log, const bus::Schema& schema, const GroundPlan& plan,
+                             std::string greeting, const WebServerOptions& options)
     : log_(std::move(log)),
       greeting_(std::move(greeting)),
+      schema_(schema),
+      files_(schema),
       feed_(schema),
-      server_(options, PageFiles(), *this) {}
+      bridge_(schema, {}, "",
+              [this](ClientId client, std::string message, bool binary) {
+                return server_.Queue(client, std::move(message), binary);
+              }),
+      server_(options, files_.files(), *this) {
+  OfferShownChannels(bridge_);
+  bridge_.OfferScene(&plan, log_.begin());
+}
+
+void ReplayStation::Joined(std::uint64_t client, const OpenSocket& socket) {
+  if (socket.dialect == Dialect::kFoxglove) return bridge_.Join(client, socket.role);
+  audience_.Join(client, socket.role);
+}
+
+void ReplayStation::Left(std::uint64_t client) {
+  if (bridge_.Has(client)) bridge_.Leave(client);
+  audience_.Leave(client);
+}
 
 void ReplayStation::Tick(Time now) {
   now_ = now;
   server_.Poll(now);
   Play(kAtMost);
+  bridge_.Tick(now, LogTime());
   if (!beat_.Due(now)) return;
   beat_.Mark(now);
   audience_.Tell(server_, greeting_, feed_.news(), beats_.Next(now), LogTime(),
@@ -38,12 +59,17 @@ void ReplayStation::Tick(Time now) {
 
 void ReplayStation::Play(int at_most) {
   const auto hear = [this](const std::string& channel, const bus::LogEvent& event) {
+    const bus::Struct* type = schema_.Find(bus::FingerprintOf(event.bytes.data(), event.bytes.size()));
+    if (type == nullptr || !bus::Walk(*type, event.bytes)) return;  // damaged
     feed_.Hear(channel, event.bytes, FromUtime(event.utime));
+    bridge_.Hear(channel, event.bytes, FromUtime(event.utime));
   };
   log_.Play(now_, hear, at_most);
 }
 
-bool ReplayStation::Said(std::uint64_t, std::string_view text) {
+bool ReplayStation::Said(std::uint64_t client, std::string_view text, bool binary) {
+  if (bridge_.Has(client)) return !bridge_.Said(client, text, binary);
+  if (binary) return false;
   const auto message = ReadBrowserMessage(text);
   if (!message) return false;
   if (const auto* order = std::get_if<ReplayOrder>(&*message)) Obey(*order);

@@ -35,6 +35,7 @@ const std::vector<Call> kCalls{
     {"topic echo", "POSE x_m y_m --count 2"},
     {"topic url", ""},
     {"topic pub", "LINK_REQUEST link_request_t '{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":1}'"},
+    {"topic serve", "--port 0", true},
     {"where", ""},
     {"place", "2 2.4 0"},
     {"mission status", ""},
@@ -60,6 +61,7 @@ const std::vector<Call> kCalls{
     {"log play", "$O/short.lcmlog --speed max --bus 'udpm://239.255.76.69:7999?ttl=0'"},
     {"replay verify", "$O/short.lcmlog --module planner --deployment $SOURCE/config/sim"},
     {"replay show", "$LOG --port 0", true},
+    {"report", "$O/one $O/other --out $O/two.html"},
     {"type show", "pose_t"},
     {"type hash", "pose_t"},
     {"type channels", ""},
@@ -141,6 +143,10 @@ std::string PointsOfACamera() {
 TEST(JsonOutput, OfEveryVerbIsNothingButJson) {
   const TemporaryFolder folder;
   std::ofstream(folder / "points.txt") << PointsOfACamera();
+  for (const char* run : {"one", "other"}) {
+    std::filesystem::create_directory(folder / run);
+    std::ofstream(std::filesystem::path(folder / run) / "summary.json") << R"({"passed": true})";
+  }
   const std::string helpers = R"sh(
     stream() {  # OUT ERR COMMAND...
       local out=$1 err=$2; shift 2

@@ -25,6 +25,7 @@ void AddCommands(CLI::App& cli, int& exit_code) {
   AddTopicCommand(cli, exit_code);
   AddLogCommand(cli, exit_code);
   AddReplayCommand(cli, exit_code);
+  AddReportCommand(cli, exit_code);
   AddTypeCommand(cli, exit_code);
   AddDoctorCommand(cli, exit_code);
   AddSeeCommand(cli, exit_code);

@@ -70,7 +70,8 @@ int Show(const ShowOptions& options) {
   console::WebServerOptions server;
   server.port = options.port;
   server.ports = config.ports;
-  console::ReplayStation station(std::move(player), schema, greeting, server);
+  server.access.foxglove_origins = console::WordsOf(config.foxglove_origins);
+  console::ReplayStation station(std::move(player), schema, plan, greeting, server);
   if (options.json)
     std::cout << JsonLine({{"address", station.address()},
                            {"events", static_cast<std::int64_t>(station.log().events())}})

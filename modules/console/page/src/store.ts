@@ -2,7 +2,7 @@
 
 import { Hello, Item } from "./protocol";
 
-interface Kept { item: Item; valid_s: number }  // of the clock
+export interface Kept { item: Item; valid_s: number }  // of the clock
 
 export class Store {
   private readonly kept = new Map<string, Kept>();
@@ -18,15 +18,28 @@ export class Store {
   }
 
   put(item: Item): void {
-    this.kept.set(item.key, { item, valid_s: this.clock() - item.age_s });
+    this.kept.set(item.key, { item, valid_s: this.validTime(item) });
   }
 
   get<T>(key: string): T | undefined {
     return this.kept.get(key)?.item.message as T | undefined;
   }
 
+  /** The newest message of a channel that keeps one or several. */
+  newest(channel: string): Kept | undefined {
+    let found: Kept | undefined;
+    for (const kept of this.kept.values())
+      if (kept.item.channel === channel && (found === undefined || kept.valid_s > found.valid_s)) found = kept;
+    return found;
+  }
+
+  /** When a message would be as old as it is now [s]. */
+  validTime(item: Item): number {
+    return this.clock() - item.age_s;
+  }
+
   /** Items of a channel that keeps several, in the order of their keys. */
-  all<T>(channel: string): Item<T>[] {
+  all<T = Record<string, unknown>>(channel: string): Item<T>[] {
     const found: Item[] = [];
     for (const { item } of this.kept.values()) if (item.channel === channel) found.push(item);
     return found.sort((a, b) => a.key.localeCompare(b.key)) as Item<T>[];
