@@ -308,16 +308,26 @@ double DirectionAnalysis::PolledUrgent(const ChannelLoad& load) const {
   });
 }
 
-/// What urgent events to every robot take of the channel: their frames, and the polls that follow at once.
+/// What urgent events take of the channel. Each to a robot is a frame, and a poll of that robot which follows
+/// at once and brings its acknowledgement. Before each of these polls, and before the next, the event is sent
+/// again to all robots that still have one to acknowledge: when it went to n robots, to n - 1 after the first
+/// poll, to n - 2 after the second; and to n - 1 each time while new ones come to those that were polled.
 double DirectionAnalysis::PolledUrgentIn(double window_s) const {
-  double s = 0;
-  const auto add = [&](const ChannelLoad& urgent) {
-    s += robots_ * urgent.Arrivals(window_s) * (FrameSeconds(urgent.bits) + Seconds(polled_.slot));
-  };
-  for (const ChannelLoad& other : loads_)
-    if (other.urgent) add(other);
-  for (const ChannelLoad& incoming : answered_) add(incoming);
-  return s;
+  const bool down = direction_ == Direction::kDown;
+  const double robots = robots_;
+  double to_each = 0;  // urgent events of the station to every robot
+  double of_each = 0;
+  for (const ChannelLoad& own : loads_)
+    if (own.urgent) (down ? to_each : of_each) += own.Arrivals(window_s);
+  for (const ChannelLoad& incoming : answered_) (down ? of_each : to_each) += incoming.Arrivals(window_s);
+  const double repeated = robots * (robots - 1) * std::max(0.0, to_each - 0.5);
+  const double frames = robots * (to_each + of_each) + repeated;
+  return frames * Seconds(polled_.urgent) + robots * (to_each + of_each) * Seconds(polled_.slot);
+}
+
+std::optional<Duration> DirectionAnalysis::BesideUrgent(Duration turn) const {
+  const double s = Converge([&](double window_s) { return Seconds(turn) + PolledUrgentIn(window_s); });
+  return std::isfinite(s) ? std::optional(FromSeconds(s)) : std::nullopt;
 }
 
 /// One frame goes per cycle; to each urgent event one may be lost, for its repetition or acknowledgement.

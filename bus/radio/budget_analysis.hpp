@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "bus/radio/channels/channel_table.hpp"
@@ -58,6 +59,9 @@ class DirectionAnalysis {
   /// Time from the offer of a message that is the next to go, to its last byte at the receiver: it waits for
   /// the longest frame (half-duplex: and turn), and no emergency stop comes in between.
   double NextSeconds(const ChannelLoad& load) const;
+  /// Longest time of a shared channel that is `turn` without urgent messages, when these come at their rates;
+  /// nullopt: not bounded within a minute.
+  std::optional<Duration> BesideUrgent(Duration turn) const;
   /// Longest time from the end of a frame to the end of the next one.
   double SilenceSeconds() const;
   /// Time on air that urgent frames take at most beyond what is paid for: with bursts of all of them, and an

@@ -23,6 +23,18 @@ Handshake& HandshakeOf(const FrameInFlight& flight, const FrameSources& from) {
   return flight.next_key && from.peer.next_key ? from.peer.next_key->handshake : from.peer.handshake;
 }
 
+/// Bytes of the longest frame where none has a longer bundle, with the delimiter that leads after silence.
+std::size_t LongestFrameBytes(const FrameSealer& sealer, const FrameLength& length) {
+  return 1 + std::max(kHelloFrameBytes + 1, sealer.overhead() + kWholeCounterBytes + length.bundle_bytes);
+}
+
+/// The turns of an end whose frames have at most `longest` bytes.
+HalfDuplex TurnsOf(const LinkOptions& options, bool onboard, std::size_t longest) {
+  HalfDuplex turns = options.Turns(onboard);
+  turns.answer = Pacer(options.bytes_per_s, 0, Time{}).WireTime(longest);
+  return turns;
+}
+
 }  // namespace
 
 FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sealer,
@@ -33,13 +45,14 @@ FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sea
       length_(FrameLengthOf(table, options, onboard ? Direction::kUp : Direction::kDown)),
       message_bits_(LargestEntryBits(table, onboard ? Direction::kUp : Direction::kDown)),
       transmitter_(options, now),
-      turns_(options.Turns(onboard), onboard, now),
+      turns_(TurnsOf(options, onboard, LongestFrameBytes(sealer, length_)), onboard, now),
       repetition_(now),
       last_data_(now - options.keep_alive) {}
 
 std::vector<std::byte> FrameScheduler::Step(FrameSources from, Time now) {
   std::vector<std::byte> out;
   turns_.Step(now, from.peer.sent.one_way());
+  if (flight_ && turns_.SlotEndsBefore(transmitter_.RestLeavesAt(now))) GiveUp(from);
   ChooseForm(from, now);
   if (MustCut(from, now)) Cut(from, now, out);
   while (MaySend(from, now)) {
@@ -276,9 +289,21 @@ bool FrameScheduler::EndsTurn(const FrameSources& from, std::size_t frame_bytes,
 }
 
 void FrameScheduler::Cut(FrameSources from, Time now, std::vector<std::byte>& out) {
+  transmitter_.Cut(now, out);
+  TakeBack(from);
+}
+
+/// A robot's answer that would go on into the turn of another one.
+void FrameScheduler::GiveUp(FrameSources from) {
+  transmitter_.Drop();
+  turns_.Revoke();
+  TakeBack(from);
+}
+
+/// Nothing of the frame counts as sent.
+void FrameScheduler::TakeBack(FrameSources from) {
   FrameInFlight flight = std::move(*flight_);
   flight_.reset();
-  transmitter_.Cut(now, out);
   ++counters_.aborted;
   from.outbox.Return(std::move(flight.outbox));
   from.inbox.Return(flight.inbox);

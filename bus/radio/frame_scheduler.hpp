@@ -58,6 +58,8 @@ class FrameScheduler {
 
   /// The bytes that may be written to the line now.
   std::vector<std::byte> Step(FrameSources from, Time now);
+  /// Notes that what had arrived by `now` was read.
+  void OnLook(Time now) { turns_.OnLook(now); }
   /// Notes the time at which bytes came, of whomever.
   void OnBytes(Time now) { turns_.OnBytes(now); }
   /// Notes the time at which a frame came that the other end has just sent.
@@ -102,6 +104,8 @@ class FrameScheduler {
   bool EndsTurn(const FrameSources& from, Time now) const;
   bool EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const;
   void Cut(FrameSources from, Time now, std::vector<std::byte>& out);
+  void GiveUp(FrameSources from);
+  void TakeBack(FrameSources from);
   void Finish(FrameSources from);
 
   const ChannelTable* table_;
