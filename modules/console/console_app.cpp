@@ -12,7 +12,7 @@
 #include "common/random.hpp"
 #include "console/greeting.hpp"
 #include "console/page_files.hpp"
-#include "console/token_file.hpp"
+#include "console/server_options.hpp"
 
 namespace priamos::console {
 namespace {
@@ -22,19 +22,6 @@ using Json = nlohmann::ordered_json;
 int DrawSession(const bus::Context& context) {
   if (context.lockstep()) return static_cast<int>(Rng::Stream(context.seed(), "console session").Below(256));
   return static_cast<int>(std::random_device{}() % 256);
-}
-
-WebServerOptions ServerOptions(const ConsoleConfig& config, const bus::Context& context) {
-  WebServerOptions options;
-  options.address = config.address;
-  options.port = config.port;
-  options.ports = config.ports;
-  options.max_sockets = config.pages;
-  options.max_connections = 4 * config.pages;
-  options.max_message = kMaxBrowserMessage;
-  options.access =
-      LoadAccess(config.address, config.token_file.empty() ? "" : context.ResolvePath(config.token_file));
-  return options;
 }
 
 std::string_view PhaseName(PilotPhase phase) {
@@ -80,7 +67,9 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
       256 * base_.session;  // so that a robot does not take the first order for one of an earlier station
   for (const std::string_view channel : kShownChannels) Show(channel);
   if (context.lockstep()) return;
-  server_ = std::make_unique<WebServer>(ServerOptions(config, context), PageFiles(), *this);
+  server_ = std::make_unique<WebServer>(
+      ServerOptionsOf(config, config.token_file.empty() ? "" : context.ResolvePath(config.token_file)),
+      PageFiles(), *this);
   context.SetStatus(fmt::format("the station is at {}", server_->address()));
   context.Log(bus::Level::kInfo, context.status());
 }

@@ -22,7 +22,7 @@ export interface Hello {
   link: { bytes_per_s: number };
   speed: Record<"slow" | "fast", { speed_m_s: number; turn_rad_s: number }>;
   channels: Record<string, { stale_after_s: number; on_request: boolean }>;
-  replay?: { length_s: number };
+  replay?: { length_s?: number };  // without: somebody else plays the log
 }
 
 export interface StationState {

@@ -1,0 +1,20 @@
+#include "console/server_options.hpp"
+
+#include "console/core/browser_message.hpp"
+#include "console/token_file.hpp"
+
+namespace priamos::console {
+
+WebServerOptions ServerOptionsOf(const ConsoleConfig& config, const std::string& token_file) {
+  WebServerOptions options;
+  options.address = config.address;
+  options.port = config.port;
+  options.ports = config.ports;
+  options.max_sockets = config.pages;
+  options.max_connections = 4 * config.pages;
+  options.max_message = kMaxBrowserMessage;
+  options.access = LoadAccess(config.address, token_file);
+  return options;
+}
+
+}  // namespace priamos::console
