@@ -7,21 +7,11 @@
 
 #include "bus/clocks/host_clock.hpp"
 #include "bus/host/service_notifier.hpp"
-#include "bus/schema/big_endian.hpp"
 
 namespace priamos::bus {
 namespace {
 
 constexpr int kWait_ms = 50;
-
-/// The time stamp of a message: its first field, by the rules of our types.
-std::optional<Time> StampOf(const Schema& schema, std::span<const std::byte> bytes) {
-  const Struct* type = schema.Find(FingerprintOf(bytes.data(), bytes.size()));
-  if (type == nullptr || type->fields.empty() || !type->fields.front().annotation.age_us ||
-      !Walk(*type, bytes))
-    return std::nullopt;
-  return FromUtime(ReadBigEndian<std::int64_t>(bytes.data() + sizeof(std::uint64_t)));
-}
 
 }  // namespace
 

@@ -32,8 +32,8 @@ std::set<std::uint32_t> AddressesOfThisHost() {
   return addresses;
 }
 
-/// An order to stop is obeyed whatever its stamp says. A question whether hosts hear each other is answered by
-/// everybody who hears it: nobody reads its stamp, and it is asked where something is wrong.
+/// An order to stop is obeyed whatever its stamp says. A question whether hosts hear each other is answered
+/// by everybody who hears it: nobody reads its stamp, and it is asked where something is wrong.
 bool MeansTheSameAtAnyTime(std::string_view name) {
   return name == channels::kProbe.name ||
          std::apply(

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "bus/log/csv_table.hpp"
+#include "bus/log/event_copier.hpp"
 #include "bus/log/log_writer.hpp"
 #include "bus/log/mcap_writer.hpp"
 #include "bus/schema/json_schema.hpp"
@@ -24,12 +25,12 @@ namespace {
 using Handler = std::function<void(const Struct&, const std::string& channel, const LogEvent&)>;
 
 /// Calls `handle` with every wanted event that is a message.
-ExportCount ForEachMessage(LogReader& reader, const Schema& schema, const LogSelection& selection,
+ExportCount ForEachMessage(LogReader& reader, LogTypes& types, const LogSelection& selection,
                            const Handler& handle) {
   ExportCount count;
   while (const auto event = reader.Next()) {
-    if (!selection.Wants(event->utime, event->channel)) continue;
-    const Struct* type = schema.Find(FingerprintOf(event->bytes.data(), event->bytes.size()));
+    if (types.Take(event->bytes) || !selection.Wants(event->utime, event->channel)) continue;
+    const Struct* type = types.Of(event->bytes);
     if (type == nullptr || !Walk(*type, event->bytes)) {
       ++count.undecodable;
       continue;
@@ -126,7 +127,8 @@ class McapIds {
 
 ExportCount ExportJsonLines(LogReader& reader, const Schema& schema, const LogSelection& selection,
                             std::ostream& out) {
-  return ForEachMessage(reader, schema, selection,
+  LogTypes types(&schema);
+  return ForEachMessage(reader, types, selection,
                         [&](const Struct& type, const std::string& channel, const LogEvent& event) {
                           const Json line{{"utime", event.utime},
                                           {"number", event.number},
@@ -140,8 +142,9 @@ ExportCount ExportJsonLines(LogReader& reader, const Schema& schema, const LogSe
 ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelection& selection,
                       const std::filesystem::path& folder) {
   CsvFolder tables(folder);
+  LogTypes types(&schema);
   const auto count = ForEachMessage(
-      reader, schema, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
+      reader, types, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
         tables.Add(type, channel, event);
       });
   tables.Close();
@@ -152,8 +155,9 @@ ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelecti
                        std::ostream& out, const Derivation& derivation) {
   McapWriter writer(out);
   McapIds ids(writer);
+  LogTypes types(&schema);
   const auto count = ForEachMessage(
-      reader, schema, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
+      reader, types, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
         const auto number = static_cast<std::uint32_t>(event.number);
         const auto time_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(event.utime, 0)) * 1000;
         const Json message = ToJson(type, event.bytes);
@@ -170,9 +174,10 @@ ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelecti
 
 std::uint64_t CopyEvents(LogReader& reader, const LogSelection& selection, LogWriter& writer) {
   std::uint64_t copied = 0;
+  EventCopier copier(writer);
   while (const auto event = reader.Next()) {
-    if (!selection.Wants(event->utime, event->channel)) continue;
-    writer.Write(event->utime, selection.NameOf(event->channel), event->bytes);
+    if (copier.Keep(event->bytes) || !selection.Wants(event->utime, event->channel)) continue;
+    copier.Write(event->utime, selection.NameOf(event->channel), event->bytes);
     ++copied;
   }
   return copied;

@@ -16,6 +16,8 @@ namespace priamos::bus {
 class LogWriter;
 class Schema;
 
+// Every export knows the types of `schema`, and those that the log defines itself.
+
 /// Numbers of events that an export wrote and left out.
 struct ExportCount {
   std::uint64_t written = 0;
@@ -51,7 +53,8 @@ ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelecti
                        std::ostream& out, const Derivation& derivation = {});
 
 /// Copies the wanted events, undecoded and with their new channel names, into another log, numbered anew:
-/// what was not wanted is no loss. Returns how many they are.
+/// what was not wanted is no loss. The log's definitions of their types come along. Returns how many they
+/// are.
 std::uint64_t CopyEvents(LogReader& reader, const LogSelection& selection, LogWriter& writer);
 
 /// What RepairLog copied.

@@ -12,7 +12,7 @@
 #include "common/ground_plan.hpp"
 #include "common/random.hpp"
 #include "console/greeting.hpp"
-#include "console/token_file.hpp"
+#include "console/server_options.hpp"
 
 namespace priamos::console {
 namespace {
@@ -22,21 +22,6 @@ using Json = nlohmann::ordered_json;
 int DrawSession(const bus::Context& context) {
   if (context.lockstep()) return static_cast<int>(Rng::Stream(context.seed(), "console session").Below(256));
   return static_cast<int>(std::random_device{}() % 256);
-}
-
-WebServerOptions ServerOptions(const ConsoleConfig& config, const bus::Context& context) {
-  WebServerOptions options;
-  options.address = config.address;
-  options.port = config.port;
-  options.ports = config.ports;
-  options.max_sockets = config.pages;
-  options.max_connections = 4 * config.pages;
-  options.max_message = kMaxBrowserMessage;
-  options.max_client_message = kMaxClientMessage;
-  options.access =
-      LoadAccess(config.address, config.token_file.empty() ? "" : context.ResolvePath(config.token_file));
-  options.access.foxglove_origins = WordsOf(config.foxglove_origins);
-  return options;
 }
 
 /// What is written down whoever sends it; of the stick it is who holds it, and when.
@@ -96,7 +81,9 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
   for (const std::string_view channel : kShownChannels) Show(channel);
   if (context.lockstep()) return;
   ServeFoxglove();
-  server_ = std::make_unique<WebServer>(ServerOptions(config, context), files_.files(), *this);
+  server_ = std::make_unique<WebServer>(
+      ServerOptionsOf(config, config.token_file.empty() ? "" : context.ResolvePath(config.token_file)),
+      files_.files(), *this);
   context.SetStatus(fmt::format("the station is at {}", server_->address()));
   context.Log(bus::Level::kInfo, context.status());
 }

@@ -38,6 +38,7 @@ class ConsoleApp : public WebListener {
       "The station: a page for a browser that shows what comes over the radio, and drives.";
   static constexpr std::array<bus::OptionAlias, 1> kOptions{
       {{"--port", "port", "", "first TCP port that is tried"}}};
+  static constexpr bool kFollowsLogs = true;  // main.cpp: ShowPlayedLog
   using Config = ConsoleConfig;
 
   ConsoleApp(const ConsoleConfig& config, bus::Context& context);

@@ -1,6 +1,7 @@
 #include "console/greeting.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
@@ -61,7 +62,7 @@ std::string Greeting(const ConsoleConfig& config, const GroundPlan& plan, const 
                 {"link", {{"bytes_per_s", link.BytesPerSecond()}}},
                 {"speed", {{"slow", Speed(config.pilot.slow)}, {"fast", Speed(config.pilot.fast)}}},
                 {"channels", Channels(link)}};
-  if (replay_s) hello["replay"] = {{"length_s", *replay_s}};
+  if (replay_s) hello["replay"] = std::isfinite(*replay_s) ? Json{{"length_s", *replay_s}} : Json::object();
   return hello.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

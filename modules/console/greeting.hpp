@@ -28,7 +28,8 @@ std::set<std::string> OnRequest(const bus::radio::LinkConfig& link);
 /// What a page has to know before anything else, as JSON: {"type": "hello", "plan", "body", "link":
 /// {"bytes_per_s"}, "channels": {NAME: {"stale_after_s", "on_request"}}, "speed"}. stale_after_s: age from
 /// which a state is grey, that of the radio where it is longer; 0 for events.
-/// With a log of `replay_s` [s] also {"replay": {"length_s"}}.
+/// With a log of `replay_s` [s] also {"replay": {"length_s"}}; infinite: somebody else plays it, and
+/// {"replay": {}}.
 std::string Greeting(const ConsoleConfig& config, const GroundPlan& plan, const bus::radio::LinkConfig& link,
                      std::optional<double> replay_s = std::nullopt);
 

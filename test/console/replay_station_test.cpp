@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/own_types.hpp"
+#include "console/log_of_file.hpp"
 #include "lcmtypes/channels.hpp"
 #include "test/cli/message_log.hpp"
 #include "test/support/temporary_folder.hpp"
@@ -31,8 +32,8 @@ class ReplayStationTest : public testing::Test {
     }
     bus::LogPlayer player(bus::LogReader(log.file()), {});
     player.Pause(true, now_);
-    dut_ = std::make_unique<ReplayStation>(std::move(player), schema_, GroundPlan{}, R"({"type":"hello"})",
-                                           WebServerOptions{});
+    dut_ = std::make_unique<ReplayStation>(std::make_unique<LogOfFile>(std::move(player)), schema_,
+                                           GroundPlan{}, R"({"type":"hello"})", WebServerOptions{});
     const std::string address = dut_->address(), host = address.substr(7, address.size() - 8);
     page_ = std::make_unique<WebClient>(std::stoi(host.substr(host.rfind(':') + 1)), [this] { Turn(); });
     EXPECT_TRUE(page_->Upgrade("http://" + host, "/socket", host));

@@ -14,7 +14,7 @@ class Page:
     def __init__(self, port, host="127.0.0.1"):
         self.axis, self.hold, self.buttons = REST, False, {}
         self.talks, self.hears = True, True
-        self.hello, self.station, self.messages, self.beat = None, None, {}, 0
+        self.hello, self.station, self.messages, self.ages, self.beat = None, None, {}, {}, 0
         self.frozen_beat = None
         self.closed = False
         self.socket = WebSocket(port, host=host, origin=f"http://{host}:{port}")
@@ -47,6 +47,7 @@ class Page:
         self.beat, self.station = text["beat"], text["station"]
         for item in text["items"]:
             self.messages[item["channel"]] = item["message"]
+            self.ages[item["channel"]] = item["age_s"]  # when it was sent here
 
     def _report(self):
         while not self.closed:

@@ -23,7 +23,7 @@ export interface Hello {
   link: { bytes_per_s: number };
   speed: Record<"slow" | "fast", { speed_m_s: number; turn_rad_s: number }>;
   channels: Record<string, { stale_after_s: number; on_request: boolean }>;
-  replay?: { length_s: number };
+  replay?: { length_s?: number };  // without: somebody else plays the log
   any_bus?: boolean;  // no robot of PRIAMOS: everything that is on a bus, to be plotted
 }
 

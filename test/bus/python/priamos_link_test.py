@@ -7,8 +7,8 @@ import re
 import sys
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[4]
-sys.path.insert(0, str(ROOT / "bus/radio/python"))
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "bus/python"))
 
 from priamos_link import bundle, frames  # noqa: E402
 from priamos_link.__main__ import offer  # noqa: E402

@@ -266,7 +266,7 @@ class End:
     def _put_events(self, w, channel, now):
         c = self.table.channels[channel]
         for s in self.senders[channel].due(now):
-            if len(w.text) + self.table.id_bits + 30 + 8 * b.SEGMENT > BUNDLE_BITS:
+            if w.size + self.table.id_bits + 30 + 8 * b.SEGMENT > BUNDLE_BITS:
                 return
             w.put(channel + 1, self.table.id_bits)
             w.put(s.number, 8)
@@ -285,7 +285,7 @@ class End:
 
     def _put_newest(self, w, channel, now):
         c, (packed, bits, offered) = self.table.channels[channel], self.waiting[channel]
-        if len(w.text) + self.table.id_bits + 14 + bits > BUNDLE_BITS and w.text:
+        if w.size + self.table.id_bits + 14 + bits > BUNDLE_BITS and w.size:
             return
         del self.waiting[channel]
         w.put(channel + 1, self.table.id_bits)
