@@ -41,6 +41,7 @@ def show_bus(url, texts, channels, seconds):
 
 def main(arguments=None):
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     options = parse(arguments)
     try:
         texts = None if not options.types else [text for folder in options.types for text in read_folder(folder)]

@@ -21,6 +21,34 @@ def encode(struct, message):
     return bytes(out)
 
 
+def filled(struct, message, now_us):
+    """A message with the fields that a dict leaves out: 0 or empty, time stamps now, arrays of constant size of those."""
+    if not isinstance(message, dict):
+        _refuse(struct.full_name, "an object", message)
+    counts = {d.count for field in struct.fields for d in field.dims if d.count}
+    full = {}
+    for field in struct.fields:
+        if field.name in message:
+            value = message[field.name]
+            nested = field.kind == "struct" and not field.dims
+            full[field.name] = filled(field.type, value, now_us) if nested else value
+        elif field.name not in counts:
+            full[field.name] = _empty(field, field.dims, now_us)
+    return {**message, **full}
+
+
+def _empty(field, dims, now_us):
+    if dims:
+        if field.kind == "byte" and len(dims) == 1:
+            return bytes(dims[0].size)
+        return [_empty(field, dims[1:], now_us) for _ in range(dims[0].size)]
+    if field.kind == "struct":
+        return filled(field.type, {}, now_us)
+    if field.kind == "string":
+        return ""
+    return now_us if field.annotation.age_us is not None else 0
+
+
 def json_form(value):
     """A decoded message with what JSON has no word for as `priamos log export` writes it: arrays of bytes as base64,
     NaN and the infinities as words, a text that is no UTF-8 as {"base64": ...}."""

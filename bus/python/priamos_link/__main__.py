@@ -91,7 +91,7 @@ def show(table, delivery, now):
     stamp_us = wall_us - round((now - delivery.time) * 1e6)
     message = {"channel": channel.name, "utime": stamp_us}
     try:
-        fields = unpack(channel, delivery.packed, delivery.bits, stamp_us)
+        fields = unpack(channel, delivery.packed, stamp_us)
     except ValueError as error:
         return complain(f"{channel.name}: {error}")
     message.update({"message": fields} if fields is not None else {"hex": delivery.packed.hex(), "bits": delivery.bits})

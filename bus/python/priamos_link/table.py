@@ -2,12 +2,11 @@
 
 import hashlib
 import json
-import re
 from dataclasses import dataclass, field
 
-from .frames import DOWN, UP
+from priamos_bus import Packer, Schema, filled, json_form
 
-_RANGE = re.compile(r"(?:(age) )?(-?[\d.]+)\.\.(-?[\d.]+) by ([\d.e-]+)(?:, or (-?[\d.]+))?$")
+from .frames import DOWN, UP
 
 
 @dataclass
@@ -21,11 +20,22 @@ class Channel:
     ttl_us: int
     urgent: bool
     delta: list = field(default_factory=list)
-    fields: list = field(default_factory=list)
+    packer: Packer | None = None
 
     @property
     def one_segment(self):
         return 0 < self.fixed_bits <= 208
+
+
+def _packer(channel):
+    """Packs messages of the type that a channel of the JSON names, defined by its "lcm"; None without."""
+    if "lcm" not in channel:
+        return None
+    schema = Schema([("the table", channel["lcm"])])
+    struct = schema.find(str(channel["type"]))
+    if struct is None:
+        raise ValueError(f"channel {channel['name']}: no type {channel['type']}: {schema.problems[:1]}")
+    return Packer(struct)
 
 
 class Table:
@@ -39,7 +49,7 @@ class Table:
             self.baud, self.bytes_per_s = int(data["baud"]), float(data["bytes_per_s"])
             self.channels = [Channel(c["name"], c["meaning"], UP if c["direction"] == "up" else DOWN, c["class"],
                                      c["fixed_bits"], c["max_bits"], c["ttl_us"], c["urgent"], c["delta"],
-                                     c.get("fields", [])) for c in data["channels"]]
+                                     _packer(c)) for c in data["channels"]]
             claimed = int(data["table_hash"], 16)
             self._check()
             self.hash = self._hash()
@@ -56,10 +66,8 @@ class Table:
         for c in self.channels:
             if not all(isinstance(width, int) and width > 0 for width in c.delta):
                 raise ValueError(f"channel {c.name}: delta {c.delta}")
-            for f in c.fields:
-                if not (0 <= int(f["bits"]) <= 65535 and 0 <= int(f["values"]) <= 65535):
-                    raise ValueError(f"channel {c.name}: a field of {f['bits']} bits, {f['values']} times")
-                FieldCode(f["codes"])
+            if c.packer is not None and c.packer.max_bits != c.max_bits:
+                raise ValueError(f"channel {c.name}: a type of at most {c.packer.max_bits} bits")
 
     def echo_bytes(self, direction):
         if not any(c.kind == "command" and c.direction == direction for c in self.channels):
@@ -79,69 +87,16 @@ class Table:
         return int.from_bytes(hashlib.blake2b((text + "\n").encode(), digest_size=16).digest()[:4], "little")
 
 
-class FieldCode:
-    """How a field of numbers is packed: `codes` of `priamos link bits`."""
-
-    def __init__(self, codes):
-        match = _RANGE.match(codes)
-        self.boolean = codes == "false, true"
-        self.known = self.boolean or match is not None
-        if match:
-            age, first, last, step, none = match.groups()
-            self.age, self.first, self.step = age is not None, float(first), float(step)
-            if self.step <= 0 or (self.age and self.step < 1):
-                raise ValueError(f"codes {codes}")
-            self.none = None if none is None else float(none)
-            self.last = round((float(last) - self.first) / self.step)
-
-    def value(self, code, now_us):
-        """Raises ValueError for a code that the field does not have."""
-        if self.boolean:
-            return bool(code)
-        if self.none is not None and code == self.last + 1:
-            return self.none
-        if code > self.last:
-            raise ValueError(f"expected a code up to {self.last}, got {code}")
-        value = self.first + code * self.step
-        return now_us - round(value) if self.age else round(value, 9)
-
-    def code(self, value, now_us):
-        if self.boolean:
-            return int(bool(value))
-        if self.none is not None and value == self.none:
-            return self.last + 1
-        if self.age:  # never younger than the truth
-            return min(self.last, max(0, -int((value - now_us) // round(self.step))))
-        return min(self.last, max(0, round((value - self.first) / self.step)))
-
-
-def unpack(channel, packed, bits, now_us):
-    """Fields by name, or None when the type has more than numbers. Raises ValueError for a code it does not have."""
-    values, at, text = {}, 0, f"{int.from_bytes(packed, 'big'):0{8 * len(packed)}b}" if packed else ""
-    for f in channel.fields:
-        code = FieldCode(f["codes"])
-        if not code.known or f["values"] == 0:
-            return None
-        each = []
-        for _ in range(f["values"]):
-            each.append(code.value(int(text[at:at + f["bits"]] or "0", 2), now_us))
-            at += f["bits"]
-        values[f["name"]] = each if f["values"] > 1 else each[0]
-    return values if channel.fields and at == bits else None
+def unpack(channel, packed, now_us):
+    """The message as a dict, or None when the table does not say its type. Raises ValueError for what is no message."""
+    return None if channel.packer is None else json_form(channel.packer.unpack(packed, now_us))
 
 
 def pack(channel, values, now_us):
-    """Bytes and bits of a message of numbers. Raises ValueError with one sentence."""
-    text = ""
-    for f in channel.fields:
-        code = FieldCode(f["codes"])
-        if not code.known:
-            raise ValueError(f"{channel.name}: expected \"hex\" and \"bits\": {f['name']} is no number")
-        value = values.get(f["name"], now_us if getattr(code, "age", False) else 0)
-        each = value if isinstance(value, list) else [value]
-        if len(each) != f["values"] or not all(isinstance(v, (int, float)) for v in each):
-            raise ValueError(f"{channel.name}: {f['name']}: expected {f['values']} numbers, got {value!r}")
-        text += "".join(f"{code.code(v, now_us):0{f['bits']}b}" if f["bits"] else "" for v in each)
-    if not text:
-        raise ValueError(f"{channel.name}: expected a message of numbers, got none")
-    return int(text.ljust(-(-len(text) // 8) * 8, "0"), 2).to_bytes(-(-len(text) // 8), "big"), len(text)
+    """Bytes and bits of a message; fields that are left out are 0 or empty, time stamps now. Raises ValueError."""
+    if channel.packer is None:
+        raise ValueError(f'{channel.name}: expected "hex" and "bits": the table does not say its type')
+    packed = channel.packer.pack(filled(channel.packer.struct, values, now_us), now_us)
+    if packed.refused:
+        raise ValueError(f"{channel.name}: expected values within their range, got another one in {packed.refused[0]}")
+    return packed.bytes, packed.bits

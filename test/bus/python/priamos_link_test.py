@@ -10,10 +10,11 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "bus/python"))
 
+import priamos_bus as bus  # noqa: E402
 from priamos_link import bundle, frames  # noqa: E402
 from priamos_link.__main__ import offer  # noqa: E402
 from priamos_link.end import End  # noqa: E402
-from priamos_link.table import Channel, FieldCode, Table, pack, unpack  # noqa: E402
+from priamos_link.table import Channel, Table, pack, unpack  # noqa: E402
 
 VECTORS = dict(re.findall(r"^(\w+) = (\S+)$", (ROOT / "bus/radio/PROTOCOL.md").read_text(), re.M))
 
@@ -85,26 +86,41 @@ class Vectors(unittest.TestCase):
                          vector("difference_message"))
 
 
+def channel_of(fields):
+    struct = bus.Schema([("t.lcm", "struct s { const int8_t GO = 1; " + fields + " }")]).find("s")
+    packer = bus.Packer(struct)
+    return Channel("X", "0" * 16, frames.UP, "state", 0, packer.max_bits, 0, False, [], packer)
+
+
 class Fields(unittest.TestCase):
-    def test_numbers_come_back_within_half_a_step(self):
-        fields = [{"name": "x_m", "bits": 15, "values": 1, "codes": "-100..100 by 0.01"},
-                  {"name": "near_m", "bits": 9, "values": 2, "codes": "0..5 by 0.01, or -1"},
-                  {"name": "on", "bits": 1, "values": 1, "codes": "false, true"}]
-        channel = Channel("X", "0" * 16, frames.UP, "state", 34, 34, 0, False, [], fields)
-        packed, bits = pack(channel, {"x_m": -12.344, "near_m": [-1, 2.5], "on": True}, 0)
-        self.assertEqual(bits, 34)
-        self.assertEqual(unpack(channel, packed, bits, 0), {"x_m": -12.34, "near_m": [-1.0, 2.5], "on": True})
-        self.assertFalse(FieldCode("length 0..16, 7 bits each").known)
-        with self.assertRaises(ValueError):
-            pack(channel, {"near_m": [1]}, 0)
+    def test_messages_come_back_within_half_a_step(self):
+        channel = channel_of("""double x_m;  // [m] @range -100,100 @step 0.01: position
+            float near_m[2];  // [m] @range 0,5 @step 0.01 @invalid -1: distance
+            boolean on;  // [-]: whether
+            int8_t n;  // [-] @range 0,3 @step 1: number of words
+            string words[n];  // [ascii] @max 3,8: words
+            """)
+        message = {"x_m": -12.344, "near_m": [-1, 2.5], "on": True, "words": ["yes", ""]}
+        packed, _ = pack(channel, message, 0)
+        self.assertEqual(unpack(channel, packed, 0), {**message, "x_m": -12.34, "near_m": [-1.0, 2.5], "n": 2})
+        self.assertEqual(unpack(channel, pack(channel, {}, 0)[0], 0),
+                         {"x_m": 0.0, "near_m": [0.0, 0.0], "on": False, "n": 0, "words": []})
+        for wrong in ({"near_m": [1]}, {"y_m": 1}, {"on": "yes"}):
+            with self.assertRaises(ValueError):
+                pack(channel, wrong, 0)
+
+    def test_time_stamps_left_out_are_now(self):
+        channel = channel_of("int64_t utime;  // [us] @age 1000000 @step 1000: when\n")
+        self.assertEqual(unpack(channel, pack(channel, {}, 5_000_000)[0], 7_000_000), {"utime": 7_000_000})
 
     def test_a_code_that_the_field_does_not_have_is_refused(self):
-        field = [{"name": "mode", "bits": 3, "values": 1, "codes": "0..5 by 1"}]
-        channel = Channel("X", "0" * 16, frames.UP, "state", 3, 3, 0, False, [], field)
-        self.assertEqual(unpack(channel, b"\xa0", 3, 0), {"mode": 5.0})
+        channel = channel_of("int8_t mode;  // [-] @range 0,5 @step 1: GO or not\n")
+        self.assertEqual(unpack(channel, b"\xa0", 0), {"mode": 5})
         for packed in (b"\xc0", b"\xe0"):
             with self.assertRaises(ValueError):
-                unpack(channel, packed, 3, 0)
+                unpack(channel, packed, 0)
+        with self.assertRaisesRegex(ValueError, "got another one in mode"):
+            pack(channel, {"mode": 7}, 0)
 
 
 def table_of_two():
@@ -206,15 +222,14 @@ class TwoEnds(unittest.TestCase):
             "encrypted": False, "code_bytes": 4, "baud": 9600, "bytes_per_s": 960, "table_hash": "0", "channels": [
                 {"name": "A", "meaning": "0", "direction": "up", "class": "state", "fixed_bits": 8, "max_bits": 8,
                  "ttl_us": 0, "urgent": False, "delta": [],
-                 "fields": [{"name": "x", "bits": 8, "values": 1, "codes": "0..255 by 1"}]}]}
+                 "type": "s", "lcm": "struct s { byte x; }"}]}
         odd = [{**good, key: value} for key, value in (
             ("bytes_per_s", 0), ("bytes_per_s", -1), ("bytes_per_s", float("nan")), ("bytes_per_s", float("inf")),
             ("baud", 0), ("baud", float("inf")), ("code_bytes", float("inf")), ("channels", 5))]
         channel = good["channels"][0]
         odd += [{**good, "channels": [{**channel, key: value}]} for key, value in (
-            ("delta", 5), ("delta", [0]), ("fields", [{"name": "x", "bits": 1e9, "values": 1, "codes": "0..1 by 1"}]),
-            ("fields", [{"name": "x", "bits": 8, "values": 1, "codes": "0..5 by 0"}]),
-            ("fields", [{"name": "x", "bits": 8, "values": 1, "codes": "age 0..5 by 0.1"}]))]
+            ("delta", 5), ("delta", [0]), ("lcm", "struct {"), ("lcm", 5), ("type", "t"),
+            ("lcm", "struct s { byte x[2]; }"), ("lcm", "struct s { double x; }"))]
         for data in odd:
             with self.assertRaisesRegex(ValueError, "expected what `priamos link table"):
                 Table(json.dumps(data))

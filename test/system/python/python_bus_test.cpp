@@ -52,7 +52,7 @@ TEST_F(PythonBus, HearsOurProgramsOnTheRobotsBus) {
     until [ $(grep -cE ' 43..FFEF:' /proc/net/udp) -ge 1 ]; do sleep 0.05; done
     $BIN/priamos topic pub ESTOP estop_t '{"utime": 5, "action": 1, "driver": 2}' --bus onboard
     until [ -s $DIR/heard.txt ]; do sleep 0.05; done
-    kill -INT $LISTENER; wait $LISTENER; echo "listener $?"; cat $DIR/heard.txt
+    kill $LISTENER; wait $LISTENER; echo "listener $?"; cat $DIR/heard.txt
   )sh");
   EXPECT_THAT(answer.text, HasSubstr("listener 0"));
   EXPECT_THAT(answer.text, HasSubstr(R"({"channel":"ESTOP","message":{"utime":5,"action":1,"driver":2}})"));
