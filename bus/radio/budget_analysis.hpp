@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bus/radio/channels/channel_table.hpp"
-#include "bus/radio/frames_ahead.hpp"
+#include "bus/radio/channels/frames_ahead.hpp"
 #include "bus/radio/line/polling.hpp"
 #include "bus/radio/link_options.hpp"
 

@@ -1,4 +1,4 @@
-#include "bus/radio/frames_ahead.hpp"
+#include "bus/radio/channels/frames_ahead.hpp"
 
 #include <algorithm>
 #include <cmath>

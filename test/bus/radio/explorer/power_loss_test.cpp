@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "explorer/powered_store.hpp"
-#include "link_pair.hpp"
+#include "test/bus/radio/explorer/powered_store.hpp"
+#include "test/bus/radio/link_pair.hpp"
 
 // The machine of one end loses its power: of what the end saved, its disk has what was synced. Cut at every
 // write in turn.
