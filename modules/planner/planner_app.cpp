@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "common/config.hpp"
 #include "planner/core/map/map_landmarks.hpp"
 #include "planner/planner_messages.hpp"
@@ -13,6 +15,7 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       context_(context),
       plan_(LoadConfig<GroundPlan>(context.ResolvePath(config.map))),
       missions_(missions(config, plan_)),
+      map_(config, context),
       orders_(context.node().SubscribeAll(channels::kMissionCommand)),
       poses_(context.node().Subscribe(channels::kPose)),
       drive_(context.node().Subscribe(channels::kDriveStatus)),
@@ -25,10 +28,13 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       look_(context.node().Advertise(channels::kLookRequest)),
       path_(context.node().Advertise(channels::kPath)),
       status_(context.node().Advertise(channels::kMissionStatus)),
-      status_rate_(config.status_rate_hz) {}
+      status_rate_(config.status_rate_hz) {
+  missions_.OnLearned(map_.walls());
+}
 
 void PlannerApp::Tick(Time now) {
   TakeReports(now);
+  if (auto learned = map_.Tick(now)) missions_.OnLearned(std::move(learned));
   TakeOrders(now);
   Send(missions_.Tick(now), now);
   SendStatus(now);

@@ -5,6 +5,7 @@
 #include "bus/context.hpp"
 #include "common/rate_limit.hpp"
 #include "lcmtypes/channels.hpp"
+#include "planner/map_keeper.hpp"
 #include "planner/planner_config.hpp"
 #include "planner/planner_missions.hpp"
 
@@ -39,6 +40,7 @@ class PlannerApp {
   bus::Context& context_;
   GroundPlan plan_;
   MissionTable missions_;
+  MapKeeper map_;
 
   bus::Inbox<mission_command_t> orders_;
   bus::Latest<pose_t> poses_;

@@ -40,6 +40,7 @@ const std::vector<Call> kCalls{
     {"place", "2 2.4 0"},
     {"mission status", ""},
     {"mission door", "laboratory --deployment $SOURCE/config/sim"},
+    {"map reset", ""},
     {"view", "--once --for 80"},
     {"mission abort", ""},
     {"mission goto", "3 2.4"},

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/learned_walls.hpp"
 #include "common/time.hpp"
 #include "planner/core/missions/mission_types.hpp"
 #include "planner/core/path/planned_path.hpp"
@@ -18,7 +20,8 @@ struct Heard {
   std::optional<Time> corrected;         ///< stamp of the newest pose correction since the mission's start
   std::optional<PassedOpening> opening;  ///< newest since the mission's start
   std::vector<LeafSighting> leaves;      ///< leaves of doors seen since the last time step, in order
-  std::vector<LookResult> looks;         ///< answers to looks since the last time step, in order
+  std::shared_ptr<const LearnedWalls> learned;  ///< walls that robots found; another object when they change
+  std::vector<LookResult> looks;                ///< answers to looks since the last time step, in order
 };
 
 /// A mission's view of the robot: its state, and the orders and the state that leave in this time

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "planner/core/missions/mission.hpp"
 
@@ -31,6 +32,7 @@ class MissionTable {
   void OnCorrected(Time stamp);
   void OnLeaf(const LeafSighting& leaf) { control_.heard_.leaves.push_back(leaf); }
   void OnOpening(const PassedOpening& opening) { control_.heard_.opening = opening; }
+  void OnLearned(std::shared_ptr<const LearnedWalls> walls) { control_.heard_.learned = std::move(walls); }
   void OnLink(bool up) { control_.heard_.link_up = up; }
 
   /// One time step of the mission under way. Returns what is to be sent.

@@ -71,11 +71,36 @@ RoutePlanner::RoutePlanner(const RoutePlannerConfig& config, const Footprint& fo
       slim_(Slim(footprint), MapOf(plan, false)) {}
 
 void RoutePlanner::Add(std::string name, const Rectangle& shape) {
-  space_.Add(std::move(name), shape);
+  added_.push_back({std::move(name), shape});
+  Rebuild();
 }
 
 void RoutePlanner::Forget() {
+  added_.clear();
+  Rebuild();
+}
+
+void RoutePlanner::Learn(const LearnedWalls& learned, const Pose2& map_from_base) {
+  learned_ = ObstaclesOf(learned, known_.obstacles());
+  const Rectangle body = known_.footprint().At(map_from_base);
+  std::erase_if(learned_, [&](const NamedObstacle& wall) { return Distance(body, wall.shape) <= 0; });
+  Rebuild();
+}
+
+void RoutePlanner::Rebuild() {
   space_ = known_;
+  for (const auto* obstacles : {&added_, &learned_})
+    for (const NamedObstacle& obstacle : *obstacles) space_.Add(obstacle.name, obstacle.shape);
+}
+
+bool RoutePlanner::IsFree(const Pose2& map_from_start, const std::vector<Pose2>& points) const {
+  constexpr double kTouching_m = 0.01;
+  Pose2 from = map_from_start;
+  for (const Pose2& to : points) {
+    if (!space_.IsFree(from, to, kTouching_m)) return false;
+    from = to;
+  }
+  return true;
 }
 
 Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal& goal) const {
