@@ -161,11 +161,6 @@ std::optional<std::string> MissionOrder::NothingToDo(const mission_status_t& sta
   }
 }
 
-void MissionOrder::End(OrderOutcome outcome, std::string text) {
-  outcome_ = outcome;
-  text_ = std::move(text);
-}
-
 std::optional<mission_command_t> MissionOrder::Step(Time now) {
   if (outcome_ != OrderOutcome::kOpen) return std::nullopt;
   if (!start_) start_ = now;

@@ -16,7 +16,7 @@ struct StepRunnerConfig {
   double pose_s = 8;        ///< without news of the robot before anything was driven: the step fails
   double blackout_s = 300;  ///< without news of it later: the step fails
   double leg_s = 3;         ///< to start, turn and stop on a drive
-  double door_s = 9;        ///< for the looks at a door, and its evidence
+  double door_s = 5;        ///< for the looks at a door, and its evidence
 
   void Describe(Archive& a);
 };

@@ -178,16 +178,33 @@ Outcome<std::vector<Leg>> DoorRouter::Plan(const Pose2& map_from_start, const Go
 }
 
 std::vector<Leg> DoorRouter::PlanThrough(const Pose2& map_from_start, int door_id) {
-  std::vector<Leg> legs;
+  std::vector<Leg> best;
+  double best_m = std::numeric_limits<double>::infinity();
   for (const Passage& passage : passages_) {
-    const bool before = (passage.door.map_from_door().Inverse() * map_from_start).x <= 0;
-    if (passage.door_id != door_id || !before) continue;
-    // What the door mission does from here is tried first, however slanted it is.
-    const auto to_m = passage_.PlanApproach(passage.door, map_from_start) ? std::optional(0.0)
-                                                                          : LengthTo(passage, map_from_start);
-    if (to_m) AppendLegs(passage, map_from_start, *to_m, legs);
+    if (passage.door_id != door_id) continue;
+    std::vector<Leg> legs = LegsThrough(passage, map_from_start);
+    double length_m = 0;
+    for (const Leg& leg : legs) length_m += leg.length_m;
+    if (legs.empty() || length_m >= best_m) continue;
+    best_m = length_m;
+    best = std::move(legs);
   }
-  if (legs.empty()) legs.push_back({door_id, {map_from_start}, 0});
+  if (best.empty()) best.push_back({door_id, {map_from_start}, 0});
+  return best;
+}
+
+/// What the door mission does from here is tried first, however slanted it is.
+std::vector<Leg> DoorRouter::LegsThrough(const Passage& passage, const Pose2& from) {
+  std::vector<Leg> legs;
+  const bool on_its_side = (passage.door.map_from_door().Inverse() * from).x <= 0;
+  if (on_its_side && passage_.PlanApproach(passage.door, from)) {
+    AppendLegs(passage, from, 0, legs);
+  } else if (passage.before) {
+    const auto way = Plan(from, {*passage.before});
+    if (!way) return {};
+    legs = *way;
+    AppendLegs(passage, *passage.before, 0, legs);
+  }
   return legs;
 }
 

@@ -44,8 +44,8 @@ class DoorRouter {
 
   /// The legs to a goal, at least one: the last one ends there. Refuses with the reason.
   Outcome<std::vector<Leg>> Plan(const Pose2& map_from_start, const Goal& goal);
-  /// The legs to a door and through it, from the side where the base is. They may be the door alone, although
-  /// it cannot be passed from there: why not is the door mission's to say.
+  /// The legs to a door and through it, from the side to which the way is shorter. They may be the door alone,
+  /// although it cannot be passed from there: why not is the door mission's to say.
   std::vector<Leg> PlanThrough(const Pose2& map_from_start, int door_id);
   /// Name of a door of the plan; its number when there is none.
   std::string NameOf(int door_id) const;
@@ -67,6 +67,7 @@ class DoorRouter {
   /// Length of the drive to where `passage` can begin; 0 where it can at once.
   std::optional<double> LengthTo(const Passage& passage, const Pose2& from) const;
   std::optional<double> LengthBetween(std::size_t from_passage, std::size_t to_passage);
+  std::vector<Leg> LegsThrough(const Passage& passage, const Pose2& from);
   void AppendLegs(const Passage& passage, const Pose2& from, double to_door_m, std::vector<Leg>& legs) const;
 
   DoorRouterConfig config_;
