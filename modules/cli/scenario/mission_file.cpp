@@ -25,7 +25,8 @@ class Rehearsal {
 
   /// Why the step cannot be done after those before; nullopt: it can, as far as the plan says.
   std::optional<std::string> Do(const mission_step_t& step) {
-    if (step.mission == mission_command_t::GOTO) return Drive({{step.x_m, step.y_m, step.yaw_rad}, step.turn != 0});
+    if (step.mission == mission_command_t::GOTO)
+      return Drive({{step.x_m, step.y_m, step.yaw_rad}, step.turn != 0});
     if (step.mission == mission_command_t::PASS_DOOR) return Pass(step.landmark_id);
     return std::nullopt;
   }
@@ -80,8 +81,9 @@ void Repeat(const MissionFileStep& repeat, std::size_t number, std::vector<std::
   const std::vector<mission_step_t> again(steps.begin() + std::ptrdiff_t(first[std::size_t(repeat.from - 1)]),
                                           steps.end());
   if (steps.size() + again.size() * std::size_t(repeat.times) > kMostSteps)
-    throw ConfigError(fmt::format("{}times: expected at most {} steps with all repetitions, got {}", repeat.place,
-                                  kMostSteps, steps.size() + again.size() * std::size_t(repeat.times)));
+    throw ConfigError(fmt::format("{}times: expected at most {} steps with all repetitions, got {}",
+                                  repeat.place, kMostSteps,
+                                  steps.size() + again.size() * std::size_t(repeat.times)));
   for (int i = 0; i < repeat.times; ++i) steps.insert(steps.end(), again.begin(), again.end());
 }
 
@@ -118,8 +120,8 @@ void MissionFile::Describe(Archive& a) {
   if (steps.empty()) a.Refuse("step", "one or more [[step]]");
 }
 
-mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config, const GroundPlan& plan,
-                          const std::string& map) {
+mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config,
+                          const GroundPlan& plan, const std::string& map) {
   mission_command_t order{};
   order.mission = mission_command_t::RUN;
   order.title = file.title;
@@ -140,7 +142,8 @@ mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig&
                                   order.steps.size()));
   const MissionFileStep& begin = file.steps.front();
   if (file.rounds != 1)
-    if (const auto why = rehearsal.Do(order.steps.front())) throw ConfigError(begin.place + "next round: " + *why);
+    if (const auto why = rehearsal.Do(order.steps.front()))
+      throw ConfigError(begin.place + "next round: " + *why);
   order.n_steps = static_cast<std::int8_t>(order.steps.size());
   return order;
 }

@@ -38,7 +38,7 @@ struct MissionFile {
 mission_command_t OrderOfFile(const std::string& file, const std::string& folder);
 
 /// The same of a file that is read already, with the planner's configuration and plan.
-mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config, const GroundPlan& plan,
-                          const std::string& map);
+mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config,
+                          const GroundPlan& plan, const std::string& map);
 
 }  // namespace priamos::cli

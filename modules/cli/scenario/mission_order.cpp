@@ -148,7 +148,8 @@ std::optional<std::string> MissionOrder::NothingToDo(const mission_status_t& sta
   switch (order_.mission) {
     case mission_command_t::ABORT:
     case mission_command_t::PAUSE:
-      if (status.running || (!status.waiting.empty() && order_.mission == mission_command_t::ABORT)) return std::nullopt;
+      if (status.running || (!status.waiting.empty() && order_.mission == mission_command_t::ABORT))
+        return std::nullopt;
       return "no mission is under way";
     case mission_command_t::RESUME:
       if (status.paused) return std::nullopt;

@@ -19,13 +19,13 @@ bool IsOver(const mission_status_t& status);
 
 /// Outcome of an order.
 enum class OrderOutcome {
-  kOpen,      ///< not known yet
-  kAccepted,  ///< the planner carries it out or has it wait, and its end is not waited for
-  kDone,      ///< the order is done; what was to be aborted, paused, resumed or cancelled is so
-  kFailed,    ///< the mission failed
-  kCancelled, ///< it was cancelled, or an order before it failed
-  kRefused,   ///< the planner cannot carry it out, or there is nothing to abort, pause, resume or cancel
-  kNoAnswer,  ///< no planner, or one that does not take orders
+  kOpen,       ///< not known yet
+  kAccepted,   ///< the planner carries it out or has it wait, and its end is not waited for
+  kDone,       ///< the order is done; what was to be aborted, paused, resumed or cancelled is so
+  kFailed,     ///< the mission failed
+  kCancelled,  ///< it was cancelled, or an order before it failed
+  kRefused,    ///< the planner cannot carry it out, or there is nothing to abort, pause, resume or cancel
+  kNoAnswer,   ///< no planner, or one that does not take orders
 };
 
 std::string_view Text(OrderOutcome outcome);
@@ -38,8 +38,8 @@ std::int32_t OrderNumber(Time now);
 /// different clocks. Pure: time and messages are given.
 class MissionOrder {
  public:
-  /// Order that stays open until the planner carries it out or has it wait; with `to_the_end` until it is over.
-  /// Without a number it gets one from the time at which it is given first.
+  /// Order that stays open until the planner carries it out or has it wait; with `to_the_end` until it is
+  /// over. Without a number it gets one from the time at which it is given first.
   MissionOrder(const mission_command_t& order, bool to_the_end) : order_(order), to_the_end_(to_the_end) {}
 
   /// A status that arrived at `now`. Returns what is new in it for a person, in words.

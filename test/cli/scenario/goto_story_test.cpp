@@ -28,10 +28,7 @@ struct GotoStage : Stage {
     mission_status_t message{};
     message.phase = static_cast<std::int8_t>(phase);
     message.text = text;
-    for (const auto& order : orders.Drain()) {
-      given.push_back(order);
-      order_id = order.order_id;
-    }
+    Listen();
     message.order_id = order_id;
     const bool over = phase == mission_status_t::DONE || phase == mission_status_t::FAILED;
     message.running = order_id != 0 && !over;
@@ -48,8 +45,14 @@ struct GotoStage : Stage {
   }
   /// The orders since the last call.
   std::vector<mission_command_t> Given() {
-    for (const auto& order : orders.Drain()) given.push_back(order);
+    Listen();
     return std::exchange(given, {});
+  }
+  void Listen() {
+    for (const auto& order : orders.Drain()) {
+      given.push_back(order);
+      order_id = order.order_id;
+    }
   }
   void Stand(double x_m, double y_m) {
     world_truth_t message{};

@@ -51,8 +51,10 @@ TEST(MissionFile, ItsStepsBecomeAnOrder) {
 }
 
 TEST(MissionFile, ARepeatIsWrittenOut) {
-  const auto order = Read(kGo + "[[step]]\ndo = \"wait\"\nwait_s = 1\n[[step]]\ndo = \"repeat\"\nfrom = 2\n"
-                                "times = 3\n" + kGo);
+  const auto order = Read(kGo +
+                          "[[step]]\ndo = \"wait\"\nwait_s = 1\n[[step]]\ndo = \"repeat\"\nfrom = 2\n"
+                          "times = 3\n" +
+                          kGo);
   ASSERT_EQ(order.n_steps, 6);
   EXPECT_EQ(order.steps[4].mission, mission_command_t::WAIT);
   EXPECT_EQ(order.steps[5].mission, mission_command_t::GOTO);
@@ -64,8 +66,10 @@ TEST(MissionFile, WhatCannotBeDoneIsNamedWithItsLine) {
   EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"door\"\ndoor = \"9\"\n"), "round.toml:5: the map has no door 9");
   EXPECT_THAT(WhyNot("[[step]]\ndo = \"goto\"\nx_m = 6.0\ny_m = 1.0\n"),
               AllOf(StartsWith("round.toml:1: "), HasSubstr("wall 'right of the door'")));
-  EXPECT_THAT(WhyNot("[[step]]\ndo = \"goto\"\nx_m = 4.0\n"), HasSubstr("round.toml:1: step.0.y_m: expected a place"));
-  EXPECT_THAT(WhyNot("[[step]]\ndo = \"fly\"\n"), HasSubstr("round.toml:2: step.0.do: expected one of goto, door, wait"));
+  EXPECT_THAT(WhyNot("[[step]]\ndo = \"goto\"\nx_m = 4.0\n"),
+              HasSubstr("round.toml:1: step.0.y_m: expected a place"));
+  EXPECT_THAT(WhyNot("[[step]]\ndo = \"fly\"\n"),
+              HasSubstr("round.toml:2: step.0.do: expected one of goto, door, wait"));
   EXPECT_THAT(WhyNot(kGo + "wait_s = 4\n"), AllOf(StartsWith("round.toml:5: "), HasSubstr("wait_s")));
   EXPECT_THAT(WhyNot("[[step]]\ndo = \"repeat\"\nfrom = 1\n" + kGo), HasSubstr("a step before this one"));
   EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"repeat\"\ntimes = 64\n"), HasSubstr("at most 64 steps"));
@@ -73,7 +77,8 @@ TEST(MissionFile, WhatCannotBeDoneIsNamedWithItsLine) {
 }
 
 TEST(MissionFile, TheShippedOneIsGood) {
-  const auto order = OrderOfFile(PRIAMOS_SOURCE_DIR "/config/sim/missions/round.toml", PRIAMOS_SOURCE_DIR "/config/sim");
+  const auto order =
+      OrderOfFile(PRIAMOS_SOURCE_DIR "/config/sim/missions/round.toml", PRIAMOS_SOURCE_DIR "/config/sim");
   EXPECT_EQ(order.n_steps, 4);
 }
 

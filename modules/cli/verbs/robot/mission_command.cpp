@@ -45,7 +45,8 @@ void Print(const MissionOptions& options, const mission_status_t& status) {
   if (options.json)
     std::cout << JsonLine(StatusMembers(status)) << std::endl;
   else
-    std::cout << fmt::format("{}: {}{}", PhaseName(status.phase), status.text, ProgressText(status)) << std::endl;
+    std::cout << fmt::format("{}: {}{}", PhaseName(status.phase), status.text, ProgressText(status))
+              << std::endl;
 }
 
 /// Prints the planner's answer; with --wait until the mission is over. 1 when it failed or nobody answers.
@@ -59,7 +60,8 @@ int Status(const MissionOptions& options) {
     for (const mission_status_t& status : statuses.Drain()) {
       session.Heard();
       heard = session.now();
-      if (!last || last->text != status.text || last->phase != status.phase || last->step != status.step) Print(options, status);
+      if (!last || last->text != status.text || last->phase != status.phase || last->step != status.step)
+        Print(options, status);
       last = status;
     }
   };
@@ -78,9 +80,9 @@ int Status(const MissionOptions& options) {
 
 void AddDoorVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
-  auto* verb = AddVerb(
-      mission, "door",
-      "Pass a door from the side where the robot is; ends when the robot is under way, with --wait when it is through (exit code 1: not).");
+  auto* verb = AddVerb(mission, "door",
+                       "Pass a door from the side where the robot is; ends when the robot is under way, with "
+                       "--wait when it is through (exit code 1: not).");
   verb->footer("Example: priamos mission door laboratory --wait");
   verb->add_option("door", options->door, "its name in the map, or its number")->required();
   verb->add_flag("--wait", options->wait, "until the mission is over");
@@ -91,9 +93,9 @@ void AddDoorVerb(CLI::App& mission, int& exit_code) {
 void AddGotoVerb(CLI::App& mission, int& exit_code) {
   constexpr double kFarthest_m = 100, kTurn_deg = 360;
   auto options = std::make_shared<MissionOptions>();
-  auto* verb = AddVerb(
-      mission, "goto",
-      "Drive to a place, through doors if the way leads there; ends when the robot is under way, with --wait when it is there (exit code 1: not).");
+  auto* verb = AddVerb(mission, "goto",
+                       "Drive to a place, through doors if the way leads there; ends when the robot is under "
+                       "way, with --wait when it is there (exit code 1: not).");
   verb->footer("Example: priamos mission goto 4.5 1.2 --yaw 90 --wait");
   verb->add_option("x", options->x_m, "[m] map frame")
       ->required()
@@ -110,7 +112,8 @@ void AddGotoVerb(CLI::App& mission, int& exit_code) {
 
 void AddAbortVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
-  auto* verb = AddVerb(mission, "abort", "End the mission that is under way and cancel what waits; the robot brakes.");
+  auto* verb =
+      AddVerb(mission, "abort", "End the mission that is under way and cancel what waits; the robot brakes.");
   verb->footer("Example: priamos mission abort");
   CompleteMission(*verb, options, Abort, exit_code);
 }

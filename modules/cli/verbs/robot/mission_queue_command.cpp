@@ -58,8 +58,9 @@ int Cancel(const MissionOptions& options) {
 /// One line per order: the one under way, those that wait, how the last ones ended.
 void PrintList(const mission_status_t& status) {
   if (status.running)
-    std::cout << fmt::format("{:>5}  {:<9}  {}: {}{}\n", status.order_id, status.paused ? "paused" : "under way",
-                             status.title, status.text, ProgressText(status));
+    std::cout << fmt::format("{:>5}  {:<9}  {}: {}{}\n", status.order_id,
+                             status.paused ? "paused" : "under way", status.title, status.text,
+                             ProgressText(status));
   for (const mission_waiting_t& waits : status.waiting)
     std::cout << fmt::format("{:>5}  {:<9}  {}\n", waits.order_id, "waits", waits.title);
   for (const mission_result_t& result : status.results)
@@ -72,7 +73,8 @@ void PrintList(const mission_status_t& status) {
 void PrintListAsJson(const mission_status_t& status) {
   if (status.running) std::cout << JsonLine(StatusMembers(status)) << "\n";
   for (const mission_waiting_t& waits : status.waiting)
-    std::cout << JsonLine({{"order", std::int64_t(waits.order_id)}, {"outcome", "waits"}, {"title", waits.title}})
+    std::cout << JsonLine(
+                     {{"order", std::int64_t(waits.order_id)}, {"outcome", "waits"}, {"title", waits.title}})
               << "\n";
   for (const mission_result_t& result : status.results)
     std::cout << JsonLine({{"order", std::int64_t(result.order_id)},
@@ -107,9 +109,10 @@ int List(const MissionOptions& options) {
 
 void AddRunVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
-  auto* verb = AddVerb(mission, "run",
-                       "Order the steps of a file, which is checked before anything moves; ends when they are under "
-                       "way or wait, with --wait when they are over (exit code 1: not done).");
+  auto* verb =
+      AddVerb(mission, "run",
+              "Order the steps of a file, which is checked before anything moves; ends when they are under "
+              "way or wait, with --wait when they are over (exit code 1: not done).");
   verb->footer("Example: priamos mission run config/sim/missions/round.toml --wait");
   verb->add_option("file", options->file, "TOML: [[step]] with do = goto, door, wait or repeat")->required();
   verb->add_flag("--wait", options->wait, "until they are over");
@@ -119,7 +122,8 @@ void AddRunVerb(CLI::App& mission, int& exit_code) {
 
 void AddPatrolVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
-  auto* verb = AddVerb(mission, "patrol", "Drive to places in turn, round after round, until it is cancelled.");
+  auto* verb =
+      AddVerb(mission, "patrol", "Drive to places in turn, round after round, until it is cancelled.");
   verb->footer("Example: priamos mission patrol 4.7 1.3 2.0 2.4");
   verb->add_option("places", options->places, "[m] map frame: x and y of each place")
       ->required()
@@ -151,10 +155,11 @@ void AddPlainVerb(CLI::App& mission, const char* name, const char* what, int (*r
 void AddQueueVerbs(CLI::App& mission, int& exit_code) {
   AddRunVerb(mission, exit_code);
   AddPatrolVerb(mission, exit_code);
-  AddPlainVerb(mission, "list", "The order under way, those that wait, and how the last ones ended.", List, exit_code);
-  AddCancelVerb(mission, exit_code);
-  AddPlainVerb(mission, "pause", "The robot brakes and holds its place, until `priamos mission resume`.", Pause,
+  AddPlainVerb(mission, "list", "The order under way, those that wait, and how the last ones ended.", List,
                exit_code);
+  AddCancelVerb(mission, exit_code);
+  AddPlainVerb(mission, "pause", "The robot brakes and holds its place, until `priamos mission resume`.",
+               Pause, exit_code);
   AddPlainVerb(mission, "resume", "A paused mission goes on.", Resume, exit_code);
 }
 

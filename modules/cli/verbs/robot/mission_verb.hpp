@@ -31,8 +31,8 @@ struct MissionOptions {
   bool wait = false, json = false;
 };
 
-/// Gives the order and follows it as long as it is open: words for a person, with --json one line per step that
-/// has ended and one for the order. Returns the exit code.
+/// Gives the order and follows it as long as it is open: words for a person, with --json one line per step
+/// that has ended and one for the order. Returns the exit code.
 int GiveOrder(const MissionOptions& options, const mission_command_t& command, const char* verb);
 
 /// The options that every verb of a mission has.

@@ -13,8 +13,8 @@ constexpr int kMostId = 65535;
 
 }  // namespace
 
-Agenda::Agenda(MissionTable& missions, DoorRouter& router, const AgendaKinds& kinds, const AgendaSpeeds& speeds,
-               const StepRunnerConfig& config)
+Agenda::Agenda(MissionTable& missions, DoorRouter& router, const AgendaKinds& kinds,
+               const AgendaSpeeds& speeds, const StepRunnerConfig& config)
     : missions_(missions), router_(router), kinds_(kinds), runner_(missions, router, kinds, speeds, config) {}
 
 std::string Agenda::TitleOf(const AgendaStep& step) const {
@@ -35,7 +35,8 @@ std::optional<Refusal> Agenda::Check(const AgendaOrder& order) const {
   if (order.steps.empty()) return Refusal{"an order has at least one step"};
   if (order.steps.size() > kMostSteps)
     return Refusal{fmt::format("an order has at most {} steps, this one {}", kMostSteps, order.steps.size())};
-  if (order.rounds < 0) return Refusal{fmt::format("an order has 0 rounds or more, this one {}", order.rounds)};
+  if (order.rounds < 0)
+    return Refusal{fmt::format("an order has 0 rounds or more, this one {}", order.rounds)};
   for (const AgendaStep& step : order.steps) {
     if (!step.wait_s && !missions_.Knows(step.order.kind))
       return Refusal{fmt::format("unknown mission {}", step.order.kind)};
@@ -52,7 +53,8 @@ std::optional<Refusal> Agenda::Check(const AgendaOrder& order) const {
 bool Agenda::IsKnown(int id) const {
   const auto is_it = [&](const Given& given) { return given.order.id == id; };
   return (current_ && is_it(*current_)) || std::any_of(waiting_.begin(), waiting_.end(), is_it) ||
-         std::any_of(results_.begin(), results_.end(), [&](const AgendaResult& r) { return r.order_id == id; });
+         std::any_of(results_.begin(), results_.end(),
+                     [&](const AgendaResult& r) { return r.order_id == id; });
 }
 
 int Agenda::FreeId() {
@@ -213,6 +215,11 @@ std::vector<AgendaOrder> Agenda::waiting() const {
 void Agenda::Foresee() {
   const auto& steps = current_->order.steps;
   if (n_foreseen_ >= steps.size()) return;
+  if (n_foreseen_ == 0 && steps[0].order.kind == kinds_.go && !steps[0].wait_s) {
+    foreseen_ = steps[0].order.goal.map_from_base;  // the runner has its way already
+    ++n_foreseen_;
+    return;
+  }
   if (!foreseen_ && missions_.heard().pose) foreseen_ = missions_.heard().pose->map_from_base;
   if (!foreseen_) return;
   const auto forecast = runner_.Foresee(steps[n_foreseen_], *foreseen_);

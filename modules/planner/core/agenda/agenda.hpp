@@ -12,9 +12,9 @@
 namespace priamos::planner {
 
 /// The orders of the people at the workstation: one is carried out, the others wait in their order. Each has
-/// steps, done in turn and in rounds. An order that fails cancels those that wait, since they were given in the
-/// belief that it would succeed; an emergency stop ends all, whether it comes during a mission or between two.
-/// Time is an argument; everything that is sent comes from Tick().
+/// steps, done in turn and in rounds. An order that fails cancels those that wait, since they were given in
+/// the belief that it would succeed; an emergency stop ends all, whether it comes during a mission or between
+/// two. Time is an argument; everything that is sent comes from Tick().
 class Agenda {
  public:
   /// More orders do not wait.
@@ -26,8 +26,8 @@ class Agenda {
   Agenda(MissionTable& missions, DoorRouter& router, const AgendaKinds& kinds, const AgendaSpeeds& speeds,
          const StepRunnerConfig& config);
 
-  /// Takes an order; one with the number of an order that is known is that one, said again. A refusal is among
-  /// the results, too.
+  /// Takes an order; one with the number of an order that is known is that one, said again. A refusal is
+  /// among the results, too.
   std::optional<Refusal> Take(AgendaOrder order, Time now);
   /// Ends what is under way, and cancels what waits.
   void Abort();

@@ -14,7 +14,8 @@ const std::string kAwaitsPose = "waiting for the robot's pose";
 }  // namespace
 
 void StepRunnerConfig::Describe(Archive& a) {
-  a.Number("pose_s", pose_s, {"s", 1, 600, "no news of the robot before anything is driven: the order fails"});
+  a.Number("pose_s", pose_s,
+           {"s", 1, 600, "no news of the robot before anything is driven: the order fails"});
   a.Number("blackout_s", blackout_s, {"s", 1, 36000, "no news of the robot on the way: the order fails"});
   a.Number("leg_s", leg_s, {"s", 0, 60, "to start, turn and stop on a drive, for the time left"});
   a.Number("door_s", door_s, {"s", 0, 60, "for the looks at a door, for the time left"});
@@ -75,8 +76,8 @@ void StepRunner::AwaitRobot(Time now) {
   const double limit_s = moved_ ? config_.blackout_s : config_.pose_s;
   const Time since = std::max(heard.pose ? heard.pose->stamp : begun_, std::max(begun_, leg_begun_));
   if (Seconds(now - since) > limit_s)
-    return Finish(Phase::kFailed, fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", limit_s,
-                                              heard.link_up ? "up, is the robot running?" : "down"));
+    return Finish(Phase::kFailed, fmt::format("no pose from the robot for {:.0f} s: the radio link is {}",
+                                              limit_s, heard.link_up ? "up, is the robot running?" : "down"));
   state_ = {Phase::kWaiting, kAwaitsPose};
 }
 
@@ -84,10 +85,12 @@ void StepRunner::FollowLeg(Time now) {
   state_ = missions_.state();
   if (const auto silence_s = missions_.Silence_s(now)) {
     silence_s_ = std::max(silence_s_, *silence_s);
-    state_.text = fmt::format("no news of the robot: the radio link is {}; it goes on as far as its path leads",
-                              missions_.heard().link_up ? "up" : "down");
+    state_.text =
+        fmt::format("no news of the robot: the radio link is {}; it goes on as far as its path leads",
+                    missions_.heard().link_up ? "up" : "down");
   }
-  if (paused_ && missions_.running()) state_.text = "paused: the robot holds its place; next: priamos mission resume";
+  if (paused_ && missions_.running())
+    state_.text = "paused: the robot holds its place; next: priamos mission resume";
   if (missions_.running()) return;
   if (state_.phase == Phase::kFailed || !legs_) return Finish(state_.phase, state_.text);
   if (legs_->front().door_id) doors_.push_back(router_.NameOf(*legs_->front().door_id));

@@ -75,8 +75,8 @@ class StepRunner {
   bool under_way_ = false;               ///< the table carries out the first leg
   bool moved_ = false, paused_ = false;
   Time begun_{}, leg_begun_{}, last_tick_{};
-  double waited_s_ = 0;           ///< of a step that waits
-  double silence_s_ = 0;          ///< longest silence of the robot in this step
+  double waited_s_ = 0;             ///< of a step that waits
+  double silence_s_ = 0;            ///< longest silence of the robot in this step
   std::vector<std::string> doors_;  ///< passed in this step
 };
 

@@ -46,6 +46,7 @@ void AddLintelEdge(std::vector<LandmarkEdge>& edges, double x, double half_width
 
 /// Viewers who see the left stop past the arris of its own rebate.
 Sector LeftStopSector(const DoorPlan& door) {
+  if (door.rebate_depth_m <= 0) return kApproachSide;
   return {kPi - std::atan2(door.rebate_width_m, door.rebate_depth_m), kApproachSide.to_rad};
 }
 
@@ -104,21 +105,16 @@ Landmark MakeDoorLandmark(const DoorPlan& door) {
 Landmark MakeDoorLandmarkFromBehind(const DoorPlan& door) {
   const DoorPlan seen = FromBehind(door);
   const double half = seen.opening_width_m / 2, outer = half + seen.frame_width_m;
-  const double rebate = half + seen.rebate_width_m;
   const double top = seen.opening_height_m, outer_top = top + seen.frame_width_m;
-  const double front = -door.BackX(), stop = -door.StopX();
+  const double near = -door.BackX(), stop = -door.StopX(), far = -door.FrontX();
   Landmark landmark{seen.id, seen.map_from_door(), {}};
   auto& edges = landmark.edges;
-  AddJambEdge(edges, front, outer, outer_top, kApproachSide);
-  AddLintelEdge(edges, front, outer, outer_top);
-  if (door.rebate_depth_m > 0 && door.rebate_width_m > 0) {
-    AddJambEdge(edges, front, rebate, top + seen.rebate_width_m, kApproachSide);
-    AddLintelEdge(edges, front, rebate, top + seen.rebate_width_m);
-    AddJambEdge(edges, stop, half, top, LeftStopSector(door));
-  } else {
-    AddJambEdge(edges, stop, half, top, kApproachSide);
-  }
+  AddJambEdge(edges, near, outer, outer_top, kApproachSide);
+  AddJambEdge(edges, stop, half, top, LeftStopSector(door));
+  AddJambEdge(edges, far, half, top, LeftJambSector(door));
+  AddLintelEdge(edges, near, outer, outer_top);
   AddLintelEdge(edges, stop, half, top);
+  AddLintelEdge(edges, far, half, top);
   return landmark;
 }
 

@@ -103,10 +103,10 @@ std::optional<Refusal> DoorMission::ChooseSide(const Pose2& map_from_base) {
   const double behind_m = (front_->map_from_door().Inverse() * map_from_base).x;
   if (behind_m <= 0) return std::nullopt;
   if (front_->behind_id == 0)
-    return Refusal{
-        fmt::format("the robot is {:.2f} m behind door '{}', and the map has no landmark there; next: give the "
-                    "door a behind_id",
-                    behind_m, front_->name)};
+    return Refusal{fmt::format(
+        "the robot is {:.2f} m behind door '{}', and the map has no landmark there; next: give the "
+        "door a behind_id",
+        behind_m, front_->name)};
   door_ = priamos::planner::FromBehind(*front_);
   return std::nullopt;
 }

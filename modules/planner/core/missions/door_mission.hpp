@@ -104,7 +104,7 @@ class DoorMission : public Mission {
 
   const DoorPlan* front_ = nullptr;  ///< the door of the plan ...
   std::optional<DoorPlan> door_;     ///< ... as it is from where the robot comes
-  Time entered_{};  ///< when the approach began
+  Time entered_{};                   ///< when the approach began
   LookSequence looks_;
   LeafBelief leaf_;
   std::optional<Time> arrived_;  ///< when it was behind the door by its pose

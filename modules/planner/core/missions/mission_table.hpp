@@ -9,8 +9,8 @@
 
 namespace priamos::planner {
 
-/// Why an emergency stop ends what was ordered when `changes` stops and re-armings were counted; nullopt: none
-/// came since.
+/// Why an emergency stop ends what was ordered when `changes` stops and re-armings were counted; nullopt:
+/// none came since.
 std::optional<std::string> WhyEstopEnds(const DriveReport& drive, int changes);
 
 /// The missions by the kind of their order, of which one at a time is carried out. Time is an argument,
@@ -29,15 +29,15 @@ class MissionTable {
   /// Ends the mission under way in the next time step, with this reason.
   void Abort(std::string reason = "aborted by the operator");
   /// Has the robot brake and hold wherever it is, until Resume(); then it goes on with what is left of its
-  /// path, and the mission with what it was doing. Time limits do not count meanwhile. The emergency stop ends
-  /// a held mission as well.
+  /// path, and the mission with what it was doing. Time limits do not count meanwhile. The emergency stop
+  /// ends a held mission as well.
   void Pause(Time now);
   void Resume(Time now);
   bool paused() const { return paused_since_.has_value(); }
 
-  /// A mission whose robot falls silent when it is under way ends after `seconds`, or after its own silent_s if
-  /// that is longer: meanwhile the robot drives as far as its path leads, and the mission goes on when it is
-  /// heard again. Time limits do not count meanwhile. Without a call, silent_s ends it.
+  /// A mission whose robot falls silent when it is under way ends after `seconds`, or after its own silent_s
+  /// if that is longer: meanwhile the robot drives as far as its path leads, and the mission goes on when it
+  /// is heard again. Time limits do not count meanwhile. Without a call, silent_s ends it.
   void TolerateSilence(double seconds) { blackout_s_ = seconds; }
   /// How long the robot of the mission under way has been silent, when that is longer than its silent_s.
   std::optional<double> Silence_s(Time now) const;

@@ -17,13 +17,15 @@ Eigen::Vector2d Begin(const PathOrder& path, const Pose2& start, std::size_t lin
 
 double DistanceToLine(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& place) {
   const Eigen::Vector2d along = to - from;
-  const double part = along.squaredNorm() > 0 ? std::clamp((place - from).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
+  const double part =
+      along.squaredNorm() > 0 ? std::clamp((place - from).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
   return (from + part * along - place).norm();
 }
 
 }  // namespace
 
-PathOrder RemainderOf(const PathOrder& path, const Pose2& start, double remaining_m, const Pose2& map_from_base) {
+PathOrder RemainderOf(const PathOrder& path, const Pose2& start, double remaining_m,
+                      const Pose2& map_from_base) {
   std::size_t nearest = path.points.empty() ? 0 : path.points.size() - 1;
   double nearest_m = std::numeric_limits<double>::infinity(), after_m = 0;
   // From the end of the path to the line that the robot was on when it reported last.

@@ -32,7 +32,8 @@ class PoseKeeper {
   /// One time step: takes the answers to looks, and asks for the next one when it is needed.
   void Step(MissionControl& control);
 
-  /// The door to look at from a pose, from its front or from behind (FromBehind()); nullptr when none is in sight.
+  /// The door to look at from a pose, from its front or from behind (FromBehind()); nullptr when none is in
+  /// sight.
   const DoorPlan* DoorInSight(const Pose2& map_from_base) const;
 
  private:

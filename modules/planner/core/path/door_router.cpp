@@ -21,9 +21,11 @@ constexpr std::size_t kNone = std::size_t(-1);
 }  // namespace
 
 void DoorRouterConfig::Describe(Archive& a) {
-  a.Number("before_m", before_m, {"m", 1, 10, "place on a door's axis from which it is passed, if there is room"});
+  a.Number("before_m", before_m,
+           {"m", 1, 10, "place on a door's axis from which it is passed, if there is room"});
   a.Number("slant_deg", slant_deg, {"deg", 0, 60, "aside of a door's axis from where it is passed at once"});
-  a.Number("turned_deg", turned_deg, {"deg", 0, 90, "turned to a door's axis with which it is passed at once"});
+  a.Number("turned_deg", turned_deg,
+           {"deg", 0, 90, "turned to a door's axis with which it is passed at once"});
   a.Number("door_costs_m", door_costs_m, {"m", 0, 1000, "a door costs as much as so long a detour"});
 }
 
@@ -43,13 +45,12 @@ DoorRouter::DoorRouter(const DoorRouterConfig& config, const RoutePlannerConfig&
 }
 
 void DoorRouter::AddPassage(const DoorPlan& door, int door_id) {
-  Passage passage{door, door_id, std::nullopt, "", door.map_from_door() * Pose2{goal_m_, 0, 0}};
+  Passage passage{door, door_id, std::nullopt, door.map_from_door() * Pose2{goal_m_, 0, 0}};
   if (const auto refusal = passage_.CheckDoor(door)) {
-    passage.why_not = refusal->reason;
+    closed_.push_back(refusal->reason);
   } else if (!(passage.before = PlaceBefore(door))) {
-    passage.why_not = fmt::format("there is no room to stand before door '{}'", door.name);
+    closed_.push_back(fmt::format("there is no room to stand before door '{}'", door.name));
   }
-  if (!passage.before) closed_.push_back(passage.why_not);
   passages_.push_back(std::move(passage));
 }
 
@@ -121,7 +122,8 @@ class DoorRouter::Search {
   };
 
   void OfferFromStart() {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) Offer(i, kNone, 0, router_.LengthTo(router_.passages_[i], start_));
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      Offer(i, kNone, 0, router_.LengthTo(router_.passages_[i], start_));
   }
   void Offer(std::size_t node, std::size_t from, double cost_m, std::optional<double> to_door_m) {
     if (!to_door_m) return;
@@ -173,8 +175,8 @@ Outcome<std::vector<Leg>> DoorRouter::Plan(const Pose2& map_from_start, const Go
   std::vector<Leg> legs = Search(*this, map_from_start, goal).Run();
   if (!legs.empty()) return legs;
   if (closed_.empty()) return Refusal{route_.Plan(map_from_start, goal).reason()};
-  return Refusal{fmt::format("no way leads to ({:.2f}, {:.2f}): {}", goal.map_from_base.x, goal.map_from_base.y,
-                             fmt::join(closed_, "; "))};
+  return Refusal{fmt::format("no way leads to ({:.2f}, {:.2f}): {}", goal.map_from_base.x,
+                             goal.map_from_base.y, fmt::join(closed_, "; "))};
 }
 
 std::vector<Leg> DoorRouter::PlanThrough(const Pose2& map_from_start, int door_id) {

@@ -25,10 +25,10 @@ struct Leg {
 
 /// How a way through doors is made.
 struct DoorRouterConfig {
-  double before_m = 2.5;       ///< place on a door's axis from which it is passed, if there is room ...
-  double slant_deg = 27;       ///< ... unless the base stands before the door already, no more aside of its axis
-  double turned_deg = 45;      ///< ... and no more turned than this
-  double door_costs_m = 10;    ///< a door costs as much as so long a detour
+  double before_m = 2.5;   ///< place on a door's axis from which it is passed, if there is room ...
+  double slant_deg = 27;   ///< ... unless the base stands before the door already, no more aside of its axis
+  double turned_deg = 45;  ///< ... and no more turned than this
+  double door_costs_m = 10;  ///< a door costs as much as so long a detour
 
   void Describe(Archive& a);
 };
@@ -39,13 +39,13 @@ struct DoorRouterConfig {
 /// between doors are kept, since the plan does not change.
 class DoorRouter {
  public:
-  DoorRouter(const DoorRouterConfig& config, const RoutePlannerConfig& route, const DoorPlannerConfig& passage,
-             const Footprint& footprint, const GroundPlan& plan);
+  DoorRouter(const DoorRouterConfig& config, const RoutePlannerConfig& route,
+             const DoorPlannerConfig& passage, const Footprint& footprint, const GroundPlan& plan);
 
   /// The legs to a goal, at least one: the last one ends there. Refuses with the reason.
   Outcome<std::vector<Leg>> Plan(const Pose2& map_from_start, const Goal& goal);
-  /// The legs to a door and through it, from the side to which the way is shorter. They may be the door alone,
-  /// although it cannot be passed from there: why not is the door mission's to say.
+  /// The legs to a door and through it, from the side to which the way is shorter. They may be the door
+  /// alone, although it cannot be passed from there: why not is the door mission's to say.
   std::vector<Leg> PlanThrough(const Pose2& map_from_start, int door_id);
   /// Name of a door of the plan; its number when there is none.
   std::string NameOf(int door_id) const;
@@ -55,9 +55,8 @@ class DoorRouter {
   struct Passage {
     DoorPlan door;                ///< as seen from that side
     int door_id = 0;              ///< in the plan
-    std::optional<Pose2> before;  ///< where its passage begins; nullopt: `why_not`
-    std::string why_not;
-    Pose2 behind;  ///< where it ends
+    std::optional<Pose2> before;  ///< where its passage begins; nullopt: it cannot be passed from there
+    Pose2 behind;                 ///< where it ends
   };
   class Search;
 

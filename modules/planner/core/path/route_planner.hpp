@@ -37,7 +37,9 @@ class RoutePlanner {
   /// The same without a reason, which may take longer to find than a path.
   std::optional<PlannedPath> FindPath(const Pose2& map_from_start, const Goal& goal) const;
   /// Whether the base may stand there.
-  bool IsFree(const Pose2& map_from_base) const { return space_.DistanceAt(map_from_base) >= config_.least_margin_m; }
+  bool IsFree(const Pose2& map_from_base) const {
+    return space_.DistanceAt(map_from_base) >= config_.least_margin_m;
+  }
   /// Why no route can begin or end there, whatever lies between.
   std::optional<Refusal> CheckEnds(const Pose2& start, const Goal& goal) const;
 

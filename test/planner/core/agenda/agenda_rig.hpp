@@ -29,7 +29,8 @@ struct AgendaRig {
       : router(DoorRouterConfig{}, RoutePlannerConfig{}, DoorPlannerConfig{}, Footprint{}, plan),
         dut(missions, router, {kGo, kPass}, {0.3, 0.3}, config),
         robot(missions, truth) {
-    missions.Add(kPass, std::make_unique<DoorMission>(DoorMissionConfig{}, DoorPlannerConfig{}, Footprint{}, plan));
+    missions.Add(kPass,
+                 std::make_unique<DoorMission>(DoorMissionConfig{}, DoorPlannerConfig{}, Footprint{}, plan));
     missions.Add(kGo, std::make_unique<GotoMission>(GotoMissionConfig{}, Footprint{}, plan));
     robot.tick = [this](Time now) { return dut.Tick(now); };
     robot.running = [this] { return dut.running(); };
@@ -44,7 +45,8 @@ struct AgendaRig {
     for (const Time end = robot.now() + FromSeconds(seconds); robot.now() < end;) robot.Step();
   }
   void RunUntilStep(int step, double limit_s = 200) {
-    for (const Time end = robot.now() + FromSeconds(limit_s); robot.now() < end && dut.step() != step;) robot.Step();
+    for (const Time end = robot.now() + FromSeconds(limit_s); robot.now() < end && dut.step() != step;)
+      robot.Step();
   }
   const AgendaResult& last() const { return dut.results().back(); }
 

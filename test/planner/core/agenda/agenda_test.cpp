@@ -85,7 +85,8 @@ TEST(Agenda, APatrolGoesOnUntilItIsCancelled) {
 
 TEST(Agenda, ACancelledOrderMakesRoomForTheNextOne) {
   AgendaRig rig;
-  const int first = rig.Order({Go(4, 2.4)}), second = rig.Order({Go(3, 2.4)}), third = rig.Order({Go(1.5, 2.4)});
+  const int first = rig.Order({Go(4, 2.4)}), second = rig.Order({Go(3, 2.4)}),
+            third = rig.Order({Go(1.5, 2.4)});
   rig.StepFor(3);
   EXPECT_TRUE(rig.dut.Cancel(second));
   EXPECT_TRUE(rig.dut.Cancel(first));
@@ -179,7 +180,8 @@ RC_GTEST_PROP(Agenda, EveryOrderEndsOnce, ()) {
     switch (*rc::gen::inRange(0, 7)) {
       case 0:
       case 1:
-        given.push_back(rig.Order({Stand(*rc::gen::inRange(0, 4)), Go(1.5 + *rc::gen::inRange(0, 30) / 10.0, 2.4)}));
+        given.push_back(
+            rig.Order({Stand(*rc::gen::inRange(0, 4)), Go(1.5 + *rc::gen::inRange(0, 30) / 10.0, 2.4)}));
         break;
       case 2:
         given.push_back(rig.Order({Stand(*rc::gen::inRange(0, 4))}, *rc::gen::inRange(1, 3)));

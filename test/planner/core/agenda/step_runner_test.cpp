@@ -48,7 +48,8 @@ TEST(StepRunner, ADoorWithoutALandmarkBehindIsRefusedFromThereInWords) {
   rig.robot.RunFor(20);
   EXPECT_EQ(rig.dut.state().phase, Phase::kFailed);
   EXPECT_EQ(rig.dut.state().text,
-            "the robot is 2.60 m behind door 'laboratory', and the map has no landmark there; next: give the door a "
+            "the robot is 2.60 m behind door 'laboratory', and the map has no landmark there; next: give the "
+            "door a "
             "behind_id");
   EXPECT_TRUE(rig.robot.paths.empty() || rig.robot.paths.back().points.empty());
 }
@@ -158,7 +159,8 @@ TEST(StepRunner, AnEmergencyStopEndsAPausedMission) {
   rig.robot.RunUntilX(3);
   rig.dut.Pause(rig.robot.now());
   rig.StepFor(1);
-  rig.missions.OnDrive({.mode = DriveMode::kHolding, .limit = "", .estop = true, .estop_changes = 1}, rig.robot.now());
+  rig.missions.OnDrive({.mode = DriveMode::kHolding, .limit = "", .estop = true, .estop_changes = 1},
+                       rig.robot.now());
   rig.dut.Tick(rig.robot.now());
   EXPECT_FALSE(rig.dut.running());
   EXPECT_THAT(rig.dut.state().text, HasSubstr("the emergency stop is latched"));

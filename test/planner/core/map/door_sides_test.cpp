@@ -47,7 +47,8 @@ TEST(DoorSides, BothLandmarksDescribeOneDoor) {
   const DoorPlan door = ADoor();
   const Landmark front = MakeDoorLandmark(door), behind = MakeDoorLandmarkFromBehind(door);
   EXPECT_EQ(behind.id, 103);
-  // The arris of the stop is one and the same, seen from both sides, and what is left in one is right in the other.
+  // The arris of the stop is one and the same, seen from both sides, and what is left in one is right in the
+  // other.
   const auto of_stop = [&](const LandmarkEdge& e) { return std::abs(e.from.x() - door.StopX()) < 1e-9; };
   const auto seen = std::find_if(front.edges.begin(), front.edges.end(), of_stop);
   ASSERT_NE(seen, front.edges.end());
@@ -74,8 +75,9 @@ TEST(DoorSides, FromBehindThreeEdgesPerSideAreSeenFromThereAndNoneFromTheFront) 
 TEST(DoorSides, TheStopHidesBehindItsOwnRebate) {
   const Landmark dut = MakeDoorLandmarkFromBehind(ADoor());
   const auto left = [&](const Eigen::Vector2d& viewer) {
-    return std::count_if(dut.edges.begin(), dut.edges.end(),
-                         [&](const LandmarkEdge& e) { return e.side == Side::kLeft && IsVisible(e, viewer); });
+    return std::count_if(dut.edges.begin(), dut.edges.end(), [&](const LandmarkEdge& e) {
+      return e.side == Side::kLeft && IsVisible(e, viewer);
+    });
   };
   EXPECT_EQ(left({-2.5, 1.5}), 2);
   EXPECT_EQ(left({-2.5, -1.5}), 3);

@@ -48,7 +48,8 @@ RC_GTEST_PROP(PathRemainder, FromAnyPlaceOnAPathTheRestIsAheadOfIt, ()) {
   const std::vector<Pose2> after(points.begin() + std::ptrdiff_t(on), points.end());
   const double remaining_m = LengthOf(robot, after);
   // The report is up to a second old.
-  const PathOrder left = RemainderOf(Path(points), start, remaining_m + *rc::gen::inRange(0, 30) / 100.0, robot);
+  const PathOrder left =
+      RemainderOf(Path(points), start, remaining_m + *rc::gen::inRange(0, 30) / 100.0, robot);
   RC_ASSERT(!left.points.empty());
   RC_ASSERT(left.points.back().translation() == points.back().translation());
   // It stands on the line to the first point that is left, and what is left is not much longer or shorter.

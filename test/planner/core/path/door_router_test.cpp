@@ -146,14 +146,16 @@ TEST(DoorRouter, ADoorIsReachedFromBesideIt) {
   EXPECT_EQ(Kinds(dut.PlanThrough({2.0, 2.4, 0}, 9)), std::vector<int>{9}) << "for the mission to refuse";
 }
 
-/// Wherever it starts and ends: the legs join, each drive can be planned, and each door is passed from the side
-/// where the base is. Nothing but a place in or right beside a doorway is out of reach.
+/// Wherever it starts and ends: the legs join, each drive can be planned, and each door is passed from the
+/// side where the base is. Nothing but a place in or right beside a doorway is out of reach.
 TEST(DoorRouter, LegsJoin) {
   const GroundPlan plan = ThreeRooms();
   auto dut = RouterFor(plan);
   const RoutePlanner route(RoutePlannerConfig{}, Footprint{}, plan);
   Rng random(5);
-  const auto pose = [&] { return Pose2{random.Uniform(0.8, 17.2), random.Uniform(0.8, 4.2), random.Uniform(-3, 3)}; };
+  const auto pose = [&] {
+    return Pose2{random.Uniform(0.8, 17.2), random.Uniform(0.8, 4.2), random.Uniform(-3, 3)};
+  };
   const auto at_a_doorway = [](const Pose2& p) { return std::abs(std::remainder(p.x, 6.0)) < 0.9; };
   for (int n = 0; n < 12;) {
     const Pose2 start = pose(), goal = pose();
