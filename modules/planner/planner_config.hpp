@@ -3,10 +3,12 @@
 #include <string>
 
 #include "common/archive.hpp"
+#include "planner/core/agenda/step_runner.hpp"
 #include "planner/core/map/learned_map.hpp"
 #include "planner/core/missions/door_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
 #include "planner/core/path/door_planner.hpp"
+#include "planner/core/path/door_router.hpp"
 #include "planner/core/path/footprint.hpp"
 
 namespace priamos::planner {
@@ -22,6 +24,8 @@ struct PlannerConfig {
   DoorMissionConfig mission;
   GotoMissionConfig go;
   LearnedMapConfig learned;
+  DoorRouterConfig doors;
+  StepRunnerConfig steps;
 
   void Describe(Archive& a);
 };

@@ -11,4 +11,10 @@ namespace priamos::planner {
 /// edges follow as a movable part, as far as they are seen past the frame; of a closed leaf nothing is.
 Landmark MakeDoorLandmark(const DoorPlan& door);
 
+/// The skeleton of the same door, as drawn for its approach side, for a viewer who comes from behind: per
+/// side the edge of its frame, the arris of the rebate and that of the stop, and the same three above. The
+/// landmark is that of FromBehind(door): x points back through the opening. An open leaf hides the first one
+/// of its own side. `door.behind_id` is its number.
+Landmark MakeDoorLandmarkFromBehind(const DoorPlan& door);
+
 }  // namespace priamos::planner

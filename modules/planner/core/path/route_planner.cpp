@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planner/core/path/route_search.hpp"
 
@@ -93,7 +94,7 @@ void RoutePlanner::Rebuild() {
     for (const NamedObstacle& obstacle : *obstacles) space_.Add(obstacle.name, obstacle.shape);
 }
 
-bool RoutePlanner::IsFree(const Pose2& map_from_start, const std::vector<Pose2>& points) const {
+bool RoutePlanner::AreFree(const Pose2& map_from_start, const std::vector<Pose2>& points) const {
   constexpr double kTouching_m = 0.01;
   Pose2 from = map_from_start;
   for (const Pose2& to : points) {
@@ -105,6 +106,12 @@ bool RoutePlanner::IsFree(const Pose2& map_from_start, const std::vector<Pose2>&
 
 Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal& goal) const {
   if (const auto refusal = CheckEnds(map_from_start, goal)) return *refusal;
+  if (auto path = FindPath(map_from_start, goal)) return std::move(*path);
+  return NoWay(map_from_start, goal);
+}
+
+std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, const Goal& goal) const {
+  if (CheckEnds(map_from_start, goal)) return std::nullopt;
   const double start_gap_m = space_.At(map_from_start).distance_m;
   const double goal_gap_m = goal.turn ? space_.At(goal.map_from_base).distance_m : config_.easy_margin_m;
   for (const double wanted_m : {config_.easy_margin_m, config_.least_margin_m}) {
@@ -118,7 +125,7 @@ Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal&
     const double lines_m = std::max(std::min(margin_m, config_.least_margin_m), kLines * margin_m);
     if (route) return PathAlong(map_from_start, Straightened(*route, lines_m));
   }
-  return NoWay(map_from_start, goal);
+  return std::nullopt;
 }
 
 std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& goal) const {
