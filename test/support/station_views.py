@@ -95,7 +95,7 @@ def plots(browser):
 def values(browser):
     """The parameters of a process of the robot, with unit and range."""
     browser.click("show-values")
-    table = "document.querySelector('.values').innerText"
+    table = "(document.querySelector('.values')?.innerText ?? '')"
     report("parameters are shown", wait_for(lambda: "beat_hz" in browser.run(table), 12))
     browser.run("(() => { const s = document.querySelector('#view-values select'); s.value = 'robot'; s.dispatchEvent(new Event('change')); })()")
     report("of every process", wait_for(lambda: "rad/s" in browser.run(table), 5))

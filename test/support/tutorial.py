@@ -40,7 +40,7 @@ class Reader:
         return wait_for(lambda: "errorText" not in self.browser.call("Page.navigate", url=url), 10)
 
     def do_wait(self, element, words, seconds):
-        return wait_for(lambda: words in (self.browser.text(element) or ""), float(seconds))
+        return wait_for(lambda: any(w in (self.browser.text(element) or "") for w in words.split("|")), float(seconds))
 
     def do_click(self, element):
         there = self.browser.run(f"(() => {{ const e = document.getElementById('{element}'); return e !== null && !e.disabled; }})()")
@@ -83,7 +83,7 @@ class Reader:
         return True
 
     def do_picture(self, name):
-        self.browser.picture(f"{FOLDER}/{name}.png")
+        self.browser.picture(f"{FOLDER}/{name}.jpg")
         return True
 
     def end(self):
@@ -97,7 +97,7 @@ class Reader:
 def main():
     text = open(TUTORIAL, encoding="utf-8").read()
     reader = Reader()
-    pictures = set(re.findall(r"\(tutorial/(\w+)\.png\)", text))
+    pictures = set(re.findall(r"\(tutorial/(\w+)\.jpg\)", text))
     taken = set(re.findall(r"picture (\w+)", text))
     try:
         for command, steps in re.findall(r"```sh\n(.*?)\n```|<!-- test: (.*?) -->", text, re.S):

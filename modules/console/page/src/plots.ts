@@ -47,6 +47,7 @@ class Plots implements View {
     right.append(tools, this.charts);
     element.classList.add("plots");
     element.append(this.list.element, right);
+    page.store.each((item, valid_s) => this.hear(item, valid_s));
     this.addChart();
     this.label();
   }
@@ -93,7 +94,8 @@ class Plots implements View {
 
   private frame(chart: Chart): Frame {
     const to = this.pausedAt ?? this.page.now();
-    const frame: Frame = { from: to - Number(this.span.value), to, cursor: undefined, unit: this.commonUnit(chart) };
+    const frame: Frame = { from: to - Number(this.span.value), to, cursor: undefined, unit: this.commonUnit(chart),
+      hint: chart.series.length === 0 ? this.page.text("chartHint") : "" };
     if (this.cursor?.chart === chart) frame.cursor = chart.timeAt(this.cursor.u, frame);
     return frame;
   }

@@ -33,6 +33,11 @@ export class Store {
     return found;
   }
 
+  /** Everything that is known, with the moment it speaks of. */
+  each(act: (item: Item, valid_s: number) => void): void {
+    for (const { item, valid_s } of this.kept.values()) act(item, valid_s);
+  }
+
   /** When a message would be as old as it is now [s]. */
   validTime(item: Item): number {
     return this.clock() - item.age_s;
