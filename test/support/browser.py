@@ -90,9 +90,8 @@ class Browser:
         self.call("Input.dispatchMouseEvent", type=action, x=x, y=y, button="left", clickCount=1)
 
     def picture(self, file):
-        kind = {"format": "jpeg", "quality": 75} if file.endswith(".jpg") else {"format": "png"}
         with open(file, "wb") as out:
-            out.write(base64.b64decode(self.call("Page.captureScreenshot", **kind)["data"]))
+            out.write(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
 
     def bytes_of(self, element):
         """Bytes of a PNG of that element: next to none when it is empty."""

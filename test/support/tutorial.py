@@ -83,7 +83,7 @@ class Reader:
         return True
 
     def do_picture(self, name):
-        self.browser.picture(f"{FOLDER}/{name}.jpg")
+        self.browser.picture(f"{FOLDER}/{name}.png")
         return True
 
     def end(self):
@@ -97,7 +97,7 @@ class Reader:
 def main():
     text = open(TUTORIAL, encoding="utf-8").read()
     reader = Reader()
-    pictures = set(re.findall(r"\(tutorial/(\w+)\.jpg\)", text))
+    pictures = set(re.findall(r"\(tutorial/(\w+)\.png\)", text))
     taken = set(re.findall(r"picture (\w+)", text))
     try:
         for command, steps in re.findall(r"```sh\n(.*?)\n```|<!-- test: (.*?) -->", text, re.S):

@@ -25,12 +25,9 @@ export class Store {
     return this.kept.get(key)?.item.message as T | undefined;
   }
 
-  /** The newest message of a channel that keeps one or several. */
-  newest(channel: string): Kept | undefined {
-    let found: Kept | undefined;
-    for (const kept of this.kept.values())
-      if (kept.item.channel === channel && (found === undefined || kept.valid_s > found.valid_s)) found = kept;
-    return found;
+  /** The newest message of a key. */
+  newest(key: string): Kept | undefined {
+    return this.kept.get(key);
   }
 
   /** Everything that is known, with the moment it speaks of. */
