@@ -40,7 +40,7 @@ class Reader:
         return wait_for(lambda: "errorText" not in self.browser.call("Page.navigate", url=url), 10)
 
     def do_wait(self, element, words, seconds):
-        return wait_for(lambda: words in (self.browser.text(element) or ""), float(seconds))
+        return wait_for(lambda: any(w in (self.browser.text(element) or "") for w in words.split("|")), float(seconds))
 
     def do_click(self, element):
         there = self.browser.run(f"(() => {{ const e = document.getElementById('{element}'); return e !== null && !e.disabled; }})()")

@@ -82,6 +82,18 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
   EXPECT_GT(std::filesystem::file_size(views + "/mission.png"), 20'000u);
 }
 
+TEST_F(Station, TheTutorialIsDoneStepByStep) {
+  const std::string views = PRIAMOS_BINARY_DIR "/station-views/tutorial";
+  std::filesystem::create_directories(views);
+  const auto answer = RunScript("VIEWS=" + views + R"sh(
+    up; mkdir $LOGS.work; cd $LOGS.work; ln -s $SOURCE/config config
+    PATH=$BIN:$PATH PRIAMOS_LOGS=$LOGS python3 $SOURCE/test/support/tutorial.py $SOURCE/modules/console/TUTORIAL.md $VIEWS
+    down
+  )sh",
+                                240);
+  EXPECT_THAT(answer.text, ContainsRegex("steps: [0-9]+, failed: \\[\\], pictures without a step: \\[\\]"));
+}
+
 TEST_F(Station, ShowsALogInABrowser) {
   const std::string views = PRIAMOS_BINARY_DIR "/station-views";
   std::filesystem::create_directories(views);

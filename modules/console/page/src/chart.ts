@@ -7,7 +7,7 @@ const LEFT = 58, RIGHT = 8, TOP = 8, BOTTOM = 22;
 const COLOURS = 6;
 const SILENCE_S = 5, DOT_EVERY_PX = 10;
 
-export interface Frame { from: number; to: number; cursor: number | undefined; unit: string }  // s
+export interface Frame { from: number; to: number; cursor: number | undefined; unit: string; hint: string }  // s
 
 export function lineColour(index: number): string {
   return colour(`line-${index % COLOURS + 1}`);
@@ -42,6 +42,8 @@ export class Chart {
     const y = (v: number): number => bottom - (v - low) / (high - low) * (bottom - TOP);
     this.drawValues(low, high, y, right, frame.unit);
     this.drawTimes(frame, x, bottom);
+    this.context.font = "15px system-ui, sans-serif";
+    this.context.fillText(frame.hint, (LEFT + right) / 2, bottom / 2, right - LEFT);
     this.context.save();
     this.context.beginPath();
     this.context.rect(LEFT, 0, right - LEFT, bottom + 1);

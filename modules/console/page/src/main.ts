@@ -154,6 +154,7 @@ function bindSwitches(): void {
 }
 
 function drawFrame(): void {
+  plan.remember();
   if (views.isShown("plan")) plan.draw();
   views.draw();
   hand.draw();

@@ -15,6 +15,11 @@ export function open(element: HTMLElement, page: PageServices): View {
   return new Plots(element, page);
 }
 
+/** What is one line: a channel, or one of several processes or radios that speak on it. Alarms are one after the other. */
+function nameOf(item: Item): string {
+  return item.channel === "ALARM" ? item.channel : item.key;
+}
+
 interface Panel { chart: Chart; root: HTMLElement; legend: HTMLElement }
 
 class Plots implements View {
@@ -47,6 +52,7 @@ class Plots implements View {
     right.append(tools, this.charts);
     element.classList.add("plots");
     element.append(this.list.element, right);
+    page.store.each((item, valid_s) => this.hear(item, valid_s));
     this.addChart();
     this.label();
   }
@@ -56,11 +62,12 @@ class Plots implements View {
   }
 
   hear(item: Item, valid_s: number): void {
-    this.types.set(item.channel, item.type);
-    this.list.hear(item.channel, item.message as Json);
+    const name = nameOf(item);
+    this.types.set(name, item.type);
+    this.list.hear(name, item.message as Json);
     for (const { chart } of this.panels)
       for (const series of chart.series) {
-        if (series.channel !== item.channel) continue;
+        if (series.channel !== name) continue;
         const value = numberAt(item.message as Json, series.path);
         if (value !== undefined) series.add(valid_s, value);
       }
@@ -93,7 +100,8 @@ class Plots implements View {
 
   private frame(chart: Chart): Frame {
     const to = this.pausedAt ?? this.page.now();
-    const frame: Frame = { from: to - Number(this.span.value), to, cursor: undefined, unit: this.commonUnit(chart) };
+    const frame: Frame = { from: to - Number(this.span.value), to, cursor: undefined, unit: this.commonUnit(chart),
+      hint: chart.series.length === 0 ? this.page.text("chartHint") : "" };
     if (this.cursor?.chart === chart) frame.cursor = chart.timeAt(this.cursor.u, frame);
     return frame;
   }
@@ -145,8 +153,8 @@ class Plots implements View {
 
   private drop(event: DragEvent, panel: Panel): void {
     event.preventDefault();
-    const [channel, path] = (event.dataTransfer?.getData("text/plain") ?? "").split(" ");
-    if (channel !== undefined && path !== undefined) this.add(this.panels.indexOf(panel), channel, path);
+    const words = /^(.+) (\S+)$/.exec(event.dataTransfer?.getData("text/plain") ?? "");
+    if (words?.[1] !== undefined && words[2] !== undefined) this.add(this.panels.indexOf(panel), words[1], words[2]);
   }
 
   private add(index: number, channel: string, path: string): void {

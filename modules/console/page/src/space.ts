@@ -37,8 +37,7 @@ class Space implements View {
     } catch {
       this.labels.push(() => setText(this.tools, page.text("noSpace")));
     }
-    for (const channel of ["LANDMARK_MODEL", "POSE"])
-      for (const item of page.store.all(channel)) this.hear(item, page.store.validTime(item));
+    page.store.each((item, valid_s) => this.hear(item, valid_s));
     this.fit();
     this.orbit.onUserMove = () => { this.follow.checked = false; };
     this.label();

@@ -25,12 +25,14 @@ export class Store {
     return this.kept.get(key)?.item.message as T | undefined;
   }
 
-  /** The newest message of a channel that keeps one or several. */
-  newest(channel: string): Kept | undefined {
-    let found: Kept | undefined;
-    for (const kept of this.kept.values())
-      if (kept.item.channel === channel && (found === undefined || kept.valid_s > found.valid_s)) found = kept;
-    return found;
+  /** The newest message of a key. */
+  newest(key: string): Kept | undefined {
+    return this.kept.get(key);
+  }
+
+  /** Everything that is known, with the moment it speaks of. */
+  each(act: (item: Item, valid_s: number) => void): void {
+    for (const { item, valid_s } of this.kept.values()) act(item, valid_s);
   }
 
   /** When a message would be as old as it is now [s]. */

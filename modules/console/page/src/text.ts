@@ -37,6 +37,7 @@ const WORDS = {
   allowed: ["allowed", "erlaubt"],
   meaning: ["meaning", "Bedeutung"],
   takeAway: ["take away", "entfernen:"],
+  chartHint: ["Choose numbers in the list.", "Werte in der Liste wählen."],
   chartHelp: [
     "Chart over time. Choose numbers in the list beside it, or drag them here.",
     "Diagramm über der Zeit. Werte in der Liste daneben wählen oder hierher ziehen."],

@@ -26,11 +26,14 @@ export interface View {
   label(): void;
 }
 
+const LEAST_FRAME_MS = 32;
+
 export type ViewName = "plan" | "space" | "plots" | "values";
 type Opener = (element: HTMLElement) => Promise<View>;
 
 export class Views {
   private current: ViewName = "plan";
+  private drawn_ms = 0;
   private readonly open = new Map<ViewName, View>();
   private readonly loading = new Set<ViewName>();
 
@@ -59,7 +62,11 @@ export class Views {
     for (const view of this.open.values()) act(view);
   }
 
+  /** At most 30 times a second: a machine that draws in software has other things to do. */
   draw(): void {
+    const now_ms = performance.now();
+    if (now_ms - this.drawn_ms < LEAST_FRAME_MS) return;
+    this.drawn_ms = now_ms;
     this.open.get(this.current)?.draw();
   }
 
