@@ -104,10 +104,12 @@ std::string DamagedLog(const std::filesystem::path& path, const Schema& schema) 
       log.Write(kNow_us + i, type->name, RandomMessage(*type, Values::kAny, rng, kNow_us));
     }
   }
+  std::vector<std::streamoff> begins;
+  for (LogReader reader(path.string()); const auto event = reader.Next();)
+    begins.push_back(static_cast<std::streamoff>(event->offset));
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-  const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path));
-  for (const std::streamoff at : {size / 3, size / 2}) {
-    file.seekp(at);
+  for (const std::size_t event : {std::size_t{20}, begins.size() / 2}) {
+    file.seekp(begins[event]);
     file.write("damage", 6);
   }
   return path;
