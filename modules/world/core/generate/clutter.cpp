@@ -93,8 +93,8 @@ void AddClutter(const Ground& ground, const Lane& lane, int count, Rng& rng, Wor
     BoxPlan box = table ? TableTop(rng) : Thing(rng);
     const double radius = RadiusOf(box);
     for (int k = 0; k < kTries; ++k) {
-      const Eigen::Vector2d at(rng.Uniform(ground.low.x(), ground.high.x()),
-                               rng.Uniform(ground.low.y(), ground.high.y()));
+      const Eigen::Vector2d at{rng.Uniform(ground.low.x(), ground.high.x()),
+                               rng.Uniform(ground.low.y(), ground.high.y())};
       const bool inside =
           ((at - ground.low).array() > radius).all() && ((ground.high - at).array() > radius).all();
       const bool free = std::all_of(world.boxes.begin(), world.boxes.end(), [&](const BoxPlan& other) {

@@ -64,7 +64,7 @@ class Building {
   void Rectangle(const std::string& name, const Vector2d& low, const Vector2d& high, bool west);
   void Door(SketchWall& wall, double along_m, bool to_left, double narrowest_m, bool to_pass);
   void SideDoors(SketchWall& wall, double from_m, double to_m, bool to_left);
-  void Walker(const Vector2d& from, const Vector2d& to);
+  void Walker(const std::vector<Vector2d>& waypoints);
   void Start(const Vector2d& at, double towards_deg);
   double CorridorSides(double length_m, double width_m, double first_door_m);
   GeneratedWorld Finish();
@@ -97,12 +97,17 @@ void Building::SideDoors(SketchWall& wall, double from_m, double to_m, bool to_l
     Door(wall, at, to_left, 0.8, false);
 }
 
-void Building::Walker(const Vector2d& from, const Vector2d& to) {
+/// Somebody who goes there and back; the ends are where they stand a while.
+void Building::Walker(const std::vector<Vector2d>& waypoints) {
   PersonPlan person;
   person.name = fmt::format("person {}", out_.world.people.size() + 1);
   person.speed_m_s = rng_.Uniform(0.5, 1.2);
   person.attentive = rng_.Chance(0.8);
-  person.waypoints = {{from.x(), from.y(), rng_.Uniform(0, 5), 2}, {to.x(), to.y(), rng_.Uniform(0, 5), 2}};
+  for (const Vector2d& at : waypoints) person.waypoints.push_back({at.x(), at.y(), 0, 0});
+  person.waypoints.front().pause_s = rng_.Uniform(0, 5);
+  person.waypoints.back().pause_s = rng_.Uniform(0, 5);
+  for (std::size_t i = waypoints.size() - 2; i > 0; --i)
+    person.waypoints.push_back({waypoints[i].x(), waypoints[i].y(), 0, 0});
   person.start_s = rng_.Uniform(0, 10);
   out_.world.people.push_back(person);
 }
@@ -136,8 +141,9 @@ GeneratedWorld Building::Room() {
   SketchWall& middle =
       Wall("middle", {near + kHalfWall_m, -kHalfWall_m}, {near + kHalfWall_m, depth + kHalfWall_m});
   Door(middle, door_y + kHalfWall_m, false, 0.88, true);
-  const Vector2d door(near, door_y),
-      start(near - rng_.Uniform(3, 4.3), std::clamp(door_y + rng_.Uniform(-0.8, 0.8), 0.95, depth - 0.95));
+  const Vector2d door(near, door_y);
+  const double before_m = rng_.Uniform(3, 4.3), beside_m = rng_.Uniform(-0.8, 0.8);
+  const Vector2d start(near - before_m, std::clamp(door_y + beside_m, 0.95, depth - 0.95));
   const Vector2d to_door = door - start;
   Start(start, Degrees(std::atan2(to_door.y(), to_door.x())) + rng_.Uniform(-15, 15));
   const Lane lane{{start, door - Vector2d(1.8, 0), door + Vector2d(2.2, 0)}, 0.85};
@@ -178,7 +184,7 @@ GeneratedWorld Building::Corridor() {
   AddClutter({{0.1, -width_m / 2 + 0.02}, {length_m - 0.1, width_m / 2 - 0.02}}, lane,
              static_cast<int>(length_m / 3), rng_, out_.world);
   const auto people = static_cast<int>(rng_.Below(3));
-  for (int i = 0; i < people; ++i) Walker({at + 1, lane_y}, {begin_m + 2, lane_y});
+  for (int i = 0; i < people; ++i) Walker({{at + 1, lane_y}, {begin_m + 2, lane_y}});
   return Finish();
 }
 
@@ -191,16 +197,18 @@ GeneratedWorld Building::Floor() {
   SketchWall& end = Wall("end", {x, -half}, {x, half});
   Door(end, door_y + half, false, 0.88, true);
   Rectangle("room", {x + kHalfWall_m, -half}, {x + kHalfWall_m + rng_.Uniform(3.5, 5), half}, false);
-  const Vector2d door(length_m, door_y),
-      start(length_m - rng_.Uniform(3, 4.3),
-            std::clamp(door_y + rng_.Uniform(-0.3, 0.3), -width_m / 2 + 0.75, width_m / 2 - 0.75));
+  const Vector2d door(length_m, door_y);
+  const double before_m = rng_.Uniform(3, 4.3), beside_m = rng_.Uniform(-0.3, 0.3);
+  const Vector2d start(length_m - before_m,
+                       std::clamp(door_y + beside_m, -width_m / 2 + 0.75, width_m / 2 - 0.75));
   Start(start, rng_.Uniform(-10, 10));
-  const Lane lane{{start - Vector2d(4, 0), door - Vector2d(1.5, 0), door + Vector2d(2.2, 0)}, 0.7};
+  const Vector2d junction(junction_m, start.y());
+  const Lane lane{{junction, start, door - Vector2d(1.5, 0), door + Vector2d(2.2, 0)}, 0.7};
   AddClutter({{0.1, -width_m / 2 + 0.02}, {length_m - 0.1, width_m / 2 - 0.02}}, lane,
              static_cast<int>(length_m / 3), rng_, out_.world);
   AddClutter({{x + 0.3, -half + 0.1}, {x + 3.4, half - 0.1}}, lane, static_cast<int>(rng_.Below(4)), rng_,
              out_.world);
-  if (rng_.Chance(0.5)) Walker({junction_m, 3}, start - Vector2d(3, 0));
+  if (rng_.Chance(0.5)) Walker({{junction_m, 3}, junction, start - Vector2d(3, 0)});
   return Finish();
 }
 

@@ -9,26 +9,31 @@ namespace priamos::world {
 namespace {
 
 constexpr double kDecide_s = 0.1, kLook_s = 1, kLeastLook_m = 0.4;
-constexpr double kOfRobot_m = 0.3, kOfWalls_m = 0.2;
+constexpr double kOfRobot_m = 0.45, kOfWalls_m = 0.2;
 constexpr std::array kTurns_deg{0, 25, -25, 50, -50, 75, -75};
 constexpr double kArrived_m = 0.15;
 constexpr double kGivesUp_s = 4, kTurnsBack_s = 2;
 constexpr double kDoubleStep_m = 1.4, kLegSwing_m = 0.15;
 /// A robot farther away than this from the middle of a body cannot be touched by it.
-constexpr double kReach_m = 0.5;
+constexpr double kReach_m = 0.7;
 
 struct BodyPart {
   const char* name;
-  double length_m, width_m, low_m, high_m, beside_m;
-  double swing_m;  ///< before and behind the body, at the height of the sonars
+  double length_m, width_m, low_m, high_m;
+  double ahead_m, beside_m;  ///< of the middle of the body
+  double swing_m;            ///< before and behind that while walking
 };
-constexpr std::array<BodyPart, kBodyParts> kParts{{{"left leg", 0.13, 0.13, 0, 0.80, 0.11, kLegSwing_m},
-                                                   {"right leg", 0.13, 0.13, 0, 0.80, -0.11, -kLegSwing_m},
-                                                   {"trunk", 0.24, 0.46, 0.80, 1.45, 0, 0},
-                                                   {"head", 0.20, 0.16, 1.45, 1.72, 0, 0}}};
+constexpr std::array<BodyPart, kBodyParts> kParts{
+    {{"left leg", 0.13, 0.13, 0.08, 0.80, 0, 0.11, kLegSwing_m},
+     {"right leg", 0.13, 0.13, 0.08, 0.80, 0, -0.11, -kLegSwing_m},
+     {"trunk", 0.24, 0.46, 0.80, 1.45, 0, 0, 0},
+     {"head", 0.20, 0.16, 1.45, 1.72, 0, 0, 0},
+     {"left foot", 0.26, 0.10, 0, 0.08, 0.04, 0.11, 2 * kLegSwing_m},
+     {"right foot", 0.26, 0.10, 0, 0.08, 0.04, -0.11, -2 * kLegSwing_m}}};
 
 Pose2 PoseOf(const BodyPart& part, const Posture& posture) {
-  return posture.map_from_person * Pose2{part.swing_m * std::sin(posture.phase_rad), part.beside_m, 0};
+  return posture.map_from_person *
+         Pose2{part.ahead_m + part.swing_m * std::sin(posture.phase_rad), part.beside_m, 0};
 }
 
 Posture Between(const Posture& a, const Posture& b, double part) {

@@ -18,8 +18,8 @@ struct Posture {
   double phase_rad = 0;  ///< 0: legs side by side
 };
 
-/// The parts of a body: two legs, a trunk, a head.
-inline constexpr std::size_t kBodyParts = 4;
+/// The parts of a body: two legs, a trunk, a head, two feet.
+inline constexpr std::size_t kBodyParts = 6;
 
 /// Solids of a person: a grown-up of 1.72 m (DIN 33402-2, median), shoulders 46 cm broad. Walking, the legs
 /// stand up to 30 cm apart at the height of the sonars, half of what the feet do.
@@ -34,7 +34,7 @@ struct Around {
 };
 
 /// A person who walks from waypoint to waypoint. Ten times a second an attentive person looks one second
-/// ahead: if the straight way comes nearer than 30 cm to the robot or 20 cm to a wall, the nearest of 25, 50
+/// ahead: if the straight way comes nearer than 45 cm to the robot or 20 cm to a wall, the nearest of 25, 50
 /// and 75 degrees to either side that does not is taken; if there is none, the person stands until there is,
 /// and after 4 s goes on to the next waypoint. An inattentive person sees walls only, walks into the robot,
 /// stands against it for 2 s, and turns back.

@@ -85,14 +85,22 @@ double Lighting::Enter(const Box& box, const Vector3d& origin, const Vector3d& d
   return Entry(turn(d), turn(direction), box.half, axis);
 }
 
-double Lighting::Hit(const Vector3d& origin, const Vector3d& direction, double max_m) const {
+double Lighting::Hit(const Boxes& boxes, const Vector3d& origin, const Vector3d& direction,
+                     double max_m) const {
   double nearest = max_m;
   int axis = 0;
-  for (const Box& box : boxes_) {
-    const double t = Enter(box, origin, direction, axis);
+  for (const Box* box : boxes) {
+    const double t = Enter(*box, origin, direction, axis);
     if (t > kSkin_m && t < nearest) nearest = t;
   }
   return nearest;
+}
+
+Lighting::Boxes Lighting::Within(const Vector3d& point, double reach_m) const {
+  Boxes near;
+  for (const Box& box : boxes_)
+    if ((box.centre - point).norm() - box.half.norm() <= reach_m) near.push_back(&box);
+  return near;
 }
 
 std::optional<FloorHit> Lighting::Floor(const Vector3d& origin, const Vector3d& direction) const {
@@ -102,7 +110,12 @@ std::optional<FloorHit> Lighting::Floor(const Vector3d& origin, const Vector3d& 
 }
 
 double Lighting::Distance(const Vector3d& origin, const Vector3d& direction, double max_m) const {
-  double nearest = Hit(origin, direction, max_m);
+  return Distance(Within(origin, max_m), origin, direction, max_m);
+}
+
+double Lighting::Distance(const Boxes& boxes, const Vector3d& origin, const Vector3d& direction,
+                          double max_m) const {
+  double nearest = Hit(boxes, origin, direction, max_m);
   if (const auto floor = Floor(origin, direction)) nearest = std::min(nearest, floor->distance_m);
   if (direction.z() > 1e-9) nearest = std::min(nearest, (config_.ceiling_m - origin.z()) / direction.z());
   return std::max(nearest, 0.0);
@@ -131,21 +144,23 @@ double Lighting::Ambient(const Vector3d& point, const Vector3d& normal) const {
   const Vector3d u =
       (std::abs(normal.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX()).cross(normal).normalized();
   const Vector3d v = normal.cross(u);
+  const Boxes near = Within(point, kAmbientReach_m);
   double open = 0;
   for (const Vector3d& d : kDirections) {
     const Vector3d direction = d.x() * u + d.y() * v + d.z() * normal;
-    open += std::min(Distance(point, direction, kAmbientReach_m) / kAmbientReach_m, 1.0);
+    open += std::min(Distance(near, point, direction, kAmbientReach_m) / kAmbientReach_m, 1.0);
   }
   return 0.25 + 0.75 * open / kAmbientRays;  // what hides the room still reflects some of its light
 }
 
 double Lighting::Lamps(const Vector3d& point, const Vector3d& normal) const {
+  const Boxes near = Within(point, kLampReach_m);
   double sum = 0;
   for (const Vector3d& lamp : lamps_) {
     const Vector3d to_lamp = lamp - point;
     const double distance = to_lamp.norm(), facing = normal.dot(to_lamp);
     if (distance > kLampReach_m || distance < 1e-6 || facing <= 0) continue;
-    if (Hit(point, to_lamp / distance, distance) < distance) continue;
+    if (Hit(near, point, to_lamp / distance, distance) < distance) continue;
     // A tube under a white ceiling is no point: its size keeps the light even close by, and it shines
     // sideways.
     const double soft = std::hypot(distance, kLampSize_m);

@@ -48,7 +48,13 @@ class Lighting {
                int& axis) const;
   /// Floor or hole, which a ray meets unless a solid is before it.
   std::optional<FloorHit> Floor(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
-  double Hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double max_m) const;
+  /// Those that a ray of `reach_m` from `point` can meet: most rays are short, and most boxes far away.
+  using Boxes = std::vector<const Box*>;
+  Boxes Within(const Eigen::Vector3d& point, double reach_m) const;
+  double Hit(const Boxes& boxes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+             double max_m) const;
+  double Distance(const Boxes& boxes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                  double max_m) const;
 
   SceneConfig config_;
   std::vector<Box> boxes_;

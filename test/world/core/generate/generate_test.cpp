@@ -10,6 +10,7 @@
 #include "common/config_printer.hpp"
 #include "world/core/base/contact.hpp"
 #include "world/core/scene/build_solids.hpp"
+#include "world/core/scene/outline.hpp"
 
 namespace priamos::world {
 namespace {
@@ -52,6 +53,22 @@ TEST_P(GenerateTest, TheWayFromTheStartIsFree) {
                            (map_from_door * Pose2{1.5, 0, 0}).translation()),
                 (door->opening_width_m - 0.78) / 2, 1e-6)
         << seed;
+  }
+}
+
+TEST_P(GenerateTest, PeopleHaveRoomWhereTheyStandAndNobodyStandsAtTheStart) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const GeneratedWorld dut = Generate(GetParam(), seed);
+    const auto solids = BuildSolids(dut.truth, dut.world, seed);
+    for (const PersonPlan& person : dut.world.people)
+      for (const PersonStop& stop : person.waypoints) {
+        for (const Solid& solid : solids)
+          if (Overlaps(solid, 0.15, 1.75)) {
+            EXPECT_GT(Distance(OutlineOf(solid), Eigen::Vector2d(stop.x_m, stop.y_m)), 0.25)
+                << solid.name << seed;
+          }
+        EXPECT_GT(std::hypot(stop.x_m - dut.world.start.x_m, stop.y_m - dut.world.start.y_m), 1) << seed;
+      }
   }
 }
 
