@@ -8,7 +8,7 @@
 namespace priamos::planner {
 namespace {
 
-constexpr std::size_t kMaxText = 200, kMaxTitle = 60;
+constexpr std::size_t kMaxText = 200, kMaxTitle = 60, kMaxResult = 120;
 constexpr double kMost_s = 360000;
 
 DriveMode ModeOf(int mode) {
@@ -79,7 +79,7 @@ mission_result_t ToMessage(const AgendaResult& result) {
   message.round = static_cast<std::int16_t>(result.round);
   message.outcome = OutcomeOf(result.end);
   message.took_s = std::min(result.took_s, kMost_s);
-  message.text = result.text.substr(0, kMaxText);
+  message.text = result.text.substr(0, kMaxResult);
   return message;
 }
 
@@ -109,7 +109,6 @@ AgendaOrder OrderIn(const mission_command_t& message) {
     step.y_m = message.y_m;
     step.yaw_rad = message.yaw_rad;
     step.turn = message.turn;
-    step.distance_m = message.distance_m;
     order.steps.push_back(FromMessage(step));
     return order;
   }

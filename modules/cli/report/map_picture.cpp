@@ -6,7 +6,7 @@
 
 #include "cli/report/report_plan_view.hpp"
 #include "common/drawing/legend.hpp"
-#include "planner/core/map/wall_gaps.hpp"
+#include "common/wall_gaps.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -49,7 +49,7 @@ void DrawWall(MapView& view, const LearnedWall& wall) {
   view.Line(kLearned, {wall.from(), wall.to()});
 }
 
-void DrawGap(MapView& view, const planner::WallGap& gap) {
+void DrawGap(MapView& view, const WallGap& gap) {
   const Pose2 map_from_gap{gap.x_m, gap.y_m, Radians(gap.yaw_deg)};
   view.Line(kGap,
             {map_from_gap * Vector2d(-gap.width_m / 2, 0), map_from_gap * Vector2d(gap.width_m / 2, 0)});
@@ -68,9 +68,8 @@ Drawing DrawMap(const GroundPlan& plan, const LearnedWalls& learned) {
   DrawFloor(view, extent);
   DrawPlan(view, plan, true);
   for (const LearnedWall& wall : learned.walls) DrawWall(view, wall);
-  for (const planner::WallGap& gap : planner::GapsOf(learned)) DrawGap(view, gap);
-  for (const planner::WallCorner& corner : planner::CornersOf(learned))
-    view.Dot(kCorner, {corner.x_m, corner.y_m}, 7);
+  for (const WallGap& gap : GapsOf(learned)) DrawGap(view, gap);
+  for (const WallCorner& corner : CornersOf(learned)) view.Dot(kCorner, {corner.x_m, corner.y_m}, 7);
   view.SetLabels();
   const double top = window.bottom() + kMargin;
   page.SetHeight(top + drawing::WriteLegend(page, kMargin, top, kInner, {kBodyFont, colours::kInk}) +

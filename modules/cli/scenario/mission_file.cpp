@@ -15,7 +15,7 @@
 namespace priamos::cli {
 namespace {
 
-constexpr std::size_t kMostSteps = 64, kLongestTitle = 60;
+constexpr std::size_t kMostSteps = 32, kLongestTitle = 60;
 
 /// Follows the steps on the plan, from place to place.
 class Rehearsal {
@@ -107,8 +107,8 @@ void MissionFileStep::Describe(Archive& a) {
     a.Require("wait_s", "how long");
     a.Number("wait_s", wait_s, {"s", 0, 36000, "how long the robot stands"});
   } else {
-    a.Integer("from", from, {"-", 1, 64, "the first of the steps before this one that are done again"});
-    a.Integer("times", times, {"-", 1, 64, "how often they are done again"});
+    a.Integer("from", from, {"-", 1, 32, "the first of the steps before this one that are done again"});
+    a.Integer("times", times, {"-", 1, 32, "how often they are done again"});
   }
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "cli/terminal/braille.hpp"
-#include "planner/core/map/wall_gaps.hpp"
+#include "common/wall_gaps.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -78,7 +78,7 @@ std::string MapTable(const LearnedWalls& learned, double now_s, std::optional<Sc
                fmt::format("{:.2f} m", wall.length_m), fmt::format("±{:.1f} cm", 100 * wall.sigma_across_m),
                fmt::format("±{:.1f}°", wall.sigma_yaw_deg), fmt::format("{}x", wall.sightings),
                Ago(now_s - wall.seen_s)});
-  for (const planner::WallGap& gap : planner::GapsOf(learned)) {
+  for (const WallGap& gap : GapsOf(learned)) {
     const Eigen::Vector2d middle(gap.x_m, gap.y_m),
         half =
             gap.width_m / 2 * Eigen::Vector2d(std::cos(Radians(gap.yaw_deg)), std::sin(Radians(gap.yaw_deg)));

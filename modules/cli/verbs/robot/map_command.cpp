@@ -20,8 +20,8 @@
 #include "common/config.hpp"
 #include "common/drawing/svg.hpp"
 #include "common/replace_file.hpp"
+#include "common/wall_gaps.hpp"
 #include "lcmtypes/channels.hpp"
-#include "planner/core/map/wall_gaps.hpp"
 #include "planner/planner_config.hpp"
 
 namespace priamos::cli {
@@ -86,7 +86,7 @@ void PrintJson(const Maps& maps) {
   json["walls"] = nlohmann::ordered_json::array();
   for (const LearnedWall& wall : maps.learned.walls) json["walls"].push_back(ToJson(wall));
   json["gaps"] = nlohmann::ordered_json::array();
-  for (const planner::WallGap& gap : planner::GapsOf(maps.learned))
+  for (const WallGap& gap : GapsOf(maps.learned))
     json["gaps"].push_back({{"walls", {gap.before, gap.behind}},
                             {"middle_m", {gap.x_m, gap.y_m}},
                             {"width_m", gap.width_m},

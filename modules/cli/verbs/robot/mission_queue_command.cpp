@@ -18,7 +18,7 @@ int RunFile(const MissionOptions& options) {
 }
 
 int Patrol(const MissionOptions& options) {
-  constexpr std::size_t kMostPlaces = 64;
+  constexpr std::size_t kMostPlaces = 32;
   const std::size_t n = options.places.size() / 2;
   if (options.places.size() % 2 != 0)
     throw ConfigError(fmt::format("expected x and y of each place, got {} numbers", options.places.size()));

@@ -18,10 +18,10 @@ namespace priamos::planner {
 class Agenda {
  public:
   /// More orders do not wait.
-  static constexpr std::size_t kMostWaiting = 16;
+  static constexpr std::size_t kMostWaiting = 8;
   /// So many ends are remembered.
-  static constexpr std::size_t kMostResults = 32;
-  static constexpr std::size_t kMostSteps = 64;
+  static constexpr std::size_t kMostResults = 3;
+  static constexpr std::size_t kMostSteps = 32;
 
   Agenda(MissionTable& missions, DoorRouter& router, const AgendaKinds& kinds, const AgendaSpeeds& speeds,
          const StepRunnerConfig& config);

@@ -71,11 +71,18 @@ std::optional<FeatureBatch> FeatureStore::Next(const Whereabouts& base, Time now
     if (IsDue(record, feature, now)) due.push_back({&record, feature});
   }
   if (due.empty()) return std::nullopt;
-  // First what was never told, then what was told longest ago.
+  // One place is for what grew most since it was told: that is what the base drives along. The others are for
+  // what was never told, or longest ago: everything has its turn.
+  const auto grown_m = [](const Due& d) {
+    return d.feature.length_m - (d.record->told ? d.record->told->length_m : 0);
+  };
   std::stable_sort(due.begin(), due.end(), [](const Due& a, const Due& b) {
     return std::tuple(a.record->told.has_value(), a.record->told_at) <
            std::tuple(b.record->told.has_value(), b.record->told_at);
   });
+  const auto most = std::max_element(due.begin(), due.end(),
+                                     [&](const Due& a, const Due& b) { return grown_m(a) < grown_m(b); });
+  std::rotate(due.begin(), most, most + 1);
   if (due.size() > kBatch) due.resize(kBatch);
   sent_ = now;
   batch_ = (batch_ + 1) % kBatches;

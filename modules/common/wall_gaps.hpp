@@ -4,7 +4,7 @@
 
 #include "common/learned_walls.hpp"
 
-namespace priamos::planner {
+namespace priamos {
 
 /// An opening in a straight wall: from the end of one learned wall to the beginning of the next.
 struct WallGap {
@@ -26,4 +26,4 @@ struct WallCorner {
 };
 std::vector<WallCorner> CornersOf(const LearnedWalls& walls);
 
-}  // namespace priamos::planner
+}  // namespace priamos

@@ -1,12 +1,9 @@
-#include "planner/core/map/wall_gaps.hpp"
+#include "common/wall_gaps.hpp"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
-#include "planner/core/map/wall_union.hpp"
-
-namespace priamos::planner {
+namespace priamos {
 namespace {
 
 constexpr double kLeast_m = 0.5, kMost_m = 3;
@@ -16,23 +13,20 @@ constexpr double kAcross_m = 0.15, kTurned_rad = Radians(8);
 constexpr double kLeastCorner_rad = Radians(30);
 constexpr double kNearCorner_m = 0.5;
 
-bool IsBehind(const LearnedWall& before, const LearnedWall& behind) {
-  return (before.map_from_wall().Inverse() * behind.map_from_wall()).x > 0;
-}
-
 std::optional<WallGap> GapBetween(const LearnedWall& before, const LearnedWall& behind) {
-  if (!IsBehind(before, behind)) return std::nullopt;
-  if (std::abs(WrapAngle(Radians(before.yaw_deg - behind.yaw_deg))) > kTurned_rad) return std::nullopt;
-  const WallOffset offset = OffsetOf(before, behind);
-  if (offset.gap_m < kLeast_m || offset.gap_m > kMost_m || std::abs(offset.across_m) > kAcross_m)
+  const Pose2 there = before.map_from_wall().Inverse() * behind.map_from_wall();
+  const double from_m = before.length_m / 2, to_m = there.x - behind.length_m / 2;
+  if (to_m - from_m < kLeast_m || to_m - from_m > kMost_m || std::abs(there.yaw) > kTurned_rad)
     return std::nullopt;
+  const double across_m = there.y + ((from_m + to_m) / 2 - there.x) * std::tan(there.yaw);
+  if (std::abs(across_m) > kAcross_m) return std::nullopt;
   const Eigen::Vector2d middle = (before.to() + behind.from()) / 2;
   return WallGap{before.id,
                  behind.id,
                  middle.x(),
                  middle.y(),
                  before.yaw_deg,
-                 offset.gap_m,
+                 to_m - from_m,
                  std::hypot(before.sigma_end_m, behind.sigma_end_m)};
 }
 
@@ -75,4 +69,4 @@ std::vector<WallCorner> CornersOf(const LearnedWalls& walls) {
   return corners;
 }
 
-}  // namespace priamos::planner
+}  // namespace priamos

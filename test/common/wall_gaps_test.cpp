@@ -1,12 +1,13 @@
-#include "planner/core/map/wall_gaps.hpp"
+#include "common/wall_gaps.hpp"
 
 #include <gmock/gmock.h>
 
 #include "test/planner/core/learned.hpp"
 
-namespace priamos::planner {
+namespace priamos {
 namespace {
 
+using planner::WallAt;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -59,4 +60,4 @@ TEST(CornersOf, WallsThatDoNotMeetMakeNone) {
 }
 
 }  // namespace
-}  // namespace priamos::planner
+}  // namespace priamos
