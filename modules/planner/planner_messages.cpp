@@ -9,6 +9,7 @@ namespace priamos::planner {
 namespace {
 
 constexpr std::size_t kMaxText = 200, kMaxTitle = 60, kMaxResult = 120;
+constexpr std::size_t kShownResults = 3;  ///< of the newest ends: a message has to fit a datagram
 constexpr double kMost_s = 360000;
 
 DriveMode ModeOf(int mode) {
@@ -231,7 +232,9 @@ mission_status_t StatusOf(const Agenda& agenda, Time now) {
     message.waiting.push_back(std::move(waiting));
   }
   message.n_waiting = static_cast<std::int8_t>(message.waiting.size());
-  for (const AgendaResult& result : agenda.results()) message.results.push_back(ToMessage(result));
+  const auto& results = agenda.results();
+  for (std::size_t i = results.size() - std::min(results.size(), kShownResults); i < results.size(); ++i)
+    message.results.push_back(ToMessage(results[i]));
   message.n_results = static_cast<std::int8_t>(message.results.size());
   return message;
 }

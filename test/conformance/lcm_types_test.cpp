@@ -149,8 +149,8 @@ TEST(LcmTypes, RefuseOutsideTheRangeOfAnEnumeration) {
                   "landmark_fix_t.side", "landmark_fix_t.verdict", "landmark_view_t.camera",
                   "landmark_view_t.side", "landmark_view_t.verdict", "lease_request_t.action",
                   "lease_request_t.driver", "look_request_t.side", "map_command_t.action",
-                  "mission_command_t.mission", "mission_status_t.mission", "mission_status_t.phase",
-                  "obstacle_line_t.verdict", "obstacle_segment_t.kind", "pose_correction_t.verdict",
+                  "mission_command_t.mission", "mission_result_t.outcome", "mission_status_t.mission",
+                  "mission_status_t.phase", "mission_step_t.mission", "obstacle_line_t.verdict", "obstacle_segment_t.kind", "pose_correction_t.verdict",
                   "probe_t.kind", "view_edge_t.kind"));
 }
 

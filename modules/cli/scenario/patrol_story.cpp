@@ -77,12 +77,13 @@ void PatrolStory::Hear(Time now) {
 /// Where the base truly is when the planner reports that a step is done.
 void PatrolStory::CheckPlaces(Time now) {
   const world_truth_t* truth = truth_.get();
-  for (; truth && !ended_ && n_places_ < order_->steps().size(); ++n_places_) {
-    const mission_result_t& result = order_->steps()[n_places_];
+  for (; truth && !ended_ && n_results_ < order_->steps().size(); ++n_results_) {
+    const mission_result_t& result = order_->steps()[n_results_];
     if (result.outcome != mission_result_t::DONE || result.step < 1) continue;
     const ScenarioWaypoint& to = scenario_.waypoints.at(std::size_t(result.step - 1));
     const double off_m = std::hypot(truth->x_m - to.x_m, truth->y_m - to.y_m);
     worst_m_ = std::max(worst_m_, off_m);
+    ++n_places_;
     if (off_m > kNear_m)
       End(now, false,
           fmt::format("round {}: the base is {:.2f} m from waypoint {}", result.round, off_m, result.step));

@@ -48,6 +48,7 @@ class PatrolStory : public ScenarioStory {
   bus::Publisher<mission_command_t> orders_;
   std::optional<MissionOrder> order_, intervention_;
   std::size_t n_interventions_ = 0;  ///< done: pause, resume, cancel
+  std::size_t n_results_ = 0;        ///< of steps, looked at
   std::size_t n_places_ = 0;         ///< reached
   double worst_m_ = 0;               ///< largest true distance from a waypoint that was reached
   std::optional<Time> start_, ended_, paused_;

@@ -72,7 +72,7 @@ TEST(MissionFile, WhatCannotBeDoneIsNamedWithItsLine) {
               HasSubstr("round.toml:2: step.0.do: expected one of goto, door, wait"));
   EXPECT_THAT(WhyNot(kGo + "wait_s = 4\n"), AllOf(StartsWith("round.toml:5: "), HasSubstr("wait_s")));
   EXPECT_THAT(WhyNot("[[step]]\ndo = \"repeat\"\nfrom = 1\n" + kGo), HasSubstr("a step before this one"));
-  EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"repeat\"\ntimes = 64\n"), HasSubstr("at most 64 steps"));
+  EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"repeat\"\ntimes = 32\n"), HasSubstr("at most 32 steps"));
   EXPECT_THAT(WhyNot("title = \"nothing\"\n"), HasSubstr("one or more [[step]]"));
 }
 

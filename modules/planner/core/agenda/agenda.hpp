@@ -20,7 +20,7 @@ class Agenda {
   /// More orders do not wait.
   static constexpr std::size_t kMostWaiting = 8;
   /// So many ends are remembered.
-  static constexpr std::size_t kMostResults = 3;
+  static constexpr std::size_t kMostResults = 32;
   static constexpr std::size_t kMostSteps = 32;
 
   Agenda(MissionTable& missions, DoorRouter& router, const AgendaKinds& kinds, const AgendaSpeeds& speeds,

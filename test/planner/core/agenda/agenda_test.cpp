@@ -152,10 +152,10 @@ TEST(Agenda, WhatCannotBeCarriedOutIsRefusedAndRemembered) {
   EXPECT_THAT(refused({8, "", {Go(1e9, 1)}, 1}), HasSubstr("no place"));
   EXPECT_THAT(refused({9, "", {Stand(nan)}, 1}), HasSubstr("seconds"));
   EXPECT_THAT(refused({10, "", {Stand(1)}, -1}), HasSubstr("rounds"));
-  EXPECT_THAT(refused({11, "", std::vector<AgendaStep>(65, Stand(1)), 1}), HasSubstr("at most 64 steps"));
+  EXPECT_THAT(refused({11, "", std::vector<AgendaStep>(33, Stand(1)), 1}), HasSubstr("at most 32 steps"));
   EXPECT_FALSE(rig.dut.running());
-  for (int i = 0; i < 17; ++i) rig.dut.Take({100 + i, "", {Stand(1)}, 1}, rig.robot.now());
-  EXPECT_THAT(refused({200, "", {Stand(1)}, 1}), HasSubstr("16 orders wait already"));
+  for (int i = 0; i < 9; ++i) rig.dut.Take({100 + i, "", {Stand(1)}, 1}, rig.robot.now());
+  EXPECT_THAT(refused({200, "", {Stand(1)}, 1}), HasSubstr("8 orders wait already"));
 }
 
 TEST(Agenda, TheTimeLeftCountsTheStepsToCome) {
