@@ -30,6 +30,7 @@ class PlannerApp {
 
  private:
   void TakeOrders(Time now);
+  void Take(const mission_command_t& order, Time now);
   void TakeReports(Time now);
   void Send(const MissionActions& actions, Time now);
   void SendStatus(Time now);
@@ -39,6 +40,8 @@ class PlannerApp {
   bus::Context& context_;
   GroundPlan plan_;
   MissionTable missions_;
+  DoorRouter router_;
+  Agenda agenda_;
 
   bus::Inbox<mission_command_t> orders_;
   bus::Latest<pose_t> poses_;
@@ -54,6 +57,7 @@ class PlannerApp {
   bus::Publisher<mission_status_t> status_;
 
   MissionState sent_state_;
+  std::size_t sent_changes_ = 0;
   RateLimit status_rate_;
 };
 

@@ -10,6 +10,8 @@ void PlannerConfig::Describe(Archive& a) {
   a.Section("passage", passage, "paths to a door and through it");
   a.Section("mission", mission, "how the mission through a door goes");
   a.Section("goto", go, "how the mission to a place goes");
+  a.Section("doors", doors, "ways that lead through doors");
+  a.Section("steps", steps, "how the steps of an order follow each other");
 }
 
 }  // namespace priamos::planner

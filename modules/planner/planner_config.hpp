@@ -3,9 +3,11 @@
 #include <string>
 
 #include "common/archive.hpp"
+#include "planner/core/agenda/step_runner.hpp"
 #include "planner/core/missions/door_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
 #include "planner/core/path/door_planner.hpp"
+#include "planner/core/path/door_router.hpp"
 #include "planner/core/path/footprint.hpp"
 
 namespace priamos::planner {
@@ -19,6 +21,8 @@ struct PlannerConfig {
   DoorPlannerConfig passage;
   DoorMissionConfig mission;
   GotoMissionConfig go;
+  DoorRouterConfig doors;
+  StepRunnerConfig steps;
 
   void Describe(Archive& a);
 };

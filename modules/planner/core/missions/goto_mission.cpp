@@ -12,16 +12,6 @@ std::string Text(const Pose2& pose) {
   return fmt::format("({:.2f}, {:.2f})", pose.x, pose.y);
 }
 
-double LengthOf(const Pose2& start, const std::vector<Pose2>& points) {
-  double length_m = 0;
-  Eigen::Vector2d from = start.translation();
-  for (const Pose2& to : points) {
-    length_m += (to.translation() - from).norm();
-    from = to.translation();
-  }
-  return length_m;
-}
-
 /// Direction, of length 1, of the line on which a base is that has `remaining_m` of its path before it; zero
 /// for a path without length.
 Eigen::Vector2d DirectionLeft(const Pose2& base, const std::vector<Pose2>& points, double remaining_m) {

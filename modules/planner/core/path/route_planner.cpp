@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planner/core/path/route_search.hpp"
 
@@ -80,6 +81,12 @@ void RoutePlanner::Forget() {
 
 Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal& goal) const {
   if (const auto refusal = CheckEnds(map_from_start, goal)) return *refusal;
+  if (auto path = FindPath(map_from_start, goal)) return std::move(*path);
+  return NoWay(map_from_start, goal);
+}
+
+std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, const Goal& goal) const {
+  if (CheckEnds(map_from_start, goal)) return std::nullopt;
   const double start_gap_m = space_.At(map_from_start).distance_m;
   const double goal_gap_m = goal.turn ? space_.At(goal.map_from_base).distance_m : config_.easy_margin_m;
   for (const double wanted_m : {config_.easy_margin_m, config_.least_margin_m}) {
@@ -93,7 +100,7 @@ Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal&
     const double lines_m = std::max(std::min(margin_m, config_.least_margin_m), kLines * margin_m);
     if (route) return PathAlong(map_from_start, Straightened(*route, lines_m));
   }
-  return NoWay(map_from_start, goal);
+  return std::nullopt;
 }
 
 std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& goal) const {

@@ -34,9 +34,16 @@ class RoutePlanner {
   /// Straight lines with evenly turning heading to the goal, as few as there may be; each but the last 60 cm
   /// with its leeway. Refuses with the reason.
   Outcome<PlannedPath> Plan(const Pose2& map_from_start, const Goal& goal) const;
+  /// The same without a reason, which may take longer to find than a path.
+  std::optional<PlannedPath> FindPath(const Pose2& map_from_start, const Goal& goal) const;
+  /// Whether the base may stand there.
+  bool IsFree(const Pose2& map_from_base) const {
+    return space_.DistanceAt(map_from_base) >= config_.least_margin_m;
+  }
+  /// Why no route can begin or end there, whatever lies between.
+  std::optional<Refusal> CheckEnds(const Pose2& start, const Goal& goal) const;
 
  private:
-  std::optional<Refusal> CheckEnds(const Pose2& start, const Goal& goal) const;
   std::vector<Pose2> Straightened(const std::vector<Pose2>& route, double margin_m) const;
   PlannedPath PathAlong(const Pose2& start, std::vector<Pose2> corners) const;
   Refusal NoWay(const Pose2& start, const Goal& goal) const;
