@@ -23,6 +23,7 @@ struct AgendaOrder {
   int rounds = 1;  ///< 0: until it is cancelled
 };
 
+/// How an order or a step can end.
 enum class AgendaEnd { kDone, kFailed, kCancelled, kRefused };
 
 /// How an order, or one of its steps, has ended.
