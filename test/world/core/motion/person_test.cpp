@@ -89,7 +89,7 @@ TEST(PersonTest, AnInattentiveOneWalksIntoTheRobotAndTurnsBack) {
   const Around around{Rectangle{{2, 0, 0}, {0.475, 0.39}}, {}};
   EXPECT_LT(Walk(dut, 2, around), 0.0005);
   EXPECT_NEAR(PlaceOf(dut).x(), 1.2, 0.25);
-  Walk(dut, 3, around);
+  Walk(dut, 4, around);
   EXPECT_LT(PlaceOf(dut).x(), 0.8);
 }
 
