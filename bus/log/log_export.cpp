@@ -48,7 +48,8 @@ std::string FileName(std::string name) {
   return name.starts_with('.') ? "_" + name : name;
 }
 
-/// The tables of an export, made when their first row comes.
+/// The tables of an export, made when their first row comes. Each takes its name when all are whole: what
+/// fails before that leaves older tables as they were.
 class CsvFolder {
  public:
   explicit CsvFolder(const std::filesystem::path& folder) : folder_(folder) {
@@ -66,7 +67,15 @@ class CsvFolder {
       if (!open.file)
         throw std::runtime_error(fmt::format("{}: cannot be written: is the disk full?", open.path.string()));
     }
+    for (auto& [key, open] : tables_) std::filesystem::rename(Unfinished(open.path), open.path);
+    tables_.clear();
   }
+  ~CsvFolder() {
+    std::error_code none;
+    for (const auto& [key, open] : tables_) std::filesystem::remove(Unfinished(open.path), none);
+  }
+  CsvFolder(const CsvFolder&) = delete;
+  CsvFolder& operator=(const CsvFolder&) = delete;
 
  private:
   struct OpenTable {
@@ -74,11 +83,15 @@ class CsvFolder {
     std::filesystem::path path;
     std::ofstream file;
   };
+  static std::filesystem::path Unfinished(const std::filesystem::path& path) {
+    return path.string() + ".part";
+  }
   OpenTable Open(const Struct& type, const std::string& channel) {
     const bool first = std::none_of(tables_.begin(), tables_.end(),
                                     [&](const auto& entry) { return entry.first.first == channel; });
     const std::string name = FileName(first ? channel : channel + "." + type.full_name) + ".csv";
-    OpenTable open{CsvTable(type), folder_ / name, std::ofstream(folder_ / name, std::ios::binary)};
+    OpenTable open{CsvTable(type), folder_ / name,
+                   std::ofstream(Unfinished(folder_ / name), std::ios::binary)};
     if (!open.file)
       throw std::runtime_error(
           fmt::format("{}: cannot be written: {}", open.path.string(), std::strerror(errno)));

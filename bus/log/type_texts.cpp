@@ -1,6 +1,7 @@
 #include "bus/log/type_texts.hpp"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::size_t kPartBytes = 1200;
 constexpr std::size_t kMostParts = 32767;
+/// Most values of one message that need no byte of it: structs without fields, in arrays and nested.
+constexpr std::uint64_t kMostValues = 100'000;
 
 /// lcmtypes/type_text_t.lcm without its comments: a reader of logs needs no other type of ours.
 const Struct& TypeTextType() {
@@ -48,6 +51,29 @@ std::vector<std::string> PartsOf(const std::string& text) {
   }
   return parts;
 }
+
+/// Number of values in every message of a type, its arrays of variable size left out; a few hundred bytes of
+/// text may define structs that hold billions of empty ones.
+class ValueCount {
+ public:
+  /// At most a little more than kMostValues.
+  std::uint64_t Of(const Struct& type) {
+    const auto [at, added] = known_.try_emplace(&type, 1);
+    if (!added) return at->second;
+    std::uint64_t count = 1;
+    for (const Field& field : type.fields) {
+      std::uint64_t elements = field.type == nullptr ? 1 : Of(*field.type);
+      for (const Dimension& dimension : field.dims)
+        if (!dimension.variable)
+          elements = std::min(kMostValues + 1, elements * static_cast<std::uint64_t>(dimension.size));
+      count = std::min(kMostValues + 1, count + elements);
+    }
+    return known_[&type] = count;
+  }
+
+ private:
+  std::map<const Struct*, std::uint64_t> known_;
+};
 
 }  // namespace
 
@@ -96,7 +122,9 @@ bool LogTypes::Take(std::span<const std::byte> bytes) {
 void LogTypes::Learn(const std::string& text) {
   std::vector<std::string> problems;
   const Schema& schema = texts_.emplace_back(std::vector<Schema::Source>{{"the log", text}}, problems);
-  for (const Struct* type : schema.All()) defined_.try_emplace(type->fingerprint, type);
+  ValueCount values;
+  for (const Struct* type : schema.All())
+    if (values.Of(*type) <= kMostValues) defined_.try_emplace(type->fingerprint, type);
 }
 
 const Struct* LogTypes::Find(std::uint64_t fingerprint) const {

@@ -65,6 +65,7 @@ class _Parser(Tokens):
             self.fail(self.last, f"'{name}' is a primitive type of LCM")
         self.current = self._full_name(name)
         struct = Struct(self.package, name, self.current, doc, self.file, line)
+        self.names = set()
         self.expect("{")
         while True:
             leading = self.leading_comment()
@@ -160,8 +161,9 @@ class _Parser(Tokens):
         return found.name
 
     def _refuse_taken(self, struct, name):
-        if any(part.name == name for part in (*struct.fields, *struct.constants)):
+        if name in self.names:
             self.fail(self.last, f"the name '{name}' is used twice in {struct.full_name}")
+        self.names.add(name)
 
 
 def _annotate(field, leading, trailing):

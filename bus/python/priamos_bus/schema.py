@@ -72,10 +72,11 @@ class Schema:
         """The type of an encoded message; None when unknown."""
         return self._by_fingerprint.get(fingerprint_of(data))
 
-    def adopt(self, other):
-        """Has the types of `other` found by fingerprint, too."""
+    def adopt(self, other, wanted):
+        """Has the types of `other` for which `wanted(struct)` holds found by fingerprint, too."""
         for fingerprint, struct in other._by_fingerprint.items():
-            self._by_fingerprint.setdefault(fingerprint, struct)
+            if wanted(struct):
+                self._by_fingerprint.setdefault(fingerprint, struct)
 
     def _refuse(self, name, sentence):
         self.problems.append(sentence)

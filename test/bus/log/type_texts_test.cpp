@@ -1,5 +1,6 @@
 #include "bus/log/type_texts.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -141,6 +142,27 @@ TEST_F(TypeTexts, ALongTextComesInPartsOfWholeCharacters) {
   }
   ASSERT_NE(dut.Of(message), nullptr);
   EXPECT_EQ(dut.Of(message)->fields.size(), 100u);
+}
+
+TEST_F(TypeTexts, TypesWhoseMessagesHoldBillionsOfEmptyStructsAreNotTaken) {
+  const std::string wide = "struct e_t {} struct wide_t { e_t x[2000000000]; }";
+  std::string deep = "struct c30_t {}";
+  for (int i = 29; i >= 0; --i) deep += fmt::format("struct c{0}_t {{ c{1}_t a; c{1}_t b; }}", i, i + 1);
+  const Schema own = OwnTypes(), types = SchemaOf(wide + deep);
+  LogTypes dut(nullptr);
+  dut.Take(FromJson(*own.Find("type_text_t"),
+                    Json{{"utime", 0}, {"fingerprint", 1}, {"part", 0}, {"parts", 1}, {"text", wide}}));
+  EXPECT_EQ(dut.Find(types.Find("wide_t")->fingerprint), nullptr);
+  EXPECT_NE(dut.Find(types.Find("e_t")->fingerprint), nullptr);
+  std::uint64_t parts = (deep.size() + 999) / 1000;
+  for (std::uint64_t i = 0; i < parts; ++i)
+    dut.Take(FromJson(*own.Find("type_text_t"), Json{{"utime", 0},
+                                                     {"fingerprint", 2},
+                                                     {"part", i},
+                                                     {"parts", parts},
+                                                     {"text", deep.substr(1000 * i, 1000)}}));
+  EXPECT_EQ(dut.Find(types.Find("c0_t")->fingerprint), nullptr);
+  EXPECT_NE(dut.Find(types.Find("c20_t")->fingerprint), nullptr);
 }
 
 TEST_F(TypeTexts, HostileTextsDoNoHarm) {

@@ -82,7 +82,8 @@ int Export(const ExportOptions& options) {
   const auto count = options.format == "mcap"
                          ? bus::ExportMcap(reader, schema, selection, out.stream(), Drawn(options))
                          : bus::ExportJsonLines(reader, schema, selection, out.stream());
-  out.Close();
+  // What could not be decoded at all replaces no file.
+  if (count.written > 0 || count.undecodable == 0) out.Close();
   return ReportExport(options, count, reader);
 }
 
