@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -45,6 +46,13 @@ std::optional<Duration> ChangedAt(const std::string& path) {
                                               std::chrono::nanoseconds(info.st_ctim.tv_nsec));
 }
 
+/// The folder in which a file lies, and no other one that gets its name; empty when there is none.
+std::string FolderOf(const std::string& path) {
+  const auto folder = std::filesystem::absolute(path).parent_path();
+  struct stat info {};
+  return stat(folder.c_str(), &info) == 0 ? fmt::format("{}:{}", info.st_dev, info.st_ino) : "";
+}
+
 }  // namespace
 
 std::string BootId() {
@@ -70,7 +78,7 @@ FileStore::~FileStore() {
   thread_.join();
 }
 
-/// Its head, a line, names the boot and the time of writing; the rest is the state.
+/// Its head, a line, names the boot, the time of writing and the folder; the rest is the state.
 std::optional<bus::radio::SavedState> FileStore::Read(const std::string& path) const {
   std::ifstream in(path, std::ios::binary);
   std::string head;
@@ -84,10 +92,11 @@ std::optional<bus::radio::SavedState> FileStore::Read(const std::string& path) c
 /// Only what this boot has saved is surely the latest, and only while nobody has put a file in its place.
 bool FileStore::IsLatest(const std::string& path, const std::string& head) const {
   if (boot_.empty() || !head.starts_with(boot_ + " ")) return false;
-  std::istringstream time(head.substr(boot_.size()));
+  std::istringstream words(head.substr(boot_.size()));
   std::int64_t written_us = 0;
+  std::string folder;
   const auto changed = ChangedAt(path);
-  if (!(time >> written_us) || !changed) return false;
+  if (!(words >> written_us >> folder) || !changed || folder != FolderOf(path)) return false;
   const Duration later = *changed - Duration(written_us);
   return later >= -kClockSteps && later <= save_;
 }
@@ -105,11 +114,12 @@ std::optional<bus::radio::SavedState> FileStore::Load() {
 void FileStore::Save(std::span<const std::byte> state) {
   ThrowFailure();
   content_.clear();
-  const std::string head = fmt::format("{} {}\n", boot_, WallClock().count());
+  const std::string& path = fast_path_.empty() ? path_ : fast_path_;
+  const std::string head = fmt::format("{} {} {}\n", boot_, WallClock().count(), FolderOf(path));
   head_bytes_ = head.size();
   for (const char c : head) content_.push_back(static_cast<std::byte>(c));
   content_.insert(content_.end(), state.begin(), state.end());
-  Replace(fast_path_.empty() ? path_ : fast_path_, content_, false);
+  Replace(path, content_, false);
 }
 
 void FileStore::StartSync() {

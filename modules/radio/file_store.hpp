@@ -22,7 +22,8 @@ std::string BootId();
 /// link that cannot store its counters must not go on.
 ///
 /// An older file that was put back, or a copy, is noticed by its time of change, which the kernel sets and
-/// nobody else can: it is later than the time that was written into the file. Such a state is not the latest.
+/// nobody else can: it is later than the time that was written into the file. So is a folder that was put
+/// back, by what the file says of the folder in which it was written. Such a state is not the latest.
 /// A file system that is set back as a whole, times and all, is not noticed.
 class FileStore : public bus::radio::StateStore {
  public:
@@ -50,7 +51,7 @@ class FileStore : public bus::radio::StateStore {
   const std::string path_, fast_path_, boot_;
   const Duration save_;
   std::vector<std::byte> content_{std::byte{'\n'}};  ///< of the file: its head, and the state saved last
-  std::size_t head_bytes_ = 1;                       ///< of the line with the boot and the time of writing
+  std::size_t head_bytes_ = 1;  ///< of the line with the boot, the time of writing and the folder
 
   std::mutex mutex_;
   std::condition_variable changed_;

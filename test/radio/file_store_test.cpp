@@ -106,6 +106,21 @@ TEST_F(FileStoreTest, AnOlderStateThatIsPutBackIsNotTheLatest) {
   }
 }
 
+/// The file in a folder that was copied at once after a write keeps its time of change when the folder is
+/// renamed.
+TEST_F(FileStoreTest, AFolderThatIsPutBackHasNotTheLatestState) {
+  const std::filesystem::path states = folder / "states", kept = folder / "kept-states";
+  std::filesystem::create_directory(states);
+  FileStore dut((states / "link.state").string());
+  dut.Save(State(1));
+  std::filesystem::copy(states, kept, std::filesystem::copy_options::recursive);
+  dut.Save(State(2));
+  EXPECT_EQ(FileStore((states / "link.state").string()).Load(), Latest(2));
+  std::filesystem::remove_all(states);
+  std::filesystem::rename(kept, states);
+  EXPECT_EQ(FileStore((states / "link.state").string()).Load(), Older(1));
+}
+
 TEST_F(FileStoreTest, AStateWithoutTheTimeOfItsWritingIsNotTheLatest) {
   std::ofstream(path) << BootId() << "\nstate";
   EXPECT_FALSE(FileStore(path).Load()->latest);

@@ -6,7 +6,7 @@
 
 #include "cli/report/report_plan_view.hpp"
 #include "common/drawing/legend.hpp"
-#include "common/wall_gaps.hpp"
+#include "common/learned/wall_gaps.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "common/drawing/drawing.hpp"
 #include "common/ground_plan.hpp"
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 
 namespace priamos::cli {
 

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "cli/supervise/supervisor.hpp"
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {

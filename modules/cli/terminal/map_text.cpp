@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "cli/terminal/braille.hpp"
-#include "common/wall_gaps.hpp"
+#include "common/learned/wall_gaps.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "cli/terminal/text_table.hpp"
 #include "common/ground_plan.hpp"
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 
 namespace priamos::cli {
 

@@ -73,7 +73,8 @@ struct HeadSample {
 
 /// A touch, when it begins.
 struct TouchEvent {
-  enum class Kind { kDriven, kMovedIn, kFell };  ///< as in world_touch_t
+  /// Who moved, as in world_touch_t: the base, a thing against it, or a wheel into a hole.
+  enum class Kind { kDriven, kMovedIn, kFell };
   Time time;
   Kind kind;
   std::string thing;

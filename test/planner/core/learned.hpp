@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 
 namespace priamos::planner {
 

@@ -19,8 +19,8 @@
 #include "cli/verbs/robot/commands.hpp"
 #include "common/config.hpp"
 #include "common/drawing/svg.hpp"
+#include "common/learned/wall_gaps.hpp"
 #include "common/replace_file.hpp"
-#include "common/wall_gaps.hpp"
 #include "lcmtypes/channels.hpp"
 #include "planner/planner_config.hpp"
 

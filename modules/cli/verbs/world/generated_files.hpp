@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "world/core/generate/generate.hpp"
+#include "world/generation.hpp"
 
 namespace priamos::cli {
 

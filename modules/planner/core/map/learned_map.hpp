@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/archive.hpp"
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 
 namespace priamos::planner {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 #include "planner/core/map/obstacle_map.hpp"
 
 namespace priamos::planner {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 #include "common/time.hpp"
 #include "planner/core/missions/mission_types.hpp"
 #include "planner/core/path/planned_path.hpp"

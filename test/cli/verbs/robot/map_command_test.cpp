@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 #include "lcmtypes/channels.hpp"
 #include "test/cli/message_log.hpp"
 #include "test/cli/priamos_answer.hpp"

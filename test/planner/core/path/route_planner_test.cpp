@@ -51,20 +51,20 @@ TEST(RoutePlannerTest, AWallThatIsNotOnThePlanIsPlannedAround) {
   const Goal goal{{5, 2.4, 0}};
   const auto before = dut.Plan(start, goal);
   ASSERT_TRUE(before);
-  EXPECT_TRUE(dut.IsFree(start, before->points));
+  EXPECT_TRUE(dut.AreFree(start, before->points));
   LearnedWalls learned;
   learned.walls = {WallAt(3, 2.4, 90, 1.5)};
   dut.Learn(learned, start);
-  EXPECT_FALSE(dut.IsFree(start, before->points));
+  EXPECT_FALSE(dut.AreFree(start, before->points));
   const auto around = dut.Plan(start, goal);
   ASSERT_TRUE(around) << around.reason();
   EXPECT_GE(around->points.size(), 3u);
-  EXPECT_TRUE(dut.IsFree(start, around->points));
+  EXPECT_TRUE(dut.AreFree(start, around->points));
   dut.Forget();
-  EXPECT_FALSE(dut.IsFree(start, before->points))
+  EXPECT_FALSE(dut.AreFree(start, before->points))
       << "what was met on one mission is forgotten, walls are not";
   dut.Learn({}, start);
-  EXPECT_TRUE(dut.IsFree(start, before->points));
+  EXPECT_TRUE(dut.AreFree(start, before->points));
 }
 
 TEST(RoutePlannerTest, NoWallIsWhereTheBaseStands) {
@@ -74,7 +74,7 @@ TEST(RoutePlannerTest, NoWallIsWhereTheBaseStands) {
   dut.Learn(learned, {1, 2.4, 0});
   EXPECT_TRUE(dut.Plan({1, 2.4, 0}, {{5, 2.4, 0}}));
   dut.Learn(learned, {3, 2.4, 0});
-  EXPECT_FALSE(dut.IsFree({3, 2.4, 0}, {{1, 2.4, 0}}));
+  EXPECT_FALSE(dut.AreFree({3, 2.4, 0}, {{1, 2.4, 0}}));
 }
 
 TEST(RoutePlannerTest, CupboardsAreInTheWay) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace priamos::world {
@@ -89,8 +90,12 @@ TEST(PersonTest, AnInattentiveOneWalksIntoTheRobotAndTurnsBack) {
   const Around around{Rectangle{{2, 0, 0}, {0.475, 0.39}}, {}};
   EXPECT_LT(Walk(dut, 2, around), 0.0005);
   EXPECT_NEAR(PlaceOf(dut).x(), 1.2, 0.25);
-  Walk(dut, 4, around);
-  EXPECT_LT(PlaceOf(dut).x(), 0.8);
+  double back_m = PlaceOf(dut).x();
+  for (int i = 0; i < 40; ++i) {
+    Walk(dut, 0.1, around);
+    back_m = std::min(back_m, PlaceOf(dut).x());
+  }
+  EXPECT_LT(back_m, 0.8);
 }
 
 RC_GTEST_PROP(PersonTest, NeverWalksThroughTheRobot, ()) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 
 namespace priamos {
 

@@ -1,4 +1,4 @@
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
@@ -66,10 +66,11 @@ TEST_F(LearnedWallsTest, AFileThatCannotBeWrittenIsTold) {
 }
 
 TEST_F(LearnedWallsTest, DamagedFilesAreRefusedWithTheirLine) {
-  EXPECT_THAT(Refused("version = 2\n"), HasSubstr("learned-map.toml:1:version: expected 1"));
+  EXPECT_THAT(Refused("version = 2\n"),
+              HasSubstr("learned-map.toml:1:version: expected a whole number, 1 to 1"));
   EXPECT_THAT(Refused("version = 1\nwall = 3\n"), HasSubstr("learned-map.toml:2:"));
   EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\nx_m = nan\n"),
-              HasSubstr("learned-map.toml:4:walls.x_m"));
+              HasSubstr("learned-map.toml:4:walls[0].x_m"));
   EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\n[[walls]]\nid = 1\n"), HasSubstr("its own id"));
   EXPECT_THAT(Refused("version = "), HasSubstr("learned-map.toml:1"));
 }

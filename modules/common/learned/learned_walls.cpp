@@ -1,4 +1,4 @@
-#include "common/learned_walls.hpp"
+#include "common/learned/learned_walls.hpp"
 
 #include <algorithm>
 #include <cmath>

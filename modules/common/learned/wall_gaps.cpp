@@ -1,4 +1,4 @@
-#include "common/wall_gaps.hpp"
+#include "common/learned/wall_gaps.hpp"
 
 #include <cmath>
 #include <optional>
