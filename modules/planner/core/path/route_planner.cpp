@@ -129,8 +129,6 @@ std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, c
 }
 
 std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& goal) const {
-  if (const auto gap = space_.At(start); gap.distance_m <= 0)
-    return Refusal{"the robot would already be in " + gap.obstacle};
   const Pose2& there = goal.map_from_base;
   const auto gap = space_.At(there);
   if (goal.turn && gap.distance_m < config_.least_margin_m)
@@ -141,6 +139,8 @@ std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& g
   if (nearest.distance_m < needed_m)
     return Refusal{fmt::format("the goal ({:.2f}, {:.2f}) is {:.2f} m from {}, its middle needs {:.2f} m",
                                there.x, there.y, nearest.distance_m, nearest.name, needed_m)};
+  if (const auto begin = space_.At(start); begin.distance_m <= 0)
+    return Refusal{"the robot would already be in " + begin.obstacle};
   return std::nullopt;
 }
 

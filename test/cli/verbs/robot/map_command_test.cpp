@@ -49,7 +49,7 @@ TEST_F(MapCommand, ShowsPlanAndLearnedWalls) {
   const auto answer = Map({"--file", file_});
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_EQ(answer.err, "");
-  EXPECT_THAT(answer.out, HasSubstr("wall 1  (3.00, 0.25)  (3.00, 1.75)"));
+  EXPECT_THAT(answer.out, HasSubstr("wall 1   (3.00, 0.25)  (3.00, 1.75)"));
   EXPECT_THAT(answer.out, HasSubstr("gap 1-2"));
   EXPECT_THAT(answer.out, HasSubstr("⠒")) << "a picture of dots";
 }
@@ -101,6 +101,7 @@ TEST_F(MapCommand, AWordTooMuchIsRefused) {
 
 TEST_F(MapCommand, ResetNeedsAPlannerThatSpeaks) {
   MessageLog log((folder_ / "bus.lcmlog").string());
+  log.Add(0, "POSE", pose_t{});
   const auto silent = Priamos({"map", "reset", "--bus", log.url()});
   EXPECT_EQ(silent.exit_code, 1);
   EXPECT_THAT(silent.err, HasSubstr("MISSION_STATUS"));
