@@ -68,7 +68,7 @@ TEST_F(InstalledProgramsTest, EveryCommandOfTheReadmeWorksFromAnyFolder) {
   EXPECT_THAT(commands, HasSubstr("priamos replay verify"));
   const auto answer = installed_.Run(R"(
     say() {
-      local limit=60; case "$1" in *--watch*|*" echo "*|*" record "*) limit=6 ;; esac
+      local limit=60; case "$1" in *--watch*|*" echo "*|*" record "*|*" serve "*) limit=6 ;; esac
       timeout --signal=INT --kill-after=5 $limit bash -c "$1" > said.txt 2>&1 < /dev/null; local code=$?
       [ $code = 0 ] || [ $code,$limit = 124,6 ] || { echo "FAILED with $code: $1"; head -n 5 said.txt; failed=1; }
       [ -s said.txt ] || { echo "SILENT: $1"; failed=1; }

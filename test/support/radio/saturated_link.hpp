@@ -31,7 +31,7 @@ inline std::string WriteSaturatedLink(const std::string& deployment, const std::
   }
   flush();
   out << "\n[[channel]]\nname = \"BULK\"\ntype = \"health_t\"\ndirection = \"down\"\n"
-         "class = \"state\"\nrate_hz = 4.8\npriority = 3\nttl_s = 1.0\n";
+         "class = \"state\"\nrate_hz = 4.7\npriority = 3\nttl_s = 1.0\n";
   return file;
 }
 
