@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace priamos::head {
 namespace {
 
@@ -10,11 +12,15 @@ class EdgeFieldTest : public testing::Test {
   static CameraView ViewOf(const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
     CameraView view;
     view.size = {400, 300};
-    ViewLine line;
-    line.p = p;
-    line.q = q;
-    line.length_px = (q - p).norm();
-    view.lines = {line};
+    const double length_px = (q - p).norm();
+    const Eigen::Vector2d normal = Eigen::Vector2d(p.y() - q.y(), q.x() - p.x()) / length_px;
+    view.lines.push_back({.segment = 0,
+                          .p = p,
+                          .q = q,
+                          .normal = normal,
+                          .length_px = length_px,
+                          .plane = Eigen::Vector4d::Zero(),
+                          .contrast = 50});
     return view;
   }
 
