@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -24,6 +25,8 @@ class AppHost {
   void Step(Time now);
   /// Moves the schedule by less than a period, so that a tick falls on `time`; further away it stays.
   void TickNextAt(Time time);
+  /// No tick before `time`: what lies between is left out.
+  void SkipTo(Time time) { next_tick_ = std::max(next_tick_, time); }
   /// The App's last act when another process has its role.
   void Yield(Time now) { app_->Yield(now); }
   /// Has HEALTH tell, beside the App's own problems, what `problems` says; empty text: nothing.

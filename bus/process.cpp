@@ -120,7 +120,7 @@ int RunFromLog(const AppFactory& factory, const Options& options) {
 }
 
 /// Runs the App on a log that is being played onto the bus.
-int FollowLog(const AppFactory& factory, const Options& options) {
+int FollowLog(const AppFactory& factory, const Options& options, const LogShow& show) {
   if (!options.bus.starts_with("udpm://"))
     throw BusError(
         fmt::format("--clock bus: expected a bus onto which a log is played (udpm://), got {}", options.bus));
@@ -129,6 +129,7 @@ int FollowLog(const AppFactory& factory, const Options& options) {
   const auto log = MakeLog(factory.name);
   while (true) {
     LcmBus bus(options.bus);
+    if (show) return show({bus, schema, options.config, signals, log});
     LogFollower follower(bus, schema, factory.name, [&](const Clock& clock) {
       log(Level::kInfo,
           fmt::format("time is that of {}; what this sends goes to {}...", bus.url(), LogFollower::kPrefix));
@@ -178,12 +179,12 @@ void WarnOf(const AppFactory& factory, const std::string& url, const ClockAnchor
                     url));
 }
 
-int Run(const AppFactory& factory, const Options& options, bool& running) {
+int Run(const AppFactory& factory, const Options& options, const LogShow& show, bool& running) {
   if (options.print_config) return PrintConfiguration(factory, options);
   if (options.interface) return PrintInterface(factory, options);
   if (options.bus.starts_with(kFileUrl)) return RunFromLog(factory, options);
   RequireConfiguration(factory, options.config);
-  if (options.follows_log) return FollowLog(factory, options);
+  if (options.follows_log) return FollowLog(factory, options, show);
   const SignalWatch signals;
   const Schema schema = OwnTypes(factory.types);
   const HostClock clock;
@@ -208,13 +209,13 @@ int Run(const AppFactory& factory, const Options& options, bool& running) {
 
 }  // namespace
 
-int RunProcess(const AppFactory& factory, int argc, char** argv) {
+int RunProcess(const AppFactory& factory, int argc, char** argv, const LogShow& show) {
   Options options;
   if (const auto code = ParseCommandLine(factory, argc, argv, options)) return *code;
   bool running = false;
   try {
     ChooseBus(factory, options);
-    return Run(factory, options, running);
+    return Run(factory, options, show, running);
   } catch (const std::exception& error) {
     std::cerr << "priamos-" << factory.name << ": " << error.what() << "\n";
     return running ? kFailedWhileRunning : kCannotStart;

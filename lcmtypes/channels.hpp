@@ -13,6 +13,8 @@
 #include "priamos/drive_command_t.hpp"
 #include "priamos/drive_status_t.hpp"
 #include "priamos/estop_t.hpp"
+#include "priamos/features_ack_t.hpp"
+#include "priamos/features_t.hpp"
 #include "priamos/head_command_t.hpp"
 #include "priamos/head_drive_t.hpp"
 #include "priamos/head_state_t.hpp"
@@ -24,6 +26,7 @@
 #include "priamos/link_request_t.hpp"
 #include "priamos/link_status_t.hpp"
 #include "priamos/look_request_t.hpp"
+#include "priamos/map_command_t.hpp"
 #include "priamos/mission_command_t.hpp"
 #include "priamos/mission_status_t.hpp"
 #include "priamos/motor_current_t.hpp"
@@ -38,6 +41,7 @@
 #include "priamos/sonar_ranges_t.hpp"
 #include "priamos/wheel_command_t.hpp"
 #include "priamos/wheel_state_t.hpp"
+#include "priamos/world_touch_t.hpp"
 #include "priamos/world_truth_t.hpp"
 
 /// Every channel of PRIAMOS. Device channels join drivers (or `world`) with `robot` and `head`; the others
@@ -80,10 +84,13 @@ inline constexpr Channel<landmark_fix_t> kLandmarkFix{"LANDMARK_FIX", 0, millise
 inline constexpr Channel<door_seen_t> kDoorSeen{"DOOR_SEEN", 0, milliseconds(0)};
 inline constexpr Channel<landmark_view_t> kLandmarkView{"LANDMARK_VIEW", 0, milliseconds(0)};
 inline constexpr Channel<obstacle_line_t> kObstacleLine{"OBSTACLE_LINE", 5, milliseconds(1000)};
+inline constexpr Channel<features_t> kFeatures{"FEATURES", 0, milliseconds(0)};
+inline constexpr Channel<features_ack_t> kFeaturesAck{"FEATURES_ACK", 0, milliseconds(0)};
 
 // Missions, offboard.
 inline constexpr Channel<mission_command_t> kMissionCommand{"MISSION_COMMAND", 0, milliseconds(0)};
 inline constexpr Channel<mission_status_t> kMissionStatus{"MISSION_STATUS", 2, milliseconds(2000)};
+inline constexpr Channel<map_command_t> kMapCommand{"MAP_COMMAND", 0, milliseconds(0)};
 
 // Every process, every bus.
 inline constexpr Channel<health_t> kHealth{"HEALTH", 1, milliseconds(3000)};
@@ -94,8 +101,9 @@ inline constexpr Channel<claim_t> kClaim{"CLAIM", 5, milliseconds(1000)};
 inline constexpr Channel<probe_t> kProbe{"PROBE", 0, milliseconds(0)};
 inline constexpr Channel<clock_report_t> kClock{"CLOCK", 1, milliseconds(3000)};
 
-/// For reports and tests; a test checks that no module subscribes to it.
+/// For reports and tests; a test checks that no module subscribes to them.
 inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseconds(200)};
+inline constexpr Channel<world_touch_t> kWorldTouch{"WORLD_TOUCH", 0, milliseconds(0)};
 
 inline constexpr std::tuple kAll{
     kWheelCommand,  kWheelState,   kSonarRanges,  kHeadCommand,    kHeadState,     kCameraTrigger,
@@ -103,6 +111,7 @@ inline constexpr std::tuple kAll{
     kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
     kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
-    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock};
+    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
+    kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand};
 
 }  // namespace priamos::channels

@@ -23,8 +23,8 @@ class Schema;
 /// that leaves its host has one.
 ///
 /// A message of a host whose clock is known less exactly than kMostUncertain is refused and counted, but for
-/// those of safety channels. What comes from a sender who never spoke of its clock (a foreign program) is
-/// handed on as it is, from kGreeting after the start on.
+/// those of safety channels and PROBE. What comes from a sender who never spoke of its clock (a foreign
+/// program) is handed on as it is, from kGreeting after the start on.
 class ClockExchange {
  public:
   /// 20 ms are 6 mm at the 0.3 m/s at which the robot looks at a door.

@@ -27,7 +27,9 @@ inline constexpr double kMostClockDrift = 2e-4;
 
 /// Estimates how far one other clock is ahead of ours from exchanges with it. The exchange that took least
 /// time is the most exact: half of its time is what its two ways may differ by. Older ones count less by what
-/// the clocks may have drifted since. Pure.
+/// the clocks may have drifted since. Where NTP slews a clock, by up to 8 % of the time, exchanges contradict
+/// each other: then the older ones are forgotten, and the rate that they show is counted with until it is
+/// over. Pure.
 class ClockOffset {
  public:
   /// Exchanges that are remembered; the oldest is forgotten.
@@ -41,13 +43,19 @@ class ClockOffset {
 
   /// The difference at `now`, by our clock; nullopt before the first exchange.
   std::optional<ClockDifference> At(Time now) const;
+  /// Whether one of the clocks runs faster or slower than clocks do: it is being slewed.
+  bool unsteady() const { return drift_ > kMostClockDrift; }
 
  private:
   struct Sample {
     Time heard;
     ClockDifference difference;
   };
+  Duration DriftIn(Duration span) const;
+  void ForgetWhatContradicts(const Sample& newest);
+
   std::deque<Sample> samples_;
+  double drift_ = kMostClockDrift;  ///< that is counted with now
 };
 
 }  // namespace priamos::bus

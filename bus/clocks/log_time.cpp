@@ -2,12 +2,24 @@
 
 #include <algorithm>
 
+#include "bus/schema/big_endian.hpp"
+#include "bus/schema/schema.hpp"
+#include "bus/schema/walk.hpp"
+
 namespace priamos::bus {
 namespace {
 
 constexpr Time kLatest{Duration(7'258'118'400'000'000)};  // the year 2200
 
 }  // namespace
+
+std::optional<Time> StampOf(const Schema& schema, std::span<const std::byte> bytes) {
+  const Struct* type = schema.Find(FingerprintOf(bytes.data(), bytes.size()));
+  if (type == nullptr || type->fields.empty() || !type->fields.front().annotation.age_us ||
+      !Walk(*type, bytes))
+    return std::nullopt;
+  return FromUtime(ReadBigEndian<std::int64_t>(bytes.data() + sizeof(std::uint64_t)));
+}
 
 bool LogTime::IsWitnessed(Time stamp) {
   const bool agrees = witnesses_ > 0 && std::chrono::abs(stamp - leap_) <= kLeap;

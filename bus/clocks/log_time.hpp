@@ -1,10 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 
 #include "common/time.hpp"
 
 namespace priamos::bus {
+
+class Schema;
+
+/// The time stamp of a message: its first field, by the rules of our types. nullopt for a message that has
+/// none, or is none.
+std::optional<Time> StampOf(const Schema& schema, std::span<const std::byte> bytes);
 
 /// The time of a log that is being played onto a bus, from the stamps of its messages: that of the newest
 /// one. Pure.

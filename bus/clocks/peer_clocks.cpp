@@ -63,7 +63,8 @@ bool PeerClocks::Hear(std::uint64_t sender, const clock_report_t& message, Time 
   }
   const auto ours = peer->offset.At(now);
   const Duration enough = now - peer->first_heard < kAcquaintance ? kWell : FromSeconds(kNotKnown_s / 2);
-  return !(their_uncertainty_s <= Seconds(enough)) || !ours || ours->uncertainty > enough;
+  return !(their_uncertainty_s <= Seconds(enough)) || !ours || ours->uncertainty > enough ||
+         peer->offset.unsteady();
 }
 
 std::optional<std::int32_t> PeerClocks::IdOf(std::uint64_t sender) const {

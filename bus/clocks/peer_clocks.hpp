@@ -47,7 +47,8 @@ class PeerClocks {
   static constexpr Duration kWell{2'000}, kAcquaintance{3'000'000};
 
   /// Takes a CLOCK message that arrived at `now`. Returns true when its sender should get an answer at once:
-  /// it, or we, do not know the other's clock well yet.
+  /// it, or we, do not know the other's clock well yet, or one of
+  /// them is being slewed.
   bool Hear(std::uint64_t sender, const clock_report_t& message, Time now);
 
   SenderClock ClockOf(std::uint64_t sender, Time now) const;

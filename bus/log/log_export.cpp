@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "bus/log/csv_table.hpp"
+#include "bus/log/event_copier.hpp"
 #include "bus/log/log_writer.hpp"
 #include "bus/log/mcap_writer.hpp"
 #include "bus/schema/json_schema.hpp"
@@ -24,12 +25,12 @@ namespace {
 using Handler = std::function<void(const Struct&, const std::string& channel, const LogEvent&)>;
 
 /// Calls `handle` with every wanted event that is a message.
-ExportCount ForEachMessage(LogReader& reader, const Schema& schema, const LogSelection& selection,
+ExportCount ForEachMessage(LogReader& reader, LogTypes& types, const LogSelection& selection,
                            const Handler& handle) {
   ExportCount count;
   while (const auto event = reader.Next()) {
-    if (!selection.Wants(event->utime, event->channel)) continue;
-    const Struct* type = schema.Find(FingerprintOf(event->bytes.data(), event->bytes.size()));
+    if (types.Take(event->bytes) || !selection.Wants(event->utime, event->channel)) continue;
+    const Struct* type = types.Of(event->bytes);
     if (type == nullptr || !Walk(*type, event->bytes)) {
       ++count.undecodable;
       continue;
@@ -47,7 +48,8 @@ std::string FileName(std::string name) {
   return name.starts_with('.') ? "_" + name : name;
 }
 
-/// The tables of an export, made when their first row comes.
+/// The tables of an export, made when their first row comes. Each takes its name when all are whole: what
+/// fails before that leaves older tables as they were.
 class CsvFolder {
  public:
   explicit CsvFolder(const std::filesystem::path& folder) : folder_(folder) {
@@ -65,7 +67,15 @@ class CsvFolder {
       if (!open.file)
         throw std::runtime_error(fmt::format("{}: cannot be written: is the disk full?", open.path.string()));
     }
+    for (auto& [key, open] : tables_) std::filesystem::rename(Unfinished(open.path), open.path);
+    tables_.clear();
   }
+  ~CsvFolder() {
+    std::error_code none;
+    for (const auto& [key, open] : tables_) std::filesystem::remove(Unfinished(open.path), none);
+  }
+  CsvFolder(const CsvFolder&) = delete;
+  CsvFolder& operator=(const CsvFolder&) = delete;
 
  private:
   struct OpenTable {
@@ -73,11 +83,15 @@ class CsvFolder {
     std::filesystem::path path;
     std::ofstream file;
   };
+  static std::filesystem::path Unfinished(const std::filesystem::path& path) {
+    return path.string() + ".part";
+  }
   OpenTable Open(const Struct& type, const std::string& channel) {
     const bool first = std::none_of(tables_.begin(), tables_.end(),
                                     [&](const auto& entry) { return entry.first.first == channel; });
     const std::string name = FileName(first ? channel : channel + "." + type.full_name) + ".csv";
-    OpenTable open{CsvTable(type), folder_ / name, std::ofstream(folder_ / name, std::ios::binary)};
+    OpenTable open{CsvTable(type), folder_ / name,
+                   std::ofstream(Unfinished(folder_ / name), std::ios::binary)};
     if (!open.file)
       throw std::runtime_error(
           fmt::format("{}: cannot be written: {}", open.path.string(), std::strerror(errno)));
@@ -102,27 +116,32 @@ class McapIds {
   explicit McapIds(McapWriter& writer) : writer_(writer) {}
 
   std::uint16_t ChannelOf(const std::string& channel, const Struct& type) {
-    const auto [at, added] = channels_.try_emplace({channel, &type});
-    if (added) at->second = writer_.AddChannel(channel, SchemaOf(type));
+    return ChannelOf(channel, type.full_name, [&] { return SchemaText(type); });
+  }
+  std::uint16_t ChannelOf(const std::string& channel, const std::string& schema_name,
+                          const std::function<std::string()>& schema) {
+    const auto [at, added] = channels_.try_emplace({channel, schema_name});
+    if (added) at->second = writer_.AddChannel(channel, SchemaOf(schema_name, schema));
     return at->second;
   }
 
  private:
-  std::uint16_t SchemaOf(const Struct& type) {
-    const auto [at, added] = schemas_.try_emplace(&type);
-    if (added) at->second = writer_.AddSchema(type.full_name, SchemaText(type));
+  std::uint16_t SchemaOf(const std::string& name, const std::function<std::string()>& text) {
+    const auto [at, added] = schemas_.try_emplace(name);
+    if (added) at->second = writer_.AddSchema(name, text());
     return at->second;
   }
   McapWriter& writer_;
-  std::map<std::pair<std::string, const Struct*>, std::uint16_t> channels_;
-  std::map<const Struct*, std::uint16_t> schemas_;
+  std::map<std::pair<std::string, std::string>, std::uint16_t> channels_;
+  std::map<std::string, std::uint16_t> schemas_;
 };
 
 }  // namespace
 
 ExportCount ExportJsonLines(LogReader& reader, const Schema& schema, const LogSelection& selection,
                             std::ostream& out) {
-  return ForEachMessage(reader, schema, selection,
+  LogTypes types(&schema);
+  return ForEachMessage(reader, types, selection,
                         [&](const Struct& type, const std::string& channel, const LogEvent& event) {
                           const Json line{{"utime", event.utime},
                                           {"number", event.number},
@@ -136,8 +155,9 @@ ExportCount ExportJsonLines(LogReader& reader, const Schema& schema, const LogSe
 ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelection& selection,
                       const std::filesystem::path& folder) {
   CsvFolder tables(folder);
+  LogTypes types(&schema);
   const auto count = ForEachMessage(
-      reader, schema, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
+      reader, types, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
         tables.Add(type, channel, event);
       });
   tables.Close();
@@ -145,14 +165,21 @@ ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelectio
 }
 
 ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelection& selection,
-                       std::ostream& out) {
+                       std::ostream& out, const Derivation& derivation) {
   McapWriter writer(out);
   McapIds ids(writer);
+  LogTypes types(&schema);
   const auto count = ForEachMessage(
-      reader, schema, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
+      reader, types, selection, [&](const Struct& type, const std::string& channel, const LogEvent& event) {
+        const auto number = static_cast<std::uint32_t>(event.number);
         const auto time_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(event.utime, 0)) * 1000;
-        writer.AddMessage(ids.ChannelOf(channel, type), static_cast<std::uint32_t>(event.number), time_ns,
-                          ToJson(type, event.bytes).dump());
+        const Json message = ToJson(type, event.bytes);
+        writer.AddMessage(ids.ChannelOf(channel, type), number, time_ns, message.dump());
+        if (!derivation.derive) return;
+        for (const DerivedMessage& more : derivation.derive(channel, message, event.utime))
+          writer.AddMessage(ids.ChannelOf(more.topic, more.schema_name,
+                                          [&] { return derivation.schema(more.schema_name); }),
+                            number, time_ns, more.json);
       });
   writer.Finish();
   return count;
@@ -160,9 +187,10 @@ ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelecti
 
 std::uint64_t CopyEvents(LogReader& reader, const LogSelection& selection, LogWriter& writer) {
   std::uint64_t copied = 0;
+  EventCopier copier(writer);
   while (const auto event = reader.Next()) {
-    if (!selection.Wants(event->utime, event->channel)) continue;
-    writer.Write(event->utime, selection.NameOf(event->channel), event->bytes);
+    if (copier.Keep(event->bytes) || !selection.Wants(event->utime, event->channel)) continue;
+    copier.Write(event->utime, selection.NameOf(event->channel), event->bytes);
     ++copied;
   }
   return copied;

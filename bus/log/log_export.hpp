@@ -2,7 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
 
 #include "bus/log/log_reader.hpp"
 #include "bus/log/log_selection.hpp"
@@ -11,6 +15,8 @@ namespace priamos::bus {
 
 class LogWriter;
 class Schema;
+
+// Every export knows the types of `schema`, and those that the log defines itself.
 
 /// Numbers of events that an export wrote and left out.
 struct ExportCount {
@@ -27,12 +33,28 @@ ExportCount ExportJsonLines(LogReader& reader, const Schema& schema, const LogSe
 ExportCount ExportCsv(LogReader& reader, const Schema& schema, const LogSelection& selection,
                       const std::filesystem::path& folder);
 
-/// An MCAP file with a JSON schema per type (see McapWriter).
+/// A further message of an MCAP file, made of one in the log: the same in a schema that viewers draw.
+struct DerivedMessage {
+  std::string topic, schema_name, json;
+};
+
+/// How further messages are made; nothing is derived while `derive` is empty.
+struct Derivation {
+  /// What a message of a channel gives; `utime` is that of its event.
+  std::function<std::vector<DerivedMessage>(const std::string& channel, const nlohmann::ordered_json& message,
+                                            std::int64_t utime)>
+      derive;
+  /// JSON schema of a schema_name.
+  std::function<std::string(const std::string& schema_name)> schema;
+};
+
+/// An MCAP file with a JSON schema per type (see McapWriter), and with what `derivation` adds.
 ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelection& selection,
-                       std::ostream& out);
+                       std::ostream& out, const Derivation& derivation = {});
 
 /// Copies the wanted events, undecoded and with their new channel names, into another log, numbered anew:
-/// what was not wanted is no loss. Returns how many they are.
+/// what was not wanted is no loss. The log's definitions of their types come along. Returns how many they
+/// are.
 std::uint64_t CopyEvents(LogReader& reader, const LogSelection& selection, LogWriter& writer);
 
 /// What RepairLog copied.

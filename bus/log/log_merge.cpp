@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bus/log/log_writer.hpp"
+#include "bus/log/event_copier.hpp"
 #include "bus/schema/json.hpp"
 #include "bus/schema/packing.hpp"
 #include "bus/schema/schema.hpp"
@@ -45,11 +45,12 @@ using Sightings = std::map<std::string, Sighting>;  ///< by channel and content
 /// Identifies messages, for each type by what of it the radio carries.
 class Identifier {
  public:
-  explicit Identifier(const Schema& schema) : schema_(schema) {}
+  explicit Identifier(const Schema& schema) : types_(&schema) {}
 
   /// Notes the event when it is of a type that can cross a link.
   void Note(const LogEvent& event, Sightings& sightings) {
-    const Struct* type = schema_.Find(FingerprintOf(event.bytes.data(), event.bytes.size()));
+    if (types_.Take(event.bytes)) return;
+    const Struct* type = types_.Of(event.bytes);
     const Packer* packer = type ? PackerOf(*type) : nullptr;
     if (packer == nullptr || !Walk(*type, event.bytes)) return;
     Json json = ToJson(*type, event.bytes);
@@ -76,7 +77,7 @@ class Identifier {
     return at->second.get();
   }
 
-  const Schema& schema_;
+  LogTypes types_;
   std::map<const Struct*, std::unique_ptr<Packer>> packers_;
 };
 
@@ -108,13 +109,22 @@ std::uint64_t MergeLogs(LogReader& a, LogReader& b, const ClockFit& b_to_a, cons
   b.Seek(0);
   std::uint64_t events = 0;
   auto next_a = a.Next(), next_b = b.Next();
+  EventCopier copier(writer);
   while (next_a || next_b) {
+    if (next_a && copier.Keep(next_a->bytes)) {
+      next_a = a.Next();
+      continue;
+    }
+    if (next_b && copier.Keep(next_b->bytes)) {
+      next_b = b.Next();
+      continue;
+    }
     const bool take_a = next_a && (!next_b || next_a->utime <= b_to_a.ToA(next_b->utime));
     if (take_a) {
-      writer.Write(next_a->utime, next_a->channel, next_a->bytes);
+      copier.Write(next_a->utime, next_a->channel, next_a->bytes);
       next_a = a.Next();
     } else {
-      writer.Write(b_to_a.ToA(next_b->utime), prefix_b + next_b->channel, next_b->bytes);
+      copier.Write(b_to_a.ToA(next_b->utime), prefix_b + next_b->channel, next_b->bytes);
       next_b = b.Next();
     }
     ++events;

@@ -67,6 +67,7 @@ bool LogRecorder::Open(Time now) {
   file_bytes_ = 0;
   opened_ = now;
   alarm_.clear();
+  if (scribe_) scribe_->Restart();
   while (limits_.keep_files > 0 && files_.size() > limits_.keep_files) DeleteOldest();
   return true;
 }
@@ -131,9 +132,19 @@ void LogRecorder::Add(Time now, std::string_view channel, std::span<const std::b
   if (fd_ < 0 || !IsLogChannel(channel)) return Lose();
   if (DueForSplit(now)) Split(now);
   if (fd_ < 0) return Lose();
+  if (scribe_)
+    for (const auto& text : scribe_->TextsBefore(bytes, ToUtime(now))) Append(now, kTypeText, text);
+  Append(now, channel, bytes);
+  if (buffer_.size() >= kBufferBytes) Flush();
+}
+
+void LogRecorder::DefineTypesOf(const Schema& schema) {
+  scribe_.emplace([&schema](std::uint64_t fingerprint) { return schema.Find(fingerprint); });
+}
+
+void LogRecorder::Append(Time now, std::string_view channel, std::span<const std::byte> bytes) {
   AppendEvent(buffer_, next_number_++, ToUtime(now), channel, bytes);
   event_ends_.push_back(buffer_.size());
-  if (buffer_.size() >= kBufferBytes) Flush();
 }
 
 void LogRecorder::Lose() {

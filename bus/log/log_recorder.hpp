@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bus/log/type_texts.hpp"
 #include "common/time.hpp"
 
 namespace priamos::bus {
@@ -33,6 +35,8 @@ class LogRecorder {
   LogRecorder(const LogRecorder&) = delete;
   LogRecorder& operator=(const LogRecorder&) = delete;
 
+  /// From now on each file defines a type before its first message. `schema` must outlive the recorder.
+  void DefineTypesOf(const Schema& schema);
   void Add(Time now, std::string_view channel, std::span<const std::byte> bytes);
   /// Writes the buffer and checks the free space. Call it at least every 0.2 s, also while nothing arrives.
   void Tick(Time now);
@@ -52,6 +56,7 @@ class LogRecorder {
   void Fail(const std::string& what);
   bool DueForSplit(Time now) const;
   void Split(Time now);
+  void Append(Time now, std::string_view channel, std::span<const std::byte> bytes);
   void Lose();
   void DeleteOldest();
   bool EnoughIsFree(std::uint64_t bytes) const;
@@ -60,6 +65,7 @@ class LogRecorder {
 
   std::filesystem::path base_;
   RecorderLimits limits_;
+  std::optional<TypeScribe> scribe_;
   std::deque<std::filesystem::path> files_;
   std::size_t file_count_ = 0;
   int fd_ = -1;

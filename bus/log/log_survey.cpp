@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bus/schema/schema.hpp"
+#include "bus/log/type_texts.hpp"
 #include "bus/schema/walk.hpp"
 
 namespace priamos::bus {
@@ -44,8 +44,8 @@ class NumberSequence {
   std::int64_t gap_end_ = 0;  ///< the number that proves the gap
 };
 
-void Count(LogSurvey::Channel& channel, const LogEvent& event, const Schema& schema) {
-  const Struct* type = schema.Find(FingerprintOf(event.bytes.data(), event.bytes.size()));
+void Count(LogSurvey::Channel& channel, const LogEvent& event, const LogTypes& types) {
+  const Struct* type = types.Of(event.bytes);
   channel.types.insert(type ? type->full_name : "?");
   channel.undecodable += type == nullptr || !Walk(*type, event.bytes);
   channel.first_utime = channel.events == 0 ? event.utime : std::min(channel.first_utime, event.utime);
@@ -65,9 +65,11 @@ LogSurvey Survey(LogReader& reader, const Schema& schema) {
   LogSurvey survey;
   survey.size_bytes = reader.size();
   NumberSequence numbers;
+  LogTypes types(&schema);
   while (const auto event = reader.Next()) {
     numbers.Add(event->number);
-    Count(survey.channels[event->channel], *event, schema);
+    types.Take(event->bytes);
+    Count(survey.channels[event->channel], *event, types);
     ++survey.events;
   }
   survey.missing_numbers = numbers.Missing();

@@ -34,7 +34,7 @@ struct LogSurvey {
   bool whole() const { return skipped_bytes == 0 && missing_numbers == 0; }
 };
 
-/// Reads the whole log.
+/// Reads the whole log; it may define types that `schema` has not.
 LogSurvey Survey(LogReader& reader, const Schema& schema);
 
 }  // namespace priamos::bus

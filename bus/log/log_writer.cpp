@@ -13,6 +13,8 @@ LogWriter::LogWriter(const std::string& path) : file_(path, std::ios::binary | s
 }
 
 void LogWriter::Write(std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes) {
+  if (scribe_)
+    for (const auto& text : scribe_->TextsBefore(bytes, utime)) Write(next_number_++, utime, kTypeText, text);
   Write(next_number_++, utime, channel, bytes);
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <fstream>
+#include <optional>
 
 #include "bus/log/log_event.hpp"
+#include "bus/log/type_texts.hpp"
 
 namespace priamos::bus {
 
@@ -11,6 +13,10 @@ class LogWriter {
  public:
   /// Creates the log file `path`. Throws std::runtime_error when it cannot be made.
   explicit LogWriter(const std::string& path);
+  /// From now on a type is defined before its first message. `schema` must outlive the writer.
+  void DefineTypesOf(const Schema& schema) {
+    scribe_.emplace([&schema](std::uint64_t fingerprint) { return schema.Find(fingerprint); });
+  }
   /// Writes the next event; they are numbered from 0.
   void Write(std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes);
   /// Writes an event with the number that it has.
@@ -25,6 +31,7 @@ class LogWriter {
              std::span<const std::byte> bytes);
 
   std::ofstream file_;
+  std::optional<TypeScribe> scribe_;
   std::int64_t next_number_ = 0;
 };
 

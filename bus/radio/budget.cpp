@@ -50,7 +50,7 @@ void CheckDuty(const DirectionAnalysis& analysis, const LinkOptions& options,
         analysis.SilenceSeconds(), Seconds(options.silence)));
 }
 
-DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, const PollBounds& polls,
+DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, PollBounds& polls,
                         Direction direction, std::vector<std::string>& problems) {
   DirectionAnalysis analysis(table, options, direction);
   DirectionAnalysis other(table, options, Opposite(direction));
@@ -60,6 +60,10 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, c
   }
   analysis.Solve(other, Seconds(options.line_delay));
   CheckDuty(analysis, options, problems);
+  if (options.robots > 0 && direction == Direction::kDown) {
+    polls.busy_cycle = analysis.BesideUrgent(polls.cycle);
+    polls.busy_asked = analysis.BesideUrgent(polls.asked);
+  }
   DirectionBudget budget;
   budget.direction = direction;
   budget.longest_frame_bytes = analysis.LongestFrameBytes();
@@ -167,16 +171,16 @@ std::string FormatRow(const ChannelTable& table, const ChannelBudget& row) {
 }  // namespace
 
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options) {
-  const PollBounds polls = options.robots > 0 ? PollBoundsOf(table, options) : PollBounds{};
-  std::vector<std::string> problems;
-  if (options.robots > 0) problems = SharedProblems(table, options);
-  Budget budget{.up = Analyse(table, options, polls, Direction::kUp, problems),
-                .down = Analyse(table, options, polls, Direction::kDown, problems),
-                .problems = std::move(problems),
-                .robots = options.robots,
-                .polls = polls,
-                .code_bytes = table.code_bytes(),
-                .forgery_s = ForgerySeconds(options.bytes_per_s, table.code_bytes())};
+  Budget budget;
+  budget.robots = options.robots;
+  if (options.robots > 0) {
+    budget.polls = PollBoundsOf(table, options);
+    budget.problems = SharedProblems(table, options);
+  }
+  budget.up = Analyse(table, options, budget.polls, Direction::kUp, budget.problems);
+  budget.down = Analyse(table, options, budget.polls, Direction::kDown, budget.problems);
+  budget.code_bytes = table.code_bytes();
+  budget.forgery_s = ForgerySeconds(options.bytes_per_s, table.code_bytes());
   CheckDirection(table, budget.up, budget.problems);
   CheckDirection(table, budget.down, budget.problems);
   for (const DirectionBudget* d : {&budget.up, &budget.down})

@@ -6,6 +6,7 @@
 #include "bus/radio/channels/bundle.hpp"
 #include "bus/radio/channels/entry_sizes.hpp"
 #include "bus/radio/frame/coded_block.hpp"
+#include "bus/radio/frame_length.hpp"
 #include "bus/radio/line/repetition.hpp"
 
 namespace priamos::bus::radio {
@@ -50,18 +51,21 @@ DirectionAnalysis::DirectionAnalysis(const ChannelTable& table, const LinkOption
           (table.HasCommands(direction) ? EchoBytes(options.bytes_per_s) : 0) + (options.robots > 0 ? 1 : 0)),
       ahead_s_((options.ahead_bytes + 4) * byte_s_),
       keep_alive_s_(Seconds(options.keep_alive)) {
-  const auto bundle_bytes = static_cast<double>(options.max_bundle_bytes);
+  const FrameLength length = FrameLengthOf(table, options, direction);
+  const auto bundle_bytes = static_cast<double>(length.bundle_bytes);
   double largest = bundle_bytes;
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (table.at(i).direction != direction) continue;
     loads_.push_back(LoadOf(i));
-    largest_bits_ = std::max(largest_bits_, loads_.back().entry_bits);
+    largest_bits_ = std::max({largest_bits_, loads_.back().entry_bits, loads_.back().single_bits});
   }
   largest = std::max(largest, std::ceil(largest_bits_ / 8));
   control_bits_ = ControlBits();
-  if (options.robots > 0) ConfineTo(options.max_bundle_bytes, largest);
+  if (options.robots > 0) control_bits_ += OverBits();
+  if (length.strict) ConfineTo(bundle_bytes, largest);
   if (options.half_duplex.turn > Duration::zero()) ShareTheAir(options);
-  capacity_bits_ = 8 * bundle_bytes - control_bits_;
+  bundle_bits_ = 8 * bundle_bytes;
+  capacity_bits_ = bundle_bits_ - control_bits_;
   frame_s_ = FrameSeconds(8 * largest + control_bits_);
   const double longest_bits = std::min(8 * largest + control_bits_, 8.0 * kMaxBundleBytes);
   const std::size_t beside = frame_bytes_ - (options.datagrams ? options.HeadBytes() : kLeadingDelimiter);
@@ -111,6 +115,7 @@ ChannelLoad DirectionAnalysis::LoadOf(std::size_t index) const {
   load.entries = sizes.entries;
   load.entry_bits = sizes.entry_bits;
   load.bits = sizes.bits;
+  load.single_bits = sizes.single_bits;
   return load;
 }
 
@@ -131,6 +136,18 @@ double DirectionAnalysis::ControlBits() const {
 }
 
 /// Acknowledgements and announcements of listeners that can be in the frames of a window.
+double DirectionAnalysis::ControlEntriesIn(double window_s) const {
+  double entries = 2 + std::floor(window_s * kFrameAcks_hz) + std::floor(window_s * kAnnouncements_hz);
+  for (std::size_t i = 0; i < table_.size(); ++i) {
+    const LinkChannel& c = table_.at(i);
+    if (c.direction == direction_ || c.channel_class != ChannelClass::kEvent) continue;
+    const ChannelLoad incoming = LoadOf(i);
+    entries += incoming.Arrivals(window_s) * incoming.entries;
+  }
+  return entries;
+}
+
+/// Bits of these.
 double DirectionAnalysis::ControlBitsIn(double window_s) const {
   double bits = (1 + std::floor(window_s * kFrameAcks_hz)) * (table_.id_bits() + kFrameAckBits);
   for (std::size_t i = 0; i < table_.size(); ++i) {
@@ -158,10 +175,10 @@ double DirectionAnalysis::OverBits() const {
   return table_.id_bits() + kControlKindBits + 1;
 }
 
-/// On a shared channel no message makes a frame longer, and acknowledgements leave room for one.
-void DirectionAnalysis::ConfineTo(std::size_t bundle_bytes, double& largest_bytes) {
-  const double bits = 8 * static_cast<double>(bundle_bytes);
-  control_bits_ = std::min(control_bits_ + OverBits(), std::max(0.0, bits - largest_bits_));
+/// No message makes such a frame longer, and acknowledgements leave room for one.
+void DirectionAnalysis::ConfineTo(double bundle_bytes, double& largest_bytes) {
+  const double bits = 8 * bundle_bytes;
+  control_bits_ = std::min(control_bits_, std::max(0.0, bits - largest_bits_));
   largest_bytes = (bits - control_bits_) / 8;
 }
 
@@ -291,22 +308,32 @@ double DirectionAnalysis::PolledUrgent(const ChannelLoad& load) const {
   });
 }
 
-/// What urgent events to every robot take of the channel: their frames, and the polls that follow at once.
+/// What urgent events take of the channel. Each to a robot is a frame, and a poll of that robot which follows
+/// at once and brings its acknowledgement. Before each of these polls, and before the next, the event is sent
+/// again to all robots that still have one to acknowledge: when it went to n robots, to n - 1 after the first
+/// poll, to n - 2 after the second; and to n - 1 each time while new ones come to those that were polled.
 double DirectionAnalysis::PolledUrgentIn(double window_s) const {
-  double s = 0;
-  const auto add = [&](const ChannelLoad& urgent) {
-    s += robots_ * urgent.Arrivals(window_s) * (FrameSeconds(urgent.bits) + Seconds(polled_.slot));
-  };
-  for (const ChannelLoad& other : loads_)
-    if (other.urgent) add(other);
-  for (const ChannelLoad& incoming : answered_) add(incoming);
-  return s;
+  const bool down = direction_ == Direction::kDown;
+  const double robots = robots_;
+  double to_each = 0;  // urgent events of the station to every robot
+  double of_each = 0;
+  for (const ChannelLoad& own : loads_)
+    if (own.urgent) (down ? to_each : of_each) += own.Arrivals(window_s);
+  for (const ChannelLoad& incoming : answered_) (down ? of_each : to_each) += incoming.Arrivals(window_s);
+  const double repeated = robots * (robots - 1) * std::max(0.0, to_each - 0.5);
+  const double frames = robots * (to_each + of_each) + repeated;
+  return frames * Seconds(polled_.urgent) + robots * (to_each + of_each) * Seconds(polled_.slot);
+}
+
+std::optional<Duration> DirectionAnalysis::BesideUrgent(Duration turn) const {
+  const double s = Converge([&](double window_s) { return Seconds(turn) + PolledUrgentIn(window_s); });
+  return std::isfinite(s) ? std::optional(FromSeconds(s)) : std::nullopt;
 }
 
 /// One frame goes per cycle; to each urgent event one may be lost, for its repetition or acknowledgement.
 /// Commands are no load on that: a robot that gets them is polled more often.
-double DirectionAnalysis::PolledIn(double window_s, const ChannelLoad& load) const {
-  double turns = 1 + FramesBefore(window_s, load);
+double DirectionAnalysis::PolledIn(double window_s, const ChannelLoad& load, const Waiting& waiting) const {
+  double turns = 1 + FramesBefore(window_s, load, waiting);
   for (const ChannelLoad& other : loads_)
     if (other.urgent) turns += other.Arrivals(window_s);
   for (const ChannelLoad& incoming : answered_) turns += incoming.Arrivals(window_s);
@@ -318,7 +345,7 @@ double DirectionAnalysis::PolledIn(double window_s, const ChannelLoad& load) con
 double DirectionAnalysis::CrowdedOutSeconds(const ChannelLoad& load) const {
   double s = 0;
   for (const ChannelLoad& other : loads_)
-    if (other.command && other.entry_bits + load.entry_bits > capacity_bits_)
+    if (other.command && other.entry_bits + std::max(load.entry_bits, load.single_bits) > capacity_bits_)
       s = std::max(s, (1 + std::max(0, load.priority - other.priority)) * ageing_s_);
   return s;
 }
@@ -338,43 +365,69 @@ double DirectionAnalysis::Urgent(const ChannelLoad& load) const {
   });
 }
 
+/// Of the largest message, or of one of a single entry that is longer than its entries.
 double DirectionAnalysis::Ordinary(const ChannelLoad& load) const {
   if (robots_ > 0 && load.command)
     return Converge([&](double window_s) { return NextSeconds(load) + PolledUrgentIn(window_s); });
-  return Converge(
-      [&](double window_s) { return robots_ > 0 ? PolledIn(window_s, load) : OrdinaryIn(window_s, load); });
+  const double largest_s =
+      Ordinary(load, {.entries = load.entries, .entry_bits = load.entry_bits, .bits = load.bits});
+  if (load.single_bits <= 0) return largest_s;
+  return std::max(largest_s,
+                  Ordinary(load, {.entries = 1, .entry_bits = load.single_bits, .bits = load.single_bits}));
 }
 
-/// Frames that the messages before this one, and those of it but the last, take at most; `all_bits`, if not
-/// null, gets what all messages of the direction take.
-double DirectionAnalysis::FramesBefore(double window_s, const ChannelLoad& load, double* all_bits) const {
-  // A state that waits is replaced by the newer one.
+double DirectionAnalysis::Ordinary(const ChannelLoad& load, const Waiting& waiting) const {
+  return Converge([&](double window_s) {
+    return robots_ > 0 ? PolledIn(window_s, load, waiting) : OrdinaryIn(window_s, load, waiting);
+  });
+}
+
+/// Frames that leave a message out which waits for `window_s`, at most, with those that take its earlier
+/// segments. Such a frame is full: what it has of other messages and of acknowledgements leaves no room for
+/// this one. Of a channel of which the newest message alone waits it has one per key, however many come.
+double DirectionAnalysis::FramesBefore(double window_s, const ChannelLoad& load,
+                                       const Waiting& waiting) const {
+  std::vector<Ahead> ahead{OwnAhead(window_s, load, waiting)};
+  for (const ChannelLoad& other : loads_) {
+    if (&other == &load || other.urgent || (robots_ > 0 && other.command) || !GoesBefore(other, load))
+      continue;
+    const double n = other.Arrivals(window_s);
+    ahead.push_back({.entries = n * other.entries, .bits = n * other.bits});
+    if (other.newest_only) ahead.back().most_bits = other.keys * other.bits;
+  }
+  // Either every frame is full of acknowledgements, or they are counted like messages.
+  const double reserved = FramesAhead(ahead, capacity_bits_ - waiting.entry_bits + 1);
+  if (robots_ > 0 || gap_s_ > 0) return reserved;
+  ahead.push_back({.entries = ControlEntriesIn(window_s), .bits = ControlBitsIn(window_s)});
+  return std::min(reserved, FramesAhead(ahead, bundle_bits_ - waiting.entry_bits + 1));
+}
+
+/// The messages of the same channel before this one, and its own first segments. A state that waits is
+/// replaced by the newer one.
+Ahead DirectionAnalysis::OwnAhead(double window_s, const ChannelLoad& load, const Waiting& waiting) {
   const double own = load.newest_only ? load.keys - 1 : load.OwnBefore(window_s);
-  double bits = load.bits - load.entry_bits + own * load.bits;
-  double entries = load.entries - 1 + own * load.entries;
-  double other_bits = 0;  // goes after it, but may fill its frames
+  return {.entries = waiting.entries - 1 + own * load.entries,
+          .bits = waiting.bits - waiting.entry_bits + own * load.bits};
+}
+
+/// What the frames before a message can hold: what goes before it, and what goes after it but has room where
+/// this one had none, because it is shorter.
+double DirectionAnalysis::BitsBefore(double window_s, const ChannelLoad& load, const Waiting& waiting) const {
+  double bits = OwnAhead(window_s, load, waiting).bits;
   for (const ChannelLoad& other : loads_) {
     if (&other == &load || other.urgent || (robots_ > 0 && other.command)) continue;
-    const double arrivals = other.Arrivals(window_s);
-    if (!GoesBefore(other, load)) {
-      other_bits += arrivals * other.bits;
-    } else {
-      bits += arrivals * other.bits;
-      entries += arrivals * other.entries;
-    }
+    const double most_bits = GoesBefore(other, load) ? other.bits : std::min(other.bits, waiting.entry_bits);
+    bits += other.Arrivals(window_s) * most_bits;
   }
-  const double room_bits = capacity_bits_ - load.entry_bits + 1;
-  if (all_bits != nullptr) *all_bits = bits + other_bits;
-  return room_bits > 0 ? std::min(entries, std::floor(bits / room_bits)) : entries;
+  return bits;
 }
 
-double DirectionAnalysis::OrdinaryIn(double window_s, const ChannelLoad& load) const {
-  double bits = 0;
-  const double frames = FramesBefore(window_s, load, &bits);
+double DirectionAnalysis::OrdinaryIn(double window_s, const ChannelLoad& load, const Waiting& waiting) const {
+  const double frames = FramesBefore(window_s, load, waiting);
   // Either all of them are as long as can be, or everything there is has been sent.
-  const double control_bits = std::min(frames * control_bits_, ControlBitsIn(window_s));
-  const double everything_s =
-      ((bits + control_bits) / 8 + frames * static_cast<double>(frame_bytes_ + 1)) * byte_s_;
+  const double bits =
+      BitsBefore(window_s, load, waiting) + std::min(frames * control_bits_, ControlBitsIn(window_s));
+  const double everything_s = (bits / 8 + frames * static_cast<double>(frame_bytes_ + 1)) * byte_s_;
   const double before_s = frame_s_ + UrgentIn(window_s, load) + std::min(frames * frame_s_, everything_s);
   return before_s / duty_.rate() + frame_s_ + kTick_s;
 }

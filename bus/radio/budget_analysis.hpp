@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "bus/radio/channels/channel_table.hpp"
+#include "bus/radio/channels/frames_ahead.hpp"
 #include "bus/radio/line/polling.hpp"
 #include "bus/radio/link_options.hpp"
 
@@ -24,9 +26,10 @@ struct ChannelLoad {
   double period_s = 0;
   double burst = 1;
   double keys = 1;
-  double entries = 1;     ///< number of entries per message
-  double entry_bits = 0;  ///< bits of the largest entry
-  double bits = 0;        ///< bits of all entries of a message
+  double entries = 1;      ///< number of entries per message
+  double entry_bits = 0;   ///< bits of the largest entry
+  double bits = 0;         ///< bits of all entries of a message
+  double single_bits = 0;  ///< bits of a message of one entry, if that can be longer; else 0
   double latency_s = std::numeric_limits<double>::infinity();
 
   /// Number of messages that can come in a window of this length.
@@ -56,6 +59,9 @@ class DirectionAnalysis {
   /// Time from the offer of a message that is the next to go, to its last byte at the receiver: it waits for
   /// the longest frame (half-duplex: and turn), and no emergency stop comes in between.
   double NextSeconds(const ChannelLoad& load) const;
+  /// Longest time of a shared channel that is `turn` without urgent messages, when these come at their rates;
+  /// nullopt: not bounded within a minute.
+  std::optional<Duration> BesideUrgent(Duration turn) const;
   /// Longest time from the end of a frame to the end of the next one.
   double SilenceSeconds() const;
   /// Time on air that urgent frames take at most beyond what is paid for: with bursts of all of them, and an
@@ -73,6 +79,13 @@ class DirectionAnalysis {
   double AheadSeconds() const;
 
  private:
+  /// A message that waits.
+  struct Waiting {
+    double entries = 1;
+    double entry_bits = 0;  ///< of its largest entry
+    double bits = 0;        ///< of all of them
+  };
+
   double AnswerSeconds() const;
   double OverBits() const;
   double AckFrameSeconds() const;
@@ -82,19 +95,23 @@ class DirectionAnalysis {
   ChannelLoad LoadOf(std::size_t index) const;
   double ControlBits() const;
   double ControlBitsIn(double window_s) const;
-  void ConfineTo(std::size_t bundle_bytes, double& largest_bytes);
+  void ConfineTo(double bundle_bytes, double& largest_bytes);
   void ShareTheAir(const LinkOptions& options);
   double InTurns(double work_s) const;
   double FrameSeconds(double bits) const;
   bool GoesBefore(const ChannelLoad& other, const ChannelLoad& load) const;
   double Urgent(const ChannelLoad& load) const;
   double Ordinary(const ChannelLoad& load) const;
-  double OrdinaryIn(double window_s, const ChannelLoad& load) const;
-  double FramesBefore(double window_s, const ChannelLoad& load, double* all_bits = nullptr) const;
+  double Ordinary(const ChannelLoad& load, const Waiting& waiting) const;
+  double OrdinaryIn(double window_s, const ChannelLoad& load, const Waiting& waiting) const;
+  static Ahead OwnAhead(double window_s, const ChannelLoad& load, const Waiting& waiting);
+  double FramesBefore(double window_s, const ChannelLoad& load, const Waiting& waiting) const;
+  double BitsBefore(double window_s, const ChannelLoad& load, const Waiting& waiting) const;
+  double ControlEntriesIn(double window_s) const;
   double PolledUrgent(const ChannelLoad& load) const;
   double CrowdedOutSeconds(const ChannelLoad& load) const;
   double PolledUrgentIn(double window_s) const;
-  double PolledIn(double window_s, const ChannelLoad& load) const;
+  double PolledIn(double window_s, const ChannelLoad& load, const Waiting& waiting) const;
   double Converge(const std::function<double(double window_s)>& latency) const;
 
   const ChannelTable& table_;
@@ -108,7 +125,8 @@ class DirectionAnalysis {
   double ahead_s_;
   double keep_alive_s_;
   double control_bits_ = 0;
-  double capacity_bits_ = 0;
+  double bundle_bits_ = 0;    ///< of a bundle of several messages
+  double capacity_bits_ = 0;  ///< the same without acknowledgements
   double frame_s_ = 0;
   std::size_t longest_bytes_ = 0;
   double largest_bits_ = 0;  ///< of an entry of a message

@@ -23,6 +23,18 @@ Handshake& HandshakeOf(const FrameInFlight& flight, const FrameSources& from) {
   return flight.next_key && from.peer.next_key ? from.peer.next_key->handshake : from.peer.handshake;
 }
 
+/// Bytes of the longest frame where none has a longer bundle, with the delimiter that leads after silence.
+std::size_t LongestFrameBytes(const FrameSealer& sealer, const FrameLength& length) {
+  return 1 + std::max(kHelloFrameBytes + 1, sealer.overhead() + kWholeCounterBytes + length.bundle_bytes);
+}
+
+/// The turns of an end whose frames have at most `longest` bytes.
+HalfDuplex TurnsOf(const LinkOptions& options, bool onboard, std::size_t longest) {
+  HalfDuplex turns = options.Turns(onboard);
+  turns.answer = Pacer(options.bytes_per_s, 0, Time{}).WireTime(longest);
+  return turns;
+}
+
 }  // namespace
 
 FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sealer,
@@ -30,15 +42,17 @@ FrameScheduler::FrameScheduler(const ChannelTable& table, const FrameSealer& sea
     : table_(&table),
       sealer_(sealer),
       options_(options),
+      length_(FrameLengthOf(table, options, onboard ? Direction::kUp : Direction::kDown)),
       message_bits_(LargestEntryBits(table, onboard ? Direction::kUp : Direction::kDown)),
       transmitter_(options, now),
-      turns_(options.Turns(onboard), onboard, now),
+      turns_(TurnsOf(options, onboard, LongestFrameBytes(sealer, length_)), onboard, now),
       repetition_(now),
       last_data_(now - options.keep_alive) {}
 
 std::vector<std::byte> FrameScheduler::Step(FrameSources from, Time now) {
   std::vector<std::byte> out;
   turns_.Step(now, from.peer.sent.one_way());
+  if (flight_ && turns_.SlotEndsBefore(transmitter_.RestLeavesAt(now))) GiveUp(from);
   ChooseForm(from, now);
   if (MustCut(from, now)) Cut(from, now, out);
   while (MaySend(from, now)) {
@@ -174,8 +188,7 @@ void FrameScheduler::BuildHello(FrameSources from, Handshake& handshake, const F
 
 bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   const LineCode line_code = urgent_only ? LineCodeOf(from, now) : LineCode::kCobs;
-  BundleBuilder builder(*table_, TargetBytes(from, line_code, now), turns_.enabled(), sealer_.overhead());
-  if (turns_.shared()) builder.Confine(message_bits_);
+  BundleBuilder builder = NewBundle(from, urgent_only, line_code, now);
   FrameInFlight flight = Fill(builder, from, urgent_only, line_code, now);
   // Nothing that is ready could be packed: no frame for nothing.
   if (builder.empty() && now - last_data_ < options_.keep_alive) return false;
@@ -197,13 +210,19 @@ bool FrameScheduler::BuildData(FrameSources from, bool urgent_only, Time now) {
   return true;
 }
 
+BundleBuilder FrameScheduler::NewBundle(const FrameSources& from, bool urgent_only, LineCode line_code,
+                                        Time now) const {
+  BundleBuilder bundle(*table_, TargetBytes(from, line_code, now), turns_.enabled(), sealer_.overhead());
+  if (length_.strict && (turns_.shared() || !urgent_only)) bundle.Confine(message_bits_);
+  return bundle;
+}
+
 /// The budget of a radio that takes turns counts with frames of full length; acknowledgements may be rare
 /// there.
 std::size_t FrameScheduler::TargetBytes(const FrameSources& from, LineCode line_code, Time now) const {
   if (line_code == LineCode::kBlock) return sealer_.MaxBlockBundle(form_);
   const SentFrames& sent = from.peer.sent;
-  return BestBundleBytes(options_.max_bundle_bytes,
-                         turns_.enabled() ? sent.peer_loss() : sent.ExpectedLoss(now),
+  return BestBundleBytes(length_.bundle_bytes, turns_.enabled() ? sent.peer_loss() : sent.ExpectedLoss(now),
                          FrameOverhead(sealer_.code_bytes()));
 }
 
@@ -263,17 +282,28 @@ bool FrameScheduler::EndsTurn(const FrameSources& from, Time now) const {
 bool FrameScheduler::EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const {
   if (!turns_.enabled()) return false;
   const Pacer& pacer = transmitter_.pacer();
-  const Duration longest =
-      pacer.WireTime(options_.HeadBytes() + options_.max_bundle_bytes + sealer_.overhead());
+  const Duration longest = pacer.WireTime(options_.HeadBytes() + length_.bundle_bytes + sealer_.overhead());
   if (turns_.MustEnd(pacer.LeavesAt(options_.HeadBytes() + frame_bytes, now), longest)) return true;
   if (turns_.shared()) return false;
   return !from.inbox.AckDue() && from.outbox.queue().Ready(now).empty();
 }
 
 void FrameScheduler::Cut(FrameSources from, Time now, std::vector<std::byte>& out) {
+  transmitter_.Cut(now, out);
+  TakeBack(from);
+}
+
+/// A robot's answer that would go on into the turn of another one.
+void FrameScheduler::GiveUp(FrameSources from) {
+  transmitter_.Drop();
+  turns_.Revoke();
+  TakeBack(from);
+}
+
+/// Nothing of the frame counts as sent.
+void FrameScheduler::TakeBack(FrameSources from) {
   FrameInFlight flight = std::move(*flight_);
   flight_.reset();
-  transmitter_.Cut(now, out);
   ++counters_.aborted;
   from.outbox.Return(std::move(flight.outbox));
   from.inbox.Return(flight.inbox);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "bus/radio/frame_length.hpp"
 #include "bus/radio/frame_receiver.hpp"
 #include "bus/radio/line/repetition.hpp"
 #include "bus/radio/line/turn_taking.hpp"
@@ -57,6 +58,8 @@ class FrameScheduler {
 
   /// The bytes that may be written to the line now.
   std::vector<std::byte> Step(FrameSources from, Time now);
+  /// Notes that what had arrived by `now` was read.
+  void OnLook(Time now) { turns_.OnLook(now); }
   /// Notes the time at which bytes came, of whomever.
   void OnBytes(Time now) { turns_.OnBytes(now); }
   /// Notes the time at which a frame came that the other end has just sent.
@@ -92,6 +95,7 @@ class FrameScheduler {
   void BuildHello(FrameSources from, Handshake& handshake, const FrameSealer& sealer, Reception reception,
                   Time now);
   bool BuildData(FrameSources from, bool urgent_only, Time now);
+  BundleBuilder NewBundle(const FrameSources& from, bool urgent_only, LineCode line_code, Time now) const;
   std::size_t TargetBytes(const FrameSources& from, LineCode line_code, Time now) const;
   FrameInFlight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, LineCode line_code,
                      Time now) const;
@@ -100,11 +104,14 @@ class FrameScheduler {
   bool EndsTurn(const FrameSources& from, Time now) const;
   bool EndsTurn(const FrameSources& from, std::size_t frame_bytes, Time now) const;
   void Cut(FrameSources from, Time now, std::vector<std::byte>& out);
+  void GiveUp(FrameSources from);
+  void TakeBack(FrameSources from);
   void Finish(FrameSources from);
 
   const ChannelTable* table_;
   FrameSealer sealer_;
   LinkOptions options_;
+  FrameLength length_;        ///< of the longest frames
   std::size_t message_bits_;  ///< of the largest entry of a message
   Transmitter transmitter_;
   TurnTaking turns_;

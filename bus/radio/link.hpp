@@ -113,6 +113,10 @@ class LinkEndpoint {
   /// Whether the other end has a listener for an outgoing on-request channel.
   bool wanted(std::size_t channel) const { return outbox_.queue().wanted(channel); }
 
+  /// Notes that what had arrived on the line by `now` was read and passed on. Where ends take turns, it tells
+  /// when a poll can have come at the earliest, should this process have stood still before it read it.
+  /// Without it bytes count as come when they are passed on.
+  void OnLook(Time now) { scheduler_.OnLook(now); }
   /// The bytes that may be written to the line now.
   std::vector<std::byte> Step(Time now);
   /// The messages that the bytes from the line make complete.

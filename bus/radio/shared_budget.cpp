@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "bus/radio/budget_analysis.hpp"
 
 namespace priamos::bus::radio {
@@ -43,11 +45,15 @@ std::vector<std::string> SharedProblems(const ChannelTable& table, const LinkOpt
 }
 
 std::string FormatPollBounds(const PollBounds& bounds, int robots) {
+  const auto seconds = [](const std::optional<Duration>& d) {
+    return d ? fmt::format("{:.3f} s", Seconds(*d)) : std::string("no bound");
+  };
   return fmt::format(
       "{} robots on one channel: each is polled at least every {:.3f} s, one that is driven every {:.3f} s; "
+      "beside emergency stops to all, {} and {}\n"
       "an emergency stop takes at most {:.3f} s to one robot, {:.3f} s to all\n",
-      robots, Seconds(bounds.cycle), Seconds(bounds.asked), Seconds(bounds.urgent_one),
-      Seconds(bounds.urgent_all));
+      robots, Seconds(bounds.cycle), Seconds(bounds.asked), seconds(bounds.busy_cycle),
+      seconds(bounds.busy_asked), Seconds(bounds.urgent_one), Seconds(bounds.urgent_all));
 }
 
 }  // namespace priamos::bus::radio

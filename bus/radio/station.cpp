@@ -19,7 +19,8 @@ Station::Station(SharedChannel channel, std::vector<LinkEndpoint*> ends)
       cycle_(channel, static_cast<std::uint8_t>(ends_.size())) {}
 
 std::vector<std::byte> Station::Step(Time now) {
-  cycle_.Step(now);
+  // After this process stood still an answer may wait to be read.
+  cycle_.Step(looked_ ? std::min(now, *looked_) : now);
   const bool chosen = !granted_ && Choose(now);
   std::vector<std::byte> out;
   // Also those that are silent: they drop what has become too old, and write down what they must.
@@ -72,11 +73,7 @@ bool Station::MaySpeak(std::size_t robot, Time now) const {
 
 /// A robot that has to be asked goes before those in turn, so often that nobody starves.
 std::size_t Station::NextPoll(Time now) {
-  if (const auto asked = FindAsked(now)) {
-    last_asked_ = *asked;
-    regular_ = 0;
-    return *asked;
-  }
+  if (const auto asked = FindAsked(now)) return last_asked_ = *asked;
   ++regular_;
   return cycle_.Next() - 1U;
 }
@@ -89,10 +86,11 @@ std::optional<std::size_t> Station::FindAsked(Time now) {
     if (need != Need::kAnswer) u.asks = 0;
     if (need == Need::kNothing || u.fruitless) continue;
     const bool at_once = need == Need::kAnswer && u.asks < kAskedAtOnce;
-    if (at_once || regular_ >= kAskEvery - 1) {
-      ++u.asks;
-      return i;
-    }
+    if (!at_once && regular_ < kAskEvery - 1) continue;
+    // One that is asked at once takes no turn from those that are asked now and then.
+    if (!at_once) regular_ = 0;
+    ++u.asks;
+    return i;
   }
   return std::nullopt;
 }

@@ -25,6 +25,8 @@ class Station {
   /// `ends`: offboard ends of the robots 1, 2, ... in this order, which must outlive the station.
   Station(SharedChannel channel, std::vector<LinkEndpoint*> ends);
 
+  /// Notes that what had arrived by `now` was read: silence is known until then.
+  void OnLook(Time now) { looked_ = now; }
   /// The bytes that may be written to the line now. Call it every 1 or 2 ms.
   std::vector<std::byte> Step(Time now);
   /// Hands the bytes from the line to every end; `deliver` gets the index of the robot, from 0.
@@ -53,6 +55,7 @@ class Station {
   std::vector<LinkEndpoint*> ends_;
   std::vector<Urgency> urgency_;
   PollCycle cycle_;
+  std::optional<Time> looked_;    ///< what had arrived by then was read
   std::optional<Grant> granted_;  ///< the end that sends a frame now
   Time line_free_{};              ///< when the last byte of the station has left
   std::size_t last_asked_ = 0;    ///< robot that was polled before its turn last

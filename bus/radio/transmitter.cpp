@@ -42,6 +42,10 @@ void Transmitter::Emit(Time now, std::vector<std::byte>& out) {
 void Transmitter::Cut(Time now, std::vector<std::byte>& out) {
   // If nothing of it has left, it never was.
   if (next_ > 0) Put(kDelimiter, now, out);
+  Drop();
+}
+
+void Transmitter::Drop() {
   wire_.clear();
   next_ = 0;
 }

@@ -34,6 +34,10 @@ class Transmitter {
   void Emit(Time now, std::vector<std::byte>& out);
   /// Aborts the frame. The part that has left is ended by a delimiter, so that the receiver discards it.
   void Cut(Time now, std::vector<std::byte>& out);
+  /// Aborts the frame without another byte: who is not to talk any more.
+  void Drop();
+  /// Time at which the rest of the frame will have left, if it goes on from `now`.
+  Time RestLeavesAt(Time now) const { return pacer_.LeavesAt(wire_.size() - next_, now); }
 
   /// Time that the `bytes` of a frame take on the line, a packet's overhead included; 0 for a datagram of IP.
   Duration OnTheWay(std::size_t bytes) const;

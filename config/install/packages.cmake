@@ -1,5 +1,5 @@
 # Debian packages, made by scripts/deb: the tools for any LCM bus, what runs on a robot, what runs at its workstation (and
-# simulates a robot there), and the bus for programs of others.
+# simulates a robot there), the bus for programs of others, and for scripts in Python.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME priamos)
 set(CPACK_PACKAGE_CONTACT "PRIAMOS <priamos@localhost>")
@@ -7,7 +7,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL tools robot station priamos_bus)
+set(CPACK_COMPONENTS_ALL tools robot station priamos_bus python)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -36,6 +36,18 @@ set(CPACK_DEBIAN_PRIAMOS_BUS_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_PRIAMOS_BUS_PACKAGE_DEPENDS "pkg-config, liblcm-dev, libsodium-dev, libtomlplusplus-dev, \
 libeigen3-dev, libfmt-dev, libspdlog-dev, nlohmann-json3-dev, libcli11-dev")
 
+# Alone, and for every machine: logs are looked at where nothing else of PRIAMOS is.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-priamos)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "logs, packed messages and buses of LCM in Python
+ Reads any LCM log, also damaged ones and those of old types; packed messages of a
+ PRIAMOS radio link, one end of it, and LCM over UDP multicast. Needs Python alone.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.10)")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-cryptography)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/config/install/python/postinst;${PROJECT_SOURCE_DIR}/config/install/python/prerm")
+
 # What a person changes in /etc stays at an upgrade; `apt purge` takes it away.
 if(PRIAMOS_ROBOT)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/config/robot ${PROJECT_SOURCE_DIR}/config/robot/[a-z]*.toml)
@@ -44,6 +56,6 @@ if(PRIAMOS_ROBOT)
   file(WRITE ${PROJECT_BINARY_DIR}/debian/conffiles "${conffiles}\n")
   set(CPACK_DEBIAN_ROBOT_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/conffiles)
 else()
-  set(CPACK_COMPONENTS_ALL priamos_bus)
+  set(CPACK_COMPONENTS_ALL priamos_bus python)
 endif()
 include(CPack)

@@ -48,6 +48,8 @@ void DoorPlan::Describe(Archive& a) {
   a.Text("leaf", leaf, "hinges of the leaf, left or right, if its angle is known; none; or unknown");
   a.Number("leaf_open_deg", leaf_open_deg, {"deg", 0, 175, "angle of the leaf, 0 is closed"});
   a.Number("leaf_thickness_m", leaf_thickness_m, {"m", 0.01, 0.1, "thickness of the leaf"});
+  a.Integer("behind_id", behind_id,
+            {"-", 0, kLastLandmarkId, "number of its landmark from behind; 0: passed from the front only"});
   if (rebate_depth_m >= wall_thickness_m) a.Refuse("rebate_depth_m", "less than wall_thickness_m");
   if (leaf != "left" && leaf != "right" && leaf != "none" && leaf != "unknown")
     a.Refuse("leaf", "left, right, none or unknown");
@@ -87,7 +89,8 @@ void GroundPlan::Describe(Archive& a) {
   a.List("cupboards", cupboards, "cupboards that serve as landmarks");
   std::set<int> ids;
   for (const DoorPlan& door : doors)
-    if (!ids.insert(door.id).second) a.Refuse("doors", "every door with its own id");
+    if (!ids.insert(door.id).second || (door.behind_id != 0 && !ids.insert(door.behind_id).second))
+      a.Refuse("doors", "every door with its own id, and its own behind_id");
   for (const CupboardPlan& cupboard : cupboards)
     if (!ids.insert(cupboard.id).second) a.Refuse("cupboards", "every landmark with its own id");
 }

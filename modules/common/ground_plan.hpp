@@ -52,6 +52,7 @@ struct DoorPlan {
   std::string leaf = "unknown";  ///< hinges of the leaf, "left" or "right", if its angle is known; or "none"
   double leaf_open_deg = 0;      ///< 0 is closed; it opens into the far room
   double leaf_thickness_m = 0.04;
+  int behind_id = 0;  ///< number of its landmark for who stands behind it; 0: nobody looks at it from there
 
   void Describe(Archive& a);
 

@@ -10,6 +10,7 @@ Json ItemsSince(const News& news, std::uint64_t seen, Time now) {
   for (const News::Item* item : news.Since(seen))
     items.push_back({{"key", item->key},
                      {"channel", item->channel},
+                     {"type", item->type},
                      {"age_s", Seconds(now - item->valid)},
                      {"message", item->message}});
   return items;

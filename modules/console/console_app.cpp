@@ -8,11 +8,11 @@
 
 #include "bus/schema/schema.hpp"
 #include "common/config.hpp"
+#include "common/data_folders.hpp"
 #include "common/ground_plan.hpp"
 #include "common/random.hpp"
 #include "console/greeting.hpp"
-#include "console/page_files.hpp"
-#include "console/token_file.hpp"
+#include "console/server_options.hpp"
 
 namespace priamos::console {
 namespace {
@@ -24,17 +24,10 @@ int DrawSession(const bus::Context& context) {
   return static_cast<int>(std::random_device{}() % 256);
 }
 
-WebServerOptions ServerOptions(const ConsoleConfig& config, const bus::Context& context) {
-  WebServerOptions options;
-  options.address = config.address;
-  options.port = config.port;
-  options.ports = config.ports;
-  options.max_sockets = config.pages;
-  options.max_connections = 4 * config.pages;
-  options.max_message = kMaxBrowserMessage;
-  options.access =
-      LoadAccess(config.address, config.token_file.empty() ? "" : context.ResolvePath(config.token_file));
-  return options;
+/// What is written down whoever sends it; of the stick it is who holds it, and when.
+bool IsOrder(const BrowserMessage& message) {
+  return std::holds_alternative<StopOrder>(message) || std::holds_alternative<MissionOrder>(message) ||
+         std::holds_alternative<PlaceOrder>(message);
 }
 
 std::string_view PhaseName(PilotPhase phase) {
@@ -60,8 +53,15 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
     : config_(config),
       context_(context),
       link_(LoadConfig<bus::radio::LinkConfig>(context.ResolvePath(config.link))),
-      greeting_(Greeting(config, LoadConfig<GroundPlan>(context.ResolvePath(config.map)), link_)),
+      plan_(LoadConfig<GroundPlan>(context.ResolvePath(config.map))),
+      greeting_(Greeting(config, plan_, link_)),
+      files_(context.node().schema()),
+      audit_(config.audit_file.empty() ? "" : context.ResolvePath(config.audit_file)),
       feed_(context.node().schema()),
+      bridge_(context.node().schema(), {config.body.length_m, config.body.width_m}, context.instance(),
+              [this](ClientId client, std::string message, bool binary) {
+                return server_ && server_->Queue(client, std::move(message), binary);
+              }),
       seat_(config.pilot, FromSeconds(config.freshness_s)),
       pilot_(config.pilot),
       wanted_(OnRequest(link_)),
@@ -80,7 +80,10 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
       256 * base_.session;  // so that a robot does not take the first order for one of an earlier station
   for (const std::string_view channel : kShownChannels) Show(channel);
   if (context.lockstep()) return;
-  server_ = std::make_unique<WebServer>(ServerOptions(config, context), PageFiles(), *this);
+  ServeFoxglove();
+  server_ = std::make_unique<WebServer>(
+      ServerOptionsOf(config, config.token_file.empty() ? "" : context.ResolvePath(config.token_file)),
+      files_.files(), *this);
   context.SetStatus(fmt::format("the station is at {}", server_->address()));
   context.Log(bus::Level::kInfo, context.status());
 }
@@ -89,12 +92,23 @@ void ConsoleApp::Show(std::string_view channel) {
   const std::string name(channel);
   context_.node().SubscribeRaw(name, [this, name](std::span<const std::byte> bytes, Time arrival) {
     feed_.Hear(name, bytes, arrival);
+    bridge_.Hear(name, bytes, arrival);
   });
+}
+
+void ConsoleApp::ServeFoxglove() {
+  OfferShownChannels(bridge_);
+  bridge_.OfferScene(&plan_, context_.node().Now());
+  bridge_.TakeOrders([this](ClientId client, std::string_view text) { return Obey(client, text); });
+  bridge_.set_needs(
+      [this](ClientId client, const std::string& channel, bool on) { wanted_.Wish(client, channel, on); });
 }
 
 void ConsoleApp::Tick(Time now) {
   now_ = now;
   if (server_) server_->Poll(now);
+  bridge_.Tick(now, now);
+  if (const auto sheets = parameters_.Take()) files_.AddParameters(*sheets);
   if (const auto status = status_.Take()) robot_ = FromMessage(*status, base_.session);
   Drive(now);
   Place(now);
@@ -112,6 +126,15 @@ void ConsoleApp::Tick(Time now) {
 void ConsoleApp::Drive(Time now) {
   if (stop_.Step(robot_.estop, now)) estop_.Publish(ToMessage(PilotOutput::Estop::kStop, now));
   Send(pilot_.Step(seat_.Look(now), robot_, now), now);
+  NoteDriver(now);
+}
+
+void ConsoleApp::NoteDriver(Time now) {
+  const auto holder = seat_.holder();
+  if (holder == drove_) return;
+  if (drove_) audit_.Note(now, *drove_, "drive ends");
+  if (holder) audit_.Note(now, *holder, "drive begins");
+  drove_ = holder;
 }
 
 /// The radio does not repeat what it loses of this: an answer of the robot ends it.
@@ -136,29 +159,53 @@ void ConsoleApp::Send(const PilotOutput& output, Time now) {
   if (output.head) head_drive_.Publish(ToMessage(*output.head, next(head_), time_to_live_s, now));
 }
 
-void ConsoleApp::Joined(std::uint64_t client, Role role) {
-  audience_.Join(client, role);
-  if (role == Role::kDriver) seat_.Join(client);
+void ConsoleApp::Joined(std::uint64_t client, const OpenSocket& socket) {
+  audit_.Note(now_, client, "joined",
+              {{"role", socket.role == Role::kDriver ? "driver" : "viewer"},
+               {"from", socket.from},
+               {"foxglove", socket.dialect == Dialect::kFoxglove}});
+  if (socket.dialect == Dialect::kFoxglove) return bridge_.Join(client, socket.role);
+  parameters_.Ask(ThisProgram().program_folder, context_.ResolvePath("."));
+  audience_.Join(client, socket.role);
+  if (socket.role == Role::kDriver) seat_.Join(client);
 }
 
 void ConsoleApp::Left(std::uint64_t client) {
+  audit_.Note(now_, client, "left");
+  if (bridge_.Has(client)) bridge_.Leave(client);
   audience_.Leave(client);
   seat_.Leave(client);
   wanted_.Leave(client);
 }
 
-bool ConsoleApp::Said(std::uint64_t client, std::string_view text) {
-  const auto message = ReadBrowserMessage(text);
-  if (!message) {
-    context_.Log(bus::Level::kWarning, fmt::format("a page was cut off: {}", message.reason()));
-    return false;
+Role ConsoleApp::RoleOf(ClientId client) const {
+  return bridge_.Has(client) ? bridge_.RoleOf(client) : audience_.RoleOf(client);
+}
+
+bool ConsoleApp::Said(std::uint64_t client, std::string_view message, bool binary) {
+  const auto refusal = bridge_.Has(client) ? bridge_.Said(client, message, binary)
+                       : binary            ? Refusal{"expected text"}
+                                           : Obey(client, message);
+  if (refusal) {
+    audit_.Note(now_, client, "cut off", {{"reason", refusal->reason}});
+    context_.Log(bus::Level::kWarning, fmt::format("a page was cut off: {}", refusal->reason));
   }
-  return std::visit([&](const auto& m) { return Take(client, m); }, *message);
+  return !refusal;
+}
+
+std::optional<Refusal> ConsoleApp::Obey(ClientId client, std::string_view page_message) {
+  const auto message = ReadBrowserMessage(page_message);
+  if (!message) return Refusal{message.reason()};
+  const bool done = std::visit([&](const auto& m) { return Take(client, m); }, *message);
+  if (IsOrder(*message))
+    audit_.Note(now_, client, done ? "ordered" : "may not order", {{"message", Json::parse(page_message)}});
+  if (done) return std::nullopt;
+  return Refusal{"expected somebody who may drive, and an order for a robot"};
 }
 
 /// A viewer's hand is on nothing: his reports are refused, which ends his connection.
 bool ConsoleApp::Take(std::uint64_t client, const StickReport& report) {
-  if (audience_.RoleOf(client) != Role::kDriver) return false;
+  if (RoleOf(client) != Role::kDriver) return false;
   if (!seat_.Take(client, report, beats_.AgeOf(report.beat, now_), now_)) ++late_;
   return true;
 }
@@ -171,13 +218,13 @@ bool ConsoleApp::Take(std::uint64_t, const StopOrder&) {
 }
 
 bool ConsoleApp::Take(std::uint64_t client, const MissionOrder& order) {
-  if (audience_.RoleOf(client) != Role::kDriver) return false;
+  if (RoleOf(client) != Role::kDriver) return false;
   mission_.Publish(ToMessage(order, now_));
   return true;
 }
 
 bool ConsoleApp::Take(std::uint64_t client, const PlaceOrder& order) {
-  if (audience_.RoleOf(client) != Role::kDriver) return false;
+  if (RoleOf(client) != Role::kDriver) return false;
   places_ = places_ % 65535 + 1;
   placing_.Give(ToMessage(order, places_, {config_.place_sigma_m, config_.place_sigma_deg}, now_), now_);
   return true;
@@ -198,7 +245,7 @@ Json ConsoleApp::Station(std::uint64_t client, Role role) const {
           {"phase", PhaseName(pilot_.phase())},
           {"mode", pilot_.mode() == PilotMode::kBase ? "base" : "head"},
           {"fast", pilot_.fast()},
-          {"pages", audience_.size()},
+          {"pages", audience_.size() + bridge_.clients()},
           {"refused", refused.requests + refused.messages + refused.crowded + refused.slow},
           {"late", late_}};
 }
@@ -209,6 +256,7 @@ void ConsoleApp::Count(Time now) {
   if (!server_) return;
   const WebCounters& c = server_->counters();
   const std::uint64_t all = c.requests + c.messages + c.crowded + c.slow;
+  if (all != counted_) audit_.Note(now, 0, "refused", {{"requests_and_pages", all}});
   if (all != counted_)
     context_.Log(
         bus::Level::kWarning,

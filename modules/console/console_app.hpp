@@ -15,12 +15,15 @@
 #include "common/pilot/stop_keeper.hpp"
 #include "common/rate_limit.hpp"
 #include "console/audience.hpp"
+#include "console/audit_log.hpp"
 #include "console/console_config.hpp"
 #include "console/console_messages.hpp"
 #include "console/core/beats.hpp"
 #include "console/core/seat.hpp"
 #include "console/core/wanted_channels.hpp"
+#include "console/foxglove_bridge.hpp"
 #include "console/news_feed.hpp"
+#include "console/station_files.hpp"
 #include "console/web/web_server.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -35,6 +38,7 @@ class ConsoleApp : public WebListener {
       "The station: a page for a browser that shows what comes over the radio, and drives.";
   static constexpr std::array<bus::OptionAlias, 1> kOptions{
       {{"--port", "port", "", "first TCP port that is tried"}}};
+  static constexpr bool kFollowsLogs = true;  // main.cpp: ShowPlayedLog
   using Config = ConsoleConfig;
 
   ConsoleApp(const ConsoleConfig& config, bus::Context& context);
@@ -43,9 +47,11 @@ class ConsoleApp : public WebListener {
   void Tick(Time now);
 
  private:
-  void Joined(std::uint64_t client, Role role) override;
-  bool Said(std::uint64_t client, std::string_view text) override;
+  void Joined(std::uint64_t client, const OpenSocket& socket) override;
+  bool Said(std::uint64_t client, std::string_view message, bool binary) override;
   void Left(std::uint64_t client) override;
+  std::optional<Refusal> Obey(ClientId client, std::string_view page_message);
+  Role RoleOf(ClientId client) const;
   bool Take(std::uint64_t client, const StickReport& report);
   bool Take(std::uint64_t client, const StopOrder& order);
   bool Take(std::uint64_t client, const MissionOrder& order);
@@ -54,7 +60,9 @@ class ConsoleApp : public WebListener {
   bool Take(std::uint64_t, const ReplayOrder&) { return false; }  // there is no log
 
   void Show(std::string_view channel);
+  void ServeFoxglove();
   void Drive(Time now);
+  void NoteDriver(Time now);
   void Place(Time now);
   void Send(const PilotOutput& output, Time now);
   nlohmann::ordered_json Station(std::uint64_t client, Role role) const;
@@ -63,9 +71,15 @@ class ConsoleApp : public WebListener {
   ConsoleConfig config_;
   bus::Context& context_;
   bus::radio::LinkConfig link_;
+  GroundPlan plan_;
   std::string greeting_;  ///< first text for every page
+  StationFiles files_;
+  ParameterQuestion parameters_;
+  AuditLog audit_;
+  std::optional<ClientId> drove_;  ///< whose hand was on the stick at the last tick
   NewsFeed feed_;
   Audience audience_;
+  FoxgloveBridge bridge_;
   Beats beats_;
   Seat seat_;
   Pilot pilot_;

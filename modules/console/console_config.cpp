@@ -1,5 +1,8 @@
 #include "console/console_config.hpp"
 
+#include <iterator>
+#include <sstream>
+
 namespace priamos::console {
 
 void DrawnBody::Describe(Archive& a) {
@@ -17,6 +20,12 @@ void ConsoleConfig::Describe(Archive& a) {
   a.Text(
       "token_file", token_file,
       "file with lines `driver TOKEN` and `viewer TOKEN`, mode 0600; empty: everybody on this host drives");
+  a.Text("foxglove_origins", foxglove_origins,
+         "foreign pages, separated by blanks, that may connect as Foxglove does: https://app.foxglove.dev; "
+         "file:// "
+         "is what Foxglove and Lichtblick on the desktop name, and every page that is opened from a disk");
+  a.Text("audit_file", audit_file,
+         "file to which a line is added for everything that somebody did at the station; empty: none");
   a.Integer("pages", pages, {"-", 1, 100, "most pages at once"});
   a.Number("rate_hz", rate_hz, {"Hz", 50, 500, "how often connections and bus are looked at"});
   a.Number("beat_hz", beat_hz, {"Hz", 10, 50, "how often pages are sent what is new"});
@@ -27,6 +36,11 @@ void ConsoleConfig::Describe(Archive& a) {
   a.Number("place_sigma_deg", place_sigma_deg, {"deg", 0.3, 90, "how well he tells its heading, one sigma"});
   a.Section("body", body, "the robot as it is drawn");
   a.Section("pilot", pilot, "from the page's stick to wishes");
+}
+
+std::vector<std::string> WordsOf(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 }  // namespace priamos::console

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "common/pilot/pilot_config.hpp"
@@ -22,6 +23,8 @@ struct ConsoleConfig {
   std::string address = "127.0.0.1";
   int port = 8080, ports = 10;
   std::string token_file;
+  std::string foxglove_origins;
+  std::string audit_file;
   int pages = 16;
   double rate_hz = 200;
   double beat_hz = 20;
@@ -33,5 +36,8 @@ struct ConsoleConfig {
 
   void Describe(Archive& a);
 };
+
+/// The words of a text, which blanks separate.
+std::vector<std::string> WordsOf(const std::string& text);
 
 }  // namespace priamos::console

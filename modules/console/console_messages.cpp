@@ -98,14 +98,4 @@ RobotView FromMessage(const drive_status_t& message, int session) {
   return view;
 }
 
-Time ValidTime(const nlohmann::ordered_json& message, Time arrival, Duration longest) {
-  for (const char* field : {"utime", "utime_exposure"}) {
-    const auto it = message.find(field);
-    if (it == message.end() || !it->is_number_integer()) continue;
-    const std::int64_t utime = it->get<std::int64_t>(), now = ToUtime(arrival);
-    if (utime <= now && utime >= now - longest.count()) return FromUtime(utime);
-  }
-  return arrival;
-}
-
 }  // namespace priamos::console

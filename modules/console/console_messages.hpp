@@ -1,7 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "common/pilot/pilot.hpp"
 #include "console/core/browser_message.hpp"
 #include "console/core/wanted_channels.hpp"
@@ -31,9 +29,5 @@ link_request_t ToMessage(const WantedChannels::Request& request, Time now);
 
 /// What DRIVE_STATUS means to the console of `session`.
 RobotView FromMessage(const drive_status_t& message, int session);
-
-/// The moment a message speaks of: its utime or utime_exposure when that lies within the last `longest`, else
-/// `arrival`.
-Time ValidTime(const nlohmann::ordered_json& message, Time arrival, Duration longest);
 
 }  // namespace priamos::console

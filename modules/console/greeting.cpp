@@ -1,10 +1,12 @@
 #include "console/greeting.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "bus/version.hpp"
+#include "common/robot/robot_drawing.hpp"
 #include "console/plan_json.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -56,10 +58,11 @@ std::string Greeting(const ConsoleConfig& config, const GroundPlan& plan, const 
                 {"version", bus::Version()},
                 {"plan", ToJson(plan)},
                 {"body", {{"length_m", config.body.length_m}, {"width_m", config.body.width_m}}},
+                {"head", {{"x_m", kDrawnHead.x_m}, {"y_m", kDrawnHead.y_m}, {"z_m", kDrawnHead.z_m}}},
                 {"link", {{"bytes_per_s", link.BytesPerSecond()}}},
                 {"speed", {{"slow", Speed(config.pilot.slow)}, {"fast", Speed(config.pilot.fast)}}},
                 {"channels", Channels(link)}};
-  if (replay_s) hello["replay"] = {{"length_s", *replay_s}};
+  if (replay_s) hello["replay"] = std::isfinite(*replay_s) ? Json{{"length_s", *replay_s}} : Json::object();
   return hello.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

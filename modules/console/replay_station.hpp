@@ -1,16 +1,17 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
-#include "bus/log/log_player.hpp"
 #include "common/rate_limit.hpp"
 #include "console/audience.hpp"
 #include "console/core/beats.hpp"
-#include "console/core/browser_message.hpp"
+#include "console/foxglove_bridge.hpp"
 #include "console/news_feed.hpp"
+#include "console/shown_log.hpp"
+#include "console/station_files.hpp"
 #include "console/web/web_listener.hpp"
 #include "console/web/web_server.hpp"
 
@@ -20,37 +21,35 @@ class Schema;
 
 namespace priamos::console {
 
-/// The station's page on a log instead of a bus: everybody who looks may pause, step, seek and change the
-/// speed, and sees what an operator saw. Ages are those of the log: they stand while it does. Nothing is sent
-/// to any bus.
-class ReplayStation : public WebListener {
+/// The station's page, and the bridge for Foxglove, on a log instead of a robot: who looks sees what an
+/// operator saw, and steers the log where it can be steered. Ages are those of the log: they stand while it
+/// does. Nothing is sent to any bus.
+class ReplayStation : public WebListener, public LogListener {
  public:
   /// `log`: of the workstation's bus. `greeting` with the log's length. Throws std::runtime_error when no
   /// port can be had.
-  ReplayStation(bus::LogPlayer log, const bus::Schema& schema, std::string greeting,
-                const WebServerOptions& options);
+  ReplayStation(std::unique_ptr<ShownLog> log, const bus::Schema& schema, const GroundPlan& plan,
+                std::string greeting, const WebServerOptions& options);
 
   /// Serves pages and plays what is due.
   void Tick(Time now);
   std::string address() const { return server_.address(); }
-  const bus::LogPlayer& log() const { return log_; }
 
  private:
-  void Joined(std::uint64_t client, Role role) override { audience_.Join(client, role); }
-  bool Said(std::uint64_t client, std::string_view text) override;
-  void Left(std::uint64_t client) override { audience_.Leave(client); }
-  void Obey(const ReplayOrder& order);
-  void Seek(Duration position);
-  /// Plays what is due, so many events at most.
-  void Play(int at_most);
-  /// The log's own time.
-  Time LogTime() const;
+  void Joined(std::uint64_t client, const OpenSocket& socket) override;
+  bool Said(std::uint64_t client, std::string_view message, bool binary) override;
+  void Left(std::uint64_t client) override;
+  void Heard(const std::string& channel, std::span<const std::byte> bytes, Time time) override;
+  void Begun() override;
   nlohmann::ordered_json Station() const;
 
-  bus::LogPlayer log_;
+  std::unique_ptr<ShownLog> log_;
   std::string greeting_;
+  const bus::Schema& schema_;
+  StationFiles files_;
   NewsFeed feed_;
   Audience audience_;
+  FoxgloveBridge bridge_;
   Beats beats_;
   RateLimit beat_{20};
   Time now_{};

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "common/config.hpp"
 #include "planner/core/map/map_landmarks.hpp"
 #include "planner/planner_messages.hpp"
@@ -13,6 +15,9 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       context_(context),
       plan_(LoadConfig<GroundPlan>(context.ResolvePath(config.map))),
       missions_(missions(config, plan_)),
+      map_(config, context),
+      router_(MakeRouter(config, plan_)),
+      agenda_(MakeAgenda(config, missions_, router_)),
       orders_(context.node().SubscribeAll(channels::kMissionCommand)),
       poses_(context.node().Subscribe(channels::kPose)),
       drive_(context.node().Subscribe(channels::kDriveStatus)),
@@ -25,24 +30,35 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       look_(context.node().Advertise(channels::kLookRequest)),
       path_(context.node().Advertise(channels::kPath)),
       status_(context.node().Advertise(channels::kMissionStatus)),
-      status_rate_(config.status_rate_hz) {}
+      status_rate_(config.status_rate_hz) {
+  missions_.OnLearned(map_.walls());
+}
 
 void PlannerApp::Tick(Time now) {
   TakeReports(now);
+  if (auto learned = map_.Tick(now)) missions_.OnLearned(std::move(learned));
   TakeOrders(now);
-  Send(missions_.Tick(now), now);
+  Send(agenda_.Tick(now), now);
   SendStatus(now);
 }
 
 void PlannerApp::TakeOrders(Time now) {
-  for (const auto& order : orders_.Drain()) {
-    if (order.mission == mission_command_t::ABORT) {
-      missions_.Abort();
-    } else if (!missions_.Knows(order.mission)) {
-      context_.Log(bus::Level::kWarning, fmt::format("order refused: unknown mission {}", order.mission));
-    } else if (!missions_.Start(now, FromMessage(order))) {
-      context_.Log(bus::Level::kInfo, "order refused: a mission is being carried out");
-    }
+  for (const auto& order : orders_.Drain()) Take(order, now);
+}
+
+void PlannerApp::Take(const mission_command_t& order, Time now) {
+  switch (order.mission) {
+    case mission_command_t::ABORT:
+      return agenda_.Abort();
+    case mission_command_t::PAUSE:
+      return void(agenda_.Pause(now));
+    case mission_command_t::RESUME:
+      return void(agenda_.Resume(now));
+    case mission_command_t::CANCEL:
+      return void(agenda_.Cancel(order.order_id));
+    default:
+      if (const auto refusal = agenda_.Take(OrderIn(order), now))
+        context_.Log(bus::Level::kWarning, "order refused: " + refusal->reason);
   }
 }
 
@@ -67,7 +83,7 @@ void PlannerApp::TakeReports(Time now) {
 
 /// Sends the head the model of a landmark, because somebody else has it look there. A mission sends its own.
 void PlannerApp::TeachLandmark(int id) {
-  if (missions_.running()) return;
+  if (agenda_.running()) return;
   if (const auto landmark = MakeLandmark(plan_, id)) model_.Publish(ToMessage(*landmark));
 }
 
@@ -78,11 +94,12 @@ void PlannerApp::Send(const MissionActions& actions, Time now) {
 }
 
 void PlannerApp::SendStatus(Time now) {
-  const bool changed = !(missions_.state() == sent_state_);
-  if (!changed && !status_rate_.Due(now)) return;
-  if (changed) context_.Log(bus::Level::kInfo, missions_.state().text);
-  status_.Publish(ToMessage(missions_.state(), missions_.kind(), now));
-  sent_state_ = missions_.state();
+  const bool new_words = !(agenda_.state() == sent_state_);
+  if (!new_words && agenda_.changes() == sent_changes_ && !status_rate_.Due(now)) return;
+  if (new_words) context_.Log(bus::Level::kInfo, agenda_.state().text);
+  status_.Publish(StatusOf(agenda_, now));
+  sent_state_ = agenda_.state();
+  sent_changes_ = agenda_.changes();
   status_rate_.Mark(now);
 }
 

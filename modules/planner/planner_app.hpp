@@ -5,6 +5,7 @@
 #include "bus/context.hpp"
 #include "common/rate_limit.hpp"
 #include "lcmtypes/channels.hpp"
+#include "planner/map_keeper.hpp"
 #include "planner/planner_config.hpp"
 #include "planner/planner_missions.hpp"
 
@@ -30,6 +31,7 @@ class PlannerApp {
 
  private:
   void TakeOrders(Time now);
+  void Take(const mission_command_t& order, Time now);
   void TakeReports(Time now);
   void Send(const MissionActions& actions, Time now);
   void SendStatus(Time now);
@@ -39,6 +41,9 @@ class PlannerApp {
   bus::Context& context_;
   GroundPlan plan_;
   MissionTable missions_;
+  MapKeeper map_;
+  DoorRouter router_;
+  Agenda agenda_;
 
   bus::Inbox<mission_command_t> orders_;
   bus::Latest<pose_t> poses_;
@@ -54,6 +59,7 @@ class PlannerApp {
   bus::Publisher<mission_status_t> status_;
 
   MissionState sent_state_;
+  std::size_t sent_changes_ = 0;
   RateLimit status_rate_;
 };
 

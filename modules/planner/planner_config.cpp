@@ -4,12 +4,18 @@ namespace priamos::planner {
 
 void PlannerConfig::Describe(Archive& a) {
   a.Text("map", map, "ground plan, relative to the folder of this file");
+  a.Text(
+      "learned_map", learned_map,
+      "file of walls that robots found, relative likewise; empty: they are forgotten when the planner ends");
   a.Number("rate_hz", rate_hz, {"Hz", 1, 100, "decisions"});
   a.Number("status_rate_hz", status_rate_hz, {"Hz", 0.2, 20, "MISSION_STATUS while nothing changes"});
   a.Section("footprint", footprint, "the robot's body");
   a.Section("passage", passage, "paths to a door and through it");
   a.Section("mission", mission, "how the mission through a door goes");
   a.Section("goto", go, "how the mission to a place goes");
+  a.Section("learned", learned, "which walls that robots found are the same");
+  a.Section("doors", doors, "ways that lead through doors");
+  a.Section("steps", steps, "how the steps of an order follow each other");
 }
 
 }  // namespace priamos::planner

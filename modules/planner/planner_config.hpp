@@ -3,9 +3,12 @@
 #include <string>
 
 #include "common/archive.hpp"
+#include "planner/core/agenda/step_runner.hpp"
+#include "planner/core/map/learned_map.hpp"
 #include "planner/core/missions/door_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
 #include "planner/core/path/door_planner.hpp"
+#include "planner/core/path/door_router.hpp"
 #include "planner/core/path/footprint.hpp"
 
 namespace priamos::planner {
@@ -13,12 +16,16 @@ namespace priamos::planner {
 /// Contents of `config/<deployment>/planner.toml`.
 struct PlannerConfig {
   std::string map = "maps/door.toml";  ///< ground plan, relative to the folder of this file
+  std::string learned_map;             ///< file of what was learned; empty: forgotten when the planner ends
   double rate_hz = 20;                 ///< decisions
   double status_rate_hz = 2;           ///< MISSION_STATUS while nothing changes
   Footprint footprint;
   DoorPlannerConfig passage;
   DoorMissionConfig mission;
   GotoMissionConfig go;
+  LearnedMapConfig learned;
+  DoorRouterConfig doors;
+  StepRunnerConfig steps;
 
   void Describe(Archive& a);
 };

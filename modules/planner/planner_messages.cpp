@@ -8,7 +8,9 @@
 namespace priamos::planner {
 namespace {
 
-constexpr std::size_t kMaxText = 100;
+constexpr std::size_t kMaxText = 200, kMaxTitle = 60, kMaxResult = 120;
+constexpr std::size_t kShownResults = 3;  ///< of the newest ends: a message has to fit a datagram
+constexpr double kMost_s = 360000;
 
 DriveMode ModeOf(int mode) {
   switch (mode) {
@@ -49,6 +51,39 @@ std::int8_t PhaseOf(Phase phase) {
   return mission_status_t::FAILED;
 }
 
+AgendaStep FromMessage(const mission_step_t& message) {
+  AgendaStep step{{message.mission,
+                   message.landmark_id,
+                   {{message.x_m, message.y_m, WrapAngle(message.yaw_rad)}, message.turn != 0}}};
+  if (message.mission == mission_command_t::WAIT) step.wait_s = message.wait_s;
+  return step;
+}
+
+std::int8_t OutcomeOf(AgendaEnd end) {
+  switch (end) {
+    case AgendaEnd::kDone:
+      return mission_result_t::DONE;
+    case AgendaEnd::kFailed:
+      return mission_result_t::FAILED;
+    case AgendaEnd::kCancelled:
+      return mission_result_t::CANCELLED;
+    case AgendaEnd::kRefused:
+      break;
+  }
+  return mission_result_t::REFUSED;
+}
+
+mission_result_t ToMessage(const AgendaResult& result) {
+  mission_result_t message{};
+  message.order_id = result.order_id;
+  message.step = static_cast<std::int16_t>(result.step);
+  message.round = static_cast<std::int16_t>(result.round);
+  message.outcome = OutcomeOf(result.end);
+  message.took_s = std::min(result.took_s, kMost_s);
+  message.text = result.text.substr(0, kMaxResult);
+  return message;
+}
+
 landmark_edge_t ToMessage(const LandmarkEdge& edge) {
   landmark_edge_t message{};
   message.x1_m = edge.from.x();
@@ -65,10 +100,22 @@ landmark_edge_t ToMessage(const LandmarkEdge& edge) {
 
 }  // namespace
 
-MissionOrder FromMessage(const mission_command_t& message) {
-  return {message.mission,
-          message.landmark_id,
-          {{message.x_m, message.y_m, WrapAngle(message.yaw_rad)}, message.turn != 0}};
+AgendaOrder OrderIn(const mission_command_t& message) {
+  AgendaOrder order{message.order_id, message.title, {}, 1};
+  if (message.mission != mission_command_t::RUN) {
+    mission_step_t step{};
+    step.mission = message.mission;
+    step.landmark_id = message.landmark_id;
+    step.x_m = message.x_m;
+    step.y_m = message.y_m;
+    step.yaw_rad = message.yaw_rad;
+    step.turn = message.turn;
+    order.steps.push_back(FromMessage(step));
+    return order;
+  }
+  order.rounds = message.rounds;
+  for (const mission_step_t& step : message.steps) order.steps.push_back(FromMessage(step));
+  return order;
 }
 
 RobotPose FromMessage(const pose_t& message) {
@@ -162,12 +209,33 @@ look_request_t ToMessage(const LookOrder& look, Time now) {
   return message;
 }
 
-mission_status_t ToMessage(const MissionState& state, int kind, Time now) {
+mission_status_t StatusOf(const Agenda& agenda, Time now) {
+  const AgendaOrder& order = agenda.order();
   mission_status_t message{};
   message.utime = ToUtime(now);
-  message.mission = static_cast<std::int8_t>(kind);
-  message.phase = PhaseOf(state.phase);
-  message.text = state.text.substr(0, kMaxText);
+  message.mission = static_cast<std::int8_t>(agenda.kind());
+  message.phase = PhaseOf(agenda.state().phase);
+  message.text = agenda.state().text.substr(0, kMaxText);
+  message.order_id = order.id;
+  message.title = order.title.substr(0, kMaxTitle);
+  message.running = agenda.running();
+  message.paused = agenda.paused();
+  message.step = static_cast<std::int16_t>(agenda.step());
+  message.n_steps = static_cast<std::int16_t>(order.steps.size());
+  message.round = static_cast<std::int16_t>(agenda.round());
+  message.rounds = static_cast<std::int16_t>(order.rounds);
+  message.left_s = std::min(agenda.Left_s(now).value_or(-1), kMost_s);
+  for (const AgendaOrder& waits : agenda.waiting()) {
+    mission_waiting_t waiting{};
+    waiting.order_id = waits.id;
+    waiting.title = waits.title.substr(0, kMaxTitle);
+    message.waiting.push_back(std::move(waiting));
+  }
+  message.n_waiting = static_cast<std::int8_t>(message.waiting.size());
+  const auto& results = agenda.results();
+  for (std::size_t i = results.size() - std::min(results.size(), kShownResults); i < results.size(); ++i)
+    message.results.push_back(ToMessage(results[i]));
+  message.n_results = static_cast<std::int8_t>(message.results.size());
   return message;
 }
 

@@ -4,11 +4,13 @@
 #include <string_view>
 
 #include "lcmtypes/channels.hpp"
+#include "planner/core/agenda/agenda.hpp"
 #include "planner/core/missions/mission_types.hpp"
 
 namespace priamos::planner {
 
-MissionOrder FromMessage(const mission_command_t& message);
+/// The order that a command gives: the steps of RUN, else its one mission.
+AgendaOrder OrderIn(const mission_command_t& message);
 RobotPose FromMessage(const pose_t& message);
 DriveReport FromMessage(const drive_status_t& message);
 PassedOpening FromMessage(const opening_t& message);
@@ -25,8 +27,8 @@ LookResult FromMessage(const pose_correction_t& message);
 landmark_model_t ToMessage(const Landmark& landmark);
 path_t ToMessage(const PathOrder& path, Time now);
 look_request_t ToMessage(const LookOrder& look, Time now);
-/// Status of a mission as a message; `kind` is that of the mission's order.
-mission_status_t ToMessage(const MissionState& state, int kind, Time now);
+/// How the orders stand.
+mission_status_t StatusOf(const Agenda& agenda, Time now);
 
 /// The words that a person reads for a verdict or limit.
 std::string_view FixVerdictText(int verdict);

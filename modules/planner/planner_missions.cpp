@@ -14,4 +14,16 @@ MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan) {
   return missions;
 }
 
+DoorRouter MakeRouter(const PlannerConfig& config, const GroundPlan& plan) {
+  return {config.doors, config.go.route, config.passage, config.footprint, plan};
+}
+
+Agenda MakeAgenda(const PlannerConfig& config, MissionTable& missions, DoorRouter& router) {
+  return {missions,
+          router,
+          {mission_command_t::GOTO, mission_command_t::PASS_DOOR},
+          {config.go.speed_m_s, config.mission.speed_m_s},
+          config.steps};
+}
+
 }  // namespace priamos::planner

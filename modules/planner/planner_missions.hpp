@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/ground_plan.hpp"
+#include "planner/core/agenda/agenda.hpp"
 #include "planner/core/missions/mission_table.hpp"
 #include "planner/planner_config.hpp"
 
@@ -11,5 +12,10 @@ using MissionMaker = MissionTable (*)(const PlannerConfig& config, const GroundP
 
 /// Every mission that is shipped: one line each.
 MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan);
+
+/// The ways through the doors of the plan.
+DoorRouter MakeRouter(const PlannerConfig& config, const GroundPlan& plan);
+/// The queue before the missions.
+Agenda MakeAgenda(const PlannerConfig& config, MissionTable& missions, DoorRouter& router);
 
 }  // namespace priamos::planner

@@ -1,11 +1,16 @@
 #include "radio/file_store.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <cerrno>
+#include <chrono>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -25,6 +30,29 @@ void Replace(const std::string& path, std::span<const std::byte> state, bool dur
   if (!ReplaceFile(path, content, durable, 0600)) Fail(path);
 }
 
+/// The time that the kernel gives a changed file is that of its last tick.
+constexpr Duration kClockSteps{20'000};
+
+/// Time by the wall clock, since 1970.
+Duration WallClock() {
+  return std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch());
+}
+
+/// When a file was written, or came under this name, last: by the wall clock, since 1970.
+std::optional<Duration> ChangedAt(const std::string& path) {
+  struct stat info {};
+  if (stat(path.c_str(), &info) != 0) return std::nullopt;
+  return std::chrono::duration_cast<Duration>(std::chrono::seconds(info.st_ctim.tv_sec) +
+                                              std::chrono::nanoseconds(info.st_ctim.tv_nsec));
+}
+
+/// The folder in which a file lies, and no other one that gets its name; empty when there is none.
+std::string FolderOf(const std::string& path) {
+  const auto folder = std::filesystem::absolute(path).parent_path();
+  struct stat info {};
+  return stat(folder.c_str(), &info) == 0 ? fmt::format("{}:{}", info.st_dev, info.st_ino) : "";
+}
+
 }  // namespace
 
 std::string BootId() {
@@ -34,10 +62,11 @@ std::string BootId() {
   return id;
 }
 
-FileStore::FileStore(std::string path, std::string fast_path, std::string boot)
+FileStore::FileStore(std::string path, std::string fast_path, std::string boot, Duration save)
     : path_(std::move(path)),
       fast_path_(std::move(fast_path)),
       boot_(std::move(boot)),
+      save_(save),
       thread_([this] { SyncThread(); }) {}
 
 FileStore::~FileStore() {
@@ -49,15 +78,27 @@ FileStore::~FileStore() {
   thread_.join();
 }
 
-/// The first line names the boot, the rest is the state. Only what this boot has saved is surely the latest.
+/// Its head, a line, names the boot, the time of writing and the folder; the rest is the state.
 std::optional<bus::radio::SavedState> FileStore::Read(const std::string& path) const {
   std::ifstream in(path, std::ios::binary);
-  std::string boot;
-  if (!in || !std::getline(in, boot)) return std::nullopt;
-  bus::radio::SavedState state{.bytes = {}, .latest = !boot_.empty() && boot == boot_};
+  std::string head;
+  if (!in || !std::getline(in, head)) return std::nullopt;
+  bus::radio::SavedState state{.bytes = {}, .latest = IsLatest(path, head)};
   for (auto at = std::istreambuf_iterator<char>(in); at != std::istreambuf_iterator<char>(); ++at)
     state.bytes.push_back(static_cast<std::byte>(*at));
   return state;
+}
+
+/// Only what this boot has saved is surely the latest, and only while nobody has put a file in its place.
+bool FileStore::IsLatest(const std::string& path, const std::string& head) const {
+  if (boot_.empty() || !head.starts_with(boot_ + " ")) return false;
+  std::istringstream words(head.substr(boot_.size()));
+  std::int64_t written_us = 0;
+  std::string folder;
+  const auto changed = ChangedAt(path);
+  if (!(words >> written_us >> folder) || !changed || folder != FolderOf(path)) return false;
+  const Duration later = *changed - Duration(written_us);
+  return later >= -kClockSteps && later <= save_;
 }
 
 std::optional<bus::radio::SavedState> FileStore::Load() {
@@ -73,16 +114,20 @@ std::optional<bus::radio::SavedState> FileStore::Load() {
 void FileStore::Save(std::span<const std::byte> state) {
   ThrowFailure();
   content_.clear();
-  for (const char c : boot_ + "\n") content_.push_back(static_cast<std::byte>(c));
+  const std::string& path = fast_path_.empty() ? path_ : fast_path_;
+  const std::string head = fmt::format("{} {} {}\n", boot_, WallClock().count(), FolderOf(path));
+  head_bytes_ = head.size();
+  for (const char c : head) content_.push_back(static_cast<std::byte>(c));
   content_.insert(content_.end(), state.begin(), state.end());
-  Replace(fast_path_.empty() ? path_ : fast_path_, content_, false);
+  Replace(path, content_, false);
 }
 
 void FileStore::StartSync() {
   ThrowFailure();
   {
     const std::lock_guard lock(mutex_);
-    to_sync_ = content_;
+    // With an empty head: what follows the RAM disk is never surely the latest, should that be given up.
+    to_sync_.assign(content_.begin() + static_cast<std::ptrdiff_t>(head_bytes_) - 1, content_.end());
     ++wanted_;
   }
   changed_.notify_all();
@@ -115,8 +160,7 @@ void FileStore::SyncThread() {
     try {
       // Without a RAM disk the file holds this state, or one that is newer.
       if (!fast_path_.empty()) {
-        // Without a boot: what follows the RAM disk is never surely the latest, should that be given up.
-        Replace(path_, std::span(state).subspan(boot_.size()), true);
+        Replace(path_, state, true);
       } else if (!SyncFile(path_)) {
         Fail(path_);
       }

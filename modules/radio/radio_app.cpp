@@ -236,7 +236,8 @@ void RadioApp::Tick(Time now) {
   if (!next_report_) Start(now);
   for (const auto& end : ends_) end->Tick(now);
   ReadLine();
-  FeedLine(now);
+  // Not the time of before the reading: a byte that is late by what the reading took is in another's turn.
+  FeedLine(context_.node().Now());
   if (now >= *next_report_) Report(now);
 }
 
@@ -244,19 +245,22 @@ void RadioApp::ReadLine() {
   if (net_) return ReadFrames();
   std::array<std::byte, 256> buffer;
   for (;;) {
+    const Time before = context_.node().Now();
     const std::size_t n = port_->Read(buffer);
+    if (n > 0) Receive(std::span(buffer).first(n));
+    station_ ? station_->OnLook(before) : ends_[0]->link().OnLook(before);
     if (n == 0) return;
-    // Taken after the reading: bytes must never seem to have arrived before they did.
-    const Time now = context_.node().Now();
-    const auto bytes = std::span(buffer).first(n);
-    if (station_) {
-      station_->Receive(bytes, now, [&](std::size_t robot, const bus::radio::Delivery& delivery) {
-        ends_[robot]->Publish(delivery, now);
-      });
-      continue;
-    }
-    for (const bus::radio::Delivery& d : ends_[0]->link().Receive(bytes, now)) ends_[0]->Publish(d, now);
   }
+}
+
+void RadioApp::Receive(std::span<const std::byte> bytes) {
+  // Taken after the reading: bytes must never seem to have arrived before they did.
+  const Time now = context_.node().Now();
+  if (station_)
+    return station_->Receive(bytes, now, [&](std::size_t robot, const bus::radio::Delivery& delivery) {
+      ends_[robot]->Publish(delivery, now);
+    });
+  for (const bus::radio::Delivery& d : ends_[0]->link().Receive(bytes, now)) ends_[0]->Publish(d, now);
 }
 
 void RadioApp::ReadFrames() {

@@ -52,6 +52,7 @@ class RadioApp {
   void CheckFiles() const;
   void Start(Time now);
   void ReadLine();
+  void Receive(std::span<const std::byte> bytes);
   void ReadFrames();
   void FeedLine(Time now);
   void Report(Time now);

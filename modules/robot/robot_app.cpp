@@ -44,6 +44,7 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       localiser_(config.localiser, config.base, config.drive.footprint),
       drive_(config.drive, config.base),
       opening_watch_(config.opening, config.drive.footprint),
+      features_(config, context),
       wheels_(context.node().SubscribeAll(channels::kWheelState)),
       currents_(context.node().SubscribeAll(channels::kMotorCurrent)),
       bumper_(context.node().SubscribeAll(channels::kBumper)),
@@ -89,7 +90,7 @@ void RobotApp::Tick(Time now) {
   TakeEstops(now);
   TakeWheels(now);
   TakeTouchSensors(now);
-  TakeSonars();
+  TakeSonars(now);
   TakeFloorLines(now);
   TakeFixes(now);
   AnswerFixes(now);
@@ -102,6 +103,7 @@ void RobotApp::Tick(Time now) {
   KeepEstop(now);
   SendStatus(now);
   SendOpening(now);
+  features_.Tick(localiser_, now);
 }
 
 void RobotApp::Yield(Time now) {
@@ -127,13 +129,14 @@ void RobotApp::TakeTouchSensors(Time now) {
     drive_.touch_watch().AddBumper(static_cast<std::uint8_t>(message.pressed), now);
 }
 
-void RobotApp::TakeSonars() {
+void RobotApp::TakeSonars(Time now) {
   const auto message = sonars_.Take();
   if (!message) return;
   const SonarCycle cycle = FromMessage(*message);
   const Pose2& odom_from_base = localiser_.odometry().pose();
   drive_.AddSonar(cycle, odom_from_base);
   localiser_.AddSonar(cycle);
+  features_.Hear(cycle, localiser_, now);
   const auto estimate = localiser_.estimate();
   if (!estimate) return;
   if (const auto opening = opening_watch_.Add(cycle, odom_from_base, estimate->pose)) {

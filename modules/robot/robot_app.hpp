@@ -9,6 +9,7 @@
 #include "lcmtypes/channels.hpp"
 #include "robot/core/safety/link_watch.hpp"
 #include "robot/estop_memory.hpp"
+#include "robot/feature_reporter.hpp"
 #include "robot/robot_config.hpp"
 #include "robot/robot_messages.hpp"
 
@@ -37,7 +38,7 @@ class RobotApp {
  private:
   void TakeWheels(Time now);
   void TakeTouchSensors(Time now);
-  void TakeSonars();
+  void TakeSonars(Time now);
   void TakeFloorLines(Time now);
   void TakeFixes(Time now);
   void TakePoseResets(Time now);
@@ -68,6 +69,7 @@ class RobotApp {
   Localiser localiser_;
   DriveController drive_;
   OpeningWatch opening_watch_;
+  FeatureReporter features_;
   std::optional<Opening> passed_;            ///< newest
   std::optional<pose_correction_t> placed_;  ///< the answer to the newest order to set the pose
 

@@ -13,6 +13,8 @@ void RobotConfig::Describe(Archive& a) {
   a.Section("base", base, "the four Mecanum wheels");
   a.Section("localiser", localiser, "where the base is");
   a.Section("opening", opening, "when sonars show that an opening was passed");
+  a.Section("walls", walls, "straight walls that the planner is told of");
+  a.Section("features", features, "when it is told");
   a.Section("drive", drive, "how the base moves, and what stops it");
 }
 

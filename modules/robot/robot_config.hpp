@@ -4,9 +4,11 @@
 
 #include "common/archive.hpp"
 #include "robot/core/base/mecanum.hpp"
+#include "robot/core/features/feature_store.hpp"
 #include "robot/core/motion/drive_controller.hpp"
 #include "robot/core/pose/localiser.hpp"
 #include "robot/core/sonar/opening_watch.hpp"
+#include "robot/core/sonar/segment_finder.hpp"
 
 namespace priamos::robot {
 
@@ -20,6 +22,8 @@ struct RobotConfig {
   MecanumGeometry base;
   LocaliserConfig localiser;
   OpeningConfig opening;
+  SegmentFinderConfig walls;
+  FeatureStoreConfig features;
   DriveConfig drive;
 
   void Describe(Archive& a);

@@ -11,8 +11,8 @@ RenderFunction MakeRenderFunction(const LoadedWorld& world, const WorldConfig& c
   RendererConfig look;
   look.scene = world.light;
   look.imaging = config.lens;
-  look.head = config.BuiltHead();
-  auto renderer = std::make_shared<Renderer>(look, world.solids, seed);
+  look.head = WithQuirks(config.BuiltHead(), world.quirks);
+  auto renderer = std::make_shared<Renderer>(look, WithPeople(world.solids, world.hazards.people), seed);
   renderer->PlaceReference(world.reference);
   return [renderer](const RenderJob& job) {
     Rng noise(job.noise_seed);
@@ -27,8 +27,9 @@ WorldApp::WorldApp(const WorldConfig& config, bus::Context& context)
           BodyOf(config.robot), context.seed())),
       store_(FrameStore::Create(context.instance() + "-camera")),
       executor_(MakeExecutor(config)),
-      cameras_(config.robot.camera, world_.plan.camera_light, *executor_, context.seed()),
-      simulation_(config.robot, world_.solids, world_.start.truth, cameras_, context.seed()),
+      cameras_(config.robot.camera, world_.plan.camera_light, *executor_, context.seed(), world_.quirks),
+      simulation_(config.robot, WithPeople(world_.solids, world_.hazards.people), world_.start.truth,
+                  cameras_, context.seed(), world_.hazards),
       wheel_commands_(context.node().SubscribeAll(channels::kWheelCommand)),
       head_commands_(context.node().SubscribeAll(channels::kHeadCommand)),
       triggers_(context.node().SubscribeAll(channels::kCameraTrigger)),
@@ -38,7 +39,8 @@ WorldApp::WorldApp(const WorldConfig& config, bus::Context& context)
       sonars_(context.node().Advertise(channels::kSonarRanges)),
       head_(context.node().Advertise(channels::kHeadState)),
       frames_(context.node().Advertise(channels::kCameraFrame)),
-      truth_(context.node().Advertise(channels::kWorldTruth)) {
+      truth_(context.node().Advertise(channels::kWorldTruth)),
+      touches_(context.node().Advertise(channels::kWorldTouch)) {
   const Pose2 start = world_.start.nominal, error = start.Inverse() * world_.start.truth;
   context.Log(bus::Level::kInfo,
               fmt::format("{}: nominal start {:.3f} m, {:.3f} m, {:.2f} deg; true start off by {:.3f} m, "
@@ -77,6 +79,7 @@ void WorldApp::PublishSamples() {
   if (const auto head = simulation_.TakeHead()) head_.Publish(ToMessage(*head));
   if (const auto sonars = simulation_.TakeSonars()) sonars_.Publish(ToMessage(*sonars));
   if (const auto truth = simulation_.TakeTruth()) truth_.Publish(ToMessage(*truth));
+  for (const TouchEvent& touch : simulation_.TakeTouchEvents()) touches_.Publish(ToMessage(touch));
 }
 
 void WorldApp::PublishFrames(Time now) {

@@ -60,6 +60,7 @@ class WorldApp {
   bus::Publisher<head_state_t> head_;
   bus::Publisher<camera_frame_t> frames_;
   bus::Publisher<world_truth_t> truth_;
+  bus::Publisher<world_touch_t> touches_;
   bool reported_contest_ = false;
 };
 

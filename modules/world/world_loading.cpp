@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "common/config.hpp"
+#include "common/rectangle.hpp"
 #include "world/core/scene/built_doors.hpp"
+#include "world/core/scene/outline.hpp"
 
 namespace priamos::world {
 namespace {
@@ -24,6 +29,67 @@ void CheckStart(const std::string& file, const LoadedWorld& world, const Body& b
                                 file, world.start.truth.x, world.start.truth.y));
 }
 
+/// A person needs so much room at a waypoint.
+constexpr double kPersonRadius_m = 0.25;
+constexpr double kKnee_m = 0.15, kHead_m = 1.75;
+
+void CheckPeople(const LoadedWorld& world) {
+  for (const PersonPlan& person : world.hazards.people)
+    for (const PersonStop& stop : person.waypoints)
+      for (const Solid& solid : world.solids)
+        if (Overlaps(solid, kKnee_m, kHead_m) &&
+            Distance(OutlineOf(solid), Eigen::Vector2d(stop.x_m, stop.y_m)) < kPersonRadius_m)
+          throw ConfigError(
+              fmt::format("{}people: expected {:.2f} m of room around the waypoint at x {:.2f} m, "
+                          "y {:.2f} m of \"{}\", got \"{}\"; next: move it, or make spread_m smaller",
+                          person.place, kPersonRadius_m, stop.x_m, stop.y_m, person.name, solid.name));
+}
+
+void CheckHoles(const LoadedWorld& world, const Body& body) {
+  const Rectangle footprint{world.start.truth, body.size_m / 2};
+  for (const HolePlan& hole : world.hazards.holes)
+    if (Distance(footprint, Rectangle{{hole.x_m, hole.y_m, 0}, {hole.length_m / 2, hole.width_m / 2}}) <= 0)
+      throw ConfigError(
+          fmt::format("{}holes: expected floor below the start, got \"{}\"", hole.place, hole.name));
+}
+
+/// All of a file.
+std::string ContentOf(const std::string& file, const std::string& asked_by) {
+  std::ifstream in(file, std::ios::binary);
+  std::string content((std::istreambuf_iterator<char>(in)), {});
+  if (!in) throw ConfigError(fmt::format("{}expected a file that can be read, got \"{}\"", asked_by, file));
+  return content;
+}
+
+/// Walls from a map of ROS; its picture lies beside its YAML file, or where that says.
+std::vector<Solid> WallsOfGrid(const LoadedWorld& world,
+                               const std::function<std::string(const std::string&)>& resolve) {
+  const GridPlan& plan = world.plan.grid;
+  if (plan.yaml.empty()) return {};
+  const std::string yaml = resolve(plan.yaml);
+  const GridHeader header = ParseGridHeader(yaml, ContentOf(yaml, plan.place + "grid.yaml: "));
+  const std::string image = (std::filesystem::path(yaml).parent_path() / header.image).string();
+  const OccupancyGrid grid = ParseGrid(header, image, ContentOf(image, yaml + ": image: "));
+  const StartPlan& start = world.plan.start;
+  return GridSolids(grid, plan, {start.x_m, start.y_m}, world.plan.light.ceiling_m);
+}
+
+/// The leaves that somebody moves; a door that the world does not list has no leaf.
+std::vector<MovedLeaf> MovedLeaves(const LoadedWorld& world) {
+  std::vector<MovedLeaf> leaves;
+  for (const DoorWork& work : world.plan.doors)
+    for (const DoorPlan& door : world.doors)
+      if (door.id == work.id && !work.swings.empty())
+        leaves.push_back({door, work.hinge, work.leaf_thickness_m, LeafName(door), work.swings});
+  return leaves;
+}
+
+Hazards HazardsOf(const LoadedWorld& world, std::uint64_t seed) {
+  Hazards hazards{{}, MovedLeaves(world), world.plan.holes, world.plan.faults, world.plan.mast};
+  for (const PersonPlan& person : world.plan.people) hazards.people.push_back(DrawPerson(person, seed));
+  return hazards;
+}
+
 }  // namespace
 
 LoadedWorld LoadWorld(const std::string& name, const std::function<std::string(const std::string&)>& resolve,
@@ -34,13 +100,18 @@ LoadedWorld LoadWorld(const std::string& name, const std::function<std::string(c
   world.map = LoadConfig<GroundPlan>(resolve(world.plan.map));
   world.doors = BuiltDoors(world.map, world.plan, seed);
   world.solids = BuildSolids(world.map, world.plan, seed);
+  for (Solid& wall : WallsOfGrid(world, resolve)) world.solids.push_back(std::move(wall));
   world.start = DrawStart(world.plan.start, seed);
   world.light = DrawLight(world.plan, seed);
   if (!world.plan.reference.object.empty()) {
     const auto object = LoadConfig<ReferenceObject>(resolve(world.plan.reference.object));
     world.reference = PlaceReference(world.plan.reference, object, world.start.truth, seed);
   }
+  world.hazards = HazardsOf(world, seed);
+  world.quirks = DrawQuirks(world.plan.cameras, seed);
   CheckMaterials(file, world);
+  CheckPeople(world);
+  CheckHoles(world, body);
   CheckStart(file, world, body);
   return world;
 }

@@ -8,6 +8,8 @@
 
 #include "world/core/base/contact.hpp"
 #include "world/core/scene/build_solids.hpp"
+#include "world/core/scene/camera_quirks.hpp"
+#include "world/core/scene/hazards.hpp"
 #include "world/core/scene/world_plan.hpp"
 
 namespace priamos::world {
@@ -21,11 +23,13 @@ struct LoadedWorld {
   Start start;
   SceneConfig light;
   std::optional<PlacedReference> reference;
+  Hazards hazards;  ///< people, holes and all else that a robot may meet
+  CameraQuirks quirks;
 };
 
 /// Reads the world file `name`, and the map and reference object it names; `resolve` finds files of the
-/// deployment. Throws ConfigError with a sentence, also for a material that nothing is known about and for a
-/// start inside a solid.
+/// deployment. Throws ConfigError with a sentence, also for a material that nothing is known about, for a
+/// start inside a solid or over a hole, and for a person whose waypoint is in a wall.
 LoadedWorld LoadWorld(const std::string& name, const std::function<std::string(const std::string&)>& resolve,
                       const Body& body, std::uint64_t seed);
 

@@ -6,6 +6,8 @@
 namespace priamos::world {
 namespace {
 
+constexpr std::size_t kLongestThing = 60;  ///< world_touch_t
+
 template <class Message>
 void SetAxes(Message& message, const HeadSetting& setting) {
   message.pan_rad = setting.pan_rad;
@@ -132,6 +134,16 @@ world_truth_t ToMessage(const Truth& truth) {
   message.min_gap_m = std::min(truth.min_gap_m, 10.0);
   message.contacts = truth.contacts;
   message.pan_rad = truth.axes.pan_rad;
+  return message;
+}
+
+world_touch_t ToMessage(const TouchEvent& touch) {
+  world_touch_t message;
+  message.utime = ToUtime(touch.time);
+  message.kind = static_cast<std::int8_t>(touch.kind);
+  message.thing = touch.thing.substr(0, kLongestThing);
+  message.x_m = touch.in_base.x();
+  message.y_m = touch.in_base.y();
   return message;
 }
 

@@ -15,6 +15,8 @@ sonar_ranges_t ToMessage(const SonarSample& sample);
 head_state_t ToMessage(const HeadSample& sample);
 /// Gaps beyond the message's range (nothing near) are sent as its end, 10 m.
 world_truth_t ToMessage(const Truth& truth);
+/// A name too long for the message is cut off.
+world_touch_t ToMessage(const TouchEvent& touch);
 /// Notice of a picture; `slot` is where the picture lies in the frame store.
 camera_frame_t ToMessage(const Frame& frame, int slot);
 

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "cli/lockstep/factories.hpp"
+#include "cli/scenario/mission_file.hpp"
 #include "cli/scenario/scenario.hpp"
 #include "cli/supervise/deployment.hpp"
 #include "common/config.hpp"
@@ -59,6 +60,11 @@ bool IsLandmarkModel(const std::string& file) {
   return fs::path(file).parent_path().filename() == "models";
 }
 
+/// Steps for `priamos mission run`.
+bool IsMission(const std::string& file) {
+  return fs::path(file).parent_path().filename() == "missions";
+}
+
 bool IsForInstalling(const std::string& file) {
   return fs::path(file).filename() == "CMakeLists.txt" ||
          fs::path(file).parent_path().filename() == "systemd" || *fs::path(file).begin() == "install";
@@ -101,6 +107,8 @@ TEST_P(ShippedConfig, LoadsOrIsNamedByOneThatDoes) {
     SUCCEED() << "checked by installing";
   } else if (IsScenario(file)) {
     ExpectThatScenarioLoads(file);
+  } else if (IsMission(file)) {
+    EXPECT_GT(OrderOfFile((kConfigs / file).string(), Deployment(file).string()).n_steps, 0);
   } else if (IsLandmarkModel(file)) {
     EXPECT_FALSE(head::LoadPolyhedron((kConfigs / file).string()).points.empty());
   } else {

@@ -80,8 +80,8 @@ std::optional<std::string> OutputOf(const std::string& command) {
 
 /// The program with the verbs it was given: `priamos link bits`.
 std::string VerbOf(const fs::path& program, const std::vector<std::string>& words) {
-  static const std::set<std::string> kVerbsWithVerbs{"link",   "topic",      "log",    "type",
-                                                     "replay", "completion", "mission"};
+  static const std::set<std::string> kVerbsWithVerbs{"link",       "topic",   "log",   "type", "replay",
+                                                     "completion", "mission", "world", "map"};
   std::string command = fmt::format("'{}'", program.string());
   if (program.filename() != "priamos" || words.size() < 2 || words[1].starts_with("-")) return command;
   command += " " + words[1];

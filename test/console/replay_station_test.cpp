@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/own_types.hpp"
+#include "console/log_of_file.hpp"
 #include "lcmtypes/channels.hpp"
 #include "test/cli/message_log.hpp"
 #include "test/support/temporary_folder.hpp"
@@ -31,8 +32,8 @@ class ReplayStationTest : public testing::Test {
     }
     bus::LogPlayer player(bus::LogReader(log.file()), {});
     player.Pause(true, now_);
-    dut_ = std::make_unique<ReplayStation>(std::move(player), schema_, R"({"type":"hello"})",
-                                           WebServerOptions{});
+    dut_ = std::make_unique<ReplayStation>(std::make_unique<LogOfFile>(std::move(player)), schema_,
+                                           GroundPlan{}, R"({"type":"hello"})", WebServerOptions{});
     const std::string address = dut_->address(), host = address.substr(7, address.size() - 8);
     page_ = std::make_unique<WebClient>(std::stoi(host.substr(host.rfind(':') + 1)), [this] { Turn(); });
     EXPECT_TRUE(page_->Upgrade("http://" + host, "/socket", host));
@@ -112,7 +113,7 @@ TEST_F(ReplayStationTest, AgesAreThoseOfTheLog) {
   page_->Forget();
   for (int i = 0; i < 200; ++i) page_->ended();
   const std::string heard = page_->Hear([](const std::string&) { return true; });
-  EXPECT_THAT(heard, HasSubstr(R"("channel":"MISSION_STATUS","age_s":7.0)"))
+  EXPECT_THAT(heard, HasSubstr(R"("channel":"MISSION_STATUS","type":"priamos.mission_status_t","age_s":7.0)"))
       << "though 2 s have passed since";
 }
 

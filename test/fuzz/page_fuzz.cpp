@@ -2,6 +2,8 @@
 #include <string_view>
 
 #include "console/core/browser_message.hpp"
+#include "console/foxglove/client_message.hpp"
+#include "console/foxglove/services.hpp"
 #include "console/web/web_request.hpp"
 #include "fuzz_input.hpp"
 
@@ -15,6 +17,21 @@ void ReadAnyMessage(std::string_view text) {
   if (!message) return;
   if (const auto* report = std::get_if<StickReport>(&*message))
     for (const double v : report->axis) bus::Require(v >= -1 && v <= 1);
+}
+
+/// What Foxglove clients say: any text and any bytes are refused by a sentence or read, and a call becomes no
+/// message of a page that is not its service's own.
+void ReadAnyClientMessage(std::string_view text) {
+  for (const auto& message : {ReadClientText(text), ReadClientBytes(text)})
+    bus::Require(static_cast<bool>(message) == message.reason().empty());
+  for (std::uint32_t service = 0; service <= Services().size() + 1; ++service) {
+    const auto order = PageMessageOf(service, text);
+    const auto message = order ? ReadBrowserMessage(*order) : Outcome<BrowserMessage>(Refusal{"none"});
+    if (!message) continue;
+    bus::Require(std::holds_alternative<StopOrder>(*message) ||
+                 std::holds_alternative<MissionOrder>(*message) ||
+                 std::holds_alternative<PlaceOrder>(*message));
+  }
 }
 
 /// Any target, host and origin are answered; a socket opens for the own page alone.
@@ -34,6 +51,7 @@ void AnswerAnyRequest(std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   priamos::console::ReadAnyMessage(text);
+  priamos::console::ReadAnyClientMessage(text);
   priamos::console::AnswerAnyRequest(text);
   return 0;
 }

@@ -10,7 +10,7 @@
 namespace priamos::planner {
 namespace {
 
-constexpr std::int8_t kDriveAhead = 9;
+constexpr std::int8_t kDriveAhead = 6;
 
 MissionTable WithDriveAhead(const PlannerConfig& config, const GroundPlan& plan) {
   MissionTable missions = MakeMissions(config, plan);
@@ -61,22 +61,23 @@ TEST(SecondMission, TheDoorWaitsForItAndFollows) {
   ASSERT_EQ(path.n_points, 1);
   w.Order(mission_command_t::PASS_DOOR);
   w.Run(2);
-  EXPECT_THAT(w.log, testing::Contains("order refused: a mission is being carried out"));
-  w.SendDrive(path.path_id, drive_status_t::ARRIVED);
-  w.Run(2);
+  EXPECT_EQ(w.phase(), mission_status_t::PASSING);
+  ASSERT_EQ(w.last_status.n_waiting, 1);
+  EXPECT_EQ(w.last_status.waiting[0].title, "door 'laboratory'");
   w.SendLink(true);
+  w.SendDrive(path.path_id, drive_status_t::ARRIVED);
   w.SendPose(3.0);
-  w.Order(mission_command_t::PASS_DOOR);
   w.Run(2);
   EXPECT_EQ(w.phase(), mission_status_t::APPROACHING);
   EXPECT_EQ(w.last_status.mission, mission_command_t::PASS_DOOR);
+  EXPECT_EQ(w.last_status.n_waiting, 0);
 }
 
 TEST(SecondMission, IsNotShipped) {
   Workstation w;
   w.Order(kDriveAhead, 3);
   w.Run(2);
-  EXPECT_THAT(w.log, testing::Contains("order refused: unknown mission 9"));
+  EXPECT_THAT(w.log, testing::Contains("order refused: unknown mission 6"));
 }
 
 }  // namespace

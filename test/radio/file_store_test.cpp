@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "test/support/temporary_folder.hpp"
@@ -79,6 +82,48 @@ TEST_F(FileStoreTest, WithoutARamDiskASyncNeverBringsBackAnOlderState) {
   }
   dut.AwaitSync();
   EXPECT_EQ(FileStore(path).Load(), Latest(199));
+}
+
+/// Somebody who keeps a copy and puts it back: by copying, or by renaming the kept one.
+TEST_F(FileStoreTest, AnOlderStateThatIsPutBackIsNotTheLatest) {
+  for (const bool by_name : {false, true}) {
+    for (const bool ram_disk : {false, true}) {
+      const std::string& file = ram_disk ? fast : path;
+      const std::string& second = ram_disk ? fast : "";
+      const std::string kept = (folder / "kept").string();
+      std::filesystem::remove(path);
+      std::filesystem::remove(fast);
+      FileStore dut(path, second);
+      dut.Save(State(1));
+      if (by_name) std::filesystem::create_hard_link(file, kept);
+      if (!by_name) std::filesystem::copy_file(file, kept);
+      dut.Save(State(2));
+      EXPECT_EQ(FileStore(path, second).Load(), Latest(2));
+      std::this_thread::sleep_for(std::chrono::milliseconds(80));
+      std::filesystem::rename(kept, file);
+      EXPECT_EQ(FileStore(path, second, BootId(), std::chrono::milliseconds(50)).Load(), Older(1));
+    }
+  }
+}
+
+/// The file in a folder that was copied at once after a write keeps its time of change when the folder is
+/// renamed.
+TEST_F(FileStoreTest, AFolderThatIsPutBackHasNotTheLatestState) {
+  const std::filesystem::path states = folder / "states", kept = folder / "kept-states";
+  std::filesystem::create_directory(states);
+  FileStore dut((states / "link.state").string());
+  dut.Save(State(1));
+  std::filesystem::copy(states, kept, std::filesystem::copy_options::recursive);
+  dut.Save(State(2));
+  EXPECT_EQ(FileStore((states / "link.state").string()).Load(), Latest(2));
+  std::filesystem::remove_all(states);
+  std::filesystem::rename(kept, states);
+  EXPECT_EQ(FileStore((states / "link.state").string()).Load(), Older(1));
+}
+
+TEST_F(FileStoreTest, AStateWithoutTheTimeOfItsWritingIsNotTheLatest) {
+  std::ofstream(path) << BootId() << "\nstate";
+  EXPECT_FALSE(FileStore(path).Load()->latest);
 }
 
 TEST_F(FileStoreTest, AnUnwritablePlaceIsReported) {

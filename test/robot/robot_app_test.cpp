@@ -162,6 +162,8 @@ struct Onboard {
   bus::Latest<odometry_t> odometry = other.Subscribe(channels::kOdometry);
   bus::Latest<pose_t> pose = other.Subscribe(channels::kPose);
   bus::Latest<drive_status_t> status = other.Subscribe(channels::kDriveStatus);
+  bus::Inbox<features_t> features = other.SubscribeAll(channels::kFeatures);
+  bus::Publisher<features_ack_t> feature_acks = other.Advertise(channels::kFeaturesAck);
   bus::Inbox<pose_correction_t> corrections = other.SubscribeAll(channels::kPoseCorrection);
   std::optional<wheel_command_t> last_command;
   drive_status_t last_status{};
@@ -546,6 +548,38 @@ TEST(RobotApp, ARadioThatSaysItIsDownStopsTheOperator) {
   robot.Drive(0.4, 0.4);
   EXPECT_EQ(robot.last_status.limit, drive_status_t::LIMIT_LINK_LOST);
   EXPECT_THAT(robot.last_command->speed_rad_s, Each(0.0));
+}
+
+TEST(RobotApp, WallsAreToldUntilTheyAreAcknowledged) {
+  Onboard robot;
+  robot.Run(0.2);
+  robot.beside_m = 1.0;
+  robot.SendPath(1, 2.5);
+  robot.Run(8);
+  const auto told = robot.features.Drain();
+  ASSERT_GE(told.size(), 1u);
+  ASSERT_GE(told.back().n_features, 1);
+  const feature_t& wall = told.back().features[0];
+  EXPECT_EQ(wall.kind, feature_t::WALL);
+  EXPECT_GT(wall.length_m, 0.6);
+  EXPECT_NEAR(std::abs(wall.y_m), 1.39, 0.4) << "the start is known to 20 cm";
+  EXPECT_GT(wall.sigma_across_m, 0.05) << "and so is the wall";
+  robot.Run(40);
+  const auto again = robot.features.Drain();
+  ASSERT_GE(again.size(), 2u) << "nobody has acknowledged it";
+  features_ack_t ack{};
+  ack.store = again.back().store;
+  for (const features_t& batch : again) {
+    ack.batch = batch.batch;
+    robot.feature_acks.Publish(ack);
+  }
+  robot.Run(15);
+  for (const features_t& batch : robot.features.Drain()) {
+    ack.batch = batch.batch;
+    robot.feature_acks.Publish(ack);
+  }
+  robot.Run(15);
+  EXPECT_THAT(robot.features.Drain(), testing::IsEmpty());
 }
 
 TEST(RobotApp, APathThatIsOldIsRefused) {

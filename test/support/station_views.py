@@ -63,13 +63,58 @@ def stop_and_rearm(browser):
     browser.mouse("mouseReleased", x, y)
 
 
+def legend(browser):
+    return browser.run("[...document.querySelectorAll('.chart li')].map((l) => l.innerText.replaceAll('\\n', ' '))")
+
+
+def plots(browser):
+    """Chooses one number, drags another one onto a second chart, holds the charts, takes one away."""
+    browser.click("show-plots")
+    field = "[...document.querySelectorAll('.fields details[data-channel=POSE] button')].find((b) => b.textContent === 'x_m')"
+    report("fields are offered", wait_for(lambda: browser.run(f"{field} !== undefined"), 5))
+    browser.run(f"{field}.click()")
+    browser.run("[...document.querySelectorAll('.plots .tools button')].find((b) => b.textContent === 'Another chart').click()")
+    browser.run("(() => { const data = new DataTransfer(); data.setData('text/plain', 'LINK_STATUS false 0 utilisation_in');"
+                " document.querySelectorAll('.chart')[1].dispatchEvent(new DragEvent('drop', {dataTransfer: data})); })()")
+    report("numbers with units", wait_for(lambda: len(legend(browser)) == 2 and legend(browser)[0].endswith(" m ×"), 5))
+    before = legend(browser)[1]
+    report("numbers change", wait_for(lambda: legend(browser)[1] != before, 15))
+    time.sleep(3)
+    report("charts are drawn", browser.run("[...document.querySelectorAll('.chart canvas')].every((c) => c.width > 100)"))
+    browser.picture(FOLDER + "/plots.png")
+    browser.run("document.querySelector('.plots .tools button').click()")
+    time.sleep(0.3)
+    before = legend(browser)
+    time.sleep(1)
+    report("held charts stand", legend(browser) == before)
+    browser.run("document.querySelector('.chart li button').click()")
+    report("one is taken away", len(legend(browser)) == 1)
+
+
+def values(browser):
+    """The parameters of a process of the robot, with unit and range."""
+    browser.click("show-values")
+    table = "(document.querySelector('.values')?.innerText ?? '')"
+    report("parameters are shown", wait_for(lambda: "beat_hz" in browser.run(table), 12))
+    browser.run("(() => { const s = document.querySelector('#view-values select'); s.value = 'robot'; s.dispatchEvent(new Event('change')); })()")
+    report("of every process", wait_for(lambda: "rad/s" in browser.run(table), 5))
+    browser.picture(FOLDER + "/values.png")
+    browser.click("show-plan")
+
+
 def mission(browser):
     browser.click("sonars")
     browser.click("view")
+    browser.click("show-space")
     browser.click("pass")
     report("mission starts", wait_for(lambda: "approaching" in browser.text("mission-text"), 5))
+    wait_for(lambda: "looking" in browser.text("mission-text"), 20)
+    browser.picture(FOLDER + "/looking.png")
     report("edges are seen", wait_for(lambda: "px" in browser.text("look"), 30))
-    time.sleep(2)
+    report("space is drawn", browser.bytes_of("space") > 8000)
+    browser.picture(FOLDER + "/space.png")
+    browser.click("show-plan")
+    time.sleep(0.5)
     browser.picture(FOLDER + "/mission.png")
     browser.click("abort")
     report("mission is aborted", wait_for(lambda: "aborted" in browser.text("mission-text"), 5))
@@ -121,6 +166,8 @@ def main():
     stop_and_rearm(browser)
     mission(browser)
     place(browser)
+    plots(browser)
+    values(browser)
     browser.click("language")
     report("German", "Fahren" in browser.text("drive-title"))
     report("complaints", browser.complaints)

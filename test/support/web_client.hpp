@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -57,14 +58,17 @@ class WebClient {
 
   /// Opens a WebSocket; false when the server refuses.
   bool Upgrade(const std::string& origin, const std::string& target = "/socket",
-               const std::string& host = "localhost") {
+               const std::string& host = "localhost", const std::string& more = "") {
     Say("GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\nOrigin: " + origin +
-        "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+        "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n" + more +
         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
-    const std::string head = Hear([](const std::string& text) { return text.find("\r\n\r\n") != text.npos; });
-    heard_.erase(0, head.find("\r\n\r\n") + 4);
-    return head.starts_with("HTTP/1.1 101");
+    head_ = Hear([](const std::string& text) { return text.find("\r\n\r\n") != text.npos; });
+    head_.erase(std::min(head_.find("\r\n\r\n") + 4, head_.size()));
+    heard_.erase(0, head_.size());
+    return head_.starts_with("HTTP/1.1 101");
   }
+  /// The answer to Upgrade.
+  const std::string& head() const { return head_; }
   /// One masked frame of up to 65535 bytes; `opcode` 1 is text, 0x80 the end of a message.
   static std::string Frame(const std::string& payload, int first = 0x81) {
     std::string frame(1, static_cast<char>(first));
@@ -93,7 +97,7 @@ class WebClient {
   std::function<void()> turn_;
   int fd_;
   bool connected_ = false, ended_ = false;
-  std::string heard_;
+  std::string heard_, head_;
 };
 
 }  // namespace priamos

@@ -35,13 +35,21 @@ const std::vector<Call> kCalls{
     {"topic echo", "POSE x_m y_m --count 2"},
     {"topic url", ""},
     {"topic pub", "LINK_REQUEST link_request_t '{\"utime\":0,\"channel\":\"SONAR_RANGES\",\"hold_s\":1}'"},
+    {"topic serve", "--port 0", true},
     {"where", ""},
     {"place", "2 2.4 0"},
     {"mission status", ""},
     {"mission door", "laboratory --deployment $SOURCE/config/sim"},
+    {"map reset", ""},
     {"view", "--once --for 80"},
+    {"mission pause", ""},
+    {"mission resume", ""},
+    {"mission list", ""},
     {"mission abort", ""},
     {"mission goto", "3 2.4"},
+    {"mission patrol", "3 2.4 4 2.4"},
+    {"mission run", "$SOURCE/config/sim/missions/round.toml --deployment $SOURCE/config/sim"},
+    {"mission cancel", "4711"},
     {"estop", ""},
     {"link top", "--once"},
     {"link emulate", "--a $O/a --b $O/b", true},
@@ -60,9 +68,11 @@ const std::vector<Call> kCalls{
     {"log play", "$O/short.lcmlog --speed max --bus 'udpm://239.255.76.69:7999?ttl=0'"},
     {"replay verify", "$O/short.lcmlog --module planner --deployment $SOURCE/config/sim"},
     {"replay show", "$LOG --port 0", true},
+    {"report", "$O/one $O/other --out $O/two.html"},
     {"type show", "pose_t"},
     {"type hash", "pose_t"},
     {"type channels", ""},
+    {"world generate", "--into $O/generated --deployment $SOURCE/config/sim"},
     {"calibrate", "--points $O/points.txt"},
     {"down", "--logs $O/up"},
     {"up", "$SOURCE/config/sim --detach --logs $O/up2"},
@@ -74,6 +84,7 @@ const std::vector<Call> kCalls{
 const std::map<std::string, std::string> kWithout{
     {"link listen", "prints nothing"},
     {"help", "text for people"},
+    {"world keys", "TOML"},
     {"see", "writes files: the drawings, and JSON into the file that is named"},
     {"completion bash", "a script for the shell"},
     {"completion zsh", "a script for the shell"},
@@ -139,6 +150,10 @@ std::string PointsOfACamera() {
 TEST(JsonOutput, OfEveryVerbIsNothingButJson) {
   const TemporaryFolder folder;
   std::ofstream(folder / "points.txt") << PointsOfACamera();
+  for (const char* run : {"one", "other"}) {
+    std::filesystem::create_directory(folder / run);
+    std::ofstream(std::filesystem::path(folder / run) / "summary.json") << R"({"passed": true})";
+  }
   const std::string helpers = R"sh(
     stream() {  # OUT ERR COMMAND...
       local out=$1 err=$2; shift 2

@@ -24,7 +24,10 @@ TEST(Mission, IsOrderedRefusedFollowedAndAborted) {
     priamos mission door 9 $MAP; echo "no such door: $?"
     priamos mission door 9 $MAP; echo "again: $?"
     priamos mission door laboratory $MAP; echo "ordered: $?"
-    priamos mission door laboratory $MAP; echo "second: $?"
+    priamos mission goto 8.3 1.2; echo "second: $?"
+    priamos mission pause; echo "pause: $?"
+    priamos mission list | sed 's/^ *[0-9]*/N/'; echo "list: $?"
+    priamos mission resume; echo "resume: $?"
     priamos where; echo "offboard: $?"; priamos where --bus onboard; echo "onboard: $?"
     priamos mission status --wait > /dev/null & follower=$!
     sleep 1; priamos mission abort; echo "abort: $?"; wait $follower; echo "followed: $?"
@@ -38,7 +41,11 @@ TEST(Mission, IsOrderedRefusedFollowedAndAborted) {
   EXPECT_THAT(text, HasSubstr("failed: the map has no door 9\nno such door: 1"));
   EXPECT_THAT(text, HasSubstr("failed: the map has no door 9\nagain: 1"));
   EXPECT_THAT(text, ContainsRegex("accepted: approaching door 'laboratory'.*\nordered: 0"));
-  EXPECT_THAT(text, ContainsRegex("refused: a mission is under way: .*\nsecond: 1"));
+  EXPECT_THAT(text, ContainsRegex("accepted: order [0-9]+ waits, 1 before it\nsecond: 0"));
+  EXPECT_THAT(text, ContainsRegex("done: paused: the robot holds its place.*\npause: 0"));
+  EXPECT_THAT(text,
+              ContainsRegex("N  paused     door 'laboratory': .*\nN  waits      goto \\(8.30, 1.20\\)\n"));
+  EXPECT_THAT(text, ContainsRegex("resume: 0"));
   EXPECT_THAT(text, ContainsRegex("does     [A-Z]+.*\nlimit .*\nmission  [A-Z_]+: .*\noffboard: 0"));
   EXPECT_THAT(text, ContainsRegex("mission  not heard: no planner on this bus\nonboard: 0"));
   EXPECT_THAT(text, HasSubstr("done: aborted by the operator\nabort: 0"));

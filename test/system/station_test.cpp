@@ -58,12 +58,21 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
                            "held button re-arms: True",
                            "mission starts: True",
                            "edges are seen: True",
+                           "space is drawn: True",
+                           "fields are offered: True",
+                           "numbers with units: True",
+                           "numbers change: True",
+                           "charts are drawn: True",
+                           "held charts stand: True",
+                           "one is taken away: True",
                            "mission is aborted: True",
                            "heading by a drag: 45",
                            "chosen once: false",
                            "drives to a place: True",
                            "a pose is not set on the way: True",
                            "a robot at rest is told its pose: True",
+                           "parameters are shown: True",
+                           "of every process: True",
                            "German: True",
                            "complaints: []",
                            "dark fits: True",
@@ -71,6 +80,18 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
                            "tablet fits: True"})
     EXPECT_THAT(answer.text, HasSubstr(seen));
   EXPECT_GT(std::filesystem::file_size(views + "/mission.png"), 20'000u);
+}
+
+TEST_F(Station, TheTutorialIsDoneStepByStep) {
+  const std::string views = PRIAMOS_BINARY_DIR "/station-views/tutorial";
+  std::filesystem::create_directories(views);
+  const auto answer = RunScript("VIEWS=" + views + R"sh(
+    up; mkdir $LOGS.work; cd $LOGS.work; ln -s $SOURCE/config config
+    PATH=$BIN:$PATH PRIAMOS_LOGS=$LOGS python3 $SOURCE/test/support/tutorial.py $SOURCE/modules/console/TUTORIAL.md $VIEWS
+    down
+  )sh",
+                                240);
+  EXPECT_THAT(answer.text, ContainsRegex("steps: [0-9]+, failed: \\[\\], pictures without a step: \\[\\]"));
 }
 
 TEST_F(Station, ShowsALogInABrowser) {
@@ -84,8 +105,54 @@ TEST_F(Station, ShowsALogInABrowser) {
     kill -INT $SHOW; wait $SHOW; echo "ended: $?"
   )sh",
                                 60);
-  for (const char* seen : {"paused at the beginning: True", "plays: True", "seeks: True",
-                           "states after a seek: True", "complaints: []", "ended: 0"})
+  for (const char* seen :
+       {"paused at the beginning: True", "plays: True", "seeks: True", "states after a seek: True",
+        "plots the log's numbers: True", "space is drawn: True", "complaints: []", "ended: 0"})
+    EXPECT_THAT(answer.text, HasSubstr(seen));
+}
+
+TEST_F(Station, FoxgloveSeesTheRobotAndOrdersIt) {
+  const auto answer = RunScript(R"sh(
+    up; python3 $SOURCE/test/support/foxglove_station.py 8080; down
+  )sh",
+                                90);
+  for (const char* seen :
+       {"says who it is: True", "schemas of the panels: True", "schema of a type: True", "pose comes: True",
+        "and as a transform: True", "plan comes at once: True", "sonars are asked for over the radio: True",
+        "time goes on: True", "an order is taken: True", "and obeyed: True", "path is drawn: True",
+        "nonsense is refused: True", "stop stops: True", "nobody looks, nothing comes: True",
+        "a page of another origin: refused", "warnings: []"})
+    EXPECT_THAT(answer.text, HasSubstr(seen));
+}
+
+TEST_F(Station, AnyBusIsServedWithTypesThatNothingWasCompiledWith) {
+  const auto answer = RunScript(R"sh(
+    mkdir $LOGS.types
+    echo 'package farm; struct tank_t { double level_m; // [m]: of the milk
+    }' > $LOGS.types/tank_t.lcm
+    BUS='udpm://239.255.76.70:7770?ttl=0'
+    $BIN/priamos topic serve --bus $BUS --types $LOGS.types --port 0 --json > $LOGS.address & SERVE=$!
+    for i in $(seq 100); do [ -s $LOGS.address ] && break; sleep 0.05; done
+    (while sleep 0.1; do $BIN/priamos topic pub TANK tank_t '{"level_m":1.5}' --bus $BUS --types $LOGS.types; done) & PUB=$!
+    PORT=$(grep -o ':[0-9]*/' $LOGS.address | tr -d ':/') python3 - <<'PY'
+import json, os, urllib.request
+from foxglove_client import Foxglove
+from station_page import Page, wait_for
+port = int(os.environ["PORT"])
+client = Foxglove(port)
+print("channel is offered:", wait_for(lambda: client.channels.get("TANK", {}).get("schemaName") == "farm.tank_t", 5))
+client.subscribe("TANK")
+print("message comes:", wait_for(lambda: client.newest.get("TANK") == {"level_m": 1.5}, 5))
+page = Page(port)
+print("page gets it:", wait_for(lambda: page.messages.get("TANK") == {"level_m": 1.5}, 5))
+schema = json.load(urllib.request.urlopen(f"http://127.0.0.1:{port}/types/farm.tank_t.json"))
+print("unit:", schema["properties"]["level_m"]["description"])
+PY
+    kill $PUB; kill -INT $SERVE; wait $SERVE; echo "ended: $?"
+  )sh",
+                                40);
+  for (const char* seen : {"channel is offered: True", "message comes: True", "page gets it: True",
+                           "unit: [m] of the milk", "ended: 0"})
     EXPECT_THAT(answer.text, HasSubstr(seen));
 }
 

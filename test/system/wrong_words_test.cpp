@@ -31,7 +31,7 @@ const std::vector<WrongLine> kLines{
     {"priamos echo POSE", "unknown verb \"echo\"", "\"topic echo\""},
     {"priamos wehre", "unknown verb \"wehre\"", "\"where\""},
     {"priamos mission dor laboratory", "unknown verb \"dor\"", "\"door\""},
-    {"priamos mission", "got none", "abort, door, goto, status"},
+    {"priamos mission", "got none", "abort, cancel, door, goto, list, patrol, pause, resume, run, status"},
     {"priamos log inof x.lcmlog", "unknown verb \"inof\"", "\"info\""},
     {"priamos link bugdet", "unknown verb \"bugdet\"", "\"budget\""},
     {"priamos completion bahs", "unknown verb \"bahs\"", "\"bash\""},
@@ -74,6 +74,7 @@ const std::vector<WrongLine> kLines{
     {"priamos topic echo SONAR_RANGES 'rnge_m[3]'", "unknown field \"rnge_m\"", "\"range_m\""},
     {"priamos run --scenario dor --deployment $SOURCE/config/sim", "got \"dor\"", "\"door\""},
     {"priamos up robto", "\"robto\"", "\"robot\""},
+    {"priamos mission run round.tml --deployment $SOURCE/config/sim", "round.tml", ""},
     {"priamos mission door labratory --deployment $SOURCE/config/sim", "unknown door \"labratory\"",
      "\"laboratory\""},
     // configuration

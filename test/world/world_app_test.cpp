@@ -82,8 +82,9 @@ TEST(WorldAppTest, HasOnlyDeviceChannelsAndTheTruth) {
   for (const auto& endpoint : s.node.inputs()) in.push_back(endpoint.channel);
   for (const auto& endpoint : s.node.outputs()) out.push_back(endpoint.channel);
   EXPECT_THAT(in, ::testing::UnorderedElementsAre("WHEEL_COMMAND", "HEAD_COMMAND", "CAMERA_TRIGGER"));
-  EXPECT_THAT(out, ::testing::UnorderedElementsAre("WHEEL_STATE", "MOTOR_CURRENT", "BUMPER", "SONAR_RANGES",
-                                                   "HEAD_STATE", "CAMERA_FRAME", "WORLD_TRUTH"));
+  EXPECT_THAT(out,
+              ::testing::UnorderedElementsAre("WHEEL_STATE", "MOTOR_CURRENT", "BUMPER", "SONAR_RANGES",
+                                              "HEAD_STATE", "CAMERA_FRAME", "WORLD_TRUTH", "WORLD_TOUCH"));
 }
 
 TEST(WorldAppTest, StartsWithinTheStatedErrorOfTheNominalPose) {

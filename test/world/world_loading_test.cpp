@@ -132,5 +132,24 @@ TEST_F(BadWorldTest, AMissingMapIsNamed) {
                ConfigError);
 }
 
+TEST_F(BadWorldTest, PeopleAndHolesAreCheckedWithTheirPlaceInTheFile) {
+  EXPECT_THAT(ErrorOf("[[people]]\n[[people.waypoints]]\nx_m = 2\ny_m = 2.9\n"),
+              ::testing::AllOf(::testing::HasSubstr("world.toml:2: people: expected 0.25 m of room"),
+                               ::testing::HasSubstr("got \"wall w\"")));
+  EXPECT_THAT(ErrorOf("[[people]]\nname = \"x\"\n"),
+              ::testing::HasSubstr("at least one [[people.waypoints]]"));
+  EXPECT_THAT(ErrorOf("[[people]]\nspeed_m_s = 2\n"),
+              ::testing::HasSubstr("world.toml:3:people[0].speed_m_s"));
+  EXPECT_THAT(ErrorOf("[[holes]]\nname = \"pit\"\n"),
+              ::testing::HasSubstr("world.toml:2: holes: expected floor below the start, got \"pit\""));
+  EXPECT_THAT(ErrorOf("[[faults.sonars]]\nsensor = 25\n"),
+              ::testing::HasSubstr("world.toml:3:faults.sonars[0].sensor"));
+  EXPECT_THAT(ErrorOf("[[faults.motors]]\nkind = \"melted\"\n"),
+              ::testing::HasSubstr("world.toml:3:faults.motors[0].kind"));
+  EXPECT_THAT(ErrorOf("[cameras]\ngain_spread = 2\n"),
+              ::testing::HasSubstr("world.toml:3:cameras.gain_spread"));
+  EXPECT_THAT(ErrorOf("[mast]\nnod_deg_s2_m = 20\n"), ::testing::HasSubstr("world.toml:3:mast.nod_deg_s2_m"));
+}
+
 }  // namespace
 }  // namespace priamos::world

@@ -21,16 +21,21 @@ EntrySizes SizesOf(const ChannelTable& table, std::size_t channel) {
   const bool one_segment = c.fixed_bits > 0 && sizes.entries == 1;
   // Each as if it began a run, and with the bit that ends it.
   const double head_bits = table.id_bits() + 8 + (one_segment ? 1 : 3) + (c.urgent ? 0 : 1);
-  sizes.bits =
-      sizes.entries == 1 ? head_bits + 12 + body_bits : sizes.entries * head_bits + 12 + 5 + 8 * body_bytes;
-  sizes.entry_bits = std::min(sizes.bits, head_bits + 12 + 5 + 8.0 * kSegmentBytes);
+  if (sizes.entries == 1) {
+    sizes.bits = sizes.entry_bits = head_bits + 12 + body_bits;
+    return sizes;
+  }
+  sizes.bits = sizes.entries * head_bits + 12 + 5 + 8 * body_bytes;
+  sizes.entry_bits = head_bits + 12 + 8.0 * kSegmentBytes;  // the first; the last has a length, and no age
+  if (c.fixed_bits == 0) sizes.single_bits = sizes.entry_bits + 5;
   return sizes;
 }
 
 std::size_t LargestEntryBits(const ChannelTable& table, Direction direction) {
   double largest = 0;
   for (std::size_t i = 0; i < table.size(); ++i)
-    if (table.at(i).direction == direction) largest = std::max(largest, SizesOf(table, i).entry_bits);
+    if (table.at(i).direction == direction)
+      largest = std::max({largest, SizesOf(table, i).entry_bits, SizesOf(table, i).single_bits});
   return static_cast<std::size_t>(std::ceil(largest));
 }
 

@@ -52,6 +52,7 @@ PollBounds ComputePollBounds(const SharedChannel& channel, const SharedFrames& f
   return {.slot = slot,
           .cycle = (robots + asked) * slot,
           .asked = kAskEvery * slot,
+          .urgent = frames.urgent + tick,
           .urgent_one = one,
           .urgent_all = one + (robots - 1) * (frames.urgent + tick)};
 }

@@ -70,10 +70,14 @@ struct SharedFrames {
 /// Worst cases on a channel without bit errors.
 struct PollBounds {
   Duration slot{};        ///< from the beginning of a poll to that of the next one
-  Duration cycle{};       ///< from one turn of a robot to its next
+  Duration cycle{};       ///< from one turn of a robot to its next, without urgent messages in between
   Duration asked{};       ///< the same of the one robot that is driven
+  Duration urgent{};      ///< frame of the station with an urgent message, until the next one can begin
   Duration urgent_one{};  ///< from the offer of an emergency stop to one robot to its last byte there
   Duration urgent_all{};  ///< the same to every robot, one frame each
+  /// `cycle` and `asked` when urgent messages come to all robots at their rates, with their repetitions and
+  /// the polls that bring the acknowledgements; nullopt: not bounded within a minute.
+  std::optional<Duration> busy_cycle{}, busy_asked{};
 };
 
 /// Bounds for `robots` robots. An urgent message is offered at worst just as a poll begins: the poll and the

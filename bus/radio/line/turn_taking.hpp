@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "common/time.hpp"
 
@@ -21,6 +22,9 @@ struct HalfDuplex {
   Duration unheard{};     ///< longest time that an end sends before anything of it is heard: a packet
   TurnRule rule = TurnRule::kAlternate;
   Duration grace{};  ///< a polled robot that could not begin so long after it might keeps silent
+  /// Longest answer of a polled robot: it gives one up that would end later than that after the last time at
+  /// which it might have begun.
+  Duration answer{};
 };
 
 /// Turns on a half-duplex radio: which end may send, and until when. An end sends "over" in its last frame;
@@ -36,6 +40,7 @@ class TurnTaking {
         onboard_(onboard),
         mine_(onboard && mode.rule == TurnRule::kAlternate),
         began_(now),
+        slot_from_(now),
         heard_(now),
         proven_(now) {}
 
@@ -45,7 +50,7 @@ class TurnTaking {
   bool MayTalk(Time now) const {
     if (!enabled()) return true;
     // The station takes the turn of a silent robot back: a late beginning would meet it.
-    const bool late = mode_.rule == TurnRule::kPolled && now > began_ + mode_.grace;
+    const bool late = mode_.rule == TurnRule::kPolled && now > slot_from_ + mode_.grace;
     return mine_ && now >= began_ && !late;
   }
   /// Whether the turn has lasted long enough to be passed on with nothing to send. A poll is always sent, and
@@ -58,6 +63,15 @@ class TurnTaking {
   bool MustEnd(Time frame_end, Duration longest) const {
     if (shared()) return hands_over_;
     return enabled() && frame_end + longest > began_ + mode_.turn;
+  }
+
+  /// Notes that what had arrived by `now` was read: what is read next came later. Without it, bytes count as
+  /// come when they are read.
+  void OnLook(Time now) { looked_ = now; }
+  /// Whether the station takes a polled robot's turn back before an answer has left that ends at `frame_end`:
+  /// its process, or its machine, stood still meanwhile.
+  bool SlotEndsBefore(Time frame_end) const {
+    return mode_.rule == TurnRule::kPolled && frame_end > slot_from_ + mode_.grace + mode_.answer;
   }
 
   /// The station gives its end for one robot the time for one frame, which hands the turn to the robot when
@@ -82,6 +96,8 @@ class TurnTaking {
   /// Takes the turn when the other end has been silent for too long; `latency` is that of the line.
   void Step(Time now, Duration latency) {
     if (!enabled() || shared() || mine_) return;
+    // What came since the last look may be waiting to be read.
+    if (looked_) now = std::min(now, *looked_);
     const Duration patience = 2 * mode_.turnaround + 2 * latency + kSilence + mode_.unheard;
     const Duration first_byte = mode_.turnaround + 2 * latency + kSilence + mode_.unheard;
     const Duration wait = patience + (onboard_ ? first_byte : Duration::zero());
@@ -95,7 +111,10 @@ class TurnTaking {
   void OnOverReceived(Time now) {
     missed_ = 0;
     answered_ = true;
-    if (enabled() && mode_.rule != TurnRule::kGranted) Begin(now + mode_.turnaround);
+    if (!enabled() || mode_.rule == TurnRule::kGranted) return;
+    Begin(now + mode_.turnaround);
+    // The station counts from when the poll came, not from when this process got round to reading it.
+    slot_from_ = (looked_ ? std::min(now, *looked_) : now) + mode_.turnaround;
   }
   /// Notes that a frame has left; on a shared channel that was the turn.
   void OnFrameSent() {
@@ -119,10 +138,12 @@ class TurnTaking {
   HalfDuplex mode_;
   bool onboard_;
   bool mine_;
-  Time began_;              ///< beginning of the own turn
-  Time heard_;              ///< last sign that the other end has the turn
-  Time proven_;             ///< last one that cannot be anybody else's
-  bool hands_over_ = true;  ///< shared: the frame of this turn ends with "over"
+  Time began_;                  ///< beginning of the own turn
+  Time slot_from_;              ///< a polled robot's turn began then, or later
+  std::optional<Time> looked_;  ///< what had arrived by then was read
+  Time heard_;                  ///< last sign that the other end has the turn
+  Time proven_;                 ///< last one that cannot be anybody else's
+  bool hands_over_ = true;      ///< shared: the frame of this turn ends with "over"
   bool answered_ = true;
   int unanswered_ = 0;
   Duration period_{};

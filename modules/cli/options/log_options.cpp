@@ -94,7 +94,7 @@ OutputFile::OutputFile(const std::string& out, const std::string& in, bool force
     : name_(out == "-" ? "" : out) {
   if (name_.empty()) return;
   RequireNewFile(out, in, force);
-  file_.open(out, std::ios::binary | std::ios::trunc);
+  file_.open(place_.emplace(out).written(), std::ios::binary | std::ios::trunc);
   if (!file_) throw std::runtime_error(fmt::format("{}: cannot be written: {}", out, std::strerror(errno)));
 }
 
@@ -104,9 +104,11 @@ std::ostream& OutputFile::stream() {
 
 int OutputFile::Close() {
   stream().flush();
-  if (stream()) return 0;
-  throw std::runtime_error(
-      fmt::format("{}: cannot be written: is the disk full?", name_.empty() ? "standard output" : name_));
+  if (!stream())
+    throw std::runtime_error(
+        fmt::format("{}: cannot be written: is the disk full?", name_.empty() ? "standard output" : name_));
+  if (place_) place_->Keep();
+  return 0;
 }
 
 double ParseSpeed(const std::string& text) {

@@ -2,11 +2,13 @@
 
 #include <fstream>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/log/log_selection.hpp"
 #include "cli/options/bus_options.hpp"
+#include "cli/options/new_file.hpp"
 
 namespace priamos::cli {
 
@@ -29,7 +31,7 @@ bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string
 /// is "-", which elsewhere means standard output.
 void RequireNewFile(const std::string& out, const std::string& in, bool force);
 
-/// A new file, or standard output when `out` is empty or "-".
+/// A new file, or standard output when `out` is empty or "-". A file that is not closed was never there.
 class OutputFile {
  public:
   /// Opens the output. Throws std::runtime_error as RequireNewFile does, or when the file cannot be made.
@@ -41,6 +43,7 @@ class OutputFile {
 
  private:
   std::string name_;
+  std::optional<NewFile> place_;
   std::ofstream file_;
 };
 

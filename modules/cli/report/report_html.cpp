@@ -7,6 +7,7 @@
 
 #include "cli/report/report_looks.hpp"
 #include "cli/report/report_plot.hpp"
+#include "cli/report/report_style.hpp"
 #include "cli/report/report_table.hpp"
 #include "cli/report/report_timeline.hpp"
 #include "common/drawing/svg.hpp"
@@ -14,39 +15,6 @@
 
 namespace priamos::cli {
 namespace {
-
-constexpr const char* kStyle = R"(
-:root{--ink:#22282e;--faint:#6b7580;--line:#e2ded4;--good:#12915a;--bad:#c0322b;--paper:#fff;--card:#f7f5f0}
-*{box-sizing:border-box}
-body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,"DejaVu Sans",sans-serif}
-main{max-width:1180px;margin:0 auto;padding:24px 20px 48px}
-header{display:flex;flex-wrap:wrap;gap:8px 20px;align-items:center;justify-content:space-between}
-h1{font-size:1.6rem;margin:0}
-h2{font-size:1.1rem;margin:36px 0 10px;border-bottom:2px solid var(--line);padding-bottom:6px}
-.verdict{color:#fff;padding:6px 16px;border-radius:4px;font-weight:600}
-.reason{color:var(--bad);margin:8px 0 0}
-.good{background:var(--good)}.bad{background:var(--bad)}
-.cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(150px,1fr));gap:12px;margin:20px 0}
-.card{background:var(--card);border-radius:6px;padding:12px 14px}
-.card b{display:block;font-size:1.45rem;font-variant-numeric:tabular-nums;line-height:1.25}
-.card span{color:var(--faint);font-size:.86rem}
-img{width:100%;max-width:860px;height:auto;display:block;border:1px solid var(--line);border-radius:6px}
-.scroll{overflow-x:auto}
-table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}
-th,td{text-align:right;padding:5px 12px;border-bottom:1px solid var(--line);white-space:nowrap}
-th{color:var(--faint);font-weight:600;font-size:.86rem}
-th:first-child,td:first-child,.text td:last-child,.text th:last-child{text-align:left}
-.text td:last-child{white-space:normal;width:100%}
-.two{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,400px),1fr));gap:8px 36px}
-.sum td{font-weight:600}
-svg{width:100%;height:auto;display:block;margin:14px 0}
-svg text{font-size:12px;fill:var(--faint)}svg .title{font-size:14px;font-weight:600;fill:var(--ink)}
-svg .grid{stroke:var(--line)}svg rect.span{fill:var(--good);opacity:.14}svg text.span{fill:var(--good);font-weight:600}
-figure{margin:0}figcaption{color:var(--faint);font-size:.86rem}
-svg.look{background:#1b2026;border-radius:6px}svg.look line{stroke-width:3;stroke-linecap:round}
-.expected{stroke:#8b96a1;stroke-dasharray:3 7}.matched{stroke:#3ddc84}.rejected{stroke:#ff6a5e}
-footer{color:var(--faint);font-size:.86rem;margin-top:32px}
-)";
 
 std::string Card(const std::string& figure, const char* meaning) {
   return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>", figure, meaning);
@@ -193,7 +161,8 @@ std::string ReportPage(const RunRecord& record, const Summary& summary, const st
   const std::string title = fmt::format("{}, seed {}", drawing::EscapeMarkup(summary.scenario), summary.seed);
   std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">";
   page += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
-  page += fmt::format("<title>PRIAMOS: {}</title>\n<style>{}</style></head>\n<body><main>\n", title, kStyle);
+  page += fmt::format("<title>PRIAMOS: {}</title>\n<style>{}</style></head>\n<body><main>\n", title,
+                      kReportStyle);
   page += fmt::format("<header><h1>{}</h1><span class=\"verdict {}\">{}</span></header>\n", title,
                       good ? "good" : "bad", drawing::EscapeMarkup(Verdict(summary)));
   if (!summary.passed)

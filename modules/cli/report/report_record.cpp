@@ -47,6 +47,7 @@ void RunRecord::Add(Side side, std::int64_t utime, std::string_view channel,
 
 void RunRecord::AddOnboard(std::string_view channel, std::span<const std::byte> bytes) {
   if (channel == channels::kWorldTruth.name) Append(truth, bytes);
+  if (channel == channels::kWorldTouch.name) Append(touches, bytes);
   if (channel == channels::kPose.name) Append(poses, bytes);
   if (channel == channels::kPoseCorrection.name) Append(corrections, bytes);
   if (channel == channels::kLandmarkFix.name) Append(fixes, bytes);

@@ -28,6 +28,7 @@ class RunRecord {
 
   // Onboard.
   std::vector<world_truth_t> truth;
+  std::vector<world_touch_t> touches;
   std::vector<pose_t> poses;
   std::vector<pose_correction_t> corrections;
   std::vector<landmark_fix_t> fixes;

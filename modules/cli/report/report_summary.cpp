@@ -169,6 +169,7 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   summary.mean_speed_m_s = MeanSpeed(record);
   summary.min_speed_during_fix_m_s = SlowestDuringFixes(record);
   summary.fixes = FixesOf(on_plan, span.begin_utime);
+  summary.touches = TouchesOf(record, span.begin_utime);
   summary.hand = HandSummaryOf(record, info.world, built);
   summary.up = RadioOf(record.onboard_link);
   summary.down = RadioOf(record.offboard_link);
@@ -183,11 +184,14 @@ bool SeeksTheDoor(const Summary& summary) {
 nlohmann::ordered_json ToJson(const Summary& summary) {
   auto fixes = nlohmann::ordered_json::array();
   for (const FixSummary& fix : summary.fixes) fixes.push_back(ToJson(fix));
+  auto touches = nlohmann::ordered_json::array();
+  for (const TouchSummary& touch : summary.touches) touches.push_back(ToJson(touch));
   return {{"scenario", summary.scenario},
           {"seed", summary.seed},
           {"passed", summary.passed},
           {"reason", Json(summary.passed ? std::nullopt : std::optional(summary.reason))},
           {"contacts", summary.contacts},
+          {"touches", touches},
           {"min_gap_m", summary.min_gap_m},
           {"lateral_at_door_m", Json(summary.lateral_at_door_m)},
           {"heading_at_door_deg", Json(summary.heading_at_door_deg)},

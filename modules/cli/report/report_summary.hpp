@@ -9,6 +9,7 @@
 #include "cli/report/report_belief.hpp"
 #include "cli/report/report_hand.hpp"
 #include "cli/report/report_record.hpp"
+#include "cli/report/report_touches.hpp"
 #include "cli/report/run_info.hpp"
 
 namespace priamos::cli {
@@ -42,10 +43,11 @@ struct RadioSummary {
 struct Summary {
   std::string scenario;
   std::uint64_t seed = 0;
-  bool passed = false;  ///< the mission reports DONE and the base truly is behind the door
-  std::string reason;   ///< last line of the story; why, if it has not passed
-  int contacts = 0;
-  double min_gap_m = 0;                     ///< smallest true distance of the footprint to anything
+  bool passed = false;                ///< the mission reports DONE and the base truly is behind the door
+  std::string reason;                 ///< last line of the story; why, if it has not passed
+  int contacts = 0;                   ///< what the base drove into, and holes
+  std::vector<TouchSummary> touches;  ///< all, also what came to the base
+  double min_gap_m = 0;               ///< smallest true distance of the footprint to anything
   std::optional<double> lateral_at_door_m;  ///< none when the door was not crossed
   std::optional<double> heading_at_door_deg;
   std::optional<BeliefAtDoor> belief_at_door;      ///< when it crossed the door

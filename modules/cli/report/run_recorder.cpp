@@ -8,6 +8,8 @@ RunRecorder::RunRecorder(const std::optional<std::string>& folder) {
   if (!folder) return;
   onboard_.emplace((std::filesystem::path(*folder) / "onboard.lcmlog").string());
   offboard_.emplace((std::filesystem::path(*folder) / "offboard.lcmlog").string());
+  onboard_->DefineTypesOf(types_);
+  offboard_->DefineTypesOf(types_);
 }
 
 void RunRecorder::OnMessage(std::string_view bus, Time now, std::string_view channel,

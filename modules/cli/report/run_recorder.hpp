@@ -4,12 +4,13 @@
 #include <string>
 
 #include "bus/log/log_writer.hpp"
+#include "bus/own_types.hpp"
 #include "cli/report/report_record.hpp"
 #include "common/time.hpp"
 
 namespace priamos::cli {
 
-/// Writes both buses of a run to logs and keeps what the report needs.
+/// Writes both buses of a run to logs, which define their types, and keeps what the report needs.
 class RunRecorder {
  public:
   /// Records into logs in `folder`; nothing is written to disk without a folder.
@@ -22,6 +23,7 @@ class RunRecorder {
   bool good() const;
 
  private:
+  bus::Schema types_ = bus::OwnTypes();
   std::optional<bus::LogWriter> onboard_, offboard_;
   RunRecord record_;
 };

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "cli/scenario/mission_order.hpp"
 #include "common/geometry.hpp"
 #include "planner/planner_messages.hpp"
 
@@ -46,11 +47,15 @@ void DoorStory::Tick(Time now) {
 
 void DoorStory::GiveOrder(Time now) {
   if (ordered_ && now - *ordered_ < kOrderAgain) return;
-  if (!ordered_) progress_(now, "all processes are alive; order to the planner: pass the door");
+  if (!ordered_) {
+    progress_(now, "all processes are alive; order to the planner: pass the door");
+    order_id_ = OrderNumber(now);
+  }
   ordered_ = now;
   mission_command_t order{};
   order.utime = ToUtime(now);
   order.mission = mission_command_t::PASS_DOOR;
+  order.order_id = order_id_;
   order.landmark_id = static_cast<std::int16_t>(scenario_.landmark_id);
   order_.Publish(order);
 }

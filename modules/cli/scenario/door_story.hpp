@@ -47,6 +47,7 @@ class DoorStory : public ScenarioStory {
   bus::Inbox<landmark_fix_t> looks_;
   bus::Publisher<mission_command_t> order_;
   std::optional<Time> start_, ordered_, ended_;
+  std::int32_t order_id_ = 0;
   std::int8_t phase_ = -1;
   bool succeeded_ = false;
   std::string text_;

@@ -1,5 +1,7 @@
 #include "cli/scenario/mission_order.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -14,8 +16,40 @@ constexpr Duration kGivesUp = std::chrono::milliseconds(5000);
 /// A planner that waits for the robot's pose this long has taken the order.
 constexpr Duration kWaitsForRobot = std::chrono::milliseconds(3000);
 
-bool SameWords(const mission_status_t& a, const mission_status_t& b) {
-  return a.phase == b.phase && a.text == b.text;
+/// The end of an order as a whole; nullptr while it has none.
+const mission_result_t* EndOf(int order_id, const mission_status_t& status) {
+  for (const mission_result_t& result : status.results)
+    if (result.order_id == order_id && result.step == 0) return &result;
+  return nullptr;
+}
+
+/// How many orders are to be carried out before it; nullopt: it does not wait.
+std::optional<std::size_t> OrdersBefore(int order_id, const mission_status_t& status) {
+  for (std::size_t i = 0; i < status.waiting.size(); ++i)
+    if (status.waiting[i].order_id == order_id) return i + (status.running ? 1 : 0);
+  return std::nullopt;
+}
+
+bool IsUnderWay(int order_id, const mission_status_t& status) {
+  return status.running && status.order_id == order_id;
+}
+
+OrderOutcome OutcomeOf(const mission_result_t& result) {
+  switch (result.outcome) {
+    case mission_result_t::DONE:
+      return OrderOutcome::kDone;
+    case mission_result_t::CANCELLED:
+      return OrderOutcome::kCancelled;
+    case mission_result_t::REFUSED:
+      return OrderOutcome::kRefused;
+    default:
+      return OrderOutcome::kFailed;
+  }
+}
+
+std::string StepText(const mission_status_t& status) {
+  if (status.n_steps <= 1) return status.text;
+  return fmt::format("step {} of {}: {}", status.step, status.n_steps, status.text);
 }
 
 }  // namespace
@@ -31,14 +65,15 @@ bool IsOver(const mission_status_t& status) {
   return status.phase == mission_status_t::DONE || status.phase == mission_status_t::FAILED;
 }
 
-bool IsRunning(const mission_status_t& status) {
-  return status.phase != mission_status_t::WAITING && !IsOver(status);
+std::string_view Text(OrderOutcome outcome) {
+  constexpr std::array<std::string_view, 7> kNames{"open",      "accepted", "done",     "failed",
+                                                   "cancelled", "refused",  "no answer"};
+  return kNames[std::size_t(outcome)];
 }
 
-std::string_view Text(OrderOutcome outcome) {
-  constexpr std::array<std::string_view, 6> kNames{"open",   "accepted", "done",
-                                                   "failed", "refused",  "no answer"};
-  return kNames[std::size_t(outcome)];
+std::int32_t OrderNumber(Time now) {
+  constexpr int kNumbers = 65535;
+  return static_cast<std::int32_t>(1 + ToUtime(now) / 1000 % kNumbers);
 }
 
 void MissionOrder::End(OrderOutcome outcome, std::string text) {
@@ -46,25 +81,85 @@ void MissionOrder::End(OrderOutcome outcome, std::string text) {
   text_ = std::move(text);
 }
 
+bool MissionOrder::IsMission() const {
+  return order_.mission != mission_command_t::ABORT && order_.mission != mission_command_t::PAUSE &&
+         order_.mission != mission_command_t::RESUME && order_.mission != mission_command_t::CANCEL;
+}
+
 std::optional<std::string> MissionOrder::Hear(const mission_status_t& status, Time now) {
   heard_ = now;
-  const bool is_new = sent_ && !SameWords(status, last_.value_or(*before_));
-  if (!sent_) before_ = status;
   last_ = status;
-  answered_ = answered_ || is_new;
-  if (sent_ && outcome_ == OrderOutcome::kOpen) Judge(status, now);
-  return is_new ? std::optional(status.text) : std::nullopt;
+  if (!sent_ || outcome_ != OrderOutcome::kOpen) return std::nullopt;
+  Judge(status, now);
+  if (!answered_ || text_ == told_) return std::nullopt;
+  told_ = text_;
+  return text_;
 }
 
 void MissionOrder::Judge(const mission_status_t& status, Time now) {
-  // The same end twice in a row: long enough after the order it is the answer to it.
-  const bool repeated = !answered_ && !aborts() && now - *first_sent_ >= kAnswersWithin;
-  if (IsOver(status) && (answered_ || repeated)) {
-    const bool good = aborts() || status.phase == mission_status_t::DONE;
-    return End(good ? OrderOutcome::kDone : OrderOutcome::kFailed, status.text);
+  if (IsMission())
+    JudgeMission(status, now);
+  else
+    JudgeIntervention(status);
+}
+
+void MissionOrder::JudgeMission(const mission_status_t& status, Time now) {
+  CollectSteps(status);
+  if (const mission_result_t* end = EndOf(id(), status)) {
+    answered_ = true;
+    return End(OutcomeOf(*end), end->text);
   }
-  const bool waits = status.phase == mission_status_t::WAITING && now - *first_sent_ < kWaitsForRobot;
-  if (answered_ && !aborts() && !to_the_end_ && !waits) End(OrderOutcome::kAccepted, status.text);
+  if (IsUnderWay(id(), status)) {
+    answered_ = true;
+    text_ = StepText(status);
+    const bool waits = status.phase == mission_status_t::WAITING && now - *first_sent_ < kWaitsForRobot;
+    if (!to_the_end_ && !waits) End(OrderOutcome::kAccepted, text_);
+  } else if (const auto before = OrdersBefore(id(), status)) {
+    answered_ = true;
+    text_ = fmt::format("order {} waits, {} before it", id(), *before);
+    if (!to_the_end_) End(OrderOutcome::kAccepted, text_);
+  }
+}
+
+void MissionOrder::CollectSteps(const mission_status_t& status) {
+  const auto same = [](const mission_result_t& a, const mission_result_t& b) {
+    return a.step == b.step && a.round == b.round;
+  };
+  for (const mission_result_t& result : status.results) {
+    if (result.order_id != id() || result.step == 0) continue;
+    if (std::none_of(steps_.begin(), steps_.end(), [&](const auto& known) { return same(known, result); }))
+      steps_.push_back(result);
+  }
+}
+
+void MissionOrder::JudgeIntervention(const mission_status_t& status) {
+  const bool is_so = order_.mission == mission_command_t::ABORT    ? !status.running && status.waiting.empty()
+                     : order_.mission == mission_command_t::PAUSE  ? status.paused
+                     : order_.mission == mission_command_t::RESUME ? !status.paused
+                                                                   : EndOf(id(), status) != nullptr;
+  if (!is_so) return;
+  answered_ = true;
+  const mission_result_t* end = EndOf(id(), status);
+  End(OrderOutcome::kDone, end && order_.mission == mission_command_t::CANCEL ? end->text : status.text);
+}
+
+/// Why there is nothing to intervene in.
+std::optional<std::string> MissionOrder::NothingToDo(const mission_status_t& status) const {
+  switch (order_.mission) {
+    case mission_command_t::ABORT:
+    case mission_command_t::PAUSE:
+      if (status.running || (!status.waiting.empty() && order_.mission == mission_command_t::ABORT))
+        return std::nullopt;
+      return "no mission is under way";
+    case mission_command_t::RESUME:
+      if (status.paused) return std::nullopt;
+      return "nothing is paused";
+    case mission_command_t::CANCEL:
+      if (IsUnderWay(id(), status) || OrdersBefore(id(), status)) return std::nullopt;
+      return fmt::format("no order {} is under way or waits", id());
+    default:
+      return std::nullopt;
+  }
 }
 
 std::optional<mission_command_t> MissionOrder::Step(Time now) {
@@ -74,25 +169,23 @@ std::optional<mission_command_t> MissionOrder::Step(Time now) {
     End(OrderOutcome::kNoAnswer, heard_ ? "the planner fell silent" : "no planner is heard");
     return std::nullopt;
   }
-  if (!before_ || answered_) return std::nullopt;
-  if (!sent_ && !aborts() && IsRunning(*before_)) {
-    End(OrderOutcome::kRefused, "a mission is under way: " + before_->text);
+  if (!last_ || answered_) return std::nullopt;
+  if (const auto nothing = sent_ ? std::nullopt : NothingToDo(*last_)) {
+    // An abort of nothing has what it wants.
+    End(order_.mission == mission_command_t::ABORT ? OrderOutcome::kDone : OrderOutcome::kRefused, *nothing);
     return std::nullopt;
   }
   return Send(now);
 }
 
-/// At once, and again while the planner's words stay what they were.
+/// At once, and again while the planner does not report it.
 std::optional<mission_command_t> MissionOrder::Send(Time now) {
   if (sent_ && now - *sent_ < kAnswersWithin) return std::nullopt;
-  if (sent_ && aborts() && !IsRunning(*last_)) {
-    End(OrderOutcome::kDone, "no mission is under way");
-    return std::nullopt;
-  }
   if (first_sent_ && now - *first_sent_ > kGivesUp) {
     End(OrderOutcome::kNoAnswer, "the planner did not take the order; it answers: " + last_->text);
     return std::nullopt;
   }
+  if (IsMission() && order_.order_id == 0) order_.order_id = OrderNumber(now);
   sent_ = now;
   if (!first_sent_) first_sent_ = now;
   mission_command_t order = order_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,29 +14,32 @@ namespace priamos::cli {
 
 /// Name of a phase, as the constant of mission_status_t has it: "APPROACHING".
 std::string_view PhaseName(int phase);
-/// Whether a mission is being carried out.
-bool IsRunning(const mission_status_t& status);
 /// Whether a mission has ended, DONE or FAILED.
 bool IsOver(const mission_status_t& status);
 
 /// Outcome of an order.
 enum class OrderOutcome {
-  kOpen,      ///< not known yet
-  kAccepted,  ///< the planner carries it out, and its end is not waited for
-  kDone,      ///< the mission is done, or is aborted as was ordered
-  kFailed,    ///< the mission failed
-  kRefused,   ///< another mission is under way
-  kNoAnswer,  ///< no planner, or one that does not take orders
+  kOpen,       ///< not known yet
+  kAccepted,   ///< the planner carries it out or has it wait, and its end is not waited for
+  kDone,       ///< the order is done; what was to be aborted, paused, resumed or cancelled is so
+  kFailed,     ///< the mission failed
+  kCancelled,  ///< it was cancelled, or an order before it failed
+  kRefused,    ///< the planner cannot carry it out, or there is nothing to abort, pause, resume or cancel
+  kNoAnswer,   ///< no planner, or one that does not take orders
 };
 
 std::string_view Text(OrderOutcome outcome);
 
-/// An order to the planner and what it answers. The planner reports the state of its mission and does
-/// not answer single orders, so its status before the order is compared with its status afterwards; times are
-/// those of arrival, for the two may have different clocks. Pure: time and messages are given.
+/// Number of an order that is given at `now`.
+std::int32_t OrderNumber(Time now);
+
+/// An order to the planner and what becomes of it. The planner reports all orders by their numbers; one whose
+/// number it does not report was lost, and is given again. Times are those of arrival, for the two may have
+/// different clocks. Pure: time and messages are given.
 class MissionOrder {
  public:
-  /// Order that stays open until the planner carries it out; with `to_the_end` until the mission is over.
+  /// Order that stays open until the planner carries it out or has it wait; with `to_the_end` until it is
+  /// over. Without a number it gets one from the time at which it is given first.
   MissionOrder(const mission_command_t& order, bool to_the_end) : order_(order), to_the_end_(to_the_end) {}
 
   /// A status that arrived at `now`. Returns what is new in it for a person, in words.
@@ -44,21 +48,30 @@ class MissionOrder {
   std::optional<mission_command_t> Step(Time now);
 
   OrderOutcome outcome() const { return outcome_; }
-  /// The planner's last status text, or why there is none.
+  /// The planner's last words about it, or why there are none.
   const std::string& text() const { return text_; }
+  int id() const { return order_.order_id; }
+  /// How its steps have ended so far.
+  const std::vector<mission_result_t>& steps() const { return steps_; }
 
  private:
-  bool aborts() const { return order_.mission == mission_command_t::ABORT; }
+  bool IsMission() const;
   void End(OrderOutcome outcome, std::string text);
   void Judge(const mission_status_t& status, Time now);
+  void JudgeMission(const mission_status_t& status, Time now);
+  void JudgeIntervention(const mission_status_t& status);
+  std::optional<std::string> NothingToDo(const mission_status_t& status) const;
+  void CollectSteps(const mission_status_t& status);
   std::optional<mission_command_t> Send(Time now);
 
   mission_command_t order_;
   bool to_the_end_;
   OrderOutcome outcome_ = OrderOutcome::kOpen;
   std::string text_;
-  std::optional<mission_status_t> before_, last_;  ///< the status when the order was given, and the newest
-  bool answered_ = false;                          ///< the planner's status has changed since the order
+  std::optional<mission_status_t> last_;  ///< the newest one
+  std::string told_;                      ///< to a person last
+  bool answered_ = false;                 ///< the planner has reported the order
+  std::vector<mission_result_t> steps_;
   std::optional<Time> start_, first_sent_, sent_, heard_;
 };
 

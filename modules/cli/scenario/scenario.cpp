@@ -63,15 +63,16 @@ void Scenario::Describe(Archive& a) {
   a.Integer("landmark_id", landmark_id, {"-", 0, kLastLandmarkId, "the door of the map to pass"});
   a.Number("time_limit_s", time_limit_s, {"s", 1, 100000, "the run is ended after that"});
   a.Text("map", map, "ground plan drawn in the report, relative to the deployment's folder");
-  a.Section("line", line, "the serial line between the two radios");
-  a.List("process", processes, "the processes, in order of start");
-  a.List("waypoint", waypoints, "where the operator drives; none: he shakes the stick at random");
   a.Flag("fast", fast, "the operator uses the fast range");
   a.Number("astray_deg", astray_deg,
            {"deg", 0, 90, "error of the direction in which he pushes, one sigma; above 0 he also pauses"});
   a.Number("longest_stop_s", longest_stop_s,
            {"s", 0, 1000, "not passed when the base stands in the passage for longer while pushed; 0: any"});
   a.Number("shake_s", shake_s, {"s", 1, 100000, "how long he shakes it"});
+  // What has a heading in TOML comes last: single values after it would belong to it.
+  a.Section("line", line, "the serial line between the two radios");
+  a.List("process", processes, "the processes, in order of start");
+  a.List("waypoint", waypoints, "where the operator drives; none: he shakes the stick at random");
 }
 
 Scenario LoadScenario(const std::string& folder, const std::string& name) {

@@ -16,6 +16,7 @@ struct StoryList {
 using AllStories = StoryList<  //
     class DoorStory,           //
     class GotoStory,           //
+    class PatrolStory,         //
     class TeleopStory>;
 
 const std::vector<StoryKind>& Stories() {

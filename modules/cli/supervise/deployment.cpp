@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "cli/supervise/supervisor.hpp"
+#include "common/learned/learned_walls.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -105,9 +106,12 @@ ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& proc
     spec.arguments.insert(spec.arguments.end(), {"--port", Tty(place, process.bus)});
     spec.after.push_back("line");
   }
-  // In simulation the e-stop is remembered as long as the deployment is up.
+  // In simulation the e-stop and what was learned of the building are remembered as long as the deployment is
+  // up.
   if (process.module == "robot" && deployment.emulated_line)
     set("state_file=" + place.run_folder + "/robot-state");
+  if (process.module == "planner" && deployment.emulated_line)
+    set("learned_map=" + place.run_folder + "/" + std::string(kLearnedMapFile));
   if (process.module == "teleop" && has_mouse) set("spacemouse.socket=" + MouseSocket(place));
   return spec;
 }

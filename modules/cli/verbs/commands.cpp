@@ -10,6 +10,7 @@
 #include "cli/verbs/robot/commands.hpp"
 #include "cli/verbs/run/commands.hpp"
 #include "cli/verbs/wire/commands.hpp"
+#include "cli/verbs/world/commands.hpp"
 
 namespace priamos::cli {
 
@@ -21,13 +22,16 @@ void AddCommands(CLI::App& cli, int& exit_code) {
   AddMissionCommand(cli, exit_code);
   AddWhereCommand(cli, exit_code);
   AddPlaceCommand(cli, exit_code);
+  AddMapCommand(cli, exit_code);
   AddTopicCommand(cli, exit_code);
   AddLogCommand(cli, exit_code);
   AddReplayCommand(cli, exit_code);
+  AddReportCommand(cli, exit_code);
   AddTypeCommand(cli, exit_code);
   AddDoctorCommand(cli, exit_code);
   AddSeeCommand(cli, exit_code);
   AddLinkCommand(cli, exit_code);
+  AddWorldCommand(cli, exit_code);
   AddViewCommand(cli, exit_code);
   AddUpCommands(cli, exit_code);
   AddEstopCommand(cli, exit_code);

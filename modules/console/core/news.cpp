@@ -17,9 +17,10 @@ std::string TextOf(const News::Json& message, const char* field) {
 
 }  // namespace
 
-void News::Put(const std::string& key, const std::string& channel, Time valid, Json message) {
+void News::Put(const std::string& key, const std::string& channel, Time valid, Json message,
+               std::string type) {
   if (!items_.contains(key) && items_.size() >= kMostKeys) return;
-  items_[key] = {key, channel, valid, std::move(message), ++newest_};
+  items_[key] = {key, channel, valid, std::move(message), std::move(type), ++newest_};
 }
 
 std::vector<const News::Item*> News::Since(std::uint64_t number) const {
@@ -34,6 +35,7 @@ std::string KeyOf(const std::string& channel, const News::Json& message, std::ui
   if (channel == "HEALTH") return fmt::format("{} {}", channel, TextOf(message, "process"));
   if (channel == "LINK_STATUS")
     return fmt::format("{} {} {}", channel, TextOf(message, "onboard"), TextOf(message, "first_channel"));
+  if (channel == "LANDMARK_MODEL") return fmt::format("{} {}", channel, TextOf(message, "landmark_id"));
   if (channel == "ALARM") return fmt::format("{} {}", channel, count % kKeptAlarms);
   return channel;
 }

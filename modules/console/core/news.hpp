@@ -22,13 +22,15 @@ class News {
     std::string channel;
     Time valid;  ///< moment the message speaks of
     Json message;
+    std::string type;  ///< full name of the message's type
     std::uint64_t number = 0;
   };
 
   /// Most keys that are kept, whatever anybody sends; later ones are not taken.
   static constexpr std::size_t kMostKeys = 256;
 
-  void Put(const std::string& key, const std::string& channel, Time valid, Json message);
+  void Put(const std::string& key, const std::string& channel, Time valid, Json message,
+           std::string type = "");
   std::uint64_t newest() const { return newest_; }
   /// Items that came after `number`, oldest first.
   std::vector<const Item*> Since(std::uint64_t number) const;
@@ -39,7 +41,8 @@ class News {
 };
 
 /// What distinguishes messages of a channel that do not replace each other: the process of HEALTH, the end
-/// and part of LINK_STATUS; of ALARM the last kKeptAlarms are kept. `count`: messages of the channel so far.
+/// and part of LINK_STATUS, the landmark of LANDMARK_MODEL; of ALARM the last kKeptAlarms are kept. `count`:
+/// messages of the channel so far.
 std::string KeyOf(const std::string& channel, const News::Json& message, std::uint64_t count);
 
 }  // namespace priamos::console

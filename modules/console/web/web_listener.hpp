@@ -19,9 +19,9 @@ struct WebCounters {
 class WebListener {
  public:
   virtual ~WebListener() = default;
-  virtual void Joined(std::uint64_t client, Role role) = 0;
-  /// One message of a page; false cuts the page off.
-  virtual bool Said(std::uint64_t client, std::string_view text) = 0;
+  virtual void Joined(std::uint64_t client, const OpenSocket& socket) = 0;
+  /// One message of a client; false cuts it off. Pages speak text alone, others are `binary` too.
+  virtual bool Said(std::uint64_t client, std::string_view message, bool binary) = 0;
   virtual void Left(std::uint64_t client) = 0;
 };
 

@@ -5,7 +5,7 @@
 namespace priamos::console {
 namespace {
 
-constexpr std::string_view kSocket = "/socket";
+constexpr std::string_view kSocket = "/socket", kFoxglove = "foxglove.websocket.v1";
 
 /// "localhost:8080" -> "localhost", "[::1]:8080" -> "[::1]".
 std::string_view NameOf(std::string_view host) {
@@ -38,11 +38,36 @@ std::optional<Role> RoleOf(std::string_view token, const WebAccess& access) {
   return std::nullopt;
 }
 
-WebAnswer AnswerSocket(const WebRequest& request, const WebAccess& access) {
+/// Whether a list with commas names a protocol.
+bool Offers(std::string_view protocols, std::string_view name) {
+  while (!protocols.empty()) {
+    const auto end = std::min(protocols.find(','), protocols.size());
+    std::string_view one = protocols.substr(0, end);
+    while (one.starts_with(' ')) one.remove_prefix(1);
+    while (one.ends_with(' ')) one.remove_suffix(1);
+    if (one == name) return true;
+    protocols.remove_prefix(std::min(end + 1, protocols.size()));
+  }
+  return false;
+}
+
+bool IsOwnOrigin(const WebRequest& request) {
+  return request.origin == "http://" + request.host || request.origin == "https://" + request.host;
+}
+
+bool MaySpeakFoxglove(const WebRequest& request, const WebAccess& access) {
+  const auto& named = access.foxglove_origins;
+  return request.origin.empty() || IsOwnOrigin(request) ||
+         std::find(named.begin(), named.end(), request.origin) != named.end();
+}
+
+WebAnswer AnswerSocket(const WebRequest& request, const WebAccess& access, Dialect dialect) {
   if (!request.upgrade) return RefuseRequest{426, "expected a WebSocket"};
-  if (request.origin != "http://" + request.host && request.origin != "https://" + request.host)
+  if (dialect == Dialect::kPage && !IsOwnOrigin(request))
     return RefuseRequest{403, "expected the origin of this server's own page"};
-  if (const auto role = RoleOf(TokenOf(request.target), access)) return OpenSocket{*role};
+  if (dialect == Dialect::kFoxglove && !MaySpeakFoxglove(request, access))
+    return RefuseRequest{403, "expected an origin that foxglove_origins of console.toml names"};
+  if (const auto role = RoleOf(TokenOf(request.target), access)) return OpenSocket{*role, dialect};
   return RefuseRequest{401, "expected a token; it is on the station's console: http://.../?token=..."};
 }
 
@@ -54,7 +79,11 @@ WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAcce
     return RefuseRequest{403, "expected localhost or 127.0.0.1 as the address"};
   if (request.method != "GET" && request.method != "HEAD") return RefuseRequest{405, "expected GET"};
   const std::string_view path = std::string_view(request.target).substr(0, request.target.find('?'));
-  if (path == kSocket) return AnswerSocket(request, access);
+  if (request.upgrade && Offers(request.protocols, kFoxglove) && (path == "/" || path == kSocket))
+    return AnswerSocket(request, access, Dialect::kFoxglove);
+  if (path == kSocket) return AnswerSocket(request, access, Dialect::kPage);
+  if (path.starts_with("/parameters/") && !RoleOf(TokenOf(request.target), access))
+    return RefuseRequest{401, "expected a token, as the page needs one"};
   const auto file = files.find(path);
   if (file == files.end()) return RefuseRequest{404, "there is no such page; the station is at /"};
   return ServeFile{&file->second, request.method == "HEAD"};

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace priamos::console {
 
@@ -19,16 +20,24 @@ using WebFiles = std::map<std::string, WebFile, std::less<>>;
 /// What somebody may do who is connected.
 enum class Role { kViewer, kDriver };
 
+/// What somebody speaks over a WebSocket.
+enum class Dialect {
+  kPage,      ///< the page of this server
+  kFoxglove,  ///< foxglove.websocket.v1: Foxglove, Lichtblick, programs
+};
+
 /// Who may connect.
 struct WebAccess {
   bool loopback_only = true;               ///< names of this machine's loopback alone are taken for the Host
   std::string driver_token, viewer_token;  ///< empty: nobody needs one (loopback), or nobody has the role
+  std::vector<std::string> foxglove_origins{};  ///< foreign pages that may speak kFoxglove
 };
 
 /// The parts of a request's head that decide.
 struct WebRequest {
   std::string method, target, host, origin;
-  bool upgrade = false;  ///< asks for a WebSocket
+  bool upgrade = false;     ///< asks for a WebSocket
+  std::string protocols{};  ///< that it offers to speak over one, separated by commas
 };
 
 /// The answer is a file.
@@ -39,6 +48,8 @@ struct ServeFile {
 /// The answer is a WebSocket.
 struct OpenSocket {
   Role role = Role::kViewer;
+  Dialect dialect = Dialect::kPage;
+  std::string from{};  ///< numeric address of the other end
 };
 /// The answer is a refusal, with the status of HTTP and a sentence.
 struct RefuseRequest {
@@ -48,8 +59,10 @@ struct RefuseRequest {
 using WebAnswer = std::variant<ServeFile, OpenSocket, RefuseRequest>;
 
 /// What becomes of a request. A page of another origin gets no socket, nor does one that reached this server
-/// by a foreign name (DNS rebinding). The page itself is public; its socket needs the token, as
-/// /socket?token=..., when there is one.
+/// by a foreign name (DNS rebinding). The page itself is public, what is
+/// below /parameters/ is not; its socket needs the token, as
+/// /socket?token=..., when there is one. Who offers foxglove.websocket.v1 gets it at / too; he needs an
+/// origin that is named, or none at all, as programs have that are no browser.
 WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAccess& access);
 
 }  // namespace priamos::console

@@ -50,6 +50,10 @@ class WebServer::Impl {
     const auto session = sessions_.find(client);
     return session != sessions_.end() && session->second->Send(std::move(text));
   }
+  bool Queue(std::uint64_t client, std::string message, bool binary) {
+    const auto session = sessions_.find(client);
+    return session != sessions_.end() && session->second->Queue(std::move(message), binary);
+  }
 
   std::string address() const {
     const auto at = acceptor_.local_endpoint();
@@ -124,6 +128,9 @@ void WebServer::Poll(Time now) {
 }
 bool WebServer::Send(std::uint64_t client, std::string text) {
   return impl_->Send(client, std::move(text));
+}
+bool WebServer::Queue(std::uint64_t client, std::string message, bool binary) {
+  return impl_->Queue(client, std::move(message), binary);
 }
 std::string WebServer::address() const {
   return impl_->address();

@@ -24,6 +24,8 @@ class WebServer {
   void Poll(Time now);
   /// Sends a text to a page; false, and nothing is sent, when it has not taken the one before.
   bool Send(std::uint64_t client, std::string text);
+  /// Sends a message after those that wait already; false, and nothing is sent, when too much waits.
+  bool Queue(std::uint64_t client, std::string message, bool binary);
   /// "http://127.0.0.1:8080/".
   std::string address() const;
   int sockets() const;

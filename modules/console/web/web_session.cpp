@@ -28,8 +28,9 @@ std::string Text(beast::string_view text) {
 template <class Parser>
 WebRequest RequestOf(const Parser& parser) {
   const auto& head = parser.get();
-  return {Text(head.method_string()), Text(head.target()), Text(head[http::field::host]),
-          Text(head[http::field::origin]), websocket::is_upgrade(head)};
+  return {Text(head.method_string()),    Text(head.target()),
+          Text(head[http::field::host]), Text(head[http::field::origin]),
+          websocket::is_upgrade(head),   Text(head[http::field::sec_websocket_protocol])};
 }
 
 }  // namespace
@@ -85,22 +86,33 @@ void WebSession::Reply(unsigned status, std::string_view type, std::string_view 
 void WebSession::OnHead(const OpenSocket& answer) {
   if (shared_.sockets >= shared_.options.max_sockets)
     return OnHead(RefuseRequest{503, "there are as many pages as this station serves"});
-  socket_.read_message_max(shared_.options.max_message);
+  const bool foxglove = answer.dialect == Dialect::kFoxglove;
+  socket_.read_message_max(foxglove ? shared_.options.max_client_message : shared_.options.max_message);
   // Who broke the protocol is told so, and given a moment to close his end.
   socket_.set_option(websocket::stream_base::timeout{kFarewell, websocket::stream_base::none(), false});
-  socket_.async_accept(head_->get(),
-                       [self = shared_from_this(), role = answer.role](beast::error_code error) {
-                         if (self->phase_ == Phase::kDone) return;
-                         if (error) return self->Close();
-                         self->phase_ = Phase::kSocket;
-                         self->counted_ = self->shared_.now;
-                         self->allowance_ = self->shared_.options.messages_per_s * kBurst_s;
-                         self->socket_.auto_fragment(false);
-                         self->joined_ = true;
-                         ++self->shared_.sockets;
-                         self->shared_.listener.Joined(self->id_, role);
-                         self->Read();
-                       });
+  if (foxglove)
+    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& reply) {
+      reply.set(http::field::sec_websocket_protocol, "foxglove.websocket.v1");
+    }));
+  socket_.async_accept(head_->get(), [self = shared_from_this(), answer](beast::error_code error) {
+    if (self->phase_ == Phase::kDone) return;
+    if (error) return self->Close();
+    self->Accepted(answer);
+  });
+}
+
+void WebSession::Accepted(const OpenSocket& answer) {
+  phase_ = Phase::kSocket;
+  dialect_ = answer.dialect;
+  counted_ = shared_.now;
+  allowance_ = shared_.options.messages_per_s * kBurst_s;
+  socket_.auto_fragment(false);
+  joined_ = true;
+  ++shared_.sockets;
+  beast::error_code gone;
+  const auto other_end = tcp().remote_endpoint(gone);
+  shared_.listener.Joined(id_, {answer.role, answer.dialect, gone ? "" : other_end.address().to_string()});
+  Read();
 }
 
 void WebSession::Read() {
@@ -116,7 +128,8 @@ void WebSession::OnMessage(beast::error_code error) {
   if (gone) return Close();
   const auto data = buffer_.data();
   const std::string_view text(static_cast<const char*>(data.data()), data.size());
-  if (error || !socket_.got_text() || !MaySay() || !shared_.listener.Said(id_, text)) {
+  const bool understood = dialect_ == Dialect::kFoxglove || socket_.got_text();
+  if (error || !understood || !MaySay() || !shared_.listener.Said(id_, text, socket_.got_binary())) {
     ++shared_.counters.messages;
     return Close();
   }
@@ -133,19 +146,31 @@ bool WebSession::MaySay() {
 }
 
 bool WebSession::Send(std::string text) {
-  if (phase_ != Phase::kSocket || writing_) return false;
-  since_ = shared_.now;
-  socket_.text(true);
-  socket_.async_write(boost::asio::buffer(writing_.emplace(std::move(text))),
-                      [self = shared_from_this()](beast::error_code error, std::size_t) {
-                        self->writing_.reset();
-                        if (error) self->Close();
-                      });
+  return waiting_.empty() && Queue(std::move(text), false);
+}
+
+bool WebSession::Queue(std::string message, bool binary) {
+  if (phase_ != Phase::kSocket || waiting_bytes_ + message.size() > shared_.options.max_waiting) return false;
+  waiting_bytes_ += message.size();
+  waiting_.push_back({std::move(message), binary});
+  if (waiting_.size() == 1) Write();
   return true;
 }
 
+void WebSession::Write() {
+  since_ = shared_.now;
+  socket_.binary(waiting_.front().binary);
+  socket_.async_write(boost::asio::buffer(waiting_.front().bytes),
+                      [self = shared_from_this()](beast::error_code error, std::size_t) {
+                        if (error) return self->Close();
+                        self->waiting_bytes_ -= self->waiting_.front().bytes.size();
+                        self->waiting_.pop_front();
+                        if (!self->waiting_.empty() && self->phase_ == Phase::kSocket) self->Write();
+                      });
+}
+
 void WebSession::CheckTime() {
-  if (phase_ == Phase::kDone || (phase_ == Phase::kSocket && !writing_)) return;
+  if (phase_ == Phase::kDone || (phase_ == Phase::kSocket && waiting_.empty())) return;
   const auto& options = shared_.options;
   const double limit_s = phase_ == Phase::kHead ? options.head_timeout_s : options.write_timeout_s;
   if (Seconds(shared_.now - since_) <= limit_s) return;

@@ -6,7 +6,9 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/span_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +40,8 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   void Start();
   /// Sends a text over its WebSocket; false when it has not taken the one before.
   bool Send(std::string text);
+  /// Sends a message after those that wait; false when too much does.
+  bool Queue(std::string message, bool binary);
   /// Ends it when it is overdue.
   void CheckTime();
   void Close();
@@ -52,6 +56,8 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   void OnHead(const OpenSocket& answer);
   void OnHead(const RefuseRequest& answer);
   void Reply(unsigned status, std::string_view type, std::string_view text, bool head_only);
+  void Accepted(const OpenSocket& answer);
+  void Write();
   void Read();
   void OnMessage(boost::beast::error_code error);
   bool MaySay();
@@ -64,8 +70,15 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> head_;
   std::optional<boost::beast::http::response<boost::beast::http::span_body<const char>>> reply_;
   std::string refusal_;
-  std::optional<std::string> writing_;  ///< what the WebSocket is sending
+  /// A message on its way.
+  struct Outgoing {
+    std::string bytes;
+    bool binary = false;
+  };
+  std::deque<Outgoing> waiting_;  ///< for the WebSocket; it is sending the first one
+  std::size_t waiting_bytes_ = 0;
   Phase phase_ = Phase::kHead;
+  Dialect dialect_ = Dialect::kPage;
   bool joined_ = false;
   Time since_{};          ///< when the connection came, or what is being sent was begun
   double allowance_ = 0;  ///< messages that the page may still send at once

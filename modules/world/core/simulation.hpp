@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,9 @@
 #include "world/core/base/motor_load.hpp"
 #include "world/core/head/camera_server.hpp"
 #include "world/core/head/head_motors.hpp"
+#include "world/core/head/mast.hpp"
+#include "world/core/motion/movers.hpp"
+#include "world/core/scene/hazards.hpp"
 #include "world/core/scene/solid.hpp"
 #include "world/core/sonar/sonar_ring.hpp"
 
@@ -34,6 +38,9 @@ struct RobotModel {
 
   void Describe(Archive& a);
 };
+
+/// Where the wheels stand on the floor, base frame, in the order of messages.
+using PerWheelPoints = std::array<Eigen::Vector2d, 4>;
 
 /// Body of a robot that can touch things: a rectangle between two heights.
 Body BodyOf(const RobotModel& model);
@@ -64,19 +71,29 @@ struct HeadSample {
   bool moving;
 };
 
+/// A touch, when it begins.
+struct TouchEvent {
+  /// Who moved, as in world_touch_t: the base, a thing against it, or a wheel into a hole.
+  enum class Kind { kDriven, kMovedIn, kFell };
+  Time time;
+  Kind kind;
+  std::string thing;
+  Eigen::Vector2d in_base;  ///< point of the footprint that was touched
+};
+
 /// True state of the robot at one time: pose, velocity, distances to solids, head.
 struct Truth {
   Time time;
   Pose2 map_from_base;
   Twist2 velocity;  ///< base frame
   double gap_m = 0, min_gap_m = 0;
-  int contacts = 0;
+  int contacts = 0;  ///< those that the base drove into, and holes; not what came to it
   HeadAxes axes;
 };
 
-/// The whole world in steps of fixed length: wheels turn, the base moves or is blocked, motors run, sonars
-/// fire, shutters open. Samples of the devices are taken at their own times; the newest of each kind waits
-/// to be taken.
+/// The whole world in steps of fixed length: wheels turn, the base moves or is blocked, people walk, motors
+/// run, sonars fire, shutters open. Samples of the devices are taken at their own times; the newest of each
+/// kind waits to be taken.
 class Simulation {
  public:
   static constexpr Duration kStep{2500};
@@ -85,10 +102,10 @@ class Simulation {
   /// then.
   static constexpr Duration kMaxAdvance{500000};
 
-  /// World with the robot at `start`; `cameras` must outlive it. Throws std::invalid_argument when the robot
-  /// would start inside a solid.
+  /// World with the robot at `start`; `cameras` must outlive it. `solids` are those of WithPeople. Throws
+  /// std::invalid_argument when the robot would start inside a solid, a person or a hole.
   Simulation(const RobotModel& model, const std::vector<Solid>& solids, const Pose2& start,
-             CameraServer& cameras, std::uint64_t seed);
+             CameraServer& cameras, std::uint64_t seed, const Hazards& hazards = {});
 
   bool CommandWheels(Time now, std::int32_t instance, const PerWheel& speed_rad_s) {
     return drive_.Command(now, instance, speed_rad_s);
@@ -106,17 +123,30 @@ class Simulation {
   std::optional<SonarSample> TakeSonars() { return std::exchange(sonars_, {}); }
   std::optional<HeadSample> TakeHead() { return std::exchange(head_, {}); }
   std::optional<Truth> TakeTruth() { return std::exchange(truth_, {}); }
+  std::vector<TouchEvent> TakeTouchEvents() { return std::exchange(touch_events_, {}); }
+  const Movers& movers() const { return movers_; }
 
  private:
   void Step();
   void Move(double dt_s);
+  void MoveOthers(double dt_s);
+  void BreakDevices();
+  void UpdateGaps(double reach_m);
   void Touch();
+  void Fall();
+  void NoteTouch(const Clearance& clearance, bool driven);
+  Rectangle Footprint() const { return {pose_, body_.size_m / 2}; }
+  double SinceStart() const { return Seconds(*now_ - *started_); }
   double Reach(double dt_s) const;
   void ExposeUntil(Time end, const Pose2& from);
   void SampleDevices();
   Truth CurrentTruth() const;
 
   Body body_;
+  PerWheelPoints wheels_in_base_;
+  std::vector<std::string> names_;  ///< of the solids
+  std::vector<HolePlan> holes_;
+  FaultsPlan faults_;  ///< those that have not come yet
   DriveBoard drive_;
   MecanumBase base_;
   MotorLoad motor_load_;
@@ -124,14 +154,20 @@ class Simulation {
   SonarRing ring_;
   HeadMotors motors_;
   CameraServer& cameras_;
-  Clearance clearance_;
-  ContactCounter contacts_;
+  Movers movers_;
+  Mast mast_;
+  Clearance clearance_;         ///< from what stands still
+  Clearance moving_clearance_;  ///< from what moves by itself
+  ContactCounter contacts_, moving_contacts_;
+  int driven_into_movers_ = 0, falls_ = 0;
 
   Pose2 pose_;
   Twist2 velocity_;
+  Twist2 driven_;  ///< what the wheels wanted in the last step
   double gap_m_ = 0;
+  double moving_gap_m_ = 0, min_gap_m_ = 0;
   std::uint8_t pressed_ = 0;  ///< since the last sample
-  std::optional<Time> now_;
+  std::optional<Time> now_, started_;
   Time next_sample_, next_ping_;
   int next_group_ = 0;
 
@@ -140,6 +176,7 @@ class Simulation {
   std::optional<SonarSample> sonars_;
   std::optional<HeadSample> head_;
   std::optional<Truth> truth_;
+  std::vector<TouchEvent> touch_events_;
 };
 
 }  // namespace priamos::world

@@ -1,6 +1,6 @@
 // What the bus costs beside raw liblcm and raw sockets, in one run: round trip of a small message, `priamos
-// topic list` on a busy bus, reading a log. Prints one line per figure with its bound; exit 1 if one is
-// missed.
+// topic list` on a busy bus, messages sent flat out, reading a log. Prints one line per figure with its
+// bound; exit 1 if one is missed.
 //   scripts/in-private-network build/bin/bench_bus [--quick]
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -25,6 +25,7 @@
 #include "bus/own_types.hpp"
 #include "bus/schema/big_endian.hpp"
 #include "lcmtypes/channels.hpp"
+#include "test/bench/bus/throughput.hpp"
 
 namespace priamos::bench {
 namespace {
@@ -323,6 +324,18 @@ void BusyBus(const std::string& program, bool quick) {
   Report("lost and not reported", std::abs(sent - heard - lost), 1e-9, "");
 }
 
+void FlatOut(bool quick) {
+  for (const std::size_t bytes : {std::size_t{72}, bus::LcmBus::kMaxMessageBytes}) {
+    const Throughput t = SendFlatOut(bytes, quick ? 1 : 5);
+    const std::string what = fmt::format("{} bytes flat out: ", bytes);
+    const auto sent = static_cast<double>(t.sent);
+    Report(what + "messages sent per second", sent / t.seconds, 0, "1/s");
+    Report(what + "lost and reported", 100 * static_cast<double>(t.lost) / sent, 0, "%");
+    Report(what + "lost and not reported",
+           std::abs(sent - static_cast<double>(t.heard) - static_cast<double>(t.lost)), 1e-9, "");
+  }
+}
+
 double LiblcmReadSeconds(const std::string& log, std::uint64_t& events) {
   const auto start = SteadyClock::now();
   lcm_eventlog_t* file = lcm_eventlog_create(log.c_str(), "r");
@@ -367,6 +380,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   RoundTrip(quick);
   BusyBus(PRIAMOS_BINARY_DIR "/bin/priamos", quick);
+  FlatOut(quick);
   ReadLog(PRIAMOS_SOURCE_DIR "/logs/recorded/door-onboard.lcmlog", quick);
   return missed > 0;
 }

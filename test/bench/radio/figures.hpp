@@ -52,6 +52,7 @@ struct Effort {
 };
 
 void SimulatedLink(Figures& figures, const Effort& effort);  // sections of link_figures.cpp
+void Commands(Figures& figures, const Effort& effort);       // command_figures.cpp
 void Hostile(Figures& figures, const Effort& effort);        // attack_figures.cpp
 void Stops(Figures& figures, const Effort& effort);          // stop_figures.cpp
 void SharedChannel(Figures& figures, const Effort& effort);  // shared_figures.cpp

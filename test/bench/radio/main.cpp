@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
       SideBySide(figures);
       Differences(figures);
       SimulatedLink(figures, effort);
+      Commands(figures, effort);
       Stops(figures, effort);
       Hostile(figures, effort);
       SharedChannel(figures, effort);

@@ -66,6 +66,32 @@ TEST(ClockOffset, AnImpossibleExchangeIsRefused) {
   EXPECT_FALSE(dut.At(t));
 }
 
+/// One second of a wall clock's error, slewed by chrony's 8.3 %, once a second measured: NTP sets the rate of
+/// the clock that our stamps are of.
+TEST(ClockOffset, WhatNtpSlewsIsFollowedAndMoreUncertainUntilItIsOver) {
+  ClockOffset dut;
+  constexpr double kSlew = 0.083;
+  const OtherClock before{}, slewed{{}, kSlew}, after{milliseconds(996)};
+  Time now = kBegin - seconds(40);
+  for (; now < kBegin; now += seconds(1)) dut.Add(before.Exchange(now, Duration(100), {}, Duration(100)));
+  EXPECT_LT(dut.At(now)->uncertainty, milliseconds(2));
+  for (; now < kBegin + seconds(12); now += milliseconds(50)) {
+    dut.Add(slewed.Exchange(now, milliseconds(1), {}, milliseconds(1)));
+    const Time then = now + milliseconds(40);
+    const Duration error = slewed.At(then) - then - dut.At(then)->ahead;
+    EXPECT_LT(std::chrono::abs(error), milliseconds(6));
+    EXPECT_TRUE(now <= kBegin + milliseconds(50) || dut.unsteady());
+    if (now > kBegin + milliseconds(200)) {
+      EXPECT_LE(std::chrono::abs(error), dut.At(then)->uncertainty);
+    }
+  }
+  for (; now < kBegin + seconds(32); now += seconds(1))
+    dut.Add(after.Exchange(now, milliseconds(1), {}, milliseconds(1)));
+  EXPECT_NEAR(Seconds(dut.At(now)->ahead), 0.996, 0.001);
+  EXPECT_LT(dut.At(now)->uncertainty, milliseconds(2)) << "it is over";
+  EXPECT_FALSE(dut.unsteady());
+}
+
 /// Whatever the ways take, however different, and however the clocks drift within 100 ppm each.
 RC_GTEST_PROP(ClockOffsetProperty, TheTruthIsWithinTheUncertainty, ()) {
   ClockOffset dut;

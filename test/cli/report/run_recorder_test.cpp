@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "bus/log/type_texts.hpp"
 #include "test/cli/message_log.hpp"
 #include "test/support/temporary_folder.hpp"
 
@@ -21,7 +22,11 @@ TEST(RunRecorder, EachBusHasALogWithTheTimeOfArrival) {
                 bus::Encode(mission_status_t{}));
   dut.OnMessage("offboard", kNow + std::chrono::seconds(2), "FOREIGN", {});
   dut.Flush();
-  const auto onboard = EventsOf(folder / "onboard.lcmlog"), offboard = EventsOf(folder / "offboard.lcmlog");
+  auto onboard = EventsOf(folder / "onboard.lcmlog"), offboard = EventsOf(folder / "offboard.lcmlog");
+  for (auto* log : {&onboard, &offboard}) {
+    EXPECT_TRUE(bus::IsTypeText(log->front().bytes)) << "it says first what the messages are";
+    std::erase_if(*log, [](const auto& event) { return bus::IsTypeText(event.bytes); });
+  }
   ASSERT_EQ(onboard.size(), 1u);
   EXPECT_EQ(onboard[0].utime, 1'234'567'890);
   EXPECT_EQ(onboard[0].channel, "POSE");

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <utility>
+#include <vector>
+
 #include "stage.hpp"
 
 namespace priamos::cli {
@@ -25,8 +28,31 @@ struct GotoStage : Stage {
     mission_status_t message{};
     message.phase = static_cast<std::int8_t>(phase);
     message.text = text;
+    Listen();
+    message.order_id = order_id;
+    const bool over = phase == mission_status_t::DONE || phase == mission_status_t::FAILED;
+    message.running = order_id != 0 && !over;
+    if (over) {
+      mission_result_t result{};
+      result.order_id = order_id;
+      result.outcome = phase == mission_status_t::DONE ? mission_result_t::DONE : mission_result_t::FAILED;
+      result.text = text;
+      message.results.push_back(result);
+      message.n_results = 1;
+    }
     status.Publish(message);
     Run(0.1);
+  }
+  /// The orders since the last call.
+  std::vector<mission_command_t> Given() {
+    Listen();
+    return std::exchange(given, {});
+  }
+  void Listen() {
+    for (const auto& order : orders.Drain()) {
+      given.push_back(order);
+      order_id = order.order_id;
+    }
   }
   void Stand(double x_m, double y_m) {
     world_truth_t message{};
@@ -44,12 +70,14 @@ struct GotoStage : Stage {
   bus::Publisher<mission_status_t> status = offboard_other.Advertise(channels::kMissionStatus);
   bus::Publisher<world_truth_t> truth = onboard_other.Advertise(channels::kWorldTruth);
   bus::Inbox<mission_command_t> orders = offboard_other.SubscribeAll(channels::kMissionCommand);
+  std::vector<mission_command_t> given;
+  int order_id = 0;  ///< of the last order that the planner took
 };
 
 TEST(GotoStory, OrdersOnePlaceAfterTheOther) {
   GotoStage stage;
   stage.Begin();
-  auto orders = stage.orders.Drain();
+  auto orders = stage.Given();
   ASSERT_EQ(orders.size(), 1u);
   EXPECT_EQ(orders[0].mission, mission_command_t::GOTO);
   EXPECT_EQ(orders[0].x_m, 4);
@@ -58,7 +86,7 @@ TEST(GotoStory, OrdersOnePlaceAfterTheOther) {
   stage.Stand(4.1, 1);
   for (int i = 0; i < 2; ++i) stage.Say(mission_status_t::DONE, "at (4, 1)");
   stage.Run(0.3);
-  orders = stage.orders.Drain();
+  orders = stage.Given();
   ASSERT_EQ(orders.size(), 1u);
   EXPECT_EQ(orders[0].x_m, 2);
   stage.Say(mission_status_t::DRIVING, "driving");

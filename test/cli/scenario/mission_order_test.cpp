@@ -11,24 +11,59 @@ namespace {
 using testing::HasSubstr;
 using Status = mission_status_t;
 
-mission_command_t Order(int mission) {
+mission_command_t Order(int mission, int order_id = 0) {
   mission_command_t order{};
   order.mission = static_cast<std::int8_t>(mission);
   order.landmark_id = 1;
+  order.order_id = order_id;
   return order;
 }
 
-Status Says(int phase, const std::string& text) {
+/// A planner without an order.
+Status Idle() {
   Status status{};
-  status.phase = static_cast<std::int8_t>(phase);
-  status.text = text;
+  status.phase = Status::WAITING;
+  status.text = "no order yet";
   return status;
 }
 
+/// One that carries out an order.
+Status Runs(int order_id, int phase, const std::string& text) {
+  Status status{};
+  status.phase = static_cast<std::int8_t>(phase);
+  status.text = text;
+  status.order_id = order_id;
+  status.running = true;
+  status.step = status.n_steps = 1;
+  return status;
+}
+
+/// One that has ended an order so.
+Status Ended(int order_id, int outcome, const std::string& text) {
+  Status status = Idle();
+  mission_result_t result{};
+  result.order_id = order_id;
+  result.outcome = static_cast<std::int8_t>(outcome);
+  result.text = text;
+  status.results.push_back(result);
+  status.n_results = 1;
+  return status;
+}
+
+Status AndWaits(Status status, int order_id) {
+  mission_waiting_t waiting{};
+  waiting.order_id = order_id;
+  status.waiting.push_back(waiting);
+  status.n_waiting = static_cast<std::int8_t>(status.waiting.size());
+  return status;
+}
+
+constexpr int kOrder = 7;
+
 /// A planner that speaks twice a second, and somebody who gives it an order.
 struct Talk {
-  explicit Talk(int mission = mission_command_t::PASS_DOOR, bool to_the_end = false)
-      : dut(Order(mission), to_the_end) {}
+  explicit Talk(int mission = mission_command_t::PASS_DOOR, bool to_the_end = false, int order_id = kOrder)
+      : dut(Order(mission, order_id), to_the_end) {}
 
   /// The planner says this for so long. Returns what a person was told.
   std::vector<std::string> For(double seconds, const Status& status) {
@@ -51,96 +86,169 @@ struct Talk {
 };
 
 /// An order with this outcome, the last words of which are `text`.
-auto Ended(OrderOutcome outcome, const testing::Matcher<std::string>& text) {
+auto Came(OrderOutcome outcome, const testing::Matcher<std::string>& text) {
   return testing::AllOf(testing::Property("outcome", &MissionOrder::outcome, outcome),
                         testing::Property("text", &MissionOrder::text, text));
 }
 
-const Status kIdle = Says(Status::WAITING, "no order yet");
-
 TEST(MissionOrder, IsAcceptedWhenTheRobotIsUnderWay) {
   Talk talk;
-  talk.For(0.6, kIdle);
+  talk.For(0.6, Idle());
   EXPECT_EQ(talk.orders, 1);
-  EXPECT_THAT(talk.For(0.6, Says(Status::WAITING, "waiting for the robot's pose")),
+  EXPECT_THAT(talk.For(0.6, Runs(kOrder, Status::WAITING, "waiting for the robot's pose")),
               testing::ElementsAre("waiting for the robot's pose"));
   EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen) << "it may be refused yet";
-  talk.For(0.6, Says(Status::APPROACHING, "approaching"));
-  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kAccepted, "approaching"));
+  talk.For(0.6, Runs(kOrder, Status::APPROACHING, "approaching"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kAccepted, "approaching"));
   EXPECT_EQ(talk.orders, 1);
 }
 
 TEST(MissionOrder, IsAcceptedWhenThePlannerWaitsForTheRobotForThreeSeconds) {
   Talk talk;
-  talk.For(0.6, kIdle);
-  talk.For(2.4, Says(Status::WAITING, "waiting for the robot's pose"));
+  talk.For(0.6, Idle());
+  talk.For(2.4, Runs(kOrder, Status::WAITING, "waiting"));
   EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
-  talk.For(1.2, Says(Status::WAITING, "waiting for the robot's pose"));
-  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kAccepted, "waiting for the robot's pose"));
+  talk.For(1.2, Runs(kOrder, Status::WAITING, "waiting"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kAccepted, "waiting"));
 }
 
 TEST(MissionOrder, IsFollowedToItsEnd) {
-  Talk done(mission_command_t::PASS_DOOR, true), failed(mission_command_t::PASS_DOOR, true);
-  for (Talk* talk : {&done, &failed}) {
-    talk->For(0.6, kIdle);
-    talk->For(20, Says(Status::PASSING, "passing"));
-    EXPECT_EQ(talk->dut.outcome(), OrderOutcome::kOpen);
+  struct {
+    int outcome;
+    OrderOutcome expected;
+  } const cases[] = {{mission_result_t::DONE, OrderOutcome::kDone},
+                     {mission_result_t::FAILED, OrderOutcome::kFailed},
+                     {mission_result_t::CANCELLED, OrderOutcome::kCancelled},
+                     {mission_result_t::REFUSED, OrderOutcome::kRefused}};
+  for (const auto& c : cases) {
+    Talk talk(mission_command_t::PASS_DOOR, true);
+    talk.For(0.6, Idle());
+    talk.For(20, Runs(kOrder, Status::PASSING, "passing"));
+    EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
+    talk.For(0.6, Ended(kOrder, c.outcome, "so it ended"));
+    EXPECT_THAT(talk.dut, Came(c.expected, "so it ended"));
   }
-  done.For(0.6, Says(Status::DONE, "through the door"));
-  EXPECT_EQ(done.dut.outcome(), OrderOutcome::kDone);
-  failed.For(0.6, Says(Status::FAILED, "blocked"));
-  EXPECT_THAT(failed.dut, Ended(OrderOutcome::kFailed, "blocked"));
 }
 
-TEST(MissionOrder, AFailureOfYesterdayIsNotTheAnswerButItsRepetitionIs) {
-  Talk talk;
-  talk.For(1, Says(Status::FAILED, "the map has no door 9"));
+TEST(MissionOrder, TheEndOfAnotherOrderIsNotTheAnswer) {
+  Talk talk(mission_command_t::PASS_DOOR, true);
+  talk.For(0.6, Ended(3, mission_result_t::FAILED, "no way"));
+  talk.For(2, Runs(9, Status::PASSING, "somebody else's"));
   EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
-  talk.For(1.5, Says(Status::FAILED, "the map has no door 9"));
-  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kFailed, "the map has no door 9"));
+  EXPECT_GE(talk.orders, 2) << "it was lost";
 }
 
-TEST(MissionOrder, IsNotGivenWhileAnotherMissionIsUnderWay) {
-  Talk talk;
-  talk.For(0.6, Says(Status::PASSING, "passing"));
-  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kRefused, HasSubstr("passing")));
-  EXPECT_EQ(talk.orders, 0);
+TEST(MissionOrder, BehindAnotherMissionItWaits) {
+  Talk talk, follows(mission_command_t::GOTO, true);
+  for (Talk* t : {&talk, &follows}) {
+    t->For(0.6, Runs(3, Status::PASSING, "passing"));
+    t->For(0.6, AndWaits(Runs(3, Status::PASSING, "passing"), kOrder));
+  }
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kAccepted, "order 7 waits, 1 before it"));
+  EXPECT_EQ(follows.dut.outcome(), OrderOutcome::kOpen);
+  follows.For(1, Runs(kOrder, Status::DRIVING, "driving"));
+  follows.For(1, Ended(kOrder, mission_result_t::DONE, "there"));
+  EXPECT_THAT(follows.dut, Came(OrderOutcome::kDone, "there"));
+}
+
+TEST(MissionOrder, CollectsHowItsStepsEndedOnceEach) {
+  Talk talk(mission_command_t::RUN, true);
+  talk.For(0.6, Idle());
+  Status status = Ended(kOrder, mission_result_t::DONE, "at the first place");
+  status.results[0].step = 1;
+  status.running = true;
+  status.order_id = kOrder;
+  status.step = 2;
+  status.n_steps = 3;
+  status.text = "driving";
+  EXPECT_THAT(talk.For(2, status), testing::ElementsAre("step 2 of 3: driving"));
+  ASSERT_EQ(talk.dut.steps().size(), 1u);
+  EXPECT_EQ(talk.dut.steps()[0].text, "at the first place");
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
+}
+
+TEST(MissionOrder, WithoutANumberItGetsOneAndKeepsIt) {
+  Talk talk(mission_command_t::GOTO, false, 0);
+  talk.For(0.6, Idle());
+  const int id = talk.dut.id();
+  EXPECT_GE(id, 1);
+  EXPECT_LE(id, 65535);
+  talk.For(2, Idle());
+  EXPECT_GE(talk.orders, 2);
+  EXPECT_EQ(talk.dut.id(), id);
 }
 
 TEST(MissionOrder, IsRepeatedAndGivenUpWhenThePlannerDoesNotTakeIt) {
   Talk talk;
-  talk.For(8, kIdle);
-  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kNoAnswer, HasSubstr("no order yet")));
+  talk.For(8, Idle());
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kNoAnswer, HasSubstr("no order yet")));
   EXPECT_GE(talk.orders, 3);
 }
 
 TEST(MissionOrder, WithoutAPlannerItIsNotGiven) {
   Talk talk;
   talk.Silence(3);
-  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kNoAnswer, "no planner is heard"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kNoAnswer, "no planner is heard"));
   EXPECT_EQ(talk.orders, 0);
 }
 
 TEST(MissionOrder, APlannerThatFallsSilentIsTold) {
   Talk talk(mission_command_t::PASS_DOOR, true);
-  talk.For(0.6, kIdle);
-  talk.For(1, Says(Status::APPROACHING, "approaching"));
+  talk.For(0.6, Idle());
+  talk.For(1, Runs(kOrder, Status::APPROACHING, "approaching"));
   talk.Silence(3);
-  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kNoAnswer, "the planner fell silent"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kNoAnswer, "the planner fell silent"));
 }
 
-TEST(MissionOrder, AnAbortIsDoneWhenTheMissionHasFailed) {
-  Talk talk(mission_command_t::ABORT);
-  talk.For(0.6, Says(Status::PASSING, "passing"));
+TEST(MissionOrder, AnAbortIsDoneWhenNothingRunsOrWaits) {
+  Talk talk(mission_command_t::ABORT, false, 0);
+  talk.For(0.6, AndWaits(Runs(3, Status::PASSING, "passing"), 4));
   EXPECT_EQ(talk.orders, 1);
-  talk.For(0.6, Says(Status::FAILED, "aborted by the operator"));
-  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kDone, "aborted by the operator"));
+  talk.For(0.3, AndWaits(Idle(), 4));
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
+  Status after = Ended(3, mission_result_t::FAILED, "aborted by the operator");
+  after.text = "aborted by the operator";
+  talk.For(0.6, after);
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "aborted by the operator"));
 }
 
 TEST(MissionOrder, AnAbortOfNothingIsToldSo) {
-  Talk talk(mission_command_t::ABORT);
-  talk.For(2, Says(Status::DONE, "through the door"));
-  EXPECT_THAT(talk.dut, Ended(OrderOutcome::kDone, "no mission is under way"));
+  Talk talk(mission_command_t::ABORT, false, 0);
+  talk.For(2, Idle());
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "no mission is under way"));
+  EXPECT_EQ(talk.orders, 0);
+}
+
+TEST(MissionOrder, PauseAndResumeAreDoneWhenThePlannerSaysSo) {
+  const Status runs = Runs(3, Status::PASSING, "passing");
+  Status holds = runs;
+  holds.paused = true;
+  Talk pause(mission_command_t::PAUSE, false, 0), resume(mission_command_t::RESUME, false, 0);
+  pause.For(0.6, runs);
+  EXPECT_EQ(pause.dut.outcome(), OrderOutcome::kOpen);
+  pause.For(0.6, holds);
+  EXPECT_EQ(pause.dut.outcome(), OrderOutcome::kDone);
+  resume.For(0.6, holds);
+  EXPECT_EQ(resume.dut.outcome(), OrderOutcome::kOpen);
+  resume.For(0.6, runs);
+  EXPECT_EQ(resume.dut.outcome(), OrderOutcome::kDone);
+}
+
+TEST(MissionOrder, WhereThereIsNothingToPauseResumeOrCancelItIsRefused) {
+  Talk pause(mission_command_t::PAUSE, false, 0), resume(mission_command_t::RESUME, false, 0);
+  Talk cancel(mission_command_t::CANCEL, false, 9);
+  for (Talk* talk : {&pause, &resume, &cancel}) talk->For(1, Idle());
+  EXPECT_THAT(pause.dut, Came(OrderOutcome::kRefused, "no mission is under way"));
+  EXPECT_THAT(resume.dut, Came(OrderOutcome::kRefused, "nothing is paused"));
+  EXPECT_THAT(cancel.dut, Came(OrderOutcome::kRefused, "no order 9 is under way or waits"));
+}
+
+TEST(MissionOrder, ACancelIsDoneWhenItsOrderHasEnded) {
+  Talk talk(mission_command_t::CANCEL, false, 9);
+  talk.For(0.6, AndWaits(Runs(3, Status::PASSING, "passing"), 9));
+  EXPECT_EQ(talk.orders, 1);
+  talk.For(0.6, Ended(9, mission_result_t::CANCELLED, "cancelled by the operator"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "cancelled by the operator"));
 }
 
 TEST(DoorNamed, KnowsNamesAndNumbersAndTheNearestName) {

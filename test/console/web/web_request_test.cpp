@@ -97,5 +97,45 @@ RC_GTEST_PROP(WebRequestProperty, WhateverIsAskedForOnlyTheOwnPageOpensASocket,
   RC_ASSERT(upgrade && (origin == "http://" + host || origin == "https://" + host));
 }
 
+WebRequest FoxgloveSocket(const std::string& origin, const std::string& target = "/") {
+  return {"GET", target, kHost, origin, true, "other.v2, foxglove.websocket.v1"};
+}
+
+TEST(WebRequest, AProgramOrANamedPageMaySpeakFoxglove) {
+  WebAccess access;
+  access.foxglove_origins = {"https://app.foxglove.dev", "file://"};
+  for (const char* origin : {"", "http://localhost:8080", "https://app.foxglove.dev", "file://"}) {
+    for (const char* target : {"/", "/socket"}) {
+      const auto socket = std::get<OpenSocket>(Answer(FoxgloveSocket(origin, target), kFiles, access));
+      EXPECT_EQ(socket.dialect, Dialect::kFoxglove) << origin;
+      EXPECT_EQ(socket.role, Role::kDriver) << origin;
+    }
+  }
+  for (const char* origin :
+       {"null", "http://app.foxglove.dev", "https://app.foxglove.dev.evil.example", "file:///"})
+    EXPECT_EQ(StatusOf(FoxgloveSocket(origin), access), 403) << origin;
+  EXPECT_EQ(StatusOf(FoxgloveSocket("https://app.foxglove.dev")), 403) << "nobody named it";
+}
+
+TEST(WebRequest, WhoSpeaksFoxgloveNeedsTheTokenAndTheNameOfThisHostToo) {
+  const WebAccess access{true, "driver-driver-driver", "viewer-viewer-viewer"};
+  EXPECT_EQ(StatusOf(FoxgloveSocket(""), access), 401);
+  EXPECT_EQ(
+      std::get<OpenSocket>(Answer(FoxgloveSocket("", "/?token=viewer-viewer-viewer"), kFiles, access)).role,
+      Role::kViewer);
+  WebRequest request = FoxgloveSocket("");
+  request.host = "evil.example:8080";
+  EXPECT_EQ(StatusOf(request), 403);
+}
+
+TEST(WebRequest, AnotherProtocolIsNotFoxglove) {
+  for (const char* protocols :
+       {"", "foxglove.websocket.v10", "xfoxglove.websocket.v1", ",,", "foxglove.sdk.v1"}) {
+    WebRequest request = FoxgloveSocket("", "/socket");
+    request.protocols = protocols;
+    EXPECT_EQ(StatusOf(request), 403) << protocols << ": a page without an origin";
+  }
+}
+
 }  // namespace
 }  // namespace priamos::console

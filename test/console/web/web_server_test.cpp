@@ -49,9 +49,12 @@ class WebServerTest : public testing::Test, public WebListener {
     return client->HearAll();
   }
 
-  void Joined(std::uint64_t client, Role) override { pages_.push_back(client); }
-  bool Said(std::uint64_t, std::string_view text) override {
-    said_.emplace_back(text);
+  void Joined(std::uint64_t client, const OpenSocket& socket) override {
+    pages_.push_back(client);
+    dialect_ = socket.dialect;
+  }
+  bool Said(std::uint64_t, std::string_view text, bool binary) override {
+    said_.emplace_back(binary ? "binary: " + std::string(text) : text);
     return text != "rude";
   }
   void Left(std::uint64_t client) override { std::erase(pages_, client); }
@@ -63,6 +66,7 @@ class WebServerTest : public testing::Test, public WebListener {
   Time now_{std::chrono::seconds(100)};
   std::vector<std::uint64_t> pages_;
   std::vector<std::string> said_;
+  Dialect dialect_ = Dialect::kPage;
 };
 
 TEST_F(WebServerTest, ServesThePageOnce) {
@@ -110,6 +114,32 @@ TEST_F(WebServerTest, CutsOffWhoSaysWhatNobodyMaySay) {
     EXPECT_THAT(pages_, IsEmpty());
   }
   EXPECT_EQ(server_->counters().messages, rude.size());
+}
+
+TEST_F(WebServerTest, SpeaksFoxgloveWithWhoOffersItInTextAndBytesInTheirOrder) {
+  const auto client = Client();
+  ASSERT_TRUE(client->Upgrade("", "/", host_, "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n"));
+  EXPECT_THAT(client->head(), HasSubstr("Sec-WebSocket-Protocol: foxglove.websocket.v1"));
+  EXPECT_EQ(dialect_, Dialect::kFoxglove);
+  client->Say(WebClient::Frame(std::string(2000, 'x')));
+  client->Say(WebClient::Frame("call", 0x82));
+  Turn(0.05);
+  EXPECT_THAT(said_, ElementsAre(std::string(2000, 'x'), "binary: call"));
+  EXPECT_TRUE(server_->Queue(pages_[0], "text", false));
+  EXPECT_TRUE(server_->Queue(pages_[0], "more", true));
+  EXPECT_EQ(client->Hear([](const std::string& t) { return t.size() >= 12; }), "\x81\x04text\x82\x04more");
+}
+
+TEST_F(WebServerTest, WhatMayWaitForAClientIsBounded) {
+  WebServerOptions options;
+  options.max_waiting = 1000;
+  Start(options);
+  const auto page = Page();
+  EXPECT_FALSE(server_->Queue(pages_[0], std::string(1001, 'x'), true));
+  EXPECT_TRUE(server_->Queue(pages_[0], std::string(600, 'x'), true));
+  EXPECT_FALSE(server_->Queue(pages_[0], std::string(600, 'x'), true));
+  page->Hear([](const std::string& t) { return t.size() >= 604; });
+  EXPECT_TRUE(server_->Queue(pages_[0], std::string(600, 'x'), true));
 }
 
 TEST_F(WebServerTest, CutsOffWhoTalksTooMuchAndNobodyElse) {

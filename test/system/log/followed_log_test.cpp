@@ -1,6 +1,7 @@
-// A recorded door run, played by LCM's own player into a live planner: it decides what it decided then.
+// A recorded door run, played by LCM's own player into a live planner, console and `priamos topic`: the
+// planner decides what it decided then, and the console shows it as if it were live.
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <map>
@@ -15,6 +16,8 @@
 namespace priamos {
 namespace {
 
+using testing::HasSubstr;
+
 /// Messages of one type by their channel, in their order.
 template <class T>
 std::vector<T> MessagesOf(const std::string& log, const std::string& channel) {
@@ -27,6 +30,13 @@ std::vector<T> MessagesOf(const std::string& log, const std::string& channel) {
   return messages;
 }
 
+int CountOf(const std::string& log, const std::string& channel) {
+  bus::LogReader reader(log);
+  int events = 0;
+  while (const auto event = reader.Next()) events += event->channel == channel ? 1 : 0;
+  return events;
+}
+
 class FollowedLog : public testing::TestWithParam<int> {
  protected:
   FollowedLog() {
@@ -35,9 +45,23 @@ class FollowedLog : public testing::TestWithParam<int> {
       export PRIAMOS_BUS=offboard PRIAMOS_ROBOT=replay
       $BIN/priamos log record $DIR/again.lcmlog --no-health > /dev/null & RECORDER=$!
       $BIN/priamos-planner --config $SOURCE/config/sim/planner.toml --clock bus & PLANNER=$!
-      listening; until [ $(grep -cE ' 44..FFEF:' /proc/net/udp) -ge 2 ]; do sleep 0.05; done
+      $BIN/priamos-console --config $SOURCE/config/sim/console.toml --clock bus --set port=0 2> $DIR/console.txt & CONSOLE=$!
+      $BIN/priamos topic echo POSE x_m > $DIR/poses.txt & ECHO=$!
+      until [ $(grep -cE ' 44..FFEF:' /proc/net/udp) -ge 4 ] && grep -q http $DIR/console.txt; do sleep 0.05; done
+      PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$SOURCE/test/support python3 - $(grep -o '127.0.0.1:[0-9]*' $DIR/console.txt) > $DIR/page.txt <<'PY' & PAGE=$!
+import sys, time
+from station_page import Page, wait_for
+page = Page(int(sys.argv[1].split(":")[1]))
+page.say({"type": "stop"})
+page.say({"type": "mission", "order": "abort"})
+print("passed:", wait_for(lambda: "through the door" in str(page.messages.get("MISSION_STATUS")), 40))
+time.sleep(2)
+print("ages:", [page.ages.get(channel, 99) < 3 for channel in ("POSE", "DRIVE_STATUS", "MISSION_STATUS")])
+print("role:", page.station["role"], "log:", 15 < page.station["replay"]["position_s"] < 60, page.station["replay"]["paused"])
+PY
       lcm-logplayer -l "$($BIN/priamos topic url)" -s $SPEED $SOURCE/logs/recorded/door-udp-offboard.lcmlog > /dev/null
-      sleep 0.5; kill $PLANNER $RECORDER; wait $PLANNER; echo "planner $?"; wait $RECORDER
+      sleep 0.5; kill $PLANNER $RECORDER $ECHO; wait $PLANNER; echo "planner $?"; wait $RECORDER $PAGE; cat $DIR/page.txt
+      kill $CONSOLE; wait $CONSOLE; echo "console $?, $(wc -l < $DIR/poses.txt) poses"
     )sh",
                             folder_ / "script.sh", 60);
   }
@@ -56,7 +80,7 @@ class FollowedLog : public testing::TestWithParam<int> {
   ShellAnswer answer_;
 };
 
-TEST_P(FollowedLog, ThePlannerDecidesAsItDidThen) {
+TEST_P(FollowedLog, ThePlannerDecidesAsItDidThenAndTheConsoleShowsIt) {
   ExpectSame<path_t>("PATH", [](const path_t& then, const path_t& now) {
     EXPECT_NEAR(static_cast<double>(now.utime), static_cast<double>(then.utime), 3e5);
     ASSERT_EQ(now.points.size(), then.points.size());
@@ -73,7 +97,17 @@ TEST_P(FollowedLog, ThePlannerDecidesAsItDidThen) {
                                [](const landmark_model_t& then, const landmark_model_t& now) {
                                  EXPECT_EQ(now.landmark_id, then.landmark_id);
                                });
-  EXPECT_NE(answer_.text.find("planner 0"), std::string::npos) << answer_.text;
+  EXPECT_THAT(answer_.text, HasSubstr("planner 0"));
+  // The console shows it by the log's time, and commands nothing, whatever its page says.
+  EXPECT_THAT(answer_.text,
+              HasSubstr("passed: True\nages: [True, True, True]\nrole: viewer log: True True\n"));
+  EXPECT_THAT(answer_.text, testing::ContainsRegex("console 0, [0-9]{2,} poses"))
+      << "topic echo hears the log, too";
+  for (const std::string channel :
+       {"ESTOP", "MISSION_COMMAND", "DRIVE_COMMAND", "LEASE_REQUEST", "LINK_REQUEST"})
+    EXPECT_EQ(CountOf(folder_ / "again.lcmlog", channel),
+              CountOf(PRIAMOS_SOURCE_DIR "/logs/recorded/door-udp-offboard.lcmlog", channel))
+        << channel;
 }
 
 INSTANTIATE_TEST_SUITE_P(AtSpeed, FollowedLog, testing::Values(4, 8));

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "world/core/scene/build_solids.hpp"
+
 namespace priamos::world {
 namespace {
 
@@ -21,7 +23,8 @@ class SimulationTest : public ::testing::Test {
 
   Simulation& Start(const Pose2& start = {}) {
     cameras_ = std::make_unique<CameraServer>(model_.camera, 0, executor_, 1);
-    dut_ = std::make_unique<Simulation>(model_, solids_, start, *cameras_, 1);
+    dut_ = std::make_unique<Simulation>(model_, WithPeople(solids_, hazards_.people), start, *cameras_, 1,
+                                        hazards_);
     dut_->Advance(now_);
     dut_->TakeTruth();
     return *dut_;
@@ -39,6 +42,7 @@ class SimulationTest : public ::testing::Test {
   }
 
   RobotModel model_;
+  Hazards hazards_;
   std::vector<Solid> solids_;
   std::vector<RenderJob> jobs_;
   InlineRenderExecutor executor_{[this](const RenderJob& job) {
@@ -225,6 +229,139 @@ TEST_F(SimulationTest, TheSameSeedAndCommandsGiveTheSameWorld) {
                       dut_->TakeWheels()->reading.position_ticks);
   };
   EXPECT_EQ(run(), run());
+}
+
+PersonPlan Standing(double x_m, double y_m) {
+  PersonPlan plan;
+  plan.name = "visitor";
+  plan.waypoints = {{x_m, y_m, 0, 0}};
+  return plan;
+}
+
+TEST_F(SimulationTest, APersonDrivenAgainstIsHeardFeltAndCounted) {
+  hazards_.people = {Standing(3, 0)};
+  Start();
+  const double at = Run(1, &forward_).map_from_base.x;
+  EXPECT_NEAR(dut_->TakeSonars()->ranges_m[0], 3 - 0.065 - 0.475 - at, 0.08) << "its legs";
+  const Truth truth = Run(6, &forward_);
+  EXPECT_EQ(truth.contacts, 1);
+  EXPECT_LT(truth.min_gap_m, 0.0005);
+  EXPECT_NEAR(truth.map_from_base.x, 3 - 0.475 - 0.12, 0.02) << "the trunk stops it";
+  const auto touches = dut_->TakeTouchEvents();
+  ASSERT_EQ(touches.size(), 1u);
+  EXPECT_EQ(touches[0].kind, TouchEvent::Kind::kDriven);
+  EXPECT_EQ(touches[0].thing, "visitor: trunk");
+  EXPECT_NEAR(touches[0].in_base.x(), 0.475, 1e-9);
+}
+
+TEST_F(SimulationTest, APersonWhoWalksIntoAStandingBaseIsCountedApart) {
+  PersonPlan walker = Standing(3, 0);
+  walker.attentive = false;
+  walker.waypoints.push_back({-3, 0, 0, 0});
+  hazards_.people = {walker};
+  Start();
+  const Truth truth = Run(5);
+  EXPECT_EQ(truth.contacts, 0);
+  EXPECT_GT(truth.min_gap_m, 1) << "nothing that the base did";
+  const auto touches = dut_->TakeTouchEvents();
+  ASSERT_EQ(touches.size(), 1u);
+  EXPECT_EQ(touches[0].kind, TouchEvent::Kind::kMovedIn);
+}
+
+TEST_F(SimulationTest, TheBumperFeelsAShoe) {
+  PersonPlan walker = Standing(0, 3);
+  walker.attentive = false;
+  walker.waypoints.push_back({0, -3, 0, 0});
+  hazards_.people = {walker};
+  Start();
+  std::uint8_t pressed = 0;
+  for (int i = 0; i < 100; ++i) {
+    Run(0.05);
+    if (const auto touch = dut_->TakeTouch()) pressed |= touch->pressed;
+  }
+  EXPECT_NE(pressed & 0x06, 0) << "a shoe at the left side";
+  EXPECT_EQ(pressed & ~0x06, 0);
+}
+
+TEST_F(SimulationTest, AWheelOverAHoleEndsTheDrive) {
+  HolePlan step;
+  step.name = "stairs";
+  step.x_m = 2;
+  hazards_.holes = {step};
+  Start();
+  const Truth truth = Run(8, &forward_);
+  EXPECT_EQ(truth.contacts, 1);
+  EXPECT_NEAR(truth.map_from_base.x, 1.5 - model_.base.half_wheelbase_m, 0.01);
+  EXPECT_EQ(truth.velocity.vx, 0);
+  const auto touches = dut_->TakeTouchEvents();
+  ASSERT_EQ(touches.size(), 1u);
+  EXPECT_EQ(touches[0].kind, TouchEvent::Kind::kFell);
+  EXPECT_EQ(touches[0].thing, "stairs");
+  EXPECT_NE(dut_->TakeWheels()->reading.position_ticks[0], 0) << "the wheels turn on";
+}
+
+TEST_F(SimulationTest, StartingOverAHoleIsRefused) {
+  HolePlan hole;
+  hazards_.holes = {hole};
+  EXPECT_THROW(Start(), std::invalid_argument);
+}
+
+TEST_F(SimulationTest, AStalledMotorStandsItsEncoderSaysSoAndTheBaseTurns) {
+  hazards_.faults.motors = {{"front_left", "stalled", 1}};
+  Start();
+  Run(0.9, &forward_);
+  const auto before = dut_->TakeWheels()->reading.position_ticks;
+  Run(0.5, &forward_);
+  dut_->TakeWheels();
+  const auto stalled = (Run(0.1, &forward_), dut_->TakeWheels()->reading.position_ticks);
+  const Truth truth = Run(1, &forward_);
+  const auto after = dut_->TakeWheels()->reading.position_ticks;
+  EXPECT_GT(stalled[0], before[0]);
+  EXPECT_EQ(after[0], stalled[0]);
+  EXPECT_GT(after[1], stalled[1] + 1000);
+  EXPECT_GT(truth.map_from_base.yaw, 0.05) << "the left side stays behind";
+}
+
+TEST_F(SimulationTest, ALooseWheelsEncoderTurnsAndItsMotorTakesNoCurrent) {
+  model_.motors.noise_a = model_.motors.offset_a = model_.motors.mass_error = 0;
+  hazards_.faults.motors = {{"rear_right", "loose", 0.5}};
+  Start();
+  Run(0.4, &forward_);
+  Run(2, &forward_);
+  const auto touch = dut_->TakeTouch();
+  EXPECT_NEAR(touch->current_a[3], 0, 1e-3);
+  EXPECT_GT(touch->current_a[0], 0.05);
+  const auto ticks = dut_->TakeWheels()->reading.position_ticks;
+  EXPECT_NEAR(ticks[3], ticks[0], 50) << "the encoder is at the motor";
+}
+
+TEST_F(SimulationTest, ALeafThatSwingsAgainstTheBaseIsNotTheBasesDoing) {
+  DoorPlan door;
+  door.name = "lab";
+  for (const Solid& solid : DoorSolids(door, DoorWork{}, 100)) solids_.push_back(solid);
+  hazards_.leaves = {{door, "left", 0.04, LeafName(door), {{0.5, 0, 90}}}};
+  Start({0.5, 0, 0});
+  const Truth truth = Run(3);
+  EXPECT_EQ(truth.contacts, 0);
+  const auto touches = dut_->TakeTouchEvents();
+  ASSERT_EQ(touches.size(), 1u);
+  EXPECT_EQ(touches[0].kind, TouchEvent::Kind::kMovedIn);
+  EXPECT_EQ(touches[0].thing, "lab: leaf");
+}
+
+TEST_F(SimulationTest, CamerasSeeWhereAPersonIsAndHowTheMastLeans) {
+  PersonPlan walker = Standing(3, -1);
+  walker.waypoints.push_back({3, 5, 0, 0});
+  hazards_.people = {walker};
+  hazards_.mast.nod_deg_s2_m = 0.3;
+  Start();
+  Run(1);
+  dut_->Trigger(now_, 1, 1);
+  Run(0.1, &forward_);
+  ASSERT_EQ(jobs_.size(), 1u);
+  ASSERT_EQ(jobs_[0].closing.moved.size(), kBodyParts);
+  EXPECT_NEAR(jobs_[0].closing.moved[2].map_from_solid.y, -1 + 0.8 * 1, 0.05);
+  EXPECT_LT(jobs_[0].closing.head.lean.pitch_rad, 0) << "it accelerates: the head goes back";
 }
 
 }  // namespace

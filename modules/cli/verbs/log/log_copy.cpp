@@ -33,9 +33,10 @@ int Filter(const CopyOptions& options) {
   // Before the writer, which empties the file: a refusal leaves it as it was.
   const auto selection = SelectionOf(options.selection, options.log);
   RequireEvents(options, selection);
-  bus::LogWriter writer(options.out);
+  NewFile place(options.out);
+  bus::LogWriter writer(place.written());
   const auto copied = bus::CopyEvents(reader, selection, writer);
-  Finish(writer, options.out);
+  Finish(writer, options.out, place);
   if (options.json) {
     std::cout << nlohmann::ordered_json{{"events", copied},
                                         {"damaged_places", reader.damaged_places()},
@@ -53,9 +54,10 @@ int Repair(const CopyOptions& options) {
   bus::LogReader reader(options.log);
   RequireNewFile(options.out, options.log, options.force);
   RequireEvents(options, {});
-  bus::LogWriter writer(options.out);
+  NewFile place(options.out);
+  bus::LogWriter writer(place.written());
   const auto count = bus::RepairLog(reader, writer);
-  Finish(writer, options.out);
+  Finish(writer, options.out, place);
   if (options.json) {
     std::cout << nlohmann::ordered_json{{"events", count.events},
                                         {"damaged_places", reader.damaged_places()},

@@ -4,19 +4,27 @@
 
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "bus/log/log_reader.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/verbs/log/commands.hpp"
 #include "cli/verbs/log/log_verb.hpp"
+#include "common/config.hpp"
+#include "common/ground_plan.hpp"
+#include "console/foxglove/scene.hpp"
+#include "console/foxglove/scene_schemas.hpp"
 
 namespace priamos::cli {
 namespace {
 
 struct ExportOptions : LogOptions {
   SelectionOptions selection;
-  std::string format;
+  std::string format, map;
+  bool plain = false;
 };
 
 int ReportExport(const ExportOptions& options, const bus::ExportCount& count, const bus::LogReader& reader) {
@@ -37,6 +45,27 @@ int ReportExport(const ExportOptions& options, const bus::ExportCount& count, co
   return 1;
 }
 
+/// The robot as the 3-D panels of Foxglove and Lichtblick draw it; before its first message the plan.
+bus::Derivation Drawn(const ExportOptions& options) {
+  if (options.plain) return {};
+  auto scene = std::make_shared<console::Scene>(kDrawnBody);
+  auto plan = std::make_shared<std::optional<GroundPlan>>();
+  if (!options.map.empty()) *plan = LoadConfig<GroundPlan>(options.map);
+  const auto derive = [scene, plan](const std::string& channel, const nlohmann::ordered_json& message,
+                                    std::int64_t utime) {
+    const Time time = FromUtime(utime);
+    auto drawn = scene->Hear(channel, message, time);
+    if (const auto first = std::exchange(*plan, std::nullopt))
+      drawn.insert(drawn.begin(), console::Scene::Plan(*first, time));
+    std::vector<bus::DerivedMessage> derived;
+    for (const auto& one : drawn)
+      derived.push_back(
+          {std::string(one.topic), std::string(console::Scene::SchemaOf(one.topic)), one.json.dump()});
+    return derived;
+  };
+  return {derive, [](const std::string& name) { return console::SceneSchema(name); }};
+}
+
 int Export(const ExportOptions& options) {
   const bus::Schema schema = LoadTypes(options.bus.types);
   bus::LogReader reader(options.log);
@@ -50,9 +79,11 @@ int Export(const ExportOptions& options) {
     return ReportExport(options, bus::ExportCsv(reader, schema, selection, folder), reader);
   }
   OutputFile out(options.out, options.log, options.force);
-  const auto count = options.format == "mcap" ? bus::ExportMcap(reader, schema, selection, out.stream())
-                                              : bus::ExportJsonLines(reader, schema, selection, out.stream());
-  out.Close();
+  const auto count = options.format == "mcap"
+                         ? bus::ExportMcap(reader, schema, selection, out.stream(), Drawn(options))
+                         : bus::ExportJsonLines(reader, schema, selection, out.stream());
+  // What could not be decoded at all replaces no file.
+  if (count.written > 0 || count.undecodable == 0) out.Close();
   return ReportExport(options, count, reader);
 }
 
@@ -70,6 +101,9 @@ void AddLogExportVerb(CLI::App& log, int& exit_code) {
       ->required()
       ->check(CLI::IsMember({"csv", "jsonl", "mcap"}));
   verb->add_option("--out", options->out, "file (csv: folder); none: standard output (csv: LOG-csv)");
+  verb->add_option("--map", options->map, "ground plan (TOML), drawn in the 3-D panel of an mcap")
+      ->check(CLI::ExistingFile);
+  verb->add_flag("--plain", options->plain, "mcap: only the channels of the log, nothing for the 3-D panel");
   AddSelectionOptions(*verb, options->selection);
   AddTypesOption(*verb, options->bus.types);
   AddOutputFlags(*verb, *options,

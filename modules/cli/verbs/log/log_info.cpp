@@ -8,6 +8,7 @@
 #include "bus/log/csv_table.hpp"
 #include "bus/log/log_reader.hpp"
 #include "bus/log/log_survey.hpp"
+#include "bus/log/type_texts.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/verbs/log/commands.hpp"
 #include "cli/verbs/log/log_verb.hpp"
@@ -77,8 +78,10 @@ int Index(const LogOptions& options) {
   bus::LogReader reader(options.log);
   OutputFile out(options.out, options.log, options.force);
   if (!options.json) out.stream() << "offset,number,utime,channel,bytes,type\r\n";
+  bus::LogTypes types(&schema);
   while (const auto event = reader.Next()) {
-    const auto* type = schema.Find(bus::FingerprintOf(event->bytes.data(), event->bytes.size()));
+    types.Take(event->bytes);
+    const auto* type = types.Of(event->bytes);
     const std::string type_name = type ? type->full_name : "?";
     if (options.json) {
       out.stream() << nlohmann::ordered_json{{"offset", event->offset},      {"number", event->number},

@@ -66,9 +66,10 @@ int Merge(const MergeOptions& options) {
   RequireNewFile(options.out, options.second, options.force);
   RequireNamesFit(options);
   const auto fit = Clocks(options, onboard, offboard);
-  bus::LogWriter writer(options.out);
+  NewFile place(options.out);
+  bus::LogWriter writer(place.written());
   const auto events = bus::MergeLogs(onboard, offboard, fit, options.prefix, writer);
-  Finish(writer, options.out);
+  Finish(writer, options.out, place);
   const nlohmann::ordered_json json{{"events", events},
                                     {"offset_s", fit.offset_us * 1e-6},
                                     {"drift_ppm", fit.drift * 1e6},

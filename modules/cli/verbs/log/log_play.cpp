@@ -9,6 +9,7 @@
 
 #include "bus/clocks/host_clock.hpp"
 #include "bus/log/log_player.hpp"
+#include "bus/log/type_texts.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/schema.hpp"
 #include "cli/options/log_options.hpp"
@@ -60,6 +61,7 @@ class Playing {
             // Claims belong to processes, and those of the log do not run; nor does anybody ask its
             // questions.
             if (IsOf(channels::kClaim, event) || IsOf(channels::kProbe, event)) return;
+            if (bus::IsTypeText(event.bytes)) return;  // it is the log's, and was on no bus
             ++(bus_.Publish(channel, event.bytes) ? sent_ : refused_);
           },
           kBurst);

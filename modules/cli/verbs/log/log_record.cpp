@@ -53,12 +53,14 @@ class Recording {
   explicit Recording(const RecordOptions& options)
       : options_(options),
         schema_(bus::OwnTypes()),
+        types_(options.bus.types.empty() ? bus::OwnTypes() : LoadTypes(options.bus.types)),
         bus_(options.bus.bus.Url(), options.bus.messages()),
         clocks_(options.bus.bus.IsNamed() ? bus::ExchangeWhereNeeded(bus_, schema_, clock_) : nullptr),
         node_(bus_, schema_, clock_),
         health_(node_.Advertise(channels::kHealth)),
         recorder_(options.file, LimitsOf(options), clock_.Now()),
         start_(clock_.Now()) {
+    recorder_.DefineTypesOf(types_);
     wanted_.only = options.only;
     wanted_.without = options.without;
     bus_.SubscribeEverything([this](std::string_view channel, std::span<const std::byte> bytes) {
@@ -132,7 +134,7 @@ class Recording {
   RecordOptions options_;
   bus::SignalWatch signals_;
   bus::HostClock clock_;
-  bus::Schema schema_;
+  bus::Schema schema_, types_;  ///< of what it says itself; of what it records
   bus::LcmBus bus_;
   /// Of a robot of several computers the log has stamps of one clock.
   std::unique_ptr<bus::ClockExchange> clocks_;
@@ -162,12 +164,14 @@ void AddLogRecordVerb(CLI::App& log, int& exit_code) {
   auto options = std::make_shared<RecordOptions>();
   auto* verb = AddVerb(log, "record", "Record a bus, until Ctrl-C.");
   verb->footer(
+      "The log defines the types of its messages: it can be read when they have changed.\n"
       "A full or read-only disk is reported on the terminal and as HEALTH of \"recorder\" within a second; "
       "the file ends with\nits last whole event, and recording goes on when there is room again.\n"
       "Example: priamos log record logs/day.lcmlog --split-mb 100 --keep 20");
   verb->add_option("file", options->file,
                    "log to write; none: <time>.lcmlog in ~/.local/state/priamos, or logs of a clone");
   AddBusOption(*verb, options->bus);
+  AddTypesOption(*verb, options->bus.types);
   verb->add_option("--channels", options->only, "only these, A,B or with a star: 'WHEEL_*'")->delimiter(',');
   verb->add_option("--without", options->without, "not these")->delimiter(',');
   AddFileLimits(*verb, *options);

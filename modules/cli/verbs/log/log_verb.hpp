@@ -7,6 +7,7 @@
 
 #include "bus/log/log_writer.hpp"
 #include "cli/options/bus_options.hpp"
+#include "cli/options/new_file.hpp"
 #include "cli/options/verb_setup.hpp"
 
 namespace priamos::cli {
@@ -39,10 +40,12 @@ inline void AddOutputFlags(CLI::App& verb, LogOptions& options, const char* json
   verb.add_flag("--force", options.force, "replace an existing file");
 }
 
-/// Ends the writing of a log. Throws std::runtime_error when not all of it could be written.
-inline void Finish(bus::LogWriter& writer, const std::string& file) {
+/// Ends the writing of a log, and puts it in its place. Throws std::runtime_error when not all of it could be
+/// written.
+inline void Finish(bus::LogWriter& writer, const std::string& file, NewFile& place) {
   writer.Flush();
   if (!writer.good()) throw std::runtime_error(file + ": cannot be written: is the disk full?");
+  place.Keep();
 }
 
 }  // namespace priamos::cli

@@ -18,6 +18,7 @@
 #include "cli/verbs/run/commands.hpp"
 #include "common/config.hpp"
 #include "console/greeting.hpp"
+#include "console/log_of_file.hpp"
 #include "console/replay_station.hpp"
 
 namespace priamos::cli {
@@ -66,15 +67,16 @@ int Show(const ShowOptions& options) {
   const bus::MonotonicClock clock;
   bus::LogPlayer player = PlayerOf(options, clock.Now());
   const std::string greeting = console::Greeting(config, plan, link, Seconds(player.length()));
+  const auto events = static_cast<std::int64_t>(player.events());
   const bus::SignalWatch signals;
   console::WebServerOptions server;
   server.port = options.port;
   server.ports = config.ports;
-  console::ReplayStation station(std::move(player), schema, greeting, server);
+  server.access.foxglove_origins = console::WordsOf(config.foxglove_origins);
+  console::ReplayStation station(std::make_unique<console::LogOfFile>(std::move(player)), schema, plan,
+                                 greeting, server);
   if (options.json)
-    std::cout << JsonLine({{"address", station.address()},
-                           {"events", static_cast<std::int64_t>(station.log().events())}})
-              << std::endl;
+    std::cout << JsonLine({{"address", station.address()}, {"events", events}}) << std::endl;
   else
     std::cout << fmt::format("the log is shown at {} (Ctrl-C ends it)", station.address()) << std::endl;
   pollfd signal{signals.fd(), POLLIN, 0};

@@ -33,6 +33,10 @@ nlohmann::ordered_json BitsAsJson(const bus::Packer& packer) {
   return json;
 }
 
+nlohmann::json SecondsOrNull(const std::optional<Duration>& d) {
+  return d ? nlohmann::json(Seconds(*d)) : nlohmann::json();
+}
+
 nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
                                        const bus::radio::DirectionBudget& budget) {
   nlohmann::ordered_json json{{"bytes_per_s", budget.bytes_per_s},
@@ -42,9 +46,6 @@ nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
                               {"channels", nlohmann::json::array()}};
   for (const bus::radio::ChannelBudget& c : budget.channels) {
     const bus::radio::LinkChannel& channel = table.at(c.channel);
-    const auto seconds = [](const std::optional<Duration>& d) {
-      return d ? nlohmann::json(Seconds(*d)) : nlohmann::json();
-    };
     json["channels"].push_back(
         {{"channel", channel.name},
          {"priority", channel.priority},
@@ -52,10 +53,10 @@ nlohmann::ordered_json DirectionAsJson(const bus::radio::ChannelTable& table,
          {"rate_hz", c.rate_hz},
          {"bytes_per_s", c.bytes_per_s},
          {"share", c.share},
-         {"worst_latency_s", seconds(c.worst_latency)},
+         {"worst_latency_s", SecondsOrNull(c.worst_latency)},
          {"deadline_s",
-          seconds(channel.deadline > Duration{} ? std::optional(channel.deadline) : std::nullopt)},
-         {"proven_age_s", seconds(c.proof ? std::optional(c.proof->age()) : std::nullopt)}});
+          SecondsOrNull(channel.deadline > Duration{} ? std::optional(channel.deadline) : std::nullopt)},
+         {"proven_age_s", SecondsOrNull(c.proof ? std::optional(c.proof->age()) : std::nullopt)}});
   }
   return json;
 }
@@ -70,6 +71,8 @@ nlohmann::ordered_json BudgetAsJson(const bus::radio::ChannelTable& table, const
     json["polls"] = {{"robots", budget.robots},
                      {"cycle_s", Seconds(budget.polls.cycle)},
                      {"driven_s", Seconds(budget.polls.asked)},
+                     {"cycle_beside_stops_s", SecondsOrNull(budget.polls.busy_cycle)},
+                     {"driven_beside_stops_s", SecondsOrNull(budget.polls.busy_asked)},
                      {"urgent_one_s", Seconds(budget.polls.urgent_one)},
                      {"urgent_all_s", Seconds(budget.polls.urgent_all)}};
   return json;

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/radio/link_config.hpp"
-#include "bus/schema/packing.hpp"
+#include "bus/schema/lcm_format.hpp"
 #include "cli/options/bus_options.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/verbs/wire/commands.hpp"
@@ -40,14 +40,6 @@ std::string AsC(const ChannelTable& table) {
   return text;
 }
 
-nlohmann::ordered_json FieldsOf(const bus::Schema& types, const std::string& type) {
-  nlohmann::ordered_json fields = nlohmann::json::array();
-  const bus::Packer packer(*types.Find(type));
-  for (const bus::PackedField& f : packer.fields())
-    fields.push_back({{"name", f.name}, {"bits", f.bits}, {"values", f.values}, {"codes", f.codes}});
-  return fields;
-}
-
 nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const ChannelTable& table,
                               const bus::Schema& types) {
   constexpr const char* kClasses[] = {"state", "event", "command"};
@@ -59,6 +51,7 @@ nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const Channe
                               {"channels", nlohmann::json::array()}};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const LinkChannel& c = table.at(i);
+    const bus::Struct& type = *types.Find(config.channels[i].type);
     json["channels"].push_back({{"name", c.name},
                                 {"meaning", fmt::format("{:016x}", c.fingerprint)},
                                 {"direction", c.direction == Direction::kUp ? "up" : "down"},
@@ -69,7 +62,8 @@ nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const Channe
                                 {"urgent", c.urgent},
                                 {"on_request", c.on_request},
                                 {"delta", c.delta},
-                                {"fields", FieldsOf(types, config.channels[i].type)}});
+                                {"type", type.full_name},
+                                {"lcm", bus::FormatLcm(type)}});
   }
   return json;
 }

@@ -51,6 +51,7 @@ void AddTopicCommand(CLI::App& cli, int& exit_code) {
   AddTopicEchoVerb(*topic, exit_code);
   AddUrlVerb(*topic, exit_code);
   AddTopicPubVerb(*topic, exit_code);
+  AddTopicServeVerb(*topic, exit_code);
 }
 
 }  // namespace priamos::cli

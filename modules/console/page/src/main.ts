@@ -11,6 +11,8 @@ import { Replay } from "./replay";
 import { Store } from "./store";
 import { Place, Target } from "./target";
 import { currentLanguage, number, setLanguage, text } from "./text";
+import { PageServices, Views } from "./views";
+import { Wants } from "./wants";
 
 const PANEL_PERIOD_MS = 200;
 
@@ -23,7 +25,18 @@ const panels = new Panels(store);
 const plan = new PlanView(byId<HTMLCanvasElement>("plan"), store);
 const target = new Target(plan.port);
 plan.target = () => target.place();
-const wanted = new Map<string, boolean>();
+const wants = new Wants((channel, on) => connection.listen(channel, on));
+const services: PageServices = {
+  store, text, number,
+  hello: () => panels.hello,
+  now: () => replay.now(),
+  want: (owner, channels, on) => wants.set(owner, channels, on),
+};
+const views = new Views({
+  values: async (element) => (await import("./values.js")).open(element, services),
+  space: async (element) => (await import("./space.js")).open(element, services),
+  plots: async (element) => (await import("./plots.js")).open(element, services),
+});
 
 const connection: Connection = new Connection({
   hello(hello: Hello): void {
@@ -32,11 +45,17 @@ const connection: Connection = new Connection({
     plan.greet(hello);
     panels.hello = hello;
     showDoors(hello);
-    for (const [channel, on] of wanted) if (on) connection.listen(channel, true);
+    document.body.classList.toggle("any-bus", hello.any_bus === true);
+    if (hello.any_bus === true && views.isShown("plan")) views.choose("plots");
+    views.each((view) => view.restart());
+    wants.tellAll();
   },
   news(news: News): void {
     replay.hear(news.station.replay);
-    for (const item of news.items) store.put(item);
+    for (const item of news.items) {
+      store.put(item);
+      views.each((view) => view.hear(item, store.validTime(item)));
+    }
     const could = panels.mayOrder();
     panels.station = news.station;
     if (!could && panels.mayOrder()) hand.letGo();  // says that it rests: the station obeys no other
@@ -62,19 +81,11 @@ function showDoors(hello: Hello): void {
   }));
 }
 
-/** A channel that the radio carries only on request is wanted while it is shown. */
-function want(channels: string[], on: boolean): void {
-  for (const channel of channels) {
-    wanted.set(channel, on);
-    connection.listen(channel, on && document.visibilityState === "visible");
-  }
-}
-
 function bindSwitch(id: string, channels: string[], set: (on: boolean) => void): void {
   const box = byId<HTMLInputElement>(id);
   box.addEventListener("change", () => {
     set(box.checked);
-    want(channels, box.checked);
+    wants.set(id, channels, box.checked);
   });
 }
 
@@ -113,6 +124,7 @@ function bindButtons(): void {
   byId("language").addEventListener("click", () => {
     setLanguage(currentLanguage() === "en" ? "de" : "en");
     label();
+    views.each((view) => view.label());
     panels.draw();
   });
 }
@@ -139,14 +151,12 @@ function bindSwitches(): void {
     plan.follows = false;
     byId<HTMLInputElement>("follow").checked = false;
   };
-  document.addEventListener("visibilitychange", () => {
-    for (const [channel, on] of wanted)
-      if (on) connection.listen(channel, document.visibilityState === "visible");
-  });
 }
 
 function drawFrame(): void {
-  plan.draw();
+  plan.remember();
+  if (views.isShown("plan")) plan.draw();
+  views.draw();
   hand.draw();
   const distance_m = plan.measured();
   setText(byId("measured"), distance_m === undefined ? "" : `${number(distance_m, 2)} m`);

@@ -35,6 +35,16 @@ export class PlanView {
     if (this.hello !== undefined) this.port.fit(this.hello.plan.walls.flat());
   }
 
+  /** Keeps where the robot is now, also while another view is shown. */
+  remember(): void {
+    const robot = this.robotPose();
+    if (robot === undefined || this.store.isStale("POSE")) return;
+    const last = this.trail[this.trail.length - 1];
+    if (last === undefined || Math.hypot(robot.x - last[0], robot.y - last[1]) > TRAIL_STEP_M)
+      this.trail.push([robot.x, robot.y]);
+    if (this.trail.length > LONGEST_TRAIL) this.trail.splice(0, LONGEST_TRAIL / 4);
+  }
+
   draw(): void {
     this.context = prepare(this.canvas);
     this.drawGrid();
@@ -42,7 +52,7 @@ export class PlanView {
     const robot = this.robotPose();
     if (robot !== undefined && this.follows) this.port.centre = [robot.x, robot.y];
     this.drawPlan(this.hello);
-    this.drawTrail(robot);
+    this.stroke(this.trail, colour("trail"), 2);
     this.drawPath();
     if (robot !== undefined) {
       if (this.showsSonars) this.drawSonars(robot, this.hello.body);
@@ -115,15 +125,6 @@ export class PlanView {
     this.stroke([place(pose, d, side * w), end], colour("landmark"), 4);
   }
 
-  private drawTrail(robot: Pose2 | undefined): void {
-    if (robot !== undefined && !this.store.isStale("POSE")) {
-      const last = this.trail[this.trail.length - 1];
-      if (last === undefined || Math.hypot(robot.x - last[0], robot.y - last[1]) > TRAIL_STEP_M)
-        this.trail.push([robot.x, robot.y]);
-      if (this.trail.length > LONGEST_TRAIL) this.trail.splice(0, LONGEST_TRAIL / 4);
-    }
-    this.stroke(this.trail, colour("trail"), 2);
-  }
 
   private drawPath(): void {
     const path = this.store.get<Path>("PATH");

@@ -19,10 +19,12 @@ export interface Hello {
   version: string;
   plan: Plan;
   body: { length_m: number; width_m: number };
+  head?: { x_m: number; y_m: number; z_m: number };  // where pan and tilt axis meet, base frame
   link: { bytes_per_s: number };
   speed: Record<"slow" | "fast", { speed_m_s: number; turn_rad_s: number }>;
   channels: Record<string, { stale_after_s: number; on_request: boolean }>;
-  replay?: { length_s: number };
+  replay?: { length_s?: number };  // without: somebody else plays the log
+  any_bus?: boolean;  // no robot of PRIAMOS: everything that is on a bus, to be plotted
 }
 
 export interface StationState {
@@ -44,6 +46,7 @@ export interface ReplayState { position_s: number; speed: number; paused: boolea
 export interface Item<T = Record<string, unknown>> {
   key: string;
   channel: string;
+  type: string;
   age_s: number;
   message: T;
 }
@@ -103,7 +106,14 @@ export interface Alarm { utime: number; severity: number; source: string; text: 
 
 export interface LandmarkFix {
   landmark_id: number; side: number; verdict: number; n_matched: number; residual_px: number;
-  x_m: number; y_m: number;
+  x_m: number; y_m: number; yaw_rad: number;
+}
+
+export interface LookRequest { landmark_id: number; side: number }
+
+export interface LandmarkModel {
+  landmark_id: number; x_m: number; y_m: number; yaw_rad: number;
+  edges: { x1_m: number; y1_m: number; z1_m: number; x2_m: number; y2_m: number; z2_m: number; side: number }[];
 }
 
 export interface DoorSeen { landmark_id: number; hinge: number; open_rad: number; sigma_rad: number }

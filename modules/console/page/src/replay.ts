@@ -30,8 +30,10 @@ export class Replay {
   }
 
   greet(hello: Hello): void {
-    this.length_s = hello.replay?.length_s ?? 0;
-    this.slider.max = String(this.length_s);
+    this.length_s = hello.replay?.length_s ?? Infinity;
+    const steered = Number.isFinite(this.length_s);
+    this.slider.max = String(steered ? this.length_s : 1);
+    document.body.classList.toggle("played-elsewhere", hello.replay !== undefined && !steered);
     byId("replay").hidden = hello.replay === undefined;
     document.body.classList.toggle("replay", hello.replay !== undefined);
   }
@@ -49,7 +51,8 @@ export class Replay {
   draw(): void {
     if (this.state === undefined) return;
     setText(byId("play"), text(this.state.paused ? "play" : "pause"));
-    setText(byId("time"), `${number(this.position(), 1)} / ${number(this.length_s, 1)} s`);
+    const length = Number.isFinite(this.length_s) ? ` / ${number(this.length_s, 1)}` : "";
+    setText(byId("time"), `${number(this.position(), 1)}${length} s`);
     if (document.activeElement !== this.slider || !this.slider.matches(":active"))
       this.slider.value = String(this.position());
   }

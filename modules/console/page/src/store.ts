@@ -2,7 +2,7 @@
 
 import { Hello, Item } from "./protocol";
 
-interface Kept { item: Item; valid_s: number }  // of the clock
+export interface Kept { item: Item; valid_s: number }  // of the clock
 
 export class Store {
   private readonly kept = new Map<string, Kept>();
@@ -18,15 +18,30 @@ export class Store {
   }
 
   put(item: Item): void {
-    this.kept.set(item.key, { item, valid_s: this.clock() - item.age_s });
+    this.kept.set(item.key, { item, valid_s: this.validTime(item) });
   }
 
   get<T>(key: string): T | undefined {
     return this.kept.get(key)?.item.message as T | undefined;
   }
 
+  /** The newest message of a key. */
+  newest(key: string): Kept | undefined {
+    return this.kept.get(key);
+  }
+
+  /** Everything that is known, with the moment it speaks of. */
+  each(act: (item: Item, valid_s: number) => void): void {
+    for (const { item, valid_s } of this.kept.values()) act(item, valid_s);
+  }
+
+  /** When a message would be as old as it is now [s]. */
+  validTime(item: Item): number {
+    return this.clock() - item.age_s;
+  }
+
   /** Items of a channel that keeps several, in the order of their keys. */
-  all<T>(channel: string): Item<T>[] {
+  all<T = Record<string, unknown>>(channel: string): Item<T>[] {
     const found: Item[] = [];
     for (const { item } of this.kept.values()) if (item.channel === channel) found.push(item);
     return found.sort((a, b) => a.key.localeCompare(b.key)) as Item<T>[];

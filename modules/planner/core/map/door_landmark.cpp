@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planner/core/map/box_skeleton.hpp"
+#include "planner/core/map/door_sides.hpp"
 
 namespace priamos::planner {
 namespace {
@@ -41,6 +42,12 @@ void AddJambEdge(std::vector<LandmarkEdge>& edges, double x, double y, double he
 void AddLintelEdge(std::vector<LandmarkEdge>& edges, double x, double half_width, double z) {
   edges.push_back(
       {{x, -half_width, z}, {x, half_width, z}, kApproachSide.from_rad, kApproachSide.to_rad, Side::kBoth});
+}
+
+/// Viewers who see the left stop past the arris of its own rebate.
+Sector LeftStopSector(const DoorPlan& door) {
+  if (door.rebate_depth_m <= 0) return kApproachSide;
+  return {kPi - std::atan2(door.rebate_width_m, door.rebate_depth_m), kApproachSide.to_rad};
 }
 
 /// Frame and wall as what hides the leaf, and the leaf itself.
@@ -92,6 +99,22 @@ Landmark MakeDoorLandmark(const DoorPlan& door) {
   AddLintelEdge(edges, door.FrontX(), half, top);
   AddLintelEdge(edges, door.StopX(), half, top);
   AddLeaf(door, edges);
+  return landmark;
+}
+
+Landmark MakeDoorLandmarkFromBehind(const DoorPlan& door) {
+  const DoorPlan seen = FromBehind(door);
+  const double half = seen.opening_width_m / 2, outer = half + seen.frame_width_m;
+  const double top = seen.opening_height_m, outer_top = top + seen.frame_width_m;
+  const double near = -door.BackX(), stop = -door.StopX(), far = -door.FrontX();
+  Landmark landmark{seen.id, seen.map_from_door(), {}};
+  auto& edges = landmark.edges;
+  AddJambEdge(edges, near, outer, outer_top, kApproachSide);
+  AddJambEdge(edges, stop, half, top, LeftStopSector(door));
+  AddJambEdge(edges, far, half, top, LeftJambSector(door));
+  AddLintelEdge(edges, near, outer, outer_top);
+  AddLintelEdge(edges, stop, half, top);
+  AddLintelEdge(edges, far, half, top);
   return landmark;
 }
 

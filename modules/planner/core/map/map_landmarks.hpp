@@ -7,7 +7,7 @@
 
 namespace priamos::planner {
 
-/// The landmark of the map with this number, door or cupboard; nullopt if there is none.
+/// The landmark of the map with this number, door from either side or cupboard; nullopt if there is none.
 std::optional<Landmark> MakeLandmark(const GroundPlan& plan, int id);
 
 }  // namespace priamos::planner

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/core/map/door_sides.hpp"
+#include "planner/core/map/map_landmarks.hpp"
 #include "planner/core/path/leaf_clearance.hpp"
 
 namespace priamos::planner {
@@ -84,7 +86,8 @@ DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfi
       looks_(config.look) {}
 
 std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
-  door_ = plan_.FindDoor(order.landmark_id);
+  front_ = plan_.FindDoor(order.landmark_id);
+  door_ = front_ ? std::optional(*front_) : std::nullopt;
   judge_ = false;
   at_hold_ = false;
   arrived_.reset();
@@ -92,6 +95,19 @@ std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
   looks_.Reset();
   leaf_.Reset();
   if (!door_) return Refusal{fmt::format("the map has no door {}", order.landmark_id)};
+  return std::nullopt;
+}
+
+std::optional<Refusal> DoorMission::ChooseSide(const Pose2& map_from_base) {
+  door_ = *front_;
+  const double behind_m = (front_->map_from_door().Inverse() * map_from_base).x;
+  if (behind_m <= 0) return std::nullopt;
+  if (front_->behind_id == 0)
+    return Refusal{fmt::format(
+        "the robot is {:.2f} m behind door '{}', and the map has no landmark there; next: give the "
+        "door a behind_id",
+        behind_m, front_->name)};
+  door_ = priamos::planner::FromBehind(*front_);
   return std::nullopt;
 }
 
@@ -119,7 +135,7 @@ void DoorMission::Step(MissionControl& control) {
 
 bool DoorMission::JudgeLeaf(MissionControl& control) {
   for (const LeafSighting& leaf : control.heard().leaves)
-    if (leaf.landmark_id == door_->id && leaf.stamp >= control.started()) leaf_.Add(leaf);
+    if (leaf.landmark_id == front_->id && leaf.stamp >= control.started()) leaf_.Add(leaf);
   const Phase phase = control.state().phase;
   const bool before =
       phase == Phase::kLookingLeft || phase == Phase::kLookingRight ||
@@ -131,6 +147,7 @@ bool DoorMission::JudgeLeaf(MissionControl& control) {
 }
 
 std::optional<std::string> DoorMission::LeafInTheWay() const {
+  if (FromBehind()) return std::nullopt;
   const auto leaf = leaf_.Estimate();
   if (!leaf) return std::nullopt;
   const double widest_m = FreeWidth(*door_, leaf->hinge, leaf->open_rad + kSure * leaf->sigma_rad);
@@ -143,10 +160,11 @@ std::optional<std::string> DoorMission::LeafInTheWay() const {
 void DoorMission::Wait(MissionControl& control) {
   const Heard& heard = control.heard();
   if (!heard.link_up || !heard.pose || !IsFresh(*heard.pose, control.now())) return;
+  if (const auto refusal = ChooseSide(heard.pose->map_from_base)) return control.Fail(refusal->reason);
   if (const auto refusal = planner_.CheckDoor(*door_)) return control.Fail(refusal->reason);
   const auto path = planner_.PlanApproach(*door_, heard.pose->map_from_base);
   if (!path) return control.Fail(path.reason());
-  control.SendModel(MakeDoorLandmark(*door_));
+  control.SendModel(*MakeLandmark(plan_, door_->id));
   const double distance_m = DistanceToDoor(control);
   const double speed_m_s = ApproachSpeed(distance_m);
   control.OrderPath(*path, speed_m_s);
@@ -179,7 +197,7 @@ void DoorMission::LookFromHere(MissionControl& control) {
 bool DoorMission::SettleLook(MissionControl& control) {
   const auto result = looks_.Settle(control.now());
   if (!result) return false;
-  if (!result->ok && result->no_model) control.SendModel(MakeDoorLandmark(*door_));
+  if (!result->ok && result->no_model) control.SendModel(*MakeLandmark(plan_, door_->id));
   return result->ok;
 }
 

@@ -42,7 +42,8 @@ struct DoorMissionConfig {
 /// of the passage the looks go on: each one sharpens the pose with which the robot follows its path. A robot
 /// that is stopped in the door goes back to the hold point, and tries again unless it touched something: the
 /// doorway is left free. When the looks agree that the leaf leaves too narrow a way, the mission ends before
-/// the door.
+/// the door. A door that has a landmark on its far side (`behind_id`) is passed from there in the same way,
+/// except that nothing is known of its leaf.
 class DoorMission : public Mission {
  public:
   DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner, const Footprint& footprint,
@@ -59,6 +60,9 @@ class DoorMission : public Mission {
 
  private:
   void Wait(MissionControl& control);
+  /// Takes the side on which the robot stands as the one to come from.
+  std::optional<Refusal> ChooseSide(const Pose2& map_from_base);
+  bool FromBehind() const { return front_ && door_->id != front_->id; }
   void Approach(MissionControl& control);
   void LookAtDoor(MissionControl& control);
   /// The pose's uncertainty in the plane of the door, and what it leaves of the gap there.
@@ -98,8 +102,9 @@ class DoorMission : public Mission {
   Footprint footprint_;
   GroundPlan plan_;
 
-  const DoorPlan* door_ = nullptr;
-  Time entered_{};  ///< when the approach began
+  const DoorPlan* front_ = nullptr;  ///< the door of the plan ...
+  std::optional<DoorPlan> door_;     ///< ... as it is from where the robot comes
+  Time entered_{};                   ///< when the approach began
   LookSequence looks_;
   LeafBelief leaf_;
   std::optional<Time> arrived_;  ///< when it was behind the door by its pose

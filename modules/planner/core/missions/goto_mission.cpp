@@ -12,16 +12,6 @@ std::string Text(const Pose2& pose) {
   return fmt::format("({:.2f}, {:.2f})", pose.x, pose.y);
 }
 
-double LengthOf(const Pose2& start, const std::vector<Pose2>& points) {
-  double length_m = 0;
-  Eigen::Vector2d from = start.translation();
-  for (const Pose2& to : points) {
-    length_m += (to.translation() - from).norm();
-    from = to.translation();
-  }
-  return length_m;
-}
-
 /// Direction, of length 1, of the line on which a base is that has `remaining_m` of its path before it; zero
 /// for a path without length.
 Eigen::Vector2d DirectionLeft(const Pose2& base, const std::vector<Pose2>& points, double remaining_m) {
@@ -32,6 +22,18 @@ Eigen::Vector2d DirectionLeft(const Pose2& base, const std::vector<Pose2>& point
     if ((remaining_m <= 0 || i == 0) && line.norm() > 1e-6) return line.normalized();
   }
   return Eigen::Vector2d::Zero();
+}
+
+/// The points of a path that a base still has before it when it has `remaining_m` to go.
+std::vector<Pose2> Remaining(const std::vector<Pose2>& points, double remaining_m) {
+  std::size_t first = points.size();
+  while (first > 0) {
+    --first;
+    if (first == 0) break;
+    remaining_m -= (points[first].translation() - points[first - 1].translation()).norm();
+    if (remaining_m <= 0) break;
+  }
+  return {points.begin() + static_cast<std::ptrdiff_t>(first), points.end()};
 }
 
 /// Distance from the middle of the footprint to its edge in a direction of the base frame [m].
@@ -65,6 +67,7 @@ std::optional<Refusal> GotoMission::Start(const MissionOrder& order) {
   departures_ = 0;
   planner_.Forget();
   keeper_.Reset();
+  learned_.reset();
   const Pose2& there = goal_.map_from_base;
   if (!std::isfinite(there.x) || !std::isfinite(there.y) || !std::isfinite(there.yaw))
     return Refusal{"the goal is no place: its numbers are not finite"};
@@ -79,20 +82,42 @@ void GotoMission::Step(MissionControl& control) {
   }
   keeper_.Step(control);
   const bool is_new = heard.pose->stamp > *control.path_sent();
-  if (is_new && control.OnPath() && heard.drive->mode == DriveMode::kArrived) Arrive(control);
+  if (!is_new || !control.OnPath()) return;
+  if (heard.drive->mode == DriveMode::kArrived) return Arrive(control);
+  Reconsider(control);
+}
+
+void GotoMission::Learn(const MissionControl& control) {
+  learned_ = control.heard().learned;
+  if (learned_) planner_.Learn(*learned_, control.heard().pose->map_from_base);
+}
+
+/// A wall that is not on the plan, across the path: another way, if there is one. If there is none the base
+/// drives on; it may be able to do what the map does not know, and stops before what is there.
+void GotoMission::Reconsider(MissionControl& control) {
+  if (learned_ == control.heard().learned) return;
+  Learn(control);
+  const Pose2& base = control.heard().pose->map_from_base;
+  if (planner_.AreFree(base, Remaining(control.path().points, control.heard().drive->remaining_m))) return;
+  if (Outcome<PlannedPath> path = planner_.Plan(base, goal_))
+    Drive(control, std::move(*path), "a wall that is not on the plan is in the way");
 }
 
 void GotoMission::Depart(MissionControl& control, const std::string& why) {
-  const Pose2& start = control.heard().pose->map_from_base;
-  Outcome<PlannedPath> path = planner_.Plan(start, goal_);
+  Learn(control);
+  Outcome<PlannedPath> path = planner_.Plan(control.heard().pose->map_from_base, goal_);
   if (!path) return control.Fail(why.empty() ? path.reason() : why + ", and " + path.reason());
-  whole_ = path->points.size() <= kMostPathPoints;
+  Drive(control, std::move(*path), why);
+}
+
+void GotoMission::Drive(MissionControl& control, PlannedPath path, const std::string& why) {
+  whole_ = path.points.size() <= kMostPathPoints;
   if (!whole_) {
-    path->points.resize(kMostPathPoints);
-    path->leeway.resize(kMostPathPoints);
+    path.points.resize(kMostPathPoints);
+    path.leeway.resize(kMostPathPoints);
   }
-  const double length_m = LengthOf(start, path->points);
-  control.OrderPath(std::move(*path), config_.speed_m_s);
+  const double length_m = LengthOf(control.heard().pose->map_from_base, path.points);
+  control.OrderPath(std::move(path), config_.speed_m_s);
   control.Enter(Phase::kDriving,
                 fmt::format("{}driving to {}, {:.1f} m{}", why.empty() ? "" : why + "; another way: ",
                             Text(goal_.map_from_base), length_m, whole_ ? "" : " and more"));

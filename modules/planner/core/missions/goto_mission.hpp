@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -42,6 +43,9 @@ class GotoMission : public Mission {
 
  private:
   void Depart(MissionControl& control, const std::string& why);
+  void Drive(MissionControl& control, PlannedPath path, const std::string& why);
+  void Learn(const MissionControl& control);
+  void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);
   bool AtGoal(const Pose2& map_from_base) const;
   void NoteThingAhead(const MissionControl& control);
@@ -51,8 +55,9 @@ class GotoMission : public Mission {
   RoutePlanner planner_;
   PoseKeeper keeper_;
   Goal goal_;
-  int departures_ = 0;  ///< after a stop
-  bool whole_ = true;   ///< the path ordered last leads to the goal
+  int departures_ = 0;                           ///< after a stop
+  std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account
+  bool whole_ = true;                            ///< the path ordered last leads to the goal
 };
 
 }  // namespace priamos::planner

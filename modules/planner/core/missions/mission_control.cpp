@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "planner/core/missions/path_remainder.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -14,6 +16,7 @@ void MissionControl::Begin(Time now) {
   now_ = started_ = now;
   running_ = true;
   path_sent_.reset();
+  held_.reset();
   heard_.corrected.reset();
   heard_.opening.reset();
   heard_.looks.clear();
@@ -28,11 +31,8 @@ void MissionControl::Begin(Time now) {
 
 void MissionControl::NoteDrive(const DriveReport& drive) {
   heard_.drive = drive;
+  if (OnPath()) remaining_m_ = drive.remaining_m;
   if (!estop_changes_) estop_changes_ = drive.estop_changes;
-}
-
-bool MissionControl::EstopChanged() const {
-  return heard_.drive && estop_changes_ != heard_.drive->estop_changes;
 }
 
 void MissionControl::Fail(std::string reason) {
@@ -46,7 +46,23 @@ void MissionControl::OrderPath(PlannedPath path, double speed_m_s) {
            .speed_m_s = speed_m_s,
            .points = std::move(path.points),
            .leeway = std::move(path.leeway)};
+  path_start_ = heard_.pose ? heard_.pose->map_from_base : Pose2{};
+  remaining_m_ = LengthOf(path_start_, path_.points);
   SendPath();
+}
+
+void MissionControl::Hold() {
+  if (!path_sent_) return;
+  held_ = Held{path_, path_start_, remaining_m_};
+  OrderPath({}, 0);
+}
+
+void MissionControl::GoOn() {
+  if (!held_) return;
+  const Held held = *std::exchange(held_, std::nullopt);
+  PathOrder left = held.path;
+  if (heard_.pose) left = RemainderOf(held.path, held.start, held.remaining_m, heard_.pose->map_from_base);
+  OrderPath({std::move(left.points), std::move(left.leeway)}, held.path.speed_m_s);
 }
 
 void MissionControl::SendPath() {

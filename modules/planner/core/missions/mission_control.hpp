@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/learned/learned_walls.hpp"
 #include "common/time.hpp"
 #include "planner/core/missions/mission_types.hpp"
 #include "planner/core/path/planned_path.hpp"
@@ -18,7 +20,8 @@ struct Heard {
   std::optional<Time> corrected;         ///< stamp of the newest pose correction since the mission's start
   std::optional<PassedOpening> opening;  ///< newest since the mission's start
   std::vector<LeafSighting> leaves;      ///< leaves of doors seen since the last time step, in order
-  std::vector<LookResult> looks;         ///< answers to looks since the last time step, in order
+  std::shared_ptr<const LearnedWalls> learned;  ///< walls that robots found; another object when they change
+  std::vector<LookResult> looks;                ///< answers to looks since the last time step, in order
 };
 
 /// A mission's view of the robot: its state, and the orders and the state that leave in this time
@@ -55,8 +58,9 @@ class MissionControl {
   friend class MissionTable;
   void Begin(Time now);
   void NoteDrive(const DriveReport& drive);
-  /// Whether the emergency stop was pressed or lifted since the last report before the order.
-  bool EstopChanged() const;
+  /// Has the robot brake, to go on with what is left of its path on GoOn().
+  void Hold();
+  void GoOn();
   void SendPath();
   void RepeatUnconfirmedPath(double after_s);
   int NextNumber();
@@ -68,6 +72,15 @@ class MissionControl {
   MissionActions actions_;
   PathOrder path_;
   std::optional<Time> path_sent_;
+  Pose2 path_start_;        ///< where the robot was when path_ was ordered
+  double remaining_m_ = 0;  ///< of path_, as reported last
+  /// The path to go on with, and the same of it.
+  struct Held {
+    PathOrder path;
+    Pose2 start;
+    double remaining_m = 0;
+  };
+  std::optional<Held> held_;
   std::optional<int> estop_changes_;  ///< as last reported before the order, else as reported first after it
   int last_number_ = 0;
 };

@@ -15,6 +15,14 @@ std::string Because(const DriveReport& drive) {
 
 }  // namespace
 
+/// Not to be waited for: what moves after the re-arming is for a person to order anew.
+std::optional<std::string> WhyEstopEnds(const DriveReport& drive, int changes) {
+  if (drive.estop) return "the emergency stop is latched; next: priamos estop --rearm, and a new order";
+  if (drive.estop_changes != changes)
+    return "the emergency stop was pressed or lifted since the order; next: order it again";
+  return std::nullopt;
+}
+
 void MissionLimits::Describe(Archive& a) {
   a.Number("resend_path_s", resend_path_s, {"s", 1, 60, "a path not confirmed by then is sent again"});
   a.Number("blocked_s", blocked_s, {"s", 1, 600, "standing before an obstacle that stops the mission"});
@@ -31,12 +39,34 @@ void MissionTable::Add(int kind, std::unique_ptr<Mission> mission) {
 bool MissionTable::Start(Time now, const MissionOrder& order) {
   if (running()) return false;
   kind_ = order.kind;
-  aborted_ = false;
+  aborted_.reset();
   blocked_since_.reset();
+  paused_since_.reset();
+  idle_ = {};
+  last_tick_ = now;
   control_.Begin(now);
   if (auto refusal = missions_.at(kind_)->Start(order))
     control_.Enter(Phase::kFailed, std::move(refusal->reason));
   return true;
+}
+
+void MissionTable::Abort(std::string reason) {
+  if (running()) aborted_ = std::move(reason);
+}
+
+void MissionTable::Pause(Time now) {
+  if (!running() || paused_since_) return;
+  control_.now_ = now;
+  paused_since_ = now;
+  blocked_since_.reset();
+  control_.Hold();
+}
+
+void MissionTable::Resume(Time now) {
+  if (!paused_since_) return;
+  control_.now_ = now;
+  paused_since_.reset();
+  if (running()) control_.GoOn();
 }
 
 void MissionTable::OnPose(const RobotPose& pose) {
@@ -47,7 +77,7 @@ void MissionTable::OnPose(const RobotPose& pose) {
 void MissionTable::OnDrive(const DriveReport& drive, Time now) {
   control_.NoteDrive(drive);
   const bool stands = drive.mode == DriveMode::kBlocked || drive.mode == DriveMode::kHolding;
-  if (!stands || !running() || !control_.OnPath()) {
+  if (!stands || !running() || paused_since_ || !control_.OnPath()) {
     blocked_since_.reset();
   } else if (!blocked_since_) {
     blocked_since_ = now;
@@ -61,37 +91,63 @@ void MissionTable::OnCorrected(Time stamp) {
 
 MissionActions MissionTable::Tick(Time now) {
   control_.now_ = now;
+  const bool idle = running() && (paused_since_ || Silence_s(now));
+  if (idle) idle_ += now - last_tick_;
+  last_tick_ = now;
   if (running()) Step(*missions_.at(kind_));
-  control_.heard_.looks.clear();
-  control_.heard_.leaves.clear();
+  // What arrives while the mission is idle is for its next step.
+  if (!idle || !running()) {
+    control_.heard_.looks.clear();
+    control_.heard_.leaves.clear();
+  }
   return std::exchange(control_.actions_, {});
 }
 
 void MissionTable::Step(Mission& mission) {
   if (const auto reason = ReasonToEnd(mission)) return control_.Fail(*reason);
+  if (Silence_s(control_.now())) return;
+  if (!paused_since_) Decide(mission);
+  if (running()) control_.RepeatUnconfirmedPath(mission.limits().resend_path_s);
+}
+
+void MissionTable::Decide(Mission& mission) {
   if (const auto stop = StopOf(mission)) {
     blocked_since_.reset();
     mission.OnStop(control_, *stop);
   } else {
     mission.Step(control_);
   }
-  if (running()) control_.RepeatUnconfirmedPath(mission.limits().resend_path_s);
+}
+
+double MissionTable::SilentFor_s(Time now) const {
+  const auto& pose = control_.heard().pose;
+  return Seconds(now - (pose ? std::max(pose->stamp, control_.started()) : control_.started()));
+}
+
+std::optional<double> MissionTable::Silence_s(Time now) const {
+  if (!running() || !control_.path_sent()) return std::nullopt;
+  const double silent_s = SilentFor_s(now);
+  return silent_s > missions_.at(kind_)->limits().silent_s ? std::optional(silent_s) : std::nullopt;
+}
+
+/// A robot that has no path yet is not waited for: who ordered learns it at once.
+std::optional<std::string> MissionTable::WhySilenceEnds(const Mission& mission) const {
+  const double silent_s = mission.limits().silent_s;
+  const double limit_s = control_.path_sent() ? std::max(silent_s, blackout_s_) : silent_s;
+  if (SilentFor_s(control_.now()) <= limit_s) return std::nullopt;
+  return fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", limit_s,
+                     control_.heard().link_up ? "up, is the robot running?" : "down");
 }
 
 std::optional<std::string> MissionTable::ReasonToEnd(const Mission& mission) const {
   const MissionLimits& limits = mission.limits();
   const Heard& heard = control_.heard();
-  const Time now = control_.now(), started = control_.started();
-  if (aborted_) return "aborted by the operator";
-  // Not to be waited for: what moves after the re-arming is for a person to order anew.
-  if (heard.drive && heard.drive->estop)
-    return "the emergency stop is latched; next: priamos estop --rearm, and a new order";
-  if (control_.EstopChanged())
-    return "the emergency stop was pressed or lifted since the order; next: order it again";
-  if (Seconds(now - (heard.pose ? std::max(heard.pose->stamp, started) : started)) > limits.silent_s)
-    return fmt::format("no pose from the robot for {:.0f} s: the radio link is {}", limits.silent_s,
-                       heard.link_up ? "up, is the robot running?" : "down");
-  if (Seconds(now - started) > limits.limit_s)
+  const double active_s = Seconds(control_.now() - control_.started() - idle_);
+  if (aborted_) return aborted_;
+  if (heard.drive)
+    if (auto reason = WhyEstopEnds(*heard.drive, control_.estop_changes_.value_or(0))) return reason;
+  if (auto reason = WhySilenceEnds(mission)) return reason;
+  if (active_s > limits.limit_s)
     return fmt::format("{} after {:.0f} s", mission.Unfinished(), limits.limit_s);
   if (StoodTooLong(mission) && heard.drive->mode == DriveMode::kHolding)
     return fmt::format("the robot held its place for {:.0f} s{}", limits.blocked_s, Because(*heard.drive));

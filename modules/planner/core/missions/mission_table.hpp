@@ -4,10 +4,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "planner/core/missions/mission.hpp"
 
 namespace priamos::planner {
+
+/// Why an emergency stop ends what was ordered when `changes` stops and re-armings were counted; nullopt:
+/// none came since.
+std::optional<std::string> WhyEstopEnds(const DriveReport& drive, int changes);
 
 /// The missions by the kind of their order, of which one at a time is carried out. Time is an argument,
 /// messages are stored by On...(), everything is decided in Tick(). Before the first order nothing is
@@ -22,7 +27,21 @@ class MissionTable {
   /// Begins a known mission; refused (false) while one is being carried out. A mission that cannot carry out
   /// the order has failed at once.
   bool Start(Time now, const MissionOrder& order);
-  void Abort() { aborted_ = running(); }
+  /// Ends the mission under way in the next time step, with this reason.
+  void Abort(std::string reason = "aborted by the operator");
+  /// Has the robot brake and hold wherever it is, until Resume(); then it goes on with what is left of its
+  /// path, and the mission with what it was doing. Time limits do not count meanwhile. The emergency stop
+  /// ends a held mission as well.
+  void Pause(Time now);
+  void Resume(Time now);
+  bool paused() const { return paused_since_.has_value(); }
+
+  /// A mission whose robot falls silent when it is under way ends after `seconds`, or after its own silent_s
+  /// if that is longer: meanwhile the robot drives as far as its path leads, and the mission goes on when it
+  /// is heard again. Time limits do not count meanwhile. Without a call, silent_s ends it.
+  void TolerateSilence(double seconds) { blackout_s_ = seconds; }
+  /// How long the robot of the mission under way has been silent, when that is longer than its silent_s.
+  std::optional<double> Silence_s(Time now) const;
 
   void OnPose(const RobotPose& pose);
   void OnDrive(const DriveReport& drive, Time now);
@@ -31,11 +50,13 @@ class MissionTable {
   void OnCorrected(Time stamp);
   void OnLeaf(const LeafSighting& leaf) { control_.heard_.leaves.push_back(leaf); }
   void OnOpening(const PassedOpening& opening) { control_.heard_.opening = opening; }
+  void OnLearned(std::shared_ptr<const LearnedWalls> walls) { control_.heard_.learned = std::move(walls); }
   void OnLink(bool up) { control_.heard_.link_up = up; }
 
   /// One time step of the mission under way. Returns what is to be sent.
   MissionActions Tick(Time now);
 
+  const Heard& heard() const { return control_.heard(); }
   const MissionState& state() const { return control_.state(); }
   bool running() const { return control_.running(); }
   /// Kind of the mission that state() is about.
@@ -43,15 +64,21 @@ class MissionTable {
 
  private:
   void Step(Mission& mission);
+  void Decide(Mission& mission);
   std::optional<std::string> ReasonToEnd(const Mission& mission) const;
   std::optional<Stop> StopOf(const Mission& mission) const;
   bool StoodTooLong(const Mission& mission) const;
+  double SilentFor_s(Time now) const;
+  std::optional<std::string> WhySilenceEnds(const Mission& mission) const;
 
   std::map<int, std::unique_ptr<Mission>> missions_;
   MissionControl control_;
   int kind_ = 0;
-  bool aborted_ = false;
-  std::optional<Time> blocked_since_;
+  std::optional<std::string> aborted_;  ///< the reason
+  std::optional<Time> blocked_since_, paused_since_;
+  double blackout_s_ = 0;
+  Time last_tick_{};
+  Duration idle_{};  ///< of the mission's time: paused, or without news of the robot
 };
 
 }  // namespace priamos::planner

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "common/principal_axes.hpp"
-#include "planner/core/map/door_landmark.hpp"
+#include "planner/core/map/door_sides.hpp"
+#include "planner/core/map/map_landmarks.hpp"
 
 namespace priamos::planner {
 void PoseKeeperConfig::Describe(Archive& a) {
@@ -18,7 +19,7 @@ void PoseKeeperConfig::Describe(Archive& a) {
 }
 
 PoseKeeper::PoseKeeper(const PoseKeeperConfig& config, const GroundPlan& plan)
-    : config_(config), plan_(plan), looks_(LookConfig{}) {}
+    : config_(config), plan_(plan), doors_(DoorSides(plan)), looks_(LookConfig{}) {}
 
 void PoseKeeper::Reset() {
   looks_.Reset();
@@ -29,7 +30,7 @@ void PoseKeeper::Reset() {
 void PoseKeeper::Step(MissionControl& control) {
   for (const LookResult& result : control.heard().looks) looks_.OnResult(result);
   const auto result = looks_.Settle(control.now());
-  if (result && !result->ok && result->no_model) control.SendModel(MakeDoorLandmark(*door_));
+  if (result && !result->ok && result->no_model) control.SendModel(*MakeLandmark(plan_, door_->id));
   if (looks_.Exhausted() && !gave_up_) gave_up_ = control.now();
   if (gave_up_ && Seconds(control.now() - *gave_up_) > config_.pause_s) Reset();
   if (gave_up_ || !looks_.Ready(control.now()) || !IsNeeded(control)) return;
@@ -47,7 +48,7 @@ bool PoseKeeper::IsNeeded(const MissionControl& control) const {
 const DoorPlan* PoseKeeper::DoorInSight(const Pose2& map_from_base) const {
   const DoorPlan* nearest = nullptr;
   double nearest_m = config_.farthest_m;
-  for (const DoorPlan& door : plan_.doors) {
+  for (const DoorPlan& door : doors_) {
     const Eigen::Vector2d there = (door.map_from_door().Inverse() * map_from_base).translation();
     const Eigen::Vector2d here = (map_from_base.Inverse() * door.map_from_door()).translation();
     const double distance_m = there.norm();

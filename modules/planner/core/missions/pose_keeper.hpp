@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "common/ground_plan.hpp"
@@ -31,7 +32,8 @@ class PoseKeeper {
   /// One time step: takes the answers to looks, and asks for the next one when it is needed.
   void Step(MissionControl& control);
 
-  /// The door to look at from a pose; nullptr when none is in sight.
+  /// The door to look at from a pose, from its front or from behind (FromBehind()); nullptr when none is in
+  /// sight.
   const DoorPlan* DoorInSight(const Pose2& map_from_base) const;
 
  private:
@@ -39,6 +41,7 @@ class PoseKeeper {
 
   PoseKeeperConfig config_;
   GroundPlan plan_;
+  std::vector<DoorPlan> doors_;  ///< from either side
   LookSequence looks_;
   const DoorPlan* door_ = nullptr;  ///< looked at last
   std::optional<Time> gave_up_;

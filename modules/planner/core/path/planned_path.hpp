@@ -17,6 +17,17 @@ struct Goal {
 /// The most points that the robot takes in one PATH.
 inline constexpr std::size_t kMostPathPoints = 16;
 
+/// Length of the straight lines from `start` over all `points` [m].
+inline double LengthOf(const Pose2& start, const std::vector<Pose2>& points) {
+  double length_m = 0;
+  Eigen::Vector2d from = start.translation();
+  for (const Pose2& to : points) {
+    length_m += (to.translation() - from).norm();
+    from = to.translation();
+  }
+  return length_m;
+}
+
 /// A path in the map frame, the start left out.
 struct PlannedPath {
   std::vector<Pose2> points;

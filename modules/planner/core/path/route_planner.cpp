@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planner/core/path/route_search.hpp"
 
@@ -71,15 +72,46 @@ RoutePlanner::RoutePlanner(const RoutePlannerConfig& config, const Footprint& fo
       slim_(Slim(footprint), MapOf(plan, false)) {}
 
 void RoutePlanner::Add(std::string name, const Rectangle& shape) {
-  space_.Add(std::move(name), shape);
+  added_.push_back({std::move(name), shape});
+  Rebuild();
 }
 
 void RoutePlanner::Forget() {
+  added_.clear();
+  Rebuild();
+}
+
+void RoutePlanner::Learn(const LearnedWalls& learned, const Pose2& map_from_base) {
+  learned_ = ObstaclesOf(learned, known_.obstacles());
+  const Rectangle body = known_.footprint().At(map_from_base);
+  std::erase_if(learned_, [&](const NamedObstacle& wall) { return Distance(body, wall.shape) <= 0; });
+  Rebuild();
+}
+
+void RoutePlanner::Rebuild() {
   space_ = known_;
+  for (const auto* obstacles : {&added_, &learned_})
+    for (const NamedObstacle& obstacle : *obstacles) space_.Add(obstacle.name, obstacle.shape);
+}
+
+bool RoutePlanner::AreFree(const Pose2& map_from_start, const std::vector<Pose2>& points) const {
+  constexpr double kTouching_m = 0.01;
+  Pose2 from = map_from_start;
+  for (const Pose2& to : points) {
+    if (!space_.IsFree(from, to, kTouching_m)) return false;
+    from = to;
+  }
+  return true;
 }
 
 Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal& goal) const {
   if (const auto refusal = CheckEnds(map_from_start, goal)) return *refusal;
+  if (auto path = FindPath(map_from_start, goal)) return std::move(*path);
+  return NoWay(map_from_start, goal);
+}
+
+std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, const Goal& goal) const {
+  if (CheckEnds(map_from_start, goal)) return std::nullopt;
   const double start_gap_m = space_.At(map_from_start).distance_m;
   const double goal_gap_m = goal.turn ? space_.At(goal.map_from_base).distance_m : config_.easy_margin_m;
   for (const double wanted_m : {config_.easy_margin_m, config_.least_margin_m}) {
@@ -93,12 +125,10 @@ Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal&
     const double lines_m = std::max(std::min(margin_m, config_.least_margin_m), kLines * margin_m);
     if (route) return PathAlong(map_from_start, Straightened(*route, lines_m));
   }
-  return NoWay(map_from_start, goal);
+  return std::nullopt;
 }
 
 std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& goal) const {
-  if (const auto gap = space_.At(start); gap.distance_m <= 0)
-    return Refusal{"the robot would already be in " + gap.obstacle};
   const Pose2& there = goal.map_from_base;
   const auto gap = space_.At(there);
   if (goal.turn && gap.distance_m < config_.least_margin_m)
@@ -109,6 +139,8 @@ std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& g
   if (nearest.distance_m < needed_m)
     return Refusal{fmt::format("the goal ({:.2f}, {:.2f}) is {:.2f} m from {}, its middle needs {:.2f} m",
                                there.x, there.y, nearest.distance_m, nearest.name, needed_m)};
+  if (const auto begin = space_.At(start); begin.distance_m <= 0)
+    return Refusal{"the robot would already be in " + begin.obstacle};
   return std::nullopt;
 }
 

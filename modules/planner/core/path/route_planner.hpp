@@ -7,6 +7,7 @@
 #include "common/archive.hpp"
 #include "common/ground_plan.hpp"
 #include "common/outcome.hpp"
+#include "planner/core/map/learned_obstacles.hpp"
 #include "planner/core/path/planned_path.hpp"
 #include "planner/core/path/swept_footprint.hpp"
 
@@ -30,22 +31,36 @@ class RoutePlanner {
   /// Takes something into account that is not on the plan, until Forget().
   void Add(std::string name, const Rectangle& shape);
   void Forget();
+  /// Takes the walls into account that are not on the plan, in place of those before; but none where the base
+  /// stands: there is nothing.
+  void Learn(const LearnedWalls& learned, const Pose2& map_from_base);
 
   /// Straight lines with evenly turning heading to the goal, as few as there may be; each but the last 60 cm
   /// with its leeway. Refuses with the reason.
   Outcome<PlannedPath> Plan(const Pose2& map_from_start, const Goal& goal) const;
+  /// The same without a reason, which may take longer to find than a path.
+  std::optional<PlannedPath> FindPath(const Pose2& map_from_start, const Goal& goal) const;
+  /// Whether the base may stand there.
+  bool IsFree(const Pose2& map_from_base) const {
+    return space_.DistanceAt(map_from_base) >= config_.least_margin_m;
+  }
+  /// Whether the lines from a start to `points` touch nothing.
+  bool AreFree(const Pose2& map_from_start, const std::vector<Pose2>& points) const;
+  /// Why no route can begin or end there, whatever lies between.
+  std::optional<Refusal> CheckEnds(const Pose2& start, const Goal& goal) const;
 
  private:
-  std::optional<Refusal> CheckEnds(const Pose2& start, const Goal& goal) const;
+  void Rebuild();
   std::vector<Pose2> Straightened(const std::vector<Pose2>& route, double margin_m) const;
   PlannedPath PathAlong(const Pose2& start, std::vector<Pose2> corners) const;
   Refusal NoWay(const Pose2& start, const Goal& goal) const;
 
   RoutePlannerConfig config_;
   std::vector<DoorPlan> closed_;  ///< doors whose leaf is not known
-  SweptFootprint known_;          ///< the plan
-  SweptFootprint space_;          ///< and what was added
-  SweptFootprint slim_;           ///< a body that fits through every door, all of them open
+  std::vector<NamedObstacle> added_, learned_;
+  SweptFootprint known_;  ///< the plan
+  SweptFootprint space_;  ///< and what was added
+  SweptFootprint slim_;   ///< a body that fits through every door, all of them open
 };
 
 }  // namespace priamos::planner

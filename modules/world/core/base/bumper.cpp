@@ -28,8 +28,17 @@ void BumperConfig::Describe(Archive& a) {
 Bumper::Bumper(const BumperConfig& config, const Eigen::Vector2d& footprint_m,
                const std::vector<Solid>& solids)
     : travel_m_(config.travel_m), segments_(Segments(footprint_m)) {
-  for (const Solid& solid : solids)
-    if (Overlaps(solid, config.low_m, config.high_m)) outlines_.push_back(OutlineOf(solid));
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (!Overlaps(solids[i], config.low_m, config.high_m)) continue;
+    outlines_.push_back(OutlineOf(solids[i]));
+    solids_.push_back(i);
+  }
+}
+
+void Bumper::Move(const MovedSolid& moved) {
+  const auto it = std::find(solids_.begin(), solids_.end(), moved.solid);
+  if (it == solids_.end()) return;  // at another height
+  outlines_[static_cast<std::size_t>(it - solids_.begin())].map_from_centre = moved.map_from_solid;
 }
 
 std::uint8_t Bumper::Pressed(const Pose2& map_from_base) const {

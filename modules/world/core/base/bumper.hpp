@@ -6,6 +6,7 @@
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/rectangle.hpp"
+#include "world/core/scene/moved_solid.hpp"
 #include "world/core/scene/solid.hpp"
 
 namespace priamos::world {
@@ -29,11 +30,14 @@ class Bumper {
 
   /// The switches that are pressed with the base at `map_from_base`.
   std::uint8_t Pressed(const Pose2& map_from_base) const;
+  /// A solid is elsewhere now.
+  void Move(const MovedSolid& moved);
 
  private:
   double travel_m_;
   std::vector<Rectangle> segments_;  ///< base frame
   std::vector<Rectangle> outlines_;  ///< map frame
+  std::vector<std::size_t> solids_;  ///< whose they are
 };
 
 }  // namespace priamos::world

@@ -6,19 +6,38 @@
 
 namespace priamos::world {
 
-Clearance::Clearance(const Body& body, const std::vector<Solid>& solids) : body_(body) {
-  for (const auto& solid : solids) {
-    if (!Overlaps(solid, body.low_m, body.high_m)) continue;
-    const Rectangle outline = OutlineOf(solid);
-    obstacles_.push_back({outline, outline.half_m.norm()});
+Clearance::Clearance(const Body& body, const std::vector<Solid>& solids,
+                     const std::function<bool(std::size_t)>& counts)
+    : body_(body) {
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (counts && !counts(i)) continue;
+    if (!Overlaps(solids[i], body.low_m, body.high_m)) continue;
+    const Rectangle outline = OutlineOf(solids[i]);
+    obstacles_.push_back({outline, outline.half_m.norm(), i});
   }
+}
+
+void Clearance::Move(const MovedSolid& moved) {
+  const auto it = std::find_if(obstacles_.begin(), obstacles_.end(),
+                               [&](const Obstacle& obstacle) { return obstacle.solid == moved.solid; });
+  if (it != obstacles_.end()) it->outline.map_from_centre = moved.map_from_solid;
+}
+
+std::optional<Clearance::Neighbour> Clearance::Nearest(const Pose2& pose) const {
+  const Rectangle footprint{pose, body_.size_m / 2};
+  std::optional<Neighbour> nearest;
+  for (const Obstacle& obstacle : obstacles_) {
+    const double gap_m = Distance(footprint, obstacle.outline);
+    if (!nearest || gap_m < nearest->gap_m) nearest = Neighbour{obstacle.solid, obstacle.outline, gap_m};
+  }
+  return nearest;
 }
 
 double Clearance::Gap(const Pose2& pose, double limit_m) const {
   const Rectangle footprint{pose, body_.size_m / 2};
   const double radius_m = footprint.half_m.norm();
   double nearest = limit_m;
-  for (const auto& [outline, outline_radius_m] : obstacles_) {
+  for (const auto& [outline, outline_radius_m, solid] : obstacles_) {
     // Two lower bounds that are cheaper than the distance: circle to circle, then circle to rectangle.
     const Eigen::Vector2d apart = outline.map_from_centre.translation() - pose.translation();
     if (apart.norm() - outline_radius_m - radius_m >= nearest) continue;

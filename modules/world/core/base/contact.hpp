@@ -1,12 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "common/geometry.hpp"
 #include "common/rectangle.hpp"
 #include "common/robot/body_size.hpp"
+#include "world/core/scene/moved_solid.hpp"
 #include "world/core/scene/solid.hpp"
 
 namespace priamos::world {
@@ -21,19 +25,32 @@ struct Body {
 /// Exact distances between the robot's footprint and the solids at its height.
 class Clearance {
  public:
-  /// Copies what it needs; solids below or above the body are left out.
-  Clearance(const Body& body, const std::vector<Solid>& solids);
+  /// Copies what it needs; solids below or above the body are left out, and those that `counts` does not
+  /// want.
+  Clearance(const Body& body, const std::vector<Solid>& solids,
+            const std::function<bool(std::size_t)>& counts = {});
 
   /// Distance from the footprint at `pose` to the nearest solid, at most `limit_m`; 0 in contact.
   double Gap(const Pose2& pose, double limit_m) const;
   /// Share of the motion from `from` to `to` (0 to 1) on which the footprint stays free; `from` counts as
   /// free.
   double FreePart(const Pose2& from, const Pose2& to) const;
+  /// A solid is elsewhere now.
+  void Move(const MovedSolid& moved);
+  /// The solid nearest to the footprint at `pose`, by its place in the list, and its outline; none when there
+  /// is none at the robot's height.
+  struct Neighbour {
+    std::size_t solid;
+    Rectangle outline;
+    double gap_m;
+  };
+  std::optional<Neighbour> Nearest(const Pose2& pose) const;
 
  private:
   struct Obstacle {
     Rectangle outline;
-    double radius_m;  ///< radius of the circle around it
+    double radius_m;    ///< radius of the circle around it
+    std::size_t solid;  ///< its place in the list
   };
 
   Body body_;

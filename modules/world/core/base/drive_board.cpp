@@ -53,7 +53,7 @@ void DriveBoard::Step(Time now, Duration step) {
   const double change = dt * (held ? config_.braking_rad_s2 : config_.acceleration_rad_s2);
   const double follow = 1 - std::exp(-dt / config_.lag_s);
   for (std::size_t i = 0; i < 4; ++i) {
-    const double target = held ? 0 : set_rad_s_[i];
+    const double target = held || stalled_[i] ? 0 : set_rad_s_[i];
     ramp_rad_s_[i] += std::clamp(target - ramp_rad_s_[i], -change, change);
     const double before = speed_rad_s_[i];
     speed_rad_s_[i] += follow * (ramp_rad_s_[i] - before);

@@ -50,6 +50,8 @@ class DriveBoard {
   /// A command arrived. Speeds beyond the limit are clamped. A command that is not finite is refused as a
   /// whole and does not feed the deadline; returns false for that one. `instance` names who commands.
   bool Command(Time arrival, std::int32_t instance, const PerWheel& speed_rad_s);
+  /// From now on this motor stands, and its wheel with it.
+  void Stall(std::size_t wheel) { stalled_.at(wheel) = true; }
   /// Advances by one physics step that ends at `now`.
   void Step(Time now, Duration step);
 
@@ -68,6 +70,7 @@ class DriveBoard {
   std::int32_t instance_ = 0, foreign_commands_ = 0;
   PerWheel set_rad_s_{}, ramp_rad_s_{}, speed_rad_s_{}, turned_rad_{};
   bool deadline_stopped_ = true, contested_ = false;
+  std::array<bool, 4> stalled_{};
 };
 
 }  // namespace priamos::world

@@ -19,6 +19,17 @@ void MecanumConfig::Describe(Archive& a) {
            {"s^2/m", 0, 0.2, "slip per acceleration of the contact"});
 }
 
+namespace {
+
+/// Contact speed of wheel `i` that agrees with the other three: front and rear pair have the same sum.
+double FreeRolling(const PerWheel& c, std::size_t i) {
+  constexpr std::array<std::size_t, 4> kBeside{1, 0, 3, 2};
+  const double other_pair = i < 2 ? c[2] + c[3] : c[0] + c[1];
+  return other_pair - c[kBeside[i]];
+}
+
+}  // namespace
+
 MecanumBase::MecanumBase(const MecanumConfig& config, Rng rng) : config_(config), rng_(rng) {
   for (auto& radius : radius_m_)
     radius = config.wheel_radius_m * (1 + rng_.Uniform(-config.radius_error, config.radius_error));
@@ -40,6 +51,8 @@ Twist2 MecanumBase::Step(const PerWheel& speed_rad_s, double dt_s) {
     const double driven_slip = config_.acceleration_slip_s2_m * acceleration * (rolled < 0 ? -1 : 1);
     contact_m_s[i] = rolled * (1 - slip_[i] - driven_slip);
   }
+  for (std::size_t i = 0; i < 4; ++i)
+    if (loose_[i]) contact_m_s[i] = previous_m_s_[i] = FreeRolling(contact_m_s, i);
   const auto& c = contact_m_s;
   Twist2 twist;
   twist.vx = (c[0] + c[1] + c[2] + c[3]) / 4;

@@ -35,10 +35,14 @@ class MecanumBase {
  public:
   MecanumBase(const MecanumConfig& config, Rng rng);
 
+  /// From now on this wheel is not driven: it rolls as the others move the base.
+  void Loosen(std::size_t wheel) { loose_.at(wheel) = true; }
   /// True body velocity while the wheels turn so; slip wanders with the distance that each wheel rolls.
   Twist2 Step(const PerWheel& speed_rad_s, double dt_s);
   /// Speeds of the floor below the four contacts, along their rolling directions, while the base moves so.
   PerWheel ContactSpeeds(const Twist2& twist) const;
+  /// What the rims of the wheels rolled in the last step [m/s]; a loose one as the base moves.
+  PerWheel RimSpeeds() const { return previous_m_s_; }
 
  private:
   MecanumConfig config_;
@@ -46,6 +50,7 @@ class MecanumBase {
   double lever_m_;
   double lateral_loss_;
   PerWheel radius_m_, slip_{}, previous_m_s_{};
+  std::array<bool, 4> loose_{};
 };
 
 }  // namespace priamos::world

@@ -40,7 +40,8 @@ void MotorLoad::Step(const PerWheel& rolled_m_s, const PerWheel& slid_m_s, doubl
     const double rolling = config_.rolling_resistance * quarter_kg * kGravity *
                            std::clamp(rolled_m_s[i] / kRolls_m_s, -1.0, 1.0);
     const double force_n = std::clamp(accelerating + slide * grip_n, -grip_n, grip_n) + rolling;
-    current_a_[i] += follow * (force_n / config_.newton_per_ampere - current_a_[i]);
+    const double wanted_a = released_[i] ? 0 : force_n / config_.newton_per_ampere;
+    current_a_[i] += follow * (wanted_a - current_a_[i]);
   }
   rolled_m_s_ = rolled_m_s;
 }

@@ -32,6 +32,8 @@ class MotorLoad {
 
   /// Advances by `dt_s`, in which the wheels rolled at `rolled_m_s` and slid over the floor at `slid_m_s`.
   void Step(const PerWheel& rolled_m_s, const PerWheel& slid_m_s, double dt_s);
+  /// From now on this motor is off or has no load: it takes no current.
+  void Release(std::size_t wheel) { released_.at(wheel) = true; }
   /// The currents as one reading gives them [A].
   PerWheel Read();
 
@@ -40,6 +42,7 @@ class MotorLoad {
   Rng rng_;
   double mass_kg_;
   PerWheel offset_a_{}, rolled_m_s_{}, current_a_{};
+  std::array<bool, 4> released_{};
 };
 
 }  // namespace priamos::world

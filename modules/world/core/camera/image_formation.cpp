@@ -37,7 +37,7 @@ class LensTable {
     for (int i = 0; i < kEntries; ++i) {
       const double r2 = i * step_, r = std::sqrt(r2);
       const Eigen::Vector2d from = camera.centre_px + Eigen::Vector2d(r * camera.focal_px, 0);
-      const double undistorted = (camera.Undistort(from) - camera.centre_px).norm();
+      const double undistorted = (camera.UndistortRadially(from) - camera.centre_px).norm();
       stretch_[i] = r > 0 ? undistorted / (r * camera.focal_px) : 1;
       light_[i] = 1 / ((1 + loss * r2) * (1 + loss * r2));
     }
@@ -90,6 +90,7 @@ GreyImage FormImage(const ImagingConfig& config, const TrueCamera& camera, doubl
   cv::sepFilter2D(light, blurred, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_REPLICATE);
 
   const LensTable lens(camera, config.vignetting);
+  const bool tangential = camera.p1 != 0 || camera.p2 != 0;  // no longer a function of the radius alone
   const double scale =
       (config.white_level - config.black_level) * exposure.gain * exposure.exposure_s / kNominalExposure_s;
   const double read_variance = exposure.gain * exposure.gain * config.read_noise * config.read_noise;
@@ -100,7 +101,8 @@ GreyImage FormImage(const ImagingConfig& config, const TrueCamera& camera, doubl
     for (int u = 0; u < kImageWidth_px; ++u) {
       const Eigen::Vector2d from_centre = Eigen::Vector2d(u, v) - camera.centre_px;
       const double r2 = from_centre.squaredNorm() / (camera.focal_px * camera.focal_px);
-      const Eigen::Vector2d cell = FineGrid::FromImage(camera.centre_px + from_centre * lens.Stretch(r2));
+      const Eigen::Vector2d cell = FineGrid::FromImage(
+          tangential ? camera.Undistort({u, v}) : camera.centre_px + from_centre * lens.Stretch(r2));
       const double signal = scale * lens.Light(r2) * Bilinear(blurred, cell.x() - 0.5, cell.y() - 0.5);
       const double variance = read_variance + exposure.gain * config.photon_noise * signal;
       image.pixels.push_back(ToGrey(config.black_level + signal + std::sqrt(variance) * normal.Draw()));

@@ -24,6 +24,7 @@ struct Exposure {
   double gain = 1;
   double camera_light = 0;  ///< lamp beside the lens; 1 makes retro-reflective discs white at 10 ms, gain 1
   double laser = 0;         ///< the laser line; 1 makes it white at 10 ms, gain 1
+  double defocus_dioptre = 0;  ///< the lens is set nearer than its motor says by this [1/m]
 };
 
 }  // namespace priamos::world

@@ -10,6 +10,7 @@ namespace priamos::world {
 namespace {
 
 constexpr double kMotorRange = 2000;  // steps of zoom and focus
+constexpr double kMastFoot_m = 0.6;   // where the mast is bolted to the deck
 constexpr double kFarOff_px = 200;    // a principal point farther from the middle is a mistake in the file
 
 Eigen::Isometry3d Translate(double x, double y, double z) {
@@ -30,8 +31,15 @@ Eigen::Isometry3d BodyFromOptical() {
   return t;
 }
 
+/// The mast's lean about its foot.
+Eigen::Isometry3d Lean(const HeadBuild& b, const MastLean& lean) {
+  if (lean.pitch_rad == 0 && lean.roll_rad == 0) return Eigen::Isometry3d::Identity();
+  return Translate(b.x_m, b.y_m, kMastFoot_m) * Turn(lean.roll_rad, lean.pitch_rad, 0) *
+         Translate(-b.x_m, -b.y_m, -kMastFoot_m);
+}
+
 Eigen::Isometry3d BaseFromPlatform(const HeadBuild& b, const HeadAxes& axes) {
-  return Translate(b.x_m, b.y_m, b.z_m) * Turn(b.roll_rad, b.pitch_rad, b.yaw_rad) *
+  return Lean(b, axes.lean) * Translate(b.x_m, b.y_m, b.z_m) * Turn(b.roll_rad, b.pitch_rad, b.yaw_rad) *
          Turn(0, 0, axes.pan_rad) * Translate(b.tilt_axis_x_m, 0, b.tilt_axis_z_m) *
          Turn(b.tilt_axis_roll_rad, 0, b.tilt_axis_yaw_rad) * Turn(0, axes.tilt_rad, 0);
 }
@@ -54,6 +62,9 @@ void SetIntrinsics(const CameraBuild& build, const LensState& lens, TrueCamera& 
                       build.centre_v_px + (lens.zoom - 0.5) * build.centre_walk_v_px};
   camera.k1 = build.k1_wide + lens.zoom * (build.k1_tele - build.k1_wide);
   camera.k2 = build.k2 * (1 - lens.zoom);
+  camera.k3 = build.k3;
+  camera.p1 = build.p1;
+  camera.p2 = build.p2;
   camera.focus_dioptre = (1 - lens.focus) / build.nearest_focus_m;
 }
 
@@ -81,18 +92,30 @@ Eigen::Vector2d TrueCamera::ProjectPinhole(const Eigen::Vector3d& in_camera) con
 Eigen::Vector2d TrueCamera::Distort(const Eigen::Vector2d& undistorted_px) const {
   const Eigen::Vector2d d = undistorted_px - centre_px;
   const double r2 = d.squaredNorm() / (focal_px * focal_px);
-  return centre_px + d * (1 + r2 * (k1 + k2 * r2));
+  const Eigen::Vector2d radial = centre_px + d * (1 + r2 * (k1 + (k2 + k3 * r2) * r2));
+  if (p1 == 0 && p2 == 0) return radial;
+  const Eigen::Vector2d n = d / focal_px;
+  const double xy = 2 * n.x() * n.y();
+  return radial + focal_px * Eigen::Vector2d(p1 * xy + p2 * (r2 + 2 * n.x() * n.x()),
+                                             p1 * (r2 + 2 * n.y() * n.y()) + p2 * xy);
 }
 
 Eigen::Vector2d TrueCamera::Undistort(const Eigen::Vector2d& distorted_px) const {
+  Eigen::Vector2d undistorted = UndistortRadially(distorted_px);
+  if (p1 == 0 && p2 == 0) return undistorted;
+  for (int i = 0; i < 8; ++i) undistorted -= Distort(undistorted) - distorted_px;
+  return undistorted;
+}
+
+Eigen::Vector2d TrueCamera::UndistortRadially(const Eigen::Vector2d& distorted_px) const {
   const Eigen::Vector2d d = distorted_px - centre_px;
   const double target = d.norm() / focal_px;
   if (target == 0) return distorted_px;
   double r = target;
   for (int i = 0; i < 20; ++i) {
     const double r2 = r * r;
-    const double error = r * (1 + r2 * (k1 + k2 * r2)) - target;
-    r -= error / (1 + r2 * (3 * k1 + 5 * k2 * r2));
+    const double error = r * (1 + r2 * (k1 + (k2 + k3 * r2) * r2)) - target;
+    r -= error / (1 + r2 * (3 * k1 + (5 * k2 + 7 * k3 * r2) * r2));
     if (std::abs(error) < 1e-15) break;
   }
   return centre_px + d * (r / target);
@@ -127,6 +150,9 @@ void CameraBuild::Describe(Archive& a) {
   a.Number("k1_wide", k1_wide, {"-", -0.15, 0.15, "radial distortion at zoom step 0"});
   a.Number("k1_tele", k1_tele, {"-", -0.15, 0.15, "radial distortion at zoom step 2000"});
   a.Number("k2", k2, {"-", -0.1, 0.1, "radial distortion of fifth order at zoom step 0"});
+  a.Number("p1", p1, {"-", -0.01, 0.01, "tangential distortion"});
+  a.Number("p2", p2, {"-", -0.01, 0.01, "tangential distortion"});
+  a.Number("k3", k3, {"-", -0.3, 0.3, "radial distortion of seventh order"});
   a.Number("breathing", breathing,
            {"-", -0.1, 0.1, "growth of the focal length from infinity to nearest focus"});
   a.Number("nearest_focus_m", nearest_focus_m, {"m", 0.1, 5, "distance in focus at focus step 0"});

@@ -16,6 +16,12 @@ inline constexpr int kCameras = 3;
 /// The cameras by their numbers in messages.
 enum Camera : int { kLeftCamera = 0, kRightCamera = 1, kThirdCamera = 2 };
 
+/// How far the mast below the head leans, base frame: positive pitch looks down, positive roll leans to the
+/// right.
+struct MastLean {
+  double pitch_rad = 0, roll_rad = 0;
+};
+
 /// True positions of the axes of KASTOR, backlash included; the step counters are not known here.
 /// Signs as in head_command_t: pan and vergence positive to the left, tilt positive looks down.
 struct HeadAxes {
@@ -23,6 +29,7 @@ struct HeadAxes {
   std::array<double, 2> vergence_rad{};          ///< left and right camera on the platform
   std::array<double, 2> zoom_step{650, 650};     ///< 0 shortest focal length ... 2000 longest
   std::array<double, 2> focus_step{1600, 1600};  ///< 0 nearest distance ... 2000 infinity
+  MastLean lean{};
 };
 
 /// True geometry of one camera, known to the simulator only.
@@ -37,6 +44,8 @@ struct CameraBuild {
   double centre_walk_u_px = 0,
          centre_walk_v_px = 0;  ///< shift of the principal point from zoom step 0 to 2000
   double k1_wide = -0.07, k1_tele = -0.02, k2 = 0.01;  ///< radial distortion at zoom step 0 and 2000
+  double p1 = 0, p2 = 0;                               ///< tangential distortion
+  double k3 = 0;                                       ///< radial distortion of seventh order
   double breathing = 0.012;      ///< relative growth of the focal length at the nearest focus
   double nearest_focus_m = 0.6;  ///< distance in focus at focus step 0
 
@@ -66,15 +75,21 @@ struct TrueCamera {
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   double focal_px = 1000;
   Eigen::Vector2d centre_px = ImageSize{}.Centre();
-  /// Radial distortion: distorted - centre = (undistorted - centre) (1 + k1 r^2 + k2 r^4), r = |undistorted -
-  /// centre| / focal_px
-  double k1 = 0, k2 = 0;
+  /// Radial distortion: distorted - centre = (undistorted - centre) (1 + k1 r^2 + k2 r^4 + k3 r^6), r =
+  /// |undistorted - centre| / focal_px
+  double k1 = 0, k2 = 0, k3 = 0;
+  /// Tangential distortion of a lens whose elements are not on one axis, in units of focal_px with (x, y) the
+  /// undistorted point: 2 p1 x y + p2 (r^2 + 2 x^2) across, p1 (r^2 + 2 y^2) + 2 p2 x y down (Brown,
+  /// "Decentering distortion of lenses", Photogrammetric Engineering 1966).
+  double p1 = 0, p2 = 0;
   double focus_dioptre = 0;  ///< inverse of the distance that is sharp [1/m]
 
   /// The undistorted image point of a point in the camera frame; z must be positive.
   Eigen::Vector2d ProjectPinhole(const Eigen::Vector3d& in_camera) const;
   Eigen::Vector2d Distort(const Eigen::Vector2d& undistorted_px) const;
   Eigen::Vector2d Undistort(const Eigen::Vector2d& distorted_px) const;
+  /// The same without the tangential part.
+  Eigen::Vector2d UndistortRadially(const Eigen::Vector2d& distorted_px) const;
   /// The exact image of a point of the base frame [distorted px].
   Eigen::Vector2d Project(const Eigen::Vector3d& in_base) const;
 };

@@ -45,8 +45,13 @@ std::optional<GreyImage> InlineRenderExecutor::Take(std::int64_t number) {
 }
 
 CameraServer::CameraServer(const CameraConfig& config, double camera_light, RenderExecutor& executor,
-                           std::uint64_t seed)
-    : config_(config), camera_light_(camera_light), executor_(executor), seed_(seed) {}
+                           std::uint64_t seed, const CameraQuirks& quirks)
+    : config_(config),
+      camera_light_(camera_light),
+      executor_(executor),
+      seed_(seed),
+      quirks_(quirks),
+      gain_(quirks, Rng::Stream(seed, "camera gain")) {}
 
 bool CameraServer::Trigger(Time now, std::int32_t frame_id, int cameras) {
   const bool laser = (cameras & kLaserBit) != 0;
@@ -89,6 +94,8 @@ void CameraServer::Submit(const Shot& shot, const Viewpoint& closed) {
     job.opening = *shot.opened;
     job.closing = closed;
     job.exposure = {config_.exposure_s, config_.gain, camera_light_, shot.laser ? config_.laser : 0};
+    job.exposure.gain *= gain_.At(job.camera, shot.opening);
+    job.exposure.defocus_dioptre = quirks_.cameras[static_cast<std::size_t>(c)].defocus_dioptre;
     job.noise_seed = Rng::Stream(seed_, fmt::format("picture {}", job.number)).engine()();
     pending_.push_back(
         {job.number, shot.closing + FromSeconds(config_.readout_s), {middle, shot.frame_id, job.camera, {}}});

@@ -14,6 +14,7 @@
 #include "common/time.hpp"
 #include "world/core/camera/imaging.hpp"
 #include "world/core/camera/optics.hpp"
+#include "world/core/head/gain_drift.hpp"
 #include "world/core/render/renderer.hpp"
 
 namespace priamos::world {
@@ -90,7 +91,8 @@ struct Frame {
 class CameraServer {
  public:
   /// Server of the cameras; `executor` must outlive it; `seed` decides the noise of every picture.
-  CameraServer(const CameraConfig& config, double camera_light, RenderExecutor& executor, std::uint64_t seed);
+  CameraServer(const CameraConfig& config, double camera_light, RenderExecutor& executor, std::uint64_t seed,
+               const CameraQuirks& quirks = {});
 
   /// Bits of `cameras`: 1 left, 2 right, 4 third; 8 with the line laser on. Refused (false) while too many
   /// pictures are pending or when no camera is asked for.
@@ -124,6 +126,8 @@ class CameraServer {
   double camera_light_;
   RenderExecutor& executor_;
   std::uint64_t seed_;
+  CameraQuirks quirks_;
+  GainDrift gain_;
   std::int64_t next_number_ = 0;
   std::deque<Shot> shots_;  ///< in the order of their triggers; one exposure at a time
   std::deque<Pending> pending_;

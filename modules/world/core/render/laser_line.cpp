@@ -45,7 +45,8 @@ void AppendLaser(const LaserBuild& laser, const Pose2& map_from_base, const Ligh
     const Vector3d ray = map_from_fan.linear() * Vector3d(std::cos(angle), std::sin(angle), 0);
     const RayHit hit = surfaces.Trace(origin, ray, kReach_m);
     const Vector3d point = origin + hit.distance_m * ray + kLift_m * hit.normal;
-    const bool same_face = i > 0 && hit.solid == last.solid && hit.normal == last.normal && hit.solid != -3;
+    const bool same_face =
+        i > 0 && hit.solid == last.solid && hit.normal == last.normal && hit.solid != kNothing && !hit.mirror;
     if (same_face) {
       AppendStrip(last_point, point, HalfWidth(plane_normal, hit.normal, laser.thickness_m), hit.normal,
                   mesh);

@@ -8,7 +8,7 @@
 namespace priamos::world {
 
 /// Adds the line as thin strips on every surface that the light reaches; what stands in the light has a
-/// shadow.
+/// shadow. Glass lets it through; on a mirror there is none.
 void AppendLaser(const LaserBuild& laser, const Pose2& map_from_base, const Lighting& surfaces, Mesh& mesh);
 
 }  // namespace priamos::world

@@ -53,12 +53,16 @@ double Entry(const Vector3d& origin, const Vector3d& direction, const Vector3d& 
 }  // namespace
 
 Lighting::Lighting(const SceneConfig& config, const std::vector<Solid>& solids) : config_(config) {
-  for (const Solid& s : solids) {
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const Solid& s = solids[i];
+    if (IsGlass(s.material)) continue;
     const double half_z = (s.z_max_m - s.z_min_m) / 2;
     boxes_.push_back({std::cos(s.map_from_solid.yaw),
                       std::sin(s.map_from_solid.yaw),
                       {s.map_from_solid.x, s.map_from_solid.y, s.z_min_m + half_z},
-                      {s.size_m.x() / 2, s.size_m.y() / 2, half_z}});
+                      {s.size_m.x() / 2, s.size_m.y() / 2, half_z},
+                      static_cast<int>(i),
+                      IsMirror(s.material)});
   }
   const double step = config.lamp_spacing_m;
   for (double x = config.x_min_m + step / 2; x < config.x_max_m; x += step) {
@@ -81,36 +85,56 @@ double Lighting::Enter(const Box& box, const Vector3d& origin, const Vector3d& d
   return Entry(turn(d), turn(direction), box.half, axis);
 }
 
-double Lighting::Hit(const Vector3d& origin, const Vector3d& direction, double max_m) const {
+double Lighting::Hit(const Boxes& boxes, const Vector3d& origin, const Vector3d& direction,
+                     double max_m) const {
   double nearest = max_m;
   int axis = 0;
-  for (const Box& box : boxes_) {
-    const double t = Enter(box, origin, direction, axis);
+  for (const Box* box : boxes) {
+    const double t = Enter(*box, origin, direction, axis);
     if (t > kSkin_m && t < nearest) nearest = t;
   }
   return nearest;
 }
 
+Lighting::Boxes Lighting::Within(const Vector3d& point, double reach_m) const {
+  Boxes near;
+  for (const Box& box : boxes_)
+    if ((box.centre - point).norm() - box.half.norm() <= reach_m) near.push_back(&box);
+  return near;
+}
+
+std::optional<FloorHit> Lighting::Floor(const Vector3d& origin, const Vector3d& direction) const {
+  if (!config_.holes.empty()) return CastToFloor(config_.holes, origin, direction);
+  if (direction.z() >= -1e-9) return std::nullopt;
+  return FloorHit{-origin.z() / direction.z(), Vector3d::UnitZ(), -1};
+}
+
 double Lighting::Distance(const Vector3d& origin, const Vector3d& direction, double max_m) const {
-  double nearest = Hit(origin, direction, max_m);
-  if (direction.z() < -1e-9) nearest = std::min(nearest, -origin.z() / direction.z());
+  return Distance(Within(origin, max_m), origin, direction, max_m);
+}
+
+double Lighting::Distance(const Boxes& boxes, const Vector3d& origin, const Vector3d& direction,
+                          double max_m) const {
+  double nearest = Hit(boxes, origin, direction, max_m);
+  if (const auto floor = Floor(origin, direction)) nearest = std::min(nearest, floor->distance_m);
   if (direction.z() > 1e-9) nearest = std::min(nearest, (config_.ceiling_m - origin.z()) / direction.z());
   return std::max(nearest, 0.0);
 }
 
 RayHit Lighting::Trace(const Vector3d& origin, const Vector3d& direction, double max_m) const {
-  RayHit hit{max_m, -direction, -3};
-  const auto take = [&](double t, const Vector3d& normal, int solid) {
-    if (t > kSkin_m && t < hit.distance_m) hit = {t, normal, solid};
+  RayHit hit{max_m, -direction, kNothing};
+  const auto take = [&](double t, const Vector3d& normal, int solid, bool mirror = false) {
+    if (t > kSkin_m && t < hit.distance_m) hit = {t, normal, solid, mirror};
   };
-  if (direction.z() < -1e-9) take(-origin.z() / direction.z(), Vector3d::UnitZ(), -1);
-  if (direction.z() > 1e-9) take((config_.ceiling_m - origin.z()) / direction.z(), -Vector3d::UnitZ(), -2);
-  for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    const Box& box = boxes_[i];
+  if (const auto floor = Floor(origin, direction))
+    take(floor->distance_m, floor->normal, floor->hole < 0 ? kFloor : kFirstHole - floor->hole);
+  if (direction.z() > 1e-9)
+    take((config_.ceiling_m - origin.z()) / direction.z(), -Vector3d::UnitZ(), kCeiling);
+  for (const Box& box : boxes_) {
     int axis = 0;
     const double t = Enter(box, origin, direction, axis);
     const Vector3d axes[] = {{box.c, box.s, 0}, {-box.s, box.c, 0}, {0, 0, 1}};
-    take(t, axes[axis].dot(direction) < 0 ? axes[axis] : Vector3d(-axes[axis]), static_cast<int>(i));
+    take(t, axes[axis].dot(direction) < 0 ? axes[axis] : Vector3d(-axes[axis]), box.solid, box.mirror);
   }
   return hit;
 }
@@ -120,21 +144,23 @@ double Lighting::Ambient(const Vector3d& point, const Vector3d& normal) const {
   const Vector3d u =
       (std::abs(normal.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX()).cross(normal).normalized();
   const Vector3d v = normal.cross(u);
+  const Boxes near = Within(point, kAmbientReach_m);
   double open = 0;
   for (const Vector3d& d : kDirections) {
     const Vector3d direction = d.x() * u + d.y() * v + d.z() * normal;
-    open += std::min(Distance(point, direction, kAmbientReach_m) / kAmbientReach_m, 1.0);
+    open += std::min(Distance(near, point, direction, kAmbientReach_m) / kAmbientReach_m, 1.0);
   }
   return 0.25 + 0.75 * open / kAmbientRays;  // what hides the room still reflects some of its light
 }
 
 double Lighting::Lamps(const Vector3d& point, const Vector3d& normal) const {
+  const Boxes near = Within(point, kLampReach_m);
   double sum = 0;
   for (const Vector3d& lamp : lamps_) {
     const Vector3d to_lamp = lamp - point;
     const double distance = to_lamp.norm(), facing = normal.dot(to_lamp);
     if (distance > kLampReach_m || distance < 1e-6 || facing <= 0) continue;
-    if (Hit(point, to_lamp / distance, distance) < distance) continue;
+    if (Hit(near, point, to_lamp / distance, distance) < distance) continue;
     // A tube under a white ceiling is no point: its size keeps the light even close by, and it shines
     // sideways.
     const double soft = std::hypot(distance, kLampSize_m);

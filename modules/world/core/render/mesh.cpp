@@ -113,6 +113,31 @@ void Cover(Face& face, const Surface& surface) {
   face.layer = surface.picture ? surface.edge_layer : surface.layer;
 }
 
+/// A level piece of floor, `z` high.
+void AppendLevel(const FloorPiece& piece, double z, const Surface& covering, const Lighting& lighting,
+                 double most_light, Mesh& mesh) {
+  const Eigen::Vector2d size = piece.high - piece.low;
+  Face face{{piece.low.x(), piece.low.y(), z}, {size.x(), 0, 0}, {0, size.y(), 0}, 0, 0, 0, 0, 0};
+  Cover(face, covering);
+  AppendFace(face, lighting, most_light, mesh);
+}
+
+/// Its bottom, and its sides seen from within.
+void AppendHole(const HolePlan& hole, const Surface& covering, const Lighting& lighting, double most_light,
+                Mesh& mesh) {
+  const Eigen::Vector2d half(hole.length_m / 2, hole.width_m / 2), middle(hole.x_m, hole.y_m);
+  AppendLevel({middle - half, middle + half}, -hole.depth_m, covering, lighting, most_light, mesh);
+  Eigen::Isometry3d map_from_hole(Eigen::Translation3d(hole.x_m, hole.y_m, 0));
+  const Sides sides = BoxFaces(map_from_hole, {-half.x(), -half.y(), -hole.depth_m}, {half.x(), half.y(), 0});
+  for (std::size_t i = 0; i < 4; ++i) {
+    Face face = sides.faces[i];
+    face.origin += face.along;
+    face.along = -face.along;
+    Cover(face, covering);
+    AppendFace(face, lighting, most_light, mesh);
+  }
+}
+
 }  // namespace
 
 void AppendSolid(const Solid& solid, const Surface& surface, const Lighting& lighting, double most_light,
@@ -135,11 +160,13 @@ void AppendSolid(const Solid& solid, const Surface& surface, const Lighting& lig
 
 void AppendRoom(const SceneConfig& config, const Textures& textures, const Lighting& lighting,
                 double most_light, Mesh& mesh) {
+  const Surface covering = textures.Find(config.floor, "floor");
+  const FloorPiece whole{{config.x_min_m, config.y_min_m}, {config.x_max_m, config.y_max_m}};
+  for (const FloorPiece& piece : FloorAround(config.holes, whole))
+    AppendLevel(piece, 0, covering, lighting, most_light, mesh);
+  for (const HolePlan& hole : config.holes) AppendHole(hole, covering, lighting, most_light, mesh);
   const Vector3d x(config.x_max_m - config.x_min_m, 0, 0), y(0, config.y_max_m - config.y_min_m, 0);
   const Vector3d corner(config.x_min_m, config.y_min_m, 0);
-  Face floor{corner, x, y, 0, 0, 0, 0, 0};
-  Cover(floor, textures.Find(config.floor, "floor"));
-  AppendFace(floor, lighting, most_light, mesh);
   Face ceiling{corner + y + Vector3d(0, 0, config.ceiling_m), x, -y, 0, 0, 0, 0, 0};
   Cover(ceiling, textures.Find("ceiling", "ceiling"));
   AppendFace(ceiling, lighting, most_light, mesh);

@@ -30,6 +30,8 @@ Viewpoint Between(const Viewpoint& a, const Viewpoint& b, double t) {
     v.head.zoom_step[i] = mix(a.head.zoom_step[i], b.head.zoom_step[i]);
     v.head.focus_step[i] = mix(a.head.focus_step[i], b.head.focus_step[i]);
   }
+  v.head.lean = {mix(a.head.lean.pitch_rad, b.head.lean.pitch_rad),
+                 mix(a.head.lean.roll_rad, b.head.lean.roll_rad)};
   return v;
 }
 
@@ -67,15 +69,17 @@ class Renderer::Impl {
   }
 
   void MoveSolid(const std::string& name, const Pose2& map_from_solid) {
-    for (std::size_t i = 0; i < solids_.size(); ++i) {
-      if (solids_[i].name != name) continue;
-      solids_[i].map_from_solid = map_from_solid;
-      lighting_ = std::make_unique<Lighting>(config_.scene, solids_);
-      parts_[i] = Part(solids_[i]);
-      Upload();
-      return;
-    }
+    for (std::size_t i = 0; i < solids_.size(); ++i)
+      if (solids_[i].name == name) return MoveSolids({{i, map_from_solid}});
     throw std::invalid_argument("no solid named \"" + name + "\"");
+  }
+
+  void MoveSolids(const std::vector<MovedSolid>& moved) {
+    if (moved.empty()) return;
+    for (const auto& [solid, pose] : moved) solids_.at(solid).map_from_solid = pose;
+    lighting_ = std::make_unique<Lighting>(config_.scene, solids_);
+    for (const MovedSolid& m : moved) parts_[m.solid] = Part(solids_[m.solid]);
+    Upload();
   }
 
   void PlaceReference(const std::optional<PlacedReference>& reference) {
@@ -85,13 +89,15 @@ class Renderer::Impl {
 
   GreyImage Expose(Camera camera, const Viewpoint& opening, const Viewpoint& closing,
                    const Exposure& exposure, Rng& rng) {
+    MoveSolids(closing.moved);
     const Viewpoint middle = Between(opening, closing, 0.5);
     const TrueCamera middle_camera = CameraAt(config_.head, camera, middle.head);
     const Eigen::Isometry3d map_from_camera = Lift(middle.map_from_base) * middle_camera.base_from_camera;
     scene_.SortFrom(map_from_camera.translation());
     Collect(camera, opening, closing, exposure);
-    const double defocus = config_.imaging.defocus_px * middle_camera.focal_px / 1000 *
-                           (middle_camera.focus_dioptre - SceneDioptre(map_from_camera));
+    const double defocus =
+        config_.imaging.defocus_px * middle_camera.focal_px / 1000 *
+        (middle_camera.focus_dioptre + exposure.defocus_dioptre - SceneDioptre(map_from_camera));
     return FormImage(config_.imaging, middle_camera, defocus, light_, exposure, rng);
   }
 
@@ -100,6 +106,7 @@ class Renderer::Impl {
  private:
   Mesh Part(const Solid& solid) const {
     Mesh mesh;
+    if (IsGlass(solid.material)) return mesh;
     AppendSolid(solid, textures_->Find(solid.material, solid.name), *lighting_, kMostLight, mesh);
     return mesh;
   }

@@ -11,6 +11,7 @@
 #include "world/core/camera/imaging.hpp"
 #include "world/core/camera/optics.hpp"
 #include "world/core/render/laser.hpp"
+#include "world/core/scene/moved_solid.hpp"
 #include "world/core/scene/placed_reference.hpp"
 #include "world/core/scene/scene.hpp"
 #include "world/core/scene/solid.hpp"
@@ -31,6 +32,7 @@ struct RendererConfig {
 struct Viewpoint {
   Pose2 map_from_base;
   HeadAxes head;
+  std::vector<MovedSolid> moved{};  ///< where the solids are that move by themselves
 };
 
 /// Draws the world as the three cameras see it. To be used and destroyed in the thread that made it, whose
@@ -53,7 +55,8 @@ class Renderer {
   void PlaceReference(const std::optional<PlacedReference>& reference);
 
   /// One picture of kImageWidth_px x kImageHeight_px, exposed while base and head move evenly from `opening`
-  /// to `closing`. The same arguments give the same bytes; `rng` draws the noise.
+  /// to `closing`; solids that move by themselves stand where they are when it closes. The same arguments
+  /// give the same bytes; `rng` draws the noise.
   GreyImage Expose(Camera camera, const Viewpoint& opening, const Viewpoint& closing,
                    const Exposure& exposure, Rng& rng);
 

@@ -14,6 +14,7 @@ namespace priamos::world {
 namespace {
 
 constexpr int kPosters = 16;
+constexpr double kMirrorGrey = 0.30;  // a room is darker than its white walls
 
 /// Smooth noise with `cells_x` by `cells_y` bumps, mean 0, about +-1, seamless.
 cv::Mat Noise(Rng& rng, int cells_x, int cells_y) {
@@ -89,6 +90,8 @@ Textures::Textures(std::uint64_t seed) {
   first_poster_ = static_cast<int>(layers_.size());
   posters_ = kPosters;
   for (int i = 0; i < kPosters; ++i) Add(PosterPicture(rng));
+  Rng smears = Rng::Stream(seed, "mirror");
+  mirror_ = Add(Covered(smears, {.albedo = kMirrorGrey, .coarse = 0.01, .middle = 0.004, .fine = 0.004}));
 }
 
 int Textures::Add(const cv::Mat& layer) {
@@ -111,6 +114,8 @@ Surface Textures::Find(const std::string& material, const std::string& solid_nam
     const int choice = static_cast<int>(Rng::Stream(0, solid_name).Below(posters_));
     return {first_poster_ + choice, 1, true, index("plaster"), false};
   }
+  // Nobody draws the glass.
+  if (IsMirror(material) || IsGlass(material)) return {mirror_, 1, false, mirror_, false};
   if (material == "door_leaf") return {layer, 1, true, index("furniture"), true};
   if (material == "cupboard") return {layer, 1, true, index("furniture"), false};
   const bool large = material == "tiles" || material == "ceiling" || material == "plaster";

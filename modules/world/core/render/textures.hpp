@@ -30,7 +30,7 @@ class Textures {
   int Add(const cv::Mat& layer);
 
   std::vector<cv::Mat> layers_;
-  int first_poster_ = 0, posters_ = 0;
+  int first_poster_ = 0, posters_ = 0, mirror_ = 0;
 };
 
 }  // namespace priamos::world

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "common/ground_plan.hpp"
@@ -16,5 +17,8 @@ std::vector<Solid> BuildSolids(const GroundPlan& map, const WorldPlan& plan, std
 
 /// Frame, leaf and threshold of one door, from its landmark frame. Names begin with the door's name.
 std::vector<Solid> DoorSolids(const DoorPlan& built, const DoorWork& work, double open_deg);
+
+/// Name of the solid that is a door's leaf.
+std::string LeafName(const DoorPlan& door);
 
 }  // namespace priamos::world

@@ -38,12 +38,15 @@ void AddFrame(std::vector<Solid>& solids, const DoorPlan& door) {
 
 Solid Leaf(const DoorPlan& door, const DoorWork& work, double open_deg) {
   const LeafShape leaf = LeafOf(door, work.hinge, open_deg, work.leaf_thickness_m);
-  return {door.name + ": leaf", door.map_from_door() * leaf.door_from_leaf,
-          leaf.size_m,          leaf.z_min_m,
-          leaf.z_max_m,         "door_leaf"};
+  return {LeafName(door), door.map_from_door() * leaf.door_from_leaf, leaf.size_m, leaf.z_min_m, leaf.z_max_m,
+          "door_leaf"};
 }
 
 }  // namespace
+
+std::string LeafName(const DoorPlan& door) {
+  return door.name + ": leaf";
+}
 
 std::vector<Solid> DoorSolids(const DoorPlan& built, const DoorWork& work, double open_deg) {
   std::vector<Solid> solids;

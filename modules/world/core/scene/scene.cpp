@@ -4,9 +4,17 @@ namespace priamos::world {
 
 const std::vector<std::string>& MaterialNames() {
   static const std::vector<std::string> kNames = {
-      "plaster", "concrete", "wood",      "door_frame", "door_leaf", "skirting",  "lino",   "tiles",
-      "carpet",  "ceiling",  "furniture", "cupboard",   "metal",     "cardboard", "fabric", "poster"};
+      "plaster", "concrete",  "wood",     "door_frame", "door_leaf", "skirting", "lino",   "tiles", "carpet",
+      "ceiling", "furniture", "cupboard", "metal",      "cardboard", "fabric",   "poster", "glass", "mirror"};
   return kNames;
+}
+
+bool IsGlass(const std::string& material) {
+  return material == "glass";
+}
+
+bool IsMirror(const std::string& material) {
+  return material == "mirror";
 }
 
 void SceneConfig::Describe(Archive& a) {

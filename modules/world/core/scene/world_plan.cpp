@@ -27,6 +27,7 @@ void DoorWork::Describe(Archive& a) {
            {"m", -0.1, 0.1, "how far the frame stands before the wall, against the map"});
   a.Number("built_dthickness_m", built_dthickness_m,
            {"m", -0.1, 0.1, "true thickness of the wall at the door against the map"});
+  a.List("swings", swings, "how somebody moves the leaf while the robot is there");
 }
 
 void BoxPlan::Describe(Archive& a) {
@@ -129,6 +130,12 @@ void WorldPlan::Describe(Archive& a) {
   a.Section("light", light, "room and light");
   a.Section("start", start, "where the robot starts");
   a.Section("reference", reference, "the calibration body");
+  a.Section("grid", grid, "walls from a map of ROS' map_server, beside those of the ground plan");
+  a.List("people", people, "who walks and stands there");
+  a.List("holes", holes, "pits, and edges where the floor is lower");
+  a.Section("cameras", cameras, "how the cameras differ from each other and from what was calibrated");
+  a.Section("mast", mast, "how the mast below the head nods");
+  a.Section("faults", faults, "what breaks");
 }
 
 SceneConfig DrawLight(const WorldPlan& plan, std::uint64_t seed) {
@@ -136,6 +143,7 @@ SceneConfig DrawLight(const WorldPlan& plan, std::uint64_t seed) {
   SceneConfig light = plan.light;
   light.brightness *= 1 + rng.Uniform(-plan.brightness_spread, plan.brightness_spread);
   light.window_yaw_deg += rng.Uniform(-plan.window_spread_deg, plan.window_spread_deg);
+  light.holes = plan.holes;
   return light;
 }
 

@@ -6,6 +6,12 @@
 
 #include "common/archive.hpp"
 #include "common/ground_plan.hpp"
+#include "world/core/scene/camera_quirks.hpp"
+#include "world/core/scene/device_faults.hpp"
+#include "world/core/scene/holes.hpp"
+#include "world/core/scene/leaf_swing.hpp"
+#include "world/core/scene/occupancy_grid.hpp"
+#include "world/core/scene/person_plan.hpp"
 #include "world/core/scene/placed_reference.hpp"
 #include "world/core/scene/scene.hpp"
 #include "world/core/scene/solid.hpp"
@@ -21,6 +27,7 @@ struct DoorWork {
   double open_spread_deg = 0;
   double leaf_thickness_m = 0.04;
   double threshold_m = 0.008;
+  std::vector<LeafSwing> swings{};  ///< how somebody moves the leaf
   double built_dx_m = 0, built_dy_m = 0, built_dyaw_deg = 0, built_dwidth_m = 0;
   double built_dheight_m = 0, built_dframe_m = 0, built_dprotrusion_m = 0, built_dthickness_m = 0;
 
@@ -112,6 +119,12 @@ struct WorldPlan {
   double camera_light = 0;
   StartPlan start;
   ReferencePlan reference;
+  GridPlan grid;
+  std::vector<PersonPlan> people;
+  std::vector<HolePlan> holes;
+  CameraQuirksPlan cameras;
+  MastPlan mast;
+  FaultsPlan faults;
 
   void Describe(Archive& a);
 };

@@ -21,33 +21,43 @@ std::vector<EchoMaterial> EchoMaterial::Defaults() {
   return {{"plaster", 12, -50, 1},    {"concrete", 12, -38, 1},  {"wood", 10, -48, 1},
           {"door_frame", 10, -60, 1}, {"door_leaf", 10, -55, 1}, {"furniture", 10, -48, 1},
           {"cupboard", 10, -48, 1},   {"metal", 10, -60, 1},     {"cardboard", 14, -32, 3},
-          {"poster", 10, -55, 2},     {"carpet", 20, -22, 12},   {"fabric", 20, -18, 15}};
+          {"poster", 10, -55, 2},     {"glass", 10, -60, 1},     {"mirror", 10, -60, 1},
+          {"carpet", 20, -22, 12},    {"fabric", 20, -18, 15}};
 }
 
 AcousticScene::AcousticScene(const std::vector<Solid>& solids, double height_m, double half_band_m,
                              const std::vector<EchoMaterial>& materials)
     : materials_(materials) {
   if (materials_.empty()) materials_.push_back(EchoMaterial{});
-  for (const auto& solid : solids) {
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const Solid& solid = solids[i];
     if (!Overlaps(solid, height_m - half_band_m, height_m + half_band_m)) continue;
     const auto known = std::find_if(materials_.begin(), materials_.end(),
                                     [&](const EchoMaterial& m) { return m.material == solid.material; });
     const auto index = known == materials_.end() ? 0 : static_cast<std::size_t>(known - materials_.begin());
     const Rectangle outline = OutlineOf(solid);
-    obstacles_.push_back({outline, RayTarget(outline), index});
+    obstacles_.push_back({outline, RayTarget(outline), index, i});
   }
-  FindEdges();
+  for (const auto& obstacle : obstacles_) FindEdges(obstacle);
 }
 
-void AcousticScene::FindEdges() {
-  for (const auto& obstacle : obstacles_) {
-    for (const auto& corner : obstacle.outline.Corners()) {
-      const bool covered = std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& other) {
-        return &other != &obstacle && Distance(other.outline, corner) < kJoint_m;
-      });
-      if (!covered) edges_.push_back({corner});
-    }
+void AcousticScene::FindEdges(const Obstacle& obstacle) {
+  for (const auto& corner : obstacle.outline.Corners()) {
+    const bool covered = std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& other) {
+      return &other != &obstacle && Distance(other.outline, corner) < kJoint_m;
+    });
+    if (!covered) edges_.push_back({corner, obstacle.solid});
   }
+}
+
+void AcousticScene::Move(const MovedSolid& moved) {
+  const auto it = std::find_if(obstacles_.begin(), obstacles_.end(),
+                               [&](const Obstacle& obstacle) { return obstacle.solid == moved.solid; });
+  if (it == obstacles_.end()) return;  // at another height
+  it->outline.map_from_centre = moved.map_from_solid;
+  it->target = RayTarget(it->outline);
+  std::erase_if(edges_, [&](const AcousticEdge& edge) { return edge.solid == moved.solid; });
+  FindEdges(*it);
 }
 
 std::optional<AcousticScene::Hit> AcousticScene::Nearest(const Eigen::Vector2d& origin,

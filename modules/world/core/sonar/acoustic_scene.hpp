@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/archive.hpp"
+#include "world/core/scene/moved_solid.hpp"
 #include "world/core/scene/outline.hpp"
 #include "world/core/scene/solid.hpp"
 
@@ -26,6 +27,7 @@ struct EchoMaterial {
 /// A vertical edge of a solid that sound can reach.
 struct AcousticEdge {
   Eigen::Vector2d point;
+  std::size_t solid = 0;  ///< whose it is: its place in the list of solids
 };
 
 /// The solids as sound at one height meets them.
@@ -47,14 +49,17 @@ class AcousticScene {
   /// Convex edges that no other solid covers.
   const std::vector<AcousticEdge>& edges() const { return edges_; }
   bool Visible(const Eigen::Vector2d& from, const Eigen::Vector2d& point) const;
+  /// A solid is elsewhere now. Which edges of others it covers stays as it was.
+  void Move(const MovedSolid& moved);
 
  private:
   struct Obstacle {
     Rectangle outline;
     RayTarget target;
     std::size_t material;
+    std::size_t solid;
   };
-  void FindEdges();
+  void FindEdges(const Obstacle& obstacle);
 
   std::vector<EchoMaterial> materials_;
   std::vector<Obstacle> obstacles_;

@@ -33,7 +33,7 @@ SonarRing::SonarRing(const SonarConfig& config, const Eigen::Vector2d& footprint
 void SonarRing::Fire(int group, const Pose2& map_from_base) {
   std::vector<std::optional<Echo>> echoes;
   for (int i = group; i < kSonars; i += config_.groups) {
-    const double threshold_db = -config_.sensitivity_db + rng_.Normal(config_.fading_db);
+    const double threshold_db = -config_.sensitivity_db + DeafnessDb(i) + rng_.Normal(config_.fading_db);
     echoes.push_back(Ping(scene_, config_, map_from_base * BaseFromSonar(i, footprint_m_), threshold_db));
   }
   for (int i = group, k = 0; i < kSonars; i += config_.groups, ++k) {
@@ -43,8 +43,21 @@ void SonarRing::Fire(int group, const Pose2& map_from_base) {
       const auto overheard = Overheard(map_from_base * BaseFromSonar(i, footprint_m_), echoes, k);
       if (overheard && (!range_m || *overheard < *range_m)) range_m = overheard;
     }
-    ranges_m_[static_cast<std::size_t>(i)] = Measured(range_m);
+    const double measured = Measured(range_m);
+    if (!Has(i, "stuck")) ranges_m_[static_cast<std::size_t>(i)] = Has(i, "dead") ? kNoEcho : measured;
   }
+}
+
+bool SonarRing::Has(int sensor, std::string_view kind) const {
+  return std::any_of(faults_.begin(), faults_.end(),
+                     [&](const SonarFault& f) { return f.sensor == sensor + 1 && f.kind == kind; });
+}
+
+double SonarRing::DeafnessDb(int sensor) const {
+  double db = 0;
+  for (const SonarFault& fault : faults_)
+    if (fault.sensor == sensor + 1 && fault.kind == "deaf") db += fault.deaf_db;
+  return db;
 }
 
 /// Sound of another sensor of the group that comes in over that sensor's reflector: the path out is that of

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "common/archive.hpp"
@@ -9,6 +10,7 @@
 #include "common/random.hpp"
 #include "common/sonar_ring.hpp"
 #include "common/time.hpp"
+#include "world/core/scene/device_faults.hpp"
 #include "world/core/sonar/acoustic_scene.hpp"
 
 namespace priamos::world {
@@ -54,8 +56,12 @@ class SonarRing {
 
   int groups() const { return config_.groups; }
   Duration GroupPeriod() const { return FromSeconds(config_.cycle_s) / config_.groups; }
+  /// From now on a sensor is broken.
+  void Break(const SonarFault& fault) { faults_.push_back(fault); }
   /// Fires one group with the base at `map_from_base`.
   void Fire(int group, const Pose2& map_from_base);
+  /// A solid is elsewhere now.
+  void Move(const MovedSolid& moved) { scene_.Move(moved); }
   /// Newest distance of each sensor [m], rounded to 1 cm, from 0.1 to 5, kNoEcho when none came.
   const std::array<double, kSonars>& ranges_m() const { return ranges_m_; }
 
@@ -63,6 +69,8 @@ class SonarRing {
   std::optional<double> Overheard(const Pose2& map_from_sonar, const std::vector<std::optional<Echo>>& echoes,
                                   int own);
   double Measured(const std::optional<double>& range_m);
+  bool Has(int sensor, std::string_view kind) const;
+  double DeafnessDb(int sensor) const;
 
   SonarConfig config_;
   Eigen::Vector2d footprint_m_;
@@ -70,6 +78,7 @@ class SonarRing {
   Rng rng_;
   double sound_speed_ratio_;
   std::array<double, kSonars> ranges_m_;
+  std::vector<SonarFault> faults_;
 };
 
 }  // namespace priamos::world

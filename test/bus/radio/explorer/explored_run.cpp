@@ -78,6 +78,7 @@ void ExploredRun::Fail(End& end, Accident accident) {
   if (accident == Accident::kPowerLost || accident == Accident::kPowerLostLate)
     end.store.LosePower(accident == Accident::kPowerLostLate);
   if (accident == Accident::kEmptied) end.store.LoseEverything();
+  if (accident == Accident::kPutBack) end.store.PutBack();
   if (accident != Accident::kStopped && accident != Accident::kKilled) promises_.OnMemoryLost();
   Start(end);
 }

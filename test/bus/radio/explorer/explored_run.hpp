@@ -27,12 +27,14 @@ enum class Accident {
   kStopped,        ///< it ends in order and is started again
   kPowerLost,      ///< the machine is started again with what the disk held
   kPowerLostLate,  ///< the same, with what was just being written
-  kEmptied         ///< it is started with an empty disk
+  kEmptied,        ///< it is started with an empty disk
+  kPutBack         ///< it is started with an older state that somebody kept, which the store notices
 };
 inline constexpr Accident kFrameAccidents[] = {Accident::kLost, Accident::kTwice, Accident::kLate,
                                                Accident::kVeryLate};
-inline constexpr Accident kEndAccidents[] = {Accident::kKilled, Accident::kStopped, Accident::kPowerLost,
-                                             Accident::kPowerLostLate, Accident::kEmptied};
+inline constexpr Accident kEndAccidents[] = {Accident::kKilled,    Accident::kStopped,
+                                             Accident::kPowerLost, Accident::kPowerLostLate,
+                                             Accident::kEmptied,   Accident::kPutBack};
 
 /// A place in a run at which an accident can happen.
 enum class PlaceKind { kFrame, kEnd };

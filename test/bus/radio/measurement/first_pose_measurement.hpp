@@ -8,10 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/own_types.hpp"
-#include "bus/radio/link_config.hpp"
-#include "common/config.hpp"
-#include "numbered_message.hpp"
+#include "shipped_link.hpp"
 
 namespace priamos::bus::radio {
 
@@ -31,13 +28,7 @@ class FirstPoseRun {
  public:
   FirstPoseRun(std::uint64_t seed, bool up, bool down, double load)
       : up_dark_(up), down_dark_(down), load_(load), rng_(Rng::Stream(seed, "first pose")), pair_({}, seed) {
-    const auto config = LoadConfig<LinkConfig>(std::string(PRIAMOS_SOURCE_DIR) + "/config/sim/link.toml");
-    for (LinkPair::End* end : {&pair_.onboard, &pair_.offboard}) {
-      end->options = config.Options();
-      end->channels = InWholeBytes(config.Table(OwnTypes()).channels());
-      end->store.Lose();
-      pair_.Start(*end);
-    }
+    UseShippedLink(pair_);
     pair_.each_step = [this] { Step(); };
     pair_.line_cut = [this](bool up_line) { return Dark() && (up_line ? up_dark_ : down_dark_); };
   }
@@ -48,15 +39,6 @@ class FirstPoseRun {
   }
 
  private:
-  /// The pair packs a message as its bytes; differences would need its bits.
-  static std::vector<LinkChannel> InWholeBytes(std::vector<LinkChannel> channels) {
-    for (LinkChannel& c : channels) {
-      c.max_bits = (c.max_bits + 7) / 8 * 8;
-      if (c.fixed_bits > 0) c.fixed_bits = c.max_bits;
-      c.delta.clear();
-    }
-    return channels;
-  }
   double now_s() const { return Seconds(pair_.now - start_); }
   bool Dark() const { return now_s() >= from_s_ && now_s() < to_s_; }
 

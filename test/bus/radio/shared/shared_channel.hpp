@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -70,18 +71,14 @@ class SharedWorld {
   LinkEndpoint* robot(std::size_t i) { return robots_[i].link.get(); }
   LinkEndpoint& at_station(std::size_t i) { return *at_station_[i].link; }
 
+  /// Lets the process of a robot, or of the station (kStationStalls), stand still from now on.
+  void Stall(std::size_t robot, Duration length) { stalled_until_[robot] = now + length; }
+
   void StepOnce() {
     now += Duration(1000);
-    air.Write(0, station_->Step(now), now);
-    station_->Receive(air.Read(0, now), now, [&](std::size_t robot, Delivery d) {
-      up.push_back({now, robot, std::move(d)});
-    });
-    for (std::size_t i = 0; i < robots_.size(); ++i) {
-      const std::vector<std::byte> heard = air.Read(i + 1, now);
-      if (!robots_[i].link) continue;
-      air.Write(i + 1, robots_[i].link->Step(now), now);
-      for (Delivery& d : robots_[i].link->Receive(heard, now)) down.push_back({now, i, std::move(d)});
-    }
+    if (now >= stalled_until_[kStationStalls]) StepStation();
+    for (std::size_t i = 0; i < robots_.size(); ++i)
+      if (now >= stalled_until_[i]) StepRobot(i);
   }
   void Run(double seconds, const std::function<void()>& each = {}) {
     for (const Time end = now + FromSeconds(seconds); now < end;) {
@@ -95,7 +92,24 @@ class SharedWorld {
   SharedLine air;
   std::vector<Received> up, down;
 
+  static constexpr std::size_t kStationStalls = 8;
+
  private:
+  void StepStation() {
+    air.Write(0, station_->Step(now), now);
+    station_->Receive(air.Read(0, now), now, [&](std::size_t robot, Delivery d) {
+      up.push_back({now, robot, std::move(d)});
+    });
+    station_->OnLook(now);
+  }
+  void StepRobot(std::size_t i) {
+    const std::vector<std::byte> heard = air.Read(i + 1, now);
+    if (!robots_[i].link) return;
+    LinkEndpoint& link = *robots_[i].link;
+    air.Write(i + 1, link.Step(now), now);
+    for (Delivery& d : link.Receive(heard, now)) down.push_back({now, i, std::move(d)});
+    link.OnLook(now);
+  }
   void Start(End& end, Direction outgoing, std::size_t robot) {
     LinkOptions own = options;
     own.address = static_cast<std::uint8_t>(robot + 1);
@@ -116,6 +130,7 @@ class SharedWorld {
 
   std::vector<End> robots_, at_station_;
   std::optional<Station> station_;
+  std::array<Time, kStationStalls + 1> stalled_until_{};
   Rng nonces_;
 };
 

@@ -84,6 +84,19 @@ TEST_F(LogExport, McapBeginsAndEndsWithItsMagic) {
   EXPECT_TRUE(bytes.ends_with(magic));
 }
 
+TEST_F(LogExport, AnMcapHasTheRobotAsThePanelsDrawItToo) {
+  const std::string out = folder_ / "run.mcap", map = folder_ / "map.toml";
+  std::ofstream(map) << "[[walls]]\nname = \"north\"\nfrom_m = [0.0, 0.0]\nto_m = [2.0, 0.0]\n";
+  EXPECT_EQ(Priamos({"log", "export", log_, "mcap", "--out", out, "--map", map}).exit_code, 0);
+  const std::string bytes = FileContent(out);
+  for (const char* drawn :
+       {"/tf", "foxglove.FrameTransform", "/scene/robot", "/scene/plan", "foxglove.SceneUpdate",
+        R"("child_frame_id":"base","translation":{"x":2.0)", R"("id":"plan")"})
+    EXPECT_THAT(bytes, HasSubstr(drawn));
+  EXPECT_EQ(Priamos({"log", "export", log_, "mcap", "--out", out, "--plain", "--force"}).exit_code, 0);
+  EXPECT_THAT(FileContent(out), testing::Not(HasSubstr("foxglove")));
+}
+
 TEST_F(LogExport, ALogOfUnknownTypesNamesTheOptionThatBringsThem) {
   const std::string foreign = folder_ / "foreign.lcmlog";
   MessageLog(foreign).AddBytes(0, "FOREIGN", std::vector<std::byte>(12, std::byte{7}));

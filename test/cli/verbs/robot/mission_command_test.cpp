@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "lcmtypes/channels.hpp"
@@ -47,7 +48,8 @@ TEST_F(MissionCommand, StatusUntilTheEndTellsEveryPhaseOnce) {
   EXPECT_EQ(answer.exit_code, 0);
   const auto lines = LinesOf(answer.out);
   ASSERT_EQ(lines.size(), 3u);
-  EXPECT_EQ(json::parse(lines[1]), json({{"phase", "PASSING"}, {"text", "passing"}}));
+  EXPECT_EQ(json::parse(lines[1]).at("phase"), "PASSING");
+  EXPECT_EQ(json::parse(lines[1]).at("text"), "passing");
   EXPECT_EQ(json::parse(lines[2]).at("phase"), "DONE");
 }
 
@@ -56,20 +58,66 @@ TEST_F(MissionCommand, AFailedMissionIsExitCodeOne) {
   EXPECT_EQ(Ask({"status"}).exit_code, 1);
 }
 
-TEST_F(MissionCommand, AnOrderBehindARunningMissionIsRefusedInWords) {
-  Say(mission_status_t::PASSING, "passing the door");
-  const auto answer = Ask({"door", "laboratory"});
+TEST_F(MissionCommand, NothingIsPausedCancelledOrResumedWhereNothingRuns) {
+  Say(mission_status_t::DONE, "through");
+  EXPECT_EQ(Ask({"pause"}).err, "priamos mission pause: refused: no mission is under way\n");
+  EXPECT_EQ(Ask({"resume"}).err, "priamos mission resume: refused: nothing is paused\n");
+  const auto answer = Ask({"cancel", "12", "--json"});
   EXPECT_EQ(answer.exit_code, 1);
-  EXPECT_EQ(answer.out, "");
-  EXPECT_EQ(answer.err, "priamos mission door: refused: a mission is under way: passing the door\n");
+  EXPECT_EQ(json::parse(answer.out), json({{"order", "cancel"},
+                                           {"id", 12},
+                                           {"outcome", "refused"},
+                                           {"text", "no order 12 is under way or waits"}}));
 }
 
-TEST_F(MissionCommand, TheRefusalAsJson) {
-  Say(mission_status_t::PASSING, "passing the door");
-  const auto answer = Ask({"door", "1", "--json"});
-  EXPECT_EQ(json::parse(answer.out), json({{"order", "door"},
-                                           {"outcome", "refused"},
-                                           {"text", "a mission is under way: passing the door"}}));
+TEST_F(MissionCommand, TheListShowsWhatRunsWaitsAndHasEnded) {
+  mission_status_t status{};
+  status.phase = mission_status_t::DRIVING;
+  status.text = "driving";
+  status.title = "round";
+  status.order_id = 12;
+  status.running = true;
+  status.step = 2;
+  status.n_steps = 5;
+  status.rounds = 1;
+  status.left_s = 42;
+  status.waiting.resize(1);
+  status.waiting[0].order_id = 13;
+  status.waiting[0].title = "door 'laboratory'";
+  status.n_waiting = 1;
+  status.results.resize(2);
+  status.results[0].order_id = 12;
+  status.results[0].step = 1;
+  status.results[1].order_id = 11;
+  status.results[1].outcome = mission_result_t::FAILED;
+  status.results[1].took_s = 8;
+  status.results[1].text = "blocked";
+  status.n_results = 2;
+  log_.Add(0, "MISSION_STATUS", status);
+  EXPECT_EQ(Ask({"list"}).out,
+            "   12  under way  round: driving, step 2 of 5, 42 s left\n"
+            "   13  waits      door 'laboratory'\n"
+            "   11  failed     blocked (8 s)\n");
+  const auto lines = LinesOf(Ask({"list", "--json"}).out);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(json::parse(lines[0]).at("left_s"), 42);
+  EXPECT_EQ(json::parse(lines[1]).at("outcome"), "waits");
+  EXPECT_EQ(json::parse(lines[2]).at("step"), 1);
+}
+
+TEST_F(MissionCommand, AFileIsCheckedBeforeAnythingIsSaid) {
+  const std::string file = (folder_ / "round.toml").string();
+  std::ofstream(file) << "[[step]]\ndo = \"goto\"\nx_m = 4.0\ny_m = 0.2\n";
+  const auto answer = Ask({"run", file});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("round.toml:1: the goal (4.00, 0.20) is 0.20 m from wall 'south'"));
+}
+
+TEST_F(MissionCommand, APlaceOfAPatrolHasTwoNumbers) {
+  Say(mission_status_t::DONE, "through");
+  const auto answer = Ask({"patrol", "1", "2", "3"});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("expected x and y of each place, got 3 numbers"));
 }
 
 TEST_F(MissionCommand, AnUnknownDoorIsRefusedBeforeAnythingIsSaid) {
@@ -95,7 +143,8 @@ TEST_F(MissionCommand, ADoorHasToBeNamed) {
 TEST_F(MissionCommand, WithoutAVerbTheyAreNamed) {
   const auto answer = Priamos({"mission"});
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("expected a verb, got none; one of abort, door, goto, status"));
+  EXPECT_THAT(answer.err, HasSubstr("expected a verb, got none; one of abort, cancel, door, goto, list, "
+                                    "patrol, pause, resume, run, status"));
 }
 
 }  // namespace

@@ -15,6 +15,10 @@ class FakeRobot {
  public:
   FakeRobot(MissionTable& mission, const Pose2& truth) : mission_(mission), truth_(truth) {}
 
+  /// One time step of what drives it, and whether that is under way: the missions alone, or what orders them.
+  std::function<MissionActions(Time)> tick = [this](Time now) { return mission_.Tick(now); };
+  std::function<bool()> running = [this] { return mission_.running(); };
+
   Duration delay = std::chrono::milliseconds(200);
   Duration look_time = std::chrono::milliseconds(700);
   /// Error of the believed pose, in the base frame, until a fix takes it away.
@@ -40,14 +44,14 @@ class FakeRobot {
     AnswerLooks();
     if (++ticks_ % 5 == 0) Report();
     Deliver();
-    const MissionActions actions = mission_.Tick(now_);
+    const MissionActions actions = tick(now_);
     if (silent) return;
     if (actions.model) ++models_received;
     if (actions.path) Later([this, path = *actions.path] { OnPath(path); });
     if (actions.look) Later([this, look = *actions.look] { looks_.push_back({look, now_ + look_time}); });
   }
   void RunFor(double seconds) {
-    for (const Time end = now_ + FromSeconds(seconds); now_ < end && mission_.running();) Step();
+    for (const Time end = now_ + FromSeconds(seconds); now_ < end && running();) Step();
   }
   void RunUntil(Phase phase, double limit_s = 60) {
     for (const Time end = now_ + FromSeconds(limit_s); now_ < end && mission_.state().phase != phase;) Step();
@@ -108,7 +112,7 @@ class FakeRobot {
     const Pose2 before = map_from_door.Inverse() * truth_;
     truth_ = truth_ * error * velocity_ * error.Inverse();
     const Pose2 after = map_from_door.Inverse() * truth_;
-    if (!deaf && before.x < 0 && after.x >= 0 && std::abs(after.y) < 0.5)
+    if (!deaf && (before.x < 0) != (after.x < 0) && std::abs(after.y) < 0.5)
       Later([this, opening = PassedOpening{now_, Believed(), 0.95}] { mission_.OnOpening(opening); });
     if (good_looks_ < 2) nearest_before_fix_m = std::min(nearest_before_fix_m, 6.0 - truth_.x);
   }

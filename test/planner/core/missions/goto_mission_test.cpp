@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fake_robot.hpp"
+#include "test/planner/core/learned.hpp"
 #include "test/planner/core/plans.hpp"
 
 namespace priamos::planner {
@@ -72,6 +73,39 @@ TEST(GotoMissionTest, ABoxOnTheWayIsPutOnTheMapAndAnotherWayIsDriven) {
   EXPECT_GE(s.robot.paths[1].points.size(), 3u) << "around it";
   s.robot.RunFor(60);
   EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
+TEST(GotoMissionTest, AWallThatTurnsUpAcrossThePathIsDrivenAround) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(1.5);
+  auto learned = std::make_shared<LearnedWalls>();
+  learned->walls = {WallAt(3, 0.06, 0, 3)};
+  s.dut.OnLearned(learned);
+  s.robot.RunFor(1);
+  EXPECT_EQ(s.robot.paths.size(), 1u) << "a wall that is on the plan changes nothing";
+  learned = std::make_shared<LearnedWalls>(*learned);
+  learned->walls.push_back(WallAt(3.2, 2.4, 90, 1.2));
+  s.dut.OnLearned(learned);
+  s.robot.RunFor(1);
+  ASSERT_EQ(s.robot.paths.size(), 2u);
+  EXPECT_THAT(s.dut.state().text,
+              StartsWith("a wall that is not on the plan is in the way; another way: driving"));
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_EQ(s.robot.paths.size(), 2u) << "the same walls again are no news";
+}
+
+TEST(GotoMissionTest, AWallThatLeavesNoWayEndsNothing) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(1.5);
+  auto learned = std::make_shared<LearnedWalls>();
+  learned->walls = {WallAt(3.2, 2.4, 90, 4.7)};
+  s.dut.OnLearned(learned);
+  s.robot.RunFor(2);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDriving) << "the map may be wrong; the robot stops itself";
+  EXPECT_EQ(s.robot.paths.size(), 1u);
 }
 
 TEST(GotoMissionTest, WhoIsStoppedAtTheGoalIsThere) {

@@ -22,7 +22,8 @@ TEST(PoseKeeperTest, ADoorIsInSightFromItsFrontAtTheRightDistance) {
   EXPECT_FALSE(InSight({2.4, 2.4, 0})) << "too far";
   EXPECT_FALSE(InSight({5.0, 2.4, 0})) << "too near";
   EXPECT_FALSE(InSight({5.0, 4.2, 0})) << "at a slant";
-  EXPECT_FALSE(InSight({8.5, 2.4, kPi})) << "from behind";
+  ASSERT_TRUE(InSight({8.5, 2.4, kPi})) << "from behind it is another landmark";
+  EXPECT_EQ(InSight({8.5, 2.4, kPi})->id, ShippedPlan().doors[0].behind_id);
 }
 
 TEST(PoseKeeperTest, TheHeadTurnsSoFarAndNoFarther) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
+#include "test/planner/core/learned.hpp"
 #include "test/planner/core/plans.hpp"
 #include "test/support/generated_numbers.hpp"
 
@@ -42,6 +43,38 @@ TEST(RoutePlannerTest, WhereTheEasyMarginLeadsNowhereTheLeastOneDoes) {
   const auto path = PlannerOf(plan).Plan({1, 1, 0}, {{5, 1, 0}});
   ASSERT_TRUE(path) << path.reason();
   EXPECT_GE(path->min_gap_m, 0.1 - 1e-3);
+}
+
+TEST(RoutePlannerTest, AWallThatIsNotOnThePlanIsPlannedAround) {
+  RoutePlanner dut = PlannerOf(ShippedPlan());
+  const Pose2 start{1, 2.4, 0};
+  const Goal goal{{5, 2.4, 0}};
+  const auto before = dut.Plan(start, goal);
+  ASSERT_TRUE(before);
+  EXPECT_TRUE(dut.AreFree(start, before->points));
+  LearnedWalls learned;
+  learned.walls = {WallAt(3, 2.4, 90, 1.5)};
+  dut.Learn(learned, start);
+  EXPECT_FALSE(dut.AreFree(start, before->points));
+  const auto around = dut.Plan(start, goal);
+  ASSERT_TRUE(around) << around.reason();
+  EXPECT_GE(around->points.size(), 3u);
+  EXPECT_TRUE(dut.AreFree(start, around->points));
+  dut.Forget();
+  EXPECT_FALSE(dut.AreFree(start, before->points))
+      << "what was met on one mission is forgotten, walls are not";
+  dut.Learn({}, start);
+  EXPECT_TRUE(dut.AreFree(start, before->points));
+}
+
+TEST(RoutePlannerTest, NoWallIsWhereTheBaseStands) {
+  RoutePlanner dut = PlannerOf(ShippedPlan());
+  LearnedWalls learned;
+  learned.walls = {WallAt(1, 2.4, 90, 0.8)};
+  dut.Learn(learned, {1, 2.4, 0});
+  EXPECT_TRUE(dut.Plan({1, 2.4, 0}, {{5, 2.4, 0}}));
+  dut.Learn(learned, {3, 2.4, 0});
+  EXPECT_FALSE(dut.AreFree({3, 2.4, 0}, {{1, 2.4, 0}}));
 }
 
 TEST(RoutePlannerTest, CupboardsAreInTheWay) {

@@ -119,5 +119,38 @@ TEST(HeadBuild, IsConfigured) {
   EXPECT_THROW(ParseConfig<HeadBuild>("head.toml", "[left]\nkk = 0\n"), ConfigError);
 }
 
+TEST(TrueCamera, UndistortInvertsTheOtherFormsOfDistortionToo) {
+  Rng rng(8);
+  for (int i = 0; i < 2000; ++i) {
+    TrueCamera dut;
+    dut.k1 = rng.Uniform(-0.15, 0.1);
+    dut.k3 = rng.Uniform(-0.05, 0.1);
+    dut.p1 = rng.Uniform(-0.005, 0.005);
+    dut.p2 = rng.Uniform(-0.005, 0.005);
+    dut.focal_px = rng.Uniform(790, 1700);
+    const Vector2d seen(rng.Uniform(-1, 768), rng.Uniform(-1, 576));
+    EXPECT_LT((dut.Distort(dut.Undistort(seen)) - seen).norm(), 1e-6);
+  }
+}
+
+TEST(TrueCamera, TangentialDistortionMovesAPointAcrossItsRadius) {
+  TrueCamera dut;
+  dut.p1 = 0.002;
+  const Vector2d right = dut.centre_px + Vector2d(300, 0);
+  // p1 (r^2 + 2 y^2) f with r = 0.3
+  EXPECT_NEAR((dut.Distort(right) - right).y(), 0.002 * 0.09 * 1000, 1e-9);
+  EXPECT_NEAR((dut.Distort(right) - right).x(), 0, 1e-9);
+}
+
+TEST(CameraAt, AMastThatNodsTurnsTheCamerasAboutItsFoot) {
+  HeadAxes axes;
+  axes.lean.pitch_rad = 0.01;
+  const TrueCamera still = CameraAt(HeadBuild{}, kLeftCamera, {}),
+                   dut = CameraAt(HeadBuild{}, kLeftCamera, axes);
+  const Vector3d moved = dut.base_from_camera.translation() - still.base_from_camera.translation();
+  EXPECT_NEAR(moved.x(), 0.01 * (still.base_from_camera.translation().z() - 0.6), 1e-4);
+  EXPECT_NEAR(dut.base_from_camera.linear().col(2).z(), -0.01, 1e-4) << "looks down";
+}
+
 }  // namespace
 }  // namespace priamos::world

@@ -67,5 +67,38 @@ TEST(LaserLine, TrianglesFaceTheLight) {
   }
 }
 
+/// Whether any part of the line is near that place of the floor.
+bool Shines(const Mesh& mesh, double x, double y) {
+  for (const auto& t : mesh) {
+    const Vector3d p = Middle(t);
+    if (std::hypot(p.x() - x, p.y() - y) < 0.05 && std::abs(p.z()) < 0.01) return true;
+  }
+  return false;
+}
+
+TEST(LaserLine, GlassLetsItThroughAndAMirrorShowsNone) {
+  const Vector3d on_floor = Middle(Line({}).at(Line({}).size() / 2));
+  const auto pane = [](const std::string& material) {
+    return std::vector<Solid>{{"pane", {1.0, 0, 0}, {0.02, 4}, 0, 2, material}};
+  };
+  EXPECT_TRUE(Shines(Line(pane("glass")), on_floor.x(), on_floor.y()));
+  EXPECT_TRUE(Line(pane("mirror")).empty());
+  EXPECT_FALSE(Line(pane("plaster")).empty());
+}
+
+TEST(LaserLine, OverAHoleTheFloorIsMissing) {
+  const Vector3d on_floor = Middle(Line({}).at(Line({}).size() / 2));
+  HolePlan hole;
+  hole.x_m = on_floor.x();
+  hole.length_m = 0.6;
+  hole.width_m = 4;
+  hole.depth_m = 1;
+  SceneConfig config;
+  config.holes = {hole};
+  Mesh mesh;
+  AppendLaser(LaserBuild{}, {}, Lighting(config, {}), mesh);
+  EXPECT_FALSE(Shines(mesh, on_floor.x(), on_floor.y()));
+}
+
 }  // namespace
 }  // namespace priamos::world

@@ -391,5 +391,54 @@ TEST_F(RendererTest, DiscsShineOnlyInTheCameraLight) {
   EXPECT_GT(MeanGrey(Expose(at), body, 4), 40) << "taken away";
 }
 
+/// Mean grey of a spot straight ahead of a camera in a bright room, with a black box behind a pane.
+class PaneTest : public RendererTest {
+ protected:
+  double GreyThrough(const std::string& material) {
+    std::vector<Solid> solids{{"box", {3, 0, 0}, {0.5, 1.5}, 0, 2, "carpet"}};
+    if (!material.empty()) solids.push_back({"pane", {1.5, 0, 0}, {0.02, 3}, 0, 2.5, material});
+    dut_->SetScene(Plain(), solids, 1);
+    return MeanGrey(Expose({}), {384, 288}, 20);
+  }
+};
+
+TEST_F(PaneTest, GlassIsSeenThroughAndAMirrorIsNot) {
+  const double bare = GreyThrough("");
+  EXPECT_NEAR(GreyThrough("glass"), bare, 3);
+  EXPECT_GT(std::abs(GreyThrough("mirror") - bare), 3);
+}
+
+TEST_F(RendererTest, APersonIsSeenWhereTheyAre) {
+  RendererConfig config = Plain();
+  const std::vector<Solid> solids{{"person", {2.5, 0, 0}, {0.25, 0.5}, 0, 1.7, "carpet"}};
+  dut_->SetScene(config, solids, 1);
+  const double with = MeanGrey(Expose({}), {384, 288}, 20);
+  Viewpoint at;
+  at.moved = {{0, {2.5, 3, 0}}};
+  const double without = MeanGrey(Expose(at), {384, 288}, 20);
+  EXPECT_GT(std::abs(with - without), 5);
+}
+
+TEST_F(RendererTest, TheBottomOfAHoleIsSeenLowerThanTheFloor) {
+  RendererConfig config = Plain();
+  config.scene.x_min_m = config.scene.y_min_m = -5;
+  config.scene.x_max_m = config.scene.y_max_m = 8;
+  HolePlan hole;
+  hole.x_m = 2;
+  hole.length_m = 1.2;
+  hole.width_m = 1.2;
+  hole.depth_m = 1;
+  HeadAxes down;
+  down.tilt_rad = 0.5;
+  const Viewpoint at{{}, down};
+  dut_->SetScene(config, {}, 1);
+  const GreyImage flat = Expose(at);
+  config.scene.holes = {hole};
+  dut_->SetScene(config, {}, 1);
+  const GreyImage pit = Expose(at);
+  const Vector2d edge = CameraAt(config.head, kLeftCamera, down).Project(Vector3d(2.3, 0, 0));
+  EXPECT_LT(MeanGrey(pit, edge, 10), MeanGrey(flat, edge, 10) - 3) << "darker down there";
+}
+
 }  // namespace
 }  // namespace priamos::world

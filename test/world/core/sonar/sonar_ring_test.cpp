@@ -232,5 +232,34 @@ TEST(SonarConfigTest, GroupsMustDivideTheRing) {
   EXPECT_THROW(ParseConfig<SonarConfig>("test.toml", "groups = 5"), ConfigError);
 }
 
+TEST_F(SonarRingTest, ADeadOneIsSilentADeafOneHearsOnlyWhatIsLoudAStuckOneRepeatsItself) {
+  SonarRing dut = Ring(Quiet(), SceneOf({Box({3.1, 0, 0}, {0.2, 8})}));
+  FireAll(dut);
+  const double sound = dut.ranges_m()[0];
+  ASSERT_GT(sound, 2);
+  dut.Break({1, "stuck", 0, 30});
+  for (int group = 0; group < dut.groups(); ++group) dut.Fire(group, {1, 0, 0});
+  EXPECT_EQ(dut.ranges_m()[0], sound);
+  SonarRing dead = Ring(Quiet(), SceneOf({Box({3.1, 0, 0}, {0.2, 8})}));
+  dead.Break({1, "dead", 0, 30});
+  FireAll(dead);
+  EXPECT_EQ(dead.ranges_m()[0], kNoEcho);
+  SonarRing deaf = Ring(Quiet(), SceneOf({Box({3.1, 0, 0}, {0.2, 8})}));
+  deaf.Break({1, "deaf", 0, 40});
+  FireAll(deaf);
+  EXPECT_EQ(deaf.ranges_m()[0], kNoEcho) << "a wall at 2.6 m is 14 dB below one at 1 m";
+  deaf.Fire(0, {2, 0, 0});
+  EXPECT_NEAR(deaf.ranges_m()[0], sound - 2, 0.02) << "near things are loud";
+}
+
+TEST_F(SonarRingTest, ASolidThatMovesIsHeardWhereItIs) {
+  SonarRing dut = Ring(Quiet(), SceneOf({Box({3.1, 0, 0}, {0.2, 8})}));
+  FireAll(dut);
+  const double before = dut.ranges_m()[0];
+  dut.Move({0, {2.1, 0, 0}});
+  FireAll(dut);
+  EXPECT_NEAR(dut.ranges_m()[0], before - 1, 0.011);
+}
+
 }  // namespace
 }  // namespace priamos::world

@@ -1,0 +1,182 @@
+"""LCM's log files: reading, also of damaged ones, and writing."""
+
+import mmap
+import os
+import stat
+import struct as binary
+from dataclasses import dataclass
+
+from .decoding import decode
+from .encoding import encode
+from .model import MessageError
+from .schema import Schema, fingerprint_of, own_types
+from .type_texts import TYPE_TEXT, TypeTexts
+
+_MAGIC = b"\xed\xa1\xda\x01"
+_HEADER = binary.Struct(">4sqqII")
+MOST_CHANNEL, MOST_DATA, LARGEST_TIME = 255, 1 << 24, 1 << 53
+
+
+class LogError(Exception):
+    """A file that cannot be read or written; one sentence."""
+
+
+@dataclass
+class Event:
+    """One message of a log. `utime`: time of recording, microseconds since 1970."""
+    number: int
+    utime: int
+    channel: str
+    data: bytes
+    offset: int = 0
+
+
+class Log:
+    """The events of a log file, in their order; `for event in log`. Damage does not end the reading: it goes on at the
+    next credible event, and `skipped_bytes` and `damaged_places` count what was lost.
+
+    decode() knows the types whose texts the recorder wrote into the log, those of `texts` ((file, text) each, see
+    read_folder), and without any PRIAMOS's own. Raises LogError when the file cannot be read."""
+
+    def __init__(self, path, texts=None):
+        self.path, self.skipped_bytes, self.damaged_places = str(path), 0, 0
+        self.data = _map(self.path)
+        self.schema = Schema(own_types() if texts is None else texts)
+        self._texts = TypeTexts()
+
+    def __iter__(self):
+        self.skipped_bytes = self.damaged_places = 0
+        at, skipping = 0, False
+        while at < len(self.data):
+            whole, follower = self._place(at)
+            if whole:
+                event = self._event(at, follower)
+                if event.channel == TYPE_TEXT:
+                    self._texts.take(event.data, self.schema)
+                yield event
+            else:
+                # Nothing begins before the next magic: one place, however long.
+                follower = self._find_magic(follower)
+                self.damaged_places += not skipping
+                self.skipped_bytes += follower - at
+            skipping, at = not whole, follower
+
+    def decode(self, event):
+        """The message as a dict, see decoding.decode. Raises MessageError."""
+        struct = self.schema.of(event.data)
+        if struct is None:
+            raise MessageError(f"{event.channel}: expected a message of a known type, got fingerprint "
+                               f"{fingerprint_of(event.data):016x}; next: name its .lcm folder")
+        return decode(struct, event.data)
+
+    def messages(self, *channels):
+        """(event, message) of these channels, of all without any; what cannot be decoded, and type texts, left out."""
+        for event in self:
+            if event.channel == TYPE_TEXT or (channels and event.channel not in channels):
+                continue
+            try:
+                yield event, self.decode(event)
+            except MessageError:
+                continue
+
+    # ---- where events are
+
+    def _find_magic(self, at):
+        found = self.data.find(_MAGIC, at)
+        return found if found >= 0 else len(self.data)
+
+    def _magic_at(self, at):
+        return self.data[at:at + 4] == _MAGIC
+
+    def _end(self, at):
+        """Where the event ends by its header, perhaps beyond the file; None when the header is not plausible."""
+        header = self.data[at:at + _HEADER.size]
+        if len(header) < _HEADER.size:
+            return None
+        _, _, utime, channel, data = _HEADER.unpack(header)
+        if not -LARGEST_TIME <= utime <= LARGEST_TIME or not 0 < channel <= MOST_CHANNEL or data > MOST_DATA:
+            return None
+        begin = at + _HEADER.size
+        if not all(0x20 <= byte < 0x7F for byte in self.data[begin:begin + channel]):
+            return None
+        return begin + channel + data
+
+    def _place(self, at):
+        """(whether a whole event begins here, where the reading goes on)."""
+        end = self._end(at) if self._magic_at(at) else None
+        if end is None:
+            return False, at + 1
+        size = len(self.data)
+        if end == size or (end < size and self._magic_at(end)):
+            return True, end
+        # No magic follows: the length is wrong, and the event would swallow the next ones, or the next is damaged.
+        limit = min(end, size)
+        follower = self._follower(at + 4, limit, self._number(at))
+        return end <= size and follower == limit, follower
+
+    def _follower(self, begin, end, number):
+        at = self.data.find(_MAGIC, begin, end)
+        while at >= 0:
+            behind = self._end(at)
+            if behind is not None and behind <= len(self.data):
+                last = behind == len(self.data) and self._number(at) == (number + 1 + 2**63) % 2**64 - 2**63
+                if last or self._magic_at(behind):
+                    return at
+            at = self.data.find(_MAGIC, at + 1, end)
+        return end
+
+    def _number(self, at):
+        return int.from_bytes(self.data[at + 4:at + 12], "big", signed=True)
+
+    def _event(self, at, end):
+        _, number, utime, channel, _ = _HEADER.unpack_from(self.data, at)
+        begin = at + _HEADER.size
+        return Event(number, utime, self.data[begin:begin + channel].decode("ascii"), self.data[begin + channel:end], at)
+
+
+def _map(path):
+    try:
+        with open(path, "rb") as file:
+            status = os.fstat(file.fileno())
+            if not stat.S_ISREG(status.st_mode):
+                raise LogError(f"{path}: cannot be read: it is no file")
+            if status.st_size == 0:
+                return b""
+            return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+    except (OSError, ValueError) as error:
+        raise LogError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+
+
+class LogWriter:
+    """Writes a new log that every LCM tool reads; a context manager. Raises LogError."""
+
+    def __init__(self, path):
+        self.path, self.number = str(path), 0
+        try:
+            self.file = open(path, "wb")
+        except OSError as error:
+            raise LogError(f"{path}: cannot be written: {error.strerror}") from None
+
+    def write(self, utime, channel, data):
+        """Writes an encoded message."""
+        name = channel.encode("ascii", "replace")
+        if not 0 < len(name) <= MOST_CHANNEL or not all(0x20 <= byte < 0x7F for byte in name):
+            raise LogError(f"{self.path}: expected a channel of 1 to {MOST_CHANNEL} printable characters, got {channel!r}")
+        try:
+            self.file.write(_HEADER.pack(_MAGIC, self.number, utime, len(name), len(data)) + name + data)
+        except OSError as error:
+            raise LogError(f"{self.path}: cannot be written: {error.strerror}") from None
+        self.number += 1
+
+    def write_message(self, utime, channel, struct, message):
+        """Writes a dict as a message of a type of a Schema. Raises MessageError, too."""
+        self.write(utime, channel, encode(struct, message))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        try:
+            self.file.close()
+        except OSError as error:
+            raise LogError(f"{self.path}: cannot be written: {error.strerror}") from None

@@ -1,0 +1,80 @@
+#include "cli/report/map_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/report/report_plan_view.hpp"
+#include "common/drawing/legend.hpp"
+#include "common/learned/wall_gaps.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using drawing::Box, drawing::Drawing, drawing::Layer, drawing::Symbol;
+using Eigen::Vector2d;
+
+constexpr double kWidth = 1200, kMargin = 36, kInner = kWidth - 2 * kMargin, kTallest = 1600;
+constexpr double kAround_m = 0.5;
+
+constexpr Layer kLearned{"learned-wall", "wall (learned)", {.line = colours::kFix, .width = 5}};
+constexpr Layer kLearnedSigma{"learned-sigma",
+                              "2 sigma of its place",
+                              {.line = colours::kFix, .width = 1, .fill = colours::kFix, .opacity = 0.15},
+                              Symbol::kArea};
+constexpr Layer kGap{"gap", "gap between learned walls", {.line = colours::kBelief, .width = 3, .dash = 8}};
+constexpr Layer kCorner{"corner", "corner of learned walls", {.fill = colours::kFix}, Symbol::kDot};
+
+Extent ExtentOf(const GroundPlan& plan, const LearnedWalls& learned) {
+  Extent extent = cli::ExtentOf(plan);
+  if (plan.walls.empty() && !learned.walls.empty())
+    extent = {learned.walls.front().from(), learned.walls.front().from()};
+  for (const LearnedWall& wall : learned.walls) {
+    for (const Vector2d& end : {wall.from(), wall.to()}) {
+      extent.low = extent.low.cwiseMin(end);
+      extent.high = extent.high.cwiseMax(end);
+    }
+  }
+  const Vector2d around = Vector2d::Constant(kAround_m);
+  return {extent.low - around, extent.high + around};
+}
+
+void DrawWall(MapView& view, const LearnedWall& wall) {
+  const double half_m = wall.length_m / 2, from_m = 2 * wall.SigmaAt(-half_m),
+               to_m = 2 * wall.SigmaAt(half_m);
+  const auto at = [&](double along_m, double across_m) {
+    return wall.map_from_wall() * Vector2d(along_m, across_m);
+  };
+  view.Area(kLearnedSigma, {at(-half_m, from_m), at(half_m, to_m), at(half_m, -to_m), at(-half_m, -from_m)});
+  view.Line(kLearned, {wall.from(), wall.to()});
+}
+
+void DrawGap(MapView& view, const WallGap& gap) {
+  const Pose2 map_from_gap{gap.x_m, gap.y_m, Radians(gap.yaw_deg)};
+  view.Line(kGap,
+            {map_from_gap * Vector2d(-gap.width_m / 2, 0), map_from_gap * Vector2d(gap.width_m / 2, 0)});
+  view.Label(map_from_gap.translation(), fmt::format("{:.2f} m", gap.width_m), kSmallFont, colours::kBelief,
+             14);
+}
+
+}  // namespace
+
+Drawing DrawMap(const GroundPlan& plan, const LearnedWalls& learned) {
+  const Extent extent = ExtentOf(plan, learned);
+  const double scale = std::min(kInner / extent.size().x(), kTallest / extent.size().y());
+  const Box window{kMargin, kMargin, scale * extent.size().x(), scale * extent.size().y()};
+  Drawing page(kWidth, 0, colours::kPaper);
+  MapView view(page, window, extent.centre(), scale);
+  DrawFloor(view, extent);
+  DrawPlan(view, plan, true);
+  for (const LearnedWall& wall : learned.walls) DrawWall(view, wall);
+  for (const WallGap& gap : GapsOf(learned)) DrawGap(view, gap);
+  for (const WallCorner& corner : CornersOf(learned)) view.Dot(kCorner, {corner.x_m, corner.y_m}, 7);
+  view.SetLabels();
+  const double top = window.bottom() + kMargin;
+  page.SetHeight(top + drawing::WriteLegend(page, kMargin, top, kInner, {kBodyFont, colours::kInk}) +
+                 kMargin);
+  return page;
+}
+
+}  // namespace priamos::cli

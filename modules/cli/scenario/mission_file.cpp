@@ -1,0 +1,159 @@
+#include "cli/scenario/mission_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "bus/process_config.hpp"
+#include "cli/scenario/door_name.hpp"
+#include "common/config.hpp"
+#include "common/ground_plan.hpp"
+#include "planner/planner_missions.hpp"
+
+namespace priamos::cli {
+namespace {
+
+constexpr std::size_t kMostSteps = 32, kLongestTitle = 60;
+
+/// Follows the steps on the plan, from place to place.
+class Rehearsal {
+ public:
+  Rehearsal(const planner::PlannerConfig& config, const GroundPlan& plan)
+      : plan_(plan), router_(planner::MakeRouter(config, plan)) {}
+
+  /// Why the step cannot be done after those before; nullopt: it can, as far as the plan says.
+  std::optional<std::string> Do(const mission_step_t& step) {
+    if (step.mission == mission_command_t::GOTO)
+      return Drive({{step.x_m, step.y_m, step.yaw_rad}, step.turn != 0});
+    if (step.mission == mission_command_t::PASS_DOOR) return Pass(step.landmark_id);
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<std::string> Drive(const planner::Goal& goal) {
+    // Of the first step nobody knows from where: whether the base fits at its end.
+    const auto legs = router_.Plan(at_.value_or(goal.map_from_base), goal);
+    if (!legs) return legs.reason();
+    at_ = goal.map_from_base;
+    return std::nullopt;
+  }
+  std::optional<std::string> Pass(int door_id) {
+    if (!plan_.FindDoor(door_id)) return fmt::format("the map has no door {}", door_id);
+    if (at_) at_ = router_.PlanThrough(*at_, door_id).back().goal.map_from_base;
+    return std::nullopt;
+  }
+
+  GroundPlan plan_;
+  planner::DoorRouter router_;
+  std::optional<Pose2> at_;
+};
+
+mission_step_t ToMessage(const MissionFileStep& step, const GroundPlan& plan, const std::string& map) {
+  mission_step_t message{};
+  if (step.what == "goto") {
+    message.mission = mission_command_t::GOTO;
+    message.x_m = step.x_m;
+    message.y_m = step.y_m;
+    message.turn = step.yaw_deg.has_value();
+    message.yaw_rad = WrapAngle(Radians(step.yaw_deg.value_or(0)));
+  } else if (step.what == "door") {
+    message.mission = mission_command_t::PASS_DOOR;
+    try {
+      message.landmark_id = static_cast<std::int16_t>(DoorNamed(plan, step.door, map));
+    } catch (const ConfigError& error) {
+      throw ConfigError(step.place + error.what());
+    }
+  } else {
+    message.mission = mission_command_t::WAIT;
+    message.wait_s = step.wait_s;
+  }
+  return message;
+}
+
+/// Appends the steps that a `repeat` names, so often.
+void Repeat(const MissionFileStep& repeat, std::size_t number, std::vector<std::size_t> first,
+            std::vector<mission_step_t>& steps) {
+  if (repeat.from < 1 || std::size_t(repeat.from) >= number)
+    throw ConfigError(fmt::format("{}from: expected the number of a step before this one, the {}., got {}",
+                                  repeat.place, number, repeat.from));
+  const std::vector<mission_step_t> again(steps.begin() + std::ptrdiff_t(first[std::size_t(repeat.from - 1)]),
+                                          steps.end());
+  if (steps.size() + again.size() * std::size_t(repeat.times) > kMostSteps)
+    throw ConfigError(fmt::format("{}times: expected at most {} steps with all repetitions, got {}",
+                                  repeat.place, kMostSteps,
+                                  steps.size() + again.size() * std::size_t(repeat.times)));
+  for (int i = 0; i < repeat.times; ++i) steps.insert(steps.end(), again.begin(), again.end());
+}
+
+}  // namespace
+
+void MissionFileStep::Describe(Archive& a) {
+  place = a.Place();
+  a.Choice("do", what, {"goto", "door", "wait", "repeat"}, "what is done in this step");
+  if (what == "goto") {
+    a.Require("x_m", "a place, x_m and y_m");
+    a.Require("y_m", "a place, x_m and y_m");
+    a.Number("x_m", x_m, {"m", -100, 100, "map frame"});
+    a.Number("y_m", y_m, {"m", -100, 100, "map frame"});
+    double yaw = yaw_deg.value_or(std::numeric_limits<double>::quiet_NaN());
+    a.Number("yaw_deg", yaw, {"deg", -360, 360, "heading at the place; as it suits the path if not given"});
+    if (!std::isnan(yaw)) yaw_deg = yaw;
+  } else if (what == "door") {
+    a.Require("door", "the door's name in the map, or its number");
+    a.Text("door", door, "its name in the map, or its number");
+  } else if (what == "wait") {
+    a.Require("wait_s", "how long");
+    a.Number("wait_s", wait_s, {"s", 0, 36000, "how long the robot stands"});
+  } else {
+    a.Integer("from", from, {"-", 1, 32, "the first of the steps before this one that are done again"});
+    a.Integer("times", times, {"-", 1, 32, "how often they are done again"});
+  }
+}
+
+void MissionFile::Describe(Archive& a) {
+  a.Text("title", title, "what the robot does, in a few words");
+  if (title.size() > kLongestTitle) a.Refuse("title", "at most 60 bytes");
+  a.Integer("rounds", rounds, {"-", 0, 9999, "how often all steps are done; 0: until it is cancelled"});
+  a.List("step", steps, "the steps, in turn");
+  if (steps.empty()) a.Refuse("step", "one or more [[step]]");
+}
+
+mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config,
+                          const GroundPlan& plan, const std::string& map) {
+  mission_command_t order{};
+  order.mission = mission_command_t::RUN;
+  order.title = file.title;
+  order.rounds = static_cast<std::int16_t>(file.rounds);
+  Rehearsal rehearsal(config, plan);
+  std::vector<std::size_t> first;  // of the order's steps, by the number in the file
+  for (const MissionFileStep& step : file.steps) {
+    first.push_back(order.steps.size());
+    if (step.what == "repeat") {
+      Repeat(step, first.size(), first, order.steps);
+      continue;
+    }
+    order.steps.push_back(ToMessage(step, plan, map));
+    if (const auto why = rehearsal.Do(order.steps.back())) throw ConfigError(step.place + *why);
+  }
+  if (order.steps.size() > kMostSteps)
+    throw ConfigError(fmt::format("{}expected at most {} steps, got {}", file.steps.back().place, kMostSteps,
+                                  order.steps.size()));
+  const MissionFileStep& begin = file.steps.front();
+  if (file.rounds != 1)
+    if (const auto why = rehearsal.Do(order.steps.front()))
+      throw ConfigError(begin.place + "next round: " + *why);
+  order.n_steps = static_cast<std::int8_t>(order.steps.size());
+  return order;
+}
+
+mission_command_t OrderOfFile(const std::string& file, const std::string& folder) {
+  const auto read = LoadConfig<MissionFile>(file);
+  const auto planner_file = std::filesystem::path(folder) / "planner.toml";
+  const auto config = bus::LoadAppConfig<planner::PlannerConfig>({planner_file.string(), {}});
+  const std::string map = (planner_file.parent_path() / config.map).lexically_normal().string();
+  return OrderOf(read, config, LoadConfig<GroundPlan>(map), map);
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/archive.hpp"
+#include "planner/planner_config.hpp"
+#include "priamos/mission_command_t.hpp"
+
+namespace priamos::cli {
+
+/// One step of a mission file.
+struct MissionFileStep {
+  std::string what = "goto";  ///< "goto", "door", "wait" or "repeat"
+  double x_m = 0, y_m = 0;
+  std::optional<double> yaw_deg;  ///< heading at the place; as it suits the path if not given
+  std::string door;               ///< name or number
+  double wait_s = 0;
+  int from = 1, times = 1;  ///< repeat: the steps from this one on, so many times more
+  std::string place;        ///< `file:line: ` of the step
+
+  void Describe(Archive& a);
+};
+
+/// What the planner is to do, written down: `priamos mission run FILE`.
+struct MissionFile {
+  std::string title;
+  int rounds = 1;  ///< 0: until it is cancelled
+  std::vector<MissionFileStep> steps;
+
+  void Describe(Archive& a);
+};
+
+/// The order that the file gives to the planner of the deployment in `folder`. Everything that can be known
+/// beforehand is checked against its map: doors by name, places that the base fits, ways between them. Throws
+/// ConfigError: file, line, what is wrong.
+mission_command_t OrderOfFile(const std::string& file, const std::string& folder);
+
+/// The same of a file that is read already, with the planner's configuration and plan.
+mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config,
+                          const GroundPlan& plan, const std::string& map);
+
+}  // namespace priamos::cli

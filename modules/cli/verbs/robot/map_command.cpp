@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/App.hpp>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bus/process_config.hpp"
+#include "cli/options/folder_options.hpp"
+#include "cli/options/verb_setup.hpp"
+#include "cli/report/map_picture.hpp"
+#include "cli/supervise/up_state.hpp"
+#include "cli/terminal/bus_session.hpp"
+#include "cli/terminal/map_text.hpp"
+#include "cli/terminal/terminal_screen.hpp"
+#include "cli/verbs/robot/commands.hpp"
+#include "common/config.hpp"
+#include "common/drawing/svg.hpp"
+#include "common/learned/wall_gaps.hpp"
+#include "common/replace_file.hpp"
+#include "lcmtypes/channels.hpp"
+#include "planner/planner_config.hpp"
+
+namespace priamos::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kNothing = 1;
+constexpr unsigned kMode = 0644;
+
+struct MapOptions {
+  std::string deployment = "sim", file, svg, log_root;
+  bool json = false;
+};
+
+struct ResetOptions {
+  BusOptions bus;
+  bool json = false;
+};
+
+/// What a deployment's planner plans with.
+struct Maps {
+  GroundPlan plan;
+  std::string file;  ///< of the learned map; empty: none is kept
+  LearnedWalls learned;
+};
+
+/// Of a simulation the learned map is kept as long as it is up.
+std::string FileOf(const MapOptions& options, const fs::path& folder, const planner::PlannerConfig& config) {
+  if (!options.file.empty()) return options.file;
+  if (!config.learned_map.empty()) return (folder / config.learned_map).lexically_normal().string();
+  const auto up = ReadUpState(LogRoot(options.log_root));
+  return up ? (fs::path(up->folder) / kLearnedMapFile).string() : "";
+}
+
+Maps MapsOf(const MapOptions& options) {
+  const fs::path folder = FolderOfDeployment(options.deployment);
+  const auto config = bus::LoadAppConfig<planner::PlannerConfig>({(folder / "planner.toml").string(), {}});
+  Maps maps{LoadConfig<GroundPlan>((folder / config.map).lexically_normal().string()),
+            FileOf(options, folder, config),
+            {}};
+  if (!options.file.empty() && !fs::exists(options.file))
+    throw ConfigError(
+        fmt::format("--file: expected a learned map, got \"{}\", which is not there", options.file));
+  if (!maps.file.empty()) maps.learned = LoadLearnedWalls(maps.file);
+  return maps;
+}
+
+nlohmann::ordered_json ToJson(const LearnedWall& wall) {
+  return {{"id", wall.id},
+          {"from_m", {wall.from().x(), wall.from().y()}},
+          {"to_m", {wall.to().x(), wall.to().y()}},
+          {"sigma_across_m", wall.sigma_across_m},
+          {"sigma_yaw_deg", wall.sigma_yaw_deg},
+          {"sigma_end_m", wall.sigma_end_m},
+          {"seen_s", wall.seen_s},
+          {"sightings", wall.sightings}};
+}
+
+void PrintJson(const Maps& maps) {
+  nlohmann::ordered_json json{{"file", maps.file}, {"revision", maps.learned.revision}};
+  json["walls"] = nlohmann::ordered_json::array();
+  for (const LearnedWall& wall : maps.learned.walls) json["walls"].push_back(ToJson(wall));
+  json["gaps"] = nlohmann::ordered_json::array();
+  for (const WallGap& gap : GapsOf(maps.learned))
+    json["gaps"].push_back({{"walls", {gap.before, gap.behind}},
+                            {"middle_m", {gap.x_m, gap.y_m}},
+                            {"width_m", gap.width_m},
+                            {"sigma_width_m", gap.sigma_width_m}});
+  std::cout << json.dump() << "\n";
+}
+
+void Print(const Maps& maps) {
+  const auto size = TableSize();
+  const bool colour = isatty(STDOUT_FILENO) != 0;
+  std::cout << MapDots(maps.plan, maps.learned, size.value_or(ScreenSize{}), colour);
+  if (maps.learned.walls.empty()) return;
+  const double now_s =
+      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  std::cout << MapTable(maps.learned, now_s, size);
+}
+
+/// 1 when nothing has been learned; the plan is shown all the same.
+int Show(const MapOptions& options) {
+  const Maps maps = MapsOf(options);
+  if (options.json) {
+    PrintJson(maps);
+  } else {
+    Print(maps);
+  }
+  if (!options.svg.empty() &&
+      !ReplaceFile(options.svg, drawing::ToSvg(DrawMap(maps.plan, maps.learned)), false, kMode))
+    throw ConfigError(fmt::format("--svg: expected a file that can be written, got \"{}\"", options.svg));
+  if (!maps.learned.walls.empty()) return 0;
+  std::cerr << "priamos map: nothing has been learned of this building"
+            << (maps.file.empty() ? ", and no planner keeps it" : " in " + maps.file)
+            << "; next: priamos mission goto, while the planner runs\n";
+  return kNothing;
+}
+
+/// Orders it until the planner's map can only be empty: an order is cheap, and the planner logs it.
+int Reset(const ResetOptions& options) {
+  BusSession session("priamos map reset", options.bus, channels::kMissionStatus.name);
+  auto statuses = session.node().SubscribeAll(channels::kMissionStatus);
+  auto orders = session.node().Advertise(channels::kMapCommand);
+  constexpr Duration kWait = std::chrono::seconds(2);
+  bool heard = false, sent = false;
+  session.Watch(
+      session.now() + kWait, [&] { return sent; },
+      [&] {
+        if (statuses.Drain().empty() || sent) return;
+        session.Heard();
+        heard = sent = true;
+        map_command_t order{};
+        order.utime = ToUtime(session.now());
+        order.action = map_command_t::RESET;
+        orders.Publish(order);
+      });
+  if (options.json) std::cout << nlohmann::ordered_json{{"ordered", heard}}.dump() << "\n";
+  if (heard && !options.json) std::cout << "the planner forgets what it has learned; the plan stays\n";
+  return heard ? 0 : kNothing;
+}
+
+}  // namespace
+
+void AddMapCommand(CLI::App& cli, int& exit_code) {
+  auto options = std::make_shared<MapOptions>();
+  auto* map =
+      AddVerb(cli, "map",
+              "The plan and what was learned of the building (exit code 1: nothing); `reset` forgets it.");
+  map->footer("Example: priamos map --svg building.svg");
+  map->require_subcommand(0, 1);
+  AddDeploymentOption(*map, options->deployment);
+  map->add_option("--file", options->file, "a learned map instead of the deployment's");
+  map->add_option("--svg", options->svg, "draw it into this file as well");
+  AddLogsOption(*map, options->log_root, "the deployment that is up");
+  map->add_flag("--json", options->json, "machine-readable");
+  map->callback([map, options, &exit_code] {
+    if (map->get_subcommands().empty()) exit_code = Show(*options);
+  });
+  auto reset_options = std::make_shared<ResetOptions>();
+  auto* reset =
+      AddVerb(*map, "reset", "Have the planner forget what it has learned; the surveyed plan stays.");
+  reset->footer("Example: priamos map reset");
+  AddBusOption(*reset, reset_options->bus);
+  CompleteVerb(*reset, reset_options, Reset, exit_code);
+}
+
+}  // namespace priamos::cli

@@ -1,0 +1,38 @@
+#include "console/station_files.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "bus/schema/fingerprint.hpp"
+#include "bus/schema/json_schema.hpp"
+#include "bus/schema/schema.hpp"
+#include "console/page_files.hpp"
+
+namespace priamos::console {
+namespace {
+
+constexpr std::string_view kJson = "application/json";
+
+}  // namespace
+
+StationFiles::StationFiles(const bus::Schema& schema) : files_(PageFiles()) {
+  for (const bus::Struct* type : schema.All()) {
+    if (bus::ReachesRecursion(*type)) continue;  // it contains itself: no schema can be written out
+    Add("/types/" + type->full_name + ".json", kJson, bus::JsonSchemaOf(*type).dump());
+  }
+}
+
+void StationFiles::AddParameters(const ParameterSheets& sheets) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const auto& [name, sheet] : sheets) {
+    names.push_back(name);
+    Add("/parameters/" + name + ".toml", "text/plain; charset=utf-8", sheet);
+  }
+  Add("/parameters/index.json", kJson, names.dump());
+}
+
+void StationFiles::Add(const std::string& target, std::string_view type, std::string text) {
+  texts_.push_back(std::move(text));
+  files_[target] = {type, texts_.back()};
+}
+
+}  // namespace priamos::console

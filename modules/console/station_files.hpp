@@ -1,0 +1,34 @@
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "console/parameter_sheets.hpp"
+#include "console/web/web_request.hpp"
+
+namespace priamos::bus {
+class Schema;
+}
+
+namespace priamos::console {
+
+/// What the station serves: the page; the JSON schema of every type, as /types/NAME.json, from which a view
+/// takes units and meanings; and once they are known the parameters of every process, as
+/// /parameters/NAME.toml, with their names in /parameters/index.json.
+class StationFiles {
+ public:
+  explicit StationFiles(const bus::Schema& schema);
+  StationFiles(const StationFiles&) = delete;
+  StationFiles& operator=(const StationFiles&) = delete;
+
+  void AddParameters(const ParameterSheets& sheets);
+  const WebFiles& files() const { return files_; }
+
+ private:
+  void Add(const std::string& target, std::string_view type, std::string text);
+
+  WebFiles files_;
+  std::deque<std::string> texts_;  ///< of files that were not compiled in; they stay where they are
+};
+
+}  // namespace priamos::console

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "common/archive.hpp"
+#include "common/learned/learned_walls.hpp"
+
+namespace priamos::planner {
+
+/// Which walls are the same, and how many are kept.
+struct LearnedMapConfig {
+  double gate = 3.0;          ///< Mahalanobis distance of two walls up to which they may be one
+  double across_m = 0.25;     ///< they are never farther apart than this ...
+  double turned_deg = 12;     ///< ... nor turned against each other more
+  double gap_m = 0.3;         ///< along them, between the end of one and the beginning of the other
+  double most_length_m = 12;  ///< of a wall that is put together
+  int most = 2000;            ///< walls; of more, that goes which was not heard for longest
+
+  void Describe(Archive& a);
+};
+
+/// A wall as a robot tells of it. Its number means something within its store only.
+struct SeenWall {
+  int store = 0, id = 0;
+  bool gone = false;  ///< the robot saw through it
+  LearnedWall wall;   ///< its own id and sightings mean nothing
+};
+
+/// The walls that robots found, in the map frame. What is told again under its number replaces what was told
+/// before. Walls that lie on each other, or follow each other, are one: their lines are joined by covariance
+/// intersection (Julier and Uhlmann), which is consistent whatever part of their errors they share, for
+/// instance that of the pose from which both were seen.
+class LearnedMap {
+ public:
+  explicit LearnedMap(const LearnedMapConfig& config, LearnedWalls known = {});
+
+  /// Takes what a robot tells. Returns whether the map is another one now.
+  bool Take(const SeenWall& seen);
+  /// Forgets everything.
+  void Reset();
+  /// What it holds; the revision counts its changes.
+  const LearnedWalls& walls() const { return walls_; }
+
+ private:
+  using Name = std::pair<int, int>;  ///< store and number
+  LearnedWall* Find(int id);
+  LearnedWall& Begin(const SeenWall& seen);
+  void Consolidate(int id);
+  void Remove(int id);
+  void MakeRoom();
+  bool AreOne(const LearnedWall& a, const LearnedWall& b) const;
+
+  LearnedMapConfig config_;
+  LearnedWalls walls_;
+  std::map<Name, int> ids_;              ///< of the wall that a name is part of
+  std::map<int, std::set<Name>> names_;  ///< the other way round
+  std::set<int> older_;                  ///< walls that hold more than what these names tell
+  int last_id_ = 0;
+};
+
+}  // namespace priamos::planner

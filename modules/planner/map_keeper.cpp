@@ -1,0 +1,134 @@
+#include "planner/map_keeper.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+namespace priamos::planner {
+namespace {
+
+/// What changes often is not written each time.
+constexpr double kWriteEvery_s = 5;
+constexpr int kBatches = 256, kRemembered = 8;
+
+bool Within(double value, double low, double high) {
+  return value >= low && value <= high;  // false for NaN
+}
+
+}  // namespace
+
+std::optional<SeenWall> FromMessage(int store, const feature_t& m) {
+  constexpr double kMap_m = 100, kYaw = 3.15, kLeast_m = 0.05;
+  const bool good = Within(store, 1, 65535) && Within(m.id, 0, 4095) &&
+                    (m.kind == feature_t::WALL || m.kind == feature_t::GONE) &&
+                    Within(m.x_m, -kMap_m, kMap_m) && Within(m.y_m, -kMap_m, kMap_m) &&
+                    Within(m.yaw_rad, -kYaw, kYaw) && Within(m.length_m, kLeast_m, 6.35) &&
+                    Within(m.sigma_across_m, 0, 1.27) && Within(m.sigma_yaw_rad, 0, 0.255) &&
+                    Within(m.rho, -1, 1) && Within(m.sigma_end_m, 0, 0.6) && m.utime_seen >= 0;
+  if (!good) return std::nullopt;
+  SeenWall seen{store, m.id, m.kind == feature_t::GONE, {}};
+  seen.wall.x_m = m.x_m;
+  seen.wall.y_m = m.y_m;
+  seen.wall.yaw_deg = Degrees(WrapAngle(m.yaw_rad));
+  seen.wall.length_m = m.length_m;
+  seen.wall.sigma_across_m = m.sigma_across_m;
+  seen.wall.sigma_yaw_deg = Degrees(m.sigma_yaw_rad);
+  seen.wall.rho = m.rho;
+  seen.wall.sigma_end_m = m.sigma_end_m;
+  seen.wall.seen_s = static_cast<double>(m.utime_seen) * 1e-6;
+  return seen;
+}
+
+features_ack_t BatchLog::Note(int store, int batch) {
+  const int ahead = (batch - newest_ + kBatches) % kBatches;
+  if (store != store_) {
+    store_ = store;
+    newest_ = batch;
+    earlier_ = 0;
+  } else if (ahead > 0 && ahead < kBatches / 2) {
+    earlier_ = ahead > kRemembered ? 0 : ((earlier_ << 1U | 1U) << static_cast<unsigned>(ahead - 1)) & 0xffU;
+    newest_ = batch;
+  } else if (const int behind = kBatches - ahead; ahead > 0 && behind <= kRemembered) {
+    earlier_ |= 1U << static_cast<unsigned>(behind - 1);
+  }
+  features_ack_t ack{};
+  ack.store = store_;
+  ack.batch = static_cast<std::int16_t>(newest_);
+  ack.earlier = static_cast<std::int16_t>(earlier_);
+  return ack;
+}
+
+MapKeeper::MapKeeper(const PlannerConfig& config, bus::Context& context)
+    : file_(config.learned_map.empty() ? "" : context.ResolvePath(config.learned_map)),
+      context_(context),
+      map_(config.learned, file_.empty() ? LearnedWalls{} : LoadLearnedWalls(file_)),
+      written_(map_.walls().revision),
+      features_(context.node().SubscribeAll(channels::kFeatures)),
+      orders_(context.node().SubscribeAll(channels::kMapCommand)),
+      acks_(context.node().Advertise(channels::kFeaturesAck)) {}
+
+MapKeeper::~MapKeeper() {
+  if (!file_.empty() && map_.walls().revision != written_) SaveLearnedWalls(file_, map_.walls());
+}
+
+std::shared_ptr<const LearnedWalls> MapKeeper::Tick(Time now) {
+  // Who begins with nothing asks for all that the robot has found so far.
+  if (!greeted_ && map_.walls().walls.empty()) acks_.Publish(features_ack_t{});
+  greeted_ = true;
+  const bool was_reset = TakeOrders();
+  const bool changed = TakeFeatures() || was_reset;
+  const bool due = was_reset || !wrote_ || Seconds(now - *wrote_) >= kWriteEvery_s;
+  if (!file_.empty() && due && map_.walls().revision != written_) {
+    wrote_ = now;
+    Write();
+  }
+  return changed ? walls() : nullptr;
+}
+
+bool MapKeeper::TakeFeatures() {
+  bool changed = false;
+  for (const features_t& message : features_.Drain()) {
+    bool good = Within(message.batch, 0, kBatches - 1);
+    for (const feature_t& feature : message.features) {
+      const auto seen = FromMessage(message.store, feature);
+      good = good && seen;
+      if (seen) changed = map_.Take(*seen) || changed;
+    }
+    if (good) {
+      acks_.Publish(batches_.Note(message.store, message.batch));
+    } else {
+      context_.Log(bus::Level::kWarning, "features refused: numbers out of range");
+    }
+  }
+  return changed;
+}
+
+bool MapKeeper::TakeOrders() {
+  bool was_reset = false;
+  for (const map_command_t& order : orders_.Drain()) {
+    if (order.action != map_command_t::RESET) {
+      context_.Log(bus::Level::kWarning, fmt::format("map order {} refused: no such action", order.action));
+      continue;
+    }
+    const std::size_t walls = map_.walls().walls.size();
+    map_.Reset();
+    was_reset = true;
+    context_.Log(bus::Level::kInfo, fmt::format("the learned map is forgotten: {} walls", walls));
+  }
+  return was_reset;
+}
+
+void MapKeeper::Write() {
+  if (SaveLearnedWalls(file_, map_.walls())) {
+    written_ = map_.walls().revision;
+    complained_ = false;
+  } else if (!complained_) {
+    complained_ = true;
+    context_.Log(bus::Level::kError,
+                 fmt::format("{}: the learned map is not kept: {}", file_, std::strerror(errno)));
+  }
+}
+
+}  // namespace priamos::planner

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bus/context.hpp"
+#include "lcmtypes/channels.hpp"
+#include "planner/core/map/learned_map.hpp"
+#include "planner/planner_config.hpp"
+
+namespace priamos::planner {
+
+/// A feature as the map takes it; nullopt when a number is not finite or outside its range.
+std::optional<SeenWall> FromMessage(int store, const feature_t& message);
+
+/// Which batches of a robot's features came, for FEATURES_ACK.
+class BatchLog {
+ public:
+  /// Notes a batch; returns what is to be said of it.
+  features_ack_t Note(int store, int batch);
+
+ private:
+  int store_ = 0, newest_ = 0;
+  unsigned earlier_ = 0;
+};
+
+/// The learned map of a running planner: takes what robots tell, acknowledges it, and keeps it in a file.
+class MapKeeper {
+ public:
+  /// Throws ConfigError when the file is damaged.
+  MapKeeper(const PlannerConfig& config, bus::Context& context);
+  ~MapKeeper();
+  MapKeeper(const MapKeeper&) = delete;
+  MapKeeper& operator=(const MapKeeper&) = delete;
+
+  /// Takes messages, and writes the file when it is time. Returns the map when it has changed.
+  std::shared_ptr<const LearnedWalls> Tick(Time now);
+  std::shared_ptr<const LearnedWalls> walls() const { return std::make_shared<LearnedWalls>(map_.walls()); }
+
+ private:
+  bool TakeFeatures();
+  bool TakeOrders();
+  void Write();
+
+  std::string file_;
+  bus::Context& context_;
+  LearnedMap map_;
+  int written_ = 0;  ///< revision in the file
+  std::optional<Time> wrote_;
+  bool greeted_ = false, complained_ = false;
+  BatchLog batches_;
+  bus::Inbox<features_t> features_;
+  bus::Inbox<map_command_t> orders_;
+  bus::Publisher<features_ack_t> acks_;
+};
+
+}  // namespace priamos::planner

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <deque>
+#include <vector>
+
+#include "common/archive.hpp"
+#include "common/time.hpp"
+#include "robot/core/base/footprint.hpp"
+#include "robot/core/sonar/line_votes.hpp"
+#include "robot/core/sonar/sonar_cycle.hpp"
+#include "robot/core/sonar/wall_segment.hpp"
+
+namespace priamos::robot {
+
+/// Which echoes count, and for how long.
+struct SegmentFinderConfig {
+  double window_m = 3;      ///< an echo is forgotten after the base has driven so far ...
+  double window_s = 30;     ///< ... or after this time
+  double moved_m = 0.02;    ///< a sensor that has not moved so far ...
+  double turned_deg = 1.5;  ///< ... or turned so much tells nothing new
+  int votes = 12;           ///< echoes on one line that are looked at closely
+  double least_m = 0.6;     ///< length of a new segment
+  double gap_m = 0.35;      ///< echoes farther apart are not of one wall
+  double keep_m = 6;        ///< a segment grows no more after the base has driven so far without hearing it
+  WallSegmentConfig segment;
+
+  void Describe(Archive& a);
+};
+
+/// A segment, and when it was heard last.
+struct FoundSegment {
+  int number = 0;  ///< from 1; stays when the segment grows
+  Time heard{};
+  WallSegment wall;
+};
+
+/// Finds straight walls from all echoes of the moving ring. Echoes that no known wall explains vote for
+/// lines; where enough agree, those that lie together are fitted, and what is surely straight (FitWall) is a
+/// wall. From then on it grows by every echo that fits it.
+class SegmentFinder {
+ public:
+  SegmentFinder(const SegmentFinderConfig& config, const OdometryNoise& noise, const Footprint& footprint);
+
+  /// Adds a cycle of the ring. `odom_from_base`: pose at its end. Returns the segments that changed.
+  std::vector<const FoundSegment*> Add(const SonarCycle& cycle, const Pose2& odom_from_base);
+  /// The segments that still may grow, oldest first.
+  const std::deque<FoundSegment>& segments() const { return segments_; }
+  /// How far the base has driven [m].
+  double travel_m() const { return travel_m_; }
+
+ private:
+  struct Waiting {
+    Time time{};
+    PlacedEcho echo;
+  };
+  std::vector<PlacedEcho> NewEchoes(const SonarCycle& cycle, const Pose2& odom_from_base);
+  std::vector<PlacedEcho> Explain(std::vector<PlacedEcho> echoes, Time time,
+                                  std::vector<const FoundSegment*>& changed);
+  void Forget(Time now);
+  const FoundSegment* Begin(const PlacedEcho& echo, Time time);
+  std::vector<PlacedEcho> Supporters(const VotedLine& line, const PlacedEcho& newest) const;
+  void Release(const WallSegment& wall);
+
+  SegmentFinderConfig config_;
+  OdometryNoise noise_;
+  std::array<Pose2, kSonars> base_from_sonar_;
+  std::array<Pose2, kSonars> taken_at_;  ///< where each sensor was when it told something new
+  std::array<bool, kSonars> taken_{};
+  Pose2 last_base_;
+  bool moved_before_ = false;
+  double travel_m_ = 0;
+  LineVotes votes_;
+  std::deque<Waiting> waiting_;  ///< echoes that no wall explains, oldest first
+  std::deque<FoundSegment> segments_;
+  int last_number_ = 0;
+};
+
+}  // namespace priamos::robot

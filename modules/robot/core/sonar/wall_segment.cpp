@@ -1,0 +1,184 @@
+#include "robot/core/sonar/wall_segment.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::robot {
+namespace {
+
+constexpr double kHalfBeam = Radians(7.5);
+/// Wheels slip for some decimetres in the same sense: over a few metres a walk of independent steps, which
+/// the noise of the odometry describes, would be longer.
+constexpr double kWalked = 0.8;
+
+Eigen::Matrix2d Outer(const Eigen::Vector2d& v) {
+  return v * v.transpose();
+}
+
+/// The echoes seen from a line through their middle.
+struct Design {
+  Eigen::VectorXd along_m, range_m;  ///< of the sensor, from the anchor; measured
+  Eigen::Matrix2d cofactors;         ///< covariance of (angle, distance) for ranges of variance 1
+};
+
+Eigen::Vector2d MiddleOf(const std::vector<PlacedEcho>& echoes) {
+  Eigen::Vector2d sum(0, 0);
+  for (const PlacedEcho& echo : echoes) sum += echo.odom_from_sonar.translation();
+  return sum / static_cast<double>(echoes.size());
+}
+
+/// One step of Gauss and Newton; the design at the angle before the step.
+Design Improve(const std::vector<PlacedEcho>& echoes, SegmentLine& line) {
+  const auto count = static_cast<Eigen::Index>(echoes.size());
+  Design design{Eigen::VectorXd(count), Eigen::VectorXd(count), {}};
+  const Eigen::Vector2d normal = line.normal(), along = line.along();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right(0, 0);
+  double squares = 0;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const PlacedEcho& echo = echoes[static_cast<std::size_t>(k)];
+    const Eigen::Vector2d at = echo.odom_from_sonar.translation() - line.anchor;
+    design.along_m(k) = along.dot(at);
+    design.range_m(k) = echo.range_m;
+    const double residual = echo.range_m - (line.distance_m - normal.dot(at));
+    const Eigen::Vector2d by_line(-design.along_m(k), 1);
+    information += Outer(by_line);
+    right += by_line * residual;
+    squares += residual * residual;
+  }
+  design.cofactors = information.inverse();
+  const Eigen::Vector2d change = design.cofactors * right;
+  line.angle_rad = WrapAngle(line.angle_rad + change(0));
+  line.distance_m += change(1);
+  line.rms_m = std::sqrt(squares / static_cast<double>(count));
+  return design;
+}
+
+/// Covariance of a least squares estimate whose ranges do not err independently. An error of the odometry's
+/// heading between two echoes turns the places of all earlier ones about where the base was then.
+Eigen::Matrix2d CovarianceOf(const std::vector<PlacedEcho>& echoes, const Design& design,
+                             const SegmentLine& line, const WallSegmentConfig& config,
+                             const OdometryNoise& noise) {
+  const double sigma_m = config.range.SigmaOf(design.range_m.mean());
+  Eigen::Matrix2d covariance = sigma_m * sigma_m * design.cofactors;
+  Eigen::Vector2d weight(0, 0), weight_along(0, 0), by_sound(0, 0), by_turn(0, 0);
+  for (std::size_t k = 0; k < echoes.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const Eigen::Vector2d gain = design.cofactors * Eigen::Vector2d(-design.along_m(row), 1);
+    weight += gain;
+    weight_along += gain * design.along_m(row);
+    by_sound += gain * design.range_m(row);
+    if (k + 1 == echoes.size()) break;
+    const Pose2 &base = echoes[k].odom_from_base, &next = echoes[k + 1].odom_from_base;
+    const double driven_m = std::max(0.0, echoes[k + 1].travel_m - echoes[k].travel_m);
+    const double walked_m = kWalked * driven_m;
+    const double turned_rad = std::abs(WrapAngle(next.yaw - base.yaw));
+    const Eigen::Vector2d by_heading =
+        weight_along - weight * line.along().dot(base.translation() - line.anchor);
+    covariance += Outer(by_heading) * (std::pow(noise.yaw_rad_per_sqrt_m, 2) * walked_m +
+                                       std::pow(noise.yaw_rad_per_sqrt_rad, 2) * turned_rad);
+    covariance += Outer(weight) * std::pow(noise.drift_m_per_sqrt_m, 2) * walked_m;
+    by_turn += by_heading * driven_m;
+  }
+  return covariance + Outer(by_sound) * std::pow(config.sound_speed, 2) +
+         Outer(by_turn) * std::pow(config.yaw_rad_per_m, 2);
+}
+
+}  // namespace
+
+void WallSegmentConfig::Describe(Archive& a) {
+  a.Number("most_m", most_m, {"m", 0.5, 6, "largest length of a segment"});
+  a.Number("reach_m", reach_m, {"m", 0.05, 2, "an echo so far beyond an end still is of the wall"});
+  a.Number("gate", gate, {"-", 1, 10, "largest residual of an echo, in sigmas"});
+  a.Number("most_rms", most_rms, {"-", 1, 10, "RMS of the residuals at which it grows no more, in sigmas"});
+  a.Number("sound_speed", sound_speed, {"-", 0, 0.1, "sigma of the scale of all ranges"});
+  a.Number("yaw_rad_per_m", yaw_rad_per_m, {"rad/m", 0, 0.2, "sigma of the odometry's turn per metre"});
+  a.Integer("most_echoes", most_echoes, {"-", 20, 1000, "echoes that are kept of one segment"});
+  a.Section("range", range, "noise of a range, and which series of ranges is a wall's");
+}
+
+std::optional<SegmentLine> FitSegment(const std::vector<PlacedEcho>& echoes, double angle_rad,
+                                      const WallSegmentConfig& config, const OdometryNoise& noise) {
+  constexpr int kSteps = 3;
+  constexpr std::size_t kLeast = 3;
+  if (echoes.size() < kLeast) return std::nullopt;
+  SegmentLine line{.angle_rad = angle_rad, .anchor = MiddleOf(echoes)};
+  Design design;
+  for (int i = 0; i <= kSteps; ++i) design = Improve(echoes, line);
+  // Written so that NaN is refused.
+  if (!(std::abs(WrapAngle(line.angle_rad - angle_rad)) < Radians(config.range.most_bearing_deg)))
+    return std::nullopt;
+  line.covariance = CovarianceOf(echoes, design, line, config, noise);
+  if (!line.covariance.allFinite()) return std::nullopt;
+  return line;
+}
+
+WallSegment::WallSegment(const WallSegmentConfig& config, const OdometryNoise& noise,
+                         std::vector<PlacedEcho> echoes, const SegmentLine& line)
+    : config_(config), noise_(noise), echoes_(std::move(echoes)), line_(line) {
+  from_ = to_ = echoes_.front().Foot(line_.normal());
+  for (const PlacedEcho& echo : echoes_) Reach(echo);
+  PutEndsOnLine();
+}
+
+bool WallSegment::Takes(const PlacedEcho& echo) const {
+  const double off_axis = std::abs(WrapAngle(line_.angle_rad - echo.odom_from_sonar.yaw));
+  if (!grows_ || off_axis > Radians(config_.range.most_bearing_deg)) return false;
+  const Eigen::Vector2d at = echo.odom_from_sonar.translation() - line_.anchor;
+  const double along_m = line_.along().dot(at);
+  const double low_m = line_.along().dot(from_ - line_.anchor),
+               high_m = line_.along().dot(to_ - line_.anchor);
+  if (std::min(along_m, low_m) < std::max(along_m, high_m) - config_.most_m) return false;
+  if (along_m < low_m - config_.reach_m || along_m > high_m + config_.reach_m) return false;
+  const Eigen::Vector2d by_line(-along_m, 1);
+  const double driven_m = std::max(0.0, echo.travel_m - newest().travel_m);
+  const double lever_m =
+      line_.along().dot(echo.odom_from_base.translation() - newest().odom_from_base.translation());
+  const double variance =
+      by_line.dot(line_.covariance * by_line) + std::pow(config_.range.SigmaOf(echo.range_m), 2) +
+      driven_m * (std::pow(noise_.drift_m_per_sqrt_m, 2) + std::pow(noise_.yaw_rad_per_sqrt_m * lever_m, 2));
+  const double residual = echo.range_m - (line_.distance_m - line_.normal().dot(at));
+  return std::abs(residual) <= config_.gate * std::sqrt(variance);
+}
+
+bool WallSegment::Add(const std::vector<PlacedEcho>& echoes) {
+  std::vector<PlacedEcho> all = echoes_;
+  all.insert(all.end(), echoes.begin(), echoes.end());
+  const auto line = FitSegment(all, line_.angle_rad, config_, noise_);
+  const double sigma_m = config_.range.SigmaOf(all.back().range_m);
+  if (!line || line->rms_m > config_.most_rms * sigma_m) return grows_ = false;
+  echoes_ = std::move(all);
+  line_ = *line;
+  for (const PlacedEcho& echo : echoes) Reach(echo);
+  PutEndsOnLine();
+  Thin();
+  return true;
+}
+
+double WallSegment::end_sigma_m() const {
+  constexpr double kLeast_m = 0.03;
+  return kLeast_m + newest().range_m * std::tan(kHalfBeam) / std::sqrt(3);
+}
+
+void WallSegment::Reach(const PlacedEcho& echo) {
+  const Eigen::Vector2d foot = echo.Foot(line_.normal()), along = line_.along();
+  if (along.dot(foot) < along.dot(from_)) from_ = foot;
+  if (along.dot(foot) > along.dot(to_)) to_ = foot;
+}
+
+void WallSegment::PutEndsOnLine() {
+  const Eigen::Vector2d normal = line_.normal();
+  for (Eigen::Vector2d* end : {&from_, &to_})
+    *end += (line_.distance_m - normal.dot(*end - line_.anchor)) * normal;
+}
+
+/// Every second one goes, but not the newest.
+void WallSegment::Thin() {
+  if (static_cast<int>(echoes_.size()) <= config_.most_echoes) return;
+  std::vector<PlacedEcho> rest;
+  for (std::size_t i = (echoes_.size() - 1) % 2; i < echoes_.size(); i += 2) rest.push_back(echoes_[i]);
+  echoes_ = std::move(rest);
+}
+
+}  // namespace priamos::robot

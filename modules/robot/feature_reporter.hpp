@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "bus/context.hpp"
+#include "lcmtypes/channels.hpp"
+#include "robot/core/features/feature_store.hpp"
+#include "robot/core/pose/localiser.hpp"
+#include "robot/core/sonar/segment_finder.hpp"
+#include "robot/robot_config.hpp"
+
+namespace priamos::robot {
+
+features_t ToMessage(const FeatureBatch& batch);
+
+/// Finds walls in what the ring hears, and tells the planner of them until it has acknowledged each.
+class FeatureReporter {
+ public:
+  FeatureReporter(const RobotConfig& config, bus::Context& context);
+
+  /// Takes a cycle of the ring, heard where `localiser` has the base.
+  void Hear(const SonarCycle& cycle, const Localiser& localiser, Time now);
+  /// Takes acknowledgements, and sends what is due.
+  void Tick(const Localiser& localiser, Time now);
+
+ private:
+  Whereabouts BaseBy(const Localiser& localiser) const;
+  FeatureStore& Store(Time now);
+
+  FeatureStoreConfig config_;
+  OdometryNoise noise_;
+  bus::Context& context_;
+  SegmentFinder finder_;
+  std::optional<FeatureStore> store_;  ///< begins with the first cycle: its name is that time
+  int lost_ = 0;
+  bus::Inbox<features_ack_t> acks_;
+  bus::Publisher<features_t> features_;
+};
+
+}  // namespace priamos::robot

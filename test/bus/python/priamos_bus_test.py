@@ -1,0 +1,148 @@
+"""bus/python alone: what it refuses, hostile bytes, logs it writes itself, and lcm-gen's modules beside it."""
+
+import importlib
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "bus/python"))
+
+import priamos_bus as bus  # noqa: E402
+from priamos_bus.lcm_text import parse_lcm  # noqa: E402
+from priamos_bus.type_texts import TYPE_TEXT  # noqa: E402
+
+SCHEMA = bus.Schema(bus.own_types())
+POSE = SCHEMA.find("pose_t")
+
+
+def pose(**fields):
+    return {field.name: 0 for field in POSE.fields} | fields
+
+
+class Messages(unittest.TestCase):
+    def test_what_is_missing_or_wrong_is_named(self):
+        for message, sentence in ((pose(x=1), "priamos.pose_t.x: there is no such field"),
+                                  (pose(x_m="far"), "priamos.pose_t.x_m: expected a number, got far"),
+                                  (pose(utime=2**63), "priamos.pose_t.utime: expected a whole number from"),
+                                  ({}, "priamos.pose_t.utime: the field is missing"), ([], "expected an object")):
+            with self.assertRaisesRegex(bus.MessageError, sentence):
+                bus.encode(POSE, message)
+
+    def test_a_count_may_be_left_out(self):
+        struct = bus.Schema([("t.lcm", "struct s { int8_t n; int16_t m; byte raw[n]; float grid[m][2]; }")]).find("s")
+        message = {"raw": b"ab", "grid": [[1, 2], [3, 4.5], [0, 1]]}
+        self.assertEqual(bus.decode(struct, bus.encode(struct, message)), {"n": 2, "m": 3, **message})
+
+    def test_hostile_bytes_are_refused_in_one_sentence(self):
+        dice = random.Random(1)
+        for struct in SCHEMA.types.values():
+            head = struct.fingerprint.to_bytes(8, "big")
+            for size in (0, 1, 9, 40, 300):
+                try:
+                    bus.decode(struct, head + dice.randbytes(size))
+                except bus.MessageError as error:
+                    self.assertTrue(str(error).startswith(struct.full_name + ": byte "))
+                    self.assertNotIn("\n", str(error))
+
+    def test_what_is_no_packed_message_is_refused(self):
+        packer = bus.Packer(POSE)
+        packed = packer.pack(pose(utime=10**15, x_m=1), 10**15).bytes
+        for wrong in (b"", packed[:-1], packed + b"\0", b"\xff" * len(packed)):
+            with self.assertRaises(bus.MessageError):
+                packer.unpack(wrong, 10**15)
+
+
+class Types(unittest.TestCase):
+    def test_one_type_that_cannot_be_used_leaves_the_others(self):
+        schema = bus.Schema([("a.lcm", "struct good { int8_t n; } struct bad { nobody x; } struct worse { bad b; }")])
+        self.assertEqual(list(schema.types), ["good"])
+        self.assertEqual(schema.problems, ["a.lcm:1: bad.x: expected a type that is defined, got nobody",
+                                           "a.lcm:1: worse.b: expected a type that can be used, got bad"])
+
+    def test_hostile_texts_end(self):
+        dice = random.Random(2)
+        words = ["struct", "package", "{", "}", ";", "[", "]", "a", "int8_t", "const", "=", "3", ",", "// [m] @range", "/*", "\n"]
+        for _ in range(300):
+            text = " ".join(dice.choice(words) for _ in range(40))
+            bus.Schema([("x.lcm", text)])
+            parse_lcm("x.lcm", text, [])
+        chain = "".join(f"struct t{i} {{ t{i + 1} x; }}\n" for i in range(1500)) + "struct t1500 { int8_t n; }"
+        self.assertTrue(bus.Schema([("x.lcm", chain)]).problems)
+
+    def test_modules_of_lcm_gen_have_the_same_fingerprints_and_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            files = sorted((ROOT / "lcmtypes").glob("*.lcm"))
+            subprocess.run(["lcm-gen", "-p", "--ppath", folder, *map(str, files)], check=True)
+            sys.path.insert(0, folder)
+            for name, struct in SCHEMA.types.items():
+                generated = getattr(importlib.import_module(name), struct.name)
+                self.assertEqual(int.from_bytes(generated._get_packed_fingerprint(), "big"), struct.fingerprint)
+                encoded = generated().encode()
+                self.assertEqual(bus.encode(struct, bus.decode(struct, encoded)), encoded)
+            sys.path.remove(folder)
+
+
+class Logs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name) / "x.lcmlog"
+
+    def write(self, n):
+        with bus.LogWriter(self.path) as log:
+            for i in range(n):
+                log.write_message(10**15 + i, "POSE", POSE, pose(x_m=i))
+
+    def test_what_it_wrote_it_reads(self):
+        self.write(5)
+        read = [(event.number, event.utime, message["x_m"]) for event, message in bus.Log(self.path).messages("POSE")]
+        self.assertEqual(read, [(i, 10**15 + i, float(i)) for i in range(5)])
+        self.assertEqual(list(bus.Log(self.path).messages("OTHER")), [])
+
+    def test_every_event_but_the_damaged_one_is_read(self):
+        self.write(20)
+        whole, dice = self.path.read_bytes(), random.Random(3)
+        for _ in range(30):
+            data = bytearray(whole)
+            data[dice.randrange(len(data))] ^= 1 << dice.randrange(8)
+            self.path.write_bytes(data)
+            log = bus.Log(self.path)
+            self.assertGreaterEqual(sum(1 for _ in log), 18)
+            self.assertLessEqual(log.damaged_places, 1)
+
+    def test_what_is_no_log_has_no_events(self):
+        for data in (b"", b"nonsense", random.Random(4).randbytes(5000), b"\xed\xa1\xda\x01" * 2000):
+            self.path.write_bytes(data)
+            log = bus.Log(self.path)
+            self.assertEqual(list(log), [])
+            self.assertEqual(log.skipped_bytes, len(data))
+
+    def test_hostile_type_texts_do_no_harm(self):
+        struct = SCHEMA.find("type_text_t")
+        texts = [(0, 1, "struct {"), (5, 3, "x"), (-1, 1, "x"), (0, -1, "x"), (0, 30000, "x"), (0, 1, "struct s { s x; }")]
+        with bus.LogWriter(self.path) as log:
+            for part, parts, text in texts:
+                message = {"utime": 0, "fingerprint": parts, "part": part, "parts": parts, "text": text}
+                log.write_message(0, TYPE_TEXT, struct, message)
+        self.assertEqual(len(list(bus.Log(self.path))), len(texts))
+
+    def test_a_file_that_cannot_be_read_or_written_is_named(self):
+        for use in (bus.Log, bus.LogWriter):
+            with self.assertRaisesRegex(bus.LogError, "^/nowhere/x: cannot be"):
+                use("/nowhere/x")
+
+
+class Addresses(unittest.TestCase):
+    def test_a_bus_follows_from_its_name(self):
+        self.assertEqual(bus.bus_url("offboard", "priamos", 0), "udpm://239.255.234.68:21933?ttl=0")
+        for side, robot in (("x", "priamos"), ("onboard", ""), ("onboard", "A"), ("onboard", "a" * 33)):
+            with self.assertRaises(bus.BusError):
+                bus.bus_url(side, robot)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,86 @@
+#include "cli/scenario/mission_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "common/config.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kMap = PRIAMOS_SOURCE_DIR "/config/sim/maps/door.toml";
+
+mission_command_t Read(const std::string& text) {
+  ConfigFile toml("round.toml", text);
+  MissionFile file;
+  file.Describe(toml.archive());
+  toml.RefuseUnknownKeys();
+  return OrderOf(file, {}, LoadConfig<GroundPlan>(kMap), "door.toml");
+}
+
+std::string WhyNot(const std::string& text) {
+  try {
+    Read(text);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const std::string kGo = "[[step]]\ndo = \"goto\"\nx_m = 4.0\ny_m = 2.4\n";
+
+TEST(MissionFile, ItsStepsBecomeAnOrder) {
+  const auto order = Read("title = \"round\"\nrounds = 0\n" + kGo +
+                          "yaw_deg = 90\n[[step]]\ndo = \"wait\"\nwait_s = 5\n[[step]]\ndo = \"door\"\n"
+                          "door = \"laboratory\"\n[[step]]\ndo = \"goto\"\nx_m = 8.0\ny_m = 1.5\n");
+  EXPECT_EQ(order.mission, mission_command_t::RUN);
+  EXPECT_EQ(order.title, "round");
+  EXPECT_EQ(order.rounds, 0);
+  ASSERT_EQ(order.n_steps, 4);
+  EXPECT_EQ(order.steps[0].mission, mission_command_t::GOTO);
+  EXPECT_TRUE(order.steps[0].turn);
+  EXPECT_NEAR(order.steps[0].yaw_rad, kPi / 2, 1e-9);
+  EXPECT_EQ(order.steps[1].mission, mission_command_t::WAIT);
+  EXPECT_EQ(order.steps[1].wait_s, 5);
+  EXPECT_EQ(order.steps[2].landmark_id, 1);
+  EXPECT_FALSE(order.steps[3].turn);
+}
+
+TEST(MissionFile, ARepeatIsWrittenOut) {
+  const auto order = Read(kGo +
+                          "[[step]]\ndo = \"wait\"\nwait_s = 1\n[[step]]\ndo = \"repeat\"\nfrom = 2\n"
+                          "times = 3\n" +
+                          kGo);
+  ASSERT_EQ(order.n_steps, 6);
+  EXPECT_EQ(order.steps[4].mission, mission_command_t::WAIT);
+  EXPECT_EQ(order.steps[5].mission, mission_command_t::GOTO);
+}
+
+TEST(MissionFile, WhatCannotBeDoneIsNamedWithItsLine) {
+  EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"door\"\ndoor = \"labratory\"\n"),
+              StartsWith("round.toml:5: unknown door \"labratory\"; nearest: \"laboratory\""));
+  EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"door\"\ndoor = \"9\"\n"), "round.toml:5: the map has no door 9");
+  EXPECT_THAT(WhyNot("[[step]]\ndo = \"goto\"\nx_m = 6.0\ny_m = 1.0\n"),
+              AllOf(StartsWith("round.toml:1: "), HasSubstr("wall 'right of the door'")));
+  EXPECT_THAT(WhyNot("[[step]]\ndo = \"goto\"\nx_m = 4.0\n"),
+              HasSubstr("round.toml:1:step[0].y_m: expected a place"));
+  EXPECT_THAT(WhyNot("[[step]]\ndo = \"fly\"\n"),
+              HasSubstr("round.toml:2:step[0].do: expected one of goto, door, wait"));
+  EXPECT_THAT(WhyNot(kGo + "wait_s = 4\n"), AllOf(StartsWith("round.toml:5:"), HasSubstr("wait_s")));
+  EXPECT_THAT(WhyNot("[[step]]\ndo = \"repeat\"\nfrom = 1\n" + kGo), HasSubstr("a step before this one"));
+  EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"repeat\"\ntimes = 32\n"), HasSubstr("at most 32 steps"));
+  EXPECT_THAT(WhyNot("title = \"nothing\"\n"), HasSubstr("one or more [[step]]"));
+}
+
+TEST(MissionFile, TheShippedOneIsGood) {
+  const auto order =
+      OrderOfFile(PRIAMOS_SOURCE_DIR "/config/sim/missions/round.toml", PRIAMOS_SOURCE_DIR "/config/sim");
+  EXPECT_EQ(order.n_steps, 4);
+}
+
+}  // namespace
+}  // namespace priamos::cli

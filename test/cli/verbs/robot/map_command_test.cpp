@@ -1,0 +1,111 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/learned/learned_walls.hpp"
+#include "lcmtypes/channels.hpp"
+#include "test/cli/message_log.hpp"
+#include "test/cli/priamos_answer.hpp"
+#include "test/support/temporary_folder.hpp"
+
+namespace priamos::cli {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// A learned map with a doorway in a wall that is not on the plan.
+class MapCommand : public testing::Test {
+ protected:
+  MapCommand() {
+    LearnedWalls learned;
+    for (int i = 0; i < 2; ++i) {
+      LearnedWall wall;
+      wall.id = i + 1;
+      wall.x_m = 3;
+      wall.y_m = 1 + 2.5 * i;
+      wall.yaw_deg = 90;
+      wall.length_m = 1.5;
+      wall.sigma_across_m = 0.02;
+      wall.sigma_yaw_deg = 0.5;
+      wall.seen_s = 1000;
+      learned.walls.push_back(wall);
+    }
+    SaveLearnedWalls(file_, learned);
+  }
+  PriamosAnswer Map(std::vector<std::string> more) {
+    std::vector<std::string> words{"map", "--deployment", PRIAMOS_SOURCE_DIR "/config/sim", "--logs",
+                                   folder_.path().string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return Priamos(words);
+  }
+  TemporaryFolder folder_;
+  std::string file_ = (folder_ / "learned.toml").string();
+};
+
+TEST_F(MapCommand, ShowsPlanAndLearnedWalls) {
+  const auto answer = Map({"--file", file_});
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.err, "");
+  EXPECT_THAT(answer.out, HasSubstr("wall 1   (3.00, 0.25)  (3.00, 1.75)"));
+  EXPECT_THAT(answer.out, HasSubstr("gap 1-2"));
+  EXPECT_THAT(answer.out, HasSubstr("⠒")) << "a picture of dots";
+}
+
+TEST_F(MapCommand, JsonHoldsWallsAndGaps) {
+  const auto lines = LinesOf(Map({"--file", file_, "--json"}).out);
+  ASSERT_EQ(lines.size(), 1u);
+  const json map = json::parse(lines[0]);
+  EXPECT_EQ(map["walls"].size(), 2u);
+  EXPECT_NEAR(map["walls"][0]["to_m"][1].get<double>(), 1.75, 1e-9);
+  ASSERT_EQ(map["gaps"].size(), 1u);
+  EXPECT_NEAR(map["gaps"][0]["width_m"].get<double>(), 1.0, 1e-9);
+}
+
+TEST_F(MapCommand, DrawsItIntoAFile) {
+  const std::string svg = (folder_ / "map.svg").string();
+  EXPECT_EQ(Map({"--file", file_, "--svg", svg}).exit_code, 0);
+  const std::string content = FileContent(svg);
+  EXPECT_THAT(content, HasSubstr("<svg"));
+  for (const char* layer :
+       {"class=\"wall\"", "class=\"learned-wall\"", "class=\"learned-sigma\"", "class=\"gap\""})
+    EXPECT_THAT(content, HasSubstr(layer));
+  const auto refused = Map({"--file", file_, "--svg", (folder_ / "no" / "map.svg").string()});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--svg: expected a file that can be written"));
+}
+
+TEST_F(MapCommand, WhereNothingWasLearnedItSaysSo) {
+  const auto answer = Map({});
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.err, HasSubstr("nothing has been learned of this building"));
+  EXPECT_THAT(answer.err, HasSubstr("; next: "));
+  EXPECT_THAT(answer.out, HasSubstr("⠒")) << "the plan is shown";
+}
+
+TEST_F(MapCommand, AFileThatIsNotThereOrDamagedIsRefused) {
+  const auto missing = Map({"--file", (folder_ / "none.toml").string()});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("--file: expected a learned map"));
+  std::ofstream(file_) << "version = 9\n";
+  const auto damaged = Map({"--file", file_});
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("learned.toml:1:version"));
+}
+
+TEST_F(MapCommand, AWordTooMuchIsRefused) {
+  EXPECT_EQ(Map({"rest"}).exit_code, 2);
+}
+
+TEST_F(MapCommand, ResetNeedsAPlannerThatSpeaks) {
+  MessageLog log((folder_ / "bus.lcmlog").string());
+  log.Add(0, "POSE", pose_t{});
+  const auto silent = Priamos({"map", "reset", "--bus", log.url()});
+  EXPECT_EQ(silent.exit_code, 1);
+  EXPECT_THAT(silent.err, HasSubstr("MISSION_STATUS"));
+}
+
+}  // namespace
+}  // namespace priamos::cli

@@ -1,0 +1,90 @@
+#include "common/learned/learned_walls.hpp"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "test/support/temporary_folder.hpp"
+#include "test/support/thrown_reason.hpp"
+
+namespace priamos {
+namespace {
+
+using support::ThrownReason;
+using testing::HasSubstr;
+
+LearnedWalls Some() {
+  LearnedWalls walls;
+  walls.revision = 41;
+  LearnedWall wall;
+  wall.id = 3;
+  wall.x_m = 1.25;
+  wall.y_m = -0.1;
+  wall.yaw_deg = 89.5;
+  wall.length_m = 2.5;
+  wall.sigma_across_m = 0.02;
+  wall.sigma_yaw_deg = 0.4;
+  wall.rho = -0.5;
+  wall.sigma_end_m = 0.1;
+  wall.seen_s = 1764028800.25;
+  wall.sightings = 4;
+  walls.walls = {wall};
+  return walls;
+}
+
+class LearnedWallsTest : public testing::Test {
+ protected:
+  std::string Refused(const std::string& content) {
+    std::ofstream(file_) << content;
+    return ThrownReason([&] { LoadLearnedWalls(file_); });
+  }
+  TemporaryFolder folder_;
+  std::string file_ = (folder_ / std::string(kLearnedMapFile)).string();
+};
+
+TEST_F(LearnedWallsTest, AFileHoldsWhatWasWritten) {
+  ASSERT_TRUE(SaveLearnedWalls(file_, Some()));
+  const LearnedWalls dut = LoadLearnedWalls(file_);
+  EXPECT_EQ(dut.revision, 41);
+  ASSERT_EQ(dut.walls.size(), 1u);
+  EXPECT_EQ(dut.walls[0].id, 3);
+  EXPECT_EQ(dut.walls[0].seen_s, 1764028800.25);
+  EXPECT_EQ(dut.walls[0].rho, -0.5);
+  EXPECT_EQ(dut.walls[0].sightings, 4);
+  ASSERT_TRUE(SaveLearnedWalls(file_, LearnedWalls{}));
+  EXPECT_TRUE(LoadLearnedWalls(file_).walls.empty());
+}
+
+TEST_F(LearnedWallsTest, NoFileIsAnEmptyMap) {
+  EXPECT_TRUE(LoadLearnedWalls(file_).walls.empty());
+}
+
+TEST_F(LearnedWallsTest, AFileThatCannotBeWrittenIsTold) {
+  EXPECT_FALSE(SaveLearnedWalls((folder_ / "missing" / "map.toml").string(), Some()));
+}
+
+TEST_F(LearnedWallsTest, DamagedFilesAreRefusedWithTheirLine) {
+  EXPECT_THAT(Refused("version = 2\n"),
+              HasSubstr("learned-map.toml:1:version: expected a whole number, 1 to 1"));
+  EXPECT_THAT(Refused("version = 1\nwall = 3\n"), HasSubstr("learned-map.toml:2:"));
+  EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\nx_m = nan\n"),
+              HasSubstr("learned-map.toml:4:walls[0].x_m"));
+  EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\n[[walls]]\nid = 1\n"), HasSubstr("its own id"));
+  EXPECT_THAT(Refused("version = "), HasSubstr("learned-map.toml:1"));
+}
+
+RC_GTEST_PROP(LearnedWall, TheCovarianceSurvivesItsNumbers, ()) {
+  LearnedWall dut = Some().walls[0];
+  dut.sigma_across_m = *rc::gen::inRange(0, 100) / 100.0;
+  dut.sigma_yaw_deg = *rc::gen::inRange(0, 100) / 10.0;
+  dut.rho = *rc::gen::inRange(-10, 11) / 10.0;
+  const Eigen::Matrix2d before = dut.covariance();
+  dut.SetCovariance(before);
+  RC_ASSERT((dut.covariance() - before).norm() < 1e-9);
+  RC_ASSERT(std::abs(dut.SigmaAt(0) - dut.sigma_across_m) < 1e-9);
+}
+
+}  // namespace
+}  // namespace priamos

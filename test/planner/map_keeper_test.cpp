@@ -1,0 +1,186 @@
+#include "planner/map_keeper.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "common/config.hpp"
+#include "test/support/temporary_folder.hpp"
+#include "test/support/thrown_reason.hpp"
+#include "workstation.hpp"
+
+namespace priamos::planner {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+feature_t Wall(int id, double x_m = 3) {
+  feature_t wall{};
+  wall.id = static_cast<std::int16_t>(id);
+  wall.utime_seen = 1'000'000'000;
+  wall.x_m = x_m;
+  wall.y_m = 2.4;
+  wall.yaw_rad = 1.5;
+  wall.length_m = 1.5;
+  wall.sigma_across_m = 0.02;
+  wall.sigma_yaw_rad = 0.01;
+  wall.sigma_end_m = 0.1;
+  return wall;
+}
+
+features_t Batch(int store, int batch, std::vector<feature_t> walls) {
+  features_t message{};
+  message.store = store;
+  message.batch = static_cast<std::int16_t>(batch);
+  message.n_features = static_cast<std::int8_t>(walls.size());
+  message.features = std::move(walls);
+  return message;
+}
+
+TEST(FeatureMessage, AWallIsWhatItSays) {
+  const auto dut = FromMessage(9, Wall(4));
+  ASSERT_TRUE(dut);
+  EXPECT_EQ(dut->store, 9);
+  EXPECT_EQ(dut->id, 4);
+  EXPECT_FALSE(dut->gone);
+  EXPECT_NEAR(dut->wall.yaw_deg, Degrees(1.5), 1e-9);
+  EXPECT_EQ(dut->wall.length_m, 1.5);
+  EXPECT_EQ(dut->wall.seen_s, 1000);
+}
+
+TEST(FeatureMessage, NumbersOutOfRangeAreNoWall) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [](const auto& damage) {
+    feature_t wall = Wall(4);
+    damage(wall);
+    return !FromMessage(9, wall);
+  };
+  EXPECT_TRUE(refused([](feature_t& w) { w.x_m = kNaN; }));
+  EXPECT_TRUE(refused([](feature_t& w) { w.y_m = 1e9; }));
+  EXPECT_TRUE(refused([](feature_t& w) { w.yaw_rad = kNaN; }));
+  EXPECT_TRUE(refused([](feature_t& w) { w.length_m = 0; }));
+  EXPECT_TRUE(refused([](feature_t& w) { w.sigma_across_m = -1; }));
+  EXPECT_TRUE(refused([](feature_t& w) { w.rho = 1.5; }));
+  EXPECT_TRUE(refused([](feature_t& w) { w.kind = 7; }));
+  EXPECT_TRUE(refused([](feature_t& w) { w.utime_seen = -1; }));
+  EXPECT_TRUE(refused([](feature_t& w) { w.id = -1; }));
+  EXPECT_FALSE(FromMessage(0, Wall(4)));
+}
+
+TEST(BatchLog, SaysWhichOfTheLastEightCame) {
+  BatchLog dut;
+  EXPECT_EQ(dut.Note(7, 250).earlier, 0);
+  EXPECT_EQ(dut.Note(7, 251).earlier, 0b1);
+  const auto after_a_loss = dut.Note(7, 253);
+  EXPECT_EQ(after_a_loss.batch, 253);
+  EXPECT_EQ(after_a_loss.earlier, 0b110);
+  const auto late = dut.Note(7, 252);
+  EXPECT_EQ(late.batch, 253);
+  EXPECT_EQ(late.earlier, 0b111);
+  EXPECT_EQ(dut.Note(7, 1).earlier, 0b01111000 & 0xff) << "numbers go round";
+  EXPECT_EQ(dut.Note(7, 100).earlier, 0);
+  EXPECT_EQ(dut.Note(8, 3).store, 8) << "another robot, or the same after a restart";
+  EXPECT_EQ(dut.Note(8, 4).earlier, 0b1);
+}
+
+class MapKeeperTest : public testing::Test {
+ protected:
+  void Begin() {
+    PlannerConfig config;
+    config.learned_map = file_;
+    station_.emplace(config);
+    features_.emplace(station_->other.Advertise(channels::kFeatures));
+    orders_.emplace(station_->other.Advertise(channels::kMapCommand));
+    acks_.emplace(station_->other.SubscribeAll(channels::kFeaturesAck));
+    station_->Run(2);
+  }
+  TemporaryFolder folder_;
+  std::string file_ = (folder_ / "learned-map.toml").string();
+  std::optional<Workstation> station_;
+  std::optional<bus::Publisher<features_t>> features_;
+  std::optional<bus::Publisher<map_command_t>> orders_;
+  std::optional<bus::Inbox<features_ack_t>> acks_;
+};
+
+TEST_F(MapKeeperTest, WhatIsToldIsAcknowledgedAndWritten) {
+  Begin();
+  auto acks = acks_->Drain();
+  ASSERT_THAT(acks, SizeIs(1));
+  EXPECT_EQ(acks[0].store, 0) << "it begins with nothing, and wants all";
+  features_->Publish(Batch(9, 5, {Wall(1), Wall(2, 4)}));
+  station_->Run(2);
+  acks = acks_->Drain();
+  ASSERT_THAT(acks, SizeIs(1));
+  EXPECT_EQ(acks[0].store, 9);
+  EXPECT_EQ(acks[0].batch, 5);
+  EXPECT_THAT(LoadLearnedWalls(file_).walls, SizeIs(2));
+}
+
+TEST_F(MapKeeperTest, AnotherPlannerGoesOnWithIt) {
+  Begin();
+  features_->Publish(Batch(9, 5, {Wall(1)}));
+  station_->Run(2);
+  features_->Publish(Batch(9, 6, {Wall(2, 4)}));
+  station_->Run(2);
+  station_.reset();  // it was not time to write yet
+  EXPECT_THAT(LoadLearnedWalls(file_).walls, SizeIs(2));
+  Begin();
+  EXPECT_THAT(acks_->Drain(), IsEmpty()) << "it has a map";
+  features_->Publish(Batch(10, 1, {Wall(1)}));
+  station_->Run(2);
+  station_.reset();
+  EXPECT_THAT(LoadLearnedWalls(file_).walls, SizeIs(2)) << "the same wall, found by another run";
+}
+
+TEST_F(MapKeeperTest, ResetForgetsAtOnce) {
+  Begin();
+  features_->Publish(Batch(9, 5, {Wall(1)}));
+  station_->Run(2);
+  map_command_t order{};
+  order.action = 3;
+  orders_->Publish(order);
+  station_->Run(2);
+  EXPECT_THAT(LoadLearnedWalls(file_).walls, SizeIs(1)) << "no such order";
+  order.action = map_command_t::RESET;
+  orders_->Publish(order);
+  station_->Run(2);
+  EXPECT_THAT(LoadLearnedWalls(file_).walls, IsEmpty());
+}
+
+TEST_F(MapKeeperTest, ADamagedBatchIsNotAcknowledgedAndItsGoodWallsCount) {
+  Begin();
+  acks_->Drain();
+  feature_t damaged = Wall(2);
+  damaged.x_m = std::numeric_limits<double>::infinity();
+  features_->Publish(Batch(9, 5, {Wall(1), damaged}));
+  station_->Run(2);
+  EXPECT_THAT(acks_->Drain(), IsEmpty());
+  EXPECT_THAT(station_->log, testing::Contains(testing::HasSubstr("features refused")));
+  station_.reset();
+  EXPECT_THAT(LoadLearnedWalls(file_).walls, SizeIs(1));
+}
+
+TEST_F(MapKeeperTest, ADamagedFileStopsThePlannerWithItsLine) {
+  std::ofstream(file_) << "version = 1\nrevision = -4\n";
+  EXPECT_THAT(support::ThrownReason([this] { Begin(); }),
+              testing::HasSubstr("learned-map.toml:2:revision: expected"));
+}
+
+TEST_F(MapKeeperTest, AFolderThatCannotBeWrittenIsToldOnce) {
+  file_ = (folder_ / "missing" / "map.toml").string();
+  Begin();
+  for (int i = 0; i < 3; ++i) {
+    features_->Publish(Batch(9, i, {Wall(i, i)}));
+    station_->Run(200);
+  }
+  EXPECT_EQ(
+      std::count_if(station_->log.begin(), station_->log.end(),
+                    [](const std::string& line) { return line.find("is not kept") != std::string::npos; }),
+      1);
+}
+
+}  // namespace
+}  // namespace priamos::planner

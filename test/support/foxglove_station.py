@@ -1,0 +1,58 @@
+"""Sees the robot and orders it as Foxglove does, beside `up sim`.
+
+usage: foxglove_station.py PORT
+"""
+import sys
+import time
+
+from foxglove_client import Foxglove
+from station_page import wait_for
+
+PORT = int(sys.argv[1])
+SCENE = {"/tf": "foxglove.FrameTransform", "/scene/plan": "foxglove.SceneUpdate", "/scene/robot": "foxglove.SceneUpdate",
+         "/scene/path": "foxglove.SceneUpdate", "/sonars": "foxglove.PointCloud", "/scene/edges": "foxglove.SceneUpdate",
+         "/edges": "foxglove.ImageAnnotations"}
+
+
+def report(name, value):
+    print(f"{name}: {value}", flush=True)
+
+
+def refused(**arguments):
+    try:
+        Foxglove(PORT, **arguments)
+    except ConnectionError as error:
+        return " 403 " in str(error)
+    return False
+
+
+def main():
+    client = Foxglove(PORT)
+    report("says who it is", wait_for(lambda: client.info and client.info["name"] == "PRIAMOS", 2))
+    report("schemas of the panels", all(client.channels[t]["schemaName"] == s for t, s in SCENE.items()))
+    report("schema of a type", '"x_m"' in client.channels["POSE"]["schema"])
+    client.subscribe("POSE", "DRIVE_STATUS", "MISSION_STATUS", "PATH", *SCENE)
+    report("pose comes", wait_for(lambda: client.counts.get("POSE", 0) > 5, 5))
+    report("and as a transform", wait_for(lambda: client.newest["/tf"]["translation"]["x"] == client.newest["POSE"]["x_m"], 2))
+    report("plan comes at once", len(client.newest["/scene/plan"]["entities"][0]["cubes"]) > 3)
+    report("sonars are asked for over the radio", wait_for(lambda: len(client.newest.get("/sonars", {}).get("data", "")) > 0, 8))
+    report("time goes on", wait_for(lambda: client.time is not None and client.time >= client.times["POSE"], 2))
+    client.call("mission/goto", 1, x_m=3, y_m=2.4, yaw_rad=0, turn=False)
+    report("an order is taken", wait_for(lambda: client.answers.get(1) == {"done": True}, 2))
+    report("and obeyed", wait_for(lambda: "driving to" in client.newest.get("MISSION_STATUS", {}).get("text", ""), 5))
+    report("path is drawn", wait_for(lambda: client.newest["/scene/path"]["entities"][0]["lines"] != [], 5))
+    client.call("mission/goto", 2, x_m="there")
+    report("nonsense is refused", wait_for(lambda: "expected" in str(client.answers.get(2)), 2))
+    client.call("stop", 3)
+    report("stop stops", wait_for(lambda: client.newest.get("DRIVE_STATUS", {}).get("estop"), 3))
+    client.unsubscribe("/sonars")
+    time.sleep(0.5)
+    before = client.counts["/sonars"]
+    time.sleep(1)
+    report("nobody looks, nothing comes", client.counts["/sonars"] == before)
+    report("a page of another origin", "refused" if refused(origin="https://evil.example") else "taken")
+    report("warnings", client.status)
+    client.close()
+
+
+main()
