@@ -4,7 +4,7 @@
 
 #include "head/core/edges/edge_segments.hpp"
 #include "head/core/landmark/polyhedron.hpp"
-#include "test/support/grey_cupboard.hpp"
+#include "test/head/core/landmark/grey_cupboard.hpp"
 
 namespace priamos::head {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "head/core/edges/edge_segments.hpp"
-#include "test/support/grey_cupboard.hpp"
+#include "test/head/core/landmark/grey_cupboard.hpp"
 
 namespace priamos::head {
 namespace {
