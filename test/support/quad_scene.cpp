@@ -14,6 +14,7 @@ constexpr double kTop = 2.0, kFrame = 0.06;
 struct Seen {
   Eigen::Matrix3d plane_from_image;
   double grey;
+  bool is_triangle;
 };
 
 /// The grey value in one direction.
@@ -24,7 +25,7 @@ double Sample(const std::vector<Seen>& seen, const Eigen::Vector2d& at, double b
     const Eigen::Vector3d y = seen[i].plane_from_image * at.homogeneous();
     if (y.x() <= nearest) continue;  // 1 / depth
     const double a = y.y() / y.x(), b = y.z() / y.x();
-    if (a < 0 || a > 1 || b < 0 || b > 1) continue;
+    if (a < 0 || a > 1 || b < 0 || b > 1 || (seen[i].is_triangle && a + b > 1)) continue;
     nearest = y.x(), grey = seen[i].grey, *index = static_cast<int>(i);
   }
   return grey;
@@ -56,7 +57,7 @@ cv::Mat RenderQuads(const std::vector<Quad>& quads, const Eigen::Isometry3d& bas
     image_from_plane.col(1) = m * (base_from_scene.linear() * quad.u);
     image_from_plane.col(2) = m * (base_from_scene.linear() * quad.v);
     if (std::abs(image_from_plane.determinant()) > 1e-9)
-      seen.push_back({image_from_plane.inverse(), quad.grey});
+      seen.push_back({image_from_plane.inverse(), quad.grey, quad.is_triangle});
   }
   cv::Mat index(kHeight, kWidth, CV_32SC1), image(kHeight, kWidth, CV_8UC1);
   cv::Mat value(kHeight, kWidth, CV_64FC1);

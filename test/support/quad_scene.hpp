@@ -14,6 +14,7 @@ namespace priamos::test {
 struct Quad {
   Eigen::Vector3d corner, u, v;
   double grey = 128;
+  bool is_triangle = false;  ///< only where a + b is at most 1
 };
 
 /// Pictures of quads for tests of seeing: exact to about 1/100 px by area sampling with 8 x 8 samples in

@@ -30,19 +30,19 @@ double LengthOf(const EdgeImage& image) {
 }
 
 /// An image that at half its size shows nearly all of its edges, or more, is soft and is seen over scales.
-EdgeImage EdgesOf(const cv::Mat& grey, const EdgeOperator::Options& options) {
+BlurredEdges EdgesOf(const cv::Mat& grey, const EdgeOperator::Options& options) {
   EdgeOperator edge_operator(options);
   EdgeImage edges, of_half;
   edge_operator.Extract(grey, edges);
-  if (std::min(grey.cols, grey.rows) < 2 * kSmallest_px) return edges;
+  if (std::min(grey.cols, grey.rows) < 2 * kSmallest_px) return {std::move(edges), {}};
   cv::Mat half;
   cv::resize(grey, half, {}, 0.5, 0.5, cv::INTER_AREA);
   edge_operator.Extract(half, of_half);
   const double length_px = LengthOf(edges);
-  if (length_px > 0 && 2 * LengthOf(of_half) <= kBlurred * length_px) return edges;
+  if (length_px > 0 && 2 * LengthOf(of_half) <= kBlurred * length_px) return {std::move(edges), {}};
   BlurredEdges blurred;
   ScaleEdgeOperator(options).Extract(grey, blurred);
-  return blurred.edges;
+  return blurred;
 }
 
 std::vector<cv::Mat> GreysOf(const std::vector<SeenPhotograph>& photographs) {
@@ -56,8 +56,11 @@ std::vector<cv::Mat> GreysOf(const std::vector<SeenPhotograph>& photographs) {
 void FindEdges(bool of_one_scene, std::vector<SeenPhotograph>& photographs) {
   std::vector<EdgeOperator::Options> options(photographs.size());
   if (of_one_scene) options = ForOneScene(GreysOf(photographs), {});
-  for (std::size_t i = 0; i < photographs.size(); ++i)
-    photographs[i].edges = EdgesOf(photographs[i].grey, options[i]);
+  for (std::size_t i = 0; i < photographs.size(); ++i) {
+    BlurredEdges found = EdgesOf(photographs[i].grey, options[i]);
+    photographs[i].blur_px = found.MedianBlur();
+    photographs[i].edges = std::move(found.edges);
+  }
   for (SeenPhotograph& photograph : photographs) photograph.contours = {photograph.edges, {}};
 }
 
@@ -201,8 +204,10 @@ SeeFindings FindAll(const SeeOptions& options) {
   SeeFindings findings;
   ReadPhotographs(options, findings);
   findings.cameras = ReadCameras(options, findings.photographs);
-  for (std::size_t i = 0; i < findings.cameras.size(); ++i)
+  for (std::size_t i = 0; i < findings.cameras.size(); ++i) {
     findings.views.push_back(MakeView(findings.cameras[i], findings.photographs[i].edges));
+    findings.views.back().blur_px = findings.photographs[i].blur_px;
+  }
   if (findings.cameras.size() > 1) {
     RefuseSameImage(findings.photographs);
     findings.matches = MatchViews(findings);

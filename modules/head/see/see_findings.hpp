@@ -21,6 +21,7 @@ struct SeenPhotograph {
   std::string file;
   cv::Mat grey;
   EdgeImage edges;
+  double blur_px = 0;  ///< BlurredEdges::MedianBlur of a soft one
   ContourGraph contours;
 };
 

@@ -1,8 +1,8 @@
 // How well the head sees: every figure that is promised, beside the public state of the art on the same
 // images in the same run.
 //   bench_vision [--quick] [--photo FILE]... [--pair LEFT RIGHT CAMERA CAMERA]... [--only PART]...
-// PART: edges, stereo, photometry, order, door, repeated, cupboard, budget, deceptions, leaves, castle,
-// detection, corridor, laser. Prints one line per figure with its bound; exit 1 if one is missed.
+// PART: edges, stereo, photometry, order, door, repeated, cupboard, budget, deceptions, leaves, bodies,
+// castle, detection, corridor, laser. Prints one line per figure with its bound; exit 1 if one is missed.
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
@@ -21,8 +21,9 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile)
       ->expected(4, 400);
   app.add_option("--only", only, "these parts only")
-      ->check(CLI::IsMember({"edges", "stereo", "photometry", "order", "door", "repeated", "cupboard",
-                             "budget", "deceptions", "leaves", "castle", "detection", "corridor", "laser"}));
+      ->check(
+          CLI::IsMember({"edges", "stereo", "photometry", "order", "door", "repeated", "cupboard", "budget",
+                         "deceptions", "leaves", "bodies", "castle", "detection", "corridor", "laser"}));
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   const auto wanted = [&](std::string_view part) {
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   if (wanted("budget")) BenchBudget(options, figures);
   if (wanted("deceptions")) BenchDeceptions(options, figures);
   if (wanted("leaves")) BenchLeaves(options, figures);
+  if (wanted("bodies")) BenchBodies(options, figures);
   if (wanted("castle")) BenchCastle(options, figures);
   if (wanted("detection")) BenchDetection(options, figures);
   if (wanted("corridor")) BenchCorridor(options, figures);

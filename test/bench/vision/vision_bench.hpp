@@ -49,6 +49,10 @@ void BenchDeceptions(const VisionOptions& options, Figures& figures);
 /// The door with its leaf at any angle, which the map tells, or not, or wrongly.
 void BenchLeaves(const VisionOptions& options, Figures& figures);
 
+/// Free bodies of many shapes, drawn with labels among others: sharp and blurred, from near and from far
+/// beside the truth, absent, or another one in their place.
+void BenchBodies(const VisionOptions& options, Figures& figures);
+
 /// A free polyhedron with six degrees of freedom: ViSP's castle sequence with its own truth
 /// (visp-images-data).
 void BenchCastle(const VisionOptions& options, Figures& figures);

@@ -8,7 +8,7 @@ namespace priamos::head {
 namespace {
 
 SeenPhotograph Photograph(const cv::Mat& grey) {
-  SeenPhotograph photograph{"photo.png", grey, {}, {}};
+  SeenPhotograph photograph{"photo.png", grey, {}, {}, {}};
   EdgeOperator().Extract(grey, photograph.edges);
   photograph.contours = {photograph.edges, {}};
   return photograph;

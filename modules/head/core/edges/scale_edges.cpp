@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace priamos::head {
 namespace {
@@ -33,6 +34,20 @@ EdgeOperator::Options CoarseOptions(EdgeOperator::Options options) {
 }
 
 }  // namespace
+
+double BlurredEdges::MedianBlur() const {
+  std::vector<std::pair<double, double>> of_length;
+  double all_px = 0;
+  for (std::size_t i = 0; i < blur_px.size(); ++i) {
+    of_length.emplace_back(blur_px[i], edges.segments[i].length_px());
+    all_px += of_length.back().second;
+  }
+  std::sort(of_length.begin(), of_length.end());
+  double sharper_px = 0;
+  for (const auto& [blur, length] : of_length)
+    if ((sharper_px += length) >= all_px / 2) return blur;
+  return 0;
+}
 
 ScaleEdgeOperator::ScaleEdgeOperator(const EdgeOperator::Options& options) : options_(options) {
   operators_.fill(EdgeOperator(CoarseOptions(options)));

@@ -159,7 +159,8 @@ class Problem {
     if (!solution.covariance.allFinite()) return;
     solution.own_share = OwnShare();
     solution.chi_squared = squares_.ChiSquared();
-    solution.misfit = solution.chi_squared / static_cast<double>(std::max<Eigen::Index>(n - d, 1));
+    solution.n_redundant = static_cast<int>(n - d);
+    solution.misfit = solution.chi_squared / std::max(solution.n_redundant, 1);
     solution.breadth = BreadthSeen();
     solution.edge_shifts = ErrorsOfEdges(solution.breadth);
     if (options_.find_suspect) solution.suspect = FindSuspect();

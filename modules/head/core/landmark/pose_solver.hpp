@@ -53,6 +53,7 @@ struct PoseSolution {
   double own_share = 0;
   double rms_px = 0;  ///< RMS of the edges' distances from the model with edge_shifts, all images
   double chi_squared = 0;
+  int n_redundant = 0;  ///< measurements beyond the unknowns: what chi squared is expected to be
   /// Chi squared per degree of freedom under all errors that are expected: about 1 for the right edges, large
   /// for wrong ones.
   double misfit = 0;

@@ -34,6 +34,7 @@ struct CameraView {
   std::vector<ViewLine> lines;
   std::vector<Eigen::Vector2d> points;  ///< EdgeImage::points, undistorted
   LineTable table = {};
+  double blur_px = 0;  ///< of the image beyond that of its pixels, standard deviation: 0 when it is sharp
 };
 
 /// Both images of one exposure: left, right.

@@ -115,5 +115,18 @@ TEST(ScaleEdgeOperatorTest, SmallImagesHaveFewerScalesAndTinyOnesAreRefused) {
   EXPECT_THROW(dut.Extract(cv::Mat(16, 16, CV_8UC1, cv::Scalar(0)), found), std::invalid_argument);
 }
 
+TEST(BlurredEdgesTest, TheMedianBlurIsThatOfHalfTheLength) {
+  const auto edge = [](double length_px) {
+    EdgeSegment segment;
+    segment.end = {length_px, 0};
+    return segment;
+  };
+  BlurredEdges dut;
+  EXPECT_EQ(dut.MedianBlur(), 0);
+  dut.edges.segments = {edge(10), edge(100), edge(30)};
+  dut.blur_px = {0.2, 2.5, 7};
+  EXPECT_EQ(dut.MedianBlur(), 2.5);
+}
+
 }  // namespace
 }  // namespace priamos::head

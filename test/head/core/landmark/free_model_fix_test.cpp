@@ -3,31 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "head/core/edges/edge_segments.hpp"
-#include "test/support/quad_scene.hpp"
+#include "test/head/core/landmark/grey_cupboard.hpp"
 
 namespace priamos::head {
 namespace {
-
-/// A cupboard of 0.6 x 0.8 x 1.2 m, its front at x = 0, each face with its grey value.
-struct Cupboard {
-  Polyhedron body;
-  std::vector<test::Quad> quads;
-
-  Cupboard() {
-    const double x = 0.6, y = 0.8, z = 1.2;
-    body.points = {{0, 0, 0}, {0, y, 0}, {0, y, z}, {0, 0, z}, {x, 0, 0}, {x, y, 0}, {x, y, z}, {x, 0, z}};
-    body.faces = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 4, 7, 3}, {1, 2, 6, 5}, {3, 7, 6, 2}, {0, 1, 5, 4}};
-    const auto quad = [&](int corner, int u, int v, double grey) {
-      const auto& p = body.points;
-      quads.push_back({p[corner], p[u] - p[corner], p[v] - p[corner], grey});
-    };
-    quad(0, 1, 3, 180);
-    quad(4, 5, 7, 180);
-    quad(0, 4, 3, 120);
-    quad(1, 5, 2, 140);
-    quad(3, 7, 2, 210);
-  }
-};
 
 class FreeModelFixTest : public testing::Test {
  protected:
@@ -48,7 +27,7 @@ class FreeModelFixTest : public testing::Test {
 
   Rng rng_{3};
   const CameraModel left_ = test::HeadCamera(0, 1, 700), right_ = test::HeadCamera(0, -1, 700);
-  const Cupboard cupboard_;
+  test::GreyCupboard cupboard_;
   EdgeImage edges_[2];
   std::vector<CameraView> views_;
 };
@@ -64,6 +43,43 @@ TEST_F(FreeModelFixTest, FindsTheCupboardInSpace) {
   EXPECT_LT(Eigen::AngleAxisd((truth.linear().transpose() * dut.base_from_model.linear()).eval()).angle(),
             0.002);
   EXPECT_GT(dut.covariance.diagonal().minCoeff(), 0);
+}
+
+TEST_F(FreeModelFixTest, IsFoundFromFarBesideTheTruth) {
+  const Eigen::Isometry3d truth = At(2.6, -0.4, 0.2, 0.3);
+  for (const double sign : {1.0, -1.0}) {
+    Eigen::Isometry3d believed = truth;
+    believed.pretranslate(Eigen::Vector3d(0.12 * sign, 0.08, -0.05 * sign));
+    believed.rotate(Eigen::AngleAxisd(0.05 * sign, Eigen::Vector3d(1, 2, -1).normalized()));
+    const FreeModelFix dut = Find(truth, believed);
+    ASSERT_EQ(dut.verdict, Verdict::kFound) << Describe(dut.verdict);
+    EXPECT_LT((dut.base_from_model.translation() - truth.translation()).norm(), 0.003);
+    EXPECT_LT(dut.rival_log_odds, dut.log_odds - 4);
+  }
+}
+
+TEST_F(FreeModelFixTest, TheCovarianceFollowsFromHowWellTheEdgesFit) {
+  const Eigen::Isometry3d truth = At(2.6, -0.4, 0.2, 0.3);
+  Find(truth, truth);
+  FreeModelOptions told_badly, told_well;
+  told_badly.solver.model_sigma_m = 0.003;
+  told_well.solver.model_sigma_m = 0.0002;
+  const auto badly = LocateFreeModel(cupboard_.body, truth, views_, told_badly);
+  const auto well = LocateFreeModel(cupboard_.body, truth, views_, told_well);
+  ASSERT_EQ(badly.verdict, Verdict::kFound);
+  ASSERT_EQ(well.verdict, Verdict::kFound);
+  const double ratio = std::sqrt(badly.covariance.trace() / well.covariance.trace());
+  EXPECT_LT(ratio, 3) << "the models' standard deviations differ by 15, the model is exact";
+  EXPECT_GT(ratio, 1.0 / 3);
+}
+
+TEST_F(FreeModelFixTest, AnotherCupboardIsNotFound) {
+  const Eigen::Isometry3d truth = At(2.6, -0.4, 0.2, 0.3);
+  for (test::Quad& quad : cupboard_.quads) {
+    for (Eigen::Vector3d* v : {&quad.corner, &quad.u, &quad.v})
+      *v = v->cwiseProduct(Eigen::Vector3d(1, 1.2, 0.85));
+  }
+  EXPECT_NE(Find(truth, truth).verdict, Verdict::kFound);
 }
 
 TEST_F(FreeModelFixTest, WhatIsHiddenIsNotLookedFor) {
