@@ -49,13 +49,13 @@ class FollowedLog : public testing::TestWithParam<int> {
       $BIN/priamos topic echo POSE x_m > $DIR/poses.txt & ECHO=$!
       until [ $(grep -cE ' 44..FFEF:' /proc/net/udp) -ge 4 ] && grep -q http $DIR/console.txt; do sleep 0.05; done
       PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$SOURCE/test/support python3 - $(grep -o '127.0.0.1:[0-9]*' $DIR/console.txt) > $DIR/page.txt <<'PY' & PAGE=$!
-import sys, time
+import sys
 from station_page import Page, wait_for
 page = Page(int(sys.argv[1].split(":")[1]))
 page.say({"type": "stop"})
 page.say({"type": "mission", "order": "abort"})
 print("passed:", wait_for(lambda: "through the door" in str(page.messages.get("MISSION_STATUS")), 40))
-time.sleep(2)
+wait_for(lambda: page.station["replay"]["paused"], 20)  # the log is over
 print("ages:", [page.ages.get(channel, 99) < 3 for channel in ("POSE", "DRIVE_STATUS", "MISSION_STATUS")])
 print("role:", page.station["role"], "log:", 15 < page.station["replay"]["position_s"] < 60, page.station["replay"]["paused"])
 PY
