@@ -38,6 +38,7 @@ const std::vector<Rule> kUntilStopped{
     {"priamos topic list .*--watch", "POSE +(priamos.pose_t +)?[0-9]"},
     {"priamos topic (echo|hz|bw) (?!.*--count)", "(utime|_m|Hz|bytes).*[0-9]"},
     {"priamos log record ", "lcmlog"},
+    {"priamos topic serve ", "http://"},
     {"priamos (view|where)\\b", "."},
     {"priamos link top(?!.*--once)", "LINK_STATUS|CHANNEL|channel"},
     {"(build/bin/)?priamos-teleop .*--show", "PRIAMOS teleop"},
