@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "common/geometry.hpp"
@@ -12,10 +11,6 @@
 namespace priamos::cli {
 namespace {
 
-/// After the order's end the run goes on, so that the last messages are recorded.
-constexpr Duration kAftermath = std::chrono::milliseconds(1500);
-/// As far as GotoStory lets the base be from a place, with the map's own error.
-constexpr double kNear_m = 0.45;
 /// How long the robot is held in the first round.
 constexpr double kPause_s = 5;
 constexpr int kRounds = 2;
@@ -24,37 +19,11 @@ constexpr std::array<std::int8_t, 3> kInterventions{mission_command_t::PAUSE, mi
 
 }  // namespace
 
-PatrolStory::PatrolStory(const StoryStage& stage)
-    : scenario_(stage.scenario),
-      progress_(stage.progress),
-      alive_(stage.scenario, stage.onboard, stage.offboard),
-      status_(stage.offboard.SubscribeAll(channels::kMissionStatus)),
-      truth_(stage.onboard.Subscribe(channels::kWorldTruth)),
-      orders_(stage.offboard.Advertise(channels::kMissionCommand)) {}
-
-void PatrolStory::Tick(Time now) {
-  if (!start_) start_ = now;
-  alive_.Listen();
-  if (ended_) return;
-  if (!order_ && !alive_.Missing().empty()) {
-    text_ = "no sign of life from " + alive_.Missing();
-    return;
-  }
-  if (scenario_.waypoints.empty()) return End(now, false, "the scenario has no waypoint");
-  if (!order_) Give();
-  Hear(now);
-  if (const auto message = order_->Step(now)) orders_.Publish(*message);
-  text_ = order_->text();
-  CheckPlaces(now);
-  if (!ended_) Intervene(now);
-  if (!ended_ && order_->outcome() != OrderOutcome::kOpen) Conclude(now);
-}
-
-void PatrolStory::Give() {
+void PatrolStory::Begin(Time /*now*/) {
   mission_command_t command{};
   command.mission = mission_command_t::RUN;
-  command.title = fmt::format("patrol of {} places", scenario_.waypoints.size());
-  for (const ScenarioWaypoint& to : scenario_.waypoints) {
+  command.title = fmt::format("patrol of {} places", scenario().waypoints.size());
+  for (const ScenarioWaypoint& to : scenario().waypoints) {
     mission_step_t step{};
     step.mission = mission_command_t::GOTO;
     step.x_m = to.x_m;
@@ -64,27 +33,30 @@ void PatrolStory::Give() {
     command.steps.push_back(step);
   }
   command.n_steps = static_cast<std::int8_t>(command.steps.size());
-  order_.emplace(command, true);
+  Give(command);
 }
 
-void PatrolStory::Hear(Time now) {
-  for (const mission_status_t& status : status_.Drain()) {
-    if (const auto text = order_->Hear(status, now)) progress_(now, *text);
-    if (intervention_) intervention_->Hear(status, now);
-  }
+void PatrolStory::Hear(const mission_status_t& status, Time now) {
+  if (intervention_) intervention_->Hear(status, now);
+}
+
+void PatrolStory::Follow(Time now) {
+  CheckPlaces(now);
+  if (!ended()) Intervene(now);
+  if (!ended() && order().outcome() != OrderOutcome::kOpen) Conclude(now);
 }
 
 /// Where the base truly is when the planner reports that a step is done.
 void PatrolStory::CheckPlaces(Time now) {
-  const world_truth_t* truth = truth_.get();
-  for (; truth && !ended_ && n_results_ < order_->steps().size(); ++n_results_) {
-    const mission_result_t& result = order_->steps()[n_results_];
+  for (; !ended() && n_results_ < order().steps().size(); ++n_results_) {
+    const mission_result_t& result = order().steps()[n_results_];
     if (result.outcome != mission_result_t::DONE || result.step < 1) continue;
-    const ScenarioWaypoint& to = scenario_.waypoints.at(std::size_t(result.step - 1));
-    const double off_m = std::hypot(truth->x_m - to.x_m, truth->y_m - to.y_m);
+    const auto off = DistanceFrom(scenario().waypoints.at(std::size_t(result.step - 1)));
+    if (!off) return;
+    const double off_m = *off;
     worst_m_ = std::max(worst_m_, off_m);
     ++n_places_;
-    if (off_m > kNear_m)
+    if (off_m > kNearWaypoint_m)
       End(now, false,
           fmt::format("round {}: the base is {:.2f} m from waypoint {}", result.round, off_m, result.step));
   }
@@ -93,7 +65,7 @@ void PatrolStory::CheckPlaces(Time now) {
 /// A pause on the way to the second place, and the end after some rounds.
 void PatrolStory::Intervene(Time now) {
   if (intervention_) {
-    if (const auto message = intervention_->Step(now)) orders_.Publish(*message);
+    if (const auto message = intervention_->Step(now)) Publish(*message);
     if (intervention_->outcome() == OrderOutcome::kOpen) return;
     if (intervention_->outcome() != OrderOutcome::kDone)
       return End(now, false, "the planner did not pause, resume or cancel: " + intervention_->text());
@@ -101,35 +73,23 @@ void PatrolStory::Intervene(Time now) {
     ++n_interventions_;
     intervention_.reset();
   }
-  const std::size_t n = scenario_.waypoints.size();
+  const std::size_t n = scenario().waypoints.size();
   const bool due = n_interventions_ == 0   ? n_places_ >= 1
                    : n_interventions_ == 1 ? Seconds(now - *paused_) > kPause_s
                                            : n_interventions_ == 2 && n_places_ >= kRounds * n;
   if (!due) return;
   mission_command_t command{};
   command.mission = kInterventions[n_interventions_];
-  if (command.mission == mission_command_t::CANCEL) command.order_id = order_->id();
+  if (command.mission == mission_command_t::CANCEL) command.order_id = order().id();
   intervention_.emplace(command, true);
 }
 
 void PatrolStory::Conclude(Time now) {
   const bool cancelled =
-      order_->outcome() == OrderOutcome::kCancelled && n_places_ >= kRounds * scenario_.waypoints.size();
+      order().outcome() == OrderOutcome::kCancelled && n_places_ >= kRounds * scenario().waypoints.size();
   End(now, cancelled,
       cancelled ? fmt::format("{} places in {} rounds, {:.2f} m off at most", n_places_, kRounds, worst_m_)
-                : fmt::format("after {} places: {}: {}", n_places_, Text(order_->outcome()), order_->text()));
-}
-
-void PatrolStory::End(Time now, bool succeeded, std::string text) {
-  progress_(now, text);
-  succeeded_ = succeeded;
-  text_ = std::move(text);
-  ended_ = now;
-}
-
-bool PatrolStory::Done(Time now) const {
-  if (ended_) return now - *ended_ >= kAftermath;
-  return start_ && Seconds(now - *start_) >= scenario_.time_limit_s;
+                : fmt::format("after {} places: {}: {}", n_places_, Text(order().outcome()), order().text()));
 }
 
 template StoryKind KindOf<PatrolStory>();
