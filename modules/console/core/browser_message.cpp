@@ -6,17 +6,14 @@
 #include <cmath>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "common/ground_plan.hpp"
+#include "console/core/json_text.hpp"
 
 namespace priamos::console {
 namespace {
 
 using nlohmann::json;
-
-/// Ends the reading of a message; what() becomes the refusal.
-using Wrong = std::runtime_error;
 
 constexpr std::int64_t kMaxBeat = std::int64_t{1} << 53;  // JavaScript counts so far
 
@@ -154,15 +151,7 @@ BrowserMessage ReadObject(const json& object) {
 }  // namespace
 
 Outcome<BrowserMessage> ReadBrowserMessage(std::string_view text) {
-  if (text.size() > kMaxBrowserMessage)
-    return Refusal{fmt::format("expected at most {} bytes, got {}", kMaxBrowserMessage, text.size())};
-  try {
-    return ReadObject(json::parse(text));
-  } catch (const json::exception&) {
-    return Refusal{"expected JSON"};
-  } catch (const Wrong& wrong) {
-    return Refusal{wrong.what()};
-  }
+  return ReadJsonText<BrowserMessage>(text, kMaxBrowserMessage, ReadObject);
 }
 
 }  // namespace priamos::console

@@ -5,15 +5,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
+
+#include "console/core/json_text.hpp"
 
 namespace priamos::console {
 namespace {
 
 using nlohmann::json;
-
-/// Ends the reading of a message; what() becomes the refusal.
-using Wrong = std::runtime_error;
 
 constexpr char kMessageData = 0x01, kServiceCall = 0x02;
 constexpr std::size_t kMostItems = 1000, kLongestWord = 64;
@@ -92,15 +90,7 @@ Outcome<ClientMessage> ReadCall(std::string_view body) {
 }  // namespace
 
 Outcome<ClientMessage> ReadClientText(std::string_view text) {
-  if (text.size() > kMaxClientMessage)
-    return Refusal{fmt::format("expected at most {} bytes, got {}", kMaxClientMessage, text.size())};
-  try {
-    return ReadObject(json::parse(text));
-  } catch (const json::exception&) {
-    return Refusal{"expected JSON"};
-  } catch (const Wrong& wrong) {
-    return Refusal{wrong.what()};
-  }
+  return ReadJsonText<ClientMessage>(text, kMaxClientMessage, ReadObject);
 }
 
 Outcome<ClientMessage> ReadClientBytes(std::string_view bytes) {
