@@ -85,6 +85,7 @@ const std::map<std::string, std::string> kWithout{
     {"link listen", "prints nothing"},
     {"help", "text for people"},
     {"world keys", "TOML"},
+    {"locate", "writes JSON into the file that is named, line by line"},
     {"see", "writes files: the drawings, and JSON into the file that is named"},
     {"completion bash", "a script for the shell"},
     {"completion zsh", "a script for the shell"},

@@ -30,6 +30,7 @@ void AddCommands(CLI::App& cli, int& exit_code) {
   AddTypeCommand(cli, exit_code);
   AddDoctorCommand(cli, exit_code);
   AddSeeCommand(cli, exit_code);
+  AddLocateCommand(cli, exit_code);
   AddLinkCommand(cli, exit_code);
   AddWorldCommand(cli, exit_code);
   AddViewCommand(cli, exit_code);

@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include "common/config.hpp"
 #include "head/core/landmark/cao.hpp"
+#include "head/core/landmark/triangle_body.hpp"
+#include "head/files/mesh_file.hpp"
 
 namespace priamos::head {
 namespace {
@@ -80,17 +84,42 @@ Polyhedron LoadToml(const std::string& file) {
   return body;
 }
 
-}  // namespace
+/// ".obj" of "Box.OBJ".
+std::string KindOf(const std::string& file) {
+  std::string kind = std::filesystem::path(file).extension();
+  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return kind;
+}
 
-Polyhedron LoadPolyhedron(const std::string& file) {
-  if (file.ends_with(".toml")) return LoadToml(file);
-  if (!file.ends_with(".cao"))
-    throw std::runtime_error(fmt::format("{}: expected a landmark model, .toml or .cao", file));
+Polyhedron LoadCao(const std::string& file) {
   const auto text = ReadText(file);
   if (!text) throw std::runtime_error(text.reason());
   auto body = ParseCao(file, *text, ReadText);
   if (!body) throw std::runtime_error(body.reason());
   return std::move(*body);
+}
+
+Polyhedron LoadModel(const std::string& file) {
+  const std::string kind = KindOf(file);
+  if (kind == ".toml") return LoadToml(file);
+  if (kind == ".cao") return LoadCao(file);
+  throw std::runtime_error(fmt::format("{}: expected a landmark model, .toml, .cao, .obj or .stl", file));
+}
+
+Polyhedron LoadMeshBody(const std::string& file, double scale) {
+  auto body = BodyOfTriangles(LoadMesh(file, scale));
+  if (!body) throw std::runtime_error(fmt::format("{}: {}", file, body.reason()));
+  return std::move(*body);
+}
+
+}  // namespace
+
+Polyhedron LoadPolyhedron(const std::string& file, double scale) {
+  const std::string kind = KindOf(file);
+  if (kind == ".obj" || kind == ".stl") return LoadMeshBody(file, scale);
+  Polyhedron body = LoadModel(file);
+  for (Eigen::Vector3d& point : body.points) point *= scale;
+  return body;
 }
 
 }  // namespace priamos::head

@@ -7,8 +7,9 @@
 namespace priamos::head {
 
 /// Reads a free landmark model: ViSP's .cao, or TOML with `[[points]] at_m = [x, y, z]`, `[[faces]] points =
-/// [0, 1, 2, ...]` and `[[lines]] points = [0, 1]`. Throws std::runtime_error with file:line and what was
-/// expected.
-Polyhedron LoadPolyhedron(const std::string& file);
+/// [0, 1, 2, ...]` and `[[lines]] points = [0, 1]`, or the flat faces of an OBJ or STL mesh
+/// (BodyOfTriangles). Lengths of the file times `scale` are metres. Throws std::runtime_error with file:line
+/// (of a mesh the file) and what was expected.
+Polyhedron LoadPolyhedron(const std::string& file, double scale = 1);
 
 }  // namespace priamos::head

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 #include <stdexcept>
 
 #include "head/core/edges/equal_contrast.hpp"
-#include "head/core/edges/scale_edges.hpp"
+#include "head/core/edges/photograph_edges.hpp"
 #include "head/core/stereo/pair_order.hpp"
 #include "head/files/camera_file.hpp"
 #include "head/files/image_file.hpp"
@@ -19,31 +19,7 @@ namespace priamos::head {
 namespace {
 
 constexpr int kSmallest_px = 32;
-constexpr double kBlurred =
-    0.75;  // a sharp photograph shows at half its size less than this part of its edges
 constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may be uncertain
-
-double LengthOf(const EdgeImage& image) {
-  double length_px = 0;
-  for (const EdgeSegment& segment : image.segments) length_px += segment.length_px();
-  return length_px;
-}
-
-/// An image that at half its size shows nearly all of its edges, or more, is soft and is seen over scales.
-BlurredEdges EdgesOf(const cv::Mat& grey, const EdgeOperator::Options& options) {
-  EdgeOperator edge_operator(options);
-  EdgeImage edges, of_half;
-  edge_operator.Extract(grey, edges);
-  if (std::min(grey.cols, grey.rows) < 2 * kSmallest_px) return {std::move(edges), {}};
-  cv::Mat half;
-  cv::resize(grey, half, {}, 0.5, 0.5, cv::INTER_AREA);
-  edge_operator.Extract(half, of_half);
-  const double length_px = LengthOf(edges);
-  if (length_px > 0 && 2 * LengthOf(of_half) <= kBlurred * length_px) return {std::move(edges), {}};
-  BlurredEdges blurred;
-  ScaleEdgeOperator(options).Extract(grey, blurred);
-  return blurred;
-}
 
 std::vector<cv::Mat> GreysOf(const std::vector<SeenPhotograph>& photographs) {
   std::vector<cv::Mat> greys;
@@ -57,7 +33,7 @@ void FindEdges(bool of_one_scene, std::vector<SeenPhotograph>& photographs) {
   std::vector<EdgeOperator::Options> options(photographs.size());
   if (of_one_scene) options = ForOneScene(GreysOf(photographs), {});
   for (std::size_t i = 0; i < photographs.size(); ++i) {
-    BlurredEdges found = EdgesOf(photographs[i].grey, options[i]);
+    BlurredEdges found = EdgesOfPhotograph(photographs[i].grey, options[i]);
     photographs[i].blur_px = found.MedianBlur();
     photographs[i].edges = std::move(found.edges);
   }

@@ -233,7 +233,7 @@ TEST_F(SeeTest, MistakesInALandmarkFileAreNamed) {
   EXPECT_THAT(error("[[faces]]\npoints = [0, 1, 2]\n", file), HasSubstr("expected points 0 to"));
   EXPECT_THAT(error("colour = 3\n", file), HasSubstr("colour"));
   EXPECT_THAT(error("V2\n", folder_ / "body.cao"), HasSubstr("body.cao:1: expected V1"));
-  EXPECT_THAT(error("", folder_ / "body.stl"), HasSubstr(".toml or .cao"));
+  EXPECT_THAT(error("", folder_ / "body.ply"), HasSubstr(".toml, .cao, .obj or .stl"));
 }
 
 TEST_F(SeeTest, ACameraOfAnotherImageIsRefused) {

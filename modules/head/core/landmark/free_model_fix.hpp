@@ -26,7 +26,7 @@ struct FreeModelOptions {
       9;  ///< an edge that fits worse than that, by the variance found, is not the model's
   double max_outlier_share = 0.3;
   /// What a fix must at least tell: standard deviation of the place over the distance, and of the attitude.
-  double max_sigma_share = 0.004, max_sigma_rad = 0.007;
+  double max_sigma_share = 0.02, max_sigma_rad = 0.05;
   PoseSolverOptions solver{.on_floor = false, .edge_sigma_px = 0.03, .max_iterations = 15};
 };
 

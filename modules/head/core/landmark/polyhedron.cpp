@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kSamples = 128;      ///< along an edge, to find where it is hidden
 constexpr double kGrazing = 0.02;  ///< sine of the angle under which a face is no longer seen
+constexpr double kLevel = 0.9998;  ///< cosine of a degree: two faces that meet so are one surface
 constexpr double kTouching =
     1e-4;  ///< share of the distance to the eye: a face that the edge lies on hides nothing
 
@@ -117,6 +118,13 @@ std::optional<double> GreyRatio(const Polyhedron& body, const std::vector<Face>&
   return std::log(right / left);
 }
 
+/// Whether two faces meet there that nobody can tell apart: level, and of one grey or unknown ones.
+bool IsSeam(const Polyhedron& body, const std::vector<Face>& faces, const std::vector<int>& borders) {
+  if (borders.size() != 2) return false;
+  if (!body.greys.empty() && body.greys[borders[0]] != body.greys[borders[1]]) return false;
+  return faces[borders[0]].normal.dot(faces[borders[1]].normal) > kLevel;
+}
+
 /// The parts of an edge that no face hides.
 void AddVisible(const std::vector<Face>& faces, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                 std::optional<double> grey_ratio, const Eigen::Vector3d& eye, double min_m,
@@ -178,7 +186,7 @@ LandmarkModel VisibleSkeleton(const Polyhedron& body, const Eigen::Vector3d& eye
   for (const auto& [ends, borders] : EdgesOf(body)) {
     const bool faces_it = borders.empty() || std::any_of(borders.begin(), borders.end(),
                                                          [&](int f) { return Looks(faces[f], eye_m); });
-    if (faces_it)
+    if (faces_it && !IsSeam(body, faces, borders))
       AddVisible(faces, body.points[ends[0]], body.points[ends[1]],
                  GreyRatio(body, faces, borders, ends[0], ends[1], eye_m), eye_m, min_m, seen);
   }

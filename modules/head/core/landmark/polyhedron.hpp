@@ -26,9 +26,9 @@ struct Polyhedron {
 std::optional<Refusal> CheckPolyhedron(const Polyhedron& body);
 
 /// What an eye at `eye_m` (landmark frame) sees of the edges: those of faces that look at it, cut where other
-/// faces are before them. Pieces shorter than `min_m` are left out. Between two faces that are
-/// both seen, and whose greys are known, the ratio of grey values is known; behind an outline
-/// the background is unknown.
+/// faces are before them; none between two faces that are level within a degree and of one grey. Pieces
+/// shorter than `min_m` are left out. Between two faces that are both seen, and whose greys are known, the
+/// ratio of grey values is known; behind an outline the background is unknown.
 LandmarkModel VisibleSkeleton(const Polyhedron& body, const Eigen::Vector3d& eye_m, double min_m = 0.002);
 
 }  // namespace priamos::head

@@ -48,6 +48,15 @@ TEST(Polyhedron, FromInsideNothingIsSeen) {
   EXPECT_TRUE(VisibleSkeleton(Cube(), {0.5, 0.5, 0.5}).edges.empty());
 }
 
+TEST(Polyhedron, BetweenLevelFacesOfOneGreyNothingIsSeen) {
+  Polyhedron dut;
+  dut.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  dut.faces = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_EQ(VisibleSkeleton(dut, {0.4, 0.5, 5}).edges.size(), 4u);
+  dut.greys = {100, 150};
+  EXPECT_EQ(VisibleSkeleton(dut, {0.4, 0.5, 5}).edges.size(), 5u);
+}
+
 TEST(Polyhedron, ABoxBeforeAnotherHidesPartOfItsEdges) {
   Polyhedron body = Cube();
   const double alone = Length(VisibleSkeleton(body, {10, 0.5, 0.5}));

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "head/core/landmark/triangle_body.hpp"
+
+namespace priamos::head {
+
+/// Reads the triangles of a Wavefront OBJ or STL file (text or binary) by Assimp; coordinates times `scale`
+/// are metres. Throws ConfigError naming the file for one that is no regular file, is longer than 64 MB,
+/// cannot be understood, or holds nothing.
+TriangleMesh LoadMesh(const std::string& file, double scale);
+
+}  // namespace priamos::head

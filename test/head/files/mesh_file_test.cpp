@@ -1,0 +1,97 @@
+#include "head/files/mesh_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdint>
+#include <fstream>
+
+#include "head/files/landmark_file.hpp"
+#include "test/support/temporary_folder.hpp"
+#include "test/support/thrown_reason.hpp"
+
+namespace priamos::head {
+namespace {
+
+using support::ThrownReason;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A box of 1 x 2 x 3, one square per side.
+constexpr const char* kObj =
+    "mtllib /etc/passwd\n"
+    "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 2 3\nv 0 2 3\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
+
+class MeshFileTest : public testing::Test {
+ protected:
+  std::string Write(const std::string& name, const std::string& bytes) {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return folder_ / name;
+  }
+  TemporaryFolder folder_;
+};
+
+/// The triangles of the mesh as a binary STL file.
+std::string BinaryStl(const TriangleMesh& mesh) {
+  std::string bytes(80, ' ');
+  const auto put = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  put(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) put(0.0F);
+    for (const int i : triangle)
+      for (const double v : mesh.points[i]) put(static_cast<float>(v));
+    put(std::uint16_t{0});
+  }
+  return bytes;
+}
+
+TEST_F(MeshFileTest, ABoxOfObjHasSixFacesInMetres) {
+  const Polyhedron dut = LoadPolyhedron(Write("box.obj", kObj), 0.001);
+  EXPECT_EQ(dut.faces.size(), 6u);
+  ASSERT_EQ(dut.points.size(), 8u);
+  Eigen::Vector3d largest = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : dut.points) largest = largest.cwiseMax(p);
+  EXPECT_TRUE(largest.isApprox(Eigen::Vector3d(0.001, 0.002, 0.003), 1e-6));
+}
+
+TEST_F(MeshFileTest, TheSameBoxAsStl) {
+  const TriangleMesh mesh = LoadMesh(Write("box.obj", kObj), 1);
+  ASSERT_EQ(mesh.triangles.size(), 12u);
+  const Polyhedron dut = LoadPolyhedron(Write("box.STL", BinaryStl(mesh)));
+  EXPECT_EQ(dut.faces.size(), 6u);
+  EXPECT_EQ(dut.points.size(), 8u);
+}
+
+TEST_F(MeshFileTest, OtherModelsAreScaledToo) {
+  const std::string file = Write("line.toml",
+                                 "points = [{ at_m = [0, 0, 0] }, { at_m = [2, 0, 0] }]\n"
+                                 "lines = [{ points = [0, 1] }]\n");
+  EXPECT_EQ(LoadPolyhedron(file, 0.5).points[1].x(), 1);
+}
+
+TEST_F(MeshFileTest, WhatIsNoMeshIsNamed) {
+  EXPECT_THAT(ThrownReason([&] { LoadMesh(folder_ / "none.obj", 1); }),
+              AllOf(HasSubstr("none.obj"), HasSubstr("expected a file")));
+  EXPECT_THAT(ThrownReason([&] { LoadMesh("/dev/zero", 1); }), HasSubstr("/dev/zero: expected a file"));
+  EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("text.stl", "no mesh at all"), 1); }), HasSubstr("text.stl"));
+  EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("empty.obj", ""), 1); }), HasSubstr("empty.obj"));
+  EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("points.obj", "v 0 0 0\nv 1 0 0\n"), 1); }),
+              HasSubstr("points.obj"));
+}
+
+TEST_F(MeshFileTest, ADamagedMeshIsRefusedOrRead) {
+  const std::string stl = BinaryStl(LoadMesh(Write("box.obj", kObj), 1));
+  for (std::size_t length = 0; length < stl.size(); length += 37) {
+    const std::string file = Write("cut.stl", stl.substr(0, length));
+    try {
+      LoadPolyhedron(file);
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("cut.stl"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace priamos::head
