@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "bus/clocks/clock_health.hpp"
 #include "common/config.hpp"
 
 namespace priamos::bus {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr Duration kHealthPeriod = std::chrono::seconds(1);
 
-constexpr std::size_t kHealthTextBytes = 100;  // @max of health_t.text
+constexpr std::size_t kHealthTextBytes = 94;  // @max of health_t.text
 
 /// At most `bytes` bytes, and no half character at the end.
 std::string CutUtf8(std::string text, std::size_t bytes) {
@@ -88,6 +89,7 @@ void AppHost::PublishHealth(Time now) {
   message.decode_errors = Capped(totals.refused + bus_.malformed());
   message.handler_exceptions = Capped(totals.exceptions);
   message.loop_overruns = Capped(static_cast<std::uint64_t>(overruns_));
+  SetClock(message, ahead_of_reference_ ? ahead_of_reference_() : ClockDifference{});
   message.text = HealthText();
   health_.Publish(message);
 }

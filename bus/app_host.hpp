@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include "bus/app.hpp"
+#include "bus/clocks/clock_offset.hpp"
 #include "common/config.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -31,6 +33,10 @@ class AppHost {
   void Yield(Time now) { app_->Yield(now); }
   /// Has HEALTH tell, beside the App's own problems, what `problems` says; empty text: nothing.
   void ReportProblemsOf(std::function<std::string()> problems) { further_problems_ = std::move(problems); }
+  /// Has HEALTH say how far the clock is ahead of the reference of the bus; without it there is one clock.
+  void ReportClockOf(std::function<std::optional<ClockDifference>()> ahead) {
+    ahead_of_reference_ = std::move(ahead);
+  }
   std::optional<int> exit_code() const { return context_.exit_code(); }
   const std::string& status() const { return context_.status(); }
   const Node& node() const { return node_; }
@@ -47,6 +53,7 @@ class AppHost {
   Publisher<health_t> health_;
   std::unique_ptr<AnyApp> app_;
   std::function<std::string()> further_problems_;
+  std::function<std::optional<ClockDifference>()> ahead_of_reference_;
   Duration period_;
   Time next_tick_;
   Time next_health_;

@@ -22,7 +22,7 @@ std::unique_ptr<OtherBus> Context::OpenBus(const std::string& robot) {
 
 void Context::SetHealth(Health health, std::string_view text) {
   health_ = health;
-  health_text_ = text.substr(0, 100);
+  health_text_ = text;
 }
 
 }  // namespace priamos::bus

@@ -202,7 +202,10 @@ int Run(const AppFactory& factory, const Options& options, const LogShow& show, 
     return std::make_unique<OtherBus>(choice.Url(), schema, clock);
   };
   AppHost host(factory, options.config, bus, schema, clock, std::move(around));
-  if (clocks) host.ReportProblemsOf([&] { return clocks->Problems(clock.Now()); });
+  if (clocks) {
+    host.ReportProblemsOf([&] { return clocks->Problems(clock.Now()); });
+    host.ReportClockOf([&] { return clocks->AheadOfReference(clock.Now()); });
+  }
   running = true;
   return RunRealTime(host, bus, clock, signals, {claim.get(), clocks.get()});
 }

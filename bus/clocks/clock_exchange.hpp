@@ -45,6 +45,8 @@ class ClockExchange {
 
   /// Messages refused because the clock of their host was not known exactly enough.
   std::uint64_t refused() const { return refused_; }
+  /// How far this clock is ahead of the reference clock of the bus; nullopt while that is not known.
+  std::optional<ClockDifference> AheadOfReference(Time now) const { return peers_.AheadOfReference(now); }
   /// What was wrong with the clocks in the last 10 s, as a clause; empty when nothing was.
   std::string Problems(Time now) const;
 

@@ -86,6 +86,16 @@ SenderClock PeerClocks::ClockOf(std::uint64_t sender, Time now) const {
   return {SenderClock::Kind::kKnown, *difference, peer->second.host};
 }
 
+std::optional<ClockDifference> PeerClocks::AheadOfReference(Time now) const {
+  const auto reference = std::find_if(peers_.begin(), peers_.end(), [now](const auto& peer) {
+    return now - peer.second.arrived <= kForgotten;
+  });
+  if (reference == peers_.end() || reference->first > own_id_) return ClockDifference{};
+  auto difference = reference->second.offset.At(now);
+  if (difference) difference->ahead = -difference->ahead;
+  return difference;
+}
+
 clock_report_t PeerClocks::Report(Time now) const {
   clock_report_t message{};
   message.utime = ToUtime(now);

@@ -53,6 +53,10 @@ class PeerClocks {
 
   SenderClock ClockOf(std::uint64_t sender, Time now) const;
 
+  /// How far our clock is ahead of the reference: of all clocks heard in the last kForgotten and ours, that
+  /// of the lowest number, so that all who hear each other mean the same one. nullopt while it is not known.
+  std::optional<ClockDifference> AheadOfReference(Time now) const;
+
   /// What this process tells the others, to be sent at `now`; without the name of its host.
   clock_report_t Report(Time now) const;
 

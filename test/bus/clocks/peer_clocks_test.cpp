@@ -70,6 +70,30 @@ TEST_F(TwoHosts, ReportWhatTheyKnow) {
   EXPECT_NEAR(report.uncertainty_s.front(), 0.002, 0.001);
 }
 
+TEST_F(TwoHosts, TheClockOfTheLowestNumberIsTheReference) {
+  EXPECT_EQ(vision_.AheadOfReference(now_ + kAhead)->uncertainty, Duration{}) << "alone";
+  BaseSpeaks();
+  EXPECT_EQ(vision_.AheadOfReference(now_ + kAhead), std::nullopt) << "has heard base, but knows nothing yet";
+  VisionSpeaks();
+  BaseSpeaks();
+  const auto ours = base_.AheadOfReference(now_), theirs = vision_.AheadOfReference(now_ + kAhead);
+  ASSERT_TRUE(ours && theirs);
+  EXPECT_EQ(ours->ahead, Duration{});
+  EXPECT_EQ(ours->uncertainty, Duration{});
+  EXPECT_EQ(theirs->ahead, kAhead);
+  EXPECT_GT(theirs->uncertainty, Duration{});
+  EXPECT_LE(theirs->uncertainty, milliseconds(3));
+}
+
+TEST_F(TwoHosts, AReferenceThatIsSilentIsNone) {
+  BaseSpeaks();
+  now_ += PeerClocks::kForgotten;
+  EXPECT_EQ(vision_.AheadOfReference(now_ + kAhead), std::nullopt);
+  now_ += seconds(1);
+  ASSERT_TRUE(vision_.AheadOfReference(now_ + kAhead));
+  EXPECT_EQ(vision_.AheadOfReference(now_ + kAhead)->ahead, Duration{});
+}
+
 TEST_F(TwoHosts, ASecondProcessOfAHostNeedsNoExchangeOfItsOwn) {
   for (int i = 0; i < 2; ++i) {
     BaseSpeaks();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/clocks/clock_exchange.hpp"
+#include "bus/clocks/clock_health.hpp"
 #include "bus/clocks/host_clock.hpp"
 #include "bus/log/log_recorder.hpp"
 #include "bus/log/log_selection.hpp"
@@ -110,7 +111,8 @@ class Recording {
     message.state = reported_.empty() ? health_t::OK : health_t::FAILED;
     message.messages_lost =
         static_cast<std::int32_t>(std::min<std::uint64_t>(bus_.lost() + recorder_.lost(), 1'000'000));
-    message.text = reported_.substr(0, 100);
+    bus::SetClock(message, clocks_ ? clocks_->AheadOfReference(now) : bus::ClockDifference{});
+    message.text = reported_.substr(0, 94);
     health_.Publish(message);
   }
 
