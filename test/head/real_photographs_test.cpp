@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "head/files/offline_calibration.hpp"
+#include "head/locate/locate.hpp"
+#include "head/see/see_landmark.hpp"
 
 namespace priamos::head {
 namespace {
@@ -12,6 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kVisp = "/usr/share/visp-images-data/ViSP-images/calibration";
+constexpr const char* kCube = "/usr/share/visp-images-data/ViSP-images/mbt/";
 constexpr const char* kOpenCv = "/usr/share/doc/opencv-doc/examples/data";
 
 TEST(RealPhotographsTest, AGridOfPrintedDots) {
@@ -45,6 +49,29 @@ TEST(RealPhotographsTest, AChessboard) {
     EXPECT_LT(dut["leave_one_photograph_out_F_px"], 0.25) << side;
     EXPECT_NEAR(dut["K"][0][0], 535.9, 5) << side;
   }
+}
+
+/// A printed cube of 84 mm before a camera that is moved by hand: all images of ViSP's sequence, from the
+/// pose that ViSP gives for the first.
+TEST(RealPhotographsTest, ACubeIsFollowed) {
+  if (!std::filesystem::exists(kCube)) GTEST_SKIP() << "Debian package visp-images-data is not installed";
+  LocateOptions options;
+  options.images = {std::string(kCube) + "cube"};
+  options.cameras = {std::string(kCube) + "cube.xml"};
+  options.model = std::string(kCube) + "cube.cao";
+  options.at = {0.02232, 0.10714, 0.50711, 150.01056, 36.11761, 47.28446};
+  options.json = "-";
+  std::vector<Eigen::Isometry3d> poses;
+  const LocateSinks sinks{[](const std::string&) {},
+                          [&](const std::string& line) {
+                            const json moment = json::parse(line);
+                            if (moment["found"]) poses.push_back(PoseFromSix(moment["pose_m_deg"]));
+                          }};
+  std::istringstream none;
+  EXPECT_EQ(Locate(options, none, sinks).n_moments, 218);
+  EXPECT_GE(poses.size(), 165u);
+  for (std::size_t i = 1; i < poses.size(); ++i)  // a false pose would be a leap
+    EXPECT_LT((poses[i].translation() - poses[i - 1].translation()).norm(), 0.03) << i;
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ std::string VispModel(const CameraValues& values) {
 }
 
 CameraModel VispCamera(const CameraValues& values, const CameraFileOptions& options) {
-  CheckSize(values, "camera", options.size);
+  if (values.Has("camera", kWidth)) CheckSize(values, "camera", options.size);  // a tracker's file has none
   const std::string model = VispModel(values);
   Eigen::Matrix3d k;
   k << values.Number(model, {"px"}), 0, values.Number(model, {"u0"}), 0, values.Number(model, {"py"}),

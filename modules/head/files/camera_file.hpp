@@ -20,7 +20,8 @@ struct CameraFileOptions {
 /// - ROS: camera_info as camera_calibration writes it and as a message is printed (YAML).
 /// - OpenCV: FileStorage as YAML, XML or JSON, with or without its first line, with camera_matrix and
 ///   distortion_coefficients (also cameraMatrix and distCoeffs, M1 and D1).
-/// - ViSP: vpXmlParserCamera, the model with distortion if there is one.
+/// - ViSP: vpXmlParserCamera, the model with distortion if there is one; the camera of a tracker's
+/// configuration.
 /// - PRIAMOS: what `priamos calibrate` writes, from files (JSON, also of several cameras) or of a head (the
 /// table:
 ///   the head at rest, with its first zoom and focus).

@@ -193,6 +193,16 @@ TEST_F(CameraFileTest, VispModelWithDistortion) {
   EXPECT_NEAR(seen.y(), 120.75 + 301.5 * 0.1 * (1 - 0.125 * 0.05), 1e-9);
 }
 
+TEST_F(CameraFileTest, TheCameraOfAVispTrackersConfiguration) {
+  const CameraModel dut =
+      Load(Write("<?xml version=\"1.0\"?>\n<conf><ecm><mask><size>5</size></mask></ecm>\n"
+                 "<camera><u0>160.5</u0><v0>120</v0><px>310</px><py>311</py></camera></conf>\n",
+                 "tracker.xml"));
+  EXPECT_EQ(dut.image_from_base(0, 0), 310);
+  EXPECT_EQ(dut.image_from_base(1, 1), 311);
+  EXPECT_EQ(dut.image_from_base(0, 2), 160.5);
+}
+
 TEST_F(CameraFileTest, VispKindsOfProjectionThatAreNotKnownAreNamed) {
   std::string text = kVisp;
   for (const char* word : {"perspectiveProjWithoutDistortion", "perspectiveProjWithDistortion"})

@@ -104,8 +104,9 @@ TEST_F(LandmarkFileTest, AFileThatIsNotThereIsNamed) {
 }
 
 TEST_F(LandmarkFileTest, AnotherKindOfFileIsRefused) {
-  EXPECT_THAT(ReasonOf("solid", "body.stl"), HasSubstr("body.stl: expected a landmark model, .toml or .cao"));
-  EXPECT_THAT(ReasonOf(kPoints, "body"), HasSubstr("expected a landmark model, .toml or .cao"));
+  EXPECT_THAT(ReasonOf("solid", "body.ply"),
+              HasSubstr("body.ply: expected a landmark model, .toml, .cao, .obj or .stl"));
+  EXPECT_THAT(ReasonOf(kPoints, "body"), HasSubstr("expected a landmark model, .toml, .cao, .obj or .stl"));
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ class Judge {
 
   Verdict Of(const State& state, const FreeModelFix& fix) const {
     if (static_cast<int>(state.association.matches.size()) < options_.min_matched ||
-        fix.log_odds < options_.min_log_odds || fix.share < options_.min_share || !Determines(state))
+        fix.log_odds < options_.min_log_odds || fix.share < MinShare(state))
       return Verdict::kTooFewEdges;
     if (fix.misfit > options_.max_misfit) return Verdict::kResidualTooLarge;
     if (fix.log_odds - fix.rival_log_odds < options_.min_lead) return Verdict::kAmbiguous;
@@ -196,22 +196,32 @@ class Judge {
   }
 
  private:
-  /// Whether the edges tell the pose well in every direction: of the middle, since the attitude moves the
-  /// origin.
-  bool Determines(const State& state) const {
-    const auto& c = state.solution.covariance;
+  /// The share of the visible length that must be found, by how well the edges tell the pose; above 1 where
+  /// they do not.
+  double MinShare(const State& state) const {
+    const double place = PlaceSigma(state) / distance_m_, turn = TurnSigma(state);
+    if (place > options_.max_sigma_share || turn > options_.max_sigma_rad) return 2;
+    const bool is_fine = place <= options_.fine_sigma_share && turn <= options_.fine_sigma_rad;
+    return is_fine ? options_.min_share : options_.min_share_when_coarse;
+  }
+
+  /// Largest standard deviation in any direction.
+  static double Largest(const Eigen::Matrix3d& covariance) {
+    return std::sqrt(
+        std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff()));
+  }
+  static double TurnSigma(const State& state) {
+    return Largest(state.solution.covariance.bottomRightCorner<3, 3>());
+  }
+  /// Of the middle of the body, since the attitude moves the origin.
+  double PlaceSigma(const State& state) const {
     Eigen::Matrix<double, 3, 6> by_pose;
     const Eigen::Vector3d arm = state.base_from_model.linear() * middle_;
     by_pose << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
     by_pose.col(3) = Eigen::Vector3d::UnitX().cross(arm);
     by_pose.col(4) = Eigen::Vector3d::UnitY().cross(arm);
     by_pose.col(5) = Eigen::Vector3d::UnitZ().cross(arm);
-    const Eigen::Matrix3d place = by_pose * c * by_pose.transpose(), turn = c.bottomRightCorner<3, 3>();
-    const auto largest = [](const Eigen::Matrix3d& m) {
-      return std::sqrt(
-          std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvalues().maxCoeff()));
-    };
-    return largest(place) < options_.max_sigma_share * distance_m_ && largest(turn) < options_.max_sigma_rad;
+    return Largest(by_pose * state.solution.covariance * by_pose.transpose());
   }
 
   const Eigen::Isometry3d& believed_;

@@ -19,14 +19,19 @@ struct FreeModelOptions {
   int min_matched = 6;      ///< edges that must be found, all images together
   double min_log_odds = 6;  ///< of the body there against clutter only
   double min_share = 0.55;  ///< of the visible length that must be found, all images together
-  double min_lead = 4;      ///< log odds over the best different pose
+  /// The same where the edges tell the pose less well than FreeModelOptions::fine_sigma_*.
+  double min_share_when_coarse = 0.7;
+  double min_lead = 4;                                  ///< log odds over the best different pose
   double distinct_share = 0.01, distinct_rad = 0.0175;  ///< poses farther apart are different
   double max_misfit = 4;  ///< largest variance of the edges over the one that is expected of them
   double outlier_misfit =
       9;  ///< an edge that fits worse than that, by the variance found, is not the model's
   double max_outlier_share = 0.3;
-  /// What a fix must at least tell: standard deviation of the place over the distance, and of the attitude.
+  /// Standard deviation of the place over the distance, and of the attitude: what a fix must at least tell,
+  /// and from where on more of the body must be found. A small body is known less well than a large one, and
+  /// so is a pose by chance.
   double max_sigma_share = 0.02, max_sigma_rad = 0.05;
+  double fine_sigma_share = 0.004, fine_sigma_rad = 0.007;
   PoseSolverOptions solver{.on_floor = false, .edge_sigma_px = 0.03, .max_iterations = 15};
 };
 
