@@ -18,6 +18,7 @@ struct Pass {
 };
 constexpr Pass kPasses[] = {{6, 100, true}, {3, 100, true}, {1.8, 3, false}, {1.2, 3, false}};
 
+constexpr double kNever = 2;            ///< a share of the body that is never found
 constexpr int kFewest = 5;              ///< edges with which a pose can be fitted and tested
 constexpr double kSoft_px = 1.5;        ///< from that blur on, the operator loses more edges
 constexpr double kSoftDetection = 0.7;  ///< chance that it finds one then
@@ -55,6 +56,8 @@ class Search {
   LandmarkModel VisibleAt(const Eigen::Isometry3d& base_from_model) const {
     return VisibleSkeleton(body_, base_from_model.inverse() * OpticalCentre(*cameras_[0]));
   }
+
+  bool IsSharp() const { return blur_px_ <= kSoft_px; }
 
   /// One pass: the visible edges are compared with the images, then the pose is fitted.
   bool Refine(const Pass& pass, State& state) const {
@@ -172,9 +175,13 @@ double TurnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 /// Judges poses by how far the middle of the body is from the first camera.
 class Judge {
  public:
-  Judge(const Eigen::Isometry3d& believed, const Eigen::Vector3d& middle, double distance_m,
+  Judge(const Eigen::Isometry3d& believed, const Eigen::Vector3d& middle, double distance_m, bool is_sharp,
         const FreeModelOptions& options)
-      : believed_(believed), middle_(middle), distance_m_(distance_m), options_(options) {}
+      : believed_(believed),
+        middle_(middle),
+        distance_m_(distance_m),
+        is_sharp_(is_sharp),
+        options_(options) {}
 
   double ShiftShare(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
     return (a * middle_ - b * middle_).norm() / distance_m_;
@@ -197,12 +204,13 @@ class Judge {
 
  private:
   /// The share of the visible length that must be found, by how well the edges tell the pose; above 1 where
-  /// they do not.
+  /// they tell too little.
   double MinShare(const State& state) const {
     const double place = PlaceSigma(state) / distance_m_, turn = TurnSigma(state);
-    if (place > options_.max_sigma_share || turn > options_.max_sigma_rad) return 2;
-    const bool is_fine = place <= options_.fine_sigma_share && turn <= options_.fine_sigma_rad;
-    return is_fine ? options_.min_share : options_.min_share_when_coarse;
+    if (place > options_.max_sigma_share || turn > options_.max_sigma_rad) return kNever;
+    if (place <= options_.fine_sigma_share && turn <= options_.fine_sigma_rad) return options_.min_share;
+    const bool is_clear = is_sharp_ && state.variance_scale <= options_.max_misfit_when_coarse;
+    return is_clear ? options_.min_share_when_coarse : kNever;
   }
 
   /// Largest standard deviation in any direction.
@@ -227,6 +235,7 @@ class Judge {
   const Eigen::Isometry3d& believed_;
   const Eigen::Vector3d middle_;
   const double distance_m_;
+  const bool is_sharp_;
   const FreeModelOptions& options_;
 };
 
@@ -278,7 +287,7 @@ FreeModelFix LocateFreeModel(const Polyhedron& body, const Eigen::Isometry3d& be
   const auto states = RefineAll(search, ProposeBodyPoses(seen, believed, views, prior, options.proposals));
   fix.verdict = Verdict::kTooFewEdges;
   if (states.empty()) return fix;
-  const Judge judge(believed, middle, distance_m, options);
+  const Judge judge(believed, middle, distance_m, search.IsSharp(), options);
   const State& best = states.front();
   const double unit = UnitOf(states);
   fix.base_from_model = best.base_from_model;

@@ -19,8 +19,9 @@ struct FreeModelOptions {
   int min_matched = 6;      ///< edges that must be found, all images together
   double min_log_odds = 6;  ///< of the body there against clutter only
   double min_share = 0.55;  ///< of the visible length that must be found, all images together
-  /// The same where the edges tell the pose less well than FreeModelOptions::fine_sigma_*.
-  double min_share_when_coarse = 0.7;
+  /// The same where the edges tell the pose less well than fine_sigma_*; the images must be sharp then, and
+  /// the edges fit better.
+  double min_share_when_coarse = 0.7, max_misfit_when_coarse = 2.5;
   double min_lead = 4;                                  ///< log odds over the best different pose
   double distinct_share = 0.01, distinct_rad = 0.0175;  ///< poses farther apart are different
   double max_misfit = 4;  ///< largest variance of the edges over the one that is expected of them
