@@ -460,7 +460,8 @@ TEST(RadioAppStart, RefusesWhatMustNeverCrossTheRadio) {
                               "name='WHEEL_COMMAND'\ntype='wheel_command_t'"})
     EXPECT_THAT(
         StartError("port = 'a'", std::string("simulation_key=true\n[[channel]]\n") + kWhither + channel),
-        HasSubstr("expected one that may cross the radio"));
+        AllOf(HasSubstr("link.toml:"),
+              HasSubstr("channel[0].name: expected a channel that may cross the radio")));
 }
 
 TEST(RadioAppStart, RefusesAMissingKey) {
@@ -472,7 +473,7 @@ TEST(RadioAppStart, RefusesUnknownTypes) {
   EXPECT_THAT(
       StartError("port = 'a'",
                  std::string("simulation_key=true\n[[channel]]\nname='POSE'\ntype='pos_t'\n") + kWhither),
-      AllOf(HasSubstr("link.toml:2: radio channel POSE: type: "), HasSubstr("got \"pos_t\"")));
+      AllOf(HasSubstr("link.toml:4:channel[0].type: radio channel POSE: "), HasSubstr("got \"pos_t\"")));
 }
 
 TEST(RadioAppStart, RefusesAChannelThatDoesNotSayWhatItIs) {
@@ -486,7 +487,7 @@ TEST(RadioAppStart, RefusesAChannelThatDoesNotSayWhatItIs) {
 TEST(RadioAppStart, NamesThePlaceOfAChannelThatIsListedTwice) {
   const std::string channel = std::string("[[channel]]\nname='POSE'\ntype='pose_t'\n") + kWhither;
   EXPECT_THAT(StartError("port = 'a'", "simulation_key=true\n" + channel + channel),
-              HasSubstr("link.toml:7: radio channel POSE: expected a channel once"));
+              HasSubstr("link.toml:8:channel[1].name: radio channel POSE: expected a channel once"));
 }
 
 }  // namespace
