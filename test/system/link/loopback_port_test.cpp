@@ -46,7 +46,9 @@ TEST(LoopbackPort, AKeyThatEverybodyKnowsIsHeardByThisMachineAlone) {
   const std::string sockets = text.substr(std::min(text.find("sockets:"), text.size()));
   for (const char* socket : {"\n127.0.0.1:7300 ", "\n127.0.0.1:7402 "})
     EXPECT_THAT(sockets, HasSubstr(socket)) << text;
-  if (text.find("has IPv6") != text.npos) EXPECT_THAT(sockets, HasSubstr("\n[::1]:7403 ")) << text;
+  if (text.find("has IPv6") != text.npos) {
+    EXPECT_THAT(sockets, HasSubstr("\n[::1]:7403 ")) << text;
+  }
   for (const char* open : {"0.0.0.0:7", "*:7", "[::]:7300 \n", "10.9.9.9:7300 \n"})
     EXPECT_THAT(sockets.substr(0, sockets.find("priamos-radio")), Not(HasSubstr(open))) << text;
   std::size_t refusals = 0;
