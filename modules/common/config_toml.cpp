@@ -41,7 +41,7 @@ toml::table ParseToml(const std::string& name, std::string_view text) {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", Escaped(name), error.source().begin.line,
-                                  std::string(error.description())));
+                                  Escaped(std::string(error.description()))));
   }
 }
 
