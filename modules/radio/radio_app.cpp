@@ -13,6 +13,7 @@
 #include "bus/type_files.hpp"
 #include "common/config.hpp"
 #include "common/input/quoted.hpp"
+#include "common/input/regular_file.hpp"
 #include "common/random.hpp"
 #include "radio/file_store.hpp"
 #include "radio/key_file.hpp"
@@ -29,6 +30,14 @@ constexpr Duration kReportPeriod{1'000'000};
 /// Bytes that may wait for a port that takes none; more are dropped, because late bytes are worth nothing.
 constexpr std::size_t kMostUnwritten = 64;
 
+/// What was saved must be a file, or nothing yet: saving would replace anything else.
+void RequireFile(const std::string& path, const std::string& place) {
+  const RegularFile file(path);
+  if (!file.open() && !file.missing())
+    throw ConfigError(fmt::format("{}: expected a file, or the name of none yet, got {}, {}", place,
+                                  file.problem(), Quoted(path)));
+}
+
 std::optional<bus::Schema> TypesIn(const std::string& folder) {
   if (folder.empty()) return std::nullopt;
   return bus::Schema(bus::ReadTypeFiles(folder));
@@ -43,6 +52,7 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
       own_types_(TypesIn(config.types)),
       outgoing_(config.side == "onboard" ? Direction::kUp : Direction::kDown) {
   CheckRobots();
+  if (IsNetPort(config.port)) (void)ParseNetAddress(config.port, config.place.Of("port"));
   bus::radio::RequireBudget(link_config_.Table(types()), link_config_.Options());
   if (link_config_.robots > 0 && outgoing_ == Direction::kDown) {
     AddRobots();
@@ -50,7 +60,8 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
     AddEnd({.name = "",
             .key_file = link_config_.key_file,
             .state_file = config.state_file,
-            .fast_state_file = config.fast_state_file},
+            .fast_state_file = config.fast_state_file,
+            .place = config.place},
            static_cast<std::uint8_t>(config.address), context.node());
   }
   OpenLine();
@@ -141,17 +152,19 @@ void RadioApp::AddEnd(const StationRobot& robot, std::uint8_t address, bus::Node
                   .key = key,
                   .next_key = next_key,
                   .key_file = key_file,
-                  .store = OpenStore(robot.state_file, robot.fast_state_file),
+                  .store = OpenStore(robot),
                   .nonces = Nonces(),
                   .tick = TickPeriod()},
       node, [this](bus::Level level, std::string_view text) { context_.Log(level, text); }));
 }
 
-std::unique_ptr<bus::radio::StateStore> RadioApp::OpenStore(const std::string& file,
-                                                            const std::string& fast) const {
-  if (file.empty()) return std::make_unique<bus::radio::MemoryStore>();
-  return std::make_unique<FileStore>(context_.ResolvePath(file),
-                                     fast.empty() ? "" : context_.ResolvePath(fast));
+std::unique_ptr<bus::radio::StateStore> RadioApp::OpenStore(const StationRobot& robot) const {
+  if (robot.state_file.empty()) return std::make_unique<bus::radio::MemoryStore>();
+  const std::string file = context_.ResolvePath(robot.state_file);
+  const std::string fast = robot.fast_state_file.empty() ? "" : context_.ResolvePath(robot.fast_state_file);
+  RequireFile(file, robot.place.Of("state_file"));
+  if (!fast.empty()) RequireFile(fast, robot.place.Of("fast_state_file"));
+  return std::make_unique<FileStore>(file, fast);
 }
 
 bus::radio::LinkConfig RadioApp::LoadLink() const {

@@ -440,6 +440,33 @@ TEST(RadioAppStart, KeysOfALinkWithoutChannelsAreRefused) {
   EXPECT_THAT(StartError("port = 'a'\nbaud = 1200", kPoseLink), HasSubstr("channel"));
 }
 
+TEST(RadioAppStart, RefusesAPortThatIsNoAddress) {
+  EXPECT_THAT(StartError("\nport = 'tcp::99999'", kPoseLink),
+              HasSubstr("radio.toml:2:port: expected udp:HOST:PORT"));
+}
+
+/// Saving would replace it.
+TEST(RadioAppStart, RefusesAStateFileThatIsNoFile) {
+  EXPECT_THAT(
+      StartError("port = 'a'\nstate_file = '/dev/null'", kPoseLink),
+      HasSubstr(
+          "radio.toml:2:state_file: expected a file, or the name of none yet, got a device, \"/dev/null\""));
+  EXPECT_THAT(
+      StartError("port = 'a'\nstate_file = 'new'\nfast_state_file = '/tmp'", kPoseLink),
+      HasSubstr("radio.toml:3:fast_state_file: expected a file, or the name of none yet, got a folder"));
+  EXPECT_EQ(StartError("port = 'a'\nstate_file = 'new'", kPoseLink), "");
+}
+
+TEST(RadioAppStart, AMemoryOnARamDiskAloneIsRefused) {
+  EXPECT_THAT(StartError("port = 'a'\nfast_state_file = 'new'", kPoseLink),
+              HasSubstr("radio.toml:2:fast_state_file: expected none without a state_file"));
+}
+
+TEST(RadioAppStart, ALinkBesideTheChannelsOfTheSameFileIsRefused) {
+  EXPECT_THAT(StartError(std::string("link = 'other.toml'\n") + kPoseLink),
+              HasSubstr("radio.toml:1:link: expected none beside [[channel]] tables"));
+}
+
 TEST(RadioAppStart, UdpNeedsDatagrams) {
   EXPECT_THAT(StartError("port = 'udp:127.0.0.1:9000'", kPoseLink), HasSubstr("datagrams: expected true"));
 }
