@@ -197,10 +197,18 @@ TEST(LinkRefusals, EachNamesItsLineAndKeyAndWhatWasExpected) {
   }
 }
 
+std::string SourceText(const std::string& source) {
+  std::ifstream in(PRIAMOS_SOURCE_DIR "/bus/radio/" + source);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The sources that refuse a link.toml.
+const std::vector<std::string> kSources{"link_config.cpp", "budget.cpp", "shared_budget.cpp",
+                                        "channels/channel_table.cpp"};
+
 /// What the sources can say of a link.toml: the beginning of each text after `expected`.
 std::set<std::string> SentencesIn(const std::string& source) {
-  std::ifstream in(PRIAMOS_SOURCE_DIR "/bus/radio/" + source);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = SourceText(source);
   static const std::regex kRefuse(
       R"re((?:Refuse|Require)\(\s*"\w+",\s*(?:fmt::format\(\s*)?"((?:[^"\\{]|\\.)*))re"),
       kExpected(R"re("[^"\n]*\bexpected ((?:[^"\\{]|\\.)*))re"),
@@ -227,14 +235,26 @@ TEST(LinkRefusals, EverySentenceOfTheSourcesIsAmongThem) {
   for (const Case& c : AllCases())
     for (const std::string& refusal : RefusalsOf(c.toml)) said += refusal + "\n";
   std::size_t sentences = 0;
-  for (const char* source :
-       {"link_config.cpp", "budget.cpp", "shared_budget.cpp", "channels/channel_table.cpp"})
+  for (const std::string& source : kSources)
     for (const std::string& sentence : SentencesIn(source)) {
       ++sentences;
       if (sentence.starts_with("1 to ") || kOfChannelTablesAlone.contains(sentence)) continue;
       EXPECT_NE(said.find(sentence), said.npos) << source << ": no case for \"" << sentence << '"';
     }
   EXPECT_GE(sentences, 45U);
+}
+
+/// Statements that refuse; what they say is made of `expected ..., got ...`, or handed on.
+TEST(LinkRefusals, NoStatementOfTheSourcesRefusesInOtherWords) {
+  static const std::regex kStatement(R"re((?:problems\.push_back|throw [A-Za-z:_]+)\([^;]*;)re"),
+      kWords(R"re(\bexpected\b|error\.what\(\)\);|problems\.front\(\))re");
+  std::size_t statements = 0;
+  for (const std::string& source : kSources) {
+    const std::string text = SourceText(source);
+    for (std::sregex_iterator at(text.begin(), text.end(), kStatement), end; at != end; ++at, ++statements)
+      EXPECT_TRUE(std::regex_search((*at)[0].str(), kWords)) << source << ": " << (*at)[0].str();
+  }
+  EXPECT_GE(statements, 22U);
 }
 
 TEST(LinkRefusals, EveryKeyRefusesWhatItIsNot) {
