@@ -33,21 +33,21 @@ void CheckDuty(const DirectionAnalysis& analysis, const LinkOptions& options,
   const double longest_s = Seconds(analysis.LongestFrameTime());
   if (longest_s > Seconds(options.duty.longest()))
     problems.push_back(
-        fmt::format("radio link: duty_cycle: expected packets of at most {:.3f} s, of which the "
+        fmt::format("{}: expected packets of at most {:.3f} s, of which the "
                     "duty_window_s holds many, "
                     "got {:.3f} s: lower max_bundle_bytes or packet_overhead_s",
-                    Seconds(options.duty.longest()), longest_s));
+                    options.place.Of("duty_cycle"), Seconds(options.duty.longest()), longest_s));
   if (analysis.CreditSeconds() > Seconds(options.duty.credit()))
-    problems.push_back(
-        fmt::format("radio link: duty_cycle: expected urgent messages that take at most {:.3f} s of air at "
-                    "once, with all "
-                    "their repetitions, got {:.3f} s: lower their burst, or line_delay_s",
-                    Seconds(options.duty.credit()), analysis.CreditSeconds()));
-  if (analysis.SilenceSeconds() > Seconds(options.silence))
     problems.push_back(fmt::format(
-        "radio link: silence_s: expected at least {:.3f} s, for which the duty_cycle can keep an end silent, "
-        "got {:.3f} s",
-        analysis.SilenceSeconds(), Seconds(options.silence)));
+        "{}: expected urgent messages that take at most {:.3f} s of air at "
+        "once, with all "
+        "their repetitions, got {:.3f} s: lower their burst, or line_delay_s",
+        options.place.Of("duty_cycle"), Seconds(options.duty.credit()), analysis.CreditSeconds()));
+  if (analysis.SilenceSeconds() > Seconds(options.silence))
+    problems.push_back(
+        fmt::format("{}: expected at least {:.3f} s, for which the duty_cycle can keep an end silent, "
+                    "got {:.3f} s",
+                    options.place.Of("silence_s"), analysis.SilenceSeconds(), Seconds(options.silence)));
 }
 
 DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, PollBounds& polls,
@@ -91,58 +91,85 @@ const char* NameOf(Direction d) {
   return d == Direction::kUp ? "up" : "down";
 }
 
-void CheckProof(const LinkChannel& c, const FreshnessProof& proof, std::vector<std::string>& problems) {
+void CheckProof(const LinkChannel& c, const FreshnessProof& proof, const SectionPlace& link,
+                std::vector<std::string>& problems) {
   if (proof.echo_age > proof.reach)
     problems.push_back(
-        fmt::format("{}: expected a line_delay_s and a silence of the other end of at most "
+        fmt::format("{}: radio channel {}: expected a line_delay_s and a silence of the other end of at most "
                     "{:.3f} s together, "
                     "within which an echo names one frame, got {:.3f} s: lower keep_alive_s, "
                     "max_bundle_bytes or line_delay_s",
-                    c.Title(), Seconds(proof.reach), Seconds(proof.echo_age)));
+                    link.Of("line_delay_s"), c.name, Seconds(proof.reach), Seconds(proof.echo_age)));
   if (proof.age() <= c.ttl) return;
   problems.push_back(fmt::format(
       "{}: expected a ttl_s of at least {:.3f} s, in which a command can be proven fresh, got "
       "{:.3f} s: {:.3f} s until it is sent, {:.3f} s of line_delay_s, {:.3f} s written ahead, {:.3f} s of "
       "rounding, {:.3f} s of silence of the other end beyond what can be counted: lower max_bundle_bytes or "
       "keep_alive_s, or measure line_delay_s",
-      c.Title(), Seconds(proof.age()), Seconds(c.ttl), Seconds(proof.next), Seconds(proof.delay),
+      c.At("ttl_s"), Seconds(proof.age()), Seconds(c.ttl), Seconds(proof.next), Seconds(proof.delay),
       Seconds(proof.ahead), Seconds(proof.step), Seconds(proof.silence)));
 }
 
-void CheckDirection(const ChannelTable& table, const DirectionBudget& budget,
+void CheckLoad(const ChannelTable& table, const DirectionBudget& budget, const SectionPlace& link,
+               std::vector<std::string>& problems) {
+  if (budget.utilisation <= 1) return;
+  ChannelBudget largest;
+  for (const ChannelBudget& row : budget.channels)
+    if (row.share > largest.share) largest = row;
+  const bool channel = largest.share > 0;
+  problems.push_back(
+      fmt::format("{}: radio link {}: expected at most {:.0f} byte/s, got {:.0f} byte/s: lower a rate_hz, {} "
+                  "alone takes {:.0f} byte/s",
+                  channel ? table.at(largest.channel).place.Of("rate_hz") : link.Of("baud"),
+                  NameOf(budget.direction), budget.capacity_bytes_per_s, budget.bytes_per_s,
+                  channel ? table.at(largest.channel).name : "acknowledging",
+                  channel ? largest.bytes_per_s : budget.control_bytes_per_s));
+}
+
+void CheckDeadline(const LinkChannel& c, const ChannelBudget& row, std::vector<std::string>& problems) {
+  if (c.deadline <= Duration::zero() || (row.worst_latency && *row.worst_latency <= c.deadline)) return;
+  problems.push_back(fmt::format(
+      "{}: expected delivery within its deadline_s of {:.3f} s, got {} in the worst case: give it a "
+      "smaller priority number, lower the rate_hz of others, or lower max_bundle_bytes",
+      c.At("deadline_s"), Seconds(c.deadline),
+      row.worst_latency ? fmt::format("{:.3f} s", Seconds(*row.worst_latency)) : "no bound at all"));
+}
+
+/// A state that is dropped before its turn comes may never arrive. Of a command the proof decides.
+void CheckLifetime(const LinkChannel& c, const ChannelBudget& row, std::vector<std::string>& problems) {
+  if (c.channel_class != ChannelClass::kState || c.ttl <= Duration::zero()) return;
+  if (row.worst_latency && *row.worst_latency <= c.ttl) return;
+  const std::string expected =
+      row.worst_latency
+          ? fmt::format("a ttl_s of at least {:.3f} s, in which a state arrives in the worst case",
+                        Seconds(*row.worst_latency))
+          : "no ttl_s where nothing bounds how long a state waits";
+  problems.push_back(
+      fmt::format("{}: expected {}, got {:.3f} s: raise it, leave it out for no limit, or give the channel a "
+                  "smaller priority number",
+                  c.At("ttl_s"), expected, Seconds(c.ttl)));
+}
+
+void CheckDirection(const ChannelTable& table, const DirectionBudget& budget, const SectionPlace& link,
                     std::vector<std::string>& problems) {
-  if (budget.utilisation > 1) {
-    ChannelBudget largest;
-    for (const ChannelBudget& row : budget.channels)
-      if (row.share > largest.share) largest = row;
-    problems.push_back(
-        fmt::format("radio link {}: expected at most {:.0f} byte/s, got {:.0f} byte/s: lower a rate_hz, {} "
-                    "alone takes {:.0f} byte/s",
-                    NameOf(budget.direction), budget.capacity_bytes_per_s, budget.bytes_per_s,
-                    largest.share > 0 ? table.at(largest.channel).name : "acknowledging",
-                    largest.share > 0 ? largest.bytes_per_s : budget.control_bytes_per_s));
-  }
+  CheckLoad(table, budget, link, problems);
   for (const ChannelBudget& row : budget.channels) {
     const LinkChannel& c = table.at(row.channel);
-    if (row.proof) CheckProof(c, *row.proof, problems);
-    if (c.deadline <= Duration::zero() || (row.worst_latency && *row.worst_latency <= c.deadline)) continue;
-    problems.push_back(fmt::format(
-        "{}: expected delivery within its deadline_s of {:.3f} s, got {} in the worst case: "
-        "give it a "
-        "smaller priority number, lower the rate_hz of others, or lower max_bundle_bytes",
-        c.Title(), Seconds(c.deadline),
-        row.worst_latency ? fmt::format("{:.3f} s", Seconds(*row.worst_latency)) : "no bound at all"));
+    if (row.proof) CheckProof(c, *row.proof, link, problems);
+    CheckLifetime(c, row, problems);
+    CheckDeadline(c, row, problems);
   }
 }
 
-void CheckPackets(const DirectionBudget& budget, std::size_t packet_bytes,
+void CheckPackets(const DirectionBudget& budget, const LinkOptions& options,
                   std::vector<std::string>& problems) {
-  if (packet_bytes == 0 || budget.longest_frame_bytes <= packet_bytes) return;
+  if (options.packet_bytes == 0 || budget.longest_frame_bytes <= options.packet_bytes) return;
   problems.push_back(
-      fmt::format("radio link {}: expected frames of at most {} byte, the mtu_bytes, got {} byte: lower "
+      fmt::format("{}: radio link {}: expected frames of at most {} byte, the mtu_bytes, got {} byte: lower "
                   "max_bundle_bytes, or send the longest messages of class state or command as events, which "
                   "go in segments",
-                  NameOf(budget.direction), packet_bytes, budget.longest_frame_bytes));
+                  options.place.Of("mtu_bytes"), NameOf(budget.direction), options.packet_bytes,
+                  budget.longest_frame_bytes));
 }
 
 /// In the largest unit of which there is at least one.
@@ -181,10 +208,9 @@ Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options) {
   budget.down = Analyse(table, options, budget.polls, Direction::kDown, budget.problems);
   budget.code_bytes = table.code_bytes();
   budget.forgery_s = ForgerySeconds(options.bytes_per_s, table.code_bytes());
-  CheckDirection(table, budget.up, budget.problems);
-  CheckDirection(table, budget.down, budget.problems);
-  for (const DirectionBudget* d : {&budget.up, &budget.down})
-    CheckPackets(*d, options.packet_bytes, budget.problems);
+  CheckDirection(table, budget.up, options.place, budget.problems);
+  CheckDirection(table, budget.down, options.place, budget.problems);
+  for (const DirectionBudget* d : {&budget.up, &budget.down}) CheckPackets(*d, options, budget.problems);
   return budget;
 }
 
@@ -214,7 +240,6 @@ std::string FormatBudget(const ChannelTable& table, const Budget& budget) {
   text +=
       fmt::format("codes of {} bytes: of a line full of forged frames, one is accepted within {} with 50 %\n",
                   budget.code_bytes, FormatLongTime(budget.forgery_s));
-  for (const std::string& problem : budget.problems) text += problem + "\n";
   return text;
 }
 

@@ -55,11 +55,12 @@ struct DirectionBudget {
 /// Load of both directions, and why the configuration cannot be used.
 struct Budget {
   DirectionBudget up, down;
-  std::vector<std::string> problems;  ///< one sentence each; empty when the configuration holds
-  int robots = 0;                     ///< on a channel that they share; 0: a link of two ends
-  PollBounds polls{};                 ///< of a shared channel
-  std::size_t code_bytes = 0;         ///< length of the codes of data frames
-  double forgery_s = 0;               ///< ForgerySeconds of this line with such codes
+  /// One sentence each, `file:line:key: expected ..., got ...`; empty when the configuration holds.
+  std::vector<std::string> problems;
+  int robots = 0;              ///< on a channel that they share; 0: a link of two ends
+  PollBounds polls{};          ///< of a shared channel
+  std::size_t code_bytes = 0;  ///< length of the codes of data frames
+  double forgery_s = 0;        ///< ForgerySeconds of this line with such codes
 };
 
 /// Worst-case latencies by response-time analysis as for CAN (Davis, Burns, Bril, Lukkien, Real-Time Systems
@@ -77,6 +78,9 @@ struct Budget {
 /// the line there and back, what is written ahead, what the offset loses, and what the other direction's
 /// silence exceeds the range of the offset by. Emergency stops and bursts are left out, other than for a
 /// deadline: the one that comes too late behind them is refused, and the next one obeyed.
+///
+/// A state is dropped when it is older than its time-to-live before its turn: that must hold its worst
+/// latency.
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options);
 
 /// Checks that the link can keep its deadlines. Throws ConfigError with the first problem of ComputeBudget.

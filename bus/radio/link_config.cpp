@@ -11,6 +11,8 @@
 #include "bus/radio/frame/forgery.hpp"
 #include "bus/schema/packing.hpp"
 #include "common/archive.hpp"
+#include "common/input/quoted.hpp"
+#include "common/input/section_place.hpp"
 
 namespace priamos::bus::radio {
 namespace {
@@ -50,10 +52,10 @@ std::uint64_t CodesHash(const Packer& packer) {
   return value;
 }
 
-ValueWidths DeltaWidths(const std::string& title, const Struct& type) {
+ValueWidths DeltaWidths(const LinkChannel& channel, const Struct& type) {
   if (!HasFixedSize(type))
-    throw ConfigError(fmt::format(
-        "{}: delta: expected false with {}, whose messages differ in size, got true", title, type.full_name));
+    throw ConfigError(fmt::format("{}: expected false with {}, whose messages differ in size, got true",
+                                  channel.At("delta"), type.full_name));
   return Packer(type).ValueWidths();
 }
 
@@ -62,13 +64,13 @@ ChannelClass ClassOf(const std::string& name) {
   return name == "command" ? ChannelClass::kCommand : ChannelClass::kState;
 }
 
-void CheckKey(const std::string& title, const std::string& key, const Struct& type) {
+void CheckKey(const LinkChannel& channel, const std::string& key, const Struct& type) {
   if (key.empty()) return;
   const auto field =
       std::find_if(type.fields.begin(), type.fields.end(), [&](const Field& f) { return f.name == key; });
   if (field == type.fields.end() || field->kind != Kind::kString || !field->dims.empty())
-    throw ConfigError(
-        fmt::format("{}: key: expected a text field of {}, got \"{}\"", title, type.full_name, key));
+    throw ConfigError(fmt::format("{}: expected a text field of {}, got {}", channel.At("key"),
+                                  type.full_name, Quoted(key)));
 }
 
 LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
@@ -77,9 +79,9 @@ LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
   channel.place = c.place;
   const Struct* type = schema.Find(c.type);
   if (type == nullptr)
-    throw ConfigError(
-        fmt::format("{}: type: expected the name of a known .lcm type, got \"{}\"", channel.Title(), c.type));
-  CheckKey(channel.Title(), c.key, *type);
+    throw ConfigError(fmt::format("{}: expected the name of a known .lcm type, got {}", channel.At("type"),
+                                  Quoted(c.type)));
+  CheckKey(channel, c.key, *type);
   channel.direction = c.direction == "up" ? Direction::kUp : Direction::kDown;
   channel.channel_class = ClassOf(c.channel_class);
   try {
@@ -87,10 +89,11 @@ LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
     channel.fingerprint = type->fingerprint ^ CodesHash(packer);
     channel.max_bits = static_cast<std::uint32_t>(packer.MaxBits());
   } catch (const SchemaError& error) {
-    throw ConfigError(fmt::format("{} cannot be packed: {}", channel.Title(), error.what()));
+    throw ConfigError(fmt::format("{}: expected a type that can be packed, got {}: {}", channel.At("type"),
+                                  type->full_name, error.what()));
   }
   channel.fixed_bits = HasFixedSize(*type) ? channel.max_bits : 0;
-  if (c.delta) channel.delta = DeltaWidths(channel.Title(), *type);
+  if (c.delta) channel.delta = DeltaWidths(channel, *type);
   channel.priority = c.priority;
   channel.rate_hz = c.rate_hz;
   channel.burst = c.burst;
@@ -123,17 +126,19 @@ void LinkChannelConfig::Describe(Archive& a) {
          "sent as difference to one that the other end is known to have, whenever that is shorter");
   a.Text("key", key, "text field of the type: newest wins per value of it; empty: newest of all");
   a.Integer("keys", keys, {"-", 1, 64, "values of `key` at most"});
-  place = a.Place();
+  place = PlaceIn(a);
   a.Require("direction", "up or down");
   a.Require("class", "state, event or command");
   if (!IsChannelName(name)) a.Refuse("name", "the name of an LCM channel: 1 to 63 printable characters");
   if (channel_class == "command" && ttl_s < kShortest_s)
     a.Refuse("ttl_s", "a time-to-live of at least 0.001, as every command needs");
+  if (ttl_s > 0 && ttl_s < kShortest_s) a.Refuse("ttl_s", "0 for no limit, or at least 0.001");
   if (deadline_s > 0 && deadline_s < kShortest_s) a.Refuse("deadline_s", "0 for any, or at least 0.001");
   if (channel_class == "event" && ttl_s > 0) a.Refuse("ttl_s", "none: an event is delivered, however late");
   if (delta && (channel_class != "state" || !key.empty()))
     a.Refuse("delta", "false: differences are for channels of class state without a key");
   if (channel_class != "state" && !key.empty()) a.Refuse("key", "none: keys are for channels of class state");
+  if (keys != 1 && key.empty()) a.Refuse("keys", "1 without a key, of which there would be so many");
 }
 
 void LinkConfig::Describe(Archive& a) {
@@ -148,8 +153,10 @@ void LinkConfig::Describe(Archive& a) {
   a.Flag("simulation_key", simulation_key, "use a key that everybody knows: only for emulated lines");
   a.List("channel", channels,
          "the channels that cross the link; their order is part of what both ends agree on");
+  place = PlaceIn(a);
   if (code_bytes % 2 != 0 || code_bytes == 2) a.Refuse("code_bytes", "4, 6, 8, or 0 for the default");
   RefuseContradictions(a);
+  RefuseWithoutEffect(a);
 }
 
 void LinkConfig::DescribeLine(Archive& a) {
@@ -220,6 +227,27 @@ void LinkConfig::RefuseContradictions(Archive& a) const {
   if (silence_s <= keep_alive_s) a.Refuse("silence_s", "more than keep_alive_s");
 }
 
+/// A key that changes nothing makes somebody believe what is not so.
+void LinkConfig::RefuseWithoutEffect(Archive& a) const {
+  const LinkConfig usual;
+  if (medium != "packet" && mtu_bytes != usual.mtu_bytes)
+    a.Refuse("mtu_bytes", "none, other than with medium \"packet\": nothing else has packets");
+  if (duty_cycle >= 1 && duty_window_s != usual.duty_window_s)
+    a.Refuse("duty_window_s", "none without a duty_cycle below 1");
+  if (robots == 0 && grace_s != usual.grace_s)
+    a.Refuse("grace_s", "none without robots: no end of a link of two is polled");
+  if (robots == 0 && half_duplex_turn_s <= 0 && turnaround_s != usual.turnaround_s)
+    a.Refuse("turnaround_s", "none without half_duplex_turn_s or robots: nobody takes turns");
+  if (air_rate_bytes_s > baud / 10.0)
+    a.Refuse("air_rate_bytes_s", "0, or at most the rate of the port, a tenth of baud");
+  if (simulation_key && key_file != usual.key_file)
+    a.Refuse("key_file", "none beside simulation_key = true, with which no key is read");
+  if (ahead_bytes != usual.ahead_bytes && ahead_bytes < Options().ahead_bytes)
+    a.Refuse("ahead_bytes",
+             fmt::format("at least {} at this rate, which go in {} s between two looks of the process",
+                         Options().ahead_bytes, kFeedGap_s));
+}
+
 double LinkConfig::BytesPerSecond() const {
   const double port = baud / 10.0;
   return air_rate_bytes_s > 0 ? std::min(air_rate_bytes_s, port) : port;
@@ -247,10 +275,14 @@ LinkOptions LinkConfig::Options() const {
           .packet_bytes = medium == "packet" ? static_cast<std::size_t>(mtu_bytes) : 0,
           .duty = DutyCycle(duty_cycle, FromSeconds(duty_window_s)),
           .robots = static_cast<std::uint8_t>(robots),
-          .grace = FromSeconds(grace_s)};
+          .grace = FromSeconds(grace_s),
+          .place = place};
 }
 
 ChannelTable LinkConfig::Table(const Schema& schema) const {
+  if (channels.empty() || channels.size() > ChannelTable::kMaxChannels)
+    throw ConfigError(fmt::format("{}: expected 1 to {} [[channel]] tables, got {}", place.Of("channel"),
+                                  ChannelTable::kMaxChannels, channels.size()));
   std::vector<LinkChannel> table;
   for (const LinkChannelConfig& c : channels) table.push_back(ToChannel(c, schema));
   try {

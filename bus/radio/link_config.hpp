@@ -7,6 +7,7 @@
 #include "bus/radio/link_options.hpp"
 #include "bus/schema/schema.hpp"
 #include "common/archive.hpp"
+#include "common/input/section_place.hpp"
 
 namespace priamos::bus::radio {
 
@@ -24,9 +25,9 @@ struct LinkChannelConfig {
   bool urgent = false;    ///< may cut off the frame being sent; as an event not limited by `rate_hz`
   bool on_request = false;  ///< sent only while somebody listens on the other side
   bool delta = false;       ///< sent as a difference to an acknowledged message whenever that is shorter
-  std::string key;      ///< text field of the type: the newest message per value of it is kept; empty: no key
-  int keys = 1;         ///< [-] 1..64: largest number of values of `key`
-  std::string place{};  ///< where it was read, for errors: `file:line: `, or empty
+  std::string key;  ///< text field of the type: the newest message per value of it is kept; empty: no key
+  int keys = 1;     ///< [-] 1..64: largest number of values of `key`
+  SectionPlace place{};  ///< where it was read, for errors
   void Describe(Archive& a);
   friend bool operator==(const LinkChannelConfig&, const LinkChannelConfig&) = default;
 };
@@ -57,6 +58,7 @@ struct LinkConfig {
   std::string key_file = "link.key";  ///< secret key of the link, made by `priamos link keygen`, mode 0600
   bool simulation_key = false;        ///< uses a key that everybody knows: only for emulated lines
   std::vector<LinkChannelConfig> channels;  ///< channels of the link, at both ends in the same order
+  SectionPlace place{};                     ///< where it was read, for errors
 
   void Describe(Archive& a);
   /// Bytes per second of the slower of line and radio.
@@ -74,6 +76,7 @@ struct LinkConfig {
   void DescribeLine(Archive& a);
   void DescribeMedium(Archive& a);
   void RefuseContradictions(Archive& a) const;
+  void RefuseWithoutEffect(Archive& a) const;
 };
 
 }  // namespace priamos::bus::radio

@@ -5,6 +5,7 @@
 
 #include "bus/radio/line/duty_cycle.hpp"
 #include "bus/radio/line/turn_taking.hpp"
+#include "common/input/section_place.hpp"
 #include "common/time.hpp"
 
 namespace priamos::bus::radio {
@@ -35,6 +36,8 @@ struct LinkOptions {
   std::uint8_t address = 0;
   /// A polled robot begins at most so late; what its process needs to notice the poll.
   Duration grace{5'000};
+
+  SectionPlace place{};  ///< where they are configured, for errors
 
   /// Whether a frame goes in a packet of a radio, which nothing can cut off.
   bool packets() const { return datagrams && packet_overhead > Duration::zero(); }

@@ -35,11 +35,12 @@ std::vector<std::string> SharedProblems(const ChannelTable& table, const LinkOpt
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     const std::size_t least = DirectionAnalysis(table, options, direction).SmallestBundleBytes();
     if (least <= options.max_bundle_bytes) continue;
-    problems.push_back(
-        fmt::format("radio link {}: expected a max_bundle_bytes of at least {} with several robots, in which "
-                    "each message has room beside acknowledgements, got {}: raise it, or shorten the "
-                    "longest message",
-                    direction == Direction::kUp ? "up" : "down", least, options.max_bundle_bytes));
+    problems.push_back(fmt::format(
+        "{}: radio link {}: expected a max_bundle_bytes of at least {} with several robots, in which "
+        "each message has room beside acknowledgements, got {}: raise it, or shorten the "
+        "longest message",
+        options.place.Of("max_bundle_bytes"), direction == Direction::kUp ? "up" : "down", least,
+        options.max_bundle_bytes));
   }
   return problems;
 }

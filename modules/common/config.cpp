@@ -7,6 +7,8 @@
 #include <set>
 
 #include "common/config_toml.hpp"
+#include "common/input/quoted.hpp"
+#include "common/input/section_place.hpp"
 #include "common/nearest_word.hpp"
 
 namespace priamos {
@@ -22,7 +24,7 @@ std::string Shown(const toml::node& node) {
     } else if constexpr (toml::is_array<decltype(n)>) {
       text = fmt::format("an array of {}", n.size());
     } else if constexpr (toml::is_string<decltype(n)>) {
-      text = fmt::format("\"{}\"", n.get());
+      text = Quoted(n.get());
     } else if constexpr (toml::is_number<decltype(n)>) {
       text = fmt::format("{}", n.get());
     } else if constexpr (toml::is_boolean<decltype(n)>) {
@@ -37,7 +39,7 @@ std::string Shown(const toml::node& node) {
 }  // namespace
 
 /// Walks a parsed table; remembers which nodes were asked for.
-class ConfigFile::Reader : public Archive {
+class ConfigFile::Reader : public Archive, public PlaceSource {
  public:
   Reader(std::string name, toml::table table) : name_(std::move(name)), table_(std::move(table)) {
     levels_.push_back({"", &table_});
@@ -116,6 +118,15 @@ class ConfigFile::Reader : public Archive {
     return source.starts_with(kSetName) ? "" : fmt::format("{}:{}: ", source, table->source().begin.line);
   }
 
+  SectionPlace PlaceOfSection() const override {
+    const auto* table = levels_.back().table;
+    if (!table) return {fmt::format("{}: {}", name_, Prefix()), {}};
+    SectionPlace::Keys keys;
+    for (const auto& [key, node] : *table)
+      keys.emplace(key.str(), PlaceOf(node, Prefix() + std::string(key.str())));
+    return {PlaceOf(*table, Prefix()), std::move(keys)};
+  }
+
   void RefuseUnknownKeys() const { RefuseUnknown(table_, ""); }
 
  protected:
@@ -163,8 +174,8 @@ class ConfigFile::Reader : public Archive {
   /// Place of a value, `file:line:key`, or `--set KEY=VALUE: key` for what came from there.
   std::string PlaceOf(const toml::node& node, std::string_view key) const {
     const std::string& source = node.source().path ? *node.source().path : name_;
-    if (source.starts_with(kSetName)) return fmt::format("{}: {}", source, key);
-    return fmt::format("{}:{}:{}", source, node.source().begin.line, key);
+    if (source.starts_with(kSetName)) return fmt::format("{}: {}", Escaped(source), Escaped(key));
+    return fmt::format("{}:{}:{}", Escaped(source), node.source().begin.line, Escaped(key));
   }
 
   double NumberIn(const toml::node& node, std::string_view key, const ValueSpec& spec) const {

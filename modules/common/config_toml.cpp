@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "common/archive.hpp"
+#include "common/input/quoted.hpp"
+#include "common/input/regular_file.hpp"
 #include "common/nearest_file.hpp"
 
 namespace priamos {
@@ -16,6 +15,7 @@ namespace {
 
 /// Parts of a dotted key; each is a table within the last, and what walks through them does so by recursion.
 constexpr std::ptrdiff_t kMostParts = 32;
+constexpr std::size_t kMostBytes = 16 << 20;
 
 void RefuseDeepKeys(const std::string& name, std::string_view text) {
   int line = 1;
@@ -40,21 +40,23 @@ toml::table ParseToml(const std::string& name, std::string_view text) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", name, error.source().begin.line,
-                                  std::string(error.description())));
+    throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", Escaped(name), error.source().begin.line,
+                                  Escaped(std::string(error.description()))));
   }
 }
 
 namespace {
 
 toml::table ParseFile(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw ConfigError(
-        fmt::format("{}: expected a configuration file, got none{}", path, NearestFileText(path, ".toml")));
-  std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw ConfigError(fmt::format("{}: expected a file that can be read, got one that cannot", path));
-  return ParseToml(path, std::string_view(text));
+  const RegularFile file(path);
+  if (!file.open())
+    throw ConfigError(fmt::format("{}: expected a configuration file, got {}{}", Escaped(path),
+                                  file.problem(), file.missing() ? NearestFileText(path, ".toml") : ""));
+  const auto text = file.Read(kMostBytes);
+  if (!text)
+    throw ConfigError(fmt::format("{}: expected a file of at most {} bytes that can be read, got another",
+                                  Escaped(path), kMostBytes));
+  return ParseToml(path, std::string_view(*text));
 }
 
 void Merge(toml::table& into, toml::table&& from) {

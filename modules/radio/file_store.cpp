@@ -9,12 +9,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "common/input/quoted.hpp"
+#include "common/input/regular_file.hpp"
 #include "common/replace_file.hpp"
 
 namespace priamos::radio {
@@ -29,6 +31,9 @@ void Replace(const std::string& path, std::span<const std::byte> state, bool dur
   const std::string_view content(reinterpret_cast<const char*>(state.data()), state.size());
   if (!ReplaceFile(path, content, durable, 0600)) Fail(path);
 }
+
+/// Far more than any state of a link.
+constexpr std::size_t kMostBytes = 4 << 20;
 
 /// The time that the kernel gives a changed file is that of its last tick.
 constexpr Duration kClockSteps{20'000};
@@ -80,12 +85,18 @@ FileStore::~FileStore() {
 
 /// Its head, a line, names the boot, the time of writing and the folder; the rest is the state.
 std::optional<bus::radio::SavedState> FileStore::Read(const std::string& path) const {
-  std::ifstream in(path, std::ios::binary);
-  std::string head;
-  if (!in || !std::getline(in, head)) return std::nullopt;
-  bus::radio::SavedState state{.bytes = {}, .latest = IsLatest(path, head)};
-  for (auto at = std::istreambuf_iterator<char>(in); at != std::istreambuf_iterator<char>(); ++at)
-    state.bytes.push_back(static_cast<std::byte>(*at));
+  const RegularFile file(path);
+  if (file.missing()) return std::nullopt;
+  const auto content = file.Read(kMostBytes);
+  if (!content)
+    throw std::runtime_error(
+        fmt::format("{}: expected the radio's state, a file of at most {} bytes, got {}", Escaped(path),
+                    kMostBytes, file.open() ? "a longer one, or one that cannot be read" : file.problem()));
+  const std::size_t end = content->find('\n');
+  if (end == std::string::npos) return std::nullopt;
+  bus::radio::SavedState state{.bytes = {}, .latest = IsLatest(path, content->substr(0, end))};
+  const auto bytes = std::as_bytes(std::span(*content).subspan(end + 1));
+  state.bytes.assign(bytes.begin(), bytes.end());
   return state;
 }
 

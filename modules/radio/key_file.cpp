@@ -17,6 +17,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/input/quoted.hpp"
+#include "common/input/regular_file.hpp"
+
 namespace priamos::radio {
 namespace {
 
@@ -39,15 +42,22 @@ class File {
   int fd_;
 };
 
-void RefuseOpenMode(const std::string& path, int fd) {
-  struct stat info {};
-  if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode))
-    throw std::runtime_error(fmt::format("{}: expected a key file, got something else", path));
-  if ((info.st_mode & 0077) != 0)
+void RefuseOpenMode(const std::string& path, unsigned mode) {
+  if ((mode & 0077U) != 0)
     throw std::runtime_error(
         fmt::format("{}: expected a key that only its owner can read, got mode {:o}: if nobody else has read "
                     "it, `chmod 600 {}`",
-                    path, info.st_mode & 0777U, path));
+                    path, mode, path));
+}
+
+/// The digits of a key, with nothing but a line feed behind them; nullopt: something else.
+std::optional<LinkKey> KeyOf(const std::string& text) {
+  const bool ends = text.size() == kHexDigits || (text.size() == kHexDigits + 1 && text.back() == '\n');
+  LinkKey key{};
+  std::size_t bytes = 0;
+  const bool is_hex =
+      ends && sodium_hex2bin(key.data(), key.size(), text.data(), kHexDigits, nullptr, &bytes, nullptr) == 0;
+  return is_hex && bytes == key.size() ? std::optional(key) : std::nullopt;
 }
 
 /// Whether there is anything of this name, also a link that leads nowhere.
@@ -96,29 +106,26 @@ bool WriteKey(const std::string& aside) {
 }  // namespace
 
 LinkKey ReadKeyFile(const std::string& path) {
-  const File file(path, O_RDONLY);
-  if (file.fd() < 0)
-    throw std::runtime_error(fmt::format(
-        "{}: expected the key of the radio link, got none ({}): make one with `priamos link keygen "
-        "{}` and copy it to the other end",
-        path, std::strerror(errno), path));
-  RefuseOpenMode(path, file.fd());
-  std::array<char, kHexDigits + 2> text{};
-  const ssize_t n = read(file.fd(), text.data(), text.size());
-  LinkKey key{};
-  std::size_t bytes = 0;
-  const bool is_hex =
-      n >= static_cast<ssize_t>(kHexDigits) && n <= static_cast<ssize_t>(kHexDigits + 1) &&
-      (n == static_cast<ssize_t>(kHexDigits) || text[kHexDigits] == '\n') &&
-      sodium_hex2bin(key.data(), key.size(), text.data(), kHexDigits, nullptr, &bytes, nullptr) == 0;
+  const RegularFile file(path);
+  if (!file.open())
+    throw std::runtime_error(
+        fmt::format("{}: expected the key of the radio link, got {}: make one with `priamos link keygen "
+                    "{}` and copy it to the other end",
+                    Escaped(path), file.problem(), Escaped(path)));
+  RefuseOpenMode(Escaped(path), file.mode());
+  auto text = file.Read(kHexDigits + 1).value_or("");
+  const auto key = KeyOf(text);
   sodium_memzero(text.data(), text.size());
-  if (!is_hex || bytes != key.size())
+  if (!key)
+    throw std::runtime_error(
+        fmt::format("{}: expected 64 hexadecimal digits, got something else: copy it again from the other "
+                    "end",
+                    Escaped(path)));
+  if (!LooksRandom(*key))
     throw std::runtime_error(fmt::format(
-        "{}: expected 64 hexadecimal digits, got something else: copy it again from the other end", path));
-  if (!LooksRandom(key))
-    throw std::runtime_error(fmt::format(
-        "{}: expected a random key, got one that can be guessed: make one with `priamos link keygen`", path));
-  return key;
+        "{}: expected a random key, got one that can be guessed: make one with `priamos link keygen`",
+        Escaped(path)));
+  return *key;
 }
 
 void WriteNewKeyFile(const std::string& path) {

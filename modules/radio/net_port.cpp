@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "common/config.hpp"
+#include "common/input/quoted.hpp"
 #include "common/number_text.hpp"
 #include "radio/net_socket.hpp"
 
@@ -21,10 +22,11 @@ bool IsNetPort(const std::string& port) {
   return port.rfind("udp:", 0) == 0 || port.rfind("tcp:", 0) == 0;
 }
 
-NetAddress ParseNetAddress(const std::string& port) {
+NetAddress ParseNetAddress(const std::string& port, const std::string& place) {
   const auto refuse = [&] {
-    throw ConfigError(fmt::format(
-        "port: expected udp:HOST:PORT, udp:HOST:PORT@LOCAL, tcp:HOST:PORT or tcp::PORT, got \"{}\"", port));
+    throw ConfigError(
+        fmt::format("{}: expected udp:HOST:PORT, udp:HOST:PORT@LOCAL, tcp:HOST:PORT or tcp::PORT, got {}",
+                    place, Quoted(port)));
   };
   NetAddress address;
   address.datagrams = port.rfind("udp:", 0) == 0;

@@ -10,8 +10,9 @@ namespace priamos::radio {
 /// True for what begins with "udp:" or "tcp:".
 bool IsNetPort(const std::string& port);
 
-/// Reads a port of the forms of NetAddress. Throws ConfigError with one sentence that shows them.
-NetAddress ParseNetAddress(const std::string& port);
+/// Reads a port of the forms of NetAddress. Throws ConfigError with one sentence that shows them; `place` is
+/// where the port stands, `file:line:key`.
+NetAddress ParseNetAddress(const std::string& port, const std::string& place = "port");
 
 /// UDP: what is written is put together to frames, up to and with the zero byte, and each goes as one
 /// datagram. Datagrams without a receiver are lost. TCP: a stream of bytes; written without a connection they

@@ -19,8 +19,9 @@ bool IsPseudoTerminal(const std::string& port) {
 
 /// Every address of the host must be of this machine: nobody knows which one is taken.
 bool IsOnLoopback(const std::string& host) {
+  const addrinfo any{};  // not nullptr, which leaves out ::1 on a machine that has no other address of IPv6
   addrinfo* found = nullptr;
-  if (getaddrinfo(host.c_str(), nullptr, nullptr, &found) != 0) return false;
+  if (getaddrinfo(host.c_str(), nullptr, &any, &found) != 0) return false;
   const AddressInfo addresses(found);
   for (const addrinfo* info = found; info; info = info->ai_next)
     if (!IsLoopback(*info)) return false;

@@ -12,6 +12,8 @@
 #include "bus/radio/shared_budget.hpp"
 #include "bus/type_files.hpp"
 #include "common/config.hpp"
+#include "common/input/quoted.hpp"
+#include "common/input/regular_file.hpp"
 #include "common/random.hpp"
 #include "radio/file_store.hpp"
 #include "radio/key_file.hpp"
@@ -28,6 +30,14 @@ constexpr Duration kReportPeriod{1'000'000};
 /// Bytes that may wait for a port that takes none; more are dropped, because late bytes are worth nothing.
 constexpr std::size_t kMostUnwritten = 64;
 
+/// What was saved must be a file, or nothing yet: saving would replace anything else.
+void RequireFile(const std::string& path, const std::string& place) {
+  const RegularFile file(path);
+  if (!file.open() && !file.missing())
+    throw ConfigError(fmt::format("{}: expected a file, or the name of none yet, got {}, {}", place,
+                                  file.problem(), Quoted(path)));
+}
+
 std::optional<bus::Schema> TypesIn(const std::string& folder) {
   if (folder.empty()) return std::nullopt;
   return bus::Schema(bus::ReadTypeFiles(folder));
@@ -42,6 +52,7 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
       own_types_(TypesIn(config.types)),
       outgoing_(config.side == "onboard" ? Direction::kUp : Direction::kDown) {
   CheckRobots();
+  if (IsNetPort(config.port)) (void)ParseNetAddress(config.port, config.place.Of("port"));
   bus::radio::RequireBudget(link_config_.Table(types()), link_config_.Options());
   if (link_config_.robots > 0 && outgoing_ == Direction::kDown) {
     AddRobots();
@@ -49,12 +60,14 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
     AddEnd({.name = "",
             .key_file = link_config_.key_file,
             .state_file = config.state_file,
-            .fast_state_file = config.fast_state_file},
+            .fast_state_file = config.fast_state_file,
+            .place = config.place},
            static_cast<std::uint8_t>(config.address), context.node());
   }
   OpenLine();
   if (link_config_.simulation_key && !context.lockstep())
-    context.Log(bus::Level::kInfo, "the link has the simulation key, which everybody knows");
+    context.Log(bus::Level::kInfo,
+                "the link has the simulation key, which everybody knows; no key file is read");
 }
 
 RadioApp::~RadioApp() {
@@ -69,18 +82,18 @@ RadioApp::~RadioApp() {
 
 /// Both files say how many robots there are; each says it for its reader.
 void RadioApp::CheckRobots() const {
-  const std::string file = context_.ResolvePath(config_.link);
+  const std::string file = context_.ResolvePath(config_.link), address = config_.place.Of("address");
   const int robots = link_config_.robots;
   if (outgoing_ == Direction::kUp && (config_.address == 0) != (robots == 0))
-    throw ConfigError(fmt::format("radio: address: expected {} with robots = {} in {}, got {}",
+    throw ConfigError(fmt::format("{}: expected {} with robots = {} in {}, got {}", address,
                                   robots == 0 ? "0" : fmt::format("1 to {}", robots), robots, file,
                                   config_.address));
   if (config_.address > robots)
-    throw ConfigError(fmt::format("radio: address: expected at most {}, the robots of {}, got {}", robots,
-                                  file, config_.address));
+    throw ConfigError(fmt::format("{}: expected at most {}, the robots of {}, got {}", address, robots, file,
+                                  config_.address));
   if (outgoing_ == Direction::kDown && static_cast<int>(config_.robots.size()) != robots)
-    throw ConfigError(fmt::format("radio: robot: expected {} [[robot]] tables, the robots of {}, got {}",
-                                  robots, file, config_.robots.size()));
+    throw ConfigError(fmt::format("{}: expected {} [[robot]] tables, the robots of {}, got {}",
+                                  config_.place.Of("robot"), robots, file, config_.robots.size()));
 }
 
 /// Two links in one memory would take each other's events for their own.
@@ -89,16 +102,16 @@ void RadioApp::CheckFiles() const {
   for (std::size_t i = 0; i < config_.robots.size(); ++i) {
     const StationRobot& robot = config_.robots[i];
     if (!link_config_.simulation_key && robot.key_file.empty())
-      throw ConfigError(
-          fmt::format("radio: robot[{}].key_file: expected the key of \"{}\", got none", i, robot.name));
+      throw ConfigError(fmt::format("{}: expected the key of {}, got none", robot.place.Of("key_file"),
+                                    Quoted(robot.name)));
     const auto add = [&](const char* key, const std::string& file) {
       if (file.empty()) return;
       const std::string path = std::filesystem::weakly_canonical(context_.ResolvePath(file)).string();
       const std::string place = fmt::format("robot[{}].{}", i, key);
       const auto [at, is_new] = used.emplace(path, place);
       if (!is_new)
-        throw ConfigError(fmt::format("radio: {}: expected a file of its own, got that of {}, \"{}\"", place,
-                                      at->second, file));
+        throw ConfigError(fmt::format("{}: expected a file of its own, got that of {}, {}",
+                                      robot.place.Of(key), at->second, Quoted(file)));
     };
     if (!link_config_.simulation_key) add("key_file", robot.key_file);
     add("state_file", robot.state_file);
@@ -112,8 +125,8 @@ void RadioApp::AddRobots() {
     const StationRobot& robot = config_.robots[i];
     for (std::size_t k = 0; k < i; ++k)
       if (config_.robots[k].name == robot.name)
-        throw ConfigError(
-            fmt::format("radio: robot: expected different names, got \"{}\" twice", robot.name));
+        throw ConfigError(fmt::format("{}: expected different names, got {} twice", robot.place.Of("name"),
+                                      Quoted(robot.name)));
     buses_.push_back(context_.OpenBus(robot.name));
     AddEnd(robot, static_cast<std::uint8_t>(i + 1), buses_.back()->node());
   }
@@ -124,10 +137,10 @@ void RadioApp::AddEnd(const StationRobot& robot, std::uint8_t address, bus::Node
   const bus::radio::LinkKey key = LoadKey(key_file);
   // A key that two robots share lets each read and make the frames of the other.
   if (!link_config_.simulation_key && std::find(keys_.begin(), keys_.end(), key) != keys_.end())
-    throw ConfigError(
-        fmt::format("radio: robot \"{}\": expected a key of its own in {}, got that of another robot: make "
-                    "one with `priamos link keygen`",
-                    robot.name, key_file));
+    throw ConfigError(fmt::format(
+        "{}: expected a key of its own for robot {} in {}, got that of another robot: make one with "
+        "`priamos link keygen`",
+        robot.place.Of("key_file"), Quoted(robot.name), key_file));
   keys_.push_back(key);
   const auto next_key = key_file.empty() ? std::nullopt : LoadNextKey(key_file, key);
   ends_.push_back(std::make_unique<BusEnd>(
@@ -139,17 +152,19 @@ void RadioApp::AddEnd(const StationRobot& robot, std::uint8_t address, bus::Node
                   .key = key,
                   .next_key = next_key,
                   .key_file = key_file,
-                  .store = OpenStore(robot.state_file, robot.fast_state_file),
+                  .store = OpenStore(robot),
                   .nonces = Nonces(),
                   .tick = TickPeriod()},
       node, [this](bus::Level level, std::string_view text) { context_.Log(level, text); }));
 }
 
-std::unique_ptr<bus::radio::StateStore> RadioApp::OpenStore(const std::string& file,
-                                                            const std::string& fast) const {
-  if (file.empty()) return std::make_unique<bus::radio::MemoryStore>();
-  return std::make_unique<FileStore>(context_.ResolvePath(file),
-                                     fast.empty() ? "" : context_.ResolvePath(fast));
+std::unique_ptr<bus::radio::StateStore> RadioApp::OpenStore(const StationRobot& robot) const {
+  if (robot.state_file.empty()) return std::make_unique<bus::radio::MemoryStore>();
+  const std::string file = context_.ResolvePath(robot.state_file);
+  const std::string fast = robot.fast_state_file.empty() ? "" : context_.ResolvePath(robot.fast_state_file);
+  RequireFile(file, robot.place.Of("state_file"));
+  if (!fast.empty()) RequireFile(fast, robot.place.Of("fast_state_file"));
+  return std::make_unique<FileStore>(file, fast);
 }
 
 bus::radio::LinkConfig RadioApp::LoadLink() const {
@@ -160,16 +175,17 @@ bus::radio::LinkConfig RadioApp::LoadLink() const {
   for (const auto& channel : link.channels)
     if (channel.name == channels::kClaim.name || channel.name == channels::kProbe.name ||
         channel.name == channels::kWheelCommand.name)
-      throw ConfigError(fmt::format("{}: channel: expected one that may cross the radio, got {}",
-                                    context_.ResolvePath(config_.link), channel.name));
+      throw ConfigError(fmt::format("{}: expected a channel that may cross the radio, got {}",
+                                    channel.place.Of("name"), channel.name));
   return link;
 }
 
 void RadioApp::OpenLine() {
   if (IsKissPort(config_.port)) {
     if (link_config_.medium != "packet")
-      throw ConfigError(fmt::format("{}: medium: expected \"packet\" with port {}, got \"{}\"",
-                                    context_.ResolvePath(config_.link), config_.port, link_config_.medium));
+      throw ConfigError(fmt::format("{}: expected \"packet\" with port {}, got \"{}\"",
+                                    link_config_.place.Of("medium"), Quoted(config_.port),
+                                    link_config_.medium));
     net_ = OpenKissPort(context_.OpenSerial(TtyOf(config_.port), link_config_.baud));
     return;
   }
@@ -177,11 +193,11 @@ void RadioApp::OpenLine() {
     port_ = context_.OpenSerial(config_.port, link_config_.baud);
     return;
   }
-  NetAddress address = ParseNetAddress(config_.port);
+  NetAddress address = ParseNetAddress(config_.port, config_.place.Of("port"));
   address.loopback_only = link_config_.simulation_key;
   if (address.datagrams != link_config_.Options().datagrams)
-    throw ConfigError(fmt::format("radio link: datagrams: expected {} with port {}, got {}",
-                                  address.datagrams, config_.port, link_config_.Options().datagrams));
+    throw ConfigError(fmt::format("{}: expected {} with port {}, got {}", link_config_.place.Of("datagrams"),
+                                  address.datagrams, Quoted(config_.port), link_config_.Options().datagrams));
   net_ = OpenNetPort(address);
 }
 
@@ -191,10 +207,10 @@ bus::radio::LinkKey RadioApp::LoadKey(const std::string& file) const {
   const std::string tty = IsKissPort(config_.port) ? TtyOf(config_.port) : config_.port;
   const bool is_there = IsNetPort(config_.port) || std::filesystem::exists(tty);  // else see OpenLine
   if (is_there && !IsPrivateLine(config_.port))
-    throw ConfigError(
-        fmt::format("{}: simulation_key: expected false on {}, which others can reach, got true: make a key "
-                    "with `priamos link keygen`",
-                    context_.ResolvePath(config_.link), config_.port));
+    throw ConfigError(fmt::format(
+        "{}: expected false on {}, which others can reach, got true: make a key with `priamos link "
+        "keygen`",
+        link_config_.place.Of("simulation_key"), Quoted(config_.port)));
   return SimulationKey();
 }
 

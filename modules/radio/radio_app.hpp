@@ -60,7 +60,7 @@ class RadioApp {
   bus::radio::LinkKey LoadKey(const std::string& file) const;
   std::optional<bus::radio::LinkKey> LoadNextKey(const std::string& file,
                                                  const bus::radio::LinkKey& key) const;
-  std::unique_ptr<bus::radio::StateStore> OpenStore(const std::string& file, const std::string& fast) const;
+  std::unique_ptr<bus::radio::StateStore> OpenStore(const StationRobot& robot) const;
   bus::radio::NonceSource Nonces() const;
 
   RadioConfig config_;

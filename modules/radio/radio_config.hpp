@@ -5,6 +5,7 @@
 
 #include "bus/radio/link_config.hpp"
 #include "common/archive.hpp"
+#include "common/input/section_place.hpp"
 
 namespace priamos::radio {
 
@@ -13,12 +14,16 @@ struct StationRobot {
   std::string name;  ///< as with --robot: its offboard bus has that name
   std::string key_file;
   std::string state_file, fast_state_file;
+  SectionPlace place{};  ///< where it was read, for errors
   void Describe(Archive& a) {
     a.Text("name", name, "robot, as with --robot: its messages are on the offboard bus of that name");
     a.Text("key_file", key_file, "secret key of the link to this robot");
     a.Text("state_file", state_file, "as above, for this robot");
     a.Text("fast_state_file", fast_state_file, "as above, for this robot");
+    place = PlaceIn(a);
     if (name.empty()) a.Refuse("name", "the name of a robot");
+    if (state_file.empty() && !fast_state_file.empty())
+      a.Refuse("fast_state_file", "none without a state_file, which outlives a loss of power");
   }
   friend bool operator==(const StationRobot&, const StationRobot&) = default;
 };
@@ -34,6 +39,7 @@ struct RadioConfig {
   int address = 0;
   std::vector<StationRobot> robots;
   bus::radio::LinkConfig own_link;  ///< used when it has channels
+  SectionPlace place{};             ///< where it was read, for errors
 
   bool HasOwnLink() const { return !own_link.channels.empty(); }
 
@@ -60,14 +66,19 @@ struct RadioConfig {
                "of this robot on a channel that several share (link.toml: robots); 0: a link of two ends"});
     a.List("robot", robots,
            "at the station of several robots: each of them, in the order of their addresses");
+    place = PlaceIn(a);
     if (!robots.empty() && side != "offboard") a.Refuse("robot", "none onboard: a robot has one link");
     if (!robots.empty() && address != 0) a.Refuse("address", "0 at a station, whose robots have addresses");
     if (!robots.empty() && !state_file.empty())
       a.Refuse("state_file", "none beside [[robot]]: each of them names its own");
     if (!robots.empty() && !fast_state_file.empty())
       a.Refuse("fast_state_file", "none beside [[robot]]: each of them names its own");
+    if (robots.empty() && state_file.empty() && !fast_state_file.empty())
+      a.Refuse("fast_state_file", "none without a state_file, which outlives a loss of power");
     // A link.toml may be given as this file; then `link` is not read.
     own_link.Describe(a);
+    if (HasOwnLink() && link != RadioConfig{}.link)
+      a.Refuse("link", "none beside [[channel]] tables in the same file, which are the link");
     if (!HasOwnLink() && own_link != bus::radio::LinkConfig{})
       a.Refuse("channel", "the [[channel]] tables to which the other keys of link.toml belong");
   }

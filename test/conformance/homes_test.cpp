@@ -53,6 +53,7 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/planner/second_mission_test", "a mission that is not shipped"},
     {"test/radio/command_freshness_test", "age of a command through the process"},
     {"test/radio/link_config_test", "the link tables of config/ against the channels"},
+    {"test/radio/link_refusals_test", "every refusal of a link table and of its budget"},
     {"test/radio/rekey_test", "a change of the key through the process"},
     {"test/radio/robots_config_test", "what the files of several robots say together"},
     {"test/robot/core/motion/detour_run_test", "the whole room around boxes"},

@@ -1,6 +1,8 @@
 #include "radio/file_store.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <filesystem>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "test/support/temporary_folder.hpp"
+#include "test/support/thrown_reason.hpp"
 
 namespace priamos::radio {
 namespace {
@@ -33,6 +36,25 @@ struct FileStoreTest : testing::Test {
 TEST_F(FileStoreTest, NothingBeforeTheFirstSave) {
   EXPECT_FALSE(FileStore(path).Load());
   EXPECT_FALSE(FileStore(path, fast).Load());
+}
+
+/// Its reader would wait for a writer, or for an end; and saving would put a file in its place.
+TEST_F(FileStoreTest, WhatIsNoFileIsRefusedAtOnce) {
+  const auto why = [&](const std::string& file, const std::string& second) {
+    return support::ThrownReason([&] { FileStore(file, second).Load(); });
+  };
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_EQ(why(path, ""),
+            path + ": expected the radio's state, a file of at most 4194304 bytes, got a pipe");
+  EXPECT_THAT(why(fast, path), testing::EndsWith("got a pipe"));
+  EXPECT_THAT(why(folder.path(), ""), testing::EndsWith("got a folder"));
+  EXPECT_THAT(why("/dev/zero", ""), testing::EndsWith("got a device"));
+  std::filesystem::remove(path);
+  std::ofstream(path).close();
+  std::filesystem::resize_file(path, 4 << 20);
+  EXPECT_EQ(why(path, ""), "");
+  std::filesystem::resize_file(path, (4 << 20) + 1);
+  EXPECT_THAT(why(path, ""), testing::HasSubstr("got a longer one"));
 }
 
 TEST_F(FileStoreTest, LastSavedStateIsLoadedSyncedOrNot) {

@@ -57,6 +57,18 @@ TEST_F(KeyFileTest, AKeyThatOthersCanReadIsRefused) {
   EXPECT_THAT(ErrorOfReading(), HasSubstr("chmod 600"));
 }
 
+/// Its reader would wait for a writer, or for an end.
+TEST_F(KeyFileTest, WhatIsNoFileIsRefusedAtOnce) {
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THAT(ErrorOfReading(), HasSubstr("link.key: expected the key of the radio link, got a pipe"));
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  EXPECT_THAT(ErrorOfReading(), HasSubstr("got a folder"));
+  std::filesystem::remove(path);
+  std::filesystem::create_symlink("/dev/zero", path);
+  EXPECT_THAT(ErrorOfReading(), HasSubstr("got a device"));
+}
+
 TEST_F(KeyFileTest, AMissingKeyNamesTheCommand) {
   EXPECT_THAT(ErrorOfReading(), HasSubstr("priamos link keygen"));
 }

@@ -137,7 +137,7 @@ TEST(LinkConfigTable, DifferencesNeedAFixedSize) {
     TableOf(kText, Channel("text_t", true));
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("CHANNEL: delta: expected false with text_t"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("delta: radio channel CHANNEL: expected false with text_t"));
   }
 }
 

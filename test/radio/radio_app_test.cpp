@@ -440,6 +440,33 @@ TEST(RadioAppStart, KeysOfALinkWithoutChannelsAreRefused) {
   EXPECT_THAT(StartError("port = 'a'\nbaud = 1200", kPoseLink), HasSubstr("channel"));
 }
 
+TEST(RadioAppStart, RefusesAPortThatIsNoAddress) {
+  EXPECT_THAT(StartError("\nport = 'tcp::99999'", kPoseLink),
+              HasSubstr("radio.toml:2:port: expected udp:HOST:PORT"));
+}
+
+/// Saving would replace it.
+TEST(RadioAppStart, RefusesAStateFileThatIsNoFile) {
+  EXPECT_THAT(
+      StartError("port = 'a'\nstate_file = '/dev/null'", kPoseLink),
+      HasSubstr(
+          "radio.toml:2:state_file: expected a file, or the name of none yet, got a device, \"/dev/null\""));
+  EXPECT_THAT(
+      StartError("port = 'a'\nstate_file = 'new'\nfast_state_file = '/tmp'", kPoseLink),
+      HasSubstr("radio.toml:3:fast_state_file: expected a file, or the name of none yet, got a folder"));
+  EXPECT_EQ(StartError("port = 'a'\nstate_file = 'new'", kPoseLink), "");
+}
+
+TEST(RadioAppStart, AMemoryOnARamDiskAloneIsRefused) {
+  EXPECT_THAT(StartError("port = 'a'\nfast_state_file = 'new'", kPoseLink),
+              HasSubstr("radio.toml:2:fast_state_file: expected none without a state_file"));
+}
+
+TEST(RadioAppStart, ALinkBesideTheChannelsOfTheSameFileIsRefused) {
+  EXPECT_THAT(StartError(std::string("link = 'other.toml'\n") + kPoseLink),
+              HasSubstr("radio.toml:1:link: expected none beside [[channel]] tables"));
+}
+
 TEST(RadioAppStart, UdpNeedsDatagrams) {
   EXPECT_THAT(StartError("port = 'udp:127.0.0.1:9000'", kPoseLink), HasSubstr("datagrams: expected true"));
 }
@@ -460,7 +487,8 @@ TEST(RadioAppStart, RefusesWhatMustNeverCrossTheRadio) {
                               "name='WHEEL_COMMAND'\ntype='wheel_command_t'"})
     EXPECT_THAT(
         StartError("port = 'a'", std::string("simulation_key=true\n[[channel]]\n") + kWhither + channel),
-        HasSubstr("expected one that may cross the radio"));
+        AllOf(HasSubstr("link.toml:"),
+              HasSubstr("channel[0].name: expected a channel that may cross the radio")));
 }
 
 TEST(RadioAppStart, RefusesAMissingKey) {
@@ -472,7 +500,7 @@ TEST(RadioAppStart, RefusesUnknownTypes) {
   EXPECT_THAT(
       StartError("port = 'a'",
                  std::string("simulation_key=true\n[[channel]]\nname='POSE'\ntype='pos_t'\n") + kWhither),
-      AllOf(HasSubstr("link.toml:2: radio channel POSE: type: "), HasSubstr("got \"pos_t\"")));
+      AllOf(HasSubstr("link.toml:4:channel[0].type: radio channel POSE: "), HasSubstr("got \"pos_t\"")));
 }
 
 TEST(RadioAppStart, RefusesAChannelThatDoesNotSayWhatItIs) {
@@ -486,7 +514,7 @@ TEST(RadioAppStart, RefusesAChannelThatDoesNotSayWhatItIs) {
 TEST(RadioAppStart, NamesThePlaceOfAChannelThatIsListedTwice) {
   const std::string channel = std::string("[[channel]]\nname='POSE'\ntype='pose_t'\n") + kWhither;
   EXPECT_THAT(StartError("port = 'a'", "simulation_key=true\n" + channel + channel),
-              HasSubstr("link.toml:7: radio channel POSE: expected a channel once"));
+              HasSubstr("link.toml:8:channel[1].name: radio channel POSE: expected a channel once"));
 }
 
 }  // namespace

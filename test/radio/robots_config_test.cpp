@@ -40,7 +40,8 @@ TEST(RobotsConfig, ARobotNeedsAnAddressOfItsChannel) {
 
 TEST(RobotsConfig, AStationKnowsEachRobotOnce) {
   EXPECT_THAT(Refusal("station.toml", {"side=onboard"}), HasSubstr("robot: expected none onboard"));
-  EXPECT_THAT(Refusal("robot.toml", {"side=offboard"}), HasSubstr("robot: expected 2 [[robot]] tables"));
+  EXPECT_THAT(Refusal("robot.toml", {"side=offboard"}),
+              HasSubstr("robot.toml:1:robot: expected 2 [[robot]] tables"));
 }
 
 /// Two links in one memory take each other's events for their own: a stop would reach the other robot.
@@ -51,7 +52,7 @@ TEST(RobotsConfig, RobotsShareNoMemory) {
   };
   EXPECT_THAT(Refusal("station.toml", robots("state_file=\"x\"", "state_file=\"./x\"")),
               HasSubstr("robot[1].state_file: expected a file of its own, got that of robot[0].state_file"));
-  EXPECT_THAT(Refusal("station.toml", robots("state_file=\"x\"", "fast_state_file=\"x\"")),
+  EXPECT_THAT(Refusal("station.toml", robots("state_file=\"x\"", "state_file=\"y\",fast_state_file=\"x\"")),
               HasSubstr("robot[1].fast_state_file: expected a file of its own"));
   EXPECT_THAT(Refusal("station.toml", {"state_file=x"}),
               HasSubstr("state_file: expected none beside [[robot]]"));

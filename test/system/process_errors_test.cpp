@@ -104,7 +104,7 @@ TEST(RadioProcess, TheKeyThatEverybodyKnowsStaysOnThisMachine) {
   const auto answer = RunCommand(Binary("priamos-radio") + " --config " + (folder / "link.toml").string() +
                                  " --port udp:192.0.2.1:9000");
   ExpectOneSentence(answer);
-  EXPECT_THAT(answer.text, HasSubstr("simulation_key: expected false on udp:192.0.2.1:9000"));
+  EXPECT_THAT(answer.text, HasSubstr("link.toml:1:simulation_key: expected false on \"udp:192.0.2.1:9000\""));
   EXPECT_THAT(answer.text, HasSubstr("priamos link keygen"));
 }
 

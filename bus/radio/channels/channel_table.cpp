@@ -14,6 +14,7 @@ namespace priamos::bus::radio {
 namespace {
 
 constexpr int kStateWithDeltas = 3;
+constexpr std::uint32_t kLargestEvent = 1400, kLargestWhole = 200;  // bytes
 
 std::uint32_t Hash(const std::string& text) {
   std::array<unsigned char, 16> hash{};
@@ -32,18 +33,23 @@ bool DeltaFits(const LinkChannel& c) {
 
 void Check(const LinkChannel& c) {
   if (!c.delta.empty() && !DeltaFits(c))
-    throw std::invalid_argument(
-        fmt::format("{}: differences are for a state of fixed size without keys", c.Title()));
+    throw std::invalid_argument(fmt::format(
+        "{}: expected false, other than for a state of fixed size without keys, got true", c.At("delta")));
   if (c.fixed_bits == 0 && c.max_bits == 0)
-    throw std::invalid_argument(fmt::format("{}: its packed size is unknown", c.Title()));
-  if (c.channel_class == ChannelClass::kCommand && c.ttl <= Duration::zero())
-    throw std::invalid_argument(fmt::format("{}: a command needs a time-to-live", c.Title()));
-  if (c.channel_class == ChannelClass::kEvent && c.max_bits > 8 * 1400)
-    throw std::invalid_argument(fmt::format("{}: larger than 1400 bytes", c.Title()));
-  if (c.channel_class != ChannelClass::kEvent && c.max_bits > 8 * 200)
     throw std::invalid_argument(
-        fmt::format("{}: a {} of {} bits does not fit one frame, make it an event", c.Title(),
-                    c.channel_class == ChannelClass::kState ? "state" : "command", c.max_bits));
+        fmt::format("{}: expected a type whose packed size is known, got another", c.At("type")));
+  if (c.channel_class == ChannelClass::kCommand && c.ttl <= Duration::zero())
+    throw std::invalid_argument(
+        fmt::format("{}: expected a time-to-live, as every command needs, got none", c.At("ttl_s")));
+  if (c.channel_class == ChannelClass::kEvent && c.max_bits > 8 * kLargestEvent)
+    throw std::invalid_argument(fmt::format("{}: expected an event of at most {} bytes, got {} bits",
+                                            c.At("type"), kLargestEvent, c.max_bits));
+  if (c.channel_class != ChannelClass::kEvent && c.max_bits > 8 * kLargestWhole)
+    throw std::invalid_argument(fmt::format(
+        "{}: expected \"event\" for messages of {} bits, more than the {} bytes that fit one frame, got "
+        "\"{}\"",
+        c.At("class"), c.max_bits, kLargestWhole,
+        c.channel_class == ChannelClass::kState ? "state" : "command"));
 }
 
 }  // namespace
@@ -51,11 +57,10 @@ void Check(const LinkChannel& c) {
 ChannelTable::ChannelTable(std::vector<LinkChannel> channels, bool encrypted, std::size_t code_bytes)
     : channels_(std::move(channels)), encrypted_(encrypted), code_bytes_(code_bytes) {
   if (code_bytes_ != kShortCodeBytes && code_bytes_ != 6 && code_bytes_ != 8)
-    throw std::invalid_argument(
-        fmt::format("a radio link has codes of 4, 6 or 8 bytes, not of {}", code_bytes_));
+    throw std::invalid_argument(fmt::format("expected codes of 4, 6 or 8 bytes, got {}", code_bytes_));
   if (channels_.empty() || channels_.size() > kMaxChannels)
     throw std::invalid_argument(
-        fmt::format("a radio link has 1 to {} channels, not {}", kMaxChannels, channels_.size()));
+        fmt::format("expected 1 to {} channels of a radio link, got {}", kMaxChannels, channels_.size()));
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     LinkChannel& c = channels_[i];
     if (c.fixed_bits > 0) c.max_bits = c.fixed_bits;
@@ -63,7 +68,7 @@ ChannelTable::ChannelTable(std::vector<LinkChannel> channels, bool encrypted, st
     for (std::size_t j = 0; j < i; ++j)
       if (channels_[j].name == c.name && channels_[j].direction == c.direction)
         throw std::invalid_argument(
-            fmt::format("{}: expected a channel once in a direction, got it twice", c.Title()));
+            fmt::format("{}: expected a channel once in a direction, got it twice", c.At("name")));
   }
   hash_ = Hash(Text());
   id_bits_ = static_cast<int>(std::bit_width(channels_.size() + 1));

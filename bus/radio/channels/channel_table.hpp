@@ -8,6 +8,7 @@
 
 #include "bus/radio/channels/delta.hpp"
 #include "bus/radio/frame/frame.hpp"
+#include "common/input/section_place.hpp"
 #include "common/time.hpp"
 
 namespace priamos::bus::radio {
@@ -37,10 +38,10 @@ struct LinkChannel {
   bool on_request = false;  ///< sent only while the other side has a listener
   int max_keys = 1;         ///< state: newest wins per key, for so many keys
   Duration deadline{};      ///< latest delivery after it was offered, for the budget; 0: any
-  std::string place{};      ///< where it is configured, for errors: `file:line: `, or empty
+  SectionPlace place{};     ///< where it is configured, for errors
 
-  /// What an error about the channel begins with.
-  std::string Title() const { return place + "radio channel " + name; }
+  /// What an error about one of its keys begins with, `file:line:key: radio channel NAME`.
+  std::string At(std::string_view key) const { return place.Of(key) + ": radio channel " + name; }
 };
 
 /// All channels of a link. The index is the channel's name on the wire.

@@ -7,15 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "bus/clocks/host_clock.hpp"
 #include "bus/host/service_notifier.hpp"
 #include "bus/real_time_loop.hpp"
 #include "common/config.hpp"
+#include "common/input/quoted.hpp"
+#include "common/input/regular_file.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -30,6 +32,7 @@ using bus::radio::PacketAirConfig;
 /// What a tty's own buffer holds: who writes more has to wait.
 constexpr Duration kTtyBuffer{4'000'000};
 constexpr std::size_t kReadAtOnce = 256;
+constexpr std::size_t kMostBytes = 16 << 20;  ///< of a schedule
 constexpr Duration kLongestIdle = std::chrono::milliseconds(100);
 
 LineConfig WithSchedules(const LinkEmulateOptions& options) {
@@ -53,9 +56,16 @@ PacketAirConfig WithBlackouts(const LinkEmulateOptions& options) {
 /// Calls `take` with every line of a CSV file and its number, but for comments and a heading.
 template <class Take>
 void ForEachRow(const std::string& path, const std::string& what, const std::string& heading, Take take) {
-  std::ifstream in(path);
-  if (!in || !fs::is_regular_file(path))
-    throw ConfigError(fmt::format("{}: expected a {} schedule, got none", path, what));
+  const RegularFile file(path);
+  if (!file.open())
+    throw ConfigError(fmt::format("{}: expected a {} schedule, got {}", Escaped(path), what, file.problem()));
+  const auto content = file.Read(kMostBytes);
+  if (!content)
+    throw ConfigError(
+        fmt::format("{}: expected a {} schedule of at most {} bytes that can be read, got "
+                    "another",
+                    Escaped(path), what, kMostBytes));
+  std::istringstream in(*content);
   bool empty = true;
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
@@ -112,8 +122,8 @@ std::vector<LineCut> ReadBlackouts(const std::string& path) {
     char rest = 0;
     if (std::sscanf(text.c_str(), "%lf,%lf %c", &cut.from_s, &cut.to_s, &rest) != 2 || cut.from_s < 0 ||
         !(cut.to_s >= cut.from_s) || !(cut.to_s <= 1e6))
-      throw ConfigError(
-          fmt::format("{}:{}: expected from_s,to_s with 0 <= from_s <= to_s, got \"{}\"", path, line, text));
+      throw ConfigError(fmt::format("{}:{}: expected from_s,to_s with 0 <= from_s <= to_s, got {}",
+                                    Escaped(path), line, Quoted(text)));
     cuts.push_back(cut);
   });
   return cuts;
@@ -133,8 +143,8 @@ std::vector<LineDelay> ReadDelays(const std::string& path) {
         !(std::min(d.first_s, d.last_s) >= 0 && std::max(d.first_s, d.last_s) <= 1000))
       throw ConfigError(
           fmt::format("{}:{}: expected way,from_s,to_s,first_s,last_s with a way of a_to_b, b_to_a or both, "
-                      "0 <= from_s < to_s and delays of 0 to 1000 s, got \"{}\"",
-                      path, line, text));
+                      "0 <= from_s < to_s and delays of 0 to 1000 s, got {}",
+                      Escaped(path), line, Quoted(text)));
     delays.push_back(d);
   });
   return delays;

@@ -1,4 +1,6 @@
 // What becomes of an operator's drive commands.
+#include <algorithm>
+
 #include "figures.hpp"
 #include "test/bus/radio/measurement/command_measurement.hpp"
 
@@ -17,6 +19,20 @@ void Drive(Figures& figures, const std::string& what, const DriveConditions& wit
   figures.Note("  longest", obeyed.quantile_s(1), "s");
 }
 
+void DriveBesideStops(Figures& figures, const std::string& what, const DriveConditions& with,
+                      std::uint64_t seed) {
+  const Obeyed obeyed = DriveRun(with, seed).Run();
+  figures.AtLeast(what + ": obeyed of those that no stop displaced", 99, 100 * obeyed.share_without_stops(),
+                  "%");
+  figures.Note("  of all that were offered", 100 * obeyed.share(), "%");
+  figures.Note(
+      "  displaced per stop",
+      static_cast<double>(obeyed.displaced) / static_cast<double>(std::max<std::size_t>(obeyed.stops, 1)),
+      "");
+  figures.Note("  most by one stop", static_cast<double>(obeyed.most_displaced), "");
+  figures.Note("  longest time from a stop to its acknowledgement", obeyed.longest_stop_s, "s");
+}
+
 }  // namespace
 
 void Commands(Figures& figures, const Effort& effort) {
@@ -29,6 +45,12 @@ void Commands(Figures& figures, const Effort& effort) {
       Drive(figures, fmt::format("load {:g}, delay {:g} up, {:g} s down", load, up_s, down_s),
             {.up_s = up_s, .down_s = down_s, .load = load, .jitter_s = 0.005, .seconds = seconds},
             effort.seed);
+  Figures::Section("The same beside an emergency stop every 5 to 6 s");
+  for (const auto& [up_s, down_s] : delays_s)
+    DriveBesideStops(
+        figures, fmt::format("delay {:g} up, {:g} s down", up_s, down_s),
+        {.up_s = up_s, .down_s = down_s, .load = 1, .jitter_s = 0.005, .stops_hz = 0.2, .seconds = seconds},
+        effort.seed);
 }
 
 }  // namespace priamos::bench

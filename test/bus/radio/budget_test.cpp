@@ -57,6 +57,7 @@ TEST(Budget, RefusesADeadlineThatCannotBeKept) {
 /// Problems of a link with the drive command and the pose.
 std::vector<std::string> ProblemsOf(double ttl_s, const LinkOptions& options) {
   std::vector<LinkChannel> channels{TestChannels()[kPoseUp], TestChannels()[kDriveDown]};
+  channels[0].ttl = Duration::zero();
   channels[1].ttl = FromSeconds(ttl_s);
   return Of(channels, options).problems;
 }

@@ -25,13 +25,15 @@ inline std::string WriteSaturatedLink(const std::string& deployment, const std::
     // An emulated line, and longer frames on it.
     if (line.starts_with("line_delay_s")) line = "line_delay_s = 0.02";
     if (line == "[[channel]]") flush();
-    // Deadlines that the load breaks; that of the e-stop stays.
+    // Deadlines and lifetimes that the load breaks; that of the e-stop stays.
     const bool estop = channel.find("\"ESTOP\"") != std::string::npos;
-    if (!line.starts_with("deadline_s") || estop) channel += line + "\n";
+    const bool state = channel.find("class = \"state\"") != std::string::npos;
+    const bool broken = (line.starts_with("deadline_s") && !estop) || (line.starts_with("ttl_s") && state);
+    if (!broken) channel += line + "\n";
   }
   flush();
   out << "\n[[channel]]\nname = \"BULK\"\ntype = \"health_t\"\ndirection = \"down\"\n"
-         "class = \"state\"\nrate_hz = 4.7\npriority = 3\nttl_s = 1.0\n";
+         "class = \"state\"\nrate_hz = 4.7\npriority = 3\n";
   return file;
 }
 

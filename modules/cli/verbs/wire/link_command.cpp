@@ -18,7 +18,7 @@
 namespace priamos::cli {
 namespace {
 
-constexpr int kDoesNotHold = 1;
+constexpr int kDoesNotHold = 2;  ///< as for a configuration that cannot be read
 
 nlohmann::ordered_json BitsAsJson(const bus::Packer& packer) {
   nlohmann::ordered_json json{
@@ -238,6 +238,8 @@ void AddBudget(CLI::App& link, int& exit_code) {
     const auto table = link_config.Table(schema);
     const auto budget = ComputeBudget(table, link_config.Options());
     std::cout << (*json ? BudgetAsJson(table, budget).dump(2) + "\n" : FormatBudget(table, budget));
+    for (const std::string& problem : budget.problems)
+      std::cerr << "priamos link budget: " << problem << "\n";
     exit_code = budget.problems.empty() ? 0 : kDoesNotHold;
   });
 }

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
+#include <array>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -69,16 +70,21 @@ nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const Channe
 }
 
 /// The other ends are for a line of two directions: on another radio they would talk out of turn.
-void RefuseOtherRadios(const std::string& file, const bus::radio::LinkConfig& config) {
-  const char* got = config.robots > 0               ? "one of several robots"
-                    : config.half_duplex_turn_s > 0 ? "one with turns, half_duplex_turn_s"
-                    : config.medium != "bytes"      ? "one of packets"
-                    : config.datagrams              ? "one of datagrams"
-                                                    : nullptr;
-  if (got != nullptr)
-    throw ConfigError(fmt::format(
-        "{}: expected a link of two ends over a line of two directions, which other ends can join, got {}",
-        file, got));
+void RefuseOtherRadios(const bus::radio::LinkConfig& config) {
+  struct Kind {
+    bool is;
+    const char *key, *got;
+  };
+  const std::array<Kind, 4> others{{{config.robots > 0, "robots", "one of several robots"},
+                                    {config.half_duplex_turn_s > 0, "half_duplex_turn_s", "one with turns"},
+                                    {config.medium != "bytes", "medium", "one of packets"},
+                                    {config.datagrams, "datagrams", "one of datagrams"}}};
+  for (const Kind& kind : others)
+    if (kind.is)
+      throw ConfigError(
+          fmt::format("{}: expected a link of two ends over a line of two directions, which other "
+                      "ends can join, got {}",
+                      config.place.Of(kind.key), kind.got));
 }
 
 }  // namespace
@@ -95,7 +101,7 @@ void AddLinkTableVerb(CLI::App& link) {
   verb->add_flag("--json", *json, "machine-readable, as `python3 -m priamos_link` takes it")->excludes(as_c);
   verb->callback([=] {
     const auto link_config = LoadConfig<bus::radio::LinkConfig>(*config);
-    RefuseOtherRadios(*config, link_config);
+    RefuseOtherRadios(link_config);
     const bus::Schema schema = LoadTypes(*types);
     const ChannelTable table = link_config.Table(schema);
     if (*json)

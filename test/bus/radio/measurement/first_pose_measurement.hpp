@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,11 +25,18 @@ struct FirstPoses {
 };
 
 /// The shipped link in blackouts of 0.05 to 8 s, up to 2.3 s apart. All other channels are offered their
-/// `load` times their rates, each message as large as it can be.
+/// `load` times their rates, each message as large as it can be; none of those from the robot that can exceed
+/// `longest_bits`.
 class FirstPoseRun {
  public:
-  FirstPoseRun(std::uint64_t seed, bool up, bool down, double load)
-      : up_dark_(up), down_dark_(down), load_(load), rng_(Rng::Stream(seed, "first pose")), pair_({}, seed) {
+  FirstPoseRun(std::uint64_t seed, bool up, bool down, double load,
+               std::uint32_t longest_bits = std::numeric_limits<std::uint32_t>::max())
+      : up_dark_(up),
+        down_dark_(down),
+        load_(load),
+        longest_bits_(longest_bits),
+        rng_(Rng::Stream(seed, "first pose")),
+        pair_({}, seed) {
     UseShippedLink(pair_);
     pair_.each_step = [this] { Step(); };
     pair_.line_cut = [this](bool up_line) { return Dark() && (up_line ? up_dark_ : down_dark_); };
@@ -61,6 +70,7 @@ class FirstPoseRun {
     offered_s_.push_back(now_s());
   }
   void Offer(const LinkChannel& c, std::size_t channel) {
+    if (c.direction == Direction::kUp && c.max_bits > longest_bits_) return;
     LinkPair::End& end = c.direction == Direction::kUp ? pair_.onboard : pair_.offboard;
     const std::string key = c.max_keys > 1 ? fmt::format("{:.0f}", rng_.Uniform(0, c.max_keys - 1)) : "";
     end.link->Offer(channel, std::vector<std::byte>(c.max_bits / 8, std::byte{7}), pair_.now, key);
@@ -75,6 +85,7 @@ class FirstPoseRun {
 
   bool up_dark_, down_dark_;
   double load_;
+  std::uint32_t longest_bits_;
   Rng rng_;
   LinkPair pair_;
   Time start_ = pair_.now;

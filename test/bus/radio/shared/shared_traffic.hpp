@@ -33,6 +33,9 @@ class SharedTraffic {
     });
     world_.Run(rest_s, [this] { Collect(); });
   }
+  /// From now on every robot has a newer pose to send at any time: only the rate of the channel keeps it
+  /// back.
+  void KeepPosesComing() { poses_always_ = true; }
   /// Of one channel; stops to one robot are kSharedStop, to all kStopToAll.
   Kind& of(std::size_t kind) { return kinds_[kind]; }
   std::size_t timed() const {
@@ -46,7 +49,10 @@ class SharedTraffic {
   void Offer() {
     for (std::size_t r = 0; r < robots_; ++r) {
       for (const std::size_t channel : {kSharedPose, kSharedFault, kSharedOrder})
-        if (Due(channel * 8 + r, SharedTestChannels()[channel].rate_hz)) Send(channel, channel, r);
+        if (channel == kSharedPose && poses_always_
+                ? ToUtime(world_.now) % 20'000 == 0
+                : Due(channel * 8 + r, SharedTestChannels()[channel].rate_hz))
+          Send(channel, channel, r);
       if (r == driven_ && Due(kSharedDrive * 8 + r, 20)) Send(kSharedDrive, kSharedDrive, r);
     }
     if (Due(70, 0.02)) driven_ = rng_.engine()() % robots_;
@@ -98,6 +104,7 @@ class SharedTraffic {
   SharedWorld& world_;
   std::size_t robots_;
   Rng rng_;
+  bool poses_always_ = false;
   std::size_t driven_ = 0;
   std::uint64_t number_ = 0, stops_ = 0;
   std::map<std::size_t, Kind> kinds_;

@@ -73,6 +73,17 @@ TEST(Station, NothingTakesLongerThanItsBound) {
   EXPECT_GE(dut.of(kSharedPose).latencies.size(), dut.of(kSharedPose).offered * 99 / 100);
 }
 
+TEST(Station, EachOfFourRobotsHasAPoseEverySecondBesideStopsAndDriving) {
+  constexpr double kSeconds = 60;
+  SharedWorld world(4, 8);
+  world.Run(5);
+  SharedTraffic traffic(world, 4, 8);
+  traffic.KeepPosesComing();
+  traffic.Run(kSeconds, 0);
+  // None has more than its rate, so that each has nearly as many as that.
+  EXPECT_GE(traffic.of(kSharedPose).latencies.size(), 4 * static_cast<std::size_t>(kSeconds - 1));
+}
+
 TEST(Station, OnABadLineEventsComeOnceAndNoCommandLate) {
   SharedWorld world(4, 12, {.latency_s = 0.001, .bit_error_rate = 1e-3});
   world.Run(10);

@@ -123,10 +123,12 @@ TEST_F(LinkCommand, TheShippedBudgetHoldsAndItsSharesAddUp) {
   }
 }
 
-TEST_F(LinkCommand, ABudgetThatDoesNotHoldIsExitCodeOneWithTheReason) {
+TEST_F(LinkCommand, ABudgetThatDoesNotHoldIsRefusedWithTheReason) {
   const std::string file = Write("link.toml", LinkToml(1000));
   const auto answer = Priamos({"link", "budget", file, "--json"});
-  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err,
+              StartsWith("priamos link budget: " + file + ":8:channel[0].rate_hz: radio link up: expected"));
   const auto dut = json::parse(answer.out);
   EXPECT_FALSE(dut.at("problems").empty());
   EXPECT_GT(dut.at("up").at("utilisation"), 1);

@@ -1,0 +1,50 @@
+#include "common/input/quoted.hpp"
+
+#include <fmt/format.h>
+
+namespace priamos {
+namespace {
+
+/// U+0080 to U+009F, which terminals may obey: two bytes, of which this is the first.
+constexpr unsigned char kC1Lead = 0xC2;
+
+bool IsControl(unsigned char c) {
+  return c < 0x20 || c == 0x7F;
+}
+
+bool IsC1At(std::string_view text, std::size_t i) {
+  return static_cast<unsigned char>(text[i]) == kC1Lead && i + 1 < text.size() &&
+         static_cast<unsigned char>(text[i + 1]) >= 0x80 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+}
+
+std::string EscapedCharacter(char c) {
+  if (c == '\n') return "\\n";
+  if (c == '\r') return "\\r";
+  if (c == '\t') return "\\t";
+  return IsControl(static_cast<unsigned char>(c)) ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
+                                                  : std::string(1, c);
+}
+
+}  // namespace
+
+std::string Escaped(std::string_view text) {
+  std::string escaped;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (IsC1At(text, i))
+      escaped += fmt::format("\\u{:04x}", static_cast<unsigned char>(text[++i]));
+    else
+      escaped += EscapedCharacter(text[i]);
+  }
+  return escaped;
+}
+
+std::string Quoted(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return Escaped(quoted) + '"';
+}
+
+}  // namespace priamos

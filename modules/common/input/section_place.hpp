@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace priamos {
+
+/// Where a section of a configuration was read, for errors that are found after the reading. Cheap to copy;
+/// where something was read makes it no other configuration.
+class SectionPlace {
+ public:
+  /// Place of each key, `file:line:section.key`.
+  using Keys = std::map<std::string, std::string, std::less<>>;
+
+  /// What was read from no file.
+  SectionPlace() = default;
+  /// `before`: what stands before a key that the section leaves out, `file:line:section.`.
+  SectionPlace(std::string before, Keys keys)
+      : read_(std::make_shared<const Read>(Read{std::move(before), std::move(keys)})) {}
+
+  /// `file:line:section.key`: where `key` stands, or the section begins that leaves it out. The key alone of
+  /// what was read from no file.
+  std::string Of(std::string_view key) const {
+    if (!read_) return std::string(key);
+    const auto at = read_->keys.find(key);
+    return at != read_->keys.end() ? at->second : read_->before + std::string(key);
+  }
+
+  friend bool operator==(const SectionPlace&, const SectionPlace&) { return true; }
+
+ private:
+  struct Read {
+    std::string before;
+    Keys keys;
+  };
+  std::shared_ptr<const Read> read_;
+};
+
+/// An archive that reads a file.
+class PlaceSource {
+ public:
+  virtual ~PlaceSource() = default;
+  /// The section that is being read.
+  virtual SectionPlace PlaceOfSection() const = 0;
+};
+
+/// Where the section that `archive` visits was read; none when it reads no file.
+template <class Archive>
+SectionPlace PlaceIn(const Archive& archive) {
+  const auto* source = dynamic_cast<const PlaceSource*>(&archive);
+  return source ? source->PlaceOfSection() : SectionPlace{};
+}
+
+}  // namespace priamos

@@ -1,0 +1,27 @@
+#include "common/input/quoted.hpp"
+
+#include <gtest/gtest.h>
+
+namespace priamos {
+namespace {
+
+TEST(Quoted, KeepsWhatATerminalShows) {
+  EXPECT_EQ(Quoted("POSE 3 µm"), "\"POSE 3 µm\"");
+  EXPECT_EQ(Quoted(""), "\"\"");
+}
+
+TEST(Quoted, ShowsWhatATerminalWouldObey) {
+  EXPECT_EQ(Quoted("A\n"), R"("A\n")");
+  EXPECT_EQ(Quoted("\x1b[2J\r\t\x7f"), R"("\x1b[2J\r\t\x7f")");
+  EXPECT_EQ(Quoted("\xc2\x9b[2J"), R"("\u009b[2J")") << "the same as one character";
+  EXPECT_EQ(Quoted(std::string("a\0b", 3)), R"("a\x00b")");
+  EXPECT_EQ(Quoted("\xc2"), "\"\xc2\"") << "half a character at the end";
+}
+
+TEST(Quoted, EndsWhereTheTextEnds) {
+  EXPECT_EQ(Quoted(R"(a" \n)"), R"("a\" \\n")");
+  EXPECT_EQ(Escaped(R"(a" \n)"), R"(a" \n)");
+}
+
+}  // namespace
+}  // namespace priamos
