@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "common/archive.hpp"
 #include "common/robot/camera_bits.hpp"
 #include "head/files/calibration_file.hpp"
@@ -50,7 +52,13 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
     calibration_.emplace(config, context);
     return;
   }
-  if (!config.pictures.empty()) pictures_.emplace(context.ResolvePath(config.pictures));
+  if (!config.pictures.empty()) {
+    const std::string folder = context.ResolvePath(config.pictures);
+    if (!std::filesystem::is_directory(folder))
+      throw ConfigError(
+          fmt::format("pictures: expected a folder with the pictures of a log, got {}", folder));
+    pictures_.emplace(folder);
+  }
   if (!config.keep_pictures.empty()) kept_.emplace(context.ResolvePath(config.keep_pictures));
   // What a look needs must be known before the first one.
   for (const Camera camera : {kLeft, kRight}) {

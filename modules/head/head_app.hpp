@@ -33,9 +33,10 @@ class HeadApp {
   static constexpr bus::OptionAlias kOptions[] = {
       {"--calibrate", "mode", "\"calibrate\"",
        "observe the reference object, write the calibration table, end"},
-      {"--pictures", "pictures", "", "folder with the pictures of the log that is played: with --clock bus"},
+      {"--pictures", "pictures", "",
+       "folder with the pictures of the log that is played, with --clock bus; relative to the configuration"},
       {"--keep-pictures", "keep_pictures", "",
-       "keep every picture that is used in that folder, for such a log"}};
+       "keep every picture that is used in that folder, for such a log; relative to the configuration"}};
   static constexpr bool kOneOwner = true;
   static constexpr bool kFollowsLogs = true;
   using Config = HeadConfig;
