@@ -20,15 +20,9 @@ constexpr Duration kLongestGap = std::chrono::seconds(60);
 LogFollower::LogFollower(LcmBus& bus, const Schema& schema, std::string name, Starter start)
     : bus_(bus), schema_(schema), name_(std::move(name)), start_(std::move(start)) {
   bus_.PublishUnder(kPrefix);
-  bus_.SubscribeEverything([](std::string_view, std::span<const std::byte>) {});
-  bus_.TranslateBy([this](std::uint64_t, std::string_view channel, std::span<const std::byte> bytes) {
-    Hear(channel, bytes);
-    return bytes;
-  });
-}
-
-LogFollower::~LogFollower() {
-  bus_.TranslateBy(nullptr);
+  // The first subscription hears a message before the App does, which ticks up to it.
+  bus_.SubscribeEverything(
+      [this](std::string_view channel, std::span<const std::byte> bytes) { Hear(channel, bytes); });
 }
 
 /// What the App sent when it was recorded: it shows when it ticked.

@@ -24,9 +24,9 @@ class LogFollower {
   /// Makes the App when the first message with a time stamp has come.
   using Starter = std::function<std::unique_ptr<AppHost>(const Clock&)>;
 
-  /// `bus` and `schema` must outlive it; `name` is that of the process.
+  /// Subscribes on `bus` before anybody else; `name` is that of the process. `bus` and `schema` must outlive
+  /// it, and `bus` is not drained after it.
   LogFollower(LcmBus& bus, const Schema& schema, std::string name, Starter start);
-  ~LogFollower();
   LogFollower(const LogFollower&) = delete;
   LogFollower& operator=(const LogFollower&) = delete;
 

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "bus/schema/fingerprint.hpp"
+#include "bus/schema/json_text.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -52,7 +53,7 @@ void WriteCell(std::ostream& out, const std::string& text) {
 }
 
 std::string TextOf(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? value.get<std::string>() : JsonText(value);
 }
 
 /// Writes the cells in the order in which AddColumns named them.

@@ -22,7 +22,7 @@ class EventCopier {
  private:
   LogWriter& writer_;
   LogTypes types_{nullptr};
-  TypeScribe scribe_{[this](std::uint64_t fingerprint) { return types_.Find(fingerprint); }};
+  TypeScribe scribe_{[this](std::span<const std::byte> bytes) { return types_.Of(bytes); }};
 };
 
 }  // namespace priamos::bus

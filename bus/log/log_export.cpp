@@ -16,6 +16,7 @@
 #include "bus/log/log_writer.hpp"
 #include "bus/log/mcap_writer.hpp"
 #include "bus/schema/json_schema.hpp"
+#include "bus/schema/json_text.hpp"
 #include "bus/schema/schema.hpp"
 #include "bus/schema/walk.hpp"
 
@@ -148,7 +149,7 @@ ExportCount ExportJsonLines(LogReader& reader, const Schema& schema, const LogSe
                                           {"channel", channel},
                                           {"type", type.full_name},
                                           {"message", ToJson(type, event.bytes)}};
-                          out << line.dump() << '\n';
+                          out << JsonText(line) << '\n';
                         });
 }
 
@@ -174,7 +175,7 @@ ExportCount ExportMcap(LogReader& reader, const Schema& schema, const LogSelecti
         const auto number = static_cast<std::uint32_t>(event.number);
         const auto time_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(event.utime, 0)) * 1000;
         const Json message = ToJson(type, event.bytes);
-        writer.AddMessage(ids.ChannelOf(channel, type), number, time_ns, message.dump());
+        writer.AddMessage(ids.ChannelOf(channel, type), number, time_ns, JsonText(message));
         if (!derivation.derive) return;
         for (const DerivedMessage& more : derivation.derive(channel, message, event.utime))
           writer.AddMessage(ids.ChannelOf(more.topic, more.schema_name,

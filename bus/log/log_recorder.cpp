@@ -139,7 +139,9 @@ void LogRecorder::Add(Time now, std::string_view channel, std::span<const std::b
 }
 
 void LogRecorder::DefineTypesOf(const Schema& schema) {
-  scribe_.emplace([&schema](std::uint64_t fingerprint) { return schema.Find(fingerprint); });
+  scribe_.emplace([&schema](std::span<const std::byte> bytes) {
+    return schema.Find(FingerprintOf(bytes.data(), bytes.size()));
+  });
 }
 
 void LogRecorder::Append(Time now, std::string_view channel, std::span<const std::byte> bytes) {

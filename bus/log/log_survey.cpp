@@ -44,7 +44,7 @@ class NumberSequence {
   std::int64_t gap_end_ = 0;  ///< the number that proves the gap
 };
 
-void Count(LogSurvey::Channel& channel, const LogEvent& event, const LogTypes& types) {
+void Count(LogSurvey::Channel& channel, const LogEvent& event, LogTypes& types) {
   const Struct* type = types.Of(event.bytes);
   channel.types.insert(type ? type->full_name : "?");
   channel.undecodable += type == nullptr || !Walk(*type, event.bytes);

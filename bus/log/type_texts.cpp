@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
+#include "bus/schema/big_endian.hpp"
 #include "bus/schema/json.hpp"
 #include "bus/schema/lcm_format.hpp"
 #include "bus/schema/walk.hpp"
@@ -29,6 +31,22 @@ const Struct& TypeTextType() {
     })"}});
   static const Struct& type = *schema.All().front();
   return type;
+}
+
+/// A message of type_text_t.
+struct TypeTextPart {
+  std::uint64_t fingerprint;
+  std::int64_t part, parts;
+  std::string text;  ///< bytes: the comments of old files may be in Latin-1
+};
+
+/// Reads a message that obeys Walk.
+TypeTextPart ReadTypeText(std::span<const std::byte> bytes) {
+  constexpr std::size_t kFingerprint = 16, kPart = 24, kParts = 26, kText = 32, kEnd = 1;
+  return {ReadBigEndian<std::uint64_t>(bytes.data() + kFingerprint),
+          ReadBigEndian<std::int16_t>(bytes.data() + kPart),
+          ReadBigEndian<std::int16_t>(bytes.data() + kParts),
+          std::string(reinterpret_cast<const char*>(bytes.data()) + kText, bytes.size() - kText - kEnd)};
 }
 
 /// Where a part ends that begins at `begin`: not within a character of UTF-8.
@@ -84,9 +102,11 @@ bool IsTypeText(std::span<const std::byte> bytes) {
 std::vector<std::vector<std::byte>> TypeScribe::TextsBefore(std::span<const std::byte> bytes,
                                                             std::int64_t utime) {
   const std::uint64_t fingerprint = FingerprintOf(bytes.data(), bytes.size());
-  if (fingerprint == TypeTextType().fingerprint || !seen_.insert(fingerprint).second) return {};
-  const Struct* type = find_(fingerprint);
-  const auto parts = type == nullptr ? std::vector<std::string>() : PartsOf(FormatLcm(*type));
+  if (fingerprint == TypeTextType().fingerprint || seen_.contains(fingerprint)) return {};
+  const Struct* type = find_(bytes);
+  if (type == nullptr) return {};
+  seen_.insert(fingerprint);
+  const auto parts = PartsOf(FormatLcm(*type));
   if (parts.size() > kMostParts) return {};
   std::vector<std::vector<std::byte>> messages;
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -100,37 +120,56 @@ std::vector<std::vector<std::byte>> TypeScribe::TextsBefore(std::span<const std:
 
 bool LogTypes::Take(std::span<const std::byte> bytes) {
   if (!IsTypeText(bytes)) return false;
-  if (!Walk(TypeTextType(), bytes) || open_.size() + texts_.size() >= kMostTypes) return true;
-  const Json message = ToJson(TypeTextType(), bytes);
-  const Key key(message["fingerprint"].get<std::int64_t>(), message["parts"].get<std::int64_t>());
-  const auto part = message["part"].get<std::int64_t>();
-  const bool known = Find(static_cast<std::uint64_t>(key.first)) != nullptr;
-  if (known || part < 0 || part >= key.second || !message["text"].is_string()) return true;
-  const auto& text = message["text"].get_ref<const std::string&>();
-  if (text_bytes_ + text.size() > kMostTextBytes) return true;
-  auto& parts = open_[key];
-  text_bytes_ += parts.try_emplace(part, text).second ? text.size() : 0;
-  if (std::cmp_less(parts.size(), key.second)) return true;
-  std::string whole;
-  for (const auto& [number, piece] : parts) whole += piece;
-  open_.erase(key);
-  Learn(whole);
+  if (!Walk(TypeTextType(), bytes)) return true;
+  TypeTextPart message = ReadTypeText(bytes);
+  if (Known(message.fingerprint) != nullptr || message.part < 0 || message.part >= message.parts) return true;
+  const auto [at, added] = claimed_.try_emplace(message.fingerprint);
+  if (added) order_.push_back(message.fingerprint);
+  text_bytes_ -= at->second.bytes();
+  at->second.Add(message.part, message.parts, std::move(message.text));
+  text_bytes_ += at->second.bytes();
+  while (text_bytes_ > kMostTextBytes || claimed_.size() > kMostTypes) Forget(order_.front());
   return true;
 }
 
-/// Whatever the message claims: a text defines the types that are in it.
-void LogTypes::Learn(const std::string& text) {
-  std::vector<std::string> problems;
-  const Schema& schema = texts_.emplace_back(std::vector<Schema::Source>{{"the log", text}}, problems);
-  ValueCount values;
-  for (const Struct* type : schema.All())
-    if (values.Of(*type) <= kMostValues) defined_.try_emplace(type->fingerprint, type);
+const Struct* LogTypes::Of(std::span<const std::byte> bytes) {
+  const std::uint64_t fingerprint = FingerprintOf(bytes.data(), bytes.size());
+  if (const Struct* type = Known(fingerprint)) return type;
+  const auto claimed = claimed_.find(fingerprint);
+  if (claimed == claimed_.end() || chosen_.size() >= kMostTypes) return nullptr;
+  const Struct* type = Choose(claimed->second, bytes);
+  if (type != nullptr) chosen_[fingerprint] = type;
+  Forget(fingerprint);
+  return type;
 }
 
-const Struct* LogTypes::Find(std::uint64_t fingerprint) const {
+const Struct* LogTypes::Known(std::uint64_t fingerprint) const {
   if (const Struct* type = given_ == nullptr ? nullptr : given_->Find(fingerprint)) return type;
-  const auto at = defined_.find(fingerprint);
-  return at == defined_.end() ? nullptr : at->second;
+  const auto at = chosen_.find(fingerprint);
+  return at == chosen_.end() ? nullptr : at->second;
+}
+
+const Struct* LogTypes::Choose(const ClaimedTexts& claimed, std::span<const std::byte> bytes) {
+  std::optional<Schema> best;
+  const auto obeyed = [&](const std::string& text) {
+    std::vector<std::string> problems;
+    Schema schema({{"the log", text}}, problems);
+    const Struct* type = schema.Find(FingerprintOf(bytes.data(), bytes.size()));
+    if (type == nullptr || ValueCount().Of(*type) > kMostValues) return false;
+    const bool obeys{Walk(*type, bytes)};
+    if (obeys || !best) best = std::move(schema);
+    return obeys;
+  };
+  claimed.AnyText(obeyed);
+  if (!best) return nullptr;
+  schemas_.push_back(std::move(*best));
+  return schemas_.back().Find(FingerprintOf(bytes.data(), bytes.size()));
+}
+
+void LogTypes::Forget(std::uint64_t fingerprint) {
+  text_bytes_ -= claimed_.at(fingerprint).bytes();
+  claimed_.erase(fingerprint);
+  order_.erase(std::find(order_.begin(), order_.end(), fingerprint));
 }
 
 }  // namespace priamos::bus

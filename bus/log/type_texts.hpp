@@ -2,16 +2,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
-#include <map>
 #include <set>
 #include <span>
-#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "bus/log/claimed_texts.hpp"
 #include "bus/schema/schema.hpp"
 
 namespace priamos::bus {
@@ -26,8 +26,8 @@ bool IsTypeText(std::span<const std::byte> bytes);
 /// What a recorder writes into a log before the first message of each type: the type's definition.
 class TypeScribe {
  public:
-  /// Finds the type of a fingerprint; nullptr when it is unknown, and then nothing is written.
-  using Finder = std::function<const Struct*(std::uint64_t fingerprint)>;
+  /// Finds the type of a message; nullptr when it is unknown, and then nothing is written.
+  using Finder = std::function<const Struct*(std::span<const std::byte> bytes)>;
 
   explicit TypeScribe(Finder find) : find_(std::move(find)) {}
 
@@ -43,31 +43,34 @@ class TypeScribe {
 
 /// The types of a log: those that are given, and those that it defines itself, in whatever version. They
 /// become known as the log is read.
+///
+/// A log may hold definitions that are damaged or forged, on a live bus by anybody. A recorder writes the
+/// genuine one directly before the first message of the type: so the choice is made at that message, the
+/// newest text goes first, it has to define a type of that message's fingerprint, and better one that the
+/// message obeys. What comes later changes nothing.
 class LogTypes {
  public:
   static constexpr std::size_t kMostTypes = 4096;          ///< that one log defines
-  static constexpr std::size_t kMostTextBytes = 16 << 20;  ///< of one log
+  static constexpr std::size_t kMostTextBytes = 16 << 20;  ///< kept of texts whose messages have not come
 
   /// `given` must outlive it; null: only those of the log.
   explicit LogTypes(const Schema* given) : given_(given) {}
 
   /// Learns from a message of the log. False when it defines no type.
   bool Take(std::span<const std::byte> bytes);
-  /// Type with this fingerprint; nullptr while it is unknown. The Struct lives as long as this object.
-  const Struct* Find(std::uint64_t fingerprint) const;
-  /// Type of an encoded message.
-  const Struct* Of(std::span<const std::byte> bytes) const {
-    return Find(FingerprintOf(bytes.data(), bytes.size()));
-  }
+  /// Type of an encoded message; nullptr while it is unknown. The Struct lives as long as this object.
+  const Struct* Of(std::span<const std::byte> bytes);
 
  private:
-  using Key = std::pair<std::int64_t, std::int64_t>;  ///< fingerprint and number of parts
-  void Learn(const std::string& text);
+  const Struct* Known(std::uint64_t fingerprint) const;
+  const Struct* Choose(const ClaimedTexts& claimed, std::span<const std::byte> bytes);
+  void Forget(std::uint64_t fingerprint);
 
   const Schema* given_;
-  std::map<Key, std::map<std::int64_t, std::string>> open_;  ///< texts of which not all parts have come
-  std::vector<Schema> texts_;
-  std::unordered_map<std::uint64_t, const Struct*> defined_;  ///< the types of texts_
+  std::unordered_map<std::uint64_t, ClaimedTexts> claimed_;  ///< texts whose messages have not come
+  std::deque<std::uint64_t> order_;                          ///< of claimed_: the oldest first
+  std::vector<Schema> schemas_;                              ///< of the types in chosen_
+  std::unordered_map<std::uint64_t, const Struct*> chosen_;
   std::size_t text_bytes_ = 0;
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "bus/schema/text_codec.hpp"
+
 namespace priamos::bus {
 namespace {
 
@@ -48,6 +50,8 @@ class Lexer {
     }
     Begin();
     tokens_.push_back(token_);
+    for (Token& token : tokens_)
+      if (token.type == Token::Type::kComment) token.text = Utf8Of(token.text);
     return std::move(tokens_);
   }
 

@@ -1,5 +1,6 @@
 #include "bus/schema/text_codec.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -33,22 +34,44 @@ SequenceForm FormOf(unsigned char lead) {
   return {.size = 0, .least = 0, .bits = 0};
 }
 
+/// Bytes of the well-formed sequence that `text` begins with; 0 when it begins with none.
+std::size_t SequenceSize(std::string_view text) {
+  const SequenceForm form = FormOf(static_cast<unsigned char>(text.front()));
+  if (form.size == 0 || text.size() < static_cast<std::size_t>(form.size)) return 0;
+  std::uint32_t code = form.bits;
+  for (int i = 1; i < form.size; ++i) {
+    const auto c = static_cast<unsigned char>(text[static_cast<std::size_t>(i)]);
+    if ((c & 0xc0) != 0x80) return 0;
+    code = code << 6 | (c & 0x3fU);
+  }
+  if (code < form.least || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return 0;
+  return static_cast<std::size_t>(form.size);
+}
+
+std::string Latin1AsUtf8(unsigned char c) {
+  if (c < 0xa0) return "\xEF\xBF\xBD";
+  return {static_cast<char>(0xc0 | c >> 6), static_cast<char>(0x80 | (c & 0x3f))};
+}
+
 }  // namespace
 
 bool IsUtf8(std::string_view text) {
   while (!text.empty()) {
-    const SequenceForm form = FormOf(static_cast<unsigned char>(text.front()));
-    if (form.size == 0 || text.size() < static_cast<std::size_t>(form.size)) return false;
-    std::uint32_t code = form.bits;
-    for (int i = 1; i < form.size; ++i) {
-      const auto c = static_cast<unsigned char>(text[static_cast<std::size_t>(i)]);
-      if ((c & 0xc0) != 0x80) return false;
-      code = code << 6 | (c & 0x3fU);
-    }
-    if (code < form.least || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return false;
-    text.remove_prefix(static_cast<std::size_t>(form.size));
+    const std::size_t size = SequenceSize(text);
+    if (size == 0) return false;
+    text.remove_prefix(size);
   }
   return true;
+}
+
+std::string Utf8Of(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t size = SequenceSize(text);
+    result += size > 0 ? text.substr(0, size) : Latin1AsUtf8(static_cast<unsigned char>(text.front()));
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return result;
 }
 
 std::string ToBase64(std::span<const std::byte> bytes) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "common/archive.hpp"
 #include "common/robot/camera_bits.hpp"
 #include "head/files/calibration_file.hpp"
@@ -29,7 +31,8 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       positioner_(config.motors),
       watch_(config.laser),
       floor_(head_, config.laser.obstacle),
-      look_(config.look),
+      look_(config.look, 2,
+            config.pictures.empty() ? LookSequence::Exposures::kOwn : LookSequence::Exposures::kRecorded),
       evaluator_(head_, EvaluatorOptions(config, head_)),
       drift_(config.drift),
       cameras_(context.instance() + "-camera"),
@@ -49,6 +52,14 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
     calibration_.emplace(config, context);
     return;
   }
+  if (!config.pictures.empty()) {
+    const std::string folder = context.ResolvePath(config.pictures);
+    if (!std::filesystem::is_directory(folder))
+      throw ConfigError(
+          fmt::format("pictures: expected a folder with the pictures of a log, got {}", folder));
+    pictures_.emplace(folder);
+  }
+  if (!config.keep_pictures.empty()) kept_.emplace(context.ResolvePath(config.keep_pictures));
   // What a look needs must be known before the first one.
   for (const Camera camera : {kLeft, kRight}) {
     const auto model = head_.CameraAt(config.LookSetting(), camera);
@@ -62,6 +73,23 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
         fmt::format("{}: laser: expected the plane of the line laser for laser.rate_hz above 0, got "
                     "none; calibrate it with `priamos calibrate --laser`",
                     context.ResolvePath(config.calibration)));
+}
+
+/// Of a log: whether the head that was recorded used this picture, as far as it is still there. What it did
+/// not use, because the head moved, it did not keep.
+bool HeadApp::WasUsed(const FrameNotice& frame) {
+  if (!pictures_ || frame.camera > kRight || pictures_->Has(frame)) return true;
+  lost_ = look_.active();
+  return false;
+}
+
+/// The log goes on to its next look: the picture of this one is lost.
+void HeadApp::EndWithoutPictures(Time now) {
+  lost_ = false;
+  if (!look_.active()) return;
+  context_.Log(bus::Level::kWarning, "its pictures are not in the folder");
+  look_.End();
+  Answer(NotFound(Verdict::kNoImage, now));
 }
 
 /// Straight ahead while model or pose are unknown, which the answer reports.
@@ -93,10 +121,11 @@ void HeadApp::TakeMessages(Time now) {
   }
   for (const camera_frame_t& message : frames_.Drain()) {
     const FrameNotice frame = FromMessage(message);
-    look_.Add(frame);
+    if (WasUsed(frame)) look_.Add(frame);
     if (watch_.Takes(frame)) ReportFloor(frame);
   }
   for (const look_request_t& message : look_requests_.Drain()) {
+    if (lost_) EndWithoutPictures(now);
     orders_.push_back(FromMessage(message));
     if (orders_.size() <= kMaxOrders) continue;
     context_.Log(bus::Level::kWarning, "too many look requests at once: the oldest is refused");
@@ -142,6 +171,7 @@ void HeadApp::Look(Time now) {
       Answer(NotFound(Verdict::kNoImage, now));
       return;
     case LookSequence::Action::kUseFrames: {
+      lost_ = false;
       LookAnswer answer = Evaluate(look_.frames());
       look_.End();
       Answer(std::move(answer));
@@ -165,7 +195,7 @@ void HeadApp::WatchFloor(Time now) {
 }
 
 void HeadApp::ReportFloor(const FrameNotice& frame) {
-  const auto floor = floor_.Evaluate(cameras_.Read(frame), report_->setting);
+  const auto floor = floor_.Evaluate(Picture(frame), report_->setting);
   if (!floor) return;
   obstacle_.Publish(ToMessage(floor->lines, frame.exposure));
   if (floor->new_obstacle) context_.Log(bus::Level::kInfo, Describe(*floor->new_obstacle));
@@ -177,7 +207,7 @@ LookAnswer HeadApp::Evaluate(const Frames& frames) {
   answer.exposure = frames[kLeft].exposure;
   LookResult result = evaluator_.Evaluate({model == models_.end() ? nullptr : &model->second,
                                            poses_.At(answer.exposure),
-                                           {cameras_.Read(frames[kLeft]), cameras_.Read(frames[kRight])},
+                                           {Picture(frames[kLeft]), Picture(frames[kRight])},
                                            report_->setting});
   answer.fix = std::move(result.fix);
   answer.view = std::move(result.view);
@@ -186,12 +216,34 @@ LookAnswer HeadApp::Evaluate(const Frames& frames) {
   return answer;
 }
 
+std::optional<GreyImage> HeadApp::Picture(const FrameNotice& frame) {
+  if (pictures_) {
+    auto kept = pictures_->Read(frame);
+    if (kept) return std::move(*kept);
+    context_.Log(bus::Level::kWarning, kept.reason());
+    return std::nullopt;
+  }
+  auto image = cameras_.Read(frame);
+  if (!image || !kept_) return image;
+  if (const auto refusal = kept_->Keep(frame, *image)) {
+    if (not_kept_++ == 0) context_.Log(bus::Level::kWarning, refusal->reason);
+    ReportHealth();
+  }
+  return image;
+}
+
+/// A camera that has moved makes fixes wrong; a picture that is not kept only makes the log poorer.
+void HeadApp::ReportHealth() {
+  if (drift_.alarm()) return context_.SetHealth(bus::Health::kDegraded, drift_.alarm()->ToText());
+  if (not_kept_ == 0) return context_.SetHealth(bus::Health::kOk);
+  context_.SetHealth(bus::Health::kDegraded, fmt::format("{} pictures could not be kept", not_kept_));
+}
+
 void HeadApp::Judge(const StereoDrift& drift) {
   const bool was_well = !drift_.alarm();
   drift_.Add(drift);
-  if (!drift_.alarm()) return context_.SetHealth(bus::Health::kOk);
-  context_.SetHealth(bus::Health::kDegraded, drift_.alarm()->ToText());
-  if (was_well) context_.Log(bus::Level::kWarning, drift_.alarm()->ToText());
+  ReportHealth();
+  if (was_well && drift_.alarm()) context_.Log(bus::Level::kWarning, drift_.alarm()->ToText());
 }
 
 void HeadApp::Answer(LookAnswer answer) {

@@ -18,6 +18,7 @@
 #include "head/core/motion/head_jog.hpp"
 #include "head/head_config.hpp"
 #include "head/head_messages.hpp"
+#include "head/picture_folder.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::head {
@@ -31,8 +32,13 @@ class HeadApp {
       "LANDMARK_FIX.";
   static constexpr bus::OptionAlias kOptions[] = {
       {"--calibrate", "mode", "\"calibrate\"",
-       "observe the reference object, write the calibration table, end"}};
+       "observe the reference object, write the calibration table, end"},
+      {"--pictures", "pictures", "",
+       "folder with the pictures of the log that is played, with --clock bus; relative to the configuration"},
+      {"--keep-pictures", "keep_pictures", "",
+       "keep every picture that is used in that folder, for such a log; relative to the configuration"}};
   static constexpr bool kOneOwner = true;
+  static constexpr bool kFollowsLogs = true;
   using Config = HeadConfig;
 
   HeadApp(const HeadConfig& config, bus::Context& context);
@@ -49,7 +55,11 @@ class HeadApp {
   void WatchFloor(Time now);
   void ReportFloor(const FrameNotice& frame);
   LookAnswer Evaluate(const Frames& frames);
+  bool WasUsed(const FrameNotice& frame);
+  void EndWithoutPictures(Time now);
+  std::optional<GreyImage> Picture(const FrameNotice& frame);
   void Judge(const StereoDrift& drift);
+  void ReportHealth();
   double PanFor(const LookOrder& order, Time now) const;
   void Answer(LookAnswer answer);
 
@@ -68,6 +78,9 @@ class HeadApp {
   std::map<int, LandmarkModel> models_;
   std::deque<LookOrder> orders_;
   CameraReader cameras_;
+  std::optional<PictureFolder> pictures_, kept_;
+  int not_kept_ = 0;
+  bool lost_ = false;  ///< a picture of the present look is not in pictures_
   std::optional<HeadReport> report_;
 
   bus::Latest<head_state_t> head_state_;

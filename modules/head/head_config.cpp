@@ -32,6 +32,10 @@ void HeadConfig::Describe(Archive& a) {
   a.Choice("mode", mode, {"look", "calibrate"},
            "look answers LOOK_REQUEST; calibrate observes the reference object, writes the table and ends");
   a.Text("calibration", calibration, "table of calibrated head setups, relative to this file");
+  a.Text("pictures", pictures,
+         "folder with the pictures of a log that is played, relative to this file; empty: the cameras");
+  a.Text("keep_pictures", keep_pictures,
+         "folder in which every picture that is used is kept, relative to this file; empty: none is");
   a.Number("tilt_deg", tilt_deg, {"deg", -45, 45, "tilt for all looks, positive looks down"});
   a.Number("convergence_deg", convergence_deg,
            {"deg", -20, 20, "each camera is turned so far towards the middle"});
@@ -46,6 +50,8 @@ void HeadConfig::Describe(Archive& a) {
   a.Section("vision", vision, "edges and landmark fixes");
   a.Section("drift", drift, "alarm when the cameras are no longer where the calibration has them");
   a.Section("laser", laser, "obstacles and steps by the laser's line");
+  if (!pictures.empty() && !keep_pictures.empty())
+    a.Refuse("keep_pictures", "no folder beside `pictures`: those are kept already");
   // Nearer to the end stop a motor cannot come from below.
   const int nearest = motors.approach_steps;
   if (zoom_step < nearest || plan.zoom.first < nearest)

@@ -43,8 +43,10 @@ struct HeadConfig {
   double rate_hz = 50;                      ///< decisions
   std::string mode = "look";                ///< look or calibrate
   std::string calibration = "kastor.yaml";  ///< table of head setups, beside the configuration file
-  double tilt_deg = 0;                      ///< for all looks
-  double convergence_deg = 1.15;            ///< each camera is turned so far towards the middle
+  std::string pictures;           ///< folder from which pictures come instead of the cameras; none: empty
+  std::string keep_pictures;      ///< folder in which the pictures used are kept; none: empty
+  double tilt_deg = 0;            ///< for all looks
+  double convergence_deg = 1.15;  ///< each camera is turned so far towards the middle
   int zoom_step = 650;
   int focus_step = 1600;
   AimConfig aim;

@@ -1,11 +1,19 @@
 #include "bus/log_follower.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
-// With a bus, a player and the planner: test/system/followed_log_test.cpp.
+#include <csignal>
+
+#include "bus/own_types.hpp"
+
+// With a bus, a player and the planner: test/system/log/followed_log_test.cpp.
 
 namespace priamos::bus {
 namespace {
+
+using std::chrono::hours;
+using std::chrono::seconds;
 
 TEST(LogFollower, WhatItSendsIsOnChannelsOfItsOwn) {
   const Schema schema{std::vector<Schema::Source>{}};
@@ -16,6 +24,101 @@ TEST(LogFollower, WhatItSendsIsOnChannelsOfItsOwn) {
   bus.Publish("PATH", {});
   bus.Drain();
   EXPECT_EQ(heard, "REPLAYED_PATH");
+}
+
+/// Notes when it ticks, once a second.
+class TickNoter : public AnyApp {
+ public:
+  using OnTick = std::function<void(Time now, Context& context)>;
+  TickNoter(Context& context, OnTick on_tick) : context_(context), on_tick_(std::move(on_tick)) {}
+  Duration TickPeriod() const override { return seconds(1); }
+  void Tick(Time now) override { on_tick_(now, context_); }
+  void Yield(Time) override {}
+
+ private:
+  Context& context_;
+  OnTick on_tick_;
+};
+
+/// The signals that are blocked, as they were before a SignalWatch.
+class KeptSignalMask {
+ public:
+  KeptSignalMask() { pthread_sigmask(SIG_SETMASK, nullptr, &mask_); }
+  ~KeptSignalMask() { pthread_sigmask(SIG_SETMASK, &mask_, nullptr); }
+  KeptSignalMask(const KeptSignalMask&) = delete;
+  KeptSignalMask& operator=(const KeptSignalMask&) = delete;
+
+ private:
+  sigset_t mask_{};
+};
+
+/// A log that begins at kBegin and goes on `gap` later.
+class LogWithAGap : public testing::Test {
+ protected:
+  static constexpr Time kBegin{hours(480'000)};
+  static constexpr int kTooManyTicks = 3;  ///< exit code
+  static constexpr std::size_t kMostTicks = 1000;
+
+  void Play(Time stamp) {
+    pose_t pose{};
+    pose.utime = ToUtime(stamp);
+    bus_.PublishUnder("");
+    bus_.Publish("POSE", Encode(pose));
+    bus_.PublishUnder(LogFollower::kPrefix);
+  }
+
+  /// Runs an App on that log; returns its exit code.
+  std::optional<int> Follow(Duration gap, const TickNoter::OnTick& on_tick) {
+    AppFactory factory;
+    factory.name = "noter";
+    factory.start = [&](const ConfigSource&, Context& context) {
+      return std::make_unique<TickNoter>(context, [&](Time now, Context& around) {
+        ticks_.push_back(now);
+        if (ticks_.size() > kMostTicks) around.RequestStop(kTooManyTicks);
+        on_tick(now, around);
+      });
+    };
+    LogFollower dut(bus_, schema_, factory.name, [&](const Clock& clock) {
+      auto host = std::make_unique<AppHost>(factory, ConfigSource{}, bus_, schema_, clock, Surroundings{});
+      for (int i = 0; i < LogTime::kWitnesses; ++i) Play(kBegin + gap);
+      return host;
+    });
+    Play(kBegin);
+    return dut.Run(signals_);
+  }
+
+  const Schema schema_ = OwnTypes();
+  const KeptSignalMask mask_;
+  const SignalWatch signals_;
+  LcmBus bus_{"memq://"};
+  std::vector<Time> ticks_;
+};
+
+TEST_F(LogWithAGap, OfAGapItLivesThroughTheLastMinute) {
+  const auto code = Follow(hours(1), [](Time now, Context& context) {
+    if (now >= kBegin + hours(1) - seconds(1)) context.RequestStop(0);
+  });
+  EXPECT_EQ(code, 0);
+  ASSERT_EQ(ticks_.size(), 60U);
+  EXPECT_EQ(ticks_.front(), kBegin + hours(1) - seconds(60));
+}
+
+TEST_F(LogWithAGap, AMinuteIsNoGap) {
+  const auto code = Follow(seconds(60), [](Time now, Context& context) {
+    if (now >= kBegin + seconds(59)) context.RequestStop(0);
+  });
+  EXPECT_EQ(code, 0);
+  ASSERT_EQ(ticks_.size(), 60U);
+  EXPECT_EQ(ticks_.front(), kBegin);
+}
+
+/// As after a stamp that is wrong by a century.
+TEST_F(LogWithAGap, ASignalIsHeardBehindAnyGap) {
+  const auto code = Follow(hours(24 * 365 * 100), [](Time, Context&) { std::raise(SIGINT); });
+  EXPECT_EQ(code, 0);
+  EXPECT_LE(ticks_.size(), 60U);
+  char taken[1024];
+  EXPECT_GT(read(signals_.fd(), taken, sizeof taken), 0) << "else it would end the test itself";
 }
 
 }  // namespace

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from .model import SchemaError
 
 _BLANK = " \t\n\v\f\r"
+# Bytes of a comment that are no UTF-8 (errors="surrogateescape") are taken for Latin-1.
+_LATIN_1 = {0xDC00 + byte: chr(byte) if byte >= 0xA0 else "\ufffd" for byte in range(0x80, 0x100)}
 _TOKEN = re.compile(r"""(?P<blank>[ \t\n\v\f\r]+)
     |(?P<line>//[^\n]*)
     |(?P<block>/\*.*?\*/)
@@ -64,6 +66,9 @@ def tokenize(text):
         else:
             tokens.append(token)
     tokens.append(Token("end", "", line, line, at - begin + 1, empty))
+    for token in tokens:
+        if token.type == "comment":
+            token.text = token.text.translate(_LATIN_1)
     return tokens
 
 

@@ -10,7 +10,7 @@ from .decoding import decode
 from .encoding import encode
 from .model import MessageError
 from .schema import Schema, fingerprint_of, own_types
-from .type_texts import TYPE_TEXT, TypeTexts
+from .type_texts import TypeTexts, is_type_text
 
 _MAGIC = b"\xed\xa1\xda\x01"
 _HEADER = binary.Struct(">4sqqII")
@@ -42,7 +42,7 @@ class Log:
         self.path, self.skipped_bytes, self.damaged_places = str(path), 0, 0
         self.data = _map(self.path)
         self.schema = Schema(own_types() if texts is None else texts)
-        self._texts = TypeTexts()
+        self._types = TypeTexts(self.schema)
 
     def __iter__(self):
         self.skipped_bytes = self.damaged_places = 0
@@ -51,8 +51,8 @@ class Log:
             whole, follower = self._place(at)
             if whole:
                 event = self._event(at, follower)
-                if event.channel == TYPE_TEXT:
-                    self._texts.take(event.data, self.schema)
+                if not self._types.take(event.data):
+                    self._types.of(event.data)  # the choice among its definitions is made here
                 yield event
             else:
                 # Nothing begins before the next magic: one place, however long.
@@ -63,7 +63,7 @@ class Log:
 
     def decode(self, event):
         """The message as a dict, see decoding.decode. Raises MessageError."""
-        struct = self.schema.of(event.data)
+        struct = self._types.of(event.data)
         if struct is None:
             raise MessageError(f"{event.channel}: expected a message of a known type, got fingerprint "
                                f"{fingerprint_of(event.data):016x}; next: name its .lcm folder")
@@ -72,7 +72,7 @@ class Log:
     def messages(self, *channels):
         """(event, message) of these channels, of all without any; what cannot be decoded, and type texts, left out."""
         for event in self:
-            if event.channel == TYPE_TEXT or (channels and event.channel not in channels):
+            if is_type_text(event.data) or (channels and event.channel not in channels):
                 continue
             try:
                 yield event, self.decode(event)

@@ -72,11 +72,9 @@ class Schema:
         """The type of an encoded message; None when unknown."""
         return self._by_fingerprint.get(fingerprint_of(data))
 
-    def adopt(self, other, wanted):
-        """Has the types of `other` for which `wanted(struct)` holds found by fingerprint, too."""
-        for fingerprint, struct in other._by_fingerprint.items():
-            if wanted(struct):
-                self._by_fingerprint.setdefault(fingerprint, struct)
+    def adopt(self, struct):
+        """Has a type of another Schema found by its fingerprint, too."""
+        self._by_fingerprint.setdefault(struct.fingerprint, struct)
 
     def _refuse(self, name, sentence):
         self.problems.append(sentence)

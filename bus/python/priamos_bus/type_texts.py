@@ -1,12 +1,17 @@
 """Definitions of types that a recorder wrote into a log, as messages of type_text_t: see bus/log/README.md."""
 
+import itertools
+
 from .decoding import decode
 from .model import MessageError
-from .schema import Schema
+from .schema import Schema, fingerprint_of
 
 TYPE_TEXT = "TYPE_TEXT"
 MOST_TYPES = 4096  # of one log, whatever it holds
+MOST_TEXT_BYTES = 16 << 20  # kept of texts whose messages have not come
 MOST_VALUES = 100_000  # of one message that need no byte of it: structs without fields, in arrays and nested
+MOST_VERSIONS, MOST_TRIES, MOST_WORK = 8, 64, 8  # of one part; whole texts put together; bytes of them per byte kept
+_PART_OVERHEAD = 64  # bytes of memory beside the text
 _OWN = Schema([("type_text_t.lcm", """package priamos;
 struct type_text_t {
   int64_t utime;
@@ -17,29 +22,101 @@ struct type_text_t {
 }""")]).find("type_text_t")
 
 
+def is_type_text(data):
+    """Whether an encoded message defines a type."""
+    return fingerprint_of(data) == _OWN.fingerprint
+
+
 class TypeTexts:
-    """Parts of texts as they come."""
+    """Has `schema` know the types that a log defines itself, in whatever version.
 
-    def __init__(self):
-        self.open, self.done = {}, set()
+    A log may hold definitions that are damaged or forged, on a live bus by anybody. A recorder writes the genuine one
+    directly before the first message of the type: so the choice is made at that message, the newest text goes first, it
+    has to define a type of that message's fingerprint, and better one that the message obeys. What comes later changes
+    nothing."""
 
-    def take(self, data, schema):
-        """Takes an encoded message; when it completes the text of a type, `schema` knows the type from now on."""
+    def __init__(self, schema):
+        self.schema, self.claimed, self.chosen, self.text_bytes = schema, {}, 0, 0
+
+    def take(self, data):
+        """Takes an encoded message; False when it is of another type."""
+        if not is_type_text(data):
+            return False
         try:
             message = decode(_OWN, data)
         except MessageError:
-            return
-        fingerprint, parts = message["fingerprint"], message["parts"]
-        if fingerprint in self.done or not 0 <= message["part"] < parts or len(self.done) + len(self.open) >= MOST_TYPES:
-            return
-        known = self.open.setdefault((fingerprint, parts), {})
-        known[message["part"]] = message["text"]
-        if len(known) == parts:
-            del self.open[fingerprint, parts]
-            self.done.add(fingerprint)
-            defined = Schema([("the log", "".join(known[i] for i in range(parts)))])
-            counts = {}
-            schema.adopt(defined, lambda struct: _values(struct, counts) <= MOST_VALUES)
+            return True
+        fingerprint = message["fingerprint"] % 2**64
+        if self.schema.find(fingerprint) is None and 0 <= message["part"] < message["parts"]:
+            claimed = self.claimed.setdefault(fingerprint, _ClaimedTexts())
+            self.text_bytes -= claimed.bytes
+            claimed.add(message["part"], message["parts"], message["text"])
+            self.text_bytes += claimed.bytes
+            while self.text_bytes > MOST_TEXT_BYTES or len(self.claimed) > MOST_TYPES:
+                self._forget(next(iter(self.claimed)))
+        return True
+
+    def of(self, data):
+        """The type of an encoded message; None while it is unknown."""
+        fingerprint = fingerprint_of(data)
+        known = self.schema.find(fingerprint)
+        if known is not None or fingerprint not in self.claimed or self.chosen >= MOST_TYPES:
+            return known
+        struct = _choose(self.claimed[fingerprint], fingerprint, data)
+        if struct is not None:
+            self.chosen += 1
+            self.schema.adopt(struct)
+        self._forget(fingerprint)
+        return struct
+
+    def _forget(self, fingerprint):
+        self.text_bytes -= self.claimed.pop(fingerprint).bytes
+
+
+class _ClaimedTexts:
+    """What a log claims to be the text of one type: parts of texts, of which some may be damaged or forged."""
+
+    def __init__(self):
+        self.by_count, self.bytes = {}, 0
+
+    def add(self, part, parts, text):
+        self.by_count[parts] = self.by_count.pop(parts, {})  # the newest last
+        versions = self.by_count[parts].setdefault(part, [])
+        if text in versions:
+            versions.remove(text)
+        elif len(versions) == MOST_VERSIONS:
+            self.bytes -= len(versions.pop(0)) + _PART_OVERHEAD
+        else:
+            self.bytes += len(text) + _PART_OVERHEAD
+        versions.append(text)
+
+    def texts(self):
+        """Whole texts, those of the newest parts first."""
+        whole = [parts for count, parts in reversed(self.by_count.items()) if len(parts) == count][:MOST_TRIES]
+        for parts in whole:
+            # A share of the work for each, so that none keeps the others from being tried.
+            seen, most = 0, MOST_WORK * self.bytes // len(whole)
+            newest_first = [parts[i][::-1] for i in reversed(range(len(parts)))]
+            for chosen in itertools.islice(itertools.product(*newest_first), MOST_TRIES // len(whole)):
+                text = "".join(reversed(chosen))
+                if seen > 0 and seen + len(text) > most:
+                    break
+                seen += len(text)
+                yield text.encode("utf-8", "surrogateescape").decode("utf-8", "surrogateescape")
+
+
+def _choose(claimed, fingerprint, data):
+    best = None
+    for text in claimed.texts():
+        struct = Schema([("the log", text)]).find(fingerprint)
+        if struct is None or _values(struct, {}) > MOST_VALUES:
+            continue
+        try:
+            decode(struct, data)
+            return struct
+        except MessageError:
+            best = best or struct
+    return best
 
 
 def _values(struct, counts):

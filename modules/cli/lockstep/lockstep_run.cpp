@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "bus/lockstep.hpp"
 #include "cli/lockstep/factories.hpp"
@@ -20,9 +21,16 @@ std::string TtyOf(const std::string& bus) {
   return std::string(bus == "onboard" ? kOnboardTty : kOffboardTty);
 }
 
+/// A folder may have blanks, and quotes, in its name.
+std::string KeptIn(const std::filesystem::path& folder) {
+  return "keep_pictures=" + nlohmann::json(folder.string()).dump();
+}
+
 ConfigSource SourceOf(const LockstepRequest& request, const ScenarioProcess& process) {
   ConfigSource source{(std::filesystem::path(request.deployment) / process.config).string(), {}};
   if (!process.set.empty()) source.overrides.push_back(process.set);
+  if (process.module == "head" && request.keep_pictures && request.log_folder)
+    source.overrides.push_back(KeptIn(std::filesystem::absolute(*request.log_folder) / "pictures"));
   if (process.module == "radio") source.overrides.push_back("port=" + TtyOf(process.bus));
   // No daemon in simulated time: the mouse is plugged into teleop itself.
   if (process.module == "teleop")

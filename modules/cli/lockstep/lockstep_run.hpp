@@ -16,7 +16,8 @@ struct LockstepRequest {
   std::string deployment;  ///< its folder
   std::string scenario = "door";
   std::uint64_t seed = 1;
-  std::optional<std::string> log_folder;                   ///< none: nothing is written
+  std::optional<std::string> log_folder;  ///< none: nothing is written
+  bool keep_pictures = false;             ///< those that the head uses, in `pictures` in log_folder
   std::function<void(Time, const std::string&)> progress;  ///< simulated time since the start
   std::function<void(std::string_view bus, Time, std::string_view channel, std::span<const std::byte>)> tap;
 };

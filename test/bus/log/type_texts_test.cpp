@@ -63,8 +63,9 @@ class TypeTexts : public testing::Test {
 };
 
 TEST_F(TypeTexts, TheTypeIsTheOneOfLcmtypes) {
-  const auto texts =
-      TypeScribe([](std::uint64_t fingerprint) { return kThen.Find(fingerprint); }).TextsBefore(ThenWay(), 7);
+  const auto texts = TypeScribe([](auto bytes) {
+                       return kThen.Find(FingerprintOf(bytes.data(), bytes.size()));
+                     }).TextsBefore(ThenWay(), 7);
   ASSERT_EQ(texts.size(), 1u);
   const Schema own = OwnTypes();
   const Json message = ToJson(*own.Find("type_text_t"), texts[0]);
@@ -130,13 +131,14 @@ TEST_F(TypeTexts, ALongTextComesInPartsOfWholeCharacters) {
               std::string(static_cast<std::size_t>(i % 7), 'x') + "\n";
   const Schema schema = SchemaOf("struct big_t {\n" + fields + "}");
   const Bytes message = MessageBuilder(*schema.Find("big_t")).bytes();
-  const auto texts =
-      TypeScribe([&](std::uint64_t fingerprint) { return schema.Find(fingerprint); }).TextsBefore(message, 0);
+  const auto texts = TypeScribe([&](auto bytes) {
+                       return schema.Find(FingerprintOf(bytes.data(), bytes.size()));
+                     }).TextsBefore(message, 0);
   EXPECT_GE(texts.size(), 3u);
   LogTypes dut(nullptr);
+  EXPECT_EQ(dut.Of(message), nullptr);
   for (auto at = texts.rbegin(); at != texts.rend(); ++at) {
     EXPECT_LE(at->size(), 1400u) << "a player sends it as one datagram";
-    EXPECT_EQ(dut.Of(message), nullptr);
     EXPECT_TRUE(ToJson(*OwnTypes().Find("type_text_t"), *at)["text"].is_string()) << "UTF-8";
     EXPECT_TRUE(dut.Take(*at)) << "in whatever order";
   }
@@ -144,25 +146,131 @@ TEST_F(TypeTexts, ALongTextComesInPartsOfWholeCharacters) {
   EXPECT_EQ(dut.Of(message)->fields.size(), 100u);
 }
 
+/// A part of a text that is claimed to define the type of `fingerprint`.
+Bytes TextPart(std::uint64_t fingerprint, const std::string& text, std::size_t part = 0,
+               std::size_t parts = 1) {
+  static const Schema own = OwnTypes();
+  return FromJson(*own.Find("type_text_t"), Json{{"utime", 0},
+                                                 {"fingerprint", static_cast<std::int64_t>(fingerprint)},
+                                                 {"part", part},
+                                                 {"parts", parts},
+                                                 {"text", text}});
+}
+
+std::vector<Bytes> TextParts(std::uint64_t fingerprint, const std::string& text) {
+  constexpr std::size_t kBytes = 1000;
+  std::vector<Bytes> parts;
+  const std::size_t count = (text.size() + kBytes - 1) / kBytes;
+  for (std::size_t i = 0; i < count; ++i)
+    parts.push_back(TextPart(fingerprint, text.substr(kBytes * i, kBytes), i, count));
+  return parts;
+}
+
 TEST_F(TypeTexts, TypesWhoseMessagesHoldBillionsOfEmptyStructsAreNotTaken) {
   const std::string wide = "struct e_t {} struct wide_t { e_t x[2000000000]; }";
   std::string deep = "struct c30_t {}";
   for (int i = 29; i >= 0; --i) deep += fmt::format("struct c{0}_t {{ c{1}_t a; c{1}_t b; }}", i, i + 1);
-  const Schema own = OwnTypes(), types = SchemaOf(wide + deep);
+  const Schema types = SchemaOf(wide + deep);
   LogTypes dut(nullptr);
-  dut.Take(FromJson(*own.Find("type_text_t"),
-                    Json{{"utime", 0}, {"fingerprint", 1}, {"part", 0}, {"parts", 1}, {"text", wide}}));
-  EXPECT_EQ(dut.Find(types.Find("wide_t")->fingerprint), nullptr);
-  EXPECT_NE(dut.Find(types.Find("e_t")->fingerprint), nullptr);
-  std::uint64_t parts = (deep.size() + 999) / 1000;
-  for (std::uint64_t i = 0; i < parts; ++i)
-    dut.Take(FromJson(*own.Find("type_text_t"), Json{{"utime", 0},
-                                                     {"fingerprint", 2},
-                                                     {"part", i},
-                                                     {"parts", parts},
-                                                     {"text", deep.substr(1000 * i, 1000)}}));
-  EXPECT_EQ(dut.Find(types.Find("c0_t")->fingerprint), nullptr);
-  EXPECT_NE(dut.Find(types.Find("c20_t")->fingerprint), nullptr);
+  const auto takes = [&](const std::string& name, const std::string& text) {
+    const std::uint64_t fingerprint = types.Find(name)->fingerprint;
+    for (const Bytes& part : TextParts(fingerprint, text)) dut.Take(part);
+    return dut.Of(MessageBuilder(*types.Find(name)).bytes()) != nullptr;
+  };
+  EXPECT_FALSE(takes("wide_t", wide));
+  EXPECT_TRUE(takes("e_t", wide));
+  EXPECT_FALSE(takes("c0_t", deep));
+  EXPECT_TRUE(takes("c20_t", deep));
+}
+
+TEST_F(TypeTexts, CommentsInLatin1AreReadAndTheTypesUsed) {
+  const std::string text = "struct old_t {\n  double d_m;  // [m] @range 0,1 @step 0.1: L\xE4nge\n}";
+  const Schema schema = SchemaOf(text);
+  const Struct& type = *schema.Find("old_t");
+  EXPECT_EQ(type.fields[0].annotation.meaning, "L\xC3\xA4nge");
+  const Bytes message = MessageBuilder(type).Put(0.5).bytes();
+  LogTypes dut(nullptr);
+  // As a recorder of before wrote it: byte for byte.
+  Bytes part =
+      TextPart(type.fingerprint, "struct old_t {\n  double d_m;  // [m] @range 0,1 @step 0.1: L#nge\n}");
+  *std::find(part.begin() + 32, part.end(), std::byte{'#'}) = std::byte{0xE4};
+  dut.Take(part);
+  ASSERT_NE(dut.Of(message), nullptr);
+  EXPECT_EQ(dut.Of(message)->fields[0].annotation.meaning, "L\xC3\xA4nge");
+  const std::string log = Write("latin", schema, message);
+  EXPECT_THAT(Lines(log, SchemaOf("")), HasSubstr(R"("message":{"d_m":0.5})"));
+  LogReader reader(log);
+  std::ostringstream mcap;
+  EXPECT_EQ(ExportMcap(reader, SchemaOf(""), {}, mcap).written, 3u) << "its JSON schema has the comment";
+}
+
+/// What may stand in a log before, between and behind the parts of the genuine text of kThen's p.way_t.
+TEST_F(TypeTexts, ForgedAndDamagedTextsHideNoGenuineOne) {
+  const std::uint64_t fingerprint = kThen.Find("p.way_t")->fingerprint;
+  const std::string genuine =
+      "package p; struct point_t { double x; } struct way_t { int8_t n; point_t at[n]; }";
+  const std::string other_name =
+      "package q; struct point_t { double x; } struct forged_t { int8_t n; point_t at[n]; }";
+  const std::vector<Bytes> whole = {TextPart(fingerprint, genuine)};
+  const std::vector<Bytes> halves = {TextPart(fingerprint, genuine.substr(0, 40), 0, 2),
+                                     TextPart(fingerprint, genuine.substr(40), 1, 2)};
+  std::vector<Bytes> forged;
+  for (const std::string& text : {std::string("struct {"), std::string("struct s { int8_t a; }"), other_name,
+                                  std::string(1200, 'x'), std::string()}) {
+    forged.push_back(TextPart(fingerprint, text));
+    for (const std::size_t part : {0, 1}) forged.push_back(TextPart(fingerprint, text, part, 2));
+  }
+  for (const auto& texts : {whole, halves}) {
+    LogTypes dut(nullptr);
+    for (int flood = 0; flood < 3; ++flood)
+      for (const Bytes& text : forged) dut.Take(text);
+    for (const Bytes& text : texts) dut.Take(text);
+    ASSERT_NE(dut.Of(ThenWay()), nullptr);
+    EXPECT_EQ(dut.Of(ThenWay())->full_name, "p.way_t");
+    for (const Bytes& text : forged) dut.Take(text);
+    EXPECT_EQ(dut.Of(ThenWay())->full_name, "p.way_t") << "what comes later changes nothing";
+  }
+}
+
+TEST_F(TypeTexts, OneForgedPartAfterTheGenuineOnesIsLeftOut) {
+  const std::uint64_t fingerprint = kThen.Find("p.way_t")->fingerprint;
+  const std::string genuine =
+      "package p; struct point_t { double x; } struct way_t { int8_t n; point_t at[n]; }";
+  for (const std::size_t forged : {0, 1}) {
+    LogTypes dut(nullptr);
+    dut.Take(TextPart(fingerprint, genuine.substr(0, 40), 0, 2));
+    dut.Take(TextPart(fingerprint, genuine.substr(40), 1, 2));
+    dut.Take(TextPart(fingerprint, "forged", forged, 2));
+    EXPECT_NE(dut.Of(ThenWay()), nullptr) << forged;
+  }
+}
+
+/// LCM's fingerprint is the same when two fields exchange their types.
+TEST_F(TypeTexts, OfTwoTypesOfOneFingerprintTheOneIsTakenThatTheMessageObeys) {
+  const std::string types = "struct name_t { string s; } struct size_t { int32_t n; } ";
+  const std::string genuine = types + "struct c_t { name_t a; size_t b; }";
+  const std::string forged = types + "struct c_t { size_t a; name_t b; }";
+  const Schema schema = SchemaOf(genuine);
+  const Struct& type = *schema.Find("c_t");
+  ASSERT_EQ(type.fingerprint, SchemaOf(forged).Find("c_t")->fingerprint);
+  const Bytes message = FromJson(type, Json::parse(R"({"a": {"s": "ab"}, "b": {"n": 7}})"));
+  for (const bool forged_last : {true, false}) {
+    LogTypes dut(nullptr);
+    dut.Take(TextPart(type.fingerprint, forged_last ? genuine : forged));
+    dut.Take(TextPart(type.fingerprint, forged_last ? forged : genuine));
+    ASSERT_NE(dut.Of(message), nullptr);
+    EXPECT_EQ(dut.Of(message)->fields[0].type_name, "name_t");
+  }
+}
+
+TEST_F(TypeTexts, AFloodOfOtherTypesHidesNoGenuineOne) {
+  LogTypes dut(nullptr);
+  const std::uint64_t fingerprint = kThen.Find("p.way_t")->fingerprint;
+  for (std::uint64_t i = 1; i <= LogTypes::kMostTypes + 10; ++i)
+    dut.Take(TextPart(i, "struct s { int8_t a; }"));
+  dut.Take(TextPart(fingerprint,
+                    "package p; struct point_t { double x; } struct way_t { int8_t n; point_t at[n]; }"));
+  EXPECT_NE(dut.Of(ThenWay()), nullptr);
 }
 
 TEST_F(TypeTexts, HostileTextsDoNoHarm) {

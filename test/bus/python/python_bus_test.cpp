@@ -3,9 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <bit>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 
 #include "bus/log/log_export.hpp"
@@ -130,6 +133,69 @@ TEST(PythonBus, ReadsALogOfTypesThatItNeverSawAsExportDoes) {
   EXPECT_EQ(ran.exit_code, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr(std::to_string(count.written) + " messages, the same; " +
                                   std::to_string(reader.skipped_bytes()) + " bytes skipped"));
+}
+
+/// Numbers of all magnitudes that a type can hold, and those around which the exponent begins.
+template <class T, class Bits>
+T AnyNumber(std::mt19937_64& rng) {
+  const auto bits = std::bit_cast<T>(static_cast<Bits>(rng()));
+  if (rng() % 2 == 0) return bits;
+  const double digits =
+      std::round(std::pow(10.0, static_cast<double>(rng() % 18)) * static_cast<double>(rng() % 10000));
+  return static_cast<T>(digits * std::pow(10.0, -static_cast<double>(rng() % 24)));
+}
+
+TEST(PythonBus, PrintsNumbersOfAllMagnitudesAsExportDoes) {
+  const TemporaryFolder folder;
+  const Schema schema = SchemaOf("struct numbers_t { double d[100]; float f[100]; }");
+  const Struct& type = *schema.Find("numbers_t");
+  const std::string path = folder / "numbers.lcmlog";
+  {
+    LogWriter log(path);
+    log.DefineTypesOf(schema);
+    std::mt19937_64 rng(9);
+    for (int i = 0; i < 100; ++i) {
+      MessageBuilder message(type);
+      for (int k = 0; k < 100; ++k) message.Put(AnyNumber<double, std::uint64_t>(rng));
+      for (int k = 0; k < 100; ++k) message.Put(AnyNumber<float, std::uint32_t>(rng));
+      log.Write(kNow_us + i, "NUMBERS", message.bytes());
+    }
+  }
+  LogReader reader(path);
+  std::ostringstream lines;
+  EXPECT_EQ(ExportJsonLines(reader, Schema(std::vector<Schema::Source>{}), {}, lines).written, 100U);
+  const auto ran = Python("-m priamos_bus '" + path + "'");
+  EXPECT_EQ(ran.exit_code, 0);
+  EXPECT_TRUE(ran.text == lines.str())
+      << "the first differs at byte "
+      << std::mismatch(ran.text.begin(), ran.text.end(), lines.str().begin()).first - ran.text.begin();
+}
+
+/// The readers agree on what is forged, too: test/bus/log/type_texts_test.cpp.
+TEST(PythonBus, ForgedAndLatin1DefinitionsAreReadAsExportDoes) {
+  const TemporaryFolder folder;
+  const Schema own = OwnTypes(), schema = SchemaOf("struct old_t { double d_m; }");
+  const Struct& type = *schema.Find("old_t");
+  const std::string path = folder / "old.lcmlog";
+  {
+    LogWriter log(path);
+    for (const std::string text : {"struct {", "struct forged_t {\n  double d_m;\n}",
+                                   "struct old_t {\n  double d_m;  // [m] L\xE4nge\n}"})
+      log.Write(kNow_us, "TYPE_TEXT",
+                MessageBuilder(*own.Find("type_text_t"))
+                    .Put(kNow_us)
+                    .Put(type.fingerprint)
+                    .Put(std::int16_t{0})
+                    .Put(std::int16_t{1})
+                    .Text(text)
+                    .bytes());
+    log.Write(kNow_us, "OLD", MessageBuilder(type).Put(0.5).bytes());
+  }
+  LogReader reader(path);
+  std::ostringstream lines;
+  ExportJsonLines(reader, Schema(std::vector<Schema::Source>{}), {}, lines);
+  EXPECT_THAT(lines.str(), HasSubstr(R"("type":"old_t","message":{"d_m":0.5}})"));
+  EXPECT_EQ(Python("-m priamos_bus '" + path + "' --types test/bus/schema/foreign").text, lines.str());
 }
 
 TEST(PythonBus, ItsOwnTestsPass) {

@@ -1,6 +1,8 @@
 #include "bus/schema/text_codec.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 
 namespace priamos::bus {
 namespace {
@@ -47,6 +49,20 @@ TEST(Utf8, RefusesOverlongSurrogateTooLargeAndTorn) {
                            "\xF4\x90\x80\x80", "\xF8\x88\x80\x80\x80", "\xFF", "\xE2\x82", "\xC2 "}) {
     EXPECT_FALSE(IsUtf8(text));
   }
+}
+
+TEST(Utf8, OtherBytesAreTakenForLatin1) {
+  EXPECT_EQ(Utf8Of("sch\xF6n [\xB5m], sch\xC3\xB6n"), "sch\xC3\xB6n [\xC2\xB5m], sch\xC3\xB6n");
+  EXPECT_EQ(Utf8Of("a\x80z\x9Bz"), "a\xEF\xBF\xBDz\xEF\xBF\xBDz") << "control characters of a terminal";
+  EXPECT_EQ(Utf8Of("\xE2\x82"), "\xC3\xA2\xEF\xBF\xBD") << "torn";
+  EXPECT_EQ(Utf8Of(""), "");
+}
+
+RC_GTEST_PROP(Utf8Property, AnyBytesBecomeUtf8AndUtf8Stays, (const std::string& bytes)) {
+  const std::string text = Utf8Of(bytes);
+  RC_ASSERT(IsUtf8(text));
+  RC_ASSERT(Utf8Of(text) == text);
+  RC_ASSERT(!IsUtf8(bytes) || text == bytes);
 }
 
 }  // namespace

@@ -149,13 +149,25 @@ TEST_F(Hosts, AClockThatIsASecondAheadIsMeasuredAndItsStampsAreTranslated) {
     start base timeout 30 $BIN/priamos topic echo CLOCK host ahead_s uncertainty_s --json > $DIR/clocks 2> /dev/null
     start base timeout 30 $BIN/priamos topic echo ODOMETRY utime --count 100 > $DIR/odometry 2> /dev/null; EAR=$STARTED
     start vision timeout 30 $BIN/priamos topic echo WHEEL_STATE utime --count 100 > $DIR/wheels 2> /dev/null; OTHER=$STARTED
+    start base timeout 30 $BIN/priamos topic echo HEALTH process clock_ahead_s clock_uncertainty_s --json > $DIR/health 2> /dev/null
     start vision $BIN/priamos-world --config $SIM/world.toml 2> /dev/null
     start base $BIN/priamos-robot --config $SIM/robot.toml 2> /dev/null
     wait $EAR $OTHER
     echo "--- odometry"; tail -1 $DIR/odometry; echo "--- wheels"; tail -1 $DIR/wheels
     echo "--- probe"; on base $BIN/priamos doctor --probe --seconds 1 | grep 'host vision'
     echo "--- clocks"; grep '"base"' $DIR/clocks | tail -1
+    for process in robot world; do echo "--- $process"; grep "\"$process\"" $DIR/health | tail -1; done
+    echo "--- end"
   )sh");
+  const auto robot = nlohmann::json::parse(Part(answer, "robot"), nullptr, false),
+             world = nlohmann::json::parse(Part(answer, "world"), nullptr, false);
+  ASSERT_TRUE(robot.is_object() && world.is_object()) << answer.text;
+  EXPECT_NEAR(world.value("clock_ahead_s", 0.0) - robot.value("clock_ahead_s", 0.0), 1, 0.02)
+      << "one of them is the reference; " << answer.text;
+  for (const auto& health : {robot, world}) {
+    EXPECT_GE(health.value("clock_uncertainty_s", -1.0), 0) << answer.text;
+    EXPECT_LE(health.value("clock_uncertainty_s", -1.0), 0.02);
+  }
   EXPECT_THAT(Part(answer, "probe"),
               ContainsRegex("its clock is (1.0000|0.9[0-9]*|1.00[0-9]*) s ahead, to [0-9]"));
   EXPECT_THAT(Part(answer, "clocks"), ContainsRegex("\"ahead_s\":\\[(1.0|0.99|1.00)"));

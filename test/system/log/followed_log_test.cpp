@@ -37,6 +37,37 @@ int CountOf(const std::string& log, const std::string& channel) {
   return events;
 }
 
+/// What a live planner sent beside the recorded messages of one channel, both in `log`.
+template <class T>
+void ExpectSame(const std::string& log, const std::string& channel,
+                const std::function<void(const T& then, const T& now)>& compare) {
+  const auto then = MessagesOf<T>(log, channel);
+  const auto now = MessagesOf<T>(log, std::string(bus::LogFollower::kPrefix) + channel);
+  ASSERT_EQ(now.size(), then.size()) << channel;
+  for (std::size_t i = 0; i < then.size(); ++i) compare(then[i], now[i]);
+}
+
+/// The planner decided in `log` what it decided when it was recorded.
+void ExpectSameDecisions(const std::string& log) {
+  ASSERT_GT(CountOf(log, "PATH"), 0);
+  ExpectSame<path_t>(log, "PATH", [](const path_t& then, const path_t& now) {
+    EXPECT_NEAR(static_cast<double>(now.utime), static_cast<double>(then.utime), 3e5);
+    ASSERT_EQ(now.points.size(), then.points.size());
+    for (std::size_t i = 0; i < then.points.size(); ++i) {
+      EXPECT_NEAR(now.points[i].x_m, then.points[i].x_m, 0.02);
+      EXPECT_NEAR(now.points[i].y_m, then.points[i].y_m, 0.02);
+    }
+  });
+  ExpectSame<look_request_t>(log, "LOOK_REQUEST", [](const look_request_t& then, const look_request_t& now) {
+    EXPECT_EQ(now.landmark_id, then.landmark_id);
+    EXPECT_EQ(now.side, then.side);
+  });
+  ExpectSame<landmark_model_t>(log, "LANDMARK_MODEL",
+                               [](const landmark_model_t& then, const landmark_model_t& now) {
+                                 EXPECT_EQ(now.landmark_id, then.landmark_id);
+                               });
+}
+
 class FollowedLog : public testing::TestWithParam<int> {
  protected:
   FollowedLog() {
@@ -65,38 +96,13 @@ PY
     )sh",
                             folder_ / "script.sh", 60);
   }
-  template <class T>
-  void ExpectSame(const std::string& channel,
-                  const std::function<void(const T& then, const T& now)>& compare) const {
-    const std::string log = folder_ / "again.lcmlog";
-    const auto then = MessagesOf<T>(log, channel);
-    const auto now = MessagesOf<T>(log, std::string(bus::LogFollower::kPrefix) + channel);
-    ASSERT_GT(then.size(), 0U) << answer_.text;
-    ASSERT_EQ(now.size(), then.size()) << channel << "\n" << answer_.text;
-    for (std::size_t i = 0; i < then.size(); ++i) compare(then[i], now[i]);
-  }
-
   const TemporaryFolder folder_;
   ShellAnswer answer_;
 };
 
 TEST_P(FollowedLog, ThePlannerDecidesAsItDidThenAndTheConsoleShowsIt) {
-  ExpectSame<path_t>("PATH", [](const path_t& then, const path_t& now) {
-    EXPECT_NEAR(static_cast<double>(now.utime), static_cast<double>(then.utime), 3e5);
-    ASSERT_EQ(now.points.size(), then.points.size());
-    for (std::size_t i = 0; i < then.points.size(); ++i) {
-      EXPECT_NEAR(now.points[i].x_m, then.points[i].x_m, 0.02);
-      EXPECT_NEAR(now.points[i].y_m, then.points[i].y_m, 0.02);
-    }
-  });
-  ExpectSame<look_request_t>("LOOK_REQUEST", [](const look_request_t& then, const look_request_t& now) {
-    EXPECT_EQ(now.landmark_id, then.landmark_id);
-    EXPECT_EQ(now.side, then.side);
-  });
-  ExpectSame<landmark_model_t>("LANDMARK_MODEL",
-                               [](const landmark_model_t& then, const landmark_model_t& now) {
-                                 EXPECT_EQ(now.landmark_id, then.landmark_id);
-                               });
+  SCOPED_TRACE(answer_.text);
+  ExpectSameDecisions(folder_ / "again.lcmlog");
   EXPECT_THAT(answer_.text, HasSubstr("planner 0"));
   // The console shows it by the log's time, and commands nothing, whatever its page says.
   EXPECT_THAT(answer_.text,
@@ -111,6 +117,36 @@ TEST_P(FollowedLog, ThePlannerDecidesAsItDidThenAndTheConsoleShowsIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AtSpeed, FollowedLog, testing::Values(4, 8));
+
+/// Each speed with a robot's name, a bus and a beginning of the log of its own, so that all end after ten
+/// seconds.
+TEST(FollowsLogs, ThePlannerDecidesTheSameAtLowSpeeds) {
+  const TemporaryFolder folder;
+  const auto answer = RunInPrivateNetwork("DIR=" + folder.path().string() + R"sh(
+    export PRIAMOS_BUS=offboard
+    LOG=$SOURCE/logs/recorded/door-udp-offboard.lcmlog
+    follow() {  # NAME SECONDS_OF_LOG PLAYER...
+      export PRIAMOS_ROBOT=$1
+      $BIN/priamos log filter $LOG $DIR/$1-part.lcmlog --to $2 > /dev/null
+      $BIN/priamos log record $DIR/$1.lcmlog --no-health > /dev/null & RECORDER=$!
+      $BIN/priamos-planner --config $SOURCE/config/sim/planner.toml --clock bus & PLANNER=$!
+      PORT=$(printf %04X $($BIN/priamos topic url | sed 's/.*:\([0-9]*\).*/\1/'))
+      until [ $(grep -c ":$PORT " /proc/net/udp) -ge 2 ]; do sleep 0.05; done
+      "${@:3}" $DIR/$1-part.lcmlog > /dev/null
+      sleep 0.5; kill $PLANNER $RECORDER; wait $PLANNER; echo "$1 $?"; wait $RECORDER
+    }
+    lcms() { lcm-logplayer -l "$($BIN/priamos topic url)" -s "$@"; }
+    ours() { $BIN/priamos log play --speed "$@"; }
+    follow quarter 2.6 lcms 0.25 & follow half 4.6 ours 0.5 & follow once 8.5 lcms 1 & follow twice 17 ours 2 &
+    wait
+  )sh",
+                                          folder / "script.sh", 60);
+  for (const std::string speed : {"quarter", "half", "once", "twice"}) {
+    SCOPED_TRACE(speed + "\n" + answer.text);
+    EXPECT_THAT(answer.text, HasSubstr(speed + " 0"));
+    ExpectSameDecisions(folder / (speed + ".lcmlog"));
+  }
+}
 
 /// Only what commands nobody may follow a log.
 TEST(FollowsLogs, ARobotDoesNot) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bus/clocks/clock_exchange.hpp"
 #include "bus/wire/multicast.hpp"
 
 namespace priamos::cli {
@@ -11,6 +12,7 @@ namespace {
 
 using Verdict = Finding::Verdict;
 
+constexpr std::size_t kMostClocks = 256;                    // processes; anybody may send HEALTH
 constexpr std::int64_t kLatest_us = 7'258'118'400'000'000;  // the year 2200
 
 /// Words of another computer end up in a terminal: only what a name or an address has.
@@ -69,6 +71,36 @@ void HostProbe::HearOther(const std::string& address, const std::string& host) {
   if (IsOwn(address)) return;
   std::string& name = others_[address];
   if (!host.empty()) name = host;
+}
+
+void HostProbe::HearClock(const std::string& address, const health_t& message) {
+  const std::pair key(address, message.process);
+  if (clocks_.size() < kMostClocks || clocks_.contains(key)) clocks_[key] = message.clock_uncertainty_s;
+}
+
+/// "vision (10.77.0.2)", as far as it is known.
+std::string HostProbe::NameOf(const std::string& address) const {
+  if (IsOwn(address)) return "this host";
+  for (const auto& [id, host] : hosts_)
+    if (host.address == address) return Named(host.name, address);
+  const auto other = others_.find(address);
+  return Named(other == others_.end() ? "" : other->second, address);
+}
+
+void HostProbe::AddClocks(std::vector<Finding>& findings) const {
+  const double bound_s = Seconds(bus::ClockExchange::kMostUncertain);
+  for (const auto& [key, uncertainty_s] : clocks_) {
+    const auto& [address, process] = key;
+    if (uncertainty_s >= 0 && uncertainty_s <= bound_s) continue;
+    findings.push_back(
+        {fmt::format("clock of {} on {}", Plain(process), NameOf(address)), Verdict::kBad,
+         fmt::format(
+             "{} against the reference of the bus, {:.0f} ms expected: messages between such hosts are "
+             "refused",
+             uncertainty_s >= 0 ? fmt::format("known to {:.0f} ms", 1000 * uncertainty_s) : "not known",
+             1000 * bound_s),
+         "priamos topic echo CLOCK   # who has heard whom, and how exactly"});
+  }
 }
 
 Finding HostProbe::Works(const Host& host) const {
@@ -145,6 +177,7 @@ std::vector<Finding> HostProbe::Findings(const std::vector<std::string>& expecte
                         fmt::format("none is heard, and none answered {} questions sent {}", asked_.size(),
                                     Way(self_.network, self_.ttl)),
                         ask_there});
+  AddClocks(findings);
   return findings;
 }
 

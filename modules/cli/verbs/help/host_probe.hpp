@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/clocks/clock_offset.hpp"
@@ -36,7 +37,11 @@ class HostProbe {
   /// Takes notice of any other message on the bus. `host`: the sender's name if the message has it.
   void HearOther(const std::string& address, const std::string& host = "");
 
-  /// A line per way that works or is cut; `expected`: names of hosts that have to be there.
+  /// Takes what a process says of its host's clock in HEALTH, the newest time.
+  void HearClock(const std::string& address, const health_t& message);
+
+  /// A line per way that works or is cut, and per process whose clock is not known exactly enough;
+  /// `expected`: names of hosts that have to be there.
   std::vector<Finding> Findings(const std::vector<std::string>& expected) const;
 
  private:
@@ -53,10 +58,13 @@ class HostProbe {
   Finding Works(const Host& host) const;
   Finding CutFrom(const Host& host) const;
   Finding CutTo(const std::string& who) const;
+  std::string NameOf(const std::string& address) const;
+  void AddClocks(std::vector<Finding>& findings) const;
 
   Self self_;
   std::vector<Time> asked_;  ///< when
   std::map<std::int32_t, Host> hosts_;
+  std::map<std::pair<std::string, std::string>, double> clocks_;  ///< [s]; by address and process: how exact
   std::map<std::string, std::string> others_;  ///< heard on the bus: address, and name if known
 };
 

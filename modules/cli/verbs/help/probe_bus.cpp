@@ -87,6 +87,9 @@ class Asker {
 
   void OnBus(const std::string& address, std::string_view channel, Bytes bytes) {
     if (channel == channels::kProbe.name && TakeProbe(address, bytes, false)) return;
+    if (channel == channels::kHealth.name)
+      if (const auto health = bus::DecodeChecked<health_t>(schema_, bytes))
+        probe_.HearClock(address, *health);
     probe_.HearOther(address, channel == channels::kClaim.name ? HostOfClaim(bytes) : "");
   }
 

@@ -131,8 +131,11 @@ void AddLockstepCommand(CLI::App& cli, int& exit_code) {
                        "the summary (an array of them for several runs) into that file; without one, or "
                        "with -, to standard output");
   json->expected(0, 1);
-  verb->add_option("--logs", options->log_root,
-                   "write logs and report of each run into a folder per seed there");
+  auto* logs = verb->add_option("--logs", options->log_root,
+                                "write logs and report of each run into a folder per seed there");
+  verb->add_flag("--pictures", options->request.keep_pictures,
+                 "and the pictures that the head used, from which `priamos replay verify` can run it again")
+      ->needs(logs);
   AddDeploymentOption(*verb, options->deployment);
   verb->add_flag("--verbose", options->verbose, "one line per phase");
   verb->callback([options, json, &exit_code] {

@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "bus/output_comparison.hpp"
 #include "bus/own_types.hpp"
@@ -20,22 +21,26 @@ namespace {
 constexpr int kDifferent = 1;
 
 struct VerifyOptions {
-  std::string log, module, config;
+  std::string log, module, config, pictures;
   std::string deployment = "sim";
   std::vector<std::string> set;
   bool json = false;
 };
 
 ConfigSource SourceOf(const VerifyOptions& options) {
-  if (!options.config.empty()) return {options.config, options.set};
+  std::vector<std::string> set = options.set;
+  if (!options.pictures.empty())
+    set.push_back("pictures=" + nlohmann::json(std::filesystem::absolute(options.pictures).string()).dump());
+  if (!options.config.empty()) return {options.config, set};
   const std::filesystem::path folder = FolderOfDeployment(options.deployment);
-  return {(folder / (options.module + ".toml")).string(), options.set};
+  return {(folder / (options.module + ".toml")).string(), set};
 }
 
 /// What else than messages a module's outputs come from; empty when it is nothing.
 std::string UnrecordedInput(const std::string& module) {
   if (module == "console") return "what people did on its page is in no log";
-  if (module == "head") return "its pictures are in no log";
+  if (module == "head")
+    return "its pictures are in no log: lockstep --pictures keeps them, --pictures gives them";
   if (module == "radio") return "what came over the line is in no log";
   if (module == "teleop") return "what the hand did is in no log";
   if (module == "world") return "its scenario and seed are in no log: give them with --set";
@@ -59,6 +64,8 @@ void Print(const VerifyOptions& options, const bus::Replay& replay, const bus::O
 }
 
 int Verify(const VerifyOptions& options) {
+  if (!options.pictures.empty() && options.module != "head")
+    throw std::runtime_error(fmt::format("--pictures: expected with --module head, got {}", options.module));
   const bus::Schema schema = bus::OwnTypes();
   const ConfigSource source = SourceOf(options);
   bus::Replay replay(FactoryFor(options.module), source, schema, options.log, {source.Folder()});
@@ -94,9 +101,9 @@ void AddReplayCommand(CLI::App& cli, int& exit_code) {
       *replay, "verify",
       "Feed a module what a log recorded and compare what it sends with what it sent then, byte for byte.");
   verb->footer(
-      "Exact for robot and planner in logs of lockstep runs; the log of a live bus has the recorder's "
-      "times,\n"
-      "and what console, head, world, radio and teleop send comes from more than messages.\n"
+      "Exact for robot, planner and, with --pictures, head in logs of lockstep runs; the log of a live bus "
+      "has the\n"
+      "recorder's times, and what console, world, radio and teleop send comes from more than messages.\n"
       "Example: priamos replay verify logs/recorded/door-onboard.lcmlog --module robot");
   verb->add_option("log", options->log, "LCM log")->required()->check(CLI::ExistingFile);
   verb->add_option("--module", options->module, "whose messages to compare")
@@ -104,6 +111,8 @@ void AddReplayCommand(CLI::App& cli, int& exit_code) {
       ->check(CLI::IsMember({"robot", "planner", "head", "teleop", "console", "radio", "world"}));
   verb->add_option("--config", options->config, "its configuration; none: <deployment>/<module>.toml");
   AddDeploymentOption(*verb, options->deployment);
+  verb->add_option("--pictures", options->pictures, "folder with the pictures of that run, for the head")
+      ->check(CLI::ExistingDirectory);
   verb->add_option("--set", options->set, "KEY=VALUE on top of the file");
   CompleteVerb(*verb, options, Verify, exit_code);
 }

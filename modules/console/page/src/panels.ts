@@ -198,9 +198,18 @@ export class Panels {
     }));
   }
 
+  /** What is wrong with a process; else how far its host's clock is off the reference, if it is. */
+  private healthText(message: Health): string {
+    const { clock_ahead_s: ahead = 0, clock_uncertainty_s: uncertainty = 0 } = message;
+    if (message.text !== "") return message.text;
+    if (uncertainty < 0) return text("clockUnknown");
+    if (Math.abs(ahead) <= uncertainty) return "";
+    return `${text("clock")} ${ahead > 0 ? "+" : "−"}${number(Math.abs(ahead), 4)} s ± ${number(1000 * uncertainty, 1)} ms`;
+  }
+
   private drawProcesses(): void {
     const rows = this.store.all<Health>("HEALTH").map(({ key, message }): Row => ({
-      cells: [message.process, message.text, named("health", message.state)],
+      cells: [message.process, this.healthText(message), named("health", message.state)],
       stale: this.store.isStale(key),
       kind: message.state === HEALTH_OK ? "good" : "bad",
     }));

@@ -100,7 +100,10 @@ export interface LinkStatus {
   channels: LinkChannel[];
 }
 
-export interface Health { process: string; state: number; text: string; messages_lost: number }
+export interface Health {
+  process: string; state: number; text: string; messages_lost: number;
+  clock_ahead_s?: number; clock_uncertainty_s?: number;  // logs of before have neither
+}
 
 export interface Alarm { utime: number; severity: number; source: string; text: string }
 

@@ -80,6 +80,8 @@ const WORDS = {
   alarms: ["Alarms", "Alarme"],
   noAlarms: ["none", "keine"],
   processes: ["Processes", "Prozesse"],
+  clock: ["clock", "Uhr"],
+  clockUnknown: ["clock not compared with other hosts", "Uhr nicht mit anderen Rechnern verglichen"],
   connected: ["station connected", "Station verbunden"],
   lost: ["no connection to the station", "keine Verbindung zur Station"],
   viewer: ["you watch only", "nur Zuschauer"],

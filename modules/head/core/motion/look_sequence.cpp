@@ -19,6 +19,12 @@ void LookSequence::Begin(Time now) {
 }
 
 void LookSequence::Add(const FrameNotice& frame) {
+  const bool other = phase_ == Phase::kSettling || frame.frame_id != frame_id_;
+  if (exposures_ == Exposures::kRecorded && phase_ != Phase::kIdle && other) {
+    frame_id_ = frame.frame_id;
+    frames_ = {};
+    phase_ = Phase::kExposing;
+  }
   if (phase_ != Phase::kExposing || frame.frame_id != frame_id_) return;
   if (frame.camera >= 0 && frame.camera < cameras_) frames_[frame.camera] = frame;
 }
@@ -35,8 +41,14 @@ Frames LookSequence::frames() const {
   return frames;
 }
 
+LookSequence::Action LookSequence::StepOnLog(Time now) const {
+  if (phase_ == Phase::kExposing && Complete()) return Action::kUseFrames;
+  return Seconds(now - begun_) > config_.age_limit_s ? Action::kGiveUp : Action::kWait;
+}
+
 LookSequence::Action LookSequence::Step(bool head_settled, bool head_failed, Time now) {
   if (phase_ == Phase::kIdle) return Action::kWait;
+  if (exposures_ == Exposures::kRecorded) return StepOnLog(now);
   if (head_failed || Seconds(now - begun_) > config_.age_limit_s) return Action::kGiveUp;
   if (phase_ == Phase::kExposing) {
     if (!head_settled) {

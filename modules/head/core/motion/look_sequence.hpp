@@ -25,8 +25,14 @@ struct LookConfig {
 /// arrive. It always ends, with pictures or without.
 class LookSequence {
  public:
+  /// Who decides which pictures a look uses: this sequence, by what it has exposed itself, or the log that is
+  /// played, by the pictures that it was recorded with. Then nothing is exposed, and where the head points
+  /// now does not matter.
+  enum class Exposures { kOwn, kRecorded };
+
   /// Sequence without a look. `cameras` is 2 for the stereo pair, 3 for all.
-  explicit LookSequence(const LookConfig& config, int cameras = 2) : config_(config), cameras_(cameras) {}
+  explicit LookSequence(const LookConfig& config, int cameras = 2, Exposures exposures = Exposures::kOwn)
+      : config_(config), cameras_(cameras), exposures_(exposures) {}
 
   void Begin(Time now);
   bool active() const { return phase_ != Phase::kIdle; }
@@ -49,8 +55,10 @@ class LookSequence {
  private:
   enum class Phase { kIdle, kSettling, kExposing };
   bool Complete() const;
+  Action StepOnLog(Time now) const;
   LookConfig config_;
   int cameras_;
+  Exposures exposures_;
   Phase phase_ = Phase::kIdle;
   Time begun_{}, triggered_{};
   int attempts_ = 0;

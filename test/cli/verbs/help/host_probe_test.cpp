@@ -64,6 +64,32 @@ TEST_F(HostProbeTest, TheClockOfAHostIsMeasured) {
   EXPECT_THAT(Only().found, HasSubstr("its clock agrees to 0.3 ms"));
 }
 
+TEST_F(HostProbeTest, AClockThatIsNotKnownExactlyEnoughIsNamed) {
+  Answered(false);
+  health_t health{};
+  health.process = "head";
+  health.clock_uncertainty_s = 0.02;
+  dut_.HearClock(kTheirs, health);
+  EXPECT_EQ(Only().what, "host vision (10.77.0.2)");
+  health.clock_uncertainty_s = 0.0212;
+  dut_.HearClock(kTheirs, health);
+  health.process = "ro\x1b[31mbot";
+  health.clock_uncertainty_s = -1;
+  dut_.HearClock("10.77.0.1", health);
+  const auto findings = dut_.Findings({});
+  ASSERT_EQ(findings.size(), 3U);
+  EXPECT_EQ(findings[1].what, "clock of ro??31mbot on this host");
+  EXPECT_THAT(findings[1].found, StartsWith("not known against the reference of the bus, 20 ms expected"));
+  EXPECT_EQ(findings[2].what, "clock of head on vision (10.77.0.2)");
+  EXPECT_THAT(findings[2].found, StartsWith("known to 21 ms against"));
+  EXPECT_EQ(findings[2].verdict, Verdict::kBad);
+  for (int i = 0; i < 10'000; ++i) {
+    health.process = std::to_string(i);
+    dut_.HearClock(kTheirs, health);
+  }
+  EXPECT_LE(dut_.Findings({}).size(), 300U);
+}
+
 TEST_F(HostProbeTest, AnAnswerToNoQuestionTellsNothing) {
   dut_.HearProbe(Answer(0), kTheirs, false, kBegin);
   dut_.HearProbe(Answer(4), kTheirs, false, kBegin);

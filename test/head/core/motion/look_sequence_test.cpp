@@ -77,5 +77,41 @@ TEST_F(LookSequenceTest, NeverLastsLongerThanTheAgeLimit) {
   EXPECT_EQ(Step(false, false, LookConfig{}.age_limit_s + 0.1), Action::kGiveUp);
 }
 
+/// On a log.
+class RecordedLook : public LookSequenceTest {
+ protected:
+  RecordedLook() { dut_ = LookSequence(LookConfig{}, 2, LookSequence::Exposures::kRecorded); }
+};
+
+TEST_F(RecordedLook, UsesThePicturesOfTheLogWhereverTheHeadPoints) {
+  for (const std::int32_t frame_id : {7, 9, 9}) {
+    dut_.Begin(now_);
+    EXPECT_EQ(Step(true), Action::kWait) << "exposes nothing";
+    Deliver(0, frame_id);
+    EXPECT_EQ(Step(false, true), Action::kWait);
+    Deliver(1, frame_id);
+    EXPECT_EQ(Step(false, true), Action::kUseFrames);
+    EXPECT_EQ(dut_.frames()[0].frame_id, frame_id);
+    dut_.End();
+  }
+}
+
+TEST_F(RecordedLook, PicturesBeforeItBeganAndHalvesOfTwoExposuresAreNone) {
+  Deliver(0, 3);
+  Deliver(1, 3);
+  dut_.Begin(now_);
+  EXPECT_EQ(Step(true), Action::kWait);
+  Deliver(0, 4);
+  Deliver(1, 5);
+  EXPECT_EQ(Step(true), Action::kWait);
+  Deliver(0, 5);
+  EXPECT_EQ(Step(true), Action::kUseFrames);
+}
+
+TEST_F(RecordedLook, EndsWithoutPictures) {
+  dut_.Begin(now_);
+  EXPECT_EQ(Step(true, false, LookConfig{}.age_limit_s + 1), Action::kGiveUp);
+}
+
 }  // namespace
 }  // namespace priamos::head

@@ -1,0 +1,59 @@
+// A door run that kept the pictures its head used: from these and the log the head sees again what it saw,
+// run from the file and on the log as LCM's own player plays it onto a bus.
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "bus/log/log_reader.hpp"
+#include "bus/log_follower.hpp"
+#include "test/support/temporary_folder.hpp"
+#include "test/system/private_network.hpp"
+
+namespace priamos {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::vector<std::byte>> MessagesOn(const std::string& log, const std::string& channel) {
+  std::vector<std::vector<std::byte>> messages;
+  bus::LogReader reader(log);
+  while (const auto event = reader.Next())
+    if (event->channel == channel) messages.push_back(event->bytes);
+  return messages;
+}
+
+TEST(HeadOnALog, SeesInKeptPicturesWhatItSawThen) {
+  const TemporaryFolder folder;
+  const auto answer = RunInPrivateNetwork("DIR=" + folder.path().string() + R"sh(
+    export PRIAMOS_BUS=onboard PRIAMOS_ROBOT=replay
+    $BIN/priamos lockstep --scenario door --seed 1 --logs "$DIR/a run" --pictures > /dev/null
+    RUN="$DIR/a run/seed-1"
+    verify() { $BIN/priamos replay verify "$RUN/onboard.lcmlog" --module head "$@"; echo "verify $?"; }
+    verify --pictures "$RUN/pictures"
+    $BIN/priamos log filter "$RUN/onboard.lcmlog" $DIR/part.lcmlog --to 12 --without WORLD_TRUTH > /dev/null
+    $BIN/priamos log record $DIR/again.lcmlog --no-health > /dev/null & RECORDER=$!
+    $BIN/priamos-head --config $SOURCE/config/sim/head.toml --clock bus --pictures "$RUN/pictures" 2> $DIR/head.txt & HEAD=$!
+    until [ $(grep -cE ' 43..FFEF:' /proc/net/udp) -ge 2 ]; do sleep 0.05; done
+    lcm-logplayer -l "$($BIN/priamos topic url)" -s 4 $DIR/part.lcmlog > /dev/null
+    sleep 0.5; kill $HEAD $RECORDER; wait $HEAD; echo "head $?"; wait $RECORDER; cat $DIR/head.txt
+    rm "$(ls "$RUN"/pictures/*-left.pgm | tail -2 | head -1)"
+    echo "--- one lost"; verify --pictures "$RUN/pictures"
+  )sh",
+                                          folder / "script.sh", 90);
+  for (const std::string channel : {"LANDMARK_FIX", "LANDMARK_VIEW"})
+    EXPECT_THAT(answer.text, testing::ContainsRegex("\n" + channel + " +10 +10 +10\n")) << "from the file";
+  EXPECT_THAT(answer.text, HasSubstr("head 0"));
+  for (const std::string channel : {"LANDMARK_FIX", "LANDMARK_VIEW", "DOOR_SEEN"}) {
+    const auto then = MessagesOn(folder / "again.lcmlog", channel);
+    EXPECT_GT(then.size(), 1U) << channel << answer.text;
+    EXPECT_EQ(MessagesOn(folder / "again.lcmlog", std::string(bus::LogFollower::kPrefix) + channel), then)
+        << channel << answer.text;
+  }
+  EXPECT_THAT(answer.text.substr(answer.text.find("--- one lost")),
+              testing::ContainsRegex("LANDMARK_FIX 8 at [^\n]*verdict: recorded [0-9], replayed 3\n"))
+      << "its look alone ends without pictures";
+}
+
+}  // namespace
+}  // namespace priamos
