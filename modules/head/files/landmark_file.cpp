@@ -5,11 +5,10 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "common/config.hpp"
+#include "common/input/regular_file.hpp"
 #include "head/core/landmark/cao.hpp"
 #include "head/core/landmark/triangle_body.hpp"
 #include "head/files/mesh_file.hpp"
@@ -62,12 +61,14 @@ struct PolyhedronFile {
   }
 };
 
-Outcome<std::string> ReadText(const std::string& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) return Refusal{fmt::format("{}: cannot be read", file)};
-  return text.str();
+constexpr std::size_t kMostBytes = std::size_t{16} << 20;
+
+Outcome<std::string> ReadText(const std::string& path) {
+  const RegularFile file(path);
+  if (!file.open()) return Refusal{fmt::format("{}: expected a file, got {}", path, file.problem())};
+  auto text = file.Read(kMostBytes);
+  if (!text) return Refusal{fmt::format("{}: expected a model of at most {} MB", path, kMostBytes >> 20)};
+  return std::move(*text);
 }
 
 Polyhedron LoadToml(const std::string& file) {
@@ -91,35 +92,43 @@ std::string KindOf(const std::string& file) {
   return kind;
 }
 
-Polyhedron LoadCao(const std::string& file) {
+BodyFile LoadCao(const std::string& file) {
+  BodyFile loaded{{}, {file}};
   const auto text = ReadText(file);
   if (!text) throw std::runtime_error(text.reason());
-  auto body = ParseCao(file, *text, ReadText);
+  auto body = ParseCao(file, *text, [&](const std::string& other) {
+    loaded.files.push_back(other);
+    return ReadText(other);
+  });
   if (!body) throw std::runtime_error(body.reason());
-  return std::move(*body);
+  loaded.body = std::move(*body);
+  return loaded;
 }
 
-Polyhedron LoadModel(const std::string& file) {
-  const std::string kind = KindOf(file);
-  if (kind == ".toml") return LoadToml(file);
-  if (kind == ".cao") return LoadCao(file);
-  throw std::runtime_error(fmt::format("{}: expected a landmark model, .toml, .cao, .obj or .stl", file));
-}
-
-Polyhedron LoadMeshBody(const std::string& file, double scale) {
-  auto body = BodyOfTriangles(LoadMesh(file, scale));
+Polyhedron LoadMeshBody(const std::string& file) {
+  auto body = BodyOfTriangles(LoadMesh(file));
   if (!body) throw std::runtime_error(fmt::format("{}: {}", file, body.reason()));
   return std::move(*body);
 }
 
+BodyFile LoadAnyBody(const std::string& file) {
+  const std::string kind = KindOf(file);
+  if (kind == ".toml") return {LoadToml(file), {file}};
+  if (kind == ".cao") return LoadCao(file);
+  if (kind == ".obj" || kind == ".stl") return {LoadMeshBody(file), {file}};
+  throw std::runtime_error(fmt::format("{}: expected a landmark model, .toml, .cao, .obj or .stl", file));
+}
+
 }  // namespace
 
+BodyFile LoadBody(const std::string& file, double scale) {
+  BodyFile loaded = LoadAnyBody(file);
+  for (Eigen::Vector3d& point : loaded.body.points) point *= scale;
+  return loaded;
+}
+
 Polyhedron LoadPolyhedron(const std::string& file, double scale) {
-  const std::string kind = KindOf(file);
-  if (kind == ".obj" || kind == ".stl") return LoadMeshBody(file, scale);
-  Polyhedron body = LoadModel(file);
-  for (Eigen::Vector3d& point : body.points) point *= scale;
-  return body;
+  return LoadBody(file, scale).body;
 }
 
 }  // namespace priamos::head

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <assimp/Importer.hpp>
-#include <cerrno>
-#include <cstring>
+#include <cctype>
 #include <filesystem>
-#include <fstream>
+#include <string_view>
 
 #include "common/config.hpp"
+#include "common/input/regular_file.hpp"
 
 namespace priamos::head {
 namespace {
@@ -18,28 +18,35 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
 /// The file's content: Assimp gets bytes and no name, so a mesh cannot make it read other files.
-std::string BytesOf(const std::string& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    throw ConfigError(fmt::format("{}: expected a file, got none", file));
-  const auto size = std::filesystem::file_size(file, error);
-  if (size == 0) throw ConfigError(fmt::format("{}: expected triangles, got an empty file", file));
-  if (error || size > kMostBytes)
-    throw ConfigError(fmt::format("{}: expected a mesh of at most {} MB, got {} bytes", file,
-                                  kMostBytes >> 20, error ? 0 : size));
-  std::string bytes(size, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!in || in.gcount() != static_cast<std::streamsize>(size))
-    throw ConfigError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
-  return bytes;
+std::string BytesOf(const std::string& path) {
+  const RegularFile file(path);
+  if (!file.open()) throw ConfigError(fmt::format("{}: expected a file, got {}", path, file.problem()));
+  const auto bytes = file.Read(kMostBytes);
+  if (!bytes) throw ConfigError(fmt::format("{}: expected a mesh of at most {} MB", path, kMostBytes >> 20));
+  if (bytes->empty()) throw ConfigError(fmt::format("{}: expected triangles, got an empty file", path));
+  return *bytes;
 }
 
-void Append(const aiMesh& part, double scale, TriangleMesh& mesh) {
+/// Wavefront text as Assimp understands it: without a byte order mark, and without comments behind a value.
+std::string PlainObj(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  std::string plain;
+  plain.reserve(text.size());
+  bool in_comment = false;
+  for (const char c : text) {
+    if (c == '#') in_comment = true;
+    if (c == '\n') in_comment = false;
+    if (!in_comment) plain += c;
+  }
+  return plain;
+}
+
+void Append(const aiMesh& part, TriangleMesh& mesh) {
   const int first = static_cast<int>(mesh.points.size());
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& v = part.mVertices[i];
-    mesh.points.emplace_back(scale * v.x, scale * v.y, scale * v.z);
+    mesh.points.emplace_back(v.x, v.y, v.z);
   }
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
@@ -52,17 +59,17 @@ void Append(const aiMesh& part, double scale, TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh LoadMesh(const std::string& file, double scale) {
-  const std::string bytes = BytesOf(file);
-  const std::string kind = std::filesystem::path(file).extension().string().substr(1);
+TriangleMesh LoadMesh(const std::string& file) {
+  std::string bytes = BytesOf(file);
+  std::string kind = std::filesystem::path(file).extension().string().substr(1);
+  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (kind == "obj") bytes = PlainObj(bytes);
   Assimp::Importer importer;
   const aiScene* scene =
       importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, kind.c_str());
-  if (!scene)
-    throw ConfigError(
-        fmt::format("{}: expected a mesh as .{} holds it: {}", file, kind, importer.GetErrorString()));
+  if (!scene) throw ConfigError(fmt::format("{}: expected a whole mesh as .{} holds it", file, kind));
   TriangleMesh mesh;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) Append(*scene->mMeshes[i], scale, mesh);
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) Append(*scene->mMeshes[i], mesh);
   if (mesh.triangles.empty()) throw ConfigError(fmt::format("{}: expected triangles, got none", file));
   return mesh;
 }

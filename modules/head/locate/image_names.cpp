@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kLines = "-";
+constexpr std::size_t kLongestName = 4096;  ///< of a path in Linux
 constexpr std::array<std::string_view, 9> kKinds{".png", ".jpg", ".jpeg", ".tif", ".tiff",
                                                  ".pgm", ".ppm", ".pnm",  ".bmp"};
 
@@ -79,6 +80,22 @@ ImageNames::ImageNames(const std::vector<std::string>& given, std::istream& line
   }
 }
 
+std::optional<std::string> ImageNames::NextLine() {
+  std::string line;
+  for (char c; lines_.get(c);) {
+    if (c != '\n') {
+      line += c;
+    } else if (!line.empty()) {
+      return line;
+    }
+    if (line.size() > kLongestName)
+      throw ConfigError(
+          fmt::format("-: expected names of at most {} bytes, one per line, got a longer one", kLongestName));
+  }
+  if (line.empty()) return std::nullopt;
+  return line;
+}
+
 std::optional<std::string> ImageNames::NextName() {
   if (left_.empty()) return std::nullopt;
   if (left_.front() != kLines) {
@@ -86,8 +103,7 @@ std::optional<std::string> ImageNames::NextName() {
     left_.pop_front();
     return name;
   }
-  for (std::string line; std::getline(lines_, line);)
-    if (!line.empty()) return line;
+  if (auto line = NextLine()) return line;
   left_.pop_front();
   return NextName();
 }

@@ -16,11 +16,13 @@ class ImageNames {
   /// `lines` must outlive this. Throws ConfigError naming a folder without images.
   ImageNames(const std::vector<std::string>& given, std::istream& lines);
 
-  /// The next `n` names; nullopt at the end. Throws ConfigError when fewer than `n` are left.
+  /// The next `n` names; nullopt at the end. Throws ConfigError when fewer than `n` are left, and for a line
+  /// that is too long for a name.
   std::optional<std::vector<std::string>> Next(std::size_t n);
 
  private:
   std::optional<std::string> NextName();
+  std::optional<std::string> NextLine();
 
   std::deque<std::string> left_;
   std::istream& lines_;

@@ -3,19 +3,20 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
+#include "common/input/regular_file.hpp"
 #include "head/core/edges/equal_contrast.hpp"
 #include "head/core/edges/photograph_edges.hpp"
 #include "head/core/landmark/body_tracker.hpp"
 #include "head/files/camera_file.hpp"
 #include "head/files/image_file.hpp"
 #include "head/files/landmark_file.hpp"
+#include "head/locate/body_drawings.hpp"
 #include "head/locate/image_names.hpp"
 #include "head/locate/moment_text.hpp"
 #include "head/see/see_landmark.hpp"
@@ -42,15 +43,25 @@ class Eyes {
  public:
   Eyes(const LocateOptions& options, std::size_t n) : options_(options), n_(n) {}
 
-  /// Reads the images of one moment. Throws ConfigError naming one that cannot be used.
-  void Read(const std::vector<std::string>& names) {
-    greys_ = ReadImageFiles(names, kSmallest_px).grey;
+  /// Reads the images of one moment; why that cannot be done, nullopt if it was. Throws ConfigError for
+  /// cameras that cannot be used.
+  std::optional<Refusal> Read(const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+      if (const RegularFile file(name); !file.open())
+        return Refusal{fmt::format("{}: expected an image, got {}", name, file.problem())};
+    try {
+      greys_ = ReadImageFiles(names, kSmallest_px).grey;
+    } catch (const ConfigError& error) {
+      return Refusal{error.what()};
+    }
     if (cameras_.empty()) cameras_ = Cameras(names);
     for (std::size_t i = 0; i < n_; ++i)
       if (greys_[i].size() != size_)
-        throw ConfigError(fmt::format("{}: expected {}x{} pixels as the first image has, got {}x{}", names[i],
-                                      size_.width, size_.height, greys_[i].cols, greys_[i].rows));
+        return Refusal{fmt::format("{}: expected {}x{} pixels as the first image has, got {}x{}", names[i],
+                                   size_.width, size_.height, greys_[i].cols, greys_[i].rows)};
+    return std::nullopt;
   }
+  bool has_seen() const { return !cameras_.empty(); }
 
   /// Finds the edges of the images read last.
   std::span<const CameraView> Look() {
@@ -90,9 +101,10 @@ class Eyes {
 /// The file for poses, or the sink for them, or neither.
 class PoseLines {
  public:
-  PoseLines(const LocateOptions& options, const LocateSinks& sinks) : options_(options), sinks_(sinks) {
+  PoseLines(const LocateOptions& options, const LocateSinks& sinks, const std::vector<std::string>& inputs)
+      : options_(options), sinks_(sinks) {
     if (options.json.empty() || options.json == kNoFile) return;
-    RefuseToReplace(options.json, Inputs(), options.force);
+    RefuseToReplace(options.json, inputs, options.force);
     file_.open(options.json);
     if (!file_)
       throw std::runtime_error(fmt::format("{}: cannot be written; name another place", options.json));
@@ -106,13 +118,6 @@ class PoseLines {
   }
 
  private:
-  std::vector<std::string> Inputs() const {
-    std::vector<std::string> inputs = options_.images;
-    inputs.insert(inputs.end(), options_.cameras.begin(), options_.cameras.end());
-    inputs.push_back(options_.model);
-    return inputs;
-  }
-
   const LocateOptions& options_;
   const LocateSinks& sinks_;
   std::ofstream file_;
@@ -122,54 +127,69 @@ class PoseLines {
 class Run {
  public:
   Run(const LocateOptions& options, const LocateSinks& sinks, std::size_t n_at_once)
-      : options_(options),
-        sinks_(sinks),
-        body_(LoadPolyhedron(options.model, options.scale)),
-        tracker_(body_, PoseFromSix(options.at), TrackerOptions(options)),
+      : sinks_(sinks),
+        model_(LoadBody(options.model, options.scale)),
+        tracker_(model_.body, PoseFromSix(options.at), TrackerOptions(options)),
         eyes_(options, n_at_once),
-        poses_(options, sinks) {
-    if (!options.draw.empty() && !std::filesystem::is_directory(options.draw))
-      throw std::runtime_error(
-          fmt::format("--draw {}: expected a folder that exists, got none", options.draw));
-  }
+        inputs_(Inputs(options, model_.files)),
+        poses_(options, sinks, inputs_),
+        drawings_(options.draw, options.force) {}
 
   void Moment(const std::vector<std::string>& names) {
     const auto begin = std::chrono::steady_clock::now();
+    inputs_.insert(inputs_.end(), names.begin(), names.end());
     MomentReport report{names, {}, {}, 0, 0};
-    try {
-      eyes_.Read(names);
-    } catch (const ConfigError& error) {
-      if (tally_.n_moments == 0) throw;
-      report.why_unread = error.what();
-    }
+    if (const auto refusal = ReadUntouched(names)) report.why_unread = refusal->reason;
     report.fix = tracker_.Look(report.why_unread.empty() ? eyes_.Look() : std::span<const CameraView>());
     report.time_ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report.n_lost = tracker_.n_lost();
     Write(report);
+    if (!eyes_.has_seen()) first_refusal_ = first_refusal_.empty() ? report.why_unread : first_refusal_;
     ++tally_.n_moments;
     tally_.n_found += report.fix.verdict == Verdict::kFound;
   }
 
-  const LocateTally& tally() const { return tally_; }
+  /// Throws ConfigError when there was not one image.
+  LocateTally Finish() const {
+    if (tally_.n_moments == 0) throw ConfigError("expected images, got none");
+    if (!eyes_.has_seen()) throw ConfigError(first_refusal_);
+    return tally_;
+  }
 
  private:
+  /// What must never be replaced.
+  static std::vector<std::string> Inputs(const LocateOptions& options,
+                                         const std::vector<std::string>& model) {
+    std::vector<std::string> inputs = options.images;
+    inputs.insert(inputs.end(), options.cameras.begin(), options.cameras.end());
+    inputs.insert(inputs.end(), model.begin(), model.end());
+    return inputs;
+  }
+
+  std::optional<Refusal> ReadUntouched(const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+      if (drawings_.HasDrawn(name))
+        return Refusal{fmt::format("{}: expected an image, got a drawing of this run", name)};
+    return eyes_.Read(names);
+  }
+
   void Write(const MomentReport& report) {
     sinks_.text(MomentText(report));
     poses_.Write(MomentToJson(report, eyes_.views()));
-    if (options_.draw.empty() || !report.why_unread.empty()) return;
-    const std::string stem = std::filesystem::path(report.images.front()).stem();
-    const std::string file = std::filesystem::path(options_.draw) / (stem + "-body.png");
-    RefuseToReplace(file, report.images, options_.force);
-    WriteWhole(file,
-               DrawLandmark(eyes_.first(), eyes_.views(), body_, tracker_.believed(), report.fix).ToPng());
+    if (!drawings_.wanted() || !report.why_unread.empty()) return;
+    const SeePage page =
+        DrawLandmark(eyes_.first(), eyes_.views(), model_.body, tracker_.believed(), report.fix);
+    drawings_.Write(report.images.front(), inputs_, page.ToPng());
   }
 
-  const LocateOptions& options_;
   const LocateSinks& sinks_;
-  Polyhedron body_;
+  BodyFile model_;
   BodyTracker tracker_;
   Eyes eyes_;
+  std::vector<std::string> inputs_;
   PoseLines poses_;
+  BodyDrawings drawings_;
+  std::string first_refusal_;  ///< while no image could be read
   LocateTally tally_;
 };
 
@@ -181,10 +201,10 @@ LocateTally Locate(const LocateOptions& options, std::istream& lines, const Loca
   ImageNames names(options.images, lines);
   Run run(options, sinks, n);
   while (const auto moment = names.Next(n)) run.Moment(*moment);
-  if (run.tally().n_moments == 0) throw ConfigError("expected images, got none");
-  sinks.text(fmt::format("{}: found in {} of {} {}\n", options.model, run.tally().n_found,
-                         run.tally().n_moments, n == 1 ? "images" : "moments"));
-  return run.tally();
+  const LocateTally tally = run.Finish();
+  sinks.text(fmt::format("{}: found in {} of {} {}\n", options.model, tally.n_found, tally.n_moments,
+                         n == 1 ? "images" : "moments"));
+  return tally;
 }
 
 }  // namespace priamos::head

@@ -37,8 +37,8 @@ struct LocateTally {
 };
 
 /// Looks for the body in all images, moment by moment (BodyTracker). An image that cannot be read is a moment
-/// without the body, with the reason, unless it belongs to the first one. `lines` gives the names of images
-/// for "-". Throws std::runtime_error with one sentence for what cannot be used.
+/// without the body, with the reason. `lines` gives the names of images for "-". Throws std::runtime_error
+/// with one sentence for what cannot be used, and when no image could be read.
 LocateTally Locate(const LocateOptions& options, std::istream& lines, const LocateSinks& sinks);
 
 }  // namespace priamos::head

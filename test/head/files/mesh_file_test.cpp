@@ -1,6 +1,7 @@
 #include "head/files/mesh_file.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <cstdint>
 #include <fstream>
@@ -57,11 +58,18 @@ TEST_F(MeshFileTest, ABoxOfObjHasSixFacesInMetres) {
 }
 
 TEST_F(MeshFileTest, TheSameBoxAsStl) {
-  const TriangleMesh mesh = LoadMesh(Write("box.obj", kObj), 1);
+  const TriangleMesh mesh = LoadMesh(Write("box.obj", kObj));
   ASSERT_EQ(mesh.triangles.size(), 12u);
   const Polyhedron dut = LoadPolyhedron(Write("box.STL", BinaryStl(mesh)));
   EXPECT_EQ(dut.faces.size(), 6u);
   EXPECT_EQ(dut.points.size(), 8u);
+}
+
+TEST_F(MeshFileTest, CommentsAndAByteOrderMarkAreNoNumbers) {
+  std::string text = kObj;
+  text.replace(text.find("v 1 2 0"), 7, "v 1 2 0 # a corner");
+  text.replace(text.find("f 1 4 3 2"), 9, "f 1 4 3 2#the floor");
+  EXPECT_EQ(LoadPolyhedron(Write("box.obj", "\xef\xbb\xbf" + text)).faces.size(), 6u);
 }
 
 TEST_F(MeshFileTest, OtherModelsAreScaledToo) {
@@ -72,17 +80,20 @@ TEST_F(MeshFileTest, OtherModelsAreScaledToo) {
 }
 
 TEST_F(MeshFileTest, WhatIsNoMeshIsNamed) {
-  EXPECT_THAT(ThrownReason([&] { LoadMesh(folder_ / "none.obj", 1); }),
+  ASSERT_EQ(mkfifo((folder_ / "pipe.cao").c_str(), 0600), 0);
+  EXPECT_THAT(ThrownReason([&] { LoadPolyhedron(folder_ / "pipe.cao"); }),
+              HasSubstr("pipe.cao: expected a file, got a pipe"));
+  EXPECT_THAT(ThrownReason([&] { LoadMesh(folder_ / "none.obj"); }),
               AllOf(HasSubstr("none.obj"), HasSubstr("expected a file")));
-  EXPECT_THAT(ThrownReason([&] { LoadMesh("/dev/zero", 1); }), HasSubstr("/dev/zero: expected a file"));
-  EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("text.stl", "no mesh at all"), 1); }), HasSubstr("text.stl"));
-  EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("empty.obj", ""), 1); }), HasSubstr("empty.obj"));
-  EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("points.obj", "v 0 0 0\nv 1 0 0\n"), 1); }),
+  EXPECT_THAT(ThrownReason([&] { LoadMesh("/dev/zero"); }), HasSubstr("/dev/zero: expected a file"));
+  EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("text.stl", "no mesh at all")); }), HasSubstr("text.stl"));
+  EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("empty.obj", "")); }), HasSubstr("empty.obj"));
+  EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("points.obj", "v 0 0 0\nv 1 0 0\n")); }),
               HasSubstr("points.obj"));
 }
 
 TEST_F(MeshFileTest, ADamagedMeshIsRefusedOrRead) {
-  const std::string stl = BinaryStl(LoadMesh(Write("box.obj", kObj), 1));
+  const std::string stl = BinaryStl(LoadMesh(Write("box.obj", kObj)));
   for (std::size_t length = 0; length < stl.size(); length += 37) {
     const std::string file = Write("cut.stl", stl.substr(0, length));
     try {

@@ -50,6 +50,13 @@ TEST(ImageNames, LinesComeAsTheyAre) {
   EXPECT_THAT(All({{"-", "last.png"}, lines}), ElementsAre("a b.png", "c.png", "last.png"));
 }
 
+TEST(ImageNames, ALineWithoutEndIsRefused) {
+  std::istringstream lines("a.png\n" + std::string(5000, 'x'));
+  ImageNames dut({"-"}, lines);
+  EXPECT_THAT(*dut.Next(1), ElementsAre("a.png"));
+  EXPECT_THAT(ThrownReason([&] { dut.Next(1); }), HasSubstr("at most 4096 bytes"));
+}
+
 TEST(ImageNames, MomentsAreWhole) {
   std::istringstream none;
   ImageNames dut({"l0.png", "r0.png", "l1.png"}, none);

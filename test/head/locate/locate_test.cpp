@@ -1,6 +1,7 @@
 #include "head/locate/locate.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -123,6 +124,39 @@ TEST_F(LocateTest, AnImageThatCannotBeReadIsAMomentWithoutTheBody) {
   EXPECT_FALSE(poses_[1]["found"]);
   EXPECT_EQ(poses_[1]["lost"], 1);
   EXPECT_THAT(text_, HasSubstr("9.png: not found"));
+}
+
+TEST_F(LocateTest, ABadBeginningIsNotTheEnd) {
+  std::ofstream(Image(0)) << "no image";
+  ASSERT_EQ(mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
+  LocateOptions options = Options();
+  options.images = {folder_ / "none.png", folder_ / "pipe.png", folder_ / "film"};
+  EXPECT_EQ(Run(options).n_found, 3) << text_;
+  options.images = {folder_ / "none.png", folder_ / "pipe.png"};
+  EXPECT_THAT(ThrownReason([&] { Run(options); }), HasSubstr("none.png: expected an image, got none"));
+}
+
+TEST_F(LocateTest, WhatIsReadIsNeverReplaced) {
+  LocateOptions options = Options();
+  options.force = true;
+  std::filesystem::create_directory(folder_ / "second");
+  std::filesystem::copy_file(Image(1), folder_ / "second/8.png");
+  options.images = {Image(0), folder_ / "second/8.png"};
+  options.draw = folder_ / "drawn";
+  EXPECT_EQ(Run(options).n_found, 2) << text_;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "drawn/8-2-body.png")) << "two images of one name";
+  options.images = {Image(0), folder_ / "drawn/8-body.png"};
+  EXPECT_THAT(ThrownReason([&] { Run(options); }), HasSubstr("expected another file to write"));
+  options.images = {"-"};
+  Run(options, Image(0) + "\n" + (folder_ / "drawn/8-body.png") + "\n");
+  EXPECT_THAT(text_, HasSubstr("got a drawing of this run"));
+  std::ofstream(folder_ / "all.cao") << "V1\nload(\"part.cao\")\n0\n0\n0\n0\n";
+  std::ofstream(folder_ / "part.cao") << "V1\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0\n0\n1\n4 0 1 2 3\n0\n0\n";
+  options = Options();
+  options.force = true;
+  options.model = folder_ / "all.cao";
+  options.json = folder_ / "part.cao";
+  EXPECT_THAT(ThrownReason([&] { Run(options); }), HasSubstr("expected another file to write"));
 }
 
 TEST_F(LocateTest, NamesComeLineByLine) {

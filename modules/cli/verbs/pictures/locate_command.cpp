@@ -38,7 +38,8 @@ void AddBodyOptions(CLI::App& verb, head::LocateOptions& options) {
   verb.add_option("--at", options.at,
                   "where it is in the beginning, in the first camera's frame: x y z [m] roll pitch yaw [deg]")
       ->expected(6)
-      ->required();
+      ->required()
+      ->check(CLI::Range(-1000.0, 1000.0));
 }
 
 /// A share of the distance and an angle, both as one sigma along and about each axis.

@@ -48,6 +48,11 @@ class Welder {
   std::vector<Eigen::Vector3d> points_;
 };
 
+bool HasArea(const std::vector<Eigen::Vector3d>& points, const Triangle& t) {
+  const Eigen::Vector3d u = points[t[1]] - points[t[0]], v = points[t[2]] - points[t[0]];
+  return u.cross(v).norm() > kSamePoint * u.norm() * v.norm();
+}
+
 /// The mesh with every point once, without triangles that have no area.
 TriangleMesh Welded(const TriangleMesh& mesh) {
   Welder welder(kSamePoint * ExtentOf(mesh.points));
@@ -55,7 +60,7 @@ TriangleMesh Welded(const TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     const Triangle w{welder.Weld(mesh.points[t[0]]), welder.Weld(mesh.points[t[1]]),
                      welder.Weld(mesh.points[t[2]])};
-    if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0]) welded.triangles.push_back(w);
+    if (HasArea(welder.points(), w)) welded.triangles.push_back(w);
   }
   welded.points = welder.points();
   return welded;
@@ -158,7 +163,8 @@ std::optional<Refusal> CheckMesh(const TriangleMesh& mesh) {
 
 Outcome<Polyhedron> BodyOfTriangles(const TriangleMesh& raw) {
   if (auto refusal = CheckMesh(raw)) return *refusal;
-  const TriangleMesh mesh = Welded(raw);
+  TriangleMesh mesh = Welded(raw);
+  OrientTriangles(mesh);
   const std::vector<int> numbers = FaceNumbers(mesh);
   std::map<int, std::vector<Triangle>> triangles_of;
   for (std::size_t t = 0; t < numbers.size(); ++t) triangles_of[numbers[t]].push_back(mesh.triangles[t]);

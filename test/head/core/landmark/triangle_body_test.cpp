@@ -84,6 +84,42 @@ TEST(TriangleBody, AroundAHoleNoSeamIsSeen) {
   EXPECT_NEAR(LengthSeen(*dut, {0.1, 0.2, -9}), 0, 1e-9) << "from behind";
 }
 
+TEST(TriangleBody, AMeshThatIsTurnedInsideOutIsTurnedBack) {
+  TriangleMesh inside_out = Cube();
+  for (auto& t : inside_out.triangles) std::swap(t[1], t[2]);
+  TriangleMesh mixed = Cube();
+  for (std::size_t i = 0; i < mixed.triangles.size(); i += 2)
+    std::swap(mixed.triangles[i][1], mixed.triangles[i][2]);
+  for (const TriangleMesh& mesh : {inside_out, mixed}) {
+    const auto dut = BodyOfTriangles(mesh);
+    ASSERT_TRUE(dut) << dut.reason();
+    EXPECT_EQ(dut->faces.size(), 6u);
+    EXPECT_EQ(VisibleSkeleton(*dut, {5, 6, 7}).edges.size(), 9u);
+    EXPECT_TRUE(VisibleSkeleton(*dut, {0.5, 0.5, 0.5}).edges.empty()) << "from inside";
+  }
+}
+
+TEST(TriangleBody, AnOpenSheetLooksWhereMostOfItDoes) {
+  TriangleMesh mesh;
+  const auto p = [](double x, double y) { return Eigen::Vector3d(x, y, 0); };
+  AddSquare(mesh, p(0, 0), p(3, 0), p(3, 1), p(0, 1));
+  AddSquare(mesh, p(3, 1), p(4, 1), p(4, 0), p(3, 0));  // clockwise
+  const auto dut = BodyOfTriangles(mesh);
+  ASSERT_TRUE(dut) << dut.reason();
+  EXPECT_EQ(dut->faces.size(), 1u);
+  EXPECT_EQ(VisibleSkeleton(*dut, {1, 0.5, 4}).edges.size(), 4u);
+}
+
+TEST(TriangleBody, ATriangleWithoutAreaIsNoFace) {
+  TriangleMesh mesh = Cube();
+  mesh.triangles.push_back({0, 1, 0});
+  mesh.points.push_back({0, 0.5, 0});  // on an edge
+  mesh.triangles.push_back({0, static_cast<int>(mesh.points.size()) - 1, 1});
+  const auto dut = BodyOfTriangles(mesh);
+  ASSERT_TRUE(dut) << dut.reason();
+  EXPECT_EQ(dut->faces.size(), 6u);
+}
+
 TEST(TriangleBody, ARoundBodyIsRefused) {
   TriangleMesh mesh;
   constexpr int kAround = 60;
