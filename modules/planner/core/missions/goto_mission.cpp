@@ -103,8 +103,19 @@ void GotoMission::Reconsider(MissionControl& control) {
     Drive(control, std::move(*path), "a wall that is not on the plan is in the way");
 }
 
+/// Where the goal is taken, by what is not on the plan for instance, the first place that does instead.
+void GotoMission::ChooseGoal(const Pose2& map_from_base) {
+  const auto refused = [&](const Pose2& place) {
+    return planner_.CheckEnds(map_from_base, {place, goal_.turn}).has_value();
+  };
+  if (goal_.instead.empty() || !refused(goal_.map_from_base)) return;
+  const auto free = std::find_if_not(goal_.instead.begin(), goal_.instead.end(), refused);
+  if (free != goal_.instead.end()) goal_.map_from_base = *free;
+}
+
 void GotoMission::Depart(MissionControl& control, const std::string& why) {
   Learn(control);
+  ChooseGoal(control.heard().pose->map_from_base);
   Outcome<PlannedPath> path = planner_.Plan(control.heard().pose->map_from_base, goal_);
   if (!path) return control.Fail(why.empty() ? path.reason() : why + ", and " + path.reason());
   Drive(control, std::move(*path), why);

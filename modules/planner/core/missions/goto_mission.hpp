@@ -43,6 +43,7 @@ class GotoMission : public Mission {
 
  private:
   void Depart(MissionControl& control, const std::string& why);
+  void ChooseGoal(const Pose2& map_from_base);
   void Drive(MissionControl& control, PlannedPath path, const std::string& why);
   void Learn(const MissionControl& control);
   void Reconsider(MissionControl& control);
