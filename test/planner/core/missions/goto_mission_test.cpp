@@ -90,6 +90,18 @@ TEST(GotoMissionTest, WhereTheGoalIsTakenAPlaceThatDoesInsteadIsDrivenTo) {
   }
 }
 
+TEST(GotoMissionTest, ARobotThatHoldsForGoodEndsItWithTheReason) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(2.0);
+  s.robot.lost = true;
+  s.robot.RunFor(20);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDriving) << "it may find itself again";
+  s.robot.RunFor(20);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, StartsWith("the robot has held on its way for 30 s: the pose is stale"));
+}
+
 TEST(GotoMissionTest, AWallThatTurnsUpAcrossThePathIsDrivenAround) {
   Story s;
   s.Start({{5.0, 2.4, 0}});
