@@ -9,7 +9,7 @@ namespace priamos::world {
 namespace {
 
 constexpr double kDecide_s = 0.1, kLook_s = 1, kLeastLook_m = 0.4;
-constexpr double kOfRobot_m = 0.45, kOfWalls_m = 0.2;
+constexpr double kOfRobot_m = 0.6, kOfWalls_m = 0.2;
 constexpr std::array kTurns_deg{0, 25, -25, 50, -50, 75, -75};
 constexpr double kArrived_m = 0.15;
 constexpr double kGivesUp_s = 4, kTurnsBack_s = 2;
