@@ -11,6 +11,9 @@ import statistics
 import subprocess
 import sys
 
+# What `priamos world generate` makes, and all of them in turn.
+KINDS = ("room", "floor", "corridor", "any")
+
 
 def refuse(sentence):
     print(f"montecarlo: {sentence}; next: scripts/montecarlo --help", file=sys.stderr)
@@ -20,6 +23,8 @@ def refuse(sentence):
 def arguments():
     parser = argparse.ArgumentParser(prog="scripts/montecarlo", description=__doc__)
     parser.add_argument("--scenario", default="door", help="a file of the deployment's scenarios/")
+    parser.add_argument("--generate", choices=KINDS, help="instead: a building of that kind, another one for each seed, "
+                        "in which the robot is sent to places, through the door and back")
     parser.add_argument("--deployment", default="sim", help="sim, robot, or a folder of configurations, with a slash")
     parser.add_argument("--seeds", default="1..100", help="FIRST..LAST")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time")
@@ -38,12 +43,25 @@ def arguments():
     return options
 
 
+def generated(options, seed):
+    """Deployment and scenario of a building that is made up for this seed."""
+    kind = KINDS[seed % (len(KINDS) - 1)] if options.generate == "any" else options.generate
+    folder = pathlib.Path(options.into) / f"seed-{seed}"
+    done = subprocess.run([options.program, "world", "generate", "--kind", kind, "--seed", str(seed), "--into", folder,
+                           "--deployment", options.deployment, "--there-and-back"], capture_output=True, text=True)
+    if done.returncode != 0:
+        refuse(f"seed {seed}: {done.stderr.strip()}")
+    return f"{folder}/", f"{kind}-{seed}"
+
+
 def run(options, seed):
     """The summary of a run, from its file when it was run before; a text when the run failed to run."""
     file = pathlib.Path(options.into) / f"seed-{seed}.json"
     if not file.exists():
         part = file.with_suffix(".part")
-        command = [options.program, "lockstep", "--scenario", options.scenario, "--deployment", options.deployment,
+        made = getattr(options, "generate", None)
+        deployment, scenario = generated(options, seed) if made else (options.deployment, options.scenario)
+        command = [options.program, "lockstep", "--scenario", scenario, "--deployment", deployment,
                    "--seed", str(seed), "--json", str(part)]
         done = subprocess.run(command, capture_output=True, text=True)
         if not part.exists() or part.stat().st_size == 0:

@@ -26,6 +26,8 @@ std::string_view Refusal(PathVerdict verdict) {
       return "the e-stop is pressed";
     case PathVerdict::kStale:
       return "it was ordered before the e-stop was pressed or re-armed; next: order it again";
+    case PathVerdict::kTouched:
+      return "the base has just touched something; next: order it again";
     case PathVerdict::kTaken:
     case PathVerdict::kSame:
       break;

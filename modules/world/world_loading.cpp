@@ -9,6 +9,7 @@
 
 #include "common/config.hpp"
 #include "common/rectangle.hpp"
+#include "world/core/generate/strew.hpp"
 #include "world/core/scene/built_doors.hpp"
 #include "world/core/scene/outline.hpp"
 
@@ -96,7 +97,7 @@ LoadedWorld LoadWorld(const std::string& name, const std::function<std::string(c
                       const Body& body, std::uint64_t seed) {
   LoadedWorld world;
   const std::string file = resolve(name);
-  world.plan = LoadConfig<WorldPlan>(file);
+  world.plan = OfTheDay(LoadConfig<WorldPlan>(file), seed);
   world.map = LoadConfig<GroundPlan>(resolve(world.plan.map));
   world.doors = BuiltDoors(world.map, world.plan, seed);
   world.solids = BuildSolids(world.map, world.plan, seed);

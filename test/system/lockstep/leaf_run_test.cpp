@@ -33,7 +33,7 @@ class LeafRunTest : public testing::Test {
     const auto deployment = folder_.path() / fmt::format("{}-{}", hinge, open_deg);
     std::filesystem::copy(PRIAMOS_SOURCE_DIR "/config/sim", deployment,
                           std::filesystem::copy_options::recursive);
-    Replace(deployment / "worlds/door.toml", "open_deg = 100\nopen_spread_deg = 6",
+    Replace(deployment / "worlds/door.toml", "open_deg = 103\nopen_spread_deg = 11",
             fmt::format("open_deg = {}\nopen_spread_deg = 0", open_deg));
     Replace(deployment / "worlds/door.toml", "hinge = \"left\"", "hinge = \"" + hinge + "\"");
     LeafRun run;

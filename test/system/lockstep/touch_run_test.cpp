@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -33,8 +34,9 @@ struct Outcome {
 
 class TouchRunTest : public testing::Test {
  protected:
-  /// Orders a path of 3 m ahead at 0.4 m/s, and runs for 12 s.
-  Outcome Run(const Thing& thing, std::uint64_t seed) {
+  /// Orders a path of 3 m ahead at 0.4 m/s, and runs for 12 s; with `again` it is ordered under another
+  /// number after every such time, as a mission does whose pose was corrected.
+  Outcome Run(const Thing& thing, std::uint64_t seed, Duration again = FromSeconds(12)) {
     Outcome outcome;
     bus::Lockstep lockstep(schema_, {.seed = seed});
     lockstep.AddBus("onboard");
@@ -63,8 +65,11 @@ class TouchRunTest : public testing::Test {
     path.points[0].x_m = 5;
     path.points[0].y_m = 2.4;
     path.n_points = 1;
-    paths.Publish(path);
-    lockstep.RunUntil(lockstep.now() + FromSeconds(12));
+    for (const Time end = lockstep.now() + FromSeconds(12); lockstep.now() < end; ++path.path_id) {
+      path.utime = ToUtime(lockstep.now());
+      paths.Publish(path);
+      lockstep.RunUntil(std::min(end, lockstep.now() + again));
+    }
     return outcome;
   }
 
@@ -101,6 +106,21 @@ TEST_F(TouchRunTest, ATableTopIsTouchedAndNoticedByTheMotors) {
                     .height_m = 0.04};
     const Outcome outcome = Run(top, seed);
     EXPECT_TRUE(outcome.touched) << "no sonar hears it";
+    ExpectNoticed(outcome, fmt::format("seed {}", seed));
+  }
+}
+
+TEST_F(TouchRunTest, ATouchIsToldAlthoughTheNextPathIsOnItsWay) {
+  for (std::uint64_t seed = 2; seed <= 4; ++seed) {
+    const Thing board{.x_m = 3.9 + 0.01 * double(seed),
+                      .y_m = 1.93,
+                      .yaw_deg = -8,
+                      .length_m = 0.7,
+                      .width_m = 0.7,
+                      .bottom_m = 0.91,
+                      .height_m = 0.05};
+    const Outcome outcome = Run(board, seed, FromSeconds(0.06));
+    EXPECT_TRUE(outcome.touched);
     ExpectNoticed(outcome, fmt::format("seed {}", seed));
   }
 }

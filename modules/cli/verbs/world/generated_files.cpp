@@ -65,15 +65,14 @@ double LengthOf(const std::vector<Pose2>& waypoints, const world::StartPlan& sta
 }
 
 Scenario ScenarioOf(const world::GeneratedWorld& generated, const GeneratedFiles& files,
-                    const fs::path& base) {
+                    const std::vector<Pose2>& waypoints, const fs::path& base) {
   Scenario scenario = LoadScenario(base.string(), kBaseScenario);
   scenario.title = files.scenario;
   scenario.map = files.map;
   scenario.landmark_id = generated.door_id;
-  scenario.time_limit_s =
-      std::ceil(LengthOf(generated.waypoints, generated.world.start) / kSlow_m_s + kLongestWait_s);
-  if (!generated.waypoints.empty()) scenario.story = "goto";
-  for (const Pose2& waypoint : generated.waypoints)
+  scenario.time_limit_s = std::ceil(LengthOf(waypoints, generated.world.start) / kSlow_m_s + kLongestWait_s);
+  if (!waypoints.empty()) scenario.story = "goto";
+  for (const Pose2& waypoint : waypoints)
     scenario.waypoints.push_back({waypoint.x, waypoint.y, Degrees(waypoint.yaw)});
   for (ScenarioProcess& process : scenario.processes) {
     if (process.module == "world") process.set = "world=" + files.world;
@@ -86,10 +85,12 @@ Scenario ScenarioOf(const world::GeneratedWorld& generated, const GeneratedFiles
 }  // namespace
 
 GeneratedFiles WriteGenerated(const world::GeneratedWorld& generated, const std::string& kind,
-                              std::uint64_t seed, const std::string& base, const std::string& folder) {
+                              std::uint64_t seed, GeneratedTask task, const std::string& base,
+                              const std::string& folder) {
   const std::string name = fmt::format("{}-{}", kind, seed);
   const GeneratedFiles files{name, "worlds/" + name + ".toml", "maps/" + name + ".toml",
                              "maps/" + name + "-true.toml"};
+  const bool round = task == GeneratedTask::kThereAndBack && !generated.round.empty();
   const fs::path into(folder);
   try {
     CopyDeployment(base, into);
@@ -99,7 +100,8 @@ GeneratedFiles WriteGenerated(const world::GeneratedWorld& generated, const std:
     Write(into / files.truth, "The building as it is: " + by, generated.truth);
     Write(into / files.map, "The building as a person with a tape has it: " + by, generated.surveyed);
     Write(into / files.world, "What stands and moves there: " + by, world);
-    Write(into / ("scenarios/" + name + ".toml"), by, ScenarioOf(generated, files, base));
+    Write(into / ("scenarios/" + name + ".toml"), by,
+          ScenarioOf(generated, files, round ? generated.round : generated.waypoints, base));
   } catch (const fs::filesystem_error& error) {
     RefuseFolder(into, error.code().message());
   }

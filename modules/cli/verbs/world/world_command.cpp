@@ -18,12 +18,13 @@ namespace {
 struct GenerateOptions {
   std::string kind = "room", into, deployment = "sim";
   std::uint64_t seed = 1;
-  bool json = false;
+  bool there_and_back = false, json = false;
 };
 
 int RunGenerate(const GenerateOptions& options) {
   const auto generated = world::Generate(options.kind, options.seed);
-  const auto files = WriteGenerated(generated, options.kind, options.seed,
+  const auto task = options.there_and_back ? GeneratedTask::kThereAndBack : GeneratedTask::kDoor;
+  const auto files = WriteGenerated(generated, options.kind, options.seed, task,
                                     FolderOfDeployment(options.deployment), options.into);
   const std::string next =
       fmt::format("priamos lockstep --deployment {}/ --scenario {} --seed 1", options.into, files.scenario);
@@ -48,6 +49,8 @@ world::WorldPlan OneOfEach() {
   plan.doors.emplace_back().swings.emplace_back();
   plan.posters.emplace_back();
   plan.boxes.emplace_back();
+  plan.strewn.emplace_back();
+  plan.free_lanes.emplace_back();
   plan.people.emplace_back().waypoints.emplace_back();
   plan.holes.emplace_back();
   plan.faults.sonars.emplace_back();
@@ -67,6 +70,8 @@ void AddGenerate(CLI::App& world, int& exit_code) {
       ->check(CLI::IsMember(world::GeneratedKinds()));
   verb->add_option("--seed", options->seed, "the same seed makes the same building")->capture_default_str();
   verb->add_option("--into", options->into, "folder of a deployment; made when it is not there")->required();
+  verb->add_flag("--there-and-back", options->there_and_back,
+                 "the robot is sent to a place behind the door, and back; without: it passes the door");
   AddDeploymentOption(*verb, options->deployment);
   CompleteVerb(*verb, options, RunGenerate, exit_code, "the files' names as JSON");
 }

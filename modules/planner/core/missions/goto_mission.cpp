@@ -50,6 +50,8 @@ void GotoMissionConfig::Describe(Archive& a) {
   a.Number("near_m", near_m, {"m", 0.01, 1, "distance to the goal at which the mission is done"});
   a.Number("turned_deg", turned_deg, {"deg", 0.5, 45, "difference in heading at which it is done"});
   a.Integer("retries", retries, {"-", 0, 20, "other ways that are tried after something was in the way"});
+  a.Number("stands_s", stands_s,
+           {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
   a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
   limits.Describe(a);
   a.Section("route", route, "the way through the room");
@@ -65,6 +67,8 @@ GotoMission::GotoMission(const GotoMissionConfig& config, const Footprint& footp
 std::optional<Refusal> GotoMission::Start(const MissionOrder& order) {
   goal_ = order.goal;
   departures_ = 0;
+  stood_s_ = 0;
+  stepped_.reset();
   planner_.Forget();
   keeper_.Reset();
   learned_.reset();
@@ -84,7 +88,27 @@ void GotoMission::Step(MissionControl& control) {
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath()) return;
   if (heard.drive->mode == DriveMode::kArrived) return Arrive(control);
+  if (StandsForLong(control))
+    return control.Fail(
+        fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
+                    config_.stands_s, heard.drive->limit));
   Reconsider(control);
+}
+
+/// A hold, of a robot that does not know where it is for instance, may end by itself, but is not waited for
+/// for ever. Time without news of the robot does not count.
+bool GotoMission::StandsForLong(const MissionControl& control) {
+  constexpr double kProgress_m = 0.05, kLongestStep_s = 0.5;
+  const DriveReport& drive = *control.heard().drive;
+  const double step_s = stepped_ ? std::min(Seconds(control.now() - *stepped_), kLongestStep_s) : 0;
+  stepped_ = control.now();
+  if (drive.limit.empty() || std::abs(drive.remaining_m - stood_at_m_) > kProgress_m) {
+    stood_at_m_ = drive.remaining_m;
+    stood_s_ = 0;
+  } else if (IsFresh(*control.heard().pose, control.now())) {
+    stood_s_ += step_s;
+  }
+  return stood_s_ > config_.stands_s;
 }
 
 void GotoMission::Learn(const MissionControl& control) {
@@ -103,8 +127,19 @@ void GotoMission::Reconsider(MissionControl& control) {
     Drive(control, std::move(*path), "a wall that is not on the plan is in the way");
 }
 
+/// Where the goal is taken, by what is not on the plan for instance, the first place that does instead.
+void GotoMission::ChooseGoal(const Pose2& map_from_base) {
+  const auto refused = [&](const Pose2& place) {
+    return planner_.CheckEnds(map_from_base, {place, goal_.turn}).has_value();
+  };
+  if (goal_.instead.empty() || !refused(goal_.map_from_base)) return;
+  const auto free = std::find_if_not(goal_.instead.begin(), goal_.instead.end(), refused);
+  if (free != goal_.instead.end()) goal_.map_from_base = *free;
+}
+
 void GotoMission::Depart(MissionControl& control, const std::string& why) {
   Learn(control);
+  ChooseGoal(control.heard().pose->map_from_base);
   Outcome<PlannedPath> path = planner_.Plan(control.heard().pose->map_from_base, goal_);
   if (!path) return control.Fail(why.empty() ? path.reason() : why + ", and " + path.reason());
   Drive(control, std::move(*path), why);

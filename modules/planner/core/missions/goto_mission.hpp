@@ -18,6 +18,7 @@ struct GotoMissionConfig {
   double near_m = 0.10;   ///< distance to the goal at which the mission is done ...
   double turned_deg = 5;  ///< ... and the difference in heading, if the heading counts
   int retries = 3;        ///< other ways that are tried after something was in the way
+  double stands_s = 30;   ///< a robot that holds on its way for so long has the mission fail
   double thing_m = 0.5;   ///< size of what is in the way, of which one side is known only
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 600};
   RoutePlannerConfig route;
@@ -43,11 +44,13 @@ class GotoMission : public Mission {
 
  private:
   void Depart(MissionControl& control, const std::string& why);
+  void ChooseGoal(const Pose2& map_from_base);
   void Drive(MissionControl& control, PlannedPath path, const std::string& why);
   void Learn(const MissionControl& control);
   void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);
   bool AtGoal(const Pose2& map_from_base) const;
+  bool StandsForLong(const MissionControl& control);
   void NoteThingAhead(const MissionControl& control);
 
   GotoMissionConfig config_;
@@ -57,7 +60,9 @@ class GotoMission : public Mission {
   Goal goal_;
   int departures_ = 0;                           ///< after a stop
   std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account
-  bool whole_ = true;                            ///< the path ordered last leads to the goal
+  double stood_s_ = 0, stood_at_m_ = 0;          ///< how long without progress, and what was left then
+  std::optional<Time> stepped_;
+  bool whole_ = true;  ///< the path ordered last leads to the goal
 };
 
 }  // namespace priamos::planner

@@ -48,20 +48,25 @@ void DoorRouter::AddPassage(const DoorPlan& door, int door_id) {
   Passage passage{door, door_id, std::nullopt, door.map_from_door() * Pose2{goal_m_, 0, 0}};
   if (const auto refusal = passage_.CheckDoor(door)) {
     closed_.push_back(refusal->reason);
-  } else if (!(passage.before = PlaceBefore(door))) {
+  } else if (const auto places = PlacesBefore(door); places.empty()) {
     closed_.push_back(fmt::format("there is no room to stand before door '{}'", door.name));
+  } else {
+    passage.before = places.front();
+    passage.nearer.assign(places.begin() + 1, places.end());
   }
   passages_.push_back(std::move(passage));
 }
 
-/// The farthest place on the axis from which the way to the hold point is free.
-std::optional<Pose2> DoorRouter::PlaceBefore(const DoorPlan& door) const {
+/// Places on the axis from which the way to the hold point is free, the farthest first. What is not on the
+/// plan may make the first ones useless.
+std::vector<Pose2> DoorRouter::PlacesBefore(const DoorPlan& door) const {
+  std::vector<Pose2> places;
   const double hold_x = passage_.HoldX(door);
   for (double x = std::min(-config_.before_m, hold_x); x <= hold_x + 1e-9; x += kStep_m) {
     const Pose2 place = door.map_from_door() * Pose2{x, 0, 0};
-    if (route_.IsFree(place) && passage_.PlanApproach(door, place)) return place;
+    if (route_.IsFree(place) && passage_.PlanApproach(door, place)) places.push_back(place);
   }
-  return std::nullopt;
+  return places;
 }
 
 bool DoorRouter::StandsBefore(const Passage& passage, const Pose2& map_from_base) const {
@@ -89,7 +94,7 @@ std::optional<double> DoorRouter::LengthBetween(std::size_t from_passage, std::s
 void DoorRouter::AppendLegs(const Passage& passage, const Pose2& from, double to_door_m,
                             std::vector<Leg>& legs) const {
   const Pose2 begin = to_door_m > 0 ? *passage.before : from;
-  if (to_door_m > 0) legs.push_back({std::nullopt, {begin}, to_door_m});
+  if (to_door_m > 0) legs.push_back({std::nullopt, {begin, true, passage.nearer}, to_door_m});
   const double through_m = (passage.behind.translation() - begin.translation()).norm();
   legs.push_back({passage.door_id, {passage.behind}, through_m});
 }
@@ -205,6 +210,7 @@ std::vector<Leg> DoorRouter::LegsThrough(const Passage& passage, const Pose2& fr
     const auto way = Plan(from, {*passage.before});
     if (!way) return {};
     legs = *way;
+    legs.back().goal.instead = passage.nearer;
     AppendLegs(passage, *passage.before, 0, legs);
   }
   return legs;

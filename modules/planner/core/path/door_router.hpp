@@ -57,11 +57,12 @@ class DoorRouter {
     int door_id = 0;              ///< in the plan
     std::optional<Pose2> before;  ///< where its passage begins; nullopt: it cannot be passed from there
     Pose2 behind;                 ///< where it ends
+    std::vector<Pose2> nearer{};  ///< where it may begin instead, farthest from the door first
   };
   class Search;
 
   void AddPassage(const DoorPlan& door, int door_id);
-  std::optional<Pose2> PlaceBefore(const DoorPlan& door) const;
+  std::vector<Pose2> PlacesBefore(const DoorPlan& door) const;
   bool StandsBefore(const Passage& passage, const Pose2& map_from_base) const;
   /// Length of the drive to where `passage` can begin; 0 where it can at once.
   std::optional<double> LengthTo(const Passage& passage, const Pose2& from) const;

@@ -11,7 +11,8 @@ namespace priamos::planner {
 /// Where a base is to go, map frame.
 struct Goal {
   Pose2 map_from_base;
-  bool turn = true;  ///< the heading counts; else it arrives as suits its path
+  bool turn = true;              ///< the heading counts; else it arrives as suits its path
+  std::vector<Pose2> instead{};  ///< places that do as well when it cannot be reached, best first
 };
 
 /// The most points that the robot takes in one PATH.

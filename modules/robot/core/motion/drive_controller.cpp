@@ -35,6 +35,11 @@ Duration Lasting(const std::optional<Time>& since, Time now) {
   return since ? std::max(now - *since, Duration(1)) : Duration::zero();
 }
 
+/// What ends a motion because something holds the base.
+bool IsContact(const std::optional<Condition>& cause) {
+  return cause == Condition::kTouched || cause == Condition::kWheelsStuck;
+}
+
 CollisionStopConfig WithMargin(CollisionStopConfig config, double more_m) {
   config.margin_m += more_m;
   config.memory_margin_m += more_m;
@@ -64,11 +69,13 @@ PathVerdict DriveController::SetPath(const Path& path, Time now) {
   if (!authority_.AdmitPath(now))
     return authority_.estop() ? PathVerdict::kEstop : PathVerdict::kWithoutLease;
   if (!path.points.empty() && path.estop_changes != authority_.estop_changes()) return PathVerdict::kStale;
+  if (!path.points.empty() && stands_until_ && now < *stands_until_) return PathVerdict::kTouched;
   path_ = path;
   path_is_new_ = !path.points.empty();
   ever_ordered_ = true;
   state_.path_id = path.id;
-  state_.halted_by.reset();
+  // An order to stand moves nothing: what the base touched is still to be told.
+  if (!path.points.empty() || !IsContact(state_.halted_by)) state_.halted_by.reset();
   if (path.points.empty()) {
     follower_.Drop();
     state_.mode = DriveMode::kHolding;
@@ -88,7 +95,7 @@ CommandVerdict DriveController::SetCommand(const DriveCommand& command, Time now
   ever_ordered_ = true;
   DropPath();
   state_.mode = DriveMode::kOperated;
-  state_.halted_by.reset();
+  if (WantsMotion(command.twist) || !IsContact(state_.halted_by)) state_.halted_by.reset();
   return verdict;
 }
 
@@ -108,7 +115,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   NoteTouch(situation.odom_from_base, now);
   const DriveSource source = Source(now);
   state_.failsafe = Watch(situation, now);
-  if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause);
+  if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause, situation, now);
 
   const Obstacles around = Around(situation.odom_from_base);
   const Twist2 wanted = Wanted(situation, around, now, dt_s), free = FreeOf(wanted, around);
@@ -296,9 +303,19 @@ void DriveController::NoteEnd(DriveSource source) {
   if (state_.mode == DriveMode::kOperated && source == DriveSource::kNone) state_.mode = DriveMode::kHolding;
 }
 
-void DriveController::Halt(Condition cause) {
-  const bool moved = Source(*last_step_) != DriveSource::kNone || authority_.lease_lost();
+/// Orders that are on their way were given without knowing of it, and would hide it.
+void DriveController::StandAfterContact(Time now) {
+  stands_until_ = now + FromSeconds(config_.touch.told_s);
+  authority_.StandUntil(*stands_until_);
+}
+
+/// A base that still rolls although nobody drives it any more touches things, too.
+void DriveController::Halt(Condition cause, const DriveSituation& situation, Time now) {
+  const bool driven = Source(now) != DriveSource::kNone || authority_.lease_lost();
+  const bool rolls = situation.estimate && SpeedOf(situation.estimate->twist) > kStanding;
+  const bool moved = driven || (cause == Condition::kTouched && rolls);
   if (moved) state_.halted_by = cause;
+  if (moved && IsContact(cause)) StandAfterContact(now);
   DropPath();
   authority_.Forget();
   SetCommanded({});

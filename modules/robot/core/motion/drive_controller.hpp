@@ -33,8 +33,9 @@ struct DriveSituation {
 };
 
 /// Result of an order to drive a path. Stale: who ordered it did not know of the newest e-stop or re-arming,
-/// and after these nothing moves without a new order.
-enum class PathVerdict { kTaken, kSame, kWithoutLease, kEstop, kStale };
+/// and after these nothing moves without a new order. Touched: the base has just touched something, of which
+/// who ordered it cannot know yet.
+enum class PathVerdict { kTaken, kSame, kWithoutLease, kEstop, kStale, kTouched };
 
 /// What the base does at one tick and why, as DRIVE_STATUS reports it.
 struct DriveState {
@@ -123,7 +124,8 @@ class DriveController {
   void NoteTouch(const Pose2& odom_from_base, Time now);
   void NoteStuck(const DriveSituation& situation, Time now);
   void NoteEnd(DriveSource source);
-  void Halt(Condition cause);
+  void Halt(Condition cause, const DriveSituation& situation, Time now);
+  void StandAfterContact(Time now);
 
   DriveConfig config_;
   MecanumGeometry geometry_;
@@ -141,6 +143,7 @@ class DriveController {
   bool ever_ordered_ = false;
   std::optional<Time> last_step_, first_step_, sonar_heard_;
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;
+  std::optional<Time> stands_until_;  ///< after a contact, so that it is told before anything moves
 };
 
 }  // namespace priamos::robot

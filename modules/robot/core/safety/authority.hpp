@@ -50,6 +50,8 @@ class Authority {
   bool lease_lost() const { return lease_lost_; }
   /// Drops the operator's command and the note of a lost lease, after a halt.
   void Forget();
+  /// No operator moves the base until then.
+  void StandUntil(Time until) { operator_.StandUntil(until); }
   const OperatorInput& input() const { return operator_; }
 
  private:

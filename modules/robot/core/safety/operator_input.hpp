@@ -50,6 +50,8 @@ class OperatorInput {
   void Drop() { command_.reset(); }
   /// Refuses motion until a command to stand has come: the stick must have been let go once.
   void RequireRest() { must_rest_ = true; }
+  /// Refuses motion until then.
+  void StandUntil(Time until) { stands_until_ = until; }
 
   /// The command to obey; nullptr when there is none or it ran out.
   const DriveCommand* Valid(Time now) const;
@@ -70,6 +72,7 @@ class OperatorInput {
   std::optional<DriveCommand> command_;
   std::optional<DriveCommand> newest_;  ///< accepted last, for the order
   bool must_rest_ = false;
+  std::optional<Time> stands_until_;
   std::array<int, kCommandVerdicts> counts_{};
   CommandVerdict newest_refusal_ = CommandVerdict::kAccepted;
 };

@@ -42,6 +42,8 @@ void TouchConfig::Describe(Archive& a) {
   a.Flag("bumper", bumper, "the base has a bumper: when it is silent, the base holds");
   a.Number("push_n", push_n, {"N", 10, 5000, "a larger force than acceleration and rolling take is a touch"});
   a.Number("keep_s", keep_s, {"s", 1, 3600, "the place of a touch counts as an obstacle for so long"});
+  a.Number("told_s", told_s,
+           {"s", 0, 10, "so long nothing moves after a touch, so that it is told before it is covered up"});
   a.Section("push", push, "motors and mass, for the force by motor currents");
 }
 

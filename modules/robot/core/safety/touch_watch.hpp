@@ -20,6 +20,7 @@ struct TouchConfig {
   bool bumper = false;  ///< the base has one: its silence holds the base
   double push_n = 150;  ///< a larger force that acceleration and rolling do not explain is a touch
   double keep_s = 60;   ///< how long the place of a touch counts as an obstacle
+  double told_s = 1.5;  ///< so long the base stands after a touch: until everybody has been told
   PushConfig push;
 
   void Describe(Archive& a);

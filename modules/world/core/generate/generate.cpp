@@ -16,10 +16,13 @@ using Eigen::Vector2d;
 /// Walls of a sketch are centre lines; rooms are spoken of by their inner size.
 constexpr double kHalfWall_m = 0.07;
 constexpr double kCeiling_m = 2.8;
+/// Number of a door's landmark for who comes back through it, less the door's.
+constexpr int kBehind = 100;
 
 DoorPlan DrawDoor(int id, const std::string& name, double narrowest_m, Rng& rng) {
   DoorPlan door;
   door.id = id;
+  door.behind_id = kBehind + id;
   door.name = name;
   door.opening_width_m = rng.Uniform(narrowest_m, 1.0);
   door.opening_height_m = rng.Uniform(1.98, 2.12);
@@ -66,6 +69,7 @@ class Building {
   void SideDoors(SketchWall& wall, double from_m, double to_m, bool to_left);
   void Walker(const std::vector<Vector2d>& waypoints);
   void Start(const Vector2d& at, double towards_deg);
+  void Round(const Vector2d& door, const Vector2d& back);
   double CorridorSides(double length_m, double width_m, double first_door_m);
   GeneratedWorld Finish();
 
@@ -117,6 +121,12 @@ void Building::Start(const Vector2d& at, double towards_deg) {
   start = StartPlan{at.x(), at.y(), towards_deg, 0, 0, 0, 0.15, 4};
 }
 
+/// To a place behind a door that leads along x, and back; both in the free lane.
+void Building::Round(const Vector2d& door, const Vector2d& back) {
+  constexpr double kBehind_m = 2;
+  out_.round = {{door.x() + kBehind_m, door.y(), 0}, {back.x(), back.y(), kPi}};
+}
+
 GeneratedWorld Building::Finish() {
   Vector2d low = sketch_.walls.front().from, high = low;
   for (const SketchWall& wall : sketch_.walls)
@@ -146,6 +156,7 @@ GeneratedWorld Building::Room() {
   const Vector2d start(near - before_m, std::clamp(door_y + beside_m, 0.95, depth - 0.95));
   const Vector2d to_door = door - start;
   Start(start, Degrees(std::atan2(to_door.y(), to_door.x())) + rng_.Uniform(-15, 15));
+  Round(door, start);
   const Lane lane{{start, door - Vector2d(1.8, 0), door + Vector2d(2.2, 0)}, 0.85};
   AddClutter({{0.1, 0.1}, {near - 0.1, depth - 0.1}}, lane, 3 + static_cast<int>(rng_.Below(5)), rng_,
              out_.world);
@@ -203,6 +214,7 @@ GeneratedWorld Building::Floor() {
                        std::clamp(door_y + beside_m, -width_m / 2 + 0.75, width_m / 2 - 0.75));
   Start(start, rng_.Uniform(-10, 10));
   const Vector2d junction(junction_m, start.y());
+  Round(door, junction);
   const Lane lane{{junction, start, door - Vector2d(1.5, 0), door + Vector2d(2.2, 0)}, 0.7};
   AddClutter({{0.1, -width_m / 2 + 0.02}, {length_m - 0.1, width_m / 2 - 0.02}}, lane,
              static_cast<int>(length_m / 3), rng_, out_.world);

@@ -20,6 +20,7 @@ struct GeneratedWorld {
   WorldPlan world;               ///< all else that stands there; `map` is left empty
   int door_id = 1;               ///< the door to pass
   std::vector<Pose2> waypoints;  ///< places to drive to, none when the door is the task
+  std::vector<Pose2> round;      ///< through that door to a place behind it, and back; none without one
 };
 
 /// A world of that kind. Doors are 80 to 100 cm wide (the one to pass at least 88), corridors 1.6 to 3 m wide

@@ -9,11 +9,13 @@ namespace priamos::world {
 namespace {
 
 constexpr double kDecide_s = 0.1, kLook_s = 1, kLeastLook_m = 0.4;
-constexpr double kOfRobot_m = 0.45, kOfWalls_m = 0.2;
+constexpr double kOfRobot_m = 0.6, kOfWalls_m = 0.2;
 constexpr std::array kTurns_deg{0, 25, -25, 50, -50, 75, -75};
 constexpr double kArrived_m = 0.15;
 constexpr double kGivesUp_s = 4, kTurnsBack_s = 2;
 constexpr double kDoubleStep_m = 1.4, kLegSwing_m = 0.15;
+/// Walking speed with which the last half step is made.
+constexpr double kClosing_m_s = 0.8;
 /// A robot farther away than this from the middle of a body cannot be touched by it.
 constexpr double kReach_m = 0.7;
 
@@ -87,14 +89,21 @@ void Person::Step(double dt_s, const Around& around) {
   if (plan_.waypoints.size() < 2) return;
   if (pause_s_ > 0) {
     pause_s_ -= dt_s;
-    return;
+    return CloseStep(dt_s);
   }
   decide_in_s_ -= dt_s;
   if (decide_in_s_ <= 0) {
     decide_in_s_ += kDecide_s;
     Decide(around);
   }
-  if (walking_) Advance(dt_s, around);
+  walking_ ? Advance(dt_s, around) : CloseStep(dt_s);
+}
+
+/// Who stands brings the legs together; the feet draw in, so that they meet nothing.
+void Person::CloseStep(double dt_s) {
+  const double together_rad = kPi * std::round(posture_.phase_rad / kPi);
+  const double most_rad = 2 * kPi * kClosing_m_s / kDoubleStep_m * dt_s;
+  posture_.phase_rad += std::clamp(together_rad - posture_.phase_rad, -most_rad, most_rad);
 }
 
 void Person::Decide(const Around& around) {

@@ -34,10 +34,10 @@ struct Around {
 };
 
 /// A person who walks from waypoint to waypoint. Ten times a second an attentive person looks one second
-/// ahead: if the straight way comes nearer than 45 cm to the robot or 20 cm to a wall, the nearest of 25, 50
+/// ahead: if the straight way comes nearer than 60 cm to the robot or 20 cm to a wall, the nearest of 25, 50
 /// and 75 degrees to either side that does not is taken; if there is none, the person stands until there is,
-/// and after 4 s goes on to the next waypoint. An inattentive person sees walls only, walks into the robot,
-/// stands against it for 2 s, and turns back.
+/// and after 4 s goes on to the next waypoint. Who stands has the legs side by side. An inattentive person
+/// sees walls only, walks into the robot, stands against it for 2 s, and turns back.
 class Person {
  public:
   /// Person at the first waypoint of a drawn plan; `rng` draws the pauses.
@@ -51,6 +51,7 @@ class Person {
  private:
   void Decide(const Around& around);
   void GoOn();
+  void CloseStep(double dt_s);
   bool FreeAhead(double heading_rad, const Around& around) const;
   void Advance(double dt_s, const Around& around);
   bool AgainstRobot(const Posture& posture, const Around& around) const;

@@ -17,11 +17,13 @@ constexpr double kLongest_s = 3600;
 }  // namespace
 
 void SonarFault::Describe(Archive& a) {
-  a.Integer("sensor", sensor, {"-", 1, kSonars, "S1 ahead, counter-clockwise"});
+  a.Integer("sensor", sensor,
+            {"-", kAny, kSonars, "S1 ahead, counter-clockwise; 0: any, drawn from the seed"});
   a.Choice("kind", kind, {"dead", "deaf", "stuck"},
            "dead: no echo ever; deaf: hears deaf_db less; stuck: repeats what it measured last");
   a.Number("at_s", at_s, {"s", 0, kLongest_s, "when it breaks, since the world began"});
   a.Number("deaf_db", deaf_db, {"dB", 1, 120, "what a deaf one hears less"});
+  a.Number("chance", chance, {"-", 0, 1, "it breaks in this part of the runs, drawn from the seed"});
 }
 
 void MotorFault::Describe(Archive& a) {

@@ -9,10 +9,13 @@ namespace priamos::world {
 
 /// A sensor of the ring that breaks.
 struct SonarFault {
-  int sensor = 1;  ///< 1 to 24, S1 ahead, counter-clockwise
+  static constexpr int kAny = 0;
+
+  int sensor = 1;  ///< 1 to 24, S1 ahead, counter-clockwise; kAny: drawn from the seed
   std::string kind = "dead";
   double at_s = 0;      ///< since the world began
   double deaf_db = 30;  ///< what a deaf one hears less
+  double chance = 1;    ///< it breaks in this part of the runs
 
   void Describe(Archive& a);
 };

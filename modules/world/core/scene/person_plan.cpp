@@ -26,6 +26,8 @@ void PersonPlan::Describe(Archive& a) {
   a.Number("speed_spread_m_s", speed_spread_m_s,
            {"m/s", 0, 1, "it is off by up to this, drawn from the seed"});
   a.Number("spread_m", spread_m, {"m", 0, 2, "waypoints are off by up to this, drawn from the seed"});
+  a.Number("chance", chance,
+           {"-", 0, 1, "the person is there in this part of the runs, drawn from the seed"});
   a.Number("start_s", start_s, {"s", 0, 3600, "the person stands at the first waypoint until then"});
   a.Flag("attentive", attentive, "walks around the robot or stops before it; false: walks into it");
   a.List("waypoints", waypoints, "where the person walks, one after the other and again; one: stands there");

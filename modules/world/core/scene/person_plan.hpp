@@ -23,6 +23,7 @@ struct PersonPlan {
   std::string name = "person";
   double speed_m_s = 0.8, speed_spread_m_s = 0;
   double spread_m = 0;    ///< every waypoint is off by up to this along each axis
+  double chance = 1;      ///< the person is there in this part of the runs
   double start_s = 0;     ///< the person stands at the first waypoint until then
   bool attentive = true;  ///< walks around the robot, or stops before it; otherwise walks into it
   std::vector<PersonStop> waypoints;

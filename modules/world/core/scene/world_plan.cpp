@@ -127,6 +127,8 @@ void WorldPlan::Describe(Archive& a) {
   a.List("doors", doors, "leaf and true dimensions of the map's doors; a door not listed has no leaf");
   a.List("posters", posters, "flat things on walls");
   a.List("boxes", boxes, "furniture, columns, clutter");
+  a.List("strewn", strewn, "things drawn from the seed: how many, which and where");
+  a.List("free_lanes", free_lanes, "floor on which nothing is strewn");
   a.Section("light", light, "room and light");
   a.Section("start", start, "where the robot starts");
   a.Section("reference", reference, "the calibration body");

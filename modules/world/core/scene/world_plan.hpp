@@ -15,6 +15,7 @@
 #include "world/core/scene/placed_reference.hpp"
 #include "world/core/scene/scene.hpp"
 #include "world/core/scene/solid.hpp"
+#include "world/core/scene/strewn_plan.hpp"
 #include "world/core/scene/survey.hpp"
 
 namespace priamos::world {
@@ -114,6 +115,8 @@ struct WorldPlan {
   std::vector<DoorWork> doors;
   std::vector<PosterPlan> posters;
   std::vector<BoxPlan> boxes;
+  std::vector<StrewnPlan> strewn;
+  std::vector<FreeLane> free_lanes;
   SceneConfig light;
   double brightness_spread = 0, window_spread_deg = 0;
   double camera_light = 0;

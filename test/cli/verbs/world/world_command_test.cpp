@@ -46,6 +46,19 @@ TEST_F(WorldCommandTest, ManySeedsAndKindsFitIntoOneFolder) {
     }
 }
 
+TEST_F(WorldCommandTest, ThereAndBackIsADriveThroughTheDoorToAPlaceAndBackToTheFirstRoom) {
+  ASSERT_EQ(
+      Priamos({"world", "generate", "--seed", "4", "--into", into_, "--deployment", kSim, "--there-and-back"})
+          .exit_code,
+      0);
+  const Scenario scenario = LoadScenario(into_, "room-4");
+  EXPECT_EQ(scenario.story, "goto");
+  ASSERT_EQ(scenario.waypoints.size(), 2u);
+  const double door_x = LoadTrueWorld(into_, scenario, 1).doors.at(0).x_m;
+  EXPECT_GT(scenario.waypoints[0].x_m, door_x);
+  EXPECT_LT(scenario.waypoints[1].x_m, door_x);
+}
+
 TEST_F(WorldCommandTest, TheSameSeedWritesTheSameBytes) {
   Generate("corridor", "2");
   const std::string first = FileContent(into_ + "/worlds/corridor-2.toml");

@@ -33,6 +33,7 @@ class FakeRobot {
   std::optional<LeafSighting> leaf;
   bool silent = false;   ///< nothing comes through in either direction
   bool blocked = false;  ///< stands before an obstacle
+  bool lost = false;     ///< holds, because it does not know where it is
   bool touched = false;  ///< stands because it touched something
   bool deaf = false;     ///< its sonars notice no opening
   Pose2 map_from_door{6, 2.4, 0};
@@ -103,7 +104,7 @@ class FakeRobot {
   /// Moves the truth by what brings the belief along the path.
   void Drive() {
     velocity_ = {};
-    if (route_.empty() || blocked || touched) return;
+    if (route_.empty() || blocked || touched || lost) return;
     const Pose2 believed = Believed();
     Pose2 next = believed;
     for (double left_m = paths.back().speed_m_s * Seconds(kStep); left_m > 0 && !route_.empty();)
@@ -173,7 +174,9 @@ class FakeRobot {
                       : route_.empty() ? DriveMode::kArrived
                                        : DriveMode::kFollowing,
                       path_id_,
-                      blocked ? "sonar" : "",
+                      blocked ? "sonar"
+                      : lost  ? "the pose is stale"
+                              : "",
                       false,
                       0,
                       touched,

@@ -75,6 +75,33 @@ TEST(GotoMissionTest, ABoxOnTheWayIsPutOnTheMapAndAnotherWayIsDriven) {
   EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
 }
 
+TEST(GotoMissionTest, WhereTheGoalIsTakenAPlaceThatDoesInsteadIsDrivenTo) {
+  auto learned = std::make_shared<LearnedWalls>();
+  learned->walls = {WallAt(4.2, 3.2, 0, 0.8)};  // 41 cm beside the goal
+  for (const std::vector<Pose2>& instead : {std::vector<Pose2>{}, {{4.1, 2.4, 0}, {2.9, 2.4, 0}}}) {
+    Story s;
+    s.dut.OnLearned(learned);
+    s.Start({{4.2, 2.76, 0}, true, instead});
+    s.robot.RunFor(60);
+    EXPECT_EQ(s.dut.state().phase, instead.empty() ? Phase::kFailed : Phase::kDone) << s.dut.state().text;
+    if (!instead.empty()) {
+      EXPECT_NEAR(s.robot.truth().x, 4.1, 0.01) << "the first that is free";
+    }
+  }
+}
+
+TEST(GotoMissionTest, ARobotThatHoldsForGoodEndsItWithTheReason) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(2.0);
+  s.robot.lost = true;
+  s.robot.RunFor(20);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDriving) << "it may find itself again";
+  s.robot.RunFor(20);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, StartsWith("the robot has held on its way for 30 s: the pose is stale"));
+}
+
 TEST(GotoMissionTest, AWallThatTurnsUpAcrossThePathIsDrivenAround) {
   Story s;
   s.Start({{5.0, 2.4, 0}});

@@ -72,6 +72,10 @@ TEST(DoorRouter, WhoStandsElsewhereDrivesBeforeTheDoorFirst) {
     EXPECT_NEAR(before.x, 3.5, 0.01);
     EXPECT_NEAR(before.y, 2.4, 1e-9);
     EXPECT_NEAR(before.yaw, 0, 1e-9);
+    const auto& instead = (*legs)[0].goal.instead;
+    ASSERT_FALSE(instead.empty());
+    EXPECT_NEAR(instead.front().x, before.x + 0.1, 1e-9);
+    EXPECT_LT(instead.back().x, 5.2) << "before the door";
   }
 }
 

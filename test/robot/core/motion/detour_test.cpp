@@ -65,6 +65,21 @@ TEST_F(DetourTest, GoesAroundABoxAndComesBack) {
   for (double s = 0.3; s < 2.4; s += 0.05) EXPECT_GT(GapAt(path, *detour, s, box), 0.1) << s;
 }
 
+TEST_F(DetourTest, WhatStandsBesideADoorwayDoesNotKeepItOffTheWayThroughIt) {
+  const PathShape path{PathShapeConfig{},
+                       {},
+                       {.id = 1, .speed_m_s = 0.3, .points = {{2, 0, 0}, {4, 0, 0}}, .leeway = {kWide, {}}}};
+  for (const double beside_m : {0.01, 0.05, 0.1}) {  // an open leaf, as echoes have it
+    std::vector<Eigen::Vector2d> leaf;
+    for (double x = 2.3; x < 4.5; x += 0.05) leaf.emplace_back(x, footprint_.width_m / 2 + beside_m);
+    for (const auto& here : {PathPlace{2.0, -0.25}, PathPlace{2.6, -0.05}}) {
+      const auto detour = Find(path, leaf, here, Detour(0, 5, {here.offset_m, here.offset_m}));
+      ASSERT_TRUE(detour);
+      EXPECT_NEAR(detour->At(here.s + 0.6), 0, 0.005) << beside_m;
+    }
+  }
+}
+
 TEST_F(DetourTest, GoesWhereThereIsLeeway) {
   const auto detour = Find(Straight({1.5, 0.3}), Square(1.4, 0.05, 0.15));
   ASSERT_TRUE(detour);

@@ -119,6 +119,43 @@ TEST_F(DriveControllerTest, ATouchEndsThePathAtOnceAndSaysWhere) {
   EXPECT_EQ(rig_.state().halted_by, Condition::kTouched);
 }
 
+TEST_F(DriveControllerTest, WhatWasOnItsWayWhenSomethingWasTouchedDoesNotCoverItUp) {
+  rig_.SetPath(Straight());
+  rig_.Run(3);
+  rig_.drive().touch_watch().AddBumper(1, rig_.now());
+  rig_.Tick();
+  EXPECT_EQ(rig_.SetPath({.id = 2, .speed_m_s = 0.3, .points = {{5, 1, 0}}}), PathVerdict::kTouched);
+  rig_.SetPath({.id = 3});  // an order to stand
+  rig_.Run(1);
+  EXPECT_EQ(rig_.state().halted_by, Condition::kTouched);
+  rig_.Run(1);
+  EXPECT_EQ(rig_.SetPath({.id = 4, .speed_m_s = 0.3, .points = {{-1, 0, 0}}}), PathVerdict::kTaken);
+  EXPECT_FALSE(rig_.state().halted_by);
+}
+
+TEST_F(DriveControllerTest, AnOperatorWhoPushesOnIsToldOfTheTouchFirst) {
+  const LeaseHolder teleop{Driver::kTeleop, 1};
+  rig_.TakeOver(teleop);
+  rig_.Hold(teleop, {0.2, 0, 0}, 1);
+  rig_.drive().touch_watch().AddBumper(1, rig_.now());
+  rig_.Hold(teleop, {0.2, 0, 0}, 1);
+  EXPECT_EQ(rig_.state().halted_by, Condition::kTouched);
+  rig_.Hold(teleop, {0, 0, 0}, 0.2);
+  EXPECT_EQ(rig_.state().halted_by, Condition::kTouched) << "letting go does not cover it up";
+  rig_.Hold(teleop, {-0.2, 0, 0}, 1);
+  EXPECT_FALSE(rig_.state().halted_by);
+}
+
+TEST_F(DriveControllerTest, ABaseThatStillRollsAfterItsPathWasDroppedTellsOfATouch) {
+  rig_.SetPath(Straight());
+  rig_.Run(3);
+  rig_.SetPath({.id = 2});
+  rig_.Run(0.1);
+  rig_.drive().touch_watch().AddBumper(1, rig_.now());
+  rig_.Run(1);
+  EXPECT_EQ(rig_.state().halted_by, Condition::kTouched);
+}
+
 TEST_F(DriveControllerTest, AfterATouchNothingMovesTowardsThePlaceAndAnOperatorCanBackOff) {
   const LeaseHolder teleop{Driver::kTeleop, 1};
   rig_.SetPath(Straight());

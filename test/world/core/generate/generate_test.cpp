@@ -43,6 +43,8 @@ TEST_P(GenerateTest, TheWayFromTheStartIsFree) {
       EXPECT_GT(GapBetween(clearance, at, waypoint.translation()), 0.1) << seed;
       at = waypoint.translation();
     }
+    ASSERT_EQ(dut.round.empty(), !dut.waypoints.empty());
+    for (const Pose2& place : dut.round) EXPECT_GT(clearance.Gap(place, 1), 0.1) << seed;
     if (!dut.waypoints.empty()) continue;
     const DoorPlan* door = dut.truth.FindDoor(dut.door_id);
     ASSERT_TRUE(door);

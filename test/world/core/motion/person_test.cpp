@@ -66,6 +66,19 @@ TEST(PersonTest, LegsSwingAgainstEachOther) {
   EXPECT_NEAR(widest, 0.30, 0.01);
 }
 
+TEST(PersonTest, WhoStandsBeforeTheRobotHasTheFeetSideBySide) {
+  for (const double start : {0.0, 0.15, 0.3, 0.45}) {
+    PersonPlan plan = Walker();
+    plan.waypoints[0].x_m = start;
+    Person dut(plan, Rng(1));
+    const Around corridor{Rectangle{{2, 0, 0}, {0.475, 0.39}},
+                          {Rectangle{{2, 0.8, 0}, {5, 0.1}}, Rectangle{{2, -0.8, 0}, {5, 0.1}}}};
+    Walk(dut, 3, corridor);
+    const auto parts = PartPoses(dut.posture());
+    EXPECT_NEAR((parts[4].Inverse() * parts[5]).x, 0, 1e-6) << start;
+  }
+}
+
 TEST(PersonTest, AnAttentiveOneWalksAroundAStandingRobot) {
   Person dut(Walker(), Rng(1));
   const double nearest = Walk(dut, 6, {Rectangle{{2, 0.1, 0}, {0.475, 0.39}}, {}});
