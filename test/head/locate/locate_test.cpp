@@ -148,7 +148,7 @@ TEST_F(LocateTest, WhatIsReadIsNeverReplaced) {
   options.images = {Image(0), folder_ / "drawn/8-body.png"};
   EXPECT_THAT(ThrownReason([&] { Run(options); }), HasSubstr("expected another file to write"));
   options.images = {"-"};
-  Run(options, Image(0) + "\n" + (folder_ / "drawn/8-body.png") + "\n");
+  Run(options, Image(0) + "\n" + std::string(folder_ / "drawn/8-body.png") + "\n");
   EXPECT_THAT(text_, HasSubstr("got a drawing of this run"));
   std::ofstream(folder_ / "all.cao") << "V1\nload(\"part.cao\")\n0\n0\n0\n0\n";
   std::ofstream(folder_ / "part.cao") << "V1\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0\n0\n1\n4 0 1 2 3\n0\n0\n";
