@@ -4,22 +4,24 @@
 #include <deque>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "common/time.hpp"
 
 namespace priamos::radio {
 
-/// Recognises messages that this process itself put on the bus: a channel that crosses the
-/// link in both directions would otherwise send back what it brought, for ever.
+/// Recognises messages that this process itself put on the bus: a channel that crosses the link in both
+/// directions would otherwise send back what it brought, for ever. Such a channel has two rows of the link's
+/// table and one name.
 class EchoFilter {
  public:
-  void Published(std::size_t channel, std::span<const std::byte> bytes, Time now) {
+  void Published(std::string_view channel, std::span<const std::byte> bytes, Time now) {
     Forget(now);
-    own_.push_back({now, channel, Hash(bytes)});
+    own_.push_back({now, std::string(channel), Hash(bytes)});
   }
   /// True once per message published.
-  bool IsEcho(std::size_t channel, std::span<const std::byte> bytes, Time now) {
+  bool IsEcho(std::string_view channel, std::span<const std::byte> bytes, Time now) {
     Forget(now);
     for (auto at = own_.begin(); at != own_.end(); ++at) {
       if (at->channel != channel || at->hash != Hash(bytes)) continue;
@@ -32,7 +34,7 @@ class EchoFilter {
  private:
   struct Own {
     Time at;
-    std::size_t channel;
+    std::string channel;
     std::size_t hash;
   };
   static constexpr Duration kMemory{2'000'000};

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -56,6 +59,30 @@ TEST_F(RadioAppTest, PoseReachesTheOtherBusWithItsAge) {
   EXPECT_NEAR(received->x_m, 1.234, 0.0051);
   EXPECT_NEAR(received->yaw_rad, -0.5, 0.00051);
   EXPECT_NEAR(static_cast<double>(received->utime - pose.utime), 0, 20'000);
+}
+
+/// However late it comes onto the bus: the radio counts a command's age from its own stamp.
+TEST_F(RadioAppTest, ACommandThatIsTooOldOnTheBusIsNotSent) {
+  auto commands = onboard().SubscribeAll(channels::kDriveCommand);
+  auto publisher = offboard().Advertise(channels::kDriveCommand);
+  Run(3);
+  drive_command_t command{};
+  command.time_to_live_s = 0.25;
+  for (const int age_us : {0, 100'000, 300'000, 60'000'000, -1'000'000}) {
+    command.utime = ToUtime(lockstep.now()) - age_us;
+    ++command.sequence;
+    publisher.Publish(command);
+    Run(0.5);
+    const auto came = commands.Drain();
+    ASSERT_EQ(came.size(), age_us < 200'000 ? 1u : 0u) << age_us;
+    for (const drive_command_t& arrived : came)
+      EXPECT_LE(arrived.utime, std::min(command.utime, ToUtime(lockstep.now())) + 1000)
+          << "never younger than it is";
+  }
+  command.utime = std::numeric_limits<std::int64_t>::min();
+  publisher.Publish(command);
+  Run(1.5);
+  EXPECT_TRUE(commands.Drain().empty());
 }
 
 TEST_F(RadioAppTest, EventsCrossBothWaysOnceAndInOrder) {
@@ -194,10 +221,10 @@ on_request = true
 
 /// One link.toml for both ends, given as their configuration, and a folder of types.
 struct ForeignTypes : testing::Test {
-  ForeignTypes() {
+  explicit ForeignTypes(const std::string& link = kForeignLink) {
     std::filesystem::create_directories(folder / "types");
     std::ofstream(folder / "types" / "tank_t.lcm") << kForeignType;
-    std::ofstream(folder / "link.toml") << kForeignLink;
+    std::ofstream(folder / "link.toml") << link;
     types = (folder / "types").string();
     lockstep.AddBus("onboard");
     lockstep.AddBus("offboard");
@@ -207,6 +234,7 @@ struct ForeignTypes : testing::Test {
           bus::FactoryOf<RadioApp>(), side,
           {(folder / "link.toml").string(), {"side=" + side, "port=tty-" + side, "types=" + types}});
     lockstep.SetTap([&](std::string_view bus, Time, std::string_view channel, auto bytes) {
+      if (channel == "TANK") ++n_tanks[bus == "offboard"];
       if (bus == "offboard" && channel == "TANK") tanks.emplace_back(bytes.begin(), bytes.end());
       if (bus == "offboard" && channel == "DETAILS") ++details;
     });
@@ -230,8 +258,29 @@ struct ForeignTypes : testing::Test {
   bus::Lockstep lockstep{schema, {.seed = 1, .start = FromUtime(1'000'000'000), .log = {}}};
   std::string types;
   std::vector<std::vector<std::byte>> tanks;
+  std::array<int, 2> n_tanks{};  ///< on the bus onboard and offboard
   int details = 0;
 };
+
+/// The same channel up and down.
+struct BothWays : ForeignTypes {
+  BothWays()
+      : ForeignTypes(
+            "simulation_key = true\n[[channel]]\nname = \"TANK\"\ntype = \"tank_t\"\ndirection = \"up\"\n"
+            "class = \"state\"\nrate_hz = 10\n[[channel]]\nname = \"TANK\"\ntype = \"tank_t\"\n"
+            "direction = \"down\"\nclass = \"state\"\nrate_hz = 10\n") {}
+};
+
+TEST_F(BothWays, WhatTheLinkBroughtIsNotSentBack) {
+  lockstep.RunUntil(lockstep.now() + FromSeconds(3));
+  for (const char* side : {"onboard", "offboard"}) {
+    n_tanks = {};
+    lockstep.DriverNode(side).PublishRaw("TANK", Tank(1.234));
+    lockstep.RunUntil(lockstep.now() + FromSeconds(5));
+    EXPECT_EQ(n_tanks[0], 1) << side;
+    EXPECT_EQ(n_tanks[1], 1) << side;
+  }
+}
 
 TEST_F(ForeignTypes, AreBridged) {
   Run(2);
