@@ -37,7 +37,7 @@ void BusEnd::SubscribeAll() {
         waiting_.push_back({i, {encoded.begin(), encoded.end()}});
         return;
       }
-      link_->Offer(i, encoded, MadeAt(i, encoded, pauses_->CameAt(now)), codecs_.KeyOf(i, encoded));
+      link_->Offer(i, encoded, pauses_->CameAt(now), codecs_.KeyOf(i, encoded));
     };
     node_.SubscribeRaw(table.at(i).name, parts_.types, offer);
   }
@@ -55,20 +55,10 @@ void BusEnd::Start(Time now) {
       },
       parts_.nonces, now, parts_.next_key);
   for (const Waiting& w : waiting_)
-    link_->Offer(w.channel, w.encoded, MadeAt(w.channel, w.encoded, now),
-                 codecs_.KeyOf(w.channel, w.encoded));
+    link_->Offer(w.channel, w.encoded, now, codecs_.KeyOf(w.channel, w.encoded));
   waiting_.clear();
   pauses_.emplace(parts_.tick, now);
   last_report_ = now;
-}
-
-/// Of a command the moment that its own stamp tells, where that is earlier: its time-to-live counts from
-/// there, however long the bus or its sender kept it.
-Time BusEnd::MadeAt(std::size_t channel, std::span<const std::byte> encoded, Time came) const {
-  constexpr Duration kLongestAge = std::chrono::hours(1);  // older than every time-to-live
-  if (parts_.link.channels[channel].channel_class != "command") return came;
-  const auto stamp = codecs_.StampOf(channel, encoded);
-  return stamp ? std::clamp(*stamp, came - kLongestAge, came) : came;
 }
 
 void BusEnd::Tick(Time now) {

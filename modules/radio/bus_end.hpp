@@ -64,7 +64,6 @@ class BusEnd {
     std::vector<std::byte> encoded;
   };
   void SubscribeAll();
-  Time MadeAt(std::size_t channel, std::span<const std::byte> encoded, Time came) const;
   void LogRefusal(std::size_t channel, std::span<const std::byte> encoded, Time at);
   void ServeListeners(Time now);
   void LogKeyChange(bus::radio::KeyChange change);
