@@ -15,6 +15,15 @@
 namespace priamos::bus::radio {
 namespace {
 
+const char* NameOf(Direction d) {
+  return d == Direction::kUp ? "up" : "down";
+}
+
+/// For three decimals: a bound that is shown must itself hold.
+double RoundedUp(double seconds) {
+  return std::ceil(1e3 * seconds - 1e-6) / 1e3;
+}
+
 FreshnessProof ProofOf(const LinkChannel& channel, double next_s, const DirectionAnalysis& other,
                        const LinkOptions& options, std::size_t code_bytes) {
   const Duration step = channel.ttl / kOffsetSteps + Duration(1);
@@ -43,11 +52,19 @@ void CheckDuty(const DirectionAnalysis& analysis, const LinkOptions& options,
         "once, with all "
         "their repetitions, got {:.3f} s: lower their burst, or line_delay_s",
         options.place.Of("duty_cycle"), Seconds(options.duty.credit()), analysis.CreditSeconds()));
-  if (analysis.SilenceSeconds() > Seconds(options.silence))
-    problems.push_back(
-        fmt::format("{}: expected at least {:.3f} s, for which the duty_cycle can keep an end silent, "
-                    "got {:.3f} s",
-                    options.place.Of("silence_s"), analysis.SilenceSeconds(), Seconds(options.silence)));
+}
+
+/// An end that works must not seem to be gone.
+void CheckSilence(const DirectionAnalysis& analysis, const LinkOptions& options, const char* direction,
+                  std::vector<std::string>& problems) {
+  const double longest_s = analysis.LongestSilenceSeconds();
+  if (longest_s <= Seconds(options.silence)) return;
+  problems.push_back(fmt::format(
+      "{}: radio link {}: expected at least {:.3f} s, which can pass between two frames of an end "
+      "that works, got {:.3f} s: {}",
+      options.place.Of("silence_s"), direction, RoundedUp(longest_s), Seconds(options.silence),
+      options.robots > 0 ? "raise it, or lower max_bundle_bytes"
+                         : "raise it, or lower keep_alive_s, max_bundle_bytes or a turn"));
 }
 
 DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, PollBounds& polls,
@@ -60,6 +77,7 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, P
   }
   analysis.Solve(other, Seconds(options.line_delay));
   CheckDuty(analysis, options, problems);
+  CheckSilence(analysis, options, NameOf(direction), problems);
   if (options.robots > 0 && direction == Direction::kDown) {
     polls.busy_cycle = analysis.BesideUrgent(polls.cycle);
     polls.busy_asked = analysis.BesideUrgent(polls.asked);
@@ -87,10 +105,6 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, P
   return budget;
 }
 
-const char* NameOf(Direction d) {
-  return d == Direction::kUp ? "up" : "down";
-}
-
 void CheckProof(const LinkChannel& c, const FreshnessProof& proof, const SectionPlace& link,
                 std::vector<std::string>& problems) {
   if (proof.echo_age > proof.reach)
@@ -103,11 +117,13 @@ void CheckProof(const LinkChannel& c, const FreshnessProof& proof, const Section
   if (proof.age() <= c.ttl) return;
   problems.push_back(fmt::format(
       "{}: expected a ttl_s of at least {:.3f} s, in which a command can be proven fresh, got "
-      "{:.3f} s: {:.3f} s until it is sent, {:.3f} s of line_delay_s, {:.3f} s written ahead, {:.3f} s of "
+      "{:.6g} s, of which it takes {:.3f} s: {:.3f} s until it is sent, {:.3f} s of line_delay_s, {:.3f} s "
+      "written ahead, {:.3f} s of "
       "rounding, {:.3f} s of silence of the other end beyond what can be counted: lower max_bundle_bytes or "
       "keep_alive_s, or measure line_delay_s",
-      c.At("ttl_s"), Seconds(proof.age()), Seconds(c.ttl), Seconds(proof.next), Seconds(proof.delay),
-      Seconds(proof.ahead), Seconds(proof.step), Seconds(proof.silence)));
+      c.At("ttl_s"), RoundedUp(Seconds(proof.least())), Seconds(c.ttl), RoundedUp(Seconds(proof.age())),
+      Seconds(proof.next), Seconds(proof.delay), Seconds(proof.ahead), Seconds(proof.step),
+      Seconds(proof.silence)));
 }
 
 void CheckLoad(const ChannelTable& table, const DirectionBudget& budget, const SectionPlace& link,
@@ -129,10 +145,11 @@ void CheckLoad(const ChannelTable& table, const DirectionBudget& budget, const S
 void CheckDeadline(const LinkChannel& c, const ChannelBudget& row, std::vector<std::string>& problems) {
   if (c.deadline <= Duration::zero() || (row.worst_latency && *row.worst_latency <= c.deadline)) return;
   problems.push_back(fmt::format(
-      "{}: expected delivery within its deadline_s of {:.3f} s, got {} in the worst case: give it a "
+      "{}: expected delivery within its deadline_s of {:.6g} s, got {} in the worst case: give it a "
       "smaller priority number, lower the rate_hz of others, or lower max_bundle_bytes",
       c.At("deadline_s"), Seconds(c.deadline),
-      row.worst_latency ? fmt::format("{:.3f} s", Seconds(*row.worst_latency)) : "no bound at all"));
+      row.worst_latency ? fmt::format("{:.3f} s", RoundedUp(Seconds(*row.worst_latency)))
+                        : "no bound at all"));
 }
 
 /// A state that is dropped before its turn comes may never arrive. Of a command the proof decides.
@@ -142,10 +159,10 @@ void CheckLifetime(const LinkChannel& c, const ChannelBudget& row, std::vector<s
   const std::string expected =
       row.worst_latency
           ? fmt::format("a ttl_s of at least {:.3f} s, in which a state arrives in the worst case",
-                        Seconds(*row.worst_latency))
+                        RoundedUp(Seconds(*row.worst_latency)))
           : "no ttl_s where nothing bounds how long a state waits";
   problems.push_back(
-      fmt::format("{}: expected {}, got {:.3f} s: raise it, leave it out for no limit, or give the channel a "
+      fmt::format("{}: expected {}, got {:.6g} s: raise it, leave it out for no limit, or give the channel a "
                   "smaller priority number",
                   c.At("ttl_s"), expected, Seconds(c.ttl)));
 }
@@ -196,6 +213,14 @@ std::string FormatRow(const ChannelTable& table, const ChannelBudget& row) {
 }
 
 }  // namespace
+
+/// With the time-to-live T and the other end's silence S: base + T / n + max(0, S - (T - T / n)) <= T, n
+/// steps.
+Duration FreshnessProof::least() const {
+  constexpr double kSteps = static_cast<double>(kOffsetSteps);
+  const double base_s = Seconds(next + delay + ahead), silence_s = Seconds(echo_age - delay);
+  return FromSeconds(std::max(base_s, (base_s + silence_s) / 2) * kSteps / (kSteps - 1)) + Duration(4);
+}
 
 Budget ComputeBudget(const ChannelTable& table, const LinkOptions& options) {
   Budget budget;

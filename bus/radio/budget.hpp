@@ -26,6 +26,8 @@ struct FreshnessProof {
   Duration echo_age{};
   /// Largest age that the receiver must assume.
   Duration age() const { return next + delay + ahead + step + silence; }
+  /// Smallest time-to-live with which age() is within it: the rounding and the silence depend on it.
+  Duration least() const;
 };
 
 /// Load of one channel at its configured rate.

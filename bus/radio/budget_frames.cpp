@@ -176,6 +176,10 @@ double DirectionFrames::SilenceSeconds() const {
   return std::max({keep_alive_s_, gap_s_, duty_.limited() ? frame_s_ / duty_.rate() : 0}) + frame_s_;
 }
 
+double DirectionFrames::LongestSilenceSeconds() const {
+  return robots_ > 0 ? Seconds(polled_.cycle) + frame_s_ : SilenceSeconds() + kTick_s;
+}
+
 double DirectionFrames::CreditSeconds() const {
   double s = frame_s_;
   for (const ChannelLoad& load : loads_)

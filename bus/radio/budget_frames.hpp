@@ -34,6 +34,9 @@ class DirectionFrames {
   double NextSeconds(const ChannelLoad& load) const;
   /// Longest time from the end of a frame to the end of the next one.
   double SilenceSeconds() const;
+  /// The same of any end, as the other one hears it; of a robot on a shared channel also while nobody drives
+  /// it.
+  double LongestSilenceSeconds() const;
   /// Time on air that urgent frames take at most beyond what is paid for: with bursts of all of them, and an
   /// ordinary frame before.
   double CreditSeconds() const;

@@ -174,8 +174,9 @@ class ConfigFile::Reader : public Archive, public PlaceSource {
   /// Place of a value, `file:line:key`, or `--set KEY=VALUE: key` for what came from there.
   std::string PlaceOf(const toml::node& node, std::string_view key) const {
     const std::string& source = node.source().path ? *node.source().path : name_;
-    if (source.starts_with(kSetName)) return fmt::format("{}: {}", Escaped(source), Escaped(key));
-    return fmt::format("{}:{}:{}", Escaped(source), node.source().begin.line, Escaped(key));
+    if (source.starts_with(kSetName))
+      return fmt::format("{}: {}", Escaped(Shortened(source)), Escaped(Shortened(key)));
+    return fmt::format("{}:{}:{}", Escaped(source), node.source().begin.line, Escaped(Shortened(key)));
   }
 
   double NumberIn(const toml::node& node, std::string_view key, const ValueSpec& spec) const {

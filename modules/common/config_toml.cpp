@@ -15,7 +15,7 @@ namespace {
 
 /// Parts of a dotted key; each is a table within the last, and what walks through them does so by recursion.
 constexpr std::ptrdiff_t kMostParts = 32;
-constexpr std::size_t kMostBytes = 16 << 20;
+constexpr std::size_t kMostBytes = 1 << 20;
 
 void RefuseDeepKeys(const std::string& name, std::string_view text) {
   int line = 1;
@@ -41,7 +41,7 @@ toml::table ParseToml(const std::string& name, std::string_view text) {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     throw ConfigError(fmt::format("{}:{}: expected TOML, got: {}", Escaped(name), error.source().begin.line,
-                                  Escaped(std::string(error.description()))));
+                                  Escaped(Shortened(error.description()))));
   }
 }
 

@@ -13,6 +13,8 @@ namespace {
 /// Largest number of equally near words in an answer; more would be a list and not an answer.
 constexpr std::size_t kMostAnswers = 4;
 constexpr std::size_t kShortestPrefix = 2;
+/// A longer text is no mistyped word, and comparing it takes its length squared.
+constexpr std::size_t kLongestWord = 256;
 
 std::string Lower(std::string_view word) {
   std::string lower(word);
@@ -59,6 +61,7 @@ int EditDistance(std::string_view a, std::string_view b) {
 }
 
 std::vector<std::string> NearestWords(std::string_view word, std::span<const std::string> known) {
+  if (word.size() > kLongestWord) return {};
   const std::string lower = Lower(word);
   std::vector<std::string> nearest;
   std::optional<int> best;

@@ -32,10 +32,7 @@ constexpr std::array<std::pair<int, speed_t>, 10> kSpeeds{{{1200, B1200},
 speed_t SpeedOf(const std::string& path, int baud) {
   for (const auto& [rate, speed] : kSpeeds)
     if (rate == baud) return speed;
-  throw std::runtime_error(
-      fmt::format("{}: no serial port runs at {} baud, use one of 1200, 2400, 4800, 9600, 19200, 38400, "
-                  "57600, 115200, 230400, 460800",
-                  path, baud));
+  throw std::runtime_error(fmt::format("{}: {}", path, SerialRateProblem(baud)));
 }
 
 /// What a person does about `error` after open(2).
@@ -160,6 +157,15 @@ class SerialPort : public ByteStream {
 
 std::unique_ptr<ByteStream> OpenSerialPort(const std::string& path, int baud) {
   return std::make_unique<SerialPort>(path, baud);
+}
+
+std::string SerialRateProblem(int baud) {
+  std::string rates;
+  for (const auto& [rate, speed] : kSpeeds) {
+    if (rate == baud) return {};
+    rates += fmt::format("{}{}", rates.empty() ? "" : ", ", rate);
+  }
+  return fmt::format("no serial port runs at {} baud, use one of {}", baud, rates);
 }
 
 }  // namespace priamos

@@ -23,4 +23,7 @@ class ByteStream {
 /// when there is one under its name. Reading or writing throws for any other error.
 std::unique_ptr<ByteStream> OpenSerialPort(const std::string& path, int baud);
 
+/// Why no serial port runs at `baud`, with the rates there are; empty when it is one of these.
+std::string SerialRateProblem(int baud);
+
 }  // namespace priamos

@@ -174,10 +174,12 @@ void FinishKeyChange(const std::string& path) {
     throw std::runtime_error(fmt::format(
         "{}: expected the next key, got none: make one with `priamos link rekey {}`", next, path));
   ReadNextKeyFile(path, ReadKeyFile(path));
-  if (std::rename(next.c_str(), path.c_str()) != 0)
-    throw std::runtime_error(fmt::format("{}: cannot be replaced: {}", path, std::strerror(errno)));
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  const File directory(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+  // Through symbolic links: the old key is to be gone, and not only the name that led to it.
+  const std::filesystem::path from = std::filesystem::canonical(next), to = std::filesystem::canonical(path);
+  if (std::rename(from.c_str(), to.c_str()) != 0)
+    throw std::runtime_error(fmt::format("{}: cannot be replaced: {}", to.string(), std::strerror(errno)));
+  std::remove(next.c_str());  // the link that led to it
+  const File directory(to.parent_path().string(), O_RDONLY | O_DIRECTORY);
   if (directory.fd() >= 0) fsync(directory.fd());  // else a loss of power may bring the old key back
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <string_view>
 
 #include "bus/radio/budget.hpp"
 #include "bus/radio/shared_budget.hpp"
@@ -171,12 +172,14 @@ bus::radio::LinkConfig RadioApp::LoadLink() const {
   bus::radio::LinkConfig link = config_.HasOwnLink()
                                     ? config_.own_link
                                     : LoadConfig<bus::radio::LinkConfig>(context_.ResolvePath(config_.link));
-  // Who owns what is settled on each bus: an owner beyond the radio is none here.
+  // Who owns what and what time it is are settled on each bus, and each radio tells of its own end.
   for (const auto& channel : link.channels)
-    if (channel.name == channels::kClaim.name || channel.name == channels::kProbe.name ||
-        channel.name == channels::kWheelCommand.name)
-      throw ConfigError(fmt::format("{}: expected a channel that may cross the radio, got {}",
-                                    channel.place.Of("name"), channel.name));
+    for (const std::string_view of_one_bus :
+         {channels::kClaim.name, channels::kProbe.name, channels::kClock.name, channels::kWheelCommand.name,
+          channels::kLinkStatus.name, channels::kLinkRequest.name})
+      if (channel.name == of_one_bus)
+        throw ConfigError(fmt::format("{}: expected a channel that may cross the radio, got {}",
+                                      channel.place.Of("name"), channel.name));
   return link;
 }
 

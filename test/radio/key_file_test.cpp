@@ -120,6 +120,20 @@ TEST_F(KeyFileTest, TheNextKeyLiesBesideTheKeyAndReplacesIt) {
   EXPECT_FALSE(std::filesystem::exists(path + ".next"));
 }
 
+TEST_F(KeyFileTest, OfAKeyBehindASymbolicLinkTheFileIsReplaced) {
+  const std::string kept = path + ".kept";
+  WriteNewKeyFile(kept);
+  const auto old = ReadKeyFile(kept);
+  std::filesystem::create_symlink(kept, path);
+  WriteNextKeyFile(path);
+  const auto next = ReadKeyFile(NextKeyFile(path));
+  FinishKeyChange(path);
+  EXPECT_TRUE(std::filesystem::is_symlink(path));
+  EXPECT_EQ(ReadKeyFile(kept), next);
+  EXPECT_NE(ReadKeyFile(kept), old);
+  EXPECT_FALSE(std::filesystem::exists(NextKeyFile(path)));
+}
+
 TEST_F(KeyFileTest, ANextKeyThatIsThereIsKept) {
   WriteNewKeyFile(path);
   WriteNextKeyFile(path);

@@ -507,8 +507,10 @@ TEST(RadioAppStart, RefusesALinkThatCannotHold) {
 }
 
 TEST(RadioAppStart, RefusesWhatMustNeverCrossTheRadio) {
-  for (const char* channel : {"name='CLAIM'\ntype='claim_t'", "name='PROBE'\ntype='probe_t'",
-                              "name='WHEEL_COMMAND'\ntype='wheel_command_t'"})
+  for (const char* channel :
+       {"name='CLAIM'\ntype='claim_t'", "name='PROBE'\ntype='probe_t'",
+        "name='WHEEL_COMMAND'\ntype='wheel_command_t'", "name='LINK_STATUS'\ntype='link_status_t'",
+        "name='CLOCK'\ntype='clock_report_t'", "name='LINK_REQUEST'\ntype='link_request_t'"})
     EXPECT_THAT(
         StartError("port = 'a'", std::string("simulation_key=true\n[[channel]]\n") + kWhither + channel),
         AllOf(HasSubstr("link.toml:"),

@@ -7,6 +7,12 @@ namespace {
 
 /// U+0080 to U+009F, which terminals may obey: two bytes, of which this is the first.
 constexpr unsigned char kC1Lead = 0xC2;
+/// Bytes of a text of others that a sentence shows.
+constexpr std::size_t kMostShown = 80;
+
+bool IsContinuation(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
+}
 
 bool IsControl(unsigned char c) {
   return c < 0x20 || c == 0x7F;
@@ -38,9 +44,16 @@ std::string Escaped(std::string_view text) {
   return escaped;
 }
 
+std::string Shortened(std::string_view text) {
+  if (text.size() <= kMostShown) return std::string(text);
+  std::size_t end = kMostShown;
+  while (end > kMostShown - 3 && IsContinuation(text[end])) --end;  // not within a character
+  return fmt::format("{}... ({} bytes)", text.substr(0, end), text.size());
+}
+
 std::string Quoted(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text) {
+  for (const char c : Shortened(text)) {
     if (c == '"' || c == '\\') quoted += '\\';
     quoted += c;
   }

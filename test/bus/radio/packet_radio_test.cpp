@@ -268,7 +268,8 @@ TEST(PacketBudget, RefusesWhatTheDutyCycleCannotCarry) {
       << problem_of();
   options = DutyCycleRadio().options;
   options.silence = Duration(1'000'000);
-  EXPECT_NE(problem_of().find("silence_s: expected at least"), std::string::npos) << problem_of();
+  EXPECT_NE(problem_of().find("silence_s: radio link up: expected at least"), std::string::npos)
+      << problem_of();
   options = DutyCycleRadio().options;
   options.duty = DutyCycle(0.01, FromSeconds(6000));
   EXPECT_NE(problem_of(), "") << "a tenth of the air for the same messages";

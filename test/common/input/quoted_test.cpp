@@ -23,5 +23,12 @@ TEST(Quoted, EndsWhereTheTextEnds) {
   EXPECT_EQ(Escaped(R"(a" \n)"), R"(a" \n)");
 }
 
+TEST(Quoted, ShowsTheBeginningOfALongText) {
+  EXPECT_EQ(Quoted(std::string(80, 'x')), '"' + std::string(80, 'x') + '"');
+  EXPECT_EQ(Quoted(std::string(10'000'000, 'x')), '"' + std::string(80, 'x') + "... (10000000 bytes)\"");
+  EXPECT_EQ(Quoted(std::string(79, 'x') + "\u00b5m"), '"' + std::string(79, 'x') + "... (82 bytes)\"")
+      << "no half of a character";
+}
+
 }  // namespace
 }  // namespace priamos

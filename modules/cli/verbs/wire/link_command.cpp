@@ -13,6 +13,7 @@
 #include "cli/terminal/link_top.hpp"
 #include "cli/verbs/wire/commands.hpp"
 #include "common/config.hpp"
+#include "common/serial_port.hpp"
 #include "radio/key_file.hpp"
 
 namespace priamos::cli {
@@ -222,6 +223,14 @@ void AddBits(CLI::App& link, int& exit_code) {
   });
 }
 
+/// link.toml does not say what the port is: over TCP and on simulated time any rate is one.
+std::string RateHint(const bus::radio::LinkConfig& link) {
+  const std::string problem = link.datagrams ? "" : SerialRateProblem(link.baud);
+  if (problem.empty()) return {};
+  return fmt::format("priamos link budget: {}: with a tty as port: {}; over TCP it holds\n",
+                     link.place.Of("baud"), problem);
+}
+
 void AddBudget(CLI::App& link, int& exit_code) {
   auto config = std::make_shared<std::string>();
   auto types = std::make_shared<std::vector<std::string>>();
@@ -238,6 +247,7 @@ void AddBudget(CLI::App& link, int& exit_code) {
     const auto table = link_config.Table(schema);
     const auto budget = ComputeBudget(table, link_config.Options());
     std::cout << (*json ? BudgetAsJson(table, budget).dump(2) + "\n" : FormatBudget(table, budget));
+    std::cerr << RateHint(link_config);
     for (const std::string& problem : budget.problems)
       std::cerr << "priamos link budget: " << problem << "\n";
     exit_code = budget.problems.empty() ? 0 : kDoesNotHold;
