@@ -68,9 +68,6 @@ class Archive {
   virtual void Refuse(std::string_view key, std::string_view expected) = 0;
   /// Refuses the section that is read when it does not give the value itself.
   virtual void Require(std::string_view key, std::string_view expected) = 0;
-  /// Where the section that is read begins, `file:line: `, for errors that are found later; empty when it was
-  /// not read from a file.
-  virtual std::string Place() const { return {}; }
 
  protected:
   virtual bool Enter(std::string_view key, std::string_view doc) = 0;

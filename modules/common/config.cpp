@@ -111,20 +111,13 @@ class ConfigFile::Reader : public Archive, public PlaceSource {
     if (table && !table->get(key)) Refuse(key, expected);
   }
 
-  std::string Place() const override {
-    const auto* table = levels_.back().table;
-    if (!table) return {};
-    const std::string& source = table->source().path ? *table->source().path : name_;
-    return source.starts_with(kSetName) ? "" : fmt::format("{}:{}: ", source, table->source().begin.line);
-  }
-
   SectionPlace PlaceOfSection() const override {
     const auto* table = levels_.back().table;
-    if (!table) return {fmt::format("{}: {}", name_, Prefix()), {}};
+    if (!table) return {fmt::format("{}: {}", name_, Prefix()), "", {}};
     SectionPlace::Keys keys;
     for (const auto& [key, node] : *table)
       keys.emplace(key.str(), PlaceOf(node, Prefix() + std::string(key.str())));
-    return {PlaceOf(*table, Prefix()), std::move(keys)};
+    return {PlaceOf(*table, Prefix()), BeginOf(*table), std::move(keys)};
   }
 
   void RefuseUnknownKeys() const { RefuseUnknown(table_, ""); }
@@ -172,6 +165,12 @@ class ConfigFile::Reader : public Archive, public PlaceSource {
   }
 
   /// Place of a value, `file:line:key`, or `--set KEY=VALUE: key` for what came from there.
+  /// `file:line: `; empty for what was set on the command line.
+  std::string BeginOf(const toml::table& table) const {
+    const std::string& source = table.source().path ? *table.source().path : name_;
+    return source.starts_with(kSetName) ? "" : fmt::format("{}:{}: ", source, table.source().begin.line);
+  }
+
   std::string PlaceOf(const toml::node& node, std::string_view key) const {
     const std::string& source = node.source().path ? *node.source().path : name_;
     if (source.starts_with(kSetName))

@@ -51,4 +51,8 @@ struct Twist2 {
 /// The pose after moving with constant body velocity for `seconds` (exact arc, not Euler).
 Pose2 Integrate(const Pose2& pose, const Twist2& twist, double seconds);
 
+/// Distance of `point` from the segment between `begin` and `end` [m], which may be the same point.
+double DistanceToSegment(const Eigen::Vector2d& begin, const Eigen::Vector2d& end,
+                         const Eigen::Vector2d& point);
+
 }  // namespace priamos

@@ -172,7 +172,7 @@ bus::radio::LinkConfig RadioApp::LoadLink() const {
   bus::radio::LinkConfig link = config_.HasOwnLink()
                                     ? config_.own_link
                                     : LoadConfig<bus::radio::LinkConfig>(context_.ResolvePath(config_.link));
-  // Who owns what and what time it is are settled on each bus, and each radio tells of its own end.
+  // Who owns what and what time it is are settled on each bus, and each radio reports its own end.
   for (const auto& channel : link.channels)
     for (const std::string_view of_one_bus :
          {channels::kClaim.name, channels::kProbe.name, channels::kClock.name, channels::kWheelCommand.name,

@@ -40,10 +40,10 @@ void CheckPeople(const LoadedWorld& world) {
       for (const Solid& solid : world.solids)
         if (Overlaps(solid, kKnee_m, kHead_m) &&
             Distance(OutlineOf(solid), Eigen::Vector2d(stop.x_m, stop.y_m)) < kPersonRadius_m)
-          throw ConfigError(
-              fmt::format("{}people: expected {:.2f} m of room around the waypoint at x {:.2f} m, "
-                          "y {:.2f} m of \"{}\", got \"{}\"; next: move it, or make spread_m smaller",
-                          person.place, kPersonRadius_m, stop.x_m, stop.y_m, person.name, solid.name));
+          throw ConfigError(fmt::format(
+              "{}people: expected {:.2f} m of room around the waypoint at x {:.2f} m, "
+              "y {:.2f} m of \"{}\", got \"{}\"; next: move it, or make spread_m smaller",
+              person.place.Begin(), kPersonRadius_m, stop.x_m, stop.y_m, person.name, solid.name));
 }
 
 void CheckHoles(const LoadedWorld& world, const Body& body) {
@@ -51,7 +51,7 @@ void CheckHoles(const LoadedWorld& world, const Body& body) {
   for (const HolePlan& hole : world.hazards.holes)
     if (Distance(footprint, Rectangle{{hole.x_m, hole.y_m, 0}, {hole.length_m / 2, hole.width_m / 2}}) <= 0)
       throw ConfigError(
-          fmt::format("{}holes: expected floor below the start, got \"{}\"", hole.place, hole.name));
+          fmt::format("{}holes: expected floor below the start, got \"{}\"", hole.place.Begin(), hole.name));
 }
 
 /// All of a file.
@@ -68,7 +68,7 @@ std::vector<Solid> WallsOfGrid(const LoadedWorld& world,
   const GridPlan& plan = world.plan.grid;
   if (plan.yaml.empty()) return {};
   const std::string yaml = resolve(plan.yaml);
-  const GridHeader header = ParseGridHeader(yaml, ContentOf(yaml, plan.place + "grid.yaml: "));
+  const GridHeader header = ParseGridHeader(yaml, ContentOf(yaml, plan.place.Begin() + "grid.yaml: "));
   const std::string image = (std::filesystem::path(yaml).parent_path() / header.image).string();
   const OccupancyGrid grid = ParseGrid(header, image, ContentOf(image, yaml + ": image: "));
   const StartPlan& start = world.plan.start;

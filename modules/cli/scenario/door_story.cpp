@@ -13,8 +13,6 @@
 namespace priamos::cli {
 namespace {
 
-/// After the mission's end the run goes on, so that the last messages cross the radio and are recorded.
-constexpr Duration kAftermath = std::chrono::milliseconds(1500);
 /// The planner answers an order with its next status; an order lost on a starting bus is given again.
 constexpr Duration kOrderAgain = std::chrono::seconds(2);
 

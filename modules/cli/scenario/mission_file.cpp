@@ -63,7 +63,7 @@ mission_step_t ToMessage(const MissionFileStep& step, const GroundPlan& plan, co
     try {
       message.landmark_id = static_cast<std::int16_t>(DoorNamed(plan, step.door, map));
     } catch (const ConfigError& error) {
-      throw ConfigError(step.place + error.what());
+      throw ConfigError(step.place.Begin() + error.what());
     }
   } else {
     message.mission = mission_command_t::WAIT;
@@ -77,12 +77,12 @@ void Repeat(const MissionFileStep& repeat, std::size_t number, std::vector<std::
             std::vector<mission_step_t>& steps) {
   if (repeat.from < 1 || std::size_t(repeat.from) >= number)
     throw ConfigError(fmt::format("{}from: expected the number of a step before this one, the {}., got {}",
-                                  repeat.place, number, repeat.from));
+                                  repeat.place.Begin(), number, repeat.from));
   const std::vector<mission_step_t> again(steps.begin() + std::ptrdiff_t(first[std::size_t(repeat.from - 1)]),
                                           steps.end());
   if (steps.size() + again.size() * std::size_t(repeat.times) > kMostSteps)
     throw ConfigError(fmt::format("{}times: expected at most {} steps with all repetitions, got {}",
-                                  repeat.place, kMostSteps,
+                                  repeat.place.Begin(), kMostSteps,
                                   steps.size() + again.size() * std::size_t(repeat.times)));
   for (int i = 0; i < repeat.times; ++i) steps.insert(steps.end(), again.begin(), again.end());
 }
@@ -90,7 +90,7 @@ void Repeat(const MissionFileStep& repeat, std::size_t number, std::vector<std::
 }  // namespace
 
 void MissionFileStep::Describe(Archive& a) {
-  place = a.Place();
+  place = PlaceIn(a);
   a.Choice("do", what, {"goto", "door", "wait", "repeat"}, "what is done in this step");
   if (what == "goto") {
     a.Require("x_m", "a place, x_m and y_m");
@@ -135,15 +135,15 @@ mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig&
       continue;
     }
     order.steps.push_back(ToMessage(step, plan, map));
-    if (const auto why = rehearsal.Do(order.steps.back())) throw ConfigError(step.place + *why);
+    if (const auto why = rehearsal.Do(order.steps.back())) throw ConfigError(step.place.Begin() + *why);
   }
   if (order.steps.size() > kMostSteps)
-    throw ConfigError(fmt::format("{}expected at most {} steps, got {}", file.steps.back().place, kMostSteps,
-                                  order.steps.size()));
+    throw ConfigError(fmt::format("{}expected at most {} steps, got {}", file.steps.back().place.Begin(),
+                                  kMostSteps, order.steps.size()));
   const MissionFileStep& begin = file.steps.front();
   if (file.rounds != 1)
     if (const auto why = rehearsal.Do(order.steps.front()))
-      throw ConfigError(begin.place + "next round: " + *why);
+      throw ConfigError(begin.place.Begin() + "next round: " + *why);
   order.n_steps = static_cast<std::int8_t>(order.steps.size());
   return order;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/archive.hpp"
+#include "common/input/section_place.hpp"
 #include "planner/planner_config.hpp"
 #include "priamos/mission_command_t.hpp"
 
@@ -18,7 +19,7 @@ struct MissionFileStep {
   std::string door;               ///< name or number
   double wait_s = 0;
   int from = 1, times = 1;  ///< repeat: the steps from this one on, so many times more
-  std::string place;        ///< `file:line: ` of the step
+  SectionPlace place;       ///< where it was read, for errors
 
   void Describe(Archive& a);
 };

@@ -7,7 +7,6 @@ namespace priamos::cli {
 namespace {
 
 /// After the last order's end the run goes on, so that the last messages cross the radio and are recorded.
-constexpr Duration kAftermath = std::chrono::milliseconds(1500);
 
 }  // namespace
 

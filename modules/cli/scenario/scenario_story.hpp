@@ -8,6 +8,9 @@
 
 namespace priamos::cli {
 
+/// After its end a run goes on so long, so that the last messages cross the radio and are recorded.
+inline constexpr Duration kAftermath = std::chrono::milliseconds(1500);
+
 /// What a person does in a scenario, and whether it came to a good end. The same in real time and in
 /// lockstep. A story is a class in a file of its own with the constants kName, kSummary and kMovesMouse (see
 /// StoryKind) and a constructor from a StoryStage; the file ends with `template StoryKind

@@ -11,7 +11,6 @@ namespace priamos::cli {
 namespace {
 
 constexpr std::uint32_t kDeadMan = 1u << 0, kRange = 1u << 4;
-constexpr Duration kAftermath = std::chrono::milliseconds(1500);
 /// The hand goes to the dead-man first, and pushes when the lease is there.
 constexpr Duration kGripAgain = std::chrono::seconds(3);
 constexpr Duration kKeyPress = std::chrono::milliseconds(200);

@@ -18,9 +18,10 @@ class SectionPlace {
 
   /// What was read from no file.
   SectionPlace() = default;
-  /// `before`: what stands before a key that the section leaves out, `file:line:section.`.
-  SectionPlace(std::string before, Keys keys)
-      : read_(std::make_shared<const Read>(Read{std::move(before), std::move(keys)})) {}
+  /// `before`: what stands before a key that the section leaves out, `file:line:section.`. `begin`: see
+  /// Begin().
+  SectionPlace(std::string before, std::string begin, Keys keys)
+      : read_(std::make_shared<const Read>(Read{std::move(before), std::move(begin), std::move(keys)})) {}
 
   /// `file:line:section.key`: where `key` stands, or the section begins that leaves it out. The key alone of
   /// what was read from no file.
@@ -30,11 +31,14 @@ class SectionPlace {
     return at != read_->keys.end() ? at->second : read_->before + std::string(key);
   }
 
+  /// `file:line: ` of the line where the section begins; empty for what was read from no file.
+  std::string Begin() const { return read_ ? read_->begin : ""; }
+
   friend bool operator==(const SectionPlace&, const SectionPlace&) { return true; }
 
  private:
   struct Read {
-    std::string before;
+    std::string before, begin;
     Keys keys;
   };
   std::shared_ptr<const Read> read_;

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/ground_plan.hpp"
-#include "console/core/json_text.hpp"
+#include "console/core/read_json.hpp"
 
 namespace priamos::console {
 namespace {
@@ -151,7 +151,7 @@ BrowserMessage ReadObject(const json& object) {
 }  // namespace
 
 Outcome<BrowserMessage> ReadBrowserMessage(std::string_view text) {
-  return ReadJsonText<BrowserMessage>(text, kMaxBrowserMessage, ReadObject);
+  return ReadJson<BrowserMessage>(text, kMaxBrowserMessage, ReadObject);
 }
 
 }  // namespace priamos::console

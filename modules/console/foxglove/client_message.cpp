@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "console/core/json_text.hpp"
+#include "console/core/read_json.hpp"
 
 namespace priamos::console {
 namespace {
@@ -90,7 +90,7 @@ Outcome<ClientMessage> ReadCall(std::string_view body) {
 }  // namespace
 
 Outcome<ClientMessage> ReadClientText(std::string_view text) {
-  return ReadJsonText<ClientMessage>(text, kMaxClientMessage, ReadObject);
+  return ReadJson<ClientMessage>(text, kMaxClientMessage, ReadObject);
 }
 
 Outcome<ClientMessage> ReadClientBytes(std::string_view bytes) {

@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 
 #include "common/config.hpp"
-#include "common/input/regular_file.hpp"
 #include "head/core/landmark/cao.hpp"
 #include "head/core/landmark/triangle_body.hpp"
 #include "head/files/mesh_file.hpp"
+#include "head/files/model_text.hpp"
 
 namespace priamos::head {
 namespace {
@@ -61,14 +59,8 @@ struct PolyhedronFile {
   }
 };
 
-constexpr std::size_t kMostBytes = std::size_t{16} << 20;
-
-Outcome<std::string> ReadText(const std::string& path) {
-  const RegularFile file(path);
-  if (!file.open()) return Refusal{fmt::format("{}: expected a file, got {}", path, file.problem())};
-  auto text = file.Read(kMostBytes);
-  if (!text) return Refusal{fmt::format("{}: expected a model of at most {} MB", path, kMostBytes >> 20)};
-  return std::move(*text);
+Outcome<std::string> ReadCao(const std::string& path) {
+  return ReadText(path, "a model", 16);
 }
 
 Polyhedron LoadToml(const std::string& file) {
@@ -85,20 +77,13 @@ Polyhedron LoadToml(const std::string& file) {
   return body;
 }
 
-/// ".obj" of "Box.OBJ".
-std::string KindOf(const std::string& file) {
-  std::string kind = std::filesystem::path(file).extension();
-  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return kind;
-}
-
 BodyFile LoadCao(const std::string& file) {
   BodyFile loaded{{}, {file}};
-  const auto text = ReadText(file);
+  const auto text = ReadCao(file);
   if (!text) throw std::runtime_error(text.reason());
   auto body = ParseCao(file, *text, [&](const std::string& other) {
     loaded.files.push_back(other);
-    return ReadText(other);
+    return ReadCao(other);
   });
   if (!body) throw std::runtime_error(body.reason());
   loaded.body = std::move(*body);
@@ -112,7 +97,7 @@ Polyhedron LoadMeshBody(const std::string& file) {
 }
 
 BodyFile LoadAnyBody(const std::string& file) {
-  const std::string kind = KindOf(file);
+  const std::string kind = ExtensionOf(file);
   if (kind == ".toml") return {LoadToml(file), {file}};
   if (kind == ".cao") return LoadCao(file);
   if (kind == ".obj" || kind == ".stl") return {LoadMeshBody(file), {file}};

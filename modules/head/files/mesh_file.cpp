@@ -5,26 +5,22 @@
 #include <fmt/format.h>
 
 #include <assimp/Importer.hpp>
-#include <cctype>
-#include <filesystem>
 #include <string_view>
 
 #include "common/config.hpp"
-#include "common/input/regular_file.hpp"
+#include "head/files/model_text.hpp"
 
 namespace priamos::head {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+constexpr std::size_t kMost_MB = 64;
 
 /// The file's content: Assimp gets bytes and no name, so a mesh cannot make it read other files.
 std::string BytesOf(const std::string& path) {
-  const RegularFile file(path);
-  if (!file.open()) throw ConfigError(fmt::format("{}: expected a file, got {}", path, file.problem()));
-  const auto bytes = file.Read(kMostBytes);
-  if (!bytes) throw ConfigError(fmt::format("{}: expected a mesh of at most {} MB", path, kMostBytes >> 20));
+  auto bytes = ReadText(path, "a mesh", kMost_MB);
+  if (!bytes) throw ConfigError(bytes.reason());
   if (bytes->empty()) throw ConfigError(fmt::format("{}: expected triangles, got an empty file", path));
-  return *bytes;
+  return std::move(*bytes);
 }
 
 /// Wavefront text as Assimp understands it: without a byte order mark, and without comments behind a value.
@@ -61,13 +57,12 @@ void Append(const aiMesh& part, TriangleMesh& mesh) {
 
 TriangleMesh LoadMesh(const std::string& file) {
   std::string bytes = BytesOf(file);
-  std::string kind = std::filesystem::path(file).extension().string().substr(1);
-  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (kind == "obj") bytes = PlainObj(bytes);
+  const std::string extension = ExtensionOf(file);
+  if (extension == ".obj") bytes = PlainObj(bytes);
   Assimp::Importer importer;
   const aiScene* scene =
-      importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, kind.c_str());
-  if (!scene) throw ConfigError(fmt::format("{}: expected a whole mesh as .{} holds it", file, kind));
+      importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, extension.c_str() + 1);
+  if (!scene) throw ConfigError(fmt::format("{}: expected a whole mesh as {} holds it", file, extension));
   TriangleMesh mesh;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) Append(*scene->mMeshes[i], mesh);
   if (mesh.triangles.empty()) throw ConfigError(fmt::format("{}: expected triangles, got none", file));

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "common/config.hpp"
+#include "head/files/model_text.hpp"
 
 namespace priamos::head {
 namespace {
@@ -26,9 +27,7 @@ bool IsDigit(char c) {
 }
 
 bool IsImageName(const fs::path& file) {
-  std::string kind = file.extension();
-  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::ranges::find(kKinds, kind) != kKinds.end();
+  return std::ranges::find(kKinds, ExtensionOf(file)) != kKinds.end();
 }
 
 std::vector<std::string> ImagesOf(const std::string& folder) {

@@ -9,14 +9,10 @@
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
-#include "common/input/regular_file.hpp"
-#include "head/core/edges/equal_contrast.hpp"
-#include "head/core/edges/photograph_edges.hpp"
 #include "head/core/landmark/body_tracker.hpp"
-#include "head/files/camera_file.hpp"
-#include "head/files/image_file.hpp"
 #include "head/files/landmark_file.hpp"
 #include "head/locate/body_drawings.hpp"
+#include "head/locate/eyes.hpp"
 #include "head/locate/image_names.hpp"
 #include "head/locate/moment_text.hpp"
 #include "head/see/see_landmark.hpp"
@@ -25,7 +21,6 @@
 namespace priamos::head {
 namespace {
 
-constexpr int kSmallest_px = 32;
 constexpr std::string_view kNoFile = "-";
 
 BodyTrackerOptions TrackerOptions(const LocateOptions& options) {
@@ -37,66 +32,6 @@ BodyTrackerOptions TrackerOptions(const LocateOptions& options) {
   tracker.motion_rad = Radians(options.motion_deg);
   return tracker;
 }
-
-/// The cameras, once the size of the images is known, and what they see in the images of a moment.
-class Eyes {
- public:
-  Eyes(const LocateOptions& options, std::size_t n) : options_(options), n_(n) {}
-
-  /// Reads the images of one moment; why that cannot be done, nullopt if it was. Throws ConfigError for
-  /// cameras that cannot be used.
-  std::optional<Refusal> Read(const std::vector<std::string>& names) {
-    for (const std::string& name : names)
-      if (const RegularFile file(name); !file.open())
-        return Refusal{fmt::format("{}: expected an image, got {}", name, file.problem())};
-    try {
-      greys_ = ReadImageFiles(names, kSmallest_px).grey;
-    } catch (const ConfigError& error) {
-      return Refusal{error.what()};
-    }
-    if (cameras_.empty()) cameras_ = Cameras(names);
-    for (std::size_t i = 0; i < n_; ++i)
-      if (greys_[i].size() != size_)
-        return Refusal{fmt::format("{}: expected {}x{} pixels as the first image has, got {}x{}", names[i],
-                                   size_.width, size_.height, greys_[i].cols, greys_[i].rows)};
-    return std::nullopt;
-  }
-  bool has_seen() const { return !cameras_.empty(); }
-
-  /// Finds the edges of the images read last.
-  std::span<const CameraView> Look() {
-    const auto contrast = ForOneScene(greys_, {});
-    edges_.clear();
-    for (std::size_t i = 0; i < n_; ++i) edges_.push_back(EdgesOfPhotograph(greys_[i], contrast[i]));
-    views_.clear();
-    for (std::size_t i = 0; i < n_; ++i) {
-      views_.push_back(MakeView(cameras_[i], edges_[i].edges));
-      views_.back().blur_px = edges_[i].MedianBlur();
-    }
-    return views_;
-  }
-
-  const cv::Mat& first() const { return greys_.front(); }
-  std::span<const CameraView> views() const { return views_; }
-
- private:
-  std::vector<CameraModel> Cameras(const std::vector<std::string>& names) {
-    size_ = greys_.front().size();
-    auto cameras = LoadCameras(options_.cameras, n_, {{size_.width, size_.height}, options_.are_rectified});
-    if (cameras.size() != n_)
-      throw ConfigError(fmt::format("{}: expected {} cameras, one for each image of a moment, got {}",
-                                    names.front(), n_, cameras.size()));
-    return cameras;
-  }
-
-  const LocateOptions& options_;
-  std::size_t n_;
-  cv::Size size_{};
-  std::vector<cv::Mat> greys_;
-  std::vector<CameraModel> cameras_;
-  std::vector<BlurredEdges> edges_;
-  std::vector<CameraView> views_;
-};
 
 /// The file for poses, or the sink for them, or neither.
 class PoseLines {
@@ -144,7 +79,7 @@ class Run {
     report.time_ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report.n_lost = tracker_.n_lost();
     Write(report);
-    if (!eyes_.has_seen()) first_refusal_ = first_refusal_.empty() ? report.why_unread : first_refusal_;
+    if (tally_.n_moments == 0) first_refusal_ = report.why_unread;
     ++tally_.n_moments;
     tally_.n_found += report.fix.verdict == Verdict::kFound;
   }
@@ -189,7 +124,7 @@ class Run {
   std::vector<std::string> inputs_;
   PoseLines poses_;
   BodyDrawings drawings_;
-  std::string first_refusal_;  ///< while no image could be read
+  std::string first_refusal_;  ///< of the first moment; empty if it was read
   LocateTally tally_;
 };
 

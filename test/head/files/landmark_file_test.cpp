@@ -93,7 +93,7 @@ TEST_F(LandmarkFileTest, ReadsCaoAndWhatItLoadsFromBesideIt) {
 TEST_F(LandmarkFileTest, MistakesInCaoAreNamedWithFileAndLine) {
   EXPECT_THAT(ReasonOf("V2\n", "a.cao"), HasSubstr("a.cao:1: expected V1"));
   EXPECT_THAT(ReasonOf("V1\nload(\"none.cao\")\n0\n0\n0\n0\n0\n0\n", "a.cao"),
-              HasSubstr("none.cao: expected a file, got none"));
+              HasSubstr("none.cao: expected a model, got none"));
 }
 
 TEST_F(LandmarkFileTest, AFileThatIsNotThereIsNamed) {

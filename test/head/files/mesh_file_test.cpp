@@ -82,7 +82,7 @@ TEST_F(MeshFileTest, OtherModelsAreScaledToo) {
 TEST_F(MeshFileTest, WhatIsNoMeshIsNamed) {
   ASSERT_EQ(mkfifo((folder_ / "pipe.cao").c_str(), 0600), 0);
   EXPECT_THAT(ThrownReason([&] { LoadPolyhedron(folder_ / "pipe.cao"); }),
-              HasSubstr("pipe.cao: expected a file, got a pipe"));
+              HasSubstr("pipe.cao: expected a model, got a pipe"));
   EXPECT_THAT(ThrownReason([&] { LoadMesh(folder_ / "none.obj"); }),
               AllOf(HasSubstr("none.obj"), HasSubstr("expected a file")));
   EXPECT_THAT(ThrownReason([&] { LoadMesh("/dev/zero"); }), HasSubstr("/dev/zero: expected a file"));

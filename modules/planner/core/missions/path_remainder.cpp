@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/geometry.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -15,13 +17,6 @@ Eigen::Vector2d Begin(const PathOrder& path, const Pose2& start, std::size_t lin
   return line == 0 ? start.translation() : path.points[line - 1].translation();
 }
 
-double DistanceToLine(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& place) {
-  const Eigen::Vector2d along = to - from;
-  const double part =
-      along.squaredNorm() > 0 ? std::clamp((place - from).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
-  return (from + part * along - place).norm();
-}
-
 }  // namespace
 
 PathOrder RemainderOf(const PathOrder& path, const Pose2& start, double remaining_m,
@@ -32,7 +27,7 @@ PathOrder RemainderOf(const PathOrder& path, const Pose2& start, double remainin
   for (std::size_t i = path.points.size(); i-- > 0 && after_m <= remaining_m + kRounding_m;) {
     const Eigen::Vector2d from = Begin(path, start, i), to = path.points[i].translation();
     const bool may_be_there = after_m + (to - from).norm() >= remaining_m - kBeyondReport_m;
-    const double distance_m = DistanceToLine(from, to, map_from_base.translation());
+    const double distance_m = DistanceToSegment(from, to, map_from_base.translation());
     if (may_be_there && distance_m <= nearest_m) {
       nearest = i;
       nearest_m = distance_m;

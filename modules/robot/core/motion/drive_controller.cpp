@@ -69,7 +69,7 @@ PathVerdict DriveController::SetPath(const Path& path, Time now) {
   if (!authority_.AdmitPath(now))
     return authority_.estop() ? PathVerdict::kEstop : PathVerdict::kWithoutLease;
   if (!path.points.empty() && path.estop_changes != authority_.estop_changes()) return PathVerdict::kStale;
-  if (!path.points.empty() && stands_until_ && now < *stands_until_) return PathVerdict::kTouched;
+  if (!path.points.empty() && authority_.Stands(now)) return PathVerdict::kTouched;
   path_ = path;
   path_is_new_ = !path.points.empty();
   ever_ordered_ = true;
@@ -305,8 +305,7 @@ void DriveController::NoteEnd(DriveSource source) {
 
 /// Orders that are on their way were given without knowing of it, and would hide it.
 void DriveController::StandAfterContact(Time now) {
-  stands_until_ = now + FromSeconds(config_.touch.told_s);
-  authority_.StandUntil(*stands_until_);
+  authority_.StandUntil(now + FromSeconds(config_.touch.told_s));
 }
 
 /// A base that still rolls although nobody drives it any more touches things, too.

@@ -143,7 +143,6 @@ class DriveController {
   bool ever_ordered_ = false;
   std::optional<Time> last_step_, first_step_, sonar_heard_;
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;
-  std::optional<Time> stands_until_;  ///< after a contact, so that it is told before anything moves
 };
 
 }  // namespace priamos::robot

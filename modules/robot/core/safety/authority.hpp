@@ -52,6 +52,7 @@ class Authority {
   void Forget();
   /// No operator moves the base until then.
   void StandUntil(Time until) { operator_.StandUntil(until); }
+  bool Stands(Time now) const { return operator_.Stands(now); }
   const OperatorInput& input() const { return operator_; }
 
  private:

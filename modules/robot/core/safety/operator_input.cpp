@@ -53,8 +53,7 @@ CommandVerdict OperatorInput::Judge(const DriveCommand& command, bool has_lease,
   if (now > EndOf(command) || command.time > now + kAheadAllowed) return CommandVerdict::kTooOld;
   const bool same_sender = newest_ && newest_->from == command.from;
   if (same_sender && !IsAfter(command.sequence, newest_->sequence)) return CommandVerdict::kOutOfOrder;
-  const bool stands = must_rest_ || (stands_until_ && now < *stands_until_);
-  if (stands && WantsMotion(t)) return CommandVerdict::kNotAtRest;
+  if ((must_rest_ || Stands(now)) && WantsMotion(t)) return CommandVerdict::kNotAtRest;
   return CommandVerdict::kAccepted;
 }
 

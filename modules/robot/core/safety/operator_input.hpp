@@ -52,6 +52,7 @@ class OperatorInput {
   void RequireRest() { must_rest_ = true; }
   /// Refuses motion until then.
   void StandUntil(Time until) { stands_until_ = until; }
+  bool Stands(Time now) const { return stands_until_ && now < *stands_until_; }
 
   /// The command to obey; nullptr when there is none or it ran out.
   const DriveCommand* Valid(Time now) const;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/geometry.hpp"
+
 namespace priamos::world {
 namespace {
 
@@ -74,11 +76,9 @@ void AddTable(const BoxPlan& top, std::vector<BoxPlan>& boxes) {
 
 double Lane::DistanceTo(const Eigen::Vector2d& at) const {
   double nearest = 1e9;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const Eigen::Vector2d &from = points[i], &to = points[i + 1];
-    nearest = std::min(nearest, FreeLane{{from.x(), from.y()}, {to.x(), to.y()}, half_m}.DistanceTo(at));
-  }
-  return nearest;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    nearest = std::min(nearest, DistanceToSegment(points[i], points[i + 1], at));
+  return nearest - half_m;
 }
 
 BoxPlan DrawThing(const std::string& kind, Rng& rng) {

@@ -7,6 +7,7 @@
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
+#include "common/input/section_place.hpp"
 
 namespace priamos::world {
 
@@ -16,7 +17,7 @@ struct HolePlan {
   double x_m = 0, y_m = 0;           ///< map, middle
   double length_m = 1, width_m = 1;  ///< along x and y of the map
   double depth_m = 0.2;
-  std::string place;  ///< where the world file speaks of it, `file:line: `
+  SectionPlace place;  ///< where it was read, for errors
 
   void Describe(Archive& a);
   bool Contains(const Eigen::Vector2d& in_map) const;

@@ -6,6 +6,7 @@
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
+#include "common/input/section_place.hpp"
 #include "world/core/scene/solid.hpp"
 
 namespace priamos::world {
@@ -15,7 +16,7 @@ struct GridPlan {
   std::string yaml;     ///< the map's YAML file; empty: there is none
   double reach_m = 15;  ///< cells farther from the nominal start are left out
   std::string material = "plaster";
-  std::string place;  ///< where the world file speaks of it, `file:line: `
+  SectionPlace place;  ///< where it was read, for errors
 
   void Describe(Archive& a);
 };

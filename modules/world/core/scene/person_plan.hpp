@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/archive.hpp"
+#include "common/input/section_place.hpp"
 
 namespace priamos::world {
 
@@ -27,7 +28,7 @@ struct PersonPlan {
   double start_s = 0;     ///< the person stands at the first waypoint until then
   bool attentive = true;  ///< walks around the robot, or stops before it; otherwise walks into it
   std::vector<PersonStop> waypoints;
-  std::string place;  ///< where the world file speaks of the person, `file:line: `
+  SectionPlace place;  ///< where it was read, for errors
 
   void Describe(Archive& a);
 };

@@ -1,6 +1,6 @@
 #include "world/core/scene/strewn_plan.hpp"
 
-#include <algorithm>
+#include "common/geometry.hpp"
 
 namespace priamos::world {
 namespace {
@@ -26,10 +26,7 @@ void FreeLane::Describe(Archive& a) {
 }
 
 double FreeLane::DistanceTo(const Eigen::Vector2d& at) const {
-  const Eigen::Vector2d from(from_m[0], from_m[1]), along(to_m[0] - from.x(), to_m[1] - from.y());
-  const double length2 = along.squaredNorm();
-  const double part = length2 > 0 ? std::clamp((at - from).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (at - from - part * along).norm() - half_m;
+  return DistanceToSegment({from_m[0], from_m[1]}, {to_m[0], to_m[1]}, at) - half_m;
 }
 
 void StrewnPlan::Describe(Archive& a) {

@@ -16,7 +16,7 @@ using Wrong = std::runtime_error;
 /// What `read` makes of a client's text of at most `most` bytes as JSON; refused when it is longer, no JSON,
 /// or when `read` throws Wrong. `read` takes the json and returns a Message.
 template <class Message, class Read>
-Outcome<Message> ReadJsonText(std::string_view text, std::size_t most, Read read) {
+Outcome<Message> ReadJson(std::string_view text, std::size_t most, Read read) {
   if (text.size() > most) return Refusal{fmt::format("expected at most {} bytes, got {}", most, text.size())};
   try {
     return read(nlohmann::json::parse(text));

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/outcome.hpp"
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/edges/photograph_edges.hpp"
+#include "head/core/stereo/view_line.hpp"
+#include "head/locate/locate.hpp"
+
+namespace priamos::head {
+
+/// The cameras, once the size of the images is known, and what they see in the images of a moment.
+class Eyes {
+ public:
+  /// `n`: cameras, one for each image of a moment.
+  Eyes(const LocateOptions& options, std::size_t n) : options_(options), n_(n) {}
+
+  /// Reads the images of one moment; why that cannot be done, nullopt if it was. Throws ConfigError for
+  /// cameras that cannot be used.
+  std::optional<Refusal> Read(const std::vector<std::string>& names);
+  bool has_seen() const { return !cameras_.empty(); }
+
+  /// Finds the edges of the images read last.
+  std::span<const CameraView> Look();
+
+  const cv::Mat& first() const { return greys_.front(); }
+  std::span<const CameraView> views() const { return views_; }
+
+ private:
+  std::vector<CameraModel> Cameras(const std::vector<std::string>& names);
+
+  const LocateOptions& options_;
+  std::size_t n_;
+  cv::Size size_{};
+  std::vector<cv::Mat> greys_;
+  std::vector<CameraModel> cameras_;
+  std::vector<BlurredEdges> edges_;  ///< the views point to them
+  std::vector<CameraView> views_;
+};
+
+}  // namespace priamos::head
