@@ -46,7 +46,7 @@ std::span<const CameraView> Eyes::Look() {
 
 std::vector<CameraModel> Eyes::Cameras(const std::vector<std::string>& names) {
   size_ = greys_.front().size();
-  auto cameras = LoadCameras(options_.cameras, n_, {{size_.width, size_.height}, options_.are_rectified});
+  auto cameras = LoadCameras(files_, n_, {{size_.width, size_.height}, are_rectified_});
   if (cameras.size() != n_)
     throw ConfigError(fmt::format("{}: expected {} cameras, one for each image of a moment, got {}",
                                   names.front(), n_, cameras.size()));

@@ -5,21 +5,22 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/outcome.hpp"
 #include "head/core/camera/camera_model.hpp"
 #include "head/core/edges/photograph_edges.hpp"
 #include "head/core/stereo/view_line.hpp"
-#include "head/locate/locate.hpp"
 
 namespace priamos::head {
 
 /// The cameras, once the size of the images is known, and what they see in the images of a moment.
 class Eyes {
  public:
-  /// `n`: cameras, one for each image of a moment.
-  Eyes(const LocateOptions& options, std::size_t n) : options_(options), n_(n) {}
+  /// `files`: calibrations of `n` cameras, one for each image of a moment.
+  Eyes(std::vector<std::string> files, bool are_rectified, std::size_t n)
+      : files_(std::move(files)), are_rectified_(are_rectified), n_(n) {}
 
   /// Reads the images of one moment; why that cannot be done, nullopt if it was. Throws ConfigError for
   /// cameras that cannot be used.
@@ -35,7 +36,8 @@ class Eyes {
  private:
   std::vector<CameraModel> Cameras(const std::vector<std::string>& names);
 
-  const LocateOptions& options_;
+  std::vector<std::string> files_;
+  bool are_rectified_;
   std::size_t n_;
   cv::Size size_{};
   std::vector<cv::Mat> greys_;

@@ -65,7 +65,7 @@ class Run {
       : sinks_(sinks),
         model_(LoadBody(options.model, options.scale)),
         tracker_(model_.body, PoseFromSix(options.at), TrackerOptions(options)),
-        eyes_(options, n_at_once),
+        eyes_(options.cameras, options.are_rectified, n_at_once),
         inputs_(Inputs(options, model_.files)),
         poses_(options, sinks, inputs_),
         drawings_(options.draw, options.force) {}

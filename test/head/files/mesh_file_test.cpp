@@ -85,7 +85,7 @@ TEST_F(MeshFileTest, WhatIsNoMeshIsNamed) {
               HasSubstr("pipe.cao: expected a model, got a pipe"));
   EXPECT_THAT(ThrownReason([&] { LoadMesh(folder_ / "none.obj"); }),
               AllOf(HasSubstr("none.obj"), HasSubstr("expected a file")));
-  EXPECT_THAT(ThrownReason([&] { LoadMesh("/dev/zero"); }), HasSubstr("/dev/zero: expected a file"));
+  EXPECT_THAT(ThrownReason([&] { LoadMesh("/dev/zero"); }), HasSubstr("/dev/zero: expected a mesh"));
   EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("text.stl", "no mesh at all")); }), HasSubstr("text.stl"));
   EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("empty.obj", "")); }), HasSubstr("empty.obj"));
   EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("points.obj", "v 0 0 0\nv 1 0 0\n")); }),
