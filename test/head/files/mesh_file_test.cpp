@@ -84,7 +84,7 @@ TEST_F(MeshFileTest, WhatIsNoMeshIsNamed) {
   EXPECT_THAT(ThrownReason([&] { LoadPolyhedron(folder_ / "pipe.cao"); }),
               HasSubstr("pipe.cao: expected a model, got a pipe"));
   EXPECT_THAT(ThrownReason([&] { LoadMesh(folder_ / "none.obj"); }),
-              AllOf(HasSubstr("none.obj"), HasSubstr("expected a file")));
+              AllOf(HasSubstr("none.obj"), HasSubstr("expected a mesh")));
   EXPECT_THAT(ThrownReason([&] { LoadMesh("/dev/zero"); }), HasSubstr("/dev/zero: expected a mesh"));
   EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("text.stl", "no mesh at all")); }), HasSubstr("text.stl"));
   EXPECT_THAT(ThrownReason([&] { LoadMesh(Write("empty.obj", "")); }), HasSubstr("empty.obj"));
