@@ -25,6 +25,7 @@ enum class Health { kOk, kDegraded, kFailed };
 /// Services that an App's host must provide; real time and lockstep do so differently.
 struct Surroundings {
   std::string instance;          ///< names this bus on this machine, e.g. for shared memory
+  std::string robot;             ///< whose bus it is; empty in lockstep
   std::string config_dir = ".";  ///< relative file names in a configuration start here
   std::uint64_t seed = 0;        ///< for simulated hardware only
   std::int32_t claimant = 0;     ///< instance of this process in its claim; random, 0 in lockstep
@@ -43,6 +44,7 @@ class Context {
 
   Node& node() { return node_; }
   const std::string& instance() const { return around_.instance; }
+  const std::string& robot() const { return around_.robot; }
   std::uint64_t seed() const { return around_.seed; }
   std::int32_t claimant() const { return around_.claimant; }
   bool lockstep() const { return around_.lockstep; }

@@ -67,6 +67,7 @@ Surroundings MakeSurroundings(const AppFactory& factory, const Options& options,
   Surroundings around;
   around.claimant = claimant;
   around.instance = InstanceOf(options.bus);
+  around.robot = options.choice.robot;
   around.config_dir = options.config.Folder();
   around.seed = options.seed;
   around.log = MakeLog(factory.name);

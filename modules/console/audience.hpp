@@ -8,10 +8,10 @@
 #include <string>
 
 #include "common/time.hpp"
+#include "common/web/web_request.hpp"
+#include "common/web/web_server.hpp"
 #include "console/core/news.hpp"
 #include "console/core/seat.hpp"
-#include "console/web/web_request.hpp"
-#include "console/web/web_server.hpp"
 
 namespace priamos::console {
 

@@ -11,6 +11,7 @@
 #include "common/data_folders.hpp"
 #include "common/ground_plan.hpp"
 #include "common/random.hpp"
+#include "common/web/token_file.hpp"
 #include "console/greeting.hpp"
 #include "console/server_options.hpp"
 
@@ -81,6 +82,7 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
   for (const std::string_view channel : kShownChannels) Show(channel);
   if (context.lockstep()) return;
   ServeFoxglove();
+  if (!config.video.empty()) OpenVideo();
   server_ = std::make_unique<WebServer>(
       ServerOptionsOf(config, config.token_file.empty() ? "" : context.ResolvePath(config.token_file)),
       files_.files(), *this);
@@ -104,9 +106,22 @@ void ConsoleApp::ServeFoxglove() {
       [this](ClientId client, const std::string& channel, bool on) { wanted_.Wish(client, channel, on); });
 }
 
+/// The robot's name is in the address, so that another robot's camera is not shown as this one's.
+void ConsoleApp::OpenVideo() {
+  PictureAddress camera = *ReadPictureAddress(config_.video);
+  camera.target = "/" + context_.robot() + "/third.jpg";
+  if (!config_.video_token_file.empty()) {
+    const WebAccess tokens = LoadAccess(config_.address, context_.ResolvePath(config_.video_token_file));
+    camera.target += "?token=" + (tokens.viewer_token.empty() ? tokens.driver_token : tokens.viewer_token);
+  }
+  video_.emplace(std::move(camera));
+  bridge_.OfferVideo();
+}
+
 void ConsoleApp::Tick(Time now) {
   now_ = now;
   if (server_) server_->Poll(now);
+  if (video_) video_->Tick(*server_, bridge_, now);
   bridge_.Tick(now, now);
   if (const auto sheets = parameters_.Take()) files_.AddParameters(*sheets);
   if (const auto status = status_.Take()) robot_ = FromMessage(*status, base_.session);
@@ -176,6 +191,7 @@ void ConsoleApp::Left(std::uint64_t client) {
   audience_.Leave(client);
   seat_.Leave(client);
   wanted_.Leave(client);
+  if (video_) video_->Leave(client);
 }
 
 Role ConsoleApp::RoleOf(ClientId client) const {
@@ -231,6 +247,10 @@ bool ConsoleApp::Take(std::uint64_t client, const PlaceOrder& order) {
 }
 
 bool ConsoleApp::Take(std::uint64_t client, const ListenWish& wish) {
+  if (video_ && wish.channel == VideoFeed::kChannel) {
+    video_->Wish(client, wish.on);
+    return true;
+  }
   return wanted_.Wish(client, wish.channel, wish.on);
 }
 
@@ -247,6 +267,7 @@ Json ConsoleApp::Station(std::uint64_t client, Role role) const {
           {"fast", pilot_.fast()},
           {"pages", audience_.size() + bridge_.clients()},
           {"refused", refused.requests + refused.messages + refused.crowded + refused.slow},
+          {"no_video", video_ ? video_->problem() : ""},
           {"late", late_}};
 }
 

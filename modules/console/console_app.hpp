@@ -14,6 +14,7 @@
 #include "common/pilot/repeated_order.hpp"
 #include "common/pilot/stop_keeper.hpp"
 #include "common/rate_limit.hpp"
+#include "common/web/web_server.hpp"
 #include "console/audience.hpp"
 #include "console/audit_log.hpp"
 #include "console/console_config.hpp"
@@ -24,7 +25,7 @@
 #include "console/foxglove_bridge.hpp"
 #include "console/news_feed.hpp"
 #include "console/station_files.hpp"
-#include "console/web/web_server.hpp"
+#include "console/video_feed.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::console {
@@ -61,6 +62,7 @@ class ConsoleApp : public WebListener {
 
   void Show(std::string_view channel);
   void ServeFoxglove();
+  void OpenVideo();
   void Drive(Time now);
   void NoteDriver(Time now);
   void Place(Time now);
@@ -104,6 +106,7 @@ class ConsoleApp : public WebListener {
   bus::Publisher<pose_reset_t> place_;
   bus::Publisher<link_request_t> request_;
   std::unique_ptr<WebServer> server_;  ///< none in lockstep
+  std::optional<VideoFeed> video_;     ///< none without a video link, and in lockstep
 };
 
 }  // namespace priamos::console

@@ -3,6 +3,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "common/web/picture_client.hpp"
+
 namespace priamos::console {
 
 void DrawnBody::Describe(Archive& a) {
@@ -26,6 +28,11 @@ void ConsoleConfig::Describe(Archive& a) {
          "is what Foxglove and Lichtblick on the desktop name, and every page that is opened from a disk");
   a.Text("audit_file", audit_file,
          "file to which a line is added for everything that somebody did at the station; empty: none");
+  a.Text("video", video,
+         "http://HOST:PORT of the head's video link (`[video]` of head.toml); empty: the robot has none");
+  if (!video.empty() && !ReadPictureAddress(video)) a.Refuse("video", "http://HOST:PORT");
+  a.Text("video_token_file", video_token_file,
+         "copy of the token_file of the head's video link; empty: it needs none");
   a.Integer("pages", pages, {"-", 1, 100, "most pages at once"});
   a.Number("rate_hz", rate_hz, {"Hz", 50, 500, "how often connections and bus are looked at"});
   a.Number("beat_hz", beat_hz, {"Hz", 10, 50, "how often pages are sent what is new"});

@@ -25,6 +25,8 @@ struct ConsoleConfig {
   std::string token_file;
   std::string foxglove_origins;
   std::string audit_file;
+  std::string video;  ///< `http://HOST:PORT` of the head's video link; empty: there is none
+  std::string video_token_file;
   int pages = 16;
   double rate_hz = 200;
   double beat_hz = 20;

@@ -64,6 +64,15 @@ void FoxgloveBridge::OfferScene(const GroundPlan* plan, Time now) {
   if (plan != nullptr) plan_ = Scene::Plan(*plan, now);
 }
 
+void FoxgloveBridge::OfferVideo() {
+  video_ = desk_.Offer({"/third", std::string(kCompressedImage), SceneSchema(kCompressedImage)});
+  sources_[*video_] = {};
+}
+
+void FoxgloveBridge::ShowVideo(std::string_view jpeg, Time exposed) {
+  if (IsVideoWanted()) desk_.Publish(*video_, exposed, Text(Scene::Picture(jpeg, exposed)));
+}
+
 const FoxgloveBridge::Stream* FoxgloveBridge::StreamOf(const std::string& channel, const bus::Struct& type) {
   auto& streams = streams_[channel];
   const auto known =
@@ -137,6 +146,7 @@ void FoxgloveBridge::OnWish(ClientId client, std::uint32_t id, bool on) {
 }
 
 void FoxgloveBridge::ShowNewest(ClientId client, std::uint32_t id) {
+  if (id == video_) return;
   if (plan_ && topics_.at(Scene::kPlan) == id)
     return desk_.Publish(client, id, plan_->time, Text(plan_->json));
   const bool scene =

@@ -14,10 +14,10 @@
 #include "common/rate_limit.hpp"
 #include "common/robot/body_size.hpp"
 #include "common/time.hpp"
+#include "common/web/web_request.hpp"
 #include "console/core/seat.hpp"
 #include "console/foxglove/desk.hpp"
 #include "console/foxglove/scene.hpp"
-#include "console/web/web_request.hpp"
 
 namespace priamos::bus {
 class Schema;
@@ -48,6 +48,10 @@ class FoxgloveBridge {
   void Offer(const std::string& channel, std::string_view type);
   /// Offers the robot in the schemas of the panels. `plan`: what stands around it; null when nobody knows.
   void OfferScene(const GroundPlan* plan, Time now);
+  /// Offers the pictures of the third camera.
+  void OfferVideo();
+  bool IsVideoWanted() const { return video_ && desk_.IsWanted(*video_); }
+  void ShowVideo(std::string_view jpeg, Time exposed);
   void Hear(const std::string& channel, std::span<const std::byte> bytes, Time arrival);
   /// Forgets what was heard.
   void Forget() { newest_.clear(); }
@@ -93,6 +97,7 @@ class FoxgloveBridge {
   std::map<std::uint32_t, std::vector<std::string>> sources_;  ///< channels that one at the desk is made of
   std::map<std::string, Newest> newest_;
   std::optional<Scene::Message> plan_;
+  std::optional<std::uint32_t> video_;  ///< at the desk
   std::map<ClientId, Role> roles_;
   std::map<ClientId, std::map<std::string, int>> needed_;  ///< channels of the bus, by how many subscriptions
 };

@@ -61,7 +61,8 @@ std::string Greeting(const ConsoleConfig& config, const GroundPlan& plan, const 
                 {"head", {{"x_m", kDrawnHead.x_m}, {"y_m", kDrawnHead.y_m}, {"z_m", kDrawnHead.z_m}}},
                 {"link", {{"bytes_per_s", link.BytesPerSecond()}}},
                 {"speed", {{"slow", Speed(config.pilot.slow)}, {"fast", Speed(config.pilot.fast)}}},
-                {"channels", Channels(link)}};
+                {"channels", Channels(link)},
+                {"video", !config.video.empty() && !replay_s}};
   if (replay_s) hello["replay"] = std::isfinite(*replay_s) ? Json{{"length_s", *replay_s}} : Json::object();
   return hello.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "console/web/web_request.hpp"
+#include "common/web/web_request.hpp"
 
 namespace priamos::console {
 

@@ -6,14 +6,14 @@
 #include <string_view>
 
 #include "common/rate_limit.hpp"
+#include "common/web/web_listener.hpp"
+#include "common/web/web_server.hpp"
 #include "console/audience.hpp"
 #include "console/core/beats.hpp"
 #include "console/foxglove_bridge.hpp"
 #include "console/news_feed.hpp"
 #include "console/shown_log.hpp"
 #include "console/station_files.hpp"
-#include "console/web/web_listener.hpp"
-#include "console/web/web_server.hpp"
 
 namespace priamos::bus {
 class Schema;

@@ -1,8 +1,8 @@
 #include "console/server_options.hpp"
 
+#include "common/web/token_file.hpp"
 #include "console/core/browser_message.hpp"
 #include "console/foxglove/client_message.hpp"
-#include "console/token_file.hpp"
 
 namespace priamos::console {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "common/web/web_options.hpp"
 #include "console/console_config.hpp"
-#include "console/web/web_options.hpp"
 
 namespace priamos::console {
 

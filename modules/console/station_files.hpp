@@ -3,8 +3,8 @@
 #include <deque>
 #include <string>
 
+#include "common/web/web_request.hpp"
 #include "console/parameter_sheets.hpp"
-#include "console/web/web_request.hpp"
 
 namespace priamos::bus {
 class Schema;

@@ -68,6 +68,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
                                     context.ResolvePath(config.calibration), kCameraNames[camera],
                                     model.reason()));
   }
+  OpenVideo();
   if (config.laser.rate_hz > 0 && !head_.laser)
     throw ConfigError(
         fmt::format("{}: laser: expected the plane of the line laser for laser.rate_hz above 0, got "
@@ -108,6 +109,7 @@ void HeadApp::Tick(Time now) {
   MoveByHand(now);
   Look(now);
   WatchFloor(now);
+  ServeVideo(now);
 }
 
 void HeadApp::TakeMessages(Time now) {
@@ -123,6 +125,7 @@ void HeadApp::TakeMessages(Time now) {
     const FrameNotice frame = FromMessage(message);
     if (WasUsed(frame)) look_.Add(frame);
     if (watch_.Takes(frame)) ReportFloor(frame);
+    if (video_ && video_->Takes(frame)) ShowVideo(frame);
   }
   for (const look_request_t& message : look_requests_.Drain()) {
     if (lost_) EndWithoutPictures(now);
@@ -199,6 +202,28 @@ void HeadApp::ReportFloor(const FrameNotice& frame) {
   if (!floor) return;
   obstacle_.Publish(ToMessage(floor->lines, frame.exposure));
   if (floor->new_obstacle) context_.Log(bus::Level::kInfo, Describe(*floor->new_obstacle));
+}
+
+/// The robot sees without it: one that cannot be opened is only reported.
+void HeadApp::OpenVideo() {
+  if (config_.video.port == 0 || context_.lockstep() || pictures_) return;
+  const std::string& tokens = config_.video.token_file;
+  try {
+    video_ = std::make_unique<VideoLink>(config_.video, context_.robot(),
+                                         tokens.empty() ? "" : context_.ResolvePath(tokens));
+    context_.Log(bus::Level::kInfo, fmt::format("the third camera is at {}", video_->address()));
+  } catch (const std::runtime_error& error) {
+    context_.Log(bus::Level::kWarning, fmt::format("no video link: {}", error.what()));
+  }
+}
+
+void HeadApp::ServeVideo(Time now) {
+  if (!video_ || !video_->Step(look_.active(), now)) return;
+  trigger_.Publish(TriggerMessage(video_->frame_id(), CameraBit(kThird), now));
+}
+
+void HeadApp::ShowVideo(const FrameNotice& frame) {
+  if (const auto picture = cameras_.Read(frame)) video_->Show(frame.exposure, *picture);
 }
 
 LookAnswer HeadApp::Evaluate(const Frames& frames) {

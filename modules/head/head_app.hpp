@@ -19,6 +19,7 @@
 #include "head/head_config.hpp"
 #include "head/head_messages.hpp"
 #include "head/picture_folder.hpp"
+#include "head/video_link.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::head {
@@ -54,6 +55,9 @@ class HeadApp {
   void Look(Time now);
   void WatchFloor(Time now);
   void ReportFloor(const FrameNotice& frame);
+  void OpenVideo();
+  void ServeVideo(Time now);
+  void ShowVideo(const FrameNotice& frame);
   LookAnswer Evaluate(const Frames& frames);
   bool WasUsed(const FrameNotice& frame);
   void EndWithoutPictures(Time now);
@@ -82,6 +86,7 @@ class HeadApp {
   int not_kept_ = 0;
   bool lost_ = false;  ///< a picture of the present look is not in pictures_
   std::optional<HeadReport> report_;
+  std::unique_ptr<VideoLink> video_;  ///< none in lockstep and on a log
 
   bus::Latest<head_state_t> head_state_;
   bus::Inbox<camera_frame_t> frames_;

@@ -50,6 +50,7 @@ void HeadConfig::Describe(Archive& a) {
   a.Section("vision", vision, "edges and landmark fixes");
   a.Section("drift", drift, "alarm when the cameras are no longer where the calibration has them");
   a.Section("laser", laser, "obstacles and steps by the laser's line");
+  a.Section("video", video, "the third camera's pictures for people, over HTTP beside the bus");
   if (!pictures.empty() && !keep_pictures.empty())
     a.Refuse("keep_pictures", "no folder beside `pictures`: those are kept already");
   // Nearer to the end stop a motor cannot come from below.

@@ -11,6 +11,7 @@
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/head_positioner.hpp"
 #include "head/core/motion/look_sequence.hpp"
+#include "head/video_config.hpp"
 
 namespace priamos::head {
 
@@ -58,6 +59,7 @@ struct HeadConfig {
   VisionConfig vision;
   DriftConfig drift;
   LaserWatchConfig laser;
+  VideoConfig video;
 
   void Describe(Archive& a);
   /// Setting of all looks; each look sets the pan itself.

@@ -56,7 +56,7 @@ bool LibraryAllowed(const std::string& from, const std::string& file, const std:
   if (header.starts_with("ceres/")) return in({"head/core"});
   if (header.starts_with("lcm/")) return file == "bus/wire/lcm_bus.cpp";
   if (header.starts_with("sodium")) return in({"bus", "cli", "radio"});
-  if (header.starts_with("boost/")) return file.starts_with("modules/console/web/");
+  if (header.starts_with("boost/")) return file.starts_with("modules/common/web/");
   if (header.starts_with("toml++/")) return file.starts_with("modules/common/config");
   return true;
 }

@@ -150,5 +150,23 @@ TEST_F(FoxgloveBridgeTest, ItTellsTheTime) {
   EXPECT_EQ(sent_[0].first, std::string("\x02\x58\x1b\0\0\0\0\0\0", 9));
 }
 
+TEST_F(FoxgloveBridgeTest, ThePicturesOfTheThirdCameraAreATopicForWhoSubscribes) {
+  dut_.OfferVideo();
+  EXPECT_FALSE(dut_.IsVideoWanted());
+  const std::size_t before = sent_.size();
+  dut_.ShowVideo("JPEG", kNow);
+  EXPECT_EQ(sent_.size(), before) << "nobody looks";
+  Subscribe(7, "/third");
+  EXPECT_TRUE(dut_.IsVideoWanted());
+  EXPECT_THAT(needs_, IsEmpty()) << "the radio carries nothing of it";
+  dut_.ShowVideo("JPEG", kNow);
+  ASSERT_THAT(Came(), SizeIs(1));
+  const json picture = Came()[0];
+  EXPECT_EQ(picture["data"], "SlBFRw==");
+  EXPECT_EQ(picture["format"], "jpeg");
+  Unsubscribe(7);
+  EXPECT_FALSE(dut_.IsVideoWanted());
+}
+
 }  // namespace
 }  // namespace priamos::console

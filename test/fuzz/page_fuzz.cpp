@@ -1,10 +1,10 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/web/web_request.hpp"
 #include "console/core/browser_message.hpp"
 #include "console/foxglove/client_message.hpp"
 #include "console/foxglove/services.hpp"
-#include "console/web/web_request.hpp"
 #include "fuzz_input.hpp"
 
 namespace priamos::console {

@@ -114,6 +114,13 @@ std::string PackedPoints(const Points& points) {
 
 }  // namespace
 
+Scene::Json Scene::Picture(std::string_view jpeg, Time exposed) {
+  return {{"timestamp", StampJson(exposed)},
+          {"frame_id", "third"},
+          {"data", bus::ToBase64(std::as_bytes(std::span(jpeg)))},
+          {"format", "jpeg"}};
+}
+
 std::vector<Scene::Topic> Scene::Topics() {
   return {{kTransform, kFrameTransform, {"POSE"}},
           {kPlan, kSceneUpdate, {}},

@@ -46,6 +46,8 @@ class Scene {
   std::vector<Message> Hear(std::string_view channel, const Json& message, Time arrival);
   /// Walls, doors and cupboards; they stand still.
   static Message Plan(const GroundPlan& plan, Time now);
+  /// A picture of the third camera.
+  static Json Picture(std::string_view jpeg, Time exposed);
 
  private:
   std::vector<Message> Pose(const Json& message, Time valid) const;

@@ -113,6 +113,13 @@ Json Cloud() {
                                         {"data", {{"type", "string"}, {"contentEncoding", "base64"}}}});
 }
 
+Json Picture() {
+  return Object("foxglove.CompressedImage", {{"timestamp", TimeOf("time")},
+                                             {"frame_id", Text()},
+                                             {"data", {{"type", "string"}, {"contentEncoding", "base64"}}},
+                                             {"format", Text()}});
+}
+
 Json Annotations() {
   const Json point = Object("foxglove.Point2", {{"x", Number()}, {"y", Number()}});
   const Json points = Object("foxglove.PointsAnnotation", {{"timestamp", TimeOf("time")},
@@ -132,6 +139,7 @@ Json Annotations() {
 std::string SceneSchema(std::string_view name) {
   if (name == kFrameTransform) return Transform().dump();
   if (name == kSceneUpdate) return Update().dump();
+  if (name == kCompressedImage) return Picture().dump();
   if (name == kPointCloud) return Cloud().dump();
   return Annotations().dump();
 }

@@ -10,6 +10,7 @@ namespace priamos::console {
 inline constexpr std::string_view kFrameTransform = "foxglove.FrameTransform";
 inline constexpr std::string_view kSceneUpdate = "foxglove.SceneUpdate";
 inline constexpr std::string_view kPointCloud = "foxglove.PointCloud";
+inline constexpr std::string_view kCompressedImage = "foxglove.CompressedImage";
 inline constexpr std::string_view kImageAnnotations = "foxglove.ImageAnnotations";
 
 /// JSON schema of one of them.

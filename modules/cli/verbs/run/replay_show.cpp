@@ -69,7 +69,7 @@ int Show(const ShowOptions& options) {
   const std::string greeting = console::Greeting(config, plan, link, Seconds(player.length()));
   const auto events = static_cast<std::int64_t>(player.events());
   const bus::SignalWatch signals;
-  console::WebServerOptions server;
+  WebServerOptions server;
   server.port = options.port;
   server.ports = config.ports;
   server.access.foxglove_origins = console::WordsOf(config.foxglove_origins);

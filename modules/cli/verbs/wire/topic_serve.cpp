@@ -40,7 +40,7 @@ int Serve(const ServeOptions& options) {
   const bus::Schema schema = LoadTypes(options.types);
   const bus::HostClock clock;
   bus::LcmBus bus(options.bus.Url(), options.messages());
-  console::WebServerOptions server;
+  WebServerOptions server;
   server.port = options.port;
   server.ports = kPorts;
   server.access.foxglove_origins = options.origins;

@@ -12,6 +12,7 @@ export interface Listener {
   hello(hello: Hello): void;
   news(news: News): void;
   connected(up: boolean): void;
+  picture(message: ArrayBuffer): void;
 }
 
 export class Connection {
@@ -78,10 +79,13 @@ export class Connection {
     const query = token === null ? "" : `?token=${encodeURIComponent(token)}`;
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     const socket = new WebSocket(`${scheme}://${location.host}/socket${query}`);
+    socket.binaryType = "arraybuffer";
     this.socket = socket;
     this.heard_ms = performance.now();
     socket.onmessage = (event) => {
-      if (this.socket === socket) this.take(JSON.parse(String(event.data)) as Hello | News);
+      if (this.socket !== socket) return;
+      if (event.data instanceof ArrayBuffer) this.listener.picture(event.data);
+      else this.take(JSON.parse(String(event.data)) as Hello | News);
     };
     socket.onclose = () => {
       if (this.socket !== socket) return;

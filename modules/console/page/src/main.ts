@@ -11,6 +11,7 @@ import { Replay } from "./replay";
 import { Store } from "./store";
 import { Place, Target } from "./target";
 import { currentLanguage, number, setLanguage, text } from "./text";
+import { Video } from "./video";
 import { PageServices, Views } from "./views";
 import { Wants } from "./wants";
 
@@ -25,6 +26,7 @@ const panels = new Panels(store);
 const plan = new PlanView(byId<HTMLCanvasElement>("plan"), store);
 const target = new Target(plan.port);
 plan.target = () => target.place();
+const video = new Video();
 const wants = new Wants((channel, on) => connection.listen(channel, on));
 const services: PageServices = {
   store, text, number,
@@ -45,6 +47,7 @@ const connection: Connection = new Connection({
     plan.greet(hello);
     panels.hello = hello;
     showDoors(hello);
+    video.offer(hello.video === true);
     document.body.classList.toggle("any-bus", hello.any_bus === true);
     if (hello.any_bus === true && views.isShown("plan")) views.choose("plots");
     views.each((view) => view.restart());
@@ -65,6 +68,9 @@ const connection: Connection = new Connection({
     panels.connected = up;
     hand.letGo();
     panels.draw();
+  },
+  picture(message: ArrayBuffer): void {
+    video.hear(message);
   },
 });
 
@@ -103,6 +109,7 @@ function label(): void {
   byId("pick").title = text("pickHelp");
   byId("stick").setAttribute("aria-label", text("stickHelp"));
   byId("edges").setAttribute("aria-label", text("viewHelp"));
+  byId<HTMLImageElement>("picture").alt = text("pictureHelp");
 }
 
 function bindButtons(): void {
@@ -147,6 +154,7 @@ function bindSwitches(): void {
   bindSwitch("follow", [], (on) => { plan.follows = on; });
   bindSwitch("sonars", ["SONAR_RANGES", "OBSTACLE_LINE"], (on) => { plan.showsSonars = on; });
   bindSwitch("view", ["LANDMARK_VIEW"], () => undefined);
+  bindSwitch("video", ["VIDEO"], (on) => video.show(on));
   plan.port.onUserMove = () => {
     plan.follows = false;
     byId<HTMLInputElement>("follow").checked = false;
@@ -170,6 +178,7 @@ window.setInterval(() => {
   panels.draw();
   enableTarget();
   replay.draw();
+  video.draw(panels.station?.no_video ?? "");
   drawHeadView(byId<HTMLCanvasElement>("edges"), store);
 }, PANEL_PERIOD_MS);
 drawFrame();

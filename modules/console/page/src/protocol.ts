@@ -24,6 +24,7 @@ export interface Hello {
   speed: Record<"slow" | "fast", { speed_m_s: number; turn_rad_s: number }>;
   channels: Record<string, { stale_after_s: number; on_request: boolean }>;
   replay?: { length_s?: number };  // without: somebody else plays the log
+  video?: boolean;  // pictures of the third camera can be had
   any_bus?: boolean;  // no robot of PRIAMOS: everything that is on a bus, to be plotted
 }
 
@@ -37,6 +38,7 @@ export interface StationState {
   pages: number;
   refused: number;
   late: number;
+  no_video?: string;  // why no pictures come although somebody looks
   replay?: ReplayState;
 }
 

@@ -1,6 +1,6 @@
 // The server on real sockets of the loopback: what browsers do, and what nobody should.
 
-#include "console/web/web_server.hpp"
+#include "common/web/web_server.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include "test/support/thrown_reason.hpp"
 #include "test/support/web_client.hpp"
 
-namespace priamos::console {
+namespace priamos {
 namespace {
 
 using support::ThrownReason;
@@ -245,4 +245,4 @@ TEST_F(WebServerTest, SeveralStationsShareAHost) {
 }
 
 }  // namespace
-}  // namespace priamos::console
+}  // namespace priamos

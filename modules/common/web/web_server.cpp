@@ -1,4 +1,4 @@
-#include "console/web/web_server.hpp"
+#include "common/web/web_server.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "console/web/web_session.hpp"
+#include "common/web/web_session.hpp"
 
-namespace priamos::console {
+namespace priamos {
 namespace {
 
 namespace asio = boost::asio;
@@ -17,6 +17,8 @@ using asio::ip::tcp;
 
 /// Most steps of connections within one Poll: a flood waits for the next one.
 constexpr int kMostSteps = 400;
+/// Between two pictures of somebody who asks for one after the other.
+constexpr double kWatched_s = 1;
 
 asio::ip::address AddressOf(const std::string& text) {
   boost::system::error_code error;
@@ -42,18 +44,27 @@ class WebServer::Impl {
     io_.restart();
     for (int i = 0; i < kMostSteps && io_.poll_one() > 0; ++i) {
     }
-    for (const auto& [id, session] : sessions_) session->CheckTime();
+    for (const auto& [id, session] : sessions_) {
+      session->OfferPicture();
+      session->CheckTime();
+    }
     std::erase_if(sessions_, [](const auto& s) { return s.second->phase() == WebSession::Phase::kDone; });
   }
 
-  bool Send(std::uint64_t client, std::string text) {
+  bool Send(std::uint64_t client, std::string message, bool binary) {
     const auto session = sessions_.find(client);
-    return session != sessions_.end() && session->second->Send(std::move(text));
+    return session != sessions_.end() && session->second->Send(std::move(message), binary);
   }
   bool Queue(std::uint64_t client, std::string message, bool binary) {
     const auto session = sessions_.find(client);
     return session != sessions_.end() && session->second->Queue(std::move(message), binary);
   }
+
+  void ShowPicture(Time exposed, std::string jpeg) {
+    WebPicture& picture = shared_.picture;
+    picture = {picture.number + 1, exposed, std::make_shared<const std::string>(std::move(jpeg))};
+  }
+  bool is_watched() const { return shared_.watched && Seconds(shared_.now - *shared_.watched) <= kWatched_s; }
 
   std::string address() const {
     const auto at = acceptor_.local_endpoint();
@@ -126,11 +137,17 @@ WebServer::~WebServer() = default;
 void WebServer::Poll(Time now) {
   impl_->Poll(now);
 }
-bool WebServer::Send(std::uint64_t client, std::string text) {
-  return impl_->Send(client, std::move(text));
+bool WebServer::Send(std::uint64_t client, std::string message, bool binary) {
+  return impl_->Send(client, std::move(message), binary);
 }
 bool WebServer::Queue(std::uint64_t client, std::string message, bool binary) {
   return impl_->Queue(client, std::move(message), binary);
+}
+void WebServer::ShowPicture(Time exposed, std::string jpeg) {
+  impl_->ShowPicture(exposed, std::move(jpeg));
+}
+bool WebServer::is_watched() const {
+  return impl_->is_watched();
 }
 std::string WebServer::address() const {
   return impl_->address();
@@ -142,4 +159,4 @@ const WebCounters& WebServer::counters() const {
   return impl_->counters();
 }
 
-}  // namespace priamos::console
+}  // namespace priamos

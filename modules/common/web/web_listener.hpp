@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "console/web/web_request.hpp"
+#include "common/web/web_request.hpp"
 
-namespace priamos::console {
+namespace priamos {
 
 /// What was refused since the start.
 struct WebCounters {
@@ -25,4 +25,4 @@ class WebListener {
   virtual void Left(std::uint64_t client) = 0;
 };
 
-}  // namespace priamos::console
+}  // namespace priamos

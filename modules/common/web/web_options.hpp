@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <string>
 
-#include "console/web/web_request.hpp"
+#include "common/web/web_request.hpp"
 
-namespace priamos::console {
+namespace priamos {
 
 /// Where a server listens and what it allows.
 struct WebServerOptions {
@@ -20,6 +20,7 @@ struct WebServerOptions {
   double head_timeout_s = 5;               ///< a request must have come whole within that
   double write_timeout_s = 5;              ///< a page that takes nothing for so long is gone
   WebAccess access{};
+  std::string camera{};  ///< its pictures are served as /NAME.jpg and /NAME.mjpeg; empty: there is none
 };
 
-}  // namespace priamos::console
+}  // namespace priamos

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace priamos::console {
+namespace priamos {
 
 /// A file of the page, compiled in.
 struct WebFile {
@@ -51,18 +51,24 @@ struct OpenSocket {
   Dialect dialect = Dialect::kPage;
   std::string from{};  ///< numeric address of the other end
 };
+/// The answer is the next picture of the server's camera, or all that come.
+struct ServePictures {
+  bool all = false;
+};
 /// The answer is a refusal, with the status of HTTP and a sentence.
 struct RefuseRequest {
   int status = 400;
   std::string reason;
 };
-using WebAnswer = std::variant<ServeFile, OpenSocket, RefuseRequest>;
+using WebAnswer = std::variant<ServeFile, OpenSocket, ServePictures, RefuseRequest>;
 
 /// What becomes of a request. A page of another origin gets no socket, nor does one that reached this server
 /// by a foreign name (DNS rebinding). The page itself is public, what is
 /// below /parameters/ is not; its socket needs the token, as
 /// /socket?token=..., when there is one. Who offers foxglove.websocket.v1 gets it at / too; he needs an
-/// origin that is named, or none at all, as programs have that are no browser.
-WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAccess& access);
+/// origin that is named, or none at all, as programs have that are no browser. `camera`: name of the camera
+/// whose pictures are at /NAME.jpg and /NAME.mjpeg, with the token, when there is one; empty: there is none.
+WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAccess& access,
+                 std::string_view camera = {});
 
-}  // namespace priamos::console
+}  // namespace priamos

@@ -1,8 +1,8 @@
-#include "console/web/web_request.hpp"
+#include "common/web/web_request.hpp"
 
 #include <algorithm>
 
-namespace priamos::console {
+namespace priamos {
 namespace {
 
 constexpr std::string_view kSocket = "/socket", kFoxglove = "foxglove.websocket.v1";
@@ -71,9 +71,25 @@ WebAnswer AnswerSocket(const WebRequest& request, const WebAccess& access, Diale
   return RefuseRequest{401, "expected a token; it is on the station's console: http://.../?token=..."};
 }
 
+std::optional<ServePictures> PicturesOf(std::string_view path, std::string_view camera) {
+  if (camera.empty() || !path.starts_with('/') || !path.substr(1).starts_with(camera)) return std::nullopt;
+  const std::string_view kind = path.substr(1 + camera.size());
+  if (kind == ".mjpeg") return ServePictures{true};
+  return kind == ".jpg" ? std::optional(ServePictures{false}) : std::nullopt;
+}
+
+WebAnswer AnswerPictures(const WebRequest& request, const WebAccess& access, const ServePictures& pictures) {
+  if (!request.origin.empty() && !IsOwnOrigin(request))
+    return RefuseRequest{403, "expected no page of another origin"};
+  if (!RoleOf(TokenOf(request.target), access)) return RefuseRequest{401, "expected a token: .../?token=..."};
+  if (request.method != "GET") return RefuseRequest{405, "expected GET"};
+  return pictures;
+}
+
 }  // namespace
 
-WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAccess& access) {
+WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAccess& access,
+                 std::string_view camera) {
   if (request.host.empty()) return RefuseRequest{400, "expected a Host"};
   if (access.loopback_only && !IsLoopback(NameOf(request.host)))
     return RefuseRequest{403, "expected localhost or 127.0.0.1 as the address"};
@@ -84,9 +100,10 @@ WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAcce
   if (path == kSocket) return AnswerSocket(request, access, Dialect::kPage);
   if (path.starts_with("/parameters/") && !RoleOf(TokenOf(request.target), access))
     return RefuseRequest{401, "expected a token, as the page needs one"};
+  if (const auto pictures = PicturesOf(path, camera)) return AnswerPictures(request, access, *pictures);
   const auto file = files.find(path);
   if (file == files.end()) return RefuseRequest{404, "there is no such page; the station is at /"};
   return ServeFile{&file->second, request.method == "HEAD"};
 }
 
-}  // namespace priamos::console
+}  // namespace priamos

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "console/web/web_request.hpp"
+#include "common/web/web_request.hpp"
 
-namespace priamos::console {
+namespace priamos {
 
 /// Who may connect to a server on `address`: anybody on loopback without a token file, else who knows a token
 /// of `file`. Its lines are `driver TOKEN` or `viewer TOKEN`, tokens of 16 to 64 letters, digits, - and _;
@@ -13,4 +13,4 @@ namespace priamos::console {
 /// loopback.
 WebAccess LoadAccess(const std::string& address, const std::string& file);
 
-}  // namespace priamos::console
+}  // namespace priamos

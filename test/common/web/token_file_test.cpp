@@ -1,4 +1,4 @@
-#include "console/token_file.hpp"
+#include "common/web/token_file.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -8,7 +8,7 @@
 #include "test/support/temporary_folder.hpp"
 #include "test/support/thrown_reason.hpp"
 
-namespace priamos::console {
+namespace priamos {
 namespace {
 
 using support::ThrownReason;
@@ -61,4 +61,4 @@ TEST_F(TokenFile, ThatOthersCanReadIsRefused) {
 }
 
 }  // namespace
-}  // namespace priamos::console
+}  // namespace priamos

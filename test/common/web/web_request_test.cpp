@@ -1,9 +1,9 @@
-#include "console/web/web_request.hpp"
+#include "common/web/web_request.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-namespace priamos::console {
+namespace priamos {
 namespace {
 
 const WebFiles kFiles{{"/", {"text/html", "page"}}, {"/app.js", {"text/javascript", "script"}}};
@@ -138,4 +138,4 @@ TEST(WebRequest, AnotherProtocolIsNotFoxglove) {
 }
 
 }  // namespace
-}  // namespace priamos::console
+}  // namespace priamos

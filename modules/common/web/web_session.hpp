@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
@@ -14,10 +15,11 @@
 #include <string>
 
 #include "common/time.hpp"
-#include "console/web/web_listener.hpp"
-#include "console/web/web_options.hpp"
+#include "common/web/picture_text.hpp"
+#include "common/web/web_listener.hpp"
+#include "common/web/web_options.hpp"
 
-namespace priamos::console {
+namespace priamos {
 
 /// What the connections of one server share.
 struct WebShared {
@@ -27,21 +29,25 @@ struct WebShared {
   WebCounters counters{};
   int sockets = 0;  ///< open WebSockets
   Time now{};       ///< of the Poll that runs
+  WebPicture picture{};
+  std::optional<Time> watched{};  ///< when somebody looked at pictures last
 };
 
-/// One connection: a request, and then a file, a refusal, or a WebSocket until somebody closes it.
+/// One connection: a request, and then a file, a refusal, pictures, or a WebSocket until somebody closes it.
 class WebSession : public std::enable_shared_from_this<WebSession> {
  public:
   /// What the connection is used for now.
-  enum class Phase { kHead, kReply, kSocket, kDone };
+  enum class Phase { kHead, kReply, kPictures, kSocket, kDone };
 
   WebSession(boost::asio::ip::tcp::socket socket, std::uint64_t id, WebShared& shared);
 
   void Start();
-  /// Sends a text over its WebSocket; false when it has not taken the one before.
-  bool Send(std::string text);
+  /// Sends a message over its WebSocket; false when it has not taken the one before.
+  bool Send(std::string message, bool binary);
   /// Sends a message after those that wait; false when too much does.
   bool Queue(std::string message, bool binary);
+  /// Sends the newest picture to who looks, has not had it, and has taken the one before.
+  void OfferPicture();
   /// Ends it when it is overdue.
   void CheckTime();
   void Close();
@@ -54,7 +60,10 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   void OnHead(boost::beast::error_code error);
   void OnHead(const ServeFile& answer);
   void OnHead(const OpenSocket& answer);
+  void OnHead(const ServePictures& answer);
   void OnHead(const RefuseRequest& answer);
+  void WatchEnd();
+  void WritePicture(std::string head, std::string_view end);
   void Reply(unsigned status, std::string_view type, std::string_view text, bool head_only);
   void Accepted(const OpenSocket& answer);
   void Write();
@@ -70,6 +79,15 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> head_;
   std::optional<boost::beast::http::response<boost::beast::http::span_body<const char>>> reply_;
   std::string refusal_;
+  /// Of who looks at pictures.
+  struct Looking {
+    bool all = false;       ///< not only at the next one
+    std::uint64_t had = 0;  ///< number of the picture sent last, or of the newest one when it began
+    std::string head{};     ///< what is being sent
+    std::shared_ptr<const std::string> jpeg{};
+  };
+  std::optional<Looking> looking_;
+  std::array<char, 64> unwanted_{};  ///< of who looks nothing is expected
   /// A message on its way.
   struct Outgoing {
     std::string bytes;
@@ -85,4 +103,4 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   Time counted_{};
 };
 
-}  // namespace priamos::console
+}  // namespace priamos

@@ -1,13 +1,15 @@
-#include "console/web/web_session.hpp"
+#include "common/web/web_session.hpp"
 
 #include <algorithm>
+#include <array>
+#include <boost/asio/write.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <utility>
 #include <variant>
 
-namespace priamos::console {
+namespace priamos {
 namespace {
 
 namespace beast = boost::beast;
@@ -16,9 +18,12 @@ namespace websocket = beast::websocket;
 
 constexpr std::uint32_t kLongestHead = 8192;
 constexpr std::chrono::milliseconds kFarewell{500};
-constexpr double kBurst_s = 1;  ///< a page that was held up says at once what it had to say
+constexpr int kSendBuffer = 32768;  ///< [byte] a slow line shows few pictures, not old ones
+constexpr double kNoPicture_s = 2;  ///< after that a camera is taken for one that gives none
+constexpr double kBurst_s = 1;      ///< a page that was held up says at once what it had to say
 constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; "
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src "
+    "'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 std::string Text(beast::string_view text) {
@@ -53,11 +58,56 @@ void WebSession::OnHead(beast::error_code error) {
   if (error == http::error::end_of_stream) return Close();
   if (error) return OnHead(RefuseRequest{400, "expected an HTTP request with a head of at most 8 kB"});
   std::visit([this](const auto& answer) { OnHead(answer); },
-             Answer(RequestOf(*head_), shared_.files, shared_.options.access));
+             Answer(RequestOf(*head_), shared_.files, shared_.options.access, shared_.options.camera));
 }
 
 void WebSession::OnHead(const ServeFile& answer) {
   Reply(200, answer.file->type, answer.file->text, answer.head_only);
+}
+
+void WebSession::OnHead(const ServePictures& answer) {
+  phase_ = Phase::kPictures;
+  since_ = shared_.now;
+  looking_ = Looking{answer.all, shared_.picture.number};
+  if (!answer.all) return;
+  beast::error_code ignored;
+  tcp().set_option(boost::asio::socket_base::send_buffer_size(kSendBuffer), ignored);
+  looking_->jpeg = std::make_shared<const std::string>();
+  WritePicture(StreamHead(), {});
+  WatchEnd();
+}
+
+/// Who looks at all that come is gone when his end is closed.
+void WebSession::WatchEnd() {
+  tcp().async_read_some(boost::asio::buffer(unwanted_),
+                        [self = shared_from_this()](beast::error_code, std::size_t) { self->Close(); });
+}
+
+void WebSession::OfferPicture() {
+  if (phase_ != Phase::kPictures) return;
+  shared_.watched = shared_.now;
+  const WebPicture& picture = shared_.picture;
+  if (looking_->jpeg || picture.number == looking_->had) return;
+  looking_->had = picture.number;
+  looking_->jpeg = picture.jpeg;
+  if (looking_->all) return WritePicture(PartHead(picture, shared_.now), kPartEnd);
+  WritePicture(PictureHead(picture, shared_.now - since_, shared_.now), {});
+}
+
+void WebSession::WritePicture(std::string head, std::string_view end) {
+  since_ = shared_.now;
+  looking_->head = std::move(head);
+  const std::array<boost::asio::const_buffer, 3> parts{boost::asio::buffer(looking_->head),
+                                                       boost::asio::buffer(*looking_->jpeg),
+                                                       boost::asio::buffer(end.data(), end.size())};
+  boost::asio::async_write(tcp(), parts, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    if (error || self->phase_ != Phase::kPictures) return self->Close();
+    self->looking_->jpeg.reset();
+    if (self->looking_->all) return;
+    self->phase_ = Phase::kHead;  // for the next one
+    self->since_ = self->shared_.now;
+    self->Start();
+  });
 }
 
 void WebSession::OnHead(const RefuseRequest& answer) {
@@ -145,8 +195,8 @@ bool WebSession::MaySay() {
   return true;
 }
 
-bool WebSession::Send(std::string text) {
-  return waiting_.empty() && Queue(std::move(text), false);
+bool WebSession::Send(std::string message, bool binary) {
+  return waiting_.empty() && Queue(std::move(message), binary);
 }
 
 bool WebSession::Queue(std::string message, bool binary) {
@@ -172,8 +222,16 @@ void WebSession::Write() {
 void WebSession::CheckTime() {
   if (phase_ == Phase::kDone || (phase_ == Phase::kSocket && waiting_.empty())) return;
   const auto& options = shared_.options;
-  const double limit_s = phase_ == Phase::kHead ? options.head_timeout_s : options.write_timeout_s;
+  const bool waits = phase_ == Phase::kPictures && !looking_->jpeg;
+  if (waits && looking_->all) return;
+  const double limit_s = waits                    ? kNoPicture_s
+                         : phase_ == Phase::kHead ? options.head_timeout_s
+                                                  : options.write_timeout_s;
   if (Seconds(shared_.now - since_) <= limit_s) return;
+  if (waits) {
+    refusal_ = "the camera gives no pictures\n";
+    return Reply(503, "text/plain; charset=utf-8", refusal_, false);
+  }
   ++shared_.counters.slow;
   Close();
 }
@@ -189,4 +247,4 @@ void WebSession::Close() {
   shared_.listener.Left(id_);
 }
 
-}  // namespace priamos::console
+}  // namespace priamos

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "common/time.hpp"
-#include "console/web/web_listener.hpp"
-#include "console/web/web_options.hpp"
+#include "common/web/web_listener.hpp"
+#include "common/web/web_options.hpp"
 
-namespace priamos::console {
+namespace priamos {
 
 /// Serves the files of a page and its WebSockets, all in the calling thread: nothing happens but within Poll.
 class WebServer {
@@ -22,10 +22,14 @@ class WebServer {
 
   /// Does what is to be done without waiting, bounded whatever anybody sends.
   void Poll(Time now);
-  /// Sends a text to a page; false, and nothing is sent, when it has not taken the one before.
-  bool Send(std::uint64_t client, std::string text);
+  /// Sends a message to a page; false, and nothing is sent, when it has not taken the one before.
+  bool Send(std::uint64_t client, std::string message, bool binary = false);
   /// Sends a message after those that wait already; false, and nothing is sent, when too much waits.
   bool Queue(std::uint64_t client, std::string message, bool binary);
+  /// A new picture of the camera, for everybody who looks.
+  void ShowPicture(Time exposed, std::string jpeg);
+  /// Whether somebody looks at the camera, or did within the last second.
+  bool is_watched() const;
   /// "http://127.0.0.1:8080/".
   std::string address() const;
   int sockets() const;
@@ -36,4 +40,4 @@ class WebServer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace priamos::console
+}  // namespace priamos

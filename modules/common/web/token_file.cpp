@@ -1,4 +1,4 @@
-#include "console/token_file.hpp"
+#include "common/web/token_file.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace priamos::console {
+namespace priamos {
 namespace {
 
 constexpr std::size_t kShortest = 16, kLongest = 64;
@@ -68,4 +68,4 @@ WebAccess LoadAccess(const std::string& address, const std::string& file) {
   return access;
 }
 
-}  // namespace priamos::console
+}  // namespace priamos

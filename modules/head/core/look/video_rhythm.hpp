@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/time.hpp"
+#include "head/core/camera/frame_notice.hpp"
+
+namespace priamos::head {
+
+/// When the third camera is exposed for people who look on: at a steady rate while somebody does, and never
+/// while a look uses the cameras.
+class VideoRhythm {
+ public:
+  explicit VideoRhythm(double rate_hz) : rate_hz_(rate_hz) {}
+
+  /// One time step; true: expose the third camera as frame_id().
+  bool Step(bool watched, bool needed, Time now);
+  /// Whether this is the picture that was ordered last; true once.
+  bool Takes(const FrameNotice& frame);
+  std::int32_t frame_id() const { return frame_id_; }
+
+ private:
+  double rate_hz_;
+  std::optional<Time> triggered_;
+  std::int32_t frame_id_ = 0;
+  bool waiting_ = false;
+};
+
+}  // namespace priamos::head
