@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "common/config.hpp"
+#include "common/input/regular_file.hpp"
 #include "common/rectangle.hpp"
 #include "world/core/generate/strew.hpp"
 #include "world/core/scene/built_doors.hpp"
@@ -55,11 +54,16 @@ void CheckHoles(const LoadedWorld& world, const Body& body) {
 }
 
 /// All of a file.
-std::string ContentOf(const std::string& file, const std::string& asked_by) {
-  std::ifstream in(file, std::ios::binary);
-  std::string content((std::istreambuf_iterator<char>(in)), {});
-  if (!in) throw ConfigError(fmt::format("{}expected a file that can be read, got \"{}\"", asked_by, file));
-  return content;
+std::string ContentOf(const std::string& path, const std::string& asked_by) {
+  constexpr std::size_t kMost_MB = 128;
+  const RegularFile file(path);
+  if (!file.open())
+    throw ConfigError(fmt::format("{}expected a file, got {}, \"{}\"", asked_by, file.problem(), path));
+  auto content = file.Read(kMost_MB << 20);
+  if (!content)
+    throw ConfigError(
+        fmt::format("{}expected a file of at most {} MB, got \"{}\"", asked_by, kMost_MB, path));
+  return std::move(*content);
 }
 
 /// Walls from a map of ROS; its picture lies beside its YAML file, or where that says.

@@ -33,7 +33,14 @@ class WebSocket:
         self.socket.sendall(bytes([0x80 | opcode]) + size + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(payload)))
 
     def receive(self):
-        """The next message: its opcode (1 text, 2 bytes, 8 the end) and its content."""
+        """The next message: its opcode (1 text, 2 bytes, 8 the end) and its content. A ping is answered, as browsers do."""
+        opcode, content = self._frame()
+        while opcode == 9:
+            self.send(content, opcode=10)
+            opcode, content = self._frame()
+        return opcode, content
+
+    def _frame(self):
         first, length = self._exactly(2)
         if length == 126:
             length, = struct.unpack(">H", self._exactly(2))

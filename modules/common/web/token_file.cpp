@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kShortest = 16, kLongest = 64;
 
 bool IsLoopback(const std::string& address) {
-  return address.starts_with("127.") || address == "::1";
+  return address == "127.0.0.1" || address == "::1";
 }
 
 bool IsToken(const std::string& text) {

@@ -35,6 +35,7 @@ class WebServer::Impl {
  public:
   Impl(const WebServerOptions& options, const WebFiles& files, WebListener& listener)
       : options_(options), files_(files), shared_{options_, files_, listener}, acceptor_(io_) {
+    shared_.make_room = [this] { return EndADeadOne(); };
     Listen(AddressOf(options.address));
     Accept();
   }
@@ -120,6 +121,16 @@ class WebServer::Impl {
       return true;
     }
     return false;
+  }
+
+  /// Pages that answer nothing keep nobody out.
+  bool EndADeadOne() {
+    const auto dead = std::find_if(sessions_.begin(), sessions_.end(),
+                                   [](const auto& session) { return session.second->SeemsDead(); });
+    if (dead == sessions_.end()) return false;
+    ++shared_.counters.slow;
+    dead->second->Close();
+    return true;
   }
 
   WebServerOptions options_;

@@ -20,6 +20,8 @@ constexpr std::uint32_t kLongestHead = 8192;
 constexpr std::chrono::milliseconds kFarewell{500};
 constexpr int kSendBuffer = 32768;  ///< [byte] a slow line shows few pictures, not old ones
 constexpr double kNoPicture_s = 2;  ///< after that a camera is taken for one that gives none
+constexpr double kDead_s = 5;       ///< without an answer to a ping; makes room when others come
+constexpr double kGone_s = 30;      ///< the same, and it is closed
 constexpr double kBurst_s = 1;      ///< a page that was held up says at once what it had to say
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src "
@@ -30,11 +32,18 @@ std::string Text(beast::string_view text) {
   return {text.data(), text.size()};
 }
 
+/// A field that is there once. One that is there twice may say two things to two readers: that is no text of
+/// an origin or a host.
+template <class Head>
+std::string Once(const Head& head, http::field field) {
+  return head.count(field) > 1 ? "more than one" : Text(head[field]);
+}
+
 template <class Parser>
 WebRequest RequestOf(const Parser& parser) {
   const auto& head = parser.get();
   return {Text(head.method_string()),    Text(head.target()),
-          Text(head[http::field::host]), Text(head[http::field::origin]),
+          Once(head, http::field::host), Once(head, http::field::origin),
           websocket::is_upgrade(head),   Text(head[http::field::sec_websocket_protocol])};
 }
 
@@ -134,7 +143,7 @@ void WebSession::Reply(unsigned status, std::string_view type, std::string_view 
 }
 
 void WebSession::OnHead(const OpenSocket& answer) {
-  if (shared_.sockets >= shared_.options.max_sockets)
+  if (shared_.sockets >= shared_.options.max_sockets && !shared_.make_room())
     return OnHead(RefuseRequest{503, "there are as many pages as this station serves"});
   const bool foxglove = answer.dialect == Dialect::kFoxglove;
   socket_.read_message_max(foxglove ? shared_.options.max_client_message : shared_.options.max_message);
@@ -157,6 +166,11 @@ void WebSession::Accepted(const OpenSocket& answer) {
   counted_ = shared_.now;
   allowance_ = shared_.options.messages_per_s * kBurst_s;
   socket_.auto_fragment(false);
+  socket_.control_callback([this](websocket::frame_type kind, beast::string_view) {
+    if (kind != websocket::frame_type::pong) return;
+    pinging_ = false;
+    has_ponged_ = true;
+  });
   joined_ = true;
   ++shared_.sockets;
   beast::error_code gone;
@@ -196,7 +210,20 @@ bool WebSession::MaySay() {
 }
 
 bool WebSession::Send(std::string message, bool binary) {
-  return waiting_.empty() && Queue(std::move(message), binary);
+  if ((pinging_ && has_ponged_) || !waiting_.empty() || !Queue(std::move(message), binary)) return false;
+  Ping();
+  return true;
+}
+
+void WebSession::Ping() {
+  if (pinging_) return;
+  pinging_ = true;
+  pinged_ = shared_.now;
+  socket_.async_ping({}, [self = shared_from_this()](beast::error_code) {});
+}
+
+bool WebSession::SeemsDead() const {
+  return phase_ == Phase::kSocket && pinging_ && Seconds(shared_.now - pinged_) > kDead_s;
 }
 
 bool WebSession::Queue(std::string message, bool binary) {
@@ -220,6 +247,10 @@ void WebSession::Write() {
 }
 
 void WebSession::CheckTime() {
+  if (has_ponged_ && pinging_ && Seconds(shared_.now - pinged_) > kGone_s && phase_ == Phase::kSocket) {
+    ++shared_.counters.slow;
+    return Close();
+  }
   if (phase_ == Phase::kDone || (phase_ == Phase::kSocket && waiting_.empty())) return;
   const auto& options = shared_.options;
   const bool waits = phase_ == Phase::kPictures && !looking_->jpeg;

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +31,8 @@ struct WebShared {
   int sockets = 0;  ///< open WebSockets
   Time now{};       ///< of the Poll that runs
   WebPicture picture{};
-  std::optional<Time> watched{};  ///< when somebody looked at pictures last
+  std::function<bool()> make_room{};  ///< ends a WebSocket that seems dead; false: there is none
+  std::optional<Time> watched{};      ///< when somebody looked at pictures last
 };
 
 /// One connection: a request, and then a file, a refusal, pictures, or a WebSocket until somebody closes it.
@@ -42,7 +44,9 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   WebSession(boost::asio::ip::tcp::socket socket, std::uint64_t id, WebShared& shared);
 
   void Start();
-  /// Sends a message over its WebSocket; false when it has not taken the one before.
+  /// Sends a message over its WebSocket; false when it has not taken the one before. Each is followed by a
+  /// ping: who has ever answered one gets the next message when he has answered the last, so that none waits
+  /// in a line that is too thin for all, where nobody could see how old it grows.
   bool Send(std::string message, bool binary);
   /// Sends a message after those that wait; false when too much does.
   bool Queue(std::string message, bool binary);
@@ -53,6 +57,8 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   void Close();
 
   Phase phase() const { return phase_; }
+  /// Whether it is a WebSocket whose other end has answered nothing for long.
+  bool SeemsDead() const;
 
  private:
   using Socket = boost::beast::websocket::stream<boost::asio::ip::tcp::socket>;
@@ -63,6 +69,7 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   void OnHead(const ServePictures& answer);
   void OnHead(const RefuseRequest& answer);
   void WatchEnd();
+  void Ping();
   void WritePicture(std::string head, std::string_view end);
   void Reply(unsigned status, std::string_view type, std::string_view text, bool head_only);
   void Accepted(const OpenSocket& answer);
@@ -98,6 +105,9 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   Phase phase_ = Phase::kHead;
   Dialect dialect_ = Dialect::kPage;
   bool joined_ = false;
+  bool pinging_ = false;  ///< a ping is not answered yet
+  bool has_ponged_ = false;
+  Time pinged_{};
   Time since_{};          ///< when the connection came, or what is being sent was begun
   double allowance_ = 0;  ///< messages that the page may still send at once
   Time counted_{};

@@ -32,6 +32,7 @@ class TokenFile : public testing::Test {
 TEST_F(TokenFile, IsNotNeededOnLoopback) {
   EXPECT_TRUE(LoadAccess("127.0.0.1", "").loopback_only);
   EXPECT_TRUE(LoadAccess("::1", "").loopback_only);
+  EXPECT_THAT(ThrownReason([] { LoadAccess("127.0.0.2", ""); }), HasSubstr("expected a token_file"));
   EXPECT_THAT(ThrownReason([] { LoadAccess("0.0.0.0", ""); }), HasSubstr("expected a token_file"));
   EXPECT_THAT(ThrownReason([] { LoadAccess("192.168.1.5", ""); }), HasSubstr("expected a token_file"));
 }

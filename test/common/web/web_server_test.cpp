@@ -18,6 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+const std::string kPing("\x89\0", 2), kPong = WebClient::Frame("", 0x8a);
 const WebFiles kFiles{{"/", {"text/html", "<p>page</p>"}}};
 
 class WebServerTest : public testing::Test, public WebListener {
@@ -78,6 +79,12 @@ TEST_F(WebServerTest, ServesThePageOnce) {
   EXPECT_EQ(server_->counters().requests, 1u);
 }
 
+TEST_F(WebServerTest, TakesNoHostThatIsThereTwice) {
+  const std::string host = "Host: " + host_ + "\r\n";
+  EXPECT_THAT(Answer("GET / HTTP/1.1\r\n" + host + "Host: evil.example\r\n\r\n"), HasSubstr("403"));
+  EXPECT_FALSE(Client()->Upgrade("http://" + host_, "/socket", host_, "Origin: http://evil.example\r\n"));
+}
+
 TEST_F(WebServerTest, TalksWithAPageInBothDirections) {
   const auto page = Page();
   ASSERT_THAT(pages_, testing::SizeIs(1));
@@ -85,13 +92,49 @@ TEST_F(WebServerTest, TalksWithAPageInBothDirections) {
   Turn(0.05);
   EXPECT_THAT(said_, ElementsAre("hello"));
   EXPECT_TRUE(server_->Send(pages_[0], std::string(300, 'x')));
-  const std::string heard = page->Hear([](const std::string& t) { return t.size() >= 304; });
-  EXPECT_THAT(heard, testing::EndsWith(std::string(300, 'x')));
+  const std::string heard = page->Hear([](const std::string& t) { return t.size() >= 306; });
+  EXPECT_THAT(heard, testing::EndsWith(std::string(300, 'x') + kPing));
   page->Close();
   Turn(0.05);
   EXPECT_THAT(pages_, IsEmpty());
   EXPECT_FALSE(server_->Send(1, "nobody"));
   EXPECT_EQ(server_->counters().messages, 0u) << "to leave is no fault";
+}
+
+TEST_F(WebServerTest, WhoAnswersPingsGetsTheNextMessageWhenHeHasTheLast) {
+  const auto page = Page();
+  const auto send = [&] { return server_->Send(pages_[0], "news"); };
+  EXPECT_TRUE(send());
+  Turn(0.01);
+  EXPECT_TRUE(send()) << "who answers no pings at all is not waited for";
+  page->Say(kPong);
+  Turn(0.01);
+  EXPECT_TRUE(send());
+  Turn(0.01);
+  EXPECT_FALSE(send()) << "it may still be on the line";
+  page->Say(kPong);
+  Turn(0.01);
+  EXPECT_TRUE(send());
+  step_us_ = 100'000;
+  Turn(31);
+  EXPECT_THAT(pages_, IsEmpty()) << "it is gone";
+}
+
+TEST_F(WebServerTest, PagesThatAnswerNothingKeepNobodyOut) {
+  WebServerOptions options;
+  options.max_sockets = 2;
+  Start(options);
+  const auto dead = Page(), alive = Page();
+  for (const auto id : pages_) EXPECT_TRUE(server_->Send(id, "news"));
+  Turn(0.01);
+  alive->Say(kPong);
+  EXPECT_FALSE(Client()->Upgrade("http://" + host_, "/socket", host_)) << "both may be alive";
+  step_us_ = 100'000;
+  Turn(6);
+  EXPECT_TRUE(Client()->Upgrade("http://" + host_, "/socket", host_));
+  dead->HearAll();
+  EXPECT_TRUE(dead->ended());
+  EXPECT_FALSE(alive->ended());
 }
 
 TEST_F(WebServerTest, CutsOffWhoSaysWhatNobodyMaySay) {
