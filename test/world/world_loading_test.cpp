@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -149,6 +150,17 @@ TEST_F(BadWorldTest, PeopleAndHolesAreCheckedWithTheirPlaceInTheFile) {
   EXPECT_THAT(ErrorOf("[cameras]\ngain_spread = 2\n"),
               ::testing::HasSubstr("world.toml:3:cameras.gain_spread"));
   EXPECT_THAT(ErrorOf("[mast]\nnod_deg_s2_m = 20\n"), ::testing::HasSubstr("world.toml:3:mast.nod_deg_s2_m"));
+}
+
+TEST_F(BadWorldTest, AGridOfNoFileIsRefusedAndNotWaitedFor) {
+  using ::testing::HasSubstr;
+  EXPECT_THAT(ErrorOf("[grid]\nyaml = \".\"\n"),
+              HasSubstr("world.toml:2: grid.yaml: expected a file, got a folder"));
+  std::ofstream(folder_ / "grid.yaml") << "image: pipe\nresolution: 0.05\norigin: [0, 0, 0]\n";
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(ErrorOf("[grid]\nyaml = \"grid.yaml\"\n"), HasSubstr("image: expected a file, got a pipe"));
+  std::ofstream(folder_ / "grid.yaml") << "image: /dev/zero\nresolution: 0.05\norigin: [0, 0, 0]\n";
+  EXPECT_THAT(ErrorOf("[grid]\nyaml = \"grid.yaml\"\n"), HasSubstr("image: expected a file, got a device"));
 }
 
 }  // namespace
