@@ -82,7 +82,7 @@ void RequireTimesFit(const MergeOptions& options, const bus::ClockFit& fit) {
     const auto [least, most] = RoomOf(options.second);
     throw std::runtime_error(
         fmt::format("--offset: expected {:.0f} to {:.0f} s, with which the times of {} stay before the year "
-                    "2255, got {:.10g}",
+                    "2255, got {:.0f}",
                     std::ceil(least), std::floor(most), options.second, fit.offset_us * 1e-6));
   }
 }

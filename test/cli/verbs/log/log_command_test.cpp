@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lcmtypes/channels.hpp"
+#include "priamos/type_text_t.hpp"
 #include "test/cli/message_log.hpp"
 #include "test/cli/priamos_answer.hpp"
 #include "test/support/temporary_folder.hpp"

@@ -102,7 +102,7 @@ TEST_F(LogExport, ALogOfUnknownTypesNamesTheOptionThatBringsThem) {
   MessageLog(foreign).AddBytes(0, "FOREIGN", std::vector<std::byte>(12, std::byte{7}));
   const auto answer = Priamos({"log", "export", foreign, "jsonl"});
   EXPECT_EQ(answer.exit_code, 1);
-  EXPECT_THAT(answer.err, HasSubstr("left out: 1 undecodable"));
+  EXPECT_THAT(answer.err, HasSubstr("0 messages; 1 undecodable; 0 damaged places"));
   EXPECT_THAT(answer.err, HasSubstr("no message could be decoded; name its .lcm folder with --types"));
 }
 
