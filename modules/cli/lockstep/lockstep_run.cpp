@@ -25,7 +25,8 @@ ConfigSource SourceOf(const LockstepRequest& request, const ScenarioProcess& pro
   ConfigSource source{(std::filesystem::path(request.deployment) / process.config).string(), {}};
   if (!process.set.empty()) source.overrides.push_back(process.set);
   if (process.module == "head" && request.keep_pictures && request.log_folder)
-    source.overrides.push_back(PathOverride("keep_pictures", std::filesystem::path(*request.log_folder) / "pictures"));
+    source.overrides.push_back(
+        PathOverride("keep_pictures", std::filesystem::path(*request.log_folder) / "pictures"));
   if (process.module == "radio") source.overrides.push_back("port=" + TtyOf(process.bus));
   // No daemon in simulated time: the mouse is plugged into teleop itself.
   if (process.module == "teleop")

@@ -300,10 +300,9 @@ TEST_F(Hosts, TwoWorkstationsSeeTheRobotAndOneDrivesUntilTheOtherTakesOver) {
     wait $PAGES
     echo "--- poses"; grep -c . $DIR/poses; echo "--- said"; cat $DIR/*-console $DIR/*-radio $DIR/*-robot
   )sh");
-  for (const char* seen :
-       {"first sees the robot: True", "second sees the robot: True", "first drives: True", "second asks: True",
-        "second drives unasked: False", "first kept the lease: True", "second takes over: True",
-        "first is told who has it now: True"})
+  for (const char* seen : {"first sees the robot: True", "second sees the robot: True", "first drives: True",
+                           "second asks: True", "second drives unasked: False", "first kept the lease: True",
+                           "second takes over: True", "first is told who has it now: True"})
     EXPECT_THAT(answer.text, HasSubstr(seen));
   EXPECT_EQ(Part(answer, "poses"), "3\n");
 }
