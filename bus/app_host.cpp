@@ -4,22 +4,13 @@
 #include <string>
 
 #include "bus/clocks/clock_health.hpp"
+#include "bus/health_text.hpp"
 #include "common/config.hpp"
 
 namespace priamos::bus {
 namespace {
 
 constexpr Duration kHealthPeriod = std::chrono::seconds(1);
-
-constexpr std::size_t kHealthTextBytes = 94;  // @max of health_t.text
-
-/// At most `bytes` bytes, and no half character at the end.
-std::string CutUtf8(std::string text, std::size_t bytes) {
-  if (text.size() <= bytes) return text;
-  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xc0) == 0x80) --bytes;
-  text.resize(bytes);
-  return text;
-}
 
 std::int32_t Capped(std::uint64_t count) {
   return static_cast<std::int32_t>(std::min<std::uint64_t>(count, 1000000));
@@ -75,7 +66,7 @@ std::string AppHost::HealthText() const {
   if (const std::string more = further_problems_ ? further_problems_() : ""; !more.empty())
     problems = problems.empty() ? more : more + "; " + problems;
   if (!text.empty() && !problems.empty()) text += "; ";
-  return CutUtf8(text + problems, kHealthTextBytes);
+  return FitHealthText(text + problems);
 }
 
 void AppHost::PublishHealth(Time now) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "bus/clocks/host_clock.hpp"
 #include "bus/host/service_notifier.hpp"
@@ -17,12 +18,17 @@ constexpr Duration kLongestGap = std::chrono::seconds(60);
 
 }  // namespace
 
-LogFollower::LogFollower(LcmBus& bus, const Schema& schema, std::string name, Starter start)
-    : bus_(bus), schema_(schema), name_(std::move(name)), start_(std::move(start)) {
+LogFollower::LogFollower(LcmBus& bus, const Schema& schema, std::string name, Starter start,
+                         std::vector<HeardMessage> first)
+    : bus_(bus), schema_(schema), name_(std::move(name)), start_(std::move(start)), first_(std::move(first)) {
   bus_.PublishUnder(kPrefix);
   // The first subscription hears a message before the App does, which ticks up to it.
   bus_.SubscribeEverything(
       [this](std::string_view channel, std::span<const std::byte> bytes) { Hear(channel, bytes); });
+}
+
+LogFollower::~LogFollower() {
+  bus_.UnsubscribeAll();
 }
 
 /// What the App sent when it was recorded: it shows when it ticked.
@@ -48,12 +54,24 @@ void LogFollower::TickUntil(Time until, bool including) {
 void LogFollower::Hear(std::string_view channel, std::span<const std::byte> bytes) {
   if (channel.starts_with(kPrefix)) return;
   const auto stamp = StampOf(schema_, bytes);
-  if (!stamp) return;
+  if (!stamp || !LogTime::IsPlausible(*stamp)) return;
+  if (!host_) {  // it has no ears yet
+    first_.push_back({std::string(channel), {bytes.begin(), bytes.end()}});
+    return;
+  }
   time_.Hear(*stamp);
-  if (!host_ || time_.went_back()) return;
+  beginning_.Note(time_, channel, bytes);
+  if (time_.is_behind()) return;
   const bool own = IsOwn(channel, bytes);
   if (own && *stamp <= *time_.now()) host_->TickNextAt(*stamp);
   TickUntil(*time_.now(), own);
+}
+
+/// Makes the App at the time of the first message, which it hears with all that have come since.
+void LogFollower::Begin() {
+  clock_.Set(*StampOf(schema_, first_.front().bytes));
+  host_ = start_(clock_);
+  for (const HeardMessage& message : std::exchange(first_, {})) bus_.Deliver(message.channel, message.bytes);
 }
 
 std::optional<int> LogFollower::Run(const SignalWatch& signals) {
@@ -66,9 +84,7 @@ std::optional<int> LogFollower::Run(const SignalWatch& signals) {
     bus_.Drain();
     notifier.Beat(alive.Now(), host_ ? host_->status() : "waits for the first message of a log");
     if (time_.went_back()) return std::nullopt;
-    if (host_ || !time_.now()) continue;
-    clock_.Set(*time_.now());
-    host_ = start_(clock_);
+    if (!host_ && !first_.empty()) Begin();
   }
   return host_->exit_code();
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "bus/app_host.hpp"
 #include "bus/clocks/clock.hpp"
@@ -24,18 +25,24 @@ class LogFollower {
   /// Makes the App when the first message with a time stamp has come.
   using Starter = std::function<std::unique_ptr<AppHost>(const Clock&)>;
 
-  /// Subscribes on `bus` before anybody else; `name` is that of the process. `bus` and `schema` must outlive
-  /// it, and `bus` is not drained after it.
-  LogFollower(LcmBus& bus, const Schema& schema, std::string name, Starter start);
+  /// Subscribes on `bus` before anybody else; `name` is that of the process. `first` are messages that it
+  /// hears before those of the bus. `bus` and `schema` must outlive it.
+  LogFollower(LcmBus& bus, const Schema& schema, std::string name, Starter start,
+              std::vector<HeardMessage> first = {});
+  /// Takes back every subscription of the bus.
+  ~LogFollower();
   LogFollower(const LogFollower&) = delete;
   LogFollower& operator=(const LogFollower&) = delete;
 
   /// Runs until a signal or RequestStop and returns the exit code; nullopt when the log went back: another
-  /// follower, on another LcmBus, begins anew.
+  /// follower begins anew, with what this one heard of the log that began again.
   std::optional<int> Run(const SignalWatch& signals);
+  /// What was heard of the log that began again.
+  std::vector<HeardMessage> TakeBeginning() { return beginning_.Take(); }
 
  private:
   void Hear(std::string_view channel, std::span<const std::byte> bytes);
+  void Begin();
   bool IsOwn(std::string_view channel, std::span<const std::byte> bytes) const;
   void TickUntil(Time until, bool including);
 
@@ -44,6 +51,8 @@ class LogFollower {
   std::string name_;
   Starter start_;
   LogTime time_;
+  std::vector<HeardMessage> first_;  ///< until the App is made
+  BeginningAgain beginning_;
   SimulatedClock clock_{Time{}};
   std::unique_ptr<AppHost> host_;
 };

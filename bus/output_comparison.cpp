@@ -37,7 +37,7 @@ void Compare(const std::string& name, const Json& recorded, const Json& replayed
 }
 
 const Struct* TypeOf(std::span<const std::byte> bytes, const Schema& schema) {
-  const Struct* type = schema.Find(FingerprintOf(bytes.data(), bytes.size()));
+  const Struct* type = schema.Of(bytes);
   return type != nullptr && Walk(*type, bytes) ? type : nullptr;
 }
 

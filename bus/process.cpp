@@ -128,17 +128,19 @@ int FollowLog(const AppFactory& factory, const Options& options, const LogShow& 
   const SignalWatch signals;
   const Schema schema = OwnTypes(factory.types);
   const auto log = MakeLog(factory.name);
-  while (true) {
-    LcmBus bus(options.bus);
-    if (show) return show({bus, schema, options.config, signals, log});
-    LogFollower follower(bus, schema, factory.name, [&](const Clock& clock) {
-      log(Level::kInfo,
-          fmt::format("time is that of {}; what this sends goes to {}...", bus.url(), LogFollower::kPrefix));
-      return std::make_unique<AppHost>(factory, options.config, bus, schema, clock,
-                                       MakeSurroundings(factory, options));
-    });
+  LcmBus bus(options.bus);
+  if (show) return show({bus, schema, options.config, signals, log});
+  const auto start = [&](const Clock& clock) {
+    log(Level::kInfo,
+        fmt::format("time is that of {}; what this sends goes to {}...", bus.url(), LogFollower::kPrefix));
+    return std::make_unique<AppHost>(factory, options.config, bus, schema, clock,
+                                     MakeSurroundings(factory, options));
+  };
+  for (std::vector<HeardMessage> first;;) {
+    LogFollower follower(bus, schema, factory.name, start, std::move(first));
     if (const auto code = follower.Run(signals)) return *code;
     log(Level::kInfo, "the log went back: beginning anew");
+    first = follower.TakeBeginning();
   }
 }
 

@@ -31,7 +31,7 @@ std::optional<health_t> HealthOf(const LogEvent& event, const Schema& schema) {
 }
 
 Time StartOf(LogReader reader, const std::string& process, const Schema& schema) {
-  constexpr std::int64_t kLargest = LogReader::kLargestTime;
+  constexpr std::int64_t kLargest = log_format::kLargestTime;
   std::optional<Time> first;
   while (const auto event = reader.Next()) {
     if (!first) first = FromUtime(event->utime);

@@ -93,7 +93,7 @@ void ClockExchange::Hear(std::uint64_t sender, std::span<const std::byte> bytes)
 }
 
 std::span<const std::byte> ClockExchange::Shifted(std::span<const std::byte> bytes, Duration by) {
-  const Struct* type = schema_.Find(FingerprintOf(bytes.data(), bytes.size()));
+  const Struct* type = schema_.Of(bytes);
   if (type == nullptr) return bytes;
   shifted_.assign(bytes.begin(), bytes.end());
   return ShiftStamps(*type, shifted_, by.count()) ? std::span<const std::byte>(shifted_) : bytes;

@@ -1,6 +1,7 @@
 #include "bus/clocks/log_time.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bus/schema/big_endian.hpp"
 #include "bus/schema/schema.hpp"
@@ -14,11 +15,15 @@ constexpr Time kLatest{Duration(7'258'118'400'000'000)};  // the year 2200
 }  // namespace
 
 std::optional<Time> StampOf(const Schema& schema, std::span<const std::byte> bytes) {
-  const Struct* type = schema.Find(FingerprintOf(bytes.data(), bytes.size()));
+  const Struct* type = schema.Of(bytes);
   if (type == nullptr || type->fields.empty() || !type->fields.front().annotation.age_us ||
       !Walk(*type, bytes))
     return std::nullopt;
   return FromUtime(ReadBigEndian<std::int64_t>(bytes.data() + sizeof(std::uint64_t)));
+}
+
+bool LogTime::IsPlausible(Time stamp) {
+  return stamp > Time{} && stamp < kLatest;
 }
 
 bool LogTime::IsWitnessed(Time stamp) {
@@ -29,11 +34,22 @@ bool LogTime::IsWitnessed(Time stamp) {
 }
 
 void LogTime::Hear(Time stamp) {
-  if (stamp <= Time{} || stamp >= kLatest) return;
+  if (went_back() || !IsPlausible(stamp)) return;
   behind_ = now_ && *now_ - stamp > kBack ? behind_ + 1 : 0;
   if (now_ && stamp - *now_ > kLeap && !IsWitnessed(stamp)) return;
   witnesses_ = 0;
   now_ = std::max(stamp, now_.value_or(stamp));
+}
+
+void BeginningAgain::Note(const LogTime& time, std::string_view channel, std::span<const std::byte> bytes) {
+  if (time.is_behind())
+    messages_.push_back({std::string(channel), {bytes.begin(), bytes.end()}});
+  else
+    messages_.clear();
+}
+
+std::vector<HeardMessage> BeginningAgain::Take() {
+  return std::exchange(messages_, {});
 }
 
 }  // namespace priamos::bus

@@ -3,6 +3,9 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "common/time.hpp"
 
@@ -18,17 +21,22 @@ std::optional<Time> StampOf(const Schema& schema, std::span<const std::byte> byt
 /// one. Pure.
 ///
 /// A few wrong stamps do no harm: one that is more than kLeap ahead counts when kWitnesses in a row say so.
-/// When kWitnessesBack in a row are more than kBack behind, the log was started again, or sought back.
+/// When kWitnessesBack in a row are more than kBack behind, the log was started again, or sought back: then
+/// nothing further is taken. (Of the recorded runs one message in a row is so far behind.)
 class LogTime {
  public:
-  static constexpr Duration kLeap{2'000'000}, kBack{5'000'000};
-  static constexpr int kWitnesses = 3, kWitnessesBack = 50;
+  static constexpr Duration kLeap{2'000'000}, kBack{2'000'000};
+  static constexpr int kWitnesses = 3, kWitnessesBack = 20;
 
+  /// Whether a log can be of that time: not before 1970, nor centuries ahead.
+  static bool IsPlausible(Time stamp);
   /// Takes the stamp of the next message.
   void Hear(Time stamp);
 
   /// Newest stamp that counts; nullopt before the first message.
   std::optional<Time> now() const { return now_; }
+  /// Whether the last stamp was far behind: its message may be one of a log that begins again.
+  bool is_behind() const { return behind_ > 0; }
   bool went_back() const { return behind_ >= kWitnessesBack; }
 
  private:
@@ -38,6 +46,24 @@ class LogTime {
   Time leap_{};        ///< where a leap would lead
   int witnesses_ = 0;  ///< stamps in a row near leap_
   int behind_ = 0;     ///< stamps in a row far behind now_
+};
+
+/// A message as it came over a bus.
+struct HeardMessage {
+  std::string channel;
+  std::vector<std::byte> bytes;
+};
+
+/// The messages by which a LogTime notices that a log begins again. They belong to what comes after it. Pure.
+class BeginningAgain {
+ public:
+  /// Takes a message whose stamp `time` has just heard.
+  void Note(const LogTime& time, std::string_view channel, std::span<const std::byte> bytes);
+  /// Hands out all messages since the first that was behind.
+  std::vector<HeardMessage> Take();
+
+ private:
+  std::vector<HeardMessage> messages_;
 };
 
 }  // namespace priamos::bus

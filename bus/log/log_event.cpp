@@ -14,8 +14,17 @@ void AppendBig(std::string& out, T value) {
 }  // namespace
 
 bool IsLogChannel(std::string_view name) {
-  return !name.empty() && name.size() <= 255 &&
+  return !name.empty() && name.size() <= log_format::kMostChannelBytes &&
          std::all_of(name.begin(), name.end(), [](char c) { return c >= 0x20 && c < 0x7f; });
+}
+
+std::string_view ProblemOf(std::int64_t utime, std::string_view channel, std::size_t data_bytes) {
+  if (utime < -log_format::kLargestTime || utime > log_format::kLargestTime)
+    return "a time beyond the year 2255";
+  if (channel.empty()) return "a channel without a name";
+  if (channel.size() > log_format::kMostChannelBytes) return "a channel with a name of more than 255 bytes";
+  if (!IsLogChannel(channel)) return "a channel with a name that is not printable ASCII";
+  return data_bytes > log_format::kMostDataBytes ? "a message of more than 64 MB" : "";
 }
 
 void AppendEvent(std::string& out, std::int64_t number, std::int64_t utime, std::string_view channel,

@@ -1,10 +1,8 @@
 #include "bus/log/log_reader.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,6 +10,7 @@
 #include <stdexcept>
 
 #include "bus/schema/big_endian.hpp"
+#include "common/input/regular_file.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -26,21 +25,15 @@ constexpr std::size_t kBlock = std::size_t{8} << 20;
   throw std::runtime_error(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
 }
 
-struct Descriptor {
-  int fd;
-  ~Descriptor() { close(fd); }
-};
-
 /// The mapped file; null for an empty one, which cannot be mapped.
 std::shared_ptr<const void> Map(const std::string& path, std::size_t& size) {
-  const Descriptor file{open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (file.fd < 0) CannotRead(path, errno);
+  const RegularFile file(path);
+  if (!file.open()) throw std::runtime_error(fmt::format("{}: expected a log, got {}", path, file.problem()));
   struct stat status {};
-  if (fstat(file.fd, &status) != 0) CannotRead(path, errno);
-  if (!S_ISREG(status.st_mode)) CannotRead(path, S_ISDIR(status.st_mode) ? EISDIR : EINVAL);
+  if (fstat(file.fd(), &status) != 0) CannotRead(path, errno);
   size = static_cast<std::size_t>(status.st_size);
   if (size == 0) return nullptr;
-  void* memory = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd, 0);
+  void* memory = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd(), 0);
   if (memory == MAP_FAILED) CannotRead(path, errno);
   return {memory, [size](void* mapped) { munmap(mapped, size); }};
 }
@@ -77,17 +70,29 @@ std::int64_t LogReader::NumberAt(std::size_t offset) const {
 }
 
 std::optional<std::size_t> LogReader::EndOfEvent(std::size_t offset) const {
-  if (bytes_.size() - offset < kHeaderBytes) return std::nullopt;
-  const auto utime = ReadBigEndian<std::int64_t>(&bytes_[offset + 12]);
-  if (utime < -kLargestTime || utime > kLargestTime) return std::nullopt;
+  if (!ProblemAt(offset).empty()) return std::nullopt;
+  return offset + kHeaderBytes + ReadBigEndian<std::uint32_t>(&bytes_[offset + 20]) +
+         ReadBigEndian<std::uint32_t>(&bytes_[offset + 24]);
+}
+
+std::string_view LogReader::ProblemAt(std::size_t offset) const {
+  if (!MagicAt(offset)) return "bytes that begin no event";
+  if (bytes_.size() - offset < kHeaderBytes) return "an event that the file ends in";
   const auto channel_bytes = ReadBigEndian<std::uint32_t>(&bytes_[offset + 20]);
-  const auto data_bytes = ReadBigEndian<std::uint32_t>(&bytes_[offset + 24]);
-  if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxDataBytes)
-    return std::nullopt;
-  const std::size_t name = offset + kHeaderBytes;
-  const auto there = std::min<std::size_t>(channel_bytes, bytes_.size() - name);
-  if (there > 0 && !IsLogChannel({reinterpret_cast<const char*>(&bytes_[name]), there})) return std::nullopt;
-  return name + channel_bytes + data_bytes;
+  // Of a name that the file ends in, what is there; nothing but the file ends it.
+  const std::string_view rest(reinterpret_cast<const char*>(bytes_.data()) + offset + kHeaderBytes,
+                              bytes_.size() - offset - kHeaderBytes);
+  const std::string_view cut = rest.empty() && channel_bytes > 0 ? "?" : rest.substr(0, channel_bytes);
+  if (channel_bytes > log_format::kMostChannelBytes) return "a channel with a name of more than 255 bytes";
+  return ProblemOf(ReadBigEndian<std::int64_t>(&bytes_[offset + 12]), cut,
+                   ReadBigEndian<std::uint32_t>(&bytes_[offset + 24]));
+}
+
+std::string_view LogReader::WhyNoEvent(std::size_t offset) const {
+  const std::string_view problem = ProblemAt(offset);
+  if (!problem.empty()) return problem;
+  return *EndOfEvent(offset) > bytes_.size() ? "an event that the file, or the next one, ends in"
+                                             : "an event that the next one begins in";
 }
 
 LogReader::Place LogReader::PlaceAt(std::size_t offset) const {
@@ -140,6 +145,7 @@ std::optional<LogEvent> LogReader::Next() {
     offset_ = place.next;
     if (place.event) return EventAt(offset);
     damaged_places_ += skipping ? 0 : 1;
+    if (!first_damage_) first_damage_ = Damage{offset, WhyNoEvent(offset)};
     skipped_ += offset_ - offset;
   }
   return std::nullopt;

@@ -11,16 +11,17 @@ namespace priamos::bus {
 /// Reads LCM's log format. Damage does not end the reading: the reader goes on at the next credible event
 /// and counts what it skipped. What a message carries is never taken for an event of the log, also when the
 /// event around it is torn, as far as its length reaches. A file is mapped, and what has been read is given
-/// back: a log may be larger than the memory, and reading it takes 30 MB at most.
+/// back: a log may be larger than the memory, and reading it takes 30 MB at most, and twice its largest
+/// message.
 class LogReader {
  public:
-  static constexpr std::size_t kMaxChannelBytes = 255;
-  static constexpr std::size_t kMaxDataBytes = 1 << 24;
-  /// Largest time of an event [us] (the year 2255); a larger one is damage. Sums of such times do not
-  /// overflow. Numbers may be any.
-  static constexpr std::int64_t kLargestTime = std::int64_t{1} << 53;
+  /// The first place with damaged bytes, and what is there in words for `got ...`.
+  struct Damage {
+    std::size_t offset = 0;
+    std::string_view what;
+  };
 
-  /// Opens the log file `path`. Throws std::runtime_error when it cannot be read.
+  /// Opens the log file `path`. Throws std::runtime_error when it cannot be read, or is no regular file.
   explicit LogReader(const std::string& path);
   /// Reads from `bytes`, which must outlive the reader.
   explicit LogReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -31,6 +32,8 @@ class LogReader {
   std::uint64_t skipped_bytes() const { return skipped_; }
   /// Number of places so far with damaged bytes between whole events.
   std::uint64_t damaged_places() const { return damaged_places_; }
+  /// nullopt: none so far.
+  const std::optional<Damage>& first_damage() const { return first_damage_; }
   std::size_t size() const { return bytes_.size(); }
   /// Continues reading at LogEvent::offset of an event read before; what was skipped stays counted.
   void Seek(std::size_t offset);
@@ -48,6 +51,9 @@ class LogReader {
   /// End of the event at `offset` by its header, perhaps beyond the file; nullopt if the header is not
   /// plausible.
   std::optional<std::size_t> EndOfEvent(std::size_t offset) const;
+  /// What keeps the bytes at `offset` from being an event; empty: the header is plausible.
+  std::string_view ProblemAt(std::size_t offset) const;
+  std::string_view WhyNoEvent(std::size_t offset) const;
   std::size_t FindFollower(std::size_t begin, std::size_t end, std::int64_t number) const;
   void GiveBack();
 
@@ -57,6 +63,7 @@ class LogReader {
   std::size_t given_back_ = 0;  ///< up to here the mapped file is not in memory
   std::uint64_t skipped_ = 0;
   std::uint64_t damaged_places_ = 0;
+  std::optional<Damage> first_damage_;
 };
 
 }  // namespace priamos::bus

@@ -129,7 +129,11 @@ bool LogRecorder::DueForSplit(Time now) const {
 }
 
 void LogRecorder::Add(Time now, std::string_view channel, std::span<const std::byte> bytes) {
-  if (fd_ < 0 || !IsLogChannel(channel)) return Lose();
+  if (!IsWritable(ToUtime(now), channel, bytes.size())) {
+    ++unwritable_;
+    return Lose();
+  }
+  if (fd_ < 0) return Lose();
   if (DueForSplit(now)) Split(now);
   if (fd_ < 0) return Lose();
   if (scribe_)
@@ -139,9 +143,7 @@ void LogRecorder::Add(Time now, std::string_view channel, std::span<const std::b
 }
 
 void LogRecorder::DefineTypesOf(const Schema& schema) {
-  scribe_.emplace([&schema](std::span<const std::byte> bytes) {
-    return schema.Find(FingerprintOf(bytes.data(), bytes.size()));
-  });
+  scribe_.emplace([&schema](std::span<const std::byte> bytes) { return schema.Of(bytes); });
 }
 
 void LogRecorder::Append(Time now, std::string_view channel, std::span<const std::byte> bytes) {

@@ -45,6 +45,8 @@ class LogRecorder {
   const std::string& alarm() const { return alarm_; }
   std::uint64_t recorded() const { return recorded_; }  ///< events in files
   std::uint64_t lost() const { return lost_; }          ///< events that did not get into a file
+  /// Those of lost() that no log can hold, by their channel, time or size (IsWritable).
+  std::uint64_t unwritable() const { return unwritable_; }
   std::uint64_t bytes() const { return total_bytes_; }  ///< in all files together
   const std::filesystem::path& file() const { return files_.empty() ? base_ : files_.back(); }
 
@@ -75,7 +77,7 @@ class LogRecorder {
   Time opened_{}, next_flush_{}, next_check_{};
   std::string alarm_;
   std::int64_t next_number_ = 0;
-  std::uint64_t recorded_ = 0, lost_ = 0, total_bytes_ = 0;
+  std::uint64_t recorded_ = 0, lost_ = 0, unwritable_ = 0, total_bytes_ = 0;
 };
 
 }  // namespace priamos::bus

@@ -1,6 +1,7 @@
 #include "bus/log/log_survey.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "bus/log/type_texts.hpp"
 #include "bus/schema/walk.hpp"
@@ -16,32 +17,46 @@ std::int64_t Behind(std::int64_t number, std::uint64_t n) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(number) + n);
 }
 
-/// Events missing from the recorder's numbers. A gap counts when the event behind it goes on from there: one
-/// damaged number is no loss.
+/// Numbers left out when `number` follows where `expected` should; nullopt when it is no gap.
+std::optional<std::uint64_t> GapBefore(std::int64_t number, std::int64_t expected) {
+  const auto ahead = static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(expected);
+  return number >= expected && ahead <= kLargestGap ? std::optional(ahead) : std::nullopt;
+}
+
+/// Events missing from the recorder's numbers. A number that does not follow the one before is doubtful until
+/// the next ones are seen: when they go on from it, it was right, and what it left out is missing; when they
+/// go on as if it had been the next, it was damaged, and nothing is.
 class NumberSequence {
  public:
   void Add(std::int64_t number) {
-    const bool proves_gap = gap_ > 0 && number == gap_end_;
-    const bool disproves_gap =
-        gap_ > 0 && number == Behind(expected_, 1);  // only the number before was wrong
-    if (proves_gap) missing_ += gap_;
-    gap_ = 0;
-    const auto ahead = static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(expected_);
-    if (started_ && !proves_gap && !disproves_gap && number > expected_ && ahead <= kLargestGap) {
-      gap_ = ahead;
-      gap_end_ = Behind(number, 1);
-      return;  // the next event decides which number was wrong
+    if (!started_ || number == Behind(expected_, doubtful_)) return Trust(number);
+    const auto gap = doubtful_ > 0 ? GapBefore(number, next_) : std::nullopt;
+    if (gap == 0U) {
+      missing_ += gap_;
+      return Trust(number);
     }
-    started_ = true;
-    expected_ = Behind(number, 1);
+    if (!gap) {  // those before were wrong: a number of the log each
+      expected_ = Behind(expected_, doubtful_);
+      doubtful_ = gap_ = 0;
+    }
+    gap_ += gap ? *gap : GapBefore(number, expected_).value_or(0);
+    next_ = Behind(number, 1);
+    ++doubtful_;
   }
   std::uint64_t Missing() const { return missing_ + gap_; }
 
  private:
+  void Trust(std::int64_t number) {
+    started_ = true;
+    expected_ = Behind(number, 1);
+    doubtful_ = gap_ = 0;
+  }
+
   bool started_ = false;
-  std::int64_t expected_ = 0;
+  std::int64_t expected_ = 0;   ///< behind the last number that is certain
+  std::int64_t next_ = 0;       ///< behind the last doubtful one
+  std::uint64_t doubtful_ = 0;  ///< events since the last certain number
   std::uint64_t missing_ = 0, gap_ = 0;
-  std::int64_t gap_end_ = 0;  ///< the number that proves the gap
 };
 
 void Count(LogSurvey::Channel& channel, const LogEvent& event, LogTypes& types) {
@@ -75,6 +90,7 @@ LogSurvey Survey(LogReader& reader, const Schema& schema) {
   survey.missing_numbers = numbers.Missing();
   survey.skipped_bytes = reader.skipped_bytes();
   survey.damaged_places = reader.damaged_places();
+  survey.first_damage = reader.first_damage();
   bool first = true;
   for (const auto& [name, channel] : survey.channels) {
     survey.undecodable += channel.undecodable;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -28,6 +29,7 @@ struct LogSurvey {
   std::uint64_t size_bytes = 0;
   std::uint64_t skipped_bytes = 0;
   std::uint64_t damaged_places = 0;
+  std::optional<LogReader::Damage> first_damage;
   std::uint64_t missing_numbers = 0;  ///< events the recorder counted that are not in the file
   std::uint64_t undecodable = 0;
 

@@ -15,9 +15,7 @@ class LogWriter {
   explicit LogWriter(const std::string& path);
   /// From now on a type is defined before its first message. `schema` must outlive the writer.
   void DefineTypesOf(const Schema& schema) {
-    scribe_.emplace([&schema](std::span<const std::byte> bytes) {
-      return schema.Find(FingerprintOf(bytes.data(), bytes.size()));
-    });
+    scribe_.emplace([&schema](std::span<const std::byte> bytes) { return schema.Of(bytes); });
   }
   /// Writes the next event; they are numbered from 0.
   void Write(std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes);

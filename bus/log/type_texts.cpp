@@ -1,23 +1,20 @@
 #include "bus/log/type_texts.hpp"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 
 #include "bus/schema/big_endian.hpp"
 #include "bus/schema/json.hpp"
 #include "bus/schema/lcm_format.hpp"
+#include "bus/schema/lcm_parser.hpp"
 #include "bus/schema/walk.hpp"
+#include "common/input/utf8.hpp"
 
 namespace priamos::bus {
 namespace {
 
 constexpr std::size_t kPartBytes = 1200;
-constexpr std::size_t kMostParts = 32767;
-/// Most values of one message that need no byte of it: structs without fields, in arrays and nested.
-constexpr std::uint64_t kMostValues = 100'000;
 
 /// lcmtypes/type_text_t.lcm without its comments: a reader of logs needs no other type of ours.
 const Struct& TypeTextType() {
@@ -49,49 +46,12 @@ TypeTextPart ReadTypeText(std::span<const std::byte> bytes) {
           std::string(reinterpret_cast<const char*>(bytes.data()) + kText, bytes.size() - kText - kEnd)};
 }
 
-/// Where a part ends that begins at `begin`: not within a character of UTF-8.
-std::size_t EndOfPart(const std::string& text, std::size_t begin) {
-  std::size_t end = std::min(text.size(), begin + kPartBytes);
-  const auto continues = [&](std::size_t at) {
-    return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
-  };
-  for (std::size_t at = end; at < text.size() && at > begin && end - at < 4; --at)
-    if (!continues(at)) return at;
-  return end;
-}
-
-std::vector<std::string> PartsOf(const std::string& text) {
+std::vector<std::string> PartsOf(std::string_view text) {
   std::vector<std::string> parts;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = EndOfPart(text, at);
-    parts.push_back(text.substr(at, end - at));
-    at = end;
-  }
+  for (; !text.empty(); text.remove_prefix(parts.back().size()))
+    parts.emplace_back(CutUtf8(text, kPartBytes));
   return parts;
 }
-
-/// Number of values in every message of a type, its arrays of variable size left out; a few hundred bytes of
-/// text may define structs that hold billions of empty ones.
-class ValueCount {
- public:
-  /// At most a little more than kMostValues.
-  std::uint64_t Of(const Struct& type) {
-    const auto [at, added] = known_.try_emplace(&type, 1);
-    if (!added) return at->second;
-    std::uint64_t count = 1;
-    for (const Field& field : type.fields) {
-      std::uint64_t elements = field.type == nullptr ? 1 : Of(*field.type);
-      for (const Dimension& dimension : field.dims)
-        if (!dimension.variable)
-          elements = std::min(kMostValues + 1, elements * static_cast<std::uint64_t>(dimension.size));
-      count = std::min(kMostValues + 1, count + elements);
-    }
-    return known_[&type] = count;
-  }
-
- private:
-  std::map<const Struct*, std::uint64_t> known_;
-};
 
 }  // namespace
 
@@ -106,8 +66,9 @@ std::vector<std::vector<std::byte>> TypeScribe::TextsBefore(std::span<const std:
   const Struct* type = find_(bytes);
   if (type == nullptr) return {};
   seen_.insert(fingerprint);
-  const auto parts = PartsOf(FormatLcm(*type));
-  if (parts.size() > kMostParts) return {};
+  const std::string text = FormatLcm(*type);
+  if (text.size() > LogTypes::kMostBytesOfText) return {};  // no reader would take it
+  const auto parts = PartsOf(text);
   std::vector<std::vector<std::byte>> messages;
   for (std::size_t i = 0; i < parts.size(); ++i)
     messages.push_back(FromJson(TypeTextType(), Json{{"utime", utime},
@@ -136,7 +97,8 @@ const Struct* LogTypes::Of(std::span<const std::byte> bytes) {
   const std::uint64_t fingerprint = FingerprintOf(bytes.data(), bytes.size());
   if (const Struct* type = Known(fingerprint)) return type;
   const auto claimed = claimed_.find(fingerprint);
-  if (claimed == claimed_.end() || chosen_.size() >= kMostTypes) return nullptr;
+  if (claimed == claimed_.end() || chosen_.size() >= kMostTypes || chosen_bytes_ > kMostTextBytes)
+    return nullptr;
   const Struct* type = Choose(claimed->second, bytes);
   if (type != nullptr) chosen_[fingerprint] = type;
   Forget(fingerprint);
@@ -149,21 +111,39 @@ const Struct* LogTypes::Known(std::uint64_t fingerprint) const {
   return at == chosen_.end() ? nullptr : at->second;
 }
 
+/// Null when it defines nothing, or more than a recorder would write.
+std::shared_ptr<const Schema> LogTypes::ReadText(const std::string& text) {
+  if (text.size() > kMostBytesOfText) return nullptr;
+  std::vector<TypeProblem> unreadable;
+  const std::size_t types = ParseLcm("the log", text, unreadable).size();
+  if (types == 0 || types > kMostTypesOfText) return nullptr;
+  std::vector<std::string> problems;
+  return std::make_shared<const Schema>(std::vector<Schema::Source>{{"the log", text}}, problems);
+}
+
+/// Each text is read once, also when it is claimed to define many types.
+std::shared_ptr<const Schema> LogTypes::SchemaOf(const std::string& text) {
+  const auto known = read_.find(text);
+  if (known != read_.end()) return known->second;
+  if (read_.size() == kMostReadTexts) read_.clear();
+  return read_[text] = ReadText(text);
+}
+
 const Struct* LogTypes::Choose(const ClaimedTexts& claimed, std::span<const std::byte> bytes) {
-  std::optional<Schema> best;
+  std::shared_ptr<const Schema> best;
   const auto obeyed = [&](const std::string& text) {
-    std::vector<std::string> problems;
-    Schema schema({{"the log", text}}, problems);
-    const Struct* type = schema.Find(FingerprintOf(bytes.data(), bytes.size()));
-    if (type == nullptr || ValueCount().Of(*type) > kMostValues) return false;
+    auto schema = SchemaOf(text);
+    const Struct* type = schema ? schema->Of(bytes) : nullptr;
+    if (type == nullptr) return false;
     const bool obeys{Walk(*type, bytes)};
     if (obeys || !best) best = std::move(schema);
     return obeys;
   };
   claimed.AnyText(obeyed);
   if (!best) return nullptr;
-  schemas_.push_back(std::move(*best));
-  return schemas_.back().Find(FingerprintOf(bytes.data(), bytes.size()));
+  chosen_bytes_ += claimed.bytes();
+  schemas_.push_back(best);
+  return best->Of(bytes);
 }
 
 void LogTypes::Forget(std::uint64_t fingerprint) {

@@ -4,8 +4,11 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
+#include <memory>
 #include <set>
 #include <span>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -50,8 +53,11 @@ class TypeScribe {
 /// message obeys. What comes later changes nothing.
 class LogTypes {
  public:
-  static constexpr std::size_t kMostTypes = 4096;          ///< that one log defines
-  static constexpr std::size_t kMostTextBytes = 16 << 20;  ///< kept of texts whose messages have not come
+  static constexpr std::size_t kMostTypes = 4096;  ///< that one log defines
+  /// Kept of texts whose messages have not come; and of those whose messages have.
+  static constexpr std::size_t kMostTextBytes = 16 << 20;
+  static constexpr std::size_t kMostTypesOfText = 256;  ///< in one text: a type with all types in it
+  static constexpr std::size_t kMostBytesOfText = 1 << 18;
 
   /// `given` must outlive it; null: only those of the log.
   explicit LogTypes(const Schema* given) : given_(given) {}
@@ -63,15 +69,19 @@ class LogTypes {
 
  private:
   const Struct* Known(std::uint64_t fingerprint) const;
+  static std::shared_ptr<const Schema> ReadText(const std::string& text);
+  std::shared_ptr<const Schema> SchemaOf(const std::string& text);
   const Struct* Choose(const ClaimedTexts& claimed, std::span<const std::byte> bytes);
   void Forget(std::uint64_t fingerprint);
 
   const Schema* given_;
   std::unordered_map<std::uint64_t, ClaimedTexts> claimed_;  ///< texts whose messages have not come
   std::deque<std::uint64_t> order_;                          ///< of claimed_: the oldest first
-  std::vector<Schema> schemas_;                              ///< of the types in chosen_
+  static constexpr std::size_t kMostReadTexts = 64;
+  std::map<std::string, std::shared_ptr<const Schema>> read_;  ///< texts of late; null: not to be used
+  std::vector<std::shared_ptr<const Schema>> schemas_;         ///< of the types in chosen_
   std::unordered_map<std::uint64_t, const Struct*> chosen_;
-  std::size_t text_bytes_ = 0;
+  std::size_t text_bytes_ = 0, chosen_bytes_ = 0;
 };
 
 }  // namespace priamos::bus

@@ -2,12 +2,32 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bus/schema/fingerprint.hpp"
 
 namespace priamos::bus {
 namespace {
+
+/// Structs within each other that a schema describes: a text of 45 types can hold 2^45 of them.
+constexpr std::size_t kMostStructs = 10'000;
+
+/// Number of structs in a type that contains itself nowhere, at most a little more than kMostStructs.
+class StructCount {
+ public:
+  std::size_t Of(const Struct& type) {
+    if (const auto known = known_.find(&type); known != known_.end()) return known->second;
+    std::size_t count = 1;
+    for (const Field& field : type.fields)
+      if (field.type != nullptr) count = std::min(count + Of(*field.type), kMostStructs + 1);
+    return known_[&type] = count;
+  }
+
+ private:
+  std::map<const Struct*, std::size_t> known_;
+};
 
 Json ObjectOf(const Struct& type);
 
@@ -71,6 +91,11 @@ Json JsonSchemaOf(const Struct& type) {
     throw SchemaError(
         fmt::format("{}:{}: {} has a type in it that contains itself, which no flat JSON schema can describe",
                     type.file, type.line, type.full_name));
+  }
+  if (StructCount().Of(type) > kMostStructs) {
+    throw SchemaError(
+        fmt::format("{}:{}: expected a type of at most {} structs within each other, got {} with more",
+                    type.file, type.line, kMostStructs, type.full_name));
   }
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}};
   schema.update(ObjectOf(type));

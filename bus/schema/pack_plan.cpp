@@ -13,7 +13,7 @@ namespace priamos::bus {
 namespace {
 
 constexpr std::size_t kMaxEncoded = 65535;
-constexpr std::size_t kMaxRows = 10000;
+constexpr std::size_t kMaxFields = 10000;
 constexpr std::int64_t kMaxValues = 65535;
 
 struct Limits {
@@ -30,8 +30,9 @@ Limits LimitsOf(Kind kind) {
 
 class Planner {
  public:
-  Planner(const Struct& type, std::string prefix, std::int64_t repeats, std::vector<PackedField>& rows)
-      : type_(type), prefix_(std::move(prefix)), repeats_(repeats), rows_(rows) {}
+  Planner(const Struct& type, std::string prefix, std::int64_t repeats, std::vector<PackedField>& rows,
+          std::size_t& fields)
+      : type_(type), prefix_(std::move(prefix)), repeats_(repeats), rows_(rows), fields_(fields) {}
 
   std::shared_ptr<const PackPlan> Run() {
     count_numbers_.assign(type_.fields.size(), -1);
@@ -43,7 +44,7 @@ class Planner {
   void Plan(const Field& field) {
     if (!field.annotation.problem.empty()) Fail(field, field.annotation.problem);
     CheckSizes(field);
-    if (rows_.size() >= kMaxRows) Fail(field, "the type has too many fields to pack");
+    if (++fields_ > kMaxFields) Fail(field, "the type has too many fields to pack");
     PackStep step;
     step.kind = field.kind;
     step.row = rows_.size();
@@ -58,7 +59,7 @@ class Planner {
     }
     if (field.kind == Kind::kStruct) {
       if (field.annotation.refuse) Fail(field, "@refuse belongs to the fields of the struct");
-      step.code = StructPack{Planner(*field.type, name + ".", values, rows_).Run()};
+      step.code = StructPack{Planner(*field.type, name + ".", values, rows_, fields_).Run()};
     } else {
       rows_.push_back({.name = name, .unit = field.annotation.unit, .values = values, .codes = ""});
       Code(field, step);
@@ -232,6 +233,7 @@ class Planner {
   std::string prefix_;
   std::int64_t repeats_;
   std::vector<PackedField>& rows_;
+  std::size_t& fields_;                      // of the whole type, those of structs without rows too
   std::vector<std::int64_t> count_numbers_;  // per field: -1 when it counts nothing
   PackPlan plan_;
 };
@@ -243,7 +245,8 @@ std::shared_ptr<const PackPlan> MakePackPlan(const Struct& type, std::vector<Pac
     throw SchemaError(fmt::format("{}:{}: {} {}", type.file, type.line, type.full_name, sentence));
   };
   if (ReachesRecursion(type)) refuse("has a type in it that contains itself, which cannot be packed");
-  auto plan = Planner(type, "", 1, rows).Run();
+  std::size_t fields = 0;
+  auto plan = Planner(type, "", 1, rows, fields).Run();
   const auto size = MaxEncodedSize(type);
   if (!size || *size > kMaxEncoded)
     refuse(fmt::format("may have more than {} bytes, which cannot be packed", kMaxEncoded));

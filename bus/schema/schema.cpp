@@ -144,6 +144,10 @@ const Struct* Schema::Find(std::string_view name) const {
   return match;
 }
 
+const Struct* Schema::Of(std::span<const std::byte> bytes) const {
+  return Find(FingerprintOf(bytes.data(), bytes.size()));
+}
+
 bool Schema::Refused(std::string_view name) const {
   return std::any_of(refused_.begin(), refused_.end(), [&](std::string_view full_name) {
     return full_name == name || full_name.substr(full_name.rfind('.') + 1) == name;

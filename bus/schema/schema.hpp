@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -43,6 +46,8 @@ class Schema {
   const Struct* Find(std::uint64_t fingerprint) const;
   /// The type of this full name, "package.name", or of this name without package when only one has it.
   const Struct* Find(std::string_view name) const;
+  /// Type of an encoded message, by the fingerprint it begins with; nullptr when unknown.
+  const Struct* Of(std::span<const std::byte> bytes) const;
   /// All types, ordered by full name.
   std::vector<const Struct*> All() const;
   /// Whether a type of this name, full or without package, was read and refused.

@@ -19,6 +19,7 @@ class Walker {
   WalkError Body(const Struct& type) {
     const WalkPlan& plan = *type.walk_plan;
     if (depth_ >= kMaxWalkDepth || first_ + plan.counts > kMaxRegisters) return WalkError::kTooDeep;
+    if ((empty_left_ -= plan.empty) < 0) return WalkError::kHugeCount;
     ++depth_;
     std::size_t next = first_;
     for (const WalkStep& step : plan.steps) {
@@ -86,6 +87,9 @@ class Walker {
     }
     const bool empty = elements == 0 || (step.op == WalkStep::Op::kFixed && step.size == 0);
     if (empty) empty_left_ -= std::max(rows, elements);
+    std::int64_t within = 0;
+    if (__builtin_mul_overflow(elements, step.empty, &within)) return false;
+    empty_left_ -= within;
     return empty_left_ >= 0;
   }
 
@@ -135,6 +139,7 @@ WalkResult Walk(const Struct& type, std::span<const std::byte> encoded) {
   if (encoded.size() < 8) return {WalkError::kTruncated, 0};
   if (FingerprintOf(encoded.data(), encoded.size()) != type.fingerprint)
     return {WalkError::kWrongFingerprint, 0};
+  if (type.walk_plan->empty > kMaxEmptyElements) return {WalkError::kHugeCount, 8};
   if (const auto& fixed = type.walk_plan->fixed_size) {
     const std::size_t body = encoded.size() - 8;
     if (body < *fixed) return {WalkError::kTruncated, encoded.size()};

@@ -18,6 +18,9 @@ std::size_t Times(std::size_t a, std::size_t b) {
   return __builtin_mul_overflow(a, b, &result) ? kHuge : std::min(result, kHuge);
 }
 
+/// Most values that are counted: more than any message may hold.
+constexpr std::int64_t kManyValues = std::int64_t{1} << 31;
+
 /// Encoded sizes [bytes] of fields, values and types; nullopt for what contains a string or a variable array.
 class FixedSizes {
  public:
@@ -47,8 +50,24 @@ class FixedSizes {
     return known_[&type] = sum;
   }
 
+  /// Number of structs without bytes in a field of fixed size. A few lines of text can define billions.
+  std::int64_t EmptyIn(const Field& field) {
+    if (field.kind != Kind::kStruct) return 0;
+    std::int64_t count = EmptyIn(*field.type) + (OfBody(*field.type) == 0U ? 1 : 0);
+    for (const Dimension& dimension : field.dims)
+      if (__builtin_mul_overflow(count, dimension.size, &count)) count = kManyValues;
+    return std::min(count, kManyValues);
+  }
+  std::int64_t EmptyIn(const Struct& type) {
+    if (const auto known = empty_.find(&type); known != empty_.end()) return known->second;
+    std::int64_t count = 0;
+    for (const Field& field : type.fields) count = std::min(count + EmptyIn(field), kManyValues);
+    return empty_[&type] = count;
+  }
+
  private:
   std::map<const Struct*, std::optional<std::size_t>> known_;
+  std::map<const Struct*, std::int64_t> empty_;
 };
 
 class Planner {
@@ -78,6 +97,7 @@ class Planner {
     if (const auto size = sizes_.OfField(field)) {
       if (plan_.steps.empty() || plan_.steps.back().op != WalkStep::Op::kSkip) plan_.steps.emplace_back();
       plan_.steps.back().size = std::min(plan_.steps.back().size + *size, kHuge);
+      plan_.empty = std::min(plan_.empty + sizes_.EmptyIn(field), kManyValues);
       return;
     }
     const auto element = sizes_.OfValue(field);
@@ -85,6 +105,7 @@ class Planner {
                     : field.kind == Kind::kString ? WalkStep::Op::kStrings
                                                   : WalkStep::Op::kStructs;
     WalkStep step{op, element.value_or(0), field.type, {}};
+    if (element && field.type != nullptr) step.empty = sizes_.EmptyIn(*field.type);
     for (const Dimension& dimension : field.dims) {
       step.dims.push_back(dimension.variable ? -1 - registers_[dimension.count_field] : dimension.size);
     }

@@ -22,12 +22,14 @@ struct WalkStep {
   std::size_t size = 0;
   const Struct* type = nullptr;    ///< type of the elements of kStructs
   std::vector<std::int64_t> dims;  ///< >= 0: constant; < 0: the count in register -1 - dim
+  std::int64_t empty = 0;          ///< values without bytes within each element of kFixed
 };
 
 /// The steps of one type, without fingerprint.
 struct WalkPlan {
   std::vector<WalkStep> steps;
   std::size_t counts = 0;                 ///< registers needed
+  std::int64_t empty = 0;                 ///< values without bytes within the fields of kSkip
   std::optional<std::size_t> fixed_size;  ///< bytes of the body, if all messages of the type have the same
 };
 

@@ -10,6 +10,8 @@ namespace priamos::bus {
 
 struct LcmBus::Subscription {
   Handler handler;
+  std::string channel;
+  lcm_subscription_t* handle = nullptr;
 
   static void OnMessage(const lcm_recv_buf_t* buffer, const char* channel, void* self) {
     static_cast<Subscription*>(self)->handler(
@@ -74,7 +76,7 @@ void LcmBus::SubscribeEverything(Handler handler) {
 }
 
 void LcmBus::ListenThroughLiblcm(const std::string& channel, Handler handler) {
-  auto subscription = std::make_unique<Subscription>(Subscription{std::move(handler)});
+  auto subscription = std::make_unique<Subscription>(Subscription{std::move(handler), channel});
   auto* handle = lcm_subscribe(lcm_.get(), channel.c_str(), &Subscription::OnMessage, subscription.get());
   if (!handle) {
     throw BusError(
@@ -85,6 +87,7 @@ void LcmBus::ListenThroughLiblcm(const std::string& channel, Handler handler) {
   // liblcm keeps the oldest messages of a full queue; ours are drained before every tick, so the queue only
   // has to hold what one tick period can bring.
   lcm_subscription_set_queue_capacity(handle, 1000);
+  subscription->handle = handle;
   subscriptions_.push_back(std::move(subscription));
 }
 
@@ -93,6 +96,20 @@ void LcmBus::Dispatch(std::string_view channel, std::span<const std::byte> bytes
   const auto found = by_channel_.find(channel);
   if (found == by_channel_.end()) return;
   for (const Handler& handler : found->second) handler(channel, bytes);
+}
+
+void LcmBus::Deliver(std::string_view channel, std::span<const std::byte> bytes) const {
+  Dispatch(channel, bytes);
+  for (const auto& subscription : subscriptions_)
+    if (subscription->channel == kEverything || subscription->channel == channel)
+      subscription->handler(channel, bytes);
+}
+
+void LcmBus::UnsubscribeAll() {
+  by_channel_.clear();
+  of_everything_.clear();
+  for (const auto& subscription : subscriptions_) lcm_unsubscribe(lcm_.get(), subscription->handle);
+  subscriptions_.clear();
 }
 
 void LcmBus::Receive(std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes) {

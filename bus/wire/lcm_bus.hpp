@@ -61,6 +61,10 @@ class LcmBus {
   void Subscribe(std::string_view channel, Handler handler);
   /// Subscribes to every channel, for recorders.
   void SubscribeEverything(Handler handler);
+  /// Hands a message to those who subscribed, as if it had just arrived; not within a handler.
+  void Deliver(std::string_view channel, std::span<const std::byte> bytes) const;
+  /// Takes back every subscription; not within a handler. What arrives until somebody subscribes anew waits.
+  void UnsubscribeAll();
   /// From now on every message passes through `translator`; an empty one takes it away.
   void TranslateBy(Translator translator) { translator_ = std::move(translator); }
   /// From now on Publish puts `prefix` before the name of every channel.

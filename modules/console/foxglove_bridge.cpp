@@ -98,7 +98,7 @@ std::vector<Scene::Message> FoxgloveBridge::SceneOf(const std::string& channel, 
 }
 
 void FoxgloveBridge::Hear(const std::string& channel, std::span<const std::byte> bytes, Time arrival) {
-  const bus::Struct* type = schema_.Find(bus::FingerprintOf(bytes.data(), bytes.size()));
+  const bus::Struct* type = schema_.Of(bytes);
   const Stream* stream = type == nullptr ? nullptr : StreamOf(channel, *type);
   if (stream == nullptr) return;
   Newest& newest = newest_[channel];

@@ -31,16 +31,21 @@ void LogOnBus::Play(Time now, LogListener& listener) {
 
 void LogOnBus::Hear(std::string_view channel, std::span<const std::byte> bytes) {
   if (channel.starts_with(bus::LogFollower::kPrefix)) return;
-  if (const auto stamp = bus::StampOf(schema_, bytes)) log_time_.Hear(*stamp);
-  if (!log_time_.now()) return;
-  if (log_time_.went_back()) {
-    log_time_ = {};
-    begin_.reset();
-    listener_->Begun();
-    return;
+  if (const auto stamp = bus::StampOf(schema_, bytes)) {
+    log_time_.Hear(*stamp);
+    beginning_.Note(log_time_, channel, bytes);
   }
+  if (!log_time_.now()) return;
+  if (log_time_.went_back()) return BeginAgain();
   if (!begin_) begin_ = log_time_.now();
   if (IsShown(channel)) listener_->Heard(std::string(channel), bytes, *log_time_.now());
+}
+
+void LogOnBus::BeginAgain() {
+  log_time_ = {};
+  begin_.reset();
+  listener_->Begun();
+  for (const bus::HeardMessage& message : beginning_.Take()) Hear(message.channel, message.bytes);
 }
 
 void LogOnBus::MeasureSpeed(Time now) {

@@ -27,11 +27,13 @@ class LogOnBus : public ShownLog {
 
  private:
   void Hear(std::string_view channel, std::span<const std::byte> bytes);
+  void BeginAgain();
   void MeasureSpeed(Time now);
 
   bus::LcmBus& bus_;
   const bus::Schema& schema_;
   bus::LogTime log_time_;
+  bus::BeginningAgain beginning_;
   std::optional<Time> begin_;  ///< of the log, as far as it was heard
   LogListener* listener_ = nullptr;
   double speed_ = 0;

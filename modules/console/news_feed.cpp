@@ -9,7 +9,7 @@
 namespace priamos::console {
 
 void NewsFeed::Hear(const std::string& channel, std::span<const std::byte> bytes, Time arrival) {
-  const bus::Struct* type = schema_.Find(bus::FingerprintOf(bytes.data(), bytes.size()));
+  const bus::Struct* type = schema_.Of(bytes);
   if (type == nullptr) return;
   News::Json message = bus::ToJson(*type, bytes);
   const std::string key = KeyOf(channel, message, heard_[channel]++);

@@ -47,7 +47,7 @@ void ReplayStation::Tick(Time now) {
 }
 
 void ReplayStation::Heard(const std::string& channel, std::span<const std::byte> bytes, Time time) {
-  const bus::Struct* type = schema_.Find(bus::FingerprintOf(bytes.data(), bytes.size()));
+  const bus::Struct* type = schema_.Of(bytes);
   if (type == nullptr || !bus::Walk(*type, bytes)) return;  // damaged
   feed_.Hear(channel, bytes, time);
   bridge_.Hear(channel, bytes, time);

@@ -121,5 +121,92 @@ TEST_F(LogWithAGap, ASignalIsHeardBehindAnyGap) {
   EXPECT_GT(read(signals_.fd(), taken, sizeof taken), 0) << "else it would end the test itself";
 }
 
+/// What an App heard at its ticks.
+struct Heard {
+  int commands = 0, poses = 0;
+  friend bool operator==(const Heard&, const Heard&) = default;
+};
+
+/// Counts what it hears, and stops at a time of the log.
+class Counter : public AnyApp {
+ public:
+  Counter(Context& context, Heard& heard, Time end)
+      : context_(context),
+        heard_(heard),
+        end_(end),
+        commands_(context.node().SubscribeAll(channels::kMissionCommand)),
+        poses_(context.node().SubscribeAll(channels::kPose)) {}
+  Duration TickPeriod() const override { return std::chrono::milliseconds(100); }
+  void Tick(Time now) override {
+    heard_.commands += static_cast<int>(commands_.Drain().size());
+    heard_.poses += static_cast<int>(poses_.Drain().size());
+    if (now >= end_) context_.RequestStop(0);
+  }
+  void Yield(Time) override {}
+
+ private:
+  Context& context_;
+  Heard& heard_;
+  Time end_;
+  Inbox<mission_command_t> commands_;
+  Inbox<pose_t> poses_;
+};
+
+/// A log of which the first message is an order, played several times onto a bus that is followed.
+class LogPlayedAgain : public LogWithAGap {
+ protected:
+  /// A log of `length`, with 10 poses a second.
+  void PlayLog(Duration length) {
+    bus_.PublishUnder("");
+    mission_command_t command{};
+    command.utime = ToUtime(kBegin);
+    bus_.Publish("MISSION_COMMAND", Encode(command));
+    bus_.PublishUnder(LogFollower::kPrefix);
+    for (Time now = kBegin; now <= kBegin + length; now += std::chrono::milliseconds(100)) Play(now);
+  }
+
+  /// What each App heard until the last one stops, a second before the end.
+  std::vector<Heard> Follow(Duration length, std::size_t plays) {
+    std::vector<Heard> heard;
+    AppFactory factory;
+    factory.name = "counter";
+    factory.start = [&](const ConfigSource&, Context& context) {
+      const bool last = heard.size() == plays;
+      return std::make_unique<Counter>(context, heard.back(),
+                                       last ? kBegin + length - seconds(1) : Time::max());
+    };
+    for (std::vector<HeardMessage> first;;) {
+      heard.emplace_back();
+      LogFollower dut(
+          bus_, schema_, factory.name,
+          [&](const Clock& clock) {
+            return std::make_unique<AppHost>(factory, ConfigSource{}, bus_, schema_, clock, Surroundings{});
+          },
+          std::move(first));
+      for (; played_ < plays; ++played_) PlayLog(length);
+      if (dut.Run(signals_)) return heard;
+      first = dut.TakeBeginning();
+    }
+  }
+  std::size_t played_ = 0;
+};
+
+TEST_F(LogPlayedAgain, EachTimeAllOfItIsHeard) {
+  const auto heard = Follow(seconds(9), 3);
+  ASSERT_EQ(heard.size(), 3U);
+  for (const Heard& play : heard) {
+    EXPECT_EQ(play.commands, 1);
+    EXPECT_GE(play.poses, 79);
+  }
+  EXPECT_EQ(heard[1], heard[0]);
+}
+
+/// As of a log of which only the beginning is played.
+TEST_F(LogPlayedAgain, ALogOfFiveSecondsIsEnough) {
+  const auto heard = Follow(seconds(5), 2);
+  ASSERT_EQ(heard.size(), 2U);
+  EXPECT_EQ(heard[1].commands, 1);
+}
+
 }  // namespace
 }  // namespace priamos::bus

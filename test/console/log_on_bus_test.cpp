@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "bus/own_types.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "lcmtypes/channels.hpp"
@@ -79,6 +81,8 @@ TEST_F(LogOnBusTest, PlayedAgainItBeginsAnew) {
   for (int i = 0; i < 100; ++i) Send(0.2 * i);
   for (int i = 0; i < 60; ++i) Send(0.02 * i);
   EXPECT_EQ(begun_, 1);
+  EXPECT_EQ(std::count(heard_.begin(), heard_.end(), std::pair<std::string, double>("POSE", 0.0)), 2)
+      << "the station hears its first message again";
   EXPECT_NEAR(Seconds(dut_.time() - FromUtime(kThen_us)), 0.02 * 59, 1e-6);
 }
 

@@ -18,7 +18,7 @@ bool Receive(std::span<const std::byte> datagram, SequenceTracker& numbers) {
   if (!ParseDatagram(datagram, number, channel, bytes)) return false;
   Require(channel.size() + 1 + bytes.size() + 8 == datagram.size());
   numbers.Add(1, number);
-  const Struct* type = FuzzSchema().Find(FingerprintOf(bytes.data(), bytes.size()));
+  const Struct* type = FuzzSchema().Of(bytes);
   if (type != nullptr && Walk(*type, bytes)) ToJson(*type, bytes);
   return true;
 }

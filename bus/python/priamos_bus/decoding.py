@@ -60,6 +60,8 @@ class _Reader:
         values, counts = {}, {}
         for field in struct.fields:
             if not field.dims:
+                if field.kind == "struct" and field.type.fixed_size == 0:
+                    self.note_empty(1)
                 values[field.name] = self.value(field)
                 if field.kind in INTEGER_BITS:
                     counts[field.name] = values[field.name]
@@ -86,8 +88,14 @@ class _Reader:
             if elements == 0:
                 break
         if elements == 0 or each == 0:
-            self.empty_left -= max(rows, elements)
-        if self.empty_left < 0 or elements * (each or 0) > left:
+            self.note_empty(max(rows, elements))
+        if elements * (each or 0) > left:
+            self.fail("the count of an array is larger than the message")
+
+    def note_empty(self, values):
+        """Refuses a message of more values without bytes than any has; a few lines of text define billions."""
+        self.empty_left -= values
+        if self.empty_left < 0:
             self.fail("the count of an array is larger than the message")
 
     def array(self, field, sizes, level):

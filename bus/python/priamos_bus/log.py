@@ -14,7 +14,7 @@ from .type_texts import TypeTexts, is_type_text
 
 _MAGIC = b"\xed\xa1\xda\x01"
 _HEADER = binary.Struct(">4sqqII")
-MOST_CHANNEL, MOST_DATA, LARGEST_TIME = 255, 1 << 24, 1 << 53
+MOST_CHANNEL, MOST_DATA, LARGEST_TIME = 255, 64 << 20, 1 << 53
 
 
 class LogError(Exception):
@@ -136,7 +136,8 @@ class Log:
 
 def _map(path):
     try:
-        with open(path, "rb") as file:
+        # Whoever opens a pipe waits for somebody who writes.
+        with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
             status = os.fstat(file.fileno())
             if not stat.S_ISREG(status.st_mode):
                 raise LogError(f"{path}: cannot be read: it is no file")
@@ -162,6 +163,9 @@ class LogWriter:
         name = channel.encode("ascii", "replace")
         if not 0 < len(name) <= MOST_CHANNEL or not all(0x20 <= byte < 0x7F for byte in name):
             raise LogError(f"{self.path}: expected a channel of 1 to {MOST_CHANNEL} printable characters, got {channel!r}")
+        if len(data) > MOST_DATA or not -LARGEST_TIME <= utime <= LARGEST_TIME:
+            raise LogError(f"{self.path}: expected at most {MOST_DATA} bytes and a time before 2255, which readers take, "
+                           f"got {len(data)} bytes at {utime} us")
         try:
             self.file.write(_HEADER.pack(_MAGIC, self.number, utime, len(name), len(data)) + name + data)
         except OSError as error:

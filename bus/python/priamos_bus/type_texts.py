@@ -3,13 +3,15 @@
 import itertools
 
 from .decoding import decode
+from .lcm_text import parse_lcm
 from .model import MessageError
 from .schema import Schema, fingerprint_of
 
 TYPE_TEXT = "TYPE_TEXT"
 MOST_TYPES = 4096  # of one log, whatever it holds
 MOST_TEXT_BYTES = 16 << 20  # kept of texts whose messages have not come
-MOST_VALUES = 100_000  # of one message that need no byte of it: structs without fields, in arrays and nested
+MOST_TYPES_OF_TEXT, MOST_BYTES_OF_TEXT = 256, 1 << 18  # one text: a type with all types in it
+MOST_READ_TEXTS = 64  # that are kept as they were read
 MOST_VERSIONS, MOST_TRIES, MOST_WORK = 8, 64, 8  # of one part; whole texts put together; bytes of them per byte kept
 _PART_OVERHEAD = 64  # bytes of memory beside the text
 _OWN = Schema([("type_text_t.lcm", """package priamos;
@@ -36,7 +38,8 @@ class TypeTexts:
     nothing."""
 
     def __init__(self, schema):
-        self.schema, self.claimed, self.chosen, self.text_bytes = schema, {}, 0, 0
+        self.schema, self.claimed, self.chosen, self.text_bytes, self.chosen_bytes = schema, {}, 0, 0, 0
+        self._read = {}
 
     def take(self, data):
         """Takes an encoded message; False when it is of another type."""
@@ -60,14 +63,41 @@ class TypeTexts:
         """The type of an encoded message; None while it is unknown."""
         fingerprint = fingerprint_of(data)
         known = self.schema.find(fingerprint)
-        if known is not None or fingerprint not in self.claimed or self.chosen >= MOST_TYPES:
+        full = self.chosen >= MOST_TYPES or self.chosen_bytes > MOST_TEXT_BYTES
+        if known is not None or fingerprint not in self.claimed or full:
             return known
-        struct = _choose(self.claimed[fingerprint], fingerprint, data)
+        struct = self._choose(self.claimed[fingerprint], fingerprint, data)
         if struct is not None:
             self.chosen += 1
+            self.chosen_bytes += self.claimed[fingerprint].bytes
             self.schema.adopt(struct)
         self._forget(fingerprint)
         return struct
+
+    def _choose(self, claimed, fingerprint, data):
+        best = None
+        for text in claimed.texts():
+            schema = self._schema_of(text)
+            struct = schema and schema.find(fingerprint)
+            if struct is None:
+                continue
+            try:
+                decode(struct, data)
+                return struct
+            except MessageError:
+                best = best or struct
+        return best
+
+    def _schema_of(self, text):
+        """Its types; None when it defines none, or more than a recorder would write. Each text is read once, also when
+        it is claimed to define many types."""
+        if text not in self._read:
+            if len(self._read) == MOST_READ_TEXTS:
+                self._read.clear()
+            fits = len(text.encode("utf-8", "surrogateescape")) <= MOST_BYTES_OF_TEXT
+            types = len(parse_lcm("the log", text, [])) if fits else 0
+            self._read[text] = Schema([("the log", text)]) if 0 < types <= MOST_TYPES_OF_TEXT else None
+        return self._read[text]
 
     def _forget(self, fingerprint):
         self.text_bytes -= self.claimed.pop(fingerprint).bytes
@@ -103,31 +133,3 @@ class _ClaimedTexts:
                     break
                 seen += len(text)
                 yield text.encode("utf-8", "surrogateescape").decode("utf-8", "surrogateescape")
-
-
-def _choose(claimed, fingerprint, data):
-    best = None
-    for text in claimed.texts():
-        struct = Schema([("the log", text)]).find(fingerprint)
-        if struct is None or _values(struct, {}) > MOST_VALUES:
-            continue
-        try:
-            decode(struct, data)
-            return struct
-        except MessageError:
-            best = best or struct
-    return best
-
-
-def _values(struct, counts):
-    """Number of values in every message of a type, its arrays of variable size left out."""
-    if id(struct) in counts:
-        return counts[id(struct)]
-    counts[id(struct)] = total = 1
-    for field in struct.fields:
-        values = 1 if field.type is None else _values(field.type, counts)
-        for dimension in field.dims:
-            values = values if dimension.count else min(values * dimension.size, MOST_VALUES + 1)
-        total = min(total + values, MOST_VALUES + 1)
-    counts[id(struct)] = total
-    return total

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "bus/lockstep.hpp"
 #include "cli/lockstep/factories.hpp"
+#include "cli/options/path_override.hpp"
 #include "cli/report/report_files.hpp"
 #include "cli/report/story_verdict.hpp"
 #include "cli/scenario/scenario_story.hpp"
@@ -21,16 +21,12 @@ std::string TtyOf(const std::string& bus) {
   return std::string(bus == "onboard" ? kOnboardTty : kOffboardTty);
 }
 
-/// A folder may have blanks, and quotes, in its name.
-std::string KeptIn(const std::filesystem::path& folder) {
-  return "keep_pictures=" + nlohmann::json(folder.string()).dump();
-}
-
 ConfigSource SourceOf(const LockstepRequest& request, const ScenarioProcess& process) {
   ConfigSource source{(std::filesystem::path(request.deployment) / process.config).string(), {}};
   if (!process.set.empty()) source.overrides.push_back(process.set);
   if (process.module == "head" && request.keep_pictures && request.log_folder)
-    source.overrides.push_back(KeptIn(std::filesystem::absolute(*request.log_folder) / "pictures"));
+    source.overrides.push_back(
+        PathOverride("keep_pictures", std::filesystem::path(*request.log_folder) / "pictures"));
   if (process.module == "radio") source.overrides.push_back("port=" + TtyOf(process.bus));
   // No daemon in simulated time: the mouse is plugged into teleop itself.
   if (process.module == "teleop")

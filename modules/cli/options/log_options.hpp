@@ -1,11 +1,13 @@
 #pragma once
 
 #include <fstream>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bus/log/log_event.hpp"
 #include "bus/log/log_selection.hpp"
 #include "cli/options/bus_options.hpp"
 #include "cli/options/new_file.hpp"
@@ -31,12 +33,19 @@ bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string
 /// is "-", which elsewhere means standard output.
 void RequireNewFile(const std::string& out, const std::string& in, bool force);
 
+/// Checks that `log` has an event that is `wanted`, before anything takes the place of `out`. Throws
+/// std::runtime_error when it has none: `purpose` completes "expected events to ...".
+void RequireEvents(const std::string& log, const std::string& out, const std::string& purpose,
+                   const std::function<bool(const bus::LogEvent& event)>& wanted);
+
 /// A new file, or standard output when `out` is empty or "-". A file that is not closed was never there.
 class OutputFile {
  public:
   /// Opens the output. Throws std::runtime_error as RequireNewFile does, or when the file cannot be made.
   OutputFile(const std::string& out, const std::string& in, bool force);
   std::ostream& stream();
+  /// Whether it is a file, not standard output.
+  bool named() const { return !name_.empty(); }
   /// Writes what is left and closes the output; returns 0. Throws std::runtime_error when not all could be
   /// written.
   int Close();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/input/utf8.hpp"
+
 namespace priamos::cli {
 namespace {
 
@@ -15,15 +17,11 @@ std::string Padded(const std::string& text, int width, bool is_text) {
   return is_text ? text + blanks : blanks + text;
 }
 
-bool IsContinuation(char c) {
-  return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
-}
-
 /// Where the character with that number, from 0, begins.
 std::size_t ByteOf(const std::string& text, int character) {
   std::size_t at = 0;
   for (int n = 0; at < text.size(); ++at)
-    if (!IsContinuation(text[at]) && n++ == character) break;
+    if (!IsUtf8Continuation(text[at]) && n++ == character) break;
   return at;
 }
 
@@ -82,7 +80,8 @@ std::string TextTable::Render() const {
 }
 
 int Characters(std::string_view text) {
-  return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) { return !IsContinuation(c); }));
+  return static_cast<int>(
+      std::count_if(text.begin(), text.end(), [](char c) { return !IsUtf8Continuation(c); }));
 }
 
 std::string Clipped(const std::string& text, int columns) {

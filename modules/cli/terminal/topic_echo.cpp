@@ -68,7 +68,7 @@ class Echo {
   /// bus must not throw.
   void Take(std::span<const std::byte> bytes) {
     ++seen_;
-    const auto* type = schema_.Find(bus::FingerprintOf(bytes.data(), bytes.size()));
+    const auto* type = schema_.Of(bytes);
     try {
       if (type != nullptr && type != resolved_) Resolve(*type);
     } catch (const bus::MessageError&) {

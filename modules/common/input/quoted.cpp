@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/input/utf8.hpp"
+
 namespace priamos {
 namespace {
 
@@ -9,10 +11,6 @@ namespace {
 constexpr unsigned char kC1Lead = 0xC2;
 /// Bytes of a text of others that a sentence shows.
 constexpr std::size_t kMostShown = 80;
-
-bool IsContinuation(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
-}
 
 bool IsControl(unsigned char c) {
   return c < 0x20 || c == 0x7F;
@@ -46,9 +44,7 @@ std::string Escaped(std::string_view text) {
 
 std::string Shortened(std::string_view text) {
   if (text.size() <= kMostShown) return std::string(text);
-  std::size_t end = kMostShown;
-  while (end > kMostShown - 3 && IsContinuation(text[end])) --end;  // not within a character
-  return fmt::format("{}... ({} bytes)", text.substr(0, end), text.size());
+  return fmt::format("{}... ({} bytes)", CutUtf8(text, kMostShown), text.size());
 }
 
 std::string Quoted(std::string_view text) {

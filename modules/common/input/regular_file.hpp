@@ -16,6 +16,8 @@ class RegularFile {
   ~RegularFile();
 
   bool open() const { return fd_ >= 0; }
+  /// Its descriptor, which it closes; -1 when it is not open.
+  int fd() const { return fd_; }
   /// Whether there is nothing of that name.
   bool missing() const { return missing_; }
   /// What there is instead of a file that can be read, for `expected ..., got ...`: `none`, `a pipe`, `a

@@ -326,10 +326,20 @@ void BusyBus(const std::string& program, bool quick) {
 
 void FlatOut(bool quick) {
   for (const std::size_t bytes : {std::size_t{72}, bus::LcmBus::kMaxMessageBytes}) {
-    const Throughput t = SendFlatOut(bytes, quick ? 1 : 5);
+    constexpr std::size_t kHeader = 8 + sizeof "FLOOD";  // of LCM's datagrams
+    const double seconds = quick ? 1 : 5;
+    const Throughput raw = SendRawFlatOut(bytes + kHeader, seconds), t = SendFlatOut(bytes, seconds);
     const std::string what = fmt::format("{} bytes flat out: ", bytes);
     const auto sent = static_cast<double>(t.sent);
-    Report(what + "messages sent per second", sent / t.seconds, 0, "1/s");
+    const auto per_second = [](std::uint64_t n, const Throughput& of) {
+      return static_cast<double>(n) / of.seconds;
+    };
+    Report(what + "sent per second, raw sockets", per_second(raw.sent, raw), 0, "1/s");
+    Report(what + "heard per second, raw sockets", per_second(raw.heard, raw), 0, "1/s");
+    Report(what + "messages sent per second", per_second(t.sent, t), 0, "1/s");
+    Report(what + "messages heard per second", per_second(t.heard, t), 0, "1/s");
+    Report(what + "heard by raw sockets / heard by the bus",
+           per_second(raw.heard, raw) / per_second(t.heard, t), 0, "");
     Report(what + "lost and reported", 100 * static_cast<double>(t.lost) / sent, 0, "%");
     Report(what + "lost and not reported",
            std::abs(sent - static_cast<double>(t.heard) - static_cast<double>(t.lost)), 1e-9, "");

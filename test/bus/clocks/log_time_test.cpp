@@ -54,6 +54,25 @@ TEST_F(LogTimeTest, ALogThatIsPlayedAgainIsNoticed) {
     dut_.Hear(kBegin - seconds(20) + milliseconds(i));
   }
   EXPECT_TRUE(dut_.went_back());
+  dut_.Hear(kBegin + seconds(2));
+  EXPECT_TRUE(dut_.went_back()) << "what the end of the log sends meanwhile changes nothing";
+}
+
+TEST_F(LogTimeTest, TheMessagesByWhichThatIsNoticedAreHandedOut) {
+  BeginningAgain dut;
+  const auto hear = [&](Time stamp, const std::string& channel) {
+    dut_.Hear(stamp);
+    dut.Note(dut_, channel, {});
+  };
+  hear(kBegin - minutes(1), "LATE");
+  hear(kBegin + seconds(1), "NOW");
+  EXPECT_TRUE(dut.Take().empty());
+  hear(kBegin - minutes(1), "FIRST");
+  for (int i = 1; i < LogTime::kWitnessesBack + 7; ++i) hear(kBegin - seconds(59), "NEXT");
+  const auto taken = dut.Take();
+  ASSERT_EQ(taken.size(), LogTime::kWitnessesBack + 7U);
+  EXPECT_EQ(taken.front().channel, "FIRST");
+  EXPECT_TRUE(dut.Take().empty());
 }
 
 RC_GTEST_PROP(LogTimeProperty, NeverRunsBackNorOverflows, (const std::vector<std::int64_t>& stamps)) {

@@ -1,12 +1,14 @@
 #include "bus/log/log_reader.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstring>
 #include <fstream>
 
 #include "bus/log/log_writer.hpp"
+#include "bus/wire/reassembler.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos::bus {
@@ -216,10 +218,10 @@ TEST_F(Log, ANumberMayBeAny) {
 }
 
 TEST_F(Log, ATimeThatCannotBeIsDamage) {
-  for (const std::int64_t utime : {INT64_MAX, INT64_MIN, LogReader::kLargestTime + 1}) {
+  for (const std::int64_t utime : {INT64_MAX, INT64_MIN, log_format::kLargestTime + 1}) {
     std::string bytes;
     AppendEvent(bytes, 0, utime, "POSE", {});
-    AppendEvent(bytes, 1, LogReader::kLargestTime, "POSE", {});
+    AppendEvent(bytes, 1, log_format::kLargestTime, "POSE", {});
     LogReader dut(std::as_bytes(std::span(bytes)));
     const auto event = dut.Next();
     ASSERT_TRUE(event);
@@ -284,6 +286,51 @@ TEST_F(Log, EmptyFileHoldsNothing) {
 
 TEST_F(Log, FolderIsASentence) {
   EXPECT_THROW(LogReader(std::string("/tmp")), std::runtime_error);
+}
+
+TEST_F(Log, APipeIsASentenceAndIsNotWaitedFor) {
+  const std::string pipe = path_ + ".pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  try {
+    LogReader dut(pipe);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()), pipe + ": expected a log, got a pipe");
+  }
+  std::filesystem::remove(pipe);
+}
+
+TEST_F(Log, WhatReadersTakeForDamageIsNamed) {
+  const auto damage = [](std::int64_t utime, const std::string& channel, std::size_t cut = 0) {
+    std::string bytes;
+    AppendEvent(bytes, 0, 1, "A", {});
+    AppendEvent(bytes, 1, utime, channel, std::vector<std::byte>(20));
+    bytes.resize(bytes.size() - cut);
+    LogReader dut(std::as_bytes(std::span(bytes)));
+    while (dut.Next()) {
+    }
+    const auto found = dut.first_damage().value_or(LogReader::Damage{});
+    EXPECT_TRUE(found.what.empty() || found.offset == log_format::kHeaderBytes + 1) << found.offset;
+    return std::string(found.what);
+  };
+  EXPECT_EQ(damage(1, "A"), "");
+  EXPECT_EQ(damage(log_format::kLargestTime + 1, "A"), "a time beyond the year 2255");
+  EXPECT_EQ(damage(1, ""), "a channel without a name");
+  EXPECT_EQ(damage(1, "P\xc3\xb6"), "a channel with a name that is not printable ASCII");
+  EXPECT_EQ(damage(1, std::string(256, 'x')), "a channel with a name of more than 255 bytes");
+  EXPECT_EQ(damage(1, "A", 5), "an event that the file, or the next one, ends in");
+  EXPECT_EQ(damage(1, "A", 30), "an event that the file ends in");
+}
+
+TEST_F(Log, AMessageAsLargeAsABusCarriesIsRead) {
+  std::string bytes;
+  AppendEvent(bytes, 0, 1, "BIG", std::vector<std::byte>(log_format::kMostDataBytes));
+  AppendEvent(bytes, 1, 1, "SMALL", std::vector<std::byte>(8));
+  LogReader dut(std::as_bytes(std::span(bytes)));
+  ASSERT_TRUE(dut.Next());
+  ASSERT_TRUE(dut.Next());
+  EXPECT_EQ(dut.damaged_places(), 0u);
+  static_assert(log_format::kMostDataBytes == Reassembler::kMostBytes);
 }
 
 TEST_F(Log, AbsentFileIsASentence) {

@@ -61,9 +61,25 @@ TEST_F(RecorderTest, ANameThatNoReaderTakesIsLostAndCounted) {
     LogRecorder dut(file_, {}, now_);
     for (const std::string name : {"", "A\nB", "\xff"}) dut.Add(now_, name, {});
     EXPECT_EQ(dut.lost(), 3u);
+    EXPECT_EQ(dut.unwritable(), 3u);
     Record(dut, 2);
   }
   EXPECT_EQ(EventsIn(file_), 2);
+}
+
+/// What one message in fragments may be, a reader takes; what is longer is lost and counted.
+TEST_F(RecorderTest, AMessageThatNoReaderTakesIsLostAndCounted) {
+  std::vector<std::byte> message(log_format::kMostDataBytes);
+  {
+    LogRecorder dut(file_, {}, now_);
+    dut.Add(now_, "BIG", message);
+    message.emplace_back();
+    dut.Add(now_, "BIG", message);
+    dut.Add(FromUtime(log_format::kLargestTime + 1), "LATE", {});
+    EXPECT_EQ(dut.lost(), 2u);
+    EXPECT_EQ(dut.unwritable(), 2u);
+  }
+  EXPECT_EQ(EventsIn(file_), 1);
 }
 
 TEST_F(RecorderTest, SplitsBySizeBetweenEvents) {

@@ -1,6 +1,8 @@
 #include "bus/log/log_survey.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
@@ -46,6 +48,37 @@ TEST_F(SurveyTest, MissingNumbersAreLosses) {
 TEST_F(SurveyTest, OneDamagedNumberIsNoLoss) {
   for (const int number : {0, 1, 200, 3, 4, 5}) Add(number, 1000, "POSE", pose_);
   EXPECT_EQ(Dut().missing_numbers, 0u);
+}
+
+TEST_F(SurveyTest, WhatIsLeftBetweenTwoGapsIsNotMissing) {
+  for (const int number : {0, 1, 5, 9, 10}) Add(number, 1000, "POSE", pose_);
+  EXPECT_EQ(Dut().missing_numbers, 6u) << "2 to 4, and 6 to 8";
+}
+
+TEST_F(SurveyTest, SeveralEventsAloneBetweenGapsAreNotMissing) {
+  for (const int number : {0, 3, 6, 9, 12}) Add(number, 1000, "POSE", pose_);
+  EXPECT_EQ(Dut().missing_numbers, 8u);
+}
+
+TEST_F(SurveyTest, OneNumberDamagedToASmallerOneIsNoLoss) {
+  for (const int number : {0, 1, 2, 1, 4, 5}) Add(number, 1000, "POSE", pose_);
+  EXPECT_EQ(Dut().missing_numbers, 0u);
+}
+
+/// Whatever is taken out of a log, if some of it stays together.
+RC_GTEST_FIXTURE_PROP(SurveyTest, CountsWhatWasTakenOut,
+                      (const std::vector<std::pair<std::uint8_t, bool>>& gaps)) {
+  std::uint64_t missing = 0;
+  std::int64_t number = 0;
+  Add(number++, 1000, "A", pose_);
+  for (const auto& [gap, alone] : gaps) {
+    missing += gap;
+    number += gap;
+    Add(number++, 1000, "A", pose_);
+    if (!alone) Add(number++, 1000, "A", pose_);
+  }
+  Add(number++, 1000, "A", pose_);
+  RC_ASSERT(Dut().missing_numbers == missing);
 }
 
 TEST_F(SurveyTest, AnyNumberIsTakenAndGapsBetweenLargeOnesAreLosses) {

@@ -1,6 +1,7 @@
 """bus/python alone: what it refuses, hostile bytes, logs it writes itself, and lcm-gen's modules beside it."""
 
 import importlib
+import os
 import pathlib
 import random
 import subprocess
@@ -13,7 +14,7 @@ sys.path.insert(0, str(ROOT / "bus/python"))
 
 import priamos_bus as bus  # noqa: E402
 from priamos_bus.lcm_text import parse_lcm  # noqa: E402
-from priamos_bus.type_texts import TYPE_TEXT  # noqa: E402
+from priamos_bus.type_texts import MOST_BYTES_OF_TEXT, MOST_TYPES_OF_TEXT, TYPE_TEXT, TypeTexts  # noqa: E402
 
 SCHEMA = bus.Schema(bus.own_types())
 POSE = SCHEMA.find("pose_t")
@@ -36,6 +37,18 @@ class Messages(unittest.TestCase):
         struct = bus.Schema([("t.lcm", "struct s { int8_t n; int16_t m; byte raw[n]; float grid[m][2]; }")]).find("s")
         message = {"raw": b"ab", "grid": [[1, 2], [3, 4.5], [0, 1]]}
         self.assertEqual(bus.decode(struct, bus.encode(struct, message)), {"n": 2, "m": 3, **message})
+
+    def test_messages_of_billions_of_structs_without_bytes_are_refused(self):
+        text = "struct c45_t {}" + "".join(f"struct c{i}_t {{ c{i + 1}_t a; c{i + 1}_t b; }}" for i in range(45))
+        schema = bus.Schema([("t.lcm", text + "struct e_t {} struct wide_t { e_t x[2000000000]; }")])
+        for name, taken in (("c0_t", False), ("c29_t", False), ("wide_t", False), ("c33_t", True), ("e_t", True)):
+            struct = schema.find(name)
+            data = struct.fingerprint.to_bytes(8, "big")
+            if taken:
+                bus.decode(struct, data)
+            else:
+                with self.assertRaisesRegex(bus.MessageError, "larger than the message"):
+                    bus.decode(struct, data)
 
     def test_hostile_bytes_are_refused_in_one_sentence(self):
         dice = random.Random(1)
@@ -129,6 +142,32 @@ class Logs(unittest.TestCase):
                 message = {"utime": 0, "fingerprint": parts, "part": part, "parts": parts, "text": text}
                 log.write_message(0, TYPE_TEXT, struct, message)
         self.assertEqual(len(list(bus.Log(self.path))), len(texts))
+
+    def test_a_text_of_more_types_than_a_recorder_writes_is_not_read(self):
+        chain = "".join(f"struct c{i}_t {{ c{i + 1}_t a; }}\n" for i in range(59)) + "struct c59_t { int8_t x; }\n"
+        inner = bus.Schema([("t.lcm", chain)]).find("c0_t")
+        more = "".join(f"struct m{i}_t {{}}" for i in range(MOST_TYPES_OF_TEXT))
+        for text, types in ((chain, ["c0_t"]), (chain + more, []), (chain + " " * MOST_BYTES_OF_TEXT, [])):
+            dut = TypeTexts(bus.Schema([]))
+            parts = [text[i:i + 1200] for i in range(0, len(text), 1200)]
+            for i, part in enumerate(parts):
+                message = {"utime": 0, "fingerprint": inner.fingerprint - 2**64 * (inner.fingerprint >> 63), "part": i,
+                           "parts": len(parts), "text": part}
+                dut.take(bus.encode(SCHEMA.find("type_text_t"), message))
+            found = dut.of(inner.fingerprint.to_bytes(8, "big") + b"\1")
+            self.assertEqual([found.name] if found else [], types)
+
+    def test_a_pipe_is_no_log_and_is_not_waited_for(self):
+        os.mkfifo(self.path)
+        with self.assertRaisesRegex(bus.LogError, "cannot be read: it is no file"):
+            bus.Log(self.path)
+        os.remove(self.path)
+
+    def test_what_no_reader_takes_is_not_written(self):
+        with bus.LogWriter(self.path) as log:
+            for utime, channel in ((2**53 + 1, "A"), (0, ""), (0, "\n")):
+                with self.assertRaises(bus.LogError):
+                    log.write(utime, channel, b"")
 
     def test_a_file_that_cannot_be_read_or_written_is_named(self):
         for use in (bus.Log, bus.LogWriter):

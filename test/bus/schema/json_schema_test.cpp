@@ -1,5 +1,6 @@
 #include "bus/schema/json_schema.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -58,6 +59,14 @@ TEST(JsonSchema, BytesAreBase64AndFixedArraysHaveTheirLength) {
   EXPECT_EQ(dut["raw"].dump(), R"({"type":"array","items":{"type":"string","contentEncoding":"base64"},)"
                                R"("minItems":2,"maxItems":2})");
   EXPECT_EQ(dut["f"].dump(), R"({"type":"array","items":{"type":"number"}})");
+}
+
+TEST(JsonSchema, RefusesTypesThatDoubleOften) {
+  std::string text = "struct c45_t {}";
+  for (int i = 44; i >= 0; --i) text += fmt::format("struct c{0}_t {{ c{1}_t a; c{1}_t b; }}", i, i + 1);
+  const Schema schema = SchemaOf(text);
+  EXPECT_THROW(JsonSchemaOf(*schema.Find("c0_t")), SchemaError);
+  EXPECT_NO_THROW(JsonSchemaOf(*schema.Find("c40_t")));
 }
 
 TEST(JsonSchema, RefusesTypesThatContainThemselves) {

@@ -1,5 +1,6 @@
 #include "bus/schema/packing.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <rapidcheck.h>
 
@@ -504,6 +505,15 @@ TEST(Packing, BitTableNamesEveryField) {
   const std::string table = FormatBitTable(dut);
   EXPECT_NE(table.find("-2.5..2.5 by 0.002"), std::string::npos) << table;
   EXPECT_NE(table.find(std::to_string(dut.MaxBits()) + " bits"), std::string::npos) << table;
+}
+
+/// 46 lines of text may hold 2^45 structs, each without a byte.
+TEST(Packing, RefusesTypesThatDoubleOften) {
+  std::string text = "struct c45_t {}";
+  for (int i = 44; i >= 0; --i) text += fmt::format("struct c{0}_t {{ c{1}_t a; c{1}_t b; }}", i, i + 1);
+  const Schema schema = SchemaOf(text);
+  EXPECT_THROW(Packer(*schema.Find("c0_t")), SchemaError);
+  EXPECT_NO_THROW(Packer(*schema.Find("c40_t")));
 }
 
 }  // namespace

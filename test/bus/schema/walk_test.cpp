@@ -1,5 +1,6 @@
 #include "bus/schema/walk.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -92,6 +93,26 @@ TEST(Walk, RefusesTooManyElementsWithoutBytes) {
   EXPECT_TRUE(Walk(dut, MessageBuilder(dut).Put<std::int32_t>(kMaxEmptyElements).bytes()));
   EXPECT_EQ(ErrorOf(dut, MessageBuilder(dut).Put<std::int32_t>(kMaxEmptyElements + 1).bytes()),
             WalkError::kHugeCount);
+}
+
+/// A few lines of text can define messages of 8 bytes that are billions of values once they are decoded.
+TEST(Walk, RefusesTypesWhoseMessagesHoldBillionsOfStructsWithoutBytes) {
+  std::string text =
+      "struct e_t {} struct wide_t { e_t x[2000000000]; } struct wider_t { wide_t x[2000000000]; }"
+      "struct rows_t { int8_t n; e_t x[n]; c15_t c; } struct some_t { int32_t n; c20_t x[n]; } struct c45_t "
+      "{}";
+  for (int i = 44; i >= 0; --i) text += fmt::format("struct c{0}_t {{ c{1}_t a; c{1}_t b; }}", i, i + 1);
+  const Schema schema = SchemaOf(text);
+  for (const std::string type : {"wide_t", "wider_t", "c0_t", "c29_t"})
+    EXPECT_EQ(ErrorOf(*schema.Find(type), MessageBuilder(*schema.Find(type)).bytes()), WalkError::kHugeCount)
+        << type;
+  for (const std::string type : {"e_t", "c31_t", "c45_t"})
+    EXPECT_TRUE(Walk(*schema.Find(type), MessageBuilder(*schema.Find(type)).bytes())) << type;
+  const Struct& rows = *schema.Find("rows_t");
+  EXPECT_EQ(ErrorOf(rows, MessageBuilder(rows).Put<std::int8_t>(1).bytes()), WalkError::kHugeCount);
+  const Struct& some = *schema.Find("some_t");
+  EXPECT_EQ(ErrorOf(some, MessageBuilder(some).Put<std::int32_t>(1).bytes()), WalkError::kHugeCount);
+  EXPECT_TRUE(Walk(some, MessageBuilder(some).Put<std::int32_t>(0).bytes()));
 }
 
 TEST(Walk, ManyEmptyArraysAreNoTrick) {

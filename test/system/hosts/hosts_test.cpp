@@ -277,6 +277,36 @@ TEST_F(Hosts, TwoRobotsInOneNetworkNeverHearEachOther) {
   }
 }
 
+/// The robot behind the radio, which ends at the first workstation; each workstation has a console of its
+/// own.
+TEST_F(Hosts, TwoWorkstationsSeeTheRobotAndOneDrivesUntilTheOtherTakesOver) {
+  const auto answer = RunOnHosts(R"sh(
+    host base 10.77.0.1; host desk 10.77.0.2; host second 10.77.0.3
+    export PRIAMOS_TTL=1 PRIAMOS_NETWORK=eth9 PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$SOURCE/test/support
+    $BIN/priamos link emulate --a $DIR/tty-onboard --b $DIR/tty-offboard > /dev/null 2>&1 & RUNNING=$!
+    until [ -e $DIR/tty-offboard ]; do sleep 0.02; done
+    module() { start $1 $BIN/priamos-$2 --config $SIM/$2.toml --bus $3 "${@:4}" 2> $DIR/$1-$2; }
+    module base world onboard; module base robot onboard --set state_file=$DIR/state
+    module base radio onboard --set side=onboard --set port=$DIR/tty-onboard
+    module desk radio offboard --set side=offboard --set port=$DIR/tty-offboard
+    PAGES=
+    for desk in desk second; do module $desk console offboard --set port=0; done
+    for desk in desk second; do
+      until grep -q 'http://127.0.0.1:' $DIR/$desk-console; do sleep 0.05; done
+      start $desk python3 $SOURCE/test/support/workstation.py $([ $desk = desk ] && echo first || echo second) \
+        $(grep -o '127.0.0.1:[0-9]*' $DIR/$desk-console | cut -d: -f2) $DIR; PAGES="$PAGES $STARTED"
+    done
+    start second timeout 30 $BIN/priamos topic echo POSE x_m --bus offboard --count 3 > $DIR/poses 2>&1; PAGES="$PAGES $STARTED"
+    wait $PAGES
+    echo "--- poses"; grep -c . $DIR/poses; echo "--- said"; cat $DIR/*-console $DIR/*-radio $DIR/*-robot
+  )sh");
+  for (const char* seen : {"first sees the robot: True", "second sees the robot: True", "first drives: True",
+                           "second asks: True", "second drives unasked: False", "first kept the lease: True",
+                           "second takes over: True", "first is told who has it now: True"})
+    EXPECT_THAT(answer.text, HasSubstr(seen));
+  EXPECT_EQ(Part(answer, "poses"), "3\n");
+}
+
 TEST_F(Hosts, LcmsDefaultAddressIsNeverOursSilently) {
   const auto answer = Run(R"sh(
     timeout -s INT 1 $BIN/priamos-robot --config $SIM/robot.toml --bus udpm:// 2> $DIR/none &

@@ -6,6 +6,8 @@
 #include "bus/log/log_export.hpp"
 #include "bus/log/log_reader.hpp"
 #include "bus/log/log_writer.hpp"
+#include "bus/log/type_texts.hpp"
+#include "cli/options/counted.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/verbs/log/commands.hpp"
 #include "cli/verbs/log/log_verb.hpp"
@@ -17,22 +19,15 @@ struct CopyOptions : LogOptions {
   SelectionOptions selection;
 };
 
-/// Checks the selection. Throws std::runtime_error when no event is selected: then nothing is to be written.
-void RequireEvents(const CopyOptions& options, const bus::LogSelection& selection) {
-  bus::LogReader reader(options.log);
-  while (const auto event = reader.Next())
-    if (selection.Wants(event->utime, event->channel)) return;
-  throw std::runtime_error(
-      fmt::format("{}: expected events to copy, got none; {} is not written", options.log, options.out));
-}
-
 /// Verb `filter`: copies chosen events into another log.
 int Filter(const CopyOptions& options) {
   bus::LogReader reader(options.log);
   RequireNewFile(options.out, options.log, options.force);
   // Before the writer, which empties the file: a refusal leaves it as it was.
   const auto selection = SelectionOf(options.selection, options.log);
-  RequireEvents(options, selection);
+  RequireEvents(options.log, options.out, "copy", [&](const bus::LogEvent& event) {
+    return selection.Wants(event.utime, event.channel) && !bus::IsTypeText(event.bytes);
+  });
   NewFile place(options.out);
   bus::LogWriter writer(place.written());
   const auto copied = bus::CopyEvents(reader, selection, writer);
@@ -44,8 +39,7 @@ int Filter(const CopyOptions& options) {
               << "\n";
     return 0;
   }
-  std::cout << fmt::format("{}: {} events; {} damaged places with {} bytes left out\n", options.out, copied,
-                           reader.damaged_places(), reader.skipped_bytes());
+  std::cout << fmt::format("{}: {}; {}\n", options.out, Counted(copied, "event"), LeftOut(reader));
   return 0;
 }
 
@@ -53,7 +47,7 @@ int Filter(const CopyOptions& options) {
 int Repair(const CopyOptions& options) {
   bus::LogReader reader(options.log);
   RequireNewFile(options.out, options.log, options.force);
-  RequireEvents(options, {});
+  RequireEvents(options.log, options.out, "copy", [](const bus::LogEvent&) { return true; });
   NewFile place(options.out);
   bus::LogWriter writer(place.written());
   const auto count = bus::RepairLog(reader, writer);
@@ -66,12 +60,11 @@ int Repair(const CopyOptions& options) {
               << "\n";
     return 0;
   }
-  std::cout << fmt::format("{}: {} events with their numbers; {} damaged places with {} bytes left out\n",
-                           options.out, count.events, reader.damaged_places(), reader.skipped_bytes());
+  std::cout << fmt::format("{}: {} with their numbers; {}\n", options.out, Counted(count.events, "event"),
+                           LeftOut(reader));
   if (count.not_increasing > 0)
-    std::cout << fmt::format(
-        "{}: the numbers do not increase at {} events: damaged numbers, or joined logs\n", options.out,
-        count.not_increasing);
+    std::cout << fmt::format("{}: the numbers do not increase at {}: damaged numbers, or joined logs\n",
+                             options.out, Counted(count.not_increasing, "event"));
   return 0;
 }
 

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "bus/log/log_reader.hpp"
+#include "bus/log/type_texts.hpp"
+#include "cli/options/counted.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/verbs/log/commands.hpp"
 #include "cli/verbs/log/log_verb.hpp"
@@ -37,9 +39,8 @@ int ReportExport(const ExportOptions& options, const bus::ExportCount& count, co
                                                               {"skipped_bytes", reader.skipped_bytes()}}
                                     << "\n";
   else
-    std::cerr << fmt::format("{} messages; left out: {} undecodable, {} damaged places with {} bytes\n",
-                             count.written, count.undecodable, reader.damaged_places(),
-                             reader.skipped_bytes());
+    std::cerr << fmt::format("{}; {} undecodable; {}\n", Counted(count.written, "message"), count.undecodable,
+                             LeftOut(reader));
   if (count.written > 0 || count.undecodable == 0) return 0;
   std::cerr << options.log << ": no message could be decoded; name its .lcm folder with --types\n";
   return 1;
@@ -66,6 +67,13 @@ bus::Derivation Drawn(const ExportOptions& options) {
   return {derive, [](const std::string& name) { return console::SceneSchema(name); }};
 }
 
+void RequireMessages(const ExportOptions& options, const bus::LogSelection& selection,
+                     const std::string& out) {
+  RequireEvents(options.log, out, "export", [&](const bus::LogEvent& event) {
+    return selection.Wants(event.utime, event.channel) && !bus::IsTypeText(event.bytes);
+  });
+}
+
 int Export(const ExportOptions& options) {
   const bus::Schema schema = LoadTypes(options.bus.types);
   bus::LogReader reader(options.log);
@@ -76,9 +84,11 @@ int Export(const ExportOptions& options) {
         options.out.empty() ? std::filesystem::path(options.log).stem().string() + "-csv" : options.out;
     if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder) && !options.force)
       throw std::runtime_error(folder + ": expected a new folder, got one with files in it; --force uses it");
+    RequireMessages(options, selection, folder);
     return ReportExport(options, bus::ExportCsv(reader, schema, selection, folder), reader);
   }
   OutputFile out(options.out, options.log, options.force);
+  if (out.named()) RequireMessages(options, selection, options.out);
   const auto count = options.format == "mcap"
                          ? bus::ExportMcap(reader, schema, selection, out.stream(), Drawn(options))
                          : bus::ExportJsonLines(reader, schema, selection, out.stream());

@@ -9,6 +9,7 @@
 #include "bus/log/log_reader.hpp"
 #include "bus/log/log_survey.hpp"
 #include "bus/log/type_texts.hpp"
+#include "cli/options/counted.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/verbs/log/commands.hpp"
 #include "cli/verbs/log/log_verb.hpp"
@@ -17,6 +18,11 @@ namespace priamos::cli {
 namespace {
 
 constexpr int kDamaged = 1;
+
+nlohmann::ordered_json DamageAsJson(const bus::LogSurvey& s) {
+  if (!s.first_damage) return nullptr;
+  return {{"offset", s.first_damage->offset}, {"what", s.first_damage->what}};
+}
 
 nlohmann::ordered_json ToJson(const std::string& file, const bus::LogSurvey& s) {
   auto channels = nlohmann::ordered_json::array();
@@ -36,6 +42,7 @@ nlohmann::ordered_json ToJson(const std::string& file, const bus::LogSurvey& s) 
           {"last_utime", s.last_utime},
           {"skipped_bytes", s.skipped_bytes},
           {"damaged_places", s.damaged_places},
+          {"first_damage", DamageAsJson(s)},
           {"missing_events", s.missing_numbers},
           {"undecodable", s.undecodable},
           {"channels", channels}};
@@ -43,16 +50,25 @@ nlohmann::ordered_json ToJson(const std::string& file, const bus::LogSurvey& s) 
 
 std::string LossSentence(const bus::LogSurvey& s) {
   if (s.whole()) return "no damage, no event missing";
-  return fmt::format("{} damaged places, {} bytes skipped, {} events missing", s.damaged_places,
-                     s.skipped_bytes, s.missing_numbers);
+  return fmt::format("{}, {} skipped, {} missing{}", Counted(s.damaged_places, "damaged place"),
+                     Counted(s.skipped_bytes, "byte"), Counted(s.missing_numbers, "event"),
+                     s.first_damage
+                         ? fmt::format("; first {} at byte {}", s.first_damage->what, s.first_damage->offset)
+                         : "");
+}
+
+/// From when to when; an empty log is of no time.
+std::string TimeSentence(const bus::LogSurvey& s) {
+  if (s.events == 0) return "";
+  const auto start = std::chrono::system_clock::time_point(std::chrono::microseconds(s.first_utime));
+  return fmt::format(" in {:.1f} s from {:%Y-%m-%d %H:%M:%S} UTC",
+                     static_cast<double>(s.last_utime - s.first_utime) * 1e-6,
+                     std::chrono::time_point_cast<std::chrono::seconds>(start));
 }
 
 void PrintSurvey(const std::string& file, const bus::LogSurvey& s) {
-  const auto start = std::chrono::system_clock::time_point(std::chrono::microseconds(s.first_utime));
-  std::cout << fmt::format("{}: {} events in {:.1f} s from {:%Y-%m-%d %H:%M:%S} UTC, {} bytes; {}\n", file,
-                           s.events, static_cast<double>(s.last_utime - s.first_utime) * 1e-6,
-                           std::chrono::time_point_cast<std::chrono::seconds>(start), s.size_bytes,
-                           LossSentence(s));
+  std::cout << fmt::format("{}: {}{}, {}; {}\n", file, Counted(s.events, "event"), TimeSentence(s),
+                           Counted(s.size_bytes, "byte"), LossSentence(s));
   std::cout << fmt::format("{:<20} {:<28} {:>9} {:>9} {:>11} {:>11}\n", "channel", "type", "events",
                            "rate Hz", "bytes", "undecodable");
   for (const auto& [name, c] : s.channels)
@@ -77,6 +93,8 @@ int Index(const LogOptions& options) {
   const bus::Schema schema = LoadTypes(options.bus.types);
   bus::LogReader reader(options.log);
   OutputFile out(options.out, options.log, options.force);
+  if (out.named())
+    RequireEvents(options.log, options.out, "index", [](const bus::LogEvent&) { return true; });
   if (!options.json) out.stream() << "offset,number,utime,channel,bytes,type\r\n";
   bus::LogTypes types(&schema);
   while (const auto event = reader.Next()) {

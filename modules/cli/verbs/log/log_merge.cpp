@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bus/log/log_reader.hpp"
 #include "bus/log/log_writer.hpp"
+#include "bus/log/type_texts.hpp"
+#include "cli/options/counted.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/verbs/log/commands.hpp"
 #include "cli/verbs/log/log_verb.hpp"
@@ -59,13 +63,47 @@ void RequireNamesFit(const MergeOptions& options) {
   }
 }
 
+/// Seconds that the times of `log` may be moved by and stay such that readers take them.
+std::pair<double, double> RoomOf(const std::string& log) {
+  std::int64_t least = 0, most = 0;
+  bool first = true;
+  for (bus::LogReader reader(log); const auto event = reader.Next(); first = false) {
+    least = first ? event->utime : std::min(least, event->utime);
+    most = first ? event->utime : std::max(most, event->utime);
+  }
+  constexpr std::int64_t kEdge = bus::log_format::kLargestTime;
+  return {static_cast<double>(-kEdge - least) * 1e-6, static_cast<double>(kEdge - most) * 1e-6};
+}
+
+/// A time that no reader takes would be lost in the new log, with its event.
+void RequireTimesFit(const MergeOptions& options, const bus::ClockFit& fit) {
+  for (bus::LogReader reader(options.second); const auto event = reader.Next();) {
+    if (bus::IsWritable(fit.ToA(event->utime), "A", 0)) continue;
+    const auto [least, most] = RoomOf(options.second);
+    throw std::runtime_error(
+        fmt::format("--offset: expected {:.0f} to {:.0f} s, with which the times of {} stay before the year "
+                    "2255, got {:.0f}",
+                    std::ceil(least), std::floor(most), options.second, fit.offset_us * 1e-6));
+  }
+}
+
+/// The second log is read only when the first has nothing.
+void RequireEventsOfEither(const MergeOptions& options) {
+  const auto is_message = [](const bus::LogEvent& event) { return !bus::IsTypeText(event.bytes); };
+  for (bus::LogReader reader(options.log); const auto event = reader.Next();)
+    if (is_message(*event)) return;
+  RequireEvents(options.second, options.out, "merge", is_message);
+}
+
 int Merge(const MergeOptions& options) {
   RequireTwoLogs(options);
   bus::LogReader onboard(options.log), offboard(options.second);
   RequireNewFile(options.out, options.log, options.force);
   RequireNewFile(options.out, options.second, options.force);
   RequireNamesFit(options);
+  RequireEventsOfEither(options);
   const auto fit = Clocks(options, onboard, offboard);
+  RequireTimesFit(options, fit);
   NewFile place(options.out);
   bus::LogWriter writer(place.written());
   const auto events = bus::MergeLogs(onboard, offboard, fit, options.prefix, writer);
@@ -83,10 +121,10 @@ int Merge(const MergeOptions& options) {
     return 0;
   }
   std::cout << fmt::format(
-      "{}: {} events. Onboard clock = offboard clock {:+.6f} s {:+.1f} ppm, from {} messages in both logs "
-      "({} outliers), median distance {:.1f} ms, {}\n",
-      options.out, events, fit.offset_us * 1e-6, fit.drift * 1e6, fit.pairs, fit.outliers,
-      fit.spread_us * 1e-3,
+      "{}: {}. Onboard clock = offboard clock {:+.6f} s {:+.1f} ppm, from {} in both logs "
+      "({}), median distance {:.1f} ms, {}\n",
+      options.out, Counted(events, "event"), fit.offset_us * 1e-6, fit.drift * 1e6,
+      Counted(fit.pairs, "message"), Counted(fit.outliers, "outlier"), fit.spread_us * 1e-3,
       fit.both_ways ? fmt::format("directions differ by {:.1f} ms", 2e-3 * std::abs(fit.asymmetry_us))
                     : "one direction only");
   return 0;

@@ -12,6 +12,7 @@
 #include "bus/log/type_texts.hpp"
 #include "bus/real_time_loop.hpp"
 #include "bus/schema/schema.hpp"
+#include "cli/options/counted.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/terminal/play_keyboard.hpp"
@@ -46,6 +47,9 @@ class Playing {
       : json_(options.json),
         bus_(options.bus.bus.Url(), options.bus.messages()),
         player_(bus::LogReader(options.log), SelectionOf(options.selection, options.log)) {
+    if (player_.events() == 0)
+      throw std::runtime_error(fmt::format("{}: expected events to play, got none; next: priamos log info {}",
+                                           options.log, options.log));
     const Time now = clock_.Now();
     player_.SetSpeed(ParseSpeed(options.speed), now);
     player_.SetLoop(options.loop);
@@ -62,6 +66,7 @@ class Playing {
             // questions.
             if (IsOf(channels::kClaim, event) || IsOf(channels::kProbe, event)) return;
             if (bus::IsTypeText(event.bytes)) return;  // it is the log's, and was on no bus
+            if (!bus_.Fits(event.bytes.size())) ++too_long_;
             ++(bus_.Publish(channel, event.bytes) ? sent_ : refused_);
           },
           kBurst);
@@ -76,9 +81,12 @@ class Playing {
                                           {"skipped_bytes", player_.skipped_bytes()}}
                 << "\n";
     else
-      std::cout << fmt::format("{} events sent, {} refused, {} damaged bytes skipped\n", sent_, refused_,
-                               player_.skipped_bytes());
-    if (refused_ > 0) std::cerr << "refused: longer than an unfragmented message; --fragments sends them\n";
+      std::cout << fmt::format("{} sent, {} refused, {} skipped\n", Counted(sent_, "event"), refused_,
+                               Counted(player_.skipped_bytes(), "damaged byte"));
+    if (too_long_ > 0)
+      std::cerr << fmt::format("{} longer than an unfragmented message; --fragments sends them\n", too_long_);
+    if (refused_ > too_long_)
+      std::cerr << fmt::format("{} not taken by the network; next: priamos doctor\n", refused_ - too_long_);
     return refused_ > 0 ? kNotAllSent : 0;
   }
 
@@ -115,7 +123,7 @@ class Playing {
   StatusLine status_;
   PlayKeyboard keyboard_;
   Time next_show_{};
-  std::uint64_t sent_ = 0, refused_ = 0;
+  std::uint64_t sent_ = 0, refused_ = 0, too_long_ = 0;
   bool quit_ = false;
 };
 

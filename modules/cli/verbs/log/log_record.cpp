@@ -10,11 +10,13 @@
 #include "bus/clocks/clock_exchange.hpp"
 #include "bus/clocks/clock_health.hpp"
 #include "bus/clocks/host_clock.hpp"
+#include "bus/health_text.hpp"
 #include "bus/log/log_recorder.hpp"
 #include "bus/log/log_selection.hpp"
 #include "bus/node.hpp"
 #include "bus/own_types.hpp"
 #include "bus/real_time_loop.hpp"
+#include "cli/options/counted.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/options/verb_setup.hpp"
@@ -112,7 +114,7 @@ class Recording {
     message.messages_lost =
         static_cast<std::int32_t>(std::min<std::uint64_t>(bus_.lost() + recorder_.lost(), 1'000'000));
     bus::SetClock(message, clocks_ ? clocks_->AheadOfReference(now) : bus::ClockDifference{});
-    message.text = reported_.substr(0, 94);
+    message.text = bus::FitHealthText(reported_);
     health_.Publish(message);
   }
 
@@ -122,13 +124,17 @@ class Recording {
       std::cout << nlohmann::ordered_json{{"events", recorder_.recorded()},
                                           {"bytes", recorder_.bytes()},
                                           {"lost_network", bus_.lost()},
-                                          {"lost_disk", recorder_.lost()},
+                                          {"lost_disk", recorder_.lost() - recorder_.unwritable()},
+                                          {"unwritable", recorder_.unwritable()},
                                           {"alarm", recorder_.alarm()}}
                 << "\n";
       return Code();
     }
-    std::cout << fmt::format("{} events, {} bytes; lost: {} on the network, {} on the disk\n",
-                             recorder_.recorded(), recorder_.bytes(), bus_.lost(), recorder_.lost());
+    const auto unwritable = recorder_.unwritable();
+    std::cout << fmt::format(
+        "{}, {}; lost: {} on the network, {} on the disk{}\n", Counted(recorder_.recorded(), "event"),
+        Counted(recorder_.bytes(), "byte"), bus_.lost(), recorder_.lost() - unwritable,
+        unwritable > 0 ? fmt::format(", {} that no log can hold (name, time or size)", unwritable) : "");
     return Code();
   }
   int Code() const { return recorder_.alarm().empty() && recorder_.lost() == 0 ? 0 : kIncomplete; }

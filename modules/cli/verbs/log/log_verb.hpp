@@ -1,12 +1,16 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "bus/log/log_reader.hpp"
 #include "bus/log/log_writer.hpp"
 #include "cli/options/bus_options.hpp"
+#include "cli/options/counted.hpp"
 #include "cli/options/new_file.hpp"
 #include "cli/options/verb_setup.hpp"
 
@@ -38,6 +42,14 @@ inline CLI::App* AddLogVerb(CLI::App& log, const LogVerb& names, LogOptions& opt
 inline void AddOutputFlags(CLI::App& verb, LogOptions& options, const char* json_help = "machine-readable") {
   verb.add_flag("--json", options.json, json_help);
   verb.add_flag("--force", options.force, "replace an existing file");
+}
+
+/// What of a log that was read to its end is not in the new file, and why.
+inline std::string LeftOut(const bus::LogReader& reader) {
+  const auto& first = reader.first_damage();
+  return fmt::format("{} with {} left out{}", Counted(reader.damaged_places(), "damaged place"),
+                     Counted(reader.skipped_bytes(), "byte"),
+                     first ? fmt::format(": first {} at byte {}", first->what, first->offset) : "");
 }
 
 /// Ends the writing of a log, and puts it in its place. Throws std::runtime_error when not all of it could be

@@ -3,13 +3,13 @@
 #include <CLI/App.hpp>
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "bus/output_comparison.hpp"
 #include "bus/own_types.hpp"
 #include "bus/replay.hpp"
 #include "cli/lockstep/factories.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/path_override.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/terminal/replay_verdict.hpp"
 #include "cli/verbs/run/commands.hpp"
@@ -30,8 +30,7 @@ struct VerifyOptions {
 
 ConfigSource SourceOf(const VerifyOptions& options) {
   std::vector<std::string> set = options.set;
-  if (!options.pictures.empty())
-    set.push_back("pictures=" + nlohmann::json(std::filesystem::absolute(options.pictures).string()).dump());
+  if (!options.pictures.empty()) set.push_back(PathOverride("pictures", options.pictures));
   if (!options.config.empty()) return {options.config, set};
   const std::filesystem::path folder = FolderOfDeployment(options.deployment);
   return {(folder / (options.module + ".toml")).string(), set};

@@ -46,7 +46,7 @@ int Serve(const ServeOptions& options) {
   server.access.foxglove_origins = options.origins;
   console::BusStation station(schema, server);
   bus.SubscribeEverything([&](std::string_view channel, std::span<const std::byte> bytes) {
-    const bus::Struct* type = schema.Find(bus::FingerprintOf(bytes.data(), bytes.size()));
+    const bus::Struct* type = schema.Of(bytes);
     if (type != nullptr && bus::Walk(*type, bytes)) station.Hear(std::string(channel), bytes, clock.Now());
   });
   Announce(options, station.address());

@@ -1,10 +1,12 @@
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "lcmtypes/channels.hpp"
+#include "priamos/type_text_t.hpp"
 #include "test/cli/message_log.hpp"
 #include "test/cli/priamos_answer.hpp"
 #include "test/support/temporary_folder.hpp"
@@ -81,7 +83,33 @@ TEST_F(LogCommand, InfoOfADamagedLogCountsTheLossAndExitsWithOne) {
   EXPECT_EQ(dut.at("skipped_bytes"), event);
   EXPECT_EQ(dut.at("missing_events"), 1);
   EXPECT_THAT(Priamos({"log", "info", Damaged(event, event)}).out,
-              HasSubstr("1 damaged places, 144 bytes skipped, 1 events missing"));
+              HasSubstr("1 damaged place, 144 bytes skipped, 1 event missing; first bytes that begin no "
+                        "event at byte 144"));
+}
+
+TEST_F(LogCommand, AnEmptyLogIsOfNoTime) {
+  const std::string empty = folder_ / "empty.lcmlog";
+  std::ofstream(empty).close();
+  EXPECT_EQ(LinesOf(Priamos({"log", "info", empty}).out).at(0),
+            empty + ": 0 events, 0 bytes; no damage, no event missing");
+}
+
+TEST_F(LogCommand, WhatReadersTakeForDamageIsNamed) {
+  const std::string log = folder_ / "name.lcmlog";
+  MessageLog(log).AddBytes(0, "P\xc3\xb6SE", std::vector<std::byte>(8)).Add(0, "POSE", pose_t{});
+  const auto dut = json::parse(Priamos({"log", "info", log, "--json"}).out);
+  EXPECT_EQ(dut.at("first_damage").at("what"), "a channel with a name that is not printable ASCII");
+  EXPECT_EQ(dut.at("first_damage").at("offset"), 0);
+}
+
+TEST_F(LogCommand, APipeIsNoLogAndIsNotWaitedFor) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const char* verb : {"info", "index"}) {
+    const auto answer = Priamos({"log", verb, pipe});
+    EXPECT_EQ(answer.exit_code, 2) << verb;
+    EXPECT_THAT(answer.err, HasSubstr(pipe + ": expected a log, got a pipe")) << verb;
+  }
 }
 
 TEST_F(LogCommand, IndexHasALinePerEventWithItsPlace) {
@@ -143,7 +171,10 @@ TEST_F(LogCommand, RepairKeepsEveryWholeEventAndItsNumber) {
   const std::string out = folder_ / "mended.lcmlog";
   const auto answer = Priamos({"log", "repair", Damaged(144, 144), out});
   EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_EQ(answer.out, out + ": 5 events with their numbers; 1 damaged places with 144 bytes left out\n");
+  EXPECT_EQ(answer.out,
+            out +
+                ": 5 events with their numbers; 1 damaged place with 144 bytes left out: first bytes "
+                "that begin no event at byte 144\n");
   EXPECT_THAT(NumbersOf(out), ElementsAre(0, 2, 3, 4, 5)) << "the lost one leaves a gap";
 }
 
@@ -193,7 +224,7 @@ TEST_F(LogCommand, RepairReportsNumbersThatDoNotIncreaseAndKeepsThem) {
   std::ofstream(joined, std::ios::binary) << FileContent(log_) << FileContent(log_);
   const auto answer = Priamos({"log", "repair", joined, out});
   EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_THAT(answer.out, HasSubstr(out + ": the numbers do not increase at 1 events: damaged numbers, or "
+  EXPECT_THAT(answer.out, HasSubstr(out + ": the numbers do not increase at 1 event: damaged numbers, or "
                                           "joined logs\n"));
   EXPECT_THAT(NumbersOf(out), ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5));
   const auto in_json = json::parse(Priamos({"log", "repair", joined, out, "--force", "--json"}).out);
@@ -249,6 +280,11 @@ TEST_F(LogCommand, WhereNothingIsToBeCopiedTheFileThatIsThereStays) {
   const std::string good = folder_ / "good.lcmlog", text = folder_ / "text.txt";
   std::ofstream(good) << "kept";
   std::ofstream(text) << "no log at all";
+  const std::string text2 = folder_ / "text2.txt", other = folder_ / "other.lcmlog",
+                    definitions = folder_ / "definitions.lcmlog";
+  std::ofstream(text2) << "neither";
+  MessageLog(other).Add(0, "POSE", pose_t{});
+  MessageLog(definitions).Add(0, "TYPE_TEXT", type_text_t{});
   const std::vector<std::vector<std::string>> wrong{
       {"log", "filter", log_, good, "--force", "--channels", "POZE"},
       {"log", "filter", log_, good, "--force", "--channels", ""},
@@ -260,7 +296,15 @@ TEST_F(LogCommand, WhereNothingIsToBeCopiedTheFileThatIsThereStays) {
       {"log", "filter", log_, good, "--force", "--rename", "POZE=P"},
       {"log", "filter", log_, good, "--force", "--rename", "POSE=FOREIGN"},
       {"log", "filter", log_, good, "--force", "--rename", "POSE=P\xc3\xb6SE"},
-      {"log", "repair", text, good, "--force"}};
+      {"log", "repair", text, good, "--force"},
+      {"log", "index", text, "--out", good, "--force"},
+      {"log", "merge", text, text2, good, "--force", "--offset", "0"},
+      {"log", "merge", log_, other, good, "--force", "--offset", "1e10"},
+      {"log", "export", text, "jsonl", "--out", good, "--force"},
+      {"log", "export", text, "mcap", "--out", good, "--force"},
+      {"log", "export", log_, "jsonl", "--out", good, "--force", "--channels", "POZE"},
+      {"log", "filter", definitions, good, "--force"},
+      {"log", "export", definitions, "jsonl", "--out", good, "--force"}};
   for (const auto& words : wrong) {
     EXPECT_EQ(Priamos(words).exit_code, 2) << testing::PrintToString(words);
     EXPECT_EQ(FileContent(good), "kept") << testing::PrintToString(words);

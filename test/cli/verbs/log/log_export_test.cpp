@@ -40,7 +40,7 @@ class LogExport : public testing::Test {
 TEST_F(LogExport, LinesOfJsonHoldEveryMessageInOrder) {
   const auto answer = Priamos({"log", "export", log_, "jsonl"});
   EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_EQ(answer.err, "3 messages; left out: 0 undecodable, 0 damaged places with 0 bytes\n");
+  EXPECT_EQ(answer.err, "3 messages; 0 undecodable; 0 damaged places with 0 bytes left out\n");
   const auto lines = LinesOf(answer.out);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(json::parse(lines[0]).at("message").at("x_m"), 1);
@@ -102,7 +102,7 @@ TEST_F(LogExport, ALogOfUnknownTypesNamesTheOptionThatBringsThem) {
   MessageLog(foreign).AddBytes(0, "FOREIGN", std::vector<std::byte>(12, std::byte{7}));
   const auto answer = Priamos({"log", "export", foreign, "jsonl"});
   EXPECT_EQ(answer.exit_code, 1);
-  EXPECT_THAT(answer.err, HasSubstr("left out: 1 undecodable"));
+  EXPECT_THAT(answer.err, HasSubstr("0 messages; 1 undecodable; 0 damaged places"));
   EXPECT_THAT(answer.err, HasSubstr("no message could be decoded; name its .lcm folder with --types"));
 }
 
@@ -129,6 +129,16 @@ TEST_F(LogMerge, TheGivenOffsetIsAddedToTheOffboardTimes) {
   EXPECT_EQ(events[0].channel, "OFFBOARD_POSE");
   EXPECT_EQ(events[0].utime, MessageLog::UtimeAt(2 + 3));
   EXPECT_EQ(events[1].channel, "POSE") << "in order of time";
+}
+
+TEST_F(LogMerge, AnOffsetBeyondWhatReadersTakeIsRefusedWithTheRange) {
+  const auto answer = Priamos({"log", "merge", onboard_, offboard_, out_, "--offset", "1e10"});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("--offset: expected -9007200256 to 9007198252 s"));
+  EXPECT_THAT(answer.err, HasSubstr("stay before the year 2255, got 10000000000"));
+  EXPECT_FALSE(std::filesystem::exists(out_));
+  EXPECT_EQ(Priamos({"log", "merge", onboard_, offboard_, out_, "--offset", "9007198252"}).exit_code, 0);
+  EXPECT_EQ(EventsOf(out_).size(), 2u);
 }
 
 TEST_F(LogMerge, ThePrefixIsAsked) {

@@ -137,7 +137,7 @@ TEST_F(LogPlay, LongMessagesAreRefusedUnlessFragmentsAreAllowed) {
   log_.AddBytes(0, "LONG", std::vector<std::byte>(1401)).AddBytes(0, "JUST", std::vector<std::byte>(1400));
   const auto refused = Play({});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.out, HasSubstr("1 events sent, 1 refused"));
+  EXPECT_THAT(refused.out, HasSubstr("1 event sent, 1 refused"));
   EXPECT_THAT(refused.err, HasSubstr("longer than an unfragmented message; --fragments sends them"));
   const auto sent = Play({"--fragments", "--json"});
   EXPECT_EQ(sent.exit_code, 0);
@@ -154,8 +154,21 @@ TEST_F(LogPlay, ASpeedBeyondItsBoundsIsNamed) {
   }
 }
 
-TEST_F(LogPlay, AnEmptyLogIsPlayedAtOnce) {
-  EXPECT_EQ(Play({"--paused"}).out, "0 events sent, 0 refused, 0 damaged bytes skipped\n");
+TEST_F(LogPlay, WhereNothingIsToBePlayedThatIsSaid) {
+  const auto empty = Play({"--loop"});
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_EQ(empty.err, "priamos log play: " + log_.file() +
+                           ": expected events to play, got none; next: priamos log info " + log_.file() +
+                           "\n");
+  log_.Add(0, "POSE", pose_t{});
+  EXPECT_EQ(Play({"--without", "POSE"}).exit_code, 2);
+}
+
+TEST_F(LogPlay, FragmentsAreNoAdviceToWhoHasThem) {
+  log_.AddBytes(0, "LONG", std::vector<std::byte>(65 << 10));
+  const auto answer = Priamos({"log", "play", log_.file(), "--speed", "max", "--fragments", "--bus",
+                               "file:///nowhere/sent.lcmlog?mode=w"});
+  EXPECT_THAT(answer.err, testing::Not(HasSubstr("--fragments sends them")));
 }
 
 }  // namespace

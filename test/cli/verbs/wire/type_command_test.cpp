@@ -145,5 +145,20 @@ TEST_F(ForeignTypes, FromAFolderThatIsNotThereAreRefused) {
   EXPECT_THAT(answer.err, HasSubstr("--types: expected an existing folder"));
 }
 
+/// 46 lines of text define a message of 8 bytes that is 2^45 structs.
+TEST(TypeCommand, ATypeThatDoublesOftenIsShownAndHasNoJsonSchema) {
+  const TemporaryFolder folder;
+  std::ofstream file(folder / "doubles.lcm");
+  for (int i = 0; i < 45; ++i) file << fmt::format("struct c{0}_t {{ c{1}_t a; c{1}_t b; }}\n", i, i + 1);
+  file << "struct c45_t {}\n";
+  file.close();
+  const auto shown = Priamos({"type", "show", "c0_t", "--types", folder.path().string()});
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_THAT(shown.out, HasSubstr("on LCM at most 8 bytes; packed of no bounded size"));
+  const auto json = Priamos({"type", "show", "c0_t", "--json", "--types", folder.path().string()});
+  EXPECT_EQ(json.exit_code, 2);
+  EXPECT_THAT(json.err, HasSubstr("expected a type of at most 10000 structs within each other, got c0_t"));
+}
+
 }  // namespace
 }  // namespace priamos::cli
