@@ -49,7 +49,7 @@ void PlannerApp::TakeOrders(Time now) {
 void PlannerApp::Take(const mission_command_t& order, Time now) {
   switch (order.mission) {
     case mission_command_t::ABORT:
-      return agenda_.Abort();
+      return agenda_.Abort(now, order.order_id);
     case mission_command_t::PAUSE:
       return void(agenda_.Pause(now));
     case mission_command_t::RESUME:

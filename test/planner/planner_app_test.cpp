@@ -132,6 +132,53 @@ TEST(PlannerApp, AbortSendsAnEmptyPath) {
   EXPECT_EQ(paths[0].n_points, 0);
 }
 
+/// The robot may follow the path of a planner that was killed.
+TEST(PlannerApp, AbortWithoutAMissionOrdersTheRobotToStandUntilItConfirmsThat) {
+  Workstation w;
+  w.SendLink(true);
+  w.SendPose(2.6, 0.3);
+  w.SendDrive(77, drive_status_t::FOLLOWING);
+  w.Run(2);
+  w.Order(mission_command_t::ABORT);
+  w.Run(2);
+  auto paths = w.paths.Drain();
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_EQ(paths[0].n_points, 0);
+  EXPECT_NE(paths[0].path_id, 0);
+  w.phase();
+  EXPECT_EQ(w.last_status.text, "no mission was under way; the robot is told to stand");
+  const auto seconds = [&](int n) {
+    for (int i = 0; i < n; ++i) {
+      w.SendPose(2.6, 0.3);
+      w.Run(20);
+    }
+  };
+  seconds(12);
+  const auto again = w.paths.Drain();
+  ASSERT_GE(again.size(), 1u) << "the robot follows its path still";
+  EXPECT_EQ(again[0].path_id, paths[0].path_id);
+  w.SendDrive(paths[0].path_id, drive_status_t::HOLDING);
+  seconds(12);
+  EXPECT_TRUE(w.paths.Drain().empty());
+}
+
+TEST(PlannerApp, AnAbortWithANumberIsAnsweredUnderIt) {
+  Workstation w;
+  mission_command_t abort{};
+  abort.utime = ToUtime(w.clock.Now());
+  abort.mission = mission_command_t::ABORT;
+  abort.order_id = 4711;
+  for (int i = 0; i < 2; ++i) {
+    w.order.Publish(abort);
+    w.Run(2);
+  }
+  w.phase();
+  ASSERT_EQ(w.last_status.n_results, 1);
+  EXPECT_EQ(w.last_status.results[0].order_id, 4711);
+  EXPECT_EQ(w.last_status.results[0].text, "no mission was under way; the robot is told to stand");
+  EXPECT_EQ(w.paths.Drain().size(), 2u) << "said again it is done again";
+}
+
 TEST(PlannerApp, UnknownMissionIsRefusedInTheLog) {
   Workstation w;
   w.Order(7);

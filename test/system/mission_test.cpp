@@ -37,7 +37,8 @@ TEST(Mission, IsOrderedRefusedFollowedAndAborted) {
                                           folder / "script.sh", 90);
   const std::string& text = answer.text;
   EXPECT_THAT(text, ContainsRegex("mission door: no answer: no planner is heard\nnothing up: 1"));
-  EXPECT_THAT(text, HasSubstr("done: no mission is under way\nnothing to abort: 0"));
+  EXPECT_THAT(text,
+              HasSubstr("done: no mission was under way; the robot is told to stand\nnothing to abort: 0"));
   EXPECT_THAT(text, HasSubstr("failed: the map has no door 9\nno such door: 1"));
   EXPECT_THAT(text, HasSubstr("failed: the map has no door 9\nagain: 1"));
   EXPECT_THAT(text, ContainsRegex("accepted: approaching door 'laboratory'.*\nordered: 0"));

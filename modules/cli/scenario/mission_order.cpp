@@ -133,23 +133,24 @@ void MissionOrder::CollectSteps(const mission_status_t& status) {
 }
 
 void MissionOrder::JudgeIntervention(const mission_status_t& status) {
-  const bool is_so = order_.mission == mission_command_t::ABORT    ? !status.running && status.waiting.empty()
+  // An abort has its answer among the results: without it a planner that carries nothing out has not heard
+  // it.
+  const bool is_so = order_.mission == mission_command_t::ABORT
+                         ? EndOf(id(), status) != nullptr && !status.running && status.waiting.empty()
                      : order_.mission == mission_command_t::PAUSE  ? status.paused
                      : order_.mission == mission_command_t::RESUME ? !status.paused
                                                                    : EndOf(id(), status) != nullptr;
   if (!is_so) return;
   answered_ = true;
   const mission_result_t* end = EndOf(id(), status);
-  End(OrderOutcome::kDone, end && order_.mission == mission_command_t::CANCEL ? end->text : status.text);
+  End(OrderOutcome::kDone, end ? end->text : status.text);
 }
 
 /// Why there is nothing to intervene in.
 std::optional<std::string> MissionOrder::NothingToDo(const mission_status_t& status) const {
   switch (order_.mission) {
-    case mission_command_t::ABORT:
     case mission_command_t::PAUSE:
-      if (status.running || (!status.waiting.empty() && order_.mission == mission_command_t::ABORT))
-        return std::nullopt;
+      if (status.running) return std::nullopt;
       return "no mission is under way";
     case mission_command_t::RESUME:
       if (status.paused) return std::nullopt;
@@ -171,8 +172,7 @@ std::optional<mission_command_t> MissionOrder::Step(Time now) {
   }
   if (!last_ || answered_) return std::nullopt;
   if (const auto nothing = sent_ ? std::nullopt : NothingToDo(*last_)) {
-    // An abort of nothing has what it wants.
-    End(order_.mission == mission_command_t::ABORT ? OrderOutcome::kDone : OrderOutcome::kRefused, *nothing);
+    End(OrderOutcome::kRefused, *nothing);
     return std::nullopt;
   }
   return Send(now);
@@ -185,7 +185,8 @@ std::optional<mission_command_t> MissionOrder::Send(Time now) {
     End(OrderOutcome::kNoAnswer, "the planner did not take the order; it answers: " + last_->text);
     return std::nullopt;
   }
-  if (IsMission() && order_.order_id == 0) order_.order_id = OrderNumber(now);
+  if ((IsMission() || order_.mission == mission_command_t::ABORT) && order_.order_id == 0)
+    order_.order_id = OrderNumber(now);
   sent_ = now;
   if (!first_sent_) first_sent_ = now;
   mission_command_t order = order_;

@@ -201,22 +201,23 @@ TEST(MissionOrder, APlannerThatFallsSilentIsTold) {
 }
 
 TEST(MissionOrder, AnAbortIsDoneWhenNothingRunsOrWaits) {
-  Talk talk(mission_command_t::ABORT, false, 0);
+  Talk talk(mission_command_t::ABORT, false, kOrder);
   talk.For(0.6, AndWaits(Runs(3, Status::PASSING, "passing"), 4));
   EXPECT_EQ(talk.orders, 1);
   talk.For(0.3, AndWaits(Idle(), 4));
   EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
-  Status after = Ended(3, mission_result_t::FAILED, "aborted by the operator");
-  after.text = "aborted by the operator";
-  talk.For(0.6, after);
+  talk.For(0.6, Ended(kOrder, mission_result_t::DONE, "aborted by the operator"));
   EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "aborted by the operator"));
 }
 
-TEST(MissionOrder, AnAbortOfNothingIsToldSo) {
+TEST(MissionOrder, AnAbortIsGivenAlsoToAPlannerThatKnowsNoMission) {
   Talk talk(mission_command_t::ABORT, false, 0);
-  talk.For(2, Idle());
-  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "no mission is under way"));
-  EXPECT_EQ(talk.orders, 0);
+  talk.For(0.6, Idle());
+  EXPECT_EQ(talk.orders, 1);
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen) << "it was not heard yet";
+  ASSERT_NE(talk.dut.id(), 0);
+  talk.For(0.6, Ended(talk.dut.id(), mission_result_t::DONE, "the robot is told to stand"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "the robot is told to stand"));
 }
 
 TEST(MissionOrder, PauseAndResumeAreDoneWhenThePlannerSaysSo) {

@@ -29,8 +29,10 @@ class Agenda {
   /// Takes an order; one with the number of an order that is known is that one, said again. A refusal is
   /// among the results, too.
   std::optional<Refusal> Take(AgendaOrder order, Time now);
-  /// Ends what is under way, and cancels what waits.
-  void Abort();
+  /// Ends what is under way, and cancels what waits. The robot is ordered to stand in any case: it may follow
+  /// a path of an earlier planner process. With an id, of the order to abort, that is answered among the
+  /// results.
+  void Abort(Time now, int id = 0);
   /// Ends or cancels one order. False: none of this number is under way or waits.
   bool Cancel(int order_id);
   /// Has the robot hold its place until Resume(). False: nothing is under way.

@@ -29,6 +29,9 @@ class MissionTable {
   bool Start(Time now, const MissionOrder& order);
   /// Ends the mission under way in the next time step, with this reason.
   void Abort(std::string reason = "aborted by the operator");
+  /// Orders the robot to brake and hold although no mission is under way: it may follow a path of an earlier
+  /// planner process. Repeated until the robot confirms it.
+  void Stand(Time now);
   /// Has the robot brake and hold wherever it is, until Resume(); then it goes on with what is left of its
   /// path, and the mission with what it was doing. Time limits do not count meanwhile. The emergency stop
   /// ends a held mission as well.

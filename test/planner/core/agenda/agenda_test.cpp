@@ -102,7 +102,7 @@ TEST(Agenda, AnAbortEndsAll) {
   rig.Order({Go(4, 2.4)});
   rig.Order({Go(3, 2.4)});
   rig.StepFor(3);
-  rig.dut.Abort();
+  rig.dut.Abort(rig.robot.now());
   rig.StepFor(1);
   EXPECT_FALSE(rig.dut.running());
   EXPECT_TRUE(rig.dut.waiting().empty());
