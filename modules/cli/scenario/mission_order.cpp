@@ -10,6 +10,7 @@ namespace priamos::cli {
 namespace {
 
 // MISSION_STATUS comes twice a second, and at once when something changes.
+constexpr int kNumbers = 65535;  // of orders, from 1 on
 constexpr Duration kPlannerSpeaksWithin = std::chrono::milliseconds(2000);
 constexpr Duration kAnswersWithin = std::chrono::milliseconds(1100);
 constexpr Duration kGivesUp = std::chrono::milliseconds(5000);
@@ -47,6 +48,12 @@ OrderOutcome OutcomeOf(const mission_result_t& result) {
   }
 }
 
+bool IsReported(int order_id, const mission_status_t& status) {
+  return status.order_id == order_id || OrdersBefore(order_id, status) ||
+         std::any_of(status.results.begin(), status.results.end(),
+                     [&](const mission_result_t& result) { return result.order_id == order_id; });
+}
+
 std::string StepText(const mission_status_t& status) {
   if (status.n_steps <= 1) return status.text;
   return fmt::format("step {} of {}: {}", status.step, status.n_steps, status.text);
@@ -72,7 +79,6 @@ std::string_view Text(OrderOutcome outcome) {
 }
 
 std::int32_t OrderNumber(Time now) {
-  constexpr int kNumbers = 65535;
   return static_cast<std::int32_t>(1 + ToUtime(now) / 1000 % kNumbers);
 }
 
@@ -103,7 +109,26 @@ void MissionOrder::Judge(const mission_status_t& status, Time now) {
     JudgeIntervention(status);
 }
 
+void MissionOrder::DrawNumber() {
+  do order_.order_id = static_cast<std::int32_t>(1 + numbers_() % kNumbers);
+  while (last_ && IsReported(id(), *last_));
+}
+
+/// Whether somebody else drew the same number at the same time, and was heard first.
+bool MissionOrder::IsAnothers(const mission_status_t& status) const {
+  if (!drawn_ || order_.title.empty()) return false;
+  if (status.order_id == id()) return status.title != order_.title;
+  return std::any_of(status.waiting.begin(), status.waiting.end(), [&](const mission_waiting_t& waits) {
+    return waits.order_id == id() && waits.title != order_.title;
+  });
+}
+
 void MissionOrder::JudgeMission(const mission_status_t& status, Time now) {
+  if (IsAnothers(status)) {
+    DrawNumber();
+    sent_.reset();
+    return;
+  }
   CollectSteps(status);
   if (const mission_result_t* end = EndOf(id(), status)) {
     answered_ = true;
@@ -185,8 +210,7 @@ std::optional<mission_command_t> MissionOrder::Send(Time now) {
     End(OrderOutcome::kNoAnswer, "the planner did not take the order; it answers: " + last_->text);
     return std::nullopt;
   }
-  if ((IsMission() || order_.mission == mission_command_t::ABORT) && order_.order_id == 0)
-    order_.order_id = OrderNumber(now);
+  if ((IsMission() || order_.mission == mission_command_t::ABORT) && order_.order_id == 0) DrawNumber();
   sent_ = now;
   if (!first_sent_) first_sent_ = now;
   mission_command_t order = order_;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,7 @@ enum class OrderOutcome {
 
 std::string_view Text(OrderOutcome outcome);
 
-/// Number of an order that is given at `now`.
+/// Number of an order that a story gives at `now`, the only one who orders.
 std::int32_t OrderNumber(Time now);
 
 /// An order to the planner and what becomes of it. The planner reports all orders by their numbers; one whose
@@ -39,8 +40,10 @@ std::int32_t OrderNumber(Time now);
 class MissionOrder {
  public:
   /// Order that stays open until the planner carries it out or has it wait; with `to_the_end` until it is
-  /// over. Without a number it gets one from the time at which it is given first.
-  MissionOrder(const mission_command_t& order, bool to_the_end) : order_(order), to_the_end_(to_the_end) {}
+  /// over. Without a number it gets one drawn with `seed`, which nobody else has: another one than the
+  /// planner reports, and a new one when that turns out to be the number of an order with another title.
+  MissionOrder(const mission_command_t& order, bool to_the_end, std::uint32_t seed)
+      : order_(order), to_the_end_(to_the_end), drawn_(order.order_id == 0), numbers_(seed) {}
 
   /// A status that arrived at `now`. Returns what is new in it for a person, in words.
   std::optional<std::string> Hear(const mission_status_t& status, Time now);
@@ -61,11 +64,15 @@ class MissionOrder {
   void JudgeMission(const mission_status_t& status, Time now);
   void JudgeIntervention(const mission_status_t& status);
   std::optional<std::string> NothingToDo(const mission_status_t& status) const;
+  void DrawNumber();
+  bool IsAnothers(const mission_status_t& status) const;
   void CollectSteps(const mission_status_t& status);
   std::optional<mission_command_t> Send(Time now);
 
   mission_command_t order_;
   bool to_the_end_;
+  bool drawn_;  ///< its number is of numbers_
+  std::mt19937 numbers_;
   OrderOutcome outcome_ = OrderOutcome::kOpen;
   std::string text_;
   std::optional<mission_status_t> last_;  ///< the newest one

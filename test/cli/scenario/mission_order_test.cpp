@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "cli/scenario/door_name.hpp"
 #include "common/archive.hpp"
 
@@ -63,7 +65,8 @@ constexpr int kOrder = 7;
 /// A planner that speaks twice a second, and somebody who gives it an order.
 struct Talk {
   explicit Talk(int mission = mission_command_t::PASS_DOOR, bool to_the_end = false, int order_id = kOrder)
-      : dut(Order(mission, order_id), to_the_end) {}
+      : dut(Order(mission, order_id), to_the_end, 1) {}
+  explicit Talk(const MissionOrder& order) : dut(order) {}
 
   /// The planner says this for so long. Returns what a person was told.
   std::vector<std::string> For(double seconds, const Status& status) {
@@ -176,6 +179,44 @@ TEST(MissionOrder, WithoutANumberItGetsOneAndKeepsIt) {
   talk.For(2, Idle());
   EXPECT_GE(talk.orders, 2);
   EXPECT_EQ(talk.dut.id(), id);
+}
+
+/// Two people order in the same millisecond: the time gave both the same number.
+TEST(MissionOrder, OrdersOfTheSameTimeHaveDifferentNumbers) {
+  std::set<int> numbers;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    Talk talk(MissionOrder(Order(mission_command_t::GOTO), false, seed));
+    talk.For(0.6, Idle());
+    numbers.insert(talk.dut.id());
+  }
+  EXPECT_EQ(numbers.size(), 20u);
+}
+
+TEST(MissionOrder, ANumberThatThePlannerReportsIsNotDrawn) {
+  Talk first(MissionOrder(Order(mission_command_t::GOTO), false, 5));
+  first.For(0.6, Idle());
+  Talk second(MissionOrder(Order(mission_command_t::GOTO), false, 5));
+  second.For(0.6, Ended(first.dut.id(), mission_result_t::DONE, "there"));
+  EXPECT_NE(second.dut.id(), first.dut.id());
+  EXPECT_EQ(second.dut.outcome(), OrderOutcome::kOpen);
+}
+
+TEST(MissionOrder, ANumberThatIsAnotherOrdersIsExchanged) {
+  mission_command_t order = Order(mission_command_t::GOTO);
+  order.title = "goto (2.60, 2.40)";
+  Talk talk(MissionOrder(order, true, 5));
+  talk.For(0.6, Idle());
+  const int taken = talk.dut.id();
+  Status others = Runs(taken, Status::DRIVING, "driving");
+  others.title = "goto (2.20, 2.40)";
+  talk.For(0.6, others);
+  EXPECT_NE(talk.dut.id(), taken);
+  EXPECT_EQ(talk.orders, 2);
+  talk.For(0.6, Ended(taken, mission_result_t::DONE, "at (2.20, 2.40)"));
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
+  Status own = Ended(talk.dut.id(), mission_result_t::DONE, "at (2.60, 2.40)");
+  talk.For(0.6, own);
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "at (2.60, 2.40)"));
 }
 
 TEST(MissionOrder, IsRepeatedAndGivenUpWhenThePlannerDoesNotTakeIt) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <random>
 
 #include "cli/options/verb_setup.hpp"
 #include "lcmtypes/channels.hpp"
@@ -53,7 +54,7 @@ int GiveOrder(const MissionOptions& options, const mission_command_t& command, c
   BusSession session(fmt::format("priamos mission {}", verb), options.bus, channels::kMissionStatus.name);
   auto statuses = session.node().SubscribeAll(channels::kMissionStatus);
   auto orders = session.node().Advertise(channels::kMissionCommand);
-  MissionOrder order(command, options.wait);
+  MissionOrder order(command, options.wait, std::random_device{}());
   std::size_t n_steps = 0;
   const auto step = [&] {
     const Time now = session.now();
