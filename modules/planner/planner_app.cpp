@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "common/config.hpp"
@@ -97,10 +98,19 @@ void PlannerApp::SendStatus(Time now) {
   const bool new_words = !(agenda_.state() == sent_state_);
   if (!new_words && agenda_.changes() == sent_changes_ && !status_rate_.Due(now)) return;
   if (new_words) context_.Log(bus::Level::kInfo, agenda_.state().text);
-  status_.Publish(StatusOf(agenda_, now));
+  SendEnds(now);
   sent_state_ = agenda_.state();
   sent_changes_ = agenda_.changes();
   status_rate_.Mark(now);
+}
+
+/// One status, or as many as it takes to show every end since the last one: somebody may wait for each.
+void PlannerApp::SendEnds(Time now) {
+  const std::size_t n_new = std::min(agenda_.n_ended() - sent_ends_, agenda_.results().size());
+  for (std::size_t n_shown = kShownResults; n_shown < n_new; n_shown += kShownResults)
+    status_.Publish(StatusOf(agenda_, now, n_new - n_shown));
+  status_.Publish(StatusOf(agenda_, now));
+  sent_ends_ = agenda_.n_ended();
 }
 
 }  // namespace priamos::planner

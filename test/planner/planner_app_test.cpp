@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <set>
 
 #include "common/archive.hpp"
 #include "test/support/temporary_folder.hpp"
@@ -177,6 +178,32 @@ TEST(PlannerApp, AnAbortWithANumberIsAnsweredUnderIt) {
   EXPECT_EQ(w.last_status.results[0].order_id, 4711);
   EXPECT_EQ(w.last_status.results[0].text, "no mission was under way; the robot is told to stand");
   EXPECT_EQ(w.paths.Drain().size(), 2u) << "said again it is done again";
+}
+
+/// Who waits for the end of an order hears of it, however many end with it.
+TEST(PlannerApp, EveryEndIsInAStatus) {
+  Workstation w;
+  for (int i = 1; i <= 8; ++i) {
+    mission_command_t order{};
+    order.utime = ToUtime(w.clock.Now());
+    order.mission = mission_command_t::GOTO;
+    order.order_id = 100 + i;
+    order.x_m = 2;
+    order.y_m = 2.4;
+    w.order.Publish(order);
+  }
+  w.Run(2);
+  w.statuses.Drain();
+  w.Order(mission_command_t::ABORT);
+  w.Run(2);
+  std::set<int> ended;
+  for (const mission_status_t& status : w.statuses.Drain()) {
+    EXPECT_LE(status.n_results, 3);
+    for (const mission_result_t& result : status.results) ended.insert(result.order_id);
+    w.last_status = status;
+  }
+  EXPECT_EQ(ended, (std::set<int>{101, 102, 103, 104, 105, 106, 107, 108}));
+  EXPECT_EQ(w.last_status.results.back().order_id, 101) << "that which was under way ended last";
 }
 
 TEST(PlannerApp, UnknownMissionIsRefusedInTheLog) {

@@ -12,6 +12,8 @@ namespace {
 // MISSION_STATUS comes twice a second, and at once when something changes.
 constexpr int kNumbers = 65535;  // of orders, from 1 on
 constexpr Duration kPlannerSpeaksWithin = std::chrono::milliseconds(2000);
+/// An order that the planner reported and that is in no status for so long is known there no longer.
+constexpr Duration kForgottenAfter = std::chrono::milliseconds(2000);
 constexpr Duration kAnswersWithin = std::chrono::milliseconds(1100);
 constexpr Duration kGivesUp = std::chrono::milliseconds(5000);
 /// A planner that waits for the robot's pose this long has taken the order.
@@ -136,14 +138,27 @@ void MissionOrder::JudgeMission(const mission_status_t& status, Time now) {
   }
   if (IsUnderWay(id(), status)) {
     answered_ = true;
+    missing_since_.reset();
     text_ = StepText(status);
     const bool waits = status.phase == mission_status_t::WAITING && now - *first_sent_ < kWaitsForRobot;
     if (!to_the_end_ && !waits) End(OrderOutcome::kAccepted, text_);
   } else if (const auto before = OrdersBefore(id(), status)) {
     answered_ = true;
+    missing_since_.reset();
     text_ = fmt::format("order {} waits, {} before it", id(), *before);
     if (!to_the_end_) End(OrderOutcome::kAccepted, text_);
+  } else if (answered_) {
+    JudgeMissing(now);
   }
+}
+
+void MissionOrder::JudgeMissing(Time now) {
+  if (!missing_since_) missing_since_ = now;
+  if (now - *missing_since_ < kForgottenAfter) return;
+  End(OrderOutcome::kNoAnswer,
+      fmt::format("the planner no longer knows order {}: it was restarted, or ended it unseen; next: priamos "
+                  "mission list",
+                  id()));
 }
 
 void MissionOrder::CollectSteps(const mission_status_t& status) {

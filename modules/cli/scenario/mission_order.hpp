@@ -62,6 +62,7 @@ class MissionOrder {
   void End(OrderOutcome outcome, std::string text);
   void Judge(const mission_status_t& status, Time now);
   void JudgeMission(const mission_status_t& status, Time now);
+  void JudgeMissing(Time now);
   void JudgeIntervention(const mission_status_t& status);
   std::optional<std::string> NothingToDo(const mission_status_t& status) const;
   void DrawNumber();
@@ -80,6 +81,7 @@ class MissionOrder {
   bool answered_ = false;                 ///< the planner has reported the order
   std::vector<mission_result_t> steps_;
   std::optional<Time> start_, first_sent_, sent_, heard_;
+  std::optional<Time> missing_since_;  ///< the planner reports it no longer
 };
 
 }  // namespace priamos::cli

@@ -241,6 +241,30 @@ TEST(MissionOrder, APlannerThatFallsSilentIsTold) {
   EXPECT_THAT(talk.dut, Came(OrderOutcome::kNoAnswer, "the planner fell silent"));
 }
 
+TEST(MissionOrder, APlannerThatWasRestartedNoLongerKnowsIt) {
+  Talk talk(mission_command_t::PASS_DOOR, true);
+  talk.For(0.6, Idle());
+  talk.For(3, Runs(kOrder, Status::APPROACHING, "approaching"));
+  talk.Silence(1.5);
+  talk.For(1.5, Idle());
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen) << "one status may have been lost";
+  talk.For(1.5, Idle());
+  EXPECT_THAT(talk.dut,
+              Came(OrderOutcome::kNoAnswer, HasSubstr("the planner no longer knows order 7: it was")));
+}
+
+TEST(MissionOrder, AnOrderThatIsMissingForAMomentIsFollowedOn) {
+  Talk talk(mission_command_t::PASS_DOOR, true);
+  talk.For(0.6, Idle());
+  for (int i = 0; i < 3; ++i) {
+    talk.For(1, Runs(kOrder, Status::APPROACHING, "approaching"));
+    talk.For(1.5, Runs(9, Status::PASSING, "somebody else's"));
+  }
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
+  talk.For(0.6, Ended(kOrder, mission_result_t::DONE, "through"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "through"));
+}
+
 TEST(MissionOrder, AnAbortIsDoneWhenNothingRunsOrWaits) {
   Talk talk(mission_command_t::ABORT, false, kOrder);
   talk.For(0.6, AndWaits(Runs(3, Status::PASSING, "passing"), 4));

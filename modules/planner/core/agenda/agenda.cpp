@@ -208,6 +208,7 @@ bool Agenda::Resume(Time now) {
 
 void Agenda::Remember(AgendaResult result) {
   ++changes_;
+  ++n_ended_;
   results_.push_back(std::move(result));
   if (results_.size() > kMostResults) results_.pop_front();
 }

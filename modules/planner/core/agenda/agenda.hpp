@@ -56,6 +56,8 @@ class Agenda {
   std::vector<AgendaOrder> waiting() const;
   /// How the last steps and orders ended, the newest one last.
   const std::deque<AgendaResult>& results() const { return results_; }
+  /// How many ends there were, of which results() are the newest.
+  std::size_t n_ended() const { return n_ended_; }
   /// Counts whatever a person should be shown at once, beside changes of state().
   std::size_t changes() const { return changes_; }
 
@@ -95,7 +97,7 @@ class Agenda {
   MissionState state_;
   int step_ = 0, round_ = 0;
   bool paused_ = false;
-  std::size_t changes_ = 0;
+  std::size_t changes_ = 0, n_ended_ = 0;
   std::optional<AgendaEnd> ending_;  ///< how the order under way is being ended by a person
   Time step_begun_{};
   int last_id_ = 0;
