@@ -75,8 +75,8 @@ bool IsOver(const mission_status_t& status) {
 }
 
 std::string_view Text(OrderOutcome outcome) {
-  constexpr std::array<std::string_view, 7> kNames{"open",      "accepted", "done",     "failed",
-                                                   "cancelled", "refused",  "no answer"};
+  constexpr std::array<std::string_view, 8> kNames{"open",      "accepted", "done",    "failed",
+                                                   "cancelled", "refused",  "ordered", "no answer"};
   return kNames[std::size_t(outcome)];
 }
 
@@ -108,7 +108,7 @@ void MissionOrder::Judge(const mission_status_t& status, Time now) {
   if (IsMission())
     JudgeMission(status, now);
   else
-    JudgeIntervention(status);
+    JudgeIntervention(status, now);
 }
 
 void MissionOrder::DrawNumber() {
@@ -172,7 +172,7 @@ void MissionOrder::CollectSteps(const mission_status_t& status) {
   }
 }
 
-void MissionOrder::JudgeIntervention(const mission_status_t& status) {
+void MissionOrder::JudgeIntervention(const mission_status_t& status, Time now) {
   // An abort has its answer among the results: without it a planner that carries nothing out has not heard
   // it.
   const bool is_so = order_.mission == mission_command_t::ABORT
@@ -183,7 +183,25 @@ void MissionOrder::JudgeIntervention(const mission_status_t& status) {
   if (!is_so) return;
   answered_ = true;
   const mission_result_t* end = EndOf(id(), status);
-  End(OrderOutcome::kDone, end ? end->text : status.text);
+  text_ = end ? end->text : status.text;
+  const bool brakes =
+      order_.mission == mission_command_t::ABORT || order_.mission == mission_command_t::PAUSE;
+  if (!brakes) return End(OrderOutcome::kDone, text_);
+  if (order_.mission == mission_command_t::PAUSE)
+    text_ = "pause ordered; waiting until the robot confirms it";
+  if (!braking_) braking_ = now;
+}
+
+/// The planner's word is not the robot's.
+void MissionOrder::AwaitStanding(Time now) {
+  if (stand_.Stands(*braking_, now)) return End(OrderOutcome::kDone, DoneText());
+  if (stand_.IsOverdue(*braking_, now)) End(OrderOutcome::kOrdered, stand_.WhyNot(*start_, now));
+}
+
+std::string MissionOrder::DoneText() const {
+  if (order_.mission == mission_command_t::PAUSE)
+    return fmt::format("paused: {}; next: priamos mission resume", stand_.How());
+  return fmt::format("{}: {}", text_, stand_.How());
 }
 
 /// Why there is nothing to intervene in.
@@ -210,6 +228,7 @@ std::optional<mission_command_t> MissionOrder::Step(Time now) {
     End(OrderOutcome::kNoAnswer, heard_ ? "the planner fell silent" : "no planner is heard");
     return std::nullopt;
   }
+  if (braking_) AwaitStanding(now);
   if (!last_ || answered_) return std::nullopt;
   if (const auto nothing = sent_ ? std::nullopt : NothingToDo(*last_)) {
     End(OrderOutcome::kRefused, *nothing);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/scenario/stand_confirmation.hpp"
 #include "common/time.hpp"
 #include "priamos/mission_command_t.hpp"
 #include "priamos/mission_status_t.hpp"
@@ -26,6 +27,7 @@ enum class OrderOutcome {
   kFailed,     ///< the mission failed
   kCancelled,  ///< it was cancelled, or an order before it failed
   kRefused,    ///< the planner cannot carry it out, or there is nothing to abort, pause, resume or cancel
+  kOrdered,    ///< the planner has ordered the robot to stand, which has not confirmed it
   kNoAnswer,   ///< no planner, or one that does not take orders
 };
 
@@ -47,6 +49,9 @@ class MissionOrder {
 
   /// A status that arrived at `now`. Returns what is new in it for a person, in words.
   std::optional<std::string> Hear(const mission_status_t& status, Time now);
+  /// What the planner sends and the robot reports: an abort or a pause is done when the robot stands.
+  void Hear(const path_t& path) { stand_.Hear(path); }
+  void Hear(const drive_status_t& drive, Time now) { stand_.Hear(drive, now); }
   /// The order when it is time to send it (again).
   std::optional<mission_command_t> Step(Time now);
 
@@ -63,7 +68,9 @@ class MissionOrder {
   void Judge(const mission_status_t& status, Time now);
   void JudgeMission(const mission_status_t& status, Time now);
   void JudgeMissing(Time now);
-  void JudgeIntervention(const mission_status_t& status);
+  void JudgeIntervention(const mission_status_t& status, Time now);
+  void AwaitStanding(Time now);
+  std::string DoneText() const;
   std::optional<std::string> NothingToDo(const mission_status_t& status) const;
   void DrawNumber();
   bool IsAnothers(const mission_status_t& status) const;
@@ -81,6 +88,8 @@ class MissionOrder {
   bool answered_ = false;                 ///< the planner has reported the order
   std::vector<mission_result_t> steps_;
   std::optional<Time> start_, first_sent_, sent_, heard_;
+  StandConfirmation stand_;
+  std::optional<Time> braking_;        ///< since then the planner has the robot stand
   std::optional<Time> missing_since_;  ///< the planner reports it no longer
 };
 

@@ -74,6 +74,7 @@ struct Talk {
     for (const Time until = now + FromSeconds(seconds); now < until; now += FromSeconds(0.05), ++steps) {
       if (steps % 10 == 0)
         if (const auto text = dut.Hear(status, now)) told.push_back(*text);
+      if (robot && steps % 10 == 0) dut.Hear(*robot, now);
       if (dut.Step(now)) ++orders;
     }
     return told;
@@ -83,7 +84,15 @@ struct Talk {
       if (dut.Step(now)) ++orders;
   }
 
+  /// The planner has ordered the robot to stand, and the robot does so.
+  void Stands() {
+    dut.Hear(path_t{});
+    robot = drive_status_t{};
+    robot->mode = drive_status_t::HOLDING;
+  }
+
   MissionOrder dut;
+  std::optional<drive_status_t> robot;
   Time now = FromUtime(5'000'000);
   int steps = 0, orders = 0;
 };
@@ -271,8 +280,9 @@ TEST(MissionOrder, AnAbortIsDoneWhenNothingRunsOrWaits) {
   EXPECT_EQ(talk.orders, 1);
   talk.For(0.3, AndWaits(Idle(), 4));
   EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
+  talk.Stands();
   talk.For(0.6, Ended(kOrder, mission_result_t::DONE, "aborted by the operator"));
-  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "aborted by the operator"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "aborted by the operator: the robot stands"));
 }
 
 TEST(MissionOrder, AnAbortIsGivenAlsoToAPlannerThatKnowsNoMission) {
@@ -281,8 +291,9 @@ TEST(MissionOrder, AnAbortIsGivenAlsoToAPlannerThatKnowsNoMission) {
   EXPECT_EQ(talk.orders, 1);
   EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen) << "it was not heard yet";
   ASSERT_NE(talk.dut.id(), 0);
+  talk.Stands();
   talk.For(0.6, Ended(talk.dut.id(), mission_result_t::DONE, "the robot is told to stand"));
-  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "the robot is told to stand"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "the robot is told to stand: the robot stands"));
 }
 
 TEST(MissionOrder, PauseAndResumeAreDoneWhenThePlannerSaysSo) {
@@ -293,11 +304,25 @@ TEST(MissionOrder, PauseAndResumeAreDoneWhenThePlannerSaysSo) {
   pause.For(0.6, runs);
   EXPECT_EQ(pause.dut.outcome(), OrderOutcome::kOpen);
   pause.For(0.6, holds);
-  EXPECT_EQ(pause.dut.outcome(), OrderOutcome::kDone);
+  EXPECT_EQ(pause.dut.outcome(), OrderOutcome::kOpen) << "the planner says so, the robot not yet";
+  pause.Stands();
+  pause.For(0.6, holds);
+  EXPECT_THAT(pause.dut, Came(OrderOutcome::kDone, HasSubstr("paused: the robot stands")));
   resume.For(0.6, holds);
   EXPECT_EQ(resume.dut.outcome(), OrderOutcome::kOpen);
   resume.For(0.6, runs);
   EXPECT_EQ(resume.dut.outcome(), OrderOutcome::kDone);
+}
+
+TEST(MissionOrder, InABlackoutAPauseOrAbortIsOrderedAndNotDone) {
+  Status holds = Runs(3, Status::PASSING, "passing");
+  Talk pause(mission_command_t::PAUSE, false, 0), abort(mission_command_t::ABORT, false, kOrder);
+  for (Talk* talk : {&pause, &abort}) talk->For(0.6, holds);
+  holds.paused = true;
+  pause.For(5, holds);
+  abort.For(5, Ended(kOrder, mission_result_t::DONE, "aborted by the operator"));
+  for (Talk* talk : {&pause, &abort})
+    EXPECT_THAT(talk->dut, Came(OrderOutcome::kOrdered, HasSubstr("nothing is heard from the robot for")));
 }
 
 TEST(MissionOrder, WhereThereIsNothingToPauseResumeOrCancelItIsRefused) {

@@ -64,6 +64,7 @@ class StepRunner {
   double Takes_s(const Leg& leg) const;
   void Finish(Phase phase, std::string text);
   std::string Doors() const;
+  std::string PausedText(Time now) const;
 
   MissionTable& missions_;
   DoorRouter& router_;

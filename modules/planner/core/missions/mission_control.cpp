@@ -76,13 +76,12 @@ void MissionControl::RepeatUnconfirmedStand(Time now, double after_s) {
 }
 
 void MissionControl::Hold() {
-  if (!path_sent_) return;
-  held_ = Held{path_, path_start_, remaining_m_};
+  if (path_sent_) held_ = Held{path_, path_start_, remaining_m_};
   OrderPath({}, 0);
 }
 
 void MissionControl::GoOn() {
-  if (!held_) return;
+  if (!held_) return path_sent_.reset();  // the mission has driven nothing yet
   const Held held = *std::exchange(held_, std::nullopt);
   PathOrder left = held.path;
   if (heard_.pose) left = RemainderOf(held.path, held.start, held.remaining_m, heard_.pose->map_from_base);

@@ -59,8 +59,9 @@ void MissionTable::Stand(Time now) {
 }
 
 void MissionTable::Pause(Time now) {
-  if (!running() || paused_since_) return;
+  if (!running()) return Stand(now);
   control_.now_ = now;
+  if (paused_since_) return control_.SendPath();
   paused_since_ = now;
   blocked_since_.reset();
   control_.Hold();

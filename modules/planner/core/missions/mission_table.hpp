@@ -38,6 +38,8 @@ class MissionTable {
   void Pause(Time now);
   void Resume(Time now);
   bool paused() const { return paused_since_.has_value(); }
+  /// Whether the robot reports about the path, or order to stand, that was sent last.
+  bool IsConfirmed() const { return control_.OnPath(); }
 
   /// A mission whose robot falls silent when it is under way ends after `seconds`, or after its own silent_s
   /// if that is longer: meanwhile the robot drives as far as its path leads, and the mission goes on when it

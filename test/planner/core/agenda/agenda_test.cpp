@@ -119,7 +119,7 @@ TEST(Agenda, PausedNothingBegins) {
   rig.Order({Go(3, 2.4)});
   rig.StepFor(60);
   EXPECT_EQ(rig.dut.step(), 1) << "the wait stands still";
-  EXPECT_TRUE(rig.robot.paths.empty());
+  for (const PathOrder& path : rig.robot.paths) EXPECT_TRUE(path.points.empty());
   EXPECT_TRUE(rig.dut.Resume(rig.robot.now()));
   rig.StepFor(2);
   EXPECT_EQ(rig.dut.step(), 1) << "3 s are left";
