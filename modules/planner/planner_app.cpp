@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "common/config.hpp"
@@ -49,7 +50,7 @@ void PlannerApp::TakeOrders(Time now) {
 void PlannerApp::Take(const mission_command_t& order, Time now) {
   switch (order.mission) {
     case mission_command_t::ABORT:
-      return agenda_.Abort();
+      return agenda_.Abort(now, order.order_id);
     case mission_command_t::PAUSE:
       return void(agenda_.Pause(now));
     case mission_command_t::RESUME:
@@ -97,10 +98,19 @@ void PlannerApp::SendStatus(Time now) {
   const bool new_words = !(agenda_.state() == sent_state_);
   if (!new_words && agenda_.changes() == sent_changes_ && !status_rate_.Due(now)) return;
   if (new_words) context_.Log(bus::Level::kInfo, agenda_.state().text);
-  status_.Publish(StatusOf(agenda_, now));
+  SendEnds(now);
   sent_state_ = agenda_.state();
   sent_changes_ = agenda_.changes();
   status_rate_.Mark(now);
+}
+
+/// One status, or as many as it takes to show every end since the last one: somebody may wait for each.
+void PlannerApp::SendEnds(Time now) {
+  const std::size_t n_new = std::min(agenda_.n_ended() - sent_ends_, agenda_.results().size());
+  for (std::size_t n_shown = kShownResults; n_shown < n_new; n_shown += kShownResults)
+    status_.Publish(StatusOf(agenda_, now, n_new - n_shown));
+  status_.Publish(StatusOf(agenda_, now));
+  sent_ends_ = agenda_.n_ended();
 }
 
 }  // namespace priamos::planner

@@ -35,6 +35,7 @@ class PlannerApp {
   void TakeReports(Time now);
   void Send(const MissionActions& actions, Time now);
   void SendStatus(Time now);
+  void SendEnds(Time now);
   void TeachLandmark(int id);
 
   PlannerConfig config_;
@@ -59,7 +60,7 @@ class PlannerApp {
   bus::Publisher<mission_status_t> status_;
 
   MissionState sent_state_;
-  std::size_t sent_changes_ = 0;
+  std::size_t sent_changes_ = 0, sent_ends_ = 0;
   RateLimit status_rate_;
 };
 

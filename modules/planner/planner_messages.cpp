@@ -9,7 +9,6 @@ namespace priamos::planner {
 namespace {
 
 constexpr std::size_t kMaxText = 200, kMaxTitle = 60, kMaxResult = 120;
-constexpr std::size_t kShownResults = 3;  ///< of the newest ends: a message has to fit a datagram
 constexpr double kMost_s = 360000;
 
 DriveMode ModeOf(int mode) {
@@ -209,7 +208,7 @@ look_request_t ToMessage(const LookOrder& look, Time now) {
   return message;
 }
 
-mission_status_t StatusOf(const Agenda& agenda, Time now) {
+mission_status_t StatusOf(const Agenda& agenda, Time now, std::size_t n_later) {
   const AgendaOrder& order = agenda.order();
   mission_status_t message{};
   message.utime = ToUtime(now);
@@ -233,7 +232,8 @@ mission_status_t StatusOf(const Agenda& agenda, Time now) {
   }
   message.n_waiting = static_cast<std::int8_t>(message.waiting.size());
   const auto& results = agenda.results();
-  for (std::size_t i = results.size() - std::min(results.size(), kShownResults); i < results.size(); ++i)
+  const std::size_t end = results.size() - std::min(results.size(), n_later);
+  for (std::size_t i = end - std::min(end, kShownResults); i < end; ++i)
     message.results.push_back(ToMessage(results[i]));
   message.n_results = static_cast<std::int8_t>(message.results.size());
   return message;

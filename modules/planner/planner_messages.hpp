@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -27,8 +28,10 @@ LookResult FromMessage(const pose_correction_t& message);
 landmark_model_t ToMessage(const Landmark& landmark);
 path_t ToMessage(const PathOrder& path, Time now);
 look_request_t ToMessage(const LookOrder& look, Time now);
-/// How the orders stand.
-mission_status_t StatusOf(const Agenda& agenda, Time now);
+/// So many of the newest ends are in a status, which has to fit a datagram.
+inline constexpr std::size_t kShownResults = 3;
+/// How the orders stand. `n_later`: so many of the newest ends are left for a later status.
+mission_status_t StatusOf(const Agenda& agenda, Time now, std::size_t n_later = 0);
 
 /// The words that a person reads for a verdict or limit.
 std::string_view FixVerdictText(int verdict);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <set>
 
 #include "common/archive.hpp"
 #include "test/support/temporary_folder.hpp"
@@ -130,6 +131,79 @@ TEST(PlannerApp, AbortSendsAnEmptyPath) {
   const auto paths = w.paths.Drain();
   ASSERT_EQ(paths.size(), 1u);
   EXPECT_EQ(paths[0].n_points, 0);
+}
+
+/// The robot may follow the path of a planner that was killed.
+TEST(PlannerApp, AbortWithoutAMissionOrdersTheRobotToStandUntilItConfirmsThat) {
+  Workstation w;
+  w.SendLink(true);
+  w.SendPose(2.6, 0.3);
+  w.SendDrive(77, drive_status_t::FOLLOWING);
+  w.Run(2);
+  w.Order(mission_command_t::ABORT);
+  w.Run(2);
+  auto paths = w.paths.Drain();
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_EQ(paths[0].n_points, 0);
+  EXPECT_NE(paths[0].path_id, 0);
+  w.phase();
+  EXPECT_EQ(w.last_status.text, "no mission was under way; the robot is told to stand");
+  const auto seconds = [&](int n) {
+    for (int i = 0; i < n; ++i) {
+      w.SendPose(2.6, 0.3);
+      w.Run(20);
+    }
+  };
+  seconds(12);
+  const auto again = w.paths.Drain();
+  ASSERT_GE(again.size(), 1u) << "the robot follows its path still";
+  EXPECT_EQ(again[0].path_id, paths[0].path_id);
+  w.SendDrive(paths[0].path_id, drive_status_t::HOLDING);
+  seconds(12);
+  EXPECT_TRUE(w.paths.Drain().empty());
+}
+
+TEST(PlannerApp, AnAbortWithANumberIsAnsweredUnderIt) {
+  Workstation w;
+  mission_command_t abort{};
+  abort.utime = ToUtime(w.clock.Now());
+  abort.mission = mission_command_t::ABORT;
+  abort.order_id = 4711;
+  for (int i = 0; i < 2; ++i) {
+    w.order.Publish(abort);
+    w.Run(2);
+  }
+  w.phase();
+  ASSERT_EQ(w.last_status.n_results, 1);
+  EXPECT_EQ(w.last_status.results[0].order_id, 4711);
+  EXPECT_EQ(w.last_status.results[0].text, "no mission was under way; the robot is told to stand");
+  EXPECT_EQ(w.paths.Drain().size(), 2u) << "said again it is done again";
+}
+
+/// Who waits for the end of an order hears of it, however many end with it.
+TEST(PlannerApp, EveryEndIsInAStatus) {
+  Workstation w;
+  for (int i = 1; i <= 8; ++i) {
+    mission_command_t order{};
+    order.utime = ToUtime(w.clock.Now());
+    order.mission = mission_command_t::GOTO;
+    order.order_id = 100 + i;
+    order.x_m = 2;
+    order.y_m = 2.4;
+    w.order.Publish(order);
+  }
+  w.Run(2);
+  w.statuses.Drain();
+  w.Order(mission_command_t::ABORT);
+  w.Run(2);
+  std::set<int> ended;
+  for (const mission_status_t& status : w.statuses.Drain()) {
+    EXPECT_LE(status.n_results, 3);
+    for (const mission_result_t& result : status.results) ended.insert(result.order_id);
+    w.last_status = status;
+  }
+  EXPECT_EQ(ended, (std::set<int>{101, 102, 103, 104, 105, 106, 107, 108}));
+  EXPECT_EQ(w.last_status.results.back().order_id, 101) << "that which was under way ended last";
 }
 
 TEST(PlannerApp, UnknownMissionIsRefusedInTheLog) {

@@ -37,18 +37,19 @@ TEST(Mission, IsOrderedRefusedFollowedAndAborted) {
                                           folder / "script.sh", 90);
   const std::string& text = answer.text;
   EXPECT_THAT(text, ContainsRegex("mission door: no answer: no planner is heard\nnothing up: 1"));
-  EXPECT_THAT(text, HasSubstr("done: no mission is under way\nnothing to abort: 0"));
+  EXPECT_THAT(text, HasSubstr("done: no mission was under way; the robot is told to stand: the robot "
+                              "stands\nnothing to abort: 0"));
   EXPECT_THAT(text, HasSubstr("failed: the map has no door 9\nno such door: 1"));
   EXPECT_THAT(text, HasSubstr("failed: the map has no door 9\nagain: 1"));
   EXPECT_THAT(text, ContainsRegex("accepted: approaching door 'laboratory'.*\nordered: 0"));
   EXPECT_THAT(text, ContainsRegex("accepted: order [0-9]+ waits, 1 before it\nsecond: 0"));
-  EXPECT_THAT(text, ContainsRegex("done: paused: the robot holds its place.*\npause: 0"));
+  EXPECT_THAT(text, ContainsRegex("done: paused: the robot stands.*\npause: 0"));
   EXPECT_THAT(text,
               ContainsRegex("N  paused     door 'laboratory': .*\nN  waits      goto \\(8.30, 1.20\\)\n"));
   EXPECT_THAT(text, ContainsRegex("resume: 0"));
   EXPECT_THAT(text, ContainsRegex("does     [A-Z]+.*\nlimit .*\nmission  [A-Z_]+: .*\noffboard: 0"));
   EXPECT_THAT(text, ContainsRegex("mission  not heard: no planner on this bus\nonboard: 0"));
-  EXPECT_THAT(text, HasSubstr("done: aborted by the operator\nabort: 0"));
+  EXPECT_THAT(text, HasSubstr("done: aborted by the operator: the robot stands\nabort: 0"));
   EXPECT_THAT(text, HasSubstr("followed: 1\nFAILED: aborted by the operator\nstatus: 1"));
 }
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <string_view>
 
 #include "bus/process_config.hpp"
 #include "cli/scenario/door_name.hpp"
@@ -16,6 +18,20 @@ namespace priamos::cli {
 namespace {
 
 constexpr std::size_t kMostSteps = 32, kLongestTitle = 60;
+
+/// Characters that no message carries as text: C0 with NUL and line breaks, and DEL.
+bool HasControls(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+}
+
+/// Before any way is planned, which takes a while.
+void CheckNumber(const std::vector<MissionFileStep>& steps) {
+  const auto n = std::size_t(std::count_if(
+      steps.begin(), steps.end(), [](const MissionFileStep& step) { return step.what != "repeat"; }));
+  if (n > kMostSteps)
+    throw ConfigError(
+        fmt::format("{}expected at most {} steps, got {}", steps.back().place.Begin(), kMostSteps, n));
+}
 
 /// Follows the steps on the plan, from place to place.
 class Rehearsal {
@@ -115,6 +131,7 @@ void MissionFileStep::Describe(Archive& a) {
 void MissionFile::Describe(Archive& a) {
   a.Text("title", title, "what the robot does, in a few words");
   if (title.size() > kLongestTitle) a.Refuse("title", "at most 60 bytes");
+  if (HasControls(title)) a.Refuse("title", "text without control characters");
   a.Integer("rounds", rounds, {"-", 0, 9999, "how often all steps are done; 0: until it is cancelled"});
   a.List("step", steps, "the steps, in turn");
   if (steps.empty()) a.Refuse("step", "one or more [[step]]");
@@ -122,6 +139,7 @@ void MissionFile::Describe(Archive& a) {
 
 mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config,
                           const GroundPlan& plan, const std::string& map) {
+  CheckNumber(file.steps);
   mission_command_t order{};
   order.mission = mission_command_t::RUN;
   order.title = file.title;
@@ -149,11 +167,14 @@ mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig&
 }
 
 mission_command_t OrderOfFile(const std::string& file, const std::string& folder) {
-  const auto read = LoadConfig<MissionFile>(file);
+  return OrderOf(LoadConfig<MissionFile>(file), folder);
+}
+
+mission_command_t OrderOf(const MissionFile& file, const std::string& folder) {
   const auto planner_file = std::filesystem::path(folder) / "planner.toml";
   const auto config = bus::LoadAppConfig<planner::PlannerConfig>({planner_file.string(), {}});
   const std::string map = (planner_file.parent_path() / config.map).lexically_normal().string();
-  return OrderOf(read, config, LoadConfig<GroundPlan>(map), map);
+  return OrderOf(file, config, LoadConfig<GroundPlan>(map), map);
 }
 
 }  // namespace priamos::cli

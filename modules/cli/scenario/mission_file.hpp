@@ -38,6 +38,9 @@ struct MissionFile {
 /// ConfigError: file, line, what is wrong.
 mission_command_t OrderOfFile(const std::string& file, const std::string& folder);
 
+/// The same of steps that stand in no file, or in one that is read already.
+mission_command_t OrderOf(const MissionFile& file, const std::string& folder);
+
 /// The same of a file that is read already, with the planner's configuration and plan.
 mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config,
                           const GroundPlan& plan, const std::string& map);

@@ -10,7 +10,10 @@ namespace priamos::cli {
 namespace {
 
 // MISSION_STATUS comes twice a second, and at once when something changes.
+constexpr int kNumbers = 65535;  // of orders, from 1 on
 constexpr Duration kPlannerSpeaksWithin = std::chrono::milliseconds(2000);
+/// An order that the planner reported and that is in no status for so long is known there no longer.
+constexpr Duration kForgottenAfter = std::chrono::milliseconds(2000);
 constexpr Duration kAnswersWithin = std::chrono::milliseconds(1100);
 constexpr Duration kGivesUp = std::chrono::milliseconds(5000);
 /// A planner that waits for the robot's pose this long has taken the order.
@@ -47,6 +50,12 @@ OrderOutcome OutcomeOf(const mission_result_t& result) {
   }
 }
 
+bool IsReported(int order_id, const mission_status_t& status) {
+  return status.order_id == order_id || OrdersBefore(order_id, status) ||
+         std::any_of(status.results.begin(), status.results.end(),
+                     [&](const mission_result_t& result) { return result.order_id == order_id; });
+}
+
 std::string StepText(const mission_status_t& status) {
   if (status.n_steps <= 1) return status.text;
   return fmt::format("step {} of {}: {}", status.step, status.n_steps, status.text);
@@ -66,13 +75,12 @@ bool IsOver(const mission_status_t& status) {
 }
 
 std::string_view Text(OrderOutcome outcome) {
-  constexpr std::array<std::string_view, 7> kNames{"open",      "accepted", "done",     "failed",
-                                                   "cancelled", "refused",  "no answer"};
+  constexpr std::array<std::string_view, 8> kNames{"open",      "accepted", "done",    "failed",
+                                                   "cancelled", "refused",  "ordered", "no answer"};
   return kNames[std::size_t(outcome)];
 }
 
 std::int32_t OrderNumber(Time now) {
-  constexpr int kNumbers = 65535;
   return static_cast<std::int32_t>(1 + ToUtime(now) / 1000 % kNumbers);
 }
 
@@ -100,10 +108,29 @@ void MissionOrder::Judge(const mission_status_t& status, Time now) {
   if (IsMission())
     JudgeMission(status, now);
   else
-    JudgeIntervention(status);
+    JudgeIntervention(status, now);
+}
+
+void MissionOrder::DrawNumber() {
+  do order_.order_id = static_cast<std::int32_t>(1 + numbers_() % kNumbers);
+  while (last_ && IsReported(id(), *last_));
+}
+
+/// Whether somebody else drew the same number at the same time, and was heard first.
+bool MissionOrder::IsAnothers(const mission_status_t& status) const {
+  if (!drawn_ || order_.title.empty()) return false;
+  if (status.order_id == id()) return status.title != order_.title;
+  return std::any_of(status.waiting.begin(), status.waiting.end(), [&](const mission_waiting_t& waits) {
+    return waits.order_id == id() && waits.title != order_.title;
+  });
 }
 
 void MissionOrder::JudgeMission(const mission_status_t& status, Time now) {
+  if (IsAnothers(status)) {
+    DrawNumber();
+    sent_.reset();
+    return;
+  }
   CollectSteps(status);
   if (const mission_result_t* end = EndOf(id(), status)) {
     answered_ = true;
@@ -111,14 +138,27 @@ void MissionOrder::JudgeMission(const mission_status_t& status, Time now) {
   }
   if (IsUnderWay(id(), status)) {
     answered_ = true;
+    missing_since_.reset();
     text_ = StepText(status);
     const bool waits = status.phase == mission_status_t::WAITING && now - *first_sent_ < kWaitsForRobot;
     if (!to_the_end_ && !waits) End(OrderOutcome::kAccepted, text_);
   } else if (const auto before = OrdersBefore(id(), status)) {
     answered_ = true;
+    missing_since_.reset();
     text_ = fmt::format("order {} waits, {} before it", id(), *before);
     if (!to_the_end_) End(OrderOutcome::kAccepted, text_);
+  } else if (answered_) {
+    JudgeMissing(now);
   }
+}
+
+void MissionOrder::JudgeMissing(Time now) {
+  if (!missing_since_) missing_since_ = now;
+  if (now - *missing_since_ < kForgottenAfter) return;
+  End(OrderOutcome::kNoAnswer,
+      fmt::format("the planner no longer knows order {}: it was restarted, or ended it unseen; next: priamos "
+                  "mission list",
+                  id()));
 }
 
 void MissionOrder::CollectSteps(const mission_status_t& status) {
@@ -132,24 +172,43 @@ void MissionOrder::CollectSteps(const mission_status_t& status) {
   }
 }
 
-void MissionOrder::JudgeIntervention(const mission_status_t& status) {
-  const bool is_so = order_.mission == mission_command_t::ABORT    ? !status.running && status.waiting.empty()
+void MissionOrder::JudgeIntervention(const mission_status_t& status, Time now) {
+  // An abort has its answer among the results: without it a planner that carries nothing out has not heard
+  // it.
+  const bool is_so = order_.mission == mission_command_t::ABORT
+                         ? EndOf(id(), status) != nullptr && !status.running && status.waiting.empty()
                      : order_.mission == mission_command_t::PAUSE  ? status.paused
                      : order_.mission == mission_command_t::RESUME ? !status.paused
                                                                    : EndOf(id(), status) != nullptr;
   if (!is_so) return;
   answered_ = true;
   const mission_result_t* end = EndOf(id(), status);
-  End(OrderOutcome::kDone, end && order_.mission == mission_command_t::CANCEL ? end->text : status.text);
+  text_ = end ? end->text : status.text;
+  const bool brakes =
+      order_.mission == mission_command_t::ABORT || order_.mission == mission_command_t::PAUSE;
+  if (!brakes) return End(OrderOutcome::kDone, text_);
+  if (order_.mission == mission_command_t::PAUSE)
+    text_ = "pause ordered; waiting until the robot confirms it";
+  if (!braking_) braking_ = now;
+}
+
+/// The planner's word is not the robot's.
+void MissionOrder::AwaitStanding(Time now) {
+  if (stand_.Stands(*braking_, now)) return End(OrderOutcome::kDone, DoneText());
+  if (stand_.IsOverdue(*braking_, now)) End(OrderOutcome::kOrdered, stand_.WhyNot(*start_, now));
+}
+
+std::string MissionOrder::DoneText() const {
+  if (order_.mission == mission_command_t::PAUSE)
+    return fmt::format("paused: {}; next: priamos mission resume", stand_.How());
+  return fmt::format("{}: {}", text_, stand_.How());
 }
 
 /// Why there is nothing to intervene in.
 std::optional<std::string> MissionOrder::NothingToDo(const mission_status_t& status) const {
   switch (order_.mission) {
-    case mission_command_t::ABORT:
     case mission_command_t::PAUSE:
-      if (status.running || (!status.waiting.empty() && order_.mission == mission_command_t::ABORT))
-        return std::nullopt;
+      if (status.running) return std::nullopt;
       return "no mission is under way";
     case mission_command_t::RESUME:
       if (status.paused) return std::nullopt;
@@ -169,10 +228,10 @@ std::optional<mission_command_t> MissionOrder::Step(Time now) {
     End(OrderOutcome::kNoAnswer, heard_ ? "the planner fell silent" : "no planner is heard");
     return std::nullopt;
   }
+  if (braking_) AwaitStanding(now);
   if (!last_ || answered_) return std::nullopt;
   if (const auto nothing = sent_ ? std::nullopt : NothingToDo(*last_)) {
-    // An abort of nothing has what it wants.
-    End(order_.mission == mission_command_t::ABORT ? OrderOutcome::kDone : OrderOutcome::kRefused, *nothing);
+    End(OrderOutcome::kRefused, *nothing);
     return std::nullopt;
   }
   return Send(now);
@@ -185,7 +244,7 @@ std::optional<mission_command_t> MissionOrder::Send(Time now) {
     End(OrderOutcome::kNoAnswer, "the planner did not take the order; it answers: " + last_->text);
     return std::nullopt;
   }
-  if (IsMission() && order_.order_id == 0) order_.order_id = OrderNumber(now);
+  if ((IsMission() || order_.mission == mission_command_t::ABORT) && order_.order_id == 0) DrawNumber();
   sent_ = now;
   if (!first_sent_) first_sent_ = now;
   mission_command_t order = order_;

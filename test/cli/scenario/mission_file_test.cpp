@@ -76,6 +76,21 @@ TEST(MissionFile, WhatCannotBeDoneIsNamedWithItsLine) {
   EXPECT_THAT(WhyNot("title = \"nothing\"\n"), HasSubstr("one or more [[step]]"));
 }
 
+TEST(MissionFile, ATitleHasNoControlCharacters) {
+  for (const char* title : {"a\\u0000b", "a\\u001b[31mb", "a\\nb", "a\\u007fb"})
+    EXPECT_THAT(WhyNot("title = \"" + std::string(title) + "\"\n" + kGo),
+                HasSubstr("round.toml:1:title: expected text without control characters, got"))
+        << title;
+  EXPECT_EQ(Read("title = \"Tür zum Flur\"\n" + kGo).title, "Tür zum Flur");
+}
+
+/// The number is judged before the ways are planned: the first step stands in a wall.
+TEST(MissionFile, TooManyStepsAreRefusedBeforeTheyAreRehearsed) {
+  std::string text = "[[step]]\ndo = \"goto\"\nx_m = 6.0\ny_m = 1.0\n";
+  for (int i = 0; i < 200; ++i) text += kGo;
+  EXPECT_THAT(WhyNot(text), HasSubstr("expected at most 32 steps, got 201"));
+}
+
 TEST(MissionFile, TheShippedOneIsGood) {
   const auto order =
       OrderOfFile(PRIAMOS_SOURCE_DIR "/config/sim/missions/round.toml", PRIAMOS_SOURCE_DIR "/config/sim");

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "cli/scenario/door_name.hpp"
 #include "common/archive.hpp"
 
@@ -63,7 +65,8 @@ constexpr int kOrder = 7;
 /// A planner that speaks twice a second, and somebody who gives it an order.
 struct Talk {
   explicit Talk(int mission = mission_command_t::PASS_DOOR, bool to_the_end = false, int order_id = kOrder)
-      : dut(Order(mission, order_id), to_the_end) {}
+      : dut(Order(mission, order_id), to_the_end, 1) {}
+  explicit Talk(const MissionOrder& order) : dut(order) {}
 
   /// The planner says this for so long. Returns what a person was told.
   std::vector<std::string> For(double seconds, const Status& status) {
@@ -71,6 +74,7 @@ struct Talk {
     for (const Time until = now + FromSeconds(seconds); now < until; now += FromSeconds(0.05), ++steps) {
       if (steps % 10 == 0)
         if (const auto text = dut.Hear(status, now)) told.push_back(*text);
+      if (robot && steps % 10 == 0) dut.Hear(*robot, now);
       if (dut.Step(now)) ++orders;
     }
     return told;
@@ -80,7 +84,15 @@ struct Talk {
       if (dut.Step(now)) ++orders;
   }
 
+  /// The planner has ordered the robot to stand, and the robot does so.
+  void Stands() {
+    dut.Hear(path_t{});
+    robot = drive_status_t{};
+    robot->mode = drive_status_t::HOLDING;
+  }
+
   MissionOrder dut;
+  std::optional<drive_status_t> robot;
   Time now = FromUtime(5'000'000);
   int steps = 0, orders = 0;
 };
@@ -178,6 +190,44 @@ TEST(MissionOrder, WithoutANumberItGetsOneAndKeepsIt) {
   EXPECT_EQ(talk.dut.id(), id);
 }
 
+/// Two people order in the same millisecond: the time gave both the same number.
+TEST(MissionOrder, OrdersOfTheSameTimeHaveDifferentNumbers) {
+  std::set<int> numbers;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    Talk talk(MissionOrder(Order(mission_command_t::GOTO), false, seed));
+    talk.For(0.6, Idle());
+    numbers.insert(talk.dut.id());
+  }
+  EXPECT_EQ(numbers.size(), 20u);
+}
+
+TEST(MissionOrder, ANumberThatThePlannerReportsIsNotDrawn) {
+  Talk first(MissionOrder(Order(mission_command_t::GOTO), false, 5));
+  first.For(0.6, Idle());
+  Talk second(MissionOrder(Order(mission_command_t::GOTO), false, 5));
+  second.For(0.6, Ended(first.dut.id(), mission_result_t::DONE, "there"));
+  EXPECT_NE(second.dut.id(), first.dut.id());
+  EXPECT_EQ(second.dut.outcome(), OrderOutcome::kOpen);
+}
+
+TEST(MissionOrder, ANumberThatIsAnotherOrdersIsExchanged) {
+  mission_command_t order = Order(mission_command_t::GOTO);
+  order.title = "goto (2.60, 2.40)";
+  Talk talk(MissionOrder(order, true, 5));
+  talk.For(0.6, Idle());
+  const int taken = talk.dut.id();
+  Status others = Runs(taken, Status::DRIVING, "driving");
+  others.title = "goto (2.20, 2.40)";
+  talk.For(0.6, others);
+  EXPECT_NE(talk.dut.id(), taken);
+  EXPECT_EQ(talk.orders, 2);
+  talk.For(0.6, Ended(taken, mission_result_t::DONE, "at (2.20, 2.40)"));
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
+  Status own = Ended(talk.dut.id(), mission_result_t::DONE, "at (2.60, 2.40)");
+  talk.For(0.6, own);
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "at (2.60, 2.40)"));
+}
+
 TEST(MissionOrder, IsRepeatedAndGivenUpWhenThePlannerDoesNotTakeIt) {
   Talk talk;
   talk.For(8, Idle());
@@ -200,23 +250,50 @@ TEST(MissionOrder, APlannerThatFallsSilentIsTold) {
   EXPECT_THAT(talk.dut, Came(OrderOutcome::kNoAnswer, "the planner fell silent"));
 }
 
+TEST(MissionOrder, APlannerThatWasRestartedNoLongerKnowsIt) {
+  Talk talk(mission_command_t::PASS_DOOR, true);
+  talk.For(0.6, Idle());
+  talk.For(3, Runs(kOrder, Status::APPROACHING, "approaching"));
+  talk.Silence(1.5);
+  talk.For(1.5, Idle());
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen) << "one status may have been lost";
+  talk.For(1.5, Idle());
+  EXPECT_THAT(talk.dut,
+              Came(OrderOutcome::kNoAnswer, HasSubstr("the planner no longer knows order 7: it was")));
+}
+
+TEST(MissionOrder, AnOrderThatIsMissingForAMomentIsFollowedOn) {
+  Talk talk(mission_command_t::PASS_DOOR, true);
+  talk.For(0.6, Idle());
+  for (int i = 0; i < 3; ++i) {
+    talk.For(1, Runs(kOrder, Status::APPROACHING, "approaching"));
+    talk.For(1.5, Runs(9, Status::PASSING, "somebody else's"));
+  }
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
+  talk.For(0.6, Ended(kOrder, mission_result_t::DONE, "through"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "through"));
+}
+
 TEST(MissionOrder, AnAbortIsDoneWhenNothingRunsOrWaits) {
-  Talk talk(mission_command_t::ABORT, false, 0);
+  Talk talk(mission_command_t::ABORT, false, kOrder);
   talk.For(0.6, AndWaits(Runs(3, Status::PASSING, "passing"), 4));
   EXPECT_EQ(talk.orders, 1);
   talk.For(0.3, AndWaits(Idle(), 4));
   EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen);
-  Status after = Ended(3, mission_result_t::FAILED, "aborted by the operator");
-  after.text = "aborted by the operator";
-  talk.For(0.6, after);
-  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "aborted by the operator"));
+  talk.Stands();
+  talk.For(0.6, Ended(kOrder, mission_result_t::DONE, "aborted by the operator"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "aborted by the operator: the robot stands"));
 }
 
-TEST(MissionOrder, AnAbortOfNothingIsToldSo) {
+TEST(MissionOrder, AnAbortIsGivenAlsoToAPlannerThatKnowsNoMission) {
   Talk talk(mission_command_t::ABORT, false, 0);
-  talk.For(2, Idle());
-  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "no mission is under way"));
-  EXPECT_EQ(talk.orders, 0);
+  talk.For(0.6, Idle());
+  EXPECT_EQ(talk.orders, 1);
+  EXPECT_EQ(talk.dut.outcome(), OrderOutcome::kOpen) << "it was not heard yet";
+  ASSERT_NE(talk.dut.id(), 0);
+  talk.Stands();
+  talk.For(0.6, Ended(talk.dut.id(), mission_result_t::DONE, "the robot is told to stand"));
+  EXPECT_THAT(talk.dut, Came(OrderOutcome::kDone, "the robot is told to stand: the robot stands"));
 }
 
 TEST(MissionOrder, PauseAndResumeAreDoneWhenThePlannerSaysSo) {
@@ -227,11 +304,25 @@ TEST(MissionOrder, PauseAndResumeAreDoneWhenThePlannerSaysSo) {
   pause.For(0.6, runs);
   EXPECT_EQ(pause.dut.outcome(), OrderOutcome::kOpen);
   pause.For(0.6, holds);
-  EXPECT_EQ(pause.dut.outcome(), OrderOutcome::kDone);
+  EXPECT_EQ(pause.dut.outcome(), OrderOutcome::kOpen) << "the planner says so, the robot not yet";
+  pause.Stands();
+  pause.For(0.6, holds);
+  EXPECT_THAT(pause.dut, Came(OrderOutcome::kDone, HasSubstr("paused: the robot stands")));
   resume.For(0.6, holds);
   EXPECT_EQ(resume.dut.outcome(), OrderOutcome::kOpen);
   resume.For(0.6, runs);
   EXPECT_EQ(resume.dut.outcome(), OrderOutcome::kDone);
+}
+
+TEST(MissionOrder, InABlackoutAPauseOrAbortIsOrderedAndNotDone) {
+  Status holds = Runs(3, Status::PASSING, "passing");
+  Talk pause(mission_command_t::PAUSE, false, 0), abort(mission_command_t::ABORT, false, kOrder);
+  for (Talk* talk : {&pause, &abort}) talk->For(0.6, holds);
+  holds.paused = true;
+  pause.For(5, holds);
+  abort.For(5, Ended(kOrder, mission_result_t::DONE, "aborted by the operator"));
+  for (Talk* talk : {&pause, &abort})
+    EXPECT_THAT(talk->dut, Came(OrderOutcome::kOrdered, HasSubstr("nothing is heard from the robot for")));
 }
 
 TEST(MissionOrder, WhereThereIsNothingToPauseResumeOrCancelItIsRefused) {

@@ -22,6 +22,9 @@ int PassDoor(const MissionOptions& options) {
   command.mission = mission_command_t::PASS_DOOR;
   command.landmark_id =
       static_cast<std::int16_t>(DoorOfDeployment(FolderOfDeployment(options.deployment), options.door));
+  // As the planner calls it; of a number only the planner knows the name.
+  const bool named = options.door.find_first_not_of("0123456789") != std::string::npos;
+  if (named) command.title = fmt::format("door '{}'", options.door).substr(0, 60);
   return GiveOrder(options, command, "door");
 }
 
@@ -31,6 +34,7 @@ int GoTo(const MissionOptions& options) {
   command.x_m = options.x_m;
   command.y_m = options.y_m;
   command.turn = options.yaw_deg.has_value();
+  command.title = fmt::format("goto ({:.2f}, {:.2f})", options.x_m, options.y_m);
   command.yaw_rad = WrapAngle(Radians(options.yaw_deg.value_or(0)));
   return GiveOrder(options, command, "goto");
 }

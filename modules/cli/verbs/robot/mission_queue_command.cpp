@@ -23,19 +23,18 @@ int Patrol(const MissionOptions& options) {
   if (options.places.size() % 2 != 0)
     throw ConfigError(fmt::format("expected x and y of each place, got {} numbers", options.places.size()));
   if (n > kMostPlaces) throw ConfigError(fmt::format("expected at most {} places, got {}", kMostPlaces, n));
-  mission_command_t command{};
-  command.mission = mission_command_t::RUN;
-  command.title = fmt::format("patrol of {} places", n);
-  command.rounds = 0;
+  if (n < 1) throw ConfigError("expected x and y of one place or more, got none");
+  MissionFile patrol;
+  patrol.title = fmt::format("patrol of {} places", n);
+  patrol.rounds = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    mission_step_t step{};
-    step.mission = mission_command_t::GOTO;
+    MissionFileStep step;
     step.x_m = options.places[2 * i];
     step.y_m = options.places[2 * i + 1];
-    command.steps.push_back(step);
+    step.place = SectionPlace("", fmt::format("place {}: ", i + 1), {});
+    patrol.steps.push_back(step);
   }
-  command.n_steps = static_cast<std::int8_t>(n);
-  return GiveOrder(options, command, "patrol");
+  return GiveOrder(options, OrderOf(patrol, FolderOfDeployment(options.deployment)), "patrol");
 }
 
 int Intervene(const MissionOptions& options, std::int8_t mission, const char* verb) {
@@ -122,13 +121,16 @@ void AddRunVerb(CLI::App& mission, int& exit_code) {
 
 void AddPatrolVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
-  auto* verb =
-      AddVerb(mission, "patrol", "Drive to places in turn, round after round, until it is cancelled.");
+  auto* verb = AddVerb(
+      mission, "patrol",
+      "Drive to places in turn, round after round, until it is cancelled; the places, and the ways between "
+      "them, are checked before anything moves.");
   verb->footer("Example: priamos mission patrol 4.7 1.3 2.0 2.4");
   verb->add_option("places", options->places, "[m] map frame: x and y of each place")
       ->required()
       ->check(CLI::Range(-100.0, 100.0));
   verb->add_flag("--wait", options->wait, "until it is over");
+  AddDeploymentOption(*verb, options->deployment);
   CompleteMission(*verb, options, Patrol, exit_code);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <random>
 
 #include "cli/options/verb_setup.hpp"
 #include "lcmtypes/channels.hpp"
@@ -52,11 +53,15 @@ int Conclude(const MissionOptions& options, const MissionOrder& order, const cha
 int GiveOrder(const MissionOptions& options, const mission_command_t& command, const char* verb) {
   BusSession session(fmt::format("priamos mission {}", verb), options.bus, channels::kMissionStatus.name);
   auto statuses = session.node().SubscribeAll(channels::kMissionStatus);
+  auto paths = session.node().SubscribeAll(channels::kPath);
+  auto drives = session.node().SubscribeAll(channels::kDriveStatus);
   auto orders = session.node().Advertise(channels::kMissionCommand);
-  MissionOrder order(command, options.wait);
+  MissionOrder order(command, options.wait, std::random_device{}());
   std::size_t n_steps = 0;
   const auto step = [&] {
     const Time now = session.now();
+    for (const path_t& path : paths.Drain()) order.Hear(path);
+    for (const drive_status_t& drive : drives.Drain()) order.Hear(drive, now);
     for (const mission_status_t& status : statuses.Drain()) {
       session.Heard();
       const auto text = order.Hear(status, now);

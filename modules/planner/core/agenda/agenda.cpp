@@ -10,6 +10,7 @@ namespace priamos::planner {
 namespace {
 
 constexpr int kMostId = 65535;
+constexpr const char* kNothingAborted = "no mission was under way; the robot is told to stand";
 
 }  // namespace
 
@@ -163,10 +164,16 @@ void Agenda::CancelWaiting(const std::string& why) {
   waiting_.clear();
 }
 
-void Agenda::Abort() {
+void Agenda::Abort(Time now, int id) {
+  const bool any = current_ || !waiting_.empty();
+  const std::string answer = any ? "aborted by the operator" : kNothingAborted;
   CancelWaiting("aborted by the operator");
   runner_.End("aborted by the operator");
+  runner_.Stand(now);
   paused_ = false;
+  if (!any) state_.text = answer;
+  ++changes_;
+  if (id != 0 && !IsKnown(id)) Remember({id, 0, 0, AgendaEnd::kDone, 0, answer});
 }
 
 bool Agenda::Cancel(int order_id) {
@@ -201,6 +208,7 @@ bool Agenda::Resume(Time now) {
 
 void Agenda::Remember(AgendaResult result) {
   ++changes_;
+  ++n_ended_;
   results_.push_back(std::move(result));
   if (results_.size() > kMostResults) results_.pop_front();
 }

@@ -29,8 +29,10 @@ class Agenda {
   /// Takes an order; one with the number of an order that is known is that one, said again. A refusal is
   /// among the results, too.
   std::optional<Refusal> Take(AgendaOrder order, Time now);
-  /// Ends what is under way, and cancels what waits.
-  void Abort();
+  /// Ends what is under way, and cancels what waits. The robot is ordered to stand in any case: it may follow
+  /// a path of an earlier planner process. With an id, of the order to abort, that is answered among the
+  /// results.
+  void Abort(Time now, int id = 0);
   /// Ends or cancels one order. False: none of this number is under way or waits.
   bool Cancel(int order_id);
   /// Has the robot hold its place until Resume(). False: nothing is under way.
@@ -54,6 +56,8 @@ class Agenda {
   std::vector<AgendaOrder> waiting() const;
   /// How the last steps and orders ended, the newest one last.
   const std::deque<AgendaResult>& results() const { return results_; }
+  /// How many ends there were, of which results() are the newest.
+  std::size_t n_ended() const { return n_ended_; }
   /// Counts whatever a person should be shown at once, beside changes of state().
   std::size_t changes() const { return changes_; }
 
@@ -93,7 +97,7 @@ class Agenda {
   MissionState state_;
   int step_ = 0, round_ = 0;
   bool paused_ = false;
-  std::size_t changes_ = 0;
+  std::size_t changes_ = 0, n_ended_ = 0;
   std::optional<AgendaEnd> ending_;  ///< how the order under way is being ended by a person
   Time step_begun_{};
   int last_id_ = 0;

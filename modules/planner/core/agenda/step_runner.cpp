@@ -89,8 +89,7 @@ void StepRunner::FollowLeg(Time now) {
         fmt::format("no news of the robot: the radio link is {}; it goes on as far as its path leads",
                     missions_.heard().link_up ? "up" : "down");
   }
-  if (paused_ && missions_.running())
-    state_.text = "paused: the robot holds its place; next: priamos mission resume";
+  if (paused_ && missions_.running()) state_.text = PausedText(now);
   if (missions_.running()) return;
   if (state_.phase == Phase::kFailed || !legs_) return Finish(state_.phase, state_.text);
   if (legs_->front().door_id) doors_.push_back(router_.NameOf(*legs_->front().door_id));
@@ -98,6 +97,15 @@ void StepRunner::FollowLeg(Time now) {
   under_way_ = false;
   if (legs_->empty()) return Finish(Phase::kDone, state_.text + Doors());
   state_ = {Phase::kWaiting, kAwaitsPose};
+}
+
+/// What the robot does, as far as it is known: an order to stand does not reach it in a blackout.
+std::string StepRunner::PausedText(Time now) const {
+  if (!IsHeard(now))
+    return "pause ordered; nothing is heard from the robot: it goes on as it was told until the radio is "
+           "back";
+  return missions_.IsConfirmed() ? "paused: the robot holds its place; next: priamos mission resume"
+                                 : "pause ordered; the robot has not confirmed it yet";
 }
 
 /// The doors of a way to a place, which has a last leg without one.

@@ -34,6 +34,8 @@ class StepRunner {
   MissionActions Tick(Time now);
   /// Ends it without having done it: the robot brakes in the next time step.
   void End(const std::string& reason);
+  /// Orders the robot to brake and hold although no step drives it.
+  void Stand(Time now) { missions_.Stand(now); }
   void Pause(Time now);
   void Resume(Time now);
 
@@ -62,6 +64,7 @@ class StepRunner {
   double Takes_s(const Leg& leg) const;
   void Finish(Phase phase, std::string text);
   std::string Doors() const;
+  std::string PausedText(Time now) const;
 
   MissionTable& missions_;
   DoorRouter& router_;

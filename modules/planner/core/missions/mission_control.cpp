@@ -9,6 +9,8 @@ namespace {
 
 /// Path and request numbers as the messages carry them.
 constexpr int kNumbers = 65535;
+/// A robot that takes no path, for somebody drives it by hand, is not told for ever.
+constexpr int kMostRepeats = 10;
 
 }  // namespace
 
@@ -23,10 +25,14 @@ void MissionControl::Begin(Time now) {
   // The order stands on what its operator could know: a stop that is not reported yet came after it.
   estop_changes_.reset();
   if (heard_.drive) estop_changes_ = heard_.drive->estop_changes;
-  // Numbers begin with the clock, so that an answer meant for an earlier planner process is not taken for
-  // ours.
-  if (last_number_ == 0) last_number_ = 1 + static_cast<int>(ToUtime(now) / 1'000'000 % kNumbers);
+  NumberFrom(now);
   Enter(Phase::kWaiting, "waiting for the robot's pose");
+}
+
+/// Numbers begin with the clock, so that an answer meant for an earlier planner process is not taken for
+/// ours.
+void MissionControl::NumberFrom(Time now) {
+  if (last_number_ == 0) last_number_ = 1 + static_cast<int>(ToUtime(now) / 1'000'000 % kNumbers);
 }
 
 void MissionControl::NoteDrive(const DriveReport& drive) {
@@ -48,17 +54,34 @@ void MissionControl::OrderPath(PlannedPath path, double speed_m_s) {
            .leeway = std::move(path.leeway)};
   path_start_ = heard_.pose ? heard_.pose->map_from_base : Pose2{};
   remaining_m_ = LengthOf(path_start_, path_.points);
+  n_stand_repeats_ = 0;
   SendPath();
 }
 
+void MissionControl::Stand(Time now) {
+  now_ = now;
+  NumberFrom(now);
+  OrderPath({}, 0);
+}
+
+void MissionControl::RepeatUnconfirmedStand(Time now, double after_s) {
+  if (running() || !path_.points.empty() || n_stand_repeats_ >= kMostRepeats) return;
+  if (!path_sent_ || !heard_.pose || !IsFresh(*heard_.pose, now)) return;
+  if (OnPath()) {
+    path_sent_.reset();
+  } else if (Seconds(now - *path_sent_) >= after_s) {
+    ++n_stand_repeats_;
+    SendPath();
+  }
+}
+
 void MissionControl::Hold() {
-  if (!path_sent_) return;
-  held_ = Held{path_, path_start_, remaining_m_};
+  if (path_sent_) held_ = Held{path_, path_start_, remaining_m_};
   OrderPath({}, 0);
 }
 
 void MissionControl::GoOn() {
-  if (!held_) return;
+  if (!held_) return path_sent_.reset();  // the mission has driven nothing yet
   const Held held = *std::exchange(held_, std::nullopt);
   PathOrder left = held.path;
   if (heard_.pose) left = RemainderOf(held.path, held.start, held.remaining_m, heard_.pose->map_from_base);

@@ -58,10 +58,16 @@ class MissionControl {
   friend class MissionTable;
   void Begin(Time now);
   void NoteDrive(const DriveReport& drive);
+  /// Orders the robot to brake and hold, whatever it drives, also when none of its paths is known here.
+  void Stand(Time now);
+  /// Sends an order to stand that was given outside of a mission again, while the robot is heard and does not
+  /// confirm it; kMostRepeats times.
+  void RepeatUnconfirmedStand(Time now, double after_s);
   /// Has the robot brake, to go on with what is left of its path on GoOn().
   void Hold();
   void GoOn();
   void SendPath();
+  void NumberFrom(Time now);
   void RepeatUnconfirmedPath(double after_s);
   int NextNumber();
 
@@ -72,6 +78,7 @@ class MissionControl {
   MissionActions actions_;
   PathOrder path_;
   std::optional<Time> path_sent_;
+  int n_stand_repeats_ = 0;
   Pose2 path_start_;        ///< where the robot was when path_ was ordered
   double remaining_m_ = 0;  ///< of path_, as reported last
   /// The path to go on with, and the same of it.

@@ -54,9 +54,14 @@ void MissionTable::Abort(std::string reason) {
   if (running()) aborted_ = std::move(reason);
 }
 
+void MissionTable::Stand(Time now) {
+  if (!running()) control_.Stand(now);
+}
+
 void MissionTable::Pause(Time now) {
-  if (!running() || paused_since_) return;
+  if (!running()) return Stand(now);
   control_.now_ = now;
+  if (paused_since_) return control_.SendPath();
   paused_since_ = now;
   blocked_since_.reset();
   control_.Hold();
@@ -94,7 +99,10 @@ MissionActions MissionTable::Tick(Time now) {
   const bool idle = running() && (paused_since_ || Silence_s(now));
   if (idle) idle_ += now - last_tick_;
   last_tick_ = now;
-  if (running()) Step(*missions_.at(kind_));
+  if (running())
+    Step(*missions_.at(kind_));
+  else if (missions_.contains(kind_))
+    control_.RepeatUnconfirmedStand(now, missions_.at(kind_)->limits().resend_path_s);
   // What arrives while the mission is idle is for its next step.
   if (!idle || !running()) {
     control_.heard_.looks.clear();

@@ -29,12 +29,17 @@ class MissionTable {
   bool Start(Time now, const MissionOrder& order);
   /// Ends the mission under way in the next time step, with this reason.
   void Abort(std::string reason = "aborted by the operator");
+  /// Orders the robot to brake and hold although no mission is under way: it may follow a path of an earlier
+  /// planner process. Repeated until the robot confirms it.
+  void Stand(Time now);
   /// Has the robot brake and hold wherever it is, until Resume(); then it goes on with what is left of its
   /// path, and the mission with what it was doing. Time limits do not count meanwhile. The emergency stop
   /// ends a held mission as well.
   void Pause(Time now);
   void Resume(Time now);
   bool paused() const { return paused_since_.has_value(); }
+  /// Whether the robot reports about the path, or order to stand, that was sent last.
+  bool IsConfirmed() const { return control_.OnPath(); }
 
   /// A mission whose robot falls silent when it is under way ends after `seconds`, or after its own silent_s
   /// if that is longer: meanwhile the robot drives as far as its path leads, and the mission goes on when it

@@ -120,6 +120,13 @@ TEST_F(MissionCommand, APlaceOfAPatrolHasTwoNumbers) {
   EXPECT_THAT(answer.err, HasSubstr("expected x and y of each place, got 3 numbers"));
 }
 
+TEST_F(MissionCommand, APlaceOfAPatrolInAWallIsRefusedBeforeAnythingIsSaid) {
+  Say(mission_status_t::DONE, "through");
+  const auto answer = Ask({"patrol", "2", "2.4", "6", "1"});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("place 2: the goal (6.00, 1.00)"), HasSubstr("wall")));
+}
+
 TEST_F(MissionCommand, AnUnknownDoorIsRefusedBeforeAnythingIsSaid) {
   const auto answer = Ask({"door", "laboratorium"});
   EXPECT_EQ(answer.exit_code, 2);

@@ -102,7 +102,7 @@ TEST(Agenda, AnAbortEndsAll) {
   rig.Order({Go(4, 2.4)});
   rig.Order({Go(3, 2.4)});
   rig.StepFor(3);
-  rig.dut.Abort();
+  rig.dut.Abort(rig.robot.now());
   rig.StepFor(1);
   EXPECT_FALSE(rig.dut.running());
   EXPECT_TRUE(rig.dut.waiting().empty());
@@ -119,7 +119,7 @@ TEST(Agenda, PausedNothingBegins) {
   rig.Order({Go(3, 2.4)});
   rig.StepFor(60);
   EXPECT_EQ(rig.dut.step(), 1) << "the wait stands still";
-  EXPECT_TRUE(rig.robot.paths.empty());
+  for (const PathOrder& path : rig.robot.paths) EXPECT_TRUE(path.points.empty());
   EXPECT_TRUE(rig.dut.Resume(rig.robot.now()));
   rig.StepFor(2);
   EXPECT_EQ(rig.dut.step(), 1) << "3 s are left";

@@ -142,6 +142,38 @@ TEST(StepRunner, PausedInTheDoorItGoesOnThroughIt) {
   EXPECT_NEAR(rig.robot.truth().y, 2.4, 0.01);
 }
 
+TEST(StepRunner, APauseInABlackoutIsNoPauseYet) {
+  AgendaRig rig;
+  rig.Order({Go(4.5, 2.4)});
+  rig.robot.RunUntilX(3);
+  rig.robot.silent = true;
+  rig.StepFor(2);
+  rig.dut.Pause(rig.robot.now());
+  rig.StepFor(0.5);
+  EXPECT_GT(rig.robot.speed_m_s(), 0.1);
+  EXPECT_THAT(rig.dut.state().text, HasSubstr("pause ordered; nothing is heard from the robot"));
+  rig.robot.silent = false;
+  rig.StepFor(20);
+  EXPECT_THAT(rig.dut.state().text, HasSubstr("paused: the robot holds its place"));
+  EXPECT_EQ(rig.robot.speed_m_s(), 0);
+  EXPECT_LT(rig.robot.truth().x, 4.4);
+}
+
+TEST(StepRunner, AnAbortInABlackoutIsRepeatedWhenTheRobotIsHeardAgain) {
+  AgendaRig rig;
+  rig.Order({Go(4.8, 2.4)});
+  rig.robot.RunUntilX(2.6);
+  rig.robot.silent = true;
+  rig.StepFor(1.5);
+  rig.dut.Abort(rig.robot.now());
+  rig.StepFor(1);
+  rig.robot.silent = false;
+  rig.StepFor(1.5);
+  EXPECT_FALSE(rig.dut.running());
+  EXPECT_EQ(rig.robot.speed_m_s(), 0);
+  EXPECT_LT(rig.robot.truth().x, 4.4);
+}
+
 TEST(StepRunner, PausedBetweenTheLooksItLooksOnAfterwards) {
   AgendaRig rig;
   rig.Order({Door()});
