@@ -13,11 +13,11 @@ MessageSender::MessageSender(const ChannelTable& table, Direction outgoing, Dura
       deltas_(table.size()) {}
 
 OfferResult MessageSender::Offer(std::size_t channel, std::span<const std::byte> encoded, Time now,
-                                 std::string_view key) {
+                                 std::string_view key, std::optional<Time> made) {
   if (channel >= table_->size() || table_->at(channel).direction != outgoing_)
     return OfferResult::kNotOutgoing;
   if (table_->at(channel).channel_class != ChannelClass::kEvent)
-    return queue_.Offer(channel, key, encoded, now) ? OfferResult::kAccepted : OfferResult::kRefused;
+    return queue_.Offer(channel, key, encoded, now, made) ? OfferResult::kAccepted : OfferResult::kRefused;
   auto packed = pack_(channel, encoded, now);
   if (!packed) {
     queue_.CountRefused(channel);
@@ -48,7 +48,7 @@ MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure
 bool MessageSender::MayLoad(const SendQueue::Candidate& candidate, const Departure& departure) const {
   const LinkChannel& channel = table_->at(candidate.channel);
   return channel.channel_class != ChannelClass::kCommand ||
-         (departure.echoed_at && departure.now - queue_.OfferedAt(candidate) <= channel.ttl);
+         (departure.echoed_at && departure.now - queue_.MadeAt(candidate) <= channel.ttl);
 }
 
 void MessageSender::LoadSegments(std::size_t channel, BundleBuilder& bundle, const Departure& departure,
@@ -75,7 +75,7 @@ void MessageSender::LoadNewest(const SendQueue::Candidate& candidate, BundleBuil
                                const Departure& departure, Loaded& loaded) {
   const std::size_t channel = candidate.channel;
   const bool command = table_->at(channel).channel_class == ChannelClass::kCommand;
-  auto packed = pack_(channel, queue_.Peek(candidate), command ? queue_.OfferedAt(candidate) : departure.now);
+  auto packed = pack_(channel, queue_.Peek(candidate), command ? queue_.MadeAt(candidate) : departure.now);
   if (!packed) {
     queue_.Take(candidate);
     queue_.CountRefused(channel);
@@ -85,7 +85,7 @@ void MessageSender::LoadNewest(const SendQueue::Candidate& candidate, BundleBuil
   if (!bundle.Add(entry)) return;
   if (command && departure.bytes_until) {
     const Duration largest_offset = table_->at(channel).ttl * (kOffsetSteps - 1) / kOffsetSteps;
-    bundle.LimitTo(departure.bytes_until(queue_.OfferedAt(candidate) + largest_offset));
+    bundle.LimitTo(departure.bytes_until(queue_.MadeAt(candidate) + largest_offset));
   }
   if (packed->saturated) ++queue_.counters(channel).saturated;
   const auto* state = std::get_if<StateEntry>(&entry);
@@ -99,7 +99,7 @@ BundleEntry MessageSender::EntryOf(const SendQueue::Candidate& candidate, const 
                                    const Departure& departure) const {
   const LinkChannel& channel = table_->at(candidate.channel);
   if (channel.channel_class == ChannelClass::kCommand)
-    return CommandEntry{candidate.channel, queue_.OfferedAt(candidate) - *departure.echoed_at, packed.bits,
+    return CommandEntry{candidate.channel, queue_.MadeAt(candidate) - *departure.echoed_at, packed.bits,
                         packed.bytes};
   StateEntry entry{candidate.channel, packed.bits, packed.bytes};
   if (channel.delta.empty()) return entry;

@@ -22,7 +22,7 @@ struct Packed {
 };
 
 /// Packs the encoded message of a channel. Time stamps are sent as ages at `now`: of a command when it was
-/// offered, of any other message when it is sent. nullopt if the message must not be sent: it is none of the
+/// made, of any other message when it is sent. nullopt if the message must not be sent: it is none of the
 /// channel's type, or has a value that is refused.
 using PackFunction =
     std::function<std::optional<Packed>(std::size_t channel, std::span<const std::byte> encoded, Time now)>;
@@ -53,7 +53,9 @@ class MessageSender {
   MessageSender(const ChannelTable& table, Direction outgoing, Duration ageing, PackFunction pack);
 
   /// An encoded message for an outgoing channel; messages with different keys do not replace each other.
-  OfferResult Offer(std::size_t channel, std::span<const std::byte> encoded, Time now, std::string_view key);
+  /// `made`: see SendQueue::Offer; an event has no age.
+  OfferResult Offer(std::size_t channel, std::span<const std::byte> encoded, Time now, std::string_view key,
+                    std::optional<Time> made = {});
 
   /// The messages and segments in a frame.
   struct Loaded {
