@@ -1,6 +1,9 @@
 #include "bus/radio/message_sender.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "bus/radio/channels/entry_sizes.hpp"
 
 namespace priamos::bus::radio {
 
@@ -28,8 +31,52 @@ OfferResult MessageSender::Offer(std::size_t channel, std::span<const std::byte>
                                                                                  : OfferResult::kRefused;
 }
 
-MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure& departure) {
+bool MessageSender::Loaded::Has(std::size_t channel) const {
+  return std::any_of(messages.begin(), messages.end(),
+                     [&](const Message& m) { return m.queued.channel == channel; });
+}
+
+MessageSender::Beside MessageSender::WaitingBeside(std::size_t channel,
+                                                   const std::optional<SendQueue::Candidate>& promised,
+                                                   std::size_t target_bytes, Time now) const {
+  const auto bytes = [](std::size_t bits) { return (bits + 7) / 8; };
+  Beside beside;
+  std::size_t bits = 0;
+  for (const SendQueue::Candidate& candidate : queue_.Ready(now)) {
+    if (candidate.channel == channel || queue_.IsRepetition(candidate.channel, now)) continue;
+    const std::size_t own_bits = BitsOf(candidate, now);
+    const bool is_promised =
+        promised && promised->channel == candidate.channel && promised->slot == candidate.slot;
+    const bool goes_alone =
+        table_->at(candidate.channel).channel_class != ChannelClass::kEvent && own_bits > 8 * target_bytes;
+    if (is_promised || (goes_alone && bits == 0 && !beside.alone)) beside.alone = candidate;
+    if (!goes_alone) bits += own_bits;
+  }
+  if (beside.alone)
+    beside.alone_bytes = bytes(static_cast<std::size_t>(SizesOf(*table_, beside.alone->channel).entry_bits));
+  beside.bytes = std::min(bytes(bits), target_bytes);
+  return beside;
+}
+
+/// Bits of the entry of a message; of those of all events that wait.
+std::size_t MessageSender::BitsOf(const SendQueue::Candidate& candidate, Time now) const {
+  const EntrySizes sizes = SizesOf(*table_, candidate.channel);
+  if (table_->at(candidate.channel).channel_class == ChannelClass::kEvent)
+    return static_cast<std::size_t>(sizes.bits) * queue_.events(candidate.channel).events().size();
+  const auto packed = pack_(candidate.channel, queue_.Peek(candidate), now);
+  if (!packed) return 0;  // it is refused when its turn comes
+  return BundleWriter(*table_).BitsWith(StateEntry{candidate.channel, packed->bits, packed->bytes});
+}
+
+MessageSender::Loaded MessageSender::LoadFirst(BundleBuilder& bundle, const SendQueue::Candidate& first,
+                                               std::size_t most_bytes, const Departure& departure) {
   Loaded loaded;
+  LoadNewest(first, bundle, departure, loaded);
+  bundle.LimitTo(std::max(most_bytes, bundle.Bytes()));
+  return loaded;
+}
+
+MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure& departure, Loaded loaded) {
   for (const SendQueue::Candidate& candidate : queue_.Ready(departure.now)) {
     if (departure.urgent_only && !candidate.urgent) break;
     // Repetitions have frames of their own, as short as can be.

@@ -140,6 +140,15 @@ std::vector<SendQueue::Candidate> SendQueue::Ready(Time now) const {
   return ready;
 }
 
+std::optional<SendQueue::Candidate> SendQueue::Newest(std::size_t channel) const {
+  const Lane& lane = lanes_[channel];
+  if (lane.slots.empty() || !lane.slots.front().encoded) return std::nullopt;
+  const Slot& slot = lane.slots.front();
+  return Candidate{.channel = channel,
+                   .priority = static_cast<double>(lane.channel->priority),
+                   .since = std::max(slot.waiting_since, slot.rate.next())};
+}
+
 bool SendQueue::UrgentReady(Time now) const {
   std::vector<Candidate> ready;
   for (std::size_t i = 0; i < lanes_.size(); ++i) {

@@ -100,6 +100,9 @@ class SendQueue {
   void Expire(Time now);
   /// The messages that may be sent now, in order of priority.
   std::vector<Candidate> Ready(Time now) const;
+  /// The waiting message of a state channel without keys, also when its rate does not let it go yet: `since`
+  /// is when it does. nullopt: none waits.
+  std::optional<Candidate> Newest(std::size_t channel) const;
   /// Whether an urgent channel has something that was never sent.
   bool UrgentReady(Time now) const;
   /// Whether some of an urgent event was sent, and it is not acknowledged.
