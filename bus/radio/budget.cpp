@@ -15,10 +15,6 @@
 namespace priamos::bus::radio {
 namespace {
 
-const char* NameOf(Direction d) {
-  return d == Direction::kUp ? "up" : "down";
-}
-
 /// For three decimals: a bound that is shown must itself hold.
 double RoundedUp(double seconds) {
   return std::ceil(1e3 * seconds - 1e-6) / 1e3;
@@ -67,6 +63,16 @@ void CheckSilence(const DirectionAnalysis& analysis, const LinkOptions& options,
                          : "raise it, or lower keep_alive_s, max_bundle_bytes or a turn"));
 }
 
+/// Where the bound can be kept, it bounds the latency as well.
+FreshBound FreshBoundOf(const DirectionAnalysis& analysis, const LinkChannel& channel, ChannelBudget& row) {
+  FreshBound bound{.least = FromSeconds(analysis.LeastFreshSeconds())};
+  const auto beside_s = analysis.FreshBesideUrgent(Seconds(channel.fresh));
+  if (bound.least > channel.fresh || !beside_s) return bound;
+  bound.beside_urgent = FromSeconds(*beside_s);
+  row.worst_latency = std::min(*bound.beside_urgent, row.worst_latency.value_or(Duration::max()));
+  return bound;
+}
+
 DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, PollBounds& polls,
                         Direction direction, std::vector<std::string>& problems) {
   DirectionAnalysis analysis(table, options, direction);
@@ -96,7 +102,9 @@ DirectionBudget Analyse(const ChannelTable& table, const LinkOptions& options, P
     row.bytes_per_s = analysis.BytesPerSecond(load);
     row.share = row.bytes_per_s / budget.capacity_bytes_per_s;
     if (std::isfinite(load.latency_s)) row.worst_latency = FromSeconds(load.latency_s);
-    if (const LinkChannel& c = table.at(load.channel); c.channel_class == ChannelClass::kCommand)
+    const LinkChannel& c = table.at(load.channel);
+    if (c.fresh > Duration::zero()) row.fresh = FreshBoundOf(analysis, c, row);
+    if (c.channel_class == ChannelClass::kCommand)
       row.proof = ProofOf(c, analysis.NextSeconds(load), other, options, table.code_bytes());
     budget.bytes_per_s += row.bytes_per_s;
     budget.channels.push_back(row);
@@ -167,12 +175,21 @@ void CheckLifetime(const LinkChannel& c, const ChannelBudget& row, std::vector<s
                   c.At("ttl_s"), expected, Seconds(c.ttl)));
 }
 
+void CheckFresh(const LinkChannel& c, const FreshBound& bound, std::vector<std::string>& problems) {
+  if (bound.beside_urgent) return;
+  problems.push_back(fmt::format(
+      "{}: expected a fresh_s of at least {:.3f} s, in which two full frames, or the longest message between "
+      "two of this one, can go, got {:.6g} s: raise it, or lower max_bundle_bytes",
+      c.At("fresh_s"), RoundedUp(Seconds(bound.least)), Seconds(c.fresh)));
+}
+
 void CheckDirection(const ChannelTable& table, const DirectionBudget& budget, const SectionPlace& link,
                     std::vector<std::string>& problems) {
   CheckLoad(table, budget, link, problems);
   for (const ChannelBudget& row : budget.channels) {
     const LinkChannel& c = table.at(row.channel);
     if (row.proof) CheckProof(c, *row.proof, link, problems);
+    if (row.fresh) CheckFresh(c, *row.fresh, problems);
     CheckLifetime(c, row, problems);
     CheckDeadline(c, row, problems);
   }
@@ -255,6 +272,14 @@ std::string FormatBudget(const ChannelTable& table, const Budget& budget) {
     for (const ChannelBudget& row : d->channels) text += FormatRow(table, row);
     text += fmt::format("  {:<24} {:>36.1f} {:>6.1f} %\n", "acknowledgements", d->control_bytes_per_s,
                         100 * d->control_bytes_per_s / d->capacity_bytes_per_s);
+    for (const ChannelBudget& row : d->channels)
+      if (row.fresh && row.fresh->beside_urgent)
+        text += fmt::format(
+            "  {}: from any moment on, one that is offered after it has left within {:.3f} s and the time "
+            "until "
+            "it is offered; {:.3f} s beside emergency stops\n",
+            table.at(row.channel).name, Seconds(table.at(row.channel).fresh),
+            RoundedUp(Seconds(*row.fresh->beside_urgent)));
     for (const ChannelBudget& row : d->channels)
       if (row.proof)
         text += fmt::format("  {}: proven to be at most {:.3f} s old, of a time-to-live of {:.3f} s\n",

@@ -30,6 +30,13 @@ struct FreshnessProof {
   Duration least() const;
 };
 
+/// Whether the `fresh_s` of a state can be kept.
+struct FreshBound {
+  Duration least{};  ///< smallest that can
+  /// Time that it may become beside urgent events; nullopt: it cannot be kept.
+  std::optional<Duration> beside_urgent{};
+};
+
 /// Load of one channel at its configured rate.
 struct ChannelBudget {
   std::size_t channel = 0;
@@ -40,6 +47,7 @@ struct ChannelBudget {
   /// Longest time from Offer() to the last byte at the receiver, without the line's own latency, on an
   /// error-free line whose channels keep their rates; nullopt: not bounded within a minute.
   std::optional<Duration> worst_latency;
+  std::optional<FreshBound> fresh{};      ///< of the state whose age is bounded
   std::optional<FreshnessProof> proof{};  ///< commands only
 };
 

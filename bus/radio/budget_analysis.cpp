@@ -133,18 +133,20 @@ double DirectionAnalysis::Ordinary(const ChannelLoad& load, const Waiting& waiti
 double DirectionAnalysis::FramesBefore(double window_s, const ChannelLoad& load,
                                        const Waiting& waiting) const {
   std::vector<Ahead> ahead{OwnAhead(window_s, load, waiting)};
+  const double waiting_bits = waiting.entry_bits + (BesideFresh(load) ? FreshBits() : 0);
   for (const ChannelLoad& other : loads_) {
     if (&other == &load || other.urgent || (robots_ > 0 && other.command) || !GoesBefore(other, load))
       continue;
+    if (IsFreshBeside(other, load)) continue;
     const double n = other.Arrivals(window_s);
     ahead.push_back({.entries = n * other.entries, .bits = n * other.bits});
     if (other.newest_only) ahead.back().most_bits = other.keys * other.bits;
   }
   // Either every frame is full of acknowledgements, or they are counted like messages.
-  const double reserved = FramesAhead(ahead, capacity_bits_ - waiting.entry_bits + 1);
+  const double reserved = FramesAhead(ahead, capacity_bits_ - waiting_bits + 1);
   if (robots_ > 0 || gap_s_ > 0) return reserved;
   ahead.push_back({.entries = ControlEntriesIn(window_s), .bits = ControlBitsIn(window_s)});
-  return std::min(reserved, FramesAhead(ahead, bundle_bits_ - waiting.entry_bits + 1));
+  return std::min(reserved, FramesAhead(ahead, bundle_bits_ - waiting_bits + 1));
 }
 
 /// The messages of the same channel before this one, and its own first segments. A state that waits is
@@ -161,6 +163,7 @@ double DirectionAnalysis::BitsBefore(double window_s, const ChannelLoad& load, c
   double bits = OwnAhead(window_s, load, waiting).bits;
   for (const ChannelLoad& other : loads_) {
     if (&other == &load || other.urgent || (robots_ > 0 && other.command)) continue;
+    if (IsFreshBeside(other, load)) continue;
     const double most_bits = GoesBefore(other, load) ? other.bits : std::min(other.bits, waiting.entry_bits);
     bits += other.Arrivals(window_s) * most_bits;
   }
@@ -168,13 +171,51 @@ double DirectionAnalysis::BitsBefore(double window_s, const ChannelLoad& load, c
 }
 
 double DirectionAnalysis::OrdinaryIn(double window_s, const ChannelLoad& load, const Waiting& waiting) const {
-  const double frames = FramesBefore(window_s, load, waiting);
+  const double full = FramesBefore(window_s, load, waiting), cut_short = ShortFrames(window_s, load);
+  const double frames = full + cut_short;
   // Either all of them are as long as can be, or everything there is has been sent.
-  const double bits =
-      BitsBefore(window_s, load, waiting) + std::min(frames * control_bits_, ControlBitsIn(window_s));
+  const double bits = BitsBefore(window_s, load, waiting) +
+                      std::min(frames * control_bits_, ControlBitsIn(window_s)) +
+                      (BesideFresh(load) ? frames * FreshBits() : 0);
   const double everything_s = (bits / 8 + frames * static_cast<double>(frame_bytes_ + 1)) * byte_s_;
-  const double before_s = frame_s_ + UrgentIn(window_s, load) + std::min(frames * frame_s_, everything_s);
+  const double longest_s = full * frame_s_ + cut_short * LongestShortFrameSeconds();
+  const double before_s =
+      BlockingSeconds(load) + UrgentIn(window_s, load) + std::min(longest_s, everything_s);
   return before_s / duty_.rate() + frame_s_ + kTick_s;
+}
+
+/// Frames that are short for the sake of the state whose age is bounded: one before each message that goes
+/// alone, this one or one before it, and one after it.
+double DirectionAnalysis::ShortFrames(double window_s, const ChannelLoad& load) const {
+  if (!BesideFresh(load)) return 0;
+  double alone = GoesAlone(load) ? load.keys - 1 : 0;
+  for (const ChannelLoad& other : loads_)
+    if (&other != &load && GoesAlone(other) && GoesBefore(other, load)) alone += other.Arrivals(window_s);
+  return 2 * alone + (GoesAlone(load) ? 1 : 0);
+}
+
+/// Time until the first frame that could have this message: of the frame on the line, which may be a short
+/// one that promised the next to a message that goes alone. Then a short one follows, and all three keep to
+/// the bound of the state.
+double DirectionAnalysis::BlockingSeconds(const ChannelLoad& load) const {
+  const bool promised = BesideFresh(load) && std::any_of(loads_.begin(), loads_.end(),
+                                                         [&](const ChannelLoad& l) { return GoesAlone(l); });
+  return promised ? std::max(frame_s_, Seconds(age_bound_.within())) : frame_s_;
+}
+
+/// Whether a channel is the one whose age is bounded, and this message another's: it is in every frame.
+bool DirectionAnalysis::IsFreshBeside(const ChannelLoad& other, const ChannelLoad& load) const {
+  return BesideFresh(load) && other.channel == age_bound_.channel();
+}
+
+std::optional<double> DirectionAnalysis::FreshBesideUrgent(double within_s) const {
+  for (const ChannelLoad& load : loads_)
+    if (age_bound_.enabled() && load.channel == age_bound_.channel()) {
+      const double s =
+          Converge([&](double window_s) { return within_s + UrgentIn(std::max(window_s, within_s), load); });
+      return std::isfinite(s) ? std::optional(s) : std::nullopt;
+    }
+  return std::nullopt;
 }
 
 /// What urgent messages take of the line: their frames and those of the acknowledgements; and the frame that

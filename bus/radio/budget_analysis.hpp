@@ -21,6 +21,9 @@ class DirectionAnalysis : public DirectionFrames {
   /// Longest time of a shared channel that is `turn` without urgent messages, when these come at their rates;
   /// nullopt: not bounded within a minute.
   std::optional<Duration> BesideUrgent(Duration turn) const;
+  /// Time within which a message of the channel whose age is bounded has left that is offered at any moment,
+  /// beside urgent events, if it is `within_s` without them; nullopt: not bounded within a minute.
+  std::optional<double> FreshBesideUrgent(double within_s) const;
 
  private:
   /// A message that waits.
@@ -35,6 +38,9 @@ class DirectionAnalysis : public DirectionFrames {
   double Urgent(const ChannelLoad& load) const;
   double Ordinary(const ChannelLoad& load) const;
   double Ordinary(const ChannelLoad& load, const Waiting& waiting) const;
+  double ShortFrames(double window_s, const ChannelLoad& load) const;
+  double BlockingSeconds(const ChannelLoad& load) const;
+  bool IsFreshBeside(const ChannelLoad& other, const ChannelLoad& load) const;
   double OrdinaryIn(double window_s, const ChannelLoad& load, const Waiting& waiting) const;
   static Ahead OwnAhead(double window_s, const ChannelLoad& load, const Waiting& waiting);
   double FramesBefore(double window_s, const ChannelLoad& load, const Waiting& waiting) const;

@@ -27,6 +27,7 @@ constexpr int kControlKindBits = 3;
 
 DirectionFrames::DirectionFrames(const ChannelTable& table, const LinkOptions& options, Direction direction)
     : direction_(direction),
+      age_bound_(table, direction),
       byte_s_(1 / options.bytes_per_s),
       duty_(options.duty),
       packets_(options.packets()),
@@ -60,6 +61,24 @@ DirectionFrames::DirectionFrames(const ChannelTable& table, const LinkOptions& o
                beside + kWholeCounterBytes + static_cast<std::size_t>(std::ceil(longest_bits / 8)));
   overhead_ =
       1 + static_cast<double>(frame_bytes_ - (options.datagrams ? 0 : kLeadingDelimiter)) / bundle_bytes;
+}
+
+bool DirectionFrames::BesideFresh(const ChannelLoad& load) const {
+  return age_bound_.enabled() && load.channel != age_bound_.channel();
+}
+
+double DirectionFrames::LongestShortFrameSeconds() const {
+  const double least_s = FrameSeconds(FreshBits());
+  return std::max(least_s, Seconds(age_bound_.within()) - least_s - FrameSeconds(bundle_bits_));
+}
+
+double DirectionFrames::LeastFreshSeconds() const {
+  double s = 2 * FrameSeconds(bundle_bits_);
+  for (const ChannelLoad& load : loads_)
+    if (GoesAlone(load))
+      s = std::max(s, FrameSeconds(load.bits) + 2 * FrameSeconds(FreshBits()) +
+                          static_cast<double>(kLeadingDelimiter + kHelloFrameBytes) * byte_s_);
+  return s + Seconds(AgeBound::kMargin);
 }
 
 double DirectionFrames::ControlBytesPerSecond() const {

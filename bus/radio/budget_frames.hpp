@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bus/radio/channel_load.hpp"
+#include "bus/radio/channels/age_bound.hpp"
 #include "bus/radio/channels/channel_table.hpp"
 #include "bus/radio/line/polling.hpp"
 #include "bus/radio/link_options.hpp"
@@ -48,6 +49,9 @@ class DirectionFrames {
   double UrgentFrameSeconds() const;
   /// Bytes of the smallest bundle that always has room for a message beside acknowledgements.
   std::size_t SmallestBundleBytes() const;
+  /// Least `fresh_s` that can be kept in this direction: two frames as full as can be, or the longest message
+  /// that goes alone between two short ones, and a hello.
+  double LeastFreshSeconds() const;
   /// Time by which a byte may be handed over before it leaves; of a packet, before all of it has left.
   double AheadSeconds() const;
   /// Longest time from the arrival of an urgent event to the end of the frame with its acknowledgement: the
@@ -62,7 +66,18 @@ class DirectionFrames {
   double ControlEntriesIn(double window_s) const;
   double ControlBitsIn(double window_s) const;
 
+  /// Whether frames have the state whose age is bounded beside this message, however often that comes.
+  bool BesideFresh(const ChannelLoad& load) const;
+  /// Time on the line of a frame that is short for its sake, at most: beside it go a message that is longer
+  /// than a bundle, and the next frame with it.
+  double LongestShortFrameSeconds() const;
+  /// Bits of that state.
+  double FreshBits() const { return 8.0 * static_cast<double>(age_bound_.entry_bytes()); }
+  /// Whether a message of the channel is longer than a bundle, and goes alone.
+  bool GoesAlone(const ChannelLoad& load) const { return load.newest_only && load.bits > bundle_bits_; }
+
   Direction direction_;
+  AgeBound age_bound_;
   double byte_s_;
   DutyCycle duty_;
   bool packets_;             ///< an urgent frame waits for the end of the one on the air

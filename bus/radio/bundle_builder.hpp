@@ -32,6 +32,8 @@ class BundleBuilder {
   void AddOver();
 
   bool empty() const { return out_.bits() == 0; }
+  /// Bytes of a bundle of several messages, at most.
+  std::size_t target_bytes() const { return target_bytes_; }
   /// Bytes of the bundle as it is now.
   std::size_t Bytes() const;
   /// Bytes of the frame that this bundle would make now, with the short form of the counter.

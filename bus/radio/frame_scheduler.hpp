@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "bus/radio/channels/age_bound.hpp"
 #include "bus/radio/frame_length.hpp"
 #include "bus/radio/frame_receiver.hpp"
 #include "bus/radio/line/repetition.hpp"
@@ -44,6 +45,7 @@ struct FrameInFlight {
   bool over = false;          ///< ends the turn
   bool next_key = false;      ///< a hello under the next key
   std::size_t bundle_bytes = 0;
+  std::optional<AgeBound::First> first{};
   Peer::Loaded peer{};
   MessageReceiver::Loaded inbox{};
   MessageSender::Loaded outbox{};
@@ -97,8 +99,13 @@ class FrameScheduler {
   bool BuildData(FrameSources from, bool urgent_only, Time now);
   BundleBuilder NewBundle(const FrameSources& from, bool urgent_only, LineCode line_code, Time now) const;
   std::size_t TargetBytes(const FrameSources& from, LineCode line_code, Time now) const;
+  std::optional<AgeBound::First> ChooseFirst(const BundleBuilder& bundle, const FrameSources& from,
+                                             Time now) const;
+  std::size_t FrameBytes(std::size_t bundle_bytes) const;
+  std::size_t BytesBy(Time end, Time now) const;
   FrameInFlight Fill(BundleBuilder& bundle, FrameSources from, bool urgent_only, LineCode line_code,
                      Time now) const;
+  void LoadControl(BundleBuilder& bundle, FrameSources from, FrameInFlight& flight, Time now) const;
   std::optional<Time> EchoedAt(const FrameSources& from) const;
   std::size_t BytesUntil(Time until, const FrameSources& from, Time now) const;
   bool EndsTurn(const FrameSources& from, Time now) const;
@@ -113,6 +120,7 @@ class FrameScheduler {
   LinkOptions options_;
   FrameLength length_;        ///< of the longest frames
   std::size_t message_bits_;  ///< of the largest entry of a message
+  AgeBound age_bound_;
   Transmitter transmitter_;
   TurnTaking turns_;
   Repetition repetition_;

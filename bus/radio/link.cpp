@@ -69,8 +69,8 @@ LinkEndpoint LinkEndpoint::Fork(StateStore& store) const {
 }
 
 OfferResult LinkEndpoint::Offer(std::size_t channel, std::span<const std::byte> encoded, Time now,
-                                std::string_view key) {
-  const OfferResult result = outbox_.Offer(channel, encoded, now, key);
+                                std::string_view key, std::optional<Time> made) {
+  const OfferResult result = outbox_.Offer(channel, encoded, now, key, made);
   if (result == OfferResult::kAccepted && table_->at(channel).channel_class == ChannelClass::kEvent)
     StoreEvents();
   return result;

@@ -106,8 +106,9 @@ class LinkEndpoint {
   LinkEndpoint Fork(StateStore& store) const;
 
   /// An encoded message for an outgoing channel; messages with different keys do not replace each other.
+  /// `made`: when a command was made, if it took its time until now; its time-to-live counts from there.
   OfferResult Offer(std::size_t channel, std::span<const std::byte> encoded, Time now,
-                    std::string_view key = {});
+                    std::string_view key = {}, std::optional<Time> made = {});
   /// Reports whether this end has a listener for an on-request channel of the other end.
   void Listen(std::size_t channel, bool listening) { peer_.listeners.Listen(channel, listening); }
   /// Whether the other end has a listener for an outgoing on-request channel.

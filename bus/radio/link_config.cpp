@@ -99,6 +99,7 @@ LinkChannel ToChannel(const LinkChannelConfig& c, const Schema& schema) {
   channel.burst = c.burst;
   channel.ttl = FromSeconds(c.ttl_s);
   channel.deadline = FromSeconds(c.deadline_s);
+  channel.fresh = FromSeconds(c.fresh_s);
   channel.urgent = c.urgent;
   channel.on_request = c.on_request;
   channel.max_keys = c.key.empty() ? 1 : c.keys;
@@ -119,6 +120,9 @@ void LinkChannelConfig::Describe(Archive& a) {
   a.Integer("priority", priority, {"-", 0, 15, "0 goes first"});
   a.Number("ttl_s", ttl_s, {"s", 0, 600, "not sent when older, a command not obeyed either; 0: no limit"});
   a.Number("deadline_s", deadline_s, {"s", 0, 600, "latest arrival that the budget must guarantee; 0: any"});
+  a.Number("fresh_s", fresh_s,
+           {"s", 0, 600,
+            "of a state: from any moment on, one that was made after it has left within so long; 0: any"});
   a.Flag("urgent", urgent,
          "goes at once, also in the middle of another frame; as an event never held back by its rate");
   a.Flag("on_request", on_request, "is sent only while somebody listens on the other side");
@@ -135,6 +139,9 @@ void LinkChannelConfig::Describe(Archive& a) {
   if (ttl_s > 0 && ttl_s < kShortest_s) a.Refuse("ttl_s", "0 for no limit, or at least 0.001");
   if (deadline_s > 0 && deadline_s < kShortest_s) a.Refuse("deadline_s", "0 for any, or at least 0.001");
   if (channel_class == "event" && ttl_s > 0) a.Refuse("ttl_s", "none: an event is delivered, however late");
+  if (fresh_s > 0 && fresh_s < kShortest_s) a.Refuse("fresh_s", "0 for no bound, or at least 0.001");
+  if (fresh_s > 0 && (channel_class != "state" || !key.empty() || on_request))
+    a.Refuse("fresh_s", "0: a bound is for a channel of class state without a key, which is always sent");
   if (delta && (channel_class != "state" || !key.empty()))
     a.Refuse("delta", "false: differences are for channels of class state without a key");
   if (channel_class != "state" && !key.empty()) a.Refuse("key", "none: keys are for channels of class state");
@@ -225,6 +232,25 @@ void LinkConfig::RefuseContradictions(Archive& a) const {
   if (robots > 0 && half_duplex_turn_s > 0)
     a.Refuse("half_duplex_turn_s", "0 with robots: each turn is one frame of max_bundle_bytes");
   if (silence_s <= keep_alive_s) a.Refuse("silence_s", "more than keep_alive_s");
+  RefuseFreshness();
+}
+
+/// Turns, packets and datagrams, which cannot be made shorter, would decide how old a state gets.
+void LinkConfig::RefuseFreshness() const {
+  const bool line = half_duplex_turn_s <= 0 && robots == 0 && medium == "bytes" && !datagrams;
+  const LinkChannelConfig* first[2]{};
+  for (const LinkChannelConfig& c : channels) {
+    if (c.fresh_s <= 0) continue;
+    const LinkChannelConfig*& before = first[c.direction == "up"];
+    if (!line)
+      throw ConfigError(fmt::format("{}: expected 0, other than on a line of two directions, got {:.6g}",
+                                    c.place.Of("fresh_s"), c.fresh_s));
+    if (before != nullptr)
+      throw ConfigError(
+          fmt::format("{}: expected 0 beside {}, the one channel of this direction with a bound, got {:.6g}",
+                      c.place.Of("fresh_s"), before->name, c.fresh_s));
+    before = &c;
+  }
 }
 
 /// A key that changes nothing makes somebody believe what is not so.
@@ -240,6 +266,8 @@ void LinkConfig::RefuseWithoutEffect(Archive& a) const {
     a.Refuse("turnaround_s", "none without half_duplex_turn_s or robots: nobody takes turns");
   if (air_rate_bytes_s > baud / 10.0)
     a.Refuse("air_rate_bytes_s", "0, or at most the rate of the port, a tenth of baud");
+  if (!simulation_key && (key_file.empty() || key_file.find('\0') != std::string::npos))
+    a.Refuse("key_file", "the name of a key, made by `priamos link keygen`");
   if (simulation_key && key_file != usual.key_file)
     a.Refuse("key_file", "none beside simulation_key = true, with which no key is read");
   if (ahead_bytes != usual.ahead_bytes && ahead_bytes < Options().ahead_bytes)

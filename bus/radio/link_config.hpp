@@ -22,7 +22,8 @@ struct LinkChannelConfig {
   int priority = 4;       ///< [-] 0..15: 0 is sent first
   double ttl_s = 0;       ///< [s] 0..600: age from which a message is not sent, a command not obeyed; 0: none
   double deadline_s = 0;  ///< [s] 0..600: latest arrival that the budget must guarantee; 0: none
-  bool urgent = false;    ///< may cut off the frame being sent; as an event not limited by `rate_hz`
+  double fresh_s = 0;  ///< [s] 0..600: of a state: from any moment on, a younger one has left within; 0: none
+  bool urgent = false;      ///< may cut off the frame being sent; as an event not limited by `rate_hz`
   bool on_request = false;  ///< sent only while somebody listens on the other side
   bool delta = false;       ///< sent as a difference to an acknowledged message whenever that is shorter
   std::string key;  ///< text field of the type: the newest message per value of it is kept; empty: no key
@@ -76,6 +77,7 @@ struct LinkConfig {
   void DescribeLine(Archive& a);
   void DescribeMedium(Archive& a);
   void RefuseContradictions(Archive& a) const;
+  void RefuseFreshness() const;
   void RefuseWithoutEffect(Archive& a) const;
 };
 

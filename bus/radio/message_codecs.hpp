@@ -27,6 +27,9 @@ class MessageCodecs {
   std::string RefusalOf(std::size_t channel, std::span<const std::byte> encoded, Time now) const;
   /// The LCM message; nullopt when the other end sent something else.
   std::optional<std::vector<std::byte>> Unpack(const Delivery& delivery) const;
+  /// The moment that the message's own time stamp (the first field with `@age`) tells; nullopt without one,
+  /// when it is 0, and for what is no message of the type.
+  std::optional<Time> StampOf(std::size_t channel, std::span<const std::byte> encoded) const;
   /// Value of the key field: messages with different keys do not replace each other. Empty without a key
   /// field.
   std::string KeyOf(std::size_t channel, std::span<const std::byte> encoded) const;
@@ -35,7 +38,7 @@ class MessageCodecs {
   struct Codec {
     const Struct* type;
     Packer packer;
-    std::string key_field;
+    std::string key_field, stamp_field;
     bool fixed;
   };
   std::vector<Codec> codecs_;

@@ -1,6 +1,9 @@
 #include "bus/radio/message_sender.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "bus/radio/channels/entry_sizes.hpp"
 
 namespace priamos::bus::radio {
 
@@ -13,11 +16,11 @@ MessageSender::MessageSender(const ChannelTable& table, Direction outgoing, Dura
       deltas_(table.size()) {}
 
 OfferResult MessageSender::Offer(std::size_t channel, std::span<const std::byte> encoded, Time now,
-                                 std::string_view key) {
+                                 std::string_view key, std::optional<Time> made) {
   if (channel >= table_->size() || table_->at(channel).direction != outgoing_)
     return OfferResult::kNotOutgoing;
   if (table_->at(channel).channel_class != ChannelClass::kEvent)
-    return queue_.Offer(channel, key, encoded, now) ? OfferResult::kAccepted : OfferResult::kRefused;
+    return queue_.Offer(channel, key, encoded, now, made) ? OfferResult::kAccepted : OfferResult::kRefused;
   auto packed = pack_(channel, encoded, now);
   if (!packed) {
     queue_.CountRefused(channel);
@@ -28,8 +31,52 @@ OfferResult MessageSender::Offer(std::size_t channel, std::span<const std::byte>
                                                                                  : OfferResult::kRefused;
 }
 
-MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure& departure) {
+bool MessageSender::Loaded::Has(std::size_t channel) const {
+  return std::any_of(messages.begin(), messages.end(),
+                     [&](const Message& m) { return m.queued.channel == channel; });
+}
+
+MessageSender::Beside MessageSender::WaitingBeside(std::size_t channel,
+                                                   const std::optional<SendQueue::Candidate>& promised,
+                                                   std::size_t target_bytes, Time now) const {
+  const auto bytes = [](std::size_t bits) { return (bits + 7) / 8; };
+  Beside beside;
+  std::size_t bits = 0;
+  for (const SendQueue::Candidate& candidate : queue_.Ready(now)) {
+    if (candidate.channel == channel || queue_.IsRepetition(candidate.channel, now)) continue;
+    const std::size_t own_bits = BitsOf(candidate, now);
+    const bool is_promised =
+        promised && promised->channel == candidate.channel && promised->slot == candidate.slot;
+    const bool goes_alone =
+        table_->at(candidate.channel).channel_class != ChannelClass::kEvent && own_bits > 8 * target_bytes;
+    if (is_promised || (goes_alone && bits == 0 && !beside.alone)) beside.alone = candidate;
+    if (!goes_alone) bits += own_bits;
+  }
+  if (beside.alone)
+    beside.alone_bytes = bytes(static_cast<std::size_t>(SizesOf(*table_, beside.alone->channel).entry_bits));
+  beside.bytes = std::min(bytes(bits), target_bytes);
+  return beside;
+}
+
+/// Bits of the entry of a message; of those of all events that wait.
+std::size_t MessageSender::BitsOf(const SendQueue::Candidate& candidate, Time now) const {
+  const EntrySizes sizes = SizesOf(*table_, candidate.channel);
+  if (table_->at(candidate.channel).channel_class == ChannelClass::kEvent)
+    return static_cast<std::size_t>(sizes.bits) * queue_.events(candidate.channel).events().size();
+  const auto packed = pack_(candidate.channel, queue_.Peek(candidate), now);
+  if (!packed) return 0;  // it is refused when its turn comes
+  return BundleWriter(*table_).BitsWith(StateEntry{candidate.channel, packed->bits, packed->bytes});
+}
+
+MessageSender::Loaded MessageSender::LoadFirst(BundleBuilder& bundle, const SendQueue::Candidate& first,
+                                               std::size_t most_bytes, const Departure& departure) {
   Loaded loaded;
+  LoadNewest(first, bundle, departure, loaded);
+  bundle.LimitTo(std::max(most_bytes, bundle.Bytes()));
+  return loaded;
+}
+
+MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure& departure, Loaded loaded) {
   for (const SendQueue::Candidate& candidate : queue_.Ready(departure.now)) {
     if (departure.urgent_only && !candidate.urgent) break;
     // Repetitions have frames of their own, as short as can be.
@@ -48,7 +95,7 @@ MessageSender::Loaded MessageSender::Load(BundleBuilder& bundle, const Departure
 bool MessageSender::MayLoad(const SendQueue::Candidate& candidate, const Departure& departure) const {
   const LinkChannel& channel = table_->at(candidate.channel);
   return channel.channel_class != ChannelClass::kCommand ||
-         (departure.echoed_at && departure.now - queue_.OfferedAt(candidate) <= channel.ttl);
+         (departure.echoed_at && departure.now - queue_.MadeAt(candidate) <= channel.ttl);
 }
 
 void MessageSender::LoadSegments(std::size_t channel, BundleBuilder& bundle, const Departure& departure,
@@ -75,7 +122,7 @@ void MessageSender::LoadNewest(const SendQueue::Candidate& candidate, BundleBuil
                                const Departure& departure, Loaded& loaded) {
   const std::size_t channel = candidate.channel;
   const bool command = table_->at(channel).channel_class == ChannelClass::kCommand;
-  auto packed = pack_(channel, queue_.Peek(candidate), command ? queue_.OfferedAt(candidate) : departure.now);
+  auto packed = pack_(channel, queue_.Peek(candidate), command ? queue_.MadeAt(candidate) : departure.now);
   if (!packed) {
     queue_.Take(candidate);
     queue_.CountRefused(channel);
@@ -85,7 +132,7 @@ void MessageSender::LoadNewest(const SendQueue::Candidate& candidate, BundleBuil
   if (!bundle.Add(entry)) return;
   if (command && departure.bytes_until) {
     const Duration largest_offset = table_->at(channel).ttl * (kOffsetSteps - 1) / kOffsetSteps;
-    bundle.LimitTo(departure.bytes_until(queue_.OfferedAt(candidate) + largest_offset));
+    bundle.LimitTo(departure.bytes_until(queue_.MadeAt(candidate) + largest_offset));
   }
   if (packed->saturated) ++queue_.counters(channel).saturated;
   const auto* state = std::get_if<StateEntry>(&entry);
@@ -99,7 +146,7 @@ BundleEntry MessageSender::EntryOf(const SendQueue::Candidate& candidate, const 
                                    const Departure& departure) const {
   const LinkChannel& channel = table_->at(candidate.channel);
   if (channel.channel_class == ChannelClass::kCommand)
-    return CommandEntry{candidate.channel, queue_.OfferedAt(candidate) - *departure.echoed_at, packed.bits,
+    return CommandEntry{candidate.channel, queue_.MadeAt(candidate) - *departure.echoed_at, packed.bits,
                         packed.bytes};
   StateEntry entry{candidate.channel, packed.bits, packed.bytes};
   if (channel.delta.empty()) return entry;

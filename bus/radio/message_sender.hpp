@@ -22,7 +22,7 @@ struct Packed {
 };
 
 /// Packs the encoded message of a channel. Time stamps are sent as ages at `now`: of a command when it was
-/// offered, of any other message when it is sent. nullopt if the message must not be sent: it is none of the
+/// made, of any other message when it is sent. nullopt if the message must not be sent: it is none of the
 /// channel's type, or has a value that is refused.
 using PackFunction =
     std::function<std::optional<Packed>(std::size_t channel, std::span<const std::byte> encoded, Time now)>;
@@ -53,7 +53,9 @@ class MessageSender {
   MessageSender(const ChannelTable& table, Direction outgoing, Duration ageing, PackFunction pack);
 
   /// An encoded message for an outgoing channel; messages with different keys do not replace each other.
-  OfferResult Offer(std::size_t channel, std::span<const std::byte> encoded, Time now, std::string_view key);
+  /// `made`: see SendQueue::Offer; an event has no age.
+  OfferResult Offer(std::size_t channel, std::span<const std::byte> encoded, Time now, std::string_view key,
+                    std::optional<Time> made = {});
 
   /// The messages and segments in a frame.
   struct Loaded {
@@ -71,11 +73,26 @@ class MessageSender {
     };
     std::vector<Message> messages;
     std::vector<Segment> segments;
+    /// Whether it has a state or command of the channel.
+    bool Has(std::size_t channel) const;
   };
+  /// Adds a state to an empty bundle, whatever its rate, and limits that to so many bytes.
+  Loaded LoadFirst(BundleBuilder& bundle, const SendQueue::Candidate& first, std::size_t most_bytes,
+                   const Departure& departure);
   /// Adds messages and segments of events to `bundle`, those that go first as long as they fit.
-  Loaded Load(BundleBuilder& bundle, const Departure& departure);
+  /// `loaded`: what is in it already.
+  Loaded Load(BundleBuilder& bundle, const Departure& departure, Loaded loaded = {});
   /// Takes back the contents of a frame that was cut off: nothing of it was sent.
   void Return(Loaded loaded);
+  /// What waits beside the messages of a channel.
+  struct Beside {
+    std::optional<SendQueue::Candidate> alone{};  ///< the next one, when it is longer than a bundle
+    std::size_t alone_bytes = 0;                  ///< of a bundle with the longest of its channel
+    std::size_t bytes = 0;                        ///< of a bundle with all others, at most `target_bytes`
+  };
+  /// `promised`: a message that goes alone next, if it still waits, whatever the order of the queue.
+  Beside WaitingBeside(std::size_t channel, const std::optional<SendQueue::Candidate>& promised,
+                       std::size_t target_bytes, Time now) const;
   /// Notes that the frame with this counter has left whole.
   void OnSent(Loaded loaded, std::uint64_t counter);
 
@@ -98,6 +115,7 @@ class MessageSender {
   std::uint64_t resent() const;
 
  private:
+  std::size_t BitsOf(const SendQueue::Candidate& candidate, Time now) const;
   void LoadSegments(std::size_t channel, BundleBuilder& bundle, const Departure& departure, Loaded& loaded);
   bool LoadSegment(std::size_t channel, BundleBuilder& bundle, const Departure& departure, Loaded& loaded);
   bool MayLoad(const SendQueue::Candidate& candidate, const Departure& departure) const;

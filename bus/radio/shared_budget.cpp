@@ -39,8 +39,7 @@ std::vector<std::string> SharedProblems(const ChannelTable& table, const LinkOpt
         "{}: radio link {}: expected a max_bundle_bytes of at least {} with several robots, in which "
         "each message has room beside acknowledgements, got {}: raise it, or shorten the "
         "longest message",
-        options.place.Of("max_bundle_bytes"), direction == Direction::kUp ? "up" : "down", least,
-        options.max_bundle_bytes));
+        options.place.Of("max_bundle_bytes"), NameOf(direction), least, options.max_bundle_bytes));
   }
   return problems;
 }

@@ -44,6 +44,8 @@ std::string NextStep(int error, const std::string& path) {
       return "`sudo usermod -aG dialout $USER` and log in again";
     case EBUSY:
       return fmt::format("another process holds it: `fuser {}` names it", path);
+    case ELOOP:
+      return fmt::format("its symbolic links lead to each other: see `ls -l {}`", path);
     default:
       return "check the cable and the driver with `dmesg`";
   }

@@ -33,11 +33,10 @@ void BusEnd::SubscribeAll() {
     }
     const auto offer = [this, i](std::span<const std::byte> encoded, Time now) {
       if (echo_.IsEcho(parts_.link.channels[i].name, encoded, now)) return;
-      if (!link_) {
+      if (link_)
+        Offer(i, encoded, pauses_->CameAt(now));
+      else
         waiting_.push_back({i, {encoded.begin(), encoded.end()}});
-        return;
-      }
-      link_->Offer(i, encoded, pauses_->CameAt(now), codecs_.KeyOf(i, encoded));
     };
     node_.SubscribeRaw(table.at(i).name, parts_.types, offer);
   }
@@ -54,11 +53,18 @@ void BusEnd::Start(Time now) {
         return packed;
       },
       parts_.nonces, now, parts_.next_key);
-  for (const Waiting& w : waiting_)
-    link_->Offer(w.channel, w.encoded, now, codecs_.KeyOf(w.channel, w.encoded));
+  for (const Waiting& w : waiting_) Offer(w.channel, w.encoded, now);
   waiting_.clear();
   pauses_.emplace(parts_.tick, now);
   last_report_ = now;
+}
+
+/// The time-to-live of a command counts from its own stamp, however long the bus or its sender kept it.
+void BusEnd::Offer(std::size_t channel, std::span<const std::byte> encoded, Time came) {
+  const bool command = link_->table().at(channel).channel_class == bus::radio::ChannelClass::kCommand;
+  const auto made = command ? codecs_.StampOf(channel, encoded) : std::nullopt;
+  if (made && *made < came - link_->table().at(channel).ttl) LogLate(channel);
+  link_->Offer(channel, encoded, came, codecs_.KeyOf(channel, encoded), made);
 }
 
 void BusEnd::Tick(Time now) {
@@ -106,6 +112,15 @@ void BusEnd::Close() {
 
 void BusEnd::Log(bus::Level level, const std::string& text) const {
   log_(level, parts_.name.empty() ? text : parts_.name + ": " + text);
+}
+
+/// Once per channel: its counter in LINK_STATUS says how many.
+void BusEnd::LogLate(std::size_t channel) {
+  const std::string sentence = fmt::format(
+      "{0}: a command came later than {1} s after its own stamp: not sent, counted as expired; next: the "
+      "sender, or its clock",
+      parts_.link.channels[channel].name, Seconds(link_->table().at(channel).ttl));
+  if (refusals_.insert(sentence).second) Log(bus::Level::kWarning, sentence);
 }
 
 /// Each reason once: a sender that is wrong is so at its rate.

@@ -64,6 +64,8 @@ class BusEnd {
     std::vector<std::byte> encoded;
   };
   void SubscribeAll();
+  void Offer(std::size_t channel, std::span<const std::byte> encoded, Time came);
+  void LogLate(std::size_t channel);
   void LogRefusal(std::size_t channel, std::span<const std::byte> encoded, Time at);
   void ServeListeners(Time now);
   void LogKeyChange(bus::radio::KeyChange change);

@@ -107,7 +107,10 @@ void RadioApp::CheckFiles() const {
                                     Quoted(robot.name)));
     const auto add = [&](const char* key, const std::string& file) {
       if (file.empty()) return;
-      const std::string path = std::filesystem::weakly_canonical(context_.ResolvePath(file)).string();
+      std::error_code unknown;  // refused when it is read
+      const std::string path =
+          std::filesystem::weakly_canonical(context_.ResolvePath(file), unknown).string();
+      if (unknown) return;
       const std::string place = fmt::format("robot[{}].{}", i, key);
       const auto [at, is_new] = used.emplace(path, place);
       if (!is_new)
@@ -208,7 +211,8 @@ bus::radio::LinkKey RadioApp::LoadKey(const std::string& file) const {
   if (!link_config_.simulation_key) return ReadKeyFile(file);
   if (context_.lockstep()) return SimulationKey();
   const std::string tty = IsKissPort(config_.port) ? TtyOf(config_.port) : config_.port;
-  const bool is_there = IsNetPort(config_.port) || std::filesystem::exists(tty);  // else see OpenLine
+  std::error_code unknown;  // a loop of links: see OpenLine, as for one that is not there
+  const bool is_there = IsNetPort(config_.port) || std::filesystem::exists(tty, unknown);
   if (is_there && !IsPrivateLine(config_.port))
     throw ConfigError(fmt::format(
         "{}: expected false on {}, which others can reach, got true: make a key with `priamos link "

@@ -113,6 +113,14 @@ TEST(SerialPort, AbsentPortSaysWhatToDo) {
               testing::AllOf(HasSubstr("/dev/no_such_tty"), HasSubstr("priamos link emulate")));
 }
 
+TEST(SerialPort, ALoopOfLinksIsNoPort) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("b", folder.path() / "a");
+  std::filesystem::create_symlink("a", folder.path() / "b");
+  EXPECT_THAT(ErrorOf([&] { OpenSerialPort(folder / "a", 9600); }),
+              HasSubstr("its symbolic links lead to each other"));
+}
+
 TEST(SerialPort, AFileIsNoTty) {
   EXPECT_THAT(ErrorOf([] { OpenSerialPort("/dev/null", 9600); }), HasSubstr("is not a tty"));
 }

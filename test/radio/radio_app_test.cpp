@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -58,6 +59,34 @@ TEST_F(RadioAppTest, PoseReachesTheOtherBusWithItsAge) {
   EXPECT_NEAR(received->x_m, 1.234, 0.0051);
   EXPECT_NEAR(received->yaw_rad, -0.5, 0.00051);
   EXPECT_NEAR(static_cast<double>(received->utime - pose.utime), 0, 20'000);
+}
+
+/// However late it comes onto the bus: the radio counts a command's age from its own stamp.
+TEST_F(RadioAppTest, ACommandThatIsTooOldOnTheBusIsNotSent) {
+  auto commands = onboard().SubscribeAll(channels::kDriveCommand);
+  auto status = offboard().Subscribe(channels::kLinkStatus);
+  auto publisher = offboard().Advertise(channels::kDriveCommand);
+  Run(3);
+  drive_command_t command{};
+  command.time_to_live_s = 0.25;
+  int expired = 0;
+  for (const int age_us : {0, 100'000, 300'000, 60'000'000, -1'000'000}) {
+    command.utime = ToUtime(lockstep.now()) - age_us;
+    ++command.sequence;
+    publisher.Publish(command);
+    Run(1.1);
+    const auto came = commands.Drain();
+    ASSERT_EQ(came.size(), age_us < 200'000 ? 1u : 0u) << age_us;
+    for (const drive_command_t& arrived : came)
+      EXPECT_LE(arrived.utime, std::min(command.utime, ToUtime(lockstep.now())) + 1000)
+          << "never younger than it is";
+    expired += age_us > 200'000 ? 1 : 0;
+    EXPECT_EQ(status.get()->dropped, expired) << age_us;
+  }
+  command.utime = std::numeric_limits<std::int64_t>::min();
+  publisher.Publish(command);
+  Run(1.5);
+  EXPECT_TRUE(commands.Drain().empty());
 }
 
 TEST_F(RadioAppTest, EventsCrossBothWaysOnceAndInOrder) {

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "bus/log/log_reader.hpp"
-#include "bus/log/log_writer.hpp"
 #include "bus/node.hpp"
 #include "lcmtypes/channels.hpp"
 #include "test/support/temporary_folder.hpp"
@@ -16,22 +15,12 @@
 namespace priamos {
 namespace {
 
-constexpr double kTimeToLive_s = 0.25;
+using testing::HasSubstr;
+
+constexpr double kTimeToLive_s = 0.25;  ///< of the commands of drive_commands.py
 constexpr double kHeld_s = 0.8;
 /// The recorders are two processes of a busy machine; what is looked for is late by kHeld_s.
 constexpr double kRecorders_s = 0.15;
-
-/// An operator's commands, every 50 ms.
-void WriteCommands(const std::string& path, int count) {
-  bus::LogWriter log(path);
-  for (int i = 1; i <= count; ++i) {
-    drive_command_t command{};
-    command.utime = 50'000 * i;
-    command.sequence = i;
-    command.time_to_live_s = kTimeToLive_s;
-    log.Write(command.utime, channels::kDriveCommand.name, bus::Encode(command));
-  }
-}
 
 /// When each command was on the bus, by its number [s].
 std::map<int, double> TimesOf(const std::string& path) {
@@ -45,7 +34,6 @@ std::map<int, double> TimesOf(const std::string& path) {
 
 TEST(HeldLine, NoCommandIsObeyedThatAModemHasHeldBack) {
   const TemporaryFolder folder;
-  WriteCommands(folder / "commands.lcmlog", 260);
   const auto answer = RunInPrivateNetwork(fmt::format(R"sh(
     cd {}
     echo 'way,from_s,to_s,first_s,last_s
@@ -59,7 +47,7 @@ b_to_a,6,10,{},{}' > delays.csv
       $BIN/priamos log record $side.lcmlog --bus $side > $side.txt 2>&1 & RECORDERS="${{RECORDERS:-}} $!"
     done
     sleep 1
-    $BIN/priamos log play commands.lcmlog --bus offboard > play.txt
+    python3 $SOURCE/test/support/drive_commands.py 260
     kill -INT $RECORDERS; wait $RECORDERS
     kill $ONBOARD $OFFBOARD $EMULATE; wait
   )sh",
@@ -76,6 +64,33 @@ b_to_a,6,10,{},{}' > delays.csv
   EXPECT_GT(soon, 30) << answer.text;
   EXPECT_GT(after, 30) << answer.text;
   EXPECT_LT(held, 90) << "80 of them were held back";
+}
+
+/// The first 20 are put on the bus half a second after they were made, the next 20 at once.
+TEST(HeldLine, NoCommandIsSentThatItsBusHasHeldBack) {
+  const TemporaryFolder folder;
+  const auto answer = RunInPrivateNetwork(fmt::format(R"sh(
+    cd {}
+    $BIN/priamos link emulate --a tty-a --b tty-b > emulate.txt & EMULATE=$!
+    until [ -e tty-b ]; do sleep 0.05; done
+    radio() {{ exec $BIN/priamos-radio --config $SOURCE/config/sim/radio.toml --set side=$1 --set port=$2 --bus $1 >> $1.txt 2>&1; }}
+    radio onboard tty-a & ONBOARD=$!
+    radio offboard tty-b & OFFBOARD=$!
+    $BIN/priamos log record held.lcmlog --bus onboard > held.txt 2>&1 & RECORDER=$!
+    sleep 1
+    python3 $SOURCE/test/support/drive_commands.py 20 --kept 0.5
+    sleep 0.5; kill -INT $RECORDER; wait $RECORDER
+    $BIN/priamos log record fresh.lcmlog --bus onboard > fresh.txt 2>&1 & RECORDER=$!
+    sleep 0.5
+    python3 $SOURCE/test/support/drive_commands.py 20
+    sleep 0.5; kill -INT $RECORDER; wait $RECORDER
+    kill $ONBOARD $OFFBOARD $EMULATE; wait; cat offboard.txt
+  )sh",
+                                                      folder.path().string()),
+                                          folder / "script.sh", 50);
+  EXPECT_EQ(TimesOf(folder / "held.lcmlog").size(), 0U) << answer.text;
+  EXPECT_GT(TimesOf(folder / "fresh.lcmlog").size(), 14U) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr("DRIVE_COMMAND: a command came later than 0.25 s after its own stamp"));
 }
 
 /// Before there were places for proven ends 0 to 55 % arrived; what is missing now is the machine's.

@@ -96,6 +96,16 @@ TEST(RadioProcess, AbsentTtyNamesTheNextStep) {
   EXPECT_THAT(answer.text, HasSubstr("/dev/no-such-tty"));
 }
 
+TEST(RadioProcess, ALoopOfLinksIsNoPort) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("b", folder.path() / "a");
+  std::filesystem::create_symlink("a", folder.path() / "b");
+  const auto answer =
+      RunCommand(Binary("priamos-radio") + " --config " + Config("radio.toml") + " --port " + (folder / "a"));
+  ExpectOneSentence(answer);
+  EXPECT_THAT(answer.text, HasSubstr("its symbolic links lead to each other"));
+}
+
 TEST(RadioProcess, TheKeyThatEverybodyKnowsStaysOnThisMachine) {
   const TemporaryFolder folder;
   std::ofstream(folder / "link.toml") << "simulation_key = true\ndatagrams = true\n"

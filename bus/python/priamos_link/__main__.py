@@ -14,7 +14,7 @@ import time
 import tty
 
 from .end import End
-from .table import Table, pack, unpack
+from .table import Table, age_of, pack, unpack
 
 SIMULATION_KEY = b"everybody knows this key".ljust(32, b"\0")
 TICK_S = 0.001
@@ -106,12 +106,15 @@ def offer(end, line, now):
         raise ValueError("expected a message, got one nested too deeply") from None
     if not isinstance(data, dict) or end.table.index(data.get("channel")) is None:
         raise ValueError(f"expected {{\"channel\": NAME, ...}} with a channel of the link, got {line.strip()[:60]}")
-    index = end.table.index(data["channel"])
+    index, made = end.table.index(data["channel"]), now
     if "hex" in data:
         packed, bits = bytes.fromhex(data["hex"]), int(data.get("bits", 4 * len(data["hex"])))
     else:
-        packed, bits = pack(end.table.channels[index], dict(data.get("message", {})), int(time.time() * 1e6))
-    if bits > 8 * len(packed) or not end.offer(index, packed, bits, now):
+        utime, message = int(time.time() * 1e6), dict(data.get("message", {}))
+        age_us = age_of(end.table.channels[index], message, utime)
+        packed, bits = pack(end.table.channels[index], message, utime - age_us)
+        made = now - age_us / 1e6
+    if bits > 8 * len(packed) or not end.offer(index, packed, bits, now, made):
         raise ValueError(f"{data['channel']}: expected a message that this end sends, of its size, got {bits} bits")
 
 

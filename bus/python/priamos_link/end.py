@@ -32,7 +32,8 @@ class End:
         self.unacknowledged, self.last_ack, self.in_turn, self.confirmed = 0, now - 1, 0, 0
         self.handed, self.last_data, self.free_at, self.out = {}, now - 1, now, []
         self.history = {}  # (channel, counter) -> packed, of states with differences
-        self.waiting = {}  # channel -> (packed, bits, offered)
+        self.waiting = {}  # channel -> (packed, bits, made)
+        self.made = {}  # channel -> when the newest was made that ever waited
         self.senders = {i: EventSender(c.urgent) for i, c in enumerate(table.channels)
                         if c.kind == "event" and c.direction == self.outgoing}
         self.receivers = {i: EventReceiver() for i, c in enumerate(table.channels)
@@ -41,8 +42,9 @@ class End:
     def up(self, now):
         return self.heard_at is not None and now - self.heard_at <= SILENCE_S
 
-    def offer(self, channel, packed, bits, now):
-        """A message for an outgoing channel; False when it cannot wait. Of states and commands the newest goes."""
+    def offer(self, channel, packed, bits, now, made=None):
+        """A message for an outgoing channel; False when it cannot wait. Of states and commands the newest goes. A
+        command's time-to-live counts from when it was `made`, before now; one that came after a newer one is dropped."""
         c = self.table.channels[channel]
         if bits < 0 or len(packed) != -(-bits // 8):
             return False
@@ -50,7 +52,10 @@ class End:
             return False
         if c.kind == "event":
             return self.senders[channel].offer(packed, bits, now)
-        self.waiting[channel] = (packed, bits, now)
+        made = now if made is None else min(made, now)
+        if made >= self.made.get(channel, made):
+            self.waiting[channel] = (packed, bits, made)
+            self.made[channel] = made
         return True
 
     # ---- what comes

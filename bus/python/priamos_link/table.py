@@ -92,6 +92,14 @@ def unpack(channel, packed, now_us):
     return None if channel.packer is None else json_form(channel.packer.unpack(packed, now_us))
 
 
+def age_of(channel, values, now_us):
+    """How long ago a command was made, by its own time stamp [us]; 0 of other messages, and when it has none."""
+    fields = channel.packer.struct.fields if channel.packer is not None and channel.kind == "command" else []
+    name = next((f.name for f in fields if f.annotation.age_us is not None and not f.dims), None)
+    stamp = values.get(name, 0)
+    return max(0, now_us - stamp) if isinstance(stamp, int) and stamp else 0
+
+
 def pack(channel, values, now_us):
     """Bytes and bits of a message; fields that are left out are 0 or empty, time stamps now. Raises ValueError."""
     if channel.packer is None:

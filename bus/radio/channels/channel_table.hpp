@@ -38,7 +38,9 @@ struct LinkChannel {
   bool on_request = false;  ///< sent only while the other side has a listener
   int max_keys = 1;         ///< state: newest wins per key, for so many keys
   Duration deadline{};      ///< latest delivery after it was offered, for the budget; 0: any
-  SectionPlace place{};     ///< where it is configured, for errors
+  /// State: from any moment on, a message that was made after it has left within this time; 0: no bound.
+  Duration fresh{};
+  SectionPlace place{};  ///< where it is configured, for errors
 
   /// What an error about one of its keys begins with, `file:line:key: radio channel NAME`.
   std::string At(std::string_view key) const { return place.Of(key) + ": radio channel " + name; }

@@ -37,13 +37,19 @@ SendQueue::Slot* SendQueue::SlotFor(Lane& lane, std::string_view key) {
   lane.slots.push_back({.key = std::string(key),
                         .rate = RateLimit(lane.channel->rate_hz, lane.channel->burst),
                         .encoded = {},
-                        .offered_at = {},
+                        .made_at = {},
                         .waiting_since = {}});
   return &lane.slots.back();
 }
 
-bool SendQueue::Offer(std::size_t channel, std::string_view key, std::span<const std::byte> encoded,
-                      Time now) {
+/// Whether a message that comes now is too old to be sent: nobody should have it after a newer one.
+bool SendQueue::IsOutdated(const Slot& slot, Duration ttl, Time made_at, Time now) {
+  return (ttl > Duration::zero() && made_at < now - ttl) ||
+         (slot.newest && made_at < *slot.newest - kSameMoment);
+}
+
+bool SendQueue::Offer(std::size_t channel, std::string_view key, std::span<const std::byte> encoded, Time now,
+                      std::optional<Time> made) {
   Lane& lane = lanes_[channel];
   ++lane.counters.offered;
   if (!lane.wanted) {
@@ -55,13 +61,19 @@ bool SendQueue::Offer(std::size_t channel, std::string_view key, std::span<const
     ++lane.counters.refused;
     return false;
   }
+  const Time made_at = std::min(made.value_or(now), now);
+  if (IsOutdated(*slot, lane.channel->ttl, made_at, now)) {
+    ++lane.counters.expired;
+    return true;
+  }
   if (slot->encoded) {
     ++lane.counters.replaced;
   } else {
-    slot->waiting_since = now;
+    slot->waiting_since = now;  // for the line, and so for its rate, it waits since it came
   }
   slot->encoded.emplace(encoded.begin(), encoded.end());
-  slot->offered_at = now;
+  slot->made_at = made_at;
+  slot->newest = std::max(made_at, slot->newest.value_or(made_at));
   return true;
 }
 
@@ -77,7 +89,7 @@ void SendQueue::Expire(Time now) {
   for (Lane& lane : lanes_) {
     if (lane.channel->ttl <= Duration::zero()) continue;
     for (Slot& slot : lane.slots) {
-      if (!slot.encoded || now - slot.offered_at <= lane.channel->ttl) continue;
+      if (!slot.encoded || now - slot.made_at <= lane.channel->ttl) continue;
       slot.encoded.reset();
       ++lane.counters.expired;
     }
@@ -128,6 +140,15 @@ std::vector<SendQueue::Candidate> SendQueue::Ready(Time now) const {
   return ready;
 }
 
+std::optional<SendQueue::Candidate> SendQueue::Newest(std::size_t channel) const {
+  const Lane& lane = lanes_[channel];
+  if (lane.slots.empty() || !lane.slots.front().encoded) return std::nullopt;
+  const Slot& slot = lane.slots.front();
+  return Candidate{.channel = channel,
+                   .priority = static_cast<double>(lane.channel->priority),
+                   .since = std::max(slot.waiting_since, slot.rate.next())};
+}
+
 bool SendQueue::UrgentReady(Time now) const {
   std::vector<Candidate> ready;
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
@@ -160,8 +181,8 @@ const std::vector<std::byte>& SendQueue::Peek(const Candidate& candidate) const 
   return *lanes_[candidate.channel].slots[candidate.slot].encoded;
 }
 
-Time SendQueue::OfferedAt(const Candidate& candidate) const {
-  return lanes_[candidate.channel].slots[candidate.slot].offered_at;
+Time SendQueue::MadeAt(const Candidate& candidate) const {
+  return lanes_[candidate.channel].slots[candidate.slot].made_at;
 }
 
 std::optional<EventSegment> SendQueue::PeekEvent(std::size_t channel, Time now) const {
@@ -189,7 +210,7 @@ QueuedMessage SendQueue::Take(const Candidate& candidate) {
   QueuedMessage message{.channel = candidate.channel,
                         .key = slot.key,
                         .encoded = std::move(*slot.encoded),
-                        .offered_at = slot.offered_at,
+                        .made_at = slot.made_at,
                         .waiting_since = slot.waiting_since};
   slot.encoded.reset();
   return message;
@@ -206,7 +227,7 @@ void SendQueue::Return(QueuedMessage message) {
     return;
   }
   slot->encoded = std::move(message.encoded);
-  slot->offered_at = message.offered_at;
+  slot->made_at = message.made_at;
 }
 
 void SendQueue::CountSent(std::size_t channel, std::size_t bits) {
@@ -219,7 +240,7 @@ Duration SendQueue::OldestAge(std::size_t channel, Time now) const {
   Duration oldest{};
   if (const auto since = lane.events.oldest()) oldest = now - *since;
   for (const Slot& slot : lane.slots)
-    if (slot.encoded) oldest = std::max(oldest, now - slot.offered_at);
+    if (slot.encoded) oldest = std::max(oldest, now - slot.made_at);
   return oldest;
 }
 

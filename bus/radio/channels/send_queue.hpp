@@ -55,7 +55,7 @@ struct QueuedMessage {
   std::size_t channel = 0;
   std::string key;
   std::vector<std::byte> encoded;
-  Time offered_at{};
+  Time made_at{};
   Time waiting_since{};
 };
 
@@ -74,10 +74,19 @@ class SendQueue {
     Time since{};
   };
 
+  /// Messages that were made so little apart may come in either order: two senders, or a process that had no
+  /// time for its bus.
+  static constexpr Duration kSameMoment{10'000};
+
   SendQueue(const ChannelTable& table, Direction outgoing, Duration ageing);
 
-  /// Queues a message of a state or command channel; it replaces the one with the same key.
-  bool Offer(std::size_t channel, std::string_view key, std::span<const std::byte> encoded, Time now);
+  /// Queues a message of a state or command channel; it replaces the one with the same key. `made`: when it
+  /// was made, where that is before `now`; later, or left out, it is taken as made now. Its time-to-live
+  /// counts from there. One that has outlived that is counted as expired, and so is one that was made more
+  /// than kSameMoment before the newest of its key: neither replaces anything. False when it is refused: it
+  /// has one key too many.
+  bool Offer(std::size_t channel, std::string_view key, std::span<const std::byte> encoded, Time now,
+             std::optional<Time> made = {});
   /// Queues an event; false if the queue of the channel is full.
   bool OfferEvent(std::size_t channel, std::vector<std::byte> packed, std::size_t bits, Time now);
   /// Whether the other end has a listener for an on-request channel.
@@ -91,6 +100,9 @@ class SendQueue {
   void Expire(Time now);
   /// The messages that may be sent now, in order of priority.
   std::vector<Candidate> Ready(Time now) const;
+  /// The waiting message of a state channel without keys, also when its rate does not let it go yet: `since`
+  /// is when it does. nullopt: none waits.
+  std::optional<Candidate> Newest(std::size_t channel) const;
   /// Whether an urgent channel has something that was never sent.
   bool UrgentReady(Time now) const;
   /// Whether some of an urgent event was sent, and it is not acknowledged.
@@ -101,7 +113,8 @@ class SendQueue {
   bool IsRepetition(std::size_t channel, Time now) const;
 
   const std::vector<std::byte>& Peek(const Candidate& candidate) const;
-  Time OfferedAt(const Candidate& candidate) const;
+  /// When the message was made.
+  Time MadeAt(const Candidate& candidate) const;
   QueuedMessage Take(const Candidate& candidate);
   /// The segment an event channel would send next; the channel's rate only holds back new events,
   /// and no urgent ones.
@@ -127,8 +140,9 @@ class SendQueue {
     std::string key;
     RateLimit rate;
     std::optional<std::vector<std::byte>> encoded;
-    Time offered_at{};
+    Time made_at{};
     Time waiting_since{};
+    std::optional<Time> newest{};  ///< when the newest was made that was ever queued here
   };
   struct Lane {
     const LinkChannel* channel;
@@ -140,6 +154,7 @@ class SendQueue {
     QueueCounters counters;
   };
   Slot* SlotFor(Lane& lane, std::string_view key);
+  static bool IsOutdated(const Slot& slot, Duration ttl, Time made_at, Time now);
   double Effective(const LinkChannel& channel, Time since, Time now) const;
   static bool EventReady(const Lane& lane, Time now);
   void AddReady(const Lane& lane, std::size_t index, Time now, std::vector<Candidate>& ready) const;

@@ -36,6 +36,10 @@ enum class Direction : std::uint8_t {
 constexpr Direction Opposite(Direction d) {
   return d == Direction::kUp ? Direction::kDown : Direction::kUp;
 }
+/// As link.toml, LINK_STATUS and summary.json say it.
+constexpr const char* NameOf(Direction d) {
+  return d == Direction::kUp ? "up" : "down";
+}
 
 /// Secret key that both ends have.
 using LinkKey = std::array<std::uint8_t, 32>;

@@ -210,6 +210,21 @@ class TwoEnds(unittest.TestCase):
             sent += len(down.step(now))
         self.assertLess(sent, 3000)
 
+    def test_a_command_ages_from_when_it_was_made(self):
+        for made, arrives in ((0, True), (-0.2, True), (-0.3, False), (60, True)):
+            (up, down), now = self.agree()
+            down.offer(2, bytes(5), 40, now, now + made)
+            got = []
+            for _ in range(500):
+                now += 0.001
+                got += [d for d in up.receive(down.step(now), now) if d.channel == 2]
+                down.receive(up.step(now), now)
+            self.assertEqual(len(got), arrives, made)
+        (_, down), now = self.agree()
+        down.offer(2, b"newer", 40, now)
+        down.offer(2, b"older", 40, now, now - 0.1)
+        self.assertEqual(down.waiting[2][0], b"newer")
+
     def test_typed_messages_of_wrong_size_are_refused(self):
         (_, down), now = self.agree()
         for line in ("[" * 60000, '{"channel": "PATH", "hex": "00", "bits": -5}',

@@ -98,6 +98,43 @@ TEST(CommandFreshness, HoldsOnAnyLine) {
   EXPECT_GT(oldest, kTtl * 3 / 4);  // the law is put to the test
 }
 
+/// A bus that keeps commands, hands some on before those that were made earlier, and senders whose clocks are
+/// wrong: what is obeyed is no older than its time-to-live, counted from its making, and in the order made.
+TEST(CommandFreshness, HoldsForCommandsThatWereLateOnTheirBus) {
+  std::size_t delivered = 0, expired = 0;
+  Duration oldest{0};
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Rng rng = Rng::Stream(seed, "bus");
+    LinkPair pair(rng.Chance(0.5) ? LineConfig{} : RandomLine(rng, 5), seed);
+    const double late = rng.Chance(0.5) ? 0.3 : 1, most_s = rng.Uniform(0.02, 0.5);
+    std::vector<Time> made_at;
+    Time newest{};
+    pair.each_step = [&] {
+      if (ToUtime(pair.now) % 20'000 == 0) {
+        const Duration lag = FromSeconds(rng.Chance(late) ? rng.Uniform(-0.1, most_s) : 0);
+        pair.offboard.link->Offer(kDriveDown, NumberedMessage(static_cast<std::uint32_t>(made_at.size()), 5),
+                                  pair.now, {}, pair.now - lag);
+        made_at.push_back(std::min(pair.now, pair.now - lag));
+      }
+      for (const LinkPair::Received& r : pair.onboard.received) {
+        const Time made = made_at.at(NumberOf(r.delivery.packed));
+        EXPECT_LE(r.at - made, kTtl) << "seed " << seed;
+        EXPECT_LE(r.delivery.packed_at, made) << "seed " << seed;
+        EXPECT_GE(made, newest - SendQueue::kSameMoment) << "seed " << seed;
+        newest = std::max(newest, made);
+        oldest = std::max<Duration>(oldest, r.at - made);
+        ++delivered;
+      }
+      pair.onboard.received.clear();
+    };
+    pair.Run(5);
+    expired += pair.offboard.link->sent(kDriveDown).expired;
+  }
+  EXPECT_GT(delivered, 1000U);
+  EXPECT_GT(expired, 1000U);
+  EXPECT_GT(oldest, kTtl * 3 / 4);
+}
+
 TEST(CommandFreshness, HoldsWhenAnEndStartsAnew) {
   std::size_t delivered = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "bus/log/log_reader.hpp"
-#include "bus/log/log_writer.hpp"
 #include "bus/node.hpp"
 #include "lcmtypes/channels.hpp"
 #include "test/support/temporary_folder.hpp"
@@ -22,27 +21,10 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kSeconds = 14;
-constexpr int kRequests = static_cast<int>(kSeconds / 2);  ///< as many as link.toml allows
+constexpr int kCommands = 280;             ///< in 14 s
+constexpr int kRequests = kCommands / 40;  ///< one in 2 s, as many as link.toml allows
 /// A restart of the offboard process takes about half a second, in which it hears nothing of its bus.
 constexpr int kUnheard = 2;
-
-/// An operator's commands every 50 ms, and a request every 2 s.
-void WriteTraffic(const std::string& path) {
-  bus::LogWriter log(path);
-  for (int i = 1; i <= static_cast<int>(kSeconds / 0.05); ++i) {
-    drive_command_t command{};
-    command.utime = 50'000 * i;
-    command.sequence = i;
-    command.time_to_live_s = 0.25;
-    log.Write(command.utime, channels::kDriveCommand.name, bus::Encode(command));
-    if (i % 40 != 0) continue;
-    look_request_t request{};
-    request.utime = command.utime;
-    request.request_id = i / 40;
-    log.Write(request.utime, channels::kLookRequest.name, bus::Encode(request));
-  }
-}
 
 struct Heard {
   std::vector<int> requests, commands;
@@ -67,7 +49,6 @@ std::string ContentOf(const std::string& path) {
 
 TEST(Rekey, TheRecipeChangesTheKeyOfTwoProcessesWhileTheyWork) {
   const TemporaryFolder folder;
-  WriteTraffic(folder / "traffic.lcmlog");
   const auto answer = RunInPrivateNetwork(fmt::format(R"sh(
     cd {}
     for side in onboard offboard; do
@@ -83,7 +64,7 @@ TEST(Rekey, TheRecipeChangesTheKeyOfTwoProcessesWhileTheyWork) {
     radio offboard tty-b & OFFBOARD=$!
     $BIN/priamos log record heard.lcmlog --bus onboard > record.txt 2>&1 & RECORDER=$!
     sleep 1
-    $BIN/priamos log play traffic.lcmlog --bus offboard > play.txt & PLAYER=$!
+    python3 $SOURCE/test/support/drive_commands.py {} --requests & SENDER=$!
     sleep 2
     $BIN/priamos link rekey onboard/link.key && cp -p onboard/link.key.next offboard/
     kill $ONBOARD; wait $ONBOARD; radio onboard tty-a & ONBOARD=$!
@@ -92,12 +73,12 @@ TEST(Rekey, TheRecipeChangesTheKeyOfTwoProcessesWhileTheyWork) {
     sleep 3
     for side in onboard offboard; do $BIN/priamos link rekey --finish $side/link.key; done
     kill $ONBOARD; wait $ONBOARD; radio onboard tty-a & ONBOARD=$!
-    wait $PLAYER; sleep 2
+    wait $SENDER; sleep 2
     kill -INT $RECORDER; wait $RECORDER
     kill $ONBOARD $OFFBOARD $EMULATE; wait
     cmp onboard/link.key offboard/link.key && ls onboard/link.key.next
   )sh",
-                                                      folder.path().string()),
+                                                      folder.path().string(), kCommands),
                                           folder / "script.sh", 60);
   for (const char* side : {"onboard.txt", "offboard.txt"})
     EXPECT_THAT(ContentOf(folder / side), HasSubstr("the link uses the next key")) << answer.text;

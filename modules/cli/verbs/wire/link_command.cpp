@@ -13,6 +13,7 @@
 #include "cli/terminal/link_top.hpp"
 #include "cli/verbs/wire/commands.hpp"
 #include "common/config.hpp"
+#include "common/input/quoted.hpp"
 #include "common/serial_port.hpp"
 #include "radio/key_file.hpp"
 
@@ -137,6 +138,25 @@ void AddPacketOptions(CLI::App& verb, std::optional<bus::radio::PacketAirConfig>
          "byte, packets: a longer one is not sent; without it 255");
 }
 
+/// An option that changes nothing makes somebody believe what is not so.
+void RefuseWithoutEffect(const CLI::App& verb, const LinkEmulateOptions& options) {
+  const auto refuse = [&](const std::string& option, const std::string& expected) {
+    if (verb.get_option(option)->count() > 0)
+      throw ConfigError(fmt::format("{}: expected {}", option, expected));
+  };
+  if (options.packets)
+    for (const char* of_a_line : {"--baud", "--jitter", "--bit-error-rate", "--burst-rate", "--burst-length",
+                                  "--burst-error-rate", "--duplicate", "--turnaround", "--delays"})
+      refuse(of_a_line, "none with --packets: it is of a line");
+  if (!options.line.half_duplex && options.robots == 0)
+    refuse("--turnaround", "none without --half-duplex or --robots: nobody takes turns");
+  if (options.line.burst_rate_hz <= 0)
+    for (const char* of_bursts : {"--burst-length", "--burst-error-rate"})
+      refuse(of_bursts, "none without --burst-rate: there are no bursts");
+  if (options.a == options.b)
+    throw ConfigError(fmt::format("--b: expected another name than that of --a, got {}", Quoted(options.b)));
+}
+
 void AddEmulate(CLI::App& link, int& exit_code) {
   auto options = std::make_shared<LinkEmulateOptions>();
   auto* verb = AddVerb(link, "emulate", "A pair of radio modems: two ttys joined by an emulated line.");
@@ -155,7 +175,10 @@ void AddEmulate(CLI::App& link, int& exit_code) {
                    "CSV file with way,from_s,to_s,first_s,last_s per line: more delay of one way for a time");
   verb->add_option("--seed", options->seed, "seed of the errors")->capture_default_str();
   verb->add_flag("--json", options->json, "print the ttys as JSON");
-  verb->callback([options, &exit_code] { exit_code = RunLinkEmulate(*options); });
+  verb->callback([options, verb, &exit_code] {
+    RefuseWithoutEffect(*verb, *options);
+    exit_code = RunLinkEmulate(*options);
+  });
 }
 
 void AddKeygen(CLI::App& link, int& exit_code) {

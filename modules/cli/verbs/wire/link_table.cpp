@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bus/radio/budget.hpp"
 #include "bus/radio/link_config.hpp"
 #include "bus/schema/lcm_format.hpp"
 #include "cli/options/bus_options.hpp"
@@ -55,7 +56,7 @@ nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const Channe
     const bus::Struct& type = *types.Find(config.channels[i].type);
     json["channels"].push_back({{"name", c.name},
                                 {"meaning", fmt::format("{:016x}", c.fingerprint)},
-                                {"direction", c.direction == Direction::kUp ? "up" : "down"},
+                                {"direction", NameOf(c.direction)},
                                 {"class", kClasses[static_cast<int>(c.channel_class)]},
                                 {"fixed_bits", c.fixed_bits},
                                 {"max_bits", c.max_bits},
@@ -104,6 +105,7 @@ void AddLinkTableVerb(CLI::App& link) {
     RefuseOtherRadios(link_config);
     const bus::Schema schema = LoadTypes(*types);
     const ChannelTable table = link_config.Table(schema);
+    RequireBudget(table, link_config.Options());  // the other end would not start with it
     if (*json)
       std::cout << AsJson(link_config, table, schema).dump(2) << "\n";
     else

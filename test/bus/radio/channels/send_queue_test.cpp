@@ -166,6 +166,61 @@ TEST_F(SendQueueTest, ExpiredIsDroppedAndCounted) {
   EXPECT_EQ(dut.counters(kPoseUp).expired, 1U);
 }
 
+TEST_F(SendQueueTest, TheTimeToLiveCountsFromWhenAMessageWasMade) {
+  const ChannelTable table = Table();  // 0.25 s
+  SendQueue dut(table, Direction::kDown, kAgeing);
+  EXPECT_TRUE(dut.Offer(kDriveDown, "", Text("late "), After(1), After(0.749)));
+  EXPECT_TRUE(dut.Offer(kDriveDown, "", Text("never"), After(1), Time::min()));
+  EXPECT_TRUE(dut.Ready(After(1)).empty());
+  EXPECT_EQ(dut.counters(kDriveDown).expired, 2U);
+  dut.Offer(kDriveDown, "", Text("abcde"), After(1), After(0.8));
+  dut.Expire(After(1.05));
+  EXPECT_EQ(dut.Ready(After(1.05)).size(), 1U);
+  dut.Expire(After(1.051));
+  EXPECT_TRUE(dut.Ready(After(1.051)).empty());
+  EXPECT_EQ(dut.counters(kDriveDown).expired, 3U);
+}
+
+TEST_F(SendQueueTest, OneMadeInTheFutureLivesNoLongerThanOneOfNow) {
+  const ChannelTable table = Table();
+  SendQueue dut(table, Direction::kDown, kAgeing);
+  dut.Offer(kDriveDown, "", Text("abcde"), kStart, Time::max());
+  EXPECT_EQ(dut.MadeAt(dut.Ready(kStart).at(0)), kStart);
+  dut.Expire(After(0.251));
+  EXPECT_TRUE(dut.Ready(After(0.251)).empty());
+  dut.Offer(kDriveDown, "", Text("again"), After(0.3));  // nor does it hold later ones back
+  EXPECT_EQ(dut.Ready(After(0.3)).size(), 1U);
+}
+
+TEST_F(SendQueueTest, AnOlderOneThatCameLateFollowsNoNewerOne) {
+  const ChannelTable table = Table();
+  for (const bool sent : {false, true}) {
+    SendQueue dut(table, Direction::kDown, kAgeing);
+    dut.Offer(kDriveDown, "", Text("newer"), After(0.2));
+    if (sent) dut.Take(dut.Ready(After(0.2)).at(0));
+    EXPECT_TRUE(dut.Offer(kDriveDown, "", Text("older"), After(0.3), After(0.1)));
+    EXPECT_EQ(dut.counters(kDriveDown).expired, 1U);
+    EXPECT_EQ(dut.Ready(After(0.3)).size(), sent ? 0U : 1U);
+    dut.Offer(kDriveDown, "", Text("close"), After(0.3), After(0.195));
+    EXPECT_EQ(ToText(dut.Peek(dut.Ready(After(0.3)).at(0))), "close");
+  }
+}
+
+TEST_F(SendQueueTest, WhatWasLateHasNoCreditForIt) {
+  const ChannelTable table = Table();  // 20 Hz, one at once
+  SendQueue dut(table, Direction::kDown, kAgeing);
+  int taken = 0;
+  for (int ms = 1000; ms < 2000; ++ms) {
+    const Time now = After(0.001 * ms);
+    dut.Offer(kDriveDown, "", Text("abcde"), now, now - FromSeconds(ms % 2 == 0 ? 0.24 : 0.235));
+    if (dut.Ready(now).empty()) continue;
+    dut.Take(dut.Ready(now)[0]);
+    ++taken;
+  }
+  EXPECT_LE(taken, 21);
+  EXPECT_GE(taken, 20);
+}
+
 TEST_F(SendQueueTest, ReturnedAfterAnAbortUnlessANewerOneCame) {
   const ChannelTable table = Table();
   SendQueue dut(table, Direction::kUp, kAgeing);

@@ -213,6 +213,38 @@ TEST_F(LinkCommand, WhatAnEmulatedLineCannotBeIsRefused) {
   }
 }
 
+TEST_F(LinkCommand, OptionsOfAnEmulatedLineWithoutEffectAreRefused) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
+      {{"--turnaround", "0.1"}, "--turnaround: expected none without --half-duplex"},
+      {{"--burst-length", "1"}, "--burst-length: expected none without --burst-rate"},
+      {{"--burst-error-rate", "0.1"}, "--burst-error-rate: expected none without --burst-rate"},
+      {{"--packets", "--air-rate", "500", "--baud", "1200"}, "--baud: expected none with --packets"},
+      {{"--packets", "--air-rate", "500", "--delays", "x"}, "--delays: expected none with --packets"},
+      {{"--b", folder_ / "a"}, "--b: expected another name than that of --a"},
+      {{"--seed", "1", "--seed", "2"}, "--seed"}};
+  for (const auto& [options, sentence] : wrong) {
+    std::vector<std::string> words{"link", "emulate", "--a", folder_ / "a"};
+    words.insert(words.end(), options.begin(), options.end());
+    const auto answer = Priamos(words);
+    EXPECT_EQ(answer.exit_code, 2) << sentence;
+    EXPECT_THAT(answer.err, StartsWith("priamos link emulate: " + sentence));
+    EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1) << answer.err;
+  }
+}
+
+TEST_F(LinkCommand, NoTableIsPrintedOfALinkThatDoesNotHold) {
+  const std::string file =
+      Write("link.toml",
+            "simulation_key = true\n[[channel]]\nname = \"POSE\"\ntype = \"pose_t\"\ndirection = \"up\"\n"
+            "class = \"state\"\nrate_hz = 4\ndeadline_s = 0.01\n");
+  for (const char* form : {"--json", "--c"}) {
+    const auto answer = Priamos({"link", "table", file, form});
+    EXPECT_EQ(answer.exit_code, 2) << form;
+    EXPECT_EQ(answer.out, "");
+    EXPECT_THAT(answer.err, HasSubstr(file + ":8:channel[0].deadline_s: radio channel POSE: expected"));
+  }
+}
+
 TEST_F(LinkCommand, TopAndListenSayForHowLong) {
   for (const char* seconds : {"-1", "86401"}) {
     const auto answer = Priamos({"link", "listen", "SONAR_RANGES", "--for", seconds, "--bus", "memq://"});
