@@ -34,6 +34,7 @@
 #include "priamos/odometry_t.hpp"
 #include "priamos/opening_t.hpp"
 #include "priamos/path_t.hpp"
+#include "priamos/plan_walls_t.hpp"
 #include "priamos/pose_correction_t.hpp"
 #include "priamos/pose_reset_t.hpp"
 #include "priamos/pose_t.hpp"
@@ -65,6 +66,7 @@ inline constexpr Channel<camera_frame_t> kCameraFrame{"CAMERA_FRAME", 0, millise
 inline constexpr Channel<odometry_t> kOdometry{"ODOMETRY", 50, milliseconds(200)};
 inline constexpr Channel<pose_t> kPose{"POSE", 50, milliseconds(1000)};
 inline constexpr Channel<path_t> kPath{"PATH", 0, milliseconds(0)};
+inline constexpr Channel<plan_walls_t> kPlanWalls{"PLAN_WALLS", 0, milliseconds(0)};
 inline constexpr Channel<drive_status_t> kDriveStatus{"DRIVE_STATUS", 10, milliseconds(2000)};
 inline constexpr Channel<opening_t> kOpening{"OPENING", 1, milliseconds(3000)};
 inline constexpr Channel<pose_correction_t> kPoseCorrection{"POSE_CORRECTION", 0, milliseconds(0)};
@@ -112,6 +114,6 @@ inline constexpr std::tuple kAll{
     kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
     kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
-    kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand};
+    kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls};
 
 }  // namespace priamos::channels

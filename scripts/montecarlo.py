@@ -25,6 +25,7 @@ def arguments():
     parser.add_argument("--scenario", default="door", help="a file of the deployment's scenarios/")
     parser.add_argument("--generate", choices=KINDS, help="instead: a building of that kind, another one for each seed, "
                         "in which the robot is sent to places, through the door and back")
+    parser.add_argument("--follow", action="store_true", help="with --generate corridor: the robot follows it to its end")
     parser.add_argument("--deployment", default="sim", help="sim, robot, or a folder of configurations, with a slash")
     parser.add_argument("--seeds", default="1..100", help="FIRST..LAST")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time")
@@ -48,7 +49,7 @@ def generated(options, seed):
     kind = KINDS[seed % (len(KINDS) - 1)] if options.generate == "any" else options.generate
     folder = pathlib.Path(options.into) / f"seed-{seed}"
     done = subprocess.run([options.program, "world", "generate", "--kind", kind, "--seed", str(seed), "--into", folder,
-                           "--deployment", options.deployment, "--there-and-back"], capture_output=True, text=True)
+                           "--deployment", options.deployment, "--follow" if options.follow else "--there-and-back"], capture_output=True, text=True)
     if done.returncode != 0:
         refuse(f"seed {seed}: {done.stderr.strip()}")
     return f"{folder}/", f"{kind}-{seed}"
@@ -120,6 +121,7 @@ def figures(runs):
     text.append(line("error of the pose across the door", [b["lateral_m"] for b in beliefs], "cm", 100))
     text.append(line("error of the heading there", [b["heading_deg"] for b in beliefs], "degrees"))
     text.append(line("what the robot expects across, sigma", [b["lateral_sigma_m"] for b in beliefs], "cm", 100))
+    text += corridor_figures([r["corridor"] for r in passed if r.get("corridor")])
     if beliefs:
         nees = [b["nees"] for b in beliefs]
         spread = 1.96 * statistics.pstdev(nees) / math.sqrt(len(nees))
@@ -127,6 +129,24 @@ def figures(runs):
     if passed:
         text.append(f"{'smallest gap':<36} worst {100 * min(r['min_gap_m'] for r in passed):7.2f} cm")
         text.append(f"{'mean speed':<36} median {quantile([r['mean_speed_m_s'] for r in passed], 0.5):7.3f} m/s")
+    return text
+
+
+def corridor_figures(corridors):
+    """Lines of text about drives along corridors: what the robot knew of its pose."""
+    if not corridors:
+        return []
+    ends = [c["end"] for c in corridors if c["end"]]
+    text = [line("length of the drive", [c["driven_m"] for c in corridors], "m"),
+            line("error across on the way, RMS of a run", [c["across_rms_m"] for c in corridors], "cm", 100),
+            line("error across at the end", [e["lateral_m"] for e in ends], "cm", 100),
+            line("expected across at the end, sigma", [e["lateral_sigma_m"] for e in ends], "cm", 100),
+            line("error along at the end", [e["along_m"] for e in ends], "cm", 100),
+            line("error of the heading at the end", [e["heading_deg"] for e in ends], "degrees")]
+    if len(ends) > 1:
+        nees = [e["nees"] for e in ends]
+        spread = 1.96 * statistics.stdev(nees) / math.sqrt(len(nees))
+        text.append(f"{'NEES at the end (3 is right)':<36} mean {statistics.mean(nees):.2f} +- {spread:.2f}")
     return text
 
 

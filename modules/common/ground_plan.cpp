@@ -84,6 +84,8 @@ void CupboardPlan::Describe(Archive& a) {
 }
 
 void GroundPlan::Describe(Archive& a) {
+  a.Number("wall_sigma_m", wall_sigma_m,
+           {"m", 0.005, 0.32, "how well the ends of walls are known, across them, one sigma"});
   a.List("walls", walls, "straight walls, without the openings");
   a.List("doors", doors, "doors, each in a gap between two walls");
   a.List("cupboards", cupboards, "cupboards that serve as landmarks");

@@ -93,6 +93,7 @@ struct CupboardPlan {
 
 /// The plan of a building as far as driving needs it: `config/<deployment>/maps/*.toml`.
 struct GroundPlan {
+  double wall_sigma_m = 0.05;  ///< how far an end of a wall may be beside its place, one sigma
   std::vector<WallPlan> walls;
   std::vector<DoorPlan> doors;
   std::vector<CupboardPlan> cupboards;

@@ -29,6 +29,7 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       link_(context.node().Subscribe(channels::kLinkStatus)),
       model_(context.node().Advertise(channels::kLandmarkModel)),
       look_(context.node().Advertise(channels::kLookRequest)),
+      walls_(context.node().Advertise(channels::kPlanWalls)),
       path_(context.node().Advertise(channels::kPath)),
       status_(context.node().Advertise(channels::kMissionStatus)),
       status_rate_(config.status_rate_hz) {
@@ -90,6 +91,7 @@ void PlannerApp::TeachLandmark(int id) {
 
 void PlannerApp::Send(const MissionActions& actions, Time now) {
   if (actions.model) model_.Publish(ToMessage(*actions.model));
+  if (actions.faces) walls_.Publish(ToMessage(*actions.faces, plan_.wall_sigma_m));
   if (actions.path) path_.Publish(ToMessage(*actions.path, now));
   if (actions.look) look_.Publish(ToMessage(*actions.look, now));
 }

@@ -56,6 +56,7 @@ class PlannerApp {
   bus::Latest<link_status_t> link_;
   bus::Publisher<landmark_model_t> model_;
   bus::Publisher<look_request_t> look_;
+  bus::Publisher<plan_walls_t> walls_;
   bus::Publisher<path_t> path_;
   bus::Publisher<mission_status_t> status_;
 

@@ -13,6 +13,7 @@ void PlannerConfig::Describe(Archive& a) {
   a.Section("passage", passage, "paths to a door and through it");
   a.Section("mission", mission, "how the mission through a door goes");
   a.Section("goto", go, "how the mission to a place goes");
+  a.Section("corridor", corridor, "how a corridor is followed");
   a.Section("learned", learned, "which walls that robots found are the same");
   a.Section("doors", doors, "ways that lead through doors");
   a.Section("steps", steps, "how the steps of an order follow each other");

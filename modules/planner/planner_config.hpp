@@ -5,6 +5,7 @@
 #include "common/archive.hpp"
 #include "planner/core/agenda/step_runner.hpp"
 #include "planner/core/map/learned_map.hpp"
+#include "planner/core/missions/corridor_mission.hpp"
 #include "planner/core/missions/door_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
 #include "planner/core/path/door_planner.hpp"
@@ -23,6 +24,7 @@ struct PlannerConfig {
   DoorPlannerConfig passage;
   DoorMissionConfig mission;
   GotoMissionConfig go;
+  CorridorMissionConfig corridor;
   LearnedMapConfig learned;
   DoorRouterConfig doors;
   StepRunnerConfig steps;

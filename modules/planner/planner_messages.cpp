@@ -1,6 +1,7 @@
 #include "planner/planner_messages.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "common/covariance.hpp"
@@ -53,7 +54,8 @@ std::int8_t PhaseOf(Phase phase) {
 AgendaStep FromMessage(const mission_step_t& message) {
   AgendaStep step{{message.mission,
                    message.landmark_id,
-                   {{message.x_m, message.y_m, WrapAngle(message.yaw_rad)}, message.turn != 0}}};
+                   {{message.x_m, message.y_m, WrapAngle(message.yaw_rad)}, message.turn != 0},
+                   message.distance_m}};
   if (message.mission == mission_command_t::WAIT) step.wait_s = message.wait_s;
   return step;
 }
@@ -109,6 +111,7 @@ AgendaOrder OrderIn(const mission_command_t& message) {
     step.y_m = message.y_m;
     step.yaw_rad = message.yaw_rad;
     step.turn = message.turn;
+    step.distance_m = message.distance_m;
     order.steps.push_back(FromMessage(step));
     return order;
   }
@@ -183,6 +186,7 @@ path_t ToMessage(const PathOrder& path, Time now) {
   message.path_id = path.path_id;
   message.estop_changes = static_cast<std::int16_t>(path.estop_changes);
   message.speed_m_s = path.speed_m_s;
+  message.centre = path.centre;
   message.n_points = static_cast<std::int8_t>(path.points.size());
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const Pose2& point = path.points[i];
@@ -195,6 +199,23 @@ path_t ToMessage(const PathOrder& path, Time now) {
       corner.right_m = path.leeway[i].right_m;
     }
     message.points.push_back(corner);
+  }
+  return message;
+}
+
+plan_walls_t ToMessage(const std::vector<WallFace>& faces, double sigma_m) {
+  constexpr double kMostLength_m = 102.3;
+  if (faces.size() > kMostFaces) throw std::invalid_argument("more than 3 walls along a path");
+  plan_walls_t message{};
+  message.n_walls = static_cast<std::int8_t>(faces.size());
+  for (const WallFace& face : faces) {
+    plan_wall_t wall{};
+    wall.x_m = face.from.x();
+    wall.y_m = face.from.y();
+    wall.yaw_rad = std::atan2(face.along().y(), face.along().x());
+    wall.length_m = std::min(face.length_m(), kMostLength_m);
+    wall.sigma_m = sigma_m;
+    message.walls.push_back(wall);
   }
   return message;
 }

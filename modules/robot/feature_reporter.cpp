@@ -58,10 +58,12 @@ FeatureStore& FeatureReporter::Store(Time now) {
   return *store_;
 }
 
-void FeatureReporter::Hear(const SonarCycle& cycle, const Localiser& localiser, Time now) {
-  if (!localiser.estimate()) return;
-  const auto changed = finder_.Add(cycle, localiser.OdometryPoseAt(cycle.time));
+std::vector<const FoundSegment*> FeatureReporter::Hear(const SonarCycle& cycle, const Localiser& localiser,
+                                                       Time now) {
+  if (!localiser.estimate()) return {};
+  auto changed = finder_.Add(cycle, localiser.OdometryPoseAt(cycle.time));
   for (const FoundSegment* found : changed) Store(now).Note(*found, BaseBy(localiser));
+  return changed;
 }
 
 void FeatureReporter::Tick(const Localiser& localiser, Time now) {

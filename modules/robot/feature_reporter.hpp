@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "bus/context.hpp"
 #include "lcmtypes/channels.hpp"
@@ -18,8 +19,9 @@ class FeatureReporter {
  public:
   FeatureReporter(const RobotConfig& config, bus::Context& context);
 
-  /// Takes a cycle of the ring, heard where `localiser` has the base.
-  void Hear(const SonarCycle& cycle, const Localiser& localiser, Time now);
+  /// Takes a cycle of the ring, heard where `localiser` has the base. Returns the walls that it found or that
+  /// grew by it.
+  std::vector<const FoundSegment*> Hear(const SonarCycle& cycle, const Localiser& localiser, Time now);
   /// Takes acknowledgements, and sends what is due.
   void Tick(const Localiser& localiser, Time now);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace priamos::robot {
 namespace {
@@ -53,6 +54,7 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       sonars_(context.node().Subscribe(channels::kSonarRanges)),
       floor_lines_(context.node().SubscribeAll(channels::kObstacleLine)),
       paths_(context.node().SubscribeAll(channels::kPath)),
+      plan_walls_(context.node().SubscribeAll(channels::kPlanWalls)),
       fixes_(context.node().SubscribeAll(channels::kLandmarkFix)),
       pose_resets_(context.node().SubscribeAll(channels::kPoseReset)),
       commands_(context.node().SubscribeAll(channels::kDriveCommand)),
@@ -99,6 +101,7 @@ void RobotApp::Tick(Time now) {
   TakePoseResets(now);
   TakeSignsOfLife(now);
   TakeLeaseRequests(now);
+  TakePlanWalls();
   TakePaths(now);
   TakeCommands(now);
   Drive(now);
@@ -138,7 +141,10 @@ void RobotApp::TakeSonars(Time now) {
   const Pose2& odom_from_base = localiser_.odometry().pose();
   drive_.AddSonar(cycle, odom_from_base);
   localiser_.AddSonar(cycle);
-  features_.Hear(cycle, localiser_, now);
+  for (const FoundSegment* found : features_.Hear(cycle, localiser_, now)) {
+    const WallSegment& wall = found->wall;
+    drive_.AddWall(found->number, {wall.from(), wall.to(), std::sqrt(wall.line().covariance(0, 0))});
+  }
   const auto estimate = localiser_.estimate();
   if (!estimate) return;
   if (const auto opening = opening_watch_.Add(cycle, odom_from_base, estimate->pose)) {
@@ -295,6 +301,17 @@ void RobotApp::TakePaths(Time now) {
     }
     if (!refusal.empty())
       context_.Log(bus::Level::kWarning, fmt::format("path {} refused: {}", message.path_id, refusal));
+  }
+}
+
+void RobotApp::TakePlanWalls() {
+  for (const plan_walls_t& message : plan_walls_.Drain()) {
+    auto walls = FromMessage(message);
+    if (!walls) {
+      context_.Log(bus::Level::kWarning, "walls of the plan refused: numbers out of range");
+      continue;
+    }
+    localiser_.SetPlan(std::move(*walls));
   }
 }
 

@@ -44,6 +44,7 @@ class RobotApp {
   void TakePoseResets(Time now);
   int SetPose(const pose_reset_t& order, Time now, Pose2& change);
   void TakePaths(Time now);
+  void TakePlanWalls();
   void Begin(Time now);
   void TakeEstops(Time now);
   void Rearm();
@@ -79,6 +80,7 @@ class RobotApp {
   bus::Latest<sonar_ranges_t> sonars_;
   bus::Inbox<obstacle_line_t> floor_lines_;
   bus::Inbox<path_t> paths_;
+  bus::Inbox<plan_walls_t> plan_walls_;
   bus::Inbox<landmark_fix_t> fixes_;
   bus::Inbox<pose_reset_t> pose_resets_;
   bus::Inbox<drive_command_t> commands_;

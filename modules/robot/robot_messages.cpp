@@ -69,13 +69,30 @@ std::optional<Path> FromMessage(const path_t& message) {
             .speed_m_s = message.speed_m_s,
             .points = {},
             .leeway = {},
+            .centre = message.centre != 0,
             .estop_changes = message.estop_changes};
+  if (path.centre && message.n_points > 1) return std::nullopt;
   for (const path_point_t& point : message.points) {
     if (!IsOnMap(point) || !IsLeeway(point.left_m) || !IsLeeway(point.right_m)) return std::nullopt;
     path.points.push_back({point.x_m, point.y_m, WrapAngle(point.yaw_rad)});
     path.leeway.push_back({point.left_m, point.right_m});
   }
   return path;
+}
+
+std::optional<std::vector<PlanWall>> FromMessage(const plan_walls_t& message) {
+  constexpr double kLeastLength_m = 0.05, kMostLength_m = 102.3, kLeastSigma_m = 0.001, kMostSigma_m = 0.32;
+  std::vector<PlanWall> walls;
+  for (const plan_wall_t& wall : message.walls) {
+    const bool good = std::abs(wall.x_m) <= kMapReach && std::abs(wall.y_m) <= kMapReach &&
+                      std::isfinite(wall.yaw_rad) && wall.length_m >= kLeastLength_m &&
+                      wall.length_m <= kMostLength_m && wall.sigma_m >= kLeastSigma_m &&
+                      wall.sigma_m <= kMostSigma_m;
+    if (!good) return std::nullopt;
+    const Pose2 from{wall.x_m, wall.y_m, WrapAngle(wall.yaw_rad)};
+    walls.push_back({from.translation(), from * Eigen::Vector2d(wall.length_m, 0), wall.sigma_m});
+  }
+  return walls;
 }
 
 std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message) {

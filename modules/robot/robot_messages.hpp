@@ -17,6 +17,8 @@ SonarCycle FromMessage(const sonar_ranges_t& message);
 /// Path in the map frame; nullopt if it cannot be driven: points that are not finite or outside the map's 100
 /// m, or a speed that is not above 0 while there are points.
 std::optional<Path> FromMessage(const path_t& message);
+/// Walls of the plan; nullopt when a number is out of range.
+std::optional<std::vector<PlanWall>> FromMessage(const plan_walls_t& message);
 /// Fix from the head; nullopt unless it found the landmark. Numbers that make no sense become a fix that the
 /// estimator refuses.
 std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message);

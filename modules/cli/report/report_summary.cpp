@@ -136,6 +136,12 @@ nlohmann::ordered_json ToJson(const BeliefAtDoor& belief) {
           {"nees", belief.nees}};
 }
 
+nlohmann::ordered_json ToJson(const CorridorSummary& corridor) {
+  return {{"driven_m", corridor.driven_m},
+          {"across_rms_m", corridor.across_rms_m},
+          {"end", corridor.end ? ToJson(*corridor.end) : nlohmann::ordered_json(nullptr)}};
+}
+
 nlohmann::ordered_json ToJson(const HandSummary& hand) {
   return {{"wished_s", hand.wished_s},
           {"honoured", Json(hand.honoured())},
@@ -165,6 +171,7 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   }
   const RunRecord on_plan = OnPlan(record, info);
   if (crossing) summary.belief_at_door = BeliefAt(on_plan, info.door, crossing->utime);
+  summary.corridor = CorridorSummaryOf(record);
   summary.duration_s = Seconds(Duration(span.end_utime - span.begin_utime));
   summary.mean_speed_m_s = MeanSpeed(record);
   summary.min_speed_during_fix_m_s = SlowestDuringFixes(record);
@@ -197,6 +204,7 @@ nlohmann::ordered_json ToJson(const Summary& summary) {
           {"heading_at_door_deg", Json(summary.heading_at_door_deg)},
           {"belief_at_door",
            summary.belief_at_door ? ToJson(*summary.belief_at_door) : nlohmann::ordered_json(nullptr)},
+          {"corridor", summary.corridor ? ToJson(*summary.corridor) : nlohmann::ordered_json(nullptr)},
           {"duration_s", summary.duration_s},
           {"mean_speed_m_s", summary.mean_speed_m_s},
           {"min_speed_during_fix_m_s", Json(summary.min_speed_during_fix_m_s)},

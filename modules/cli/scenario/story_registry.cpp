@@ -14,6 +14,7 @@ struct StoryList {
 
 /// One line per story: its class, which its own file defines.
 using AllStories = StoryList<  //
+    class CorridorStory,       //
     class DoorStory,           //
     class GotoStory,           //
     class PatrolStory,         //

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "robot/core/motion/drive_controller.hpp"
 #include "robot/core/pose/localiser.hpp"
+#include "robot/core/sonar/segment_finder.hpp"
 #include "test/robot/support/simulated_base.hpp"
 #include "test/robot/support/simulated_sonars.hpp"
 
@@ -18,9 +20,11 @@ class RobotRig {
       : base_(seed, truth),
         sonars_(seed, std::move(surfaces)),
         localiser_(localiser, MecanumGeometry(), drive.footprint),
-        drive_(drive, MecanumGeometry()) {}
+        drive_(drive, MecanumGeometry()),
+        finder_({}, localiser.odometry.noise, drive.footprint) {}
 
   bool wheels_answer = true, sonars_answer = true, wheels_turn = true, head_answers = true;
+  bool finds_walls = false;  ///< the controller is told of walls that the ring shows
   Duration link_down{};
 
   SimulatedBase& base() { return base_; }
@@ -60,6 +64,10 @@ class RobotRig {
       const SonarCycle cycle = sonars_.Listen(now(), base_.truth());
       drive_.AddSonar(cycle, localiser_.odometry().pose());
       localiser_.AddSonar(cycle);
+      if (finds_walls)
+        for (const FoundSegment* found : finder_.Add(cycle, localiser_.odometry().pose()))
+          drive_.AddWall(found->number, {found->wall.from(), found->wall.to(),
+                                         std::sqrt(found->wall.line().covariance(0, 0))});
     }
     answers_ = localiser_.Step(now());
     command_ = drive_.Step({localiser_.estimate(), localiser_.odometry().pose(), heard_,
@@ -79,6 +87,7 @@ class RobotRig {
   SimulatedSonars sonars_;
   Localiser localiser_;
   DriveController drive_;
+  SegmentFinder finder_;
   std::optional<Time> heard_;
   std::optional<WheelSpeeds> command_;
   std::vector<Localiser::Answer> answers_;

@@ -39,6 +39,15 @@ int GoTo(const MissionOptions& options) {
   return GiveOrder(options, command, "goto");
 }
 
+int FollowCorridor(const MissionOptions& options) {
+  mission_command_t command{};
+  command.mission = mission_command_t::CORRIDOR;
+  command.distance_m = static_cast<float>(options.distance_m);
+  command.turn = options.yaw_deg.has_value();
+  command.yaw_rad = WrapAngle(Radians(options.yaw_deg.value_or(0)));
+  return GiveOrder(options, command, "corridor");
+}
+
 int Abort(const MissionOptions& options) {
   mission_command_t command{};
   command.mission = mission_command_t::ABORT;
@@ -114,6 +123,22 @@ void AddGotoVerb(CLI::App& mission, int& exit_code) {
   CompleteMission(*verb, options, GoTo, exit_code);
 }
 
+void AddCorridorVerb(CLI::App& mission, int& exit_code) {
+  constexpr double kLongest_m = 180, kTurn_deg = 360;
+  auto options = std::make_shared<MissionOptions>();
+  auto* verb = AddVerb(mission, "corridor",
+                       "Follow the corridor in which the robot stands, by its sonars; ends when the robot is "
+                       "under way, with --wait when it is at the end (exit code 1: not).");
+  verb->footer("Example: priamos mission corridor 20 --wait");
+  verb->add_option("distance", options->distance_m, "[m] how far; to the corridor's end if not given")
+      ->check(CLI::Range(0.0, kLongest_m));
+  verb->add_option("--yaw", options->yaw_deg,
+                   "[deg] direction of the corridor, map frame; the way the robot stands if not given")
+      ->check(CLI::Range(-kTurn_deg, kTurn_deg));
+  verb->add_flag("--wait", options->wait, "until the mission is over");
+  CompleteMission(*verb, options, FollowCorridor, exit_code);
+}
+
 void AddAbortVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
   auto* verb =
@@ -137,6 +162,7 @@ void AddMissionCommand(CLI::App& cli, int& exit_code) {
   mission->require_subcommand(1);
   AddDoorVerb(*mission, exit_code);
   AddGotoVerb(*mission, exit_code);
+  AddCorridorVerb(*mission, exit_code);
   AddAbortVerb(*mission, exit_code);
   AddStatusVerb(*mission, exit_code);
   AddQueueVerbs(*mission, exit_code);

@@ -25,6 +25,7 @@ struct MissionOptions {
   std::string door, file;
   double x_m = 0, y_m = 0;
   std::optional<double> yaw_deg;
+  double distance_m = 0;       ///< along a corridor; 0: to its end
   std::vector<double> places;  ///< x and y in turn
   int order = 0;
   std::string deployment = "sim";

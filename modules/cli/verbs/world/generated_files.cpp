@@ -65,13 +65,13 @@ double LengthOf(const std::vector<Pose2>& waypoints, const world::StartPlan& sta
 }
 
 Scenario ScenarioOf(const world::GeneratedWorld& generated, const GeneratedFiles& files,
-                    const std::vector<Pose2>& waypoints, const fs::path& base) {
+                    const std::vector<Pose2>& waypoints, bool follows, const fs::path& base) {
   Scenario scenario = LoadScenario(base.string(), kBaseScenario);
   scenario.title = files.scenario;
   scenario.map = files.map;
   scenario.landmark_id = generated.door_id;
   scenario.time_limit_s = std::ceil(LengthOf(waypoints, generated.world.start) / kSlow_m_s + kLongestWait_s);
-  if (!waypoints.empty()) scenario.story = "goto";
+  if (!waypoints.empty()) scenario.story = follows ? "corridor" : "goto";
   for (const Pose2& waypoint : waypoints)
     scenario.waypoints.push_back({waypoint.x, waypoint.y, Degrees(waypoint.yaw)});
   for (ScenarioProcess& process : scenario.processes) {
@@ -90,7 +90,11 @@ GeneratedFiles WriteGenerated(const world::GeneratedWorld& generated, const std:
   const std::string name = fmt::format("{}-{}", kind, seed);
   const GeneratedFiles files{name, "worlds/" + name + ".toml", "maps/" + name + ".toml",
                              "maps/" + name + "-true.toml"};
+  const bool follows = task == GeneratedTask::kCorridor && generated.corridor_end;
   const bool round = task == GeneratedTask::kThereAndBack && !generated.round.empty();
+  const std::vector<Pose2> waypoints = follows ? std::vector{*generated.corridor_end}
+                                       : round ? generated.round
+                                               : generated.waypoints;
   const fs::path into(folder);
   try {
     CopyDeployment(base, into);
@@ -100,8 +104,7 @@ GeneratedFiles WriteGenerated(const world::GeneratedWorld& generated, const std:
     Write(into / files.truth, "The building as it is: " + by, generated.truth);
     Write(into / files.map, "The building as a person with a tape has it: " + by, generated.surveyed);
     Write(into / files.world, "What stands and moves there: " + by, world);
-    Write(into / ("scenarios/" + name + ".toml"), by,
-          ScenarioOf(generated, files, round ? generated.round : generated.waypoints, base));
+    Write(into / ("scenarios/" + name + ".toml"), by, ScenarioOf(generated, files, waypoints, follows, base));
   } catch (const fs::filesystem_error& error) {
     RefuseFolder(into, error.code().message());
   }

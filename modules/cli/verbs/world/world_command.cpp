@@ -18,12 +18,14 @@ namespace {
 struct GenerateOptions {
   std::string kind = "room", into, deployment = "sim";
   std::uint64_t seed = 1;
-  bool there_and_back = false, json = false;
+  bool there_and_back = false, follow = false, json = false;
 };
 
 int RunGenerate(const GenerateOptions& options) {
   const auto generated = world::Generate(options.kind, options.seed);
-  const auto task = options.there_and_back ? GeneratedTask::kThereAndBack : GeneratedTask::kDoor;
+  const auto task = options.follow           ? GeneratedTask::kCorridor
+                    : options.there_and_back ? GeneratedTask::kThereAndBack
+                                             : GeneratedTask::kDoor;
   const auto files = WriteGenerated(generated, options.kind, options.seed, task,
                                     FolderOfDeployment(options.deployment), options.into);
   const std::string next =
@@ -72,6 +74,8 @@ void AddGenerate(CLI::App& world, int& exit_code) {
   verb->add_option("--into", options->into, "folder of a deployment; made when it is not there")->required();
   verb->add_flag("--there-and-back", options->there_and_back,
                  "the robot is sent to a place behind the door, and back; without: it passes the door");
+  verb->add_flag("--follow", options->follow,
+                 "the robot follows the corridor by sonar to its end; in a room it passes the door");
   AddDeploymentOption(*verb, options->deployment);
   CompleteVerb(*verb, options, RunGenerate, exit_code, "the files' names as JSON");
 }

@@ -23,6 +23,8 @@ std::string Agenda::TitleOf(const AgendaStep& step) const {
   const Pose2& to = step.order.goal.map_from_base;
   if (step.order.kind == kinds_.go) return fmt::format("goto ({:.2f}, {:.2f})", to.x, to.y);
   if (step.order.kind == kinds_.pass) return fmt::format("door '{}'", router_.NameOf(step.order.landmark_id));
+  if (step.order.kind == kinds_.follow && step.order.distance_m == 0) return "corridor to its end";
+  if (step.order.kind == kinds_.follow) return fmt::format("corridor for {:.1f} m", step.order.distance_m);
   return fmt::format("mission {}", step.order.kind);
 }
 

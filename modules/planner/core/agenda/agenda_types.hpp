@@ -36,10 +36,11 @@ struct AgendaResult {
   std::string text;  ///< what was reached, or the reason
 };
 
-/// The kinds of MissionOrder that lead through doors, by their numbers in the mission table.
+/// Kinds of MissionOrder by their numbers in the mission table; the first two lead through doors.
 struct AgendaKinds {
-  int go = 0;    ///< to a place
-  int pass = 0;  ///< through a door
+  int go = 0;       ///< to a place
+  int pass = 0;     ///< through a door
+  int follow = -1;  ///< along a corridor
 };
 
 /// Planned speeds of the two, with which the time left is computed.

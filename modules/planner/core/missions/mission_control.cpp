@@ -27,6 +27,7 @@ void MissionControl::Begin(Time now) {
   if (heard_.drive) estop_changes_ = heard_.drive->estop_changes;
   NumberFrom(now);
   Enter(Phase::kWaiting, "waiting for the robot's pose");
+  faces_are_own_ = false;
 }
 
 /// Numbers begin with the clock, so that an answer meant for an earlier planner process is not taken for
@@ -43,15 +44,20 @@ void MissionControl::NoteDrive(const DriveReport& drive) {
 
 void MissionControl::Fail(std::string reason) {
   Enter(Phase::kFailed, std::move(reason));
-  actions_ = {};
+  // Not the walls of the plan: the robot is taken to have them.
+  actions_.model.reset();
+  actions_.look.reset();
   OrderPath({}, 0);
 }
 
 void MissionControl::OrderPath(PlannedPath path, double speed_m_s) {
+  // Walls of the plan are as wrong as its doors: who is led by a door is not to be led by them as well.
+  if (!faces_are_own_ && !path.points.empty()) SendFaces({});
   path_ = {.path_id = NextNumber(),
            .speed_m_s = speed_m_s,
            .points = std::move(path.points),
-           .leeway = std::move(path.leeway)};
+           .leeway = std::move(path.leeway),
+           .centre = path.centre};
   path_start_ = heard_.pose ? heard_.pose->map_from_base : Pose2{};
   remaining_m_ = LengthOf(path_start_, path_.points);
   n_stand_repeats_ = 0;
@@ -85,13 +91,34 @@ void MissionControl::GoOn() {
   const Held held = *std::exchange(held_, std::nullopt);
   PathOrder left = held.path;
   if (heard_.pose) left = RemainderOf(held.path, held.start, held.remaining_m, heard_.pose->map_from_base);
-  OrderPath({std::move(left.points), std::move(left.leeway)}, held.path.speed_m_s);
+  PlannedPath path;
+  path.points = std::move(left.points);
+  path.leeway = std::move(left.leeway);
+  path.centre = left.centre;
+  OrderPath(std::move(path), held.path.speed_m_s);
 }
 
 void MissionControl::SendPath() {
   path_.estop_changes = estop_changes_.value_or(0);
   path_sent_ = now_;
   actions_.path = path_;
+}
+
+void MissionControl::SendFaces(std::vector<WallFace> faces) {
+  faces_are_own_ = true;
+  if (faces == faces_) return;
+  faces_ = std::move(faces);
+  actions_.faces = faces_;
+  faces_sent_ = now_;
+}
+
+/// Whether they came is not told: an order that is lost on the radio, or by a robot that starts anew, costs
+/// so long.
+void MissionControl::RepeatFaces() {
+  constexpr double kEvery_s = 10;
+  if (!faces_sent_ || Seconds(now_ - *faces_sent_) < kEvery_s) return;
+  actions_.faces = faces_;
+  faces_sent_ = now_;
 }
 
 int MissionControl::OrderLook(int landmark_id, Side side) {

@@ -51,6 +51,8 @@ class MissionControl {
 
   /// Orders a look of the head at a side of a landmark. Returns the number that its answer will carry.
   int OrderLook(int landmark_id, Side side);
+  /// Sends the walls of the plan along the way, unless the robot has just these.
+  void SendFaces(std::vector<WallFace> faces);
   /// Sends a landmark's model to the head.
   void SendModel(Landmark model) { actions_.model = std::move(model); }
 
@@ -69,6 +71,7 @@ class MissionControl {
   void SendPath();
   void NumberFrom(Time now);
   void RepeatUnconfirmedPath(double after_s);
+  void RepeatFaces();
   int NextNumber();
 
   Heard heard_;
@@ -79,8 +82,11 @@ class MissionControl {
   PathOrder path_;
   std::optional<Time> path_sent_;
   int n_stand_repeats_ = 0;
-  Pose2 path_start_;        ///< where the robot was when path_ was ordered
-  double remaining_m_ = 0;  ///< of path_, as reported last
+  std::vector<WallFace> faces_;  ///< that the robot is to have
+  std::optional<Time> faces_sent_;
+  bool faces_are_own_ = false;  ///< this mission has said which
+  Pose2 path_start_;            ///< where the robot was when path_ was ordered
+  double remaining_m_ = 0;      ///< of path_, as reported last
   /// The path to go on with, and the same of it.
   struct Held {
     PathOrder path;

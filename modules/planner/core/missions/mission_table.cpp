@@ -116,6 +116,7 @@ void MissionTable::Step(Mission& mission) {
   if (Silence_s(control_.now())) return;
   if (!paused_since_) Decide(mission);
   if (running()) control_.RepeatUnconfirmedPath(mission.limits().resend_path_s);
+  if (running()) control_.RepeatFaces();
 }
 
 void MissionTable::Decide(Mission& mission) {

@@ -9,6 +9,7 @@
 #include "common/robot/leeway.hpp"
 #include "common/time.hpp"
 #include "planner/core/map/door_landmark.hpp"
+#include "planner/core/map/wall_faces.hpp"
 #include "planner/core/path/planned_path.hpp"
 
 /// Inputs and outputs of a mission. Everything it receives from the robot has crossed a slow radio: stamps
@@ -17,9 +18,10 @@ namespace priamos::planner {
 
 /// An operator's order to carry out a mission.
 struct MissionOrder {
-  int kind = 0;         ///< index of the mission in the mission table
-  int landmark_id = 0;  ///< landmark of the map that the mission concerns
-  Goal goal{};          ///< place that it leads to
+  int kind = 0;           ///< index of the mission in the mission table
+  int landmark_id = 0;    ///< landmark of the map that the mission concerns
+  Goal goal{};            ///< place that it leads to
+  double distance_m = 0;  ///< how far a corridor is followed; 0: to its end
 };
 
 /// Where the robot was at `stamp` and how it moved (base frame), as in POSE.
@@ -85,6 +87,7 @@ struct PathOrder {
   std::vector<Pose2> points;     ///< none: brake and hold
   std::vector<Leeway> leeway{};  ///< of the line to each point; missing ones are 0
   int estop_changes = 0;         ///< DriveReport::estop_changes when the mission was ordered
+  bool centre = false;           ///< keep to the middle between the walls that are heard; of one point
 };
 
 /// A look that the head is to take.
@@ -97,6 +100,8 @@ struct LookOrder {
 /// What is to be sent now, in this order.
 struct MissionActions {
   std::optional<Landmark> model;
+  std::optional<std::vector<WallFace>>
+      faces{};  ///< walls of the plan along the path; none: forget those before
   std::optional<PathOrder> path;
   std::optional<LookOrder> look;
 };

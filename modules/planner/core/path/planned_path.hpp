@@ -34,6 +34,7 @@ struct PlannedPath {
   std::vector<Pose2> points;
   std::vector<Leeway> leeway{};  ///< of the line to each point: what the plan leaves free; missing ones are 0
   double min_gap_m = 0;          ///< smallest planned distance to an obstacle, start to end
+  bool centre = false;           ///< keep to the middle between the walls that are heard; of one point
 };
 
 }  // namespace priamos::planner

@@ -34,6 +34,12 @@ class Detour {
   double At(double s) const;
   /// Change of the distance per metre of the path.
   double SlopeAt(double s) const;
+  /// The same beside a path that begins at the arc length `s` of this one's.
+  Detour From(double s) const {
+    Detour same = *this;
+    same.from_ -= s;
+    return same;
+  }
   /// Whether it leaves the path anywhere.
   bool leaves() const { return leaves_; }
 

@@ -13,6 +13,7 @@ void DriveConfig::Describe(Archive& a) {
   a.Number("fix_needed_m", fix_needed_m, {"m", 0.01, 5, "a silent head matters when sigma is larger"});
   a.Section("footprint", footprint, "the body of the base");
   a.Section("follower", follower, "how a path is driven");
+  a.Section("corridor", corridor, "which walls are those of a corridor that is followed");
   a.Section("acceleration", acceleration, "limits while a path is driven");
   a.Section("operator_acceleration", operator_acceleration, "limits while an operator drives");
   a.Section("braking", braking, "limits while a hold brakes the base");

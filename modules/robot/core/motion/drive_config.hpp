@@ -2,6 +2,7 @@
 
 #include "common/archive.hpp"
 #include "robot/core/base/twist_slew.hpp"
+#include "robot/core/motion/corridor_axis.hpp"
 #include "robot/core/motion/path_follower.hpp"
 #include "robot/core/safety/authority.hpp"
 #include "robot/core/safety/collision_stop.hpp"
@@ -16,6 +17,7 @@ namespace priamos::robot {
 struct DriveConfig {
   Footprint footprint;
   PathFollowerConfig follower;
+  CorridorConfig corridor;
   AccelerationLimits acceleration;
   AccelerationLimits operator_acceleration{.acceleration_m_s2 = 0.8, .turn_acceleration_rad_s2 = 1.5};
   AccelerationLimits braking{.acceleration_m_s2 = 1.0, .turn_acceleration_rad_s2 = 2.0};

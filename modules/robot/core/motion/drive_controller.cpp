@@ -52,6 +52,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
     : config_(config),
       geometry_(geometry),
       follower_(config.follower, config.footprint),
+      corridor_(config.corridor),
       slew_(config.acceleration),
       operator_slew_(config.operator_acceleration),
       brake_(config.braking),
@@ -190,7 +191,9 @@ FailsafeDecision DriveController::Watch(const DriveSituation& situation, Time no
   return failsafe_.Update(inputs, now);
 }
 
+/// Between walls that it hears a base is not lost, however little it knows of the map.
 bool DriveController::IsLost(const DriveSituation& situation) const {
+  if (situation.estimate && path_ && path_->centre) return false;
   return !situation.estimate || !(situation.estimate->PositionSigma() < config_.lost_position_m) ||
          !(situation.estimate->YawSigma() < Radians(config_.lost_yaw_deg));
 }
@@ -210,11 +213,12 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   const PoseEstimate& estimate = *situation.estimate;
   // What lasts too short to stop a drive is enough not to begin one.
   if (path_is_new_ && !IsLost(situation)) {
-    follower_.Follow(*path_, estimate.pose);
+    BeginPath(situation);
     path_is_new_ = false;
     state_.mode = DriveMode::kFollowing;
   }
   if (!follower_.has_path()) return {};
+  if (path_->centre) KeepCentred(situation, now);
   follower_.Avoid(ThingsInMap(situation, around, now), estimate.pose, now);
   const double age_s = std::clamp(Seconds(now - estimate.time), 0.0, config_.failsafe.wheels_silent_s);
   const PathFollower::Wanted wanted = follower_.Step(estimate.pose, estimate.twist, age_s, dt_s);
@@ -222,6 +226,30 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   state_.cross_track_m = wanted.cross_track_m;
   if (wanted.arrived) state_.mode = DriveMode::kArrived;
   return wanted.twist;
+}
+
+/// A centred path begins where the base is, in the direction of the corridor.
+void DriveController::BeginPath(const DriveSituation& situation) {
+  Pose2 start = situation.estimate->pose;
+  if (path_->centre) {
+    start.yaw = path_->points.front().yaw;
+    realigned_.reset();
+    corridor_.Begin(situation.odom_from_base,
+                    WrapAngle(start.yaw - situation.estimate->pose.yaw + situation.odom_from_base.yaw));
+  }
+  follower_.Follow(*path_, start);
+}
+
+/// The pose may be wrong, or be corrected on the way: the walls are heard, and lead.
+void DriveController::KeepCentred(const DriveSituation& situation, Time now) {
+  if (state_.mode == DriveMode::kArrived) return;
+  if (realigned_ && now - *realigned_ < FromSeconds(config_.corridor.realign_s)) return;
+  realigned_ = now;
+  const Pose2 map_from_odom = situation.estimate->pose * situation.odom_from_base.Inverse();
+  const CentredPath centred = AlongAxis(*path_, corridor_.Follow(situation.odom_from_base), map_from_odom,
+                                        follower_.RemainingFrom(situation.estimate->pose),
+                                        config_.footprint.width_m / 2, config_.corridor);
+  follower_.Realign(centred.path, centred.start);
 }
 
 /// What a path is to be led around. What stops the base is among it also before there is evidence.

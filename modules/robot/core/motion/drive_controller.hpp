@@ -6,6 +6,7 @@
 #include "common/time.hpp"
 #include "robot/core/base/mecanum.hpp"
 #include "robot/core/base/twist_slew.hpp"
+#include "robot/core/motion/corridor_axis.hpp"
 #include "robot/core/motion/deflection.hpp"
 #include "robot/core/motion/drive_config.hpp"
 #include "robot/core/motion/path_follower.hpp"
@@ -90,6 +91,9 @@ class DriveController {
   /// Takes a cycle of the sonars. `odom_from_base`: pose when the cycle ended.
   void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) { echoes_.Add(cycle, odom_from_base); }
 
+  /// Takes a piece of wall that was found or has grown: a centred path is led by them.
+  void AddWall(int number, const WallPiece& piece) { corridor_.Note(number, piece); }
+
   /// What shows touches: the bumper, motor currents, and the velocity by the encoders.
   TouchWatch& touch_watch() { return touch_; }
 
@@ -113,6 +117,8 @@ class DriveController {
   std::vector<Eigen::Vector2d> ThingsInMap(const DriveSituation& situation, const Obstacles& around,
                                            Time now) const;
   Twist2 WantedByPath(const DriveSituation& situation, const Obstacles& around, Time now, double dt_s);
+  void BeginPath(const DriveSituation& situation);
+  void KeepCentred(const DriveSituation& situation, Time now);
   void StandIfLetGo(Time now);
   Twist2 WantedByOperator(Time now) const;
   Twist2 FreeOf(const Twist2& motion, const Obstacles& around) const;
@@ -130,6 +136,7 @@ class DriveController {
   DriveConfig config_;
   MecanumGeometry geometry_;
   PathFollower follower_;
+  CorridorGuide corridor_;
   TwistSlew slew_, operator_slew_, brake_;
   EchoMemory echoes_;
   FloorMemory floor_;
@@ -142,6 +149,7 @@ class DriveController {
   bool path_is_new_ = false;  ///< not yet given to the follower
   bool ever_ordered_ = false;
   std::optional<Time> last_step_, first_step_, sonar_heard_;
+  std::optional<Time> realigned_;  ///< when the walls were looked at last to keep the path between them
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;
 };
 

@@ -62,6 +62,12 @@ void PathFollower::Follow(const Path& path, const Pose2& pose) {
   arrived_ = false;
 }
 
+void PathFollower::Realign(const Path& path, const Pose2& start) {
+  detour_ = detour_.From(s_);
+  shape_.emplace(config_.shape, start, path);
+  s_ = 0;
+}
+
 void PathFollower::Avoid(std::span<const Eigen::Vector2d> things, const Pose2& pose, Time now) {
   if (!shape_ || (searched_ && now - *searched_ < FromSeconds(config_.detour.replan_s))) return;
   searched_ = now;

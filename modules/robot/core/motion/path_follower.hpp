@@ -52,12 +52,19 @@ class PathFollower {
   /// Takes a path; replaces the one before. It begins at `pose`, or beside it on its own first line when the
   /// first point has just been passed.
   void Follow(const Path& path, const Pose2& pose);
+  /// Lays the path that is being driven anew, beside the base: `start` is there, on the new one. Where it is
+  /// left around things it still is.
+  void Realign(const Path& path, const Pose2& start);
   /// Looks, a few times per second, for a way around `things` (map frame [m]) within the leeway of the path,
   /// and goes by it. A way that was found stays until there is a better one.
   void Avoid(std::span<const Eigen::Vector2d> things, const Pose2& pose, Time now);
   /// Drops the path; Step then returns a velocity of 0.
   void Drop();
   bool has_path() const { return shape_.has_value(); }
+  /// Distance left from beside `pose` to the end of the path, which is being driven.
+  double RemainingFrom(const Pose2& pose) const {
+    return shape_->RemainingDistance(shape_->Project(pose, s_));
+  }
 
   /// Computes the wanted velocity. `pose` and `twist` are the newest estimate, `age_s` its age, `dt_s` the
   /// time since the last call. Once arrived it stays arrived until the next path, whatever corrections come.

@@ -15,7 +15,7 @@ constexpr double kLeastPace = 0.1;
 
 bool SameCourse(const Path& a, const Path& b) {
   const auto same = [](const Pose2& p, const Pose2& q) { return p.x == q.x && p.y == q.y && p.yaw == q.yaw; };
-  return a.id == b.id && a.speed_m_s == b.speed_m_s &&
+  return a.id == b.id && a.speed_m_s == b.speed_m_s && a.centre == b.centre &&
          std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same);
 }
 

@@ -16,6 +16,7 @@ struct Path {
   double speed_m_s = 0;
   std::vector<Pose2> points{};   ///< from the next one to the goal; none: brake and hold
   std::vector<Leeway> leeway{};  ///< of the line to each point; missing ones are 0
+  bool centre = false;           ///< keep to the middle of a corridor; one point, ahead in its direction
   int estop_changes = 0;         ///< Authority::estop_changes() as who ordered the path knew it
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "robot/core/base/odometry.hpp"
@@ -41,6 +42,8 @@ class Localiser {
   Pose2 Reset(const KnownPose& known);
   /// Takes a cycle of the sonars: ranges of straight walls hold the pose, their heading above all.
   void AddSonar(const SonarCycle& cycle);
+  /// Sets the walls of the plan by which the pose is corrected; none: it is not.
+  void SetPlan(std::vector<PlanWall> plan) { estimator_.SetPlan(std::move(plan)); }
   /// Applies the fixes that can be applied. Returns one answer per fix that no longer waits.
   std::vector<Answer> Step(Time now);
 
@@ -48,6 +51,8 @@ class Localiser {
   /// The base in the odometry frame at a time that has passed, for instance that of an exposure: back from
   /// the newest sample with its velocity, 5 s at most. The newest pose for a time after it.
   Pose2 OdometryPoseAt(Time time) const;
+  /// How often a wall was found to be one of the plan.
+  int plan_matches() const { return estimator_.plan_matches(); }
   std::optional<PoseEstimate> estimate() const { return estimator_.newest(); }
 
  private:

@@ -49,6 +49,7 @@ void PoseEstimatorConfig::Describe(Archive& a) {
   a.Number("least_fix_sigma_deg", least_fix_sigma_deg, {"deg", 1e-4, 10, "no fix is believed to be better"});
   a.Section("initial", initial, "where the robot starts; errors are bounds, not sigmas");
   a.Section("walls", walls, "which ranges of the sonars count as those of a straight wall");
+  a.Section("plan", plan, "which straight walls count as those of the plan");
   a.Section("bias", bias, "constant errors of the odometry, sigma before the first fix");
 }
 
@@ -94,6 +95,7 @@ Pose2 PoseEstimator::Reset(const KnownPose& known) {
   state.covariance.diagonal().head<3>() =
       Eigen::Vector3d(known.sigma_m, known.sigma_m, known.sigma_yaw_rad).cwiseAbs2();
   heard_.clear();
+  compared_.reset();
   if (history_.empty()) {
     initial_ = state;
   } else {
@@ -155,6 +157,22 @@ void PoseEstimator::Hear(const RingHeard& heard) {
     if (update.heard[i]) heard_[i] = heard.time;
   for (const WallSeen& wall : heard.walls) TakeUp(update.state, wall, entry);
   Replay(index);
+  ComparePlan(index);
+}
+
+/// After the ranges, and before what is driven since: that is carried forward once more.
+void PoseEstimator::ComparePlan(std::size_t index) {
+  constexpr Duration kHeard = std::chrono::milliseconds(300);
+  Entry& entry = history_[index];
+  if (plan_.empty() || (compared_ && entry.step.to - *compared_ < FromSeconds(config_.plan.every_s))) return;
+  std::bitset<PoseState::kMostWalls> heard;
+  for (std::size_t i = 0; i < heard_.size(); ++i) heard[i] = entry.step.to - heard_[i] < kHeard;
+  entry.matches = MatchPlan(entry.state, heard, plan_, config_.plan);
+  if (entry.matches.empty()) return;
+  compared_ = entry.step.to;
+  plan_matches_ += static_cast<int>(entry.matches.size());
+  for (const PlanMatch& match : entry.matches) entry.state = Updated(entry.state, match);
+  Replay(index + 1);
 }
 
 /// A wall that is known and heard is not taken up again, one that is no longer heard gives way.
@@ -233,6 +251,7 @@ void PoseEstimator::Replay(std::size_t from) {
     entry.state = Updated(Propagated(history_[i - 1].state, entry.step), entry.ranges, config_.walls).state;
     if (entry.lost) entry.state = WithoutWall(entry.state, *entry.lost);
     if (entry.found) entry.state = WithWall(entry.state, *entry.found);
+    for (const PlanMatch& match : entry.matches) entry.state = Updated(entry.state, match);
     if (!entry.fix) continue;
     entry.state = Updated(entry.state, MeasurementOf(*entry.fix)).state;
   }

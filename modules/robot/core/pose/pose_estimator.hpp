@@ -3,6 +3,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/archive.hpp"
@@ -10,6 +11,7 @@
 #include "common/time.hpp"
 #include "robot/core/base/odometry.hpp"
 #include "robot/core/pose/landmark_update.hpp"
+#include "robot/core/pose/plan_match.hpp"
 #include "robot/core/pose/wall_update.hpp"
 
 namespace priamos::robot {
@@ -35,6 +37,7 @@ struct PoseEstimatorConfig {
       0.0003;  ///< least sigma of a fix: 1 ms at 0.3 m/s, the error of the picture's time
   double least_fix_sigma_deg = 0.01;
   WallRangeConfig walls;
+  PlanMatchConfig plan;
 
   void Describe(Archive& a);
 };
@@ -106,6 +109,10 @@ class PoseEstimator {
 
   /// Corrects the pose by the ranges of walls that it knows, and takes up walls that it does not.
   void Hear(const RingHeard& heard);
+  /// Sets the walls of the plan around the base; what the ring hears of them corrects the pose.
+  void SetPlan(std::vector<PlanWall> plan) { plan_ = std::move(plan); }
+  /// How often a wall was found to be one of the plan.
+  int plan_matches() const { return plan_matches_; }
   /// How many straight walls hold the pose now.
   int walls() const { return history_.empty() ? 0 : history_.back().state.walls(); }
 
@@ -120,12 +127,14 @@ class PoseEstimator {
     std::vector<RangeSeen> ranges{};   ///< what the ring heard at this entry
     std::optional<int> lost{};         ///< the wall that was given up after these ranges
     std::optional<WallSeen> found{};   ///< the wall that was taken up then
+    std::vector<PlanMatch> matches{};  ///< walls that were found to be the plan's then
   };
 
   std::optional<FixResult> RefuseByForm(const LandmarkFix& fix) const;
   LandmarkMeasurement MeasurementOf(const LandmarkFix& fix) const;
   std::size_t EntryAt(Time time);
   void Replay(std::size_t from);
+  void ComparePlan(std::size_t index);
   void TakeUp(const PoseState& state, const WallSeen& seen, Entry& entry);
   PoseEstimate EstimateAt(const Entry& entry) const;
   void Forget();
@@ -135,6 +144,9 @@ class PoseEstimator {
   std::deque<Entry> history_;  ///< ascending in time; front() is where replay may start
   std::vector<Time> heard_;    ///< when each wall of the newest state was heard last
   Time newest_cycle_{};
+  std::vector<PlanWall> plan_;
+  std::optional<Time> compared_;  ///< when the walls were compared with the plan last
+  int plan_matches_ = 0;
 };
 
 }  // namespace priamos::robot

@@ -16,6 +16,8 @@ using Eigen::Vector2d;
 /// Walls of a sketch are centre lines; rooms are spoken of by their inner size.
 constexpr double kHalfWall_m = 0.07;
 constexpr double kCeiling_m = 2.8;
+/// So far before a wall is the middle of a base that comes no nearer.
+constexpr double kStands_m = 0.6;
 /// Number of a door's landmark for who comes back through it, less the door's.
 constexpr int kBehind = 100;
 
@@ -141,6 +143,7 @@ GeneratedWorld Building::Finish() {
   light.y_max_m = high.y() + 2;
   out_.truth = PlanOf(sketch_);
   out_.surveyed = PlanOf(Surveyed(sketch_, rng_));
+  out_.surveyed.wall_sigma_m = kSurveyedWall_m;
   return std::move(out_);
 }
 
@@ -184,6 +187,7 @@ GeneratedWorld Building::Corridor() {
   const double length_m = rng_.Uniform(20, 80), width_m = rng_.Uniform(1.6, 3);
   CorridorSides(length_m, width_m, 1);
   Wall("east", {length_m + kHalfWall_m, -width_m / 2}, {length_m + kHalfWall_m, width_m / 2});
+  out_.corridor_end = Pose2{length_m - kStands_m, 0, 0};
   const double begin_m = rng_.Uniform(1.5, 3), lane_y = rng_.Uniform(-1, 1) * (width_m / 2 - 0.7);
   Start({begin_m, lane_y}, rng_.Uniform(-8, 8));
   double at = begin_m;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct GeneratedWorld {
   WorldPlan world;               ///< all else that stands there; `map` is left empty
   int door_id = 1;               ///< the door to pass
   std::vector<Pose2> waypoints;  ///< places to drive to, none when the door is the task
-  std::vector<Pose2> round;      ///< through that door to a place behind it, and back; none without one
+  std::optional<Pose2>
+      corridor_end;          ///< where a base comes to rest that follows the corridor; none in a room
+  std::vector<Pose2> round;  ///< through that door to a place behind it, and back; none without one
 };
 
 /// A world of that kind. Doors are 80 to 100 cm wide (the one to pass at least 88), corridors 1.6 to 3 m wide

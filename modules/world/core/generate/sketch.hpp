@@ -31,6 +31,9 @@ struct Sketch {
 /// The ground plan of the sketch: walls end at the openings of their doors.
 GroundPlan PlanOf(const Sketch& sketch);
 
+/// Standard deviation of a wall's end in a survey, across it: what is uniform over 6 cm.
+inline constexpr double kSurveyedWall_m = 0.0173;
+
 /// The sketch as a person with a tape gets it in an afternoon: either end of a wall up to 3 cm beside its
 /// place, a door up to 10 cm along its wall, every dimension of a door with 5 mm of error (one sigma), and an
 /// opening that may in truth be up to 2 cm narrower.

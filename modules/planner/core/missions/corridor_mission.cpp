@@ -1,0 +1,111 @@
+#include "planner/core/missions/corridor_mission.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace priamos::planner {
+namespace {
+
+constexpr double kMost_m = 180;  ///< as far as an order and the report of what is left reach
+constexpr double kMap_m = 99.9;  ///< as far as a point of a path may lie from the origin of the map
+
+/// How far a line leads before it leaves the map.
+double LengthOnMap(const Pose2& from) {
+  double length_m = std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d direction = from.rotation().col(0);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (std::abs(direction(axis)) < 1e-9) continue;
+    const double border = direction(axis) > 0 ? kMap_m : -kMap_m;
+    length_m = std::min(length_m, (border - from.translation()(axis)) / direction(axis));
+  }
+  return length_m;
+}
+
+}  // namespace
+
+void CorridorMissionConfig::Describe(Archive& a) {
+  a.Number("speed_m_s", speed_m_s, {"m/s", 0.05, 1, "along the corridor"});
+  a.Number("leeway_m", leeway_m, {"m", 0, 3.1, "how far its middle may be left around things"});
+  a.Number("parallel_deg", parallel_deg, {"deg", 0, 45, "a wall of the plan less askew gives the direction"});
+  a.Number("end_m", end_m, {"m", 0.5, 50, "ending so much earlier than on the plan it is closed"});
+  limits.Describe(a);
+}
+
+CorridorMission::CorridorMission(const CorridorMissionConfig& config, const Footprint& footprint,
+                                 const GroundPlan& plan)
+    : config_(config), footprint_(footprint), faces_(FacesOf(plan)) {}
+
+std::optional<Refusal> CorridorMission::Start(const MissionOrder& order) {
+  order_ = order;
+  if (order.distance_m >= 0 && order.distance_m <= kMost_m) return std::nullopt;
+  return Refusal{fmt::format("a corridor is followed for 0 (to its end) to {:.0f} m", kMost_m)};
+}
+
+void CorridorMission::Step(MissionControl& control) {
+  const Heard& heard = control.heard();
+  if (control.state().phase == Phase::kWaiting) {
+    if (heard.link_up && heard.pose && IsFresh(*heard.pose, control.now())) Depart(control);
+    return;
+  }
+  const bool is_new = heard.pose->stamp > *control.path_sent();
+  if (!is_new || !control.OnPath() || heard.drive->mode != DriveMode::kArrived) return;
+  control.Enter(Phase::kDone, fmt::format("followed the corridor for {:.1f} m in {:.0f} s", length_m_,
+                                          Seconds(control.now() - control.started())));
+}
+
+/// The heading that was ordered, else the base's; along the wall of the plan that is beside it there.
+double CorridorMission::CourseFrom(const Pose2& base) const {
+  const double ordered = order_.goal.turn ? order_.goal.map_from_base.yaw : base.yaw;
+  const Eigen::Vector2d ahead(std::cos(ordered), std::sin(ordered));
+  for (const WallFace& face : FacesAlong(faces_, {base.translation(), base.translation() + 2 * ahead})) {
+    const double askew = std::remainder(std::atan2(face.along().y(), face.along().x()) - ordered, kPi);
+    if (std::abs(askew) < Radians(config_.parallel_deg)) return WrapAngle(ordered + askew);
+  }
+  return ordered;
+}
+
+void CorridorMission::Depart(MissionControl& control) {
+  const Pose2& base = control.heard().pose->map_from_base;
+  const Pose2 course{base.x, base.y, CourseFrom(base)};
+  const Eigen::Vector2d ahead = course.rotation().col(0);
+  end_m_ = DistanceAhead(faces_, base.translation(), ahead);
+  if (end_m_) *end_m_ = std::max(0.0, *end_m_ - footprint_.length_m / 2);
+  const bool to_the_end = order_.distance_m == 0;
+  length_m_ = std::min(to_the_end ? kMost_m : order_.distance_m, LengthOnMap(course));
+  const Pose2 goal = course * Pose2{length_m_, 0, 0};
+  const double planned_m = std::min(length_m_, end_m_.value_or(length_m_));
+  control.SendFaces(FacesAlong(faces_, {base.translation(), base.translation() + planned_m * ahead}));
+  PlannedPath path;
+  path.points = {goal};
+  path.leeway = {{config_.leeway_m, config_.leeway_m}};
+  path.centre = true;
+  control.OrderPath(std::move(path), config_.speed_m_s);
+  control.Enter(Phase::kDriving, to_the_end ? "following the corridor to its end"
+                                            : fmt::format("following the corridor for {:.1f} m", length_m_));
+}
+
+double CorridorMission::Driven_m(const MissionControl& control) const {
+  return std::max(0.0, length_m_ - control.heard().drive->remaining_m);
+}
+
+/// Where nothing leaves room for the base a corridor ends, unless it was to lead on.
+void CorridorMission::OnStop(MissionControl& control, const Stop& stop) {
+  if (stop.cause != Stop::Cause::kBlocked) return control.Fail(stop.reason);
+  const double driven_m = Driven_m(control);
+  if (order_.distance_m > 0)
+    return control.Fail(fmt::format("the corridor is closed after {:.1f} of {:.1f} m: {}", driven_m,
+                                    order_.distance_m, stop.reason));
+  if (end_m_ && driven_m < *end_m_ - config_.end_m)
+    return control.Fail(
+        fmt::format("the corridor is closed after {:.1f} m, on the plan it ends after {:.1f} m: {}", driven_m,
+                    *end_m_, stop.reason));
+  control.OrderPath({}, 0);  // what is left of the path is not to be driven later
+  control.Enter(Phase::kDone, fmt::format("at the end of the corridor after {:.1f} m in {:.0f} s", driven_m,
+                                          Seconds(control.now() - control.started())));
+}
+
+}  // namespace priamos::planner
