@@ -56,6 +56,7 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/radio/link_refusals_test", "every refusal of a link table and of its budget"},
     {"test/radio/rekey_test", "a change of the key through the process"},
     {"test/radio/robots_config_test", "what the files of several robots say together"},
+    {"test/robot/core/motion/corridor_run_test", "the whole room between walls"},
     {"test/robot/core/motion/detour_run_test", "the whole room around boxes"},
     {"test/robot/core/motion/door_run_test", "the whole room in one run"},
     {"test/robot/core/motion/shared_control_test", "the whole room under an operator"},
