@@ -19,6 +19,7 @@ OrderStory::OrderStory(const StoryStage& stage)
       orders_(stage.offboard.Advertise(channels::kMissionCommand)) {}
 
 void OrderStory::Tick(Time now) {
+  now_ = now;
   if (!start_) start_ = now;
   alive_.Listen();
   if (ended_) return;

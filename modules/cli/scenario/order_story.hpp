@@ -35,7 +35,10 @@ class OrderStory : public ScenarioStory {
   /// Called at each tick while the story has not ended: looks at the order, and may give the next or End.
   virtual void Follow(Time now) = 0;
 
-  void Give(const mission_command_t& order) { order_.emplace(order, true); }
+  /// Its number is drawn with the time: the same in each lockstep run.
+  void Give(const mission_command_t& order) {
+    order_.emplace(order, true, static_cast<std::uint32_t>(ToUtime(now_) / 1000));
+  }
   void End(Time now, bool succeeded, std::string text);
   void Publish(const mission_command_t& command) { orders_.Publish(command); }
   void Report(Time now, const std::string& line) const { progress_(now, line); }
@@ -54,6 +57,7 @@ class OrderStory : public ScenarioStory {
   bus::Publisher<mission_command_t> orders_;
   std::optional<MissionOrder> order_;
   std::optional<Time> start_, ended_;
+  Time now_{};
   bool succeeded_ = false;
   std::string text_ = "waits for the processes";
 };

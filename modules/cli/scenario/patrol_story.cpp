@@ -64,7 +64,11 @@ void PatrolStory::CheckPlaces(Time now) {
 
 /// A pause on the way to the second place, and the end after some rounds.
 void PatrolStory::Intervene(Time now) {
+  const auto paths = paths_.Drain();
+  const auto drives = drives_.Drain();
   if (intervention_) {
+    for (const path_t& path : paths) intervention_->Hear(path);
+    for (const drive_status_t& drive : drives) intervention_->Hear(drive, now);
     if (const auto message = intervention_->Step(now)) Publish(*message);
     if (intervention_->outcome() == OrderOutcome::kOpen) return;
     if (intervention_->outcome() != OrderOutcome::kDone)
@@ -81,7 +85,7 @@ void PatrolStory::Intervene(Time now) {
   mission_command_t command{};
   command.mission = kInterventions[n_interventions_];
   if (command.mission == mission_command_t::CANCEL) command.order_id = order().id();
-  intervention_.emplace(command, true);
+  intervention_.emplace(command, true, std::uint32_t(n_interventions_));
 }
 
 void PatrolStory::Conclude(Time now) {

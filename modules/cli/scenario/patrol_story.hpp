@@ -17,7 +17,10 @@ class PatrolStory : public OrderStory {
   static constexpr std::string_view kSummary = "the planner drives to places, round after round";
   static constexpr bool kMovesMouse = false;
 
-  explicit PatrolStory(const StoryStage& stage) : OrderStory(stage) {}
+  explicit PatrolStory(const StoryStage& stage)
+      : OrderStory(stage),
+        paths_(stage.offboard.SubscribeAll(channels::kPath)),
+        drives_(stage.offboard.SubscribeAll(channels::kDriveStatus)) {}
 
  private:
   void Begin(Time now) override;
@@ -27,6 +30,8 @@ class PatrolStory : public OrderStory {
   void Intervene(Time now);
   void Conclude(Time now);
 
+  bus::Inbox<path_t> paths_;
+  bus::Inbox<drive_status_t> drives_;
   std::optional<MissionOrder> intervention_;
   std::size_t n_interventions_ = 0;  ///< done: pause, resume, cancel
   std::size_t n_results_ = 0;        ///< of steps, looked at

@@ -37,15 +37,23 @@ struct PatrolStage : Stage {
       ++n_places;
     }
     said.Publish(status);
-    Run(1);
+    Run(0.5);
+    drive_status_t stands{};
+    stands.mode = drive_status_t::HOLDING;
+    drive.Publish(stands);
+    Run(0.5);
   }
   void Take(const mission_command_t& order) {
     kinds.push_back(order.mission);
     if (order.mission == mission_command_t::RUN) {
       status.running = true;
       status.order_id = order.order_id;
+      status.title = order.title;
     }
-    if (order.mission == mission_command_t::PAUSE) status.paused = true;
+    if (order.mission == mission_command_t::PAUSE) {
+      status.paused = true;
+      path.Publish(path_t{});
+    }
     if (order.mission == mission_command_t::RESUME) status.paused = false;
     if (order.mission != mission_command_t::CANCEL) return;
     status.running = false;
@@ -69,6 +77,8 @@ struct PatrolStage : Stage {
   std::vector<int> kinds;  ///< of the orders, in turn
   bus::Publisher<mission_status_t> said = offboard_other.Advertise(channels::kMissionStatus);
   bus::Publisher<world_truth_t> truth = onboard_other.Advertise(channels::kWorldTruth);
+  bus::Publisher<path_t> path = offboard_other.Advertise(channels::kPath);
+  bus::Publisher<drive_status_t> drive = offboard_other.Advertise(channels::kDriveStatus);
   bus::Inbox<mission_command_t> orders = offboard_other.SubscribeAll(channels::kMissionCommand);
 };
 

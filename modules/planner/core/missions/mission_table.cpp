@@ -102,7 +102,7 @@ MissionActions MissionTable::Tick(Time now) {
   if (running())
     Step(*missions_.at(kind_));
   else if (missions_.contains(kind_))
-    control_.RepeatUnconfirmedStand(now, missions_.at(kind_)->limits().resend_path_s);
+    control_.RepeatUnconfirmedStand(now, ResendAfter_s());
   // What arrives while the mission is idle is for its next step.
   if (!idle || !running()) {
     control_.heard_.looks.clear();
@@ -115,8 +115,15 @@ void MissionTable::Step(Mission& mission) {
   if (const auto reason = ReasonToEnd(mission)) return control_.Fail(*reason);
   if (Silence_s(control_.now())) return;
   if (!paused_since_) Decide(mission);
-  if (running()) control_.RepeatUnconfirmedPath(mission.limits().resend_path_s);
+  if (running()) control_.RepeatUnconfirmedPath(ResendAfter_s());
   if (running()) control_.RepeatFaces();
+}
+
+/// An order to stand that a person gave is not waited for as long as a path: meanwhile the robot drives.
+double MissionTable::ResendAfter_s() const {
+  constexpr double kStandAgain_s = 2;  // PATH has 0.5 Hz on the radio
+  const double path_s = missions_.at(kind_)->limits().resend_path_s;
+  return running() && !paused_since_ ? path_s : std::min(path_s, kStandAgain_s);
 }
 
 void MissionTable::Decide(Mission& mission) {

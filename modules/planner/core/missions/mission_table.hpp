@@ -73,6 +73,7 @@ class MissionTable {
   std::optional<std::string> ReasonToEnd(const Mission& mission) const;
   std::optional<Stop> StopOf(const Mission& mission) const;
   bool StoodTooLong(const Mission& mission) const;
+  double ResendAfter_s() const;
   double SilentFor_s(Time now) const;
   std::optional<std::string> WhySilenceEnds(const Mission& mission) const;
 

@@ -144,8 +144,8 @@ TEST(StepRunner, PausedInTheDoorItGoesOnThroughIt) {
 
 TEST(StepRunner, APauseInABlackoutIsNoPauseYet) {
   AgendaRig rig;
-  rig.Order({Go(4.5, 2.4)});
-  rig.robot.RunUntilX(3);
+  rig.Order({Go(4.8, 2.4)});
+  rig.robot.RunUntilX(2.6);
   rig.robot.silent = true;
   rig.StepFor(2);
   rig.dut.Pause(rig.robot.now());

@@ -186,6 +186,10 @@ TEST(MissionTable, FailureIsAReasonAndABrake) {
   EXPECT_EQ(f.dut.state(), (MissionState{Phase::kFailed, "nothing seen: too few edges"}));
   ASSERT_TRUE(brake);
   EXPECT_TRUE(brake->points.empty());
+  const auto again = f.StepFor(2.5).path;
+  ASSERT_TRUE(again) << "the robot has not confirmed it";
+  EXPECT_EQ(again->path_id, brake->path_id);
+  f.dut.OnDrive({DriveMode::kHolding, brake->path_id, ""}, f.now);
   EXPECT_FALSE(f.StepFor(5).path);
 }
 
