@@ -43,6 +43,8 @@ int FollowCorridor(const MissionOptions& options) {
   mission_command_t command{};
   command.mission = mission_command_t::CORRIDOR;
   command.distance_m = static_cast<float>(options.distance_m);
+  command.title = options.distance_m == 0 ? "corridor to its end"
+                                          : fmt::format("corridor for {:.1f} m", options.distance_m);
   command.turn = options.yaw_deg.has_value();
   command.yaw_rad = WrapAngle(Radians(options.yaw_deg.value_or(0)));
   return GiveOrder(options, command, "corridor");
