@@ -100,8 +100,8 @@ TEST(RadioProcess, ALoopOfLinksIsNoPort) {
   const TemporaryFolder folder;
   std::filesystem::create_symlink("b", folder.path() / "a");
   std::filesystem::create_symlink("a", folder.path() / "b");
-  const auto answer =
-      RunCommand(Binary("priamos-radio") + " --config " + Config("radio.toml") + " --port " + (folder / "a"));
+  const auto answer = RunCommand(Binary("priamos-radio") + " --config " + Config("radio.toml") + " --port " +
+                                 (folder / "a").string());
   ExpectOneSentence(answer);
   EXPECT_THAT(answer.text, HasSubstr("its symbolic links lead to each other"));
 }
