@@ -40,7 +40,7 @@ TEST(Json, ShowsFieldsInTheOrderOfTheType) {
   path.points.resize(1);
   path.points[0].x_m = -1.5;
   EXPECT_EQ(ToJson(*schema.Find("path_t"), Encode(path)).dump(),
-            R"({"utime":5,"path_id":2,"estop_changes":0,"speed_m_s":0.25,"n_points":1,)"
+            R"({"utime":5,"path_id":2,"estop_changes":0,"speed_m_s":0.25,"centre":false,"n_points":1,)"
             R"("points":[{"x_m":-1.5,"y_m":0.0,"yaw_rad":0.0,"left_m":0.0,"right_m":0.0}]})");
 }
 
@@ -65,7 +65,7 @@ TEST(Json, WrittenTextGivesTheGeneratedTypeBack) {
   const Schema schema = Schema::FromTexts(EmbeddedTypes());
   const Bytes bytes =
       FromJson(*schema.Find("path_t"), Json::parse(R"({"utime": 9223372036854775807, "path_id": 2.0,
-      "estop_changes": 0, "speed_m_s": 1, "points": [{"x_m": 1, "y_m": "NaN", "yaw_rad": "-Infinity",
+      "estop_changes": 0, "speed_m_s": 1, "centre": true, "points": [{"x_m": 1, "y_m": "NaN", "yaw_rad": "-Infinity",
       "left_m": 0, "right_m": 0.5}]})"));
   const auto path = Decode<path_t>(bytes);
   EXPECT_EQ(path.utime, std::numeric_limits<std::int64_t>::max());
