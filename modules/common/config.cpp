@@ -164,13 +164,13 @@ class ConfigFile::Reader : public Archive, public PlaceSource {
     return node;
   }
 
-  /// Place of a value, `file:line:key`, or `--set KEY=VALUE: key` for what came from there.
   /// `file:line: `; empty for what was set on the command line.
   std::string BeginOf(const toml::table& table) const {
     const std::string& source = table.source().path ? *table.source().path : name_;
     return source.starts_with(kSetName) ? "" : fmt::format("{}:{}: ", source, table.source().begin.line);
   }
 
+  /// Place of a value, `file:line:key`, or `--set KEY=VALUE: key` for what came from there.
   std::string PlaceOf(const toml::node& node, std::string_view key) const {
     const std::string& source = node.source().path ? *node.source().path : name_;
     if (source.starts_with(kSetName))

@@ -11,7 +11,7 @@ void VideoConfig::Describe(Archive& a) {
          "file with lines `driver TOKEN` and `viewer TOKEN`, mode 0600: both may look; empty: everybody on "
          "this host");
   a.Number("rate_hz", rate_hz, {"Hz", 0.5, 25, "pictures while somebody looks"});
-  a.Integer("quality", quality, {"-", 10, 95, "of the JPEG: 60 makes about 30 kB of a picture"});
+  a.Integer("quality", quality, {"-", 10, 95, "of the JPEG: 60 makes about 17 kB of a picture"});
 }
 
 }  // namespace priamos::head

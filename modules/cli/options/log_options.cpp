@@ -90,10 +90,15 @@ void RequireNewFile(const std::string& out, const std::string& in, bool force) {
     throw std::runtime_error(out + ": expected a new file, got an existing one; --force replaces it");
 }
 
+bool HasEvent(const std::string& log, const std::function<bool(const bus::LogEvent& event)>& wanted) {
+  for (bus::LogReader reader(log); const auto event = reader.Next();)
+    if (wanted(*event)) return true;
+  return false;
+}
+
 void RequireEvents(const std::string& log, const std::string& out, const std::string& purpose,
                    const std::function<bool(const bus::LogEvent& event)>& wanted) {
-  for (bus::LogReader reader(log); const auto event = reader.Next();)
-    if (wanted(*event)) return;
+  if (HasEvent(log, wanted)) return;
   throw std::runtime_error(
       fmt::format("{}: expected events to {}, got none; {} is not written", log, purpose, out));
 }

@@ -33,7 +33,10 @@ bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string
 /// is "-", which elsewhere means standard output.
 void RequireNewFile(const std::string& out, const std::string& in, bool force);
 
-/// Checks that `log` has an event that is `wanted`, before anything takes the place of `out`. Throws
+/// Whether `log` has an event that is `wanted`.
+bool HasEvent(const std::string& log, const std::function<bool(const bus::LogEvent& event)>& wanted);
+
+/// Checks that it has one, before anything takes the place of `out`. Throws
 /// std::runtime_error when it has none: `purpose` completes "expected events to ...".
 void RequireEvents(const std::string& log, const std::string& out, const std::string& purpose,
                    const std::function<bool(const bus::LogEvent& event)>& wanted);

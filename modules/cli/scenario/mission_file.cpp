@@ -6,12 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <string_view>
 
 #include "bus/process_config.hpp"
 #include "cli/scenario/door_name.hpp"
 #include "common/config.hpp"
 #include "common/ground_plan.hpp"
+#include "common/input/utf8.hpp"
 #include "planner/planner_missions.hpp"
 
 namespace priamos::cli {
@@ -19,18 +19,16 @@ namespace {
 
 constexpr std::size_t kMostSteps = 32, kLongestTitle = 60;
 
-/// Characters that no message carries as text: C0 with NUL and line breaks, and DEL.
-bool HasControls(std::string_view text) {
-  return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+/// Steps without repetitions.
+std::size_t StepsIn(const std::vector<MissionFileStep>& steps) {
+  return std::size_t(std::count_if(steps.begin(), steps.end(),
+                                   [](const MissionFileStep& step) { return step.what != "repeat"; }));
 }
 
-/// Before any way is planned, which takes a while.
-void CheckNumber(const std::vector<MissionFileStep>& steps) {
-  const auto n = std::size_t(std::count_if(
-      steps.begin(), steps.end(), [](const MissionFileStep& step) { return step.what != "repeat"; }));
+void CheckNumber(std::size_t n, const MissionFile& file) {
   if (n > kMostSteps)
     throw ConfigError(
-        fmt::format("{}expected at most {} steps, got {}", steps.back().place.Begin(), kMostSteps, n));
+        fmt::format("{}expected at most {} steps, got {}", file.steps.back().place.Begin(), kMostSteps, n));
 }
 
 /// Follows the steps on the plan, from place to place.
@@ -138,7 +136,8 @@ void MissionFileStep::Describe(Archive& a) {
 void MissionFile::Describe(Archive& a) {
   a.Text("title", title, "what the robot does, in a few words");
   if (title.size() > kLongestTitle) a.Refuse("title", "at most 60 bytes");
-  if (HasControls(title)) a.Refuse("title", "text without control characters");
+  if (std::any_of(title.begin(), title.end(), IsControl))
+    a.Refuse("title", "text without control characters");
   a.Integer("rounds", rounds, {"-", 0, 9999, "how often all steps are done; 0: until it is cancelled"});
   a.List("step", steps, "the steps, in turn");
   if (steps.empty()) a.Refuse("step", "one or more [[step]]");
@@ -146,7 +145,7 @@ void MissionFile::Describe(Archive& a) {
 
 mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config,
                           const GroundPlan& plan, const std::string& map) {
-  CheckNumber(file.steps);
+  CheckNumber(StepsIn(file.steps), file);  // before any way is planned, which takes a while
   mission_command_t order{};
   order.mission = mission_command_t::RUN;
   order.title = file.title;
@@ -162,9 +161,7 @@ mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig&
     order.steps.push_back(ToMessage(step, plan, map));
     if (const auto why = rehearsal.Do(order.steps.back())) throw ConfigError(step.place.Begin() + *why);
   }
-  if (order.steps.size() > kMostSteps)
-    throw ConfigError(fmt::format("{}expected at most {} steps, got {}", file.steps.back().place.Begin(),
-                                  kMostSteps, order.steps.size()));
+  CheckNumber(order.steps.size(), file);
   const MissionFileStep& begin = file.steps.front();
   if (file.rounds != 1)
     if (const auto why = rehearsal.Do(order.steps.front()))

@@ -9,8 +9,8 @@
 namespace priamos::cli {
 namespace {
 
+constexpr int kNumbers = 65535;  ///< of orders, from 1 on
 // MISSION_STATUS comes twice a second, and at once when something changes.
-constexpr int kNumbers = 65535;  // of orders, from 1 on
 constexpr Duration kPlannerSpeaksWithin = std::chrono::milliseconds(2000);
 /// An order that the planner reported and that is in no status for so long is known there no longer.
 constexpr Duration kForgottenAfter = std::chrono::milliseconds(2000);

@@ -4,11 +4,6 @@
 #include <utility>
 
 namespace priamos::cli {
-namespace {
-
-/// After the last order's end the run goes on, so that the last messages cross the radio and are recorded.
-
-}  // namespace
 
 OrderStory::OrderStory(const StoryStage& stage)
     : scenario_(stage.scenario),

@@ -12,10 +12,6 @@ constexpr unsigned char kC1Lead = 0xC2;
 /// Bytes of a text of others that a sentence shows.
 constexpr std::size_t kMostShown = 80;
 
-bool IsControl(unsigned char c) {
-  return c < 0x20 || c == 0x7F;
-}
-
 bool IsC1At(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]) == kC1Lead && i + 1 < text.size() &&
          static_cast<unsigned char>(text[i + 1]) >= 0x80 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
@@ -25,8 +21,7 @@ std::string EscapedCharacter(char c) {
   if (c == '\n') return "\\n";
   if (c == '\r') return "\\r";
   if (c == '\t') return "\\t";
-  return IsControl(static_cast<unsigned char>(c)) ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
-                                                  : std::string(1, c);
+  return IsControl(c) ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c)) : std::string(1, c);
 }
 
 }  // namespace

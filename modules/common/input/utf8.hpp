@@ -5,6 +5,11 @@
 
 namespace priamos {
 
+/// Whether a byte is a control character of ASCII: C0 with NUL and line breaks, or DEL.
+constexpr bool IsControl(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+}
+
 /// Whether a byte of UTF-8 goes on with a character that began before it.
 constexpr bool IsUtf8Continuation(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;

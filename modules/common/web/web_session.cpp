@@ -222,8 +222,13 @@ void WebSession::Ping() {
   socket_.async_ping({}, [self = shared_from_this()](beast::error_code) {});
 }
 
+/// Time since the ping that the other end of a WebSocket has not answered; 0: it has, or there is none.
+double WebSession::UnansweredFor_s() const {
+  return phase_ == Phase::kSocket && pinging_ ? Seconds(shared_.now - pinged_) : 0;
+}
+
 bool WebSession::SeemsDead() const {
-  return phase_ == Phase::kSocket && pinging_ && Seconds(shared_.now - pinged_) > kDead_s;
+  return UnansweredFor_s() > kDead_s;
 }
 
 bool WebSession::Queue(std::string message, bool binary) {
@@ -247,7 +252,7 @@ void WebSession::Write() {
 }
 
 void WebSession::CheckTime() {
-  if (has_ponged_ && pinging_ && Seconds(shared_.now - pinged_) > kGone_s && phase_ == Phase::kSocket) {
+  if (has_ponged_ && UnansweredFor_s() > kGone_s) {
     ++shared_.counters.slow;
     return Close();
   }

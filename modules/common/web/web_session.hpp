@@ -70,6 +70,7 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   void OnHead(const RefuseRequest& answer);
   void WatchEnd();
   void Ping();
+  double UnansweredFor_s() const;
   void WritePicture(std::string head, std::string_view end);
   void Reply(unsigned status, std::string_view type, std::string_view text, bool head_only);
   void Accepted(const OpenSocket& answer);

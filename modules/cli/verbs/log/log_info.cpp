@@ -52,9 +52,7 @@ std::string LossSentence(const bus::LogSurvey& s) {
   if (s.whole()) return "no damage, no event missing";
   return fmt::format("{}, {} skipped, {} missing{}", Counted(s.damaged_places, "damaged place"),
                      Counted(s.skipped_bytes, "byte"), Counted(s.missing_numbers, "event"),
-                     s.first_damage
-                         ? fmt::format("; first {} at byte {}", s.first_damage->what, s.first_damage->offset)
-                         : "");
+                     FirstDamage(s.first_damage, "; "));
 }
 
 /// From when to when; an empty log is of no time.

@@ -90,8 +90,7 @@ void RequireTimesFit(const MergeOptions& options, const bus::ClockFit& fit) {
 /// The second log is read only when the first has nothing.
 void RequireEventsOfEither(const MergeOptions& options) {
   const auto is_message = [](const bus::LogEvent& event) { return !bus::IsTypeText(event.bytes); };
-  for (bus::LogReader reader(options.log); const auto event = reader.Next();)
-    if (is_message(*event)) return;
+  if (HasEvent(options.log, is_message)) return;
   RequireEvents(options.second, options.out, "merge", is_message);
 }
 

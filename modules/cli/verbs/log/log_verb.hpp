@@ -4,6 +4,7 @@
 
 #include <CLI/App.hpp>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -44,12 +45,15 @@ inline void AddOutputFlags(CLI::App& verb, LogOptions& options, const char* json
   verb.add_flag("--force", options.force, "replace an existing file");
 }
 
+/// What the first damage of a log is, and where, behind `before`; empty without damage.
+inline std::string FirstDamage(const std::optional<bus::LogReader::Damage>& first, const char* before) {
+  return first ? fmt::format("{}first {} at byte {}", before, first->what, first->offset) : "";
+}
+
 /// What of a log that was read to its end is not in the new file, and why.
 inline std::string LeftOut(const bus::LogReader& reader) {
-  const auto& first = reader.first_damage();
   return fmt::format("{} with {} left out{}", Counted(reader.damaged_places(), "damaged place"),
-                     Counted(reader.skipped_bytes(), "byte"),
-                     first ? fmt::format(": first {} at byte {}", first->what, first->offset) : "");
+                     Counted(reader.skipped_bytes(), "byte"), FirstDamage(reader.first_damage(), ": "));
 }
 
 /// Ends the writing of a log, and puts it in its place. Throws std::runtime_error when not all of it could be

@@ -12,6 +12,7 @@
 #include "cli/verbs/robot/commands.hpp"
 #include "cli/verbs/robot/mission_verb.hpp"
 #include "common/geometry.hpp"
+#include "common/robot/mission_titles.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
@@ -24,8 +25,14 @@ int PassDoor(const MissionOptions& options) {
       static_cast<std::int16_t>(DoorOfDeployment(FolderOfDeployment(options.deployment), options.door));
   // As the planner calls it; of a number only the planner knows the name.
   const bool named = options.door.find_first_not_of("0123456789") != std::string::npos;
-  if (named) command.title = fmt::format("door '{}'", options.door).substr(0, 60);
+  if (named) command.title = DoorTitle(options.door).substr(0, 60);
   return GiveOrder(options, command, "door");
+}
+
+/// The heading at the goal, or the direction of the corridor.
+void SetHeading(const MissionOptions& options, mission_command_t& command) {
+  command.turn = options.yaw_deg.has_value();
+  command.yaw_rad = WrapAngle(Radians(options.yaw_deg.value_or(0)));
 }
 
 int GoTo(const MissionOptions& options) {
@@ -33,9 +40,8 @@ int GoTo(const MissionOptions& options) {
   command.mission = mission_command_t::GOTO;
   command.x_m = options.x_m;
   command.y_m = options.y_m;
-  command.turn = options.yaw_deg.has_value();
-  command.title = fmt::format("goto ({:.2f}, {:.2f})", options.x_m, options.y_m);
-  command.yaw_rad = WrapAngle(Radians(options.yaw_deg.value_or(0)));
+  command.title = GotoTitle(options.x_m, options.y_m);
+  SetHeading(options, command);
   return GiveOrder(options, command, "goto");
 }
 
@@ -43,10 +49,8 @@ int FollowCorridor(const MissionOptions& options) {
   mission_command_t command{};
   command.mission = mission_command_t::CORRIDOR;
   command.distance_m = static_cast<float>(options.distance_m);
-  command.title = options.distance_m == 0 ? "corridor to its end"
-                                          : fmt::format("corridor for {:.1f} m", options.distance_m);
-  command.turn = options.yaw_deg.has_value();
-  command.yaw_rad = WrapAngle(Radians(options.yaw_deg.value_or(0)));
+  command.title = CorridorTitle(options.distance_m);
+  SetHeading(options, command);
   return GiveOrder(options, command, "corridor");
 }
 

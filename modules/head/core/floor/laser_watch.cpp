@@ -5,7 +5,6 @@
 namespace priamos::head {
 namespace {
 
-constexpr std::int32_t kFirstFrame = 0x40000000;  // looks count from 1
 constexpr double kLowerAgain_s = 5;
 constexpr double kMargin = 0.15;  // of the picture's height
 
@@ -24,28 +23,21 @@ LaserWatch::Action LaserWatch::Step(bool needed, bool sees, Time now) {
   if (needed) {
     idle_since_.reset();
     lowered_.reset();
-    waiting_ = false;  // a picture of a moving head is of no use
+    picture_.Drop();  // a picture of a moving head is of no use
     return Action::kWait;
   }
   if (!idle_since_) idle_since_ = now;
   if (Seconds(now - *idle_since_) < config_.idle_s) return Action::kWait;
   if (!sees) {
-    waiting_ = false;
+    picture_.Drop();
     if (lowered_ && Seconds(now - *lowered_) < kLowerAgain_s) return Action::kWait;
     lowered_ = now;
     return Action::kLower;
   }
   if (triggered_ && Seconds(now - *triggered_) < 1 / config_.rate_hz) return Action::kWait;
   triggered_ = now;
-  waiting_ = true;
-  frame_id_ = frame_id_ == 0 || frame_id_ == kFirstFrame + 0xFFFF ? kFirstFrame : frame_id_ + 1;
+  picture_.Order();
   return Action::kTrigger;
-}
-
-bool LaserWatch::Takes(const FrameNotice& frame) {
-  if (!waiting_ || frame.frame_id != frame_id_ || frame.camera != kThird) return false;
-  waiting_ = false;
-  return true;
 }
 
 bool SeesLine(const CameraModel& camera, const LaserPlane& laser, int width, int height) {

@@ -9,6 +9,7 @@
 #include "head/core/camera/frame_notice.hpp"
 #include "head/core/camera/head_model.hpp"
 #include "head/core/camera/laser_plane.hpp"
+#include "head/core/camera/picture_order.hpp"
 #include "head/core/floor/obstacle_lines.hpp"
 
 namespace priamos::head {
@@ -36,14 +37,13 @@ class LaserWatch {
   /// frame_id().
   Action Step(bool needed, bool sees, Time now);
   /// Whether this is the picture that was ordered last; true once.
-  bool Takes(const FrameNotice& frame);
-  std::int32_t frame_id() const { return frame_id_; }
+  bool Takes(const FrameNotice& frame) { return picture_.Takes(frame); }
+  std::int32_t frame_id() const { return picture_.frame_id(); }
 
  private:
   LaserWatchConfig config_;
   std::optional<Time> idle_since_, lowered_, triggered_;
-  std::int32_t frame_id_ = 0;
-  bool waiting_ = false;
+  PictureOrder picture_{0x40000000};
 };
 
 /// Whether the camera shows the middle of the line on a level floor, well inside its picture.

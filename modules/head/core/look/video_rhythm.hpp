@@ -5,6 +5,7 @@
 
 #include "common/time.hpp"
 #include "head/core/camera/frame_notice.hpp"
+#include "head/core/camera/picture_order.hpp"
 
 namespace priamos::head {
 
@@ -17,14 +18,13 @@ class VideoRhythm {
   /// One time step; true: expose the third camera as frame_id().
   bool Step(bool watched, bool needed, Time now);
   /// Whether this is the picture that was ordered last; true once.
-  bool Takes(const FrameNotice& frame);
-  std::int32_t frame_id() const { return frame_id_; }
+  bool Takes(const FrameNotice& frame) { return picture_.Takes(frame); }
+  std::int32_t frame_id() const { return picture_.frame_id(); }
 
  private:
   double rate_hz_;
   std::optional<Time> triggered_;
-  std::int32_t frame_id_ = 0;
-  bool waiting_ = false;
+  PictureOrder picture_{0x50000000};
 };
 
 }  // namespace priamos::head

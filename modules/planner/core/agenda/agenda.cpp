@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/robot/mission_titles.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -21,10 +23,9 @@ Agenda::Agenda(MissionTable& missions, DoorRouter& router, const AgendaKinds& ki
 std::string Agenda::TitleOf(const AgendaStep& step) const {
   if (step.wait_s) return fmt::format("wait {:.0f} s", *step.wait_s);
   const Pose2& to = step.order.goal.map_from_base;
-  if (step.order.kind == kinds_.go) return fmt::format("goto ({:.2f}, {:.2f})", to.x, to.y);
-  if (step.order.kind == kinds_.pass) return fmt::format("door '{}'", router_.NameOf(step.order.landmark_id));
-  if (step.order.kind == kinds_.follow && step.order.distance_m == 0) return "corridor to its end";
-  if (step.order.kind == kinds_.follow) return fmt::format("corridor for {:.1f} m", step.order.distance_m);
+  if (step.order.kind == kinds_.go) return GotoTitle(to.x, to.y);
+  if (step.order.kind == kinds_.pass) return DoorTitle(router_.NameOf(step.order.landmark_id));
+  if (step.order.kind == kinds_.follow) return CorridorTitle(step.order.distance_m);
   return fmt::format("mission {}", step.order.kind);
 }
 

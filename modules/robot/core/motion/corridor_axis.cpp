@@ -88,21 +88,6 @@ double TurnOf(const std::optional<Group>& left, const std::optional<Group>& righ
   return weights > 0 ? sum / weights : 0;
 }
 
-}  // namespace
-
-void CorridorConfig::Describe(Archive& a) {
-  a.Number("parallel_deg", parallel_deg, {"deg", 1, 30, "angle between a corridor's wall and the course"});
-  a.Number("ahead_m", ahead_m, {"m", 0.5, 10, "walls farther ahead do not count"});
-  a.Number("behind_m", behind_m, {"m", 0.5, 10, "walls farther behind do not count"});
-  a.Number("aside_m", aside_m, {"m", 0.5, 5, "walls farther beside the base do not count"});
-  a.Number("same_m", same_m, {"m", 0.02, 0.5, "pieces whose distances differ less are of one wall"});
-  a.Number("loyalty_m", loyalty_m, {"m", 0, 10, "length that counts for the wall followed so far"});
-  a.Number("realign_s", realign_s, {"s", 0.02, 5, "time between two looks at the walls"});
-  a.Number("margin_m", margin_m, {"m", 0, 0.5, "how far off the walls a detour keeps"});
-}
-
-namespace {
-
 /// The axis by the pieces as they lie to the last one.
 CorridorAxis AxisFrom(const std::vector<WallPiece>& pieces, const Pose2& odom_from_base,
                       const CorridorAxis& last, const CorridorConfig& config) {
@@ -138,6 +123,17 @@ CorridorAxis AxisFrom(const std::vector<WallPiece>& pieces, const Pose2& odom_fr
 }
 
 }  // namespace
+
+void CorridorConfig::Describe(Archive& a) {
+  a.Number("parallel_deg", parallel_deg, {"deg", 1, 30, "angle between a corridor's wall and the course"});
+  a.Number("ahead_m", ahead_m, {"m", 0.5, 10, "walls farther ahead do not count"});
+  a.Number("behind_m", behind_m, {"m", 0.5, 10, "walls farther behind do not count"});
+  a.Number("aside_m", aside_m, {"m", 0.5, 5, "walls farther beside the base do not count"});
+  a.Number("same_m", same_m, {"m", 0.02, 0.5, "pieces whose distances differ less are of one wall"});
+  a.Number("loyalty_m", loyalty_m, {"m", 0, 10, "length that counts for the wall followed so far"});
+  a.Number("realign_s", realign_s, {"s", 0.02, 5, "time between two looks at the walls"});
+  a.Number("margin_m", margin_m, {"m", 0, 0.5, "how far off the walls a detour keeps"});
+}
 
 /// Twice: pieces ahead and behind lie beside each other only in the right direction.
 CorridorAxis FindAxis(const std::vector<WallPiece>& pieces, const Pose2& odom_from_base,
