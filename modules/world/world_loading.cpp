@@ -11,17 +11,10 @@
 #include "world/core/generate/strew.hpp"
 #include "world/core/scene/built_doors.hpp"
 #include "world/core/scene/outline.hpp"
+#include "world/core/scene/plan_checks.hpp"
 
 namespace priamos::world {
 namespace {
-
-void CheckMaterials(const std::string& file, const LoadedWorld& world) {
-  const auto& known = MaterialNames();
-  for (const auto& solid : world.solids)
-    if (std::find(known.begin(), known.end(), solid.material) == known.end())
-      throw ConfigError(fmt::format("{}: material of \"{}\": expected one of {}, got \"{}\"", file,
-                                    solid.name, fmt::join(known, ", "), solid.material));
-}
 
 void CheckStart(const std::string& file, const LoadedWorld& world, const Body& body) {
   if (Clearance(body, world.solids).Gap(world.start.truth, 1) > 0) return;
@@ -33,8 +26,15 @@ void CheckStart(const std::string& file, const LoadedWorld& world, const Body& b
 constexpr double kPersonRadius_m = 0.25;
 constexpr double kKnee_m = 0.15, kHead_m = 1.75;
 
-void CheckPeople(const LoadedWorld& world) {
-  for (const PersonPlan& person : world.hazards.people)
+void CheckPeople(const LoadedWorld& world, const Body& body) {
+  const Rectangle robot{world.start.truth, body.size_m / 2};
+  for (const PersonPlan& person : world.hazards.people) {
+    if (const PersonStop& first = person.waypoints.front();
+        Distance(robot, Eigen::Vector2d(first.x_m, first.y_m)) < kPersonRadius_m)
+      throw ConfigError(
+          fmt::format("{}people: expected \"{}\" beside the robot at the beginning, got x {:.2f} m, "
+                      "y {:.2f} m, where it starts; next: move one of them",
+                      person.place.Begin(), person.name, first.x_m, first.y_m));
     for (const PersonStop& stop : person.waypoints)
       for (const Solid& solid : world.solids)
         if (Overlaps(solid, kKnee_m, kHead_m) &&
@@ -43,6 +43,7 @@ void CheckPeople(const LoadedWorld& world) {
               "{}people: expected {:.2f} m of room around the waypoint at x {:.2f} m, "
               "y {:.2f} m of \"{}\", got \"{}\"; next: move it, or make spread_m smaller",
               person.place.Begin(), kPersonRadius_m, stop.x_m, stop.y_m, person.name, solid.name));
+  }
 }
 
 void CheckHoles(const LoadedWorld& world, const Body& body) {
@@ -51,6 +52,14 @@ void CheckHoles(const LoadedWorld& world, const Body& body) {
     if (Distance(footprint, Rectangle{{hole.x_m, hole.y_m, 0}, {hole.length_m / 2, hole.width_m / 2}}) <= 0)
       throw ConfigError(
           fmt::format("{}holes: expected floor below the start, got \"{}\"", hole.place.Begin(), hole.name));
+}
+
+/// A file that a world names, when there is one.
+std::string FileOf(const std::string& asked_by, std::string path) {
+  const RegularFile file(path);
+  if (!file.open())
+    throw ConfigError(fmt::format("{}: expected a file, got {}, \"{}\"", asked_by, file.problem(), path));
+  return path;
 }
 
 /// All of a file.
@@ -102,20 +111,21 @@ LoadedWorld LoadWorld(const std::string& name, const std::function<std::string(c
   LoadedWorld world;
   const std::string file = resolve(name);
   world.plan = OfTheDay(LoadConfig<WorldPlan>(file), seed);
-  world.map = LoadConfig<GroundPlan>(resolve(world.plan.map));
+  world.map = LoadConfig<GroundPlan>(FileOf(world.plan.place.Of("map"), resolve(world.plan.map)));
+  CheckAgainstMap(world.plan, world.map);
   world.doors = BuiltDoors(world.map, world.plan, seed);
   world.solids = BuildSolids(world.map, world.plan, seed);
   for (Solid& wall : WallsOfGrid(world, resolve)) world.solids.push_back(std::move(wall));
   world.start = DrawStart(world.plan.start, seed);
   world.light = DrawLight(world.plan, seed);
   if (!world.plan.reference.object.empty()) {
-    const auto object = LoadConfig<ReferenceObject>(resolve(world.plan.reference.object));
+    const auto object = LoadConfig<ReferenceObject>(
+        FileOf(world.plan.reference.place.Of("object"), resolve(world.plan.reference.object)));
     world.reference = PlaceReference(world.plan.reference, object, world.start.truth, seed);
   }
   world.hazards = HazardsOf(world, seed);
   world.quirks = DrawQuirks(world.plan.cameras, seed);
-  CheckMaterials(file, world);
-  CheckPeople(world);
+  CheckPeople(world, body);
   CheckHoles(world, body);
   CheckStart(file, world, body);
   return world;

@@ -10,6 +10,7 @@
 
 #include "common/archive.hpp"
 #include "test/support/temporary_folder.hpp"
+#include "test/support/thrown_reason.hpp"
 #include "world/core/scene/outline.hpp"
 
 namespace priamos::world {
@@ -118,7 +119,8 @@ TEST_F(BadWorldTest, AGoodOneLoads) {
 
 TEST_F(BadWorldTest, AnUnknownMaterialIsNamed) {
   EXPECT_THAT(ErrorOf("[[boxes]]\nname = \"lump\"\nx_m = 9\nmaterial = \"jelly\"\n"),
-              ::testing::AllOf(::testing::HasSubstr("\"lump\""), ::testing::HasSubstr("got \"jelly\"")));
+              ::testing::AllOf(::testing::HasSubstr("world.toml:5:boxes[0].material: expected one of"),
+                               ::testing::HasSubstr("got \"jelly\"")));
 }
 
 TEST_F(BadWorldTest, AStartInsideABoxIsRefused) {
@@ -127,10 +129,41 @@ TEST_F(BadWorldTest, AStartInsideABoxIsRefused) {
 
 TEST_F(BadWorldTest, AMissingMapIsNamed) {
   EXPECT_THAT(ErrorOf("").empty() ? "" : "?", "");
-  std::ofstream(folder_ / "other.toml") << "map = \"nowhere.toml\"\n";
-  EXPECT_THROW(LoadWorld(
-                   "other.toml", [this](const std::string& n) { return (folder_ / n).string(); }, Body{}, 1),
-               ConfigError);
+  std::ofstream(folder_ / "other.toml") << "\nmap = \"nowhere.toml\"\n";
+  EXPECT_THAT(support::ThrownReason([&] {
+                LoadWorld(
+                    "other.toml", [this](const std::string& n) { return (folder_ / n).string(); }, Body{}, 1);
+              }),
+              ::testing::HasSubstr("other.toml:2:map: expected a file, got none"));
+}
+
+TEST_F(BadWorldTest, WhatContradictsTheMapOrItselfIsRefused) {
+  using ::testing::HasSubstr;
+  EXPECT_THAT(
+      ErrorOf("[[posters]]\nwall = \"attic\"\n"),
+      HasSubstr("world.toml:3:posters[0].wall: expected the name of a wall of the map, got \"attic\""));
+  EXPECT_THAT(ErrorOf("[[posters]]\nwall = \"w\"\nwidth_m = 2\nalong_m = 4.5\n"),
+              HasSubstr("world.toml:5:posters[0].along_m: expected a poster of 2.00 m to hang on \"w\""));
+  EXPECT_EQ(ErrorOf("[[posters]]\nwall = \"w\"\nwidth_m = 2\nalong_m = 4\n"), "");
+  EXPECT_THAT(ErrorOf("[[surfaces]]\nwall = \"w\"\n[[surfaces]]\nwall = \"w\"\n"),
+              HasSubstr("world.toml:5:surfaces[1].wall: expected one surface per wall"));
+  EXPECT_THAT(ErrorOf("[[doors]]\nid = 7\n"),
+              HasSubstr("world.toml:3:doors[0].id: expected the id of a door of the map, got 7"));
+  EXPECT_THAT(ErrorOf("[reference]\nobject = \"nothing.toml\"\n"),
+              HasSubstr("world.toml:3:reference.object: expected a file, got none"));
+  EXPECT_THAT(ErrorOf("[[people]]\n[[people.waypoints]]\nx_m = 0.1\ny_m = 0\n"),
+              HasSubstr("world.toml:2: people: expected \"person\" beside the robot"));
+}
+
+TEST(LoadWorldTest, ADoorIsListedOnce) {
+  const TemporaryFolder folder;
+  std::ifstream shipped(InShipped("worlds/door.toml"));
+  std::ofstream(folder / "twice.toml") << shipped.rdbuf() << "\n[[doors]]\nid = 1\n";
+  const auto resolve = [&](const std::string& name) {
+    return name == "twice.toml" ? std::string(folder / name) : InShipped(name);
+  };
+  EXPECT_THAT(support::ThrownReason([&] { LoadWorld("twice.toml", resolve, Body{}, 1); }),
+              ::testing::HasSubstr("expected each door once, got 1 twice"));
 }
 
 TEST_F(BadWorldTest, PeopleAndHolesAreCheckedWithTheirPlaceInTheFile) {

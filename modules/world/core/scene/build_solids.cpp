@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "common/archive.hpp"
@@ -49,7 +50,6 @@ class Builder {
       : map_(map), plan_(plan), rng_(Rng::Stream(seed, "furniture")), doors_(BuiltDoors(map, plan, seed)) {}
 
   std::vector<Solid> Build() {
-    CheckNames();
     for (const auto& wall : map_.walls) AddWall(wall);
     for (const auto& door : doors_) AddDoor(door);
     for (const auto& poster : plan_.posters) AddPoster(poster);
@@ -65,8 +65,6 @@ class Builder {
     return {};
   }
   WallLine LineOf(const WallPlan& wall) const;
-  const WallPlan& FindWall(const std::string& name, std::string_view asked_by) const;
-  void CheckNames() const;
   std::string MaterialOf(const WallPlan& wall) const;
   std::vector<Piece> PiecesBesideDoors(const WallPlan& wall);
   void AddWall(const WallPlan& wall);
@@ -97,23 +95,6 @@ WallLine Builder::LineOf(const WallPlan& wall) const {
     break;
   }
   return line;
-}
-
-const WallPlan& Builder::FindWall(const std::string& name, std::string_view asked_by) const {
-  const auto it = std::find_if(map_.walls.begin(), map_.walls.end(),
-                               [&](const WallPlan& wall) { return wall.name == name; });
-  if (it == map_.walls.end())
-    throw ConfigError(
-        fmt::format("{}: {}: expected the name of a wall of the map, got \"{}\"", plan_.map, asked_by, name));
-  return *it;
-}
-
-void Builder::CheckNames() const {
-  for (const auto& surface : plan_.surfaces) FindWall(surface.wall, "surfaces");
-  for (const auto& work : plan_.doors)
-    if (!map_.FindDoor(work.id))
-      throw ConfigError(
-          fmt::format("{}: doors: expected the id of a door of the map, got {}", plan_.map, work.id));
 }
 
 std::string Builder::MaterialOf(const WallPlan& wall) const {
@@ -199,7 +180,10 @@ void Builder::AddDoor(const DoorPlan& door) {
 }
 
 void Builder::AddPoster(const PosterPlan& poster) {
-  const WallPlan& wall = FindWall(poster.wall, "posters");
+  const auto hung = std::find_if(map_.walls.begin(), map_.walls.end(),
+                                 [&](const WallPlan& w) { return w.name == poster.wall; });
+  if (hung == map_.walls.end()) return;
+  const WallPlan& wall = *hung;
   const double side = poster.face == "left" ? 1 : -1;
   // Front of the poster is its +y side, whichever face of the wall it hangs on.
   const Pose2 in_wall{poster.along_m, side * (wall.thickness_m + kPosterThickness_m) / 2, side > 0 ? 0 : kPi};
@@ -225,9 +209,12 @@ void Builder::AddBox(const BoxPlan& box) {
 
 void Builder::MakeNamesUnique() {
   std::set<std::string> used;
+  std::map<std::string, int> of_name;
   for (auto& solid : solids_) {
     const std::string name = solid.name;
-    for (int i = 2; !used.insert(solid.name).second; ++i) solid.name = fmt::format("{} {}", name, i);
+    int& number = of_name[name];
+    do solid.name = ++number == 1 ? name : fmt::format("{} {}", name, number);
+    while (!used.insert(solid.name).second);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "world/core/scene/occupancy_grid.hpp"
 
@@ -126,6 +127,7 @@ class PgmReader {
 
 GridHeader ParseGridHeader(const std::string& file, std::string_view text) {
   GridHeader header;
+  std::set<std::string_view> keys;
   int number = 0;
   while (!text.empty()) {
     ++number;
@@ -137,6 +139,7 @@ GridHeader ParseGridHeader(const std::string& file, std::string_view text) {
     const YamlLine yaml{file, number, Trimmed(line.substr(0, colon)),
                         colon == line.npos ? "" : Trimmed(line.substr(colon + 1))};
     if (colon == line.npos) yaml.Refuse("`key: value`");
+    if (!keys.insert(yaml.key).second) yaml.Refuse("each key once");
     Take(yaml, header);
   }
   if (header.image.empty())

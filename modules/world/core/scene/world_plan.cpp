@@ -8,6 +8,7 @@
 namespace priamos::world {
 
 void DoorWork::Describe(Archive& a) {
+  place = PlaceIn(a);
   a.Integer("id", id, {"-", kFirstLandmarkId, kLastLandmarkId, "the door's id in the map"});
   a.Choice("hinge", hinge, {"left", "right"}, "side of the hinges, seen in driving direction");
   a.Number("open_deg", open_deg, {"deg", 0, 175, "opening angle of the leaf into the far room, 0 is closed"});
@@ -39,30 +40,32 @@ void BoxPlan::Describe(Archive& a) {
   a.Number("width_m", width_m, {"m", 0.005, 50, "along its own y axis"});
   a.Number("height_m", height_m, {"m", 0.001, 10, "from its bottom to its top"});
   a.Number("bottom_m", bottom_m, {"m", 0, 10, "height of its bottom above the floor"});
-  a.Text("material", material, "how it looks and echoes");
+  a.Choice("material", material, MaterialNames(), "how it looks and echoes");
   a.Number("spread_m", spread_m, {"m", 0, 5, "x and y are off by up to this, drawn from the seed"});
   a.Number("spread_deg", spread_deg, {"deg", 0, 180, "yaw is off by up to this, drawn from the seed"});
 }
 
 void PosterPlan::Describe(Archive& a) {
+  place = PlaceIn(a);
   a.Text("wall", wall, "name of the wall in the map");
   a.Choice("face", face, {"left", "right"}, "side of the wall, looking from its from_m to its to_m");
   a.Number("along_m", along_m, {"m", 0, 200, "middle of the poster, distance from from_m"});
   a.Number("bottom_m", bottom_m, {"m", 0, 10, "height of its lower edge"});
   a.Number("width_m", width_m, {"m", 0.02, 10, "width"});
   a.Number("height_m", height_m, {"m", 0.02, 10, "height"});
-  a.Text("material", material, "how it looks and echoes");
+  a.Choice("material", material, MaterialNames(), "how it looks and echoes");
 }
 
 void SkirtingPlan::Describe(Archive& a) {
   a.Number("height_m", height_m, {"m", 0, 0.5, "height, 0 for none"});
   a.Number("thickness_m", thickness_m, {"m", 0.001, 0.1, "how far it stands before the wall"});
-  a.Text("material", material, "how it looks");
+  a.Choice("material", material, MaterialNames(), "how it looks");
 }
 
 void WallSurface::Describe(Archive& a) {
+  place = PlaceIn(a);
   a.Text("wall", wall, "name of the wall in the map");
-  a.Text("material", material, "how it looks and echoes");
+  a.Choice("material", material, MaterialNames(), "how it looks and echoes");
 }
 
 void StartPlan::Describe(Archive& a) {
@@ -91,6 +94,7 @@ Start DrawStart(const StartPlan& plan, std::uint64_t seed) {
 }
 
 void ReferencePlan::Describe(Archive& a) {
+  place = PlaceIn(a);
   a.Text("object", object, "file that describes the calibration body; empty: there is none");
   a.Number("x_m", x_m, {"m", -10, 10, "its origin in the base frame of the robot at its start"});
   a.Number("y_m", y_m, {"m", -10, 10, "its origin in the base frame of the robot at its start"});
@@ -115,8 +119,9 @@ PlacedReference PlaceReference(const ReferencePlan& plan, const ReferenceObject&
 }
 
 void WorldPlan::Describe(Archive& a) {
+  place = PlaceIn(a);
   a.Text("map", map, "ground plan with walls and doors, which the planner knows too");
-  a.Text("wall_material", wall_material, "how walls look and echo");
+  a.Choice("wall_material", wall_material, MaterialNames(), "how walls look and echo");
   a.Number("brightness_spread", brightness_spread, {"-", 0, 0.9, "brightness is off by up to this part"});
   a.Number("window_spread_deg", window_spread_deg, {"deg", 0, 180, "window_yaw_deg is off by up to this"});
   a.Number("camera_light", camera_light,

@@ -6,6 +6,7 @@
 
 #include "common/archive.hpp"
 #include "common/ground_plan.hpp"
+#include "common/input/section_place.hpp"
 #include "world/core/scene/camera_quirks.hpp"
 #include "world/core/scene/device_faults.hpp"
 #include "world/core/scene/holes.hpp"
@@ -31,6 +32,7 @@ struct DoorWork {
   std::vector<LeafSwing> swings{};  ///< how somebody moves the leaf
   double built_dx_m = 0, built_dy_m = 0, built_dyaw_deg = 0, built_dwidth_m = 0;
   double built_dheight_m = 0, built_dframe_m = 0, built_dprotrusion_m = 0, built_dthickness_m = 0;
+  SectionPlace place{};  ///< where it was read, for errors
 
   void Describe(Archive& a);
 };
@@ -52,6 +54,7 @@ struct PosterPlan {
   std::string face = "left";
   double along_m = 1, bottom_m = 1.1, width_m = 0.6, height_m = 0.8;
   std::string material = "poster";
+  SectionPlace place{};  ///< where it was read, for errors
 
   void Describe(Archive& a);
 };
@@ -67,6 +70,7 @@ struct SkirtingPlan {
 /// Material of one wall whose surface is not the usual one.
 struct WallSurface {
   std::string wall, material = "concrete";
+  SectionPlace place{};  ///< where it was read, for errors
 
   void Describe(Archive& a);
 };
@@ -96,6 +100,7 @@ struct ReferencePlan {
   std::string object;
   double x_m = 1.75, y_m = 0, z_m = 1.2, yaw_deg = 180;
   double error_m = 0.0005, error_deg = 0.05;
+  SectionPlace place{};  ///< where it was read, for errors
 
   void Describe(Archive& a);
 };
@@ -107,6 +112,7 @@ PlacedReference PlaceReference(const ReferencePlan& plan, const ReferenceObject&
 /// A world file: `config/<deployment>/worlds/*.toml`. File names in it are relative to the deployment's
 /// folder.
 struct WorldPlan {
+  SectionPlace place;  ///< where it was read, for errors
   std::string map;
   std::string wall_material = "plaster";
   std::vector<WallSurface> surfaces;

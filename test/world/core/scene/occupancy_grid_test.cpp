@@ -55,6 +55,7 @@ TEST(GridHeaderTest, WrongOnesAreAnsweredWithTheLine) {
   EXPECT_THAT(answer("image: a\nnonsense\n"), HasSubstr("m.yaml:2: nonsense: expected `key: value`"));
   EXPECT_THAT(answer("resolution: 0.1\n"), HasSubstr("m.yaml: image: expected the name"));
   EXPECT_THAT(answer("image: a\n"), HasSubstr("m.yaml: resolution: expected metres"));
+  EXPECT_THAT(answer("image: a\nimage: b\n"), HasSubstr("m.yaml:2: image: expected each key once"));
   EXPECT_THAT(answer("image: a\nmode: raw\n"), HasSubstr("m.yaml:2: mode: expected trinary"));
 }
 
