@@ -84,8 +84,11 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
   ServeFoxglove();
   if (!config.video.empty()) OpenVideo();
   server_ = std::make_unique<WebServer>(
-      ServerOptionsOf(config, config.token_file.empty() ? "" : context.ResolvePath(config.token_file)),
+      ServerOptionsOf(config, [&](const std::string& file) { return context.ResolvePath(file); }),
       files_.files(), *this);
+  if (config.certificate_file.empty() && !IsLoopback(config.address))
+    context.Log(bus::Level::kWarning,
+                "everybody on the way can read the token; next: certificate_file and key_file, or ssh -L");
   context.SetStatus(fmt::format("the station is at {}", server_->address()));
   context.Log(bus::Level::kInfo, context.status());
 }

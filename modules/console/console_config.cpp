@@ -22,6 +22,13 @@ void ConsoleConfig::Describe(Archive& a) {
   a.Text(
       "token_file", token_file,
       "file with lines `driver TOKEN` and `viewer TOKEN`, mode 0600; empty: everybody on this host drives");
+  a.Text(
+      "certificate_file", certificate_file,
+      "certificate of this host, PEM, with those that vouch for it: pages are then served by https; empty: "
+      "by http, which everybody on the way can read");
+  a.Text("key_file", key_file, "private key of that certificate, PEM, mode 0600");
+  if (certificate_file.empty() != key_file.empty())
+    a.Refuse(key_file.empty() ? "key_file" : "certificate_file", "both files or none");
   a.Text("foxglove_origins", foxglove_origins,
          "foreign pages, separated by blanks, that may connect as Foxglove does: https://app.foxglove.dev; "
          "file:// "

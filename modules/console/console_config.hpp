@@ -23,6 +23,7 @@ struct ConsoleConfig {
   std::string address = "127.0.0.1";
   int port = 8080, ports = 10;
   std::string token_file;
+  std::string certificate_file, key_file;  ///< of TLS; both or none
   std::string foxglove_origins;
   std::string audit_file;
   std::string video;  ///< `http://HOST:PORT` of the head's video link; empty: there is none

@@ -31,12 +31,12 @@ int ShowPlayedLog(const bus::PlayedLog& log) {
   const std::filesystem::path folder = log.config.Folder();
   const auto plan = LoadConfig<GroundPlan>((folder / config.map).string());
   const auto link = LoadConfig<bus::radio::LinkConfig>((folder / config.link).string());
-  const std::string tokens = config.token_file.empty() ? "" : (folder / config.token_file).string();
+  const auto in_folder = [&folder](const std::string& file) { return (folder / file).string(); };
   const bus::HostClock clock;
   bus::ServiceNotifier notifier;
   ReplayStation station(std::make_unique<LogOnBus>(log.bus, log.schema), log.schema, plan,
                         Greeting(config, plan, link, std::numeric_limits<double>::infinity()),
-                        ServerOptionsOf(config, tokens));
+                        ServerOptionsOf(config, in_folder));
   const std::string status = fmt::format("the log on {} is shown at {}", log.bus.url(), station.address());
   log.report(bus::Level::kInfo, status);
   pollfd signal{log.signals.fd(), POLLIN, 0};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "common/web/web_options.hpp"
@@ -7,8 +8,9 @@
 
 namespace priamos::console {
 
-/// Where the station listens and whom it lets in. `token_file`: path; "" when everybody may who reaches it.
-/// Throws ConfigError as LoadAccess does.
-WebServerOptions ServerOptionsOf(const ConsoleConfig& config, const std::string& token_file);
+/// Where the station listens and whom it lets in, from the files that `config` names, each found by `path`.
+/// Throws std::runtime_error as LoadAccess and LoadTls do.
+WebServerOptions ServerOptionsOf(const ConsoleConfig& config,
+                                 const std::function<std::string(const std::string&)>& path);
 
 }  // namespace priamos::console

@@ -179,12 +179,49 @@ PY
               ContainsRegex("came without the radio: \\[('ALARM', )?'HEALTH', 'MISSION_STATUS'\\]"));
 }
 
+TEST_F(Station, IsServedEncryptedWithACertificate) {
+  const auto answer = RunScript(R"sh(
+    openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 2 -subj /CN=station \
+      -keyout $LOGS.key -out $LOGS.pem 2> /dev/null
+    echo "driver abcdefghijklmnop" > $LOGS.tokens; chmod 600 $LOGS.tokens $LOGS.key
+    $BIN/priamos-console --config $SOURCE/config/sim/console.toml --set 'address="0.0.0.0"' --set port=8443 --set ports=1 \
+      --set "token_file=\"$LOGS.tokens\"" --set "certificate_file=\"$LOGS.pem\"" --set "key_file=\"$LOGS.key\"" &
+    STATION=$!
+    python3 - <<'PY'
+import urllib.error, urllib.request
+from browser import Browser
+from station_page import wait_for
+def plainly():
+    try:
+        return urllib.request.urlopen("http://127.0.0.1:8443/", timeout=1).read()
+    except urllib.error.HTTPError as refusal:
+        return refusal.read().decode().strip()
+    except OSError:
+        return None
+wait_for(plainly, 10)
+print("plainly:", plainly())
+browser = Browser()
+browser.call("Security.setIgnoreCertificateErrors", ignore=True)
+browser.call("Page.navigate", url="https://127.0.0.1:8443/?token=abcdefghijklmnop")
+print("page is connected:", wait_for(lambda: "connected" in (browser.text("connection") or ""), 10))
+print("socket:", browser.run("performance.getEntriesByType('resource').every(r => r.name.startsWith('https:'))"))
+browser.close()
+PY
+    kill -INT $STATION; wait $STATION; echo "ended: $?"
+  )sh",
+                                60);
+  for (const char* seen :
+       {"plainly: expected https:// at the beginning", "page is connected: True", "socket: True", "ended: 0"})
+    EXPECT_THAT(answer.text, HasSubstr(seen));
+}
+
 TEST_F(Station, StrangersOnTheNetworkAreKeptOut) {
   const auto answer = RunScript(R"sh(
     console() { $BIN/priamos-console --config $SOURCE/config/sim/console.toml "$@"; }
     console --set 'address="0.0.0.0"'; echo "without tokens: $?"
     echo "driver shared" > $LOGS.tokens; chmod 600 $LOGS.tokens
     console --set 'address="0.0.0.0"' --set "token_file=\"$LOGS.tokens\""; echo "bad token: $?"
+    console --set "key_file=\"$LOGS.key\""; echo "half of a pair: $?"
     console --set port=1 --set ports=1 --set 'address="127.0.0.77"'; echo "no port: $?"
   )sh",
                                 30);
@@ -192,6 +229,7 @@ TEST_F(Station, StrangersOnTheNetworkAreKeptOut) {
   EXPECT_THAT(answer.text, HasSubstr("without tokens: 2"));
   EXPECT_THAT(answer.text, HasSubstr("tokens:1: expected `driver TOKEN`"));
   EXPECT_THAT(answer.text, HasSubstr("bad token: 2"));
+  EXPECT_THAT(answer.text, HasSubstr("half of a pair: 2"));
 }
 
 }  // namespace

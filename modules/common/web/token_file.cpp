@@ -1,35 +1,21 @@
 #include "common/web/token_file.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "common/web/private_file.hpp"
 
 namespace priamos {
 namespace {
 
 constexpr std::size_t kShortest = 16, kLongest = 64;
 
-bool IsLoopback(const std::string& address) {
-  return address == "127.0.0.1" || address == "::1";
-}
-
 bool IsToken(const std::string& text) {
   const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
   return text.size() >= kShortest && text.size() <= kLongest && std::all_of(text.begin(), text.end(), fits);
-}
-
-void RefuseOpenMode(const std::string& file) {
-  struct stat info {};
-  if (stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode))
-    throw std::runtime_error(fmt::format("{}: expected a file of tokens, which is not there", file));
-  if ((info.st_mode & 0077) != 0)
-    throw std::runtime_error(
-        fmt::format("{}: expected tokens that only their owner can read, got mode {:o}; next: chmod 600 {}",
-                    file, info.st_mode & 0777U, file));
 }
 
 void ReadLine(const std::string& line, const std::string& place, WebAccess& access) {
@@ -46,6 +32,10 @@ void ReadLine(const std::string& line, const std::string& place, WebAccess& acce
 
 }  // namespace
 
+bool IsLoopback(const std::string& address) {
+  return address == "127.0.0.1" || address == "::1";
+}
+
 WebAccess LoadAccess(const std::string& address, const std::string& file) {
   WebAccess access;
   access.loopback_only = IsLoopback(address);
@@ -56,8 +46,7 @@ WebAccess LoadAccess(const std::string& address, const std::string& file) {
                     "token_file",
                     address));
   if (file.empty()) return access;
-  RefuseOpenMode(file);
-  std::ifstream in(file);
+  std::istringstream in(ReadPrivateFile(file, "tokens"));
   int number = 0;
   for (std::string line; std::getline(in, line);)
     ReadLine(line, fmt::format("{}:{}", file, ++number), access);

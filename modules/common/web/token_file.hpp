@@ -6,6 +6,9 @@
 
 namespace priamos {
 
+/// Whether nobody but this host reaches a server on `address`.
+bool IsLoopback(const std::string& address);
+
 /// Who may connect to a server on `address`: anybody on loopback without a token file, else who knows a token
 /// of `file`. Its lines are `driver TOKEN` or `viewer TOKEN`, tokens of 16 to 64 letters, digits, - and _;
 /// empty lines and comments with #. Throws std::runtime_error, `file:line: expected ...`, when it says

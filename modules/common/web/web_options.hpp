@@ -1,9 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 #include "common/web/web_request.hpp"
+
+namespace boost::asio::ssl {
+class context;
+}
 
 namespace priamos {
 
@@ -20,6 +25,7 @@ struct WebServerOptions {
   double head_timeout_s = 5;               ///< a request must have come whole within that
   double write_timeout_s = 5;              ///< a page that takes nothing for so long is gone
   WebAccess access{};
+  std::shared_ptr<boost::asio::ssl::context> tls{};  ///< of LoadTls; none: no connection is encrypted
   std::string camera{};  ///< its pictures are served as /NAME.jpg and /NAME.mjpeg; empty: there is none
 };
 

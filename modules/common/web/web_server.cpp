@@ -6,6 +6,7 @@
 #include <boost/asio/io_context.hpp>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "common/web/web_session.hpp"
 
@@ -17,6 +18,8 @@ using asio::ip::tcp;
 
 /// Most steps of connections within one Poll: a flood waits for the next one.
 constexpr int kMostSteps = 400;
+/// Most connections taken within one Poll when each has to shake hands, which costs up to a millisecond.
+constexpr int kMostHandshakes = 1;
 /// Between two pictures of somebody who asks for one after the other.
 constexpr double kWatched_s = 1;
 
@@ -42,6 +45,8 @@ class WebServer::Impl {
 
   void Poll(Time now) {
     shared_.now = now;
+    taken_ = 0;
+    if (!std::exchange(accepting_, true)) Accept();
     io_.restart();
     for (int i = 0; i < kMostSteps && io_.poll_one() > 0; ++i) {
     }
@@ -70,7 +75,8 @@ class WebServer::Impl {
   std::string address() const {
     const auto at = acceptor_.local_endpoint();
     const std::string host = at.address().to_string();
-    return fmt::format("http://{}:{}/", at.address().is_v6() ? "[" + host + "]" : host, at.port());
+    return fmt::format("{}://{}:{}/", options_.tls ? "https" : "http",
+                       at.address().is_v6() ? "[" + host + "]" : host, at.port());
   }
   int sockets() const { return shared_.sockets; }
   const WebCounters& counters() const { return shared_.counters; }
@@ -96,7 +102,8 @@ class WebServer::Impl {
   void Accept() {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
       if (!error) Take(std::move(socket));
-      Accept();
+      accepting_ = !options_.tls || ++taken_ < kMostHandshakes;
+      if (accepting_) Accept();
     });
   }
 
@@ -138,6 +145,8 @@ class WebServer::Impl {
   asio::io_context io_{1};
   WebShared shared_;
   tcp::acceptor acceptor_;
+  bool accepting_ = true;  ///< false: the rest waits for the next Poll
+  int taken_ = 0;          ///< connections of this Poll
   std::uint64_t last_id_ = 0;
   std::map<std::uint64_t, std::shared_ptr<WebSession>> sessions_;  ///< by age
 };

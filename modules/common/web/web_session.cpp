@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/write.hpp>
+#include <boost/beast/core/detect_ssl.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -49,16 +51,33 @@ WebRequest RequestOf(const Parser& parser) {
 
 }  // namespace
 
-WebSession::WebSession(boost::asio::ip::tcp::socket socket, std::uint64_t id, WebShared& shared)
+WebSession::WebSession(WebStream::Socket socket, std::uint64_t id, WebShared& shared)
     : id_(id), shared_(shared), socket_(std::move(socket)), since_(shared.now) {}
 
 void WebSession::Start() {
-  head_.emplace();
-  head_->header_limit(kLongestHead);
   beast::error_code ignored;
   tcp().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+  if (!shared_.options.tls) return ReadHead();
+  beast::async_detect_ssl(tcp(), buffer_, [self = shared_from_this()](beast::error_code error, bool begins) {
+    if (error || self->phase_ == Phase::kDone) return self->Close();
+    begins ? self->Secure() : self->ReadHead();  // who speaks plainly is told what is expected
+  });
+}
+
+void WebSession::Secure() {
+  stream().AsyncSecure(*shared_.options.tls, buffer_.data(),
+                       [self = shared_from_this()](beast::error_code error, std::size_t used) {
+                         if (error || self->phase_ == Phase::kDone) return self->Close();
+                         self->buffer_.consume(used);
+                         self->ReadHead();
+                       });
+}
+
+void WebSession::ReadHead() {
+  head_.emplace();
+  head_->header_limit(kLongestHead);
   http::async_read_header(
-      tcp(), buffer_, *head_,
+      stream(), buffer_, *head_,
       [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnHead(error); });
 }
 
@@ -66,6 +85,8 @@ void WebSession::OnHead(beast::error_code error) {
   if (phase_ == Phase::kDone) return;
   if (error == http::error::end_of_stream) return Close();
   if (error) return OnHead(RefuseRequest{400, "expected an HTTP request with a head of at most 8 kB"});
+  if (shared_.options.tls && !stream().secured())
+    return OnHead(RefuseRequest{400, "expected https:// at the beginning of the address"});
   std::visit([this](const auto& answer) { OnHead(answer); },
              Answer(RequestOf(*head_), shared_.files, shared_.options.access, shared_.options.camera));
 }
@@ -88,8 +109,8 @@ void WebSession::OnHead(const ServePictures& answer) {
 
 /// Who looks at all that come is gone when his end is closed.
 void WebSession::WatchEnd() {
-  tcp().async_read_some(boost::asio::buffer(unwanted_),
-                        [self = shared_from_this()](beast::error_code, std::size_t) { self->Close(); });
+  stream().async_read_some(boost::asio::buffer(unwanted_),
+                           [self = shared_from_this()](beast::error_code, std::size_t) { self->Close(); });
 }
 
 void WebSession::OfferPicture() {
@@ -109,14 +130,15 @@ void WebSession::WritePicture(std::string head, std::string_view end) {
   const std::array<boost::asio::const_buffer, 3> parts{boost::asio::buffer(looking_->head),
                                                        boost::asio::buffer(*looking_->jpeg),
                                                        boost::asio::buffer(end.data(), end.size())};
-  boost::asio::async_write(tcp(), parts, [self = shared_from_this()](beast::error_code error, std::size_t) {
-    if (error || self->phase_ != Phase::kPictures) return self->Close();
-    self->looking_->jpeg.reset();
-    if (self->looking_->all) return;
-    self->phase_ = Phase::kHead;  // for the next one
-    self->since_ = self->shared_.now;
-    self->Start();
-  });
+  boost::asio::async_write(stream(), parts,
+                           [self = shared_from_this()](beast::error_code error, std::size_t) {
+                             if (error || self->phase_ != Phase::kPictures) return self->Close();
+                             self->looking_->jpeg.reset();
+                             if (self->looking_->all) return;
+                             self->phase_ = Phase::kHead;  // for the next one
+                             self->since_ = self->shared_.now;
+                             self->ReadHead();
+                           });
 }
 
 void WebSession::OnHead(const RefuseRequest& answer) {
@@ -138,8 +160,10 @@ void WebSession::Reply(unsigned status, std::string_view type, std::string_view 
   reply.content_length(text.size());
   reply.keep_alive(false);
   if (!head_only) reply.body() = beast::span<const char>(text.data(), text.size());
-  http::async_write(tcp(), reply,
-                    [self = shared_from_this()](beast::error_code, std::size_t) { self->Close(); });
+  http::async_write(stream(), reply, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    if (error || self->phase_ == Phase::kDone) return self->Close();
+    self->stream().AsyncFinish([self](beast::error_code) { self->Close(); });
+  });
 }
 
 void WebSession::OnHead(const OpenSocket& answer) {

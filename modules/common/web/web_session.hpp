@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -19,6 +18,7 @@
 #include "common/web/picture_text.hpp"
 #include "common/web/web_listener.hpp"
 #include "common/web/web_options.hpp"
+#include "common/web/web_stream.hpp"
 
 namespace priamos {
 
@@ -41,7 +41,7 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   /// What the connection is used for now.
   enum class Phase { kHead, kReply, kPictures, kSocket, kDone };
 
-  WebSession(boost::asio::ip::tcp::socket socket, std::uint64_t id, WebShared& shared);
+  WebSession(WebStream::Socket socket, std::uint64_t id, WebShared& shared);
 
   void Start();
   /// Sends a message over its WebSocket; false when it has not taken the one before. Each is followed by a
@@ -61,8 +61,10 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   bool SeemsDead() const;
 
  private:
-  using Socket = boost::beast::websocket::stream<boost::asio::ip::tcp::socket>;
+  using Socket = boost::beast::websocket::stream<WebStream>;
 
+  void Secure();
+  void ReadHead();
   void OnHead(boost::beast::error_code error);
   void OnHead(const ServeFile& answer);
   void OnHead(const OpenSocket& answer);
@@ -78,7 +80,8 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   void Read();
   void OnMessage(boost::beast::error_code error);
   bool MaySay();
-  boost::asio::ip::tcp::socket& tcp() { return socket_.next_layer(); }
+  WebStream& stream() { return socket_.next_layer(); }
+  WebStream::Socket& tcp() { return stream().socket(); }
 
   const std::uint64_t id_;
   WebShared& shared_;

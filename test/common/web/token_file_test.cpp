@@ -58,7 +58,7 @@ TEST_F(TokenFile, ThatSaysSomethingElseIsRefusedByItsLine) {
 TEST_F(TokenFile, ThatOthersCanReadIsRefused) {
   EXPECT_THAT(ReasonOf("driver abcdefghijklmnop\n", 0644), HasSubstr("got mode 644; next: chmod 600"));
   EXPECT_THAT(ThrownReason([&] { LoadAccess("127.0.0.1", folder_ / "none"); }),
-              HasSubstr("which is not there"));
+              HasSubstr("none: expected a file with tokens, got none"));
 }
 
 }  // namespace
