@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "common/web/picture_client.hpp"
+#include "common/web/web_request.hpp"
 
 namespace priamos::console {
 
@@ -33,6 +34,8 @@ void ConsoleConfig::Describe(Archive& a) {
          "foreign pages, separated by blanks, that may connect as Foxglove does: https://app.foxglove.dev; "
          "file:// "
          "is what Foxglove and Lichtblick on the desktop name, and every page that is opened from a disk");
+  for (const std::string& origin : WordsOf(foxglove_origins))
+    if (!IsOrigin(origin)) a.Refuse("foxglove_origins", "https://HOST[:PORT], http://HOST[:PORT] or file://");
   a.Text("audit_file", audit_file,
          "file to which a line is added for everything that somebody did at the station; empty: none");
   a.Text("video", video,

@@ -1,6 +1,7 @@
 #include "common/web/web_request.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace priamos {
 namespace {
@@ -87,6 +88,20 @@ WebAnswer AnswerPictures(const WebRequest& request, const WebAccess& access, con
 }
 
 }  // namespace
+
+bool IsOrigin(std::string_view text) {
+  if (text == "file://") return true;
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!text.starts_with(scheme)) continue;
+    const std::string_view host = text.substr(scheme.size());
+    const auto fits = [](unsigned char c) {
+      return std::isalnum(c) != 0 ||
+             std::string_view("-.:[]").find(static_cast<char>(c)) != std::string_view::npos;
+    };
+    return !host.empty() && std::all_of(host.begin(), host.end(), fits);
+  }
+  return false;
+}
 
 WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAccess& access,
                  std::string_view camera) {

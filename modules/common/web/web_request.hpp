@@ -26,6 +26,10 @@ enum class Dialect {
   kFoxglove,  ///< foxglove.websocket.v1: Foxglove, Lichtblick, programs
 };
 
+/// Whether a text can be the origin of a page: `https://app.foxglove.dev`, `http://host:8080`, or `file://`.
+/// One with a path, or a pattern, never equals what a browser says.
+bool IsOrigin(std::string_view text);
+
 /// Who may connect.
 struct WebAccess {
   bool loopback_only = true;               ///< names of this machine's loopback alone are taken for the Host

@@ -120,7 +120,7 @@ ListenWish ReadListen(const json& object) {
 
 ReplayOrder ReadReplay(const json& object) {
   using enum ReplayOrder::Kind;
-  constexpr double kLongest_s = 1e7;
+  constexpr double kLongest_s = 1e10;  // a log's times reach until 2255
   const std::string action = Word(object, "action", 20);
   const bool has_value = action == "seek" || action == "speed";
   if (has_value) {

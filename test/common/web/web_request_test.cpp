@@ -137,5 +137,13 @@ TEST(WebRequest, AnotherProtocolIsNotFoxglove) {
   }
 }
 
+TEST(IsOrigin, IsWhatABrowserSays) {
+  for (const char* good : {"https://app.foxglove.dev", "http://10.0.0.5:8080", "http://[::1]:80", "file://"})
+    EXPECT_TRUE(IsOrigin(good)) << good;
+  for (const char* bad :
+       {"", "*", "https://*", "https://", "app.foxglove.dev", "https://a.b/", "null", "file:///x"})
+    EXPECT_FALSE(IsOrigin(bad)) << bad;
+}
+
 }  // namespace
 }  // namespace priamos

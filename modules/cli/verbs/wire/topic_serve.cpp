@@ -70,8 +70,11 @@ void AddTopicServeVerb(CLI::App& topic, int& exit_code) {
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   verb->add_option(
-      "--origin", options->origins,
-      "foreign page that may connect, https://app.foxglove.dev; file:// for the desktop programs");
+          "--origin", options->origins,
+          "foreign page that may connect, https://app.foxglove.dev; file:// for the desktop programs")
+      ->check([](const std::string& origin) {
+        return IsOrigin(origin) ? "" : "expected https://HOST[:PORT], http://HOST[:PORT] or file://";
+      });
   CompleteVerb(*verb, options, Serve, exit_code, "the address machine-readable");
 }
 
