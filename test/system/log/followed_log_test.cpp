@@ -139,18 +139,20 @@ TEST(FollowsLogs, ThePlannerDecidesTheSameAtLowSpeeds) {
     ours() { $BIN/priamos log play --speed "$@"; }
     thrice() { for play in 1 2 3; do lcms "$@"; sleep 0.2; done; }
     follow quarter 2.6 lcms 0.25 & follow half 4.6 ours 0.5 & follow once 8.5 lcms 1 & follow twice 17 ours 2 &
-    follow thrice 8.5 thrice 4 &
+    follow thrice 8.5 thrice 4 & follow short 2.6 thrice 4 &
     wait
   )sh",
                                           folder / "script.sh", 60);
-  for (const std::string speed : {"quarter", "half", "once", "twice", "thrice"}) {
+  for (const std::string speed : {"quarter", "half", "once", "twice", "thrice", "short"}) {
     SCOPED_TRACE(speed + "\n" + answer.text);
     EXPECT_THAT(answer.text, HasSubstr(speed + " 0"));
     ExpectSameDecisions(folder / (speed + ".lcmlog"));
   }
   // Played again, it is decided again: what a follower heard of the new play before it noticed is not lost.
-  EXPECT_EQ(CountOf(folder / "thrice.lcmlog", "REPLAYED_PATH"),
-            3 * CountOf(folder / "thrice-part.lcmlog", "PATH"));
+  for (const std::string played : {"thrice", "short"})
+    EXPECT_EQ(CountOf(folder / (played + ".lcmlog"), "REPLAYED_PATH"),
+              3 * CountOf(folder / (played + "-part.lcmlog"), "PATH"))
+        << played;
 }
 
 /// Only what commands nobody may follow a log.
