@@ -1,5 +1,6 @@
 #include "bus/log_follower.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -15,6 +16,28 @@ namespace {
 constexpr int kWait_ms = 50;
 /// A gap of a log, or a stamp that is wrong, is not lived through tick by tick beyond this.
 constexpr Duration kLongestGap = std::chrono::seconds(60);
+/// A bus that says nothing for so long, by the host's clock, is silent.
+constexpr Duration kSilence = std::chrono::seconds(2);
+
+/// Says what is to be said when a bus has fallen silent, once.
+class SilenceWatch {
+ public:
+  explicit SilenceWatch(Time now) : since_(now) {}
+  /// Whether it has just become silent; `heard` counts all messages.
+  bool Begins(Time now, std::uint64_t heard) {
+    if (heard != heard_) {
+      heard_ = heard;
+      since_ = now;
+      told_ = false;
+    }
+    return now - since_ > kSilence && !std::exchange(told_, true);
+  }
+
+ private:
+  Time since_;
+  std::uint64_t heard_ = 0;
+  bool told_ = false;
+};
 
 }  // namespace
 
@@ -53,13 +76,14 @@ void LogFollower::TickUntil(Time until, bool including) {
 
 void LogFollower::Hear(std::string_view channel, std::span<const std::byte> bytes) {
   if (channel.starts_with(kPrefix)) return;
+  ++heard_;
   const auto stamp = StampOf(schema_, bytes);
   if (!stamp || !LogTime::IsPlausible(*stamp)) return;
   if (!host_) {  // it has no ears yet
     first_.push_back({std::string(channel), {bytes.begin(), bytes.end()}});
     return;
   }
-  time_.Hear(*stamp);
+  time_.Hear(*stamp, IdentityOf(channel, bytes));
   beginning_.Note(time_, channel, bytes);
   if (time_.is_behind()) return;
   const bool own = IsOwn(channel, bytes);
@@ -71,11 +95,34 @@ void LogFollower::Hear(std::string_view channel, std::span<const std::byte> byte
 void LogFollower::Begin() {
   clock_.Set(*StampOf(schema_, first_.front().bytes));
   host_ = start_(clock_);
+  host_->ReportProblemsOf([this] { return Problems(); });
   for (const HeardMessage& message : std::exchange(first_, {})) bus_.Deliver(message.channel, message.bytes);
 }
 
-std::optional<int> LogFollower::Run(const SignalWatch& signals) {
+std::string LogFollower::Problems() const {
+  return time_.far_behind() == 0
+             ? ""
+             : fmt::format("{} messages more than 2 s behind the log", time_.far_behind());
+}
+
+std::string LogFollower::NotFollowed() const {
+  if (!host_ && first_.empty() && heard_ > 0)
+    return fmt::format(
+        "{} messages heard, none with a time stamp that can be a log's: nothing is decided; next: play a log "
+        "of this robot's types",
+        heard_);
+  if (const std::size_t n = beginning_.size(); n > 0)
+    return fmt::format(
+        "{} messages are from earlier in the log: too few to tell that it was started again, so it is not "
+        "begun anew; next: play more of it, or start this process again",
+        n);
+  return "";
+}
+
+std::optional<int> LogFollower::Run(const SignalWatch& signals,
+                                    const std::function<void(const std::string&)>& warn) {
   const HostClock alive;
+  SilenceWatch silence(alive.Now());
   ServiceNotifier notifier;
   while (!host_ || !host_->exit_code()) {
     pollfd fds[] = {{bus_.fd(), POLLIN, 0}, {signals.fd(), POLLIN, 0}};
@@ -85,6 +132,7 @@ std::optional<int> LogFollower::Run(const SignalWatch& signals) {
     notifier.Beat(alive.Now(), host_ ? host_->status() : "waits for the first message of a log");
     if (time_.went_back()) return std::nullopt;
     if (!host_ && !first_.empty()) Begin();
+    if (silence.Begins(alive.Now(), heard_) && warn && !NotFollowed().empty()) warn(NotFollowed());
   }
   return host_->exit_code();
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,14 +37,19 @@ class LogFollower {
   LogFollower& operator=(const LogFollower&) = delete;
 
   /// Runs until a signal or RequestStop and returns the exit code; nullopt when the log went back: another
-  /// follower begins anew, with what this one heard of the log that began again.
-  std::optional<int> Run(const SignalWatch& signals);
+  /// follower begins anew, with what this one heard of the log that began again. When the bus falls silent,
+  /// `warn` is given what was not followed.
+  std::optional<int> Run(const SignalWatch& signals,
+                         const std::function<void(const std::string&)>& warn = {});
   /// What was heard of the log that began again.
   std::vector<HeardMessage> TakeBeginning() { return beginning_.Take(); }
+  /// What was heard of late and is not followed, as a sentence for people; empty: nothing.
+  std::string NotFollowed() const;
 
  private:
   void Hear(std::string_view channel, std::span<const std::byte> bytes);
   void Begin();
+  std::string Problems() const;
   bool IsOwn(std::string_view channel, std::span<const std::byte> bytes) const;
   void TickUntil(Time until, bool including);
 
@@ -53,6 +60,7 @@ class LogFollower {
   LogTime time_;
   std::vector<HeardMessage> first_;  ///< until the App is made
   BeginningAgain beginning_;
+  std::uint64_t heard_ = 0;  ///< messages, of whatever kind
   SimulatedClock clock_{Time{}};
   std::unique_ptr<AppHost> host_;
 };

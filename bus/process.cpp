@@ -138,7 +138,8 @@ int FollowLog(const AppFactory& factory, const Options& options, const LogShow& 
   };
   for (std::vector<HeardMessage> first;;) {
     LogFollower follower(bus, schema, factory.name, start, std::move(first));
-    if (const auto code = follower.Run(signals)) return *code;
+    const auto warn = [&log](const std::string& problem) { log(Level::kWarning, problem); };
+    if (const auto code = follower.Run(signals, warn)) return *code;
     log(Level::kInfo, "the log went back: beginning anew");
     first = follower.TakeBeginning();
   }

@@ -1,6 +1,7 @@
 #include "bus/clocks/log_time.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "bus/schema/big_endian.hpp"
@@ -22,6 +23,12 @@ std::optional<Time> StampOf(const Schema& schema, std::span<const std::byte> byt
   return FromUtime(ReadBigEndian<std::int64_t>(bytes.data() + sizeof(std::uint64_t)));
 }
 
+std::uint64_t IdentityOf(std::string_view channel, std::span<const std::byte> bytes) {
+  constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;  // so that equal parts do not cancel
+  const std::hash<std::string_view> hash;
+  return hash(channel) * kOdd ^ hash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
 bool LogTime::IsPlausible(Time stamp) {
   return stamp > Time{} && stamp < kLatest;
 }
@@ -33,9 +40,11 @@ bool LogTime::IsWitnessed(Time stamp) {
   return witnesses_ >= kWitnesses;
 }
 
-void LogTime::Hear(Time stamp) {
+void LogTime::Hear(Time stamp, std::optional<std::uint64_t> identity) {
   if (went_back() || !IsPlausible(stamp)) return;
   behind_ = now_ && *now_ - stamp > kBack ? behind_ + 1 : 0;
+  far_behind_ += behind_ > 0 ? 1 : 0;
+  if (identity) repeated_.Hear(*identity, stamp, now_.value_or(Time::min()));
   if (now_ && stamp - *now_ > kLeap && !IsWitnessed(stamp)) return;
   witnesses_ = 0;
   now_ = std::max(stamp, now_.value_or(stamp));

@@ -29,6 +29,18 @@ void ClaimedTexts::Add(std::int64_t part, std::int64_t parts, std::string text) 
   versions.push_back(std::move(text));
 }
 
+void ClaimedTexts::Keep(const std::function<bool(const std::string& text)>& proves) {
+  proof_at_ = added_;
+  std::string seen;
+  const bool proven = AnyText([&](const std::string& text) {
+    seen = text;
+    return proves(text);
+  });
+  if (!proven) return;
+  bytes_ += seen.size() + kPartOverhead;
+  proven_ = std::move(seen);
+}
+
 bool ClaimedTexts::AnyText(const std::function<bool(const std::string& text)>& take) const {
   std::vector<const Claim*> whole;
   for (const auto& [count, claim] : by_count_)
@@ -39,7 +51,8 @@ bool ClaimedTexts::AnyText(const std::function<bool(const std::string& text)>& t
   whole.resize(std::min(whole.size(), claims));
   const Budget share{kMostTries / claims, kMostWork * bytes_ / claims};
   return std::any_of(whole.begin(), whole.end(),
-                     [&](const Claim* claim) { return AnyTextOf(claim->parts, share, take); });
+                     [&](const Claim* claim) { return AnyTextOf(claim->parts, share, take); }) ||
+         (proven_ && take(*proven_));
 }
 
 /// All choices of a version for each part, like the digits of a number that counts up; 0 is the newest one.

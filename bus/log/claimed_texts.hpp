@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,14 @@ class ClaimedTexts {
   /// Takes part `part` of `parts`, 0 <= part < parts.
   void Add(std::int64_t part, std::int64_t parts, std::string text);
 
-  /// Calls `take` with whole texts until it returns true, those of the newest parts first; false when it
-  /// never did. It sees at most kMostTries texts, and hardly more than eight times the bytes that are kept.
+  /// Whether the next part may push out one that no proof has seen: time for Keep.
+  bool NeedsProof() const { return !proven_ && added_ - proof_at_ >= kMostVersions; }
+  /// Keeps the first whole text that `proves` itself, whatever comes after it. Sees texts as AnyText does.
+  void Keep(const std::function<bool(const std::string& text)>& proves);
+
+  /// Calls `take` with whole texts until it returns true, those of the newest parts first, the one that was
+  /// kept last; false when it never did. It sees at most kMostTries texts, and hardly more than eight times
+  /// the bytes that are kept.
   bool AnyText(const std::function<bool(const std::string& text)>& take) const;
 
   /// Memory: bytes of all parts that are kept.
@@ -41,7 +48,8 @@ class ClaimedTexts {
                         const std::function<bool(const std::string& text)>& take);
 
   std::map<std::int64_t, Claim> by_count_;  ///< by the number of parts of the text
-  std::uint64_t added_ = 0;
+  std::uint64_t added_ = 0, proof_at_ = 0;
+  std::optional<std::string> proven_;
   std::size_t bytes_ = 0;
 };
 

@@ -25,6 +25,30 @@ namespace {
 
 using Handler = std::function<void(const Struct&, const std::string& channel, const LogEvent&)>;
 
+/// The fingerprint of a message as LCM's tools write it.
+std::string FingerprintText(std::span<const std::byte> bytes) {
+  return bytes.size() < sizeof(std::uint64_t)
+             ? "none"
+             : fmt::format("0x{:016x}", FingerprintOf(bytes.data(), bytes.size()));
+}
+
+/// Whether the event is a message; when not, `count` learns why.
+bool IsMessage(const LogEvent& event, const Struct* type, ExportCount& count) {
+  if (type == nullptr) {
+    if (count.unknown++ == 0)
+      count.first_unknown =
+          fmt::format("{} with fingerprint {}", event.channel, FingerprintText(event.bytes));
+  } else {
+    const WalkResult walked = Walk(*type, event.bytes);
+    if (walked) return true;
+    if (count.first_refused.empty())
+      count.first_refused = fmt::format("{} of {}, byte {} of {}: {}", event.channel, type->full_name,
+                                        walked.offset, event.bytes.size(), Sentence(walked.error));
+  }
+  ++count.undecodable;
+  return false;
+}
+
 /// Calls `handle` with every wanted event that is a message.
 ExportCount ForEachMessage(LogReader& reader, LogTypes& types, const LogSelection& selection,
                            const Handler& handle) {
@@ -32,10 +56,7 @@ ExportCount ForEachMessage(LogReader& reader, LogTypes& types, const LogSelectio
   while (const auto event = reader.Next()) {
     if (types.Take(event->bytes) || !selection.Wants(event->utime, event->channel)) continue;
     const Struct* type = types.Of(event->bytes);
-    if (type == nullptr || !Walk(*type, event->bytes)) {
-      ++count.undecodable;
-      continue;
-    }
+    if (!IsMessage(*event, type, count)) continue;
     handle(*type, selection.NameOf(event->channel), *event);
     ++count.written;
   }

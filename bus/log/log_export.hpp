@@ -22,6 +22,9 @@ class Schema;
 struct ExportCount {
   std::uint64_t written = 0;
   std::uint64_t undecodable = 0;  ///< events left out: of unknown type or refused by the schema walk
+  std::uint64_t unknown = 0;      ///< those of them that are of unknown type
+  /// The first of each: channel and fingerprint; channel and what is wrong with the message.
+  std::string first_unknown, first_refused;
 };
 
 /// One line of JSON per event: {"utime", "number", "channel", "type", "message"}.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -25,6 +26,15 @@ constexpr std::size_t kBlock = std::size_t{8} << 20;
   throw std::runtime_error(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
 }
 
+/// Files of /proc and /sys say that they are empty, and hold something, or cannot be read.
+void RequireEmpty(const RegularFile& file, const std::string& path) {
+  std::byte first{};
+  const ssize_t n = pread(file.fd(), &first, 1, 0);
+  if (n == 0) return;
+  throw std::runtime_error(fmt::format(
+      "{}: expected a log, got a file without a length, as the kernel makes up in /proc and /sys", path));
+}
+
 /// The mapped file; null for an empty one, which cannot be mapped.
 std::shared_ptr<const void> Map(const std::string& path, std::size_t& size) {
   const RegularFile file(path);
@@ -32,7 +42,10 @@ std::shared_ptr<const void> Map(const std::string& path, std::size_t& size) {
   struct stat status {};
   if (fstat(file.fd(), &status) != 0) CannotRead(path, errno);
   size = static_cast<std::size_t>(status.st_size);
-  if (size == 0) return nullptr;
+  if (size == 0) {
+    RequireEmpty(file, path);
+    return nullptr;
+  }
   void* memory = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd(), 0);
   if (memory == MAP_FAILED) CannotRead(path, errno);
   return {memory, [size](void* mapped) { munmap(mapped, size); }};
@@ -63,6 +76,30 @@ std::size_t LogReader::FindFollower(std::size_t begin, std::size_t end, std::int
     if (last || MagicAt(behind)) return at;
   }
   return end;
+}
+
+/// Where the events begin that the one at `offset` has swallowed, because a damaged length ends it at a later
+/// one; nullopt: it has not. It is told by the numbers: those of the swallowed events are what is left out
+/// before the event at `end`, and they fill it to the end. A message that carries events is not mistaken: in
+/// front of the next number nothing is left out.
+LogReader::Search LogReader::FindSwallowed(std::size_t offset, std::size_t end) const {
+  if (end + kHeaderBytes > bytes_.size()) return {};
+  const auto number = static_cast<std::uint64_t>(NumberAt(offset));
+  const std::uint64_t ahead = static_cast<std::uint64_t>(NumberAt(end)) - number;
+  if (ahead < 2 || ahead > end - offset) return {};
+  const auto is_next = [&](std::size_t at, std::uint64_t after) {
+    return MagicAt(at) && at + kHeaderBytes <= end && static_cast<std::uint64_t>(NumberAt(at)) == after + 1 &&
+           EndOfEvent(at).value_or(end + 1) <= end;
+  };
+  Search search;
+  std::size_t first = offset + kHeaderBytes + ReadBigEndian<std::uint32_t>(&bytes_[offset + 20]);
+  for (; first < end && !is_next(first, number); ++first) ++search.looked_at;
+  std::uint64_t last = number;
+  std::size_t at = first;
+  for (; at < end && is_next(at, last); ++last, ++search.looked_at) at = *EndOfEvent(at);
+  const bool fills = first < end && at == end && static_cast<std::uint64_t>(NumberAt(end)) == last + 1;
+  if (fills) search.found = first;
+  return search;
 }
 
 std::int64_t LogReader::NumberAt(std::size_t offset) const {
@@ -97,14 +134,17 @@ std::string_view LogReader::WhyNoEvent(std::size_t offset) const {
 
 LogReader::Place LogReader::PlaceAt(std::size_t offset) const {
   const auto end = MagicAt(offset) ? EndOfEvent(offset) : std::nullopt;
-  if (!end) return {false, offset + 1};
+  if (!end) return {false, offset + 1, 1};
   const bool whole = *end <= bytes_.size();
   // The end of the file is a good end. Elsewhere a magic follows, or the length is wrong and the event would
   // swallow the next ones, or else the next one is damaged.
-  if (whole && (*end == bytes_.size() || MagicAt(*end))) return {true, *end};
+  if (whole && (*end == bytes_.size() || MagicAt(*end))) {
+    const Search swallowed = FindSwallowed(offset, *end);
+    return {!swallowed.found, swallowed.found.value_or(*end), 1 + swallowed.looked_at};
+  }
   const std::size_t limit = std::min(*end, bytes_.size());
   const std::size_t follower = FindFollower(offset + 4, limit, NumberAt(offset));
-  return {whole && follower == limit, follower};
+  return {whole && follower == limit, follower, 1 + follower - offset};
 }
 
 LogEvent LogReader::EventAt(std::size_t offset) const {
@@ -143,6 +183,7 @@ std::optional<LogEvent> LogReader::Next() {
     const std::size_t offset = offset_;
     const Place place = PlaceAt(offset);
     offset_ = place.next;
+    looked_at_ += place.looked_at;
     if (place.event) return EventAt(offset);
     damaged_places_ += skipping ? 0 : 1;
     if (!first_damage_) first_damage_ = Damage{offset, WhyNoEvent(offset)};

@@ -87,6 +87,7 @@ bool LogTypes::Take(std::span<const std::byte> bytes) {
   const auto [at, added] = claimed_.try_emplace(message.fingerprint);
   if (added) order_.push_back(message.fingerprint);
   text_bytes_ -= at->second.bytes();
+  if (at->second.NeedsProof()) Prove(message.fingerprint, at->second);
   at->second.Add(message.part, message.parts, std::move(message.text));
   text_bytes_ += at->second.bytes();
   while (text_bytes_ > kMostTextBytes || claimed_.size() > kMostTypes) Forget(order_.front());
@@ -144,6 +145,15 @@ const Struct* LogTypes::Choose(const ClaimedTexts& claimed, std::span<const std:
   chosen_bytes_ += claimed.bytes();
   schemas_.push_back(best);
   return best->Of(bytes);
+}
+
+void LogTypes::Prove(std::uint64_t fingerprint, ClaimedTexts& claimed) {
+  claimed.Keep([&](const std::string& text) {
+    if (proof_bytes_ + text.size() > kMostTextBytes) return false;
+    proof_bytes_ += text.size();
+    const auto schema = SchemaOf(text);
+    return schema != nullptr && schema->Find(fingerprint) != nullptr;
+  });
 }
 
 void LogTypes::Forget(std::uint64_t fingerprint) {

@@ -50,7 +50,8 @@ class TypeScribe {
 /// A log may hold definitions that are damaged or forged, on a live bus by anybody. A recorder writes the
 /// genuine one directly before the first message of the type: so the choice is made at that message, the
 /// newest text goes first, it has to define a type of that message's fingerprint, and better one that the
-/// message obeys. What comes later changes nothing.
+/// message obeys. What comes later changes nothing. Of texts that many others follow before the message, as
+/// in a log that another recorder wrote, one that defines its fingerprint is kept.
 class LogTypes {
  public:
   static constexpr std::size_t kMostTypes = 4096;  ///< that one log defines
@@ -72,6 +73,7 @@ class LogTypes {
   static std::shared_ptr<const Schema> ReadText(const std::string& text);
   std::shared_ptr<const Schema> SchemaOf(const std::string& text);
   const Struct* Choose(const ClaimedTexts& claimed, std::span<const std::byte> bytes);
+  void Prove(std::uint64_t fingerprint, ClaimedTexts& claimed);
   void Forget(std::uint64_t fingerprint);
 
   const Schema* given_;
@@ -82,6 +84,7 @@ class LogTypes {
   std::vector<std::shared_ptr<const Schema>> schemas_;         ///< of the types in chosen_
   std::unordered_map<std::uint64_t, const Struct*> chosen_;
   std::size_t text_bytes_ = 0, chosen_bytes_ = 0;
+  std::size_t proof_bytes_ = 0;  ///< of texts that were read for proofs, kMostTextBytes at most
 };
 
 }  // namespace priamos::bus

@@ -32,7 +32,7 @@ void LogOnBus::Play(Time now, LogListener& listener) {
 void LogOnBus::Hear(std::string_view channel, std::span<const std::byte> bytes) {
   if (channel.starts_with(bus::LogFollower::kPrefix)) return;
   if (const auto stamp = bus::StampOf(schema_, bytes)) {
-    log_time_.Hear(*stamp);
+    log_time_.Hear(*stamp, bus::IdentityOf(channel, bytes));
     beginning_.Note(log_time_, channel, bytes);
   }
   if (!log_time_.now()) return;

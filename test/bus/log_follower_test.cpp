@@ -1,6 +1,6 @@
 #include "bus/log_follower.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -202,10 +202,41 @@ TEST_F(LogPlayedAgain, EachTimeAllOfItIsHeard) {
 }
 
 /// As of a log of which only the beginning is played.
-TEST_F(LogPlayedAgain, ALogOfFiveSecondsIsEnough) {
-  const auto heard = Follow(seconds(5), 2);
-  ASSERT_EQ(heard.size(), 2U);
-  EXPECT_EQ(heard[1].commands, 1);
+TEST_F(LogPlayedAgain, ALogOfTwoSecondsIsEnough) {
+  const auto heard = Follow(seconds(2), 3);
+  ASSERT_EQ(heard.size(), 3U);
+  for (const Heard& play : heard) EXPECT_EQ(play.commands, 1);
+  EXPECT_EQ(heard[1].poses, heard[0].poses);
+}
+
+/// What it heard last, by which it would notice, is too little: that is said.
+TEST_F(LogPlayedAgain, WhatIsTooShortToFollowIsSaid) {
+  AppFactory factory;
+  factory.name = "noter";
+  factory.start = [&](const ConfigSource&, Context& context) {
+    return std::make_unique<TickNoter>(context, [&](Time now, Context& around) {
+      if (now < kBegin + seconds(8)) return;
+      for (int i = 0; i < 3; ++i) Play(kBegin + seconds(i));
+      around.RequestStop(0);
+    });
+  };
+  LogFollower dut(bus_, schema_, factory.name, [&](const Clock& clock) {
+    return std::make_unique<AppHost>(factory, ConfigSource{}, bus_, schema_, clock, Surroundings{});
+  });
+  PlayLog(seconds(9));
+  EXPECT_EQ(dut.NotFollowed(), "") << "nothing was heard";
+  ASSERT_EQ(dut.Run(signals_), 0);
+  EXPECT_EQ(dut.NotFollowed(), "");
+  bus_.Drain();
+  EXPECT_THAT(dut.NotFollowed(), testing::StartsWith("3 messages are from earlier in the log"));
+}
+
+TEST_F(LogPlayedAgain, ABusWithoutStampsIsSaid) {
+  LogFollower dut(bus_, schema_, "noter", {});
+  bus_.PublishUnder("");
+  for (int i = 0; i < 4; ++i) bus_.Publish("FOREIGN", std::vector<std::byte>(12, std::byte{7}));
+  bus_.Drain();
+  EXPECT_THAT(dut.NotFollowed(), testing::StartsWith("4 messages heard, none with a time stamp"));
 }
 
 }  // namespace

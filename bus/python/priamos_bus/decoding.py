@@ -58,13 +58,18 @@ class _Reader:
             self.fail("structs are nested too deeply")
         self.depth += 1
         values, counts = {}, {}
+        counting = {d.count for field in struct.fields for d in field.dims}
         for field in struct.fields:
             if not field.dims:
                 if field.kind == "struct" and field.type.fixed_size == 0:
                     self.note_empty(1)
+                begin = self.at
                 values[field.name] = self.value(field)
                 if field.kind in INTEGER_BITS:
                     counts[field.name] = values[field.name]
+                if field.name in counting and counts[field.name] < 0:
+                    self.at = begin
+                    self.fail("the count of an array is negative")
                 continue
             sizes = [counts[d.count] if d.count else d.size for d in field.dims]
             self.check_sizes(field, sizes)
@@ -78,8 +83,6 @@ class _Reader:
         each = field.type.fixed_size if field.kind == "struct" else SIZES.get(field.kind)
         elements, rows = 1, 0
         for i, size in enumerate(sizes):
-            if size < 0:
-                self.fail("the count of an array is negative")
             if i > 0:
                 rows = max(rows, elements)
             elements *= size

@@ -108,11 +108,36 @@ class Log:
             return False, at + 1
         size = len(self.data)
         if end == size or (end < size and self._magic_at(end)):
-            return True, end
+            swallowed = self._swallowed(at, end)
+            return swallowed is None, end if swallowed is None else swallowed
         # No magic follows: the length is wrong, and the event would swallow the next ones, or the next is damaged.
         limit = min(end, size)
         follower = self._follower(at + 4, limit, self._number(at))
         return end <= size and follower == limit, follower
+
+    def _swallowed(self, at, end):
+        """Where the events begin that this one has swallowed, because a damaged length ends it at a later one: their
+        numbers are left out before the event at `end`, which they fill. None: it has not."""
+        number = self._number(at)
+        if end + _HEADER.size > len(self.data) or not 2 <= self._number(end) - number <= end - at:
+            return None
+        first = self._numbered(self.data.find(_MAGIC, at + _HEADER.size, end), end, number + 1)
+        follower, last = first, number
+        while follower is not None and follower < end:
+            last += 1
+            if not self._magic_at(follower) or self._number(follower) != last:
+                return None
+            follower = self._end(follower)
+        return first if follower == end and self._number(end) == last + 1 else None
+
+    def _numbered(self, at, end, number):
+        """The first event with that number that a magic from `at` on begins, and that ends before `end`."""
+        while at >= 0:
+            behind = self._end(at)
+            if behind is not None and behind <= end and self._number(at) == number:
+                return at
+            at = self.data.find(_MAGIC, at + 1, end)
+        return None
 
     def _follower(self, begin, end, number):
         at = self.data.find(_MAGIC, begin, end)
@@ -142,6 +167,8 @@ def _map(path):
             if not stat.S_ISREG(status.st_mode):
                 raise LogError(f"{path}: cannot be read: it is no file")
             if status.st_size == 0:
+                if os.pread(file.fileno(), 1, 0):  # as in /proc, which the kernel makes up
+                    raise LogError(f"{path}: cannot be read: it has no length")
                 return b""
             return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
     except (OSError, ValueError) as error:

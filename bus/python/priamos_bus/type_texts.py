@@ -35,11 +35,11 @@ class TypeTexts:
     A log may hold definitions that are damaged or forged, on a live bus by anybody. A recorder writes the genuine one
     directly before the first message of the type: so the choice is made at that message, the newest text goes first, it
     has to define a type of that message's fingerprint, and better one that the message obeys. What comes later changes
-    nothing."""
+    nothing. Of texts that many others follow before the message, one that defines its fingerprint is kept."""
 
     def __init__(self, schema):
         self.schema, self.claimed, self.chosen, self.text_bytes, self.chosen_bytes = schema, {}, 0, 0, 0
-        self._read = {}
+        self._read, self._proof_bytes = {}, 0
 
     def take(self, data):
         """Takes an encoded message; False when it is of another type."""
@@ -53,6 +53,8 @@ class TypeTexts:
         if self.schema.find(fingerprint) is None and 0 <= message["part"] < message["parts"]:
             claimed = self.claimed.setdefault(fingerprint, _ClaimedTexts())
             self.text_bytes -= claimed.bytes
+            if claimed.needs_proof():
+                claimed.keep(lambda text: self._defines(text, fingerprint))
             claimed.add(message["part"], message["parts"], message["text"])
             self.text_bytes += claimed.bytes
             while self.text_bytes > MOST_TEXT_BYTES or len(self.claimed) > MOST_TYPES:
@@ -88,6 +90,14 @@ class TypeTexts:
                 best = best or struct
         return best
 
+    def _defines(self, text, fingerprint):
+        size = len(text.encode("utf-8", "surrogateescape"))
+        if self._proof_bytes + size > MOST_TEXT_BYTES:
+            return False
+        self._proof_bytes += size
+        schema = self._schema_of(text)
+        return schema is not None and schema.find(fingerprint) is not None
+
     def _schema_of(self, text):
         """Its types; None when it defines none, or more than a recorder would write. Each text is read once, also when
         it is claimed to define many types."""
@@ -107,21 +117,33 @@ class _ClaimedTexts:
     """What a log claims to be the text of one type: parts of texts, of which some may be damaged or forged."""
 
     def __init__(self):
-        self.by_count, self.bytes = {}, 0
+        self.by_count, self.bytes, self.added, self.proof_at, self.proven = {}, 0, 0, 0, None
+
+    def needs_proof(self):
+        """Whether the next part may push out one that no proof has seen."""
+        return self.proven is None and self.added - self.proof_at >= MOST_VERSIONS
+
+    def keep(self, proves):
+        """Keeps the first whole text that proves itself, whatever comes after it."""
+        self.proof_at = self.added
+        self.proven = next(filter(proves, self.texts()), None)
+        if self.proven is not None:
+            self.bytes += len(self.proven) + _PART_OVERHEAD
 
     def add(self, part, parts, text):
+        self.added += 1
         self.by_count[parts] = self.by_count.pop(parts, {})  # the newest last
         versions = self.by_count[parts].setdefault(part, [])
         if text in versions:
             versions.remove(text)
+            self.bytes -= len(text) + _PART_OVERHEAD
         elif len(versions) == MOST_VERSIONS:
             self.bytes -= len(versions.pop(0)) + _PART_OVERHEAD
-        else:
-            self.bytes += len(text) + _PART_OVERHEAD
+        self.bytes += len(text) + _PART_OVERHEAD
         versions.append(text)
 
     def texts(self):
-        """Whole texts, those of the newest parts first."""
+        """Whole texts, those of the newest parts first, the one that was kept last."""
         whole = [parts for count, parts in reversed(self.by_count.items()) if len(parts) == count][:MOST_TRIES]
         for parts in whole:
             # A share of the work for each, so that none keeps the others from being tried.
@@ -133,3 +155,5 @@ class _ClaimedTexts:
                     break
                 seen += len(text)
                 yield text.encode("utf-8", "surrogateescape").decode("utf-8", "surrogateescape")
+        if self.proven is not None:
+            yield self.proven

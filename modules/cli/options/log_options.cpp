@@ -83,6 +83,7 @@ bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string
 void RequireNewFile(const std::string& out, const std::string& in, bool force) {
   if (out == "-")
     throw std::runtime_error("expected the name of a new file, got \"-\": this cannot go to standard output");
+  RequireFileOrNothing(out);
   std::error_code none;
   if (std::filesystem::equivalent(out, in, none))
     throw std::runtime_error(out + ": expected another file than the one that is read, got the same");

@@ -29,8 +29,8 @@ void AddSelectionOptions(CLI::App& verb, SelectionOptions& options);
 bus::LogSelection SelectionOf(const SelectionOptions& options, const std::string& log);
 
 /// Checks that `out` may be written as a new file. Throws std::runtime_error when it exists (unless `force`),
-/// is the very file that is being read, or
-/// is "-", which elsewhere means standard output.
+/// is the very file that is being read, is no regular file (nor /dev/null or the like, which no one waits
+/// for), or is "-", which elsewhere means standard output.
 void RequireNewFile(const std::string& out, const std::string& in, bool force);
 
 /// Whether `log` has an event that is `wanted`.

@@ -66,4 +66,9 @@ std::optional<std::string> RegularFile::Read(std::size_t most_bytes) const {
   return std::nullopt;
 }
 
+std::string OtherThanAFileAt(const std::string& path) {
+  struct stat info {};
+  return stat(path.c_str(), &info) == 0 ? OtherThanAFile(info.st_mode) : "";
+}
+
 }  // namespace priamos

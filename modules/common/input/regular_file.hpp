@@ -35,4 +35,8 @@ class RegularFile {
   unsigned mode_ = 0;
 };
 
+/// What is called `path` and is no regular file: `a pipe`, `a folder`, `a device`, `a socket`. Empty: a
+/// regular file, or nothing. Opens nothing.
+std::string OtherThanAFileAt(const std::string& path);
+
 }  // namespace priamos

@@ -58,6 +58,23 @@ TEST_F(LogTimeTest, ALogThatIsPlayedAgainIsNoticed) {
   EXPECT_TRUE(dut_.went_back()) << "what the end of the log sends meanwhile changes nothing";
 }
 
+TEST_F(LogTimeTest, MessagesFarBehindAreCounted) {
+  dut_.Hear(kBegin - minutes(1));
+  dut_.Hear(kBegin);
+  dut_.Hear(kBegin - minutes(2));
+  EXPECT_EQ(dut_.far_behind(), 2U);
+}
+
+TEST(LogTime, ALogOfASecondThatIsPlayedAgainIsNoticed) {
+  LogTime dut;
+  for (int play = 0; play < 2; ++play)
+    for (std::uint64_t i = 0; i < 5; ++i) {
+      EXPECT_FALSE(dut.went_back());
+      dut.Hear(kBegin + milliseconds(200 * i), i);
+    }
+  EXPECT_TRUE(dut.went_back());
+}
+
 TEST_F(LogTimeTest, TheMessagesByWhichThatIsNoticedAreHandedOut) {
   BeginningAgain dut;
   const auto hear = [&](Time stamp, const std::string& channel) {

@@ -60,6 +60,32 @@ TEST(ClaimedTexts, ATextOfManyChoicesKeepsNoOtherFromBeingTried) {
   EXPECT_THAT(AllOf(dut), testing::Contains("genuine"));
 }
 
+/// As LogTypes does, with every part.
+void AddAfterProof(ClaimedTexts& dut, const std::string& text) {
+  if (dut.NeedsProof()) dut.Keep([](const std::string& whole) { return whole == "genuine"; });
+  dut.Add(0, 1, text);
+}
+
+TEST(ClaimedTexts, OneThatProvesItselfIsKeptWhereverItCame) {
+  for (int before = 0; before < 20; ++before) {
+    ClaimedTexts dut;
+    for (int i = 0; i < before; ++i) AddAfterProof(dut, std::to_string(i));
+    AddAfterProof(dut, "genuine");
+    for (int i = 20; i < 220; ++i) AddAfterProof(dut, std::to_string(i));
+    EXPECT_THAT(AllOf(dut), testing::Contains("genuine")) << before;
+  }
+}
+
+TEST(ClaimedTexts, AProofSeesEachOnce) {
+  ClaimedTexts dut;
+  int seen = 0;
+  for (int i = 0; i < 1000; ++i) {
+    if (dut.NeedsProof()) dut.Keep([&](const std::string&) { return ++seen < 0; });
+    dut.Add(0, 1, std::to_string(i));
+  }
+  EXPECT_LE(seen, 1000);
+}
+
 TEST(ClaimedTexts, ItKnowsItsMemory) {
   ClaimedTexts dut, same;
   for (int i = 0; i < 100; ++i) dut.Add(i % 3, 3, std::to_string(i % 30));

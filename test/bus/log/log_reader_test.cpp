@@ -1,11 +1,14 @@
 #include "bus/log/log_reader.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <functional>
 
 #include "bus/log/log_writer.hpp"
 #include "bus/wire/reassembler.hpp"
@@ -211,6 +214,84 @@ TEST_F(Log, ALengthThatReachesIntoTheNextMagicDoesNotSwallowIt) {
   }
 }
 
+/// The events of numbers `begin` to `end` on POSE, each with a byte of data.
+std::string EventsOf(std::int64_t begin, std::int64_t end) {
+  std::string bytes;
+  for (; begin < end; ++begin) bytes += EventOf(begin, "POSE", "x");
+  return bytes;
+}
+
+TEST_F(Log, ALengthThatReachesToTheEndOfALaterEventDoesNotSwallowIt) {
+  const std::string one = EventsOf(5, 6);
+  for (int swallowed = 1; swallowed < 4; ++swallowed) {
+    std::string bytes = EventsOf(4, 10);
+    bytes[27] = static_cast<char>(1 + swallowed * static_cast<int>(one.size()));
+    EXPECT_EQ(EventsIn(bytes), (Events{"POSE 5", "POSE 6", "POSE 7", "POSE 8", "POSE 9"})) << swallowed;
+  }
+}
+
+/// Nothing is left out behind a message that carries the next events, so it is none that swallowed them; the
+/// same where something is left out, and is not what it carries.
+TEST_F(Log, AMessageMayHoldEventsOfTheNextNumbers) {
+  for (const std::string& inner : {EventsOf(5, 6), EventsOf(5, 7), "12345" + EventsOf(5, 6)}) {
+    EXPECT_EQ(EventsIn(EventOf(4, "RAW", inner) + EventsOf(5, 6)), (Events{"RAW 4", "POSE 5"}));
+    EXPECT_EQ(EventsIn(EventOf(4, "RAW", inner) + EventsOf(9, 10)), (Events{"RAW 4", "POSE 9"}));
+    EXPECT_EQ(EventsIn(EventOf(4, "RAW", inner)), (Events{"RAW 4"})) << "at the end nobody can tell";
+  }
+  EXPECT_EQ(EventsIn(EventOf(4, "RAW", EventsOf(5, 6) + "1") + EventsOf(6, 7)), (Events{"RAW 4", "POSE 6"}));
+}
+
+TEST_F(Log, ALostNumberIsNoDamage) {
+  EXPECT_EQ(EventsIn(EventsOf(4, 5) + EventsOf(6, 7)), (Events{"POSE 4", "POSE 6"}));
+}
+
+/// A header of an event that claims `data_bytes`.
+std::string HeaderOf(std::int64_t number, std::uint32_t data_bytes) {
+  std::string bytes = EventOf(number, "A", "");
+  for (std::size_t i = 0; i < 4; ++i) bytes[24 + i] = static_cast<char>(data_bytes >> (24 - 8 * i));
+  return bytes;
+}
+
+/// Logs of headers alone, one behind the other or within each other, which claim what costs a reader most.
+RC_GTEST_PROP(HostileLog, IsReadInTimeInProportionToItsSize, ()) {
+  const auto lengths = *rc::gen::container<std::vector<std::uint32_t>>(
+      rc::gen::oneOf(rc::gen::inRange(0U, 200U), rc::gen::inRange(0U, 40000U),
+                     rc::gen::map(rc::gen::inRange(0U, 1000U), [](std::uint32_t n) { return 29 * n; }),
+                     rc::gen::just(64U << 20)));
+  const auto numbers = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 4));
+  const bool cut = *rc::gen::arbitrary<bool>();
+  std::string log;
+  std::int64_t number = 0;
+  for (int round = 0; round < 20; ++round)
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      number += numbers.empty() ? 1 : numbers[i % numbers.size()];
+      log += HeaderOf(number, lengths[i]);
+      if (cut && i % 3 == 0) log.resize(log.size() - 5);
+    }
+  LogReader dut(std::as_bytes(std::span(log)));
+  while (dut.Next()) {
+  }
+  RC_ASSERT(dut.looked_at() <= 3 * log.size());
+}
+
+TEST(HostileLog, OfAHundredThousandHeadersIsReadInTimeInProportionToItsSize) {
+  const auto looked_at = [](const std::function<std::uint32_t(std::uint32_t)>& length, int step) {
+    std::string log;
+    for (std::uint32_t i = 0; i < 100'000; ++i) log += HeaderOf(step * static_cast<int>(i), length(i));
+    LogReader dut(std::as_bytes(std::span(log)));
+    while (dut.Next()) {
+    }
+    return static_cast<double>(dut.looked_at()) / static_cast<double>(log.size());
+  };
+  constexpr std::uint32_t kHeader = 29, kEvents = 100'000;
+  EXPECT_LE(looked_at([](std::uint32_t) { return 0; }, 2), 3);
+  EXPECT_LE(looked_at([](std::uint32_t) { return 64U << 20; }, 1), 3) << "all end behind the file";
+  EXPECT_LE(looked_at([](std::uint32_t i) { return kHeader * (kEvents - i - 2); }, 1), 3)
+      << "all end at the last one";
+  EXPECT_LE(looked_at([](std::uint32_t i) { return kHeader * ((kEvents - i) / 2); }, 2), 3);
+  EXPECT_LE(looked_at([](std::uint32_t i) { return i % 2 ? kHeader * 2 : 7; }, 3), 3);
+}
+
 TEST_F(Log, ANumberMayBeAny) {
   for (const std::int64_t number : {std::int64_t{1} << 62, INT64_MAX, INT64_MIN, std::int64_t{-1}})
     EXPECT_EQ(EventsIn(EventOf(0, "A", "") + EventOf(number, "POSE", "x").replace(12, 8, 8, '\0')),
@@ -286,6 +367,17 @@ TEST_F(Log, EmptyFileHoldsNothing) {
 
 TEST_F(Log, FolderIsASentence) {
   EXPECT_THROW(LogReader(std::string("/tmp")), std::runtime_error);
+}
+
+TEST_F(Log, WhatTheKernelMakesUpIsASentence) {
+  for (const std::string file : {"/proc/cpuinfo", "/proc/self/mem"}) try {
+      LogReader dut(file);
+      ADD_FAILURE() << file;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(
+          std::string(error.what()),
+          file + ": expected a log, got a file without a length, as the kernel makes up in /proc and /sys");
+    }
 }
 
 TEST_F(Log, APipeIsASentenceAndIsNotWaitedFor) {

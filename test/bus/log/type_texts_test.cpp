@@ -247,6 +247,22 @@ TEST_F(TypeTexts, ForgedAndDamagedTextsHideNoGenuineOne) {
   }
 }
 
+/// Another recorder than ours has them where they came over the bus: long before the first message.
+TEST_F(TypeTexts, AFloodOfForgedTextsBehindTheGenuineOneDoesNotHideIt) {
+  const std::uint64_t fingerprint = kThen.Find("p.way_t")->fingerprint;
+  const std::string genuine =
+      "package p; struct point_t { double x; } struct way_t { int8_t n; point_t at[n]; }";
+  for (const std::size_t parts : {1, 2}) {
+    const std::size_t size = genuine.size() / parts + 1;
+    LogTypes dut(nullptr);
+    for (std::size_t i = 0; i < parts; ++i)
+      dut.Take(TextPart(fingerprint, genuine.substr(i * size, size), i, parts));
+    for (std::size_t i = 0; i < 200; ++i)
+      dut.Take(TextPart(fingerprint, fmt::format("struct forged{}_t {{ int8_t a; }}", i), i % parts, parts));
+    EXPECT_NE(dut.Of(ThenWay()), nullptr) << parts << " parts";
+  }
+}
+
 TEST_F(TypeTexts, OneForgedPartAfterTheGenuineOnesIsLeftOut) {
   const std::uint64_t fingerprint = kThen.Find("p.way_t")->fingerprint;
   const std::string genuine =

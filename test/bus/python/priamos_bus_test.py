@@ -38,6 +38,12 @@ class Messages(unittest.TestCase):
         message = {"raw": b"ab", "grid": [[1, 2], [3, 4.5], [0, 1]]}
         self.assertEqual(bus.decode(struct, bus.encode(struct, message)), {"n": 2, "m": 3, **message})
 
+    def test_a_negative_count_is_refused_where_it_stands(self):
+        struct = bus.Schema([("t.lcm", "struct s { int8_t n; int8_t m; byte raw[n][m]; }")]).find("s")
+        for count, place in (((0, 255), 9), ((255, 0), 8)):
+            with self.assertRaisesRegex(bus.MessageError, f"byte {place} of 10: the count of an array is negative"):
+                bus.decode(struct, struct.fingerprint.to_bytes(8, "big") + bytes(count))
+
     def test_messages_of_billions_of_structs_without_bytes_are_refused(self):
         text = "struct c45_t {}" + "".join(f"struct c{i}_t {{ c{i + 1}_t a; c{i + 1}_t b; }}" for i in range(45))
         schema = bus.Schema([("t.lcm", text + "struct e_t {} struct wide_t { e_t x[2000000000]; }")])
@@ -156,6 +162,34 @@ class Logs(unittest.TestCase):
                 dut.take(bus.encode(SCHEMA.find("type_text_t"), message))
             found = dut.of(inner.fingerprint.to_bytes(8, "big") + b"\1")
             self.assertEqual([found.name] if found else [], types)
+
+    def test_a_flood_of_forged_texts_does_not_hide_the_genuine_one(self):
+        genuine = "struct s_t { int8_t x; }"
+        struct = bus.Schema([("t.lcm", genuine)]).find("s_t")
+        forged = [f"struct forged{i}_t {{ int16_t y; }}" for i in range(200)]
+        for before in range(10):
+            dut = TypeTexts(bus.Schema([]))
+            for text in (*forged[:before], genuine, *forged[before:]):
+                message = {"utime": 0, "fingerprint": struct.fingerprint - 2**64 * (struct.fingerprint >> 63), "part": 0,
+                           "parts": 1, "text": text}
+                dut.take(bus.encode(SCHEMA.find("type_text_t"), message))
+            self.assertIsNotNone(dut.of(struct.fingerprint.to_bytes(8, "big") + b"\1"), before)
+
+    def test_an_event_that_swallowed_others_is_damage(self):
+        self.write(4)
+        data = bytearray(self.path.read_bytes())
+        size = len(data) // 4
+        for swallowed in (1, 2):
+            broken = data[:]
+            broken[24:28] = (int.from_bytes(data[24:28], "big") + swallowed * size).to_bytes(4, "big")
+            self.path.write_bytes(broken)
+            log = bus.Log(self.path)
+            self.assertEqual([event.number for event in log], [1, 2, 3])
+            self.assertEqual((log.damaged_places, log.skipped_bytes), (1, size))
+
+    def test_what_the_kernel_makes_up_is_no_log(self):
+        with self.assertRaisesRegex(bus.LogError, "/proc/self/status: cannot be read: it has no length"):
+            bus.Log("/proc/self/status")
 
     def test_a_pipe_is_no_log_and_is_not_waited_for(self):
         os.mkfifo(self.path)

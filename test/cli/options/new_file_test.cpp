@@ -1,6 +1,10 @@
 #include "cli/options/new_file.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -57,10 +61,32 @@ TEST_F(NewFileTest, WhereALinkLeadsTheLinkStays) {
   EXPECT_EQ(Content(), "new");
 }
 
-TEST_F(NewFileTest, ADeviceIsWrittenAsItIs) {
+TEST_F(NewFileTest, ADeviceThatIsMemoryIsWrittenAsItIs) {
   NewFile dut("/dev/null");
   EXPECT_EQ(dut.written(), "/dev/null");
   dut.Keep();
+}
+
+TEST_F(NewFileTest, WhatIsNoFileIsRefusedAndNotWaitedFor) {
+  const std::string pipe = folder_ / "pipe", link = folder_ / "link", socket_file = folder_ / "socket";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink(pipe, link);
+  const int socket_fd = socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  socket_file.copy(address.sun_path, sizeof address.sun_path - 1);
+  ASSERT_EQ(bind(socket_fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  for (const auto& [path, got] : {std::pair{pipe, "a pipe"},
+                                  {link, "a pipe"},
+                                  {socket_file, "a socket"},
+                                  {folder_.path().string(), "a folder"},
+                                  {std::string("/dev/ptmx"), "a device"}})
+    try {
+      NewFile dut(path);
+      ADD_FAILURE() << path;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()), path + ": expected a new file, or one to replace, got " + got);
+    }
+  close(socket_fd);
 }
 
 TEST_F(NewFileTest, WhereNothingCanBeWrittenItSaysSoByTheNameThatWasGiven) {

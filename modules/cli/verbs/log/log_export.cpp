@@ -17,6 +17,7 @@
 #include "cli/verbs/log/log_verb.hpp"
 #include "common/config.hpp"
 #include "common/ground_plan.hpp"
+#include "common/input/regular_file.hpp"
 #include "console/foxglove/scene.hpp"
 #include "console/foxglove/scene_schemas.hpp"
 
@@ -28,6 +29,16 @@ struct ExportOptions : LogOptions {
   std::string format, map;
   bool plain = false;
 };
+
+/// Why nothing could be decoded, and what helps.
+std::string WhyNothing(const ExportOptions& options, const bus::ExportCount& count) {
+  if (count.unknown == 0) return "all messages are damaged: first " + count.first_refused;
+  if (options.bus.types.empty()) return "no message could be decoded; name its .lcm folder with --types";
+  return fmt::format(
+      "no message could be decoded: expected a type that --types or the log defines, got {}; next: name the "
+      "folder that defines it as well, by one more --types",
+      count.first_unknown);
+}
 
 int ReportExport(const ExportOptions& options, const bus::ExportCount& count, const bus::LogReader& reader) {
   // Standard output may be taken by the messages themselves.
@@ -42,7 +53,7 @@ int ReportExport(const ExportOptions& options, const bus::ExportCount& count, co
     std::cerr << fmt::format("{}; {} undecodable; {}\n", Counted(count.written, "message"), count.undecodable,
                              LeftOut(reader));
   if (count.written > 0 || count.undecodable == 0) return 0;
-  std::cerr << options.log << ": no message could be decoded; name its .lcm folder with --types\n";
+  std::cerr << options.log << ": " << WhyNothing(options, count) << "\n";
   return 1;
 }
 
@@ -74,6 +85,13 @@ void RequireMessages(const ExportOptions& options, const bus::LogSelection& sele
   });
 }
 
+void RequireFolderOrNothing(const std::string& folder) {
+  if (!std::filesystem::exists(folder) || std::filesystem::is_directory(folder)) return;
+  const std::string got = OtherThanAFileAt(folder);
+  throw std::runtime_error(
+      fmt::format("{}: expected a new folder, got {}", folder, got.empty() ? "a file" : got));
+}
+
 int Export(const ExportOptions& options) {
   const bus::Schema schema = LoadTypes(options.bus.types);
   bus::LogReader reader(options.log);
@@ -82,6 +100,7 @@ int Export(const ExportOptions& options) {
     if (options.out == "-") throw std::runtime_error("--out: expected a folder for csv, got \"-\"");
     const std::string folder =
         options.out.empty() ? std::filesystem::path(options.log).stem().string() + "-csv" : options.out;
+    RequireFolderOrNothing(folder);
     if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder) && !options.force)
       throw std::runtime_error(folder + ": expected a new folder, got one with files in it; --force uses it");
     RequireMessages(options, selection, folder);

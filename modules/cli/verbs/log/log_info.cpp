@@ -109,7 +109,10 @@ int Index(const LogOptions& options) {
     out.stream() << fmt::format("{},{},{},{},{},{}\r\n", event->offset, event->number, event->utime,
                                 bus::QuotedCell(event->channel), event->bytes.size(), type_name);
   }
-  return out.Close();
+  out.Close();
+  if (reader.damaged_places() == 0) return 0;
+  std::cerr << options.log << ": " << LeftOut(reader) << "\n";
+  return kDamaged;
 }
 
 }  // namespace
@@ -128,11 +131,13 @@ void AddLogInfoVerb(CLI::App& log, int& exit_code) {
 
 void AddLogIndexVerb(CLI::App& log, int& exit_code) {
   auto options = std::make_shared<LogOptions>();
-  auto* verb = AddLogVerb(log,
-                          {.name = "index",
-                           .help = "A line per event: where it is in the file, number, time, channel, type.",
-                           .example = "priamos log index onboard.lcmlog --out onboard.csv"},
-                          *options);
+  auto* verb =
+      AddLogVerb(log,
+                 {.name = "index",
+                  .help = "A line per event: where it is in the file, number, time, channel, type (exit "
+                          "code 1 when damaged).",
+                  .example = "priamos log index onboard.lcmlog --out onboard.csv"},
+                 *options);
   verb->add_option("--out", options->out, "file; none: standard output");
   AddTypesOption(*verb, options->bus.types);
   AddOutputFlags(*verb, *options);

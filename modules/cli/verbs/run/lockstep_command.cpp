@@ -13,6 +13,7 @@
 #include "cli/lockstep/factories.hpp"
 #include "cli/lockstep/lockstep_run.hpp"
 #include "cli/options/folder_options.hpp"
+#include "cli/options/new_file.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/report/report_files.hpp"
 #include "cli/verbs/run/commands.hpp"
@@ -87,6 +88,7 @@ void RequireWritable(const LockstepOptions& options) {
       throw std::runtime_error(fmt::format("--logs: expected a folder that can be written, got \"{}\": {}",
                                            options.log_root, std::strerror(errno)));
   }
+  if (!options.json_file.empty()) RequireFileOrNothing(options.json_file);
   if (!options.json_file.empty() && !std::ofstream(options.json_file, std::ios::app))
     throw std::runtime_error(fmt::format("--json: expected a file that can be written, got \"{}\": {}",
                                          options.json_file, std::strerror(errno)));

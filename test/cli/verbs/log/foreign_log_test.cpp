@@ -70,6 +70,27 @@ TEST_F(ForeignLog, IsDecodedThoughOneTypeIsBroken) {
   EXPECT_EQ(dut.at("channels").at(0).at("types"), json::array({"theirs.blob_t"}));
 }
 
+TEST_F(ForeignLog, WhyNothingCouldBeDecodedIsSaid) {
+  const auto err = [&](const std::string& channel, bool types) {
+    std::vector<std::string> words{"log", "export", log_, "jsonl", "--channels", channel};
+    if (types) words.insert(words.end(), {"--types", folder_.path()});
+    const auto answer = Priamos(words);
+    EXPECT_EQ(answer.exit_code, 1) << channel;
+    return answer.err;
+  };
+  EXPECT_THAT(err("CLAIM", false), HasSubstr("name its .lcm folder with --types"));
+  EXPECT_THAT(err("RAW", true), HasSubstr("expected a type that --types or the log defines, got RAW with "
+                                          "fingerprint none"));
+  auto damaged = Encoded("blob_t", {{"data", "AAEC/w=="}, {"last", true}});
+  damaged[8] = std::byte{0xff};  // the count
+  MessageLog(log_).AddBytes(0, "BLOB", damaged);
+  const std::string all_damaged = err("BLOB", true);
+  EXPECT_THAT(all_damaged,
+              HasSubstr("all messages are damaged: first BLOB of theirs.blob_t, byte 8 of 17: the "
+                        "count of an array is negative"));
+  EXPECT_THAT(all_damaged, testing::Not(HasSubstr("--types")));
+}
+
 TEST_F(ForeignLog, RepairKeepsWhatIsNotDamaged) {
   const auto events = EventsOf(log_);
   std::string bytes = FileContent(log_);

@@ -112,6 +112,38 @@ TEST_F(LogCommand, APipeIsNoLogAndIsNotWaitedFor) {
   }
 }
 
+TEST_F(LogCommand, NoVerbWaitsForAPipeThatItIsToWrite) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
+           {"log", "filter", log_, pipe, "--force"},
+           {"log", "repair", log_, pipe, "--force"},
+           {"log", "merge", log_, Damaged(0, 0), pipe, "--offset", "0", "--force"},
+           {"log", "index", log_, "--out", pipe, "--force"},
+           {"log", "export", log_, "jsonl", "--out", pipe, "--force"},
+           {"log", "export", log_, "csv", "--out", pipe, "--force"},
+           {"log", "record", pipe, "--seconds", "0.1"},
+           {"lockstep", "--json", pipe}}) {
+    const auto answer = Priamos(line);
+    EXPECT_EQ(answer.exit_code, 2) << testing::PrintToString(line);
+    EXPECT_THAT(answer.err, AllOf(HasSubstr(pipe), AnyOf(HasSubstr("got a pipe"), HasSubstr("record"))))
+        << testing::PrintToString(line);
+  }
+}
+
+TEST_F(LogCommand, IndexOfADamagedLogSaysSoAndExitsWithOne) {
+  const std::string damaged = Damaged(144, 144);
+  const auto answer = Priamos({"log", "index", damaged});
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_EQ(LinesOf(answer.out).size(), 6u);
+  EXPECT_EQ(answer.err, damaged +
+                            ": 1 damaged place with 144 bytes left out: first bytes that begin no event at "
+                            "byte 144\n");
+  const std::string out = folder_ / "index.csv";
+  EXPECT_EQ(Priamos({"log", "index", damaged, "--out", out, "--json"}).exit_code, 1);
+  EXPECT_EQ(LinesOf(FileContent(out)).size(), 5u) << "what is whole is there";
+}
+
 TEST_F(LogCommand, IndexHasALinePerEventWithItsPlace) {
   const auto answer = Priamos({"log", "index", log_});
   EXPECT_EQ(answer.exit_code, 0);
