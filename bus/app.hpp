@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "bus/context.hpp"
+#include "bus/parameters/parameter_json.hpp"
 #include "bus/process_config.hpp"
 #include "common/config.hpp"
 #include "common/config_printer.hpp"
+#include "common/parameters/saved_parameters.hpp"
 #include "common/time.hpp"
 #include "lcmtypes/embedded_types.hpp"
 
@@ -24,6 +26,7 @@ namespace priamos::bus {
 ///     static constexpr bool kFollowsLogs = true;  it may run on the time of a bus onto which a log is played
 ///     static std::vector<TypeText> Types();       .lcm texts of its messages, beside those of lcmtypes/
 ///     void Yield(Time now);                       its last act when another process has its role
+///     void Reconfigure(const Config& config);     between ticks: parameters marked Live have changed
 template <class T>
 concept App = requires(T app, const typename T::Config& config, Context& context, Time now) {
   { T::kName } -> std::convertible_to<std::string_view>;
@@ -48,6 +51,32 @@ class AnyApp {
   virtual Duration TickPeriod() const = 0;
   virtual void Tick(Time now) = 0;
   virtual void Yield(Time now) = 0;
+  /// What may be changed while it runs; nullptr: nothing.
+  virtual ParameterStore* parameters() { return nullptr; }
+  /// Tells it that parameters have changed.
+  virtual void Reconfigure() {}
+};
+
+/// The configuration of an App: file and command line, with what was saved while it ran on top.
+template <class T>
+struct AppConfig {
+  explicit AppConfig(const ConfigSource& source)
+      : values(LoadAppConfig<T>(source)), parameters([this](Archive& a) { values.Describe(a); }) {
+    ReadSavedParameters(source.saved, parameters);
+  }
+  AppConfig(const AppConfig&) = delete;
+  AppConfig& operator=(const AppConfig&) = delete;
+
+  /// What the file says of the parameters, beside what was saved.
+  ParameterSheet Sheet() const {
+    ParameterSheet sheet{parameters.table(), {}};
+    for (std::size_t i = 1; i <= sheet.table.all().size(); ++i)
+      sheet.values.push_back(parameters.FileValueOf(static_cast<int>(i)));
+    return sheet;
+  }
+
+  T values;
+  ParameterStore parameters;
 };
 
 /// How to start one kind of App.
@@ -62,18 +91,26 @@ struct AppFactory {
   std::vector<std::string> speaks_alone;  ///< channels on which nobody but the owner may send
   std::function<std::unique_ptr<AnyApp>(const ConfigSource&, Context&)> start;
   std::function<void(std::ostream&, const ConfigSource&)> print_config;
+  std::function<ParameterSheet(const ConfigSource&)> parameters;
 };
 
 template <App T>
 AppFactory FactoryOf() {
   struct Erased : AnyApp {
-    Erased(const ConfigSource& source, Context& context)
-        : app(LoadAppConfig<typename T::Config>(source), context) {}
+    Erased(const ConfigSource& source, Context& context) : config(source), app(config.values, context) {}
     Duration TickPeriod() const override { return app.TickPeriod(); }
     void Tick(Time now) override { app.Tick(now); }
     void Yield(Time now) override {
       if constexpr (requires { app.Yield(now); }) app.Yield(now);
     }
+    ParameterStore* parameters() override {
+      if constexpr (requires { app.Reconfigure(config.values); }) return &config.parameters;
+      return nullptr;
+    }
+    void Reconfigure() override {
+      if constexpr (requires { app.Reconfigure(config.values); }) app.Reconfigure(config.values);
+    }
+    AppConfig<typename T::Config> config;
     T app;
   };
   AppFactory factory;
@@ -91,7 +128,11 @@ AppFactory FactoryOf() {
     return std::make_unique<Erased>(source, context);
   };
   factory.print_config = [](std::ostream& out, const ConfigSource& source) {
-    PrintConfig(out, LoadAppConfig<typename T::Config>(source));
+    AppConfig<typename T::Config> config(source);
+    config.values.Describe(*MakeConfigPrinter(out));
+  };
+  factory.parameters = [](const ConfigSource& source) {
+    return AppConfig<typename T::Config>(source).Sheet();
   };
   return factory;
 }

@@ -1,10 +1,14 @@
 #include "bus/app_host.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "bus/clocks/clock_health.hpp"
 #include "bus/health_text.hpp"
+#include "bus/parameters/parameter_messages.hpp"
 #include "common/config.hpp"
 
 namespace priamos::bus {
@@ -40,7 +44,28 @@ AppHost::AppHost(const AppFactory& factory, const ConfigSource& source, LcmBus& 
       app_(factory.start(source, context_)),
       period_(app_->TickPeriod()),
       next_tick_(clock.Now()),
-      next_health_(clock.Now()) {}
+      next_health_(clock.Now()) {
+  OfferParameters(source);
+}
+
+void AppHost::OfferParameters(const ConfigSource& source) {
+  ParameterStore* store = app_->parameters();
+  const auto process = ParameterProcess(name_);
+  if (store == nullptr || !process) return;
+  ParameterDesk::Surroundings around{source.saved, [this] { app_->Reconfigure(); },
+                                     [this](bool warning, std::string_view text) {
+                                       context_.Log(warning ? Level::kWarning : Level::kInfo, text);
+                                     }};
+  parameters_.emplace(Parameters{{*process, *store, std::move(around)},
+                                 node_.SubscribeAll(channels::kParameterOrder),
+                                 node_.Advertise(channels::kParameterValue)});
+}
+
+void AppHost::TakeParameters(Time now) {
+  if (!parameters_) return;
+  for (const parameter_order_t& order : parameters_->orders.Drain())
+    if (const auto answer = parameters_->desk.Take(order, now)) parameters_->values.Publish(*answer);
+}
 
 void AppHost::Step(Time now) {
   if (now < next_tick_) return;
@@ -49,6 +74,7 @@ void AppHost::Step(Time now) {
     ++overruns_;
     next_tick_ = now + period_;
   }
+  TakeParameters(now);
   app_->Tick(now);
   if (now >= next_health_) PublishHealth(now);
 }
@@ -63,6 +89,9 @@ std::string AppHost::HealthText() const {
   std::string problems = node_.Problems();
   if (const auto n = bus_.turned_away(); n > 0)
     problems += (problems.empty() ? "" : "; ") + std::to_string(n) + " datagrams turned away by the kernel";
+  if (parameters_ && parameters_->desk.refused() > 0)
+    problems += fmt::format("{}parameter orders refused: {}", problems.empty() ? "" : "; ",
+                            parameters_->desk.refused());
   if (const std::string more = further_problems_ ? further_problems_() : ""; !more.empty())
     problems = problems.empty() ? more : more + "; " + problems;
   if (!text.empty() && !problems.empty()) text += "; ";

@@ -7,13 +7,15 @@
 
 #include "bus/app.hpp"
 #include "bus/clocks/clock_offset.hpp"
+#include "bus/parameters/parameter_desk.hpp"
 #include "common/config.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::bus {
 
 /// One App with its node and its schedule; the same in real time and in lockstep. It decides when a tick is
-/// due and publishes HEALTH once per second, also when the App itself set none.
+/// due, takes orders to change parameters between ticks, and publishes HEALTH once per second, also when the
+/// App itself set none.
 class AppHost {
  public:
   /// Starts the App; throws ConfigError, BusError or std::runtime_error with one sentence.
@@ -42,6 +44,14 @@ class AppHost {
   const Node& node() const { return node_; }
 
  private:
+  /// Where the App's parameters are read and changed.
+  struct Parameters {
+    ParameterDesk desk;
+    Inbox<parameter_order_t> orders;
+    Publisher<parameter_value_t> values;
+  };
+  void OfferParameters(const ConfigSource& source);
+  void TakeParameters(Time now);
   void PublishHealth(Time now);
 
   std::string HealthText() const;
@@ -52,6 +62,7 @@ class AppHost {
   Context context_;
   Publisher<health_t> health_;
   std::unique_ptr<AnyApp> app_;
+  std::optional<Parameters> parameters_;  ///< none: the App has none that may be changed
   std::function<std::string()> further_problems_;
   std::function<std::optional<ClockDifference>()> ahead_of_reference_;
   Duration period_;

@@ -185,6 +185,10 @@ void WarnOf(const AppFactory& factory, const std::string& url, const ClockAnchor
 
 int Run(const AppFactory& factory, const Options& options, const LogShow& show, bool& running) {
   if (options.print_config) return PrintConfiguration(factory, options);
+  if (options.print_parameters) {
+    std::cout << ToJson(factory.parameters(options.config)) << '\n';
+    return 0;
+  }
   if (options.interface) return PrintInterface(factory, options);
   if (options.bus.starts_with(kFileUrl)) return RunFromLog(factory, options);
   RequireConfiguration(factory, options.config);

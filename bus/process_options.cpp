@@ -23,6 +23,9 @@ void AddAlias(CLI::App& cli, const OptionAlias& alias, ConfigSource& config) {
 void AddProcessOptions(CLI::App& cli, const AppFactory& factory, ProcessOptions& options) {
   cli.add_option("--config", options.config.path, "TOML file; without it every key keeps its default");
   cli.add_option("--set", options.config.overrides, "KEY=VALUE on top of the file");
+  cli.add_option("--saved", options.config.saved,
+                 "file of parameters that were saved while it ran (priamos param), on top of everything; "
+                 "without it none can be saved");
   options.choice.bus = factory.default_bus;
   AddBusChoice(cli, options.choice);
   cli.get_option("--bus")->description(
@@ -30,6 +33,8 @@ void AddProcessOptions(CLI::App& cli, const AppFactory& factory, ProcessOptions&
   cli.add_option("--seed", options.seed, "seed of simulated hardware")->capture_default_str();
   cli.add_flag("--print-config", options.print_config,
                "print every key with value, unit and meaning, and exit");
+  cli.add_flag("--print-parameters", options.print_parameters,
+               "print what may be changed while it runs, as JSON, and exit");
   cli.add_flag("--interface", options.interface, "print the channels read and written, and exit");
   if (factory.follows_logs)
     cli.add_option_function<std::string>(

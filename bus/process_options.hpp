@@ -22,6 +22,7 @@ struct ProcessOptions {
   std::uint64_t seed = 0;
   bool follows_log = false;  ///< `--clock bus`
   bool print_config = false;
+  bool print_parameters = false;
   bool interface = false;
 };
 

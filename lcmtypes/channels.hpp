@@ -33,6 +33,8 @@
 #include "priamos/obstacle_line_t.hpp"
 #include "priamos/odometry_t.hpp"
 #include "priamos/opening_t.hpp"
+#include "priamos/parameter_order_t.hpp"
+#include "priamos/parameter_value_t.hpp"
 #include "priamos/path_t.hpp"
 #include "priamos/plan_walls_t.hpp"
 #include "priamos/pose_correction_t.hpp"
@@ -98,6 +100,8 @@ inline constexpr Channel<map_command_t> kMapCommand{"MAP_COMMAND", 0, millisecon
 inline constexpr Channel<health_t> kHealth{"HEALTH", 1, milliseconds(3000)};
 inline constexpr Channel<link_status_t> kLinkStatus{"LINK_STATUS", 1, milliseconds(3000)};
 inline constexpr Channel<link_request_t> kLinkRequest{"LINK_REQUEST", 0, milliseconds(0)};
+inline constexpr Channel<parameter_order_t> kParameterOrder{"PARAMETER_ORDER", 0, milliseconds(0)};
+inline constexpr Channel<parameter_value_t> kParameterValue{"PARAMETER_VALUE", 0, milliseconds(0)};
 inline constexpr Channel<alarm_t> kAlarm{"ALARM", 0, milliseconds(0)};
 inline constexpr Channel<claim_t> kClaim{"CLAIM", 5, milliseconds(1000)};
 inline constexpr Channel<probe_t> kProbe{"PROBE", 0, milliseconds(0)};
@@ -114,6 +118,7 @@ inline constexpr std::tuple kAll{
     kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
     kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
-    kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls};
+    kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls,     kParameterOrder,
+    kParameterValue};
 
 }  // namespace priamos::channels

@@ -13,4 +13,16 @@ std::string RangeText(const ValueSpec& spec) {
   return "any";
 }
 
+std::string_view LiveText(LiveChange change) {
+  switch (change) {
+    case LiveChange::kInRange:
+      return "live";
+    case LiveChange::kOnlyLower:
+      return "live, at most the file's";
+    case LiveChange::kOnlyHigher:
+      return "live, at least the file's";
+  }
+  return "live";
+}
+
 }  // namespace priamos

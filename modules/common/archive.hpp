@@ -19,6 +19,13 @@ struct ValueSpec {
 /// Text of what `spec` allows: `0 to 1.5`, `at least 0`, `any`.
 std::string RangeText(const ValueSpec& spec);
 
+/// How far a number may be changed while its process runs: anywhere in its range, or only to the careful side
+/// of what file and command line say.
+enum class LiveChange { kInRange, kOnlyLower, kOnlyHigher };
+
+/// What it means, for people: `live`, `live, at most the file's`, `live, at least the file's`.
+std::string_view LiveText(LiveChange change);
+
 /// A configuration that cannot be used. what() is one sentence, `file:line:key: expected ..., got ...`,
 /// fit to be shown to a person; processes end with exit code 2.
 class ConfigError : public std::runtime_error {
@@ -64,6 +71,9 @@ class Archive {
       Leave();
     }
   }
+  /// Says that a number described before may be changed while the process runs; `key` is dotted, from the
+  /// outermost struct on. The App's Reconfigure hands it to whoever uses it.
+  virtual void Live(std::string_view /*key*/, LiveChange /*change*/) {}
   /// Refuses the value read last for a reason no range can express.
   virtual void Refuse(std::string_view key, std::string_view expected) = 0;
   /// Refuses the section that is read when it does not give the value itself.

@@ -15,6 +15,9 @@ struct ConfigSource {
   /// Values that replace those of the file: `key = value` as TOML, dotted keys for sections; a bare word is a
   /// string.
   std::vector<std::string> overrides;
+  /// File of parameters that the process saved while it ran (parameters/); empty: none. LoadConfig leaves it
+  /// aside.
+  std::string saved{};
 
   /// Where relative file names in the configuration start; the working directory when there is no file.
   std::string Folder() const;

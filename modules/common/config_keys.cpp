@@ -36,6 +36,10 @@ class KeyList : public Archive {
   }
   void Refuse(std::string_view, std::string_view) override {}
   void Require(std::string_view, std::string_view) override {}
+  void Live(std::string_view name, LiveChange change) override {
+    for (ConfigKey& key : keys_)
+      if (key.name == name) key.meaning += fmt::format("; {}", LiveText(change));
+  }
 
  protected:
   bool Enter(std::string_view key, std::string_view doc) override {

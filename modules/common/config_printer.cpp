@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <ostream>
+#include <utility>
 
 namespace priamos {
 namespace {
@@ -34,6 +35,11 @@ class Printer : public Archive {
   }
   void Refuse(std::string_view, std::string_view) override {}
   void Require(std::string_view, std::string_view) override {}
+  void Live(std::string_view key, LiveChange change) override {
+    if (!std::exchange(any_live_, true))
+      out_ << "\n# What may be changed while the process runs, by `priamos param`:\n";
+    out_ << fmt::format("# {}: {}\n", key, LiveText(change));
+  }
 
  protected:
   bool Enter(std::string_view key, std::string_view doc) override {
@@ -60,6 +66,7 @@ class Printer : public Archive {
 
   std::ostream& out_;
   std::vector<std::string> prefixes_{""};
+  bool any_live_ = false;
 };
 
 }  // namespace

@@ -27,6 +27,8 @@ int DrawSession(const bus::Context& context) {
 
 /// What is written down whoever sends it; of the stick it is who holds it, and when.
 bool IsOrder(const BrowserMessage& message) {
+  if (const auto* wish = std::get_if<ParameterWish>(&message))
+    return wish->kind != ParameterWish::Kind::kRead;
   return std::holds_alternative<StopOrder>(message) || std::holds_alternative<MissionOrder>(message) ||
          std::holds_alternative<PlaceOrder>(message);
 }
@@ -69,12 +71,14 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
       beat_(config.beat_hz),
       status_(context.node().Subscribe(channels::kDriveStatus)),
       corrections_(context.node().SubscribeAll(channels::kPoseCorrection)),
+      parameter_values_(context.node().SubscribeAll(channels::kParameterValue)),
       drive_(context.node().Advertise(channels::kDriveCommand)),
       head_drive_(context.node().Advertise(channels::kHeadDrive)),
       lease_(context.node().Advertise(channels::kLeaseRequest)),
       estop_(context.node().Advertise(channels::kEstop)),
       mission_(context.node().Advertise(channels::kMissionCommand)),
       place_(context.node().Advertise(channels::kPoseReset)),
+      parameter_(context.node().Advertise(channels::kParameterOrder)),
       request_(context.node().Advertise(channels::kLinkRequest)) {
   base_.session = head_.session = DrawSession(context);
   places_ =
@@ -126,10 +130,11 @@ void ConsoleApp::Tick(Time now) {
   if (server_) server_->Poll(now);
   if (video_) video_->Tick(*server_, bridge_, now);
   bridge_.Tick(now, now);
-  if (const auto sheets = parameters_.Take()) files_.AddParameters(*sheets);
+  TakeSheets();
   if (const auto status = status_.Take()) robot_ = FromMessage(*status, base_.session);
   Drive(now);
   Place(now);
+  ChangeParameters(now);
   for (const auto& request : wanted_.Step(now)) request_.Publish(ToMessage(request, now));
   if (beat_.Due(now)) {
     beat_.Mark(now);
@@ -159,6 +164,20 @@ void ConsoleApp::NoteDriver(Time now) {
 void ConsoleApp::Place(Time now) {
   for (const pose_correction_t& answer : corrections_.Drain()) placing_.Answered(answer.request_id);
   if (const auto order = placing_.Step(now)) place_.Publish(*order);
+}
+
+void ConsoleApp::TakeSheets() {
+  const auto sheets = parameters_.Take();
+  if (!sheets) return;
+  files_.AddParameters(*sheets);
+  for (const auto& [process, sheet] : *sheets)
+    if (sheet.live) parameter_orders_.Know(process, sheet.live->table);
+}
+
+/// The pages see the answers as messages of their channel.
+void ConsoleApp::ChangeParameters(Time now) {
+  for (const parameter_value_t& answer : parameter_values_.Drain()) parameter_orders_.Answered(answer);
+  if (const auto order = parameter_orders_.Step(now)) parameter_.Publish(*order);
 }
 
 void ConsoleApp::Send(const PilotOutput& output, Time now) {
@@ -247,6 +266,10 @@ bool ConsoleApp::Take(std::uint64_t client, const PlaceOrder& order) {
   places_ = places_ % 65535 + 1;
   placing_.Give(ToMessage(order, places_, {config_.place_sigma_m, config_.place_sigma_deg}, now_), now_);
   return true;
+}
+
+bool ConsoleApp::Take(std::uint64_t client, const ParameterWish& wish) {
+  return RoleOf(client) == Role::kDriver && parameter_orders_.Wish(wish);
 }
 
 bool ConsoleApp::Take(std::uint64_t client, const ListenWish& wish) {

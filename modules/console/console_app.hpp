@@ -24,6 +24,7 @@
 #include "console/core/wanted_channels.hpp"
 #include "console/foxglove_bridge.hpp"
 #include "console/news_feed.hpp"
+#include "console/parameter_orders.hpp"
 #include "console/station_files.hpp"
 #include "console/video_feed.hpp"
 #include "lcmtypes/channels.hpp"
@@ -57,6 +58,7 @@ class ConsoleApp : public WebListener {
   bool Take(std::uint64_t client, const StopOrder& order);
   bool Take(std::uint64_t client, const MissionOrder& order);
   bool Take(std::uint64_t client, const PlaceOrder& order);
+  bool Take(std::uint64_t client, const ParameterWish& wish);
   bool Take(std::uint64_t client, const ListenWish& wish);
   bool Take(std::uint64_t, const ReplayOrder&) { return false; }  // there is no log
 
@@ -66,6 +68,8 @@ class ConsoleApp : public WebListener {
   void Drive(Time now);
   void NoteDriver(Time now);
   void Place(Time now);
+  void TakeSheets();
+  void ChangeParameters(Time now);
   void Send(const PilotOutput& output, Time now);
   nlohmann::ordered_json Station(std::uint64_t client, Role role) const;
   void Count(Time now);
@@ -95,15 +99,18 @@ class ConsoleApp : public WebListener {
   std::uint64_t counted_ = 0;
   int places_ = 0;  ///< number of the newest order that says where the robot stands
   RepeatedOrder<pose_reset_t> placing_;
+  ParameterOrders parameter_orders_;
 
   bus::Latest<drive_status_t> status_;
   bus::Inbox<pose_correction_t> corrections_;
+  bus::Inbox<parameter_value_t> parameter_values_;
   bus::Publisher<drive_command_t> drive_;
   bus::Publisher<head_drive_t> head_drive_;
   bus::Publisher<lease_request_t> lease_;
   bus::Publisher<estop_t> estop_;
   bus::Publisher<mission_command_t> mission_;
   bus::Publisher<pose_reset_t> place_;
+  bus::Publisher<parameter_order_t> parameter_;
   bus::Publisher<link_request_t> request_;
   std::unique_ptr<WebServer> server_;  ///< none in lockstep
   std::optional<VideoFeed> video_;     ///< none without a video link, and in lockstep

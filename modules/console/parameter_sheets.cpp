@@ -45,10 +45,19 @@ ParameterSheets AskForParameters(const fs::path& programs, const fs::path& folde
     const std::string name = entry.path().stem().string();
     const fs::path program = programs / ("priamos-" + name);
     if (entry.path().extension() != ".toml" || !fs::is_regular_file(program)) continue;
-    std::string sheet = OutputOf(fmt::format("timeout {} {} --config {} --print-config", kPatience_s,
-                                             Quoted(program), Quoted(entry.path())));
+    const auto print = [&](const char* what) {
+      return OutputOf(fmt::format("timeout {} {} --config {} {}", kPatience_s, Quoted(program),
+                                  Quoted(entry.path()), what));
+    };
+    ProcessSheet sheet{print("--print-config")};
     // A refusal is a sentence, and no line of TOML.
-    sheets[name] = sheet.find(" = ") == std::string::npos ? "# " + sheet : std::move(sheet);
+    if (sheet.text.find(" = ") == std::string::npos) sheet.text = "# " + sheet.text;
+    if (!bus::ParameterProcess(name)) {
+      sheets.emplace(name, std::move(sheet));
+      continue;
+    }
+    if (const auto live = bus::ParameterSheetOf(print("--print-parameters"))) sheet.live = *live;
+    sheets.emplace(name, std::move(sheet));
   }
   return sheets;
 }

@@ -6,12 +6,21 @@
 #include <optional>
 #include <string>
 
+#include "bus/parameters/parameter_json.hpp"
+
 namespace priamos::console {
 
-/// Parameters of every process of a deployment with units, ranges and meanings, by the process's name: what
-/// `priamos-NAME --config FOLDER/NAME.toml --print-config` prints, from the Describe that reads the file. A
-/// process that refuses its file gives its sentence, as a comment.
-using ParameterSheets = std::map<std::string, std::string>;
+/// Parameters of a process with units, ranges and meanings, from the Describe that reads its file.
+struct ProcessSheet {
+  /// What `priamos-NAME --config FOLDER/NAME.toml --print-config` prints; when it refuses its file its
+  /// sentence, as a comment.
+  std::string text;
+  /// What may be changed while it runs (`--print-parameters`).
+  std::optional<bus::ParameterSheet> live{};
+};
+
+/// Those of every process of a deployment, by its name.
+using ParameterSheets = std::map<std::string, ProcessSheet>;
 
 /// Asks the processes in a thread of its own, once.
 class ParameterQuestion {

@@ -25,7 +25,8 @@ void StationFiles::AddParameters(const ParameterSheets& sheets) {
   nlohmann::json names = nlohmann::json::array();
   for (const auto& [name, sheet] : sheets) {
     names.push_back(name);
-    Add("/parameters/" + name + ".toml", "text/plain; charset=utf-8", sheet);
+    Add("/parameters/" + name + ".toml", "text/plain; charset=utf-8", sheet.text);
+    if (sheet.live) Add("/parameters/" + name + ".json", kJson, bus::ToJson(*sheet.live));
   }
   Add("/parameters/index.json", kJson, names.dump());
 }

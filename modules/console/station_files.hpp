@@ -14,7 +14,8 @@ namespace priamos::console {
 
 /// What the station serves: the page; the JSON schema of every type, as /types/NAME.json, from which a view
 /// takes units and meanings; and once they are known the parameters of every process, as
-/// /parameters/NAME.toml, with their names in /parameters/index.json.
+/// /parameters/NAME.toml, those that may be changed while it runs as /parameters/NAME.json, and the names of
+/// the processes in /parameters/index.json.
 class StationFiles {
  public:
   explicit StationFiles(const bus::Schema& schema);

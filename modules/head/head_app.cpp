@@ -101,6 +101,12 @@ double HeadApp::PanFor(const LookOrder& order, Time now) const {
   return AimPan(head_, config_.LookSetting(), model->second, *robot, order.side, config_.aim);
 }
 
+void HeadApp::Reconfigure(const HeadConfig& config) {
+  config_.aim = config.aim;
+  look_.set_config(config.look);
+  positioner_.set_config(config.motors);
+}
+
 void HeadApp::Tick(Time now) {
   if (calibration_) return calibration_->Tick(now);
   TakeMessages(now);

@@ -46,6 +46,8 @@ class HeadApp {
 
   Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
   void Tick(Time now);
+  /// Takes over the parameters that HeadConfig marks as live.
+  void Reconfigure(const HeadConfig& config);
 
  private:
   void TakeMessages(Time now);

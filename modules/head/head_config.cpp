@@ -53,6 +53,14 @@ void HeadConfig::Describe(Archive& a) {
   a.Section("video", video, "the third camera's pictures for people, over HTTP beside the bus");
   if (!pictures.empty() && !keep_pictures.empty())
     a.Refuse("keep_pictures", "no folder beside `pictures`: those are kept already");
+  using enum LiveChange;
+  a.Live("aim.side_share", kInRange);
+  a.Live("aim.lead_s", kInRange);
+  a.Live("aim.max_pan_deg", kOnlyLower);
+  a.Live("look.frame_timeout_s", kInRange);
+  a.Live("look.age_limit_s", kInRange);
+  a.Live("motors.settle_s", kOnlyHigher);
+  a.Live("motors.timeout_s", kInRange);
   // Nearer to the end stop a motor cannot come from below.
   const int nearest = motors.approach_steps;
   if (zoom_step < nearest || plan.zoom.first < nearest)

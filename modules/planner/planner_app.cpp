@@ -44,6 +44,11 @@ void PlannerApp::Tick(Time now) {
   SendStatus(now);
 }
 
+void PlannerApp::Reconfigure(const PlannerConfig& config) {
+  planner::Reconfigure(missions_, config);
+  agenda_.set_speeds(SpeedsOf(config));
+}
+
 void PlannerApp::TakeOrders(Time now) {
   for (const auto& order : orders_.Drain()) Take(order, now);
 }

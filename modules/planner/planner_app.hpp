@@ -28,6 +28,8 @@ class PlannerApp {
 
   Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
   void Tick(Time now);
+  /// Takes over the parameters that PlannerConfig marks as live.
+  void Reconfigure(const PlannerConfig& config);
 
  private:
   void TakeOrders(Time now);

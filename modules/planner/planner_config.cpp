@@ -17,6 +17,15 @@ void PlannerConfig::Describe(Archive& a) {
   a.Section("learned", learned, "which walls that robots found are the same");
   a.Section("doors", doors, "ways that lead through doors");
   a.Section("steps", steps, "how the steps of an order follow each other");
+  // The next path that is ordered has them.
+  using enum LiveChange;
+  a.Live("mission.speed_m_s", kOnlyLower);
+  a.Live("mission.look_from_m", kInRange);
+  a.Live("mission.look_to_m", kInRange);
+  a.Live("goto.speed_m_s", kOnlyLower);
+  a.Live("goto.stands_s", kInRange);
+  a.Live("corridor.speed_m_s", kOnlyLower);
+  a.Live("corridor.leeway_m", kOnlyLower);
 }
 
 }  // namespace priamos::planner

@@ -17,6 +17,19 @@ MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan) {
   return missions;
 }
 
+void Reconfigure(MissionTable& missions, const PlannerConfig& config) {
+  if (auto* door = dynamic_cast<DoorMission*>(missions.Find(mission_command_t::PASS_DOOR)))
+    door->set_config(config.mission);
+  if (auto* go = dynamic_cast<GotoMission*>(missions.Find(mission_command_t::GOTO)))
+    go->set_config(config.go);
+  if (auto* corridor = dynamic_cast<CorridorMission*>(missions.Find(mission_command_t::CORRIDOR)))
+    corridor->set_config(config.corridor);
+}
+
+AgendaSpeeds SpeedsOf(const PlannerConfig& config) {
+  return {config.go.speed_m_s, config.mission.speed_m_s};
+}
+
 DoorRouter MakeRouter(const PlannerConfig& config, const GroundPlan& plan) {
   return {config.doors, config.go.route, config.passage, config.footprint, plan};
 }
@@ -25,7 +38,7 @@ Agenda MakeAgenda(const PlannerConfig& config, MissionTable& missions, DoorRoute
   return {missions,
           router,
           {mission_command_t::GOTO, mission_command_t::PASS_DOOR, mission_command_t::CORRIDOR},
-          {config.go.speed_m_s, config.mission.speed_m_s},
+          SpeedsOf(config),
           config.steps};
 }
 

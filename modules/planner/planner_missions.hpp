@@ -13,6 +13,11 @@ using MissionMaker = MissionTable (*)(const PlannerConfig& config, const GroundP
 /// Every mission that is shipped: one line each.
 MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan);
 
+/// Hands them the parameters that PlannerConfig marks as live.
+void Reconfigure(MissionTable& missions, const PlannerConfig& config);
+/// With which the queue reckons.
+AgendaSpeeds SpeedsOf(const PlannerConfig& config);
+
 /// The ways through the doors of the plan.
 DoorRouter MakeRouter(const PlannerConfig& config, const GroundPlan& plan);
 /// The queue before the missions.

@@ -32,6 +32,8 @@ class RobotApp {
 
   Duration TickPeriod() const { return FromSeconds(1 / config_.rate_hz); }
   void Tick(Time now);
+  /// Takes over the parameters that RobotConfig marks as live.
+  void Reconfigure(const RobotConfig& config) { drive_.Reconfigure(config.drive); }
   /// Sends a last command, to stand, because another process drives this base.
   void Yield(Time now);
 

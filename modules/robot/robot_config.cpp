@@ -16,6 +16,20 @@ void RobotConfig::Describe(Archive& a) {
   a.Section("walls", walls, "straight walls that the planner is told of");
   a.Section("features", features, "when it is told");
   a.Section("drive", drive, "how the base moves, and what stops it");
+  // What can make the base unsafe moves to the careful side of the file only.
+  using enum LiveChange;
+  a.Live("drive.follower.shape.max_speed_m_s", kOnlyLower);
+  a.Live("drive.follower.shape.max_turn_rad_s", kOnlyLower);
+  a.Live("drive.operator_acceleration.acceleration_m_s2", kOnlyLower);
+  a.Live("drive.operator_acceleration.turn_acceleration_rad_s2", kOnlyLower);
+  a.Live("drive.operator_margin_m", kOnlyHigher);
+  a.Live("drive.collision.margin_m", kOnlyHigher);
+  a.Live("drive.collision.gap_m", kOnlyHigher);
+  a.Live("drive.echoes.near_m", kOnlyHigher);
+  a.Live("drive.echoes.keep_s", kOnlyHigher);
+  a.Live("drive.lost_position_m", kOnlyLower);
+  a.Live("drive.lost_yaw_deg", kOnlyLower);
+  a.Live("drive.blocked_s", kInRange);
 }
 
 }  // namespace priamos::robot

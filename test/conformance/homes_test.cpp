@@ -49,7 +49,9 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/cli/shipped_configs_test", "every file of config/"},
     {"test/cli/verbs/log/foreign_log_test", "all verbs of the room on logs of other robots"},
     {"test/head/landmark_models_test", "planner's landmarks in the head's hands"},
+    {"test/head/live_parameters_test", "every parameter that head_config marks as live"},
     {"test/head/real_photographs_test", "the whole of seeing on photographs"},
+    {"test/planner/live_parameters_test", "every parameter that planner_config marks as live"},
     {"test/planner/second_mission_test", "a mission that is not shipped"},
     {"test/radio/command_freshness_test", "age of a command through the process"},
     {"test/radio/link_config_test", "the link tables of config/ against the channels"},
@@ -62,6 +64,7 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/robot/core/motion/shared_control_test", "the whole room under an operator"},
     {"test/robot/core/pose/pose_consistency_test", "statistics of the whole room"},
     {"test/robot/core/sonar/blind_gaps_test", "the whole room between two beams"},
+    {"test/robot/live_parameters_test", "every parameter that robot_config marks as live"},
     {"test/robot/robot_readme_test", "the README of the module"},
 };
 

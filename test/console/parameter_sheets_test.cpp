@@ -16,7 +16,11 @@ class ParameterSheetsTest : public testing::Test {
  protected:
   ParameterSheetsTest() {
     std::filesystem::create_directories(Config());
-    Program("priamos-robot", "echo 'speed_m_s = 0.3   # [m/s] at most; 0 to 1.5'; echo \"# $2\"");
+    const std::string live = bus::ToJson(
+        {ParameterTable(std::vector<Parameter>{{"gap_m", "m", "gap", 0, 1, LiveChange::kInRange}}), {0.5}});
+    Program("priamos-robot",
+            "[ $3 = --print-parameters ] && echo '" + live +
+                "' && exit; echo 'speed_m_s = 0.3   # [m/s] at most; 0 to 1.5'; echo \"# $2\"");
     Program("priamos-head", "echo 'head.toml:3: zoom: expected a number' >&2; exit 2");
     for (const char* file : {"robot.toml", "head.toml", "link.toml", "notes.txt"})
       std::ofstream(Config() / file) << "\n";
@@ -34,9 +38,13 @@ class ParameterSheetsTest : public testing::Test {
 TEST_F(ParameterSheetsTest, EveryProcessThatHasAFileIsAsked) {
   const auto dut = AskForParameters(Programs(), Config());
   ASSERT_EQ(dut.size(), 2u) << "link.toml is nobody's configuration";
-  EXPECT_THAT(dut.at("robot"), HasSubstr("speed_m_s = 0.3"));
-  EXPECT_THAT(dut.at("robot"), HasSubstr((Config() / "robot.toml").string()));
-  EXPECT_EQ(dut.at("head"), "# head.toml:3: zoom: expected a number\n") << "why it has none";
+  EXPECT_THAT(dut.at("robot").text, HasSubstr("speed_m_s = 0.3"));
+  EXPECT_THAT(dut.at("robot").text, HasSubstr((Config() / "robot.toml").string()));
+  EXPECT_EQ(dut.at("head").text, "# head.toml:3: zoom: expected a number\n") << "why it has none";
+  ASSERT_TRUE(dut.at("robot").live);
+  EXPECT_EQ(dut.at("robot").live->table.NumberOf("gap_m"), 1);
+  EXPECT_EQ(dut.at("robot").live->values.at(0), 0.5);
+  EXPECT_FALSE(dut.at("head").live);
   EXPECT_TRUE(AskForParameters(Programs(), folder_ / "nowhere").empty());
 }
 

@@ -18,9 +18,15 @@ TEST(StationFiles, HaveThePageTheTypesAndLaterTheParameters) {
   EXPECT_EQ(pose["properties"]["x_m"]["description"].get<std::string>().substr(0, 3), "[m]");
   EXPECT_FALSE(dut.files().contains("/parameters/index.json"));
   const WebFiles& served = dut.files();
-  dut.AddParameters({{"robot", "speed_m_s = 0.3"}});
+  const bus::ParameterSheet live{
+      ParameterTable(std::vector<Parameter>{{"speed_m_s", "m/s", "fastest", 0, 1, LiveChange::kOnlyLower}}),
+      {0.3}};
+  dut.AddParameters({{"robot", {"speed_m_s = 0.3", live}}, {"teleop", {"rate_hz = 50"}}});
   EXPECT_EQ(served.at("/parameters/robot.toml").text, "speed_m_s = 0.3");
-  EXPECT_EQ(served.at("/parameters/index.json").text, R"(["robot"])");
+  EXPECT_EQ(served.at("/parameters/index.json").text, R"(["robot","teleop"])");
+  const auto parameters = nlohmann::json::parse(served.at("/parameters/robot.json").text);
+  EXPECT_EQ(parameters["parameters"][0]["value"], 0.3);
+  EXPECT_FALSE(served.contains("/parameters/teleop.json"));
 }
 
 TEST(StationFiles, LeaveOutATypeThatContainsItself) {
@@ -34,7 +40,7 @@ TEST(StationFiles, LeaveOutATypeThatContainsItself) {
 
 TEST(StationFiles, ParametersNeedTheTokenThatThePageNeeds) {
   StationFiles dut(bus::OwnTypes());
-  dut.AddParameters({{"robot", ""}});
+  dut.AddParameters({{"robot", {""}}});
   const WebAccess access{true, "driver-driver-driver", ""};
   const auto serves = [&](const std::string& target, const WebAccess& to) {
     return std::holds_alternative<ServeFile>(

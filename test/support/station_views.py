@@ -98,8 +98,31 @@ def values(browser):
     report("parameters are shown", wait_for(lambda: "beat_hz" in browser.run(table), 12))
     browser.run("(() => { const s = document.querySelector('#view-values select'); s.value = 'robot'; s.dispatchEvent(new Event('change')); })()")
     report("of every process", wait_for(lambda: "rad/s" in browser.run(table), 5))
+    live_values(browser)
     browser.picture(FOLDER + "/values.png")
     browser.click("show-plan")
+
+
+def live_values(browser):
+    """A parameter of the running robot is changed by keyboard, through the radio; one that is too bold is refused."""
+    row = "[...document.querySelectorAll('.live tr')].find((r) => r.innerText.includes('shape.max_speed_m_s'))"
+    cell = lambda i: f"({row}?.children[{i}]?.innerText ?? '')"
+    report("live parameters are shown", wait_for(lambda: "0.6 m/s (file)" in browser.run(cell(1)), 12))
+
+    def enter(value):
+        browser.run(f"(() => {{ const f = {row}.querySelector('input'); f.focus(); f.value = '{value}'; f.dispatchEvent(new Event('input')); }})()")
+        browser.key("down", "Enter", "Enter")
+        browser.key("up", "Enter", "Enter")
+
+    enter("0.3")
+    report("an order is under way", wait_for(lambda: "under way" in browser.run(cell(4)), 2))
+    report("a new value is in force", wait_for(lambda: browser.run(cell(1)) == "0.3 m/s" and browser.run(cell(4)) == "in force", 20))
+    note = "(document.querySelector('.live [role=status]')?.innerText ?? '')"
+    report("it is not saved", wait_for(lambda: "not saved" in browser.run(note), 2))
+    enter("0.9")
+    report("a bold value is refused", wait_for(lambda: "less careful" in browser.run(cell(4)) and browser.run(cell(1)) == "0.3 m/s", 20))
+    browser.run("document.querySelectorAll('.live .tools button')[1].click()")
+    report("all is as in the file", wait_for(lambda: "(file)" in browser.run(cell(1)), 20))
 
 
 def mission(browser):

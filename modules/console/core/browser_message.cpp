@@ -118,6 +118,29 @@ ListenWish ReadListen(const json& object) {
   return {Word(object, "channel", 63), Flag(object, "on")};
 }
 
+ParameterWish ReadParameter(const json& object) {
+  using enum ParameterWish::Kind;
+  constexpr double kFarthest = 10000;
+  constexpr std::size_t kLongest = 100;
+  const std::string action = Word(object, "action", 20);
+  ParameterWish wish{kRead, Word(object, "process", 20), "", 0};
+  if (action == "set") {
+    RefuseOtherKeys(object, {"type", "action", "process", "key", "value"});
+    return {kSet, wish.process, Word(object, "key", kLongest),
+            Number(object, "value", -kFarthest, kFarthest)};
+  }
+  if (action == "read" && object.contains("key")) {
+    RefuseOtherKeys(object, {"type", "action", "process", "key"});
+    wish.key = Word(object, "key", kLongest);
+    return wish;
+  }
+  RefuseOtherKeys(object, {"type", "action", "process"});
+  if (action != "read" && action != "save" && action != "reset")
+    throw Wrong("action: expected read, set, save or reset");
+  wish.kind = action == "read" ? kRead : action == "save" ? kSave : kReset;
+  return wish;
+}
+
 ReplayOrder ReadReplay(const json& object) {
   using enum ReplayOrder::Kind;
   constexpr double kLongest_s = 1e10;  // a log's times reach until 2255
@@ -142,8 +165,9 @@ BrowserMessage ReadObject(const json& object) {
   if (type == "mission") return ReadMission(object);
   if (type == "place") return ReadPlace(object);
   if (type == "listen") return ReadListen(object);
+  if (type == "parameter") return ReadParameter(object);
   if (type == "replay") return ReadReplay(object);
-  if (type != "stop") throw Wrong("type: expected stick, stop, mission, place, listen or replay");
+  if (type != "stop") throw Wrong("type: expected stick, stop, mission, place, listen, parameter or replay");
   RefuseOtherKeys(object, {"type"});
   return StopOrder{};
 }

@@ -52,6 +52,15 @@ struct ListenWish {
   bool on = false;
 };
 
+/// A parameter of a running process is to be read or changed.
+struct ParameterWish {
+  /// What is to be done with it.
+  enum class Kind { kRead, kSet, kSave, kReset };
+  Kind kind = Kind::kRead;
+  std::string process, key;  ///< no key: none in particular
+  double value = 0;          ///< kSet
+};
+
 /// Speeds at which a log can be shown, times its own.
 inline constexpr double kSlowestReplay = 0.1, kFastestReplay = 32;
 
@@ -65,7 +74,7 @@ struct ReplayOrder {
 
 /// One message of a page.
 using BrowserMessage =
-    std::variant<StickReport, StopOrder, MissionOrder, PlaceOrder, ListenWish, ReplayOrder>;
+    std::variant<StickReport, StopOrder, MissionOrder, PlaceOrder, ListenWish, ParameterWish, ReplayOrder>;
 
 /// Reads one message: JSON, UTF-8, at most kMaxBrowserMessage bytes, with the keys of README.md and no other.
 /// Numbers out of range, NaN among them, are refused, not clipped.

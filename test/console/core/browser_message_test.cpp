@@ -53,6 +53,21 @@ TEST(BrowserMessage, WhatALogIsToDoIsRead) {
   EXPECT_EQ(ReadAs<ReplayOrder>(R"({"type":"replay","action":"seek","value":12.5})").value, 12.5);
 }
 
+TEST(BrowserMessage, WishesForParametersAreRead) {
+  using enum ParameterWish::Kind;
+  const auto set = ReadAs<ParameterWish>(
+      R"({"type":"parameter","action":"set","process":"robot","key":"drive.gap_m","value":0.25})");
+  EXPECT_EQ(set.kind, kSet);
+  EXPECT_EQ(set.process, "robot");
+  EXPECT_EQ(set.key, "drive.gap_m");
+  EXPECT_EQ(set.value, 0.25);
+  EXPECT_EQ(ReadAs<ParameterWish>(R"({"type":"parameter","action":"read","process":"head","key":"a"})").key,
+            "a");
+  EXPECT_EQ(ReadAs<ParameterWish>(R"({"type":"parameter","action":"read","process":"head"})").key, "");
+  EXPECT_EQ(ReadAs<ParameterWish>(R"({"type":"parameter","action":"save","process":"head"})").kind, kSave);
+  EXPECT_EQ(ReadAs<ParameterWish>(R"({"type":"parameter","action":"reset","process":"head"})").kind, kReset);
+}
+
 struct Wrong {
   std::string text, reason;
 };
@@ -70,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[]", "expected a JSON object"}, Wrong{"null", "expected a JSON object"},
         Wrong{std::string(600, '['), "at most 512 bytes, got 600"},
         Wrong{std::string(500, '['), "expected JSON"},
-        Wrong{R"({"type":"fly"})", "expected stick, stop, mission, place, listen or replay"},
+        Wrong{R"({"type":"fly"})", "expected stick, stop, mission, place, listen, parameter or replay"},
         Wrong{R"({"type":3})", "type: expected a text"}, Wrong{R"({})", "\"type\" is missing"},
         Wrong{R"({"type":"stop","now":true})", "\"now\" is not known"},
         Wrong{R"({"type":"stick","axis":[0,0,0,0,0,0]})", "\"beat\" is missing"},
@@ -98,6 +113,15 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{R"({"type":"replay","action":"seek","value":-1})", "value: expected a number from 0"},
         Wrong{R"({"type":"replay","action":"speed","value":0})", "value: expected a number from 0.1 to 32"},
         Wrong{R"({"type":"replay","action":"play","value":1})", "\"value\" is not known"},
+        Wrong{R"({"type":"parameter","action":"fly","process":"robot"})",
+              "action: expected read, set, save or reset"},
+        Wrong{R"({"type":"parameter","action":"set","process":"robot","key":"a"})", "\"value\" is missing"},
+        Wrong{R"({"type":"parameter","action":"set","process":"robot","key":"a","value":null})",
+              "value: expected"},
+        Wrong{R"({"type":"parameter","action":"set","process":"robot","key":"a","value":1e5})",
+              "value: expected"},
+        Wrong{R"({"type":"parameter","action":"save","process":"robot","key":"a"})", "\"key\" is not known"},
+        Wrong{R"({"type":"parameter","action":"read"})", "\"process\" is missing"},
         Wrong{R"({"type":"listen","channel":7,"on":true})", "channel: expected a text"}));
 
 RC_GTEST_PROP(BrowserMessageProperty, AnyBytesAreAMessageOrASentence, (const std::string& text)) {

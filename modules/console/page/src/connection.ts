@@ -1,6 +1,6 @@
 // The WebSocket to the station: opened again when it breaks. Nothing is ever queued: what cannot be sent now is not sent.
 
-import { Hello, News, StickReport } from "./protocol";
+import { Hello, News, ParameterAction, StickReport } from "./protocol";
 import { ReplayAction } from "./replay";
 import { Place } from "./target";
 
@@ -50,6 +50,10 @@ export class Connection {
   /** The robot stands there. */
   place(place: Place): void {
     this.send({ type: "place", x_m: place.x, y_m: place.y, yaw_rad: place.yaw ?? 0 });
+  }
+
+  parameter(process: string, action: ParameterAction, key?: string, value?: number): void {
+    this.send({ type: "parameter", process, action, key, value });
   }
 
   replay(action: ReplayAction): void {

@@ -10,7 +10,7 @@ import { Hello, News } from "./protocol";
 import { Replay } from "./replay";
 import { Store } from "./store";
 import { Place, Target } from "./target";
-import { currentLanguage, number, setLanguage, text } from "./text";
+import { currentLanguage, named, number, setLanguage, text } from "./text";
 import { Video } from "./video";
 import { PageServices, Views } from "./views";
 import { Wants } from "./wants";
@@ -33,6 +33,11 @@ const services: PageServices = {
   hello: () => panels.hello,
   now: () => replay.now(),
   want: (owner, channels, on) => wants.set(owner, channels, on),
+  mayOrder: () => panels.mayOrder(),
+  parameter: (process, action, key, value) => {
+    if (panels.mayOrder()) connection.parameter(process, action, key, value);
+  },
+  outcomeText: (outcome) => named("outcome", outcome),
 };
 const views = new Views({
   values: async (element) => (await import("./values.js")).open(element, services),

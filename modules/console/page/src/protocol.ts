@@ -85,6 +85,12 @@ export interface DriveStatus {
 
 export interface MissionStatus { mission: number; phase: number; text: string }
 
+export type ParameterAction = "read" | "set" | "save" | "reset";
+
+export interface ParameterValue {
+  process: number; outcome: number; table: number; key: number; value: number; next_changed: number; unsaved: boolean;
+}
+
 export interface PoseCorrection { request_id: number; verdict: number }
 
 export interface Path { path_id: number; points: { x_m: number; y_m: number; yaw_rad: number }[] }

@@ -1,7 +1,10 @@
-// The view of parameters: those of every process, with units and ranges, as the workstation's files have them.
+// The view of parameters: those of every process, with units and ranges, as the workstation's files have them; and those that
+// may be changed while the process runs, as it has them in force.
 
 import { fillTable, setText } from "./dom";
+import { LiveValues } from "./live_values";
 import { Parameter, readSheet } from "./sheet";
+import type { Item } from "./protocol";
 import type { PageServices, View } from "./views";
 
 const RETRY_MS = 1000, RETRIES = 10;
@@ -15,6 +18,7 @@ class Values implements View {
   private readonly filter = document.createElement("input");
   private readonly note = document.createElement("p");
   private readonly table = document.createElement("table");
+  private readonly live: LiveValues;
   private parameters: Parameter[] = [];
   private sentence = "";
 
@@ -27,21 +31,27 @@ class Values implements View {
     this.process.addEventListener("change", () => void this.load());
     this.note.className = "age";
     tools.append(this.process, this.filter);
-    scroll.append(this.table);
-    element.append(tools, this.note, scroll);
+    this.live = new LiveValues(page);
+    scroll.append(this.live.element, this.note, this.table);
+    element.append(tools, scroll);
     this.label();
     void this.find(RETRIES);
   }
 
   show(): void {}
-  draw(): void {}
-  hear(): void {}
+  draw(): void {
+    this.live.draw();
+  }
+  hear(item: Item): void {
+    this.live.hear(item);
+  }
   restart(): void {}
 
   label(): void {
     this.process.setAttribute("aria-label", this.page.text("processes"));
     this.filter.placeholder = this.page.text("filterValues");
     this.filter.setAttribute("aria-label", this.page.text("filterValues"));
+    this.live.label();
     this.fill();
   }
 
@@ -59,6 +69,7 @@ class Values implements View {
   }
 
   private async load(): Promise<void> {
+    void this.live.load(this.process.value);
     const answer = await fetch(`/parameters/${this.process.value}.toml${location.search}`).catch(() => undefined);
     const text = answer?.ok === true ? await answer.text() : "";
     this.parameters = readSheet(text);
@@ -73,6 +84,7 @@ class Values implements View {
   private fill(): void {
     setText(this.note, this.sentence === "" ? this.page.text("valuesNote") : this.sentence);
     const words = this.filter.value.toLowerCase().split(/\s+/).filter((word) => word !== "");
+    this.live.filter(words);
     const fits = (p: Parameter): boolean =>
       words.every((word) => `${p.section}.${p.key} ${p.meaning}`.toLowerCase().includes(word));
     fillTable(this.table, this.parameters.filter(fits).map((p) => ({

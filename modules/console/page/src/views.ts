@@ -1,7 +1,7 @@
 // What fills the large field of the page: the ground plan, and views whose scripts are loaded when they are opened first.
 
 import { byId } from "./dom";
-import { Hello, Item } from "./protocol";
+import { Hello, Item, ParameterAction } from "./protocol";
 import type { Store } from "./store";
 import type { number, text } from "./text";
 
@@ -13,6 +13,10 @@ export interface PageServices {
   hello(): Hello | undefined;
   now(): number;  // s, of the clock in which messages age
   want(owner: string, channels: string[], on: boolean): void;
+  mayOrder(): boolean;
+  /** Reads or changes a parameter of a running process; nothing happens while nobody may order. */
+  parameter(process: string, action: ParameterAction, key?: string, value?: number): void;
+  outcomeText(outcome: number): string;
 }
 
 export interface View {

@@ -34,6 +34,8 @@ class HeadPositioner {
  public:
   explicit HeadPositioner(const PositionerConfig& config) : config_(config) {}
 
+  /// Changes approach and times, also on the way to a goal.
+  void set_config(const PositionerConfig& config) { config_ = config; }
   /// A new goal; the one before is given up.
   void MoveTo(const HeadSetting& goal, Time now);
 

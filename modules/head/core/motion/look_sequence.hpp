@@ -34,6 +34,8 @@ class LookSequence {
   explicit LookSequence(const LookConfig& config, int cameras = 2, Exposures exposures = Exposures::kOwn)
       : config_(config), cameras_(cameras), exposures_(exposures) {}
 
+  /// Changes times and attempts, also of the look under way.
+  void set_config(const LookConfig& config) { config_ = config; }
   void Begin(Time now);
   bool active() const { return phase_ != Phase::kIdle; }
   void End() { phase_ = Phase::kIdle; }

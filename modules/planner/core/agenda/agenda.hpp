@@ -26,6 +26,8 @@ class Agenda {
   Agenda(MissionTable& missions, DoorRouter& router, const AgendaKinds& kinds, const AgendaSpeeds& speeds,
          const StepRunnerConfig& config);
 
+  /// Changes the speeds with which it reckons.
+  void set_speeds(const AgendaSpeeds& speeds) { runner_.set_speeds(speeds); }
   /// Takes an order; one with the number of an order that is known is that one, said again. A refusal is
   /// among the results, too.
   std::optional<Refusal> Take(AgendaOrder order, Time now);

@@ -28,6 +28,7 @@ class StepRunner {
   StepRunner(MissionTable& missions, DoorRouter& router, const AgendaKinds& kinds, const AgendaSpeeds& speeds,
              const StepRunnerConfig& config);
 
+  void set_speeds(const AgendaSpeeds& speeds) { speeds_ = speeds; }
   /// Begins a step; nothing is sent before Tick(). `moved`: the robot has been driven for the same order.
   void Begin(const AgendaStep& step, Time now, bool moved);
   /// One time step. Returns what is to be sent.

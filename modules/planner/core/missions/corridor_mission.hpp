@@ -33,6 +33,8 @@ class CorridorMission : public Mission {
   std::optional<Refusal> Start(const MissionOrder& order) override;
   void Step(MissionControl& control) override;
   void OnStop(MissionControl& control, const Stop& stop) override;
+  /// Changes speeds, distances and times; what was ordered with others stays.
+  void set_config(const CorridorMissionConfig& config) { config_ = config; }
   const MissionLimits& limits() const override { return config_.limits; }
   std::string Unfinished() const override { return "still in the corridor"; }
 

@@ -55,6 +55,8 @@ class DoorMission : public Mission {
   std::optional<Refusal> Start(const MissionOrder& order) override;
   void Step(MissionControl& control) override;
   void OnStop(MissionControl& control, const Stop& stop) override;
+  /// Changes speeds, distances and times; what was ordered with others stays.
+  void set_config(const DoorMissionConfig& config) { config_ = config; }
   const MissionLimits& limits() const override { return config_.limits; }
   std::string Unfinished() const override { return "not through the door"; }
 

@@ -39,6 +39,8 @@ class GotoMission : public Mission {
   std::optional<Refusal> Start(const MissionOrder& order) override;
   void Step(MissionControl& control) override;
   void OnStop(MissionControl& control, const Stop& stop) override;
+  /// Changes speeds, distances and times; what was ordered with others stays.
+  void set_config(const GotoMissionConfig& config) { config_ = config; }
   const MissionLimits& limits() const override { return config_.limits; }
   std::string Unfinished() const override { return "not at the goal"; }
 

@@ -22,6 +22,8 @@ class MissionTable {
  public:
   /// Adds a mission; `kind` identifies it in an order. The first one added is shown before the first order.
   void Add(int kind, std::unique_ptr<Mission> mission);
+  /// nullptr when there is none of this kind.
+  Mission* Find(int kind) const { return Knows(kind) ? missions_.at(kind).get() : nullptr; }
   bool Knows(int kind) const { return missions_.contains(kind); }
 
   /// Begins a known mission; refused (false) while one is being carried out. A mission that cannot carry out

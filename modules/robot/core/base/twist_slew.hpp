@@ -21,6 +21,7 @@ class TwistSlew {
  public:
   explicit TwistSlew(const AccelerationLimits& limits) : limits_(limits) {}
 
+  void set_limits(const AccelerationLimits& limits) { limits_ = limits; }
   /// The velocity to command now, at most one limited step from the last one towards `target`.
   Twist2 Step(const Twist2& target, double dt_s);
   /// What was commanded in fact, after later filters: the next step starts there.

@@ -64,6 +64,19 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       authority_(config.authority),
       failsafe_(config.failsafe) {}
 
+void DriveController::Reconfigure(const DriveConfig& config) {
+  config_.operator_margin_m = config.operator_margin_m;
+  config_.lost_position_m = config.lost_position_m;
+  config_.lost_yaw_deg = config.lost_yaw_deg;
+  config_.blocked_s = config.blocked_s;
+  follower_.LimitSpeeds(config.follower.shape);
+  operator_slew_.set_limits(config.operator_acceleration);
+  echoes_.Believe(config.echoes);
+  collision_ = CollisionStop(config.collision, config_.footprint);
+  operator_collision_ =
+      CollisionStop(WithMargin(config.collision, config.operator_margin_m), config_.footprint);
+}
+
 PathVerdict DriveController::SetPath(const Path& path, Time now) {
   const bool driving_it = path_is_new_ || follower_.has_path();
   if (driving_it && path_ && SameCourse(*path_, path)) return PathVerdict::kSame;

@@ -70,6 +70,10 @@ class DriveController {
  public:
   DriveController(const DriveConfig& config, const MecanumGeometry& geometry);
 
+  /// Takes over speeds, margins and times that may be changed while it drives: those that RobotConfig marks
+  /// as live. What else differs in `config` is not looked at.
+  void Reconfigure(const DriveConfig& config);
+
   /// Replaces the path being driven; one without points brakes and holds. The very path that is being driven
   /// is ignored: a repeated message must not lead the base back to points it has passed.
   PathVerdict SetPath(const Path& path, Time now);

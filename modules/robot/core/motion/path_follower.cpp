@@ -75,6 +75,12 @@ void PathFollower::Avoid(std::span<const Eigen::Vector2d> things, const Pose2& p
     detour_ = *detour;
 }
 
+void PathFollower::LimitSpeeds(const PathShapeConfig& limits) {
+  config_.shape.max_speed_m_s = limits.max_speed_m_s;
+  config_.shape.max_turn_rad_s = limits.max_turn_rad_s;
+  if (shape_) shape_->LimitSpeeds(config_.shape);
+}
+
 void PathFollower::Drop() {
   shape_.reset();
   arrived_ = false;

@@ -58,6 +58,8 @@ class PathFollower {
   /// Looks, a few times per second, for a way around `things` (map frame [m]) within the leeway of the path,
   /// and goes by it. A way that was found stays until there is a better one.
   void Avoid(std::span<const Eigen::Vector2d> things, const Pose2& pose, Time now);
+  /// Changes the fastest speeds, also on the path that is being driven.
+  void LimitSpeeds(const PathShapeConfig& limits);
   /// Drops the path; Step then returns a velocity of 0.
   void Drop();
   bool has_path() const { return shape_.has_value(); }

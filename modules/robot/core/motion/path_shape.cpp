@@ -33,11 +33,11 @@ void PathShapeConfig::Describe(Archive& a) {
 }
 
 PathShape::PathShape(const PathShapeConfig& config, const Pose2& start, const Path& path)
-    : braking_{.deceleration_m_s2 = config.braking_m_s2}, end_(start) {
+    : braking_{.deceleration_m_s2 = config.braking_m_s2}, path_speed_(path.speed_m_s), end_(start) {
   for (std::size_t i = 0; i < path.points.size(); ++i)
     AddSegment(path.points[i], i < path.leeway.size() ? path.leeway[i] : Leeway{});
   Blend(config);
-  LimitSpeeds(config, path.speed_m_s);
+  LimitSpeeds(config);
 }
 
 void PathShape::AddSegment(const Pose2& to, const Leeway& leeway) {
@@ -77,8 +77,9 @@ void PathShape::Blend(const PathShapeConfig& config) {
   }
 }
 
-void PathShape::LimitSpeeds(const PathShapeConfig& config, double path_speed) {
-  const double speed = std::min(path_speed, config.max_speed_m_s);
+void PathShape::LimitSpeeds(const PathShapeConfig& config) {
+  limits_.clear();
+  const double speed = std::min(path_speed_, config.max_speed_m_s);
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Segment& segment = segments_[i];
     const double end = segment.begin + segment.length;

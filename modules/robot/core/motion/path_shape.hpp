@@ -58,6 +58,9 @@ class PathShape {
   /// The curve from `start` through path.points.
   PathShape(const PathShapeConfig& config, const Pose2& start, const Path& path);
 
+  /// Changes the fastest speeds of the curve; its form stays.
+  void LimitSpeeds(const PathShapeConfig& config);
+
   double length() const { return length_; }
   /// Point at the arc length s [m], which is clamped to 0..length().
   Point At(double s) const;
@@ -85,13 +88,13 @@ class PathShape {
 
   void AddSegment(const Pose2& to, const Leeway& leeway);
   void Blend(const PathShapeConfig& config);
-  void LimitSpeeds(const PathShapeConfig& config, double path_speed);
   Point OnSegment(const Segment& segment, double s) const;
   Point OnBlend(const Segment& before, const Segment& after, double s) const;
   std::size_t SegmentAt(double s) const;
 
   BrakingLaw braking_;
-  Pose2 end_;  ///< last pose taken in, yaw not wrapped
+  double path_speed_;  ///< that of the order [m/s]
+  Pose2 end_;          ///< last pose taken in, yaw not wrapped
   std::vector<Segment> segments_;
   std::vector<SpeedLimit> limits_;
   double length_ = 0;

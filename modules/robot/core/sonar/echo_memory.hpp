@@ -42,6 +42,11 @@ class EchoMemory {
  public:
   EchoMemory(const EchoMemoryConfig& config, const Footprint& footprint);
 
+  /// Changes how near an echo counts at once, and how long one counts.
+  void Believe(const EchoMemoryConfig& config) {
+    config_.near_m = config.near_m;
+    config_.keep_s = config.keep_s;
+  }
   /// Adds a cycle of the sonars. `odom_from_base`: pose at the end of the cycle.
   void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
   /// Forgets what is too old at `now`; `waits` as in NearMap::Forget.
