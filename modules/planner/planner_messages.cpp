@@ -127,13 +127,16 @@ RobotPose FromMessage(const pose_t& message) {
           CovarianceIn(message)};
 }
 
+/// A robot that has touched something has dropped its path; one that somebody walked into keeps it.
 DriveReport FromMessage(const drive_status_t& message) {
+  const bool bumped = message.limit == drive_status_t::LIMIT_TOUCHED &&
+                      (message.mode == drive_status_t::FOLLOWING || message.mode == drive_status_t::BLOCKED);
   return {ModeOf(message.mode),
           message.path_id,
-          std::string(DriveLimitText(message.limit)),
+          bumped ? "somebody touched the standing robot" : std::string(DriveLimitText(message.limit)),
           message.estop != 0,
           message.estop_changes,
-          message.limit == drive_status_t::LIMIT_TOUCHED,
+          message.limit == drive_status_t::LIMIT_TOUCHED && !bumped,
           message.remaining_m,
           message.nearest_m >= 0 ? std::optional(message.nearest_m) : std::nullopt};
 }

@@ -85,6 +85,7 @@ std::int8_t LimitCode(Condition condition) {
     case Condition::kEstop:
       return drive_status_t::LIMIT_ESTOP;
     case Condition::kTouched:
+    case Condition::kBumped:  // the mode tells them apart: a base that was bumped keeps its path
       return drive_status_t::LIMIT_TOUCHED;
     case Condition::kBumperSilent:
       return drive_status_t::LIMIT_BUMPER_SILENT;

@@ -352,7 +352,9 @@ void RobotApp::ReportTouch(Time now) {
   localiser_.AddSlip(kLeastSlip_m + std::hypot(twist.vx, twist.vy) * kTouchNoticed_s,
                      kLeastSlip_rad + std::abs(twist.wz) * kTouchNoticed_s);
   context_.Log(bus::Level::kWarning,
-               fmt::format("the base touched something at {}{}", SegmentsText(touch->segments),
+               fmt::format("{} at {}{}",
+                           touch->came ? "somebody touched the standing base" : "the base touched something",
+                           SegmentsText(touch->segments),
                            touch->push_n > 0 ? fmt::format(", {:.0f} N", touch->push_n) : ""));
 }
 

@@ -47,6 +47,19 @@ TEST(PlannerMessages, EveryDriveModeHasItsOwnMeaning) {
   EXPECT_EQ(FromMessage(message).mode, DriveMode::kIdle);
 }
 
+TEST(PlannerMessages, ARobotThatKeepsItsPathWasTouchedAndHasTouchedNothing) {
+  drive_status_t message{};
+  message.limit = drive_status_t::LIMIT_TOUCHED;
+  for (const int mode : {drive_status_t::FOLLOWING, drive_status_t::BLOCKED}) {
+    message.mode = static_cast<std::int8_t>(mode);
+    EXPECT_FALSE(FromMessage(message).touched);
+    EXPECT_EQ(FromMessage(message).limit, "somebody touched the standing robot");
+  }
+  message.mode = drive_status_t::HOLDING;
+  EXPECT_TRUE(FromMessage(message).touched);
+  EXPECT_EQ(FromMessage(message).limit, "the robot touched something");
+}
+
 TEST(PlannerMessages, ALeafHangsWhereTheHeadSawItOrWasNotSeen) {
   door_seen_t message{};
   message.utime_exposure = 7'000'000;

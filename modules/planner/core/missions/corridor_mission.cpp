@@ -32,6 +32,9 @@ void CorridorMissionConfig::Describe(Archive& a) {
   a.Number("leeway_m", leeway_m, {"m", 0, 3.1, "how far its middle may be left around things"});
   a.Number("parallel_deg", parallel_deg, {"deg", 0, 45, "a wall of the plan less askew gives the direction"});
   a.Number("end_m", end_m, {"m", 0.5, 50, "ending so much earlier than on the plan it is closed"});
+  a.Number("patience_s", patience_s, {"s", 0, 600, "so long the way may be closed before its end"});
+  a.Number("back_off_m", back_off_m, {"m", 0, 2, "so far the robot goes back to hear anew what closes it"});
+  a.Number("back_off_m_s", back_off_m_s, {"m/s", 0.02, 0.5, "speed of that"});
   limits.Describe(a);
 }
 
@@ -51,8 +54,10 @@ void CorridorMission::Step(MissionControl& control) {
     if (heard.link_up && heard.pose && IsFresh(*heard.pose, control.now())) Depart(control);
     return;
   }
+  driven_m_ = Driven_m(control);
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath() || heard.drive->mode != DriveMode::kArrived) return;
+  if (backs_off_) return Follow(control, length_m_ - driven_m_);
   control.Enter(Phase::kDone, fmt::format("followed the corridor for {:.1f} m in {:.0f} s", length_m_,
                                           Seconds(control.now() - control.started())));
 }
@@ -76,35 +81,69 @@ void CorridorMission::Depart(MissionControl& control) {
   if (end_m_) *end_m_ = std::max(0.0, *end_m_ - footprint_.length_m / 2);
   const bool to_the_end = order_.distance_m == 0;
   length_m_ = std::min(to_the_end ? kMost_m : order_.distance_m, LengthOnMap(course));
-  const Pose2 goal = course * Pose2{length_m_, 0, 0};
   const double planned_m = std::min(length_m_, end_m_.value_or(length_m_));
   control.SendFaces(FacesAlong(faces_, {base.translation(), base.translation() + planned_m * ahead}));
-  PlannedPath path;
-  path.points = {goal};
-  path.leeway = {{config_.leeway_m, config_.leeway_m}};
-  path.centre = true;
-  control.OrderPath(std::move(path), config_.speed_m_s);
+  course_ = course;
+  driven_m_ = 0;
+  closed_.reset();
+  Follow(control, length_m_);
   control.Enter(Phase::kDriving, to_the_end ? "following the corridor to its end"
                                             : fmt::format("following the corridor for {:.1f} m", length_m_));
 }
 
+/// What is left is laid from where the robot is: it leads itself along the walls.
+void CorridorMission::Follow(MissionControl& control, double length_m) {
+  const Pose2& base = control.heard().pose->map_from_base;
+  backs_off_ = false;
+  PlannedPath path;
+  path.points = {Pose2{base.x, base.y, course_.yaw} * Pose2{length_m, 0, 0}};
+  path.leeway = {{config_.leeway_m, config_.leeway_m}};
+  path.centre = true;
+  control.OrderPath(std::move(path), config_.speed_m_s);
+}
+
+void CorridorMission::BackOff(MissionControl& control) {
+  backs_off_ = true;
+  PlannedPath path;
+  path.points = {control.heard().pose->map_from_base * Pose2{-config_.back_off_m, 0, 0}};
+  control.OrderPath(std::move(path), config_.back_off_m_s);
+}
+
+/// A report about another path than the one ordered last says nothing.
 double CorridorMission::Driven_m(const MissionControl& control) const {
+  if (backs_off_ || !control.OnPath()) return driven_m_;
   return std::max(0.0, length_m_ - control.heard().drive->remaining_m);
 }
 
-/// Where nothing leaves room for the base a corridor ends, unless it was to lead on.
+/// Whether the corridor should go on here.
+bool CorridorMission::MayLeadOn() const {
+  return order_.distance_m > 0 || !end_m_ || driven_m_ < *end_m_ - config_.end_m;
+}
+
+/// Where nothing leaves room for the base a corridor ends, unless it was to lead on: then it is looked at
+/// again, in turn from here and from farther back.
 void CorridorMission::OnStop(MissionControl& control, const Stop& stop) {
   if (stop.cause != Stop::Cause::kBlocked) return control.Fail(stop.reason);
-  const double driven_m = Driven_m(control);
+  if (backs_off_) return Follow(control, length_m_ - driven_m_);  // something stands behind
+  driven_m_ = Driven_m(control);
+  if (!MayLeadOn()) return Close(control, stop);
+  constexpr double kProgress_m = 0.5;
+  if (!closed_ || driven_m_ > closed_->at_m + kProgress_m) closed_ = Closed{driven_m_, control.now()};
+  if (Seconds(control.now() - closed_->since) >= config_.patience_s) return Close(control, stop);
+  if (++closed_->n_looks % 2 == 0) BackOff(control);
+}
+
+/// Ends the mission where the way is closed.
+void CorridorMission::Close(MissionControl& control, const Stop& stop) {
   if (order_.distance_m > 0)
-    return control.Fail(fmt::format("the corridor is closed after {:.1f} of {:.1f} m: {}", driven_m,
+    return control.Fail(fmt::format("the corridor is closed after {:.1f} of {:.1f} m: {}", driven_m_,
                                     order_.distance_m, stop.reason));
-  if (end_m_ && driven_m < *end_m_ - config_.end_m)
+  if (end_m_ && MayLeadOn())
     return control.Fail(
-        fmt::format("the corridor is closed after {:.1f} m, on the plan it ends after {:.1f} m: {}", driven_m,
-                    *end_m_, stop.reason));
+        fmt::format("the corridor is closed after {:.1f} m, on the plan it ends after {:.1f} m: {}",
+                    driven_m_, *end_m_, stop.reason));
   control.OrderPath({}, 0);  // what is left of the path is not to be driven later
-  control.Enter(Phase::kDone, fmt::format("at the end of the corridor after {:.1f} m in {:.0f} s", driven_m,
+  control.Enter(Phase::kDone, fmt::format("at the end of the corridor after {:.1f} m in {:.0f} s", driven_m_,
                                           Seconds(control.now() - control.started())));
 }
 

@@ -17,6 +17,9 @@ struct CorridorMissionConfig {
   double leeway_m = 1.5;     ///< how far the middle may be left around things, if the walls leave room
   double parallel_deg = 25;  ///< a wall of the plan that is less askew gives the direction
   double end_m = 2;          ///< a corridor that ends so much before its end on the plan is closed there
+  double patience_s = 60;   ///< so long the way may be closed, by a person above all, where it should lead on
+  double back_off_m = 0.5;  ///< so far the robot goes back meanwhile, to hear anew what closes the way
+  double back_off_m_s = 0.1;
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 4, .silent_s = 8, .limit_s = 1200};
 
   void Describe(Archive& a);
@@ -24,7 +27,9 @@ struct CorridorMissionConfig {
 
 /// The mission "follow this corridor": one order to the robot, which keeps to the middle between the walls
 /// that it hears. It needs no plan; where there is one, the robot is told the walls along the way. It ends
-/// at the distance that was ordered, or where nothing leaves room for the base any more.
+/// at the distance that was ordered, or where nothing leaves room for the base any more. Where it should lead
+/// on, the robot waits, backs off and comes again before the corridor counts as closed: who stands there may
+/// leave, and what was heard from one place only may be smaller.
 class CorridorMission : public Mission {
  public:
   CorridorMission(const CorridorMissionConfig& config, const Footprint& footprint, const GroundPlan& plan);
@@ -40,6 +45,10 @@ class CorridorMission : public Mission {
 
  private:
   void Depart(MissionControl& control);
+  void Follow(MissionControl& control, double length_m);
+  void BackOff(MissionControl& control);
+  bool MayLeadOn() const;
+  void Close(MissionControl& control, const Stop& stop);
   double CourseFrom(const Pose2& base) const;
   double Driven_m(const MissionControl& control) const;
 
@@ -47,7 +56,17 @@ class CorridorMission : public Mission {
   Footprint footprint_;
   std::vector<WallFace> faces_;
   MissionOrder order_;
-  double length_m_ = 0;          ///< of the path that was ordered
+  Pose2 course_;            ///< where the corridor was entered, and in which direction
+  double length_m_ = 0;     ///< of the whole way that is to be followed
+  double driven_m_ = 0;     ///< as reported last
+  bool backs_off_ = false;  ///< the path ordered last leads back
+  /// Where the way was found closed, and since when.
+  struct Closed {
+    double at_m = 0;
+    Time since{};
+    int n_looks = 0;
+  };
+  std::optional<Closed> closed_;
   std::optional<double> end_m_;  ///< to the corridor's end, as the plan has it
 };
 

@@ -14,11 +14,13 @@ void DriveConfig::Describe(Archive& a) {
   a.Section("footprint", footprint, "the body of the base");
   a.Section("follower", follower, "how a path is driven");
   a.Section("corridor", corridor, "which walls are those of a corridor that is followed");
+  a.Section("yield", yield, "how room is made for who comes along a corridor");
   a.Section("acceleration", acceleration, "limits while a path is driven");
   a.Section("operator_acceleration", operator_acceleration, "limits while an operator drives");
   a.Section("braking", braking, "limits while a hold brakes the base");
   a.Section("echoes", echoes, "which sonar echoes are believed");
   a.Section("floor", floor, "what the laser's line showed of the floor");
+  a.Section("movers", movers, "what comes towards the base while a path is driven");
   a.Section("collision", collision, "the last filter before the wheels");
   a.Section("touch", touch, "how a touch is noticed");
   a.Section("authority", authority, "who may drive");

@@ -4,12 +4,14 @@
 #include "robot/core/base/twist_slew.hpp"
 #include "robot/core/motion/corridor_axis.hpp"
 #include "robot/core/motion/path_follower.hpp"
+#include "robot/core/motion/yield.hpp"
 #include "robot/core/safety/authority.hpp"
 #include "robot/core/safety/collision_stop.hpp"
 #include "robot/core/safety/failsafe.hpp"
 #include "robot/core/safety/touch_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
+#include "robot/core/sonar/mover_watch.hpp"
 
 namespace priamos::robot {
 
@@ -18,11 +20,13 @@ struct DriveConfig {
   Footprint footprint;
   PathFollowerConfig follower;
   CorridorConfig corridor;
+  YieldConfig yield;
   AccelerationLimits acceleration;
   AccelerationLimits operator_acceleration{.acceleration_m_s2 = 0.8, .turn_acceleration_rad_s2 = 1.5};
   AccelerationLimits braking{.acceleration_m_s2 = 1.0, .turn_acceleration_rad_s2 = 2.0};
   EchoMemoryConfig echoes;
   FloorMemoryConfig floor;
+  MoverConfig movers;
   CollisionStopConfig collision;
   TouchConfig touch;
   double operator_margin_m = 0.04;  ///< added to the margins of collision while an operator drives

@@ -53,11 +53,13 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       geometry_(geometry),
       follower_(config.follower, config.footprint),
       corridor_(config.corridor),
+      yield_(config.yield),
       slew_(config.acceleration),
       operator_slew_(config.operator_acceleration),
       brake_(config.braking),
       echoes_(config.echoes, config.footprint),
       floor_(config.floor),
+      movers_(config.movers, config.footprint),
       collision_(config.collision, config.footprint),
       operator_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
       touch_(config.touch, config.footprint, geometry),
@@ -75,6 +77,13 @@ void DriveController::Reconfigure(const DriveConfig& config) {
   collision_ = CollisionStop(config.collision, config_.footprint);
   operator_collision_ =
       CollisionStop(WithMargin(config.collision, config.operator_margin_m), config_.footprint);
+}
+
+/// The evidence is of what stays: somebody who has walked by is not to block the way for half a minute.
+void DriveController::AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) {
+  movers_.Add(cycle, odom_from_base);
+  echoes_.Add(cycle, odom_from_base,
+              [this](const Eigen::Vector2d& odom) { return !movers_.IsOfMover(odom); });
 }
 
 PathVerdict DriveController::SetPath(const Path& path, Time now) {
@@ -126,7 +135,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   floor_.Forget(situation.odom_from_base, now);
   authority_.Tick(now, HasPathToGo());
   if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
-  NoteTouch(situation.odom_from_base, now);
+  NoteTouch(situation, now);
   const DriveSource source = Source(now);
   state_.failsafe = Watch(situation, now);
   if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause, situation, now);
@@ -151,8 +160,14 @@ DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) 
   const auto add = [&](const std::vector<Eigen::Vector2d>& points) {
     around.seen.insert(around.seen.end(), points.begin(), points.end());
   };
-  if (state_.mode == DriveMode::kOperated) add(echoes_.Bridges(odom_from_base));
-  add(floor_.Points(odom_from_base));
+  around.placed = floor_.Points(odom_from_base);
+  if (state_.mode == DriveMode::kOperated) {
+    add(echoes_.Bridges(odom_from_base));
+  } else {
+    const std::vector<Eigen::Vector2d> coming = movers_.Points(odom_from_base);
+    around.placed.insert(around.placed.end(), coming.begin(), coming.end());
+  }
+  add(around.placed);
   add(touch_.Points(odom_from_base));
   return around;
 }
@@ -185,7 +200,8 @@ FailsafeDecision DriveController::Watch(const DriveSituation& situation, Time no
   FailsafeInputs inputs;
   inputs.source = Source(now);
   inputs[Condition::kEstop] = when(authority_.estop());
-  inputs[Condition::kTouched] = when(state_.touch && state_.touch->time == now);
+  inputs[Condition::kTouched] = when(state_.touch && state_.touch->time == now && !state_.touch->came);
+  inputs[Condition::kBumped] = Lasting(bumped_since_, now);
   inputs[Condition::kLeaseLost] = when(authority_.lease_lost());
   inputs[Condition::kOperatorSilent] = when(authority_.OperatorFellSilent(now));
   inputs[Condition::kWheelsSilent] = Silence(situation.wheels_heard, *first_step_, now, kWheelsDue);
@@ -238,7 +254,22 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   state_.remaining_m = wanted.remaining_m;
   state_.cross_track_m = wanted.cross_track_m;
   if (wanted.arrived) state_.mode = DriveMode::kArrived;
-  return wanted.twist;
+  return path_->centre && !wanted.arrived ? MadeWay(wanted, situation.odom_from_base, now) : wanted.twist;
+}
+
+/// In a corridor who comes is not evaded on the way: the base goes to the side and lets him pass.
+Twist2 DriveController::MadeWay(const PathFollower::Wanted& wanted, const Pose2& odom_from_base, Time now) {
+  const auto aside = yield_.Step(ComerAhead(odom_from_base), wanted.cross_track_m, room_m_, now);
+  return aside ? Twist2{0, *aside, wanted.heading_error_rad} : wanted.twist;
+}
+
+std::optional<Comer> DriveController::ComerAhead(const Pose2& odom_from_base) const {
+  const Mover* mover = movers_.NearestAhead(odom_from_base);
+  if (!mover) return std::nullopt;
+  const Eigen::Vector2d at = odom_from_base.Inverse() * mover->at;
+  // Who walks past beside the base does not come any more.
+  if (at.x() < config_.footprint.length_m / 2) return std::nullopt;
+  return Comer{config_.footprint.Distance(at), mover->velocity.norm(), at.y()};
 }
 
 /// A centred path begins where the base is, in the direction of the corridor.
@@ -247,6 +278,8 @@ void DriveController::BeginPath(const DriveSituation& situation) {
   if (path_->centre) {
     start.yaw = path_->points.front().yaw;
     realigned_.reset();
+    yield_.End();
+    room_m_ = 0;
     corridor_.Begin(situation.odom_from_base,
                     WrapAngle(start.yaw - situation.estimate->pose.yaw + situation.odom_from_base.yaw));
   }
@@ -263,6 +296,7 @@ void DriveController::KeepCentred(const DriveSituation& situation, Time now) {
                                         follower_.RemainingFrom(situation.estimate->pose),
                                         config_.footprint.width_m / 2, config_.corridor);
   follower_.Realign(centred.path, centred.start);
+  room_m_ = centred.path.leeway.empty() ? 0 : centred.path.leeway.front().right_m;
 }
 
 /// What a path is to be led around. What stops the base is among it also before there is evidence.
@@ -272,6 +306,7 @@ std::vector<Eigen::Vector2d> DriveController::ThingsInMap(const DriveSituation& 
   things.insert(things.end(), around.remembered.begin(), around.remembered.end());
   std::copy_if(around.seen.begin(), around.seen.end(), std::back_inserter(things),
                [&](const Eigen::Vector2d& p) { return config_.footprint.Distance(p) < kBeside; });
+  things.insert(things.end(), around.placed.begin(), around.placed.end());
   for (Eigen::Vector2d& thing : things) thing = situation.estimate->pose * thing;
   return things;
 }
@@ -328,8 +363,16 @@ void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Tim
   state_.mode = blocked ? DriveMode::kBlocked : DriveMode::kFollowing;
 }
 
-void DriveController::NoteTouch(const Pose2& odom_from_base, Time now) {
-  if (const auto touch = touch_.Update(odom_from_base, now)) state_.touch = touch;
+/// A base that stands on its way, or goes the other way, has touched nothing: somebody came to it, and it
+/// goes on when he has left.
+void DriveController::NoteTouch(const DriveSituation& situation, Time now) {
+  std::optional<Twist2> motion;
+  if (HasPathToGo() && situation.estimate) motion = situation.estimate->twist;
+  const auto touch = touch_.Update(situation.odom_from_base, now, motion);
+  if (!touch_.pressed()) bumped_since_.reset();
+  if (!touch) return;
+  state_.touch = touch;
+  if (touch->came) bumped_since_ = now;
 }
 
 void DriveController::NoteStuck(const DriveSituation& situation, Time now) {

@@ -10,6 +10,7 @@
 #include "robot/core/motion/deflection.hpp"
 #include "robot/core/motion/drive_config.hpp"
 #include "robot/core/motion/path_follower.hpp"
+#include "robot/core/motion/yield.hpp"
 #include "robot/core/pose/pose_estimator.hpp"
 #include "robot/core/safety/authority.hpp"
 #include "robot/core/safety/collision_stop.hpp"
@@ -17,6 +18,7 @@
 #include "robot/core/safety/touch_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
+#include "robot/core/sonar/mover_watch.hpp"
 
 namespace priamos::robot {
 
@@ -93,7 +95,7 @@ class DriveController {
     return floor_.Add(line, odom_from_base, now);
   }
   /// Takes a cycle of the sonars. `odom_from_base`: pose when the cycle ended.
-  void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) { echoes_.Add(cycle, odom_from_base); }
+  void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base);
 
   /// Takes a piece of wall that was found or has grown: a centred path is led by them.
   void AddWall(int number, const WallPiece& piece) { corridor_.Note(number, piece); }
@@ -109,6 +111,9 @@ class DriveController {
   /// The obstacles that limit the motion, base frame [m].
   struct Obstacles {
     std::vector<Eigen::Vector2d> seen, remembered;
+    /// Of `seen`, places that are known well enough to plan with from afar: before who comes, and on the
+    /// floor.
+    std::vector<Eigen::Vector2d> placed{};
   };
   const CollisionStop& Guard() const;
   bool HasPathToGo() const;
@@ -123,6 +128,8 @@ class DriveController {
   Twist2 WantedByPath(const DriveSituation& situation, const Obstacles& around, Time now, double dt_s);
   void BeginPath(const DriveSituation& situation);
   void KeepCentred(const DriveSituation& situation, Time now);
+  std::optional<Comer> ComerAhead(const Pose2& odom_from_base) const;
+  Twist2 MadeWay(const PathFollower::Wanted& wanted, const Pose2& odom_from_base, Time now);
   void StandIfLetGo(Time now);
   Twist2 WantedByOperator(Time now) const;
   Twist2 FreeOf(const Twist2& motion, const Obstacles& around) const;
@@ -131,7 +138,7 @@ class DriveController {
   void NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
                  const CollisionStop::Result& result);
   void NoteBlocked(const Twist2& wanted, const Twist2& given, Time now);
-  void NoteTouch(const Pose2& odom_from_base, Time now);
+  void NoteTouch(const DriveSituation& situation, Time now);
   void NoteStuck(const DriveSituation& situation, Time now);
   void NoteEnd(DriveSource source);
   void Halt(Condition cause, const DriveSituation& situation, Time now);
@@ -141,9 +148,12 @@ class DriveController {
   MecanumGeometry geometry_;
   PathFollower follower_;
   CorridorGuide corridor_;
+  Yield yield_;
+  double room_m_ = 0;  ///< that a corridor leaves beside its middle
   TwistSlew slew_, operator_slew_, brake_;
   EchoMemory echoes_;
   FloorMemory floor_;
+  MoverWatch movers_;
   CollisionStop collision_, operator_collision_;
   TouchWatch touch_;
   Authority authority_;
@@ -155,6 +165,7 @@ class DriveController {
   std::optional<Time> last_step_, first_step_, sonar_heard_;
   std::optional<Time> realigned_;  ///< when the walls were looked at last to keep the path between them
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;
+  std::optional<Time> bumped_since_;  ///< when somebody came to the base and touched it
 };
 
 }  // namespace priamos::robot

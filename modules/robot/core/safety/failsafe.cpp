@@ -7,6 +7,7 @@ void FailsafeConfig::Describe(Archive& a) {
   a.Number("wheels_stuck_s", wheels_stuck_s, {"s", 0.2, 10, "commanded to turn, encoders stand"});
   a.Number("sonar_silent_s", sonar_silent_s, {"s", 0.1, 5, "no cycle of the sonar ring"});
   a.Number("bumper_silent_s", bumper_silent_s, {"s", 0.1, 5, "no message of the bumper"});
+  a.Number("bumped_s", bumped_s, {"s", 0.5, 30, "the base stands on after somebody touched it"});
   a.Number("pose_lost_s", pose_lost_s, {"s", 0, 5, "no pose, or one too uncertain to drive by"});
   a.Number("head_silent_s", head_silent_s, {"s", 0.2, 60, "no sign of the head while a fix is needed"});
   a.Number("link_lost_operator_s", link_lost_operator_s, {"s", 0, 5, "radio link down, operator drives"});
@@ -30,6 +31,7 @@ std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& c) 
       {kWheelsSilent, kAnybody, kHold, c.wheels_silent_s, 0.2, "no credible encoder sample", "itself"},
       {kSonarSilent, kAnybody, kHold, c.sonar_silent_s, 0.3, "no cycle of the sonar ring", "itself"},
       {kBumperSilent, kAnybody, kHold, c.bumper_silent_s, 0.3, "no message of the bumper", "itself"},
+      {kBumped, DriveSource::kPath, kHold, 0, c.bumped_s, "somebody touched the standing base", "itself"},
       {kPoseLost, DriveSource::kPath, kHold, c.pose_lost_s, 0.2, "no pose, or one too uncertain", "itself"},
       {kHeadSilent, DriveSource::kPath, kHold, c.head_silent_s, 0.5, "head silent while a fix is needed",
        "itself"},

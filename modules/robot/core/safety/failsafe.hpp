@@ -24,8 +24,9 @@ enum class Condition {
   kHeadSilent,
   kLinkLost,
   kBumperSilent,
+  kBumped,
 };
-inline constexpr std::size_t kConditions = 11;
+inline constexpr std::size_t kConditions = 12;
 
 /// Who moves the base.
 enum class DriveSource { kNone, kPath, kOperator };
@@ -54,6 +55,7 @@ struct FailsafeConfig {
   double wheels_stuck_s = 1.0;
   double sonar_silent_s = 0.5;
   double bumper_silent_s = 0.5;
+  double bumped_s = 1.5;  ///< so long the base stands on after what came to it has left: until it is told
   double pose_lost_s = 0.2;
   double head_silent_s = 3.0;
   double link_lost_operator_s = 0.25;
@@ -62,7 +64,7 @@ struct FailsafeConfig {
   void Describe(Archive& a);
 };
 
-inline constexpr std::size_t kFailsafeRules = 12;
+inline constexpr std::size_t kFailsafeRules = 13;
 /// All rules, highest precedence first.
 std::array<FailsafeRule, kFailsafeRules> FailsafeRules(const FailsafeConfig& config);
 

@@ -36,6 +36,19 @@ std::array<Eigen::Vector2d, 2> EndsOf(int segment, const Footprint& footprint) {
   return {corners[segment], corners[(segment + 1) % 8]};
 }
 
+/// Whether a base that moves so comes nearer to what lies at one of the segments.
+bool MovesTowards(std::uint8_t segments, const Twist2& motion, const Footprint& footprint) {
+  constexpr double kStands_m_s = 0.015;
+  const double turning = std::abs(motion.wz) * footprint.Reach();
+  const std::array<double, 4> outwards{motion.vx, motion.vy, -motion.vx,
+                                       -motion.vy};  // front, left, rear, right
+  for (std::size_t i = 0; i < 8; ++i) {
+    if ((segments >> i & 1) == 0) continue;
+    if (outwards[((i + 1) / 2) % 4] + turning > kStands_m_s) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void TouchConfig::Describe(Archive& a) {
@@ -56,14 +69,17 @@ void TouchWatch::AddBumper(std::uint8_t pressed, Time time) {
   bumper_heard_ = time;
 }
 
-std::optional<Touch> TouchWatch::Update(const Pose2& odom_from_base, Time now) {
+std::optional<Touch> TouchWatch::Update(const Pose2& odom_from_base, Time now,
+                                        const std::optional<Twist2>& motion) {
   while (!places_.empty() &&
          (now - places_.front().time > FromSeconds(config_.keep_s) || places_.size() > kMostPlaces))
     places_.pop_front();
   auto touch = TouchOfBumper(now);
   const auto push = TouchOfPush(now);
   if (!touch) touch = push;
-  if (touch) Remember(touch->segments, odom_from_base, now);
+  if (touch)
+    touch->came = motion && touch->push_n == 0 && !MovesTowards(touch->segments, *motion, footprint_);
+  if (touch && !touch->came) Remember(touch->segments, odom_from_base, now);
   return touch;
 }
 

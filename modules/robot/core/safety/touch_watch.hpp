@@ -31,6 +31,7 @@ struct Touch {
   Time time{};
   std::uint8_t segments = 0;
   double push_n = 0;  ///< force by the currents; 0 when the bumper noticed it
+  bool came = false;  ///< to a base that did not move that way: what it was may leave again
 };
 
 /// Notices that the base touches something, by the switches of the bumper and by the motor currents, and
@@ -44,8 +45,12 @@ class TouchWatch {
   void AddMotion(Time time, const Twist2& twist) { push_.AddMotion(time, twist); }
   void AddCurrents(const MotorCurrents& currents) { push_.AddCurrents(currents); }
 
-  /// Looks for a new touch with the base at `odom_from_base`; nullopt when there is none.
-  std::optional<Touch> Update(const Pose2& odom_from_base, Time now);
+  /// Looks for a new touch with the base at `odom_from_base`; nullopt when there is none. `motion`:
+  /// velocity of a base of which is to be known whether something came to it; such a touch leaves no place.
+  std::optional<Touch> Update(const Pose2& odom_from_base, Time now,
+                              const std::optional<Twist2>& motion = std::nullopt);
+  /// Whether a switch is closed.
+  bool pressed() const { return pressed_ != 0; }
   /// Places of touches that still count, and switches that are closed now, base frame [m].
   std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;
   /// Newest message of the bumper.

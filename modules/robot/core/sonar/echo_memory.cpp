@@ -35,15 +35,15 @@ EchoMemory::EchoMemory(const EchoMemoryConfig& config, const Footprint& footprin
     base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, footprint.Size());
 }
 
-void EchoMemory::Add(const SonarCycle& cycle, const Pose2& odom_from_base) {
+void EchoMemory::Add(const SonarCycle& cycle, const Pose2& odom_from_base, const Stays& stays) {
   kept_.push_back({cycle, odom_from_base});
   if (kept_.size() > kCycles) kept_.pop_front();
-  NoteNearThings();
+  NoteNearThings(stays);
 }
 
 /// First what beams of this cycle see through, then what they see: a thing is not cleared by a neighbour that
 /// sees it a little later.
-void EchoMemory::NoteNearThings() {
+void EchoMemory::NoteNearThings(const Stays& stays) {
   const std::size_t newest = kept_.size() - 1;
   for (const bool add : {false, true}) {
     for (int i = 0; i < kSonars; ++i) {
@@ -52,7 +52,8 @@ void EchoMemory::NoteNearThings() {
           kept_[newest].odom_from_base * base_from_sonar_[static_cast<std::size_t>(i)];
       if (add) {
         near_map_.Add(odom_from_sonar, RangeOf(newest, i));
-        evidence_.Add(odom_from_sonar, RangeOf(newest, i), kept_[newest].cycle.time);
+        if (!stays || stays(odom_from_sonar * Eigen::Vector2d(RangeOf(newest, i), 0)))
+          evidence_.Add(odom_from_sonar, RangeOf(newest, i), kept_[newest].cycle.time);
       } else {
         near_map_.Clear(odom_from_sonar, RangeOf(newest, i));
       }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -47,8 +48,11 @@ class EchoMemory {
     config_.near_m = config.near_m;
     config_.keep_s = config.keep_s;
   }
-  /// Adds a cycle of the sonars. `odom_from_base`: pose at the end of the cycle.
-  void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
+  /// Whether an echo, frame of the odometry, is of a thing that stays where it is.
+  using Stays = std::function<bool(const Eigen::Vector2d&)>;
+  /// Adds a cycle of the sonars. `odom_from_base`: pose at the end of the cycle. Of what does not stay there
+  /// is no evidence.
+  void Add(const SonarCycle& cycle, const Pose2& odom_from_base, const Stays& stays = {});
   /// Forgets what is too old at `now`; `waits` as in NearMap::Forget.
   void Forget(const Pose2& odom_from_base, Time now, bool waits = false);
   /// Time of the newest cycle.
@@ -74,7 +78,7 @@ class EchoMemory {
     SonarCycle cycle;
     Pose2 odom_from_base;
   };
-  void NoteNearThings();
+  void NoteNearThings(const Stays& stays);
   std::array<std::optional<Eigen::Vector2d>, kSonars> NearEchoes(const Pose2& odom_from_base) const;
   double RangeOf(std::size_t index, int sensor) const;
   bool IsSuperseded(std::size_t index, int sensor) const;

@@ -18,6 +18,8 @@ constexpr double kHalfWall_m = 0.07;
 constexpr double kCeiling_m = 2.8;
 /// So far before a wall is the middle of a base that comes no nearer.
 constexpr double kStands_m = 0.6;
+/// So far within the other corridor somebody is out of the way.
+constexpr double kAside_m = 2.5;
 /// Number of a door's landmark for who comes back through it, less the door's.
 constexpr int kBehind = 100;
 
@@ -185,7 +187,7 @@ double Building::CorridorSides(double length_m, double width_m, double first_doo
 
 GeneratedWorld Building::Corridor() {
   const double length_m = rng_.Uniform(20, 80), width_m = rng_.Uniform(1.6, 3);
-  CorridorSides(length_m, width_m, 1);
+  const double junction_m = CorridorSides(length_m, width_m, 1);
   Wall("east", {length_m + kHalfWall_m, -width_m / 2}, {length_m + kHalfWall_m, width_m / 2});
   out_.corridor_end = Pose2{length_m - kStands_m, 0, 0};
   const double begin_m = rng_.Uniform(1.5, 3), lane_y = rng_.Uniform(-1, 1) * (width_m / 2 - 0.7);
@@ -199,7 +201,9 @@ GeneratedWorld Building::Corridor() {
   AddClutter({{0.1, -width_m / 2 + 0.02}, {length_m - 0.1, width_m / 2 - 0.02}}, lane,
              static_cast<int>(length_m / 3), rng_, out_.world);
   const auto people = static_cast<int>(rng_.Below(3));
-  for (int i = 0; i < people; ++i) Walker({{at + 1, lane_y}, {begin_m + 2, lane_y}});
+  // Who meets the base where two cannot pass each other turns back, and has somewhere to go.
+  const Vector2d aside(junction_m, width_m / 2 + kAside_m);
+  for (int i = 0; i < people; ++i) Walker({aside, {junction_m, lane_y}, {begin_m + 2, lane_y}});
   return Finish();
 }
 

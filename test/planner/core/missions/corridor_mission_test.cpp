@@ -111,7 +111,7 @@ TEST(CorridorMissionTest, ClosedBeforeItsEndOnThePlanItHasFailed) {
   s.Start(0);
   s.robot.RunUntilX(9, 100);
   s.robot.blocked = true;
-  s.robot.RunFor(20);
+  s.robot.RunFor(100);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
   EXPECT_THAT(
       s.dut.state().text,
@@ -124,10 +124,42 @@ TEST(CorridorMissionTest, ClosedBeforeTheDistanceOrderedItHasFailed) {
   s.Start(10);
   s.robot.RunUntilX(4, 100);
   s.robot.blocked = true;
-  s.robot.RunFor(20);
+  s.robot.RunFor(100);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
   EXPECT_THAT(s.dut.state().text,
               AllOf(StartsWith("the corridor is closed after 3.0 of 10.0 m"), HasSubstr("blocked")));
+}
+
+TEST(CorridorMissionTest, WhoeverClosesItMayLeave) {
+  Story s;
+  s.Start(0);
+  s.robot.RunUntilX(9, 100);
+  s.robot.blocked = true;
+  s.robot.RunFor(30);
+  EXPECT_TRUE(s.dut.running());
+  s.robot.blocked = false;
+  s.robot.RunUntilX(19.3, 200);
+  s.robot.blocked = true;
+  s.robot.RunFor(20);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_THAT(s.dut.state().text, StartsWith("at the end of the corridor after 18.3 m in "));
+}
+
+TEST(CorridorMissionTest, WhatClosesItIsHeardAnewFromFartherBack) {
+  Story s;
+  s.Start(0);
+  s.robot.RunUntilX(9, 100);
+  s.robot.blocked = true;
+  s.robot.RunFor(9);
+  ASSERT_THAT(s.robot.paths, SizeIs(2));
+  EXPECT_FALSE(s.robot.paths[1].centre);
+  EXPECT_NEAR(s.robot.paths[1].points[0].x, 8.5, 0.1);
+  s.robot.blocked = false;
+  s.robot.RunUntilX(9.5, 100);
+  ASSERT_THAT(s.robot.paths, SizeIs(3));
+  EXPECT_TRUE(s.robot.paths[2].centre);
+  EXPECT_NEAR(s.robot.paths[2].points[0].x - 8.5, s.robot.paths[0].points[0].x - 9, 0.2)
+      << "what was left of the way";
 }
 
 TEST(CorridorMissionTest, ATouchEndsIt) {

@@ -233,6 +233,52 @@ TEST(DriveController, StandsBeforeABoxAndSaysBlockedAndGoesOnWhenItIsGone) {
   EXPECT_EQ(rig.state().mode, DriveMode::kFollowing);
 }
 
+/// How far the front of the base is from a place on the x axis.
+double Before(RobotRig& rig, double x) {
+  return x - rig.base().truth().x - Footprint{}.length_m / 2;
+}
+
+/// Somebody comes straight towards the base, from 4.5 m, until he is `near_m` before it.
+void Approach(RobotRig& rig, double speed_m_s, double near_m) {
+  for (double x = rig.base().truth().x + 5; Before(rig, x) > near_m; x -= speed_m_s * 0.02) {
+    rig.sonars().Clear();
+    rig.sonars().Add(BoxSides(x, -0.2, x + 0.3, 0.2));
+    rig.Tick();
+  }
+}
+
+TEST(DriveController, StandsWhenSomebodyWalksIntoIt) {
+  for (const double speed_m_s : {0.6, 1.2}) {
+    RobotRig rig(1, {0, 0, 0});
+    rig.SetPath(Straight());
+    rig.Run(2);
+    EXPECT_GT(rig.base().twist().vx, 0.3) << speed_m_s;
+    Approach(rig, speed_m_s, 0.4);
+    EXPECT_LT(rig.base().twist().vx, 0.01) << speed_m_s << ": with room for feet";
+  }
+}
+
+TEST(DriveController, WhoTouchesTheStandingBaseHoldsItAndItGoesOnWhenHeHasLeft) {
+  RobotRig rig(1, {0, 0, 0}, {}, {}, BoxSides(2, -0.2, 2.3, 0.2));
+  rig.SetPath(Straight());
+  rig.Run(8);
+  ASSERT_EQ(rig.state().mode, DriveMode::kBlocked);
+  rig.drive().touch_watch().AddBumper(1, rig.now());
+  rig.Run(2);
+  EXPECT_EQ(rig.state().failsafe.cause, Condition::kBumped);
+  ASSERT_TRUE(rig.state().touch);
+  EXPECT_TRUE(rig.state().touch->came);
+  EXPECT_FALSE(rig.state().halted_by);
+  rig.drive().touch_watch().AddBumper(0, rig.now());
+  rig.sonars().Clear();
+  rig.sonars().Add(BoxSides(6.0, -2, 6.5, 2));
+  rig.Run(1);
+  EXPECT_EQ(rig.state().failsafe.cause, Condition::kBumped) << "until everybody has been told";
+  rig.Run(4);
+  EXPECT_EQ(rig.state().failsafe.action, FailsafeAction::kNone);
+  EXPECT_GT(rig.base().twist().vx, 0.3);
+}
+
 TEST(DriveController, GivesTheSameCommandsForTheSameInputs) {
   const auto commands = [] {
     RobotRig rig(5, {0, 0.1, 0.05}, {}, {}, BoxSides(-1, -1.2, 7, 1.2));

@@ -45,6 +45,33 @@ TEST_F(TouchWatchTest, ASwitchThatClosesIsATouchOnce) {
   EXPECT_TRUE(Step(1)) << "again";
 }
 
+TEST_F(TouchWatchTest, WhoComesToAStandingBaseLeavesNoPlaceBehind) {
+  dut_.AddBumper(1, now_ += std::chrono::milliseconds(20));
+  const auto touch = dut_.Update({}, now_, Twist2{0, 0, 0});
+  ASSERT_TRUE(touch);
+  EXPECT_TRUE(touch->came);
+  EXPECT_TRUE(dut_.pressed());
+  EXPECT_THAT(dut_.Points({}), IsEmpty());
+  EXPECT_FALSE(Step(0));
+  EXPECT_FALSE(dut_.pressed());
+  EXPECT_FALSE(Step(1)->came);
+}
+
+TEST_F(TouchWatchTest, WhoWalksIntoABaseThatGoesTheOtherWayHasCome) {
+  // Segments: the halves of the front 0 and 7, of the left side 1 and 2, of the rear 3 and 4.
+  const auto came = [this](std::uint8_t segment, const Twist2& motion) {
+    Step(0);
+    dut_.AddBumper(static_cast<std::uint8_t>(1 << segment), now_ += std::chrono::milliseconds(20));
+    return dut_.Update({}, now_, motion)->came;
+  };
+  for (const int front : {0, 7}) EXPECT_FALSE(came(front, {0.3, 0, 0}));
+  for (const int rear : {3, 4}) EXPECT_TRUE(came(rear, {0.3, 0, 0}));
+  EXPECT_TRUE(came(0, {-0.1, 0, 0}));
+  EXPECT_TRUE(came(1, {0.3, -0.1, 0}));
+  EXPECT_FALSE(came(1, {0.3, 0.1, 0}));
+  EXPECT_FALSE(came(4, {0, 0, 0.2})) << "a turning base sweeps everywhere";
+}
+
 TEST_F(TouchWatchTest, TheRollingResistanceIsNoTouchAndAForceIsOneOnce) {
   EXPECT_THAT(Push(26, 50), IsEmpty());
   const auto touches = Push(600, 50);
