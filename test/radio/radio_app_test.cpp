@@ -510,6 +510,38 @@ TEST(RadioAppStart, RefusesAStateFileThatIsNoFile) {
   EXPECT_EQ(StartError("port = 'a'\nstate_file = 'new'", kPoseLink), "");
 }
 
+/// Whatever it is, it would be lost.
+TEST(RadioAppStart, RefusesAStateFileThatHoldsSomethingElse) {
+  const TemporaryFolder folder;
+  const std::string notes = folder / "notes.txt";
+  std::ofstream(notes) << "my important notes\n";
+  for (const auto& [config, place] :
+       {std::pair("state_file = '" + notes + "'", "radio.toml:2:state_file"),
+        std::pair("state_file = 'new'\nfast_state_file = '" + notes + "'", "radio.toml:3:fast_state_file")})
+    EXPECT_THAT(
+        StartError("port = 'a'\n" + config, kPoseLink),
+        AllOf(HasSubstr(place), HasSubstr("expected a state of the radio, or the name of no file yet, got "
+                                          "a file that holds something else")));
+  std::string left;
+  std::getline(std::ifstream(notes), left);
+  EXPECT_EQ(left, "my important notes");
+  EXPECT_THAT(StartError("port = 'a'\nstate_file = '/proc/self/mem'", kPoseLink),
+              HasSubstr("radio.toml:2:state_file: expected the radio's state"));
+}
+
+TEST(RadioAppStart, RefusesOneFileForTwoThings) {
+  const TemporaryFolder folder;
+  const std::string state = folder / "state", link = folder / "link";
+  std::filesystem::create_symlink(state, link);
+  for (const std::string& fast : {state, (folder / "./state").string(), link})
+    EXPECT_THAT(
+        StartError("port = 'a'\nstate_file = '" + state + "'\nfast_state_file = '" + fast + "'", kPoseLink),
+        HasSubstr("radio.toml:3:fast_state_file: expected a file of its own, got that of state_file"));
+  const FileStore other(state);
+  EXPECT_THAT(StartError("port = 'a'\nstate_file = '" + link + "'", kPoseLink),
+              HasSubstr("radio.toml:2:state_file: expected a file of its own, got one that another end"));
+}
+
 TEST(RadioAppStart, AMemoryOnARamDiskAloneIsRefused) {
   EXPECT_THAT(StartError("port = 'a'\nfast_state_file = 'new'", kPoseLink),
               HasSubstr("radio.toml:2:fast_state_file: expected none without a state_file"));
