@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -87,6 +88,55 @@ TEST_F(RadioAppTest, ACommandThatIsTooOldOnTheBusIsNotSent) {
   publisher.Publish(command);
   Run(1.5);
   EXPECT_TRUE(commands.Drain().empty());
+}
+
+/// Not to send a stop is the unsafe side; to send a REARM that nobody can have meant is the other.
+TEST_F(RadioAppTest, AStopCrossesWhateverItsOtherFieldsHoldAndAReArmDoesNot) {
+  auto stops = onboard().SubscribeAll(channels::kEstop);
+  auto publisher = offboard().Advertise(channels::kEstop);
+  auto status = offboard().Subscribe(channels::kLinkStatus);
+  Run(0.5);
+  for (const int driver : {4, -1, 127, -128, 2}) {
+    for (const std::int8_t action : {estop_t::STOP, estop_t::REARM}) {
+      estop_t message{};
+      message.utime = driver == 127 ? std::numeric_limits<std::int64_t>::min() : ToUtime(lockstep.now());
+      message.action = action;
+      message.driver = static_cast<std::int8_t>(driver);
+      publisher.Publish(message);
+      Run(0.5);
+      const auto came = stops.Drain();
+      ASSERT_EQ(came.size(), action == estop_t::STOP || driver == 2 ? 1U : 0U) << driver;
+      for (const estop_t& arrived : came) EXPECT_EQ(arrived.driver, std::clamp(driver, 0, 3));
+    }
+  }
+  Run(1.5);
+  ASSERT_NE(status.get(), nullptr);
+  EXPECT_EQ(status.get()->dropped, 4) << "the REARMs with no driver";
+}
+
+/// Half a step beside the range is the nearest value; a number that is none has none.
+TEST_F(RadioAppTest, NoNumberAndNoIdentityArriveAsAnotherOne) {
+  auto commands = onboard().SubscribeAll(channels::kDriveCommand);
+  auto publisher = offboard().Advertise(channels::kDriveCommand);
+  Run(1);
+  const auto arrives = [&](double vx_m_s, int session, int sequence) {
+    drive_command_t command{};
+    command.utime = ToUtime(lockstep.now());
+    command.time_to_live_s = 0.25;
+    command.vx_m_s = vx_m_s;
+    command.session = static_cast<std::int16_t>(session);
+    command.sequence = sequence;
+    publisher.Publish(command);
+    Run(0.5);
+    return !commands.Drain().empty();
+  };
+  EXPECT_TRUE(arrives(9, 255, 65535));
+  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_FALSE(arrives(value, 1, 1)) << value;
+  EXPECT_FALSE(arrives(0, 256, 1)) << "it would be session 255";
+  EXPECT_FALSE(arrives(0, -1, 1));
+  EXPECT_FALSE(arrives(0, 1, 65536));
+  EXPECT_TRUE(arrives(0, 1, 1));
 }
 
 TEST_F(RadioAppTest, EventsCrossBothWaysOnceAndInOrder) {
