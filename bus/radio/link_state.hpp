@@ -23,7 +23,8 @@ class StateStore {
   /// The newest state that is left; nullopt if there is none.
   virtual std::optional<SavedState> Load() = 0;
   /// Replaces the saved state as a whole. It survives a restart of the process at once, and one of the
-  /// machine after a sync. Does not wait for the disk: an emergency stop must not.
+  /// machine after a sync. Does not wait for the disk: an emergency stop must not. Nor does it throw: of a
+  /// state that could not be saved, the one that Load() finds after the next start is not the latest.
   virtual void Save(std::span<const std::byte> state) = 0;
   /// Begins to write the state saved last to disk, where it survives a loss of power.
   virtual void StartSync() = 0;

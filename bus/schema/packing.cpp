@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -64,7 +65,7 @@ class PackTraversal : public Traversal<PackTraversal> {
 
   bool Value(const PackStep& step, std::size_t first, bool kept) {
     if (const auto* real = std::get_if<RealCode>(&step.code)) {
-      Put(step, real->Encode(TakeReal(step.kind)), kept);
+      PutReal(step, *real, TakeReal(step.kind), kept);
     } else if (const auto* integer = std::get_if<IntegerCode>(&step.code)) {
       Put(step, integer->Encode(TakeInteger(step.kind)), kept);
     } else if (const auto* age = std::get_if<AgePack>(&step.code)) {
@@ -91,9 +92,18 @@ class PackTraversal : public Traversal<PackTraversal> {
     if (coded.saturated) Report(step);
   }
 
-  void Report(const PackStep& step) {
+  /// What is no number has no nearest value; a NaN may be the one that means "none".
+  void PutReal(const PackStep& step, const RealCode& real, double value, bool kept) {
+    const Coded coded = real.Encode(value);
+    const bool none = std::isnan(value) && !coded.saturated;
+    if (kept && !std::isfinite(value) && !none) return Report(step, refused_);
+    Put(step, coded, kept);
+  }
+
+  void Report(const PackStep& step) { Report(step, step.refuse ? refused_ : saturated_); }
+
+  static void Report(const PackStep& step, std::vector<std::uint16_t>& rows) {
     const auto row = static_cast<std::uint16_t>(step.row);
-    auto& rows = step.refuse ? refused_ : saturated_;
     if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
   }
 

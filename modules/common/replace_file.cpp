@@ -31,7 +31,9 @@ void SyncFolderOf(const std::string& path) {
 bool Write(const std::string& path, std::string_view content, bool durable, unsigned mode) {
   const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
   if (fd < 0) return false;
-  const bool whole = write(fd, content.data(), content.size()) == static_cast<ssize_t>(content.size());
+  const ssize_t n = write(fd, content.data(), content.size());
+  const bool whole = n == static_cast<ssize_t>(content.size());
+  if (n >= 0 && !whole) errno = ENOSPC;  // a disk takes a part, and nothing of the next write
   return Close(fd, whole && (!durable || fsync(fd) == 0));
 }
 
@@ -39,7 +41,12 @@ bool Write(const std::string& path, std::string_view content, bool durable, unsi
 
 bool ReplaceFile(const std::string& path, std::string_view content, bool durable, unsigned mode) {
   const std::string next = path + ".new";
-  if (!Write(next, content, durable, mode) || std::rename(next.c_str(), path.c_str()) != 0) return false;
+  if (!Write(next, content, durable, mode) || std::rename(next.c_str(), path.c_str()) != 0) {
+    const int error = errno;
+    unlink(next.c_str());  // what a full disk took of it is of no use
+    errno = error;
+    return false;
+  }
   if (durable) SyncFolderOf(path);
   return true;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "radio/estop_rule.hpp"
 #include "radio/key_file.hpp"
 
 namespace priamos::radio {
@@ -49,6 +50,10 @@ void BusEnd::Start(Time now) {
       parts_.link.Table(parts_.types), parts_.outgoing, parts_.key, options, *parts_.store,
       [this](std::size_t channel, std::span<const std::byte> encoded, Time at) {
         auto packed = codecs_.Pack(channel, encoded, at);
+        if (packed) return packed;
+        const auto stop = StopToSend(encoded);
+        if (stop) packed = codecs_.Pack(channel, *stop, at);
+        if (packed) packed->saturated = true;
         if (!packed) LogRefusal(channel, encoded, at);
         return packed;
       },

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
@@ -22,18 +24,12 @@
 namespace priamos::radio {
 namespace {
 
-[[noreturn]] void Fail(const std::string& path) {
-  throw std::runtime_error(
-      fmt::format("{}: the radio's state cannot be saved: {}", path, std::strerror(errno)));
+/// Writes a file anew; returns what kept it from that, empty when nothing did.
+std::string Replace(const std::string& path, std::span<const std::byte> content, bool durable) {
+  const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
+  if (ReplaceFile(path, text, durable, 0600)) return "";
+  return fmt::format("{}: {}", path, std::strerror(errno));
 }
-
-void Replace(const std::string& path, std::span<const std::byte> state, bool durable) {
-  const std::string_view content(reinterpret_cast<const char*>(state.data()), state.size());
-  if (!ReplaceFile(path, content, durable, 0600)) Fail(path);
-}
-
-/// Far more than any state of a link.
-constexpr std::size_t kMostBytes = 4 << 20;
 
 /// The time that the kernel gives a changed file is that of its last tick.
 constexpr Duration kClockSteps{20'000};
@@ -67,12 +63,38 @@ std::string BootId() {
   return id;
 }
 
-FileStore::FileStore(std::string path, std::string fast_path, std::string boot, Duration save)
+namespace {
+
+/// `0b3c61a2-...-1d`, as the kernel names a boot.
+bool BeginsWithBootId(std::string_view text) {
+  constexpr std::string_view kForm = "xxxxxxxx-xxxx-xxxx-xxxx-xxxxxxxxxxxx";
+  if (text.size() < kForm.size()) return false;
+  for (std::size_t i = 0; i < kForm.size(); ++i)
+    if (kForm[i] == '-' ? text[i] != '-' : std::isxdigit(static_cast<unsigned char>(text[i])) == 0)
+      return false;
+  return true;
+}
+
+}  // namespace
+
+/// A crash may leave a file cut off, or zeros; damage must not keep a link from starting.
+bool IsStateFile(std::string_view content) {
+  constexpr std::string_view kMark = "PLK";
+  if (content.find_first_not_of('\0') == std::string_view::npos || content == "\n") return true;
+  const std::size_t end = content.find('\n');
+  return BeginsWithBootId(content) ||
+         (end != std::string_view::npos && content.substr(end + 1).starts_with(kMark));
+}
+
+FileStore::FileStore(std::string path, std::string fast_path, std::string writer, Duration save)
     : path_(std::move(path)),
       fast_path_(std::move(fast_path)),
-      boot_(std::move(boot)),
+      writer_(std::move(writer)),
       save_(save),
-      thread_([this] { SyncThread(); }) {}
+      lock_(path_),
+      thread_([this] { SyncThread(); }) {
+  if (!fast_path_.empty()) fast_lock_.emplace(fast_path_);
+}
 
 FileStore::~FileStore() {
   {
@@ -83,15 +105,15 @@ FileStore::~FileStore() {
   thread_.join();
 }
 
-/// Its head, a line, names the boot, the time of writing and the folder; the rest is the state.
+/// Its head, a line, names the writer, the time of writing and the folder; the rest is the state.
 std::optional<bus::radio::SavedState> FileStore::Read(const std::string& path) const {
   const RegularFile file(path);
   if (file.missing()) return std::nullopt;
-  const auto content = file.Read(kMostBytes);
+  const auto content = file.Read(kMostStateBytes);
   if (!content)
-    throw std::runtime_error(
-        fmt::format("{}: expected the radio's state, a file of at most {} bytes, got {}", Escaped(path),
-                    kMostBytes, file.open() ? "a longer one, or one that cannot be read" : file.problem()));
+    throw std::runtime_error(fmt::format(
+        "{}: expected the radio's state, a file of at most {} bytes, got {}", Escaped(path), kMostStateBytes,
+        file.open() ? "a longer one, or one that cannot be read" : file.problem()));
   const std::size_t end = content->find('\n');
   if (end == std::string::npos) return std::nullopt;
   bus::radio::SavedState state{.bytes = {}, .latest = IsLatest(path, content->substr(0, end))};
@@ -100,10 +122,11 @@ std::optional<bus::radio::SavedState> FileStore::Read(const std::string& path) c
   return state;
 }
 
-/// Only what this boot has saved is surely the latest, and only while nobody has put a file in its place.
+/// Only what this end has saved since the machine was started is surely the latest, and only while nobody has
+/// put a file in its place.
 bool FileStore::IsLatest(const std::string& path, const std::string& head) const {
-  if (boot_.empty() || !head.starts_with(boot_ + " ")) return false;
-  std::istringstream words(head.substr(boot_.size()));
+  if (writer_.empty() || !head.starts_with(writer_ + " ")) return false;
+  std::istringstream words(head.substr(writer_.size()));
   std::int64_t written_us = 0;
   std::string folder;
   const auto changed = ChangedAt(path);
@@ -113,50 +136,69 @@ bool FileStore::IsLatest(const std::string& path, const std::string& head) const
 }
 
 std::optional<bus::radio::SavedState> FileStore::Load() {
-  if (fast_path_.empty()) return Read(path_);
   auto disk = Read(path_);
+  if (fast_path_.empty()) {
+    if (disk) disk->latest = disk->latest && !lock_.behind();
+    return disk;
+  }
   auto fast = Read(fast_path_);
   // The RAM disk is empty after a boot, and else newer; unless the last process of this boot had none.
-  if (fast) fast->latest = fast->latest && !(disk && disk->latest);
+  if (fast) fast->latest = fast->latest && !(disk && disk->latest) && !fast_lock_->behind();
   if (disk) disk->latest = false;
   return fast ? std::move(fast) : std::move(disk);
 }
 
 void FileStore::Save(std::span<const std::byte> state) {
-  ThrowFailure();
-  content_.clear();
-  const std::string& path = fast_path_.empty() ? path_ : fast_path_;
-  const std::string head = fmt::format("{} {} {}\n", boot_, WallClock().count(), FolderOf(path));
-  head_bytes_ = head.size();
-  for (const char c : head) content_.push_back(static_cast<std::byte>(c));
-  content_.insert(content_.end(), state.begin(), state.end());
-  Replace(path, content_, false);
+  state_.assign(state.begin(), state.end());
+  if (save_problem_.empty()) WriteState();
+}
+
+/// The file, or what is noted of it, never says more than what happened, whenever this process ends.
+void FileStore::WriteState() {
+  const std::string& path = first_path();
+  const std::string head = fmt::format("{} {} {}\n", writer_, WallClock().count(), FolderOf(path));
+  const auto head_bytes = std::as_bytes(std::span(head));
+  std::vector<std::byte> content(head_bytes.begin(), head_bytes.end());
+  content.insert(content.end(), state_.begin(), state_.end());
+  const bool was_behind = first_lock().behind();
+  save_problem_ = Replace(path, content, false);
+  if (save_problem_.empty() && was_behind) first_lock().SetBehind(false);
+  if (save_problem_.empty() || was_behind) return;
+  if (!first_lock().SetBehind(true)) unlink(path.c_str());
 }
 
 void FileStore::StartSync() {
-  ThrowFailure();
+  // Without a RAM disk there is nothing new on the disk to wait for.
+  if (fast_path_.empty() && !save_problem_.empty()) return;
   {
     const std::lock_guard lock(mutex_);
     // With an empty head: what follows the RAM disk is never surely the latest, should that be given up.
-    to_sync_.assign(content_.begin() + static_cast<std::ptrdiff_t>(head_bytes_) - 1, content_.end());
+    to_sync_.assign(1, std::byte{'\n'});
+    to_sync_.insert(to_sync_.end(), state_.begin(), state_.end());
     ++wanted_;
   }
   changed_.notify_all();
 }
 
 void FileStore::AwaitSync() {
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return done_ == wanted_; });
-  }
-  ThrowFailure();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return done_ == wanted_; });
 }
 
-void FileStore::ThrowFailure() {
-  std::unique_lock lock(mutex_);
-  const std::exception_ptr failure = std::exchange(failure_, nullptr);
-  lock.unlock();
-  if (failure) std::rethrow_exception(failure);
+std::string FileStore::in_use() const {
+  if (lock_.in_use()) return path_;
+  return fast_lock_ && fast_lock_->in_use() ? fast_path_ : "";
+}
+
+std::string FileStore::problem() {
+  const std::lock_guard lock(mutex_);
+  return save_problem_.empty() ? sync_problem_ : save_problem_;
+}
+
+void FileStore::Retry() {
+  if (problem().empty()) return;
+  if (!save_problem_.empty()) WriteState();
+  StartSync();
 }
 
 void FileStore::SyncThread() {
@@ -167,20 +209,15 @@ void FileStore::SyncThread() {
     const std::uint64_t number = wanted_;
     const std::vector<std::byte> state = std::move(to_sync_);
     lock.unlock();
-    std::exception_ptr failure;
-    try {
-      // Without a RAM disk the file holds this state, or one that is newer.
-      if (!fast_path_.empty()) {
-        Replace(path_, state, true);
-      } else if (!SyncFile(path_)) {
-        Fail(path_);
-      }
-    } catch (...) {
-      failure = std::current_exception();
-    }
+    std::string problem;
+    // Without a RAM disk the file holds this state, or one that is newer.
+    if (!fast_path_.empty())
+      problem = Replace(path_, state, true);
+    else if (!SyncFile(path_))
+      problem = fmt::format("{}: {}", path_, std::strerror(errno));
     lock.lock();
     done_ = number;
-    if (failure) failure_ = failure;
+    sync_problem_ = std::move(problem);
     changed_.notify_all();
   }
 }

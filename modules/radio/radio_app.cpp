@@ -14,13 +14,11 @@
 #include "bus/type_files.hpp"
 #include "common/config.hpp"
 #include "common/input/quoted.hpp"
-#include "common/input/regular_file.hpp"
 #include "common/random.hpp"
-#include "radio/file_store.hpp"
 #include "radio/key_file.hpp"
 #include "radio/kiss_port.hpp"
-#include "radio/link_health.hpp"
 #include "radio/private_line.hpp"
+#include "radio/state_files.hpp"
 
 namespace priamos::radio {
 namespace {
@@ -30,14 +28,6 @@ using bus::radio::Direction;
 constexpr Duration kReportPeriod{1'000'000};
 /// Bytes that may wait for a port that takes none; more are dropped, because late bytes are worth nothing.
 constexpr std::size_t kMostUnwritten = 64;
-
-/// What was saved must be a file, or nothing yet: saving would replace anything else.
-void RequireFile(const std::string& path, const std::string& place) {
-  const RegularFile file(path);
-  if (!file.open() && !file.missing())
-    throw ConfigError(fmt::format("{}: expected a file, or the name of none yet, got {}, {}", place,
-                                  file.problem(), Quoted(path)));
-}
 
 std::optional<bus::Schema> TypesIn(const std::string& folder) {
   if (folder.empty()) return std::nullopt;
@@ -156,19 +146,22 @@ void RadioApp::AddEnd(const StationRobot& robot, std::uint8_t address, bus::Node
                   .key = key,
                   .next_key = next_key,
                   .key_file = key_file,
-                  .store = OpenStore(robot),
+                  .store = OpenStore(robot, address),
                   .nonces = Nonces(),
                   .tick = TickPeriod()},
       node, [this](bus::Level level, std::string_view text) { context_.Log(level, text); }));
 }
 
-std::unique_ptr<bus::radio::StateStore> RadioApp::OpenStore(const StationRobot& robot) const {
+std::unique_ptr<bus::radio::StateStore> RadioApp::OpenStore(const StationRobot& robot, std::uint8_t address) {
   if (robot.state_file.empty()) return std::make_unique<bus::radio::MemoryStore>();
-  const std::string file = context_.ResolvePath(robot.state_file);
-  const std::string fast = robot.fast_state_file.empty() ? "" : context_.ResolvePath(robot.fast_state_file);
-  RequireFile(file, robot.place.Of("state_file"));
-  if (!fast.empty()) RequireFile(fast, robot.place.Of("fast_state_file"));
-  return std::make_unique<FileStore>(file, fast);
+  auto store = OpenStateFiles(
+      {.file = context_.ResolvePath(robot.state_file),
+       .fast_file = robot.fast_state_file.empty() ? "" : context_.ResolvePath(robot.fast_state_file),
+       .key_file = link_config_.simulation_key ? "" : context_.ResolvePath(robot.key_file),
+       .place = robot.place,
+       .end = fmt::format("{}:{}", config_.side, address)});
+  stores_.push_back(store.get());
+  return store;
 }
 
 bus::radio::LinkConfig RadioApp::LoadLink() const {
@@ -315,7 +308,39 @@ void RadioApp::Report(Time now) {
     if (!health.why.empty() && station_) health.why = config_.robots[i].name + ": " + health.why;
     if (health.health > worst.health) worst = health;
   }
+  const LinkHealth memory = ReportMemory(now);
+  if (memory.health >= worst.health && !memory.why.empty()) worst = memory;
   context_.SetHealth(worst.health, worst.why);
+}
+
+/// The link goes on without a memory, an emergency stop above all; a person has to know.
+LinkHealth RadioApp::ReportMemory(Time now) {
+  std::string problem;
+  for (FileStore* store : stores_) {
+    store->Retry();
+    if (problem.empty()) problem = store->problem();
+  }
+  const bool is_new = !problem.empty() && memory_problem_.empty();
+  const bool is_over = problem.empty() && !memory_problem_.empty();
+  memory_problem_ = problem;
+  if (is_over) context_.Log(bus::Level::kInfo, "the link's memory is kept again");
+  if (problem.empty()) return {};
+  const std::string why = "cannot keep its memory: " + problem;
+  if (is_new) RaiseAlarm(why + "; the link goes on; after a restart events may be doubled or lost", now);
+  return {bus::Health::kDegraded, why};
+}
+
+void RadioApp::RaiseAlarm(const std::string& text, Time now) {
+  constexpr std::size_t kTextBytes = 200;  // @max of alarm_t.text
+  if (!alarms_) alarms_ = context_.node().Advertise(channels::kAlarm);
+  alarm_t alarm{};
+  alarm.utime = ToUtime(now);
+  alarm.severity = alarm_t::WARNING;
+  alarm.robot = context_.robot();
+  alarm.source = std::string(kName);
+  alarm.text = text.substr(0, kTextBytes);
+  alarms_->Publish(alarm);
+  context_.Log(bus::Level::kError, "ALARM: " + text);
 }
 
 }  // namespace priamos::radio

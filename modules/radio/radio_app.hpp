@@ -15,6 +15,8 @@
 #include "bus/schema/schema.hpp"
 #include "common/serial_port.hpp"
 #include "radio/bus_end.hpp"
+#include "radio/file_store.hpp"
+#include "radio/link_health.hpp"
 #include "radio/net_port.hpp"
 #include "radio/radio_config.hpp"
 
@@ -56,11 +58,13 @@ class RadioApp {
   void ReadFrames();
   void FeedLine(Time now);
   void Report(Time now);
+  LinkHealth ReportMemory(Time now);
+  void RaiseAlarm(const std::string& text, Time now);
   const bus::Schema& types() const { return own_types_ ? *own_types_ : context_.node().schema(); }
   bus::radio::LinkKey LoadKey(const std::string& file) const;
   std::optional<bus::radio::LinkKey> LoadNextKey(const std::string& file,
                                                  const bus::radio::LinkKey& key) const;
-  std::unique_ptr<bus::radio::StateStore> OpenStore(const StationRobot& robot) const;
+  std::unique_ptr<bus::radio::StateStore> OpenStore(const StationRobot& robot, std::uint8_t address);
   bus::radio::NonceSource Nonces() const;
 
   RadioConfig config_;
@@ -72,6 +76,9 @@ class RadioApp {
   std::unique_ptr<NetPort> net_;                       ///< of a link over IP
   std::vector<std::unique_ptr<bus::OtherBus>> buses_;  ///< at a station: the robots' buses
   std::vector<bus::radio::LinkKey> keys_;              ///< of the ends
+  std::vector<FileStore*> stores_;                     ///< of the ends that keep a memory in files
+  std::string memory_problem_;                         ///< as of the last report
+  std::optional<bus::Publisher<alarm_t>> alarms_;      ///< since the first alarm
   std::vector<std::unique_ptr<BusEnd>> ends_;          ///< one; at a station one for each robot
   std::optional<bus::radio::Station> station_;         ///< since the first tick
   std::vector<std::byte> unwritten_;                   ///< bytes that the port has not taken yet

@@ -7,7 +7,9 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
+#include <memory>
+#include <span>
+#include <sstream>
 #include <thread>
 #include <vector>
 
@@ -148,26 +150,108 @@ TEST_F(FileStoreTest, AStateWithoutTheTimeOfItsWritingIsNotTheLatest) {
   EXPECT_FALSE(FileStore(path).Load()->latest);
 }
 
-TEST_F(FileStoreTest, AnUnwritablePlaceIsReported) {
-  EXPECT_THROW(FileStore("/proc/no_such_folder/state").Save(State(1)), std::runtime_error);
-  FileStore dut("/proc/no_such_folder/state", fast);
-  dut.Save(State(1));
-  dut.StartSync();
-  EXPECT_THROW(dut.AwaitSync(), std::runtime_error);
+/// Files of this folder cannot be written until it gets its name back.
+struct LostFolder {
+  explicit LostFolder(const std::filesystem::path& folder)
+      : folder_(folder), away_(folder.string() + ".away") {
+    std::filesystem::rename(folder_, away_);
+  }
+  void Return() { std::filesystem::rename(away_, folder_); }
+  std::filesystem::path folder_, away_;
+};
+
+struct UnwritableStore : FileStoreTest {
+  UnwritableStore() { std::filesystem::create_directory(folder / "states"); }
+  std::filesystem::path states = folder / "states";
+  std::string file = (states / "link.state").string();
+};
+
+TEST_F(UnwritableStore, TheLinkGoesOnAndTheProblemIsNamedUntilItIsWritten) {
+  for (const std::string& disk : {std::string(), path}) {
+    const auto make = [&] {
+      return disk.empty() ? std::make_unique<FileStore>(file) : std::make_unique<FileStore>(disk, file);
+    };
+    auto dut = make();
+    dut->Save(State(1));
+    LostFolder lost(states);
+    dut->Save(State(2));
+    dut->StartSync();
+    dut->AwaitSync();
+    EXPECT_EQ(dut->problem(), file + ": No such file or directory");
+    dut->Retry();
+    EXPECT_NE(dut->problem(), "");
+    lost.Return();
+    dut->Save(State(3));
+    EXPECT_NE(dut->problem(), "") << "written with Retry() alone, whose rate is bounded";
+    dut->Retry();
+    dut->AwaitSync();
+    EXPECT_EQ(dut->problem(), "");
+    dut.reset();
+    EXPECT_EQ(make()->Load(), Latest(3));
+  }
 }
 
-TEST_F(FileStoreTest, AFailureThatNobodyWaitedForIsReportedWithTheNextCall) {
-  FileStore dut("/proc/no_such_folder/state", fast);
+/// Else counters and numbers of events that were used since would be used again.
+TEST_F(UnwritableStore, WhatWasNotWrittenBeforeTheEndMakesTheFileNotTheLatest) {
+  for (const std::string& disk : {std::string(), path}) {
+    const auto make = [&] {
+      return disk.empty() ? std::make_unique<FileStore>(file) : std::make_unique<FileStore>(disk, file);
+    };
+    auto dut = make();
+    dut->Save(State(1));
+    LostFolder lost(states);
+    dut->Save(State(2));
+    dut.reset();
+    lost.Return();
+    for (int start = 0; start < 2; ++start) EXPECT_EQ(make()->Load(), Older(1)) << start;
+    dut = make();
+    dut->Save(State(3));
+    dut.reset();
+    EXPECT_EQ(make()->Load(), Latest(3));
+  }
+}
+
+TEST_F(UnwritableStore, TheDiskBehindARamDiskIsNamedAndTheRamDiskIsTheLatest) {
+  const std::string nowhere = "/proc/no_such_folder/state";
+  FileStore dut(nowhere, fast);
   dut.Save(State(1));
   dut.StartSync();
-  EXPECT_THROW(
-      {
-        for (int i = 0; i < 1000; ++i) {
-          dut.Save(State(i));
-          std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-      },
-      std::runtime_error);
+  dut.AwaitSync();
+  EXPECT_EQ(dut.problem(), nowhere + ": No such file or directory");
+  dut.Retry();
+  dut.AwaitSync();
+  EXPECT_NE(dut.problem(), "");
+  EXPECT_EQ(FileStore(nowhere, fast).Load(), Latest(1));
+}
+
+TEST_F(FileStoreTest, AFileThatIsUsedSaysSoUnderAllItsNames) {
+  const std::string link = (folder / "other-name").string();
+  std::filesystem::create_symlink(path, link);
+  {
+    const FileStore first(path);
+    EXPECT_EQ(first.in_use(), "");
+    EXPECT_EQ(FileStore(link).in_use(), link);
+    EXPECT_EQ(FileStore(folder / ("./" + std::string("link.state"))).in_use(), folder / "./link.state");
+    EXPECT_EQ(FileStore(fast, path).in_use(), path);
+    EXPECT_EQ(FileStore(fast).in_use(), "");
+  }
+  EXPECT_EQ(FileStore(path).in_use(), "");
+}
+
+TEST_F(FileStoreTest, AStateIsToldFromOtherFilesAlsoWhenItIsDamaged) {
+  FileStore(path, "", BootId() + ":onboard:0").Save(std::as_bytes(std::span("PLK3 and so on")));
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  const std::string whole = text.str();
+  EXPECT_TRUE(IsStateFile(whole));
+  EXPECT_TRUE(IsStateFile(whole.substr(0, 40)));
+  EXPECT_TRUE(IsStateFile("x" + whole.substr(1)));
+  EXPECT_TRUE(IsStateFile("\nPLK4"));
+  EXPECT_TRUE(IsStateFile(""));
+  EXPECT_TRUE(IsStateFile(std::string(20, '\0')));
+  EXPECT_FALSE(IsStateFile("my important notes\n"));
+  EXPECT_FALSE(IsStateFile("0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef\n")) << "a key";
+  EXPECT_FALSE(IsStateFile("link = \"link.toml\"\nstate_file = \"PLK\"\n"));
 }
 
 TEST_F(FileStoreTest, WithoutTheRamDiskOfBeforeTheDiskIsNotTheLatest) {

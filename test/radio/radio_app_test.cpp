@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -87,6 +88,55 @@ TEST_F(RadioAppTest, ACommandThatIsTooOldOnTheBusIsNotSent) {
   publisher.Publish(command);
   Run(1.5);
   EXPECT_TRUE(commands.Drain().empty());
+}
+
+/// Not to send a stop is the unsafe side; to send a REARM that nobody can have meant is the other.
+TEST_F(RadioAppTest, AStopCrossesWhateverItsOtherFieldsHoldAndAReArmDoesNot) {
+  auto stops = onboard().SubscribeAll(channels::kEstop);
+  auto publisher = offboard().Advertise(channels::kEstop);
+  auto status = offboard().Subscribe(channels::kLinkStatus);
+  Run(0.5);
+  for (const int driver : {4, -1, 127, -128, 2}) {
+    for (const std::int8_t action : {estop_t::STOP, estop_t::REARM}) {
+      estop_t message{};
+      message.utime = driver == 127 ? std::numeric_limits<std::int64_t>::min() : ToUtime(lockstep.now());
+      message.action = action;
+      message.driver = static_cast<std::int8_t>(driver);
+      publisher.Publish(message);
+      Run(0.5);
+      const auto came = stops.Drain();
+      ASSERT_EQ(came.size(), action == estop_t::STOP || driver == 2 ? 1U : 0U) << driver;
+      for (const estop_t& arrived : came) EXPECT_EQ(arrived.driver, std::clamp(driver, 0, 3));
+    }
+  }
+  Run(1.5);
+  ASSERT_NE(status.get(), nullptr);
+  EXPECT_EQ(status.get()->dropped, 4) << "the REARMs with no driver";
+}
+
+/// Half a step beside the range is the nearest value; a number that is none has none.
+TEST_F(RadioAppTest, NoNumberAndNoIdentityArriveAsAnotherOne) {
+  auto commands = onboard().SubscribeAll(channels::kDriveCommand);
+  auto publisher = offboard().Advertise(channels::kDriveCommand);
+  Run(1);
+  const auto arrives = [&](double vx_m_s, int session, int sequence) {
+    drive_command_t command{};
+    command.utime = ToUtime(lockstep.now());
+    command.time_to_live_s = 0.25;
+    command.vx_m_s = vx_m_s;
+    command.session = static_cast<std::int16_t>(session);
+    command.sequence = sequence;
+    publisher.Publish(command);
+    Run(0.5);
+    return !commands.Drain().empty();
+  };
+  EXPECT_TRUE(arrives(9, 255, 65535));
+  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_FALSE(arrives(value, 1, 1)) << value;
+  EXPECT_FALSE(arrives(0, 256, 1)) << "it would be session 255";
+  EXPECT_FALSE(arrives(0, -1, 1));
+  EXPECT_FALSE(arrives(0, 1, 65536));
+  EXPECT_TRUE(arrives(0, 1, 1));
 }
 
 TEST_F(RadioAppTest, EventsCrossBothWaysOnceAndInOrder) {
@@ -508,6 +558,38 @@ TEST(RadioAppStart, RefusesAStateFileThatIsNoFile) {
       StartError("port = 'a'\nstate_file = 'new'\nfast_state_file = '/tmp'", kPoseLink),
       HasSubstr("radio.toml:3:fast_state_file: expected a file, or the name of none yet, got a folder"));
   EXPECT_EQ(StartError("port = 'a'\nstate_file = 'new'", kPoseLink), "");
+}
+
+/// Whatever it is, it would be lost.
+TEST(RadioAppStart, RefusesAStateFileThatHoldsSomethingElse) {
+  const TemporaryFolder folder;
+  const std::string notes = folder / "notes.txt";
+  std::ofstream(notes) << "my important notes\n";
+  for (const auto& [config, place] :
+       {std::pair("state_file = '" + notes + "'", "radio.toml:2:state_file"),
+        std::pair("state_file = 'new'\nfast_state_file = '" + notes + "'", "radio.toml:3:fast_state_file")})
+    EXPECT_THAT(
+        StartError("port = 'a'\n" + config, kPoseLink),
+        AllOf(HasSubstr(place), HasSubstr("expected a state of the radio, or the name of no file yet, got "
+                                          "a file that holds something else")));
+  std::string left;
+  std::getline(std::ifstream(notes), left);
+  EXPECT_EQ(left, "my important notes");
+  EXPECT_THAT(StartError("port = 'a'\nstate_file = '/proc/self/mem'", kPoseLink),
+              HasSubstr("radio.toml:2:state_file: expected the radio's state"));
+}
+
+TEST(RadioAppStart, RefusesOneFileForTwoThings) {
+  const TemporaryFolder folder;
+  const std::string state = folder / "state", link = folder / "link";
+  std::filesystem::create_symlink(state, link);
+  for (const std::string& fast : {state, (folder / "./state").string(), link})
+    EXPECT_THAT(
+        StartError("port = 'a'\nstate_file = '" + state + "'\nfast_state_file = '" + fast + "'", kPoseLink),
+        HasSubstr("radio.toml:3:fast_state_file: expected a file of its own, got that of state_file"));
+  const FileStore other(state);
+  EXPECT_THAT(StartError("port = 'a'\nstate_file = '" + link + "'", kPoseLink),
+              HasSubstr("radio.toml:2:state_file: expected a file of its own, got one that another end"));
 }
 
 TEST(RadioAppStart, AMemoryOnARamDiskAloneIsRefused) {

@@ -336,6 +336,8 @@ class _Packing:
             return self.body(code, value)
         if isinstance(code, _Text):
             return self._text(step, value.encode("utf-8", "surrogateescape"))
+        if isinstance(code, _Real) and not math.isfinite(value) and not (value != value and code.invalid is not None):
+            return self._report(step, self.refused)  # no number: there is no nearest one
         if isinstance(code, _Age):
             number, saturated = code.encode_up(min(max(self.now_us - value, -2**63), 2**63 - 1))
         else:
@@ -363,8 +365,8 @@ class _Packing:
                 self._report(step)
             self.out.put(byte, code.width)
 
-    def _report(self, step):
-        names = self.refused if step.refuse else self.saturated
+    def _report(self, step, names=None):
+        names = names if names is not None else self.refused if step.refuse else self.saturated
         if step.name not in names:
             names.append(step.name)
 

@@ -117,6 +117,26 @@ TEST(Packing, OutOfRangeSaturatesAndIsReportedOncePerField) {
   EXPECT_EQ(back.range_m[3], -1);
 }
 
+/// A NaN would arrive as 0, an infinity as the end of the range: a velocity, a place that nobody meant.
+TEST(Packing, AMessageWithWhatIsNoNumberIsRefused) {
+  const Packer pose(*Own().Find("pose_t")), ranges(*Own().Find("sonar_ranges_t"));
+  for (const double value :
+       {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+    pose_t message{};
+    message.utime = kNow;
+    message.x_m = value;
+    const auto packed = pose.Pack(Encode(message), kNow);
+    ASSERT_EQ(packed->refused.size(), 1u) << value;
+    EXPECT_EQ(pose.fields()[packed->refused[0]].name, "x_m");
+    EXPECT_THAT(packed->bytes, IsEmpty());
+    EXPECT_THAT(packed->saturated, IsEmpty());
+    sonar_ranges_t sonar{};
+    sonar.utime = kNow;
+    sonar.range_m[7] = value;
+    EXPECT_EQ(ranges.Pack(Encode(sonar), kNow)->refused.empty(), std::isnan(value)) << "a NaN is @invalid";
+  }
+}
+
 /// Fields 0 and 1 refuse what is out of range: the one is an enumeration, the other is marked.
 constexpr const char* kModes =
     "struct s { const int8_t IDLE = 0, FAILED = 5;\n"

@@ -9,8 +9,8 @@ namespace priamos::bus::radio {
 namespace {
 
 constexpr std::size_t kMostFindings = 100;
-constexpr std::array kNames{"lost",       "twice",           "late",    "very late", "killed", "stopped",
-                            "power lost", "power lost late", "emptied", "put back"};
+constexpr std::array kNames{"lost",       "twice",           "late",    "very late", "killed",   "stopped",
+                            "power lost", "power lost late", "emptied", "put back",  "disk full"};
 
 std::span<const Accident> AccidentsAt(PlaceKind kind) {
   return kind == PlaceKind::kFrame ? std::span<const Accident>(kFrameAccidents)

@@ -12,6 +12,7 @@ constexpr Duration kAgreement{400'000}, kOffering{1'200'000}, kRecovery{4'000'00
 constexpr Duration kRecovered{1'000'000};
 constexpr Duration kTick{1000}, kLatency{5000};
 constexpr Duration kLateBy{60'000}, kVeryLateBy{700'000}, kAgainAfter{300'000};
+constexpr Duration kFull{250'000};
 constexpr Time kStart{Duration(1'000'000'000)};
 /// When the onboard end is started again with the next key.
 constexpr Duration kRekey = kAgreement + Duration(300'000);
@@ -72,6 +73,15 @@ void ExploredRun::Start(End& end) {
 }
 
 void ExploredRun::Fail(End& end, Accident accident) {
+  if (accident == Accident::kDiskFull) {
+    end.store.SetFull(true);
+    end.full_until = now_ + kFull;
+    return;
+  }
+  // A disk that is full when its end fails is so no more when that starts again; what it holds is older.
+  const bool was_full = end.store.full();
+  end.store.SetFull(false);
+  end.full_until.reset();
   if (accident == Accident::kStopped) end.link->Close();
   end.link.reset();
   end.frame.clear();
@@ -79,8 +89,12 @@ void ExploredRun::Fail(End& end, Accident accident) {
     end.store.LosePower(accident == Accident::kPowerLostLate);
   if (accident == Accident::kEmptied) end.store.LoseEverything();
   if (accident == Accident::kPutBack) end.store.PutBack();
-  if (accident != Accident::kStopped && accident != Accident::kKilled) promises_.OnMemoryLost();
+  if (was_full || (accident != Accident::kStopped && accident != Accident::kKilled)) promises_.OnMemoryLost();
   Start(end);
+}
+
+void ExploredRun::FreeDisk(End& end) {
+  if (end.full_until && now_ >= *end.full_until) Fail(end, Accident::kKilled);
 }
 
 void ExploredRun::Tick() {
@@ -90,6 +104,8 @@ void ExploredRun::Tick() {
     onboard_.next_key = kNextKey;
     Fail(onboard_, Accident::kStopped);
   }
+  FreeDisk(onboard_);
+  FreeDisk(offboard_);
   Send(onboard_, offboard_);
   Send(offboard_, onboard_);
   if (Every(now_ - start_, world_.end_places_every, Duration{})) {
@@ -127,8 +143,8 @@ void ExploredRun::Send(End& from, End& to) {
 
 void ExploredRun::EndFrame(End& from, End& to) {
   const std::vector<std::byte> frame = std::exchange(from.frame, {});
-  const auto state = from.store.Load();
-  const auto saved = state ? ParseLinkState(state->bytes) : std::nullopt;
+  const auto state = from.store.newest();
+  const auto saved = state ? ParseLinkState(*state) : std::nullopt;
   const bool changed = saved && saved->key_check == KeyCheck(kNextKey);
   promises_.OnFrame(std::span(frame).first(frame.size() - 1), from.outgoing, saved ? saved->epoch : 0,
                     changed ? kNextKey : kKey);

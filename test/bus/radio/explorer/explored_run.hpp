@@ -28,13 +28,14 @@ enum class Accident {
   kPowerLost,      ///< the machine is started again with what the disk held
   kPowerLostLate,  ///< the same, with what was just being written
   kEmptied,        ///< it is started with an empty disk
-  kPutBack         ///< it is started with an older state that somebody kept, which the store notices
+  kPutBack,        ///< it is started with an older state that somebody kept, which the store notices
+  kDiskFull        ///< nothing can be written for 0.25 s, after which the process is killed and started again
 };
 inline constexpr Accident kFrameAccidents[] = {Accident::kLost, Accident::kTwice, Accident::kLate,
                                                Accident::kVeryLate};
-inline constexpr Accident kEndAccidents[] = {Accident::kKilled,    Accident::kStopped,
-                                             Accident::kPowerLost, Accident::kPowerLostLate,
-                                             Accident::kEmptied,   Accident::kPutBack};
+inline constexpr Accident kEndAccidents[] = {
+    Accident::kKilled,  Accident::kStopped, Accident::kPowerLost, Accident::kPowerLostLate,
+    Accident::kEmptied, Accident::kPutBack, Accident::kDiskFull};
 
 /// A place in a run at which an accident can happen.
 enum class PlaceKind { kFrame, kEnd };
@@ -72,11 +73,13 @@ class ExploredRun {
     std::vector<std::byte> frame{};  ///< what has left of the frame that is being sent
     std::multimap<Time, std::vector<std::byte>> arriving{};
     Time last_arrival{};
+    std::optional<Time> full_until{};
   };
   const Accident* AccidentHere(PlaceKind kind);
   bool Exploring() const;
   void Start(End& end);
   void Fail(End& end, Accident accident);
+  void FreeDisk(End& end);
   void Tick();
   void Offer();
   void OfferTo(End& end, std::size_t channel, std::size_t size);
