@@ -9,6 +9,8 @@ namespace {
 /// So far beside the middle somebody is surely on one side: beams are broad.
 constexpr double kBeside_m = 0.15;
 constexpr double kComes_m_s = 0.2;
+/// Whoever comes so soon after is the same one.
+constexpr std::chrono::seconds kSameOne{15};
 
 }  // namespace
 
@@ -26,9 +28,11 @@ std::optional<double> Yield::Step(const std::optional<Comer>& comer, double offs
                                   Time now) {
   const bool comes = comer && comer->speed_m_s > kComes_m_s &&
                      comer->free_m < comer->speed_m_s * config_.ahead_s + config_.ahead_m;
-  // People keep to the right; the side is chosen once.
-  if (comes && !since_) side_ = comer->left_m < -kBeside_m ? 1 : -1;
-  if (comes) since_ = now;
+  // People keep to the right; the side is chosen once, so that nobody's way is crossed who stops and comes
+  // on.
+  const bool again = last_ && now - *last_ < kSameOne;
+  if (comes && !again) side_ = comer->left_m < -kBeside_m ? 1 : -1;
+  if (comes) since_ = last_ = now;
   if (!since_) return std::nullopt;
   const bool near = comer && comer->free_m < config_.near_m;
   if (now - *since_ >= FromSeconds(near ? config_.patience_s : config_.wait_s)) {

@@ -18,10 +18,10 @@ struct Comer {
 struct YieldConfig {
   double ahead_s = 1.5;     ///< from so long before they would meet ...
   double ahead_m = 0.8;     ///< ... and this on the base does not go ahead
-  double near_m = 0.8;      ///< who is so near sees a base that stands
+  double near_m = 1.2;      ///< who is so near sees a base that stands
   double aside_m_s = 0.25;  ///< fastest velocity to the side
   double gain_per_s = 1.5;  ///< velocity to the side per distance
-  double wait_s = 1;        ///< time without anybody coming until it goes on
+  double wait_s = 2;        ///< time without anybody coming until it goes on
   double patience_s = 8;    ///< time that who stands so near is waited for
 
   void Describe(Archive& a);
@@ -36,11 +36,12 @@ class Yield {
   /// Velocity to the left [m/s] in place of driving on; nullopt: drive on. `offset_m`: of the base to the
   /// left of the corridor's middle, which it may be `room_m` off. `comer`: the nearest one, if any.
   std::optional<double> Step(const std::optional<Comer>& comer, double offset_m, double room_m, Time now);
-  void End() { since_.reset(); }
+  void End() { since_ = last_ = std::nullopt; }
 
  private:
   YieldConfig config_;
-  std::optional<Time> since_;  ///< when somebody came last
+  std::optional<Time> since_;  ///< when somebody came last, while the base makes room
+  std::optional<Time> last_;   ///< when somebody came last
   double side_ = 0;            ///< 1: to the left
 };
 

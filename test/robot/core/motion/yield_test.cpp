@@ -29,7 +29,9 @@ TEST_F(YieldTest, TheFasterSomebodyComesTheEarlierItMakesRoom) {
 TEST_F(YieldTest, ItGoesToTheRightUnlessSomebodyIsThere) {
   EXPECT_LT(Step(Comer{2, 1.2, 0}).value_or(0), -0.2);
   EXPECT_LT(Step(Comer{1.9, 1.2, -0.3}).value_or(0), -0.2) << "the side is chosen once";
-  EXPECT_FALSE(Step(std::nullopt, 0, 2));
+  EXPECT_FALSE(Step(std::nullopt, 0, 3));
+  EXPECT_LT(Step(Comer{2, 1.2, -0.3}).value_or(0), -0.2) << "it may be the same one";
+  EXPECT_FALSE(Step(std::nullopt, 0, 20));
   EXPECT_GT(Step(Comer{2, 1.2, -0.3}).value_or(0), 0.2);
 }
 
@@ -39,14 +41,14 @@ TEST_F(YieldTest, BesideTheWallItStands) {
 
 TEST_F(YieldTest, WhoIsNearSeesABaseThatStands) {
   Step(Comer{2, 1.2, 0});
-  EXPECT_EQ(Step(Comer{0.7, 1.2, 0}), 0);
+  EXPECT_EQ(Step(Comer{1.1, 1.2, 0}), 0);
   EXPECT_EQ(Step(Comer{0.3, 0, 0}, 0, 4), 0) << "he has stopped, and may turn back";
   EXPECT_FALSE(Step(Comer{0.3, 0, 0}, 0, 5));
 }
 
 TEST_F(YieldTest, ItGoesOnAWhileAfterSomebodyHasComeLast) {
   Step(Comer{2, 1.2, 0});
-  EXPECT_TRUE(Step(std::nullopt, 0, 0.9));
+  EXPECT_TRUE(Step(std::nullopt, 0, 1.9));
   EXPECT_FALSE(Step(std::nullopt, 0, 0.2));
 }
 
