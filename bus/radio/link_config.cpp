@@ -215,8 +215,10 @@ void LinkConfig::DescribeMedium(Archive& a) {
 void LinkConfig::RefuseContradictions(Archive& a) const {
   const double longest_bytes = max_bundle_bytes + 1 + static_cast<double>(FrameOverhead(CodeBytes())) +
                                packet_overhead_s * BytesPerSecond();
-  if (half_duplex_turn_s > 0 && half_duplex_turn_s < 2 * longest_bytes / BytesPerSecond())
-    a.Refuse("half_duplex_turn_s", "0, or time for at least two frames of max_bundle_bytes");
+  const double shortest_turn_s = 2 * longest_bytes / BytesPerSecond();
+  if (half_duplex_turn_s > 0 && half_duplex_turn_s < shortest_turn_s)
+    a.Refuse("half_duplex_turn_s", fmt::format("0, or time for at least two frames of max_bundle_bytes, {} s",
+                                               std::ceil(1000 * shortest_turn_s) / 1000));
   if (medium == "packet" && packet_overhead_s <= 0)
     a.Refuse("packet_overhead_s", "more than 0 with medium \"packet\"");
   if (medium == "packet" && datagrams)

@@ -13,7 +13,9 @@ namespace priamos::radio {
 /// calls it closes what it names.
 class Newcomers {
  public:
-  static constexpr std::size_t kMost = 32;
+  /// Room for 80 connections per second. One that leaves before its first fresh frame, which the other end
+  /// may send only after a second of silence, has to begin anew.
+  static constexpr std::size_t kMost = 240;
   static constexpr std::size_t kMostBytes = 2048;  ///< without a fresh frame
   static constexpr Duration kPatience{3'000'000};
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/socket.h>
 
 #include <array>
@@ -25,7 +26,7 @@ using bus::radio::Proof;
 /// A connection that moves nothing for so long is dead; older bytes are worth nothing anyway.
 constexpr unsigned kTcpTimeout_ms = 5000;
 constexpr int kTcpSendBuffer = 4096;
-constexpr Duration kReconnect{1'000'000};
+constexpr Duration kReconnect{250'000};
 constexpr int kBacklog = 64;
 /// What is done for strangers in one go.
 constexpr int kMostAccepted = 16;
@@ -131,9 +132,25 @@ class TcpPort : public NetPort {
     ++turned_away_;
   }
 
+  /// Those that have something to read, or an end: asked all at once.
+  std::vector<int> StrangersWithBytes() const {
+    std::vector<pollfd> all;
+    std::vector<int> ids;
+    for (const auto& [id, connection] : strangers_) {
+      all.push_back({connection->fd.get(), POLLIN, 0});
+      ids.push_back(id);
+    }
+    if (all.empty() || poll(all.data(), all.size(), 0) <= 0) return {};
+    std::vector<int> ready;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].revents != 0) ready.push_back(ids[i]);
+    return ready;
+  }
+
   void ReadStrangers(const TimeSource& time, std::vector<NetFrame>& frames) {
     std::vector<int> done;
-    for (const auto& [id, connection] : strangers_) {
+    for (const int id : StrangersWithBytes()) {
+      Connection* connection = strangers_.at(id).get();
       const std::size_t n = connection->Read(id, true, time, frames);
       if (connection->over || (n > 0 && !newcomers_.OnBytes(id, n))) done.push_back(id);
     }

@@ -74,7 +74,8 @@ std::string LinkWith(const std::string& line, const std::string& channels) {
 
 std::vector<Case> LineCases() {
   return {
-      {Link("half_duplex_turn_s = 0.1 #!"), "half_duplex_turn_s", "0, or time for at least two frames"},
+      {Link("half_duplex_turn_s = 0.1 #!"), "half_duplex_turn_s",
+       "0, or time for at least two frames of max_bundle_bytes, 0.267 s"},
       {"medium = \"packet\" #!\n" + Link(""), "packet_overhead_s", "more than 0 with medium"},
       {Link("medium = \"packet\"\npacket_overhead_s = 0.02\ndatagrams = true #!"), "datagrams",
        "false: with medium \"packet\" a frame"},

@@ -154,7 +154,7 @@ TEST(NetPort, AStrangersConnectionTakesNothingFromTheProvenOne) {
   ASSERT_FALSE(frames.empty());
   server->Judge(frames[0], bus::radio::Proof::kFresh);
   std::vector<std::unique_ptr<NetPort>> strangers;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 300; ++i) {
     strangers.push_back(OpenNetPort(ParseNetAddress(port)));
     strangers.back()->Read(Now);
     strangers.back()->Write(std::vector<std::byte>(300, std::byte{1}), Now());

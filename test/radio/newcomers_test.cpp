@@ -17,21 +17,35 @@ Time After(double s) {
 TEST(Newcomers, ThereIsRoomForFewAndTheOldestSilentOneLeaves) {
   Newcomers dut;
   for (int id = 0; id < static_cast<int>(Newcomers::kMost); ++id)
-    EXPECT_FALSE(dut.Admit(id, After(0.01 * id)));
+    EXPECT_FALSE(dut.Admit(id, After(0.001 * id)));
   dut.OnBytes(0, 10);
-  EXPECT_EQ(dut.Admit(100, After(1)), 1);
+  EXPECT_EQ(dut.Admit(1000, After(1)), 1);
   EXPECT_EQ(dut.size(), Newcomers::kMost);
 }
 
 TEST(Newcomers, WhoCarriedAFrameOfTheOtherEndLeavesLast) {
   Newcomers dut;
   for (int id = 0; id < static_cast<int>(Newcomers::kMost); ++id) {
-    dut.Admit(id, After(0.01 * id));
+    dut.Admit(id, After(0.001 * id));
     dut.OnBytes(id, 10);
   }
   dut.OnGenuine(0);
-  EXPECT_EQ(dut.Admit(100, After(1)), 1);
+  EXPECT_EQ(dut.Admit(1000, After(1)), 1);
   EXPECT_THAT(dut.Genuine(), ElementsAre(0));
+}
+
+/// Where it was closed for others after 0.6 s, the other end came back only after several attempts.
+TEST(Newcomers, WhoWaitsKeepsItsPlaceBesideFiftyTalkativeConnectionsPerSecond) {
+  Newcomers dut;
+  dut.Admit(0, kStart);
+  dut.OnBytes(0, 10);
+  for (int id = 1; id < 3 * 50; ++id) {
+    const Time now = After(id / 50.0);
+    for (const int over : dut.Expired(now)) dut.Remove(over);
+    EXPECT_FALSE(dut.Admit(id, now)) << id;
+    dut.OnBytes(id, 10);
+  }
+  EXPECT_TRUE(dut.OnBytes(0, 10));
 }
 
 TEST(Newcomers, TimeAndBytesAreBounded) {
