@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "test/cli/priamos_answer.hpp"
@@ -39,10 +40,14 @@ TEST(ParamCommand, AMistypedKeyIsAnsweredWithTheNearest) {
 }
 
 TEST(ParamCommand, AValueOutOfRangeIsNotSent) {
-  for (const char* value : {"7", "-1", "nan", "inf"}) {
+  const std::map<std::string, std::string> sentences{{"7", "expected 0.05 to 1.5 [m/s], got 7"},
+                                                     {"0.01", "expected 0.05 to 1.5 [m/s], got 0.01"},
+                                                     {"nan", "expected a number"},
+                                                     {"inf", "expected a number"}};
+  for (const auto& [value, sentence] : sentences) {
     const auto answer = Priamos({"param", "set", "robot", kSpeedKey, value, "--bus", "memq://"});
     EXPECT_EQ(answer.exit_code, 2) << value;
-    EXPECT_THAT(answer.err, HasSubstr("expected 0.05 to 1.5 [m/s]")) << value;
+    EXPECT_THAT(answer.err, HasSubstr(sentence)) << value;
   }
 }
 
