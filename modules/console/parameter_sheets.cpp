@@ -8,6 +8,8 @@
 #include <memory>
 #include <utility>
 
+#include "bus/parameters/parameter_messages.hpp"
+
 namespace priamos::console {
 namespace {
 
@@ -52,7 +54,8 @@ ParameterSheets AskForParameters(const fs::path& programs, const fs::path& folde
     ProcessSheet sheet{print("--print-config")};
     // A refusal is a sentence, and no line of TOML.
     if (sheet.text.find(" = ") == std::string::npos) sheet.text = "# " + sheet.text;
-    if (const auto live = bus::ParameterSheetOf(print("--print-parameters"))) sheet.live = *live;
+    if (bus::ParameterProcess(name))
+      if (const auto live = bus::ParameterSheetOf(print("--print-parameters"))) sheet.live = *live;
     sheets.emplace(name, std::move(sheet));
   }
   return sheets;

@@ -151,7 +151,9 @@ TEST(LcmTypes, RefuseOutsideTheRangeOfAnEnumeration) {
                   "lease_request_t.driver", "look_request_t.side", "map_command_t.action",
                   "mission_command_t.mission", "mission_result_t.outcome", "mission_status_t.mission",
                   "mission_status_t.phase", "mission_step_t.mission", "obstacle_line_t.verdict",
-                  "obstacle_segment_t.kind", "pose_correction_t.verdict", "probe_t.kind", "view_edge_t.kind",
+                  "obstacle_segment_t.kind", "parameter_order_t.action", "parameter_order_t.process",
+                  "parameter_order_t.value", "parameter_value_t.outcome", "parameter_value_t.process",
+                  "parameter_value_t.value", "pose_correction_t.verdict", "probe_t.kind", "view_edge_t.kind",
                   "world_touch_t.kind"));
 }
 

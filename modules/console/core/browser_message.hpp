@@ -54,6 +54,7 @@ struct ListenWish {
 
 /// A parameter of a running process is to be read or changed.
 struct ParameterWish {
+  /// What is to be done with it.
   enum class Kind { kRead, kSet, kSave, kReset };
   Kind kind = Kind::kRead;
   std::string process, key;  ///< no key: none in particular
