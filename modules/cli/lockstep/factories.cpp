@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "bus/parameters/parameter_messages.hpp"
 #include "bus/process_config.hpp"
 #include "console/console_app.hpp"
 #include "head/head_app.hpp"
@@ -48,6 +49,13 @@ std::vector<ConfigKey> ConfigKeysOf(const std::string& module) {
     if (key.name == "bus.name") key.value = '"' + FactoryFor(module).default_bus + '"';
   keys.insert(keys.end(), of_bus.begin(), of_bus.end());
   return keys;
+}
+
+std::vector<std::string> ModulesWithParameters() {
+  std::vector<std::string> modules;
+  for (int process = 1; !bus::ProcessOfParameters(process).empty(); ++process)
+    modules.emplace_back(bus::ProcessOfParameters(process));
+  return modules;
 }
 
 std::shared_ptr<void> HoldShared() {

@@ -15,6 +15,9 @@ bus::AppFactory FactoryFor(const std::string& module);
 /// The keys of its configuration. Throws the same.
 std::vector<ConfigKey> ConfigKeysOf(const std::string& module);
 
+/// Modules some of whose parameters may be changed while they run.
+std::vector<std::string> ModulesWithParameters();
+
 /// What Apps made one after the other in this thread need not set up again while it is held: the graphics.
 std::shared_ptr<void> HoldShared();
 

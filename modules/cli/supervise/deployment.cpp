@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "bus/parameters/parameter_messages.hpp"
 #include "cli/supervise/supervisor.hpp"
 #include "common/learned/learned_walls.hpp"
 #include "common/nearest_word.hpp"
@@ -17,6 +18,9 @@ namespace priamos::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Where a robot keeps what outlives its processes; the units of systemd name it, too.
+constexpr std::string_view kStateFolder = "/var/lib/priamos";
 
 std::string NameOf(const ScenarioProcess& process) {
   return process.module == "spacenavd" ? process.module : process.bus + "-" + process.module;
@@ -77,6 +81,13 @@ ProcessSpec SpacenavdSpec(const LaunchPlace& place) {
   return spec;
 }
 
+/// In simulation parameters are saved as long as the deployment is up; a robot's outlive it.
+std::string SavedParametersFile(const Deployment& deployment, const ScenarioProcess& process,
+                                const LaunchPlace& place) {
+  const std::string folder = deployment.emulated_line ? place.run_folder : std::string(kStateFolder);
+  return fmt::format("{}/{}-parameters.toml", folder, process.module);
+}
+
 ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& process, const LaunchPlace& place,
                        bool has_mouse) {
   const bool onboard = process.bus == "onboard";
@@ -102,6 +113,8 @@ ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& proc
     spec.arguments.insert(spec.arguments.end(), {"--set", text});
   };
   if (!process.set.empty()) set(process.set);
+  if (bus::ParameterProcess(process.module))
+    spec.arguments.insert(spec.arguments.end(), {"--saved", SavedParametersFile(deployment, process, place)});
   if (process.module == "radio" && deployment.emulated_line) {
     spec.arguments.insert(spec.arguments.end(), {"--port", Tty(place, process.bus)});
     spec.after.push_back("line");

@@ -23,6 +23,7 @@ void AddCommands(CLI::App& cli, int& exit_code) {
   AddWhereCommand(cli, exit_code);
   AddPlaceCommand(cli, exit_code);
   AddMapCommand(cli, exit_code);
+  AddParamCommand(cli, exit_code);
   AddTopicCommand(cli, exit_code);
   AddLogCommand(cli, exit_code);
   AddReplayCommand(cli, exit_code);
