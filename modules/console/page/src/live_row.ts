@@ -33,7 +33,6 @@ export class LiveRow {
     name.title = parameter.meaning;
     this.field.type = "number";
     this.field.step = "any";
-    this.field.required = true;
     this.field.min = String(parameter.min);
     this.field.max = String(parameter.max);
     this.field.setAttribute("aria-label", parameter.name);
@@ -95,7 +94,7 @@ export class LiveRow {
   }
 
   private enable(): void {
-    this.button.disabled = !this.page.mayOrder() || !this.field.validity.valid;
+    this.button.disabled = !this.page.mayOrder() || !this.field.validity.valid || Number.isNaN(this.field.valueAsNumber);
   }
 
   private set(): void {
