@@ -83,7 +83,7 @@ void DriveController::Reconfigure(const DriveConfig& config) {
 void DriveController::AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) {
   movers_.Add(cycle, odom_from_base);
   echoes_.Add(cycle, odom_from_base,
-              [this](const Eigen::Vector2d& odom) { return !movers_.IsOfMover(odom); });
+              [this](const Eigen::Vector2d& odom) { return !InCorridor() || !movers_.IsOfMover(odom); });
 }
 
 PathVerdict DriveController::SetPath(const Path& path, Time now) {
@@ -161,9 +161,8 @@ DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) 
     around.seen.insert(around.seen.end(), points.begin(), points.end());
   };
   around.placed = floor_.Points(odom_from_base);
-  if (state_.mode == DriveMode::kOperated) {
-    add(echoes_.Bridges(odom_from_base));
-  } else {
+  if (state_.mode == DriveMode::kOperated) add(echoes_.Bridges(odom_from_base));
+  if (InCorridor()) {
     const std::vector<Eigen::Vector2d> coming = movers_.Points(odom_from_base);
     around.placed.insert(around.placed.end(), coming.begin(), coming.end());
   }
@@ -254,7 +253,12 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   state_.remaining_m = wanted.remaining_m;
   state_.cross_track_m = wanted.cross_track_m;
   if (wanted.arrived) state_.mode = DriveMode::kArrived;
-  return path_->centre && !wanted.arrived ? MadeWay(wanted, situation.odom_from_base, now) : wanted.twist;
+  return InCorridor() && !wanted.arrived ? MadeWay(wanted, situation.odom_from_base, now) : wanted.twist;
+}
+
+/// Only there does a base that goes to and fro beside things not take one of them for somebody who comes.
+bool DriveController::InCorridor() const {
+  return state_.mode != DriveMode::kOperated && path_ && path_->centre;
 }
 
 /// In a corridor who comes is not evaded on the way: the base goes to the side and lets him pass.

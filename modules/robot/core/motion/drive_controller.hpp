@@ -127,6 +127,7 @@ class DriveController {
                                            Time now) const;
   Twist2 WantedByPath(const DriveSituation& situation, const Obstacles& around, Time now, double dt_s);
   void BeginPath(const DriveSituation& situation);
+  bool InCorridor() const;
   void KeepCentred(const DriveSituation& situation, Time now);
   std::optional<Comer> ComerAhead(const Pose2& odom_from_base) const;
   Twist2 MadeWay(const PathFollower::Wanted& wanted, const Pose2& odom_from_base, Time now);

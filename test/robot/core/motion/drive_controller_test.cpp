@@ -247,10 +247,12 @@ void Approach(RobotRig& rig, double speed_m_s, double near_m) {
   }
 }
 
-TEST(DriveController, StandsWhenSomebodyWalksIntoIt) {
+TEST(DriveController, InACorridorItStandsWhenSomebodyWalksIntoIt) {
   for (const double speed_m_s : {0.6, 1.2}) {
     RobotRig rig(1, {0, 0, 0});
-    rig.SetPath(Straight());
+    Path corridor = Straight();
+    corridor.centre = true;
+    rig.SetPath(corridor);
     rig.Run(2);
     EXPECT_GT(rig.base().twist().vx, 0.3) << speed_m_s;
     Approach(rig, speed_m_s, 0.4);
