@@ -33,6 +33,9 @@ struct LinkChannelConfig {
   friend bool operator==(const LinkChannelConfig&, const LinkChannelConfig&) = default;
 };
 
+/// [s] The line is fed once per millisecond, not always in time.
+inline constexpr double kFeedGap_s = 0.0015;
+
 /// Contents of link.toml: the settings that both ends of one link must share, and those of the sender.
 struct LinkConfig {
   int baud = 9600;              ///< [baud] 300..1000000: rate of the serial port, 10 bits per byte

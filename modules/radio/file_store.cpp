@@ -31,6 +31,13 @@ std::string Replace(const std::string& path, std::span<const std::byte> content,
   return fmt::format("{}: {}", path, std::strerror(errno));
 }
 
+/// Why nothing can be saved in the folder of a file, before that is tried; empty when it can.
+std::string FolderProblem(const std::string& path) {
+  const auto folder = std::filesystem::absolute(path).parent_path();
+  if (access(folder.c_str(), W_OK | X_OK) == 0) return "";
+  return fmt::format("{}: {}", path, std::strerror(errno));
+}
+
 /// The time that the kernel gives a changed file is that of its last tick.
 constexpr Duration kClockSteps{20'000};
 
@@ -191,12 +198,20 @@ std::string FileStore::in_use() const {
 }
 
 std::string FileStore::problem() {
-  const std::lock_guard lock(mutex_);
-  return save_problem_.empty() ? sync_problem_ : save_problem_;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!save_problem_.empty()) return save_problem_;
+    if (!sync_problem_.empty()) return sync_problem_;
+  }
+  const std::string of_first = FolderProblem(first_path());
+  return of_first.empty() ? FolderProblem(path_) : of_first;
 }
 
 void FileStore::Retry() {
-  if (problem().empty()) return;
+  std::unique_lock lock(mutex_);
+  const bool sync_failed = !sync_problem_.empty();
+  lock.unlock();
+  if (save_problem_.empty() && !sync_failed) return;
   if (!save_problem_.empty()) WriteState();
   StartSync();
 }

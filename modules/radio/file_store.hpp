@@ -55,7 +55,8 @@ class FileStore : public bus::radio::StateStore {
 
   /// The file of this store that another one uses already, in this process or another; empty: none.
   std::string in_use() const;
-  /// What cannot be written, and why: `FILE: No space left on device`. Empty when all was.
+  /// What cannot be written, and why: `FILE: No space left on device`. Empty when all was, and the folders
+  /// can be written.
   std::string problem();
   /// Tries again to write what could not be written; Save() does not.
   void Retry();

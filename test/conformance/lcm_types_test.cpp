@@ -131,14 +131,20 @@ TEST(LcmTypes, EmbeddedTextsAreTheFiles) {
 }
 
 /// Of every field that says which of several things it is, another value would be another thing.
-TEST(LcmTypes, RefuseOutsideTheRangeOfAnEnumeration) {
+/// The nearest number is that of something else.
+TEST(LcmTypes, RefuseOutsideTheRangeOfAnEnumerationOrAnIdentity) {
   const Schema schema(ProjectsOwn());
+  const std::set<std::string> identities{"session",     "sequence", "request_id",
+                                         "landmark_id", "path_id",  "order_id"};
   std::set<std::string> refusing;
   for (const Struct* type : schema.All()) {
     const Packer packer(*type);
-    for (const PackedField& field : packer.fields())
-      if (field.refuse && field.name.find('.') == std::string::npos)
+    for (const PackedField& field : packer.fields()) {
+      if (identities.contains(field.name))
+        EXPECT_TRUE(field.refuse) << type->name << "." << field.name;
+      else if (field.refuse && field.name.find('.') == std::string::npos)
         refusing.insert(type->name + "." + field.name);
+    }
   }
   EXPECT_THAT(
       refusing,

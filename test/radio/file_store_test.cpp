@@ -211,6 +211,19 @@ TEST_F(UnwritableStore, WhatWasNotWrittenBeforeTheEndMakesTheFileNotTheLatest) {
   }
 }
 
+TEST_F(UnwritableStore, AFolderThatIsNotThereIsNamedBeforeTheFirstSaveAndNothingIsLost) {
+  FileStore(path, fast).Save(State(1));
+  LostFolder lost(states);
+  for (const auto& [disk, second] :
+       {std::pair(file, fast), std::pair(fast, file), std::pair(file, std::string())}) {
+    FileStore dut(disk, second);
+    EXPECT_EQ(dut.problem(), file + ": No such file or directory");
+    dut.Retry();
+    dut.AwaitSync();
+  }
+  EXPECT_EQ(FileStore(path, fast).Load(), Latest(1));
+}
+
 TEST_F(UnwritableStore, TheDiskBehindARamDiskIsNamedAndTheRamDiskIsTheLatest) {
   const std::string nowhere = "/proc/no_such_folder/state";
   FileStore dut(nowhere, fast);
