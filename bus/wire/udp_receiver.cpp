@@ -33,6 +33,14 @@ constexpr int kReceiveBuffer = 4 << 20;  // the kernel cuts it to net.core.rmem_
                   url, what, std::strerror(errno)));
 }
 
+[[noreturn]] void CannotBind(const std::string& url) {
+  if (errno != EADDRINUSE) CannotJoin(url, "expected a port");
+  throw BusError(
+      fmt::format("bus {}: expected a port to share, got one that another program has for itself; next: ss "
+                  "-ulpn sport = :{} names it",
+                  url, PortOf(url)));
+}
+
 void Join(int fd, const std::string& url) {
   const int yes = 1, no = 0;
   sockaddr_in address{};
@@ -47,8 +55,7 @@ void Join(int fd, const std::string& url) {
   setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
   setsockopt(fd, IPPROTO_IP, IP_MULTICAST_ALL, &no, sizeof no);
-  if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-    CannotJoin(url, "expected a free port");
+  if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) CannotBind(url);
   if (setsockopt(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) != 0)
     CannotJoin(url, "expected to join the multicast group");
 }

@@ -187,6 +187,24 @@ TEST_F(BusTools, TopicShowsTypesRatesAndLosses) {
   EXPECT_THAT(answer.text, HasSubstr("\"x_m\":0."));
 }
 
+TEST_F(BusTools, APortThatAnotherProgramHasForItselfIsNamed) {
+  const auto answer = Run(R"sh(
+    BUS='udpm://239.255.76.71:7791?ttl=0'
+    python3 -c 'import socket, time; s = socket.socket(type=socket.SOCK_DGRAM); s.bind(("", 7791)); print(1, flush=True); time.sleep(30)' \
+      > bound & HOLDER=$!
+    for i in $(seq 100); do [ -s bound ] && break; sleep 0.05; done
+    $BIN/priamos doctor --bus $BUS --probe; echo "doctor: $?"
+    $BIN/priamos topic list --bus $BUS; echo "topic: $?"
+    kill $HOLDER)sh");
+  EXPECT_THAT(
+      answer.text,
+      HasSubstr(
+          "BAD   bus                    bus udpm://239.255.76.71:7791?ttl=0: expected a port to share"));
+  EXPECT_THAT(answer.text, HasSubstr("next: ss -ulpn sport = :7791 names it"));
+  EXPECT_THAT(answer.text, HasSubstr("doctor: 1"));
+  EXPECT_THAT(answer.text, HasSubstr("topic: 2"));
+}
+
 TEST_F(BusTools, ForeignTypesNeedNoCompilation) {
   const auto answer = Run(R"sh(
     mkdir types; echo 'package theirs; struct thing_t { int32_t n; string names[n]; }' > types/thing.lcm

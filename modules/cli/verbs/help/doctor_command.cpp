@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bus/wire/bus_error.hpp"
 #include "cli/options/bus_options.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/options/verb_setup.hpp"
@@ -77,12 +78,22 @@ ExaminedBus BusOf(const DoctorOptions& options) {
       fmt::format("--bus: expected onboard or offboard with --deployment, got \"{}\"", options.bus.bus));
 }
 
+/// What the other hosts answer; a bus that cannot be joined is one more thing to mend.
+std::vector<Finding> Ways(const DoctorOptions& options, const std::string& url) {
+  RequireHosts(url);
+  try {
+    return ProbeBus(url, options.seconds).Findings(options.expected);
+  } catch (const bus::BusError& error) {
+    return {{"bus", Finding::Verdict::kBad, error.what(), ""}};
+  }
+}
+
 int RunDoctor(const DoctorOptions& options) {
   const ExaminedBus examined = BusOf(options);
   auto findings = Examine(ThisMachine(), examined.url, examined.other_hosts);
   const bool no_way = findings.front().verdict == Finding::Verdict::kBad;
   if ((options.probe || !options.expected.empty()) && !no_way) {
-    const auto ways = ProbeBus(examined.url, options.seconds).Findings(options.expected);
+    const auto ways = Ways(options, examined.url);
     findings.insert(findings.end(), ways.begin(), ways.end());
   }
   Print(findings, options.json);

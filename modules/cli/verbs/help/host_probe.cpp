@@ -6,6 +6,7 @@
 
 #include "bus/clocks/clock_exchange.hpp"
 #include "bus/wire/multicast.hpp"
+#include "cli/verbs/help/link_finding.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -177,6 +178,7 @@ std::vector<Finding> HostProbe::Findings(const std::vector<std::string>& expecte
                         fmt::format("none is heard, and none answered {} questions sent {}", asked_.size(),
                                     Way(self_.network, self_.ttl)),
                         ask_there});
+  for (const auto& [onboard, status] : links_) findings.push_back(LinkFinding(status));
   AddClocks(findings);
   return findings;
 }

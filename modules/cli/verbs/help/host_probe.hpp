@@ -40,7 +40,11 @@ class HostProbe {
   /// Takes what a process says of its host's clock in HEALTH, the newest time.
   void HearClock(const std::string& address, const health_t& message);
 
-  /// A line per way that works or is cut, and per process whose clock is not known exactly enough;
+  /// Takes what an end of the radio link says, the newest time.
+  void HearLink(const link_status_t& message) { links_[message.onboard != 0] = message; }
+
+  /// A line per way that works or is cut, per end of the radio that is heard, and per process whose clock is
+  /// not known exactly enough;
   /// `expected`: names of hosts that have to be there.
   std::vector<Finding> Findings(const std::vector<std::string>& expected) const;
 
@@ -65,6 +69,7 @@ class HostProbe {
   std::vector<Time> asked_;  ///< when
   std::map<std::int32_t, Host> hosts_;
   std::map<std::pair<std::string, std::string>, double> clocks_;  ///< [s]; by address and process: how exact
+  std::map<bool, link_status_t> links_;                           ///< by whether it is the robot's end
   std::map<std::string, std::string> others_;  ///< heard on the bus: address, and name if known
 };
 

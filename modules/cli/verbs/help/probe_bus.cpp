@@ -90,6 +90,8 @@ class Asker {
     if (channel == channels::kHealth.name)
       if (const auto health = bus::DecodeChecked<health_t>(schema_, bytes))
         probe_.HearClock(address, *health);
+    if (channel == channels::kLinkStatus.name)
+      if (const auto status = bus::DecodeChecked<link_status_t>(schema_, bytes)) probe_.HearLink(*status);
     probe_.HearOther(address, channel == channels::kClaim.name ? HostOfClaim(bytes) : "");
   }
 
@@ -138,9 +140,12 @@ class Asker {
 
 }  // namespace
 
-HostProbe ProbeBus(const std::string& url, double seconds) {
+void RequireHosts(const std::string& url) {
   if (!url.starts_with("udpm://"))
     throw bus::BusError(fmt::format("--probe: expected a bus between hosts (udpm://), got {}", url));
+}
+
+HostProbe ProbeBus(const std::string& url, double seconds) {
   const bus::Schema schema = bus::OwnTypes();
   return Asker(url, schema).Ask(FromSeconds(seconds));
 }

@@ -168,6 +168,28 @@ TEST_F(HostProbeTest, TwoHostsOfOneNameAreTwo) {
   EXPECT_EQ(dut_.Findings({}).size(), 2U);
 }
 
+TEST_F(HostProbeTest, ARadioThatHearsNothingIsNamed) {
+  Answered(false);
+  link_status_t status{};
+  status.up = true;
+  dut_.HearLink(status);
+  EXPECT_EQ(dut_.Findings({}).back().what, "radio of the workstation's end");
+  EXPECT_EQ(dut_.Findings({}).back().verdict, Verdict::kGood);
+  status.loss = 0.3;
+  dut_.HearLink(status);
+  EXPECT_THAT(dut_.Findings({}).back().found, HasSubstr("30 % of what the robot's end sends is lost"));
+  status.up = false;
+  dut_.HearLink(status);
+  EXPECT_EQ(dut_.Findings({}).back().verdict, Verdict::kBad);
+  EXPECT_THAT(dut_.Findings({}).back().found, HasSubstr("cut: nothing of the robot's end is heard"));
+  status.table_mismatch = true;
+  dut_.HearLink(status);
+  EXPECT_THAT(dut_.Findings({}).back().found, HasSubstr("another table of channels"));
+  status.onboard = true;
+  dut_.HearLink(status);
+  EXPECT_EQ(dut_.Findings({}).size(), 3U) << "an end each";
+}
+
 TEST_F(HostProbeTest, WordsOfOthersDoNoHarmToATerminal) {
   probe_t answer = Answer(1);
   answer.host = "\x1b[2Jvi\nsion";
