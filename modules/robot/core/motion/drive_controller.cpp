@@ -52,8 +52,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
     : config_(config),
       geometry_(geometry),
       follower_(config.follower, config.footprint),
-      corridor_(config.corridor),
-      yield_(config.yield),
+      corridor_(config.corridor, config.yield, config.footprint),
       slew_(config.acceleration),
       operator_slew_(config.operator_acceleration),
       brake_(config.braking),
@@ -253,7 +252,8 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   state_.remaining_m = wanted.remaining_m;
   state_.cross_track_m = wanted.cross_track_m;
   if (wanted.arrived) state_.mode = DriveMode::kArrived;
-  return InCorridor() && !wanted.arrived ? MadeWay(wanted, situation.odom_from_base, now) : wanted.twist;
+  if (!InCorridor() || wanted.arrived) return wanted.twist;
+  return corridor_.MakeRoom(movers_, wanted, situation.odom_from_base, now).value_or(wanted.twist);
 }
 
 /// Only there does a base that goes to and fro beside things not take one of them for somebody who comes.
@@ -261,46 +261,23 @@ bool DriveController::InCorridor() const {
   return state_.mode != DriveMode::kOperated && path_ && path_->centre;
 }
 
-/// In a corridor who comes is not evaded on the way: the base goes to the side and lets him pass.
-Twist2 DriveController::MadeWay(const PathFollower::Wanted& wanted, const Pose2& odom_from_base, Time now) {
-  const auto aside = yield_.Step(ComerAhead(odom_from_base), wanted.cross_track_m, room_m_, now);
-  return aside ? Twist2{0, *aside, wanted.heading_error_rad} : wanted.twist;
-}
-
-std::optional<Comer> DriveController::ComerAhead(const Pose2& odom_from_base) const {
-  const Mover* mover = movers_.NearestAhead(odom_from_base);
-  if (!mover) return std::nullopt;
-  const Eigen::Vector2d at = odom_from_base.Inverse() * mover->at;
-  // Who walks past beside the base does not come any more.
-  if (at.x() < config_.footprint.length_m / 2) return std::nullopt;
-  return Comer{config_.footprint.Distance(at), mover->velocity.norm(), at.y()};
-}
-
 /// A centred path begins where the base is, in the direction of the corridor.
 void DriveController::BeginPath(const DriveSituation& situation) {
   Pose2 start = situation.estimate->pose;
   if (path_->centre) {
     start.yaw = path_->points.front().yaw;
-    realigned_.reset();
-    yield_.End();
-    room_m_ = 0;
     corridor_.Begin(situation.odom_from_base,
                     WrapAngle(start.yaw - situation.estimate->pose.yaw + situation.odom_from_base.yaw));
   }
   follower_.Follow(*path_, start);
 }
 
-/// The pose may be wrong, or be corrected on the way: the walls are heard, and lead.
 void DriveController::KeepCentred(const DriveSituation& situation, Time now) {
-  if (state_.mode == DriveMode::kArrived) return;
-  if (realigned_ && now - *realigned_ < FromSeconds(config_.corridor.realign_s)) return;
-  realigned_ = now;
-  const Pose2 map_from_odom = situation.estimate->pose * situation.odom_from_base.Inverse();
-  const CentredPath centred = AlongAxis(*path_, corridor_.Follow(situation.odom_from_base), map_from_odom,
-                                        follower_.RemainingFrom(situation.estimate->pose),
-                                        config_.footprint.width_m / 2, config_.corridor);
+  if (state_.mode == DriveMode::kArrived || !corridor_.IsDue(now)) return;
+  const Pose2& pose = situation.estimate->pose;
+  const CentredPath centred =
+      corridor_.Centred(*path_, pose, situation.odom_from_base, follower_.RemainingFrom(pose), now);
   follower_.Realign(centred.path, centred.start);
-  room_m_ = centred.path.leeway.empty() ? 0 : centred.path.leeway.front().right_m;
 }
 
 /// What a path is to be led around. What stops the base is among it also before there is evidence.

@@ -6,11 +6,10 @@
 #include "common/time.hpp"
 #include "robot/core/base/mecanum.hpp"
 #include "robot/core/base/twist_slew.hpp"
-#include "robot/core/motion/corridor_axis.hpp"
+#include "robot/core/motion/corridor_drive.hpp"
 #include "robot/core/motion/deflection.hpp"
 #include "robot/core/motion/drive_config.hpp"
 #include "robot/core/motion/path_follower.hpp"
-#include "robot/core/motion/yield.hpp"
 #include "robot/core/pose/pose_estimator.hpp"
 #include "robot/core/safety/authority.hpp"
 #include "robot/core/safety/collision_stop.hpp"
@@ -129,8 +128,6 @@ class DriveController {
   void BeginPath(const DriveSituation& situation);
   bool InCorridor() const;
   void KeepCentred(const DriveSituation& situation, Time now);
-  std::optional<Comer> ComerAhead(const Pose2& odom_from_base) const;
-  Twist2 MadeWay(const PathFollower::Wanted& wanted, const Pose2& odom_from_base, Time now);
   void StandIfLetGo(Time now);
   Twist2 WantedByOperator(Time now) const;
   Twist2 FreeOf(const Twist2& motion, const Obstacles& around) const;
@@ -148,9 +145,7 @@ class DriveController {
   DriveConfig config_;
   MecanumGeometry geometry_;
   PathFollower follower_;
-  CorridorGuide corridor_;
-  Yield yield_;
-  double room_m_ = 0;  ///< that a corridor leaves beside its middle
+  CorridorDrive corridor_;
   TwistSlew slew_, operator_slew_, brake_;
   EchoMemory echoes_;
   FloorMemory floor_;
@@ -164,7 +159,6 @@ class DriveController {
   bool path_is_new_ = false;  ///< not yet given to the follower
   bool ever_ordered_ = false;
   std::optional<Time> last_step_, first_step_, sonar_heard_;
-  std::optional<Time> realigned_;  ///< when the walls were looked at last to keep the path between them
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;
   std::optional<Time> bumped_since_;  ///< when somebody came to the base and touched it
 };
