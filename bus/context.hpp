@@ -30,6 +30,7 @@ struct Surroundings {
   std::uint64_t seed = 0;        ///< for simulated hardware only
   std::int32_t claimant = 0;     ///< instance of this process in its claim; random, 0 in lockstep
   bool lockstep = false;         ///< simulated time: work inline, never in a thread
+  bool from_log = false;         ///< what it hears happened long ago
   std::function<void(Level, std::string_view)> log;
   /// Opens a serial port; throws std::runtime_error with one sentence.
   std::function<std::unique_ptr<ByteStream>(const std::string& path, int baud)> open_serial;
@@ -48,6 +49,8 @@ class Context {
   std::uint64_t seed() const { return around_.seed; }
   std::int32_t claimant() const { return around_.claimant; }
   bool lockstep() const { return around_.lockstep; }
+  /// Whether it lives on a log: what it finds is of then, and files that are kept for today stay as they are.
+  bool from_log() const { return around_.from_log; }
   /// Path of a file: `name` itself when absolute, else below the folder of the configuration file.
   std::string ResolvePath(const std::string& name) const;
 

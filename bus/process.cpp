@@ -133,8 +133,9 @@ int FollowLog(const AppFactory& factory, const Options& options, const LogShow& 
   const auto start = [&](const Clock& clock) {
     log(Level::kInfo,
         fmt::format("time is that of {}; what this sends goes to {}...", bus.url(), LogFollower::kPrefix));
-    return std::make_unique<AppHost>(factory, options.config, bus, schema, clock,
-                                     MakeSurroundings(factory, options));
+    Surroundings around = MakeSurroundings(factory, options);
+    around.from_log = true;
+    return std::make_unique<AppHost>(factory, options.config, bus, schema, clock, std::move(around));
   };
   for (std::vector<HeardMessage> first;;) {
     LogFollower follower(bus, schema, factory.name, start, std::move(first));

@@ -58,6 +58,7 @@ Replay::Replay(const AppFactory& factory, const ConfigSource& source, const Sche
   around.config_dir = options.config_dir;
   around.seed = options.seed;
   around.lockstep = true;
+  around.from_log = true;
   around.log = options.log ? options.log : [](Level, std::string_view) {};
   around.open_serial = [](const std::string&, int) { return std::make_unique<SilentLine>(); };
   bus_.SubscribeEverything([this](std::string_view channel, std::span<const std::byte> bytes) {

@@ -70,7 +70,7 @@ MapKeeper::MapKeeper(const PlannerConfig& config, bus::Context& context)
       acks_(context.node().Advertise(channels::kFeaturesAck)) {}
 
 MapKeeper::~MapKeeper() {
-  if (!file_.empty() && map_.walls().revision != written_) SaveLearnedWalls(file_, map_.walls());
+  if (IsToBeWritten()) SaveLearnedWalls(file_, map_.walls());
 }
 
 std::shared_ptr<const LearnedWalls> MapKeeper::Tick(Time now) {
@@ -80,7 +80,7 @@ std::shared_ptr<const LearnedWalls> MapKeeper::Tick(Time now) {
   const bool was_reset = TakeOrders();
   const bool changed = TakeFeatures() || was_reset;
   const bool due = was_reset || !wrote_ || Seconds(now - *wrote_) >= kWriteEvery_s;
-  if (!file_.empty() && due && map_.walls().revision != written_) {
+  if (due && IsToBeWritten()) {
     wrote_ = now;
     Write();
   }
@@ -118,6 +118,11 @@ bool MapKeeper::TakeOrders() {
     context_.Log(bus::Level::kInfo, fmt::format("the learned map is forgotten: {} walls", walls));
   }
   return was_reset;
+}
+
+/// The map of today learns nothing from a log of another day.
+bool MapKeeper::IsToBeWritten() const {
+  return !file_.empty() && !context_.from_log() && map_.walls().revision != written_;
 }
 
 void MapKeeper::Write() {

@@ -42,6 +42,7 @@ class MapKeeper {
  private:
   bool TakeFeatures();
   bool TakeOrders();
+  bool IsToBeWritten() const;
   void Write();
 
   std::string file_;

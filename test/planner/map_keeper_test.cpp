@@ -88,10 +88,10 @@ TEST(BatchLog, SaysWhichOfTheLastEightCame) {
 
 class MapKeeperTest : public testing::Test {
  protected:
-  void Begin() {
+  void Begin(bool from_log = false) {
     PlannerConfig config;
     config.learned_map = file_;
-    station_.emplace(config);
+    station_.emplace(config, MakeMissions, from_log);
     features_.emplace(station_->other.Advertise(channels::kFeatures));
     orders_.emplace(station_->other.Advertise(channels::kMapCommand));
     acks_.emplace(station_->other.SubscribeAll(channels::kFeaturesAck));
@@ -133,6 +133,18 @@ TEST_F(MapKeeperTest, AnotherPlannerGoesOnWithIt) {
   station_->Run(2);
   station_.reset();
   EXPECT_THAT(LoadLearnedWalls(file_).walls, SizeIs(2)) << "the same wall, found by another run";
+}
+
+TEST_F(MapKeeperTest, ALogOfAnotherDayLeavesTheMapOfTodayAsItIs) {
+  Begin();
+  features_->Publish(Batch(9, 5, {Wall(1)}));
+  station_->Run(2);
+  station_.reset();
+  Begin(true);
+  features_->Publish(Batch(8, 1, {Wall(2, 4)}));
+  station_->Run(40);
+  station_.reset();
+  EXPECT_THAT(LoadLearnedWalls(file_).walls, SizeIs(1));
 }
 
 TEST_F(MapKeeperTest, ResetForgetsAtOnce) {

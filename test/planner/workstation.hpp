@@ -10,8 +10,9 @@ namespace priamos::planner {
 
 /// The planner on a bus of its own, and the other end of its radio played by hand.
 struct Workstation {
-  explicit Workstation(const PlannerConfig& config = {}, MissionMaker missions = MakeMissions)
-      : dut(config, context, missions) {}
+  explicit Workstation(const PlannerConfig& config = {}, MissionMaker missions = MakeMissions,
+                       bool from_log = false)
+      : follows_log(from_log), dut(config, context, missions) {}
 
   void Step() {
     clock.Set(clock.Now() + dut.TickPeriod());
@@ -77,8 +78,10 @@ struct Workstation {
   bus::LcmBus bus{"memq://"};
   bus::Node node{bus, schema, clock}, other{bus, schema, clock};
   std::vector<std::string> log;
+  bool follows_log;
   bus::Context context{node, [this] {
                          bus::Surroundings around;
+                         around.from_log = follows_log;
                          around.config_dir = PRIAMOS_SOURCE_DIR "/config/sim";
                          around.log = [this](bus::Level, std::string_view text) { log.emplace_back(text); };
                          return around;
