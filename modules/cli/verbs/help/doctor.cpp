@@ -73,7 +73,8 @@ Finding ReachBy(const std::string& way, const Machine& machine, const std::strin
                   outward.empty() ? "eth0" : outward.front().name);
   if (!leads_out)
     return {kWhat, other_hosts || !outward.empty() ? Verdict::kBad : Verdict::kNotNeededYet,
-            fmt::format("messages leave by {}, which reaches none; those that could: {}", way,
+            fmt::format("messages leave by {}, which reaches none; those that could: {}",
+                        way.empty() ? "no interface" : way,
                         outward.empty() ? "none has cable and address" : Listed(outward)),
             name_one};
   if (const bool named = !bus::NetworkOf(bus).empty(); named || outward.size() == 1)
