@@ -14,7 +14,8 @@ namespace priamos::bus::radio {
 /// Source of fresh random numbers: unpredictable on a robot, seeded in a simulation.
 using NonceSource = std::function<std::uint64_t()>;
 
-/// The last random numbers that something was noted of.
+/// The last random numbers that something was noted of. Who records hellos has one per start of the end that
+/// said them: more than are remembered would look new again when he replays them.
 class LastNonces {
  public:
   bool Has(std::uint64_t nonce) const { return std::find(all_.begin(), all_.end(), nonce) != all_.end(); }
@@ -23,7 +24,7 @@ class LastNonces {
   }
 
  private:
-  std::array<std::uint64_t, 32> all_{};
+  std::array<std::uint64_t, 256> all_{};
   std::size_t next_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace priamos::bus::radio {
 namespace {
@@ -98,6 +99,20 @@ TEST_F(EpochTest, AReplayedHelloDoesNotTakeTheAnswerOfANewEnd) {
   b.OnHello(ask);
   EXPECT_FALSE(b.OnHello(old).reply);
   EXPECT_EQ(b.Compose(false).echo, ask.nonce);
+}
+
+TEST_F(EpochTest, ReplaysOfAHundredEarlierStartsDoNotTakeTheAnswerOfANewEnd) {
+  std::vector<Hello> recorded;
+  for (int start = 0; start < 100; ++start) {
+    recorded.push_back(EpochAgreement(nonces).Compose(true));
+    b.OnHello(recorded.back());
+    b.Compose(false);
+  }
+  const Hello hello = a.Compose(true);
+  for (const Hello& old : recorded) b.OnHello(old);
+  b.OnHello(hello);
+  for (const Hello& old : recorded) b.OnHello(old);
+  EXPECT_EQ(b.Compose(false).echo, hello.nonce);
 }
 
 TEST_F(EpochTest, WhoAskedBeforeDataCameGetsNoSecondAnswerWhileItComes) {
