@@ -11,6 +11,8 @@ namespace priamos::console {
 namespace {
 
 constexpr std::string_view kJson = "application/json";
+/// Of a process that lets nothing be changed.
+constexpr const char* kNoneLive = R"({"table":0,"parameters":[]})";
 
 }  // namespace
 
@@ -26,7 +28,7 @@ void StationFiles::AddParameters(const ParameterSheets& sheets) {
   for (const auto& [name, sheet] : sheets) {
     names.push_back(name);
     Add("/parameters/" + name + ".toml", "text/plain; charset=utf-8", sheet.text);
-    if (sheet.live) Add("/parameters/" + name + ".json", kJson, bus::ToJson(*sheet.live));
+    Add("/parameters/" + name + ".json", kJson, sheet.live ? bus::ToJson(*sheet.live) : kNoneLive);
   }
   Add("/parameters/index.json", kJson, names.dump());
 }

@@ -10,7 +10,7 @@
 #include "lcmtypes/channels.hpp"
 #include "test/cli/message_log.hpp"
 #include "test/support/temporary_folder.hpp"
-#include "test/support/web_client.hpp"
+#include "test/support/web/web_client.hpp"
 
 namespace priamos::console {
 namespace {
