@@ -127,7 +127,7 @@ void LinkChannelConfig::Describe(Archive& a) {
          "sent as difference to one that the other end is known to have, whenever that is shorter");
   a.Text("key", key, "text field of the type: newest wins per value of it; empty: newest of all");
   a.Integer("keys", keys, {"-", 1, 64, "values of `key` at most"});
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Require("direction", "up or down");
   a.Require("class", "state, event or command");
   if (!IsChannelName(name)) a.Refuse("name", "the name of an LCM channel: 1 to 63 printable characters");
@@ -157,7 +157,7 @@ void LinkConfig::Describe(Archive& a) {
   a.Flag("simulation_key", simulation_key, "use a key that everybody knows: only for emulated lines");
   a.List("channel", channels,
          "the channels that cross the link; their order is part of what both ends agree on");
-  place = PlaceIn(a);
+  NotePlace(a, place);
   if (code_bytes % 2 != 0 || code_bytes == 2) a.Refuse("code_bytes", "4, 6, 8, or 0 for the default");
   RefuseContradictions(a);
   RefuseWithoutEffect(a);

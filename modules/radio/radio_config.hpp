@@ -20,7 +20,7 @@ struct StationRobot {
     a.Text("key_file", key_file, "secret key of the link to this robot");
     a.Text("state_file", state_file, "as above, for this robot");
     a.Text("fast_state_file", fast_state_file, "as above, for this robot");
-    place = PlaceIn(a);
+    NotePlace(a, place);
     if (name.empty()) a.Refuse("name", "the name of a robot");
     if (state_file.empty() && !fast_state_file.empty())
       a.Refuse("fast_state_file", "none without a state_file, which outlives a loss of power");
@@ -66,7 +66,7 @@ struct RadioConfig {
                "of this robot on a channel that several share (link.toml: robots); 0: a link of two ends"});
     a.List("robot", robots,
            "at the station of several robots: each of them, in the order of their addresses");
-    place = PlaceIn(a);
+    NotePlace(a, place);
     if (!robots.empty() && side != "offboard") a.Refuse("robot", "none onboard: a robot has one link");
     if (!robots.empty() && address != 0) a.Refuse("address", "0 at a station, whose robots have addresses");
     if (!robots.empty() && !state_file.empty())

@@ -109,7 +109,7 @@ void Repeat(const MissionFileStep& repeat, std::size_t number, std::vector<std::
 }  // namespace
 
 void MissionFileStep::Describe(Archive& a) {
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Choice("do", what, {"goto", "door", "corridor", "wait", "repeat"}, "what is done in this step");
   if (what == "goto") {
     a.Require("x_m", "a place, x_m and y_m");

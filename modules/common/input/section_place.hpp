@@ -52,11 +52,11 @@ class PlaceSource {
   virtual SectionPlace PlaceOfSection() const = 0;
 };
 
-/// Where the section that `archive` visits was read; none when it reads no file.
+/// Notes where the section that `archive` visits was read. One that reads no file, but prints or changes what
+/// was read, leaves `place` as it is.
 template <class Archive>
-SectionPlace PlaceIn(const Archive& archive) {
-  const auto* source = dynamic_cast<const PlaceSource*>(&archive);
-  return source ? source->PlaceOfSection() : SectionPlace{};
+void NotePlace(const Archive& archive, SectionPlace& place) {
+  if (const auto* source = dynamic_cast<const PlaceSource*>(&archive)) place = source->PlaceOfSection();
 }
 
 }  // namespace priamos

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <vector>
 
 #include "common/config.hpp"
+#include "common/config_printer.hpp"
 
 namespace priamos {
 namespace {
@@ -14,7 +16,7 @@ struct Wheel {
   SectionPlace place{};
   void Describe(Archive& a) {
     a.Number("radius_m", radius_m, {"m", 0, 1, "radius"});
-    place = PlaceIn(a);
+    NotePlace(a, place);
   }
 };
 
@@ -25,7 +27,7 @@ struct Cart {
   void Describe(Archive& a) {
     a.Text("name", name, "name");
     a.List("wheel", wheels, "wheels");
-    place = PlaceIn(a);
+    NotePlace(a, place);
   }
 };
 
@@ -40,6 +42,13 @@ TEST(SectionPlace, NamesFileLineAndKey) {
 TEST(SectionPlace, NamesTheOverrideAKeyCameFrom) {
   const auto dut = LoadConfig<Cart>(ConfigSource{"", {"name=b"}});
   EXPECT_EQ(dut.place.Of("name"), "--set name=b: name");
+}
+
+TEST(SectionPlace, StaysWhenTheConfigurationIsPrinted) {
+  auto dut = ParseConfig<Cart>("cart.toml", "\nname = 'a'\n");
+  std::ostringstream out;
+  dut.Describe(*MakeConfigPrinter(out));
+  EXPECT_EQ(dut.place.Of("name"), "cart.toml:2:name");
 }
 
 TEST(SectionPlace, OfNoFileIsTheKey) {

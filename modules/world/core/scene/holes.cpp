@@ -37,7 +37,7 @@ std::optional<FloorHit> CastWithin(const HolePlan& hole, int index, const Eigen:
 }  // namespace
 
 void HolePlan::Describe(Archive& a) {
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Text("name", name, "for messages");
   a.Number("x_m", x_m, {"m", -100, 100, "map, middle"});
   a.Number("y_m", y_m, {"m", -100, 100, "map, middle"});

@@ -68,7 +68,7 @@ class Blocks {
 }  // namespace
 
 void GridPlan::Describe(Archive& a) {
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Text("yaml", yaml,
          "YAML file of a map of ROS' map_server, relative to the deployment's folder; empty: none");
   a.Number("reach_m", reach_m, {"m", 1, 100, "cells farther from the nominal start are left out"});

@@ -20,7 +20,7 @@ void PersonStop::Describe(Archive& a) {
 }
 
 void PersonPlan::Describe(Archive& a) {
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Text("name", name, "for messages");
   a.Number("speed_m_s", speed_m_s, {"m/s", kSlowest_m_s, kFastest_m_s, "speed of walking"});
   a.Number("speed_spread_m_s", speed_spread_m_s,

@@ -8,7 +8,7 @@
 namespace priamos::world {
 
 void DoorWork::Describe(Archive& a) {
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Integer("id", id, {"-", kFirstLandmarkId, kLastLandmarkId, "the door's id in the map"});
   a.Choice("hinge", hinge, {"left", "right"}, "side of the hinges, seen in driving direction");
   a.Number("open_deg", open_deg, {"deg", 0, 175, "opening angle of the leaf into the far room, 0 is closed"});
@@ -46,7 +46,7 @@ void BoxPlan::Describe(Archive& a) {
 }
 
 void PosterPlan::Describe(Archive& a) {
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Text("wall", wall, "name of the wall in the map");
   a.Choice("face", face, {"left", "right"}, "side of the wall, looking from its from_m to its to_m");
   a.Number("along_m", along_m, {"m", 0, 200, "middle of the poster, distance from from_m"});
@@ -63,7 +63,7 @@ void SkirtingPlan::Describe(Archive& a) {
 }
 
 void WallSurface::Describe(Archive& a) {
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Text("wall", wall, "name of the wall in the map");
   a.Choice("material", material, MaterialNames(), "how it looks and echoes");
 }
@@ -94,7 +94,7 @@ Start DrawStart(const StartPlan& plan, std::uint64_t seed) {
 }
 
 void ReferencePlan::Describe(Archive& a) {
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Text("object", object, "file that describes the calibration body; empty: there is none");
   a.Number("x_m", x_m, {"m", -10, 10, "its origin in the base frame of the robot at its start"});
   a.Number("y_m", y_m, {"m", -10, 10, "its origin in the base frame of the robot at its start"});
@@ -119,7 +119,7 @@ PlacedReference PlaceReference(const ReferencePlan& plan, const ReferenceObject&
 }
 
 void WorldPlan::Describe(Archive& a) {
-  place = PlaceIn(a);
+  NotePlace(a, place);
   a.Text("map", map, "ground plan with walls and doors, which the planner knows too");
   a.Choice("wall_material", wall_material, MaterialNames(), "how walls look and echo");
   a.Number("brightness_spread", brightness_spread, {"-", 0, 0.9, "brightness is off by up to this part"});
