@@ -47,6 +47,7 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/bus/schema/mutation_test", "damaged bytes in every decoder of the room"},
     {"test/cli/laser_in_the_world_test", "head and world together"},
     {"test/cli/shipped_configs_test", "every file of config/"},
+    {"test/cli/verbs/log/foreign_folder_test", "all verbs of the room with the types of other robots"},
     {"test/cli/verbs/log/foreign_log_test", "all verbs of the room on logs of other robots"},
     {"test/head/landmark_models_test", "planner's landmarks in the head's hands"},
     {"test/head/live_parameters_test", "every parameter that head_config marks as live"},

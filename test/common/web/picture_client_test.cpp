@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "common/web/web_server.hpp"
-#include "test/support/web_client.hpp"
+#include "test/support/web/web_client.hpp"
 
 namespace priamos {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <fstream>
 
-#include "test/support/self_signed.hpp"
 #include "test/support/temporary_folder.hpp"
 #include "test/support/thrown_reason.hpp"
+#include "test/support/web/self_signed.hpp"
 
 namespace priamos {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "common/random.hpp"
 #include "test/support/thrown_reason.hpp"
-#include "test/support/web_client.hpp"
+#include "test/support/web/web_client.hpp"
 
 namespace priamos {
 namespace {

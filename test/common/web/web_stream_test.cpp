@@ -11,9 +11,9 @@
 #include "common/random.hpp"
 #include "common/web/tls_files.hpp"
 #include "common/web/web_server.hpp"
-#include "test/support/self_signed.hpp"
 #include "test/support/temporary_folder.hpp"
-#include "test/support/tls_client.hpp"
+#include "test/support/web/self_signed.hpp"
+#include "test/support/web/tls_client.hpp"
 
 namespace priamos {
 namespace {

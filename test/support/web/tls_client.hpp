@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "test/support/web_client.hpp"
+#include "test/support/web/web_client.hpp"
 
 namespace priamos {
 
