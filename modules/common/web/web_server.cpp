@@ -18,8 +18,6 @@ using asio::ip::tcp;
 
 /// Most steps of connections within one Poll: a flood waits for the next one.
 constexpr int kMostSteps = 400;
-/// Most connections taken within one Poll when each has to shake hands, which costs up to a millisecond.
-constexpr int kMostHandshakes = 1;
 /// Between two pictures of somebody who asks for one after the other.
 constexpr double kWatched_s = 1;
 
@@ -45,7 +43,6 @@ class WebServer::Impl {
 
   void Poll(Time now) {
     shared_.now = now;
-    taken_ = 0;
     if (!std::exchange(accepting_, true)) Accept();
     io_.restart();
     for (int i = 0; i < kMostSteps && io_.poll_one() > 0; ++i) {
@@ -102,7 +99,7 @@ class WebServer::Impl {
   void Accept() {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
       if (!error) Take(std::move(socket));
-      accepting_ = !options_.tls || ++taken_ < kMostHandshakes;
+      accepting_ = !options_.tls;  // to shake hands costs up to a millisecond: one within a Poll
       if (accepting_) Accept();
     });
   }
@@ -146,7 +143,6 @@ class WebServer::Impl {
   WebShared shared_;
   tcp::acceptor acceptor_;
   bool accepting_ = true;  ///< false: the rest waits for the next Poll
-  int taken_ = 0;          ///< connections of this Poll
   std::uint64_t last_id_ = 0;
   std::map<std::uint64_t, std::shared_ptr<WebSession>> sessions_;  ///< by age
 };
