@@ -162,16 +162,17 @@ struct LostFolder {
 
 struct UnwritableStore : FileStoreTest {
   UnwritableStore() { std::filesystem::create_directory(folder / "states"); }
+  /// Store in `file` alone, or in `file` on a RAM disk beside `disk`.
+  std::unique_ptr<FileStore> Make(const std::string& disk) const {
+    return disk.empty() ? std::make_unique<FileStore>(file) : std::make_unique<FileStore>(disk, file);
+  }
   std::filesystem::path states = folder / "states";
   std::string file = (states / "link.state").string();
 };
 
 TEST_F(UnwritableStore, TheLinkGoesOnAndTheProblemIsNamedUntilItIsWritten) {
   for (const std::string& disk : {std::string(), path}) {
-    const auto make = [&] {
-      return disk.empty() ? std::make_unique<FileStore>(file) : std::make_unique<FileStore>(disk, file);
-    };
-    auto dut = make();
+    auto dut = Make(disk);
     dut->Save(State(1));
     LostFolder lost(states);
     dut->Save(State(2));
@@ -187,27 +188,24 @@ TEST_F(UnwritableStore, TheLinkGoesOnAndTheProblemIsNamedUntilItIsWritten) {
     dut->AwaitSync();
     EXPECT_EQ(dut->problem(), "");
     dut.reset();
-    EXPECT_EQ(make()->Load(), Latest(3));
+    EXPECT_EQ(Make(disk)->Load(), Latest(3));
   }
 }
 
 /// Else counters and numbers of events that were used since would be used again.
 TEST_F(UnwritableStore, WhatWasNotWrittenBeforeTheEndMakesTheFileNotTheLatest) {
   for (const std::string& disk : {std::string(), path}) {
-    const auto make = [&] {
-      return disk.empty() ? std::make_unique<FileStore>(file) : std::make_unique<FileStore>(disk, file);
-    };
-    auto dut = make();
+    auto dut = Make(disk);
     dut->Save(State(1));
     LostFolder lost(states);
     dut->Save(State(2));
     dut.reset();
     lost.Return();
-    for (int start = 0; start < 2; ++start) EXPECT_EQ(make()->Load(), Older(1)) << start;
-    dut = make();
+    for (int start = 0; start < 2; ++start) EXPECT_EQ(Make(disk)->Load(), Older(1)) << start;
+    dut = Make(disk);
     dut->Save(State(3));
     dut.reset();
-    EXPECT_EQ(make()->Load(), Latest(3));
+    EXPECT_EQ(Make(disk)->Load(), Latest(3));
   }
 }
 
