@@ -10,9 +10,9 @@
 #include <limits>
 
 #include "bus/version.hpp"
-#include "common/nearest_file.hpp"
-#include "common/nearest_word.hpp"
-#include "common/number_text.hpp"
+#include "common/text/nearest_file.hpp"
+#include "common/text/nearest_word.hpp"
+#include "common/text/number_text.hpp"
 
 namespace priamos::bus {
 namespace {

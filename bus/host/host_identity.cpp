@@ -10,6 +10,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "common/text/text_hash.hpp"
+
 namespace priamos::bus {
 namespace {
 
@@ -26,9 +28,7 @@ std::string BootId() {
 }  // namespace
 
 std::int32_t IdentityOf(std::string_view text) {
-  std::uint32_t hash = 2166136261U;  // FNV-1a (Fowler, Noll, Vo), 32 bits
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
-  return std::bit_cast<std::int32_t>(hash);
+  return std::bit_cast<std::int32_t>(TextHash32(text));
 }
 
 HostIdentity ThisHost() {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "common/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace priamos::bus {
 namespace {

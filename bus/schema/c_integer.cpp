@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "common/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace priamos::bus {
 

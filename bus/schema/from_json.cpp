@@ -10,7 +10,7 @@
 #include "bus/schema/json.hpp"
 #include "bus/schema/text_codec.hpp"
 #include "bus/schema/walk.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::bus {
 namespace {

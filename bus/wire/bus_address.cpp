@@ -6,7 +6,8 @@
 #include <cstdint>
 
 #include "bus/wire/lcm_bus.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
+#include "common/text/text_hash.hpp"
 
 namespace priamos::bus {
 namespace {
@@ -19,13 +20,6 @@ constexpr std::uint32_t kPortPairs = 6000;
 constexpr std::uint32_t kGroups = 254;
 
 constexpr std::size_t kLongestName = 32;
-
-/// FNV-1a (Fowler, Noll, Vo), 32 bits: the same on every machine, which std::hash is not.
-std::uint32_t HashOf(std::string_view text) {
-  std::uint32_t hash = 2166136261U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
-  return hash;
-}
 
 void RequireName(std::string_view robot) {
   const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
@@ -40,7 +34,7 @@ std::string BusUrl(std::string_view robot, BusSide side, int ttl) {
   RequireName(robot);
   if (ttl < 0 || ttl > 255) throw BusError(fmt::format("ttl: expected 0 to 255, got {}", ttl));
   const bool onboard = side == BusSide::kOnboard;
-  const std::uint32_t hash = HashOf(robot);
+  const std::uint32_t hash = TextHash32(robot);
   const auto port = kFirstPort + 2 * (hash % kPortPairs) + (onboard ? 0 : 1);
   return fmt::format("udpm://239.255.{}.{}:{}?ttl={}", 1 + hash / kPortPairs % kGroups, onboard ? 67 : 68,
                      port, ttl);

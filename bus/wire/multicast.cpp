@@ -16,7 +16,7 @@
 
 #include "bus/wire/bus_error.hpp"
 #include "bus/wire/network_interface.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::bus {
 namespace {

@@ -15,7 +15,7 @@
 #include <memory>
 
 #include "bus/wire/bus_error.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::bus {
 namespace {

@@ -9,7 +9,7 @@
 #include "common/config_toml.hpp"
 #include "common/input/quoted.hpp"
 #include "common/input/section_place.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos {
 namespace {

@@ -7,7 +7,7 @@
 #include "common/archive.hpp"
 #include "common/input/quoted.hpp"
 #include "common/input/regular_file.hpp"
-#include "common/nearest_file.hpp"
+#include "common/text/nearest_file.hpp"
 
 namespace priamos {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "common/config.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos {
 namespace {

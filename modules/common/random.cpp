@@ -1,12 +1,12 @@
 #include "common/random.hpp"
 
+#include "common/text/text_hash.hpp"
+
 namespace priamos {
 
 Rng Rng::Stream(std::uint64_t seed, std::string_view part) {
-  // FNV-1a over the name, then splitmix64: neighbouring seeds and names give unrelated streams.
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  std::uint64_t z = seed + hash + 0x9e3779b97f4a7c15ULL;
+  // splitmix64: neighbouring seeds and names give unrelated streams.
+  std::uint64_t z = seed + TextHash64(part) + 0x9e3779b97f4a7c15ULL;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
   return Rng(z ^ (z >> 31));

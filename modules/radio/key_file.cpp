@@ -42,12 +42,12 @@ class File {
   int fd_;
 };
 
-void RefuseOpenMode(const std::string& path, unsigned mode) {
-  if ((mode & 0077U) != 0)
+void RequirePrivate(const RegularFile& file, const std::string& path) {
+  if (!file.is_private())
     throw std::runtime_error(
         fmt::format("{}: expected a key that only its owner can read, got mode {:o}: if nobody else has read "
                     "it, `chmod 600 {}`",
-                    path, mode, path));
+                    path, file.mode(), path));
 }
 
 /// The digits of a key, with nothing but a line feed behind them; nullopt: something else.
@@ -112,7 +112,7 @@ LinkKey ReadKeyFile(const std::string& path) {
         fmt::format("{}: expected the key of the radio link, got {}: make one with `priamos link keygen "
                     "{}` and copy it to the other end",
                     Escaped(path), file.problem(), Escaped(path)));
-  RefuseOpenMode(Escaped(path), file.mode());
+  RequirePrivate(file, Escaped(path));
   auto text = file.Read(kHexDigits + 1).value_or("");
   const auto key = KeyOf(text);
   sodium_memzero(text.data(), text.size());

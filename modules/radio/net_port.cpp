@@ -6,7 +6,7 @@
 
 #include "common/config.hpp"
 #include "common/input/quoted.hpp"
-#include "common/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "radio/net_socket.hpp"
 
 namespace priamos::radio {

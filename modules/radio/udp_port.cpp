@@ -13,7 +13,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "common/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "radio/net_socket.hpp"
 
 namespace priamos::radio {

@@ -1,13 +1,13 @@
 // Every parameter of the planner that may be changed while it runs has its effect on the next order: a
 // planner that was told of a value behaves like one that was started with it, and unlike one that was not.
 
+#include "test/support/parameters/live_parameters.hpp"
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <functional>
 #include <map>
 
-#include "common/parameters/parameter_store.hpp"
 #include "test/planner/workstation.hpp"
 
 namespace priamos::planner {
@@ -87,40 +87,21 @@ double Measured(const Story& story, const PlannerConfig& started, const PlannerC
 }
 
 TEST(LiveParametersOfThePlanner, EachHasItsStory) {
-  const ParameterTable table([](Archive& a) { PlannerConfig().Describe(a); });
-  for (const Parameter& parameter : table.all())
-    EXPECT_TRUE(kStories.contains(parameter.name)) << parameter.name;
-  EXPECT_EQ(kStories.size(), table.all().size());
+  ExpectAStoryForEach<PlannerConfig>(kStories);
 }
 
 class LiveParameterOfThePlannerTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(LiveParameterOfThePlannerTest, IsObeyedAsIfThePlannerHadBeenStartedWithIt) {
   const Story& story = kStories.at(GetParam());
-  const PlannerConfig standard;
-  PlannerConfig changed;
-  ParameterStore store([&](Archive& a) { changed.Describe(a); });
-  ASSERT_EQ(store.Set(store.table().NumberOf(GetParam()), story.value), ChangeVerdict::kDone);
-
-  const double before = Measured(story, standard, standard);
-  const double told = Measured(story, standard, changed);
-  EXPECT_EQ(told, Measured(story, changed, changed));
-  EXPECT_NE(told, before);
-  EXPECT_EQ(Measured(story, changed, standard), before) << "and back";
+  ExpectObeyedAtOnce<PlannerConfig>(GetParam(), story.value,
+                                    [&](const PlannerConfig& started, const PlannerConfig& given) {
+                                      return Measured(story, started, given);
+                                    });
 }
 
-std::vector<std::string> Names() {
-  std::vector<std::string> names;
-  for (const auto& [name, story] : kStories) names.push_back(name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, LiveParameterOfThePlannerTest, testing::ValuesIn(Names()),
-                         [](const auto& info) {
-                           std::string name = info.param;
-                           std::replace(name.begin(), name.end(), '.', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, LiveParameterOfThePlannerTest, testing::ValuesIn(NamesOf(kStories)),
+                         ParameterTestName);
 
 }  // namespace
 }  // namespace priamos::planner

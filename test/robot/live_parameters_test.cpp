@@ -1,14 +1,14 @@
 // Every parameter of the robot that may be changed while it runs has its effect at once: a base that was told
 // of a value behaves like one that was started with it, and unlike one that was not.
 
+#include "test/support/parameters/live_parameters.hpp"
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 
-#include "common/parameters/parameter_store.hpp"
 #include "robot/robot_config.hpp"
 #include "test/robot/support/robot_rig.hpp"
 
@@ -144,39 +144,18 @@ const std::map<std::string, Story> kStories{
 };
 
 TEST(LiveParametersOfTheRobot, EachHasItsStory) {
-  const ParameterTable table([](Archive& a) { RobotConfig().Describe(a); });
-  for (const Parameter& parameter : table.all())
-    EXPECT_TRUE(kStories.contains(parameter.name)) << parameter.name;
-  EXPECT_EQ(kStories.size(), table.all().size());
+  ExpectAStoryForEach<RobotConfig>(kStories);
 }
 
 class LiveParameterTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(LiveParameterTest, IsObeyedAtOnceAsIfTheRobotHadBeenStartedWithIt) {
   const Story& story = kStories.at(GetParam());
-  const RobotConfig standard;
-  RobotConfig changed;
-  ParameterStore store([&](Archive& a) { changed.Describe(a); });
-  ASSERT_EQ(store.Set(store.table().NumberOf(GetParam()), story.value), ChangeVerdict::kDone);
-
-  const double before = story.measure(standard, standard);
-  const double told = story.measure(standard, changed);
-  EXPECT_EQ(told, story.measure(changed, changed));
-  EXPECT_NE(told, before);
-  EXPECT_EQ(story.measure(changed, standard), before) << "and back";
+  ExpectObeyedAtOnce<RobotConfig>(GetParam(), story.value, story.measure);
 }
 
-std::vector<std::string> Names() {
-  std::vector<std::string> names;
-  for (const auto& [name, story] : kStories) names.push_back(name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(OfTheRobot, LiveParameterTest, testing::ValuesIn(Names()), [](const auto& info) {
-  std::string name = info.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(OfTheRobot, LiveParameterTest, testing::ValuesIn(NamesOf(kStories)),
+                         ParameterTestName);
 
 TEST(LiveParametersOfTheRobot, ABaseInMotionSlowsDownOnItsPathAndSpeedsUpAgain) {
   const RobotConfig standard;

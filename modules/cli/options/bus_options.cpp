@@ -7,7 +7,7 @@
 
 #include "bus/own_types.hpp"
 #include "bus/type_files.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 

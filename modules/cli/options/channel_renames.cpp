@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "bus/wire/datagram.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {

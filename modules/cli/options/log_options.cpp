@@ -13,8 +13,8 @@
 
 #include "bus/log/log_reader.hpp"
 #include "cli/options/channel_renames.hpp"
-#include "common/nearest_word.hpp"
-#include "common/number_text.hpp"
+#include "common/text/nearest_word.hpp"
+#include "common/text/number_text.hpp"
 
 namespace priamos::cli {
 namespace {

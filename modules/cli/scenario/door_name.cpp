@@ -8,8 +8,8 @@
 #include "bus/process_config.hpp"
 #include "common/config.hpp"
 #include "common/ground_plan.hpp"
-#include "common/nearest_word.hpp"
-#include "common/number_text.hpp"
+#include "common/text/nearest_word.hpp"
+#include "common/text/number_text.hpp"
 #include "planner/planner_config.hpp"
 
 namespace priamos::cli {

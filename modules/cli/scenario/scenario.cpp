@@ -9,7 +9,7 @@
 #include "common/config.hpp"
 #include "common/data_folders.hpp"
 #include "common/ground_plan.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -12,7 +12,7 @@
 #include "bus/parameters/parameter_messages.hpp"
 #include "cli/supervise/supervisor.hpp"
 #include "common/learned/learned_walls.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include <thread>
 
 #include "bus/clocks/host_clock.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -16,8 +16,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "common/number_text.hpp"
 #include "common/replace_file.hpp"
+#include "common/text/number_text.hpp"
 
 namespace priamos::cli {
 namespace {

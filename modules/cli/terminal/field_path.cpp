@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {

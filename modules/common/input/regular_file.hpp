@@ -25,6 +25,8 @@ class RegularFile {
   const std::string& problem() const { return problem_; }
   /// Permissions of owner, group and others.
   unsigned mode() const { return mode_; }
+  /// Whether only its owner may read and write it, as it should be with a secret.
+  bool is_private() const { return (mode_ & 0077U) == 0; }
   /// All of it; nullopt when it is longer than `most_bytes` or cannot be read.
   std::optional<std::string> Read(std::size_t most_bytes) const;
 

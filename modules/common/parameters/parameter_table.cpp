@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/parameters/described_numbers.hpp"
+#include "common/text/text_hash.hpp"
 
 namespace priamos {
 namespace {
@@ -34,13 +35,6 @@ class Marks : public DescribedNumbers {
   std::map<std::string, ValueSpec> specs_;
 };
 
-/// FNV-1a (Fowler, Noll, Vo), 32 bits.
-std::uint32_t HashOf(std::string_view text) {
-  std::uint32_t hash = 2166136261U;
-  for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 16777619U;
-  return hash;
-}
-
 }  // namespace
 
 ParameterTable::ParameterTable(const Description& describe) {
@@ -65,7 +59,7 @@ int ParameterTable::Fingerprint() const {
   std::string text;
   for (const Parameter& p : parameters_)
     text += fmt::format("{} [{}] {} to {}; {}\n", p.name, p.unit, p.min, p.max, LiveText(p.change));
-  return static_cast<int>(HashOf(text) % 65535) + 1;
+  return static_cast<int>(TextHash32(text) % 65535) + 1;
 }
 
 }  // namespace priamos

@@ -14,7 +14,7 @@
 #include <regex>
 #include <utility>
 
-#include "common/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "common/web/picture_text.hpp"
 
 namespace priamos {

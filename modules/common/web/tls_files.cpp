@@ -5,7 +5,7 @@
 #include <boost/asio/ssl/context.hpp>
 #include <stdexcept>
 
-#include "common/web/private_file.hpp"
+#include "common/input/private_file.hpp"
 
 namespace priamos {
 namespace {

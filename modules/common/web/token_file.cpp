@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "common/web/private_file.hpp"
+#include "common/input/private_file.hpp"
 
 namespace priamos {
 namespace {

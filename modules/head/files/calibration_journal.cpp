@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/replace_file.hpp"
+#include "common/text/text_hash.hpp"
 
 namespace priamos::head {
 namespace {
@@ -53,9 +54,7 @@ CalibrationExposure FromJson(const json& line, int discs) {
 }  // namespace
 
 std::string Fingerprint(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3;
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", TextHash64(text));
 }
 
 CalibrationJournal::CalibrationJournal(std::string path, std::string fingerprint, int discs)

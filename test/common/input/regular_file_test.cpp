@@ -33,6 +33,7 @@ TEST_F(RegularFileTest, KnowsItsPermissions) {
   std::ofstream(path_) << "";
   ASSERT_EQ(chmod(path_.c_str(), 0640), 0);
   EXPECT_EQ(RegularFile(path_).mode(), 0640U);
+  EXPECT_FALSE(RegularFile(path_).is_private());
   EXPECT_EQ(RegularFile(path_).Read(10), "");
 }
 

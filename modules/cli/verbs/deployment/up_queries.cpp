@@ -16,7 +16,7 @@
 #include "cli/options/verb_setup.hpp"
 #include "cli/supervise/supervisor_search.hpp"
 #include "cli/terminal/terminal_screen.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "bus/command_line.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/verbs/help/commands.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {

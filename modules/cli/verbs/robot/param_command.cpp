@@ -13,8 +13,8 @@
 #include "cli/terminal/bus_session.hpp"
 #include "cli/terminal/json_line.hpp"
 #include "cli/verbs/robot/commands.hpp"
-#include "common/nearest_word.hpp"
 #include "common/pilot/repeated_order.hpp"
+#include "common/text/nearest_word.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {

@@ -9,7 +9,7 @@
 #include "cli/terminal/silence_watch.hpp"
 #include "cli/verbs/wire/commands.hpp"
 #include "cli/verbs/wire/topic_verb.hpp"
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
 namespace {

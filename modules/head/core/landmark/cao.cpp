@@ -7,7 +7,7 @@
 #include <optional>
 #include <sstream>
 
-#include "common/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace priamos::head {
 namespace {

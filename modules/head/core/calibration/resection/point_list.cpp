@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "common/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace priamos::head {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 #include <gtest/gtest.h>
 

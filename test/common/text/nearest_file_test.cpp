@@ -1,4 +1,4 @@
-#include "common/nearest_file.hpp"
+#include "common/text/nearest_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "common/nearest_file.hpp"
+#include "common/text/nearest_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 namespace priamos {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/nearest_word.hpp"
+#include "common/text/nearest_word.hpp"
 
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>

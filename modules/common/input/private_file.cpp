@@ -1,4 +1,4 @@
-#include "common/web/private_file.hpp"
+#include "common/input/private_file.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ std::string TextOf(const RegularFile& in, const std::string& file, std::string_v
 
 std::string ReadPrivateFile(const std::string& file, std::string_view what) {
   const RegularFile in(file);
-  if (in.open() && (in.mode() & 0077U) != 0)
+  if (in.open() && !in.is_private())
     throw std::runtime_error(
         fmt::format("{}: expected {} that only the owner can read, got mode {:o}; next: chmod 600 {}", file,
                     what, in.mode(), file));
