@@ -25,6 +25,13 @@ int DrawSession(const bus::Context& context) {
   return static_cast<int>(std::random_device{}() % 256);
 }
 
+std::vector<ShownParameter> ShownParameters(const bus::ParameterSheet& sheet) {
+  std::vector<ShownParameter> shown;
+  for (std::size_t i = 0; i < sheet.values.size(); ++i)
+    shown.push_back({sheet.table.all()[i].name, sheet.values[i]});
+  return shown;
+}
+
 /// What is written down whoever sends it; of the stick it is who holds it, and when.
 bool IsOrder(const BrowserMessage& message) {
   if (const auto* wish = std::get_if<ParameterWish>(&message))
@@ -171,12 +178,21 @@ void ConsoleApp::TakeSheets() {
   if (!sheets) return;
   files_.AddParameters(*sheets);
   for (const auto& [process, sheet] : *sheets)
-    if (sheet.live) parameter_orders_.Know(process, sheet.live->table);
+    if (sheet.live) {
+      parameter_orders_.Know(process, sheet.live->table);
+      bridge_.KnowParameters(process, ShownParameters(*sheet.live));
+    }
 }
 
 /// The pages see the answers as messages of their channel.
 void ConsoleApp::ChangeParameters(Time now) {
-  for (const parameter_value_t& answer : parameter_values_.Drain()) parameter_orders_.Answered(answer);
+  for (const parameter_value_t& answer : parameter_values_.Drain()) {
+    parameter_orders_.Answered(answer);
+    if (answer.outcome == parameter_value_t::OTHER_TABLE) continue;  // its numbers mean other keys
+    const bool done = answer.outcome == parameter_value_t::DONE;
+    bridge_.HearParameter(std::string(bus::ProcessOfParameters(answer.process)), answer.key, answer.value,
+                          answer.next_changed, done ? "" : bus::OutcomeText(answer.outcome));
+  }
   if (const auto order = parameter_orders_.Step(now)) parameter_.Publish(*order);
 }
 
@@ -201,8 +217,8 @@ void ConsoleApp::Joined(std::uint64_t client, const OpenSocket& socket) {
               {{"role", socket.role == Role::kDriver ? "driver" : "viewer"},
                {"from", socket.from},
                {"foxglove", socket.dialect == Dialect::kFoxglove}});
-  if (socket.dialect == Dialect::kFoxglove) return bridge_.Join(client, socket.role);
   parameters_.Ask(ThisProgram().program_folder, context_.ResolvePath("."));
+  if (socket.dialect == Dialect::kFoxglove) return bridge_.Join(client, socket.role);
   audience_.Join(client, socket.role);
   if (socket.role == Role::kDriver) seat_.Join(client);
 }

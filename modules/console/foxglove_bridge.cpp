@@ -40,7 +40,28 @@ FoxgloveBridge::FoxgloveBridge(const bus::Schema& schema, const BodySize& body, 
   desk_.set_watcher([this](ClientId client, std::uint32_t id, bool on) { OnWish(client, id, on); });
 }
 
+void FoxgloveBridge::OfferParameters(const Orders& orders) {
+  board_.emplace(ParameterBoard::Port{
+      [this](ClientId client, std::span<const ShownParameter> values, std::string_view id) {
+        desk_.SendParameters(client, values, id);
+      },
+      [this](ClientId client, const std::string& sentence) { desk_.Warn(client, sentence); }, orders});
+  desk_.set_parameters([this](ClientId client, const Desk::ParameterRequest& request) {
+    std::visit([&](const auto& r) { board_->Take(client, r); }, request);
+  });
+}
+
+void FoxgloveBridge::KnowParameters(const std::string& process, std::span<const ShownParameter> parameters) {
+  if (board_) board_->Know(process, parameters);
+}
+
+void FoxgloveBridge::HearParameter(const std::string& process, int key, double value, int next_changed,
+                                   std::string_view problem) {
+  if (board_) board_->Heard(process, key, value, next_changed, problem);
+}
+
 void FoxgloveBridge::TakeOrders(Orders orders) {
+  OfferParameters(orders);
   desk_.set_services(Services(),
                      [orders = std::move(orders)](ClientId client, std::uint32_t service,
                                                   std::string_view json) -> std::optional<Refusal> {
@@ -110,6 +131,7 @@ void FoxgloveBridge::Hear(const std::string& channel, std::span<const std::byte>
 }
 
 void FoxgloveBridge::Tick(Time now, Time shown) {
+  if (board_) board_->Step(now);
   if (!clock_.Due(now)) return;
   clock_.Mark(now);
   desk_.TellTime(shown);
@@ -122,6 +144,7 @@ void FoxgloveBridge::Join(ClientId client, Role role) {
 
 void FoxgloveBridge::Leave(ClientId client) {
   desk_.Leave(client);
+  if (board_) board_->Leave(client);
   needed_.erase(client);
   roles_.erase(client);
 }

@@ -17,6 +17,7 @@
 #include "common/web/web_request.hpp"
 #include "console/core/seat.hpp"
 #include "console/foxglove/desk.hpp"
+#include "console/foxglove/parameter_board.hpp"
 #include "console/foxglove/scene.hpp"
 
 namespace priamos::bus {
@@ -41,8 +42,14 @@ class FoxgloveBridge {
   /// `schema` must outlive it.
   FoxgloveBridge(const bus::Schema& schema, const BodySize& body, std::string session, Desk::Sink sink);
 
-  /// Offers services; without this there are none.
+  /// Offers services and parameters; without this there are none.
   void TakeOrders(Orders orders);
+  /// The parameters of a process that may be changed while it runs, by their numbers, with the values of its
+  /// file.
+  void KnowParameters(const std::string& process, std::span<const ShownParameter> parameters);
+  /// What a process has answered of them (ParameterBoard::Heard).
+  void HearParameter(const std::string& process, int key, double value, int next_changed,
+                     std::string_view problem);
   void set_needs(Needs needs) { needs_ = std::move(needs); }
   /// Offers a channel of a type of this name before anything was heard on it.
   void Offer(const std::string& channel, std::string_view type);
@@ -55,7 +62,8 @@ class FoxgloveBridge {
   void Hear(const std::string& channel, std::span<const std::byte> bytes, Time arrival);
   /// Forgets what was heard.
   void Forget() { newest_.clear(); }
-  /// Tells everybody the time `shown`, ten times a second.
+  /// Tells everybody the time `shown`, ten times a second, and who has waited long enough that nobody
+  /// answered.
   void Tick(Time now, Time shown);
 
   void Join(ClientId client, Role role);
@@ -81,6 +89,7 @@ class FoxgloveBridge {
     Time arrival{};
   };
 
+  void OfferParameters(const Orders& orders);
   const Stream* StreamOf(const std::string& channel, const bus::Struct& type);
   bool IsSceneWanted(const std::string& channel) const;
   std::vector<Scene::Message> SceneOf(const std::string& channel, const Newest& message);
@@ -90,6 +99,7 @@ class FoxgloveBridge {
   const bus::Schema& schema_;
   Desk desk_;
   Scene scene_;
+  std::optional<ParameterBoard> board_;  ///< none: parameters are not offered
   Needs needs_;
   RateLimit clock_{10};
   std::map<std::string, std::vector<Stream>> streams_;         ///< by channel

@@ -16,6 +16,7 @@ class Foxglove:
         self.info, self.channels, self.services, self.status = None, {}, {}, []
         self.newest, self.counts, self.times, self.answers, self.time = {}, {}, {}, {}, None
         self.topics = {}  # by subscription
+        self.parameters, self.parameter_answers = {}, {}
         self.socket = WebSocket(port, target, origin=origin, protocol=PROTOCOL)
         assert f"Sec-WebSocket-Protocol: {PROTOCOL}".encode() in self.socket.head, self.socket.head
         threading.Thread(target=self._listen, daemon=True).start()
@@ -34,6 +35,12 @@ class Foxglove:
     def call(self, service, number, **fields):
         head = struct.pack("<BIII", 2, self.services[service]["id"], number, 4) + b"json"
         self.socket.send(head + json.dumps(fields).encode(), 2)
+
+    def ask_parameters(self, *names, number=""):
+        self.socket.send(json.dumps({"op": "getParameters", "parameterNames": names, "id": number}))
+
+    def set_parameter(self, name, value, number=""):
+        self.socket.send(json.dumps({"op": "setParameters", "parameters": [{"name": name, "value": value}], "id": number}))
 
     def close(self):
         self.socket.close()
@@ -56,6 +63,11 @@ class Foxglove:
             self.channels.update({channel["topic"]: channel for channel in text["channels"]})
         elif text["op"] == "advertiseServices":
             self.services.update({service["name"]: service for service in text["services"]})
+        elif text["op"] == "parameterValues":
+            values = {parameter["name"]: parameter["value"] for parameter in text["parameters"]}
+            self.parameters.update(values)
+            if "id" in text:
+                self.parameter_answers[text["id"]] = values
         elif text["op"] == "serviceCallFailure":
             self.answers[text["callId"]] = text["message"]
         elif text["op"] == "status":

@@ -126,7 +126,8 @@ TEST_F(Station, FoxgloveSeesTheRobotAndOrdersIt) {
        {"says who it is: True", "topics are offered: True", "schemas of the panels: True",
         "schema of a type: True", "pose comes: True", "and as a transform: True", "plan comes: True",
         "sonars are asked for over the radio: True", "time goes on: True", "an order is taken: True",
-        "and obeyed: True", "path is drawn: True", "nonsense is refused: True", "stop stops: True",
+        "and obeyed: True", "path is drawn: True", "nonsense is refused: True", "parameters are shown: True",
+        "a parameter is changed through the radio: True", "stop stops: True",
         "nobody looks, nothing comes: True", "a page of another origin: refused", "warnings: []"})
     EXPECT_THAT(answer.text, HasSubstr(seen));
 }

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr char kMessageData = 0x01, kServiceCall = 0x02;
-constexpr std::size_t kMostItems = 1000, kLongestWord = 64;
+constexpr std::size_t kMostItems = 1000, kLongestWord = 64, kLongestName = 200;
 
 const json& ListIn(const json& object, const char* key) {
   const auto it = object.find(key);
@@ -35,6 +35,35 @@ std::uint32_t NumberOf(const json& object, const char* key) {
   return NumberIn(it == object.end() ? json() : *it, key);
 }
 
+/// A text of an object; empty when it has none of this name.
+std::string WordIn(const json& object, const char* key) {
+  const auto it = object.find(key);
+  if (it == object.end() || it->is_null()) return "";
+  if (!it->is_string() || it->get_ref<const std::string&>().size() > kLongestName)
+    throw Wrong(fmt::format("{}: expected a text of at most {} bytes", key, kLongestName));
+  return it->get<std::string>();
+}
+
+std::vector<std::string> NamesIn(const json& object) {
+  std::vector<std::string> names;
+  if (!object.contains("parameterNames")) return names;
+  for (const json& name : ListIn(object, "parameterNames"))
+    names.push_back(WordIn({{"parameterNames", name}}, "parameterNames"));
+  return names;
+}
+
+SetParametersRequest ReadChanges(const json& object) {
+  SetParametersRequest request{{}, WordIn(object, "id")};
+  for (const json& change : ListIn(object, "parameters")) {
+    if (!change.is_object()) throw Wrong("parameters: expected objects");
+    const auto value = change.find("value");
+    const bool number = value != change.end() && value->is_number();
+    request.changes.push_back(
+        {WordIn(change, "name"), number ? std::optional(value->get<double>()) : std::nullopt});
+  }
+  return request;
+}
+
 ClientMessage ReadObject(const json& object) {
   const auto op = object.is_object() ? object.find("op") : object.end();
   if (!object.is_object() || op == object.end() || !op->is_string() ||
@@ -52,6 +81,10 @@ ClientMessage ReadObject(const json& object) {
       request.subscriptions.push_back(NumberIn(id, "subscriptionIds"));
     return request;
   }
+  if (*op == "getParameters") return GetParametersRequest{NamesIn(object), WordIn(object, "id")};
+  if (*op == "setParameters") return ReadChanges(object);
+  if (*op == "subscribeParameterUpdates") return WatchParametersRequest{NamesIn(object), true};
+  if (*op == "unsubscribeParameterUpdates") return WatchParametersRequest{NamesIn(object), false};
   return OtherRequest{op->get<std::string>()};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -36,12 +37,37 @@ struct ServiceRequest {
   std::string encoding, payload;
 };
 
+/// Wants the values of parameters.
+struct GetParametersRequest {
+  std::vector<std::string> names;  ///< none: of all
+  std::string id;                  ///< returned with the answer; may be empty
+};
+
+/// A parameter is to have another value.
+struct ParameterChange {
+  std::string name;
+  std::optional<double> value;  ///< nullopt: the client gave something that is no number
+};
+
+/// Wants parameters to be changed.
+struct SetParametersRequest {
+  std::vector<ParameterChange> changes;
+  std::string id;  ///< returned with the answer; empty: none is wanted
+};
+
+/// Wants to hear of every change of parameters, or no more.
+struct WatchParametersRequest {
+  std::vector<std::string> names;  ///< none: of all
+  bool on = false;
+};
+
 /// Something that the protocol knows and this server does not offer.
 struct OtherRequest {
   std::string operation;
 };
 
-using ClientMessage = std::variant<SubscribeRequest, UnsubscribeRequest, ServiceRequest, OtherRequest>;
+using ClientMessage = std::variant<SubscribeRequest, UnsubscribeRequest, ServiceRequest, GetParametersRequest,
+                                   SetParametersRequest, WatchParametersRequest, OtherRequest>;
 
 /// Reads one text message, JSON with an "op".
 Outcome<ClientMessage> ReadClientText(std::string_view text);

@@ -22,7 +22,7 @@ std::uint32_t Desk::Offer(OfferedChannel channel) {
 
 void Desk::Join(Client client) {
   subscriptions_.try_emplace(client);
-  Send(client, ServerInfo(name_, session_), false);
+  Send(client, ServerInfo(name_, session_, static_cast<bool>(clerk_)), false);
   Send(client, AdvertiseText(1, channels_), false);
   if (!services_.empty()) Send(client, AdvertiseServicesText(services_), false);
 }
@@ -46,7 +46,7 @@ std::optional<Refusal> Desk::Take(Client client, const SubscribeRequest& request
   auto& wishes = subscriptions_[client];
   for (const auto& wish : request.wishes) {
     if (wish.channel < 1 || wish.channel > channels_.size()) {
-      Send(client, WarningText(fmt::format("there is no channel {}", wish.channel)), false);
+      Warn(client, fmt::format("there is no channel {}", wish.channel));
       continue;
     }
     if (wishes.size() >= kMostSubscriptions)
@@ -80,8 +80,24 @@ std::optional<Refusal> Desk::Take(Client client, const ServiceRequest& request) 
   return std::nullopt;
 }
 
+std::optional<Refusal> Desk::Take(Client client, const GetParametersRequest& request) {
+  return HandOver(client, request);
+}
+std::optional<Refusal> Desk::Take(Client client, const SetParametersRequest& request) {
+  return HandOver(client, request);
+}
+std::optional<Refusal> Desk::Take(Client client, const WatchParametersRequest& request) {
+  return HandOver(client, request);
+}
+
+std::optional<Refusal> Desk::HandOver(Client client, const ParameterRequest& request) {
+  if (!clerk_) return Take(client, OtherRequest{"parameters"});
+  clerk_(client, request);
+  return std::nullopt;
+}
+
 std::optional<Refusal> Desk::Take(Client client, const OtherRequest& request) {
-  Send(client, WarningText(fmt::format("this station does not offer {}", request.operation)), false);
+  Warn(client, fmt::format("this station does not offer {}", request.operation));
   return std::nullopt;
 }
 

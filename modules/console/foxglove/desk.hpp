@@ -5,8 +5,10 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "console/foxglove/client_message.hpp"
@@ -32,7 +34,13 @@ class Desk {
   Desk(std::string name, std::string session, Sink sink)
       : name_(std::move(name)), session_(std::move(session)), sink_(std::move(sink)) {}
 
+  /// What a client asks for of parameters.
+  using ParameterRequest = std::variant<GetParametersRequest, SetParametersRequest, WatchParametersRequest>;
+  using ParameterClerk = std::function<void(Client, const ParameterRequest&)>;
+
   void set_services(std::vector<OfferedService> services, Doer doer);
+  /// Offers parameters: who asks for some is handed to `clerk`.
+  void set_parameters(ParameterClerk clerk) { clerk_ = std::move(clerk); }
   void set_watcher(Watcher watcher) { watcher_ = std::move(watcher); }
   /// Offers a channel to all clients; its number.
   std::uint32_t Offer(OfferedChannel channel);
@@ -48,6 +56,12 @@ class Desk {
   /// Sends a message to one client, which has subscribed just now.
   void Publish(Client client, std::uint32_t channel, Time time, std::string_view json);
   void TellTime(Time now);
+  /// Values of parameters for one client; `id` of the request that they answer, empty: of none.
+  void SendParameters(Client client, std::span<const ShownParameter> parameters, std::string_view id) {
+    Send(client, ParameterValuesText(parameters, id), false);
+  }
+  /// A sentence for the person at the client.
+  void Warn(Client client, std::string_view sentence) { Send(client, WarningText(sentence), false); }
 
   std::size_t clients() const { return subscriptions_.size(); }
   /// Messages that clients were too slow to take.
@@ -57,7 +71,11 @@ class Desk {
   std::optional<Refusal> Take(Client client, const SubscribeRequest& request);
   std::optional<Refusal> Take(Client client, const UnsubscribeRequest& request);
   std::optional<Refusal> Take(Client client, const ServiceRequest& request);
+  std::optional<Refusal> Take(Client client, const GetParametersRequest& request);
+  std::optional<Refusal> Take(Client client, const SetParametersRequest& request);
+  std::optional<Refusal> Take(Client client, const WatchParametersRequest& request);
   std::optional<Refusal> Take(Client client, const OtherRequest& request);
+  std::optional<Refusal> HandOver(Client client, const ParameterRequest& request);
   bool Watches(Client client, std::uint32_t channel) const;
   void Send(Client client, std::string message, bool binary);
 
@@ -65,6 +83,7 @@ class Desk {
   Sink sink_;
   Doer doer_;
   Watcher watcher_;
+  ParameterClerk clerk_;
   std::vector<OfferedChannel> channels_;  ///< number 1 is the first
   std::vector<OfferedService> services_;
   std::map<Client, std::map<std::uint32_t, std::uint32_t>> subscriptions_;  ///< subscription -> channel

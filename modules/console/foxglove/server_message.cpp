@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace priamos::console {
 namespace {
@@ -32,10 +33,12 @@ Json DescriptionOf(std::string_view name, std::string_view schema) {
 
 }  // namespace
 
-std::string ServerInfo(std::string_view name, std::string_view session) {
+std::string ServerInfo(std::string_view name, std::string_view session, bool parameters) {
+  Json capabilities = {"time", "services"};
+  if (parameters) capabilities.insert(capabilities.end(), {"parameters", "parametersSubscribe"});
   return Text({{"op", "serverInfo"},
                {"name", name},
-               {"capabilities", {"time", "services"}},
+               {"capabilities", std::move(capabilities)},
                {"supportedEncodings", {"json"}},
                {"metadata", Json::object()},
                {"sessionId", session}});
@@ -61,6 +64,15 @@ std::string AdvertiseServicesText(std::span<const OfferedService> services) {
                     {"request", DescriptionOf(service.name, service.request_schema)},
                     {"response", DescriptionOf("done", kAnswerSchema)}});
   return Text({{"op", "advertiseServices"}, {"services", std::move(list)}});
+}
+
+std::string ParameterValuesText(std::span<const ShownParameter> parameters, std::string_view id) {
+  Json list = Json::array();
+  for (const ShownParameter& parameter : parameters)
+    list.push_back({{"name", parameter.name}, {"value", parameter.value}, {"type", "float64"}});
+  Json text = {{"op", "parameterValues"}, {"parameters", std::move(list)}};
+  if (!id.empty()) text["id"] = id;
+  return Text(text);
 }
 
 std::string WarningText(std::string_view sentence) {

@@ -27,12 +27,21 @@ struct OfferedService {
   std::string request_schema;  ///< JSON schema of what is to be sent
 };
 
+/// A parameter that clients may see, and change.
+struct ShownParameter {
+  std::string name;
+  double value = 0;
+};
+
 /// Texts of the server.
-std::string ServerInfo(std::string_view name, std::string_view session);
+/// `parameters`: whether it shows parameters.
+std::string ServerInfo(std::string_view name, std::string_view session, bool parameters);
 /// `channels` with the numbers from `first` on.
 std::string AdvertiseText(std::uint32_t first, std::span<const OfferedChannel> channels);
 /// `services` with the numbers from 1 on.
 std::string AdvertiseServicesText(std::span<const OfferedService> services);
+/// `id`: of the request that is answered; empty: none.
+std::string ParameterValuesText(std::span<const ShownParameter> parameters, std::string_view id);
 /// A sentence for the person at the client.
 std::string WarningText(std::string_view sentence);
 std::string CallFailureText(std::uint32_t service, std::uint32_t call, std::string_view reason);

@@ -36,8 +36,40 @@ TEST(ClientMessage, ACallIsRead) {
   EXPECT_EQ(call.payload, "{\"x_m\":1}");
 }
 
+TEST(ClientMessage, RequestsForParametersAreRead) {
+  const auto get = ReadClientText(R"({"op":"getParameters","parameterNames":["robot/a","head/b"],"id":"7"})");
+  ASSERT_TRUE(get) << get.reason();
+  EXPECT_EQ(std::get<GetParametersRequest>(*get).names, (std::vector<std::string>{"robot/a", "head/b"}));
+  EXPECT_EQ(std::get<GetParametersRequest>(*get).id, "7");
+  EXPECT_TRUE(std::get<GetParametersRequest>(*ReadClientText(R"({"op":"getParameters"})")).names.empty());
+  const auto watch = ReadClientText(R"({"op":"subscribeParameterUpdates","parameterNames":["robot/a"]})");
+  EXPECT_TRUE(std::get<WatchParametersRequest>(*watch).on);
+  const auto end = ReadClientText(R"({"op":"unsubscribeParameterUpdates","parameterNames":[]})");
+  EXPECT_FALSE(std::get<WatchParametersRequest>(*end).on);
+}
+
+TEST(ClientMessage, ChangesOfParametersAreReadAndWhatIsNoNumberIsNone) {
+  const auto dut = ReadClientText(
+      R"({"op":"setParameters","id":"3","parameters":[{"name":"a","value":0.5},{"name":"b","value":"x"},{"name":"c"}]})");
+  ASSERT_TRUE(dut) << dut.reason();
+  const auto& request = std::get<SetParametersRequest>(*dut);
+  EXPECT_EQ(request.id, "3");
+  ASSERT_EQ(request.changes.size(), 3u);
+  EXPECT_EQ(request.changes[0].value, 0.5);
+  EXPECT_EQ(request.changes[1].value, std::nullopt);
+  EXPECT_EQ(request.changes[2].value, std::nullopt);
+}
+
+TEST(ClientMessage, DamagedRequestsForParametersAreRefused) {
+  for (const char* text :
+       {R"({"op":"getParameters","parameterNames":7})", R"({"op":"getParameters","parameterNames":[7]})",
+        R"({"op":"getParameters","id":7})", R"({"op":"setParameters"})",
+        R"({"op":"setParameters","parameters":[3]})", R"({"op":"setParameters","parameters":[{"name":3}]})"})
+    EXPECT_FALSE(ReadClientText(text)) << text;
+}
+
 TEST(ClientMessage, WhatThisServerDoesNotOfferIsNamed) {
-  for (const char* op : {"getParameters", "subscribeConnectionGraph", "advertise", "fetchAsset"}) {
+  for (const char* op : {"subscribeConnectionGraph", "advertise", "fetchAsset"}) {
     const auto dut = ReadClientText(std::string(R"({"op":")") + op + "\"}");
     EXPECT_EQ(std::get<OtherRequest>(*dut).operation, op);
   }
