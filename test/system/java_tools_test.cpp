@@ -87,7 +87,7 @@ std::map<std::string, SpyRow> SpyRows(const std::string& text) {
 class SpyOnALog : public JavaTools, public testing::WithParamInterface<const char*> {};
 
 TEST_P(SpyOnALog, LcmSpyDecodesEveryChannelAndDrawsTheSonarRing) {
-  const auto answer = RunProbe("SpyProbe", "lcm.spy.SpyProbe '" + kUrl + "' 7",
+  const auto answer = RunProbe("SpyProbe", "lcm.spy.SpyProbe '" + kUrl + "' 5",
                                "export LCM_DEFAULT_URL='" + kUrl + "'\n(sleep 2.5; exec " +
                                    std::string(GetParam()) + ") > played 2>&1 & player=$!",
                                "kill -INT $player 2>/dev/null; wait $player");
