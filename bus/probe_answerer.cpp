@@ -8,34 +8,22 @@
 #include "bus/schema/walk.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "bus/wire/multicast.hpp"
-#include "bus/wire/network_interface.hpp"
 
 namespace priamos::bus {
 namespace {
 
 constexpr std::size_t kHostBytes = 64, kProcessBytes = 16, kNetworkBytes = 16;  // @max of probe_t
 
-/// The interface by which messages of the bus leave this host.
-std::string InterfaceOf(const std::string& url) {
-  if (!url.starts_with("udpm://")) return "";
-  const std::string network = NetworkOf(url);
-  if (network.empty()) return InterfaceOfRoute(GroupOf(url));
-  try {
-    return FindInterface(network).name;
-  } catch (const BusError&) {
-    return "";  // it was unplugged
-  }
-}
-
 }  // namespace
 
 probe_t MakeProbe(const HostIdentity& host, const std::string& process, const std::string& url, Time now) {
   probe_t message{};
   message.utime = ToUtime(now);
-  message.host_id = host.id;
+  const BusDeparture from = DepartureOf(url);
+  message.host_id = host.IdAt(from.address);
   message.host = host.name.substr(0, kHostBytes);
   message.process = process.substr(0, kProcessBytes);
-  message.network = InterfaceOf(url).substr(0, kNetworkBytes);
+  message.network = from.interface.substr(0, kNetworkBytes);
   message.ttl = static_cast<std::int16_t>(TtlOf(url));
   return message;
 }

@@ -43,12 +43,24 @@ bool MeansTheSameAtAnyTime(std::string_view name) {
              channels::kAll);
 }
 
+/// Why messages with stamps of that clock are refused.
+std::string ReasonToRefuse(const SenderClock& clock) {
+  if (clock.kind == SenderClock::Kind::kCopied)
+    return "it runs with our clock's number, as a machine does that was copied while it ran; start its "
+           "processes again";
+  if (clock.kind == SenderClock::Kind::kKnown)
+    return fmt::format("its clock is known to {:.0f} ms only", 1000 * Seconds(clock.difference.uncertainty));
+  return "its clock is not known yet";
+}
+
 }  // namespace
 
 std::unique_ptr<ClockExchange> ExchangeWhereNeeded(LcmBus& bus, const Schema& schema,
                                                    const HostClock& clock) {
   const bool leaves = bus.url().starts_with("udpm://") && TtlOf(bus.url()) > 0;
-  return leaves ? std::make_unique<ClockExchange>(bus, schema, clock, clock.id()) : nullptr;
+  return leaves
+             ? std::make_unique<ClockExchange>(bus, schema, clock, clock.IdAt(DepartureOf(bus.url()).address))
+             : nullptr;
 }
 
 ClockExchange::ClockExchange(LcmBus& bus, const Schema& schema, const Clock& clock, std::int32_t own_id)
@@ -87,9 +99,18 @@ void ClockExchange::Send(Time now) {
 void ClockExchange::Hear(std::uint64_t sender, std::span<const std::byte> bytes) {
   const auto message = DecodeChecked<clock_report_t>(schema_, bytes);
   const Time now = clock_.Now();
-  if (!message || !peers_.Hear(sender, *message, now)) return;
+  if (!message) return;
+  if (peers_.IsCopy(sender, *message)) LookAtAddresses(now);
+  if (!peers_.Hear(sender, *message, now)) return;
   answer_asked_ = true;
   Tick(now);
+}
+
+/// This host may have got another address since.
+void ClockExchange::LookAtAddresses(Time now) {
+  if (now - looked_at_addresses_ < kEvery) return;
+  looked_at_addresses_ = now;
+  peers_.SetOwnAddresses(AddressesOfThisHost());
 }
 
 std::span<const std::byte> ClockExchange::Shifted(std::span<const std::byte> bytes, Duration by) {
@@ -123,18 +144,16 @@ std::optional<std::span<const std::byte>> ClockExchange::Translate(std::uint64_t
 
 bool ClockExchange::IsTooUncertain(const SenderClock& clock, Time now) const {
   if (clock.kind == SenderClock::Kind::kKnown) return clock.difference.uncertainty > kMostUncertain;
+  if (clock.kind == SenderClock::Kind::kCopied) return true;
   return !clock.host.empty() || now - begin_ < kGreeting;
 }
 
 std::string ClockExchange::Problems(Time now) const {
   std::string text;
-  const bool known = refused_clock_.kind == SenderClock::Kind::kKnown;
   if (refused_ > 0 && now - refused_at_ < kNews)
-    text = fmt::format(
-        "{} messages of {} refused: its clock is {}", refused_,
-        refused_clock_.host.empty() ? "other hosts" : refused_clock_.host,
-        known ? fmt::format("known to {:.0f} ms only", 1000 * Seconds(refused_clock_.difference.uncertainty))
-              : "not known yet");
+    text = fmt::format("{} messages of {} refused: {}", refused_,
+                       refused_clock_.host.empty() ? "other hosts" : refused_clock_.host,
+                       ReasonToRefuse(refused_clock_));
   if (unknown_ > 0 && now - unknown_at_ < kNews)
     text += fmt::format("{}{} messages of hosts of unknown clock", text.empty() ? "" : "; ", unknown_);
   return text;

@@ -34,7 +34,7 @@ class ClockExchange {
   static constexpr Duration kGreeting{500'000};
 
   /// Subscribes to CLOCK, translates what `bus` receives from now on, and sends the first message. `own_id`
-  /// names `clock` (HostClock::id). All of them must outlive it.
+  /// names `clock` (HostClock::IdAt). All of them must outlive it.
   ClockExchange(LcmBus& bus, const Schema& schema, const Clock& clock, std::int32_t own_id);
   ~ClockExchange();
   ClockExchange(const ClockExchange&) = delete;
@@ -58,6 +58,7 @@ class ClockExchange {
   bool IsTooUncertain(const SenderClock& clock, Time now) const;
   void Hear(std::uint64_t sender, std::span<const std::byte> bytes);
   void Send(Time now);
+  void LookAtAddresses(Time now);
 
   LcmBus& bus_;
   const Schema& schema_;
@@ -66,6 +67,7 @@ class ClockExchange {
   PeerClocks peers_;
   Time next_{};      ///< of the messages once a second
   Time answered_{};  ///< when the last answer out of turn was sent
+  Time looked_at_addresses_{};
   bool answer_asked_ = false;
   std::vector<std::byte> shifted_;
   std::uint64_t refused_ = 0, unknown_ = 0;

@@ -28,8 +28,8 @@ Time HostClock::Now() const {
   return Time(Read(CLOCK_BOOTTIME) + anchor_.unix_minus_boot);
 }
 
-std::int32_t HostClock::id() const {
-  return IdentityOf(fmt::format("{} {}", AnchorName(), anchor_.unix_minus_boot.count()));
+std::int32_t HostClock::IdAt(std::string_view address) const {
+  return IdentityOf(fmt::format("{} {} {}", AnchorName(), anchor_.unix_minus_boot.count(), address));
 }
 
 Duration HostClock::WallAhead() const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "bus/clocks/clock.hpp"
 #include "bus/host/clock_anchor.hpp"
 
@@ -17,8 +19,9 @@ class HostClock : public Clock {
 
   Time Now() const override;
   const ClockAnchor& anchor() const { return anchor_; }
-  /// Names this clock: the same in all processes that share it, on a host or in a container.
-  std::int32_t id() const;
+  /// Names this clock on a bus to which its processes send from `address`. Boot and anchor do not suffice:
+  /// machines that were copied while they ran share both, and their clocks drift apart.
+  std::int32_t IdAt(std::string_view address) const;
   /// How far the wall clock is ahead of the stamps now.
   Duration WallAhead() const;
 

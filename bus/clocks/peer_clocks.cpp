@@ -42,8 +42,18 @@ void PeerClocks::TakeExchange(Peer& peer, const clock_report_t& message, std::si
                    .heard = now});
 }
 
+bool PeerClocks::IsCopy(std::uint64_t sender, const clock_report_t& message) const {
+  return message.clock_id == own_id_ && !own_addresses_.contains(AddressOf(sender));
+}
+
 bool PeerClocks::Hear(std::uint64_t sender, const clock_report_t& message, Time now) {
   if (!IsPlausible(message)) return false;
+  if (IsCopy(sender, message)) {
+    if (copies_.size() < kMostSenders) copies_[sender] = message.host;
+    copy_heard_ = now;
+    return false;
+  }
+  copies_.erase(sender);
   if (by_sender_.size() < kMostSenders || by_sender_.contains(sender)) {
     by_sender_[sender] = message.clock_id;
     by_address_[AddressOf(sender)] = message.clock_id;
@@ -76,6 +86,8 @@ std::optional<std::int32_t> PeerClocks::IdOf(std::uint64_t sender) const {
 }
 
 SenderClock PeerClocks::ClockOf(std::uint64_t sender, Time now) const {
+  if (const auto copy = copies_.find(sender); copy != copies_.end())
+    return {SenderClock::Kind::kCopied, {}, copy->second};
   const auto id = IdOf(sender);
   if (!id) return {};
   if (*id == own_id_) return {SenderClock::Kind::kOurs, {}, ""};
@@ -87,6 +99,7 @@ SenderClock PeerClocks::ClockOf(std::uint64_t sender, Time now) const {
 }
 
 std::optional<ClockDifference> PeerClocks::AheadOfReference(Time now) const {
+  if (!copies_.empty() && now - copy_heard_ <= kForgotten) return std::nullopt;
   const auto reference = std::find_if(peers_.begin(), peers_.end(), [now](const auto& peer) {
     return now - peer.second.arrived <= kForgotten;
   });

@@ -20,6 +20,7 @@ struct SenderClock {
     kOurs,     ///< they are of our own clock
     kKnown,    ///< `difference` translates them
     kUnknown,  ///< nothing of this sender's clock is known
+    kCopied,   ///< its host says that its clock is ours, and is another one: a machine copied while it ran
   };
   Kind kind = Kind::kUnknown;
   ClockDifference difference{};
@@ -53,8 +54,14 @@ class PeerClocks {
 
   SenderClock ClockOf(std::uint64_t sender, Time now) const;
 
+  /// Whether the message names our clock and does not come from this host, as far as its addresses are known.
+  bool IsCopy(std::uint64_t sender, const clock_report_t& message) const;
+  /// This host has other addresses than before.
+  void SetOwnAddresses(std::set<std::uint32_t> addresses) { own_addresses_ = std::move(addresses); }
+
   /// How far our clock is ahead of the reference: of all clocks heard in the last kForgotten and ours, that
-  /// of the lowest number, so that all who hear each other mean the same one. nullopt while it is not known.
+  /// of the lowest number, so that all who hear each other mean the same one. nullopt while it is not known,
+  /// and while another host uses our number.
   std::optional<ClockDifference> AheadOfReference(Time now) const;
 
   /// What this process tells the others, to be sent at `now`; without the name of its host.
@@ -77,6 +84,8 @@ class PeerClocks {
   std::map<std::int32_t, Peer> peers_;
   std::map<std::uint64_t, std::int32_t> by_sender_;
   std::map<std::uint32_t, std::int32_t> by_address_;
+  std::map<std::uint64_t, std::string> copies_;  ///< senders with our number at other hosts, whose names
+  Time copy_heard_{};
 };
 
 }  // namespace priamos::bus

@@ -38,8 +38,12 @@ HostIdentity ThisHost() {
   host.boot = BootId();
   struct stat network {};
   stat("/proc/self/ns/net", &network);
-  host.id = IdentityOf(fmt::format("{} {}", host.boot, network.st_ino));
+  host.network = network.st_ino;
   return host;
+}
+
+std::int32_t HostIdentity::IdAt(std::string_view address) const {
+  return IdentityOf(fmt::format("{} {} {}", boot, network, address));
 }
 
 }  // namespace priamos::bus

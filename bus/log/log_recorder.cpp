@@ -19,7 +19,8 @@ constexpr std::size_t kBufferBytes = 1 << 16;
 constexpr Duration kFlushPeriod = std::chrono::milliseconds(200);
 constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
 constexpr Duration kRetryPeriod = std::chrono::seconds(1);
-constexpr std::uint64_t kWorthARetry = 1 << 20;  // free bytes; with less the next file would end at once
+constexpr std::uint64_t kMegabyte = 1'000'000;
+constexpr std::uint64_t kWorthARetry = kMegabyte;  // free bytes; with less the next file would end at once
 
 /// Writes all of it; on failure `written` is the number of bytes that were written.
 bool WriteAll(int fd, std::string_view bytes, std::size_t& written) {
@@ -85,7 +86,8 @@ void LogRecorder::DeleteOldest() {
 }
 
 void LogRecorder::Fail(const std::string& what) {
-  alarm_ = fmt::format("{}: recording stopped: {}", file().string(), what);
+  alarm_ = fmt::format("{}: recording stopped: {}; goes on when {} MB are free", file().string(), what,
+                       (limits_.keep_free_bytes + kWorthARetry) / kMegabyte);
   lost_ += event_ends_.size();
   buffer_.clear();
   event_ends_.clear();
@@ -173,7 +175,7 @@ void LogRecorder::WatchFreeSpace() {
     DeleteOldest();
   if (EnoughIsFree(limits_.keep_free_bytes)) return;
   Flush();
-  if (fd_ >= 0) Fail(fmt::format("less than {} MB are free", limits_.keep_free_bytes / 1'000'000));
+  if (fd_ >= 0) Fail(fmt::format("less than {} MB are free", limits_.keep_free_bytes / kMegabyte));
 }
 
 void LogRecorder::Tick(Time now) {

@@ -24,7 +24,9 @@ struct RecorderLimits {
 
 /// Records a bus into log files that every LCM tool reads. It never blocks for longer than a write, never
 /// throws after the start, and a file always ends with a whole event: one that a full disk cut off is
-/// removed. After a failure it reports why (alarm()), counts what it loses, and tries again once per second.
+/// removed. After a failure it reports why (alarm()), counts what it loses, looks once per second whether a
+/// megabyte more than `keep_free_bytes` is free, and then tries again: with less the next file would end at
+/// once.
 ///
 /// `path` is the first file; files after it are called `path` with .1, .2 ... before the extension.
 class LogRecorder {

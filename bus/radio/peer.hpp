@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "bus/radio/bundle_builder.hpp"
+#include "bus/radio/channels/listeners.hpp"
 #include "bus/radio/frame_ack.hpp"
 #include "bus/radio/handshake.hpp"
-#include "bus/radio/listeners.hpp"
 #include "bus/radio/next_key.hpp"
 
 namespace priamos::bus::radio {

@@ -107,6 +107,18 @@ std::string NetworkOf(const std::string& url) {
   return ParameterOf(url, "network");
 }
 
+BusDeparture DepartureOf(const std::string& url) {
+  if (!url.starts_with("udpm://")) return {};
+  const std::string network = NetworkOf(url);
+  const std::string way = network.empty() ? InterfaceOfRoute(GroupOf(url)) : network;
+  for (const NetworkInterface& one : NetworkInterfaces()) {
+    const auto& all = one.addresses;
+    if (std::find(all.begin(), all.end(), way) != all.end()) return {one.name, way};
+    if (one.name == way) return {one.name, all.empty() ? "" : all.front()};
+  }
+  return {};  // it was unplugged
+}
+
 std::string WithNetwork(const std::string& url, const std::string& network) {
   if (network.empty() || !url.starts_with("udpm://") || !NetworkOf(url).empty()) return url;
   return fmt::format("{}{}network={}", url, url.find('?') == std::string::npos ? '?' : '&', network);

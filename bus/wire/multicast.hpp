@@ -20,6 +20,13 @@ int TtlOf(const std::string& url);
 /// route for multicast decides.
 std::string NetworkOf(const std::string& url);
 
+/// By what messages of a bus leave this host; empty when there is no way, or it is no bus between hosts.
+struct BusDeparture {
+  std::string interface;  ///< "eth1"
+  std::string address;    ///< IPv4 that the others see as their sender
+};
+BusDeparture DepartureOf(const std::string& url);
+
 /// A `udpm://` URL that names `network`, unless it names one already or `network` is empty. Any other URL as
 /// it is.
 std::string WithNetwork(const std::string& url, const std::string& network);

@@ -43,7 +43,7 @@ TEST_F(ProbeAnswererTest, AnswersWhoAsksAndSaysWhereItIs) {
   EXPECT_EQ(answers[0].number, 1);
   EXPECT_EQ(answers[0].process, "robot");
   EXPECT_EQ(answers[0].host, ThisHost().name);
-  EXPECT_EQ(answers[0].host_id, ThisHost().id);
+  EXPECT_EQ(answers[0].host_id, ThisHost().IdAt(""));
   EXPECT_EQ(answers[0].utime, 1'000'000'000);
   EXPECT_FALSE(answers[0].alone);
 }

@@ -43,6 +43,7 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/bus/radio/stop_on_bad_line_test", "an accident of both ends"},
     {"test/bus/radio/tiny/tiny_end_test", "the end in C beside one in C++"},
     {"test/bus/radio/tiny/tiny_frame_test", "the end in C against the vectors of the protocol's document"},
+    {"test/bus/radio/tiny/tiny_hostile_test", "the end in C on a line on which somebody sits"},
     {"test/bus/radio/tiny/tiny_size_test", "the end in C as a microcontroller has it"},
     {"test/bus/schema/mutation_test", "damaged bytes in every decoder of the room"},
     {"test/cli/laser_in_the_world_test", "head and world together"},

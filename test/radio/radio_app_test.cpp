@@ -72,15 +72,19 @@ TEST_F(RadioAppTest, ACommandThatIsTooOldOnTheBusIsNotSent) {
   command.time_to_live_s = 0.25;
   int expired = 0;
   for (const int age_us : {0, 100'000, 300'000, 60'000'000, -1'000'000}) {
-    command.utime = ToUtime(lockstep.now()) - age_us;
+    const std::int64_t offered = ToUtime(lockstep.now());
+    command.utime = offered - age_us;
     ++command.sequence;
     publisher.Publish(command);
     Run(1.1);
     const auto came = commands.Drain();
     ASSERT_EQ(came.size(), age_us < 200'000 ? 1u : 0u) << age_us;
-    for (const drive_command_t& arrived : came)
+    for (const drive_command_t& arrived : came) {
       EXPECT_LE(arrived.utime, std::min(command.utime, ToUtime(lockstep.now())) + 1000)
           << "never younger than it is";
+      EXPECT_GE(arrived.utime, std::min(command.utime, offered) - 70'000)
+          << "nor older by the step of its stamp, 0.1 s: of what counts from it nothing is rounded";
+    }
     expired += age_us > 200'000 ? 1 : 0;
     EXPECT_EQ(status.get()->dropped, expired) << age_us;
   }

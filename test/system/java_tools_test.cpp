@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -55,8 +56,13 @@ class JavaTools : public testing::Test {
     return RunInPrivateNetwork(script.str(), folder_ / "script.sh", 60);
   }
   TemporaryFolder folder_;
-  std::string picture_ = std::string(PRIAMOS_BINARY_DIR "/test/screenshots/") +
-                         testing::UnitTest::GetInstance()->current_test_info()->name() + ".png";
+  /// The name of a test with a parameter has a slash in it.
+  static std::string PictureName() {
+    std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::replace(name.begin(), name.end(), '/', '-');
+    return name + ".png";
+  }
+  std::string picture_ = std::string(PRIAMOS_BINARY_DIR "/test/screenshots/") + PictureName();
 };
 
 struct SpyRow {
@@ -77,10 +83,13 @@ std::map<std::string, SpyRow> SpyRows(const std::string& text) {
   return rows;
 }
 
-TEST_F(JavaTools, LcmSpyDecodesEveryChannelAndDrawsTheSonarRing) {
-  const auto answer = RunProbe("SpyProbe", "lcm.spy.SpyProbe '" + kUrl + "' 7",
-                               "(sleep 2.5; exec $BIN/priamos log play run.lcmlog --speed 4 --loop --bus '" +
-                                   kUrl + "') > played 2>&1 & player=$!",
+/// A recorded door run that somebody plays, as a person who looks at a log has it.
+class SpyOnALog : public JavaTools, public testing::WithParamInterface<const char*> {};
+
+TEST_P(SpyOnALog, LcmSpyDecodesEveryChannelAndDrawsTheSonarRing) {
+  const auto answer = RunProbe("SpyProbe", "lcm.spy.SpyProbe '" + kUrl + "' 5",
+                               "export LCM_DEFAULT_URL='" + kUrl + "'\n(sleep 2.5; exec " +
+                                   std::string(GetParam()) + ") > played 2>&1 & player=$!",
                                "kill -INT $player 2>/dev/null; wait $player");
   ASSERT_EQ(answer.exit_code, 0) << answer.text;
   const auto rows = SpyRows(answer.text);
@@ -94,6 +103,12 @@ TEST_F(JavaTools, LcmSpyDecodesEveryChannelAndDrawsTheSonarRing) {
   EXPECT_GT(fs::file_size(picture_), 10'000u);
   std::cout << "screenshot: " << picture_ << "\n";
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Player, SpyOnALog,
+    testing::Values("$BIN/priamos log play run.lcmlog --speed 4 --loop --bus $LCM_DEFAULT_URL",
+                    "lcm-logplayer -s 4 run.lcmlog"),
+    [](const auto& info) { return info.index == 0 ? "OfPriamos" : "OfLcm"; });
 
 TEST_F(JavaTools, TheLogPlayersWindowPlaysEveryChannelOfOurLogs) {
   const auto answer =

@@ -115,7 +115,8 @@ def offer(end, line, now):
         packed, bits = pack(end.table.channels[index], message, utime - age_us)
         made = now - age_us / 1e6
     if bits > 8 * len(packed) or not end.offer(index, packed, bits, now, made):
-        raise ValueError(f"{data['channel']}: expected a message that this end sends, of its size, got {bits} bits")
+        raise ValueError(f"{data['channel']}: expected a message that this end sends, of its size, and room for it, got "
+                         f"{bits} bits")
 
 
 def complain(text):

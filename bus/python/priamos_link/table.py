@@ -100,11 +100,24 @@ def age_of(channel, values, now_us):
     return max(0, now_us - stamp) if isinstance(stamp, int) and stamp else 0
 
 
+def _stop_to_send(struct, values):
+    """A STOP whose driver is none, with the nearest one: not to send it is the unsafe side. None for other messages, a
+    REARM above all."""
+    stop, driver = values.get("action") == 1, values.get("driver", 0)
+    if struct.name != "estop_t" or not stop or not isinstance(driver, int):
+        return None
+    limits = next(f.annotation for f in struct.fields if f.name == "driver")
+    return {**values, "driver": max(int(limits.min.value), min(int(limits.max.value), driver))}
+
+
 def pack(channel, values, now_us):
-    """Bytes and bits of a message; fields that are left out are 0 or empty, time stamps now. Raises ValueError."""
+    """Bytes and bits of a message; fields that are left out are 0 or empty, time stamps now. A STOP is sent
+    with the nearest driver. Raises ValueError."""
     if channel.packer is None:
         raise ValueError(f'{channel.name}: expected "hex" and "bits": the table does not say its type')
-    packed = channel.packer.pack(filled(channel.packer.struct, values, now_us), now_us)
+    struct = channel.packer.struct
+    values = _stop_to_send(struct, values) or values
+    packed = channel.packer.pack(filled(struct, values, now_us), now_us)
     if packed.refused:
         raise ValueError(f"{channel.name}: expected values within their range, got another one in {packed.refused[0]}")
     return packed.bytes, packed.bits

@@ -59,7 +59,8 @@ class EpochAgreement {
   Change OnHello(const Hello& hello, bool same_table = true, bool heard = false);
   /// Notes a data frame in the epoch in use: who asked before it is not the other end.
   void OnData();
-  /// The next hello to send, table hash and stream left to the caller. It answers whoever asks.
+  /// The next hello to send, table hash and stream left to the caller. It answers whoever asks, or ends the
+  /// agreement.
   Hello Compose(bool need);
 
  private:
@@ -70,6 +71,9 @@ class EpochAgreement {
   std::uint64_t own_;
   bool used_ = false;                    ///< own_ has proven a hello: it proves no other
   std::optional<Pair> agreed_;           ///< of the epoch in use, when it was agreed on in this life
+  bool confirmed_ = false;               ///< data of it has come
+  bool owes_last_ = false;               ///< the other end waits for the hello that ends the agreement
+  bool answered_last_ = true;            ///< the last hello was another one
   std::optional<std::uint64_t> asking_;  ///< number of an end that asked since; not proven
   /// Those answered last: a replay does not keep one from its answer that was never heard before.
   LastNonces answered_;

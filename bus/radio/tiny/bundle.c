@@ -25,8 +25,8 @@ static bool TakeBody(pr_bit_reader* in, const pr_channel* c, uint8_t* body, size
   return true;
 }
 
-static void Deliver(pr_end* end, size_t channel, const uint8_t* packed, size_t bits, uint64_t time_us,
-                    uint64_t valid_until_us) {
+void pr_deliver(pr_end* end, size_t channel, const uint8_t* packed, size_t bits, uint64_t time_us,
+                uint64_t valid_until_us) {
   const pr_delivery delivery = {channel, packed, bits, time_us, valid_until_us};
   end->config->deliver(end->config->user, &delivery);
 }
@@ -43,47 +43,8 @@ static void OnCommand(pr_end* end, size_t channel, int offset, const uint8_t* pa
   const int64_t offset_us = steps >= 0 ? steps * ttl_us / 32 : -((-steps * ttl_us + 31) / 32);
   const int64_t offered_us = (int64_t)arrival->now_us - (int64_t)ago_us + offset_us;
   if (offered_us + ttl_us < (int64_t)arrival->now_us) return;
-  Deliver(end, channel, packed, bits, offered_us < 0 ? 0 : (uint64_t)offered_us,
+  pr_deliver(end, channel, packed, bits, offered_us < 0 ? 0 : (uint64_t)offered_us,
           (uint64_t)(offered_us + ttl_us));
-}
-
-static void OnEvent(pr_end* end, size_t channel, uint8_t number, bool base, const uint8_t* packed,
-                    size_t bits, uint64_t time_us) {
-  if (!end->memory.known[channel]) {
-    if (!base) return;
-    end->memory.known[channel] = 1;
-    end->memory.next[channel] = number;
-    end->memory_dirty = true;
-  }
-  end->event_ack_due[channel] = true;
-  const uint8_t ahead = (uint8_t)(number - end->memory.next[channel]);
-  if (ahead >= 128) return; /* delivered before: its acknowledgement was lost */
-  /* One that is not the oldest waits for those before it, and comes again. */
-  if (ahead > 0 && !base) return;
-  end->memory.next[channel] = (uint8_t)(number + 1);
-  end->memory_dirty = true;
-  Deliver(end, channel, packed, bits, time_us, 0);
-}
-
-/* A run of segments of one channel, each a whole event; false when it cannot be read. */
-static bool TakeEvents(pr_end* end, pr_bit_reader* in, size_t channel, const pr_arrival* arrival) {
-  const pr_channel* c = &end->config->channels[channel];
-  uint8_t number = (uint8_t)pr_get(in, 8);
-  bool base = pr_get(in, 1) != 0;
-  for (;; ++number, base = false) {
-    const bool fixed = c->fixed_bits > 0;
-    const bool first = fixed || pr_get(in, 1) != 0;
-    const bool last = fixed || pr_get(in, 1) != 0;
-    const uint64_t age_us = first ? pr_decode_duration((uint16_t)pr_get(in, 12)) : 0;
-    const size_t bits = fixed ? c->fixed_bits : 8 * (last ? (size_t)pr_get(in, 5) : PR_SEGMENT);
-    uint8_t packed[(8 * 31) / 8];
-    if (bits > 8 * sizeof packed || in->at + bits > in->size) return false;
-    pr_get_bytes(in, packed, bits);
-    const uint64_t time_us = arrival->now_us > age_us ? arrival->now_us - age_us : 0;
-    /* A number of long ago may name another event; this one is repeated. */
-    if (first && last && arrival->behind <= 1) OnEvent(end, channel, number, base, packed, bits, time_us);
-    if (c->urgent || in->at >= in->size || pr_get(in, 1) == 0) return true;
-  }
 }
 
 static bool TakeMessage(pr_end* end, pr_bit_reader* in, size_t channel, const pr_arrival* arrival) {
@@ -91,13 +52,13 @@ static bool TakeMessage(pr_end* end, pr_bit_reader* in, size_t channel, const pr
   uint8_t body[PR_MAX_BUNDLE];
   size_t bits = 0;
   if (c->direction != PR_DOWN) return false;
-  if (c->channel_class == PR_EVENT) return TakeEvents(end, in, channel, arrival);
+  if (c->channel_class == PR_EVENT) return pr_take_events(end, in, channel, arrival);
   const int offset = c->channel_class == PR_COMMAND ? (int)pr_get(in, 6) : 0;
   if (!TakeBody(in, c, body, &bits)) return false;
   if (c->channel_class == PR_COMMAND)
     OnCommand(end, channel, offset, body, bits, arrival);
   else if (arrival->ahead > 0)
-    Deliver(end, channel, body, bits, arrival->now_us, 0);
+    pr_deliver(end, channel, body, bits, arrival->now_us, 0);
   return true;
 }
 

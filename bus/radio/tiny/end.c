@@ -155,7 +155,10 @@ static void PutAcknowledgements(pr_end* end, pr_bit_writer* w, uint64_t now_us) 
     PutControl(end, w, PR_EVENT_ACK);
     pr_put(w, i + 1, end->id_bits);
     pr_put(w, end->memory.next[i], 8);
-    pr_put(w, 0, 6 + 1);
+    const uint16_t held = pr_held_behind_next(end, i);
+    pr_put(w, 0, 6); /* the next one is missing */
+    pr_put(w, held != 0, 1);
+    if (held != 0) pr_put(w, held, 16);
     end->event_ack_due[i] = false;
   }
 }

@@ -32,8 +32,10 @@ void pr_hello_init(pr_end* end, uint64_t now_us) {
 
 static void ChangeEpoch(pr_end* end, uint32_t peer_stream) {
   end->memory.epoch = pr_epoch_of(&end->scope, end->hello.agreed_own, end->hello.agreed_peer);
-  if (peer_stream != end->memory.peer_stream)
+  if (peer_stream != end->memory.peer_stream) {
     for (size_t i = 0; i < PR_MAX_CHANNELS; ++i) end->memory.known[i] = 0;
+    pr_forget_held(end);
+  }
   end->memory.peer_stream = peer_stream;
   end->memory.send_bound = 1;
   end->memory.floor_bound = 0;

@@ -1,6 +1,7 @@
 #ifndef PR_PARTS_H
 #define PR_PARTS_H
 
+#include "bits.h"
 #include "priamos_radio.h"
 
 /* What the parts of an end are to each other. */
@@ -37,12 +38,20 @@ typedef struct {
 /* Takes the entries of a bundle; what cannot be read ends it. */
 void pr_take_bundle(pr_end* end, const uint8_t* bundle, size_t n, const pr_arrival* arrival);
 
+void pr_deliver(pr_end* end, size_t channel, const uint8_t* packed, size_t bits, uint64_t time_us,
+                uint64_t valid_until_us);
+
+/* A run of segments of one channel, each a whole event; false when it cannot be read. */
+bool pr_take_events(pr_end* end, pr_bit_reader* in, size_t channel, const pr_arrival* arrival);
+/* Bit i: event i + 1 behind the next one of the channel is here already. */
+uint16_t pr_held_behind_next(const pr_end* end, size_t channel);
+void pr_forget_held(pr_end* end);
+
 /* Durations in 12 bits: exponent of 4 and mantissa, in ms. */
 uint16_t pr_encode_duration(uint64_t us);
 uint64_t pr_decode_duration(uint16_t code);
 
 /* Entries of control, by their number in a bundle. */
 enum { PR_FRAME_ACK, PR_EVENT_ACK, PR_FLOOR, PR_LISTEN, PR_OVER, PR_FORGET, PR_NEXT_KEY };
-enum { PR_SEGMENT = 26 };
 
 #endif

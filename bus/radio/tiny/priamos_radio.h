@@ -20,6 +20,9 @@
 #ifndef PR_STATE_BYTES /* longest of them, packed */
 #define PR_STATE_BYTES 64
 #endif
+#ifndef PR_HELD /* events that are kept until one before them has come, 40 bytes each */
+#define PR_HELD 8
+#endif
 #if PR_STATE_BYTES > 112
 #error "PR_STATE_BYTES: expected at most 112, what fits a frame"
 #endif
@@ -77,6 +80,16 @@ typedef struct {
   uint8_t next;
 } pr_nonces;
 
+enum { PR_EVENT_BYTES = 26 }; /* longest event, packed */
+
+/* An event that came before one that is missing. */
+typedef struct {
+  uint64_t time_us;
+  uint8_t channel, number, bits;
+  bool used;
+  uint8_t packed[PR_EVENT_BYTES];
+} pr_held;
+
 /* One end. Its members are its own; they are here so that the caller can place it. */
 typedef struct {
   const pr_config* config;
@@ -115,6 +128,7 @@ typedef struct {
     uint8_t unacknowledged;
   } ack;
   bool event_ack_due[PR_MAX_CHANNELS];
+  pr_held held[PR_HELD];
   uint64_t wanted; /* bit i: somebody listens to channel i */
 
   uint64_t save_at_us; /* not before, after it failed */

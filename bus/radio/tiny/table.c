@@ -56,7 +56,7 @@ static bool Serves(const pr_channel* c) {
   if (c->channel_class == PR_DELTA_STATE && (c->direction == PR_DOWN || c->widths == 0)) return false;
   if (c->channel_class == PR_COMMAND) return c->direction == PR_DOWN && c->ttl_us > 0;
   /* An event that comes must be one segment. */
-  return c->channel_class != PR_EVENT || c->direction == PR_UP || c->max_bits <= 8 * PR_SEGMENT;
+  return c->channel_class != PR_EVENT || c->direction == PR_UP || c->max_bits <= 8 * PR_EVENT_BYTES;
 }
 
 /* Of so many frames, 32 bits of time tell when each was handed over. */

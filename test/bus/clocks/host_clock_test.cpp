@@ -27,6 +27,13 @@ TEST_F(HostClockTest, TwoOfOneHostSayTheSame) {
   EXPECT_LE(first.Now(), second.Now());
 }
 
+/// Two that were copied while they ran have one boot and one anchor.
+TEST_F(HostClockTest, OfMachinesAtDifferentAddressesAreDifferent) {
+  const HostClock dut, same;
+  EXPECT_EQ(dut.IdAt("10.77.0.1"), same.IdAt("10.77.0.1"));
+  EXPECT_NE(dut.IdAt("10.77.0.1"), same.IdAt("10.77.0.2"));
+}
+
 TEST_F(HostClockTest, TheFirstOneIsTheWallClock) {
   const HostClock dut;
   EXPECT_LT(std::chrono::abs(dut.WallAhead()), seconds(1));

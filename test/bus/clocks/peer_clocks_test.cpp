@@ -124,6 +124,23 @@ TEST_F(TwoHosts, TwoClocksAtOneAddressAreToldApartByTheirSockets) {
   EXPECT_EQ(base_.ClockOf(kVisionSocket, now_).kind, Kind::kKnown);
 }
 
+/// A machine that was copied while it ran goes on with the number of the other one.
+TEST_F(TwoHosts, OurNumberAtAnotherHostIsNoClockOfOurs) {
+  PeerClocks copy(kBase, {kVisionAddress});
+  clock_report_t message = copy.Report(now_ + kAhead);
+  message.host = "base";
+  ASSERT_TRUE(base_.IsCopy(kVisionSocket, message));
+  EXPECT_FALSE(base_.Hear(kVisionSocket, message, now_));
+  EXPECT_EQ(base_.ClockOf(kVisionSocket, now_).kind, Kind::kCopied);
+  EXPECT_EQ(base_.ClockOf(kVisionSocket, now_).host, "base");
+  EXPECT_EQ(base_.AheadOfReference(now_), std::nullopt) << "which of the two is meant, nobody can tell";
+
+  base_.SetOwnAddresses({kBaseAddress, kVisionAddress});
+  EXPECT_FALSE(base_.Hear(kVisionSocket, message, now_)) << "it was an address of this host that is new";
+  EXPECT_EQ(base_.ClockOf(kVisionSocket, now_).kind, Kind::kOurs);
+  EXPECT_NE(base_.AheadOfReference(now_), std::nullopt);
+}
+
 TEST_F(TwoHosts, OfManyClocksTheFirstAreUsedAndTheSilentOnesMakeRoom) {
   clock_report_t message{};
   message.utime = ToUtime(now_);

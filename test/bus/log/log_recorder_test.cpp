@@ -199,6 +199,7 @@ TEST_F(RecorderTest, NoNewFileIsBegunWhereItWouldEndAtOnce) {
   }
   const std::string alarm = dut.alarm();
   EXPECT_NE(alarm.find("recording stopped"), std::string::npos) << alarm;
+  EXPECT_NE(alarm.find("; goes on when 1 MB are free"), std::string::npos) << alarm;
   std::filesystem::remove_all(logs);
   std::filesystem::create_symlink("/proc", logs);  // where 0 bytes are free
   Record(dut, 200);

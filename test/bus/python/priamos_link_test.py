@@ -9,12 +9,14 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "bus/python"))
+sys.path.insert(0, str(ROOT / "test/bus/python"))
 
 import priamos_bus as bus  # noqa: E402
 from priamos_link import bundle, frames  # noqa: E402
 from priamos_link.__main__ import offer  # noqa: E402
 from priamos_link.end import End  # noqa: E402
 from priamos_link.table import Channel, Table, pack, unpack  # noqa: E402
+from link_tables import table_of  # noqa: E402
 
 VECTORS = dict(re.findall(r"^(\w+) = (\S+)$", (ROOT / "bus/radio/PROTOCOL.md").read_text(), re.M))
 
@@ -123,24 +125,9 @@ class Fields(unittest.TestCase):
             pack(channel, {"mode": 7}, 0)
 
 
-def table_of_two():
-    data = {"encrypted": False, "code_bytes": 4, "baud": 9600, "bytes_per_s": 960, "table_hash": "0", "channels": [
-        {"name": "POSE", "meaning": "1" * 16, "direction": "up", "class": "state", "fixed_bits": 83, "max_bits": 83,
-         "ttl_us": 0, "urgent": False, "delta": []},
-        {"name": "PATH", "meaning": "2" * 16, "direction": "down", "class": "event", "fixed_bits": 0,
-         "max_bits": 800, "ttl_us": 0, "urgent": False, "delta": []},
-        {"name": "DRIVE", "meaning": "3" * 16, "direction": "down", "class": "command", "fixed_bits": 40,
-         "max_bits": 40, "ttl_us": 250000, "urgent": False, "delta": []}]}
-    try:
-        Table(json.dumps(data))
-    except ValueError as error:
-        data["table_hash"] = re.search(r"hash ([0-9a-f]{8})", str(error))[1]
-    return Table(json.dumps(data))
-
-
 class TwoEnds(unittest.TestCase):
     def run_ends(self, seconds, loss=0.0, delay=0.0, seed=1):
-        rng, table, now = random.Random(seed), table_of_two(), 100.0
+        rng, table, now = random.Random(seed), table_of("POSE", "PATH", "DRIVE"), 100.0
         ends = [End(table, bytes(range(32)), onboard, lambda: rng.getrandbits(64), now) for onboard in (True, False)]
         air, got, sent, offered = [[], []], [], [], {}
         for step in range(int(seconds * 1000)):
@@ -174,7 +161,7 @@ class TwoEnds(unittest.TestCase):
                 self.assertEqual(ages, [])
 
     def agree(self):
-        rng, table, now = random.Random(1), table_of_two(), 100.0
+        rng, table, now = random.Random(1), table_of("POSE", "PATH", "DRIVE"), 100.0
         ends = [End(table, bytes(range(32)), onboard, lambda: rng.getrandbits(64), now) for onboard in (True, False)]
         for _ in range(2000):
             now += 0.001
@@ -252,7 +239,7 @@ class TwoEnds(unittest.TestCase):
             Table("[" * 100_000)
 
     def test_garbage_is_refused(self):
-        rng, table = random.Random(3), table_of_two()
+        rng, table = random.Random(3), table_of("POSE", "PATH", "DRIVE")
         end = End(table, bytes(range(32)), True, lambda: rng.getrandbits(64), 0.0)
         for _ in range(2000):
             self.assertEqual(end.receive(rng.randbytes(rng.randrange(60)) + b"\0", 1.0), [])

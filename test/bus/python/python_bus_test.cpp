@@ -199,7 +199,8 @@ TEST(PythonBus, ForgedAndLatin1DefinitionsAreReadAsExportDoes) {
 }
 
 TEST(PythonBus, ItsOwnTestsPass) {
-  for (const std::string script : {"priamos_bus_test.py", "priamos_link_test.py"}) {
+  for (const std::string script :
+       {"priamos_bus_test.py", "priamos_link_test.py", "priamos_link_attack_test.py"}) {
     const auto ran = Python("test/bus/python/" + script);
     EXPECT_EQ(ran.exit_code, 0) << ran.text;
     EXPECT_THAT(ran.text, HasSubstr("\nOK"));

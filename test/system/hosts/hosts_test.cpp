@@ -178,6 +178,38 @@ TEST_F(Hosts, AClockThatIsASecondAheadIsMeasuredAndItsStampsAreTranslated) {
   EXPECT_GT(std::stod(Part(answer, "odometry")), 1e15) << answer.text;
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// Virtual machines of one snapshot: one boot, one anchor, one name; their clocks have drifted apart.
+TEST_F(Hosts, ClocksOfCopiedMachinesAreToldApart) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes no library that is loaded before it";
+  const auto answer = RunOnHosts("SHIM=" PRIAMOS_BINARY_DIR
+                                 "/test/libother_clock.so\n"
+                                 R"sh(
+    host base 10.77.0.1; host copy 10.77.0.2; on copy hostname base
+    export PRIAMOS_BUS=onboard PRIAMOS_TTL=1 PRIAMOS_NETWORK=eth9 PRIAMOS_RUNTIME=$DIR/snapshot
+    ENV_copy="LD_PRELOAD=$SHIM OTHER_CLOCK_AHEAD_S=2"
+    start base timeout 30 $BIN/priamos topic echo ODOMETRY utime --count 100 > $DIR/odometry 2> /dev/null; HERE=$STARTED
+    start copy timeout 30 $BIN/priamos topic echo WHEEL_STATE utime --count 100 > $DIR/wheels 2> /dev/null; THERE=$STARTED
+    start copy $BIN/priamos-world --config $SIM/world.toml 2> /dev/null
+    start base $BIN/priamos-robot --config $SIM/robot.toml 2> /dev/null
+    wait $HERE $THERE
+    echo "--- odometry"; tail -1 $DIR/odometry; echo "--- wheels"; tail -1 $DIR/wheels
+    echo "--- probe"; on base $BIN/priamos doctor --probe --seconds 1 | grep 'host base'
+    echo "--- end"; ls $DIR/snapshot
+  )sh");
+  const double odometry_s = std::atof(Part(answer, "odometry").c_str()) / 1e6,
+               wheels_s = std::atof(Part(answer, "wheels").c_str()) / 1e6;
+  ASSERT_GT(odometry_s, 1e9) << answer.text;
+  EXPECT_NEAR(wheels_s - odometry_s, 2, 0.9)
+      << "odometry has the stamp of the wheels, by the clock of its own host; " << answer.text;
+  EXPECT_THAT(Part(answer, "probe"), ContainsRegex("its clock is (2.0000|1.9[0-9]*|2.00[0-9]*) s ahead"));
+}
+
 TEST_F(Hosts, TheDoorIsPassedWithProcessesOnThreeComputersOfDifferentClocks) {
   const auto answer =
       RunShell("timeout 120 " PRIAMOS_SOURCE_DIR "/scripts/door-over-hosts --clocks 1 --seed 3 --into '" +
@@ -319,12 +351,6 @@ TEST_F(Hosts, LcmsDefaultAddressIsNeverOursSilently) {
   EXPECT_THAT(Part(answer, "lcms"), HasSubstr("next: --bus onboard"));
   EXPECT_THAT(Part(answer, "ours"), Not(HasSubstr("every LCM program")));
 }
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 /// The wall clock cannot be set by a test, so the second process is shown another one: libother_clock.
 TEST_F(Hosts, AWallClockThatIsSetBetweenTwoStartsLeavesStampsAligned) {

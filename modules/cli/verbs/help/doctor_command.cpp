@@ -62,8 +62,8 @@ struct ExaminedBus {
 };
 
 ExaminedBus BusOf(const DoctorOptions& options) {
-  const bool asks = options.probe || !options.expected.empty();
-  if (options.deployment.empty()) return {options.bus.Url(), asks};
+  const bool expects = !options.expected.empty();
+  if (options.deployment.empty()) return {options.bus.Url(), expects};
   const std::filesystem::path folder = FolderOfDeployment(options.deployment);
   auto deployment = LoadConfig<Deployment>((folder / "deployment.toml").string());
   std::string& network =
@@ -72,8 +72,8 @@ ExaminedBus BusOf(const DoctorOptions& options) {
   std::set<std::string> hosts;
   for (const ScenarioProcess& process : deployment.processes)
     if (process.bus == options.bus.bus) hosts.insert(process.host);
-  if (options.bus.bus == "onboard") return {deployment.OnboardUrl(), asks || hosts.size() > 1};
-  if (options.bus.bus == "offboard") return {deployment.OffboardUrl(), asks || hosts.size() > 1};
+  if (options.bus.bus == "onboard") return {deployment.OnboardUrl(), expects || hosts.size() > 1};
+  if (options.bus.bus == "offboard") return {deployment.OffboardUrl(), expects || hosts.size() > 1};
   throw bus::BusError(
       fmt::format("--bus: expected onboard or offboard with --deployment, got \"{}\"", options.bus.bus));
 }

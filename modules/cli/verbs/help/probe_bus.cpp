@@ -70,7 +70,7 @@ class Asker {
  private:
   HostProbe::Self Self() const {
     const probe_t own = bus::MakeProbe(host_, kWho, url_, clock_.Now());
-    HostProbe::Self self{host_.id, instance_, {}, own.network, own.ttl, url_};
+    HostProbe::Self self{own.host_id, instance_, {}, own.network, own.ttl, url_};
     for (const auto& interface : bus::NetworkInterfaces())
       self.addresses.insert(interface.addresses.begin(), interface.addresses.end());
     return self;

@@ -94,19 +94,32 @@ void RequireEventsOfEither(const MergeOptions& options) {
   RequireEvents(options.second, options.out, "merge", is_message);
 }
 
+/// The clock of the offboard log in that of the onboard one.
+bus::ClockFit FitBoth(const MergeOptions& options) {
+  bus::LogReader onboard(options.log), offboard(options.second);
+  return Clocks(options, onboard, offboard);
+}
+
+/// Says which of the logs had damage that is not in the new one.
+void ReportDamage(const std::string& log, const bus::LogReader& reader) {
+  if (reader.damaged_places() > 0) std::cerr << log << ": " << LeftOut(reader) << "\n";
+}
+
 int Merge(const MergeOptions& options) {
   RequireTwoLogs(options);
-  bus::LogReader onboard(options.log), offboard(options.second);
   RequireNewFile(options.out, options.log, options.force);
   RequireNewFile(options.out, options.second, options.force);
   RequireNamesFit(options);
   RequireEventsOfEither(options);
-  const auto fit = Clocks(options, onboard, offboard);
+  const auto fit = FitBoth(options);
   RequireTimesFit(options, fit);
   NewFile place(options.out);
   bus::LogWriter writer(place.written());
+  bus::LogReader onboard(options.log), offboard(options.second);
   const auto events = bus::MergeLogs(onboard, offboard, fit, options.prefix, writer);
   Finish(writer, options.out, place);
+  ReportDamage(options.log, onboard);
+  ReportDamage(options.second, offboard);
   const nlohmann::ordered_json json{{"events", events},
                                     {"offset_s", fit.offset_us * 1e-6},
                                     {"drift_ppm", fit.drift * 1e6},
@@ -114,7 +127,9 @@ int Merge(const MergeOptions& options) {
                                     {"outliers", fit.outliers},
                                     {"spread_s", fit.spread_us * 1e-6},
                                     {"both_directions", fit.both_ways},
-                                    {"asymmetry_s", fit.asymmetry_us * 1e-6}};
+                                    {"asymmetry_s", fit.asymmetry_us * 1e-6},
+                                    {"damaged_places", onboard.damaged_places() + offboard.damaged_places()},
+                                    {"skipped_bytes", onboard.skipped_bytes() + offboard.skipped_bytes()}};
   if (options.json) {
     std::cout << json.dump() << "\n";
     return 0;

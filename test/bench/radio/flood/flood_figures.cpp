@@ -2,70 +2,31 @@
 // processes: run it with scripts/in-private-network.
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <thread>
 
 #include "bus/clocks/clock.hpp"
-#include "bus/schema/json.hpp"
 #include "bus/schema/schema.hpp"
-#include "bus/type_files.hpp"
-#include "bus/wire/bus_address.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "cli/supervise/supervisor.hpp"
 #include "test/bench/radio/figures.hpp"
 #include "test/bench/radio/flood/radio_flood.hpp"
+#include "test/bench/radio/flood/restart_figures.hpp"
+#include "test/bench/radio/flood/two_radios.hpp"
 #include "test/support/temporary_folder.hpp"
 
 namespace priamos::bench {
 namespace {
 
-namespace fs = std::filesystem;
-
-const std::string kFolder = std::string(PRIAMOS_SOURCE_DIR) + "/test/bench/radio";
-const std::string kOnboardBus = bus::BusUrl(bus::kDefaultRobot, bus::BusSide::kOnboard, 0);
-const std::string kOffboardBus = bus::BusUrl(bus::kDefaultRobot, bus::BusSide::kOffboard, 0);
-constexpr std::uint16_t kOnboardPort = 7701, kOffboardPort = 7702;
 constexpr Duration kCommandPeriod{100'000};
-
-/// The link.toml of a medium.
-std::string LinkFile(const std::string& folder, bool datagrams) {
-  const std::string path = folder + "/link.toml";
-  std::ifstream from(kFolder + "/flood/link.toml");
-  std::ofstream(path) << "datagrams = " << (datagrams ? "true" : "false") << "\n" << from.rdbuf();
-  return path;
-}
-
-cli::ProcessSpec Radio(const std::string& programs, const std::string& link, const std::string& side,
-                       const std::string& port, const std::string& bus) {
-  return {.name = side,
-          .group = {},
-          .arguments = {programs + "/priamos-radio", "--config", link, "--types", kFolder, "--" + side,
-                        "--port", port, "--bus", bus},
-          .after = {},
-          .notifies = true,
-          .folder = {},
-          .policy = {}};
-}
-
-std::vector<cli::ProcessSpec> Ends(const std::string& programs, const std::string& folder, bool datagrams) {
-  const std::string link = LinkFile(folder, datagrams), local = "127.0.0.1:";
-  const std::string a = std::to_string(kOnboardPort), b = std::to_string(kOffboardPort);
-  return {
-      Radio(programs, link, "onboard", datagrams ? "udp:" + local + b + "@" + a : "tcp::" + a, kOnboardBus),
-      Radio(programs, link, "offboard", datagrams ? "udp:" + local + a + "@" + b : "tcp:" + local + a,
-            kOffboardBus)};
-}
 
 /// Two ends of a link, commands every 100 ms.
 class Driving {
  public:
   Driving(const std::string& programs, bool datagrams)
-      : types_(bus::ReadTypeFiles(kFolder)),
-        onboard_(kOnboardBus),
-        offboard_(kOffboardBus),
+      : types_(FloodTypes()),
+        onboard_(OnboardBus()),
+        offboard_(OffboardBus()),
         processes_(Ends(programs, folder_.path().string(), datagrams), folder_.path().string(),
                    [](const std::string&) {}) {
     onboard_.Subscribe("DRIVE", [this](std::string_view, std::span<const std::byte>) { ++delivered_; });
@@ -98,13 +59,7 @@ class Driving {
   }
 
  private:
-  void Publish(int number) {
-    offboard_.Publish("DRIVE", bus::FromJson(*types_.Find("drive_t"), {{"vx_m_s", 0.01 * (number % 50)},
-                                                                       {"vy_m_s", 0},
-                                                                       {"wz_rad_s", 0},
-                                                                       {"time_to_live_s", 0.2},
-                                                                       {"mode", 1}}));
-  }
+  void Publish(int number) { offboard_.Publish("DRIVE", DriveCommand(types_, number)); }
   void Wait() {
     processes_.Step(clock_.Now());
     onboard_.Drain();
@@ -168,14 +123,22 @@ int main(int argc, char** argv) {
   cli.add_option("--seconds", seconds, "length of each flood")->capture_default_str();
   cli.add_option("--programs", programs, "folder of priamos-radio");
   cli.add_option("--least", least, "share asked for [%]")->capture_default_str();
+  int restarts = 0;
   cli.add_flag("--quick", quick, "only the strongest floods");
+  cli.add_option(
+      "--restarts", restarts,
+      "instead: how long commands stay away when an end is started again, so often, beside replays");
   CLI11_PARSE(cli, argc, argv);
   Figures figures;
   try {
-    Figures::Section("Commands delivered over UDP, datagrams as if from the other end");
-    Measure(figures, programs, true, quick, seconds, least);
-    Figures::Section("Commands delivered over TCP, connections of a stranger");
-    Measure(figures, programs, false, quick, seconds, least);
+    if (restarts > 0) {
+      Restarts(figures, programs, restarts);
+    } else {
+      Figures::Section("Commands delivered over UDP, datagrams as if from the other end");
+      Measure(figures, programs, true, quick, seconds, least);
+      Figures::Section("Commands delivered over TCP, connections of a stranger");
+      Measure(figures, programs, false, quick, seconds, least);
+    }
   } catch (const std::exception& error) {
     std::cerr << "bench_flood: " << error.what() << "\n";
     return 2;

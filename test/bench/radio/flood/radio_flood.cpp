@@ -1,27 +1,25 @@
 #include "test/bench/radio/flood/radio_flood.hpp"
 
 #include <arpa/inet.h>
-#include <linux/if_ether.h>
 #include <netinet/ip.h>
 #include <netinet/udp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstring>
 #include <deque>
 #include <random>
-#include <span>
 #include <stdexcept>
 #include <vector>
+
+#include "test/bench/radio/flood/eavesdropper.hpp"
 
 namespace priamos {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::uint16_t kMark = 0xBEEF;  // identification of our own datagrams
 constexpr std::size_t kHeads = sizeof(iphdr) + sizeof(udphdr);
 constexpr std::size_t kMostConnections = 500;
 
@@ -67,43 +65,13 @@ std::vector<std::uint8_t> RandomFrame(std::size_t size, bool hello, std::mt19937
   return frame;
 }
 
-/// What the true other end sent last, read from the wire; empty before the first.
-class Eavesdropper {
- public:
-  explicit Eavesdropper(const FloodOptions& options)
-      : options_(options), fd_(Open(AF_PACKET, SOCK_DGRAM | SOCK_NONBLOCK, htons(ETH_P_IP))) {}
-  ~Eavesdropper() { close(fd_); }
-  Eavesdropper(const Eavesdropper&) = delete;
-  Eavesdropper& operator=(const Eavesdropper&) = delete;
-  const std::vector<std::uint8_t>& Newest() {
-    std::array<std::uint8_t, 2048> packet;
-    for (ssize_t n = 0; (n = recv(fd_, packet.data(), packet.size(), 0)) > 0;)
-      Take(std::span(packet).first(static_cast<std::size_t>(n)));
-    return newest_;
-  }
-
- private:
-  void Take(std::span<const std::uint8_t> packet) {
-    if (packet.size() <= kHeads + 2) return;
-    iphdr ip;
-    udphdr udp;
-    std::memcpy(&ip, packet.data(), sizeof ip);
-    std::memcpy(&udp, packet.data() + sizeof ip, sizeof udp);
-    if (ip.protocol != IPPROTO_UDP || ip.id == htons(kMark) || udp.dest != htons(options_.port)) return;
-    newest_.assign(packet.begin() + kHeads, packet.end());
-  }
-  FloodOptions options_;
-  int fd_;
-  std::vector<std::uint8_t> newest_;
-};
-
 std::vector<std::uint8_t> Packet(std::uint16_t source, std::uint16_t port,
                                  const std::vector<std::uint8_t>& payload) {
   iphdr ip{};
   ip.version = 4;
   ip.ihl = 5;
   ip.ttl = 64;
-  ip.id = htons(kMark);
+  ip.id = htons(kFloodMark);
   ip.protocol = IPPROTO_UDP;
   ip.tot_len = htons(static_cast<std::uint16_t>(kHeads + payload.size()));
   ip.saddr = ip.daddr = htonl(INADDR_LOOPBACK);
@@ -130,25 +98,30 @@ Flood::~Flood() {
   thread_.join();
 }
 
+std::vector<std::uint8_t> Flood::Payload(const std::vector<std::uint8_t>& newest,
+                                         std::mt19937& random) const {
+  if (options_.kind == "replay") return options_.recorded[random() % options_.recorded.size()];
+  if (newest.size() > 8) {
+    std::vector<std::uint8_t> payload = newest;
+    payload[1] = static_cast<std::uint8_t>(payload[1] % 127 + 1);
+    payload[payload.size() - 2] = static_cast<std::uint8_t>(1 + random() % 255);
+    return payload;
+  }
+  return options_.kind == "hello" ? RandomFrame(36, true, random)
+                                  : RandomFrame(options_.kind == "short" ? 9 : 45, false, random);
+}
+
 void Flood::SendDatagrams() {
   std::mt19937 random{1};
   const int fd = Open(AF_INET, SOCK_RAW, IPPROTO_RAW);
   const sockaddr_in to = Local(options_.port);
-  Eavesdropper wire(options_);
+  Eavesdropper wire(options_.port);
   for (Pace pace(options_.per_s); !stop_; std::this_thread::sleep_for(std::chrono::microseconds(500))) {
-    std::vector<std::uint8_t> next = options_.kind == "next" ? wire.Newest() : std::vector<std::uint8_t>{};
+    std::vector<std::uint8_t> newest = options_.kind == "next" ? wire.Newest() : std::vector<std::uint8_t>{};
     for (std::uint64_t due = pace.Due(); due > 0; --due) {
-      std::vector<std::uint8_t> payload = options_.kind == "hello"
-                                              ? RandomFrame(36, true, random)
-                                              : RandomFrame(options_.kind == "short" ? 9 : 45, false, random);
-      if (next.size() > 8) {
-        payload = next;
-        payload[1] = static_cast<std::uint8_t>(payload[1] % 127 + 1);
-        payload[payload.size() - 2] = static_cast<std::uint8_t>(1 + random() % 255);
-      }
       const auto source =
           options_.source != 0 ? options_.source : static_cast<std::uint16_t>(random() | 1024);
-      const auto packet = Packet(source, options_.port, payload);
+      const auto packet = Packet(source, options_.port, Payload(newest, random));
       sent_ += sendto(fd, packet.data(), packet.size(), MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),
                       sizeof to) > 0
                    ? 1

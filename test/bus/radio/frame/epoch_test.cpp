@@ -115,6 +115,48 @@ TEST_F(EpochTest, ReplaysOfAHundredEarlierStartsDoNotTakeTheAnswerOfANewEnd) {
   EXPECT_EQ(b.Compose(false).echo, hello.nonce);
 }
 
+TEST_F(EpochTest, OldHellosOfTheEndAgreedWithDoNotTakeTheAnswerOfItsNextLife) {
+  const Hello asked = a.Compose(true);
+  b.OnHello(asked);
+  a.OnHello(b.Compose(false));
+  const Hello ended = a.Compose(false);
+  b.OnHello(ended);
+  b.OnData();
+  EpochAgreement again(nonces);
+  const Hello hello = again.Compose(true);
+  b.OnHello(hello);
+  for (const Hello& old : {asked, ended}) EXPECT_FALSE(b.OnHello(old).reply);
+  EXPECT_EQ(b.Compose(false).echo, hello.nonce);
+}
+
+TEST_F(EpochTest, ReplaysDoNotTakeTheHelloThatEndsTheAgreement) {
+  b.OnHello(a.Compose(true));
+  const Hello answer = b.Compose(false);
+  ASSERT_TRUE(a.OnHello(answer).agreed);
+  for (std::uint64_t old = 1; old < 10; ++old) a.OnHello({.nonce = old, .need = true});
+  EXPECT_TRUE(b.OnHello(a.Compose(false)).agreed);
+  for (int lost = 0; lost < 4; ++lost) {
+    a.OnHello({.nonce = 77, .need = true});
+    const Hello first = a.Compose(false), second = a.Compose(false);
+    EXPECT_NE(first.agreed, second.agreed) << "and one that asks is answered in turn: it may be a new life";
+  }
+}
+
+/// Of old hellos that an end has never heard, as many are answered as there are.
+TEST_F(EpochTest, AnEndThatAnswersReplaysWithoutEndAgreesWithOneThatHearsTheAnswers) {
+  for (std::uint64_t old = 1; old < 500; ++old) {
+    b.OnHello(a.Compose(true));
+    b.OnHello({.nonce = old, .need = true});
+    a.OnHello(b.Compose(false));
+    if (!b.OnHello(a.Compose(true)).agreed) continue;
+    EXPECT_EQ(old, 1U);
+    b.OnHello({.nonce = 1000, .need = true});
+    EXPECT_TRUE(a.OnHello(b.Compose(false)).agreed);
+    return;
+  }
+  FAIL() << "never";
+}
+
 TEST_F(EpochTest, WhoAskedBeforeDataCameGetsNoSecondAnswerWhileItComes) {
   b.OnHello(a.Compose(true));
   a.OnHello(b.Compose(false));

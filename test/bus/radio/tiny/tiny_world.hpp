@@ -10,6 +10,7 @@
 #include "bus/radio/line/line.hpp"
 #include "bus/radio/link.hpp"
 #include "bus/radio/link_state.hpp"
+#include "hostile_line.hpp"
 
 extern "C" {
 #include "priamos_radio.h"
@@ -106,11 +107,14 @@ class TinyWorld {
     const std::size_t n = pr_step(&tiny, Us(), out.data(), out.size());
     lines.a_to_b.Write(std::as_bytes(std::span(out).first(n)), now);
     lines.b_to_a.Write(real->Step(now), now);
-    for (const std::byte b : lines.b_to_a.Read(now)) {
+    const auto between = [this](HostileLine* line, std::vector<std::byte> bytes) {
+      return line == nullptr ? bytes : line->Pass(bytes, now);
+    };
+    for (const std::byte b : between(hostile_down.get(), lines.b_to_a.Read(now))) {
       const auto byte = std::to_integer<std::uint8_t>(b);
       pr_receive(&tiny, &byte, 1, Us());
     }
-    for (Delivery& d : real->Receive(lines.a_to_b.Read(now), now))
+    for (Delivery& d : real->Receive(between(hostile_up.get(), lines.a_to_b.Read(now)), now))
       up.push_back({now, d.channel, std::move(d.packed), d.packed_at});
   }
   void Run(double seconds, const std::function<void()>& each = {}) {
@@ -136,6 +140,7 @@ class TinyWorld {
   bool memory_fails = false;
   std::size_t saves = 0;
   std::vector<Came> up, down;
+  std::unique_ptr<HostileLine> hostile_up, hostile_down;  ///< who sits on the line; null: nobody
 
  private:
   static TinyWorld& As(void* self) { return *static_cast<TinyWorld*>(self); }

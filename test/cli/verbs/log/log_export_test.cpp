@@ -156,6 +156,21 @@ TEST_F(LogMerge, LogsOfDifferentRunsAreRefusedWithTheWayOut) {
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
+TEST_F(LogMerge, DamageOfEitherLogIsToldWithItsPlace) {
+  const auto whole = Priamos({"log", "merge", onboard_, offboard_, out_, "--offset", "0", "--json"});
+  EXPECT_EQ(whole.err, "");
+  EXPECT_EQ(json::parse(whole.out).at("damaged_places"), 0);
+  std::ofstream(offboard_, std::ios::app) << "torn";
+  const auto answer =
+      Priamos({"log", "merge", onboard_, offboard_, out_, "--offset", "0", "--json", "--force"});
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.err, StartsWith(offboard_ + ": 1 damaged place with 4 bytes left out: first "));
+  EXPECT_EQ(LinesOf(answer.err).size(), 1u) << "the onboard log is whole";
+  EXPECT_EQ(json::parse(answer.out).at("damaged_places"), 1);
+  EXPECT_EQ(json::parse(answer.out).at("skipped_bytes"), 4);
+  EXPECT_EQ(json::parse(answer.out).at("events"), 2);
+}
+
 TEST_F(LogMerge, OneLogIsNotMergedWithItself) {
   const std::string link = folder_ / "link.lcmlog";
   std::filesystem::create_symlink(onboard_, link);

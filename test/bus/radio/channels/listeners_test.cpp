@@ -1,4 +1,4 @@
-#include "bus/radio/listeners.hpp"
+#include "bus/radio/channels/listeners.hpp"
 
 #include <gtest/gtest.h>
 
