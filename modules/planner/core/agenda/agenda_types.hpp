@@ -40,7 +40,8 @@ struct AgendaResult {
 struct AgendaKinds {
   int go = 0;       ///< to a place
   int pass = 0;     ///< through a door
-  int follow = -1;  ///< along a corridor
+  int follow = -1;   ///< along a corridor
+  int explore = -1;  ///< an unknown floor
 };
 
 /// Planned speeds of the two, with which the time left is computed.

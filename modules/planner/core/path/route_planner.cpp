@@ -76,9 +76,13 @@ void RoutePlanner::Add(std::string name, const Rectangle& shape) {
   Rebuild();
 }
 
-void RoutePlanner::Forget() {
-  added_.clear();
+void RoutePlanner::Take(std::vector<NamedObstacle> obstacles) {
+  added_ = std::move(obstacles);
   Rebuild();
+}
+
+void RoutePlanner::Forget() {
+  Take({});
 }
 
 void RoutePlanner::Learn(const LearnedWalls& learned, const Pose2& map_from_base) {

@@ -30,6 +30,8 @@ class RoutePlanner {
 
   /// Takes something into account that is not on the plan, until Forget().
   void Add(std::string name, const Rectangle& shape);
+  /// Takes these into account in place of all that was added before.
+  void Take(std::vector<NamedObstacle> obstacles);
   void Forget();
   /// Takes the walls into account that are not on the plan, in place of those before; but none where the base
   /// stands: there is nothing.

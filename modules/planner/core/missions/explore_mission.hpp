@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/archive.hpp"
+#include "common/ground_plan.hpp"
+#include "planner/core/explore/exploration.hpp"
+#include "planner/core/missions/mission.hpp"
+#include "planner/core/missions/path_progress.hpp"
+#include "planner/core/path/route_planner.hpp"
+
+namespace priamos::planner {
+
+/// Speed, tolerances and limits of exploring a floor.
+struct ExploreMissionConfig {
+  double speed_m_s = 0.30;
+  double near_m = 0.3;        ///< distance to the goal at which it counts as reached
+  double reconsider_s = 2.5;  ///< so often it is looked whether the frontier ahead is still one
+  double stands_s = 30;       ///< a robot that holds on its way for so long has the mission fail
+  double thing_m = 0.5;       ///< size of what is in the way, of which one side is known only
+  int retries = 3;            ///< paths that end elsewhere before a frontier is given up
+  MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 3600};
+  RoutePlannerConfig route;
+  ExplorationConfig choice;
+
+  void Describe(Archive& a);
+};
+
+/// The mission "see the whole floor": from frontier to frontier until none is left that can be reached. What
+/// is free is known from where the base was and from the walls that it told; what stops it is put on the map
+/// where it stands, for the length of the mission. A frontier that cannot be reached is left, with the
+/// reason; the outcome names the largest.
+class ExploreMission : public Mission {
+ public:
+  ExploreMission(const ExploreMissionConfig& config, const Footprint& footprint, const GroundPlan& plan);
+
+  std::optional<Refusal> Start(const MissionOrder& order) override;
+  void Step(MissionControl& control) override;
+  void OnStop(MissionControl& control, const Stop& stop) override;
+  /// Changes speeds, distances and times; what was ordered with others stays.
+  void set_config(const ExploreMissionConfig& config);
+  const MissionLimits& limits() const override { return config_.limits; }
+  std::string Unfinished() const override { return "the floor is not explored"; }
+
+ private:
+  void Learn(const MissionControl& control);
+  void Reconsider(MissionControl& control);
+  void Arrive(MissionControl& control);
+  void Next(MissionControl& control);
+  bool DriveTo(MissionControl& control, const FrontierGoal& frontier);
+  void Finish(MissionControl& control);
+  std::string Left() const;
+
+  ExploreMissionConfig config_;
+  Footprint footprint_;
+  RoutePlanner planner_;
+  Exploration exploration_;
+  StandWatch stands_;
+  std::optional<FrontierGoal> goal_;
+  int missed_ = 0;                               ///< paths towards goal_ that ended elsewhere
+  bool undecided_ = false;                       ///< no way was found yet
+  std::optional<Time> considered_;               ///< whether goal_ is still a frontier
+  std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account
+};
+
+}  // namespace priamos::planner
