@@ -32,6 +32,7 @@ void ExploreMissionConfig::Describe(Archive& a) {
   a.Number("stands_s", stands_s,
            {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
   a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
+  a.Flag("keep_walls", keep_walls, "the pose is held by the walls that were told first");
   a.Integer("retries", retries, {"-", 0, 20, "paths that end elsewhere before a frontier is given up"});
   limits.Describe(a);
   a.Section("route", route, "the way to a frontier");
@@ -48,6 +49,7 @@ ExploreMission::ExploreMission(const ExploreMissionConfig& config, const Footpri
 std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   planner_.Forget();
   exploration_.Reset();
+  kept_.Reset();
   stands_.Reset();
   goal_.reset();
   considered_.reset();
@@ -81,6 +83,7 @@ void ExploreMission::Learn(const MissionControl& control) {
   if (!control.heard().learned) return;
   learned_ = control.heard().learned;
   exploration_.Learn(*learned_);
+  if (config_.keep_walls) kept_.Learn(*learned_, 1e-6 * static_cast<double>(ToUtime(control.now())));
   planner_.Learn(*learned_, control.heard().pose->map_from_base);
 }
 
@@ -143,6 +146,9 @@ bool ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& fronti
   if (!goal_ || (goal_->target - frontier.target).norm() > config_.near_m) missed_ = 0;
   goal_ = frontier;
   const double length_m = LengthOf(base, path->points);
+  std::vector<Eigen::Vector2d> way{base.translation()};
+  for (const Pose2& point : path->points) way.push_back(point.translation());
+  control.SendFaces(FacesAlong(kept_.Faces(), way));
   control.OrderPath(std::move(*path), config_.speed_m_s);
   control.Enter(Phase::kDriving, fmt::format("exploring, {:.0f} m2 seen; to ({:.1f}, {:.1f}), {:.1f} m",
                                              exploration_.grid().free_m2(), frontier.target.x(),

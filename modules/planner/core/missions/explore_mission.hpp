@@ -7,6 +7,7 @@
 #include "common/archive.hpp"
 #include "common/ground_plan.hpp"
 #include "planner/core/explore/exploration.hpp"
+#include "planner/core/explore/kept_walls.hpp"
 #include "planner/core/missions/mission.hpp"
 #include "planner/core/missions/path_progress.hpp"
 #include "planner/core/path/route_planner.hpp"
@@ -20,6 +21,7 @@ struct ExploreMissionConfig {
   double reconsider_s = 2.5;  ///< so often it is looked whether the frontier ahead is still one
   double stands_s = 30;       ///< a robot that holds on its way for so long has the mission fail
   double thing_m = 0.5;       ///< size of what is in the way, of which one side is known only
+  bool keep_walls = true;     ///< the pose is held by the walls that were told first
   int retries = 3;            ///< paths that end elsewhere before a frontier is given up
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 3600};
   RoutePlannerConfig route;
@@ -57,6 +59,7 @@ class ExploreMission : public Mission {
   Footprint footprint_;
   RoutePlanner planner_;
   Exploration exploration_;
+  KeptWalls kept_;
   StandWatch stands_;
   std::optional<FrontierGoal> goal_;
   int missed_ = 0;                               ///< paths towards goal_ that ended elsewhere
