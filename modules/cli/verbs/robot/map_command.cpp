@@ -136,25 +136,23 @@ int Show(const MapOptions& options) {
 /// What was learned as a plan of its own, which a planner can be given as its map.
 int Export(const ExportOptions& options) {
   const Maps maps = MapsOf(options.map);
-  if (maps.learned.walls.empty()) {
-    std::cerr << "priamos map export: nothing has been learned of this building\n";
-    return kNothing;
-  }
   const GroundPlan plan = PlanOf(maps.learned, maps.fits_m);
+  const bool any = !plan.walls.empty();
   std::ostringstream text;
-  text << "# What was learned of a building: walls, and gaps that are too narrow for a route as doors without a leaf.\n";
+  text << "# What was learned of a building: walls, and narrow gaps as doors without a leaf.\n";
   PrintConfig(text, plan);
-  if (!ReplaceFile(options.into, text.str(), false, kMode))
-    throw ConfigError(fmt::format("file: expected a file that can be written, got \"{}\"", options.into));
+  if (any && !ReplaceFile(options.into, text.str(), false, kMode))
+    throw ConfigError(fmt::format("into: expected a file that can be written, got \"{}\"", options.into));
   if (options.json)
-    std::cout << nlohmann::ordered_json{{"file", options.into},
+    std::cout << nlohmann::ordered_json{{"file", any ? nlohmann::ordered_json(options.into) : nullptr},
                                         {"walls", plan.walls.size()},
                                         {"doors", plan.doors.size()}}
                      .dump()
               << "\n";
-  else
+  else if (any)
     std::cout << fmt::format("{}: {} walls, {} doors\n", options.into, plan.walls.size(), plan.doors.size());
-  return 0;
+  if (!any) std::cerr << "priamos map export: nothing has been learned of this building\n";
+  return any ? 0 : kNothing;
 }
 
 /// Orders it until the planner's map can only be empty: an order is cheap, and the planner logs it.
