@@ -43,7 +43,8 @@ class Rehearsal {
       return Drive({{step.x_m, step.y_m, step.yaw_rad}, step.turn != 0});
     if (step.mission == mission_command_t::PASS_DOOR) return Pass(step.landmark_id);
     // Where a corridor ends is seen when it does.
-    if (step.mission == mission_command_t::CORRIDOR || step.mission == mission_command_t::EXPLORE) at_.reset();
+    if (step.mission == mission_command_t::CORRIDOR || step.mission == mission_command_t::EXPLORE)
+      at_.reset();
     return std::nullopt;
   }
 
@@ -112,7 +113,8 @@ void Repeat(const MissionFileStep& repeat, std::size_t number, std::vector<std::
 
 void MissionFileStep::Describe(Archive& a) {
   NotePlace(a, place);
-  a.Choice("do", what, {"goto", "door", "corridor", "explore", "wait", "repeat"}, "what is done in this step");
+  a.Choice("do", what, {"goto", "door", "corridor", "explore", "wait", "repeat"},
+           "what is done in this step");
   if (what == "goto") {
     a.Require("x_m", "a place, x_m and y_m");
     a.Require("y_m", "a place, x_m and y_m");

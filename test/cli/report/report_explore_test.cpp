@@ -17,7 +17,7 @@ world::Solid Box(double x_m, double y_m, double length_m, double width_m) {
 RunInfo Info() {
   RunInfo info;
   info.reason = "explored 20 m2";
-  info.world.solids = {Box(5, -1.05, 10.2, 0.1),  Box(-0.05, 0, 0.1, 2),   Box(10.05, 0, 0.1, 2),
+  info.world.solids = {Box(5, -1.05, 10.2, 0.1),  Box(-0.05, 0, 0.1, 2),  Box(10.05, 0, 0.1, 2),
                        Box(1.15, 1.05, 2.5, 0.1), Box(7, 1.05, 6.4, 0.1), Box(1, 3, 0.1, 4),
                        Box(5, 3, 0.1, 4),         Box(3, 5.05, 4.2, 0.1)};
   return info;

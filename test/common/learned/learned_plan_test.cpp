@@ -24,7 +24,9 @@ LearnedWall Face(int id, double x_m, double y_m, double yaw_deg, double length_m
   return wall;
 }
 
-TEST(LearnedPlanTest, NothingLearnedIsAnEmptyPlan) { EXPECT_THAT(PlanOf({}, 0.98).walls, IsEmpty()); }
+TEST(LearnedPlanTest, NothingLearnedIsAnEmptyPlan) {
+  EXPECT_THAT(PlanOf({}, 0.98).walls, IsEmpty());
+}
 
 TEST(LearnedPlanTest, TheWallIsBehindTheFaceThatWasHeard) {
   const GroundPlan dut = PlanOf({1, 1, {Face(4, 2, 1, 0, 3)}}, 0.98);

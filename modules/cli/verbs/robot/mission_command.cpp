@@ -154,9 +154,10 @@ void AddCorridorVerb(CLI::App& mission, int& exit_code) {
 
 void AddExploreVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
-  auto* verb = AddVerb(mission, "explore",
-                       "Drive about until nothing of the floor is left that can be reached; ends when the robot "
-                       "is under way, with --wait when it is explored (exit code 1: not).");
+  auto* verb =
+      AddVerb(mission, "explore",
+              "Drive about until nothing of the floor is left that can be reached; ends when the robot "
+              "is under way, with --wait when it is explored (exit code 1: not).");
   verb->footer("Example: priamos mission explore --wait");
   verb->add_flag("--wait", options->wait, "until the mission is over");
   CompleteMission(*verb, options, Explore, exit_code);

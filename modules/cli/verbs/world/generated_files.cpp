@@ -76,7 +76,8 @@ Scenario ScenarioOf(const world::GeneratedWorld& generated, const GeneratedFiles
   scenario.map = explores ? files.truth : files.map;
   scenario.landmark_id = generated.door_id;
   scenario.time_limit_s = std::ceil(LengthOf(waypoints, generated.world.start) / kSlow_m_s + kLongestWait_s);
-  if (!waypoints.empty()) scenario.story = task == GeneratedTask::kCorridor && generated.corridor_end ? "corridor" : "goto";
+  if (!waypoints.empty())
+    scenario.story = task == GeneratedTask::kCorridor && generated.corridor_end ? "corridor" : "goto";
   if (explores) {
     scenario.story = "explore";
     scenario.time_limit_s = kExplore_s;
@@ -102,9 +103,9 @@ GeneratedFiles WriteGenerated(const world::GeneratedWorld& generated, const std:
   const bool follows = task == GeneratedTask::kCorridor && generated.corridor_end;
   const bool round = task == GeneratedTask::kThereAndBack && !generated.round.empty();
   const std::vector<Pose2> waypoints = task == GeneratedTask::kExplore ? std::vector<Pose2>{}
-                                       : follows ? std::vector{*generated.corridor_end}
-                                       : round ? generated.round
-                                               : generated.waypoints;
+                                       : follows                       ? std::vector{*generated.corridor_end}
+                                       : round                         ? generated.round
+                                                                       : generated.waypoints;
   const fs::path into(folder);
   try {
     CopyDeployment(base, into);

@@ -91,9 +91,8 @@ const ExploredGrid& Exploration::grid() {
 }
 
 const Exploration::GivenUp* Exploration::FindGivenUp(const Vector2d& at) const {
-  const auto found = std::find_if(given_up_.begin(), given_up_.end(), [&](const GivenUp& given) {
-    return (given.at - at).norm() < kGivenUp_m;
-  });
+  const auto found = std::find_if(given_up_.begin(), given_up_.end(),
+                                  [&](const GivenUp& given) { return (given.at - at).norm() < kGivenUp_m; });
   return found == given_up_.end() ? nullptr : &*found;
 }
 

@@ -70,8 +70,8 @@ class Exploration {
   bool IsOpen(const FrontierGoal& goal);
   /// The frontiers that Choose() left, longest first.
   const std::vector<LeftFrontier>& left() const { return left_; }
-  /// Unknown cells beside free ones, and what stopped the base: what a way there keeps off, the unknown around
-  /// the goal excepted.
+  /// Unknown cells beside free ones, and what stopped the base: what a way there keeps off, the unknown
+  /// around the goal excepted.
   std::vector<NamedObstacle> ObstaclesFor(const FrontierGoal& goal);
 
   const ExploredGrid& grid();

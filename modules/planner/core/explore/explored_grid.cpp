@@ -25,7 +25,8 @@ constexpr double kBeyond_m = 0.3;
 
 void ExploredGridConfig::Describe(Archive& a) {
   a.Number("near_m", near_m, {"m", 0.7, 3, "what is so near to the base is seen, up to walls"});
-  a.Number("wall_reach_m", wall_reach_m, {"m", 0.7, 5, "what is before a wall that was told is seen from so far"});
+  a.Number("wall_reach_m", wall_reach_m,
+           {"m", 0.7, 5, "what is before a wall that was told is seen from so far"});
   a.Number("facing_deg", facing_deg, {"deg", 5, 80, "and so far off the perpendicular of the wall"});
 }
 

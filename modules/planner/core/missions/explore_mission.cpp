@@ -167,9 +167,10 @@ std::string ExploreMission::Left() const {
 
 void ExploreMission::Finish(MissionControl& control) {
   control.OrderPath({}, 0);
-  control.Enter(Phase::kDone,
-                fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
-                            Seconds(control.now() - control.started()), exploration_.driven_m(), Left()));
+  control.Enter(
+      Phase::kDone,
+      fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
+                  Seconds(control.now() - control.started()), exploration_.driven_m(), Left()));
 }
 
 }  // namespace priamos::planner

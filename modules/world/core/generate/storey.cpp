@@ -55,7 +55,8 @@ class Storey {
 
   /// The rooms on one side of the corridor, from its beginning to its end.
   void Rooms(const std::string& side, double sign) {
-    const double near = sign * (half_m_ + kHalfWall_m), far = near + sign * (rng_.Uniform(3.5, 6) + 2 * kHalfWall_m);
+    const double near = sign * (half_m_ + kHalfWall_m),
+                 far = near + sign * (rng_.Uniform(3.5, 6) + 2 * kHalfWall_m);
     double begin_m = -kHalfWall_m;
     Wall(side + " first", {begin_m, near}, {begin_m, far});
     for (int i = 1; begin_m < length_m_; ++i) {

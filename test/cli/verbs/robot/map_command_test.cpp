@@ -87,7 +87,8 @@ TEST_F(MapCommand, ExportsAPlanThatAPlannerReads) {
   const auto plan = LoadConfig<GroundPlan>(into);
   ASSERT_EQ(plan.walls.size(), 2u);
   EXPECT_NEAR(plan.walls[0].from().y(), 0.25, 1e-6);
-  const auto nothing = Priamos({"map", "export", into, "--deployment", sim, "--logs", folder_.path().string()});
+  const auto nothing =
+      Priamos({"map", "export", into, "--deployment", sim, "--logs", folder_.path().string()});
   EXPECT_EQ(nothing.exit_code, 1);
   EXPECT_THAT(nothing.err, HasSubstr("nothing has been learned"));
   const auto nowhere = Priamos({"map", "export", into + "/x", "--file", file_, "--deployment", sim});

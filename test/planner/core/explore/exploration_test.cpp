@@ -58,8 +58,9 @@ TEST(ExplorationTest, OneRoomIsSeenAndThenItEnds) {
 }
 
 TEST(ExplorationTest, ThePlanIsClosedFromTheBeginning) {
-  Exploration dut({}, kWidth_m,
-                  {{{2, 0, 0}, {0.1, 2}}, {{-2, 0, 0}, {0.1, 2}}, {{0, 1, 0}, {2, 0.1}}, {{0, -1, 0}, {2, 0.1}}});
+  Exploration dut(
+      {}, kWidth_m,
+      {{{2, 0, 0}, {0.1, 2}}, {{-2, 0, 0}, {0.1, 2}}, {{0, 1, 0}, {2, 0.1}}, {{0, -1, 0}, {2, 0.1}}});
   for (double x = -1.2; x <= 1.2; x += 0.2) dut.NoteAt({x, 0, 0});
   EXPECT_FALSE(dut.Choose({1.2, 0, 0}));
   EXPECT_THAT(dut.left(), IsEmpty());
@@ -132,7 +133,8 @@ std::vector<std::pair<int, int>> DrawFloor() {
   for (int i = 0; i < n; ++i) {
     const auto at = squares[*rc::gen::inRange<std::size_t>(0, squares.size())];
     const int side = *rc::gen::inRange(0, 4);
-    const std::pair<int, int> next{at.first + (side == 0) - (side == 1), at.second + (side == 2) - (side == 3)};
+    const std::pair<int, int> next{at.first + (side == 0) - (side == 1),
+                                   at.second + (side == 2) - (side == 3)};
     if (std::find(squares.begin(), squares.end(), next) == squares.end()) squares.push_back(next);
   }
   return squares;

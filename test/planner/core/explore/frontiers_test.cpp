@@ -22,7 +22,9 @@ ExploredEvidence Corridor() {
   return evidence;
 }
 
-TEST(FrontiersTest, OfNothingThereIsNone) { EXPECT_THAT(FrontiersOf(GridOf({}), 0.3), IsEmpty()); }
+TEST(FrontiersTest, OfNothingThereIsNone) {
+  EXPECT_THAT(FrontiersOf(GridOf({}), 0.3), IsEmpty());
+}
 
 TEST(FrontiersTest, TheRimAroundABaseIsOne) {
   const auto frontiers = FrontiersOf(GridOf({{{3, 2}}, {}, {}}), 0.3);

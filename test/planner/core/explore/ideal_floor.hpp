@@ -90,7 +90,8 @@ class IdealFloor {
         b(kSquare_m * to.first, kSquare_m * to.second);
     for (double at_m = kPiece_m / 2; at_m < kSquare_m; at_m += kPiece_m) {
       const Eigen::Vector2d middle = a + (b - a) * (at_m / kSquare_m);
-      LearnedWall wall = WallAt(middle.x(), middle.y(), Degrees(std::atan2(b.y() - a.y(), b.x() - a.x())), kPiece_m);
+      LearnedWall wall =
+          WallAt(middle.x(), middle.y(), Degrees(std::atan2(b.y() - a.y(), b.x() - a.x())), kPiece_m);
       wall.id = int(silent_.size()) + 1;
       silent_.push_back(wall);
     }
