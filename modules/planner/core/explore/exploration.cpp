@@ -153,7 +153,7 @@ std::string Exploration::WhyLeft(const Frontier& frontier, const GridWays& ways)
   if (!near_enough) return fmt::format("farther than {:.0f} m from the start", config_.farthest_m);
   if (widest_m < 2 * clearance_m_)
     return fmt::format("{:.1f} m wide, {:.2f} m needed", widest_m, 2 * (clearance_m_ + kRaster_m));
-  return "no way leads there";
+  return fmt::format("no way of {:.2f} m width leads there", 2 * (clearance_m_ + kRaster_m));
 }
 
 /// The direction in which most is unknown around a cell, of length 1; zero when that is even.

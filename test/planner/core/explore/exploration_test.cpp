@@ -76,7 +76,7 @@ TEST(ExplorationTest, AGapThatIsTooNarrowIsLeftWithTheReason) {
   for (double x = -1.2; x <= 1.2; x += 0.2) dut.NoteAt({x, 0, 0});
   EXPECT_FALSE(dut.Choose({1.2, 0, 0}));
   ASSERT_THAT(dut.left(), SizeIs(1));
-  EXPECT_THAT(dut.left()[0].reason, HasSubstr("wide, 0.98 m needed"));
+  EXPECT_THAT(dut.left()[0].reason, HasSubstr("0.98 m width leads there"));
 }
 
 TEST(ExplorationTest, WhatWasGivenUpIsNotTriedAgainUntilTheReset) {
@@ -129,7 +129,7 @@ TEST(ExplorationTest, TheRivalTakesTheNearestFrontier) {
 /// Squares that hang together, drawn one after the other.
 std::vector<std::pair<int, int>> DrawFloor() {
   std::vector<std::pair<int, int>> squares{{0, 0}};
-  const int n = *rc::gen::inRange(1, 14);
+  const int n = *rc::gen::inRange(1, 10);
   for (int i = 0; i < n; ++i) {
     const auto at = squares[*rc::gen::inRange<std::size_t>(0, squares.size())];
     const int side = *rc::gen::inRange(0, 4);
