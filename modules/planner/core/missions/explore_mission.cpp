@@ -126,16 +126,21 @@ void ExploreMission::Next(MissionControl& control) {
     const auto frontier = exploration_.Choose(control.heard().pose->map_from_base);
     if (!frontier) return Finish(control);
     if (DriveTo(control, *frontier)) return;
-    exploration_.GiveUp(frontier->target, "no way for the whole base leads there");
+    exploration_.GiveUp(frontier->target, WhyNoWay(control.heard().pose->map_from_base, *frontier));
   }
   undecided_ = true;  // the rest is looked at in the next time step
   if (!control.path_sent() || !control.path().points.empty()) control.OrderPath({}, 0);
 }
 
+std::string ExploreMission::WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const {
+  const auto refusal = planner_.CheckEnds(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
+  return refusal ? refusal->reason : "no way for the whole base leads there";
+}
+
 /// False when no way leads there.
 bool ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& frontier) {
   const Pose2& base = control.heard().pose->map_from_base;
-  planner_.Take(exploration_.ObstaclesFor(frontier));
+  planner_.Take(exploration_.ObstaclesFor(frontier), base);
   auto path = planner_.FindPath(base, {{frontier.goal.x(), frontier.goal.y(), base.yaw}, false});
   if (!path) path = planner_.FindPath(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
   if (!path) return false;

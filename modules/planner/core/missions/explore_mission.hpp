@@ -52,6 +52,7 @@ class ExploreMission : public Mission {
   void Arrive(MissionControl& control);
   void Next(MissionControl& control);
   bool DriveTo(MissionControl& control, const FrontierGoal& frontier);
+  std::string WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const;
   void Finish(MissionControl& control);
   std::string Left() const;
 

@@ -76,20 +76,27 @@ void RoutePlanner::Add(std::string name, const Rectangle& shape) {
   Rebuild();
 }
 
-void RoutePlanner::Take(std::vector<NamedObstacle> obstacles) {
+void RoutePlanner::Take(std::vector<NamedObstacle> obstacles, const Pose2& map_from_base) {
   added_ = std::move(obstacles);
+  EraseUnder(map_from_base, added_);
   Rebuild();
 }
 
 void RoutePlanner::Forget() {
-  Take({});
+  added_.clear();
+  Rebuild();
 }
 
 void RoutePlanner::Learn(const LearnedWalls& learned, const Pose2& map_from_base) {
   learned_ = ObstaclesOf(learned, known_.obstacles());
-  const Rectangle body = known_.footprint().At(map_from_base);
-  std::erase_if(learned_, [&](const NamedObstacle& wall) { return Distance(body, wall.shape) <= 0; });
+  EraseUnder(map_from_base, learned_);
   Rebuild();
+}
+
+/// Where the base stands is nothing.
+void RoutePlanner::EraseUnder(const Pose2& map_from_base, std::vector<NamedObstacle>& obstacles) const {
+  const Rectangle body = known_.footprint().At(map_from_base);
+  std::erase_if(obstacles, [&](const NamedObstacle& one) { return Distance(body, one.shape) <= 0; });
 }
 
 void RoutePlanner::Rebuild() {
