@@ -15,7 +15,7 @@ MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan) {
   missions.Add(mission_command_t::GOTO, std::make_unique<GotoMission>(config.go, config.footprint, plan));
   missions.Add(mission_command_t::CORRIDOR,
                std::make_unique<CorridorMission>(config.corridor, config.footprint, plan));
-  missions.Add(static_cast<std::int8_t>(4),
+  missions.Add(mission_command_t::EXPLORE,
                std::make_unique<ExploreMission>(config.explore, config.footprint, plan));
   return missions;
 }
@@ -27,7 +27,7 @@ void Reconfigure(MissionTable& missions, const PlannerConfig& config) {
     go->set_config(config.go);
   if (auto* corridor = dynamic_cast<CorridorMission*>(missions.Find(mission_command_t::CORRIDOR)))
     corridor->set_config(config.corridor);
-  if (auto* explore = dynamic_cast<ExploreMission*>(missions.Find(static_cast<std::int8_t>(4))))
+  if (auto* explore = dynamic_cast<ExploreMission*>(missions.Find(mission_command_t::EXPLORE)))
     explore->set_config(config.explore);
 }
 
@@ -43,7 +43,7 @@ Agenda MakeAgenda(const PlannerConfig& config, MissionTable& missions, DoorRoute
   return {missions,
           router,
           {mission_command_t::GOTO, mission_command_t::PASS_DOOR, mission_command_t::CORRIDOR,
-           static_cast<std::int8_t>(4)},
+           mission_command_t::EXPLORE},
           SpeedsOf(config),
           config.steps};
 }

@@ -24,7 +24,7 @@ constexpr double kRing_m = 0.4;
 constexpr double kSample_m = 0.1;
 
 bool Explores(const mission_command_t& order) {
-  return order.mission == static_cast<std::int8_t>(4);
+  return order.mission == mission_command_t::EXPLORE;
 }
 
 std::vector<Rectangle> OutlinesAt(const TrueWorld& world, double low_m, double high_m) {

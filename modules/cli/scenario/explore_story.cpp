@@ -6,7 +6,7 @@ namespace priamos::cli {
 
 void ExploreStory::Begin(Time now) {
   mission_command_t command{};
-  command.mission = static_cast<std::int8_t>(4);
+  command.mission = mission_command_t::EXPLORE;
   Give(command);
   Report(now, "order to the planner: explore the floor");
 }

@@ -43,7 +43,7 @@ class Rehearsal {
       return Drive({{step.x_m, step.y_m, step.yaw_rad}, step.turn != 0});
     if (step.mission == mission_command_t::PASS_DOOR) return Pass(step.landmark_id);
     // Where a corridor ends is seen when it does.
-    if (step.mission == mission_command_t::CORRIDOR || step.mission == static_cast<std::int8_t>(4))
+    if (step.mission == mission_command_t::CORRIDOR || step.mission == mission_command_t::EXPLORE)
       at_.reset();
     return std::nullopt;
   }
@@ -83,7 +83,7 @@ mission_step_t ToMessage(const MissionFileStep& step, const GroundPlan& plan, co
       throw ConfigError(step.place.Begin() + error.what());
     }
   } else if (step.what == "explore") {
-    message.mission = static_cast<std::int8_t>(4);
+    message.mission = mission_command_t::EXPLORE;
   } else if (step.what == "corridor") {
     message.mission = mission_command_t::CORRIDOR;
     message.distance_m = static_cast<float>(step.distance_m);

@@ -28,7 +28,7 @@ RunInfo Info() {
 RunRecord Drive(double beside_m = 0) {
   RunRecord record;
   mission_command_t order{};
-  order.mission = static_cast<std::int8_t>(4);
+  order.mission = mission_command_t::EXPLORE;
   record.orders.push_back(order);
   const Pose2 map_from_true{2, -1, 0.1};
   for (int i = 0; i <= 400; ++i) {

@@ -44,7 +44,7 @@ struct FloorStage : Stage {
 TEST(ExploreStory, OrdersTheExplorationWithoutAnyWaypoint) {
   FloorStage stage;
   stage.RunTo(mission_result_t::DONE, "explored 58 m2 in 200 s, 40 m driven");
-  EXPECT_EQ(stage.given.mission, static_cast<std::int8_t>(4));
+  EXPECT_EQ(stage.given.mission, mission_command_t::EXPLORE);
   EXPECT_TRUE(stage.story->Succeeded());
   EXPECT_EQ(stage.story->Reason(), "explored 58 m2 in 200 s, 40 m driven");
 }

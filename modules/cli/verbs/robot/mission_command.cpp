@@ -56,7 +56,7 @@ int FollowCorridor(const MissionOptions& options) {
 
 int Explore(const MissionOptions& options) {
   mission_command_t command{};
-  command.mission = static_cast<std::int8_t>(4);
+  command.mission = mission_command_t::EXPLORE;
   command.title = ExploreTitle();
   return GiveOrder(options, command, "explore");
 }

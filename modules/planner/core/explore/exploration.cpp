@@ -85,6 +85,14 @@ void Exploration::GiveUp(const Vector2d& target, std::string reason) {
   given_up_.push_back({target, std::move(reason)});
 }
 
+bool Exploration::TryAgain() {
+  if (given_up_.empty() && evidence_.things.size() == known_.size()) return false;
+  given_up_.clear();
+  evidence_.things = known_;
+  grid_.reset();
+  return true;
+}
+
 const ExploredGrid& Exploration::grid() {
   if (!grid_) grid_.emplace(config_.grid, evidence_);
   return *grid_;

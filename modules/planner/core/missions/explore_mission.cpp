@@ -32,6 +32,7 @@ void ExploreMissionConfig::Describe(Archive& a) {
   a.Number("stands_s", stands_s,
            {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
   a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
+  a.Integer("rounds", rounds, {"-", 0, 20, "so often what was left is tried again in the end"});
   a.Flag("keep_walls", keep_walls, "the pose is held by the walls that were told first");
   a.Integer("retries", retries, {"-", 0, 20, "paths that end elsewhere before a frontier is given up"});
   limits.Describe(a);
@@ -55,6 +56,7 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   considered_.reset();
   learned_.reset();
   missed_ = 0;
+  rounds_ = 0;
   undecided_ = false;
   return std::nullopt;
 }
@@ -124,7 +126,8 @@ void ExploreMission::Next(MissionControl& control) {
   undecided_ = false;
   for (int i = 0; i < kMostTries; ++i) {
     const auto frontier = exploration_.Choose(control.heard().pose->map_from_base);
-    if (!frontier) return Finish(control);
+    if (!frontier && (++rounds_ > config_.rounds || !exploration_.TryAgain())) return Finish(control);
+    if (!frontier) continue;
     if (DriveTo(control, *frontier)) return;
     exploration_.GiveUp(frontier->target, WhyNoWay(control.heard().pose->map_from_base, *frontier));
   }
@@ -133,7 +136,8 @@ void ExploreMission::Next(MissionControl& control) {
 }
 
 std::string ExploreMission::WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const {
-  const auto refusal = planner_.CheckEnds(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
+  const auto refusal =
+      planner_.CheckEnds(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
   return refusal ? refusal->reason : "no way for the whole base leads there";
 }
 

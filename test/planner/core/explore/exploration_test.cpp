@@ -79,7 +79,7 @@ TEST(ExplorationTest, AGapThatIsTooNarrowIsLeftWithTheReason) {
   EXPECT_THAT(dut.left()[0].reason, HasSubstr("0.98 m width leads there"));
 }
 
-TEST(ExplorationTest, WhatWasGivenUpIsNotTriedAgainUntilTheReset) {
+TEST(ExplorationTest, WhatWasGivenUpIsNotTriedBeforeItIsSaid) {
   Exploration dut({}, kWidth_m, {});
   dut.NoteAt({0, 0, 0});
   int n = 0;
@@ -89,6 +89,9 @@ TEST(ExplorationTest, WhatWasGivenUpIsNotTriedAgainUntilTheReset) {
   EXPECT_LT(n, 30);
   ASSERT_THAT(dut.left(), SizeIs(1));
   EXPECT_EQ(dut.left()[0].reason, "the lift is out of order");
+  EXPECT_TRUE(dut.TryAgain());
+  EXPECT_TRUE(dut.Choose({0, 0, 0}));
+  EXPECT_FALSE(dut.TryAgain()) << "nothing was given up since";
   dut.Reset();
   dut.NoteAt({0, 0, 0});
   EXPECT_TRUE(dut.Choose({0, 0, 0}));
