@@ -146,7 +146,8 @@ bool ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& fronti
   const Pose2& base = control.heard().pose->map_from_base;
   planner_.Take(exploration_.ObstaclesFor(frontier), base);
   auto path = planner_.FindPath(base, {{frontier.goal.x(), frontier.goal.y(), base.yaw}, false});
-  if (!path) path = planner_.FindPath(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
+  if (!path && frontier.goal != frontier.target)
+    path = planner_.FindPath(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
   if (!path) return false;
   if (path->points.size() > kMostPathPoints) {
     path->points.resize(kMostPathPoints);

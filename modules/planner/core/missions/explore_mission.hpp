@@ -25,7 +25,7 @@ struct ExploreMissionConfig {
   int retries = 3;            ///< paths that end elsewhere before a frontier is given up
   int rounds = 2;             ///< so often what was left is tried again in the end
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 3600};
-  RoutePlannerConfig route;
+  RoutePlannerConfig route{.most_poses = 60000};  ///< who has many frontiers does not search for one for long
   ExplorationConfig choice;
 
   void Describe(Archive& a);

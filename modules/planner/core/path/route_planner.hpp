@@ -17,6 +17,7 @@ namespace priamos::planner {
 struct RoutePlannerConfig {
   double easy_margin_m = 0.30;   ///< preferred clearance to everything
   double least_margin_m = 0.10;  ///< clearance where there is no such route
+  int most_poses = 0;            ///< looked at for either; 0: all
 
   void Describe(Archive& a);
 };
