@@ -31,6 +31,7 @@ void ExploreMissionConfig::Describe(Archive& a) {
   a.Number("reconsider_s", reconsider_s, {"s", 0.5, 60, "so often the frontier ahead is looked at anew"});
   a.Number("stands_s", stands_s,
            {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
+  a.Number("idle_s", idle_s, {"s", 1, 600, "a robot that comes no further for so long is blocked"});
   a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
   a.Integer("rounds", rounds, {"-", 0, 20, "so often what was left is tried again in the end"});
   a.Flag("keep_walls", keep_walls, "the pose is held by the walls that were told first");
@@ -52,6 +53,7 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   exploration_.Reset();
   kept_.Reset();
   stands_.Reset();
+  idles_.Reset();
   goal_.reset();
   considered_.reset();
   learned_.reset();
@@ -78,6 +80,10 @@ void ExploreMission::Step(MissionControl& control) {
     return control.Fail(
         fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
                     config_.stands_s, heard.drive->limit));
+  if (idles_.Stands_s(control) > config_.idle_s) {
+    idles_.Reset();
+    return OnStop(control, {Stop::Cause::kBlocked, "the robot came no further"});
+  }
   Reconsider(control);
 }
 

@@ -20,6 +20,7 @@ struct ExploreMissionConfig {
   double near_m = 0.3;        ///< distance to the goal at which it counts as reached
   double reconsider_s = 2.5;  ///< so often it is looked whether the frontier ahead is still one
   double stands_s = 30;       ///< a robot that holds on its way for so long has the mission fail
+  double idle_s = 12;         ///< a robot that comes no further for so long, held by nothing, is blocked
   double thing_m = 0.3;       ///< size of what is in the way, of which one side is known only
   bool keep_walls = true;     ///< the pose is held by the walls that were told first
   int retries = 3;            ///< paths that end elsewhere before a frontier is given up
@@ -62,7 +63,7 @@ class ExploreMission : public Mission {
   RoutePlanner planner_;
   Exploration exploration_;
   KeptWalls kept_;
-  StandWatch stands_;
+  StandWatch stands_, idles_{StandWatch::Counts::kFree};
   std::optional<FrontierGoal> goal_;
   int missed_ = 0;                               ///< paths towards goal_ that ended elsewhere
   int rounds_ = 0;                               ///< in which what was left was tried again
