@@ -13,6 +13,7 @@ import sys
 
 # What `priamos world generate` makes, and all of them in turn.
 KINDS = ("room", "floor", "corridor", "any")
+MORE_KINDS = ("storey",)  # only when asked for
 
 
 def refuse(sentence):
@@ -23,9 +24,10 @@ def refuse(sentence):
 def arguments():
     parser = argparse.ArgumentParser(prog="scripts/montecarlo", description=__doc__)
     parser.add_argument("--scenario", default="door", help="a file of the deployment's scenarios/")
-    parser.add_argument("--generate", choices=KINDS, help="instead: a building of that kind, another one for each seed, "
+    parser.add_argument("--generate", choices=KINDS + MORE_KINDS, help="instead: a building of that kind, another one for each seed, "
                         "in which the robot is sent to places, through the door and back")
     parser.add_argument("--follow", action="store_true", help="with --generate corridor: the robot follows it to its end")
+    parser.add_argument("--explore", action="store_true", help="with --generate: the robot explores the building without a plan")
     parser.add_argument("--deployment", default="sim", help="sim, robot, or a folder of configurations, with a slash")
     parser.add_argument("--seeds", default="1..100", help="FIRST..LAST")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time")
@@ -49,7 +51,7 @@ def generated(options, seed):
     kind = KINDS[seed % (len(KINDS) - 1)] if options.generate == "any" else options.generate
     folder = pathlib.Path(options.into) / f"seed-{seed}"
     done = subprocess.run([options.program, "world", "generate", "--kind", kind, "--seed", str(seed), "--into", folder,
-                           "--deployment", options.deployment, "--follow" if options.follow else "--there-and-back"], capture_output=True, text=True)
+                           "--deployment", options.deployment, "--explore" if options.explore else "--follow" if options.follow else "--there-and-back"], capture_output=True, text=True)
     if done.returncode != 0:
         refuse(f"seed {seed}: {done.stderr.strip()}")
     return f"{folder}/", f"{kind}-{seed}"
@@ -121,6 +123,7 @@ def figures(runs):
     text.append(line("error of the pose across the door", [b["lateral_m"] for b in beliefs], "cm", 100))
     text.append(line("error of the heading there", [b["heading_deg"] for b in beliefs], "degrees"))
     text.append(line("what the robot expects across, sigma", [b["lateral_sigma_m"] for b in beliefs], "cm", 100))
+    text += floor_figures([r["explore"] for r in runs.values() if r.get("explore")])
     text += corridor_figures([r["corridor"] for r in passed if r.get("corridor")])
     if beliefs:
         nees = [b["nees"] for b in beliefs]
@@ -130,6 +133,17 @@ def figures(runs):
         text.append(f"{'smallest gap':<36} worst {100 * min(r['min_gap_m'] for r in passed):7.2f} cm")
         text.append(f"{'mean speed':<36} median {quantile([r['mean_speed_m_s'] for r in passed], 0.5):7.3f} m/s")
     return text
+
+
+def floor_figures(floors):
+    """Lines of text about explorations."""
+    if not floors:
+        return []
+    return [line("floor not seen", [1 - f["seen"] for f in floors], "%", 100),
+            line("floor that can be reached", [f["reachable_m2"] for f in floors], "m2"),
+            line("driven", [f["driven_m"] for f in floors], "m"),
+            line("walls, 95 % within", [f["wall_error_p95_m"] for f in floors], "cm", 100),
+            line("pose at the end", [f["pose_error_m"] for f in floors], "cm", 100)]
 
 
 def corridor_figures(corridors):

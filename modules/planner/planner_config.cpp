@@ -14,6 +14,7 @@ void PlannerConfig::Describe(Archive& a) {
   a.Section("mission", mission, "how the mission through a door goes");
   a.Section("goto", go, "how the mission to a place goes");
   a.Section("corridor", corridor, "how a corridor is followed");
+  a.Section("explore", explore, "how an unknown floor is explored");
   a.Section("learned", learned, "which walls that robots found are the same");
   a.Section("doors", doors, "ways that lead through doors");
   a.Section("steps", steps, "how the steps of an order follow each other");
@@ -26,6 +27,7 @@ void PlannerConfig::Describe(Archive& a) {
   a.Live("goto.stands_s", kInRange);
   a.Live("corridor.speed_m_s", kOnlyLower);
   a.Live("corridor.leeway_m", kOnlyLower);
+  a.Live("explore.speed_m_s", kOnlyLower);
 }
 
 }  // namespace priamos::planner

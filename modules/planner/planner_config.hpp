@@ -7,6 +7,7 @@
 #include "planner/core/map/learned_map.hpp"
 #include "planner/core/missions/corridor_mission.hpp"
 #include "planner/core/missions/door_mission.hpp"
+#include "planner/core/missions/explore_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
 #include "planner/core/path/door_planner.hpp"
 #include "planner/core/path/door_router.hpp"
@@ -25,6 +26,7 @@ struct PlannerConfig {
   DoorMissionConfig mission;
   GotoMissionConfig go;
   CorridorMissionConfig corridor;
+  ExploreMissionConfig explore;
   LearnedMapConfig learned;
   DoorRouterConfig doors;
   StepRunnerConfig steps;

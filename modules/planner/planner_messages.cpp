@@ -217,7 +217,7 @@ plan_walls_t ToMessage(const std::vector<WallFace>& faces, double sigma_m) {
     wall.y_m = face.from.y();
     wall.yaw_rad = std::atan2(face.along().y(), face.along().x());
     wall.length_m = std::min(face.length_m(), kMostLength_m);
-    wall.sigma_m = sigma_m;
+    wall.sigma_m = face.sigma_m > 0 ? face.sigma_m : sigma_m;
     message.walls.push_back(wall);
   }
   return message;

@@ -3,6 +3,7 @@
 #include "lcmtypes/channels.hpp"
 #include "planner/core/missions/corridor_mission.hpp"
 #include "planner/core/missions/door_mission.hpp"
+#include "planner/core/missions/explore_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
 
 namespace priamos::planner {
@@ -14,6 +15,8 @@ MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan) {
   missions.Add(mission_command_t::GOTO, std::make_unique<GotoMission>(config.go, config.footprint, plan));
   missions.Add(mission_command_t::CORRIDOR,
                std::make_unique<CorridorMission>(config.corridor, config.footprint, plan));
+  missions.Add(mission_command_t::EXPLORE,
+               std::make_unique<ExploreMission>(config.explore, config.footprint, plan));
   return missions;
 }
 
@@ -24,6 +27,8 @@ void Reconfigure(MissionTable& missions, const PlannerConfig& config) {
     go->set_config(config.go);
   if (auto* corridor = dynamic_cast<CorridorMission*>(missions.Find(mission_command_t::CORRIDOR)))
     corridor->set_config(config.corridor);
+  if (auto* explore = dynamic_cast<ExploreMission*>(missions.Find(mission_command_t::EXPLORE)))
+    explore->set_config(config.explore);
 }
 
 AgendaSpeeds SpeedsOf(const PlannerConfig& config) {
@@ -37,7 +42,8 @@ DoorRouter MakeRouter(const PlannerConfig& config, const GroundPlan& plan) {
 Agenda MakeAgenda(const PlannerConfig& config, MissionTable& missions, DoorRouter& router) {
   return {missions,
           router,
-          {mission_command_t::GOTO, mission_command_t::PASS_DOOR, mission_command_t::CORRIDOR},
+          {mission_command_t::GOTO, mission_command_t::PASS_DOOR, mission_command_t::CORRIDOR,
+           mission_command_t::EXPLORE},
           SpeedsOf(config),
           config.steps};
 }

@@ -78,6 +78,7 @@ const std::map<std::string, Story> kStories{
     {"goto.stands_s", {2, PhaseOfARobotThatIsHeld}},
     {"corridor.speed_m_s", {0.1, SpeedOf(mission_command_t::CORRIDOR)}},
     {"corridor.leeway_m", {0.5, LeewayInACorridor}},
+    {"explore.speed_m_s", {0.1, SpeedOf(mission_command_t::EXPLORE)}},
 };
 
 double Measured(const Story& story, const PlannerConfig& started, const PlannerConfig& told) {

@@ -142,6 +142,17 @@ nlohmann::ordered_json ToJson(const CorridorSummary& corridor) {
           {"end", corridor.end ? ToJson(*corridor.end) : nlohmann::ordered_json(nullptr)}};
 }
 
+nlohmann::ordered_json ToJson(const ExploreSummary& explore) {
+  return {{"reachable_m2", explore.reachable_m2},
+          {"seen", explore.seen},
+          {"driven_m", explore.driven_m},
+          {"wall_m", explore.wall_m},
+          {"wall_error_p95_m", explore.wall_error_p95_m},
+          {"pose_error_m", explore.pose_error_m},
+          {"pose_error_deg", explore.pose_error_deg},
+          {"end", explore.end}};
+}
+
 nlohmann::ordered_json ToJson(const HandSummary& hand) {
   return {{"wished_s", hand.wished_s},
           {"honoured", Json(hand.honoured())},
@@ -172,6 +183,7 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   const RunRecord on_plan = OnPlan(record, info);
   if (crossing) summary.belief_at_door = BeliefAt(on_plan, info.door, crossing->utime);
   summary.corridor = CorridorSummaryOf(record);
+  summary.explore = ExploreSummaryOf(record, info);
   summary.duration_s = Seconds(Duration(span.end_utime - span.begin_utime));
   summary.mean_speed_m_s = MeanSpeed(record);
   summary.min_speed_during_fix_m_s = SlowestDuringFixes(record);
@@ -205,6 +217,7 @@ nlohmann::ordered_json ToJson(const Summary& summary) {
           {"belief_at_door",
            summary.belief_at_door ? ToJson(*summary.belief_at_door) : nlohmann::ordered_json(nullptr)},
           {"corridor", summary.corridor ? ToJson(*summary.corridor) : nlohmann::ordered_json(nullptr)},
+          {"explore", summary.explore ? ToJson(*summary.explore) : nlohmann::ordered_json(nullptr)},
           {"duration_s", summary.duration_s},
           {"mean_speed_m_s", summary.mean_speed_m_s},
           {"min_speed_during_fix_m_s", Json(summary.min_speed_during_fix_m_s)},

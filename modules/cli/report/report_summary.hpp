@@ -8,6 +8,7 @@
 
 #include "cli/report/report_belief.hpp"
 #include "cli/report/report_corridor.hpp"
+#include "cli/report/report_explore.hpp"
 #include "cli/report/report_hand.hpp"
 #include "cli/report/report_record.hpp"
 #include "cli/report/report_touches.hpp"
@@ -53,6 +54,7 @@ struct Summary {
   std::optional<double> heading_at_door_deg;
   std::optional<BeliefAtDoor> belief_at_door;      ///< when it crossed the door
   std::optional<CorridorSummary> corridor;         ///< only of one that follows a corridor
+  std::optional<ExploreSummary> explore;           ///< only of one that explores a floor
   double duration_s = 0;                           ///< from the order to the end of the mission
   double mean_speed_m_s = 0;                       ///< true distance over the time from first to last motion
   std::optional<double> min_speed_during_fix_m_s;  ///< true speed from look request to correction

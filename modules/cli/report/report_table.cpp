@@ -50,6 +50,17 @@ void PrintRadio(std::ostream& out, std::string_view title, const RadioSummary& r
                      radio.frames, radio.bytes, radio.dropped);
 }
 
+void PrintExplore(std::ostream& out, const ExploreSummary& explore) {
+  Rule(out, "floor");
+  out << fmt::format("  seen                {:.1f} % of {:.0f} m2 that can be reached; {:.1f} m driven\n",
+                     100 * explore.seen, explore.reachable_m2, explore.driven_m);
+  out << fmt::format("  walls               {:.0f} m told, 95 % within {:.1f} cm of a true face\n",
+                     explore.wall_m, 100 * explore.wall_error_p95_m);
+  out << fmt::format("  pose at the end     off by {:.1f} cm, {:.2f} deg\n", 100 * explore.pose_error_m,
+                     explore.pose_error_deg);
+  out << "  end                 " << explore.end << "\n";
+}
+
 void PrintHand(std::ostream& out, const HandSummary& hand) {
   Rule(out, "operator");
   out << fmt::format("  pushed for {:.0f} s; of the motion that was truly free {} was honoured\n",
@@ -71,7 +82,8 @@ void PrintSummary(std::ostream& out, const Summary& summary) {
   Rule(out, "run");
   out << fmt::format("  {}, seed {}: {} after {:.1f} s\n", summary.scenario, summary.seed, Verdict(summary),
                      summary.duration_s);
-  if (SeeksTheDoor(summary)) {
+  if (summary.explore) PrintExplore(out, *summary.explore);
+  if (SeeksTheDoor(summary) && !summary.explore) {
     PrintFixes(out, summary);
     PrintDoor(out, summary);
   }

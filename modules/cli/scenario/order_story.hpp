@@ -25,8 +25,10 @@ class OrderStory : public ScenarioStory {
   std::string Reason() const override { return text_; }
 
  protected:
-  /// The stage's `progress` gets one line per order and per change of the mission.
-  explicit OrderStory(const StoryStage& stage);
+  /// The stage's `progress` gets one line per order and per change of the mission. A story that leads to
+  /// waypoints fails without one.
+  enum class Waypoints { kSome, kNone };
+  explicit OrderStory(const StoryStage& stage, Waypoints waypoints = Waypoints::kSome);
 
   /// All processes are alive: gives the first order.
   virtual void Begin(Time now) = 0;
@@ -50,6 +52,7 @@ class OrderStory : public ScenarioStory {
 
  private:
   Scenario scenario_;
+  Waypoints waypoints_;
   std::function<void(Time, const std::string&)> progress_;
   AliveProcesses alive_;
   bus::Inbox<mission_status_t> status_;

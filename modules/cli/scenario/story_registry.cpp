@@ -16,6 +16,7 @@ struct StoryList {
 using AllStories = StoryList<  //
     class CorridorStory,       //
     class DoorStory,           //
+    class ExploreStory,        //
     class GotoStory,           //
     class PatrolStory,         //
     class TeleopStory>;

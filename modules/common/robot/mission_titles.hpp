@@ -19,4 +19,8 @@ inline std::string CorridorTitle(double distance_m) {
   return distance_m == 0 ? "corridor to its end" : fmt::format("corridor for {:.1f} m", distance_m);
 }
 
+inline std::string ExploreTitle() {
+  return "explore the floor";
+}
+
 }  // namespace priamos

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "bus/process_config.hpp"
 #include "cli/options/folder_options.hpp"
@@ -18,7 +19,9 @@
 #include "cli/terminal/terminal_screen.hpp"
 #include "cli/verbs/robot/commands.hpp"
 #include "common/config.hpp"
+#include "common/config_printer.hpp"
 #include "common/drawing/svg.hpp"
+#include "common/learned/learned_plan.hpp"
 #include "common/learned/wall_gaps.hpp"
 #include "common/replace_file.hpp"
 #include "lcmtypes/channels.hpp"
@@ -37,6 +40,12 @@ struct MapOptions {
   bool json = false;
 };
 
+struct ExportOptions {
+  MapOptions map;
+  std::string into;
+  bool json = false;
+};
+
 struct ResetOptions {
   BusOptions bus;
   bool json = false;
@@ -47,6 +56,7 @@ struct Maps {
   GroundPlan plan;
   std::string file;  ///< of the learned map; empty: none is kept
   LearnedWalls learned;
+  double fits_m = 1;  ///< width of a gap through which a route leads
 };
 
 /// Of a simulation the learned map is kept as long as it is up.
@@ -62,7 +72,8 @@ Maps MapsOf(const MapOptions& options) {
   const auto config = bus::LoadAppConfig<planner::PlannerConfig>({(folder / "planner.toml").string(), {}});
   Maps maps{LoadConfig<GroundPlan>((folder / config.map).lexically_normal().string()),
             FileOf(options, folder, config),
-            {}};
+            {},
+            config.footprint.width_m + 2 * config.go.route.least_margin_m};
   if (!options.file.empty() && !fs::exists(options.file))
     throw ConfigError(
         fmt::format("--file: expected a learned map, got \"{}\", which is not there", options.file));
@@ -122,6 +133,28 @@ int Show(const MapOptions& options) {
   return kNothing;
 }
 
+/// What was learned as a plan of its own, which a planner can be given as its map.
+int Export(const ExportOptions& options) {
+  const Maps maps = MapsOf(options.map);
+  const GroundPlan plan = PlanOf(maps.learned, maps.fits_m);
+  const bool any = !plan.walls.empty();
+  std::ostringstream text;
+  text << "# What was learned of a building: walls, and narrow gaps as doors without a leaf.\n";
+  PrintConfig(text, plan);
+  if (any && !ReplaceFile(options.into, text.str(), false, kMode))
+    throw ConfigError(fmt::format("into: expected a file that can be written, got \"{}\"", options.into));
+  if (options.json)
+    std::cout << nlohmann::ordered_json{{"file", any ? nlohmann::ordered_json(options.into) : nullptr},
+                                        {"walls", plan.walls.size()},
+                                        {"doors", plan.doors.size()}}
+                     .dump()
+              << "\n";
+  else if (any)
+    std::cout << fmt::format("{}: {} walls, {} doors\n", options.into, plan.walls.size(), plan.doors.size());
+  if (!any) std::cerr << "priamos map export: nothing has been learned of this building\n";
+  return any ? 0 : kNothing;
+}
+
 /// Orders it until the planner's map can only be empty: an order is cheap, and the planner logs it.
 int Reset(const ResetOptions& options) {
   BusSession session("priamos map reset", options.bus, channels::kMissionStatus.name);
@@ -162,6 +195,16 @@ void AddMapCommand(CLI::App& cli, int& exit_code) {
   map->callback([map, options, &exit_code] {
     if (map->get_subcommands().empty()) exit_code = Show(*options);
   });
+  auto export_options = std::make_shared<ExportOptions>();
+  auto* as_plan = AddVerb(*map, "export",
+                          "Write what was learned as a ground plan that a planner can have as its map (exit "
+                          "code 1: nothing was learned).");
+  as_plan->footer("Example: priamos map export learned-plan.toml");
+  as_plan->add_option("into", export_options->into, "the file to write")->required();
+  AddDeploymentOption(*as_plan, export_options->map.deployment);
+  as_plan->add_option("--file", export_options->map.file, "a learned map instead of the deployment's");
+  AddLogsOption(*as_plan, export_options->map.log_root, "the deployment that is up");
+  CompleteVerb(*as_plan, export_options, Export, exit_code);
   auto reset_options = std::make_shared<ResetOptions>();
   auto* reset =
       AddVerb(*map, "reset", "Have the planner forget what it has learned; the surveyed plan stays.");

@@ -54,6 +54,13 @@ int FollowCorridor(const MissionOptions& options) {
   return GiveOrder(options, command, "corridor");
 }
 
+int Explore(const MissionOptions& options) {
+  mission_command_t command{};
+  command.mission = mission_command_t::EXPLORE;
+  command.title = ExploreTitle();
+  return GiveOrder(options, command, "explore");
+}
+
 int Abort(const MissionOptions& options) {
   mission_command_t command{};
   command.mission = mission_command_t::ABORT;
@@ -145,6 +152,17 @@ void AddCorridorVerb(CLI::App& mission, int& exit_code) {
   CompleteMission(*verb, options, FollowCorridor, exit_code);
 }
 
+void AddExploreVerb(CLI::App& mission, int& exit_code) {
+  auto options = std::make_shared<MissionOptions>();
+  auto* verb =
+      AddVerb(mission, "explore",
+              "Drive about until nothing of the floor is left that can be reached; ends when the robot "
+              "is under way, with --wait when it is explored (exit code 1: not).");
+  verb->footer("Example: priamos mission explore --wait");
+  verb->add_flag("--wait", options->wait, "until the mission is over");
+  CompleteMission(*verb, options, Explore, exit_code);
+}
+
 void AddAbortVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
   auto* verb =
@@ -169,6 +187,7 @@ void AddMissionCommand(CLI::App& cli, int& exit_code) {
   AddDoorVerb(*mission, exit_code);
   AddGotoVerb(*mission, exit_code);
   AddCorridorVerb(*mission, exit_code);
+  AddExploreVerb(*mission, exit_code);
   AddAbortVerb(*mission, exit_code);
   AddStatusVerb(*mission, exit_code);
   AddQueueVerbs(*mission, exit_code);

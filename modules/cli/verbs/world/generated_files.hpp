@@ -18,6 +18,7 @@ enum class GeneratedTask {
   kDoor,          ///< passes the door; where there is none, drives to the places of a corridor
   kThereAndBack,  ///< is sent to a place behind the door, and back; in a corridor as above
   kCorridor,      ///< follows the corridor to its end; in a room the door
+  kExplore,       ///< explores it without a plan
 };
 
 /// Writes a world as a scenario of the deployment in `folder`, which is made of the files of the deployment

@@ -18,12 +18,13 @@ namespace {
 struct GenerateOptions {
   std::string kind = "room", into, deployment = "sim";
   std::uint64_t seed = 1;
-  bool there_and_back = false, follow = false, json = false;
+  bool there_and_back = false, follow = false, explore = false, json = false;
 };
 
 int RunGenerate(const GenerateOptions& options) {
   const auto generated = world::Generate(options.kind, options.seed);
-  const auto task = options.follow           ? GeneratedTask::kCorridor
+  const auto task = options.explore          ? GeneratedTask::kExplore
+                    : options.follow         ? GeneratedTask::kCorridor
                     : options.there_and_back ? GeneratedTask::kThereAndBack
                                              : GeneratedTask::kDoor;
   const auto files = WriteGenerated(generated, options.kind, options.seed, task,
@@ -76,6 +77,7 @@ void AddGenerate(CLI::App& world, int& exit_code) {
                  "the robot is sent to a place behind the door, and back; without: it passes the door");
   verb->add_flag("--follow", options->follow,
                  "the robot follows the corridor by sonar to its end; in a room it passes the door");
+  verb->add_flag("--explore", options->explore, "the robot explores it without a plan");
   AddDeploymentOption(*verb, options->deployment);
   CompleteVerb(*verb, options, RunGenerate, exit_code, "the files' names as JSON");
 }

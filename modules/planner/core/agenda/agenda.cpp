@@ -26,6 +26,7 @@ std::string Agenda::TitleOf(const AgendaStep& step) const {
   if (step.order.kind == kinds_.go) return GotoTitle(to.x, to.y);
   if (step.order.kind == kinds_.pass) return DoorTitle(router_.NameOf(step.order.landmark_id));
   if (step.order.kind == kinds_.follow) return CorridorTitle(step.order.distance_m);
+  if (step.order.kind == kinds_.explore) return ExploreTitle();
   return fmt::format("mission {}", step.order.kind);
 }
 

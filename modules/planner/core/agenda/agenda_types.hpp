@@ -38,9 +38,10 @@ struct AgendaResult {
 
 /// Kinds of MissionOrder by their numbers in the mission table; the first two lead through doors.
 struct AgendaKinds {
-  int go = 0;       ///< to a place
-  int pass = 0;     ///< through a door
-  int follow = -1;  ///< along a corridor
+  int go = 0;        ///< to a place
+  int pass = 0;      ///< through a door
+  int follow = -1;   ///< along a corridor
+  int explore = -1;  ///< an unknown floor
 };
 
 /// Planned speeds of the two, with which the time left is computed.

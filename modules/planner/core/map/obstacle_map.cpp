@@ -44,8 +44,13 @@ ObstacleMap::Nearest ObstacleMap::NearestTo(const Rectangle& footprint) const {
 
 Eigen::AlignedBox2d ObstacleMap::Bounds() const {
   Eigen::AlignedBox2d box;
-  for (const Obstacle& obstacle : obstacles_)
-    for (const Eigen::Vector2d& corner : obstacle.shape.Corners()) box.extend(corner);
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) box.extend(BoundsOf(i));
+  return box;
+}
+
+Eigen::AlignedBox2d ObstacleMap::BoundsOf(std::size_t obstacle) const {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& corner : obstacles_[obstacle].shape.Corners()) box.extend(corner);
   return box;
 }
 

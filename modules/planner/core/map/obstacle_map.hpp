@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -28,6 +29,13 @@ class ObstacleMap {
   Nearest NearestTo(const Rectangle& footprint) const;
   /// The smallest box that holds all obstacles [m]; empty without any.
   Eigen::AlignedBox2d Bounds() const;
+
+  /// One obstacle after the other, for who wants to know what is near to many places.
+  std::size_t size() const { return obstacles_.size(); }
+  Eigen::AlignedBox2d BoundsOf(std::size_t obstacle) const;
+  double DistanceTo(std::size_t obstacle, const Eigen::Vector2d& in_map) const {
+    return obstacles_[obstacle].DistanceTo(in_map);
+  }
 
  private:
   struct Obstacle {

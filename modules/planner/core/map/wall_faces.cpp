@@ -26,7 +26,7 @@ std::optional<WallFace> Joined(const WallFace& a, const WallFace& b) {
   if (std::abs(Cross(along, b.along())) > kSameAngle_rad || along.dot(b.along()) < 0) return std::nullopt;
   if (gap_m < -kOnLine_m || gap_m > kDoorway_m) return std::nullopt;
   if (std::abs(Cross(along, b.from - a.to)) > kOnLine_m) return std::nullopt;
-  return WallFace{a.from, b.to};
+  return WallFace{a.from, b.to, std::max(a.sigma_m, b.sigma_m)};
 }
 
 /// Joins two of the faces; false when none are of one wall.

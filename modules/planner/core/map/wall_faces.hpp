@@ -12,6 +12,7 @@ namespace priamos::planner {
 /// A face of a wall as rooms have it: a line, map frame; on the way from `from` to `to` it is to the right.
 struct WallFace {
   Eigen::Vector2d from{0, 0}, to{0, 0};
+  double sigma_m = 0;  ///< of the place of either end, across it; 0: that of the plan's walls
 
   Eigen::Vector2d along() const { return (to - from).normalized(); }
   double length_m() const { return (to - from).norm(); }

@@ -12,37 +12,6 @@ std::string Text(const Pose2& pose) {
   return fmt::format("({:.2f}, {:.2f})", pose.x, pose.y);
 }
 
-/// Direction, of length 1, of the line on which a base is that has `remaining_m` of its path before it; zero
-/// for a path without length.
-Eigen::Vector2d DirectionLeft(const Pose2& base, const std::vector<Pose2>& points, double remaining_m) {
-  for (std::size_t i = points.size(); i-- > 0;) {
-    const Eigen::Vector2d from = i > 0 ? points[i - 1].translation() : base.translation();
-    const Eigen::Vector2d line = points[i].translation() - from;
-    remaining_m -= line.norm();
-    if ((remaining_m <= 0 || i == 0) && line.norm() > 1e-6) return line.normalized();
-  }
-  return Eigen::Vector2d::Zero();
-}
-
-/// The points of a path that a base still has before it when it has `remaining_m` to go.
-std::vector<Pose2> Remaining(const std::vector<Pose2>& points, double remaining_m) {
-  std::size_t first = points.size();
-  while (first > 0) {
-    --first;
-    if (first == 0) break;
-    remaining_m -= (points[first].translation() - points[first - 1].translation()).norm();
-    if (remaining_m <= 0) break;
-  }
-  return {points.begin() + static_cast<std::ptrdiff_t>(first), points.end()};
-}
-
-/// Distance from the middle of the footprint to its edge in a direction of the base frame [m].
-double Reach(const Footprint& footprint, const Eigen::Vector2d& direction) {
-  const double along_x = footprint.length_m / 2 / std::max(1e-9, std::abs(direction.x()));
-  const double along_y = footprint.width_m / 2 / std::max(1e-9, std::abs(direction.y()));
-  return std::min(along_x, along_y);
-}
-
 }  // namespace
 
 void GotoMissionConfig::Describe(Archive& a) {
@@ -67,8 +36,7 @@ GotoMission::GotoMission(const GotoMissionConfig& config, const Footprint& footp
 std::optional<Refusal> GotoMission::Start(const MissionOrder& order) {
   goal_ = order.goal;
   departures_ = 0;
-  stood_s_ = 0;
-  stepped_.reset();
+  stands_.Reset();
   planner_.Forget();
   keeper_.Reset();
   learned_.reset();
@@ -88,27 +56,11 @@ void GotoMission::Step(MissionControl& control) {
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath()) return;
   if (heard.drive->mode == DriveMode::kArrived) return Arrive(control);
-  if (StandsForLong(control))
+  if (stands_.Stands_s(control) > config_.stands_s)
     return control.Fail(
         fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
                     config_.stands_s, heard.drive->limit));
   Reconsider(control);
-}
-
-/// A hold, of a robot that does not know where it is for instance, may end by itself, but is not waited for
-/// for ever. Time without news of the robot does not count.
-bool GotoMission::StandsForLong(const MissionControl& control) {
-  constexpr double kProgress_m = 0.05, kLongestStep_s = 0.5;
-  const DriveReport& drive = *control.heard().drive;
-  const double step_s = stepped_ ? std::min(Seconds(control.now() - *stepped_), kLongestStep_s) : 0;
-  stepped_ = control.now();
-  if (drive.limit.empty() || std::abs(drive.remaining_m - stood_at_m_) > kProgress_m) {
-    stood_at_m_ = drive.remaining_m;
-    stood_s_ = 0;
-  } else if (IsFresh(*control.heard().pose, control.now())) {
-    stood_s_ += step_s;
-  }
-  return stood_s_ > config_.stands_s;
 }
 
 void GotoMission::Learn(const MissionControl& control) {
@@ -122,7 +74,7 @@ void GotoMission::Reconsider(MissionControl& control) {
   if (learned_ == control.heard().learned) return;
   Learn(control);
   const Pose2& base = control.heard().pose->map_from_base;
-  if (planner_.AreFree(base, Remaining(control.path().points, control.heard().drive->remaining_m))) return;
+  if (planner_.AreFree(base, PointsLeft(control.path().points, control.heard().drive->remaining_m))) return;
   if (Outcome<PlannedPath> path = planner_.Plan(base, goal_))
     Drive(control, std::move(*path), "a wall that is not on the plan is in the way");
 }
@@ -185,21 +137,9 @@ void GotoMission::OnStop(MissionControl& control, const Stop& stop) {
   }
   if (stop.cause != Stop::Cause::kBlocked || ++departures_ > config_.retries)
     return control.Fail(stop.reason + "; next: look what it is, and order it again");
-  NoteThingAhead(control);
+  if (const auto thing = ThingAhead(control, footprint_, config_.thing_m))
+    planner_.Add("what stopped the robot", *thing);
   Depart(control, stop.reason);
-}
-
-/// What stops the base stands in the direction of its line, as far away as the nearest echo there.
-void GotoMission::NoteThingAhead(const MissionControl& control) {
-  const DriveReport& drive = *control.heard().drive;
-  const Pose2& base = control.heard().pose->map_from_base;
-  const Eigen::Vector2d ahead = DirectionLeft(base, control.path().points, drive.remaining_m);
-  if (ahead.norm() < 0.5) return;
-  const double distance_m = Reach(footprint_, base.rotation().transpose() * ahead) +
-                            drive.nearest_m.value_or(0) + config_.thing_m / 2;
-  const Eigen::Vector2d at = base.translation() + distance_m * ahead;
-  planner_.Add("what stopped the robot", {{at.x(), at.y(), std::atan2(ahead.y(), ahead.x())},
-                                          Eigen::Vector2d::Constant(config_.thing_m / 2)});
 }
 
 }  // namespace priamos::planner

@@ -7,6 +7,7 @@
 #include "common/archive.hpp"
 #include "common/ground_plan.hpp"
 #include "planner/core/missions/mission.hpp"
+#include "planner/core/missions/path_progress.hpp"
 #include "planner/core/missions/pose_keeper.hpp"
 #include "planner/core/path/route_planner.hpp"
 
@@ -52,8 +53,6 @@ class GotoMission : public Mission {
   void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);
   bool AtGoal(const Pose2& map_from_base) const;
-  bool StandsForLong(const MissionControl& control);
-  void NoteThingAhead(const MissionControl& control);
 
   GotoMissionConfig config_;
   Footprint footprint_;
@@ -62,8 +61,7 @@ class GotoMission : public Mission {
   Goal goal_;
   int departures_ = 0;                           ///< after a stop
   std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account
-  double stood_s_ = 0, stood_at_m_ = 0;          ///< how long without progress, and what was left then
-  std::optional<Time> stepped_;
+  StandWatch stands_;
   bool whole_ = true;  ///< the path ordered last leads to the goal
 };
 

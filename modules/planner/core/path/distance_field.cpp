@@ -10,6 +10,8 @@ namespace priamos::planner {
 namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
+/// So much farther than the base needs in any heading an obstacle may still be a reason to keep off it.
+constexpr double kBeyondSurely_m = 1;
 
 }  // namespace
 
@@ -26,16 +28,24 @@ DistanceField::DistanceField(const SweptFootprint& space, const Eigen::Vector2d&
   ny_ = static_cast<int>(std::ceil(high.y() / kStep_m)) - y_min_ + 1;
   const Footprint& body = space.footprint();
   surely_m_ = std::hypot(body.length_m, body.width_m) / 2 + margin_m + std::numbers::sqrt2 * kStep_m;
-  Measure(space.obstacles());
+  Measure(space.obstacles(), surely_m_ + kBeyondSurely_m);
   Spread(std::min(body.length_m, body.width_m) / 2 + margin_m);
 }
 
-void DistanceField::Measure(const ObstacleMap& obstacles) {
-  clearance_m_.resize(std::size_t(nx_) * std::size_t(ny_));
-  for (std::size_t i = 0; i < clearance_m_.size(); ++i) {
-    const auto [x, y] = CellAt(i);
-    const Eigen::Vector2d at = PlaceOf(x, y);
-    clearance_m_[i] = static_cast<float>(obstacles.NearestTo({{at.x(), at.y(), 0}, {0, 0}}).distance_m);
+/// Around one obstacle after the other: a building has many, and each is near to few cells.
+void DistanceField::Measure(const ObstacleMap& obstacles, double farthest_m) {
+  clearance_m_.assign(std::size_t(nx_) * std::size_t(ny_), static_cast<float>(farthest_m));
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const Eigen::AlignedBox2d box = obstacles.BoundsOf(i);
+    const Eigen::Vector2d low = ((box.min() - goal_).array() - farthest_m) / kStep_m,
+                          high = ((box.max() - goal_).array() + farthest_m) / kStep_m;
+    const int x_end = std::min(x_min_ + nx_ - 1, static_cast<int>(std::ceil(high.x()))),
+              y_end = std::min(y_min_ + ny_ - 1, static_cast<int>(std::ceil(high.y())));
+    for (int y = std::max(y_min_, static_cast<int>(std::floor(low.y()))); y <= y_end; ++y)
+      for (int x = std::max(x_min_, static_cast<int>(std::floor(low.x()))); x <= x_end; ++x) {
+        float& clearance_m = clearance_m_[IndexOf(x, y)];
+        clearance_m = std::min(clearance_m, static_cast<float>(obstacles.DistanceTo(i, PlaceOf(x, y))));
+      }
   }
 }
 

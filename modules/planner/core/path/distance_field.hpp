@@ -33,7 +33,8 @@ class DistanceField {
   }
   Eigen::Vector2d PlaceOf(int x, int y) const { return goal_ + kStep_m * Eigen::Vector2d(x, y); }
 
-  /// Distance from the cell's middle to the nearest obstacle [m].
+  /// Distance from the cell's middle to the nearest obstacle [m]; one more than a metre beyond what the base
+  /// needs in any heading counts as that: farther away it makes no difference to a route.
   double Clearance(int x, int y) const { return clearance_m_[IndexOf(x, y)]; }
   /// Distance to the goal from cell to cell that are not closed [m]; infinite where no way leads.
   double ToGoal(int x, int y) const { return to_goal_m_[IndexOf(x, y)]; }
@@ -41,7 +42,7 @@ class DistanceField {
   bool SurelyFree(int x, int y) const { return Clearance(x, y) > surely_m_; }
 
  private:
-  void Measure(const ObstacleMap& obstacles);
+  void Measure(const ObstacleMap& obstacles, double farthest_m);
   void Spread(double closed_m);
 
   Eigen::Vector2d goal_;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "world/core/generate/clutter.hpp"
+#include "world/core/generate/storey.hpp"
 
 namespace priamos::world {
 namespace {
@@ -235,11 +236,12 @@ GeneratedWorld Building::Floor() {
 }  // namespace
 
 const std::vector<std::string>& GeneratedKinds() {
-  static const std::vector<std::string> kKinds{"floor", "corridor", "room"};
+  static const std::vector<std::string> kKinds{"floor", "corridor", "room", "storey"};
   return kKinds;
 }
 
 GeneratedWorld Generate(const std::string& kind, std::uint64_t seed) {
+  if (kind == "storey") return GenerateStorey(seed);
   Building building(seed);
   if (kind == "floor") return building.Floor();
   if (kind == "corridor") return building.Corridor();

@@ -11,7 +11,8 @@
 namespace priamos::world {
 
 /// What can be generated: "floor" a corridor with a junction and a door at its end, "corridor" a long one to
-/// be driven along, "room" two rooms and a door.
+/// be driven along, "room" two rooms and a door, "storey" a corridor with rooms on both sides that are open
+/// to it.
 const std::vector<std::string>& GeneratedKinds();
 
 /// A world made up from a seed.

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/config.hpp"
+#include "common/ground_plan.hpp"
 #include "common/learned/learned_walls.hpp"
 #include "lcmtypes/channels.hpp"
 #include "test/cli/message_log.hpp"
@@ -75,6 +77,22 @@ TEST_F(MapCommand, DrawsItIntoAFile) {
   const auto refused = Map({"--file", file_, "--svg", (folder_ / "no" / "map.svg").string()});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--svg: expected a file that can be written"));
+}
+
+TEST_F(MapCommand, ExportsAPlanThatAPlannerReads) {
+  const std::string into = (folder_ / "plan.toml").string(), sim = PRIAMOS_SOURCE_DIR "/config/sim";
+  const auto answer = Priamos({"map", "export", into, "--file", file_, "--deployment", sim});
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("plan.toml: 2 walls, 0 doors")) << "a gap of 1 m is wide enough";
+  const auto plan = LoadConfig<GroundPlan>(into);
+  ASSERT_EQ(plan.walls.size(), 2u);
+  EXPECT_NEAR(plan.walls[0].from().y(), 0.25, 1e-6);
+  const auto nothing =
+      Priamos({"map", "export", into, "--deployment", sim, "--logs", folder_.path().string()});
+  EXPECT_EQ(nothing.exit_code, 1);
+  EXPECT_THAT(nothing.err, HasSubstr("nothing has been learned"));
+  const auto nowhere = Priamos({"map", "export", into + "/x", "--file", file_, "--deployment", sim});
+  EXPECT_EQ(nowhere.exit_code, 2);
 }
 
 TEST_F(MapCommand, WhereNothingWasLearnedItSaysSo) {

@@ -150,9 +150,10 @@ TEST_F(MissionCommand, ADoorHasToBeNamed) {
 TEST_F(MissionCommand, WithoutAVerbTheyAreNamed) {
   const auto answer = Priamos({"mission"});
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err,
-              HasSubstr("expected a verb, got none; one of abort, cancel, corridor, door, goto, list, "
-                        "patrol, pause, resume, run, status"));
+  EXPECT_THAT(
+      answer.err,
+      HasSubstr("expected a verb, got none; one of abort, cancel, corridor, door, explore, goto, list, "
+                "patrol, pause, resume, run, status"));
 }
 
 }  // namespace

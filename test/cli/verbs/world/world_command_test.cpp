@@ -37,7 +37,7 @@ TEST_F(WorldCommandTest, WritesAScenarioThatLoadsWithItsWorld) {
 }
 
 TEST_F(WorldCommandTest, ManySeedsAndKindsFitIntoOneFolder) {
-  for (const char* kind : {"floor", "corridor", "room"})
+  for (const char* kind : {"floor", "corridor", "room", "storey"})
     for (const char* seed : {"1", "2", "3"}) {
       ASSERT_EQ(Generate(kind, seed).exit_code, 0);
       const Scenario scenario = LoadScenario(into_, std::string(kind) + "-" + seed);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/report/report_record.hpp"
+#include "cli/report/run_info.hpp"
+
+namespace priamos::cli {
+
+/// What came of the exploration of a floor, judged by the truth.
+struct ExploreSummary {
+  double reachable_m2 = 0;  ///< floor that the base could drive over, 10 cm off everything, from its start
+  double seen = 0;          ///< share of it that truly was in sight of the base, 2 m at most
+  double driven_m = 0;      ///< true distance
+  double wall_m = 0;        ///< length of the walls that came to the planner
+  double wall_error_p95_m =
+      0;  ///< of their places from the nearest true face, the whole map turned and moved to fit
+  double pose_error_m = 0;  ///< at the end, in the frame of the first pose
+  double pose_error_deg = 0;
+  std::string end;  ///< how it ended, in the planner's words
+};
+
+/// Summary of an exploration; nullopt when none was ordered.
+std::optional<ExploreSummary> ExploreSummaryOf(const RunRecord& record, const RunInfo& info);
+
+}  // namespace priamos::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string_view>
+
+#include "cli/scenario/order_story.hpp"
+
+namespace priamos::cli {
+
+/// The person at the workstation has the robot explore a floor of which there is no plan. It has come to a
+/// good end when the planner reports it; how much of the floor was seen is judged by the report.
+class ExploreStory : public OrderStory {
+ public:
+  static constexpr std::string_view kName = "explore";
+  static constexpr std::string_view kSummary = "the planner has an unknown floor explored";
+  static constexpr bool kMovesMouse = false;
+
+  explicit ExploreStory(const StoryStage& stage) : OrderStory(stage, Waypoints::kNone) {}
+
+ private:
+  void Begin(Time now) override;
+  void Follow(Time now) override;
+};
+
+}  // namespace priamos::cli

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/archive.hpp"
+#include "common/learned/learned_walls.hpp"
+#include "planner/core/explore/explored_grid.hpp"
+#include "planner/core/explore/frontiers.hpp"
+#include "planner/core/explore/grid_ways.hpp"
+#include "planner/core/map/learned_obstacles.hpp"
+
+namespace priamos::planner {
+
+/// Which frontier is next. All costs are metres driven.
+struct ExplorationConfig {
+  ExploredGridConfig grid;
+  std::string rule = "cost";      ///< or "nearest": the rule of m-explore, for comparison
+  double least_frontier_m = 0.6;  ///< a shorter frontier leads nowhere
+  double turn_m = 1.0;            ///< turning by a radian to face it
+  double tight_m = 2.0;           ///< per metre that is missing to `roomy_m` from what is closed
+  double roomy_m = 1.0;
+  double length_gain = 0.3;  ///< what a metre of frontier is worth ...
+  double most_length_m = 4;  ///< ... up to this length
+  double beyond_m = 1.0;     ///< the base drives so far into the unknown, as far as nothing is known there
+  double farthest_m = 80;    ///< from where it began; what lies beyond is left
+
+  void Describe(Archive& a);
+};
+
+/// A frontier that is to be driven to.
+struct FrontierGoal {
+  Eigen::Vector2d target{0, 0};  ///< place on the frontier
+  Eigen::Vector2d goal{0, 0};    ///< where the base centre is to be: there, or a bit beyond
+  double way_m = 0;              ///< to the target over what is free
+  double length_m = 0;           ///< of the frontier
+};
+
+/// A frontier that is not driven to, and why.
+struct LeftFrontier {
+  Eigen::Vector2d middle{0, 0};
+  double length_m = 0;
+  std::string reason;
+};
+
+/// What is known of a floor on which a robot began without a plan, and where to go next. It always ends:
+/// each frontier that is chosen is either seen, which makes the unknown smaller, or given up for good.
+class Exploration {
+ public:
+  /// `width_m` of the passage that the base needs; `known` is closed from the beginning.
+  Exploration(const ExplorationConfig& config, double width_m, std::vector<Rectangle> known);
+
+  void Reset();
+  /// Changes the rule and its costs.
+  void set_config(const ExplorationConfig& config) { config_ = config; }
+  /// The base is here, map frame.
+  void NoteAt(const Pose2& map_from_base);
+  /// Walls as they are known by now, in place of those before.
+  void Learn(const LearnedWalls& walls);
+  /// Something that is no wall is here.
+  void AddThing(const Rectangle& thing);
+  /// What is around this place of a frontier is not tried again.
+  void GiveUp(const Eigen::Vector2d& target, std::string reason);
+
+  /// Forgets what stopped the base and what was given up: a thing is known by one side only, and may have
+  /// been a person. False: there is nothing to forget.
+  bool TryAgain();
+
+  /// The frontier that is next; nullopt: nothing is left that can be reached.
+  std::optional<FrontierGoal> Choose(const Pose2& map_from_base);
+  /// Whether the frontier is still there at its place.
+  bool IsOpen(const FrontierGoal& goal);
+  /// The frontiers that Choose() left, longest first.
+  const std::vector<LeftFrontier>& left() const { return left_; }
+  /// Unknown cells beside free ones, and what stopped the base: what a way there keeps off, the unknown
+  /// around the goal excepted.
+  std::vector<NamedObstacle> ObstaclesFor(const FrontierGoal& goal);
+
+  const ExploredGrid& grid();
+  double driven_m() const { return driven_m_; }
+
+ private:
+  struct GivenUp {
+    Eigen::Vector2d at;
+    std::string reason;
+  };
+  struct Candidate {
+    FrontierGoal goal;
+    double cost = 0;
+  };
+  std::optional<Candidate> Best(const Frontier& frontier, const GridWays& ways, const Pose2& base) const;
+  double CostOf(const Frontier& frontier, const Eigen::Vector2i& cell, const GridWays& ways,
+                const Pose2& base) const;
+  const GivenUp* FindGivenUp(const Eigen::Vector2d& at) const;
+  std::string WhyLeft(const Frontier& frontier, const GridWays& ways) const;
+  Eigen::Vector2d GoalBeyond(const Eigen::Vector2i& cell, const GridWays& ways) const;
+  Eigen::Vector2d Outward(const Eigen::Vector2i& cell) const;
+
+  ExplorationConfig config_;
+  double clearance_m_;
+  std::vector<Rectangle> known_;
+  ExploredEvidence evidence_;
+  std::vector<GivenUp> given_up_;
+  std::vector<LeftFrontier> left_;
+  std::optional<ExploredGrid> grid_;  ///< of the evidence; none: it has changed since
+  std::optional<Eigen::Vector2d> last_;
+  double driven_m_ = 0;
+};
+
+}  // namespace priamos::planner

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/core/explore/explored_grid.hpp"
+
+namespace priamos::planner {
+
+/// A border between what is free and what is unknown (Yamauchi 1997): free cells beside unknown ones that
+/// hang together.
+struct Frontier {
+  std::vector<Eigen::Vector2i> cells;
+  Eigen::Vector2d middle{0, 0};  ///< mean of the cells' places, map frame
+
+  double length_m() const { return ExploredGrid::kStep_m * static_cast<double>(cells.size()); }
+};
+
+/// The frontiers of a grid of at least that length, in the order of their first cells.
+std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m);
+
+}  // namespace priamos::planner

@@ -1,0 +1,192 @@
+#include "planner/core/missions/explore_mission.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace priamos::planner {
+namespace {
+
+/// Frontiers to which a way is looked for in one time step.
+constexpr int kMostTries = 5;
+/// Frontiers that the outcome names; a result holds no more words.
+constexpr std::size_t kNamed = 1;
+
+double NeededWidth(const ExploreMissionConfig& config, const Footprint& footprint) {
+  return footprint.width_m + 2 * config.route.least_margin_m;
+}
+
+std::vector<Rectangle> ShapesOf(const GroundPlan& plan) {
+  std::vector<Rectangle> shapes;
+  for (const WallPlan& wall : plan.walls) shapes.push_back(wall.Shape());
+  return shapes;
+}
+
+}  // namespace
+
+void ExploreMissionConfig::Describe(Archive& a) {
+  a.Number("speed_m_s", speed_m_s, {"m/s", 0.05, 1, "on the way"});
+  a.Number("near_m", near_m, {"m", 0.05, 1, "distance to a goal at which it counts as reached"});
+  a.Number("reconsider_s", reconsider_s, {"s", 0.5, 60, "so often the frontier ahead is looked at anew"});
+  a.Number("stands_s", stands_s,
+           {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
+  a.Number("idle_s", idle_s, {"s", 1, 600, "a robot that comes no further for so long is blocked"});
+  a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
+  a.Integer("rounds", rounds, {"-", 0, 20, "so often what was left is tried again in the end"});
+  a.Flag("keep_walls", keep_walls, "the pose is held by the walls that were told first");
+  a.Integer("retries", retries, {"-", 0, 20, "paths that end elsewhere before a frontier is given up"});
+  limits.Describe(a);
+  a.Section("route", route, "the way to a frontier");
+  a.Section("choice", choice, "which frontier is next");
+}
+
+ExploreMission::ExploreMission(const ExploreMissionConfig& config, const Footprint& footprint,
+                               const GroundPlan& plan)
+    : config_(config),
+      footprint_(footprint),
+      planner_(config.route, footprint, plan),
+      exploration_(config.choice, NeededWidth(config, footprint), ShapesOf(plan)) {}
+
+std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
+  planner_.Forget();
+  exploration_.Reset();
+  kept_.Reset();
+  stands_.Reset();
+  idles_.Reset();
+  goal_.reset();
+  considered_.reset();
+  learned_.reset();
+  missed_ = 0;
+  rounds_ = 0;
+  undecided_ = false;
+  return std::nullopt;
+}
+
+void ExploreMission::set_config(const ExploreMissionConfig& config) {
+  config_ = config;
+  exploration_.set_config(config.choice);
+}
+
+void ExploreMission::Step(MissionControl& control) {
+  const Heard& heard = control.heard();
+  if (!heard.link_up || !heard.pose || !IsFresh(*heard.pose, control.now())) return;
+  exploration_.NoteAt(heard.pose->map_from_base);
+  if (!goal_ || undecided_) return Next(control);
+  const bool is_new = heard.pose->stamp > *control.path_sent();
+  if (!is_new || !control.OnPath()) return;
+  if (heard.drive->mode == DriveMode::kArrived) return Arrive(control);
+  if (stands_.Stands_s(control) > config_.stands_s)
+    return control.Fail(
+        fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
+                    config_.stands_s, heard.drive->limit));
+  if (idles_.Stands_s(control) > config_.idle_s) {
+    idles_.Reset();
+    return OnStop(control, {Stop::Cause::kBlocked, "the robot came no further"});
+  }
+  Reconsider(control);
+}
+
+void ExploreMission::Learn(const MissionControl& control) {
+  if (!control.heard().learned) return;
+  learned_ = control.heard().learned;
+  exploration_.Learn(*learned_);
+  if (config_.keep_walls) kept_.Learn(*learned_, 1e-6 * static_cast<double>(ToUtime(control.now())));
+  planner_.Learn(*learned_, control.heard().pose->map_from_base);
+}
+
+/// While the base drives: what it was to see may be seen by now, or a wall may have turned up on its way.
+void ExploreMission::Reconsider(MissionControl& control) {
+  if (considered_ && Seconds(control.now() - *considered_) < config_.reconsider_s) return;
+  considered_ = control.now();
+  if (learned_ != control.heard().learned) Learn(control);
+  const Pose2& base = control.heard().pose->map_from_base;
+  const auto left = PointsLeft(control.path().points, control.heard().drive->remaining_m);
+  if (!exploration_.IsOpen(*goal_) || !planner_.AreFree(base, left)) Next(control);
+}
+
+void ExploreMission::Arrive(MissionControl& control) {
+  const double off_m = (control.heard().pose->map_from_base.translation() - goal_->goal).norm();
+  if (learned_ != control.heard().learned) Learn(control);
+  const bool open = exploration_.IsOpen(*goal_);
+  if (open && off_m < config_.near_m)
+    exploration_.GiveUp(goal_->target, "seen from near by, and nothing is known of it");
+  else if (open && ++missed_ > config_.retries)
+    exploration_.GiveUp(goal_->target, "the paths to it ended elsewhere");
+  Next(control);
+}
+
+/// What stopped the base is closed from now on; a frontier that is no longer one by that is done with.
+void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
+  if (stop.cause != Stop::Cause::kBlocked || !goal_)
+    return control.Fail(stop.reason + "; next: look what it is, and order it again");
+  exploration_.NoteAt(control.heard().pose->map_from_base);
+  if (const auto thing = ThingAhead(control, footprint_, config_.thing_m)) exploration_.AddThing(*thing);
+  if (++missed_ > config_.retries) exploration_.GiveUp(goal_->target, stop.reason);
+  Next(control);
+}
+
+void ExploreMission::Next(MissionControl& control) {
+  Learn(control);
+  considered_ = control.now();
+  undecided_ = false;
+  for (int i = 0; i < kMostTries; ++i) {
+    const auto frontier = exploration_.Choose(control.heard().pose->map_from_base);
+    if (!frontier && (++rounds_ > config_.rounds || !exploration_.TryAgain())) return Finish(control);
+    if (!frontier) continue;
+    if (DriveTo(control, *frontier)) return;
+    exploration_.GiveUp(frontier->target, WhyNoWay(control.heard().pose->map_from_base, *frontier));
+  }
+  undecided_ = true;  // the rest is looked at in the next time step
+  if (!control.path_sent() || !control.path().points.empty()) control.OrderPath({}, 0);
+}
+
+std::string ExploreMission::WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const {
+  const auto refusal =
+      planner_.CheckEnds(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
+  return refusal ? refusal->reason : "no way for the whole base leads there";
+}
+
+/// False when no way leads there.
+bool ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& frontier) {
+  const Pose2& base = control.heard().pose->map_from_base;
+  planner_.Take(exploration_.ObstaclesFor(frontier), base);
+  auto path = planner_.FindPath(base, {{frontier.goal.x(), frontier.goal.y(), base.yaw}, false});
+  if (!path && frontier.goal != frontier.target)
+    path = planner_.FindPath(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
+  if (!path) return false;
+  if (path->points.size() > kMostPathPoints) {
+    path->points.resize(kMostPathPoints);
+    path->leeway.resize(kMostPathPoints);
+  }
+  if (!goal_ || (goal_->target - frontier.target).norm() > config_.near_m) missed_ = 0;
+  goal_ = frontier;
+  const double length_m = LengthOf(base, path->points);
+  std::vector<Eigen::Vector2d> way{base.translation()};
+  for (const Pose2& point : path->points) way.push_back(point.translation());
+  control.SendFaces(FacesAlong(kept_.Faces(), way));
+  control.OrderPath(std::move(*path), config_.speed_m_s);
+  control.Enter(Phase::kDriving, fmt::format("exploring, {:.0f} m2 seen; to ({:.1f}, {:.1f}), {:.1f} m",
+                                             exploration_.grid().free_m2(), frontier.target.x(),
+                                             frontier.target.y(), length_m));
+  return true;
+}
+
+std::string ExploreMission::Left() const {
+  const auto& left = exploration_.left();
+  if (left.empty()) return "";
+  std::string text = fmt::format("; {} frontiers left", left.size());
+  for (std::size_t i = 0; i < std::min(kNamed, left.size()); ++i)
+    text += fmt::format(", ({:.1f}, {:.1f}): {}", left[i].middle.x(), left[i].middle.y(), left[i].reason);
+  return text;
+}
+
+void ExploreMission::Finish(MissionControl& control) {
+  control.OrderPath({}, 0);
+  control.Enter(
+      Phase::kDone,
+      fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
+                  Seconds(control.now() - control.started()), exploration_.driven_m(), Left()));
+}
+
+}  // namespace priamos::planner

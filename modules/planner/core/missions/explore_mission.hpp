@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/archive.hpp"
+#include "common/ground_plan.hpp"
+#include "planner/core/explore/exploration.hpp"
+#include "planner/core/explore/kept_walls.hpp"
+#include "planner/core/missions/mission.hpp"
+#include "planner/core/missions/path_progress.hpp"
+#include "planner/core/path/route_planner.hpp"
+
+namespace priamos::planner {
+
+/// Speed, tolerances and limits of exploring a floor.
+struct ExploreMissionConfig {
+  double speed_m_s = 0.30;
+  double near_m = 0.3;        ///< distance to the goal at which it counts as reached
+  double reconsider_s = 2.5;  ///< so often it is looked whether the frontier ahead is still one
+  double stands_s = 30;       ///< a robot that holds on its way for so long has the mission fail
+  double idle_s = 12;         ///< a robot that comes no further for so long, held by nothing, is blocked
+  double thing_m = 0.3;       ///< size of what is in the way, of which one side is known only
+  bool keep_walls = true;     ///< the pose is held by the walls that were told first
+  int retries = 3;            ///< paths that end elsewhere before a frontier is given up
+  int rounds = 2;             ///< so often what was left is tried again in the end
+  MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 3600};
+  RoutePlannerConfig route{.most_poses = 60000};  ///< who has many frontiers does not search for one for long
+  ExplorationConfig choice;
+
+  void Describe(Archive& a);
+};
+
+/// The mission "see the whole floor": from frontier to frontier until none is left that can be reached. What
+/// is free is known from where the base was and from the walls that it told; what stops it is put on the map
+/// where it stands, for the length of the mission. A frontier that cannot be reached is left, with the
+/// reason; the outcome names the largest.
+class ExploreMission : public Mission {
+ public:
+  ExploreMission(const ExploreMissionConfig& config, const Footprint& footprint, const GroundPlan& plan);
+
+  std::optional<Refusal> Start(const MissionOrder& order) override;
+  void Step(MissionControl& control) override;
+  void OnStop(MissionControl& control, const Stop& stop) override;
+  /// Changes speeds, distances and times; what was ordered with others stays.
+  void set_config(const ExploreMissionConfig& config);
+  const MissionLimits& limits() const override { return config_.limits; }
+  std::string Unfinished() const override { return "the floor is not explored"; }
+
+ private:
+  void Learn(const MissionControl& control);
+  void Reconsider(MissionControl& control);
+  void Arrive(MissionControl& control);
+  void Next(MissionControl& control);
+  bool DriveTo(MissionControl& control, const FrontierGoal& frontier);
+  std::string WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const;
+  void Finish(MissionControl& control);
+  std::string Left() const;
+
+  ExploreMissionConfig config_;
+  Footprint footprint_;
+  RoutePlanner planner_;
+  Exploration exploration_;
+  KeptWalls kept_;
+  StandWatch stands_, idles_{StandWatch::Counts::kFree};
+  std::optional<FrontierGoal> goal_;
+  int missed_ = 0;                               ///< paths towards goal_ that ended elsewhere
+  int rounds_ = 0;                               ///< in which what was left was tried again
+  bool undecided_ = false;                       ///< no way was found yet
+  std::optional<Time> considered_;               ///< whether goal_ is still a frontier
+  std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account
+};
+
+}  // namespace priamos::planner

@@ -1,0 +1,68 @@
+#include "planner/core/missions/path_progress.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::planner {
+namespace {
+
+/// Direction, of length 1, of the line on which a base is that has `remaining_m` of its path before it; zero
+/// for a path without length.
+Eigen::Vector2d DirectionLeft(const Pose2& base, const std::vector<Pose2>& points, double remaining_m) {
+  for (std::size_t i = points.size(); i-- > 0;) {
+    const Eigen::Vector2d from = i > 0 ? points[i - 1].translation() : base.translation();
+    const Eigen::Vector2d line = points[i].translation() - from;
+    remaining_m -= line.norm();
+    if ((remaining_m <= 0 || i == 0) && line.norm() > 1e-6) return line.normalized();
+  }
+  return Eigen::Vector2d::Zero();
+}
+
+/// Distance from the middle of the footprint to its edge in a direction of the base frame [m].
+double Reach(const Footprint& footprint, const Eigen::Vector2d& direction) {
+  const double along_x = footprint.length_m / 2 / std::max(1e-9, std::abs(direction.x()));
+  const double along_y = footprint.width_m / 2 / std::max(1e-9, std::abs(direction.y()));
+  return std::min(along_x, along_y);
+}
+
+}  // namespace
+
+std::vector<Pose2> PointsLeft(const std::vector<Pose2>& points, double remaining_m) {
+  std::size_t first = points.size();
+  while (first > 0) {
+    --first;
+    if (first == 0) break;
+    remaining_m -= (points[first].translation() - points[first - 1].translation()).norm();
+    if (remaining_m <= 0) break;
+  }
+  return {points.begin() + static_cast<std::ptrdiff_t>(first), points.end()};
+}
+
+std::optional<Rectangle> ThingAhead(const MissionControl& control, const Footprint& footprint,
+                                    double size_m) {
+  const DriveReport& drive = *control.heard().drive;
+  const Pose2& base = control.heard().pose->map_from_base;
+  const Eigen::Vector2d ahead = DirectionLeft(base, control.path().points, drive.remaining_m);
+  if (ahead.norm() < 0.5) return std::nullopt;
+  const double distance_m =
+      Reach(footprint, base.rotation().transpose() * ahead) + drive.nearest_m.value_or(0) + size_m / 2;
+  const Eigen::Vector2d at = base.translation() + distance_m * ahead;
+  return Rectangle{{at.x(), at.y(), std::atan2(ahead.y(), ahead.x())}, Eigen::Vector2d::Constant(size_m / 2)};
+}
+
+double StandWatch::Stands_s(const MissionControl& control) {
+  constexpr double kProgress_m = 0.05, kLongestStep_s = 0.5;
+  const DriveReport& drive = *control.heard().drive;
+  const double step_s = stepped_ ? std::min(Seconds(control.now() - *stepped_), kLongestStep_s) : 0;
+  stepped_ = control.now();
+  if (drive.limit.empty() != (counts_ == Counts::kFree) ||
+      std::abs(drive.remaining_m - stood_at_m_) > kProgress_m) {
+    stood_at_m_ = drive.remaining_m;
+    stood_s_ = 0;
+  } else if (IsFresh(*control.heard().pose, control.now())) {
+    stood_s_ += step_s;
+  }
+  return stood_s_;
+}
+
+}  // namespace priamos::planner

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/core/missions/mission_control.hpp"
+#include "planner/core/path/footprint.hpp"
+
+namespace priamos::planner {
+
+/// The points of a path that a base still has before it when it has `remaining_m` to go.
+std::vector<Pose2> PointsLeft(const std::vector<Pose2>& points, double remaining_m);
+
+/// Where the thing stands that stops the base: in the direction of its line, as far away as the nearest echo
+/// there, and of `size_m`, because one side of it is known only. nullopt: the path has no direction.
+std::optional<Rectangle> ThingAhead(const MissionControl& control, const Footprint& footprint, double size_m);
+
+/// A hold, of a robot that does not know where it is for instance, may end by itself, but is not waited for
+/// for ever. Time without news of the robot does not count.
+class StandWatch {
+ public:
+  /// Which times count: those in which something holds the robot, or those in which nothing does.
+  enum class Counts { kHeld, kFree };
+  explicit StandWatch(Counts counts = Counts::kHeld) : counts_(counts) {}
+
+  void Reset() { *this = StandWatch(counts_); }
+  /// One time step of a robot on its path. Returns how long it has come no further [s].
+  double Stands_s(const MissionControl& control);
+
+ private:
+  Counts counts_;
+  double stood_s_ = 0, stood_at_m_ = 0;  ///< how long without progress, and what was left then
+  std::optional<Time> stepped_;
+};
+
+}  // namespace priamos::planner

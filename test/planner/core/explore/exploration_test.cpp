@@ -1,0 +1,156 @@
+#include "planner/core/explore/exploration.hpp"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "ideal_floor.hpp"
+
+namespace priamos::planner {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr double kWidth_m = 0.98;
+
+/// Explores it; returns after how many frontiers it ended, or `most`.
+int Explore(Exploration& dut, IdealFloor& floor, int most = 400) {
+  dut.NoteAt(floor.base());
+  for (int n = 0; n < most; ++n) {
+    dut.Learn(floor.told());
+    const auto goal = dut.Choose(floor.base());
+    if (!goal) return n;
+    const bool there = floor.Drive(goal->goal, dut);
+    dut.Learn(floor.told());
+    if (!dut.IsOpen(*goal)) continue;
+    if (there) {
+      dut.GiveUp(goal->target, "seen from near by");
+    } else {
+      const Eigen::Vector2d off = goal->goal - floor.base().translation(),
+                            at = floor.base().translation() + 0.75 * off.normalized();
+      dut.AddThing({{at.x(), at.y(), std::atan2(off.y(), off.x())}, {0.25, 0.25}});
+      if (n % 4 == 3) dut.GiveUp(goal->target, "blocked");
+    }
+  }
+  return most;
+}
+
+TEST(ExplorationTest, AtFirstItLeadsAhead) {
+  for (const double yaw : {0.0, 1.5, -2.5}) {
+    Exploration dut({}, kWidth_m, {});
+    dut.NoteAt({3, 4, yaw});
+    const auto goal = dut.Choose({3, 4, yaw});
+    ASSERT_TRUE(goal);
+    const Eigen::Vector2d there = Pose2{3, 4, yaw}.Inverse() * goal->target;
+    EXPECT_NEAR(std::atan2(there.y(), there.x()), 0, 0.15);
+    EXPECT_GT((goal->goal - Eigen::Vector2d(3, 4)).norm(), 2);
+    EXPECT_TRUE(dut.IsOpen(*goal));
+  }
+}
+
+TEST(ExplorationTest, OneRoomIsSeenAndThenItEnds) {
+  IdealFloor floor({{0, 0}, {1, 0}, {0, 1}, {1, 1}});
+  Exploration dut({}, kWidth_m, {});
+  EXPECT_LT(Explore(dut, floor), 20);
+  EXPECT_GE(floor.Covered(dut.grid()), 0.98);
+  EXPECT_NEAR(dut.driven_m(), floor.driven_m(), 0.3);
+}
+
+TEST(ExplorationTest, ThePlanIsClosedFromTheBeginning) {
+  Exploration dut(
+      {}, kWidth_m,
+      {{{2, 0, 0}, {0.1, 2}}, {{-2, 0, 0}, {0.1, 2}}, {{0, 1, 0}, {2, 0.1}}, {{0, -1, 0}, {2, 0.1}}});
+  for (double x = -1.2; x <= 1.2; x += 0.2) dut.NoteAt({x, 0, 0});
+  EXPECT_FALSE(dut.Choose({1.2, 0, 0}));
+  EXPECT_THAT(dut.left(), IsEmpty());
+}
+
+TEST(ExplorationTest, AGapThatIsTooNarrowIsLeftWithTheReason) {
+  Exploration dut({}, kWidth_m,
+                  {{{2, 1.45, 0}, {0.1, 1.05}},  // a gap of 80 cm
+                   {{2, -1.45, 0}, {0.1, 1.05}},
+                   {{-2, 0, 0}, {0.1, 2}},
+                   {{0, 1.2, 0}, {2, 0.1}},
+                   {{0, -1.2, 0}, {2, 0.1}}});
+  for (double x = -1.2; x <= 1.2; x += 0.2) dut.NoteAt({x, 0, 0});
+  EXPECT_FALSE(dut.Choose({1.2, 0, 0}));
+  ASSERT_THAT(dut.left(), SizeIs(1));
+  EXPECT_THAT(dut.left()[0].reason, HasSubstr("0.98 m width leads there"));
+}
+
+TEST(ExplorationTest, WhatWasGivenUpIsNotTriedBeforeItIsSaid) {
+  Exploration dut({}, kWidth_m, {});
+  dut.NoteAt({0, 0, 0});
+  int n = 0;
+  for (auto goal = dut.Choose({0, 0, 0}); goal && n < 100; goal = dut.Choose({0, 0, 0}), ++n)
+    dut.GiveUp(goal->target, "the lift is out of order");
+  EXPECT_GT(n, 3);
+  EXPECT_LT(n, 30);
+  ASSERT_THAT(dut.left(), SizeIs(1));
+  EXPECT_EQ(dut.left()[0].reason, "the lift is out of order");
+  EXPECT_TRUE(dut.TryAgain());
+  EXPECT_TRUE(dut.Choose({0, 0, 0}));
+  EXPECT_FALSE(dut.TryAgain()) << "nothing was given up since";
+  dut.Reset();
+  dut.NoteAt({0, 0, 0});
+  EXPECT_TRUE(dut.Choose({0, 0, 0}));
+}
+
+TEST(ExplorationTest, WhatIsTooFarIsLeft) {
+  Exploration dut({.farthest_m = 5}, kWidth_m, {});
+  for (double x = 0; x <= 6; x += 0.2) dut.NoteAt({x, 0, 0});
+  const auto goal = dut.Choose({6, 0, 0});
+  ASSERT_TRUE(goal);
+  EXPECT_LT(goal->target.norm(), 5);
+}
+
+TEST(ExplorationTest, TheUnknownIsInTheWayExceptWhereItIsToBeSeen) {
+  Exploration dut({}, kWidth_m, {});
+  for (double x = 0; x <= 4; x += 0.2) dut.NoteAt({x, 0, 0});
+  const auto goal = dut.Choose({4, 0, 0});
+  ASSERT_TRUE(goal);
+  bool behind = false;
+  for (const NamedObstacle& obstacle : dut.ObstaclesFor(*goal)) {
+    EXPECT_GT(Distance(obstacle.shape, goal->goal), 1.1);
+    behind = behind || Distance(obstacle.shape, Eigen::Vector2d(-1.3, 0)) < 0.2;
+  }
+  EXPECT_TRUE(behind);
+}
+
+TEST(ExplorationTest, TheRivalTakesTheNearestFrontier) {
+  ExplorationConfig config;
+  config.rule = "nearest";
+  Exploration dut(config, kWidth_m, {});
+  for (double x = 0; x <= 8; x += 0.2) dut.NoteAt({x, 0, 0});
+  dut.Learn({1, 1, {WallAt(4, -1, 0, 7), WallAt(4, 1, 180, 7)}});
+  const auto goal = dut.Choose({2, 0, 0});
+  ASSERT_TRUE(goal);
+  EXPECT_LT(goal->target.x(), 1);
+}
+
+/// Squares that hang together, drawn one after the other.
+std::vector<std::pair<int, int>> DrawFloor() {
+  std::vector<std::pair<int, int>> squares{{0, 0}};
+  const int n = *rc::gen::inRange(1, 10);
+  for (int i = 0; i < n; ++i) {
+    const auto at = squares[*rc::gen::inRange<std::size_t>(0, squares.size())];
+    const int side = *rc::gen::inRange(0, 4);
+    const std::pair<int, int> next{at.first + (side == 0) - (side == 1),
+                                   at.second + (side == 2) - (side == 3)};
+    if (std::find(squares.begin(), squares.end(), next) == squares.end()) squares.push_back(next);
+  }
+  return squares;
+}
+
+RC_GTEST_PROP(ExplorationTest, OfAnyFloorEverythingIsSeenAndItEnds, ()) {
+  IdealFloor floor(DrawFloor());
+  Exploration dut({}, kWidth_m, {});
+  RC_ASSERT(Explore(dut, floor) < 400);
+  const double covered = floor.Covered(dut.grid());
+  if (covered < 0.98) RC_LOG() << "covered " << covered << "\n";
+  RC_ASSERT(covered >= 0.98);
+}
+
+}  // namespace
+}  // namespace priamos::planner

@@ -1,0 +1,103 @@
+#include "planner/core/missions/explore_mission.hpp"
+
+#include <gmock/gmock.h>
+
+#include "fake_robot.hpp"
+#include "test/planner/core/explore/ideal_floor.hpp"
+
+namespace priamos::planner {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr int kExplore = 4;
+
+/// A base that drives where it is led on an L of 5 squares of 2 m, and is told the walls that it passes.
+struct Story {
+  explicit Story(const ExploreMissionConfig& config = {}) : robot(dut, floor.base()) {
+    dut.Add(kExplore, std::make_unique<ExploreMission>(config, Footprint{}, GroundPlan{}));
+    robot.sigma_m = 0.01;
+    robot.tick = [this](Time now) {
+      floor.HearFrom(robot.truth().translation());
+      inside = inside && floor.Holds(robot.truth().translation());
+      if (!dut.heard().learned || dut.heard().learned->revision != floor.told().revision)
+        dut.OnLearned(std::make_shared<LearnedWalls>(floor.told()));
+      return dut.Tick(now);
+    };
+  }
+  void Run(double seconds) {
+    ASSERT_TRUE(dut.Start(robot.now(), {kExplore}));
+    robot.RunFor(seconds);
+  }
+
+  IdealFloor floor{{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}}};
+  MissionTable dut;
+  FakeRobot robot;
+  bool inside = true;
+};
+
+TEST(ExploreMissionTest, TheFloorIsExploredAndTheRobotStands) {
+  Story s;
+  s.Run(200);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_THAT(s.dut.state().text, StartsWith("explored "));
+  EXPECT_TRUE(s.inside);
+  ASSERT_THAT(s.robot.paths, Not(IsEmpty()));
+  EXPECT_GT(s.robot.truth().y, 2) << "it was round the corner";
+  s.robot.Step();
+  for (int i = 0; i < 20; ++i) s.robot.Step();
+  EXPECT_THAT(s.robot.paths.back().points, IsEmpty()) << "what is left of the path is not driven";
+}
+
+TEST(ExploreMissionTest, BeforeThePoseIsKnownNothingIsSent) {
+  Story s;
+  s.robot.silent = true;
+  s.Run(4);
+  EXPECT_THAT(s.robot.paths, IsEmpty());
+  EXPECT_EQ(s.dut.state().phase, Phase::kWaiting);
+}
+
+TEST(ExploreMissionTest, ARobotThatGetsNowhereEndsWithTheFrontiersThatAreLeft) {
+  Story s;
+  s.robot.blocked = true;
+  s.Run(300);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_THAT(s.dut.state().text, HasSubstr("frontiers left"));
+}
+
+TEST(ExploreMissionTest, WhoTouchedSomethingAsksAPerson) {
+  ExploreMissionConfig config;
+  config.reconsider_s = 60;  // a path on its way is another motion than the one that touched
+  Story s(config);
+  s.Run(3);
+  s.robot.touched = true;
+  s.robot.RunFor(5);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("touched"));
+}
+
+TEST(ExploreMissionTest, AHoldIsNotWaitedForForEver) {
+  ExploreMissionConfig config;
+  config.stands_s = 12;
+  Story s(config);
+  s.Run(3);
+  s.robot.lost = true;
+  s.robot.RunFor(20);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("has held on its way for 12 s: the pose is stale"));
+}
+
+TEST(ExploreMissionTest, ASecondOrderBeginsAnew) {
+  Story s;
+  s.Run(200);
+  const std::size_t before = s.robot.paths.size();
+  s.Run(100);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_GT(s.robot.paths.size(), before + 2);
+}
+
+}  // namespace
+}  // namespace priamos::planner
