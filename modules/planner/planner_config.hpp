@@ -8,6 +8,7 @@
 #include "planner/core/missions/corridor_mission.hpp"
 #include "planner/core/missions/door_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
+#include "planner/core/missions/locate_mission.hpp"
 #include "planner/core/path/door_planner.hpp"
 #include "planner/core/path/door_router.hpp"
 #include "planner/core/path/footprint.hpp"
@@ -25,6 +26,7 @@ struct PlannerConfig {
   DoorMissionConfig mission;
   GotoMissionConfig go;
   CorridorMissionConfig corridor;
+  LocateMissionConfig locate;
   LearnedMapConfig learned;
   DoorRouterConfig doors;
   StepRunnerConfig steps;

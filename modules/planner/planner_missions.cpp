@@ -4,6 +4,7 @@
 #include "planner/core/missions/corridor_mission.hpp"
 #include "planner/core/missions/door_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
+#include "planner/core/missions/locate_mission.hpp"
 
 namespace priamos::planner {
 
@@ -14,6 +15,8 @@ MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan) {
   missions.Add(mission_command_t::GOTO, std::make_unique<GotoMission>(config.go, config.footprint, plan));
   missions.Add(mission_command_t::CORRIDOR,
                std::make_unique<CorridorMission>(config.corridor, config.footprint, plan));
+  missions.Add(mission_command_t::LOCATE,
+               std::make_unique<LocateMission>(config.locate, config.go.route, config.footprint, plan));
   return missions;
 }
 
@@ -37,7 +40,8 @@ DoorRouter MakeRouter(const PlannerConfig& config, const GroundPlan& plan) {
 Agenda MakeAgenda(const PlannerConfig& config, MissionTable& missions, DoorRouter& router) {
   return {missions,
           router,
-          {mission_command_t::GOTO, mission_command_t::PASS_DOOR, mission_command_t::CORRIDOR},
+          {mission_command_t::GOTO, mission_command_t::PASS_DOOR, mission_command_t::CORRIDOR,
+           mission_command_t::LOCATE},
           SpeedsOf(config),
           config.steps};
 }

@@ -22,7 +22,7 @@ void OrderStory::Tick(Time now) {
     text_ = "no sign of life from " + alive_.Missing();
     return;
   }
-  if (scenario_.waypoints.empty()) return End(now, false, "the scenario has no waypoint");
+  if (NeedsWaypoints() && scenario_.waypoints.empty()) return End(now, false, "the scenario has no waypoint");
   if (!order_) Begin(now);
   for (const mission_status_t& status : status_.Drain()) {
     if (const auto text = order_->Hear(status, now)) progress_(now, *text);

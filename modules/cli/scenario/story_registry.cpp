@@ -17,6 +17,7 @@ using AllStories = StoryList<  //
     class CorridorStory,       //
     class DoorStory,           //
     class GotoStory,           //
+    class LocateStory,         //
     class PatrolStory,         //
     class TeleopStory>;
 

@@ -41,6 +41,7 @@ struct AgendaKinds {
   int go = 0;       ///< to a place
   int pass = 0;     ///< through a door
   int follow = -1;  ///< along a corridor
+  int locate = -1;  ///< the robot finds out where it is
 };
 
 /// Planned speeds of the two, with which the time left is computed.

@@ -52,7 +52,11 @@ class MissionTable {
 
   void OnPose(const RobotPose& pose);
   void OnDrive(const DriveReport& drive, Time now);
-  void OnLook(const LookResult& result) { control_.heard_.looks.push_back(result); }
+  void OnLook(const LookResult& result) {
+    control_.NotePlaced(result);
+    control_.heard_.looks.push_back(result);
+  }
+  void OnTold(const SeenWall& wall) { control_.heard_.told.push_back(wall); }
   /// Notes that the robot's pose was corrected at `stamp`: older poses are not used for planning any more.
   void OnCorrected(Time stamp);
   void OnLeaf(const LeafSighting& leaf) { control_.heard_.leaves.push_back(leaf); }
