@@ -48,6 +48,7 @@ const std::vector<Call> kCalls{
     {"mission abort", ""},
     {"mission goto", "3 2.4"},
     {"mission corridor", "5"},
+    {"mission locate", ""},
     {"mission patrol", "3 2.4 4 2.4"},
     {"mission run", "$SOURCE/config/sim/missions/round.toml --deployment $SOURCE/config/sim"},
     {"mission cancel", "4711"},

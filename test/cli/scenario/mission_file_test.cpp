@@ -69,7 +69,7 @@ TEST(MissionFile, WhatCannotBeDoneIsNamedWithItsLine) {
   EXPECT_THAT(WhyNot("[[step]]\ndo = \"goto\"\nx_m = 4.0\n"),
               HasSubstr("round.toml:1:step[0].y_m: expected a place"));
   EXPECT_THAT(WhyNot("[[step]]\ndo = \"fly\"\n"),
-              HasSubstr("round.toml:2:step[0].do: expected one of goto, door, corridor, wait"));
+              HasSubstr("round.toml:2:step[0].do: expected one of goto, door, corridor, locate, wait"));
   EXPECT_THAT(WhyNot(kGo + "wait_s = 4\n"), AllOf(StartsWith("round.toml:5:"), HasSubstr("wait_s")));
   EXPECT_THAT(WhyNot("[[step]]\ndo = \"repeat\"\nfrom = 1\n" + kGo), HasSubstr("a step before this one"));
   EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"repeat\"\ntimes = 32\n"), HasSubstr("at most 32 steps"));

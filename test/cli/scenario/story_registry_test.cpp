@@ -47,7 +47,7 @@ TEST(Stories, UnknownNameInAScenarioIsRefusedWithItsPlaceAndTheNearestName) {
     FAIL() << "an unknown story was taken";
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
-                 "walk.toml:2:story: expected one of corridor, door, goto, patrol, teleop, got \"telop\"; "
+                 "walk.toml:2:story: expected one of corridor, door, goto, locate, patrol, teleop, got \"telop\"; "
                  "nearest: \"teleop\"");
   }
 }

@@ -152,7 +152,7 @@ TEST_F(MissionCommand, WithoutAVerbTheyAreNamed) {
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err,
               HasSubstr("expected a verb, got none; one of abort, cancel, corridor, door, goto, list, "
-                        "patrol, pause, resume, run, status"));
+                        "locate, patrol, pause, resume, run, status"));
 }
 
 }  // namespace
