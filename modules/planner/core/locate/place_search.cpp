@@ -13,8 +13,8 @@ namespace {
 constexpr double kYawStep_rad = 0.035;
 /// What a cell is judged by is coarser than the place that the fit finds in it.
 constexpr double kCoarse = 3;
-/// A place that is known worse than this is a stretch.
-constexpr double kPoint_m = 0.4;
+/// A place whose walls hold it worse than this, or that goes on so far, is a stretch.
+constexpr double kPoint_m = 0.4, kStretch_m = 1.5;
 /// So many places are looked at closely for one drive; more tell that it says nothing yet.
 constexpr std::size_t kMostPlaces = 15000;
 
@@ -129,7 +129,7 @@ void PlaceSearchConfig::Describe(Archive& a) {
 }
 
 bool PlaceCandidate::IsPoint() const {
-  return spread_m <= kPoint_m && PositionSigma(covariance) <= kPoint_m;
+  return spread_m <= kStretch_m && PositionSigma(covariance) <= kPoint_m;
 }
 
 std::vector<PlaceCandidate> FindPlaces(const PlaceSearchConfig& config, const PlacePlan& plan,

@@ -46,7 +46,7 @@ TEST(LegChoice, LegsFollowTheDirectionOfTheWalls) {
 
 TEST(LegChoice, AWayThatLeadsOnGetsLonger) {
   DrivenWay way = Standing();
-  for (double x_m = 0; x_m <= 4; x_m += 0.2) way.trail.push_back({x_m, 0, 0});
+  for (int i = 0; i <= 20; ++i) way.trail.push_back({0.2 * i, 0, 0});
   const auto dut = ChooseLeg({}, way, {});
   ASSERT_TRUE(dut);
   EXPECT_NEAR(dut->x, 10, 1e-9);

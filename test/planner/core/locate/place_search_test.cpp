@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/principal_axes.hpp"
 #include "simulated_drive.hpp"
 #include "test/planner/core/plans.hpp"
 
@@ -14,8 +15,10 @@ GroundPlan Room(double x_m, double y_m) {
   return plan;
 }
 
+/// Of a stretch: anywhere on it.
 bool IsAt(const PlaceCandidate& candidate, const Pose2& truth) {
-  return (candidate.map_from_base.translation() - truth.translation()).norm() < 0.3 &&
+  const double reach_m = 0.3 + (candidate.IsPoint() ? 0 : candidate.spread_m);
+  return (candidate.map_from_base.translation() - truth.translation()).norm() < reach_m &&
          std::abs(WrapAngle(candidate.map_from_base.yaw - truth.yaw)) < Radians(6);
 }
 

@@ -14,7 +14,7 @@
 namespace priamos::planner {
 
 /// A robot that hears faces beside its way, in a building that may hold things that are on no plan: what
-/// WayLog makes of a drive, without a robot. A wall is heard where the base is abeam of it, nearer than 3 m
+/// WayLog makes of a drive, without a robot. A wall is heard where the base is abeam of it, nearer than 4 m
 /// with nothing between; a part of them never.
 class SimulatedDrive {
  public:
@@ -129,7 +129,7 @@ class SimulatedDrive {
     for (Heard& heard : heard_) {
       const Eigen::Vector2d along = heard.face.along(), left(-along.y(), along.x());
       const double at_m = along.dot(base - heard.face.from), far_m = left.dot(base - heard.face.from);
-      if (at_m < 0 || at_m > heard.face.length_m() || far_m < 0.2 || far_m > 3) continue;
+      if (at_m < 0 || at_m > heard.face.length_m() || far_m < 0.2 || far_m > 4) continue;
       const Eigen::Vector2d foot = heard.face.from + at_m * along;
       if (IsHidden(base, foot + 0.05 * left)) continue;
       if (heard.to_m < heard.from_m) heard.from_m = heard.to_m = at_m;
