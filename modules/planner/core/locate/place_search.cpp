@@ -16,7 +16,7 @@ constexpr double kCoarse = 3;
 /// A place whose walls hold it worse than this, or that goes on so far, is a stretch.
 constexpr double kPoint_m = 0.4, kStretch_m = 1.5;
 /// So many places are looked at closely for one drive; more tell that it says nothing yet.
-constexpr std::size_t kMostPlaces = 15000;
+constexpr std::size_t kMostPlaces = 40000;
 
 struct Rough {
   Pose2 map_from_base;
@@ -63,6 +63,7 @@ std::vector<PlaceFit> FitsOf(const PlaceSearchConfig& config, const PlaceScorer&
   double best = 0;
   for (const Rough& place : places) {
     if (place.bound < best - config.margin - kCoarse) break;
+    if (fits.size() >= kMostPlaces) return {};
     const PlaceFit fit = scorer.Refined(place.map_from_base);
     best = std::max(best, fit.score);
     fits.push_back(fit);
@@ -137,7 +138,6 @@ std::vector<PlaceCandidate> FindPlaces(const PlaceSearchConfig& config, const Pl
   if (way.trail.empty() || way.pieces.empty() || plan.faces().empty()) return {};
   const PlaceScorer scorer(config.score, plan, way);
   std::vector<Rough> places = RoughPlaces(config, plan, scorer);
-  if (places.size() > kMostPlaces) return {};
   return Grouped(config, Thinned(FitsOf(config, scorer, std::move(places))));
 }
 
