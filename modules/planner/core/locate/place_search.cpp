@@ -129,8 +129,12 @@ void PlaceSearchConfig::Describe(Archive& a) {
   a.Number("same_deg", same_deg, {"deg", 1, 90, "nor turned more"});
 }
 
+bool PlaceCandidate::IsHeld() const {
+  return PositionSigma(covariance) <= kPoint_m;
+}
+
 bool PlaceCandidate::IsPoint() const {
-  return spread_m <= kStretch_m && PositionSigma(covariance) <= kPoint_m;
+  return spread_m <= kStretch_m && IsHeld();
 }
 
 std::vector<PlaceCandidate> FindPlaces(const PlaceSearchConfig& config, const PlacePlan& plan,

@@ -29,7 +29,9 @@ struct PlaceCandidate {
   int matched = 0;      ///< pieces of wall that lie on the plan's
   double spread_m = 0;  ///< how far from it places explain the drive nearly as well
 
-  /// Whether it is one place, and not a stretch of a corridor.
+  /// Whether its walls hold it in every direction.
+  bool IsHeld() const;
+  /// Whether it is one place besides, and not a stretch along which places are nearly as good.
   bool IsPoint() const;
 };
 

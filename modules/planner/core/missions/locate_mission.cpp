@@ -166,7 +166,7 @@ void LocateMission::EndLeg(MissionControl& control) {
   same_legs_ = !found_.empty() && found_.size() == count_before_ ? same_legs_ + 1 : 0;
   count_before_ = found_.size();
   const bool few = !found_.empty() && found_.size() <= std::size_t(config_.most_tests) &&
-                   std::all_of(found_.begin(), found_.end(), [](const auto& c) { return c.IsPoint(); });
+                   std::all_of(found_.begin(), found_.end(), [](const auto& c) { return c.IsHeld(); });
   const bool stays = few && same_legs_ >= config_.same_legs && log_.driven_m() >= config_.same_m;
   if (!one && !stays) return NextLeg(control);
   stage_ = Stage::kSettling;
@@ -180,7 +180,7 @@ bool LocateMission::HasSettled(const MissionControl& control) const {
 void LocateMission::Decide(MissionControl& control) {
   Search();
   const bool points = !found_.empty() &&
-                      std::all_of(found_.begin(), found_.end(), [](const auto& c) { return c.IsPoint(); });
+                      std::all_of(found_.begin(), found_.end(), [](const auto& c) { return c.IsHeld(); });
   if (points && found_.size() <= std::size_t(config_.most_tests)) return BeginTests(control);
   // What came while the robot stood may show another leg.
   if (log_.driven_m() <= config_.most_m && legs_ < config_.most_legs &&
