@@ -230,6 +230,7 @@ void LocateMission::Approach(MissionControl& control) {
   const Pose2& base = control.heard().pose->map_from_base;
   view_ = views_.Nearest(base, Others(), seen_doors_);
   if (!view_) {
+    Tell(control, "no other door tells");
     ++test_;
     seen_doors_.clear();
     return NextTest(control);
@@ -252,6 +253,7 @@ void LocateMission::Look(MissionControl& control) {
   if (result && result->no_model) control.SendModel(*MakeLandmark(plan_, view_->door.id));
   if (n_good_ >= kGoodLooks) return Confirm(control);
   if (looks_.Exhausted()) {
+    Tell(control, fmt::format("door '{}' not seen: {}", view_->door.name, looks_.trouble()));
     seen_doors_.push_back(view_->door.id);
     return Approach(control);
   }
