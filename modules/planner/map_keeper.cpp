@@ -94,7 +94,9 @@ bool MapKeeper::TakeFeatures() {
     for (const feature_t& feature : message.features) {
       const auto seen = FromMessage(message.store, feature);
       good = good && seen;
-      if (seen) changed = map_.Take(*seen) || changed;
+      if (!seen) continue;
+      told_.push_back(*seen);
+      changed = map_.Take(*seen) || changed;
     }
     if (good) {
       acks_.Publish(batches_.Note(message.store, message.batch));

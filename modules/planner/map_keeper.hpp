@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bus/context.hpp"
 #include "lcmtypes/channels.hpp"
@@ -37,6 +39,8 @@ class MapKeeper {
 
   /// Takes messages, and writes the file when it is time. Returns the map when it has changed.
   std::shared_ptr<const LearnedWalls> Tick(Time now);
+  /// The walls that came since the last call, as they were told.
+  std::vector<SeenWall> TakeTold() { return std::exchange(told_, {}); }
   std::shared_ptr<const LearnedWalls> walls() const { return std::make_shared<LearnedWalls>(map_.walls()); }
 
  private:
@@ -50,6 +54,7 @@ class MapKeeper {
   LearnedMap map_;
   int written_ = 0;  ///< revision in the file
   std::optional<Time> wrote_;
+  std::vector<SeenWall> told_;
   bool greeted_ = false, complained_ = false;
   BatchLog batches_;
   bus::Inbox<features_t> features_;

@@ -31,6 +31,7 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       look_(context.node().Advertise(channels::kLookRequest)),
       walls_(context.node().Advertise(channels::kPlanWalls)),
       path_(context.node().Advertise(channels::kPath)),
+      place_(context.node().Advertise(channels::kPoseReset)),
       status_(context.node().Advertise(channels::kMissionStatus)),
       status_rate_(config.status_rate_hz) {
   missions_.OnLearned(map_.walls());
@@ -39,6 +40,7 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
 void PlannerApp::Tick(Time now) {
   TakeReports(now);
   if (auto learned = map_.Tick(now)) missions_.OnLearned(std::move(learned));
+  for (const SeenWall& wall : map_.TakeTold()) missions_.OnTold(wall);
   TakeOrders(now);
   Send(agenda_.Tick(now), now);
   SendStatus(now);
@@ -99,6 +101,7 @@ void PlannerApp::Send(const MissionActions& actions, Time now) {
   if (actions.faces) walls_.Publish(ToMessage(*actions.faces, plan_.wall_sigma_m));
   if (actions.path) path_.Publish(ToMessage(*actions.path, now));
   if (actions.look) look_.Publish(ToMessage(*actions.look, now));
+  if (actions.place) place_.Publish(ToMessage(*actions.place, now));
 }
 
 void PlannerApp::SendStatus(Time now) {

@@ -60,6 +60,7 @@ class PlannerApp {
   bus::Publisher<look_request_t> look_;
   bus::Publisher<plan_walls_t> walls_;
   bus::Publisher<path_t> path_;
+  bus::Publisher<pose_reset_t> place_;
   bus::Publisher<mission_status_t> status_;
 
   MissionState sent_state_;

@@ -15,6 +15,7 @@ void PlannerConfig::Describe(Archive& a) {
   a.Section("goto", go, "how the mission to a place goes");
   a.Section("corridor", corridor, "how a corridor is followed");
   a.Section("explore", explore, "how an unknown floor is explored");
+  a.Section("locate", locate, "how a robot that does not know where it is finds out");
   a.Section("learned", learned, "which walls that robots found are the same");
   a.Section("doors", doors, "ways that lead through doors");
   a.Section("steps", steps, "how the steps of an order follow each other");

@@ -9,6 +9,7 @@
 #include "planner/core/missions/door_mission.hpp"
 #include "planner/core/missions/explore_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
+#include "planner/core/missions/locate_mission.hpp"
 #include "planner/core/path/door_planner.hpp"
 #include "planner/core/path/door_router.hpp"
 #include "planner/core/path/footprint.hpp"
@@ -27,6 +28,7 @@ struct PlannerConfig {
   GotoMissionConfig go;
   CorridorMissionConfig corridor;
   ExploreMissionConfig explore;
+  LocateMissionConfig locate;
   LearnedMapConfig learned;
   DoorRouterConfig doors;
   StepRunnerConfig steps;

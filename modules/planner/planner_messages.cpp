@@ -165,8 +165,12 @@ std::optional<LookResult> FromMessage(const landmark_fix_t& message) {
 
 LookResult FromMessage(const pose_correction_t& message) {
   const bool applied = message.verdict == pose_correction_t::APPLIED;
-  return {message.request_id, applied, applied ? "" : std::string(CorrectionVerdictText(message.verdict)),
-          false};
+  return {message.request_id,
+          applied,
+          applied ? "" : std::string(CorrectionVerdictText(message.verdict)),
+          false,
+          message.verdict == pose_correction_t::IMPLAUSIBLE,
+          message.verdict == pose_correction_t::RESET};
 }
 
 landmark_model_t ToMessage(const Landmark& landmark) {
@@ -229,6 +233,18 @@ look_request_t ToMessage(const LookOrder& look, Time now) {
   message.request_id = look.request_id;
   message.landmark_id = static_cast<std::int16_t>(look.landmark_id);
   message.side = static_cast<std::int8_t>(look.side);
+  return message;
+}
+
+pose_reset_t ToMessage(const PlaceOrder& place, Time now) {
+  pose_reset_t message{};
+  message.utime = ToUtime(now);
+  message.request_id = place.request_id;
+  message.x_m = place.map_from_base.x;
+  message.y_m = place.map_from_base.y;
+  message.yaw_rad = place.map_from_base.yaw;
+  message.sigma_m = place.sigma_m;
+  message.sigma_yaw_rad = place.sigma_yaw_rad;
   return message;
 }
 

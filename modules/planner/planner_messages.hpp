@@ -30,6 +30,7 @@ path_t ToMessage(const PathOrder& path, Time now);
 /// `sigma_m`: how well the plan knows the ends of its walls, across them.
 plan_walls_t ToMessage(const std::vector<WallFace>& faces, double sigma_m);
 look_request_t ToMessage(const LookOrder& look, Time now);
+pose_reset_t ToMessage(const PlaceOrder& place, Time now);
 /// So many of the newest ends are in a status, which has to fit a datagram.
 inline constexpr std::size_t kShownResults = 3;
 /// How the orders stand. `n_later`: so many of the newest ends are left for a later status.

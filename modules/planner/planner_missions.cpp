@@ -5,6 +5,7 @@
 #include "planner/core/missions/door_mission.hpp"
 #include "planner/core/missions/explore_mission.hpp"
 #include "planner/core/missions/goto_mission.hpp"
+#include "planner/core/missions/locate_mission.hpp"
 
 namespace priamos::planner {
 
@@ -17,6 +18,8 @@ MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan) {
                std::make_unique<CorridorMission>(config.corridor, config.footprint, plan));
   missions.Add(mission_command_t::EXPLORE,
                std::make_unique<ExploreMission>(config.explore, config.footprint, plan));
+  missions.Add(mission_command_t::LOCATE,
+               std::make_unique<LocateMission>(config.locate, config.go.route, config.footprint, plan));
   return missions;
 }
 
@@ -43,7 +46,7 @@ Agenda MakeAgenda(const PlannerConfig& config, MissionTable& missions, DoorRoute
   return {missions,
           router,
           {mission_command_t::GOTO, mission_command_t::PASS_DOOR, mission_command_t::CORRIDOR,
-           mission_command_t::EXPLORE},
+           mission_command_t::EXPLORE, mission_command_t::LOCATE},
           SpeedsOf(config),
           config.steps};
 }

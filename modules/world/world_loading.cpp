@@ -8,6 +8,7 @@
 #include "common/config.hpp"
 #include "common/input/regular_file.hpp"
 #include "common/rectangle.hpp"
+#include "world/core/base/start_anywhere.hpp"
 #include "world/core/generate/strew.hpp"
 #include "world/core/scene/built_doors.hpp"
 #include "world/core/scene/outline.hpp"
@@ -116,14 +117,17 @@ LoadedWorld LoadWorld(const std::string& name, const std::function<std::string(c
   world.doors = BuiltDoors(world.map, world.plan, seed);
   world.solids = BuildSolids(world.map, world.plan, seed);
   for (Solid& wall : WallsOfGrid(world, resolve)) world.solids.push_back(std::move(wall));
+  world.hazards = HazardsOf(world, seed);
   world.start = DrawStart(world.plan.start, seed);
+  if (world.plan.start.anywhere)
+    world.start.truth =
+        DrawFreePlace(world.map, body, world.solids, world.hazards, seed).value_or(world.start.truth);
   world.light = DrawLight(world.plan, seed);
   if (!world.plan.reference.object.empty()) {
     const auto object = LoadConfig<ReferenceObject>(
         FileOf(world.plan.reference.place.Of("object"), resolve(world.plan.reference.object)));
     world.reference = PlaceReference(world.plan.reference, object, world.start.truth, seed);
   }
-  world.hazards = HazardsOf(world, seed);
   world.quirks = DrawQuirks(world.plan.cameras, seed);
   CheckPeople(world, body);
   CheckHoles(world, body);

@@ -53,6 +53,7 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/head/landmark_models_test", "planner's landmarks in the head's hands"},
     {"test/head/live_parameters_test", "every parameter that head_config marks as live"},
     {"test/head/real_photographs_test", "the whole of seeing on photographs"},
+    {"test/planner/core/locate/no_wrong_place_test", "the whole room in buildings made up"},
     {"test/planner/live_parameters_test", "every parameter that planner_config marks as live"},
     {"test/planner/second_mission_test", "a mission that is not shipped"},
     {"test/radio/command_freshness_test", "age of a command through the process"},

@@ -50,6 +50,7 @@ const std::vector<Call> kCalls{
     {"mission goto", "3 2.4"},
     {"mission corridor", "5"},
     {"mission explore", ""},
+    {"mission locate", ""},
     {"mission patrol", "3 2.4 4 2.4"},
     {"mission run", "$SOURCE/config/sim/missions/round.toml --deployment $SOURCE/config/sim"},
     {"mission cancel", "4711"},

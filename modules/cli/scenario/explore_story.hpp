@@ -14,9 +14,10 @@ class ExploreStory : public OrderStory {
   static constexpr std::string_view kSummary = "the planner has an unknown floor explored";
   static constexpr bool kMovesMouse = false;
 
-  explicit ExploreStory(const StoryStage& stage) : OrderStory(stage, Waypoints::kNone) {}
+  explicit ExploreStory(const StoryStage& stage) : OrderStory(stage) {}
 
  private:
+  bool NeedsWaypoints() const override { return false; }
   void Begin(Time now) override;
   void Follow(Time now) override;
 };

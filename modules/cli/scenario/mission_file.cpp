@@ -43,7 +43,8 @@ class Rehearsal {
       return Drive({{step.x_m, step.y_m, step.yaw_rad}, step.turn != 0});
     if (step.mission == mission_command_t::PASS_DOOR) return Pass(step.landmark_id);
     // Where a corridor ends is seen when it does.
-    if (step.mission == mission_command_t::CORRIDOR || step.mission == mission_command_t::EXPLORE)
+    if (step.mission == mission_command_t::CORRIDOR || step.mission == mission_command_t::EXPLORE ||
+        step.mission == mission_command_t::LOCATE)
       at_.reset();
     return std::nullopt;
   }
@@ -84,6 +85,8 @@ mission_step_t ToMessage(const MissionFileStep& step, const GroundPlan& plan, co
     }
   } else if (step.what == "explore") {
     message.mission = mission_command_t::EXPLORE;
+  } else if (step.what == "locate") {
+    message.mission = mission_command_t::LOCATE;
   } else if (step.what == "corridor") {
     message.mission = mission_command_t::CORRIDOR;
     message.distance_m = static_cast<float>(step.distance_m);
@@ -113,7 +116,7 @@ void Repeat(const MissionFileStep& repeat, std::size_t number, std::vector<std::
 
 void MissionFileStep::Describe(Archive& a) {
   NotePlace(a, place);
-  a.Choice("do", what, {"goto", "door", "corridor", "explore", "wait", "repeat"},
+  a.Choice("do", what, {"goto", "door", "corridor", "explore", "locate", "wait", "repeat"},
            "what is done in this step");
   if (what == "goto") {
     a.Require("x_m", "a place, x_m and y_m");
@@ -128,8 +131,8 @@ void MissionFileStep::Describe(Archive& a) {
     a.Text("door", door, "its name in the map, or its number");
   } else if (what == "corridor") {
     a.Number("distance_m", distance_m, {"m", 0, 180, "how far the corridor is followed; 0: to its end"});
-  } else if (what == "explore") {
-    // It has no values.
+  } else if (what == "explore" || what == "locate") {
+    // Nothing more is to be said.
   } else if (what == "wait") {
     a.Require("wait_s", "how long");
     a.Number("wait_s", wait_s, {"s", 0, 36000, "how long the robot stands"});

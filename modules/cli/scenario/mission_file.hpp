@@ -13,7 +13,7 @@ namespace priamos::cli {
 
 /// One step of a mission file.
 struct MissionFileStep {
-  std::string what = "goto";  ///< "goto", "door", "corridor", "wait" or "repeat"
+  std::string what = "goto";  ///< "goto", "door", "corridor", "locate", "wait" or "repeat"
   double x_m = 0, y_m = 0;
   std::optional<double> yaw_deg;  ///< heading at the place; as it suits the path if not given
   std::string door;               ///< name or number

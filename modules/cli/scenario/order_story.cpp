@@ -5,9 +5,8 @@
 
 namespace priamos::cli {
 
-OrderStory::OrderStory(const StoryStage& stage, Waypoints waypoints)
+OrderStory::OrderStory(const StoryStage& stage)
     : scenario_(stage.scenario),
-      waypoints_(waypoints),
       progress_(stage.progress),
       alive_(stage.scenario, stage.onboard, stage.offboard),
       status_(stage.offboard.SubscribeAll(channels::kMissionStatus)),
@@ -23,8 +22,7 @@ void OrderStory::Tick(Time now) {
     text_ = "no sign of life from " + alive_.Missing();
     return;
   }
-  if (waypoints_ == Waypoints::kSome && scenario_.waypoints.empty())
-    return End(now, false, "the scenario has no waypoint");
+  if (NeedsWaypoints() && scenario_.waypoints.empty()) return End(now, false, "the scenario has no waypoint");
   if (!order_) Begin(now);
   for (const mission_status_t& status : status_.Drain()) {
     if (const auto text = order_->Hear(status, now)) progress_(now, *text);

@@ -25,11 +25,11 @@ class OrderStory : public ScenarioStory {
   std::string Reason() const override { return text_; }
 
  protected:
-  /// The stage's `progress` gets one line per order and per change of the mission. A story that leads to
-  /// waypoints fails without one.
-  enum class Waypoints { kSome, kNone };
-  explicit OrderStory(const StoryStage& stage, Waypoints waypoints = Waypoints::kSome);
+  /// The stage's `progress` gets one line per order and per change of the mission.
+  explicit OrderStory(const StoryStage& stage);
 
+  /// Whether its orders lead to the scenario's waypoints: then it fails without one.
+  virtual bool NeedsWaypoints() const { return true; }
   /// All processes are alive: gives the first order.
   virtual void Begin(Time now) = 0;
   /// What the planner reports, after the order has heard it.
@@ -47,12 +47,13 @@ class OrderStory : public ScenarioStory {
   const MissionOrder& order() const { return *order_; }
   const Scenario& scenario() const { return scenario_; }
   bool ended() const { return ended_.has_value(); }
+  /// Newest WORLD_TRUTH; nullptr before the world reports.
+  const world_truth_t* truth() const { return truth_.get(); }
   /// How far the base truly is from the waypoint (WORLD_TRUTH); nullopt before the world reports.
   std::optional<double> DistanceFrom(const ScenarioWaypoint& waypoint) const;
 
  private:
   Scenario scenario_;
-  Waypoints waypoints_;
   std::function<void(Time, const std::string&)> progress_;
   AliveProcesses alive_;
   bus::Inbox<mission_status_t> status_;

@@ -18,6 +18,7 @@ using AllStories = StoryList<  //
     class DoorStory,           //
     class ExploreStory,        //
     class GotoStory,           //
+    class LocateStory,         //
     class PatrolStory,         //
     class TeleopStory>;
 

@@ -18,9 +18,7 @@ inline std::string GotoTitle(double x_m, double y_m) {
 inline std::string CorridorTitle(double distance_m) {
   return distance_m == 0 ? "corridor to its end" : fmt::format("corridor for {:.1f} m", distance_m);
 }
-
-inline std::string ExploreTitle() {
-  return "explore the floor";
-}
+inline constexpr std::string_view kExploreTitle = "explore the floor";
+inline constexpr std::string_view kLocateTitle = "where am I?";
 
 }  // namespace priamos

@@ -68,8 +68,9 @@ TEST(MissionFile, WhatCannotBeDoneIsNamedWithItsLine) {
               AllOf(StartsWith("round.toml:1: "), HasSubstr("wall 'right of the door'")));
   EXPECT_THAT(WhyNot("[[step]]\ndo = \"goto\"\nx_m = 4.0\n"),
               HasSubstr("round.toml:1:step[0].y_m: expected a place"));
-  EXPECT_THAT(WhyNot("[[step]]\ndo = \"fly\"\n"),
-              HasSubstr("round.toml:2:step[0].do: expected one of goto, door, corridor, explore, wait"));
+  EXPECT_THAT(
+      WhyNot("[[step]]\ndo = \"fly\"\n"),
+      HasSubstr("round.toml:2:step[0].do: expected one of goto, door, corridor, explore, locate, wait"));
   EXPECT_THAT(WhyNot(kGo + "wait_s = 4\n"), AllOf(StartsWith("round.toml:5:"), HasSubstr("wait_s")));
   EXPECT_THAT(WhyNot("[[step]]\ndo = \"repeat\"\nfrom = 1\n" + kGo), HasSubstr("a step before this one"));
   EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"repeat\"\ntimes = 32\n"), HasSubstr("at most 32 steps"));

@@ -57,8 +57,15 @@ int FollowCorridor(const MissionOptions& options) {
 int Explore(const MissionOptions& options) {
   mission_command_t command{};
   command.mission = mission_command_t::EXPLORE;
-  command.title = ExploreTitle();
+  command.title = kExploreTitle;
   return GiveOrder(options, command, "explore");
+}
+
+int Locate(const MissionOptions& options) {
+  mission_command_t command{};
+  command.mission = mission_command_t::LOCATE;
+  command.title = kLocateTitle;
+  return GiveOrder(options, command, "locate");
 }
 
 int Abort(const MissionOptions& options) {
@@ -163,6 +170,17 @@ void AddExploreVerb(CLI::App& mission, int& exit_code) {
   CompleteMission(*verb, options, Explore, exit_code);
 }
 
+void AddLocateVerb(CLI::App& mission, int& exit_code) {
+  auto options = std::make_shared<MissionOptions>();
+  auto* verb = AddVerb(mission, "locate",
+                       "Have the robot find out where on the plan it is, whatever its pose says: it drives a "
+                       "few metres, listens, and looks for a door; ends when the robot is under way, with "
+                       "--wait when its place is known (exit code 1: not, for instance ambiguous).");
+  verb->footer("Example: priamos mission locate --wait");
+  verb->add_flag("--wait", options->wait, "until the mission is over");
+  CompleteMission(*verb, options, Locate, exit_code);
+}
+
 void AddAbortVerb(CLI::App& mission, int& exit_code) {
   auto options = std::make_shared<MissionOptions>();
   auto* verb =
@@ -188,6 +206,7 @@ void AddMissionCommand(CLI::App& cli, int& exit_code) {
   AddGotoVerb(*mission, exit_code);
   AddCorridorVerb(*mission, exit_code);
   AddExploreVerb(*mission, exit_code);
+  AddLocateVerb(*mission, exit_code);
   AddAbortVerb(*mission, exit_code);
   AddStatusVerb(*mission, exit_code);
   AddQueueVerbs(*mission, exit_code);

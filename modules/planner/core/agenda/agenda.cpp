@@ -25,8 +25,9 @@ std::string Agenda::TitleOf(const AgendaStep& step) const {
   const Pose2& to = step.order.goal.map_from_base;
   if (step.order.kind == kinds_.go) return GotoTitle(to.x, to.y);
   if (step.order.kind == kinds_.pass) return DoorTitle(router_.NameOf(step.order.landmark_id));
+  if (step.order.kind == kinds_.locate) return std::string(kLocateTitle);
   if (step.order.kind == kinds_.follow) return CorridorTitle(step.order.distance_m);
-  if (step.order.kind == kinds_.explore) return ExploreTitle();
+  if (step.order.kind == kinds_.explore) return std::string(kExploreTitle);
   return fmt::format("mission {}", step.order.kind);
 }
 

@@ -42,6 +42,7 @@ struct AgendaKinds {
   int pass = 0;      ///< through a door
   int follow = -1;   ///< along a corridor
   int explore = -1;  ///< an unknown floor
+  int locate = -1;   ///< the robot finds out where it is
 };
 
 /// Planned speeds of the two, with which the time left is computed.

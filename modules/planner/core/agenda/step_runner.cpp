@@ -60,6 +60,8 @@ bool StepRunner::IsHeard(Time now) const {
 void StepRunner::StartLeg(Time now) {
   const bool by_doors = step_->order.kind == kinds_.go || step_->order.kind == kinds_.pass;
   if ((by_doors || moved_) && !IsHeard(now)) return AwaitRobot(now);
+  if (const auto why = missions_.WhyLost(); why && by_doors)
+    return Finish(Phase::kFailed, fmt::format("lost: {}; next: priamos mission locate", *why));
   if (!legs_ && by_doors) {
     auto legs = PlanLegs(step_->order, missions_.heard().pose->map_from_base);
     if (!legs) return Finish(Phase::kFailed, legs.reason());

@@ -39,6 +39,10 @@ class Mission {
   /// for limits().blocked_s. The mission fails, unless it orders another path.
   virtual void OnStop(MissionControl& control, const Stop& stop) { control.Fail(stop.reason); }
 
+  /// It was ended from outside: aborted, out of time, without news of the robot. What has to be put right is
+  /// ordered now.
+  virtual void OnEnded(MissionControl& /*control*/) {}
+
   virtual const MissionLimits& limits() const = 0;
   /// Reason when the time for the mission is over, e.g. "not through the door".
   virtual std::string Unfinished() const = 0;

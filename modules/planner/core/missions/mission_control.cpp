@@ -9,6 +9,9 @@ namespace {
 
 /// Path and request numbers as the messages carry them.
 constexpr int kNumbers = 65535;
+/// A place that is not known is said again; on the radio POSE_RESET has 4 s.
+constexpr double kPlaceAgain_s = 5;
+constexpr int kMostPlaceRepeats = 5;
 /// A robot that takes no path, for somebody drives it by hand, is not told for ever.
 constexpr int kMostRepeats = 10;
 
@@ -22,6 +25,9 @@ void MissionControl::Begin(Time now) {
   heard_.corrected.reset();
   heard_.opening.reset();
   heard_.looks.clear();
+  heard_.told.clear();
+  place_.reset();
+  place_refused_ = false;
   // The order stands on what its operator could know: a stop that is not reported yet came after it.
   estop_changes_.reset();
   if (heard_.drive) estop_changes_ = heard_.drive->estop_changes;
@@ -119,6 +125,33 @@ void MissionControl::RepeatFaces() {
   if (!faces_sent_ || Seconds(now_ - *faces_sent_) < kEvery_s) return;
   actions_.faces = faces_;
   faces_sent_ = now_;
+}
+
+void MissionControl::OrderPlace(const Pose2& map_from_base, double sigma_m, double sigma_yaw_rad) {
+  OrderPath({}, 0);
+  place_ = PlaceOrder{NextNumber(), map_from_base, sigma_m, sigma_yaw_rad};
+  place_sent_ = now_;
+  n_place_repeats_ = 0;
+  place_refused_ = false;
+  actions_.place = place_;
+}
+
+/// A base that still moved has refused it: each time it is a new order.
+void MissionControl::RepeatPlace() {
+  if (!place_ || Seconds(now_ - place_sent_) < kPlaceAgain_s) return;
+  if (n_place_repeats_ >= kMostPlaceRepeats) {
+    place_.reset();
+    place_refused_ = true;
+    return;
+  }
+  ++n_place_repeats_;
+  place_->request_id = NextNumber();
+  place_sent_ = now_;
+  actions_.place = place_;
+}
+
+void MissionControl::NotePlaced(const LookResult& result) {
+  if (place_ && result.placed && result.request_id == place_->request_id) place_.reset();
 }
 
 int MissionControl::OrderLook(int landmark_id, Side side) {

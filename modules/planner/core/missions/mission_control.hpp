@@ -22,6 +22,7 @@ struct Heard {
   std::vector<LeafSighting> leaves;      ///< leaves of doors seen since the last time step, in order
   std::shared_ptr<const LearnedWalls> learned;  ///< walls that robots found; another object when they change
   std::vector<LookResult> looks;                ///< answers to looks since the last time step, in order
+  std::vector<SeenWall> told;  ///< walls that the robot told of since the last time step, in order
 };
 
 /// A mission's view of the robot: its state, and the orders and the state that leave in this time
@@ -51,6 +52,13 @@ class MissionControl {
 
   /// Orders a look of the head at a side of a landmark. Returns the number that its answer will carry.
   int OrderLook(int landmark_id, Side side);
+  /// Has the robot brake and tells it where it is; said again until it obeys, also when the mission is over
+  /// by then, five times at most.
+  void OrderPlace(const Pose2& map_from_base, double sigma_m, double sigma_yaw_rad);
+  /// Whether an order about its place is still to be obeyed.
+  bool IsPlacing() const { return place_.has_value(); }
+  /// Whether the newest such order was given up.
+  bool place_refused() const { return place_refused_; }
   /// Sends the walls of the plan along the way, unless the robot has just these.
   void SendFaces(std::vector<WallFace> faces);
   /// Sends a landmark's model to the head.
@@ -72,6 +80,8 @@ class MissionControl {
   void NumberFrom(Time now);
   void RepeatUnconfirmedPath(double after_s);
   void RepeatFaces();
+  void RepeatPlace();
+  void NotePlaced(const LookResult& result);
   int NextNumber();
 
   Heard heard_;
@@ -82,6 +92,10 @@ class MissionControl {
   PathOrder path_;
   std::optional<Time> path_sent_;
   int n_stand_repeats_ = 0;
+  std::optional<PlaceOrder> place_;  ///< that the robot has not obeyed yet
+  Time place_sent_{};
+  int n_place_repeats_ = 0;
+  bool place_refused_ = false;
   std::vector<WallFace> faces_;  ///< that the robot is to have
   std::optional<Time> faces_sent_;
   bool faces_are_own_ = false;  ///< this mission has said which

@@ -81,7 +81,9 @@ void MissionTable::OnPose(const RobotPose& pose) {
 
 void MissionTable::OnDrive(const DriveReport& drive, Time now) {
   control_.NoteDrive(drive);
-  const bool stands = drive.mode == DriveMode::kBlocked || drive.mode == DriveMode::kHolding;
+  // Who was ordered to stand is not stopped by anything.
+  const bool stands = (drive.mode == DriveMode::kBlocked || drive.mode == DriveMode::kHolding) &&
+                      !control_.path().points.empty();
   if (!stands || !running() || paused_since_ || !control_.OnPath()) {
     blocked_since_.reset();
   } else if (!blocked_since_) {
@@ -104,15 +106,20 @@ MissionActions MissionTable::Tick(Time now) {
   else if (missions_.contains(kind_))
     control_.RepeatUnconfirmedStand(now, ResendAfter_s());
   // What arrives while the mission is idle is for its next step.
+  control_.RepeatPlace();
   if (!idle || !running()) {
     control_.heard_.looks.clear();
+    control_.heard_.told.clear();
     control_.heard_.leaves.clear();
   }
   return std::exchange(control_.actions_, {});
 }
 
 void MissionTable::Step(Mission& mission) {
-  if (const auto reason = ReasonToEnd(mission)) return control_.Fail(*reason);
+  if (const auto reason = ReasonToEnd(mission)) {
+    control_.Fail(*reason);
+    return mission.OnEnded(control_);
+  }
   if (Silence_s(control_.now())) return;
   if (!paused_since_) Decide(mission);
   if (running()) control_.RepeatUnconfirmedPath(ResendAfter_s());

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "planner/core/missions/lost_watch.hpp"
 #include "planner/core/missions/mission.hpp"
 
 namespace priamos::planner {
@@ -52,7 +53,14 @@ class MissionTable {
 
   void OnPose(const RobotPose& pose);
   void OnDrive(const DriveReport& drive, Time now);
-  void OnLook(const LookResult& result) { control_.heard_.looks.push_back(result); }
+  void OnLook(const LookResult& result) {
+    control_.NotePlaced(result);
+    lost_.Note(result);
+    control_.heard_.looks.push_back(result);
+  }
+  /// What contradicts the robot's pose; nullopt: nothing does.
+  std::optional<std::string> WhyLost() const { return lost_.Why(control_.heard().pose); }
+  void OnTold(const SeenWall& wall) { control_.heard_.told.push_back(wall); }
   /// Notes that the robot's pose was corrected at `stamp`: older poses are not used for planning any more.
   void OnCorrected(Time stamp);
   void OnLeaf(const LeafSighting& leaf) { control_.heard_.leaves.push_back(leaf); }
@@ -81,6 +89,7 @@ class MissionTable {
 
   std::map<int, std::unique_ptr<Mission>> missions_;
   MissionControl control_;
+  LostWatch lost_;
   int kind_ = 0;
   std::optional<std::string> aborted_;  ///< the reason
   std::optional<Time> blocked_since_, paused_since_;

@@ -9,6 +9,7 @@
 #include "common/robot/leeway.hpp"
 #include "common/time.hpp"
 #include "planner/core/map/door_landmark.hpp"
+#include "planner/core/map/learned_map.hpp"
 #include "planner/core/map/wall_faces.hpp"
 #include "planner/core/path/planned_path.hpp"
 
@@ -76,8 +77,10 @@ struct LeafSighting {
 struct LookResult {
   int request_id = 0;
   bool ok = false;
-  std::string reason;     ///< in words when not ok
-  bool no_model = false;  ///< the head does not know the landmark (it was restarted)
+  std::string reason;        ///< in words when not ok
+  bool no_model = false;     ///< the head does not know the landmark (it was restarted)
+  bool implausible = false;  ///< the landmark was found where, by the robot's pose, it cannot be
+  bool placed = false;       ///< not of a look: the robot has set its pose as it was told
 };
 
 /// A path for the robot, map frame; driven at `speed_m_s`.
@@ -97,6 +100,13 @@ struct LookOrder {
   Side side = Side::kBoth;
 };
 
+/// Where the robot is told to be, map frame, and how well that is known.
+struct PlaceOrder {
+  int request_id = 0;
+  Pose2 map_from_base;
+  double sigma_m = 0.1, sigma_yaw_rad = 0.05;
+};
+
 /// What is to be sent now, in this order.
 struct MissionActions {
   std::optional<Landmark> model;
@@ -104,6 +114,7 @@ struct MissionActions {
       faces{};  ///< walls of the plan along the path; none: forget those before
   std::optional<PathOrder> path;
   std::optional<LookOrder> look;
+  std::optional<PlaceOrder> place{};
 };
 
 /// How far a mission has come; kDone and kFailed are its ends.

@@ -81,6 +81,7 @@ struct StartPlan {
   double x_m = 0, y_m = 0, yaw_deg = 0;
   double x_spread_m = 0, y_spread_m = 0, yaw_spread_deg = 0;
   double error_m = 0.2, error_deg = 5;
+  bool anywhere = false;  ///< the truth is any free place of the map, with any heading; the robot is not told
 
   void Describe(Archive& a);
 };

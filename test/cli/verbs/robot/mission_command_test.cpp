@@ -153,7 +153,7 @@ TEST_F(MissionCommand, WithoutAVerbTheyAreNamed) {
   EXPECT_THAT(
       answer.err,
       HasSubstr("expected a verb, got none; one of abort, cancel, corridor, door, explore, goto, list, "
-                "patrol, pause, resume, run, status"));
+                "locate, patrol, pause, resume, run, status"));
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ class FakeRobot {
     if (silent) return;
     if (actions.model) ++models_received;
     if (actions.path) Later([this, path = *actions.path] { OnPath(path); });
+    if (actions.place) Later([this, place = *actions.place] { OnPlace(place); });
     if (actions.look) Later([this, look = *actions.look] { looks_.push_back({look, now_ + look_time}); });
   }
   void RunFor(double seconds) {
@@ -64,10 +65,12 @@ class FakeRobot {
 
   Time now() const { return now_; }
   const Pose2& truth() const { return truth_; }
+  Pose2 Believed() const { return truth_ * error; }
   double speed_m_s() const { return velocity_.translation().norm() / Seconds(kStep); }
 
   int models_received = 0;
   std::vector<PathOrder> paths;
+  std::vector<PlaceOrder> places;
   std::vector<LookOrder> looks;         ///< in the order they were asked
   std::vector<double> look_distance_m;  ///< true distance to the door at each exposure
   std::vector<double> look_speed_m_s;   ///< speed at each exposure
@@ -92,7 +95,18 @@ class FakeRobot {
       if (!silent) action();
     }
   }
-  Pose2 Believed() const { return truth_ * error; }
+
+  /// Takes its pose from an order, as the robot does that stands.
+  void OnPlace(const PlaceOrder& place) {
+    places.push_back(place);
+    error = truth_.Inverse() * place.map_from_base;
+    sigma_m = place.sigma_m;
+    sigma_yaw_rad = std::min(0.5, place.sigma_yaw_rad);
+    Later([this, id = place.request_id, stamp = now_] {
+      mission_.OnLook({.request_id = id, .placed = true});
+      mission_.OnCorrected(stamp);
+    });
+  }
 
   void OnPath(const PathOrder& path) {
     paths.push_back(path);

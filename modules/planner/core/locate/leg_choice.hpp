@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "common/archive.hpp"
+#include "planner/core/locate/driven_way.hpp"
+
+namespace priamos::planner {
+
+/// How a robot that does not know where it is looks around.
+struct LegChoiceConfig {
+  double least_m = 0.6;      ///< a shorter leg tells nothing new: a wall is one after 0.8 m driven along it
+  double first_m = 2.0;      ///< length of a leg into the unknown ...
+  double longest_m = 6.0;    ///< ... which doubles as long as it leads on the same way
+  double keep_m = 0.75;      ///< from the middle of the base to walls that were heard
+  double seen_m = 0.8;       ///< what lies nearer to the way driven is known
+  double least_new_m = 0.5;  ///< of a leg, in unknown surroundings
+
+  void Describe(Archive& a);
+};
+
+/// Where the base stood when it could go no farther, and in which direction: frame of the way.
+struct ClosedWay {
+  Eigen::Vector2d at{0, 0}, towards{1, 0};
+};
+
+/// The next straight leg that leads through the most that is new: along or across the walls that were heard,
+/// as far as nothing is known to be in the way. Its end, frame of the way, with the heading of the base;
+/// nullopt when all that can be reached by such legs is known.
+std::optional<Pose2> ChooseLeg(const LegChoiceConfig& config, const DrivenWay& way,
+                               const std::vector<ClosedWay>& closed);
+
+}  // namespace priamos::planner

@@ -1,0 +1,62 @@
+#include "planner/core/locate/leg_choice.hpp"
+
+#include <gmock/gmock.h>
+
+namespace priamos::planner {
+namespace {
+
+DrivenWay Standing() {
+  DrivenWay way;
+  way.trail = {{0, 0, 0}};
+  return way;
+}
+
+HeardPiece PieceAt(double x_m, double y_m, double yaw_deg, double length_m) {
+  return {{x_m, y_m, Radians(yaw_deg)}, length_m};
+}
+
+TEST(LegChoice, TheFirstLegLeadsAhead) {
+  const auto dut = ChooseLeg({}, Standing(), {});
+  ASSERT_TRUE(dut);
+  EXPECT_NEAR(dut->x, 2, 1e-9);
+  EXPECT_NEAR(dut->y, 0, 1e-9);
+}
+
+TEST(LegChoice, ALegEndsBeforeAWallThatWasHeard) {
+  DrivenWay way = Standing();
+  way.pieces = {PieceAt(2, 0, 90, 2)};
+  const auto dut = ChooseLeg({}, way, {});
+  ASSERT_TRUE(dut);
+  EXPECT_LT(dut->x, 1.3);
+}
+
+TEST(LegChoice, WhereTheWayIsClosedItLeadsElsewhere) {
+  const auto dut = ChooseLeg({}, Standing(), {{{0, 0}, {1, 0}}});
+  ASSERT_TRUE(dut);
+  EXPECT_NEAR(std::abs(dut->y), 2, 1e-9);
+}
+
+TEST(LegChoice, LegsFollowTheDirectionOfTheWalls) {
+  DrivenWay way = Standing();
+  way.pieces = {PieceAt(0, -1, 30, 2)};
+  const auto dut = ChooseLeg({}, way, {});
+  ASSERT_TRUE(dut);
+  EXPECT_NEAR(std::remainder(std::atan2(dut->y, dut->x) - Radians(30), kPi / 2), 0, 1e-6);
+}
+
+TEST(LegChoice, AWayThatLeadsOnGetsLonger) {
+  DrivenWay way = Standing();
+  for (int i = 0; i <= 20; ++i) way.trail.push_back({0.2 * i, 0, 0});
+  const auto dut = ChooseLeg({}, way, {});
+  ASSERT_TRUE(dut);
+  EXPECT_NEAR(dut->x, 10, 1e-9);
+}
+
+TEST(LegChoice, WhereAllIsClosedThereIsNone) {
+  const std::vector<ClosedWay> closed{
+      {{0, 0}, {1, 0}}, {{0, 0}, {-1, 0}}, {{0, 0}, {0, 1}}, {{0, 0}, {0, -1}}};
+  EXPECT_FALSE(ChooseLeg({}, Standing(), closed));
+}
+
+}  // namespace
+}  // namespace priamos::planner

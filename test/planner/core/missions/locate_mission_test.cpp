@@ -1,0 +1,112 @@
+#include "planner/core/missions/locate_mission.hpp"
+
+#include <gmock/gmock.h>
+
+#include "fake_robot.hpp"
+#include "test/planner/core/locate/simulated_drive.hpp"
+#include "test/planner/core/plans.hpp"
+
+namespace priamos::planner {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr int kKind = 5;
+
+/// The shipped rooms, a robot that was carried into them, its ears, and the mission.
+struct Kidnapped {
+  explicit Kidnapped(const Pose2& truth) : ears(ShippedPlan(), {}, truth, rng), robot(missions, truth) {
+    missions.Add(kKind, std::make_unique<LocateMission>(LocateMissionConfig{}, RoutePlannerConfig{},
+                                                        Footprint{}, ShippedPlan()));
+    robot.error = truth.Inverse() * Pose2{2, 2.4, 0};
+    robot.map_from_door = {1000, 0, 0};  // it notices no opening
+    robot.answer = [this](const LookOrder& look, int) {
+      const bool sees = Sees(look.landmark_id);
+      return LookResult{look.request_id, sees, sees ? "" : "too few edges", false};
+    };
+  }
+
+  /// Whether the base truly stands before that door, and believes it.
+  bool Sees(int id) const {
+    const Pose2 door = id == 1 ? Pose2{6, 2.4, 0} : Pose2{6, 2.4, kPi};
+    const Pose2 there = door.Inverse() * robot.truth(), believed = door.Inverse() * robot.Believed();
+    return there.x < -1 && there.x > -4 && std::abs(there.y) < 1.5 && std::abs(believed.x - there.x) < 0.4 &&
+           std::abs(believed.y - there.y) < 0.4;
+  }
+
+  void Run(double seconds) {
+    for (const Time end = robot.now() + FromSeconds(seconds); robot.now() < end; ++ticks) {
+      robot.Step();
+      if (ticks == 20) missions.Start(robot.now(), {.kind = kKind});
+      if (ticks > 20 && !missions.running()) return;
+      ears.MoveTo(robot.truth());
+      robot.blocked = IsClosed();
+      if (ticks % 80 == 0) Tell();
+    }
+  }
+  /// Whether what is next on its path is not free.
+  bool IsClosed() const {
+    if (robot.paths.empty() || robot.paths.back().points.empty()) return false;
+    const Pose2 end = robot.Believed().Inverse() * robot.paths.back().points.back();
+    const double way_m = end.translation().norm();
+    if (way_m < 0.05) return false;
+    return !ears.IsFree(robot.truth() * Pose2{0.1 * end.x / way_m, 0.1 * end.y / way_m, 0});
+  }
+  void Tell() {
+    int id = 0;
+    for (LearnedWall& wall : ears.Told(robot.Believed() * robot.truth().Inverse())) {
+      wall.seen_s = static_cast<double>(ToUtime(robot.now())) * 1e-6;
+      missions.OnTold({1, ++id, false, wall});
+    }
+  }
+  Pose2 Error() const { return robot.truth().Inverse() * robot.Believed(); }
+
+  int ticks = 0;
+  Rng rng{7};
+  MissionTable missions;
+  SimulatedDrive ears;
+  FakeRobot robot;
+};
+
+TEST(LocateMission, ARobotThatWasCarriedFindsOutWhereItIs) {
+  Kidnapped dut({3.5, 1.4, 2});
+  dut.Run(800);
+  EXPECT_EQ(dut.missions.state().phase, Phase::kDone) << dut.missions.state().text;
+  EXPECT_THAT(dut.missions.state().text, HasSubstr("seen"));
+  EXPECT_LT(dut.Error().translation().norm(), 0.3);
+  EXPECT_LT(std::abs(dut.Error().yaw), Radians(5));
+}
+
+TEST(LocateMission, WhereNoDoorIsSeenTwoPlacesStayAndThePoseIsTakenBack) {
+  Kidnapped dut({3.5, 1.4, 2});
+  dut.robot.answer = [](const LookOrder& look, int) {
+    return LookResult{look.request_id, false, "too few edges", false};
+  };
+  dut.Run(800);
+  EXPECT_EQ(dut.missions.state().phase, Phase::kFailed);
+  EXPECT_THAT(dut.missions.state().text, StartsWith("ambiguous: 2 places"));
+  ASSERT_FALSE(dut.robot.places.empty());
+  EXPECT_GT(dut.robot.places.back().sigma_m, 1);
+  EXPECT_TRUE(dut.missions.WhyLost());
+}
+
+TEST(LocateMission, AnAbortTakesThePoseBack) {
+  Kidnapped dut({3.5, 1.4, 2});
+  dut.Run(20);
+  dut.missions.Abort();
+  dut.Run(0.1);
+  EXPECT_EQ(dut.missions.state().phase, Phase::kFailed);
+  for (int i = 0; i < 20; ++i) dut.robot.Step();
+  EXPECT_GT(dut.robot.places.back().sigma_m, 1);
+}
+
+TEST(LocateMission, APlanWithoutWallsIsRefused) {
+  LocateMission dut({}, {}, {}, GroundPlan{});
+  const auto refusal = dut.Start({});
+  ASSERT_TRUE(refusal);
+  EXPECT_THAT(refusal->reason, HasSubstr("no walls"));
+}
+
+}  // namespace
+}  // namespace priamos::planner
