@@ -85,6 +85,14 @@ void Exploration::GiveUp(const Vector2d& target, std::string reason) {
   given_up_.push_back({target, std::move(reason)});
 }
 
+bool Exploration::TryAgain() {
+  if (given_up_.empty() && evidence_.things.size() == known_.size()) return false;
+  given_up_.clear();
+  evidence_.things = known_;
+  grid_.reset();
+  return true;
+}
+
 const ExploredGrid& Exploration::grid() {
   if (!grid_) grid_.emplace(config_.grid, evidence_);
   return *grid_;
@@ -153,7 +161,7 @@ std::string Exploration::WhyLeft(const Frontier& frontier, const GridWays& ways)
   if (!near_enough) return fmt::format("farther than {:.0f} m from the start", config_.farthest_m);
   if (widest_m < 2 * clearance_m_)
     return fmt::format("{:.1f} m wide, {:.2f} m needed", widest_m, 2 * (clearance_m_ + kRaster_m));
-  return "no way leads there";
+  return fmt::format("no way of {:.2f} m width leads there", 2 * (clearance_m_ + kRaster_m));
 }
 
 /// The direction in which most is unknown around a cell, of length 1; zero when that is even.

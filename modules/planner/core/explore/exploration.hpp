@@ -64,6 +64,10 @@ class Exploration {
   /// What is around this place of a frontier is not tried again.
   void GiveUp(const Eigen::Vector2d& target, std::string reason);
 
+  /// Forgets what stopped the base and what was given up: a thing is known by one side only, and may have
+  /// been a person. False: there is nothing to forget.
+  bool TryAgain();
+
   /// The frontier that is next; nullopt: nothing is left that can be reached.
   std::optional<FrontierGoal> Choose(const Pose2& map_from_base);
   /// Whether the frontier is still there at its place.

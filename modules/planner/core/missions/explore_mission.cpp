@@ -31,7 +31,9 @@ void ExploreMissionConfig::Describe(Archive& a) {
   a.Number("reconsider_s", reconsider_s, {"s", 0.5, 60, "so often the frontier ahead is looked at anew"});
   a.Number("stands_s", stands_s,
            {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
+  a.Number("idle_s", idle_s, {"s", 1, 600, "a robot that comes no further for so long is blocked"});
   a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
+  a.Integer("rounds", rounds, {"-", 0, 20, "so often what was left is tried again in the end"});
   a.Flag("keep_walls", keep_walls, "the pose is held by the walls that were told first");
   a.Integer("retries", retries, {"-", 0, 20, "paths that end elsewhere before a frontier is given up"});
   limits.Describe(a);
@@ -51,10 +53,12 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   exploration_.Reset();
   kept_.Reset();
   stands_.Reset();
+  idles_.Reset();
   goal_.reset();
   considered_.reset();
   learned_.reset();
   missed_ = 0;
+  rounds_ = 0;
   undecided_ = false;
   return std::nullopt;
 }
@@ -76,6 +80,10 @@ void ExploreMission::Step(MissionControl& control) {
     return control.Fail(
         fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
                     config_.stands_s, heard.drive->limit));
+  if (idles_.Stands_s(control) > config_.idle_s) {
+    idles_.Reset();
+    return OnStop(control, {Stop::Cause::kBlocked, "the robot came no further"});
+  }
   Reconsider(control);
 }
 
@@ -124,20 +132,28 @@ void ExploreMission::Next(MissionControl& control) {
   undecided_ = false;
   for (int i = 0; i < kMostTries; ++i) {
     const auto frontier = exploration_.Choose(control.heard().pose->map_from_base);
-    if (!frontier) return Finish(control);
+    if (!frontier && (++rounds_ > config_.rounds || !exploration_.TryAgain())) return Finish(control);
+    if (!frontier) continue;
     if (DriveTo(control, *frontier)) return;
-    exploration_.GiveUp(frontier->target, "no way for the whole base leads there");
+    exploration_.GiveUp(frontier->target, WhyNoWay(control.heard().pose->map_from_base, *frontier));
   }
   undecided_ = true;  // the rest is looked at in the next time step
   if (!control.path_sent() || !control.path().points.empty()) control.OrderPath({}, 0);
 }
 
+std::string ExploreMission::WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const {
+  const auto refusal =
+      planner_.CheckEnds(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
+  return refusal ? refusal->reason : "no way for the whole base leads there";
+}
+
 /// False when no way leads there.
 bool ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& frontier) {
   const Pose2& base = control.heard().pose->map_from_base;
-  planner_.Take(exploration_.ObstaclesFor(frontier));
+  planner_.Take(exploration_.ObstaclesFor(frontier), base);
   auto path = planner_.FindPath(base, {{frontier.goal.x(), frontier.goal.y(), base.yaw}, false});
-  if (!path) path = planner_.FindPath(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
+  if (!path && frontier.goal != frontier.target)
+    path = planner_.FindPath(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
   if (!path) return false;
   if (path->points.size() > kMostPathPoints) {
     path->points.resize(kMostPathPoints);

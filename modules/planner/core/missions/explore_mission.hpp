@@ -20,11 +20,13 @@ struct ExploreMissionConfig {
   double near_m = 0.3;        ///< distance to the goal at which it counts as reached
   double reconsider_s = 2.5;  ///< so often it is looked whether the frontier ahead is still one
   double stands_s = 30;       ///< a robot that holds on its way for so long has the mission fail
-  double thing_m = 0.5;       ///< size of what is in the way, of which one side is known only
+  double idle_s = 12;         ///< a robot that comes no further for so long, held by nothing, is blocked
+  double thing_m = 0.3;       ///< size of what is in the way, of which one side is known only
   bool keep_walls = true;     ///< the pose is held by the walls that were told first
   int retries = 3;            ///< paths that end elsewhere before a frontier is given up
+  int rounds = 2;             ///< so often what was left is tried again in the end
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 3600};
-  RoutePlannerConfig route;
+  RoutePlannerConfig route{.most_poses = 60000};  ///< who has many frontiers does not search for one for long
   ExplorationConfig choice;
 
   void Describe(Archive& a);
@@ -52,6 +54,7 @@ class ExploreMission : public Mission {
   void Arrive(MissionControl& control);
   void Next(MissionControl& control);
   bool DriveTo(MissionControl& control, const FrontierGoal& frontier);
+  std::string WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const;
   void Finish(MissionControl& control);
   std::string Left() const;
 
@@ -60,9 +63,10 @@ class ExploreMission : public Mission {
   RoutePlanner planner_;
   Exploration exploration_;
   KeptWalls kept_;
-  StandWatch stands_;
+  StandWatch stands_, idles_{StandWatch::Counts::kFree};
   std::optional<FrontierGoal> goal_;
   int missed_ = 0;                               ///< paths towards goal_ that ended elsewhere
+  int rounds_ = 0;                               ///< in which what was left was tried again
   bool undecided_ = false;                       ///< no way was found yet
   std::optional<Time> considered_;               ///< whether goal_ is still a frontier
   std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account

@@ -19,11 +19,16 @@ std::optional<Rectangle> ThingAhead(const MissionControl& control, const Footpri
 /// for ever. Time without news of the robot does not count.
 class StandWatch {
  public:
-  void Reset() { *this = {}; }
+  /// Which times count: those in which something holds the robot, or those in which nothing does.
+  enum class Counts { kHeld, kFree };
+  explicit StandWatch(Counts counts = Counts::kHeld) : counts_(counts) {}
+
+  void Reset() { *this = StandWatch(counts_); }
   /// One time step of a robot on its path. Returns how long it has come no further [s].
   double Stands_s(const MissionControl& control);
 
  private:
+  Counts counts_;
   double stood_s_ = 0, stood_at_m_ = 0;  ///< how long without progress, and what was left then
   std::optional<Time> stepped_;
 };

@@ -60,6 +60,8 @@ double LeavingMargin(double margin_m, double start_gap_m) {
 void RoutePlannerConfig::Describe(Archive& a) {
   a.Number("easy_margin_m", easy_margin_m, {"m", 0, 2, "preferred clearance of a route to everything"});
   a.Number("least_margin_m", least_margin_m, {"m", 0, 1, "clearance where there is no such route"});
+  a.Integer("most_poses", most_poses,
+            {"-", 0, 100000000, "poses that a search looks at, for either; 0: all"});
   if (least_margin_m > easy_margin_m) a.Refuse("least_margin_m", "at most easy_margin_m");
 }
 
@@ -76,20 +78,27 @@ void RoutePlanner::Add(std::string name, const Rectangle& shape) {
   Rebuild();
 }
 
-void RoutePlanner::Take(std::vector<NamedObstacle> obstacles) {
+void RoutePlanner::Take(std::vector<NamedObstacle> obstacles, const Pose2& map_from_base) {
   added_ = std::move(obstacles);
+  EraseUnder(map_from_base, added_);
   Rebuild();
 }
 
 void RoutePlanner::Forget() {
-  Take({});
+  added_.clear();
+  Rebuild();
 }
 
 void RoutePlanner::Learn(const LearnedWalls& learned, const Pose2& map_from_base) {
   learned_ = ObstaclesOf(learned, known_.obstacles());
-  const Rectangle body = known_.footprint().At(map_from_base);
-  std::erase_if(learned_, [&](const NamedObstacle& wall) { return Distance(body, wall.shape) <= 0; });
+  EraseUnder(map_from_base, learned_);
   Rebuild();
+}
+
+/// Where the base stands is nothing.
+void RoutePlanner::EraseUnder(const Pose2& map_from_base, std::vector<NamedObstacle>& obstacles) const {
+  const Rectangle body = known_.footprint().At(map_from_base);
+  std::erase_if(obstacles, [&](const NamedObstacle& one) { return Distance(body, one.shape) <= 0; });
 }
 
 void RoutePlanner::Rebuild() {
@@ -124,7 +133,8 @@ std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, c
                                             .goal = goal.map_from_base,
                                             .turn = goal.turn,
                                             .margin_m = margin_m,
-                                            .leaving_m = LeavingMargin(margin_m, start_gap_m)});
+                                            .leaving_m = LeavingMargin(margin_m, start_gap_m),
+                                            .most_poses = config_.most_poses});
     // Lines that had to keep as much as the lattice would have a corner wherever that is all there is.
     const double lines_m = std::max(std::min(margin_m, config_.least_margin_m), kLines * margin_m);
     if (route) return PathAlong(map_from_start, Straightened(*route, lines_m));

@@ -17,6 +17,7 @@ namespace priamos::planner {
 struct RoutePlannerConfig {
   double easy_margin_m = 0.30;   ///< preferred clearance to everything
   double least_margin_m = 0.10;  ///< clearance where there is no such route
+  int most_poses = 0;            ///< looked at for either; 0: all
 
   void Describe(Archive& a);
 };
@@ -30,8 +31,9 @@ class RoutePlanner {
 
   /// Takes something into account that is not on the plan, until Forget().
   void Add(std::string name, const Rectangle& shape);
-  /// Takes these into account in place of all that was added before.
-  void Take(std::vector<NamedObstacle> obstacles);
+  /// Takes these into account in place of all that was added before; but none where the base stands, which
+  /// is known by one side only.
+  void Take(std::vector<NamedObstacle> obstacles, const Pose2& map_from_base);
   void Forget();
   /// Takes the walls into account that are not on the plan, in place of those before; but none where the base
   /// stands: there is nothing.
@@ -53,6 +55,7 @@ class RoutePlanner {
 
  private:
   void Rebuild();
+  void EraseUnder(const Pose2& map_from_base, std::vector<NamedObstacle>& obstacles) const;
   std::vector<Pose2> Straightened(const std::vector<Pose2>& route, double margin_m) const;
   PlannedPath PathAlong(const Pose2& start, std::vector<Pose2> corners) const;
   Refusal NoWay(const Pose2& start, const Goal& goal) const;

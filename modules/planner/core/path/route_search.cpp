@@ -49,10 +49,12 @@ class Search {
 
   std::optional<std::vector<Pose2>> Run() {
     BeginAtStart();
+    int n_poses = 0;
     while (!open_.empty()) {
       const std::size_t index = open_.top().second;
       open_.pop();
       if (expanded_[index]) continue;
+      if (query_.most_poses > 0 && ++n_poses > query_.most_poses) return std::nullopt;
       expanded_[index] = true;
       const Node node = NodeAt(index);
       if (IsGoal(node)) return RouteTo(index);

@@ -15,6 +15,7 @@ struct RouteQuery {
   double margin_m = 0.1;     ///< least distance to every obstacle ...
   double leaving_m = 0.1;    ///< ... and on the first 40 cm, for a base that stands nearer to one
   double beyond_plan_m = 3;  ///< how far outside the obstacles and both ends it may lead
+  int most_poses = 0;  ///< after so many poses the search ends without a route; 0: when there are no more
 };
 
 /// A quick route of the true footprint on a lattice of poses: places 10 cm apart, 16 headings, counted
