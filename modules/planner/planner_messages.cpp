@@ -165,8 +165,11 @@ std::optional<LookResult> FromMessage(const landmark_fix_t& message) {
 
 LookResult FromMessage(const pose_correction_t& message) {
   const bool applied = message.verdict == pose_correction_t::APPLIED;
-  return {message.request_id, applied, applied ? "" : std::string(CorrectionVerdictText(message.verdict)),
-          false, message.verdict == pose_correction_t::IMPLAUSIBLE,
+  return {message.request_id,
+          applied,
+          applied ? "" : std::string(CorrectionVerdictText(message.verdict)),
+          false,
+          message.verdict == pose_correction_t::IMPLAUSIBLE,
           message.verdict == pose_correction_t::RESET};
 }
 

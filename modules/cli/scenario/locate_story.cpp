@@ -41,8 +41,9 @@ void LocateStory::Judge(Time now) {
   const double off_m = std::hypot(pose->x_m - truth()->x_m, pose->y_m - truth()->y_m);
   const double off_deg = Degrees(std::abs(WrapAngle(pose->yaw_rad - truth()->yaw_rad)));
   const bool right = off_m <= kRight_m && off_deg <= kRight_deg;
-  End(now, right, fmt::format("{}: {:.2f} m, {:.1f} deg off; {}", right ? "right" : "wrong", off_m, off_deg,
-                              order().text()));
+  End(now, right,
+      fmt::format("{}: {:.2f} m, {:.1f} deg off; {}", right ? "right" : "wrong", off_m, off_deg,
+                  order().text()));
 }
 
 template StoryKind KindOf<LocateStory>();

@@ -6,9 +6,9 @@
 
 namespace priamos::cli {
 
-/// The robot was carried somewhere, and its pose is wrong by metres; the person at the workstation has it find
-/// out where it is. It has come to a good end when it says that it knows, and is right (WORLD_TRUTH). Its last
-/// words begin with "right", "wrong", "ambiguous" or what else came of it.
+/// The robot was carried somewhere, and its pose is wrong by metres; the person at the workstation has it
+/// find out where it is. It has come to a good end when it says that it knows, and is right (WORLD_TRUTH).
+/// Its last words begin with "right", "wrong", "ambiguous" or what else came of it.
 class LocateStory : public OrderStory {
  public:
   static constexpr std::string_view kName = "locate";

@@ -44,7 +44,8 @@ class WayLog {
  public:
   /// Forgets everything; what is heard from now on counts.
   void Begin(Time now);
-  /// The newest pose, map frame of the robot; `corrected`: when its pose was set or corrected last, if it was.
+  /// The newest pose, map frame of the robot; `corrected`: when its pose was set or corrected last, if it
+  /// was.
   void OnPose(Time stamp, const Pose2& told_from_base, std::optional<Time> corrected);
   /// A wall that it told of.
   void OnWall(const SeenWall& seen);

@@ -17,7 +17,9 @@ int CellsIn(double length_m) {
 }  // namespace
 
 PlaceGrid::PlaceGrid(const PlacePlan& plan, const PlaceScorer& scorer)
-    : plan_(plan), scorer_(scorer), columns_(CellsIn(plan.bounds().sizes().x())),
+    : plan_(plan),
+      scorer_(scorer),
+      columns_(CellsIn(plan.bounds().sizes().x())),
       rows_(CellsIn(plan.bounds().sizes().y())) {
   total_.resize(std::size_t(columns_) * std::size_t(rows_));
   of_piece_.resize(total_.size());
@@ -34,7 +36,8 @@ double PlaceGrid::Bound(double map_yaw) const {
   for (const PlaceScorer::Piece& piece : scorer_.pieces()) {
     double best = 0;
     for (const PlaceFace& face : plan_.faces())
-      if (const auto cost = scorer_.TurnCost(piece, face, map_yaw)) best = std::max(best, piece.gain - *cost / 2);
+      if (const auto cost = scorer_.TurnCost(piece, face, map_yaw))
+        best = std::max(best, piece.gain - *cost / 2);
     bound += best;
   }
   return bound;
@@ -54,8 +57,8 @@ void PlaceGrid::Fill(double map_yaw) {
 void PlaceGrid::Add(const PlaceScorer::Piece& piece, const PlaceFace& face, double turn_cost,
                     double map_yaw) {
   const Eigen::Vector2d to_middle = Pose2{0, 0, map_yaw} * piece.base_from_middle.translation();
-  const double variance = piece.across_variance + kCell_m * kCell_m / 4 +
-                          std::pow(kHalfStep_rad * face.along.dot(to_middle), 2);
+  const double variance =
+      piece.across_variance + kCell_m * kCell_m / 4 + std::pow(kHalfStep_rad * face.along.dot(to_middle), 2);
   const double reach_m = std::sqrt(2 * piece.gain * variance), slack_m = scorer_.Overhang_m(piece);
   const Eigen::Vector2d begin = face.from - to_middle;
   Eigen::AlignedBox2d strip;

@@ -41,7 +41,8 @@ PlacePlan::PlacePlan(const GroundPlan& plan) : sigma_m_(plan.wall_sigma_m) {
   std::vector<WallFace> faces = FacesOf(plan);
   for (const CupboardPlan& cupboard : plan.cupboards) AddCupboard(cupboard, faces);
   for (const WallFace& face : faces)
-    faces_.push_back({face.from, face.along(), face.length_m(), std::atan2(face.along().y(), face.along().x())});
+    faces_.push_back(
+        {face.from, face.along(), face.length_m(), std::atan2(face.along().y(), face.along().x())});
   for (const WallPlan& wall : plan.walls) {
     walls_.push_back(wall.Shape());
     for (const Eigen::Vector2d& corner : walls_.back().Corners()) bounds_.extend(corner);

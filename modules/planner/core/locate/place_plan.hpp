@@ -19,8 +19,8 @@ struct PlaceFace {
   Eigen::Vector2d left() const { return {-along.y(), along.x()}; }
 };
 
-/// A plan as far as finding a place on it needs it: the faces that sonars hear, where no base can be, and what
-/// no sound goes through. Doorways are bridged: a leaf may close them, and then they are heard as wall.
+/// A plan as far as finding a place on it needs it: the faces that sonars hear, where no base can be, and
+/// what no sound goes through. Doorways are bridged: a leaf may close them, and then they are heard as wall.
 class PlacePlan {
  public:
   explicit PlacePlan(const GroundPlan& plan);
@@ -37,7 +37,6 @@ class PlacePlan {
   bool Hides(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
 
  private:
-
   std::vector<PlaceFace> faces_;
   std::vector<Rectangle> walls_;
   double sigma_m_;

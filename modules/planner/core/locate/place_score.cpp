@@ -69,14 +69,12 @@ PlaceScorer::Match PlaceScorer::BestOf(const Piece& piece, const Pose2& map_from
     if (!turn_cost) continue;
     const Eigen::Vector2d offset = map_from_middle.translation() - face.from;
     const double across_m = face.left().dot(offset), at_m = face.along.dot(offset);
-    const double overhang_m = std::max(
-        {0.0, piece.length_m / 2 - at_m, at_m + piece.length_m / 2 - face.length_m});
-    const double cost = *turn_cost + across_m * across_m / piece.across_variance +
-                        OverhangCost(overhang_m);
+    const double overhang_m =
+        std::max({0.0, piece.length_m / 2 - at_m, at_m + piece.length_m / 2 - face.length_m});
+    const double cost = *turn_cost + across_m * across_m / piece.across_variance + OverhangCost(overhang_m);
     const double worth = piece.gain - cost / 2;
     if (worth <= best.worth) continue;
-    best = {&face, worth, across_m,
-            WrapAngle(map_from_middle.yaw - face.yaw_rad)};
+    best = {&face, worth, across_m, WrapAngle(map_from_middle.yaw - face.yaw_rad)};
   }
   return best;
 }
@@ -130,8 +128,8 @@ PlaceFit PlaceScorer::Refined(const Pose2& map_from_base) const {
     const PlaceFit fit = FitAt(at, gradient);
     // What no wall holds stays where it is.
     Eigen::Matrix3d held = fit.information;
-    held.diagonal() += Eigen::Vector3d(1, 1, 1 / (kHold_rad * kHold_rad) * kHold_m * kHold_m) /
-                       (kHold_m * kHold_m);
+    held.diagonal() +=
+        Eigen::Vector3d(1, 1, 1 / (kHold_rad * kHold_rad) * kHold_m * kHold_m) / (kHold_m * kHold_m);
     const Eigen::Vector3d step = held.ldlt().solve(gradient);
     at = {at.x - step.x(), at.y - step.y(), WrapAngle(at.yaw - step.z())};
   }

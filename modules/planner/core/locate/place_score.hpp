@@ -14,8 +14,8 @@ namespace priamos::planner {
 
 /// How far what was heard may lie beside what the plan has, and what each finding is worth.
 struct PlaceScoreConfig {
-  double across_m = 0.03;  ///< standard deviation of a piece across it, by its fit
-  double turned_deg = 1.5;  ///< and of its direction against the plan's wall
+  double across_m = 0.03;             ///< standard deviation of a piece across it, by its fit
+  double turned_deg = 1.5;            ///< and of its direction against the plan's wall
   double drift_m_per_sqrt_m = 0.02;   ///< what the way loses with the distance driven since
   double drift_deg_per_sqrt_m = 0.3;  ///< and of the heading
   double overhang_m = 0.2;            ///< of the end of a piece beyond the end of its wall
@@ -30,10 +30,11 @@ struct PlaceScoreConfig {
 /// How well one place on the plan explains a drive.
 struct PlaceFit {
   Pose2 map_from_base;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw), by the walls that match [m, rad]
-  double score = 0;  ///< log-likelihood against "none of it is on the plan"
-  int matched = 0;   ///< pieces that lie on walls of the plan
-  bool crossed = false;  ///< and they hold the place in both directions
+  Eigen::Matrix3d information =
+      Eigen::Matrix3d::Zero();  ///< of (x, y, yaw), by the walls that match [m, rad]
+  double score = 0;             ///< log-likelihood against "none of it is on the plan"
+  int matched = 0;              ///< pieces that lie on walls of the plan
+  bool crossed = false;         ///< and they hold the place in both directions
 };
 
 /// Weighs places on the plan by what was heard and driven over. A piece is a wall of the plan, or a thing
@@ -70,8 +71,8 @@ class PlaceScorer {
  private:
   struct Match {
     const PlaceFace* face = nullptr;
-    double worth = 0;      ///< gain less half the squared distance
-    double across_m = 0;   ///< of the piece's middle, to the left of the face
+    double worth = 0;     ///< gain less half the squared distance
+    double across_m = 0;  ///< of the piece's middle, to the left of the face
     double turned_rad = 0;
   };
   Match BestOf(const Piece& piece, const Pose2& map_from_base) const;

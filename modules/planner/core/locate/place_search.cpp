@@ -96,9 +96,9 @@ std::vector<PlaceCandidate> Grouped(const PlaceSearchConfig& config, const std::
         if (taken[k] || !AreNear(config, fits[group[next]].map_from_base, fits[k].map_from_base)) continue;
         taken[k] = true;
         group.push_back(k);
-        candidate.spread_m = std::max(
-            candidate.spread_m,
-            (fits[k].map_from_base.translation() - candidate.map_from_base.translation()).norm());
+        candidate.spread_m =
+            std::max(candidate.spread_m,
+                     (fits[k].map_from_base.translation() - candidate.map_from_base.translation()).norm());
       }
     candidates.push_back(candidate);
   }

@@ -13,9 +13,9 @@ namespace priamos::planner {
 /// Which places count as explaining a drive, and when one of them is alone.
 struct PlaceSearchConfig {
   PlaceScoreConfig score;
-  double margin = 10;      ///< log-likelihood by which a place must be worse than the best to be out
-  double same_m = 0.5;     ///< places no farther apart are one ...
-  double same_deg = 10;    ///< ... nor turned more
+  double margin = 10;    ///< log-likelihood by which a place must be worse than the best to be out
+  double same_m = 0.5;   ///< places no farther apart are one ...
+  double same_deg = 10;  ///< ... nor turned more
 
   void Describe(Archive& a);
 };
@@ -38,8 +38,8 @@ struct PlaceCandidate {
 /// All places on the plan, in every direction, that explain a drive: those no worse than the best by the
 /// margin. Markov localisation (Fox, Burgard, Thrun, "Markov Localization for Mobile Robots in Dynamic
 /// Environments", 1999) over a grid of all poses, which leaves out none: that only one remains is a statement
-/// about all others. Best first; none when not even the best is better than "none of it is on the plan" by the
-/// margin, or so many are that nothing is known yet.
+/// about all others. Best first; none when not even the best is better than "none of it is on the plan" by
+/// the margin, or so many are that nothing is known yet.
 std::vector<PlaceCandidate> FindPlaces(const PlaceSearchConfig& config, const PlacePlan& plan,
                                        const DrivenWay& way);
 

@@ -76,7 +76,8 @@ void LocateMission::Step(MissionControl& control) {
   Listen(control);
   switch (stage_) {
     case Stage::kFraming:
-      if (control.place_refused()) return control.Fail("the robot does not take a pose: is it driven by hand?");
+      if (control.place_refused())
+        return control.Fail("the robot does not take a pose: is it driven by hand?");
       if (IsPlaced(control) && !log_.empty()) NextLeg(control);
       return;
     case Stage::kLeg:
@@ -179,8 +180,8 @@ bool LocateMission::HasSettled(const MissionControl& control) const {
 
 void LocateMission::Decide(MissionControl& control) {
   Search();
-  const bool points = !found_.empty() &&
-                      std::all_of(found_.begin(), found_.end(), [](const auto& c) { return c.IsHeld(); });
+  const bool points =
+      !found_.empty() && std::all_of(found_.begin(), found_.end(), [](const auto& c) { return c.IsHeld(); });
   if (points && found_.size() <= std::size_t(config_.most_tests)) return BeginTests(control);
   // What came while the robot stood may show another leg.
   if (log_.driven_m() <= config_.most_m && legs_ < config_.most_legs &&
@@ -281,23 +282,26 @@ void LocateMission::BelieveWalls(MissionControl& control) {
   PlaceSearchConfig strict = config_.search;
   strict.margin = config_.alone_margin;
   const auto found = FindPlaces(strict, places_, log_.way());
-  const bool sure = found.size() == 1 && found.front().IsPoint() && found.front().matched >= config_.alone_walls;
+  const bool sure =
+      found.size() == 1 && found.front().IsPoint() && found.front().matched >= config_.alone_walls;
   if (!sure)
-    return GiveUp(control, fmt::format("unconfirmed: {}, no door in sight tells", Text(PlaceOf(hypotheses_[0]))));
+    return GiveUp(control,
+                  fmt::format("unconfirmed: {}, no door in sight tells", Text(PlaceOf(hypotheses_[0]))));
   test_ = 0;
   hypotheses_[0].map_from_way = found.front().map_from_base * log_.way_from_base().Inverse();
   control.OrderPlace(PlaceOf(hypotheses_[0]), hypotheses_[0].sigma_m, hypotheses_[0].sigma_yaw_rad);
   framed_ = false;
-  control.Enter(Phase::kDone, fmt::format("at {}, by {} walls alone, {:.1f} m driven",
-                                          Text(PlaceOf(hypotheses_[0])), found.front().matched, log_.driven_m()));
+  control.Enter(Phase::kDone,
+                fmt::format("at {}, by {} walls alone, {:.1f} m driven", Text(PlaceOf(hypotheses_[0])),
+                            found.front().matched, log_.driven_m()));
 }
 
 void LocateMission::Believe(MissionControl& control, const std::string& because) {
   framed_ = false;
   const RobotPose& pose = *control.heard().pose;
-  control.Enter(Phase::kDone,
-                fmt::format("at {}, known to {:.2f} m: {}, {} walls, {:.1f} m driven", Text(pose.map_from_base),
-                            PositionSigma(pose.covariance), because, hypotheses_[test_].matched, log_.driven_m()));
+  control.Enter(Phase::kDone, fmt::format("at {}, known to {:.2f} m: {}, {} walls, {:.1f} m driven",
+                                          Text(pose.map_from_base), PositionSigma(pose.covariance), because,
+                                          hypotheses_[test_].matched, log_.driven_m()));
 }
 
 /// Ends the mission without a place; first the robot is told that nobody knows where it is.

@@ -18,16 +18,16 @@ namespace priamos::planner {
 /// How far and how long a place is looked for, and what it takes to believe one.
 struct LocateMissionConfig {
   double speed_m_s = 0.25;
-  double leeway_m = 0.4;    ///< how far a leg may be left around things
-  double most_m = 60;       ///< driven in search of walls
+  double leeway_m = 0.4;  ///< how far a leg may be left around things
+  double most_m = 60;     ///< driven in search of walls
   int most_legs = 24;
-  int same_legs = 3;        ///< legs after which candidates that stay the same do not get fewer
-  double same_m = 8;        ///< and so far driven by then
-  double settle_s = 9;      ///< the robot stands so long, so that the radio brings all that it heard
-  int most_tests = 4;       ///< candidates that are looked at one after the other
+  int same_legs = 3;         ///< legs after which candidates that stay the same do not get fewer
+  double same_m = 8;         ///< and so far driven by then
+  double settle_s = 9;       ///< the robot stands so long, so that the radio brings all that it heard
+  int most_tests = 4;        ///< candidates that are looked at one after the other
   double alone_margin = 16;  ///< margin at which walls alone are believed where no door can be seen ...
   int alone_walls = 5;       ///< ... and so many of them
-  double drift_m = 0.3;     ///< of the pose, one sigma, at which it counts as exact anew: it is relative
+  double drift_m = 0.3;      ///< of the pose, one sigma, at which it counts as exact anew: it is relative
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 900};
   PlaceSearchConfig search;
   LegChoiceConfig legs;
@@ -93,22 +93,22 @@ class LocateMission : public Mission {
   LookSequence looks_;
   Stage stage_ = Stage::kFraming;
   WayLog log_;
-  std::size_t searched_ = 0;        ///< revision of the log
-  double searched_at_m_ = 0;        ///< way driven by then
+  std::size_t searched_ = 0;  ///< revision of the log
+  double searched_at_m_ = 0;  ///< way driven by then
   std::vector<PlaceCandidate> found_;
   std::vector<Hypothesis> hypotheses_;
-  std::size_t test_ = 0;            ///< index of the hypothesis that is looked at
+  std::size_t test_ = 0;  ///< index of the hypothesis that is looked at
   std::optional<DoorView> view_;
-  std::vector<int> seen_doors_;     ///< looked at in this test, or out of reach
-  int n_good_ = 0;                  ///< looks that found the door
+  std::vector<int> seen_doors_;  ///< looked at in this test, or out of reach
+  int n_good_ = 0;               ///< looks that found the door
   std::vector<ClosedWay> closed_;
   int legs_ = 0, same_legs_ = 0;
-  std::size_t count_before_ = 0;    ///< candidates at the end of the leg before
+  std::size_t count_before_ = 0;  ///< candidates at the end of the leg before
   Eigen::Vector2d leg_towards_{1, 0};
-  Time stands_since_{};             ///< the end of the newest leg
-  Time changed_{};                  ///< when walls were told last
-  std::string outcome_;             ///< reason with which the mission ends after the pose was given back
-  bool framed_ = false;             ///< the robot's pose is one of this mission
+  Time stands_since_{};  ///< the end of the newest leg
+  Time changed_{};       ///< when walls were told last
+  std::string outcome_;  ///< reason with which the mission ends after the pose was given back
+  bool framed_ = false;  ///< the robot's pose is one of this mission
 };
 
 }  // namespace priamos::planner

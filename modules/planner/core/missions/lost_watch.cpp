@@ -25,7 +25,8 @@ std::optional<std::string> LostWatch::Why(const std::optional<RobotPose>& pose) 
   if (n_refused_ >= kRefused)
     return fmt::format("{} landmarks in a row were seen where they cannot be by its pose", n_refused_);
   if (!pose) return std::nullopt;
-  const double sigma_m = PositionSigma(pose->covariance), sigma_deg = Degrees(std::sqrt(pose->covariance(2, 2)));
+  const double sigma_m = PositionSigma(pose->covariance),
+               sigma_deg = Degrees(std::sqrt(pose->covariance(2, 2)));
   if (sigma_m < kLost_m && sigma_deg < kLost_deg) return std::nullopt;
   return fmt::format("its pose is known to {:.1f} m and {:.0f} degrees only", sigma_m, sigma_deg);
 }

@@ -52,8 +52,8 @@ class MissionControl {
 
   /// Orders a look of the head at a side of a landmark. Returns the number that its answer will carry.
   int OrderLook(int landmark_id, Side side);
-  /// Has the robot brake and tells it where it is; said again until it obeys, also when the mission is over by
-  /// then, five times at most.
+  /// Has the robot brake and tells it where it is; said again until it obeys, also when the mission is over
+  /// by then, five times at most.
   void OrderPlace(const Pose2& map_from_base, double sigma_m, double sigma_yaw_rad);
   /// Whether an order about its place is still to be obeyed.
   bool IsPlacing() const { return place_.has_value(); }

@@ -77,7 +77,8 @@ void StartPlan::Describe(Archive& a) {
   a.Number("yaw_spread_deg", yaw_spread_deg, {"deg", 0, 180, "the nominal heading is off by up to this"});
   a.Number("error_m", error_m, {"m", 0, 2, "the robot truly stands up to this far from the nominal start"});
   a.Number("error_deg", error_deg, {"deg", 0, 90, "and is turned against it by up to this"});
-  a.Flag("anywhere", anywhere, "it truly stands at any free place of the map, turned anyhow; error_m and error_deg do not count");
+  a.Flag("anywhere", anywhere,
+         "it truly stands at any free place of the map, turned anyhow; error_m and error_deg do not count");
 }
 
 Start DrawStart(const StartPlan& plan, std::uint64_t seed) {

@@ -53,7 +53,8 @@ TEST(LegChoice, AWayThatLeadsOnGetsLonger) {
 }
 
 TEST(LegChoice, WhereAllIsClosedThereIsNone) {
-  const std::vector<ClosedWay> closed{{{0, 0}, {1, 0}}, {{0, 0}, {-1, 0}}, {{0, 0}, {0, 1}}, {{0, 0}, {0, -1}}};
+  const std::vector<ClosedWay> closed{
+      {{0, 0}, {1, 0}}, {{0, 0}, {-1, 0}}, {{0, 0}, {0, 1}}, {{0, 0}, {0, -1}}};
   EXPECT_FALSE(ChooseLeg({}, Standing(), closed));
 }
 

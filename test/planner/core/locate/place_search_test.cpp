@@ -87,9 +87,9 @@ TEST(PlaceSearch, AThingThatIsNotOnThePlanLeavesTheTrueOneAmongThePlaces) {
     drive.LookAround(8);
     const auto found = Find(plan, drive);
     if (found.empty()) continue;
-    EXPECT_TRUE(std::any_of(found.begin(), found.end(),
-                            [&](const PlaceCandidate& c) { return IsAt(c, drive.truth()); }))
-        << seed;
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const PlaceCandidate& c) {
+      return IsAt(c, drive.truth());
+    })) << seed;
   }
 }
 

@@ -18,7 +18,8 @@ namespace priamos::planner {
 /// with nothing between; a part of them never.
 class SimulatedDrive {
  public:
-  SimulatedDrive(const GroundPlan& building, std::vector<Rectangle> things, const Pose2& map_from_base, Rng& rng)
+  SimulatedDrive(const GroundPlan& building, std::vector<Rectangle> things, const Pose2& map_from_base,
+                 Rng& rng)
       : rng_(rng), things_(std::move(things)), map_from_base_(map_from_base) {
     for (const WallPlan& wall : building.walls) solids_.push_back(wall.Shape());
     for (const Rectangle& thing : things_) solids_.push_back(thing);
@@ -168,7 +169,8 @@ inline WallPlan WallBetween(double x1_m, double y1_m, double x2_m, double y2_m) 
 
 /// A room of this size from the origin on; its walls begin outside.
 inline void AddRoom(GroundPlan& plan, const Eigen::Vector2d& low, const Eigen::Vector2d& size) {
-  const Eigen::Vector2d a = low - Eigen::Vector2d::Constant(0.07), b = low + size + Eigen::Vector2d::Constant(0.07);
+  const Eigen::Vector2d a = low - Eigen::Vector2d::Constant(0.07),
+                        b = low + size + Eigen::Vector2d::Constant(0.07);
   plan.walls.push_back(WallBetween(a.x(), a.y(), b.x(), a.y()));
   plan.walls.push_back(WallBetween(b.x(), a.y(), b.x(), b.y()));
   plan.walls.push_back(WallBetween(b.x(), b.y(), a.x(), b.y()));

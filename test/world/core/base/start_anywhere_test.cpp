@@ -9,7 +9,8 @@ namespace {
 
 GroundPlan Room() {
   GroundPlan map;
-  for (const auto& ends : {std::array{0.0, 0.0, 6.0, 0.0}, {6.0, 0.0, 6.0, 4.0}, {6.0, 4.0, 0.0, 4.0}, {0.0, 4.0, 0.0, 0.0}}) {
+  for (const auto& ends :
+       {std::array{0.0, 0.0, 6.0, 0.0}, {6.0, 0.0, 6.0, 4.0}, {6.0, 4.0, 0.0, 4.0}, {0.0, 4.0, 0.0, 0.0}}) {
     WallPlan wall;
     wall.from_m = {ends[0], ends[1]};
     wall.to_m = {ends[2], ends[3]};
