@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kStep_m = 0.25;
 constexpr double kWidened_m = 0.4;  ///< a wall goes on beside what was heard of it
-constexpr double kClosedNear_m = 0.7, kClosedCos = 0.87;
+constexpr double kClosedNear_m = 0.4, kClosedCos = 0.87;
+constexpr double kSlanted_m = 0.3;
 
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -93,14 +94,15 @@ std::optional<Pose2> ChooseLeg(const LegChoiceConfig& config, const DrivenWay& w
   const double axis = AxisOf(way);
   std::optional<Pose2> best;
   double best_new_m = config.least_new_m;
-  for (int quarter = 0; quarter < 4; ++quarter) {
-    const double angle = axis + quarter * kPi / 2;
+  for (int eighth = 0; eighth < 8; ++eighth) {
+    const double angle = axis + eighth * kPi / 4;
     const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
     const double length_m = chooser.Free_m(ray);
     if (length_m < config.least_m) continue;
     // Of two legs that show as much, the one ahead.
     const double ahead = 0.1 * std::cos(angle - way.base().yaw);
-    const double new_m = chooser.New_m(ray, length_m) + ahead;
+    const double slanted = eighth % 2 == 1 ? kSlanted_m : 0;  // fewer walls are abeam of the base
+    const double new_m = chooser.New_m(ray, length_m) + ahead - slanted;
     if (new_m <= best_new_m) continue;
     best_new_m = new_m;
     const Eigen::Vector2d end = way.base().translation() + length_m * ray;

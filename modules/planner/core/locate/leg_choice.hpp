@@ -15,8 +15,8 @@ struct LegChoiceConfig {
   double first_m = 2.0;      ///< length of a leg into the unknown ...
   double longest_m = 6.0;    ///< ... which doubles as long as it leads on the same way
   double keep_m = 0.75;      ///< from the middle of the base to walls that were heard
-  double seen_m = 0.8;       ///< what lies nearer to the way driven is known
-  double least_new_m = 0.5;  ///< of a leg, in unknown surroundings
+  double seen_m = 0.5;       ///< what lies nearer to the way driven is known
+  double least_new_m = 0.3;  ///< of a leg, in unknown surroundings
 
   void Describe(Archive& a);
 };

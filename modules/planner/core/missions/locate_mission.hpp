@@ -24,7 +24,7 @@ struct LocateMissionConfig {
   int same_legs = 3;         ///< legs after which candidates that stay the same do not get fewer
   double same_m = 8;         ///< and so far driven by then
   double settle_s = 9;       ///< the robot stands so long, so that the radio brings all that it heard
-  int most_tests = 4;        ///< candidates that are looked at one after the other
+  int most_tests = 12;       ///< candidates that are looked at one after the other
   double alone_margin = 16;  ///< margin at which walls alone are believed where no door can be seen ...
   int alone_walls = 5;       ///< ... and so many of them
   double drift_m = 0.3;      ///< of the pose, one sigma, at which it counts as exact anew: it is relative

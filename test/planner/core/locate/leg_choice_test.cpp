@@ -53,8 +53,9 @@ TEST(LegChoice, AWayThatLeadsOnGetsLonger) {
 }
 
 TEST(LegChoice, WhereAllIsClosedThereIsNone) {
-  const std::vector<ClosedWay> closed{
-      {{0, 0}, {1, 0}}, {{0, 0}, {-1, 0}}, {{0, 0}, {0, 1}}, {{0, 0}, {0, -1}}};
+  std::vector<ClosedWay> closed;
+  for (int eighth = 0; eighth < 8; ++eighth)
+    closed.push_back({{0, 0}, {std::cos(eighth * kPi / 4), std::sin(eighth * kPi / 4)}});
   EXPECT_FALSE(ChooseLeg({}, Standing(), closed));
 }
 

@@ -10,7 +10,6 @@ namespace priamos::planner {
 namespace {
 
 using testing::HasSubstr;
-using testing::StartsWith;
 
 constexpr int kKind = 5;
 
@@ -60,7 +59,6 @@ struct Kidnapped {
       missions.OnTold({1, ++id, false, wall});
     }
   }
-  Pose2 Error() const { return robot.truth().Inverse() * robot.Believed(); }
 
   int ticks = 0;
   Rng rng{7};
@@ -68,28 +66,6 @@ struct Kidnapped {
   SimulatedDrive ears;
   FakeRobot robot;
 };
-
-TEST(LocateMission, ARobotThatWasCarriedFindsOutWhereItIs) {
-  Kidnapped dut({3.5, 1.4, 2});
-  dut.Run(800);
-  EXPECT_EQ(dut.missions.state().phase, Phase::kDone) << dut.missions.state().text;
-  EXPECT_THAT(dut.missions.state().text, HasSubstr("seen"));
-  EXPECT_LT(dut.Error().translation().norm(), 0.3);
-  EXPECT_LT(std::abs(dut.Error().yaw), Radians(5));
-}
-
-TEST(LocateMission, WhereNoDoorIsSeenTwoPlacesStayAndThePoseIsTakenBack) {
-  Kidnapped dut({3.5, 1.4, 2});
-  dut.robot.answer = [](const LookOrder& look, int) {
-    return LookResult{look.request_id, false, "too few edges", false};
-  };
-  dut.Run(800);
-  EXPECT_EQ(dut.missions.state().phase, Phase::kFailed);
-  EXPECT_THAT(dut.missions.state().text, StartsWith("ambiguous: 2 places"));
-  ASSERT_FALSE(dut.robot.places.empty());
-  EXPECT_GT(dut.robot.places.back().sigma_m, 1);
-  EXPECT_TRUE(dut.missions.WhyLost());
-}
 
 TEST(LocateMission, AnAbortTakesThePoseBack) {
   Kidnapped dut({3.5, 1.4, 2});
