@@ -19,7 +19,7 @@ TEST(ExploreScenario, TheWholeFloorIsSeenWithoutAPlan) {
   EXPECT_EQ(summary.contacts, 0);
   ASSERT_TRUE(summary.explore);
   EXPECT_GE(summary.explore->seen, 0.98) << summary.explore->end;
-  EXPECT_LE(summary.explore->wall_error_p95_m, 0.30) << "the pose drifts";
+  EXPECT_LE(summary.explore->wall_error_p95_m, 0.20) << "the pose drifts";
 }
 
 }  // namespace

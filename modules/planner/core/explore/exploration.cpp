@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/core/explore/passages.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -72,7 +74,7 @@ void Exploration::NoteAt(const Pose2& map_from_base) {
 }
 
 void Exploration::Learn(const LearnedWalls& walls) {
-  evidence_.walls = walls;
+  evidence_.walls = WithoutPassages(walls, evidence_.trail, clearance_m_ + 2 * kRaster_m);
   grid_.reset();
 }
 

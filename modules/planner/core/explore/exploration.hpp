@@ -57,8 +57,10 @@ class Exploration {
   void set_config(const ExplorationConfig& config) { config_ = config; }
   /// The base is here, map frame.
   void NoteAt(const Pose2& map_from_base);
-  /// Walls as they are known by now, in place of those before.
+  /// Walls as they are known by now, in place of those before; where the base drove through none is.
   void Learn(const LearnedWalls& walls);
+  /// What counts of them.
+  const LearnedWalls& walls() const { return evidence_.walls; }
   /// Something that is no wall is here.
   void AddThing(const Rectangle& thing);
   /// What is around this place of a frontier is not tried again.

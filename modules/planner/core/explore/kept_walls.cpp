@@ -7,7 +7,7 @@ namespace priamos::planner {
 namespace {
 
 /// Left for so long a wall is as the first visit shows it.
-constexpr double kLeft_s = 20;
+constexpr double kLeft_s = 4;
 /// A shorter wall, or one known worse, tells too little about the pose.
 constexpr double kLeast_m = 1.0, kMostSigma_m = 0.08, kLeastSigma_m = 0.01;
 /// Walls that face the same way, so near to each other and beside each other are one.

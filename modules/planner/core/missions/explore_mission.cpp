@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/core/explore/passages.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -92,7 +94,7 @@ void ExploreMission::Learn(const MissionControl& control) {
   learned_ = control.heard().learned;
   exploration_.Learn(*learned_);
   if (config_.keep_walls) kept_.Learn(*learned_, 1e-6 * static_cast<double>(ToUtime(control.now())));
-  planner_.Learn(*learned_, control.heard().pose->map_from_base);
+  planner_.Learn(SureParts(exploration_.walls()), control.heard().pose->map_from_base);
 }
 
 /// While the base drives: what it was to see may be seen by now, or a wall may have turned up on its way.

@@ -16,7 +16,7 @@ LearnedWalls One(const LearnedWall& wall) {
 
 TEST(KeptWallsTest, AWallIsKeptAsItWasWhenItWasLeft) {
   KeptWalls dut;
-  dut.Learn(One(WallAt(2, 1, 0, 3)), 1010);
+  dut.Learn(One(WallAt(2, 1, 0, 3)), 1002);
   EXPECT_THAT(dut.Faces(), IsEmpty()) << "it is still heard";
   dut.Learn(One(WallAt(2, 1, 0, 3)), 1030);
   ASSERT_THAT(dut.Faces(), SizeIs(1));
