@@ -91,7 +91,9 @@ bool IsNamedInAnother(const std::string& file) {
   if (name.starts_with("worlds/")) return true;
   const auto files = Files();
   return std::any_of(files.begin(), files.end(), [&](const std::string& other) {
-    return other != file && TextOf(kConfigs / other).find('"' + name + '"') != std::string::npos;
+    const std::string text = TextOf(kConfigs / other);
+    return other != file && (text.find('"' + name + '"') != std::string::npos ||
+                             text.find("map=" + name + '"') != std::string::npos);
   });
 }
 

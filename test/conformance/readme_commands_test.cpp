@@ -85,7 +85,8 @@ std::string VerbOf(const fs::path& program, const std::vector<std::string>& word
   std::string command = fmt::format("'{}'", program.string());
   if (program.filename() != "priamos" || words.size() < 2 || words[1].starts_with("-")) return command;
   command += " " + words[1];
-  if (kVerbsWithVerbs.contains(words[1]) && words.size() > 2) command += " " + words[2];
+  if (kVerbsWithVerbs.contains(words[1]) && words.size() > 2 && !words[2].starts_with("-"))
+    command += " " + words[2];
   return command;
 }
 

@@ -132,8 +132,13 @@ class TrueFloor {
   std::vector<bool> reachable_, seen_;
 };
 
+/// A place on a wall as the planner has it, and to which side the base was.
+struct WallPlace {
+  Vector2d at, facing;
+};
+
 /// Places along the walls as the planner has them, every 10 cm.
-std::vector<Vector2d> WallPlaces(const RunRecord& record) {
+std::vector<WallPlace> WallPlaces(const RunRecord& record) {
   std::map<std::pair<int, int>, feature_t> walls;  // as told last
   for (const features_t& message : record.features)
     for (const feature_t& feature : message.features) {
@@ -142,22 +147,27 @@ std::vector<Vector2d> WallPlaces(const RunRecord& record) {
       else
         walls.erase({message.store, feature.id});
     }
-  std::vector<Vector2d> places;
+  std::vector<WallPlace> places;
   for (const auto& [name, wall] : walls) {
     const Pose2 map_from_wall{wall.x_m, wall.y_m, wall.yaw_rad};
     for (double at_m = -wall.length_m / 2; at_m <= wall.length_m / 2; at_m += kSample_m)
-      places.push_back(map_from_wall * Vector2d(at_m, 0));
+      places.push_back({map_from_wall * Vector2d(at_m, 0), map_from_wall.rotation() * Vector2d::UnitY()});
   }
   return places;
 }
 
-/// From a place to the nearest point of a true face.
-Vector2d ToNearestFace(const std::vector<Rectangle>& outlines, const Vector2d& at) {
+/// From a place to the nearest point of a true face that looks the same way, by 45 degrees: the back of a
+/// wall is none that was heard from its front.
+Vector2d ToNearestFace(const std::vector<Rectangle>& outlines, const WallPlace& place) {
+  const Vector2d& at = place.at;
   Vector2d best(1e3, 0);
   for (const Rectangle& outline : outlines) {
     const auto corners = outline.Corners();
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vector2d from = corners[i], line = corners[(i + 1) % corners.size()] - from;
+      Vector2d outward = Vector2d(line.y(), -line.x()).normalized();
+      if (outward.dot(from - outline.map_from_centre.translation()) < 0) outward = -outward;
+      if (outward.dot(place.facing) < std::cos(kPi / 4)) continue;
       const double part = std::clamp((at - from).dot(line) / std::max(1e-12, line.squaredNorm()), 0.0, 1.0);
       const Vector2d to = from + part * line - at;
       if (to.squaredNorm() < best.squaredNorm()) best = to;
@@ -166,9 +176,14 @@ Vector2d ToNearestFace(const std::vector<Rectangle>& outlines, const Vector2d& a
   return best;
 }
 
+std::vector<WallPlace> Moved(const Pose2& to_from_here, std::vector<WallPlace> places) {
+  for (WallPlace& place : places) place = {to_from_here * place.at, to_from_here.rotation() * place.facing};
+  return places;
+}
+
 /// The 95 % quantile of the distance to the truth after the turn and shift that fit best, found step by step
 /// from nearest points (Besl and McKay 1992); what is more than half a metre off does not pull.
-double ErrorAfterFit(const std::vector<Rectangle>& outlines, std::vector<Vector2d> places) {
+double ErrorAfterFit(const std::vector<Rectangle>& outlines, std::vector<WallPlace> places) {
   constexpr int kSteps = 15;
   constexpr double kPulls_m = 0.5;
   std::vector<double> errors;
@@ -176,8 +191,8 @@ double ErrorAfterFit(const std::vector<Rectangle>& outlines, std::vector<Vector2
     errors.clear();
     Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (const Vector2d& at : places) {
-      const Vector2d to = ToNearestFace(outlines, at);
+    for (const WallPlace& place : places) {
+      const Vector2d to = ToNearestFace(outlines, place), at = place.at;
       errors.push_back(to.norm());
       if (to.norm() > kPulls_m || to.norm() < 1e-9) continue;
       const Vector2d across = to.normalized();
@@ -186,8 +201,7 @@ double ErrorAfterFit(const std::vector<Rectangle>& outlines, std::vector<Vector2
       right += row * to.norm();
     }
     const Eigen::Vector3d by = normal.ldlt().solve(right);
-    if (step < kSteps)
-      for (Vector2d& at : places) at = Pose2{by.x(), by.y(), by.z()} * at;
+    if (step < kSteps) places = Moved({by.x(), by.y(), by.z()}, std::move(places));
   }
   if (errors.empty()) return 0;
   const auto at = errors.begin() + std::ptrdiff_t(0.95 * double(errors.size() - 1));
@@ -225,9 +239,8 @@ std::optional<ExploreSummary> ExploreSummaryOf(const RunRecord& record, const Ru
   const Pose2 off = ended->Inverse() * (true_from_map * Pose2{newest.x_m, newest.y_m, newest.yaw_rad});
   summary.pose_error_m = off.translation().norm();
   summary.pose_error_deg = std::abs(Degrees(off.yaw));
-  auto places = WallPlaces(record);
+  auto places = Moved(true_from_map, WallPlaces(record));
   summary.wall_m = kSample_m * double(places.size());
-  for (Vector2d& at : places) at = true_from_map * at;
   summary.wall_error_p95_m = ErrorAfterFit(OutlinesAt(info.world, kRing_m, kRing_m), std::move(places));
   return summary;
 }

@@ -146,7 +146,7 @@ TEST_F(DeskTest, WhatIsNotThereCostsAWarningWhatIsNonsenseTheConnection) {
   Subscribe(kAnna, 1, 99);
   Say(kAnna, R"({"op":"getParameters"})");
   EXPECT_EQ(Texts(kAnna)[0]["message"], "there is no channel 99");
-  EXPECT_EQ(Texts(kAnna)[1]["message"], "this station does not offer getParameters");
+  EXPECT_EQ(Texts(kAnna)[1]["message"], "this station does not offer parameters");
   EXPECT_TRUE(dut_.Take(kAnna, "nonsense", false));
 }
 

@@ -37,7 +37,6 @@ double DistanceToLine(const Vector2d& at, const Vector2d& from, const Vector2d& 
 }  // namespace
 
 void ExplorationConfig::Describe(Archive& a) {
-  a.Section("grid", grid, "what counts as seen");
   a.Choice("rule", rule, {"cost", "nearest"}, "which frontier is next; nearest is for comparison");
   a.Number("least_frontier_m", least_frontier_m, {"m", 0.1, 5, "a shorter frontier leads nowhere"});
   a.Number("turn_m", turn_m, {"m", 0, 10, "cost of turning by a radian to face a frontier"});
@@ -47,6 +46,7 @@ void ExplorationConfig::Describe(Archive& a) {
   a.Number("most_length_m", most_length_m, {"m", 0, 100, "up to this length of it"});
   a.Number("beyond_m", beyond_m, {"m", 0, 3, "so far into the unknown the base drives"});
   a.Number("farthest_m", farthest_m, {"m", 5, 90, "what lies farther from the start is left"});
+  a.Section("grid", grid, "what counts as seen");
 }
 
 Exploration::Exploration(const ExplorationConfig& config, double width_m, std::vector<Rectangle> known)

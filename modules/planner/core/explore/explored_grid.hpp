@@ -33,6 +33,7 @@ struct ExploredEvidence {
 class ExploredGrid {
  public:
   static constexpr double kStep_m = 0.1;
+  /// What is known of a cell.
   enum class Cell : std::uint8_t { kUnknown, kFree, kClosed };
 
   ExploredGrid(const ExploredGridConfig& config, const ExploredEvidence& evidence);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "world/core/generate/clutter.hpp"
+#include "world/core/generate/sketch.hpp"
 #include "world/core/generate/storey.hpp"
 
 namespace priamos::world {

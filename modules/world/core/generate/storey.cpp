@@ -7,6 +7,7 @@
 #include <string>
 
 #include "world/core/generate/clutter.hpp"
+#include "world/core/generate/sketch.hpp"
 
 namespace priamos::world {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "world/core/generate/generate.hpp"
+#include "world/core/generate/generated_world.hpp"
 
 namespace priamos::world {
 

@@ -15,7 +15,7 @@ namespace priamos::planner {
 /// the base is before it, 2.5 m away at most. Where the base is led into a wall it stops before it.
 class IdealFloor {
  public:
-  static constexpr double kSquare_m = 2, kPiece_m = 0.5, kHears_m = 2.5, kNeeds_m = 0.49, kCell_m = 0.1;
+  static constexpr double kSquare_m = 2, kPiece_m = 1, kHears_m = 2.5, kNeeds_m = 0.49, kCell_m = 0.1;
 
   /// The base begins in the middle of the first square.
   explicit IdealFloor(std::vector<std::pair<int, int>> squares)
