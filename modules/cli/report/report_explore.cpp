@@ -156,11 +156,16 @@ std::vector<WallPlace> WallPlaces(const RunRecord& record) {
   return places;
 }
 
-/// From a place to the nearest point of a true face that looks the same way, by 45 degrees: the back of a
-/// wall is none that was heard from its front.
-Vector2d ToNearestFace(const std::vector<Rectangle>& outlines, const WallPlace& place) {
+/// The nearest point of a true face, and to where the face looks.
+struct FacePoint {
+  Vector2d from_place{1e3, 0}, outward{1, 0};
+};
+
+/// Of the faces that look the same way as a place, by 45 degrees: the back of a wall is none that was heard
+/// from its front.
+FacePoint NearestFace(const std::vector<Rectangle>& outlines, const WallPlace& place) {
   const Vector2d& at = place.at;
-  Vector2d best(1e3, 0);
+  FacePoint best;
   for (const Rectangle& outline : outlines) {
     const auto corners = outline.Corners();
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -170,7 +175,7 @@ Vector2d ToNearestFace(const std::vector<Rectangle>& outlines, const WallPlace& 
       if (outward.dot(place.facing) < std::cos(kPi / 4)) continue;
       const double part = std::clamp((at - from).dot(line) / std::max(1e-12, line.squaredNorm()), 0.0, 1.0);
       const Vector2d to = from + part * line - at;
-      if (to.squaredNorm() < best.squaredNorm()) best = to;
+      if (to.squaredNorm() < best.from_place.squaredNorm()) best = {to, outward};
     }
   }
   return best;
@@ -182,7 +187,8 @@ std::vector<WallPlace> Moved(const Pose2& to_from_here, std::vector<WallPlace> p
 }
 
 /// The 95 % quantile of the distance to the truth after the turn and shift that fit best, found step by step
-/// from nearest points (Besl and McKay 1992); what is more than half a metre off does not pull.
+/// from the lines of the nearest faces (Chen and Medioni 1992); what is more than half a metre off does not
+/// pull.
 double ErrorAfterFit(const std::vector<Rectangle>& outlines, std::vector<WallPlace> places) {
   constexpr int kSteps = 15;
   constexpr double kPulls_m = 0.5;
@@ -192,13 +198,13 @@ double ErrorAfterFit(const std::vector<Rectangle>& outlines, std::vector<WallPla
     Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const WallPlace& place : places) {
-      const Vector2d to = ToNearestFace(outlines, place), at = place.at;
-      errors.push_back(to.norm());
-      if (to.norm() > kPulls_m || to.norm() < 1e-9) continue;
-      const Vector2d across = to.normalized();
+      const FacePoint face = NearestFace(outlines, place);
+      errors.push_back(face.from_place.norm());
+      if (errors.back() > kPulls_m) continue;
+      const Vector2d &across = face.outward, &at = place.at;
       const Eigen::Vector3d row(across.x(), across.y(), across.y() * at.x() - across.x() * at.y());
       normal += row * row.transpose();
-      right += row * to.norm();
+      right += row * across.dot(face.from_place);
     }
     const Eigen::Vector3d by = normal.ldlt().solve(right);
     if (step < kSteps) places = Moved({by.x(), by.y(), by.z()}, std::move(places));

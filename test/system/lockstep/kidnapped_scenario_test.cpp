@@ -18,10 +18,6 @@ std::string EndOf(std::uint64_t seed) {
   return dut.reason;
 }
 
-TEST(KidnappedScenario, ADoorThatIsSeenTellsWhereTheRobotIs) {
-  EXPECT_THAT(EndOf(106), testing::StartsWith("right"));
-}
-
 TEST(KidnappedScenario, WherePlacesStayTheyAreNamedAndNoneIsBelieved) {
   EXPECT_THAT(EndOf(101), testing::StartsWith("ambiguous"));
 }

@@ -123,10 +123,10 @@ std::vector<PlaceFit> Thinned(const std::vector<PlaceFit>& fits) {
 }  // namespace
 
 void PlaceSearchConfig::Describe(Archive& a) {
-  a.Section("score", score, "what each finding is worth");
   a.Number("margin", margin, {"-", 1, 50, "log-likelihood by which a place is out against the best"});
   a.Number("same_m", same_m, {"m", 0.1, 5, "places no farther apart are one"});
   a.Number("same_deg", same_deg, {"deg", 1, 90, "nor turned more"});
+  a.Section("score", score, "what each finding is worth");
 }
 
 bool PlaceCandidate::IsHeld() const {
