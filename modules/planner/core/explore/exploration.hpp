@@ -16,7 +16,7 @@ namespace priamos::planner {
 
 /// Which frontier is next. All costs are metres driven.
 struct ExplorationConfig {
-  ExploredGridConfig grid;
+  ExploredGridConfig grid{};
   std::string rule = "cost";      ///< or "nearest": the rule of m-explore, for comparison
   double least_frontier_m = 0.6;  ///< a shorter frontier leads nowhere
   double turn_m = 1.0;            ///< turning by a radian to face it

@@ -77,7 +77,7 @@ struct LeafSighting {
 struct LookResult {
   int request_id = 0;
   bool ok = false;
-  std::string reason;        ///< in words when not ok
+  std::string reason{};      ///< in words when not ok
   bool no_model = false;     ///< the head does not know the landmark (it was restarted)
   bool implausible = false;  ///< the landmark was found where, by the robot's pose, it cannot be
   bool placed = false;       ///< not of a look: the robot has set its pose as it was told
