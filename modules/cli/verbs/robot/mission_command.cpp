@@ -54,18 +54,21 @@ int FollowCorridor(const MissionOptions& options) {
   return GiveOrder(options, command, "corridor");
 }
 
-int Explore(const MissionOptions& options) {
+/// An order that says nothing more than what it is.
+int OrderMission(const MissionOptions& options, std::int8_t mission, std::string_view title,
+                 const char* verb) {
   mission_command_t command{};
-  command.mission = mission_command_t::EXPLORE;
-  command.title = kExploreTitle;
-  return GiveOrder(options, command, "explore");
+  command.mission = mission;
+  command.title = title;
+  return GiveOrder(options, command, verb);
+}
+
+int Explore(const MissionOptions& options) {
+  return OrderMission(options, mission_command_t::EXPLORE, kExploreTitle, "explore");
 }
 
 int Locate(const MissionOptions& options) {
-  mission_command_t command{};
-  command.mission = mission_command_t::LOCATE;
-  command.title = kLocateTitle;
-  return GiveOrder(options, command, "locate");
+  return OrderMission(options, mission_command_t::LOCATE, kLocateTitle, "locate");
 }
 
 int Abort(const MissionOptions& options) {

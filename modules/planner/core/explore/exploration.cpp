@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/geometry.hpp"
 #include "planner/core/explore/passages.hpp"
 
 namespace priamos::planner {
@@ -27,12 +28,6 @@ constexpr double kOpened_m = 1.2;
 constexpr int kOutwardCells = 5;
 /// Middles of cells stand for places that are up to half a diagonal away.
 constexpr double kRaster_m = 0.05;
-
-double DistanceToLine(const Vector2d& at, const Vector2d& from, const Vector2d& to) {
-  const Vector2d line = to - from;
-  const double part = line.squaredNorm() > 0 ? (at - from).dot(line) / line.squaredNorm() : 0;
-  return (from + std::clamp(part, 0.0, 1.0) * line - at).norm();
-}
 
 }  // namespace
 
@@ -203,7 +198,7 @@ std::vector<NamedObstacle> Exploration::ObstaclesFor(const FrontierGoal& goal) {
     if (grid.At(x, y) != Cell::kUnknown) return false;
     const bool beside_free = grid.At(x + 1, y) == Cell::kFree || grid.At(x - 1, y) == Cell::kFree ||
                              grid.At(x, y + 1) == Cell::kFree || grid.At(x, y - 1) == Cell::kFree;
-    return beside_free && DistanceToLine(grid.PlaceOf(x, y), goal.target, goal.goal) > kOpened_m;
+    return beside_free && DistanceToSegment(goal.target, goal.goal, grid.PlaceOf(x, y)) > kOpened_m;
   };
   std::vector<NamedObstacle> obstacles;
   for (int y = 0; y < grid.ny(); ++y)

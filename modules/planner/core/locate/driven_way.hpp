@@ -36,7 +36,7 @@ struct DrivenWay {
   const Pose2& base() const { return trail.back(); }
 };
 
-/// Collects the way that a robot drives and the walls that it tells of, in a frame that moves with no
+/// Collects the way that a robot drives and the walls that it reports, in a frame that moves with no
 /// correction: the robot's own map frame as it was at the beginning, continued where its pose is set or
 /// corrected. Walls that were heard last before the beginning, or before the newest correction, are left out:
 /// in which frame they were told is not known.
@@ -47,7 +47,7 @@ class WayLog {
   /// The newest pose, map frame of the robot; `corrected`: when its pose was set or corrected last, if it
   /// was.
   void OnPose(Time stamp, const Pose2& told_from_base, std::optional<Time> corrected);
-  /// A wall that it told of.
+  /// A wall that it reported.
   void OnWall(const SeenWall& seen);
 
   bool empty() const { return spots_.empty(); }
