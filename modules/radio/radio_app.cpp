@@ -226,12 +226,17 @@ std::optional<bus::radio::LinkKey> RadioApp::LoadNextKey(const std::string& file
 }
 
 bus::radio::NonceSource RadioApp::Nonces() const {
+  const auto timed = [&clock = context_.node()](std::uint64_t random) {
+    return bus::radio::TimedNonce(random, clock.Now());
+  };
   if (context_.lockstep())
-    return [rng = Rng::Stream(context_.seed(), "radio " + config_.side)]() mutable { return rng.engine()(); };
-  return [] {
-    std::uint64_t nonce = 0;
-    randombytes_buf(&nonce, sizeof nonce);
-    return nonce;
+    return [timed, rng = Rng::Stream(context_.seed(), "radio " + config_.side)]() mutable {
+      return timed(rng.engine()());
+    };
+  return [timed] {
+    std::uint64_t random = 0;
+    randombytes_buf(&random, sizeof random);
+    return timed(random);
   };
 }
 

@@ -35,7 +35,6 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/bus/radio/golden/link_golden_test", "recorded bytes of bus/radio/link"},
     {"test/bus/radio/link_measurements_test", "figures of bus/radio/link"},
     {"test/bus/radio/link_stress_test", "random runs of bus/radio/link"},
-    {"test/bus/radio/packet_radio_test", "both ends over packets against their budget"},
     {"test/bus/radio/protocol_vectors_test", "the vectors of the protocol's document"},
     {"test/bus/radio/rekey_test", "a change of the key between both ends"},
     {"test/bus/radio/shared/station_slots_test", "whose turn it is, over all ends of one channel"},

@@ -121,7 +121,8 @@ TEST_F(BusTools, LcmLoggerAndLcmLogplayerDoSoToo) {
     rm -f *.lcmlog
     $BIN/priamos log filter $SOURCE/logs/recorded/door-onboard.lcmlog in.lcmlog --from 4 --to 10
     record theirs.lcmlog; $BIN/priamos log play in.lcmlog --speed $SPEED; stop
-    record again.lcmlog; lcm-logplayer --lcm-url="$URL" --speed=$SPEED theirs.lcmlog; stop)sh", 60)
+    record again.lcmlog; lcm-logplayer --lcm-url="$URL" --speed=$SPEED theirs.lcmlog; stop)sh",
+               60)
                .text;
     in = ReadContents(log_);
     theirs = ReadContents(folder_ / "theirs.lcmlog");

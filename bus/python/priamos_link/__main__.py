@@ -4,7 +4,6 @@ import argparse
 import json
 import os
 import re
-import secrets
 import select
 import signal
 import stat
@@ -180,7 +179,7 @@ def main(arguments=None):
     except Refusal as refusal:
         complain(refusal)
         return 2
-    end = End(table, key, options.onboard, lambda: secrets.randbits(64), time.monotonic())
+    end = End(table, key, options.onboard, timed_nonce, time.monotonic())
     ended = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: ended.append(True))

@@ -21,7 +21,7 @@ class Delivery:
 
 
 class End:
-    """`onboard`: the robot's end. `nonce`: a function that draws 64 unpredictable bits."""
+    """`onboard`: the robot's end. `nonce`: as Handshake wants it."""
 
     def __init__(self, table, link_key, onboard, nonce, now):
         self.table, self.outgoing = table, UP if onboard else DOWN

@@ -8,11 +8,17 @@
 #include <optional>
 
 #include "bus/radio/frame/frame.hpp"
+#include "common/time.hpp"
 
 namespace priamos::bus::radio {
 
 /// Source of fresh random numbers: unpredictable on a robot, seeded in a simulation.
 using NonceSource = std::function<std::uint64_t()>;
+
+/// A random number that says when it was drawn: 28 bits of the second of `now`, before 36 of `random`. Who
+/// records hellos can only replay earlier ones: of those who ask, the latest is the other end, where clocks
+/// are right.
+std::uint64_t TimedNonce(std::uint64_t random, Time now);
 
 /// The last random numbers that something was noted of. Who records hellos has one per start of the end that
 /// said them: more than are remembered would look new again when he replays them.
@@ -26,6 +32,30 @@ class LastNonces {
  private:
   std::array<std::uint64_t, 256> all_{};
   std::size_t next_ = 0;
+};
+
+/// Those who ask for an answer: one of them at most is the other end, the rest are replays of its earlier
+/// lives. The one that was drawn last by its time gets every second answer. The other half is for an end
+/// without a right clock: none that was answered comes before one that was not.
+class Askers {
+ public:
+  bool any() const { return newest_.has_value(); }
+  /// Notes one; false when others come before it.
+  bool Add(std::uint64_t nonce);
+  /// Who is answered next; it counts as answered.
+  std::uint64_t Take();
+  /// Forgets them: data of the epoch in use came, so that those answered are not the other end.
+  void Refute();
+  /// Forgets them, because the other end is found.
+  void Clear();
+  /// Whether data came after an answer to it.
+  bool Refuted(std::uint64_t nonce) const { return refuted_.Has(nonce); }
+
+ private:
+  std::optional<std::uint64_t> newest_;  ///< came last
+  std::uint64_t drawn_last_ = 0;         ///< by the time in it
+  bool by_time_ = true;                  ///< the next answer is for `drawn_last_`
+  LastNonces answered_, refuted_;
 };
 
 /// Agreement on an epoch after an end has lost its state. Counters protect against old frames only while
@@ -69,15 +99,12 @@ class EpochAgreement {
 
   NonceSource nonces_;
   std::uint64_t own_;
-  bool used_ = false;                    ///< own_ has proven a hello: it proves no other
-  std::optional<Pair> agreed_;           ///< of the epoch in use, when it was agreed on in this life
-  bool confirmed_ = false;               ///< data of it has come
-  bool owes_last_ = false;               ///< the other end waits for the hello that ends the agreement
-  bool answered_last_ = true;            ///< the last hello was another one
-  std::optional<std::uint64_t> asking_;  ///< number of an end that asked since; not proven
-  /// Those answered last: a replay does not keep one from its answer that was never heard before.
-  LastNonces answered_;
-  LastNonces refuted_;  ///< those of them after which data of the epoch in use came
+  bool used_ = false;           ///< own_ has proven a hello: it proves no other
+  std::optional<Pair> agreed_;  ///< of the epoch in use, when it was agreed on in this life
+  bool confirmed_ = false;      ///< data of it has come
+  bool owes_last_ = false;      ///< the other end waits for the hello that ends the agreement
+  bool answered_last_ = true;   ///< the last hello was another one
+  Askers asking_;               ///< since; not proven
 };
 
 }  // namespace priamos::bus::radio

@@ -17,6 +17,29 @@ static void Add(pr_nonces* nonces, uint64_t nonce) {
   nonces->next = (uint8_t)((nonces->next + 1) % PR_NONCES);
 }
 
+/* Notes who asks; false when others come before it. One at most is the other end, the rest are replays of its earlier
+   lives. The one whose number was drawn last, by the time in its high bits, gets every second answer. */
+static bool Ask(pr_end* end, uint64_t nonce) {
+  const pr_nonces* answered = &end->hello.answered;
+  const bool first = !end->hello.asked, again = Has(answered, nonce);
+  const uint64_t second = nonce >> 36, last = end->hello.drawn_last >> 36;
+  const bool latest =
+      first || second > last || (second == last && (!again || Has(answered, end->hello.drawn_last)));
+  const bool newest = first || !again || Has(answered, end->hello.asking);
+  if (first) end->hello.by_time = true;
+  if (latest) end->hello.drawn_last = nonce;
+  if (newest) end->hello.asking = nonce;
+  end->hello.asked = true;
+  return latest || newest;
+}
+
+static uint64_t Answered(pr_end* end) {
+  const uint64_t nonce = end->hello.by_time ? end->hello.drawn_last : end->hello.asking;
+  end->hello.by_time = !end->hello.by_time;
+  Add(&end->hello.answered, nonce);
+  return nonce;
+}
+
 static void Draw(pr_end* end) {
   end->hello.own = end->config->nonce(end->config->user);
   end->hello.used = false;
@@ -56,8 +79,7 @@ static void OnFresh(pr_end* end, const pr_hello* hello) {
   end->hello.reply_due = end->hello.reply_due || !hello->agreed;
   if (hello->table_hash != end->scope.table_hash) {
     Draw(end);
-    end->hello.asking = hello->nonce;
-    end->hello.asked = true;
+    Ask(end, hello->nonce);
     end->hello.reply_due = true;
     return;
   }
@@ -87,12 +109,8 @@ void pr_on_hello(pr_end* end, const pr_hello* hello, uint64_t now_us) {
   /* The other end has forgotten the epoch, or this is a replay: what was used must not be used again. */
   const bool heard = pr_reception_of(end, now_us) == PR_HEARD;
   if (heard && Has(&end->hello.refuted, hello->nonce)) return;
-  if (end->hello.asked && !Has(&end->hello.answered, end->hello.asking) &&
-      Has(&end->hello.answered, hello->nonce))
-    return;
+  if (!Ask(end, hello->nonce)) return;
   if (end->hello.used) Draw(end);
-  end->hello.asking = hello->nonce;
-  end->hello.asked = true;
   end->hello.reply_due = true;
 }
 
@@ -120,8 +138,7 @@ bool pr_hello_due(const pr_end* end, uint64_t now_us) {
 
 pr_hello pr_take_hello(pr_end* end, uint64_t now_us) {
   const bool agreed = end->hello.agreed && !end->hello.asked;
-  if (end->hello.asked) Add(&end->hello.answered, end->hello.asking);
-  const uint64_t asking = end->hello.asked ? end->hello.asking : 0;
+  const uint64_t asking = end->hello.asked ? Answered(end) : 0;
   const pr_hello hello = {.table_hash = end->scope.table_hash,
                           .stream = end->memory.stream,
                           .nonce = agreed ? end->hello.agreed_own : end->hello.own,

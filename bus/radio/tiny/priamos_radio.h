@@ -61,7 +61,9 @@ typedef struct {
   uint32_t keep_alive_us;        /* longest silence of this end; 250000, at most 8000000 */
   uint32_t silence_us;           /* the link is down after so long without a frame; 1500000 */
   void* user;                    /* first argument of the functions */
-  uint64_t (*nonce)(void* user); /* an unpredictable number */
+  /* An unpredictable number. Where there is a clock or a count of starts, its low 28 bits stand before 36 unpredictable
+     ones: the other end then tells this life from recorded earlier ones at once. */
+  uint64_t (*nonce)(void* user);
   /* Reads what was saved last into `bytes`, and returns its length; 0: nothing. */
   size_t (*load)(void* user, uint8_t* bytes, size_t room);
   /* Keeps it over a loss of power, before it returns true. Called once per 256 frames, and per event. */
@@ -105,8 +107,8 @@ typedef struct {
   bool floor_due;
 
   struct { /* agreement on an epoch */
-    uint64_t own, agreed_own, agreed_peer, asking;
-    bool used, agreed, asked, reply_due, switched;
+    uint64_t own, agreed_own, agreed_peer, asking, drawn_last;
+    bool used, agreed, asked, by_time, reply_due, switched;
     pr_nonces answered, refuted;
     uint64_t last_us, refilled_us;
     uint32_t credit_us; /* for answers */

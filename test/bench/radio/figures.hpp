@@ -56,6 +56,7 @@ void Commands(Figures& figures, const Effort& effort);       // command_figures.
 void Hostile(Figures& figures, const Effort& effort);        // attack_figures.cpp
 void Stops(Figures& figures, const Effort& effort);          // stop_figures.cpp
 void SharedChannel(Figures& figures, const Effort& effort);  // shared_figures.cpp
+void Packets(Figures& figures, const Effort& effort);        // packet_figures.cpp
 void SideBySide(Figures& figures);                           // size_figures.cpp
 void Differences(Figures& figures);                          // delta_figures.cpp
 /// A run with real processes.

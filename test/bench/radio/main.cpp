@@ -9,9 +9,10 @@ int main(int argc, char** argv) {
   using namespace priamos::bench;
   CLI::App cli("Figures of the radio link, in simulated time; with --real-time over ptys.");
   Effort effort;
-  bool real_time = false;
+  bool real_time = false, packets = false;
   RealTimeOptions options;
   cli.add_flag("--long", effort.long_run, "10^7 damaged frames, and more runs: about ten minutes");
+  cli.add_flag("--packets", packets, "packet radios alone: about half a minute");
   cli.add_option("--seed", effort.seed, "of several robots' messages")->capture_default_str();
   cli.add_flag("--real-time", real_time,
                "two priamos-radio on an emulated line; run it with scripts/in-private-network");
@@ -23,6 +24,8 @@ int main(int argc, char** argv) {
   try {
     if (real_time) {
       RealTime(figures, std::filesystem::read_symlink("/proc/self/exe").parent_path().string(), options);
+    } else if (packets) {
+      Packets(figures, effort);
     } else {
       SideBySide(figures);
       Differences(figures);
@@ -31,6 +34,7 @@ int main(int argc, char** argv) {
       Stops(figures, effort);
       Hostile(figures, effort);
       SharedChannel(figures, effort);
+      Packets(figures, effort);
     }
   } catch (const std::exception& error) {
     std::cerr << "bench_radio: " << error.what() << "\n";

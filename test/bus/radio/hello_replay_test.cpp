@@ -153,5 +153,36 @@ TEST_F(HelloReplay, DoesNotKeepANewEndFromAgreeing) {
   }
 }
 
+/// Ends that lose their memory again and again leave a recording of many lives: more than an end can
+/// remember.
+TEST_F(HelloReplay, OfManyLivesAtBothEndsDoesNotKeepANewEndFromAgreeing) {
+  for (int life = 0; life < 300; ++life) {
+    for (LinkPair::End* end : {&dut->onboard, &dut->offboard}) {
+      end->store.Lose();
+      dut->Start(*end);
+    }
+    dut->Run(0.7);
+  }
+  Record();
+  std::size_t next = 0;
+  dut->each_step = [&] {
+    Load();
+    if (ToUtime(dut->now) % 10'000 != 0 || !Quiet()) return;
+    next += 7;
+    dut->offboard.link->Receive(up[next % up.size()], dut->now);
+    dut->onboard.link->Receive(down[next % down.size()], dut->now);
+  };
+  for (int i = 0; i < 20; ++i) {
+    dut->Run(3);
+    LinkPair::End& restarted = i % 2 == 0 ? dut->onboard : dut->offboard;
+    restarted.store.Lose();
+    dut->Start(restarted);
+    const auto agreed = [&] {
+      return dut->onboard.link->Status(dut->now).agreed && dut->offboard.link->Status(dut->now).agreed;
+    };
+    EXPECT_TRUE(dut->RunUntil(2, agreed)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace priamos::bus::radio

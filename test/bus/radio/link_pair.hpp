@@ -77,6 +77,7 @@ class LinkPair {
     std::optional<LinkKey> next_key;
     LinkOptions options;
     std::size_t code_bytes = kShortCodeBytes;
+    bool nonces_have_time = true;  ///< else it has no clock
     std::unique_ptr<LinkEndpoint> link;
     std::vector<Received> received;
     std::vector<std::string> TextsOf(std::size_t channel) const {
@@ -107,7 +108,8 @@ class LinkPair {
         [](std::size_t, std::span<const std::byte> encoded, Time) {
           return std::optional(Packed{{encoded.begin(), encoded.end()}, encoded.size() * 8});
         },
-        [this] { return rng.engine()(); }, now, end.next_key);
+        [this, &end] { return end.nonces_have_time ? TimedNonce(rng.engine()(), now) : rng.engine()(); }, now,
+        end.next_key);
   }
 
   void StepOnce() {

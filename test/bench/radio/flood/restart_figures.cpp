@@ -123,16 +123,18 @@ void Restarts(Figures& figures, const std::string& programs, int restarts) {
     for (int i = 0; i < restarts; ++i) times_s.push_back(rig.Restart(again));
     Show(figures, fmt::format("{}, no flood", names[again]), times_s, false);
   }
+  const std::vector<End> targets[] = {{kOnboard}, {kOffboard}, {kOnboard, kOffboard}};
   for (const End again : {kOnboard, kOffboard}) {
-    for (const End flooded : {kOnboard, kOffboard}) {
+    for (const std::vector<End>& flooded : targets) {
       std::vector<double> times_s;
       for (int i = 0; i < restarts; ++i) {
-        const auto flood = rig.Replay(flooded);
+        std::vector<std::unique_ptr<Flood>> floods;
+        for (const End end : flooded) floods.push_back(rig.Replay(end));
         rig.Run(0.5);
         times_s.push_back(rig.Restart(again));
       }
-      Show(figures, fmt::format("{}, replays of all starts to the {} end", names[again], names[flooded]),
-           times_s, true);
+      const std::string end = flooded.size() > 1 ? "both" : names[flooded.front()];
+      Show(figures, fmt::format("{}, replays of all starts to {}", names[again], end), times_s, true);
     }
   }
 }

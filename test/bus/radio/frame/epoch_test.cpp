@@ -183,5 +183,42 @@ TEST_F(EpochTest, AnAnnouncementIsNotAnswered) {
   EXPECT_FALSE(b.OnHello(a.Compose(false)).reply);
 }
 
+TEST(TimedNonceTest, IsTheGreaterTheLaterItWasDrawn) {
+  const Time noon = FromUtime(1'700'000'000'000'000);
+  EXPECT_LT(TimedNonce(~0ULL, noon), TimedNonce(0, noon + FromSeconds(1)));
+  EXPECT_NE(TimedNonce(1ULL << 40, noon), TimedNonce(2ULL << 40, noon)) << "chance stays in it";
+}
+
+TEST(AskersTest, WhoseNumberWasDrawnLastGetsEverySecondAnswer) {
+  constexpr std::uint64_t kSecond = 1ULL << 36;
+  Askers dut;
+  dut.Add(7 * kSecond);
+  for (std::uint64_t replay = 1; replay < 6; ++replay) {
+    dut.Add(replay * kSecond);
+    EXPECT_EQ(dut.Take(), replay % 2 == 1 ? 7 * kSecond : replay * kSecond);
+  }
+}
+
+TEST(AskersTest, WhoWasAnsweredComesAfterWhoWasNot) {
+  Askers dut;
+  dut.Add(1);
+  EXPECT_EQ(dut.Take(), 1u);
+  dut.Add(2);
+  dut.Add(1);
+  EXPECT_EQ(dut.Take(), 2u);
+}
+
+TEST(AskersTest, DataRefutesThoseAnsweredAlone) {
+  constexpr std::uint64_t kSecond = 1ULL << 36;
+  Askers dut;
+  dut.Add(9 * kSecond);
+  EXPECT_EQ(dut.Take(), 9 * kSecond);
+  dut.Add(kSecond);
+  dut.Refute();
+  EXPECT_TRUE(dut.Refuted(9 * kSecond));
+  EXPECT_FALSE(dut.Refuted(kSecond));
+  EXPECT_FALSE(dut.any());
+}
+
 }  // namespace
 }  // namespace priamos::bus::radio
