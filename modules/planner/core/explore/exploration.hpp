@@ -70,6 +70,10 @@ class Exploration {
   /// been a person. False: there is nothing to forget.
   bool TryAgain();
 
+  /// The way back to where the base began, without the loops, as far as `length_m`: it was there with its
+  /// whole body, at the headings that the poses have. Empty where it began.
+  std::vector<Pose2> WayBack(double length_m) const;
+
   /// The frontier that is next; nullopt: nothing is left that can be reached.
   std::optional<FrontierGoal> Choose(const Pose2& map_from_base);
   /// Whether the frontier is still there at its place.
@@ -104,6 +108,7 @@ class Exploration {
   double clearance_m_;
   std::vector<Rectangle> known_;
   ExploredEvidence evidence_;
+  std::vector<Pose2> poses_;  ///< at the places of the trail
   std::vector<GivenUp> given_up_;
   std::vector<LeftFrontier> left_;
   std::optional<ExploredGrid> grid_;  ///< of the evidence; none: it has changed since
