@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/geometry.hpp"
+#include "common/learned/edge_walls.hpp"
 #include "planner/core/explore/passages.hpp"
 
 namespace priamos::planner {
@@ -71,7 +72,7 @@ void Exploration::NoteAt(const Pose2& map_from_base) {
 }
 
 void Exploration::Learn(const LearnedWalls& walls) {
-  evidence_.walls = WithoutPassages(walls, evidence_.trail, clearance_m_ + 2 * kRaster_m);
+  evidence_.walls = WithoutPassages(WithoutEdges(walls), evidence_.trail, clearance_m_ + 2 * kRaster_m);
   grid_.reset();
 }
 

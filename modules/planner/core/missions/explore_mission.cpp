@@ -101,7 +101,8 @@ void ExploreMission::Learn(const MissionControl& control) {
   if (!control.heard().learned) return;
   learned_ = control.heard().learned;
   exploration_.Learn(*learned_);
-  if (config_.keep_walls) kept_.Learn(*learned_, 1e-6 * static_cast<double>(ToUtime(control.now())));
+  if (config_.keep_walls)
+    kept_.Learn(exploration_.walls(), 1e-6 * static_cast<double>(ToUtime(control.now())));
   planner_.Learn(SureParts(exploration_.walls()), control.heard().pose->map_from_base);
 }
 
