@@ -142,6 +142,7 @@ def floor_figures(floors):
     return [line("floor not seen", [1 - f["seen"] for f in floors], "%", 100),
             line("floor that can be reached", [f["reachable_m2"] for f in floors], "m2"),
             line("driven", [f["driven_m"] for f in floors], "m"),
+            line("driven, parts of the best tour", [f["driven_m"] / f["tour_m"] for f in floors if f.get("tour_m")], "-"),
             line("walls, 95 % within", [f["wall_error_p95_m"] for f in floors], "cm", 100),
             line("pose at the end", [f["pose_error_m"] for f in floors], "cm", 100)]
 

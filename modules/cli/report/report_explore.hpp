@@ -13,7 +13,9 @@ struct ExploreSummary {
   double reachable_m2 = 0;  ///< floor that the base could drive over, 10 cm off everything, from its start
   double seen = 0;          ///< share of it that truly was in sight of the base, 2 m at most
   double driven_m = 0;      ///< true distance
-  double wall_m = 0;        ///< length of the walls that came to the planner
+  double tour_m = 0;        ///< the best way found, knowing the floor, to places that see 98 % of it
+  int tour_places = 0;      ///< how many of these there are
+  double wall_m = 0;        ///< length of the walls that came to the planner, without edges
   double wall_error_p95_m =
       0;  ///< of their places from the nearest true face, the whole map turned and moved to fit
   double pose_error_m = 0;  ///< at the end, in the frame of the first pose

@@ -146,6 +146,8 @@ nlohmann::ordered_json ToJson(const ExploreSummary& explore) {
   return {{"reachable_m2", explore.reachable_m2},
           {"seen", explore.seen},
           {"driven_m", explore.driven_m},
+          {"tour_m", explore.tour_m},
+          {"tour_places", explore.tour_places},
           {"wall_m", explore.wall_m},
           {"wall_error_p95_m", explore.wall_error_p95_m},
           {"pose_error_m", explore.pose_error_m},

@@ -54,6 +54,9 @@ void PrintExplore(std::ostream& out, const ExploreSummary& explore) {
   Rule(out, "floor");
   out << fmt::format("  seen                {:.1f} % of {:.0f} m2 that can be reached; {:.1f} m driven\n",
                      100 * explore.seen, explore.reachable_m2, explore.driven_m);
+  out << fmt::format(
+      "  tour                {:.1f} m to {} places that see 98 % of it, by who knows the floor\n",
+      explore.tour_m, explore.tour_places);
   out << fmt::format("  walls               {:.0f} m told, 95 % within {:.1f} cm of a true face\n",
                      explore.wall_m, 100 * explore.wall_error_p95_m);
   out << fmt::format("  pose at the end     off by {:.1f} cm, {:.2f} deg\n", 100 * explore.pose_error_m,

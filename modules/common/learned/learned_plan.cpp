@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/learned/edge_walls.hpp"
 #include "common/learned/wall_gaps.hpp"
 
 namespace priamos {
@@ -59,7 +60,8 @@ bool IsKnown(const GroundPlan& plan, const DoorPlan& door) {
 
 }  // namespace
 
-GroundPlan PlanOf(const LearnedWalls& learned, double fits_m) {
+GroundPlan PlanOf(const LearnedWalls& told, double fits_m) {
+  const LearnedWalls learned = WithoutEdges(told);
   GroundPlan plan;
   for (const LearnedWall& face : learned.walls)
     plan.walls.push_back(WallBehind(face, ThicknessOf(face, learned).value_or(kThickness_m)));

@@ -8,6 +8,6 @@ namespace priamos {
 /// A ground plan of what was learned: a wall behind each face that was heard, as thick as there is another
 /// face behind it, else 10 cm. Gaps through which a base of `fits_m` does not drive as it likes, but through
 /// which it may be led, are doors without a leaf; wider ones are left open. Frame of the learned walls.
-GroundPlan PlanOf(const LearnedWalls& learned, double fits_m);
+GroundPlan PlanOf(const LearnedWalls& told, double fits_m);
 
 }  // namespace priamos

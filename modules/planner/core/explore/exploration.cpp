@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/geometry.hpp"
+#include "common/learned/edge_walls.hpp"
 #include "planner/core/explore/passages.hpp"
 
 namespace priamos::planner {
@@ -52,6 +53,7 @@ Exploration::Exploration(const ExplorationConfig& config, double width_m, std::v
 void Exploration::Reset() {
   evidence_ = {};
   evidence_.things = known_;
+  poses_.clear();
   given_up_.clear();
   left_.clear();
   grid_.reset();
@@ -65,11 +67,12 @@ void Exploration::NoteAt(const Pose2& map_from_base) {
   last_ = at;
   if (!evidence_.trail.empty() && (at - evidence_.trail.back()).norm() < kTrail_m) return;
   evidence_.trail.push_back(at);
+  poses_.push_back(map_from_base);
   grid_.reset();
 }
 
 void Exploration::Learn(const LearnedWalls& walls) {
-  evidence_.walls = WithoutPassages(walls, evidence_.trail, clearance_m_ + 2 * kRaster_m);
+  evidence_.walls = WithoutPassages(WithoutEdges(walls), evidence_.trail, clearance_m_ + 2 * kRaster_m);
   grid_.reset();
 }
 
@@ -88,6 +91,23 @@ bool Exploration::TryAgain() {
   evidence_.things = known_;
   grid_.reset();
   return true;
+}
+
+std::vector<Pose2> Exploration::WayBack(double length_m) const {
+  std::vector<Pose2> way;
+  double back_m = 0;
+  for (std::size_t at = poses_.size(); at > 0 && back_m < length_m;) {
+    const Vector2d here = poses_[at - 1].translation();
+    // Where it was here for the first time: what it did in between is a loop.
+    const auto first = std::find_if(poses_.begin(), poses_.end(), [&](const Pose2& pose) {
+      return (pose.translation() - here).norm() < kTrail_m;
+    });
+    if (first == poses_.begin()) break;
+    at = static_cast<std::size_t>(first - poses_.begin());
+    way.push_back(poses_[at - 1]);
+    back_m += (way.back().translation() - here).norm();
+  }
+  return way;
 }
 
 const ExploredGrid& Exploration::grid() {

@@ -57,7 +57,8 @@ class Exploration {
   void set_config(const ExplorationConfig& config) { config_ = config; }
   /// The base is here, map frame.
   void NoteAt(const Pose2& map_from_base);
-  /// Walls as they are known by now, in place of those before; where the base drove through none is.
+  /// Walls as they are known by now, in place of those before. Edges that were told as walls are none, and
+  /// where the base drove through none is.
   void Learn(const LearnedWalls& walls);
   /// What counts of them.
   const LearnedWalls& walls() const { return evidence_.walls; }
@@ -69,6 +70,10 @@ class Exploration {
   /// Forgets what stopped the base and what was given up: a thing is known by one side only, and may have
   /// been a person. False: there is nothing to forget.
   bool TryAgain();
+
+  /// The way back to where the base began, without the loops, as far as `length_m`: it was there with its
+  /// whole body, at the headings that the poses have. Empty where it began.
+  std::vector<Pose2> WayBack(double length_m) const;
 
   /// The frontier that is next; nullopt: nothing is left that can be reached.
   std::optional<FrontierGoal> Choose(const Pose2& map_from_base);
@@ -104,6 +109,7 @@ class Exploration {
   double clearance_m_;
   std::vector<Rectangle> known_;
   ExploredEvidence evidence_;
+  std::vector<Pose2> poses_;  ///< at the places of the trail
   std::vector<GivenUp> given_up_;
   std::vector<LeftFrontier> left_;
   std::optional<ExploredGrid> grid_;  ///< of the evidence; none: it has changed since

@@ -13,8 +13,8 @@ namespace priamos::planner {
 class KeptWalls {
  public:
   void Reset() { kept_.clear(); }
-  /// Keeps what is worth it of the walls as they are known at `now_s` (since 1970): long and known well, not
-  /// heard for a while, and not one that is kept already.
+  /// Keeps what is worth it of the walls, edges left out, as they are known at `now_s` (since 1970): long and
+  /// known well, not heard for a while, and not one that is kept already.
   void Learn(const LearnedWalls& walls, double now_s);
   /// The kept walls, each with the standard deviation of its ends.
   std::vector<WallFace> Faces() const;

@@ -12,6 +12,11 @@ namespace {
 
 /// Frontiers to which a way is looked for in one time step.
 constexpr int kMostTries = 5;
+/// A base that is stopped so near to where it was stopped before is shut in, and goes back so far; in the end
+/// also one that stands so near to it.
+constexpr double kSamePlace_m = 0.3, kBack_m = 1.5, kShutIn_m = 1.0;
+/// A round that saw no more than so much more has seen nothing.
+constexpr double kMore_m2 = 1.0;
 /// Frontiers that the outcome names; a result holds no more words.
 constexpr std::size_t kNamed = 1;
 
@@ -35,7 +40,7 @@ void ExploreMissionConfig::Describe(Archive& a) {
            {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
   a.Number("idle_s", idle_s, {"s", 1, 600, "a robot that comes no further for so long is blocked"});
   a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
-  a.Integer("rounds", rounds, {"-", 0, 20, "so often what was left is tried again in the end"});
+  a.Integer("rounds", rounds, {"-", 0, 20, "rounds over what was left that see nothing more"});
   a.Flag("keep_walls", keep_walls, "the pose is held by the walls that were told first");
   a.Integer("retries", retries, {"-", 0, 20, "paths that end elsewhere before a frontier is given up"});
   limits.Describe(a);
@@ -61,6 +66,9 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   learned_.reset();
   missed_ = 0;
   rounds_ = 0;
+  most_seen_m2_ = 0;
+  backing_ = false;
+  stopped_at_.reset();
   undecided_ = false;
   return std::nullopt;
 }
@@ -74,7 +82,7 @@ void ExploreMission::Step(MissionControl& control) {
   const Heard& heard = control.heard();
   if (!heard.link_up || !heard.pose || !IsFresh(*heard.pose, control.now())) return;
   exploration_.NoteAt(heard.pose->map_from_base);
-  if (!goal_ || undecided_) return Next(control);
+  if ((!goal_ && !backing_) || undecided_) return Next(control);
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath()) return;
   if (heard.drive->mode == DriveMode::kArrived) return Arrive(control);
@@ -86,14 +94,15 @@ void ExploreMission::Step(MissionControl& control) {
     idles_.Reset();
     return OnStop(control, {Stop::Cause::kBlocked, "the robot came no further"});
   }
-  Reconsider(control);
+  if (goal_) Reconsider(control);
 }
 
 void ExploreMission::Learn(const MissionControl& control) {
   if (!control.heard().learned) return;
   learned_ = control.heard().learned;
   exploration_.Learn(*learned_);
-  if (config_.keep_walls) kept_.Learn(*learned_, 1e-6 * static_cast<double>(ToUtime(control.now())));
+  if (config_.keep_walls)
+    kept_.Learn(exploration_.walls(), 1e-6 * static_cast<double>(ToUtime(control.now())));
   planner_.Learn(SureParts(exploration_.walls()), control.heard().pose->map_from_base);
 }
 
@@ -108,6 +117,7 @@ void ExploreMission::Reconsider(MissionControl& control) {
 }
 
 void ExploreMission::Arrive(MissionControl& control) {
+  if (!goal_) return Next(control);
   const double off_m = (control.heard().pose->map_from_base.translation() - goal_->goal).norm();
   if (learned_ != control.heard().learned) Learn(control);
   const bool open = exploration_.IsOpen(*goal_);
@@ -118,11 +128,21 @@ void ExploreMission::Arrive(MissionControl& control) {
   Next(control);
 }
 
-/// What stopped the base is closed from now on; a frontier that is no longer one by that is done with.
+/// What stopped the base is closed from now on; a frontier that is no longer one by that is done with. A base
+/// that is stopped twice at a place stands too near to something, and is not shut in by more things.
 void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
-  if (stop.cause != Stop::Cause::kBlocked || !goal_)
+  if (stop.cause != Stop::Cause::kBlocked || (!goal_ && !backing_))
     return control.Fail(stop.reason + "; next: look what it is, and order it again");
+  const Eigen::Vector2d here = control.heard().pose->map_from_base.translation();
   exploration_.NoteAt(control.heard().pose->map_from_base);
+  const bool again = stopped_at_ && (here - *stopped_at_).norm() < kSamePlace_m;
+  stopped_at_ = here;
+  if (backing_) return Next(control);
+  if (again) {
+    exploration_.GiveUp(goal_->target, stop.reason);
+    if (!GoBack(control)) Next(control);
+    return;
+  }
   if (const auto thing = ThingAhead(control, footprint_, config_.thing_m)) exploration_.AddThing(*thing);
   if (++missed_ > config_.retries) exploration_.GiveUp(goal_->target, stop.reason);
   Next(control);
@@ -132,15 +152,43 @@ void ExploreMission::Next(MissionControl& control) {
   Learn(control);
   considered_ = control.now();
   undecided_ = false;
+  backing_ = false;
   for (int i = 0; i < kMostTries; ++i) {
     const auto frontier = exploration_.Choose(control.heard().pose->map_from_base);
-    if (!frontier && (++rounds_ > config_.rounds || !exploration_.TryAgain())) return Finish(control);
+    if (!frontier && !BeginRound()) return Finish(control);
+    const bool shut_in =
+        stopped_at_ && (control.heard().pose->map_from_base.translation() - *stopped_at_).norm() < kShutIn_m;
+    if (!frontier && shut_in && GoBack(control)) return;
     if (!frontier) continue;
     if (DriveTo(control, *frontier)) return;
     exploration_.GiveUp(frontier->target, WhyNoWay(control.heard().pose->map_from_base, *frontier));
   }
   undecided_ = true;  // the rest is looked at in the next time step
   if (!control.path_sent() || !control.path().points.empty()) control.OrderPath({}, 0);
+}
+
+/// What was left is tried again. It ends: what can be seen is limited, and so are the rounds that see no
+/// more.
+bool ExploreMission::BeginRound() {
+  const double seen_m2 = exploration_.grid().free_m2();
+  if (seen_m2 > most_seen_m2_ + kMore_m2) {
+    most_seen_m2_ = seen_m2;
+    rounds_ = 0;
+  }
+  return ++rounds_ <= config_.rounds && exploration_.TryAgain();
+}
+
+/// A bit of the way that it came, to where there is room around it. False where it began.
+bool ExploreMission::GoBack(MissionControl& control) {
+  std::vector<Pose2> way = exploration_.WayBack(kBack_m);
+  if (way.empty()) return false;
+  if (way.size() > kMostPathPoints) way.resize(kMostPathPoints);
+  goal_.reset();
+  backing_ = true;
+  idles_.Reset();
+  control.OrderPath({.points = std::move(way)}, config_.speed_m_s);
+  control.Enter(Phase::kDriving, "exploring: something is near on all sides, going back a bit");
+  return true;
 }
 
 std::string ExploreMission::WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const {

@@ -24,7 +24,7 @@ struct ExploreMissionConfig {
   double thing_m = 0.3;       ///< size of what is in the way, of which one side is known only
   bool keep_walls = true;     ///< the pose is held by the walls that were told first
   int retries = 3;            ///< paths that end elsewhere before a frontier is given up
-  int rounds = 2;             ///< so often what was left is tried again in the end
+  int rounds = 2;             ///< so often what was left is tried again in the end without more being seen
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 3600};
   RoutePlannerConfig route{.most_poses = 60000};  ///< who has many frontiers does not search for one for long
   ExplorationConfig choice;
@@ -53,6 +53,8 @@ class ExploreMission : public Mission {
   void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);
   void Next(MissionControl& control);
+  bool BeginRound();
+  bool GoBack(MissionControl& control);
   bool DriveTo(MissionControl& control, const FrontierGoal& frontier);
   std::string WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const;
   void Finish(MissionControl& control);
@@ -67,6 +69,9 @@ class ExploreMission : public Mission {
   std::optional<FrontierGoal> goal_;
   int missed_ = 0;                               ///< paths towards goal_ that ended elsewhere
   int rounds_ = 0;                               ///< in which what was left was tried again
+  double most_seen_m2_ = 0;                      ///< at the beginning of a round
+  bool backing_ = false;                         ///< on the way back, to no frontier
+  std::optional<Eigen::Vector2d> stopped_at_;    ///< where something stopped the base last
   bool undecided_ = false;                       ///< no way was found yet
   std::optional<Time> considered_;               ///< whether goal_ is still a frontier
   std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account

@@ -21,6 +21,7 @@ void MissionControl::Begin(Time now) {
   now_ = started_ = now;
   running_ = true;
   path_sent_.reset();
+  path_ids_.clear();
   held_.reset();
   heard_.corrected.reset();
   heard_.opening.reset();
@@ -64,6 +65,7 @@ void MissionControl::OrderPath(PlannedPath path, double speed_m_s) {
            .points = std::move(path.points),
            .leeway = std::move(path.leeway),
            .centre = path.centre};
+  path_ids_.insert(path_.path_id);
   path_start_ = heard_.pose ? heard_.pose->map_from_base : Pose2{};
   remaining_m_ = LengthOf(path_start_, path_.points);
   n_stand_repeats_ = 0;

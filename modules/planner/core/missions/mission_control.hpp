@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,9 @@ class MissionControl {
   const std::optional<Time>& path_sent() const { return path_sent_; }
   /// Whether the robot reports about the path ordered last.
   bool OnPath() const { return heard_.drive && heard_.drive->path_id == path_.path_id; }
+  /// Whether a path was ordered since the mission's start: the newest, or one that the robot still reports
+  /// of.
+  bool IsOwn(int path_id) const { return path_ids_.contains(path_id); }
 
   /// Orders a look of the head at a side of a landmark. Returns the number that its answer will carry.
   int OrderLook(int landmark_id, Side side);
@@ -91,6 +95,7 @@ class MissionControl {
   MissionActions actions_;
   PathOrder path_;
   std::optional<Time> path_sent_;
+  std::set<int> path_ids_;  ///< of the paths ordered since the mission's start
   int n_stand_repeats_ = 0;
   std::optional<PlaceOrder> place_;  ///< that the robot has not obeyed yet
   Time place_sent_{};

@@ -42,6 +42,8 @@ bool MissionTable::Start(Time now, const MissionOrder& order) {
   aborted_.reset();
   blocked_since_.reset();
   paused_since_.reset();
+  touched_ = false;
+  touched_path_.reset();
   idle_ = {};
   last_tick_ = now;
   control_.Begin(now);
@@ -81,6 +83,7 @@ void MissionTable::OnPose(const RobotPose& pose) {
 
 void MissionTable::OnDrive(const DriveReport& drive, Time now) {
   control_.NoteDrive(drive);
+  NoteTouch(drive);
   // Who was ordered to stand is not stopped by anything.
   const bool stands = (drive.mode == DriveMode::kBlocked || drive.mode == DriveMode::kHolding) &&
                       !control_.path().points.empty();
@@ -89,6 +92,14 @@ void MissionTable::OnDrive(const DriveReport& drive, Time now) {
   } else if (!blocked_since_) {
     blocked_since_ = now;
   }
+}
+
+/// A touch ends the motion on which it was. When the next path was on its way by then, it is told of a path
+/// that is not the newest; each counts once.
+void MissionTable::NoteTouch(const DriveReport& drive) {
+  if (!drive.touched || !running() || !control_.IsOwn(drive.path_id)) return;
+  touched_ = touched_ || touched_path_ != drive.path_id;
+  touched_path_ = drive.path_id;
 }
 
 void MissionTable::OnCorrected(Time stamp) {
@@ -178,9 +189,10 @@ std::optional<std::string> MissionTable::ReasonToEnd(const Mission& mission) con
 }
 
 /// Why the robot stands where the mission may find another way.
-std::optional<Stop> MissionTable::StopOf(const Mission& mission) const {
+std::optional<Stop> MissionTable::StopOf(const Mission& mission) {
   const auto& drive = control_.heard().drive;
-  if (control_.OnPath() && drive->touched) return Stop{Stop::Cause::kTouched, "the robot touched something"};
+  if (std::exchange(touched_, false) || (control_.OnPath() && drive->touched))
+    return Stop{Stop::Cause::kTouched, "the robot touched something"};
   if (!StoodTooLong(mission)) return std::nullopt;
   return Stop{Stop::Cause::kBlocked, fmt::format("the robot was blocked for {:.0f} s{}",
                                                  mission.limits().blocked_s, Because(*drive))};

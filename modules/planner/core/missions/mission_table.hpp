@@ -81,7 +81,8 @@ class MissionTable {
   void Step(Mission& mission);
   void Decide(Mission& mission);
   std::optional<std::string> ReasonToEnd(const Mission& mission) const;
-  std::optional<Stop> StopOf(const Mission& mission) const;
+  std::optional<Stop> StopOf(const Mission& mission);
+  void NoteTouch(const DriveReport& drive);
   bool StoodTooLong(const Mission& mission) const;
   double ResendAfter_s() const;
   double SilentFor_s(Time now) const;
@@ -93,6 +94,8 @@ class MissionTable {
   int kind_ = 0;
   std::optional<std::string> aborted_;  ///< the reason
   std::optional<Time> blocked_since_, paused_since_;
+  bool touched_ = false;             ///< reported, and the mission does not know yet
+  std::optional<int> touched_path_;  ///< the path on which it was
   double blackout_s_ = 0;
   Time last_tick_{};
   Duration idle_{};  ///< of the mission's time: paused, or without news of the robot

@@ -127,7 +127,8 @@ std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, c
   if (CheckEnds(map_from_start, goal)) return std::nullopt;
   const double start_gap_m = space_.At(map_from_start).distance_m;
   const double goal_gap_m = goal.turn ? space_.At(goal.map_from_base).distance_m : config_.easy_margin_m;
-  for (const double wanted_m : {config_.easy_margin_m, config_.least_margin_m}) {
+  const double middle_m = (config_.easy_margin_m + config_.least_margin_m) / 2;
+  for (const double wanted_m : {config_.easy_margin_m, middle_m, config_.least_margin_m}) {
     const double margin_m = std::min(wanted_m, goal_gap_m);
     const auto route = SearchRoute(space_, {.start = map_from_start,
                                             .goal = goal.map_from_base,

@@ -97,6 +97,19 @@ TEST(ExplorationTest, WhatWasGivenUpIsNotTriedBeforeItIsSaid) {
   EXPECT_TRUE(dut.Choose({0, 0, 0}));
 }
 
+TEST(ExplorationTest, TheWayBackLeavesLoopsOutAndLeadsToTheBeginning) {
+  Exploration dut({}, kWidth_m, {});
+  EXPECT_THAT(dut.WayBack(1), IsEmpty());
+  for (double x = 0; x <= 3; x += 0.2) dut.NoteAt({x, 0, 0.5});
+  EXPECT_NEAR(dut.WayBack(1).back().x, 2, 0.25);
+  EXPECT_EQ(dut.WayBack(1).back().yaw, 0.5);
+  EXPECT_NEAR(dut.WayBack(10).back().x, 0, 1e-9);
+  // It went back once and stands there: the next way back does not lead to where it was stopped.
+  for (double x = 2.8; x >= 1.9; x -= 0.2) dut.NoteAt({x, 0, 0.5});
+  for (const Pose2& pose : dut.WayBack(1)) EXPECT_LT(pose.x, 2.0 + 1e-9);
+  EXPECT_NEAR(dut.WayBack(1).back().x, 1, 0.2);
+}
+
 TEST(ExplorationTest, WhatIsTooFarIsLeft) {
   Exploration dut({.farthest_m = 5}, kWidth_m, {});
   for (double x = 0; x <= 6; x += 0.2) dut.NoteAt({x, 0, 0});

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <string>
+
 #include "fake_robot.hpp"
 #include "test/planner/core/explore/ideal_floor.hpp"
 
@@ -77,6 +79,22 @@ TEST(ExploreMissionTest, WhoTouchedSomethingAsksAPerson) {
   s.robot.RunFor(5);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
   EXPECT_THAT(s.dut.state().text, HasSubstr("touched"));
+}
+
+TEST(ExploreMissionTest, WhoIsStoppedTwiceAtAPlaceGoesBackOnItsWay) {
+  Story s;
+  s.Run(10);
+  s.robot.blocked = true;
+  const Pose2 stopped = s.robot.truth();
+  bool goes_back = false;
+  for (int i = 0; i < 400 && !goes_back; ++i) {
+    s.robot.Step();
+    goes_back = s.dut.state().text.find("going back") != std::string::npos;
+  }
+  ASSERT_TRUE(goes_back) << s.dut.state().text;
+  s.robot.RunFor(0.5);
+  ASSERT_THAT(s.robot.paths.back().points, Not(IsEmpty()));
+  EXPECT_LT(s.robot.paths.back().points.back().x, stopped.x - 1);
 }
 
 TEST(ExploreMissionTest, AHoldIsNotWaitedForForEver) {

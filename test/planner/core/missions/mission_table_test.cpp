@@ -55,6 +55,41 @@ TEST(MissionTable, BeforeTheFirstOrderNothingIsSentAndTheFirstMissionIsShown) {
   EXPECT_EQ(f.dut.kind(), kAhead);
 }
 
+TEST(MissionTable, ATouchThatIsToldWhenTheNextPathIsOnItsWayCounts) {
+  Frame f;
+  const PathOrder path = f.Drive();
+  f.dut.Pause(f.now);
+  f.Step();
+  f.dut.Resume(f.now);
+  f.Hear();
+  const auto next = f.Step().path;
+  ASSERT_TRUE(next);
+  ASSERT_NE(next->path_id, path.path_id);
+  DriveReport drive;
+  drive.path_id = path.path_id;
+  drive.mode = DriveMode::kHolding;
+  drive.touched = true;
+  f.dut.OnDrive(drive, f.now);
+  f.Step();
+  EXPECT_EQ(f.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(f.dut.state().text, ::testing::HasSubstr("touched"));
+}
+
+TEST(MissionTable, ATouchOfAnEarlierMissionDoesNotCount) {
+  Frame f;
+  const PathOrder path = f.Drive();
+  f.dut.Abort("enough");
+  f.Step();
+  ASSERT_FALSE(f.dut.running());
+  f.Drive();
+  DriveReport drive;
+  drive.path_id = path.path_id;
+  drive.touched = true;
+  f.dut.OnDrive(drive, f.now);
+  f.Step();
+  EXPECT_TRUE(f.dut.running());
+}
+
 TEST(MissionTable, KnowsWhatWasAddedAndTakesAKindOnce) {
   Frame f;
   EXPECT_TRUE(f.dut.Knows(kOther));
