@@ -111,6 +111,10 @@ bool LocateLooks::Leads(std::size_t which) const {
   return true;
 }
 
+bool LocateLooks::IsUndecided() const {
+  return !sightings_.empty() && (hypotheses_.empty() || !Leads(ByWeight().front()));
+}
+
 std::vector<std::size_t> LocateLooks::ByWeight() const {
   std::vector<std::size_t> order(hypotheses_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -258,8 +262,7 @@ LocateLooks::Progress LocateLooks::Seen(MissionControl& control, PlaceEvidence& 
 LocateLooks::Progress LocateLooks::OnBlocked(MissionControl& control, PlaceEvidence& evidence) {
   const Pose2& way_from_told = evidence.log().way_from_told();
   PlaceHypothesis& tested = hypotheses_[test_];
-  if (stage_ == Stage::kBackingOff) return Approach(control, evidence);
-  if (stage_ != Stage::kDriving) return Progress::kUnderWay;
+  if (stage_ != Stage::kDriving && stage_ != Stage::kBackingOff) return Progress::kUnderWay;
   if (const auto thing = ThingAhead(control, footprint_, config_.thing_m))
     things_.push_back({way_from_told * thing->map_from_centre, thing->half_m});
   if (++tested.stops > config_.most_stops) {
@@ -267,6 +270,7 @@ LocateLooks::Progress LocateLooks::OnBlocked(MissionControl& control, PlaceEvide
     control.OrderPath({}, 0);
     return Next(control, evidence);
   }
+  if (stage_ == Stage::kBackingOff) return Approach(control, evidence);
   stage_ = Stage::kBackingOff;
   PlannedPath path;
   for (const Pose2& point : WayBack(evidence.log().way(), config_.back_m))

@@ -65,6 +65,8 @@ class LocateLooks {
   /// Something is in the way.
   Progress OnBlocked(MissionControl& control, PlaceEvidence& evidence);
 
+  /// Whether a door was seen, but places are left that have one there.
+  bool IsUndecided() const;
   const std::vector<PlaceHypothesis>& hypotheses() const { return hypotheses_; }
   /// The one that is looked at, or was seen.
   const PlaceHypothesis& tested() const { return hypotheses_[test_]; }

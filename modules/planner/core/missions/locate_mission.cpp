@@ -24,7 +24,7 @@ std::string Text(const Pose2& pose) {
 
 void LocateMissionConfig::Describe(Archive& a) {
   a.Number("settle_s", settle_s, {"s", 1, 60, "the robot stands until the radio has brought what it heard"});
-  a.Integer("most_tests", most_tests, {"-", 0, 20, "candidates that are looked at"});
+  a.Integer("most_tests", most_tests, {"-", 0, 50, "candidates that are looked at"});
   a.Integer("rounds", rounds, {"-", 1, 20, "so often they are looked at, with more legs between"});
   a.Number("alone_margin", alone_margin, {"-", 1, 100, "margin at which walls alone are believed"});
   a.Integer("alone_walls", alone_walls, {"-", 2, 50, "number of walls for that"});
@@ -132,8 +132,11 @@ void LocateMission::NextLeg(MissionControl& control) {
 void LocateMission::EndLeg(MissionControl& control) {
   stands_since_ = control.now();
   evidence_.Search();
-  // What is known already once the robot stands may save the next leg.
-  if (!legs_.IsEnough(evidence_)) return NextLeg(control);
+  looks_.Take(evidence_);
+  // What is known already once the robot stands may save the next leg. Places that look alike from before a
+  // door are told apart by walls alone.
+  const bool enough = legs_.IsEnough(evidence_);
+  if (!enough || looks_.IsUndecided()) return NextLeg(control);
   stage_ = Stage::kSettling;
 }
 

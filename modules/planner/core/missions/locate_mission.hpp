@@ -15,7 +15,7 @@ namespace priamos::planner {
 /// How long a place is looked for, and what it takes to believe one.
 struct LocateMissionConfig {
   double settle_s = 9;       ///< the robot stands so long, so that the radio brings all that it heard
-  int most_tests = 12;       ///< candidates that are looked at one after the other
+  int most_tests = 24;       ///< candidates that are looked at one after the other
   int rounds = 3;            ///< so often candidates are looked at, with more legs between
   double alone_margin = 16;  ///< margin at which walls alone are believed where no door can be seen ...
   int alone_walls = 5;       ///< ... and so many of them
