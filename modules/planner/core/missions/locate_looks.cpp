@@ -19,6 +19,9 @@ namespace {
 constexpr int kGoodLooks = 2;
 /// A place that walls tell is not told better than the plan has them.
 constexpr double kLeast_m = 0.15, kLeast_rad = 0.05;
+/// And one whose door was seen beside where it should be: a thing's depth off. The robot still drives with
+/// it.
+constexpr double kWide_m = 0.35, kWide_rad = 0.12;
 /// Log-odds against a place that has no door where one was seen.
 constexpr double kNoDoor = 20;
 /// Candidates of two searches that are one.
@@ -83,6 +86,7 @@ void LocateLooks::Take(const PlaceEvidence& evidence) {
     for (const PlaceHypothesis& known : hypotheses_) {
       if (!AreOne(known.map_from_way * way_from_base, c.map_from_base)) continue;
       fresh.missed = known.missed;
+      fresh.wide = known.wide;
       fresh.spent = known.spent;
     }
     taken.push_back(std::move(fresh));
@@ -148,12 +152,15 @@ void LocateLooks::Place(MissionControl& control, const PlaceEvidence& evidence, 
   const PlaceHypothesis& next = hypotheses_[which];
   test_ = which;
   placed_ = which;
-  control.OrderPlace(next.map_from_way * evidence.log().way_from_base(), next.sigma_m, next.sigma_yaw_rad);
+  control.OrderPlace(next.map_from_way * evidence.log().way_from_base(),
+                     next.wide ? std::max(kWide_m, next.sigma_m) : next.sigma_m,
+                     next.wide ? std::max(kWide_rad, next.sigma_yaw_rad) : next.sigma_yaw_rad);
 }
 
 LocateLooks::Progress LocateLooks::Next(MissionControl& control, PlaceEvidence& evidence) {
   const std::vector<std::size_t> order = ByWeight();
-  if (!order.empty() && Leads(order.front())) {
+  // Of one that was seen beside its place only the look itself tells where it is.
+  if (!order.empty() && Leads(order.front()) && !hypotheses_[order.front()].wide) {
     Place(control, evidence, order.front());
     stage_ = Stage::kConcluding;
     return Progress::kUnderWay;
@@ -205,7 +212,7 @@ LocateLooks::Progress LocateLooks::Approach(MissionControl& control, PlaceEviden
     return Next(control, evidence);
   }
   looks_.Reset();
-  n_good_ = 0;
+  n_good_ = n_elsewhere_ = 0;
   control.SendModel(*MakeLandmark(plan_, view_->door.id));
   stage_ = view_->path.points.empty() ? Stage::kLooking : Stage::kDriving;
   if (stage_ == Stage::kLooking) return Progress::kUnderWay;
@@ -227,6 +234,13 @@ LocateLooks::Progress LocateLooks::Look(MissionControl& control, PlaceEvidence& 
   for (const LookResult& result : control.heard().looks) looks_.OnResult(result);
   const auto result = looks_.Settle(control.now());
   if (result && result->ok) ++n_good_;
+  if (result && result->elsewhere) ++n_elsewhere_;
+  if (n_elsewhere_ >= kGoodLooks && !hypotheses_[test_].wide) {
+    hypotheses_[test_].wide = true;
+    Place(control, evidence, test_);
+    stage_ = Stage::kPlacing;
+    return Progress::kUnderWay;
+  }
   if (result && result->no_model) control.SendModel(*MakeLandmark(plan_, view_->door.id));
   if (n_good_ >= kGoodLooks) return Seen(control, evidence);
   if (looks_.Exhausted()) {

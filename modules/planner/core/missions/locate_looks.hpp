@@ -17,7 +17,7 @@ namespace priamos::planner {
 /// How candidates are looked at.
 struct LocateLooksConfig {
   double speed_m_s = 0.25;
-  double lead = 6;       ///< log-odds by which a place whose door was seen is believed
+  double lead = 5;       ///< log-odds by which a place whose door was seen is believed
   double missed = 1.5;   ///< log-odds against a place where a door was not seen: things may hide it
   int most_views = 4;    ///< of the doors of one place
   int most_stops = 4;    ///< on the ways to them
@@ -37,6 +37,7 @@ struct PlaceHypothesis {
   double seen = 0;    ///< ... and by doors that were seen where it has none
   int matched = 0;
   int views = 0, stops = 0;
+  bool wide = false;  ///< its door was seen, but not where it was expected
   std::vector<SpentView> spent{};
 
   double weight() const { return score - missed - seen; }
@@ -100,7 +101,8 @@ class LocateLooks {
   std::optional<DoorView> view_;
   std::vector<Pose2> sightings_;   ///< doors that were seen: way_from_door
   std::vector<Rectangle> things_;  ///< that stopped the base, frame of the way
-  int n_good_ = 0;                 ///< looks that found the door
+  int n_good_ = 0;                 ///< looks that found the door ...
+  int n_elsewhere_ = 0;            ///< ... and that found it beside where it was expected
   std::string doing_;
 };
 
