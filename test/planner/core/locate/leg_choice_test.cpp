@@ -84,7 +84,7 @@ TEST(WayBack, WhereAllAroundTheWayIsKnownThereIsNone) {
   std::vector<ClosedWay> closed;
   DrivenWay way = ThereAndClosed(closed);
   for (const double side_m : {-0.9, 0.9}) way.pieces.push_back(PieceAt(2, side_m, 0, 6));
-  way.pieces.push_back(PieceAt(-0.9, 0, 90, 3));
+  for (const double end_m : {-0.9, 4.9}) way.pieces.push_back(PieceAt(end_m, 0, 90, 3));
   EXPECT_TRUE(ChooseWayBack({}, way, closed).empty());
 }
 

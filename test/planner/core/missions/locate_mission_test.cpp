@@ -77,40 +77,6 @@ TEST(LocateMission, AnAbortTakesThePoseBack) {
   EXPECT_GT(dut.robot.places.back().sigma_m, 1);
 }
 
-TEST(LocateMission, ADoorThatIsSeenDecides) {
-  Kidnapped dut({3.5, 1.4, 2});
-  dut.Run(700);
-  EXPECT_EQ(dut.missions.state().phase, Phase::kDone) << dut.missions.state().text;
-  const Pose2 off = dut.robot.truth().Inverse() * dut.robot.Believed();
-  EXPECT_LT(off.translation().norm(), 0.45);
-  EXPECT_LT(std::abs(off.yaw), Radians(8));
-}
-
-TEST(LocateMission, WhereNoDoorIsSeenThePlacesAreNamedAndThePoseIsTakenBack) {
-  Kidnapped dut({3.5, 1.4, 2});
-  dut.robot.answer = [](const LookOrder& look, int) {
-    return LookResult{look.request_id, false, "too few edges", false};
-  };
-  dut.Run(900);
-  EXPECT_EQ(dut.missions.state().phase, Phase::kFailed);
-  EXPECT_THAT(dut.missions.state().text, HasSubstr("ambiguous"));
-  EXPECT_GT(dut.robot.places.back().sigma_m, 1);
-}
-
-TEST(LocateMission, ADoorBesideWhereItShouldBeIsLookedAtFromAPlaceThatIsKnownLessWell) {
-  Kidnapped dut({3.5, 1.4, 2});
-  double sigma_m = 0;
-  dut.robot.answer = [&](const LookOrder& look, int) {
-    LookResult result{look.request_id, false, "elsewhere", false};
-    result.elsewhere = dut.Sees(look.landmark_id);
-    if (result.elsewhere) sigma_m = std::max(sigma_m, dut.robot.places.back().sigma_m);
-    return result;
-  };
-  dut.Run(900);
-  EXPECT_EQ(dut.missions.state().phase, Phase::kFailed);
-  EXPECT_GT(sigma_m, 0.3);
-}
-
 TEST(LocateMission, APlanWithoutWallsIsRefused) {
   LocateMission dut({}, {}, {}, GroundPlan{});
   const auto refusal = dut.Start({});
