@@ -40,7 +40,7 @@ struct PlaceFit {
 /// Weighs places on the plan by what was heard and driven over. A piece is a wall of the plan, or a thing
 /// that is not on it: a mixture, so that no single piece decides. Against a place speaks what no thing
 /// explains: drives through walls, and, less, sound that came from behind one: an echo of an echo does, and
-/// at the true place one piece in six was such.
+/// at the true place 6 of 56 pieces were such.
 class PlaceScorer {
  public:
   /// A piece relative to the base as it is now.
