@@ -159,8 +159,10 @@ LeafSighting FromMessage(const door_seen_t& message) {
 
 std::optional<LookResult> FromMessage(const landmark_fix_t& message) {
   if (message.verdict == landmark_fix_t::FOUND) return std::nullopt;
-  return LookResult{message.request_id, false, std::string(FixVerdictText(message.verdict)),
+  LookResult result{message.request_id, false, std::string(FixVerdictText(message.verdict)),
                     message.verdict == landmark_fix_t::NO_MODEL};
+  result.elsewhere = message.verdict == landmark_fix_t::ELSEWHERE;
+  return result;
 }
 
 LookResult FromMessage(const pose_correction_t& message) {
@@ -170,7 +172,8 @@ LookResult FromMessage(const pose_correction_t& message) {
           applied ? "" : std::string(CorrectionVerdictText(message.verdict)),
           false,
           message.verdict == pose_correction_t::IMPLAUSIBLE,
-          message.verdict == pose_correction_t::RESET};
+          message.verdict == pose_correction_t::RESET,
+          false};
 }
 
 landmark_model_t ToMessage(const Landmark& landmark) {

@@ -93,6 +93,14 @@ TEST(PlannerMessages, FoundLandmarkIsNotYetACorrectedPose) {
   EXPECT_EQ(dut->reason, "ambiguous");
 }
 
+TEST(PlannerMessages, ALandmarkElsewhereIsToldAsThat) {
+  landmark_fix_t message{};
+  message.verdict = landmark_fix_t::ELSEWHERE;
+  EXPECT_TRUE(FromMessage(message)->elsewhere);
+  message.verdict = landmark_fix_t::TOO_FEW_EDGES;
+  EXPECT_FALSE(FromMessage(message)->elsewhere);
+}
+
 TEST(PlannerMessages, CorrectionDecidesTheLook) {
   pose_correction_t message{};
   message.request_id = 9;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace priamos::planner {
 namespace {
@@ -10,6 +11,7 @@ constexpr double kStep_m = 0.25;
 constexpr double kWidened_m = 0.4;  ///< a wall goes on beside what was heard of it
 constexpr double kClosedNear_m = 0.4, kClosedCos = 0.87;
 constexpr double kSlanted_m = 0.3;
+constexpr double kBeside_m = 0.1;  ///< lines of a way back, of the way driven
 
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -33,33 +35,56 @@ double AxisOf(const DrivenWay& way) {
 class Chooser {
  public:
   Chooser(const LegChoiceConfig& config, const DrivenWay& way, const std::vector<ClosedWay>& closed)
-      : config_(config), way_(way), closed_(closed) {}
+      : config_(config), way_(way), closed_(closed), axis_(AxisOf(way)) {}
 
-  double Free_m(const Eigen::Vector2d& ray) const {
-    const Eigen::Vector2d at = way_.base().translation();
+  struct Leg {
+    Pose2 end;
+    double new_m = 0;
+  };
+
+  /// The best leg from a place of the trail; `last`: the base stands there.
+  std::optional<Leg> Best(const Pose2& from, bool last) const {
+    std::optional<Leg> best;
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      const double angle = axis_ + eighth * kPi / 4;
+      const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
+      const double length_m = Free_m(from.translation(), ray, last);
+      if (length_m < config_.least_m) continue;
+      // Of two legs that show as much, the one ahead.
+      const double ahead = 0.1 * std::cos(angle - from.yaw);
+      const double slanted = eighth % 2 == 1 ? kSlanted_m : 0;  // fewer walls are abeam of the base
+      const double new_m = New_m(from.translation(), ray, length_m) + ahead - slanted;
+      if (new_m <= (best ? best->new_m : config_.least_new_m)) continue;
+      const Eigen::Vector2d end = from.translation() + length_m * ray;
+      best = Leg{{end.x(), end.y(), from.yaw}, new_m};
+    }
+    return best;
+  }
+
+ private:
+  double Free_m(const Eigen::Vector2d& at, const Eigen::Vector2d& ray, bool last) const {
     for (const ClosedWay& closed : closed_)
       if ((closed.at - at).norm() < kClosedNear_m && closed.towards.dot(ray) > kClosedCos) return 0;
     double free_m = INFINITY;
     for (const HeardPiece& piece : way_.pieces)
       free_m = std::min(free_m, DistanceTo(piece, at, ray) - config_.keep_m);
-    return std::min(free_m, IsOnward(ray) ? config_.longest_m : config_.first_m);
+    return std::min(free_m, last && IsOnward(ray) ? config_.longest_m : config_.first_m);
   }
 
   /// How much of a leg lies in what is not known.
-  double New_m(const Eigen::Vector2d& ray, double length_m) const {
+  double New_m(const Eigen::Vector2d& from, const Eigen::Vector2d& ray, double length_m) const {
     double new_m = 0;
     for (double at_m = kStep_m; at_m <= length_m; at_m += kStep_m) {
-      const Eigen::Vector2d place = way_.base().translation() + at_m * ray;
+      const Eigen::Vector2d place = from + at_m * ray;
       const bool known = std::any_of(way_.trail.begin(), way_.trail.end(), [&](const Pose2& spot) {
         return (spot.translation() - place).norm() < std::min(config_.seen_m, at_m - 1e-6) &&
-               (spot.translation() - way_.base().translation()).norm() > 1e-3;
+               (spot.translation() - from).norm() > 1e-3;
       });
       if (!known) new_m += kStep_m;
     }
     return new_m;
   }
 
- private:
   /// Whether the base came that way for a while.
   bool IsOnward(const Eigen::Vector2d& ray) const {
     const Eigen::Vector2d at = way_.base().translation();
@@ -75,7 +100,20 @@ class Chooser {
   const LegChoiceConfig& config_;
   const DrivenWay& way_;
   const std::vector<ClosedWay>& closed_;
+  double axis_;
 };
+
+/// Of the places strictly between two of the trail that which lies farthest beside their line.
+std::pair<std::size_t, double> FarthestBeside(const std::vector<Pose2>& trail, std::size_t from,
+                                              std::size_t to) {
+  std::pair<std::size_t, double> farthest{from, 0};
+  for (std::size_t i = std::min(from, to) + 1; i < std::max(from, to); ++i) {
+    const double beside_m =
+        DistanceToSegment(trail[from].translation(), trail[to].translation(), trail[i].translation());
+    if (beside_m > farthest.second) farthest = {i, beside_m};
+  }
+  return farthest;
+}
 
 }  // namespace
 
@@ -86,29 +124,39 @@ void LegChoiceConfig::Describe(Archive& a) {
   a.Number("keep_m", keep_m, {"m", 0.5, 3, "from the base's middle to walls that were heard"});
   a.Number("seen_m", seen_m, {"m", 0.2, 5, "what lies nearer to the way driven is known"});
   a.Number("least_new_m", least_new_m, {"m", 0.1, 5, "of a leg, in unknown surroundings"});
+  a.Number("back_gain", back_gain, {"-", 0, 2, "of it, for each metre driven back to where it begins"});
 }
 
 std::optional<Pose2> ChooseLeg(const LegChoiceConfig& config, const DrivenWay& way,
                                const std::vector<ClosedWay>& closed) {
+  const auto best = Chooser(config, way, closed).Best(way.base(), true);
+  if (!best) return std::nullopt;
+  return best->end;
+}
+
+std::vector<Pose2> AlongTrail(const std::vector<Pose2>& trail, std::size_t from, std::size_t to) {
+  const auto [corner, beside_m] = FarthestBeside(trail, from, to);
+  if (beside_m <= kBeside_m) return {trail[to]};
+  std::vector<Pose2> points = AlongTrail(trail, from, corner);
+  const std::vector<Pose2> rest = AlongTrail(trail, corner, to);
+  points.insert(points.end(), rest.begin(), rest.end());
+  return points;
+}
+
+std::vector<Pose2> ChooseWayBack(const LegChoiceConfig& config, const DrivenWay& way,
+                                 const std::vector<ClosedWay>& closed) {
   const Chooser chooser(config, way, closed);
-  const double axis = AxisOf(way);
-  std::optional<Pose2> best;
-  double best_new_m = config.least_new_m;
-  for (int eighth = 0; eighth < 8; ++eighth) {
-    const double angle = axis + eighth * kPi / 4;
-    const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
-    const double length_m = chooser.Free_m(ray);
-    if (length_m < config.least_m) continue;
-    // Of two legs that show as much, the one ahead.
-    const double ahead = 0.1 * std::cos(angle - way.base().yaw);
-    const double slanted = eighth % 2 == 1 ? kSlanted_m : 0;  // fewer walls are abeam of the base
-    const double new_m = chooser.New_m(ray, length_m) + ahead - slanted;
-    if (new_m <= best_new_m) continue;
-    best_new_m = new_m;
-    const Eigen::Vector2d end = way.base().translation() + length_m * ray;
-    best = Pose2{end.x(), end.y(), way.base().yaw};
+  std::optional<std::size_t> best;
+  double most = 0, back_m = 0;
+  for (std::size_t i = way.trail.size() - 1; i-- > 0;) {
+    back_m += (way.trail[i + 1].translation() - way.trail[i].translation()).norm();
+    const auto leg = chooser.Best(way.trail[i], false);
+    if (!leg || leg->new_m - config.back_gain * back_m <= most) continue;
+    most = leg->new_m - config.back_gain * back_m;
+    best = i;
   }
-  return best;
+  if (!best) return {};
+  return AlongTrail(way.trail, way.trail.size() - 1, *best);
 }
 
 }  // namespace priamos::planner

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct LegChoiceConfig {
   double keep_m = 0.75;      ///< from the middle of the base to walls that were heard
   double seen_m = 0.5;       ///< what lies nearer to the way driven is known
   double least_new_m = 0.3;  ///< of a leg, in unknown surroundings
+  double back_gain = 0.2;    ///< metres in the unknown that a metre driven back has to show
 
   void Describe(Archive& a);
 };
@@ -31,5 +33,15 @@ struct ClosedWay {
 /// nullopt when all that can be reached by such legs is known.
 std::optional<Pose2> ChooseLeg(const LegChoiceConfig& config, const DrivenWay& way,
                                const std::vector<ClosedWay>& closed);
+
+/// Where no such leg begins here: the way back, along the way driven, to the place on it from which one leads
+/// through the most that is new for the metres driven back. Corners and end of it, frame of the way, with the
+/// headings that the base had there; empty when there is no such place.
+std::vector<Pose2> ChooseWayBack(const LegChoiceConfig& config, const DrivenWay& way,
+                                 const std::vector<ClosedWay>& closed);
+
+/// A way driven, from its place `from` (an index of the trail) to `to`, which may lie before it: corners and
+/// end, so few that straight lines between them stay beside it.
+std::vector<Pose2> AlongTrail(const std::vector<Pose2>& trail, std::size_t from, std::size_t to);
 
 }  // namespace priamos::planner

@@ -8,7 +8,7 @@ namespace priamos::planner {
 namespace {
 
 constexpr double kGate = 3;            ///< sigmas
-constexpr double kLongest_m = 2;       ///< more length does not make a piece surer to be a wall
+constexpr double kLongest_m = 4;       ///< more length does not make a piece surer to be a wall
 constexpr double kMostPenalty = 24;    ///< of each kind: beyond it the plan may be what is wrong
 constexpr double kBeforeWall_m = 0.3;  ///< sound is not followed into the wall that sent it back
 /// A place does not move farther in the fit.
@@ -27,7 +27,7 @@ void PlaceScoreConfig::Describe(Archive& a) {
   a.Number("drift_deg_per_sqrt_m", drift_deg_per_sqrt_m, {"deg", 0, 10, "of heading, likewise"});
   a.Number("overhang_m", overhang_m, {"m", 0.02, 2, "one sigma of a heard end beyond its wall's"});
   a.Number("least_gain", least_gain, {"-", 0, 20, "log-odds for a short wall that lies on the plan's"});
-  a.Number("gain_per_m", gain_per_m, {"-", 0, 20, "more per metre of its length, up to 2 m"});
+  a.Number("gain_per_m", gain_per_m, {"-", 0, 20, "more per metre of its length, up to 4 m"});
   a.Number("hidden", hidden, {"-", 0, 50, "log-odds against sound through a wall"});
   a.Number("in_wall", in_wall, {"-", 0, 50, "log-odds against each place driven over in a wall"});
 }

@@ -81,6 +81,7 @@ struct LookResult {
   bool no_model = false;     ///< the head does not know the landmark (it was restarted)
   bool implausible = false;  ///< the landmark was found where, by the robot's pose, it cannot be
   bool placed = false;       ///< not of a look: the robot has set its pose as it was told
+  bool elsewhere = false;    ///< the head found the landmark where, by the pose's covariance, it cannot be
 };
 
 /// A path for the robot, map frame; driven at `speed_m_s`.

@@ -38,6 +38,12 @@ std::vector<Pose2> PointsLeft(const std::vector<Pose2>& points, double remaining
   return {points.begin() + static_cast<std::ptrdiff_t>(first), points.end()};
 }
 
+bool HasArrived(const MissionControl& control) {
+  const Heard& heard = control.heard();
+  return heard.pose->stamp > *control.path_sent() && control.OnPath() &&
+         heard.drive->mode == DriveMode::kArrived;
+}
+
 std::optional<Rectangle> ThingAhead(const MissionControl& control, const Footprint& footprint,
                                     double size_m) {
   const DriveReport& drive = *control.heard().drive;

@@ -11,6 +11,9 @@ namespace priamos::planner {
 /// The points of a path that a base still has before it when it has `remaining_m` to go.
 std::vector<Pose2> PointsLeft(const std::vector<Pose2>& points, double remaining_m);
 
+/// Whether the base has come to the end of the path ordered last, and has told where that is.
+bool HasArrived(const MissionControl& control);
+
 /// Where the thing stands that stops the base: in the direction of its line, as far away as the nearest echo
 /// there, and of `size_m`, because one side of it is known only. nullopt: the path has no direction.
 std::optional<Rectangle> ThingAhead(const MissionControl& control, const Footprint& footprint, double size_m);

@@ -59,5 +59,50 @@ TEST(LegChoice, WhereAllIsClosedThereIsNone) {
   EXPECT_FALSE(ChooseLeg({}, Standing(), closed));
 }
 
+/// 4 m ahead, in all directions closed at the end.
+DrivenWay ThereAndClosed(std::vector<ClosedWay>& closed) {
+  DrivenWay way = Standing();
+  for (int i = 1; i <= 20; ++i) way.trail.push_back({0.2 * i, 0, 0});
+  for (int eighth = 0; eighth < 8; ++eighth)
+    closed.push_back({{4, 0}, {std::cos(eighth * kPi / 4), std::sin(eighth * kPi / 4)}});
+  return way;
+}
+
+TEST(WayBack, WhereNoLegBeginsItLeadsToAPlaceFromWhichOneDoes) {
+  std::vector<ClosedWay> closed;
+  const DrivenWay way = ThereAndClosed(closed);
+  ASSERT_FALSE(ChooseLeg({}, way, closed));
+  const auto dut = ChooseWayBack({}, way, closed);
+  ASSERT_FALSE(dut.empty());
+  EXPECT_LT(dut.back().x, 3.65);
+  EXPECT_NEAR(dut.back().y, 0, 1e-9);
+  // Not farther back than it has to be.
+  EXPECT_GT(dut.back().x, 3.0);
+}
+
+TEST(WayBack, WhereAllAroundTheWayIsKnownThereIsNone) {
+  std::vector<ClosedWay> closed;
+  DrivenWay way = ThereAndClosed(closed);
+  for (const double side_m : {-0.9, 0.9}) way.pieces.push_back(PieceAt(2, side_m, 0, 6));
+  for (const double end_m : {-0.9, 4.9}) way.pieces.push_back(PieceAt(end_m, 0, 90, 3));
+  EXPECT_TRUE(ChooseWayBack({}, way, closed).empty());
+}
+
+TEST(AlongTrail, ACornerOfTheWayIsKept) {
+  std::vector<Pose2> trail;
+  for (int i = 0; i <= 10; ++i) trail.push_back({0.2 * i, 0, 0});
+  for (int i = 1; i <= 10; ++i) trail.push_back({2, 0.2 * i, 0});
+  const auto dut = AlongTrail(trail, trail.size() - 1, 0);
+  ASSERT_EQ(dut.size(), 2U);
+  EXPECT_NEAR((dut[0].translation() - Eigen::Vector2d(2, 0)).norm(), 0, 1e-9);
+  EXPECT_NEAR(dut[1].translation().norm(), 0, 1e-9);
+}
+
+TEST(AlongTrail, AStraightWayIsOneLine) {
+  std::vector<Pose2> trail;
+  for (int i = 0; i <= 10; ++i) trail.push_back({0.2 * i, 0.01 * (i % 2), 0});
+  EXPECT_EQ(AlongTrail(trail, 0, 10).size(), 1U);
+}
+
 }  // namespace
 }  // namespace priamos::planner

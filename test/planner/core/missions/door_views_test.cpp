@@ -18,7 +18,7 @@ DoorViews Dut() {
 
 TEST(DoorViews, ADoorTellsTheEndsOfARoomApart) {
   const Pose2 place{2, 2.4, 0};
-  const auto dut = Dut().Nearest(place, {Turned(place)}, {});
+  const auto dut = Dut().Best({place}, {Turned(place)}, {});
   ASSERT_TRUE(dut);
   EXPECT_EQ(dut->door.id, 1);
   const Pose2 there = dut->door.map_from_door().Inverse() * dut->path.points.back();
@@ -27,18 +27,76 @@ TEST(DoorViews, ADoorTellsTheEndsOfARoomApart) {
 }
 
 TEST(DoorViews, FromTheOtherRoomItIsSeenFromBehind) {
-  const auto dut = Dut().Nearest({8.5, 2.4, 0}, {}, {});
+  const auto dut = Dut().Best({{8.5, 2.4, 0}}, {}, {});
   ASSERT_TRUE(dut);
   EXPECT_EQ(dut->door.id, 101);
 }
 
 TEST(DoorViews, ADoorThatIsThereFromBothPlacesTellsNothing) {
   const Pose2 place{2, 2.4, 0};
-  EXPECT_FALSE(Dut().Nearest(place, {{2.3, 2.5, 0.1}}, {}));
+  EXPECT_FALSE(Dut().Best({place}, {{2.3, 2.5, 0.1}}, {}));
 }
 
-TEST(DoorViews, ADoorThatWasLookedAtIsLeftOut) {
-  EXPECT_FALSE(Dut().Nearest({2, 2.4, 0}, {}, {1}));
+TEST(DoorViews, OneThatTellsSomeOfThePlacesApartIsWorthALook) {
+  const Pose2 place{2, 2.4, 0};
+  EXPECT_TRUE(Dut().Best({place}, {{2.3, 2.5, 0.1}, Turned(place)}, {}));
+}
+
+TEST(DoorViews, AViewThatIsSpentIsLeftOutAndTheNextIsFromElsewhere) {
+  const Pose2 place{2, 2.4, 0};
+  const DoorViews dut = Dut();
+  std::vector<SpentView> spent;
+  for (int i = 0; i < 4; ++i) {
+    const auto view = dut.Best({place}, {}, spent);
+    ASSERT_TRUE(view) << i;
+    for (const SpentView& before : spent)
+      EXPECT_GT((view->door_from_base.translation() - before.door_from_base.translation()).norm(), 0.49);
+    spent.push_back({view->door.id, view->door_from_base});
+  }
+}
+
+TEST(DoorViews, WhoSeesTheDoorNeedNotDrive) {
+  const auto dut = Dut().Best({{1, 2.4, 0}, {4, 2.4, 0.1}}, {}, {});
+  ASSERT_TRUE(dut);
+  EXPECT_TRUE(dut->path.points.empty());
+}
+
+TEST(DoorViews, WhatWasHeardBeforeTheDoorIsLookedPast) {
+  LearnedWall screen;
+  screen.x_m = 5;
+  screen.y_m = 2.0;
+  screen.yaw_deg = 90;
+  screen.length_m = 1.2;
+  DoorViews dut = Dut();
+  const Pose2 place{3, 2.4, 0};
+  dut.Know({.walls = {screen}}, {}, place);
+  const auto view = dut.Best({place}, {}, {});
+  ASSERT_TRUE(view);
+  const Eigen::Vector2d from = (view->door.map_from_door() * view->door_from_base).translation();
+  // The line to the right jamb, at the screen.
+  const double part = (5 - from.x()) / (5.75 - from.x());
+  const double at_m = from.y() + part * (1.95 - from.y());
+  EXPECT_TRUE(from.x() > 5 || at_m > 2.6 || at_m < 1.4) << from.transpose();
+}
+
+/// A room in which a thing closes the way that the base came: where it was it can be again.
+TEST(DoorViews, ThePlaceFromWhichItCameIsReachedAsItCame) {
+  DoorViews dut = Dut();
+  const std::vector<Pose2> trail{{4, 2.4, 0}, {3, 2.4, 0}, {2, 2.4, 0}, {1, 2.4, 0}};
+  dut.Know({}, {{{2.2, 2.4, 0}, {0.2, 2.4}}}, trail.back());
+  const auto view = dut.Best(trail, {}, {});
+  ASSERT_TRUE(view);
+  EXPECT_NEAR(view->path.points.back().y, 2.4, 1e-6);
+  EXPECT_GT(view->path.points.back().x, 2.9);
+}
+
+TEST(DoorViews, AWallOfThePlanHidesADoor) {
+  GroundPlan plan = ShippedPlan();
+  WallPlan wall;
+  wall.from_m = {5.4, 0};
+  wall.to_m = {5.4, 4.8};
+  plan.walls.push_back(wall);
+  EXPECT_FALSE(DoorViews({}, {}, plan).Best({{3, 2.4, 0}}, {}, {}));
 }
 
 }  // namespace
