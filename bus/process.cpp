@@ -13,6 +13,7 @@
 #include "bus/claim_messages.hpp"
 #include "bus/clocks/clock_exchange.hpp"
 #include "bus/clocks/host_clock.hpp"
+#include "bus/clocks/live_messages.hpp"
 #include "bus/command_line.hpp"
 #include "bus/log/log_writer.hpp"
 #include "bus/log_follower.hpp"
@@ -129,6 +130,11 @@ int FollowLog(const AppFactory& factory, const Options& options, const LogShow& 
   const Schema schema = OwnTypes(factory.types);
   const auto log = MakeLog(factory.name);
   LcmBus bus(options.bus);
+  const HostClock alive;
+  LiveMessages live(schema, [&log](const std::string& sentence) { log(Level::kInfo, sentence); });
+  bus.TranslateBy([&](std::uint64_t sender, std::string_view channel, std::span<const std::byte> bytes) {
+    return live.IsLive(sender, channel, bytes, alive.Now()) ? std::nullopt : std::optional(bytes);
+  });
   if (show) return show({bus, schema, options.config, signals, log});
   const auto start = [&](const Clock& clock) {
     log(Level::kInfo,

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <utility>
 
 #include "bus/clocks/host_clock.hpp"
+#include "bus/clocks/log_time.hpp"
 #include "bus/host/host_identity.hpp"
 #include "bus/schema/stamps.hpp"
 #include "bus/wire/lcm_bus.hpp"
@@ -41,6 +43,18 @@ bool MeansTheSameAtAnyTime(std::string_view name) {
                return ((channel.safety_act != nullptr && channel.name == name) || ...);
              },
              channels::kAll);
+}
+
+/// A state is said again and again: one that is refused is soon there anew.
+bool IsState(std::string_view name) {
+  return std::apply(
+      [name](const auto&... channel) { return ((channel.rate_hz > 0 && channel.name == name) || ...); },
+      channels::kAll);
+}
+
+/// Whether `wait` has passed since `then`; a clock that stepped back makes nobody wait longer.
+bool HasPassed(Duration wait, Time then, Time now) {
+  return now - then >= wait || now < then;
 }
 
 /// Why messages with stamps of that clock are refused.
@@ -82,7 +96,9 @@ ClockExchange::~ClockExchange() {
 }
 
 void ClockExchange::Tick(Time now) {
-  const bool answers = answer_asked_ && now - answered_ >= kBetweenAnswers;
+  ticked_ = now;
+  const bool answers = answer_asked_ && HasPassed(kBetweenAnswers, answered_, now);
+  next_ = std::min(next_, now + kEvery);
   if (now < next_ && !answers) return;
   if (answers) answered_ = now;
   answer_asked_ = answer_asked_ && !answers;
@@ -108,7 +124,7 @@ void ClockExchange::Hear(std::uint64_t sender, std::span<const std::byte> bytes)
 
 /// This host may have got another address since.
 void ClockExchange::LookAtAddresses(Time now) {
-  if (now - looked_at_addresses_ < kEvery) return;
+  if (!HasPassed(kEvery, looked_at_addresses_, now)) return;
   looked_at_addresses_ = now;
   peers_.SetOwnAddresses(AddressesOfThisHost());
 }
@@ -123,23 +139,60 @@ std::span<const std::byte> ClockExchange::Shifted(std::span<const std::byte> byt
 std::optional<std::span<const std::byte>> ClockExchange::Translate(std::uint64_t sender,
                                                                    std::string_view channel,
                                                                    std::span<const std::byte> bytes) {
+  const Time now = clock_.Now();
   if (channel == channels::kClock.name) {
     Hear(sender, bytes);
+    SignOfAStep(sender, channel, bytes, peers_.ClockOf(sender, now), now);
     return bytes;
   }
-  const Time now = clock_.Now();
   const SenderClock clock = peers_.ClockOf(sender, now);
   if (clock.kind == SenderClock::Kind::kOurs) return bytes;
-  if (IsTooUncertain(clock, now) && !MeansTheSameAtAnyTime(channel)) {
-    ++refused_;
-    refused_at_ = now;
-    refused_clock_ = clock;
-    return std::nullopt;
-  }
+  const bool needs_time = !MeansTheSameAtAnyTime(channel);
+  if (needs_time && IsTooUncertain(clock, now)) return Refuse(clock, ReasonToRefuse(clock), now);
+  if (std::string sign = SignOfAStep(sender, channel, bytes, clock, now); needs_time && !sign.empty())
+    return Refuse(clock, std::move(sign), now);
   if (clock.kind == SenderClock::Kind::kKnown) return Shifted(bytes, -clock.difference.ahead);
   ++unknown_;
   unknown_at_ = now;
   return bytes;
+}
+
+std::nullopt_t ClockExchange::Refuse(const SenderClock& clock, std::string reason, Time now) {
+  ++refused_;
+  refused_at_ = now;
+  refused_host_ = clock.host;
+  refused_reason_ = std::move(reason);
+  return std::nullopt;
+}
+
+bool ClockExchange::Doubt(std::uint64_t sender, Time now) {
+  if (!peers_.Doubt(sender, now)) return false;
+  answer_asked_ = true;
+  if (HasPassed(kBetweenAnswers, answered_, now)) {
+    answered_ = now;
+    Send(now);
+  }
+  return true;
+}
+
+std::string ClockExchange::SignOfAStep(std::uint64_t sender, std::string_view channel,
+                                       std::span<const std::byte> bytes, const SenderClock& clock, Time now) {
+  const auto stamp = clock.kind == SenderClock::Kind::kKnown ? StampOf(schema_, bytes) : std::nullopt;
+  if (!stamp || !LogTime::IsPlausible(*stamp)) return "";
+  const Duration age = now + clock.difference.ahead - *stamp;
+  const auto verdict = ages_.Judge(sender, channel, age, clock.difference.uncertainty, now - ticked_);
+  if (verdict == AgeWatch::Verdict::kFuture) {
+    Doubt(sender, now);
+    return fmt::format("stamped {:.3g} s ahead: its clock stepped, or a program stamps by another",
+                       -Seconds(age));
+  }
+  if (verdict == AgeWatch::Verdict::kOlder && Doubt(sender, now))
+    return IsState(channel)
+               ? fmt::format("{:.3g} s old at once: late, or its clock stepped; was measured anew",
+                             Seconds(age))
+               : "";
+  ages_.Note(sender, channel, age, now);
+  return "";
 }
 
 bool ClockExchange::IsTooUncertain(const SenderClock& clock, Time now) const {
@@ -152,8 +205,7 @@ std::string ClockExchange::Problems(Time now) const {
   std::string text;
   if (refused_ > 0 && now - refused_at_ < kNews)
     text = fmt::format("{} messages of {} refused: {}", refused_,
-                       refused_clock_.host.empty() ? "other hosts" : refused_clock_.host,
-                       ReasonToRefuse(refused_clock_));
+                       refused_host_.empty() ? "other hosts" : refused_host_, refused_reason_);
   if (unknown_ > 0 && now - unknown_at_ < kNews)
     text += fmt::format("{}{} messages of hosts of unknown clock", text.empty() ? "" : "; ", unknown_);
   return text;

@@ -36,10 +36,28 @@ PeerClocks::Peer* PeerClocks::PeerWithRoom(std::int32_t id, Time now) {
 }
 
 void PeerClocks::TakeExchange(Peer& peer, const clock_report_t& message, std::size_t i, Time now) const {
-  peer.offset.Add({.sent = FromUtime(message.utime_heard[i]),
-                   .arrived = FromUtime(message.utime_arrived[i]),
-                   .answered = FromUtime(message.utime),
-                   .heard = now});
+  const Time sent = FromUtime(message.utime_heard[i]);
+  const bool taken = peer.offset.Add({.sent = sent,
+                                      .arrived = FromUtime(message.utime_arrived[i]),
+                                      .answered = FromUtime(message.utime),
+                                      .heard = now});
+  // An exchange that began before may have had the step in its middle.
+  if (taken && peer.doubted && sent >= *peer.doubted) Settle(peer, now);
+}
+
+void PeerClocks::Settle(Peer& peer, Time now) {
+  peer.doubted.reset();
+  peer.settled = now;
+}
+
+bool PeerClocks::Doubt(std::uint64_t sender, Time now) {
+  const auto id = IdOf(sender);
+  const auto found = id ? peers_.find(*id) : peers_.end();
+  if (found == peers_.end()) return false;
+  Peer& peer = found->second;
+  if (peer.doubted && std::chrono::abs(now - *peer.doubted) > kDoubt) Settle(peer, now);
+  if (!peer.doubted && std::chrono::abs(now - peer.settled) > kDoubt) peer.doubted = now;
+  return peer.doubted.has_value();
 }
 
 bool PeerClocks::IsCopy(std::uint64_t sender, const clock_report_t& message) const {
@@ -74,7 +92,7 @@ bool PeerClocks::Hear(std::uint64_t sender, const clock_report_t& message, Time 
   const auto ours = peer->offset.At(now);
   const Duration enough = now - peer->first_heard < kAcquaintance ? kWell : FromSeconds(kNotKnown_s / 2);
   return !(their_uncertainty_s <= Seconds(enough)) || !ours || ours->uncertainty > enough ||
-         peer->offset.unsteady();
+         peer->offset.unsteady() || peer->doubted;
 }
 
 std::optional<std::int32_t> PeerClocks::IdOf(std::uint64_t sender) const {
@@ -114,7 +132,7 @@ clock_report_t PeerClocks::Report(Time now) const {
   message.utime = ToUtime(now);
   message.clock_id = own_id_;
   for (const auto& [id, peer] : peers_) {
-    const auto difference = peer.offset.At(now);
+    const auto difference = peer.doubted ? std::nullopt : peer.offset.At(now);
     message.heard_id.push_back(id);
     message.utime_heard.push_back(peer.newest_utime);
     message.utime_arrived.push_back(ToUtime(peer.arrived));

@@ -54,6 +54,13 @@ class PeerClocks {
 
   SenderClock ClockOf(std::uint64_t sender, Time now) const;
 
+  /// A doubt that no exchange has settled ends after this; after one that ended there is none for as long.
+  static constexpr Duration kDoubt{1'000'000};
+  /// Something about the messages of that sender makes it likely that its clock has stepped. Until the next
+  /// exchange its clock is in doubt: Report asks for an answer at once, as if it were unknown. Returns
+  /// whether it is in doubt.
+  bool Doubt(std::uint64_t sender, Time now);
+
   /// Whether the message names our clock and does not come from this host, as far as its addresses are known.
   bool IsCopy(std::uint64_t sender, const clock_report_t& message) const;
   /// This host has other addresses than before.
@@ -73,10 +80,13 @@ class PeerClocks {
     std::int64_t newest_utime = 0;  ///< of its CLOCK messages, by its clock
     Time arrived{};
     Time first_heard{};
+    std::optional<Time> doubted;  ///< since when
+    Time settled{};               ///< when the last doubt ended
     ClockOffset offset;
   };
   Peer* PeerWithRoom(std::int32_t id, Time now);
   void TakeExchange(Peer& peer, const clock_report_t& message, std::size_t i, Time now) const;
+  static void Settle(Peer& peer, Time now);
   std::optional<std::int32_t> IdOf(std::uint64_t sender) const;
 
   std::int32_t own_id_;

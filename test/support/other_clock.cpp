@@ -1,6 +1,7 @@
 // A library that is loaded before a program (LD_PRELOAD): the program sees other clocks than the machine's.
 // OTHER_CLOCK_STEP_S: a wall clock that was set forward; OTHER_CLOCK_PPM: a clock since boot that gains so
-// many parts in a million; OTHER_CLOCK_AHEAD_S: one that is so far ahead.
+// many parts in a million; OTHER_CLOCK_AHEAD_S: one that is so far ahead; OTHER_CLOCK_JUMP_MS: one that steps
+// by so much when the machine's is at OTHER_CLOCK_JUMP_AT_S.
 
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -23,8 +24,10 @@ extern "C" int clock_gettime(clockid_t clock, timespec* time) noexcept {
   if (result == 0 && clock == CLOCK_REALTIME) time->tv_sec += Variable("OTHER_CLOCK_STEP_S");
   if (result == 0 && clock == CLOCK_BOOTTIME) {
     const long long ns = time->tv_sec * kBillion + time->tv_nsec;
+    const long long jump =
+        time->tv_sec >= Variable("OTHER_CLOCK_JUMP_AT_S") ? 1'000'000 * Variable("OTHER_CLOCK_JUMP_MS") : 0;
     const long long other =
-        ns + ns / 1'000'000 * Variable("OTHER_CLOCK_PPM") + kBillion * Variable("OTHER_CLOCK_AHEAD_S");
+        ns + ns / 1'000'000 * Variable("OTHER_CLOCK_PPM") + kBillion * Variable("OTHER_CLOCK_AHEAD_S") + jump;
     *time = {static_cast<time_t>(other / kBillion), static_cast<long>(other % kBillion)};
   }
   return result;

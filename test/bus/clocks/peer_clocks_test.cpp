@@ -141,6 +141,33 @@ TEST_F(TwoHosts, OurNumberAtAnotherHostIsNoClockOfOurs) {
   EXPECT_NE(base_.AheadOfReference(now_), std::nullopt);
 }
 
+/// The clock of vision goes back by a second: older messages of it raise the doubt.
+TEST_F(TwoHosts, AClockInDoubtIsAskedForUntilAnExchangeSettlesIt) {
+  for (int i = 0; i < 2; ++i) {
+    BaseSpeaks();
+    VisionSpeaks();
+  }
+  now_ += PeerClocks::kAcquaintance;
+  EXPECT_FALSE(base_.Doubt(Socket(0x0300a8c0, 1), now_)) << "a sender of whom nothing is known";
+  EXPECT_TRUE(base_.Doubt(kVisionSocket, now_));
+  EXPECT_GT(base_.Report(now_).uncertainty_s.front(), 50) << "so that vision answers at once";
+  EXPECT_TRUE(VisionSpeaks()) << "answers something from before the doubt";
+  EXPECT_TRUE(base_.Doubt(kVisionSocket, now_));
+  EXPECT_TRUE(BaseSpeaks());
+  EXPECT_FALSE(VisionSpeaks());
+  EXPECT_FALSE(base_.Doubt(kVisionSocket, now_)) << "settled, and not raised again at once";
+  now_ += PeerClocks::kDoubt + milliseconds(1);
+  EXPECT_TRUE(base_.Doubt(kVisionSocket, now_));
+}
+
+TEST_F(TwoHosts, ADoubtThatNobodyAnswersEnds) {
+  BaseSpeaks();
+  VisionSpeaks();
+  EXPECT_TRUE(base_.Doubt(kVisionSocket, now_));
+  now_ += PeerClocks::kDoubt + milliseconds(1);
+  EXPECT_FALSE(base_.Doubt(kVisionSocket, now_));
+}
+
 TEST_F(TwoHosts, OfManyClocksTheFirstAreUsedAndTheSilentOnesMakeRoom) {
   clock_report_t message{};
   message.utime = ToUtime(now_);

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "test/support/temporary_folder.hpp"
 #include "test/system/private_network.hpp"
@@ -208,6 +210,47 @@ TEST_F(Hosts, ClocksOfCopiedMachinesAreToldApart) {
   EXPECT_NEAR(wheels_s - odometry_s, 2, 0.9)
       << "odometry has the stamp of the wheels, by the clock of its own host; " << answer.text;
   EXPECT_THAT(Part(answer, "probe"), ContainsRegex("its clock is (2.0000|1.9[0-9]*|2.00[0-9]*) s ahead"));
+}
+
+/// How many messages of `answer` were stamped more than 50 ms from the time at which they were heard.
+int WronglyStamped(const ShellAnswer& answer, const std::string& name) {
+  int wrong = 0;
+  std::istringstream lines(Part(answer, name));
+  for (double heard_s = 0, utime = 0; lines >> heard_s >> utime;)
+    wrong += std::abs(heard_s - utime / 1e6) > 0.05 ? 1 : 0;
+  return wrong;
+}
+
+/// As of a virtual machine that was paused, or whose clock was set right behind its back.
+TEST_F(Hosts, StampsOfAClockThatStepsAreNotHandedOnWrong) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes no library that is loaded before it";
+  const auto answer = RunOnHosts("SHIM=" PRIAMOS_BINARY_DIR
+                                 "/test/libother_clock.so\n"
+                                 R"sh(
+    export PRIAMOS_BUS=onboard PRIAMOS_TTL=1 PRIAMOS_NETWORK=eth9 PYTHONDONTWRITEBYTECODE=1
+    step() {  # NAME MS
+      host base 10.77.0.1; host vision 10.77.0.2
+      local at=$(($(cut -d. -f1 /proc/uptime) + 4))
+      ENV_vision="LD_PRELOAD=$SHIM OTHER_CLOCK_JUMP_AT_S=$at OTHER_CLOCK_JUMP_MS=$2"
+      start base $BIN/priamos log record $DIR/$1.lcmlog --seconds 7 --no-health > /dev/null; local log=$STARTED
+      start base $BIN/priamos-planner --config $SIM/planner.toml 2> /dev/null
+      start base timeout 7 $BIN/priamos topic echo HEALTH process text --json > $DIR/$1.health 2> /dev/null
+      start vision $BIN/priamos-world --config $SIM/world.toml 2> /dev/null
+      wait $log; off
+      echo "--- $1"; PYTHONPATH=$SOURCE/bus/python python3 -c '
+import sys, priamos_bus
+for event, message in priamos_bus.Log(sys.argv[1]).messages("WHEEL_STATE"):
+    print("%.6f %d" % (event.utime / 1e6, message["utime"]))' $DIR/$1.lcmlog
+      echo "--- health $1"; grep planner $DIR/$1.health
+    }
+    step back -1000; step forward 1000; step little -100; echo "--- end"
+  )sh");
+  for (const std::string name : {"back", "forward", "little"}) {
+    const auto stamps = Part(answer, name);
+    EXPECT_GT(std::count(stamps.begin(), stamps.end(), '\n'), 200) << name;
+    EXPECT_EQ(WronglyStamped(answer, name), 0) << name;
+  }
+  EXPECT_THAT(Part(answer, "health forward"), HasSubstr("its clock stepped"));
 }
 
 TEST_F(Hosts, TheDoorIsPassedWithProcessesOnThreeComputersOfDifferentClocks) {

@@ -186,6 +186,29 @@ TEST(FollowsLogs, ThePlannerDecidesTheSameAtLowSpeeds) {
         << played;
 }
 
+/// A recorder's HEALTH is stamped with the time it is sent, which is no time of the log: it was taken for
+/// that, and nothing was decided.
+TEST(FollowsLogs, ALiveRecorderBesideTheLogDisturbsNobody) {
+  const TemporaryFolder folder;
+  const auto answer = RunInPrivateNetwork("DIR=" + folder.path().string() + R"sh(
+    export PRIAMOS_BUS=offboard PRIAMOS_ROBOT=replay
+    LOG=$SOURCE/logs/recorded/door-udp-offboard.lcmlog
+    $BIN/priamos log filter $LOG $DIR/part.lcmlog --to 8.5 > /dev/null
+    $BIN/priamos log record $DIR/again.lcmlog > /dev/null & RECORDER=$!
+    $BIN/priamos-planner --config $SOURCE/config/sim/planner.toml --clock bus 2> $DIR/planner.txt & PLANNER=$!
+    until grep -q 'HEALTH of recorder' $DIR/planner.txt; do sleep 0.05; done
+    $BIN/priamos log play --speed 1 $DIR/part.lcmlog > /dev/null
+    sleep 3.5; kill $PLANNER $RECORDER; wait $PLANNER; echo "planner $?"; wait $RECORDER; cat $DIR/planner.txt
+  )sh",
+                                          folder / "script.sh", 60);
+  SCOPED_TRACE(answer.text);
+  ExpectSameDecisions(folder / "again.lcmlog");
+  EXPECT_THAT(answer.text, HasSubstr("planner 0"));
+  EXPECT_THAT(answer.text,
+              testing::ContainsRegex("HEALTH of recorder at .* is stamped with the present time"));
+  EXPECT_THAT(answer.text, testing::Not(HasSubstr("no pose"))) << "its time stood still with the log";
+}
+
 /// Only what commands nobody may follow a log.
 TEST(FollowsLogs, ARobotDoesNot) {
   const auto answer = RunShell("'" PRIAMOS_BINARY_DIR "/bin/priamos-robot' --clock bus");

@@ -1,6 +1,7 @@
 #include "cli/verbs/help/host_probe.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -13,6 +14,7 @@ namespace {
 
 using Verdict = Finding::Verdict;
 
+constexpr const char* kThisHost = "this host";
 constexpr std::size_t kMostClocks = 256;                    // processes; anybody may send HEALTH
 constexpr std::int64_t kLatest_us = 7'258'118'400'000'000;  // the year 2200
 
@@ -80,9 +82,21 @@ void HostProbe::HearClock(const std::string& address, const health_t& message) {
   if (clocks_.size() < kMostClocks || clocks_.contains(key)) clocks_[key] = message.clock_uncertainty_s;
 }
 
+void HostProbe::HearNumber(const std::string& address, std::int32_t clock_id) {
+  if (speakers_.size() >= kMostClocks && !speakers_.contains(clock_id)) return;
+  std::set<std::string>& addresses = speakers_[clock_id];
+  if (addresses.size() < kMostClocks) addresses.insert(IsOwn(address) ? kThisHost : address);
+}
+
+bool HostProbe::IsCopied(const std::string& address) const {
+  return std::any_of(speakers_.begin(), speakers_.end(), [&](const auto& number) {
+    return number.second.size() > 1 && number.second.contains(address);
+  });
+}
+
 /// "vision (10.77.0.2)", as far as it is known.
 std::string HostProbe::NameOf(const std::string& address) const {
-  if (IsOwn(address)) return "this host";
+  if (address == kThisHost || IsOwn(address)) return kThisHost;
   for (const auto& [id, host] : hosts_)
     if (host.address == address) return Named(host.name, address);
   const auto other = others_.find(address);
@@ -105,13 +119,28 @@ void HostProbe::AddClocks(std::vector<Finding>& findings) const {
   }
 }
 
+void HostProbe::AddCopies(std::vector<Finding>& findings) const {
+  for (const auto& [number, addresses] : speakers_) {
+    if (addresses.size() < 2) continue;
+    std::vector<std::string> names;
+    for (const std::string& address : addresses) names.push_back(NameOf(address));
+    findings.push_back(
+        {"copied machine", Verdict::kBad,
+         fmt::format("{} run with one clock's number, as machines do of which one was copied while "
+                     "it ran: they refuse each other's messages",
+                     fmt::join(names, " and ")),
+         "priamos down && priamos up   # start the processes of the copy again"});
+  }
+}
+
 Finding HostProbe::Works(const Host& host) const {
   const std::string who = Named(host.name, host.address);
   const std::size_t answered = host.on_bus.size();
-  const std::string found =
-      fmt::format("both ways work: {} of {} questions answered, by {} process{}, {}{}", answered,
-                  asked_.size(), host.processes.size(), host.processes.size() == 1 ? "" : "es",
-                  Way(host.network, host.ttl), ClockOf(host.clock.At(asked_.back())));
+  const std::string found = fmt::format("both ways work: {} of {} questions answered, by {} process{}, {}{}",
+                                        answered, asked_.size(), host.processes.size(),
+                                        host.processes.size() == 1 ? "" : "es", Way(host.network, host.ttl),
+                                        IsCopied(host.address) ? "; its clock's number is another host's"
+                                                               : ClockOf(host.clock.At(asked_.back())));
   if (answered == asked_.size()) return {"host " + who, Verdict::kGood, found, ""};
   return {"host " + who, Verdict::kNotNeededYet, found + "; some were lost",
           "priamos topic list --watch   # shows who loses messages"};
@@ -183,6 +212,7 @@ std::vector<Finding> HostProbe::Findings(const std::vector<std::string>& expecte
                         ask_there});
   for (const auto& [onboard, status] : links_) findings.push_back(LinkFinding(status));
   AddClocks(findings);
+  AddCopies(findings);
   return findings;
 }
 

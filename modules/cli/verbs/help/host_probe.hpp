@@ -40,6 +40,10 @@ class HostProbe {
   /// Takes what a process says of its host's clock in HEALTH, the newest time.
   void HearClock(const std::string& address, const health_t& message);
 
+  /// Takes notice of a clock's number in CLOCK. One that comes from two hosts is that of a machine that was
+  /// copied while it ran.
+  void HearNumber(const std::string& address, std::int32_t clock_id);
+
   /// Takes what an end of the radio link says, the newest time.
   void HearLink(const link_status_t& message) { links_[message.onboard != 0] = message; }
 
@@ -64,11 +68,14 @@ class HostProbe {
   Finding CutTo(const std::string& who) const;
   std::string NameOf(const std::string& address) const;
   void AddClocks(std::vector<Finding>& findings) const;
+  void AddCopies(std::vector<Finding>& findings) const;
+  bool IsCopied(const std::string& address) const;
 
   Self self_;
   std::vector<Time> asked_;  ///< when
   std::map<std::int32_t, Host> hosts_;
   std::map<std::pair<std::string, std::string>, double> clocks_;  ///< [s]; by address and process: how exact
+  std::map<std::int32_t, std::set<std::string>> speakers_;        ///< of a clock's number: their addresses
   std::map<bool, link_status_t> links_;                           ///< by whether it is the robot's end
   std::map<std::string, std::string> others_;  ///< heard on the bus: address, and name if known
 };

@@ -90,6 +90,9 @@ class Asker {
     if (channel == channels::kHealth.name)
       if (const auto health = bus::DecodeChecked<health_t>(schema_, bytes))
         probe_.HearClock(address, *health);
+    if (channel == channels::kClock.name)
+      if (const auto clock = bus::DecodeChecked<clock_report_t>(schema_, bytes))
+        probe_.HearNumber(address, clock->clock_id);
     if (channel == channels::kLinkStatus.name)
       if (const auto status = bus::DecodeChecked<link_status_t>(schema_, bytes)) probe_.HearLink(*status);
     probe_.HearOther(address, channel == channels::kClaim.name ? HostOfClaim(bytes) : "");

@@ -64,6 +64,23 @@ TEST_F(HostProbeTest, TheClockOfAHostIsMeasured) {
   EXPECT_THAT(Only().found, HasSubstr("its clock agrees to 0.3 ms"));
 }
 
+TEST_F(HostProbeTest, AMachineThatWasCopiedWhileItRanIsNamed) {
+  probe_t answer = Answer(3);
+  answer.utime = ToUtime(kBegin + std::chrono::seconds(3));
+  dut_.HearProbe(answer, kTheirs, false, kBegin + std::chrono::milliseconds(802));
+  dut_.HearNumber("10.77.0.1", 5);
+  dut_.HearNumber("127.0.0.1", 5);
+  dut_.HearNumber(kTheirs, 6);
+  EXPECT_THAT(Only().found, HasSubstr("processes translate its stamps")) << "each host has its own number";
+  dut_.HearNumber(kTheirs, 5);
+  const auto findings = dut_.Findings({});
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_THAT(findings[0].found, testing::Not(HasSubstr("translate")));
+  EXPECT_EQ(findings[1].verdict, Verdict::kBad);
+  EXPECT_THAT(findings[1].found, StartsWith("vision (10.77.0.2) and this host run with one clock's number"));
+  EXPECT_THAT(findings[1].command, HasSubstr("start the processes of the copy again"));
+}
+
 TEST_F(HostProbeTest, AClockThatIsNotKnownExactlyEnoughIsNamed) {
   Answered(false);
   health_t health{};
