@@ -13,16 +13,16 @@ bool LiveMessages::IsLive(std::uint64_t sender, std::string_view channel, std::s
                           Time now) {
   const auto stamp = StampOf(schema_, bytes);
   if (!stamp || *stamp <= now - kNow || *stamp >= now + kNow) return false;
-  if (told_.size() < kMostSenders && told_.insert(sender).second) TellOf(sender, channel, bytes);
+  if (reported_.size() < kMostSenders && reported_.insert(sender).second) ReportOn(sender, channel, bytes);
   return true;
 }
 
-void LiveMessages::TellOf(std::uint64_t sender, std::string_view channel,
-                          std::span<const std::byte> bytes) const {
-  if (!tell_) return;
+void LiveMessages::ReportOn(std::uint64_t sender, std::string_view channel,
+                            std::span<const std::byte> bytes) const {
+  if (!report_) return;
   const auto health =
       channel == channels::kHealth.name ? DecodeChecked<health_t>(schema_, bytes) : std::nullopt;
-  tell_(
+  report_(
       fmt::format("{} of {}{} is stamped with the present time: who sends it is live, not of a log that is "
                   "played; not followed",
                   channel, health ? health->process + " at " : "", SenderAddress(sender)));
