@@ -27,6 +27,7 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/bus/claim_property_test", "properties of bus/claim"},
     {"test/bus/inbox_property_test", "properties of bus/inbox"},
     {"test/bus/python/python_bus_test", "what is written in Python beside C++"},
+    {"test/bus/radio/packet/packet_radio_test", "both ends over packets against their budget"},
     {"test/bus/radio/command_freshness_test", "age of a command over both ends"},
     {"test/bus/radio/explorer/exploration_test", "the explorer of small worlds is itself a tool of tests"},
     {"test/bus/radio/explorer/power_loss_test", "an accident of both ends"},
