@@ -164,15 +164,16 @@ TEST_F(Hosts, AClockThatIsASecondAheadIsMeasuredAndItsStampsAreTranslated) {
   const auto robot = nlohmann::json::parse(Part(answer, "robot"), nullptr, false),
              world = nlohmann::json::parse(Part(answer, "world"), nullptr, false);
   ASSERT_TRUE(robot.is_object() && world.is_object()) << answer.text;
-  EXPECT_NEAR(world.value("clock_ahead_s", 0.0) - robot.value("clock_ahead_s", 0.0), 1, 0.02)
+  // own_clock of computers.sh reads two clocks by two processes: the true second is some milliseconds off.
+  EXPECT_NEAR(world.value("clock_ahead_s", 0.0) - robot.value("clock_ahead_s", 0.0), 1, 0.04)
       << "one of them is the reference; " << answer.text;
   for (const auto& health : {robot, world}) {
     EXPECT_GE(health.value("clock_uncertainty_s", -1.0), 0) << answer.text;
     EXPECT_LE(health.value("clock_uncertainty_s", -1.0), 0.02);
   }
   EXPECT_THAT(Part(answer, "probe"),
-              ContainsRegex("its clock is (1.0000|0.9[0-9]*|1.00[0-9]*) s ahead, to [0-9]"));
-  EXPECT_THAT(Part(answer, "clocks"), ContainsRegex("\"ahead_s\":\\[(1.0|0.99|1.00)"));
+              ContainsRegex("its clock is (0.9[0-9]*|1.0[0-3][0-9]*) s ahead, to [0-9]"));
+  EXPECT_THAT(Part(answer, "clocks"), ContainsRegex("\"ahead_s\":\\[(1.0|0.9)"));
   const double odometry_s = std::stod(Part(answer, "odometry")) / 1e6,
                wheels_s = std::stod(Part(answer, "wheels")) / 1e6;
   EXPECT_NEAR(wheels_s - odometry_s, 1, 0.9)
