@@ -13,6 +13,7 @@ import time
 import tty
 
 from .end import End
+from .handshake import timed_nonce
 from .table import Table, age_of, pack, unpack
 
 SIMULATION_KEY = b"everybody knows this key".ljust(32, b"\0")

@@ -83,7 +83,7 @@ void TrueFloor::Measure(const Rectangle& outline) {
                  high = (box.max() - origin_).array() / kStep_m + kFar_m / kStep_m;
   for (int y = std::max(0, int(low.y())); y < std::min(ny_, int(high.y()) + 1); ++y)
     for (int x = std::max(0, int(low.x())); x < std::min(nx_, int(high.x()) + 1); ++x) {
-      float& gap_m = gap_m_[std::size_t(y * nx_ + x)];
+      float& gap_m = gap_m_[CellAt(x, y)];
       gap_m = std::min(gap_m, static_cast<float>(Distance(outline, PlaceOf(x, y))));
     }
 }
@@ -112,12 +112,12 @@ void TrueFloor::Widen(double by_m) {
   const int reach = static_cast<int>(by_m / kStep_m);
   for (int y = 0; y < ny_; ++y)
     for (int x = 0; x < nx_; ++x) {
-      if (!middle_[std::size_t(y * nx_ + x)]) continue;
+      if (!middle_[CellAt(x, y)]) continue;
       for (int dy = -reach; dy <= reach; ++dy)
         for (int dx = -reach; dx <= reach; ++dx) {
-          const bool inside = x + dx >= 0 && y + dy >= 0 && x + dx < nx_ && y + dy < ny_;
-          const auto next = std::size_t((y + dy) * nx_ + x + dx);
-          if (inside && std::hypot(dx, dy) * kStep_m <= by_m && gap_m_[next] > 0) reachable_[next] = true;
+          if (x + dx < 0 || y + dy < 0 || x + dx >= nx_ || y + dy >= ny_) continue;
+          const std::size_t next = CellAt(x + dx, y + dy);
+          if (std::hypot(dx, dy) * kStep_m <= by_m && gap_m_[next] > 0) reachable_[next] = true;
         }
     }
 }

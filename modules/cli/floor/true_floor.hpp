@@ -45,6 +45,10 @@ class TrueFloor {
   double seen() const;
 
  private:
+  /// Inside alone.
+  std::size_t CellAt(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
+  }
   void Measure(const Rectangle& outline);
   void Flood(const Eigen::Vector2d& start, double least_m);
   void Widen(double by_m);
