@@ -74,7 +74,8 @@ FacePoint NearestFace(const std::vector<Rectangle>& outlines, const WallPlace& p
   for (const Rectangle& outline : outlines) {
     const auto corners = outline.Corners();
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vector2d from = corners[i], line = corners[(i + 1) % corners.size()] - from;
+      const Vector2d& from = corners[i];
+      const Vector2d line = corners[(i + 1) % corners.size()] - from;
       Vector2d outward = Vector2d(line.y(), -line.x()).normalized();
       if (outward.dot(from - outline.map_from_centre.translation()) < 0) outward = -outward;
       if (outward.dot(place.facing) < std::cos(kPi / 4)) continue;
