@@ -57,8 +57,8 @@ class Exploration {
   void set_config(const ExplorationConfig& config) { config_ = config; }
   /// The base is here, map frame.
   void NoteAt(const Pose2& map_from_base);
-  /// Walls as they are known by now, in place of those before. Edges that were told as walls are none, and
-  /// where the base drove through none is.
+  /// Walls as they are known by now, in place of those before. Edges that were reported as walls are none,
+  /// and where the base drove through none is.
   void Learn(const LearnedWalls& walls);
   /// What counts of them.
   const LearnedWalls& walls() const { return evidence_.walls; }

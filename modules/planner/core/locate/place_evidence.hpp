@@ -24,7 +24,7 @@ class PlaceEvidence {
   void OnPose(Time stamp, const Pose2& told_from_base, std::optional<Time> corrected) {
     log_.OnPose(stamp, told_from_base, corrected);
   }
-  /// A wall that the robot told of now.
+  /// A wall that the robot reported now.
   void OnWall(const SeenWall& seen, Time now);
 
   /// Weighs all places of the plan anew, when there is something new to weigh them by.

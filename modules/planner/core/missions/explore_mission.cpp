@@ -180,13 +180,12 @@ bool ExploreMission::BeginRound() {
 
 /// A bit of the way that it came, to where there is room around it. False where it began.
 bool ExploreMission::GoBack(MissionControl& control) {
-  std::vector<Pose2> way = exploration_.WayBack(kBack_m);
-  if (way.empty()) return false;
-  if (way.size() > kMostPathPoints) way.resize(kMostPathPoints);
+  PlannedPath way{.points = exploration_.WayBack(kBack_m)};
+  if (way.points.empty()) return false;
   goal_.reset();
   backing_ = true;
   idles_.Reset();
-  control.OrderPath({.points = std::move(way)}, config_.speed_m_s);
+  control.OrderPath(FirstPart(std::move(way)), config_.speed_m_s);
   control.Enter(Phase::kDriving, "exploring: something is near on all sides, going back a bit");
   return true;
 }
@@ -205,10 +204,7 @@ bool ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& fronti
   if (!path && frontier.goal != frontier.target)
     path = planner_.FindPath(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
   if (!path) return false;
-  if (path->points.size() > kMostPathPoints) {
-    path->points.resize(kMostPathPoints);
-    path->leeway.resize(kMostPathPoints);
-  }
+  path = FirstPart(std::move(*path));
   if (!goal_ || (goal_->target - frontier.target).norm() > config_.near_m) missed_ = 0;
   goal_ = frontier;
   const double length_m = LengthOf(base, path->points);

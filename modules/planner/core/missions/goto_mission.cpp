@@ -99,10 +99,7 @@ void GotoMission::Depart(MissionControl& control, const std::string& why) {
 
 void GotoMission::Drive(MissionControl& control, PlannedPath path, const std::string& why) {
   whole_ = path.points.size() <= kMostPathPoints;
-  if (!whole_) {
-    path.points.resize(kMostPathPoints);
-    path.leeway.resize(kMostPathPoints);
-  }
+  path = FirstPart(std::move(path));
   const double length_m = LengthOf(control.heard().pose->map_from_base, path.points);
   control.OrderPath(std::move(path), config_.speed_m_s);
   control.Enter(Phase::kDriving,

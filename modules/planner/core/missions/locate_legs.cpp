@@ -31,13 +31,12 @@ bool LocateLegs::Next(MissionControl& control, const PlaceEvidence& evidence) {
   else
     points = ChooseWayBack(config_.choice, way, closed_);
   if (points.empty()) return false;
-  if (points.size() > kMostPathPoints) points.resize(kMostPathPoints);
   ++legs_;
   towards_ = (points.front().translation() - log.way_from_base().translation()).normalized();
   PlannedPath path;
   for (const Pose2& point : points) path.points.push_back(log.way_from_told().Inverse() * point);
   path.leeway.assign(points.size(), {config_.leeway_m, config_.leeway_m});
-  control.OrderPath(std::move(path), config_.speed_m_s);
+  control.OrderPath(FirstPart(std::move(path)), config_.speed_m_s);
   return true;
 }
 

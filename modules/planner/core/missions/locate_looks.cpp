@@ -216,11 +216,7 @@ LocateLooks::Progress LocateLooks::Approach(MissionControl& control, PlaceEviden
   control.SendModel(*MakeLandmark(plan_, view_->door.id));
   stage_ = view_->path.points.empty() ? Stage::kLooking : Stage::kDriving;
   if (stage_ == Stage::kLooking) return Progress::kUnderWay;
-  if (view_->path.points.size() > kMostPathPoints) {
-    view_->path.points.resize(kMostPathPoints);
-    view_->path.leeway.resize(kMostPathPoints);
-  }
-  control.OrderPath(view_->path, config_.speed_m_s);
+  control.OrderPath(FirstPart(view_->path), config_.speed_m_s);
   return Progress::kUnderWay;
 }
 
@@ -289,9 +285,7 @@ LocateLooks::Progress LocateLooks::OnBlocked(MissionControl& control, PlaceEvide
   PlannedPath path;
   for (const Pose2& point : WayBack(evidence.log().way(), config_.back_m))
     path.points.push_back(way_from_told.Inverse() * point);
-  path.leeway.assign(path.points.size(), {});
-  if (path.points.size() > kMostPathPoints) path.points.resize(kMostPathPoints);
-  control.OrderPath(std::move(path), config_.speed_m_s);
+  control.OrderPath(FirstPart(std::move(path)), config_.speed_m_s);
   return Progress::kUnderWay;
 }
 

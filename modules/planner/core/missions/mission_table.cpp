@@ -94,8 +94,8 @@ void MissionTable::OnDrive(const DriveReport& drive, Time now) {
   }
 }
 
-/// A touch ends the motion on which it was. When the next path was on its way by then, it is told of a path
-/// that is not the newest; each counts once.
+/// A touch ends the motion on which it was. When the next path was on its way by then, it is reported of a
+/// path that is not the newest; each counts once.
 void MissionTable::NoteTouch(const DriveReport& drive) {
   if (!drive.touched || !running() || !control_.IsOwn(drive.path_id)) return;
   touched_ = touched_ || touched_path_ != drive.path_id;

@@ -37,4 +37,11 @@ struct PlannedPath {
   bool centre = false;           ///< keep to the middle between the walls that are heard; of one point
 };
 
+/// As much of a path as the robot takes in one PATH, from its start.
+inline PlannedPath FirstPart(PlannedPath path) {
+  if (path.points.size() > kMostPathPoints) path.points.resize(kMostPathPoints);
+  if (path.leeway.size() > kMostPathPoints) path.leeway.resize(kMostPathPoints);
+  return path;
+}
+
 }  // namespace priamos::planner
