@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "lcmtypes/channel.hpp"
+#include "priamos/alarm_ack_t.hpp"
 #include "priamos/alarm_t.hpp"
 #include "priamos/bumper_t.hpp"
 #include "priamos/camera_frame_t.hpp"
@@ -15,6 +16,8 @@
 #include "priamos/estop_t.hpp"
 #include "priamos/features_ack_t.hpp"
 #include "priamos/features_t.hpp"
+#include "priamos/floor_map_t.hpp"
+#include "priamos/head_aim_t.hpp"
 #include "priamos/head_command_t.hpp"
 #include "priamos/head_drive_t.hpp"
 #include "priamos/head_state_t.hpp"
@@ -77,6 +80,7 @@ inline constexpr Channel<pose_reset_t> kPoseReset{"POSE_RESET", 0, milliseconds(
 // Driving by hand.
 inline constexpr Channel<drive_command_t> kDriveCommand{"DRIVE_COMMAND", 20, milliseconds(250)};
 inline constexpr Channel<head_drive_t> kHeadDrive{"HEAD_DRIVE", 10, milliseconds(500)};
+inline constexpr Channel<head_aim_t> kHeadAim{"HEAD_AIM", 0, milliseconds(0)};
 inline constexpr Channel<lease_request_t> kLeaseRequest{"LEASE_REQUEST", 0, milliseconds(0)};
 inline constexpr Channel<estop_t> kEstop{.name = "ESTOP",
                                          .safety_act = [](const estop_t& order) { return order.action; }};
@@ -95,6 +99,7 @@ inline constexpr Channel<features_ack_t> kFeaturesAck{"FEATURES_ACK", 0, millise
 inline constexpr Channel<mission_command_t> kMissionCommand{"MISSION_COMMAND", 0, milliseconds(0)};
 inline constexpr Channel<mission_status_t> kMissionStatus{"MISSION_STATUS", 2, milliseconds(2000)};
 inline constexpr Channel<map_command_t> kMapCommand{"MAP_COMMAND", 0, milliseconds(0)};
+inline constexpr Channel<floor_map_t> kFloorMap{"FLOOR_MAP", 0, milliseconds(0)};
 
 // Every process, every bus.
 inline constexpr Channel<health_t> kHealth{"HEALTH", 1, milliseconds(3000)};
@@ -103,6 +108,7 @@ inline constexpr Channel<link_request_t> kLinkRequest{"LINK_REQUEST", 0, millise
 inline constexpr Channel<parameter_order_t> kParameterOrder{"PARAMETER_ORDER", 0, milliseconds(0)};
 inline constexpr Channel<parameter_value_t> kParameterValue{"PARAMETER_VALUE", 0, milliseconds(0)};
 inline constexpr Channel<alarm_t> kAlarm{"ALARM", 0, milliseconds(0)};
+inline constexpr Channel<alarm_ack_t> kAlarmAck{"ALARM_ACK", 0, milliseconds(0)};
 inline constexpr Channel<claim_t> kClaim{"CLAIM", 5, milliseconds(1000)};
 inline constexpr Channel<probe_t> kProbe{"PROBE", 0, milliseconds(0)};
 inline constexpr Channel<clock_report_t> kClock{"CLOCK", 1, milliseconds(3000)};
@@ -119,6 +125,6 @@ inline constexpr std::tuple kAll{
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
     kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
     kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls,     kParameterOrder,
-    kParameterValue};
+    kParameterValue, kAlarmAck,      kFloorMap,      kHeadAim};
 
 }  // namespace priamos::channels

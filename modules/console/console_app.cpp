@@ -37,6 +37,7 @@ bool IsOrder(const BrowserMessage& message) {
   if (const auto* wish = std::get_if<ParameterWish>(&message))
     return wish->kind != ParameterWish::Kind::kRead;
   return std::holds_alternative<StopOrder>(message) || std::holds_alternative<MissionOrder>(message) ||
+         std::holds_alternative<AlarmSeen>(message) || std::holds_alternative<AimOrder>(message) ||
          std::holds_alternative<PlaceOrder>(message);
 }
 
@@ -84,6 +85,8 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
       lease_(context.node().Advertise(channels::kLeaseRequest)),
       estop_(context.node().Advertise(channels::kEstop)),
       mission_(context.node().Advertise(channels::kMissionCommand)),
+      head_aim_(context.node().Advertise(channels::kHeadAim)),
+      alarm_ack_(context.node().Advertise(channels::kAlarmAck)),
       place_(context.node().Advertise(channels::kPoseReset)),
       parameter_(context.node().Advertise(channels::kParameterOrder)),
       request_(context.node().Advertise(channels::kLinkRequest)) {
@@ -126,7 +129,7 @@ void ConsoleApp::OpenVideo() {
   camera.target = "/" + context_.robot() + "/third.jpg";
   if (!config_.video_token_file.empty()) {
     const WebAccess tokens = LoadAccess(config_.address, context_.ResolvePath(config_.video_token_file));
-    camera.target += "?token=" + (tokens.viewer_token.empty() ? tokens.driver_token : tokens.viewer_token);
+    camera.target += "?token=" + tokens.holders.front().token;
   }
   video_.emplace(std::move(camera));
   bridge_.OfferVideo();
@@ -141,6 +144,7 @@ void ConsoleApp::Tick(Time now) {
   if (const auto status = status_.Take()) robot_ = FromMessage(*status, base_.session);
   Drive(now);
   Place(now);
+  if (const auto aim = aiming_.Step(now)) head_aim_.Publish(*aim);
   ChangeParameters(now);
   for (const auto& request : wanted_.Step(now)) request_.Publish(ToMessage(request, now));
   if (beat_.Due(now)) {
@@ -215,8 +219,10 @@ void ConsoleApp::Send(const PilotOutput& output, Time now) {
 void ConsoleApp::Joined(std::uint64_t client, const OpenSocket& socket) {
   audit_.Note(now_, client, "joined",
               {{"role", socket.role == Role::kDriver ? "driver" : "viewer"},
+               {"who", socket.who},
                {"from", socket.from},
                {"foxglove", socket.dialect == Dialect::kFoxglove}});
+  names_[client] = socket.who.empty() ? socket.from : socket.who;
   parameters_.Ask(ThisProgram().program_folder, context_.ResolvePath("."));
   if (socket.dialect == Dialect::kFoxglove) return bridge_.Join(client, socket.role);
   audience_.Join(client, socket.role);
@@ -225,6 +231,7 @@ void ConsoleApp::Joined(std::uint64_t client, const OpenSocket& socket) {
 
 void ConsoleApp::Left(std::uint64_t client) {
   audit_.Note(now_, client, "left");
+  names_.erase(client);
   if (bridge_.Has(client)) bridge_.Leave(client);
   audience_.Leave(client);
   seat_.Leave(client);
@@ -281,6 +288,19 @@ bool ConsoleApp::Take(std::uint64_t client, const PlaceOrder& order) {
   if (RoleOf(client) != Role::kDriver) return false;
   places_ = places_ % 65535 + 1;
   placing_.Give(ToMessage(order, places_, {config_.place_sigma_m, config_.place_sigma_deg}, now_), now_);
+  return true;
+}
+
+bool ConsoleApp::Take(std::uint64_t client, const AimOrder& order) {
+  if (RoleOf(client) != Role::kDriver) return false;
+  aiming_.Give(ToMessage(order, now_));
+  return true;
+}
+
+/// Every station, and every page of it, is told who it was.
+bool ConsoleApp::Take(std::uint64_t client, const AlarmSeen& seen) {
+  if (RoleOf(client) != Role::kDriver) return false;
+  alarm_ack_.Publish(ToMessage(seen, names_[client], now_));
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,6 +17,7 @@
 #include "common/rate_limit.hpp"
 #include "common/web/web_server.hpp"
 #include "console/audience.hpp"
+#include "console/aim_sender.hpp"
 #include "console/audit_log.hpp"
 #include "console/console_config.hpp"
 #include "console/console_messages.hpp"
@@ -58,6 +60,8 @@ class ConsoleApp : public WebListener {
   bool Take(std::uint64_t client, const StopOrder& order);
   bool Take(std::uint64_t client, const MissionOrder& order);
   bool Take(std::uint64_t client, const PlaceOrder& order);
+  bool Take(std::uint64_t client, const AimOrder& order);
+  bool Take(std::uint64_t client, const AlarmSeen& seen);
   bool Take(std::uint64_t client, const ParameterWish& wish);
   bool Take(std::uint64_t client, const ListenWish& wish);
   bool Take(std::uint64_t, const ReplayOrder&) { return false; }  // there is no log
@@ -85,6 +89,7 @@ class ConsoleApp : public WebListener {
   std::optional<ClientId> drove_;  ///< whose hand was on the stick at the last tick
   NewsFeed feed_;
   Audience audience_;
+  std::map<ClientId, std::string> names_;  ///< of who is connected: his token's, else his address
   FoxgloveBridge bridge_;
   Beats beats_;
   Seat seat_;
@@ -99,6 +104,7 @@ class ConsoleApp : public WebListener {
   std::uint64_t counted_ = 0;
   int places_ = 0;  ///< number of the newest order that says where the robot stands
   RepeatedOrder<pose_reset_t> placing_;
+  AimSender aiming_;
   ParameterOrders parameter_orders_;
 
   bus::Latest<drive_status_t> status_;
@@ -109,6 +115,8 @@ class ConsoleApp : public WebListener {
   bus::Publisher<lease_request_t> lease_;
   bus::Publisher<estop_t> estop_;
   bus::Publisher<mission_command_t> mission_;
+  bus::Publisher<head_aim_t> head_aim_;
+  bus::Publisher<alarm_ack_t> alarm_ack_;
   bus::Publisher<pose_reset_t> place_;
   bus::Publisher<parameter_order_t> parameter_;
   bus::Publisher<link_request_t> request_;

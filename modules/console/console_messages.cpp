@@ -3,7 +3,47 @@
 namespace priamos::console {
 namespace {
 
+using Kind = MissionOrder::Kind;
+
 constexpr auto kSelf = lease_request_t::CONSOLE;
+constexpr std::size_t kLongestName = 40;  ///< alarm_ack_t
+
+std::int8_t MissionOf(Kind kind) {
+  switch (kind) {
+    case Kind::kPause:
+      return mission_command_t::PAUSE;
+    case Kind::kResume:
+      return mission_command_t::RESUME;
+    case Kind::kCancel:
+      return mission_command_t::CANCEL;
+    case Kind::kPassDoor:
+      return mission_command_t::PASS_DOOR;
+    case Kind::kGoto:
+      return mission_command_t::GOTO;
+    case Kind::kCorridor:
+      return mission_command_t::CORRIDOR;
+    case Kind::kExplore:
+      return mission_command_t::EXPLORE;
+    case Kind::kLocate:
+      return mission_command_t::LOCATE;
+    case Kind::kPatrol:
+      return mission_command_t::RUN;
+    default:
+      return mission_command_t::ABORT;
+  }
+}
+
+bool HasGoal(Kind kind) { return kind == Kind::kGoto || kind == Kind::kCorridor; }
+
+mission_step_t StepTo(const Target& place) {
+  mission_step_t step{};
+  step.mission = mission_command_t::GOTO;
+  step.x_m = place.map_from_base.x;
+  step.y_m = place.map_from_base.y;
+  step.yaw_rad = place.map_from_base.yaw;
+  step.turn = place.turn;
+  return step;
+}
 
 }  // namespace
 
@@ -53,17 +93,40 @@ estop_t ToMessage(PilotOutput::Estop action, Time now) {
 }
 
 mission_command_t ToMessage(const MissionOrder& order, Time now) {
-  using enum MissionOrder::Kind;
   mission_command_t message{};
   message.utime = ToUtime(now);
-  message.mission = order.kind == kAbort      ? mission_command_t::ABORT
-                    : order.kind == kPassDoor ? mission_command_t::PASS_DOOR
-                                              : mission_command_t::GOTO;
+  message.mission = MissionOf(order.kind);
   message.landmark_id = static_cast<std::int16_t>(order.landmark_id);
   message.x_m = order.goal.map_from_base.x;
   message.y_m = order.goal.map_from_base.y;
   message.yaw_rad = order.goal.map_from_base.yaw;
-  message.turn = order.kind == kGoto && order.goal.turn;
+  message.turn = HasGoal(order.kind) && order.goal.turn;
+  message.distance_m = static_cast<float>(order.distance_m);
+  message.order_id = order.order_id;
+  if (order.kind != MissionOrder::Kind::kPatrol) return message;
+  message.rounds = static_cast<std::int16_t>(order.rounds);
+  for (const Target& place : order.places) message.steps.push_back(StepTo(place));
+  message.n_steps = static_cast<std::int8_t>(message.steps.size());
+  return message;
+}
+
+head_aim_t ToMessage(const AimOrder& order, Time now) {
+  head_aim_t message{};
+  message.utime = ToUtime(now);
+  message.pan_rad = order.pan_rad;
+  message.tilt_rad = order.tilt_rad;
+  message.vergence_rad = order.vergence_rad.value_or(-1);
+  message.zoom_step = static_cast<std::int16_t>(order.zoom_step.value_or(-1));
+  message.focus_step = static_cast<std::int16_t>(order.focus_step.value_or(-1));
+  return message;
+}
+
+alarm_ack_t ToMessage(const AlarmSeen& seen, const std::string& by, Time now) {
+  alarm_ack_t message{};
+  message.utime = ToUtime(now);
+  message.source = seen.source;
+  message.utime_alarm = seen.utime;
+  message.by = by.substr(0, kLongestName);
   return message;
 }
 

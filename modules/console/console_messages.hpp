@@ -24,6 +24,9 @@ head_drive_t ToMessage(const HeadRates& wish, const Sender& sender, double time_
 lease_request_t ToMessage(PilotOutput::Lease wish, const Sender& sender, Time now);
 estop_t ToMessage(PilotOutput::Estop action, Time now);
 mission_command_t ToMessage(const MissionOrder& order, Time now);
+head_aim_t ToMessage(const AimOrder& order, Time now);
+/// `by`: who has taken note; cut to what the message holds.
+alarm_ack_t ToMessage(const AlarmSeen& seen, const std::string& by, Time now);
 pose_reset_t ToMessage(const PlaceOrder& order, int request_id, const PlaceSigma& known, Time now);
 link_request_t ToMessage(const WantedChannels::Request& request, Time now);
 

@@ -42,6 +42,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       landmark_models_(context.node().SubscribeAll(channels::kLandmarkModel)),
       look_requests_(context.node().SubscribeAll(channels::kLookRequest)),
       wishes_(context.node().SubscribeAll(channels::kHeadDrive)),
+      aims_(context.node().SubscribeAll(channels::kHeadAim)),
       head_command_(context.node().Advertise(channels::kHeadCommand)),
       trigger_(context.node().Advertise(channels::kCameraTrigger)),
       fix_(context.node().Advertise(channels::kLandmarkFix)),
@@ -124,6 +125,7 @@ void HeadApp::TakeMessages(Time now) {
     if (const auto sample = FromMessage(message)) poses_.Add(*sample);
   }
   for (const head_drive_t& message : wishes_.Drain()) jog_.Take(FromMessage(message), now);
+  for (const head_aim_t& message : aims_.Drain()) aim_.Take(FromMessage(message), now);
   for (const landmark_model_t& message : landmark_models_.Drain()) {
     if (auto model = FromMessage(message)) models_[model->id] = std::move(*model);
   }
@@ -160,6 +162,7 @@ void HeadApp::MoveHead(Time now) {
 /// A look goes before an operator's hand.
 void HeadApp::MoveByHand(Time now) {
   if (look_.active() || !report_) return jog_.Stop();
+  if (const auto aim = aim_.Next(report_->setting, now)) positioner_.MoveTo(*aim, now);
   const auto setting = jog_.Step(report_->setting, now);
   if (!setting) return;
   positioner_.Release();
@@ -191,7 +194,7 @@ void HeadApp::Look(Time now) {
 /// Between looks the third camera watches the laser's line.
 void HeadApp::WatchFloor(Time now) {
   if (config_.laser.rate_hz <= 0) return;
-  const bool needed = look_.active() || !orders_.empty() || jog_.IsHeld(now);
+  const bool needed = look_.active() || !orders_.empty() || jog_.IsHeld(now) || aim_.IsHeld(now);
   const bool sees = report_ && !report_->moving && SeesLine(head_, report_->setting);
   switch (watch_.Step(needed, sees, now)) {
     case LaserWatch::Action::kWait:

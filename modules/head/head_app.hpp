@@ -15,6 +15,7 @@
 #include "head/core/look/floor_evaluator.hpp"
 #include "head/core/look/look_evaluator.hpp"
 #include "head/core/motion/aim.hpp"
+#include "head/core/motion/head_aim.hpp"
 #include "head/core/motion/head_jog.hpp"
 #include "head/head_config.hpp"
 #include "head/head_messages.hpp"
@@ -75,6 +76,7 @@ class HeadApp {
   HeadModel head_;
   HeadPositioner positioner_;
   HeadJog jog_;
+  AimKeeper aim_;
   LaserWatch watch_;
   FloorEvaluator floor_;
   LookSequence look_;
@@ -96,6 +98,7 @@ class HeadApp {
   bus::Inbox<landmark_model_t> landmark_models_;
   bus::Inbox<look_request_t> look_requests_;
   bus::Inbox<head_drive_t> wishes_;
+  bus::Inbox<head_aim_t> aims_;
   bus::Publisher<head_command_t> head_command_;
   bus::Publisher<camera_trigger_t> trigger_;
   bus::Publisher<landmark_fix_t> fix_;

@@ -124,6 +124,14 @@ HeadWish FromMessage(const head_drive_t& message) {
   return wish;
 }
 
+HeadAim FromMessage(const head_aim_t& message) {
+  const auto step = [](int value) { return value < 0 ? std::nullopt : std::optional(value); };
+  HeadAim aim{FromUtime(message.utime), message.pan_rad, message.tilt_rad, std::nullopt, step(message.zoom_step),
+              step(message.focus_step)};
+  if (!(message.vergence_rad < 0)) aim.vergence_rad = message.vergence_rad;
+  return aim;
+}
+
 head_command_t ToMessage(const HeadSetting& setting, Time now) {
   head_command_t message{};
   message.utime = ToUtime(now);

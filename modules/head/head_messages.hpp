@@ -38,6 +38,7 @@ HeadReport FromMessage(const head_state_t& message);
 FrameNotice FromMessage(const camera_frame_t& message);
 LookOrder FromMessage(const look_request_t& message);
 HeadWish FromMessage(const head_drive_t& message);
+HeadAim FromMessage(const head_aim_t& message);
 /// Pose of the base; nullopt unless all numbers are finite.
 std::optional<PoseSample> FromMessage(const pose_t& message);
 /// Model of a landmark; nullopt unless all numbers are finite; edges without length are left out.

@@ -33,7 +33,8 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       path_(context.node().Advertise(channels::kPath)),
       place_(context.node().Advertise(channels::kPoseReset)),
       status_(context.node().Advertise(channels::kMissionStatus)),
-      status_rate_(config.status_rate_hz) {
+      status_rate_(config.status_rate_hz),
+      floor_(context) {
   missions_.OnLearned(map_.walls());
 }
 
@@ -44,6 +45,7 @@ void PlannerApp::Tick(Time now) {
   TakeOrders(now);
   Send(agenda_.Tick(now), now);
   SendStatus(now);
+  if (floor_.Due(now)) floor_.Send(*map_.walls(), SeenOf(missions_), now);
 }
 
 void PlannerApp::Reconfigure(const PlannerConfig& config) {

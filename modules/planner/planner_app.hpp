@@ -5,6 +5,7 @@
 #include "bus/context.hpp"
 #include "common/rate_limit.hpp"
 #include "lcmtypes/channels.hpp"
+#include "planner/floor_report.hpp"
 #include "planner/map_keeper.hpp"
 #include "planner/planner_config.hpp"
 #include "planner/planner_missions.hpp"
@@ -66,6 +67,7 @@ class PlannerApp {
   MissionState sent_state_;
   std::size_t sent_changes_ = 0, sent_ends_ = 0;
   RateLimit status_rate_;
+  FloorReport floor_;
 };
 
 }  // namespace priamos::planner

@@ -34,6 +34,11 @@ void Reconfigure(MissionTable& missions, const PlannerConfig& config) {
     explore->set_config(config.explore);
 }
 
+std::optional<SeenFloor> SeenOf(MissionTable& missions) {
+  auto* explore = dynamic_cast<ExploreMission*>(missions.Find(mission_command_t::EXPLORE));
+  return explore ? explore->Seen() : std::nullopt;
+}
+
 AgendaSpeeds SpeedsOf(const PlannerConfig& config) {
   return {config.go.speed_m_s, config.mission.speed_m_s};
 }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "common/ground_plan.hpp"
 #include "planner/core/agenda/agenda.hpp"
+#include "planner/core/explore/seen_floor.hpp"
 #include "planner/core/missions/mission_table.hpp"
 #include "planner/planner_config.hpp"
 
@@ -15,6 +18,8 @@ MissionTable MakeMissions(const PlannerConfig& config, const GroundPlan& plan);
 
 /// Hands them the parameters that PlannerConfig marks as live.
 void Reconfigure(MissionTable& missions, const PlannerConfig& config);
+/// What the exploration has seen of the floor; nullopt: there was none.
+std::optional<SeenFloor> SeenOf(MissionTable& missions);
 /// With which the queue reckons.
 AgendaSpeeds SpeedsOf(const PlannerConfig& config);
 

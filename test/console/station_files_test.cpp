@@ -41,7 +41,7 @@ TEST(StationFiles, LeaveOutATypeThatContainsItself) {
 TEST(StationFiles, ParametersNeedTheTokenThatThePageNeeds) {
   StationFiles dut(bus::OwnTypes());
   dut.AddParameters({{"robot", {""}}});
-  const WebAccess access{true, "driver-driver-driver", ""};
+  const WebAccess access{true, {{Role::kDriver, "driver-driver-driver"}}};
   const auto serves = [&](const std::string& target, const WebAccess& to) {
     return std::holds_alternative<ServeFile>(
         Answer({"GET", target, "localhost", "", false}, dut.files(), to));

@@ -32,11 +32,13 @@ std::string_view TokenOf(std::string_view target) {
   return at == std::string_view::npos ? "" : target.substr(at + kKey.size());
 }
 
-std::optional<Role> RoleOf(std::string_view token, const WebAccess& access) {
-  if (access.driver_token.empty() && access.viewer_token.empty()) return Role::kDriver;
-  if (!access.driver_token.empty() && SameSecret(token, access.driver_token)) return Role::kDriver;
-  if (!access.viewer_token.empty() && SameSecret(token, access.viewer_token)) return Role::kViewer;
-  return std::nullopt;
+/// Who asks; nullptr when he has no right to. Where nobody needs a token everybody may drive.
+const TokenHolder* HolderOf(std::string_view token, const WebAccess& access) {
+  static const TokenHolder kAnybody{Role::kDriver, "", ""};
+  if (access.holders.empty()) return &kAnybody;
+  for (const TokenHolder& holder : access.holders)
+    if (SameSecret(token, holder.token)) return &holder;
+  return nullptr;
 }
 
 /// Whether a list with commas names a protocol.
@@ -68,7 +70,8 @@ WebAnswer AnswerSocket(const WebRequest& request, const WebAccess& access, Diale
     return RefuseRequest{403, "expected the origin of this server's own page"};
   if (dialect == Dialect::kFoxglove && !MaySpeakFoxglove(request, access))
     return RefuseRequest{403, "expected an origin that foxglove_origins of console.toml names"};
-  if (const auto role = RoleOf(TokenOf(request.target), access)) return OpenSocket{*role, dialect};
+  if (const auto* holder = HolderOf(TokenOf(request.target), access))
+    return OpenSocket{holder->role, dialect, holder->name};
   return RefuseRequest{401, "expected a token; it is on the station's console: http://.../?token=..."};
 }
 
@@ -82,7 +85,7 @@ std::optional<ServePictures> PicturesOf(std::string_view path, std::string_view 
 WebAnswer AnswerPictures(const WebRequest& request, const WebAccess& access, const ServePictures& pictures) {
   if (!request.origin.empty() && !IsOwnOrigin(request))
     return RefuseRequest{403, "expected no page of another origin"};
-  if (!RoleOf(TokenOf(request.target), access)) return RefuseRequest{401, "expected a token: .../?token=..."};
+  if (!HolderOf(TokenOf(request.target), access)) return RefuseRequest{401, "expected a token: .../?token=..."};
   if (request.method != "GET") return RefuseRequest{405, "expected GET"};
   return pictures;
 }
@@ -113,7 +116,7 @@ WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAcce
   if (request.upgrade && Offers(request.protocols, kFoxglove) && (path == "/" || path == kSocket))
     return AnswerSocket(request, access, Dialect::kFoxglove);
   if (path == kSocket) return AnswerSocket(request, access, Dialect::kPage);
-  if (path.starts_with("/parameters/") && !RoleOf(TokenOf(request.target), access))
+  if (path.starts_with("/parameters/") && !HolderOf(TokenOf(request.target), access))
     return RefuseRequest{401, "expected a token, as the page needs one"};
   if (const auto pictures = PicturesOf(path, camera)) return AnswerPictures(request, access, *pictures);
   const auto file = files.find(path);

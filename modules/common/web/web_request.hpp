@@ -30,10 +30,17 @@ enum class Dialect {
 /// One with a path, or a pattern, never equals what a browser says.
 bool IsOrigin(std::string_view text);
 
+/// Who may connect from elsewhere, and how he is called in what is written down.
+struct TokenHolder {
+  Role role = Role::kViewer;
+  std::string token;
+  std::string name{};  ///< empty: it is shared by several
+};
+
 /// Who may connect.
 struct WebAccess {
   bool loopback_only = true;               ///< names of this machine's loopback alone are taken for the Host
-  std::string driver_token, viewer_token;  ///< empty: nobody needs one (loopback), or nobody has the role
+  std::vector<TokenHolder> holders{};  ///< none: nobody needs a token (loopback)
   std::vector<std::string> foxglove_origins{};  ///< foreign pages that may speak kFoxglove
 };
 
@@ -53,6 +60,7 @@ struct ServeFile {
 struct OpenSocket {
   Role role = Role::kViewer;
   Dialect dialect = Dialect::kPage;
+  std::string who{};   ///< name of the token's holder; empty: it has none
   std::string from{};  ///< numeric address of the other end
 };
 /// The answer is the next picture of the server's camera, or all that come.

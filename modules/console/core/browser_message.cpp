@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 
-#include "common/ground_plan.hpp"
+#include "common/robot/robot_drawing.hpp"
+#include "console/core/json_fields.hpp"
 #include "console/core/read_json.hpp"
 
 namespace priamos::console {
@@ -16,40 +14,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::int64_t kMaxBeat = std::int64_t{1} << 53;  // JavaScript counts so far
-
-void RefuseOtherKeys(const json& object, std::initializer_list<std::string_view> known) {
-  for (const auto& [key, value] : object.items())
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      throw Wrong(fmt::format("key \"{}\" is not known", key.substr(0, 40)));
-}
-
-const json& Field(const json& object, const char* key) {
-  const auto it = object.find(key);
-  if (it == object.end()) throw Wrong(fmt::format("key \"{}\" is missing", key));
-  return *it;
-}
-
-bool Flag(const json& object, const char* key) {
-  const auto it = object.find(key);
-  if (it == object.end()) return false;
-  if (!it->is_boolean()) throw Wrong(fmt::format("{}: expected true or false", key));
-  return it->get<bool>();
-}
-
-std::int64_t Whole(const json& value, const char* key, std::int64_t least, std::int64_t most) {
-  const bool fits = value.is_number_integer() &&
-                    !(value.is_number_unsigned() && value.get<std::uint64_t>() > std::uint64_t(most)) &&
-                    value.get<std::int64_t>() >= least && value.get<std::int64_t>() <= most;
-  if (!fits) throw Wrong(fmt::format("{}: expected a whole number from {} to {}", key, least, most));
-  return value.get<std::int64_t>();
-}
-
-std::string Word(const json& object, const char* key, std::size_t longest) {
-  const json& value = Field(object, key);
-  if (!value.is_string() || value.get_ref<const std::string&>().size() > longest)
-    throw Wrong(fmt::format("{}: expected a text of at most {} bytes", key, longest));
-  return value.get<std::string>();
-}
 
 std::array<double, kAxes> Axes(const json& object) {
   const json& values = Field(object, "axis");
@@ -67,7 +31,7 @@ std::array<double, kAxes> Axes(const json& object) {
 StickReport ReadStick(const json& object) {
   RefuseOtherKeys(object, {"type", "beat", "axis", "hold", "rearm", "take_over", "mode", "range"});
   StickReport report;
-  report.beat = Whole(Field(object, "beat"), "beat", 0, kMaxBeat);
+  report.beat = Whole(object, "beat", 0, kMaxBeat);
   report.axis = Axes(object);
   report.hold = Flag(object, "hold");
   report.rearm = Flag(object, "rearm");
@@ -77,40 +41,28 @@ StickReport ReadStick(const json& object) {
   return report;
 }
 
-double Number(const json& object, const char* key, double least, double most) {
-  const json& value = Field(object, key);
-  const double number = value.is_number() ? value.get<double>() : most + 1;
-  if (!(number >= least && number <= most))
-    throw Wrong(fmt::format("{}: expected a number from {} to {}", key, least, most));
-  return number;
-}
-
-Pose2 Place(const json& object) {
-  constexpr double kMap_m = 100, kTurn_rad = 3.15;
-  return {Number(object, "x_m", -kMap_m, kMap_m), Number(object, "y_m", -kMap_m, kMap_m),
-          WrapAngle(Number(object, "yaw_rad", -kTurn_rad, kTurn_rad))};
-}
-
-MissionOrder ReadMission(const json& object) {
-  using enum MissionOrder::Kind;
-  const std::string order = Word(object, "order", 20);
-  if (order == "abort") {
-    RefuseOtherKeys(object, {"type", "order"});
-    return {};
-  }
-  if (order == "pass_door") {
-    RefuseOtherKeys(object, {"type", "order", "landmark"});
-    const auto id = Whole(Field(object, "landmark"), "landmark", kFirstLandmarkId, kLastLandmarkId);
-    return {kPassDoor, static_cast<int>(id), {}};
-  }
-  if (order != "goto") throw Wrong("order: expected abort, pass_door or goto");
-  RefuseOtherKeys(object, {"type", "order", "x_m", "y_m", "yaw_rad", "turn"});
-  return {kGoto, 0, {Place(object), Flag(object, "turn")}};
-}
-
 PlaceOrder ReadPlace(const json& object) {
   RefuseOtherKeys(object, {"type", "x_m", "y_m", "yaw_rad"});
-  return {Place(object)};
+  return {ReadPlaceFields(object)};
+}
+
+AimOrder ReadAim(const json& object) {
+  RefuseOtherKeys(object, {"type", "pan_rad", "tilt_rad", "vergence_rad", "zoom_step", "focus_step"});
+  const auto step = [&](const char* key) {
+    return object.contains(key) ? std::optional(int(Whole(object, key, 0, kDrawnHead.most_step))) : std::nullopt;
+  };
+  AimOrder aim{Number(object, "pan_rad", -kDrawnHead.most_pan_rad, kDrawnHead.most_pan_rad),
+               Number(object, "tilt_rad", -kDrawnHead.most_tilt_rad, kDrawnHead.most_tilt_rad), std::nullopt,
+               step("zoom_step"), step("focus_step")};
+  if (object.contains("vergence_rad"))
+    aim.vergence_rad = Number(object, "vergence_rad", 0, kDrawnHead.most_vergence_rad);
+  return aim;
+}
+
+AlarmSeen ReadAlarmSeen(const json& object) {
+  constexpr std::int64_t kLastTime = std::int64_t{1} << 53;
+  RefuseOtherKeys(object, {"type", "source", "utime"});
+  return {Word(object, "source", 16), Whole(object, "utime", 0, kLastTime)};
 }
 
 ListenWish ReadListen(const json& object) {
@@ -162,12 +114,14 @@ BrowserMessage ReadObject(const json& object) {
   if (!object.is_object()) throw Wrong("expected a JSON object");
   const std::string type = Word(object, "type", 20);
   if (type == "stick") return ReadStick(object);
-  if (type == "mission") return ReadMission(object);
+  if (type == "mission") return ReadMissionOrder(object);
   if (type == "place") return ReadPlace(object);
   if (type == "listen") return ReadListen(object);
+  if (type == "aim") return ReadAim(object);
+  if (type == "alarm") return ReadAlarmSeen(object);
   if (type == "parameter") return ReadParameter(object);
   if (type == "replay") return ReadReplay(object);
-  if (type != "stop") throw Wrong("type: expected stick, stop, mission, place, listen, parameter or replay");
+  if (type != "stop") throw Wrong("type: expected stick, stop, mission, place, aim, alarm, listen, parameter or replay");
   RefuseOtherKeys(object, {"type"});
   return StopOrder{};
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -9,11 +10,12 @@
 #include "common/geometry.hpp"
 #include "common/outcome.hpp"
 #include "common/pilot/stick.hpp"
+#include "console/core/mission_order.hpp"
 
 namespace priamos::console {
 
 /// Longest message of a browser [byte].
-inline constexpr std::size_t kMaxBrowserMessage = 512;
+inline constexpr std::size_t kMaxBrowserMessage = 1024;
 
 /// What the hand at a page does now; repeated while it does anything.
 struct StickReport {
@@ -26,24 +28,22 @@ struct StickReport {
 /// The emergency stop, from anybody and in any state.
 struct StopOrder {};
 
-/// A place on the plan, map frame.
-struct Target {
-  Pose2 map_from_base;
-  bool turn = true;  ///< the heading counts
-};
-
-/// An order to the planner.
-struct MissionOrder {
-  /// What the planner is to do.
-  enum class Kind { kAbort, kPassDoor, kGoto };
-  Kind kind = Kind::kAbort;
-  int landmark_id = 0;  ///< door to pass
-  Target goal{};        ///< place to drive to
-};
-
 /// A person says where the robot stands.
 struct PlaceOrder {
   Pose2 map_from_base;
+};
+
+/// A person points the head somewhere; signs as in head_aim_t. What has no value stays as it is.
+struct AimOrder {
+  double pan_rad = 0, tilt_rad = 0;
+  std::optional<double> vergence_rad;
+  std::optional<int> zoom_step, focus_step;
+};
+
+/// A person has taken note of an alarm, which its source and time name.
+struct AlarmSeen {
+  std::string source;
+  std::int64_t utime = 0;  ///< [us] of alarm_t
 };
 
 /// The page shows, or no longer shows, a channel that the radio carries only on request.
@@ -74,7 +74,7 @@ struct ReplayOrder {
 
 /// One message of a page.
 using BrowserMessage =
-    std::variant<StickReport, StopOrder, MissionOrder, PlaceOrder, ListenWish, ParameterWish, ReplayOrder>;
+    std::variant<StickReport, StopOrder, MissionOrder, PlaceOrder, AimOrder, AlarmSeen, ListenWish, ParameterWish, ReplayOrder>;
 
 /// Reads one message: JSON, UTF-8, at most kMaxBrowserMessage bytes, with the keys of README.md and no other.
 /// Numbers out of range, NaN among them, are refused, not clipped.

@@ -36,7 +36,9 @@ std::string KeyOf(const std::string& channel, const News::Json& message, std::ui
   if (channel == "LINK_STATUS")
     return fmt::format("{} {} {}", channel, TextOf(message, "onboard"), TextOf(message, "first_channel"));
   if (channel == "LANDMARK_MODEL") return fmt::format("{} {}", channel, TextOf(message, "landmark_id"));
-  if (channel == "ALARM") return fmt::format("{} {}", channel, count % kKeptAlarms);
+  if (channel == "FLOOR_MAP") return fmt::format("{} {}", channel, TextOf(message, "part"));
+  if (channel == "DOOR_SEEN") return fmt::format("{} {}", channel, TextOf(message, "landmark_id"));
+  if (channel == "ALARM" || channel == "ALARM_ACK") return fmt::format("{} {}", channel, count % kKeptAlarms);
   return channel;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kLongestCall = 300;
+constexpr std::size_t kLongestCall = 900;
 
 /// A service, the fields of the page's message that it stands for, and the fields that a call gives.
 struct Service {
@@ -28,6 +28,17 @@ const std::vector<Service>& All() {
       {"mission/goto",
        R"({"type":"mission","order":"goto"})",
        {{"x_m", "number"}, {"y_m", "number"}, {"yaw_rad", "number"}, {"turn", "boolean"}}},
+      {"mission/corridor",
+       R"({"type":"mission","order":"corridor"})",
+       {{"distance_m", "number"}, {"yaw_rad", "number"}, {"turn", "boolean"}}},
+      {"mission/explore", R"({"type":"mission","order":"explore"})", {}},
+      {"mission/locate", R"({"type":"mission","order":"locate"})", {}},
+      {"mission/patrol",
+       R"({"type":"mission","order":"patrol"})",
+       {{"places", "array"}, {"rounds", "integer"}}},
+      {"mission/pause", R"({"type":"mission","order":"pause"})", {}},
+      {"mission/resume", R"({"type":"mission","order":"resume"})", {}},
+      {"mission/cancel", R"({"type":"mission","order":"cancel"})", {{"number", "integer"}}},
       {"place", R"({"type":"place"})", {{"x_m", "number"}, {"y_m", "number"}, {"yaw_rad", "number"}}},
   };
   return kAll;

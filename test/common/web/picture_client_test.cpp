@@ -21,7 +21,7 @@ class Pictures : public testing::Test, public WebListener {
   void Start(const std::string& token) {
     WebServerOptions options;
     options.camera = "olga/third";
-    options.access.viewer_token = token;
+    if (!token.empty()) options.access.holders = {{Role::kViewer, token}};
     server_ = std::make_unique<WebServer>(options, files_, *this);
     const std::string address = server_->address();
     from_ = *ReadPictureAddress(address.substr(0, address.size() - 1));

@@ -41,18 +41,31 @@ TEST_F(TokenFile, HasATokenPerRole) {
   const auto access =
       LoadAccess("0.0.0.0", Write("# who may\n\ndriver abcdefghijklmnop # me\nviewer 0123456789-_ABCDEF\n"));
   EXPECT_FALSE(access.loopback_only);
-  EXPECT_EQ(access.driver_token, "abcdefghijklmnop");
-  EXPECT_EQ(access.viewer_token, "0123456789-_ABCDEF");
+  ASSERT_EQ(access.holders.size(), 2u);
+  EXPECT_EQ(access.holders[0].role, Role::kDriver);
+  EXPECT_EQ(access.holders[0].token, "abcdefghijklmnop");
+  EXPECT_EQ(access.holders[0].name, "");
+  EXPECT_EQ(access.holders[1].role, Role::kViewer);
+  EXPECT_EQ(access.holders[1].token, "0123456789-_ABCDEF");
+}
+
+TEST_F(TokenFile, NamesWhoHoldsAToken) {
+  const auto access =
+      LoadAccess("0.0.0.0", Write("driver abcdefghijklmnop ada\ndriver ponmlkjihgfedcba grace-2 # nights\n"));
+  ASSERT_EQ(access.holders.size(), 2u);
+  EXPECT_EQ(access.holders[0].name, "ada");
+  EXPECT_EQ(access.holders[1].name, "grace-2");
 }
 
 TEST_F(TokenFile, ThatSaysSomethingElseIsRefusedByItsLine) {
-  for (const char* line : {"driver", "driver short", "driver abcdefghijklmnop more", "admin abcdefghijklmnop",
+  for (const char* line : {"driver", "driver short", "driver abcdefghijklmnop more and", "driver abcdefghijklmnop a?b",
+                           "driver abcdefghijklmnop abcdefghijklmnopqrstuvwxyz", "admin abcdefghijklmnop",
                            "driver abcdefgh?jklmnop"})
     EXPECT_THAT(ReasonOf(std::string("# first\n") + line + "\n"),
                 HasSubstr("tokens:2: expected `driver TOKEN`"))
         << line;
   EXPECT_THAT(ReasonOf("# nobody\n"), HasSubstr("expected at least one token"));
-  EXPECT_THAT(ReasonOf("driver abcdefghijklmnop\nviewer abcdefghijklmnop\n"), HasSubstr("different tokens"));
+  EXPECT_THAT(ReasonOf("driver abcdefghijklmnop\nviewer abcdefghijklmnop\n"), HasSubstr("tokens:2: expected a token that no line before it has"));
 }
 
 TEST_F(TokenFile, ThatOthersCanReadIsRefused) {

@@ -70,12 +70,16 @@ TEST(WebRequest, AForeignNameOfThisHostIsRefused) {
 }
 
 TEST(WebRequest, ATokenTellsDriverFromViewer) {
-  const WebAccess access{true, "driver-driver-driver", "viewer-viewer-viewer"};
+  const WebAccess access{
+      true, {{Role::kDriver, "driver-driver-driver", "ada"}, {Role::kViewer, "viewer-viewer-viewer"}}};
   const auto role = [&](const std::string& token) {
     return std::get<OpenSocket>(Answer(Socket(kOrigin, "/socket?token=" + token), kFiles, access)).role;
   };
   EXPECT_EQ(role("driver-driver-driver"), Role::kDriver);
   EXPECT_EQ(role("viewer-viewer-viewer"), Role::kViewer);
+  EXPECT_EQ(
+      std::get<OpenSocket>(Answer(Socket(kOrigin, "/socket?token=driver-driver-driver"), kFiles, access)).who,
+      "ada");
   for (const char* target :
        {"/socket", "/socket?token=", "/socket?token=driver", "/socket?token=driver-driver-driverX"})
     EXPECT_EQ(StatusOf(Socket(kOrigin, target), access), 401) << target;
@@ -83,9 +87,9 @@ TEST(WebRequest, ATokenTellsDriverFromViewer) {
 }
 
 TEST(WebRequest, ATokenForOneRoleOpensNoOther) {
-  const WebAccess drivers{true, "driver-driver-driver", ""};
+  const WebAccess drivers{true, {{Role::kDriver, "driver-driver-driver"}}};
   EXPECT_EQ(StatusOf(Socket(kOrigin, "/socket?token="), drivers), 401);
-  const WebAccess viewers{true, "", "viewer-viewer-viewer"};
+  const WebAccess viewers{true, {{Role::kViewer, "viewer-viewer-viewer"}}};
   EXPECT_EQ(StatusOf(Socket(kOrigin, "/socket?token="), viewers), 401);
 }
 
@@ -118,7 +122,8 @@ TEST(WebRequest, AProgramOrANamedPageMaySpeakFoxglove) {
 }
 
 TEST(WebRequest, WhoSpeaksFoxgloveNeedsTheTokenAndTheNameOfThisHostToo) {
-  const WebAccess access{true, "driver-driver-driver", "viewer-viewer-viewer"};
+  const WebAccess access{
+      true, {{Role::kDriver, "driver-driver-driver", "ada"}, {Role::kViewer, "viewer-viewer-viewer"}}};
   EXPECT_EQ(StatusOf(FoxgloveSocket(""), access), 401);
   EXPECT_EQ(
       std::get<OpenSocket>(Answer(FoxgloveSocket("", "/?token=viewer-viewer-viewer"), kFiles, access)).role,

@@ -28,23 +28,19 @@ TEST(BrowserMessage, AStickReportIsRead) {
 
 TEST(BrowserMessage, OrdersAreRead) {
   ReadAs<StopOrder>(R"({"type":"stop"})");
-  EXPECT_EQ(ReadAs<MissionOrder>(R"({"type":"mission","order":"pass_door","landmark":3})").landmark_id, 3);
-  EXPECT_EQ(ReadAs<MissionOrder>(R"({"type":"mission","order":"abort"})").kind, MissionOrder::Kind::kAbort);
+  const auto aim = ReadAs<AimOrder>(R"({"type":"aim","pan_rad":0.5,"tilt_rad":-0.1,"zoom_step":700})");
+  EXPECT_EQ(aim.pan_rad, 0.5);
+  EXPECT_EQ(aim.zoom_step, 700);
+  EXPECT_FALSE(aim.focus_step || aim.vergence_rad);
+  const auto seen = ReadAs<AlarmSeen>(R"({"type":"alarm","source":"head","utime":1800000000000000})");
+  EXPECT_EQ(seen.source, "head");
+  EXPECT_EQ(seen.utime, 1'800'000'000'000'000);
   const auto wish = ReadAs<ListenWish>(R"({"type":"listen","channel":"SONAR_RANGES","on":true})");
   EXPECT_EQ(wish.channel, "SONAR_RANGES");
   EXPECT_TRUE(wish.on);
 }
 
 TEST(BrowserMessage, PlacesAreRead) {
-  const auto order = ReadAs<MissionOrder>(
-      R"({"type":"mission","order":"goto","x_m":4.5,"y_m":-1,"yaw_rad":3.15,"turn":true})");
-  EXPECT_EQ(order.kind, MissionOrder::Kind::kGoto);
-  EXPECT_EQ(order.goal.map_from_base.x, 4.5);
-  EXPECT_EQ(order.goal.map_from_base.y, -1);
-  EXPECT_NEAR(order.goal.map_from_base.yaw, 3.15 - 2 * kPi, 1e-12) << "a slider's rounding";
-  EXPECT_TRUE(order.goal.turn);
-  EXPECT_FALSE(
-      ReadAs<MissionOrder>(R"({"type":"mission","order":"goto","x_m":4.5,"y_m":-1,"yaw_rad":0})").goal.turn);
   EXPECT_EQ(ReadAs<PlaceOrder>(R"({"type":"place","x_m":1,"y_m":2,"yaw_rad":0.5})").map_from_base.yaw, 0.5);
 }
 
@@ -83,9 +79,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"", "expected JSON"}, Wrong{"{", "expected JSON"}, Wrong{"\xff\xfe", "expected JSON"},
         Wrong{"[]", "expected a JSON object"}, Wrong{"null", "expected a JSON object"},
-        Wrong{std::string(600, '['), "at most 512 bytes, got 600"},
+        Wrong{std::string(1100, '['), "at most 1024 bytes, got 1100"},
         Wrong{std::string(500, '['), "expected JSON"},
-        Wrong{R"({"type":"fly"})", "expected stick, stop, mission, place, listen, parameter or replay"},
+        Wrong{R"({"type":"fly"})", "expected stick, stop, mission, place, aim, alarm, listen, parameter or replay"},
         Wrong{R"({"type":3})", "type: expected a text"}, Wrong{R"({})", "\"type\" is missing"},
         Wrong{R"({"type":"stop","now":true})", "\"now\" is not known"},
         Wrong{R"({"type":"stick","axis":[0,0,0,0,0,0]})", "\"beat\" is missing"},
@@ -97,18 +93,14 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{R"({"type":"stick","beat":1,"axis":[1e999,0,0,0,0,0]})", "expected"},
         Wrong{R"({"type":"stick","beat":1,"axis":[null,0,0,0,0,0]})", "axis[0]: expected -1 to 1"},
         Wrong{R"({"type":"stick","beat":1,"axis":[0,0,0,0,0,0],"hold":1})", "hold: expected true or false"},
-        Wrong{R"({"type":"mission","order":"fly"})", "order: expected abort, pass_door or goto"},
-        Wrong{R"({"type":"mission","order":"pass_door"})", "\"landmark\" is missing"},
-        Wrong{R"({"type":"mission","order":"pass_door","landmark":0})",
-              "landmark: expected a whole number from 1"},
-        Wrong{R"({"type":"mission","order":"pass_door","landmark":1000})", "from 1 to 999"},
-        Wrong{R"({"type":"mission","order":"goto","x_m":1,"y_m":2})", "\"yaw_rad\" is missing"},
-        Wrong{R"({"type":"mission","order":"goto","x_m":101,"y_m":2,"yaw_rad":0})",
-              "x_m: expected a number from"},
-        Wrong{R"({"type":"mission","order":"goto","x_m":"1","y_m":2,"yaw_rad":0})", "x_m: expected a number"},
-        Wrong{R"({"type":"mission","order":"abort","x_m":1})", "\"x_m\" is not known"},
         Wrong{R"({"type":"place","x_m":1,"y_m":2,"yaw_rad":0,"turn":true})", "\"turn\" is not known"},
         Wrong{R"({"type":"place","x_m":1,"y_m":null,"yaw_rad":0})", "y_m: expected a number"},
+        Wrong{R"({"type":"aim","pan_rad":0.5})", "\"tilt_rad\" is missing"},
+        Wrong{R"({"type":"aim","pan_rad":2.5,"tilt_rad":0})", "pan_rad: expected a number from -2 to 2"},
+        Wrong{R"({"type":"aim","pan_rad":0,"tilt_rad":0,"zoom_step":2001})", "zoom_step: expected a whole number"},
+        Wrong{R"({"type":"alarm","source":"head"})", "\"utime\" is missing"},
+        Wrong{R"({"type":"alarm","source":"a much too long name","utime":1})", "source: expected a text"},
+        Wrong{R"({"type":"alarm","source":"head","utime":-1})", "utime: expected a whole number"},
         Wrong{R"({"type":"replay","action":"fly"})", "action: expected play, pause, step, seek or speed"},
         Wrong{R"({"type":"replay","action":"seek","value":-1})", "value: expected a number from 0"},
         Wrong{R"({"type":"replay","action":"speed","value":0})", "value: expected a number from 0.1 to 32"},

@@ -40,6 +40,8 @@ TEST(News, MessagesThatDoNotReplaceEachOtherHaveKeysOfTheirOwn) {
   EXPECT_NE(KeyOf("LINK_STATUS", {{"onboard", true}, {"first_channel", 0}}, 0),
             KeyOf("LINK_STATUS", {{"onboard", false}, {"first_channel", 0}}, 0));
   EXPECT_NE(KeyOf("ALARM", {}, 0), KeyOf("ALARM", {}, 1));
+  EXPECT_NE(KeyOf("ALARM_ACK", {}, 0), KeyOf("ALARM_ACK", {}, 1));
+  EXPECT_NE(KeyOf("DOOR_SEEN", {{"landmark_id", 1}}, 0), KeyOf("DOOR_SEEN", {{"landmark_id", 2}}, 0));
   EXPECT_EQ(KeyOf("HEALTH", {}, 0), "HEALTH ") << "a field that lacks is none";
 }
 

@@ -31,6 +31,16 @@ TEST(Services, EveryOneIsWhatAButtonOfThePageDoes) {
       std::get<MissionOrder>(Read("mission/goto", R"({"x_m":1.5,"y_m":-2,"yaw_rad":0.5,"turn":true})")).goal;
   EXPECT_EQ(goal.map_from_base.x, 1.5);
   EXPECT_TRUE(goal.turn);
+  using enum MissionOrder::Kind;
+  EXPECT_EQ(std::get<MissionOrder>(Read("mission/corridor", R"({"distance_m":12})")).distance_m, 12);
+  EXPECT_EQ(std::get<MissionOrder>(Read("mission/explore", "")).kind, kExplore);
+  EXPECT_EQ(std::get<MissionOrder>(Read("mission/locate", "")).kind, kLocate);
+  const auto patrol = std::get<MissionOrder>(
+      Read("mission/patrol", R"({"places":[{"x_m":1,"y_m":2,"yaw_rad":0}],"rounds":3})"));
+  EXPECT_EQ(patrol.places.size(), 1u);
+  EXPECT_EQ(std::get<MissionOrder>(Read("mission/pause", "")).kind, kPause);
+  EXPECT_EQ(std::get<MissionOrder>(Read("mission/resume", "")).kind, kResume);
+  EXPECT_EQ(std::get<MissionOrder>(Read("mission/cancel", R"({"number":7})")).order_id, 7);
   EXPECT_EQ(std::get<PlaceOrder>(Read("place", R"({"x_m":1,"y_m":2,"yaw_rad":3})")).map_from_base.y, 2);
 }
 
@@ -39,7 +49,7 @@ TEST(Services, ACallCannotBecomeAnotherMessage) {
   EXPECT_FALSE(PageMessageOf(NumberOf("mission/abort"), R"({"order":"goto"})"));
   for (const char* fields : {"[]", "3", "{", "null", "\xff"})
     EXPECT_FALSE(PageMessageOf(1, fields)) << fields;
-  EXPECT_FALSE(PageMessageOf(1, "{\"a\":\"" + std::string(400, 'x') + "\"}"));
+  EXPECT_FALSE(PageMessageOf(1, "{\"a\":\"" + std::string(1000, 'x') + "\"}"));
   EXPECT_FALSE(PageMessageOf(0, "{}"));
   EXPECT_FALSE(PageMessageOf(99, "{}"));
 }

@@ -1,6 +1,8 @@
 // The WebSocket to the station: opened again when it breaks. Nothing is ever queued: what cannot be sent now is not sent.
 
-import { Hello, News, ParameterAction, StickReport } from "./protocol";
+import { Aim } from "./head_aim";
+import { MissionOrder } from "./mission";
+import { Alarm, Hello, News, ParameterAction, StickReport } from "./protocol";
 import { ReplayAction } from "./replay";
 import { Place } from "./target";
 
@@ -38,13 +40,16 @@ export class Connection {
     this.send({ type: "stop" });
   }
 
-  passDoor(landmark: number): void {
-    this.send({ type: "mission", order: "pass_door", landmark });
+  mission(order: MissionOrder): void {
+    this.send({ type: "mission", ...order });
   }
 
-  goTo(place: Place): void {
-    this.send({ type: "mission", order: "goto", x_m: place.x, y_m: place.y, yaw_rad: place.yaw ?? 0,
-      turn: place.yaw !== undefined });
+  aim(aim: Aim): void {
+    this.send({ type: "aim", ...aim });
+  }
+
+  acknowledge(alarm: Alarm): void {
+    this.send({ type: "alarm", source: alarm.source, utime: alarm.utime });
   }
 
   /** The robot stands there. */
@@ -62,10 +67,6 @@ export class Connection {
 
   setReplay(action: "seek" | "speed", value: number): void {
     this.send({ type: "replay", action, value });
-  }
-
-  abort(): void {
-    this.send({ type: "mission", order: "abort" });
   }
 
   listen(channel: string, on: boolean): void {

@@ -43,6 +43,41 @@ export function fillTable(table: HTMLElement, rows: Row[], head: string[] = []):
   table.replaceChildren(...lines);
 }
 
+export interface ListLine {
+  key: string;  // of the line: as long as it stays, so does its button, and the focus on it
+  words: string;
+  kind?: "soft" | "warn" | "bad";
+  button?: { words: string; act: () => void } | undefined;
+}
+
+/** Fills a list, and leaves alone what has not changed. */
+export function fillList(list: HTMLElement, lines: ListLine[]): void {
+  const known = new Map([...list.children].map((li) => [(li as HTMLElement).dataset.key, li as HTMLLIElement]));
+  const shown = lines.map((line) => {
+    const li = known.get(line.key) ?? newLine(line);
+    const span = li.firstElementChild;
+    if (span !== null) setText(span as HTMLElement, line.words);
+    return li;
+  });
+  const same = shown.length === list.children.length && shown.every((li, i) => li === list.children[i]);
+  if (!same) list.replaceChildren(...shown);
+}
+
+function newLine(line: ListLine): HTMLLIElement {
+  const li = document.createElement("li");
+  li.dataset.key = line.key;
+  if (line.kind !== undefined) li.className = line.kind;
+  li.append(document.createElement("span"));
+  if (line.button !== undefined) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = line.button.words;
+    button.addEventListener("click", line.button.act);
+    li.append(" ", button);
+  }
+  return li;
+}
+
 /** A colour of style.css. */
 export function colour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();

@@ -1,15 +1,18 @@
 // Puts the page together.
 
+import { AlarmPanel } from "./alarms";
 import { Connection } from "./connection";
 import { byId, setText } from "./dom";
 import { Hand } from "./drive";
+import { HeadAim } from "./head_aim";
 import { drawHeadView } from "./head_view";
+import { MissionPanel } from "./mission";
 import { Panels } from "./panels";
 import { PlanView } from "./plan_view";
 import { Hello, News } from "./protocol";
 import { Replay } from "./replay";
 import { Store } from "./store";
-import { Place, Target } from "./target";
+import { Target } from "./target";
 import { currentLanguage, named, number, setLanguage, text } from "./text";
 import { Video } from "./video";
 import { PageServices, Views } from "./views";
@@ -26,11 +29,28 @@ const panels = new Panels(store);
 const plan = new PlanView(byId<HTMLCanvasElement>("plan"), store);
 const target = new Target(plan.port);
 plan.target = () => target.place();
+const missions = new MissionPanel(store, target, {
+  mayOrder: () => panels.mayOrder(),
+  order: (order) => connection.mission(order),
+  place: (place) => connection.place(place),
+});
+const headAim = new HeadAim(store, plan.port, {
+  mayOrder: () => panels.mayOrder(),
+  aim: (aim) => connection.aim(aim),
+  hello: () => panels.hello,
+});
+const alarms = new AlarmPanel(store, {
+  mayOrder: () => panels.mayOrder(),
+  now: () => replay.now(),
+  acknowledge: (alarm) => connection.acknowledge(alarm),
+});
+plan.patrol = () => missions.patrol;
 const video = new Video();
 const wants = new Wants((channel, on) => connection.listen(channel, on));
 const services: PageServices = {
   store, text, number,
   hello: () => panels.hello,
+  floor: () => plan.floor,
   now: () => replay.now(),
   want: (owner, channels, on) => wants.set(owner, channels, on),
   mayOrder: () => panels.mayOrder(),
@@ -51,7 +71,7 @@ const connection: Connection = new Connection({
     store.greet(hello);
     plan.greet(hello);
     panels.hello = hello;
-    showDoors(hello);
+    missions.greet(hello);
     video.offer(hello.video === true);
     document.body.classList.toggle("any-bus", hello.any_bus === true);
     if (hello.any_bus === true && views.isShown("plan")) views.choose("plots");
@@ -62,6 +82,7 @@ const connection: Connection = new Connection({
     replay.hear(news.station.replay);
     for (const item of news.items) {
       store.put(item);
+      plan.floor.hear(item);
       views.each((view) => view.hear(item, store.validTime(item)));
     }
     const could = panels.mayOrder();
@@ -83,21 +104,18 @@ const hand = new Hand(byId<HTMLCanvasElement>("stick"), byId<HTMLInputElement>("
   if (panels.mayOrder()) connection.stick(report);
 });
 
-function showDoors(hello: Hello): void {
-  byId<HTMLSelectElement>("door").replaceChildren(...hello.plan.doors.map((door) => {
-    const option = document.createElement("option");
-    option.value = String(door.id);
-    option.textContent = door.name;
-    return option;
-  }));
-}
-
 function bindSwitch(id: string, channels: string[], set: (on: boolean) => void): void {
   const box = byId<HTMLInputElement>(id);
   box.addEventListener("change", () => {
     set(box.checked);
     wants.set(id, channels, box.checked);
   });
+}
+
+/** What a part of the page shows while it is open. */
+function bindOpen(id: string, channels: string[]): void {
+  const part = byId<HTMLDetailsElement>(id);
+  part.addEventListener("toggle", () => wants.set(id, channels, part.open));
 }
 
 function stop(): void {
@@ -112,6 +130,7 @@ function label(): void {
   byId("plan").title = text("planHelp");
   byId("position").setAttribute("aria-label", text("position"));
   byId("pick").title = text("pickHelp");
+  byId("look-there").title = text("lookThereHelp");
   byId("stick").setAttribute("aria-label", text("stickHelp"));
   byId("edges").setAttribute("aria-label", text("viewHelp"));
   byId<HTMLImageElement>("picture").alt = text("pictureHelp");
@@ -124,12 +143,7 @@ function bindButtons(): void {
   hand.bind(byId("mode"), "mode");
   hand.bind(byId("range"), "range");
   hand.bind(byId("take-over"), "take_over");
-  byId("pass").addEventListener("click", () => connection.passDoor(Number(byId<HTMLSelectElement>("door").value)));
-  byId("abort").addEventListener("click", () => connection.abort());
-  plan.port.onPicked = enableTarget;
-  byId("orders").addEventListener("input", enableTarget);
-  bindTarget("goto", (place) => connection.goTo(place));
-  bindTarget("place", (place) => connection.place(place));
+  plan.port.onPicked = () => missions.draw();
   byId("zoom-in").addEventListener("click", () => plan.port.zoom(1.25));
   byId("zoom-out").addEventListener("click", () => plan.port.zoom(0.8));
   byId("fit").addEventListener("click", () => plan.fit());
@@ -141,24 +155,11 @@ function bindButtons(): void {
   });
 }
 
-function bindTarget(id: string, order: (place: Place) => void): void {
-  byId(id).addEventListener("click", () => {
-    const place = target.place();
-    if (place !== undefined) order(place);
-  });
-}
-
-/** To say where the robot stands, its heading has to be said, too. */
-function enableTarget(): void {
-  const place = target.place(), may = panels.mayOrder();
-  byId<HTMLButtonElement>("goto").disabled = !may || place === undefined;
-  byId<HTMLButtonElement>("place").disabled = !may || place?.yaw === undefined;
-}
-
 function bindSwitches(): void {
   bindSwitch("follow", [], (on) => { plan.follows = on; });
   bindSwitch("sonars", ["SONAR_RANGES", "OBSTACLE_LINE"], (on) => { plan.showsSonars = on; });
   bindSwitch("view", ["LANDMARK_VIEW"], () => undefined);
+  bindOpen("head-parts", ["HEAD_STATE"]);
   bindSwitch("video", ["VIDEO"], (on) => video.show(on));
   plan.port.onUserMove = () => {
     plan.follows = false;
@@ -181,7 +182,9 @@ bindButtons();
 bindSwitches();
 window.setInterval(() => {
   panels.draw();
-  enableTarget();
+  missions.draw();
+  alarms.draw();
+  headAim.draw();
   replay.draw();
   video.draw(panels.station?.no_video ?? "");
   drawHeadView(byId<HTMLCanvasElement>("edges"), store);

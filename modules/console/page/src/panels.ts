@@ -1,14 +1,12 @@
 // The texts and tables beside the plan.
 
 import { byId, fillTable, Row, setText } from "./dom";
-import { Alarm, DriveStatus, Health, Hello, LandmarkFix, LinkStatus, MissionStatus, Pose, PoseCorrection, StationState } from "./protocol";
+import { DriveStatus, Health, Hello, LandmarkFix, LinkStatus, Pose, StationState } from "./protocol";
 import { Store } from "./store";
 import { ageText, named, number, phaseText, text } from "./text";
 
 const HEALTH_OK = 1;
 const CONSOLE = 2;
-const MOST_ALARMS = 50;
-const POSE_SET = 4, POSE_MOVING = 5, SHOWN_S = 20;
 
 function degrees(rad: number): string {
   return `${number(rad * 180 / Math.PI, 1)}°`;
@@ -24,11 +22,9 @@ export class Panels {
   draw(): void {
     this.drawHeader();
     this.drawDrive();
-    this.drawMission();
     this.drawRobot();
     this.drawLink();
     this.drawLook();
-    this.drawAlarms();
     this.drawProcesses();
   }
 
@@ -74,26 +70,8 @@ export class Panels {
     setText(byId("range"), text(station.fast ? "fast" : "slow"));
     byId("mode").setAttribute("aria-pressed", String(station.mode === "head"));
     byId("range").setAttribute("aria-pressed", String(station.fast));
-    for (const id of ["mode", "range", "take-over", "pass", "abort", "rearm"])
+    for (const id of ["mode", "range", "take-over", "rearm"])
       byId<HTMLButtonElement>(id).disabled = !this.mayOrder();
-  }
-
-  private drawMission(): void {
-    const status = this.store.get<MissionStatus>("MISSION_STATUS");
-    const element = byId("mission-text");
-    const age_s = this.store.age("MISSION_STATUS");
-    setText(element, status === undefined ? text("never") :
-      `${named("phase", status.phase)}: ${status.text} (${ageText(age_s)})`);
-    element.classList.toggle("stale", this.store.isStale("MISSION_STATUS"));
-    this.drawPlaced();
-  }
-
-  /** What the robot answered to the newest order that said where it stands. */
-  private drawPlaced(): void {
-    const answer = this.store.get<PoseCorrection>("POSE_CORRECTION");
-    const ours = answer !== undefined && (answer.verdict === POSE_SET || answer.verdict === POSE_MOVING);
-    setText(byId("placed"), !ours || this.store.age("POSE_CORRECTION") > SHOWN_S ? "" :
-      text(answer.verdict === POSE_SET ? "placed" : "notPlaced"));
   }
 
   private drawRobot(): void {
@@ -182,20 +160,6 @@ export class Panels {
       ` · ${fix.n_matched} ${text("edgesUsed")} · ${number(fix.residual_px, 2)} px` : "";
     setText(byId("look"),
       `${text("looked")} ${door}: ${named("verdict", fix.verdict)}${details} (${ageText(this.store.age("LANDMARK_FIX"))})`);
-  }
-
-  private drawAlarms(): void {
-    const alarms = this.store.all<Alarm>("ALARM").map((item) => item.message)
-      .sort((a, b) => b.utime - a.utime).slice(0, MOST_ALARMS);
-    const words = alarms.map((a) => `${named("severity", a.severity)}: ${a.source}: ${a.text}`);
-    const list = byId("alarms");
-    if (list.dataset.shown === words.join("\n") && words.length > 0) return;
-    list.dataset.shown = words.join("\n");
-    list.replaceChildren(...(words.length > 0 ? words : [text("noAlarms")]).map((line) => {
-      const li = document.createElement("li");
-      li.textContent = line;
-      return li;
-    }));
   }
 
   /** What is wrong with a process; else how far its host's clock is off the reference, if it is. */

@@ -1,6 +1,7 @@
 // The ground plan with everything that is known to stand or move on it.
 
 import { colour, prepare } from "./dom";
+import { Floor } from "./floor";
 import { deadReckoned, ellipse, place, Pose2, sonarPose } from "./geometry";
 import { DoorSeen, Hello, ObstacleLine, Path, Point, Pose, SonarRanges } from "./protocol";
 import { Store } from "./store";
@@ -15,7 +16,10 @@ export class PlanView {
   readonly port: ViewPort;
   follows = false;
   showsSonars = false;
+  readonly floor = new Floor();
   target: () => Place | undefined = () => undefined;
+  /** Places of the patrol that is being put together. */
+  patrol: () => readonly Place[] = () => [];
   private hello: Hello | undefined;
   private trail: Point[] = [];
   private context!: CanvasRenderingContext2D;
@@ -27,12 +31,13 @@ export class PlanView {
   greet(hello: Hello): void {
     const first = this.hello === undefined;
     this.hello = hello;
+    this.floor.restart();
     if (hello.replay !== undefined) this.trail = [];
     if (first) this.fit();
   }
 
   fit(): void {
-    if (this.hello !== undefined) this.port.fit(this.hello.plan.walls.flat());
+    if (this.hello !== undefined) this.port.fit([...this.hello.plan.walls.flat(), ...this.floor.extent]);
   }
 
   /** Keeps where the robot is now, also while another view is shown. */
@@ -51,6 +56,7 @@ export class PlanView {
     if (this.hello === undefined) return;
     const robot = this.robotPose();
     if (robot !== undefined && this.follows) this.port.centre = [robot.x, robot.y];
+    this.drawFloor();
     this.drawPlan(this.hello);
     this.stroke(this.trail, colour("trail"), 2);
     this.drawPath();
@@ -59,6 +65,7 @@ export class PlanView {
       this.drawObstacles(robot);
       this.drawRobot(robot, this.hello.body);
     }
+    this.drawPatrol();
     this.drawTarget(this.hello.body);
     this.drawMeasure();
   }
@@ -102,6 +109,34 @@ export class PlanView {
     for (let y = Math.ceil(bottom / step) * step; y <= top; y += step) this.stroke([[left, y], [right, y]], style, 1);
   }
 
+  /** What the planner learned: where it was free, walls that robots found, and where that ends. */
+  private drawFloor(): void {
+    const { floor, context } = this;
+    context.save();
+    this.port.useMapFrame(context);
+    context.fillStyle = colour("seen");
+    context.fill(floor.seen);
+    context.restore();
+    for (const wall of floor.walls) this.stroke([wall.from, wall.to], colour("learned"), 2.5);
+    for (const edge of floor.edges) this.drawEdge(edge.at, edge.left ? "stale" : "accent");
+  }
+
+  private drawEdge(at: Point, style: string): void {
+    const [u, v] = this.port.toScreen(at);
+    this.context.beginPath();
+    this.context.arc(u, v, 4, 0, 2 * Math.PI);
+    this.context.fillStyle = colour(style);
+    this.context.fill();
+  }
+
+  private drawPatrol(): void {
+    const places = this.patrol();
+    this.context.setLineDash([3, 4]);
+    this.stroke(places.map((p): Point => [p.x, p.y]), colour("accent"), 1.5);
+    this.context.setLineDash([]);
+    places.forEach((p, i) => this.write(String(i + 1), [p.x + 0.05, p.y + 0.05], colour("accent")));
+  }
+
   private drawPlan(hello: Hello): void {
     const wall = colour("wall"), landmark = colour("landmark");
     for (const corners of hello.plan.walls) this.fill(corners, wall);
@@ -117,8 +152,8 @@ export class PlanView {
   }
 
   private drawLeaf(pose: Pose2, id: number, d: number, w: number): void {
-    const seen = this.store.get<DoorSeen>("DOOR_SEEN");
-    if (seen === undefined || seen.landmark_id !== id || seen.hinge === 0) return;
+    const seen = this.store.get<DoorSeen>(`DOOR_SEEN ${id}`);
+    if (seen === undefined || seen.hinge === 0) return;
     const side = seen.hinge === LEAF_LEFT ? 1 : -1;
     const turned = Math.PI / 2 - seen.open_rad;  // closed it lies across the opening
     const end = place(pose, d + 2 * w * Math.cos(turned), side * (w - 2 * w * Math.sin(turned)));

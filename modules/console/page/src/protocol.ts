@@ -83,7 +83,12 @@ export interface DriveStatus {
   allowed: number; driver: number; session: number; estop: boolean; refused: number; refusal: number;
 }
 
-export interface MissionStatus { mission: number; phase: number; text: string }
+export interface MissionStatus {
+  mission: number; phase: number; text: string; order_id: number; title: string; running: boolean; paused: boolean;
+  step: number; n_steps: number; round: number; rounds: number; left_s: number;
+  waiting: { order_id: number; title: string }[];
+  results: { order_id: number; step: number; round: number; outcome: number; took_s: number; text: string }[];
+}
 
 export type ParameterAction = "read" | "set" | "save" | "reset";
 
@@ -113,6 +118,8 @@ export interface Health {
   clock_ahead_s?: number; clock_uncertainty_s?: number;  // logs of before have neither
 }
 
+export interface AlarmAck { source: string; utime_alarm: number; by: string }
+
 export interface Alarm { utime: number; severity: number; source: string; text: string }
 
 export interface LandmarkFix {
@@ -126,6 +133,15 @@ export interface LandmarkModel {
   landmark_id: number; x_m: number; y_m: number; yaw_rad: number;
   edges: { x1_m: number; y1_m: number; z1_m: number; x2_m: number; y2_m: number; z2_m: number; side: number }[];
 }
+
+export interface FloorMap {
+  revision: number; part: number; n_parts: number; cell_m: number; x_m: number; y_m: number;
+  walls: { x1_m: number; y1_m: number; x2_m: number; y2_m: number }[];
+  runs: { row: number; first: number; length: number }[];
+  frontiers: { x_m: number; y_m: number; length_m: number; left: boolean }[];
+}
+
+export interface HeadState { pan_rad: number; tilt_rad: number; vergence_rad: number[]; zoom_step: number[]; focus_step: number[]; moving: boolean }
 
 export interface DoorSeen { landmark_id: number; hinge: number; open_rad: number; sigma_rad: number }
 

@@ -9,7 +9,7 @@ import { Orbit } from "./orbit";
 import { Hello, Item, Path, Point, Pose, SonarRanges } from "./protocol";
 import type { PageServices, View } from "./views";
 
-const WALL_M = 1.0, DOOR_M = 2.0, CUPBOARD_M = 1.8, BODY_M = 0.5, SONAR_M = 0.4;
+const WALL_M = 1.0, DOOR_M = 2.0, CUPBOARD_M = 1.8, LEARNED_M = 0.8, BODY_M = 0.5, SONAR_M = 0.4;
 const TURN_RAD = 0.15, LINE_PX = 1.6;
 const ON_REQUEST = ["SONAR_RANGES"];
 
@@ -99,7 +99,7 @@ class Space implements View {
   }
 
   private fit(): void {
-    this.orbit.fit(this.page.hello()?.plan.walls.flat() ?? []);
+    this.orbit.fit(this.page.hello()?.plan.walls.flat().concat(this.page.floor().extent) ?? []);
   }
 
   private robot(): Pose2 | undefined {
@@ -108,8 +108,10 @@ class Space implements View {
   }
 
   private addPlan(hello: Hello, solid: Mesh, lines: Mesh): void {
-    const wall = tint(colour("wall")), wood = tint(colour("landmark"));
+    const wall = tint(colour("wall")), wood = tint(colour("landmark")), learned = tint(colour("learned"));
     for (const corners of hello.plan.walls) addPrism(solid, corners, 0, WALL_M, wall);
+    for (const { from, to } of this.page.floor().walls)
+      addPolyline(lines, [[...from, 0], [...to, 0], [...to, LEARNED_M], [...from, LEARNED_M], [...from, 0]], learned);
     for (const cupboard of hello.plan.cupboards) addPrism(solid, cupboard.corners, 0, CUPBOARD_M, wood);
     for (const door of hello.plan.doors) {
       const pose = { x: door.x_m, y: door.y_m, yaw: door.yaw_rad };

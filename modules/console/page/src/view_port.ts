@@ -2,7 +2,10 @@
 
 import { Point } from "./protocol";
 
-const LEAST = 8, MOST = 1200;  // pixels per metre
+const LEAST = 2, MOST = 1200;  // pixels per metre
+
+/** A drag that chooses a place: where it began, where it is, whether it ended. */
+export type Pick = (from: Point, to: Point, done: boolean) => void;
 
 export class ViewPort {
   scale = 60;  // pixels per metre
@@ -10,8 +13,7 @@ export class ViewPort {
   measured: [Point, Point] | undefined;
   onUserMove: () => void = () => undefined;
   onPicked: () => void = () => undefined;
-  /** While set, a drag chooses a place instead of moving the plan: where it began, where it is, whether it ended. */
-  pick: ((from: Point, to: Point, done: boolean) => void) | undefined;
+  private picking: { act: Pick; ended: () => void } | undefined;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     canvas.addEventListener("wheel", (event) => {
@@ -33,6 +35,24 @@ export class ViewPort {
   toMap(u: number, v: number): Point {
     return [this.centre[0] + (u - this.canvas.clientWidth / 2) / this.scale,
       this.centre[1] - (v - this.canvas.clientHeight / 2) / this.scale];
+  }
+
+  /** From now on one unit of the context is a metre of the map. */
+  useMapFrame(context: CanvasRenderingContext2D): void {
+    const [u, v] = this.toScreen([0, 0]);
+    context.transform(this.scale, 0, 0, -this.scale, u, v);
+  }
+
+  /** The next drag chooses a place instead of moving the plan. `ended`: it was chosen, or somebody else chooses now. */
+  beginPick(act: Pick, ended: () => void): void {
+    this.endPick();
+    this.picking = { act, ended };
+  }
+
+  endPick(): void {
+    const before = this.picking;
+    this.picking = undefined;
+    before?.ended();
   }
 
   zoom(factor: number): void {
@@ -57,7 +77,7 @@ export class ViewPort {
 
   private drag(start: PointerEvent): void {
     const from = this.toMap(start.offsetX, start.offsetY);
-    const pick = this.pick, measures = pick === undefined && start.shiftKey;
+    const pick = this.picking?.act, measures = pick === undefined && start.shiftKey;
     this.measured = measures ? [from, from] : undefined;
     this.canvas.setPointerCapture(start.pointerId);
     const move = (event: PointerEvent): void => {
@@ -70,6 +90,7 @@ export class ViewPort {
     const end = (event: PointerEvent): void => {
       if (pick !== undefined) {
         pick(from, this.toMap(event.offsetX, event.offsetY), true);
+        this.endPick();
         this.onPicked();
       }
       this.canvas.removeEventListener("pointermove", move);

@@ -2,6 +2,7 @@
 
 import { byId } from "./dom";
 import { Hello, Item, ParameterAction } from "./protocol";
+import type { Floor } from "./floor";
 import type { Store } from "./store";
 import type { number, text } from "./text";
 
@@ -11,6 +12,7 @@ export interface PageServices {
   text: typeof text;
   number: typeof number;
   hello(): Hello | undefined;
+  floor(): Floor;  // what the planner learned of it
   now(): number;  // s, of the clock in which messages age
   want(owner: string, channels: string[], on: boolean): void;
   mayOrder(): boolean;

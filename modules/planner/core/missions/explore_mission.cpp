@@ -55,7 +55,13 @@ ExploreMission::ExploreMission(const ExploreMissionConfig& config, const Footpri
       planner_(config.route, footprint, plan),
       exploration_(config.choice, NeededWidth(config, footprint), ShapesOf(plan)) {}
 
+std::optional<SeenFloor> ExploreMission::Seen() {
+  if (!begun_) return std::nullopt;
+  return SeenFloorOf(exploration_.grid(), config_.choice.least_frontier_m, exploration_.left());
+}
+
 std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
+  begun_ = true;
   planner_.Forget();
   exploration_.Reset();
   kept_.Reset();

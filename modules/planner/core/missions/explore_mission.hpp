@@ -8,6 +8,7 @@
 #include "common/ground_plan.hpp"
 #include "planner/core/explore/exploration.hpp"
 #include "planner/core/explore/kept_walls.hpp"
+#include "planner/core/explore/seen_floor.hpp"
 #include "planner/core/missions/mission.hpp"
 #include "planner/core/missions/path_progress.hpp"
 #include "planner/core/path/route_planner.hpp"
@@ -43,6 +44,8 @@ class ExploreMission : public Mission {
   std::optional<Refusal> Start(const MissionOrder& order) override;
   void Step(MissionControl& control) override;
   void OnStop(MissionControl& control, const Stop& stop) override;
+  /// What was seen of the floor; nullopt before the first order.
+  std::optional<SeenFloor> Seen();
   /// Changes speeds, distances and times; what was ordered with others stays.
   void set_config(const ExploreMissionConfig& config);
   const MissionLimits& limits() const override { return config_.limits; }
@@ -66,6 +69,7 @@ class ExploreMission : public Mission {
   Exploration exploration_;
   KeptWalls kept_;
   StandWatch stands_, idles_{StandWatch::Counts::kFree};
+  bool begun_ = false;  ///< there was an order
   std::optional<FrontierGoal> goal_;
   int missed_ = 0;                               ///< paths towards goal_ that ended elsewhere
   int rounds_ = 0;                               ///< in which what was left was tried again
