@@ -1,0 +1,234 @@
+"""Figures of the station: how drives end, in Chromium too; from key to wheel; what pages and server cost.
+
+usage: station_bench.py BIN ROBOT PORT UP_JSON ROUNDS PART...   (parts: ends browser latency cost frames growth)
+"""
+import json
+import os
+import signal
+import statistics
+import subprocess
+import sys
+import time
+
+from browser import Browser
+from cut_line import CutLine
+from station_page import Page, wait_for
+from station_rig import Rig, report
+
+BIN, ROBOT, PORT, UP, ROUNDS, PARTS = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4], int(sys.argv[5]), sys.argv[6:]
+TICK_S = 1 / os.sysconf("SC_CLK_TCK")
+
+
+def progress(i, n, what):
+    if i % 10 == 0:
+        print(f"  {what}: {i} of {n}", file=sys.stderr, flush=True)
+
+
+def measure_ends(rig):
+    for how in ("released", "tab closed", "silent", "stop", "delayed", "station killed"):
+        took = []
+        for i in range(ROUNDS):
+            progress(i, ROUNDS, how)
+            took.append(rig.seconds_to_stand(how, (-1) ** i))
+        report(how, took)
+
+
+class BrowserHand:
+    """A page in Chromium behind a line that can be cut, with a key that is held."""
+
+    def __init__(self, rig):
+        self.rig = rig
+        self.line = CutLine(rig.port)
+        self._open()
+
+    def _open(self):
+        self.browser = Browser()
+        self.browser.call("Page.navigate", url=f"http://127.0.0.1:{self.line.port}/")
+        self.browser.call("Emulation.setFocusEmulationEnabled", enabled=False)
+        self.browser.call("Page.bringToFront")
+        wait_for(lambda: "m" in (self.browser.text("robot") or ""), 10)
+
+    def hold(self, key):
+        for _ in range(3):
+            self.browser.key("down", *key)
+            if wait_for(lambda: self.rig.wheels.turning, 4):
+                return time.sleep(0.4)
+            self.browser.key("up", *key)
+            time.sleep(0.5)
+        raise SystemExit(f"the wheels do not turn: {self.browser.text('phase')}")
+
+    def end(self, how):
+        if how == "tab hidden":
+            self.browser.call("Page.setWebLifecycleState", state="frozen")
+        elif how == "window without focus":
+            self.browser.run("window.dispatchEvent(new Event('blur'))")
+        elif how == "network cut":
+            self.line.cut()
+        elif how == "browser killed":
+            self.browser.process.kill()
+        elif how == "radio cut":
+            os.kill(self.rig.pid_of("offboard-radio"), signal.SIGSTOP)
+
+    def mend(self, how):
+        if how == "tab hidden":
+            self.browser.call("Page.setWebLifecycleState", state="active")
+        elif how == "network cut":
+            self.line.mend()
+        elif how == "browser killed":
+            self.browser.close()
+            self._open()
+        elif how == "radio cut":
+            os.kill(self.rig.pid_of("offboard-radio"), signal.SIGCONT)
+
+
+def measure_browser(rig):
+    """The key stays down also when the way is free again: nothing may move then either."""
+    hand = BrowserHand(rig)
+    supervisor = int(open(os.path.dirname(UP) + "/up.lock", encoding="utf-8").readline())
+    for how in ("window without focus", "tab hidden", "network cut", "radio cut", "browser killed"):
+        took, again = [], 0
+        for i in range(ROUNDS):
+            progress(i, ROUNDS, how)
+            key = ("KeyW", "w") if i % 2 == 0 else ("KeyS", "s")
+            hand.hold(key)
+            if how == "radio cut":
+                os.kill(supervisor, signal.SIGSTOP)  # it would start a silent radio again
+            ended = time.monotonic()
+            hand.end(how)
+            time.sleep(0.9)
+            stood = rig.wheels.last_turn
+            hand.mend(how)
+            if how == "radio cut":
+                os.kill(supervisor, signal.SIGCONT)
+            time.sleep(1.5)
+            took.append(max(0.0, stood - ended))
+            again += rig.wheels.last_turn > stood
+            hand.browser.key("up", *key)
+            time.sleep(0.3)
+        report(how, took)
+        print(f"{how}: moved again while the key was still held: {again}", flush=True)
+    hand.browser.close()
+
+
+def measure_latency(rig):
+    """From the push on a page that drove before to the first wheel command, and from letting go to the last one."""
+    page = rig.drive()
+    page.let_go()
+    begins, ends = [], []
+    for i in range(ROUNDS):
+        wait_for(lambda: not rig.wheels.turning, 3)
+        time.sleep(0.15 + 0.013 * (i % 10))
+        pushed = time.monotonic()
+        page.push(0.6 if i % 2 == 0 else -0.6)
+        if wait_for(lambda: rig.wheels.turning, 3):
+            begins.append(rig.wheels.first_turn - pushed)
+        time.sleep(0.25)
+        page.let_go()
+        released = time.monotonic()
+        wait_for(lambda: not rig.wheels.turning, 3)
+        ends.append(max(0.0, rig.wheels.last_turn - released))
+    for what, took in (("push to first wheel command", begins), ("letting go to last wheel command", ends)):
+        print(f"{what}: {len(took)} of {ROUNDS}, median {1000 * statistics.median(took):.0f} ms, "
+              f"95 % {1000 * sorted(took)[int(0.95 * len(took))]:.0f} ms, worst {1000 * max(took):.0f} ms", flush=True)
+    page.close()
+
+
+def cpu_s(pid):
+    with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
+        fields = file.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) * TICK_S
+
+
+def memory_mb(pid):
+    with open(f"/proc/{pid}/status", encoding="utf-8") as file:
+        return next(int(line.split()[1]) for line in file if line.startswith("VmRSS")) / 1000
+
+
+def measure_cost(rig):
+    """Four viewers and a driver."""
+    pid = rig.pid_of("offboard-console")
+    viewers = [Page(PORT) for _ in range(4)]
+    for viewer in viewers:
+        viewer.talks = False
+        viewer.say({"type": "listen", "channel": "SONAR_RANGES", "on": True})
+    driver = rig.drive(0.2)
+    before, began = cpu_s(pid), time.monotonic()
+    for i in range(20):
+        time.sleep(1)
+        driver.push(0.2 if i % 2 == 0 else -0.2)
+    share = (cpu_s(pid) - before) / (time.monotonic() - began)
+    print(f"server with 4 viewers and a driver: {100 * share:.1f} % of a core, {memory_mb(pid):.0f} MB", flush=True)
+    for page in (*viewers, driver):
+        page.close()
+
+
+def floor_parts(side_m):
+    """FLOOR_MAP of a floor of rooms of 4 m."""
+    cell, n = 0.2, round(side_m / 0.2)
+    runs = [{"row": r, "first": c, "length": 19} for r in range(n) if r % 20 != 0 for c in range(1, n, 20)]
+    walls = [{"x1_m": x, "y1_m": y, "x2_m": x + 3, "y2_m": y} for x in range(0, side_m, 4) for y in range(0, side_m, 4)]
+    walls += [{"x1_m": x, "y1_m": y, "x2_m": x, "y2_m": y + 3} for x in range(0, side_m, 4) for y in range(0, side_m, 4)]
+    n_parts = max(-(-len(runs) // 100), -(-len(walls) // 24))
+    for i in range(n_parts):
+        yield {"revision": 1, "part": i, "n_parts": n_parts, "cell_m": cell, "x_m": 0, "y_m": 0,
+               "walls": walls[24 * i:24 * i + 24], "runs": runs[100 * i:100 * i + 100], "frontiers": []}
+
+
+def publish(channel, kind, message):
+    for field in ("walls", "runs", "frontiers"):
+        message[f"n_{field}"] = len(message[field])
+    subprocess.run([BIN + "/priamos", "topic", "pub", channel, kind, json.dumps(message), "--bus", "offboard", "--robot", ROBOT],
+                   check=True, stdout=subprocess.DEVNULL)
+
+
+def frames_per_s(browser, seconds=5):
+    return browser.run("new Promise((done) => { let n = 0; const t = performance.now(); const step = () => { ++n; "
+                       f"if (performance.now() - t < {1000 * seconds}) requestAnimationFrame(step); else done(n / {seconds}); }}; step(); }})")
+
+
+def measure_frames(rig):
+    """With a floor of 32 m x 32 m, on a machine that draws in software."""
+    for part in floor_parts(32):
+        publish("FLOOR_MAP", "floor_map_t", part)
+    browser = Browser()
+    browser.call("Page.navigate", url=f"http://127.0.0.1:{rig.port}/")
+    wait_for(lambda: "m" in (browser.text("robot") or ""), 10)
+    paint = browser.run("performance.getEntriesByName('first-contentful-paint')[0]?.startTime")
+    print(f"first paint: {paint:.0f} ms", flush=True)
+    for view in ("plan", "space", "plots"):
+        browser.click(f"show-{view}")
+        time.sleep(1)
+        browser.click("fit") if view == "plan" else None
+        print(f"{view}: {frames_per_s(browser):.1f} frames/s", flush=True)
+    browser.close()
+
+
+def measure_growth(rig):
+    """A recorded run at 24 times its rate onto the station's bus, ROUNDS minutes long."""
+    pid = rig.pid_of("offboard-console")
+    browser = Browser()
+    browser.call("Page.navigate", url=f"http://127.0.0.1:{rig.port}/")
+    wait_for(lambda: "m" in (browser.text("robot") or ""), 10)
+    heap = "performance.memory.usedJSHeapSize / 1e6"
+    log = os.environ["RECORDED"]
+    end, lines = time.monotonic() + 60 * ROUNDS, []
+    while time.monotonic() < end:
+        subprocess.run([BIN + "/priamos", "log", "play", log, "--speed", "24", "--bus", "offboard", "--robot", ROBOT],
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+        browser.call("HeapProfiler.collectGarbage")
+        lines.append((memory_mb(pid), browser.run(heap)))
+    first, last = lines[len(lines) // 5], lines[-1]
+    print(f"{ROUNDS} minutes at 24 times the rate: server {first[0]:.1f} -> {last[0]:.1f} MB, page {first[1]:.1f} -> {last[1]:.1f} MB", flush=True)
+    browser.close()
+
+
+def main():
+    rig = Rig(BIN, ROBOT, PORT, UP)
+    parts = {"ends": measure_ends, "browser": measure_browser, "latency": measure_latency, "cost": measure_cost,
+             "frames": measure_frames, "growth": measure_growth}
+    for part in PARTS:
+        parts[part](rig)
+    rig.wheels.close()
+
+
+main()
