@@ -43,7 +43,7 @@ double Contrast(const std::string& a, const std::string& b) {
 class PageColours : public testing::TestWithParam<bool> {
  protected:
   PageColours() {
-    const std::string style = Read(PRIAMOS_SOURCE_DIR "/modules/console/page/style.css");
+    const std::string style = TextOf(PRIAMOS_SOURCE_DIR "/modules/console/page/style.css");
     const auto dark = style.find("@media (prefers-color-scheme: dark)");
     palette_ = PaletteIn(style.substr(0, dark));
     if (!GetParam()) return;
