@@ -1,14 +1,16 @@
 """Looks at the station as a person does: loads it, drives, stops, and leaves a picture of every view.
 
-usage: station_views.py URL FOLDER
+usage: station_views.py URL FOLDER BIN ROBOT
 """
+import json
+import subprocess
 import sys
 import time
 
 from browser import Browser
 from station_page import wait_for
 
-URL, FOLDER = sys.argv[1], sys.argv[2]
+URL, FOLDER, BIN, ROBOT = sys.argv[1:5]
 
 
 def middle(browser, element):
@@ -26,6 +28,13 @@ def load(browser):
 
 def drives(browser):
     return "you drive" in browser.text("phase")
+
+
+def raise_alarm():
+    """As the head would send it."""
+    alarm = {"utime": int(time.time() * 1e6), "severity": 1, "robot": ROBOT, "source": "head", "text": "the left camera is dark"}
+    subprocess.run([BIN + "/priamos", "topic", "pub", "ALARM", "alarm_t", json.dumps(alarm), "--bus", "offboard", "--robot", ROBOT],
+                   check=True, stdout=subprocess.DEVNULL)
 
 
 def report(name, value):
@@ -167,6 +176,56 @@ def place(browser):
     report("a robot at rest is told its pose", wait_for(lambda: "knows its new pose" in browser.text("placed"), 4))
 
 
+def missions(browser):
+    """A patrol of two places: paused, resumed; an order that waits is cancelled."""
+    browser.run("document.querySelector('#orders details').open = true")
+    for x in (2.0, 2.4):
+        browser.run(f"(() => {{ for (const [id, v] of [['target-x', {x}], ['target-y', 1.5], ['target-yaw', '']])"
+                    " document.getElementById(id).value = v; document.getElementById('orders').dispatchEvent(new Event('input')); })()")
+        browser.click("add-place")
+    report("places are chosen", wait_for(lambda: "→" in browser.text("patrol-places"), 2))
+    browser.click("patrol")
+    report("progress is shown", wait_for(lambda: "1 / 2" in (browser.text("progress-text") or ""), 8))
+    browser.click("goto")
+    report("an order waits", wait_for(lambda: "goto" in browser.text("queue"), 4))
+    browser.click("pause")
+    report("it is paused", wait_for(lambda: "paused" in (browser.text("progress-text") or ""), 6))
+    browser.picture(FOLDER + "/patrol.png")
+    browser.run("document.querySelector('#queue button').click()")
+    report("what waits is cancelled", wait_for(lambda: browser.text("queue") == "", 4))
+    browser.click("pause")
+    report("it goes on", wait_for(lambda: "paused" not in (browser.text("progress-text") or "paused"), 6))
+    browser.click("abort")
+    report("ends are listed", wait_for(lambda: "cancelled" in browser.text("ends"), 6))
+    browser.click("clear-places")
+
+
+def head(browser):
+    """Points the head at a place on the plan, then straight ahead."""
+    browser.run("document.getElementById('head-parts').open = true")
+    report("the head says where it looks", wait_for(lambda: "pan" in browser.text("head-state"), 8))
+    browser.click("look-there")
+    x, y = browser.run("(() => { const r = document.getElementById('plan').getBoundingClientRect();"
+                       " return [r.x + 0.3 * r.width, r.y + 0.3 * r.height]; })()")
+    before = browser.text("head-state").split(",")[0]
+    browser.mouse("mousePressed", x, y)
+    browser.mouse("mouseReleased", x, y)
+    report("it looks there", wait_for(lambda: browser.text("head-state").split(",")[0] != before, 8))
+    browser.picture(FOLDER + "/head.png")
+    browser.click("look-ahead")
+    report("it looks ahead", wait_for(lambda: "pan 0.0°" in browser.text("head-state").replace("-0.0", "0.0"), 8))
+    browser.run("document.getElementById('head-parts').open = false")
+
+
+def alarm(browser):
+    """Somebody has to take note of an alarm, and everybody sees who did."""
+    raise_alarm()
+    report("an alarm is shown", wait_for(lambda: "left camera is dark" in browser.text("alarms"), 4))
+    browser.run("document.querySelector('#alarms button').click()")
+    report("who acknowledged it", wait_for(lambda: "acknowledged by 127.0.0.1" in browser.text("alarms"), 4))
+    browser.picture(FOLDER + "/alarms.png")
+
+
 def other_screens():
     for name, width, height, scheme, language in (("dark", 1366, 768, "dark", "en-US"), ("phone", 390, 844, "light", "de-DE"),
                                                   ("tablet", 820, 1180, "dark", "de-DE")):
@@ -189,6 +248,9 @@ def main():
     stop_and_rearm(browser)
     mission(browser)
     place(browser)
+    missions(browser)
+    head(browser)
+    alarm(browser)
     plots(browser)
     values(browser)
     browser.click("language")

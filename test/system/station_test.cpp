@@ -44,9 +44,9 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
   const std::string views = PRIAMOS_BINARY_DIR "/station-views";
   std::filesystem::create_directories(views);
   const auto answer = RunScript("VIEWS=" + views + R"sh(
-    up; python3 $SOURCE/test/support/station_views.py http://127.0.0.1:8080/ $VIEWS; down
+    up; python3 $SOURCE/test/support/station_views.py http://127.0.0.1:8080/ $VIEWS $BIN priamos; down
   )sh",
-                                150);
+                                240);
   for (const char* seen : {"first paint within 1 s: True",
                            "connected: station connected",
                            "key drives: True",
@@ -71,6 +71,18 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
                            "drives to a place: True",
                            "a pose is not set on the way: True",
                            "a robot at rest is told its pose: True",
+                           "places are chosen: True",
+                           "progress is shown: True",
+                           "an order waits: True",
+                           "it is paused: True",
+                           "what waits is cancelled: True",
+                           "it goes on: True",
+                           "ends are listed: True",
+                           "the head says where it looks: True",
+                           "it looks there: True",
+                           "it looks ahead: True",
+                           "an alarm is shown: True",
+                           "who acknowledged it: True",
                            "parameters are shown: True",
                            "of every process: True",
                            "live parameters are shown: True",
