@@ -10,6 +10,7 @@
 #include "priamos/camera_trigger_t.hpp"
 #include "priamos/claim_t.hpp"
 #include "priamos/clock_report_t.hpp"
+#include "priamos/door_found_t.hpp"
 #include "priamos/door_seen_t.hpp"
 #include "priamos/drive_command_t.hpp"
 #include "priamos/drive_status_t.hpp"
@@ -90,6 +91,7 @@ inline constexpr Channel<landmark_model_t> kLandmarkModel{"LANDMARK_MODEL", 0, m
 inline constexpr Channel<look_request_t> kLookRequest{"LOOK_REQUEST", 0, milliseconds(0)};
 inline constexpr Channel<landmark_fix_t> kLandmarkFix{"LANDMARK_FIX", 0, milliseconds(0)};
 inline constexpr Channel<door_seen_t> kDoorSeen{"DOOR_SEEN", 0, milliseconds(0)};
+inline constexpr Channel<door_found_t> kDoorFound{"DOOR_FOUND", 0, milliseconds(0)};
 inline constexpr Channel<landmark_view_t> kLandmarkView{"LANDMARK_VIEW", 0, milliseconds(0)};
 inline constexpr Channel<obstacle_line_t> kObstacleLine{"OBSTACLE_LINE", 5, milliseconds(1000)};
 inline constexpr Channel<features_t> kFeatures{"FEATURES", 0, milliseconds(0)};
@@ -125,6 +127,6 @@ inline constexpr std::tuple kAll{
     kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
     kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
     kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls,     kParameterOrder,
-    kParameterValue, kAlarmAck,      kFloorMap,      kHeadAim};
+    kParameterValue, kAlarmAck,      kFloorMap,      kHeadAim,       kDoorFound};
 
 }  // namespace priamos::channels
