@@ -6,12 +6,14 @@ import { GlCanvas } from "./gl_canvas";
 import { Landmarks } from "./landmarks";
 import { addFace, addLine, addPolyline, addPrism, Mesh, Spot, tint } from "./mesh";
 import { Orbit } from "./orbit";
-import { Hello, Item, Path, Point, Pose, SonarRanges } from "./protocol";
+import { HeadState, Hello, Item, Path, Point, Pose, SonarRanges } from "./protocol";
 import type { PageServices, View } from "./views";
 
 const WALL_M = 1.0, DOOR_M = 2.0, CUPBOARD_M = 1.8, LEARNED_M = 0.8, BODY_M = 0.5, SONAR_M = 0.4;
 const TURN_RAD = 0.15, LINE_PX = 1.6;
-const ON_REQUEST = ["SONAR_RANGES"];
+const ON_REQUEST = ["SONAR_RANGES", "HEAD_STATE"];
+// Of the pyramid that shows where the head looks: half its angles, and how far it is drawn.
+const HALF_WIDE_RAD = 0.3, HALF_HIGH_RAD = 0.22, SIGHT_M = 2.5;
 
 export function open(element: HTMLElement, page: PageServices): View {
   return new Space(element, page);
@@ -137,7 +139,21 @@ class Space implements View {
     addPrism(solid, box(x_m - 0.04, x_m + 0.04, 0.04), BODY_M, z_m - 0.05, style);
     addPrism(solid, box(x_m - 0.06, x_m + 0.08, 0.2), z_m - 0.05, z_m + 0.05, style);
     this.addSonars(hello, robot, lines);
-    this.addSight([...place(robot, x_m, y_m), z_m], lines, clear);
+    const eye: Spot = [...place(robot, x_m, y_m), z_m];
+    this.addSight(eye, this.landmarks.lookedAt(this.page.now()), lines, clear);
+    this.addSight(eye, this.facing(robot, eye), lines, clear);
+  }
+
+  /** Corners of what the head faces; none while that is not known, or old. */
+  private facing(robot: Pose2, eye: Spot): Spot[] {
+    const head = this.page.store.get<HeadState>("HEAD_STATE");
+    if (head === undefined || this.page.store.isStale("HEAD_STATE")) return [];
+    const corner = (side: number, down: number): Spot => {
+      const yaw = robot.yaw + head.pan_rad + side * HALF_WIDE_RAD, tilt = head.tilt_rad + down * HALF_HIGH_RAD;
+      const flat = SIGHT_M * Math.cos(tilt);
+      return [eye[0] + flat * Math.cos(yaw), eye[1] + flat * Math.sin(yaw), eye[2] - SIGHT_M * Math.sin(tilt)];
+    };
+    return [corner(1, 1), corner(-1, 1), corner(-1, -1), corner(1, -1)];
   }
 
   private addSonars(hello: Hello, robot: Pose2, lines: Mesh): void {
@@ -151,9 +167,8 @@ class Space implements View {
     });
   }
 
-  /** From the head to the corners of what it was asked to look at. */
-  private addSight(eye: Spot, lines: Mesh, clear: Mesh): void {
-    const corners = this.landmarks.lookedAt(this.page.now());
+  /** From the head to the corners of what it looks at, or was asked to. */
+  private addSight(eye: Spot, corners: Spot[], lines: Mesh, clear: Mesh): void {
     const style = colour("accent");
     corners.forEach((corner, i) => {
       addLine(lines, eye, corner, tint(style));
