@@ -32,12 +32,14 @@ std::vector<const News::Item*> News::Since(std::uint64_t number) const {
 }
 
 std::string KeyOf(const std::string& channel, const News::Json& message, std::uint64_t count) {
-  if (channel == "HEALTH") return fmt::format("{} {}", channel, TextOf(message, "process"));
+  if (channel == "HEALTH" || channel == "PROCESS_STATE")
+    return fmt::format("{} {}", channel, TextOf(message, "process"));
   if (channel == "LINK_STATUS")
     return fmt::format("{} {} {}", channel, TextOf(message, "onboard"), TextOf(message, "first_channel"));
   if (channel == "LANDMARK_MODEL") return fmt::format("{} {}", channel, TextOf(message, "landmark_id"));
   if (channel == "FLOOR_MAP") return fmt::format("{} {}", channel, TextOf(message, "part"));
   if (channel == "DOOR_SEEN") return fmt::format("{} {}", channel, TextOf(message, "landmark_id"));
+  if (channel == "PROCESS_REPORT") return fmt::format("{} {}", channel, TextOf(message, "name"));
   if (channel == "ALARM" || channel == "ALARM_ACK") return fmt::format("{} {}", channel, count % kKeptAlarms);
   return channel;
 }

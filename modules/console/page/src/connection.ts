@@ -2,7 +2,7 @@
 
 import { Aim } from "./head_aim";
 import { MissionOrder } from "./mission";
-import { Alarm, Hello, News, ParameterAction, StickReport } from "./protocol";
+import { Alarm, Hello, News, ParameterAction, ProcessAction, StickReport } from "./protocol";
 import { ReplayAction } from "./replay";
 import { Place } from "./target";
 
@@ -59,6 +59,11 @@ export class Connection {
 
   parameter(process: string, action: ParameterAction, key?: string, value?: number): void {
     this.send({ type: "parameter", process, action, key, value });
+  }
+
+  /** Of whoever supervises a process; `end`: where in its console the lines end. */
+  process(action: ProcessAction, name: string, end?: number): void {
+    this.send({ type: "process", action, name, end });
   }
 
   replay(action: ReplayAction): void {

@@ -9,6 +9,7 @@ import { drawHeadView } from "./head_view";
 import { MissionPanel } from "./mission";
 import { Panels } from "./panels";
 import { PlanView } from "./plan_view";
+import { Processes } from "./processes";
 import { Hello, News } from "./protocol";
 import { Replay } from "./replay";
 import { Store } from "./store";
@@ -17,6 +18,7 @@ import { currentLanguage, named, number, setLanguage, text } from "./text";
 import { Video } from "./video";
 import { PageServices, Views } from "./views";
 import { Wants } from "./wants";
+import { World } from "./world";
 
 const PANEL_PERIOD_MS = 200;
 
@@ -59,6 +61,10 @@ const services: PageServices = {
   },
   outcomeText: (outcome) => named("outcome", outcome),
 };
+const processes = new Processes({ store, mayOrder: services.mayOrder,
+  order: (action, name, end) => connection.process(action, name, end) });
+const world = new World({ store, mayOrder: services.mayOrder,
+  order: (action, name) => connection.process(action, name), forget: () => plan.forget() });
 const views = new Views({
   values: async (element) => (await import("./values.js")).open(element, services),
   space: async (element) => (await import("./space.js")).open(element, services),
@@ -83,6 +89,8 @@ const connection: Connection = new Connection({
     for (const item of news.items) {
       store.put(item);
       plan.floor.hear(item);
+      processes.hear(item);
+      world.hear(item);
       views.each((view) => view.hear(item, store.validTime(item)));
     }
     const could = panels.mayOrder();
@@ -150,6 +158,7 @@ function bindButtons(): void {
   byId("language").addEventListener("click", () => {
     setLanguage(currentLanguage() === "en" ? "de" : "en");
     label();
+    world.label();
     views.each((view) => view.label());
     panels.draw();
   });
@@ -185,6 +194,8 @@ window.setInterval(() => {
   missions.draw();
   alarms.draw();
   headAim.draw();
+  processes.draw();
+  world.draw();
   replay.draw();
   video.draw(panels.station?.no_video ?? "");
   drawHeadView(byId<HTMLCanvasElement>("edges"), store);

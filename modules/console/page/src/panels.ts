@@ -1,11 +1,10 @@
 // The texts and tables beside the plan.
 
 import { byId, fillTable, Row, setText } from "./dom";
-import { DriveStatus, Health, Hello, LandmarkFix, LinkStatus, Pose, StationState } from "./protocol";
+import { DriveStatus, Hello, LandmarkFix, LinkStatus, Pose, StationState } from "./protocol";
 import { Store } from "./store";
 import { ageText, named, number, phaseText, text } from "./text";
 
-const HEALTH_OK = 1;
 const CONSOLE = 2;
 
 function degrees(rad: number): string {
@@ -25,7 +24,6 @@ export class Panels {
     this.drawRobot();
     this.drawLink();
     this.drawLook();
-    this.drawProcesses();
   }
 
   /** Whether this page may give orders now. */
@@ -160,23 +158,5 @@ export class Panels {
       ` · ${fix.n_matched} ${text("edgesUsed")} · ${number(fix.residual_px, 2)} px` : "";
     setText(byId("look"),
       `${text("looked")} ${door}: ${named("verdict", fix.verdict)}${details} (${ageText(this.store.age("LANDMARK_FIX"))})`);
-  }
-
-  /** What is wrong with a process; else how far its host's clock is off the reference, if it is. */
-  private healthText(message: Health): string {
-    const { clock_ahead_s: ahead = 0, clock_uncertainty_s: uncertainty = 0 } = message;
-    if (message.text !== "") return message.text;
-    if (uncertainty < 0) return text("clockUnknown");
-    if (Math.abs(ahead) <= uncertainty) return "";
-    return `${text("clock")} ${ahead > 0 ? "+" : "−"}${number(Math.abs(ahead), 4)} s ± ${number(1000 * uncertainty, 1)} ms`;
-  }
-
-  private drawProcesses(): void {
-    const rows = this.store.all<Health>("HEALTH").map(({ key, message }): Row => ({
-      cells: [message.process, this.healthText(message), named("health", message.state)],
-      stale: this.store.isStale(key),
-      kind: message.state === HEALTH_OK ? "good" : "bad",
-    }));
-    fillTable(byId("processes"), rows);
   }
 }
