@@ -8,7 +8,7 @@
 namespace priamos::console {
 
 /// An aim is said three times, since the radio may lose it and the head does not answer: the head takes a
-/// repetition for the same, and obeys none that is older than 2 s.
+/// repetition for the same, and obeys none that is older than 3 s.
 class AimSender {
  public:
   void Give(const head_aim_t& aim) {

@@ -20,7 +20,7 @@ struct HeadAim {
 class AimKeeper {
  public:
   /// An aim older than this is not obeyed; the head stays where it was pointed for kHeld at least.
-  static constexpr Duration kLongestLife = std::chrono::seconds(2), kHeld = std::chrono::seconds(10);
+  static constexpr Duration kLongestLife = std::chrono::seconds(3), kHeld = std::chrono::seconds(10);
 
   /// Returns whether it is a new one that was accepted.
   bool Take(const HeadAim& aim, Time now);

@@ -53,7 +53,7 @@ TEST(AimKeeper, StaysWithinWhatTheMotorsReach) {
 
 TEST(AimKeeper, RefusesWhatIsOldOrNoNumber) {
   AimKeeper dut;
-  EXPECT_FALSE(dut.Take({.time = kNow - std::chrono::milliseconds(2001)}, kNow));
+  EXPECT_FALSE(dut.Take({.time = kNow - std::chrono::milliseconds(3001)}, kNow));
   EXPECT_FALSE(dut.Take({.time = kNow, .pan_rad = std::numeric_limits<double>::quiet_NaN()}, kNow));
   EXPECT_TRUE(dut.Take({.time = kNow}, kNow));
   EXPECT_FALSE(dut.Take({.time = kNow}, kNow)) << "said again";
@@ -64,7 +64,7 @@ TEST(AimKeeper, RefusesWhatIsOldOrNoNumber) {
 TEST(AimKeeper, AnAimThatWaitedForALookTooLongIsForgotten) {
   AimKeeper dut;
   dut.Take({.time = kNow}, kNow);
-  EXPECT_FALSE(dut.Next(Here(), kNow + std::chrono::seconds(3)));
+  EXPECT_FALSE(dut.Next(Here(), kNow + std::chrono::seconds(4)));
 }
 
 }  // namespace
