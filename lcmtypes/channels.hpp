@@ -41,6 +41,10 @@
 #include "priamos/pose_reset_t.hpp"
 #include "priamos/pose_t.hpp"
 #include "priamos/probe_t.hpp"
+#include "priamos/process_order_t.hpp"
+#include "priamos/process_report_t.hpp"
+#include "priamos/process_state_t.hpp"
+#include "priamos/simulation_t.hpp"
 #include "priamos/sonar_ranges_t.hpp"
 #include "priamos/wheel_command_t.hpp"
 #include "priamos/wheel_state_t.hpp"
@@ -102,6 +106,10 @@ inline constexpr Channel<link_status_t> kLinkStatus{"LINK_STATUS", 1, millisecon
 inline constexpr Channel<link_request_t> kLinkRequest{"LINK_REQUEST", 0, milliseconds(0)};
 inline constexpr Channel<parameter_order_t> kParameterOrder{"PARAMETER_ORDER", 0, milliseconds(0)};
 inline constexpr Channel<parameter_value_t> kParameterValue{"PARAMETER_VALUE", 0, milliseconds(0)};
+inline constexpr Channel<process_order_t> kProcessOrder{"PROCESS_ORDER", 0, milliseconds(0)};
+inline constexpr Channel<process_report_t> kProcessReport{"PROCESS_REPORT", 0, milliseconds(0)};
+inline constexpr Channel<process_state_t> kProcessState{"PROCESS_STATE", 1, milliseconds(3000)};
+inline constexpr Channel<simulation_t> kSimulation{"SIMULATION", 1, milliseconds(3000)};
 inline constexpr Channel<alarm_t> kAlarm{"ALARM", 0, milliseconds(0)};
 inline constexpr Channel<claim_t> kClaim{"CLAIM", 5, milliseconds(1000)};
 inline constexpr Channel<probe_t> kProbe{"PROBE", 0, milliseconds(0)};
@@ -112,13 +120,13 @@ inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseco
 inline constexpr Channel<world_touch_t> kWorldTouch{"WORLD_TOUCH", 0, milliseconds(0)};
 
 inline constexpr std::tuple kAll{
-    kWheelCommand,  kWheelState,   kSonarRanges,  kHeadCommand,    kHeadState,     kCameraTrigger,
-    kCameraFrame,   kOdometry,     kPose,         kPath,           kDriveStatus,   kPoseCorrection,
-    kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
-    kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
-    kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
-    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
-    kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls,     kParameterOrder,
-    kParameterValue};
+    kWheelCommand,   kWheelState,   kSonarRanges,   kHeadCommand,    kHeadState,     kCameraTrigger,
+    kCameraFrame,    kOdometry,     kPose,          kPath,           kDriveStatus,   kPoseCorrection,
+    kLandmarkModel,  kLookRequest,  kLandmarkFix,   kMissionCommand, kMissionStatus, kHealth,
+    kLinkStatus,     kWorldTruth,   kDriveCommand,  kHeadDrive,      kLeaseRequest,  kEstop,
+    kLinkRequest,    kLandmarkView, kObstacleLine,  kAlarm,          kClaim,         kMotorCurrent,
+    kBumper,         kOpening,      kDoorSeen,      kPoseReset,      kProbe,         kClock,
+    kWorldTouch,     kFeatures,     kFeaturesAck,   kMapCommand,     kPlanWalls,     kParameterOrder,
+    kParameterValue, kProcessOrder, kProcessReport, kProcessState,   kSimulation};
 
 }  // namespace priamos::channels

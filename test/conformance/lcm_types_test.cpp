@@ -159,8 +159,9 @@ TEST(LcmTypes, RefuseOutsideTheRangeOfAnEnumerationOrAnIdentity) {
                   "mission_status_t.phase", "mission_step_t.mission", "obstacle_line_t.verdict",
                   "obstacle_segment_t.kind", "parameter_order_t.action", "parameter_order_t.process",
                   "parameter_order_t.value", "parameter_value_t.outcome", "parameter_value_t.process",
-                  "parameter_value_t.value", "pose_correction_t.verdict", "probe_t.kind", "view_edge_t.kind",
-                  "world_touch_t.kind"));
+                  "parameter_value_t.value", "pose_correction_t.verdict", "probe_t.kind",
+                  "process_order_t.action", "process_report_t.outcome", "process_state_t.state",
+                  "simulation_t.state", "view_edge_t.kind", "world_touch_t.kind"));
 }
 
 // ---- lcmtypes/channels.hpp
