@@ -103,7 +103,7 @@ void AppHost::PublishHealth(Time now) {
   const ChannelCounters totals = node_.Totals();
   health_t message{};
   message.utime = ToUtime(now);
-  message.process = name_.substr(0, 16);
+  message.process = (context_.health_name().empty() ? name_ : context_.health_name()).substr(0, 16);
   message.state = ToMessage(context_.health());
   message.messages_lost = Capped(totals.dropped + totals.publish_failed + bus_.lost());
   message.decode_errors = Capped(totals.refused + bus_.malformed());

@@ -63,6 +63,10 @@ class Context {
   void SetHealth(Health health, std::string_view text = "");
   Health health() const { return health_; }
   const std::string& health_text() const { return health_text_; }
+  /// Sets who its HEALTH says that it is, where one bus hears several of its kind; else the App's name. At
+  /// most 16 bytes are told.
+  void SetHealthName(std::string name) { health_name_ = std::move(name); }
+  const std::string& health_name() const { return health_name_; }
 
   /// One line for whoever started the process, where it can be found say; shown by `priamos up` and
   /// systemctl.
@@ -77,7 +81,7 @@ class Context {
   Node& node_;
   Surroundings around_;
   Health health_ = Health::kOk;
-  std::string health_text_;
+  std::string health_text_, health_name_;
   std::string status_;
   std::optional<int> exit_code_;
 };

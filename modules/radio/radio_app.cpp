@@ -42,6 +42,7 @@ RadioApp::RadioApp(const RadioConfig& config, bus::Context& context)
       link_config_(LoadLink()),
       own_types_(TypesIn(config.types)),
       outgoing_(config.side == "onboard" ? Direction::kUp : Direction::kDown) {
+  context.SetHealthName(config.side + "-radio");  // the workstation hears both ends
   CheckRobots();
   if (IsNetPort(config.port)) (void)ParseNetAddress(config.port, config.place.Of("port"));
   bus::radio::RequireBudget(link_config_.Table(types()), link_config_.Options());

@@ -9,8 +9,12 @@ AliveProcesses::AliveProcesses(const Scenario& scenario, bus::Node& onboard, bus
 }
 
 void AliveProcesses::Listen() {
-  for (const auto& m : onboard_.Drain()) alive_.insert("onboard " + m.process);
-  for (const auto& m : offboard_.Drain()) alive_.insert("offboard " + m.process);
+  // The two radios name their sides themselves.
+  const auto hear = [&](const std::string& bus, const std::string& process) {
+    alive_.insert(bus + " " + (process.starts_with(bus + "-") ? process.substr(bus.size() + 1) : process));
+  };
+  for (const auto& m : onboard_.Drain()) hear("onboard", m.process);
+  for (const auto& m : offboard_.Drain()) hear("offboard", m.process);
 }
 
 std::string AliveProcesses::Missing() const {

@@ -29,7 +29,8 @@ void ReadInto(Heard& heard, const std::string& path) {
       heard.alarms.push_back(bus::Decode<alarm_t>(event->bytes).text);
     if (event->channel != channels::kHealth.name) continue;
     const auto health = bus::Decode<health_t>(event->bytes);
-    if (health.process == "radio" && health.state != health_t::STARTING) heard.health.push_back(health.text);
+    if (health.process == "offboard-radio" && health.state != health_t::STARTING)
+      heard.health.push_back(health.text);
   }
 }
 
