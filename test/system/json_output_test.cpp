@@ -28,6 +28,7 @@ struct Call {
 const std::vector<Call> kCalls{
     {"status", "--logs $O/up"},
     {"logs", "--logs $O/up"},
+    {"restart", "offboard-teleop"},
     {"doctor", ""},
     {"topic list", "--seconds 1"},
     {"topic hz", "POSE --seconds 1"},

@@ -67,6 +67,32 @@ TEST_F(UpTest, BringsEverythingUpStartsAgainWhatDiedTellsWhyAndEndsWithoutOrphan
   EXPECT_THAT(answer.text, Not(HasSubstr("failed")));
 }
 
+TEST_F(UpTest, RestartsByOrderAlsoThroughTheRadioAndReadsConsolesThere) {
+  const auto answer = RunScript(R"sh(
+    up --detach > /dev/null || echo failed
+    TELEOP=$(pid_of offboard-teleop); HEAD=$(pid_of onboard-head)
+    $BIN/priamos restart offboard-teleop; echo "teleop: $?"
+    $BIN/priamos restart onboard-head; echo "head: $?"
+    $BIN/priamos restart onboard-heed; echo "heed: $?"
+    sleep 0.5; verb status
+    [ $TELEOP != $(pid_of offboard-teleop) ] && [ $HEAD != $(pid_of onboard-head) ] && echo other pids
+    $BIN/priamos logs onboard-robot --logs $LOGS.empty -n 2 | grep -c onboard-robot
+    $BIN/priamos estop --rearm > /dev/null
+    $BIN/priamos restart onboard-robot; sleep 3
+    $BIN/priamos topic echo DRIVE_STATUS estop --count 1
+    verb down
+  )sh",
+                                120);
+  EXPECT_THAT(answer.text, ContainsRegex("offboard-teleop runs again after [0-9.]+ s\nteleop: 0"));
+  EXPECT_THAT(answer.text, ContainsRegex("onboard-head runs again after [0-9.]+ s\nhead: 0"));
+  EXPECT_THAT(answer.text, HasSubstr("unknown process \"onboard-heed\"; nearest: \"onboard-head\""));
+  EXPECT_THAT(answer.text, HasSubstr("heed: 1"));
+  EXPECT_THAT(answer.text, ContainsRegex("onboard-head +onboard +ready +[0-9]+ +[0-9.]+ s +2\n"));
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("other pids"), HasSubstr("\n2\n")));
+  EXPECT_THAT(answer.text, ContainsRegex("estop[^\n]*(true|1)")) << "what drives begins stopped";
+  EXPECT_THAT(answer.text, Not(HasSubstr("failed")));
+}
+
 TEST_F(UpTest, WithoutMulticastSaysSoAtOnce) {
   const auto answer = RunScript(R"sh(
     ip route del 224.0.0.0/4

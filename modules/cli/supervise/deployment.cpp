@@ -26,16 +26,6 @@ std::string NameOf(const ScenarioProcess& process) {
   return process.module == "spacenavd" ? process.module : process.bus + "-" + process.module;
 }
 
-std::vector<std::string> Words(const std::string& list) {
-  std::vector<std::string> words;
-  std::istringstream in(list);
-  for (std::string word; std::getline(in, word, ',');) {
-    std::erase(word, ' ');
-    if (!word.empty()) words.push_back(word);
-  }
-  return words;
-}
-
 std::string Tty(const LaunchPlace& place, const std::string& side) {
   return place.run_folder + "/tty-" + side;
 }
@@ -94,7 +84,8 @@ ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& proc
   ProcessSpec spec;
   spec.name = NameOf(process);
   spec.group = process.bus;
-  spec.after = Words(process.after);
+  spec.after = WordsOfList(process.after);
+  spec.drives = process.module == "robot";
   spec.policy.watchdog = FromSeconds(process.watchdog_s);
   spec.arguments = {place.program_folder + "/priamos-" + process.module,
                     "--config",
@@ -124,7 +115,7 @@ ProcessSpec ModuleSpec(const Deployment& deployment, const ScenarioProcess& proc
   if (process.module == "robot" && deployment.emulated_line)
     set("state_file=" + place.run_folder + "/robot-state");
   if (process.module == "planner" && deployment.emulated_line)
-    set("learned_map=" + place.run_folder + "/" + std::string(kLearnedMapFile));
+    set("learned_map=" + LearnedFiles(place).front());
   if (process.module == "teleop" && has_mouse) set("spacemouse.socket=" + MouseSocket(place));
   return spec;
 }
@@ -165,6 +156,20 @@ bool StartsHere(const Deployment& deployment, const ScenarioProcess& process) {
   const bool of_group = deployment.group == "all" || process.bus == deployment.group;
   const bool of_host = deployment.host.empty() || process.host.empty() || process.host == deployment.host;
   return of_group && of_host;
+}
+
+std::vector<std::string> WordsOfList(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream in(list);
+  for (std::string word; std::getline(in, word, ',');) {
+    std::erase(word, ' ');
+    if (!word.empty()) words.push_back(word);
+  }
+  return words;
+}
+
+std::vector<std::string> LearnedFiles(const LaunchPlace& place) {
+  return {place.run_folder + "/" + std::string(kLearnedMapFile)};
 }
 
 std::string MouseTty(const LaunchPlace& place) {

@@ -18,6 +18,7 @@ struct Deployment {
   std::string onboard_network, offboard_network;  ///< interface or its address; empty: as the route leads
   std::string group = "all";   ///< which ones `priamos up` starts: onboard, offboard or all
   std::string host;            ///< which ones of those: the host's name, not of the file; empty: every host's
+  std::string scenarios;       ///< worlds in which a simulated robot can be; it begins in the first
   bool emulated_line = false;  ///< join the radios by an emulated serial line
   bus::radio::LineConfig line;
   std::vector<ScenarioProcess> processes;
@@ -41,6 +42,10 @@ struct Deployment {
     a.Text("offboard_network", offboard_network, "the same for the workstation's bus");
     a.Choice("group", group, {"all", "onboard", "offboard"}, "what runs on this machine");
     a.Flag("emulated_line", emulated_line, "join the two radios by an emulated serial line");
+    a.Text("scenarios", scenarios,
+           "scenarios, with commas between them, in whose world a simulated robot can be: it begins in the "
+           "first, and the station offers all; empty: the world is as the files have it");
+    if (!scenarios.empty() && !emulated_line) a.Refuse("scenarios", "none without emulated_line");
     a.Section("line", line, "that line");
     a.List("process", processes, "the processes");
   }
@@ -66,6 +71,12 @@ struct LaunchPlace {
 /// The processes of a deployment with their command lines, the emulated line and the emulated mouse among
 /// them. Processes of the same module on the same bus get names of their own.
 std::vector<ProcessSpec> PlanOf(const Deployment& deployment, const LaunchPlace& place);
+
+/// The words of a list with commas between them.
+std::vector<std::string> WordsOfList(const std::string& list);
+
+/// Files in which the processes of `place` keep what they learned of a simulated world.
+std::vector<std::string> LearnedFiles(const LaunchPlace& place);
 
 /// Where the emulated mouse of `place` is plugged in, and where its daemon answers.
 std::string MouseTty(const LaunchPlace& place);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace priamos::cli {
 
@@ -36,6 +37,8 @@ void ProcessWatch::Enter(ProcessState state, Time now) {
 
 ProcessWatch::Action ProcessWatch::Step(bool may_start, bool may_stop, Time now) {
   if (stopping_) return WatchStop(may_stop, now);
+  if (restarting_ && runs()) return EndForRestart(now);
+  if (std::exchange(restarting_, false)) Enter(ProcessState::kWaiting, now);
   if (state_ == ProcessState::kWaiting) return may_start ? Action::kStart : Action::kNone;
   if (state_ == ProcessState::kBackOff) {
     const auto doublings = std::clamp(failures_ - 1, 0, 20);
@@ -63,19 +66,28 @@ ProcessWatch::Action ProcessWatch::WatchRunning(Time now) {
 }
 
 ProcessWatch::Action ProcessWatch::WatchStop(bool may_stop, Time now) {
-  if (state_ == ProcessState::kStopping) {
-    if (killed_ || now - since_ <= policy_.stop_within) return Action::kNone;
-    killed_ = true;
-    verdict_ = fmt::format("did not end within {:.0f} s", Seconds(policy_.stop_within));
-    return Action::kKill;
-  }
+  if (state_ == ProcessState::kStopping) return WatchEnding(now);
   if (!runs()) {
     if (state_ != ProcessState::kStopped) Enter(ProcessState::kStopped, now);
     return Action::kNone;
   }
-  if (!may_stop) return Action::kNone;
+  return may_stop ? Terminate(now) : Action::kNone;
+}
+
+ProcessWatch::Action ProcessWatch::EndForRestart(Time now) {
+  return state_ == ProcessState::kStopping ? WatchEnding(now) : Terminate(now);
+}
+
+ProcessWatch::Action ProcessWatch::Terminate(Time now) {
   Enter(ProcessState::kStopping, now);
   return Action::kTerminate;
+}
+
+ProcessWatch::Action ProcessWatch::WatchEnding(Time now) {
+  if (killed_ || now - since_ <= policy_.stop_within) return Action::kNone;
+  killed_ = true;
+  verdict_ = fmt::format("did not end within {:.0f} s", Seconds(policy_.stop_within));
+  return Action::kKill;
 }
 
 void ProcessWatch::Started(Time now) {
@@ -102,6 +114,11 @@ void ProcessWatch::SaidReady(Time now) {
 
 void ProcessWatch::Exited(const std::string& how, Time now) {
   reason_ = verdict_.empty() ? how : verdict_ + ", " + how;
+  if (restarting_ && !stopping_) {
+    restarting_ = false;
+    reason_ = "started again by order, " + reason_;
+    return Enter(ProcessState::kWaiting, now);
+  }
   if (state_ == ProcessState::kStopping || stopping_) return Enter(ProcessState::kStopped, now);
   ++failures_;
   Enter(ProcessState::kBackOff, now);

@@ -45,6 +45,9 @@ class ProcessWatch {
   void Exited(const std::string& how, Time now);
   /// Orders that the process ends and is not started again.
   void Stop() { stopping_ = true; }
+  /// Orders that the process ends and starts again without a pause; it counts as no failure. One that does
+  /// not run is started at once. Others that depend on it are left alone.
+  void Restart() { restarting_ = true; }
 
   ProcessState state() const { return state_; }
   bool runs() const;
@@ -58,12 +61,15 @@ class ProcessWatch {
   void Enter(ProcessState state, Time now);
   Action WatchRunning(Time now);
   Action WatchStop(bool may_stop, Time now);
+  Action EndForRestart(Time now);
+  Action Terminate(Time now);
+  Action WatchEnding(Time now);
 
   WatchPolicy policy_;
   ProcessState state_ = ProcessState::kWaiting;
   Time since_{}, alive_{};
   std::optional<Time> stopped_since_;
-  bool stopping_ = false, killed_ = false;
+  bool stopping_ = false, restarting_ = false, killed_ = false;
   int failures_ = 0, starts_ = 0;
   std::string reason_, verdict_;  ///< verdict: why it was killed
 };

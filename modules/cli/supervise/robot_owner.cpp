@@ -36,13 +36,15 @@ void RefuseOthers(const std::vector<bus::ClaimWord>& others, const Deployment& d
 }  // namespace
 
 struct RobotOwner::Side {
-  Side(const std::string& url, const bus::Schema& schema, const bus::Clock& clock,
+  Side(std::string side, const std::string& url, const bus::Schema& schema, const bus::Clock& clock,
        const Deployment& deployment)
-      : bus(url),
+      : name(std::move(side)),
+        bus(url),
         node(bus, schema, clock),
         alarms(node.SubscribeAll(channels::kAlarm)),
         claim(bus, schema, clock, bus::MakeClaimant(deployment.robot, SupervisorRole(deployment.host)),
               {{}, kAskFor}, [](bus::Level, std::string_view) {}) {}
+  std::string name;
   bus::LcmBus bus;
   bus::Node node;
   bus::Inbox<alarm_t> alarms;
@@ -75,7 +77,7 @@ RobotOwner::~RobotOwner() = default;
 void RobotOwner::Add(const std::string& side, const Deployment& deployment, const bus::Schema& schema,
                      const bus::Clock& clock) {
   const std::string url = side == "onboard" ? deployment.OnboardUrl() : deployment.OffboardUrl();
-  sides_.push_back(std::make_unique<Side>(url, schema, clock, deployment));
+  sides_.push_back(std::make_unique<Side>(side, url, schema, clock, deployment));
   RefuseOthers(sides_.back()->claim.others(), deployment, side, clock.Now());
 }
 
@@ -89,6 +91,12 @@ void RobotOwner::Listen() {
   }
   if (alarms_.size() > kMostAlarms)
     alarms_.erase(alarms_.begin(), alarms_.end() - static_cast<std::ptrdiff_t>(kMostAlarms));
+}
+
+std::vector<std::pair<std::string, bus::Node*>> RobotOwner::nodes() const {
+  std::vector<std::pair<std::string, bus::Node*>> nodes;
+  for (const auto& side : sides_) nodes.emplace_back(side->name, &side->node);
+  return nodes;
 }
 
 std::optional<std::string> RobotOwner::lost() const {

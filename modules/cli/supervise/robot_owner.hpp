@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bus/claim_keeper.hpp"
@@ -37,6 +38,8 @@ class RobotOwner {
   void Listen();
   /// Why the robot was lost to another supervisor that had it longer; nullopt while it is held.
   std::optional<std::string> lost() const;
+  /// Its place on each bus, by the bus's side, "onboard" or "offboard".
+  std::vector<std::pair<std::string, bus::Node*>> nodes() const;
   /// Newest last, at most 20.
   const std::vector<std::string>& alarms() const { return alarms_; }
 

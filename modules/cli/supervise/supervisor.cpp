@@ -147,15 +147,12 @@ const Supervisor::Child& Supervisor::Find(const std::string& name) const {
       fmt::format("after: expected the name of a process, got \"{}\"{}", name, NearestText(name, known)));
 }
 
-std::string Supervisor::OutputFile(const Child& child) const {
-  return output_folder_ + "/" + child.spec.name + ".txt";
-}
-
 void Supervisor::Step(Time now) {
   Listen(now);
   ForgiveOwnSilence(now);
   LookForStopped(now);
   Reap(now);
+  EndRenewal();
   for (Child& child : children_) Act(child, now);
 }
 
@@ -201,7 +198,7 @@ void Supervisor::Reap(Time now) {
     child.pid = 0;
     for (const std::string& file : child.spec.leftovers) unlink(file.c_str());
     const bool asked = child.watch.state() == ProcessState::kStopping;
-    child.watch.Exited(HowEnded(status, OutputFile(child)), now);
+    child.watch.Exited(HowEnded(status, ConsoleFile(child.spec.name)), now);
     if (!asked)
       announce_(fmt::format(
           "{} ended: {}{}", child.spec.name, child.watch.reason(),
@@ -224,7 +221,7 @@ void Supervisor::Act(Child& child, Time now) {
 }
 
 void Supervisor::Start(Child& child, Time now) {
-  const std::string file = OutputFile(child);
+  const std::string file = ConsoleFile(child.spec.name);
   Launch launch;
   launch.output = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (launch.output < 0) throw std::system_error(errno, std::generic_category(), file);
@@ -246,6 +243,7 @@ void Supervisor::Start(Child& child, Time now) {
 }
 
 bool Supervisor::MayStart(const Child& child) const {
+  if (child.next) return false;
   return std::all_of(child.spec.after.begin(), child.spec.after.end(), [this](const std::string& name) {
     return Find(name).watch.state() == ProcessState::kReady;
   });
@@ -260,22 +258,21 @@ bool Supervisor::MayStop(const Child& child) const {
 
 bool Supervisor::AllReady() const {
   return std::all_of(children_.begin(), children_.end(),
-                     [](const Child& c) { return c.watch.state() == ProcessState::kReady; });
+                     [](const Child& c) { return c.watch.state() == ProcessState::kReady && !c.next; });
 }
 
 std::vector<ProcessReport> Supervisor::Report() const {
   std::vector<ProcessReport> all;
   for (const Child& c : children_) {
-    ProcessReport report;
-    report.name = c.spec.name;
-    report.group = c.spec.group;
-    report.state = c.watch.state();
-    report.pid = c.pid;
-    report.since = c.watch.since();
-    report.starts = c.watch.starts();
-    report.alarm = c.watch.alarm();
-    report.reason = c.watch.reason();
-    all.push_back(report);
+    all.push_back({.name = c.spec.name,
+                   .group = c.spec.group,
+                   .state = c.watch.state(),
+                   .pid = c.pid,
+                   .since = c.watch.since(),
+                   .starts = c.watch.starts(),
+                   .alarm = c.watch.alarm(),
+                   .drives = c.spec.drives,
+                   .reason = c.watch.reason()});
   }
   return all;
 }

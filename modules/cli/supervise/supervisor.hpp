@@ -19,6 +19,7 @@ struct ProcessSpec {
   std::string group;                   ///< "onboard", "offboard" or "line": a column of `priamos status`
   std::vector<std::string> arguments;  ///< the first one is the program's path
   std::vector<std::string> after;      ///< names that must be ready before it starts
+  bool drives = false;                 ///< moves the base: told to stop before an order starts it again
   bool notifies = true;                ///< sends READY and WATCHDOG; else it is ready as soon as it runs
   std::string folder;                  ///< working directory; empty: this process's
   std::vector<std::string>
@@ -34,7 +35,8 @@ struct ProcessReport {
   Time since{};
   int starts = 0;
   bool alarm = false;
-  std::string reason;  ///< why it ended last
+  bool drives = false;  ///< as in its spec
+  std::string reason;   ///< why it ended last
 };
 
 /// Starts processes in the order of their dependencies, keeps their console output, restarts what dies or
@@ -59,6 +61,13 @@ class Supervisor {
   void Step(Time now);
   bool AllReady() const;
   std::vector<ProcessReport> Report() const;
+  /// File to which a process writes.
+  std::string ConsoleFile(const std::string& name) const { return output_folder_ + "/" + name + ".txt"; }
+  /// Ends a process, and starts it again at once; false when there is none of that name.
+  bool Restart(const std::string& name);
+  /// Ends every process named in `specs`, all of them before the first one is started again, as its spec now
+  /// says; `forget`: files that are removed in between. Throws std::invalid_argument for an unknown name.
+  void Renew(std::vector<ProcessSpec> specs, std::vector<std::string> forget);
   /// Ends processes in the reverse order of their dependencies; SIGKILL for those that do not end.
   void StopAll();
   bool AllStopped() const;
@@ -68,6 +77,7 @@ class Supervisor {
     ProcessSpec spec;
     ProcessWatch watch;
     pid_t pid = 0;
+    std::optional<ProcessSpec> next = std::nullopt;  ///< how it is started when all to be renewed have ended
   };
   void CheckOrder() const;
   void Listen(Time now);
@@ -75,17 +85,18 @@ class Supervisor {
   void ForgiveSilence(Time now);
   void LookForStopped(Time now);
   void Reap(Time now);
+  void EndRenewal();
   void Act(Child& child, Time now);
   void Start(Child& child, Time now);
   bool MayStart(const Child& child) const;
   bool MayStop(const Child& child) const;
   const Child& Find(const std::string& name) const;
-  std::string OutputFile(const Child& child) const;
 
   std::string output_folder_;
   Announce announce_;
   NotifySocket notify_;
   std::vector<Child> children_;
+  std::vector<std::string> forget_;  ///< files that a renewal removes
   Time last_step_{}, next_look_{};
 };
 

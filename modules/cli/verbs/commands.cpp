@@ -36,6 +36,7 @@ void AddCommands(CLI::App& cli, int& exit_code) {
   AddWorldCommand(cli, exit_code);
   AddViewCommand(cli, exit_code);
   AddUpCommands(cli, exit_code);
+  AddRestartCommand(cli, exit_code);
   AddEstopCommand(cli, exit_code);
   AddHelpCommand(cli, exit_code);
   AddCompletionCommand(cli, exit_code);

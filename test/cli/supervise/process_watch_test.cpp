@@ -169,5 +169,44 @@ TEST_F(ProcessWatchTest, OneThatDiesWhileStoppingIsNotStartedAgain) {
   EXPECT_EQ(Wait(seconds(60)), Action::kNone);
 }
 
+TEST_F(ProcessWatchTest, IsStartedAgainByOrderWithoutAPauseAndWithoutBlame) {
+  BecomeReady();
+  may_stop_ = false;  // others depend on it; they go on
+  dut_.Restart();
+  EXPECT_EQ(Step(), Action::kTerminate);
+  EXPECT_EQ(Step(), Action::kNone);
+  dut_.Exited("exit code 0", now_);
+  EXPECT_EQ(dut_.failures(), 0);
+  EXPECT_THAT(dut_.reason(), HasSubstr("by order"));
+  EXPECT_EQ(Step(), Action::kStart);
+  dut_.Started(now_);
+  EXPECT_EQ(dut_.starts(), 2);
+  dut_.SaidReady(now_);
+  EXPECT_EQ(Wait(milliseconds(500)), Action::kNone) << "once";
+}
+
+TEST_F(ProcessWatchTest, OneThatIsDeafToTheOrderIsKilled) {
+  BecomeReady();
+  dut_.Restart();
+  EXPECT_EQ(Step(), Action::kTerminate);
+  EXPECT_EQ(Wait(seconds(3)), Action::kKill);
+  dut_.Exited("signal 9", now_);
+  EXPECT_EQ(Step(), Action::kStart);
+}
+
+TEST_F(ProcessWatchTest, OneThatWaitsToBeStartedAgainIsStartedByOrderAtOnce) {
+  BecomeReady();
+  dut_.Exited("exit code 1", now_);
+  EXPECT_EQ(Step(), Action::kNone);
+  dut_.Restart();
+  EXPECT_EQ(Step(), Action::kStart);
+  dut_.Started(now_);
+  dut_.Restart();
+  dut_.Stop();
+  EXPECT_EQ(Step(), Action::kTerminate);
+  dut_.Exited("exit code 0", now_);
+  EXPECT_EQ(dut_.state(), ProcessState::kStopped) << "an end is an end";
+}
+
 }  // namespace
 }  // namespace priamos::cli

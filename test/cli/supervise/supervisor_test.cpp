@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -223,6 +224,40 @@ TEST_F(SupervisorTest, ACircleIsRefused) {
   EXPECT_THROW(Supervisor({Python("a", "", {"b"}), Python("b", "", {"a"})}, folder_, Told()),
                std::invalid_argument);
   EXPECT_THROW(Supervisor({Python("a", "", {"nobody"})}, folder_, Told()), std::invalid_argument);
+}
+
+TEST_F(SupervisorTest, StartsOneAgainByOrderAndLeavesTheOthers) {
+  Supervisor dut({Python("first", kWell), Python("second", kWell, {"first"})}, folder_, Told());
+  ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
+  const auto before = dut.Report();
+  EXPECT_FALSE(dut.Restart("third"));
+  EXPECT_TRUE(dut.Restart("first"));
+  ASSERT_TRUE(Until(dut, [&] { return dut.Report()[0].starts == 2 && dut.AllReady(); }));
+  const auto after = dut.Report();
+  EXPECT_NE(after[0].pid, before[0].pid);
+  EXPECT_EQ(after[1].pid, before[1].pid);
+  EXPECT_THAT(Console("first"), AllOf(HasSubstr("--- start 1"), HasSubstr("--- start 2")));
+}
+
+TEST_F(SupervisorTest, RenewsAllBeforeItStartsAnyAndForgetsFiles) {
+  const std::string forgotten = folder_ + "/forgotten";
+  // The slow one writes when it ends; the quick one says what it finds when it begins anew.
+  const std::string slow = "import signal\ndef end(*a):\n  time.sleep(0.2); open('" + forgotten +
+                           "','w'); sys.exit(0)\n"
+                           "signal.signal(signal.SIGTERM,end)\n" +
+                           kWell;
+  const std::string quick = "print('left:', os.path.exists('" + forgotten + "'), flush=True)\n" + kWell;
+  Supervisor dut({Python("quick", kWell), Python("slow", slow), Python("other", kWell)}, folder_, Told());
+  ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
+  const pid_t other = dut.Report()[2].pid;
+  EXPECT_THROW(dut.Renew({Python("nobody", kWell)}, {}), std::invalid_argument);
+  dut.Renew({Python("quick", quick), Python("slow", kWell)}, {forgotten});
+  EXPECT_FALSE(dut.AllReady()) << "from the order on";
+  ASSERT_TRUE(Until(dut, [&] { return dut.AllReady(); }));
+  EXPECT_EQ(dut.Report()[0].starts, 2);
+  EXPECT_EQ(dut.Report()[1].starts, 2);
+  EXPECT_EQ(dut.Report()[2].pid, other);
+  EXPECT_THAT(Console("quick"), HasSubstr("left: False"));
 }
 
 }  // namespace

@@ -26,7 +26,9 @@
 #include "cli/options/verb_setup.hpp"
 #include "cli/supervise/deployment.hpp"
 #include "cli/supervise/robot_owner.hpp"
+#include "cli/supervise/scenario_choice.hpp"
 #include "cli/supervise/supervisor.hpp"
+#include "cli/supervise/supervisor_control.hpp"
 #include "cli/supervise/up_state.hpp"
 #include "cli/verbs/deployment/commands.hpp"
 #include "cli/verbs/deployment/up_queries.hpp"
@@ -46,7 +48,7 @@ constexpr auto kReadyWithin = std::chrono::seconds(20);
 struct UpOptions {
   std::string deployment = "sim";
   std::string log_root;
-  std::string group, robot, host, network;
+  std::string group, robot, host, network, scenario;
   std::uint64_t seed = 1;
   bool detach = false, json = false;
 };
@@ -63,8 +65,11 @@ class UpRun {
         place_{ThisProgram().program_folder.string(), folder,
                MakeRunFolder(options.log_root, "up-" + fs::path(options.deployment).filename().string()),
                options.seed},
-        supervisor_(PlanOf(deployment, place_), place_.run_folder,
-                    [this](const std::string& text) { Say(text); }) {}
+        deployment_(deployment),
+        supervisor_(PlanOf(InFirstScenario(), place_), place_.run_folder,
+                    [this](const std::string& text) { Say(text); }),
+        control_(Sides(), supervisor_,
+                 {Offers(), FirstScenario(), [this](const std::string& name) { return BeginAnew(name); }}) {}
 
   int Run() {
     bool ready = false;
@@ -72,6 +77,7 @@ class UpRun {
     while (!Signalled() && !owner_.lost()) {
       const Time now = clock_.Now();
       owner_.Listen();
+      control_.Step(now);
       supervisor_.Step(now);
       if (!ready && supervisor_.AllReady()) Say("all processes are ready");
       const bool changed = ready != supervisor_.AllReady();
@@ -94,6 +100,39 @@ class UpRun {
   }
 
  private:
+  /// Empty: the world is as the deployment's files have it.
+  std::string FirstScenario() const {
+    if (!options_.scenario.empty()) return options_.scenario;
+    const auto all = WordsOfList(deployment_.scenarios);
+    return all.empty() ? "" : all.front();
+  }
+  Deployment InFirstScenario() const {
+    const std::string name = FirstScenario();
+    return name.empty() ? deployment_ : InScenario(deployment_, place_.config_folder, name);
+  }
+  std::vector<SupervisorControl::Side> Sides() const {
+    std::vector<SupervisorControl::Side> sides;
+    for (const auto& [name, node] : owner_.nodes()) sides.push_back({name, node});
+    return sides;
+  }
+  /// The whole of a simulated robot, or nothing of it, begins anew.
+  std::vector<OfferedScenario> Offers() const {
+    if (deployment_.group != "all" || !deployment_.host.empty()) return {};
+    return OfferedScenarios(deployment_, place_.config_folder);
+  }
+  /// Everything but the line and the mouse starts again: no message, lease or mission of before is left.
+  bool BeginAnew(const std::string& scenario) {
+    try {
+      auto plan = PlanOf(InScenario(deployment_, place_.config_folder, scenario), place_);
+      std::erase_if(plan, [](const ProcessSpec& spec) { return spec.group == "line" || !spec.notifies; });
+      supervisor_.Renew(std::move(plan), LearnedFiles(place_));
+    } catch (const ConfigError& error) {
+      Say(error.what());
+      return false;
+    }
+    Say("the world begins anew: " + scenario);
+    return true;
+  }
   /// Waits for something to do, at most 20 ms.
   bool Signalled() {
     pollfd fds[] = {{signals_.fd(), POLLIN, 0}, {supervisor_.fd(), POLLIN, 0}};
@@ -126,7 +165,9 @@ class UpRun {
   Time start_;
   RobotOwner owner_;
   LaunchPlace place_;
+  Deployment deployment_;
   Supervisor supervisor_;
+  SupervisorControl control_;
   bool state_written_ = true;  ///< up.json holds the newest state
 };
 
@@ -144,6 +185,9 @@ int UpNow(const UpOptions& options) {
   if (!options.robot.empty()) deployment.robot = options.robot;
   deployment.host = options.host;
   if (!options.network.empty()) deployment.onboard_network = deployment.offboard_network = options.network;
+  if (!options.scenario.empty() && !deployment.emulated_line)
+    throw ConfigError(fmt::format("--scenario: expected none, because {} is no simulation, got \"{}\"",
+                                  options.deployment, options.scenario));
   RequireHost(deployment);
   RequireBuses(deployment);
   return UpRun(options, folder, deployment).Run();
@@ -230,6 +274,8 @@ void AddUpCommands(CLI::App& cli, int& exit_code) {
   up->add_option("--network", options->network,
                  "interface (eth1) or its address for the buses; default: as in the deployment")
       ->envname(bus::kNetworkVariable);
+  up->add_option("--scenario", options->scenario,
+                 "the scenario in whose world a simulated robot begins; default: as in the deployment");
   up->add_option("--seed", options->seed, "seed of simulated hardware")->capture_default_str();
   up->add_flag("--detach", options->detach, "return when everything is ready");
   up->add_flag("--json", options->json, "machine-readable");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +17,7 @@
 #include "cli/options/verb_setup.hpp"
 #include "cli/supervise/supervisor_search.hpp"
 #include "cli/terminal/terminal_screen.hpp"
+#include "cli/verbs/deployment/process_call.hpp"
 #include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -32,6 +34,7 @@ struct QueryOptions {
   std::string robot{bus::kDefaultRobot};
   std::string network;
   std::string process;  ///< `logs`: empty: all
+  BusOptions bus;       ///< `logs`: where a process is asked for that is not up here
   std::size_t lines = 20;
   bool json = false;
 };
@@ -97,9 +100,36 @@ std::vector<std::string> Tail(const fs::path& file, std::size_t lines) {
   return all;
 }
 
+void Print(const std::string& process, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) std::cout << fmt::format("{:<18} {}\n", process, line);
+}
+
+void PrintJson(const ordered_json& all) {
+  std::cout << all.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+}
+
+/// Of a process that is not up from here: it is asked for on the bus, and through the radio.
+int LogsOfBus(const QueryOptions& options) {
+  ProcessCall call("priamos logs", options.bus);
+  const auto lines = call.Lines(options.process, options.lines);
+  if (!lines) throw std::runtime_error(call.NobodyAnswers(options.process));
+  if (options.json) PrintJson(ordered_json::array({{{"process", options.process}, {"lines", *lines}}}));
+  if (!options.json) Print(options.process, *lines);
+  return 0;
+}
+
+/// Whether processes of the side of `name`, onboard or offboard, are up from here; then it is one of them.
+bool HasSideOf(const std::string& name, const std::optional<UpState>& state) {
+  const std::string side = name.substr(0, name.find('-') + 1);
+  if (!state || (side != "onboard-" && side != "offboard-")) return state.has_value();
+  return std::any_of(state->processes.begin(), state->processes.end(),
+                     [&](const ProcessReport& p) { return p.name.starts_with(side); });
+}
+
 int Logs(const QueryOptions& options) {
   const std::string& name = options.process;
   const auto state = ReadUpState(options.log_root);
+  if (!name.empty() && !HasSideOf(name, state)) return LogsOfBus(options);
   if (!state) {
     std::cout << (options.json ? "[]\n" : "nothing was ever up\n");
     return kNotThere;
@@ -111,13 +141,12 @@ int Logs(const QueryOptions& options) {
     if (!name.empty() && p.name != name) continue;
     const auto tail = Tail(fs::path(state->folder) / (p.name + ".txt"), options.lines);
     all.push_back({{"process", p.name}, {"lines", tail}});
-    for (const std::string& line : tail)
-      if (!options.json) std::cout << fmt::format("{:<18} {}\n", p.name, line);
+    if (!options.json) Print(p.name, tail);
   }
   if (all.empty() && !name.empty())
     throw std::runtime_error(
         fmt::format("unknown process \"{}\"{} (priamos status lists all)", name, NearestText(name, known)));
-  if (options.json) std::cout << all.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+  if (options.json) PrintJson(all);
   return 0;
 }
 
@@ -160,11 +189,12 @@ void AddUpQueries(CLI::App& cli, int& exit_code) {
   AddRobot(*status, *options);
   status->callback([options, &exit_code] { exit_code = Status(*options); });
 
-  auto* logs = AddVerb(cli, "logs", "The consoles of the processes.");
+  auto* logs = AddVerb(cli, "logs", "The consoles of the processes, also of one behind the radio.");
   logs->footer("Example: priamos logs onboard-robot -n 50");
   logs->add_option("process", options->process, "one process; without it all");
   logs->add_option("-n", options->lines, "lines per process")->capture_default_str();
   AddShared(*logs, *options);
+  AddBusOption(*logs, options->bus);
   logs->callback([options, &exit_code] { exit_code = Logs(*options); });
 }
 
