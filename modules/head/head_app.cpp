@@ -34,6 +34,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       look_(config.look, 2,
             config.pictures.empty() ? LookSequence::Exposures::kOwn : LookSequence::Exposures::kRecorded),
       evaluator_(head_, EvaluatorOptions(config, head_)),
+      doors_(config, head_, context),
       drift_(config.drift),
       cameras_(context.instance() + "-camera"),
       head_state_(context.node().Subscribe(channels::kHeadState)),
@@ -87,7 +88,7 @@ bool HeadApp::WasUsed(const FrameNotice& frame) {
 /// The log goes on to its next look: the picture of this one is lost.
 void HeadApp::EndWithoutPictures(Time now) {
   lost_ = false;
-  if (!look_.active()) return;
+  if (!look_.active() || glancing_) return;
   context_.Log(bus::Level::kWarning, "its pictures are not in the folder");
   look_.End();
   Answer(NotFound(Verdict::kNoImage, now));
@@ -115,13 +116,17 @@ void HeadApp::Tick(Time now) {
   MoveByHand(now);
   Look(now);
   WatchFloor(now);
+  doors_.Tell(now);
   ServeVideo(now);
 }
 
 void HeadApp::TakeMessages(Time now) {
   if (const auto state = head_state_.Take()) report_ = FromMessage(*state);
   for (const pose_t& message : pose_.Drain()) {
-    if (const auto sample = FromMessage(message)) poses_.Add(*sample);
+    const auto sample = FromMessage(message);
+    if (!sample) continue;
+    poses_.Add(*sample);
+    doors_.OnPose(*sample);
   }
   for (const head_drive_t& message : wishes_.Drain()) jog_.Take(FromMessage(message), now);
   for (const landmark_model_t& message : landmark_models_.Drain()) {
@@ -138,17 +143,42 @@ void HeadApp::TakeMessages(Time now) {
     orders_.push_back(FromMessage(message));
     if (orders_.size() <= kMaxOrders) continue;
     context_.Log(bus::Level::kWarning, "too many look requests at once: the oldest is refused");
-    look_.End();
+    EndGlance();
     Answer(NotFound(Verdict::kNoImage, now));
   }
 }
 
 void HeadApp::StartNext(Time now) {
-  if (look_.active() || orders_.empty()) return;
+  if (look_.active() && !glancing_) return;
+  if (orders_.empty()) return GlanceAside(now);
+  glancing_ = false;  // an order has the head at once
   HeadSetting setting = config_.LookSetting();
   setting.pan_rad = PanFor(orders_.front(), now);
   positioner_.MoveTo(setting, now);
   look_.Begin(now);
+}
+
+void HeadApp::GlanceAside(Time now) {
+  const bool by_hand = jog_.IsHeld(now);
+  if (glancing_ && by_hand) EndGlance();
+  const auto setting = doors_.Next(by_hand, glancing_, now);
+  if (!setting) return;
+  glancing_ = true;
+  positioner_.MoveTo(*setting, now);
+  look_.Begin(now);
+}
+
+void HeadApp::EndGlance() {
+  glancing_ = false;
+  look_.End();
+}
+
+/// What a glance shows; of one that shows nothing, nothing is said.
+void HeadApp::FindDoors() {
+  const Frames frames = look_.frames();
+  if (const auto robot = poses_.At(frames[kLeft].exposure))
+    doors_.Add({Picture(frames[kLeft]), Picture(frames[kRight])}, report_->setting, *robot);
+  EndGlance();
 }
 
 void HeadApp::MoveHead(Time now) {
@@ -174,6 +204,7 @@ void HeadApp::Look(Time now) {
       trigger_.Publish(TriggerMessage(look_.frame_id(), look_.camera_mask(), now));
       return;
     case LookSequence::Action::kGiveUp:
+      if (glancing_) return EndGlance();
       context_.Log(bus::Level::kWarning, positioner_.failed() ? "the head did not reach its setting"
                                                               : "no stereo pair arrived from the cameras");
       look_.End();
@@ -181,6 +212,7 @@ void HeadApp::Look(Time now) {
       return;
     case LookSequence::Action::kUseFrames: {
       lost_ = false;
+      if (glancing_) return FindDoors();
       LookAnswer answer = Evaluate(look_.frames());
       look_.End();
       Answer(std::move(answer));

@@ -11,6 +11,7 @@
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/head_positioner.hpp"
 #include "head/core/motion/look_sequence.hpp"
+#include "head/core/motion/side_watch.hpp"
 #include "head/video_config.hpp"
 
 namespace priamos::head {
@@ -59,6 +60,7 @@ struct HeadConfig {
   VisionConfig vision;
   DriftConfig drift;
   LaserWatchConfig laser;
+  SideWatchConfig doors;
   VideoConfig video;
 
   void Describe(Archive& a);

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "head/core/doors/door_tracks.hpp"
 #include "head/core/doors/leaf_sight.hpp"
 #include "head/core/floor/obstacle_lines.hpp"
 #include "head/core/landmark/landmark.hpp"
@@ -49,6 +50,8 @@ camera_trigger_t TriggerMessage(std::int32_t frame_id, int cameras, Time now);
 landmark_fix_t ToMessage(const LookAnswer& answer);
 /// What the look shows of the door's leaf; nullopt unless it found a door.
 std::optional<door_seen_t> DoorSeenMessage(const LookAnswer& answer);
+/// A door that was found, in the state `state`.
+door_found_t ToMessage(const DoorTrack& door, DoorState state);
 /// The view as a message; edges that do not fit it, the last ones, are left out and counted.
 landmark_view_t ViewMessage(const LookAnswer& answer);
 /// The pieces as a message; of those that do not fit, kMissing ones are left out first, then the lowest. They

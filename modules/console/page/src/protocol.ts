@@ -129,6 +129,9 @@ export interface LandmarkModel {
 
 export interface DoorSeen { landmark_id: number; hinge: number; open_rad: number; sigma_rad: number }
 
+/** A door that the head found in passing. */
+export interface DoorFound { id: number; x_m: number; y_m: number; yaw_rad: number; width_m: number; state: number }
+
 export interface SonarRanges { range_m: number[] }
 
 export interface LandmarkView {
