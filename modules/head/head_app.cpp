@@ -14,6 +14,12 @@ namespace {
 
 constexpr std::size_t kMaxOrders = 16;
 
+/// The third camera takes part where it is calibrated at all.
+int CamerasOf(const HeadConfig& config, const HeadModel& head) {
+  return config.vision.third_camera && head.CameraAt(config.LookSetting(), kThird) ? kCameras
+                                                                                         : LookSequence::kPair;
+}
+
 LookAnswer NotFound(Verdict verdict, Time exposure) {
   LookAnswer answer;
   answer.exposure = exposure;
@@ -31,7 +37,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       positioner_(config.motors),
       watch_(config.laser),
       floor_(head_, config.laser.obstacle),
-      look_(config.look, 2,
+      look_(config.look, CamerasOf(config, head_),
             config.pictures.empty() ? LookSequence::Exposures::kOwn : LookSequence::Exposures::kRecorded),
       evaluator_(head_, EvaluatorOptions(config, head_)),
       doors_(config, head_, context),
@@ -165,7 +171,7 @@ void HeadApp::GlanceAside(Time now) {
   if (!setting) return;
   glancing_ = true;
   positioner_.MoveTo(*setting, now);
-  look_.Begin(now);
+  look_.Begin(now, LookSequence::kPair);
 }
 
 void HeadApp::EndGlance() {
@@ -271,10 +277,12 @@ LookAnswer HeadApp::Evaluate(const Frames& frames) {
   LookResult result = evaluator_.Evaluate({model == models_.end() ? nullptr : &model->second,
                                            poses_.At(answer.exposure),
                                            {Picture(frames[kLeft]), Picture(frames[kRight])},
-                                           report_->setting});
+                                           report_->setting,
+                                           frames.size() > kThird ? Picture(frames[kThird]) : std::nullopt});
   answer.fix = std::move(result.fix);
   answer.view = std::move(result.view);
   answer.leaf = result.leaf;
+  answer.n_third = result.n_third;
   if (result.drift) Judge(*result.drift);
   return answer;
 }
@@ -326,9 +334,10 @@ void HeadApp::Answer(LookAnswer answer) {
   }
   context_.Log(
       bus::Level::kInfo,
-      fmt::format("look {}: landmark {} at ({:.3f}, {:.3f}) m, {:.2f} deg; {} edges, {:.2f} px",
+      fmt::format("look {}: landmark {} at ({:.3f}, {:.3f}) m, {:.2f} deg; {} edges, {} of the third camera, "
+                  "{:.2f} px",
                   order.request_id, order.landmark_id, fix.base_from_landmark.x, fix.base_from_landmark.y,
-                  Degrees(fix.base_from_landmark.yaw), fix.n_matched, fix.residual_px));
+                  Degrees(fix.base_from_landmark.yaw), fix.n_matched, answer.n_third, fix.residual_px));
 }
 
 }  // namespace priamos::head

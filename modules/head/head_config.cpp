@@ -15,6 +15,7 @@ void VisionConfig::Describe(Archive& a) {
   a.Number("min_log_odds", min_log_odds,
            {"-", 0, 100, "natural logarithm of the evidence that a fix needs beyond chance"});
   a.Number("min_lead", min_lead, {"-", 0, 100, "and over the next best pose"});
+  a.Flag("third_camera", third_camera, "the third camera takes part in looks, where it is calibrated");
 }
 
 void ReferencePose::Describe(Archive& a) {

@@ -33,6 +33,7 @@ struct LookAnswer {
   Pose2 map_from_landmark;        ///< pose of the landmark in its model, map frame
   LandmarkView view;              ///< edges that led to the verdict
   std::optional<LeafSight> leaf;  ///< leaf of the door found; nullopt: no door was found
+  int n_third = 0;                ///< edges that the third camera added to the fix
 };
 
 HeadReport FromMessage(const head_state_t& message);

@@ -30,7 +30,7 @@ bool IsOnTheWay(const DoorPlan& door, const RunRecord& record) {
 double LeafAngle_deg(const DoorPlan& door, const TrueWorld& world) {
   for (const world::Solid& solid : world.solids)
     if (solid.name == world::LeafName(door))
-      return std::abs(Degrees(WrapAngle(solid.map_from_centre.yaw - door.map_from_door().yaw)));
+      return std::abs(Degrees(WrapAngle(solid.map_from_solid.yaw - door.map_from_door().yaw)));
   return 180;
 }
 
@@ -89,7 +89,10 @@ std::optional<FoundDoors> FoundDoorsOf(const RunRecord& record, const RunInfo& i
   std::vector<bool> is_true(map.doors.size(), false);
   for (const DoorPlan& built : info.world.doors) {
     const double open_deg = LeafAngle_deg(built, info.world);
-    FoundDoor found{built.name, StateOf(open_deg), open_deg};
+    FoundDoor found;
+    found.name = built.name;
+    found.state = StateOf(open_deg);
+    found.open_deg = open_deg;
     for (std::size_t i = 0; i < map.doors.size(); ++i) {
       const Vector2d away = map.doors[i].map_from_door().translation() - Vector2d(built.x_m, built.y_m);
       if (away.norm() > kFound_m) continue;
