@@ -6,34 +6,35 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kStep_m = 0.01, kStep_rad = Radians(1);
+constexpr double kStep_m = 0.01, kStep_rad = Radians(2);
 constexpr double kPrior = 1;  ///< of "nothing to be seen", which closed leaves show more often than rooms do
+constexpr double kDeep_m = 2;  ///< how far apart surfaces of a room are
+/// Shares of the surfaces that are seen where a leaf is: pieces of it, what stands before it, what it should
+/// hide.
+constexpr double kOfLeaf = 0.87, kBefore = 0.1, kBehind = 0.03;
 
-/// How well surfaces agree with one leaf.
-struct LeafVotes {
-  int on = 0, behind = 0;
+/// A leaf whose face meets the hinge at x = `depth_m`, y = `side` * `half_m`.
+struct SupposedLeaf {
+  double half_m, depth_m, open_rad;
+  int side;
 
-  /// Its log likelihood against a world without leaf.
-  double Worth() const { return on - 1.5 * behind; }
-};
-
-/// The votes for a leaf whose face meets the hinge at x = `depth_m`, y = `side` * `half_m`.
-LeafVotes VotesFor(std::span<const SurfacePoint> surfaces, double half_m, int side, double depth_m,
-                   double open_rad, double on_leaf_m) {
-  LeafVotes votes;
-  const double c = std::cos(open_rad), s = std::sin(open_rad);
-  for (const SurfacePoint& surface : surfaces) {
+  /// Log likelihood of a surface if the leaf is there, less that in a room.
+  double Of(const SurfacePoint& surface, double leaf_sigma_m) const {
+    const double c = std::cos(open_rad), s = std::sin(open_rad);
     const double from_hinge = half_m - side * surface.at.y(), into = surface.at.x() - depth_m;
     const double along = c * from_hinge + s * into, off = c * into - s * from_hinge;
-    if (along < 0 || along > 2 * half_m) {
-      votes.behind += into > 3 * on_leaf_m;
-      continue;
-    }
-    const double tolerance = std::hypot(on_leaf_m, 2 * surface.sigma_x_m * c);
-    votes.on += std::abs(off) < tolerance;
-    votes.behind += off > 3 * tolerance;
+    const double elsewhere = off > 0 ? kBehind : kBefore;
+    if (along < 0 || along > 2 * half_m) return std::log(elsewhere + kOfLeaf / 8);  // past its end
+    const double sigma = std::hypot(leaf_sigma_m, surface.sigma_x_m);
+    const double density = std::exp(-0.5 * off * off / (sigma * sigma)) / (sigma * std::sqrt(2 * kPi));
+    return std::log(kOfLeaf * kDeep_m * density + elsewhere);
   }
-  return votes;
+};
+
+double Of(const SupposedLeaf& leaf, std::span<const SurfacePoint> surfaces, double sigma_m) {
+  double sum = 0;
+  for (const SurfacePoint& surface : surfaces) sum += leaf.Of(surface, sigma_m);
+  return sum;
 }
 
 }  // namespace
@@ -56,21 +57,21 @@ double DoorStateEvidence::Lead() const {
 
 DoorStateEvidence StateOf(const OpeningShape& opening, std::span<const SurfacePoint> surfaces,
                           const DoorStateOptions& options) {
-  const double half_m = opening.width_m / 2;
   double closed = -1e9, ajar = -1e9;
   for (double depth_m = -options.foremost_m; depth_m <= options.deepest_m; depth_m += kStep_m) {
     for (double open_rad = 0; open_rad < options.open_rad; open_rad += kStep_rad) {
       for (const int side : {-1, 1}) {
-        const double worth =
-            VotesFor(surfaces, half_m, side, depth_m, open_rad, options.on_leaf_m).Worth();
+        const SupposedLeaf leaf{opening.width_m / 2, depth_m, open_rad, side};
         double& best = open_rad < options.ajar_rad ? closed : ajar;
-        best = std::max(best, worth);
+        best = std::max(best, Of(leaf, surfaces, options.leaf_sigma_m));
       }
     }
   }
   DoorStateEvidence evidence;
-  const auto scaled = [&](double worth) {
-    return std::clamp(options.each * worth, -options.most, options.most);
+  // What is beyond the most is taken from both: which of them it is stays as sure.
+  const double beyond = std::max(0.0, options.each * std::max(closed, ajar) - options.most);
+  const auto scaled = [&](double likelihood) {
+    return std::max(options.each * likelihood - beyond, -options.most);
   };
   evidence.log_likelihood = {scaled(closed) + kPrior, scaled(ajar), 0};
   return evidence;
