@@ -124,6 +124,7 @@ def figures(runs):
     text.append(line("error of the heading there", [b["heading_deg"] for b in beliefs], "degrees"))
     text.append(line("what the robot expects across, sigma", [b["lateral_sigma_m"] for b in beliefs], "cm", 100))
     text += floor_figures([r["explore"] for r in runs.values() if r.get("explore")])
+    text += door_figures([r["doors"] for r in runs.values() if r.get("doors")])
     text += corridor_figures([r["corridor"] for r in passed if r.get("corridor")])
     if beliefs:
         nees = [b["nees"] for b in beliefs]
@@ -145,6 +146,27 @@ def floor_figures(floors):
             line("driven, parts of the best tour", [f["driven_m"] / f["tour_m"] for f in floors if f.get("tour_m")], "-"),
             line("walls, 95 % within", [f["wall_error_p95_m"] for f in floors], "cm", 100),
             line("pose at the end", [f["pose_error_m"] for f in floors], "cm", 100)]
+
+
+def door_figures(runs):
+    """Lines of text about doors that the head found in passing."""
+    if not runs:
+        return []
+    doors = [d for r in runs for d in r["on_the_way"]]
+    found = [d for d in doors if d["told"]]
+    told = [d for d in found if d["told"] != "unknown"]
+    text = [f"{'doors on the way':<36} {len(found)} of {len(doors)} found, {sum(r['false'] for r in runs)} false; state "
+            f"told of {len(told)}, right {sum(d['told'] == d['state'] for d in told)}",
+            line("their place along the wall", [d["along_m"] for d in found], "cm", 100),
+            line("their place across the wall", [d["across_m"] for d in found], "cm", 100)]
+    if found:
+        nees = [(d["along_m"] / max(0.001, d["sigma_along_m"])) ** 2 + (d["across_m"] / max(0.001, d["sigma_across_m"])) ** 2
+                for d in found]
+        text.append(f"{'their NEES (2 is right)':<36} mean {statistics.mean(nees):.2f}")
+    for d in found:
+        if d["told"] != d["state"]:
+            text.append(f"  {d['name']}: {d['state']} ({d['open_deg']:.0f} degrees) told {d['told']}")
+    return text
 
 
 def corridor_figures(corridors):

@@ -27,7 +27,7 @@ inline constexpr std::array kShownChannels{
     std::string_view("LANDMARK_MODEL"), std::string_view("PARAMETER_VALUE"),
     std::string_view("PROCESS_STATE"),  std::string_view("PROCESS_REPORT"),
     std::string_view("SIMULATION"),     std::string_view("FLOOR_MAP"),
-    std::string_view("HEAD_STATE")};
+    std::string_view("HEAD_STATE"),     std::string_view("DOOR_FOUND")};
 
 /// Channels that the radio carries only while somebody looks at them.
 std::set<std::string> OnRequest(const bus::radio::LinkConfig& link);

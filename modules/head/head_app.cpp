@@ -14,6 +14,12 @@ namespace {
 
 constexpr std::size_t kMaxOrders = 16;
 
+/// The third camera takes part where it is calibrated at all.
+int CamerasOf(const HeadConfig& config, const HeadModel& head) {
+  return config.vision.third_camera && head.CameraAt(config.LookSetting(), kThird) ? kCameras
+                                                                                         : LookSequence::kPair;
+}
+
 LookAnswer NotFound(Verdict verdict, Time exposure) {
   LookAnswer answer;
   answer.exposure = exposure;
@@ -31,9 +37,10 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       positioner_(config.motors),
       watch_(config.laser),
       floor_(head_, config.laser.obstacle),
-      look_(config.look, 2,
+      look_(config.look, CamerasOf(config, head_),
             config.pictures.empty() ? LookSequence::Exposures::kOwn : LookSequence::Exposures::kRecorded),
       evaluator_(head_, EvaluatorOptions(config, head_)),
+      doors_(config, head_, context),
       drift_(config.drift),
       cameras_(context.instance() + "-camera"),
       head_state_(context.node().Subscribe(channels::kHeadState)),
@@ -88,7 +95,7 @@ bool HeadApp::WasUsed(const FrameNotice& frame) {
 /// The log goes on to its next look: the picture of this one is lost.
 void HeadApp::EndWithoutPictures(Time now) {
   lost_ = false;
-  if (!look_.active()) return;
+  if (!look_.active() || glancing_) return;
   context_.Log(bus::Level::kWarning, "its pictures are not in the folder");
   look_.End();
   Answer(NotFound(Verdict::kNoImage, now));
@@ -116,13 +123,17 @@ void HeadApp::Tick(Time now) {
   MoveByHand(now);
   Look(now);
   WatchFloor(now);
+  doors_.Tell(now);
   ServeVideo(now);
 }
 
 void HeadApp::TakeMessages(Time now) {
   if (const auto state = head_state_.Take()) report_ = FromMessage(*state);
   for (const pose_t& message : pose_.Drain()) {
-    if (const auto sample = FromMessage(message)) poses_.Add(*sample);
+    const auto sample = FromMessage(message);
+    if (!sample) continue;
+    poses_.Add(*sample);
+    doors_.OnPose(*sample);
   }
   for (const head_drive_t& message : wishes_.Drain()) jog_.Take(FromMessage(message), now);
   for (const head_aim_t& message : aims_.Drain()) aim_.Take(FromMessage(message), now);
@@ -140,17 +151,42 @@ void HeadApp::TakeMessages(Time now) {
     orders_.push_back(FromMessage(message));
     if (orders_.size() <= kMaxOrders) continue;
     context_.Log(bus::Level::kWarning, "too many look requests at once: the oldest is refused");
-    look_.End();
+    EndGlance();
     Answer(NotFound(Verdict::kNoImage, now));
   }
 }
 
 void HeadApp::StartNext(Time now) {
-  if (look_.active() || orders_.empty()) return;
+  if (look_.active() && !glancing_) return;
+  if (orders_.empty()) return GlanceAside(now);
+  glancing_ = false;  // an order has the head at once
   HeadSetting setting = config_.LookSetting();
   setting.pan_rad = PanFor(orders_.front(), now);
   positioner_.MoveTo(setting, now);
   look_.Begin(now);
+}
+
+void HeadApp::GlanceAside(Time now) {
+  const bool by_hand = jog_.IsHeld(now);
+  if (glancing_ && by_hand) EndGlance();
+  const auto setting = doors_.Next(by_hand, glancing_, now);
+  if (!setting) return;
+  glancing_ = true;
+  positioner_.MoveTo(*setting, now);
+  look_.Begin(now, LookSequence::kPair);
+}
+
+void HeadApp::EndGlance() {
+  glancing_ = false;
+  look_.End();
+}
+
+/// What a glance shows; of one that shows nothing, nothing is said.
+void HeadApp::FindDoors() {
+  const Frames frames = look_.frames();
+  if (const auto robot = poses_.At(frames[kLeft].exposure))
+    doors_.Add({Picture(frames[kLeft]), Picture(frames[kRight])}, report_->setting, *robot);
+  EndGlance();
 }
 
 void HeadApp::MoveHead(Time now) {
@@ -177,6 +213,7 @@ void HeadApp::Look(Time now) {
       trigger_.Publish(TriggerMessage(look_.frame_id(), look_.camera_mask(), now));
       return;
     case LookSequence::Action::kGiveUp:
+      if (glancing_) return EndGlance();
       context_.Log(bus::Level::kWarning, positioner_.failed() ? "the head did not reach its setting"
                                                               : "no stereo pair arrived from the cameras");
       look_.End();
@@ -184,6 +221,7 @@ void HeadApp::Look(Time now) {
       return;
     case LookSequence::Action::kUseFrames: {
       lost_ = false;
+      if (glancing_) return FindDoors();
       LookAnswer answer = Evaluate(look_.frames());
       look_.End();
       Answer(std::move(answer));
@@ -242,10 +280,12 @@ LookAnswer HeadApp::Evaluate(const Frames& frames) {
   LookResult result = evaluator_.Evaluate({model == models_.end() ? nullptr : &model->second,
                                            poses_.At(answer.exposure),
                                            {Picture(frames[kLeft]), Picture(frames[kRight])},
-                                           report_->setting});
+                                           report_->setting,
+                                           frames.size() > kThird ? Picture(frames[kThird]) : std::nullopt});
   answer.fix = std::move(result.fix);
   answer.view = std::move(result.view);
   answer.leaf = result.leaf;
+  answer.n_third = result.n_third;
   if (result.drift) Judge(*result.drift);
   return answer;
 }
@@ -297,9 +337,10 @@ void HeadApp::Answer(LookAnswer answer) {
   }
   context_.Log(
       bus::Level::kInfo,
-      fmt::format("look {}: landmark {} at ({:.3f}, {:.3f}) m, {:.2f} deg; {} edges, {:.2f} px",
+      fmt::format("look {}: landmark {} at ({:.3f}, {:.3f}) m, {:.2f} deg; {} edges, {} of the third camera, "
+                  "{:.2f} px",
                   order.request_id, order.landmark_id, fix.base_from_landmark.x, fix.base_from_landmark.y,
-                  Degrees(fix.base_from_landmark.yaw), fix.n_matched, fix.residual_px));
+                  Degrees(fix.base_from_landmark.yaw), fix.n_matched, answer.n_third, fix.residual_px));
 }
 
 }  // namespace priamos::head

@@ -15,6 +15,7 @@ void VisionConfig::Describe(Archive& a) {
   a.Number("min_log_odds", min_log_odds,
            {"-", 0, 100, "natural logarithm of the evidence that a fix needs beyond chance"});
   a.Number("min_lead", min_lead, {"-", 0, 100, "and over the next best pose"});
+  a.Flag("third_camera", third_camera, "the third camera takes part in looks, where it is calibrated");
 }
 
 void ReferencePose::Describe(Archive& a) {
@@ -50,6 +51,7 @@ void HeadConfig::Describe(Archive& a) {
   a.Section("vision", vision, "edges and landmark fixes");
   a.Section("drift", drift, "alarm when the cameras are no longer where the calibration has them");
   a.Section("laser", laser, "obstacles and steps by the laser's line");
+  a.Section("doors", doors, "glances aside, for doors that are not looked at by order");
   a.Section("video", video, "the third camera's pictures for people, over HTTP beside the bus");
   if (!pictures.empty() && !keep_pictures.empty())
     a.Refuse("keep_pictures", "no folder beside `pictures`: those are kept already");
@@ -65,6 +67,7 @@ void HeadConfig::Describe(Archive& a) {
   const int nearest = motors.approach_steps;
   if (zoom_step < nearest || plan.zoom.first < nearest)
     a.Refuse("zoom_step", "zoom not below motors.approach_steps");
+  if (doors.zoom_step < nearest) a.Refuse("doors.zoom_step", "zoom not below motors.approach_steps");
   if (focus_step < nearest || plan.focus.first < nearest)
     a.Refuse("focus_step", "focus not below motors.approach_steps");
 }

@@ -11,6 +11,7 @@
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/head_positioner.hpp"
 #include "head/core/motion/look_sequence.hpp"
+#include "head/core/motion/side_watch.hpp"
 #include "head/video_config.hpp"
 
 namespace priamos::head {
@@ -25,6 +26,7 @@ struct VisionConfig {
   double camera_sigma_px = 0.05;   ///< how well the cameras are calibrated and the motors return
   double min_log_odds = 7;         ///< evidence wanted beyond chance
   double min_lead = 6;             ///< evidence wanted over the next best pose
+  bool third_camera = true;        ///< takes part in looks where it is calibrated
 
   void Describe(Archive& a);
 };
@@ -59,6 +61,7 @@ struct HeadConfig {
   VisionConfig vision;
   DriftConfig drift;
   LaserWatchConfig laser;
+  SideWatchConfig doors;
   VideoConfig video;
 
   void Describe(Archive& a);

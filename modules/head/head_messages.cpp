@@ -193,6 +193,24 @@ std::optional<door_seen_t> DoorSeenMessage(const LookAnswer& answer) {
   return message;
 }
 
+door_found_t ToMessage(const DoorTrack& door, DoorState state) {
+  door_found_t message{};
+  message.utime_seen = ToUtime(door.seen);
+  message.id = static_cast<std::int16_t>(door.id);
+  message.x_m = door.map_from_door.x;
+  message.y_m = door.map_from_door.y;
+  message.yaw_rad = door.map_from_door.yaw;
+  message.width_m = door.width_m;
+  const Eigen::Matrix2d turn = door.map_from_door.rotation();
+  const Eigen::Vector2d variance = (turn.transpose() * door.covariance * turn).diagonal();
+  message.sigma_across_m = std::sqrt(std::max(0.0, variance.x()));
+  message.sigma_along_m = std::sqrt(std::max(0.0, variance.y()));
+  message.state = static_cast<std::int8_t>(state);
+  message.log_odds = std::min(door.state.Lead(), 31.0);
+  message.looks = static_cast<std::int8_t>(std::min(door.looks, 63));
+  return message;
+}
+
 landmark_view_t ViewMessage(const LookAnswer& answer) {
   landmark_view_t message{};
   message.utime_exposure = ToUtime(answer.exposure);

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "head/core/doors/door_tracks.hpp"
 #include "head/core/doors/leaf_sight.hpp"
 #include "head/core/floor/obstacle_lines.hpp"
 #include "head/core/landmark/landmark.hpp"
@@ -32,6 +33,7 @@ struct LookAnswer {
   Pose2 map_from_landmark;        ///< pose of the landmark in its model, map frame
   LandmarkView view;              ///< edges that led to the verdict
   std::optional<LeafSight> leaf;  ///< leaf of the door found; nullopt: no door was found
+  int n_third = 0;                ///< edges that the third camera added to the fix
 };
 
 HeadReport FromMessage(const head_state_t& message);
@@ -50,6 +52,8 @@ camera_trigger_t TriggerMessage(std::int32_t frame_id, int cameras, Time now);
 landmark_fix_t ToMessage(const LookAnswer& answer);
 /// What the look shows of the door's leaf; nullopt unless it found a door.
 std::optional<door_seen_t> DoorSeenMessage(const LookAnswer& answer);
+/// A door that was found, in the state `state`.
+door_found_t ToMessage(const DoorTrack& door, DoorState state);
 /// The view as a message; edges that do not fit it, the last ones, are left out and counted.
 landmark_view_t ViewMessage(const LookAnswer& answer);
 /// The pieces as a message; of those that do not fit, kMissing ones are left out first, then the lowest. They

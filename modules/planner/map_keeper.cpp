@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -41,6 +42,29 @@ std::optional<SeenWall> FromMessage(int store, const feature_t& m) {
   return seen;
 }
 
+std::optional<LearnedDoor> FromMessage(const door_found_t& m) {
+  constexpr double kMap_m = 100, kYaw = 3.15;
+  constexpr std::array<const char*, 4> kStates{"unknown", "closed", "ajar", "open"};
+  const bool good = Within(m.x_m, -kMap_m, kMap_m) && Within(m.y_m, -kMap_m, kMap_m) &&
+                    Within(m.yaw_rad, -kYaw, kYaw) && Within(m.width_m, 0.3, 2.55) &&
+                    Within(m.sigma_along_m, 0, 0.63) && Within(m.sigma_across_m, 0, 0.63) &&
+                    Within(m.state, 0, 3) && Within(m.log_odds, 0, 31) && Within(m.looks, 1, 63) &&
+                    m.utime_seen >= 0;
+  if (!good) return std::nullopt;
+  LearnedDoor door;
+  door.x_m = m.x_m;
+  door.y_m = m.y_m;
+  door.yaw_deg = Degrees(WrapAngle(m.yaw_rad));
+  door.width_m = m.width_m;
+  door.sigma_along_m = m.sigma_along_m;
+  door.sigma_across_m = m.sigma_across_m;
+  door.state = kStates[static_cast<std::size_t>(m.state)];
+  door.state_log_odds = m.log_odds;
+  door.looks = m.looks;
+  door.seen_s = static_cast<double>(m.utime_seen) * 1e-6;
+  return door;
+}
+
 features_ack_t BatchLog::Note(int store, int batch) {
   const int ahead = (batch - newest_ + kBatches) % kBatches;
   if (store != store_) {
@@ -66,6 +90,7 @@ MapKeeper::MapKeeper(const PlannerConfig& config, bus::Context& context)
       map_(config.learned, file_.empty() ? LearnedWalls{} : LoadLearnedWalls(file_)),
       written_(map_.walls().revision),
       features_(context.node().SubscribeAll(channels::kFeatures)),
+      doors_(context.node().SubscribeAll(channels::kDoorFound)),
       orders_(context.node().SubscribeAll(channels::kMapCommand)),
       acks_(context.node().Advertise(channels::kFeaturesAck)) {}
 
@@ -78,7 +103,8 @@ std::shared_ptr<const LearnedWalls> MapKeeper::Tick(Time now) {
   if (!greeted_ && map_.walls().walls.empty()) acks_.Publish(features_ack_t{});
   greeted_ = true;
   const bool was_reset = TakeOrders();
-  const bool changed = TakeFeatures() || was_reset;
+  const bool new_walls = TakeFeatures(), new_doors = TakeDoors();
+  const bool changed = new_walls || new_doors || was_reset;
   const bool due = was_reset || !wrote_ || Seconds(now - *wrote_) >= kWriteEvery_s;
   if (due && IsToBeWritten()) {
     wrote_ = now;
@@ -107,6 +133,16 @@ bool MapKeeper::TakeFeatures() {
   return changed;
 }
 
+bool MapKeeper::TakeDoors() {
+  bool changed = false;
+  for (const door_found_t& message : doors_.Drain()) {
+    const auto told = FromMessage(message);
+    if (!told) context_.Log(bus::Level::kWarning, "a door refused: numbers out of range");
+    changed = (told && map_.Take(*told)) || changed;
+  }
+  return changed;
+}
+
 bool MapKeeper::TakeOrders() {
   bool was_reset = false;
   for (const map_command_t& order : orders_.Drain()) {
@@ -115,9 +151,10 @@ bool MapKeeper::TakeOrders() {
       continue;
     }
     const std::size_t walls = map_.walls().walls.size();
+    const std::size_t doors = map_.walls().doors.size();
     map_.Reset();
     was_reset = true;
-    context_.Log(bus::Level::kInfo, fmt::format("the learned map is forgotten: {} walls", walls));
+    context_.Log(bus::Level::kInfo, fmt::format("the learned map is forgotten: {} walls, {} doors", walls, doors));
   }
   return was_reset;
 }

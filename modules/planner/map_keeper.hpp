@@ -17,6 +17,9 @@ namespace priamos::planner {
 /// A feature as the map takes it; nullopt when a number is not finite or outside its range.
 std::optional<SeenWall> FromMessage(int store, const feature_t& message);
 
+/// A door as the map takes it; likewise.
+std::optional<LearnedDoor> FromMessage(const door_found_t& message);
+
 /// Which batches of a robot's features came, for FEATURES_ACK.
 class BatchLog {
  public:
@@ -45,6 +48,7 @@ class MapKeeper {
 
  private:
   bool TakeFeatures();
+  bool TakeDoors();
   bool TakeOrders();
   bool IsToBeWritten() const;
   void Write();
@@ -58,6 +62,7 @@ class MapKeeper {
   bool greeted_ = false, complained_ = false;
   BatchLog batches_;
   bus::Inbox<features_t> features_;
+  bus::Inbox<door_found_t> doors_;
   bus::Inbox<map_command_t> orders_;
   bus::Publisher<features_ack_t> acks_;
 };

@@ -15,7 +15,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using Bench = HeadOnABench<HeadApp>;
 
-constexpr int kLeftAndRight = 3, kThirdWithLaser = 12;  // bits of a trigger
+constexpr int kLeftAndRight = 3, kAllThree = 7, kThirdWithLaser = 12;  // bits of a trigger
 
 HeadSetting SettingOf(const head_command_t& m) {
   return {m.pan_rad,
@@ -43,7 +43,24 @@ TEST(HeadApp, ALookComesFromBelowAndExposesBothCamerasOnce) {
   EXPECT_LT(head.commands[0].zoom_step[1], config.zoom_step);
   EXPECT_TRUE(IsSameSetting(SettingOf(head.commands[1]), config.LookSetting(), 1e-9)) << "straight ahead";
   ASSERT_EQ(head.triggers.size(), 1u);
-  EXPECT_EQ(head.triggers[0].cameras, kLeftAndRight);
+  EXPECT_EQ(head.triggers[0].cameras, kAllThree);
+}
+
+TEST(HeadApp, TheThirdCameraTakesPartOnlyWhereItIsCalibratedAndWanted) {
+  HeadConfig config;
+  config.vision.third_camera = false;
+  Bench unwanted(config);
+  unwanted.SendLook(7, 3);
+  unwanted.Run(1);
+  ASSERT_EQ(unwanted.triggers.size(), 1u);
+  EXPECT_EQ(unwanted.triggers[0].cameras, kLeftAndRight);
+  HeadModel table = Bench::NearlyDrawn();
+  table.lenses[kThird] = {};
+  Bench uncalibrated({}, table);
+  uncalibrated.SendLook(7, 3);
+  uncalibrated.Run(1);
+  ASSERT_EQ(uncalibrated.triggers.size(), 1u);
+  EXPECT_EQ(uncalibrated.triggers[0].cameras, kLeftAndRight);
 }
 
 TEST(HeadApp, ALandmarkThatNobodyHasSentIsAnsweredSo) {

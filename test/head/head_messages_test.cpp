@@ -45,6 +45,25 @@ TEST(HeadMessagesTest, AViewComesBackAsItWas) {
   }
 }
 
+TEST(HeadMessagesTest, ADoorThatWasFoundHasItsErrorsAlongTheWallAndAcross) {
+  DoorTrack door;
+  door.id = 4;
+  door.seen = FromUtime(7'000'000);
+  door.map_from_door = {6, 1.1, Radians(90)};
+  door.covariance << 0.04 * 0.04, 0, 0, 0.01 * 0.01;  // of x, which is along the wall, and y
+  door.width_m = 0.9;
+  door.looks = 100;
+  door.state.log_likelihood = {5, 1, 0};
+  const door_found_t message = ToMessage(door, DoorState::kClosed);
+  EXPECT_EQ(message.utime_seen, 7'000'000);
+  EXPECT_EQ(message.id, 4);
+  EXPECT_NEAR(message.sigma_along_m, 0.04, 1e-9);
+  EXPECT_NEAR(message.sigma_across_m, 0.01, 1e-9);
+  EXPECT_EQ(message.state, door_found_t::CLOSED);
+  EXPECT_EQ(message.log_odds, 4);
+  EXPECT_EQ(message.looks, 63) << "as many as the field has";
+}
+
 TEST(HeadMessagesTest, ALookThatFoundNoDoorSaysNothingOfALeaf) {
   EXPECT_FALSE(DoorSeenMessage(Answer(1)));
 }

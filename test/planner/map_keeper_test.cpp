@@ -70,6 +70,45 @@ TEST(FeatureMessage, NumbersOutOfRangeAreNoWall) {
   EXPECT_FALSE(FromMessage(0, Wall(4)));
 }
 
+door_found_t Door(double x_m = 6) {
+  door_found_t door{};
+  door.utime_seen = 1'000'000'000;
+  door.id = 2;
+  door.x_m = x_m;
+  door.y_m = 1.1;
+  door.yaw_rad = 1.5;
+  door.width_m = 0.9;
+  door.sigma_along_m = 0.02;
+  door.sigma_across_m = 0.01;
+  door.state = door_found_t::AJAR;
+  door.log_odds = 5;
+  door.looks = 3;
+  return door;
+}
+
+TEST(DoorMessage, ADoorIsWhatItSays) {
+  const auto dut = FromMessage(Door());
+  ASSERT_TRUE(dut);
+  EXPECT_NEAR(dut->yaw_deg, Degrees(1.5), 1e-9);
+  EXPECT_EQ(dut->state, "ajar");
+  EXPECT_EQ(dut->seen_s, 1000);
+  EXPECT_EQ(dut->looks, 3);
+}
+
+TEST(DoorMessage, NumbersOutOfRangeAreNoDoor) {
+  const auto refused = [](const auto& damage) {
+    door_found_t door = Door();
+    damage(door);
+    return !FromMessage(door);
+  };
+  EXPECT_TRUE(refused([](door_found_t& d) { d.x_m = std::numeric_limits<double>::quiet_NaN(); }));
+  EXPECT_TRUE(refused([](door_found_t& d) { d.width_m = 0; }));
+  EXPECT_TRUE(refused([](door_found_t& d) { d.state = 4; }));
+  EXPECT_TRUE(refused([](door_found_t& d) { d.looks = 0; }));
+  EXPECT_TRUE(refused([](door_found_t& d) { d.log_odds = -1; }));
+  EXPECT_TRUE(refused([](door_found_t& d) { d.utime_seen = -1; }));
+}
+
 TEST(BatchLog, SaysWhichOfTheLastEightCame) {
   BatchLog dut;
   EXPECT_EQ(dut.Note(7, 250).earlier, 0);
@@ -145,6 +184,25 @@ TEST_F(MapKeeperTest, ALogOfAnotherDayLeavesTheMapOfTodayAsItIs) {
   station_->Run(40);
   station_.reset();
   EXPECT_THAT(LoadLearnedWalls(file_).walls, SizeIs(1));
+}
+
+TEST_F(MapKeeperTest, DoorsAreWrittenAndForgottenWithTheRest) {
+  Begin();
+  auto doors = station_->other.Advertise(channels::kDoorFound);
+  doors.Publish(Door());
+  door_found_t damaged = Door(9);
+  damaged.y_m = std::numeric_limits<double>::infinity();
+  doors.Publish(damaged);
+  station_->Run(40);
+  const LearnedWalls map = LoadLearnedWalls(file_);
+  ASSERT_THAT(map.doors, SizeIs(1));
+  EXPECT_EQ(map.doors[0].state, "ajar");
+  EXPECT_THAT(station_->log, testing::Contains(testing::HasSubstr("a door refused")));
+  map_command_t order{};
+  order.action = map_command_t::RESET;
+  orders_->Publish(order);
+  station_->Run(2);
+  EXPECT_THAT(LoadLearnedWalls(file_).doors, IsEmpty());
 }
 
 TEST_F(MapKeeperTest, ResetForgetsAtOnce) {

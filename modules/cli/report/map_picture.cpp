@@ -23,6 +23,8 @@ constexpr Layer kLearnedSigma{"learned-sigma",
                               {.line = colours::kFix, .width = 1, .fill = colours::kFix, .opacity = 0.15},
                               Symbol::kArea};
 constexpr Layer kGap{"gap", "gap between learned walls", {.line = colours::kBelief, .width = 3, .dash = 8}};
+constexpr Layer kDoorOpen{"door-open", "door seen open", {.line = colours::kFix, .width = 3, .dash = 4}};
+constexpr Layer kDoorShut{"door-shut", "door seen closed or ajar", {.line = colours::kBelief, .width = 7}};
 constexpr Layer kCorner{"corner", "corner of learned walls", {.fill = colours::kFix}, Symbol::kDot};
 
 Extent ExtentOf(const GroundPlan& plan, const LearnedWalls& learned) {
@@ -34,6 +36,10 @@ Extent ExtentOf(const GroundPlan& plan, const LearnedWalls& learned) {
       extent.low = extent.low.cwiseMin(end);
       extent.high = extent.high.cwiseMax(end);
     }
+  }
+  for (const LearnedDoor& door : learned.doors) {
+    extent.low = extent.low.cwiseMin(Vector2d(door.x_m, door.y_m));
+    extent.high = extent.high.cwiseMax(Vector2d(door.x_m, door.y_m));
   }
   const Vector2d around = Vector2d::Constant(kAround_m);
   return {extent.low - around, extent.high + around};
@@ -57,6 +63,14 @@ void DrawGap(MapView& view, const WallGap& gap) {
              14);
 }
 
+/// Across its opening; the name stands behind it.
+void DrawDoor(MapView& view, const LearnedDoor& door, const GroundPlan& plan) {
+  const Pose2 at = door.map_from_door();
+  view.Line(door.state == "open" ? kDoorOpen : kDoorShut,
+            {at * Vector2d(0, -door.width_m / 2), at * Vector2d(0, door.width_m / 2)});
+  view.Label(at * Vector2d(0.3, 0), NameOf(door, plan) + ": " + door.state, kSmallFont, colours::kInk, 14);
+}
+
 }  // namespace
 
 Drawing DrawMap(const GroundPlan& plan, const LearnedWalls& learned) {
@@ -69,6 +83,7 @@ Drawing DrawMap(const GroundPlan& plan, const LearnedWalls& learned) {
   DrawPlan(view, plan, true);
   for (const LearnedWall& wall : learned.walls) DrawWall(view, wall);
   for (const WallGap& gap : GapsOf(learned)) DrawGap(view, gap);
+  for (const LearnedDoor& door : learned.doors) DrawDoor(view, door, plan);
   for (const WallCorner& corner : CornersOf(learned)) view.Dot(kCorner, {corner.x_m, corner.y_m}, 7);
   view.SetLabels();
   const double top = window.bottom() + kMargin;

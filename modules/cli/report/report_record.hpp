@@ -40,6 +40,7 @@ class RunRecord {
   std::vector<mission_command_t> orders;
   std::vector<mission_status_t> mission;
   std::vector<features_t> features;  ///< walls as they came to the workstation
+  std::vector<door_found_t> doors;   ///< doors likewise
   /// Age of each pose when it came to the workstation [s]: what the radio costs in time.
   std::vector<double> pose_ages_s;
   // Each end of the radio about itself.

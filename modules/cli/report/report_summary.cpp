@@ -142,6 +142,20 @@ nlohmann::ordered_json ToJson(const CorridorSummary& corridor) {
           {"end", corridor.end ? ToJson(*corridor.end) : nlohmann::ordered_json(nullptr)}};
 }
 
+nlohmann::ordered_json ToJson(const FoundDoors& doors) {
+  auto on_the_way = nlohmann::ordered_json::array();
+  for (const FoundDoor& door : doors.on_the_way)
+    on_the_way.push_back({{"name", door.name},
+                          {"state", door.state},
+                          {"open_deg", door.open_deg},
+                          {"told", Json(door.told)},
+                          {"along_m", door.along_m},
+                          {"across_m", door.across_m},
+                          {"sigma_along_m", door.sigma_along_m},
+                          {"sigma_across_m", door.sigma_across_m}});
+  return {{"on_the_way", on_the_way}, {"false", doors.false_ones}};
+}
+
 nlohmann::ordered_json ToJson(const ExploreSummary& explore) {
   return {{"reachable_m2", explore.reachable_m2},
           {"seen", explore.seen},
@@ -185,6 +199,7 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   const RunRecord on_plan = OnPlan(record, info);
   if (crossing) summary.belief_at_door = BeliefAt(on_plan, info.door, crossing->utime);
   summary.corridor = CorridorSummaryOf(record);
+  summary.doors = FoundDoorsOf(record, info);
   summary.explore = ExploreSummaryOf(record, info);
   summary.duration_s = Seconds(Duration(span.end_utime - span.begin_utime));
   summary.mean_speed_m_s = MeanSpeed(record);
@@ -219,6 +234,7 @@ nlohmann::ordered_json ToJson(const Summary& summary) {
           {"belief_at_door",
            summary.belief_at_door ? ToJson(*summary.belief_at_door) : nlohmann::ordered_json(nullptr)},
           {"corridor", summary.corridor ? ToJson(*summary.corridor) : nlohmann::ordered_json(nullptr)},
+          {"doors", summary.doors ? ToJson(*summary.doors) : nlohmann::ordered_json(nullptr)},
           {"explore", summary.explore ? ToJson(*summary.explore) : nlohmann::ordered_json(nullptr)},
           {"duration_s", summary.duration_s},
           {"mean_speed_m_s", summary.mean_speed_m_s},

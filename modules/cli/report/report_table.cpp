@@ -64,6 +64,18 @@ void PrintExplore(std::ostream& out, const ExploreSummary& explore) {
   out << "  end                 " << explore.end << "\n";
 }
 
+void PrintFoundDoors(std::ostream& out, const FoundDoors& doors) {
+  Rule(out, "doors on the way");
+  for (const FoundDoor& door : doors.on_the_way) {
+    const std::string is = fmt::format("{}, {:.0f} deg open", door.state, door.open_deg);
+    out << fmt::format("  {:<12}{:<20}{}\n", door.name, is,
+                       door.told ? fmt::format("told {}, {:+.1f} cm along the wall, {:+.1f} cm across it",
+                                               *door.told, 100 * door.along_m, 100 * door.across_m)
+                                 : "not found");
+  }
+  if (doors.false_ones > 0) out << fmt::format("  {} told where none is\n", doors.false_ones);
+}
+
 void PrintHand(std::ostream& out, const HandSummary& hand) {
   Rule(out, "operator");
   out << fmt::format("  pushed for {:.0f} s; of the motion that was truly free {} was honoured\n",
@@ -90,6 +102,7 @@ void PrintSummary(std::ostream& out, const Summary& summary) {
     PrintFixes(out, summary);
     PrintDoor(out, summary);
   }
+  if (summary.doors) PrintFoundDoors(out, *summary.doors);
   if (summary.hand) PrintHand(out, *summary.hand);
   Rule(out, "drive");
   out << fmt::format("  smallest gap        {:.1f} cm, {} contact{}\n", summary.min_gap_m * 100,

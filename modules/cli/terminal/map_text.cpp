@@ -54,11 +54,37 @@ std::string MapDots(const GroundPlan& plan, const LearnedWalls& learned, ScreenS
   Eigen::AlignedBox2d box;
   for (const WallPlan& wall : plan.walls) box.extend(wall.from()).extend(wall.to());
   for (const LearnedWall& wall : learned.walls) box.extend(wall.from()).extend(wall.to());
+  for (const LearnedDoor& door : learned.doors) box.extend(Eigen::Vector2d(door.x_m, door.y_m));
   if (box.isEmpty()) return "";
   Dots dots(box, size);
   for (const WallPlan& wall : plan.walls) dots.Line(wall.from(), wall.to(), Braille::kDim);
   for (const LearnedWall& wall : learned.walls) dots.Line(wall.from(), wall.to(), Braille::kGreen);
+  for (const LearnedDoor& door : learned.doors) {
+    const Pose2 at = door.map_from_door();
+    dots.Line(at * Eigen::Vector2d(0, -door.width_m / 2), at * Eigen::Vector2d(0, door.width_m / 2),
+              door.state == "open" ? Braille::kGreen : Braille::kRed);
+  }
   return dots.Text(colour);
+}
+
+std::string DoorTable(const GroundPlan& plan, const LearnedWalls& learned, double now_s,
+                      std::optional<ScreenSize> size) {
+  TextTable table({{"", 12, true},
+                   {"middle", 8, true},
+                   {"wide", 6},
+                   {"along", 6},
+                   {"across", 6},
+                   {"is", 6, true},
+                   {"changed ago", 4},
+                   {"looks", 3},
+                   {"seen ago", 4}});
+  for (const LearnedDoor& door : learned.doors)
+    table.Add({NameOf(door, plan), fmt::format("({:.2f}, {:.2f})", door.x_m, door.y_m),
+               fmt::format("{:.2f} m", door.width_m), fmt::format("±{:.1f} cm", 100 * door.sigma_along_m),
+               fmt::format("±{:.1f} cm", 100 * door.sigma_across_m), door.state,
+               door.changed_s > 0 ? Ago(now_s - door.changed_s) : "-", fmt::format("{}x", door.looks),
+               Ago(now_s - door.seen_s)});
+  return size ? table.Render(*size) : table.Render();
 }
 
 std::string MapTable(const LearnedWalls& learned, double now_s, std::optional<ScreenSize> size) {

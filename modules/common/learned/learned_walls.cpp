@@ -57,6 +57,11 @@ void LearnedWalls::Describe(Archive& a) {
   std::set<int> ids;
   for (const LearnedWall& wall : walls)
     if (!ids.insert(wall.id).second) a.Refuse("walls", "every wall with its own id");
+  a.List("doors", doors, "doors that were seen");
+  std::set<int> door_ids;
+  for (const LearnedDoor& door : doors)
+    if (!door_ids.insert(door.id).second) a.Refuse("doors", "every door with its own id");
+  if (doors.size() > static_cast<std::size_t>(kMostWalls)) a.Refuse("doors", "at most 100000 of them");
   if (walls.size() > static_cast<std::size_t>(kMostWalls)) a.Refuse("walls", "at most 100000 of them");
 }
 

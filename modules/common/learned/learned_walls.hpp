@@ -7,6 +7,7 @@
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
+#include "common/learned/learned_door.hpp"
 #include "common/rectangle.hpp"
 
 namespace priamos {
@@ -44,6 +45,7 @@ struct LearnedWalls {
   int version = kVersion;  ///< of the file's form
   int revision = 0;        ///< counts the changes
   std::vector<LearnedWall> walls;
+  std::vector<LearnedDoor> doors;  ///< in the order in which they were found
 
   void Describe(Archive& a);
 };

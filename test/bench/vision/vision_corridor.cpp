@@ -7,6 +7,7 @@
 #include "head/core/doors/door_detection.hpp"
 #include "head/core/edges/edge_segments.hpp"
 #include "test/bench/vision/corridor_looks.hpp"
+#include "test/bench/vision/corridor_states.hpp"
 #include "test/bench/vision/timed_doors.hpp"
 #include "test/bench/vision/vision_bench.hpp"
 
@@ -26,6 +27,7 @@ struct Count {
   Tally asked, others;  ///< doors to be found; doors in both pictures that are too far, too slanted or hidden
   std::map<std::string, Tally> by_kind;
   std::vector<double> middle_m, jamb_m;  ///< errors of those to be found
+  StateTally states;
 };
 
 /// Error of both jambs, the worse one. What is reported may be the frame's outer or its inner edges.
@@ -90,6 +92,7 @@ void Add(const CorridorLook& look, const std::vector<head::DetectedDoor>& detect
     }
     found.push_back(door);
     if (!door->is_to_be_found) continue;
+    count.states.Add(look, *door, d, verbose);
     const double middle = (door->middle() - d.base_from_door.translation()).norm(),
                  jamb = JambError(*door, d);
     count.middle_m.push_back(middle);
@@ -145,6 +148,7 @@ void Print(const Count& count, double seconds, Figures& figures) {
   figures.Note("  middle, median", 1000 * Quantile(count.middle_m, 0.5), "mm");
   figures.Note("  a jamb more than 3 cm beside the truth", Percent(count.jamb_off, n), "%");
   figures.Note("  worse jamb, median", 1000 * Quantile(count.jamb_m, 0.5), "mm");
+  count.states.Print(figures);
   figures.Note("  time per stereo pair, edges included", 1000 * seconds / count.looks, "ms");
 }
 

@@ -57,6 +57,30 @@ TEST_F(LearnedWallsTest, AFileHoldsWhatWasWritten) {
   EXPECT_TRUE(LoadLearnedWalls(file_).walls.empty());
 }
 
+TEST_F(LearnedWallsTest, DoorsAreKeptAndNamedByThePlan) {
+  LearnedWalls walls = Some();
+  LearnedDoor door;
+  door.id = 7;
+  door.x_m = 6.1;
+  door.y_m = 1.1;
+  door.state = "ajar";
+  door.looks = 3;
+  walls.doors = {door};
+  ASSERT_TRUE(SaveLearnedWalls(file_, walls));
+  const LearnedWalls dut = LoadLearnedWalls(file_);
+  ASSERT_EQ(dut.doors.size(), 1u);
+  EXPECT_EQ(dut.doors[0].x_m, 6.1);
+  EXPECT_EQ(dut.doors[0].state, "ajar");
+  EXPECT_EQ(dut.doors[0].looks, 3);
+  GroundPlan plan;
+  EXPECT_EQ(NameOf(dut.doors[0], plan), "door 7");
+  plan.doors.push_back({});
+  plan.doors[0].name = "office";
+  plan.doors[0].x_m = 6;
+  plan.doors[0].y_m = 1.17;
+  EXPECT_EQ(NameOf(dut.doors[0], plan), "door 'office'");
+}
+
 TEST_F(LearnedWallsTest, NoFileIsAnEmptyMap) {
   EXPECT_TRUE(LoadLearnedWalls(file_).walls.empty());
 }

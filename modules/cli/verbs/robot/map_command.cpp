@@ -92,6 +92,21 @@ nlohmann::ordered_json ToJson(const LearnedWall& wall) {
           {"sightings", wall.sightings}};
 }
 
+nlohmann::ordered_json ToJson(const LearnedDoor& door, const GroundPlan& plan) {
+  const DoorPlan* drawn = DoorOnPlan(door, plan);
+  return {{"id", door.id},
+          {"name", drawn ? nlohmann::ordered_json(drawn->name) : nlohmann::ordered_json(nullptr)},
+          {"middle_m", {door.x_m, door.y_m}},
+          {"yaw_deg", door.yaw_deg},
+          {"width_m", door.width_m},
+          {"sigma_along_m", door.sigma_along_m},
+          {"sigma_across_m", door.sigma_across_m},
+          {"state", door.state},
+          {"changed_s", door.changed_s},
+          {"seen_s", door.seen_s},
+          {"looks", door.looks}};
+}
+
 void PrintJson(const Maps& maps) {
   nlohmann::ordered_json json{{"file", maps.file}, {"revision", maps.learned.revision}};
   json["walls"] = nlohmann::ordered_json::array();
@@ -102,17 +117,24 @@ void PrintJson(const Maps& maps) {
                             {"middle_m", {gap.x_m, gap.y_m}},
                             {"width_m", gap.width_m},
                             {"sigma_width_m", gap.sigma_width_m}});
+  json["doors"] = nlohmann::ordered_json::array();
+  for (const LearnedDoor& door : maps.learned.doors) json["doors"].push_back(ToJson(door, maps.plan));
   std::cout << json.dump() << "\n";
+}
+
+bool IsEmpty(const LearnedWalls& learned) {
+  return learned.walls.empty() && learned.doors.empty();
 }
 
 void Print(const Maps& maps) {
   const auto size = TableSize();
   const bool colour = isatty(STDOUT_FILENO) != 0;
   std::cout << MapDots(maps.plan, maps.learned, size.value_or(ScreenSize{}), colour);
-  if (maps.learned.walls.empty()) return;
+  if (IsEmpty(maps.learned)) return;
   const double now_s =
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-  std::cout << MapTable(maps.learned, now_s, size);
+  if (!maps.learned.walls.empty()) std::cout << MapTable(maps.learned, now_s, size);
+  if (!maps.learned.doors.empty()) std::cout << DoorTable(maps.plan, maps.learned, now_s, size);
 }
 
 /// 1 when nothing has been learned; the plan is shown all the same.
@@ -126,7 +148,7 @@ int Show(const MapOptions& options) {
   if (!options.svg.empty() &&
       !ReplaceFile(options.svg, drawing::ToSvg(DrawMap(maps.plan, maps.learned)), false, kMode))
     throw ConfigError(fmt::format("--svg: expected a file that can be written, got \"{}\"", options.svg));
-  if (!maps.learned.walls.empty()) return 0;
+  if (!IsEmpty(maps.learned)) return 0;
   std::cerr << "priamos map: nothing has been learned of this building"
             << (maps.file.empty() ? ", and no planner keeps it" : " in " + maps.file)
             << "; next: priamos mission goto, while the planner runs\n";

@@ -3,7 +3,7 @@
 import { colour, prepare } from "./dom";
 import { Floor } from "./floor";
 import { deadReckoned, ellipse, place, Pose2, sonarPose } from "./geometry";
-import { DoorSeen, Hello, ObstacleLine, Path, Point, Pose, SonarRanges } from "./protocol";
+import { DoorFound, DoorSeen, Hello, ObstacleLine, Path, Point, Pose, SonarRanges } from "./protocol";
 import { Store } from "./store";
 import { Place } from "./target";
 import { ViewPort } from "./view_port";
@@ -11,6 +11,7 @@ import { ViewPort } from "./view_port";
 const TRAIL_STEP_M = 0.03, LONGEST_TRAIL = 4000;
 const SONAR_HALF_RAD = 0.13;
 const LEAF_LEFT = 1;
+const DOOR_STATES = ["", "closed", "ajar", "open"];
 
 export class PlanView {
   readonly port: ViewPort;
@@ -63,6 +64,7 @@ export class PlanView {
     if (robot !== undefined && this.follows) this.port.centre = [robot.x, robot.y];
     this.drawFloor();
     this.drawPlan(this.hello);
+    this.drawFoundDoors();
     this.stroke(this.trail, colour("trail"), 2);
     this.drawPath();
     if (robot !== undefined) {
@@ -165,6 +167,17 @@ export class PlanView {
     this.stroke([place(pose, d, side * w), end], colour("landmark"), 4);
   }
 
+  /** Doors that the head found in passing: across the opening, dashed where one can go through. */
+  private drawFoundDoors(): void {
+    for (const { message: door } of this.store.all<DoorFound>("DOOR_FOUND")) {
+      const pose = { x: door.x_m, y: door.y_m, yaw: door.yaw_rad };
+      const words = DOOR_STATES[door.state] ?? "";
+      this.context.setLineDash(words === "open" ? [3, 5] : []);
+      this.stroke([place(pose, 0, -door.width_m / 2), place(pose, 0, door.width_m / 2)], colour("landmark"), 3);
+      this.context.setLineDash([]);
+      this.write(words, place(pose, 0.35, 0), colour("landmark"));
+    }
+  }
 
   private drawPath(): void {
     const path = this.store.get<Path>("PATH");

@@ -156,6 +156,9 @@ export interface HeadState { pan_rad: number; tilt_rad: number; vergence_rad: nu
 
 export interface DoorSeen { landmark_id: number; hinge: number; open_rad: number; sigma_rad: number }
 
+/** A door that the head found in passing. */
+export interface DoorFound { id: number; x_m: number; y_m: number; yaw_rad: number; width_m: number; state: number }
+
 export interface SonarRanges { range_m: number[] }
 
 export interface LandmarkView {

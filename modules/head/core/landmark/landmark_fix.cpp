@@ -59,7 +59,7 @@ bool IsDistinct(const Pose2& a, const Pose2& b, const LandmarkFixOptions& option
 
 /// Edges that should be seen of a landmark near its prediction, in all pictures together.
 std::size_t CountPredicted(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                           const Eigen::Matrix3d& search, const StereoViews& views) {
+                           const Eigen::Matrix3d& search, std::span<const CameraView> views) {
   std::size_t n = 0;
   for (const CameraView& view : views)
     n += PredictEdges(model, prediction.base_from_landmark, search, *view.camera, view.size).size();
@@ -68,7 +68,7 @@ std::size_t CountPredicted(const LandmarkModel& model, const LandmarkPrediction&
 
 /// Poses near `expected` at which upright edges of the model meet those that both pictures show.
 Proposals Propose(const LandmarkModel& model, const Pose2& expected, const Eigen::Matrix3d& search,
-                  const StereoViews& views, const LandmarkFixOptions& options) {
+                  std::span<const CameraView> views, const LandmarkFixOptions& options) {
   const auto verticals = MatchVerticals(views[0], views[1], options.stereo);
   ProposalOptions proposal_options = options.proposals;
   proposal_options.gate = options.gate_elsewhere;
@@ -174,7 +174,7 @@ bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const Camera
 /// and one that is as it was seen before.
 std::vector<LandmarkFinder::Start> LandmarkFinder::BestStarts(const LandmarkModel& model,
                                                               std::span<const PoseProposal> proposals,
-                                                              const StereoViews& views,
+                                                              std::span<const CameraView> views,
                                                               const EdgeShifts& seen) const {
   std::vector<Start> starts;
   const auto suppose = [&](const EdgeShifts& shifts, double log_prior) {
@@ -255,7 +255,7 @@ bool LandmarkFixOptions::IsSharp(const Eigen::Matrix3d& search) const {
 }
 
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                                 const StereoViews& views, const LandmarkMemory& memory) const {
+                                 std::span<const CameraView> views, const LandmarkMemory& memory) const {
   if (memory.breadth) return FindBroader(model, prediction, views, memory);
   LandmarkFix fix;
   if (model.edges.empty()) {
@@ -263,6 +263,7 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
     return fix;
   }
   if (IsBlind(*views[0].edges) || IsBlind(*views[1].edges)) return fix;
+  if (views.size() > 2 && IsBlind(*views[2].edges)) views = views.first(2);
   const Eigen::Matrix3d search = options_.SearchCovariance(prediction);
   if (CountPredicted(model, prediction, search, views) < std::size_t(options_.min_predicted)) {
     fix.verdict = Verdict::kNotVisible;
@@ -277,13 +278,13 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   const auto best = std::max_element(poses.begin(), poses.end(),
                                      [](const Pose& a, const Pose& b) { return a.LogOdds() < b.LogOdds(); });
   best->rival_log_odds = RivalLogOdds(prediction, search, poses, *best);
-  Judge(prediction, search, static_cast<int>(proposals.poses.size()), *best, fix);
+  Judge(prediction, search, static_cast<int>(proposals.poses.size()), views.size(), *best, fix);
   return fix;
 }
 
 /// Finds a landmark of known breadth: the model is made so broad, and what is reported is of the model again.
 LandmarkFix LandmarkFinder::FindBroader(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                                        const StereoViews& views, const LandmarkMemory& memory) const {
+                                        std::span<const CameraView> views, const LandmarkMemory& memory) const {
   LandmarkFixOptions options = options_;
   options.solver.breadth_sigma_m = memory.breadth->sigma_m;
   const EdgeShifts broader = ShiftsOfBreadth(model, memory.breadth->broader_m);
@@ -314,7 +315,7 @@ double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const 
 }
 
 void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
-                           const Pose& best, LandmarkFix& fix) const {
+                           std::size_t n_views, const Pose& best, LandmarkFix& fix) const {
   fix.base_from_landmark = best.base_from_landmark;
   fix.covariance = OnFloor(best.solution.covariance);
   fix.own_share = best.solution.own_share;
@@ -337,7 +338,8 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   const bool may_miss = options_.IsSharp(search);
   const double wanted = options_.min_log_odds + std::log(std::max(n_tested, 1)) +
                         ((one_sided && !may_miss) || side_missing ? options_.one_sided_log_odds : 0);
-  if (fix.n_matched < (may_miss ? options_.min_matched_sharp : options_.min_matched) ||
+  const int least = may_miss ? options_.min_matched_sharp : options_.min_matched;
+  if (fix.n_matched < least * static_cast<int>(n_views) / 2 ||
       fix.log_odds < wanted || (side_missing && !may_miss) ||
       fix.log_odds < options_.min_share * best.association.best_log_odds) {
     fix.verdict = Verdict::kTooFewEdges;

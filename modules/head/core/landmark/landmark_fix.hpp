@@ -69,7 +69,7 @@ struct LandmarkFixOptions {
   double gate_elsewhere =
       7;                  ///< Mahalanobis distance up to which it is searched; beyond `gate` it is refused
   int min_predicted = 4;  ///< edges that must be predicted, all images together
-  int min_matched = 6;    ///< edges that must be found, all images together
+  int min_matched = 6;    ///< edges that must be found in two images together, and half as many more with a third
   int min_matched_sharp =
       4;  ///< and that many where the prediction is sharp: one jamb's, when the base is near
   double min_log_odds = 7;       ///< log odds wanted beyond the logarithm of the number of poses tried
@@ -96,8 +96,8 @@ struct LandmarkFixOptions {
   bool IsSharp(const Eigen::Matrix3d& search) const;
 };
 
-/// Finds the landmark in one stereo pair: vertical edges are reconstructed, pairs of them laid onto pairs of
-/// the model's edges wherever the prediction allows it, every pose proposed is judged by all edges in both
+/// Finds the landmark in the images of two or three cameras: vertical edges of the first two are reconstructed, pairs of them laid onto pairs of
+/// the model's edges wherever the prediction allows it, every pose proposed is judged by all edges in all
 /// images, and the best one refined over all their points. It answers FOUND only if the evidence for it is
 /// far beyond chance and far above that of every other pose; the estimate then depends on the images alone,
 /// not on the prediction.
@@ -105,28 +105,34 @@ class LandmarkFinder {
  public:
   explicit LandmarkFinder(const LandmarkFixOptions& options) : options_(options) {}
 
-  /// The fix from the undistorted edges of both images, in the frame of their cameras (base). An image in
-  /// which nothing can be seen gives kNoImage.
+  /// The fix from the undistorted edges of all images, in the frame of their cameras (base): left, right, and
+  /// the third camera's if there is one. Nothing to be seen in one of the first two gives kNoImage; such a
+  /// third one is left out.
+  LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                   std::span<const CameraView> views, const LandmarkMemory& memory = {}) const;
+  /// From one stereo pair.
   LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction, const StereoViews& views,
-                   const LandmarkMemory& memory = {}) const;
+                   const LandmarkMemory& memory = {}) const {
+    return Find(model, prediction, std::span<const CameraView>(views), memory);
+  }
 
  private:
   struct Pose;
   struct Start;
   LandmarkFix FindBroader(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                          const StereoViews& views, const LandmarkMemory& memory) const;
+                          std::span<const CameraView> views, const LandmarkMemory& memory) const;
   bool Approach(const LandmarkModel& model, std::span<const CameraView> views, const AssociationOptions& gate,
                 bool coarse, Pose& pose) const;
   void Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
   std::vector<Start> BestStarts(const LandmarkModel& model, std::span<const PoseProposal> proposals,
-                                const StereoViews& views, const EdgeShifts& seen) const;
+                                std::span<const CameraView> views, const EdgeShifts& seen) const;
   std::vector<Pose> RefineAll(const LandmarkModel& model, std::span<const CameraView> views,
                               std::span<const Start> starts) const;
   void DropOutliers(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
   double RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
                       const std::vector<Pose>& poses, const Pose& best) const;
   void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
-             const Pose& best, LandmarkFix& fix) const;
+             std::size_t n_views, const Pose& best, LandmarkFix& fix) const;
 
   LandmarkFixOptions options_;
 };

@@ -75,7 +75,8 @@ std::vector<bool> Used(const LandmarkFix& fix, const CameraView& picture, int ca
 int CameraToShow(const LandmarkFix& fix) {
   if (fix.verdict == Verdict::kFound) return 0;
   std::array<int, 2> matches{};
-  for (const EdgeMatch& match : fix.matches) ++matches[match.camera == 0 ? 0 : 1];
+  for (const EdgeMatch& match : fix.matches)
+    if (match.camera < 2) ++matches[match.camera];
   return matches[1] < matches[0] ? 1 : 0;
 }
 

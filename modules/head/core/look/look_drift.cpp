@@ -1,5 +1,8 @@
 #include "head/core/look/look_drift.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "head/core/drift/epipolar_shift.hpp"
 #include "head/core/landmark/edge_observations.hpp"
 
@@ -12,7 +15,8 @@ std::optional<StereoDrift> DriftOfLandmark(const LandmarkModel& model, const Lan
   if (fix.verdict != Verdict::kFound && fix.verdict != Verdict::kResidualTooLarge) return std::nullopt;
   const Eigen::Isometry3d base_from_landmark = Lift(fix.base_from_landmark);
   Association association;
-  association.matches = fix.matches;
+  std::ranges::copy_if(fix.matches, std::back_inserter(association.matches),
+                       [](const EdgeMatch& match) { return match.camera < 2; });
   const auto observations = Observations(model, association, views, base_from_landmark, false);
   return MeasureDrift(model, observations, *views[0].camera, *views[1].camera, base_from_landmark, options);
 }

@@ -46,6 +46,17 @@ void LookEvaluator::Remember(const LandmarkModel& model, const LandmarkFix& fix)
     seen.breadth = Breadth{fix.breadth.broader_m, std::max(fix.breadth.sigma_m, kLeastBreadthSigma_m)};
 }
 
+/// With the third camera's picture, where it is calibrated and its picture is of use.
+LandmarkFix LookEvaluator::Find(const LookInput& input, const LandmarkPrediction& expected,
+                                const StereoViews& views) {
+  const LandmarkMemory& seen = seen_[input.model->id];
+  const auto third = head_.CameraAt(input.setting, kThird);
+  if (!third || !IsUsable(input.third)) return finder_.Find(*input.model, expected, views, seen);
+  edge_operator_.Extract(Wrap(*input.third), edges_[kThird]);
+  const std::array all{views[0], views[1], MakeView(*third, edges_[kThird])};
+  return finder_.Find(*input.model, expected, all, seen);
+}
+
 LookResult LookEvaluator::Evaluate(const LookInput& input) {
   if (!input.model) return Without(Verdict::kNoModel);
   if (!input.robot) return Without(Verdict::kNoPose);
@@ -57,7 +68,9 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   const StereoViews views{MakeView(*left, edges_[0]), MakeView(*right, edges_[1])};
   const LandmarkPrediction expected = Predict(*input.robot, input.model->map_from_landmark);
   LookResult result;
-  result.fix = finder_.Find(*input.model, expected, views, seen_[input.model->id]);
+  result.fix = Find(input, expected, views);
+  result.n_third = static_cast<int>(std::ranges::count_if(
+      result.fix.matches, [](const EdgeMatch& match) { return match.camera == kThird; }));
   if (result.fix.verdict == Verdict::kFound) {
     Remember(*input.model, result.fix);
     if (const auto door = DoorOf(*input.model))

@@ -21,11 +21,13 @@ struct LookInput {
   std::optional<PoseSample> robot;       ///< estimated pose at the time of the exposure; nullopt: unknown
   std::array<std::optional<GreyImage>, 2> images;  ///< left, right; nullopt: lost
   HeadSetting setting;                             ///< counters of the motors during the exposure
+  std::optional<GreyImage> third = {};             ///< of the third camera; nullopt: it does not take part
 };
 
 /// Evaluation of one look.
 struct LookResult {
   LandmarkFix fix;                   ///< the fix, base frame; its verdict gives the reason if there is none
+  int n_third = 0;                   ///< edges that the third camera added to it
   LandmarkView view;                 ///< edges that led to the verdict; empty without two usable images
   std::optional<LeafSight> leaf;     ///< leaf of the door found; nullopt: no door was found
   std::optional<StereoDrift> drift;  ///< turn of the right camera; nullopt: this look does not determine it
@@ -39,7 +41,7 @@ struct LookOptions {
   StereoDriftOptions drift;
 };
 
-/// Evaluates looks: edges of both images, undistorted once, then the landmark, a door's leaf, its view and
+/// Evaluates looks: edges of all images, undistorted once, then the landmark, a door's leaf, its view and
 /// the drift from the same views. Of earlier looks it keeps its buffers, and what they showed of each
 /// landmark.
 class LookEvaluator {
@@ -52,13 +54,14 @@ class LookEvaluator {
 
  private:
   void Remember(const LandmarkModel& model, const LandmarkFix& fix);
+  LandmarkFix Find(const LookInput& input, const LandmarkPrediction& expected, const StereoViews& views);
 
   HeadModel head_;
   LeafOptions leaf_options_;
   StereoDriftOptions drift_options_;
   EdgeOperator edge_operator_;
   LandmarkFinder finder_;
-  std::array<EdgeImage, 2> edges_;
+  std::array<EdgeImage, kCameras> edges_;
   std::map<int, LandmarkMemory> seen_;  ///< by the landmark's id
 };
 

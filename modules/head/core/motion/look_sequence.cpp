@@ -4,7 +4,6 @@
 #include <limits>
 
 namespace priamos::head {
-
 void LookConfig::Describe(Archive& a) {
   a.Number("frame_timeout_s", frame_timeout_s,
            {"s", 0.05, 10, "all pictures must have come by then, or they are asked for again"});
@@ -12,7 +11,8 @@ void LookConfig::Describe(Archive& a) {
   a.Number("age_limit_s", age_limit_s, {"s", 0.5, 60, "a look not answered by then is given up"});
 }
 
-void LookSequence::Begin(Time now) {
+void LookSequence::Begin(Time now, int cameras) {
+  wanted_ = cameras;
   phase_ = Phase::kSettling;
   begun_ = now;
   attempts_ = 0;
@@ -26,23 +26,26 @@ void LookSequence::Add(const FrameNotice& frame) {
     phase_ = Phase::kExposing;
   }
   if (phase_ != Phase::kExposing || frame.frame_id != frame_id_) return;
-  if (frame.camera >= 0 && frame.camera < cameras_) frames_[frame.camera] = frame;
+  if (frame.camera >= 0 && frame.camera < wanted_) frames_[frame.camera] = frame;
 }
 
-bool LookSequence::Complete() const {
-  return std::all_of(frames_.begin(), frames_.begin() + cameras_,
-                     [](const auto& f) { return f.has_value(); });
+bool LookSequence::HasFirst(int cameras) const {
+  return std::all_of(frames_.begin(), frames_.begin() + cameras, [](const auto& f) { return f.has_value(); });
 }
 
 Frames LookSequence::frames() const {
   Frames frames;
-  for (int i = 0; i < cameras_; ++i)
+  for (int i = 0; i < wanted_; ++i)
     if (frames_[i]) frames.push_back(*frames_[i]);
   return frames;
 }
 
 LookSequence::Action LookSequence::StepOnLog(Time now) const {
-  if (phase_ == Phase::kExposing && Complete()) return Action::kUseFrames;
+  if (phase_ == Phase::kExposing && HasFirst(wanted_)) return Action::kUseFrames;
+  // A log whose head used two pictures has no third one.
+  if (phase_ == Phase::kExposing && HasFirst(kPair) &&
+      Seconds(now - frames_[0]->exposure) > config_.frame_timeout_s)
+    return Action::kUseFrames;
   return Seconds(now - begun_) > config_.age_limit_s ? Action::kGiveUp : Action::kWait;
 }
 
@@ -53,10 +56,12 @@ LookSequence::Action LookSequence::Step(bool head_settled, bool head_failed, Tim
   if (phase_ == Phase::kExposing) {
     if (!head_settled) {
       phase_ = Phase::kSettling;
-    } else if (Complete()) {
+    } else if (HasFirst(wanted_)) {
       return Action::kUseFrames;
     } else if (Seconds(now - triggered_) < config_.frame_timeout_s) {
       return Action::kWait;
+    } else if (HasFirst(kPair)) {
+      return Action::kUseFrames;
     }
   }
   if (!head_settled) return Action::kWait;

@@ -22,21 +22,26 @@ struct LookConfig {
 };
 
 /// State machine of one look: the head settles, its cameras are exposed at the same time, all pictures
-/// arrive. It always ends, with pictures or without.
+/// arrive. It always ends, with pictures or without. A third picture that does not come in time is done
+/// without.
 class LookSequence {
  public:
+  static constexpr int kPair = 2;  ///< left and right: what a look needs
+
   /// Who decides which pictures a look uses: this sequence, by what it has exposed itself, or the log that is
   /// played, by the pictures that it was recorded with. Then nothing is exposed, and where the head points
   /// now does not matter.
   enum class Exposures { kOwn, kRecorded };
 
   /// Sequence without a look. `cameras` is 2 for the stereo pair, 3 for all.
-  explicit LookSequence(const LookConfig& config, int cameras = 2, Exposures exposures = Exposures::kOwn)
-      : config_(config), cameras_(cameras), exposures_(exposures) {}
+  explicit LookSequence(const LookConfig& config, int cameras = kPair, Exposures exposures = Exposures::kOwn)
+      : config_(config), cameras_(cameras), wanted_(cameras), exposures_(exposures) {}
 
   /// Changes times and attempts, also of the look under way.
   void set_config(const LookConfig& config) { config_ = config; }
-  void Begin(Time now);
+  void Begin(Time now) { Begin(now, cameras_); }
+  /// A look of the first `cameras` cameras.
+  void Begin(Time now, int cameras);
   bool active() const { return phase_ != Phase::kIdle; }
   void End() { phase_ = Phase::kIdle; }
 
@@ -50,16 +55,16 @@ class LookSequence {
 
   std::int32_t frame_id() const { return frame_id_; }
   /// Bits of the cameras to expose.
-  int camera_mask() const { return CameraBits(cameras_); }
-  /// The pictures, after kUseFrames.
+  int camera_mask() const { return CameraBits(wanted_); }
+  /// The pictures, after kUseFrames: left, right, and the third one if it came.
   Frames frames() const;
 
  private:
   enum class Phase { kIdle, kSettling, kExposing };
-  bool Complete() const;
+  bool HasFirst(int cameras) const;
   Action StepOnLog(Time now) const;
   LookConfig config_;
-  int cameras_;
+  int cameras_, wanted_;
   Exposures exposures_;
   Phase phase_ = Phase::kIdle;
   Time begun_{}, triggered_{};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/core/map/door_book.hpp"
 #include "planner/core/map/wall_union.hpp"
 
 namespace priamos::planner {
@@ -63,6 +64,14 @@ bool LearnedMap::Take(const SeenWall& seen) {
   }
   ++walls_.revision;
   MakeRoom();
+  return true;
+}
+
+bool LearnedMap::Take(const LearnedDoor& told) {
+  if (!EnterDoor(told, walls_)) return false;
+  if (walls_.doors.size() > static_cast<std::size_t>(config_.most))
+    walls_.doors.erase(std::min_element(walls_.doors.begin(), walls_.doors.end(),
+                                        [](const auto& a, const auto& b) { return a.seen_s < b.seen_s; }));
   return true;
 }
 

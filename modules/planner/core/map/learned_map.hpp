@@ -40,6 +40,8 @@ class LearnedMap {
 
   /// Takes what a robot tells. Returns whether the map is another one now.
   bool Take(const SeenWall& seen);
+  /// Takes what a robot tells of a door, see EnterDoor(); likewise.
+  bool Take(const LearnedDoor& told);
   /// Forgets everything.
   void Reset();
   /// What it holds; the revision counts its changes.

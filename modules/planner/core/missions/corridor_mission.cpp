@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "planner/core/map/door_book.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -23,6 +25,14 @@ double LengthOnMap(const Pose2& from) {
     length_m = std::min(length_m, (border - from.translation()(axis)) / direction(axis));
   }
   return length_m;
+}
+
+/// What the head has found since the order; empty when it found nothing, or does not look.
+std::string DoorsOnTheWay(const MissionControl& control) {
+  const auto& learned = control.heard().learned;
+  const double since_s = static_cast<double>(ToUtime(control.started())) * 1e-6;
+  const std::string doors = learned ? DoorsSeenSince(*learned, since_s) : "";
+  return doors.empty() ? "" : "; " + doors;
 }
 
 }  // namespace
@@ -58,8 +68,8 @@ void CorridorMission::Step(MissionControl& control) {
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath() || heard.drive->mode != DriveMode::kArrived) return;
   if (backs_off_) return Follow(control, length_m_ - driven_m_);
-  control.Enter(Phase::kDone, fmt::format("followed the corridor for {:.1f} m in {:.0f} s", length_m_,
-                                          Seconds(control.now() - control.started())));
+  control.Enter(Phase::kDone, fmt::format("followed the corridor for {:.1f} m in {:.0f} s{}", length_m_,
+                                          Seconds(control.now() - control.started()), DoorsOnTheWay(control)));
 }
 
 /// The heading that was ordered, else the base's; along the wall of the plan that is beside it there.
@@ -143,8 +153,9 @@ void CorridorMission::Close(MissionControl& control, const Stop& stop) {
         fmt::format("the corridor is closed after {:.1f} m, on the plan it ends after {:.1f} m: {}",
                     driven_m_, *end_m_, stop.reason));
   control.OrderPath({}, 0);  // what is left of the path is not to be driven later
-  control.Enter(Phase::kDone, fmt::format("at the end of the corridor after {:.1f} m in {:.0f} s", driven_m_,
-                                          Seconds(control.now() - control.started())));
+  control.Enter(Phase::kDone,
+                fmt::format("at the end of the corridor after {:.1f} m in {:.0f} s{}", driven_m_,
+                            Seconds(control.now() - control.started()), DoorsOnTheWay(control)));
 }
 
 }  // namespace priamos::planner

@@ -80,6 +80,35 @@ TEST_F(LookEvaluatorTest, ADoorIsFoundWhereItIsAndTheViewShowsByWhat) {
   EXPECT_EQ(in_view, of_fix);
 }
 
+TEST_F(LookEvaluatorTest, TheThirdCameraAddsItsEdges) {
+  LookInput input = Look(head_, test::DoorQuads());
+  const LookResult two = LookEvaluator(head_, LookOptions()).Evaluate(input);
+  EXPECT_EQ(two.n_third, 0);
+  input.third = Expose(head_, kThird, test::DoorQuads());
+  const LookResult dut = dut_.Evaluate(input);
+  ASSERT_EQ(dut.fix.verdict, Verdict::kFound) << Describe(dut.fix.verdict);
+  EXPECT_GE(dut.n_third, 3);
+  EXPECT_GT(dut.fix.log_odds, two.fix.log_odds);
+  EXPECT_NEAR(dut.fix.base_from_landmark.y, kTruth.y, 0.003);
+  EXPECT_NEAR(dut.fix.base_from_landmark.yaw, kTruth.yaw, Radians(0.15));
+  EXPECT_LT(dut.fix.covariance.trace(), 1.001 * two.fix.covariance.trace());
+}
+
+TEST_F(LookEvaluatorTest, AThirdPictureThatShowsNothingIsLeftOut) {
+  LookInput input = Look(head_, test::DoorQuads());
+  input.third = GreyImage{768, 576, std::vector<std::uint8_t>(768 * 576, 0)};
+  const LookResult dut = dut_.Evaluate(input);
+  EXPECT_EQ(dut.fix.verdict, Verdict::kFound) << Describe(dut.fix.verdict);
+  EXPECT_EQ(dut.n_third, 0);
+}
+
+TEST_F(LookEvaluatorTest, AThirdPictureOfSomethingElseIsEvidenceAgainst) {
+  LookInput input = Look(head_, test::DoorQuads());
+  const LookResult two = LookEvaluator(head_, LookOptions()).Evaluate(input);
+  input.third = Expose(head_, kThird, test::WallQuads());
+  EXPECT_LT(dut_.Evaluate(input).fix.log_odds, two.fix.log_odds);
+}
+
 TEST_F(LookEvaluatorTest, CamerasThatStandAsCalibratedShowNoDrift) {
   const LookResult dut = dut_.Evaluate(Look(head_, DoorAndNotices()));
   ASSERT_TRUE(dut.drift);

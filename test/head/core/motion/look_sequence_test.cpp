@@ -77,6 +77,32 @@ TEST_F(LookSequenceTest, NeverLastsLongerThanTheAgeLimit) {
   EXPECT_EQ(Step(false, false, LookConfig{}.age_limit_s + 0.1), Action::kGiveUp);
 }
 
+TEST_F(LookSequenceTest, AThirdPictureThatDoesNotComeIsDoneWithout) {
+  dut_ = LookSequence(LookConfig{}, 3);
+  dut_.Begin(now_);
+  ASSERT_EQ(Step(true), Action::kTrigger);
+  EXPECT_EQ(dut_.camera_mask(), 7);
+  Deliver(0, dut_.frame_id());
+  Deliver(1, dut_.frame_id());
+  EXPECT_EQ(Step(true), Action::kWait);
+  EXPECT_EQ(Step(true, false, 0.6), Action::kUseFrames);
+  EXPECT_EQ(dut_.frames().size(), 2u);
+}
+
+TEST_F(LookSequenceTest, OneLookMayTakeFewerPictures) {
+  dut_ = LookSequence(LookConfig{}, 3);
+  dut_.Begin(now_, LookSequence::kPair);
+  ASSERT_EQ(Step(true), Action::kTrigger);
+  EXPECT_EQ(dut_.camera_mask(), 3);
+  Deliver(0, dut_.frame_id());
+  Deliver(1, dut_.frame_id());
+  EXPECT_EQ(Step(true), Action::kUseFrames);
+  dut_.End();
+  dut_.Begin(now_);
+  ASSERT_EQ(Step(true), Action::kTrigger);
+  EXPECT_EQ(dut_.camera_mask(), 7) << "the next one takes all";
+}
+
 /// On a log.
 class RecordedLook : public LookSequenceTest {
  protected:
@@ -106,6 +132,15 @@ TEST_F(RecordedLook, PicturesBeforeItBeganAndHalvesOfTwoExposuresAreNone) {
   EXPECT_EQ(Step(true), Action::kWait);
   Deliver(0, 5);
   EXPECT_EQ(Step(true), Action::kUseFrames);
+}
+
+TEST_F(RecordedLook, ALogOfTwoCamerasHasNoThirdPicture) {
+  dut_ = LookSequence(LookConfig{}, 3, LookSequence::Exposures::kRecorded);
+  dut_.Begin(now_);
+  Deliver(0, 4);
+  Deliver(1, 4);
+  EXPECT_EQ(Step(true), Action::kWait);
+  EXPECT_EQ(Step(true, false, 0.6), Action::kUseFrames);
 }
 
 TEST_F(RecordedLook, EndsWithoutPictures) {

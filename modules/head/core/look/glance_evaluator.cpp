@@ -1,0 +1,39 @@
+#include "head/core/look/glance_evaluator.hpp"
+
+#include <opencv2/core.hpp>
+
+namespace priamos::head {
+namespace {
+
+constexpr int kSmallest_px = 64;
+
+bool IsUsable(const std::optional<GreyImage>& image) {
+  return image && image->width >= kSmallest_px && image->height >= kSmallest_px;
+}
+
+/// OpenCV's view of the pixels, which the edge operator only reads.
+cv::Mat Wrap(const GreyImage& image) {
+  return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
+}
+
+}  // namespace
+
+std::vector<DoorSighting> GlanceEvaluator::Evaluate(const std::array<std::optional<GreyImage>, 2>& images,
+                                                    const HeadSetting& setting) {
+  std::vector<DoorSighting> sightings;
+  const auto left = head_.CameraAt(setting, kLeft), right = head_.CameraAt(setting, kRight);
+  if (!left || !right || !IsUsable(images[0]) || !IsUsable(images[1])) return sightings;
+  for (int i = 0; i < 2; ++i) edge_operator_.Extract(Wrap(*images[i]), edges_[i]);
+  const StereoViews views{MakeView(*left, edges_[0]), MakeView(*right, edges_[1])};
+  const StereoPictures pictures{{&*images[0], &*images[1]}, {&*left, &*right}};
+  for (const DetectedDoor& door : DetectDoors(views[0], views[1], options_.detection)) {
+    DoorSighting sighting{door, {}};
+    const OpeningShape opening{door.base_from_door, door.width_m, door.height_m};
+    if (door.base_from_door.translation().norm() < options_.max_state_m)
+      sighting.state = StateOf(opening, SurfacesIn(opening, pictures, options_.surfaces), options_.state);
+    sightings.push_back(sighting);
+  }
+  return sightings;
+}
+
+}  // namespace priamos::head
