@@ -1,7 +1,10 @@
 #include "planner/map_keeper.hpp"
 
+#include "planner/map_channel.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -41,6 +44,39 @@ std::optional<SeenWall> FromMessage(int store, const feature_t& m) {
   return seen;
 }
 
+std::vector<features_t> ToMessages(const LearnedWalls& walls, int store) {
+  constexpr double kPiece_m = 6;
+  constexpr std::size_t kMost = 2;
+  std::vector<features_t> messages;
+  int id = 0;
+  for (const LearnedWall& wall : walls.walls) {
+    const int pieces = std::max(1, static_cast<int>(std::ceil(wall.length_m / kPiece_m)));
+    for (int i = 0; i < pieces; ++i) {
+      if (messages.empty() || messages.back().features.size() == kMost) {
+        messages.emplace_back();
+        messages.back().store = store;
+        messages.back().batch = static_cast<std::int16_t>((messages.size() - 1) % kBatches);
+      }
+      const Eigen::Vector2d middle = wall.At(wall.length_m * ((i + 0.5) / pieces - 0.5));
+      feature_t feature{};
+      feature.id = static_cast<std::int16_t>(id++ % 4096);
+      feature.kind = feature_t::WALL;
+      feature.utime_seen = static_cast<std::int64_t>(wall.seen_s * 1e6);
+      feature.x_m = middle.x();
+      feature.y_m = middle.y();
+      feature.yaw_rad = WrapAngle(Radians(wall.yaw_deg));
+      feature.length_m = wall.length_m / pieces;
+      feature.sigma_across_m = wall.sigma_across_m;
+      feature.sigma_yaw_rad = Radians(wall.sigma_yaw_deg);
+      feature.rho = wall.rho;
+      feature.sigma_end_m = wall.sigma_end_m;
+      messages.back().features.push_back(feature);
+      messages.back().n_features = static_cast<std::int8_t>(messages.back().features.size());
+    }
+  }
+  return messages;
+}
+
 features_ack_t BatchLog::Note(int store, int batch) {
   const int ahead = (batch - newest_ + kBatches) % kBatches;
   if (store != store_) {
@@ -67,7 +103,8 @@ MapKeeper::MapKeeper(const PlannerConfig& config, bus::Context& context)
       written_(map_.walls().revision),
       features_(context.node().SubscribeAll(channels::kFeatures)),
       orders_(context.node().SubscribeAll(channels::kMapCommand)),
-      acks_(context.node().Advertise(channels::kFeaturesAck)) {}
+      acks_(context.node().Advertise(channels::kFeaturesAck)),
+      maps_(context.node().Advertise(channels::kMapWalls)) {}
 
 MapKeeper::~MapKeeper() {
   if (IsToBeWritten()) SaveLearnedWalls(file_, map_.walls());
@@ -78,13 +115,21 @@ std::shared_ptr<const LearnedWalls> MapKeeper::Tick(Time now) {
   if (!greeted_ && map_.walls().walls.empty()) acks_.Publish(features_ack_t{});
   greeted_ = true;
   const bool was_reset = TakeOrders();
-  const bool changed = TakeFeatures() || was_reset;
+  const bool changed = TakeFeatures() || was_reset || std::exchange(replaced_, false);
   const bool due = was_reset || !wrote_ || Seconds(now - *wrote_) >= kWriteEvery_s;
   if (due && IsToBeWritten()) {
     wrote_ = now;
     Write();
   }
   return changed ? walls() : nullptr;
+}
+
+void MapKeeper::Replace(LearnedWalls walls) {
+  constexpr int kStores = 65535;
+  map_.Replace(std::move(walls));
+  replaced_ = true;
+  n_maps_ = n_maps_ % kStores + 1;
+  for (const features_t& message : ToMessages(map_.walls(), n_maps_)) maps_.Publish(message);
 }
 
 bool MapKeeper::TakeFeatures() {

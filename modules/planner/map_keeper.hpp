@@ -17,6 +17,10 @@ namespace priamos::planner {
 /// A feature as the map takes it; nullopt when a number is not finite or outside its range.
 std::optional<SeenWall> FromMessage(int store, const feature_t& message);
 
+/// Walls as features of a map that is told as a whole, in pieces that a feature can have: two to a message, all
+/// under the number of that map as their store.
+std::vector<features_t> ToMessages(const LearnedWalls& walls, int store);
+
 /// Which batches of a robot's features came, for FEATURES_ACK.
 class BatchLog {
  public:
@@ -41,6 +45,8 @@ class MapKeeper {
   std::shared_ptr<const LearnedWalls> Tick(Time now);
   /// The walls that came since the last call, as they were told.
   std::vector<SeenWall> TakeTold() { return std::exchange(told_, {}); }
+  /// A mission has made the map anew: it is told to whoever listens.
+  void Replace(LearnedWalls walls);
   std::shared_ptr<const LearnedWalls> walls() const { return std::make_shared<LearnedWalls>(map_.walls()); }
 
  private:
@@ -60,6 +66,9 @@ class MapKeeper {
   bus::Inbox<features_t> features_;
   bus::Inbox<map_command_t> orders_;
   bus::Publisher<features_ack_t> acks_;
+  bus::Publisher<features_t> maps_;
+  int n_maps_ = 0;
+  bool replaced_ = false;
 };
 
 }  // namespace priamos::planner

@@ -35,10 +35,11 @@ struct WallPlace {
   Vector2d at, facing;
 };
 
-/// Places along the walls as the planner has them, every 10 cm; what counts as the edge of a wall is none.
+/// Places along the walls as the planner has them, every 10 cm; what counts as the edge of a wall is none. A
+/// planner that has made no map of its own has them as they were told.
 std::vector<WallPlace> WallPlaces(const RunRecord& record) {
   std::map<std::pair<int, int>, feature_t> walls;  // as told last
-  for (const features_t& message : record.features)
+  for (const features_t& message : record.map.empty() ? record.features : record.map)
     for (const feature_t& feature : message.features) {
       if (feature.kind == feature_t::WALL)
         walls[{message.store, feature.id}] = feature;

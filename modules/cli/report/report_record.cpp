@@ -62,11 +62,22 @@ void RunRecord::AddOffboard(std::int64_t utime, std::string_view channel, std::s
   if (channel == channels::kMissionCommand.name) Append(orders, bytes);
   if (channel == channels::kMissionStatus.name) Append(mission, bytes);
   if (channel == channels::kFeatures.name) Append(features, bytes);
+  if (channel == "MAP_WALLS") AddMap(bytes);
   if (channel == channels::kLinkStatus.name) Append(offboard_link, bytes);
   if (channel != channels::kPose.name) return;
   std::vector<pose_t> received;
   Append(received, bytes);
   for (const pose_t& pose : received) pose_ages_s.push_back(Seconds(Duration(utime - pose.utime)));
+}
+
+/// The pieces of one map have its number as their store.
+void RunRecord::AddMap(std::span<const std::byte> bytes) {
+  std::vector<features_t> pieces;
+  Append(pieces, bytes);
+  for (features_t& piece : pieces) {
+    if (!map.empty() && map.front().store != piece.store) map.clear();
+    map.push_back(std::move(piece));
+  }
 }
 
 }  // namespace priamos::cli

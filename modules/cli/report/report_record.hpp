@@ -40,6 +40,7 @@ class RunRecord {
   std::vector<mission_command_t> orders;
   std::vector<mission_status_t> mission;
   std::vector<features_t> features;  ///< walls as they came to the workstation
+  std::vector<features_t> map;       ///< walls of the map that the planner made, the newest whole one
   /// Age of each pose when it came to the workstation [s]: what the radio costs in time.
   std::vector<double> pose_ages_s;
   // Each end of the radio about itself.
@@ -51,6 +52,7 @@ class RunRecord {
  private:
   template <class T>
   void Append(std::vector<T>& stream, std::span<const std::byte> bytes);
+  void AddMap(std::span<const std::byte> bytes);
   void AddOnboard(std::string_view channel, std::span<const std::byte> bytes);
   void AddOffboard(std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes);
 

@@ -40,6 +40,8 @@ class LearnedMap {
 
   /// Takes what a robot tells. Returns whether the map is another one now.
   bool Take(const SeenWall& seen);
+  /// Holds these walls from now on, whatever robots told before.
+  void Replace(LearnedWalls walls);
   /// Forgets everything.
   void Reset();
   /// What it holds; the revision counts its changes.
@@ -47,6 +49,7 @@ class LearnedMap {
 
  private:
   using Name = std::pair<int, int>;  ///< store and number
+  void NoteOlder();
   LearnedWall* Find(int id);
   LearnedWall& Begin(const SeenWall& seen);
   void Consolidate(int id);
