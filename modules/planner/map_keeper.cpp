@@ -104,13 +104,18 @@ std::shared_ptr<const LearnedWalls> MapKeeper::Tick(Time now) {
   greeted_ = true;
   const bool was_reset = TakeOrders();
   const bool new_walls = TakeFeatures(), new_doors = TakeDoors();
-  const bool changed = new_walls || new_doors || was_reset;
+  const bool changed = new_walls || new_doors || was_reset || std::exchange(replaced_, false);
   const bool due = was_reset || !wrote_ || Seconds(now - *wrote_) >= kWriteEvery_s;
   if (due && IsToBeWritten()) {
     wrote_ = now;
     Write();
   }
   return changed ? walls() : nullptr;
+}
+
+void MapKeeper::Replace(LearnedWalls walls) {
+  map_.Replace(std::move(walls));
+  replaced_ = true;
 }
 
 bool MapKeeper::TakeFeatures() {

@@ -19,7 +19,6 @@ std::optional<SeenWall> FromMessage(int store, const feature_t& message);
 
 /// A door as the map takes it; likewise.
 std::optional<LearnedDoor> FromMessage(const door_found_t& message);
-
 /// Which batches of a robot's features came, for FEATURES_ACK.
 class BatchLog {
  public:
@@ -44,6 +43,8 @@ class MapKeeper {
   std::shared_ptr<const LearnedWalls> Tick(Time now);
   /// The walls that came since the last call, as they were told.
   std::vector<SeenWall> TakeTold() { return std::exchange(told_, {}); }
+  /// A mission has made the map anew: it is told to whoever listens.
+  void Replace(LearnedWalls walls);
   std::shared_ptr<const LearnedWalls> walls() const { return std::make_shared<LearnedWalls>(map_.walls()); }
 
  private:
@@ -65,6 +66,7 @@ class MapKeeper {
   bus::Inbox<door_found_t> doors_;
   bus::Inbox<map_command_t> orders_;
   bus::Publisher<features_ack_t> acks_;
+  bool replaced_ = false;
 };
 
 }  // namespace priamos::planner

@@ -104,6 +104,7 @@ void PlannerApp::Send(const MissionActions& actions, Time now) {
   if (actions.path) path_.Publish(ToMessage(*actions.path, now));
   if (actions.look) look_.Publish(ToMessage(*actions.look, now));
   if (actions.place) place_.Publish(ToMessage(*actions.place, now));
+  if (actions.map) map_.Replace(*actions.map);
 }
 
 void PlannerApp::SendStatus(Time now) {

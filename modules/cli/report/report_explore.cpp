@@ -35,27 +35,23 @@ struct WallPlace {
   Vector2d at, facing;
 };
 
+LearnedWall WallFrom(const floor_wall_t& line) {
+  const Vector2d from(line.x1_m, line.y1_m), to(line.x2_m, line.y2_m);
+  LearnedWall wall;
+  wall.x_m = (from.x() + to.x()) / 2;
+  wall.y_m = (from.y() + to.y()) / 2;
+  wall.yaw_deg = Degrees(std::atan2(to.y() - from.y(), to.x() - from.x()));
+  wall.length_m = (to - from).norm();
+  return wall;
+}
+
 /// Places along the walls as the planner has them, every 10 cm; what counts as the edge of a wall is none.
 std::vector<WallPlace> WallPlaces(const RunRecord& record) {
-  std::map<std::pair<int, int>, feature_t> walls;  // as told last
-  for (const features_t& message : record.features)
-    for (const feature_t& feature : message.features) {
-      if (feature.kind == feature_t::WALL)
-        walls[{message.store, feature.id}] = feature;
-      else
-        walls.erase({message.store, feature.id});
-    }
+  LearnedWalls known;
+  for (const floor_map_t& part : record.map)
+    for (const floor_wall_t& line : part.walls) known.walls.push_back(WallFrom(line));
   std::vector<WallPlace> places;
-  LearnedWalls told;
-  for (const auto& [name, feature] : walls) {
-    LearnedWall wall;
-    wall.x_m = feature.x_m;
-    wall.y_m = feature.y_m;
-    wall.yaw_deg = Degrees(feature.yaw_rad);
-    wall.length_m = feature.length_m;
-    told.walls.push_back(wall);
-  }
-  for (const LearnedWall& wall : WithoutEdges(told).walls)
+  for (const LearnedWall& wall : WithoutEdges(known).walls)
     for (double at_m = -wall.length_m / 2; at_m <= wall.length_m / 2; at_m += kSample_m)
       places.push_back({wall.At(at_m), wall.map_from_wall().rotation() * Vector2d::UnitY()});
   return places;

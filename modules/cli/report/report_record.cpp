@@ -63,11 +63,22 @@ void RunRecord::AddOffboard(std::int64_t utime, std::string_view channel, std::s
   if (channel == channels::kMissionStatus.name) Append(mission, bytes);
   if (channel == channels::kFeatures.name) Append(features, bytes);
   if (channel == channels::kDoorFound.name) Append(doors, bytes);
+  if (channel == channels::kFloorMap.name) AddMap(bytes);
   if (channel == channels::kLinkStatus.name) Append(offboard_link, bytes);
   if (channel != channels::kPose.name) return;
   std::vector<pose_t> received;
   Append(received, bytes);
   for (const pose_t& pose : received) pose_ages_s.push_back(Seconds(Duration(utime - pose.utime)));
+}
+
+/// The parts of one map have the same revision.
+void RunRecord::AddMap(std::span<const std::byte> bytes) {
+  std::vector<floor_map_t> parts;
+  Append(parts, bytes);
+  for (floor_map_t& part : parts) {
+    if (!map.empty() && map.front().revision != part.revision) map.clear();
+    map.push_back(std::move(part));
+  }
 }
 
 }  // namespace priamos::cli

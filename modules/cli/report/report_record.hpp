@@ -41,6 +41,7 @@ class RunRecord {
   std::vector<mission_status_t> mission;
   std::vector<features_t> features;  ///< walls as they came to the workstation
   std::vector<door_found_t> doors;   ///< doors likewise
+  std::vector<floor_map_t> map;      ///< the planner's map, in the parts of the newest one
   /// Age of each pose when it came to the workstation [s]: what the radio costs in time.
   std::vector<double> pose_ages_s;
   // Each end of the radio about itself.
@@ -52,6 +53,7 @@ class RunRecord {
  private:
   template <class T>
   void Append(std::vector<T>& stream, std::span<const std::byte> bytes);
+  void AddMap(std::span<const std::byte> bytes);
   void AddOnboard(std::string_view channel, std::span<const std::byte> bytes);
   void AddOffboard(std::int64_t utime, std::string_view channel, std::span<const std::byte> bytes);
 

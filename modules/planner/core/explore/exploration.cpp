@@ -8,6 +8,7 @@
 
 #include "common/geometry.hpp"
 #include "common/learned/edge_walls.hpp"
+#include "planner/core/explore/frontier_tour.hpp"
 #include "planner/core/explore/passages.hpp"
 
 namespace priamos::planner {
@@ -33,13 +34,14 @@ constexpr double kRaster_m = 0.05;
 }  // namespace
 
 void ExplorationConfig::Describe(Archive& a) {
-  a.Choice("rule", rule, {"cost", "nearest"}, "which frontier is next; nearest is for comparison");
+  a.Choice("rule", rule, {"tour", "cost", "nearest"}, "which frontier is next; all but tour for comparison");
   a.Number("least_frontier_m", least_frontier_m, {"m", 0.1, 5, "a shorter frontier leads nowhere"});
   a.Number("turn_m", turn_m, {"m", 0, 10, "cost of turning by a radian to face a frontier"});
   a.Number("tight_m", tight_m, {"-", 0, 10, "cost per metre that is missing to roomy_m"});
   a.Number("roomy_m", roomy_m, {"m", 0, 3, "distance from what is closed that costs nothing"});
   a.Number("length_gain", length_gain, {"-", 0, 10, "what a metre of frontier is worth"});
   a.Number("most_length_m", most_length_m, {"m", 0, 100, "up to this length of it"});
+  a.Number("least_gain_m2", least_gain_m2, {"m2", 0, 5, "where less is unknown nothing is looked at"});
   a.Number("beyond_m", beyond_m, {"m", 0, 3, "so far into the unknown the base drives"});
   a.Number("farthest_m", farthest_m, {"m", 5, 90, "what lies farther from the start is left"});
   a.Section("grid", grid, "what counts as seen");
@@ -54,6 +56,7 @@ void Exploration::Reset() {
   evidence_ = {};
   evidence_.things = known_;
   poses_.clear();
+  things_from_.clear();
   given_up_.clear();
   left_.clear();
   grid_.reset();
@@ -61,14 +64,33 @@ void Exploration::Reset() {
   driven_m_ = 0;
 }
 
-void Exploration::NoteAt(const Pose2& map_from_base) {
+bool Exploration::NoteAt(const Pose2& map_from_base) {
   const Vector2d at = map_from_base.translation();
   if (last_) driven_m_ += (at - *last_).norm();
   last_ = at;
-  if (!evidence_.trail.empty() && (at - evidence_.trail.back()).norm() < kTrail_m) return;
+  if (!evidence_.trail.empty() && (at - evidence_.trail.back()).norm() < kTrail_m) return false;
   evidence_.trail.push_back(at);
   poses_.push_back(map_from_base);
   grid_.reset();
+  return true;
+}
+
+void Exploration::MoveTrail(const std::vector<Pose2>& trail) {
+  if (trail.empty() || trail.size() != poses_.size()) return;
+  const auto moved = [&](std::size_t from) { return trail[from] * poses_[from].Inverse(); };
+  for (GivenUp& given : given_up_) given.at = moved(given.from) * given.at;
+  for (std::size_t i = 0; i < things_from_.size(); ++i) {
+    Rectangle& thing = evidence_.things[known_.size() + i];
+    thing.map_from_centre = moved(things_from_[i]) * thing.map_from_centre;
+  }
+  if (last_) last_ = moved(poses_.size() - 1) * *last_;
+  poses_ = trail;
+  for (std::size_t i = 0; i < trail.size(); ++i) evidence_.trail[i] = trail[i].translation();
+  grid_.reset();
+}
+
+std::size_t Exploration::Here() const {
+  return poses_.empty() ? 0 : poses_.size() - 1;
 }
 
 void Exploration::Learn(const LearnedWalls& walls) {
@@ -78,17 +100,19 @@ void Exploration::Learn(const LearnedWalls& walls) {
 
 void Exploration::AddThing(const Rectangle& thing) {
   evidence_.things.push_back(thing);
+  things_from_.push_back(Here());
   grid_.reset();
 }
 
 void Exploration::GiveUp(const Vector2d& target, std::string reason) {
-  given_up_.push_back({target, std::move(reason)});
+  given_up_.push_back({target, std::move(reason), Here()});
 }
 
 bool Exploration::TryAgain() {
   if (given_up_.empty() && evidence_.things.size() == known_.size()) return false;
   given_up_.clear();
   evidence_.things = known_;
+  things_from_.clear();
   grid_.reset();
   return true;
 }
@@ -124,34 +148,53 @@ const Exploration::GivenUp* Exploration::FindGivenUp(const Vector2d& at) const {
 std::optional<FrontierGoal> Exploration::Choose(const Pose2& map_from_base) {
   left_.clear();
   const GridWays ways(grid(), map_from_base.translation(), clearance_m_);
-  std::optional<Candidate> best;
+  std::vector<Candidate> candidates;
   for (const Frontier& frontier : FrontiersOf(*grid_, config_.least_frontier_m)) {
-    const auto candidate = Best(frontier, ways, map_from_base);
-    if (!candidate) left_.push_back({frontier.middle, frontier.length_m(), WhyLeft(frontier, ways)});
-    if (candidate && (!best || candidate->cost < best->cost)) best = candidate;
+    if (const auto candidate = Best(frontier, ways, map_from_base))
+      candidates.push_back(*candidate);
+    else if (!IsCrumb(frontier))
+      left_.push_back({frontier.middle, frontier.length_m(), WhyLeft(frontier, ways)});
   }
   std::stable_sort(left_.begin(), left_.end(),
                    [](const auto& a, const auto& b) { return a.length_m > b.length_m; });
-  return best ? std::optional(best->goal) : std::nullopt;
+  if (candidates.empty()) return std::nullopt;
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  return candidates[config_.rule == "tour" ? FirstOf(candidates, ways) : 0].goal;
+}
+
+/// The first on the shortest way over the nearest of them: what is left behind has to be come back to.
+std::size_t Exploration::FirstOf(const std::vector<Candidate>& candidates, const GridWays& ways) {
+  const std::size_t n = std::min(candidates.size(), kMostTourPlaces);
+  std::vector<double> to;
+  std::vector<Vector2i> cells;
+  for (std::size_t i = 0; i < n; ++i) {
+    to.push_back(std::max(0.0, candidates[i].cost));
+    cells.push_back(candidates[i].cell);
+  }
+  Eigen::MatrixXd between(n, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = ways.WaysFrom(cells[i], cells);
+    for (std::size_t k = 0; k < n; ++k) between(Eigen::Index(i), Eigen::Index(k)) = row[k];
+  }
+  return FirstOfTour(to, between);
 }
 
 /// The place of a frontier that costs least; nullopt: none can be reached.
 std::optional<Exploration::Candidate> Exploration::Best(const Frontier& frontier, const GridWays& ways,
                                                         const Pose2& base) const {
   std::optional<Candidate> best;
-  Vector2i cell(0, 0);
   for (const Vector2i& at : frontier.cells) {
     const Vector2d place = grid_->PlaceOf(at.x(), at.y());
     if (!std::isfinite(ways.Way_m(at)) || ways.Clearance_m(at) < clearance_m_) continue;
     if ((place - evidence_.trail.front()).norm() > config_.farthest_m || FindGivenUp(place)) continue;
     const double cost = CostOf(frontier, at, ways, base);
-    if (best && cost >= best->cost) continue;
-    best = Candidate{{place, place, ways.Way_m(at), frontier.length_m()}, cost};
-    cell = at;
+    if ((best && cost >= best->cost) || UnknownBehind_m2(at) < config_.least_gain_m2) continue;
+    best = Candidate{{place, place, ways.Way_m(at), frontier.length_m()}, at, cost};
   }
   if (!best) return std::nullopt;
-  best->goal.goal = GoalBeyond(cell, ways);
-  if (config_.rule == "nearest") best->cost = ways.Way_m(cell);
+  best->goal.goal = GoalBeyond(best->cell, ways);
+  if (config_.rule == "nearest") best->cost = ways.Way_m(best->cell);
   return best;
 }
 
@@ -164,6 +207,13 @@ double Exploration::CostOf(const Frontier& frontier, const Vector2i& cell, const
   return ways.Way_m(cell) + config_.turn_m * turn_rad +
          config_.tight_m * std::max(0.0, config_.roomy_m - ways.Clearance_m(cell)) -
          config_.length_gain * std::min(config_.most_length_m, frontier.length_m());
+}
+
+/// Whether there is next to nothing behind all of it: the corner of a room, between walls that are known.
+bool Exploration::IsCrumb(const Frontier& frontier) const {
+  return std::all_of(frontier.cells.begin(), frontier.cells.end(), [&](const Vector2i& cell) {
+    return UnknownBehind_m2(cell) < config_.least_gain_m2;
+  });
 }
 
 std::string Exploration::WhyLeft(const Frontier& frontier, const GridWays& ways) const {
@@ -188,6 +238,23 @@ Vector2d Exploration::Outward(const Vector2i& cell) const {
     for (int dy = -kOutwardCells; dy <= kOutwardCells; ++dy)
       if (grid_->At(cell.x() + dx, cell.y() + dy) == Cell::kUnknown) sum += Vector2d(dx, dy);
   return sum.norm() > 1 ? Vector2d(sum.normalized()) : Vector2d(0, 0);
+}
+
+/// How much is unknown near a place of a frontier, as far as nothing closed is in between.
+double Exploration::UnknownBehind_m2(const Vector2i& cell) const {
+  constexpr int kRays = 36;
+  constexpr double kReach_m = 1.5, kTurn_rad = 2 * kPi / kRays;
+  const Vector2d place = grid_->PlaceOf(cell.x(), cell.y());
+  double unknown_m2 = 0;
+  for (int i = 0; i < kRays; ++i) {
+    const Vector2d ray(std::cos(kTurn_rad * i), std::sin(kTurn_rad * i));
+    for (double at_m = ExploredGrid::kStep_m; at_m <= kReach_m; at_m += ExploredGrid::kStep_m) {
+      const Cell what = grid_->At(Vector2d(place + at_m * ray));
+      if (what == Cell::kClosed) break;
+      if (what == Cell::kUnknown) unknown_m2 += at_m * kTurn_rad * ExploredGrid::kStep_m;
+    }
+  }
+  return unknown_m2;
 }
 
 /// As far beyond the frontier as nothing is known to be near.

@@ -17,13 +17,16 @@ namespace priamos::planner {
 /// Which frontier is next. All costs are metres driven.
 struct ExplorationConfig {
   ExploredGridConfig grid{};
-  std::string rule = "cost";      ///< or "nearest": the rule of m-explore, for comparison
+  /// The first on the shortest way over all; or, for comparison, "cost": the one that costs least, or
+  /// "nearest": the rule of m-explore.
+  std::string rule = "tour";
   double least_frontier_m = 0.6;  ///< a shorter frontier leads nowhere
   double turn_m = 1.0;            ///< turning by a radian to face it
   double tight_m = 2.0;           ///< per metre that is missing to `roomy_m` from what is closed
   double roomy_m = 1.0;
   double length_gain = 0.3;  ///< what a metre of frontier is worth ...
   double most_length_m = 4;  ///< ... up to this length
+  double least_gain_m2 = 0.8;  ///< a frontier with less behind it is left unseen: a corner between walls
   double beyond_m = 1.0;     ///< the base drives so far into the unknown, as far as nothing is known there
   double farthest_m = 80;    ///< from where it began; what lies beyond is left
 
@@ -55,8 +58,11 @@ class Exploration {
   void Reset();
   /// Changes the rule and its costs.
   void set_config(const ExplorationConfig& config) { config_ = config; }
-  /// The base is here, map frame.
-  void NoteAt(const Pose2& map_from_base);
+  /// The base is here, map frame. Returns whether its trail has one place more.
+  bool NoteAt(const Pose2& map_from_base);
+  /// The places of the trail, as many as there are, as the map has them now. What stopped the base, and what
+  /// was given up, moves with where it was then.
+  void MoveTrail(const std::vector<Pose2>& trail);
   /// Walls as they are known by now, in place of those before. Edges that were reported as walls are none,
   /// and where the base drove through none is.
   void Learn(const LearnedWalls& walls);
@@ -92,15 +98,21 @@ class Exploration {
   struct GivenUp {
     Eigen::Vector2d at;
     std::string reason;
+    std::size_t from = 0;  ///< place of the trail where the base was then
   };
   struct Candidate {
     FrontierGoal goal;
+    Eigen::Vector2i cell{0, 0};
     double cost = 0;
   };
   std::optional<Candidate> Best(const Frontier& frontier, const GridWays& ways, const Pose2& base) const;
   double CostOf(const Frontier& frontier, const Eigen::Vector2i& cell, const GridWays& ways,
                 const Pose2& base) const;
+  std::size_t Here() const;
+  static std::size_t FirstOf(const std::vector<Candidate>& candidates, const GridWays& ways);
   const GivenUp* FindGivenUp(const Eigen::Vector2d& at) const;
+  double UnknownBehind_m2(const Eigen::Vector2i& cell) const;
+  bool IsCrumb(const Frontier& frontier) const;
   std::string WhyLeft(const Frontier& frontier, const GridWays& ways) const;
   Eigen::Vector2d GoalBeyond(const Eigen::Vector2i& cell, const GridWays& ways) const;
   Eigen::Vector2d Outward(const Eigen::Vector2i& cell) const;
@@ -109,7 +121,8 @@ class Exploration {
   double clearance_m_;
   std::vector<Rectangle> known_;
   ExploredEvidence evidence_;
-  std::vector<Pose2> poses_;  ///< at the places of the trail
+  std::vector<Pose2> poses_;             ///< at the places of the trail
+  std::vector<std::size_t> things_from_;  ///< where the base was when it put each thing that is not known
   std::vector<GivenUp> given_up_;
   std::vector<LeftFrontier> left_;
   std::optional<ExploredGrid> grid_;  ///< of the evidence; none: it has changed since

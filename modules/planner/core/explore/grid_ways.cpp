@@ -48,6 +48,7 @@ void GridWays::Spread(std::vector<float>& distance_m, const std::vector<std::siz
 
 GridWays::GridWays(const ExploredGrid& grid, const Eigen::Vector2d& from, double clearance_m)
     : grid_(&grid),
+      least_m_(clearance_m),
       clearance_m_(grid.cells(), kFar_m),
       way_m_(grid.cells(), std::numeric_limits<float>::infinity()) {
   std::vector<std::size_t> closed;
@@ -61,6 +62,17 @@ GridWays::GridWays(const ExploredGrid& grid, const Eigen::Vector2d& from, double
     if (grid.At(x, y) != Cell::kFree) return false;
     return way_m <= kLeaving_m || clearance_m_[grid.IndexOf(x, y)] >= clearance_m;
   });
+}
+
+std::vector<double> GridWays::WaysFrom(const Eigen::Vector2i& from,
+                                       const std::vector<Eigen::Vector2i>& places) const {
+  std::vector<float> way_m(grid_->cells(), std::numeric_limits<float>::infinity());
+  Spread(way_m, {grid_->IndexOf(from.x(), from.y())}, [&](int x, int y, float) {
+    return grid_->At(x, y) == Cell::kFree && clearance_m_[grid_->IndexOf(x, y)] >= least_m_;
+  });
+  std::vector<double> ways;
+  for (const Eigen::Vector2i& place : places) ways.push_back(way_m[grid_->IndexOf(place.x(), place.y())]);
+  return ways;
 }
 
 }  // namespace priamos::planner

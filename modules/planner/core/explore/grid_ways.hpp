@@ -22,12 +22,16 @@ class GridWays {
     return clearance_m_[grid_->IndexOf(cell.x(), cell.y())];
   }
 
+  /// Lengths of the ways from a free place to others.
+  std::vector<double> WaysFrom(const Eigen::Vector2i& from, const std::vector<Eigen::Vector2i>& places) const;
+
  private:
   template <class Passable>
   void Spread(std::vector<float>& distance_m, const std::vector<std::size_t>& sources,
               const Passable& passable) const;
 
   const ExploredGrid* grid_;
+  double least_m_;
   std::vector<float> clearance_m_, way_m_;
 };
 

@@ -20,10 +20,21 @@ void LearnedMapConfig::Describe(Archive& a) {
 
 LearnedMap::LearnedMap(const LearnedMapConfig& config, LearnedWalls known)
     : config_(config), walls_(std::move(known)) {
+  NoteOlder();
+}
+
+/// What is known of before has no names.
+void LearnedMap::NoteOlder() {
   for (const LearnedWall& wall : walls_.walls) {
     last_id_ = std::max(last_id_, wall.id);
     older_.insert(wall.id);
   }
+}
+
+void LearnedMap::Replace(LearnedWalls walls) {
+  Reset();
+  walls_.walls = std::move(walls.walls);
+  NoteOlder();
 }
 
 LearnedWall* LearnedMap::Find(int id) {

@@ -42,6 +42,8 @@ class LearnedMap {
   bool Take(const SeenWall& seen);
   /// Takes what a robot tells of a door, see EnterDoor(); likewise.
   bool Take(const LearnedDoor& told);
+  /// Holds these walls from now on, whatever robots told before.
+  void Replace(LearnedWalls walls);
   /// Forgets everything.
   void Reset();
   /// What it holds; the revision counts its changes.
@@ -49,6 +51,7 @@ class LearnedMap {
 
  private:
   using Name = std::pair<int, int>;  ///< store and number
+  void NoteOlder();
   LearnedWall* Find(int id);
   LearnedWall& Begin(const SeenWall& seen);
   void Consolidate(int id);

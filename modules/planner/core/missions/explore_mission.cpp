@@ -19,6 +19,14 @@ constexpr double kSamePlace_m = 0.3, kBack_m = 1.5, kShutIn_m = 1.0;
 constexpr double kMore_m2 = 1.0;
 /// Frontiers that the outcome names; a result holds no more words.
 constexpr std::size_t kNamed = 1;
+/// A map that has moved by so much under a robot on its way is a reason to plan it anew.
+constexpr double kMoved_m = 0.15;
+/// A robot whose own frame is farther off the map is told so in the end; it is known so well then.
+constexpr double kOff_m = 0.02, kOff_rad = Radians(0.2), kPlaced_m = 0.05, kPlaced_rad = Radians(0.6);
+
+double SecondsOf(Time time) {
+  return 1e-6 * static_cast<double>(ToUtime(time));
+}
 
 double NeededWidth(const ExploreMissionConfig& config, const Footprint& footprint) {
   return footprint.width_m + 2 * config.route.least_margin_m;
@@ -41,11 +49,11 @@ void ExploreMissionConfig::Describe(Archive& a) {
   a.Number("idle_s", idle_s, {"s", 1, 600, "a robot that comes no further for so long is blocked"});
   a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
   a.Integer("rounds", rounds, {"-", 0, 20, "rounds over what was left that see nothing more"});
-  a.Flag("keep_walls", keep_walls, "the pose is held by the walls that were told first");
   a.Integer("retries", retries, {"-", 0, 20, "paths that end elsewhere before a frontier is given up"});
   limits.Describe(a);
   a.Section("route", route, "the way to a frontier");
   a.Section("choice", choice, "which frontier is next");
+  a.Section("graph", graph, "the map that is made, and where the robot is in it");
 }
 
 ExploreMission::ExploreMission(const ExploreMissionConfig& config, const Footprint& footprint,
@@ -53,7 +61,8 @@ ExploreMission::ExploreMission(const ExploreMissionConfig& config, const Footpri
     : config_(config),
       footprint_(footprint),
       planner_(config.route, footprint, plan),
-      exploration_(config.choice, NeededWidth(config, footprint), ShapesOf(plan)) {}
+      exploration_(config.choice, NeededWidth(config, footprint), ShapesOf(plan)),
+      graph_(config.graph) {}
 
 std::optional<SeenFloor> ExploreMission::Seen() {
   if (!begun_) return std::nullopt;
@@ -64,12 +73,14 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   begun_ = true;
   planner_.Forget();
   exploration_.Reset();
-  kept_.Reset();
+  graph_.Reset();
+  trail_.clear();
+  outcome_.reset();
   stands_.Reset();
   idles_.Reset();
   goal_.reset();
   considered_.reset();
-  learned_.reset();
+  learned_ = false;
   missed_ = 0;
   rounds_ = 0;
   most_seen_m2_ = 0;
@@ -85,9 +96,10 @@ void ExploreMission::set_config(const ExploreMissionConfig& config) {
 }
 
 void ExploreMission::Step(MissionControl& control) {
+  Note(control);
   const Heard& heard = control.heard();
   if (!heard.link_up || !heard.pose || !IsFresh(*heard.pose, control.now())) return;
-  exploration_.NoteAt(heard.pose->map_from_base);
+  if (outcome_) return End(control);
   if ((!goal_ && !backing_) || undecided_) return Next(control);
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath()) return;
@@ -103,29 +115,60 @@ void ExploreMission::Step(MissionControl& control) {
   if (goal_) Reconsider(control);
 }
 
-void ExploreMission::Learn(const MissionControl& control) {
-  if (!control.heard().learned) return;
-  learned_ = control.heard().learned;
-  exploration_.Learn(*learned_);
-  if (config_.keep_walls)
-    kept_.Learn(exploration_.walls(), 1e-6 * static_cast<double>(ToUtime(control.now())));
-  planner_.Learn(SureParts(exploration_.walls()), control.heard().pose->map_from_base);
+/// What the robot tells is in its own frame; the map is another one, in which everything else is done.
+void ExploreMission::Note(MissionControl& control) {
+  const Heard& heard = control.heard();
+  if (!heard.pose) return;
+  graph_.NoteAt(heard.pose->map_from_base, SecondsOf(heard.pose->stamp));
+  for (const SeenWall& seen : heard.told) graph_.NoteWall(seen);
+  if (!heard.told.empty() && graph_.Settle()) {
+    std::vector<Pose2> trail;
+    for (const GraphAnchor& anchor : trail_) trail.push_back(graph_.PlaceOf(anchor));
+    exploration_.MoveTrail(trail);
+    learned_ = false;
+    control.SendMap(graph_.Walls());
+  }
+  const Pose2 base = BaseOf(control);
+  if (exploration_.NoteAt(base)) trail_.push_back(graph_.AnchorOf(base));
 }
 
-/// While the base drives: what it was to see may be seen by now, or a wall may have turned up on its way.
+Pose2 ExploreMission::BaseOf(const MissionControl& control) const {
+  return graph_.map_from_robot() * control.heard().pose->map_from_base;
+}
+
+/// A path in the map, for a robot that drives in its own frame.
+void ExploreMission::Order(MissionControl& control, PlannedPath path) {
+  ordered_by_ = graph_.map_from_robot();
+  const Pose2 robot_from_map = ordered_by_.Inverse();
+  for (Pose2& point : path.points) point = robot_from_map * point;
+  control.OrderPath(FirstPart(std::move(path)), config_.speed_m_s);
+}
+
+void ExploreMission::Learn(const Pose2& base) {
+  if (std::exchange(learned_, true)) return;
+  exploration_.Learn(graph_.Walls());
+  planner_.Learn(SureParts(exploration_.walls()), base);
+}
+
+/// While the base drives: what it was to see may be seen by now, a wall may have turned up on its way, or the
+/// map may have moved.
 void ExploreMission::Reconsider(MissionControl& control) {
   if (considered_ && Seconds(control.now() - *considered_) < config_.reconsider_s) return;
   considered_ = control.now();
-  if (learned_ != control.heard().learned) Learn(control);
-  const Pose2& base = control.heard().pose->map_from_base;
-  const auto left = PointsLeft(control.path().points, control.heard().drive->remaining_m);
-  if (!exploration_.IsOpen(*goal_) || !planner_.AreFree(base, left)) Next(control);
+  const Pose2 base = BaseOf(control);
+  Learn(base);
+  auto left = PointsLeft(control.path().points, control.heard().drive->remaining_m);
+  for (Pose2& point : left) point = graph_.map_from_robot() * point;
+  const Pose2& told = control.heard().pose->map_from_base;
+  const bool moved = ((ordered_by_ * told).translation() - base.translation()).norm() > kMoved_m;
+  if (moved || !exploration_.IsOpen(*goal_) || !planner_.AreFree(base, left)) Next(control);
 }
 
 void ExploreMission::Arrive(MissionControl& control) {
   if (!goal_) return Next(control);
-  const double off_m = (control.heard().pose->map_from_base.translation() - goal_->goal).norm();
-  if (learned_ != control.heard().learned) Learn(control);
+  const Pose2 base = BaseOf(control);
+  const double off_m = (base.translation() - goal_->goal).norm();
+  Learn(base);
   const bool open = exploration_.IsOpen(*goal_);
   if (open && off_m < config_.near_m)
     exploration_.GiveUp(goal_->target, "seen from near by, and nothing is known of it");
@@ -137,10 +180,11 @@ void ExploreMission::Arrive(MissionControl& control) {
 /// What stopped the base is closed from now on; a frontier that is no longer one by that is done with. A base
 /// that is stopped twice at a place stands too near to something, and is not shut in by more things.
 void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
+  Note(control);
+  if (outcome_) return control.Enter(Phase::kDone, *outcome_);
   if (stop.cause != Stop::Cause::kBlocked || (!goal_ && !backing_))
     return control.Fail(stop.reason + "; next: look what it is, and order it again");
-  const Eigen::Vector2d here = control.heard().pose->map_from_base.translation();
-  exploration_.NoteAt(control.heard().pose->map_from_base);
+  const Eigen::Vector2d here = BaseOf(control).translation();
   const bool again = stopped_at_ && (here - *stopped_at_).norm() < kSamePlace_m;
   stopped_at_ = here;
   if (backing_) return Next(control);
@@ -149,25 +193,29 @@ void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
     if (!GoBack(control)) Next(control);
     return;
   }
-  if (const auto thing = ThingAhead(control, footprint_, config_.thing_m)) exploration_.AddThing(*thing);
+  if (auto thing = ThingAhead(control, footprint_, config_.thing_m)) {
+    thing->map_from_centre = graph_.map_from_robot() * thing->map_from_centre;
+    exploration_.AddThing(*thing);
+  }
   if (++missed_ > config_.retries) exploration_.GiveUp(goal_->target, stop.reason);
   Next(control);
 }
 
 void ExploreMission::Next(MissionControl& control) {
-  Learn(control);
+  const Pose2 base = BaseOf(control);
+  learned_ = false;  // it may have driven through what was a wall
+  Learn(base);
   considered_ = control.now();
   undecided_ = false;
   backing_ = false;
   for (int i = 0; i < kMostTries; ++i) {
-    const auto frontier = exploration_.Choose(control.heard().pose->map_from_base);
+    const auto frontier = exploration_.Choose(base);
     if (!frontier && !BeginRound()) return Finish(control);
-    const bool shut_in =
-        stopped_at_ && (control.heard().pose->map_from_base.translation() - *stopped_at_).norm() < kShutIn_m;
+    const bool shut_in = stopped_at_ && (base.translation() - *stopped_at_).norm() < kShutIn_m;
     if (!frontier && shut_in && GoBack(control)) return;
     if (!frontier) continue;
     if (DriveTo(control, *frontier)) return;
-    exploration_.GiveUp(frontier->target, WhyNoWay(control.heard().pose->map_from_base, *frontier));
+    exploration_.GiveUp(frontier->target, WhyNoWay(base, *frontier));
   }
   undecided_ = true;  // the rest is looked at in the next time step
   if (!control.path_sent() || !control.path().points.empty()) control.OrderPath({}, 0);
@@ -191,7 +239,7 @@ bool ExploreMission::GoBack(MissionControl& control) {
   goal_.reset();
   backing_ = true;
   idles_.Reset();
-  control.OrderPath(FirstPart(std::move(way)), config_.speed_m_s);
+  Order(control, std::move(way));
   control.Enter(Phase::kDriving, "exploring: something is near on all sides, going back a bit");
   return true;
 }
@@ -204,7 +252,7 @@ std::string ExploreMission::WhyNoWay(const Pose2& base, const FrontierGoal& fron
 
 /// False when no way leads there.
 bool ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& frontier) {
-  const Pose2& base = control.heard().pose->map_from_base;
+  const Pose2 base = BaseOf(control);
   planner_.Take(exploration_.ObstaclesFor(frontier), base);
   auto path = planner_.FindPath(base, {{frontier.goal.x(), frontier.goal.y(), base.yaw}, false});
   if (!path && frontier.goal != frontier.target)
@@ -214,10 +262,7 @@ bool ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& fronti
   if (!goal_ || (goal_->target - frontier.target).norm() > config_.near_m) missed_ = 0;
   goal_ = frontier;
   const double length_m = LengthOf(base, path->points);
-  std::vector<Eigen::Vector2d> way{base.translation()};
-  for (const Pose2& point : path->points) way.push_back(point.translation());
-  control.SendFaces(FacesAlong(kept_.Faces(), way));
-  control.OrderPath(std::move(*path), config_.speed_m_s);
+  Order(control, std::move(*path));
   control.Enter(Phase::kDriving, fmt::format("exploring, {:.0f} m2 seen; to ({:.1f}, {:.1f}), {:.1f} m",
                                              exploration_.grid().free_m2(), frontier.target.x(),
                                              frontier.target.y(), length_m));
@@ -233,12 +278,22 @@ std::string ExploreMission::Left() const {
   return text;
 }
 
+/// The robot is told where it is in the map that was made, before it is over: from then on its pose is that of
+/// the map.
 void ExploreMission::Finish(MissionControl& control) {
   control.OrderPath({}, 0);
-  control.Enter(
-      Phase::kDone,
-      fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
-                  Seconds(control.now() - control.started()), exploration_.driven_m(), Left()));
+  outcome_ = fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
+                         Seconds(control.now() - control.started()), exploration_.driven_m(), Left());
+  control.SendMap(graph_.Walls());
+  const Pose2 off = graph_.map_from_robot();
+  if (off.translation().norm() > kOff_m || std::abs(off.yaw) > kOff_rad)
+    control.OrderPlace(BaseOf(control), kPlaced_m, kPlaced_rad);
+  else
+    End(control);
+}
+
+void ExploreMission::End(MissionControl& control) {
+  if (!control.IsPlacing()) control.Enter(Phase::kDone, *outcome_);
 }
 
 }  // namespace priamos::planner

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "common/ground_plan.hpp"
 #include "planner/core/explore/exploration.hpp"
-#include "planner/core/explore/kept_walls.hpp"
 #include "planner/core/explore/seen_floor.hpp"
+#include "planner/core/graph/floor_graph.hpp"
 #include "planner/core/missions/mission.hpp"
 #include "planner/core/missions/path_progress.hpp"
 #include "planner/core/path/route_planner.hpp"
@@ -23,19 +23,19 @@ struct ExploreMissionConfig {
   double stands_s = 30;       ///< a robot that holds on its way for so long has the mission fail
   double idle_s = 12;         ///< a robot that comes no further for so long, held by nothing, is blocked
   double thing_m = 0.3;       ///< size of what is in the way, of which one side is known only
-  bool keep_walls = true;     ///< the pose is held by the walls that were told first
   int retries = 3;            ///< paths that end elsewhere before a frontier is given up
   int rounds = 2;             ///< so often what was left is tried again in the end without more being seen
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 3600};
   RoutePlannerConfig route{.most_poses = 60000};  ///< who has many frontiers does not search for one for long
   ExplorationConfig choice;
+  FloorGraphConfig graph;
 
   void Describe(Archive& a);
 };
 
 /// The mission "see the whole floor": from frontier to frontier until none is left that can be reached. What
-/// is free is known from where the base was and from the walls that it told; what stops it is put on the map
-/// where it stands, for the length of the mission. A frontier that cannot be reached is left, with the
+/// is free is known from where the base was and from the walls that it told, both put where the graph has them;
+/// what stops it is put on the map where it stands, for the length of the mission. A frontier that cannot be reached is left, with the
 /// reason; the outcome names the largest.
 class ExploreMission : public Mission {
  public:
@@ -52,7 +52,10 @@ class ExploreMission : public Mission {
   std::string Unfinished() const override { return "the floor is not explored"; }
 
  private:
-  void Learn(const MissionControl& control);
+  void Note(MissionControl& control);
+  Pose2 BaseOf(const MissionControl& control) const;
+  void Order(MissionControl& control, PlannedPath path);
+  void Learn(const Pose2& base);
   void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);
   void Next(MissionControl& control);
@@ -61,13 +64,16 @@ class ExploreMission : public Mission {
   bool DriveTo(MissionControl& control, const FrontierGoal& frontier);
   std::string WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const;
   void Finish(MissionControl& control);
+  void End(MissionControl& control);
   std::string Left() const;
 
   ExploreMissionConfig config_;
   Footprint footprint_;
   RoutePlanner planner_;
   Exploration exploration_;
-  KeptWalls kept_;
+  FloorGraph graph_;
+  std::vector<GraphAnchor> trail_;  ///< of the places of the exploration's trail
+  Pose2 ordered_by_;                ///< the robot's frame in the map when a path was ordered last
   StandWatch stands_, idles_{StandWatch::Counts::kFree};
   bool begun_ = false;  ///< there was an order
   std::optional<FrontierGoal> goal_;
@@ -78,7 +84,8 @@ class ExploreMission : public Mission {
   std::optional<Eigen::Vector2d> stopped_at_;    ///< where something stopped the base last
   bool undecided_ = false;                       ///< no way was found yet
   std::optional<Time> considered_;               ///< whether goal_ is still a frontier
-  std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account
+  bool learned_ = false;                         ///< the map as it is now was taken into account
+  std::optional<std::string> outcome_;           ///< it is over but for the robot's pose
 };
 
 }  // namespace priamos::planner

@@ -65,6 +65,8 @@ class MissionControl {
   bool place_refused() const { return place_refused_; }
   /// Sends the walls of the plan along the way, unless the robot has just these.
   void SendFaces(std::vector<WallFace> faces);
+  /// The map that was made so far takes the place of what the planner has learned.
+  void SendMap(LearnedWalls walls) { actions_.map = std::move(walls); }
   /// Sends a landmark's model to the head.
   void SendModel(Landmark model) { actions_.model = std::move(model); }
 

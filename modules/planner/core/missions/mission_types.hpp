@@ -116,6 +116,7 @@ struct MissionActions {
   std::optional<PathOrder> path;
   std::optional<LookOrder> look;
   std::optional<PlaceOrder> place{};
+  std::optional<LearnedWalls> map{};  ///< takes the place of the learned map; stays on the workstation
 };
 
 /// How far a mission has come; kDone and kFailed are its ends.

@@ -25,10 +25,19 @@ struct Story {
     robot.tick = [this](Time now) {
       floor.HearFrom(robot.truth().translation());
       inside = inside && floor.Holds(robot.truth().translation());
-      if (!dut.heard().learned || dut.heard().learned->revision != floor.told().revision)
-        dut.OnLearned(std::make_shared<LearnedWalls>(floor.told()));
+      for (const auto& walls = floor.told().walls; told < walls.size(); ++told) Tell(walls[told], now);
       return dut.Tick(now);
     };
+  }
+  /// In the robot's own frame, which is off when `robot.error` says so.
+  void Tell(const LearnedWall& wall, Time now) {
+    SeenWall seen{1, wall.id, false, wall};
+    const Pose2 at = robot.Believed() * robot.truth().Inverse() * wall.map_from_wall();
+    seen.wall.x_m = at.x;
+    seen.wall.y_m = at.y;
+    seen.wall.yaw_deg = Degrees(at.yaw);
+    seen.wall.seen_s = 1e-6 * static_cast<double>(ToUtime(now));
+    dut.OnTold(seen);
   }
   void Run(double seconds) {
     ASSERT_TRUE(dut.Start(robot.now(), {kExplore}));
@@ -38,6 +47,7 @@ struct Story {
   IdealFloor floor{{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}}};
   MissionTable dut;
   FakeRobot robot;
+  std::size_t told = 0;
   bool inside = true;
 };
 

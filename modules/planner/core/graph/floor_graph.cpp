@@ -1,0 +1,338 @@
+#include "planner/core/graph/floor_graph.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::planner {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Walls that are one face the same way, and are no farther apart than this, along them the width of a door.
+constexpr double kSameFacing_rad = Radians(10), kMostAcross_m = 0.6, kMostGap_m = 2.0;
+/// What two walls that are one differ by besides the graph's own errors: a wall is not quite straight.
+constexpr double kUneven_m = 0.02, kUneven_rad = Radians(0.5);
+/// Candidates that lie so near to each other mean the same wall.
+constexpr double kSame_m = 0.1;
+/// Pieces of a line with a smaller gap are one wall.
+constexpr double kBridged_m = 0.3;
+/// A piece that is so many sigmas off its line is none of it.
+constexpr double kOffLine = 6;
+/// What joining may cost more than before, for each pair: squared sigmas.
+constexpr double kMostCost = 16;
+/// 99 % of what four numbers do by chance, squared sigmas.
+constexpr double kFour = 13.3;
+
+}  // namespace
+
+void FloorGraphConfig::Describe(Archive& a) {
+  a.Number("key_m", key_m, {"m", 0.1, 5, "driving between two poses of the graph"});
+  a.Number("key_deg", key_deg, {"deg", 1, 180, "turning between two poses of the graph"});
+  a.Number("walk_m", walk_m, {"m", 0.0005, 0.2, "sigma of the place after a metre"});
+  a.Number("turn_deg", turn_deg, {"deg", 0.01, 5, "sigma of the heading after a metre, and after a radian"});
+  a.Number("least_m", least_m, {"m", 0.3, 5, "a shorter piece of wall ties nothing together"});
+  a.Number("across_m", across_m, {"m", 0.002, 0.5, "sigma of a piece's middle across it"});
+  a.Number("yaw_deg", yaw_deg, {"deg", 0.05, 10, "least sigma of a piece's direction"});
+  a.Number("edge_m", edge_m, {"m", 0.001, 0.5, "sigma of its ends across it"});
+  a.Flag("square", square, "walls are expected to be parallel or perpendicular, when most of them are");
+  a.Number("square_deg", prior.sigma_rad, {"rad", 0.0005, 0.2, "sigma of a wall against the axes"});
+  a.Number("square_share", square_share, {"-", 0, 1, "of the walls' length that has to be so"});
+  a.Number("gate", gate, {"-", 0.5, 10, "Mahalanobis distance up to which two walls may be one"});
+  a.Number("apart", apart, {"-", 1, 20, "as far is every other wall that could be meant"});
+  a.Number("alone_m", alone_m, {"m", 0.01, 2, "three sigmas; known worse, other walls have to agree"});
+}
+
+void FloorGraph::Reset() {
+  *this = FloorGraph(config_);
+}
+
+void FloorGraph::NoteAt(const Pose2& at, double at_s) {
+  if (keys_.empty()) {
+    newest_ = {at_s, at};
+    return AddKey(at, at_s);
+  }
+  const Pose2 step = newest_.robot_frame_from_base.Inverse() * at;
+  driven_m_ += step.translation().norm();
+  turned_rad_ += std::abs(step.yaw);
+  newest_ = {at_s, at};
+  const Pose2 since = keys_.back().robot_frame_from_base.Inverse() * at;
+  if (since.translation().norm() >= config_.key_m || std::abs(since.yaw) >= Radians(config_.key_deg))
+    AddKey(at, at_s);
+}
+
+void FloorGraph::AddKey(const Pose2& at, double at_s) {
+  if (keys_.empty()) {
+    graph_.AddPose(at);
+  } else {
+    const Pose2 step = keys_.back().robot_frame_from_base.Inverse() * at;
+    const double place_m = 0.001 + config_.walk_m * std::sqrt(driven_m_ + 0.3 * turned_rad_);
+    const double yaw = 0.0005 + Radians(config_.turn_deg) * std::sqrt(driven_m_ + turned_rad_);
+    const int to = graph_.AddPose(graph_.pose(graph_.poses() - 1) * step);
+    graph_.Add(GraphMotion{to - 1, to, step, {place_m, place_m, yaw}});
+  }
+  keys_.push_back({at_s, at});
+  driven_m_ = turned_rad_ = 0;
+  changed_ = true;
+}
+
+/// The last one that is not later, but for the second by which the time of a wall is rounded.
+int FloorGraph::KeyAt(double at_s) const {
+  const auto after = std::upper_bound(keys_.begin(), keys_.end(), at_s + 0.5,
+                                      [](double t, const Key& key) { return t < key.at_s; });
+  return std::max(0, static_cast<int>(after - keys_.begin()) - 1);
+}
+
+GraphSight FloorGraph::SightOf(const Told& told) const {
+  const double yaw =
+      std::hypot(Radians(config_.yaw_deg), std::sqrt(12.0) * config_.edge_m / told.wall.length_m);
+  return {told.key, told.line, told.key_from_middle, config_.across_m, yaw};
+}
+
+void FloorGraph::NoteWall(const SeenWall& seen) {
+  if (keys_.empty()) return;
+  const Name name{seen.store, seen.id};
+  const auto before = told_.find(name);
+  changed_ = true;
+  if (seen.gone) {
+    if (before != told_.end()) told_.erase(before);
+    return;
+  }
+  const int key = KeyAt(seen.wall.seen_s);
+  const Pose2 key_from_middle =
+      keys_[std::size_t(key)].robot_frame_from_base.Inverse() * seen.wall.map_from_wall();
+  Told told{key, before == told_.end() ? -1 : before->second.line, key_from_middle, seen.wall};
+  if (told.wall.length_m >= config_.least_m) {
+    const Pose2 middle = graph_.pose(key) * key_from_middle;
+    if (told.line < 0) told.line = graph_.AddLine({middle.translation(), middle.yaw, 0});
+    graph_.Add(SightOf(told));
+  }
+  told_[name] = told;
+}
+
+bool FloorGraph::Settle() {
+  constexpr int kMostJoins = 8;
+  if (!std::exchange(changed_, false) || keys_.size() < 2) return false;
+  TestSquare();
+  graph_.Adjust();
+  for (int i = 0; i < kMostJoins && JoinOnce(); ++i) {
+  }
+  return true;
+}
+
+/// Most of the length has to lie along two perpendicular axes, and there has to be enough of it.
+void FloorGraph::TestSquare() {
+  constexpr double kAlong_rad = Radians(4);
+  if (!config_.square) return;
+  Vector2d sum(0, 0);
+  for (const auto& [name, told] : told_)
+    if (told.line >= 0) {
+      const double turned = 4 * graph_.line(told.line).yaw_rad;
+      sum += told.wall.length_m * Vector2d(std::cos(turned), std::sin(turned));
+    }
+  const double axis = std::atan2(sum.y(), sum.x()) / 4;
+  double all_m = 0, along_m = 0;
+  for (const auto& [name, told] : told_) {
+    if (told.line < 0) continue;
+    all_m += told.wall.length_m;
+    if (std::abs(std::remainder(graph_.line(told.line).yaw_rad - axis, kPi / 2)) < kAlong_rad)
+      along_m += told.wall.length_m;
+  }
+  graph_.SetSquare(along_m > config_.square_share * all_m ? std::optional(config_.prior) : std::nullopt);
+}
+
+/// A piece that its line does not explain lies where it was heard, as does one that is too short.
+bool FloorGraph::IsOnLine(const Told& told) const {
+  return told.line >= 0 && graph_.DistanceOf(SightOf(told)) < kOffLine;
+}
+
+std::map<int, std::vector<FloorGraph::Span>> FloorGraph::Spans() const {
+  std::map<int, std::vector<Span>> spans;
+  for (const auto& [name, told] : told_) {
+    if (!IsOnLine(told)) continue;
+    const GraphLine& line = graph_.line(told.line);
+    const double middle_m =
+        line.AlongTo((graph_.pose(told.key) * told.key_from_middle).translation());
+    const double half_m = told.wall.length_m / 2;
+    spans[told.line].push_back({middle_m - half_m, middle_m + half_m, told.wall});
+  }
+  for (auto& [line, pieces] : spans) {
+    std::sort(pieces.begin(), pieces.end(),
+              [](const Span& a, const Span& b) { return a.from_m < b.from_m; });
+    std::vector<Span> joined;
+    for (const Span& piece : pieces) {
+      if (joined.empty() || piece.from_m > joined.back().to_m + kBridged_m) {
+        joined.push_back(piece);
+        continue;
+      }
+      Span& last = joined.back();
+      last.to_m = std::max(last.to_m, piece.to_m);
+      if (piece.wall.seen_s > last.wall.seen_s) last.wall = piece.wall;
+    }
+    pieces = std::move(joined);
+  }
+  return spans;
+}
+
+/// Where two walls are nearest along the first; nullopt: nowhere.
+std::optional<double> FloorGraph::Meet(const GraphLine& a, const std::vector<Span>& own, const GraphLine& b,
+                                       const std::vector<Span>& others) {
+  double least_gap_m = kMostGap_m;
+  std::optional<double> at_m;
+  for (const Span& piece : own)
+    for (const Span& other : others) {
+      const double from_m = a.AlongTo(b.At(other.from_m)), to_m = a.AlongTo(b.At(other.to_m));
+      const double begin_m = std::max(piece.from_m, from_m), end_m = std::min(piece.to_m, to_m);
+      if (begin_m - end_m >= least_gap_m) continue;
+      least_gap_m = begin_m - end_m;
+      at_m = (begin_m + end_m) / 2;
+    }
+  return at_m;
+}
+
+/// The pair as it is seen at a place along the first wall.
+std::optional<FloorGraph::Candidate> FloorGraph::CandidateAt(int kept, int gone, double at_m) const {
+  const GraphLine &a = graph_.line(kept), &b = graph_.line(gone);
+  const double on_b_m = b.AlongTo(a.At(at_m));
+  const Vector2d place = b.At(on_b_m);
+  Candidate candidate;
+  candidate.kept = kept;
+  candidate.gone = gone;
+  candidate.error << a.AcrossTo(place), WrapAngle(b.yaw_rad - a.yaw_rad);
+  if (std::abs(candidate.error(0)) > kMostAcross_m) return std::nullopt;
+  const auto covariance = graph_.CovarianceOf({kept, gone});
+  if (!covariance) return std::nullopt;
+  candidate.by << -a.AlongTo(place), -1, on_b_m, 1, -1, 0, 1, 0;
+  Eigen::Matrix2d spread = candidate.by * *covariance * candidate.by.transpose();
+  spread.diagonal() += Vector2d(kUneven_m, kUneven_rad).cwiseAbs2();
+  candidate.sigma_m = std::sqrt(spread(0, 0));
+  candidate.distance = std::sqrt(candidate.error.dot(spread.ldlt().solve(candidate.error)));
+  return candidate;
+}
+
+std::vector<FloorGraph::Candidate> FloorGraph::Candidates() const {
+  std::vector<Candidate> found;
+  const auto spans = Spans();
+  for (auto i = spans.begin(); i != spans.end(); ++i)
+    for (auto k = std::next(i); k != spans.end(); ++k) {
+      const GraphLine &a = graph_.line(i->first), &b = graph_.line(k->first);
+      if (std::abs(WrapAngle(b.yaw_rad - a.yaw_rad)) > kSameFacing_rad) continue;
+      if (apart_.contains({i->first, k->first})) continue;
+      const auto at_m = Meet(a, i->second, b, k->second);
+      if (!at_m) continue;
+      const auto candidate = CandidateAt(i->first, k->first, *at_m);
+      if (candidate && candidate->distance <= config_.apart) found.push_back(*candidate);
+    }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  return found;
+}
+
+/// Whether another wall, elsewhere, could be meant as well.
+bool FloorGraph::IsAmbiguous(const Candidate& candidate, const std::vector<Candidate>& all) const {
+  return std::any_of(all.begin(), all.end(), [&](const Candidate& other) {
+    const bool same_pair = other.kept == candidate.kept && other.gone == candidate.gone;
+    const bool shares = other.kept == candidate.kept || other.gone == candidate.gone ||
+                        other.kept == candidate.gone || other.gone == candidate.kept;
+    return !same_pair && shares && std::abs(std::abs(other.error(0)) - std::abs(candidate.error(0))) > kSame_m;
+  });
+}
+
+/// Whether two pairs are off by what the same error of the poses explains.
+bool FloorGraph::Agree(const Candidate& a, const Candidate& b) const {
+  const auto covariance = graph_.CovarianceOf({a.kept, a.gone, b.kept, b.gone});
+  if (!covariance) return false;
+  Eigen::Matrix<double, 4, 8> by = Eigen::Matrix<double, 4, 8>::Zero();
+  by.topLeftCorner<2, 4>() = a.by;
+  by.bottomRightCorner<2, 4>() = b.by;
+  Eigen::Vector4d error;
+  error << a.error, b.error;
+  Eigen::Matrix4d spread = by * *covariance * by.transpose();
+  spread.diagonal() += Eigen::Vector4d(kUneven_m, kUneven_rad, kUneven_m, kUneven_rad).cwiseAbs2();
+  return error.dot(spread.ldlt().solve(error)) < kFour;
+}
+
+/// Joins what is surest; false: nothing is sure.
+bool FloorGraph::JoinOnce() {
+  const auto all = Candidates();
+  std::vector<Candidate> doubtful;
+  for (const Candidate& candidate : all) {
+    if (candidate.distance > config_.gate || IsAmbiguous(candidate, all)) continue;
+    if (3 * candidate.sigma_m > config_.alone_m) {
+      doubtful.push_back(candidate);
+    } else if (Join({candidate})) {
+      return true;
+    }
+  }
+  return JoinTogether(doubtful);
+}
+
+bool FloorGraph::JoinTogether(const std::vector<Candidate>& found) {
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (std::size_t k = i + 1; k < found.size(); ++k) {
+      const Candidate &a = found[i], &b = found[k];
+      const bool apart = a.kept != b.kept && a.gone != b.gone && a.kept != b.gone && a.gone != b.kept;
+      if (apart && Agree(a, b) && Join({a, b})) return true;
+    }
+  return false;
+}
+
+/// Tries it: what costs too much is undone, and not tried again.
+bool FloorGraph::Join(const std::vector<Candidate>& pairs) {
+  const PoseGraph before = graph_;
+  const double cost = graph_.CostOf();
+  for (const Candidate& pair : pairs) graph_.Join(pair.kept, pair.gone);
+  graph_.FollowAll();
+  if (graph_.Adjust() > cost + kMostCost * static_cast<double>(pairs.size())) {
+    graph_ = before;
+    for (const Candidate& pair : pairs) apart_.insert({pair.kept, pair.gone});
+    refused_ += static_cast<int>(pairs.size());
+    return false;
+  }
+  for (const Candidate& pair : pairs)
+    for (auto& [name, told] : told_)
+      if (told.line == pair.gone) told.line = pair.kept;
+  loops_ += static_cast<int>(pairs.size());
+  return true;
+}
+
+Pose2 FloorGraph::map_from_robot() const {
+  if (keys_.empty()) return {};
+  return graph_.pose(graph_.poses() - 1) * keys_.back().robot_frame_from_base.Inverse();
+}
+
+LearnedWalls FloorGraph::Walls() const {
+  LearnedWalls walls;
+  const auto add = [&](LearnedWall wall, const Pose2& middle, double length_m) {
+    wall.id = static_cast<int>(walls.walls.size()) + 1;
+    wall.x_m = middle.x;
+    wall.y_m = middle.y;
+    wall.yaw_deg = Degrees(middle.yaw);
+    wall.length_m = length_m;
+    wall.sigma_across_m = 0.03;
+    wall.sigma_yaw_deg = 0.5;
+    wall.rho = 0;
+    walls.walls.push_back(wall);
+  };
+  for (const auto& [index, pieces] : Spans()) {
+    const GraphLine& line = graph_.line(index);
+    for (const Span& piece : pieces) {
+      const Vector2d middle = line.At((piece.from_m + piece.to_m) / 2);
+      add(piece.wall, {middle.x(), middle.y(), line.yaw_rad}, piece.to_m - piece.from_m);
+    }
+  }
+  for (const auto& [name, told] : told_)
+    if (!IsOnLine(told)) add(told.wall, graph_.pose(told.key) * told.key_from_middle, told.wall.length_m);
+  return walls;
+}
+
+GraphAnchor FloorGraph::AnchorOf(const Pose2& map_from_place) const {
+  const int key = graph_.poses() - 1;
+  return {key, key < 0 ? map_from_place : graph_.pose(key).Inverse() * map_from_place};
+}
+
+Pose2 FloorGraph::PlaceOf(const GraphAnchor& anchor) const {
+  return anchor.key < 0 ? anchor.key_from_place : graph_.pose(anchor.key) * anchor.key_from_place;
+}
+
+}  // namespace priamos::planner
