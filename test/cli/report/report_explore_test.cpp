@@ -44,19 +44,15 @@ RunRecord Drive(double beside_m = 0) {
     pose.yaw_rad = believed.yaw;
     record.poses.push_back(pose);
   }
-  features_t message{};
+  floor_map_t map{};
   for (const Pose2& wall : {Pose2{5, -1 + beside_m, 0}, Pose2{7, 1, kPi}, Pose2{10, 0, kPi / 2}}) {
     const Pose2 at = map_from_true * wall;
-    feature_t feature{};
-    feature.id = static_cast<std::int16_t>(message.features.size());
-    feature.kind = feature_t::WALL;
-    feature.x_m = at.x;
-    feature.y_m = at.y;
-    feature.yaw_rad = at.yaw;
-    feature.length_m = wall.x == 10 ? 1.6 : 4;
-    message.features.push_back(feature);
+    const double half_m = wall.x == 10 ? 0.8 : 2;
+    const Eigen::Vector2f from = (at * Eigen::Vector2d(-half_m, 0)).cast<float>();
+    const Eigen::Vector2f to = (at * Eigen::Vector2d(half_m, 0)).cast<float>();
+    map.walls.push_back({from.x(), from.y(), to.x(), to.y()});
   }
-  record.features.push_back(message);
+  record.map.push_back(map);
   return record;
 }
 
