@@ -9,6 +9,7 @@
 #include "head/core/landmark/landmark_fix.hpp"
 #include "head/core/landmark/landmark_view.hpp"
 #include "head/core/landmark/pose_history.hpp"
+#include "head/core/motion/head_aim.hpp"
 #include "head/core/motion/head_jog.hpp"
 #include "head/core/motion/head_positioner.hpp"
 #include "head/core/motion/look_sequence.hpp"
