@@ -36,6 +36,7 @@ std::vector<ShownParameter> ShownParameters(const bus::ParameterSheet& sheet) {
 bool IsOrder(const BrowserMessage& message) {
   if (const auto* wish = std::get_if<ParameterWish>(&message))
     return wish->kind != ParameterWish::Kind::kRead;
+  if (const auto* wish = std::get_if<ProcessWish>(&message)) return wish->kind != ProcessWish::Kind::kLog;
   return std::holds_alternative<StopOrder>(message) || std::holds_alternative<MissionOrder>(message) ||
          std::holds_alternative<PlaceOrder>(message);
 }
@@ -76,6 +77,7 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
       pilot_(config.pilot),
       wanted_(OnRequest(link_)),
       beat_(config.beat_hz),
+      processes_(context.node()),
       status_(context.node().Subscribe(channels::kDriveStatus)),
       corrections_(context.node().SubscribeAll(channels::kPoseCorrection)),
       parameter_values_(context.node().SubscribeAll(channels::kParameterValue)),
@@ -142,6 +144,7 @@ void ConsoleApp::Tick(Time now) {
   Drive(now);
   Place(now);
   ChangeParameters(now);
+  processes_.Tick(now);
   for (const auto& request : wanted_.Step(now)) request_.Publish(ToMessage(request, now));
   if (beat_.Due(now)) {
     beat_.Mark(now);
@@ -286,6 +289,13 @@ bool ConsoleApp::Take(std::uint64_t client, const PlaceOrder& order) {
 
 bool ConsoleApp::Take(std::uint64_t client, const ParameterWish& wish) {
   return RoleOf(client) == Role::kDriver && parameter_orders_.Wish(wish);
+}
+
+/// After a new world nothing goes on that a hand held before.
+bool ConsoleApp::Take(std::uint64_t client, const ProcessWish& wish) {
+  if (RoleOf(client) != Role::kDriver) return false;
+  if (processes_.Wish(wish) && wish.kind == ProcessWish::Kind::kNewWorld) seat_.End();
+  return true;
 }
 
 bool ConsoleApp::Take(std::uint64_t client, const ListenWish& wish) {

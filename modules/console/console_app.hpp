@@ -25,6 +25,7 @@
 #include "console/foxglove_bridge.hpp"
 #include "console/news_feed.hpp"
 #include "console/parameter_orders.hpp"
+#include "console/process_orders.hpp"
 #include "console/station_files.hpp"
 #include "console/video_feed.hpp"
 #include "lcmtypes/channels.hpp"
@@ -59,6 +60,7 @@ class ConsoleApp : public WebListener {
   bool Take(std::uint64_t client, const MissionOrder& order);
   bool Take(std::uint64_t client, const PlaceOrder& order);
   bool Take(std::uint64_t client, const ParameterWish& wish);
+  bool Take(std::uint64_t client, const ProcessWish& wish);
   bool Take(std::uint64_t client, const ListenWish& wish);
   bool Take(std::uint64_t, const ReplayOrder&) { return false; }  // there is no log
 
@@ -100,6 +102,7 @@ class ConsoleApp : public WebListener {
   int places_ = 0;  ///< number of the newest order that says where the robot stands
   RepeatedOrder<pose_reset_t> placing_;
   ParameterOrders parameter_orders_;
+  ProcessChannels processes_;
 
   bus::Latest<drive_status_t> status_;
   bus::Inbox<pose_correction_t> corrections_;

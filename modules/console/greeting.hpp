@@ -23,7 +23,9 @@ inline constexpr std::array kShownChannels{
     std::string_view("DOOR_SEEN"),      std::string_view("POSE_CORRECTION"),
     std::string_view("OPENING"),        std::string_view("SONAR_RANGES"),
     std::string_view("LANDMARK_VIEW"),  std::string_view("OBSTACLE_LINE"),
-    std::string_view("LANDMARK_MODEL"), std::string_view("PARAMETER_VALUE")};
+    std::string_view("LANDMARK_MODEL"), std::string_view("PARAMETER_VALUE"),
+    std::string_view("PROCESS_STATE"),  std::string_view("PROCESS_REPORT"),
+    std::string_view("SIMULATION")};
 
 /// Channels that the radio carries only while somebody looks at them.
 std::set<std::string> OnRequest(const bus::radio::LinkConfig& link);

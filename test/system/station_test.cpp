@@ -88,6 +88,45 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
   EXPECT_GT(std::filesystem::file_size(views + "/mission.png"), 20'000u);
 }
 
+TEST_F(Station, ProcessesAreLookedAfterAndAWorldBeginsAnewInABrowser) {
+  const std::string views = PRIAMOS_BINARY_DIR "/station-views";
+  std::filesystem::create_directories(views);
+  const auto answer = RunScript("VIEWS=" + views + R"sh(
+    up; python3 $SOURCE/test/support/station_processes.py $BIN http://127.0.0.1:8080/ $VIEWS; down
+  )sh",
+                                240);
+  for (const char* seen : {"every process is listed: True",
+                           "and is well: True",
+                           "lines of offboard-planner: True",
+                           "lines of onboard-robot: True",
+                           "a double click restarts: False",
+                           "restart is under way: True",
+                           "it was started again: True",
+                           "it is well again: True",
+                           "processes-dark fits: True",
+                           "processes-dark complaints: []",
+                           "processes-phone fits: True",
+                           "processes-phone complaints: []",
+                           "the base drives: True",
+                           "emergency stop is latched: True",
+                           "the base stands: True",
+                           "and goes on standing with the key held: True",
+                           "it is still stopped: True",
+                           "it is re-armed: True",
+                           "and drives again: True",
+                           "worlds are offered: True",
+                           "the base drives in the old world: True",
+                           "it says what goes on: True",
+                           "the station is away for a moment: True",
+                           "and is back by itself: True",
+                           "a key held all the while moves nothing: True",
+                           "nothing is stopped, no mission left: True",
+                           "the plan is the new one: True",
+                           "the base drives in the new world: True",
+                           "complaints: []"})
+    EXPECT_THAT(answer.text, HasSubstr(seen));
+}
+
 TEST_F(Station, TheTutorialIsDoneStepByStep) {
   const std::string views = PRIAMOS_BINARY_DIR "/station-views/tutorial";
   std::filesystem::create_directories(views);

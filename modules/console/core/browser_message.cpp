@@ -141,6 +141,22 @@ ParameterWish ReadParameter(const json& object) {
   return wish;
 }
 
+ProcessWish ReadProcess(const json& object) {
+  using enum ProcessWish::Kind;
+  constexpr std::size_t kLongest = 16;
+  constexpr std::int64_t kFarthest = 2'000'000'000;
+  const std::string action = Word(object, "action", 20);
+  ProcessWish wish{kRestart, Word(object, "name", kLongest), 0};
+  if (action == "log") {
+    RefuseOtherKeys(object, {"type", "action", "name", "end"});
+    return {kLog, wish.name, Whole(Field(object, "end"), "end", 0, kFarthest)};
+  }
+  RefuseOtherKeys(object, {"type", "action", "name"});
+  if (action != "restart" && action != "new_world") throw Wrong("action: expected restart, log or new_world");
+  wish.kind = action == "restart" ? kRestart : kNewWorld;
+  return wish;
+}
+
 ReplayOrder ReadReplay(const json& object) {
   using enum ReplayOrder::Kind;
   constexpr double kLongest_s = 1e10;  // a log's times reach until 2255
@@ -166,8 +182,10 @@ BrowserMessage ReadObject(const json& object) {
   if (type == "place") return ReadPlace(object);
   if (type == "listen") return ReadListen(object);
   if (type == "parameter") return ReadParameter(object);
+  if (type == "process") return ReadProcess(object);
   if (type == "replay") return ReadReplay(object);
-  if (type != "stop") throw Wrong("type: expected stick, stop, mission, place, listen, parameter or replay");
+  if (type != "stop")
+    throw Wrong("type: expected stick, stop, mission, place, listen, parameter, process or replay");
   RefuseOtherKeys(object, {"type"});
   return StopOrder{};
 }

@@ -61,6 +61,15 @@ struct ParameterWish {
   double value = 0;          ///< kSet
 };
 
+/// Something is ordered of whoever supervises a process.
+struct ProcessWish {
+  /// What is to be done: a process started again, lines of its console told, the simulation begun anew.
+  enum class Kind { kRestart, kLog, kNewWorld };
+  Kind kind = Kind::kLog;
+  std::string name;            ///< of the process; kNewWorld: of the scenario
+  std::int64_t end_bytes = 0;  ///< kLog: where in the console the lines end; 0: at its end
+};
+
 /// Speeds at which a log can be shown, times its own.
 inline constexpr double kSlowestReplay = 0.1, kFastestReplay = 32;
 
@@ -73,8 +82,8 @@ struct ReplayOrder {
 };
 
 /// One message of a page.
-using BrowserMessage =
-    std::variant<StickReport, StopOrder, MissionOrder, PlaceOrder, ListenWish, ParameterWish, ReplayOrder>;
+using BrowserMessage = std::variant<StickReport, StopOrder, MissionOrder, PlaceOrder, ListenWish,
+                                    ParameterWish, ProcessWish, ReplayOrder>;
 
 /// Reads one message: JSON, UTF-8, at most kMaxBrowserMessage bytes, with the keys of README.md and no other.
 /// Numbers out of range, NaN among them, are refused, not clipped.

@@ -32,10 +32,12 @@ std::vector<const News::Item*> News::Since(std::uint64_t number) const {
 }
 
 std::string KeyOf(const std::string& channel, const News::Json& message, std::uint64_t count) {
-  if (channel == "HEALTH") return fmt::format("{} {}", channel, TextOf(message, "process"));
+  if (channel == "HEALTH" || channel == "PROCESS_STATE")
+    return fmt::format("{} {}", channel, TextOf(message, "process"));
   if (channel == "LINK_STATUS")
     return fmt::format("{} {} {}", channel, TextOf(message, "onboard"), TextOf(message, "first_channel"));
   if (channel == "LANDMARK_MODEL") return fmt::format("{} {}", channel, TextOf(message, "landmark_id"));
+  if (channel == "PROCESS_REPORT") return fmt::format("{} {}", channel, TextOf(message, "name"));
   if (channel == "ALARM") return fmt::format("{} {}", channel, count % kKeptAlarms);
   return channel;
 }

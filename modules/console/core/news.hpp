@@ -40,9 +40,9 @@ class News {
   std::uint64_t newest_ = 0;
 };
 
-/// What distinguishes messages of a channel that do not replace each other: the process of HEALTH, the end
-/// and part of LINK_STATUS, the landmark of LANDMARK_MODEL; of ALARM the last kKeptAlarms are kept. `count`:
-/// messages of the channel so far.
+/// What distinguishes messages of a channel that do not replace each other: the process of HEALTH and
+/// PROCESS_STATE, the name in PROCESS_REPORT, the end and part of LINK_STATUS, the landmark of
+/// LANDMARK_MODEL; of ALARM the last kKeptAlarms are kept. `count`: messages of the channel so far.
 std::string KeyOf(const std::string& channel, const News::Json& message, std::uint64_t count);
 
 }  // namespace priamos::console

@@ -53,6 +53,17 @@ TEST(BrowserMessage, WhatALogIsToDoIsRead) {
   EXPECT_EQ(ReadAs<ReplayOrder>(R"({"type":"replay","action":"seek","value":12.5})").value, 12.5);
 }
 
+TEST(BrowserMessage, OrdersToProcessesAreRead) {
+  using enum ProcessWish::Kind;
+  const auto log =
+      ReadAs<ProcessWish>(R"({"type":"process","action":"log","name":"onboard-robot","end":17})");
+  EXPECT_EQ(log.kind, kLog);
+  EXPECT_EQ(log.name, "onboard-robot");
+  EXPECT_EQ(log.end_bytes, 17);
+  EXPECT_EQ(ReadAs<ProcessWish>(R"({"type":"process","action":"restart","name":"line"})").kind, kRestart);
+  EXPECT_EQ(ReadAs<ProcessWish>(R"({"type":"process","action":"new_world","name":"door"})").kind, kNewWorld);
+}
+
 TEST(BrowserMessage, WishesForParametersAreRead) {
   using enum ParameterWish::Kind;
   const auto set = ReadAs<ParameterWish>(
@@ -85,7 +96,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[]", "expected a JSON object"}, Wrong{"null", "expected a JSON object"},
         Wrong{std::string(600, '['), "at most 512 bytes, got 600"},
         Wrong{std::string(500, '['), "expected JSON"},
-        Wrong{R"({"type":"fly"})", "expected stick, stop, mission, place, listen, parameter or replay"},
+        Wrong{R"({"type":"fly"})",
+              "expected stick, stop, mission, place, listen, parameter, process or replay"},
         Wrong{R"({"type":3})", "type: expected a text"}, Wrong{R"({})", "\"type\" is missing"},
         Wrong{R"({"type":"stop","now":true})", "\"now\" is not known"},
         Wrong{R"({"type":"stick","axis":[0,0,0,0,0,0]})", "\"beat\" is missing"},
@@ -122,6 +134,12 @@ INSTANTIATE_TEST_SUITE_P(
               "value: expected"},
         Wrong{R"({"type":"parameter","action":"save","process":"robot","key":"a"})", "\"key\" is not known"},
         Wrong{R"({"type":"parameter","action":"read"})", "\"process\" is missing"},
+        Wrong{R"({"type":"process","action":"fly","name":"robot"})", "expected restart, log or new_world"},
+        Wrong{R"({"type":"process","action":"restart"})", "\"name\" is missing"},
+        Wrong{R"({"type":"process","action":"restart","name":"robot","end":1})", "\"end\" is not known"},
+        Wrong{R"({"type":"process","action":"log","name":"robot"})", "\"end\" is missing"},
+        Wrong{R"({"type":"process","action":"log","name":"robot","end":-1})", "0 to 2000000000"},
+        Wrong{R"({"type":"process","action":"restart","name":"seventeen letters"})", "at most 16 bytes"},
         Wrong{R"({"type":"listen","channel":7,"on":true})", "channel: expected a text"}));
 
 RC_GTEST_PROP(BrowserMessageProperty, AnyBytesAreAMessageOrASentence, (const std::string& text)) {

@@ -37,6 +37,8 @@ TEST(News, KeysAreBoundedWhateverAnybodySends) {
 TEST(News, MessagesThatDoNotReplaceEachOtherHaveKeysOfTheirOwn) {
   EXPECT_EQ(KeyOf("POSE", {{"utime", 3}}, 5), "POSE");
   EXPECT_NE(KeyOf("HEALTH", {{"process", "robot"}}, 0), KeyOf("HEALTH", {{"process", "head"}}, 0));
+  EXPECT_NE(KeyOf("PROCESS_STATE", {{"process", "line"}}, 0), KeyOf("PROCESS_STATE", {{"process", "x"}}, 0));
+  EXPECT_NE(KeyOf("PROCESS_REPORT", {{"name", "line"}}, 0), KeyOf("PROCESS_REPORT", {{"name", "door"}}, 0));
   EXPECT_NE(KeyOf("LINK_STATUS", {{"onboard", true}, {"first_channel", 0}}, 0),
             KeyOf("LINK_STATUS", {{"onboard", false}, {"first_channel", 0}}, 0));
   EXPECT_NE(KeyOf("ALARM", {}, 0), KeyOf("ALARM", {}, 1));

@@ -1,6 +1,6 @@
 // The WebSocket to the station: opened again when it breaks. Nothing is ever queued: what cannot be sent now is not sent.
 
-import { Hello, News, ParameterAction, StickReport } from "./protocol";
+import { Hello, News, ParameterAction, ProcessAction, StickReport } from "./protocol";
 import { ReplayAction } from "./replay";
 import { Place } from "./target";
 
@@ -54,6 +54,11 @@ export class Connection {
 
   parameter(process: string, action: ParameterAction, key?: string, value?: number): void {
     this.send({ type: "parameter", process, action, key, value });
+  }
+
+  /** Of whoever supervises a process; `end`: where in its console the lines end. */
+  process(action: ProcessAction, name: string, end?: number): void {
+    this.send({ type: "process", action, name, end });
   }
 
   replay(action: ReplayAction): void {

@@ -6,6 +6,7 @@ import { Hand } from "./drive";
 import { drawHeadView } from "./head_view";
 import { Panels } from "./panels";
 import { PlanView } from "./plan_view";
+import { Processes } from "./processes";
 import { Hello, News } from "./protocol";
 import { Replay } from "./replay";
 import { Store } from "./store";
@@ -14,6 +15,7 @@ import { currentLanguage, named, number, setLanguage, text } from "./text";
 import { Video } from "./video";
 import { PageServices, Views } from "./views";
 import { Wants } from "./wants";
+import { World } from "./world";
 
 const PANEL_PERIOD_MS = 200;
 
@@ -39,6 +41,10 @@ const services: PageServices = {
   },
   outcomeText: (outcome) => named("outcome", outcome),
 };
+const processes = new Processes({ store, mayOrder: services.mayOrder,
+  order: (action, name, end) => connection.process(action, name, end) });
+const world = new World({ store, mayOrder: services.mayOrder,
+  order: (action, name) => connection.process(action, name), forget: () => plan.forget() });
 const views = new Views({
   values: async (element) => (await import("./values.js")).open(element, services),
   space: async (element) => (await import("./space.js")).open(element, services),
@@ -62,6 +68,8 @@ const connection: Connection = new Connection({
     replay.hear(news.station.replay);
     for (const item of news.items) {
       store.put(item);
+      processes.hear(item);
+      world.hear(item);
       views.each((view) => view.hear(item, store.validTime(item)));
     }
     const could = panels.mayOrder();
@@ -136,6 +144,7 @@ function bindButtons(): void {
   byId("language").addEventListener("click", () => {
     setLanguage(currentLanguage() === "en" ? "de" : "en");
     label();
+    world.label();
     views.each((view) => view.label());
     panels.draw();
   });
@@ -181,6 +190,8 @@ bindButtons();
 bindSwitches();
 window.setInterval(() => {
   panels.draw();
+  processes.draw();
+  world.draw();
   enableTarget();
   replay.draw();
   video.draw(panels.station?.no_video ?? "");

@@ -1,11 +1,10 @@
 // The texts and tables beside the plan.
 
 import { byId, fillTable, Row, setText } from "./dom";
-import { Alarm, DriveStatus, Health, Hello, LandmarkFix, LinkStatus, MissionStatus, Pose, PoseCorrection, StationState } from "./protocol";
+import { Alarm, DriveStatus, Hello, LandmarkFix, LinkStatus, MissionStatus, Pose, PoseCorrection, StationState } from "./protocol";
 import { Store } from "./store";
 import { ageText, named, number, phaseText, text } from "./text";
 
-const HEALTH_OK = 1;
 const CONSOLE = 2;
 const MOST_ALARMS = 50;
 const POSE_SET = 4, POSE_MOVING = 5, SHOWN_S = 20;
@@ -29,7 +28,6 @@ export class Panels {
     this.drawLink();
     this.drawLook();
     this.drawAlarms();
-    this.drawProcesses();
   }
 
   /** Whether this page may give orders now. */
@@ -196,23 +194,5 @@ export class Panels {
       li.textContent = line;
       return li;
     }));
-  }
-
-  /** What is wrong with a process; else how far its host's clock is off the reference, if it is. */
-  private healthText(message: Health): string {
-    const { clock_ahead_s: ahead = 0, clock_uncertainty_s: uncertainty = 0 } = message;
-    if (message.text !== "") return message.text;
-    if (uncertainty < 0) return text("clockUnknown");
-    if (Math.abs(ahead) <= uncertainty) return "";
-    return `${text("clock")} ${ahead > 0 ? "+" : "−"}${number(Math.abs(ahead), 4)} s ± ${number(1000 * uncertainty, 1)} ms`;
-  }
-
-  private drawProcesses(): void {
-    const rows = this.store.all<Health>("HEALTH").map(({ key, message }): Row => ({
-      cells: [message.process, this.healthText(message), named("health", message.state)],
-      stale: this.store.isStale(key),
-      kind: message.state === HEALTH_OK ? "good" : "bad",
-    }));
-    fillTable(byId("processes"), rows);
   }
 }

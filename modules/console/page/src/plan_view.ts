@@ -25,10 +25,15 @@ export class PlanView {
   }
 
   greet(hello: Hello): void {
-    const first = this.hello === undefined;
+    const other = JSON.stringify(this.hello?.plan) !== JSON.stringify(hello.plan);
     this.hello = hello;
-    if (hello.replay !== undefined) this.trail = [];
-    if (first) this.fit();
+    if (other || hello.replay !== undefined) this.forget();
+    if (other) this.fit();
+  }
+
+  /** Forgets where the robot was. */
+  forget(): void {
+    this.trail = [];
   }
 
   fit(): void {

@@ -109,9 +109,20 @@ export interface LinkStatus {
 }
 
 export interface Health {
-  process: string; state: number; text: string; messages_lost: number;
+  process: string; state: number; text: string;
+  messages_lost: number; decode_errors: number; handler_exceptions: number; loop_overruns: number;
   clock_ahead_s?: number; clock_uncertainty_s?: number;  // logs of before have neither
 }
+
+export type ProcessAction = "restart" | "log" | "new_world";
+
+export interface ProcessState { process: string; state: number; starts: number; alarm: boolean }
+
+export interface ProcessReport { request_id: number; name: string; outcome: number; begin_bytes: number; text: string }
+
+export interface ScenarioOffer { name: string; title: string }
+
+export interface Simulation { scenario: string; state: number; worlds: number; scenarios: ScenarioOffer[] }
 
 export interface Alarm { utime: number; severity: number; source: string; text: string }
 

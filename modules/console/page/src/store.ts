@@ -13,8 +13,8 @@ export class Store {
 
   greet(hello: Hello): void {
     this.stale = hello.channels;
-    // After a jump in a log nothing is known but what follows.
-    if (hello.replay !== undefined) this.kept.clear();
+    // Everything that is known follows. A station that was started again does not know what the one before did.
+    this.kept.clear();
   }
 
   put(item: Item): void {

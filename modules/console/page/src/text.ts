@@ -98,6 +98,37 @@ const WORDS = {
   alarms: ["Alarms", "Alarme"],
   noAlarms: ["none", "keine"],
   processes: ["Processes", "Prozesse"],
+  restart: ["Restart", "Neu starten"],
+  restartNow: ["Really restart now", "Wirklich neu starten"],
+  restartRobotNow: ["Really: it stops, forgets its pose, stays stopped", "Wirklich: er hält, vergisst seine Pose, bleibt im Not-Halt"],
+  lastLines: ["Last lines", "Letzte Zeilen"],
+  earlierLines: ["Earlier lines", "Frühere Zeilen"],
+  startedAgain: ["started again", "neu gestartet"],
+  lostSoFar: ["lost", "verloren"],
+  failsAgain: ["fails again and again", "scheitert immer wieder"],
+  messagesLost: ["messages lost", "Meldungen verloren"],
+  refusedMessages: ["unreadable", "unlesbar"],
+  exceptions: ["exceptions", "Ausnahmen"],
+  lateTicks: ["late steps", "späte Schritte"],
+  silent: ["silent", "stumm"],
+  notSupervised: [
+    "No supervisor takes orders about it: systemd or a person started it.",
+    "Kein Überwacher nimmt Aufträge dafür an: systemd oder ein Mensch hat ihn gestartet."],
+  simulation: ["Simulation", "Simulation"],
+  scenario: ["scenario", "Szenario"],
+  newWorld: ["Begin anew", "Neu beginnen"],
+  newWorldNow: ["Really begin anew", "Wirklich neu beginnen"],
+  worldArmed: [
+    "Robot and world go back to the start; missions and what was learned are gone.",
+    "Roboter und Welt gehen an den Anfang zurück; Aufträge und Gelerntes sind weg."],
+  worldBegins: ["A new world begins; the station is back in a few seconds ...", "Eine neue Welt beginnt; die Station ist in wenigen Sekunden wieder da ..."],
+  worldLate: ["The new world does not come; see the processes.", "Die neue Welt kommt nicht; siehe Prozesse."],
+  scenario_door: ["two rooms and a 90 cm door", "zwei Räume und eine 90-cm-Tür"],
+  scenario_detour: ["the same, with things in the way", "ebenso, mit Dingen im Weg"],
+  scenario_corridor: ["a corridor of 22 m", "ein Flur von 22 m"],
+  scenario_explore: ["a floor without a plan", "ein Stockwerk ohne Plan"],
+  scenario_kidnapped: ["the robot was carried somewhere", "der Roboter wurde woandershin getragen"],
+  scenario_teleop: ["a carton and a 1.2 m passage", "ein Karton und ein Durchgang von 1,2 m"],
   clock: ["clock", "Uhr"],
   clockUnknown: ["clock not compared with other hosts", "Uhr nicht mit anderen Rechnern verglichen"],
   connected: ["station connected", "Station verbunden"],
@@ -164,6 +195,11 @@ const LISTS = {
   ["gilt", "unbekannter Schlüssel", "außerhalb des Bereichs", "weniger vorsichtig als die Datei",
     "widerspricht einem anderen Schlüssel", "der Prozess hat andere Parameter: andere Version", "kam zu spät",
     "kann nicht gesichert werden", "unbekannter Auftrag"]],
+  processState: [["waits", "starting", "runs", "ended, starts again soon", "is ending", "ended"],
+    ["wartet", "startet", "läuft", "beendet, startet bald wieder", "wird beendet", "beendet"]],
+  processOutcome: [["done", "came too late", "just done: wait a few seconds", "no such scenario", "unknown order", "no console"],
+    ["erledigt", "kam zu spät", "eben erst geschehen: einige Sekunden warten", "kein solches Szenario", "unbekannter Auftrag",
+      "keine Ausgabe"]],
   severity: [["caution", "warning", "critical"], ["Vorsicht", "Warnung", "kritisch"]],
 } as const;
 
@@ -194,6 +230,10 @@ export function setLanguage(next: Language): void {
 
 export function text(word: keyof typeof WORDS): string {
   return WORDS[word][index()];
+}
+
+export function hasText(word: string): word is keyof typeof WORDS {
+  return word in WORDS;
 }
 
 /** The word for a constant of a message; its number when nobody has named it yet. */
