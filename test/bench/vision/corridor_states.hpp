@@ -5,7 +5,7 @@
 #include "head/core/doors/door_detection.hpp"
 #include "head/core/doors/door_state.hpp"
 #include "test/bench/figures.hpp"
-#include "test/bench/try/looks.hpp"
+#include "test/bench/vision/corridor_looks.hpp"
 
 namespace priamos::bench {
 

@@ -15,7 +15,8 @@ using Eigen::Vector2d, Eigen::Vector3d;
 constexpr int kHalfWidth_px = 6, kHalfHeight_px = 12, kRowStep_px = 2;
 constexpr int kColumns = 2 * kHalfWidth_px + 1, kRows = kHalfHeight_px / kRowStep_px * 2 + 1;
 constexpr int kBetween_px = 8, kBetweenRows_px = 32;  ///< windows
-constexpr double kPeak_px = 4;                        ///< nearer depths belong to the same peak
+constexpr double kPeak_px = 4;       ///< nearer depths belong to the same peak
+constexpr double kPeakError = 0.08;  ///< of the top of a peak, share of two steps
 
 /// Grey values of one window, mean 0.
 struct Window {
@@ -194,7 +195,7 @@ class Sweep {
         depths_[best].x_m + (shift > 0 ? shift * (depths_[best + 1].x_m - depths_[best].x_m)
                                        : shift * (depths_[best].x_m - depths_[best - 1].x_m));
     const Vector3d at = On(middle, x_m);
-    return SurfacePoint{at.head<2>(), (depths_[best + 1].x_m - depths_[best - 1].x_m) / 4};
+    return SurfacePoint{at.head<2>(), kPeakError * (depths_[best + 1].x_m - depths_[best - 1].x_m)};
   }
 
   OpeningShape opening_;
