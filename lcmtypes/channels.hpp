@@ -114,13 +114,13 @@ inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseco
 inline constexpr Channel<world_touch_t> kWorldTouch{"WORLD_TOUCH", 0, milliseconds(0)};
 
 inline constexpr std::tuple kAll{
-    kWheelCommand,  kWheelState,   kSonarRanges,  kHeadCommand,    kHeadState,     kCameraTrigger,
-    kCameraFrame,   kOdometry,     kPose,         kPath,           kDriveStatus,   kPoseCorrection,
-    kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
-    kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
-    kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
-    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
-    kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls,     kParameterOrder,
+    kWheelCommand,   kWheelState,   kSonarRanges,  kHeadCommand,    kHeadState,     kCameraTrigger,
+    kCameraFrame,    kOdometry,     kPose,         kPath,           kDriveStatus,   kPoseCorrection,
+    kLandmarkModel,  kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
+    kLinkStatus,     kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
+    kLinkRequest,    kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
+    kBumper,         kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
+    kWorldTouch,     kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls,     kParameterOrder,
     kParameterValue, kDoorFound};
 
 }  // namespace priamos::channels

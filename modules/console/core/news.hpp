@@ -41,8 +41,8 @@ class News {
 };
 
 /// What distinguishes messages of a channel that do not replace each other: the process of HEALTH, the end
-/// and part of LINK_STATUS, the landmark of LANDMARK_MODEL, the door of DOOR_FOUND; of ALARM the last kKeptAlarms are kept. `count`:
-/// messages of the channel so far.
+/// and part of LINK_STATUS, the landmark of LANDMARK_MODEL, the door of DOOR_FOUND; of ALARM the last
+/// kKeptAlarms are kept. `count`: messages of the channel so far.
 std::string KeyOf(const std::string& channel, const News::Json& message, std::uint64_t count);
 
 }  // namespace priamos::console

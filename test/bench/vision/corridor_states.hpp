@@ -17,7 +17,7 @@ class StateTally {
   void Print(Figures& figures) const;
 
  private:
-  static constexpr double kLead = 2;  ///< of the log likelihoods
+  static constexpr double kLead = 2;          ///< of the log likelihoods
   std::array<std::array<int, 4>, 4> told_{};  ///< true state, told state
   double seconds_ = 0;
   int n_ = 0;

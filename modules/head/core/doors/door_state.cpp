@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kStep_m = 0.01, kStep_rad = Radians(2);
 constexpr double kSeldomAjar = 1.5;  ///< log odds of a closed leaf against one that is a little open
-constexpr double kDeep_m = 2;  ///< how far apart surfaces of a room are
+constexpr double kDeep_m = 2;        ///< how far apart surfaces of a room are
 /// Shares of the surfaces that are seen where a leaf is: pieces of it, what stands before it, what it should
 /// hide.
 constexpr double kOfLeaf = 0.87, kBefore = 0.1, kBehind = 0.03;
