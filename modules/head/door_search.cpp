@@ -9,7 +9,8 @@
 namespace priamos::head {
 namespace {
 
-/// A base that is slower stands. One that is farther on than this from one pose to the next was put elsewhere.
+/// A base that is slower stands. One that is farther on than this from one pose to the next was put
+/// elsewhere.
 constexpr double kDrives_m_s = 0.05, kJump_m = 0.3;
 
 }  // namespace
@@ -24,9 +25,10 @@ DoorSearch::DoorSearch(const HeadConfig& config, const HeadModel& head, bus::Con
   for (const Camera camera : {kLeft, kRight}) {
     const auto model = head.CameraAt(watch_.SettingAt(0, base_), camera);
     if (!model)
-      throw ConfigError(fmt::format("doors.zoom_step: {} camera: {}; calibrate it with `priamos-head "
-                                    "--calibrate`, or set doors.corridors = false",
-                                    kCameraNames[camera], model.reason()));
+      throw ConfigError(
+          fmt::format("doors.zoom_step: {} camera: {}; calibrate it with `priamos-head "
+                      "--calibrate`, or set doors.corridors = false",
+                      kCameraNames[camera], model.reason()));
   }
 }
 

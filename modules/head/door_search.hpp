@@ -13,8 +13,8 @@
 
 namespace priamos::head {
 
-/// Looks for doors to both sides while the base follows a corridor, and tells them (DOOR_FOUND). It says where
-/// the head is to glance; who owns head and cameras takes the pictures.
+/// Looks for doors to both sides while the base follows a corridor, and tells them (DOOR_FOUND). It says
+/// where the head is to glance; who owns head and cameras takes the pictures.
 class DoorSearch {
  public:
   /// Throws ConfigError when glances are wanted where the cameras are not calibrated.

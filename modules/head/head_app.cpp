@@ -17,7 +17,7 @@ constexpr std::size_t kMaxOrders = 16;
 /// The third camera takes part where it is calibrated at all.
 int CamerasOf(const HeadConfig& config, const HeadModel& head) {
   return config.vision.third_camera && head.CameraAt(config.LookSetting(), kThird) ? kCameras
-                                                                                         : LookSequence::kPair;
+                                                                                   : LookSequence::kPair;
 }
 
 LookAnswer NotFound(Verdict verdict, Time exposure) {

@@ -26,7 +26,7 @@ struct VisionConfig {
   double camera_sigma_px = 0.05;   ///< how well the cameras are calibrated and the motors return
   double min_log_odds = 7;         ///< evidence wanted beyond chance
   double min_lead = 6;             ///< evidence wanted over the next best pose
-  bool third_camera = true;        ///< takes part in looks where it is calibrated
+  bool third_camera = false;       ///< takes part in looks where it is calibrated
 
   void Describe(Archive& a);
 };

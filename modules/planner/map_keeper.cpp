@@ -45,11 +45,10 @@ std::optional<SeenWall> FromMessage(int store, const feature_t& m) {
 std::optional<LearnedDoor> FromMessage(const door_found_t& m) {
   constexpr double kMap_m = 100, kYaw = 3.15;
   constexpr std::array<const char*, 4> kStates{"unknown", "closed", "ajar", "open"};
-  const bool good = Within(m.x_m, -kMap_m, kMap_m) && Within(m.y_m, -kMap_m, kMap_m) &&
-                    Within(m.yaw_rad, -kYaw, kYaw) && Within(m.width_m, 0.3, 2.55) &&
-                    Within(m.sigma_along_m, 0, 0.63) && Within(m.sigma_across_m, 0, 0.63) &&
-                    Within(m.state, 0, 3) && Within(m.log_odds, 0, 31) && Within(m.looks, 1, 63) &&
-                    m.utime_seen >= 0;
+  const bool good =
+      Within(m.x_m, -kMap_m, kMap_m) && Within(m.y_m, -kMap_m, kMap_m) && Within(m.yaw_rad, -kYaw, kYaw) &&
+      Within(m.width_m, 0.3, 2.55) && Within(m.sigma_along_m, 0, 0.63) && Within(m.sigma_across_m, 0, 0.63) &&
+      Within(m.state, 0, 3) && Within(m.log_odds, 0, 31) && Within(m.looks, 1, 63) && m.utime_seen >= 0;
   if (!good) return std::nullopt;
   LearnedDoor door;
   door.x_m = m.x_m;
@@ -159,7 +158,8 @@ bool MapKeeper::TakeOrders() {
     const std::size_t doors = map_.walls().doors.size();
     map_.Reset();
     was_reset = true;
-    context_.Log(bus::Level::kInfo, fmt::format("the learned map is forgotten: {} walls, {} doors", walls, doors));
+    context_.Log(bus::Level::kInfo,
+                 fmt::format("the learned map is forgotten: {} walls, {} doors", walls, doors));
   }
   return was_reset;
 }

@@ -43,20 +43,20 @@ TEST(HeadApp, ALookComesFromBelowAndExposesBothCamerasOnce) {
   EXPECT_LT(head.commands[0].zoom_step[1], config.zoom_step);
   EXPECT_TRUE(IsSameSetting(SettingOf(head.commands[1]), config.LookSetting(), 1e-9)) << "straight ahead";
   ASSERT_EQ(head.triggers.size(), 1u);
-  EXPECT_EQ(head.triggers[0].cameras, kAllThree);
+  EXPECT_EQ(head.triggers[0].cameras, kLeftAndRight);
 }
 
 TEST(HeadApp, TheThirdCameraTakesPartOnlyWhereItIsCalibratedAndWanted) {
   HeadConfig config;
-  config.vision.third_camera = false;
-  Bench unwanted(config);
-  unwanted.SendLook(7, 3);
-  unwanted.Run(1);
-  ASSERT_EQ(unwanted.triggers.size(), 1u);
-  EXPECT_EQ(unwanted.triggers[0].cameras, kLeftAndRight);
+  config.vision.third_camera = true;
+  Bench wanted(config);
+  wanted.SendLook(7, 3);
+  wanted.Run(1);
+  ASSERT_EQ(wanted.triggers.size(), 1u);
+  EXPECT_EQ(wanted.triggers[0].cameras, kAllThree);
   HeadModel table = Bench::NearlyDrawn();
   table.lenses[kThird] = {};
-  Bench uncalibrated({}, table);
+  Bench uncalibrated(config, table);
   uncalibrated.SendLook(7, 3);
   uncalibrated.Run(1);
   ASSERT_EQ(uncalibrated.triggers.size(), 1u);

@@ -14,9 +14,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kBeside_m = 2;    ///< a door so far beside the way is on it ...
-constexpr double kAskew = 0.5;     ///< ... if the base passes it along its wall: cosine of the heading to the door's axis
-constexpr double kFound_m = 0.5;   ///< from the truth; what is farther is another door, or none
+constexpr double kBeside_m = 2;  ///< a door so far beside the way is on it ...
+constexpr double kAskew =
+    0.5;  ///< ... if the base passes it along its wall: cosine of the heading to the door's axis
+constexpr double kFound_m = 0.5;  ///< from the truth; what is farther is another door, or none
 constexpr double kAjar_deg = 30;
 
 /// The base drives past the door, not towards it.
@@ -42,8 +43,8 @@ std::string StateOf(double open_deg) {
 /// Moves a place of the true map to where the robot had it at that time.
 std::optional<Pose2> BeliefFromTruth(const RunRecord& record, std::int64_t utime) {
   const auto truth = TruthAt(record, utime);
-  const auto nearest = std::min_element(
-      record.poses.begin(), record.poses.end(), [utime](const pose_t& a, const pose_t& b) {
+  const auto nearest =
+      std::min_element(record.poses.begin(), record.poses.end(), [utime](const pose_t& a, const pose_t& b) {
         return std::abs(a.utime - utime) < std::abs(b.utime - utime);
       });
   if (!truth || nearest == record.poses.end()) return std::nullopt;
@@ -70,9 +71,8 @@ void Judge(const LearnedDoor& told, const DoorPlan& built, const RunRecord& reco
   const Pose2 expected = *belief_from_truth * built.map_from_door();
   // What is seen are the front edges of the frame.
   const Vector2d off = expected.Inverse() * told.map_from_door().translation();
-  const double front = std::abs(off.x() - built.FrontX()) < std::abs(off.x() - built.BackX())
-                           ? built.FrontX()
-                           : built.BackX();
+  const double front =
+      std::abs(off.x() - built.FrontX()) < std::abs(off.x() - built.BackX()) ? built.FrontX() : built.BackX();
   found.across_m = off.x() - front;
   found.along_m = off.y();
 }

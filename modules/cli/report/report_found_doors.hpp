@@ -12,10 +12,11 @@ namespace priamos::cli {
 /// A door on the way of the base, and what came to the workstation of it.
 struct FoundDoor {
   std::string name;
-  std::string state;                ///< closed, ajar (up to 30 degrees) or open, as it truly was
+  std::string state;  ///< closed, ajar (up to 30 degrees) or open, as it truly was
   double open_deg = 0;
   std::optional<std::string> told;  ///< state that was told; nullopt: the door was not found
-  /// Where it was told, less where it truly was from the robot when it was seen last: along the wall, across it.
+  /// Where it was told, less where it truly was from the robot when it was seen last: along the wall, across
+  /// it.
   double along_m = 0, across_m = 0;
   double sigma_along_m = 0, sigma_across_m = 0;  ///< as told
 };

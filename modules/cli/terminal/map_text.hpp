@@ -9,7 +9,8 @@
 
 namespace priamos::cli {
 
-/// The plan (dim), the learned walls (green) and the doors that were seen in braille, the longer side of the map as wide as the screen.
+/// The plan (dim), the learned walls (green) and the doors that were seen in braille, the longer side of the
+/// map as wide as the screen.
 std::string MapDots(const GroundPlan& plan, const LearnedWalls& learned, ScreenSize size, bool colour);
 
 /// A row per learned wall, and one per gap between them. `now_s`: since 1970, for how long ago it was seen.

@@ -50,8 +50,8 @@ void StateTally::Print(Figures& figures) const {
     }
     fmt::print("\n");
   }
-  figures.Note("  state told by one look, of doors that were found", 100.0 * (right + wrong) / std::max(1, n_),
-               "%");
+  figures.Note("  state told by one look, of doors that were found",
+               100.0 * (right + wrong) / std::max(1, n_), "%");
   figures.AtLeast("  of these right", 100.0 * right / std::max(1, right + wrong), 97, "%");
   figures.Note("  time for the state of a door", 1000 * seconds_ / std::max(1, n_), "ms");
 }

@@ -5,7 +5,7 @@
 #include "head/core/doors/door_detection.hpp"
 #include "head/core/doors/door_state.hpp"
 #include "test/bench/figures.hpp"
-#include "test/bench/try/looks.hpp"
+#include "test/bench/vision/corridor_looks.hpp"
 
 namespace priamos::bench {
 
@@ -17,7 +17,7 @@ class StateTally {
   void Print(Figures& figures) const;
 
  private:
-  static constexpr double kLead = 2;  ///< of the log likelihoods
+  static constexpr double kLead = 2;          ///< of the log likelihoods
   std::array<std::array<int, 4>, 4> told_{};  ///< true state, told state
   double seconds_ = 0;
   int n_ = 0;

@@ -43,7 +43,8 @@ RunInfo Corridor() {
     world::DoorWork work;
     work.id = door.id;
     work.hinge = "left";
-    for (const world::Solid& solid : world::DoorSolids(door, work, open_deg[i])) info.world.solids.push_back(solid);
+    for (const world::Solid& solid : world::DoorSolids(door, work, open_deg[i]))
+      info.world.solids.push_back(solid);
   }
   return info;
 }

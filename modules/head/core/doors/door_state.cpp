@@ -7,11 +7,18 @@ namespace priamos::head {
 namespace {
 
 constexpr double kStep_m = 0.01, kStep_rad = Radians(2);
-constexpr double kPrior = 1;  ///< of "nothing to be seen", which closed leaves show more often than rooms do
-constexpr double kDeep_m = 2;  ///< how far apart surfaces of a room are
+constexpr double kSeldomAjar = 1.5;  ///< log odds of a closed leaf against one that is a little open
+constexpr double kDeep_m = 2;        ///< how far apart surfaces of a room are
 /// Shares of the surfaces that are seen where a leaf is: pieces of it, what stands before it, what it should
 /// hide.
 constexpr double kOfLeaf = 0.87, kBefore = 0.1, kBehind = 0.03;
+
+/// Surfaces so near to the sides, and no deeper, may be the reveal.
+constexpr double kBeside_m = 0.13, kReveal_m = 0.3;
+
+bool IsReveal(const SurfacePoint& surface, double half_m) {
+  return std::abs(surface.at.y()) > half_m - kBeside_m && surface.at.x() < kReveal_m;
+}
 
 /// A leaf whose face meets the hinge at x = `depth_m`, y = `side` * `half_m`.
 struct SupposedLeaf {
@@ -33,7 +40,8 @@ struct SupposedLeaf {
 
 double Of(const SupposedLeaf& leaf, std::span<const SurfacePoint> surfaces, double sigma_m) {
   double sum = 0;
-  for (const SurfacePoint& surface : surfaces) sum += leaf.Of(surface, sigma_m);
+  for (const SurfacePoint& surface : surfaces)
+    if (!IsReveal(surface, leaf.half_m)) sum += leaf.Of(surface, sigma_m);
   return sum;
 }
 
@@ -73,7 +81,7 @@ DoorStateEvidence StateOf(const OpeningShape& opening, std::span<const SurfacePo
   const auto scaled = [&](double likelihood) {
     return std::max(options.each * likelihood - beyond, -options.most);
   };
-  evidence.log_likelihood = {scaled(closed) + kPrior, scaled(ajar), 0};
+  evidence.log_likelihood = {scaled(closed), scaled(ajar) - kSeldomAjar, 0};
   return evidence;
 }
 

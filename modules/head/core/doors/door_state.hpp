@@ -25,8 +25,8 @@ struct DoorStateEvidence {
 /// How leaves stand in doors, and what a piece of surface is worth.
 struct DoorStateOptions {
   double ajar_rad = Radians(4), open_rad = Radians(30);  ///< between them a door is ajar
-  double deepest_m = 0.25;    ///< of a closed leaf behind the uprights; the thickest wall
-  double foremost_m = 0.05;   ///< of one that opens towards the robot, before them
+  double deepest_m = 0.25;      ///< of a closed leaf behind the uprights; the thickest wall
+  double foremost_m = 0.05;     ///< of one that opens towards the robot, before them
   double leaf_sigma_m = 0.012;  ///< of a piece of surface from the plane of its leaf
   double each = 0.25;           ///< how much of its likelihood counts: neighbouring pieces err together
   double most = 6;              ///< log likelihood of all together, at most

@@ -15,8 +15,8 @@ DoorTrack AsTrack(const DoorSighting& sighting, const Pose2& map_from_base, Time
   DoorTrack track;
   track.seen = exposure;
   track.map_from_door = map_from_base * sighting.door.base_from_door;
-  track.covariance = turn * sighting.door.covariance * turn.transpose() +
-                     drift_m * drift_m * Eigen::Matrix2d::Identity();
+  track.covariance =
+      turn * sighting.door.covariance * turn.transpose() + drift_m * drift_m * Eigen::Matrix2d::Identity();
   track.width_m = sighting.door.width_m;
   track.state = sighting.state;
   track.log_odds = sighting.door.log_odds;
@@ -61,8 +61,7 @@ void DoorTracks::Begin(DoorTrack seen) {
 
 /// Weighs both places by their covariances; what contradicts the one before takes its place.
 void DoorTracks::Place(DoorTrack& track, const DoorTrack& seen) const {
-  const double driven_m =
-      (seen.map_from_base.translation() - track.map_from_base.translation()).norm();
+  const double driven_m = (seen.map_from_base.translation() - track.map_from_base.translation()).norm();
   const double drift_m = options_.drift * driven_m;
   const Eigen::Matrix2d before = track.covariance + drift_m * drift_m * Eigen::Matrix2d::Identity();
   const Eigen::Vector2d off = seen.map_from_door.translation() - track.map_from_door.translation();

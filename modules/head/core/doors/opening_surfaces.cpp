@@ -16,6 +16,7 @@ constexpr int kHalfWidth_px = 6, kHalfHeight_px = 12, kRowStep_px = 2;
 constexpr int kColumns = 2 * kHalfWidth_px + 1, kRows = kHalfHeight_px / kRowStep_px * 2 + 1;
 constexpr int kBetween_px = 8, kBetweenRows_px = 32;  ///< windows
 constexpr double kPeak_px = 4;                        ///< nearer depths belong to the same peak
+constexpr double kPeakError = 0.08;                   ///< of the top of a peak, share of two steps
 
 /// Grey values of one window, mean 0.
 struct Window {
@@ -103,8 +104,7 @@ class Sweep {
   /// Image of the left one's pixels in the right one, by the plane so far behind the door.
   Eigen::Matrix3d RightFromLeft(double x_m) const {
     const double away_m = x_m - eye_x_;
-    return (epipole_ * normal_.transpose() +
-            away_m * pictures_.cameras[1]->image_from_base.leftCols<3>()) *
+    return (epipole_ * normal_.transpose() + away_m * pictures_.cameras[1]->image_from_base.leftCols<3>()) *
            ray_from_image_;
   }
 
@@ -165,8 +165,7 @@ class Sweep {
   std::optional<SurfacePoint> At(const Vector2d& middle) const {
     if (!IsThrough(middle)) return std::nullopt;
     const CameraModel &left = *pictures_.cameras[0], &right = *pictures_.cameras[1];
-    const auto window =
-        Cut(*pictures_.images[0], middle, [&](const Vector2d& p) { return left.Distort(p); });
+    const auto window = Cut(*pictures_.images[0], middle, [&](const Vector2d& p) { return left.Distort(p); });
     if (!window || window->deviation < options_.min_grey) return std::nullopt;
     std::vector<double> likeness(depths_.size(), -1);
     for (std::size_t i = 0; i < depths_.size(); ++i) {
@@ -179,8 +178,8 @@ class Sweep {
   }
 
   std::optional<SurfacePoint> Peak(const Vector2d& middle, const std::vector<double>& likeness) const {
-    const auto best = static_cast<std::size_t>(
-        std::max_element(likeness.begin(), likeness.end()) - likeness.begin());
+    const auto best =
+        static_cast<std::size_t>(std::max_element(likeness.begin(), likeness.end()) - likeness.begin());
     if (best == 0 || best + 1 == likeness.size() || likeness[best] < options_.min_similarity)
       return std::nullopt;
     for (std::size_t i = 0; i < likeness.size(); ++i) {
@@ -190,11 +189,10 @@ class Sweep {
     // The top of a parabola through three values.
     const double a = likeness[best - 1], b = likeness[best], c = likeness[best + 1];
     const double shift = std::clamp(0.5 * (a - c) / std::min(-1e-6, a - 2 * b + c), -0.5, 0.5);
-    const double x_m =
-        depths_[best].x_m + (shift > 0 ? shift * (depths_[best + 1].x_m - depths_[best].x_m)
-                                       : shift * (depths_[best].x_m - depths_[best - 1].x_m));
+    const double x_m = depths_[best].x_m + (shift > 0 ? shift * (depths_[best + 1].x_m - depths_[best].x_m)
+                                                      : shift * (depths_[best].x_m - depths_[best - 1].x_m));
     const Vector3d at = On(middle, x_m);
-    return SurfacePoint{at.head<2>(), (depths_[best + 1].x_m - depths_[best - 1].x_m) / 4};
+    return SurfacePoint{at.head<2>(), kPeakError * (depths_[best + 1].x_m - depths_[best - 1].x_m)};
   }
 
   OpeningShape opening_;

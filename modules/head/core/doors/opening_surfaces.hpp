@@ -39,7 +39,7 @@ struct SurfaceOptions {
 /// A piece of surface, door frame: x is how far behind the plane of the uprights.
 struct SurfacePoint {
   Eigen::Vector2d at;
-  double sigma_x_m = 0;  ///< of half a step of the disparity
+  double sigma_x_m = 0;  ///< of the disparity's peak
 };
 
 /// Surfaces seen through or in an opening, by the likeness of both pictures at one depth and no other: small

@@ -284,7 +284,8 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
 
 /// Finds a landmark of known breadth: the model is made so broad, and what is reported is of the model again.
 LandmarkFix LandmarkFinder::FindBroader(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                                        std::span<const CameraView> views, const LandmarkMemory& memory) const {
+                                        std::span<const CameraView> views,
+                                        const LandmarkMemory& memory) const {
   LandmarkFixOptions options = options_;
   options.solver.breadth_sigma_m = memory.breadth->sigma_m;
   const EdgeShifts broader = ShiftsOfBreadth(model, memory.breadth->broader_m);
@@ -339,9 +340,8 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   const double wanted = options_.min_log_odds + std::log(std::max(n_tested, 1)) +
                         ((one_sided && !may_miss) || side_missing ? options_.one_sided_log_odds : 0);
   const int least = may_miss ? options_.min_matched_sharp : options_.min_matched;
-  if (fix.n_matched < least * static_cast<int>(n_views) / 2 ||
-      fix.log_odds < wanted || (side_missing && !may_miss) ||
-      fix.log_odds < options_.min_share * best.association.best_log_odds) {
+  if (fix.n_matched < least * static_cast<int>(n_views) / 2 || fix.log_odds < wanted ||
+      (side_missing && !may_miss) || fix.log_odds < options_.min_share * best.association.best_log_odds) {
     fix.verdict = Verdict::kTooFewEdges;
   } else if (fix.rival_log_odds > fix.log_odds - options_.min_lead) {
     fix.verdict = Verdict::kAmbiguous;

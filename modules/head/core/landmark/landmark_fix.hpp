@@ -69,7 +69,8 @@ struct LandmarkFixOptions {
   double gate_elsewhere =
       7;                  ///< Mahalanobis distance up to which it is searched; beyond `gate` it is refused
   int min_predicted = 4;  ///< edges that must be predicted, all images together
-  int min_matched = 6;    ///< edges that must be found in two images together, and half as many more with a third
+  int min_matched =
+      6;  ///< edges that must be found in two images together, and half as many more with a third
   int min_matched_sharp =
       4;  ///< and that many where the prediction is sharp: one jamb's, when the base is near
   double min_log_odds = 7;       ///< log odds wanted beyond the logarithm of the number of poses tried
@@ -96,11 +97,11 @@ struct LandmarkFixOptions {
   bool IsSharp(const Eigen::Matrix3d& search) const;
 };
 
-/// Finds the landmark in the images of two or three cameras: vertical edges of the first two are reconstructed, pairs of them laid onto pairs of
-/// the model's edges wherever the prediction allows it, every pose proposed is judged by all edges in all
-/// images, and the best one refined over all their points. It answers FOUND only if the evidence for it is
-/// far beyond chance and far above that of every other pose; the estimate then depends on the images alone,
-/// not on the prediction.
+/// Finds the landmark in the images of two or three cameras: vertical edges of the first two are
+/// reconstructed, pairs of them laid onto pairs of the model's edges wherever the prediction allows it, every
+/// pose proposed is judged by all edges in all images, and the best one refined over all their points. It
+/// answers FOUND only if the evidence for it is far beyond chance and far above that of every other pose; the
+/// estimate then depends on the images alone, not on the prediction.
 class LandmarkFinder {
  public:
   explicit LandmarkFinder(const LandmarkFixOptions& options) : options_(options) {}

@@ -68,8 +68,9 @@ void CorridorMission::Step(MissionControl& control) {
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath() || heard.drive->mode != DriveMode::kArrived) return;
   if (backs_off_) return Follow(control, length_m_ - driven_m_);
-  control.Enter(Phase::kDone, fmt::format("followed the corridor for {:.1f} m in {:.0f} s{}", length_m_,
-                                          Seconds(control.now() - control.started()), DoorsOnTheWay(control)));
+  control.Enter(Phase::kDone,
+                fmt::format("followed the corridor for {:.1f} m in {:.0f} s{}", length_m_,
+                            Seconds(control.now() - control.started()), DoorsOnTheWay(control)));
 }
 
 /// The heading that was ordered, else the base's; along the wall of the plan that is beside it there.

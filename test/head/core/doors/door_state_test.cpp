@@ -9,11 +9,11 @@ namespace {
 
 const OpeningShape kOpening{{2, 0, 0}, 0.9, 2.0};
 
-/// Pieces of a leaf that is hinged at y = 0.45, 6 cm behind the front, every 10 cm.
+/// Pieces of a leaf that is hinged at y = 0.45, 6 cm behind the front, every 5 cm.
 std::vector<SurfacePoint> LeafAt(double open_rad) {
   std::vector<SurfacePoint> points;
-  for (double along = 0.1; along < 0.85; along += 0.1)
-    points.push_back({{0.06 + along * std::sin(open_rad), 0.45 - along * std::cos(open_rad)}, 0.01});
+  for (double along = 0.1; along < 0.85; along += 0.05)
+    points.push_back({{0.06 + along * std::sin(open_rad), 0.45 - along * std::cos(open_rad)}, 0.004});
   return points;
 }
 

@@ -51,7 +51,8 @@ TEST(DoorTracks, TheMeanOfManyLooksIsBetterThanOneAndDoesNotBoast) {
   for (int i = 0; i < kDoors; ++i) {
     DoorTracks dut;
     for (int look = 0; look < 4; ++look)
-      dut.Add(std::array{Sighting(2 + rng.Normal(kSigma_m), 1 + rng.Normal(kSigma_m), kPi / 2)}, {}, At(look));
+      dut.Add(std::array{Sighting(2 + rng.Normal(kSigma_m), 1 + rng.Normal(kSigma_m), kPi / 2)}, {},
+              At(look));
     const DoorTrack& track = dut.tracks().at(0);
     const Eigen::Vector2d off = track.map_from_door.translation() - Eigen::Vector2d(2, 1);
     squares += off.squaredNorm();

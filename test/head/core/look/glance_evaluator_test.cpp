@@ -7,7 +7,8 @@ namespace {
 
 HeadModel Calibrated() {
   HeadModel model;
-  for (LensTable& lens : model.lenses) lens = LensTable({650}, {1600}, {{1000, {383.5, 287.5}, -0.05, 0, 0.02}});
+  for (LensTable& lens : model.lenses)
+    lens = LensTable({650}, {1600}, {{1000, {383.5, 287.5}, -0.05, 0, 0.02}});
   return model;
 }
 
