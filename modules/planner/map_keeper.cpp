@@ -1,13 +1,13 @@
 #include "planner/map_keeper.hpp"
 
-#include "planner/map_channel.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+
+#include "planner/map_channel.hpp"
 
 namespace priamos::planner {
 namespace {

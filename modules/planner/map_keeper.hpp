@@ -17,8 +17,8 @@ namespace priamos::planner {
 /// A feature as the map takes it; nullopt when a number is not finite or outside its range.
 std::optional<SeenWall> FromMessage(int store, const feature_t& message);
 
-/// Walls as features of a map that is told as a whole, in pieces that a feature can have: two to a message, all
-/// under the number of that map as their store.
+/// Walls as features of a map that is told as a whole, in pieces that a feature can have: two to a message,
+/// all under the number of that map as their store.
 std::vector<features_t> ToMessages(const LearnedWalls& walls, int store);
 
 /// Which batches of a robot's features came, for FEATURES_ACK.
