@@ -95,6 +95,7 @@ inline constexpr Channel<features_ack_t> kFeaturesAck{"FEATURES_ACK", 0, millise
 inline constexpr Channel<mission_command_t> kMissionCommand{"MISSION_COMMAND", 0, milliseconds(0)};
 inline constexpr Channel<mission_status_t> kMissionStatus{"MISSION_STATUS", 2, milliseconds(2000)};
 inline constexpr Channel<map_command_t> kMapCommand{"MAP_COMMAND", 0, milliseconds(0)};
+inline constexpr Channel<features_t> kMapWalls{"MAP_WALLS", 0, milliseconds(0)};
 
 // Every process, every bus.
 inline constexpr Channel<health_t> kHealth{"HEALTH", 1, milliseconds(3000)};
@@ -112,13 +113,13 @@ inline constexpr Channel<world_truth_t> kWorldTruth{"WORLD_TRUTH", 50, milliseco
 inline constexpr Channel<world_touch_t> kWorldTouch{"WORLD_TOUCH", 0, milliseconds(0)};
 
 inline constexpr std::tuple kAll{
-    kWheelCommand,  kWheelState,   kSonarRanges,  kHeadCommand,    kHeadState,     kCameraTrigger,
-    kCameraFrame,   kOdometry,     kPose,         kPath,           kDriveStatus,   kPoseCorrection,
-    kLandmarkModel, kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
-    kLinkStatus,    kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
-    kLinkRequest,   kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
-    kBumper,        kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
-    kWorldTouch,    kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls,     kParameterOrder,
-    kParameterValue};
+    kWheelCommand,   kWheelState,   kSonarRanges,  kHeadCommand,    kHeadState,     kCameraTrigger,
+    kCameraFrame,    kOdometry,     kPose,         kPath,           kDriveStatus,   kPoseCorrection,
+    kLandmarkModel,  kLookRequest,  kLandmarkFix,  kMissionCommand, kMissionStatus, kHealth,
+    kLinkStatus,     kWorldTruth,   kDriveCommand, kHeadDrive,      kLeaseRequest,  kEstop,
+    kLinkRequest,    kLandmarkView, kObstacleLine, kAlarm,          kClaim,         kMotorCurrent,
+    kBumper,         kOpening,      kDoorSeen,     kPoseReset,      kProbe,         kClock,
+    kWorldTouch,     kFeatures,     kFeaturesAck,  kMapCommand,     kPlanWalls,     kParameterOrder,
+    kParameterValue, kMapWalls};
 
 }  // namespace priamos::channels

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "planner/map_channel.hpp"
-
 namespace priamos::planner {
 namespace {
 

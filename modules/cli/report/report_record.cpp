@@ -62,7 +62,7 @@ void RunRecord::AddOffboard(std::int64_t utime, std::string_view channel, std::s
   if (channel == channels::kMissionCommand.name) Append(orders, bytes);
   if (channel == channels::kMissionStatus.name) Append(mission, bytes);
   if (channel == channels::kFeatures.name) Append(features, bytes);
-  if (channel == "MAP_WALLS") AddMap(bytes);
+  if (channel == channels::kMapWalls.name) AddMap(bytes);
   if (channel == channels::kLinkStatus.name) Append(offboard_link, bytes);
   if (channel != channels::kPose.name) return;
   std::vector<pose_t> received;
