@@ -135,7 +135,7 @@ inline constexpr std::tuple kAll{
     kLinkRequest,    kLandmarkView, kObstacleLine,  kAlarm,          kClaim,         kMotorCurrent,
     kBumper,         kOpening,      kDoorSeen,      kPoseReset,      kProbe,         kClock,
     kWorldTouch,     kFeatures,     kFeaturesAck,   kMapCommand,     kPlanWalls,     kParameterOrder,
-    kParameterValue, kProcessOrder, kProcessReport, kProcessState,   kSimulation,
-    kAlarmAck,       kFloorMap,     kHeadAim,       kDoorFound};
+    kParameterValue, kProcessOrder, kProcessReport, kProcessState,   kSimulation,    kAlarmAck,
+    kFloorMap,       kHeadAim,      kDoorFound};
 
 }  // namespace priamos::channels

@@ -33,7 +33,9 @@ std::int8_t MissionOf(Kind kind) {
   }
 }
 
-bool HasGoal(Kind kind) { return kind == Kind::kGoto || kind == Kind::kCorridor; }
+bool HasGoal(Kind kind) {
+  return kind == Kind::kGoto || kind == Kind::kCorridor;
+}
 
 mission_step_t StepTo(const Target& place) {
   mission_step_t step{};

@@ -14,20 +14,31 @@ namespace priamos::console {
 
 /// Channels of the workstation's bus that say something to a person. What drivers, `world` and others say
 /// among each other is not for the station.
-inline constexpr std::array kShownChannels{
-    std::string_view("POSE"),           std::string_view("DRIVE_STATUS"),
-    std::string_view("MISSION_STATUS"), std::string_view("PATH"),
-    std::string_view("LINK_STATUS"),    std::string_view("HEALTH"),
-    std::string_view("ALARM"),          std::string_view("ALARM_ACK"),
-    std::string_view("ESTOP"),
-    std::string_view("LANDMARK_FIX"),   std::string_view("LOOK_REQUEST"),
-    std::string_view("DOOR_SEEN"),      std::string_view("POSE_CORRECTION"),
-    std::string_view("OPENING"),        std::string_view("SONAR_RANGES"),
-    std::string_view("LANDMARK_VIEW"),  std::string_view("OBSTACLE_LINE"),
-    std::string_view("LANDMARK_MODEL"), std::string_view("PARAMETER_VALUE"),
-    std::string_view("PROCESS_STATE"),  std::string_view("PROCESS_REPORT"),
-    std::string_view("SIMULATION"),     std::string_view("FLOOR_MAP"),
-    std::string_view("HEAD_STATE"),     std::string_view("DOOR_FOUND")};
+inline constexpr std::array kShownChannels{std::string_view("POSE"),
+                                           std::string_view("DRIVE_STATUS"),
+                                           std::string_view("MISSION_STATUS"),
+                                           std::string_view("PATH"),
+                                           std::string_view("LINK_STATUS"),
+                                           std::string_view("HEALTH"),
+                                           std::string_view("ALARM"),
+                                           std::string_view("ALARM_ACK"),
+                                           std::string_view("ESTOP"),
+                                           std::string_view("LANDMARK_FIX"),
+                                           std::string_view("LOOK_REQUEST"),
+                                           std::string_view("DOOR_SEEN"),
+                                           std::string_view("POSE_CORRECTION"),
+                                           std::string_view("OPENING"),
+                                           std::string_view("SONAR_RANGES"),
+                                           std::string_view("LANDMARK_VIEW"),
+                                           std::string_view("OBSTACLE_LINE"),
+                                           std::string_view("LANDMARK_MODEL"),
+                                           std::string_view("PARAMETER_VALUE"),
+                                           std::string_view("PROCESS_STATE"),
+                                           std::string_view("PROCESS_REPORT"),
+                                           std::string_view("SIMULATION"),
+                                           std::string_view("FLOOR_MAP"),
+                                           std::string_view("HEAD_STATE"),
+                                           std::string_view("DOOR_FOUND")};
 
 /// Channels that the radio carries only while somebody looks at them.
 std::set<std::string> OnRequest(const bus::radio::LinkConfig& link);

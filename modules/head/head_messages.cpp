@@ -126,8 +126,8 @@ HeadWish FromMessage(const head_drive_t& message) {
 
 HeadAim FromMessage(const head_aim_t& message) {
   const auto step = [](int value) { return value < 0 ? std::nullopt : std::optional(value); };
-  HeadAim aim{FromUtime(message.utime), message.pan_rad, message.tilt_rad, std::nullopt, step(message.zoom_step),
-              step(message.focus_step)};
+  HeadAim aim{FromUtime(message.utime), message.pan_rad,         message.tilt_rad, std::nullopt,
+              step(message.zoom_step),  step(message.focus_step)};
   if (!(message.vergence_rad < 0)) aim.vergence_rad = message.vergence_rad;
   return aim;
 }

@@ -16,7 +16,9 @@ void TakePart(const Items& items, std::size_t part, std::size_t most, std::vecto
   for (std::size_t i = part * most; i < end; ++i) made.push_back(make(items[i]));
 }
 
-std::size_t PartsFor(std::size_t items, std::size_t most) { return (items + most - 1) / most; }
+std::size_t PartsFor(std::size_t items, std::size_t most) {
+  return (items + most - 1) / most;
+}
 
 floor_wall_t ToMessage(const LearnedWall& wall) {
   const Eigen::Vector2f from = wall.from().cast<float>(), to = wall.to().cast<float>();
@@ -34,8 +36,9 @@ floor_frontier_t ToMessage(const SeenFloor::Edge& edge) {
 }
 
 std::size_t CellsOf(const SeenFloor& seen) {
-  return std::accumulate(seen.free.begin(), seen.free.end(), std::size_t{0},
-                         [](std::size_t n, const SeenFloor::Run& run) { return n + std::size_t(run.length); });
+  return std::accumulate(
+      seen.free.begin(), seen.free.end(), std::size_t{0},
+      [](std::size_t n, const SeenFloor::Run& run) { return n + std::size_t(run.length); });
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ std::vector<floor_map_t> FloorParts(const LearnedWalls& walls, const std::option
 /// Sends the map of the floor when it has changed, every 2 s at most, and every 10 s for who came later.
 class FloorReport {
  public:
-  explicit FloorReport(bus::Context& context)
-      : publisher_(context.node().Advertise(channels::kFloorMap)) {}
+  explicit FloorReport(bus::Context& context) : publisher_(context.node().Advertise(channels::kFloorMap)) {}
 
   /// Whether it is time to look at the map.
   bool Due(Time now) const { return look_.Due(now); }

@@ -19,6 +19,7 @@ std::optional<SeenWall> FromMessage(int store, const feature_t& message);
 
 /// A door as the map takes it; likewise.
 std::optional<LearnedDoor> FromMessage(const door_found_t& message);
+
 /// Which batches of a robot's features came, for FEATURES_ACK.
 class BatchLog {
  public:

@@ -101,8 +101,8 @@ TEST(Contributing, EveryRecipeIsTrueOfWhatItNamesAsItsLike) {
     EXPECT_GE(recipe.steps.size(), 2u) << recipe.title;
     EXPECT_THAT(Untrue(recipe, PRIAMOS_SOURCE_DIR), IsEmpty());
   }
-  EXPECT_THAT(titles, ElementsAre("A message", "A channel to the radio", "A live key", "A module",
-                                  "A room", "A landmark kind", "A verb", "A mission", "A scenario"));
+  EXPECT_THAT(titles, ElementsAre("A message", "A channel to the radio", "A live key", "A module", "A room",
+                                  "A landmark kind", "A verb", "A mission", "A scenario"));
 }
 
 TEST(Contributing, AnUntrueStepIsFound) {

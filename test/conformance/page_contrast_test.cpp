@@ -47,7 +47,8 @@ class PageColours : public testing::TestWithParam<bool> {
     const auto dark = style.find("@media (prefers-color-scheme: dark)");
     palette_ = PaletteIn(style.substr(0, dark));
     if (!GetParam()) return;
-    for (const auto& [name, rgb] : PaletteIn(style.substr(dark, style.find("* {") - dark))) palette_[name] = rgb;
+    for (const auto& [name, rgb] : PaletteIn(style.substr(dark, style.find("* {") - dark)))
+      palette_[name] = rgb;
   }
   void Expect(const std::string& front, const std::string& back, double least) {
     ASSERT_TRUE(palette_.contains(front) && palette_.contains(back)) << front << " on " << back;
@@ -57,18 +58,21 @@ class PageColours : public testing::TestWithParam<bool> {
 };
 
 TEST_P(PageColours, TextsCanBeRead) {
-  for (const char* front : {"text", "soft", "accent", "warn", "bad", "good", "stale"}) Expect(front, "card", 4.5);
+  for (const char* front : {"text", "soft", "accent", "warn", "bad", "good", "stale"})
+    Expect(front, "card", 4.5);
   for (const char* front : {"text", "soft"}) Expect(front, "back", 4.5);
   Expect("accent-text", "accent", 4.5);
   Expect("stop-text", "stop", 4.5);
 }
 
 TEST_P(PageColours, LinesOfPlanAndChartsCanBeSeen) {
-  for (const char* front : {"wall", "robot", "path", "sonar", "landmark", "learned", "accent", "bad", "stale"}) {
+  for (const char* front :
+       {"wall", "robot", "path", "sonar", "landmark", "learned", "accent", "bad", "stale"}) {
     Expect(front, "floor", 3);
     Expect(front, "seen", 3);
   }
-  for (const char* front : {"line-1", "line-2", "line-3", "line-4", "line-5", "line-6"}) Expect(front, "floor", 3);
+  for (const char* front : {"line-1", "line-2", "line-3", "line-4", "line-5", "line-6"})
+    Expect(front, "floor", 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(LightAndDark, PageColours, testing::Bool());

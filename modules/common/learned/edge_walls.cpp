@@ -7,7 +7,7 @@ namespace priamos {
 namespace {
 
 /// An arc of an edge is never told longer, and lies so near to it.
-constexpr double kMost_m = 1.6, kNear_m = 0.5;
+constexpr double kMost_m = 2.2, kNear_m = 0.5;
 /// Walls of a building are turned against each other by quarter turns, and known so well.
 constexpr double kAskew_rad = Radians(12);
 

@@ -26,10 +26,11 @@ void ReadLine(const std::string& line, const std::string& place, WebAccess& acce
   const bool has_token = bool(words >> token) && IsWord(token, kShortest, kLongest);
   const bool has_name = bool(words >> name);
   if (!known || !has_token || (has_name && !IsWord(name, 1, kLongestName)) || words >> more)
-    throw std::runtime_error(fmt::format(
-        "{}: expected `driver TOKEN [NAME]` or `viewer TOKEN [NAME]`, the token {} to {} letters, digits, - and _, "
-        "the name at most {}",
-        place, kShortest, kLongest, kLongestName));
+    throw std::runtime_error(
+        fmt::format("{}: expected `driver TOKEN [NAME]` or `viewer TOKEN [NAME]`, the token {} to {} "
+                    "letters, digits, - and _, "
+                    "the name at most {}",
+                    place, kShortest, kLongest, kLongestName));
   const auto same = [&](const TokenHolder& holder) { return holder.token == token; };
   if (std::any_of(access.holders.begin(), access.holders.end(), same))
     throw std::runtime_error(fmt::format("{}: expected a token that no line before it has", place));

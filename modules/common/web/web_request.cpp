@@ -85,7 +85,8 @@ std::optional<ServePictures> PicturesOf(std::string_view path, std::string_view 
 WebAnswer AnswerPictures(const WebRequest& request, const WebAccess& access, const ServePictures& pictures) {
   if (!request.origin.empty() && !IsOwnOrigin(request))
     return RefuseRequest{403, "expected no page of another origin"};
-  if (!HolderOf(TokenOf(request.target), access)) return RefuseRequest{401, "expected a token: .../?token=..."};
+  if (!HolderOf(TokenOf(request.target), access))
+    return RefuseRequest{401, "expected a token: .../?token=..."};
   if (request.method != "GET") return RefuseRequest{405, "expected GET"};
   return pictures;
 }

@@ -39,7 +39,7 @@ struct TokenHolder {
 
 /// Who may connect.
 struct WebAccess {
-  bool loopback_only = true;               ///< names of this machine's loopback alone are taken for the Host
+  bool loopback_only = true;           ///< names of this machine's loopback alone are taken for the Host
   std::vector<TokenHolder> holders{};  ///< none: nobody needs a token (loopback)
   std::vector<std::string> foxglove_origins{};  ///< foreign pages that may speak kFoxglove
 };

@@ -49,7 +49,8 @@ PlaceOrder ReadPlace(const json& object) {
 AimOrder ReadAim(const json& object) {
   RefuseOtherKeys(object, {"type", "pan_rad", "tilt_rad", "vergence_rad", "zoom_step", "focus_step"});
   const auto step = [&](const char* key) {
-    return object.contains(key) ? std::optional(int(Whole(object, key, 0, kDrawnHead.most_step))) : std::nullopt;
+    return object.contains(key) ? std::optional(int(Whole(object, key, 0, kDrawnHead.most_step)))
+                                : std::nullopt;
   };
   AimOrder aim{Number(object, "pan_rad", -kDrawnHead.most_pan_rad, kDrawnHead.most_pan_rad),
                Number(object, "tilt_rad", -kDrawnHead.most_tilt_rad, kDrawnHead.most_tilt_rad), std::nullopt,

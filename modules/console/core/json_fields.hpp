@@ -9,8 +9,8 @@
 
 namespace priamos::console {
 
-// Fields of a client's JSON object. Each throws Wrong (read_json.hpp), a sentence that names the key, when the
-// field is missing or no such value.
+// Fields of a client's JSON object. Each throws Wrong (read_json.hpp), a sentence that names the key, when
+// the field is missing or no such value.
 
 void RefuseOtherKeys(const nlohmann::json& object, std::initializer_list<std::string_view> known);
 const nlohmann::json& Field(const nlohmann::json& object, const char* key);

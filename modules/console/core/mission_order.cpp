@@ -34,7 +34,8 @@ constexpr std::array<std::pair<std::string_view, Kind>, 10> kOrders{{{"abort", K
 
 Kind KindIn(const json& object) {
   const std::string order = Word(object, "order", 20);
-  const auto* found = std::find_if(kOrders.begin(), kOrders.end(), [&](const auto& o) { return o.first == order; });
+  const auto* found =
+      std::find_if(kOrders.begin(), kOrders.end(), [&](const auto& o) { return o.first == order; });
   if (found != kOrders.end()) return found->second;
   std::string names;
   for (const auto& [name, kind] : kOrders) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
@@ -49,7 +50,9 @@ void RefuseKeysBeside(const json& object, std::initializer_list<std::string_view
   RefuseOtherKeys(rest, known);
 }
 
-Target ReadTarget(const json& object) { return {ReadPlaceFields(object), Flag(object, "turn")}; }
+Target ReadTarget(const json& object) {
+  return {ReadPlaceFields(object), Flag(object, "turn")};
+}
 
 /// The corridor's direction, if `turn`; else the way the base stands.
 Target ReadDirection(const json& object) {

@@ -17,17 +17,28 @@ struct Target {
 /// An order to the planner.
 struct MissionOrder {
   /// What the planner is to do.
-  enum class Kind { kAbort, kPause, kResume, kCancel, kPassDoor, kGoto, kCorridor, kExplore, kLocate, kPatrol };
+  enum class Kind {
+    kAbort,
+    kPause,
+    kResume,
+    kCancel,
+    kPassDoor,
+    kGoto,
+    kCorridor,
+    kExplore,
+    kLocate,
+    kPatrol
+  };
   /// Most places of a patrol.
   static constexpr std::size_t kMostPlaces = 12;
 
   Kind kind = Kind::kAbort;
-  int landmark_id = 0;      ///< door to pass
-  Target goal{};            ///< place to drive to; of a corridor the direction alone counts
-  double distance_m = 0;    ///< how far to follow the corridor, 0: to its end
-  int order_id = 0;         ///< order to cancel
+  int landmark_id = 0;         ///< door to pass
+  Target goal{};               ///< place to drive to; of a corridor the direction alone counts
+  double distance_m = 0;       ///< how far to follow the corridor, 0: to its end
+  int order_id = 0;            ///< order to cancel
   std::vector<Target> places;  ///< of a patrol, in turn
-  int rounds = 1;           ///< of a patrol; 0: until it is cancelled
+  int rounds = 1;              ///< of a patrol; 0: until it is cancelled
 };
 
 /// A pose of the base in the map: x_m, y_m, yaw_rad. Throws Wrong as json_fields.hpp does.

@@ -42,7 +42,7 @@ TEST(EdgeWalls, WhatStandsAskewFarFromEndsStays) {
 }
 
 TEST(EdgeWalls, LongWallsStayHoweverTheyStand) {
-  EXPECT_EQ(Left(Wall(4.2, 0.2, 45, 2)), 2U);
+  EXPECT_EQ(Left(Wall(4.2, 0.2, 45, 2.5)), 2U);
 }
 
 TEST(EdgeWalls, OfTwoThatAreAskewTheLongerOneStays) {

@@ -58,14 +58,16 @@ TEST_F(TokenFile, NamesWhoHoldsAToken) {
 }
 
 TEST_F(TokenFile, ThatSaysSomethingElseIsRefusedByItsLine) {
-  for (const char* line : {"driver", "driver short", "driver abcdefghijklmnop more and", "driver abcdefghijklmnop a?b",
-                           "driver abcdefghijklmnop abcdefghijklmnopqrstuvwxyz", "admin abcdefghijklmnop",
-                           "driver abcdefgh?jklmnop"})
+  for (const char* line :
+       {"driver", "driver short", "driver abcdefghijklmnop more and", "driver abcdefghijklmnop a?b",
+        "driver abcdefghijklmnop abcdefghijklmnopqrstuvwxyz", "admin abcdefghijklmnop",
+        "driver abcdefgh?jklmnop"})
     EXPECT_THAT(ReasonOf(std::string("# first\n") + line + "\n"),
                 HasSubstr("tokens:2: expected `driver TOKEN`"))
         << line;
   EXPECT_THAT(ReasonOf("# nobody\n"), HasSubstr("expected at least one token"));
-  EXPECT_THAT(ReasonOf("driver abcdefghijklmnop\nviewer abcdefghijklmnop\n"), HasSubstr("tokens:2: expected a token that no line before it has"));
+  EXPECT_THAT(ReasonOf("driver abcdefghijklmnop\nviewer abcdefghijklmnop\n"),
+              HasSubstr("tokens:2: expected a token that no line before it has"));
 }
 
 TEST_F(TokenFile, ThatOthersCanReadIsRefused) {

@@ -9,10 +9,13 @@
 namespace priamos::head {
 namespace {
 
-double Within(double value, double most) { return std::clamp(value, -most, most); }
+double Within(double value, double most) {
+  return std::clamp(value, -most, most);
+}
 
 bool IsCredible(const HeadAim& aim) {
-  return std::isfinite(aim.pan_rad) && std::isfinite(aim.tilt_rad) && std::isfinite(aim.vergence_rad.value_or(0));
+  return std::isfinite(aim.pan_rad) && std::isfinite(aim.tilt_rad) &&
+         std::isfinite(aim.vergence_rad.value_or(0));
 }
 
 HeadSetting SettingOf(const HeadAim& aim, const HeadSetting& here) {

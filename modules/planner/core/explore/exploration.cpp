@@ -189,7 +189,7 @@ std::optional<Exploration::Candidate> Exploration::Best(const Frontier& frontier
     if (!std::isfinite(ways.Way_m(at)) || ways.Clearance_m(at) < clearance_m_) continue;
     if ((place - evidence_.trail.front()).norm() > config_.farthest_m || FindGivenUp(place)) continue;
     const double cost = CostOf(frontier, at, ways, base);
-    if ((best && cost >= best->cost) || UnknownBehind_m2(at) < config_.least_gain_m2) continue;
+    if ((best && cost >= best->cost) || UnknownBehind_m2(*grid_, at) < config_.least_gain_m2) continue;
     best = Candidate{{place, place, ways.Way_m(at), frontier.length_m()}, at, cost};
   }
   if (!best) return std::nullopt;
@@ -212,7 +212,7 @@ double Exploration::CostOf(const Frontier& frontier, const Vector2i& cell, const
 /// Whether there is next to nothing behind all of it: the corner of a room, between walls that are known.
 bool Exploration::IsCrumb(const Frontier& frontier) const {
   return std::all_of(frontier.cells.begin(), frontier.cells.end(), [&](const Vector2i& cell) {
-    return UnknownBehind_m2(cell) < config_.least_gain_m2;
+    return UnknownBehind_m2(*grid_, cell) < config_.least_gain_m2;
   });
 }
 
@@ -238,23 +238,6 @@ Vector2d Exploration::Outward(const Vector2i& cell) const {
     for (int dy = -kOutwardCells; dy <= kOutwardCells; ++dy)
       if (grid_->At(cell.x() + dx, cell.y() + dy) == Cell::kUnknown) sum += Vector2d(dx, dy);
   return sum.norm() > 1 ? Vector2d(sum.normalized()) : Vector2d(0, 0);
-}
-
-/// How much is unknown near a place of a frontier, as far as nothing closed is in between.
-double Exploration::UnknownBehind_m2(const Vector2i& cell) const {
-  constexpr int kRays = 36;
-  constexpr double kReach_m = 1.5, kTurn_rad = 2 * kPi / kRays;
-  const Vector2d place = grid_->PlaceOf(cell.x(), cell.y());
-  double unknown_m2 = 0;
-  for (int i = 0; i < kRays; ++i) {
-    const Vector2d ray(std::cos(kTurn_rad * i), std::sin(kTurn_rad * i));
-    for (double at_m = ExploredGrid::kStep_m; at_m <= kReach_m; at_m += ExploredGrid::kStep_m) {
-      const Cell what = grid_->At(Vector2d(place + at_m * ray));
-      if (what == Cell::kClosed) break;
-      if (what == Cell::kUnknown) unknown_m2 += at_m * kTurn_rad * ExploredGrid::kStep_m;
-    }
-  }
-  return unknown_m2;
 }
 
 /// As far beyond the frontier as nothing is known to be near.

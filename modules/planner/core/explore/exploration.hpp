@@ -24,11 +24,11 @@ struct ExplorationConfig {
   double turn_m = 1.0;            ///< turning by a radian to face it
   double tight_m = 2.0;           ///< per metre that is missing to `roomy_m` from what is closed
   double roomy_m = 1.0;
-  double length_gain = 0.3;  ///< what a metre of frontier is worth ...
-  double most_length_m = 4;  ///< ... up to this length
+  double length_gain = 0.3;    ///< what a metre of frontier is worth ...
+  double most_length_m = 4;    ///< ... up to this length
   double least_gain_m2 = 0.8;  ///< a frontier with less behind it is left unseen: a corner between walls
-  double beyond_m = 1.0;     ///< the base drives so far into the unknown, as far as nothing is known there
-  double farthest_m = 80;    ///< from where it began; what lies beyond is left
+  double beyond_m = 1.0;       ///< the base drives so far into the unknown, as far as nothing is known there
+  double farthest_m = 80;      ///< from where it began; what lies beyond is left
 
   void Describe(Archive& a);
 };
@@ -111,7 +111,6 @@ class Exploration {
   std::size_t Here() const;
   static std::size_t FirstOf(const std::vector<Candidate>& candidates, const GridWays& ways);
   const GivenUp* FindGivenUp(const Eigen::Vector2d& at) const;
-  double UnknownBehind_m2(const Eigen::Vector2i& cell) const;
   bool IsCrumb(const Frontier& frontier) const;
   std::string WhyLeft(const Frontier& frontier, const GridWays& ways) const;
   Eigen::Vector2d GoalBeyond(const Eigen::Vector2i& cell, const GridWays& ways) const;
@@ -121,7 +120,7 @@ class Exploration {
   double clearance_m_;
   std::vector<Rectangle> known_;
   ExploredEvidence evidence_;
-  std::vector<Pose2> poses_;             ///< at the places of the trail
+  std::vector<Pose2> poses_;              ///< at the places of the trail
   std::vector<std::size_t> things_from_;  ///< where the base was when it put each thing that is not known
   std::vector<GivenUp> given_up_;
   std::vector<LeftFrontier> left_;

@@ -14,6 +14,8 @@ using Eigen::Vector2d;
 constexpr double kAlong_m = 0.05;
 /// A wall is closed from its face so far backwards: no line slips through it between two cells.
 constexpr double kThick_m = 0.15;
+/// So much of either end of a wall is doubted at most.
+constexpr double kMostDoubt_m = 0.2;
 /// Places around the base are looked at so far apart at the border of what is near.
 constexpr double kRim_m = 0.08;
 /// Where the base was nothing is: so far to each side of its centre, less than half of its width.
@@ -73,11 +75,16 @@ void ExploredGrid::Close(const ExploredEvidence& evidence) {
 
 void ExploredGrid::CloseWall(const LearnedWall& wall) {
   const Pose2 map_from_wall = wall.map_from_wall();
-  for (double along_m = -wall.length_m / 2;; along_m += kAlong_m) {
-    along_m = std::min(along_m, wall.length_m / 2);
-    for (double behind_m = 0; behind_m <= kThick_m; behind_m += kAlong_m)
-      if (Cell* cell = Find(map_from_wall * Vector2d(along_m, -behind_m))) *cell = Cell::kClosed;
-    if (along_m >= wall.length_m / 2) return;
+  const double half_m = wall.length_m / 2;
+  const double sure_m = half_m - std::min({2 * wall.sigma_end_m, kMostDoubt_m, half_m / 2});
+  for (double along_m = -half_m;; along_m += kAlong_m) {
+    along_m = std::min(along_m, half_m);
+    const bool sure = std::abs(along_m) <= sure_m;
+    for (double behind_m = 0; behind_m <= kThick_m; behind_m += kAlong_m) {
+      Cell* cell = Find(map_from_wall * Vector2d(along_m, -behind_m));
+      if (cell && (sure || *cell == Cell::kUnknown)) *cell = sure ? Cell::kClosed : Cell::kDoubtful;
+    }
+    if (along_m >= half_m) return;
   }
 }
 
@@ -97,7 +104,7 @@ void ExploredGrid::OpenLine(const Vector2d& from, const Vector2d& to) {
   const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kAlong_m)));
   for (int i = 0; i <= steps; ++i) {
     Cell* cell = Find(from + (to - from) * (double(i) / steps));
-    if (!cell || *cell == Cell::kClosed) return;
+    if (!cell || *cell == Cell::kClosed || *cell == Cell::kDoubtful) return;
     *cell = Cell::kFree;
   }
 }

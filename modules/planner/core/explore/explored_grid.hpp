@@ -33,8 +33,9 @@ struct ExploredEvidence {
 class ExploredGrid {
  public:
   static constexpr double kStep_m = 0.1;
-  /// What is known of a cell.
-  enum class Cell : std::uint8_t { kUnknown, kFree, kClosed };
+  /// What is known of a cell; kDoubtful: the end of a wall, which is told up to 20 cm too long. Nothing is
+  /// seen through it, but it makes no opening too narrow.
+  enum class Cell : std::uint8_t { kUnknown, kFree, kClosed, kDoubtful };
 
   ExploredGrid(const ExploredGridConfig& config, const ExploredEvidence& evidence);
 

@@ -1,6 +1,9 @@
 #include "planner/core/explore/frontiers.hpp"
 
+#include <cmath>
 #include <utility>
+
+#include "common/geometry.hpp"
 
 namespace priamos::planner {
 namespace {
@@ -49,6 +52,22 @@ std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m) {
       if (frontier.length_m() >= least_m) frontiers.push_back(std::move(frontier));
     }
   return frontiers;
+}
+
+double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell) {
+  constexpr int kRays = 36;
+  constexpr double kReach_m = 1.5, kTurn_rad = 2 * kPi / kRays;
+  const Eigen::Vector2d place = grid.PlaceOf(cell.x(), cell.y());
+  double unknown_m2 = 0;
+  for (int i = 0; i < kRays; ++i) {
+    const Eigen::Vector2d ray(std::cos(kTurn_rad * i), std::sin(kTurn_rad * i));
+    for (double at_m = ExploredGrid::kStep_m; at_m <= kReach_m; at_m += ExploredGrid::kStep_m) {
+      const Cell what = grid.At(Eigen::Vector2d(place + at_m * ray));
+      if (what == Cell::kClosed || what == Cell::kDoubtful) break;
+      if (what == Cell::kUnknown) unknown_m2 += at_m * kTurn_rad * ExploredGrid::kStep_m;
+    }
+  }
+  return unknown_m2;
 }
 
 }  // namespace priamos::planner

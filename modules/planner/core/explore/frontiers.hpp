@@ -19,4 +19,7 @@ struct Frontier {
 /// The frontiers of a grid of at least that length, in the order of their first cells.
 std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m);
 
+/// How much is unknown within 1.5 m of a cell, as far as nothing closed is in between [m2].
+double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell);
+
 }  // namespace priamos::planner

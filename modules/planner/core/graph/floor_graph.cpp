@@ -1,6 +1,5 @@
 #include "planner/core/graph/floor_graph.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -9,20 +8,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Walls that are one face the same way, and are no farther apart than this, along them the width of a door.
-constexpr double kSameFacing_rad = Radians(10), kMostAcross_m = 0.6, kMostGap_m = 2.0;
-/// What two walls that are one differ by besides the graph's own errors: a wall is not quite straight.
-constexpr double kUneven_m = 0.02, kUneven_rad = Radians(0.5);
-/// Candidates that lie so near to each other mean the same wall.
-constexpr double kSame_m = 0.1;
 /// Pieces of a line with a smaller gap are one wall.
 constexpr double kBridged_m = 0.3;
 /// A piece that is so many sigmas off its line is none of it.
 constexpr double kOffLine = 6;
-/// What joining may cost more than before, for each pair: squared sigmas.
-constexpr double kMostCost = 16;
-/// 99 % of what four numbers do by chance, squared sigmas.
-constexpr double kFour = 13.3;
 
 }  // namespace
 
@@ -36,7 +25,7 @@ void FloorGraphConfig::Describe(Archive& a) {
   a.Number("yaw_deg", yaw_deg, {"deg", 0.05, 10, "least sigma of a piece's direction"});
   a.Number("edge_m", edge_m, {"m", 0.001, 0.5, "sigma of its ends across it"});
   a.Flag("square", square, "walls are expected to be parallel or perpendicular, when most of them are");
-  a.Number("square_deg", prior.sigma_rad, {"rad", 0.0005, 0.2, "sigma of a wall against the axes"});
+  a.Number("square_rad", prior.sigma_rad, {"rad", 0.0005, 0.2, "sigma of a wall against the axes"});
   a.Number("square_share", square_share, {"-", 0, 1, "of the walls' length that has to be so"});
   a.Number("gate", gate, {"-", 0.5, 10, "Mahalanobis distance up to which two walls may be one"});
   a.Number("apart", apart, {"-", 1, 20, "as far is every other wall that could be meant"});
@@ -68,7 +57,7 @@ void FloorGraph::AddKey(const Pose2& at, double at_s) {
     const Pose2 step = keys_.back().robot_frame_from_base.Inverse() * at;
     const double place_m = 0.001 + config_.walk_m * std::sqrt(driven_m_ + 0.3 * turned_rad_);
     const double yaw = 0.0005 + Radians(config_.turn_deg) * std::sqrt(driven_m_ + turned_rad_);
-    const int to = graph_.AddPose(graph_.pose(graph_.poses() - 1) * step);
+    const int to = graph_.AddPose(graph_.pose(graph_.poses() - 1) * graph_.bias().Corrected(step));
     graph_.Add(GraphMotion{to - 1, to, step, {place_m, place_m, yaw}});
   }
   keys_.push_back({at_s, at});
@@ -151,14 +140,12 @@ std::map<int, std::vector<FloorGraph::Span>> FloorGraph::Spans() const {
   for (const auto& [name, told] : told_) {
     if (!IsOnLine(told)) continue;
     const GraphLine& line = graph_.line(told.line);
-    const double middle_m =
-        line.AlongTo((graph_.pose(told.key) * told.key_from_middle).translation());
+    const double middle_m = line.AlongTo((graph_.pose(told.key) * told.key_from_middle).translation());
     const double half_m = told.wall.length_m / 2;
     spans[told.line].push_back({middle_m - half_m, middle_m + half_m, told.wall});
   }
   for (auto& [line, pieces] : spans) {
-    std::sort(pieces.begin(), pieces.end(),
-              [](const Span& a, const Span& b) { return a.from_m < b.from_m; });
+    std::sort(pieces.begin(), pieces.end(), [](const Span& a, const Span& b) { return a.from_m < b.from_m; });
     std::vector<Span> joined;
     for (const Span& piece : pieces) {
       if (joined.empty() || piece.from_m > joined.back().to_m + kBridged_m) {
@@ -172,128 +159,6 @@ std::map<int, std::vector<FloorGraph::Span>> FloorGraph::Spans() const {
     pieces = std::move(joined);
   }
   return spans;
-}
-
-/// Where two walls are nearest along the first; nullopt: nowhere.
-std::optional<double> FloorGraph::Meet(const GraphLine& a, const std::vector<Span>& own, const GraphLine& b,
-                                       const std::vector<Span>& others) {
-  double least_gap_m = kMostGap_m;
-  std::optional<double> at_m;
-  for (const Span& piece : own)
-    for (const Span& other : others) {
-      const double from_m = a.AlongTo(b.At(other.from_m)), to_m = a.AlongTo(b.At(other.to_m));
-      const double begin_m = std::max(piece.from_m, from_m), end_m = std::min(piece.to_m, to_m);
-      if (begin_m - end_m >= least_gap_m) continue;
-      least_gap_m = begin_m - end_m;
-      at_m = (begin_m + end_m) / 2;
-    }
-  return at_m;
-}
-
-/// The pair as it is seen at a place along the first wall.
-std::optional<FloorGraph::Candidate> FloorGraph::CandidateAt(int kept, int gone, double at_m) const {
-  const GraphLine &a = graph_.line(kept), &b = graph_.line(gone);
-  const double on_b_m = b.AlongTo(a.At(at_m));
-  const Vector2d place = b.At(on_b_m);
-  Candidate candidate;
-  candidate.kept = kept;
-  candidate.gone = gone;
-  candidate.error << a.AcrossTo(place), WrapAngle(b.yaw_rad - a.yaw_rad);
-  if (std::abs(candidate.error(0)) > kMostAcross_m) return std::nullopt;
-  const auto covariance = graph_.CovarianceOf({kept, gone});
-  if (!covariance) return std::nullopt;
-  candidate.by << -a.AlongTo(place), -1, on_b_m, 1, -1, 0, 1, 0;
-  Eigen::Matrix2d spread = candidate.by * *covariance * candidate.by.transpose();
-  spread.diagonal() += Vector2d(kUneven_m, kUneven_rad).cwiseAbs2();
-  candidate.sigma_m = std::sqrt(spread(0, 0));
-  candidate.distance = std::sqrt(candidate.error.dot(spread.ldlt().solve(candidate.error)));
-  return candidate;
-}
-
-std::vector<FloorGraph::Candidate> FloorGraph::Candidates() const {
-  std::vector<Candidate> found;
-  const auto spans = Spans();
-  for (auto i = spans.begin(); i != spans.end(); ++i)
-    for (auto k = std::next(i); k != spans.end(); ++k) {
-      const GraphLine &a = graph_.line(i->first), &b = graph_.line(k->first);
-      if (std::abs(WrapAngle(b.yaw_rad - a.yaw_rad)) > kSameFacing_rad) continue;
-      if (apart_.contains({i->first, k->first})) continue;
-      const auto at_m = Meet(a, i->second, b, k->second);
-      if (!at_m) continue;
-      const auto candidate = CandidateAt(i->first, k->first, *at_m);
-      if (candidate && candidate->distance <= config_.apart) found.push_back(*candidate);
-    }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
-  return found;
-}
-
-/// Whether another wall, elsewhere, could be meant as well.
-bool FloorGraph::IsAmbiguous(const Candidate& candidate, const std::vector<Candidate>& all) const {
-  return std::any_of(all.begin(), all.end(), [&](const Candidate& other) {
-    const bool same_pair = other.kept == candidate.kept && other.gone == candidate.gone;
-    const bool shares = other.kept == candidate.kept || other.gone == candidate.gone ||
-                        other.kept == candidate.gone || other.gone == candidate.kept;
-    return !same_pair && shares && std::abs(std::abs(other.error(0)) - std::abs(candidate.error(0))) > kSame_m;
-  });
-}
-
-/// Whether two pairs are off by what the same error of the poses explains.
-bool FloorGraph::Agree(const Candidate& a, const Candidate& b) const {
-  const auto covariance = graph_.CovarianceOf({a.kept, a.gone, b.kept, b.gone});
-  if (!covariance) return false;
-  Eigen::Matrix<double, 4, 8> by = Eigen::Matrix<double, 4, 8>::Zero();
-  by.topLeftCorner<2, 4>() = a.by;
-  by.bottomRightCorner<2, 4>() = b.by;
-  Eigen::Vector4d error;
-  error << a.error, b.error;
-  Eigen::Matrix4d spread = by * *covariance * by.transpose();
-  spread.diagonal() += Eigen::Vector4d(kUneven_m, kUneven_rad, kUneven_m, kUneven_rad).cwiseAbs2();
-  return error.dot(spread.ldlt().solve(error)) < kFour;
-}
-
-/// Joins what is surest; false: nothing is sure.
-bool FloorGraph::JoinOnce() {
-  const auto all = Candidates();
-  std::vector<Candidate> doubtful;
-  for (const Candidate& candidate : all) {
-    if (candidate.distance > config_.gate || IsAmbiguous(candidate, all)) continue;
-    if (3 * candidate.sigma_m > config_.alone_m) {
-      doubtful.push_back(candidate);
-    } else if (Join({candidate})) {
-      return true;
-    }
-  }
-  return JoinTogether(doubtful);
-}
-
-bool FloorGraph::JoinTogether(const std::vector<Candidate>& found) {
-  for (std::size_t i = 0; i < found.size(); ++i)
-    for (std::size_t k = i + 1; k < found.size(); ++k) {
-      const Candidate &a = found[i], &b = found[k];
-      const bool apart = a.kept != b.kept && a.gone != b.gone && a.kept != b.gone && a.gone != b.kept;
-      if (apart && Agree(a, b) && Join({a, b})) return true;
-    }
-  return false;
-}
-
-/// Tries it: what costs too much is undone, and not tried again.
-bool FloorGraph::Join(const std::vector<Candidate>& pairs) {
-  const PoseGraph before = graph_;
-  const double cost = graph_.CostOf();
-  for (const Candidate& pair : pairs) graph_.Join(pair.kept, pair.gone);
-  graph_.FollowAll();
-  if (graph_.Adjust() > cost + kMostCost * static_cast<double>(pairs.size())) {
-    graph_ = before;
-    for (const Candidate& pair : pairs) apart_.insert({pair.kept, pair.gone});
-    refused_ += static_cast<int>(pairs.size());
-    return false;
-  }
-  for (const Candidate& pair : pairs)
-    for (auto& [name, told] : told_)
-      if (told.line == pair.gone) told.line = pair.kept;
-  loops_ += static_cast<int>(pairs.size());
-  return true;
 }
 
 Pose2 FloorGraph::map_from_robot() const {

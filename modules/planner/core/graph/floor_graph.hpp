@@ -15,11 +15,11 @@ namespace priamos::planner {
 
 /// What the wheels and a wall that was told are believed to err, and when two walls are one.
 struct FloorGraphConfig {
-  double key_m = 0.5;     ///< a pose becomes part of the graph after so much driving ...
-  double key_deg = 20;    ///< ... or turning
-  double walk_m = 0.01;   ///< sigma of the place after a metre of driving
-  double turn_deg = 0.4;  ///< sigma of the heading after a metre of driving, and after turning by a radian
-  double least_m = 0.8;   ///< a shorter piece of wall ties nothing together
+  double key_m = 0.5;      ///< a pose becomes part of the graph after so much driving ...
+  double key_deg = 20;     ///< ... or turning
+  double walk_m = 0.01;    ///< sigma of the place after a metre of driving
+  double turn_deg = 0.4;   ///< sigma of the heading after a metre of driving, and after turning by a radian
+  double least_m = 0.8;    ///< a shorter piece of wall ties nothing together
   double across_m = 0.02;  ///< sigma of a piece's middle across it
   double yaw_deg = 0.4;    ///< sigma of its direction, and ...
   double edge_m = 0.01;    ///< ... the place of its ends, which makes short ones turn

@@ -13,6 +13,8 @@ constexpr double kRobust = 3, kMostRobust = 100;
 /// Keeps what nothing is known of where it is.
 constexpr double kDamping = 1e-2;
 constexpr double kQuarter_rad = kPi / 2;
+/// Sigma of either error of the wheels that stays the same, before anything is known of it.
+constexpr double kBias = 0.01;
 
 /// Weight of a residual by Geman and McClure, and what it costs.
 double WeightOf(double squares, double robust) {
@@ -29,10 +31,10 @@ double WrapQuarter(double rad) {
 }
 
 /// What a motion is off by in the frame of its beginning, in sigmas.
-Eigen::Vector3d ErrorOf(const GraphMotion& motion, const Pose2& from, const Pose2& to) {
-  const Pose2 is = from.Inverse() * to;
-  const Eigen::Vector3d off(is.x - motion.from_to.x, is.y - motion.from_to.y,
-                            WrapAngle(is.yaw - motion.from_to.yaw));
+Eigen::Vector3d ErrorOf(const GraphMotion& motion, const WheelBias& bias, const Pose2& from,
+                        const Pose2& to) {
+  const Pose2 is = from.Inverse() * to, told = bias.Corrected(motion.from_to);
+  const Eigen::Vector3d off(is.x - told.x, is.y - told.y, WrapAngle(is.yaw - told.yaw));
   return off.cwiseQuotient(motion.sigma);
 }
 
@@ -96,16 +98,20 @@ void PoseGraph::AddMotions(Equations& equations) const {
     const Pose2 &from = pose(motion.from), &to = pose(motion.to);
     const Eigen::Matrix2d back = from.rotation().transpose();
     const Vector2d apart = to.translation() - from.translation();
-    Eigen::Matrix<double, 3, 6> by = Eigen::Matrix<double, 3, 6>::Zero();
+    Eigen::Matrix<double, 3, 8> by = Eigen::Matrix<double, 3, 8>::Zero();
     by.block<2, 2>(0, 0) = -back;
     by.block<2, 1>(0, 2) = back * Vector2d(apart.y(), -apart.x());
     by.block<2, 2>(0, 3) = back;
     by(2, 2) = -1;
     by(2, 5) = 1;
+    by(0, 6) = by(1, 7) = -motion.from_to.x;
     by = motion.sigma.cwiseInverse().asDiagonal() * by;
     const int a = motion.from > 0 ? PoseAt(motion.from) : -3, b = PoseAt(motion.to);
-    equations.Add<3, 6>(ErrorOf(motion, from, to), by, {a, a + 1, a + 2, b, b + 1, b + 2}, 1);
+    equations.Add<3, 8>(ErrorOf(motion, bias_, from, to), by,
+                        {a, a + 1, a + 2, b, b + 1, b + 2, BiasAt(), BiasAt() + 1}, 1);
   }
+  const Vector2d off = Vector2d(bias_.forward, bias_.drift) / kBias;
+  equations.Add<2, 2>(off, Eigen::Matrix2d::Identity() / kBias, {BiasAt(), BiasAt() + 1}, 1);
 }
 
 void PoseGraph::AddSights(Equations& equations) const {
@@ -139,9 +145,9 @@ void PoseGraph::AddSquare(Equations& equations) const {
 }
 
 double PoseGraph::CostOf() const {
-  double cost = 0;
+  double cost = Vector2d(bias_.forward, bias_.drift).squaredNorm() / (kBias * kBias);
   for (const GraphMotion& motion : motions_)
-    cost += ErrorOf(motion, pose(motion.from), pose(motion.to)).squaredNorm();
+    cost += ErrorOf(motion, bias_, pose(motion.from), pose(motion.to)).squaredNorm();
   for (const GraphSight& sight : sights_)
     cost += RobustCost(ErrorOf(sight, pose(sight.pose), line(sight.line)).squaredNorm(), robust_);
   if (!square_) return cost;
@@ -174,6 +180,8 @@ void PoseGraph::Move(const Eigen::VectorXd& by) {
     at.offset_m += by(LineAt(i) + 1);
   }
   axis_rad_ += by(AxisAt());
+  bias_.forward += by(BiasAt());
+  bias_.drift += by(BiasAt() + 1);
 }
 
 /// The direction on which most lines agree, each with the weight of its sights.
@@ -245,11 +253,10 @@ std::optional<Eigen::MatrixXd> PoseGraph::CovarianceOf(const std::vector<int>& l
   if (!solved_) return std::nullopt;
   const auto count = static_cast<Eigen::Index>(2 * lines.size());
   const int first = 3 * (solved_poses_ - 1);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(first + 2 * solved_lines_ + 1, count);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(first + 2 * solved_lines_ + 3, count);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i] >= solved_lines_) return std::nullopt;
-    for (int k = 0; k < 2; ++k)
-      columns(first + 2 * lines[i] + k, static_cast<Eigen::Index>(2 * i) + k) = 1;
+    for (int k = 0; k < 2; ++k) columns(first + 2 * lines[i] + k, static_cast<Eigen::Index>(2 * i) + k) = 1;
   }
   const Eigen::MatrixXd solved = solved_->solve(columns);
   Eigen::MatrixXd covariance(count, count);

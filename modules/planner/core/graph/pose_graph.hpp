@@ -38,6 +38,16 @@ struct GraphSight {
   double sigma_across_m = 0.02, sigma_yaw_rad = 0.01;
 };
 
+/// Errors of the wheels that stay the same: radii and rollers do not change on the way.
+struct WheelBias {
+  double forward = 0;  ///< of the distance driven forward
+  double drift = 0;    ///< sideways per metre forward, to the left
+
+  Pose2 Corrected(const Pose2& told) const {
+    return {told.x * (1 + forward), told.y + told.x * drift, told.yaw};
+  }
+};
+
 /// How lines are expected to stand to each other in a building.
 struct SquarePrior {
   double sigma_rad = Radians(0.5);  ///< a wall is turned so much against the building's axes
@@ -73,6 +83,7 @@ class PoseGraph {
   const std::vector<GraphSight>& sights() const { return sights_; }
   /// How many sigmas a sight is off, by place and by direction together.
   double DistanceOf(const GraphSight& sight) const;
+  const WheelBias& bias() const { return bias_; }
   /// Direction of the building's axes, of which one is meant; none: no prior is set.
   std::optional<double> axis_rad() const;
 
@@ -93,7 +104,8 @@ class PoseGraph {
   int PoseAt(int pose) const { return 3 * (pose - 1); }
   int LineAt(int line) const { return 3 * (poses() - 1) + 2 * line; }
   int AxisAt() const { return LineAt(lines()); }
-  int size() const { return AxisAt() + 1; }
+  int BiasAt() const { return AxisAt() + 1; }
+  int size() const { return BiasAt() + 2; }
 
   std::vector<Pose2> poses_;
   std::vector<GraphLine> lines_;
@@ -101,7 +113,8 @@ class PoseGraph {
   std::vector<GraphSight> sights_;
   std::optional<SquarePrior> square_;
   double axis_rad_ = 0;
-  double robust_ = 3;  ///< a sight that is off by more sigmas loses its weight
+  WheelBias bias_;
+  double robust_ = 3;                     ///< a sight that is off by more sigmas loses its weight
   std::shared_ptr<const Solver> solved_;  ///< of the last adjustment
   int solved_poses_ = 0, solved_lines_ = 0;
 };

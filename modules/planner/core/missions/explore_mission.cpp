@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "planner/core/explore/passages.hpp"
@@ -21,8 +22,9 @@ constexpr double kMore_m2 = 1.0;
 constexpr std::size_t kNamed = 1;
 /// A map that has moved by so much under a robot on its way is a reason to plan it anew.
 constexpr double kMoved_m = 0.15;
-/// A robot whose own frame is farther off the map is told so in the end; it is known so well then.
-constexpr double kOff_m = 0.02, kOff_rad = Radians(0.2), kPlaced_m = 0.05, kPlaced_rad = Radians(0.6);
+/// A robot that knows its place worse is told where it is, so well; it stands then, for so long at least.
+constexpr double kVague_m = 0.3, kVague_rad = Radians(6), kPlaced_m = 0.05, kPlaced_rad = Radians(0.6);
+constexpr double kStands = 0.01, kSettled_s = 1.0;
 
 double SecondsOf(Time time) {
   return 1e-6 * static_cast<double>(ToUtime(time));
@@ -76,6 +78,7 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   graph_.Reset();
   trail_.clear();
   outcome_.reset();
+  placing_ = Placing::kNo;
   stands_.Reset();
   idles_.Reset();
   goal_.reset();
@@ -99,7 +102,7 @@ void ExploreMission::Step(MissionControl& control) {
   Note(control);
   const Heard& heard = control.heard();
   if (!heard.link_up || !heard.pose || !IsFresh(*heard.pose, control.now())) return;
-  if (outcome_) return End(control);
+  if (outcome_ || IsVague(control)) return Place(control);
   if ((!goal_ && !backing_) || undecided_) return Next(control);
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath()) return;
@@ -126,7 +129,8 @@ void ExploreMission::Note(MissionControl& control) {
     for (const GraphAnchor& anchor : trail_) trail.push_back(graph_.PlaceOf(anchor));
     exploration_.MoveTrail(trail);
     learned_ = false;
-    control.SendMap(graph_.Walls());
+    Learn(BaseOf(control));
+    control.SendMap(exploration_.walls());
   }
   const Pose2 base = BaseOf(control);
   if (exploration_.NoteAt(base)) trail_.push_back(graph_.AnchorOf(base));
@@ -182,6 +186,7 @@ void ExploreMission::Arrive(MissionControl& control) {
 void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
   Note(control);
   if (outcome_) return control.Enter(Phase::kDone, *outcome_);
+  placing_ = Placing::kNo;
   if (stop.cause != Stop::Cause::kBlocked || (!goal_ && !backing_))
     return control.Fail(stop.reason + "; next: look what it is, and order it again");
   const Eigen::Vector2d here = BaseOf(control).translation();
@@ -278,22 +283,41 @@ std::string ExploreMission::Left() const {
   return text;
 }
 
-/// The robot is told where it is in the map that was made, before it is over: from then on its pose is that of
-/// the map.
 void ExploreMission::Finish(MissionControl& control) {
-  control.OrderPath({}, 0);
   outcome_ = fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
                          Seconds(control.now() - control.started()), exploration_.driven_m(), Left());
-  control.SendMap(graph_.Walls());
-  const Pose2 off = graph_.map_from_robot();
-  if (off.translation().norm() > kOff_m || std::abs(off.yaw) > kOff_rad)
-    control.OrderPlace(BaseOf(control), kPlaced_m, kPlaced_rad);
-  else
-    End(control);
+  control.SendMap(exploration_.walls());
+  placing_ = Placing::kNo;
+  Place(control);
 }
 
-void ExploreMission::End(MissionControl& control) {
-  if (!control.IsPlacing()) control.Enter(Phase::kDone, *outcome_);
+/// A robot holds when it does not know where it is in its own frame. Where it is on the map is known better,
+/// and its own frame is what it says: so it is told that it is there, before it holds.
+bool ExploreMission::IsVague(const MissionControl& control) const {
+  const Eigen::Matrix3d& covariance = control.heard().pose->covariance;
+  return placing_ != Placing::kNo || covariance(0, 0) + covariance(1, 1) > kVague_m * kVague_m ||
+         covariance(2, 2) > kVague_rad * kVague_rad;
+}
+
+/// It has to stand before it can be told. In the end it is told where it is on the map: from then on its pose
+/// is that of the map.
+void ExploreMission::Place(MissionControl& control) {
+  const RobotPose& pose = *control.heard().pose;
+  if (placing_ == Placing::kNo) {
+    placing_ = Placing::kBrakes;
+    braked_ = control.now();
+    return control.OrderPath({}, 0);
+  }
+  if (placing_ == Placing::kBrakes) {
+    const bool stands = std::hypot(pose.velocity.vx, pose.velocity.vy, pose.velocity.wz) < kStands;
+    if (!stands || Seconds(pose.stamp - braked_) < kSettled_s) return;
+    placing_ = Placing::kTold;
+    return control.OrderPlace(outcome_ ? BaseOf(control) : pose.map_from_base, kPlaced_m, kPlaced_rad);
+  }
+  if (control.IsPlacing()) return;
+  placing_ = Placing::kNo;
+  if (outcome_) return control.Enter(Phase::kDone, *outcome_);
+  Next(control);
 }
 
 }  // namespace priamos::planner

@@ -34,9 +34,9 @@ struct ExploreMissionConfig {
 };
 
 /// The mission "see the whole floor": from frontier to frontier until none is left that can be reached. What
-/// is free is known from where the base was and from the walls that it told, both put where the graph has them;
-/// what stops it is put on the map where it stands, for the length of the mission. A frontier that cannot be reached is left, with the
-/// reason; the outcome names the largest.
+/// is free is known from where the base was and from the walls that it told, both put where the graph has
+/// them; what stops it is put on the map where it stands, for the length of the mission. A frontier that
+/// cannot be reached is left, with the reason; the outcome names the largest.
 class ExploreMission : public Mission {
  public:
   ExploreMission(const ExploreMissionConfig& config, const Footprint& footprint, const GroundPlan& plan);
@@ -52,6 +52,8 @@ class ExploreMission : public Mission {
   std::string Unfinished() const override { return "the floor is not explored"; }
 
  private:
+  /// How far the robot is with being told where it is.
+  enum class Placing { kNo, kBrakes, kTold };
   void Note(MissionControl& control);
   Pose2 BaseOf(const MissionControl& control) const;
   void Order(MissionControl& control, PlannedPath path);
@@ -64,7 +66,8 @@ class ExploreMission : public Mission {
   bool DriveTo(MissionControl& control, const FrontierGoal& frontier);
   std::string WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const;
   void Finish(MissionControl& control);
-  void End(MissionControl& control);
+  bool IsVague(const MissionControl& control) const;
+  void Place(MissionControl& control);
   std::string Left() const;
 
   ExploreMissionConfig config_;
@@ -77,15 +80,17 @@ class ExploreMission : public Mission {
   StandWatch stands_, idles_{StandWatch::Counts::kFree};
   bool begun_ = false;  ///< there was an order
   std::optional<FrontierGoal> goal_;
-  int missed_ = 0;                               ///< paths towards goal_ that ended elsewhere
-  int rounds_ = 0;                               ///< in which what was left was tried again
-  double most_seen_m2_ = 0;                      ///< at the beginning of a round
-  bool backing_ = false;                         ///< on the way back, to no frontier
-  std::optional<Eigen::Vector2d> stopped_at_;    ///< where something stopped the base last
-  bool undecided_ = false;                       ///< no way was found yet
-  std::optional<Time> considered_;               ///< whether goal_ is still a frontier
-  bool learned_ = false;                         ///< the map as it is now was taken into account
-  std::optional<std::string> outcome_;           ///< it is over but for the robot's pose
+  int missed_ = 0;                             ///< paths towards goal_ that ended elsewhere
+  int rounds_ = 0;                             ///< in which what was left was tried again
+  double most_seen_m2_ = 0;                    ///< at the beginning of a round
+  bool backing_ = false;                       ///< on the way back, to no frontier
+  std::optional<Eigen::Vector2d> stopped_at_;  ///< where something stopped the base last
+  bool undecided_ = false;                     ///< no way was found yet
+  std::optional<Time> considered_;             ///< whether goal_ is still a frontier
+  bool learned_ = false;                       ///< the map as it is now was taken into account
+  Placing placing_ = Placing::kNo;
+  Time braked_{};
+  std::optional<std::string> outcome_;  ///< it is over but for the robot's pose
 };
 
 }  // namespace priamos::planner

@@ -68,5 +68,19 @@ TEST(ExploredGridTest, CellsAndPlacesBelongTogether) {
   EXPECT_EQ(dut.At(-1, 0), Cell::kUnknown);
 }
 
+TEST(ExploredGridTest, TheEndsOfAWallAreDoubtedAndStillHideWhatIsBehindThem) {
+  LearnedWall wall = WallAt(0, 1, 180, 2);
+  wall.sigma_end_m = 0.2;
+  ExploredEvidence evidence;
+  evidence.trail = {{0, 0}};
+  evidence.walls = {1, 1, {wall}};
+  const ExploredGrid grid({.near_m = 2.5}, evidence);
+  using Cell = ExploredGrid::Cell;
+  EXPECT_EQ(grid.At(Eigen::Vector2d(0.5, 1.05)), Cell::kClosed);
+  EXPECT_EQ(grid.At(Eigen::Vector2d(0.95, 1.05)), Cell::kDoubtful);
+  EXPECT_EQ(grid.At(Eigen::Vector2d(0, 1.6)), Cell::kUnknown);
+  EXPECT_EQ(grid.At(Eigen::Vector2d(1.3, 1.45)), Cell::kUnknown);
+}
+
 }  // namespace
 }  // namespace priamos::planner

@@ -34,9 +34,9 @@ class Drive {
     Turn(std::atan2(way.y(), way.x()));
     const int steps = static_cast<int>(way.norm() / kStep_m);
     for (int i = 0; i < steps; ++i) {
-      Move({kStep_m, 0, 0}, {kStep_m * (1 + 0.002 * rng_.Normal(1)), 0.001 * rng_.Normal(1),
-                             Radians(bias_deg_per_m_ * kStep_m +
-                                     turn_deg_ * std::sqrt(kStep_m) * rng_.Normal(1))});
+      Move({kStep_m, 0, 0},
+           {kStep_m * (1 + 0.002 * rng_.Normal(1)), 0.001 * rng_.Normal(1),
+            Radians(bias_deg_per_m_ * kStep_m + turn_deg_ * std::sqrt(kStep_m) * rng_.Normal(1))});
       if (i % 10 == 9) Hear();
     }
   }
@@ -70,11 +70,13 @@ class Drive {
       const Vector2d along = (walls_[i].to - walls_[i].from).normalized(), left(-along.y(), along.x());
       const double across_m = left.dot(true_.translation() - walls_[i].from);
       const double at_m = along.dot(true_.translation() - walls_[i].from);
-      const double from_m = std::max(0.0, at_m - 1), to_m = std::min((walls_[i].to - walls_[i].from).norm(), at_m + 1);
+      const double from_m = std::max(0.0, at_m - 1),
+                   to_m = std::min((walls_[i].to - walls_[i].from).norm(), at_m + 1);
       const bool beside = std::abs(std::sin(std::atan2(along.y(), along.x()) - true_.yaw)) < 0.5;
       if (across_m < 0.2 || across_m > 2 || to_m - from_m < 0.9 || !beside) continue;
       const Vector2d middle = walls_[i].from + (from_m + to_m) / 2 * along + 0.01 * rng_.Normal(1) * left;
-      const Pose2 truly{middle.x(), middle.y(), std::atan2(along.y(), along.x()) + Radians(0.3) * rng_.Normal(1)};
+      const Pose2 truly{middle.x(), middle.y(),
+                        std::atan2(along.y(), along.x()) + Radians(0.3) * rng_.Normal(1)};
       const Pose2 told = believed_ * true_.Inverse() * truly;
       SeenWall seen{1, ++last_id_, false, {}};
       seen.wall.x_m = told.x;
@@ -101,11 +103,13 @@ std::vector<TrueWall> Ring(double turned_rad, double skew_rad = 0) {
   const auto wall = [&](double x1, double y1, double x2, double y2, double skew) {
     const Vector2d from(x1, y1), to(x2, y2), middle = (from + to) / 2;
     const Eigen::Matrix2d turn = Pose2{0, 0, skew}.rotation();
-    return TrueWall{by * Vector2d(middle + turn * (from - middle)), by * Vector2d(middle + turn * (to - middle))};
+    return TrueWall{by * Vector2d(middle + turn * (from - middle)),
+                    by * Vector2d(middle + turn * (to - middle))};
   };
   // The base drives on the rectangle (0, 0) .. (10, 6), 1 m from each wall, the outer ones to its right.
-  return {wall(-1, -1, 11, -1, skew_rad), wall(11, -1, 11, 7, -skew_rad), wall(11, 7, -1, 7, skew_rad),
-          wall(-1, 7, -1, -1, 0),         wall(9, 1, 1, 1, -skew_rad),    wall(9, 5, 9, 1, 0),
+  return {wall(-1, -1, 11, -1, skew_rad), wall(11, -1, 11, 7, -skew_rad),
+          wall(11, 7, -1, 7, skew_rad),   wall(-1, 7, -1, -1, 0),
+          wall(9, 1, 1, 1, -skew_rad),    wall(9, 5, 9, 1, 0),
           wall(1, 5, 9, 5, skew_rad),     wall(1, 1, 1, 5, 0)};
 }
 
