@@ -25,7 +25,8 @@ struct Story {
     robot.tick = [this](Time now) {
       floor.HearFrom(robot.truth().translation());
       inside = inside && floor.Holds(robot.truth().translation());
-      for (const auto& walls = floor.told().walls; told < walls.size(); ++told) Tell(walls[told], now);
+      const auto& walls = floor.told().walls;
+      for (; dut.heard().pose && told < walls.size(); ++told) Tell(walls[told], now);
       return dut.Tick(now);
     };
   }
