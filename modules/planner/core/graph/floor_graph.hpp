@@ -56,6 +56,8 @@ class FloorGraph {
   /// Joins walls that are one, and adjusts everything. Returns whether anything came since the last time.
   bool Settle();
 
+  /// Whether no pose was noted yet.
+  bool empty() const { return keys_.empty(); }
   /// The robot's frame in the map, as it is now (MAP_TO_ODOM of the design).
   Pose2 map_from_robot() const;
   /// All walls that were told, where they lie by now.

@@ -20,6 +20,8 @@ constexpr double kSamePlace_m = 0.3, kBack_m = 1.5, kShutIn_m = 1.0;
 constexpr double kMore_m2 = 1.0;
 /// Frontiers that the outcome names; a result holds no more words.
 constexpr std::size_t kNamed = 1;
+/// Of walls that were known before the order; robots have others.
+constexpr int kNoStore = 0;
 /// A map that has moved by so much under a robot on its way is a reason to plan it anew.
 constexpr double kMoved_m = 0.15;
 /// A robot that knows its place worse is told where it is, so well; it stands then, for so long at least.
@@ -122,7 +124,10 @@ void ExploreMission::Step(MissionControl& control) {
 void ExploreMission::Note(MissionControl& control) {
   const Heard& heard = control.heard();
   if (!heard.pose) return;
+  const bool begins = graph_.empty();
   graph_.NoteAt(heard.pose->map_from_base, SecondsOf(heard.pose->stamp));
+  if (begins && heard.learned)  // told before the order
+    for (const LearnedWall& wall : heard.learned->walls) graph_.NoteWall({kNoStore, wall.id, false, wall});
   for (const SeenWall& seen : heard.told) graph_.NoteWall(seen);
   if (!heard.told.empty() && graph_.Settle()) {
     std::vector<Pose2> trail;

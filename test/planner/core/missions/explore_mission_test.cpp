@@ -123,6 +123,7 @@ TEST(ExploreMissionTest, ASecondOrderBeginsAnew) {
   Story s;
   s.Run(200);
   const std::size_t before = s.robot.paths.size();
+  s.dut.OnLearned(std::make_shared<LearnedWalls>(s.floor.told()));  // what the planner has kept
   s.Run(100);
   EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
   EXPECT_GT(s.robot.paths.size(), before + 2);
