@@ -5,7 +5,7 @@
 
 #include "cli/report/report_map_view.hpp"
 #include "cli/report/report_record.hpp"
-#include "cli/report/report_things.hpp"
+#include "cli/scenario/true_things.hpp"
 #include "common/geometry.hpp"
 
 /// Drawing of a run from above, in a view of the map.

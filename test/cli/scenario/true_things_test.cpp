@@ -1,4 +1,4 @@
-#include "cli/report/report_things.hpp"
+#include "cli/scenario/true_things.hpp"
 
 #include <gmock/gmock.h>
 
@@ -30,7 +30,7 @@ std::vector<std::string> NamesOf(const std::vector<TrueThing>& things) {
   return names;
 }
 
-TEST(ReportThings, OnlyWhatTheRobotCanTouchStandsInTheWay) {
+TEST(TrueThings, OnlyWhatTheRobotCanTouchStandsInTheWay) {
   const TrueWorld world{
       {},
       {Box("carton", {3, 2, 0}, {0.4, 0.4}, 0, 0.5), Box("threshold", {6, 2.4, 0}, {0.1, 0.9}, 0, 0.008),
@@ -39,7 +39,7 @@ TEST(ReportThings, OnlyWhatTheRobotCanTouchStandsInTheWay) {
   EXPECT_THAT(NamesOf(dut), testing::ElementsAre("carton"));
 }
 
-TEST(ReportThings, WhatThePlanShowsIsNoNews) {
+TEST(TrueThings, WhatThePlanShowsIsNoNews) {
   const GroundPlan plan = Plan();
   const Rectangle wall = plan.walls[0].Shape(), jamb = FrameShapes(plan.doors[0])[0];
   const auto solid = [](const Rectangle& shape) {
@@ -48,14 +48,14 @@ TEST(ReportThings, WhatThePlanShowsIsNoNews) {
   EXPECT_THAT(ThingsBeyond(plan, TrueWorld{{}, {solid(wall), solid(jamb)}}), IsEmpty());
 }
 
-TEST(ReportThings, ADoorThatWasBuiltElsewhereIsShown) {
+TEST(TrueThings, ADoorThatWasBuiltElsewhereIsShown) {
   Rectangle jamb = FrameShapes(Plan().doors[0])[0];
   jamb.map_from_centre.y += 0.02;
   const TrueWorld world{{}, {Box("d: left jamb", jamb.map_from_centre, 2 * jamb.half_m, 0, 2)}};
   EXPECT_THAT(NamesOf(ThingsBeyond(Plan(), world)), testing::ElementsAre("left jamb"));
 }
 
-TEST(ReportThings, OfAShippedWorldTheFurnitureAndTheLeafAreLeft) {
+TEST(TrueThings, OfAShippedWorldTheFurnitureAndTheLeafAreLeft) {
   const auto world = LoadTrueWorld(kDeployment, LoadScenario(kDeployment, "teleop"), 1);
   const auto dut = NamesOf(ThingsBeyond(LoadConfig<GroundPlan>(kDeployment + "/maps/passage.toml"), world));
   EXPECT_THAT(dut, Contains("carton in the way"));
@@ -66,7 +66,7 @@ TEST(ReportThings, OfAShippedWorldTheFurnitureAndTheLeafAreLeft) {
 }
 
 /// Those beside the door, not the others.
-TEST(ReportThings, WallsAndJambsAreLeftWhereTheSurveyWasWrong) {
+TEST(TrueThings, WallsAndJambsAreLeftWhereTheSurveyWasWrong) {
   const auto world = LoadTrueWorld(kDeployment, LoadScenario(kDeployment, "door"), 1);
   const auto dut = NamesOf(ThingsBeyond(LoadConfig<GroundPlan>(kDeployment + "/maps/door.toml"), world));
   EXPECT_THAT(dut, Contains(HasSubstr("jamb")));

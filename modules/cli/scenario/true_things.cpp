@@ -1,4 +1,4 @@
-#include "cli/report/report_things.hpp"
+#include "cli/scenario/true_things.hpp"
 
 #include <algorithm>
 
