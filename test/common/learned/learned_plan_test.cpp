@@ -29,7 +29,7 @@ TEST(LearnedPlanTest, NothingLearnedIsAnEmptyPlan) {
 }
 
 TEST(LearnedPlanTest, TheWallIsBehindTheFaceThatWasHeard) {
-  const GroundPlan dut = PlanOf({1, 1, {Face(4, 2, 1, 0, 3)}}, 0.98);
+  const GroundPlan dut = PlanOf({1, 1, {Face(4, 2, 1, 0, 3)}, {}}, 0.98);
   ASSERT_THAT(dut.walls, SizeIs(1));
   EXPECT_EQ(dut.walls[0].name, "learned 4");
   EXPECT_NEAR((dut.walls[0].from() - Eigen::Vector2d(0.5, 0.95)).norm(), 0, 1e-9);
@@ -38,7 +38,7 @@ TEST(LearnedPlanTest, TheWallIsBehindTheFaceThatWasHeard) {
 }
 
 TEST(LearnedPlanTest, ItIsAsThickAsTheFaceBehindItIsAway) {
-  const GroundPlan dut = PlanOf({1, 1, {Face(1, 2, 1, 0, 3), Face(2, 2.5, 0.86, 180, 2)}}, 0.98);
+  const GroundPlan dut = PlanOf({1, 1, {Face(1, 2, 1, 0, 3), Face(2, 2.5, 0.86, 180, 2)}, {}}, 0.98);
   ASSERT_THAT(dut.walls, SizeIs(2));
   for (const WallPlan& wall : dut.walls) {
     EXPECT_NEAR(wall.thickness_m, 0.14, 1e-9);
@@ -48,7 +48,7 @@ TEST(LearnedPlanTest, ItIsAsThickAsTheFaceBehindItIsAway) {
 
 TEST(LearnedPlanTest, AGapThatNeedsLeadingIsADoorWithoutALeaf) {
   const auto with_gap = [](double width_m) {
-    return PlanOf({1, 1, {Face(1, 1, 0, 0, 2), Face(2, 3 + width_m, 0, 0, 2)}}, 0.98);
+    return PlanOf({1, 1, {Face(1, 1, 0, 0, 2), Face(2, 3 + width_m, 0, 0, 2)}, {}}, 0.98);
   };
   EXPECT_THAT(with_gap(0.6).doors, IsEmpty());
   EXPECT_THAT(with_gap(1.3).doors, IsEmpty());
@@ -63,7 +63,7 @@ TEST(LearnedPlanTest, AGapThatNeedsLeadingIsADoorWithoutALeaf) {
 
 TEST(LearnedPlanTest, APlannerReadsWhatIsPrinted) {
   std::ostringstream text;
-  PrintConfig(text, PlanOf({1, 1, {Face(1, 1, 0, 0, 2), Face(2, 3.9, 0, 0, 2)}}, 0.98));
+  PrintConfig(text, PlanOf({1, 1, {Face(1, 1, 0, 0, 2), Face(2, 3.9, 0, 0, 2)}, {}}, 0.98));
   const auto read = ParseConfig<GroundPlan>("plan.toml", text.str());
   EXPECT_THAT(read.walls, SizeIs(2));
   EXPECT_THAT(read.doors, SizeIs(1));
