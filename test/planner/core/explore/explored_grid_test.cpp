@@ -29,7 +29,7 @@ TEST(ExploredGridTest, WhatIsNearToTheBaseIsFree) {
 }
 
 TEST(ExploredGridTest, AWallEndsWhatIsNear) {
-  const ExploredGrid dut(kConfig, {{{0, 0}}, {1, 1, {WallAt(0, -0.8, 0, 4)}}, {}});
+  const ExploredGrid dut(kConfig, {{{0, 0}}, {1, 1, {WallAt(0, -0.8, 0, 4)}, {}}, {}});
   EXPECT_EQ(dut.At(Vector2d(0, -0.6)), Cell::kFree);
   EXPECT_EQ(dut.At(Vector2d(0, -0.85)), Cell::kClosed);
   EXPECT_EQ(dut.At(Vector2d(0, -1.1)), Cell::kUnknown);
@@ -37,13 +37,13 @@ TEST(ExploredGridTest, AWallEndsWhatIsNear) {
 }
 
 TEST(ExploredGridTest, BeforeAWallThatFacesTheBaseItIsFree) {
-  const ExploredGrid dut(kConfig, {{{0, 0}}, {1, 1, {WallAt(0, -2.5, 0, 2)}}, {}});
+  const ExploredGrid dut(kConfig, {{{0, 0}}, {1, 1, {WallAt(0, -2.5, 0, 2)}, {}}, {}});
   EXPECT_EQ(dut.At(Vector2d(0, -2.3)), Cell::kFree);
   EXPECT_EQ(dut.At(Vector2d(0.8, -2.3)), Cell::kFree);
   EXPECT_EQ(dut.At(Vector2d(2, -2.3)), Cell::kUnknown) << "not before the wall";
-  const ExploredGrid behind(kConfig, {{{0, 0}}, {1, 1, {WallAt(0, -2.5, 180, 2)}}, {}});
+  const ExploredGrid behind(kConfig, {{{0, 0}}, {1, 1, {WallAt(0, -2.5, 180, 2)}, {}}, {}});
   EXPECT_EQ(behind.At(Vector2d(0, -2.3)), Cell::kUnknown) << "the wall was heard from the other side";
-  const ExploredGrid far(kConfig, {{{0, 0}}, {1, 1, {WallAt(0, -3.5, 0, 2)}}, {}});
+  const ExploredGrid far(kConfig, {{{0, 0}}, {1, 1, {WallAt(0, -3.5, 0, 2)}, {}}, {}});
   EXPECT_EQ(far.At(Vector2d(0, -3.3)), Cell::kUnknown);
 }
 
@@ -55,7 +55,7 @@ TEST(ExploredGridTest, AThingIsClosedAndHidesWhatIsBehindIt) {
 }
 
 TEST(ExploredGridTest, WhereTheBaseWasNothingIs) {
-  const ExploredGrid dut(kConfig, {{{0, 0}, {1, 0}}, {1, 1, {WallAt(0.5, 0, 90, 2)}}, {}});
+  const ExploredGrid dut(kConfig, {{{0, 0}, {1, 0}}, {1, 1, {WallAt(0.5, 0, 90, 2)}, {}}, {}});
   EXPECT_EQ(dut.At(Vector2d(0.75, 0.05)), Cell::kFree);
   EXPECT_EQ(dut.At(Vector2d(0.55, 0.6)), Cell::kClosed);
 }
@@ -73,7 +73,7 @@ TEST(ExploredGridTest, TheEndsOfAWallAreDoubtedAndStillHideWhatIsBehindThem) {
   wall.sigma_end_m = 0.2;
   ExploredEvidence evidence;
   evidence.trail = {{0, 0}};
-  evidence.walls = {1, 1, {wall}};
+  evidence.walls = {1, 1, {wall}, {}};
   const ExploredGrid grid({.near_m = 2.5}, evidence);
   using Cell = ExploredGrid::Cell;
   EXPECT_EQ(grid.At(Eigen::Vector2d(0.5, 1.05)), Cell::kClosed);

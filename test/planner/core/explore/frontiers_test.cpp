@@ -62,7 +62,7 @@ TEST(FrontiersTest, BehindAWallNothingIsUnknown) {
   const ExploredGrid open({.near_m = 1.3}, evidence);
   const Eigen::Vector2i ahead = open.CellOf({1.2, 0});
   EXPECT_GT(UnknownBehind_m2(open, ahead), 3);
-  evidence.walls = {1, 1, {WallAt(1.5, 0, 90, 6)}};
+  evidence.walls = {1, 1, {WallAt(1.5, 0, 90, 6)}, {}};
   const ExploredGrid closed({.near_m = 1.3}, evidence);
   EXPECT_LT(UnknownBehind_m2(closed, closed.CellOf({1.2, 0})), 2.2);
 }

@@ -69,7 +69,7 @@ TEST(DoorViews, WhatWasHeardBeforeTheDoorIsLookedPast) {
   screen.length_m = 1.2;
   DoorViews dut = Dut();
   const Pose2 place{3, 2.4, 0};
-  dut.Know({.walls = {screen}}, {}, place);
+  dut.Know({.walls = {screen}, .doors = {}}, {}, place);
   const auto view = dut.Best({place}, {}, {});
   ASSERT_TRUE(view);
   const Eigen::Vector2d from = (view->door.map_from_door() * view->door_from_base).translation();
