@@ -136,7 +136,7 @@ TEST(ExplorationTest, TheRivalTakesTheNearestFrontier) {
   config.rule = "nearest";
   Exploration dut(config, kWidth_m, {});
   for (double x = 0; x <= 8; x += 0.2) dut.NoteAt({x, 0, 0});
-  dut.Learn({1, 1, {WallAt(4, -1, 0, 7), WallAt(4, 1, 180, 7)}});
+  dut.Learn({1, 1, {WallAt(4, -1, 0, 7), WallAt(4, 1, 180, 7)}, {}});
   const auto goal = dut.Choose({2, 0, 0});
   ASSERT_TRUE(goal);
   EXPECT_LT(goal->target.x(), 1);
