@@ -102,7 +102,7 @@ ProcessWish ReadProcess(const json& object) {
   ProcessWish wish{kRestart, Word(object, "name", kLongest), 0};
   if (action == "log") {
     RefuseOtherKeys(object, {"type", "action", "name", "end"});
-    return {kLog, wish.name, Whole(Field(object, "end"), "end", 0, kFarthest)};
+    return {kLog, wish.name, Whole(object, "end", 0, kFarthest)};
   }
   RefuseOtherKeys(object, {"type", "action", "name"});
   if (action != "restart" && action != "new_world") throw Wrong("action: expected restart, log or new_world");
