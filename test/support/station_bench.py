@@ -175,6 +175,7 @@ def floor_parts(side_m):
 
 
 def publish(channel, kind, message):
+    message["utime"] = int(time.time() * 1e6)
     for field in ("walls", "runs", "frontiers"):
         message[f"n_{field}"] = len(message[field])
     subprocess.run([BIN + "/priamos", "topic", "pub", channel, kind, json.dumps(message), "--bus", "offboard", "--robot", ROBOT],

@@ -51,16 +51,21 @@ class Page:
 
     def _report(self):
         while not self.closed:
-            if self.talks and self.hello:
-                self.say({"type": "stick", "beat": self.beat if self.frozen_beat is None else self.frozen_beat,
-                          "axis": self.axis, "hold": self.hold, **self.buttons})
+            self._tell_hand()
             time.sleep(0.04)
+
+    def _tell_hand(self):
+        if self.talks and self.hello:
+            self.say({"type": "stick", "beat": self.beat if self.frozen_beat is None else self.frozen_beat,
+                      "axis": self.axis, "hold": self.hold, **self.buttons})
 
     def push(self, forward=1):
         self.axis, self.hold = [forward, 0, 0, 0, 0, 0], True
+        self._tell_hand()  # a key that goes down is reported at once
 
     def let_go(self):
         self.axis, self.hold, self.buttons = REST, False, {}
+        self._tell_hand()
 
 
 def wait_for(condition, seconds):
