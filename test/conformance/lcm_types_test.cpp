@@ -149,19 +149,19 @@ TEST(LcmTypes, RefuseOutsideTheRangeOfAnEnumerationOrAnIdentity) {
   EXPECT_THAT(
       refusing,
       ElementsAre("alarm_t.severity", "camera_frame_t.camera", "camera_trigger_t.cameras", "claim_t.state",
-                  "door_seen_t.hinge", "drive_command_t.driver", "drive_status_t.driver",
-                  "drive_status_t.limit", "drive_status_t.mode", "drive_status_t.refusal", "estop_t.action",
-                  "estop_t.driver", "feature_t.kind", "health_t.state", "landmark_edge_t.side",
-                  "landmark_fix_t.side", "landmark_fix_t.verdict", "landmark_view_t.camera",
-                  "landmark_view_t.side", "landmark_view_t.verdict", "lease_request_t.action",
-                  "lease_request_t.driver", "look_request_t.side", "map_command_t.action",
-                  "mission_command_t.mission", "mission_result_t.outcome", "mission_status_t.mission",
-                  "mission_status_t.phase", "mission_step_t.mission", "obstacle_line_t.verdict",
-                  "obstacle_segment_t.kind", "parameter_order_t.action", "parameter_order_t.process",
-                  "parameter_order_t.value", "parameter_value_t.outcome", "parameter_value_t.process",
-                  "parameter_value_t.value", "pose_correction_t.verdict", "probe_t.kind",
-                  "process_order_t.action", "process_report_t.outcome", "process_state_t.state",
-                  "simulation_t.state", "view_edge_t.kind", "world_touch_t.kind"));
+                  "door_found_t.id", "door_found_t.state", "door_seen_t.hinge", "drive_command_t.driver",
+                  "drive_status_t.driver", "drive_status_t.limit", "drive_status_t.mode",
+                  "drive_status_t.refusal", "estop_t.action", "estop_t.driver", "feature_t.kind",
+                  "health_t.state", "landmark_edge_t.side", "landmark_fix_t.side", "landmark_fix_t.verdict",
+                  "landmark_view_t.camera", "landmark_view_t.side", "landmark_view_t.verdict",
+                  "lease_request_t.action", "lease_request_t.driver", "look_request_t.side",
+                  "map_command_t.action", "mission_command_t.mission", "mission_result_t.outcome",
+                  "mission_status_t.mission", "mission_status_t.phase", "mission_step_t.mission",
+                  "obstacle_line_t.verdict", "obstacle_segment_t.kind", "parameter_order_t.action",
+                  "parameter_order_t.process", "parameter_order_t.value", "parameter_value_t.outcome",
+                  "parameter_value_t.process", "parameter_value_t.value", "pose_correction_t.verdict",
+                  "probe_t.kind", "process_order_t.action", "process_report_t.outcome",
+                  "process_state_t.state", "simulation_t.state", "view_edge_t.kind", "world_touch_t.kind"));
 }
 
 // ---- lcmtypes/channels.hpp

@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "cli/report/report_timeline.hpp"
+#include "common/learned/door_book.hpp"
 #include "common/learned/learned_walls.hpp"
-#include "planner/core/map/door_book.hpp"
 #include "planner/map_keeper.hpp"
-#include "world/core/scene/build_solids.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -57,7 +56,7 @@ std::optional<Pose2> BeliefFromTruth(const RunRecord& record, std::int64_t utime
 LearnedWalls MapOf(const RunRecord& record) {
   LearnedWalls map;
   for (const door_found_t& message : record.doors)
-    if (const auto told = planner::FromMessage(message)) planner::EnterDoor(*told, map);
+    if (const auto told = planner::FromMessage(message)) EnterDoor(*told, map);
   return map;
 }
 

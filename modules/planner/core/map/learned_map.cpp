@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/core/map/door_book.hpp"
+#include "common/learned/door_book.hpp"
 #include "planner/core/map/wall_union.hpp"
 
 namespace priamos::planner {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "planner/core/map/door_book.hpp"
+#include "common/learned/door_book.hpp"
 
 namespace priamos::planner {
 namespace {

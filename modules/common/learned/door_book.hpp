@@ -4,7 +4,7 @@
 
 #include "common/learned/learned_walls.hpp"
 
-namespace priamos::planner {
+namespace priamos {
 
 /// Enters what a robot tells of a door into the map: a new one, or one that is there already, by its place;
 /// numbers of a head mean nothing after it began anew. `told.id` is ignored. What is told again replaces what
@@ -15,4 +15,4 @@ bool EnterDoor(const LearnedDoor& told, LearnedWalls& map);
 /// empty: none was.
 std::string DoorsSeenSince(const LearnedWalls& map, double since_s);
 
-}  // namespace priamos::planner
+}  // namespace priamos

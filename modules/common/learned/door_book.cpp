@@ -1,4 +1,4 @@
-#include "planner/core/map/door_book.hpp"
+#include "common/learned/door_book.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-namespace priamos::planner {
+namespace priamos {
 namespace {
 
 constexpr double kSameTime_s = 2;  ///< times travel in steps of a second
@@ -77,4 +77,4 @@ std::string DoorsSeenSince(const LearnedWalls& map, double since_s) {
   return words;
 }
 
-}  // namespace priamos::planner
+}  // namespace priamos

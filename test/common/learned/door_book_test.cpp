@@ -1,8 +1,8 @@
-#include "planner/core/map/door_book.hpp"
+#include "common/learned/door_book.hpp"
 
 #include <gtest/gtest.h>
 
-namespace priamos::planner {
+namespace priamos {
 namespace {
 
 LearnedDoor Told(double x_m, const char* state, double seen_s, int looks = 2) {
@@ -61,4 +61,4 @@ TEST(DoorBook, SaysWhatWasOnTheWay) {
 }
 
 }  // namespace
-}  // namespace priamos::planner
+}  // namespace priamos
