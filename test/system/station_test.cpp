@@ -285,7 +285,7 @@ TEST_F(Station, StrangersOnTheNetworkAreKeptOut) {
                                 30);
   EXPECT_THAT(answer.text, HasSubstr("address 0.0.0.0: expected a token_file"));
   EXPECT_THAT(answer.text, HasSubstr("without tokens: 2"));
-  EXPECT_THAT(answer.text, HasSubstr("tokens:1: expected `driver TOKEN`"));
+  EXPECT_THAT(answer.text, HasSubstr("tokens:1: expected `driver TOKEN [NAME]`"));
   EXPECT_THAT(answer.text, HasSubstr("bad token: 2"));
   EXPECT_THAT(answer.text, HasSubstr("half of a pair: 2"));
 }

@@ -63,7 +63,7 @@ TEST_F(TokenFile, ThatSaysSomethingElseIsRefusedByItsLine) {
         "driver abcdefghijklmnop abcdefghijklmnopqrstuvwxyz", "admin abcdefghijklmnop",
         "driver abcdefgh?jklmnop"})
     EXPECT_THAT(ReasonOf(std::string("# first\n") + line + "\n"),
-                HasSubstr("tokens:2: expected `driver TOKEN`"))
+                HasSubstr("tokens:2: expected `driver TOKEN [NAME]`"))
         << line;
   EXPECT_THAT(ReasonOf("# nobody\n"), HasSubstr("expected at least one token"));
   EXPECT_THAT(ReasonOf("driver abcdefghijklmnop\nviewer abcdefghijklmnop\n"),
