@@ -19,9 +19,17 @@ HeadSetting Here() {
   return here;
 }
 
+HeadAim Aim(Time time, double pan_rad = 0, double tilt_rad = 0) {
+  HeadAim aim;
+  aim.time = time;
+  aim.pan_rad = pan_rad;
+  aim.tilt_rad = tilt_rad;
+  return aim;
+}
+
 TEST(AimKeeper, PointsTheHeadOnceAndLeavesTheRestAsItIs) {
   AimKeeper dut;
-  ASSERT_TRUE(dut.Take({.time = kNow, .pan_rad = 0.5, .tilt_rad = -0.2}, kNow));
+  ASSERT_TRUE(dut.Take(Aim(kNow, 0.5, -0.2), kNow));
   const auto setting = dut.Next(Here(), kNow);
   ASSERT_TRUE(setting);
   EXPECT_EQ(setting->pan_rad, 0.5);
@@ -35,7 +43,11 @@ TEST(AimKeeper, PointsTheHeadOnceAndLeavesTheRestAsItIs) {
 
 TEST(AimKeeper, BothCamerasConvergeAndZoomAlike) {
   AimKeeper dut;
-  dut.Take({.time = kNow, .vergence_rad = 0.1, .zoom_step = 300, .focus_step = 400}, kNow);
+  HeadAim aim = Aim(kNow);
+  aim.vergence_rad = 0.1;
+  aim.zoom_step = 300;
+  aim.focus_step = 400;
+  dut.Take(aim, kNow);
   const auto setting = dut.Next(Here(), kNow);
   EXPECT_EQ(setting->vergence_rad, (std::array<double, 2>{-0.1, 0.1}));
   EXPECT_EQ(setting->zoom_step, (std::array<int, 2>{300, 300}));
@@ -44,7 +56,9 @@ TEST(AimKeeper, BothCamerasConvergeAndZoomAlike) {
 
 TEST(AimKeeper, StaysWithinWhatTheMotorsReach) {
   AimKeeper dut;
-  dut.Take({.time = kNow, .pan_rad = 9, .tilt_rad = -9, .zoom_step = 99999}, kNow);
+  HeadAim aim = Aim(kNow, 9, -9);
+  aim.zoom_step = 99999;
+  dut.Take(aim, kNow);
   const auto setting = dut.Next(Here(), kNow);
   EXPECT_EQ(setting->pan_rad, kDrawnHead.most_pan_rad);
   EXPECT_EQ(setting->tilt_rad, -kDrawnHead.most_tilt_rad);
@@ -53,17 +67,17 @@ TEST(AimKeeper, StaysWithinWhatTheMotorsReach) {
 
 TEST(AimKeeper, RefusesWhatIsOldOrNoNumber) {
   AimKeeper dut;
-  EXPECT_FALSE(dut.Take({.time = kNow - std::chrono::milliseconds(3001)}, kNow));
-  EXPECT_FALSE(dut.Take({.time = kNow, .pan_rad = std::numeric_limits<double>::quiet_NaN()}, kNow));
-  EXPECT_TRUE(dut.Take({.time = kNow}, kNow));
-  EXPECT_FALSE(dut.Take({.time = kNow}, kNow)) << "said again";
-  EXPECT_FALSE(dut.Take({.time = kNow - std::chrono::seconds(1)}, kNow)) << "overtaken";
+  EXPECT_FALSE(dut.Take(Aim(kNow - std::chrono::milliseconds(3001)), kNow));
+  EXPECT_FALSE(dut.Take(Aim(kNow, std::numeric_limits<double>::quiet_NaN()), kNow));
+  EXPECT_TRUE(dut.Take(Aim(kNow), kNow));
+  EXPECT_FALSE(dut.Take(Aim(kNow), kNow)) << "said again";
+  EXPECT_FALSE(dut.Take(Aim(kNow - std::chrono::seconds(1)), kNow)) << "overtaken";
   EXPECT_EQ(dut.refused(), 3);
 }
 
 TEST(AimKeeper, AnAimThatWaitedForALookTooLongIsForgotten) {
   AimKeeper dut;
-  dut.Take({.time = kNow}, kNow);
+  dut.Take(Aim(kNow), kNow);
   EXPECT_FALSE(dut.Next(Here(), kNow + std::chrono::seconds(4)));
 }
 

@@ -182,7 +182,7 @@ TEST(FloorGraph, ForgetsEverything) {
 }
 
 /// Whatever the wheels do within what is expected of them, most maps are right after two rounds. 16 of 20
-/// are: the others end up to 2.7 degrees turned, since the first walls alone say where north is.
+/// are: the others end up to 2.7 degrees turned.
 TEST(FloorGraph, ManyDrives) {
   int good = 0;
   constexpr int kDrives = 20;
