@@ -99,11 +99,26 @@ TEST(ReportSummary, JsonHasExactlyTheAgreedKeys) {
     for (const auto& [key, value] : json.items()) names.push_back(key);
     return names;
   };
-  EXPECT_EQ(keys(dut), (std::vector<std::string>{
-                           "scenario", "seed", "passed", "reason", "contacts", "touches", "min_gap_m",
-                           "lateral_at_door_m", "heading_at_door_deg", "belief_at_door", "corridor",
-                           "explore", "duration_s", "mean_speed_m_s", "min_speed_during_fix_m_s", "fixes",
-                           "hand", "radio", "realtime_factor"}));
+  EXPECT_EQ(keys(dut), (std::vector<std::string>{"scenario",
+                                                 "seed",
+                                                 "passed",
+                                                 "reason",
+                                                 "contacts",
+                                                 "touches",
+                                                 "min_gap_m",
+                                                 "lateral_at_door_m",
+                                                 "heading_at_door_deg",
+                                                 "belief_at_door",
+                                                 "corridor",
+                                                 "doors",
+                                                 "explore",
+                                                 "duration_s",
+                                                 "mean_speed_m_s",
+                                                 "min_speed_during_fix_m_s",
+                                                 "fixes",
+                                                 "hand",
+                                                 "radio",
+                                                 "realtime_factor"}));
   EXPECT_EQ(keys(dut["fixes"][0]),
             (std::vector<std::string>{"t_s", "error_before_m", "error_before_deg", "error_after_m",
                                       "error_after_deg", "sigma_m", "sigma_deg"}));
