@@ -50,8 +50,9 @@ std::vector<WallPlace> WallPlaces(const RunRecord& record) {
   for (const floor_map_t& part : record.map)
     for (const floor_wall_t& line : part.walls) known.walls.push_back(WallFrom(line));
   std::vector<WallPlace> places;
+  constexpr double kRounding_m = 1e-3;  // lines travel as floats
   for (const LearnedWall& wall : WithoutEdges(known).walls)
-    for (double at_m = -wall.length_m / 2; at_m <= wall.length_m / 2; at_m += kSample_m)
+    for (double at_m = -wall.length_m / 2; at_m < wall.length_m / 2 - kRounding_m; at_m += kSample_m)
       places.push_back({wall.At(at_m), wall.map_from_wall().rotation() * Vector2d::UnitY()});
   return places;
 }
