@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <random>
 #include <utility>
 #include <variant>
@@ -30,6 +31,13 @@ std::vector<ShownParameter> ShownParameters(const bus::ParameterSheet& sheet) {
   for (std::size_t i = 0; i < sheet.values.size(); ++i)
     shown.push_back({sheet.table.all()[i].name, sheet.values[i]});
   return shown;
+}
+
+/// Who may do least of those who have a token: that is enough to look.
+const TokenHolder& LeastOf(const std::vector<TokenHolder>& holders) {
+  const auto viewer = std::find_if(holders.begin(), holders.end(),
+                                   [](const TokenHolder& holder) { return holder.role == Role::kViewer; });
+  return viewer == holders.end() ? holders.front() : *viewer;
 }
 
 /// What is written down whoever sends it; of the stick it is who holds it, and when.
@@ -131,7 +139,7 @@ void ConsoleApp::OpenVideo() {
   camera.target = "/" + context_.robot() + "/third.jpg";
   if (!config_.video_token_file.empty()) {
     const WebAccess tokens = LoadAccess(config_.address, context_.ResolvePath(config_.video_token_file));
-    camera.target += "?token=" + tokens.holders.front().token;
+    camera.target += "?token=" + LeastOf(tokens.holders).token;
   }
   video_.emplace(std::move(camera));
   bridge_.OfferVideo();
