@@ -107,10 +107,12 @@ Surroundings Lockstep::SurroundingsOf(const AppFactory& factory, const Host& hos
   return around;
 }
 
-void Lockstep::AddApp(const AppFactory& factory, const std::string& bus, const ConfigSource& source) {
+void Lockstep::AddApp(const AppFactory& factory, const std::string& bus, const ConfigSource& source,
+                      Duration phase) {
   Host& host = HostOf(bus);
   auto app = std::make_unique<AppHost>(factory, source, host.bus, schema_, clock_,
                                        SurroundingsOf(factory, host, source));
+  app->TickNextAt(clock_.Now() + phase);
   members_.push_back({std::move(app), &host});
 }
 

@@ -37,8 +37,9 @@ class Lockstep {
   void AddBus(const std::string& name);
   /// Adds a serial line, whose ends Apps open by these names; each direction is a Line of its own.
   void AddSerialLine(const std::string& end_a, const std::string& end_b, const radio::LineConfig& config);
-  /// Starts an App on a bus; throws what its start throws.
-  void AddApp(const AppFactory& factory, const std::string& bus, const ConfigSource& source);
+  /// Starts an App on a bus; throws what its start throws. It ticks `phase` [less than its period] after now.
+  void AddApp(const AppFactory& factory, const std::string& bus, const ConfigSource& source,
+              Duration phase = {});
   /// Removes an App as if it had been killed; AddApp starts it again. Not to be called while an App ticks.
   void RemoveApp(const std::string& name, const std::string& bus);
   /// Sets the function that gets every message on every bus, in order.

@@ -17,6 +17,10 @@
 namespace priamos::cli {
 namespace {
 
+/// A radio ticks so long after the full millisecond. Its messages then never have the very time of another
+/// process' tick, of which a log does not tell whether it came before or after them.
+constexpr Duration kRadioPhase = std::chrono::microseconds(1);
+
 std::string TtyOf(const std::string& bus) {
   return std::string(bus == "onboard" ? kOnboardTty : kOffboardTty);
 }
@@ -65,7 +69,8 @@ void Populate(bus::Lockstep& lockstep, const LockstepRequest& request, const Sce
     lockstep.AddSerialLine(std::string(kMouseTty), std::string(kHandTty), {});
   for (const auto& process : scenario.processes)
     if (RunsInSimulatedTime(process))
-      lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process));
+      lockstep.AddApp(FactoryFor(process.module), process.bus, SourceOf(request, process),
+                      process.module == "radio" ? kRadioPhase : Duration{});
 }
 
 /// Lets the story happen; returns how long it took [s of real time].

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <regex>
 
 #include "bus/log/log_reader.hpp"
 #include "bus/log_follower.hpp"
@@ -35,6 +36,11 @@ std::vector<std::pair<std::string, std::vector<std::byte>>> Seen(const std::stri
   return seen;
 }
 
+/// Whether `verify` lists several messages of the channel, all of them equal.
+bool IsEqualThroughout(const std::string& channel, const std::string& text) {
+  return std::regex_search(text, std::regex(channel + R"( +([1-9][0-9]*) +\1 +\1\n)"));
+}
+
 TEST(HeadOnALog, SeesInKeptPicturesWhatItSawThen) {
   const TemporaryFolder folder;
   const auto answer = RunInPrivateNetwork("DIR=" + folder.path().string() + R"sh(
@@ -54,7 +60,7 @@ TEST(HeadOnALog, SeesInKeptPicturesWhatItSawThen) {
   )sh",
                                           folder / "script.sh", 90);
   for (const std::string channel : {"LANDMARK_FIX", "LANDMARK_VIEW"})
-    EXPECT_THAT(answer.text, testing::ContainsRegex("\n" + channel + " +10 +10 +10\n")) << "from the file";
+    EXPECT_TRUE(IsEqualThroughout(channel, answer.text)) << "from the file" << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("head 0"));
   for (const std::string channel : {"LANDMARK_FIX", "LANDMARK_VIEW", "DOOR_SEEN"}) {
     const auto then = MessagesOn(folder / "again.lcmlog", channel);
@@ -68,7 +74,7 @@ TEST(HeadOnALog, SeesInKeptPicturesWhatItSawThen) {
   const std::string again = folder / "again.lcmlog";
   EXPECT_EQ(Seen(again, std::string(bus::LogFollower::kPrefix)), Seen(again, ""));
   EXPECT_THAT(answer.text.substr(answer.text.find("--- one lost")),
-              testing::ContainsRegex("LANDMARK_FIX 8 at [^\n]*verdict: recorded [0-9], replayed 3\n"))
+              testing::ContainsRegex("LANDMARK_FIX [0-9]+ at [^\n]*verdict: recorded [0-9], replayed 3\n"))
       << "its look alone ends without pictures";
 }
 

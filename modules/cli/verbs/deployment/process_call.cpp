@@ -78,7 +78,7 @@ std::optional<std::vector<std::string>> ProcessCall::Lines(const std::string& na
     text = piece->text + text;
     if (piece->begin_bytes == 0 || piece->text.empty()) break;
     end_bytes = piece->begin_bytes;
-  } while (CountLines(text) < most);
+  } while (CountLines(text) <= most);  // of the first line there may be but the end
   return LinesOf(text, most);
 }
 
