@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "cli/report/report_html.hpp"
+#include "cli/report/report_parts.hpp"
 #include "cli/report/report_style.hpp"
 #include "common/drawing/svg.hpp"
 

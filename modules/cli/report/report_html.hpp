@@ -1,15 +1,11 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "cli/report/report_record.hpp"
 #include "cli/report/report_summary.hpp"
 
 namespace priamos::cli {
-
-/// RFC 4648, with padding.
-std::string Base64(std::string_view bytes);
 
 /// The report of a run as one self-contained page: key figures, the picture (`svg`, embedded), the phases of
 /// the mission, fixes, radio, and plots over time. It needs no script and no external resource, and reads on

@@ -54,6 +54,7 @@ void RunRecord::AddOnboard(std::string_view channel, std::span<const std::byte> 
   if (channel == channels::kLandmarkView.name) Append(views, bytes);
   if (channel == channels::kDriveStatus.name) Append(drive, bytes);
   if (channel == channels::kDriveCommand.name) Append(commands, bytes);
+  if (channel == channels::kAlarm.name) Append(alarms, bytes);
   if (channel == channels::kLinkStatus.name) Append(onboard_link, bytes);
 }
 
@@ -63,6 +64,7 @@ void RunRecord::AddOffboard(std::int64_t utime, std::string_view channel, std::s
   if (channel == channels::kMissionStatus.name) Append(mission, bytes);
   if (channel == channels::kFeatures.name) Append(features, bytes);
   if (channel == channels::kDoorFound.name) Append(doors, bytes);
+  if (channel == channels::kAlarmAck.name) Append(acks, bytes);
   if (channel == channels::kFloorMap.name) AddMap(bytes);
   if (channel == channels::kLinkStatus.name) Append(offboard_link, bytes);
   if (channel != channels::kPose.name) return;

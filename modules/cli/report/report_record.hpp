@@ -35,13 +35,15 @@ class RunRecord {
   std::vector<landmark_view_t> views;
   std::vector<drive_status_t> drive;
   std::vector<drive_command_t> commands;  ///< an operator's wishes
+  std::vector<alarm_t> alarms;
   // Offboard: requests and status of the planner.
   std::vector<look_request_t> looks;
   std::vector<mission_command_t> orders;
   std::vector<mission_status_t> mission;
   std::vector<features_t> features;  ///< walls as they came to the workstation
   std::vector<door_found_t> doors;   ///< doors likewise
-  std::vector<floor_map_t> map;      ///< the planner's map, in the parts of the newest one
+  std::vector<alarm_ack_t> acks;
+  std::vector<floor_map_t> map;  ///< the planner's map, in the parts of the newest one
   /// Age of each pose when it came to the workstation [s]: what the radio costs in time.
   std::vector<double> pose_ages_s;
   // Each end of the radio about itself.

@@ -26,7 +26,7 @@ img{width:100%;max-width:860px;height:auto;display:block;border:1px solid var(--
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}
 th,td{text-align:right;padding:5px 12px;border-bottom:1px solid var(--line);white-space:nowrap}
 th{color:var(--faint);font-weight:600;font-size:.86rem}
-th:first-child,td:first-child,.text td:last-child,.text th:last-child{text-align:left}
+th:first-child,td:first-child,.text td,.text th{text-align:left}
 .text td:last-child{white-space:normal;width:100%}
 .two{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,400px),1fr));gap:8px 36px}
 .sum td{font-weight:600}.other td{font-weight:600}

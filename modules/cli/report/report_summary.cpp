@@ -71,28 +71,6 @@ double MeanSpeed(const RunRecord& record) {
   return driven_m / Seconds(Duration((last - 1)->utime - first->utime));
 }
 
-/// Summary of one direction of the radio; `reports` are of the end that sends.
-RadioSummary RadioOf(const std::vector<link_status_t>& reports) {
-  RadioSummary radio;
-  if (reports.empty()) return radio;
-  for (const link_status_t& report : reports)
-    radio.utilisation += report.utilisation / double(reports.size());
-  const link_status_t& last = reports.back();
-  radio.bytes = last.bytes_sent;
-  radio.frames = last.frames_sent;
-  radio.dropped = last.dropped;
-  // A link with many channels reports some of them at a time.
-  std::map<std::string, RadioSummary::ChannelSummary> channels;
-  for (const link_status_t& report : reports)
-    for (const link_channel_t& channel : report.channels)
-      if (channel.outgoing)
-        channels[channel.channel] = {channel.channel, channel.messages, channel.bytes, channel.dropped};
-  for (const auto& [name, channel] : channels) radio.channels.push_back(channel);
-  std::sort(radio.channels.begin(), radio.channels.end(),
-            [](const auto& a, const auto& b) { return a.bytes > b.bytes; });
-  return radio;
-}
-
 double Median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -176,6 +154,27 @@ nlohmann::ordered_json ToJson(const HandSummary& hand) {
 }
 
 }  // namespace
+
+RadioSummary RadioOf(const std::vector<link_status_t>& reports) {
+  RadioSummary radio;
+  if (reports.empty()) return radio;
+  for (const link_status_t& report : reports)
+    radio.utilisation += report.utilisation / double(reports.size());
+  const link_status_t& last = reports.back();
+  radio.bytes = last.bytes_sent;
+  radio.frames = last.frames_sent;
+  radio.dropped = last.dropped;
+  // A link with many channels reports some of them at a time.
+  std::map<std::string, RadioSummary::ChannelSummary> channels;
+  for (const link_status_t& report : reports)
+    for (const link_channel_t& channel : report.channels)
+      if (channel.outgoing)
+        channels[channel.channel] = {channel.channel, channel.messages, channel.bytes, channel.dropped};
+  for (const auto& [name, channel] : channels) radio.channels.push_back(channel);
+  std::sort(radio.channels.begin(), radio.channels.end(),
+            [](const auto& a, const auto& b) { return a.bytes > b.bytes; });
+  return radio;
+}
 
 Summary Summarise(const RunRecord& record, const RunInfo& info) {
   const DoorPlan built = BuiltDoor(info);

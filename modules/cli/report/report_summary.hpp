@@ -74,6 +74,9 @@ struct Summary {
 /// An empty record gives a summary that has not passed.
 Summary Summarise(const RunRecord& record, const RunInfo& info);
 
+/// Summary of one direction of the radio; `reports` are of the end that sends.
+RadioSummary RadioOf(const std::vector<link_status_t>& reports);
+
 /// Whether the run is judged by fixes and by how straight it met the door; a drive by hand alone is not.
 bool SeeksTheDoor(const Summary& summary);
 
