@@ -40,10 +40,10 @@ double CorrelatedLeastSquares::ChiSquared() const {
   return left.squaredNorm();
 }
 
-double CorrelatedLeastSquares::InformationAbout(const VectorXd& by_unknown) const {
-  const VectorXd white = whitening_.matrixL().solve(by_unknown);
-  const VectorXd shared = white_jacobian_.transpose() * white;
-  return white.squaredNorm() - shared.dot(information_.solve(shared));
+MatrixXd CorrelatedLeastSquares::InformationAbout(const MatrixXd& by_unknowns) const {
+  const MatrixXd white = whitening_.matrixL().solve(by_unknowns);
+  const MatrixXd shared = white_jacobian_.transpose() * white;
+  return white.transpose() * white - shared.transpose() * information_.solve(shared);
 }
 
 /// The step is P J' V^-1 times the errors of the distances. So a part C of their covariance V makes

@@ -22,9 +22,9 @@ class CorrelatedLeastSquares {
   Eigen::VectorXd WeightedResiduals() const;
   /// What the step leaves of the sum of squares, in standard deviations.
   double ChiSquared() const;
-  /// Information about an unknown that the jacobian does not hold, after the step: `by_unknown` is its
-  /// derivative, one number per measurement.
-  double InformationAbout(const Eigen::VectorXd& by_unknown) const;
+  /// Information about unknowns that the jacobian does not hold, after the step: `by_unknowns` is the
+  /// derivative by them, a row per measurement.
+  Eigen::MatrixXd InformationAbout(const Eigen::MatrixXd& by_unknowns) const;
   /// Share of the step's covariance that comes from errors of variance `variance` which are independent of
   /// each other, as a mean over all directions, 0..1; one per measurement.
   double ShareOf(const Eigen::VectorXd& variance) const;

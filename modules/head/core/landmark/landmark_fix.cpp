@@ -86,16 +86,6 @@ void AddPredicted(const Pose2& predicted, const Eigen::Matrix3d& search, std::ve
     poses.push_back({{predicted.x, predicted.y + k * kStep_m, predicted.yaw}});
 }
 
-/// The model with its edges where an earlier solution found them: what was measured with a tape is
-/// millimetres off, and the next association is to be sharper than that.
-LandmarkModel AsSeen(LandmarkModel model, const EdgeShifts& shifts) {
-  for (std::size_t i = 0; i < shifts.size(); ++i) {
-    model.edges[i].from += shifts[i];
-    model.edges[i].to += shifts[i];
-  }
-  return model;
-}
-
 /// Shifts of the edges of a landmark that is broader than its model by so much.
 EdgeShifts ShiftsOfBreadth(const LandmarkModel& model, double broader_m) {
   EdgeShifts shifts;
@@ -159,7 +149,7 @@ std::string_view WhyBlind(const EdgeImage& edges) {
 bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const CameraView> views,
                               const AssociationOptions& gate, bool coarse, Pose& pose) const {
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  const LandmarkModel seen = AsSeen(model, pose.solution.edge_shifts);
+  const LandmarkModel seen = Shifted(model, pose.solution.edge_shifts);
   pose.association = Associate(seen, VisibleAt(model, pose.base_from_landmark), views, at, gate);
   const auto observations = Observations(model, pose.association, views, at, coarse);
   PoseSolverOptions solver = options_.solver;
@@ -170,15 +160,13 @@ bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const Camera
 }
 
 /// The proposed poses that explain the pictures best, best first; the others are not refined. A landmark that
-/// is broader or narrower than its model is tried as well, as both of its sides would be beyond the gates,
-/// and one that is as it was seen before.
+/// is broader or narrower than its model is tried as well, as both of its sides would be beyond the gates.
 std::vector<LandmarkFinder::Start> LandmarkFinder::BestStarts(const LandmarkModel& model,
                                                               std::span<const PoseProposal> proposals,
-                                                              std::span<const CameraView> views,
-                                                              const EdgeShifts& seen) const {
+                                                              std::span<const CameraView> views) const {
   std::vector<Start> starts;
   const auto suppose = [&](const EdgeShifts& shifts, double log_prior) {
-    const LandmarkModel supposed = AsSeen(model, shifts);
+    const LandmarkModel supposed = Shifted(model, shifts);
     for (const PoseProposal& p : proposals) {
       const auto visible = VisibleAt(supposed, p.base_from_landmark);
       const auto a = Associate(supposed, visible, views, Lift(p.base_from_landmark), kProposed);
@@ -186,8 +174,8 @@ std::vector<LandmarkFinder::Start> LandmarkFinder::BestStarts(const LandmarkMode
     }
   };
   suppose({}, 0);
-  if (seen.size() == model.edges.size()) suppose(seen, 0);
-  const double breadth_sigma_m = options_.solver.breadth_sigma_m;
+  const ModelErrors* known = options_.solver.known;
+  const double breadth_sigma_m = known ? known->breadth().sigma_m : options_.solver.breadth_sigma_m;
   for (const double sigmas : {-1.0, 1.0})
     if (breadth_sigma_m > 0) suppose(ShiftsOfBreadth(model, sigmas * breadth_sigma_m), -sigmas * sigmas / 2);
   std::stable_sort(starts.begin(), starts.end(),
@@ -201,7 +189,7 @@ void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraVi
   if (!Approach(model, views, kApproached, true, pose) || !Approach(model, views, kRefined, false, pose))
     return;
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  pose.association = Associate(AsSeen(model, pose.solution.edge_shifts),
+  pose.association = Associate(Shifted(model, pose.solution.edge_shifts),
                                VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
   DropOutliers(model, views, pose);
 }
@@ -255,8 +243,9 @@ bool LandmarkFixOptions::IsSharp(const Eigen::Matrix3d& search) const {
 }
 
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                                 std::span<const CameraView> views, const LandmarkMemory& memory) const {
-  if (memory.breadth) return FindBroader(model, prediction, views, memory);
+                                 std::span<const CameraView> views, const ModelErrors* known) const {
+  if (known && known->mean.size() == ModelErrors::SizeFor(model))
+    return FindKnown(model, prediction, views, *known);
   LandmarkFix fix;
   if (model.edges.empty()) {
     fix.verdict = Verdict::kNoModel;
@@ -271,7 +260,7 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   }
   Proposals proposals = Propose(model, prediction.base_from_landmark, search, views, options_);
   if (options_.IsSharp(search)) AddPredicted(prediction.base_from_landmark, search, proposals.poses);
-  const auto starts = BestStarts(model, proposals.poses, views, memory.shifts);
+  const auto starts = BestStarts(model, proposals.poses, views);
   std::vector<Pose> poses = RefineAll(model, views, starts);
   fix.verdict = Verdict::kTooFewEdges;
   if (poses.empty()) return fix;
@@ -279,21 +268,33 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
                                      [](const Pose& a, const Pose& b) { return a.LogOdds() < b.LogOdds(); });
   best->rival_log_odds = RivalLogOdds(prediction, search, poses, *best);
   Judge(prediction, search, static_cast<int>(proposals.poses.size()), views.size(), *best, fix);
+  if (fix.verdict == Verdict::kFound) Learn(model, views, *best, fix);
   return fix;
 }
 
-/// Finds a landmark of known breadth: the model is made so broad, and what is reported is of the model again.
-LandmarkFix LandmarkFinder::FindBroader(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                                        std::span<const CameraView> views,
-                                        const LandmarkMemory& memory) const {
+void LandmarkFinder::Learn(const LandmarkModel& model, std::span<const CameraView> views, const Pose& best,
+                           LandmarkFix& fix) const {
+  const Eigen::Isometry3d at = Lift(best.base_from_landmark);
+  PoseSolverOptions solver = options_.solver;
+  solver.find_suspect = false;
+  solver.learn = true;
+  const auto observations = Observations(model, best.association, views, at, false);
+  PoseSolution solution = SolvePose(model, Cameras(views), observations, at, solver);
+  if (solution.ok) fix.errors = std::move(solution.errors);
+}
+
+/// Finds a landmark that was seen before: the model is made as it was seen, and what is reported is of the
+/// model again.
+LandmarkFix LandmarkFinder::FindKnown(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                                      std::span<const CameraView> views, const ModelErrors& known) const {
   LandmarkFixOptions options = options_;
-  options.solver.breadth_sigma_m = memory.breadth->sigma_m;
-  const EdgeShifts broader = ShiftsOfBreadth(model, memory.breadth->broader_m);
-  EdgeShifts shifts = memory.shifts;
-  for (std::size_t i = 0; i < shifts.size(); ++i) shifts[i] -= broader[i];
-  LandmarkFix fix = LandmarkFinder(options).Find(AsSeen(model, broader), prediction, views, {shifts, {}});
-  for (std::size_t i = 0; i < fix.edge_shifts.size(); ++i) fix.edge_shifts[i] += broader[i];
-  fix.breadth.broader_m += memory.breadth->broader_m;
+  const ModelErrors carried = CarriedOver(known, model, options.solver.VarianceOfModel());
+  options.solver.known = &carried;
+  const EdgeShifts shifts = ShiftsOf(model, carried.mean);
+  LandmarkFix fix = LandmarkFinder(options).Find(Shifted(model, shifts), prediction, views);
+  for (std::size_t i = 0; i < fix.edge_shifts.size(); ++i) fix.edge_shifts[i] += shifts[i];
+  fix.breadth.broader_m += carried.breadth().broader_m;
+  if (!fix.errors.empty()) fix.errors.mean += carried.mean;
   return fix;
 }
 

@@ -10,6 +10,7 @@
 #include "head/core/edges/edge_segment.hpp"
 #include "head/core/landmark/edge_association.hpp"
 #include "head/core/landmark/landmark.hpp"
+#include "head/core/landmark/model_errors.hpp"
 #include "head/core/landmark/pose_proposals.hpp"
 #include "head/core/landmark/pose_solver.hpp"
 #include "head/core/stereo/vertical_stereo.hpp"
@@ -53,13 +54,7 @@ struct LandmarkFix {
   std::vector<EdgeMatch> matches;
   EdgeShifts edge_shifts;  ///< PoseSolution::edge_shifts
   Breadth breadth;         ///< PoseSolution::breadth
-};
-
-/// What earlier looks showed of a landmark.
-struct LandmarkMemory {
-  EdgeShifts shifts;  ///< where edges are looked for; empty: at their places in the model
-  /// The breadth as it was measured when both sides were in view: it places the landmark when only one is.
-  std::optional<Breadth> breadth;
+  ModelErrors errors;      ///< what this look and earlier ones showed of the model; empty without a fix
 };
 
 /// Where a landmark is looked for, and what evidence a fix needs.
@@ -105,28 +100,32 @@ struct LandmarkFixOptions {
 class LandmarkFinder {
  public:
   explicit LandmarkFinder(const LandmarkFixOptions& options) : options_(options) {}
+  const LandmarkFixOptions& options() const { return options_; }
 
   /// The fix from the undistorted edges of all images, in the frame of their cameras (base): left, right, and
   /// the third camera's if there is one. Nothing to be seen in one of the first two gives kNoImage; such a
-  /// third one is left out.
+  /// third one is left out. `known` is what earlier looks showed of the same model: its edges are looked for
+  /// there, and they tell more than by the model's own sigmas.
   LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                   std::span<const CameraView> views, const LandmarkMemory& memory = {}) const;
+                   std::span<const CameraView> views, const ModelErrors* known = nullptr) const;
   /// From one stereo pair.
   LandmarkFix Find(const LandmarkModel& model, const LandmarkPrediction& prediction, const StereoViews& views,
-                   const LandmarkMemory& memory = {}) const {
-    return Find(model, prediction, std::span<const CameraView>(views), memory);
+                   const ModelErrors* known = nullptr) const {
+    return Find(model, prediction, std::span<const CameraView>(views), known);
   }
 
  private:
   struct Pose;
   struct Start;
-  LandmarkFix FindBroader(const LandmarkModel& model, const LandmarkPrediction& prediction,
-                          std::span<const CameraView> views, const LandmarkMemory& memory) const;
+  LandmarkFix FindKnown(const LandmarkModel& model, const LandmarkPrediction& prediction,
+                        std::span<const CameraView> views, const ModelErrors& known) const;
+  void Learn(const LandmarkModel& model, std::span<const CameraView> views, const Pose& best,
+             LandmarkFix& fix) const;
   bool Approach(const LandmarkModel& model, std::span<const CameraView> views, const AssociationOptions& gate,
                 bool coarse, Pose& pose) const;
   void Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
   std::vector<Start> BestStarts(const LandmarkModel& model, std::span<const PoseProposal> proposals,
-                                std::span<const CameraView> views, const EdgeShifts& seen) const;
+                                std::span<const CameraView> views) const;
   std::vector<Pose> RefineAll(const LandmarkModel& model, std::span<const CameraView> views,
                               std::span<const Start> starts) const;
   void DropOutliers(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;

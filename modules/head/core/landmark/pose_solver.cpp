@@ -40,6 +40,7 @@ class Problem {
         lines_(ObservedLines(observations)),
         pose_(initial),
         options_(options),
+        model_variance_(options.VarianceOfModel().Of(model)),
         common_root_(SquareRoot(options.base_covariance)) {
     if (options.on_floor) {
       free_.resize(6, 3);
@@ -95,12 +96,24 @@ class Problem {
   double Covariance(const Row& a, const Row& b) const {
     double c = a.by_common.dot(b.by_common);
     if (a.camera == b.camera) c += Square(options_.camera_sigma_px) * a.by_camera.dot(b.by_camera);
-    if (a.edge == b.edge) {
-      const double shift_m =
-          model_.edges[a.edge].IsMovable() ? options_.movable_sigma_m : options_.model_sigma_m;
-      c += a.across.dot(b.across) * (Square(shift_m) + Square(options_.tilt_sigma_m) * a.lever * b.lever);
+    if (a.edge == b.edge) c += a.across.dot(b.across) * Square(options_.tilt_sigma_m) * a.lever * b.lever;
+    return c + CovarianceByModel(a, b);
+  }
+
+  /// The part of it that comes from the places of the model's edges.
+  double CovarianceByModel(const Row& a, const Row& b) const {
+    const Eigen::Index last = model_variance_.size() - 1;
+    if (!options_.known) {
+      const double own = a.edge == b.edge ? a.across.dot(b.across) * model_variance_(3 * a.edge) : 0;
+      return own + model_variance_(last) * ByBreadth(a) * ByBreadth(b);
     }
-    return c + Square(options_.breadth_sigma_m) * ByBreadth(a) * ByBreadth(b);
+    const Eigen::MatrixXd& known = options_.known->covariance;
+    const Eigen::Vector3d in_a = pose_.linear().transpose() * a.across,
+                          in_b = pose_.linear().transpose() * b.across;
+    return in_a.dot(known.block<3, 3>(3 * a.edge, 3 * b.edge) * in_b) +
+           in_a.dot(known.block<3, 1>(3 * a.edge, last)) * ByBreadth(b) +
+           in_b.dot(known.block<3, 1>(3 * b.edge, last)) * ByBreadth(a) +
+           known(last, last) * ByBreadth(a) * ByBreadth(b);
   }
 
   /// How a residual grows with the breadth of the landmark, whose sides lie half of it beside the middle.
@@ -108,28 +121,36 @@ class Problem {
     return row.across.dot(pose_.linear().col(1)) * model_.edges[row.edge].ByBreadth();
   }
 
-  /// Mean of the errors of the model's edges under the condition of the residuals.
-  EdgeShifts ErrorsOfEdges(const Breadth& breadth) const {
-    const Eigen::VectorXd weighted = squares_.WeightedResiduals();
-    EdgeShifts shifts(model_.edges.size(), Eigen::Vector3d::Zero());
+  /// Derivative of the residuals by the errors of the model.
+  Eigen::MatrixXd ByErrors() const {
+    Eigen::MatrixXd by = Eigen::MatrixXd::Zero(distance_.size(), model_variance_.size());
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
       const Row& row = residuals_[i];
-      const double sigma_m =
-          model_.edges[row.edge].IsMovable() ? options_.movable_sigma_m : options_.model_sigma_m;
-      shifts[row.edge] += Square(sigma_m) * weighted[i] * (pose_.linear().transpose() * row.across);
+      const auto at = static_cast<Eigen::Index>(i);
+      by.block<1, 3>(at, 3 * row.edge) = row.across.transpose() * pose_.linear();
+      by(at, by.cols() - 1) = ByBreadth(row);
     }
-    for (std::size_t e = 0; e < shifts.size(); ++e)
-      shifts[e].y() += breadth.broader_m * model_.edges[e].ByBreadth();
-    return shifts;
+    return by;
   }
 
-  /// The breadth under the condition of the residuals.
-  Breadth BreadthSeen() const {
-    Eigen::VectorXd by_breadth(distance_.size());
-    for (std::size_t i = 0; i < residuals_.size(); ++i) by_breadth[i] = ByBreadth(residuals_[i]);
-    const double prior = Square(options_.breadth_sigma_m);
-    const double left = 1 - prior * squares_.InformationAbout(by_breadth);
-    return {prior * by_breadth.dot(squares_.WeightedResiduals()), std::sqrt(prior * std::max(left, 0.0))};
+  /// `matrix` times the covariance of the errors of the model before this look.
+  Eigen::MatrixXd TimesPrior(const Eigen::MatrixXd& matrix) const {
+    if (options_.known) return matrix * options_.known->covariance;
+    return matrix * model_variance_.asDiagonal();
+  }
+
+  /// The errors of the model under the condition of the residuals.
+  void LearnErrors(PoseSolution& solution) const {
+    const Eigen::MatrixXd spread = TimesPrior(ByErrors());
+    const Eigen::VectorXd mean = spread.transpose() * squares_.WeightedResiduals();
+    const Eigen::Index last = mean.size() - 1;
+    const double prior = options_.known ? options_.known->covariance(last, last) : model_variance_(last);
+    const double left = prior - squares_.InformationAbout(spread.col(last))(0, 0);
+    solution.edge_shifts = ShiftsOf(model_, mean);
+    solution.breadth = {mean(last), std::sqrt(std::max(left, 0.0))};
+    if (!options_.learn) return;
+    const Eigen::MatrixXd before = TimesPrior(Eigen::MatrixXd::Identity(mean.size(), mean.size()));
+    solution.errors = {mean, before - squares_.InformationAbout(spread)};
   }
 
   Eigen::MatrixXd CovarianceOfAll() const {
@@ -161,8 +182,7 @@ class Problem {
     solution.chi_squared = squares_.ChiSquared();
     solution.n_redundant = static_cast<int>(n - d);
     solution.misfit = solution.chi_squared / std::max(solution.n_redundant, 1);
-    solution.breadth = BreadthSeen();
-    solution.edge_shifts = ErrorsOfEdges(solution.breadth);
+    LearnErrors(solution);
     if (options_.find_suspect) solution.suspect = FindSuspect();
     double sum = 0;
     for (const Row& s : residuals_)
@@ -203,6 +223,7 @@ class Problem {
   std::vector<ObservedLine> lines_;
   Eigen::Isometry3d pose_;
   PoseSolverOptions options_;
+  Eigen::VectorXd model_variance_;
   Matrix6 common_root_;
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> free_;  ///< directions in which the pose may move
   std::vector<Row> residuals_;

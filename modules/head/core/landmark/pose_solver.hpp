@@ -8,6 +8,7 @@
 #include "head/core/camera/camera_model.hpp"
 #include "head/core/landmark/edge_residual.hpp"
 #include "head/core/landmark/landmark.hpp"
+#include "head/core/landmark/model_errors.hpp"
 
 namespace priamos::head {
 
@@ -23,17 +24,17 @@ struct PoseSolverOptions {
   /// Covariance of the calibration error that all cameras share, as a motion of space (x, y, z, roll, pitch,
   /// yaw about the origin of base): HeadModel::base_covariance.
   Eigen::Matrix<double, 6, 6> base_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// What is known of the model's edges from earlier looks, whose mean the model has already; null: nothing,
+  /// they have the sigmas above. Not owned.
+  const ModelErrors* known = nullptr;
   int max_iterations = 10;
   bool find_suspect = true;  ///< compute PoseSolution::suspect, which takes as long as all the rest
-};
+  bool learn = false;        ///< compute PoseSolution::errors
 
-/// How far each edge of a model lies off its place there, landmark frame [m].
-using EdgeShifts = std::vector<Eigen::Vector3d>;
-
-/// How much broader a landmark is than its model, and how well that is known [m].
-struct Breadth {
-  double broader_m = 0;
-  double sigma_m = 0;
+  ModelVariance VarianceOfModel() const {
+    return {model_sigma_m * model_sigma_m, movable_sigma_m * movable_sigma_m,
+            breadth_sigma_m * breadth_sigma_m};
+  }
 };
 
 /// The worst outlier: the edge, in one image or in all, without which the others fit best.
@@ -62,6 +63,7 @@ struct PoseSolution {
   EdgeShifts edge_shifts;
   Breadth
       breadth;  ///< part of edge_shifts; its sigma falls from breadth_sigma_m as far as both sides are seen
+  ModelErrors errors;  ///< what is known of the model's edges now; empty if nobody asked to learn it
 };
 
 /// Least squares pose from points on edges, in any number of images, starting at `initial`, without any prior

@@ -10,7 +10,9 @@ namespace priamos::head {
 namespace {
 
 constexpr int kSmallest_px = 64;
-constexpr double kLeastBreadthSigma_m = 0.001;
+
+/// So many looks in a row that do not show what is known: it is given up.
+constexpr int kContradicted = 3;
 
 bool IsUsable(const std::optional<GreyImage>& image) {
   return image && image->width >= kSmallest_px && image->height >= kSmallest_px;
@@ -36,25 +38,35 @@ LookEvaluator::LookEvaluator(const HeadModel& head, const LookOptions& options)
       edge_operator_(options.edges),
       finder_(options.finder) {}
 
-/// Edges that this look did not show stay where an earlier one saw them.
-void LookEvaluator::Remember(const LandmarkModel& model, const LandmarkFix& fix) {
-  LandmarkMemory& seen = seen_[model.id];
-  if (seen.shifts.size() != model.edges.size()) seen.shifts = fix.edge_shifts;
-  for (const EdgeMatch& match : fix.matches) seen.shifts[match.edge] = fix.edge_shifts[match.edge];
-  // The calibration's error is the same in every look. A breadth that is exact by the options stays so.
-  if (fix.breadth.sigma_m > 0)
-    seen.breadth = Breadth{fix.breadth.broader_m, std::max(fix.breadth.sigma_m, kLeastBreadthSigma_m)};
-}
-
 /// With the third camera's picture, where it is calibrated and its picture is of use.
 LandmarkFix LookEvaluator::Find(const LookInput& input, const LandmarkPrediction& expected,
                                 const StereoViews& views) {
-  const LandmarkMemory& seen = seen_[input.model->id];
+  std::vector<CameraView> all(views.begin(), views.end());
   const auto third = head_.CameraAt(input.setting, kThird);
-  if (!third || !IsUsable(input.third)) return finder_.Find(*input.model, expected, views, seen);
-  edge_operator_.Extract(Wrap(*input.third), edges_[kThird]);
-  const std::array all{views[0], views[1], MakeView(*third, edges_[kThird])};
-  return finder_.Find(*input.model, expected, all, seen);
+  if (third && IsUsable(input.third)) {
+    edge_operator_.Extract(Wrap(*input.third), edges_[kThird]);
+    all.push_back(MakeView(*third, edges_[kThird]));
+  }
+  return FindAsKnown(*input.model, expected, all);
+}
+
+/// Where earlier looks saw its edges, or else, since these may have seen something else, where the model has
+/// them.
+LandmarkFix LookEvaluator::FindAsKnown(const LandmarkModel& model, const LandmarkPrediction& expected,
+                                       std::span<const CameraView> views) {
+  Known& known = known_[model.id];
+  if (!known.errors.empty()) {
+    LandmarkFix fix = finder_.Find(model, expected, views, &known.errors);
+    if (fix.verdict == Verdict::kFound) {
+      known = {fix.errors};
+      return fix;
+    }
+  }
+  const ModelErrors breadth = OnlyBreadth(known.errors, model, finder_.options().solver.VarianceOfModel());
+  LandmarkFix fix = finder_.Find(model, expected, views, &breadth);
+  if (fix.verdict == Verdict::kFound && (known.errors.empty() || ++known.contradicted == kContradicted))
+    known = {fix.errors};
+  return fix;
 }
 
 LookResult LookEvaluator::Evaluate(const LookInput& input) {
@@ -72,7 +84,6 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   result.n_third = static_cast<int>(std::ranges::count_if(
       result.fix.matches, [](const EdgeMatch& match) { return match.camera == kThird; }));
   if (result.fix.verdict == Verdict::kFound) {
-    Remember(*input.model, result.fix);
     if (const auto door = DoorOf(*input.model))
       result.leaf = SeeLeaf(*door, result.fix.base_from_landmark, views, leaf_options_);
   }

@@ -53,8 +53,13 @@ class LookEvaluator {
   LookResult Evaluate(const LookInput& input);
 
  private:
-  void Remember(const LandmarkModel& model, const LandmarkFix& fix);
+  struct Known {
+    ModelErrors errors{};  ///< empty: nothing
+    int contradicted = 0;  ///< looks in a row that found the landmark only without it
+  };
   LandmarkFix Find(const LookInput& input, const LandmarkPrediction& expected, const StereoViews& views);
+  LandmarkFix FindAsKnown(const LandmarkModel& model, const LandmarkPrediction& expected,
+                          std::span<const CameraView> views);
 
   HeadModel head_;
   LeafOptions leaf_options_;
@@ -62,7 +67,7 @@ class LookEvaluator {
   EdgeOperator edge_operator_;
   LandmarkFinder finder_;
   std::array<EdgeImage, kCameras> edges_;
-  std::map<int, LandmarkMemory> seen_;  ///< by the landmark's id
+  std::map<int, Known> known_;  ///< by the landmark's id
 };
 
 }  // namespace priamos::head

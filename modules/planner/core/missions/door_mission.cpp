@@ -235,7 +235,7 @@ DoorMission::Prospect DoorMission::ProspectFrom(const MissionControl& control, d
   const double distance_m = std::clamp(DistanceToDoor(control), 0.0, last_look_m);
   const Pose2 there = door_->map_from_door() * Pose2{-distance_m, 0, 0};
   const auto uncertainty = AtDoor(*door_, there, pose.covariance, config_.drift);
-  return {uncertainty, GapLeft(*door_, footprint_, uncertainty) - config_.tracking_m};
+  return {uncertainty, GapLeft(*door_, footprint_, uncertainty, config_.tracking_m)};
 }
 
 void DoorMission::EvaluatePose(MissionControl& control) {

@@ -9,9 +9,11 @@
 
 namespace priamos::planner {
 
-/// Growth of the pose error by odometry on the distance to the door. Random walks grow with the root of the
-/// distance, the bias with the distance; the values are those of the robot's own odometry model.
+/// Growth of the pose error by odometry on the distance to the door. Over many slip lengths the errors walk
+/// randomly, with the root of the distance; over short ones slip keeps its sign and adds less. The bias grows
+/// with the distance. The values are those of the robot's own odometry model.
 struct DriftModel {
+  double slip_length_m = 0.3;
   double yaw_rad_per_sqrt_m = 0.0075;
   double lateral_m_per_sqrt_m = 0.005;
   double yaw_bias_rad_per_m = 0.003;
@@ -35,7 +37,9 @@ PassageUncertainty AtDoor(const DoorPlan& door, const Pose2& map_from_base,
 /// Half of the width the footprint takes when it goes through an opening turned by `heading_rad` [m].
 double HalfWidthTurned(const Footprint& footprint, double heading_rad);
 
-/// Free gap on each side at 2 sigma [m]; negative when the footprint may touch.
-double GapLeft(const DoorPlan& door, const Footprint& footprint, const PassageUncertainty& uncertainty);
+/// Free gap on each side at 2 sigma [m]; negative when the footprint may touch. The path following deviates
+/// by `tracking_m`, also 2 sigma, whatever the error of the pose is.
+double GapLeft(const DoorPlan& door, const Footprint& footprint, const PassageUncertainty& uncertainty,
+               double tracking_m);
 
 }  // namespace priamos::planner

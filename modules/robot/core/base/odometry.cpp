@@ -29,6 +29,8 @@ double Square(double x) {
 }  // namespace
 
 void OdometryNoise::Describe(Archive& a) {
+  a.Number("slip_length_m", slip_length_m,
+           {"m", 0.01, 10, "distance after which a wheel's slip is forgotten"});
   a.Number("forward_m_per_sqrt_m", forward_m_per_sqrt_m, {"m/sqrt(m)", 0, 0.2, "forward error"});
   a.Number("sideways_m_per_sqrt_m", sideways_m_per_sqrt_m,
            {"m/sqrt(m)", 0, 0.2, "error along y when driving sideways"});
@@ -113,6 +115,7 @@ OdometryStep Odometry::KnownStep(const WheelSample& to) const {
   step.twist = motion.twist;
   step.slip_m_s = motion.slip_m_s;
   step.noise = Noise(motion.twist, motion.slip_m_s, step.seconds());
+  step.wander = Wander(motion.twist, step.seconds());
   return step;
 }
 
@@ -126,19 +129,25 @@ OdometryStep Odometry::UnknownStep(const WheelSample& to, Time from, Duration sp
 
 Eigen::Matrix3d Odometry::Noise(const Twist2& twist, double slip_m_s, double seconds) const {
   const OdometryNoise& n = config_.noise;
-  const double forward = std::abs(twist.vx) * seconds, sideways = std::abs(twist.vy) * seconds;
+  const double sideways = std::abs(twist.vy) * seconds;
   const double turn = std::abs(twist.wz) * seconds;
-  const double travel = std::hypot(forward, sideways);
   const double slip =
       n.slip_variance_m2_per_m * std::max(0.0, std::abs(slip_m_s) - n.slip_floor_m_s) * seconds;
   // One radian of turning moves the wheels by the lever: their translation error comes from that distance
   // too.
-  const double x =
-      Square(n.forward_m_per_sqrt_m) * forward + Square(n.drift_m_per_sqrt_m) * (sideways + turn);
-  const double y =
-      Square(n.sideways_m_per_sqrt_m) * sideways + Square(n.drift_m_per_sqrt_m) * (forward + turn);
-  const double yaw = Square(n.yaw_rad_per_sqrt_m) * travel + Square(n.yaw_rad_per_sqrt_rad) * turn;
+  const double x = Square(n.drift_m_per_sqrt_m) * (sideways + turn);
+  const double y = Square(n.sideways_m_per_sqrt_m) * sideways + Square(n.drift_m_per_sqrt_m) * turn;
+  const double yaw = Square(n.yaw_rad_per_sqrt_m) * sideways + Square(n.yaw_rad_per_sqrt_rad) * turn;
   return Eigen::Vector3d(x + slip, y + slip, yaw + slip / Square(geometry_.lever_m)).asDiagonal();
+}
+
+/// A process that is forgotten after the length l and has the variance w^2 / 2l at any time walks, over many
+/// l, like a random walk of w per root metre.
+OdometryWander Odometry::Wander(const Twist2& twist, double seconds) const {
+  const OdometryNoise& n = config_.noise;
+  const double kept = std::exp(-std::hypot(twist.vx, twist.vy) * seconds / n.slip_length_m);
+  const Eigen::Vector3d walk(n.forward_m_per_sqrt_m, n.yaw_rad_per_sqrt_m, n.drift_m_per_sqrt_m);
+  return {kept, walk.cwiseAbs2() * (1 - Square(kept)) / (2 * n.slip_length_m)};
 }
 
 OdometryStep Odometry::Accept(const OdometryStep& step, const WheelSample& sample) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -20,8 +21,10 @@ struct WheelSample {
   bool deadline_stopped = false;  ///< the drive board holds the wheels because commands stayed away
 };
 
-/// Noise of the odometry, as random walks: the variance grows with the distance, sigma with its root.
+/// Noise of the odometry over long distances, as random walks: the variance grows with the distance, sigma
+/// with its root. Over short ones the slip of driving forward keeps its sign (OdometryWander).
 struct OdometryNoise {
+  double slip_length_m = 0.3;  ///< distance after which a wheel's slip is forgotten
   double forward_m_per_sqrt_m = 0.005;
   double sideways_m_per_sqrt_m = 0.006;  ///< along y when driving sideways
   double drift_m_per_sqrt_m = 0.005;     ///< across the driving direction
@@ -42,12 +45,24 @@ struct OdometryConfig {
   void Describe(Archive& a);
 };
 
+/// What a step does to the slowly changing errors per metre forward: of the distance itself [m/m], of the
+/// heading [rad/m] and across [m/m]. Each is a Gauss-Markov process over the distance (Gelb, "Applied Optimal
+/// Estimation", 1974, section 3.6).
+struct OdometryWander {
+  double kept = 1;                                     ///< share of the errors that outlasts the step
+  Eigen::Vector3d variance = Eigen::Vector3d::Zero();  ///< what the step adds to each
+
+  /// Of a part of the step, `share` of its distance.
+  OdometryWander Part(double share) const { return {std::pow(kept, share), variance * share}; }
+};
+
 /// Motion between two accepted samples: the body velocity was `twist` from `from` to `to`.
 struct OdometryStep {
   Time from{}, to{};
   Twist2 twist{};
   double slip_m_s = 0;
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();  ///< covariance of the increment (x, y, yaw), base frame
+  OdometryWander wander{};
   bool known = true;  ///< false: encoders were not credible, `twist` is 0 and `noise` covers the motion
 
   double seconds() const { return Seconds(to - from); }
@@ -91,6 +106,7 @@ class Odometry {
   OdometryStep KnownStep(const WheelSample& to) const;
   OdometryStep UnknownStep(const WheelSample& to, Time from, Duration span) const;
   Eigen::Matrix3d Noise(const Twist2& twist, double slip_m_s, double seconds) const;
+  OdometryWander Wander(const Twist2& twist, double seconds) const;
   OdometryStep Accept(const OdometryStep& step, const WheelSample& sample);
 
   OdometryConfig config_;

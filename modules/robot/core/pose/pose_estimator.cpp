@@ -19,7 +19,9 @@ OdometryStep Part(const OdometryStep& step, Time from, Time to) {
   OdometryStep part = step;
   part.from = from;
   part.to = to;
-  part.noise *= Seconds(to - from) / step.seconds();
+  const double share = Seconds(to - from) / step.seconds();
+  part.noise *= share;
+  part.wander = step.wander.Part(share);
   return part;
 }
 
@@ -65,10 +67,10 @@ PoseEstimator::PoseEstimator(const PoseEstimatorConfig& config) : config_(config
   const InitialPose& initial = config.initial;
   initial_.mean.head<3>() << initial.x_m, initial.y_m, WrapAngle(Radians(initial.yaw_deg));
   const OdometryBias& b = config.bias;
-  PoseState::Vector sigma(PoseState::kOwn);
-  sigma << initial.position_error_m / std::sqrt(3), initial.position_error_m / std::sqrt(3),
-      Radians(initial.yaw_error_deg) / std::sqrt(3), b.forward, b.sideways, b.yaw, b.yaw_rad_per_m,
-      b.drift_m_per_m;
+  PoseState::Vector sigma = PoseState::Vector::Zero(PoseState::kOwn);
+  sigma.head<PoseState::kWander>() << initial.position_error_m / std::sqrt(3),
+      initial.position_error_m / std::sqrt(3), Radians(initial.yaw_error_deg) / std::sqrt(3), b.forward,
+      b.sideways, b.yaw, b.yaw_rad_per_m, b.drift_m_per_m;
   initial_.covariance = sigma.cwiseAbs2().asDiagonal();
 }
 
@@ -129,6 +131,7 @@ FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
     OdometryStep standing = entry.step;
     standing.from = standing.to;
     standing.noise.setZero();
+    standing.wander = {};
     history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(index) + 1,
                     {.step = standing, .state = update.state, .fix = fix});
     result.at_picture = EstimateAt(history_[index + 1]);

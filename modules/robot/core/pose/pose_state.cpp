@@ -6,18 +6,19 @@ namespace priamos::robot {
 namespace {
 
 using Matrix = PoseState::Matrix;
-using Bias = Eigen::Matrix<double, 3, 5>;
+constexpr int kErrors = PoseState::kOwn - PoseState::kBias;
+using ByErrors = Eigen::Matrix<double, 3, kErrors>;
 
-enum BiasIndex { kForward, kSideways, kYaw, kYawPerMetre, kDrift };
+enum ErrorIndex { kForward, kSideways, kYaw, kYawPerMetre, kDrift, kForwardNow, kYawNow, kDriftNow };
 
-/// Derivative of a body increment with respect to the constant errors.
-Bias ByBias(const Eigen::Vector3d& measured) {
-  Bias by = Bias::Zero();
-  by(0, kForward) = measured.x();
+/// Derivative of a body increment with respect to the errors of the odometry.
+ByErrors ByOdometry(const Eigen::Vector3d& measured) {
+  ByErrors by = ByErrors::Zero();
+  by(0, kForward) = by(0, kForwardNow) = measured.x();
   by(1, kSideways) = measured.y();
-  by(1, kDrift) = measured.x();
+  by(1, kDrift) = by(1, kDriftNow) = measured.x();
   by(2, kYaw) = measured.z();
-  by(2, kYawPerMetre) = measured.x();
+  by(2, kYawPerMetre) = by(2, kYawNow) = measured.x();
   return by;
 }
 
@@ -38,7 +39,8 @@ void OdometryBias::Describe(Archive& a) {
 
 Twist2 Unbiased(const PoseState& state, const Twist2& twist) {
   const Eigen::Vector3d measured = Measured(twist, 1);
-  const Eigen::Vector3d clear = measured + ByBias(measured) * state.mean.segment<5>(3);
+  const Eigen::Vector3d clear =
+      measured + ByOdometry(measured) * state.mean.segment<kErrors>(PoseState::kBias);
   return {clear.x(), clear.y(), clear.z()};
 }
 
@@ -49,6 +51,7 @@ PoseState Propagated(const PoseState& state, const OdometryStep& step) {
 
   PoseState next = state;
   next.mean.head<3>() << after.x, after.y, after.yaw;
+  next.mean.segment<3>(PoseState::kWander) *= step.wander.kept;
 
   const double turn = twist.wz * dt;
   Eigen::Matrix3d by_increment = Eigen::Matrix3d::Identity();
@@ -59,10 +62,12 @@ PoseState Propagated(const PoseState& state, const OdometryStep& step) {
   Matrix f = Matrix::Identity(state.size(), state.size());
   f(0, 2) = -(after.y - before.y);
   f(1, 2) = after.x - before.x;
-  f.block<3, 5>(0, 3) = by_increment * ByBias(Measured(step.twist, dt));
+  f.block<3, kErrors>(0, PoseState::kBias) = by_increment * ByOdometry(Measured(step.twist, dt));
+  f.diagonal().segment<3>(PoseState::kWander).setConstant(step.wander.kept);
   next.covariance = f * state.covariance * f.transpose();
   next.repeated = f * state.repeated * f.transpose();
   next.covariance.topLeftCorner<3, 3>() += by_increment * step.noise * by_increment.transpose();
+  next.covariance.diagonal().segment<3>(PoseState::kWander) += step.wander.variance;
   return next;
 }
 

@@ -22,10 +22,11 @@ struct OdometryBias {
   void Describe(Archive& a);
 };
 
-/// Pose of the base in the map, the constant errors of the odometry, the straight walls that the sonars hear
-/// (none known before), and the joint covariance of all that.
+/// Pose of the base in the map, the constant and the slowly changing errors of the odometry, the straight
+/// walls that the sonars hear (none known before), and the joint covariance of all that.
 struct PoseState {
-  static constexpr int kOwn = 8;  ///< x, y, yaw, then the five of OdometryBias
+  /// x, y, yaw, then the five of OdometryBias and the three of OdometryWander.
+  static constexpr int kBias = 3, kWander = 8, kOwn = 11;
   static constexpr int kMostWalls = 4;
   static constexpr int kMost = kOwn + 2 * kMostWalls;  ///< each wall adds its angle and its distance
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
@@ -44,7 +45,7 @@ struct PoseState {
   Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
 
-/// Velocity `twist` as measured by the wheels, cleared of the estimated constant errors.
+/// Velocity `twist` as measured by the wheels, cleared of the estimated errors.
 Twist2 Unbiased(const PoseState& state, const Twist2& twist);
 
 /// The state after `step`.

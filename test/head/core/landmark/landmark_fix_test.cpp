@@ -105,19 +105,22 @@ TEST_F(LandmarkFixTest, WhereAnEarlierFixSawTheEdgesTheyAreFoundFromNearer) {
   options.solver.model_sigma_m = 0.005;
   options.solver.breadth_sigma_m = 0.012;
   const LandmarkFinder finder(options);
-  const auto look = [&](const Pose2& truth, const EdgeShifts& seen) {
+  const auto look = [&](const Pose2& truth, const ModelErrors& known) {
     Find(test::DoorQuads(0.872, 0.07), truth, truth);
     return finder.Find(model_, {truth, kTwentyCentimetresFiveDegrees},
-                       {MakeView(left_, left_edges_), MakeView(right_, right_edges_)}, {seen, {}});
+                       {MakeView(left_, left_edges_), MakeView(right_, right_edges_)}, &known);
   };
   const LandmarkFix far = look({3.2, 0.05, 0.02}, {});
   ASSERT_EQ(far.verdict, Verdict::kFound) << Describe(far.verdict);
   ASSERT_EQ(far.edge_shifts.size(), model_.edges.size());
   const Pose2 truth{2.3, 0.1, 0.04};
-  const LandmarkFix near = look(truth, far.edge_shifts);
+  const LandmarkFix near = look(truth, far.errors);
   ASSERT_EQ(near.verdict, Verdict::kFound) << Describe(near.verdict);
   EXPECT_NEAR(near.base_from_landmark.y, truth.y, 0.005);
-  EXPECT_EQ(look(truth, EdgeShifts(3)).verdict, look(truth, {}).verdict) << "of another model";
+  EXPECT_NEAR(near.breadth.broader_m, -0.028, 0.004);
+  EXPECT_LT(near.errors.breadth().sigma_m, 0.002);
+  const ModelErrors other{Eigen::VectorXd::Zero(10), Eigen::MatrixXd::Identity(10, 10)};
+  EXPECT_EQ(look(truth, other).verdict, look(truth, {}).verdict) << "of another model";
 }
 
 TEST_F(LandmarkFixTest, ADoorOfAnotherWidthIsAnotherDoor) {
@@ -170,12 +173,19 @@ TEST_F(LandmarkFixTest, TheBreadthOfEarlierLooksPlacesALandmarkOfWhichOneSideIsS
   LandmarkFixOptions options;
   options.solver.breadth_sigma_m = 0.012;
   const LandmarkFinder dut(options);
-  const auto find = [&](const std::optional<Breadth>& known) {
+  const auto find = [&](const ModelErrors& errors) {
     return dut.Find(model_, {{2.605, 0.015, 0.012}, sharp},
-                    {MakeView(left_, left_edges_), MakeView(right_, right_edges_)}, {{}, known});
+                    {MakeView(left_, left_edges_), MakeView(right_, right_edges_)}, &errors);
   };
-  const LandmarkFix unknown = find({}), known = find(Breadth{0, 0.001}),
-                    broader = find(Breadth{0.003, 0.001});
+  const auto of_breadth = [&](double broader_m) {
+    ModelErrors errors;
+    errors.mean = Eigen::VectorXd::Zero(ModelErrors::SizeFor(model_));
+    errors.mean.tail<1>()(0) = broader_m;
+    errors.covariance = options.solver.VarianceOfModel().Of(model_).asDiagonal();
+    errors.covariance.bottomRightCorner<1, 1>()(0, 0) = 1e-6;
+    return errors;
+  };
+  const LandmarkFix unknown = find({}), known = find(of_breadth(0)), broader = find(of_breadth(0.003));
   ASSERT_EQ(unknown.verdict, Verdict::kFound) << Describe(unknown.verdict);
   ASSERT_EQ(known.verdict, Verdict::kFound) << Describe(known.verdict);
   ASSERT_EQ(broader.verdict, Verdict::kFound) << Describe(broader.verdict);

@@ -10,7 +10,7 @@
 namespace priamos::planner {
 namespace {
 
-constexpr DriftModel kNoDrift{0, 0, 0};
+constexpr DriftModel kNoDrift{.yaw_rad_per_sqrt_m = 0, .lateral_m_per_sqrt_m = 0, .yaw_bias_rad_per_m = 0};
 
 TEST(PassageUncertainty, IndependentErrorsAddInQuadrature) {
   const DoorPlan door = ShippedPlan().doors[0];
@@ -57,17 +57,25 @@ TEST(PassageUncertainty, MatchesASampledRobotThatFollowsItsBelief) {
 
 TEST(PassageUncertainty, DriftMatchesASampledDrive) {
   const DoorPlan door = ShippedPlan().doors[0];
-  const DriftModel drift{0.0075, 0.005, 0.003};
+  const DriftModel drift{
+      .yaw_rad_per_sqrt_m = 0.0075, .lateral_m_per_sqrt_m = 0.005, .yaw_bias_rad_per_m = 0.003};
   Rng rng(8);
-  constexpr int kRuns = 4000, kSteps = 100;
+  constexpr int kRuns = 4000, kSteps = 200;
   constexpr double kWay_m = 2.0, kStep_m = kWay_m / kSteps;
+  const double kept = std::exp(-kStep_m / drift.slip_length_m), fresh = std::sqrt(1 - kept * kept),
+               stationary = 1 / std::sqrt(2 * drift.slip_length_m);
   double lateral_sum = 0, heading_sum = 0;
   for (int run = 0; run < kRuns; ++run) {
     double y = 0, yaw = 0;
     const double bias = rng.Normal(drift.yaw_bias_rad_per_m);
+    // Slip per metre, a process of the same walk over long distances.
+    double turn = rng.Normal(drift.yaw_rad_per_sqrt_m * stationary);
+    double shift = rng.Normal(drift.lateral_m_per_sqrt_m * stationary);
     for (int i = 0; i < kSteps; ++i) {
-      yaw += rng.Normal(drift.yaw_rad_per_sqrt_m * std::sqrt(kStep_m)) + bias * kStep_m;
-      y += yaw * kStep_m + rng.Normal(drift.lateral_m_per_sqrt_m * std::sqrt(kStep_m));
+      yaw += (turn + bias) * kStep_m;
+      y += (yaw + shift) * kStep_m;
+      turn = kept * turn + rng.Normal(drift.yaw_rad_per_sqrt_m * stationary * fresh);
+      shift = kept * shift + rng.Normal(drift.lateral_m_per_sqrt_m * stationary * fresh);
     }
     lateral_sum += y * y;
     heading_sum += yaw * yaw;
@@ -79,7 +87,8 @@ TEST(PassageUncertainty, DriftMatchesASampledDrive) {
 
 TEST(PassageUncertainty, AConstantTurnLeadsOffTheAxisByHalfTheSquareOfTheDistance) {
   const DoorPlan door = ShippedPlan().doors[0];
-  const auto dut = AtDoor(door, {4.0, 2.4, 0}, Eigen::Matrix3d::Zero(), {0, 0, 0.003});
+  const auto dut = AtDoor(door, {4.0, 2.4, 0}, Eigen::Matrix3d::Zero(),
+                          {.yaw_rad_per_sqrt_m = 0, .lateral_m_per_sqrt_m = 0, .yaw_bias_rad_per_m = 0.003});
   EXPECT_NEAR(dut.lateral_sigma_m, 0.003 * 2 * 2 / 2, 1e-12);
   EXPECT_NEAR(dut.heading_sigma_rad, 0.003 * 2, 1e-12);
 }
@@ -87,22 +96,23 @@ TEST(PassageUncertainty, AConstantTurnLeadsOffTheAxisByHalfTheSquareOfTheDistanc
 TEST(PassageUncertainty, PerfectFixFromAfarIsNotGoodEnoughFromNearItIs) {
   const DoorPlan door = ShippedPlan().doors[0];
   const auto gap = [&](double way_m) {
-    return GapLeft(door, Footprint{}, AtDoor(door, {6 - way_m, 2.4, 0}, Eigen::Matrix3d::Zero(), {}));
+    return GapLeft(door, Footprint{}, AtDoor(door, {6 - way_m, 2.4, 0}, Eigen::Matrix3d::Zero(), {}), 0.005);
   };
   EXPECT_LT(gap(3.0), 0);
   EXPECT_GT(gap(1.5), 0.02);
 }
 
 TEST(PassageUncertainty, CertainRobotHasSixCentimetres) {
-  EXPECT_NEAR(GapLeft(DoorPlan{}, Footprint{}, {}), 0.06, 1e-12);
+  EXPECT_NEAR(GapLeft(DoorPlan{}, Footprint{}, {}, 0), 0.06, 1e-12);
+  EXPECT_NEAR(GapLeft(DoorPlan{}, Footprint{}, {}, 0.005), 0.055, 1e-12);
 }
 
 TEST(PassageUncertainty, ErrorsOfThePaperBeforeTheFixDoNotFit) {
-  EXPECT_LT(GapLeft(DoorPlan{}, Footprint{}, {0.10, Radians(2.5)}), 0);
+  EXPECT_LT(GapLeft(DoorPlan{}, Footprint{}, {0.10, Radians(2.5)}, 0.005), 0);
 }
 
 TEST(PassageUncertainty, TwoCentimetresAndHalfADegreeFit) {
-  EXPECT_GT(GapLeft(DoorPlan{}, Footprint{}, {0.01, Radians(0.25)}), 0.02);
+  EXPECT_GT(GapLeft(DoorPlan{}, Footprint{}, {0.01, Radians(0.25)}, 0.005), 0.02);
 }
 
 }  // namespace

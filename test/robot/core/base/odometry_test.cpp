@@ -174,6 +174,26 @@ TEST_F(OdometryTest, VarianceGrowsWithTheWayHoweverItIsCut) {
   EXPECT_NEAR(fine(2, 2) / coarse(2, 2), 1, 0.02);
 }
 
+/// Over many lengths of slip the errors walk as the random walks do that the configuration names.
+TEST_F(OdometryTest, SlipOfDrivingForwardKeepsItsSignForAWhile) {
+  const OdometryNoise noise;
+  Wheels wheels;
+  Add(wheels.Sample());
+  const OdometryStep step = *Add(wheels.Roll({0.5, 0, 0}, milliseconds(20)));
+  EXPECT_TRUE(step.noise.isZero(1e-12));
+  EXPECT_NEAR(step.wander.kept, std::exp(-0.01 / noise.slip_length_m), 1e-4);
+  double error = 0, yaw = 0, forgotten = 0, cross = 0;
+  for (int i = 0; i < 3000; ++i) {
+    yaw += 2 * 0.01 * cross + 0.01 * 0.01 * error;
+    cross = step.wander.kept * (cross + 0.01 * error);
+    forgotten = step.wander.kept * step.wander.kept * error;
+    error = forgotten + step.wander.variance.y();
+  }
+  EXPECT_NEAR(std::sqrt(yaw), noise.yaw_rad_per_sqrt_m * std::sqrt(30), 0.02 * std::sqrt(yaw));
+  const OdometryWander half = step.wander.Part(0.5);
+  EXPECT_NEAR(half.kept * half.kept, step.wander.kept, 1e-9);
+}
+
 TEST_F(OdometryTest, ATurnOnTheSpotMovesTheBaseByChanceInXAndYAlike) {
   Wheels wheels;
   Add(wheels.Sample());

@@ -12,24 +12,39 @@ using Vector = PoseState::Vector;
 
 PoseState SomeState() {
   PoseState state;
-  state.mean << 1, 2, 0.7, 0.01, -0.02, 0.01, 0.004, -0.003;
-  Vector sigma(8);
-  sigma << 0.1, 0.12, 0.05, 0.01, 0.02, 0.01, 0.004, 0.003;
+  state.mean << 1, 2, 0.7, 0.01, -0.02, 0.01, 0.004, -0.003, 0.006, 0.01, -0.005;
+  Vector sigma(PoseState::kOwn);
+  sigma << 0.1, 0.12, 0.05, 0.01, 0.02, 0.01, 0.004, 0.003, 0.006, 0.01, 0.005;
   state.covariance = sigma.cwiseAbs2().asDiagonal();
   return state;
 }
 
 OdometryStep SomeStep(Duration time = milliseconds(200)) {
-  return {.from = FromUtime(0), .to = FromUtime(0) + time, .twist = {0.4, -0.2, 0.6}};
+  return {
+      .from = FromUtime(0), .to = FromUtime(0) + time, .twist = {0.4, -0.2, 0.6}, .wander = {.kept = 0.8}};
 }
 
 TEST(PoseState, ConstantErrorsScaleAndTurnTheMeasuredMotion) {
   PoseState state;
-  state.mean << 0, 0, 0, 0.1, 0.2, 0.3, 0.05, 0.02;
+  state.mean << 0, 0, 0, 0.1, 0.2, 0.3, 0.05, 0.02, 0, 0, 0;
   const Twist2 twist = Unbiased(state, {1, 0.5, 0.2});
   EXPECT_NEAR(twist.vx, 1.1, 1e-12);
   EXPECT_NEAR(twist.vy, 0.6 + 0.02, 1e-12);
   EXPECT_NEAR(twist.wz, 0.26 + 0.05, 1e-12);
+}
+
+TEST(PoseState, SlipThatWandersIsForgottenWithTheDistance) {
+  PoseState state;
+  state.mean << 0, 0, 0, 0, 0, 0, 0, 0, 0.02, 0.01, -0.01;
+  const Twist2 twist = Unbiased(state, {1, 0.5, 0.2});
+  EXPECT_NEAR(twist.vx, 1.02, 1e-12);
+  EXPECT_NEAR(twist.wz, 0.21, 1e-12);
+  EXPECT_NEAR(twist.vy, 0.49, 1e-12);
+  OdometryStep step = SomeStep();
+  step.wander.variance << 1e-6, 2e-6, 3e-6;
+  const PoseState next = Propagated(state, step);
+  EXPECT_TRUE(next.mean.tail<3>().isApprox(0.8 * state.mean.tail<3>()));
+  EXPECT_TRUE(next.covariance.diagonal().tail<3>().isApprox(step.wander.variance));
 }
 
 TEST(PoseState, CovarianceIsCarriedByTheDerivativeOfTheMotion) {

@@ -1,0 +1,73 @@
+#include "head/core/landmark/model_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::head {
+namespace {
+
+/// What an edge, and the breadth, may be off in each look alike.
+constexpr double kEdgeAlike_m = 0.0007, kBreadthAlike_m = 0.001;
+
+}  // namespace
+
+Breadth ModelErrors::breadth() const {
+  const Eigen::Index last = mean.size() - 1;
+  return {mean(last), std::sqrt(std::max(covariance(last, last), 0.0))};
+}
+
+EdgeShifts ShiftsOf(const LandmarkModel& model, const Eigen::VectorXd& errors) {
+  const double broader_m = errors(errors.size() - 1);
+  EdgeShifts shifts;
+  shifts.reserve(model.edges.size());
+  for (Eigen::Index i = 0; i + 1 < errors.size(); i += 3) {
+    const LandmarkEdge& edge = model.edges[static_cast<std::size_t>(i / 3)];
+    shifts.emplace_back(errors.segment<3>(i) + Eigen::Vector3d(0, broader_m * edge.ByBreadth(), 0));
+  }
+  return shifts;
+}
+
+LandmarkModel Shifted(LandmarkModel model, const EdgeShifts& shifts) {
+  for (std::size_t i = 0; i < shifts.size(); ++i) {
+    model.edges[i].from += shifts[i];
+    model.edges[i].to += shifts[i];
+  }
+  return model;
+}
+
+Eigen::VectorXd ModelVariance::Of(const LandmarkModel& model) const {
+  Eigen::VectorXd variance(ModelErrors::SizeFor(model));
+  for (std::size_t i = 0; i < model.edges.size(); ++i)
+    variance.segment<3>(static_cast<Eigen::Index>(3 * i))
+        .setConstant(model.edges[i].IsMovable() ? movable_m2 : edge_m2);
+  variance.tail<1>()(0) = breadth_m2;
+  return variance;
+}
+
+ModelErrors CarriedOver(ModelErrors errors, const LandmarkModel& model, const ModelVariance& before) {
+  const Eigen::VectorXd prior = before.Of(model);
+  // An error that is none by the options stays none.
+  Eigen::VectorXd alike = Eigen::VectorXd::Constant(prior.size(), kEdgeAlike_m * kEdgeAlike_m);
+  alike.tail<1>()(0) = kBreadthAlike_m * kBreadthAlike_m;
+  errors.covariance.diagonal() += alike.cwiseMin(prior);
+  for (std::size_t i = 0; i < model.edges.size(); ++i) {
+    if (!model.edges[i].IsMovable()) continue;
+    const auto at = static_cast<Eigen::Index>(3 * i);
+    errors.mean.segment<3>(at).setZero();
+    errors.covariance.middleRows<3>(at).setZero();
+    errors.covariance.middleCols<3>(at).setZero();
+    errors.covariance.diagonal().segment<3>(at) = prior.segment<3>(at);
+  }
+  return errors;
+}
+
+ModelErrors OnlyBreadth(const ModelErrors& errors, const LandmarkModel& model, const ModelVariance& before) {
+  if (errors.mean.size() != ModelErrors::SizeFor(model)) return {};
+  ModelErrors only{Eigen::VectorXd::Zero(errors.mean.size()), before.Of(model).asDiagonal()};
+  const Breadth breadth = errors.breadth();
+  only.mean.tail<1>()(0) = breadth.broader_m;
+  only.covariance.bottomRightCorner<1, 1>()(0, 0) = breadth.sigma_m * breadth.sigma_m;
+  return only;
+}
+
+}  // namespace priamos::head
