@@ -78,10 +78,18 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
                            "what waits is cancelled: True",
                            "it goes on: True",
                            "ends are listed: True",
+                           "corridor distances: [True, True, False, False, False]",
+                           "rounds: [True, True, False, False, False, False]",
+                           "what is allowed: x m: allowed: a number, -100 … 100",
+                           "Enter ticks: True",
+                           "a slider takes no letters: True",
+                           "a field says that it takes keys: True",
                            "the head says where it looks: True",
                            "it looks there: True",
                            "it looks ahead: True",
                            "an alarm is shown: True",
+                           "in the head of the page, too: 1 alarm",
+                           "then no more: True",
                            "who acknowledged it: True",
                            "parameters are shown: True",
                            "of every process: True",
@@ -95,6 +103,7 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
                            "complaints: []",
                            "dark fits: True",
                            "phone fits: True",
+                           "phone speaks: Fahren",
                            "tablet fits: True"})
     EXPECT_THAT(answer.text, HasSubstr(seen));
   EXPECT_GT(std::filesystem::file_size(views + "/mission.png"), 20'000u);
