@@ -299,5 +299,27 @@ TEST_F(Station, StrangersOnTheNetworkAreKeptOut) {
   EXPECT_THAT(answer.text, HasSubstr("half of a pair: 2"));
 }
 
+TEST_F(Station, WhatItsAuditFileLacksIsSaid) {
+  const auto answer = RunScript(R"sh(
+    $BIN/priamos-console --config $SOURCE/config/sim/console.toml --set 'audit_file="/dev/full"' --set port=8095 --set ports=1 &
+    STATION=$!
+    python3 - <<'PY'
+import time
+from station_page import Page, wait_for
+def page():
+    try:
+        return Page(8095)
+    except OSError:
+        return None
+wait_for(page, 10)
+time.sleep(2.5)
+PY
+    kill -INT $STATION; wait $STATION; echo "ended: $?"
+  )sh",
+                                30);
+  EXPECT_THAT(answer.text, HasSubstr("audit_file /dev/full cannot be written: "));
+  EXPECT_THAT(answer.text, HasSubstr("ended: 0"));
+}
+
 }  // namespace
 }  // namespace priamos
