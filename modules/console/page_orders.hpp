@@ -17,7 +17,7 @@ namespace priamos::console {
 
 class FoxgloveBridge;
 
-/// Whether a page's message is to be written down whoever sends it; of the stick it is who holds it, and when.
+/// Whether a page's message is written down whoever sends it; of the stick it is who holds it, and when.
 bool IsOrder(const BrowserMessage& message);
 /// Whether only a driver may send it. Anybody may stop the robot, and look.
 bool NeedsDriver(const BrowserMessage& message);

@@ -137,7 +137,8 @@ TEST(ConsoleMessages, TheLeaseIsMineWhenDriverAndSessionAre) {
   EXPECT_TRUE(mine.estop);
   EXPECT_EQ(FromMessage(status, kSession + 1).lease, RobotView::Lease::kOther);
   status.driver = lease_request_t::TELEOP;
-  EXPECT_EQ(FromMessage(status, kSession).lease, RobotView::Lease::kOther) << "teleop, in a session of that number";
+  EXPECT_EQ(FromMessage(status, kSession).lease, RobotView::Lease::kOther)
+      << "teleop, in a session of that number";
   status.driver = lease_request_t::NOBODY;
   EXPECT_EQ(FromMessage(status, kSession).lease, RobotView::Lease::kFree);
 }

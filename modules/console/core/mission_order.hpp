@@ -35,7 +35,7 @@ struct MissionOrder {
 
   Kind kind = Kind::kAbort;
   int landmark_id = 0;         ///< door to pass
-  std::optional<Target> goal;  ///< place to drive to; of a corridor its direction, nullopt: as the base stands
+  std::optional<Target> goal;  ///< place; of a corridor its direction, if any
   double distance_m = 0;       ///< how far to follow the corridor, 0: to its end
   int order_id = 0;            ///< order to cancel
   std::vector<Target> places;  ///< of a patrol, in turn

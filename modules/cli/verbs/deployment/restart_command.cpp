@@ -41,8 +41,10 @@ int Restart(const RestartOptions& options) {
     return Report(options, false, std::string(OutcomeOfProcess(answer->outcome)));
   const bool known_ready = call.now() - ordered < SupervisorDesk::kReadyWithin;
   if (!known_ready && !call.WaitUntilReady(name))
-    return Report(options, false, fmt::format("{} does not run again within 30 s; next: priamos logs {}", name, name));
-  return Report(options, true, fmt::format("{} runs again after {:.1f} s", name, Seconds(call.now() - ordered)));
+    return Report(options, false,
+                  fmt::format("{} does not run again within 30 s; next: priamos logs {}", name, name));
+  return Report(options, true,
+                fmt::format("{} runs again after {:.1f} s", name, Seconds(call.now() - ordered)));
 }
 
 }  // namespace
