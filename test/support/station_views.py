@@ -32,7 +32,7 @@ def drives(browser):
 
 def raise_alarm():
     """As the head would send it."""
-    alarm = {"utime": int(time.time() * 1e6), "severity": 1, "robot": ROBOT, "source": "head", "text": "the left camera is dark"}
+    alarm = {"utime": int(time.monotonic() * 1e6), "severity": 1, "robot": ROBOT, "source": "head", "text": "the left camera is dark"}
     subprocess.run([BIN + "/priamos", "topic", "pub", "ALARM", "alarm_t", json.dumps(alarm), "--bus", "offboard", "--robot", ROBOT],
                    check=True, stdout=subprocess.DEVNULL)
 

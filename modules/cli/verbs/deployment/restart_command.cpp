@@ -39,7 +39,8 @@ int Restart(const RestartOptions& options) {
   }
   if (answer->outcome != process_report_t::DONE)
     return Report(options, false, std::string(OutcomeOfProcess(answer->outcome)));
-  const bool known_ready = call.now() - ordered < SupervisorDesk::kReadyWithin;
+  // The answer says when it was given; its way, which may be a radio's, does not count.
+  const bool known_ready = FromUtime(answer->utime) - ordered < SupervisorDesk::kReadyWithin;
   if (!known_ready && !call.WaitUntilReady(name))
     return Report(options, false,
                   fmt::format("{} does not run again within 30 s; next: priamos logs {}", name, name));
