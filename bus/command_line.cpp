@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 
@@ -140,6 +141,7 @@ std::string Expected(const CLI::Option& option) {
   if (has("FLOAT")) return number;
   if (has("FILE")) return "an existing file";
   if (has("DIR")) return "an existing folder";
+  if (has("PATH")) return "an existing file or folder";
   return "a value";
 }
 
@@ -149,9 +151,15 @@ std::string BadValue(const CLI::App& app, const CLI::Option& option) {
     return fmt::format("{}: expected {} ({}), got \"\"{}", FullName(app), option.get_name(),
                        option.get_description(), Hint(app));
   const std::string type = option.get_type_name();
-  const bool is_path = type.find("FILE") != std::string::npos || type.find("DIR") != std::string::npos;
+  const auto is = [&](const char* kind) { return type.find(kind) != std::string::npos; };
+  const bool is_path = is("FILE") || is("DIR") || is("PATH");
+  std::error_code none;  // a file where a folder is expected is there, and no other name is meant
+  const bool is_there = is_path && std::filesystem::exists(got, none);
   return fmt::format("{}: {}: expected {}, got \"{}\"{}", FullName(app), option.get_name(), Expected(option),
-                     got, is_path ? NearestFileText(got, ".lcmlog") : NearestText(got, Members(option)));
+                     got,
+                     is_there  ? ""
+                     : is_path ? NearestFileText(got, ".lcmlog")
+                               : NearestText(got, Members(option)));
 }
 
 std::string WrongCount(const CLI::App& app, const CLI::Option& option) {

@@ -33,23 +33,6 @@ std::vector<ShownParameter> ShownParameters(const bus::ParameterSheet& sheet) {
   return shown;
 }
 
-/// Who may do least of those who have a token: that is enough to look.
-const TokenHolder& LeastOf(const std::vector<TokenHolder>& holders) {
-  const auto viewer = std::find_if(holders.begin(), holders.end(),
-                                   [](const TokenHolder& holder) { return holder.role == Role::kViewer; });
-  return viewer == holders.end() ? holders.front() : *viewer;
-}
-
-/// What is written down whoever sends it; of the stick it is who holds it, and when.
-bool IsOrder(const BrowserMessage& message) {
-  if (const auto* wish = std::get_if<ParameterWish>(&message))
-    return wish->kind != ParameterWish::Kind::kRead;
-  if (const auto* wish = std::get_if<ProcessWish>(&message)) return wish->kind != ProcessWish::Kind::kLog;
-  return std::holds_alternative<StopOrder>(message) || std::holds_alternative<MissionOrder>(message) ||
-         std::holds_alternative<AlarmSeen>(message) || std::holds_alternative<AimOrder>(message) ||
-         std::holds_alternative<PlaceOrder>(message);
-}
-
 std::string_view PhaseName(PilotPhase phase) {
   using enum PilotPhase;
   switch (phase) {
@@ -85,24 +68,16 @@ ConsoleApp::ConsoleApp(const ConsoleConfig& config, bus::Context& context)
       seat_(config.pilot, FromSeconds(config.freshness_s)),
       pilot_(config.pilot),
       wanted_(OnRequest(link_)),
+      base_{DrawSession(context)},
+      head_(base_),
       beat_(config.beat_hz),
-      processes_(context.node()),
+      orders_(context.node(), bridge_, base_.session, {config.place_sigma_m, config.place_sigma_deg}),
       status_(context.node().Subscribe(channels::kDriveStatus)),
-      corrections_(context.node().SubscribeAll(channels::kPoseCorrection)),
-      parameter_values_(context.node().SubscribeAll(channels::kParameterValue)),
       drive_(context.node().Advertise(channels::kDriveCommand)),
       head_drive_(context.node().Advertise(channels::kHeadDrive)),
       lease_(context.node().Advertise(channels::kLeaseRequest)),
       estop_(context.node().Advertise(channels::kEstop)),
-      mission_(context.node().Advertise(channels::kMissionCommand)),
-      head_aim_(context.node().Advertise(channels::kHeadAim)),
-      alarm_ack_(context.node().Advertise(channels::kAlarmAck)),
-      place_(context.node().Advertise(channels::kPoseReset)),
-      parameter_(context.node().Advertise(channels::kParameterOrder)),
       request_(context.node().Advertise(channels::kLinkRequest)) {
-  base_.session = head_.session = DrawSession(context);
-  places_ =
-      256 * base_.session;  // so that a robot does not take the first order for one of an earlier station
   for (const std::string_view channel : kShownChannels) Show(channel);
   if (context.lockstep()) return;
   ServeFoxglove();
@@ -133,15 +108,11 @@ void ConsoleApp::ServeFoxglove() {
       [this](ClientId client, const std::string& channel, bool on) { wanted_.Wish(client, channel, on); });
 }
 
-/// The robot's name is in the address, so that another robot's camera is not shown as this one's.
 void ConsoleApp::OpenVideo() {
-  PictureAddress camera = *ReadPictureAddress(config_.video);
-  camera.target = "/" + context_.robot() + "/third.jpg";
-  if (!config_.video_token_file.empty()) {
-    const WebAccess tokens = LoadAccess(config_.address, context_.ResolvePath(config_.video_token_file));
-    camera.target += "?token=" + LeastOf(tokens.holders).token;
-  }
-  video_.emplace(std::move(camera));
+  std::vector<TokenHolder> holders;
+  if (!config_.video_token_file.empty())
+    holders = LoadAccess(config_.address, context_.ResolvePath(config_.video_token_file)).holders;
+  video_.emplace(CameraOf(*ReadPictureAddress(config_.video), context_.robot(), holders));
   bridge_.OfferVideo();
 }
 
@@ -153,10 +124,7 @@ void ConsoleApp::Tick(Time now) {
   TakeSheets();
   if (const auto status = status_.Take()) robot_ = FromMessage(*status, base_.session);
   Drive(now);
-  Place(now);
-  if (const auto aim = aiming_.Step(now)) head_aim_.Publish(*aim);
-  ChangeParameters(now);
-  processes_.Tick(now);
+  orders_.Tick(now);
   for (const auto& request : wanted_.Step(now)) request_.Publish(ToMessage(request, now));
   if (beat_.Due(now)) {
     beat_.Mark(now);
@@ -182,33 +150,15 @@ void ConsoleApp::NoteDriver(Time now) {
   drove_ = holder;
 }
 
-/// The radio does not repeat what it loses of this: an answer of the robot ends it.
-void ConsoleApp::Place(Time now) {
-  for (const pose_correction_t& answer : corrections_.Drain()) placing_.Answered(answer.request_id);
-  if (const auto order = placing_.Step(now)) place_.Publish(*order);
-}
-
 void ConsoleApp::TakeSheets() {
   const auto sheets = parameters_.Take();
   if (!sheets) return;
   files_.AddParameters(*sheets);
   for (const auto& [process, sheet] : *sheets)
     if (sheet.live) {
-      parameter_orders_.Know(process, sheet.live->table);
+      orders_.Know(process, sheet.live->table);
       bridge_.KnowParameters(process, ShownParameters(*sheet.live));
     }
-}
-
-/// The pages see the answers as messages of their channel.
-void ConsoleApp::ChangeParameters(Time now) {
-  for (const parameter_value_t& answer : parameter_values_.Drain()) {
-    parameter_orders_.Answered(answer);
-    if (answer.outcome == parameter_value_t::OTHER_TABLE) continue;  // its numbers mean other keys
-    const bool done = answer.outcome == parameter_value_t::DONE;
-    bridge_.HearParameter(std::string(bus::ProcessOfParameters(answer.process)), answer.key, answer.value,
-                          answer.next_changed, done ? "" : bus::OutcomeText(answer.outcome));
-  }
-  if (const auto order = parameter_orders_.Step(now)) parameter_.Publish(*order);
 }
 
 void ConsoleApp::Send(const PilotOutput& output, Time now) {
@@ -265,19 +215,19 @@ bool ConsoleApp::Said(std::uint64_t client, std::string_view message, bool binar
   return !refusal;
 }
 
+/// A viewer's hand is on nothing: his reports are refused, which ends his connection.
 std::optional<Refusal> ConsoleApp::Obey(ClientId client, std::string_view page_message) {
   const auto message = ReadBrowserMessage(page_message);
   if (!message) return Refusal{message.reason()};
-  const bool done = std::visit([&](const auto& m) { return Take(client, m); }, *message);
+  const bool may = !NeedsDriver(*message) || RoleOf(client) == Role::kDriver;
+  const bool done = may && std::visit([&](const auto& m) { return Take(client, m); }, *message);
   if (IsOrder(*message))
     audit_.Note(now_, client, done ? "ordered" : "may not order", {{"message", Json::parse(page_message)}});
   if (done) return std::nullopt;
   return Refusal{"expected somebody who may drive, and an order for a robot"};
 }
 
-/// A viewer's hand is on nothing: his reports are refused, which ends his connection.
 bool ConsoleApp::Take(std::uint64_t client, const StickReport& report) {
-  if (RoleOf(client) != Role::kDriver) return false;
   if (!seat_.Take(client, report, beats_.AgeOf(report.beat, now_), now_)) ++late_;
   return true;
 }
@@ -289,40 +239,9 @@ bool ConsoleApp::Take(std::uint64_t, const StopOrder&) {
   return true;
 }
 
-bool ConsoleApp::Take(std::uint64_t client, const MissionOrder& order) {
-  if (RoleOf(client) != Role::kDriver) return false;
-  mission_.Publish(ToMessage(order, now_));
-  return true;
-}
-
-bool ConsoleApp::Take(std::uint64_t client, const PlaceOrder& order) {
-  if (RoleOf(client) != Role::kDriver) return false;
-  places_ = places_ % 65535 + 1;
-  placing_.Give(ToMessage(order, places_, {config_.place_sigma_m, config_.place_sigma_deg}, now_), now_);
-  return true;
-}
-
-bool ConsoleApp::Take(std::uint64_t client, const AimOrder& order) {
-  if (RoleOf(client) != Role::kDriver) return false;
-  aiming_.Give(ToMessage(order, now_));
-  return true;
-}
-
-/// Every station, and every page of it, is told who it was.
-bool ConsoleApp::Take(std::uint64_t client, const AlarmSeen& seen) {
-  if (RoleOf(client) != Role::kDriver) return false;
-  alarm_ack_.Publish(ToMessage(seen, names_[client], now_));
-  return true;
-}
-
-bool ConsoleApp::Take(std::uint64_t client, const ParameterWish& wish) {
-  return RoleOf(client) == Role::kDriver && parameter_orders_.Wish(wish);
-}
-
 /// After a new world nothing goes on that a hand held before.
-bool ConsoleApp::Take(std::uint64_t client, const ProcessWish& wish) {
-  if (RoleOf(client) != Role::kDriver) return false;
-  if (processes_.Wish(wish) && wish.kind == ProcessWish::Kind::kNewWorld) seat_.End();
+bool ConsoleApp::Take(std::uint64_t, const ProcessWish& wish) {
+  if (orders_.Take(wish) && wish.kind == ProcessWish::Kind::kNewWorld) seat_.End();
   return true;
 }
 
@@ -351,9 +270,20 @@ Json ConsoleApp::Station(std::uint64_t client, Role role) const {
           {"late", late_}};
 }
 
+/// What could not be written down is no secret: it is in the log, and in HEALTH, which every page shows.
+void ConsoleApp::NoteAudit() {
+  if (audit_.failed() == unwritten_) return;
+  unwritten_ = audit_.failed();
+  const std::string problem =
+      fmt::format("audit_file {} cannot be written: {} acts are missing", config_.audit_file, unwritten_);
+  context_.Log(bus::Level::kError, problem + "; next: make room for it");
+  context_.SetHealth(bus::Health::kDegraded, problem);
+}
+
 /// Who is refused is counted in the log, once a second at most.
 void ConsoleApp::Count(Time now) {
   count_.Mark(now);
+  NoteAudit();
   if (!server_) return;
   const WebCounters& c = server_->counters();
   const std::uint64_t all = c.requests + c.messages + c.crowded + c.slow;

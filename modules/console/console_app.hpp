@@ -12,11 +12,9 @@
 #include "bus/context.hpp"
 #include "bus/radio/link_config.hpp"
 #include "common/pilot/pilot.hpp"
-#include "common/pilot/repeated_order.hpp"
 #include "common/pilot/stop_keeper.hpp"
 #include "common/rate_limit.hpp"
 #include "common/web/web_server.hpp"
-#include "console/aim_sender.hpp"
 #include "console/audience.hpp"
 #include "console/audit_log.hpp"
 #include "console/console_config.hpp"
@@ -26,8 +24,7 @@
 #include "console/core/wanted_channels.hpp"
 #include "console/foxglove_bridge.hpp"
 #include "console/news_feed.hpp"
-#include "console/parameter_orders.hpp"
-#include "console/process_orders.hpp"
+#include "console/page_orders.hpp"
 #include "console/station_files.hpp"
 #include "console/video_feed.hpp"
 #include "lcmtypes/channels.hpp"
@@ -59,13 +56,13 @@ class ConsoleApp : public WebListener {
   Role RoleOf(ClientId client) const;
   bool Take(std::uint64_t client, const StickReport& report);
   bool Take(std::uint64_t client, const StopOrder& order);
-  bool Take(std::uint64_t client, const MissionOrder& order);
-  bool Take(std::uint64_t client, const PlaceOrder& order);
-  bool Take(std::uint64_t client, const AimOrder& order);
-  bool Take(std::uint64_t client, const AlarmSeen& seen);
-  bool Take(std::uint64_t client, const ParameterWish& wish);
-  bool Take(std::uint64_t client, const ProcessWish& wish);
   bool Take(std::uint64_t client, const ListenWish& wish);
+  bool Take(std::uint64_t client, const ProcessWish& wish);
+  bool Take(std::uint64_t, const MissionOrder& order) { return orders_.Take(order, now_); }
+  bool Take(std::uint64_t, const PlaceOrder& order) { return orders_.Take(order, now_); }
+  bool Take(std::uint64_t, const AimOrder& order) { return orders_.Take(order, now_); }
+  bool Take(std::uint64_t client, const AlarmSeen& seen) { return orders_.Take(seen, names_[client], now_); }
+  bool Take(std::uint64_t, const ParameterWish& wish) { return orders_.Take(wish); }
   bool Take(std::uint64_t, const ReplayOrder&) { return false; }  // there is no log
 
   void Show(std::string_view channel);
@@ -73,12 +70,11 @@ class ConsoleApp : public WebListener {
   void OpenVideo();
   void Drive(Time now);
   void NoteDriver(Time now);
-  void Place(Time now);
   void TakeSheets();
-  void ChangeParameters(Time now);
   void Send(const PilotOutput& output, Time now);
   nlohmann::ordered_json Station(std::uint64_t client, Role role) const;
   void Count(Time now);
+  void NoteAudit();
 
   ConsoleConfig config_;
   bus::Context& context_;
@@ -104,24 +100,14 @@ class ConsoleApp : public WebListener {
   Time now_{};
   std::uint64_t late_ = 0;  ///< wishes of pages that came too late
   std::uint64_t counted_ = 0;
-  int places_ = 0;  ///< number of the newest order that says where the robot stands
-  RepeatedOrder<pose_reset_t> placing_;
-  AimSender aiming_;
-  ParameterOrders parameter_orders_;
-  ProcessChannels processes_;
+  std::uint64_t unwritten_ = 0;  ///< acts that the audit log lacks
+  PageOrders orders_;
 
   bus::Latest<drive_status_t> status_;
-  bus::Inbox<pose_correction_t> corrections_;
-  bus::Inbox<parameter_value_t> parameter_values_;
   bus::Publisher<drive_command_t> drive_;
   bus::Publisher<head_drive_t> head_drive_;
   bus::Publisher<lease_request_t> lease_;
   bus::Publisher<estop_t> estop_;
-  bus::Publisher<mission_command_t> mission_;
-  bus::Publisher<head_aim_t> head_aim_;
-  bus::Publisher<alarm_ack_t> alarm_ack_;
-  bus::Publisher<pose_reset_t> place_;
-  bus::Publisher<parameter_order_t> parameter_;
   bus::Publisher<link_request_t> request_;
   std::unique_ptr<WebServer> server_;  ///< none in lockstep
   std::optional<VideoFeed> video_;     ///< none without a video link, and in lockstep

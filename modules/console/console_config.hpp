@@ -31,7 +31,7 @@ struct ConsoleConfig {
   int pages = 16;
   double rate_hz = 200;
   double beat_hz = 20;
-  double freshness_s = 0.25;
+  double freshness_s = 0.22;
   double place_sigma_m = 0.15;
   double place_sigma_deg = 5;
   DrawnBody body;

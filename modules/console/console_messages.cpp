@@ -33,10 +33,6 @@ std::int8_t MissionOf(Kind kind) {
   }
 }
 
-bool HasGoal(Kind kind) {
-  return kind == Kind::kGoto || kind == Kind::kCorridor;
-}
-
 mission_step_t StepTo(const Target& place) {
   mission_step_t step{};
   step.mission = mission_command_t::GOTO;
@@ -99,10 +95,12 @@ mission_command_t ToMessage(const MissionOrder& order, Time now) {
   message.utime = ToUtime(now);
   message.mission = MissionOf(order.kind);
   message.landmark_id = static_cast<std::int16_t>(order.landmark_id);
-  message.x_m = order.goal.map_from_base.x;
-  message.y_m = order.goal.map_from_base.y;
-  message.yaw_rad = order.goal.map_from_base.yaw;
-  message.turn = HasGoal(order.kind) && order.goal.turn;
+  if (order.goal) {
+    message.x_m = order.goal->map_from_base.x;
+    message.y_m = order.goal->map_from_base.y;
+    message.yaw_rad = order.goal->map_from_base.yaw;
+    message.turn = order.goal->turn;
+  }
   message.distance_m = static_cast<float>(order.distance_m);
   message.order_id = order.order_id;
   if (order.kind != MissionOrder::Kind::kPatrol) return message;

@@ -1,9 +1,20 @@
 #include "console/video_feed.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
 namespace priamos::console {
+
+PictureAddress CameraOf(PictureAddress server, const std::string& robot,
+                        const std::vector<TokenHolder>& holders) {
+  server.target = "/" + robot + "/third.jpg";
+  if (holders.empty()) return server;
+  const auto viewer = std::find_if(holders.begin(), holders.end(),
+                                   [](const TokenHolder& holder) { return holder.role == Role::kViewer; });
+  server.target += "?token=" + (viewer == holders.end() ? holders.front() : *viewer).token;
+  return server;
+}
 
 std::string PagePicture(const FetchedPicture& picture, Time now) {
   const auto age = std::bit_cast<std::uint64_t>(Seconds(now - picture.exposed));

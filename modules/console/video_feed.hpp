@@ -4,9 +4,11 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "common/time.hpp"
 #include "common/web/picture_client.hpp"
+#include "common/web/web_request.hpp"
 #include "common/web/web_server.hpp"
 #include "console/core/seat.hpp"
 #include "console/foxglove_bridge.hpp"
@@ -33,6 +35,12 @@ class VideoFeed {
   PictureClient client_;
   std::set<ClientId> pages_;
 };
+
+/// Where the pictures of a robot's third camera are: its name is in the address, so that another robot's are
+/// not shown as its own. `server`: without a target. `holders`: who may fetch them, by token; none: anybody.
+/// Of these the token that may do least is taken, which is enough to look.
+PictureAddress CameraOf(PictureAddress server, const std::string& robot,
+                        const std::vector<TokenHolder>& holders);
 
 /// A picture as a page gets it: 8 bytes, how old it is at `now` [s] as a double with the highest byte first,
 /// and the JPEG.

@@ -158,6 +158,21 @@ TEST(CommandLine, AFileThatDoesNotExistIsAnsweredWithTheNearestOne) {
                         (folder / "day.lcmlog").string()));
 }
 
+TEST(CommandLine, WhatIsThereButOfAnotherKindHasNoNearestName) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "day.lcmlog") << "a log";
+  Fixture fixture;
+  std::string run, log;
+  auto* status = fixture.cli.get_subcommand("status");
+  status->add_option("run", run, "folder of a run")->check(CLI::ExistingDirectory);
+  status->add_option("--from", log, "a log, or a folder")->check(CLI::ExistingPath);
+  const std::string file = folder / "day.lcmlog", missing = "/nowhere/at/all";
+  EXPECT_EQ(fixture.Refusal({"status", file}),
+            fmt::format("prog status: run: expected an existing folder, got \"{}\"", file));
+  EXPECT_THAT(fixture.Refusal({"status", "--from", missing}),
+              HasSubstr("--from: expected an existing file or folder, got \"/nowhere/at/all\""));
+}
+
 TEST(CommandLine, NumbersAreFiniteAndInTheirRange) {
   for (const char* bad : {"nan", "inf", "0", "61", "long"})
     EXPECT_EQ(Refusal({"run", "--seconds", bad}),

@@ -1,4 +1,5 @@
 """Chromium without a screen, steered over its DevTools protocol. Standard library only."""
+import atexit
 import base64
 import json
 import os
@@ -19,14 +20,42 @@ class Browser:
             ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--remote-debugging-port=0",
              f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}", f"--lang={language}", "about:blank"],
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "LANGUAGE": language[:2], "LANG": "C.UTF-8"})
-        port = next(m.group(1) for m in (re.search(r"ws://127.0.0.1:(\d+)/", line) for line in self.process.stderr) if m)
-        pages = json.load(urllib.request.urlopen(f"http://127.0.0.1:{port}/json"))
-        self._connect(next(p["webSocketDebuggerUrl"] for p in pages if p["type"] == "page"))
+        self.port = next(m.group(1) for m in (re.search(r"ws://127.0.0.1:(\d+)/", line) for line in self.process.stderr) if m)
+        atexit.register(self.process.kill)
         self.number, self.complaints = 0, []
+        self.looks = (width, height, scheme, language)
+        pages = json.load(urllib.request.urlopen(f"http://127.0.0.1:{self.port}/json"))
+        self._take(next(p for p in pages if p["type"] == "page")["id"])
+
+    def _take(self, tab):
+        """Talks to that tab from now on."""
+        self.tab = tab
+        self._connect(f"ws://127.0.0.1:{self.port}/devtools/page/{tab}")
+        width, height, scheme, language = self.looks
         for domain in ("Page", "Runtime", "Log"):
             self.call(domain + ".enable")
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
+        self.call("Emulation.setUserAgentOverride", userAgent=self.run("navigator.userAgent"), acceptLanguage=language)
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+
+    def _order(self, order):
+        """Of the browser, not of a page."""
+        return urllib.request.urlopen(urllib.request.Request(f"http://127.0.0.1:{self.port}/json/{order}", method="PUT")).read()
+
+    def open_tab(self, url):
+        self._take(json.loads(self._order("new?" + url))["id"])
+
+    def close_tab(self):
+        """Of all tabs one must stay; open_tab is next."""
+        self._order("close/" + self.tab)
+
+    def cover_tab(self):
+        """Another tab goes before this one."""
+        self.cover = json.loads(self._order("new?about:blank"))["id"]
+
+    def uncover_tab(self):
+        self._order("close/" + self.cover)
+        self._order("activate/" + self.tab)
 
     def _connect(self, url):
         host, port, path = re.match(r"ws://([^:/]+):(\d+)(/.*)", url).groups()

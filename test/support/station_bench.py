@@ -13,7 +13,7 @@ import time
 from browser import Browser
 from cut_line import CutLine
 from station_page import Page, wait_for
-from station_rig import Rig, report
+from station_rig import ENDS, Rig, report
 
 BIN, ROBOT, PORT, UP, ROUNDS, PARTS = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4], int(sys.argv[5]), sys.argv[6:]
 TICK_S = 1 / os.sysconf("SC_CLK_TCK")
@@ -25,7 +25,7 @@ def progress(i, n, what):
 
 
 def measure_ends(rig):
-    for how in ("released", "tab closed", "silent", "stop", "delayed", "station killed"):
+    for how in ENDS:
         took = []
         for i in range(ROUNDS):
             progress(i, ROUNDS, how)
@@ -39,27 +39,31 @@ class BrowserHand:
     def __init__(self, rig):
         self.rig = rig
         self.line = CutLine(rig.port)
+        self._begin()
+
+    def _begin(self):
+        self.browser = Browser()
         self._open()
 
     def _open(self):
-        self.browser = Browser()
-        self.browser.call("Page.navigate", url=f"http://127.0.0.1:{self.line.port}/")
-        self.browser.call("Emulation.setFocusEmulationEnabled", enabled=False)
+        self.browser.open_tab(f"http://127.0.0.1:{self.line.port}/")
         self.browser.call("Page.bringToFront")
         wait_for(lambda: "m" in (self.browser.text("robot") or ""), 10)
 
     def hold(self, key):
-        for _ in range(3):
+        for _ in range(6):
             self.browser.key("down", *key)
-            if wait_for(lambda: self.rig.wheels.turning, 4):
+            if wait_for(lambda: self.rig.wheels.turning, 3):
                 return time.sleep(0.4)
             self.browser.key("up", *key)
             time.sleep(0.5)
         raise SystemExit(f"the wheels do not turn: {self.browser.text('phase')}")
 
     def end(self, how):
-        if how == "tab hidden":
-            self.browser.call("Page.setWebLifecycleState", state="frozen")
+        if how == "tab closed":
+            self.browser.close_tab()
+        elif how == "tab hidden":
+            self.browser.cover_tab()
         elif how == "window without focus":
             self.browser.run("window.dispatchEvent(new Event('blur'))")
         elif how == "network cut":
@@ -70,41 +74,51 @@ class BrowserHand:
             os.kill(self.rig.pid_of("offboard-radio"), signal.SIGSTOP)
 
     def mend(self, how):
-        if how == "tab hidden":
-            self.browser.call("Page.setWebLifecycleState", state="active")
+        if how == "tab closed":
+            self._open()
+        elif how == "tab hidden":
+            self.browser.uncover_tab()
         elif how == "network cut":
             self.line.mend()
         elif how == "browser killed":
             self.browser.close()
-            self._open()
+            self._begin()
         elif how == "radio cut":
             os.kill(self.rig.pid_of("offboard-radio"), signal.SIGCONT)
 
 
+def seconds_to_stand(rig, hand, how, key):
+    """And whether it moved again when the way was free, with the key still held."""
+    hand.hold(key)
+    while not rig.wheels.turning:  # a busy machine loses the hand
+        hand.browser.key("up", *key)
+        hand.hold(key)
+    ended = time.monotonic()
+    hand.end(how)
+    time.sleep(0.6)
+    stood = rig.wheels.last_turn
+    hand.mend(how)
+    time.sleep(1.2)
+    hand.browser.key("up", *key)
+    again = rig.wheels.last_turn > stood
+    time.sleep(0.3)
+    return max(0.0, stood - ended), again
+
+
 def measure_browser(rig):
-    """The key stays down also when the way is free again: nothing may move then either."""
     hand = BrowserHand(rig)
     supervisor = int(open(os.path.dirname(UP) + "/up.lock", encoding="utf-8").readline())
-    for how in ("window without focus", "tab hidden", "network cut", "radio cut", "browser killed"):
+    for how in ("tab closed", "tab hidden", "window without focus", "network cut", "browser killed", "radio cut"):
         took, again = [], 0
+        if how == "radio cut":
+            os.kill(supervisor, signal.SIGSTOP)  # it would start a silent radio again
         for i in range(ROUNDS):
             progress(i, ROUNDS, how)
-            key = ("KeyW", "w") if i % 2 == 0 else ("KeyS", "s")
-            hand.hold(key)
-            if how == "radio cut":
-                os.kill(supervisor, signal.SIGSTOP)  # it would start a silent radio again
-            ended = time.monotonic()
-            hand.end(how)
-            time.sleep(0.9)
-            stood = rig.wheels.last_turn
-            hand.mend(how)
-            if how == "radio cut":
-                os.kill(supervisor, signal.SIGCONT)
-            time.sleep(1.5)
-            took.append(max(0.0, stood - ended))
-            again += rig.wheels.last_turn > stood
-            hand.browser.key("up", *key)
-            time.sleep(0.3)
+            seconds, moved = seconds_to_stand(rig, hand, how, ("KeyW", "w") if i % 2 == 0 else ("KeyS", "s"))
+            took.append(seconds)
+            again += moved
+        if how == "radio cut":
+            os.kill(supervisor, signal.SIGCONT)
         report(how, took)
         print(f"{how}: moved again while the key was still held: {again}", flush=True)
     hand.browser.close()
@@ -205,22 +219,33 @@ def measure_frames(rig):
 
 
 def measure_growth(rig):
-    """A recorded run at 24 times its rate onto the station's bus, ROUNDS minutes long."""
+    """A recorded run at 24 times its rate onto the station's bus, ROUNDS minutes long, with plan and plots open in a page each."""
     pid = rig.pid_of("offboard-console")
-    browser = Browser()
-    browser.call("Page.navigate", url=f"http://127.0.0.1:{rig.port}/")
-    wait_for(lambda: "m" in (browser.text("robot") or ""), 10)
-    heap = "performance.memory.usedJSHeapSize / 1e6"
-    log = os.environ["RECORDED"]
-    end, lines = time.monotonic() + 60 * ROUNDS, []
-    while time.monotonic() < end:
+    browsers = [Browser(), Browser()]
+    for browser in browsers:
+        browser.call("Page.navigate", url=f"http://127.0.0.1:{rig.port}/")
+        wait_for(lambda: "m" in (browser.text("robot") or ""), 10)
+    browsers[1].click("show-plots")
+    field = "[...document.querySelectorAll('.fields details[data-channel=POSE] button')].find((b) => b.textContent === 'x_m')"
+    wait_for(lambda: browsers[1].run(f"{field} !== undefined"), 5)
+    browsers[1].run(f"{field}.click()")
+    log, played = os.environ["RECORDED"], 0
+    began, lines = time.monotonic(), []
+    while time.monotonic() < began + 60 * ROUNDS:
         subprocess.run([BIN + "/priamos", "log", "play", log, "--speed", "24", "--bus", "offboard", "--robot", ROBOT],
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
-        browser.call("HeapProfiler.collectGarbage")
-        lines.append((memory_mb(pid), browser.run(heap)))
-    first, last = lines[len(lines) // 5], lines[-1]
-    print(f"{ROUNDS} minutes at 24 times the rate: server {first[0]:.1f} -> {last[0]:.1f} MB, page {first[1]:.1f} -> {last[1]:.1f} MB", flush=True)
-    browser.close()
+        played += 1
+        if time.monotonic() > began + 30 * (len(lines) + 1):
+            for browser in browsers:
+                browser.call("HeapProfiler.collectGarbage")
+            lines.append([memory_mb(pid)] + [browser.run("performance.memory.usedJSHeapSize / 1e6") for browser in browsers])
+            print(f"  {len(lines) / 2} min, played {played} times: server, plan, plots [MB]: "
+                  + ", ".join(f"{n:.1f}" for n in lines[-1]), file=sys.stderr, flush=True)
+    first, last = lines[len(lines) // 4], lines[-1]
+    print(f"{ROUNDS} minutes at 24 times the rate, from a quarter on: "
+          + ", ".join(f"{what} {a:.1f} -> {b:.1f} MB" for what, a, b in zip(("server", "plan", "plots"), first, last)), flush=True)
+    for browser in browsers:
+        browser.close()
 
 
 def main():

@@ -8,6 +8,7 @@ import time
 
 from station_page import Page, wait_for
 
+ENDS = ("released", "tab closed", "silent", "stop", "delayed", "station killed")
 LATE_S = 0.3  # asked: so long after the end of a drive no command turns a wheel
 
 
@@ -38,33 +39,45 @@ class Rig:
     """`tools`: folder of the programs; `up_file`: up.json of `priamos up`."""
 
     def __init__(self, tools, robot, port, up_file):
-        self.port, self.up_file = port, up_file
+        self.port, self.up_file, self.next_port = port, up_file, port + 100
         self.wheels = Wheels(tools, robot)
 
     def pid_of(self, process):
         with open(self.up_file, encoding="utf-8") as file:
             return next(p["pid"] for p in json.load(file)["processes"] if p["name"] == process)
 
-    def open_page(self):
+    def second_station(self):
+        """Another one beside that of `priamos up`, which would start one that is killed again later each time."""
+        with open(f"/proc/{self.pid_of('offboard-console')}/cmdline", encoding="utf-8") as file:
+            arguments = file.read().rstrip("\0").split("\0")
+        self.next_port += 1  # who waits for the page of an earlier one holds its port
+        port = self.next_port
+        return subprocess.Popen([*arguments, "--port", str(port)], stderr=subprocess.DEVNULL), port
+
+    def open_page(self, port=None):
         """A page; the station may still be starting."""
-        for _ in range(100):
+        for _ in range(300):
             try:
-                return Page(self.port)
+                return Page(port or self.port)
             except ConnectionError:
                 time.sleep(0.1)
         raise SystemExit("no station")
 
-    def drive(self, forward=1):
-        page = self.open_page()
+    def drive(self, forward=1, port=None):
+        page = self.open_page(port)
         wait_for(lambda: page.station and page.messages.get("DRIVE_STATUS"), 5)
         time.sleep(0.2)
         page.push(forward)
-        if not wait_for(lambda: self.wheels.turning, 6):
-            raise SystemExit(f"the wheels do not turn: {page.station} {page.messages.get('DRIVE_STATUS')}")
-        time.sleep(0.4)
-        return page
+        for _ in range(3):  # a busy machine refuses what is too old, and a drive does not begin
+            if wait_for(lambda: self.wheels.turning, 6):
+                time.sleep(0.4)
+                return page
+            page.let_go()
+            time.sleep(0.3)
+            page.push(forward)
+        raise SystemExit(f"the wheels do not turn: {page.station} {page.messages.get('DRIVE_STATUS')}")
 
-    def end(self, page, how):
+    def end(self, page, how, station=None):
         if how == "released":
             page.let_go()
         elif how == "tab closed":
@@ -76,16 +89,18 @@ class Rig:
         elif how == "delayed":
             page.frozen_beat = page.beat  # what arrives from now on was wished ever longer ago
         elif how == "station killed":
-            os.kill(self.pid_of("offboard-console"), signal.SIGKILL)
+            station.kill()
+            station.wait()
 
     def seconds_to_stand(self, how, forward):
         """From the end of a drive to the last command that turned a wheel, with the hand still on the stick after it."""
-        page = self.drive(forward)
+        station, port = self.second_station() if how == "station killed" else (None, None)
+        page = self.drive(forward, port)
         ended = time.monotonic()
-        self.end(page, how)
-        time.sleep(0.8)
+        self.end(page, how, station)
+        time.sleep(0.6)
         page.talks, page.frozen_beat = True, None  # the hand is still there when the way is free again
-        time.sleep(0.8)
+        time.sleep(0.6)
         if how == "stop":
             rearm(page)
         if not page.closed:

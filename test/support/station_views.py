@@ -32,9 +32,17 @@ def drives(browser):
 
 def raise_alarm():
     """As the head would send it."""
-    alarm = {"utime": int(time.time() * 1e6), "severity": 1, "robot": ROBOT, "source": "head", "text": "the left camera is dark"}
+    alarm = {"utime": int(time.monotonic() * 1e6), "severity": 1, "robot": ROBOT, "source": "head", "text": "the left camera is dark"}
     subprocess.run([BIN + "/priamos", "topic", "pub", "ALARM", "alarm_t", json.dumps(alarm), "--bus", "offboard", "--robot", ROBOT],
                    check=True, stdout=subprocess.DEVNULL)
+
+
+def picture_of(browser, part, name):
+    """With that part of the page in sight."""
+    browser.run(f"document.getElementById('{part}').scrollIntoView()")
+    time.sleep(0.3)
+    browser.picture(f"{FOLDER}/{name}.png")
+    browser.run("document.getElementById('drive-title').scrollIntoView()")
 
 
 def report(name, value):
@@ -190,7 +198,7 @@ def missions(browser):
     report("an order waits", wait_for(lambda: "goto" in browser.text("queue"), 4))
     browser.click("pause")
     report("it is paused", wait_for(lambda: "paused" in (browser.text("progress-text") or ""), 6))
-    browser.picture(FOLDER + "/patrol.png")
+    picture_of(browser, "mission-title", "patrol")
     browser.run("document.querySelector('#queue button').click()")
     report("what waits is cancelled", wait_for(lambda: browser.text("queue") == "", 4))
     browser.click("pause")
@@ -198,6 +206,40 @@ def missions(browser):
     browser.click("abort")
     report("ends are listed", wait_for(lambda: "cancelled" in browser.text("ends"), 6))
     browser.click("clear-places")
+
+
+def enabled(browser, field, value, button):
+    """Whether a button can be pressed with that in a field."""
+    browser.run(f"(() => {{ document.getElementById('{field}').value = '{value}';"
+                " document.getElementById('orders').dispatchEvent(new Event('input')); })()")
+    return browser.run(f"!document.getElementById('{button}').disabled")
+
+
+def fields(browser):
+    """What is not allowed in a field is no order, and said so."""
+    report("corridor distances", [enabled(browser, "corridor-m", v, "corridor") for v in ("5", "0", "-5", "1000000", "")])
+    browser.click("add-place")
+    report("rounds", [enabled(browser, "rounds", v, "patrol") for v in ("2", "0", "-1", "99999", "1.5", "")])
+    browser.click("clear-places")
+    for field, value in (("rounds", "1"), ("corridor-m", "0"), ("target-x", "1000")):
+        enabled(browser, field, value, "goto")
+    report("what is allowed", browser.text("field-hint"))
+    enabled(browser, "target-x", "2.4", "goto")
+
+
+def keys(browser):
+    """Everything by keyboard, the space bar being the stop's."""
+    browser.run("document.getElementById('follow').focus()")
+    browser.key("down", "Enter", "Enter")
+    browser.key("up", "Enter", "Enter")
+    report("Enter ticks", browser.run("document.getElementById('follow').checked"))
+    browser.run("document.getElementById('turn').focus()")
+    browser.key("down", "KeyW", "w")
+    report("a slider takes no letters", wait_for(lambda: drives(browser), 5))
+    browser.key("up", "KeyW", "w")
+    browser.run("document.getElementById('target-x').focus()")
+    report("a field says that it takes keys", wait_for(lambda: "keys go to the field" in browser.text("phase"), 5))
+    browser.run("document.activeElement.blur(); document.getElementById('follow').click()")
 
 
 def head(browser):
@@ -211,7 +253,8 @@ def head(browser):
     browser.mouse("mousePressed", x, y)
     browser.mouse("mouseReleased", x, y)
     report("it looks there", wait_for(lambda: browser.text("head-state").split(",")[0] != before, 8))
-    browser.picture(FOLDER + "/head.png")
+    print(f"head: {before} -> {browser.text('head-state')}")
+    picture_of(browser, "head-title", "head")
     browser.click("look-ahead")
     report("it looks ahead", wait_for(lambda: "pan 0.0°" in browser.text("head-state").replace("-0.0", "0.0"), 8))
     browser.run("document.getElementById('head-parts').open = false")
@@ -221,9 +264,12 @@ def alarm(browser):
     """Somebody has to take note of an alarm, and everybody sees who did."""
     raise_alarm()
     report("an alarm is shown", wait_for(lambda: "left camera is dark" in browser.text("alarms"), 4))
+    report("in the head of the page, too", browser.text("alarm-mark"))
+    picture_of(browser, "alarm-title", "alarm")
     browser.run("document.querySelector('#alarms button').click()")
     report("who acknowledged it", wait_for(lambda: "acknowledged by 127.0.0.1" in browser.text("alarms"), 4))
-    browser.picture(FOLDER + "/alarms.png")
+    report("then no more", wait_for(lambda: browser.run("document.getElementById('alarm-mark').hidden"), 4))
+    picture_of(browser, "link-title", "link")
 
 
 def other_screens():
@@ -233,6 +279,7 @@ def other_screens():
         load(browser)
         wide = browser.run("document.documentElement.scrollWidth")
         report(f"{name} fits", wide <= width)
+        report(f"{name} speaks", browser.text("drive-title"))
         browser.picture(f"{FOLDER}/{name}.png")
         browser.close()
 
@@ -249,6 +296,8 @@ def main():
     mission(browser)
     place(browser)
     missions(browser)
+    fields(browser)
+    keys(browser)
     head(browser)
     alarm(browser)
     plots(browser)

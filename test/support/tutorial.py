@@ -40,7 +40,21 @@ class Reader:
         return wait_for(lambda: "errorText" not in self.browser.call("Page.navigate", url=url), 10)
 
     def do_wait(self, element, words, seconds):
-        return wait_for(lambda: any(w in (self.browser.text(element) or "") for w in words.split("|")), float(seconds))
+        find = f"document.querySelector('{element if element.startswith('.') else '#' + element}')?.innerText ?? ''"
+        return wait_for(lambda: any(w in self.browser.run(find) for w in words.replace("_", " ").split("|")), float(seconds))
+
+    def do_unfold(self, *selector):
+        """Opens a part of the page that is folded."""
+        found = f"document.querySelector('{' '.join(selector)}')"
+        return self.browser.run(f"(() => {{ const e = {found}; if (e === null) return false; e.open = true; e.scrollIntoView(); return true; }})()")
+
+    def do_press(self, selector, label):
+        """A button without a name, by what is written on it, as soon as it can be pressed."""
+        button = (f"[...document.querySelectorAll('{selector} button')].find((b) => b.textContent.startsWith('{label.replace('_', ' ')}')"
+                  " && !b.hidden && !b.disabled)")
+        there = wait_for(lambda: self.browser.run(f"{button} !== undefined"), 10)
+        self.browser.run(f"{button}?.click()")
+        return there
 
     def do_click(self, element):
         there = self.browser.run(f"(() => {{ const e = document.getElementById('{element}'); return e !== null && !e.disabled; }})()")

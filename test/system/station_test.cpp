@@ -78,10 +78,18 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
                            "what waits is cancelled: True",
                            "it goes on: True",
                            "ends are listed: True",
+                           "corridor distances: [True, True, False, False, False]",
+                           "rounds: [True, True, False, False, False, False]",
+                           "what is allowed: x m: allowed: a number, -100 … 100",
+                           "Enter ticks: True",
+                           "a slider takes no letters: True",
+                           "a field says that it takes keys: True",
                            "the head says where it looks: True",
                            "it looks there: True",
                            "it looks ahead: True",
                            "an alarm is shown: True",
+                           "in the head of the page, too: 1 alarm",
+                           "then no more: True",
                            "who acknowledged it: True",
                            "parameters are shown: True",
                            "of every process: True",
@@ -95,6 +103,7 @@ TEST_F(Station, IsSeenAndUsedInABrowser) {
                            "complaints: []",
                            "dark fits: True",
                            "phone fits: True",
+                           "phone speaks: Fahren",
                            "tablet fits: True"})
     EXPECT_THAT(answer.text, HasSubstr(seen));
   EXPECT_GT(std::filesystem::file_size(views + "/mission.png"), 20'000u);
@@ -288,6 +297,28 @@ TEST_F(Station, StrangersOnTheNetworkAreKeptOut) {
   EXPECT_THAT(answer.text, HasSubstr("tokens:1: expected `driver TOKEN [NAME]`"));
   EXPECT_THAT(answer.text, HasSubstr("bad token: 2"));
   EXPECT_THAT(answer.text, HasSubstr("half of a pair: 2"));
+}
+
+TEST_F(Station, WhatItsAuditFileLacksIsSaid) {
+  const auto answer = RunScript(R"sh(
+    $BIN/priamos-console --config $SOURCE/config/sim/console.toml --set 'audit_file="/dev/full"' --set port=8095 --set ports=1 &
+    STATION=$!
+    python3 - <<'PY'
+import time
+from station_page import Page, wait_for
+def page():
+    try:
+        return Page(8095)
+    except OSError:
+        return None
+wait_for(page, 10)
+time.sleep(2.5)
+PY
+    kill -INT $STATION; wait $STATION; echo "ended: $?"
+  )sh",
+                                30);
+  EXPECT_THAT(answer.text, HasSubstr("audit_file /dev/full cannot be written: "));
+  EXPECT_THAT(answer.text, HasSubstr("ended: 0"));
 }
 
 }  // namespace

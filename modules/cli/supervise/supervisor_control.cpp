@@ -90,13 +90,14 @@ std::string SupervisorControl::SideOf(const ProcessReport& process) const {
 
 SupervisorDesk::Hands SupervisorControl::HandsOf(const Channels& side) {
   SupervisorDesk::Hands hands;
-  hands.has = [this, &side](const std::string& process) {
+  hands.look = [this, &side](const std::string& process) -> std::optional<ProcessReport> {
     const auto all = supervisor_.Report();
-    return std::any_of(all.begin(), all.end(), [&](const ProcessReport& report) {
+    const auto at = std::find_if(all.begin(), all.end(), [&](const ProcessReport& report) {
       return report.name == process && SideOf(report) == side.name;
     });
+    return at == all.end() ? std::nullopt : std::optional(*at);
   };
-  hands.restart = [this, &side](const std::string& process) { return Restart(side, process); };
+  hands.restart = [this, &side](const std::string& process) { Restart(side, process); };
   hands.console = [this](const std::string& process, std::int64_t end_bytes) {
     return ReadConsolePiece(supervisor_.ConsoleFile(process), end_bytes, SupervisorDesk::kMostText);
   };
@@ -107,7 +108,7 @@ SupervisorDesk::Hands SupervisorControl::HandsOf(const Channels& side) {
 
 /// What drives ends when the base stands, and begins with its emergency stop latched: it does not know its
 /// pose then, and a planner would repeat its path.
-std::string SupervisorControl::Restart(const Channels& side, const std::string& process) {
+void SupervisorControl::Restart(const Channels& side, const std::string& process) {
   const auto all = supervisor_.Report();
   const auto report = std::find_if(all.begin(), all.end(), [&](const auto& r) { return r.name == process; });
   if (report->drives) {
@@ -116,7 +117,6 @@ std::string SupervisorControl::Restart(const Channels& side, const std::string& 
   } else {
     supervisor_.Restart(process);
   }
-  return report->reason;
 }
 
 bool SupervisorControl::NewWorld(const std::string& scenario) {
@@ -138,6 +138,8 @@ void SupervisorControl::Step(Time now) {
   for (const Later& later : later_)
     if (now >= later.at) supervisor_.Restart(later.process);
   std::erase_if(later_, [&](const Later& later) { return now >= later.at; });
+  for (const auto& side : sides_)
+    for (const process_report_t& answer : side->desk.Step(now)) side->reports.Publish(answer);
   const auto all = supervisor_.Report();
   for (const auto& side : sides_) {
     TellStates(*side, all, now);

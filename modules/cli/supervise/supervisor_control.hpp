@@ -45,7 +45,7 @@ class SupervisorControl {
   };
   SupervisorDesk::Hands HandsOf(const Channels& side);
   std::string SideOf(const ProcessReport& process) const;
-  std::string Restart(const Channels& side, const std::string& process);
+  void Restart(const Channels& side, const std::string& process);
   bool NewWorld(const std::string& scenario);
   void TellStates(Channels& side, const std::vector<ProcessReport>& all, Time now);
   void TellSimulation(Channels& side, Time now);

@@ -18,38 +18,59 @@ constexpr Duration kAheadAllowed = std::chrono::seconds(1);
 std::optional<Report> SupervisorDesk::Take(const Order& order, Time now) {
   if (!IsMine(order)) return std::nullopt;
   while (!answered_.empty() && now - answered_.front().time > kOldest) answered_.pop_front();
-  if (const Report* answer = AnswerTo(order)) return *answer;
+  if (const Answered* known = AnswerTo(order)) return AnswerOf(*known);
   if (answered_.size() >= kMostOrders) return std::nullopt;
-  Report answer{};
-  answer.utime = ToUtime(now);
-  answer.request_id = order.request_id;
-  answer.name = order.name;
-  Obey(order, now, answer);
-  answered_.push_back({now, answer});
-  return answer;
+  Answered taken{now, {}};
+  taken.answer.utime = ToUtime(now);
+  taken.answer.request_id = order.request_id;
+  taken.answer.name = order.name;
+  Obey(order, now, taken);
+  answered_.push_back(taken);
+  return AnswerOf(taken);
+}
+
+std::optional<Report> SupervisorDesk::AnswerOf(const Answered& taken) {
+  return taken.starts_before ? std::nullopt : std::optional(taken.answer);
+}
+
+std::vector<Report> SupervisorDesk::Step(Time now) {
+  std::vector<Report> answers;
+  for (Answered& taken : answered_) {
+    if (!taken.starts_before) continue;
+    const auto process = hands_.look(taken.answer.name);
+    const bool ready =
+        process && process->state == ProcessState::kReady && process->starts > *taken.starts_before;
+    if (!ready && now - taken.time < kReadyWithin) continue;
+    taken.starts_before.reset();
+    taken.answer.utime = ToUtime(now);
+    taken.answer.outcome = Report::DONE;
+    answers.push_back(taken.answer);
+  }
+  return answers;
 }
 
 /// Several supervisors may hear an order: one for each host of a robot.
 bool SupervisorDesk::IsMine(const Order& order) const {
-  return order.action == Order::NEW_WORLD ? hands_.new_world != nullptr : hands_.has(order.name);
+  return order.action == Order::NEW_WORLD ? hands_.new_world != nullptr : hands_.look(order.name).has_value();
 }
 
-const Report* SupervisorDesk::AnswerTo(const Order& order) const {
+const SupervisorDesk::Answered* SupervisorDesk::AnswerTo(const Order& order) const {
   const auto at = std::find_if(answered_.begin(), answered_.end(), [&](const Answered& a) {
     return a.answer.request_id == order.request_id && a.answer.name == order.name;
   });
-  return at == answered_.end() ? nullptr : &at->answer;
+  return at == answered_.end() ? nullptr : &*at;
 }
 
-void SupervisorDesk::Obey(const Order& order, Time now, Report& answer) {
+void SupervisorDesk::Obey(const Order& order, Time now, Answered& taken) {
+  Report& answer = taken.answer;
   const Duration age = now - FromUtime(order.utime);
   if (age > kOldest || age < -kAheadAllowed) {
     answer.outcome = Report::TOO_OLD;
   } else if (order.action == Order::LOG) {
     Tell(order, answer);
   } else if (order.action == Order::RESTART) {
-    answer.outcome = TooOften(order.name, now) ? Report::TOO_OFTEN : Report::DONE;
-    if (answer.outcome == Report::DONE) answer.text = CutUtf8(hands_.restart(order.name), kMostText);
+    answer.outcome = Report::TOO_OFTEN;
+    if (!TooOften(order.name, now)) Restart(taken);
   } else if (order.action == Order::NEW_WORLD) {
     answer.outcome = TooOften("", now)              ? Report::TOO_OFTEN
                      : hands_.new_world(order.name) ? Report::DONE
@@ -57,6 +78,13 @@ void SupervisorDesk::Obey(const Order& order, Time now, Report& answer) {
   } else {
     answer.outcome = Report::UNKNOWN_ACTION;
   }
+}
+
+void SupervisorDesk::Restart(Answered& taken) {
+  const auto before = hands_.look(taken.answer.name);
+  taken.answer.text = CutUtf8(before->reason, kMostText);
+  taken.starts_before = before->starts;
+  hands_.restart(taken.answer.name);
 }
 
 void SupervisorDesk::Tell(const Order& order, Report& answer) const {

@@ -1,6 +1,8 @@
 #include "common/web/tls_files.hpp"
 
 #include <fmt/format.h>
+#include <openssl/err.h>
+#include <openssl/ssl.h>
 
 #include <boost/asio/ssl/context.hpp>
 #include <stdexcept>
@@ -33,6 +35,12 @@ std::shared_ptr<context> LoadTls(const std::string& certificate_file, const std:
   Check(error, certificate_file, "a certificate as PEM");
   tls->use_private_key(asio::buffer(key), context::pem, error);
   Check(error, key_file, "the certificate's private key as PEM, without a password");
+  // OpenSSL itself compares those of one type only.
+  if (SSL_CTX_check_private_key(tls->native_handle()) != 1) {
+    ERR_clear_error();
+    throw std::runtime_error(key_file + ": expected the private key of " + certificate_file +
+                             ", got one of another type");
+  }
   return tls;
 }
 

@@ -55,10 +55,9 @@ Target ReadTarget(const json& object) {
 }
 
 /// The corridor's direction, if `turn`; else the way the base stands.
-Target ReadDirection(const json& object) {
-  Target direction{{}, Flag(object, "turn")};
-  if (direction.turn) direction.map_from_base.yaw = WrapAngle(Number(object, "yaw_rad", -3.15, 3.15));
-  return direction;
+std::optional<Target> ReadDirection(const json& object) {
+  if (!Flag(object, "turn")) return std::nullopt;
+  return Target{{0, 0, WrapAngle(Number(object, "yaw_rad", -3.15, 3.15))}};
 }
 
 std::vector<Target> ReadPlaces(const json& object) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -34,7 +35,7 @@ struct MissionOrder {
 
   Kind kind = Kind::kAbort;
   int landmark_id = 0;         ///< door to pass
-  Target goal{};               ///< place to drive to; of a corridor the direction alone counts
+  std::optional<Target> goal;  ///< place; of a corridor its direction, if any
   double distance_m = 0;       ///< how far to follow the corridor, 0: to its end
   int order_id = 0;            ///< order to cancel
   std::vector<Target> places;  ///< of a patrol, in turn

@@ -115,8 +115,14 @@ TEST_F(SupervisorControlTest, WhatDrivesIsStoppedBeforeItIsStartedAgain) {
   }));
   EXPECT_EQ(stops.front().action, estop_t::STOP);
   EXPECT_EQ(Starts(0), 1) << "not yet";
+  EXPECT_THAT(onboard_.reports.Drain(), IsEmpty()) << "it is answered when it is ready again";
   ASSERT_TRUE(Until([&] { return Starts(0) == 2; }));
-  EXPECT_EQ(onboard_.reports.Drain().size(), 1U);
+  std::vector<process_report_t> reports;
+  ASSERT_TRUE(Until([&] {
+    reports = onboard_.reports.Drain();
+    return !reports.empty();
+  }));
+  EXPECT_EQ(reports.front().outcome, process_report_t::DONE);
 }
 
 TEST_F(SupervisorControlTest, OthersAreStartedAgainAtOnceAndNobodyIsStopped) {

@@ -11,15 +11,19 @@ using testing::IsEmpty;
 using Order = process_order_t;
 using Report = process_report_t;
 
+constexpr int kTaken = -1;  ///< answered later
+
 class SupervisorDeskTest : public testing::Test {
  protected:
   SupervisorDesk::Hands Hands(bool simulated = true) {
     SupervisorDesk::Hands hands;
-    hands.has = [](const std::string& name) { return name == "onboard-robot" || name == "onboard-head"; };
-    hands.restart = [this](const std::string& name) {
-      restarted_.push_back(name);
-      return std::string(200, 'w');
+    hands.look = [this](const std::string& name) -> std::optional<ProcessReport> {
+      if (name != robot_.name && name != "onboard-head") return std::nullopt;
+      ProcessReport report = robot_;
+      report.name = name;
+      return report;
     };
+    hands.restart = [this](const std::string& name) { restarted_.push_back(name); };
     hands.console = [](const std::string& name, std::int64_t end) -> std::optional<ConsolePiece> {
       if (name == "onboard-head") return std::nullopt;
       return ConsolePiece{end + 7, "lines"};
@@ -44,21 +48,56 @@ class SupervisorDeskTest : public testing::Test {
     const auto report = dut_.Take(Make(action, name), now_);
     return report ? report->outcome : -1;
   }
+  static ProcessReport Robot() {
+    ProcessReport report;
+    report.name = "onboard-robot";
+    report.state = ProcessState::kReady;
+    report.starts = 3;
+    report.reason = std::string(200, 'w');
+    return report;
+  }
 
+  ProcessReport robot_ = Robot();
   std::vector<std::string> restarted_, worlds_;
   SupervisorDesk dut_{Hands()};
   Time now_ = FromUtime(1'000'000'000);
   int number_ = 0;
 };
 
+TEST_F(SupervisorDeskTest, ARestartIsAnsweredWhenTheProcessIsReadyAgain) {
+  const Order order = Make(Order::RESTART, "onboard-robot");
+  EXPECT_FALSE(dut_.Take(order, now_));
+  EXPECT_THAT(dut_.Step(now_), IsEmpty()) << "ready, but not ended yet";
+  robot_.starts = 4;
+  robot_.state = ProcessState::kStarting;
+  EXPECT_THAT(dut_.Step(now_ + seconds(1)), IsEmpty());
+  robot_.state = ProcessState::kReady;
+  const auto reports = dut_.Step(now_ + seconds(2));
+  ASSERT_EQ(reports.size(), 1u);
+  EXPECT_EQ(reports[0].outcome, Report::DONE);
+  EXPECT_EQ(reports[0].utime, ToUtime(now_ + seconds(2)));
+  EXPECT_EQ(reports[0].request_id, order.request_id);
+  EXPECT_EQ(reports[0].name, "onboard-robot");
+  EXPECT_EQ(reports[0].text.size(), SupervisorDesk::kMostText) << "why it had ended, as far as that fits";
+  EXPECT_THAT(dut_.Step(now_ + seconds(3)), IsEmpty()) << "once";
+}
+
+TEST_F(SupervisorDeskTest, ARestartThatTakesLongIsAnsweredAllTheSame) {
+  EXPECT_FALSE(dut_.Take(Make(Order::RESTART, "onboard-robot"), now_));
+  robot_.state = ProcessState::kBackOff;
+  robot_.starts = 4;
+  EXPECT_THAT(dut_.Step(now_ + SupervisorDesk::kReadyWithin - seconds(1)), IsEmpty());
+  const auto reports = dut_.Step(now_ + SupervisorDesk::kReadyWithin);
+  ASSERT_EQ(reports.size(), 1u);
+  EXPECT_EQ(reports[0].outcome, Report::DONE);
+}
+
 TEST_F(SupervisorDeskTest, ARestartIsObeyedOnceHoweverOftenItIsSaid) {
   const Order order = Make(Order::RESTART, "onboard-robot");
-  const auto report = dut_.Take(order, now_);
-  ASSERT_TRUE(report);
-  EXPECT_EQ(report->outcome, Report::DONE);
-  EXPECT_EQ(report->request_id, order.request_id);
-  EXPECT_EQ(report->name, "onboard-robot");
-  EXPECT_EQ(report->text.size(), SupervisorDesk::kMostText) << "why it had ended, as far as that fits";
+  EXPECT_FALSE(dut_.Take(order, now_));
+  EXPECT_FALSE(dut_.Take(order, now_ + seconds(1))) << "it is under way";
+  robot_.starts = 4;
+  EXPECT_EQ(dut_.Step(now_ + seconds(1)).size(), 1u);
   for (int s = 1; s < 9; ++s) EXPECT_EQ(dut_.Take(order, now_ + seconds(s))->outcome, Report::DONE);
   EXPECT_THAT(restarted_, ElementsAre("onboard-robot"));
 }
@@ -73,12 +112,12 @@ TEST_F(SupervisorDeskTest, WhatIsOldOrOfTheFutureIsNotObeyed) {
 }
 
 TEST_F(SupervisorDeskTest, OneProcessIsNotRestartedAgainAtOnce) {
-  EXPECT_EQ(Outcome(Order::RESTART, "onboard-robot"), Report::DONE);
+  EXPECT_EQ(Outcome(Order::RESTART, "onboard-robot"), kTaken);
   now_ += seconds(1);
   EXPECT_EQ(Outcome(Order::RESTART, "onboard-robot"), Report::TOO_OFTEN);
-  EXPECT_EQ(Outcome(Order::RESTART, "onboard-head"), Report::DONE) << "another one is";
+  EXPECT_EQ(Outcome(Order::RESTART, "onboard-head"), kTaken) << "another one is";
   now_ += seconds(2);
-  EXPECT_EQ(Outcome(Order::RESTART, "onboard-robot"), Report::DONE);
+  EXPECT_EQ(Outcome(Order::RESTART, "onboard-robot"), kTaken);
   EXPECT_THAT(restarted_, ElementsAre("onboard-robot", "onboard-head", "onboard-robot"));
 }
 

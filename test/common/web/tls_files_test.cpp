@@ -51,6 +51,16 @@ TEST_F(TlsFiles, KeyOfAnotherCertificateIsRefused) {
   EXPECT_THAT(ReasonOf(certificate_, other), AllOf(HasSubstr("other.key"), HasSubstr("mismatch")));
 }
 
+TEST_F(TlsFiles, KeyOfAnotherTypeIsRefused) {
+  const std::unique_ptr<EVP_PKEY, void (*)(EVP_PKEY*)> key(EVP_RSA_gen(2048), EVP_PKEY_free);
+  const std::string other = Write("rsa.key", "");
+  const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(other.c_str(), "w"), std::fclose);
+  PEM_write_PrivateKey(file.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr);
+  std::fflush(file.get());
+  EXPECT_THAT(ReasonOf(certificate_, other),
+              AllOf(HasSubstr("rsa.key: expected the private key of"), HasSubstr("host.pem")));
+}
+
 TEST_F(TlsFiles, KeyThatOthersCanReadIsRefused) {
   chmod(key_.c_str(), 0640);
   EXPECT_THAT(ReasonOf(certificate_, key_), HasSubstr("got mode 640; next: chmod 600"));

@@ -36,21 +36,23 @@ TEST(MissionOrder, NamesADoorOrAnOrder) {
 TEST(MissionOrder, DrivesToAPlaceWithOrWithoutAHeading) {
   const auto order = Order(R"("order":"goto","x_m":4.5,"y_m":-1,"yaw_rad":3.15,"turn":true)");
   EXPECT_EQ(order.kind, kGoto);
-  EXPECT_EQ(order.goal.map_from_base.x, 4.5);
-  EXPECT_EQ(order.goal.map_from_base.y, -1);
-  EXPECT_NEAR(order.goal.map_from_base.yaw, 3.15 - 2 * kPi, 1e-12) << "a slider's rounding";
-  EXPECT_TRUE(order.goal.turn);
-  EXPECT_FALSE(Order(R"("order":"goto","x_m":4.5,"y_m":-1,"yaw_rad":0)").goal.turn);
+  ASSERT_TRUE(order.goal);
+  EXPECT_EQ(order.goal->map_from_base.x, 4.5);
+  EXPECT_EQ(order.goal->map_from_base.y, -1);
+  EXPECT_NEAR(order.goal->map_from_base.yaw, 3.15 - 2 * kPi, 1e-12) << "a slider's rounding";
+  EXPECT_TRUE(order.goal->turn);
+  EXPECT_FALSE(Order(R"("order":"goto","x_m":4.5,"y_m":-1,"yaw_rad":0)").goal->turn);
 }
 
 TEST(MissionOrder, FollowsACorridorTheWayTheBaseStandsOrAnother) {
   const auto as_it_stands = Order(R"("order":"corridor","distance_m":0)");
   EXPECT_EQ(as_it_stands.kind, kCorridor);
-  EXPECT_FALSE(as_it_stands.goal.turn);
+  EXPECT_FALSE(as_it_stands.goal);
   const auto north = Order(R"("order":"corridor","distance_m":20,"yaw_rad":1.5,"turn":true)");
   EXPECT_EQ(north.distance_m, 20);
-  EXPECT_EQ(north.goal.map_from_base.yaw, 1.5);
-  EXPECT_TRUE(north.goal.turn);
+  ASSERT_TRUE(north.goal);
+  EXPECT_EQ(north.goal->map_from_base.yaw, 1.5);
+  EXPECT_TRUE(north.goal->turn);
 }
 
 TEST(MissionOrder, PatrolsPlacesInTheirOrder) {

@@ -29,8 +29,9 @@ TEST(Services, EveryOneIsWhatAButtonOfThePageDoes) {
   EXPECT_EQ(std::get<MissionOrder>(Read("mission/pass_door", R"({"landmark":12})")).landmark_id, 12);
   const auto goal =
       std::get<MissionOrder>(Read("mission/goto", R"({"x_m":1.5,"y_m":-2,"yaw_rad":0.5,"turn":true})")).goal;
-  EXPECT_EQ(goal.map_from_base.x, 1.5);
-  EXPECT_TRUE(goal.turn);
+  ASSERT_TRUE(goal);
+  EXPECT_EQ(goal->map_from_base.x, 1.5);
+  EXPECT_TRUE(goal->turn);
   using enum MissionOrder::Kind;
   EXPECT_EQ(std::get<MissionOrder>(Read("mission/corridor", R"({"distance_m":12})")).distance_m, 12);
   EXPECT_EQ(std::get<MissionOrder>(Read("mission/explore", "")).kind, kExplore);

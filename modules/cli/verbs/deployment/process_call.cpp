@@ -11,7 +11,7 @@
 namespace priamos::cli {
 namespace {
 
-constexpr Duration kReadyWithin = std::chrono::seconds(30), kHeardWithin = std::chrono::seconds(12);
+constexpr Duration kReadyWithin = std::chrono::seconds(25), kHeardWithin = std::chrono::seconds(12);
 constexpr std::int64_t kRequestIds = 65535;
 
 std::vector<std::string> LinesOf(const std::string& text, std::size_t most) {
@@ -82,21 +82,15 @@ std::optional<std::vector<std::string>> ProcessCall::Lines(const std::string& na
   return LinesOf(text, most);
 }
 
-std::optional<double> ProcessCall::WaitUntilReady(const std::string& name, int starts) {
-  const Time begin = session_.now();
-  const auto runs_again = [&] {
+/// What comes from now on was told after the restart: one that takes long is told as such.
+bool ProcessCall::WaitUntilReady(const std::string& name) {
+  heard_.erase(name);
+  const auto ready = [&] {
     const auto state = heard_.find(name);
-    return state != heard_.end() && state->second.starts > starts &&
-           state->second.state == process_state_t::READY;
+    return state != heard_.end() && state->second.state == process_state_t::READY;
   };
-  session_.Watch(begin + kReadyWithin, runs_again, [&] { Listen(); });
-  if (!runs_again()) return std::nullopt;
-  return Seconds(session_.now() - begin);
-}
-
-int ProcessCall::StartsOf(const std::string& name) const {
-  const auto state = heard_.find(name);
-  return state == heard_.end() ? 0 : state->second.starts;
+  session_.Watch(session_.now() + kReadyWithin, ready, [&] { Listen(); });
+  return ready();
 }
 
 std::string ProcessCall::NobodyAnswers(const std::string& name) const {

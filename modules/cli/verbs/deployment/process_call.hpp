@@ -27,11 +27,10 @@ class ProcessCall {
   /// Lines of a console, at most `most`, the last ones; as many pieces as that takes. nullopt without an
   /// answer.
   std::optional<std::vector<std::string>> Lines(const std::string& name, std::size_t most);
-  /// Waits until `name`, started `starts` times so far, runs again; after how long [s], or nullopt when it
-  /// does not in 30 s.
-  std::optional<double> WaitUntilReady(const std::string& name, int starts);
-  /// How often `name` was started, as was heard last; 0 when nothing was.
-  int StartsOf(const std::string& name) const;
+  /// Waits until it is heard that `name`, whose restart was answered late, is ready; false when it is not in
+  /// 25 s.
+  bool WaitUntilReady(const std::string& name);
+  Time now() const { return session_.now(); }
   /// The sentence for a name that nobody answers for.
   std::string NobodyAnswers(const std::string& name) const;
 

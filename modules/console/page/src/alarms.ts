@@ -1,6 +1,6 @@
 // The alarms: those that nobody has taken note of first, and who has taken note of the others.
 
-import { byId, fillList, ListLine } from "./dom";
+import { byId, fillList, ListLine, setText } from "./dom";
 import { Alarm, AlarmAck } from "./protocol";
 import { Store } from "./store";
 import { ageText, named, text } from "./text";
@@ -15,7 +15,11 @@ export interface AlarmMeans {
 }
 
 export class AlarmPanel {
-  constructor(private readonly store: Store, private readonly means: AlarmMeans) {}
+  private readonly mark = byId("alarm-mark");
+
+  constructor(private readonly store: Store, private readonly means: AlarmMeans) {
+    this.mark.addEventListener("click", () => byId("alarm-title").scrollIntoView());
+  }
 
   draw(): void {
     const acks = this.store.all<AlarmAck>("ALARM_ACK").map((item) => item.message);
@@ -24,7 +28,13 @@ export class AlarmPanel {
     alarms.sort((a, b) => Number(a.ack !== undefined) - Number(b.ack !== undefined) || b.alarm.utime - a.alarm.utime);
     const lines = alarms.slice(0, MOST_ALARMS).map(({ alarm, ack }) => this.line(alarm, ack));
     fillList(byId("alarms"), lines.length > 0 ? lines : [{ key: "none", words: text("noAlarms") }]);
-    byId("alarms").classList.toggle("open-alarms", alarms.some(({ ack }) => ack === undefined));
+    this.drawMark(alarms.filter(({ ack }) => ack === undefined).length);
+  }
+
+  /** In the head of the page: what nobody has taken note of is seen wherever one looks. */
+  private drawMark(open: number): void {
+    this.mark.hidden = open === 0;
+    setText(this.mark, open === 1 ? text("oneOpenAlarm") : `${open} ${text("openAlarms")}`);
   }
 
   private line(alarm: Alarm, ack: AlarmAck | undefined): ListLine {

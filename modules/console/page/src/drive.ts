@@ -1,6 +1,7 @@
 // The hand at this page: keys, the stick on the screen, a game pad. Only while the page is seen and has the focus.
 
 import { colour, prepare } from "./dom";
+import { isTakenByField } from "./keys";
 import { StickReport } from "./protocol";
 
 const PERIOD_MS = 40;
@@ -31,6 +32,7 @@ export class Hand {
   private stick: [number, number] | undefined;  // right, up: -1..1
   private turn: number | undefined;
   private resting = 0;  // steps since the hand came to rest
+  private heldSince_ms: number | undefined;
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly slider: HTMLInputElement,
     private readonly send: (report: StickReport) => void) {
@@ -55,6 +57,11 @@ export class Hand {
     this.slider.value = "0";
     this.resting = 0;
     this.step();
+  }
+
+  /** For how long the hand has held something [ms]; 0: it rests. */
+  held_ms(): number {
+    return this.heldSince_ms === undefined ? 0 : performance.now() - this.heldSince_ms;
   }
 
   /** A button of the page that acts while it is held. */
@@ -101,10 +108,7 @@ export class Hand {
       if (!event.repeat) this.onStop();
       return;
     }
-    const target = event.target as HTMLElement;
-    const types = target instanceof HTMLSelectElement ||
-      (target instanceof HTMLInputElement && target.type !== "checkbox");
-    if (types || event.ctrlKey || event.altKey || event.metaKey || !(event.code in KEYS)) return;
+    if (isTakenByField(event) || event.ctrlKey || event.altKey || event.metaKey || !(event.code in KEYS)) return;
     event.preventDefault();
     // A repetition of a key that went down before the page had the focus is no wish.
     if (event.repeat) return;
@@ -136,6 +140,7 @@ export class Hand {
     const end = (): void => {
       this.turn = undefined;
       this.slider.value = "0";
+      this.slider.blur();  // arrows turn it no more, and drive again
       this.slider.removeEventListener("input", take);
     };
     this.slider.addEventListener("input", take);
@@ -188,6 +193,7 @@ export class Hand {
   private step(): void {
     const report = this.report();
     this.resting = this.isBusy() ? 0 : this.resting + 1;
+    this.heldSince_ms = report.hold ? this.heldSince_ms ?? performance.now() : undefined;
     if (this.resting <= RESTING_REPORTS || this.resting % REST_PERIOD === 0) this.send(report);
   }
 }

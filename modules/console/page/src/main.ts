@@ -6,6 +6,7 @@ import { byId, setText } from "./dom";
 import { Hand } from "./drive";
 import { HeadAim } from "./head_aim";
 import { drawHeadView } from "./head_view";
+import { bindCheckBoxes } from "./keys";
 import { MissionPanel } from "./mission";
 import { Panels } from "./panels";
 import { PlanView } from "./plan_view";
@@ -189,6 +190,8 @@ function drawFrame(): void {
 label();
 bindButtons();
 bindSwitches();
+bindCheckBoxes();
+panels.held_ms = () => hand.held_ms();
 window.setInterval(() => {
   panels.draw();
   missions.draw();

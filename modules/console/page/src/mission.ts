@@ -25,6 +25,30 @@ function fields(place: Place): { x_m: number; y_m: number; yaw_rad: number; turn
   return { x_m: rounded(place.x), y_m: rounded(place.y), yaw_rad: rounded(place.yaw ?? 0), turn: place.yaw !== undefined };
 }
 
+/** What a field says; undefined when that is nothing, or nothing that is allowed: it has no other meaning then. */
+function numberIn(id: string): number | undefined {
+  const input = byId<HTMLInputElement>(id);
+  return input.validity.valid && !Number.isNaN(input.valueAsNumber) ? input.valueAsNumber : undefined;
+}
+
+function withNumber(id: string, order: (value: number) => MissionOrder): MissionOrder | undefined {
+  const value = numberIn(id);
+  return value === undefined ? undefined : order(value);
+}
+
+/** What may stand in the first field that says something else. */
+function hint(): string {
+  const wrong = [...byId("orders").querySelectorAll<HTMLInputElement>("input[type=number]:invalid")][0];
+  if (wrong === undefined) return "";
+  const name = (wrong.closest("label")?.textContent ?? "").replace(/\s+/g, " ").trim();
+  return `${name}: ${text("allowed")}: ${text(wrong.step === "1" ? "wholeNumber" : "aNumber")}, ${wrong.min} … ${wrong.max}`;
+}
+
+/** A command for a terminal is no advice at a page, which has a button for it. */
+function withoutCommand(words: string): string {
+  return words.split("; next: ")[0] ?? words;
+}
+
 export class MissionPanel {
   /** Places of the patrol that is being put together. */
   readonly patrol: Place[] = [];
@@ -32,12 +56,12 @@ export class MissionPanel {
 
   constructor(private readonly store: Store, private readonly target: Target, private readonly means: MissionMeans) {
     this.bind("pass", () => ({ order: "pass_door", landmark: Number(byId<HTMLSelectElement>("door").value) }));
-    this.bind("corridor", () => ({ order: "corridor", distance_m: this.field("corridor-m") }));
+    this.bind("corridor", () => withNumber("corridor-m", (distance_m) => ({ order: "corridor", distance_m })));
     this.bind("explore", () => ({ order: "explore" }));
     this.bind("locate", () => ({ order: "locate" }));
     this.bind("pause", () => ({ order: this.status()?.paused === true ? "resume" : "pause" }));
     this.bind("abort", () => ({ order: "abort" }));
-    this.bind("patrol", () => ({ order: "patrol", places: this.patrol.map(fields), rounds: this.field("rounds") }));
+    this.bind("patrol", () => withNumber("rounds", (rounds) => ({ order: "patrol", places: this.patrol.map(fields), rounds })));
     this.bindPlaces();
   }
 
@@ -54,7 +78,7 @@ export class MissionPanel {
     this.enable();
     const status = this.status(), element = byId("mission-text");
     setText(element, status === undefined ? text("never") :
-      `${named("phase", status.phase)}: ${status.text} (${ageText(this.store.age("MISSION_STATUS"))})`);
+      `${named("phase", status.phase)}: ${withoutCommand(status.text)} (${ageText(this.store.age("MISSION_STATUS"))})`);
     element.classList.toggle("stale", this.store.isStale("MISSION_STATUS"));
     this.drawProgress(status);
     this.drawQueue(status);
@@ -66,13 +90,11 @@ export class MissionPanel {
     return this.store.get<MissionStatus>("MISSION_STATUS");
   }
 
-  private field(id: string): number {
-    const input = byId<HTMLInputElement>(id);
-    return input.validity.valid && !Number.isNaN(input.valueAsNumber) ? input.valueAsNumber : 0;
-  }
-
-  private bind(id: string, order: () => MissionOrder): void {
-    byId(id).addEventListener("click", () => this.means.order(order()));
+  private bind(id: string, order: () => MissionOrder | undefined): void {
+    byId(id).addEventListener("click", () => {
+      const given = order();
+      if (given !== undefined) this.means.order(given);
+    });
   }
 
   private bindPlaces(): void {
@@ -93,14 +115,16 @@ export class MissionPanel {
   private enable(): void {
     const place = this.target.place(), may = this.means.mayOrder(), status = this.status();
     const set = (id: string, on: boolean): void => { byId<HTMLButtonElement>(id).disabled = !on; };
-    for (const id of ["pass", "corridor", "explore", "locate", "abort"]) set(id, may);
+    for (const id of ["pass", "explore", "locate", "abort"]) set(id, may);
+    set("corridor", may && numberIn("corridor-m") !== undefined);
+    setText(byId("field-hint"), hint());
     set("pause", may && status?.running === true);
     setText(byId("pause"), text(status?.paused === true ? "resumeMission" : "pauseMission"));
     set("goto", may && place !== undefined);
     set("place", may && place?.yaw !== undefined);
     set("add-place", place !== undefined && this.patrol.length < MOST_PLACES);
     set("clear-places", this.patrol.length > 0);
-    set("patrol", may && this.patrol.length > 0);
+    set("patrol", may && this.patrol.length > 0 && numberIn("rounds") !== undefined);
     setText(byId("patrol-places"), this.patrol.length === 0 ? text("noPlaces") :
       this.patrol.map((p) => `(${number(p.x, 1)}; ${number(p.y, 1)})`).join(" → "));
   }
@@ -140,7 +164,7 @@ export class MissionPanel {
     const ends = (status?.results ?? []).filter((end) => end.step === 0).reverse();
     fillList(byId("ends"), ends.map((end) => ({
       key: `${end.order_id} ${end.round} ${end.outcome}`,
-      words: `${named("missionOutcome", end.outcome)}: ${end.text} (${number(end.took_s, 0)} s)`,
+      words: `${named("missionOutcome", end.outcome)}: ${withoutCommand(end.text)} (${number(end.took_s, 0)} s)`,
     })));
   }
 

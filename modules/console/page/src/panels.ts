@@ -1,11 +1,13 @@
 // The texts and tables beside the plan.
 
 import { byId, fillTable, Row, setText } from "./dom";
+import { doFieldsTakeKeys } from "./keys";
 import { DriveStatus, Hello, LandmarkFix, LinkStatus, Pose, StationState } from "./protocol";
 import { Store } from "./store";
 import { ageText, named, number, phaseText, text } from "./text";
 
 const CONSOLE = 2;
+const OBEYED_WITHIN_MS = 700;  // a hand that drives, by then
 
 function degrees(rad: number): string {
   return `${number(rad * 180 / Math.PI, 1)}°`;
@@ -15,6 +17,8 @@ export class Panels {
   hello: Hello | undefined;
   station: StationState | undefined;
   connected = false;
+  /** For how long this page's hand has held something [ms]. */
+  held_ms: () => number = () => 0;
 
   constructor(private readonly store: Store) {}
 
@@ -63,13 +67,21 @@ export class Panels {
     const station = this.station;
     if (station === undefined) return;
     const other = station.seat === "other";
-    setText(byId("phase"), other ? text("otherPage") : phaseText(station.phase));
+    setText(byId("phase"), other ? text("otherPage") : this.phaseWords(station.phase));
     setText(byId("mode"), text(station.mode === "base" ? "moveBase" : "moveHead"));
     setText(byId("range"), text(station.fast ? "fast" : "slow"));
     byId("mode").setAttribute("aria-pressed", String(station.mode === "head"));
     byId("range").setAttribute("aria-pressed", String(station.fast));
     for (const id of ["mode", "range", "take-over", "rearm"])
       byId<HTMLButtonElement>(id).disabled = !this.mayOrder();
+  }
+
+  /** A hand that is held and not obeyed is told so, and one whose keys go elsewhere. */
+  private phaseWords(phase: StationState["phase"]): string {
+    const free = phase === "no_device" || phase === "idle";
+    if (free && this.mayOrder() && this.held_ms() > OBEYED_WITHIN_MS) return phaseText("must_let_go");
+    if (free && doFieldsTakeKeys()) return `${phaseText(phase)}; ${text("keysInField")}`;
+    return phaseText(phase);
   }
 
   private drawRobot(): void {

@@ -7,6 +7,7 @@ import { ageText, named, number, text } from "./text";
 import { TwoStep } from "./two_step";
 
 const PATIENCE_MS = 17_000;  // the station gives up after 8 s, and the order may have waited for another
+const READY_WITHIN_MS = 5000;  // a restart that is answered sooner has brought the process back
 const HEALTH_OK = 1, READY = 2, DONE = 0;
 const MOST_TEXT = 4000;
 const PIECES = 8;  // that are asked for at once where no radio is in between
@@ -30,6 +31,7 @@ export class ProcessRow {
   private begin = 0;  // bytes: where in the console the shown lines begin
   private asked: { what: "restart" | "log"; ms: number; end: number } | undefined;
   private outcome: number | undefined;
+  private ready = false;  // the outcome says so
   private more = 0;  // pieces that are still to be asked for
   private supervised = false;
 
@@ -59,6 +61,7 @@ export class ProcessRow {
     if (asked === undefined) return;
     this.asked = undefined;
     this.outcome = report.outcome;
+    this.ready = asked.what === "restart" && report.outcome === DONE && performance.now() - asked.ms < READY_WITHIN_MS;
     if (asked.what !== "log" || report.outcome !== DONE) return;
     this.show(report, asked.end);
     if (--this.more > 0 && this.begin > 0) this.order("log", this.begin);
@@ -97,7 +100,8 @@ export class ProcessRow {
     const refused = this.outcome !== undefined && this.outcome !== DONE;
     setText(this.answer, !this.supervised ? text("notSupervised") : late ? text("noAnswer")
       : this.asked !== undefined ? text("underWay")
-        : refused ? named("processOutcome", this.outcome ?? DONE) : "");
+        : refused ? named("processOutcome", this.outcome ?? DONE)
+          : this.outcome !== undefined && this.ready ? text("readyAgain") : "");
     this.answer.className = late || refused ? "bad" : "age";
   }
 
