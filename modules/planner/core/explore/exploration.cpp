@@ -42,6 +42,7 @@ void ExplorationConfig::Describe(Archive& a) {
   a.Number("length_gain", length_gain, {"-", 0, 10, "what a metre of frontier is worth"});
   a.Number("most_length_m", most_length_m, {"m", 0, 100, "up to this length of it"});
   a.Number("least_gain_m2", least_gain_m2, {"m2", 0, 5, "where less is unknown nothing is looked at"});
+  a.Number("again_gain_m2", again_gain_m2, {"m2", 0, 7, "where less is unknown nothing is looked at again"});
   a.Number("beyond_m", beyond_m, {"m", 0, 3, "so far into the unknown the base drives"});
   a.Number("farthest_m", farthest_m, {"m", 5, 90, "what lies farther from the start is left"});
   a.Section("grid", grid, "what counts as seen");
@@ -59,9 +60,10 @@ void Exploration::Reset() {
   things_from_.clear();
   given_up_.clear();
   left_.clear();
-  grid_.reset();
+  Forget();
   last_.reset();
   driven_m_ = 0;
+  again_ = false;
 }
 
 bool Exploration::NoteAt(const Pose2& map_from_base) {
@@ -71,7 +73,7 @@ bool Exploration::NoteAt(const Pose2& map_from_base) {
   if (!evidence_.trail.empty() && (at - evidence_.trail.back()).norm() < kTrail_m) return false;
   evidence_.trail.push_back(at);
   poses_.push_back(map_from_base);
-  grid_.reset();
+  Forget();
   return true;
 }
 
@@ -86,7 +88,7 @@ void Exploration::MoveTrail(const std::vector<Pose2>& trail) {
   if (last_) last_ = moved(poses_.size() - 1) * *last_;
   poses_ = trail;
   for (std::size_t i = 0; i < trail.size(); ++i) evidence_.trail[i] = trail[i].translation();
-  grid_.reset();
+  Forget();
 }
 
 std::size_t Exploration::Here() const {
@@ -95,25 +97,26 @@ std::size_t Exploration::Here() const {
 
 void Exploration::Learn(const LearnedWalls& walls) {
   evidence_.walls = WithoutPassages(WithoutEdges(walls), evidence_.trail, clearance_m_ + 2 * kRaster_m);
-  grid_.reset();
+  Forget();
 }
 
 void Exploration::AddThing(const Rectangle& thing) {
   evidence_.things.push_back(thing);
   things_from_.push_back(Here());
-  grid_.reset();
+  Forget();
 }
 
-void Exploration::GiveUp(const Vector2d& target, std::string reason) {
-  given_up_.push_back({target, std::move(reason), Here()});
+void Exploration::GiveUp(const Vector2d& target, std::string reason, bool for_good) {
+  given_up_.push_back({target, std::move(reason), Here(), for_good});
 }
 
 bool Exploration::TryAgain() {
-  if (given_up_.empty() && evidence_.things.size() == known_.size()) return false;
-  given_up_.clear();
+  const auto forgotten = std::erase_if(given_up_, [](const GivenUp& given) { return !given.for_good; });
+  if (forgotten == 0 && evidence_.things.size() == known_.size()) return false;
+  again_ = true;
   evidence_.things = known_;
   things_from_.clear();
-  grid_.reset();
+  Forget();
   return true;
 }
 
@@ -139,6 +142,21 @@ const ExploredGrid& Exploration::grid() {
   return *grid_;
 }
 
+const PossibleFloor& Exploration::possible() {
+  if (!possible_) possible_.emplace(grid(), evidence_.trail, clearance_m_);
+  return *possible_;
+}
+
+double Exploration::LeastGain_m2() const {
+  return again_ ? std::max(config_.least_gain_m2, config_.again_gain_m2) : config_.least_gain_m2;
+}
+
+/// What was made of the evidence: it has changed.
+void Exploration::Forget() {
+  possible_.reset();
+  grid_.reset();
+}
+
 const Exploration::GivenUp* Exploration::FindGivenUp(const Vector2d& at) const {
   const auto found = std::find_if(given_up_.begin(), given_up_.end(),
                                   [&](const GivenUp& given) { return (given.at - at).norm() < kGivenUp_m; });
@@ -148,6 +166,7 @@ const Exploration::GivenUp* Exploration::FindGivenUp(const Vector2d& at) const {
 std::optional<FrontierGoal> Exploration::Choose(const Pose2& map_from_base) {
   left_.clear();
   const GridWays ways(grid(), map_from_base.translation(), clearance_m_);
+  possible();
   std::vector<Candidate> candidates;
   for (const Frontier& frontier : FrontiersOf(*grid_, config_.least_frontier_m)) {
     if (const auto candidate = Best(frontier, ways, map_from_base))
@@ -189,7 +208,7 @@ std::optional<Exploration::Candidate> Exploration::Best(const Frontier& frontier
     if (!std::isfinite(ways.Way_m(at)) || ways.Clearance_m(at) < clearance_m_) continue;
     if ((place - evidence_.trail.front()).norm() > config_.farthest_m || FindGivenUp(place)) continue;
     const double cost = CostOf(frontier, at, ways, base);
-    if ((best && cost >= best->cost) || UnknownBehind_m2(*grid_, at) < config_.least_gain_m2) continue;
+    if ((best && cost >= best->cost) || possible_->Behind_m2(at) < LeastGain_m2()) continue;
     best = Candidate{{place, place, ways.Way_m(at), frontier.length_m()}, at, cost};
   }
   if (!best) return std::nullopt;
@@ -212,7 +231,7 @@ double Exploration::CostOf(const Frontier& frontier, const Vector2i& cell, const
 /// Whether there is next to nothing behind all of it: the corner of a room, between walls that are known.
 bool Exploration::IsCrumb(const Frontier& frontier) const {
   return std::all_of(frontier.cells.begin(), frontier.cells.end(), [&](const Vector2i& cell) {
-    return UnknownBehind_m2(*grid_, cell) < config_.least_gain_m2;
+    return UnknownBehind_m2(*grid_, cell, [](const Vector2i&) { return true; }) < config_.least_gain_m2;
   });
 }
 
@@ -228,6 +247,10 @@ std::string Exploration::WhyLeft(const Frontier& frontier, const GridWays& ways)
   if (!near_enough) return fmt::format("farther than {:.0f} m from the start", config_.farthest_m);
   if (widest_m < 2 * clearance_m_)
     return fmt::format("{:.1f} m wide, {:.2f} m needed", widest_m, 2 * (clearance_m_ + kRaster_m));
+  const bool some = std::any_of(frontier.cells.begin(), frontier.cells.end(), [&](const Vector2i& at) {
+    return possible_->Behind_m2(at) >= config_.least_gain_m2;
+  });
+  if (again_ && some) return "tried before, and little can be behind it";
   return fmt::format("no way of {:.2f} m width leads there", 2 * (clearance_m_ + kRaster_m));
 }
 
@@ -255,9 +278,12 @@ Vector2d Exploration::GoalBeyond(const Vector2i& cell, const GridWays& ways) con
 
 bool Exploration::IsOpen(const FrontierGoal& goal) {
   const auto frontiers = FrontiersOf(grid(), config_.least_frontier_m);
+  possible();
   for (const Frontier& frontier : frontiers)
     for (const Vector2i& cell : frontier.cells)
-      if ((grid_->PlaceOf(cell.x(), cell.y()) - goal.target).norm() < kSamePlace_m) return true;
+      if ((grid_->PlaceOf(cell.x(), cell.y()) - goal.target).norm() < kSamePlace_m &&
+          possible_->Behind_m2(cell) >= LeastGain_m2())
+        return true;
   return false;
 }
 

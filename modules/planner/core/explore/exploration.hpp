@@ -10,6 +10,7 @@
 #include "planner/core/explore/explored_grid.hpp"
 #include "planner/core/explore/frontiers.hpp"
 #include "planner/core/explore/grid_ways.hpp"
+#include "planner/core/explore/possible_floor.hpp"
 #include "planner/core/map/learned_obstacles.hpp"
 
 namespace priamos::planner {
@@ -26,7 +27,8 @@ struct ExplorationConfig {
   double roomy_m = 1.0;
   double length_gain = 0.3;    ///< what a metre of frontier is worth ...
   double most_length_m = 4;    ///< ... up to this length
-  double least_gain_m2 = 0.8;  ///< a frontier with less behind it is left unseen: a corner between walls
+  double least_gain_m2 = 0.8;  ///< a frontier with less possible floor behind it is left unseen
+  double again_gain_m2 = 2.0;  ///< nor is one with less tried again once nothing else is left
   double beyond_m = 1.0;       ///< the base drives so far into the unknown, as far as nothing is known there
   double farthest_m = 80;      ///< from where it began; what lies beyond is left
 
@@ -70,11 +72,12 @@ class Exploration {
   const LearnedWalls& walls() const { return evidence_.walls; }
   /// Something that is no wall is here.
   void AddThing(const Rectangle& thing);
-  /// What is around this place of a frontier is not tried again.
-  void GiveUp(const Eigen::Vector2d& target, std::string reason);
+  /// What is around this place of a frontier is not tried, or, `for_good`, never again.
+  void GiveUp(const Eigen::Vector2d& target, std::string reason, bool for_good = false);
 
-  /// Forgets what stopped the base and what was given up: a thing is known by one side only, and may have
-  /// been a person. False: there is nothing to forget.
+  /// Forgets what stopped the base and what was given up, but for good: a thing is known by one side only,
+  /// and may have been a person. From then on only frontiers with much behind them count. False: there is
+  /// nothing to forget.
   bool TryAgain();
 
   /// The way back to where the base began, without the loops, as far as `length_m`: it was there with its
@@ -99,6 +102,7 @@ class Exploration {
     Eigen::Vector2d at;
     std::string reason;
     std::size_t from = 0;  ///< place of the trail where the base was then
+    bool for_good = false;
   };
   struct Candidate {
     FrontierGoal goal;
@@ -112,6 +116,9 @@ class Exploration {
   static std::size_t FirstOf(const std::vector<Candidate>& candidates, const GridWays& ways);
   const GivenUp* FindGivenUp(const Eigen::Vector2d& at) const;
   bool IsCrumb(const Frontier& frontier) const;
+  const PossibleFloor& possible();
+  void Forget();
+  double LeastGain_m2() const;
   std::string WhyLeft(const Frontier& frontier, const GridWays& ways) const;
   Eigen::Vector2d GoalBeyond(const Eigen::Vector2i& cell, const GridWays& ways) const;
   Eigen::Vector2d Outward(const Eigen::Vector2i& cell) const;
@@ -124,9 +131,11 @@ class Exploration {
   std::vector<std::size_t> things_from_;  ///< where the base was when it put each thing that is not known
   std::vector<GivenUp> given_up_;
   std::vector<LeftFrontier> left_;
-  std::optional<ExploredGrid> grid_;  ///< of the evidence; none: it has changed since
+  std::optional<ExploredGrid> grid_;       ///< of the evidence; none: it has changed since
+  std::optional<PossibleFloor> possible_;  ///< of the grid
   std::optional<Eigen::Vector2d> last_;
   double driven_m_ = 0;
+  bool again_ = false;  ///< what was given up is tried again
 };
 
 }  // namespace priamos::planner

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/core/explore/presumed_corners.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -20,6 +22,8 @@ constexpr double kMostDoubt_m = 0.2;
 constexpr double kRim_m = 0.08;
 /// Where the base was nothing is: so far to each side of its centre, less than half of its width.
 constexpr double kBody_m = 0.3;
+/// What is near is opened from places so far apart: more of them see no more.
+constexpr double kApart_m = 0.25;
 /// A base hears a wall over several places; one this much farther than the nearest tells nothing new.
 constexpr double kBeyond_m = 0.3;
 
@@ -30,6 +34,7 @@ void ExploredGridConfig::Describe(Archive& a) {
   a.Number("wall_reach_m", wall_reach_m,
            {"m", 0.7, 5, "what is before a wall that was told is seen from so far"});
   a.Number("facing_deg", facing_deg, {"deg", 5, 80, "and so far off the perpendicular of the wall"});
+  a.Number("corner_m", corner_m, {"m", 0, 2, "walls meet where no more than so much of either is missing"});
 }
 
 ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvidence& evidence) {
@@ -43,8 +48,13 @@ ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvide
   nx_ = static_cast<int>(std::ceil(size.x() / kStep_m));
   ny_ = static_cast<int>(std::ceil(size.y() / kStep_m));
   cells_.assign(std::size_t(nx_) * std::size_t(ny_), Cell::kUnknown);
-  Close(evidence);
-  for (const Vector2d& at : evidence.trail) OpenAround(at, config.near_m);
+  Close(config, evidence);
+  std::optional<Vector2d> last;  // the newest counts always
+  for (auto at = evidence.trail.rbegin(); at != evidence.trail.rend(); ++at) {
+    if (last && (*at - *last).norm() < kApart_m) continue;
+    OpenAround(*at, config.near_m);
+    last = *at;
+  }
   for (const LearnedWall& wall : evidence.walls.walls) OpenToWall(config, wall, evidence.trail);
   OpenWhereItWas(evidence.trail);
 }
@@ -68,15 +78,17 @@ double ExploredGrid::free_m2() const {
   return kStep_m * kStep_m * static_cast<double>(std::count(cells_.begin(), cells_.end(), Cell::kFree));
 }
 
-void ExploredGrid::Close(const ExploredEvidence& evidence) {
-  for (const LearnedWall& wall : evidence.walls.walls) CloseWall(wall);
+void ExploredGrid::Close(const ExploredGridConfig& config, const ExploredEvidence& evidence) {
+  for (const LearnedWall& wall : evidence.walls.walls) CloseWall(wall, false);
+  for (const LearnedWall& piece : PresumedCorners(evidence.walls, config.corner_m)) CloseWall(piece, true);
   for (const Rectangle& thing : evidence.things) CloseThing(thing);
 }
 
-void ExploredGrid::CloseWall(const LearnedWall& wall) {
+/// One that is presumed is doubtful as a whole.
+void ExploredGrid::CloseWall(const LearnedWall& wall, bool presumed) {
   const Pose2 map_from_wall = wall.map_from_wall();
   const double half_m = wall.length_m / 2;
-  const double sure_m = half_m - std::min({2 * wall.sigma_end_m, kMostDoubt_m, half_m / 2});
+  const double sure_m = presumed ? -1 : half_m - std::min({2 * wall.sigma_end_m, kMostDoubt_m, half_m / 2});
   for (double along_m = -half_m;; along_m += kAlong_m) {
     along_m = std::min(along_m, half_m);
     const bool sure = std::abs(along_m) <= sure_m;

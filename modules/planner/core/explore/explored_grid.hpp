@@ -16,6 +16,7 @@ struct ExploredGridConfig {
   double near_m = 1.3;        ///< so far around the base centre, as far as no wall is in between
   double wall_reach_m = 3.0;  ///< and up to a wall that was told, which bounds what is free, if it is nearer
   double facing_deg = 40;     ///< and faces the base: so far is the line to it off its perpendicular
+  double corner_m = 0.75;     ///< walls meet in a corner when no more than so much of either is missing
 
   void Describe(Archive& a);
 };
@@ -33,8 +34,8 @@ struct ExploredEvidence {
 class ExploredGrid {
  public:
   static constexpr double kStep_m = 0.1;
-  /// What is known of a cell; kDoubtful: the end of a wall, which is told up to 20 cm too long. Nothing is
-  /// seen through it, but it makes no opening too narrow.
+  /// What is known of a cell; kDoubtful: the end of a wall, which is told up to 20 cm too long, and what
+  /// is missing of two walls to a corner. Nothing is seen through it, but it makes no opening too narrow.
   enum class Cell : std::uint8_t { kUnknown, kFree, kClosed, kDoubtful };
 
   ExploredGrid(const ExploredGridConfig& config, const ExploredEvidence& evidence);
@@ -55,8 +56,8 @@ class ExploredGrid {
   double free_m2() const;
 
  private:
-  void Close(const ExploredEvidence& evidence);
-  void CloseWall(const LearnedWall& wall);
+  void Close(const ExploredGridConfig& config, const ExploredEvidence& evidence);
+  void CloseWall(const LearnedWall& wall, bool presumed);
   void CloseThing(const Rectangle& thing);
   void OpenAround(const Eigen::Vector2d& base, double near_m);
   void OpenToWall(const ExploredGridConfig& config, const LearnedWall& wall,

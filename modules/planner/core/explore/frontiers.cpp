@@ -54,7 +54,8 @@ std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m) {
   return frontiers;
 }
 
-double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell) {
+double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell,
+                        const std::function<bool(const Eigen::Vector2i&)>& counts) {
   constexpr int kRays = 36;
   constexpr double kReach_m = 1.5, kTurn_rad = 2 * kPi / kRays;
   const Eigen::Vector2d place = grid.PlaceOf(cell.x(), cell.y());
@@ -62,9 +63,10 @@ double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell) {
   for (int i = 0; i < kRays; ++i) {
     const Eigen::Vector2d ray(std::cos(kTurn_rad * i), std::sin(kTurn_rad * i));
     for (double at_m = ExploredGrid::kStep_m; at_m <= kReach_m; at_m += ExploredGrid::kStep_m) {
-      const Cell what = grid.At(Eigen::Vector2d(place + at_m * ray));
+      const Eigen::Vector2i at = grid.CellOf(place + at_m * ray);
+      const Cell what = grid.At(at.x(), at.y());
       if (what == Cell::kClosed || what == Cell::kDoubtful) break;
-      if (what == Cell::kUnknown) unknown_m2 += at_m * kTurn_rad * ExploredGrid::kStep_m;
+      if (what == Cell::kUnknown && counts(at)) unknown_m2 += at_m * kTurn_rad * ExploredGrid::kStep_m;
     }
   }
   return unknown_m2;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "planner/core/explore/explored_grid.hpp"
@@ -19,7 +20,9 @@ struct Frontier {
 /// The frontiers of a grid of at least that length, in the order of their first cells.
 std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m);
 
-/// How much is unknown within 1.5 m of a cell, as far as nothing closed is in between [m2].
-double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell);
+/// How much of the unknown that `counts` is within 1.5 m of a cell, as far as nothing closed is in between
+/// [m2].
+double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell,
+                        const std::function<bool(const Eigen::Vector2i&)>& counts);
 
 }  // namespace priamos::planner

@@ -180,7 +180,7 @@ void ExploreMission::Arrive(MissionControl& control) {
   Learn(base);
   const bool open = exploration_.IsOpen(*goal_);
   if (open && off_m < config_.near_m)
-    exploration_.GiveUp(goal_->target, "seen from near by, and nothing is known of it");
+    exploration_.GiveUp(goal_->target, "seen from near by, and nothing is known of it", true);
   else if (open && ++missed_ > config_.retries)
     exploration_.GiveUp(goal_->target, "the paths to it ended elsewhere");
   Next(control);

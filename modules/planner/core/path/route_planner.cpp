@@ -17,6 +17,8 @@ constexpr double kSlim = 0.6;
 constexpr double kLines = 0.9;
 /// Length of the last line to the goal, which has no leeway.
 constexpr double kExact_m = 0.6;
+/// Floor over which a route is looked for at most: a search keeps 40 kB of each square metre.
+constexpr double kMost_m2 = 10000;
 
 ObstacleMap MapOf(const GroundPlan& plan, bool unknown_leaves) {
   ObstacleMap map(plan);
@@ -143,7 +145,20 @@ std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, c
   return std::nullopt;
 }
 
+/// One wall far away makes all between it and the robot part of the search.
+std::optional<Refusal> RoutePlanner::CheckSize(const Pose2& start, const Goal& goal) const {
+  Eigen::AlignedBox2d box = space_.obstacles().Bounds();
+  box.extend(start.translation()).extend(goal.map_from_base.translation());
+  const Eigen::Vector2d size = box.sizes();
+  if (size.prod() <= kMost_m2) return std::nullopt;
+  return Refusal{
+      fmt::format("the map spans {:.0f} m x {:.0f} m, routes are looked for on {:.0f} m2; next: "
+                  "see what lies so far away, priamos map",
+                  size.x(), size.y(), kMost_m2)};
+}
+
 std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& goal) const {
+  if (auto too_large = CheckSize(start, goal)) return too_large;
   const Pose2& there = goal.map_from_base;
   const auto gap = space_.At(there);
   if (goal.turn && gap.distance_m < config_.least_margin_m)

@@ -58,6 +58,7 @@ class RoutePlanner {
   void EraseUnder(const Pose2& map_from_base, std::vector<NamedObstacle>& obstacles) const;
   std::vector<Pose2> Straightened(const std::vector<Pose2>& route, double margin_m) const;
   PlannedPath PathAlong(const Pose2& start, std::vector<Pose2> corners) const;
+  std::optional<Refusal> CheckSize(const Pose2& start, const Goal& goal) const;
   Refusal NoWay(const Pose2& start, const Goal& goal) const;
 
   RoutePlannerConfig config_;

@@ -92,6 +92,8 @@ TEST(ExplorationTest, WhatWasGivenUpIsNotTriedBeforeItIsSaid) {
   EXPECT_TRUE(dut.TryAgain());
   EXPECT_TRUE(dut.Choose({0, 0, 0}));
   EXPECT_FALSE(dut.TryAgain()) << "nothing was given up since";
+  dut.GiveUp({1.3, 0}, "seen from near by", true);
+  EXPECT_FALSE(dut.TryAgain()) << "looking again shows no more";
   dut.Reset();
   dut.NoteAt({0, 0, 0});
   EXPECT_TRUE(dut.Choose({0, 0, 0}));

@@ -56,16 +56,5 @@ TEST(FrontiersTest, WhatIsClosedHasNone) {
   EXPECT_THAT(FrontiersOf(GridOf(evidence), 0.3), IsEmpty());
 }
 
-TEST(FrontiersTest, BehindAWallNothingIsUnknown) {
-  ExploredEvidence evidence;
-  evidence.trail = {{0, 0}};
-  const ExploredGrid open({.near_m = 1.3}, evidence);
-  const Eigen::Vector2i ahead = open.CellOf({1.2, 0});
-  EXPECT_GT(UnknownBehind_m2(open, ahead), 3);
-  evidence.walls = {1, 1, {WallAt(1.5, 0, 90, 6)}, {}};
-  const ExploredGrid closed({.near_m = 1.3}, evidence);
-  EXPECT_LT(UnknownBehind_m2(closed, closed.CellOf({1.2, 0})), 2.2);
-}
-
 }  // namespace
 }  // namespace priamos::planner

@@ -45,6 +45,16 @@ TEST(RoutePlannerTest, WhereTheEasyMarginLeadsNowhereTheLeastOneDoes) {
   EXPECT_GE(path->min_gap_m, 0.1 - 1e-3);
 }
 
+TEST(RoutePlannerTest, AMapThatIsTooLargeIsRefusedBeforeItIsSearched) {
+  GroundPlan plan = ShippedPlan();
+  plan.walls.push_back({"wall of another building", {400, 400}, {404, 400}, 0.1});
+  const RoutePlanner dut = PlannerOf(plan);
+  const auto path = dut.Plan({1, 1, 0}, {{5, 1, 0}});
+  ASSERT_FALSE(path);
+  EXPECT_THAT(path.reason(), HasSubstr("m, routes are looked for on 10000 m2"));
+  EXPECT_FALSE(dut.FindPath({1, 1, 0}, {{5, 1, 0}}));
+}
+
 TEST(RoutePlannerTest, AWallThatIsNotOnThePlanIsPlannedAround) {
   RoutePlanner dut = PlannerOf(ShippedPlan());
   const Pose2 start{1, 2.4, 0};

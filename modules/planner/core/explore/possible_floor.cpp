@@ -1,0 +1,82 @@
+#include "planner/core/explore/possible_floor.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "planner/core/explore/frontiers.hpp"
+
+namespace priamos::planner {
+namespace {
+
+using Cell = ExploredGrid::Cell;
+using Eigen::Vector2d;
+using Eigen::Vector2i;
+
+/// What the clearance of a base's middle has over half its width.
+constexpr double kMargin_m = 0.05;
+
+/// Cells whose middles lie within a circle around that of a cell.
+std::vector<Vector2i> DiscOf(double radius_m) {
+  const double cells = radius_m / ExploredGrid::kStep_m;
+  const int reach = static_cast<int>(cells);
+  std::vector<Vector2i> disc;
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx)
+      if (std::hypot(dx, dy) <= cells) disc.emplace_back(dx, dy);
+  return disc;
+}
+
+/// Sets all that is so near to one of the cells.
+std::vector<bool> Widened(const ExploredGrid& grid, const std::vector<Vector2i>& cells, double by_m) {
+  std::vector<bool> wide(grid.cells(), false);
+  const std::vector<Vector2i> disc = DiscOf(by_m);
+  for (const Vector2i& cell : cells)
+    for (const Vector2i& off : disc) {
+      const Vector2i at = cell + off;
+      if (grid.Holds(at.x(), at.y())) wide[grid.IndexOf(at.x(), at.y())] = true;
+    }
+  return wide;
+}
+
+std::vector<Vector2i> ClosedCells(const ExploredGrid& grid) {
+  std::vector<Vector2i> closed;
+  for (int y = 0; y < grid.ny(); ++y)
+    for (int x = 0; x < grid.nx(); ++x)
+      if (grid.At(x, y) == Cell::kClosed) closed.emplace_back(x, y);
+  return closed;
+}
+
+/// Where the middle of the base gets from where it was.
+std::vector<Vector2i> MiddlesFrom(const ExploredGrid& grid, const std::vector<Vector2d>& trail,
+                                  double clearance_m) {
+  std::vector<bool> barred = Widened(grid, ClosedCells(grid), clearance_m);
+  std::vector<Vector2i> middles;
+  for (const Vector2d& place : trail) {
+    const Vector2i at = grid.CellOf(place);
+    if (grid.Holds(at.x(), at.y())) middles.push_back(at);
+  }
+  for (std::size_t i = 0; i < middles.size(); ++i)
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      const Vector2i at = middles[i] + Vector2i(dx, dy);
+      if (!grid.Holds(at.x(), at.y()) || grid.At(at.x(), at.y()) == Cell::kDoubtful) continue;
+      if (barred[grid.IndexOf(at.x(), at.y())]) continue;
+      barred[grid.IndexOf(at.x(), at.y())] = true;
+      middles.push_back(at);
+    }
+  return middles;
+}
+
+}  // namespace
+
+PossibleFloor::PossibleFloor(const ExploredGrid& grid, const std::vector<Vector2d>& trail, double clearance_m)
+    : grid_(&grid), has_(Widened(grid, MiddlesFrom(grid, trail, clearance_m), clearance_m - kMargin_m)) {
+  for (int y = 0; y < grid.ny(); ++y)
+    for (int x = 0; x < grid.nx(); ++x)
+      if (grid.At(x, y) != Cell::kUnknown) has_[grid.IndexOf(x, y)] = false;
+}
+
+double PossibleFloor::Behind_m2(const Vector2i& cell) const {
+  return UnknownBehind_m2(*grid_, cell, [&](const Vector2i& at) { return Has(at); });
+}
+
+}  // namespace priamos::planner

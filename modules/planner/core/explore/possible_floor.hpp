@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/core/explore/explored_grid.hpp"
+
+namespace priamos::planner {
+
+/// What of the unknown a base could come to cover, if nothing stood in it: where its middle gets from where
+/// it was, `clearance_m` off all that is closed and not through the ends of walls, and half its width around.
+/// The corner of a room and the gap between two pieces of a wall are none of it.
+class PossibleFloor {
+ public:
+  PossibleFloor(const ExploredGrid& grid, const std::vector<Eigen::Vector2d>& trail, double clearance_m);
+
+  /// Whether it is unknown and may be covered; false outside of the grid.
+  bool Has(const Eigen::Vector2i& cell) const {
+    return grid_->Holds(cell.x(), cell.y()) && has_[grid_->IndexOf(cell.x(), cell.y())];
+  }
+
+  /// How much of it is within 1.5 m of a cell, as far as nothing closed is in between [m2].
+  double Behind_m2(const Eigen::Vector2i& cell) const;
+
+ private:
+  const ExploredGrid* grid_;
+  std::vector<bool> has_;
+};
+
+}  // namespace priamos::planner
