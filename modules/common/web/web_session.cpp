@@ -199,7 +199,9 @@ void WebSession::Accepted(const OpenSocket& answer) {
   ++shared_.sockets;
   beast::error_code gone;
   const auto other_end = tcp().remote_endpoint(gone);
-  shared_.listener.Joined(id_, {answer.role, answer.dialect, gone ? "" : other_end.address().to_string()});
+  OpenSocket opened = answer;
+  if (!gone) opened.from = other_end.address().to_string();
+  shared_.listener.Joined(id_, opened);
   Read();
 }
 

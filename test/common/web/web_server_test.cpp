@@ -53,6 +53,7 @@ class WebServerTest : public testing::Test, public WebListener {
   void Joined(std::uint64_t client, const OpenSocket& socket) override {
     pages_.push_back(client);
     dialect_ = socket.dialect;
+    who_ = socket.who + " from " + socket.from;
   }
   bool Said(std::uint64_t, std::string_view text, bool binary) override {
     said_.emplace_back(binary ? "binary: " + std::string(text) : text);
@@ -68,6 +69,7 @@ class WebServerTest : public testing::Test, public WebListener {
   std::vector<std::uint64_t> pages_;
   std::vector<std::string> said_;
   Dialect dialect_ = Dialect::kPage;
+  std::string who_;
 };
 
 TEST_F(WebServerTest, ServesThePageOnce) {
@@ -99,6 +101,16 @@ TEST_F(WebServerTest, TalksWithAPageInBothDirections) {
   EXPECT_THAT(pages_, IsEmpty());
   EXPECT_FALSE(server_->Send(1, "nobody"));
   EXPECT_EQ(server_->counters().messages, 0u) << "to leave is no fault";
+}
+
+TEST_F(WebServerTest, KnowsWhoJoinedByTheTokenAndFromWhere) {
+  Page();
+  EXPECT_EQ(who_, " from 127.0.0.1");
+  WebServerOptions options;
+  options.access.holders = {{Role::kDriver, "abcdefghijklmnop", "ada"}};
+  Start(options);
+  EXPECT_TRUE(Client()->Upgrade("http://" + host_, "/socket?token=abcdefghijklmnop", host_));
+  EXPECT_EQ(who_, "ada from 127.0.0.1");
 }
 
 TEST_F(WebServerTest, WhoAnswersPingsGetsTheNextMessageWhenHeHasTheLast) {

@@ -28,6 +28,7 @@ TEST(BrowserMessage, AStickReportIsRead) {
 
 TEST(BrowserMessage, OrdersAreRead) {
   ReadAs<StopOrder>(R"({"type":"stop"})");
+  ReadAs<StopOrder>(R"({"type":"stop","why":"smoke"})");
   const auto aim = ReadAs<AimOrder>(R"({"type":"aim","pan_rad":0.5,"tilt_rad":-0.1,"zoom_step":700})");
   EXPECT_EQ(aim.pan_rad, 0.5);
   EXPECT_EQ(aim.zoom_step, 700);
@@ -95,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{R"({"type":"fly"})",
               "expected stick, stop, mission, place, aim, alarm, listen, parameter, process or replay"},
         Wrong{R"({"type":3})", "type: expected a text"}, Wrong{R"({})", "\"type\" is missing"},
-        Wrong{R"({"type":"stop","now":true})", "\"now\" is not known"},
+        Wrong{R"({"type":"alarm","source":"robot","utime":1,"now":true})", "\"now\" is not known"},
         Wrong{R"({"type":"stick","axis":[0,0,0,0,0,0]})", "\"beat\" is missing"},
         Wrong{R"({"type":"stick","beat":1.5,"axis":[0,0,0,0,0,0]})", "beat: expected a whole number"},
         Wrong{R"({"type":"stick","beat":-1,"axis":[0,0,0,0,0,0]})", "beat: expected a whole number"},

@@ -36,7 +36,8 @@ TEST(CorrelatedLeastSquaresTest, InformationAboutAnotherUnknownIsWhatTheStepLeav
   CorrelatedLeastSquares dut;
   ASSERT_TRUE(dut.SetCovariance(Eigen::Vector3d(4, 4, 4).asDiagonal()));
   ASSERT_TRUE(dut.Solve(VectorXd::Ones(3), Eigen::Vector3d(1, 2, 3)));
-  EXPECT_NEAR(dut.InformationAbout(VectorXd::Ones(3))(0, 0), 0, 1e-12) << "the same as the unknown of the step";
+  EXPECT_NEAR(dut.InformationAbout(VectorXd::Ones(3))(0, 0), 0, 1e-12)
+      << "the same as the unknown of the step";
   EXPECT_NEAR(dut.InformationAbout(Eigen::Vector3d(-1, 0, 1))(0, 0), 2 / 4.0, 1e-12);
   EXPECT_NEAR(dut.InformationAbout(Eigen::Vector3d(0, 0, 1))(0, 0), (1 - 1 / 3.0) / 4.0, 1e-12);
 }
