@@ -31,6 +31,16 @@ class LandmarkFixTest : public testing::Test {
                      {MakeView(left_, left_edges_), MakeView(right_, right_edges_)});
   }
 
+  /// What looks may have shown: how much broader the landmark is, to 1 mm, and nothing of its edges.
+  ModelErrors KnownBreadth(const LandmarkFixOptions& options, double broader_m) const {
+    ModelErrors errors;
+    errors.mean = Eigen::VectorXd::Zero(ModelErrors::SizeFor(model_));
+    errors.mean.tail<1>()(0) = broader_m;
+    errors.covariance = options.solver.VarianceOfModel().Of(model_).asDiagonal();
+    errors.covariance.bottomRightCorner<1, 1>()(0, 0) = 1e-6;
+    return errors;
+  }
+
   Rng rng_{7};
   const CameraModel left_ = test::HeadCamera(0, 1, 1000, -0.05),
                     right_ = test::HeadCamera(0, -1, 1000, -0.05);
@@ -177,15 +187,8 @@ TEST_F(LandmarkFixTest, TheBreadthOfEarlierLooksPlacesALandmarkOfWhichOneSideIsS
     return dut.Find(model_, {{2.605, 0.015, 0.012}, sharp},
                     {MakeView(left_, left_edges_), MakeView(right_, right_edges_)}, &errors);
   };
-  const auto of_breadth = [&](double broader_m) {
-    ModelErrors errors;
-    errors.mean = Eigen::VectorXd::Zero(ModelErrors::SizeFor(model_));
-    errors.mean.tail<1>()(0) = broader_m;
-    errors.covariance = options.solver.VarianceOfModel().Of(model_).asDiagonal();
-    errors.covariance.bottomRightCorner<1, 1>()(0, 0) = 1e-6;
-    return errors;
-  };
-  const LandmarkFix unknown = find({}), known = find(of_breadth(0)), broader = find(of_breadth(0.003));
+  const LandmarkFix unknown = find({}), known = find(KnownBreadth(options, 0)),
+                    broader = find(KnownBreadth(options, 0.003));
   ASSERT_EQ(unknown.verdict, Verdict::kFound) << Describe(unknown.verdict);
   ASSERT_EQ(known.verdict, Verdict::kFound) << Describe(known.verdict);
   ASSERT_EQ(broader.verdict, Verdict::kFound) << Describe(broader.verdict);
@@ -205,7 +208,8 @@ TEST_F(LandmarkFixTest, FromNearOneJambIsEnoughWhereThePlaceIsKnown) {
   op.Extract(test::RenderQuads(test::DoorQuads(), Lift(truth), right, 2, rng_, 60), right_edges_);
   const StereoViews views{MakeView(left, left_edges_), MakeView(right, right_edges_)};
   const Eigen::Matrix3d sharp = Eigen::Vector3d(1e-4, 1e-4, 5e-5).asDiagonal();
-  const LandmarkFix fix = dut_.Find(model_, {{1.345, 0.03, 0.015}, sharp}, views, {{}, Breadth{0, 0.001}});
+  const ModelErrors known = KnownBreadth(dut_.options(), 0);
+  const LandmarkFix fix = dut_.Find(model_, {{1.345, 0.03, 0.015}, sharp}, views, &known);
   ASSERT_EQ(fix.verdict, Verdict::kFound) << Describe(fix.verdict);
   // The heading is open, and with it x; what a heading tells makes y sharp.
   const double by_yaw = fix.covariance(1, 2) / fix.covariance(2, 2);
