@@ -12,9 +12,9 @@ using Vector = PoseState::Vector;
 
 PoseState SomeState() {
   PoseState state;
-  state.mean << 1, 2, 0.7, 0.01, -0.02, 0.01, 0.004, -0.003;
-  Vector sigma(8);
-  sigma << 0.1, 0.12, 0.05, 0.01, 0.02, 0.01, 0.004, 0.003;
+  state.mean << 1, 2, 0.7, 0.01, -0.02, 0.01, 0.004, -0.003, 0.006, 0.01, -0.005;
+  Vector sigma(PoseState::kOwn);
+  sigma << 0.1, 0.12, 0.05, 0.01, 0.02, 0.01, 0.004, 0.003, 0.006, 0.01, 0.005;
   state.covariance = sigma.cwiseAbs2().asDiagonal();
   return state;
 }

@@ -24,7 +24,7 @@ PoseState At(double y_m, double sigma_m, double sigma_yaw_rad) {
   PoseState state;
   state.mean.head<3>() << 5, y_m, 0;
   PoseState::Vector sigma(PoseState::kOwn);
-  sigma << sigma_m, sigma_m, sigma_yaw_rad, 0.004, 0.015, 0.008, 0.004, 0.0025;
+  sigma << sigma_m, sigma_m, sigma_yaw_rad, 0.004, 0.015, 0.008, 0.004, 0.0025, 0.006, 0.01, 0.006;
   state.covariance = sigma.cwiseAbs2().asDiagonal();
   return state;
 }

@@ -18,7 +18,7 @@ PoseState SomeState() {
   PoseState state;
   state.mean.head<3>() << 1, 2, 0.1;
   PoseState::Vector sigma(PoseState::kOwn);
-  sigma << 0.02, 0.03, 0.02, 0.01, 0.02, 0.01, 0.004, 0.003;
+  sigma << 0.02, 0.03, 0.02, 0.01, 0.02, 0.01, 0.004, 0.003, 0.006, 0.01, 0.006;
   state.covariance = sigma.cwiseAbs2().asDiagonal();
   state.repeated = 0.3 * state.covariance;
   return state;
@@ -43,8 +43,10 @@ TEST(WallUpdate, ANewWallLiesWhereItWasSeenAndMovesWithThePose) {
   EXPECT_NEAR(WallOf(dut, 0).angle_rad, 0.1 + kPi / 2, 1e-12);
   EXPECT_NEAR(Expected(dut, 0, kSonar), 2.0 - 0.39, 1e-12);
   // Who turns the pose turns the wall as much: they are known relative to each other.
-  EXPECT_NEAR(dut.covariance(2, 8), dut.covariance(2, 2), 1e-12);
-  const double angle_between = dut.covariance(2, 2) + dut.covariance(8, 8) - 2 * dut.covariance(2, 8);
+  constexpr int kAngle = PoseState::kOwn;
+  EXPECT_NEAR(dut.covariance(2, kAngle), dut.covariance(2, 2), 1e-12);
+  const double angle_between =
+      dut.covariance(2, 2) + dut.covariance(kAngle, kAngle) - 2 * dut.covariance(2, kAngle);
   EXPECT_NEAR(angle_between, 1e-4, 1e-12);
   EXPECT_GT(dut.covariance.ldlt().vectorD().minCoeff(), 0);
 }
@@ -55,9 +57,11 @@ TEST(WallUpdate, AWallThatIsGivenUpLeavesTheRestAsItWas) {
   ASSERT_EQ(dut.walls(), 1);
   EXPECT_EQ(WallOf(dut, 0).angle_rad, WallOf(both, 1).angle_rad);
   EXPECT_EQ(WallOf(dut, 0).anchor, WallOf(both, 1).anchor);
-  EXPECT_EQ((dut.covariance.topLeftCorner<8, 8>()), (both.covariance.topLeftCorner<8, 8>()));
+  EXPECT_EQ((dut.covariance.topLeftCorner<PoseState::kOwn, PoseState::kOwn>()),
+            (both.covariance.topLeftCorner<PoseState::kOwn, PoseState::kOwn>()));
   EXPECT_EQ((dut.covariance.bottomRightCorner<2, 2>()), (both.covariance.bottomRightCorner<2, 2>()));
-  EXPECT_EQ((dut.covariance.topRightCorner<8, 2>()), (both.covariance.topRightCorner<8, 2>()));
+  EXPECT_EQ((dut.covariance.topRightCorner<PoseState::kOwn, 2>()),
+            (both.covariance.topRightCorner<PoseState::kOwn, 2>()));
 }
 
 /// The gain of an update is prior * h' / spread, so that two updates show h.
