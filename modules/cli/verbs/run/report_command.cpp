@@ -10,8 +10,8 @@
 
 #include "cli/options/log_options.hpp"
 #include "cli/options/verb_setup.hpp"
-#include "cli/report/report_comparison.hpp"
-#include "cli/report/report_of_log.hpp"
+#include "cli/pages/report_comparison.hpp"
+#include "cli/pages/report_of_log.hpp"
 #include "cli/terminal/json_line.hpp"
 #include "cli/verbs/run/commands.hpp"
 #include "common/config.hpp"

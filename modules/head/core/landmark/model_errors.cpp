@@ -46,10 +46,10 @@ Eigen::VectorXd ModelVariance::Of(const LandmarkModel& model) const {
 
 ModelErrors CarriedOver(ModelErrors errors, const LandmarkModel& model, const ModelVariance& before) {
   const Eigen::VectorXd prior = before.Of(model);
-  // An error that is none by the options stays none.
+  // Nothing is less known than before any look.
   Eigen::VectorXd alike = Eigen::VectorXd::Constant(prior.size(), kEdgeAlike_m * kEdgeAlike_m);
   alike.tail<1>()(0) = kBreadthAlike_m * kBreadthAlike_m;
-  errors.covariance.diagonal() += alike.cwiseMin(prior);
+  errors.covariance.diagonal() += alike.cwiseMin((prior - errors.covariance.diagonal()).cwiseMax(0));
   for (std::size_t i = 0; i < model.edges.size(); ++i) {
     if (!model.edges[i].IsMovable()) continue;
     const auto at = static_cast<Eigen::Index>(3 * i);

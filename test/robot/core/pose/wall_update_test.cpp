@@ -18,7 +18,7 @@ PoseState SomeState() {
   PoseState state;
   state.mean.head<3>() << 1, 2, 0.1;
   PoseState::Vector sigma(PoseState::kOwn);
-  sigma << 0.02, 0.03, 0.02, 0.01, 0.02, 0.01, 0.004, 0.003, 0.006, 0.01, 0.006;
+  sigma << 0.02, 0.03, 0.02, 0.01, 0.02, 0.01, 0.004, 0.003, 1e-4, 1e-4, 1e-4;
   state.covariance = sigma.cwiseAbs2().asDiagonal();
   state.repeated = 0.3 * state.covariance;
   return state;

@@ -1,4 +1,4 @@
-#include "cli/report/report_comparison.hpp"
+#include "cli/pages/report_comparison.hpp"
 
 #include <fmt/format.h>
 

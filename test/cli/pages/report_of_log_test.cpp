@@ -1,4 +1,4 @@
-#include "cli/report/report_of_log.hpp"
+#include "cli/pages/report_of_log.hpp"
 
 #include <gmock/gmock.h>
 
