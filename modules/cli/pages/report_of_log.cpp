@@ -24,31 +24,24 @@ constexpr double kWidth = 1200, kMargin = 36, kInner = kWidth - 2 * kMargin, kTa
 constexpr drawing::Layer kHeard{
     "heard-wall", "wall that the sonars heard", {.line = colours::kFix, .width = 4}};
 
-/// Which buses a log is of, by channels that never cross the radio.
-struct Buses {
-  bool onboard = false, offboard = false;
-};
-
-Buses BusesOf(const std::string& log) {
-  Buses buses;
+/// Whether a log has the robot's bus in it, by a channel that never crosses the radio.
+bool HasRobotsBus(const std::string& log) {
   bus::LogReader reader(log);
-  while (const auto event = reader.Next()) {
-    buses.onboard = buses.onboard || event->channel == channels::kWheelState.name;
-    buses.offboard = buses.offboard || event->channel == channels::kMissionStatus.name;
-  }
-  return buses;
+  while (const auto event = reader.Next())
+    if (event->channel == channels::kWheelState.name) return true;
+  return false;
 }
 
 /// `alone`: it is the only log, so that each side has what the log holds of it.
 void AddLog(const std::string& log, bool alone, RunRecord& record) {
-  const Buses buses = BusesOf(log);
+  const bool onboard = HasRobotsBus(log);
   bus::LogReader reader(log);
   while (const auto event = reader.Next()) {
     const bool of_link = event->channel == channels::kLinkStatus.name;
     const bool of_pose = event->channel == channels::kPose.name;
-    if (buses.onboard || (alone && !of_link))
+    if (onboard || (alone && !of_link))
       record.Add(Side::kOnboard, event->utime, event->channel, event->bytes);
-    if (!buses.onboard || (alone && !of_link && !of_pose))
+    if (!onboard || (alone && !of_link && !of_pose))
       record.Add(Side::kOffboard, event->utime, event->channel, event->bytes);
   }
 }

@@ -83,8 +83,9 @@ int Compare(const ReportOptions& options) {
 }
 
 int Report(const ReportOptions& options) {
-  const bool folders = fs::is_directory(options.a) && fs::is_directory(options.b);
-  if (!options.b.empty() && !folders && fs::is_directory(options.a) != fs::is_directory(options.b))
+  if (options.b.empty()) return ReportLog(options);
+  const bool folders = fs::is_directory(options.a);
+  if (folders != fs::is_directory(options.b))
     throw std::runtime_error(fmt::format("expected two folders of runs or two logs of one run, got {} and {}",
                                          options.a, options.b));
   return folders ? Compare(options) : ReportLog(options);

@@ -38,8 +38,8 @@ function withNumber(id: string, order: (value: number) => MissionOrder): Mission
 
 /** What may stand in the first field that says something else. */
 function hint(): string {
-  const wrong = [...byId("orders").querySelectorAll<HTMLInputElement>("input[type=number]:invalid")][0];
-  if (wrong === undefined) return "";
+  const wrong = byId("orders").querySelector<HTMLInputElement>("input[type=number]:invalid");
+  if (wrong === null) return "";
   const name = (wrong.closest("label")?.textContent ?? "").replace(/\s+/g, " ").trim();
   return `${name}: ${text("allowed")}: ${text(wrong.step === "1" ? "wholeNumber" : "aNumber")}, ${wrong.min} … ${wrong.max}`;
 }

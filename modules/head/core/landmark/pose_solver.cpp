@@ -139,18 +139,19 @@ class Problem {
     return matrix * model_variance_.asDiagonal();
   }
 
-  /// The errors of the model under the condition of the residuals.
+  /// The errors of the model under the condition of the residuals. What only who learns them needs takes
+  /// longest.
   void LearnErrors(PoseSolution& solution) const {
-    const Eigen::MatrixXd spread = TimesPrior(ByErrors());
-    const Eigen::VectorXd mean = spread.transpose() * squares_.WeightedResiduals();
-    const Eigen::Index last = mean.size() - 1;
-    const double prior = options_.known ? options_.known->covariance(last, last) : model_variance_(last);
-    const double left = prior - squares_.InformationAbout(spread.col(last))(0, 0);
+    const Eigen::MatrixXd by = ByErrors();
+    const Eigen::Index size = by.cols(), last = size - 1;
+    const Eigen::VectorXd mean = TimesPrior(squares_.WeightedResiduals().transpose() * by).transpose();
+    const Eigen::VectorXd of_breadth = TimesPrior(Eigen::RowVectorXd::Unit(size, last)).transpose();
+    const double left = of_breadth(last) - squares_.InformationAbout(by * of_breadth)(0, 0);
     solution.edge_shifts = ShiftsOf(model_, mean);
     solution.breadth = {mean(last), std::sqrt(std::max(left, 0.0))};
     if (!options_.learn) return;
-    const Eigen::MatrixXd before = TimesPrior(Eigen::MatrixXd::Identity(mean.size(), mean.size()));
-    solution.errors = {mean, before - squares_.InformationAbout(spread)};
+    const Eigen::MatrixXd before = TimesPrior(Eigen::MatrixXd::Identity(size, size));
+    solution.errors = {mean, before - squares_.InformationAbout(TimesPrior(by))};
   }
 
   Eigen::MatrixXd CovarianceOfAll() const {
