@@ -37,11 +37,13 @@ void AddLog(const std::string& log, bool alone, RunRecord& record) {
   const bool onboard = HasRobotsBus(log);
   bus::LogReader reader(log);
   while (const auto event = reader.Next()) {
-    const bool of_link = event->channel == channels::kLinkStatus.name;
+    // What both sides take is of one bus.
+    const bool of_both =
+        event->channel == channels::kLinkStatus.name || event->channel == channels::kAlarm.name;
     const bool of_pose = event->channel == channels::kPose.name;
-    if (onboard || (alone && !of_link))
+    if (onboard || (alone && !of_both))
       record.Add(Side::kOnboard, event->utime, event->channel, event->bytes);
-    if (!onboard || (alone && !of_link && !of_pose))
+    if (!onboard || (alone && !of_both && !of_pose))
       record.Add(Side::kOffboard, event->utime, event->channel, event->bytes);
   }
 }

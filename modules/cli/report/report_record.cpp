@@ -42,6 +42,7 @@ void RunRecord::Append(std::vector<T>& stream, std::span<const std::byte> bytes)
 
 void RunRecord::Add(Side side, std::int64_t utime, std::string_view channel,
                     std::span<const std::byte> bytes) {
+  if (channel == channels::kAlarm.name) return Append(alarms, bytes);  // it crosses no radio
   side == Side::kOnboard ? AddOnboard(channel, bytes) : AddOffboard(utime, channel, bytes);
 }
 
@@ -54,7 +55,6 @@ void RunRecord::AddOnboard(std::string_view channel, std::span<const std::byte> 
   if (channel == channels::kLandmarkView.name) Append(views, bytes);
   if (channel == channels::kDriveStatus.name) Append(drive, bytes);
   if (channel == channels::kDriveCommand.name) Append(commands, bytes);
-  if (channel == channels::kAlarm.name) Append(alarms, bytes);
   if (channel == channels::kLinkStatus.name) Append(onboard_link, bytes);
 }
 

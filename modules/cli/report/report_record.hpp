@@ -35,7 +35,6 @@ class RunRecord {
   std::vector<landmark_view_t> views;
   std::vector<drive_status_t> drive;
   std::vector<drive_command_t> commands;  ///< an operator's wishes
-  std::vector<alarm_t> alarms;
   // Offboard: requests and status of the planner.
   std::vector<look_request_t> looks;
   std::vector<mission_command_t> orders;
@@ -46,6 +45,7 @@ class RunRecord {
   std::vector<floor_map_t> map;  ///< the planner's map, in the parts of the newest one
   /// Age of each pose when it came to the workstation [s]: what the radio costs in time.
   std::vector<double> pose_ages_s;
+  std::vector<alarm_t> alarms;  ///< of the processes of both buses
   // Each end of the radio about itself.
   std::vector<link_status_t> onboard_link, offboard_link;
 

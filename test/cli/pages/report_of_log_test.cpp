@@ -90,6 +90,8 @@ TEST_F(ReportOfLogTest, WithTheRobotsLogThePosesAreThatOnes) {
   const RunRecord record = RecordOfLogs({onboard, Workstation()});
   EXPECT_EQ(record.poses.size(), 100U);
   EXPECT_EQ(record.pose_ages_s.size(), 41U);
+  EXPECT_EQ(record.alarms.size(), 1U) << "of the workstation";
+  EXPECT_EQ(RecordOfLogs({Workstation()}).alarms.size(), 1U);
   EXPECT_EQ(RecordOfLogs({onboard}).poses.size(), 100U);
 }
 
