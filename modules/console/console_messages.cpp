@@ -154,6 +154,8 @@ RobotView FromMessage(const drive_status_t& message, int session) {
   RobotView view;
   view.heard = FromUtime(message.utime);
   view.estop = message.estop;
+  view.refused = message.refused;
+  view.refuses_motion = message.refusal == drive_status_t::REFUSED_NOT_AT_REST;
   const bool mine = message.driver == kSelf && message.session == session;
   view.lease = message.driver == lease_request_t::NOBODY ? RobotView::Lease::kFree
                : mine                                    ? RobotView::Lease::kMine

@@ -74,6 +74,8 @@ RobotView FromMessage(const drive_status_t& message, int session) {
   RobotView view;
   view.heard = FromUtime(message.utime);
   view.estop = message.estop;
+  view.refused = message.refused;
+  view.refuses_motion = message.refusal == drive_status_t::REFUSED_NOT_AT_REST;
   const bool teleop = message.driver == lease_request_t::TELEOP;
   view.lease = message.driver == lease_request_t::NOBODY ? RobotView::Lease::kFree
                : teleop && message.session == session    ? RobotView::Lease::kMine

@@ -95,7 +95,7 @@ def seconds_to_stand(rig, hand, how, key):
         hand.hold(key)
     ended = time.monotonic()
     hand.end(how)
-    time.sleep(0.6)
+    time.sleep(0.8)
     stood = rig.wheels.last_turn
     hand.mend(how)
     time.sleep(1.2)

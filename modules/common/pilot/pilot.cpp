@@ -9,6 +9,8 @@ namespace {
 constexpr Duration kAskAgain = std::chrono::seconds(1);
 /// The robot keeps a lease for some seconds after the last command; within this it surely still has ours.
 constexpr Duration kSurelyKept = std::chrono::milliseconds(1500);
+/// For how long a robot that cannot be heard is told to stand: within it, it has taken the lease back itself.
+constexpr Duration kTellEnd = std::chrono::seconds(10);
 
 /// Change of a wish that counts as a jump, as a share of the wish at full deflection.
 constexpr double kJump = 0.15;
@@ -29,10 +31,12 @@ Pilot::Pilot(const PilotConfig& config)
 PilotOutput Pilot::Step(const Stick& stick, const RobotView& robot, Time now) {
   PilotOutput output;
   UseButtons(stick, robot, now, output);
+  const bool drove = phase_ == PilotPhase::kDriving;
   phase_ = NextPhase(stick, robot, now);
+  if (drove && phase_ != PilotPhase::kDriving) ended_ = now;
   if (phase_ == PilotPhase::kAsking) Ask(now, output);
   Wish(stick);
-  Send(stick, now, output);
+  Send(stick, robot, now, output);
   before_ = stick;
   return output;
 }
@@ -82,6 +86,7 @@ bool Pilot::LeaseIsOurs(const RobotView& robot, Time now) const {
 
 PilotPhase Pilot::NextPhase(const Stick& stick, const RobotView& robot, Time now) {
   using enum PilotPhase;
+  const bool was_refused = WasRefused(robot);
   if (!stick.connected) return kNoDevice;
   const bool held = IsPressed(stick, config_.buttons.dead_man);
   if (!held) return kIdle;
@@ -93,9 +98,18 @@ PilotPhase Pilot::NextPhase(const Stick& stick, const RobotView& robot, Time now
     asked_again_.reset();
     return LeaseIsOurs(robot, now) ? kDriving : kAsking;
   }
+  if (phase_ == kDriving && was_refused) return kMustLetGo;
   if (LeaseIsOurs(robot, now)) return kDriving;
   if (robot.estop) return kMustLetGo;
   return phase_ == kDriving ? kMustLetGo : kAsking;
+}
+
+/// Whether the robot refused motion since the step before: it heard nothing of this hand for a while.
+bool Pilot::WasRefused(const RobotView& robot) {
+  if (!robot.heard) return false;
+  const bool more = refused_ && robot.refused != *refused_;
+  refused_ = robot.refused;
+  return more && robot.refuses_motion;
 }
 
 void Pilot::Ask(Time now, PilotOutput& output) {
@@ -127,7 +141,11 @@ bool Pilot::AtRest(const Stick& stick) const {
                      [this](double v) { return config_.shape(v) == 0; });
 }
 
-void Pilot::Send(const Stick& stick, Time now, PilotOutput& output) {
+bool Pilot::EndIsUnheard(const RobotView& robot, Time now) const {
+  return ended_ && robot.heard && *robot.heard <= *ended_ && now - *ended_ < kTellEnd;
+}
+
+void Pilot::Send(const Stick& stick, const RobotView& robot, Time now, PilotOutput& output) {
   const bool talks = now - stick.heard <= FromSeconds(config_.silence_s);
   const bool may = phase_ == PilotPhase::kDriving && talks;
   const bool base = mode_ == PilotMode::kBase, head = mode_ == PilotMode::kHead;
@@ -137,7 +155,8 @@ void Pilot::Send(const Stick& stick, Time now, PilotOutput& output) {
   if (!moves_head) head_wish_ = {};
   // While asking, the robot is to hear commands to stand as often as possible: the first one it accepts ends
   // the wait.
-  const bool in_hand = phase_ == PilotPhase::kDriving || phase_ == PilotPhase::kAsking;
+  const bool in_hand =
+      phase_ == PilotPhase::kDriving || phase_ == PilotPhase::kAsking || EndIsUnheard(robot, now);
   const auto state = moves_base || phase_ == PilotPhase::kAsking ? WishSender::Stick::kDeflected
                      : in_hand                                   ? WishSender::Stick::kHeld
                                                                  : WishSender::Stick::kReleased;

@@ -18,6 +18,8 @@ struct RobotView {
   std::optional<Time> heard{};  ///< time of that status, in this process's clock
   Lease lease = Lease::kFree;
   bool estop = false;
+  int refused = 0;              ///< commands that it refused so far
+  bool refuses_motion = false;  ///< the newest of them because the stick must be let go first
 };
 
 /// A wish for the motion of the head, as in head_drive_t.
@@ -55,7 +57,9 @@ struct PilotOutput {
 /// Nothing moves unless the dead-man is held, the stick reports, and the robot reports that the lease is ours
 /// and no e-stop is latched. Pressing the dead-man asks for a free lease; taking a held one needs the
 /// take-over button. While it asks, it sends commands to stand, which the robot must receive first. When the
-/// drive ends for any reason but the stick at rest, the dead-man must be let go and pressed again.
+/// drive ends for any reason but the stick at rest, the dead-man must be let go and pressed again. After its
+/// end the robot is told to stand until it shows that it lives: what is pressed next must not be refused for
+/// a rest that never reached it.
 class Pilot {
  public:
   explicit Pilot(const PilotConfig& config);
@@ -75,10 +79,12 @@ class Pilot {
   void UseButtons(const Stick& stick, const RobotView& robot, Time now, PilotOutput& output);
   void UseEstopButtons(const Stick& stick, const RobotView& robot, Time now, PilotOutput& output);
   PilotPhase NextPhase(const Stick& stick, const RobotView& robot, Time now);
+  bool WasRefused(const RobotView& robot);
   void Ask(Time now, PilotOutput& output);
   void Wish(const Stick& stick);
   bool AtRest(const Stick& stick) const;
-  void Send(const Stick& stick, Time now, PilotOutput& output);
+  bool EndIsUnheard(const RobotView& robot, Time now) const;
+  void Send(const Stick& stick, const RobotView& robot, Time now, PilotOutput& output);
   bool Jumped() const;
 
   PilotConfig config_;
@@ -91,6 +97,8 @@ class Pilot {
   WishSender base_sender_, head_sender_;
   StopKeeper stop_;
   std::optional<Time> asked_, asked_again_, rearm_since_;
+  std::optional<Time> ended_;   ///< end of the last drive
+  std::optional<int> refused_;  ///< RobotView::refused of the step before
 };
 
 }  // namespace priamos

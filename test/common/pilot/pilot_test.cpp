@@ -204,6 +204,41 @@ TEST_F(PilotTest, ARobotThatSaysNothingMoreIsNotDriven) {
   EXPECT_EQ(Moving(), 0);
 }
 
+TEST_F(PilotTest, WhomTheRobotRefusedMotionMustLetGo) {
+  DriveOff();
+  robot_.refused += 3;
+  robot_.refuses_motion = true;
+  Run(0.1);
+  EXPECT_EQ(dut_.phase(), PilotPhase::kMustLetGo);
+  LetGo(config_.buttons.dead_man);
+  Push(0);
+  Run(0.1);
+  Hold(config_.buttons.dead_man);
+  Run(0.1);
+  EXPECT_EQ(dut_.phase(), PilotPhase::kDriving) << "an old refusal does not count again";
+}
+
+TEST_F(PilotTest, ARobotThatIsNotHeardIsToldToStandUntilItIs) {
+  DriveOff();
+  answers_ = false;
+  LetGo(config_.buttons.dead_man);
+  Run(2);
+  EXPECT_GE(sent_.size(), 5u) << "three zeros, and twice a second";
+  EXPECT_EQ(Moving(), 0);
+  answers_ = true;
+  Run(0.1);
+  sent_.clear();
+  Run(2);
+  EXPECT_EQ(sent_.size(), 0u);
+}
+
+TEST_F(PilotTest, ACommandThatCameTooLateDoesNotEndTheDrive) {
+  DriveOff();
+  ++robot_.refused;
+  Run(0.1);
+  EXPECT_EQ(dut_.phase(), PilotPhase::kDriving);
+}
+
 TEST_F(PilotTest, TheEstopButtonStopsAtOnceAndAgainUntilTheRobotSaysSo) {
   DriveOff();
   Hold(config_.buttons.estop);

@@ -28,6 +28,9 @@ void OperatorConfig::Describe(Archive& a) {
   a.Number("max_turn_rad_s", max_turn_rad_s, {"rad/s", 0.05, 2, "a command beyond it is refused"});
   a.Number("most_time_to_live_s", most_time_to_live_s,
            {"s", 0.02, 0.25, "a command that claims to live longer is refused"});
+  a.Number(
+      "rest_after_s", rest_after_s,
+      {"s", 0.1, 10, "silent for so long after a command to move ran out: the stick must be let go first"});
 }
 
 CommandVerdict OperatorInput::Take(const DriveCommand& command, bool has_lease, Time now) {
@@ -53,7 +56,7 @@ CommandVerdict OperatorInput::Judge(const DriveCommand& command, bool has_lease,
   if (now > EndOf(command) || command.time > now + kAheadAllowed) return CommandVerdict::kTooOld;
   const bool same_sender = newest_ && newest_->from == command.from;
   if (same_sender && !IsAfter(command.sequence, newest_->sequence)) return CommandVerdict::kOutOfOrder;
-  if ((must_rest_ || Stands(now)) && WantsMotion(t)) return CommandVerdict::kNotAtRest;
+  if (MustRest(now) && WantsMotion(t)) return CommandVerdict::kNotAtRest;
   return CommandVerdict::kAccepted;
 }
 
@@ -63,6 +66,12 @@ const DriveCommand* OperatorInput::Valid(Time now) const {
 
 bool OperatorInput::FellSilent(Time now) const {
   return command_ && now > EndOf(*command_) && WantsMotion(command_->twist);
+}
+
+bool OperatorInput::MustRest(Time now) const {
+  const bool was_away =
+      newest_ && WantsMotion(newest_->twist) && now > EndOf(*newest_) + FromSeconds(config_.rest_after_s);
+  return must_rest_ || was_away || Stands(now);
 }
 
 int OperatorInput::refused() const {

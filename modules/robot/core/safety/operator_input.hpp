@@ -32,6 +32,7 @@ struct OperatorConfig {
   double max_speed_m_s = 0.8;
   double max_turn_rad_s = 0.8;
   double most_time_to_live_s = 0.25;
+  double rest_after_s = 0.3;  ///< who was silent so long while he drove must let go of the stick
 
   void Describe(Archive& a);
 };
@@ -39,7 +40,8 @@ struct OperatorConfig {
 /// The newest drive command and whether it may still be obeyed. A command counts until its time-to-live,
 /// measured from when the operator gave it, has run out; a command without the lease, out of order, too old,
 /// or with values out of range is refused and counted. Values are never clamped: a number that cannot be
-/// meant is not to be guessed at.
+/// meant is not to be guessed at. An operator who fell silent while he drove, as behind a radio that was cut,
+/// moves nothing again before he let go of the stick: he saw nothing in between.
 class OperatorInput {
  public:
   explicit OperatorInput(const OperatorConfig& config) : config_(config) {}
@@ -59,6 +61,8 @@ class OperatorInput {
   /// True when the last command wanted motion and ran out: the operator fell silent while driving. After a
   /// command to stand, silence is the normal end.
   bool FellSilent(Time now) const;
+  /// Whether motion is refused until a command to stand has come.
+  bool MustRest(Time now) const;
 
   /// How often each verdict was given.
   const std::array<int, kCommandVerdicts>& counts() const { return counts_; }

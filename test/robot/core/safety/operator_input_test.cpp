@@ -48,6 +48,35 @@ TEST_F(OperatorInputTest, SilenceAfterACommandToStandIsTheNormalEnd) {
   EXPECT_FALSE(dut_.FellSilent(kStart + milliseconds(500)));
 }
 
+TEST_F(OperatorInputTest, WhoWasSilentWhileDrivingMovesNothingBeforeHeLetGo) {
+  Take(Command(1, kStart));
+  const Time back = kStart + milliseconds(200) + milliseconds(301);
+  EXPECT_EQ(Take(Command(2, back), back), CommandVerdict::kNotAtRest);
+  EXPECT_EQ(Take(Command(3, back + milliseconds(50)), back + milliseconds(50)), CommandVerdict::kNotAtRest);
+  EXPECT_EQ(Take(Command(4, back + milliseconds(90), {}), back + milliseconds(90)),
+            CommandVerdict::kAccepted);
+  EXPECT_EQ(Take(Command(5, back + milliseconds(99)), back + milliseconds(99)), CommandVerdict::kAccepted);
+}
+
+TEST_F(OperatorInputTest, HeMustLetGoAlsoWhenHisCommandWasDropped) {
+  Take(Command(1, kStart));
+  dut_.Drop();
+  const Time back = kStart + milliseconds(3000);
+  EXPECT_EQ(Take(Command(2, back), back), CommandVerdict::kNotAtRest);
+}
+
+TEST_F(OperatorInputTest, AFewLostCommandsInterruptTheDriveWithoutEndingIt) {
+  Take(Command(1, kStart));
+  const Time back = kStart + milliseconds(450);
+  EXPECT_EQ(Take(Command(9, back), back), CommandVerdict::kAccepted);
+}
+
+TEST_F(OperatorInputTest, WhoStoodMayBeSilent) {
+  Take(Command(1, kStart, {}));
+  const Time back = kStart + milliseconds(5000);
+  EXPECT_EQ(Take(Command(2, back), back), CommandVerdict::kAccepted);
+}
+
 TEST_F(OperatorInputTest, RefusesWithoutLease) {
   EXPECT_EQ(dut_.Take(Command(1, kStart), false, kStart), CommandVerdict::kWithoutLease);
   EXPECT_FALSE(dut_.Valid(kStart));
