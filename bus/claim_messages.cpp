@@ -12,7 +12,7 @@ namespace priamos::bus {
 namespace {
 
 // @max of claim_t
-constexpr std::size_t kRobotBytes = 32, kRoleBytes = 16, kHostBytes = 64;
+constexpr std::size_t kRobotBytes = 32, kRoleBytes = 16, kClaimHostBytes = 64;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ claim_t ToMessage(const ClaimWord& word, Time now) {
   message.instance = word.who.instance;
   message.state = word.holds ? claim_t::HOLDS : claim_t::ASKS;
   message.age_us = word.age.count();
-  message.host = word.who.host.substr(0, kHostBytes);
+  message.host = word.who.host.substr(0, kClaimHostBytes);
   message.pid = word.who.pid;
   return message;
 }

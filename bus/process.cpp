@@ -34,7 +34,7 @@ namespace priamos::bus {
 namespace {
 
 constexpr int kFailedWhileRunning = 1;
-constexpr int kCannotStart = 2;
+constexpr int kStartFailed = 2;
 constexpr std::string_view kFileUrl = "file://";
 
 using Options = ProcessOptions;
@@ -236,7 +236,7 @@ int RunProcess(const AppFactory& factory, int argc, char** argv, const LogShow& 
     return Run(factory, options, show, running);
   } catch (const std::exception& error) {
     std::cerr << "priamos-" << factory.name << ": " << error.what() << "\n";
-    return running ? kFailedWhileRunning : kCannotStart;
+    return running ? kFailedWhileRunning : kStartFailed;
   }
 }
 

@@ -13,7 +13,7 @@ namespace priamos::bus {
 namespace {
 
 /// A time further ahead than this is damaged: nobody wants to tick through it.
-constexpr Duration kLongestGap = std::chrono::hours(1);
+constexpr Duration kLongestPause = std::chrono::hours(1);
 
 /// A serial line on which nothing ever comes: the log has no bytes of it.
 class SilentLine : public ByteStream {
@@ -104,7 +104,7 @@ void Replay::Run(const std::function<void(const Output&)>& send) {
     const Time at = FromUtime(event->utime);
     if (at < start) continue;
     if (host_->exit_code()) break;
-    if (at - clock_.Now() > kLongestGap) {
+    if (at - clock_.Now() > kLongestPause) {
       ++implausible_;
       continue;
     }

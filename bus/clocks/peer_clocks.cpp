@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int64_t kLatest_us = 7'258'118'400'000'000;  // the year 2200
 constexpr double kNotKnown_s = 100;                         // of clock_report_t.uncertainty_s
-constexpr double kFurthest_s = 100'000;                     // of clock_report_t.ahead_s
+constexpr double kFurthestPeer_s = 100'000;                 // of clock_report_t.ahead_s
 
 bool IsTime(std::int64_t utime) {
   return utime > 0 && utime < kLatest_us;
@@ -136,8 +136,8 @@ clock_report_t PeerClocks::Report(Time now) const {
     message.heard_id.push_back(id);
     message.utime_heard.push_back(peer.newest_utime);
     message.utime_arrived.push_back(ToUtime(peer.arrived));
-    message.ahead_s.push_back(difference ? std::clamp(Seconds(difference->ahead), -kFurthest_s, kFurthest_s)
-                                         : 0);
+    message.ahead_s.push_back(
+        difference ? std::clamp(Seconds(difference->ahead), -kFurthestPeer_s, kFurthestPeer_s) : 0);
     message.uncertainty_s.push_back(difference ? std::min(Seconds(difference->uncertainty), kNotKnown_s)
                                                : kNotKnown_s);
   }

@@ -8,7 +8,7 @@
 namespace priamos::bus {
 namespace {
 
-constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
+constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
 enum Opcode : std::uint8_t {
   kHeader = 0x01,
   kFooter = 0x02,
@@ -63,7 +63,7 @@ Content& PutMap(Content& content, const Map& map) {
 }  // namespace
 
 McapWriter::McapWriter(std::ostream& out) : out_(out) {
-  Write(kMagic);
+  Write(kMcapMagic);
   WriteRecord(kHeader, Content().Text("").Text("priamos").text());
 }
 
@@ -187,7 +187,7 @@ void McapWriter::Finish() {
   Write(summary);
   Write(offsets);
   WriteRecord(kFooter, footer.text());
-  Write(kMagic);
+  Write(kMcapMagic);
 }
 
 }  // namespace priamos::bus

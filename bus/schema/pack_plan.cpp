@@ -28,10 +28,10 @@ Limits LimitsOf(Kind kind) {
   return {-high - 1, high};
 }
 
-class Planner {
+class PackPlanner {
  public:
-  Planner(const Struct& type, std::string prefix, std::int64_t repeats, std::vector<PackedField>& rows,
-          std::size_t& fields)
+  PackPlanner(const Struct& type, std::string prefix, std::int64_t repeats, std::vector<PackedField>& rows,
+              std::size_t& fields)
       : type_(type), prefix_(std::move(prefix)), repeats_(repeats), rows_(rows), fields_(fields) {}
 
   std::shared_ptr<const PackPlan> Run() {
@@ -59,7 +59,7 @@ class Planner {
     }
     if (field.kind == Kind::kStruct) {
       if (field.annotation.refuse) Fail(field, "@refuse belongs to the fields of the struct");
-      step.code = StructPack{Planner(*field.type, name + ".", values, rows_, fields_).Run()};
+      step.code = StructPack{PackPlanner(*field.type, name + ".", values, rows_, fields_).Run()};
     } else {
       rows_.push_back({.name = name, .unit = field.annotation.unit, .values = values, .codes = ""});
       Code(field, step);
@@ -246,7 +246,7 @@ std::shared_ptr<const PackPlan> MakePackPlan(const Struct& type, std::vector<Pac
   };
   if (ReachesRecursion(type)) refuse("has a type in it that contains itself, which cannot be packed");
   std::size_t fields = 0;
-  auto plan = Planner(type, "", 1, rows, fields).Run();
+  auto plan = PackPlanner(type, "", 1, rows, fields).Run();
   const auto size = MaxEncodedSize(type);
   if (!size || *size > kMaxEncoded)
     refuse(fmt::format("may have more than {} bytes, which cannot be packed", kMaxEncoded));

@@ -11,11 +11,11 @@ namespace {
 
 /// Largest size that is counted [bytes]; larger than any message. Sums and products stop here, and the
 /// comparison with the bytes refuses it.
-constexpr std::size_t kHuge = std::numeric_limits<std::size_t>::max() / 4;
+constexpr std::size_t kHugeWalk = std::numeric_limits<std::size_t>::max() / 4;
 
 std::size_t Times(std::size_t a, std::size_t b) {
   std::size_t result = 0;
-  return __builtin_mul_overflow(a, b, &result) ? kHuge : std::min(result, kHuge);
+  return __builtin_mul_overflow(a, b, &result) ? kHugeWalk : std::min(result, kHugeWalk);
 }
 
 /// Most values that are counted: more than any message may hold.
@@ -45,7 +45,7 @@ class FixedSizes {
     for (const Field& field : type.fields) {
       const auto size = OfField(field);
       if (!size) return std::nullopt;
-      sum = std::min(sum + *size, kHuge);
+      sum = std::min(sum + *size, kHugeWalk);
     }
     return known_[&type] = sum;
   }
@@ -70,9 +70,9 @@ class FixedSizes {
   std::map<const Struct*, std::int64_t> empty_;
 };
 
-class Planner {
+class WalkPlanner {
  public:
-  explicit Planner(const Struct& type) : type_(type), registers_(type.fields.size(), -1) {
+  explicit WalkPlanner(const Struct& type) : type_(type), registers_(type.fields.size(), -1) {
     for (const Field& field : type.fields) {
       for (const Dimension& dimension : field.dims) {
         if (dimension.variable) registers_[dimension.count_field] = 0;
@@ -96,7 +96,7 @@ class Planner {
     }
     if (const auto size = sizes_.OfField(field)) {
       if (plan_.steps.empty() || plan_.steps.back().op != WalkStep::Op::kSkip) plan_.steps.emplace_back();
-      plan_.steps.back().size = std::min(plan_.steps.back().size + *size, kHuge);
+      plan_.steps.back().size = std::min(plan_.steps.back().size + *size, kHugeWalk);
       plan_.empty = std::min(plan_.empty + sizes_.EmptyIn(field), kManyValues);
       return;
     }
@@ -121,7 +121,7 @@ class Planner {
 }  // namespace
 
 WalkPlan MakeWalkPlan(const Struct& type) {
-  return Planner(type).Run();
+  return WalkPlanner(type).Run();
 }
 
 }  // namespace priamos::bus

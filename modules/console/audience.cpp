@@ -1,5 +1,7 @@
 #include "console/audience.hpp"
 
+#include "console/core/json_line.hpp"
+
 namespace priamos::console {
 namespace {
 
@@ -38,8 +40,7 @@ void Audience::Tell(WebServer& server, const std::string& greeting, const News& 
                        {"beat", beat},
                        {"station", station(client, page.role)},
                        {"items", ItemsSince(news, page.seen, now)}};
-    if (server.Send(client, text.dump(-1, ' ', false, Json::error_handler_t::replace)))
-      page.seen = news.newest();
+    if (server.Send(client, JsonLine(text))) page.seen = news.newest();
   }
 }
 

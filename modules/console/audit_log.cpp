@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "console/core/json_line.hpp"
+
 namespace priamos::console {
 namespace {
 
@@ -31,7 +33,7 @@ void AuditLog::Note(Time now, std::uint64_t client, std::string_view what, const
   if (file_.empty()) return;
   Json line = {{"utime", ToUtime(now)}, {"client", client}, {"what", what}};
   line.update(details);
-  const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = JsonLine(line) + "\n";
   if (bytes_ + text.size() > kMostBytes) {
     std::error_code stays;
     fs::rename(file_, file_ + ".1", stays);

@@ -7,6 +7,7 @@
 #include "bus/schema/json.hpp"
 #include "bus/schema/json_schema.hpp"
 #include "bus/schema/schema.hpp"
+#include "console/core/json_line.hpp"
 #include "console/foxglove/scene_schemas.hpp"
 #include "console/foxglove/services.hpp"
 #include "console/greeting.hpp"
@@ -26,10 +27,6 @@ std::string SchemaOf(const bus::Struct& type) {
   } catch (const bus::SchemaError&) {  // it contains itself: any object
     return Json{{"title", type.full_name}, {"type", "object"}}.dump();
   }
-}
-
-std::string Text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -91,7 +88,7 @@ void FoxgloveBridge::OfferVideo() {
 }
 
 void FoxgloveBridge::ShowVideo(std::string_view jpeg, Time exposed) {
-  if (IsVideoWanted()) desk_.Publish(*video_, exposed, Text(Scene::Picture(jpeg, exposed)));
+  if (IsVideoWanted()) desk_.Publish(*video_, exposed, JsonLine(Scene::Picture(jpeg, exposed)));
 }
 
 const FoxgloveBridge::Stream* FoxgloveBridge::StreamOf(const std::string& channel, const bus::Struct& type) {
@@ -124,10 +121,10 @@ void FoxgloveBridge::Hear(const std::string& channel, std::span<const std::byte>
   if (stream == nullptr) return;
   Newest& newest = newest_[channel];
   newest = {type, {bytes.begin(), bytes.end()}, arrival};
-  if (desk_.IsWanted(stream->id)) desk_.Publish(stream->id, arrival, Text(bus::ToJson(*type, bytes)));
+  if (desk_.IsWanted(stream->id)) desk_.Publish(stream->id, arrival, JsonLine(bus::ToJson(*type, bytes)));
   if (topics_.empty() || (channel != kRemembered && !IsSceneWanted(channel))) return;
   for (const Scene::Message& message : SceneOf(channel, newest))
-    desk_.Publish(topics_.at(message.topic), arrival, Text(message.json));
+    desk_.Publish(topics_.at(message.topic), arrival, JsonLine(message.json));
 }
 
 void FoxgloveBridge::Tick(Time now, Time shown) {
@@ -171,7 +168,7 @@ void FoxgloveBridge::OnWish(ClientId client, std::uint32_t id, bool on) {
 void FoxgloveBridge::ShowNewest(ClientId client, std::uint32_t id) {
   if (id == video_) return;
   if (plan_ && topics_.at(Scene::kPlan) == id)
-    return desk_.Publish(client, id, plan_->time, Text(plan_->json));
+    return desk_.Publish(client, id, plan_->time, JsonLine(plan_->json));
   const bool scene =
       std::any_of(topics_.begin(), topics_.end(), [&](const auto& t) { return t.second == id; });
   for (const std::string& channel : sources_.at(id)) {
@@ -181,11 +178,11 @@ void FoxgloveBridge::ShowNewest(ClientId client, std::uint32_t id) {
     if (!scene) {
       const Stream* stream = StreamOf(channel, *known.type);
       if (stream != nullptr && stream->id == id)
-        desk_.Publish(client, id, known.arrival, Text(bus::ToJson(*known.type, known.bytes)));
+        desk_.Publish(client, id, known.arrival, JsonLine(bus::ToJson(*known.type, known.bytes)));
       continue;
     }
     for (const Scene::Message& message : SceneOf(channel, known))
-      if (topics_.at(message.topic) == id) desk_.Publish(client, id, known.arrival, Text(message.json));
+      if (topics_.at(message.topic) == id) desk_.Publish(client, id, known.arrival, JsonLine(message.json));
   }
 }
 

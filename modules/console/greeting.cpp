@@ -7,6 +7,7 @@
 
 #include "bus/version.hpp"
 #include "common/robot/robot_drawing.hpp"
+#include "console/core/json_line.hpp"
 #include "console/plan_json.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -64,7 +65,7 @@ std::string Greeting(const ConsoleConfig& config, const GroundPlan& plan, const 
                 {"channels", Channels(link)},
                 {"video", !config.video.empty() && !replay_s}};
   if (replay_s) hello["replay"] = std::isfinite(*replay_s) ? Json{{"length_s", *replay_s}} : Json::object();
-  return hello.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return JsonLine(hello);
 }
 
 }  // namespace priamos::console

@@ -13,7 +13,7 @@ using bus::radio::kDelimiter;
 
 /// No packet radio takes a longer one.
 constexpr std::size_t kLongestPacket = 256;
-constexpr std::size_t kReadAtOnce = 256;
+constexpr std::size_t kSerialReadAtOnce = 256;
 
 class KissPort : public NetPort {
  public:
@@ -22,7 +22,7 @@ class KissPort : public NetPort {
   std::vector<NetFrame> Read(const TimeSource& time) override {
     Flush();
     std::vector<NetFrame> frames;
-    std::array<std::byte, kReadAtOnce> buffer;
+    std::array<std::byte, kSerialReadAtOnce> buffer;
     for (std::size_t n = serial_->Read(buffer); n > 0; n = serial_->Read(buffer)) {
       // Taken after the reading: bytes must never seem to have arrived before they did.
       const Time now = time();

@@ -17,7 +17,7 @@ namespace {
 constexpr char kBehind = 'b', kCurrent = 'c';
 
 /// The same for all names of a file: its folder and its name there.
-std::uint64_t NumberOf(const std::string& path) {
+std::uint64_t InodeNumber(const std::string& path) {
   const std::filesystem::path file = FileOf(path);
   struct stat folder {};
   const std::string key =
@@ -43,7 +43,7 @@ std::filesystem::path FileOf(const std::string& path) {
 }
 
 StateLock::StateLock(const std::string& path, const std::string& shared)
-    : name_(fmt::format("{}/priamos-radio-{:016x}", shared, NumberOf(path))) {
+    : name_(fmt::format("{}/priamos-radio-{:016x}", shared, InodeNumber(path))) {
   Open();
 }
 

@@ -16,7 +16,7 @@ constexpr std::size_t kBitsPerSymbol = 7;
 /// Symbols of data in a block: for contents of 11, 14, 17, 21, 24, 28 and 34 bytes, a hello.
 constexpr std::array<std::size_t, 7> kDataSymbols{13, 16, 20, 24, 28, 32, 39};
 constexpr std::size_t kMaxEncodedBytes = kDataSymbols.back() + kParitySymbols;
-constexpr std::byte kMark{0x80};
+constexpr std::byte kCodedBit{0x80};
 /// In a block are at most so many bytes without the mark: more wrong symbols are not corrected.
 constexpr std::size_t kMostUnmarked = kParitySymbols / 2;
 
@@ -32,8 +32,9 @@ bool IsBlockLength(std::size_t bytes) {
 }
 
 bool LooksLikeBlock(std::span<const std::byte> received) {
-  return std::count_if(received.begin(), received.end(), [](std::byte b) { return (b & kMark) != kMark; }) <=
-         static_cast<std::ptrdiff_t>(kMostUnmarked);
+  return std::count_if(received.begin(), received.end(), [](std::byte b) {
+           return (b & kCodedBit) != kCodedBit;
+         }) <= static_cast<std::ptrdiff_t>(kMostUnmarked);
 }
 
 /// The bits of bytes, most significant first, in symbols of 7; the last one is filled with zeros.
@@ -61,7 +62,7 @@ std::vector<std::byte> BytesOf(std::span<const std::uint8_t> symbols) {
 Symbols Receive(std::span<const std::byte> received, std::vector<std::size_t>& missing) {
   Symbols word(received.size());
   for (std::size_t i = 0; i < received.size(); ++i) {
-    word[i] = std::to_integer<std::uint8_t>(received[i] & ~kMark);
+    word[i] = std::to_integer<std::uint8_t>(received[i] & ~kCodedBit);
     if (received[i] == std::byte{0}) missing.push_back(i);
   }
   return word;
@@ -113,7 +114,7 @@ std::vector<std::byte> EncodeBlock(std::span<const std::byte> content) {
   word.insert(word.end(), parity.begin(), parity.end());
   std::vector<std::byte> encoded(word.size());
   std::transform(word.begin(), word.end(), encoded.begin(),
-                 [](std::uint8_t symbol) { return kMark | std::byte{symbol}; });
+                 [](std::uint8_t symbol) { return kCodedBit | std::byte{symbol}; });
   return encoded;
 }
 

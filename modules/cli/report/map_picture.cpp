@@ -14,7 +14,7 @@ namespace {
 using drawing::Box, drawing::Drawing, drawing::Layer, drawing::Symbol;
 using Eigen::Vector2d;
 
-constexpr double kWidth = 1200, kMargin = 36, kInner = kWidth - 2 * kMargin, kTallest = 1600;
+constexpr double kMapWidth = 1200, kMapMargin = 36, kMapInner = kMapWidth - 2 * kMapMargin, kTallest = 1600;
 constexpr double kAround_m = 0.5;
 
 constexpr Layer kLearned{"learned-wall", "wall (learned)", {.line = colours::kFix, .width = 5}};
@@ -27,8 +27,8 @@ constexpr Layer kDoorOpen{"door-open", "door seen open", {.line = colours::kFix,
 constexpr Layer kDoorShut{"door-shut", "door seen closed or ajar", {.line = colours::kBelief, .width = 7}};
 constexpr Layer kCorner{"corner", "corner of learned walls", {.fill = colours::kFix}, Symbol::kDot};
 
-Extent ExtentOf(const GroundPlan& plan, const LearnedWalls& learned) {
-  Extent extent = cli::ExtentOf(plan);
+Extent ExtentOfBoth(const GroundPlan& plan, const LearnedWalls& learned) {
+  Extent extent = ExtentOf(plan);
   if (plan.walls.empty() && !learned.walls.empty())
     extent = {learned.walls.front().from(), learned.walls.front().from()};
   for (const LearnedWall& wall : learned.walls) {
@@ -74,10 +74,10 @@ void DrawDoor(MapView& view, const LearnedDoor& door, const GroundPlan& plan) {
 }  // namespace
 
 Drawing DrawMap(const GroundPlan& plan, const LearnedWalls& learned) {
-  const Extent extent = ExtentOf(plan, learned);
-  const double scale = std::min(kInner / extent.size().x(), kTallest / extent.size().y());
-  const Box window{kMargin, kMargin, scale * extent.size().x(), scale * extent.size().y()};
-  Drawing page(kWidth, 0, colours::kPaper);
+  const Extent extent = ExtentOfBoth(plan, learned);
+  const double scale = std::min(kMapInner / extent.size().x(), kTallest / extent.size().y());
+  const Box window{kMapMargin, kMapMargin, scale * extent.size().x(), scale * extent.size().y()};
+  Drawing page(kMapWidth, 0, colours::kPaper);
   MapView view(page, window, extent.centre(), scale);
   DrawFloor(view, extent);
   DrawPlan(view, plan, true);
@@ -86,9 +86,9 @@ Drawing DrawMap(const GroundPlan& plan, const LearnedWalls& learned) {
   for (const LearnedDoor& door : learned.doors) DrawDoor(view, door, plan);
   for (const WallCorner& corner : CornersOf(learned)) view.Dot(kCorner, {corner.x_m, corner.y_m}, 7);
   view.SetLabels();
-  const double top = window.bottom() + kMargin;
-  page.SetHeight(top + drawing::WriteLegend(page, kMargin, top, kInner, {kBodyFont, colours::kInk}) +
-                 kMargin);
+  const double top = window.bottom() + kMapMargin;
+  page.SetHeight(top + drawing::WriteLegend(page, kMapMargin, top, kMapInner, {kBodyFont, colours::kInk}) +
+                 kMapMargin);
   return page;
 }
 

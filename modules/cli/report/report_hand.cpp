@@ -18,10 +18,6 @@ constexpr double kStanding_m_s = 0.02, kStanding_rad_s = 0.03;
 constexpr std::int64_t kReaction_us = 100'000;
 constexpr double kBesidePassage_m = 0.3;
 
-Pose2 PoseOf(const world_truth_t& truth) {
-  return {truth.x_m, truth.y_m, truth.yaw_rad};
-}
-
 Twist2 TwistOf(const world_truth_t& truth) {
   return {truth.vx_m_s, truth.vy_m_s, truth.wz_rad_s};
 }

@@ -25,7 +25,7 @@ const landmark_fix_t* FixOf(const RunRecord& record, const landmark_view_t& view
   return fix == record.fixes.end() ? nullptr : &*fix;
 }
 
-std::string Drawing(const landmark_view_t& view) {
+std::string LookDrawing(const landmark_view_t& view) {
   constexpr ImageSize kPicture{};
   std::string svg =
       fmt::format("<svg class=\"look\" viewBox=\"0 0 {} {}\">", kPicture.width, kPicture.height);
@@ -48,7 +48,7 @@ std::string LookDrawings(const RunRecord& record) {
     if (looks.empty() || looks.back() != view.request_id) looks.push_back(view.request_id);
     const std::string title = fmt::format("look {} ({} in the log): {}", looks.size(), view.request_id,
                                           ViewFinding(view, FixOf(record, view)));
-    html += fmt::format("<figure>{}<figcaption>{}<br>{}</figcaption></figure>\n", Drawing(view),
+    html += fmt::format("<figure>{}<figcaption>{}<br>{}</figcaption></figure>\n", LookDrawing(view),
                         drawing::EscapeMarkup(title), drawing::EscapeMarkup(ViewLegend(view)));
   }
   return html.empty() ? html : "<div class=\"two\">" + html + "</div>\n";

@@ -29,10 +29,6 @@ Rectangle ShapeOf(const CupboardPlan& cupboard) {
           {cupboard.depth_m / 2, cupboard.width_m / 2}};
 }
 
-Pose2 PoseOf(const world_truth_t& truth) {
-  return {truth.x_m, truth.y_m, truth.yaw_rad};
-}
-
 }  // namespace
 
 std::vector<Vector2d> FootprintOutline(const Pose2& pose, const Vector2d& size_m) {

@@ -10,7 +10,7 @@
 namespace priamos::cli {
 namespace {
 
-constexpr double kWidth = 400, kHeight = 230, kLeft = 46, kRight = 12, kTop = 52, kBottom = 28;
+constexpr double kPlotWidth = 400, kPlotHeight = 230, kLeft = 46, kRight = 12, kTop = 52, kBottom = 28;
 /// Base line of the legend, below the title: together they would not fit a telephone.
 constexpr double kLegend = 40;
 /// More points than this in one line cannot be distinguished in the figure.
@@ -37,9 +37,9 @@ class Axes {
     high_ = std::ceil(high_ / step_) * step_;
   }
 
-  double X(double t_s) const { return kLeft + t_s / end_s_ * (kWidth - kLeft - kRight); }
+  double X(double t_s) const { return kLeft + t_s / end_s_ * (kPlotWidth - kLeft - kRight); }
   double Y(double y) const {
-    return kHeight - kBottom - (y - low_) / (high_ - low_) * (kHeight - kTop - kBottom);
+    return kPlotHeight - kBottom - (y - low_) / (high_ - low_) * (kPlotHeight - kTop - kBottom);
   }
 
   std::string Grid() const {
@@ -47,14 +47,14 @@ class Axes {
     for (int i = 0; low_ + i * step_ <= high_ + step_ / 2; ++i) {
       const double y = low_ + i * step_;
       svg += fmt::format("<line class=\"grid\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>",
-                         kLeft, kWidth - kRight, Y(y), Y(y));
+                         kLeft, kPlotWidth - kRight, Y(y), Y(y));
       svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:.6g}</text>", kLeft - 6,
                          Y(y) + 4, std::abs(y) < step_ / 2 ? 0 : y);
     }
     const double step_s = NiceStep(end_s_, 6);
     for (int i = 0; i * step_s <= end_s_; ++i)
       svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:.6g}{}</text>",
-                         X(i * step_s), kHeight - 8, i * step_s, i == 0 ? " s" : "");
+                         X(i * step_s), kPlotHeight - 8, i * step_s, i == 0 ? " s" : "");
     return svg;
   }
 
@@ -79,7 +79,7 @@ std::string Line(const PlotSeries& series, const Axes& axes) {
 
 std::string Legend(const Plot& plot) {
   std::string svg;
-  double x = kWidth - kRight;
+  double x = kPlotWidth - kRight;
   for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series) {
     x -= 7.0 * static_cast<double>(series->name.size()) + 40;
     svg += fmt::format(
@@ -96,15 +96,15 @@ std::string Legend(const Plot& plot) {
 
 std::string ToSvg(const Plot& plot) {
   const Axes axes(plot);
-  std::string svg = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\"><title>{}</title>", kWidth, kHeight,
-                                drawing::EscapeMarkup(plot.title));
+  std::string svg = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\"><title>{}</title>", kPlotWidth,
+                                kPlotHeight, drawing::EscapeMarkup(plot.title));
   svg += fmt::format("<text class=\"title\" x=\"0\" y=\"18\">{} [{}]</text>",
                      drawing::EscapeMarkup(plot.title), drawing::EscapeMarkup(plot.unit));
   svg += axes.Grid() + Legend(plot);
   for (const PlotSpan& span : plot.spans) {
     svg += fmt::format("<rect class=\"span\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>",
                        axes.X(span.begin_s), kTop, axes.X(span.end_s) - axes.X(span.begin_s),
-                       kHeight - kTop - kBottom);
+                       kPlotHeight - kTop - kBottom);
     svg += fmt::format("<text class=\"span\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
                        axes.X((span.begin_s + span.end_s) / 2), kTop + 12, drawing::EscapeMarkup(span.label));
   }

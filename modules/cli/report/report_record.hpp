@@ -9,12 +9,18 @@
 #include <vector>
 
 #include "bus/schema/schema.hpp"
+#include "common/geometry.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
 
 /// Which bus a message was recorded on.
 enum class Side { kOnboard, kOffboard };
+
+/// Of the base's middle in the world, when it was told.
+inline Pose2 PoseOf(const world_truth_t& truth) {
+  return {truth.x_m, truth.y_m, truth.yaw_rad};
+}
 
 /// The messages of one run: the decoded messages that a report is made of, each stream in the order of
 /// recording. It is fed message by message, from a live bus, from lockstep or from logs; what the report does

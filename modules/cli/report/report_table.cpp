@@ -7,10 +7,10 @@
 namespace priamos::cli {
 namespace {
 
-constexpr int kWidth = 76;
+constexpr int kColumns = 76;
 
 void Rule(std::ostream& out, std::string_view title) {
-  out << fmt::format("\n{} {:-<{}}\n", title, "", kWidth - 1 - static_cast<int>(title.size()));
+  out << fmt::format("\n{} {:-<{}}\n", title, "", kColumns - 1 - static_cast<int>(title.size()));
 }
 
 std::string Figure(const std::optional<double>& value, double factor, std::string_view form) {
@@ -112,7 +112,7 @@ void PrintSummary(std::ostream& out, const Summary& summary) {
   PrintRadio(out, "up: robot to workstation", summary.up);
   PrintRadio(out, "down: workstation to robot", summary.down);
   out << fmt::format("  a pose is {:.2f} s old at the workstation (median)\n", summary.pose_age_s);
-  out << std::string(kWidth, '-') << "\n";
+  out << std::string(kColumns, '-') << "\n";
 }
 
 }  // namespace priamos::cli

@@ -6,10 +6,6 @@
 namespace priamos::cli {
 namespace {
 
-Pose2 PoseOf(const world_truth_t& truth) {
-  return {truth.x_m, truth.y_m, truth.yaw_rad};
-}
-
 Pose2 Between(const Pose2& a, const Pose2& b, double part) {
   return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y),
           WrapAngle(a.yaw + part * WrapAngle(b.yaw - a.yaw))};

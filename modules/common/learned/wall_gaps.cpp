@@ -6,9 +6,9 @@
 namespace priamos {
 namespace {
 
-constexpr double kLeast_m = 0.5, kMost_m = 3;
+constexpr double kNarrowestGap_m = 0.5, kWidestGap_m = 3;
 /// Two walls with a gap between them lie on one line.
-constexpr double kAcross_m = 0.15, kTurned_rad = Radians(8);
+constexpr double kAcross_m = 0.15, kGapTurned_rad = Radians(8);
 /// Lines that cross at less than this make no corner.
 constexpr double kLeastCorner_rad = Radians(30);
 constexpr double kNearCorner_m = 0.5;
@@ -16,7 +16,7 @@ constexpr double kNearCorner_m = 0.5;
 std::optional<WallGap> GapBetween(const LearnedWall& before, const LearnedWall& behind) {
   const Pose2 there = before.map_from_wall().Inverse() * behind.map_from_wall();
   const double from_m = before.length_m / 2, to_m = there.x - behind.length_m / 2;
-  if (to_m - from_m < kLeast_m || to_m - from_m > kMost_m || std::abs(there.yaw) > kTurned_rad)
+  if (to_m - from_m < kNarrowestGap_m || to_m - from_m > kWidestGap_m || std::abs(there.yaw) > kGapTurned_rad)
     return std::nullopt;
   const double across_m = there.y + ((from_m + to_m) / 2 - there.x) * std::tan(there.yaw);
   if (std::abs(across_m) > kAcross_m) return std::nullopt;

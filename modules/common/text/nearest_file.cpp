@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostAnswers = 4;
+constexpr std::size_t kMostFiles = 4;
 
 std::vector<std::string> NamesIn(const fs::path& folder) {
   std::vector<std::string> names;
@@ -42,7 +42,7 @@ std::vector<std::string> NamesIn(const fs::path& folder, std::string_view ending
 std::string Text(const char* begin, const fs::path& folder, std::vector<std::string> names,
                  const fs::path& rest) {
   if (names.empty()) return "";
-  names.resize(std::min(names.size(), kMostAnswers));
+  names.resize(std::min(names.size(), kMostFiles));
   for (std::string& name : names) {
     const fs::path found = folder / name;
     name = !rest.empty() && fs::exists(found / rest) ? found / rest : found;

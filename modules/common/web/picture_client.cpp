@@ -25,7 +25,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using asio::ip::tcp;
 
-constexpr std::uint32_t kLongestHead = 4096;
+constexpr std::uint32_t kLongestPictureHead = 4096;
 constexpr std::uint64_t kMostBytes = 1 << 20;
 constexpr double kPatience_s = 3;  ///< for a connection, or a picture
 constexpr double kAgain_s = 1;     ///< after a failure
@@ -126,7 +126,7 @@ class PictureClient::Impl {
 
   void Listen() {
     parser_.emplace();
-    parser_->header_limit(kLongestHead);
+    parser_->header_limit(kLongestPictureHead);
     parser_->body_limit(kMostBytes);
     http::async_read(socket_, buffer_, *parser_, Step<std::size_t>([this](std::size_t) { Heard(); }));
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "console/core/json_line.hpp"
+
 namespace priamos::console {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr std::uint64_t kKeptAlarms = 50;
 
 std::string TextOf(const News::Json& message, const char* field) {
   const auto it = message.find(field);
-  return it == message.end() ? "" : it->dump(-1, ' ', false, News::Json::error_handler_t::replace);
+  return it == message.end() ? "" : JsonLine(*it);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char kMessageData = 0x01, kServiceCall = 0x02;
+constexpr char kClientData = 0x01, kServiceCall = 0x02;
 constexpr std::size_t kMostItems = 1000, kLongestWord = 64, kLongestName = 200;
 
 const json& ListIn(const json& object, const char* key) {
@@ -130,7 +130,7 @@ Outcome<ClientMessage> ReadClientBytes(std::string_view bytes) {
   if (bytes.empty() || bytes.size() > kMaxClientMessage)
     return Refusal{fmt::format("expected 1 to {} bytes, got {}", kMaxClientMessage, bytes.size())};
   if (bytes.front() == kServiceCall) return ReadCall(bytes.substr(1));
-  if (bytes.front() == kMessageData) return ClientMessage(OtherRequest{"publish"});
+  if (bytes.front() == kClientData) return ClientMessage(OtherRequest{"publish"});
   return Refusal{fmt::format("expected 1 or 2 as the first byte, got {}", int(bytes.front()))};
 }
 

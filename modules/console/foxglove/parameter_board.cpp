@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "console/core/json_line.hpp"
+
 namespace priamos::console {
 namespace {
 
@@ -13,10 +15,6 @@ using Json = nlohmann::ordered_json;
 
 std::string NameFor(std::string_view process, std::string_view key) {
   return fmt::format("{}/{}", process, key);
-}
-
-std::string Text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -127,7 +125,7 @@ std::optional<std::string> ParameterBoard::NameOf(const std::string& process, in
 void ParameterBoard::Ask(Client client, const std::string& process, std::string_view key) {
   Json message = {{"type", "parameter"}, {"action", "read"}, {"process", process}};
   if (!key.empty()) message["key"] = key;
-  port_.order(client, Text(message));
+  port_.order(client, JsonLine(message));
 }
 
 void ParameterBoard::AskAll(Client client) {
@@ -144,11 +142,11 @@ bool ParameterBoard::Order(Client client, const ParameterChange& change) {
   else if (!change.value)
     refusal = Refusal{"expected a number"};
   else
-    refusal = port_.order(client, Text({{"type", "parameter"},
-                                        {"action", "set"},
-                                        {"process", change.name.substr(0, slash)},
-                                        {"key", change.name.substr(slash + 1)},
-                                        {"value", *change.value}}));
+    refusal = port_.order(client, JsonLine({{"type", "parameter"},
+                                            {"action", "set"},
+                                            {"process", change.name.substr(0, slash)},
+                                            {"key", change.name.substr(slash + 1)},
+                                            {"value", *change.value}}));
   if (refusal) port_.warn(client, fmt::format("{}: {}", change.name, refusal->reason));
   return !refusal;
 }

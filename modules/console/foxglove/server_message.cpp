@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "console/core/json_line.hpp"
+
 namespace priamos::console {
 namespace {
 
@@ -19,10 +21,6 @@ void Put(std::string& bytes, T value) {
   for (std::size_t i = 0; i < sizeof(T); ++i) bytes.push_back(static_cast<char>(value >> (8 * i) & 0xff));
 }
 
-std::string Text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 void PutTime(std::string& bytes, Time time) {
   Put(bytes, static_cast<std::uint64_t>(std::max<std::int64_t>(ToUtime(time), 0)) * 1000);
 }
@@ -36,12 +34,12 @@ Json DescriptionOf(std::string_view name, std::string_view schema) {
 std::string ServerInfo(std::string_view name, std::string_view session, bool parameters) {
   Json capabilities = {"time", "services"};
   if (parameters) capabilities.insert(capabilities.end(), {"parameters", "parametersSubscribe"});
-  return Text({{"op", "serverInfo"},
-               {"name", name},
-               {"capabilities", std::move(capabilities)},
-               {"supportedEncodings", {"json"}},
-               {"metadata", Json::object()},
-               {"sessionId", session}});
+  return JsonLine({{"op", "serverInfo"},
+                   {"name", name},
+                   {"capabilities", std::move(capabilities)},
+                   {"supportedEncodings", {"json"}},
+                   {"metadata", Json::object()},
+                   {"sessionId", session}});
 }
 
 std::string AdvertiseText(std::uint32_t first, std::span<const OfferedChannel> channels) {
@@ -51,7 +49,7 @@ std::string AdvertiseText(std::uint32_t first, std::span<const OfferedChannel> c
     one.update(DescriptionOf(channel.schema_name, channel.schema));
     list.push_back(std::move(one));
   }
-  return Text({{"op", "advertise"}, {"channels", std::move(list)}});
+  return JsonLine({{"op", "advertise"}, {"channels", std::move(list)}});
 }
 
 std::string AdvertiseServicesText(std::span<const OfferedService> services) {
@@ -63,7 +61,7 @@ std::string AdvertiseServicesText(std::span<const OfferedService> services) {
                     {"type", service.name},
                     {"request", DescriptionOf(service.name, service.request_schema)},
                     {"response", DescriptionOf("done", kAnswerSchema)}});
-  return Text({{"op", "advertiseServices"}, {"services", std::move(list)}});
+  return JsonLine({{"op", "advertiseServices"}, {"services", std::move(list)}});
 }
 
 std::string ParameterValuesText(std::span<const ShownParameter> parameters, std::string_view id) {
@@ -72,15 +70,16 @@ std::string ParameterValuesText(std::span<const ShownParameter> parameters, std:
     list.push_back({{"name", parameter.name}, {"value", parameter.value}, {"type", "float64"}});
   Json text = {{"op", "parameterValues"}, {"parameters", std::move(list)}};
   if (!id.empty()) text["id"] = id;
-  return Text(text);
+  return JsonLine(text);
 }
 
 std::string WarningText(std::string_view sentence) {
-  return Text({{"op", "status"}, {"level", kWarning}, {"message", sentence}});
+  return JsonLine({{"op", "status"}, {"level", kWarning}, {"message", sentence}});
 }
 
 std::string CallFailureText(std::uint32_t service, std::uint32_t call, std::string_view reason) {
-  return Text({{"op", "serviceCallFailure"}, {"serviceId", service}, {"callId", call}, {"message", reason}});
+  return JsonLine(
+      {{"op", "serviceCallFailure"}, {"serviceId", service}, {"callId", call}, {"message", reason}});
 }
 
 std::string MessageBytes(std::uint32_t subscription, Time time, std::string_view payload) {

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "console/core/json_line.hpp"
+
 namespace priamos::console {
 namespace {
 
@@ -68,7 +70,7 @@ Outcome<std::string> PageMessageOf(std::uint32_t service, std::string_view json)
     if (message.contains(key)) return Refusal{fmt::format("key \"{}\" is the service's own", key)};
     message[key] = value;
   }
-  return message.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return JsonLine(message);
 }
 
 }  // namespace priamos::console

@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "common/config.hpp"
 #include "head/core/calibration/resection/camera_parameters.hpp"
 #include "head/core/calibration/rig/calibration_table.hpp"
 #include "head/files/camera_text.hpp"
 #include "head/files/camera_values.hpp"
+#include "head/files/model_text.hpp"
 
 namespace priamos::head {
 namespace {
@@ -21,7 +20,7 @@ namespace {
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 using Keys = std::initializer_list<const char*>;
 
-constexpr std::size_t kMostBytes = 16 << 20;
+constexpr std::size_t kMost_MB = 16;
 constexpr Keys kCameraMatrix{"camera_matrix", "cameraMatrix", "Camera_Matrix", "K", "k", "M1"};
 constexpr Keys kDistortion{
     "distortion_coefficients", "distCoeffs", "Distortion_Coefficients", "D", "d", "D1"};
@@ -30,18 +29,10 @@ constexpr Keys kProjection{"projection_matrix", "P", "p"};
 constexpr Keys kWidth{"image_width", "width"};
 constexpr Keys kHeight{"image_height", "height"};
 
-std::string ReadText(const std::string& path) {
-  std::error_code none;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, none))
-    throw ConfigError(fmt::format("{}: expected a camera (YAML, XML or JSON), got no readable file", path));
-  std::string text(kMostBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMostBytes)
-    throw ConfigError(
-        fmt::format("{}: expected a camera of at most {} MB, got more", path, kMostBytes >> 20));
-  return text;
+std::string CameraText(const std::string& path) {
+  auto text = ReadText(path, "a camera (YAML, XML or JSON)", kMost_MB);
+  if (!text) throw ConfigError(text.reason());
+  return std::move(*text);
 }
 
 CameraValues Parse(const std::string& path, const std::string& text) {
@@ -235,7 +226,7 @@ std::vector<CameraModel> CamerasOfTable(const std::string& path, const std::stri
 
 /// All cameras of one file, at most `n`.
 std::vector<CameraModel> CamerasOf(const std::string& path, std::size_t n, const CameraFileOptions& options) {
-  const std::string text = ReadText(path);
+  const std::string text = CameraText(path);
   const CameraValues values = Parse(path, text);
   if (const CameraEntry* format = values.Find("", {"format"});
       format != nullptr && format->words[0].starts_with("priamos-calibration"))

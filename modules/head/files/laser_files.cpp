@@ -35,7 +35,7 @@ StripeView ViewOf(const LaserPicture& picture, const std::string& path, const He
   return view;
 }
 
-ordered_json ToJson(const Eigen::Vector3d& v) {
+ordered_json VectorAsJson(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
@@ -51,9 +51,9 @@ std::string Describe(const LaserCalibration& result, const LaserPictures& pictur
       {"outliers", result.outliers},
       {"rms_px", result.rms_px},
       {"views", views},
-      {"base", {{"normal", ToJson(laser.normal)}, {"offset_m", laser.offset_m}}},
-      {"third_camera_ahead", {{"normal", ToJson(ahead.normal())}, {"offset_m", ahead.offset()}}},
-      {"pivot_m", ToJson(laser.pivot_m)},
+      {"base", {{"normal", VectorAsJson(laser.normal)}, {"offset_m", laser.offset_m}}},
+      {"third_camera_ahead", {{"normal", VectorAsJson(ahead.normal())}, {"offset_m", ahead.offset()}}},
+      {"pivot_m", VectorAsJson(laser.pivot_m)},
       {"sigma_turn_deg", Degrees(laser.sigma_turn_rad)},
       {"sigma_shift_m", laser.sigma_shift_m}}
       .dump(2);

@@ -13,11 +13,11 @@
 namespace priamos::head {
 namespace {
 
-constexpr std::size_t kMost_MB = 64;
+constexpr std::size_t kMostMesh_MB = 64;
 
 /// The file's content: Assimp gets bytes and no name, so a mesh cannot make it read other files.
-std::string BytesOf(const std::string& path) {
-  auto bytes = ReadText(path, "a mesh", kMost_MB);
+std::string MeshBytes(const std::string& path) {
+  auto bytes = ReadText(path, "a mesh", kMostMesh_MB);
   if (!bytes) throw ConfigError(bytes.reason());
   if (bytes->empty()) throw ConfigError(fmt::format("{}: expected triangles, got an empty file", path));
   return std::move(*bytes);
@@ -56,7 +56,7 @@ void Append(const aiMesh& part, TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh LoadMesh(const std::string& file) {
-  std::string bytes = BytesOf(file);
+  std::string bytes = MeshBytes(file);
   const std::string extension = ExtensionOf(file);
   if (extension == ".obj") bytes = PlainObj(bytes);
   Assimp::Importer importer;

@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
@@ -14,12 +11,14 @@
 #include "head/core/calibration/resection/point_list.hpp"
 #include "head/core/calibration/targets/calibration_quality.hpp"
 #include "head/files/image_file.hpp"
+#include "head/files/model_text.hpp"
 
 namespace priamos::head {
 namespace {
 
 using nlohmann::ordered_json;
 
+constexpr std::size_t kMostPoints_MB = 16;
 constexpr double kWorstMeasured_px = 5;  // points measured by hand may be off by pixels
 
 /// What is known of a camera that nobody has described: next to nothing.
@@ -37,11 +36,10 @@ LensKnowledge UnknownLens(int width_px, int height_px) {
   return lens;
 }
 
-std::string ReadText(const std::string& path) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path))
-    throw ConfigError(fmt::format("{}: expected a list of points, got no readable file", path));
-  return {std::istreambuf_iterator<char>(file), {}};
+std::string PointsText(const std::string& path) {
+  auto text = ReadText(path, "a list of points", kMostPoints_MB);
+  if (!text) throw ConfigError(text.reason());
+  return std::move(*text);
 }
 
 template <class T>
@@ -65,7 +63,7 @@ double NoiseOf(const std::vector<PointPair>& pairs, const Eigen::Matrix<double, 
   return std::max(0.02, 0.8 * MeanImageError(dlt, pairs));
 }
 
-ordered_json ToJson(const Eigen::MatrixXd& m) {
+ordered_json RowsAsJson(const Eigen::MatrixXd& m) {
   ordered_json rows = ordered_json::array();
   for (int r = 0; r < m.rows(); ++r) rows.push_back(std::vector<double>(m.cols()));
   for (int r = 0; r < m.rows(); ++r)
@@ -77,7 +75,7 @@ ordered_json LensJson(const CameraModel& model) {
   const auto p = ExtractParameters(model.image_from_base);
   if (!p) return p.reason();
   const Eigen::Vector3d angles = p->OmegaPhiKappa();
-  return {{"K", ToJson(p->Intrinsics())},
+  return {{"K", RowsAsJson(p->Intrinsics())},
           {"k1", model.k1},
           {"k2", model.k2},
           {"centre_m", {p->centre_m.x(), p->centre_m.y(), p->centre_m.z()}},
@@ -106,7 +104,7 @@ ordered_json CameraJson(const std::string& name, const CameraCalibration& camera
                     {"recalibrations_failed", errors.failed}};
   size.AddTo(json);
   json.update(LensJson(camera.model));
-  json["image_from_points"] = ToJson(camera.model.image_from_base);
+  json["image_from_points"] = RowsAsJson(camera.model.image_from_base);
   return json;
 }
 
@@ -128,7 +126,7 @@ std::string FromPoints(const OfflineCalibration& input) {
   std::vector<CameraCalibration> cameras;
   const LensKnowledge lens = UnknownLens(input.width_px, input.height_px);
   for (const std::string& path : input.points) {
-    const auto parsed = ParsePointList(ReadText(path));
+    const auto parsed = ParsePointList(PointsText(path));
     if (!parsed) throw ConfigError(fmt::format("{}:{}", path, parsed.reason()));
     const auto dlt = Must(path, SolveDlt(*parsed));
     cameras.push_back(Must(path, CalibrateFromDiscs(ToObservations(*parsed, NoiseOf(*parsed, dlt)), lens)));

@@ -8,11 +8,11 @@
 namespace priamos::head {
 namespace {
 
-constexpr std::size_t kDeepest = 16;
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::size_t kDeepestElement = 16;
+constexpr std::string_view kXmlBlanks = " \t\r\n";
 
 /// What is wrong, with its line; caught where the text comes in.
-struct Damage {
+struct XmlDamage {
   int line;
   std::string what;
 };
@@ -28,8 +28,8 @@ class XmlReader {
       if (!rest_.empty()) AddTag();
     }
     if (!open_.empty())
-      throw Damage{line_, fmt::format("expected </{}>, got the end of the file", open_.back().name)};
-    if (entries_.empty()) throw Damage{line_, "expected elements, got none"};
+      throw XmlDamage{line_, fmt::format("expected </{}>, got the end of the file", open_.back().name)};
+    if (entries_.empty()) throw XmlDamage{line_, "expected elements, got none"};
     return std::move(entries_);
   }
 
@@ -49,23 +49,24 @@ class XmlReader {
   std::string_view TakeUntil(std::string_view end, const char* what) {
     const std::size_t at = rest_.find(end);
     if (at == rest_.npos)
-      throw Damage{line_, fmt::format("expected the end of {} ({}), got the end of the file", what, end)};
+      throw XmlDamage{line_, fmt::format("expected the end of {} ({}), got the end of the file", what, end)};
     return Take(at + end.size());
   }
 
   void AddText(std::string_view text) {
-    for (std::size_t at = text.find_first_not_of(kBlanks); at != text.npos;) {
-      const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-      if (open_.empty()) throw Damage{line_, "expected an element, got text outside of all"};
+    for (std::size_t at = text.find_first_not_of(kXmlBlanks); at != text.npos;) {
+      const std::size_t end = std::min(text.find_first_of(kXmlBlanks, at), text.size());
+      if (open_.empty()) throw XmlDamage{line_, "expected an element, got text outside of all"};
       entries_[open_.back().entry].words.emplace_back(text.substr(at, end - at));
-      at = text.find_first_not_of(kBlanks, end);
+      at = text.find_first_not_of(kXmlBlanks, end);
     }
   }
 
   void AddTag() {
     if (rest_.starts_with("<!--")) return void(TakeUntil("-->", "a comment"));
     if (rest_.starts_with("<?")) return void(TakeUntil("?>", "a declaration"));
-    if (rest_.starts_with("<!")) throw Damage{line_, "expected elements and text only, got a declaration <!"};
+    if (rest_.starts_with("<!"))
+      throw XmlDamage{line_, "expected elements and text only, got a declaration <!"};
     const int line = line_;
     std::string_view tag = TakeUntil(">", "an element");
     tag = tag.substr(1, tag.size() - 2);
@@ -75,14 +76,14 @@ class XmlReader {
     if (is_empty) open_.pop_back();
   }
   static std::string NameOf(std::string_view tag) {
-    return std::string(tag.substr(0, tag.find_first_of(kBlanks)));
+    return std::string(tag.substr(0, tag.find_first_of(kXmlBlanks)));
   }
 
   void Open(int line, const std::string& name) {
-    if (name.empty()) throw Damage{line, "expected the name of an element, got none"};
-    if (open_.size() >= kDeepest) throw Damage{line, "expected fewer elements within elements"};
+    if (name.empty()) throw XmlDamage{line, "expected the name of an element, got none"};
+    if (open_.size() >= kDeepestElement) throw XmlDamage{line, "expected fewer elements within elements"};
     if (open_.empty() && !entries_.empty())
-      throw Damage{line, fmt::format("expected one root, got <{}> behind it", name)};
+      throw XmlDamage{line, fmt::format("expected one root, got <{}> behind it", name)};
     Element element{name, "", entries_.size(), {}};
     if (!open_.empty()) {
       Element& parent = open_.back();
@@ -95,8 +96,8 @@ class XmlReader {
   }
   void Close(int line, const std::string& name) {
     if (open_.empty() || open_.back().name != name)
-      throw Damage{line, fmt::format("expected {}, got </{}>",
-                                     open_.empty() ? "an element" : "</" + open_.back().name + ">", name)};
+      throw XmlDamage{line, fmt::format("expected {}, got </{}>",
+                                        open_.empty() ? "an element" : "</" + open_.back().name + ">", name)};
     open_.pop_back();
   }
 
@@ -111,7 +112,7 @@ class XmlReader {
 Outcome<CameraEntries> ParseXml(std::string_view text) {
   try {
     return XmlReader(text).Read();
-  } catch (const Damage& damage) {
+  } catch (const XmlDamage& damage) {
     return Refusal{fmt::format("{}: {}", damage.line, damage.what)};
   }
 }

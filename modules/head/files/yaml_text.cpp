@@ -8,19 +8,19 @@
 namespace priamos::head {
 namespace {
 
-constexpr int kDeepest = 8;
-constexpr std::string_view kBlanks = " \t\r";
+constexpr int kDeepestMap = 8;
+constexpr std::string_view kYamlBlanks = " \t\r";
 
 /// What is wrong, with its line; caught where the text comes in.
-struct Damage {
+struct YamlDamage {
   int line;
   std::string what;
 };
 
 std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
+  const std::size_t begin = text.find_first_not_of(kYamlBlanks);
   return begin == text.npos ? std::string_view()
-                            : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+                            : text.substr(begin, text.find_last_not_of(kYamlBlanks) - begin + 1);
 }
 
 std::string_view WithoutQuotes(std::string_view word) {
@@ -34,7 +34,7 @@ std::string_view WithoutComment(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (quote != 0 ? line[i] == quote : line[i] == '"' || line[i] == '\'')
       quote = quote != 0 ? 0 : line[i];
-    else if (quote == 0 && line[i] == '#' && (i == 0 || kBlanks.find(line[i - 1]) != kBlanks.npos))
+    else if (quote == 0 && line[i] == '#' && (i == 0 || kYamlBlanks.find(line[i - 1]) != kYamlBlanks.npos))
       return line.substr(0, i);
   }
   return line;
@@ -44,7 +44,8 @@ std::string_view WithoutComment(std::string_view line) {
 /// writes it.
 std::size_t EndOfKey(std::string_view text, bool in_flow) {
   for (std::size_t i = 0; i < text.size(); ++i)
-    if (text[i] == ':' && (in_flow || i + 1 == text.size() || kBlanks.find(text[i + 1]) != kBlanks.npos))
+    if (text[i] == ':' &&
+        (in_flow || i + 1 == text.size() || kYamlBlanks.find(text[i + 1]) != kYamlBlanks.npos))
       return i;
   return text.npos;
 }
@@ -68,8 +69,8 @@ class YamlReader {
         if (!entries_.empty()) break;  // the next document
         continue;
       }
-      if (line.find('\t') < line.find_first_not_of(kBlanks))
-        throw Damage{line_, "expected blanks before a key, got a tabulator"};
+      if (line.find('\t') < line.find_first_not_of(kYamlBlanks))
+        throw YamlDamage{line_, "expected blanks before a key, got a tabulator"};
       AddLine(static_cast<int>(line.find_first_not_of(' ')), content);
     }
     return std::move(entries_);
@@ -94,9 +95,9 @@ class YamlReader {
     if (content == "-" || content.starts_with("- ")) return AddItem(content.substr(1));
     const std::size_t end = EndOfKey(content, false);
     if (end == content.npos || end == 0)
-      throw Damage{line_, fmt::format("expected \"key: value\", got \"{}\"", content.substr(0, 40))};
+      throw YamlDamage{line_, fmt::format("expected \"key: value\", got \"{}\"", content.substr(0, 40))};
     while (!levels_.empty() && levels_.back().indent >= indent) levels_.pop_back();
-    if (levels_.size() >= kDeepest) throw Damage{line_, "expected fewer keys within keys"};
+    if (levels_.size() >= kDeepestMap) throw YamlDamage{line_, "expected fewer keys within keys"};
     const std::string parent = levels_.empty() ? "" : levels_.back().key + "/";
     levels_.push_back({indent, parent + std::string(WithoutQuotes(Trim(content.substr(0, end))))});
     AddValue(levels_.back().key, line_, Trim(content.substr(end + 1)), 0);
@@ -104,7 +105,7 @@ class YamlReader {
 
   /// An element of a list that has a line for each.
   void AddItem(std::string_view item) {
-    if (entries_.empty()) throw Damage{line_, "expected \"key: value\", got an element of a list"};
+    if (entries_.empty()) throw YamlDamage{line_, "expected \"key: value\", got an element of a list"};
     item = Trim(item);
     if (item.starts_with('[') || item.starts_with('{'))
       SplitList(UntilClosed(entries_.back().key, line_, item), entries_.back().words);
@@ -118,7 +119,8 @@ class YamlReader {
         value.starts_with('[') || value.starts_with('{') ? UntilClosed(key, line, value) : std::string(value);
     if (whole.starts_with('{')) return AddFlowMap(key, line, whole, depth);
     if (const auto [same, is_new] = line_of_.emplace(key, line); !is_new)
-      throw Damage{line, fmt::format("{}: expected it once, got it in line {} already", key, same->second)};
+      throw YamlDamage{line,
+                       fmt::format("{}: expected it once, got it in line {} already", key, same->second)};
     CameraEntry& entry = entries_.emplace_back(CameraEntry{key, line, {}});
     if (whole.starts_with('['))
       SplitList(whole, entry.words);
@@ -133,12 +135,12 @@ class YamlReader {
     int open = OpenBrackets(whole);
     while (open > 0) {
       if (!NextLine(next))
-        throw Damage{line, fmt::format("{}: expected a list or map with its end, got a part of it", key)};
+        throw YamlDamage{line, fmt::format("{}: expected a list or map with its end, got a part of it", key)};
       open += OpenBrackets(Trim(next));
       (whole += ' ') += Trim(next);
     }
     if (open < 0 || (whole.back() != ']' && whole.back() != '}'))
-      throw Damage{line, fmt::format("{}: expected brackets in pairs, got others", key)};
+      throw YamlDamage{line, fmt::format("{}: expected brackets in pairs, got others", key)};
     return whole;
   }
 
@@ -153,7 +155,7 @@ class YamlReader {
 
   /// {a: 1, b: [2, 3]}
   void AddFlowMap(const std::string& key, int line, std::string_view map, int depth) {
-    if (depth >= kDeepest) throw Damage{line, fmt::format("{}: expected fewer maps within maps", key)};
+    if (depth >= kDeepestMap) throw YamlDamage{line, fmt::format("{}: expected fewer maps within maps", key)};
     map = map.substr(1, map.size() - 2);
     int open = 0;
     for (std::size_t begin = 0, i = 0; i <= map.size(); ++i) {
@@ -164,7 +166,8 @@ class YamlReader {
       begin = i + 1;
       if (part.empty()) continue;
       const std::size_t end = EndOfKey(part, true);
-      if (end == part.npos) throw Damage{line, fmt::format("{}: expected \"key: value\" in its map", key)};
+      if (end == part.npos)
+        throw YamlDamage{line, fmt::format("{}: expected \"key: value\" in its map", key)};
       AddValue(fmt::format("{}/{}", key, WithoutQuotes(Trim(part.substr(0, end)))), line,
                Trim(part.substr(end + 1)), depth + 1);
     }
@@ -182,7 +185,7 @@ class YamlReader {
 Outcome<CameraEntries> ParseYaml(std::string_view text) {
   try {
     return YamlReader(text).Read();
-  } catch (const Damage& damage) {
+  } catch (const YamlDamage& damage) {
     return Refusal{fmt::format("{}: {}", damage.line, damage.what)};
   }
 }

@@ -40,7 +40,7 @@ class Words {
   std::size_t at_;
 };
 
-struct Header {
+struct PnmHeader {
   int width = 0, height = 0, white = 0, channels = 1;
   bool is_text = false;
 
@@ -48,17 +48,17 @@ struct Header {
   int bytes_per_value() const { return white > 255 ? 2 : 1; }
 };
 
-Refusal Damage(const std::string& got) {
+Refusal PnmDamage(const std::string& got) {
   return {fmt::format("expected a whole PGM or PPM image, got one {}; fetch it again", got)};
 }
 
-Outcome<Header> ReadHeader(FileBytes file, Words& words) {
-  Header header;
+Outcome<PnmHeader> ReadHeader(FileBytes file, Words& words) {
+  PnmHeader header;
   header.is_text = file[1] == '2' || file[1] == '3';
   header.channels = file[1] == '3' || file[1] == '6' ? 3 : 1;
   const auto width = words.Number(1 << 30), height = words.Number(1 << 30), white = words.Number(kLargest);
   if (!width || !height || !white || *white == 0)
-    return Damage(fmt::format("without width, height and largest value (1 to {})", kLargest));
+    return PnmDamage(fmt::format("without width, height and largest value (1 to {})", kLargest));
   header.width = *width;
   header.height = *height;
   header.white = *white;
@@ -67,7 +67,7 @@ Outcome<Header> ReadHeader(FileBytes file, Words& words) {
 
 /// The values as 16 bits; false if there are too few or one is too large.
 template <class Next>
-bool Fill(cv::Mat& samples, const Header& header, const Next& next) {
+bool Fill(cv::Mat& samples, const PnmHeader& header, const Next& next) {
   const int values = header.width * header.channels;
   for (int v = 0; v < header.height; ++v) {
     auto* row = samples.ptr<std::uint16_t>(v);
@@ -80,7 +80,7 @@ bool Fill(cv::Mat& samples, const Header& header, const Next& next) {
   return true;
 }
 
-bool FillFromBytes(cv::Mat& samples, const Header& header, FileBytes data) {
+bool FillFromBytes(cv::Mat& samples, const PnmHeader& header, FileBytes data) {
   const int size = header.bytes_per_value();
   std::size_t at = 0;
   return Fill(samples, header, [&]() -> std::optional<int> {
@@ -102,12 +102,12 @@ Outcome<DecodedImage> DecodePnm(FileBytes file, const ImageLimits& limits) {
   const std::size_t fewest =
       header->is_text ? 2 * header->values() - 1 : header->values() * header->bytes_per_value();
   if (data.size() < fewest)
-    return Damage(fmt::format("that is cut off: {} of at least {} bytes", data.size(), fewest));
+    return PnmDamage(fmt::format("that is cut off: {} of at least {} bytes", data.size(), fewest));
   cv::Mat samples(header->height, header->width, CV_MAKETYPE(CV_16U, header->channels));
   const bool complete = header->is_text ? Fill(samples, *header, [&] { return words.Number(kLargest); })
                                         : FillFromBytes(samples, *header, data);
   if (!complete)
-    return Damage(fmt::format("that is damaged: expected values of 0 to {} throughout", header->white));
+    return PnmDamage(fmt::format("that is damaged: expected values of 0 to {} throughout", header->white));
   if (header->white <= 255) samples.convertTo(samples, CV_8U);
   const auto grey = GreyOfSamples(samples);
   if (!grey) return Refusal{grey.reason()};

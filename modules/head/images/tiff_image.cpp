@@ -23,7 +23,7 @@ struct Layout {
   int largest() const { return (1 << bits) - 1; }
 };
 
-Refusal Damage(const std::string& how) {
+Refusal TiffDamage(const std::string& how) {
   return {fmt::format("expected a whole TIFF image, got one that is cut off or damaged ({}); fetch it again",
                       how)};
 }
@@ -98,7 +98,7 @@ std::optional<Refusal> CheckLayout(const Layout& layout, const ImageLimits& limi
                     "save it as PNG",
                     kind)};
   if (auto refusal = CheckImageSize(layout.block_width, layout.block_height, limits))
-    return Damage("its strips or tiles are larger than an image may be");
+    return TiffDamage("its strips or tiles are larger than an image may be");
   return std::nullopt;
 }
 
@@ -154,7 +154,7 @@ bool ReadSamples(TIFF* tiff, const Layout& layout, cv::Mat& samples) {
 Outcome<cv::Mat> ColoursOf(TIFF* tiff, const cv::Mat& numbers) {
   std::array<std::uint16_t*, 3> palette{};
   if (TIFFGetField(tiff, TIFFTAG_COLORMAP, &palette[0], &palette[1], &palette[2]) == 0)
-    return Damage("it has no palette");
+    return TiffDamage("it has no palette");
   cv::Mat colours(numbers.size(), CV_16UC3);
   for (int v = 0; v < numbers.rows; ++v)
     for (int u = 0; u < numbers.cols; ++u)
@@ -186,12 +186,12 @@ Outcome<DecodedImage> ToGrey(TIFF* tiff, const Layout& layout, cv::Mat samples) 
 Outcome<DecodedImage> DecodeTiff(FileBytes file, const ImageLimits& limits) {
   // Four samples of two bytes, and what a directory takes.
   const TiffStream stream(file, 8 * limits.most_pixels + (1 << 20));
-  if (stream.tiff() == nullptr || !stream.error().empty()) return Damage(stream.error());
+  if (stream.tiff() == nullptr || !stream.error().empty()) return TiffDamage(stream.error());
   const Layout layout = ReadLayout(stream.tiff());
   if (const auto refusal = CheckLayout(layout, limits)) return *refusal;
   cv::Mat samples(static_cast<int>(layout.height), static_cast<int>(layout.width), CV_16UC(layout.samples));
   if (!ReadSamples(stream.tiff(), layout, samples) || !stream.error().empty())
-    return Damage(stream.error().empty() ? "a strip is too short" : stream.error());
+    return TiffDamage(stream.error().empty() ? "a strip is too short" : stream.error());
   return ToGrey(stream.tiff(), layout, samples);
 }
 

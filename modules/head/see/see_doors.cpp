@@ -12,7 +12,7 @@ namespace priamos::head {
 namespace {
 
 constexpr drawing::Colour kMagenta{0xff40ff};
-constexpr drawing::Layer kEdge{"edge", "edge", {.line = drawing::Colour{0x969696}, .width = 0.8}};
+constexpr drawing::Layer kAnyEdge{"edge", "edge", {.line = drawing::Colour{0x969696}, .width = 0.8}};
 constexpr drawing::Layer kDoor{"door", "door: posts and lintel", {.line = kMagenta, .width = 2}};
 
 /// Left foot, left corner, right corner, right foot.
@@ -49,7 +49,7 @@ SeePage DrawDoors(std::span<const cv::Mat> greys, std::span<const CameraView> vi
                   std::span<const DetectedDoor> doors) {
   SeePage page(greys);
   for (std::size_t c = 0; c < greys.size(); ++c) {
-    for (const EdgeSegment& s : views[c].edges->segments) page.Line(kEdge, c, s.begin, s.end);
+    for (const EdgeSegment& s : views[c].edges->segments) page.Line(kAnyEdge, c, s.begin, s.end);
     for (std::size_t i = 0; i < doors.size(); ++i) {
       const auto outline = Outline(*views[c].camera, doors[i]);
       for (std::size_t k = 0; k < 3; ++k) page.Line(kDoor, c, outline[k], outline[k + 1]);

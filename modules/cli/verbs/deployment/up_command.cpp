@@ -43,7 +43,7 @@ using nlohmann::ordered_json;
 using std::chrono::milliseconds;
 
 constexpr int kNotThere = 1;
-constexpr auto kReadyWithin = std::chrono::seconds(20);
+constexpr auto kUpWithin = std::chrono::seconds(20);
 
 struct UpOptions {
   std::string deployment = "sim";
@@ -223,7 +223,7 @@ std::string Reasons(const std::optional<UpState>& state) {
 
 /// Exit code once everything is ready or the child has ended; nullopt for an alarm or at the end of the time.
 std::optional<int> WaitUntilReady(const UpOptions& options, pid_t child, const std::string& console) {
-  const auto give_up = std::chrono::steady_clock::now() + kReadyWithin;
+  const auto give_up = std::chrono::steady_clock::now() + kUpWithin;
   while (std::chrono::steady_clock::now() < give_up) {
     int status = 0;
     if (waitpid(child, &status, WNOHANG) == child) {

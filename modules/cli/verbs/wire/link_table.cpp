@@ -17,9 +17,8 @@
 
 namespace priamos::cli {
 namespace {
-
 using bus::radio::ChannelClass;
-using bus::radio::ChannelTable;
+
 using bus::radio::Direction;
 using bus::radio::LinkChannel;
 
@@ -28,7 +27,7 @@ std::int64_t TtlOf(const LinkChannel& c) {
 }
 
 /// The initialisers of a `pr_channel` array of bus/radio/tiny.
-std::string AsC(const ChannelTable& table) {
+std::string AsC(const bus::radio::ChannelTable& table) {
   constexpr const char* kClasses[] = {"PR_STATE", "PR_EVENT", "PR_COMMAND"};
   std::string text;
   for (const LinkChannel& c : table.channels()) {
@@ -42,7 +41,7 @@ std::string AsC(const ChannelTable& table) {
   return text;
 }
 
-nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const ChannelTable& table,
+nlohmann::ordered_json AsJson(const bus::radio::LinkConfig& config, const bus::radio::ChannelTable& table,
                               const bus::Schema& types) {
   constexpr const char* kClasses[] = {"state", "event", "command"};
   nlohmann::ordered_json json{{"table_hash", fmt::format("{:08x}", table.hash())},
@@ -104,7 +103,7 @@ void AddLinkTableVerb(CLI::App& link) {
     const auto link_config = LoadConfig<bus::radio::LinkConfig>(*config);
     RefuseOtherRadios(link_config);
     const bus::Schema schema = LoadTypes(*types);
-    const ChannelTable table = link_config.Table(schema);
+    const bus::radio::ChannelTable table = link_config.Table(schema);
     RequireBudget(table, link_config.Options());  // the other end would not start with it
     if (*json)
       std::cout << AsJson(link_config, table, schema).dump(2) << "\n";

@@ -11,8 +11,8 @@ namespace {
 using Unknowns = Eigen::Matrix<double, 5, 1>;  ///< left x, y, right x, y, height
 
 constexpr int kRounds = 4;
-constexpr double kStep_m = 1e-4;  ///< for derivatives
-constexpr double kFar_m = 0.4;    ///< farther from the start it is something else
+constexpr double kDerivativeStep_m = 1e-4;  ///< for derivatives
+constexpr double kFar_m = 0.4;              ///< farther from the start it is something else
 
 /// A point of the door that should lie on an image line.
 struct Observation {
@@ -83,8 +83,8 @@ std::optional<DoorFit> FitDoor(const std::array<const CameraView*, 2>& views, co
       r[i] = observations[i].Residual(x);
       for (int k = 0; k < 5; ++k) {
         Unknowns moved = x;
-        moved[k] += kStep_m;
-        j(i, k) = (observations[i].Residual(moved) - r[i]) / kStep_m;
+        moved[k] += kDerivativeStep_m;
+        j(i, k) = (observations[i].Residual(moved) - r[i]) / kDerivativeStep_m;
       }
     }
     const Eigen::Matrix<double, 5, 5> information = j.transpose() * j;

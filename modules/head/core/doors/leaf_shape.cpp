@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/cross.hpp"
+
 namespace priamos::head {
 namespace {
-
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Cuts [from, to] to where `value(t) = at0 + t * (at1 - at0)` is positive.
 void CutToPositive(double at0, double at1, double& from, double& to) {

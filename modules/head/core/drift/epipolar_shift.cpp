@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double kBandwidth_px = 0.3;
 constexpr double kGridStep_px = 0.1;
-constexpr int kPasses = 10;
+constexpr int kShiftPasses = 10;
 
 struct End {
   Vector2d at;
@@ -74,7 +74,7 @@ std::optional<EpipolarShift> MeasureEpipolarShift(const CameraView& left, const 
   EpipolarShift shift;
   shift.down_px = Densest(ends, options.reach_px);
   double weights = 0, weighted_squares = 0;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kShiftPasses; ++pass) {
     double sum = 0;
     weights = weighted_squares = 0;
     shift.n = 0;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "common/square.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -14,10 +16,6 @@ static_assert(offsetof(EdgeSums, inverse) == 3 * sizeof(float) &&
 constexpr double kCorner_px = 0.2;          ///< how far a corner bends the edge that ends there
 constexpr double kMinShare = 0.25;          ///< share of the mean strength below which a block is a gap
 constexpr double kLeastVariance_px2 = 0.5;  ///< least variance of an edge seen through the narrow kernels
-
-double Square(double x) {
-  return x * x;
-}
 
 Lanes All(double value) {
   return cv::v_setall_f32(static_cast<float>(value));

@@ -16,7 +16,7 @@ constexpr double kOne = std::int64_t{1} << kFraction;
 constexpr std::int64_t kInPhase = (std::int64_t{1} << kPhaseShift) - 1;
 static_assert(EdgeKernelSet::kPhases == 1 << 6);
 
-struct Lanes {
+struct ProfileLanes {
   cv::v_int32x4 first = cv::v_setzero_s32(), second[2] = {first, first}, third[2] = {first, first};
   cv::v_uint16x8 near = cv::v_setzero_u16(), far = near;
 };
@@ -28,7 +28,7 @@ cv::v_int32x4 Add(const cv::v_int32x4& sum, const cv::v_int16x8& a, const cv::v_
   return v_dotprod(b, cv::v_load_aligned(w.data() + 8), v_dotprod(a, cv::v_load_aligned(w.data()), sum));
 }
 
-void AddRow(const std::uint8_t* grey, const EdgeKernel& wide, const EdgeKernel& narrow, Lanes& lanes) {
+void AddRow(const std::uint8_t* grey, const EdgeKernel& wide, const EdgeKernel& narrow, ProfileLanes& lanes) {
   const cv::v_uint16x8 near = cv::v_load_expand(grey), far = cv::v_load_expand(grey + 8);
   const cv::v_int16x8 a = v_reinterpret_as_s16(near), b = v_reinterpret_as_s16(far);
   lanes.first = Add(lanes.first, a, b, wide.first);
@@ -40,7 +40,7 @@ void AddRow(const std::uint8_t* grey, const EdgeKernel& wide, const EdgeKernel& 
   lanes.far = lanes.far + far;
 }
 
-void Reduce(const Lanes& lanes, float scale, EdgeSums& sums) {
+void Reduce(const ProfileLanes& lanes, float scale, EdgeSums& sums) {
   cv::v_int32x4 a, b, c, d;
   cv::v_transpose4x4(lanes.first, lanes.second[0], lanes.second[1], lanes.third[0], a, b, c, d);
   float sum[4];
@@ -99,7 +99,7 @@ EdgeSums EdgeProfile::Sum(const AxisLine& line, int first, int last) const {
   const cv::Mat& rows = line.steep ? image_ : transposed_;
   first = std::max(first, 0);
   last = std::min(last, rows.rows - 1);
-  Lanes lanes;
+  ProfileLanes lanes;
   int n = 0, along = 0, remainder = 0;
   auto across = static_cast<std::int64_t>(line.Across(first) * kOne);
   const auto step = static_cast<std::int64_t>(line.slope * kOne);

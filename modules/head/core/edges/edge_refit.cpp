@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "common/square.hpp"
 
 namespace priamos::head {
 namespace {
@@ -17,10 +18,6 @@ constexpr double kSettled_px[] = {0.8, 0.5};
 constexpr double kLost_px = 5;
 constexpr double kPixelsBeyond = 1;     ///< an edge reaches about so far beyond the pixels that were linked
 constexpr double kTypicalSpread = 1.4;  ///< wide kernel and lens together [px]
-
-double Square(double x) {
-  return x * x;
-}
 
 AxisLine ToAxis(const RoughLine& rough, int& first, int& last) {
   const double dx = rough.x2 - rough.x1, dy = rough.y2 - rough.y1;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/square.hpp"
 #include "head/core/landmark/edge_observations.hpp"
 
 namespace priamos::head {
@@ -40,10 +41,10 @@ struct State {
   double LogOdds(double unit) const { return association.log_odds - Bent() / (2 * unit) + Precision(); }
 };
 
-class Search {
+class FreeSearch {
  public:
-  Search(const Polyhedron& body, std::span<const CameraView> views, const FreeModelOptions& options,
-         double distance_m)
+  FreeSearch(const Polyhedron& body, std::span<const CameraView> views, const FreeModelOptions& options,
+             double distance_m)
       : body_(body), views_(views), options_(options) {
     for (const CameraView& view : views) {
       cameras_.push_back(view.camera);
@@ -142,8 +143,6 @@ class Search {
   }
 
   static constexpr double kLeastScale = 1e-3;
-
-  static double Square(double x) { return x * x; }
 
   double EdgeSigma() const { return options_.solver.edge_sigma_px + 0.08 * blur_px_; }
 
@@ -253,7 +252,7 @@ void SortByOdds(std::vector<State>& states) {
 }
 
 /// The poses after all passes, best first; those that lost too many edges are dropped.
-std::vector<State> RefineAll(const Search& search, const std::vector<Eigen::Isometry3d>& poses) {
+std::vector<State> RefineAll(const FreeSearch& search, const std::vector<Eigen::Isometry3d>& poses) {
   std::vector<State> states;
   for (const Eigen::Isometry3d& pose : poses) states.push_back({pose});
   for (const Pass& pass : kPasses) {
@@ -276,7 +275,7 @@ FreeModelFix LocateFreeModel(const Polyhedron& body, const Eigen::Isometry3d& be
   const LandmarkModel seen = VisibleSkeleton(body, believed.inverse() * eye);
   const Eigen::Vector3d middle = MiddleOf(seen);
   const double distance_m = (believed * middle - eye).norm();
-  const Search search(body, views, options, distance_m);
+  const FreeSearch search(body, views, options, distance_m);
   fix.verdict = Verdict::kNotVisible;
   int n_visible = 0;
   for (const LandmarkEdge& edge : seen.edges)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/principal_axes.hpp"
+#include "common/square.hpp"
 #include "head/core/landmark/correlated_least_squares.hpp"
 #include "head/core/landmark/edge_residual.hpp"
 #include "head/core/landmark/left_out.hpp"
@@ -13,10 +14,6 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-double Square(double x) {
-  return x * x;
-}
 
 /// c = L * L.transpose(), also where c is singular.
 Matrix6 SquareRoot(const Matrix6& c) {

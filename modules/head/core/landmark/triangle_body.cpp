@@ -13,7 +13,7 @@ namespace priamos::head {
 namespace {
 
 constexpr double kSamePoint = 1e-5;  ///< of the extent
-constexpr double kLevel = 0.99996;   ///< cosine of half a degree
+constexpr double kFlat = 0.99996;    ///< cosine of half a degree
 
 using Triangle = std::array<int, 3>;
 using HalfEdge = std::array<int, 2>;
@@ -90,7 +90,7 @@ std::vector<int> FaceNumbers(const TriangleMesh& mesh) {
       for (int i = 0; i < 3; ++i) {
         const auto next = owner.find({t[(i + 1) % 3], t[i]});
         if (next == owner.end() || numbers[next->second] >= 0) continue;
-        if (NormalOf(mesh, mesh.triangles[next->second]).dot(normal) < kLevel) continue;
+        if (NormalOf(mesh, mesh.triangles[next->second]).dot(normal) < kFlat) continue;
         numbers[next->second] = n_faces;
         open.push_back(next->second);
       }
@@ -137,7 +137,7 @@ void DropMiddlePoints(Polyhedron& body) {
     if (list.size() != 2) return false;
     const Eigen::Vector3d a = (body.points[p] - body.points[list[0]]).normalized();
     const Eigen::Vector3d b = (body.points[list[1]] - body.points[p]).normalized();
-    return a.dot(b) > kLevel;
+    return a.dot(b) > kFlat;
   };
   for (auto& face : body.faces) {
     std::vector<int> kept;

@@ -1,22 +1,8 @@
 #include "head/core/look/glance_evaluator.hpp"
 
-#include <opencv2/core.hpp>
+#include "head/core/look/usable_image.hpp"
 
 namespace priamos::head {
-namespace {
-
-constexpr int kSmallest_px = 64;
-
-bool IsUsable(const std::optional<GreyImage>& image) {
-  return image && image->width >= kSmallest_px && image->height >= kSmallest_px;
-}
-
-/// OpenCV's view of the pixels, which the edge operator only reads.
-cv::Mat Wrap(const GreyImage& image) {
-  return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
-}
-
-}  // namespace
 
 std::vector<DoorSighting> GlanceEvaluator::Evaluate(const std::array<std::optional<GreyImage>, 2>& images,
                                                     const HeadSetting& setting) {

@@ -1,27 +1,16 @@
 #include "head/core/look/look_evaluator.hpp"
 
 #include <algorithm>
-#include <opencv2/core.hpp>
 
 #include "head/core/doors/model_door.hpp"
 #include "head/core/look/look_drift.hpp"
+#include "head/core/look/usable_image.hpp"
 
 namespace priamos::head {
 namespace {
 
-constexpr int kSmallest_px = 64;
-
 /// So many looks in a row that do not show what is known: it is given up.
 constexpr int kContradicted = 3;
-
-bool IsUsable(const std::optional<GreyImage>& image) {
-  return image && image->width >= kSmallest_px && image->height >= kSmallest_px;
-}
-
-/// OpenCV's view of the pixels, which the edge operator only reads.
-cv::Mat Wrap(const GreyImage& image) {
-  return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
-}
 
 LookResult Without(Verdict verdict) {
   LookResult result;

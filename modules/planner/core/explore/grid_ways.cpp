@@ -12,7 +12,7 @@ namespace {
 using Cell = ExploredGrid::Cell;
 
 /// More clearance makes no difference to a base.
-constexpr float kFar_m = 3;
+constexpr float kClearEnough_m = 3;
 /// A base that stands nearer to something than it would drive may leave it over so much.
 constexpr double kLeaving_m = 0.7;
 
@@ -49,7 +49,7 @@ void GridWays::Spread(std::vector<float>& distance_m, const std::vector<std::siz
 GridWays::GridWays(const ExploredGrid& grid, const Eigen::Vector2d& from, double clearance_m)
     : grid_(&grid),
       least_m_(clearance_m),
-      clearance_m_(grid.cells(), kFar_m),
+      clearance_m_(grid.cells(), kClearEnough_m),
       way_m_(grid.cells(), std::numeric_limits<float>::infinity()) {
   std::vector<std::size_t> closed;
   for (int y = 0; y < grid.ny(); ++y)

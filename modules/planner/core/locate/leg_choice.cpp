@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/cross.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -12,10 +14,6 @@ constexpr double kWidened_m = 0.4;  ///< a wall goes on beside what was heard of
 constexpr double kClosedNear_m = 0.4, kClosedCos = 0.87;
 constexpr double kSlanted_m = 0.3;
 constexpr double kBeside_m = 0.1;  ///< lines of a way back, of the way driven
-
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// How far it is to a piece from `from` in a direction of length 1.
 double DistanceTo(const HeardPiece& piece, const Eigen::Vector2d& from, const Eigen::Vector2d& ray) {

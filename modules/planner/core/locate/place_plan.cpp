@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/cross.hpp"
 #include "common/robot/body_size.hpp"
 
 namespace priamos::planner {
@@ -12,13 +13,9 @@ constexpr double kCell_m = 0.1;
 /// A wall may stand so far beside its place on the plan: three sigmas of a survey with errors up to 10 cm.
 constexpr double kAstray_m = 0.17;
 
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Whether the lines between two pairs of places cross, ends included.
-bool Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-           const Eigen::Vector2d& d) {
+bool DoCross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+             const Eigen::Vector2d& d) {
   const double c_side = Cross(b - a, c - a), d_side = Cross(b - a, d - a);
   const double a_side = Cross(d - c, a - c), b_side = Cross(d - c, b - c);
   return c_side * d_side <= 0 && a_side * b_side <= 0;
@@ -72,7 +69,7 @@ bool PlacePlan::IsInWall(const Eigen::Vector2d& middle) const {
 bool PlacePlan::Hides(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   return std::any_of(walls_.begin(), walls_.end(), [&](const Rectangle& wall) {
     const Eigen::Vector2d along(wall.half_m.x(), 0);
-    return Cross(from, to, wall.map_from_centre * Eigen::Vector2d(-along), wall.map_from_centre * along);
+    return DoCross(from, to, wall.map_from_centre * Eigen::Vector2d(-along), wall.map_from_centre * along);
   });
 }
 

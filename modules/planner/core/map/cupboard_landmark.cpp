@@ -8,8 +8,8 @@ namespace priamos::planner {
 namespace {
 
 /// Lines on the front are seen under no flatter angle than this.
-constexpr double kGrazing_rad = Radians(20);
-constexpr double kBeforeFront_rad = kPi / 2 + kGrazing_rad;
+constexpr double kGrazingFront_rad = Radians(20);
+constexpr double kBeforeFront_rad = kPi / 2 + kGrazingFront_rad;
 
 LandmarkEdge OnFront(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   return {from, to, kBeforeFront_rad, -kBeforeFront_rad, Side::kBoth};

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "common/cross.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -14,10 +16,6 @@ constexpr double kSameAngle_rad = 0.004;
 constexpr double kReach_m = 4;          ///< a face farther beside the way is not heard
 constexpr double kSample_m = 0.25;      ///< between two places of the way
 constexpr double kLeastAlong_m = 0.75;  ///< a face that is beside less of the way tells little
-
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// `a` and, behind it, `b` as one face; nullopt when they are not of one wall.
 std::optional<WallFace> Joined(const WallFace& a, const WallFace& b) {

@@ -25,10 +25,10 @@ constexpr double kWide_m = 0.35, kWide_rad = 0.12;
 /// Log-odds against a place that has no door where one was seen.
 constexpr double kNoDoor = 20;
 /// Candidates of two searches that are one.
-constexpr double kSame_m = 0.6, kSame_rad = 0.2;
+constexpr double kSameView_m = 0.6, kSame_rad = 0.2;
 
 bool AreOne(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm() < kSame_m &&
+  return (a.translation() - b.translation()).norm() < kSameView_m &&
          std::abs(WrapAngle(a.yaw - b.yaw)) < kSame_rad;
 }
 

@@ -16,7 +16,7 @@ constexpr double kFrame_m = 0.02, kFrame_rad = 0.01;
 /// What the robot is told when nobody knows where it is: it then drives no path.
 constexpr double kUnknown_m = 2, kUnknown_rad = 1.6;
 
-std::string Text(const Pose2& pose) {
+std::string CandidateText(const Pose2& pose) {
   return fmt::format("({:.1f}, {:.1f}) {:.0f} deg", pose.x, pose.y, Degrees(pose.yaw));
 }
 
@@ -191,7 +191,7 @@ void LocateMission::Believe(MissionControl& control) {
   const RobotPose& pose = *control.heard().pose;
   control.Enter(Phase::kDone,
                 fmt::format("at {}, known to {:.2f} m: {}, {} walls, {:.1f} m driven",
-                            Text(pose.map_from_base), PositionSigma(pose.covariance), looks_.doing(),
+                            CandidateText(pose.map_from_base), PositionSigma(pose.covariance), looks_.doing(),
                             looks_.tested().matched, evidence_.log().driven_m()));
 }
 
@@ -203,12 +203,12 @@ void LocateMission::BelieveWalls(MissionControl& control) {
       found.size() == 1 && found.front().IsPoint() && found.front().matched >= config_.alone_walls;
   if (!sure)
     return GiveUp(control, fmt::format("unconfirmed: {}, no door in sight tells",
-                                       Text(only.map_from_way * way_from_base)));
+                                       CandidateText(only.map_from_way * way_from_base)));
   control.OrderPlace(found.front().map_from_base, only.sigma_m, only.sigma_yaw_rad);
   framed_ = false;
-  control.Enter(Phase::kDone,
-                fmt::format("at {}, by {} walls alone, {:.1f} m driven", Text(found.front().map_from_base),
-                            found.front().matched, evidence_.log().driven_m()));
+  control.Enter(Phase::kDone, fmt::format("at {}, by {} walls alone, {:.1f} m driven",
+                                          CandidateText(found.front().map_from_base), found.front().matched,
+                                          evidence_.log().driven_m()));
 }
 
 /// Ends the mission without a place; first the robot is told that nobody knows where it is.
@@ -252,7 +252,7 @@ std::string LocateMission::Candidates() const {
   const auto& places = looks_.hypotheses();
   std::string text = fmt::format("ambiguous: {} places:", places.size());
   for (std::size_t i = 0; i < std::min(kShown, places.size()); ++i)
-    text += (i > 0 ? "; " : " ") + Text(places[i].map_from_way * evidence_.log().way_from_base());
+    text += (i > 0 ? "; " : " ") + CandidateText(places[i].map_from_way * evidence_.log().way_from_base());
   return text + (places.size() > kShown ? "; ..." : "");
 }
 

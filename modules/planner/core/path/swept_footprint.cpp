@@ -8,7 +8,7 @@ namespace priamos::planner {
 namespace {
 
 /// No point of the body moves more than this between two checked poses, unless it cannot matter.
-constexpr double kStep_m = 0.005;
+constexpr double kLeastAdvance_m = 0.005;
 /// Leeway is looked for in such steps up to this; a line that is shorter than the last has none.
 constexpr double kLeewayStep_m = 0.1, kMostLeeway_m = 2.0, kShort_m = 0.2;
 
@@ -42,7 +42,7 @@ SweptFootprint::Gap SweptFootprint::Along(const Pose2& from, const Pose2& to) co
     if (nearest.distance_m < gap.distance_m) gap = nearest;
     if (at_m >= travel_m || gap.distance_m <= 0) return {gap.distance_m, std::string(gap.name)};
     // The distance to an obstacle changes by no more than the body moves.
-    at_m = std::min(travel_m, at_m + std::max(kStep_m, nearest.distance_m - gap.distance_m));
+    at_m = std::min(travel_m, at_m + std::max(kLeastAdvance_m, nearest.distance_m - gap.distance_m));
   }
 }
 
@@ -53,7 +53,7 @@ bool SweptFootprint::IsFree(const Pose2& from, const Pose2& to, double margin_m)
     const double distance_m = obstacles_.NearestTo(footprint_.At(pose)).distance_m;
     if (distance_m < margin_m) return false;
     if (at_m >= travel_m) return true;
-    at_m = std::min(travel_m, at_m + std::max(kStep_m, distance_m - margin_m));
+    at_m = std::min(travel_m, at_m + std::max(kLeastAdvance_m, distance_m - margin_m));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "common/square.hpp"
+
 namespace priamos::robot {
 namespace {
 
@@ -20,10 +22,6 @@ constexpr double kTickHeadroom = 8;
 /// Signed distance of two counters that may have wrapped between.
 std::int32_t TickDifference(std::int32_t to, std::int32_t from) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
-}
-
-double Square(double x) {
-  return x * x;
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ void Raise(Lanes& cost, const std::pair<double, double>& offsets, double to) {
 }
 
 /// What a search is given: see FindDetour.
-struct Search {
+struct DetourSearch {
   const DetourConfig& config;
   const Footprint& footprint;
   std::span<const Eigen::Vector2d> things;
@@ -100,7 +100,7 @@ double OutsideOf(const Leeway& leeway, double offset_m) {
 }
 
 /// What a metre of the path costs beside a station, per lane; kNowhere where the base may not be.
-Lanes CostsAt(const Search& search, const Station& station) {
+Lanes CostsAt(const DetourSearch& search, const Station& station) {
   const DetourConfig& config = search.config;
   Lanes near{};
   const Eigen::Vector2d half = search.footprint.Size() / 2;
@@ -129,7 +129,7 @@ Lanes CostsAt(const Search& search, const Station& station) {
 }
 
 /// Whether the path itself leads near nothing.
-bool IsFree(const Search& search, const std::vector<Station>& stations) {
+bool IsFree(const DetourSearch& search, const std::vector<Station>& stations) {
   const Eigen::Vector2d half = search.footprint.Size() / 2 + Eigen::Vector2d::Constant(search.config.wish_m);
   return std::none_of(search.things.begin(), search.things.end(), [&](const Eigen::Vector2d& thing) {
     return std::any_of(stations.begin(), stations.end(), [&](const Station& station) {
@@ -254,7 +254,7 @@ std::optional<Detour> FindDetour(const DetourConfig& config, const Footprint& fo
                                  std::span<const Eigen::Vector2d> things, const Detour& last) {
   const std::vector<Station> stations = StationsFrom(path, here.s, config.horizon_m);
   const int start = StartLane(here.offset_m, stations.front().leeway, last);
-  const Search search{config, footprint, things, last, OffsetOf(start)};
+  const DetourSearch search{config, footprint, things, last, OffsetOf(start)};
   if (start == kMiddle && IsFree(search, stations)) return Detour();
   std::vector<Reached> reached(1);
   reached[0].Offer(start, 0, start, false);

@@ -8,7 +8,7 @@ namespace {
 
 // Distance [m] that the base drives at most while a path comes over the radio.
 constexpr double kPassedAtMost = 0.3;
-constexpr double kBeside = 0.3;
+constexpr double kNearPath_m = 0.3;
 
 struct Begin {
   Pose2 start;
@@ -26,7 +26,7 @@ Begin WithoutPassedPoint(const Path& path, const Pose2& pose) {
   if (length < kPassedAtMost) return {pose, path};
   const double passed = line.dot(delta) / length;
   const double beside = (delta - line * (passed / length)).norm();
-  if (passed <= 0 || passed > kPassedAtMost || beside > kBeside) return {pose, path};
+  if (passed <= 0 || passed > kPassedAtMost || beside > kNearPath_m) return {pose, path};
 
   const double part = passed / length;
   const Eigen::Vector2d foot = first.translation() + line * part;

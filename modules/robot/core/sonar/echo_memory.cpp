@@ -9,10 +9,6 @@ namespace {
 constexpr int kPointsPerArc = 5;
 constexpr std::size_t kCycles = 3;
 
-bool IsEcho(double range_m) {
-  return range_m >= 0 && range_m <= kSonarMax_m;  // false for NaN and for the "none" of -1
-}
-
 }  // namespace
 
 void EchoMemoryConfig::Describe(Archive& a) {

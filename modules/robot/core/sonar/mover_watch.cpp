@@ -16,10 +16,6 @@ constexpr double kKnown = 2.5;  ///< the residual may be so much larger
 constexpr double kStands_m_s = 0.1, kStoodWithin_m = 0.2;
 constexpr double kApart_m = 0.1;  ///< of the places that are kept free
 
-bool IsEcho(double range_m) {
-  return range_m >= 0 && range_m <= kSonarMax_m;
-}
-
 }  // namespace
 
 void MoverConfig::Describe(Archive& a) {

@@ -9,7 +9,7 @@ namespace {
 constexpr double kCell = 0.04;
 // A beam that ends this far behind a thing has gone through its place; less may be the thing's own size.
 constexpr double kBehind = 0.2;
-constexpr double kStands_m_s = 0.01, kStands_rad_s = 0.02;
+constexpr double kSurelyStands_m_s = 0.01, kStands_rad_s = 0.02;
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void NearMap::Clear(const Pose2& odom_from_sonar, double range_m) {
 
 bool NearMap::Stands(const Pose2& odom_from_base, double dt_s) const {
   const Pose2 step = here_.Inverse() * odom_from_base;
-  return step.translation().norm() <= kStands_m_s * dt_s && std::abs(step.yaw) <= kStands_rad_s * dt_s;
+  return step.translation().norm() <= kSurelyStands_m_s * dt_s && std::abs(step.yaw) <= kStands_rad_s * dt_s;
 }
 
 void NearMap::Forget(const Pose2& odom_from_base, Time now, bool waits) {

@@ -14,4 +14,9 @@ struct SonarCycle {
   std::array<double, kSonars> range_m{};
 };
 
+/// False for NaN and for the "none" of -1.
+inline bool IsEcho(double range_m) {
+  return range_m >= 0 && range_m <= kSonarMax_m;
+}
+
 }  // namespace priamos::robot

@@ -17,18 +17,18 @@ using Eigen::Vector3d;
 using Plane = Eigen::Hyperplane<double, 3>;
 
 constexpr std::size_t kFewestPoints = 30;
-constexpr double kSigmaFloor_px = 0.03;  // what the model of light and lens leaves out
+constexpr double kLightSigma_px = 0.03;  // what the model of light and lens leaves out
 constexpr double kConsensus_px = 1.5;    // for the first plane
 constexpr double kOutlier_px = 0.6;      // beyond 4 sigma
 constexpr double kFewestInliers = 0.6;   // of all points
 constexpr double kNarrowest = 0.03;      // spread across the longest direction, as a share of that along it
 constexpr double kLeastSpread_m = 0.003;
-constexpr double kWorst_px = 1;
+constexpr double kWorstLight_px = 1;
 constexpr std::size_t kTries = 300, kTested = 500;
 constexpr int kSteps = 8;
 
 /// One line of sight where it meets its board.
-struct Point {
+struct LightPoint {
   Vector3d at, per_px,
       per_board_m;  ///< the point; how it moves with the row of the image, and with the board
   double sigma_px;
@@ -36,7 +36,7 @@ struct Point {
 };
 
 /// Distance from the plane in rows of the image.
-double RowsFrom(const Plane& plane, const Point& p) {
+double RowsFrom(const Plane& plane, const LightPoint& p) {
   return plane.signedDistance(p.at) / plane.normal().dot(p.per_px);
 }
 
@@ -48,8 +48,8 @@ Vector3d PerBoard(const StripeView& view, const Eigen::Vector2d& px, const Vecto
   return there ? Vector3d((*there - at) / kStep_m) : Vector3d::Zero();
 }
 
-Outcome<std::vector<Point>> PointsOf(std::span<const StripeView> views) {
-  std::vector<Point> points;
+Outcome<std::vector<LightPoint>> PointsOf(std::span<const StripeView> views) {
+  std::vector<LightPoint> points;
   for (std::size_t k = 0; k < views.size(); ++k) {
     const StripeView& view = views[k];
     if (!view.camera.image_from_base.allFinite() || !view.board.coeffs().allFinite())
@@ -62,7 +62,7 @@ Outcome<std::vector<Point>> PointsOf(std::span<const StripeView> views) {
         return Refusal{fmt::format(
             "view {}: the board is seen edge-on, or the line is not where the board can be", k + 1)};
       points.push_back(
-          {*at, *below - *above, PerBoard(view, p.at, *at), std::hypot(p.sigma_px, kSigmaFloor_px), k});
+          {*at, *below - *above, PerBoard(view, p.at, *at), std::hypot(p.sigma_px, kLightSigma_px), k});
     }
   }
   if (points.size() < kFewestPoints)
@@ -72,7 +72,7 @@ Outcome<std::vector<Point>> PointsOf(std::span<const StripeView> views) {
 }
 
 /// The plane through three points that most others lie in.
-std::optional<Plane> PlaneOfMost(const std::vector<Point>& points) {
+std::optional<Plane> PlaneOfMost(const std::vector<LightPoint>& points) {
   const std::size_t n = points.size(), stride = std::max<std::size_t>(1, n / kTested);
   std::optional<Plane> best;
   int most = 0;
@@ -95,10 +95,10 @@ std::optional<Plane> PlaneOfMost(const std::vector<Point>& points) {
 }
 
 /// Marks what lies in the plane.
-std::vector<bool> Inliers(const std::vector<Point>& points, const Plane& plane, double at_least_px) {
+std::vector<bool> Inliers(const std::vector<LightPoint>& points, const Plane& plane, double at_least_px) {
   std::vector<bool> inside;
   inside.reserve(points.size());
-  for (const Point& p : points)
+  for (const LightPoint& p : points)
     inside.push_back(std::abs(RowsFrom(plane, p)) < std::max(at_least_px, 4 * p.sigma_px));
   return inside;
 }
@@ -108,7 +108,7 @@ struct Spread {
   Vector3d rms_m = Vector3d::Zero();  ///< along the principal axes, ascending
 };
 
-Spread SpreadOf(const std::vector<Point>& points, const std::vector<bool>& used) {
+Spread SpreadOf(const std::vector<LightPoint>& points, const std::vector<bool>& used) {
   Spread s;
   double n = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -135,7 +135,7 @@ struct Motion {
         axis2(plane.normal().cross(axis1)),
         pivot(plane.projection(middle)) {}
   /// How the distance of a point, in rows, follows the three.
-  Vector3d Derivative(const Plane& plane, const Point& p) const {
+  Vector3d Derivative(const Plane& plane, const LightPoint& p) const {
     const Vector3d arm = p.at - pivot;
     return Vector3d(axis1.dot(arm), axis2.dot(arm), -1) / plane.normal().dot(p.per_px);
   }
@@ -145,7 +145,7 @@ struct Motion {
   }
 };
 
-Plane Refine(const std::vector<Point>& points, const std::vector<bool>& used, const Vector3d& middle,
+Plane Refine(const std::vector<LightPoint>& points, const std::vector<bool>& used, const Vector3d& middle,
              Plane plane) {
   for (int step = 0; step < kSteps; ++step) {
     const Motion motion(plane, middle);
@@ -170,13 +170,13 @@ struct ViewInformation {
 };
 
 /// Standard deviations of a plane that is already right.
-void FillSigmas(const std::vector<Point>& points, const std::vector<bool>& used,
+void FillSigmas(const std::vector<LightPoint>& points, const std::vector<bool>& used,
                 std::span<const StripeView> views, double rms_px, const Motion& motion, LaserPlane& laser) {
   const Plane plane = laser.Plane();
   std::vector<ViewInformation> of_view(views.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!used[i]) continue;
-    const Point& p = points[i];
+    const LightPoint& p = points[i];
     const Vector3d j = motion.Derivative(plane, p);
     const double rows =
         plane.normal().dot(p.per_board_m) / plane.normal().dot(p.per_px) * views[p.view].board_sigma_m;
@@ -191,7 +191,7 @@ void FillSigmas(const std::vector<Point>& points, const std::vector<bool>& used,
   Matrix3d information = Matrix3d::Zero();
   for (const ViewInformation& v : of_view) {
     if (v.n == 0) continue;
-    const double variance = std::max(shown, v.rows2_by_board / v.n) + kSigmaFloor_px * kSigmaFloor_px;
+    const double variance = std::max(shown, v.rows2_by_board / v.n) + kLightSigma_px * kLightSigma_px;
     information += v.motion / v.n / variance;
   }
   const Matrix3d covariance = information.inverse();
@@ -200,7 +200,7 @@ void FillSigmas(const std::vector<Point>& points, const std::vector<bool>& used,
   laser.sigma_shift_m = std::sqrt(std::max(0.0, covariance(2, 2)));
 }
 
-void FillErrors(const std::vector<Point>& points, const std::vector<bool>& used, std::size_t views,
+void FillErrors(const std::vector<LightPoint>& points, const std::vector<bool>& used, std::size_t views,
                 LaserCalibration& result) {
   const Plane plane = result.plane.Plane();
   std::vector<double> squares(views, 0), n(views, 0);
@@ -238,7 +238,7 @@ struct Consensus {
   Spread spread;
 };
 
-Consensus Settle(const std::vector<Point>& points, const Plane& first) {
+Consensus Settle(const std::vector<LightPoint>& points, const Plane& first) {
   Consensus found{first, Inliers(points, first, kConsensus_px), {}};
   found.spread = SpreadOf(points, found.used);
   for (const double limit_px : {kConsensus_px, kOutlier_px, kOutlier_px}) {
@@ -264,7 +264,7 @@ std::string WhyDoubtful(const Consensus& found) {
 }  // namespace
 
 Outcome<LaserCalibration> CalibrateLaserPlane(std::span<const StripeView> views) {
-  const Outcome<std::vector<Point>> points = PointsOf(views);
+  const Outcome<std::vector<LightPoint>> points = PointsOf(views);
   if (!points) return Refusal{points.reason()};
   const auto all = SpreadOf(*points, std::vector<bool>(points->size(), true));
   if (std::string reason = WhyNarrow(all); !reason.empty()) return Refusal{reason};
@@ -280,7 +280,7 @@ Outcome<LaserCalibration> CalibrateLaserPlane(std::span<const StripeView> views)
   const Motion motion(result.plane.Plane(), found.spread.middle);
   result.plane.pivot_m = motion.pivot;
   FillErrors(*points, found.used, views.size(), result);
-  if (!(result.rms_px < kWorst_px))
+  if (!(result.rms_px < kWorstLight_px))
     return Refusal{fmt::format("the lines are {:.2f} px from where the best plane puts them", result.rms_px)};
   FillSigmas(*points, found.used, views, result.rms_px, motion, result.plane);
   return result;

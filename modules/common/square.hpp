@@ -1,0 +1,9 @@
+#pragma once
+
+namespace priamos {
+
+constexpr double Square(double x) {
+  return x * x;
+}
+
+}  // namespace priamos
