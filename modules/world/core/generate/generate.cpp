@@ -16,7 +16,6 @@ namespace {
 using Eigen::Vector2d;
 
 /// Walls of a sketch are centre lines; rooms are spoken of by their inner size.
-constexpr double kHalfWall_m = 0.07;
 constexpr double kCeiling_m = 2.8;
 /// So far before a wall is the middle of a base that comes no nearer.
 constexpr double kStands_m = 0.6;

@@ -9,6 +9,8 @@
 
 namespace priamos::world {
 
+inline constexpr double kHalfWall_m = 0.07;  ///< half the thickness of a made-up wall
+
 /// A door in a wall of a sketch.
 struct SketchDoor {
   double along_m = 0;   ///< middle of the opening, from the wall's beginning

@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kHalfWall_m = 0.07;
 /// Between an opening and the corner of its room.
 constexpr double kPier_m = 0.5;
 
