@@ -48,14 +48,20 @@ ProcessWatch::Action ProcessWatch::Step(bool may_start, bool may_stop, Time now)
   return runs() ? WatchRunning(now) : Action::kNone;
 }
 
+/// The time since then, without that in which it waited for a processor.
+Duration ProcessWatch::Silence(Time since, Duration limit, Time now) const {
+  return now - since - std::min(waited_ - waited_before_, policy_.starved * limit);
+}
+
 ProcessWatch::Action ProcessWatch::WatchRunning(Time now) {
   if (killed_) return Action::kNone;
   if (stopped_since_ && now - *stopped_since_ >= policy_.stopped) {
     verdict_ = fmt::format("hung: stopped for {:.1f} s", Seconds(now - *stopped_since_));
-  } else if (state_ == ProcessState::kStarting && now - since_ > policy_.ready_within) {
+  } else if (state_ == ProcessState::kStarting &&
+             Silence(since_, policy_.ready_within, now) > policy_.ready_within) {
     verdict_ = fmt::format("not ready within {:.0f} s", Seconds(policy_.ready_within));
   } else if (state_ == ProcessState::kReady && policy_.watchdog > Duration::zero() &&
-             now - alive_ > policy_.watchdog) {
+             Silence(alive_, policy_.watchdog, now) > policy_.watchdog) {
     verdict_ = fmt::format("hung: silent for {:.1f} s", Seconds(now - alive_));
   } else {
     if (state_ == ProcessState::kReady && now - since_ >= policy_.stable_after) failures_ = 0;
@@ -95,6 +101,7 @@ void ProcessWatch::Started(Time now) {
   killed_ = false;
   verdict_.clear();
   alive_ = now;
+  waited_ = waited_before_ = {};
   stopped_since_.reset();
   Enter(ProcessState::kStarting, now);
 }
@@ -107,8 +114,13 @@ void ProcessWatch::SeenStopped(bool stopped, Time now) {
   }
 }
 
-void ProcessWatch::SaidReady(Time now) {
+void ProcessWatch::SaidAlive(Time now) {
   alive_ = now;
+  waited_before_ = waited_;
+}
+
+void ProcessWatch::SaidReady(Time now) {
+  SaidAlive(now);
   if (state_ == ProcessState::kStarting) Enter(ProcessState::kReady, now);
 }
 

@@ -12,6 +12,7 @@ struct WatchPolicy {
   Duration ready_within = std::chrono::seconds(10);  ///< READY must come so soon after the start
   Duration watchdog =
       std::chrono::milliseconds(1000);  ///< longest silence of one that is ready; 0: none expected
+  int starved = 4;  ///< while it waits for a processor, these two may last so many times longer
   Duration stopped = std::chrono::milliseconds(200);  ///< one that was stopped (SIGSTOP) for so long hangs
   Duration stop_within = std::chrono::seconds(2);     ///< after SIGTERM
   Duration first_back_off = std::chrono::seconds(1);  ///< doubled with every failure in a row
@@ -26,7 +27,8 @@ const char* Text(ProcessState state);
 
 /// The life of one supervised process as a state machine with time as argument: waits for what it depends on,
 /// must send READY in time and WATCHDOG ever after, is killed when it hangs or stands stopped, and is started
-/// again after 1, 2, 4 ... 30 s. Three failures in a row raise an alarm, which a stable run clears.
+/// again after 1, 2, 4 ... 30 s. Three failures in a row raise an alarm, which a stable run clears. Time in
+/// which it would have run and got no processor is, up to a limit, no silence: that is the machine's fault.
 class ProcessWatch {
  public:
   /// What the caller does with the process now: SIGTERM for kTerminate, SIGKILL for kKill.
@@ -39,9 +41,11 @@ class ProcessWatch {
   Action Step(bool may_start, bool may_stop, Time now);
   void Started(Time now);
   void SaidReady(Time now);
-  void SaidAlive(Time now) { alive_ = now; }
+  void SaidAlive(Time now);
   /// Whether the process is stopped by a signal, as the kernel reports it.
   void SeenStopped(bool stopped, Time now);
+  /// For how long the process has waited for a processor, since it was started.
+  void SeenWaiting(Duration waited) { waited_ = waited; }
   void Exited(const std::string& how, Time now);
   /// Orders that the process ends and is not started again.
   void Stop() { stopping_ = true; }
@@ -60,6 +64,7 @@ class ProcessWatch {
  private:
   void Enter(ProcessState state, Time now);
   Action WatchRunning(Time now);
+  Duration Silence(Time since, Duration limit, Time now) const;
   Action WatchStop(bool may_stop, Time now);
   Action EndForRestart(Time now);
   Action Terminate(Time now);
@@ -69,6 +74,7 @@ class ProcessWatch {
   ProcessState state_ = ProcessState::kWaiting;
   Time since_{}, alive_{};
   std::optional<Time> stopped_since_;
+  Duration waited_{}, waited_before_{};  ///< for a processor: until now, and until it said last that it lives
   bool stopping_ = false, restarting_ = false, killed_ = false;
   int failures_ = 0, starts_ = 0;
   std::string reason_, verdict_;  ///< verdict: why it was killed

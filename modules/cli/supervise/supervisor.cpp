@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "bus/clocks/host_clock.hpp"
+#include "cli/supervise/process_stat.hpp"
 #include "common/text/nearest_word.hpp"
 
 namespace priamos::cli {
@@ -77,14 +78,6 @@ std::string LastLine(const std::string& file) {
   while (std::getline(in, line))
     if (!line.empty() && line.rfind("--- ", 0) != 0) last = line;
   return last;
-}
-
-/// By a signal, not by a debugger: the third field of /proc/PID/stat, behind the name in brackets.
-bool IsStopped(pid_t pid) {
-  std::string stat;
-  std::getline(std::ifstream(fmt::format("/proc/{}/stat", pid)), stat);
-  const auto name_end = stat.rfind(')');
-  return name_end != std::string::npos && stat.size() > name_end + 2 && stat[name_end + 2] == 'T';
 }
 
 std::string HowEnded(int status, const std::string& output_file) {
@@ -150,7 +143,7 @@ const Supervisor::Child& Supervisor::Find(const std::string& name) const {
 void Supervisor::Step(Time now) {
   Listen(now);
   ForgiveOwnSilence(now);
-  LookForStopped(now);
+  LookAtChildren(now);
   Reap(now);
   EndRenewal();
   for (Child& child : children_) Act(child, now);
@@ -182,13 +175,16 @@ void Supervisor::ForgiveSilence(Time now) {
   for (Child& child : children_) child.watch.SaidAlive(now);
 }
 
-/// Finds children that a signal has stopped, also those that send no WATCHDOG. It needs no timeout, and a
-/// busy machine causes no false alarm.
-void Supervisor::LookForStopped(Time now) {
+/// Finds children that a signal has stopped, also those that send no WATCHDOG, without a timeout; and those
+/// that are silent because the machine is busy with others.
+void Supervisor::LookAtChildren(Time now) {
   if (now < next_look_) return;
   next_look_ = now + kLookPeriod;
-  for (Child& child : children_)
-    if (child.pid != 0) child.watch.SeenStopped(IsStopped(child.pid), now);
+  for (Child& child : children_) {
+    if (child.pid == 0) continue;
+    child.watch.SeenStopped(IsStopped(child.pid), now);
+    child.watch.SeenWaiting(WaitedForProcessor(child.pid));
+  }
 }
 
 void Supervisor::Reap(Time now) {

@@ -83,7 +83,7 @@ class Supervisor {
   void Listen(Time now);
   void ForgiveOwnSilence(Time now);
   void ForgiveSilence(Time now);
-  void LookForStopped(Time now);
+  void LookAtChildren(Time now);
   void Reap(Time now);
   void EndRenewal();
   void Act(Child& child, Time now);

@@ -83,6 +83,46 @@ TEST_F(ProcessWatchTest, OneThatHangsIsKilledAndStartedAgainWithinThreeSeconds) 
   EXPECT_LT(now_ - hung, milliseconds(2200));
 }
 
+TEST_F(ProcessWatchTest, OneThatGetsNoProcessorIsNotSilent) {
+  BecomeReady();
+  alive_ = false;
+  for (int i = 1; i <= 40; ++i) {
+    dut_.SeenWaiting(i * milliseconds(80));
+    ASSERT_EQ(Wait(milliseconds(100)), Action::kNone) << i;
+  }
+}
+
+TEST_F(ProcessWatchTest, OneThatGetsNoProcessorForTooLongIsStartedAgain) {
+  BecomeReady();
+  alive_ = false;
+  const Time silent = now_;
+  Action action = Action::kNone;
+  for (int i = 1; i <= 100 && action == Action::kNone; ++i) {
+    dut_.SeenWaiting(i * milliseconds(100));
+    action = Wait(milliseconds(100));
+  }
+  EXPECT_EQ(action, Action::kKill);
+  EXPECT_NEAR(Seconds(now_ - silent), 5, 0.2);
+}
+
+TEST_F(ProcessWatchTest, WhatItWaitedBeforeItSpokeDoesNotCount) {
+  BecomeReady();
+  dut_.SeenWaiting(seconds(30));
+  dut_.SaidAlive(now_);
+  alive_ = false;
+  const Time silent = now_;
+  EXPECT_EQ(Wait(seconds(20)), Action::kKill);
+  EXPECT_NEAR(Seconds(now_ - silent), 1, 0.02);
+}
+
+TEST_F(ProcessWatchTest, OneThatStartsOnABusyMachineHasMoreTime) {
+  Start();
+  for (int i = 1; i <= 20; ++i) {
+    dut_.SeenWaiting(i * milliseconds(900));
+    ASSERT_EQ(Wait(seconds(1)), Action::kNone) << i;
+  }
+}
+
 TEST_F(ProcessWatchTest, OneThatIsStoppedNeedNotWaitForItsWatchdog) {
   BecomeReady();
   dut_.SeenStopped(true, now_);
