@@ -12,9 +12,7 @@ namespace {
 class ProcessStatTest : public testing::Test {
  protected:
   ProcessStatTest() : pid_(fork()) {
-    if (pid_ == 0)
-      for (volatile int i = 0;; i = i + 1) {
-      }
+    while (pid_ == 0) getppid();
   }
   ~ProcessStatTest() override {
     kill(pid_, SIGKILL);
