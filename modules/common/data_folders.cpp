@@ -49,6 +49,10 @@ std::vector<fs::path> XdgConfigFolders(const ProgramPlace& place) {
   const std::string here =
       fs::is_directory(given) ? fmt::format("; the one in this folder is ./{}", given) : "";
   const auto known = KnownDeployments(place);
+  if (known.empty())
+    throw ConfigError(
+        fmt::format("deployment: expected a folder (with a slash), got \"{}\"{}; none was found in {}", given,
+                    here, fmt::join(places, ", ")));
   throw ConfigError(
       fmt::format("deployment: expected one of {}, or a folder (with a slash), got \"{}\"{}{}; looked in {}",
                   fmt::join(known, ", "), given, NearestText(given, known), here, fmt::join(places, ", ")));

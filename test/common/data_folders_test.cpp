@@ -11,8 +11,10 @@ namespace priamos {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using Paths = std::vector<fs::path>;
 
 ProgramPlace Installed() {
@@ -120,6 +122,13 @@ TEST(DataFolders, AFolderOfDataWithoutConfigurationIsNamed) {
   place.data = "/nowhere";
   EXPECT_THAT([&] { FindDeployment("sim", place); },
               testing::ThrowsMessage<ConfigError>(testing::HasSubstr("PRIAMOS_DATA: expected a folder")));
+}
+
+TEST(DataFolders, WhereNoDeploymentIsFoundThePlacesAreNamed) {
+  EXPECT_THAT([] { FindDeployment("sim", Installed()); },
+              testing::ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("got \"sim\"; none was found in /home/ada/.config/priamos, "),
+                        Not(HasSubstr("one of ")))));
 }
 
 TEST(ShownFrom, IsShortBelowAndWholeElsewhere) {

@@ -4,6 +4,7 @@
 
 #include "head/core/edges/edge_segments.hpp"
 #include "head/core/landmark/landmark_fix.hpp"
+#include "head/vision_options.hpp"
 #include "test/bench/vision/landmark_looks.hpp"
 
 namespace priamos::bench {
@@ -25,7 +26,7 @@ head::LandmarkFixOptions Told(const LandmarkLook& look);
 
 /// From the images to the fix, and the time it takes.
 struct Fixer {
-  head::EdgeOperator edge_operator;
+  head::EdgeOperator edge_operator{head::EdgeOptions(head::VisionConfig())};  ///< as priamos-head has it
   std::array<head::EdgeImage, 2> edges;
   double seconds = 0, edge_seconds = 0;  ///< all of it; the edge operator's part
 

@@ -1,8 +1,9 @@
 // How well the head sees: every figure that is promised, beside the public state of the art on the same
 // images in the same run.
 //   bench_vision [--quick] [--photo FILE]... [--pair LEFT RIGHT CAMERA CAMERA]... [--only PART]...
-// PART: edges, stereo, photometry, order, door, repeated, cupboard, budget, deceptions, leaves, bodies,
-// castle, detection, corridor, laser. Prints one line per figure with its bound; exit 1 if one is missed.
+// PART: edges, stereo, photometry, order, door, rooms, repeated, cupboard, budget, deceptions, leaves,
+// bodies, castle, detection, corridor, laser. Prints one line per figure with its bound; exit 1 if one is
+// missed.
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
@@ -21,9 +22,9 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile)
       ->expected(4, 400);
   app.add_option("--only", only, "these parts only")
-      ->check(
-          CLI::IsMember({"edges", "stereo", "photometry", "order", "door", "repeated", "cupboard", "budget",
-                         "deceptions", "leaves", "bodies", "castle", "detection", "corridor", "laser"}));
+      ->check(CLI::IsMember({"edges", "stereo", "photometry", "order", "door", "rooms", "repeated",
+                             "cupboard", "budget", "deceptions", "leaves", "bodies", "castle", "detection",
+                             "corridor", "laser"}));
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   const auto wanted = [&](std::string_view part) {
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   if (wanted("photometry")) BenchPhotometry(options, figures);
   if (wanted("order")) BenchOrder(options, figures);
   if (wanted("door")) BenchDoor(options, figures);
+  if (wanted("rooms")) BenchRooms(options, figures);
   if (wanted("repeated")) BenchRepeated(options, figures);
   if (wanted("cupboard")) BenchCupboard(options, figures);
   if (wanted("budget")) BenchBudget(options, figures);

@@ -43,6 +43,9 @@ void BenchRepeated(const VisionOptions& options, Figures& figures);
 /// reach (Cramer-Rao).
 void BenchBudget(const VisionOptions& options, Figures& figures);
 
+/// The doors of made-up buildings, whose plan a person with a tape made; absent, or another one in its place.
+void BenchRooms(const VisionOptions& options, Figures& figures);
+
 /// Scenes without the door, with another one, half hidden, with the leaf anywhere, nearly dark.
 void BenchDeceptions(const VisionOptions& options, Figures& figures);
 
