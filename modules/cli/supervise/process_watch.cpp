@@ -116,12 +116,12 @@ void ProcessWatch::SeenStopped(bool stopped, Time now) {
 
 void ProcessWatch::SaidAlive(Time now) {
   alive_ = now;
-  waited_before_ = waited_;
+  if (state_ == ProcessState::kReady) waited_before_ = waited_;
 }
 
 void ProcessWatch::SaidReady(Time now) {
-  SaidAlive(now);
   if (state_ == ProcessState::kStarting) Enter(ProcessState::kReady, now);
+  SaidAlive(now);
 }
 
 void ProcessWatch::Exited(const std::string& how, Time now) {

@@ -74,7 +74,8 @@ class ProcessWatch {
   ProcessState state_ = ProcessState::kWaiting;
   Time since_{}, alive_{};
   std::optional<Time> stopped_since_;
-  Duration waited_{}, waited_before_{};  ///< for a processor: until now, and until it said last that it lives
+  Duration waited_{},
+      waited_before_{};  ///< for a processor: until now, and until it said last that it lives, when ready
   bool stopping_ = false, restarting_ = false, killed_ = false;
   int failures_ = 0, starts_ = 0;
   std::string reason_, verdict_;  ///< verdict: why it was killed

@@ -309,8 +309,8 @@ TEST_F(CameraFileTest, MatricesNeedTheirNumbers) {
 TEST_F(CameraFileTest, WhatIsNoCameraIsNamed) {
   const std::string missing = folder_ / "none.yaml";
   EXPECT_EQ(support::ThrownReason([&] { Load(missing); }),
-            missing + ": expected a camera (YAML, XML or JSON), got no readable file");
-  EXPECT_THAT(support::ThrownReason([&] { Load(folder_.path()); }), EndsWith("got no readable file"));
+            missing + ": expected a camera (YAML, XML or JSON), got none");
+  EXPECT_THAT(support::ThrownReason([&] { Load(folder_.path()); }), EndsWith("got a folder"));
   EXPECT_EQ(ReasonOf(""), " expected a camera as YAML, XML or JSON, got an empty file");
   EXPECT_EQ(ReasonOf("hello\n"), "1: expected \"key: value\", got \"hello\"");
   EXPECT_EQ(ReasonOf("%YAML:1.0\n---\nkey: [ 1, 2\n"),
