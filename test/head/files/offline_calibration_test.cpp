@@ -111,7 +111,7 @@ TEST_F(OfflineCalibrationTest, BadListsAreRefusedWithFileAndLine) {
   EXPECT_THAT(ReasonOfPoints(""), HasSubstr("6"));
   OfflineCalibration missing;
   missing.points = {folder_ / "none.txt"};
-  EXPECT_THAT(ReasonOf(missing), HasSubstr("none.txt: expected a list of points, got no readable file"));
+  EXPECT_THAT(ReasonOf(missing), HasSubstr("none.txt: expected a list of points, got none"));
 }
 
 TEST_F(OfflineCalibrationTest, SwappedColumnsAreRefused) {
