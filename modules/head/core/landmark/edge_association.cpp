@@ -53,7 +53,7 @@ double Separation(const ProjectedEdge& a, const ProjectedEdge& b) {
   return std::abs(normal.dot((b.p + b.q) / 2 - a.p));
 }
 
-/// Drops edges that the edge operator may not tell from each other.
+/// Drops edges that lie nearer to each other than the kernels of the edge operator are wide.
 void DropCrowded(std::vector<Search>& searches, double min_separation_px) {
   for (Search& a : searches) {
     for (const Search& b : searches) {
@@ -117,7 +117,6 @@ void Account(const Search& search, const LandmarkEdge& edge, double density, int
   association.matches.back().edge = search.predicted.edge;
   association.matches.back().camera = camera;
   association.matches.back().log_odds = log_odds;
-  association.matches.back().crowded = search.nearest_px < options.crowded_px;
 }
 
 /// Adds the evidence of the movable part if it was found.

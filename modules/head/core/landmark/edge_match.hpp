@@ -18,7 +18,6 @@ struct EdgeMatch {
   double distance_px = 0;   ///< mean distance from the prediction, to the right of its direction positive
   double predicted_px = 0;  ///< predicted length
   double log_odds = 0;      ///< part of Association::log_odds
-  bool crowded = false;     ///< another model edge is so near that it pulls at what is found of this one
   double overshoot_px = 0;  ///< how far the image edge runs on where the model has an end
   /// How far the image edge ends before the prediction's from and to end; negative: it runs on.
   std::array<double, 2> gap_px{};

@@ -1,27 +1,10 @@
 #include "head/core/landmark/edge_observations.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "head/core/camera/projection.hpp"
 
 namespace priamos::head {
-namespace {
-
-constexpr double kEnd_px = 0.3;   ///< of the end of a line, a first approach
-constexpr double kPull_px = 0.4;  ///< what an edge nearer than the operator's kernels are wide does at most
-
-/// Standard deviation that each point of a crowded match has at least, so that all of them together tell no
-/// more than one that is off by the neighbour's pull.
-double LeastSigma(const EdgeMatch& match, const CameraView& view, bool coarse) {
-  if (!match.crowded) return 0;
-  int n = 0;
-  for (const int line : match.lines)
-    n += coarse ? 2 : view.edges->segments[view.lines[line].segment].n_points;
-  return kPull_px * std::sqrt(n);
-}
-
-}  // namespace
 
 std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Association& association,
                                           std::span<const CameraView> views,
@@ -34,7 +17,7 @@ std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Asso
     const auto predicted =
         ProjectEdge(*view.camera, view.size, base_from_landmark * edge.from, base_from_landmark * edge.to);
     if (!predicted) continue;
-    const double length = predicted->length_px(), least = LeastSigma(match, view, coarse);
+    const double length = predicted->length_px();
     const Eigen::Vector2d direction = predicted->direction();
     for (const int index : match.lines) {
       const ViewLine& line = view.lines[index];
@@ -43,8 +26,7 @@ std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Asso
         const double s = direction.dot(line.p - predicted->p), t = direction.dot(line.q - predicted->p);
         for (const double at : {std::clamp(s, 0.0, length), std::clamp(t, 0.0, length)}) {
           const double f = (at - s) / (t - s);
-          observations.push_back(
-              {match.edge, match.camera, line.p + f * (line.q - line.p), std::max(kEnd_px, least)});
+          observations.push_back({match.edge, match.camera, line.p + f * (line.q - line.p), 0.3});
         }
         continue;
       }
@@ -53,7 +35,7 @@ std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Asso
         const Eigen::Vector2d& at = view.points[segment.first_point + i];
         const double along = direction.dot(at - predicted->p);
         if (along < -kBeyond_px || along > length + kBeyond_px) continue;
-        observations.push_back({match.edge, match.camera, at, std::max(point.sigma_normal_px, least)});
+        observations.push_back({match.edge, match.camera, at, point.sigma_normal_px});
       }
     }
   }

@@ -10,8 +10,7 @@
 namespace priamos::head {
 
 /// Observations for the solver: every point of the matched segments within the predicted edge, undistorted.
-/// With `coarse` only the two ends of each line, which is enough to approach. A crowded match has large
-/// sigmas.
+/// With `coarse` only the two ends of each line, which is enough to approach.
 std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Association& association,
                                           std::span<const CameraView> views,
                                           const Eigen::Isometry3d& base_from_landmark, bool coarse);

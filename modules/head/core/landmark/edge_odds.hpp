@@ -14,7 +14,6 @@ struct AssociationOptions {
       40;  ///< half width of the strip in which the density of similar edges is measured
   double min_covered = 0.15;
   double min_separation_px = 5;  ///< model edges seen nearer to each other are left out, both
-  double crowded_px = 5;         ///< nearer ones that are not left out are EdgeMatch::crowded
   double grey_sigma = 0.35;      ///< measured minus modelled grey_ratio: lighting
   double any_grey_sigma = 0.7;   ///< measured grey_ratio of any edge, about 0
   double grey_surprise = 0.1;    ///< share of edges beside which there is something else

@@ -12,15 +12,9 @@ namespace priamos::head {
 namespace {
 
 /// Gates of the three passes from a proposal to the result: the prediction gets sharper from pass to pass.
-/// Edges of a jamb are seen nearer to each other than the kernels of the edge operator are wide, but are told
-/// apart.
-constexpr double kToldApart_px = 2.5;
-constexpr AssociationOptions kProposed{
-    .sigma_px = 2.0, .gate_px = 5.0, .max_angle_rad = 0.06, .min_separation_px = kToldApart_px};
-constexpr AssociationOptions kApproached{
-    .sigma_px = 1.0, .gate_px = 3.0, .max_angle_rad = 0.04, .min_separation_px = kToldApart_px};
-constexpr AssociationOptions kRefined{
-    .sigma_px = 0.5, .gate_px = 1.6, .max_angle_rad = 0.03, .min_separation_px = kToldApart_px};
+constexpr AssociationOptions kProposed{.sigma_px = 2.0, .gate_px = 5.0, .max_angle_rad = 0.06};
+constexpr AssociationOptions kApproached{.sigma_px = 1.0, .gate_px = 3.0, .max_angle_rad = 0.04};
+constexpr AssociationOptions kRefined{.sigma_px = 0.5, .gate_px = 1.6, .max_angle_rad = 0.03};
 constexpr int kRefineBest = 8;
 constexpr double kSameAnswer = 9;  ///< squared Mahalanobis distance, 3 degrees of freedom
 

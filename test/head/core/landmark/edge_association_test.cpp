@@ -40,9 +40,9 @@ class EdgeAssociationTest : public testing::Test {
     edges_.segments.push_back(segment);
   }
 
-  Association Look(const AssociationOptions& options = {}) {
+  Association Look() {
     const std::array<CameraView, 1> views{MakeView(camera_, edges_)};
-    return Associate(model_, kBoth, views, Eigen::Isometry3d::Identity(), options);
+    return Associate(model_, kBoth, views, Eigen::Isometry3d::Identity(), {});
   }
 
   static constexpr std::array<int, 2> kBoth{0, 1};
@@ -62,18 +62,6 @@ TEST_F(EdgeAssociationTest, ADecoyOfOppositeContrastIsNotTaken) {
   ASSERT_EQ(told.matches.size(), 1u);
   EXPECT_NEAR(told.matches[0].distance_px, 0.9, 0.01);
   EXPECT_NEAR(told.matches[0].grey_ratio, std::log(180.0 / 100), 1e-9);
-}
-
-TEST_F(EdgeAssociationTest, EdgesThatPullAtEachOtherCountWhereTheyAreToldApart) {
-  model_.edges[1] = {{3, 0.01, 0.8}, {3, 0.01, 1.6}, -kPi, kPi, 0};  // 3.3 px beside the other
-  Draw(0, 0, 0, 100, 180);
-  Draw(1, 0, 0, 180, 100);
-  EXPECT_TRUE(Look().matches.empty());
-  const Association dut = Look({.min_separation_px = 2.5});
-  ASSERT_EQ(dut.matches.size(), 2u);
-  EXPECT_TRUE(dut.matches[0].crowded && dut.matches[1].crowded);
-  EXPECT_TRUE(Look({.min_separation_px = 2.5, .crowded_px = 3}).matches.size() == 2u);
-  EXPECT_FALSE(Look({.min_separation_px = 2.5, .crowded_px = 3}).matches[0].crowded);
 }
 
 TEST_F(EdgeAssociationTest, GreyValuesWeighForAndAgainst) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "test/head/exact_view.hpp"
 #include "test/support/quad_scene.hpp"
 
@@ -88,16 +86,6 @@ TEST_F(EdgeObservationsTest, CoarselyALineIsItsTwoEnds) {
   EXPECT_LT((dut[0].at - left_.camera().Project(OnEdge(0))).norm(), 0.02);
   EXPECT_LT((dut[1].at - left_.camera().Project(OnEdge(1))).norm(), 0.02);
   EXPECT_DOUBLE_EQ(dut[0].sigma_px, 0.3);
-}
-
-TEST_F(EdgeObservationsTest, ANeighboursPullIsNoSmallerForManyPoints) {
-  EdgeMatch match = Match(0);
-  match.crowded = true;
-  for (const bool coarse : {false, true}) {
-    double information = 0;
-    for (const EdgeObservation& o : Observe({match}, coarse)) information += 1 / (o.sigma_px * o.sigma_px);
-    EXPECT_NEAR(std::sqrt(1 / information), 0.4, 0.01) << coarse;
-  }
 }
 
 TEST_F(EdgeObservationsTest, CoarselyALongLineEndsWhereTheModelDoes) {
