@@ -1,14 +1,11 @@
 #include "planner/core/explore/exploration.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "common/geometry.hpp"
 #include "common/learned/edge_walls.hpp"
-#include "planner/core/explore/frontier_tour.hpp"
 #include "planner/core/explore/passages.hpp"
 
 namespace priamos::planner {
@@ -24,10 +21,10 @@ constexpr double kTrail_m = 0.15;
 constexpr double kSamePlace_m = 0.5;
 /// What is so near to a place that was given up is given up as well.
 constexpr double kGivenUp_m = 0.6;
+/// A way that is no longer than this times, and this more than, the one over what is free is worth it.
+constexpr double kDetour = 2, kDetour_m = 3;
 /// The unknown so near to the way from a frontier to the goal beyond it may be driven over.
 constexpr double kOpened_m = 1.2;
-/// In which direction a frontier leads is seen from what is unknown so near.
-constexpr int kOutwardCells = 5;
 /// Middles of cells stand for places that are up to half a diagonal away.
 constexpr double kRaster_m = 0.05;
 
@@ -43,6 +40,10 @@ void ExplorationConfig::Describe(Archive& a) {
   a.Number("most_length_m", most_length_m, {"m", 0, 100, "up to this length of it"});
   a.Number("least_gain_m2", least_gain_m2, {"m2", 0, 5, "where less is unknown nothing is looked at"});
   a.Number("again_gain_m2", again_gain_m2, {"m2", 0, 7, "where less is unknown nothing is looked at again"});
+  a.Number("sight_m", sight_m, {"m", 0, 5, "what was so near with nothing in between is not worth a drive"});
+  a.Number("piece_m", piece_m, {"m", 0.5, 100, "a frontier that reaches farther is several"});
+  a.Number("gain_m2_per_m", gain_m2_per_m,
+           {"m2/m", 0, 7, "nor where less is for each metre of a long way there"});
   a.Number("beyond_m", beyond_m, {"m", 0, 3, "so far into the unknown the base drives"});
   a.Number("farthest_m", farthest_m, {"m", 5, 90, "what lies farther from the start is left"});
   a.Section("grid", grid, "what counts as seen");
@@ -107,7 +108,7 @@ void Exploration::AddThing(const Rectangle& thing) {
 }
 
 void Exploration::GiveUp(const Vector2d& target, std::string reason, bool for_good) {
-  given_up_.push_back({target, std::move(reason), Here(), for_good});
+  given_up_.push_back({target, std::move(reason), Here(), for_good || again_});
 }
 
 bool Exploration::TryAgain() {
@@ -143,12 +144,18 @@ const ExploredGrid& Exploration::grid() {
 }
 
 const PossibleFloor& Exploration::possible() {
-  if (!possible_) possible_.emplace(grid(), evidence_.trail, clearance_m_);
+  if (!possible_) possible_.emplace(grid(), evidence_.trail, clearance_m_, config_.sight_m);
   return *possible_;
 }
 
-double Exploration::LeastGain_m2() const {
-  return again_ ? std::max(config_.least_gain_m2, config_.again_gain_m2) : config_.least_gain_m2;
+double Exploration::LeastGain_m2(double way_m) const {
+  if (!again_) return config_.least_gain_m2;
+  return std::max({config_.least_gain_m2, config_.again_gain_m2, config_.gain_m2_per_m * way_m});
+}
+
+/// A base that keeps more room around itself than the cells take for enough may have to go around much.
+bool Exploration::IsWorth(const FrontierGoal& goal, double length_m) const {
+  return length_m <= kDetour * goal.way_m + kDetour_m || goal.gain_m2 >= config_.gain_m2_per_m * length_m;
 }
 
 /// What was made of the evidence: it has changed.
@@ -163,126 +170,13 @@ const Exploration::GivenUp* Exploration::FindGivenUp(const Vector2d& at) const {
   return found == given_up_.end() ? nullptr : &*found;
 }
 
-std::optional<FrontierGoal> Exploration::Choose(const Pose2& map_from_base) {
-  left_.clear();
-  const GridWays ways(grid(), map_from_base.translation(), clearance_m_);
-  possible();
-  std::vector<Candidate> candidates;
-  for (const Frontier& frontier : FrontiersOf(*grid_, config_.least_frontier_m)) {
-    if (const auto candidate = Best(frontier, ways, map_from_base))
-      candidates.push_back(*candidate);
-    else if (!IsCrumb(frontier))
-      left_.push_back({frontier.middle, frontier.length_m(), WhyLeft(frontier, ways)});
-  }
-  std::stable_sort(left_.begin(), left_.end(),
-                   [](const auto& a, const auto& b) { return a.length_m > b.length_m; });
-  if (candidates.empty()) return std::nullopt;
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
-  return candidates[config_.rule == "tour" ? FirstOf(candidates, ways) : 0].goal;
-}
-
-/// The first on the shortest way over the nearest of them: what is left behind has to be come back to.
-std::size_t Exploration::FirstOf(const std::vector<Candidate>& candidates, const GridWays& ways) {
-  const std::size_t n = std::min(candidates.size(), kMostTourPlaces);
-  std::vector<double> to;
-  std::vector<Vector2i> cells;
-  for (std::size_t i = 0; i < n; ++i) {
-    to.push_back(std::max(0.0, candidates[i].cost));
-    cells.push_back(candidates[i].cell);
-  }
-  Eigen::MatrixXd between(n, n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto row = ways.WaysFrom(cells[i], cells);
-    for (std::size_t k = 0; k < n; ++k) between(Eigen::Index(i), Eigen::Index(k)) = row[k];
-  }
-  return FirstOfTour(to, between);
-}
-
-/// The place of a frontier that costs least; nullopt: none can be reached.
-std::optional<Exploration::Candidate> Exploration::Best(const Frontier& frontier, const GridWays& ways,
-                                                        const Pose2& base) const {
-  std::optional<Candidate> best;
-  for (const Vector2i& at : frontier.cells) {
-    const Vector2d place = grid_->PlaceOf(at.x(), at.y());
-    if (!std::isfinite(ways.Way_m(at)) || ways.Clearance_m(at) < clearance_m_) continue;
-    if ((place - evidence_.trail.front()).norm() > config_.farthest_m || FindGivenUp(place)) continue;
-    const double cost = CostOf(frontier, at, ways, base);
-    if ((best && cost >= best->cost) || possible_->Behind_m2(at) < LeastGain_m2()) continue;
-    best = Candidate{{place, place, ways.Way_m(at), frontier.length_m()}, at, cost};
-  }
-  if (!best) return std::nullopt;
-  best->goal.goal = GoalBeyond(best->cell, ways);
-  if (config_.rule == "nearest") best->cost = ways.Way_m(best->cell);
-  return best;
-}
-
-double Exploration::CostOf(const Frontier& frontier, const Vector2i& cell, const GridWays& ways,
-                           const Pose2& base) const {
-  const Vector2d place = grid_->PlaceOf(cell.x(), cell.y());
-  if (config_.rule == "nearest") return (place - frontier.middle).norm();
-  const Vector2d there = base.Inverse() * place;
-  const double turn_rad = std::abs(std::atan2(there.y(), there.x()));
-  return ways.Way_m(cell) + config_.turn_m * turn_rad +
-         config_.tight_m * std::max(0.0, config_.roomy_m - ways.Clearance_m(cell)) -
-         config_.length_gain * std::min(config_.most_length_m, frontier.length_m());
-}
-
-/// Whether there is next to nothing behind all of it: the corner of a room, between walls that are known.
-bool Exploration::IsCrumb(const Frontier& frontier) const {
-  return std::all_of(frontier.cells.begin(), frontier.cells.end(), [&](const Vector2i& cell) {
-    return UnknownBehind_m2(*grid_, cell, [](const Vector2i&) { return true; }) < config_.least_gain_m2;
-  });
-}
-
-std::string Exploration::WhyLeft(const Frontier& frontier, const GridWays& ways) const {
-  double widest_m = 0;
-  bool near_enough = false;
-  for (const Vector2i& at : frontier.cells) {
-    const Vector2d place = grid_->PlaceOf(at.x(), at.y());
-    if (const GivenUp* given = FindGivenUp(place)) return given->reason;
-    widest_m = std::max(widest_m, 2 * ways.Clearance_m(at));
-    near_enough = near_enough || (place - evidence_.trail.front()).norm() <= config_.farthest_m;
-  }
-  if (!near_enough) return fmt::format("farther than {:.0f} m from the start", config_.farthest_m);
-  if (widest_m < 2 * clearance_m_)
-    return fmt::format("{:.1f} m wide, {:.2f} m needed", widest_m, 2 * (clearance_m_ + kRaster_m));
-  const bool some = std::any_of(frontier.cells.begin(), frontier.cells.end(), [&](const Vector2i& at) {
-    return possible_->Behind_m2(at) >= config_.least_gain_m2;
-  });
-  if (again_ && some) return "tried before, and little can be behind it";
-  return fmt::format("no way of {:.2f} m width leads there", 2 * (clearance_m_ + kRaster_m));
-}
-
-/// The direction in which most is unknown around a cell, of length 1; zero when that is even.
-Vector2d Exploration::Outward(const Vector2i& cell) const {
-  Vector2d sum(0, 0);
-  for (int dx = -kOutwardCells; dx <= kOutwardCells; ++dx)
-    for (int dy = -kOutwardCells; dy <= kOutwardCells; ++dy)
-      if (grid_->At(cell.x() + dx, cell.y() + dy) == Cell::kUnknown) sum += Vector2d(dx, dy);
-  return sum.norm() > 1 ? Vector2d(sum.normalized()) : Vector2d(0, 0);
-}
-
-/// As far beyond the frontier as nothing is known to be near.
-Vector2d Exploration::GoalBeyond(const Vector2i& cell, const GridWays& ways) const {
-  const Vector2d target = grid_->PlaceOf(cell.x(), cell.y()), outward = Outward(cell);
-  Vector2d goal = target;
-  for (double by_m = ExploredGrid::kStep_m; by_m <= config_.beyond_m + 1e-9; by_m += ExploredGrid::kStep_m) {
-    const Vector2d next = target + by_m * outward;
-    const Vector2i at = grid_->CellOf(next);
-    if (!grid_->Holds(at.x(), at.y()) || ways.Clearance_m(at) < clearance_m_) break;
-    goal = next;
-  }
-  return goal;
-}
-
 bool Exploration::IsOpen(const FrontierGoal& goal) {
   const auto frontiers = FrontiersOf(grid(), config_.least_frontier_m);
   possible();
   for (const Frontier& frontier : frontiers)
     for (const Vector2i& cell : frontier.cells)
       if ((grid_->PlaceOf(cell.x(), cell.y()) - goal.target).norm() < kSamePlace_m &&
-          possible_->Behind_m2(cell) >= LeastGain_m2())
+          possible_->Behind_m2(cell) >= LeastGain_m2(0))
         return true;
   return false;
 }

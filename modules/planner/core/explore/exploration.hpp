@@ -28,7 +28,10 @@ struct ExplorationConfig {
   double length_gain = 0.3;    ///< what a metre of frontier is worth ...
   double most_length_m = 4;    ///< ... up to this length
   double least_gain_m2 = 0.8;  ///< a frontier with less possible floor behind it is left unseen
-  double again_gain_m2 = 2.0;  ///< nor is one with less tried again once nothing else is left
+  double again_gain_m2 = 2.0;  ///< nor is one with less tried again once nothing else is left ...
+  double gain_m2_per_m = 0;    ///< ... or with less for each metre of the way to it
+  double sight_m = 0;          ///< what was so near, with nothing in between, is not worth a drive
+  double piece_m = 100;        ///< a frontier that reaches farther is several
   double beyond_m = 1.0;       ///< the base drives so far into the unknown, as far as nothing is known there
   double farthest_m = 80;      ///< from where it began; what lies beyond is left
 
@@ -41,6 +44,7 @@ struct FrontierGoal {
   Eigen::Vector2d goal{0, 0};    ///< where the base centre is to be: there, or a bit beyond
   double way_m = 0;              ///< to the target over what is free
   double length_m = 0;           ///< of the frontier
+  double gain_m2 = 0;            ///< possible floor behind it
 };
 
 /// A frontier that is not driven to, and why.
@@ -76,8 +80,8 @@ class Exploration {
   void GiveUp(const Eigen::Vector2d& target, std::string reason, bool for_good = false);
 
   /// Forgets what stopped the base and what was given up, but for good: a thing is known by one side only,
-  /// and may have been a person. From then on only frontiers with much behind them count. False: there is
-  /// nothing to forget.
+  /// and may have been a person. From then on only frontiers with much behind them count, for the way that
+  /// leads to them, and each is tried once. False: there is nothing to forget.
   bool TryAgain();
 
   /// The way back to where the base began, without the loops, as far as `length_m`: it was there with its
@@ -86,6 +90,8 @@ class Exploration {
 
   /// The frontier that is next; nullopt: nothing is left that can be reached.
   std::optional<FrontierGoal> Choose(const Pose2& map_from_base);
+  /// Whether a frontier is worth a way of that length, which may be longer than the one over what is free.
+  bool IsWorth(const FrontierGoal& goal, double length_m) const;
   /// Whether the frontier is still there at its place.
   bool IsOpen(const FrontierGoal& goal);
   /// The frontiers that Choose() left, longest first.
@@ -118,7 +124,7 @@ class Exploration {
   bool IsCrumb(const Frontier& frontier) const;
   const PossibleFloor& possible();
   void Forget();
-  double LeastGain_m2() const;
+  double LeastGain_m2(double way_m) const;
   std::string WhyLeft(const Frontier& frontier, const GridWays& ways) const;
   Eigen::Vector2d GoalBeyond(const Eigen::Vector2i& cell, const GridWays& ways) const;
   Eigen::Vector2d Outward(const Eigen::Vector2i& cell) const;

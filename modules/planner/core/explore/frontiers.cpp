@@ -1,6 +1,8 @@
 #include "planner/core/explore/frontiers.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/geometry.hpp"
@@ -52,6 +54,32 @@ std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m) {
       if (frontier.length_m() >= least_m) frontiers.push_back(std::move(frontier));
     }
   return frontiers;
+}
+
+/// Each cell goes to the nearest of some middles, of which each is the cell farthest from those before
+/// (Gonzalez 1985).
+std::vector<Frontier> PiecesOf(const Frontier& frontier, const ExploredGrid& grid, double most_m) {
+  const auto& cells = frontier.cells;
+  const double reach = most_m / 2 / ExploredGrid::kStep_m;
+  std::vector<double> away(cells.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> piece_of(cells.size(), 0);
+  std::vector<Frontier> pieces;
+  for (std::size_t middle = 0; pieces.empty() || away[middle] > reach;) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const double off = (cells[i] - cells[middle]).cast<double>().norm();
+      if (off >= away[i]) continue;
+      away[i] = off;
+      piece_of[i] = pieces.size();
+    }
+    pieces.emplace_back();
+    middle = std::size_t(std::max_element(away.begin(), away.end()) - away.begin());
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) pieces[piece_of[i]].cells.push_back(cells[i]);
+  for (Frontier& piece : pieces) {
+    for (const auto& cell : piece.cells) piece.middle += grid.PlaceOf(cell.x(), cell.y());
+    piece.middle /= static_cast<double>(piece.cells.size());
+  }
+  return pieces;
 }
 
 double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell,

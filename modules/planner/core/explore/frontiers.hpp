@@ -20,6 +20,10 @@ struct Frontier {
 /// The frontiers of a grid of at least that length, in the order of their first cells.
 std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m);
 
+/// A frontier in pieces that reach no farther than `most_m`: one that runs around a crossing leads to several
+/// places.
+std::vector<Frontier> PiecesOf(const Frontier& frontier, const ExploredGrid& grid, double most_m);
+
 /// How much of the unknown that `counts` is within 1.5 m of a cell, as far as nothing closed is in between
 /// [m2].
 double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell,

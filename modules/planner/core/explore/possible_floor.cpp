@@ -1,8 +1,11 @@
 #include "planner/core/explore/possible_floor.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "common/geometry.hpp"
 #include "planner/core/explore/frontiers.hpp"
 
 namespace priamos::planner {
@@ -14,6 +17,8 @@ using Eigen::Vector2i;
 
 /// What the clearance of a base's middle has over half its width.
 constexpr double kMargin_m = 0.05;
+/// Lines of sight end so far apart, and begin at places so far apart.
+constexpr double kRim_m = 0.08, kApart_m = 0.3;
 
 /// Cells whose middles lie within a circle around that of a cell.
 std::vector<Vector2i> DiscOf(double radius_m) {
@@ -68,11 +73,37 @@ std::vector<Vector2i> MiddlesFrom(const ExploredGrid& grid, const std::vector<Ve
 
 }  // namespace
 
-PossibleFloor::PossibleFloor(const ExploredGrid& grid, const std::vector<Vector2d>& trail, double clearance_m)
+PossibleFloor::PossibleFloor(const ExploredGrid& grid, const std::vector<Vector2d>& trail, double clearance_m,
+                             double sight_m)
     : grid_(&grid), has_(Widened(grid, MiddlesFrom(grid, trail, clearance_m), clearance_m - kMargin_m)) {
   for (int y = 0; y < grid.ny(); ++y)
     for (int x = 0; x < grid.nx(); ++x)
       if (grid.At(x, y) != Cell::kUnknown) has_[grid.IndexOf(x, y)] = false;
+  TakeOutOfSight(trail, sight_m);
+}
+
+/// Takes what is in sight of the trail.
+void PossibleFloor::TakeOutOfSight(const std::vector<Vector2d>& trail, double sight_m) {
+  const int rays = static_cast<int>(std::ceil(2 * kPi * sight_m / kRim_m));
+  std::optional<Vector2d> last;  // the newest counts always
+  for (auto at = trail.rbegin(); at != trail.rend(); ++at) {
+    if (last && (*at - *last).norm() < kApart_m) continue;
+    last = *at;
+    for (int i = 0; i < rays; ++i) {
+      const double angle = 2 * kPi * i / rays;
+      TakeLine(*at, *at + sight_m * Vector2d(std::cos(angle), std::sin(angle)));
+    }
+  }
+}
+
+void PossibleFloor::TakeLine(const Vector2d& from, const Vector2d& to) {
+  const int steps = static_cast<int>(std::ceil((to - from).norm() / (ExploredGrid::kStep_m / 2)));
+  for (int i = 0; i <= steps; ++i) {
+    const Vector2i at = grid_->CellOf(from + (to - from) * (double(i) / std::max(1, steps)));
+    const Cell what = grid_->At(at.x(), at.y());
+    if (what == Cell::kClosed || what == Cell::kDoubtful || !grid_->Holds(at.x(), at.y())) return;
+    has_[grid_->IndexOf(at.x(), at.y())] = false;
+  }
 }
 
 double PossibleFloor::Behind_m2(const Vector2i& cell) const {

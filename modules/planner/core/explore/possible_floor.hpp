@@ -9,10 +9,13 @@ namespace priamos::planner {
 
 /// What of the unknown a base could come to cover, if nothing stood in it: where its middle gets from where
 /// it was, `clearance_m` off all that is closed and not through the ends of walls, and half its width around.
-/// The corner of a room and the gap between two pieces of a wall are none of it.
+/// The corner of a room and the gap between two pieces of a wall are none of it, nor is what was in sight:
+/// the border of what is free runs through it, but nothing new is seen from there.
 class PossibleFloor {
  public:
-  PossibleFloor(const ExploredGrid& grid, const std::vector<Eigen::Vector2d>& trail, double clearance_m);
+  /// In sight is what lies so near to the trail, `sight_m`, with nothing closed in between.
+  PossibleFloor(const ExploredGrid& grid, const std::vector<Eigen::Vector2d>& trail, double clearance_m,
+                double sight_m);
 
   /// Whether it is unknown and may be covered; false outside of the grid.
   bool Has(const Eigen::Vector2i& cell) const {
@@ -23,6 +26,9 @@ class PossibleFloor {
   double Behind_m2(const Eigen::Vector2i& cell) const;
 
  private:
+  void TakeOutOfSight(const std::vector<Eigen::Vector2d>& trail, double sight_m);
+  void TakeLine(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+
   const ExploredGrid* grid_;
   std::vector<bool> has_;
 };

@@ -24,9 +24,6 @@ constexpr std::size_t kNamed = 1;
 constexpr int kNoStore = 0;
 /// A map that has moved by so much under a robot on its way is a reason to plan it anew.
 constexpr double kMoved_m = 0.15;
-/// A robot that knows its place worse is told where it is, so well; it stands then, for so long at least.
-constexpr double kVague_m = 0.3, kVague_rad = Radians(6), kPlaced_m = 0.05, kPlaced_rad = Radians(0.6);
-constexpr double kStands = 0.01, kSettled_s = 1.0;
 
 double SecondsOf(Time time) {
   return 1e-6 * static_cast<double>(ToUtime(time));
@@ -43,22 +40,6 @@ std::vector<Rectangle> ShapesOf(const GroundPlan& plan) {
 }
 
 }  // namespace
-
-void ExploreMissionConfig::Describe(Archive& a) {
-  a.Number("speed_m_s", speed_m_s, {"m/s", 0.05, 1, "on the way"});
-  a.Number("near_m", near_m, {"m", 0.05, 1, "distance to a goal at which it counts as reached"});
-  a.Number("reconsider_s", reconsider_s, {"s", 0.5, 60, "so often the frontier ahead is looked at anew"});
-  a.Number("stands_s", stands_s,
-           {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
-  a.Number("idle_s", idle_s, {"s", 1, 600, "a robot that comes no further for so long is blocked"});
-  a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
-  a.Integer("rounds", rounds, {"-", 0, 20, "rounds over what was left that see nothing more"});
-  a.Integer("retries", retries, {"-", 0, 20, "paths that end elsewhere before a frontier is given up"});
-  limits.Describe(a);
-  a.Section("route", route, "the way to a frontier");
-  a.Section("choice", choice, "which frontier is next");
-  a.Section("graph", graph, "the map that is made, and where the robot is in it");
-}
 
 ExploreMission::ExploreMission(const ExploreMissionConfig& config, const Footprint& footprint,
                                const GroundPlan& plan)
@@ -224,8 +205,9 @@ void ExploreMission::Next(MissionControl& control) {
     const bool shut_in = stopped_at_ && (base.translation() - *stopped_at_).norm() < kShutIn_m;
     if (!frontier && shut_in && GoBack(control)) return;
     if (!frontier) continue;
-    if (DriveTo(control, *frontier)) return;
-    exploration_.GiveUp(frontier->target, WhyNoWay(base, *frontier));
+    auto path = WayTo(base, *frontier);
+    if (path) return DriveTo(control, *frontier, std::move(*path));
+    exploration_.GiveUp(frontier->target, path.reason());
   }
   undecided_ = true;  // the rest is looked at in the next time step
   if (!control.path_sent() || !control.path().points.empty()) control.OrderPath({}, 0);
@@ -254,29 +236,34 @@ bool ExploreMission::GoBack(MissionControl& control) {
   return true;
 }
 
-std::string ExploreMission::WhyNoWay(const Pose2& base, const FrontierGoal& frontier) const {
-  const auto refusal =
-      planner_.CheckEnds(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
-  return refusal ? refusal->reason : "no way for the whole base leads there";
+/// A way for the whole base to the place beyond the frontier, or at least to the frontier, that is worth it.
+Outcome<PlannedPath> ExploreMission::WayTo(const Pose2& base, const FrontierGoal& frontier) {
+  planner_.Take(exploration_.ObstaclesFor(frontier), base);
+  std::optional<double> too_far_m;
+  const Pose2 at{frontier.target.x(), frontier.target.y(), base.yaw};
+  for (const Pose2& to : {Pose2{frontier.goal.x(), frontier.goal.y(), base.yaw}, at}) {
+    if (auto path = planner_.FindPath(base, {to, false})) {
+      const double length_m = LengthOf(base, path->points);
+      if (exploration_.IsWorth(frontier, length_m)) return *path;
+      too_far_m = length_m;
+    }
+    if (frontier.goal == frontier.target) break;
+  }
+  if (too_far_m)
+    return Refusal{
+        fmt::format("the way there is {:.0f} m, for {:.1f} m2 at most", *too_far_m, frontier.gain_m2)};
+  return planner_.CheckEnds(base, {at, false}).value_or(Refusal{"no way for the whole base leads there"});
 }
 
-/// False when no way leads there.
-bool ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& frontier) {
-  const Pose2 base = BaseOf(control);
-  planner_.Take(exploration_.ObstaclesFor(frontier), base);
-  auto path = planner_.FindPath(base, {{frontier.goal.x(), frontier.goal.y(), base.yaw}, false});
-  if (!path && frontier.goal != frontier.target)
-    path = planner_.FindPath(base, {{frontier.target.x(), frontier.target.y(), base.yaw}, false});
-  if (!path) return false;
-  path = FirstPart(std::move(*path));
+void ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& frontier, PlannedPath path) {
   if (!goal_ || (goal_->target - frontier.target).norm() > config_.near_m) missed_ = 0;
   goal_ = frontier;
-  const double length_m = LengthOf(base, path->points);
-  Order(control, std::move(*path));
+  path = FirstPart(std::move(path));
+  const double length_m = LengthOf(BaseOf(control), path.points);
+  Order(control, std::move(path));
   control.Enter(Phase::kDriving, fmt::format("exploring, {:.0f} m2 seen; to ({:.1f}, {:.1f}), {:.1f} m",
                                              exploration_.grid().free_m2(), frontier.target.x(),
                                              frontier.target.y(), length_m));
-  return true;
 }
 
 std::string ExploreMission::Left() const {
@@ -294,35 +281,6 @@ void ExploreMission::Finish(MissionControl& control) {
   control.SendMap(exploration_.walls());
   placing_ = Placing::kNo;
   Place(control);
-}
-
-/// A robot holds when it does not know where it is in its own frame. Where it is on the map is known better,
-/// and its own frame is what it says: so it is told that it is there, before it holds.
-bool ExploreMission::IsVague(const MissionControl& control) const {
-  const Eigen::Matrix3d& covariance = control.heard().pose->covariance;
-  return placing_ != Placing::kNo || covariance(0, 0) + covariance(1, 1) > kVague_m * kVague_m ||
-         covariance(2, 2) > kVague_rad * kVague_rad;
-}
-
-/// It has to stand before it can be told. In the end it is told where it is on the map: from then on its pose
-/// is that of the map.
-void ExploreMission::Place(MissionControl& control) {
-  const RobotPose& pose = *control.heard().pose;
-  if (placing_ == Placing::kNo) {
-    placing_ = Placing::kBrakes;
-    braked_ = control.now();
-    return control.OrderPath({}, 0);
-  }
-  if (placing_ == Placing::kBrakes) {
-    const bool stands = std::hypot(pose.velocity.vx, pose.velocity.vy, pose.velocity.wz) < kStands;
-    if (!stands || Seconds(pose.stamp - braked_) < kSettled_s) return;
-    placing_ = Placing::kTold;
-    return control.OrderPlace(outcome_ ? BaseOf(control) : pose.map_from_base, kPlaced_m, kPlaced_rad);
-  }
-  if (control.IsPlacing()) return;
-  placing_ = Placing::kNo;
-  if (outcome_) return control.Enter(Phase::kDone, *outcome_);
-  Next(control);
 }
 
 }  // namespace priamos::planner

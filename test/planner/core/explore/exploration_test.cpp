@@ -80,7 +80,7 @@ TEST(ExplorationTest, AGapThatIsTooNarrowIsLeftWithTheReason) {
 }
 
 TEST(ExplorationTest, WhatWasGivenUpIsNotTriedBeforeItIsSaid) {
-  Exploration dut({}, kWidth_m, {});
+  Exploration dut({.sight_m = 0}, kWidth_m, {});
   dut.NoteAt({0, 0, 0});
   int n = 0;
   for (auto goal = dut.Choose({0, 0, 0}); goal && n < 100; goal = dut.Choose({0, 0, 0}), ++n)
@@ -97,6 +97,53 @@ TEST(ExplorationTest, WhatWasGivenUpIsNotTriedBeforeItIsSaid) {
   dut.Reset();
   dut.NoteAt({0, 0, 0});
   EXPECT_TRUE(dut.Choose({0, 0, 0}));
+}
+
+TEST(ExplorationTest, WhatIsTriedAgainIsTriedOnce) {
+  Exploration dut({.sight_m = 0}, kWidth_m, {});
+  dut.NoteAt({0, 0, 0});
+  const auto give_all_up = [&] {
+    int n = 0;
+    for (auto goal = dut.Choose({0, 0, 0}); goal && n < 100; goal = dut.Choose({0, 0, 0}), ++n)
+      dut.GiveUp(goal->target, "somebody stands there");
+    return n;
+  };
+  EXPECT_GT(give_all_up(), 0);
+  ASSERT_TRUE(dut.TryAgain());
+  EXPECT_GT(give_all_up(), 0);
+  EXPECT_FALSE(dut.TryAgain());
+}
+
+TEST(ExplorationTest, InTheEndLittleIsNotWorthALongWay) {
+  for (const double m2_per_m : {0.1, 10.0}) {
+    ExplorationConfig config;
+    config.gain_m2_per_m = m2_per_m;
+    config.sight_m = 0;
+    Exploration dut(config, kWidth_m, {});
+    for (double x = 0; x <= 9; x += 0.2) dut.NoteAt({x, 0, 0});
+    dut.Learn({1, 1, {WallAt(4.5, -1, 0, 12), WallAt(4.5, 1, 180, 12), WallAt(10.5, 0, 90, 2.2)}, {}});
+    dut.GiveUp({9, 0}, "somebody stands there");
+    ASSERT_TRUE(dut.TryAgain());
+    EXPECT_EQ(dut.Choose({9, 0, 0}).has_value(), m2_per_m < 1) << "the other end of the corridor";
+  }
+}
+
+TEST(ExplorationTest, WhatWasInSightIsNotDrivenTo) {
+  for (const double sight_m : {0.0, 2.0}) {  // the middle of a room of 3.8 m x 3.8 m
+    Exploration dut(
+        {.sight_m = sight_m}, kWidth_m,
+        {{{2, 0, 0}, {0.1, 2}}, {{-2, 0, 0}, {0.1, 2}}, {{0, 2, 0}, {2, 0.1}}, {{0, -2, 0}, {2, 0.1}}});
+    dut.NoteAt({0, 0, 0});
+    EXPECT_EQ(dut.Choose({0, 0, 0}).has_value(), sight_m == 0) << sight_m;
+  }
+}
+
+TEST(ExplorationTest, ALongWayAroundHasToBeWorthIt) {
+  const Exploration dut({.gain_m2_per_m = 0.5}, kWidth_m, {});
+  const FrontierGoal goal{.way_m = 2, .gain_m2 = 3};
+  EXPECT_TRUE(dut.IsWorth(goal, 7)) << "about as far as it seemed";
+  EXPECT_FALSE(dut.IsWorth(goal, 8));
+  EXPECT_TRUE(dut.IsWorth({.way_m = 2, .gain_m2 = 5}, 8));
 }
 
 TEST(ExplorationTest, TheWayBackLeavesLoopsOutAndLeadsToTheBeginning) {

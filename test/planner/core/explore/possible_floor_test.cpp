@@ -31,11 +31,11 @@ TEST(PossibleFloorTest, BehindAWallIsNone) {
   ExploredEvidence evidence;
   evidence.trail = {{0, 0}};
   const ExploredGrid open({.near_m = 1.3}, evidence);
-  const PossibleFloor all(open, evidence.trail, kClearance_m);
+  const PossibleFloor all(open, evidence.trail, kClearance_m, 0);
   EXPECT_GT(all.Behind_m2(open.CellOf({1.2, 0})), 3);
   evidence.walls = {1, 1, {WallAt(1.5, 0, 90, 20)}, {}};
   const ExploredGrid closed({.near_m = 1.3}, evidence);
-  const PossibleFloor before(closed, evidence.trail, kClearance_m);
+  const PossibleFloor before(closed, evidence.trail, kClearance_m, 0);
   EXPECT_LT(before.Behind_m2(closed.CellOf({1.2, 0})), 2.2);
   EXPECT_FALSE(before.Has(closed.CellOf({2.5, 0})));
   EXPECT_TRUE(all.Has(open.CellOf({2.5, 0})));
@@ -44,7 +44,7 @@ TEST(PossibleFloorTest, BehindAWallIsNone) {
 TEST(PossibleFloorTest, TheCornersOfARoomAreNone) {
   const ExploredEvidence evidence = Room(0.5);
   const ExploredGrid grid({.near_m = 1.9}, evidence);
-  const PossibleFloor floor(grid, evidence.trail, kClearance_m);
+  const PossibleFloor floor(grid, evidence.trail, kClearance_m, 0);
   EXPECT_FALSE(floor.Has(grid.CellOf({3, 0})));
   EXPECT_FALSE(floor.Has(grid.CellOf({2.4, 2.4})));
   EXPECT_LT(floor.Behind_m2(grid.CellOf({1.3, 1.3})), 0.8);
@@ -56,15 +56,27 @@ TEST(PossibleFloorTest, AnOpeningLeadsThereWhereTheBaseFits) {
     evidence.walls.walls[0] = WallAt(-1 - width_m / 4, -2, 0, 2 - width_m / 2);
     evidence.walls.walls.push_back(WallAt(1 + width_m / 4, -2, 0, 2 - width_m / 2));
     const ExploredGrid grid({.near_m = 1.6}, evidence);
-    EXPECT_EQ(CellsOf(PossibleFloor(grid, evidence.trail, kClearance_m), grid) > 100, width_m > 1) << width_m;
+    EXPECT_EQ(CellsOf(PossibleFloor(grid, evidence.trail, kClearance_m, 0), grid) > 100, width_m > 1)
+        << width_m;
   }
+}
+
+TEST(PossibleFloorTest, WhatWasInSightIsNone) {
+  ExploredEvidence evidence;
+  evidence.trail = {{0, 0}};
+  evidence.walls.walls = {WallAt(0, 1, 180, 2)};
+  const ExploredGrid grid({.near_m = 1.3}, evidence);
+  const PossibleFloor floor(grid, evidence.trail, kClearance_m, 2.0);
+  EXPECT_FALSE(floor.Has(grid.CellOf({1.8, 0})));
+  EXPECT_TRUE(floor.Has(grid.CellOf({2.2, 0})));
+  EXPECT_TRUE(floor.Has(grid.CellOf({0, 1.8}))) << "behind a wall nothing is in sight";
 }
 
 TEST(PossibleFloorTest, WhatIsKnownIsNone) {
   const ExploredEvidence evidence = Room(0);
   const ExploredGrid grid({.near_m = 3}, evidence);
-  EXPECT_EQ(CellsOf(PossibleFloor(grid, evidence.trail, kClearance_m), grid), 0);
-  const PossibleFloor floor(grid, evidence.trail, kClearance_m);
+  EXPECT_EQ(CellsOf(PossibleFloor(grid, evidence.trail, kClearance_m, 0), grid), 0);
+  const PossibleFloor floor(grid, evidence.trail, kClearance_m, 0);
   EXPECT_FALSE(floor.Has({-1, 0}));
 }
 
