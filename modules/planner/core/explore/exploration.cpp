@@ -25,8 +25,6 @@ constexpr double kGivenUp_m = 0.6;
 constexpr double kDetour = 2, kDetour_m = 3;
 /// The unknown so near to the way from a frontier to the goal beyond it may be driven over.
 constexpr double kOpened_m = 1.2;
-/// Middles of cells stand for places that are up to half a diagonal away.
-constexpr double kRaster_m = 0.05;
 
 }  // namespace
 

@@ -104,6 +104,8 @@ class Exploration {
   double driven_m() const { return driven_m_; }
 
  private:
+  /// Middles of cells stand for places that are up to half a diagonal away.
+  static constexpr double kRaster_m = 0.05;
   struct GivenUp {
     Eigen::Vector2d at;
     std::string reason;

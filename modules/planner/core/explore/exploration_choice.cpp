@@ -17,8 +17,6 @@ using Eigen::Vector2i;
 
 /// In which direction a frontier leads is seen from what is unknown so near.
 constexpr int kOutwardCells = 5;
-/// Middles of cells stand for places that are up to half a diagonal away.
-constexpr double kRaster_m = 0.05;
 
 }  // namespace
 

@@ -18,7 +18,7 @@ using Eigen::Vector2i;
 /// What the clearance of a base's middle has over half its width.
 constexpr double kMargin_m = 0.05;
 /// Lines of sight end so far apart, and begin at places so far apart.
-constexpr double kRim_m = 0.08, kApart_m = 0.3;
+constexpr double kSightRim_m = 0.08, kLooksApart_m = 0.3;
 
 /// Cells whose middles lie within a circle around that of a cell.
 std::vector<Vector2i> DiscOf(double radius_m) {
@@ -84,10 +84,10 @@ PossibleFloor::PossibleFloor(const ExploredGrid& grid, const std::vector<Vector2
 
 /// Takes what is in sight of the trail.
 void PossibleFloor::TakeOutOfSight(const std::vector<Vector2d>& trail, double sight_m) {
-  const int rays = static_cast<int>(std::ceil(2 * kPi * sight_m / kRim_m));
+  const int rays = static_cast<int>(std::ceil(2 * kPi * sight_m / kSightRim_m));
   std::optional<Vector2d> last;  // the newest counts always
   for (auto at = trail.rbegin(); at != trail.rend(); ++at) {
-    if (last && (*at - *last).norm() < kApart_m) continue;
+    if (last && (*at - *last).norm() < kLooksApart_m) continue;
     last = *at;
     for (int i = 0; i < rays; ++i) {
       const double angle = 2 * kPi * i / rays;
