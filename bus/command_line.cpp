@@ -18,8 +18,6 @@
 namespace priamos::bus {
 namespace {
 
-constexpr int kCannotStart = 2;
-
 std::vector<std::string> VerbNames(const CLI::App& app) {
   std::vector<std::string> names;
   for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))

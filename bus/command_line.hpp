@@ -10,6 +10,9 @@ class Error;
 
 namespace priamos::bus {
 
+/// Exit code of a process that was asked for what it cannot do; nothing was begun.
+inline constexpr int kCannotStart = 2;
+
 /// Parses the arguments of a program and runs the callbacks of the verb they name. Adds `--version`, and to
 /// every option that takes a number the check that it is one: no negative or overflowing count, no nan. Text
 /// must not be empty, as `"$FILE"` is of a variable that is not set.

@@ -34,7 +34,6 @@ namespace priamos::bus {
 namespace {
 
 constexpr int kFailedWhileRunning = 1;
-constexpr int kStartFailed = 2;
 constexpr std::string_view kFileUrl = "file://";
 
 using Options = ProcessOptions;
@@ -236,7 +235,7 @@ int RunProcess(const AppFactory& factory, int argc, char** argv, const LogShow& 
     return Run(factory, options, show, running);
   } catch (const std::exception& error) {
     std::cerr << "priamos-" << factory.name << ": " << error.what() << "\n";
-    return running ? kFailedWhileRunning : kStartFailed;
+    return running ? kFailedWhileRunning : kCannotStart;
   }
 }
 

@@ -42,7 +42,6 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 using std::chrono::milliseconds;
 
-constexpr int kNotThere = 1;
 constexpr auto kUpWithin = std::chrono::seconds(20);
 
 struct UpOptions {

@@ -26,7 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr int kNotUp = 1;
 constexpr auto kDownWithin = std::chrono::seconds(15);
 
 struct QueryOptions {
@@ -63,7 +62,7 @@ bool SayWhereItIsUp(const QueryOptions& options) {
 
 int Down(const QueryOptions& options) {
   const auto pid = UpLock::Holder(options.log_root);
-  if (!pid) return SayWhereItIsUp(options) ? kNotUp : SayDown(false, options.json);
+  if (!pid) return SayWhereItIsUp(options) ? kNotThere : SayDown(false, options.json);
   kill(*pid, SIGTERM);
   const auto give_up = std::chrono::steady_clock::now() + kDownWithin;
   while (UpLock::Holder(options.log_root) == pid) {
@@ -71,7 +70,7 @@ int Down(const QueryOptions& options) {
       std::cerr << fmt::format(
           "priamos down: pid {} did not end within 15 s; `kill -9 {}` ends it and its processes\n", *pid,
           *pid);
-      return kNotUp;
+      return kNotThere;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -81,14 +80,14 @@ int Down(const QueryOptions& options) {
 int Status(const QueryOptions& options) {
   const auto state = ReadUpState(options.log_root);
   if (!UpLock::Holder(options.log_root) || !state) {
-    if (SayWhereItIsUp(options)) return kNotUp;
+    if (SayWhereItIsUp(options)) return kNotThere;
     std::cout << (options.json ? "{\"up\":false}\n" : "nothing is up\n");
-    return kNotUp;
+    return kNotThere;
   }
   ordered_json all{{"up", true}};
   if (options.json) all.update(ToJson(*state));
   std::cout << (options.json ? all.dump() + "\n" : FormatUpState(*state, TableSize()));
-  return state->ready ? 0 : kNotUp;
+  return state->ready ? 0 : kNotThere;
 }
 
 /// The last `lines` of a console.
@@ -132,7 +131,7 @@ int Logs(const QueryOptions& options) {
   if (!name.empty() && !HasSideOf(name, state)) return LogsOfBus(options);
   if (!state) {
     std::cout << (options.json ? "[]\n" : "nothing was ever up\n");
-    return kNotUp;
+    return kNotThere;
   }
   auto all = ordered_json::array();
   std::vector<std::string> known;

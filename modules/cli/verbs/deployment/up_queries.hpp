@@ -10,6 +10,9 @@ class App;
 
 namespace priamos::cli {
 
+/// Exit code when what is asked about is not up, or did not come up.
+inline constexpr int kNotThere = 1;
+
 /// Adds the verbs `down`, `status` and `logs`: what one asks of a deployment that is up.
 void AddUpQueries(CLI::App& cli, int& exit_code);
 
