@@ -36,12 +36,12 @@ void ExplorationConfig::Describe(Archive& a) {
   a.Number("roomy_m", roomy_m, {"m", 0, 3, "distance from what is closed that costs nothing"});
   a.Number("length_gain", length_gain, {"-", 0, 10, "what a metre of frontier is worth"});
   a.Number("most_length_m", most_length_m, {"m", 0, 100, "up to this length of it"});
-  a.Number("least_gain_m2", least_gain_m2, {"m2", 0, 5, "where less is unknown nothing is looked at"});
-  a.Number("again_gain_m2", again_gain_m2, {"m2", 0, 7, "where less is unknown nothing is looked at again"});
   a.Number("sight_m", sight_m, {"m", 0, 5, "what was so near with nothing in between is not worth a drive"});
-  a.Number("piece_m", piece_m, {"m", 0.5, 100, "a frontier that reaches farther is several"});
+  a.Number("least_gain_m2", least_gain_m2, {"m2", 0, 5, "where less can be seen nothing is looked at"});
+  a.Number("again_gain_m2", again_gain_m2,
+           {"m2", 0, 100, "where less can be behind it nothing is looked at again"});
   a.Number("gain_m2_per_m", gain_m2_per_m,
-           {"m2/m", 0, 7, "nor where less is for each metre of a long way there"});
+           {"m2/m", 0, 7, "nor where less is for each metre of the way there"});
   a.Number("beyond_m", beyond_m, {"m", 0, 3, "so far into the unknown the base drives"});
   a.Number("farthest_m", farthest_m, {"m", 5, 90, "what lies farther from the start is left"});
   a.Section("grid", grid, "what counts as seen");
@@ -174,7 +174,7 @@ bool Exploration::IsOpen(const FrontierGoal& goal) {
   for (const Frontier& frontier : frontiers)
     for (const Vector2i& cell : frontier.cells)
       if ((grid_->PlaceOf(cell.x(), cell.y()) - goal.target).norm() < kSamePlace_m &&
-          possible_->Behind_m2(cell) >= LeastGain_m2(0))
+          Gain_m2(cell) >= LeastGain_m2(0))
         return true;
   return false;
 }

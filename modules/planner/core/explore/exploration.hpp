@@ -27,11 +27,10 @@ struct ExplorationConfig {
   double roomy_m = 1.0;
   double length_gain = 0.3;    ///< what a metre of frontier is worth ...
   double most_length_m = 4;    ///< ... up to this length
-  double least_gain_m2 = 0.8;  ///< a frontier with less possible floor behind it is left unseen
-  double again_gain_m2 = 2.0;  ///< nor is one with less tried again once nothing else is left ...
-  double gain_m2_per_m = 0;    ///< ... or with less for each metre of the way to it
-  double sight_m = 0;          ///< what was so near, with nothing in between, is not worth a drive
-  double piece_m = 100;        ///< a frontier that reaches farther is several
+  double sight_m = 2;          ///< what was so near, with nothing in between, is not worth a drive
+  double least_gain_m2 = 0.8;  ///< a frontier with less possible floor in sight is left unseen
+  double again_gain_m2 = 3.0;  ///< nor is one tried again that leads to less in all ...
+  double gain_m2_per_m = 1.0;  ///< ... or to less for each metre of the way to it
   double beyond_m = 1.0;       ///< the base drives so far into the unknown, as far as nothing is known there
   double farthest_m = 80;      ///< from where it began; what lies beyond is left
 
@@ -44,7 +43,7 @@ struct FrontierGoal {
   Eigen::Vector2d goal{0, 0};    ///< where the base centre is to be: there, or a bit beyond
   double way_m = 0;              ///< to the target over what is free
   double length_m = 0;           ///< of the frontier
-  double gain_m2 = 0;            ///< possible floor behind it
+  double gain_m2 = 0;            ///< possible floor in sight from it; when it is tried again, all behind it
 };
 
 /// A frontier that is not driven to, and why.
@@ -126,6 +125,7 @@ class Exploration {
   bool IsCrumb(const Frontier& frontier) const;
   const PossibleFloor& possible();
   void Forget();
+  double Gain_m2(const Eigen::Vector2i& cell) const;
   double LeastGain_m2(double way_m) const;
   std::string WhyLeft(const Frontier& frontier, const GridWays& ways) const;
   Eigen::Vector2d GoalBeyond(const Eigen::Vector2i& cell, const GridWays& ways) const;

@@ -17,6 +17,8 @@ using Eigen::Vector2i;
 
 /// In which direction a frontier leads is seen from what is unknown so near.
 constexpr int kOutwardCells = 5;
+/// Nothing unknown within this: the corner of a room.
+constexpr double kReach_m = 1.5;
 
 }  // namespace
 
@@ -26,10 +28,9 @@ std::optional<FrontierGoal> Exploration::Choose(const Pose2& map_from_base) {
   possible();
   std::vector<Candidate> candidates;
   for (const Frontier& frontier : FrontiersOf(*grid_, config_.least_frontier_m)) {
-    const std::size_t before = candidates.size();
-    for (const Frontier& piece : PiecesOf(frontier, *grid_, config_.piece_m))
-      if (const auto candidate = Best(piece, ways, map_from_base)) candidates.push_back(*candidate);
-    if (candidates.size() == before && !IsCrumb(frontier))
+    if (const auto candidate = Best(frontier, ways, map_from_base))
+      candidates.push_back(*candidate);
+    else if (!IsCrumb(frontier))
       left_.push_back({frontier.middle, frontier.length_m(), WhyLeft(frontier, ways)});
   }
   std::stable_sort(left_.begin(), left_.end(),
@@ -67,7 +68,7 @@ std::optional<Exploration::Candidate> Exploration::Best(const Frontier& frontier
     if ((place - evidence_.trail.front()).norm() > config_.farthest_m || FindGivenUp(place)) continue;
     const double cost = CostOf(frontier, at, ways, base);
     if (best && cost >= best->cost) continue;
-    const double gain_m2 = possible_->Behind_m2(at);
+    const double gain_m2 = Gain_m2(at);
     if (gain_m2 < LeastGain_m2(ways.Way_m(at))) continue;
     best = Candidate{{place, place, ways.Way_m(at), frontier.length_m(), gain_m2}, at, cost};
   }
@@ -88,10 +89,18 @@ double Exploration::CostOf(const Frontier& frontier, const Vector2i& cell, const
          config_.length_gain * std::min(config_.most_length_m, frontier.length_m());
 }
 
+/// What a look at a border may bring; once nothing else is left, what a drive there may.
+double Exploration::Gain_m2(const Vector2i& cell) const {
+  return again_ ? possible_->Region_m2(cell) : possible_->Behind_m2(cell);
+}
+
 /// Whether there is next to nothing behind all of it: the corner of a room, between walls that are known.
 bool Exploration::IsCrumb(const Frontier& frontier) const {
   return std::all_of(frontier.cells.begin(), frontier.cells.end(), [&](const Vector2i& cell) {
-    return UnknownBehind_m2(*grid_, cell, [](const Vector2i&) { return true; }) < config_.least_gain_m2;
+    double behind_m2 = 0;
+    VisitUnknownBehind(*grid_, cell, kReach_m,
+                       [&](const Vector2i&, double share_m2) { behind_m2 += share_m2; });
+    return behind_m2 < config_.least_gain_m2;
   });
 }
 

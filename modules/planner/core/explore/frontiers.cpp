@@ -56,48 +56,20 @@ std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m) {
   return frontiers;
 }
 
-/// Each cell goes to the nearest of some middles, of which each is the cell farthest from those before
-/// (Gonzalez 1985).
-std::vector<Frontier> PiecesOf(const Frontier& frontier, const ExploredGrid& grid, double most_m) {
-  const auto& cells = frontier.cells;
-  const double reach = most_m / 2 / ExploredGrid::kStep_m;
-  std::vector<double> away(cells.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> piece_of(cells.size(), 0);
-  std::vector<Frontier> pieces;
-  for (std::size_t middle = 0; pieces.empty() || away[middle] > reach;) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const double off = (cells[i] - cells[middle]).cast<double>().norm();
-      if (off >= away[i]) continue;
-      away[i] = off;
-      piece_of[i] = pieces.size();
-    }
-    pieces.emplace_back();
-    middle = std::size_t(std::max_element(away.begin(), away.end()) - away.begin());
-  }
-  for (std::size_t i = 0; i < cells.size(); ++i) pieces[piece_of[i]].cells.push_back(cells[i]);
-  for (Frontier& piece : pieces) {
-    for (const auto& cell : piece.cells) piece.middle += grid.PlaceOf(cell.x(), cell.y());
-    piece.middle /= static_cast<double>(piece.cells.size());
-  }
-  return pieces;
-}
-
-double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell,
-                        const std::function<bool(const Eigen::Vector2i&)>& counts) {
+void VisitUnknownBehind(const ExploredGrid& grid, const Eigen::Vector2i& cell, double reach_m,
+                        const std::function<void(const Eigen::Vector2i&, double)>& visit) {
   constexpr int kRays = 36;
-  constexpr double kReach_m = 1.5, kTurn_rad = 2 * kPi / kRays;
+  constexpr double kTurn_rad = 2 * kPi / kRays;
   const Eigen::Vector2d place = grid.PlaceOf(cell.x(), cell.y());
-  double unknown_m2 = 0;
   for (int i = 0; i < kRays; ++i) {
     const Eigen::Vector2d ray(std::cos(kTurn_rad * i), std::sin(kTurn_rad * i));
-    for (double at_m = ExploredGrid::kStep_m; at_m <= kReach_m; at_m += ExploredGrid::kStep_m) {
+    for (double at_m = ExploredGrid::kStep_m; at_m <= reach_m; at_m += ExploredGrid::kStep_m) {
       const Eigen::Vector2i at = grid.CellOf(place + at_m * ray);
       const Cell what = grid.At(at.x(), at.y());
       if (what == Cell::kClosed || what == Cell::kDoubtful) break;
-      if (what == Cell::kUnknown && counts(at)) unknown_m2 += at_m * kTurn_rad * ExploredGrid::kStep_m;
+      if (what == Cell::kUnknown) visit(at, at_m * kTurn_rad * ExploredGrid::kStep_m);
     }
   }
-  return unknown_m2;
 }
 
 }  // namespace priamos::planner

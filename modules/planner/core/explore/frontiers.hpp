@@ -20,13 +20,9 @@ struct Frontier {
 /// The frontiers of a grid of at least that length, in the order of their first cells.
 std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m);
 
-/// A frontier in pieces that reach no farther than `most_m`: one that runs around a crossing leads to several
-/// places.
-std::vector<Frontier> PiecesOf(const Frontier& frontier, const ExploredGrid& grid, double most_m);
-
-/// How much of the unknown that `counts` is within 1.5 m of a cell, as far as nothing closed is in between
-/// [m2].
-double UnknownBehind_m2(const ExploredGrid& grid, const Eigen::Vector2i& cell,
-                        const std::function<bool(const Eigen::Vector2i&)>& counts);
+/// Visits the unknown cells so near to a cell, as far as nothing closed is in between: a cell may come
+/// several times, each time with another share of its area [m2].
+void VisitUnknownBehind(const ExploredGrid& grid, const Eigen::Vector2i& cell, double reach_m,
+                        const std::function<void(const Eigen::Vector2i& at, double share_m2)>& visit);
 
 }  // namespace priamos::planner

@@ -1,6 +1,7 @@
 #include "planner/core/explore/possible_floor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -17,6 +18,8 @@ using Eigen::Vector2i;
 
 /// What the clearance of a base's middle has over half its width.
 constexpr double kMargin_m = 0.05;
+constexpr std::array<std::pair<int, int>, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+constexpr double kLeastReach_m = 1.5;
 /// Lines of sight end so far apart, and begin at places so far apart.
 constexpr double kSightRim_m = 0.08, kLooksApart_m = 0.3;
 
@@ -61,7 +64,7 @@ std::vector<Vector2i> MiddlesFrom(const ExploredGrid& grid, const std::vector<Ve
     if (grid.Holds(at.x(), at.y())) middles.push_back(at);
   }
   for (std::size_t i = 0; i < middles.size(); ++i)
-    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    for (const auto& [dx, dy] : kSides) {
       const Vector2i at = middles[i] + Vector2i(dx, dy);
       if (!grid.Holds(at.x(), at.y()) || grid.At(at.x(), at.y()) == Cell::kDoubtful) continue;
       if (barred[grid.IndexOf(at.x(), at.y())]) continue;
@@ -75,11 +78,14 @@ std::vector<Vector2i> MiddlesFrom(const ExploredGrid& grid, const std::vector<Ve
 
 PossibleFloor::PossibleFloor(const ExploredGrid& grid, const std::vector<Vector2d>& trail, double clearance_m,
                              double sight_m)
-    : grid_(&grid), has_(Widened(grid, MiddlesFrom(grid, trail, clearance_m), clearance_m - kMargin_m)) {
+    : grid_(&grid),
+      sight_m_(sight_m),
+      has_(Widened(grid, MiddlesFrom(grid, trail, clearance_m), clearance_m - kMargin_m)) {
   for (int y = 0; y < grid.ny(); ++y)
     for (int x = 0; x < grid.nx(); ++x)
       if (grid.At(x, y) != Cell::kUnknown) has_[grid.IndexOf(x, y)] = false;
   TakeOutOfSight(trail, sight_m);
+  MeasureRegions();
 }
 
 /// Takes what is in sight of the trail.
@@ -106,8 +112,45 @@ void PossibleFloor::TakeLine(const Vector2d& from, const Vector2d& to) {
   }
 }
 
+/// Sizes of the pieces that hang together by the sides of cells.
+void PossibleFloor::MeasureRegions() {
+  region_m2_.assign(has_.size(), 0);
+  for (int y = 0; y < grid_->ny(); ++y)
+    for (int x = 0; x < grid_->nx(); ++x) {
+      if (!Has({x, y}) || region_m2_[grid_->IndexOf(x, y)] > 0) continue;
+      const std::vector<Vector2i> region = RegionOf({x, y});
+      const double m2 = ExploredGrid::kStep_m * ExploredGrid::kStep_m * static_cast<double>(region.size());
+      for (const Vector2i& at : region) region_m2_[grid_->IndexOf(at.x(), at.y())] = m2;
+    }
+}
+
+std::vector<Vector2i> PossibleFloor::RegionOf(const Vector2i& from) {
+  constexpr double kFound = -1;
+  std::vector<Vector2i> region;
+  const auto take = [&](const Vector2i& at) {
+    if (!Has(at) || region_m2_[grid_->IndexOf(at.x(), at.y())] != 0) return;
+    region_m2_[grid_->IndexOf(at.x(), at.y())] = kFound;
+    region.push_back(at);
+  };
+  take(from);
+  for (std::size_t i = 0; i < region.size(); ++i)
+    for (const auto& [dx, dy] : kSides) take(region[i] + Vector2i(dx, dy));
+  return region;
+}
+
 double PossibleFloor::Behind_m2(const Vector2i& cell) const {
-  return UnknownBehind_m2(*grid_, cell, [&](const Vector2i& at) { return Has(at); });
+  double behind_m2 = 0;
+  VisitUnknownBehind(*grid_, cell, std::max(kLeastReach_m, sight_m_),
+                     [&](const Vector2i& at, double share_m2) { behind_m2 += Has(at) ? share_m2 : 0; });
+  return behind_m2;
+}
+
+double PossibleFloor::Region_m2(const Vector2i& cell) const {
+  double region_m2 = 0;
+  VisitUnknownBehind(*grid_, cell, std::max(kLeastReach_m, sight_m_), [&](const Vector2i& at, double) {
+    if (Has(at)) region_m2 = std::max(region_m2, region_m2_[grid_->IndexOf(at.x(), at.y())]);
+  });
+  return region_m2;
 }
 
 }  // namespace priamos::planner

@@ -13,8 +13,10 @@ namespace {
 
 /// Frontiers to which a way is looked for in one time step.
 constexpr int kMostTries = 5;
-/// A base that is stopped so near to where it was stopped before is shut in, and goes back so far; in the end
-/// also one that stands so near to it.
+/// What stopped the base stands so near that it must not turn there: it goes back so far first.
+constexpr double kRetreat_m = 0.5;
+/// A base that is stopped so near to where it was stopped before is shut in, and goes back farther; in the
+/// end also one that stands so near to it.
 constexpr double kSamePlace_m = 0.3, kBack_m = 1.5, kShutIn_m = 1.0;
 /// A round that saw no more than so much more has seen nothing.
 constexpr double kMore_m2 = 1.0;
@@ -65,6 +67,7 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   stands_.Reset();
   idles_.Reset();
   goal_.reset();
+  tried_.reset();
   considered_.reset();
   learned_ = false;
   missed_ = 0;
@@ -181,7 +184,7 @@ void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
   if (backing_) return Next(control);
   if (again) {
     exploration_.GiveUp(goal_->target, stop.reason);
-    if (!GoBack(control)) Next(control);
+    if (!GoBack(control, kBack_m)) Next(control);
     return;
   }
   if (auto thing = ThingAhead(control, footprint_, config_.thing_m)) {
@@ -189,7 +192,7 @@ void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
     exploration_.AddThing(*thing);
   }
   if (++missed_ > config_.retries) exploration_.GiveUp(goal_->target, stop.reason);
-  Next(control);
+  if (!GoBack(control, kRetreat_m)) Next(control);
 }
 
 void ExploreMission::Next(MissionControl& control) {
@@ -203,7 +206,7 @@ void ExploreMission::Next(MissionControl& control) {
     const auto frontier = exploration_.Choose(base);
     if (!frontier && !BeginRound()) return Finish(control);
     const bool shut_in = stopped_at_ && (base.translation() - *stopped_at_).norm() < kShutIn_m;
-    if (!frontier && shut_in && GoBack(control)) return;
+    if (!frontier && shut_in && GoBack(control, kBack_m)) return;
     if (!frontier) continue;
     auto path = WayTo(base, *frontier);
     if (path) return DriveTo(control, *frontier, std::move(*path));
@@ -224,15 +227,16 @@ bool ExploreMission::BeginRound() {
   return ++rounds_ <= config_.rounds && exploration_.TryAgain();
 }
 
-/// A bit of the way that it came, to where there is room around it. False where it began.
-bool ExploreMission::GoBack(MissionControl& control) {
-  PlannedPath way{.points = exploration_.WayBack(kBack_m)};
+/// A bit of the way that it came, to where there is room around it: it was there with its whole body. False
+/// where it began.
+bool ExploreMission::GoBack(MissionControl& control, double length_m) {
+  PlannedPath way{.points = exploration_.WayBack(length_m)};
   if (way.points.empty()) return false;
   goal_.reset();
   backing_ = true;
   idles_.Reset();
   Order(control, std::move(way));
-  control.Enter(Phase::kDriving, "exploring: something is near on all sides, going back a bit");
+  control.Enter(Phase::kDriving, "exploring: something is near, going back a bit");
   return true;
 }
 
@@ -256,7 +260,8 @@ Outcome<PlannedPath> ExploreMission::WayTo(const Pose2& base, const FrontierGoal
 }
 
 void ExploreMission::DriveTo(MissionControl& control, const FrontierGoal& frontier, PlannedPath path) {
-  if (!goal_ || (goal_->target - frontier.target).norm() > config_.near_m) missed_ = 0;
+  if (!tried_ || (*tried_ - frontier.target).norm() > config_.near_m) missed_ = 0;
+  tried_ = frontier.target;
   goal_ = frontier;
   path = FirstPart(std::move(path));
   const double length_m = LengthOf(BaseOf(control), path.points);

@@ -45,7 +45,7 @@ class ExploreMission : public Mission {
   void Arrive(MissionControl& control);
   void Next(MissionControl& control);
   bool BeginRound();
-  bool GoBack(MissionControl& control);
+  bool GoBack(MissionControl& control, double length_m);
   Outcome<PlannedPath> WayTo(const Pose2& base, const FrontierGoal& frontier);
   void DriveTo(MissionControl& control, const FrontierGoal& frontier, PlannedPath path);
   void Finish(MissionControl& control);
@@ -63,7 +63,8 @@ class ExploreMission : public Mission {
   StandWatch stands_, idles_{StandWatch::Counts::kFree};
   bool begun_ = false;  ///< there was an order
   std::optional<FrontierGoal> goal_;
-  int missed_ = 0;                             ///< paths towards goal_ that ended elsewhere
+  std::optional<Eigen::Vector2d> tried_;       ///< the border to which it drove last
+  int missed_ = 0;                             ///< paths towards it that ended elsewhere
   int rounds_ = 0;                             ///< in which what was left was tried again
   double most_seen_m2_ = 0;                    ///< at the beginning of a round
   bool backing_ = false;                       ///< on the way back, to no frontier

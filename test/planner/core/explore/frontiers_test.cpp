@@ -43,29 +43,6 @@ TEST(FrontiersTest, ACorridorHasOneAtEitherEnd) {
   }
 }
 
-TEST(FrontiersTest, TheRimInPiecesLeadsToAllSides) {
-  const ExploredGrid grid = GridOf({{{3, 2}}, {}, {}});
-  const Frontier rim = FrontiersOf(grid, 0.3)[0];
-  const auto pieces = PiecesOf(rim, grid, 2);
-  std::size_t cells = 0;
-  for (const Frontier& piece : pieces) {
-    cells += piece.cells.size();
-    EXPECT_GT((piece.middle - Eigen::Vector2d(3, 2)).norm(), 1.0);
-    for (const auto& a : piece.cells)
-      for (const auto& b : piece.cells) EXPECT_LE((a - b).cast<double>().norm() * ExploredGrid::kStep_m, 2.0);
-  }
-  EXPECT_EQ(cells, rim.cells.size());
-  EXPECT_GE(pieces.size(), 4U);
-  EXPECT_LE(pieces.size(), 9U);
-}
-
-TEST(FrontiersTest, AShortOneIsOnePiece) {
-  const auto frontiers = FrontiersOf(GridOf(Corridor()), 0.3);
-  const auto pieces = PiecesOf(frontiers[0], GridOf(Corridor()), 5);
-  ASSERT_THAT(pieces, SizeIs(1));
-  EXPECT_LT((pieces[0].middle - frontiers[0].middle).norm(), 1e-9);
-}
-
 TEST(FrontiersTest, AShortOneDoesNotCount) {
   ExploredEvidence evidence = Corridor();
   evidence.walls.walls.push_back(WallAt(5, 0, 90, 1.7));

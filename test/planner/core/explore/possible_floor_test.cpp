@@ -61,6 +61,18 @@ TEST(PossibleFloorTest, AnOpeningLeadsThereWhereTheBaseFits) {
   }
 }
 
+TEST(PossibleFloorTest, ARoomBehindAnOpeningIsALargeRegionAndACornerASmallOne) {
+  ExploredEvidence evidence = Room(0);
+  evidence.walls.walls[0] = WallAt(-1.4, -2, 0, 1.2);
+  evidence.walls.walls.push_back(WallAt(1.4, -2, 0, 1.2));
+  const ExploredGrid grid({.near_m = 1.6}, evidence);
+  const PossibleFloor floor(grid, evidence.trail, kClearance_m, 2);
+  const Eigen::Vector2i opening = grid.CellOf({0, -1.5}), corner = grid.CellOf({1.1, 1.1});
+  EXPECT_GT(floor.Region_m2(opening), 5);
+  EXPECT_GT(floor.Region_m2(opening), floor.Behind_m2(opening)) << "not all of it is in sight";
+  EXPECT_LT(floor.Region_m2(corner), 1);
+}
+
 TEST(PossibleFloorTest, WhatWasInSightIsNone) {
   ExploredEvidence evidence;
   evidence.trail = {{0, 0}};
