@@ -113,7 +113,7 @@ bool DriveController::ForgetDrivenPath() {
 
 CommandVerdict DriveController::SetCommand(const DriveCommand& command, Time now) {
   const CommandVerdict verdict = authority_.Admit(command, now);
-  if (verdict != CommandVerdict::kAccepted) return verdict;
+  if (verdict != CommandVerdict::kAccepted || authority_.estop()) return verdict;
   ever_ordered_ = true;
   DropPath();
   state_.mode = DriveMode::kOperated;

@@ -32,9 +32,10 @@ bool Authority::AdmitPath(Time now) {
 }
 
 CommandVerdict Authority::Admit(const DriveCommand& command, Time now) {
-  const bool has_lease = lease_.IsHeldBy(command.from) && !estop_;
-  const CommandVerdict verdict = operator_.Take(command, has_lease, now);
+  const CommandVerdict verdict = operator_.Take(command, lease_.IsHeldBy(command.from), now);
   if (verdict == CommandVerdict::kAccepted) lease_.Renew(command.from, now);
+  // A hand that rests keeps the lease through an e-stop, and has to rest once more after it.
+  if (estop_) operator_.RequireRest();
   return verdict;
 }
 
@@ -69,12 +70,12 @@ void Authority::NoteChange(const LeaseHolder& before, Time now) {
   const Twist2* wish = Wish(now);
   const bool operator_moved = wish && WantsMotion(*wish);
   if (before.driver != Driver::kNobody && (path_is_driven_ || operator_moved)) lease_lost_ = true;
-  operator_.Drop();
+  operator_.BeginAnew();
   operator_.RequireRest();
 }
 
 const Twist2* Authority::Wish(Time now) const {
-  const DriveCommand* command = operator_.Valid(now);
+  const DriveCommand* command = estop_ ? nullptr : operator_.Valid(now);
   return command ? &command->twist : nullptr;
 }
 

@@ -43,7 +43,8 @@ class Authority {
   bool estop() const { return estop_; }
   /// How often the e-stop was set or lifted, modulo 256.
   int estop_changes() const { return estop_changes_; }
-  /// The velocity that the operator wishes; nullptr without a command that is still valid.
+  /// The velocity that the operator wishes; nullptr without a command that is still valid, and while
+  /// the e-stop is set.
   const Twist2* Wish(Time now) const;
   bool OperatorFellSilent(Time now) const { return operator_.FellSilent(now); }
   /// Whether the lease was taken from the driver in motion; true until Forget.

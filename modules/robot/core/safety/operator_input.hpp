@@ -50,6 +50,12 @@ class OperatorInput {
   CommandVerdict Take(const DriveCommand& command, bool has_lease, Time now);
   /// Forgets the command being obeyed; its sequence number still counts.
   void Drop() { command_.reset(); }
+  /// Forgets the sequence numbers, too: who takes the lease counts as he likes, also under the number of a
+  /// session that was there before.
+  void BeginAnew() {
+    command_.reset();
+    newest_.reset();
+  }
   /// Refuses motion until a command to stand has come: the stick must have been let go once.
   void RequireRest() { must_rest_ = true; }
   /// Refuses motion until then.

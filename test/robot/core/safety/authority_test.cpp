@@ -100,13 +100,39 @@ TEST_F(AuthorityTest, EstopLatchesAndAsksForRestAfterRearming) {
   Take(kTeleop);
   Send(kTeleop, 0.3);
   dut_.PressEstop();
-  EXPECT_EQ(Send(kTeleop, 0.3), CommandVerdict::kWithoutLease);
+  EXPECT_EQ(Send(kTeleop, 0.3), CommandVerdict::kNotAtRest);
   EXPECT_FALSE(dut_.AdmitPath(now_));
   Wait(milliseconds(1000));
   EXPECT_TRUE(dut_.estop());
   dut_.Rearm();
   EXPECT_EQ(Send(kTeleop, 0.3), CommandVerdict::kNotAtRest);
   EXPECT_EQ(Send(kTeleop, 0), CommandVerdict::kAccepted);
+}
+
+TEST_F(AuthorityTest, AHandThatRestsKeepsTheLeaseThroughAnEstopAndMovesNothingBeforeItRestsAgain) {
+  Take(kTeleop);
+  dut_.PressEstop();
+  for (int i = 0; i < 100; ++i) {
+    Wait(milliseconds(100));
+    EXPECT_EQ(Send(kTeleop, 0), CommandVerdict::kAccepted);
+    EXPECT_EQ(Send(kTeleop, 0.3), CommandVerdict::kNotAtRest);
+  }
+  EXPECT_EQ(dut_.holder(), kTeleop);
+  EXPECT_EQ(dut_.Request(kConsole, Wish::kAcquire, now_), Lease::Answer::kRefused);
+  dut_.Rearm();
+  EXPECT_EQ(Send(kTeleop, 0.3), CommandVerdict::kNotAtRest);
+  EXPECT_EQ(Send(kTeleop, 0), CommandVerdict::kAccepted);
+}
+
+TEST_F(AuthorityTest, ASessionWithTheNumberOfOneBeforeCountsFromItsOwnBeginning) {
+  Take(kConsole);
+  for (int i = 0; i < 1000; ++i) Send(kConsole, 0);
+  Wait(milliseconds(4'000));
+  ASSERT_EQ(dut_.holder().driver, Driver::kNobody);
+  sequence_ = 0;  // the process starts again
+  Take(kConsole);
+  EXPECT_EQ(Send(kConsole, 0), CommandVerdict::kAccepted);
+  EXPECT_EQ(Send(kConsole, 0.3), CommandVerdict::kAccepted);
 }
 
 TEST_F(AuthorityTest, CommandsKeepTheLeaseAlive) {
